@@ -1,0 +1,58 @@
+#pragma once
+/// A triangle mesh as a show uses it: immutable, indexed, with materials, in metres and +Z up.
+///
+/// Frames   vertex coordinates are in the mesh's own frame N.
+/// Threads  immutable after import: shared by App, every Cull and every Draw without locks.
+
+#include "engine/maths/maths.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+/// A picture: 8-bit RGBA, rows from the top, colour in sRGB, alpha linear and not premultiplied.
+struct Texture {
+  std::uint32_t width = 0, height = 0;  ///< [pixels], at most 8192
+  std::vector<std::uint8_t> rgba;       ///< (height x width x 4)
+  std::string name;                     ///< where it came from, for messages
+};
+
+struct Material {
+  std::string name;
+  std::array<float, 4> baseColour{0.8f, 0.8f, 0.8f, 1.0f};  ///< linear RGB, alpha
+  std::array<float, 3> emissive{0, 0, 0};                   ///< linear RGB
+  float roughness = 0.7f;                                   ///< 0 mirror .. 1 matt
+  float metallic = 0.0f;
+  std::int32_t texture = -1;  ///< index into Mesh::textures, -1 = none
+  bool doubleSided = false;
+  bool transparent() const { return baseColour[3] < 0.999f || textureHasAlpha; }
+  bool textureHasAlpha = false;
+};
+
+/// A run of triangles with one material.
+struct Submesh {
+  std::uint32_t firstIndex = 0;  ///< into Mesh::indices
+  std::uint32_t indexCount = 0;  ///< a multiple of 3
+  std::uint32_t material = 0;    ///< into Mesh::materials
+};
+
+struct Mesh {
+  std::vector<std::array<float, 3>> positions;     ///< [m], +Z up
+  std::vector<std::array<float, 3>> normals;       ///< unit; same length as positions
+  std::vector<std::array<float, 2>> uvs;           ///< same length, or empty
+  std::vector<std::array<std::uint8_t, 4>> colours;  ///< linear RGBA per vertex, same length, or empty
+  std::vector<std::uint32_t> indices;              ///< triangles, counter-clockwise seen from outside
+  std::vector<Submesh> submeshes;
+  std::vector<Material> materials;  ///< never empty
+  std::vector<Texture> textures;
+  Aabb bounds;            ///< [m]
+  Sphere sphere;          ///< [m] bounding sphere
+  std::uint64_t hash = 0; ///< of the content: its identity
+  std::string name;       ///< the file it came from
+  bool standIn = false;   ///< drawn in place of an asset that could not be loaded
+};
+
+}  // namespace stadion
