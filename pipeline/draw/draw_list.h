@@ -1,0 +1,64 @@
+#pragma once
+/// What one wall draws in one frame, for both eyes: filled by Cull, read by Draw, self-contained.
+///
+/// Frames   item matrices and light positions are relative to `origin`, a World point near the viewer, so that
+///          single precision suffices anywhere in the world; axes are World's.
+/// Ownership  plain values; a list may outlive the scene state it was made from. It refers to meshes by id.
+/// Threads  one stage at a time owns it.
+
+#include "engine/asset/mesh_store.h"
+#include "engine/maths/maths.h"
+#include "engine/time_signature.h"
+
+#include <array>
+#include <vector>
+
+namespace stadion {
+
+/// One mesh to draw.
+struct DrawItem {
+  std::array<float, 12> model;  ///< (3 x 4), row major: mesh coordinates to World axes relative to origin
+  MeshId mesh = kNoMesh;
+  std::uint32_t instance = 0;  ///< who it is, for profiling
+  float distance = 0;          ///< of its centre from the viewer [m]
+};
+
+struct DrawLight {
+  enum class Kind : std::uint32_t { Directional, Point, Spot };
+  Kind kind = Kind::Directional;
+  std::array<float, 3> position{0, 0, 0};    ///< relative to origin [m]
+  std::array<float, 3> direction{0, 0, -1};  ///< the way the light goes, unit
+  std::array<float, 3> colour{1, 1, 1};      ///< linear, intensity included
+  float range = 0;                           ///< where it has faded out [m]; 0 = it does not fade
+  float cosInner = 1, cosOuter = 0;          ///< of the spot's half angles
+};
+
+struct DrawSky {
+  std::array<float, 3> zenith{0.18f, 0.36f, 0.72f};   ///< linear
+  std::array<float, 3> horizon{0.66f, 0.76f, 0.85f};  ///< linear
+  std::array<float, 3> ground{0.28f, 0.26f, 0.22f};   ///< linear, below the horizon
+  std::array<float, 3> ambient{0.25f, 0.27f, 0.30f};  ///< linear, light from everywhere
+  float hazeDistance = 0;                             ///< where 63 % is haze [m]; 0 = none
+};
+
+/// One eye's camera.
+struct DrawEye {
+  Mat4 view = Mat4::Identity();        ///< World axes relative to origin, to eye coordinates (looks along -z)
+  Mat4 projection = Mat4::Identity();  ///< eye to clip, GL conventions (z in [-w, w])
+};
+
+struct DrawList {
+  TimeSignature signature;
+  std::uint32_t wall = 0;
+  Vec3 origin = Vec3::Zero();    ///< in World [m]
+  std::array<DrawEye, 2> eyes;   ///< left, right
+  std::uint32_t eyeCount = 2;    ///< 1 = mono: eyes[0] only
+  DrawSky sky;
+  std::vector<DrawLight> lights;      ///< at most kMaxLights
+  std::vector<DrawItem> opaque;       ///< sorted by mesh, then near to far
+  std::vector<DrawItem> transparent;  ///< items with any transparent material, far to near
+
+  static constexpr std::size_t kMaxLights = 16;
+};
+
+}  // namespace stadion
