@@ -1,0 +1,102 @@
+#pragma once
+/// A node of the show: identically structured and interfaced, whatever it does.
+///
+/// In each frame in which it has something to do a node runs one cycle of the application phase: it receives its
+/// messages, simulates, and dispatches notifications. A node with nothing to do is not visited at all. What is drawn is
+/// not the node but an instance record that it publishes through the scene.
+///
+/// Threads  App only. Nodes are constructed on the loader thread and belong to it until they are installed.
+/// Ownership  the Scene owns every installed node.
+
+#include "engine/event.h"
+#include "engine/frame_probe.h"
+#include "engine/message.h"
+#include "engine/node_kind.h"
+#include "engine/state_hash.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+class Scene;
+struct InputSample;
+
+/// What a node may look at during its cycle.
+struct FrameContext {
+  const TimeSignature& now;  ///< the frame advances the show from now.time - now.step to now.time
+  const InputSample& input;  ///< trackers at now.time
+  Scene& scene;
+
+  Nanoseconds start() const { return now.time - now.step; }
+  /// When a delivered message takes effect: at its due time, but not before this frame's start.
+  Nanoseconds effective(const Message& m) const { return m.due > start() ? m.due : start(); }
+};
+
+/// In which order nodes run within a frame: what places things comes before what looks at them. Within a rank, the order
+/// is (load number, position in file).
+enum class Rank : std::uint8_t { Input, Motion, Sensing, Dynamics };
+
+/// One `eventmessage` of a node: what it posts when something happens to it.
+struct Notification {
+  Event event{};
+  std::string target;  ///< name or path, resolved from the file the node stands in
+  Verb verb{};
+  std::vector<std::string> arguments;
+  Nanoseconds delay = 0;  ///< [ns]
+};
+
+class Node {
+ public:
+  Node(NodeKind kind, NodeRef self, std::string name) : kind_(kind), self_(self), name_(std::move(name)) {}
+  virtual ~Node() = default;
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  NodeKind kind() const { return kind_; }
+  NodeRef self() const { return self_; }
+  const std::string& name() const { return name_; }
+  void addNotification(Notification n) { notifications_.push_back(std::move(n)); }
+
+  /// Takes its place in the scene: names resolve, placements and instances are made. Once, when its load is installed,
+  /// after every node of the load exists and after its parent's enter().
+  void enter(Scene& scene) { onEnter(scene); }
+  /// Gives back what enter() took. Once, in reverse order.
+  void leave(Scene& scene) { onLeave(scene); }
+
+  /// The node cycle. `inbox` holds this frame's messages in delivery order.
+  void cycle(std::span<const Message> inbox, FrameContext& frame, FrameProbe* probe);
+
+  virtual Rank rank() const { return Rank::Motion; }
+  /// Whether it wants to be visited in the next frame even if no message arrives.
+  virtual bool busy() const { return false; }
+  /// Adds every field that the show's future depends on.
+  virtual void hash(StateHash&) const {}
+
+ protected:
+  /// Notes that something happened; the messages that tell of it go out when the node dispatches.
+  void raise(Event event, Nanoseconds when) { raised_.push_back({event, when}); }
+
+ private:
+  struct Raised {
+    Event event;
+    Nanoseconds when;
+  };
+
+  virtual void onEnter(Scene&) {}
+  virtual void onLeave(Scene&) {}
+  virtual void receive(const Message&, FrameContext&) {}
+  virtual void simulate(FrameContext&) {}
+
+  void dispatch(FrameContext& frame);
+
+  NodeKind kind_;
+  NodeRef self_;
+  std::string name_;
+  std::vector<Notification> notifications_;
+  std::vector<Raised> raised_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,25 @@
+#include "engine/nodes/light_node.h"
+
+#include "engine/scene/scene.h"
+
+namespace stadion {
+
+void LightNode::onEnter(Scene& scene) {
+  PlacedNode::onEnter(scene);
+  handle_ = scene.addLight(placement(), light_);
+  scene.setLight(handle_, light_, switch_.on());
+}
+
+void LightNode::onLeave(Scene& scene) {
+  scene.removeLight(handle_);
+  PlacedNode::onLeave(scene);
+}
+
+void LightNode::receive(const Message& m, FrameContext& frame) {
+  PlacedNode::receive(m, frame);
+  if (switch_.obey(m)) frame.scene.setLight(handle_, light_, switch_.on());
+}
+
+void SkyNode::onEnter(Scene& scene) { scene.setSky(sky_); }
+
+}  // namespace stadion

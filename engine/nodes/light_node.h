@@ -1,0 +1,45 @@
+#pragma once
+/// Light sources and the sky.
+
+#include "engine/nodes/placed_node.h"
+#include "engine/nodes/switched.h"
+
+namespace stadion {
+
+/// `light`: directional, point or spot. Direction and position are in its own coordinates and move with it.
+/// Commands  enable, disable, toggle, and those of a placed node.
+class LightNode : public PlacedNode {
+ public:
+  LightNode(NodeRef self, std::string name, PlaceAttributes place, const LightRecord& light, bool on)
+      : PlacedNode(NodeKind::Light, self, std::move(name), std::move(place)), light_(light), switch_(on) {}
+
+  void hash(StateHash& h) const override {
+    PlacedNode::hash(h);
+    switch_.hash(h);
+  }
+
+ protected:
+  void onEnter(Scene& scene) override;
+  void onLeave(Scene& scene) override;
+  void receive(const Message& m, FrameContext& frame) override;
+
+ private:
+  LightRecord light_;
+  Switched switch_;
+  std::size_t handle_ = 0;
+};
+
+/// `sky`: colours of the background, light from everywhere, haze.
+class SkyNode : public Node {
+ public:
+  SkyNode(NodeRef self, std::string name, const SkyRecord& sky)
+      : Node(NodeKind::Sky, self, std::move(name)), sky_(sky) {}
+
+ protected:
+  void onEnter(Scene& scene) override;
+
+ private:
+  SkyRecord sky_;
+};
+
+}  // namespace stadion

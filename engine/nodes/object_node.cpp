@@ -1,0 +1,17 @@
+#include "engine/nodes/object_node.h"
+
+#include "engine/scene/scene.h"
+
+namespace stadion {
+
+void ObjectNode::onEnter(Scene& scene) {
+  PlacedNode::onEnter(scene);
+  instance_ = scene.addInstance(placement(), appearance_.mesh, appearance_.drawn, self().position);
+}
+
+void ObjectNode::onLeave(Scene& scene) {
+  scene.removeInstance(instance_);
+  PlacedNode::onLeave(scene);
+}
+
+}  // namespace stadion

@@ -1,0 +1,52 @@
+#pragma once
+/// `path`: moves its target, or what stands below it, along key frames.
+///
+/// Positions run along straight lines or, with smooth=on, along a cubic through the keys (Catmull-Rom, with the
+/// keys' own times); orientations turn with constant angular velocity from key to key.
+///
+/// Events    finished, at the last key's exact time (not when it loops).
+/// Commands  enable (goes on where it stopped), disable, toggle, reset (back to the first key), and those of a placed
+///           node when it moves what stands below it.
+/// Frames    keys are in the coordinates of the target's parent, or of its own parent.
+
+#include "engine/nodes/placed_node.h"
+#include "engine/nodes/switched.h"
+
+namespace stadion {
+
+struct PathKey {
+  double time = 0;  ///< from the path's start [s]
+  Pose X_PN;
+};
+
+class PathNode : public PlacedNode {
+ public:
+  /// Expects at least one key, times strictly increasing from >= 0.
+  PathNode(NodeRef self, std::string name, PlaceAttributes place, NodeRef target, std::vector<PathKey> keys,
+           bool loop, bool smooth, bool on)
+      : PlacedNode(NodeKind::Path, self, std::move(name), std::move(place)), target_(target),
+        keys_(std::move(keys)), loop_(loop), smooth_(smooth), switch_(on) {}
+
+  bool busy() const override { return switch_.on() || PlacedNode::busy(); }
+  void hash(StateHash& h) const override;
+
+  /// The pose `seconds` after the path's start.
+  Pose poseAt(double seconds) const;
+
+ protected:
+  void onEnter(Scene& scene) override;
+  void receive(const Message& m, FrameContext& frame) override;
+  void simulate(FrameContext& frame) override;
+
+ private:
+  void putTarget(Scene& scene);
+
+  NodeRef target_;  ///< invalid = itself
+  std::vector<PathKey> keys_;
+  bool loop_, smooth_;
+  Switched switch_;
+  Nanoseconds elapsed_ = 0;
+  Nanoseconds since_ = 0;  ///< show time up to which elapsed_ counts
+};
+
+}  // namespace stadion

@@ -1,0 +1,62 @@
+#pragma once
+/// A node that has a place in the world: under its parent, or following a tracker.
+///
+/// Commands  attach all|position|orientation [tracker], detach, show, hide, reset.
+/// Frames    X_PN maps Node to Parent. Attached, the node follows tracker x rig with no offset and keeps its scale.
+
+#include "engine/node.h"
+#include "engine/scene/placements.h"
+
+namespace stadion {
+
+/// How a placement is written in a script.
+struct PlaceAttributes {
+  NodeRef parent;                    ///< invalid = World, or in a sub-scene its scene node
+  Affine X_PN = Affine::Identity();  ///< where the script puts it, and where reset brings it back to
+  bool shown = true;
+};
+
+class PlacedNode : public Node {
+ public:
+  PlacedNode(NodeKind kind, NodeRef self, std::string name, PlaceAttributes place)
+      : Node(kind, self, std::move(name)), attributes_(std::move(place)) {}
+
+  PlacementId placement() const { return placement_; }
+  const PlaceAttributes& attributes() const { return attributes_; }
+  /// Makes X_WN the place that reset brings it back to, and goes there.
+  void becomeHome(Scene& scene, const Affine& X_WN);
+  /// Places the node in World by a direct call (dynamics nodes and paths). False if X_WN is not finite.
+  bool place(Scene& scene, const Affine& X_WN);
+  bool attached() const { return follow_ != Follow::Nothing; }
+  /// Static objects stand below this node: they must become nodes before it may move.
+  void carryStatics() { carriesStatics_ = true; }
+
+  bool busy() const override { return attached(); }
+  void hash(StateHash& h) const override;
+
+ protected:
+  void onEnter(Scene& scene) override;
+  void onLeave(Scene& scene) override;
+  void receive(const Message& m, FrameContext& frame) override;
+  void simulate(FrameContext& frame) override;
+  /// Back to how the script placed it.
+  void resetPlace(Scene& scene);
+  void follow(const std::string& what, const std::string& tracker, const FrameContext& frame);
+  void stopFollowing() { follow_ = Follow::Nothing; }
+  const std::string& followedTracker() const { return tracker_; }
+
+ private:
+  void aboutToChange(Scene& scene);
+
+  enum class Follow : std::uint8_t { Nothing, All, Position, Orientation };
+
+  PlaceAttributes attributes_;
+  PlacementId placement_ = kNoPlacement;
+  Follow follow_ = Follow::Nothing;
+  std::string tracker_;
+  bool shown_ = true;
+  bool carriesStatics_ = false;
+  Affine X_PN_ = Affine::Identity();  ///< for the hash: where it is now, or when it is attached, was last put
+};
+
+}  // namespace stadion

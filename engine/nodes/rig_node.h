@@ -1,0 +1,52 @@
+#pragma once
+/// The visitor's platform and what drives it.
+
+#include "engine/nodes/placed_node.h"
+#include "engine/nodes/switched.h"
+
+namespace stadion {
+
+/// `rig`: the tracked platform that carries walls and trackers. The last one to enter is the one in use.
+class RigNode : public PlacedNode {
+ public:
+  RigNode(NodeRef self, std::string name, PlaceAttributes place, double eyeHeight)
+      : PlacedNode(NodeKind::Rig, self, std::move(name), std::move(place)), eyeHeight_(eyeHeight) {}
+
+  Rank rank() const override { return Rank::Input; }
+
+ protected:
+  void onEnter(Scene& scene) override;
+  void onLeave(Scene& scene) override;
+
+ private:
+  double eyeHeight_;  ///< of an untracked head [m]
+};
+
+/// `navigator`: the joypad moves the rig where the wand points, and turns it.
+/// Axis 0 turns (right is positive), axis 1 goes forward. walk keeps to the horizontal, fly does not.
+class NavigatorNode : public Node {
+ public:
+  struct Attributes {
+    double speed = 1.5;     ///< [m/s] at full deflection
+    double turnRate = 0.8;  ///< [rad/s] at full deflection
+    bool fly = false;
+    std::string tracker = "wand";
+  };
+
+  NavigatorNode(NodeRef self, std::string name, Attributes a, bool on)
+      : Node(NodeKind::Navigator, self, std::move(name)), attributes_(std::move(a)), switch_(on) {}
+
+  Rank rank() const override { return Rank::Input; }
+  bool busy() const override { return switch_.on(); }
+  void hash(StateHash& h) const override { switch_.hash(h); }
+
+ protected:
+  void receive(const Message& m, FrameContext& frame) override;
+  void simulate(FrameContext& frame) override;
+
+ private:
+  Attributes attributes_;
+  Switched switch_;
+};
+
+}  // namespace stadion

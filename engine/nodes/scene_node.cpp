@@ -1,0 +1,57 @@
+#include "engine/nodes/scene_node.h"
+
+#include "engine/scene/scene.h"
+
+namespace stadion {
+
+void SceneNode::onEnter(Scene& scene) {
+  PlacedNode::onEnter(scene);
+  if (initially_) load(scene, scene.now());
+}
+
+void SceneNode::load(Scene& scene, Nanoseconds at) {
+  if (number_ != 0) return;
+  number_ = scene.requestLoad(file_, self(), at);
+  expected_.push_back({at, Event::Loaded});
+  scene.wakeAt(at, self());
+}
+
+void SceneNode::unload(Scene& scene, Nanoseconds at) {
+  if (number_ == 0) return;
+  scene.requestUnload(number_, at);
+  number_ = 0;
+  expected_.push_back({at, Event::Unloaded});
+  scene.wakeAt(at, self());
+}
+
+void SceneNode::receive(const Message& m, FrameContext& frame) {
+  if (m.verb != Verb::Reset) PlacedNode::receive(m, frame);
+  const Nanoseconds at = frame.effective(m) + ready_;
+  switch (m.verb) {
+  case Verb::Load: load(frame.scene, at); break;
+  case Verb::Unload: unload(frame.scene, at); break;
+  case Verb::Reset:
+    resetPlace(frame.scene);
+    unload(frame.scene, at);
+    if (initially_) load(frame.scene, at);
+    break;
+  default: break;
+  }
+}
+
+void SceneNode::simulate(FrameContext& frame) {
+  PlacedNode::simulate(frame);
+  std::erase_if(expected_, [&](const auto& e) {
+    if (e.first > frame.now.time) return false;
+    raise(e.second, e.first);
+    return true;
+  });
+}
+
+void SceneNode::hash(StateHash& h) const {
+  PlacedNode::hash(h);
+  h.add(number_);
+  for (const auto& [at, event] : expected_) h.add(at), h.add(static_cast<std::uint32_t>(event));
+}
+
+}  // namespace stadion

@@ -1,0 +1,36 @@
+#pragma once
+/// Something that is on or off, and may switch itself off after a while.
+///
+/// Commands  enable, disable, toggle, reset.
+
+#include "engine/message.h"
+#include "engine/state_hash.h"
+
+namespace stadion {
+
+class Switched {
+ public:
+  explicit Switched(bool initially) : initially_(initially), on_(initially) {}
+
+  bool on() const { return on_; }
+  bool initially() const { return initially_; }
+  void set(bool on) { on_ = on; }
+
+  /// Obeys m if it is a command for a switch. True if the state may have changed.
+  bool obey(const Message& m) {
+    switch (m.verb) {
+    case Verb::Enable: on_ = true; return true;
+    case Verb::Disable: on_ = false; return true;
+    case Verb::Toggle: on_ = !on_; return true;
+    case Verb::Reset: on_ = initially_; return true;
+    default: return false;
+    }
+  }
+
+  void hash(StateHash& h) const { h.add(on_); }
+
+ private:
+  bool initially_, on_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,36 @@
+#include "engine/nodes/timer_node.h"
+
+#include "engine/scene/scene.h"
+
+namespace stadion {
+
+void TimerNode::startAt(Nanoseconds when, Scene& scene) {
+  due_ = when + period_;
+  scene.wakeAt(due_, self());
+}
+
+void TimerNode::onEnter(Scene& scene) {
+  if (switch_.on()) startAt(scene.now(), scene);
+}
+
+void TimerNode::receive(const Message& m, FrameContext& frame) {
+  if (switch_.obey(m) && switch_.on()) startAt(frame.effective(m), frame.scene);
+}
+
+void TimerNode::simulate(FrameContext& frame) {
+  while (switch_.on() && due_ <= frame.now.time) {
+    raise(Event::TimesUp, due_);
+    if (repeat_)
+      due_ += period_;
+    else
+      switch_.set(false);
+  }
+  if (switch_.on()) frame.scene.wakeAt(due_, self());
+}
+
+void TimerNode::hash(StateHash& h) const {
+  switch_.hash(h);
+  h.add(due_);
+}
+
+}  // namespace stadion

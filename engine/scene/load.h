@@ -1,0 +1,59 @@
+#pragma once
+/// One loaded file: its nodes, its names, its static objects.
+///
+/// Prepared on the loader thread, installed and removed by App at a frame boundary, destroyed on the loader thread.
+
+#include "engine/node.h"
+#include "engine/scene/records.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace stadion {
+
+/// A plain object that nothing in its file moves: it has no node, only a record in the load's static chunk.
+struct StaticObject {
+  std::uint32_t position = 0;  ///< in its file
+  std::uint32_t line = 0;
+  NodeRef parent;
+};
+
+struct Load {
+  std::uint32_t number = 0;  ///< from 1, in the order of requests
+  std::string file;
+  NodeRef owner;  ///< the scene node that asked for it; invalid = the show itself
+
+  std::vector<std::unique_ptr<Node>> nodes;  ///< by position in file; null for static objects
+  std::vector<std::uint32_t> enterOrder;     ///< positions of the nodes, parents first
+  std::unordered_map<std::string, std::uint32_t> names;  ///< name to position
+  std::vector<std::uint32_t> lines;                      ///< source line by position
+
+  ChunkId chunk = kNoChunk;
+  std::span<const InstanceRecord> chunkRecords;  ///< in published memory, immutable
+  std::vector<StaticObject> statics;             ///< parallel to chunkRecords, ordered by position
+  std::vector<MeshId> meshes;                    ///< each counted once, released with the load
+
+  NodeRef find(const std::string& name) const {
+    const auto at = names.find(name);
+    return at == names.end() ? NodeRef{} : NodeRef{number, at->second};
+  }
+};
+
+/// Prepares loads beside the running show.
+///
+/// Threads  called by App; does its work elsewhere.
+class SceneLoader {
+ public:
+  virtual ~SceneLoader() = default;
+  /// Begins to prepare `file` as load `number`.
+  virtual void request(std::uint32_t number, const std::string& file, NodeRef owner) = 0;
+  /// The load, waiting for it if it is not ready yet; null if it could not be loaded (the reason has been told).
+  virtual std::unique_ptr<Load> take(std::uint32_t number) = 0;
+  /// Destroys a removed load, once no frame up to `lastFrame` needs it.
+  virtual void dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) = 0;
+};
+
+}  // namespace stadion

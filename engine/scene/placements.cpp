@@ -1,0 +1,124 @@
+#include "engine/scene/placements.h"
+
+#include <cassert>
+
+namespace stadion {
+
+Placements::Placements() {
+  Entry world;
+  world.X_PN.setIdentity(), world.X_WN.setIdentity();
+  world.live = true;
+  entries_.push_back(world);
+}
+
+PlacementId Placements::add(PlacementId parent, const Affine& X_PN) {
+  PlacementId id;
+  if (free_.empty()) {
+    id = static_cast<PlacementId>(entries_.size());
+    entries_.emplace_back();
+  } else {
+    id = free_.back();
+    free_.pop_back();
+    const bool listed = entries_[id].changed;
+    entries_[id] = Entry{};
+    entries_[id].changed = listed;
+  }
+  Entry& e = entries_[id];
+  e.X_PN = X_PN;
+  e.parent = parent;
+  e.live = true;
+  Entry& p = entries_[parent];
+  e.nextSibling = p.firstChild;
+  if (p.firstChild != kNoPlacement) entries_[p.firstChild].previousSibling = id;
+  p.firstChild = id;
+  markBelow(id, true);
+  return id;
+}
+
+void Placements::remove(PlacementId id) {
+  Entry& e = entries_[id];
+  assert(e.live && e.firstChild == kNoPlacement);
+  if (e.previousSibling != kNoPlacement)
+    entries_[e.previousSibling].nextSibling = e.nextSibling;
+  else
+    entries_[e.parent].firstChild = e.nextSibling;
+  if (e.nextSibling != kNoPlacement) entries_[e.nextSibling].previousSibling = e.previousSibling;
+  e.live = false;
+  free_.push_back(id);
+}
+
+void Placements::markBelow(PlacementId top, bool moved) {
+  // Depth first without recursion: a script may nest as deep as it likes.
+  PlacementId id = top;
+  for (;;) {
+    Entry& e = entries_[id];
+    e.stale |= moved;
+    if (!e.changed) {
+      e.changed = true;
+      changed_.push_back(id);
+    }
+    if (e.firstChild != kNoPlacement) {
+      id = e.firstChild;
+      continue;
+    }
+    while (id != top && entries_[id].nextSibling == kNoPlacement) id = entries_[id].parent;
+    if (id == top) return;
+    id = entries_[id].nextSibling;
+  }
+}
+
+bool Placements::setLocal(PlacementId id, const Affine& X_PN) {
+  if (!X_PN.matrix().allFinite()) return false;
+  entries_[id].X_PN = X_PN;
+  markBelow(id, true);
+  return true;
+}
+
+bool Placements::setWorld(PlacementId id, const Affine& X_WN) {
+  if (!X_WN.matrix().allFinite()) return false;
+  const PlacementId up = entries_[id].parent;
+  if (up == kWorldPlacement) return setLocal(id, X_WN);
+  const Affine local = world(up).inverse() * X_WN;
+  return setLocal(id, local);
+}
+
+const Affine& Placements::world(PlacementId id) const {
+  if (!entries_[id].stale) return entries_[id].X_WN;
+  std::vector<PlacementId> chain;
+  PlacementId at = id;
+  while (entries_[at].stale) {
+    chain.push_back(at);
+    at = entries_[at].parent;
+  }
+  for (auto i = chain.rbegin(); i != chain.rend(); ++i) {
+    Entry& e = entries_[*i];
+    e.X_WN = e.parent == kWorldPlacement ? e.X_PN : entries_[e.parent].X_WN * e.X_PN;
+    e.stale = false;
+  }
+  return entries_[id].X_WN;
+}
+
+void Placements::setShown(PlacementId id, bool shown) {
+  if (entries_[id].shownSelf == shown) return;
+  entries_[id].shownSelf = shown;
+  markBelow(id, false);
+}
+
+bool Placements::shown(PlacementId id) const {
+  for (; id != kWorldPlacement; id = entries_[id].parent)
+    if (!entries_[id].shownSelf) return false;
+  return true;
+}
+
+std::vector<PlacementId> Placements::takeChanged() {
+  std::vector<PlacementId> changed;
+  changed.reserve(changed_.size());
+  for (const PlacementId id : changed_) {
+    entries_[id].changed = false;
+    if (entries_[id].live) changed.push_back(id);
+  }
+  changed_.clear();
+  return changed;
+}
+
+}  // namespace stadion

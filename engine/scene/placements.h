@@ -1,0 +1,62 @@
+#pragma once
+/// Where every movable thing is: a tree of placements in flat arrays.
+///
+/// A placement has a local matrix relative to its parent and, from that, a World matrix. Nothing is recomputed
+/// unless it or something above it moved. World matrices may be asked for at any time in App and are always
+/// up to date.
+///
+/// Frames   X_PN maps Node to Parent coordinates, X_WN Node to World.
+/// Threads  App only; other stages see published instance records.
+/// Errors   a non-finite matrix is refused: the setter returns false and keeps the old one.
+
+#include "engine/maths/maths.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace stadion {
+
+using PlacementId = std::uint32_t;
+constexpr PlacementId kWorldPlacement = 0;  ///< World itself: the identity, never moves
+constexpr PlacementId kNoPlacement = ~PlacementId{0};
+
+class Placements {
+ public:
+  Placements();
+
+  PlacementId add(PlacementId parent, const Affine& X_PN);
+  /// Expects that its children are gone.
+  void remove(PlacementId id);
+
+  bool setLocal(PlacementId id, const Affine& X_PN);
+  bool setWorld(PlacementId id, const Affine& X_WN);  ///< moves it so that it is at X_WN now
+  const Affine& local(PlacementId id) const { return entries_[id].X_PN; }
+  const Affine& world(PlacementId id) const;
+  PlacementId parent(PlacementId id) const { return entries_[id].parent; }
+
+  /// Hides or shows this placement and everything below it.
+  void setShown(PlacementId id, bool shown);
+  bool shown(PlacementId id) const;  ///< itself and everything above it
+
+  /// Every placement whose World matrix or visibility may have changed since the last call, each once. Clears the list.
+  std::vector<PlacementId> takeChanged();
+
+ private:
+  struct Entry {
+    Affine X_PN, X_WN;
+    PlacementId parent = kNoPlacement, firstChild = kNoPlacement, nextSibling = kNoPlacement,
+                previousSibling = kNoPlacement;
+    bool stale = false;    ///< X_WN must be recomputed
+    bool changed = false;  ///< is in changed_
+    bool shownSelf = true;
+    bool live = false;
+  };
+
+  void markBelow(PlacementId id, bool moved);
+
+  mutable std::vector<Entry> entries_;
+  std::vector<PlacementId> free_;
+  std::vector<PlacementId> changed_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,88 @@
+#pragma once
+/// What App publishes for the later stages: plain fixed-width records, and the set of those that changed.
+///
+/// No pointers in the records, so that other processes can map them. World coordinates, double precision.
+
+#include "engine/asset/mesh_store.h"
+#include "engine/maths/maths.h"
+#include "engine/time_signature.h"
+
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+namespace stadion {
+
+using InstanceId = std::uint32_t;
+using ChunkId = std::uint32_t;
+constexpr ChunkId kNoChunk = 0;
+
+/// One thing to draw.
+struct InstanceRecord {
+  double model[12];   ///< X_WN (3 x 4), row major
+  double centre[3];   ///< of the bounding sphere in World [m]
+  float radius;       ///< [m]; < 0 = not there
+  MeshId mesh;
+  std::uint32_t flags;
+  std::uint32_t owner;  ///< position in its file, for profiling
+
+  static constexpr std::uint32_t kShown = 1, kTransparent = 2;
+};
+static_assert(std::is_trivially_copyable_v<InstanceRecord> && sizeof(InstanceRecord) == 136);
+
+InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, std::uint32_t owner);
+
+struct LightRecord {
+  std::uint32_t kind = 0;         ///< DrawLight::Kind
+  float colour[3] = {1, 1, 1};    ///< linear, intensity included
+  double position[3] = {0, 0, 0};   ///< World [m]
+  double direction[3] = {0, 0, -1};  ///< World, unit, the way the light goes
+  float range = 0, cosInner = 1, cosOuter = 0;
+};
+
+struct SkyRecord {
+  float zenith[3] = {0.18f, 0.36f, 0.72f}, horizon[3] = {0.66f, 0.76f, 0.85f}, ground[3] = {0.28f, 0.26f, 0.22f},
+        ambient[3] = {0.25f, 0.27f, 0.30f};
+  float haze = 0;  ///< [m], 0 = none
+};
+
+/// Where the visitor is.
+struct ViewerRecord {
+  double rigPosition[3] = {0, 0, 0}, rigOrientation[4] = {0, 0, 0, 1};    ///< X_WR, quaternion x y z w
+  double headPosition[3] = {0, 0, 1.7}, headOrientation[4] = {0, 0, 0, 1};  ///< X_RH
+  Nanoseconds poseTime = 0;  ///< show time the head pose is for
+
+  Pose rig() const { return {Vec3(rigPosition), Quat(rigOrientation)}; }
+  Pose head() const { return {Vec3(headPosition), Quat(headOrientation)}; }
+  void set(const Pose& X_WR, const Pose& X_RH);
+};
+
+/// What changed in one frame.
+struct ChangeSet {
+  struct Instance {
+    InstanceId id;
+    InstanceRecord record;
+  };
+  struct Chunk {
+    ChunkId id;
+    bool shown;
+  };
+  struct StaticItem {  ///< an object of a chunk that has left it, because it moves now
+    ChunkId chunk;
+    std::uint32_t index;
+    bool hidden;
+  };
+
+  TimeSignature signature;
+  std::vector<Instance> instances;
+  std::vector<Chunk> chunks;
+  std::vector<StaticItem> statics;
+  bool lightsChanged = false;
+  std::vector<LightRecord> lights;  ///< all of them, when lightsChanged
+  SkyRecord sky;
+  ViewerRecord viewer;
+
+  void clear();
+};
+
+}  // namespace stadion

@@ -1,0 +1,185 @@
+#pragma once
+/// The show's world: every loaded file, its nodes, their messages, and what changed in this frame.
+///
+/// The scene has no control logic: it visits the nodes that have something to do, in an order that is the same
+/// everywhere, and collects what they publish.
+///
+/// Threads  App only.
+
+#include "engine/input/input_sample.h"
+#include "engine/node.h"
+#include "engine/scene/load.h"
+#include "engine/scene/placements.h"
+#include "engine/scene/records.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+class PlacedNode;
+
+/// Counts of the last frame.
+struct FrameCounters {
+  std::uint64_t nodesVisited = 0;
+  std::uint64_t changesPublished = 0;  ///< instance records
+  std::uint64_t messagesDelivered = 0;
+  std::uint64_t messagesLost = 0;  ///< addressed to nobody (unloaded, or never there)
+};
+
+/// Something that happened, for whoever watches a run.
+struct EventRecord {
+  NodeRef node;
+  Event event;
+  Nanoseconds when;
+};
+
+class Scene {
+ public:
+  Scene(SceneLoader& loader, MeshStore& meshes);
+  ~Scene();
+
+  /// Loads the show's own file and whatever it loads at its start. Before the first frame.
+  bool open(const std::string& file);
+
+  /// One frame of the application phase. Fills `changes` with what the later stages must know.
+  void advance(const TimeSignature& now, const InputSample& input, ChangeSet& changes, FrameProbe* probe);
+
+  // --- what nodes use during their cycle -------------------------------------------------------------------------
+
+  Placements& placements() { return placements_; }
+  const Mesh* mesh(MeshId id) const { return meshes_.find(id); }
+
+  /// The node, or null if it is not loaded. A static object becomes a node of its own by being asked for.
+  Node* find(NodeRef ref);
+  /// A name or path as seen from `from`: in its file, then in the files that loaded it; "scene/name" looks into a sub-scene.
+  NodeRef resolve(const std::string& name, NodeRef from) const;
+  const Load* load(std::uint32_t number) const;
+  /// Turns every static object below `ref` into a node of its own, so that it can move.
+  void promoteBelow(NodeRef ref);
+  /// Says that a node's state changed outside its own cycle (direct calls).
+  void touch(NodeRef ref) { touched_.push_back(ref); }
+  PlacementId placementFor(NodeRef parent, NodeRef child);
+
+  void post(const Node& sender, const Notification& n, Nanoseconds when);
+  /// A command from outside the show, to be delivered in the next frame.
+  bool command(const std::string& target, Verb verb, std::vector<std::string> arguments, Nanoseconds when);
+  void note(NodeRef node, Event event, Nanoseconds when);
+  /// Visits `node` in the frame in which `when` falls.
+  void wakeAt(Nanoseconds when, NodeRef node);
+
+  InstanceId addInstance(PlacementId placement, MeshId mesh, bool drawn, std::uint32_t owner);
+  void setDrawn(InstanceId id, bool drawn);
+  void removeInstance(InstanceId id);
+
+  std::size_t addLight(PlacementId placement, const LightRecord& local);
+  void setLight(std::size_t handle, const LightRecord& local, bool on);
+  void removeLight(std::size_t handle);
+  void setSky(const SkyRecord& sky) { sky_ = sky; }
+
+  /// Show time at the end of this frame.
+  Nanoseconds now() const { return now_; }
+
+  void setRig(NodeRef rig, PlacementId placement, double eyeHeight);
+  void dropRig(NodeRef rig);
+  Pose rigPose() const;  ///< X_WR
+  void moveRig(const Pose& X_WR);
+  std::optional<Pose> trackerInWorld(const std::string& tracker, const InputSample& input) const;
+  Pose headInRig(const InputSample& input) const;
+
+  /// Asks for a sub-scene; it is installed at show time `at`, whenever the loader finished.
+  std::uint32_t requestLoad(const std::string& file, NodeRef owner, Nanoseconds at);
+  void requestUnload(std::uint32_t number, Nanoseconds at);
+
+  // --- for whoever runs the show ---------------------------------------------------------------------------------
+
+  std::uint64_t stateHash() const;
+  const FrameCounters& counters() const { return counters_; }
+  const std::vector<EventRecord>& events() const { return events_; }  ///< of the last frame
+  std::size_t loadCount() const { return loads_.size(); }
+  void forEachNode(const std::function<void(const Node&)>& f) const;
+
+ private:
+  struct Instance {
+    PlacementId placement = kNoPlacement;
+    MeshId mesh = kNoMesh;
+    std::uint32_t owner = 0;
+    bool drawn = true, live = false, changed = false;
+  };
+  struct Light {
+    PlacementId placement = kNoPlacement;
+    LightRecord local;
+    bool on = true, live = false;
+  };
+  struct Rig {
+    NodeRef node;
+    PlacementId placement;
+    double eyeHeight;
+  };
+  struct Change {
+    Nanoseconds at;
+    std::uint32_t number;
+    bool load;
+  };
+  struct Wake {
+    Nanoseconds at;
+    NodeRef node;
+    auto operator<=>(const Wake&) const = default;
+  };
+  struct Visit {
+    Rank rank;
+    NodeRef node;
+    auto operator<=>(const Visit&) const = default;
+  };
+
+  void applyLoads(const TimeSignature& now);
+  void install(std::unique_ptr<Load> load);
+  void remove(std::uint32_t number, std::uint64_t frame);
+  void visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe);
+  void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
+  void publishInstance(InstanceId id, ChangeSet& changes);
+  void publishLights(ChangeSet& changes);
+  Node* promote(Load& load, std::size_t index);
+  bool isBelow(NodeRef ref, NodeRef ancestor) const;
+  NodeRef parentOf(NodeRef ref) const;
+  void enterNode(Node& node);
+  void leaveNode(Node& node);
+  void setBusy(Node& node);
+  void markInstance(InstanceId id);
+  void rehash(const Node& node);
+  std::uint64_t nodeHash(const Node& node) const;
+
+  SceneLoader& loader_;
+  MeshStore& meshes_;
+  Placements placements_;
+  std::map<std::uint32_t, std::unique_ptr<Load>> loads_;
+  std::uint32_t nextLoad_ = 1;
+  std::vector<Change> pendingLoads_;
+  MessageQueue messages_;
+  std::set<Visit> busy_;
+  std::set<Wake> wakes_;
+  std::map<NodeRef, std::uint64_t> hashes_;
+  std::uint64_t hashSum_ = 0;
+  std::vector<NodeRef> touched_;
+
+  std::vector<Instance> instances_;
+  std::vector<InstanceId> freeInstances_, changedInstances_;
+  std::vector<std::vector<InstanceId>> instancesAt_;  ///< by placement
+  std::vector<Light> lights_;
+  bool lightsChanged_ = true;
+  SkyRecord sky_;
+  std::vector<Rig> rigs_;  ///< the last one is in use
+  Pose freeRig_;           ///< of a show without a rig node
+  std::vector<ChangeSet::Chunk> chunkChanges_;
+  std::vector<ChangeSet::StaticItem> staticChanges_;
+  FrameCounters counters_;
+  std::vector<EventRecord> events_;
+  Nanoseconds now_ = 0;
+};
+
+}  // namespace stadion

@@ -1,0 +1,91 @@
+#include "pipeline/state/chunk_arena.h"
+
+#include <cstring>
+
+namespace stadion {
+namespace {
+
+constexpr std::size_t kPage = 4096;
+
+std::size_t hiddenWords(std::size_t count) { return (count + 63) / 64; }
+
+std::size_t bytesFor(std::size_t count) {
+  const std::size_t bytes = count * sizeof(InstanceRecord) + kSlots * hiddenWords(count) * sizeof(std::uint64_t);
+  return (bytes + kPage - 1) / kPage * kPage;
+}
+
+}  // namespace
+
+ChunkArena::ChunkArena() : segment_("stadion-chunks", std::size_t{1} << 34) {}
+
+std::size_t ChunkArena::allocate(std::size_t bytes) {
+  for (auto at = free_.begin(); at != free_.end(); ++at) {
+    if (at->second < bytes) continue;
+    const auto [offset, size] = *at;
+    free_.erase(at);
+    if (size > bytes) free_[offset + bytes] = size - bytes;
+    return offset;
+  }
+  const std::size_t end = chunks_.empty() && free_.empty() ? 0 : [this] {
+    std::size_t e = 0;
+    for (const auto& [id, x] : chunks_) e = std::max(e, x.offset + x.bytes);
+    for (const auto& [offset, size] : free_) e = std::max(e, offset + size);
+    return e;
+  }();
+  segment_.growTo(end + bytes);
+  return end;
+}
+
+ChunkId ChunkArena::add(std::span<const InstanceRecord> records) {
+  const std::lock_guard lock(mutex_);
+  Extent x;
+  x.count = records.size();
+  x.bytes = bytesFor(x.count);
+  x.offset = allocate(x.bytes);
+  std::byte* at = segment_.data() + x.offset;
+  if (!records.empty()) std::memcpy(at, records.data(), records.size_bytes());
+  std::memset(at + records.size_bytes(), 0, x.bytes - records.size_bytes());
+  const ChunkId id = next_++;
+  chunks_[id] = x;
+  return id;
+}
+
+void ChunkArena::free(ChunkId id) {
+  const std::lock_guard lock(mutex_);
+  const auto at = chunks_.find(id);
+  if (at == chunks_.end()) return;
+  std::size_t offset = at->second.offset, bytes = at->second.bytes;
+  chunks_.erase(at);
+  segment_.discard(offset, bytes);
+  const auto after = free_.lower_bound(offset);
+  if (after != free_.end() && after->first == offset + bytes) {
+    bytes += after->second;
+    free_.erase(after);
+  }
+  auto before = free_.lower_bound(offset);
+  if (before != free_.begin() && (--before)->first + before->second == offset) {
+    before->second += bytes;
+    return;
+  }
+  free_[offset] = bytes;
+}
+
+ChunkView ChunkArena::find(ChunkId id, std::size_t slot) const {
+  const std::lock_guard lock(mutex_);
+  const auto at = chunks_.find(id);
+  if (at == chunks_.end()) return {};
+  const Extent& x = at->second;
+  std::byte* base = segment_.data() + x.offset;
+  const std::size_t words = hiddenWords(x.count);
+  auto* hidden = reinterpret_cast<std::uint64_t*>(base + x.count * sizeof(InstanceRecord)) + slot * words;
+  return {{reinterpret_cast<const InstanceRecord*>(base), x.count}, {hidden, words}};
+}
+
+std::size_t ChunkArena::bytesInUse() const {
+  const std::lock_guard lock(mutex_);
+  std::size_t bytes = 0;
+  for (const auto& [id, x] : chunks_) bytes += x.bytes;
+  return bytes;
+}
+
+}  // namespace stadion

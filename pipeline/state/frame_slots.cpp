@@ -1,0 +1,105 @@
+#include "pipeline/state/frame_slots.h"
+
+#include <algorithm>
+
+namespace stadion {
+
+FrameSlots::FrameSlots(std::size_t walls, Delivery delivery, std::chrono::milliseconds deadline)
+    : cursor_(walls, 0), delivery_(delivery), deadline_(deadline) {}
+
+std::optional<std::size_t> FrameSlots::writable() {
+  std::optional<std::size_t> oldest;
+  for (std::size_t i = 0; i < kSlots; ++i) {
+    if (slots_[i].state == State::Free) return i;
+    const bool mayReplace = delivery_ == Delivery::Latest && slots_[i].state == State::Published;
+    if (mayReplace && (!oldest || slots_[i].frame < slots_[*oldest].frame)) oldest = i;
+  }
+  if (oldest || delivery_ == Delivery::Every) return oldest;
+  // All slots are under lease: one that has outlived its deadline belongs to a reader that hangs.
+  for (std::size_t i = 0; i < kSlots; ++i)
+    if (slots_[i].state == State::Leased && std::chrono::steady_clock::now() - slots_[i].since > deadline_) return i;
+  return std::nullopt;
+}
+
+std::optional<std::size_t> FrameSlots::beginWrite() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    if (stopped_) return std::nullopt;
+    if (const auto slot = writable()) {
+      slots_[*slot].state = State::Writing;
+      return slot;
+    }
+    changed_.wait_for(lock, deadline_);
+  }
+}
+
+void FrameSlots::endWrite(std::size_t slot, std::uint64_t frame) {
+  const std::lock_guard lock(mutex_);
+  slots_[slot].state = State::Published;
+  slots_[slot].frame = frame;
+  changed_.notify_all();
+}
+
+std::optional<std::size_t> FrameSlots::choose() const {
+  std::optional<std::size_t> chosen;
+  for (std::size_t i = 0; i < kSlots; ++i) {
+    if (slots_[i].state != State::Published) continue;
+    const bool better = !chosen || (delivery_ == Delivery::Every ? slots_[i].frame < slots_[*chosen].frame
+                                                                 : slots_[i].frame > slots_[*chosen].frame);
+    if (better) chosen = i;
+  }
+  return chosen;
+}
+
+std::optional<Lease> FrameSlots::lease(std::size_t wall) {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    if (stopped_) return std::nullopt;
+    const auto at = std::find_if(selections_.begin(), selections_.end(),
+                                 [&](const Selection& s) { return s.serial == cursor_[wall]; });
+    if (at != selections_.end()) {
+      const Lease lease{at->slot, at->frame, at->serial};
+      ++cursor_[wall];
+      if (--at->unread == 0) selections_.erase(at);
+      return lease;
+    }
+    if (const auto slot = choose()) {
+      Slot& s = slots_[*slot];
+      s.state = State::Leased;
+      s.readers = cursor_.size();
+      s.serial = nextSerial_++;
+      s.since = std::chrono::steady_clock::now();
+      selections_.push_back({s.serial, *slot, s.frame, cursor_.size()});
+      // What is older than the chosen frame will not be shown any more.
+      for (Slot& other : slots_)
+        if (other.state == State::Published && other.frame < s.frame) other.state = State::Free;
+      changed_.notify_all();
+      continue;
+    }
+    if (finished_) return std::nullopt;
+    changed_.wait(lock);
+  }
+}
+
+bool FrameSlots::release(const Lease& lease) {
+  const std::lock_guard lock(mutex_);
+  Slot& s = slots_[lease.slot];
+  if (s.state != State::Leased || s.serial != lease.serial) return false;
+  if (--s.readers == 0) s.state = State::Free;
+  changed_.notify_all();
+  return true;
+}
+
+void FrameSlots::finish() {
+  const std::lock_guard lock(mutex_);
+  finished_ = true;
+  changed_.notify_all();
+}
+
+void FrameSlots::stop() {
+  const std::lock_guard lock(mutex_);
+  stopped_ = true;
+  changed_.notify_all();
+}
+
+}  // namespace stadion

@@ -1,0 +1,139 @@
+#include "pipeline/state/scene_state.h"
+
+#include <algorithm>
+
+namespace stadion {
+
+struct SceneState::Header {
+  TimeSignature signature;
+  ViewerRecord viewer;
+  SkyRecord sky;
+  std::uint32_t lightCount, chunkCount;
+  std::uint64_t instanceCount;
+  LightRecord lights[kMaxLights];
+  ChunkId chunks[kMaxChunks];
+};
+
+namespace {
+
+constexpr std::size_t kReserve = std::size_t{1} << 32;
+
+std::size_t roundUp(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
+
+void setBit(std::span<std::uint64_t> words, std::uint32_t index, bool on) {
+  const std::uint64_t bit = std::uint64_t{1} << (index % 64);
+  words[index / 64] = on ? words[index / 64] | bit : words[index / 64] & ~bit;
+}
+
+bool bitOf(std::span<const std::uint64_t> words, std::uint32_t index) {
+  return (words[index / 64] >> (index % 64)) & 1;
+}
+
+}  // namespace
+
+SceneState::SceneState(std::size_t memories) {
+  for (std::size_t i = 0; i < memories; ++i) {
+    memory_.push_back(std::make_unique<SharedSegment>("stadion-slot", kReserve));
+    memory_.back()->growTo(roundUp(sizeof(Header)));
+    new (memory_.back()->data()) Header{};
+  }
+}
+
+SceneState::~SceneState() = default;
+
+SceneState::Header& SceneState::header(std::size_t slot) const {
+  return *reinterpret_cast<Header*>(memory_[slot % memory_.size()]->data());
+}
+
+InstanceRecord* SceneState::instances(std::size_t slot) const {
+  return reinterpret_cast<InstanceRecord*>(memory_[slot % memory_.size()]->data() + roundUp(sizeof(Header)));
+}
+
+void SceneState::ensure(std::size_t slot, std::size_t instanceCount) {
+  Header& h = header(slot);
+  if (instanceCount <= h.instanceCount) return;
+  memory_[slot % memory_.size()]->growTo(roundUp(sizeof(Header)) + instanceCount * sizeof(InstanceRecord));
+  InstanceRecord* at = instances(slot);
+  for (std::size_t i = h.instanceCount; i < instanceCount; ++i) at[i].radius = -1;
+  h.instanceCount = instanceCount;
+}
+
+void SceneState::catchUp(std::size_t slot, std::size_t& copied) {
+  Missed& missed = missed_[slot];
+  if (any_ && slot != newest_) {
+    Header& to = header(slot);
+    const Header& from = header(newest_);
+    ensure(slot, from.instanceCount);
+    for (const InstanceId id : missed.instances) instances(slot)[id] = instances(newest_)[id];
+    copied += missed.instances.size();
+    for (const ChangeSet::StaticItem& s : missed.statics)
+      if (const ChunkView there = arena_.find(s.chunk, newest_); !there.records.empty())
+        setBit(arena_.find(s.chunk, slot).hidden, s.index, bitOf(there.hidden, s.index));
+    to.lightCount = from.lightCount;
+    std::copy_n(from.lights, from.lightCount, to.lights);
+    to.chunkCount = from.chunkCount;
+    std::copy_n(from.chunks, from.chunkCount, to.chunks);
+  }
+  for (const InstanceId id : missed.instances) missed.listed[id] = false;
+  missed.instances.clear();
+  missed.statics.clear();
+}
+
+void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
+  Header& h = header(slot);
+  for (const ChangeSet::Instance& i : changes.instances) {
+    ensure(slot, i.id + std::size_t{1});
+    instances(slot)[i.id] = i.record;
+  }
+  for (const ChangeSet::StaticItem& s : changes.statics)
+    if (const ChunkView there = arena_.find(s.chunk, slot); !there.records.empty())
+      setBit(there.hidden, s.index, s.hidden);
+  for (const ChangeSet::Chunk& c : changes.chunks) {
+    ChunkId* end = std::remove(h.chunks, h.chunks + h.chunkCount, c.id);
+    if (c.shown && end < h.chunks + kMaxChunks) *end++ = c.id;
+    h.chunkCount = static_cast<std::uint32_t>(end - h.chunks);
+  }
+  if (changes.lightsChanged) {
+    h.lightCount = static_cast<std::uint32_t>(std::min(changes.lights.size(), kMaxLights));
+    std::copy_n(changes.lights.begin(), h.lightCount, h.lights);
+  }
+  h.sky = changes.sky;
+  h.viewer = changes.viewer;
+  h.signature = changes.signature;
+}
+
+void SceneState::miss(std::size_t slot, const ChangeSet& changes) {
+  Missed& missed = missed_[slot];
+  for (const ChangeSet::Instance& i : changes.instances) {
+    if (missed.listed.size() <= i.id) missed.listed.resize(i.id + std::size_t{1});
+    if (missed.listed[i.id]) continue;
+    missed.listed[i.id] = true;
+    missed.instances.push_back(i.id);
+  }
+  missed.statics.insert(missed.statics.end(), changes.statics.begin(), changes.statics.end());
+}
+
+std::size_t SceneState::publish(std::size_t slot, const ChangeSet& changes) {
+  std::size_t copied = changes.instances.size();
+  catchUp(slot, copied);
+  apply(slot, changes);
+  for (std::size_t other = 0; other < kSlots; ++other)
+    if (other != slot) miss(other, changes);
+  newest_ = slot;
+  any_ = true;
+  return copied;
+}
+
+SlotView SceneState::view(std::size_t slot) const {
+  const Header& h = header(slot);
+  SlotView v;
+  v.signature = &h.signature, v.viewer = &h.viewer, v.sky = &h.sky;
+  v.lights = {h.lights, h.lightCount};
+  v.instances = {instances(slot), h.instanceCount};
+  v.chunks = {h.chunks, h.chunkCount};
+  v.arena = &arena_;
+  v.slot = slot;
+  return v;
+}
+
+}  // namespace stadion

@@ -1,0 +1,72 @@
+#pragma once
+/// The scene as the later stages see it: what App publishes each frame, in three slots.
+///
+/// A slot holds one whole frame: every instance that has ever moved, which static chunks are shown, lights, sky and
+/// viewer. Publishing costs what changed since the slot was last written, not what exists: the slot first copies what it
+/// missed from the newest one, then takes this frame's changes.
+///
+/// All of it lies in shared memory in plain fixed-width records without pointers.
+///
+/// Threads  publish() by App alone, into a slot that nobody reads; view() by whoever holds a lease on the slot
+///          (FrameSlots decides who may do what when).
+
+#include "pipeline/state/chunk_arena.h"
+
+#include <memory>
+
+namespace stadion {
+
+/// One frame's state, read-only. Valid while the lease on its slot is held.
+struct SlotView {
+  const TimeSignature* signature = nullptr;
+  const ViewerRecord* viewer = nullptr;
+  const SkyRecord* sky = nullptr;
+  std::span<const LightRecord> lights;
+  std::span<const InstanceRecord> instances;  ///< by InstanceId; radius < 0 = not there
+  std::span<const ChunkId> chunks;            ///< shown
+  const ChunkArena* arena = nullptr;
+  std::size_t slot = 0;
+
+  ChunkView chunk(ChunkId id) const { return arena->find(id, slot); }
+};
+
+class SceneState {
+ public:
+  static constexpr std::size_t kMaxLights = 256, kMaxChunks = 4096;
+
+  /// `memories` is how many slots really have memory of their own. Anything below kSlots is a broken pipeline, which
+  /// tests use to show that they would notice.
+  explicit SceneState(std::size_t memories = kSlots);
+  ~SceneState();
+
+  ChunkArena& arena() { return arena_; }
+
+  /// Writes frame `changes.signature.frame` into `slot`. Returns the number of records copied, catching up included.
+  std::size_t publish(std::size_t slot, const ChangeSet& changes);
+  SlotView view(std::size_t slot) const;
+
+ private:
+  struct Header;
+  struct Slot;
+  /// What a slot has missed since it was last written. App's own.
+  struct Missed {
+    std::vector<InstanceId> instances;
+    std::vector<bool> listed;
+    std::vector<ChangeSet::StaticItem> statics;
+  };
+
+  Header& header(std::size_t slot) const;
+  InstanceRecord* instances(std::size_t slot) const;
+  void ensure(std::size_t slot, std::size_t instanceCount);
+  void catchUp(std::size_t slot, std::size_t& copied);
+  void apply(std::size_t slot, const ChangeSet& changes);
+  void miss(std::size_t slot, const ChangeSet& changes);
+
+  ChunkArena arena_;
+  std::vector<std::unique_ptr<SharedSegment>> memory_;
+  std::array<Missed, kSlots> missed_;
+  std::size_t newest_ = 0;
+  bool any_ = false;
+};
+
+}  // namespace stadion
