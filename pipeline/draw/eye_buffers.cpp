@@ -1,0 +1,71 @@
+#include "pipeline/draw/eye_buffers.h"
+
+#include "pipeline/draw/problem.h"
+
+#include <algorithm>
+
+namespace stadion {
+namespace {
+
+constexpr GLint kSamples = 4;
+
+void attach(const GlTable& gl, GLuint framebuffer, GLenum attachment, GLuint renderbuffer) {
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, renderbuffer);
+}
+
+}  // namespace
+
+EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height)
+    : gl_(gl), width_(width), height_(height), colour_(gl), depth_(gl),
+      drawn_(gl), pictures_{GlRenderbuffer(gl), GlRenderbuffer(gl)}, resolved_{GlFramebuffer(gl),
+                                                                               GlFramebuffer(gl)} {
+  GLint most = 0;
+  gl_.GetIntegerv(GL_MAX_SAMPLES, &most);
+  const auto storage = [&](const GlRenderbuffer& buffer, GLint samples, GLenum format) {
+    gl_.BindRenderbuffer(GL_RENDERBUFFER, buffer.name());
+    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, this->width(), this->height());
+  };
+  storage(colour_, std::min(kSamples, most), GL_SRGB8_ALPHA8);
+  storage(depth_, std::min(kSamples, most), GL_DEPTH_COMPONENT24);
+  attach(gl_, drawn_.name(), GL_COLOR_ATTACHMENT0, colour_.name());
+  attach(gl_, drawn_.name(), GL_DEPTH_ATTACHMENT, depth_.name());
+  for (std::size_t eye = 0; eye < pictures_.size(); ++eye) {
+    storage(pictures_[eye], 0, GL_SRGB8_ALPHA8);
+    attach(gl_, resolved_[eye].name(), GL_COLOR_ATTACHMENT0, pictures_[eye].name());
+  }
+}
+
+std::optional<Diagnostic> EyeBuffers::check() {
+  for (const GLuint framebuffer : {drawn_.name(), resolved_[0].name(), resolved_[1].name()}) {
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+      return problem("this OpenGL cannot draw into a multisampled sRGB buffer");
+  }
+  if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR)
+    return problem(std::string("no buffers for this picture size: ") + glErrorName(error));
+  return {};
+}
+
+void EyeBuffers::begin() {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
+  gl_.Viewport(0, 0, width(), height());
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void EyeBuffers::resolve(std::uint32_t eye) {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.name());
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_[eye].name());
+  gl_.BlitFramebuffer(0, 0, width(), height(), 0, 0, width(), height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void EyeBuffers::read(std::uint32_t eye, std::span<std::uint8_t> rgba) {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_[eye].name());
+  gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl_.ReadPixels(0, 0, width(), height(), GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  const std::size_t row = std::size_t{width_} * 4;  // OpenGL counts rows from the bottom
+  for (std::size_t top = 0, bottom = height_ - 1; top < bottom; ++top, --bottom)
+    std::swap_ranges(rgba.data() + top * row, rgba.data() + (top + 1) * row, rgba.data() + bottom * row);
+}
+
+}  // namespace stadion

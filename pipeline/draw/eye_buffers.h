@@ -1,0 +1,42 @@
+#pragma once
+/// Where one wall's pictures arise: one multisampled buffer, drawn into by one eye after the other, and a
+/// resolved picture per eye.
+///
+/// Ownership  owns the GL objects. Threads: the thread on which the context is current.
+
+#include "engine/diagnostic.h"
+#include "pipeline/draw/gl_object.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace stadion {
+
+class EyeBuffers {
+public:
+  EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height);
+
+  /// Why the buffers cannot be used, or nothing. Once, after construction.
+  std::optional<Diagnostic> check();
+  /// Directs drawing into the multisampled buffer and clears it.
+  void begin();
+  /// Averages the samples into the picture of `eye`.
+  void resolve(std::uint32_t eye);
+  /// 8-bit RGBA (height x width x 4), rows from the top, colour in sRGB. Waits for the drawing to end.
+  void read(std::uint32_t eye, std::span<std::uint8_t> rgba);
+
+private:
+  GLsizei width() const { return static_cast<GLsizei>(width_); }
+  GLsizei height() const { return static_cast<GLsizei>(height_); }
+
+  const GlTable& gl_;
+  std::uint32_t width_, height_;
+  GlRenderbuffer colour_, depth_;
+  GlFramebuffer drawn_;
+  std::array<GlRenderbuffer, 2> pictures_;
+  std::array<GlFramebuffer, 2> resolved_;
+};
+
+}  // namespace stadion

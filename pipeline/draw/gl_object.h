@@ -1,0 +1,40 @@
+#pragma once
+/// GL names that free themselves.
+///
+/// Ownership  each object owns one name; it keeps a reference to the table, which must outlive it.
+/// Threads    made and destroyed on the thread on which its context is current.
+
+#include "pipeline/draw/gl_table.h"
+
+#include <utility>
+
+namespace stadion {
+
+template <auto Generate, auto Delete>
+class GlObject {
+public:
+  explicit GlObject(const GlTable& gl) : gl_(&gl) { (gl.*Generate)(1, &name_); }
+  ~GlObject() {
+    if (name_) (gl_->*Delete)(1, &name_);
+  }
+  GlObject(GlObject&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
+  GlObject& operator=(GlObject&& other) noexcept {
+    std::swap(gl_, other.gl_);
+    std::swap(name_, other.name_);
+    return *this;
+  }
+
+  GLuint name() const { return name_; }
+
+private:
+  const GlTable* gl_;
+  GLuint name_ = 0;
+};
+
+using GlBuffer = GlObject<&GlTable::GenBuffers, &GlTable::DeleteBuffers>;
+using GlTexture = GlObject<&GlTable::GenTextures, &GlTable::DeleteTextures>;
+using GlVertexArray = GlObject<&GlTable::GenVertexArrays, &GlTable::DeleteVertexArrays>;
+using GlFramebuffer = GlObject<&GlTable::GenFramebuffers, &GlTable::DeleteFramebuffers>;
+using GlRenderbuffer = GlObject<&GlTable::GenRenderbuffers, &GlTable::DeleteRenderbuffers>;
+
+}  // namespace stadion

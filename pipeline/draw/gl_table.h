@@ -1,0 +1,104 @@
+#pragma once
+/// The OpenGL functions that Stadion calls, as pointers that one provider handed out.
+///
+/// No GL library is linked: several implementations live in one process, and each fills a table of its own.
+/// The set is OpenGL 3.3 core. To call one more, add its line here.
+///
+/// Ownership  plain pointers into a library that stays loaded until the process ends.
+/// Threads    immutable once loaded; a call acts on the context that is current on the calling thread.
+
+#include "engine/diagnostic.h"
+
+#include <GL/glcorearb.h>
+
+namespace stadion {
+
+#define STADION_GL_FUNCTIONS(X)                                                                              \
+  X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                                                   \
+  X(PFNGLATTACHSHADERPROC, AttachShader)                                                                     \
+  X(PFNGLBINDBUFFERPROC, BindBuffer)                                                                         \
+  X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                                 \
+  X(PFNGLBINDBUFFERRANGEPROC, BindBufferRange)                                                               \
+  X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                               \
+  X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)                                                             \
+  X(PFNGLBINDTEXTUREPROC, BindTexture)                                                                       \
+  X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                               \
+  X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                                           \
+  X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                                                               \
+  X(PFNGLBUFFERDATAPROC, BufferData)                                                                         \
+  X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                                 \
+  X(PFNGLCLEARPROC, Clear)                                                                                   \
+  X(PFNGLCLEARCOLORPROC, ClearColor)                                                                         \
+  X(PFNGLCOMPILESHADERPROC, CompileShader)                                                                   \
+  X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                                   \
+  X(PFNGLCREATESHADERPROC, CreateShader)                                                                     \
+  X(PFNGLCULLFACEPROC, CullFace)                                                                             \
+  X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                   \
+  X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                         \
+  X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                                   \
+  X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                                                       \
+  X(PFNGLDELETESHADERPROC, DeleteShader)                                                                     \
+  X(PFNGLDELETETEXTURESPROC, DeleteTextures)                                                                 \
+  X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                                                         \
+  X(PFNGLDEPTHFUNCPROC, DepthFunc)                                                                           \
+  X(PFNGLDEPTHMASKPROC, DepthMask)                                                                           \
+  X(PFNGLDISABLEPROC, Disable)                                                                               \
+  X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                         \
+  X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)                                                   \
+  X(PFNGLENABLEPROC, Enable)                                                                                 \
+  X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                               \
+  X(PFNGLFINISHPROC, Finish)                                                                                 \
+  X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)                                               \
+  X(PFNGLFRONTFACEPROC, FrontFace)                                                                           \
+  X(PFNGLGENBUFFERSPROC, GenBuffers)                                                                         \
+  X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap)                                                                 \
+  X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                                                               \
+  X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)                                                             \
+  X(PFNGLGENTEXTURESPROC, GenTextures)                                                                       \
+  X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                               \
+  X(PFNGLGETERRORPROC, GetError)                                                                             \
+  X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                       \
+  X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                           \
+  X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                                     \
+  X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                                                             \
+  X(PFNGLGETSHADERIVPROC, GetShaderiv)                                                                       \
+  X(PFNGLGETSTRINGPROC, GetString)                                                                           \
+  X(PFNGLGETSTRINGIPROC, GetStringi)                                                                         \
+  X(PFNGLGETUNIFORMBLOCKINDEXPROC, GetUniformBlockIndex)                                                     \
+  X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                                         \
+  X(PFNGLISBUFFERPROC, IsBuffer)                                                                             \
+  X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                       \
+  X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                       \
+  X(PFNGLREADPIXELSPROC, ReadPixels)                                                                         \
+  X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample)                                 \
+  X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                     \
+  X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                                                         \
+  X(PFNGLTEXPARAMETERFPROC, TexParameterf)                                                                   \
+  X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                                                   \
+  X(PFNGLUNIFORM1IPROC, Uniform1i)                                                                           \
+  X(PFNGLUNIFORMBLOCKBINDINGPROC, UniformBlockBinding)                                                       \
+  X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                         \
+  X(PFNGLVERTEXATTRIB4FPROC, VertexAttrib4f)                                                                 \
+  X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)                                                       \
+  X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                                       \
+  X(PFNGLVIEWPORTPROC, Viewport)
+
+struct GlTable {
+#define STADION_GL_MEMBER(type, name) type name = nullptr;
+  STADION_GL_FUNCTIONS(STADION_GL_MEMBER)
+#undef STADION_GL_MEMBER
+};
+
+using GlSymbol = void (*)();
+using GlResolver = GlSymbol (*)(const char* name);
+
+/// Asks `resolve` for every function of the table; fails with the name of the first one that is missing.
+Result<GlTable> loadGlTable(GlResolver resolve);
+
+/// Whether the current context has the extension.
+bool hasGlExtension(const GlTable& gl, const char* name);
+
+/// What glGetError returned, in words.
+const char* glErrorName(GLenum error);
+
+}  // namespace stadion

@@ -1,0 +1,60 @@
+#include "pipeline/draw/instance_batches.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+enum class Handedness { Kept, Mirrored, NotFinite };
+
+Handedness handednessOf(const InstanceMatrix& m) {
+  double sum = 0;
+  for (const float x : m) sum += std::fabs(static_cast<double>(x));
+  if (!std::isfinite(sum)) return Handedness::NotFinite;
+  const auto at = [&](std::size_t i) { return static_cast<double>(m[i]); };
+  const double determinant = at(0) * (at(5) * at(10) - at(6) * at(9)) -
+                             at(1) * (at(4) * at(10) - at(6) * at(8)) +
+                             at(2) * (at(4) * at(9) - at(5) * at(8));
+  return determinant < 0 ? Handedness::Mirrored : Handedness::Kept;
+}
+
+}  // namespace
+
+void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
+  const auto first = static_cast<std::uint32_t>(matrices_.size());
+  const Handedness wanted = mirrored ? Handedness::Mirrored : Handedness::Kept;
+  for (const DrawItem& item : run)
+    if (handednessOf(item.model) == wanted) matrices_.push_back(item.model);
+  const auto count = static_cast<std::uint32_t>(matrices_.size()) - first;
+  if (count > 0) opaque_.push_back({run.front().mesh, first, count, mirrored});
+}
+
+void InstanceBatches::build(const DrawList& list) {
+  matrices_.clear();
+  opaque_.clear();
+  transparent_.clear();
+
+  for (std::size_t begin = 0; begin < list.opaque.size();) {
+    std::size_t end = begin + 1;
+    while (end < list.opaque.size() && list.opaque[end].mesh == list.opaque[begin].mesh) ++end;
+    const std::span run(list.opaque.data() + begin, end - begin);
+    addRun(run, false);
+    addRun(run, true);
+    begin = end;
+  }
+
+  for (const DrawItem& item : list.transparent) {
+    const Handedness hand = handednessOf(item.model);
+    if (hand == Handedness::NotFinite) continue;
+    const bool mirrored = hand == Handedness::Mirrored;
+    if (transparent_.empty() || transparent_.back().mesh != item.mesh ||
+        transparent_.back().mirrored != mirrored)
+      transparent_.push_back({item.mesh, static_cast<std::uint32_t>(matrices_.size()), 0, mirrored});
+    matrices_.push_back(item.model);
+    ++transparent_.back().count;
+  }
+  refused_ = list.opaque.size() + list.transparent.size() - matrices_.size();
+}
+
+}  // namespace stadion

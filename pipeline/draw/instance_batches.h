@@ -1,0 +1,42 @@
+#pragma once
+/// Turns a draw list into what one instanced draw call each can draw.
+///
+/// Ownership  keeps its memory from frame to frame, so that a steady show allocates nothing.
+/// Threads    plain data, no GL.
+
+#include "pipeline/draw/draw_list.h"
+
+#include <span>
+#include <vector>
+
+namespace stadion {
+
+/// Instances of one mesh, next to each other in the instance array.
+struct InstanceBatch {
+  MeshId mesh = kNoMesh;
+  std::uint32_t first = 0, count = 0;
+  bool mirrored = false;  ///< the model matrices turn left into right: front faces run clockwise
+};
+
+using InstanceMatrix = std::array<float, 12>;  ///< (3 x 4), row major, as in DrawItem
+
+class InstanceBatches {
+public:
+  /// Items whose matrix is not finite are left out and counted.
+  void build(const DrawList& list);
+
+  std::span<const InstanceMatrix> matrices() const { return matrices_; }
+  std::span<const InstanceBatch> opaque() const { return opaque_; }
+  /// In the list's order; neighbours of the same mesh share a batch.
+  std::span<const InstanceBatch> transparent() const { return transparent_; }
+  std::size_t refused() const { return refused_; }
+
+private:
+  void addRun(std::span<const DrawItem> run, bool mirrored);
+
+  std::vector<InstanceMatrix> matrices_;
+  std::vector<InstanceBatch> opaque_, transparent_;
+  std::size_t refused_ = 0;
+};
+
+}  // namespace stadion

@@ -1,0 +1,151 @@
+#include "pipeline/draw/mesh_cache.h"
+
+#include "pipeline/draw/problem.h"
+#include "pipeline/draw/surface_check.h"
+#include "pipeline/draw/uniform_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+namespace stadion {
+namespace {
+
+struct Vertex {
+  std::array<float, 3> position, normal;
+  std::array<float, 2> uv;
+  std::array<std::uint8_t, 4> colour;
+};
+
+constexpr float kAnisotropy = 4;  // software pays for every sample; more is hardly seen
+
+float finite(float x) {
+  return std::isfinite(x) ? x : 0.0f;
+}
+
+std::vector<Vertex> interleave(const Mesh& mesh) {
+  std::vector<Vertex> vertices(mesh.positions.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    Vertex& v = vertices[i];
+    std::transform(mesh.positions[i].begin(), mesh.positions[i].end(), v.position.begin(), finite);
+    std::transform(mesh.normals[i].begin(), mesh.normals[i].end(), v.normal.begin(), finite);
+    v.uv = mesh.uvs.empty() ? std::array<float, 2>{0, 0} : mesh.uvs[i];
+    v.colour = mesh.colours.empty() ? std::array<std::uint8_t, 4>{255, 255, 255, 255} : mesh.colours[i];
+  }
+  return vertices;
+}
+
+const void* offset(std::size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);
+}
+
+}  // namespace
+
+MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes)
+    : gl_(gl), store_(meshes), anisotropy_(hasGlExtension(gl, "GL_EXT_texture_filter_anisotropic") ||
+                                           hasGlExtension(gl, "GL_ARB_texture_filter_anisotropic")) {
+  gl_.GetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &uniformAlignment_);
+  store_.freedSince(freedCursor_);  // what went before us is none of ours
+}
+
+const GlMesh* MeshCache::find(MeshId id) {
+  auto at = meshes_.find(id);
+  if (at == meshes_.end()) {
+    const Mesh* mesh = store_.find(id);
+    if (!mesh) report("mesh " + std::to_string(id) + " is to be drawn but no longer there");
+    at = meshes_.emplace(id, mesh ? upload(*mesh) : std::nullopt).first;
+  }
+  return at->second ? &*at->second : nullptr;
+}
+
+void MeshCache::freeUnused() {
+  for (const MeshId id : store_.freedSince(freedCursor_)) meshes_.erase(id);
+}
+
+std::optional<Diagnostic> MeshCache::takeProblem() {
+  return std::exchange(problem_, std::nullopt);
+}
+
+void MeshCache::report(std::string what) {
+  if (!problem_) problem_ = problem(std::move(what));
+}
+
+std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
+  if (const std::string fault = drawingFault(mesh); !fault.empty()) {
+    report("\"" + mesh.name + "\" cannot be drawn: " + fault);
+    return {};
+  }
+  GlMesh out{GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, 0};
+  uploadVertices(mesh, out);
+  out.textures.reserve(mesh.textures.size());
+  for (const Texture& texture : mesh.textures) out.textures.push_back(uploadTexture(texture));
+  uploadMaterials(mesh, out);
+  if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) {
+    report("\"" + mesh.name + "\" cannot be drawn: OpenGL says " + glErrorName(error));
+    return {};
+  }
+  return out;
+}
+
+void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
+  const std::vector<Vertex> vertices = interleave(mesh);
+  gl_.BindVertexArray(out.vertexArray.name());
+  gl_.BindBuffer(GL_ARRAY_BUFFER, out.vertices.name());
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
+                 GL_STATIC_DRAW);
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, out.indices.name());
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)), mesh.indices.data(),
+                 GL_STATIC_DRAW);
+  const auto attribute = [&](GLuint at, GLint size, GLenum type, GLboolean normalised, std::size_t from) {
+    gl_.EnableVertexAttribArray(at);
+    gl_.VertexAttribPointer(at, size, type, normalised, sizeof(Vertex), offset(from));
+  };
+  attribute(kPosition, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
+  attribute(kNormal, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal));
+  attribute(kUv, 2, GL_FLOAT, GL_FALSE, offsetof(Vertex, uv));
+  attribute(kColour, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Vertex, colour));
+  for (const GLuint row : {kModelX, kModelY, kModelZ}) {  // the renderer points them at its instances
+    gl_.EnableVertexAttribArray(row);
+    gl_.VertexAttribDivisor(row, 1);
+  }
+}
+
+void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
+  const auto alignment = static_cast<std::size_t>(std::max(uniformAlignment_, 1));
+  const std::size_t stride = (sizeof(MaterialBlock) + alignment - 1) / alignment * alignment;
+  std::vector<std::byte> blocks(stride * mesh.materials.size());
+  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+    const MaterialBlock block = fillMaterial(mesh.materials[i]);
+    std::memcpy(blocks.data() + i * stride, &block, sizeof block);
+  }
+  gl_.BindBuffer(GL_UNIFORM_BUFFER, out.materials.name());
+  gl_.BufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(blocks.size()), blocks.data(), GL_STATIC_DRAW);
+
+  const bool open = !encloses(mesh);
+  for (const Submesh& part : mesh.submeshes) {
+    const Material& material = mesh.materials[part.material];
+    const bool textured = material.texture >= 0 && !mesh.uvs.empty();
+    out.parts.push_back({static_cast<GLsizei>(part.indexCount), part.firstIndex * sizeof(std::uint32_t),
+                         static_cast<GLintptr>(part.material * stride),
+                         textured ? out.textures[static_cast<std::size_t>(material.texture)].name() : 0,
+                         material.transparent(), material.doubleSided || open});
+    out.transparentParts += material.transparent();
+  }
+}
+
+GlTexture MeshCache::uploadTexture(const Texture& texture) {
+  GlTexture out(gl_);
+  gl_.BindTexture(GL_TEXTURE_2D, out.name());
+  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, static_cast<GLsizei>(texture.width),
+                 static_cast<GLsizei>(texture.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, texture.rgba.data());
+  gl_.GenerateMipmap(GL_TEXTURE_2D);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  if (anisotropy_) gl_.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY, kAnisotropy);
+  return out;
+}
+
+}  // namespace stadion

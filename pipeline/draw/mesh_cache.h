@@ -1,0 +1,68 @@
+#pragma once
+/// The meshes that one context holds in GL objects.
+///
+/// Ownership  owns the GL objects, borrows the mesh store, which must outlive it.
+/// Threads    the thread on which the context is current; its destructor too.
+/// Errors     a mesh that is gone, damaged or does not fit into memory is reported once and draws nothing.
+
+#include "engine/asset/mesh_store.h"
+#include "engine/diagnostic.h"
+#include "pipeline/draw/gl_object.h"
+
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace stadion {
+
+/// What one draw call of a mesh needs.
+struct GlSubmesh {
+  GLsizei indexCount;
+  std::uintptr_t indexOffset;  ///< [bytes]
+  GLintptr materialOffset;     ///< [bytes] into GlMesh::materials
+  GLuint texture;              ///< 0 = none
+  bool transparent;
+  bool bothSides;  ///< not culled: double-sided, or the mesh is open
+};
+
+struct GlMesh {
+  GlVertexArray vertexArray;
+  GlBuffer vertices, indices, materials;
+  std::vector<GlTexture> textures;
+  std::vector<GlSubmesh> parts;
+  std::size_t transparentParts = 0;
+};
+
+/// Where vertex arrays find what; the shaders use the same numbers.
+enum VertexAttribute : GLuint { kPosition, kNormal, kUv, kColour, kModelX, kModelY, kModelZ };
+
+class MeshCache {
+public:
+  MeshCache(const GlTable& gl, const MeshStore& meshes);
+
+  /// The mesh, uploaded if this is its first use; nullptr if it cannot be drawn.
+  const GlMesh* find(MeshId id);
+  /// Frees the GL objects of meshes that the store has freed since the last call.
+  void freeUnused();
+
+  std::size_t size() const { return meshes_.size(); }
+  /// What went wrong since the last call, if anything did.
+  std::optional<Diagnostic> takeProblem();
+
+private:
+  std::optional<GlMesh> upload(const Mesh& mesh);
+  void uploadVertices(const Mesh& mesh, GlMesh& out);
+  void uploadMaterials(const Mesh& mesh, GlMesh& out);
+  GlTexture uploadTexture(const Texture& texture);
+  void report(std::string what);
+
+  const GlTable& gl_;
+  const MeshStore& store_;
+  std::unordered_map<MeshId, std::optional<GlMesh>> meshes_;  // empty: known not to be drawable
+  std::size_t freedCursor_ = 0;
+  GLint uniformAlignment_ = 256;
+  bool anisotropy_ = false;
+  std::optional<Diagnostic> problem_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,17 @@
+#pragma once
+/// An error that no place in a script stands for.
+
+#include "engine/diagnostic.h"
+
+#include <string>
+#include <utility>
+
+namespace stadion {
+
+inline Diagnostic problem(std::string message) {
+  Diagnostic d;
+  d.message = std::move(message);
+  return d;
+}
+
+}  // namespace stadion

@@ -1,0 +1,216 @@
+#include "pipeline/draw/renderer.h"
+
+#include "pipeline/draw/picture_size.h"
+#include "pipeline/draw/problem.h"
+#include "pipeline/draw/shaders.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace stadion {
+namespace {
+
+constexpr int kMostErrorsRead = 16;  // a lost context may report errors for ever
+
+const void* offset(std::size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);
+}
+
+/// New storage each time, so that no frame waits for one that still reads the old.
+template <class T>
+void stream(const GlTable& gl, GLenum target, const GlBuffer& buffer, std::span<const T> data) {
+  gl.BindBuffer(target, buffer.name());
+  gl.BufferData(target, static_cast<GLsizeiptr>(data.size_bytes()), data.data(), GL_STREAM_DRAW);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Renderer>> Renderer::create(const GlTable& gl, const MeshStore& meshes,
+                                                   std::uint32_t width, std::uint32_t height) {
+  if (auto why = checkPictureSize(width, height)) return *why;
+  auto plain = GlProgram::build(gl, surfaceVertexShader(false), surfaceFragmentShader(false));
+  if (!plain) return plain.error();
+  auto textured = GlProgram::build(gl, surfaceVertexShader(true), surfaceFragmentShader(true));
+  if (!textured) return textured.error();
+  auto sky = GlProgram::build(gl, skyVertexShader(), skyFragmentShader());
+  if (!sky) return sky.error();
+  std::unique_ptr<Renderer> renderer(
+      new Renderer(gl, meshes, width, height,
+                   {std::move(plain.value()), std::move(textured.value()), std::move(sky.value())}));
+  if (auto why = renderer->buffers_.check()) return *why;
+  return renderer;
+}
+
+Renderer::Renderer(const GlTable& gl, const MeshStore& meshes, std::uint32_t width, std::uint32_t height,
+                   Programs programs)
+    : gl_(gl), width_(width), height_(height), programs_(std::move(programs)), buffers_(gl, width, height),
+      cache_(gl, meshes), instances_(gl), scene_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl) {
+  setUnchangingState();
+}
+
+void Renderer::setUnchangingState() {
+  gl_.Enable(GL_FRAMEBUFFER_SRGB);
+  gl_.Enable(GL_MULTISAMPLE);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LEQUAL);
+  gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // pictures stay opaque
+  gl_.ClearColor(0, 0, 0, 1);
+  gl_.ActiveTexture(GL_TEXTURE0);
+}
+
+std::optional<Diagnostic> Renderer::draw(const DrawList& list) {
+  prepare(list);
+  const std::uint32_t eyes = std::min<std::uint32_t>(list.eyeCount, 2);
+  for (std::uint32_t eye = 0; eye < eyes; ++eye) drawEye(list.eyes[eye], eye);
+  return collectProblems();
+}
+
+std::optional<Diagnostic> Renderer::draw(const DrawList& list, std::uint32_t eye) {
+  assert(eye < list.eyes.size());
+  prepare(list);
+  drawEye(list.eyes[eye], eye);
+  return collectProblems();
+}
+
+void Renderer::prepare(const DrawList& list) {
+  cache_.freeUnused();
+  batches_.build(list);
+  if (batches_.refused() > 0) report("an object is left out: its matrix is not finite");
+  if (list.lights.size() > DrawList::kMaxLights)
+    report("more than " + std::to_string(DrawList::kMaxLights) + " lights: the rest are left out");
+  stream(gl_, GL_ARRAY_BUFFER, instances_, batches_.matrices());
+  const SceneBlock scene = fillScene(list.sky, list.lights);
+  stream(gl_, GL_UNIFORM_BUFFER, scene_, std::span(&scene, 1));
+}
+
+void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
+  counts_ = {};
+  usedProgram_ = 0;
+  ViewBlock view;
+  if (!fillView(eye, view)) {
+    report("an eye's matrices are not finite or have no inverse: its picture is not drawn");
+    return;
+  }
+  stream(gl_, GL_UNIFORM_BUFFER, views_[index], std::span<const ViewBlock>(&view, 1));
+  gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, views_[index].name());
+  gl_.BindBufferBase(GL_UNIFORM_BUFFER, kSceneBinding, scene_.name());
+
+  buffers_.begin();
+  drawBatches(batches_.opaque(), Pass::Opaque);
+  drawBatches(batches_.transparent(), Pass::OpaqueParts);
+  drawSky();
+  gl_.Enable(GL_BLEND);
+  gl_.DepthMask(GL_FALSE);
+  drawBatches(batches_.transparent(), Pass::Transparent);
+  gl_.DepthMask(GL_TRUE);
+  gl_.Disable(GL_BLEND);
+  buffers_.resolve(index);
+}
+
+void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass) {
+  for (const InstanceBatch& batch : batches) {
+    const GlMesh* mesh = cache_.find(batch.mesh);
+    if (!mesh) continue;
+    if (pass == Pass::Transparent && mesh->transparentParts == 0) continue;
+    if (pass == Pass::OpaqueParts && mesh->transparentParts == mesh->parts.size()) continue;
+    gl_.BindVertexArray(mesh->vertexArray.name());
+    gl_.BindBuffer(GL_ARRAY_BUFFER, instances_.name());
+    gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
+    if (pass == Pass::Transparent) {
+      drawTransparent(*mesh, batch);
+      continue;
+    }
+    pointAtInstances(batch.first);
+    for (const GlSubmesh& part : mesh->parts) {
+      if (pass == Pass::OpaqueParts && part.transparent) continue;
+      cull(false, !part.bothSides);
+      drawPart(*mesh, part, batch.count);
+    }
+  }
+}
+
+void Renderer::drawTransparent(const GlMesh& mesh, const InstanceBatch& batch) {
+  // Instances of one part keep their order within a call; with several parts, or with inner sides to draw
+  // before the outer ones, each instance has to be finished before the next.
+  const auto simple = [](const GlSubmesh& part) { return !part.transparent || !part.bothSides; };
+  const bool together =
+      mesh.transparentParts == 1 && std::all_of(mesh.parts.begin(), mesh.parts.end(), simple);
+  const std::uint32_t step = together ? batch.count : 1;
+  for (std::uint32_t i = 0; i < batch.count; i += step) {
+    pointAtInstances(batch.first + i);
+    for (const GlSubmesh& part : mesh.parts) {
+      if (!part.transparent) continue;
+      if (part.bothSides) {
+        cull(true, false);
+        drawPart(mesh, part, step);
+      }
+      cull(false, true);
+      drawPart(mesh, part, step);
+    }
+  }
+}
+
+void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances) {
+  use(part.texture ? programs_.textured : programs_.plain);
+  if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
+  gl_.BindBufferRange(GL_UNIFORM_BUFFER, kMaterialBinding, mesh.materials.name(), part.materialOffset,
+                      sizeof(MaterialBlock));
+  gl_.DrawElementsInstanced(GL_TRIANGLES, part.indexCount, GL_UNSIGNED_INT, offset(part.indexOffset),
+                            static_cast<GLsizei>(instances));
+  ++counts_.calls;
+  counts_.instances += instances;
+  counts_.triangles += std::uint64_t{instances} * static_cast<std::uint64_t>(part.indexCount / 3);
+}
+
+void Renderer::drawSky() {
+  use(programs_.sky);
+  gl_.BindVertexArray(nothing_.name());
+  gl_.FrontFace(GL_CCW);
+  cull(false, false);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  ++counts_.calls;
+}
+
+void Renderer::pointAtInstances(std::uint32_t first) {
+  for (GLuint row = 0; row < 3; ++row)
+    gl_.VertexAttribPointer(kModelX + row, 4, GL_FLOAT, GL_FALSE, sizeof(InstanceMatrix),
+                            offset(first * sizeof(InstanceMatrix) + row * 4 * sizeof(float)));
+}
+
+void Renderer::cull(bool front, bool back) {
+  if (!front && !back) {
+    gl_.Disable(GL_CULL_FACE);
+    return;
+  }
+  gl_.Enable(GL_CULL_FACE);
+  gl_.CullFace(front ? GL_FRONT : GL_BACK);
+}
+
+void Renderer::use(const GlProgram& program) {
+  if (usedProgram_ == program.name()) return;
+  usedProgram_ = program.name();
+  gl_.UseProgram(usedProgram_);
+}
+
+std::optional<Diagnostic> Renderer::read(std::uint32_t eye, std::span<std::uint8_t> rgba) {
+  assert(eye < 2 && rgba.size() == std::size_t{width_} * height_ * 4);
+  buffers_.read(eye, rgba);
+  return collectProblems();
+}
+
+void Renderer::report(std::string what) {
+  if (reported_.insert(what).second && !problem_) problem_ = problem(std::move(what));
+}
+
+std::optional<Diagnostic> Renderer::collectProblems() {
+  if (auto why = cache_.takeProblem()) report(why->message);
+  for (int i = 0; i < kMostErrorsRead; ++i) {
+    const GLenum error = gl_.GetError();
+    if (error == GL_NO_ERROR) break;
+    report(std::string("OpenGL says ") + glErrorName(error));
+  }
+  return std::exchange(problem_, std::nullopt);
+}
+
+}  // namespace stadion

@@ -1,0 +1,97 @@
+#pragma once
+/// Draws a wall's draw lists with OpenGL 3.3 core.
+///
+/// Order        opaque things instanced by mesh, then the sky where nothing was drawn, then transparent
+/// things
+///              in the list's order, blended and without writing depth. 4 samples a pixel, light computed in
+///              linear RGB, pictures in sRGB (shaders.h says how).
+/// Same pixels  for the same list in every thread, context and provider of one Mesa version.
+/// Ownership    owns its GL objects; the table and the mesh store must outlive it. Meshes are uploaded at
+/// their
+///              first use and freed once the store has freed them.
+/// Threads      made, used and destroyed on the thread on which its context is current.
+/// Errors       returned once per kind, never thrown; what can be drawn is drawn.
+
+#include "pipeline/draw/draw_list.h"
+#include "pipeline/draw/eye_buffers.h"
+#include "pipeline/draw/gl_program.h"
+#include "pipeline/draw/instance_batches.h"
+#include "pipeline/draw/mesh_cache.h"
+#include "pipeline/draw/uniform_blocks.h"
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+
+namespace stadion {
+
+/// What the last draw of an eye consisted of: the same on every machine, so tests may pin it.
+struct DrawCounts {
+  std::uint32_t calls = 0;      ///< draw calls
+  std::uint32_t instances = 0;  ///< meshes drawn, an instance of two parts counting twice
+  std::uint64_t triangles = 0;
+};
+
+class Renderer {
+public:
+  /// Pictures of width x height pixels; fails if the size or the context does not serve.
+  static Result<std::unique_ptr<Renderer>> create(const GlTable& gl, const MeshStore& meshes,
+                                                  std::uint32_t width, std::uint32_t height);
+
+  /// Draws every eye of the list. Returns a problem that had not been reported before, or nothing.
+  std::optional<Diagnostic> draw(const DrawList& list);
+  /// Draws one eye, 0 left or mono, 1 right.
+  std::optional<Diagnostic> draw(const DrawList& list, std::uint32_t eye);
+
+  /// Waits until all drawing is done. Time around draw() and finish() is what drawing costs: a software
+  /// rasteriser does most of its work here.
+  void finish() { gl_.Finish(); }
+  /// The last picture of `eye`: 8-bit RGBA (height x width x 4), rows from the top, sRGB, alpha 255.
+  /// Expects room for exactly that. Returns a new problem, or nothing.
+  std::optional<Diagnostic> read(std::uint32_t eye, std::span<std::uint8_t> rgba);
+
+  std::uint32_t width() const { return width_; }    ///< [pixels]
+  std::uint32_t height() const { return height_; }  ///< [pixels]
+  const DrawCounts& counts() const { return counts_; }
+  std::size_t meshesHeld() const { return cache_.size(); }
+
+private:
+  struct Programs {
+    GlProgram plain, textured, sky;
+  };
+  enum class Pass { Opaque, OpaqueParts, Transparent };
+
+  Renderer(const GlTable& gl, const MeshStore& meshes, std::uint32_t width, std::uint32_t height,
+           Programs programs);
+
+  void prepare(const DrawList& list);
+  void drawEye(const DrawEye& eye, std::uint32_t index);
+  void setUnchangingState();
+  void drawBatches(std::span<const InstanceBatch> batches, Pass pass);
+  void drawTransparent(const GlMesh& mesh, const InstanceBatch& batch);
+  void drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances);
+  void drawSky();
+  void pointAtInstances(std::uint32_t first);
+  void cull(bool front, bool back);
+  void use(const GlProgram& program);
+  std::optional<Diagnostic> collectProblems();
+  void report(std::string what);
+
+  const GlTable& gl_;
+  std::uint32_t width_, height_;
+  Programs programs_;
+  EyeBuffers buffers_;
+  MeshCache cache_;
+  InstanceBatches batches_;
+  GlBuffer instances_, scene_;
+  std::array<GlBuffer, 2> views_;
+  GlVertexArray nothing_;  // the sky's triangle has no vertex data
+  GLuint usedProgram_ = 0;
+  DrawCounts counts_;
+  std::set<std::string> reported_;
+  std::optional<Diagnostic> problem_;
+};
+
+}  // namespace stadion

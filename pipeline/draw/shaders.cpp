@@ -1,0 +1,209 @@
+#include "pipeline/draw/shaders.h"
+
+namespace stadion {
+namespace {
+
+constexpr const char* kVersion = "#version 330 core\n";
+constexpr const char* kTextured = "#define TEXTURED\n";
+
+// The same blocks as uniform_blocks.h.
+constexpr const char* kBlocks = R"(
+layout(std140) uniform View {
+  mat4 viewProjection;
+  vec4 eye;
+  vec4 rays[3];
+};
+struct Light {
+  vec4 position;   // w: 1 / range^2
+  vec4 direction;  // towards the light; w: kind
+  vec4 colour;
+  vec4 cone;
+};
+layout(std140) uniform Scene {
+  vec4 zenith;
+  vec4 horizon;
+  vec4 ground;
+  vec4 ambient;  // w: 1 / haze distance
+  vec4 sunDirection;
+  vec4 sunColour;
+  ivec4 lightCount;
+  Light lights[16];
+};
+
+// Leaves 0 .. 0.8 alone and bends what is brighter towards 1, with a continuous slope.
+vec3 softClip(vec3 c) {
+  vec3 over = max(c - 0.8, 0.0) * 5.0;
+  return min(c, 0.8) + 0.2 * over / (1.0 + over);
+}
+)";
+
+constexpr const char* kSurfaceVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 colour;
+layout(location = 4) in vec4 modelX;  // the model matrix, by rows
+layout(location = 5) in vec4 modelY;
+layout(location = 6) in vec4 modelZ;
+
+out vec3 placed;
+out vec3 outward;
+out vec4 vertexColour;
+#ifdef TEXTURED
+out vec2 texel;
+#endif
+
+void main() {
+  vec4 p = vec4(position, 1.0);
+  placed = vec3(dot(modelX, p), dot(modelY, p), dot(modelZ, p));
+  // Normals go by the inverse transpose; up to its length that is the cofactor matrix, whose rows are cross
+  // products, with the sign of the determinant.
+  vec3 cofactorX = cross(modelY.xyz, modelZ.xyz);
+  vec3 cofactorY = cross(modelZ.xyz, modelX.xyz);
+  vec3 cofactorZ = cross(modelX.xyz, modelY.xyz);
+  float side = dot(modelX.xyz, cofactorX) < 0.0 ? -1.0 : 1.0;
+  vec3 n = side * vec3(dot(cofactorX, normal), dot(cofactorY, normal), dot(cofactorZ, normal));
+  outward = n * inversesqrt(max(dot(n, n), 1e-30));
+  vertexColour = colour;
+#ifdef TEXTURED
+  texel = uv;
+#endif
+  gl_Position = viewProjection * vec4(placed, 1.0);
+}
+)";
+
+constexpr const char* kSurfaceFragment = R"(
+layout(std140) uniform Material {
+  vec4 baseColour;
+  vec4 emissive;  // w: roughness
+  vec4 finish;    // x: metallic
+};
+
+in vec3 placed;
+in vec3 outward;
+in vec4 vertexColour;
+#ifdef TEXTURED
+in vec2 texel;
+uniform sampler2D baseTexture;
+#endif
+
+out vec4 shown;
+
+vec3 ambientFrom(vec3 n) { return ambient.rgb * mix(0.3 + ground.rgb, vec3(1.0), 0.5 + 0.5 * n.z); }
+
+float fifth(float x) {
+  float squared = x * x;
+  return squared * squared * x;
+}
+
+void main() {
+  vec4 base = baseColour * vertexColour;
+#ifdef TEXTURED
+  base *= texture(baseTexture, texel);
+#endif
+  float roughness = emissive.w;
+  float metallic = finish.x;
+  vec3 diffuse = base.rgb * (1.0 - metallic);
+  vec3 mirror = mix(vec3(0.04), base.rgb, metallic);
+
+  vec3 away = eye.xyz - placed;
+  float distanceSquared = max(dot(away, away), 1e-12);
+  float perDistance = inversesqrt(distanceSquared);
+  vec3 v = away * perDistance;
+  vec3 n = outward * inversesqrt(max(dot(outward, outward), 1e-30));
+  if (!gl_FrontFacing) n = -n;
+  float nv = max(dot(n, v), 1e-3);
+
+  // A dielectric seen square on shows its diffuse colour alone; towards grazing it mirrors the surroundings.
+  float grazing = fifth(1.0 - nv) * (1.0 - roughness) * (1.0 - roughness);
+  vec3 light = emissive.rgb + diffuse * ambientFrom(n) +
+               (mirror * metallic + (1.0 - mirror) * grazing) * ambientFrom(reflect(-v, n));
+
+  float spread = roughness * roughness;
+  float spreadSquared = spread * spread;
+  float k = 0.5 * spread;
+  for (int i = 0; i < lightCount.x; ++i) {
+    vec3 l = lights[i].direction.xyz;
+    float strength = 1.0;
+    if (lights[i].direction.w > 0.5) {
+      vec3 to = lights[i].position.xyz - placed;
+      float squared = max(dot(to, to), 1e-12);
+      to *= inversesqrt(squared);
+      float fading = max(1.0 - squared * lights[i].position.w, 0.0);
+      strength = fading * fading;
+      if (lights[i].direction.w > 1.5) {
+        float inside = clamp((dot(to, l) - lights[i].cone.x) * lights[i].cone.y, 0.0, 1.0);
+        strength *= inside * inside * (3.0 - 2.0 * inside);
+      }
+      l = to;
+    }
+    float nl = dot(n, l);
+    if (nl > 0.0) {
+      vec3 h = l + v;
+      h *= inversesqrt(max(dot(h, h), 1e-12));
+      float nh = clamp(dot(n, h), 0.0, 1.0);
+      float lobe = nh * nh * (spreadSquared - 1.0) + 1.0;
+      float shadowing = (nl * (1.0 - k) + k) * (nv * (1.0 - k) + k);
+      float highlight = 0.25 * spreadSquared / (lobe * lobe * shadowing);
+      vec3 fresnel = mirror + (1.0 - mirror) * fifth(1.0 - clamp(dot(l, h), 0.0, 1.0));
+      light += (diffuse + highlight * fresnel) * lights[i].colour.rgb * (strength * nl);
+    }
+  }
+
+  if (ambient.w > 0.0) light = mix(horizon.rgb, light, exp2(-1.442695 * distanceSquared * perDistance * ambient.w));
+  shown = vec4(softClip(light), clamp(base.a, 0.0, 1.0));
+}
+)";
+
+constexpr const char* kSkyVertex = R"(
+out vec3 ray;
+
+void main() {
+  ray = rays[gl_VertexID].xyz;
+  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 1.0, 1.0);
+}
+)";
+
+constexpr const char* kSkyFragment = R"(
+in vec3 ray;
+out vec4 shown;
+
+void main() {
+  vec3 d = normalize(ray);
+  vec3 c;
+  if (d.z >= 0.0) {
+    float low = (1.0 - d.z) * (1.0 - d.z);
+    c = mix(zenith.rgb, horizon.rgb, low * low);
+    if (sunDirection.w > 0.5) {
+      float off = max(1.0 - dot(d, sunDirection.xyz), 0.0);  // half the square of the angle
+      float glow = 1.0 / (1.0 + 900.0 * off);
+      float disc = 1.0 - smoothstep(6.0e-5, 9.0e-5, off);
+      c += sunColour.rgb * (0.3 * glow * glow + 0.06 / (1.0 + 18.0 * off) + 3.0 * disc);
+    }
+  } else {
+    // An endless plain in thin haze: near the horizon one looks through ever more of it.
+    c = mix(horizon.rgb, ground.rgb, exp2(0.03 / min(d.z, -1e-4)));
+  }
+  shown = vec4(softClip(c), 1.0);
+}
+)";
+
+}  // namespace
+
+std::string surfaceVertexShader(bool textured) {
+  return std::string(kVersion) + (textured ? kTextured : "") + kBlocks + kSurfaceVertex;
+}
+
+std::string surfaceFragmentShader(bool textured) {
+  return std::string(kVersion) + (textured ? kTextured : "") + kBlocks + kSurfaceFragment;
+}
+
+std::string skyVertexShader() {
+  return std::string(kVersion) + kBlocks + kSkyVertex;
+}
+
+std::string skyFragmentShader() {
+  return std::string(kVersion) + kBlocks + kSkyFragment;
+}
+
+}  // namespace stadion

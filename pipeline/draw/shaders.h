@@ -1,0 +1,22 @@
+#pragma once
+/// The shaders' source text (GLSL 3.30), and how light is computed in them.
+///
+/// Light        a white Lambert face square to a light of colour 1 has radiance 1: the factor pi of the light
+///              and of the reflectance cancel. The highlight is GGX (Walter et al. 2007) with Smith's
+///              shadowing in Schlick's form and Schlick's Fresnel term.
+/// Ambient      a face looking up receives `ambient`, one looking down `ambient` x (0.3 + `ground`), others
+/// in
+///              between in proportion to their normal's z.
+/// Range        radiance up to 0.8 is shown as it is; above, it approaches 1 smoothly (softClip).
+/// Haze         what lies d away keeps exp(-d / haze distance) of its colour; the rest is the horizon's.
+
+#include <string>
+
+namespace stadion {
+
+std::string surfaceVertexShader(bool textured);
+std::string surfaceFragmentShader(bool textured);
+std::string skyVertexShader();
+std::string skyFragmentShader();
+
+}  // namespace stadion

@@ -1,0 +1,94 @@
+#include "pipeline/draw/uniform_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr float kLeastConeWidth = 1e-4f;  // so that a spot's edge never divides by zero
+constexpr float kLeastRoughness = 0.08f;  // below it a highlight is smaller than a pixel and flickers
+
+float finite(float x) {
+  return std::isfinite(x) ? x : 0.0f;
+}
+
+Float4 widen(const std::array<float, 3>& v, float w) {
+  return {finite(v[0]), finite(v[1]), finite(v[2]), finite(w)};
+}
+
+Float4 reversed(const std::array<float, 3>& v, float w) {
+  const float length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  if (!(length > 0) || !std::isfinite(length)) return {0, 0, 1, w};
+  return {-v[0] / length, -v[1] / length, -v[2] / length, w};
+}
+
+LightBlock fillLight(const DrawLight& light) {
+  LightBlock out;
+  out.position = widen(light.position, light.range > 0 ? 1 / (light.range * light.range) : 0);
+  out.direction = reversed(light.direction, static_cast<float>(light.kind));
+  out.colour = widen(light.colour, 0);
+  out.cone = {finite(light.cosOuter), 1 / std::max(light.cosInner - light.cosOuter, kLeastConeWidth), 0, 0};
+  return out;
+}
+
+void placeSun(const std::vector<DrawLight>& lights, SceneBlock& out) {
+  out.sunDirection = out.sunColour = {0, 0, 0, 0};
+  const auto isSun = [](const DrawLight& l) { return l.kind == DrawLight::Kind::Directional; };
+  const auto sun = std::find_if(lights.begin(), lights.end(), isSun);
+  if (sun == lights.end()) return;
+  const float brightest = std::max({sun->colour[0], sun->colour[1], sun->colour[2]});
+  if (!(brightest > 0) || !std::isfinite(brightest)) return;
+  out.sunDirection = reversed(sun->direction, 1);
+  out.sunColour = {sun->colour[0] / brightest, sun->colour[1] / brightest, sun->colour[2] / brightest, 0};
+}
+
+}  // namespace
+
+bool fillView(const DrawEye& eye, ViewBlock& out) {
+  if (!eye.view.allFinite() || !eye.projection.allFinite()) return false;
+  const Mat4 toWorld = eye.view.inverse();
+  const Mat4 fromClip = eye.projection.inverse();
+  if (!toWorld.allFinite() || !fromClip.allFinite()) return false;
+
+  const Mat4 viewProjection = eye.projection * eye.view;
+  for (int i = 0; i < 16; ++i)
+    out.viewProjection[static_cast<std::size_t>(i)] = static_cast<float>(viewProjection(i % 4, i / 4));
+  const Vec4 centre = toWorld.col(3);
+  out.eye = {static_cast<float>(centre.x()), static_cast<float>(centre.y()), static_cast<float>(centre.z()),
+             1};
+
+  // Points of the far plane depend linearly on the position on the screen, so the shader may interpolate.
+  constexpr double corners[3][2] = {{-1, -1}, {3, -1}, {-1, 3}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec4 far = fromClip * Vec4(corners[i][0], corners[i][1], 1, 1);
+    if (!(std::abs(far.w()) > 0)) return false;
+    const Vec3 inEye = far.head<3>() / far.w();
+    const Vec3 ray = toWorld.topLeftCorner<3, 3>() * (inEye / std::abs(inEye.z()));
+    if (!ray.allFinite()) return false;
+    out.rays[i] = {static_cast<float>(ray.x()), static_cast<float>(ray.y()), static_cast<float>(ray.z()), 0};
+  }
+  return true;
+}
+
+SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights) {
+  SceneBlock out{};
+  out.zenith = widen(sky.zenith, 0);
+  out.horizon = widen(sky.horizon, 0);
+  out.ground = widen(sky.ground, 0);
+  out.ambient = widen(sky.ambient, sky.hazeDistance > 0 ? 1 / sky.hazeDistance : 0);
+  placeSun(lights, out);
+  const std::size_t count = std::min(lights.size(), DrawList::kMaxLights);
+  out.lightCount[0] = static_cast<std::int32_t>(count);
+  for (std::size_t i = 0; i < count; ++i) out.lights[i] = fillLight(lights[i]);
+  return out;
+}
+
+MaterialBlock fillMaterial(const Material& material) {
+  const auto& c = material.baseColour;
+  return {{finite(c[0]), finite(c[1]), finite(c[2]), finite(c[3])},
+          widen(material.emissive, std::clamp(finite(material.roughness), kLeastRoughness, 1.0f)),
+          {std::clamp(finite(material.metallic), 0.0f, 1.0f), 0, 0, 0}};
+}
+
+}  // namespace stadion

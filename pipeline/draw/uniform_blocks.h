@@ -1,0 +1,55 @@
+#pragma once
+/// The uniform blocks of the shaders, laid out as std140 lays them out, and how they are filled.
+///
+/// Everything that differs per view or per mesh is in such a block, nothing in program uniforms. Coordinates
+/// are World axes relative to the draw list's origin, as in the list.
+
+#include "engine/asset/mesh.h"
+#include "pipeline/draw/draw_list.h"
+
+#include <array>
+#include <cstdint>
+
+namespace stadion {
+
+using Float4 = std::array<float, 4>;
+
+/// One eye.
+struct ViewBlock {
+  std::array<float, 16> viewProjection;  ///< (4 x 4), column major
+  Float4 eye;                            ///< where the eye is [m], w unused
+  std::array<Float4, 3> rays;  ///< through the corners (-1,-1), (3,-1), (-1,3) of clip space; for the sky
+};
+
+struct LightBlock {
+  Float4 position;   ///< relative to origin [m]; w: 1 / range^2, or 0
+  Float4 direction;  ///< towards the light, unit; w: 0 directional, 1 point, 2 spot
+  Float4 colour;     ///< linear; w unused
+  Float4 cone;       ///< spot: cosine of the outer half angle, 1 / (cosine inner - outer)
+};
+
+/// What both eyes of a wall share.
+struct SceneBlock {
+  Float4 zenith, horizon, ground;  ///< linear; w unused
+  Float4 ambient;                  ///< linear; w: 1 / haze distance [1/m], or 0
+  Float4 sunDirection;             ///< towards the sun, unit; w: 1 if there is one
+  Float4 sunColour;                ///< linear, brightest component 1
+  std::array<std::int32_t, 4> lightCount;
+  std::array<LightBlock, DrawList::kMaxLights> lights;
+};
+
+struct MaterialBlock {
+  Float4 baseColour;  ///< linear, alpha
+  Float4 emissive;    ///< linear; w: roughness
+  Float4 finish;      ///< x: metallic
+};
+
+/// Where the blocks are bound.
+enum UniformBinding : std::uint32_t { kViewBinding = 0, kSceneBinding = 1, kMaterialBinding = 2 };
+
+/// False if the eye's matrices are not finite or cannot be inverted: nothing can be drawn then.
+bool fillView(const DrawEye& eye, ViewBlock& out);
+SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights);
+MaterialBlock fillMaterial(const Material& material);
+
+}  // namespace stadion

@@ -1,0 +1,35 @@
+#include "pipeline/target/rasteriser_settings.h"
+
+#include "pipeline/draw/problem.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <thread>
+
+namespace stadion {
+namespace {
+
+constexpr const char* kVectorWidth = "LP_NATIVE_VECTOR_WIDTH";
+constexpr const char* kThreads = "LP_NUM_THREADS";
+constexpr unsigned kMostThreads = 32;  // Mesa takes no more
+
+}  // namespace
+
+std::optional<Diagnostic> checkRasteriser() {
+  const char* width = std::getenv(kVectorWidth);
+  if (!width || std::strcmp(width, "128") == 0 || std::strcmp(width, "256") == 0) return {};
+  return problem(std::string(kVectorWidth) + "=" + width +
+                 " is not supported, Mesa crashes with some widths: unset it, or set it to 256");
+}
+
+std::optional<Diagnostic> pinRasteriser() {
+  constexpr int kKeepChoice = 0;
+  const unsigned cores = std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
+  setenv(kVectorWidth, "256", kKeepChoice);
+  setenv(kThreads, std::to_string(cores).c_str(), kKeepChoice);
+  return checkRasteriser();
+}
+
+}  // namespace stadion

@@ -1,0 +1,21 @@
+#pragma once
+/// How Mesa's software rasteriser works in this process. It reads its settings from the environment once,
+/// when the first context is made.
+
+#include "engine/diagnostic.h"
+
+#include <optional>
+
+namespace stadion {
+
+/// Settles the settings that nobody chose: vectors of 256 bits, so that every machine computes the same way,
+/// and one rasteriser thread per core, which all contexts of the process share.
+///
+/// Threads  changes the environment: the program calls it first thing, before it starts threads.
+/// Errors   says so when the environment asks for a setting with which the rasteriser crashes.
+std::optional<Diagnostic> pinRasteriser();
+
+/// The check alone: changes nothing. Providers call it before they load Mesa.
+std::optional<Diagnostic> checkRasteriser();
+
+}  // namespace stadion

@@ -1,0 +1,75 @@
+#pragma once
+/// Where a wall is drawn: one OpenGL context, without or with a window, from one of several implementations.
+///
+/// The colour result itself is the Renderer's (an offscreen buffer of the target's size per eye), so that all
+/// providers give the same pixels.
+
+#include "engine/diagnostic.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace stadion {
+
+struct GlTable;
+
+/// One context, for one wall.
+///
+/// Ownership  its provider must outlive it.
+/// Threads    current on at most one thread at a time, and a thread has at most one target current. Any
+/// thread
+///            may destroy it once it has been released.
+class Target {
+public:
+  virtual ~Target() = default;
+  Target(const Target&) = delete;
+  Target& operator=(const Target&) = delete;
+
+  /// Makes the context current on the calling thread; whatever was current there must have been released.
+  /// Returns what failed, or nothing.
+  virtual std::optional<Diagnostic> makeCurrent() = 0;
+  /// Leaves the calling thread without a context. Expects that this target is current on it.
+  virtual void release() = 0;
+
+  const GlTable& gl() const { return gl_; }
+  std::uint32_t width() const { return width_; }    ///< [pixels]
+  std::uint32_t height() const { return height_; }  ///< [pixels]
+
+protected:
+  Target(const GlTable& gl, std::uint32_t width, std::uint32_t height)
+      : gl_(gl), width_(width), height_(height) {}
+
+private:
+  const GlTable& gl_;
+  std::uint32_t width_, height_;
+};
+
+/// One OpenGL implementation, loaded at run time and never unloaded.
+///
+/// Threads  create() may be called from any thread.
+class GlProvider {
+public:
+  virtual ~GlProvider() = default;
+
+  virtual std::string_view name() const = 0;
+  /// A context with OpenGL 4.5 core, or 3.3 core where there is no better. Not current on any thread.
+  virtual Result<std::unique_ptr<Target>> create(std::uint32_t width, std::uint32_t height) = 0;
+};
+
+enum class GlProviderKind {
+  OsMesa,  ///< Mesa's software rasteriser without any window system
+  Egl,     ///< EGL without surfaces: software, or a device that the system's EGL finds
+};
+
+/// Loads the implementation. Call pinRasteriser() before the first one.
+Result<std::unique_ptr<GlProvider>> openGlProvider(GlProviderKind kind);
+Result<std::unique_ptr<GlProvider>> openOsMesa();
+Result<std::unique_ptr<GlProvider>> openEgl();
+
+/// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6": of the target current here.
+std::string describeGl(const GlTable& gl);
+
+}  // namespace stadion
