@@ -11,7 +11,7 @@
 namespace stadion {
 
 struct SourcePosition {
-  std::string file;    ///< as the user named it
+  std::string file;          ///< as the user named it
   std::uint32_t line = 0;    ///< from 1; 0 = the whole file
   std::uint32_t column = 0;  ///< from 1, in characters
 };
@@ -30,7 +30,7 @@ std::string format(const Diagnostic& d);
 
 /// Collects several findings in one pass.
 class Diagnostics {
- public:
+public:
   void error(SourcePosition where, std::string message, std::string excerpt = {});
   void warning(SourcePosition where, std::string message, std::string excerpt = {});
   void note(SourcePosition where, std::string message, std::string excerpt = {});
@@ -41,7 +41,7 @@ class Diagnostics {
   std::size_t errorCount() const { return errors_; }
   const std::vector<Diagnostic>& all() const { return list_; }
 
- private:
+private:
   std::vector<Diagnostic> list_;
   std::size_t errors_ = 0;
 };
@@ -49,17 +49,19 @@ class Diagnostics {
 /// A value, or the reason there is none. For failures that come from the user's files, never for our bugs.
 template <class T>
 class Result {
- public:
+public:
   Result(T value) : content_(std::move(value)) {}
   Result(Diagnostic why) : content_(std::move(why)) {}
-  static Result failure(std::string message) { return Diagnostic{Severity::Error, {}, std::move(message), {}}; }
+  static Result failure(std::string message) {
+    return Diagnostic{Severity::Error, {}, std::move(message), {}};
+  }
 
   explicit operator bool() const { return std::holds_alternative<T>(content_); }
   T& value() { return std::get<T>(content_); }
   const T& value() const { return std::get<T>(content_); }
   const Diagnostic& error() const { return std::get<Diagnostic>(content_); }
 
- private:
+private:
   std::variant<T, Diagnostic> content_;
 };
 

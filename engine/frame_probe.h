@@ -14,7 +14,7 @@ enum class Stage : std::uint32_t { App, Cull, Draw, Swap };
 enum class NodePhase : std::uint32_t { Receive, Simulate, Dispatch };
 
 class FrameProbe {
- public:
+public:
   virtual ~FrameProbe() = default;
   virtual void stageBegan(Stage, std::uint64_t frame, std::uint32_t wall) = 0;
   virtual void stageEnded(Stage, std::uint64_t frame, std::uint32_t wall) = 0;

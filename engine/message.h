@@ -1,9 +1,9 @@
 #pragma once
 /// Delayed messages: how nodes talk, except for the direct calls of dynamics and collision nodes.
 ///
-/// A message is posted while its sender dispatches and delivered at the start of its receiver's next App cycle, in
-/// an order that no thread can influence: (due time, sender's load number, sender's position in its file,
-/// sequence).
+/// A message is posted while its sender dispatches and delivered at the start of its receiver's next App
+/// cycle, in an order that no thread can influence: (due time, sender's load number, sender's position in its
+/// file, sequence).
 
 #include "engine/time_signature.h"
 #include "engine/verb.h"
@@ -15,8 +15,8 @@
 
 namespace stadion {
 
-/// A node's identity: which load it came with and where it stands in that file. Never used again after the node
-/// is unloaded, and equal on every replica.
+/// A node's identity: which load it came with and where it stands in that file. Never used again after the
+/// node is unloaded, and equal on every replica.
 struct NodeRef {
   std::uint32_t load = 0;  ///< from 1; 0 = nobody
   std::uint32_t position = 0;
@@ -26,8 +26,8 @@ struct NodeRef {
 };
 
 struct Message {
-  Nanoseconds due = 0;     ///< event time + delay: when the command takes effect [ns]
-  NodeRef sender;          ///< invalid = from outside the show (operator)
+  Nanoseconds due = 0;  ///< event time + delay: when the command takes effect [ns]
+  NodeRef sender;       ///< invalid = from outside the show (operator)
   std::uint64_t sequence = 0;
   NodeRef target;
   Verb verb{};
@@ -37,14 +37,14 @@ struct Message {
 
 /// Holds messages until they are due. App only.
 class MessageQueue {
- public:
+public:
   void post(Message m);
   /// Takes every message that was posted before this call and is due at `now` or earlier, in delivery order.
   std::vector<Message> takeDue(Nanoseconds now);
   bool empty() const { return heap_.empty(); }
   const std::vector<Message>& pending() const { return heap_; }  ///< in no particular order
 
- private:
+private:
   std::vector<Message> heap_;  ///< earliest on top
   std::uint64_t sequence_ = 0;
 };

@@ -7,7 +7,7 @@ namespace {
 
 /// Tells the probe, if there is one, when a phase of a node begins and ends.
 class PhaseSpan {
- public:
+public:
   PhaseSpan(FrameProbe* probe, NodeRef node, NodePhase phase) : probe_(probe), node_(node), phase_(phase) {
     if (probe_) probe_->nodePhaseBegan(node_, phase_);
   }
@@ -17,7 +17,7 @@ class PhaseSpan {
   PhaseSpan(const PhaseSpan&) = delete;
   PhaseSpan& operator=(const PhaseSpan&) = delete;
 
- private:
+private:
   FrameProbe* probe_;
   NodeRef node_;
   NodePhase phase_;

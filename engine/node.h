@@ -1,9 +1,9 @@
 #pragma once
 /// A node of the show: identically structured and interfaced, whatever it does.
 ///
-/// In each frame in which it has something to do a node runs one cycle of the application phase: it receives its
-/// messages, simulates, and dispatches notifications. A node with nothing to do is not visited at all. What is drawn is
-/// not the node but an instance record that it publishes through the scene.
+/// In each frame in which it has something to do a node runs one cycle of the application phase: it receives
+/// its messages, simulates, and dispatches notifications. A node with nothing to do is not visited at all.
+/// What is drawn is not the node but an instance record that it publishes through the scene.
 ///
 /// Threads  App only. Nodes are constructed on the loader thread and belong to it until they are installed.
 /// Ownership  the Scene owns every installed node.
@@ -35,8 +35,8 @@ struct FrameContext {
   Nanoseconds effective(const Message& m) const { return m.due > start() ? m.due : start(); }
 };
 
-/// In which order nodes run within a frame: what places things comes before what looks at them. Within a rank, the order
-/// is (load number, position in file).
+/// In which order nodes run within a frame: what places things comes before what looks at them. Within a
+/// rank, the order is (load number, position in file).
 enum class Rank : std::uint8_t { Input, Motion, Sensing, Dynamics };
 
 /// One `eventmessage` of a node: what it posts when something happens to it.
@@ -49,7 +49,7 @@ struct Notification {
 };
 
 class Node {
- public:
+public:
   Node(NodeKind kind, NodeRef self, std::string name) : kind_(kind), self_(self), name_(std::move(name)) {}
   virtual ~Node() = default;
   Node(const Node&) = delete;
@@ -60,8 +60,8 @@ class Node {
   const std::string& name() const { return name_; }
   void addNotification(Notification n) { notifications_.push_back(std::move(n)); }
 
-  /// Takes its place in the scene: names resolve, placements and instances are made. Once, when its load is installed,
-  /// after every node of the load exists and after its parent's enter().
+  /// Takes its place in the scene: names resolve, placements and instances are made. Once, when its load is
+  /// installed, after every node of the load exists and after its parent's enter().
   void enter(Scene& scene) { onEnter(scene); }
   /// Gives back what enter() took. Once, in reverse order.
   void leave(Scene& scene) { onLeave(scene); }
@@ -75,11 +75,11 @@ class Node {
   /// Adds every field that the show's future depends on.
   virtual void hash(StateHash&) const {}
 
- protected:
+protected:
   /// Notes that something happened; the messages that tell of it go out when the node dispatches.
   void raise(Event event, Nanoseconds when) { raised_.push_back({event, when}); }
 
- private:
+private:
   struct Raised {
     Event event;
     Nanoseconds when;

@@ -13,9 +13,13 @@ void StateHash::add(std::uint64_t v) {
   value_ = z ^ (z >> 31);
 }
 
-void StateHash::add(double v) { add(std::bit_cast<std::uint64_t>(v)); }
+void StateHash::add(double v) {
+  add(std::bit_cast<std::uint64_t>(v));
+}
 
-void StateHash::add(std::string_view v) { add(std::uint64_t{XXH64(v.data(), v.size(), 0)}); }
+void StateHash::add(std::string_view v) {
+  add(std::uint64_t{XXH64(v.data(), v.size(), 0)});
+}
 
 void StateHash::add(const Vec3& v) {
   for (int i = 0; i < 3; ++i) add(v[i]);

@@ -13,7 +13,7 @@
 namespace stadion {
 
 class StateHash {
- public:
+public:
   explicit StateHash(std::uint64_t seed = 0) : value_(seed ^ 0x51a0d10e5ee7c0deULL) {}
 
   void add(std::uint64_t v);
@@ -30,7 +30,7 @@ class StateHash {
 
   std::uint64_t value() const { return value_; }
 
- private:
+private:
   std::uint64_t value_;
 };
 

@@ -7,7 +7,9 @@ namespace stadion {
 
 using Nanoseconds = std::int64_t;  ///< show time or a duration [ns]
 
-constexpr double toSeconds(Nanoseconds ns) { return static_cast<double>(ns) * 1e-9; }
+constexpr double toSeconds(Nanoseconds ns) {
+  return static_cast<double>(ns) * 1e-9;
+}
 constexpr Nanoseconds fromSeconds(double s) {
   return static_cast<Nanoseconds>(s * 1e9 + (s >= 0 ? 0.5 : -0.5));
 }

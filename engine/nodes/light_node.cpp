@@ -20,6 +20,8 @@ void LightNode::receive(const Message& m, FrameContext& frame) {
   if (switch_.obey(m)) frame.scene.setLight(handle_, light_, switch_.on());
 }
 
-void SkyNode::onEnter(Scene& scene) { scene.setSky(sky_); }
+void SkyNode::onEnter(Scene& scene) {
+  scene.setSky(sky_);
+}
 
 }  // namespace stadion

@@ -3,13 +3,14 @@
 
 #include "engine/nodes/placed_node.h"
 #include "engine/nodes/switched.h"
+#include "engine/scene/records.h"
 
 namespace stadion {
 
 /// `light`: directional, point or spot. Direction and position are in its own coordinates and move with it.
 /// Commands  enable, disable, toggle, and those of a placed node.
 class LightNode : public PlacedNode {
- public:
+public:
   LightNode(NodeRef self, std::string name, PlaceAttributes place, const LightRecord& light, bool on)
       : PlacedNode(NodeKind::Light, self, std::move(name), std::move(place)), light_(light), switch_(on) {}
 
@@ -18,12 +19,12 @@ class LightNode : public PlacedNode {
     switch_.hash(h);
   }
 
- protected:
+protected:
   void onEnter(Scene& scene) override;
   void onLeave(Scene& scene) override;
   void receive(const Message& m, FrameContext& frame) override;
 
- private:
+private:
   LightRecord light_;
   Switched switch_;
   std::size_t handle_ = 0;
@@ -31,14 +32,14 @@ class LightNode : public PlacedNode {
 
 /// `sky`: colours of the background, light from everywhere, haze.
 class SkyNode : public Node {
- public:
+public:
   SkyNode(NodeRef self, std::string name, const SkyRecord& sky)
       : Node(NodeKind::Sky, self, std::move(name)), sky_(sky) {}
 
- protected:
+protected:
   void onEnter(Scene& scene) override;
 
- private:
+private:
   SkyRecord sky_;
 };
 

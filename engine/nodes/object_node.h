@@ -2,28 +2,29 @@
 /// A mesh in the world: `object`. It is drawn, may collide, and moves only when somebody moves it.
 
 #include "engine/nodes/placed_node.h"
+#include "engine/scene/records.h"
 
 namespace stadion {
 
 /// What an object shows. The mesh is counted by its load, not by the node.
 struct Appearance {
   MeshId mesh = kNoMesh;
-  bool drawn = true;    ///< `draw=false` is not drawn and still collides
-  std::string shape;    ///< `shape=`: how it collides; empty = auto
+  bool drawn = true;  ///< `draw=false` is not drawn and still collides
+  std::string shape;  ///< `shape=`: how it collides; empty = auto
 };
 
 class ObjectNode : public PlacedNode {
- public:
+public:
   ObjectNode(NodeKind kind, NodeRef self, std::string name, PlaceAttributes place, Appearance appearance)
       : PlacedNode(kind, self, std::move(name), std::move(place)), appearance_(std::move(appearance)) {}
 
   const Appearance& appearance() const { return appearance_; }
 
- protected:
+protected:
   void onEnter(Scene& scene) override;
   void onLeave(Scene& scene) override;
 
- private:
+private:
   Appearance appearance_;
   InstanceId instance_ = 0;
 };

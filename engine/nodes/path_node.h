@@ -1,11 +1,12 @@
 #pragma once
 /// `path`: moves its target, or what stands below it, along key frames.
 ///
-/// Positions run along straight lines or, with smooth=on, along a cubic through the keys (Catmull-Rom, with the
-/// keys' own times); orientations turn with constant angular velocity from key to key.
+/// Positions run along straight lines or, with smooth=on, along a cubic through the keys (Catmull-Rom, with
+/// the keys' own times); orientations turn with constant angular velocity from key to key.
 ///
 /// Events    finished, at the last key's exact time (not when it loops).
-/// Commands  enable (goes on where it stopped), disable, toggle, reset (back to the first key), and those of a placed
+/// Commands  enable (goes on where it stopped), disable, toggle, reset (back to the first key), and those of
+/// a placed
 ///           node when it moves what stands below it.
 /// Frames    keys are in the coordinates of the target's parent, or of its own parent.
 
@@ -20,7 +21,7 @@ struct PathKey {
 };
 
 class PathNode : public PlacedNode {
- public:
+public:
   /// Expects at least one key, times strictly increasing from >= 0.
   PathNode(NodeRef self, std::string name, PlaceAttributes place, NodeRef target, std::vector<PathKey> keys,
            bool loop, bool smooth, bool on)
@@ -33,12 +34,12 @@ class PathNode : public PlacedNode {
   /// The pose `seconds` after the path's start.
   Pose poseAt(double seconds) const;
 
- protected:
+protected:
   void onEnter(Scene& scene) override;
   void receive(const Message& m, FrameContext& frame) override;
   void simulate(FrameContext& frame) override;
 
- private:
+private:
   void putTarget(Scene& scene);
 
   NodeRef target_;  ///< invalid = itself

@@ -8,7 +8,9 @@ namespace stadion {
 namespace {
 
 /// What attaching keeps: the lengths of the node's axes.
-Vec3 scaleOf(const Affine& X) { return X.linear().colwise().norm().transpose(); }
+Vec3 scaleOf(const Affine& X) {
+  return X.linear().colwise().norm().transpose();
+}
 
 }  // namespace
 
@@ -19,7 +21,9 @@ void PlacedNode::onEnter(Scene& scene) {
   X_PN_ = attributes_.X_PN;
 }
 
-void PlacedNode::onLeave(Scene& scene) { scene.placements().remove(placement_); }
+void PlacedNode::onLeave(Scene& scene) {
+  scene.placements().remove(placement_);
+}
 
 void PlacedNode::aboutToChange(Scene& scene) {
   scene.touch(self());
@@ -49,9 +53,7 @@ void PlacedNode::resetPlace(Scene& scene) {
 }
 
 void PlacedNode::follow(const std::string& what, const std::string& tracker, const FrameContext& frame) {
-  follow_ = what == "position"      ? Follow::Position
-            : what == "orientation" ? Follow::Orientation
-                                    : Follow::All;
+  follow_ = what == "position" ? Follow::Position : what == "orientation" ? Follow::Orientation : Follow::All;
   tracker_ = tracker;
   if (tracker_.empty()) tracker_ = frame.input.find("foot") ? "foot" : "wand";
 }

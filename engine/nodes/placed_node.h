@@ -2,7 +2,8 @@
 /// A node that has a place in the world: under its parent, or following a tracker.
 ///
 /// Commands  attach all|position|orientation [tracker], detach, show, hide, reset.
-/// Frames    X_PN maps Node to Parent. Attached, the node follows tracker x rig with no offset and keeps its scale.
+/// Frames    X_PN maps Node to Parent. Attached, the node follows tracker x rig with no offset and keeps its
+/// scale.
 
 #include "engine/node.h"
 #include "engine/scene/placements.h"
@@ -17,7 +18,7 @@ struct PlaceAttributes {
 };
 
 class PlacedNode : public Node {
- public:
+public:
   PlacedNode(NodeKind kind, NodeRef self, std::string name, PlaceAttributes place)
       : Node(kind, self, std::move(name)), attributes_(std::move(place)) {}
 
@@ -34,7 +35,7 @@ class PlacedNode : public Node {
   bool busy() const override { return attached(); }
   void hash(StateHash& h) const override;
 
- protected:
+protected:
   void onEnter(Scene& scene) override;
   void onLeave(Scene& scene) override;
   void receive(const Message& m, FrameContext& frame) override;
@@ -45,7 +46,7 @@ class PlacedNode : public Node {
   void stopFollowing() { follow_ = Follow::Nothing; }
   const std::string& followedTracker() const { return tracker_; }
 
- private:
+private:
   void aboutToChange(Scene& scene);
 
   enum class Follow : std::uint8_t { Nothing, All, Position, Orientation };

@@ -17,7 +17,9 @@ void RigNode::onLeave(Scene& scene) {
   PlacedNode::onLeave(scene);
 }
 
-void NavigatorNode::receive(const Message& m, FrameContext&) { switch_.obey(m); }
+void NavigatorNode::receive(const Message& m, FrameContext&) {
+  switch_.obey(m);
+}
 
 void NavigatorNode::simulate(FrameContext& frame) {
   const TrackerSample* t = frame.input.find(attributes_.tracker);
@@ -27,13 +29,14 @@ void NavigatorNode::simulate(FrameContext& frame) {
   const double dt = toSeconds(frame.now.step);
   Pose X_WR = frame.scene.rigPose();
 
-  // Turning is about the visitor's head, so that the world turns around them and not they around the room's centre.
+  // Turning is about the visitor's head, so that the world turns around them and not they around the room's
+  // centre.
   const Vec3 head_W = X_WR * frame.scene.headInRig(frame.input).p;
   const Quat turned = det::expRotation(Vec3(0, 0, -turn * attributes_.turnRate * dt));
   X_WR.p = head_W + turned * (X_WR.p - head_W);
   X_WR.q = (turned * X_WR.q).normalized();
 
-  Vec3 ahead = X_WR.q * (t->pose.q * Vec3::UnitY());
+  Vec3 ahead = X_WR.q * (t->X_RT.q * Vec3::UnitY());
   if (!attributes_.fly) ahead.z() = 0;
   const double length = ahead.norm();
   if (length > 1e-6) X_WR.p += ahead / length * (forward * attributes_.speed * dt);

@@ -8,24 +8,24 @@ namespace stadion {
 
 /// `rig`: the tracked platform that carries walls and trackers. The last one to enter is the one in use.
 class RigNode : public PlacedNode {
- public:
+public:
   RigNode(NodeRef self, std::string name, PlaceAttributes place, double eyeHeight)
       : PlacedNode(NodeKind::Rig, self, std::move(name), std::move(place)), eyeHeight_(eyeHeight) {}
 
   Rank rank() const override { return Rank::Input; }
 
- protected:
+protected:
   void onEnter(Scene& scene) override;
   void onLeave(Scene& scene) override;
 
- private:
+private:
   double eyeHeight_;  ///< of an untracked head [m]
 };
 
 /// `navigator`: the joypad moves the rig where the wand points, and turns it.
 /// Axis 0 turns (right is positive), axis 1 goes forward. walk keeps to the horizontal, fly does not.
 class NavigatorNode : public Node {
- public:
+public:
   struct Attributes {
     double speed = 1.5;     ///< [m/s] at full deflection
     double turnRate = 0.8;  ///< [rad/s] at full deflection
@@ -40,11 +40,11 @@ class NavigatorNode : public Node {
   bool busy() const override { return switch_.on(); }
   void hash(StateHash& h) const override { switch_.hash(h); }
 
- protected:
+protected:
   void receive(const Message& m, FrameContext& frame) override;
   void simulate(FrameContext& frame) override;
 
- private:
+private:
   Attributes attributes_;
   Switched switch_;
 };

@@ -1,8 +1,8 @@
 #pragma once
 /// `scene`: a file of its own that is loaded and unloaded by message, below this node's place.
 ///
-/// A command takes effect at a fixed show time, `ready` seconds after it is due, whenever the loader finished: so every
-/// replica and every replay changes in the same frame.
+/// A command takes effect at a fixed show time, `ready` seconds after it is due, whenever the loader
+/// finished: so every replica and every replay changes in the same frame.
 ///
 /// Events    loaded, unloaded.
 /// Commands  load, unload, reset (unload and load again), and those of a placed node.
@@ -12,7 +12,7 @@
 namespace stadion {
 
 class SceneNode : public PlacedNode {
- public:
+public:
   SceneNode(NodeRef self, std::string name, PlaceAttributes place, std::string file, Nanoseconds ready,
             bool initially)
       : PlacedNode(NodeKind::Scene, self, std::move(name), std::move(place)), file_(std::move(file)),
@@ -20,12 +20,12 @@ class SceneNode : public PlacedNode {
 
   void hash(StateHash& h) const override;
 
- protected:
+protected:
   void onEnter(Scene& scene) override;
   void receive(const Message& m, FrameContext& frame) override;
   void simulate(FrameContext& frame) override;
 
- private:
+private:
   void load(Scene& scene, Nanoseconds at);
   void unload(Scene& scene, Nanoseconds at);
 

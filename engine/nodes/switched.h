@@ -9,7 +9,7 @@
 namespace stadion {
 
 class Switched {
- public:
+public:
   explicit Switched(bool initially) : initially_(initially), on_(initially) {}
 
   bool on() const { return on_; }
@@ -29,7 +29,7 @@ class Switched {
 
   void hash(StateHash& h) const { h.add(on_); }
 
- private:
+private:
   bool initially_, on_;
 };
 

@@ -11,19 +11,19 @@
 namespace stadion {
 
 class TimerNode : public Node {
- public:
+public:
   TimerNode(NodeRef self, std::string name, Nanoseconds period, bool repeat, bool on)
       : Node(NodeKind::Timer, self, std::move(name)), period_(period), repeat_(repeat), switch_(on) {}
 
   Rank rank() const override { return Rank::Sensing; }
   void hash(StateHash& h) const override;
 
- protected:
+protected:
   void onEnter(Scene& scene) override;
   void receive(const Message& m, FrameContext& frame) override;
   void simulate(FrameContext& frame) override;
 
- private:
+private:
   void startAt(Nanoseconds when, Scene& scene);
 
   Nanoseconds period_;  ///< > 0

@@ -1,7 +1,8 @@
 #pragma once
 /// One loaded file: its nodes, its names, its static objects.
 ///
-/// Prepared on the loader thread, installed and removed by App at a frame boundary, destroyed on the loader thread.
+/// Prepared on the loader thread, installed and removed by App at a frame boundary, destroyed on the loader
+/// thread.
 
 #include "engine/node.h"
 #include "engine/scene/records.h"
@@ -26,8 +27,8 @@ struct Load {
   std::string file;
   NodeRef owner;  ///< the scene node that asked for it; invalid = the show itself
 
-  std::vector<std::unique_ptr<Node>> nodes;  ///< by position in file; null for static objects
-  std::vector<std::uint32_t> enterOrder;     ///< positions of the nodes, parents first
+  std::vector<std::unique_ptr<Node>> nodes;              ///< by position in file; null for static objects
+  std::vector<std::uint32_t> enterOrder;                 ///< positions of the nodes, parents first
   std::unordered_map<std::string, std::uint32_t> names;  ///< name to position
   std::vector<std::uint32_t> lines;                      ///< source line by position
 
@@ -46,11 +47,12 @@ struct Load {
 ///
 /// Threads  called by App; does its work elsewhere.
 class SceneLoader {
- public:
+public:
   virtual ~SceneLoader() = default;
   /// Begins to prepare `file` as load `number`.
   virtual void request(std::uint32_t number, const std::string& file, NodeRef owner) = 0;
-  /// The load, waiting for it if it is not ready yet; null if it could not be loaded (the reason has been told).
+  /// The load, waiting for it if it is not ready yet; null if it could not be loaded (the reason has been
+  /// told).
   virtual std::unique_ptr<Load> take(std::uint32_t number) = 0;
   /// Destroys a removed load, once no frame up to `lastFrame` needs it.
   virtual void dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) = 0;

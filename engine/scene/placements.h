@@ -1,9 +1,9 @@
 #pragma once
 /// Where every movable thing is: a tree of placements in flat arrays.
 ///
-/// A placement has a local matrix relative to its parent and, from that, a World matrix. Nothing is recomputed
-/// unless it or something above it moved. World matrices may be asked for at any time in App and are always
-/// up to date.
+/// A placement has a local matrix relative to its parent and, from that, a World matrix. Nothing is
+/// recomputed unless it or something above it moved. World matrices may be asked for at any time in App and
+/// are always up to date.
 ///
 /// Frames   X_PN maps Node to Parent coordinates, X_WN Node to World.
 /// Threads  App only; other stages see published instance records.
@@ -21,7 +21,7 @@ constexpr PlacementId kWorldPlacement = 0;  ///< World itself: the identity, nev
 constexpr PlacementId kNoPlacement = ~PlacementId{0};
 
 class Placements {
- public:
+public:
   Placements();
 
   PlacementId add(PlacementId parent, const Affine& X_PN);
@@ -38,10 +38,11 @@ class Placements {
   void setShown(PlacementId id, bool shown);
   bool shown(PlacementId id) const;  ///< itself and everything above it
 
-  /// Every placement whose World matrix or visibility may have changed since the last call, each once. Clears the list.
+  /// Every placement whose World matrix or visibility may have changed since the last call, each once. Clears
+  /// the list.
   std::vector<PlacementId> takeChanged();
 
- private:
+private:
   struct Entry {
     Affine X_PN, X_WN;
     PlacementId parent = kNoPlacement, firstChild = kNoPlacement, nextSibling = kNoPlacement,

@@ -19,9 +19,9 @@ constexpr ChunkId kNoChunk = 0;
 
 /// One thing to draw.
 struct InstanceRecord {
-  double model[12];   ///< X_WN (3 x 4), row major
-  double centre[3];   ///< of the bounding sphere in World [m]
-  float radius;       ///< [m]; < 0 = not there
+  double model[12];  ///< X_WN (3 x 4), row major
+  double centre[3];  ///< of the bounding sphere in World [m]
+  float radius;      ///< [m]; < 0 = not there
   MeshId mesh;
   std::uint32_t flags;
   std::uint32_t owner;  ///< position in its file, for profiling
@@ -33,22 +33,22 @@ static_assert(std::is_trivially_copyable_v<InstanceRecord> && sizeof(InstanceRec
 InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, std::uint32_t owner);
 
 struct LightRecord {
-  std::uint32_t kind = 0;         ///< DrawLight::Kind
-  float colour[3] = {1, 1, 1};    ///< linear, intensity included
-  double position[3] = {0, 0, 0};   ///< World [m]
+  std::uint32_t kind = 0;            ///< DrawLight::Kind
+  float colour[3] = {1, 1, 1};       ///< linear, intensity included
+  double position[3] = {0, 0, 0};    ///< World [m]
   double direction[3] = {0, 0, -1};  ///< World, unit, the way the light goes
   float range = 0, cosInner = 1, cosOuter = 0;
 };
 
 struct SkyRecord {
-  float zenith[3] = {0.18f, 0.36f, 0.72f}, horizon[3] = {0.66f, 0.76f, 0.85f}, ground[3] = {0.28f, 0.26f, 0.22f},
-        ambient[3] = {0.25f, 0.27f, 0.30f};
+  float zenith[3] = {0.18f, 0.36f, 0.72f}, horizon[3] = {0.66f, 0.76f, 0.85f},
+        ground[3] = {0.28f, 0.26f, 0.22f}, ambient[3] = {0.25f, 0.27f, 0.30f};
   float haze = 0;  ///< [m], 0 = none
 };
 
 /// Where the visitor is.
 struct ViewerRecord {
-  double rigPosition[3] = {0, 0, 0}, rigOrientation[4] = {0, 0, 0, 1};    ///< X_WR, quaternion x y z w
+  double rigPosition[3] = {0, 0, 0}, rigOrientation[4] = {0, 0, 0, 1};      ///< X_WR, quaternion x y z w
   double headPosition[3] = {0, 0, 1.7}, headOrientation[4] = {0, 0, 0, 1};  ///< X_RH
   Nanoseconds poseTime = 0;  ///< show time the head pose is for
 

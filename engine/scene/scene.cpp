@@ -19,7 +19,8 @@ bool Scene::open(const std::string& file) {
   return loads_.contains(number);
 }
 
-void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSet& changes, FrameProbe* probe) {
+void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSet& changes,
+                    FrameProbe* probe) {
   counters_ = {};
   events_.clear();
   now_ = now.time;
@@ -33,7 +34,8 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
   publish(now, input, changes);
 }
 
-// --- visiting --------------------------------------------------------------------------------------------------
+// --- visiting
+// --------------------------------------------------------------------------------------------------
 
 void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe) {
   // Whom to visit: the busy, those with mail, and those whose alarm rings.
@@ -58,9 +60,9 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
   for (const Visit& v : round) {
     Node* node = find(v.node);
     if (!node) continue;
-    const auto [first, last] = std::equal_range(
-        mail.begin(), mail.end(), Message{0, {}, 0, v.node, {}, {}, {}},
-        [](const Message& a, const Message& b) { return a.target < b.target; });
+    const auto [first, last] =
+        std::equal_range(mail.begin(), mail.end(), Message{0, {}, 0, v.node, {}, {}, {}},
+                         [](const Message& a, const Message& b) { return a.target < b.target; });
     node->cycle({first, last}, frame, probe);
     ++counters_.nodesVisited;
     setBusy(*node);
@@ -76,9 +78,12 @@ void Scene::setBusy(Node& node) {
     busy_.erase(v);
 }
 
-void Scene::wakeAt(Nanoseconds when, NodeRef node) { wakes_.insert({when, node}); }
+void Scene::wakeAt(Nanoseconds when, NodeRef node) {
+  wakes_.insert({when, node});
+}
 
-// --- messages --------------------------------------------------------------------------------------------------
+// --- messages
+// --------------------------------------------------------------------------------------------------
 
 void Scene::post(const Node& sender, const Notification& n, Nanoseconds when) {
   Message m;
@@ -95,7 +100,8 @@ void Scene::post(const Node& sender, const Notification& n, Nanoseconds when) {
   messages_.post(std::move(m));
 }
 
-bool Scene::command(const std::string& target, Verb verb, std::vector<std::string> arguments, Nanoseconds when) {
+bool Scene::command(const std::string& target, Verb verb, std::vector<std::string> arguments,
+                    Nanoseconds when) {
   if (loads_.empty()) return false;
   const NodeRef root{loads_.begin()->first, 0};
   Message m;
@@ -109,9 +115,12 @@ bool Scene::command(const std::string& target, Verb verb, std::vector<std::strin
   return true;
 }
 
-void Scene::note(NodeRef node, Event event, Nanoseconds when) { events_.push_back({node, event, when}); }
+void Scene::note(NodeRef node, Event event, Nanoseconds when) {
+  events_.push_back({node, event, when});
+}
 
-// --- names -----------------------------------------------------------------------------------------------------
+// --- names
+// -----------------------------------------------------------------------------------------------------
 
 const Load* Scene::load(std::uint32_t number) const {
   const auto at = loads_.find(number);
@@ -157,7 +166,8 @@ PlacementId Scene::placementFor(NodeRef parent, NodeRef child) {
   return placed && placed->placement() != kNoPlacement ? placed->placement() : kWorldPlacement;
 }
 
-// --- static objects --------------------------------------------------------------------------------------------
+// --- static objects
+// --------------------------------------------------------------------------------------------
 
 NodeRef Scene::parentOf(NodeRef ref) const {
   const Load* l = load(ref.load);
@@ -212,7 +222,8 @@ Node* Scene::promote(Load& load, std::size_t index) {
   return &added;
 }
 
-// --- loading and unloading -------------------------------------------------------------------------------------
+// --- loading and unloading
+// -------------------------------------------------------------------------------------
 
 std::uint32_t Scene::requestLoad(const std::string& file, NodeRef owner, Nanoseconds at) {
   const std::uint32_t number = nextLoad_++;
@@ -290,7 +301,8 @@ void Scene::remove(std::uint32_t number, std::uint64_t frame) {
   loader_.dispose(std::move(gone), frame);
 }
 
-// --- what is drawn ---------------------------------------------------------------------------------------------
+// --- what is drawn
+// ---------------------------------------------------------------------------------------------
 
 InstanceId Scene::addInstance(PlacementId placement, MeshId mesh, bool drawn, std::uint32_t owner) {
   InstanceId id;
@@ -392,7 +404,8 @@ void Scene::publishLights(ChangeSet& changes) {
   lightsChanged_ = false;
 }
 
-// --- the visitor -----------------------------------------------------------------------------------------------
+// --- the visitor
+// -----------------------------------------------------------------------------------------------
 
 void Scene::setRig(NodeRef rig, PlacementId placement, double eyeHeight) {
   rigs_.push_back({rig, placement, eyeHeight});
@@ -424,16 +437,17 @@ Pose Scene::rigPose() const {
 std::optional<Pose> Scene::trackerInWorld(const std::string& tracker, const InputSample& input) const {
   const TrackerSample* t = input.find(tracker);
   if (!t || !t->valid) return std::nullopt;
-  return rigPose() * t->pose;
+  return rigPose() * t->X_RT;
 }
 
 Pose Scene::headInRig(const InputSample& input) const {
   const TrackerSample* head = input.find("head");
-  if (head && head->valid) return head->pose;
+  if (head && head->valid) return head->X_RT;
   return {Vec3(0, 0, rigs_.empty() ? 1.7 : rigs_.back().eyeHeight), Quat::Identity()};
 }
 
-// --- the state hash --------------------------------------------------------------------------------------------
+// --- the state hash
+// --------------------------------------------------------------------------------------------
 
 std::uint64_t Scene::nodeHash(const Node& node) const {
   StateHash h((std::uint64_t{node.self().load} << 32) | node.self().position);

@@ -1,8 +1,8 @@
 #pragma once
 /// The show's world: every loaded file, its nodes, their messages, and what changed in this frame.
 ///
-/// The scene has no control logic: it visits the nodes that have something to do, in an order that is the same
-/// everywhere, and collects what they publish.
+/// The scene has no control logic: it visits the nodes that have something to do, in an order that is the
+/// same everywhere, and collects what they publish.
 ///
 /// Threads  App only.
 
@@ -40,7 +40,7 @@ struct EventRecord {
 };
 
 class Scene {
- public:
+public:
   Scene(SceneLoader& loader, MeshStore& meshes);
   ~Scene();
 
@@ -50,14 +50,16 @@ class Scene {
   /// One frame of the application phase. Fills `changes` with what the later stages must know.
   void advance(const TimeSignature& now, const InputSample& input, ChangeSet& changes, FrameProbe* probe);
 
-  // --- what nodes use during their cycle -------------------------------------------------------------------------
+  // --- what nodes use during their cycle
+  // -------------------------------------------------------------------------
 
   Placements& placements() { return placements_; }
   const Mesh* mesh(MeshId id) const { return meshes_.find(id); }
 
   /// The node, or null if it is not loaded. A static object becomes a node of its own by being asked for.
   Node* find(NodeRef ref);
-  /// A name or path as seen from `from`: in its file, then in the files that loaded it; "scene/name" looks into a sub-scene.
+  /// A name or path as seen from `from`: in its file, then in the files that loaded it; "scene/name" looks
+  /// into a sub-scene.
   NodeRef resolve(const std::string& name, NodeRef from) const;
   const Load* load(std::uint32_t number) const;
   /// Turns every static object below `ref` into a node of its own, so that it can move.
@@ -96,7 +98,8 @@ class Scene {
   std::uint32_t requestLoad(const std::string& file, NodeRef owner, Nanoseconds at);
   void requestUnload(std::uint32_t number, Nanoseconds at);
 
-  // --- for whoever runs the show ---------------------------------------------------------------------------------
+  // --- for whoever runs the show
+  // ---------------------------------------------------------------------------------
 
   std::uint64_t stateHash() const;
   const FrameCounters& counters() const { return counters_; }
@@ -104,7 +107,7 @@ class Scene {
   std::size_t loadCount() const { return loads_.size(); }
   void forEachNode(const std::function<void(const Node&)>& f) const;
 
- private:
+private:
   struct Instance {
     PlacementId placement = kNoPlacement;
     MeshId mesh = kNoMesh;

@@ -50,6 +50,7 @@ struct DrawEye {
 struct DrawList {
   TimeSignature signature;
   std::uint32_t wall = 0;
+  bool abandoned = false;        ///< made from a slot that was taken away meanwhile: not to be drawn
   Vec3 origin = Vec3::Zero();    ///< in World [m]
   std::array<DrawEye, 2> eyes;   ///< left, right
   std::uint32_t eyeCount = 2;    ///< 1 = mono: eyes[0] only

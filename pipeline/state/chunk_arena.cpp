@@ -7,10 +7,13 @@ namespace {
 
 constexpr std::size_t kPage = 4096;
 
-std::size_t hiddenWords(std::size_t count) { return (count + 63) / 64; }
+std::size_t hiddenWords(std::size_t count) {
+  return (count + 63) / 64;
+}
 
 std::size_t bytesFor(std::size_t count) {
-  const std::size_t bytes = count * sizeof(InstanceRecord) + kSlots * hiddenWords(count) * sizeof(std::uint64_t);
+  const std::size_t bytes =
+      count * sizeof(InstanceRecord) + kSlots * hiddenWords(count) * sizeof(std::uint64_t);
   return (bytes + kPage - 1) / kPage * kPage;
 }
 

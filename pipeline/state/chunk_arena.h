@@ -24,7 +24,7 @@ struct ChunkView {
 };
 
 class ChunkArena {
- public:
+public:
   ChunkArena();
 
   ChunkId add(std::span<const InstanceRecord> records);
@@ -33,7 +33,7 @@ class ChunkArena {
 
   std::size_t bytesInUse() const;
 
- private:
+private:
   struct Extent {
     std::size_t offset = 0, bytes = 0, count = 0;
   };

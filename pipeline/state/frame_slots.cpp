@@ -17,7 +17,8 @@ std::optional<std::size_t> FrameSlots::writable() {
   if (oldest || delivery_ == Delivery::Every) return oldest;
   // All slots are under lease: one that has outlived its deadline belongs to a reader that hangs.
   for (std::size_t i = 0; i < kSlots; ++i)
-    if (slots_[i].state == State::Leased && std::chrono::steady_clock::now() - slots_[i].since > deadline_) return i;
+    if (slots_[i].state == State::Leased && std::chrono::steady_clock::now() - slots_[i].since > deadline_)
+      return i;
   return std::nullopt;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 /// Who may touch which slot of the scene state when, and which frame all walls show next.
 ///
-/// App asks for a slot to write; the Cull stages of all walls are handed the same frames in the same order, each as a
-/// lease on its slot. A slot under lease is never written. The choice of the frame is made once, when the first wall asks.
+/// App asks for a slot to write; the Cull stages of all walls are handed the same frames in the same order,
+/// each as a lease on its slot. A slot under lease is never written. The choice of the frame is made once,
+/// when the first wall asks.
 ///
 /// Threads  every function from any thread; one thread per wall.
 
@@ -29,7 +30,7 @@ struct Lease {
 };
 
 class FrameSlots {
- public:
+public:
   FrameSlots(std::size_t walls, Delivery delivery,
              std::chrono::milliseconds deadline = std::chrono::milliseconds(2000));
 
@@ -39,7 +40,8 @@ class FrameSlots {
 
   /// The next frame for `wall`; waits for it. Nothing when the run is over.
   std::optional<Lease> lease(std::size_t wall);
-  /// Gives the lease back. False if it had lasted past its deadline and the slot was taken away: the work is void.
+  /// Gives the lease back. False if it had lasted past its deadline and the slot was taken away: the work is
+  /// void.
   bool release(const Lease& lease);
 
   /// No further frame will be written; the readers finish what there is.
@@ -47,7 +49,7 @@ class FrameSlots {
   /// Everybody stops waiting, at once.
   void stop();
 
- private:
+private:
   enum class State { Free, Writing, Published, Leased };
   struct Slot {
     State state = State::Free;

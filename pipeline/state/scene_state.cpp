@@ -18,7 +18,9 @@ namespace {
 
 constexpr std::size_t kReserve = std::size_t{1} << 32;
 
-std::size_t roundUp(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
+std::size_t roundUp(std::size_t bytes) {
+  return (bytes + 63) / 64 * 64;
+}
 
 void setBit(std::span<std::uint64_t> words, std::uint32_t index, bool on) {
   const std::uint64_t bit = std::uint64_t{1} << (index % 64);

@@ -1,13 +1,14 @@
 #pragma once
 /// The scene as the later stages see it: what App publishes each frame, in three slots.
 ///
-/// A slot holds one whole frame: every instance that has ever moved, which static chunks are shown, lights, sky and
-/// viewer. Publishing costs what changed since the slot was last written, not what exists: the slot first copies what it
-/// missed from the newest one, then takes this frame's changes.
+/// A slot holds one whole frame: every instance that has ever moved, which static chunks are shown, lights,
+/// sky and viewer. Publishing costs what changed since the slot was last written, not what exists: the slot
+/// first copies what it missed from the newest one, then takes this frame's changes.
 ///
 /// All of it lies in shared memory in plain fixed-width records without pointers.
 ///
-/// Threads  publish() by App alone, into a slot that nobody reads; view() by whoever holds a lease on the slot
+/// Threads  publish() by App alone, into a slot that nobody reads; view() by whoever holds a lease on the
+/// slot
 ///          (FrameSlots decides who may do what when).
 
 #include "pipeline/state/chunk_arena.h"
@@ -31,21 +32,22 @@ struct SlotView {
 };
 
 class SceneState {
- public:
+public:
   static constexpr std::size_t kMaxLights = 256, kMaxChunks = 4096;
 
-  /// `memories` is how many slots really have memory of their own. Anything below kSlots is a broken pipeline, which
-  /// tests use to show that they would notice.
+  /// `memories` is how many slots really have memory of their own. Anything below kSlots is a broken
+  /// pipeline, which tests use to show that they would notice.
   explicit SceneState(std::size_t memories = kSlots);
   ~SceneState();
 
   ChunkArena& arena() { return arena_; }
 
-  /// Writes frame `changes.signature.frame` into `slot`. Returns the number of records copied, catching up included.
+  /// Writes frame `changes.signature.frame` into `slot`. Returns the number of records copied, catching up
+  /// included.
   std::size_t publish(std::size_t slot, const ChangeSet& changes);
   SlotView view(std::size_t slot) const;
 
- private:
+private:
   struct Header;
   struct Slot;
   /// What a slot has missed since it was last written. App's own.

@@ -1,9 +1,9 @@
 #pragma once
 /// A growable piece of memory that other processes can map.
 ///
-/// The whole address range is reserved at the start, so growing never moves anything and readers are not disturbed.
-/// Ownership  unmaps and closes on destruction.
-/// Threads    growTo() from one thread at a time; reading what was there before is safe meanwhile.
+/// The whole address range is reserved at the start, so growing never moves anything and readers are not
+/// disturbed. Ownership  unmaps and closes on destruction. Threads    growTo() from one thread at a time;
+/// reading what was there before is safe meanwhile.
 
 #include <cstddef>
 #include <memory>
@@ -11,7 +11,7 @@
 namespace stadion {
 
 class SharedSegment {
- public:
+public:
   /// Throws std::bad_alloc if the system refuses (address space or file limit).
   SharedSegment(const char* name, std::size_t reserveBytes);
   ~SharedSegment();
@@ -27,7 +27,7 @@ class SharedSegment {
   /// Gives the pages wholly inside [offset, offset + bytes) back to the system; they read as zero afterwards.
   void discard(std::size_t offset, std::size_t bytes);
 
- private:
+private:
   std::byte* data_ = nullptr;
   std::size_t size_ = 0, reserve_ = 0;
   int descriptor_ = -1;

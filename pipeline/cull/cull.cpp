@@ -1,0 +1,108 @@
+#include "pipeline/cull/cull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace stadion {
+namespace {
+
+/// The cameras of the wall's eyes, and what they can see together (World axes relative to the list's origin).
+ConvexVolume setEyes(const ViewerRecord& viewer, const WallView& view, DrawList& out) {
+  const Pose X_WR = viewer.rig(), X_RH = viewer.head();
+  out.origin = X_WR * X_RH.p;
+  out.eyeCount = view.stereo ? 2 : 1;
+  std::array<Vec3, 2> eyes;
+  for (std::uint32_t e = 0; e < out.eyeCount; ++e) {
+    eyes[e] = eyePosition(X_RH, kEyes[e], view.stereo ? view.eyeSeparation : 0);
+    const EyeFrustum frustum = eyeFrustum(view.wall, eyes[e], view.depth);
+    out.eyes[e].projection = projectionMatrix(frustum);
+    out.eyes[e].view = viewMatrix(frustum, X_WR, out.origin);
+  }
+  return unionFrustum(view.wall, {eyes.data(), out.eyeCount}, view.depth).transformed(X_WR, out.origin);
+}
+
+class ListFiller {
+public:
+  ListFiller(const ConvexVolume& volume, DrawList& out) : volume_(volume), out_(out) {}
+
+  void consider(const InstanceRecord& r, std::uint32_t instance) {
+    if (r.radius < 0 || !(r.flags & InstanceRecord::kShown)) return;
+    ++counts_.tested;
+    const Vec3 centre = Vec3(r.centre[0], r.centre[1], r.centre[2]) - out_.origin;
+    if (!volume_.mayTouch(Sphere{centre, r.radius})) return;
+    ++counts_.kept;
+    DrawItem item;
+    for (int k = 0; k < 12; ++k) {
+      const double shift = k % 4 == 3 ? out_.origin[k / 4] : 0.0;
+      item.model[static_cast<std::size_t>(k)] = static_cast<float>(r.model[k] - shift);
+    }
+    item.mesh = r.mesh;
+    item.instance = instance;
+    item.distance = static_cast<float>(centre.norm());
+    (r.flags & InstanceRecord::kTransparent ? out_.transparent : out_.opaque).push_back(item);
+  }
+  const CullCounts& counts() const { return counts_; }
+
+private:
+  const ConvexVolume& volume_;
+  DrawList& out_;
+  CullCounts counts_;
+};
+
+void setLights(const SlotView& state, DrawList& out) {
+  out.lights.clear();
+  for (const LightRecord& l : state.lights) {
+    if (out.lights.size() == DrawList::kMaxLights) break;
+    DrawLight d;
+    d.kind = static_cast<DrawLight::Kind>(l.kind);
+    for (std::size_t k = 0; k < 3; ++k) {
+      d.position[k] = static_cast<float>(l.position[k] - out.origin[static_cast<int>(k)]);
+      d.direction[k] = static_cast<float>(l.direction[k]);
+      d.colour[k] = l.colour[k];
+    }
+    d.range = l.range, d.cosInner = l.cosInner, d.cosOuter = l.cosOuter;
+    out.lights.push_back(d);
+  }
+}
+
+void setSky(const SkyRecord& sky, DrawList& out) {
+  const auto copy = [](const float(&from)[3], std::array<float, 3>& to) {
+    std::copy(from, from + 3, to.begin());
+  };
+  copy(sky.zenith, out.sky.zenith), copy(sky.horizon, out.sky.horizon);
+  copy(sky.ground, out.sky.ground), copy(sky.ambient, out.sky.ambient);
+  out.sky.hazeDistance = sky.haze;
+}
+
+}  // namespace
+
+CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, DrawList& out) {
+  out.signature = *state.signature;
+  out.wall = index;
+  out.opaque.clear(), out.transparent.clear();
+  const ConvexVolume volume = setEyes(*state.viewer, view, out);
+  setLights(state, out);
+  setSky(*state.sky, out);
+
+  ListFiller filler(volume, out);
+  for (const ChunkId id : state.chunks) {
+    const ChunkView chunk = state.chunk(id);
+    for (std::size_t i = 0; i < chunk.records.size(); ++i)
+      if (!((chunk.hidden[i / 64] >> (i % 64)) & 1))
+        filler.consider(chunk.records[i], chunk.records[i].owner);
+  }
+  for (const InstanceRecord& r : state.instances) filler.consider(r, r.owner);
+
+  // The order must not depend on where records lie, only on what they are.
+  const auto key = [](const DrawItem& d) { return std::tuple(d.mesh, d.distance, d.instance, d.model); };
+  std::sort(out.opaque.begin(), out.opaque.end(),
+            [&](const DrawItem& a, const DrawItem& b) { return key(a) < key(b); });
+  std::sort(out.transparent.begin(), out.transparent.end(), [](const DrawItem& a, const DrawItem& b) {
+    return std::tuple(-a.distance, a.mesh, a.instance, a.model) <
+           std::tuple(-b.distance, b.mesh, b.instance, b.model);
+  });
+  return filler.counts();
+}
+
+}  // namespace stadion

@@ -1,0 +1,29 @@
+#pragma once
+/// From a frame's scene state to a wall's draw list.
+///
+/// One pass serves both eyes: an instance is kept if its bounding sphere may touch what any of them can see.
+///
+/// Threads  pure but for `out`; any thread that holds a lease on the view's slot.
+
+#include "engine/display/frustum.h"
+#include "pipeline/draw/draw_list.h"
+#include "pipeline/state/scene_state.h"
+
+namespace stadion {
+
+/// A wall as it is shown.
+struct WallView {
+  Wall wall;
+  DepthRange depth;
+  double eyeSeparation = 0.064;  ///< [m]
+  bool stereo = true;            ///< false: one eye, in the middle
+};
+
+struct CullCounts {
+  std::uint64_t tested = 0, kept = 0;
+};
+
+/// Fills `out` for wall number `index`, reusing its memory.
+CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, DrawList& out);
+
+}  // namespace stadion

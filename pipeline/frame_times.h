@@ -1,0 +1,44 @@
+#pragma once
+/// How long the stages took, and how old the pose was when its picture was shown.
+///
+/// Threads  each series is written by one thread at a time and read when the run is over.
+
+#include "engine/frame_probe.h"
+
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+namespace stadion {
+
+/// The last durations of one kind [ms], in no particular order. Bounded, so that a show may run all day.
+class DurationSeries {
+public:
+  void add(double ms) {
+    if (values_.size() < kCapacity)
+      values_.push_back(ms);
+    else
+      values_[count_ % kCapacity] = ms;
+    ++count_;
+  }
+  const std::vector<double>& values() const { return values_; }
+  std::uint64_t count() const { return count_; }
+
+private:
+  static constexpr std::size_t kCapacity = 1 << 16;
+  std::vector<double> values_;
+  std::uint64_t count_ = 0;
+};
+
+struct FrameTimes {
+  explicit FrameTimes(std::size_t walls) : cull(walls), draw(walls), latency(walls) {}
+
+  DurationSeries app;
+  std::vector<DurationSeries> cull, draw;  ///< by wall
+  DurationSeries swap;                     ///< showing: outputs of a frame handed on
+  DurationSeries period;                   ///< from swap to swap
+  std::vector<DurationSeries>
+      latency;  ///< from the start of App, which samples the pose, to the swap; by wall
+};
+
+}  // namespace stadion

@@ -1,0 +1,35 @@
+#include "pipeline/pacer.h"
+
+#include <thread>
+
+namespace stadion {
+
+Pacer::Pacer(Pace pace, double rate)
+    : pace_(pace),
+      period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate))) {}
+
+std::uint64_t Pacer::wait() {
+  if (pace_ == Pace::Free) return 1;
+  const auto now = Clock::now();
+  if (!started_) {
+    started_ = true;
+    next_ = now + period_;
+    return 1;
+  }
+  std::uint64_t ticks = 1;
+  if (now > next_) {
+    const auto late = static_cast<std::uint64_t>((now - next_) / period_);
+    missed_ += late + (pace_ == Pace::Lock ? 1 : 0);
+    if (pace_ == Pace::Float) {
+      next_ = now + period_;
+      return 1 + late;
+    }
+    ticks += late + 1;
+    next_ += period_ * static_cast<Clock::rep>(late + 1);
+  }
+  std::this_thread::sleep_until(next_);
+  next_ += period_;
+  return ticks;
+}
+
+}  // namespace stadion

@@ -1,0 +1,38 @@
+#pragma once
+/// When the next frame may begin.
+
+#include "engine/time_signature.h"
+
+#include <chrono>
+#include <cstdint>
+
+namespace stadion {
+
+/// What happens to the frame rate (IRIS Performer's phases).
+enum class Pace {
+  Free,   ///< as fast as possible
+  Lock,   ///< frames begin on ticks of the rate; after a missed tick the next one is waited for
+  Float,  ///< a frame that missed its tick begins at once, and the ticks move with it
+};
+
+class Pacer {
+public:
+  Pacer(Pace pace, double rate);
+
+  /// Waits until the next frame may begin. Returns how many ticks have passed since the previous one: 1 when
+  /// all is well.
+  std::uint64_t wait();
+  /// Ticks that passed without a frame beginning.
+  std::uint64_t missed() const { return missed_; }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  Pace pace_;
+  Clock::duration period_;
+  Clock::time_point next_;
+  bool started_ = false;
+  std::uint64_t missed_ = 0;
+};
+
+}  // namespace stadion

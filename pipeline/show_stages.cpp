@@ -1,0 +1,101 @@
+#include "pipeline/show_stages.h"
+
+namespace stadion {
+namespace {
+
+Failure toFailure(const std::optional<Diagnostic>& d) {
+  return d ? Failure(d->message) : std::nullopt;
+}
+
+}  // namespace
+
+ShowStages::ShowStages(ShowParts parts)
+    : parts_(std::move(parts)), contexts_(std::make_unique<WallContext[]>(parts_.walls.size())),
+      pictures_(parts_.walls.size()) {}
+
+ShowStages::~ShowStages() = default;
+
+void ShowStages::app(const TimeSignature& now, std::size_t slot) {
+  const InputSample input = parts_.input.sampleAt(now.time);
+  parts_.scene.advance(now, input, changes_, parts_.probe);
+  parts_.state.publish(slot, changes_);
+  parts_.meshes.collect(shownFrame_);
+  if (parts_.observer) parts_.observer(now, input, parts_.scene);
+}
+
+void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
+  cullWall(parts_.state.view(slot), parts_.walls[wall], static_cast<std::uint32_t>(wall), list);
+}
+
+Failure ShowStages::openWall(std::size_t wall) {
+  if (!parts_.provider) return {};
+  auto target = parts_.provider->create(parts_.width, parts_.height);
+  if (!target) return target.error().message;
+  contexts_[wall].target = std::move(target.value());
+  if (Failure f = enterContext(wall)) return f;
+  auto renderer = Renderer::create(contexts_[wall].target->gl(), parts_.meshes, parts_.width, parts_.height);
+  if (!renderer) return renderer.error().message;
+  contexts_[wall].renderer = std::move(renderer.value());
+  if (wall == 0) glDescription_ = describeGl(contexts_[wall].target->gl());
+  return {};
+}
+
+// A thread that draws one wall enters its context once; a thread that draws all of them goes from one to the
+// next.
+Failure ShowStages::enterContext(std::size_t wall) {
+  const std::thread::id me = std::this_thread::get_id();
+  if (contexts_[wall].currentOn == me) return {};
+  for (std::size_t other = 0; other < parts_.walls.size(); ++other)
+    if (contexts_[other].currentOn == me) leaveContext(other);
+  if (Failure f = toFailure(contexts_[wall].target->makeCurrent())) return f;
+  contexts_[wall].currentOn = me;
+  return {};
+}
+
+void ShowStages::leaveContext(std::size_t wall) {
+  contexts_[wall].target->release();
+  contexts_[wall].currentOn = std::thread::id{};
+}
+
+Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
+  if (!parts_.provider) return {};
+  if (Failure f = enterContext(wall)) return f;
+  WallContext& c = contexts_[wall];
+  if (Failure f = toFailure(c.renderer->draw(list))) return f;
+  c.renderer->finish();
+  c.eyes = list.eyeCount;
+  c.read = false;
+  return parts_.sink && parts_.sink->wants(list.signature) ? readPictures(wall) : std::nullopt;
+}
+
+Failure ShowStages::readPictures(std::size_t wall) {
+  WallContext& c = contexts_[wall];
+  pictures_[wall].eyes.resize(c.eyes);
+  for (std::uint32_t eye = 0; eye < c.eyes; ++eye) {
+    Picture& p = pictures_[wall].eyes[eye];
+    p = Picture(parts_.width, parts_.height);
+    if (Failure f = toFailure(c.renderer->read(eye, p.rgba))) return f;
+  }
+  c.read = true;
+  return {};
+}
+
+void ShowStages::closeWall(std::size_t wall) {
+  WallContext& c = contexts_[wall];
+  if (!c.target) return;
+  if (!enterContext(wall)) {
+    // Whoever wants the last picture need not know beforehand which one that will be.
+    if (c.renderer && c.eyes > 0 && !c.read) readPictures(wall);
+    c.renderer.reset();
+    leaveContext(wall);
+  }
+  c.target.reset();
+}
+
+Failure ShowStages::swap(const TimeSignature& now) {
+  shownFrame_ = now.frame;
+  if (parts_.sink && parts_.sink->wants(now)) return parts_.sink->take(now, pictures_);
+  return {};
+}
+
+}  // namespace stadion

@@ -1,0 +1,90 @@
+#pragma once
+/// The stages of a real show: the scene, its published state, the walls and their pictures.
+
+#include "engine/input/input_device.h"
+#include "engine/scene/scene.h"
+#include "pipeline/cull/cull.h"
+#include "pipeline/draw/renderer.h"
+#include "pipeline/output/picture.h"
+#include "pipeline/stages.h"
+#include "pipeline/state/scene_state.h"
+#include "pipeline/target/target.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace stadion {
+
+/// One wall's pictures of one frame: left and right, or one for both.
+struct WallPictures {
+  std::vector<Picture> eyes;
+};
+
+/// Takes finished frames: files, hashes, a video, a window.
+///
+/// Threads  take() on the Draw thread that arrived last, the others waiting; it should hand on and return.
+class PictureSink {
+public:
+  virtual ~PictureSink() = default;
+  /// Whether the pictures of this frame are wanted at all: reading them back costs time. Any Draw thread.
+  virtual bool wants(const TimeSignature& now) const = 0;
+  virtual Failure take(const TimeSignature& now, const std::vector<WallPictures>& walls) = 0;
+};
+
+/// Sees the scene after each App stage, on the App thread.
+using AppObserver = std::function<void(const TimeSignature&, const InputSample&, const Scene&)>;
+
+struct ShowParts {
+  Scene& scene;
+  SceneState& state;
+  MeshStore& meshes;
+  InputDevice& input;
+  std::vector<WallView> walls;
+  GlProvider* provider = nullptr;  ///< null draws nothing
+  std::uint32_t width = 800, height = 600;
+  PictureSink* sink = nullptr;
+  AppObserver observer;
+  FrameProbe* probe = nullptr;
+};
+
+class ShowStages final : public Stages {
+public:
+  explicit ShowStages(ShowParts parts);
+  ~ShowStages() override;
+
+  void app(const TimeSignature& now, std::size_t slot) override;
+  void cull(std::size_t wall, std::size_t slot, DrawList& list) override;
+  Failure openWall(std::size_t wall) override;
+  Failure draw(std::size_t wall, const DrawList& list) override;
+  void closeWall(std::size_t wall) override;
+  Failure swap(const TimeSignature& now) override;
+
+  /// Of the frame shown last. For when the run is over.
+  const std::vector<WallPictures>& lastPictures() const { return pictures_; }
+  std::string glDescription() const { return glDescription_; }
+
+private:
+  struct WallContext {
+    std::unique_ptr<Target> target;
+    std::unique_ptr<Renderer> renderer;
+    std::atomic<std::thread::id> currentOn;  ///< the thread on which the context is current
+    std::uint32_t eyes = 0;                  ///< drawn in the last frame
+    bool read = false;                       ///< the last frame's pictures have been read back
+  };
+
+  Failure readPictures(std::size_t wall);
+  Failure enterContext(std::size_t wall);
+  void leaveContext(std::size_t wall);
+
+  ShowParts parts_;
+  ChangeSet changes_;
+  std::unique_ptr<WallContext[]> contexts_;
+  std::vector<WallPictures> pictures_;
+  std::atomic<std::uint64_t> shownFrame_ = 0;
+  std::string glDescription_;
+};
+
+}  // namespace stadion

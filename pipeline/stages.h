@@ -1,0 +1,41 @@
+#pragma once
+/// The three stages of a frame, as the frame loop calls them.
+///
+/// The loop decides who runs them and when; the stages do not know whether they are overlapped.
+///
+/// Threads  app() on the App thread; cull(w) on wall w's Cull thread; openWall, draw and closeWall(w) on wall
+/// w's Draw
+///          thread; swap() on the Draw thread that arrives last, while the others wait. In sequential mode
+///          all on one thread.
+/// Errors   a stage that cannot go on returns a reason; the loop stops every thread and hands the reason on.
+/// No stage throws.
+
+#include "engine/time_signature.h"
+#include "pipeline/draw/draw_list.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace stadion {
+
+using Failure = std::optional<std::string>;  ///< why a stage could not go on; nothing = all is well
+
+class Stages {
+public:
+  virtual ~Stages() = default;
+
+  /// Advances the show to the signature's time and publishes it into `slot`.
+  virtual void app(const TimeSignature& now, std::size_t slot) = 0;
+  /// Fills `list` with what wall `wall` shows of the frame in `slot`, for both eyes.
+  virtual void cull(std::size_t wall, std::size_t slot, DrawList& list) = 0;
+
+  virtual Failure openWall(std::size_t wall) = 0;
+  virtual Failure draw(std::size_t wall, const DrawList& list) = 0;
+  virtual void closeWall(std::size_t wall) = 0;
+
+  /// All walls have drawn this frame, both eyes: show it.
+  virtual Failure swap(const TimeSignature& now) = 0;
+};
+
+}  // namespace stadion

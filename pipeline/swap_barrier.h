@@ -1,0 +1,30 @@
+#pragma once
+/// All walls show the same frame together: nobody goes on before everybody has drawn.
+
+#include "engine/time_signature.h"
+
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+
+namespace stadion {
+
+class SwapBarrier {
+public:
+  explicit SwapBarrier(std::size_t walls) : walls_(walls) {}
+
+  /// Waits for the other walls. The last one to arrive runs `show`, then all go on. False when the run was
+  /// stopped.
+  bool arrive(const std::function<void()>& show);
+  void stop();
+
+private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t walls_, arrived_ = 0;
+  std::uint64_t round_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace stadion

@@ -1,0 +1,146 @@
+#include "pipeline/frame_loop.h"
+
+#include <gtest/gtest.h>
+#include <mutex>
+#include <set>
+#include <thread>
+
+namespace stadion {
+namespace {
+
+/// Stages that carry a number through the pipeline, with as many slots as there is real memory for.
+class CountingStages : public Stages {
+ public:
+  CountingStages(std::size_t walls, std::size_t memories) : memory_(memories), drawn_(walls) {}
+
+  void app(const TimeSignature& now, std::size_t slot) override {
+    // Written byte by byte, as it were: a reader that is let in too early sees a torn frame.
+    Cell& c = memory_[slot % memory_.size()];
+    for (auto& v : c.values) v.store(now.frame, std::memory_order_relaxed);
+    c.signature = now;
+  }
+  void cull(std::size_t, std::size_t slot, DrawList& list) override {
+    const Cell& c = memory_[slot % memory_.size()];
+    list.signature = c.signature;
+    for (const auto& v : c.values)
+      if (v.load(std::memory_order_relaxed) != c.signature.frame) torn = true;
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+    for (const auto& v : c.values)
+      if (v.load(std::memory_order_relaxed) != list.signature.frame) torn = true;
+  }
+  Failure openWall(std::size_t) override { return {}; }
+  Failure draw(std::size_t wall, const DrawList& list) override {
+    if (list.signature.frame == failAt && wall == 1) return "wall 1 is broken";
+    drawn_[wall].push_back(list.signature.frame);
+    return {};
+  }
+  void closeWall(std::size_t) override { ++closed; }
+  Failure swap(const TimeSignature& now) override {
+    for (const auto& d : drawn_)
+      if (d.empty() || d.back() != now.frame) torn = true;
+    shown.push_back(now.frame);
+    return {};
+  }
+
+  std::vector<std::uint64_t> shown;
+  std::atomic<bool> torn = false;
+  std::atomic<int> closed = 0;
+  std::uint64_t failAt = ~std::uint64_t{0};
+
+ private:
+  struct Cell {
+    std::array<std::atomic<std::uint64_t>, 64> values{};
+    TimeSignature signature;
+  };
+  std::vector<Cell> memory_;
+  std::vector<std::vector<std::uint64_t>> drawn_;
+};
+
+FrameLoopOutcome runFrames(CountingStages& stages, FrameLoopOptions options) {
+  const std::atomic<bool> stop = false;
+  FrameLoop loop(stages, options, stop);
+  return loop.run();
+}
+
+TEST(ThreadsFrameLoop, ShowsEveryFrameOnceInOrderOnAllWalls) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
+    for (const std::size_t walls : {1u, 4u, 6u}) {
+      CountingStages stages(walls, kSlots);
+      FrameLoopOptions o;
+      o.mode = mode, o.walls = walls, o.frames = 200;
+      const FrameLoopOutcome outcome = runFrames(stages, o);
+      ASSERT_EQ(outcome.framesShown, 200u);
+      for (std::uint64_t n = 0; n < 200; ++n) ASSERT_EQ(stages.shown[n], n);
+      EXPECT_FALSE(stages.torn);
+      EXPECT_EQ(stages.closed, static_cast<int>(walls));
+      EXPECT_FALSE(outcome.failure);
+    }
+}
+
+TEST(ThreadsFrameLoop, LatestDeliveryNeverGoesBackAndNeverTearsAFrame) {
+  CountingStages stages(4, kSlots);
+  FrameLoopOptions o;
+  o.walls = 4, o.frames = 3000, o.delivery = Delivery::Latest;
+  runFrames(stages, o);
+  EXPECT_TRUE(std::is_sorted(stages.shown.begin(), stages.shown.end()));
+  EXPECT_EQ(std::set(stages.shown.begin(), stages.shown.end()).size(), stages.shown.size());
+  EXPECT_FALSE(stages.torn);
+}
+
+TEST(ThreadsFrameLoop, AWallThatFailsStopsTheRunWithItsReason) {
+  CountingStages stages(4, kSlots);
+  stages.failAt = 20;
+  FrameLoopOptions o;
+  o.walls = 4, o.frames = 1000;
+  const FrameLoopOutcome outcome = runFrames(stages, o);
+  ASSERT_TRUE(outcome.failure);
+  EXPECT_EQ(*outcome.failure, "wall 1 is broken");
+  EXPECT_LE(outcome.framesShown, 20u);
+  EXPECT_EQ(stages.closed, 4);
+}
+
+TEST(ThreadsFrameLoop, StopsCleanlyWhenAsked) {
+  CountingStages stages(4, kSlots);
+  FrameLoopOptions o;
+  o.walls = 4;
+  std::atomic<bool> stop = false;
+  FrameLoop loop(stages, o, stop);
+  std::thread signal([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    stop = true;
+  });
+  const FrameLoopOutcome outcome = loop.run();
+  signal.join();
+  EXPECT_TRUE(outcome.stopped);
+  EXPECT_EQ(outcome.framesShown, outcome.framesSimulated);
+}
+
+// The tests above would notice a pipeline with too few slots: with the memory of one, frames tear.
+TEST(FrameLoop, TooFewSlotsAreNoticed) {
+  CountingStages stages(4, 1);
+  FrameLoopOptions o;
+  o.walls = 4, o.frames = 200;
+  runFrames(stages, o);
+  EXPECT_TRUE(stages.torn);
+}
+
+TEST(FrameLoop, LockedPaceKeepsToTheTicks) {
+  Pacer pacer(Pace::Lock, 200);
+  pacer.wait();
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(pacer.wait(), 1u);
+  std::this_thread::sleep_for(std::chrono::milliseconds(12));  // two ticks of 5 ms go by unused
+  EXPECT_GE(pacer.wait(), 3u);
+  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_GE(ms, 19.9);
+  EXPECT_GE(pacer.missed(), 2u);
+}
+
+TEST(FrameLoop, SignaturesDoNotAccumulateRounding) {
+  EXPECT_EQ(signatureAt(60ull * 3600 * 24, 60).time, 86400ll * 1000000000);
+  EXPECT_EQ(signatureAt(0, 60).step, 0);
+  EXPECT_EQ(signatureAt(1, 60).step, 16666667);
+}
+
+}  // namespace
+}  // namespace stadion

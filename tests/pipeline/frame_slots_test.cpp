@@ -1,0 +1,69 @@
+#include "pipeline/state/frame_slots.h"
+
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace stadion {
+namespace {
+
+TEST(FrameSlots, EveryFrameIsHandedToEveryWallInOrder) {
+  FrameSlots slots(2, Delivery::Every);
+  for (std::uint64_t frame = 0; frame < 3; ++frame) slots.endWrite(*slots.beginWrite(), frame);
+  for (std::uint64_t frame = 0; frame < 3; ++frame)
+    for (std::size_t wall = 0; wall < 2; ++wall) EXPECT_EQ(slots.lease(wall)->frame, frame);
+}
+
+TEST(FrameSlots, ASlotUnderLeaseIsNotWritten) {
+  FrameSlots slots(1, Delivery::Latest);
+  slots.endWrite(*slots.beginWrite(), 0);
+  const auto lease = slots.lease(0);
+  for (std::uint64_t frame = 1; frame < 20; ++frame) {
+    const auto slot = slots.beginWrite();
+    EXPECT_NE(*slot, lease->slot);
+    slots.endWrite(*slot, frame);
+  }
+  EXPECT_TRUE(slots.release(*lease));
+}
+
+TEST(FrameSlots, LatestDeliveryHandsOutTheNewestFrameToAllWalls) {
+  FrameSlots slots(2, Delivery::Latest);
+  for (std::uint64_t frame = 0; frame < 7; ++frame) slots.endWrite(*slots.beginWrite(), frame);
+  const auto first = slots.lease(0);
+  EXPECT_EQ(first->frame, 6u);
+  slots.endWrite(*slots.beginWrite(), 7);
+  // The choice was made when the first wall asked: the second one is not given frame 7 in its place.
+  EXPECT_EQ(slots.lease(1)->frame, 6u);
+}
+
+TEST(FrameSlots, AHangingReaderLosesItsSlotAfterTheDeadline) {
+  FrameSlots slots(3, Delivery::Latest, std::chrono::milliseconds(5));
+  std::vector<Lease> held;
+  for (std::size_t i = 0; i < 3; ++i) {
+    slots.endWrite(*slots.beginWrite(), i);
+    held.push_back(*slots.lease(0));
+  }
+  const auto slot = slots.beginWrite();
+  ASSERT_TRUE(slot);
+  slots.endWrite(*slot, 3);
+  EXPECT_FALSE(slots.release(held[0]));
+}
+
+TEST(FrameSlots, FinishLetsReadersEmptyTheSlotsAndThenEnds) {
+  FrameSlots slots(1, Delivery::Every);
+  slots.endWrite(*slots.beginWrite(), 0);
+  slots.finish();
+  EXPECT_TRUE(slots.lease(0));
+  EXPECT_FALSE(slots.lease(0));
+}
+
+TEST(ThreadsFrameSlots, StopWakesAWaitingReaderAndWriter) {
+  FrameSlots slots(1, Delivery::Every);
+  std::thread reader([&] { EXPECT_FALSE(slots.lease(0)); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  slots.stop();
+  reader.join();
+  EXPECT_FALSE(slots.beginWrite());
+}
+
+}  // namespace
+}  // namespace stadion
