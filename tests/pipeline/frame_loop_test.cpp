@@ -10,7 +10,7 @@ namespace {
 
 /// Stages that carry a number through the pipeline, with as many slots as there is real memory for.
 class CountingStages : public Stages {
- public:
+public:
   CountingStages(std::size_t walls, std::size_t memories) : memory_(memories), drawn_(walls) {}
 
   void app(const TimeSignature& now, std::size_t slot) override {
@@ -47,7 +47,7 @@ class CountingStages : public Stages {
   std::atomic<int> closed = 0;
   std::uint64_t failAt = ~std::uint64_t{0};
 
- private:
+private:
   struct Cell {
     std::array<std::atomic<std::uint64_t>, 64> values{};
     TimeSignature signature;
@@ -131,7 +131,8 @@ TEST(FrameLoop, LockedPaceKeepsToTheTicks) {
   EXPECT_EQ(pacer.wait(), 1u);
   std::this_thread::sleep_for(std::chrono::milliseconds(12));  // two ticks of 5 ms go by unused
   EXPECT_GE(pacer.wait(), 3u);
-  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const double ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   EXPECT_GE(ms, 19.9);
   EXPECT_GE(pacer.missed(), 2u);
 }

@@ -40,7 +40,8 @@ TEST(SceneState, EverySlotHoldsWhatASingleCopyWouldHold) {
     ChangeSet c;
     for (std::uint32_t n = random() % 6; n > 0; --n) {
       const InstanceId id = random() % 200;
-      const bool twice = std::any_of(c.instances.begin(), c.instances.end(), [&](auto& i) { return i.id == id; });
+      const bool twice =
+          std::any_of(c.instances.begin(), c.instances.end(), [&](auto& i) { return i.id == id; });
       if (twice) continue;
       expected[id] = frame, there[id] = true;
       c.instances.push_back(instance(id, frame));
