@@ -9,12 +9,12 @@ namespace stadion {
 namespace {
 
 /// The tangent at key k by finite differences over the neighbours' own times.
-Vec3 tangent(const std::vector<PathKey>& keys, std::size_t k) {
+Vec3 tangent(const std::vector<Keyframe>& keys, std::size_t k) {
   const std::size_t before = k == 0 ? k : k - 1, after = std::min(k + 1, keys.size() - 1);
   return (keys[after].X_PN.p - keys[before].X_PN.p) / (keys[after].time - keys[before].time);
 }
 
-Vec3 hermite(const std::vector<PathKey>& keys, std::size_t k, double s) {
+Vec3 hermite(const std::vector<Keyframe>& keys, std::size_t k, double s) {
   const double h = keys[k + 1].time - keys[k].time;
   const double s2 = s * s, s3 = s2 * s;
   return (2 * s3 - 3 * s2 + 1) * keys[k].X_PN.p + (s3 - 2 * s2 + s) * h * tangent(keys, k) +
@@ -27,7 +27,7 @@ Pose PathNode::poseAt(double seconds) const {
   if (keys_.size() == 1 || seconds <= keys_.front().time) return keys_.front().X_PN;
   if (seconds >= keys_.back().time) return keys_.back().X_PN;
   const auto after = std::upper_bound(keys_.begin(), keys_.end(), seconds,
-                                      [](double t, const PathKey& key) { return t < key.time; });
+                                      [](double t, const Keyframe& key) { return t < key.time; });
   const auto k = static_cast<std::size_t>(after - keys_.begin()) - 1;
   const double s = (seconds - keys_[k].time) / (keys_[k + 1].time - keys_[k].time);
   Pose X = det::interpolate(keys_[k].X_PN, keys_[k + 1].X_PN, s);

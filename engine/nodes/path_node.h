@@ -15,7 +15,7 @@
 
 namespace stadion {
 
-struct PathKey {
+struct Keyframe {
   double time = 0;  ///< from the path's start [s]
   Pose X_PN;
 };
@@ -23,7 +23,7 @@ struct PathKey {
 class PathNode : public PlacedNode {
 public:
   /// Expects at least one key, times strictly increasing from >= 0.
-  PathNode(NodeRef self, std::string name, PlaceAttributes place, NodeRef target, std::vector<PathKey> keys,
+  PathNode(NodeRef self, std::string name, PlaceAttributes place, NodeRef target, std::vector<Keyframe> keys,
            bool loop, bool smooth, bool on)
       : PlacedNode(NodeKind::Path, self, std::move(name), std::move(place)), target_(target),
         keys_(std::move(keys)), loop_(loop), smooth_(smooth), switch_(on) {}
@@ -43,7 +43,7 @@ private:
   void putTarget(Scene& scene);
 
   NodeRef target_;  ///< invalid = itself
-  std::vector<PathKey> keys_;
+  std::vector<Keyframe> keys_;
   bool loop_, smooth_;
   Switched switch_;
   Nanoseconds elapsed_ = 0;

@@ -27,6 +27,8 @@ struct Load {
   std::string file;
   NodeRef owner;  ///< the scene node that asked for it; invalid = the show itself
 
+  Affine X_WO = Affine::Identity();  ///< where its owner was when it was asked for: statics are placed by it
+
   std::vector<std::unique_ptr<Node>> nodes;              ///< by position in file; null for static objects
   std::vector<std::uint32_t> enterOrder;                 ///< positions of the nodes, parents first
   std::unordered_map<std::string, std::uint32_t> names;  ///< name to position
@@ -49,8 +51,8 @@ struct Load {
 class SceneLoader {
 public:
   virtual ~SceneLoader() = default;
-  /// Begins to prepare `file` as load `number`.
-  virtual void request(std::uint32_t number, const std::string& file, NodeRef owner) = 0;
+  /// Begins to prepare `file` as load `number`, below `owner`, which is at X_WO now.
+  virtual void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) = 0;
   /// The load, waiting for it if it is not ready yet; null if it could not be loaded (the reason has been
   /// told).
   virtual std::unique_ptr<Load> take(std::uint32_t number) = 0;

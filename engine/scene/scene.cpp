@@ -197,7 +197,7 @@ void Scene::promoteBelow(NodeRef ref) {
     }
 }
 
-Node* Scene::promote(Load& load, std::size_t index) {
+Node* Scene::promote(Load& load, std::size_t index, const Affine& moved) {
   const StaticObject& object = load.statics[index];
   const InstanceRecord& record = load.chunkRecords[index];
   const NodeRef self{load.number, object.position};
@@ -217,7 +217,7 @@ Node* Scene::promote(Load& load, std::size_t index) {
   Affine X_WN;
   for (int row = 0; row < 3; ++row)
     for (int col = 0; col < 4; ++col) X_WN.matrix()(row, col) = record.model[4 * row + col];
-  added.becomeHome(*this, X_WN);
+  added.becomeHome(*this, moved * X_WN);
   staticChanges_.push_back({load.chunk, static_cast<std::uint32_t>(index), true});
   return &added;
 }
@@ -227,7 +227,8 @@ Node* Scene::promote(Load& load, std::size_t index) {
 
 std::uint32_t Scene::requestLoad(const std::string& file, NodeRef owner, Nanoseconds at) {
   const std::uint32_t number = nextLoad_++;
-  loader_.request(number, file, owner);
+  const auto* placed = owner.valid() ? dynamic_cast<const PlacedNode*>(find(owner)) : nullptr;
+  loader_.request(number, file, owner, placed ? placements_.world(placed->placement()) : Affine::Identity());
   pendingLoads_.push_back({at, number, true});
   return number;
 }
@@ -263,8 +264,14 @@ void Scene::install(std::unique_ptr<Load> arrived) {
   loads_[load.number] = std::move(arrived);
   for (const std::uint32_t position : load.enterOrder) enterNode(*load.nodes[position]);
   if (load.chunk != kNoChunk) chunkChanges_.push_back({load.chunk, true});
-  if (load.owner.valid() && !load.statics.empty())
-    if (auto* owner = dynamic_cast<PlacedNode*>(find(load.owner))) owner->carryStatics();
+  auto* owner = dynamic_cast<PlacedNode*>(load.owner.valid() ? find(load.owner) : nullptr);
+  if (!owner || load.statics.empty()) return;
+  owner->carryStatics();
+  // Its scene node has moved since the load was asked for: what was placed then must follow.
+  const Affine& X_WO = placements_.world(owner->placement());
+  if (X_WO.matrix() == load.X_WO.matrix()) return;
+  const Affine moved = X_WO * load.X_WO.inverse();
+  for (std::size_t i = 0; i < load.statics.size(); ++i) promote(load, i, moved);
 }
 
 void Scene::enterNode(Node& node) {

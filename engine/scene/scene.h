@@ -147,7 +147,7 @@ private:
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
   void publishInstance(InstanceId id, ChangeSet& changes);
   void publishLights(ChangeSet& changes);
-  Node* promote(Load& load, std::size_t index);
+  Node* promote(Load& load, std::size_t index, const Affine& moved = Affine::Identity());
   bool isBelow(NodeRef ref, NodeRef ancestor) const;
   NodeRef parentOf(NodeRef ref) const;
   void enterNode(Node& node);

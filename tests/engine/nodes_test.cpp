@@ -86,7 +86,7 @@ TEST(Timer, KeepsExactTimeAtAnyFrameRateAndIsNotVisitedBetween) {
   }
 }
 
-std::vector<PathKey> square() {
+std::vector<Keyframe> square() {
   return {{0, {Vec3(0, 0, 0), Quat::Identity()}},
           {1, {Vec3(2, 0, 0), det::fromEuler(0, 0, 1)}},
           {2, {Vec3(2, 2, 0), det::fromEuler(0, 0, 2)}}};
@@ -113,7 +113,7 @@ TEST(Path, MovesItsTargetAlongTheKeysAndTellsWhenItIsDone) {
 
 TEST(Path, SmoothPathsGoThroughTheKeysAndKeepTheirSpeedThere) {
   const PathNode path({1, 0}, "p", {}, {}, square(), false, true, true);
-  for (const PathKey& key : square()) EXPECT_LT((path.poseAt(key.time).p - key.X_PN.p).norm(), 1e-12);
+  for (const Keyframe& key : square()) EXPECT_LT((path.poseAt(key.time).p - key.X_PN.p).norm(), 1e-12);
   const double h = 1e-6;
   const Vec3 before = (path.poseAt(1).p - path.poseAt(1 - h).p) / h,
              after = (path.poseAt(1 + h).p - path.poseAt(1).p) / h;

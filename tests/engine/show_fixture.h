@@ -16,7 +16,7 @@ public:
   std::map<std::string, Recipe> files;
   std::size_t disposed = 0;
 
-  void request(std::uint32_t number, const std::string& file, NodeRef owner) override {
+  void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine&) override {
     auto load = std::make_unique<Load>();
     load->number = number, load->file = file, load->owner = owner;
     files.at(file)(*load);

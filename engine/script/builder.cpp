@@ -1,0 +1,186 @@
+#include "engine/script/builder.h"
+
+#include "engine/maths/functions.h"
+
+#include <algorithm>
+
+namespace stadion {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+bool isPlaced(NodeKind kind) { return placedKinds().has(kind); }
+
+PlaceAttributes placeOf(const Declaration& d) {
+  PlaceAttributes place;
+  if (!isPlaced(d.kind())) return place;
+  const Vec3 turn = d.vec3(Attr::Orientation) * kDegree;
+  const Vec3 scale = specOf(d.kind(), Attr::Scale) ? d.vec3(Attr::Scale) : Vec3::Ones();
+  place.X_PN.linear() = det::fromEuler(turn.x(), turn.y(), turn.z()).toRotationMatrix() * scale.asDiagonal();
+  place.X_PN.translation() = d.vec3(Attr::Position);
+  return place;
+}
+
+Notification notificationOf(const EventMessage& m) {
+  Notification n;
+  n.event = m.event, n.verb = m.verb, n.delay = m.delay;
+  n.target = std::string(m.target.name);
+  if (m.verb == Verb::Attach) n.arguments = {std::string(kAttachPartNames[static_cast<std::size_t>(m.part)])};
+  if (!m.field.name.empty()) n.arguments.push_back(std::string(m.field.name));
+  if (!m.tracker.empty()) n.arguments.push_back(std::string(m.tracker));
+  return n;
+}
+
+/// Decides which objects are static, and in which order nodes enter.
+class Layout {
+ public:
+  explicit Layout(const Document& document) : document_(document) {
+    const std::uint32_t size = document.size();
+    parent_.assign(size, kNone);
+    mentioned_.assign(size, false);
+    hasChild_.assign(size, false);
+    for (std::uint32_t i = 0; i < size; ++i) look(document[i]);
+  }
+
+  bool isStatic(std::uint32_t i) const {
+    if (document_[i].kind() != NodeKind::Object || mentioned_[i] || hasChild_[i]) return false;
+    for (std::uint32_t up = parent_[i]; up != kNone; up = parent_[up])
+      if (mayMove(up)) return false;
+    return true;
+  }
+  std::uint32_t parent(std::uint32_t i) const { return parent_[i]; }
+
+  /// Parents before children, otherwise as in the file.
+  std::vector<std::uint32_t> enterOrder() const {
+    std::vector<std::uint32_t> order, chain;
+    std::vector<bool> entered(parent_.size(), false);
+    for (std::uint32_t i = 0; i < parent_.size(); ++i) {
+      chain.clear();
+      for (std::uint32_t at = i; at != kNone && !entered[at]; at = parent_[at]) {
+        chain.push_back(at);
+        entered[at] = true;
+      }
+      order.insert(order.end(), chain.rbegin(), chain.rend());
+    }
+    return order;
+  }
+
+  static constexpr std::uint32_t kNone = NodeReference::kNone;
+
+ private:
+  void look(const Declaration& d) {
+    if (isPlaced(d.kind()))
+      if (const auto p = d.reference(Attr::Parent); p && p->resolved() && p->level == 0) {
+        parent_[d.index()] = p->declaration;
+        hasChild_[p->declaration] = true;
+      }
+    for (const Attr attr : {Attr::Attach, Attr::Target, Attr::Collider, Attr::Collidee, Attr::Hook})
+      if (specOf(d.kind(), attr))
+        for (const NodeReference& r : d.references(attr)) mention(r);
+    for (const EventMessage& m : d.eventMessages()) mention(m.target), mention(m.field);
+  }
+
+  void mention(const NodeReference& r) {
+    if (r.resolved() && r.level == 0) mentioned_[r.declaration] = true;
+  }
+
+  bool mayMove(std::uint32_t i) const {
+    const NodeKind kind = document_[i].kind();
+    return mentioned_[i] || kind == NodeKind::DynObject || kind == NodeKind::Rig || kind == NodeKind::Path ||
+           kind == NodeKind::Scene;
+  }
+
+  const Document& document_;
+  std::vector<std::uint32_t> parent_;
+  std::vector<bool> mentioned_, hasChild_;
+};
+
+class Builder {
+ public:
+  Builder(const BuildInput& input, Diagnostics& findings)
+      : input_(input), findings_(findings), layout_(input.document), resolve_([this](const NodeReference& r) {
+          return resolve(r);
+        }) {}
+
+  Built build() {
+    built_.load = std::make_unique<Load>();
+    Load& load = *built_.load;
+    load.number = input_.number, load.file = input_.document.file(), load.owner = input_.owner;
+    load.X_WO = input_.X_WO;
+    load.nodes.resize(input_.document.size());
+    load.lines.reserve(input_.document.size());
+    for (const Declaration d : input_.document) {
+      load.lines.push_back(d.line());
+      if (!d.name().empty()) load.names.emplace(std::string(d.name()), d.index());
+      if (layout_.isStatic(d.index()))
+        addStatic(d);
+      else
+        addNode(d);
+    }
+    for (const std::uint32_t i : layout_.enterOrder())
+      if (load.nodes[i]) load.enterOrder.push_back(i);
+    for (const StaticObject& s : load.statics)
+      for (std::uint32_t up = layout_.parent(s.position); up != Layout::kNone; up = layout_.parent(up))
+        if (auto* placed = dynamic_cast<PlacedNode*>(load.nodes[up].get())) placed->carryStatics();
+    return std::move(built_);
+  }
+
+ private:
+  NodeRef resolve(const NodeReference& r) const {
+    if (!r.resolved() || !r.inner().empty()) return {};
+    if (r.level == 0) return {input_.number, r.declaration};
+    if (r.level > input_.surroundings.size()) return {};
+    return {input_.surroundings[r.level - 1], r.declaration};
+  }
+
+  NodeRef parentOf(const Declaration& d) const {
+    if (!isPlaced(d.kind())) return {};
+    const auto p = d.reference(Attr::Parent);
+    return p ? resolve(*p) : NodeRef{};
+  }
+
+  Appearance appearanceOf(const Declaration& d) const {
+    Appearance a;
+    if (d.kind() != NodeKind::Object && d.kind() != NodeKind::DynObject) return a;
+    a.mesh = input_.meshes(d);
+    a.drawn = d.flag(Attr::Draw);
+    built_.load->meshes.push_back(a.mesh);
+    return a;
+  }
+
+  void addStatic(const Declaration& d) {
+    Affine X = placeOf(d).X_PN;
+    for (std::uint32_t up = layout_.parent(d.index()); up != Layout::kNone; up = layout_.parent(up))
+      X = placeOf(input_.document[up]).X_PN * X;
+    X = input_.X_WO * X;
+    const Appearance a = appearanceOf(d);
+    built_.load->statics.push_back({d.index(), d.line(), parentOf(d)});
+    built_.staticRecords.push_back(makeInstance(X, *input_.store.find(a.mesh), a.mesh, a.drawn, d.index()));
+  }
+
+  void addNode(const Declaration& d) {
+    PlaceAttributes place = placeOf(d);
+    place.parent = parentOf(d);
+    const Appearance a = appearanceOf(d);
+    const NodeRequest request{d,     {input_.number, d.index()}, std::string(d.name()), place, a,
+                              a.mesh == kNoMesh ? nullptr : input_.store.find(a.mesh),
+                              resolve_, findings_};
+    const NodeFactory make = input_.factories[static_cast<std::size_t>(d.kind())];
+    std::unique_ptr<Node> node = make(request);
+    if (!node) return;
+    for (const EventMessage& m : d.eventMessages()) node->addNotification(notificationOf(m));
+    built_.load->nodes[d.index()] = std::move(node);
+  }
+
+  const BuildInput& input_;
+  Diagnostics& findings_;
+  Layout layout_;
+  std::function<NodeRef(const NodeReference&)> resolve_;
+  Built built_;
+};
+
+}  // namespace
+
+Built buildLoad(const BuildInput& input, Diagnostics& findings) { return Builder(input, findings).build(); }
+
+}  // namespace stadion

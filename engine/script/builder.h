@@ -1,0 +1,58 @@
+#pragma once
+/// From a checked document to a load: nodes made by the factories of their kinds, plain objects put into the static chunk.
+///
+/// Threads  the loader's; touches nothing that App uses.
+
+#include "engine/asset/mesh_store.h"
+#include "engine/diagnostic.h"
+#include "engine/nodes/object_node.h"
+#include "engine/scene/load.h"
+#include "engine/script/document.h"
+
+#include <array>
+#include <functional>
+#include <memory>
+
+namespace stadion {
+
+/// Everything a factory may need to make one node.
+struct NodeRequest {
+  Declaration declaration;
+  NodeRef self;
+  std::string name;
+  PlaceAttributes place;
+  Appearance appearance;
+  const Mesh* mesh = nullptr;  ///< of kinds with a file
+  const std::function<NodeRef(const NodeReference&)>& resolve;
+  Diagnostics& findings;
+};
+
+/// Makes a node, or says in the findings why it cannot.
+using NodeFactory = std::unique_ptr<Node> (*)(const NodeRequest&);
+using NodeFactories = std::array<NodeFactory, kNodeKindCount>;
+
+/// Fills in the kinds that need neither dynamics nor anything above this floor.
+void addEngineFactories(NodeFactories& factories);
+
+/// Gives the mesh for a declaration's file, counted once for the load; never kNoMesh.
+using MeshSource = std::function<MeshId(const Declaration&)>;
+
+struct BuildInput {
+  const Document& document;
+  std::uint32_t number;  ///< of the load
+  NodeRef owner;
+  Affine X_WO = Affine::Identity();         ///< where the owner is
+  std::vector<std::uint32_t> surroundings;  ///< load numbers of the files around it, nearest first
+  const NodeFactories& factories;
+  MeshSource meshes;
+  const MeshStore& store;
+};
+
+struct Built {
+  std::unique_ptr<Load> load;               ///< without its chunk
+  std::vector<InstanceRecord> staticRecords;  ///< parallel to load->statics
+};
+
+Built buildLoad(const BuildInput& input, Diagnostics& findings);
+
+}  // namespace stadion

@@ -1,0 +1,17 @@
+#pragma once
+/// Does the pipeline overlap its stages? Runs the real frame loop over stages that wait a fixed time instead of computing.
+
+#include "pipeline/frame_loop.h"
+
+namespace stadion {
+
+struct OverlapTimes {
+  double app = 10, cull = 8, draw = 12;  ///< [ms], cull and draw for each wall
+  std::size_t walls = 4;
+  std::uint64_t frames = 100;
+};
+
+/// Median time from swap to swap [ms].
+double overlapPeriod(Mode mode, const OverlapTimes& times);
+
+}  // namespace stadion
