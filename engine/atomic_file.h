@@ -1,0 +1,50 @@
+#pragma once
+/// A file that appears complete or not at all.
+///
+/// What is written goes to a hidden temporary file in the same folder; commit() puts it in the place of the
+/// target in one step. Whoever opens the target sees the old content or the new, never half of one. A target
+/// that exists and is no plain file (a device, a pipe) is written directly.
+///
+/// Ownership  owns the temporary file; without commit() it is removed again.
+/// Threads    one thread at a time.
+/// Errors     the first one is kept and reported by commit(); writing after it does nothing.
+
+#include "engine/diagnostic.h"
+
+#include <cstddef>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace stadion {
+
+class AtomicFile {
+public:
+  explicit AtomicFile(std::string path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write(const void* bytes, std::size_t count);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+  /// Records a failure from elsewhere (an encoder, for instance), so that commit() discards the file.
+  void fail(const std::string& why);
+  bool failed() const { return error_.has_value(); }
+
+  /// Finishes the file. Nothing if all went well, else why there is none; the old target is then untouched.
+  std::optional<Diagnostic> commit();
+
+private:
+  void discard();
+
+  std::string path_;
+  std::string temporary_;  ///< empty: the target is written directly
+  std::FILE* file_ = nullptr;
+  std::optional<Diagnostic> error_;
+};
+
+/// The whole content at once.
+std::optional<Diagnostic> writeFile(const std::string& path, std::string_view content);
+
+}  // namespace stadion

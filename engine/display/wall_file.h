@@ -1,0 +1,69 @@
+#pragma once
+/// Wall files: the projection surfaces of a place, as text.
+///
+///     # My CAVE, 3 m on a side, origin in the middle of the floor
+///     unit m
+///     eye-separation 0.064
+///     wall front  lower-left -1.5 1.5 0   lower-right 1.5 1.5 0   upper-left -1.5 1.5 3
+///     wall floor  lower-left -1.5 -1.5 0  lower-right 1.5 -1.5 0  upper-left -1.5 1.5 0
+///
+/// One statement a line; `#` begins a comment; numbers are separated by blanks or commas.
+///     unit m|cm|mm|in|ft        of every length in the file (m); stands before the first length
+///     eye-separation LENGTH     between the two eyes (0.064 m)
+///     near LENGTH, far LENGTH   how near and far is drawn from the eye (0.1 m, 1000 m)
+///     pixels WIDTH HEIGHT       of every wall that does not say otherwise (the run decides)
+///     wall NAME lower-left X Y Z  lower-right X Y Z  upper-left X Y Z  [pixels WIDTH HEIGHT]
+/// Corners are in rig space (+X right, +Y forward, +Z up) as seen from inside the room. A file has 1 to 6
+/// walls.
+///
+/// Units    metres in memory, whatever the file's unit.
+/// Threads  plain values, any thread.
+/// Errors   go to the Diagnostics with line, column and a fix where one is known; there may be several.
+
+#include "engine/diagnostic.h"
+#include "engine/display/frustum.h"
+#include "engine/display/wall.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stadion {
+
+struct PixelSize {
+  std::uint32_t width = 0, height = 0;  ///< 0 = not stated
+};
+
+/// A wall as a file describes it.
+struct WallEntry {
+  Wall wall;
+  PixelSize pixels;          ///< of one eye's picture, if the file says
+  std::uint32_t line = 0;    ///< in the file; 0 = made by a program
+  std::uint32_t column = 0;  ///< of the name
+  std::string excerpt;       ///< the line, for messages
+};
+
+struct WallFile {
+  static constexpr std::size_t kMaxWalls = 6;
+
+  std::string file;              ///< as the user named it
+  std::vector<WallEntry> walls;  ///< in file order
+  double metresPerUnit = 1;      ///< what lengths were multiplied by
+  double eyeSeparation = 0.064;  ///< [m]
+  DepthRange depth;
+};
+
+/// Reads the text; nothing if it has errors. Says nothing about geometry: lintWalls (wall_lint.h) does.
+std::optional<WallFile> parseWalls(std::string_view text, const std::string& file, Diagnostics& out);
+
+/// Finds the file, reads and lints it. `nameOrPath` is the path of a file, or the name of one that lies in
+/// `folder` as NAME.walls (the walls that ship with Stadion). Warnings alone do not fail.
+std::optional<WallFile> loadWalls(const std::string& nameOrPath, const std::string& folder, Diagnostics& out);
+
+/// The file as text that parseWalls reads back to the same values, in metres.
+std::string formatWalls(const WallFile& walls);
+
+}  // namespace stadion

@@ -1,0 +1,195 @@
+#include "engine/display/wall_lint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr double kLargest = 50;            ///< width or height of a believable wall [m]
+constexpr double kSmallest = 0.05;         ///< [m]
+constexpr double kSquareWarning = 3.5e-4;  ///< sine of the deviation from a right angle (0.02 degrees)
+constexpr double kSquareError = 8.7e-3;    ///< (0.5 degrees)
+constexpr double kClosed = 1e-3;           ///< edges this near are closed [m]
+constexpr double kMeant = 0.15;            ///< edges within this part of their length are meant to meet
+constexpr double kRoundoff = 1e-9;         ///< [m]
+
+/// A number as a person would write it in a wall file.
+std::string length(double metres) {
+  const double rounded = std::round(metres * 1e4) / 1e4;
+  return fmt::format("{}", rounded == 0 ? 0.0 : rounded);
+}
+
+std::string point(const Vec3& p, double metresPerUnit) {
+  return fmt::format("{} {} {}", length(p.x() / metresPerUnit), length(p.y() / metresPerUnit),
+                     length(p.z() / metresPerUnit));
+}
+
+/// "4.2 mm" or "1.25 m".
+std::string distance(double metres) {
+  if (metres < 0.1) return fmt::format("{:.3g} mm", metres * 1e3);
+  return fmt::format("{:.3g} m", metres);
+}
+
+class Linter {
+public:
+  Linter(const WallFile& walls, Diagnostics& out) : walls_(walls), out_(out) {}
+
+  void run() {
+    for (const WallEntry& entry : walls_.walls) sound_.push_back(area(entry) && size(entry) && square(entry));
+    // The rest would only repeat, in other words, that a wall is no rectangle or ten times too large.
+    if (!std::ranges::all_of(sound_, [](bool sound) { return sound; })) return;
+    for (const WallEntry& entry : walls_.walls) facing(entry);
+    for (std::size_t i = 0; i < walls_.walls.size(); ++i)
+      for (std::size_t j = i + 1; j < walls_.walls.size(); ++j) pair(walls_.walls[i], walls_.walls[j]);
+  }
+
+private:
+  void error(const WallEntry& e, std::string message) {
+    out_.error({walls_.file, e.line, e.column}, std::move(message), e.excerpt);
+  }
+  void warning(const WallEntry& e, std::string message) {
+    out_.warning({walls_.file, e.line, e.column}, std::move(message), e.excerpt);
+  }
+  std::string inUnit(const Vec3& p) const { return point(p, walls_.metresPerUnit); }
+
+  bool area(const WallEntry& e) {
+    const Vec3 lower = e.wall.lowerRight - e.wall.lowerLeft, left = e.wall.upperLeft - e.wall.lowerLeft;
+    const char* what = lower.norm() < kRoundoff  ? "lower-left and lower-right are the same point"
+                       : left.norm() < kRoundoff ? "lower-left and upper-left are the same point"
+                       : lower.cross(left).norm() < 1e-6 * lower.norm() * left.norm()
+                           ? "its three corners lie on one line"
+                           : nullptr;
+    if (what)
+      error(e, fmt::format("wall \"{}\" has no area: {}; measure its corners again", e.wall.name, what));
+    return !what;
+  }
+
+  bool size(const WallEntry& e) {
+    const WallBasis b = basis(e.wall);
+    const double large = std::max(b.width, b.height), small = std::min(b.width, b.height);
+    const std::string is =
+        fmt::format("wall \"{}\" is {} by {}", e.wall.name, distance(b.width), distance(b.height));
+    if (large > kLargest) {
+      const char* unit = large > 500 ? "mm" : "cm";
+      const bool stated = walls_.metresPerUnit != 1;
+      error(e, fmt::format("{}; if the file is in {} put the line \"unit {}\" {}", is,
+                           large > 500 ? "millimetres" : "centimetres", unit,
+                           stated ? "in the place of its unit" : "above the first wall"));
+      return false;
+    }
+    if (small >= kSmallest) return true;
+    error(e, fmt::format("{}; {}", is,
+                         walls_.metresPerUnit < 1 ? "if the file is in metres put \"unit m\" in the "
+                                                    "place of its unit"
+                                                  : "measure its corners again"));
+    return false;
+  }
+
+  bool square(const WallEntry& e) {
+    const WallBasis b = basis(e.wall);
+    const Vec3 left = e.wall.upperLeft - e.wall.lowerLeft;
+    const double sine = left.dot(b.right) / left.norm();
+    if (std::fabs(sine) <= kSquareWarning) return true;
+    const double degrees = 90 - std::asin(sine) * (180 / 3.14159265358979323846);
+    const Vec3 mended = e.wall.lowerLeft + left.norm() * b.up;
+    const std::string message = fmt::format(
+        "wall \"{}\" is no rectangle: the angle at lower-left is {:.2f} degrees; a square corner has "
+        "upper-left {}",
+        e.wall.name, degrees, inUnit(mended));
+    if (std::fabs(sine) <= kSquareError) {
+      warning(e, message);
+      return true;
+    }
+    error(e, message);
+    return false;
+  }
+
+  /// The wall's distance from p, positive if the wall faces it.
+  static double inFront(const Wall& wall, const Vec3& p) {
+    return basis(wall).normal.dot(p - wall.lowerLeft);
+  }
+
+  /// A point well inside the room that the walls make, whichever way they face.
+  Vec3 middle() const {
+    Vec3 sum = Vec3::Zero();
+    for (const WallEntry& e : walls_.walls) sum += e.wall.centre();
+    return sum / static_cast<double>(walls_.walls.size());
+  }
+
+  void facing(const WallEntry& e) {
+    const double toMiddle = inFront(e.wall, middle());
+    const double toEye = inFront(e.wall, kStandingEye);
+    const bool middleTells = std::fabs(toMiddle) > 0.01;
+    if (middleTells ? toMiddle < 0 : toEye < 0) return facesAway(e);
+    if (toEye < kMinEyeDistance)
+      warning(e,
+              fmt::format(
+                  "the eye of a visitor at 0 0 1.7 (metres) is {} wall \"{}\"; put the rig's origin on the "
+                  "floor inside the room, or move the wall by {}",
+                  toEye < 0 ? "behind" : "in the plane of", e.wall.name,
+                  inUnit(-(1 - toEye) * basis(e.wall).normal)));
+  }
+
+  void facesAway(const WallEntry& e) {
+    error(e,
+          fmt::format("wall \"{}\" faces away from the room; seen from inside its corners are lower-left {}  "
+                      "lower-right {}  upper-left {}",
+                      e.wall.name, inUnit(e.wall.lowerRight), inUnit(e.wall.lowerLeft),
+                      inUnit(e.wall.upperRight())));
+  }
+
+  struct Edge {
+    const char* name;
+    Vec3 a, b;
+  };
+  static std::array<Edge, 4> edges(const Wall& w) {
+    return {{{"lower", w.lowerLeft, w.lowerRight},
+             {"right", w.lowerRight, w.upperRight()},
+             {"upper", w.upperLeft, w.upperRight()},
+             {"left", w.lowerLeft, w.upperLeft}}};
+  }
+
+  /// How far apart the ends of two edges are at most, whichever way they run.
+  static double gap(const Edge& e, const Edge& f) {
+    return std::min(std::max((e.a - f.a).norm(), (e.b - f.b).norm()),
+                    std::max((e.a - f.b).norm(), (e.b - f.a).norm()));
+  }
+
+  void pair(const WallEntry& one, const WallEntry& two) {
+    const auto e1 = edges(one.wall), e2 = edges(two.wall);
+    double best = 1e300;
+    const Edge *at1 = nullptr, *at2 = nullptr;
+    std::size_t closed = 0;
+    for (const Edge& e : e1)
+      for (const Edge& f : e2) {
+        const double apart = gap(e, f);
+        closed += apart <= kClosed ? 1 : 0;
+        if (apart < best) best = apart, at1 = &e, at2 = &f;
+      }
+    if (closed >= 3)
+      return error(two, fmt::format("wall \"{}\" lies on wall \"{}\" of line {}; leave one of them out",
+                                    two.wall.name, one.wall.name, one.line));
+    if (best <= kClosed || best > kMeant * std::max((at1->b - at1->a).norm(), (at2->b - at2->a).norm()))
+      return;
+    warning(two, fmt::format(
+                     "the {} edge of wall \"{}\" and the {} edge of wall \"{}\" (line {}) do not meet, they "
+                     "are {} apart; \"{}\" has this edge from {} to {}",
+                     at2->name, two.wall.name, at1->name, one.wall.name, one.line, distance(best),
+                     one.wall.name, inUnit(at1->a), inUnit(at1->b)));
+  }
+
+  const WallFile& walls_;
+  Diagnostics& out_;
+  std::vector<bool> sound_;
+};
+
+}  // namespace
+
+void lintWalls(const WallFile& walls, Diagnostics& out) {
+  Linter(walls, out).run();
+}
+
+}  // namespace stadion

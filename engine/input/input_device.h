@@ -1,0 +1,34 @@
+#pragma once
+/// Where input comes from: a recorded log, a script, live trackers.
+///
+/// Threads  App calls sampleAt(), once a frame and with increasing time; a live device fills its samples on a
+///          thread of its own and answers from what has arrived.
+/// Errors   a device that has nothing yet answers with trackers that are not valid; it never waits.
+
+#include "engine/input/input_sample.h"
+
+namespace stadion {
+
+class InputDevice {
+public:
+  virtual ~InputDevice() = default;
+
+  /// The input at `showTime`. The sample is refilled, so that a caller who keeps it allocates nothing.
+  virtual void sampleAt(Nanoseconds showTime, InputSample& sample) = 0;
+
+  InputSample sampleAt(Nanoseconds showTime) {
+    InputSample sample;
+    sampleAt(showTime, sample);
+    return sample;
+  }
+
+  /// When it has no more to say [ns]; 0 = never.
+  virtual Nanoseconds end() const { return 0; }
+
+protected:
+  InputDevice() = default;
+  InputDevice(const InputDevice&) = default;
+  InputDevice& operator=(const InputDevice&) = default;
+};
+
+}  // namespace stadion

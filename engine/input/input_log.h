@@ -1,0 +1,91 @@
+#pragma once
+/// Recorded or written input: time-stamped records of any number of named trackers, as text.
+///
+///     stadion-input 1
+///     # a visitor who looks left and kicks
+///     pose head 0      0 0 1.7  1 0 0 0
+///     pose head 0.5    0 0 1.7  0.9659258262890683 0 0 0.25881904510252074
+///     key  foot 1      0 0 0.1
+///     key  foot 1.25   0 0.8 0.3  turn 25 0 0  smooth  buttons 1
+///     lost wand 2.5
+///
+/// The first line names the format and its version. Then one record a line, its kind first; `#` begins a
+/// comment.
+///     pose NAME SECONDS  X Y Z  W I J K  [smooth] [buttons N] [axes A ...]
+///         position [m] and unit quaternion of the tracker in rig space
+///     key NAME SECONDS  X Y Z  [turn ROLL PITCH YAW] [smooth] [buttons N] [axes A ...]
+///         the same for people: angles in degrees, about the rig's X, then Y, then Z axis
+///     lost NAME SECONDS
+///         the tracker is not valid until its next pose
+/// SECONDS has at most nine decimals and increases strictly within each tracker. `smooth` eases the way from
+/// the record before (at rest at both ends); without it the speed is constant. `buttons` is a bit mask
+/// (decimal or 0x...), `axes` up to eight numbers from -1 to 1; both are 0 where not given. Other kinds of
+/// record are reserved for later versions and are errors in this one.
+///
+/// Between two records poses and axes are interpolated, buttons are those of the record before. Before the
+/// first record the first is held, after the last one the last.
+///
+/// Frames, units  see input_sample.h.
+/// Threads        a log that nobody changes may be read from any thread.
+/// Errors         reading collects them with line and column; a log with errors is not returned.
+
+#include "engine/diagnostic.h"
+#include "engine/input/input_device.h"
+
+#include <optional>
+
+namespace stadion {
+
+/// One record of one tracker.
+struct InputStamp {
+  Nanoseconds time = 0;
+  Pose X_RT;
+  std::uint32_t buttons = 0;
+  std::array<float, kTrackerAxes> axes{};
+  bool valid = true;
+  bool smooth = false;  ///< the way here from the stamp before is eased
+};
+
+struct InputTrack {
+  std::string name;
+  std::vector<InputStamp> stamps;  ///< strictly increasing time, never empty
+};
+
+struct InputLog {
+  static constexpr std::size_t kMaxTrackers = 64;
+
+  std::vector<InputTrack> tracks;  ///< in the order of first appearance
+
+  const InputTrack* find(std::string_view name) const;
+  /// The time of the last record of all [ns].
+  Nanoseconds end() const;
+  /// What the trackers do at `showTime`; exactly the stamp's values at the time of a stamp.
+  void sampleAt(Nanoseconds showTime, InputSample& sample) const;
+};
+
+std::optional<InputLog> parseInputLog(std::string_view text, const std::string& file, Diagnostics& out);
+std::optional<InputLog> loadInputLog(const std::string& path, Diagnostics& out);
+
+/// Text that parseInputLog reads back to the very same values.
+std::string formatInputLog(const InputLog& log);
+
+/// One record as a line of the format, with its newline.
+std::string formatRecord(const std::string& tracker, const InputStamp& stamp);
+/// The first line of a log.
+std::string inputLogHeading();
+
+/// Plays a log.
+class InputReplay final : public InputDevice {
+public:
+  explicit InputReplay(InputLog log) : log_(std::move(log)) {}
+
+  using InputDevice::sampleAt;
+  void sampleAt(Nanoseconds showTime, InputSample& sample) override { log_.sampleAt(showTime, sample); }
+  Nanoseconds end() const override { return log_.end(); }
+  const InputLog& log() const { return log_; }
+
+private:
+  InputLog log_;
+};
+
+}  // namespace stadion

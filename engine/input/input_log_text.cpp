@@ -1,0 +1,295 @@
+// Reading and writing of input logs (the format is described in input_log.h).
+
+#include "engine/input/input_log.h"
+#include "engine/maths/functions.h"
+#include "engine/text_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+namespace stadion {
+namespace {
+
+constexpr const char* kFormatName = "stadion-input";
+constexpr std::uint64_t kVersion = 1;
+constexpr std::size_t kMaxFileBytes = std::size_t(1) << 30;
+constexpr double kFarthest = 1e6;       ///< of a position [m]
+constexpr double kExactlyUnit = 1e-12;  ///< squared norms this near 1 are kept to the bit
+constexpr double kNearlyUnit = 2e-3;    ///< nearer than this they are normalised, else it is an error
+constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
+
+std::string didYouMean(std::string_view word, const std::vector<std::string>& known) {
+  const auto near = closest(std::string(word.substr(0, 64)), known);
+  return near ? fmt::format("; did you mean \"{}\"?", *near)
+              : fmt::format("; known are {}", fmt::join(known, ", "));
+}
+
+class Parser {
+public:
+  Parser(std::string_view text, const std::string& file, Diagnostics& out)
+      : file_(file), out_(out), in_(text, file, out) {}
+
+  std::optional<InputLog> run() {
+    if (!heading()) return std::nullopt;
+    while (in_.next()) record();
+    if (in_.failed()) return std::nullopt;
+    return std::move(log_);
+  }
+
+private:
+  bool heading() {
+    if (!in_.next()) {
+      out_.error({file_, 1, 1}, fmt::format("the file is empty; an input log begins with the line: {} {}",
+                                            kFormatName, kVersion));
+      return false;
+    }
+    if (in_.words()[0].text != kFormatName) {
+      in_.error(
+          in_.words()[0].column,
+          fmt::format("this is not an input log; one begins with the line: {} {}", kFormatName, kVersion));
+      return false;
+    }
+    const Word* version = word(1, "the version of the format");
+    if (!version) return false;
+    const auto number = in_.count(*version, "the version of the format", 1, 1'000'000);
+    if (!number) return false;
+    if (*number == kVersion) return nothingAfter(2);
+    in_.error(version->column,
+              fmt::format("version {} of the format is newer than this program, which reads {}", *number,
+                          kVersion));
+    return false;
+  }
+
+  void record() {
+    const Word& kind = in_.words()[0];
+    if (kind.text == "pose") return pose(&Parser::quaternion);
+    if (kind.text == "key") return pose(nullptr);
+    if (kind.text == "lost") return lost();
+    in_.error(kind.column, fmt::format("{} is not a kind of record{}", quotedWord(kind.text),
+                                       didYouMean(kind.text, {"pose", "key", "lost"})));
+  }
+
+  const Word* word(std::size_t index, std::string_view what) {
+    if (index < in_.words().size()) return &in_.words()[index];
+    in_.error(in_.endColumn(), fmt::format("{} is missing", what));
+    return nullptr;
+  }
+
+  bool nothingAfter(std::size_t count) {
+    if (in_.words().size() <= count) return true;
+    in_.error(in_.words()[count].column,
+              fmt::format("{} is one word too many here", quotedWord(in_.words()[count].text)));
+    return false;
+  }
+
+  std::optional<double> number(std::size_t index, std::string_view what) {
+    const Word* w = word(index, what);
+    return w ? in_.number(*w, what) : std::nullopt;
+  }
+
+  /// NAME SECONDS, checked against what the tracker has so far; nullptr after an error.
+  InputTrack* begin(InputStamp& stamp) {
+    const Word* nameWord = word(1, "the tracker's name");
+    const Word* timeWord = nameWord ? word(2, "the time in seconds") : nullptr;
+    if (!timeWord) return nullptr;
+    const auto name = in_.name(*nameWord, "a tracker");
+    const auto time = in_.seconds(*timeWord, "the time");
+    if (!name || !time) return nullptr;
+    stamp.time = *time;
+    InputTrack* track = trackOf(*name, *nameWord);
+    if (!track || track->stamps.empty() || track->stamps.back().time < *time) return track;
+    in_.error(timeWord->column,
+              fmt::format("time must increase, but {} s comes after {} s of the same tracker",
+                          formatSeconds(*time), formatSeconds(track->stamps.back().time)));
+    return nullptr;
+  }
+
+  InputTrack* trackOf(const std::string& name, const Word& where) {
+    const auto known = byName_.find(name);
+    if (known != byName_.end()) return &log_.tracks[known->second];
+    if (log_.tracks.size() == InputLog::kMaxTrackers) {
+      in_.error(where.column, fmt::format("an input log has at most {} trackers", InputLog::kMaxTrackers));
+      return nullptr;
+    }
+    byName_.emplace(name, log_.tracks.size());
+    log_.tracks.push_back({name, {}});
+    return &log_.tracks.back();
+  }
+
+  bool position(std::size_t index, Pose& pose) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto value = number(index + static_cast<std::size_t>(axis), "a position has x, y and z");
+      if (!value) return false;
+      if (std::fabs(*value) > kFarthest) {
+        in_.error(in_.words()[index + static_cast<std::size_t>(axis)].column,
+                  "a position must be within 1000 km of the rig (metres)");
+        return false;
+      }
+      pose.p[axis] = *value;
+    }
+    return true;
+  }
+
+  bool quaternion(std::size_t index, Pose& pose) {
+    double q[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto value = number(index + i, "a unit quaternion has w, x, y and z");
+      if (!value) return false;
+      q[i] = *value;
+    }
+    const double squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    if (!(std::fabs(squared - 1) <= kNearlyUnit)) {
+      in_.error(in_.words()[index].column,
+                fmt::format("the quaternion must have length 1, not {:.6g}", std::sqrt(squared)));
+      return false;
+    }
+    pose.q = Quat(q[0], q[1], q[2], q[3]);
+    if (std::fabs(squared - 1) > kExactlyUnit) pose.q.coeffs() /= std::sqrt(squared);
+    return true;
+  }
+
+  /// The words after the pose; `i` is where they begin.
+  bool options(std::size_t i, bool isKey, InputStamp& stamp) {
+    std::vector<std::string_view> given;
+    while (i < in_.words().size()) {
+      const Word key = in_.words()[i++];
+      if (std::ranges::find(given, key.text) != given.end()) {
+        in_.error(key.column, fmt::format("{} is given twice; keep one of them", quotedWord(key.text)));
+        return false;
+      }
+      given.push_back(key.text);
+      if (key.text == "smooth")
+        stamp.smooth = true;
+      else if (key.text == "turn" && isKey) {
+        if (!turn(i, stamp.X_RT)) return false;
+      } else if (key.text == "buttons") {
+        if (!buttons(i, stamp)) return false;
+      } else if (key.text == "axes") {
+        if (!axes(i, stamp)) return false;
+      } else {
+        std::vector<std::string> known{"smooth", "buttons", "axes"};
+        if (isKey) known.emplace_back("turn");
+        in_.error(key.column, fmt::format("{} is not expected here{}", quotedWord(key.text),
+                                          didYouMean(key.text, known)));
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool turn(std::size_t& i, Pose& pose) {
+    double angle[3];
+    for (double& a : angle) {
+      const auto value = number(i++, "turn has roll, pitch and yaw in degrees");
+      if (!value) return false;
+      if (std::fabs(*value) > 3600) {
+        in_.error(in_.words()[i - 1].column, "an angle must be within ten turns (3600 degrees)");
+        return false;
+      }
+      a = *value * kRadiansPerDegree;
+    }
+    pose.q = det::fromEuler(angle[0], angle[1], angle[2]);
+    return true;
+  }
+
+  bool buttons(std::size_t& i, InputStamp& stamp) {
+    const Word* w = word(i++, "the buttons' bit mask");
+    if (!w) return false;
+    const bool hex = w->text.starts_with("0x");
+    const std::string_view digits = w->text.substr(hex ? 2 : 0);
+    const auto [end, problem] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), stamp.buttons, hex ? 16 : 10);
+    if (problem == std::errc() && end == digits.data() + digits.size()) return true;
+    in_.error(w->column, fmt::format("the buttons must be a bit mask of 32 bits, such as 5 or 0x5, not {}",
+                                     quotedWord(w->text)));
+    return false;
+  }
+
+  static bool beginsNumber(const Word& w) { return w.text.find_first_of("0123456789+-.") == 0; }
+
+  bool axes(std::size_t& i, InputStamp& stamp) {
+    std::size_t count = 0;
+    for (; i < in_.words().size() && (count == 0 || beginsNumber(in_.words()[i])); ++i, ++count) {
+      const Word& w = in_.words()[i];
+      const auto value = in_.number(w, "an axis");
+      if (!value) return false;
+      if (count == kTrackerAxes || std::fabs(*value) > 1) {
+        in_.error(w.column, count == kTrackerAxes
+                                ? fmt::format("a tracker has at most {} axes", kTrackerAxes)
+                                : fmt::format("an axis must be from -1 to 1, not {}", quotedWord(w.text)));
+        return false;
+      }
+      stamp.axes[count] = static_cast<float>(*value);
+    }
+    return count > 0 || word(i, "the value of the first axis") != nullptr;
+  }
+
+  void pose(bool (Parser::*rotation)(std::size_t, Pose&)) {
+    InputStamp stamp;
+    InputTrack* track = begin(stamp);
+    if (!track || !position(3, stamp.X_RT)) return;
+    if (rotation && !(this->*rotation)(6, stamp.X_RT)) return;
+    if (!options(rotation ? 10 : 6, !rotation, stamp)) return;
+    track->stamps.push_back(stamp);
+  }
+
+  void lost() {
+    InputStamp stamp;
+    InputTrack* track = begin(stamp);
+    if (!track || !nothingAfter(3)) return;
+    if (!track->stamps.empty()) stamp.X_RT = track->stamps.back().X_RT;
+    stamp.valid = false;
+    track->stamps.push_back(stamp);
+  }
+
+  std::string file_;
+  Diagnostics& out_;
+  LineReader in_;
+  InputLog log_;
+  std::map<std::string, std::size_t> byName_;
+};
+
+}  // namespace
+
+std::optional<InputLog> parseInputLog(std::string_view text, const std::string& file, Diagnostics& out) {
+  return Parser(text, file, out).run();
+}
+
+std::optional<InputLog> loadInputLog(const std::string& path, Diagnostics& out) {
+  const Result<std::string> text = readTextFile(path, kMaxFileBytes);
+  if (text) return parseInputLog(text.value(), path, out);
+  out.add(text.error());
+  return std::nullopt;
+}
+
+std::string inputLogHeading() {
+  return fmt::format("{} {}\n", kFormatName, kVersion);
+}
+
+std::string formatRecord(const std::string& tracker, const InputStamp& stamp) {
+  if (!stamp.valid) return fmt::format("lost {} {}\n", tracker, formatSeconds(stamp.time));
+  const Vec3& p = stamp.X_RT.p;
+  const Quat& q = stamp.X_RT.q;
+  std::string line = fmt::format("pose {} {}  {} {} {}  {} {} {} {}", tracker, formatSeconds(stamp.time),
+                                 p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
+  if (stamp.smooth) line += "  smooth";
+  if (stamp.buttons != 0) line += fmt::format("  buttons 0x{:x}", stamp.buttons);
+  std::size_t used = kTrackerAxes;
+  while (used > 0 && stamp.axes[used - 1] == 0) --used;
+  if (used > 0) line += "  axes";
+  for (std::size_t i = 0; i < used; ++i) line += fmt::format(" {}", stamp.axes[i]);
+  return line + "\n";
+}
+
+std::string formatInputLog(const InputLog& log) {
+  std::string text = inputLogHeading();
+  for (const InputTrack& track : log.tracks)
+    for (const InputStamp& stamp : track.stamps) text += formatRecord(track.name, stamp);
+  return text;
+}
+
+}  // namespace stadion

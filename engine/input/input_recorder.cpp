@@ -1,0 +1,55 @@
+#include "engine/input/input_recorder.h"
+
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+/// What the log can hold of the tracker at that time.
+InputStamp stampOf(const TrackerSample& tracker, Nanoseconds time) {
+  InputStamp stamp;
+  stamp.time = time;
+  const double squared = tracker.X_RT.q.squaredNorm();
+  stamp.valid = tracker.valid && tracker.X_RT.finite() && tracker.X_RT.p.cwiseAbs().maxCoeff() <= 1e6 &&
+                squared > 0.25 && squared < 4;
+  stamp.X_RT = tracker.X_RT;
+  if (std::fabs(squared - 1) > 1e-12) stamp.X_RT.q.normalize();
+  stamp.buttons = tracker.buttons;
+  stamp.axes = tracker.axes;
+  for (float& axis : stamp.axes) axis = axis > 1 ? 1.0f : axis < -1 ? -1.0f : axis == axis ? axis : 0.0f;
+  return stamp;
+}
+
+/// A device may call a tracker anything; a log has names of one plain word.
+std::string logName(const std::string& name) {
+  std::string plain = name.substr(0, 32);
+  for (char& c : plain) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (!letter && c != '-' && c != '_' && c != '.') c = '_';
+  }
+  if (plain.empty() || plain[0] == '-' || plain[0] == '.') plain.insert(plain.begin(), '_');
+  return plain.substr(0, 32);
+}
+
+}  // namespace
+
+InputRecorder::InputRecorder(const std::string& path) : file_(path) {
+  file_.write(inputLogHeading());
+}
+
+void InputRecorder::record(const InputSample& sample) {
+  for (const TrackerSample& tracker : sample.trackers) record(tracker, sample.time);
+}
+
+void InputRecorder::record(const TrackerSample& tracker, Nanoseconds time) {
+  const std::string name = logName(tracker.name);
+  if (time < 0 || (last_.size() == InputLog::kMaxTrackers && !last_.contains(name))) return;
+  Last& last = last_[name];
+  if (time <= last.time) return;
+  const InputStamp stamp = stampOf(tracker, time);
+  // A tracker that stays lost needs no second line.
+  if (stamp.valid || last.valid) file_.write(formatRecord(name, stamp));
+  last = {time, stamp.valid};
+}
+
+}  // namespace stadion

@@ -1,0 +1,38 @@
+#pragma once
+/// Writes what the devices say to an input log, frame by frame.
+///
+/// Replaying the log at the same times gives the same samples to the bit.
+///
+/// Ownership  owns the file, which appears under its name only with commit(); without it nothing is left
+/// behind. Threads    one thread. Errors     kept until commit() (a full disk loses the recording, not the
+/// show). A tracker that is not valid
+///            or whose pose is not finite is recorded as lost; a pose out of true is normalised; a sample
+///            that is not later than the tracker's last one is left out.
+
+#include "engine/atomic_file.h"
+#include "engine/input/input_log.h"
+
+#include <map>
+
+namespace stadion {
+
+class InputRecorder {
+public:
+  explicit InputRecorder(const std::string& path);
+
+  void record(const InputSample& sample);
+  /// Finishes the file; nothing if all went well.
+  std::optional<Diagnostic> commit() { return file_.commit(); }
+
+private:
+  struct Last {
+    Nanoseconds time = -1;
+    bool valid = true;
+  };
+  void record(const TrackerSample& tracker, Nanoseconds time);
+
+  AtomicFile file_;
+  std::map<std::string, Last> last_;
+};
+
+}  // namespace stadion

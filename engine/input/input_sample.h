@@ -1,0 +1,59 @@
+#pragma once
+/// What the visitor's devices say at one moment.
+///
+/// Frames   R is the rig; T is a tracked device. X_RT places the device in the rig. The axes of a head or
+/// wand:
+///          +X to its right, +Y the way it points, +Z up.
+/// Units    metres, show time in nanoseconds, axes from -1 to 1.
+/// Threads  plain values, any thread.
+
+#include "engine/maths/maths.h"
+#include "engine/time_signature.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stadion {
+
+constexpr std::size_t kTrackerAxes = 8;
+
+struct TrackerSample {
+  std::string name;                        ///< such as head, wand, foot; unique in a sample
+  Pose X_RT;                               ///< while not valid: the last one known
+  std::uint32_t buttons = 0;               ///< one bit a button
+  std::array<float, kTrackerAxes> axes{};  ///< joypad and triggers
+  Nanoseconds stamp = 0;                   ///< when the newest measurement in it was made [ns]
+  bool valid = true;                       ///< false: the device is lost at the moment
+
+  bool operator==(const TrackerSample& o) const {
+    return name == o.name && X_RT.p == o.X_RT.p && X_RT.q.coeffs() == o.X_RT.q.coeffs() &&
+           buttons == o.buttons && axes == o.axes && stamp == o.stamp && valid == o.valid;
+  }
+};
+
+struct InputSample {
+  Nanoseconds time = 0;  ///< show time it holds for [ns]
+  std::vector<TrackerSample> trackers;
+
+  /// The tracker of that name, or nullptr.
+  const TrackerSample* find(std::string_view name) const {
+    for (const TrackerSample& t : trackers)
+      if (t.name == name) return &t;
+    return nullptr;
+  }
+};
+
+constexpr double kTeleportSpeed = 15;  ///< faster than any hand or foot [m/s]
+
+/// Whether a tracker that went from `previous` to `next` in `dt` cannot have moved there: it was lost and
+/// found, or another one took its name. What follows it must be put there without impulse.
+inline bool teleported(const Pose& previous, const Pose& next, Nanoseconds dt) {
+  const double distance = (next.p - previous.p).norm();
+  if (!(dt > 0)) return distance > 0;
+  return !(distance <= kTeleportSpeed * toSeconds(dt));
+}
+
+}  // namespace stadion
