@@ -85,9 +85,12 @@ std::unique_ptr<Load> Loader::prepare(const Job& job) {
     for (const std::uint32_t n : surroundings) files.push_back(around_.at(n).document.get());
     resolveNames(*document, files, findings);
     if (!findings.hasErrors()) {
-      const BuildInput input{*document,          job.number,
-                             job.owner,          job.X_WO,
-                             surroundings,       parts_.factories,
+      const BuildInput input{*document,
+                             job.number,
+                             job.owner,
+                             job.X_WO,
+                             surroundings,
+                             parts_.factories,
                              [&](const Declaration& d) { return importMesh(d, findings); },
                              parts_.meshes};
       Built built = buildLoad(input, findings);

@@ -1,9 +1,10 @@
 #pragma once
-/// Prepares scene files beside the running show, on a thread of its own: reads, checks, imports meshes, builds nodes, writes
-/// the static chunk. App only installs the result.
+/// Prepares scene files beside the running show, on a thread of its own: reads, checks, imports meshes,
+/// builds nodes, writes the static chunk. App only installs the result.
 ///
 /// Threads   one worker; request, take, dispose and shown are App's.
-/// Errors    go to the report function (on the worker's thread, or App's when the show is opened); the show goes on.
+/// Errors    go to the report function (on the worker's thread, or App's when the show is opened); the show
+/// goes on.
 
 #include "engine/asset/import.h"
 #include "engine/scene/load.h"
@@ -29,7 +30,7 @@ struct LoaderParts {
 };
 
 class Loader final : public SceneLoader {
- public:
+public:
   explicit Loader(LoaderParts parts);
   ~Loader() override;
 
@@ -40,7 +41,7 @@ class Loader final : public SceneLoader {
   /// All walls have shown `frame`: what was disposed of up to it may go.
   void shown(std::uint64_t frame);
 
- private:
+private:
   struct Job {
     std::uint32_t number;
     std::string file;
@@ -51,7 +52,8 @@ class Loader final : public SceneLoader {
     std::unique_ptr<Load> load;
     std::uint64_t lastFrame;
   };
-  /// What a file's sub-scenes need to know of it to resolve names outwards. Kept only of files that have sub-scenes.
+  /// What a file's sub-scenes need to know of it to resolve names outwards. Kept only of files that have
+  /// sub-scenes.
   struct Around {
     std::uint32_t outer = 0;  ///< the load around it
     std::unique_ptr<const Document> document;

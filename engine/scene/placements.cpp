@@ -53,6 +53,7 @@ void Placements::markBelow(PlacementId top, bool moved) {
   for (;;) {
     Entry& e = entries_[id];
     e.stale |= moved;
+    if (moved && e.watched) movedWatched_.push_back(id);
     if (!e.changed) {
       e.changed = true;
       changed_.push_back(id);
@@ -108,6 +109,12 @@ bool Placements::shown(PlacementId id) const {
   for (; id != kWorldPlacement; id = entries_[id].parent)
     if (!entries_[id].shownSelf) return false;
   return true;
+}
+
+std::vector<PlacementId> Placements::takeMovedWatched() {
+  std::vector<PlacementId> moved;
+  moved.swap(movedWatched_);
+  return moved;
 }
 
 std::vector<PlacementId> Placements::takeChanged() {

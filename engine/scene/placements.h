@@ -38,6 +38,10 @@ public:
   void setShown(PlacementId id, bool shown);
   bool shown(PlacementId id) const;  ///< itself and everything above it
 
+  /// From now on takeMovedWatched() tells when this placement moves.
+  void watch(PlacementId id) { entries_[id].watched = true; }
+  std::vector<PlacementId> takeMovedWatched();
+
   /// Every placement whose World matrix or visibility may have changed since the last call, each once. Clears
   /// the list.
   std::vector<PlacementId> takeChanged();
@@ -51,13 +55,14 @@ private:
     bool changed = false;  ///< is in changed_
     bool shownSelf = true;
     bool live = false;
+    bool watched = false;
   };
 
   void markBelow(PlacementId id, bool moved);
 
   mutable std::vector<Entry> entries_;
   std::vector<PlacementId> free_;
-  std::vector<PlacementId> changed_;
+  std::vector<PlacementId> changed_, movedWatched_;
 };
 
 }  // namespace stadion

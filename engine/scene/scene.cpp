@@ -38,12 +38,12 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
 // --------------------------------------------------------------------------------------------------
 
 void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe) {
-  // Whom to visit: the busy, those with mail, and those whose alarm rings.
+  // Whom to visit: the busy, those with mail, those whose alarm rings, those who were woken after their turn.
   std::vector<Message> mail = messages_.takeDue(now.time);
-  std::vector<Visit> round(busy_.begin(), busy_.end());
+  round_ = busy_;
   const auto call = [&](NodeRef ref) {
     Node* node = find(ref);
-    if (node) round.push_back({node->rank(), ref});
+    if (node) round_.insert({node->rank(), ref});
     return node != nullptr;
   };
   for (const Message& m : mail) call(m.target) ? ++counters_.messagesDelivered : ++counters_.messagesLost;
@@ -51,22 +51,61 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
     call(wakes_.begin()->node);
     wakes_.erase(wakes_.begin());
   }
-  std::sort(round.begin(), round.end());
-  round.erase(std::unique(round.begin(), round.end()), round.end());
+  std::vector<NodeRef> woken;
+  woken.swap(wokenLate_);
+  for (const NodeRef ref : woken) call(ref);
+  wakeWatchers();
   std::stable_sort(mail.begin(), mail.end(),
                    [](const Message& a, const Message& b) { return a.target < b.target; });
 
   FrameContext frame{now, input, *this};
-  for (const Visit& v : round) {
-    Node* node = find(v.node);
+  while (!round_.empty()) {
+    current_ = *round_.begin();
+    round_.erase(round_.begin());
+    Node* node = find(current_->node);
     if (!node) continue;
     const auto [first, last] =
-        std::equal_range(mail.begin(), mail.end(), Message{0, {}, 0, v.node, {}, {}, {}},
+        std::equal_range(mail.begin(), mail.end(), Message{0, {}, 0, current_->node, {}, {}, {}},
                          [](const Message& a, const Message& b) { return a.target < b.target; });
     node->cycle({first, last}, frame, probe);
     ++counters_.nodesVisited;
     setBusy(*node);
     rehash(*node);
+    wakeWatchers();
+  }
+  current_.reset();
+}
+
+void Scene::wakeNow(NodeRef ref) {
+  const Node* node = find(ref);
+  if (!node) return;
+  const Visit v{node->rank(), ref};
+  if (current_ && *current_ < v)
+    round_.insert(v);
+  else if (!current_ || *current_ != v)
+    wokenLate_.push_back(ref);
+}
+
+void Scene::watch(PlacementId placement, NodeRef watcher) {
+  watchers_.insert({placement, watcher});
+  placements_.watch(placement);
+}
+
+void Scene::unwatch(PlacementId placement, NodeRef watcher) {
+  const auto [first, last] = watchers_.equal_range(placement);
+  for (auto at = first; at != last; ++at)
+    if (at->second == watcher) {
+      watchers_.erase(at);
+      return;
+    }
+}
+
+void Scene::wakeWatchers() {
+  for (const PlacementId p : placements_.takeMovedWatched()) {
+    const auto [first, last] = watchers_.equal_range(p);
+    // A node that moves what it watches does not wake itself.
+    for (auto at = first; at != last; ++at)
+      if (!current_ || current_->node != at->second) wakeNow(at->second);
   }
 }
 
@@ -262,6 +301,7 @@ void Scene::install(std::unique_ptr<Load> arrived) {
     return;
   }
   loads_[load.number] = std::move(arrived);
+  ++loadsVersion_;
   for (const std::uint32_t position : load.enterOrder) enterNode(*load.nodes[position]);
   if (load.chunk != kNoChunk) chunkChanges_.push_back({load.chunk, true});
   auto* owner = dynamic_cast<PlacedNode*>(load.owner.valid() ? find(load.owner) : nullptr);
@@ -305,6 +345,7 @@ void Scene::remove(std::uint32_t number, std::uint64_t frame) {
   std::erase_if(staticChanges_, [&](const ChangeSet::StaticItem& s) { return s.chunk == load.chunk; });
   std::unique_ptr<Load> gone = std::move(at->second);
   loads_.erase(at);
+  ++loadsVersion_;
   loader_.dispose(std::move(gone), frame);
 }
 

@@ -74,6 +74,13 @@ public:
   void note(NodeRef node, Event event, Nanoseconds when);
   /// Visits `node` in the frame in which `when` falls.
   void wakeAt(Nanoseconds when, NodeRef node);
+  /// Visits `node` in this frame still if its rank has not had its turn, else in the next one.
+  void wakeNow(NodeRef node);
+  /// Wakes `watcher` whenever the placement moves.
+  void watch(PlacementId placement, NodeRef watcher);
+  void unwatch(PlacementId placement, NodeRef watcher);
+  /// Changes whenever a load comes or goes: names may resolve differently.
+  std::uint64_t loadsVersion() const { return loadsVersion_; }
 
   InstanceId addInstance(PlacementId placement, MeshId mesh, bool drawn, std::uint32_t owner);
   void setDrawn(InstanceId id, bool drawn);
@@ -153,6 +160,7 @@ private:
   void enterNode(Node& node);
   void leaveNode(Node& node);
   void setBusy(Node& node);
+  void wakeWatchers();
   void markInstance(InstanceId id);
   void rehash(const Node& node);
   std::uint64_t nodeHash(const Node& node) const;
@@ -165,6 +173,11 @@ private:
   std::vector<Change> pendingLoads_;
   MessageQueue messages_;
   std::set<Visit> busy_;
+  std::set<Visit> round_;  ///< still to be visited in this frame
+  std::optional<Visit> current_;
+  std::vector<NodeRef> wokenLate_;
+  std::multimap<PlacementId, NodeRef> watchers_;
+  std::uint64_t loadsVersion_ = 0;
   std::set<Wake> wakes_;
   std::map<NodeRef, std::uint64_t> hashes_;
   std::uint64_t hashSum_ = 0;

@@ -9,7 +9,9 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-bool isPlaced(NodeKind kind) { return placedKinds().has(kind); }
+bool isPlaced(NodeKind kind) {
+  return placedKinds().has(kind);
+}
 
 PlaceAttributes placeOf(const Declaration& d) {
   PlaceAttributes place;
@@ -33,7 +35,7 @@ Notification notificationOf(const EventMessage& m) {
 
 /// Decides which objects are static, and in which order nodes enter.
 class Layout {
- public:
+public:
   explicit Layout(const Document& document) : document_(document) {
     const std::uint32_t size = document.size();
     parent_.assign(size, kNone);
@@ -67,7 +69,7 @@ class Layout {
 
   static constexpr std::uint32_t kNone = NodeReference::kNone;
 
- private:
+private:
   void look(const Declaration& d) {
     if (isPlaced(d.kind()))
       if (const auto p = d.reference(Attr::Parent); p && p->resolved() && p->level == 0) {
@@ -96,11 +98,10 @@ class Layout {
 };
 
 class Builder {
- public:
+public:
   Builder(const BuildInput& input, Diagnostics& findings)
-      : input_(input), findings_(findings), layout_(input.document), resolve_([this](const NodeReference& r) {
-          return resolve(r);
-        }) {}
+      : input_(input), findings_(findings), layout_(input.document),
+        resolve_([this](const NodeReference& r) { return resolve(r); }) {}
 
   Built build() {
     built_.load = std::make_unique<Load>();
@@ -125,7 +126,7 @@ class Builder {
     return std::move(built_);
   }
 
- private:
+private:
   NodeRef resolve(const NodeReference& r) const {
     if (!r.resolved() || !r.inner().empty()) return {};
     if (r.level == 0) return {input_.number, r.declaration};
@@ -144,6 +145,7 @@ class Builder {
     if (d.kind() != NodeKind::Object && d.kind() != NodeKind::DynObject) return a;
     a.mesh = input_.meshes(d);
     a.drawn = d.flag(Attr::Draw);
+    a.shape = std::string(d.text(Attr::Shape));
     built_.load->meshes.push_back(a.mesh);
     return a;
   }
@@ -162,9 +164,14 @@ class Builder {
     PlaceAttributes place = placeOf(d);
     place.parent = parentOf(d);
     const Appearance a = appearanceOf(d);
-    const NodeRequest request{d,     {input_.number, d.index()}, std::string(d.name()), place, a,
+    const NodeRequest request{d,
+                              {input_.number, d.index()},
+                              std::string(d.name()),
+                              place,
+                              a,
                               a.mesh == kNoMesh ? nullptr : input_.store.find(a.mesh),
-                              resolve_, findings_};
+                              resolve_,
+                              findings_};
     const NodeFactory make = input_.factories[static_cast<std::size_t>(d.kind())];
     std::unique_ptr<Node> node = make(request);
     if (!node) return;
@@ -181,6 +188,8 @@ class Builder {
 
 }  // namespace
 
-Built buildLoad(const BuildInput& input, Diagnostics& findings) { return Builder(input, findings).build(); }
+Built buildLoad(const BuildInput& input, Diagnostics& findings) {
+  return Builder(input, findings).build();
+}
 
 }  // namespace stadion

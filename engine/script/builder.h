@@ -1,5 +1,6 @@
 #pragma once
-/// From a checked document to a load: nodes made by the factories of their kinds, plain objects put into the static chunk.
+/// From a checked document to a load: nodes made by the factories of their kinds, plain objects put into the
+/// static chunk.
 ///
 /// Threads  the loader's; touches nothing that App uses.
 
@@ -49,7 +50,7 @@ struct BuildInput {
 };
 
 struct Built {
-  std::unique_ptr<Load> load;               ///< without its chunk
+  std::unique_ptr<Load> load;                 ///< without its chunk
   std::vector<InstanceRecord> staticRecords;  ///< parallel to load->statics
 };
 

@@ -64,7 +64,8 @@ Made makeTrigger(const NodeRequest& r) {
   }
   const bool wand = d.kind() == NodeKind::WandTrigger;
   return std::make_unique<TriggerNode>(d.kind(), r.self, r.name, r.place, region,
-                                       wand ? std::string(d.text(Attr::Tracker)) : "head", d.flag(Attr::InitState));
+                                       wand ? std::string(d.text(Attr::Tracker)) : "head",
+                                       d.flag(Attr::InitState));
 }
 
 Made makeTimer(const NodeRequest& r) {

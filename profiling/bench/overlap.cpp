@@ -7,7 +7,7 @@ namespace stadion {
 namespace {
 
 class WaitingStages final : public Stages {
- public:
+public:
   explicit WaitingStages(const OverlapTimes& times) : times_(times) {}
 
   void app(const TimeSignature& now, std::size_t slot) override {
@@ -26,7 +26,7 @@ class WaitingStages final : public Stages {
   void closeWall(std::size_t) override {}
   Failure swap(const TimeSignature&) override { return {}; }
 
- private:
+private:
   static void wait(double ms) { std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms)); }
 
   OverlapTimes times_;

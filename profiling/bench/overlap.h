@@ -1,5 +1,6 @@
 #pragma once
-/// Does the pipeline overlap its stages? Runs the real frame loop over stages that wait a fixed time instead of computing.
+/// Does the pipeline overlap its stages? Runs the real frame loop over stages that wait a fixed time instead
+/// of computing.
 
 #include "pipeline/frame_loop.h"
 

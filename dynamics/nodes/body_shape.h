@@ -1,0 +1,25 @@
+#pragma once
+/// From scene objects to what the world collides: shapes, poses, surfaces.
+
+#include "dynamics/world.h"
+#include "engine/nodes/object_node.h"
+
+namespace stadion {
+
+class Scene;
+
+/// Rotation and origin of a placement, its scale left out.
+Pose poseOf(const Affine& X);
+/// The lengths of its axes.
+Vec3 scaleOf(const Affine& X);
+
+/// The mesh in a body's own coordinates: scaled, not placed.
+Mesh scaledForCollision(const Mesh& mesh, const Vec3& scale);
+
+/// The kind of shape that a script's word asks for; empty = auto.
+ShapeKind shapeKindOf(const std::string& word);
+
+/// A collider for an object, its shape added to `world`. Shape 0 if its mesh has no usable triangle.
+ColliderDef colliderOf(const ObjectNode& object, Scene& scene, World& world);
+
+}  // namespace stadion

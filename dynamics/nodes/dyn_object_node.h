@@ -1,0 +1,70 @@
+#pragma once
+/// `dynobject`: an object that a dynamics node moves, or the visitor's hand while it is grabbed.
+///
+/// Commands  hook FIELD, unhook FIELD, grab [tracker], release, and those of a placed node (reset brings it
+/// back to its
+///           place, at rest).
+/// It is passive: its dynamics node reads what was asked of it in this frame and moves it by direct calls.
+
+#include "dynamics/mass_properties.h"
+#include "dynamics/shape.h"
+#include "dynamics/world.h"
+#include "engine/nodes/object_node.h"
+
+namespace stadion {
+
+/// What the script says about a body.
+struct BodyAttributes {
+  MassProperties mass;
+  Shape shape;
+  Surface surface;
+  double damping = 0;              ///< [1/s]
+  std::vector<std::string> hooks;  ///< names of force fields, as seen from its file
+};
+
+class DynObjectNode : public ObjectNode {
+public:
+  struct HookChange {
+    Nanoseconds when;
+    NodeRef field;
+    bool hooked;
+  };
+  /// What has been asked of it since its dynamics node last looked.
+  struct Requests {
+    std::vector<HookChange> hooks;
+    bool reset = false;
+    std::string grab;  ///< the tracker, empty = not asked
+    bool release = false;
+  };
+
+  DynObjectNode(NodeRef self, std::string name, PlaceAttributes place, Appearance appearance,
+                BodyAttributes body)
+      : ObjectNode(NodeKind::DynObject, self, std::move(name), std::move(place), std::move(appearance)),
+        body_(std::move(body)) {}
+
+  const BodyAttributes& body() const { return body_; }
+  const std::vector<NodeRef>& hooked() const { return hooked_; }
+  Requests takeRequests();
+  /// The dynamics node that moves it.
+  void setSimulation(NodeRef dynamics) { simulation_ = dynamics; }
+  /// Its simulated state, copied here by its dynamics node so that the state hash sees it.
+  void setState(const BodyState& state) { state_ = state; }
+  const BodyState& state() const { return state_; }
+
+  void hash(StateHash& h) const override;
+
+protected:
+  void onEnter(Scene& scene) override;
+  void receive(const Message& m, FrameContext& frame) override;
+
+private:
+  void restoreHooks(Scene& scene);
+
+  BodyAttributes body_;
+  std::vector<NodeRef> hooked_;
+  Requests requests_;
+  NodeRef simulation_;
+  BodyState state_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,125 @@
+#include "dynamics/nodes/dynamics_factories.h"
+
+#include "dynamics/nodes/body_shape.h"
+#include "dynamics/nodes/dynamics_node.h"
+#include "engine/script/choice.h"
+
+#include <memory>
+
+namespace stadion {
+namespace {
+
+constexpr double kStandardGravity = 9.80665;  // [m/s2]
+constexpr double kWaterDensity = 1000;        // [kg/m3]
+
+using Made = std::unique_ptr<Node>;
+
+/// The node that a field is attached to carries it; else its parent does.
+PlaceAttributes fieldPlace(const NodeRequest& r) {
+  PlaceAttributes place = r.place;
+  if (const auto carrier = r.declaration.reference(Attr::Attach)) place.parent = r.resolve(*carrier);
+  return place;
+}
+
+Nanoseconds durationOf(const Declaration& d) {
+  return fromSeconds(d.optionalNumber(Attr::Duration).value_or(0));
+}
+
+/// Factor to SI, and whether the number is a force rather than an acceleration.
+std::pair<double, LinearField::Unit> unitOf(const Declaration& d) {
+  switch (d.choice<ForceUnit>(Attr::Unit)) {
+  case ForceUnit::Gravity: return {kStandardGravity, LinearField::Unit::Acceleration};
+  case ForceUnit::Acceleration: return {1.0, LinearField::Unit::Acceleration};
+  case ForceUnit::Newton: return {1.0, LinearField::Unit::Force};
+  }
+  return {1.0, LinearField::Unit::Acceleration};
+}
+
+Made makeLinear(const NodeRequest& r) {
+  const auto [factor, unit] = unitOf(r.declaration);
+  return std::make_unique<FieldNode>(NodeKind::ForceLinear, r.self, r.name, fieldPlace(r),
+                                     LinearField{r.declaration.vec3(Attr::Direction) * factor, unit},
+                                     durationOf(r.declaration), r.declaration.flag(Attr::InitState));
+}
+
+Made makeSpherical(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  const auto [factor, unit] = unitOf(d);
+  SphericalField law;
+  law.radius = d.number(Attr::Radius);
+  law.strength =
+      d.number(Attr::Strength) * factor * (d.choice<FieldMode>(Attr::Mode) == FieldMode::Attract ? -1 : 1);
+  law.falloff = static_cast<SphericalField::Falloff>(d.choice<FieldFalloff>(Attr::Falloff));
+  law.unit = unit;
+  return std::make_unique<FieldNode>(NodeKind::ForceSpherical, r.self, r.name, fieldPlace(r), law,
+                                     durationOf(d), d.flag(Attr::InitState));
+}
+
+/// The mass that the script states, or that the shape's volume and the density give.
+Result<MassProperties> massOf(const Declaration& d, const ShapeChoice& chosen, const Mesh& mesh) {
+  const double density = d.number(Attr::Density) * kWaterDensity;
+  MassProperties mass;
+  if (const auto* ball = std::get_if<BallShape>(&chosen.shape)) {
+    mass = massOfSphere(ball->centre, ball->radius, density);
+  } else if (const auto* box = std::get_if<BoxShape>(&chosen.shape)) {
+    mass = massOfBox(box->pose, box->half, density);
+  } else {
+    auto integral = massOfMesh(mesh, density);
+    if (!integral) return integral;
+    mass = integral.value();
+  }
+  if (const auto kilograms = d.optionalNumber(Attr::Mass)) mass = mass.withMass(*kilograms);
+  return mass;
+}
+
+Made makeDynObject(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  const auto fail = [&](const std::string& why) -> Made {
+    r.findings.error(d.where(Attr::File), why, d.excerpt(Attr::File));
+    return nullptr;
+  };
+  const Mesh mesh = scaledForCollision(*r.mesh, scaleOf(r.place.X_PN));
+  auto chosen = chooseShape(mesh, shapeKindOf(r.appearance.shape));
+  if (!chosen) return fail(chosen.error().message);
+  auto mass = massOf(d, chosen.value(), mesh);
+  if (!mass) return fail(mass.error().message);
+
+  BodyAttributes body;
+  body.mass = mass.value();
+  body.shape = std::move(chosen.value().shape);
+  // Only what the script states counts for a pair: a standard value must not outvote the other side.
+  const auto stated = [&](Attr a) { return d.has(a) ? std::optional<double>(d.number(a)) : std::nullopt; };
+  body.surface = {stated(Attr::Friction), stated(Attr::Restitution), stated(Attr::Rolling)};
+  body.damping = d.number(Attr::Damping);
+  for (const NodeReference& hook : d.references(Attr::Hook)) body.hooks.push_back(std::string(hook.name));
+  return std::make_unique<DynObjectNode>(r.self, r.name, r.place, r.appearance, std::move(body));
+}
+
+CollisionAttributes collisionOf(const Declaration& d) {
+  CollisionAttributes a;
+  for (const NodeReference& n : d.references(Attr::Collider)) a.colliders.push_back(std::string(n.name));
+  for (const NodeReference& n : d.references(Attr::Collidee)) a.collidees.push_back(std::string(n.name));
+  a.releaseDistance = d.number(Attr::ReleaseDistance);
+  if (specOf(d.kind(), Attr::SelfCollide)) a.selfCollide = d.flag(Attr::SelfCollide);
+  if (specOf(d.kind(), Attr::InitState)) a.on = d.flag(Attr::InitState);
+  return a;
+}
+
+Made makeCollision(const NodeRequest& r) {
+  return std::make_unique<CollisionNode>(NodeKind::Collision, r.self, r.name, collisionOf(r.declaration));
+}
+
+Made makeDynamics(const NodeRequest& r) {
+  return std::make_unique<DynamicsNode>(r.self, r.name, collisionOf(r.declaration));
+}
+
+}  // namespace
+
+void addDynamicsFactories(NodeFactories& factories) {
+  const auto set = [&](NodeKind kind, NodeFactory make) { factories[static_cast<std::size_t>(kind)] = make; };
+  set(NodeKind::ForceLinear, makeLinear), set(NodeKind::ForceSpherical, makeSpherical);
+  set(NodeKind::DynObject, makeDynObject);
+  set(NodeKind::Collision, makeCollision), set(NodeKind::Dynamics, makeDynamics);
+}
+
+}  // namespace stadion

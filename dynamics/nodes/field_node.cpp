@@ -1,0 +1,74 @@
+#include "dynamics/nodes/field_node.h"
+
+#include "dynamics/nodes/body_shape.h"
+#include "engine/scene/scene.h"
+
+namespace stadion {
+
+Vec3 scaleOf(const Affine& X) {
+  return X.linear().colwise().norm().transpose();
+}
+
+Pose poseOf(const Affine& X) {
+  const Vec3 y = X.linear().col(1).normalized();
+  const Vec3 x = (X.linear().col(0) - y * y.dot(X.linear().col(0))).normalized();
+  Mat3 R;
+  R << x, y, x.cross(y);
+  return {X.translation(), Quat(R).normalized()};
+}
+
+FieldLaw FieldNode::law(const Scene& scene) const {
+  const Vec3 scale = scaleOf(scene.placements().world(placement()));
+  FieldLaw law = law_;
+  if (auto* linear = std::get_if<LinearField>(&law)) linear->push = linear->push.cwiseProduct(scale);
+  if (auto* spherical = std::get_if<SphericalField>(&law)) spherical->radius *= scale.maxCoeff();
+  return law;
+}
+
+Pose FieldNode::pose(const Scene& scene) const {
+  return poseOf(scene.placements().world(placement()));
+}
+
+const std::vector<FieldNode::Change>& FieldNode::changes(std::uint64_t frame) const {
+  static const std::vector<Change> none;
+  return frame == changedIn_ ? changes_ : none;
+}
+
+void FieldNode::onEnter(Scene& scene) {
+  PlacedNode::onEnter(scene);
+  since_ = scene.now();
+  if (switch_.on() && duration_ > 0) scene.wakeAt(since_ + duration_, self());
+}
+
+void FieldNode::change(bool on, Nanoseconds when, FrameContext& frame) {
+  if (changedIn_ != frame.now.frame) changes_.clear();
+  changedIn_ = frame.now.frame;
+  changes_.push_back({when, on});
+  if (on) {
+    since_ = when;
+    if (duration_ > 0) frame.scene.wakeAt(when + duration_, self());
+  }
+  for (const NodeRef user : users_) frame.scene.wakeNow(user);
+}
+
+void FieldNode::receive(const Message& m, FrameContext& frame) {
+  PlacedNode::receive(m, frame);
+  const Nanoseconds when = frame.effective(m);
+  // A duration that ran out before this command came first.
+  if (switch_.on() && duration_ > 0 && since_ + duration_ <= when) switch_.set(false);
+  if (switch_.obey(m)) change(switch_.on(), when, frame);
+}
+
+void FieldNode::simulate(FrameContext& frame) {
+  PlacedNode::simulate(frame);
+  // The world ends the activation by itself, at the same exact time.
+  if (switch_.on() && duration_ > 0 && since_ + duration_ <= frame.now.time) switch_.set(false);
+}
+
+void FieldNode::hash(StateHash& h) const {
+  PlacedNode::hash(h);
+  switch_.hash(h);
+  h.add(since_);
+}
+
+}  // namespace stadion
