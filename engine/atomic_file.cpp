@@ -55,7 +55,6 @@ void AtomicFile::fail(const std::string& why) {
   d.where.file = path_;
   d.message = fmt::format("cannot be written: {}", why);
 }
-}
 
 std::optional<Diagnostic> AtomicFile::commit() {
   if (!failed() && !file_) fail("it is finished already");
