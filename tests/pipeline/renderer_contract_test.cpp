@@ -1,0 +1,185 @@
+// What the renderer promises besides its pixels: the same pictures everywhere, errors said once, nothing
+// lost.
+#include "pipeline/draw/surface_check.h"
+#include "tests/pipeline/renderer_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <thread>
+
+namespace stadion {
+namespace {
+
+using test::matt;
+using test::MeshMaker;
+using test::place;
+using test::Stage;
+
+std::unique_ptr<Mesh> ball() {
+  return MeshMaker(matt(0.5f, 0.4f, 0.3f)).sphere(0.5, 8).seal();
+}
+
+TEST(PictureRenderer, OsMesaAndEglGiveTheSamePixels) {
+  MeshStore meshes;
+  const DrawList list = test::richList(meshes, 1.5);
+  const auto draw = [&](GlProviderKind kind) { return Stage(meshes, 150, 100, kind).draw(list); };
+  EXPECT_EQ(draw(GlProviderKind::OsMesa), draw(GlProviderKind::Egl));
+}
+
+TEST(ThreadsRenderer, TwoThreadsWithAContextEachGiveThePicturesOfOne) {
+  MeshStore meshes;
+  const DrawList list = test::richList(meshes, 4.0 / 3);
+  const auto draw = [&](std::uint32_t eye) { return Stage(meshes, 96, 72).draw(list, eye); };
+  const test::Picture left = draw(0), right = draw(1);
+  std::array<std::vector<test::Picture>, 2> found;
+  {
+    std::array<std::jthread, 2> threads;
+    for (std::uint32_t eye = 0; eye < 2; ++eye)
+      threads[eye] = std::jthread([&, eye] {
+        for (int i = 0; i < 3; ++i) found[eye].push_back(draw(eye));
+      });
+  }
+  for (const auto& picture : found[0]) EXPECT_EQ(picture, left);
+  for (const auto& picture : found[1]) EXPECT_EQ(picture, right);
+}
+
+TEST(PictureRenderer, OneCallDrawsBothEyes) {
+  MeshStore meshes;
+  const DrawList list = test::richList(meshes, 1);
+  const auto draw = [&](std::uint32_t eye) { return Stage(meshes, 50, 50).draw(list, eye); };
+  const auto left = draw(0), right = draw(1);
+  Stage both(meshes, 50, 50);
+  ASSERT_FALSE(both.renderer().draw(list));
+  test::Picture picture = left;
+  ASSERT_FALSE(both.renderer().read(0, picture.rgba));
+  EXPECT_EQ(picture, left);
+  ASSERT_FALSE(both.renderer().read(1, picture.rgba));
+  EXPECT_EQ(picture, right);
+}
+
+TEST(PictureRenderer, InstancesLookLikeSingleMeshes) {
+  MeshStore meshes;
+  DrawList list = test::plainList();
+  const MeshId same = meshes.add(ball()), other = meshes.add(ball());
+  for (int i = 0; i < 9; ++i) {
+    Affine X = Affine::Identity();
+    X.translation() = Vec3(0.6 * (i % 3 - 1), 0.1 * i, 0.6 * (i / 3 - 1));
+    X.linear() *= i % 2 ? -1 : 1;
+    list.opaque.push_back(place(same, X));
+  }
+  Stage stage(meshes, 64, 64);
+  const auto together = stage.draw(list);
+  EXPECT_EQ(stage.renderer().counts().calls, 3u);  // as it is, mirrored, sky
+  for (std::size_t i = 0; i < list.opaque.size(); i += 2) list.opaque[i].mesh = other;
+  EXPECT_EQ(stage.draw(list), together);
+  EXPECT_EQ(stage.renderer().counts().calls, 10u);
+}
+
+TEST(PictureRenderer, ServesOddSizes) {
+  MeshStore meshes;
+  const DrawList list = test::richList(meshes, 1);
+  for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 97u}, {641u, 2u}, {16384u, 1u}})
+    EXPECT_EQ(Stage(meshes, width, height).draw(list).rgba.size(), width * height * 4u);
+}
+
+TEST(PictureRenderer, RefusesSizesThatNoBufferHas) {
+  MeshStore meshes;
+  Stage stage(meshes, 4, 4);
+  EXPECT_FALSE(Renderer::create(stage.gl(), meshes, 0, 4));
+  EXPECT_FALSE(Renderer::create(stage.gl(), meshes, 16385, 4));
+}
+
+TEST(PictureRenderer, FreesMeshesThatTheStoreHasFreed) {
+  MeshStore meshes;
+  Stage stage(meshes, 16, 16);
+  DrawList list = test::plainList();
+  const MeshId kept = meshes.add(ball());
+  for (std::uint64_t frame = 0; frame < 20; ++frame) {
+    const MeshId passing = meshes.add(ball());
+    list.opaque = {place(kept), place(passing)};
+    stage.draw(list);
+    EXPECT_EQ(stage.renderer().meshesHeld(), 2u);
+    meshes.release(passing, frame);
+    meshes.collect(frame);
+  }
+}
+
+TEST(PictureRenderer, SaysOnceThatAMeshIsGoneAndDrawsTheRest) {
+  MeshStore meshes;
+  Stage stage(meshes, 16, 16);
+  DrawList list = test::plainList();
+  list.opaque = {place(77), place(meshes.add(ball()))};
+  const auto problem = stage.renderer().draw(list);
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->message, "mesh 77 is to be drawn but no longer there");
+  EXPECT_FALSE(stage.renderer().draw(list));
+  EXPECT_EQ(stage.renderer().counts().instances, 1u);
+}
+
+TEST(PictureRenderer, LeavesOutWhatIsNotFinite) {
+  MeshStore meshes;
+  Stage stage(meshes, 16, 16);
+  DrawList list = test::plainList();
+  const DrawItem sound = place(meshes.add(ball()));
+  list.opaque = {sound};
+  const auto expected = stage.draw(list);
+  DrawItem broken = sound;
+  broken.model[5] = std::numeric_limits<float>::quiet_NaN();
+  list.opaque = {broken, sound};
+  list.transparent = {broken};
+  EXPECT_TRUE(stage.renderer().draw(list));
+  EXPECT_EQ(stage.draw(list), expected);
+  list.eyes[0].view(1, 1) = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(stage.renderer().draw(list, 0));
+  EXPECT_FALSE(stage.renderer().draw(list, 0));
+}
+
+TEST(PictureRenderer, DrawsAnEmptyListAndTooManyLights) {
+  MeshStore meshes;
+  Stage stage(meshes, 16, 16);
+  DrawList list;
+  EXPECT_FALSE(stage.renderer().draw(list));
+  list.lights.resize(DrawList::kMaxLights + 1);
+  EXPECT_TRUE(stage.renderer().draw(list));
+}
+
+TEST(PictureRenderer, RefusesAMeshThatWouldReadBeyondItsVertices) {
+  MeshStore meshes;
+  Stage stage(meshes, 16, 16);
+  auto mesh = ball();
+  mesh->indices[5] = 1u << 30;
+  DrawList list = test::plainList();
+  list.opaque = {place(meshes.add(std::move(mesh)))};
+  const auto problem = stage.renderer().draw(list);
+  ASSERT_TRUE(problem);
+  EXPECT_NE(problem->message.find("a vertex that is not there"), std::string::npos);
+}
+
+TEST(RendererSurface, ClosedMeshesEncloseAndOpenOnesDoNot) {
+  EXPECT_TRUE(encloses(*ball()));
+  EXPECT_TRUE(encloses(*MeshMaker(matt(1, 1, 1)).box({0, 0, 0}, {1, 2, 3}).seal()));
+  EXPECT_FALSE(encloses(*MeshMaker(matt(1, 1, 1)).quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}).seal()));
+  auto holed = MeshMaker(matt(1, 1, 1)).box({0, 0, 0}, {1, 2, 3}).seal();
+  holed->indices.resize(holed->indices.size() - 3);
+  EXPECT_FALSE(encloses(*holed));
+}
+
+TEST(RendererSurface, EveryKindOfDamageIsNamed) {
+  const auto damaged = [](auto damage) {
+    auto mesh = ball();
+    damage(*mesh);
+    return drawingFault(*mesh);
+  };
+  EXPECT_EQ(drawingFault(*ball()), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.normals.pop_back(); }), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.uvs.pop_back(); }), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.colours.resize(1); }), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.submeshes[0].firstIndex = 3; }), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.submeshes[0].material = 1; }), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.materials[0].texture = 0; }), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.textures.push_back({9000, 1, {}, "long"}); }), "");
+}
+
+}  // namespace
+}  // namespace stadion

@@ -1,0 +1,121 @@
+#include "pipeline/draw/gl_table.h"
+#include "pipeline/draw/picture_size.h"
+#include "pipeline/target/rasteriser_settings.h"
+#include "pipeline/target/shared_library.h"
+#include "tests/pipeline/renderer_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace stadion {
+namespace {
+
+class TargetProvider : public testing::TestWithParam<GlProviderKind> {};
+
+INSTANTIATE_TEST_SUITE_P(All, TargetProvider, testing::Values(GlProviderKind::OsMesa, GlProviderKind::Egl),
+                         [](const auto& kind) {
+                           return kind.param == GlProviderKind::Egl ? "Egl" : "OsMesa";
+                         });
+
+TEST_P(TargetProvider, OffersAtLeastOpenGl33Core) {
+  const auto target = test::provider(GetParam())->create(64, 48);
+  ASSERT_TRUE(target) << target.error().message;
+  ASSERT_FALSE(target.value()->makeCurrent());
+  GLint major = 0, minor = 0, profile = 0;
+  const GlTable& gl = target.value()->gl();
+  gl.GetIntegerv(GL_MAJOR_VERSION, &major);
+  gl.GetIntegerv(GL_MINOR_VERSION, &minor);
+  gl.GetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
+  EXPECT_GE(10 * major + minor, 33);
+  EXPECT_EQ(profile, GL_CONTEXT_CORE_PROFILE_BIT);
+  EXPECT_NE(describeGl(gl).find("OpenGL"), std::string::npos) << describeGl(gl);
+  target.value()->release();
+}
+
+TEST_P(TargetProvider, RefusesSizesThatCannotBeDrawn) {
+  GlProvider& provider = *test::provider(GetParam());
+  EXPECT_FALSE(provider.create(0, 10));
+  EXPECT_FALSE(provider.create(10, 0));
+  EXPECT_FALSE(provider.create(kMaxPictureSide + 1, 1));
+  EXPECT_FALSE(provider.create(kMaxPictureSide, kMaxPictureSide));
+  const auto wide = provider.create(20000, 1);
+  ASSERT_FALSE(wide);
+  EXPECT_EQ(wide.error().message,
+            "a picture of 20000 x 1 pixels cannot be drawn: each side must be 1 to 16384");
+  EXPECT_TRUE(provider.create(kMaxPictureSide, 1));
+}
+
+TEST_P(TargetProvider, LeavesNoContextBehindAfterRelease) {
+  GlProvider& provider = *test::provider(GetParam());
+  auto first = std::move(provider.create(8, 8).value());
+  auto second = std::move(provider.create(8, 8).value());
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_FALSE(first->makeCurrent());
+    EXPECT_NE(first->gl().GetString(GL_VERSION), nullptr);
+    first->release();
+    ASSERT_FALSE(second->makeCurrent());
+    EXPECT_NE(second->gl().GetString(GL_VERSION), nullptr);
+    second->release();
+  }
+  EXPECT_EQ(first->gl().GetString(GL_VERSION), nullptr);
+}
+
+TEST(TargetLibrary, NamesThePackageOfAMissingLibrary) {
+  const auto library = SharedLibrary::open("libnowhere.so.8", "nowhere6");
+  ASSERT_FALSE(library);
+  EXPECT_EQ(library.error().message, "libnowhere.so.8 is missing: apt-get install nowhere6");
+}
+
+TEST(TargetLibrary, NamesTheFunctionThatAnImplementationLacks) {
+  const auto table = loadGlTable([](const char* name) -> GlSymbol {
+    return std::string_view(name) == "glDrawElementsInstanced" ? nullptr : +[] {};
+  });
+  ASSERT_FALSE(table);
+  EXPECT_EQ(table.error().message, "this OpenGL has no function glDrawElementsInstanced");
+}
+
+/// Puts a variable of the environment back at the end.
+class Environment {
+public:
+  explicit Environment(const char* name) : name_(name) {
+    if (const char* value = std::getenv(name)) before_ = value;
+    unsetenv(name);
+  }
+  ~Environment() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+TEST(TargetRasteriser, IsPinnedTo256BitsAndAThreadPerCore) {
+  const Environment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
+  EXPECT_FALSE(pinRasteriser());
+  EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "256");
+  EXPECT_GE(std::atoi(std::getenv("LP_NUM_THREADS")), 1);
+}
+
+TEST(TargetRasteriser, KeepsWhatTheUserChose) {
+  const Environment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
+  setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
+  setenv("LP_NUM_THREADS", "0", 1);
+  EXPECT_FALSE(pinRasteriser());
+  EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "128");
+  EXPECT_STREQ(std::getenv("LP_NUM_THREADS"), "0");
+}
+
+TEST(TargetRasteriser, RefusesAVectorWidthWithWhichMesaCrashes) {
+  const Environment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
+  setenv("LP_NATIVE_VECTOR_WIDTH", "512", 1);
+  const auto problem = pinRasteriser();
+  ASSERT_TRUE(problem);
+  EXPECT_NE(problem->message.find("LP_NATIVE_VECTOR_WIDTH=512"), std::string::npos);
+  EXPECT_FALSE(openOsMesa());
+  EXPECT_FALSE(openEgl());
+}
+
+}  // namespace
+}  // namespace stadion
