@@ -42,7 +42,7 @@ struct Submesh {
 struct Mesh {
   std::vector<std::array<float, 3>> positions;     ///< [m], +Z up
   std::vector<std::array<float, 3>> normals;       ///< unit; same length as positions
-  std::vector<std::array<float, 2>> uvs;           ///< same length, or empty
+  std::vector<std::array<float, 2>> uvs;           ///< (0,0) top left of the picture, u right, v down; same length, or empty
   std::vector<std::array<std::uint8_t, 4>> colours;  ///< linear RGBA per vertex, same length, or empty
   std::vector<std::uint32_t> indices;              ///< triangles, counter-clockwise seen from outside
   std::vector<Submesh> submeshes;

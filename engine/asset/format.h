@@ -1,0 +1,55 @@
+#pragma once
+/// The model formats a show may use, and how each one's coordinates become ours (+X right, +Y forward, +Z up,
+/// m).
+///
+/// A format that states its axes or its unit is believed. One that does not is read by the convention below,
+/// which a script overrides per object with `up` and `unit`:
+///
+///   format    up          one unit         why
+///   glTF/GLB  +Y          1 m              the standard says so; the model's -Z becomes our +Y
+///   COLLADA   from file   from file        <up_axis> and <unit>; without them +Y and 1 m
+///   OBJ       +Y          1 m              states neither; most programs write +Y up
+///   3DS       +Z          1 m              +Z is 3D Studio's up; the file's master scale is applied
+///   STL       +Z          1 m              states neither; drawn on the bed of a machine, +Z up
+///
+/// Turning +Y up into +Z up: (x, y, z) -> (x, -z, y). Turning +X up into +Z up: (x, y, z) -> (-y, -z, x).
+/// Colours of formats without a colour space (OBJ, 3DS, COLLADA) are taken as sRGB; those of glTF are linear.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace stadion {
+
+enum class UpAxis : std::uint8_t { X, Y, Z };
+
+enum class ModelFormat : std::uint8_t { Obj, ThreeDs, Gltf, Collada, Stl };
+
+struct FormatInfo {
+  ModelFormat format;
+  const char* extension;  ///< lower case, without the dot
+  const char* name;       ///< for messages
+  const char* loader;     ///< what assimp calls the loader; the only one that may read such a file
+  UpAxis up;              ///< when neither file nor script says
+  double unit;            ///< [m] likewise
+  bool statesAxes;        ///< the file says up axis and unit itself
+  bool linearColours;
+};
+
+/// What the script says about a model; unset means: as the format has it.
+struct ImportOptions {
+  std::optional<double> unit;  ///< [m] length of one unit of the file, 1e-6 .. 1e6
+  std::optional<UpAxis> up;
+};
+
+/// By the extension of the file's name, in either case; nullptr if it is not a format for shows.
+const FormatInfo* formatOf(std::string_view fileName);
+
+/// The name of a 3D format that is recognised in order to be refused ("FBX"), or nothing.
+std::optional<std::string> refusedFormat(std::string_view fileName);
+
+/// "OBJ, 3DS, glTF 2.0 (.gltf, .glb), COLLADA (.dae) and STL", for messages.
+std::string allowedFormats();
+
+}  // namespace stadion

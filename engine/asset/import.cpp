@@ -1,0 +1,113 @@
+#include "engine/asset/import.h"
+
+#include "engine/asset/mesh_checks.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace stadion {
+namespace {
+
+using Outcome = Result<std::unique_ptr<Mesh>>;
+using End = ImporterProcess::End;
+
+std::string faultOf(const std::string& name, const ImportOptions& options) {
+  if (!formatOf(name)) {
+    const auto known = refusedFormat(name);
+    return "\"" + name + "\" is " +
+           (known ? "in the format " + *known + ", which shows do not read" : "not a model file") + "; use " +
+           allowedFormats();
+  }
+  if (options.unit && !(*options.unit >= 1e-6 && *options.unit <= 1e6))
+    return "the unit of \"" + name + "\" must lie between 1e-6 and 1e6 metres";
+  return {};
+}
+
+RequestHead requestFor(const ImportOptions& options, const ImportLimits& limits) {
+  RequestHead head;
+  head.addressSpace = limits.addressSpace;
+  head.fileBytes = limits.fileBytes;
+  head.cpuSeconds = static_cast<std::uint32_t>(limits.timeout.count() / 1000 + 1);
+  head.nodeDepth = limits.nodeDepth;
+  head.mesh = limits.mesh;
+  head.unit = options.unit.value_or(0);
+  head.up = options.up ? static_cast<std::uint32_t>(*options.up) + 1 : 0;
+  return head;
+}
+
+std::string sentence(const ImporterProcess::Answer& answer, const std::string& path,
+                     const std::filesystem::path& program, const ImportLimits& limits) {
+  std::ostringstream text;
+  switch (answer.end) {
+  case End::OutOfMemory: text << "the importer ran out of memory on \"" << path << "\""; break;
+  case End::OutOfTime:
+    text << "the importer ran out of time on \"" << path << "\" (" << limits.timeout.count() / 1000.0
+         << " s)";
+    break;
+  case End::Crashed:
+    text << "the importer crashed on \"" << path << "\"";
+    if (!answer.text.empty()) text << " (" << answer.text << ")";
+    break;
+  case End::Nonsense: text << "the importer answered nonsense on \"" << path << "\""; break;
+  case End::NotStarted:
+    text << "the importer program " << program.string() << " cannot be started: " << answer.text;
+    break;
+  case End::Loaded:
+  case End::Failed: text << "\"" << path << "\" " << answer.text; break;
+  }
+  std::string line = text.str();
+  for (char& c : line)
+    if (c == '\n') c = ' ';
+  while (!line.empty() && (line.back() == '.' || line.back() == ' ')) line.pop_back();
+  return line;
+}
+
+void addNotes(const std::string& text, const std::string& path, const SourcePosition& where,
+              Diagnostics& notes) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty()) notes.warning(where, "\"" + path + "\": " + line);
+}
+
+}  // namespace
+
+Importer::Importer(std::filesystem::path program, AssetRoots roots, ImportLimits limits)
+    : roots_(std::move(roots)), limits_(limits), process_(std::move(program)) {}
+
+Outcome Importer::load(const std::string& name, const ImportOptions& options, const SourcePosition& where,
+                       Diagnostics* notes) {
+  const auto fail = [&](std::string message) {
+    return Outcome(Diagnostic{Severity::Error, where, std::move(message), {}});
+  };
+  const auto found = roots_.open(name);
+  if (!found) return fail(found.error().message);
+  if (const std::string fault = faultOf(name, options); !fault.empty()) return fail(fault);
+  const std::lock_guard lock(mutex_);
+  const auto& path = found.value().path;
+  const auto answer = process_.ask(requestFor(options, limits_), found.value().root, name, limits_.timeout);
+  if (answer.end != End::Loaded) return fail(sentence(answer, path, process_.program(), limits_));
+  auto mesh = decode(answer.mesh, limits_.mesh);
+  if (!mesh) return fail("the importer made of \"" + path + "\" " + mesh.error().message);
+  mesh.value()->name = name;
+  finish(*mesh.value());
+  if (notes) addNotes(answer.text, path, where, *notes);
+  return mesh;
+}
+
+std::filesystem::path Importer::programBesideThis() {
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  return error ? std::filesystem::path("stadion-import") : self.parent_path() / "stadion-import";
+}
+
+int Importer::started() const {
+  const std::lock_guard lock(mutex_);
+  return process_.started();
+}
+
+int Importer::pid() const {
+  const std::lock_guard lock(mutex_);
+  return process_.pid();
+}
+
+}  // namespace stadion

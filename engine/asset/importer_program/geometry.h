@@ -1,0 +1,63 @@
+#pragma once
+/// assimp's tree of nodes as one flat bag of triangles, and that bag as a tidy mesh.
+
+#include "engine/asset/mesh_file.h"
+#include "engine/maths/maths.h"
+
+#include <assimp/scene.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace stadion::importer {
+
+/// The file is refused; the text completes "FILE ...".
+struct Refusal : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct FlatVertex {
+  std::array<float, 3> position{};
+  std::array<float, 3> normal{};  ///< zero if it is still to be made
+  std::array<float, 2> uv{};
+  std::array<std::uint8_t, 4> colour{255, 255, 255, 255};
+};
+
+struct FlatTriangle {
+  std::array<std::uint32_t, 3> corner;
+  std::uint32_t material;
+};
+
+struct Flat {
+  std::vector<FlatVertex> vertices;
+  std::vector<FlatTriangle> triangles;
+  bool hasUvs = false, hasColours = false;
+};
+
+struct FlattenOptions {
+  Affine toShow;  ///< from the scene's root coordinates to metres, +Z up
+  std::uint32_t nodeDepth;
+  MeshLimits limits;
+  bool keepNormals;  ///< false: the file's normals say nothing about smoothness
+  bool linearColours;
+};
+
+/// Throws Refusal when the scene goes beyond the limits.
+Flat flatten(const aiScene& scene, const FlattenOptions& options);
+
+struct Dropped {
+  std::size_t notFinite = 0, degenerate = 0;
+};
+
+/// Takes out triangles with a corner that is not finite or that have no area. Slivers between three different
+/// corners stay if the surface is closed only with them.
+Dropped dropBadTriangles(Flat& flat);
+
+/// Makes the normals that are missing: smooth, except across edges sharper than 40 degrees.
+void makeNormals(Flat& flat);
+
+/// Joins equal vertices and sorts the triangles into one run per material.
+void joinInto(const Flat& flat, Mesh& mesh);
+
+}  // namespace stadion::importer

@@ -1,0 +1,16 @@
+#pragma once
+/// One model file to one mesh.
+
+#include "engine/asset/importer_program/channel.h"
+
+namespace stadion::importer {
+
+struct Imported {
+  Mesh mesh;
+  std::string notes;  ///< one a line
+};
+
+/// Throws Refusal when the file is missing, broken or beyond the limits.
+Imported importModel(const Request& request);
+
+}  // namespace stadion::importer

@@ -1,0 +1,36 @@
+#pragma once
+/// The only file system that assimp sees: regular files below the asset root, read whole into memory.
+
+#include <assimp/IOSystem.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stadion::importer {
+
+/// Reads a file below the open folder `root`. Names may use either slash. Nothing when there is no such file,
+/// when it lies outside or is longer than `mostBytes`; `why` then says which.
+std::optional<std::vector<std::uint8_t>> readBeneath(int root, std::string path, std::uint64_t mostBytes,
+                                                     std::string* why = nullptr);
+
+class Jail : public Assimp::IOSystem {
+public:
+  Jail(int root, std::uint64_t mostBytes) : root_(root), mostBytes_(mostBytes) {}
+
+  bool Exists(const char* path) const override;
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* path, const char* mode) override;
+  void Close(Assimp::IOStream* stream) override;
+  bool CreateDirectory(const std::string&) override { return false; }
+  bool ChangeDirectory(const std::string&) override { return false; }
+  bool DeleteFile(const std::string&) override { return false; }
+
+private:
+  int root_;
+  std::uint64_t mostBytes_;
+};
+
+}  // namespace stadion::importer

@@ -1,0 +1,183 @@
+#include "engine/asset/importer_program/materials.h"
+
+#include "engine/asset/importer_program/jail.h"
+#include "engine/asset/importer_program/picture.h"
+
+#include <assimp/GltfMaterial.h>
+#include <assimp/material.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace stadion::importer {
+namespace {
+
+float bounded(float value, float low, float high, float otherwise) {
+  return std::isfinite(value) ? std::clamp(value, low, high) : otherwise;
+}
+
+/// Alpha as glTF means it: ignored, cut at a threshold, or blended.
+struct AlphaUse {
+  enum Mode { Opaque, Mask, Blend } mode = Blend;
+  float cutoff = 0.5f;
+};
+
+AlphaUse alphaUse(const aiMaterial& from, const FormatInfo& format) {
+  AlphaUse use;
+  if (format.format != ModelFormat::Gltf) return use;
+  aiString mode;
+  from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode);
+  from.Get(AI_MATKEY_GLTF_ALPHACUTOFF, use.cutoff);
+  if (mode == aiString("MASK"))
+    use.mode = AlphaUse::Mask;
+  else if (mode != aiString("BLEND"))
+    use.mode = AlphaUse::Opaque;
+  return use;
+}
+
+void applyAlpha(const AlphaUse& use, Texture& texture) {
+  if (use.mode == AlphaUse::Blend) return;
+  const float cut = use.cutoff * 255.0f;
+  for (std::size_t i = 3; i < texture.rgba.size(); i += 4)
+    texture.rgba[i] = use.mode == AlphaUse::Opaque || static_cast<float>(texture.rgba[i]) >= cut ? 255 : 0;
+}
+
+bool hasAlpha(const Texture& texture) {
+  for (std::size_t i = 3; i < texture.rgba.size(); i += 4)
+    if (texture.rgba[i] != 255) return true;
+  return false;
+}
+
+class Pictures {
+public:
+  Pictures(const aiScene& scene, const PictureSource& source, Mesh& mesh, std::vector<std::string>& notes)
+      : scene_(scene), source_(source), mesh_(mesh), notes_(notes), budget_(source.limits.textureBytes) {}
+
+  /// Index into the mesh's textures, -1 if it cannot be had; each is read once.
+  std::int32_t get(const std::string& name, const AlphaUse& use) {
+    const std::string key = name + '\n' + std::to_string(use.mode) + ' ' + std::to_string(use.cutoff);
+    const auto known = known_.find(key);
+    if (known != known_.end()) return known->second;
+    Texture texture;
+    texture.name = name;
+    std::string why;
+    std::int32_t index = -1;
+    if (mesh_.textures.size() >= source_.limits.textures)
+      why = "is one picture too many";
+    else if (read(name, texture, why)) {
+      applyAlpha(use, texture);
+      index = static_cast<std::int32_t>(mesh_.textures.size());
+      mesh_.textures.push_back(std::move(texture));
+    }
+    if (index < 0) notes_.push_back("the texture \"" + name + "\" " + why);
+    return known_[key] = index;
+  }
+
+private:
+  bool read(const std::string& name, Texture& texture, std::string& why) {
+    if (const aiTexture* embedded = scene_.GetEmbeddedTexture(name.c_str()))
+      return unpack(*embedded, texture, why);
+    if (name.starts_with('*')) return why = "is not in the file", false;
+    auto bytes = readBeneath(source_.root, source_.folder + name, source_.fileBytes, &why);
+    if (!bytes) return false;
+    return decodePicture(*bytes, source_.limits, budget_, texture, why);
+  }
+
+  bool unpack(const aiTexture& from, Texture& texture, std::string& why) {
+    if (!from.pcData) return why = "is empty", false;
+    if (from.mHeight == 0)
+      return decodePicture({reinterpret_cast<const std::uint8_t*>(from.pcData), from.mWidth}, source_.limits,
+                           budget_, texture, why);
+    const std::uint64_t pixels = std::uint64_t{from.mWidth} * from.mHeight;
+    if (from.mWidth > source_.limits.textureSide || from.mHeight > source_.limits.textureSide ||
+        pixels * 4 > budget_)
+      return why = "is too large", false;
+    budget_ -= pixels * 4;
+    texture.width = from.mWidth, texture.height = from.mHeight;
+    for (std::uint64_t i = 0; i < pixels; ++i) {
+      const aiTexel& t = from.pcData[i];
+      texture.rgba.insert(texture.rgba.end(), {t.r, t.g, t.b, t.a});
+    }
+    return true;
+  }
+
+  const aiScene& scene_;
+  const PictureSource& source_;
+  Mesh& mesh_;
+  std::vector<std::string>& notes_;
+  std::uint64_t budget_;
+  std::map<std::string, std::int32_t> known_;
+};
+
+std::optional<std::string> texturePath(const aiMaterial& from) {
+  for (aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+    aiString path;
+    if (from.GetTexture(type, 0, &path) == aiReturn_SUCCESS && path.length > 0)
+      return std::string(path.C_Str());
+  }
+  return std::nullopt;
+}
+
+void readColours(const aiMaterial& from, const FormatInfo& format, Material& to) {
+  const auto channel = [&](float c) {
+    const float value = bounded(c, 0, 1, 0);
+    return format.linearColours ? value : linearFromSrgb(value);
+  };
+  aiColor4D colour(1, 1, 1, 1);
+  bool known = format.linearColours && from.Get(AI_MATKEY_BASE_COLOR, colour) == aiReturn_SUCCESS;
+  if (!known) known = from.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == aiReturn_SUCCESS;
+  if (known) to.baseColour = {channel(colour.r), channel(colour.g), channel(colour.b), 1};
+  float opacity = format.format == ModelFormat::Gltf ? colour.a : 1;
+  from.Get(AI_MATKEY_OPACITY, opacity);
+  to.baseColour[3] = bounded(opacity, 0, 1, 1);
+  aiColor3D glow(0, 0, 0);
+  from.Get(AI_MATKEY_COLOR_EMISSIVE, glow);
+  to.emissive = {channel(glow.r), channel(glow.g), channel(glow.b)};
+}
+
+void readSurface(const aiMaterial& from, const FormatInfo& format, Material& to) {
+  float shininess = 0, roughness = to.roughness, metallic = 0;
+  if (format.format == ModelFormat::Gltf) {
+    from.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness);
+    from.Get(AI_MATKEY_METALLIC_FACTOR, metallic);
+  } else if (from.Get(AI_MATKEY_SHININESS, shininess) == aiReturn_SUCCESS && shininess > 0) {
+    roughness = std::sqrt(2.0f / (shininess + 2.0f));  // the Blinn-Phong lobe of the same width
+  }
+  to.roughness = bounded(roughness, 0, 1, 0.7f);
+  to.metallic = bounded(metallic, 0, 1, 0);
+  int twoSided = 0;
+  from.Get(AI_MATKEY_TWOSIDED, twoSided);
+  to.doubleSided = twoSided != 0;
+}
+
+Material readMaterial(const aiMaterial& from, const FormatInfo& format, Pictures& pictures, Mesh& mesh) {
+  Material to;
+  aiString name;
+  if (from.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) to.name = name.C_Str();
+  readColours(from, format, to);
+  readSurface(from, format, to);
+  const AlphaUse use = alphaUse(from, format);
+  if (use.mode == AlphaUse::Opaque) to.baseColour[3] = 1;
+  if (const auto path = texturePath(from)) to.texture = pictures.get(*path, use);
+  if (to.texture >= 0) to.textureHasAlpha = hasAlpha(mesh.textures[static_cast<std::size_t>(to.texture)]);
+  return to;
+}
+
+}  // namespace
+
+float linearFromSrgb(float c) {
+  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+}
+
+void readMaterials(const aiScene& scene, const FormatInfo& format, const PictureSource& pictures, Mesh& mesh,
+                   std::vector<std::string>& notes) {
+  Pictures source(scene, pictures, mesh, notes);
+  for (unsigned i = 0; i < scene.mNumMaterials; ++i)
+    mesh.materials.push_back(scene.mMaterials[i] ? readMaterial(*scene.mMaterials[i], format, source, mesh)
+                                                 : Material{});
+  if (mesh.materials.empty()) mesh.materials.emplace_back();
+}
+
+}  // namespace stadion::importer

@@ -1,0 +1,44 @@
+#pragma once
+/// What the show and its importer program say to each other over a pair of stream sockets.
+///
+/// The show sends a request head together with the descriptor of the asset root, then the name below that
+/// root. The program answers with an answer head, a text (notes, one a line, or the reason of the failure)
+/// and the bytes of the mesh (see mesh_file). Both are the same build, so structs travel as they are; the
+/// show still believes nothing of what comes back.
+
+#include "engine/asset/mesh_file.h"
+
+#include <cstdint>
+
+namespace stadion {
+
+constexpr std::uint32_t kImportMagic = 0x51495453;  // "STIQ"
+constexpr std::uint32_t kAnswerMagic = 0x41495453;  // "STIA"
+constexpr std::uint32_t kImportVersion = 1;
+constexpr std::uint32_t kLongestPath = 4096;
+constexpr std::uint32_t kLongestText = 16384;
+constexpr std::uint64_t kLongestAnswer = 1ull << 30;
+constexpr int kOutOfMemoryExit = 77;
+
+struct RequestHead {
+  std::uint32_t magic = kImportMagic, version = kImportVersion;
+  std::uint64_t addressSpace = 0;  ///< [bytes] RLIMIT_AS
+  std::uint64_t fileBytes = 0;     ///< [bytes] largest file that is opened
+  std::uint32_t cpuSeconds = 0;    ///< [s] for this file
+  std::uint32_t nodeDepth = 0;
+  MeshLimits mesh;
+  double unit = 0;              ///< [m], 0 = as the format has it
+  std::uint32_t up = 0;         ///< UpAxis + 1, 0 = as the format has it
+  std::uint32_t pathBytes = 0;  ///< of the name that follows
+};
+
+enum class ImportStatus : std::uint32_t { Loaded, Failed, OutOfMemory };
+
+struct AnswerHead {
+  std::uint32_t magic = kAnswerMagic, version = kImportVersion;
+  ImportStatus status = ImportStatus::Failed;
+  std::uint32_t textBytes = 0;
+  std::uint64_t meshBytes = 0;
+};
+
+}  // namespace stadion

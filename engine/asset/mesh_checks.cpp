@@ -1,0 +1,122 @@
+#include "engine/asset/mesh_checks.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace stadion {
+namespace {
+
+Vec3 at(const Mesh& mesh, std::uint32_t vertex) {
+  const auto& p = mesh.positions[vertex];
+  return {p[0], p[1], p[2]};
+}
+
+class Hash {
+public:
+  Hash() : state_(XXH3_createState(), &XXH3_freeState) { XXH3_64bits_reset(state_.get()); }
+  template <class T>
+  void add(const std::vector<T>& v) {
+    add(static_cast<std::uint64_t>(v.size()));
+    XXH3_64bits_update(state_.get(), v.data(), v.size() * sizeof(T));
+  }
+  void add(std::uint64_t n) { XXH3_64bits_update(state_.get(), &n, sizeof n); }
+  void add(float f) { add(std::uint64_t{std::bit_cast<std::uint32_t>(f)}); }
+  std::uint64_t value() const { return XXH3_64bits_digest(state_.get()); }
+
+private:
+  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
+};
+
+// Names are left out: the same shape under two names is one mesh.
+std::uint64_t contentHash(const Mesh& mesh) {
+  Hash hash;
+  hash.add(mesh.positions), hash.add(mesh.normals), hash.add(mesh.uvs), hash.add(mesh.colours);
+  hash.add(mesh.indices);
+  for (const Submesh& s : mesh.submeshes)
+    hash.add(std::uint64_t{s.firstIndex}), hash.add(std::uint64_t{s.indexCount}),
+        hash.add(std::uint64_t{s.material});
+  for (const Material& m : mesh.materials) {
+    for (float c : m.baseColour) hash.add(c);
+    for (float c : m.emissive) hash.add(c);
+    hash.add(m.roughness), hash.add(m.metallic);
+    hash.add(static_cast<std::uint64_t>(m.texture));
+    hash.add(std::uint64_t{m.doubleSided}), hash.add(std::uint64_t{m.textureHasAlpha});
+  }
+  for (const Texture& t : mesh.textures)
+    hash.add(std::uint64_t{t.width}), hash.add(std::uint64_t{t.height}), hash.add(t.rgba);
+  hash.add(std::uint64_t{mesh.standIn});
+  return hash.value();
+}
+
+}  // namespace
+
+void finish(Mesh& mesh) {
+  mesh.bounds = {};
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) mesh.bounds.include(at(mesh, v));
+  mesh.sphere = {};
+  if (!mesh.bounds.empty()) {
+    mesh.sphere.centre = mesh.bounds.centre();
+    double farthest = 0;
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+      farthest = std::max(farthest, (at(mesh, v) - mesh.sphere.centre).squaredNorm());
+    mesh.sphere.radius = std::sqrt(farthest) * (1 + 1e-12);  // rounding must not leave a vertex outside
+  }
+  mesh.hash = contentHash(mesh);
+}
+
+std::vector<std::uint32_t> weldPositions(const std::vector<std::array<float, 3>>& positions) {
+  std::vector<std::uint32_t> order(positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return positions[a] != positions[b] ? positions[a] < positions[b] : a < b;
+  });
+  std::vector<std::uint32_t> first(positions.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
+    first[order[i]] = same ? first[order[i - 1]] : order[i];
+  }
+  return first;
+}
+
+bool closed(const Mesh& mesh) {
+  if (mesh.indices.empty()) return false;
+  const std::vector<std::uint32_t> weld = weldPositions(mesh.positions);
+  // Each edge as (low end, high end), with the direction in the lowest bit of the second word.
+  std::vector<std::pair<std::uint32_t, std::uint64_t>> edges;
+  edges.reserve(mesh.indices.size());
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = weld[mesh.indices[i + k]], b = weld[mesh.indices[i + (k + 1) % 3]];
+      if (a == b) continue;
+      edges.emplace_back(std::min(a, b), std::uint64_t{std::max(a, b)} << 1 | (a < b ? 1 : 0));
+    }
+  }
+  if (edges.empty()) return false;
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i < edges.size();) {
+    const auto low = edges[i].first;
+    const auto high = edges[i].second >> 1;
+    std::ptrdiff_t balance = 0;
+    for (; i < edges.size() && edges[i].first == low && edges[i].second >> 1 == high; ++i)
+      balance += edges[i].second & 1 ? 1 : -1;
+    if (balance != 0) return false;
+  }
+  return true;
+}
+
+double area(const Mesh& mesh) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec3 a = at(mesh, mesh.indices[i]);
+    sum += 0.5 * (at(mesh, mesh.indices[i + 1]) - a).cross(at(mesh, mesh.indices[i + 2]) - a).norm();
+  }
+  return sum;
+}
+
+}  // namespace stadion

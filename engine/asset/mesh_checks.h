@@ -1,0 +1,21 @@
+#pragma once
+/// What can be said of a mesh from its triangles alone.
+
+#include "engine/asset/mesh.h"
+
+namespace stadion {
+
+/// Fills bounds, bounding sphere and content hash from the rest. Expects finite positions.
+void finish(Mesh& mesh);
+
+/// True if the surface encloses a volume: with corners at equal positions taken as one, every edge is used as
+/// often in one direction as in the other. Such a mesh has a mass; the others are shells.
+bool closed(const Mesh& mesh);
+
+/// Sum of the areas of all triangles [m²].
+double area(const Mesh& mesh);
+
+/// For every vertex the number of the first vertex at the same position.
+std::vector<std::uint32_t> weldPositions(const std::vector<std::array<float, 3>>& positions);
+
+}  // namespace stadion

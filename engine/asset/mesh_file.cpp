@@ -1,0 +1,210 @@
+#include "engine/asset/mesh_file.h"
+
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+namespace stadion {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x4d445453;  // "STDM"
+constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kLongestName = 1024;
+
+struct Head {
+  std::uint32_t magic, version;
+  std::uint32_t vertices, indices, submeshes, materials, textures;
+  std::uint32_t hasUvs, hasColours;
+};
+
+struct MaterialRecord {
+  float baseColour[4], emissive[3], roughness, metallic;
+  std::int32_t texture;
+  std::uint32_t doubleSided, textureHasAlpha;
+};
+
+class Writer {
+public:
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    raw(&value, sizeof value);
+  }
+  template <class T>
+  void put(const std::vector<T>& values) {
+    raw(values.data(), values.size() * sizeof(T));
+  }
+  void put(const std::string& text) {
+    const auto length = static_cast<std::uint32_t>(std::min<std::size_t>(text.size(), kLongestName));
+    put(length);
+    raw(text.data(), length);
+  }
+  std::vector<std::uint8_t> bytes;
+
+private:
+  void raw(const void* data, std::size_t size) {
+    const auto* from = static_cast<const std::uint8_t*>(data);
+    bytes.insert(bytes.end(), from, from + size);
+  }
+};
+
+class Reader {
+public:
+  explicit Reader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
+  template <class T>
+  bool get(T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return raw(&value, sizeof value);
+  }
+  // Compares before it allocates: a count that lies costs nothing.
+  template <class T>
+  bool get(std::vector<T>& values, std::uint64_t count) {
+    if (count > rest_.size() / sizeof(T)) return false;
+    values.resize(count);
+    return raw(values.data(), count * sizeof(T));
+  }
+  bool get(std::string& text) {
+    std::uint32_t length = 0;
+    if (!get(length) || length > kLongestName || length > rest_.size()) return false;
+    text.resize(length);
+    return raw(text.data(), length);
+  }
+  bool atEnd() const { return rest_.empty(); }
+
+private:
+  bool raw(void* to, std::size_t size) {
+    if (size > rest_.size()) return false;
+    if (size > 0) std::memcpy(to, rest_.data(), size);
+    rest_ = rest_.subspan(size);
+    return true;
+  }
+  std::span<const std::uint8_t> rest_;
+};
+
+template <std::size_t N>
+bool finite(const std::vector<std::array<float, N>>& values) {
+  for (const auto& v : values)
+    for (float c : v)
+      if (!std::isfinite(c)) return false;
+  return true;
+}
+
+bool unitLength(const std::vector<std::array<float, 3>>& normals) {
+  for (const auto& n : normals) {
+    const float square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    if (!(square > 0.99f && square < 1.01f)) return false;
+  }
+  return true;
+}
+
+bool within(float value, float low, float high) {
+  return value >= low && value <= high;
+}
+
+bool toMaterial(const MaterialRecord& r, std::size_t textures, Material& m) {
+  for (int k = 0; k < 4; ++k) {
+    if (!within(r.baseColour[k], 0, 1)) return false;
+    m.baseColour[k] = r.baseColour[k];
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (!within(r.emissive[k], 0, 1000)) return false;
+    m.emissive[k] = r.emissive[k];
+  }
+  if (!within(r.roughness, 0, 1) || !within(r.metallic, 0, 1)) return false;
+  if (r.texture < -1 || r.texture >= static_cast<std::int64_t>(textures)) return false;
+  m.roughness = r.roughness, m.metallic = r.metallic, m.texture = r.texture;
+  m.doubleSided = r.doubleSided != 0, m.textureHasAlpha = r.textureHasAlpha != 0;
+  return true;
+}
+
+bool readMaterials(Reader& in, const Head& head, Mesh& mesh) {
+  for (std::uint32_t i = 0; i < head.materials; ++i) {
+    MaterialRecord record{};
+    Material material;
+    if (!in.get(record) || !in.get(material.name) || !toMaterial(record, head.textures, material))
+      return false;
+    mesh.materials.push_back(std::move(material));
+  }
+  return true;
+}
+
+bool readTextures(Reader& in, const Head& head, const MeshLimits& limits, Mesh& mesh) {
+  std::uint64_t total = 0;
+  for (std::uint32_t i = 0; i < head.textures; ++i) {
+    Texture t;
+    if (!in.get(t.width) || !in.get(t.height) || !in.get(t.name)) return false;
+    if (t.width == 0 || t.height == 0 || t.width > limits.textureSide || t.height > limits.textureSide)
+      return false;
+    const std::uint64_t size = std::uint64_t{t.width} * t.height * 4;
+    if ((total += size) > limits.textureBytes || !in.get(t.rgba, size)) return false;
+    mesh.textures.push_back(std::move(t));
+  }
+  return true;
+}
+
+bool readGeometry(Reader& in, const Head& head, Mesh& mesh) {
+  return in.get(mesh.positions, head.vertices) && in.get(mesh.normals, head.vertices) &&
+         in.get(mesh.uvs, head.hasUvs ? head.vertices : 0) &&
+         in.get(mesh.colours, head.hasColours ? head.vertices : 0) && in.get(mesh.indices, head.indices) &&
+         in.get(mesh.submeshes, head.submeshes);
+}
+
+// The submeshes cover the indices in order, without gap or overlap.
+const char* faultOf(const Mesh& mesh) {
+  if (!finite(mesh.positions) || !finite(mesh.uvs)) return "a number that is not finite";
+  if (!unitLength(mesh.normals)) return "a normal that is not of unit length";
+  for (std::uint32_t index : mesh.indices)
+    if (index >= mesh.positions.size()) return "an index out of range";
+  std::uint64_t next = 0;
+  for (const Submesh& s : mesh.submeshes) {
+    if (s.firstIndex != next || s.indexCount % 3 != 0 || s.material >= mesh.materials.size())
+      return "a wrong run of triangles";
+    next += s.indexCount;
+  }
+  if (next != mesh.indices.size()) return "a wrong run of triangles";
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode(const Mesh& mesh) {
+  const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
+  Writer out;
+  out.put(Head{kMagic, kVersion, count(mesh.positions), count(mesh.indices), count(mesh.submeshes),
+               count(mesh.materials), count(mesh.textures), !mesh.uvs.empty(), !mesh.colours.empty()});
+  out.put(mesh.positions), out.put(mesh.normals), out.put(mesh.uvs), out.put(mesh.colours);
+  out.put(mesh.indices), out.put(mesh.submeshes);
+  for (const Material& m : mesh.materials) {
+    out.put(MaterialRecord{{m.baseColour[0], m.baseColour[1], m.baseColour[2], m.baseColour[3]},
+                           {m.emissive[0], m.emissive[1], m.emissive[2]},
+                           m.roughness,
+                           m.metallic,
+                           m.texture,
+                           m.doubleSided,
+                           m.textureHasAlpha});
+    out.put(m.name);
+  }
+  for (const Texture& t : mesh.textures)
+    out.put(t.width), out.put(t.height), out.put(t.name), out.put(t.rgba);
+  return std::move(out.bytes);
+}
+
+Result<std::unique_ptr<Mesh>> decode(std::span<const std::uint8_t> bytes, const MeshLimits& limits) {
+  using Outcome = Result<std::unique_ptr<Mesh>>;
+  Reader in(bytes);
+  Head head{};
+  if (!in.get(head) || head.magic != kMagic || head.version != kVersion)
+    return Outcome::failure("not a mesh of this version");
+  if (head.vertices > limits.vertices || head.indices / 3 > limits.triangles || head.indices % 3 != 0 ||
+      head.materials > limits.materials || head.materials == 0 || head.textures > limits.textures ||
+      head.submeshes > limits.materials)
+    return Outcome::failure("a mesh beyond the limits");
+  auto mesh = std::make_unique<Mesh>();
+  if (!readGeometry(in, head, *mesh) || !readMaterials(in, head, *mesh) ||
+      !readTextures(in, head, limits, *mesh) || !in.atEnd())
+    return Outcome::failure("a mesh that is cut short or has a bad material or texture");
+  if (const char* fault = faultOf(*mesh)) return Outcome::failure(std::string("a mesh with ") + fault);
+  return mesh;
+}
+
+}  // namespace stadion
