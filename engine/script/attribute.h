@@ -1,0 +1,90 @@
+#pragma once
+/// The attribute words of the language. One word may mean different things in different node types
+/// (`unit` of an object and of a force field); the schema says which.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace stadion {
+
+enum class Attr : std::uint8_t {
+  Ambient,
+  Angle,
+  Attach,
+  Box,
+  Collidee,
+  Collider,
+  Colour,
+  Damping,
+  Density,
+  Direction,
+  Draw,
+  Duration,
+  EventMessage,
+  EyeHeight,
+  Falloff,
+  File,
+  Friction,
+  Ground,
+  Haze,
+  Hook,
+  Horizon,
+  InitState,
+  Intensity,
+  Key,
+  Loop,
+  Mass,
+  Mode,
+  Name,
+  Orientation,
+  Parent,
+  Period,
+  Position,
+  Radius,
+  Range,
+  Ready,
+  ReleaseDistance,
+  Repeat,
+  Restitution,
+  Rolling,
+  Scale,
+  SelfCollide,
+  Shape,
+  Smooth,
+  Speed,
+  Sphere,
+  Strength,
+  Target,
+  Tracker,
+  TurnRate,
+  Type,
+  Unit,
+  Up,
+  Zenith,
+};
+
+inline constexpr std::array<std::string_view, 53> kAttrNames = {
+    "ambient",      "angle",       "attach",  "box",       "collidee",    "collider",
+    "colour",       "damping",     "density", "direction", "draw",        "duration",
+    "eventmessage", "eyeheight",   "falloff", "file",      "friction",    "ground",
+    "haze",         "hook",        "horizon", "initstate", "intensity",   "key",
+    "loop",         "mass",        "mode",    "name",      "orientation", "parent",
+    "period",       "position",    "radius",  "range",     "ready",       "releasedistance",
+    "repeat",       "restitution", "rolling", "scale",     "selfcollide", "shape",
+    "smooth",       "speed",       "sphere",  "strength",  "target",      "tracker",
+    "turnrate",     "type",        "unit",    "up",        "zenith"};
+inline constexpr std::size_t kAttrCount = kAttrNames.size();
+
+constexpr std::string_view nameOf(Attr attr) {
+  return kAttrNames[static_cast<std::size_t>(attr)];
+}
+
+constexpr std::optional<Attr> attrNamed(std::string_view word) {
+  for (std::size_t i = 0; i < kAttrCount; ++i)
+    if (kAttrNames[i] == word) return static_cast<Attr>(i);
+  return std::nullopt;
+}
+
+}  // namespace stadion

@@ -1,0 +1,185 @@
+#pragma once
+/// One script, checked: its declarations with typed values, each knowing where it was written.
+///
+///   Diagnostics findings;
+///   auto document = parseScript(std::move(source), findings);       // script.h
+///   resolveNames(document, surroundings, findings);
+///   for (const Declaration node : document) if (node.kind() == NodeKind::DynObject)
+///   node.number(Attr::Density);
+///
+/// Units    those of the schema: metres, seconds, kilograms, degrees.
+/// Ownership the document owns its text and values; Declarations and string views borrow from it and stay
+/// valid
+///          when it is moved as a whole only if taken after the move.
+/// Errors   accessors expect an attribute that the schema gives to this kind of node and that is stated or
+/// has
+///          a standard value; broken values were reported by the checker and are absent here.
+/// Threads  constant once names are resolved.
+
+#include "engine/maths/maths.h"
+#include "engine/node_kind.h"
+#include "engine/script/attribute.h"
+#include "engine/script/event_message.h"
+#include "engine/script/schema.h"
+#include "engine/script/source_text.h"
+
+#include <array>
+#include <optional>
+
+namespace stadion {
+
+class Document;
+
+/// A key of a path.
+struct PathKey {
+  double time = 0;                  ///< [s] from the start of the path
+  Vec3 position = Vec3::Zero();     ///< [m]
+  Vec3 orientation = Vec3::Zero();  ///< [degrees] about X, then Y, then Z
+};
+
+struct BoxValue {
+  Vec3 centre = Vec3::Zero();  ///< [m]
+  Vec3 edges = Vec3::Zero();   ///< full lengths [m]
+};
+
+/// One declaration of a document. A light handle; pass it by value.
+class Declaration {
+public:
+  Declaration(const Document& document, std::uint32_t index) : document_(&document), index_(index) {}
+
+  const Document& document() const { return *document_; }
+  std::uint32_t index() const { return index_; }  ///< position in the file's order, from 0
+  NodeKind kind() const;
+  std::string_view name() const;  ///< empty if it has none
+  SourcePosition where() const;   ///< of the type word
+  std::uint32_t line() const;     ///< cheaper than where()
+
+  bool has(Attr attr) const;  ///< stated in the script
+  SourcePosition
+  where(Attr attr) const;  ///< of the value, of the first if repeated; of the type word if not stated
+  std::string excerpt(Attr attr) const;  ///< the line of where(attr), for a Diagnostic
+
+  double number(Attr attr) const;
+  std::optional<double> optionalNumber(Attr attr) const;  ///< of an attribute without a standard value
+  Vec3 vec3(Attr attr) const;                             ///< Vec3, Direction, Colour, Scale (always three)
+  bool flag(Attr attr) const;
+  std::string_view
+  text(Attr attr) const;  ///< NewName, Tracker, File, and the word of a Choice; empty if neither
+  /// The position of the word among the schema's choices, as an enumeration of choice.h.
+  template <class E>
+  E choice(Attr attr) const {
+    return static_cast<E>(choiceIndex(attr).value());
+  }
+  template <class E>
+  std::optional<E> optionalChoice(Attr attr) const {
+    const auto index = choiceIndex(attr);
+    return index ? std::optional<E>(static_cast<E>(*index)) : std::nullopt;
+  }
+  std::optional<stadion::Sphere> sphere(Attr attr) const;
+  std::optional<BoxValue> box(Attr attr) const;
+
+  std::optional<NodeReference> reference(Attr attr) const;
+  std::vector<NodeReference> references(Attr attr) const;  ///< in the order of the script
+  std::vector<PathKey> keys() const;
+  std::vector<EventMessage> eventMessages() const;
+
+private:
+  friend class Document;
+  std::optional<std::size_t> choiceIndex(Attr attr) const;
+
+  const Document* document_;
+  std::uint32_t index_;
+};
+
+class Document {
+public:
+  const SourceText& source() const { return source_; }
+  const std::string& file() const { return source_.file(); }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
+  Declaration operator[](std::uint32_t index) const { return {*this, index}; }
+
+  /// The declaration of this name, the first if there are several.
+  std::optional<Declaration> find(std::string_view name) const;
+
+  /// True if a part of the script could not be read, so that names may be missing.
+  bool incomplete() const { return incomplete_; }
+
+  class Iterator {
+  public:
+    Iterator(const Document& document, std::uint32_t index) : document_(&document), index_(index) {}
+    Declaration operator*() const { return {*document_, index_}; }
+    Iterator& operator++() {
+      ++index_;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return index_ != other.index_; }
+
+  private:
+    const Document* document_;
+    std::uint32_t index_;
+  };
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size()}; }
+
+  std::size_t bytesHeld() const;  ///< memory, the text included
+
+private:
+  friend class Declaration;
+  friend class DocumentWriter;
+
+  static constexpr std::uint32_t kNone = NodeReference::kNone;
+
+  struct Node {
+    std::uint32_t where;       // offset of the type word
+    std::uint32_t firstValue;  // into values_, up to the next node's
+    std::uint32_t name;        // offset of the name
+    std::uint16_t nameLength;  // 0: none
+    NodeKind kind;
+  };
+
+  struct Value {
+    std::uint32_t where;  // offset of the value in the text
+    // numbers: index of the first in numbers_; text: length; flag and choice: the value itself;
+    // references: index in references_; event messages: index in messages_
+    std::uint32_t data;
+    Attr attr;
+    ValueKind kind;
+  };
+
+  struct StoredReference {
+    std::uint32_t where;
+    std::uint32_t length;
+    std::uint32_t declaration;
+    std::uint32_t level;
+  };
+
+  struct StoredMessage {
+    Nanoseconds delay;
+    std::uint32_t where;
+    std::uint32_t target;  // into references_
+    std::uint32_t field;   // into references_, or kNone
+    std::uint32_t tracker;
+    std::uint32_t trackerLength;
+    Event event;
+    Verb verb;
+    AttachPart part;
+  };
+
+  explicit Document(SourceText source) : source_(std::move(source)) {}
+
+  std::span<const Value> valuesOf(std::uint32_t node) const;
+  const Value* find(std::uint32_t node, Attr attr) const;
+  NodeReference referenceAt(std::uint32_t index) const;
+  EventMessage messageAt(std::uint32_t index) const;
+
+  SourceText source_;
+  std::vector<Node> nodes_;
+  std::vector<Value> values_;
+  std::vector<double> numbers_;
+  std::vector<StoredReference> references_;
+  std::vector<StoredMessage> messages_;
+  std::vector<std::uint32_t> byName_;  // named nodes, sorted by name, then by position
+  bool incomplete_ = false;
+};
+
+}  // namespace stadion

@@ -1,0 +1,46 @@
+#pragma once
+/// The only way to change a document; used by the checker and by the resolution of names.
+
+#include "engine/script/document.h"
+#include "engine/script/event_message_reader.h"
+#include "engine/script/syntax.h"
+
+namespace stadion {
+
+class DocumentWriter {
+public:
+  /// Expects that `document` outlives the writer.
+  explicit DocumentWriter(Document& document) : document_(document) {}
+  static Document empty(SourceText source) { return Document(std::move(source)); }
+
+  std::uint32_t beginNode(NodeKind kind, std::uint32_t where);
+  void setName(TextSpan name);
+  void addNumbers(Attr attr, ValueKind kind, std::uint32_t where, std::span<const double> numbers);
+  void addIndex(Attr attr, ValueKind kind, std::uint32_t where, std::uint32_t index);  ///< flag, choice
+  void addText(Attr attr, ValueKind kind, TextSpan text);
+  void addReference(Attr attr, TextSpan name);
+  void addMessage(TextSpan value, const ReadMessage& message);
+  void setIncomplete() { document_.incomplete_ = true; }
+
+  /// Sorts the names, gives back unused memory. `duplicate(first, again)` is called for each name that
+  /// recurs.
+  void finish(const std::function<void(std::uint32_t first, std::uint32_t again)>& duplicate);
+
+  /// Visits every reference of a node once: `visit(attr, reference)`; for eventmessages the target and the
+  /// field come with Attr::EventMessage. What `visit` returns is stored.
+  struct Resolution {
+    std::uint32_t declaration = NodeReference::kNone;
+    std::uint32_t level = 0;
+  };
+  using Visit =
+      std::function<Resolution(Attr attr, const NodeReference& reference, const EventMessage* message)>;
+  void resolveReferences(std::uint32_t node, const Visit& visit);
+
+private:
+  std::uint32_t storeReference(TextSpan name);
+  void store(std::uint32_t reference, Resolution resolution);
+
+  Document& document_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,44 @@
+#pragma once
+/// "event, target, command [arguments] [, delay]": what a node tells another when something happens to it.
+
+#include "engine/diagnostic.h"
+#include "engine/event.h"
+#include "engine/time_signature.h"
+#include "engine/verb.h"
+
+#include <string_view>
+
+namespace stadion {
+
+/// A node named in a script, and which one is meant.
+///
+/// A name is looked up in its own file, then in the files around it, nearest first. "arena/ball" is the node
+/// `ball` in the file of the scene node `arena`; as that file comes and goes, only `arena` is resolved.
+struct NodeReference {
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  std::string_view name;              ///< as written
+  std::uint32_t level = 0;            ///< 0: declared in this file; n: in the nth file around it
+  std::uint32_t declaration = kNone;  ///< of the name's first part, in that file; kNone if unresolved
+  std::uint32_t where = 0;            ///< offset in the source text
+
+  bool resolved() const { return declaration != kNone; }
+  /// What follows the first "/"; empty if the node is not inside a scene.
+  std::string_view inner() const {
+    const std::size_t slash = name.find('/');
+    return slash == name.npos ? std::string_view{} : name.substr(slash + 1);
+  }
+};
+
+struct EventMessage {
+  Event event{};
+  NodeReference target;
+  Verb verb{};
+  AttachPart part = AttachPart::All;  ///< attach
+  NodeReference field;                ///< hook, unhook; else unresolved
+  std::string_view tracker;           ///< attach, grab; empty: the default
+  Nanoseconds delay = 0;              ///< from the event to the command [ns]
+  std::uint32_t where = 0;            ///< offset in the source text
+};
+
+}  // namespace stadion

@@ -1,0 +1,202 @@
+#include "engine/script/event_message_reader.h"
+
+#include "engine/diagnostic.h"
+#include "engine/script/schema.h"
+#include "engine/script/suggestion.h"
+
+#include <fmt/format.h>
+
+namespace stadion {
+
+namespace {
+
+constexpr double kLongestDelay = 1e6;  // [s]
+constexpr std::size_t kLongestName = 255;
+
+using Failure = std::optional<ValueError>;
+
+std::vector<std::string> namesOf(std::span<const Event> events) {
+  std::vector<std::string> words;
+  for (const Event event : events) words.emplace_back(nameOf(event));
+  return words;
+}
+
+Failure readEvent(const Piece& piece, NodeKind sender, ReadMessage& message) {
+  const auto events = specOf(sender).events;
+  if (events.empty()) return ValueError{piece.offset, fmt::format("{} posts no events", nameOf(sender))};
+  const auto event = eventNamed(piece.text);
+  for (const Event own : events) {
+    if (event != own) continue;
+    message.event = own;
+    return std::nullopt;
+  }
+  const std::string ours = joinWithOr(namesOf(events));
+  if (event)
+    return ValueError{piece.offset,
+                      fmt::format("{} posts no \"{}\", only {}", nameOf(sender), piece.text, ours)};
+  return ValueError{piece.offset,
+                    fmt::format("\"{}\" is not an event of {}{}", shortened(piece.text), nameOf(sender),
+                                didYouMean(piece.text, namesOf(events), "; it posts " + ours))};
+}
+
+Failure readPart(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
+  const Piece word = takeWord(rest, offset);
+  for (std::size_t i = 0; i < kAttachPartNames.size(); ++i) {
+    if (kAttachPartNames[i] != word.text) continue;
+    message.part = static_cast<AttachPart>(i);
+    return std::nullopt;
+  }
+  return ValueError{word.offset,
+                    fmt::format("\"attach\" must be followed by all, position or orientation, not {}",
+                                word.text.empty() ? "nothing" : "\"" + shortened(word.text) + "\"")};
+}
+
+Failure readTracker(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
+  message.tracker = takeWord(rest, offset);
+  if (message.tracker.text.empty()) return std::nullopt;
+  if (auto fault = faultOfName(message.tracker.text))
+    return ValueError{message.tracker.offset,
+                      fmt::format("\"{}\" {}", shortened(message.tracker.text), *fault)};
+  return std::nullopt;
+}
+
+Failure readField(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
+  message.field = takeWord(rest, offset);
+  const std::string_view name = message.field.text;
+  if (name.empty())
+    return ValueError{
+        message.field.offset,
+        fmt::format("\"{}\" must be followed by the name of a force field", nameOf(message.verb))};
+  if (auto fault = faultOfReference(name))
+    return ValueError{message.field.offset, fmt::format("\"{}\" {}", shortened(name), *fault)};
+  return std::nullopt;
+}
+
+Failure readArguments(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
+  switch (specOf(message.verb).argument) {
+  case ArgumentKind::None: return std::nullopt;
+  case ArgumentKind::Field: return readField(rest, offset, message);
+  case ArgumentKind::Tracker: return readTracker(rest, offset, message);
+  case ArgumentKind::PartAndTracker:
+    if (auto failure = readPart(rest, offset, message)) return failure;
+    return readTracker(rest, offset, message);
+  }
+  return std::nullopt;
+}
+
+Failure readCommand(const Piece& piece, ReadMessage& message) {
+  std::string_view rest = piece.text;
+  std::size_t offset = piece.offset;
+  const Piece word = takeWord(rest, offset);
+  const auto verb = verbNamed(word.text);
+  if (!verb)
+    return ValueError{word.offset,
+                      fmt::format("\"{}\" is not a command{}", shortened(word.text),
+                                  didYouMean(word.text, {kVerbNames.begin(), kVerbNames.end()}))};
+  message.verb = *verb;
+  if (auto failure = readArguments(rest, offset, message)) return failure;
+  const Piece extra = takeWord(rest, offset);
+  if (!extra.text.empty())
+    return ValueError{extra.offset, fmt::format("\"{}\" is too much: the command is \"{}\"",
+                                                shortened(extra.text), specOf(*verb).form)};
+  return std::nullopt;
+}
+
+Failure readDelay(const Piece& piece, ReadMessage& message) {
+  NumberList numbers;
+  if (auto failure = readNumbers(piece.text, numbers, "the delay", "a number of seconds")) {
+    failure->offset += piece.offset;
+    return failure;
+  }
+  if (numbers.count != 1) return ValueError{piece.offset, "the delay must be one number of seconds"};
+  if (numbers.value[0] < 0 || numbers.value[0] > kLongestDelay)
+    return ValueError{piece.offset, fmt::format("the delay must be from 0 to {} s, not {}", kLongestDelay,
+                                                numbers.value[0])};
+  message.delay = fromSeconds(numbers.value[0]);
+  return std::nullopt;
+}
+
+/// What may follow the command as `word=value`. A new option of messages is a row here.
+struct Option {
+  std::string_view word;
+  Failure (*read)(const Piece& value, ReadMessage& message);
+};
+constexpr Option kOptions[] = {{"delay", readDelay}};
+
+const Option* optionNamed(std::string_view word) {
+  for (const Option& option : kOptions)
+    if (option.word == word) return &option;
+  return nullptr;
+}
+
+/// One part after the command; `seen` has a bit for each option that was given.
+Failure readOption(const Piece& piece, unsigned& seen, ReadMessage& message) {
+  std::string_view rest = piece.text;
+  std::size_t offset = piece.offset;
+  const bool named = rest.find('=') != rest.npos;
+  const Piece word = named ? takeUntil('=', rest, offset) : Piece{"delay", offset};
+  const Option* option = optionNamed(word.text);
+  if (option == nullptr)
+    return ValueError{word.offset, fmt::format("\"{}\" is not an option of an eventmessage{}",
+                                               shortened(word.text), didYouMean(word.text, {"delay"}))};
+  const unsigned bit = 1U << (option - kOptions);
+  if ((seen & bit) != 0) return ValueError{piece.offset, fmt::format("the {} is given twice", option->word)};
+  seen |= bit;
+  const Piece value = takeUntil(',', rest, offset);
+  if (value.text.empty()) return ValueError{piece.offset, fmt::format("the {} is missing", option->word)};
+  return option->read(value, message);
+}
+
+Failure missing(std::size_t offset, const char* what) {
+  return ValueError{offset,
+                    fmt::format("eventmessage must be \"event, target, command [arguments] [, delay]\": "
+                                "the {} is missing",
+                                what)};
+}
+
+}  // namespace
+
+std::optional<ValueError> readEventMessage(std::string_view text, NodeKind sender, ReadMessage& message) {
+  std::string_view rest = text;
+  std::size_t offset = 0;
+  const Piece event = takeUntil(',', rest, offset);
+  if (event.text.empty()) return missing(0, "event");
+  if (auto failure = readEvent(event, sender, message)) return failure;
+  message.target = takeUntil(',', rest, offset);
+  if (message.target.text.empty()) return missing(message.target.offset, "target");
+  if (auto fault = faultOfReference(message.target.text))
+    return ValueError{message.target.offset,
+                      fmt::format("\"{}\" {}", shortened(message.target.text), *fault)};
+  const Piece command = takeUntil(',', rest, offset);
+  if (command.text.empty()) return missing(command.offset, "command");
+  if (auto failure = readCommand(command, message)) return failure;
+
+  unsigned seen = 0;
+  while (text[offset - 1] == ',') {  // an empty part is a failure, so this ends
+    const Piece option = takeUntil(',', rest, offset);
+    if (auto failure = readOption(option, seen, message)) return failure;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> faultOfName(std::string_view name) {
+  if (name.empty()) return "is empty, which is not a name";
+  if (name.size() > kLongestName) return "is longer than any name may be";
+  for (const char c : name)
+    if (static_cast<unsigned char>(c) <= 0x20 || c == 0x7F ||
+        std::string_view(",/=()#'\"").find(c) != std::string_view::npos)
+      return "is not a name: one word without blanks and without , / = ( ) # or quotes";
+  return std::nullopt;
+}
+
+std::optional<std::string> faultOfReference(std::string_view name) {
+  std::size_t start = 0;
+  while (true) {
+    const std::size_t end = std::min(name.find('/', start), name.size());
+    if (auto fault = faultOfName(name.substr(start, end - start))) return fault;
+    if (end == name.size()) return std::nullopt;
+    start = end + 1;
+  }
+}
+
+}  // namespace stadion

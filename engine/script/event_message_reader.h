@@ -1,0 +1,30 @@
+#pragma once
+/// Reads the text of an eventmessage.
+
+#include "engine/node_kind.h"
+#include "engine/script/event_message.h"
+#include "engine/script/value.h"
+
+namespace stadion {
+
+/// An eventmessage whose names are still text.
+struct ReadMessage {
+  Event event{};
+  Piece target;
+  Verb verb{};
+  AttachPart part = AttachPart::All;
+  Piece field;
+  Piece tracker;
+  Nanoseconds delay = 0;
+};
+
+/// "event, target, command [arguments] [, delay]" posted by a node of kind `sender`. After the command come,
+/// in any order, the delay as a bare number and options of the form `word=value`, of which `delay` is one.
+std::optional<ValueError> readEventMessage(std::string_view text, NodeKind sender, ReadMessage& message);
+
+/// What is wrong with a word as a name, as the end of a sentence that begins with it.
+std::optional<std::string> faultOfName(std::string_view name);
+/// The same for a name that may lead into sub-scenes: parts separated by "/".
+std::optional<std::string> faultOfReference(std::string_view name);
+
+}  // namespace stadion

@@ -1,0 +1,503 @@
+#include "engine/script/schema_table.h"
+
+namespace stadion::schema_table {
+
+namespace {
+
+using enum NodeKind;
+using enum ValueKind;
+
+constexpr double kFar = 1e6;   // nothing in a show is farther away, or larger, than this [m]
+constexpr double kLong = 1e6;  // nor lasts longer [s]
+
+constexpr NumberRange kPlace{-kFar, kFar};
+constexpr NumberRange kLength{0, kFar, true};
+constexpr NumberRange kDistance{0, kFar};
+constexpr NumberRange kTime{0, kLong, true};
+constexpr NumberRange kUnitInterval{0, 1};
+constexpr NumberRange kColourRange{0, 1};
+constexpr NumberRange kTurn{-36000, 36000};
+constexpr NumberRange kForce{-kFar, kFar};
+
+constexpr KindSet kFields{ForceLinear, ForceSpherical};
+constexpr KindSet kMovable{Group,       Transform,      Object,      DynObject,   Light, Path,
+                           ForceLinear, ForceSpherical, UserTrigger, WandTrigger, Scene};
+constexpr KindSet kParents{Group, Transform, Object, DynObject, Path, Scene, Rig};
+constexpr KindSet kSolid{Object, DynObject};
+constexpr KindSet kSwitched{ForceLinear, ForceSpherical, UserTrigger, WandTrigger, Timer,
+                            Light,       Path,           Navigator,   Dynamics,    Collision};
+
+constexpr std::string_view kLightTypes[] = {"directional", "point", "spot"};
+constexpr std::string_view kShapes[] = {"auto", "sphere", "box", "mesh", "plane"};
+constexpr std::string_view kAxes[] = {"x", "y", "z"};
+constexpr std::string_view kForceUnits[] = {"g", "m/s2", "N"};
+constexpr std::string_view kFieldModes[] = {"attract", "repel"};
+constexpr std::string_view kFalloffs[] = {"none", "linear", "inverse", "inversesquare"};
+constexpr std::string_view kNavigatorModes[] = {"walk", "fly"};
+
+constexpr AttributeSpec kCommonRows[] = {
+    {.attr = Attr::Name, .kind = NewName, .help = "how other nodes call this one; unique in its file"},
+    {.attr = Attr::EventMessage,
+     .kind = ValueKind::EventMessage,
+     .help = "what to tell another node when an event happens here",
+     .repeatable = true},
+};
+
+constexpr AttributeSpec kPlacedRows[] = {
+    {.attr = Attr::Parent,
+     .kind = Reference,
+     .help = "the node whose coordinates this one is placed in; the world if there is none",
+     .targets = kParents},
+    {.attr = Attr::Position,
+     .kind = Vector,
+     .help = "the origin in the parent's coordinates",
+     .standard = "0, 0, 0",
+     .unit = "m",
+     .range = kPlace},
+    {.attr = Attr::Orientation,
+     .kind = Vector,
+     .help = "rotations about the parent's X axis, then Y, then Z",
+     .standard = "0, 0, 0",
+     .unit = "degrees",
+     .range = kTurn},
+    {.attr = Attr::Scale,
+     .kind = Scale,
+     .help = "size relative to the original, one factor or one for each axis",
+     .standard = "1",
+     .range = {0, kFar, true}},
+};
+
+constexpr AttributeSpec kAttachRow{.attr = Attr::Attach,
+                                   .kind = Reference,
+                                   .help = "the node that the field moves and turns with",
+                                   .targets = kMovable | KindSet{Rig}};
+constexpr AttributeSpec kInitOn{
+    .attr = Attr::InitState, .kind = Flag, .help = "whether it is enabled at the start", .standard = "on"};
+constexpr AttributeSpec kFieldDuration{
+    .attr = Attr::Duration,
+    .kind = Number,
+    .help = "longest time that one activation lasts; without it, until disabled",
+    .unit = "s",
+    .range = kTime};
+constexpr AttributeSpec kFieldUnit{
+    .attr = Attr::Unit,
+    .kind = Choice,
+    .help = "what the strength is counted in: standard gravity, acceleration or force",
+    .standard = "g",
+    .choices = kForceUnits};
+
+constexpr AttributeSpec kObjectFile{.attr = Attr::File,
+                                    .kind = File,
+                                    .help = "the model: .obj, .3ds, .gltf, .glb, .dae or .stl",
+                                    .required = true};
+constexpr AttributeSpec kObjectDraw{.attr = Attr::Draw,
+                                    .kind = Flag,
+                                    .help = "whether it is visible; it collides either way",
+                                    .standard = "on"};
+constexpr AttributeSpec kObjectUnit{.attr = Attr::Unit,
+                                    .kind = Number,
+                                    .help = "length of the file's unit; the file format's own if not stated",
+                                    .unit = "m",
+                                    .range = {0, 1e6, true}};
+constexpr AttributeSpec kObjectUp{.attr = Attr::Up,
+                                  .kind = Choice,
+                                  .help =
+                                      "the file's axis that points up; the file format's own if not stated",
+                                  .choices = kAxes};
+constexpr AttributeSpec kObjectShape{
+    .attr = Attr::Shape,
+    .kind = Choice,
+    .help = "what stands for it in collisions; auto recognises spheres, boxes, planes",
+    .standard = "auto",
+    .choices = kShapes};
+
+constexpr AttributeSpec kObjectRows[] = {kObjectFile, kObjectDraw, kObjectUnit, kObjectUp, kObjectShape};
+
+constexpr AttributeSpec kDynObjectRows[] = {
+    kObjectFile,
+    kObjectDraw,
+    kObjectUnit,
+    kObjectUp,
+    kObjectShape,
+    {.attr = Attr::Density,
+     .kind = Number,
+     .help = "relative to water; with the mesh's volume it gives the mass",
+     .standard = "1",
+     .range = {0, 1000, true}},
+    {.attr = Attr::Mass, .kind = Number, .help = "overrides density", .unit = "kg", .range = {0, 1e9, true}},
+    {.attr = Attr::Friction,
+     .kind = Number,
+     .help = "Coulomb coefficient; a pair takes the root of the product",
+     .standard = "0.5",
+     .range = {0, 10}},
+    {.attr = Attr::Restitution,
+     .kind = Number,
+     .help = "part of the closing speed that comes back from an impact; a pair takes the larger",
+     .standard = "0.5",
+     .range = kUnitInterval},
+    {.attr = Attr::Rolling,
+     .kind = Number,
+     .help = "rolling resistance coefficient; a pair takes the larger",
+     .standard = "0.01",
+     .range = kUnitInterval},
+    {.attr = Attr::Damping,
+     .kind = Number,
+     .help = "rate at which the medium takes away speed",
+     .standard = "0",
+     .unit = "1/s",
+     .range = {0, 1000}},
+    {.attr = Attr::Hook,
+     .kind = Reference,
+     .help = "a force field that acts on it from the start",
+     .repeatable = true,
+     .targets = kFields},
+};
+
+constexpr AttributeSpec kLightRows[] = {
+    {.attr = Attr::Type,
+     .kind = Choice,
+     .help = "parallel rays, rays from the position, or a cone from the position",
+     .standard = "directional",
+     .choices = kLightTypes},
+    {.attr = Attr::Colour,
+     .kind = Colour,
+     .help = "red, green, blue (sRGB)",
+     .standard = "1, 1, 1",
+     .range = kColourRange},
+    {.attr = Attr::Intensity,
+     .kind = Number,
+     .help = "brightness; 1 lights a white surface fully, at 1 m for point and spot",
+     .standard = "1",
+     .range = {0, 1e6}},
+    {.attr = Attr::Direction,
+     .kind = Direction,
+     .help = "where the rays go, in the node's coordinates",
+     .standard = "0, 0, -1",
+     .range = kPlace},
+    {.attr = Attr::Range,
+     .kind = Number,
+     .help = "point and spot: how far the light reaches",
+     .standard = "100",
+     .unit = "m",
+     .range = kLength},
+    {.attr = Attr::Angle,
+     .kind = Number,
+     .help = "spot: full opening angle of the cone",
+     .standard = "45",
+     .unit = "degrees",
+     .range = {0, 180, true}},
+    kInitOn,
+};
+
+constexpr AttributeSpec kSkyRows[] = {
+    {.attr = Attr::Zenith,
+     .kind = Colour,
+     .help = "colour straight up (sRGB)",
+     .standard = "0.25, 0.45, 0.8",
+     .range = kColourRange},
+    {.attr = Attr::Horizon,
+     .kind = Colour,
+     .help = "colour at eye level, and of the haze (sRGB)",
+     .standard = "0.75, 0.85, 0.95",
+     .range = kColourRange},
+    {.attr = Attr::Ground,
+     .kind = Colour,
+     .help = "colour straight down (sRGB)",
+     .standard = "0.35, 0.32, 0.28",
+     .range = kColourRange},
+    {.attr = Attr::Ambient,
+     .kind = Colour,
+     .help = "light that reaches every surface (sRGB)",
+     .standard = "0.4, 0.42, 0.45",
+     .range = kColourRange},
+    {.attr = Attr::Haze,
+     .kind = Number,
+     .help = "distance over which two thirds of the contrast are lost; 0 is clear air",
+     .standard = "0",
+     .unit = "m",
+     .range = kDistance},
+};
+
+constexpr AttributeSpec kForceLinearRows[] = {
+    {.attr = Attr::Direction,
+     .kind = Vector,
+     .help = "direction and strength, in the node's coordinates; \"0, 0, -1\" is gravity",
+     .unit = "the field's unit",
+     .range = kForce,
+     .required = true},
+    kFieldUnit,
+    kInitOn,
+    kFieldDuration,
+    kAttachRow,
+};
+
+constexpr AttributeSpec kForceSphericalRows[] = {
+    {.attr = Attr::Radius,
+     .kind = Number,
+     .help = "how far it reaches",
+     .unit = "m",
+     .range = kLength,
+     .required = true},
+    {.attr = Attr::Strength,
+     .kind = Number,
+     .help = "strength at the centre; for the inverse laws, at 1 m from it",
+     .standard = "1",
+     .unit = "the field's unit",
+     .range = {0, kFar}},
+    {.attr = Attr::Mode,
+     .kind = Choice,
+     .help = "towards the centre or away from it",
+     .standard = "attract",
+     .choices = kFieldModes},
+    {.attr = Attr::Falloff,
+     .kind = Choice,
+     .help = "how the strength falls with the distance",
+     .standard = "none",
+     .choices = kFalloffs},
+    kFieldUnit,
+    kInitOn,
+    kFieldDuration,
+    kAttachRow,
+};
+
+constexpr AttributeSpec kTriggerSphere{.attr = Attr::Sphere,
+                                       .kind = ValueKind::Sphere,
+                                       .help =
+                                           "the space watched: centre and radius, in the node's coordinates",
+                                       .unit = "m",
+                                       .range = kLength};
+constexpr AttributeSpec kTriggerBox{.attr = Attr::Box,
+                                    .kind = ValueKind::Box,
+                                    .help = "the space watched: centre and edges, in the node's coordinates",
+                                    .unit = "m",
+                                    .range = kLength};
+
+constexpr AttributeSpec kUserTriggerRows[] = {kTriggerSphere, kTriggerBox, kInitOn};
+
+constexpr AttributeSpec kWandTriggerRows[] = {
+    kTriggerSphere,
+    kTriggerBox,
+    kInitOn,
+    {.attr = Attr::Tracker, .kind = Tracker, .help = "the device that is watched", .standard = "wand"},
+};
+
+constexpr AttributeSpec kTimerRows[] = {
+    {.attr = Attr::Period,
+     .kind = Number,
+     .help = "time from being enabled to the event",
+     .unit = "s",
+     .range = {1e-3, kLong},
+     .required = true},
+    {.attr = Attr::Repeat,
+     .kind = Flag,
+     .help = "whether it starts again after the event",
+     .standard = "off"},
+    kInitOn,
+};
+
+constexpr AttributeSpec kSceneRows[] = {
+    {.attr = Attr::File, .kind = File, .help = "the script of the sub-scene (.evs)", .required = true},
+    {.attr = Attr::InitState, .kind = Flag, .help = "whether it is loaded at the start", .standard = "on"},
+    {.attr = Attr::Ready,
+     .kind = Number,
+     .help = "show time from the request to the moment the scene appears or goes",
+     .standard = "1",
+     .unit = "s",
+     .range = {0, 3600}},
+};
+
+constexpr AttributeSpec kPathRows[] = {
+    {.attr = Attr::Target,
+     .kind = Reference,
+     .help = "the node to move; without it, the path moves the nodes that have it as parent",
+     .targets = kMovable | KindSet{Rig}},
+    {.attr = Attr::Key,
+     .kind = Key,
+     .help = "time, position, orientation; times must increase",
+     .unit = "s, m, degrees",
+     .range = kPlace,
+     .required = true,
+     .repeatable = true},
+    {.attr = Attr::Loop, .kind = Flag, .help = "whether it starts again at its end", .standard = "off"},
+    {.attr = Attr::Smooth,
+     .kind = Flag,
+     .help = "whether it passes the keys in a curve rather than in straight lines",
+     .standard = "off"},
+    kInitOn,
+};
+
+constexpr AttributeSpec kCollider{.attr = Attr::Collider,
+                                  .kind = Reference,
+                                  .help = "takes part, and is not moved",
+                                  .repeatable = true,
+                                  .targets = kSolid};
+constexpr AttributeSpec kReleaseDistance{.attr = Attr::ReleaseDistance,
+                                         .kind = Number,
+                                         .help = "how far the surfaces of a pair must be apart for onrelease",
+                                         .standard = "0.5",
+                                         .unit = "m",
+                                         .range = kLength};
+
+constexpr AttributeSpec kCollisionRows[] = {
+    kCollider,
+    {.attr = Attr::Collidee,
+     .kind = Reference,
+     .help = "is tested against every collider",
+     .repeatable = true,
+     .targets = kSolid},
+    kReleaseDistance,
+    kInitOn,
+};
+
+constexpr AttributeSpec kDynamicsRows[] = {
+    kCollider,
+    {.attr = Attr::Collidee,
+     .kind = Reference,
+     .help = "a body that this node moves; a body belongs to one dynamics node",
+     .repeatable = true,
+     .targets = {DynObject}},
+    kReleaseDistance,
+    {.attr = Attr::SelfCollide,
+     .kind = Flag,
+     .help = "whether the bodies of this node collide with each other",
+     .standard = "on"},
+    kInitOn,
+};
+
+constexpr AttributeSpec kNavigatorRows[] = {
+    {.attr = Attr::Speed,
+     .kind = Number,
+     .help = "of the rig at full deflection of the joypad",
+     .standard = "1.5",
+     .unit = "m/s",
+     .range = {0, 1000}},
+    {.attr = Attr::TurnRate,
+     .kind = Number,
+     .help = "of the rig at full deflection of the joypad",
+     .standard = "45",
+     .unit = "degrees/s",
+     .range = {0, 3600}},
+    {.attr = Attr::Tracker, .kind = Tracker, .help = "the device that points the way", .standard = "wand"},
+    {.attr = Attr::Mode,
+     .kind = Choice,
+     .help = "keep the height, or follow the device up and down",
+     .standard = "walk",
+     .choices = kNavigatorModes},
+    kInitOn,
+};
+
+constexpr AttributeSpec kRigRows[] = {
+    {.attr = Attr::Position,
+     .kind = Vector,
+     .help = "the middle of the floor of the display, in the world",
+     .standard = "0, 0, 0",
+     .unit = "m",
+     .range = kPlace},
+    {.attr = Attr::Orientation,
+     .kind = Vector,
+     .help = "rotations about the world's X axis, then Y, then Z",
+     .standard = "0, 0, 0",
+     .unit = "degrees",
+     .range = kTurn},
+    {.attr = Attr::EyeHeight,
+     .kind = Number,
+     .help = "of the head above the floor while no tracker says where it is",
+     .standard = "1.7",
+     .unit = "m",
+     .range = {0, 10}},
+};
+
+constexpr Event kUserTriggerEvents[] = {Event::Enter, Event::Exit};
+constexpr Event kWandTriggerEvents[] = {Event::Enter,   Event::Exit,    Event::Button1,
+                                        Event::Button2, Event::Button3, Event::Button4};
+constexpr Event kTimerEvents[] = {Event::TimesUp};
+constexpr Event kSceneEvents[] = {Event::Loaded, Event::Unloaded};
+constexpr Event kPathEvents[] = {Event::Finished};
+constexpr Event kContactEvents[] = {Event::OnImpact, Event::OnRelease};
+
+}  // namespace
+
+constinit const std::span<const AttributeSpec> kCommon = kCommonRows;
+constinit const std::span<const AttributeSpec> kPlaced = kPlacedRows;
+constinit const KindSet kPlacedKinds = kMovable;
+constinit const KindSet kFieldKinds = kFields;
+
+constinit const std::array<NodeSpec, kNodeKindCount> kNodes = {{
+    {Group, "gathers nodes under one name and place", {}, {}, true},
+    {Transform, "places its children; made to be moved by messages and paths", {}, {}, true},
+    {Object, "a model from a file, drawn and solid but not moved by dynamics", kObjectRows, {}, true},
+    {DynObject, "a body: a model with mass that a dynamics node moves", kDynObjectRows, {}, true},
+    {Light, "lights the scene", kLightRows, {}, true},
+    {Sky,
+     "what is seen behind everything, and the light that comes from all sides",
+     kSkyRows,
+     {},
+     false,
+     true},
+    {ForceLinear,
+     "a force field with the same force everywhere, such as gravity or a kick",
+     kForceLinearRows,
+     {},
+     true},
+    {ForceSpherical, "a force field around a centre", kForceSphericalRows, {}, true},
+    {UserTrigger, "notices the user's head in a part of space", kUserTriggerRows, kUserTriggerEvents, true},
+    {WandTrigger, "notices a hand-held device and its buttons in a part of space", kWandTriggerRows,
+     kWandTriggerEvents, true},
+    {Timer, "posts an event after a time", kTimerRows, kTimerEvents},
+    {Scene, "another script, loaded into this one and unloaded by message", kSceneRows, kSceneEvents, true},
+    {Path, "moves a node along keys given in advance", kPathRows, kPathEvents, true},
+    {Collision, "notices contact between objects and leaves them where they are", kCollisionRows,
+     kContactEvents},
+    {Dynamics, "moves its bodies by forces and collisions", kDynamicsRows, kContactEvents},
+    {Navigator, "lets the user move the rig with joypad and wand", kNavigatorRows, {}},
+    {Rig,
+     "the platform that carries walls, trackers and viewers through the world",
+     kRigRows,
+     {},
+     false,
+     true},
+}};
+
+constinit const std::array<CommandSpec, kVerbCount> kCommands = {{
+    {Verb::Enable, ArgumentKind::None, kSwitched, "enable", "begins to act; a field's duration starts anew"},
+    {Verb::Disable, ArgumentKind::None, kSwitched, "disable", "stops acting"},
+    {Verb::Toggle, ArgumentKind::None, kSwitched, "toggle", "enables if disabled, disables if enabled"},
+    {Verb::Attach, ArgumentKind::PartAndTracker, kMovable, "attach all|position|orientation [TRACKER]",
+     "follows a tracker (foot, else wand, if none is named)"},
+    {Verb::Detach, ArgumentKind::None, kMovable, "detach",
+     "stays where it is and follows no tracker any more"},
+    {Verb::Show, ArgumentKind::None, kMovable, "show", "becomes visible, with all below it"},
+    {Verb::Hide, ArgumentKind::None, kMovable, "hide", "becomes invisible, with all below it"},
+    {Verb::Reset, ArgumentKind::None, KindSet::all(), "reset", "returns to the state it was declared in"},
+    {Verb::Hook, ArgumentKind::Field, {DynObject}, "hook FIELD", "the field acts on the body from now on"},
+    {Verb::Unhook, ArgumentKind::Field, {DynObject}, "unhook FIELD", "the field acts on the body no more"},
+    {Verb::Grab,
+     ArgumentKind::Tracker,
+     {DynObject},
+     "grab [TRACKER]",
+     "the body is held by a tracker (wand if none is named) at the place where it was taken"},
+    {Verb::Release,
+     ArgumentKind::None,
+     {DynObject},
+     "release",
+     "the body flies on with the velocity it was held with"},
+    {Verb::Load, ArgumentKind::None, {Scene}, "load", "the scene appears after its `ready` time"},
+    {Verb::Unload, ArgumentKind::None, {Scene}, "unload", "the scene goes after its `ready` time"},
+}};
+
+constinit const std::array<EventSpec, kEventCount> kEvents = {{
+    {Event::Enter, "the tracked thing has come into the trigger's space; also if it is there at the start"},
+    {Event::Exit, "the tracked thing has left the trigger's space"},
+    {Event::Button1, "button 1 was pressed inside the trigger's space"},
+    {Event::Button2, "button 2 was pressed inside the trigger's space"},
+    {Event::Button3, "button 3 was pressed inside the trigger's space"},
+    {Event::Button4, "button 4 was pressed inside the trigger's space"},
+    {Event::TimesUp, "the timer's period is over"},
+    {Event::Loaded, "the sub-scene has appeared"},
+    {Event::Unloaded, "the sub-scene has gone"},
+    {Event::Finished, "the path has reached its last key"},
+    {Event::OnImpact, "a pair that was apart has touched"},
+    {Event::OnRelease, "a pair that posted onimpact is farther apart than releasedistance"},
+}};
+
+}  // namespace stadion::schema_table
