@@ -1,0 +1,66 @@
+#pragma once
+/// The motion of one body between two of its events, known for any age of the arc without stepping.
+///
+/// Translation and rotation separate (the fields act at the centre of mass): a `Path` carries the centre, a
+/// `Spin` the orientation. Age is seconds since the arc began. Everything here is exact but for `Path` under
+/// fields that are not uniform (a quintic through a step of a fifth-order integrator) and `Spin` of
+/// asymmetric bodies (Taylor polynomial of order 14, error below 1e-13 over its horizon).
+
+#include "engine/maths/maths.h"
+
+#include <array>
+#include <limits>
+
+namespace stadion {
+
+/// Where the centre of mass goes.
+struct Path {
+  enum class Kind { Polynomial, Damped };
+  Kind kind = Kind::Polynomial;
+  int degree = 0;
+  double damping = 0;     ///< [1/s]
+  std::array<Vec3, 6> c;  ///< polynomial coefficients; damped: position, velocity, acceleration
+  double spare = 0;       ///< bound on the acceleration of a polynomial of degree > 2 [m/s2]
+
+  Path() { c.fill(Vec3::Zero()); }
+  static Path still(const Vec3& p);
+  /// Uniform acceleration a, with velocity lost at the rate `damping`.
+  static Path parabola(const Vec3& p, const Vec3& v, const Vec3& a, double damping = 0);
+  /// Quintic through position, velocity and acceleration at both ends of a step of h seconds.
+  static Path hermite(const Vec3 (&start)[3], const Vec3 (&end)[3], double h);
+
+  Vec3 position(double age) const;
+  Vec3 velocity(double age) const;
+  /// At least the magnitude of the acceleration at any age within the horizon.
+  double accelerationBound() const;
+  bool isParabola() const { return kind == Kind::Polynomial && degree <= 2; }
+};
+
+/// How the body turns.
+struct Spin {
+  enum class Kind { Still, Uniform, Symmetric, Taylor, Driven };
+  static constexpr int kOrder = 14;
+  Kind kind = Kind::Still;
+  int axis = 2;                 ///< of symmetry
+  Quat q0 = Quat::Identity();   ///< at age 0, C to World
+  Vec3 L = Vec3::Zero();        ///< angular momentum in World, constant but for Driven [kg m2/s]
+  Vec3 omega = Vec3::Zero();    ///< Uniform, Driven: at age 0, in World [rad/s]
+  Vec3 alpha = Vec3::Zero();    ///< Driven: constant angular acceleration in World [rad/s2]
+  Vec3 inverse = Vec3::Ones();  ///< inverse principal moments [1/(kg m2)]
+  double horizon = std::numeric_limits<double>::infinity();  ///< greatest valid age [s]
+  std::array<Eigen::Vector4d, kOrder + 1> series;            ///< Taylor: of (w, x, y, z)
+
+  /// Free rotation from orientation q and world angular momentum L.
+  static Spin free(const Quat& q, const Vec3& L, const Vec3& inertia);
+  static Spin still(const Quat& q);
+  /// A ball under constant torque.
+  static Spin driven(const Quat& q, const Vec3& omega, const Vec3& alpha, double inertia);
+
+  Quat orientation(double age) const;
+  Vec3 angularVelocity(double age) const;
+  Vec3 angularMomentum(double age) const;
+  /// At least the angular speed at any age up to `age`.
+  double speedBound(double age) const;
+};
+
+}  // namespace stadion

@@ -1,0 +1,63 @@
+#pragma once
+/// What a body or collider looks like to the collision tests: the simplest form that serves.
+///
+/// Frames   in the node's coordinates N; metres.
+/// Threads  immutable once built.
+
+#include "dynamics/triangle_tree.h"
+#include "engine/asset/mesh.h"
+#include "engine/diagnostic.h"
+#include "engine/maths/maths.h"
+
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace stadion {
+
+struct BallShape {
+  Vec3 centre = Vec3::Zero();
+  double radius = 0.5;
+};
+
+struct BoxShape {
+  Pose pose;  ///< box axes and centre in N
+  Vec3 half = Vec3::Constant(0.5);
+};
+
+/// One-sided half space below z = 0 of `pose`; with finite `half`, a rectangular sheet that things roll off.
+struct PlaneShape {
+  Pose pose;
+  Vec2 half = Vec2::Constant(1e300);  ///< extents along the pose's x and y [m]
+  Vec3 normal() const { return pose.q * Vec3::UnitZ(); }
+  bool bounded() const { return half.x() < 1e299; }
+};
+
+struct MeshShape {
+  TriangleTree tree;
+};
+
+/// Capsule, cylinder and convex join here; every switch over kinds is a std::visit in separation.cpp or
+/// manifold.cpp.
+using Shape = std::variant<BallShape, BoxShape, PlaneShape, MeshShape>;
+
+enum class ShapeKind { Auto, Ball, Box, Plane, Mesh };
+
+struct ShapeChoice {
+  Shape shape;
+  ShapeKind kind = ShapeKind::Mesh;  ///< never Auto
+  double deviation = 0;              ///< greatest distance between the shape and the mesh's vertices [m]
+  std::string remark;                ///< one sentence for reports: what was taken and how far off it is
+};
+
+/// The shape to collide with in place of `mesh`. Auto takes ball, box or plane if the mesh is that within
+/// `tolerance` (relative to its size), else the mesh itself. A kind that is asked for is fitted as well as it
+/// goes. Fails if the mesh has no usable triangle.
+Result<ShapeChoice> chooseShape(const Mesh& mesh, ShapeKind requested = ShapeKind::Auto,
+                                double tolerance = 0.02);
+
+/// Everything of the shape is inside this ball. Infinite radius for an unbounded plane.
+Sphere boundingSphere(const Shape& shape);
+const char* nameOf(ShapeKind kind);
+
+}  // namespace stadion

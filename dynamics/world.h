@@ -1,0 +1,207 @@
+#pragma once
+/// Bodies that fly, bounce, slide, roll and rest, from one show time to another.
+///
+/// Hybrid and event-driven: every body follows an arc that is known in closed form (or by a high-order step)
+/// until its own next event: an impact, the end of a slide, a field switched on. Frames only sample the arcs,
+/// so what happens does not depend on the frame rate. Bodies in lasting contact that has no closed form are
+/// advanced by a sub-stepped solver on a time grid of their own.
+///
+/// Frames   node poses X_WN in World, right-handed, +Z up. Velocities are of the centre of mass.
+/// Units    metres, seconds, kilograms; times in show nanoseconds.
+/// Threads  one thread at a time; worlds are independent of each other.
+/// Errors   unusable arguments are refused (invalid id or false); a body whose state would become non-finite
+/// is
+///          quarantined at its last good pose. No exception leaves.
+/// Order    results depend on nothing but the sequence of calls: no addresses, no hashing, no threads.
+
+#include "dynamics/force_field.h"
+#include "dynamics/mass_properties.h"
+#include "dynamics/shape.h"
+#include "engine/maths/maths.h"
+#include "engine/time_signature.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+/// Ids count up from 1 in the order of creation and are never used again; 0 means none.
+using ShapeId = std::uint32_t;
+using BodyId = std::uint32_t;
+using ColliderId = std::uint32_t;
+using FieldId = std::uint32_t;
+
+/// What one side says about a contact; what it leaves open, the other side decides, else the default.
+/// Pair: friction sqrt(a b), restitution and rolling the larger.
+struct Surface {
+  std::optional<double> friction;     ///< Coulomb coefficient, default 0.5
+  std::optional<double> restitution;  ///< in [0, 1], default 0.5
+  std::optional<double> rolling;      ///< rolling resistance, default 0.01
+};
+
+struct PairSurface {
+  double friction, restitution, rolling;
+};
+PairSurface combine(const Surface& a, const Surface& b);
+
+struct BodyDef {
+  ShapeId shape = 0;
+  Pose pose;                  ///< X_WN
+  Vec3 v = Vec3::Zero();      ///< of the centre of mass [m/s]
+  Vec3 omega = Vec3::Zero();  ///< in World [rad/s]
+  MassProperties mass;        ///< in N
+  Surface surface;
+  double damping = 0;            ///< velocity lost as exp(-c t) [1/s]
+  double releaseDistance = 0.5;  ///< [m]
+};
+
+struct ColliderDef {
+  ShapeId shape = 0;
+  Pose pose;  ///< X_WN
+  Surface surface;
+};
+
+enum class BodyMode : std::uint8_t {
+  Flight,       ///< nothing touches it
+  Slide,        ///< ball on a flat face, slipping
+  Roll,         ///< ball on a flat face, not slipping
+  Contact,      ///< advanced by the contact solver
+  Rest,         ///< asleep: its state is frozen
+  Held,         ///< moved from outside (grabbed)
+  Quarantined,  ///< its state would have become non-finite
+};
+
+/// A body's whole simulated state at the end of the last advance, for hashing and reports.
+struct BodyState {
+  Pose pose;                  ///< X_WN
+  Vec3 p = Vec3::Zero();      ///< centre of mass [m]
+  Quat q = Quat::Identity();  ///< principal axes C to World
+  Vec3 v = Vec3::Zero();      ///< [m/s]
+  Vec3 omega = Vec3::Zero();  ///< [rad/s]
+  Vec3 L = Vec3::Zero();      ///< angular momentum [kg m2/s]
+  BodyMode mode = BodyMode::Flight;
+  Nanoseconds clock = 0;  ///< when its present arc began [ns]
+  double clockRest = 0;   ///< [s], part of the clock below a nanosecond
+  bool asleep() const { return mode == BodyMode::Rest; }
+};
+
+/// One side of a pair; body and collider ids count separately.
+struct Party {
+  bool isBody = false;
+  std::uint32_t id = 0;
+  auto operator<=>(const Party&) const = default;
+};
+
+struct ContactEvent {
+  enum class Kind : std::uint8_t { Impact, Release };
+  Kind kind = Kind::Impact;
+  Nanoseconds time = 0;  ///< [ns]
+  Party other;           ///< collider, or the body of a body pair with the smaller id
+  BodyId body = 0;
+  Vec3 point = Vec3::Zero();   ///< in World [m]
+  Vec3 normal = Vec3::Zero();  ///< from `other` to the body
+  double speed = 0;            ///< closing speed [m/s]; Release: 0
+  double impulse = 0;          ///< along the normal [N s]
+};
+
+/// The memory of one pair that touches, has touched or has yet to be released.
+struct PairState {
+  Party other;
+  BodyId body = 0;
+  bool touching = false;   ///< in lasting contact, or touched since load
+  bool fired = false;      ///< an impact was reported and its release is due
+  Nanoseconds impact = 0;  ///< when [ns]
+};
+
+class World {
+public:
+  World();
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  /// Shapes may be shared by many bodies and colliders and stay until removed; a shape in use is not removed.
+  ShapeId addShape(Shape shape);
+  bool removeShape(ShapeId id);
+  const Shape* shape(ShapeId id) const;
+
+  /// A body touching something when it appears keeps its place and fires nothing for it.
+  BodyId addBody(const BodyDef& def);
+  bool removeBody(BodyId id);
+  ColliderId addCollider(const ColliderDef& def);
+  bool removeCollider(ColliderId id);
+
+  /// Where the collider is at the end of the coming frame; it moves there evenly and its velocity enters
+  /// impacts. Not told, it stays. `teleport`: it is there from the frame's start and gives no impulse for the
+  /// jump.
+  bool moveCollider(ColliderId id, const Pose& end, bool teleport = false);
+  /// A collider that is off takes part in nothing.
+  bool enableCollider(ColliderId id, bool on);
+  bool enableBody(BodyId id, bool on);
+  /// True if the pair is to be ignored (selfcollide off, or a body and the geometry that carries it).
+  bool ignorePair(Party a, Party b, bool ignored);
+  /// Whether bodies collide with each other at all, default on.
+  void setBodiesCollide(bool on);
+
+  FieldId addField(const ForceField& field, bool on = false);
+  bool removeField(FieldId id);
+  /// Where the field is at the two ends of the coming frame; its law may change as well.
+  bool moveField(FieldId id, const Pose& start, const Pose& end);
+  bool setFieldLaw(FieldId id, const FieldLaw& law);
+  /// Takes effect at exactly `when`, or at once if that is past. Switching on starts a new activation, which
+  /// ends after the field's duration or with an earlier switch off.
+  bool switchField(FieldId id, bool on, Nanoseconds when);
+  bool fieldOn(FieldId id) const;
+
+  /// From exactly `when` on the body feels (does not feel) the field.
+  bool hook(BodyId body, FieldId field, Nanoseconds when);
+  bool unhook(BodyId body, FieldId field, Nanoseconds when);
+  bool hooked(BodyId body, FieldId field) const;
+
+  /// Jumps. Sleeping neighbours wake.
+  bool placeBody(BodyId id, const Pose& X_WN, const Vec3& v, const Vec3& omega);
+  /// Adds momentum at a point of World, now.
+  bool push(BodyId id, const Vec3& impulse, const Vec3& at);
+  /// While held, a body follows `moveHeld` like a collider and pushes others; release gives it v and omega.
+  bool holdBody(BodyId id);
+  bool moveHeld(BodyId id, const Pose& end);
+  bool releaseBody(BodyId id, const Vec3& v, const Vec3& omega);
+
+  /// From t0 (the last t1, or any start at first) to t1. False if t1 < t0.
+  bool advance(Nanoseconds t0, Nanoseconds t1);
+
+  Pose pose(BodyId id) const;        ///< X_WN at t1
+  BodyState state(BodyId id) const;  ///< at t1
+  BodyMode mode(BodyId id) const;
+  bool moving(BodyId id) const;            ///< false asleep or quarantined: nothing to publish
+  std::string troubleOf(BodyId id) const;  ///< why it is quarantined, empty if it is not
+  double mass(BodyId id) const;
+  /// Total energy of motion [J], for reports.
+  double kineticEnergy(BodyId id) const;
+
+  /// What happened during the last advance, in the order of time.
+  const std::vector<ContactEvent>& events() const;
+  /// Pairs with a memory, in a fixed order; part of the simulated state.
+  const std::vector<PairState>& pairs() const;
+  /// Bodies in the order of creation.
+  const std::vector<BodyId>& bodies() const;
+
+  /// Distance between the surfaces of two parties now [m], negative or 0 when they touch.
+  double separation(Party a, Party b) const;
+
+  /// Work done by the last advance, for cost reports.
+  struct Counters {
+    std::uint64_t arcs = 0, impacts = 0, contactSteps = 0, pairTests = 0, limited = 0;
+  };
+  const Counters& counters() const;
+
+private:
+  class Core;
+  std::unique_ptr<Core> core_;
+};
+
+}  // namespace stadion
