@@ -2,7 +2,8 @@
 
 #include "engine/script/script.h"
 
-#include <algorithm>
+#include <array>
+#include <unistd.h>
 
 namespace stadion {
 
@@ -75,41 +76,62 @@ std::vector<std::uint32_t> Loader::around(std::uint32_t outer) const {
   return numbers;
 }
 
+// The show's own file is where the user says; every other one lies below the show's roots.
+Result<SourceText> Loader::read(const Job& job) const {
+  if (!job.owner.valid()) return SourceText::read(job.file);
+  auto found = parts_.roots.open(job.file);
+  if (!found) return found.error();
+  std::string bytes;
+  std::array<char, 1 << 16> part;
+  for (;;) {
+    const ssize_t n = ::read(found.value().file.get(), part.data(), part.size());
+    if (n < 0) return Result<SourceText>::failure("cannot read " + found.value().path);
+    if (n == 0) break;
+    bytes.append(part.data(), static_cast<std::size_t>(n));
+    if (bytes.size() > SourceText::kMostBytes) return Result<SourceText>::failure(found.value().path + " is too large");
+  }
+  return SourceText::make(found.value().path, bytes);
+}
+
 std::unique_ptr<Load> Loader::prepare(const Job& job) {
   Diagnostics findings;
   std::unique_ptr<Load> load;
-  std::unique_ptr<Document> document = readScript(job.file, parts_.roots, findings);
-  if (document) {
-    const std::vector<std::uint32_t> surroundings = around(job.owner.load);
-    std::vector<const Document*> files;
-    for (const std::uint32_t n : surroundings) files.push_back(around_.at(n).document.get());
-    resolveNames(*document, files, findings);
-    if (!findings.hasErrors()) {
-      const BuildInput input{*document,
-                             job.number,
-                             job.owner,
-                             job.X_WO,
-                             surroundings,
-                             parts_.factories,
-                             [&](const Declaration& d) { return importMesh(d, findings); },
-                             parts_.meshes};
-      Built built = buildLoad(input, findings);
-      load = std::move(built.load);
-      if (!built.staticRecords.empty()) {
-        load->chunk = parts_.arena.add(built.staticRecords);
-        load->chunkRecords = parts_.arena.find(load->chunk, 0).records;
-      }
-    }
-    const bool hasScenes = std::any_of(document->begin(), document->end(),
-                                       [](const Declaration& d) { return d.kind() == NodeKind::Scene; });
-    if (load && hasScenes) around_[job.number] = {job.owner.load, std::move(document)};
-  }
-  if (!findings.all().empty()) parts_.report(findings);
-  if (load && findings.hasErrors()) {
-    // Nothing of it has been seen by anybody: it may go at once.
+  auto source = read(job);
+  if (source)
+    load = build(job, std::make_unique<Document>(parseScript(std::move(source.value()), findings)), findings);
+  else
+    findings.add(source.error());
+  if (!findings.all().empty()) parts_.report(sorted(findings));
+  return load;
+}
+
+std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> document, Diagnostics& findings) {
+  const std::vector<std::uint32_t> numbers = around(job.owner.load);
+  Surroundings surroundings;
+  for (const std::uint32_t n : numbers) surroundings.enclosing.push_back(around_.at(n).document.get());
+  resolveNames(*document, surroundings, findings);
+  if (findings.hasErrors()) return nullptr;
+
+  const BuildInput input{*document, job.number,       job.owner,
+                         job.X_WO,  numbers,          parts_.factories,
+                         [&](const Declaration& d) { return importMesh(d, findings); },
+                         parts_.meshes};
+  Built built = buildLoad(input, findings);
+  std::unique_ptr<Load> load = std::move(built.load);
+  if (findings.hasErrors()) {
+    // Nobody has seen anything of it: it may go at once.
     for (const MeshId mesh : load->meshes) parts_.meshes.release(mesh, 0);
-    destroy(std::move(load));
+    return nullptr;
   }
+  if (!built.staticRecords.empty()) {
+    load->chunk = parts_.arena.add(built.staticRecords);
+    load->chunkRecords = parts_.arena.find(load->chunk, 0).records;
+  }
+  for (const Declaration d : *document)
+    if (d.kind() == NodeKind::Scene) {
+      around_[job.number] = {job.owner.load, std::move(document)};
+      break;
+    }
   return load;
 }
 

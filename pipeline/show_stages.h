@@ -19,7 +19,7 @@
 namespace stadion {
 
 /// One wall's pictures of one frame: left and right, or one for both.
-struct WallPictures {
+struct EyePictures {
   std::vector<Picture> eyes;
 };
 
@@ -31,7 +31,7 @@ public:
   virtual ~PictureSink() = default;
   /// Whether the pictures of this frame are wanted at all: reading them back costs time. Any Draw thread.
   virtual bool wants(const TimeSignature& now) const = 0;
-  virtual Failure take(const TimeSignature& now, const std::vector<WallPictures>& walls) = 0;
+  virtual Failure take(const TimeSignature& now, const std::vector<EyePictures>& walls) = 0;
 };
 
 /// Sees the scene after each App stage, on the App thread.
@@ -63,7 +63,7 @@ public:
   Failure swap(const TimeSignature& now) override;
 
   /// Of the frame shown last. For when the run is over.
-  const std::vector<WallPictures>& lastPictures() const { return pictures_; }
+  const std::vector<EyePictures>& lastPictures() const { return pictures_; }
   std::string glDescription() const { return glDescription_; }
 
 private:
@@ -82,7 +82,7 @@ private:
   ShowParts parts_;
   ChangeSet changes_;
   std::unique_ptr<WallContext[]> contexts_;
-  std::vector<WallPictures> pictures_;
+  std::vector<EyePictures> pictures_;
   std::atomic<std::uint64_t> shownFrame_ = 0;
   std::string glDescription_;
 };

@@ -48,7 +48,7 @@ public:
 
 private:
   struct Entry {
-    Affine X_PN, X_WN;
+    Affine X_PN = Affine::Identity(), X_WN = Affine::Identity();
     PlacementId parent = kNoPlacement, firstChild = kNoPlacement, nextSibling = kNoPlacement,
                 previousSibling = kNoPlacement;
     bool stale = false;    ///< X_WN must be recomputed

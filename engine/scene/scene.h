@@ -54,6 +54,7 @@ public:
   // -------------------------------------------------------------------------
 
   Placements& placements() { return placements_; }
+  const Placements& placements() const { return placements_; }
   const Mesh* mesh(MeshId id) const { return meshes_.find(id); }
 
   /// The node, or null if it is not loaded. A static object becomes a node of its own by being asked for.

@@ -2,13 +2,15 @@
 /// The attributes whose value is one word out of a few, as enumerations. The schema lists the words in the
 /// same order, and Declaration::choice<E>() turns one into the other.
 
+#include "engine/asset/format.h"
+
 #include <cstdint>
 
 namespace stadion {
 
 enum class LightType : std::uint8_t { Directional, Point, Spot };          ///< light: type
-enum class ShapeChoice : std::uint8_t { Auto, Sphere, Box, Mesh, Plane };  ///< object, dynobject: shape
-enum class UpAxis : std::uint8_t { X, Y, Z };                              ///< object, dynobject: up
+enum class ShapeWord : std::uint8_t { Auto, Sphere, Box, Mesh, Plane };  ///< object, dynobject: shape
+// object, dynobject: up is UpAxis of asset/format.h
 enum class ForceUnit : std::uint8_t { Gravity, Acceleration, Newton };     ///< force fields: unit
 enum class FieldMode : std::uint8_t { Attract, Repel };                    ///< forcespherical: mode
 enum class FieldFalloff : std::uint8_t { None, Linear, Inverse, InverseSquare };  ///< forcespherical: falloff

@@ -1,0 +1,18 @@
+#pragma once
+/// The subcommands. Each adds itself to the program and, when it has run, leaves its exit status in `code`.
+
+namespace CLI {
+class App;
+}
+
+namespace stadion {
+
+void addRunCommand(CLI::App& app, int& code);
+void addCheckCommand(CLI::App& app, int& code);
+void addNodesCommand(CLI::App& app, int& code);
+void addHashCommand(CLI::App& app, int& code);
+void addWallsCommand(CLI::App& app, int& code);
+void addBenchCommand(CLI::App& app, int& code);
+void addTestCommand(CLI::App& app, int& code);
+
+}  // namespace stadion

@@ -1,0 +1,49 @@
+/// `stadion hash SHOW`: the state hash of every frame, nothing drawn.
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/player.h"
+
+#include <CLI/CLI.hpp>
+#include <cinttypes>
+#include <cstdio>
+#include <memory>
+
+namespace stadion {
+namespace {
+
+int hashShow(ShowOptions options) {
+  Diagnostics findings;
+  if (!options.settle(findings)) return tell(findings), kBadInput;
+  auto player = Player::create(options, findings);
+  tell(findings);
+  if (!player) return kBadInput;
+
+  ShowParts parts = player->parts(StereoLayout::Off);
+  parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
+    std::printf("%" PRIu64 " %016" PRIx64 "\n", now.frame, scene.stateHash());
+    player->collect(now.frame);
+  };
+  ShowStages stages(std::move(parts));
+  FrameLoopOptions loopOptions;
+  loopOptions.mode = options.mode == "sequential" ? Mode::Sequential : Mode::Pipelined;
+  loopOptions.rate = options.rate;
+  loopOptions.walls = player->walls().walls.size();
+  loopOptions.frames = player->frames() == 0 ? 600 : player->frames();
+  const std::atomic<bool> never = false;
+  FrameLoop loop(stages, loopOptions, never);
+  const FrameLoopOutcome outcome = loop.run();
+  return outcome.failure ? kInternalFault : kOk;
+}
+
+}  // namespace
+
+void addHashCommand(CLI::App& app, int& code) {
+  auto options = std::make_shared<ShowOptions>();
+  CLI::App* command =
+      app.add_subcommand("hash", "Print the state hash of every frame, one line FRAME HEX16 each; draws nothing");
+  options->addTo(*command);
+  command->callback([options, &code] { code = hashShow(*options); });
+}
+
+}  // namespace stadion

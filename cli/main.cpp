@@ -1,0 +1,51 @@
+/// The `stadion` program: one small file per subcommand.
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "pipeline/target/rasteriser_settings.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+namespace stadion {
+namespace {
+
+int runProgram(int argc, char** argv) {
+  CLI::App app("Stadion plays immersive shows written in the EVS world description language on stereo walls.",
+               "stadion");
+  app.footer("Exit codes: 0 ok, 1 a check or comparison failed, 2 bad usage or bad input, 3 internal fault.\n"
+             "Start with:  ./stadion run scripts/kick.evs --out pictures");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "stadion 0.1.0");
+  int code = kOk;
+  addRunCommand(app, code);
+  addCheckCommand(app, code);
+  addNodesCommand(app, code);
+  addHashCommand(app, code);
+  addWallsCommand(app, code);
+  addBenchCommand(app, code);
+  addTestCommand(app, code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? kOk : kBadInput;
+  }
+  return code;
+}
+
+}  // namespace
+}  // namespace stadion
+
+int main(int argc, char** argv) {
+  if (const auto wrong = stadion::pinRasteriser()) {
+    std::fprintf(stderr, "stadion: %s\n", wrong->message.c_str());
+    return stadion::kBadInput;
+  }
+  try {
+    return stadion::runProgram(argc, argv);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "stadion: internal fault: %s\n", e.what());
+    return stadion::kInternalFault;
+  }
+}

@@ -1,0 +1,85 @@
+#pragma once
+/// A show, put together: script, walls, input, scene, loader and stages. What `run` and `hash` have in common.
+
+#include "engine/asset/import.h"
+#include "engine/display/wall_file.h"
+#include "engine/input/input_device.h"
+#include "engine/scene/scene.h"
+#include "engine/script/builder.h"
+#include "pipeline/frame_loop.h"
+#include "pipeline/loader.h"
+#include "pipeline/output/stereo.h"
+#include "pipeline/show_stages.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace stadion {
+
+/// The options that mean the same in every subcommand that plays a show.
+struct ShowOptions {
+  std::string script;
+  std::string walls = "cave4";
+  std::string mode = "pipelined";
+  std::string size = "800x600";
+  double rate = 60;
+  std::uint64_t frames = 0;
+  double seconds = 0;
+  std::string input;  ///< empty = beside the script if there is one; "none"
+  std::vector<std::string> assetRoots;
+
+  std::uint32_t width = 0, height = 0;  ///< from `size`
+
+  void addTo(CLI::App& command);
+  /// Completes what depends on other options. Says what is wrong.
+  bool settle(Diagnostics& findings);
+};
+
+/// Everything of a show but its drawing.
+///
+/// Ownership  owns all parts; nothing outlives it.
+class Player {
+ public:
+  /// Reads, checks and loads everything. Null if something of the user's is wrong; the findings say what.
+  static std::unique_ptr<Player> create(const ShowOptions& options, Diagnostics& findings);
+  ~Player();
+
+  /// Frames to play: as asked, or to the end of the input log; 0 = until stopped.
+  std::uint64_t frames() const { return frames_; }
+  bool inputFound() const { return inputFound_; }
+  const WallFile& walls() const { return walls_; }
+  Scene& scene() { return *scene_; }
+  const std::string& inputName() const { return inputName_; }
+
+  /// The parts for a ShowStages; provider and sink are the caller's to add.
+  ShowParts parts(StereoLayout stereo);
+  /// To be called after each App stage: unloaded files go when they are no longer shown.
+  void collect(std::uint64_t shownFrame) { loader_->shown(shownFrame); }
+
+ private:
+  Player();
+
+  NodeFactories factories_{};
+  MeshStore meshes_;
+  SceneState state_;
+  AssetRoots roots_;
+  std::unique_ptr<Importer> importer_;
+  std::unique_ptr<Loader> loader_;
+  std::unique_ptr<Scene> scene_;
+  std::unique_ptr<InputDevice> input_;
+  WallFile walls_;
+  ShowOptions options_;
+  std::uint64_t frames_ = 0;
+  bool inputFound_ = false;
+  std::string inputName_;
+};
+
+/// Writes every finding to stderr as the compiler would.
+void tell(const Diagnostics& findings);
+
+}  // namespace stadion

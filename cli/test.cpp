@@ -1,0 +1,35 @@
+/// `stadion test`: the test suite, through ctest. (The launcher has built it.)
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <sys/wait.h>
+
+namespace stadion {
+
+void addTestCommand(CLI::App& app, int& code) {
+  struct Options {
+    bool full = false;
+    std::string only;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("test", "Run the test suite");
+  command->add_flag("--full", options->full, "also the long acceptance runs (an hour or so)");
+  command->add_option("--only", options->only, "only tests whose name matches this regular expression");
+  command->callback([options, &code] {
+    const std::string folder = std::filesystem::canonical("/proc/self/exe").parent_path().parent_path();
+    if (options->full) setenv("STADION_FULL", "1", 1);
+    if (!options->only.empty()) setenv("STADION_ONLY", options->only.c_str(), 1);
+    const std::string line = "ctest --test-dir '" + folder + "' --output-on-failure -j2" +
+                             (options->only.empty() ? "" : " -R \"$STADION_ONLY\"");
+    const int status = std::system(line.c_str());
+    code = WIFEXITED(status) && WEXITSTATUS(status) == 0 ? kOk : kCheckFailed;
+  });
+}
+
+}  // namespace stadion

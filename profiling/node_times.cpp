@@ -1,0 +1,27 @@
+#include "profiling/node_times.h"
+
+#include <algorithm>
+
+namespace stadion {
+
+void NodeTimes::nodePhaseBegan(NodeRef, NodePhase) { began_ = Clock::now(); }
+
+void NodeTimes::nodePhaseEnded(NodeRef node, NodePhase phase) {
+  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - began_).count();
+  NodeCost& cost = costs_[node];
+  cost.node = node;
+  cost.ms[static_cast<std::size_t>(phase)] += ms;
+  if (phase == NodePhase::Receive) ++cost.visits;
+}
+
+std::vector<NodeCost> NodeTimes::dearest(std::size_t most) const {
+  std::vector<NodeCost> costs;
+  for (const auto& [node, cost] : costs_) costs.push_back(cost);
+  std::sort(costs.begin(), costs.end(), [](const NodeCost& a, const NodeCost& b) {
+    return a.total() != b.total() ? a.total() > b.total() : a.node < b.node;
+  });
+  costs.resize(std::min(most, costs.size()));
+  return costs;
+}
+
+}  // namespace stadion
