@@ -31,7 +31,8 @@ std::uint32_t linearFromSrgb(std::uint8_t byte) {
 
 std::uint8_t srgbFromLinear(std::uint32_t light) {
   const auto& t = table();
-  const auto above = std::lower_bound(t.begin(), t.end(), std::min(light, kFullLight));
+  light = std::min(light, kFullLight);
+  const auto above = std::lower_bound(t.begin(), t.end(), light);
   if (above == t.begin()) return 0;
   const auto below = above - 1;
   const auto nearest = *above - light < light - *below ? above : below;

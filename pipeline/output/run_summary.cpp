@@ -1,0 +1,121 @@
+#include "pipeline/output/run_summary.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void keepFinite(std::vector<double>& values) {
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+}
+
+/// Of sorted values.
+double nearestRank(const std::vector<double>& sorted, double percent) {
+  if (sorted.empty()) return 0;
+  const double n = static_cast<double>(sorted.size());
+  // 1e-9 of a rank forgives the rounding of percent / 100, so that 95 % of 20 is 19 and not 20.
+  const double rank = std::clamp(std::ceil(percent / 100 * n - 1e-9), 1.0, n);
+  return sorted[static_cast<std::size_t>(rank) - 1];
+}
+
+std::string hex(std::uint64_t hash) {
+  return fmt::format("{:016x}", hash);
+}
+
+Json json(const Distribution& d) {
+  return {{"count", d.count}, {"min", d.min}, {"mean", d.mean}, {"p50", d.p50},
+          {"p95", d.p95},     {"p99", d.p99}, {"max", d.max}};
+}
+
+std::string row(const std::string& stage, const std::string& wall, const Distribution& d) {
+  return fmt::format("  {:<16} {:<12} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f}\n", stage, wall, d.p50, d.p95,
+                     d.p99, d.max);
+}
+
+}  // namespace
+
+double percentile(std::vector<double> values, double percent) {
+  keepFinite(values);
+  std::ranges::sort(values);
+  return nearestRank(values, percent);
+}
+
+Distribution distributionOf(std::vector<double> values) {
+  keepFinite(values);
+  if (values.empty()) return {};
+  std::ranges::sort(values);
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return {values.size(),
+          values.front(),
+          sum / static_cast<double>(values.size()),
+          nearestRank(values, 50),
+          nearestRank(values, 95),
+          nearestRank(values, 99),
+          values.back()};
+}
+
+std::string toText(const RunSummary& s) {
+  std::string text = fmt::format(
+      "{}: {} frames, {:.3f} s of show in {:.3f} s ({:.1f} frames/s), {} late\n", s.show, s.frames, s.seconds,
+      s.elapsedSeconds, s.elapsedSeconds > 0 ? static_cast<double>(s.frames) / s.elapsedSeconds : 0.0,
+      s.lateFrames);
+  text += fmt::format("  walls {}, stereo {}, {} x {} pixels, {}, {} Hz\n", s.walls, s.stereo, s.width,
+                      s.height, s.mode, s.rate);
+  if (s.frameMs.count + s.stages.size() + s.latency.size() > 0)
+    text += fmt::format("  {:<16} {:<12} {:>9} {:>9} {:>9} {:>9}\n", "milliseconds", "wall", "p50", "p95",
+                        "p99", "max");
+  if (s.frameMs.count > 0) text += row("frame", "", s.frameMs);
+  for (const StageTimes& t : s.stages) text += row(t.stage, t.wall, t.ms);
+  for (const WallLatency& l : s.latency) text += row("motion to image", l.wall, l.ms);
+  if (s.stateHash) text += fmt::format("  state hash of frame {}: {}\n", s.lastFrame, hex(*s.stateHash));
+  for (const ImageHash& h : s.imageHashes)
+    text += fmt::format("  image hash of frame {}: {} {} {}\n", s.lastFrame, hex(h.hash), h.wall, h.eye);
+  for (const auto& [name, value] : s.counters) text += fmt::format("  {}: {}\n", name, value);
+  for (const std::string& file : s.files) text += fmt::format("  wrote {}\n", file);
+  for (const std::string& remark : s.remarks) text += fmt::format("  note: {}\n", remark);
+  return text;
+}
+
+std::string toJson(const RunSummary& s) {
+  Json j;
+  j["show"] = s.show;
+  j["walls"] = s.walls;
+  j["mode"] = s.mode;
+  j["stereo"] = s.stereo;
+  j["width"] = s.width;
+  j["height"] = s.height;
+  j["rate_hz"] = s.rate;
+  j["frames"] = s.frames;
+  j["seconds"] = s.seconds;
+  j["elapsed_seconds"] = s.elapsedSeconds;
+  j["late_frames"] = s.lateFrames;
+  j["frame_ms"] = json(s.frameMs);
+  j["stages"] = Json::array();
+  for (const StageTimes& t : s.stages) {
+    Json stage{{"stage", t.stage}, {"wall", t.wall.empty() ? Json() : Json(t.wall)}, {"ms", json(t.ms)}};
+    if (!t.method.empty()) stage["method"] = t.method;
+    j["stages"].push_back(std::move(stage));
+  }
+  j["motion_to_image_ms"] = Json::object();
+  for (const WallLatency& l : s.latency) j["motion_to_image_ms"][l.wall] = json(l.ms);
+  j["last_frame"] = s.lastFrame;
+  j["state_hash"] = s.stateHash ? Json(hex(*s.stateHash)) : Json();
+  j["image_hashes"] = Json::array();
+  for (const ImageHash& h : s.imageHashes)
+    j["image_hashes"].push_back(Json{{"wall", h.wall}, {"eye", h.eye}, {"hash", hex(h.hash)}});
+  j["counters"] = Json::object();
+  for (const auto& [name, value] : s.counters) j["counters"][name] = value;
+  j["files"] = s.files;
+  j["remarks"] = s.remarks;
+  // File names may be any bytes; JSON may not.
+  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace stadion

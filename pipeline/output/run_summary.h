@@ -1,0 +1,71 @@
+#pragma once
+/// What a run did and what it took, for people and for programs.
+///
+/// Units    seconds for the show, milliseconds for what it cost.
+/// Threads  plain values, filled when the run has ended.
+/// Errors   none; a figure that is not finite is left out of the JSON as null.
+
+#include "engine/diagnostic.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+/// The smallest of the values that at least `percent` of them do not exceed (nearest rank, exact; no
+/// interpolation). 0 for none. Values that are not finite are left out.
+double percentile(std::vector<double> values, double percent);
+
+struct Distribution {
+  std::size_t count = 0;
+  double min = 0, mean = 0, p50 = 0, p95 = 0, p99 = 0, max = 0;
+};
+/// Of the finite values.
+Distribution distributionOf(std::vector<double> values);
+
+/// How long a stage took, frame by frame.
+struct StageTimes {
+  std::string stage;  ///< app, cull, draw
+  std::string wall;   ///< empty: not of one wall
+  Distribution ms;
+  std::string method;  ///< how it was timed, such as "cpu clock around draw + finish"
+};
+
+struct WallLatency {
+  std::string wall;
+  Distribution ms;  ///< from the head's pose to the picture on the wall
+};
+
+struct ImageHash {
+  std::string wall;
+  std::string eye;  ///< left, right
+  std::uint64_t hash = 0;
+};
+
+struct RunSummary {
+  std::string show, walls, mode, stereo;
+  std::uint32_t width = 0, height = 0;
+  double rate = 0;            ///< [frames/s]
+  std::uint64_t frames = 0;   ///< shown
+  double seconds = 0;         ///< of show time
+  double elapsedSeconds = 0;  ///< of the clock on the wall
+  std::uint64_t lateFrames = 0;
+  Distribution frameMs;  ///< from one frame shown to the next
+  std::vector<StageTimes> stages;
+  std::vector<WallLatency> latency;  ///< motion to image
+  std::uint64_t lastFrame = 0;       ///< the hashes are of this one
+  std::optional<std::uint64_t> stateHash;
+  std::vector<ImageHash> imageHashes;
+  std::map<std::string, double> counters;  ///< anything else worth a number
+  std::vector<std::string> files;          ///< written
+  std::vector<std::string> remarks;        ///< what did not go as asked
+};
+
+std::string toText(const RunSummary& summary);
+/// One JSON object on one line. Hashes are strings of 16 hexadecimal digits.
+std::string toJson(const RunSummary& summary);
+
+}  // namespace stadion
