@@ -7,8 +7,6 @@
 namespace stadion {
 namespace {
 
-constexpr GLint kSamples = 4;
-
 void attach(const GlTable& gl, GLuint framebuffer, GLenum attachment, GLuint renderbuffer) {
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, renderbuffer);
@@ -16,18 +14,19 @@ void attach(const GlTable& gl, GLuint framebuffer, GLenum attachment, GLuint ren
 
 }  // namespace
 
-EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height)
+EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height, std::uint32_t samples)
     : gl_(gl), width_(width), height_(height), colour_(gl), depth_(gl),
       drawn_(gl), pictures_{GlRenderbuffer(gl), GlRenderbuffer(gl)}, resolved_{GlFramebuffer(gl),
                                                                                GlFramebuffer(gl)} {
   GLint most = 0;
   gl_.GetIntegerv(GL_MAX_SAMPLES, &most);
-  const auto storage = [&](const GlRenderbuffer& buffer, GLint samples, GLenum format) {
+  const GLint drawn = samples > 1 ? std::min(static_cast<GLint>(std::min(samples, 64u)), most) : 0;
+  const auto storage = [&](const GlRenderbuffer& buffer, GLint count, GLenum format) {
     gl_.BindRenderbuffer(GL_RENDERBUFFER, buffer.name());
-    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, this->width(), this->height());
+    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, count, format, this->width(), this->height());
   };
-  storage(colour_, std::min(kSamples, most), GL_SRGB8_ALPHA8);
-  storage(depth_, std::min(kSamples, most), GL_DEPTH_COMPONENT24);
+  storage(colour_, drawn, GL_SRGB8_ALPHA8);
+  storage(depth_, drawn, GL_DEPTH_COMPONENT24);
   attach(gl_, drawn_.name(), GL_COLOR_ATTACHMENT0, colour_.name());
   attach(gl_, drawn_.name(), GL_DEPTH_ATTACHMENT, depth_.name());
   for (std::size_t eye = 0; eye < pictures_.size(); ++eye) {

@@ -16,7 +16,8 @@ namespace stadion {
 
 class EyeBuffers {
 public:
-  EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height);
+  /// As many samples a pixel as asked for, or as the context offers.
+  EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height, std::uint32_t samples);
 
   /// Why the buffers cannot be used, or nothing. Once, after construction.
   std::optional<Diagnostic> check();

@@ -18,7 +18,7 @@ struct Vertex {
   std::array<std::uint8_t, 4> colour;
 };
 
-constexpr float kAnisotropy = 4;  // software pays for every sample; more is hardly seen
+constexpr float kAnisotropy = 8;
 
 float finite(float x) {
   return std::isfinite(x) ? x : 0.0f;
@@ -36,6 +36,12 @@ std::vector<Vertex> interleave(const Mesh& mesh) {
   return vertices;
 }
 
+/// Anisotropic filtering makes textured scenes 2 to 3 times as slow on the processor.
+bool isSoftware(const GlTable& gl) {
+  const auto* renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
+  return renderer && (std::strstr(renderer, "llvmpipe") || std::strstr(renderer, "softpipe"));
+}
+
 const void* offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);
 }
@@ -43,8 +49,9 @@ const void* offset(std::size_t bytes) {
 }  // namespace
 
 MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes)
-    : gl_(gl), store_(meshes), anisotropy_(hasGlExtension(gl, "GL_EXT_texture_filter_anisotropic") ||
-                                           hasGlExtension(gl, "GL_ARB_texture_filter_anisotropic")) {
+    : gl_(gl), store_(meshes),
+      anisotropy_(!isSoftware(gl) && (hasGlExtension(gl, "GL_EXT_texture_filter_anisotropic") ||
+                                      hasGlExtension(gl, "GL_ARB_texture_filter_anisotropic"))) {
   gl_.GetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &uniformAlignment_);
   store_.freedSince(freedCursor_);  // what went before us is none of ours
 }

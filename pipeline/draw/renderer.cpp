@@ -17,6 +17,15 @@ const void* offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);
 }
 
+bool isLocal(const DrawLight& light) {
+  return light.kind != DrawLight::Kind::Directional;
+}
+
+std::size_t surfaceIndex(const SurfaceTraits& traits) {
+  return std::size_t{traits.textured} | std::size_t{traits.localLights} << 1 |
+         std::size_t{traits.blended} << 2;
+}
+
 /// New storage each time, so that no frame waits for one that still reads the old.
 template <class T>
 void stream(const GlTable& gl, GLenum target, const GlBuffer& buffer, std::span<const T> data) {
@@ -27,30 +36,41 @@ void stream(const GlTable& gl, GLenum target, const GlBuffer& buffer, std::span<
 }  // namespace
 
 Result<std::unique_ptr<Renderer>> Renderer::create(const GlTable& gl, const MeshStore& meshes,
-                                                   std::uint32_t width, std::uint32_t height) {
+                                                   std::uint32_t width, std::uint32_t height,
+                                                   RenderQuality quality) {
   if (auto why = checkPictureSize(width, height)) return *why;
-  auto plain = GlProgram::build(gl, surfaceVertexShader(false), surfaceFragmentShader(false));
-  if (!plain) return plain.error();
-  auto textured = GlProgram::build(gl, surfaceVertexShader(true), surfaceFragmentShader(true));
-  if (!textured) return textured.error();
-  auto sky = GlProgram::build(gl, skyVertexShader(), skyFragmentShader());
-  if (!sky) return sky.error();
+  auto programs = buildPrograms(gl);
+  if (!programs) return programs.error();
   std::unique_ptr<Renderer> renderer(
-      new Renderer(gl, meshes, width, height,
-                   {std::move(plain.value()), std::move(textured.value()), std::move(sky.value())}));
+      new Renderer(gl, meshes, width, height, quality, std::move(programs.value())));
   if (auto why = renderer->buffers_.check()) return *why;
   return renderer;
 }
 
 Renderer::Renderer(const GlTable& gl, const MeshStore& meshes, std::uint32_t width, std::uint32_t height,
-                   Programs programs)
-    : gl_(gl), width_(width), height_(height), programs_(std::move(programs)), buffers_(gl, width, height),
-      cache_(gl, meshes), instances_(gl), scene_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl) {
+                   RenderQuality quality, Programs programs)
+    : gl_(gl), width_(width), height_(height), programs_(std::move(programs)),
+      buffers_(gl, width, height, quality.samples), cache_(gl, meshes), instances_(gl),
+      scene_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl) {
   setUnchangingState();
 }
 
+Result<Renderer::Programs> Renderer::buildPrograms(const GlTable& gl) {
+  Programs programs;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const SurfaceTraits traits{(i & 1) != 0, (i & 2) != 0, (i & 4) != 0};
+    auto built = GlProgram::build(gl, surfaceVertexShader(traits), surfaceFragmentShader(traits));
+    if (!built) return built.error();
+    assert(surfaceIndex(traits) == i);
+    programs.surface.push_back(std::move(built.value()));
+  }
+  auto sky = GlProgram::build(gl, skyVertexShader(), skyFragmentShader());
+  if (!sky) return sky.error();
+  programs.sky.push_back(std::move(sky.value()));
+  return programs;
+}
+
 void Renderer::setUnchangingState() {
-  gl_.Enable(GL_FRAMEBUFFER_SRGB);
   gl_.Enable(GL_MULTISAMPLE);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LEQUAL);
@@ -80,6 +100,7 @@ void Renderer::prepare(const DrawList& list) {
   if (list.lights.size() > DrawList::kMaxLights)
     report("more than " + std::to_string(DrawList::kMaxLights) + " lights: the rest are left out");
   stream(gl_, GL_ARRAY_BUFFER, instances_, batches_.matrices());
+  localLights_ = std::any_of(list.lights.begin(), list.lights.end(), isLocal);
   const SceneBlock scene = fillScene(list.sky, list.lights);
   stream(gl_, GL_UNIFORM_BUFFER, scene_, std::span(&scene, 1));
 }
@@ -96,10 +117,12 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, views_[index].name());
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kSceneBinding, scene_.name());
 
+  gl_.Disable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
   buffers_.begin();
   drawBatches(batches_.opaque(), Pass::Opaque);
   drawBatches(batches_.transparent(), Pass::OpaqueParts);
   drawSky();
+  gl_.Enable(GL_FRAMEBUFFER_SRGB);  // blending and averaging of samples act on linear light
   gl_.Enable(GL_BLEND);
   gl_.DepthMask(GL_FALSE);
   drawBatches(batches_.transparent(), Pass::Transparent);
@@ -125,7 +148,7 @@ void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass) {
     for (const GlSubmesh& part : mesh->parts) {
       if (pass == Pass::OpaqueParts && part.transparent) continue;
       cull(false, !part.bothSides);
-      drawPart(*mesh, part, batch.count);
+      drawPart(*mesh, part, batch.count, false);
     }
   }
 }
@@ -143,16 +166,16 @@ void Renderer::drawTransparent(const GlMesh& mesh, const InstanceBatch& batch) {
       if (!part.transparent) continue;
       if (part.bothSides) {
         cull(true, false);
-        drawPart(mesh, part, step);
+        drawPart(mesh, part, step, true);
       }
       cull(false, true);
-      drawPart(mesh, part, step);
+      drawPart(mesh, part, step, true);
     }
   }
 }
 
-void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances) {
-  use(part.texture ? programs_.textured : programs_.plain);
+void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended) {
+  use(programs_.surface[surfaceIndex({part.texture != 0, localLights_, blended})]);
   if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
   gl_.BindBufferRange(GL_UNIFORM_BUFFER, kMaterialBinding, mesh.materials.name(), part.materialOffset,
                       sizeof(MaterialBlock));
@@ -164,7 +187,7 @@ void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t
 }
 
 void Renderer::drawSky() {
-  use(programs_.sky);
+  use(programs_.sky.front());
   gl_.BindVertexArray(nothing_.name());
   gl_.FrontFace(GL_CCW);
   cull(false, false);

@@ -34,11 +34,17 @@ struct DrawCounts {
   std::uint64_t triangles = 0;
 };
 
+/// How much drawing may cost.
+struct RenderQuality {
+  std::uint32_t samples = 4;  ///< per pixel; 1 = hard edges at about a third of the cost in software
+};
+
 class Renderer {
 public:
   /// Pictures of width x height pixels; fails if the size or the context does not serve.
   static Result<std::unique_ptr<Renderer>> create(const GlTable& gl, const MeshStore& meshes,
-                                                  std::uint32_t width, std::uint32_t height);
+                                                  std::uint32_t width, std::uint32_t height,
+                                                  RenderQuality quality = {});
 
   /// Draws every eye of the list. Returns a problem that had not been reported before, or nothing.
   std::optional<Diagnostic> draw(const DrawList& list);
@@ -59,19 +65,21 @@ public:
 
 private:
   struct Programs {
-    GlProgram plain, textured, sky;
+    std::vector<GlProgram> surface;  ///< by surfaceIndex()
+    std::vector<GlProgram> sky;      ///< one
   };
   enum class Pass { Opaque, OpaqueParts, Transparent };
 
   Renderer(const GlTable& gl, const MeshStore& meshes, std::uint32_t width, std::uint32_t height,
-           Programs programs);
+           RenderQuality quality, Programs programs);
+  static Result<Programs> buildPrograms(const GlTable& gl);
 
   void prepare(const DrawList& list);
   void drawEye(const DrawEye& eye, std::uint32_t index);
   void setUnchangingState();
   void drawBatches(std::span<const InstanceBatch> batches, Pass pass);
   void drawTransparent(const GlMesh& mesh, const InstanceBatch& batch);
-  void drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances);
+  void drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended);
   void drawSky();
   void pointAtInstances(std::uint32_t first);
   void cull(bool front, bool back);
@@ -89,6 +97,7 @@ private:
   std::array<GlBuffer, 2> views_;
   GlVertexArray nothing_;  // the sky's triangle has no vertex data
   GLuint usedProgram_ = 0;
+  bool localLights_ = false;
   DrawCounts counts_;
   std::set<std::string> reported_;
   std::optional<Diagnostic> problem_;

@@ -4,7 +4,6 @@ namespace stadion {
 namespace {
 
 constexpr const char* kVersion = "#version 330 core\n";
-constexpr const char* kTextured = "#define TEXTURED\n";
 
 // The same blocks as uniform_blocks.h.
 constexpr const char* kBlocks = R"(
@@ -34,6 +33,11 @@ layout(std140) uniform Scene {
 vec3 softClip(vec3 c) {
   vec3 over = max(c - 0.8, 0.0) * 5.0;
   return min(c, 0.8) + 0.2 * over / (1.0 + over);
+}
+
+vec4 encoded(vec3 c) {  // IEC 61966-2-1
+  vec3 bent = 1.055 * pow(max(c, 0.0031308), vec3(1.0 / 2.4)) - 0.055;
+  return vec4(mix(12.92 * max(c, 0.0), bent, greaterThan(c, vec3(0.0031308))), 1.0);
 }
 )";
 
@@ -125,6 +129,7 @@ void main() {
   for (int i = 0; i < lightCount.x; ++i) {
     vec3 l = lights[i].direction.xyz;
     float strength = 1.0;
+#ifdef LOCAL_LIGHTS
     if (lights[i].direction.w > 0.5) {
       vec3 to = lights[i].position.xyz - placed;
       float squared = max(dot(to, to), 1e-12);
@@ -137,6 +142,7 @@ void main() {
       }
       l = to;
     }
+#endif
     float nl = dot(n, l);
     if (nl > 0.0) {
       vec3 h = l + v;
@@ -151,7 +157,11 @@ void main() {
   }
 
   if (ambient.w > 0.0) light = mix(horizon.rgb, light, exp2(-1.442695 * distanceSquared * perDistance * ambient.w));
+#ifdef BLENDED
   shown = vec4(softClip(light), clamp(base.a, 0.0, 1.0));
+#else
+  shown = encoded(softClip(light));
+#endif
 }
 )";
 
@@ -184,18 +194,26 @@ void main() {
     // An endless plain in thin haze: near the horizon one looks through ever more of it.
     c = mix(horizon.rgb, ground.rgb, exp2(0.03 / min(d.z, -1e-4)));
   }
-  shown = vec4(softClip(c), 1.0);
+  shown = encoded(softClip(c));
 }
 )";
 
-}  // namespace
-
-std::string surfaceVertexShader(bool textured) {
-  return std::string(kVersion) + (textured ? kTextured : "") + kBlocks + kSurfaceVertex;
+std::string definitions(const SurfaceTraits& traits) {
+  std::string text;
+  if (traits.textured) text += "#define TEXTURED\n";
+  if (traits.localLights) text += "#define LOCAL_LIGHTS\n";
+  if (traits.blended) text += "#define BLENDED\n";
+  return text;
 }
 
-std::string surfaceFragmentShader(bool textured) {
-  return std::string(kVersion) + (textured ? kTextured : "") + kBlocks + kSurfaceFragment;
+}  // namespace
+
+std::string surfaceVertexShader(const SurfaceTraits& traits) {
+  return kVersion + definitions(traits) + kBlocks + kSurfaceVertex;
+}
+
+std::string surfaceFragmentShader(const SurfaceTraits& traits) {
+  return kVersion + definitions(traits) + kBlocks + kSurfaceFragment;
 }
 
 std::string skyVertexShader() {

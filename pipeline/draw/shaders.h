@@ -8,14 +8,23 @@
 /// in
 ///              between in proportion to their normal's z.
 /// Range        radiance up to 0.8 is shown as it is; above, it approaches 1 smoothly (softClip).
+/// sRGB         opaque surfaces and the sky encode it themselves: once a pixel, not once a sample.
 /// Haze         what lies d away keeps exp(-d / haze distance) of its colour; the rest is the horizon's.
 
 #include <string>
 
 namespace stadion {
 
-std::string surfaceVertexShader(bool textured);
-std::string surfaceFragmentShader(bool textured);
+/// What a surface program does, so that none pays for what it does not need. A software rasteriser runs every
+/// line of a fragment shader for every block of pixels that a triangle touches, whatever the branches say.
+struct SurfaceTraits {
+  bool textured = false;
+  bool localLights = false;  ///< there are point or spot lights
+  bool blended = false;      ///< writes linear light, for blending in a buffer that encodes sRGB itself
+};
+
+std::string surfaceVertexShader(const SurfaceTraits& traits);
+std::string surfaceFragmentShader(const SurfaceTraits& traits);
 std::string skyVertexShader();
 std::string skyFragmentShader();
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 #include <thread>
 
 namespace stadion {
@@ -81,6 +82,29 @@ TEST(PictureRenderer, ServesOddSizes) {
   const DrawList list = test::richList(meshes, 1);
   for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 97u}, {641u, 2u}, {16384u, 1u}})
     EXPECT_EQ(Stage(meshes, width, height).draw(list).rgba.size(), width * height * 4u);
+}
+
+TEST(PictureRenderer, OneSampleAPixelGivesHardEdges) {
+  MeshStore meshes;
+  DrawList list = test::plainList();
+  list.sky.horizon = list.sky.zenith = list.sky.ground = {0, 0, 0};
+  Material white = matt(0, 0, 0);
+  white.emissive = {1, 1, 1};
+  list.opaque = {place(meshes.add(MeshMaker(white).triangle({-1, 0, -1}, {1, 0, -1}, {-0.9, 0, 1}).seal()))};
+  Stage stage(meshes, 32, 32);
+  const auto shades = [&](std::uint32_t samples) {
+    auto renderer = Renderer::create(stage.gl(), meshes, 32, 32, {samples});
+    EXPECT_TRUE(renderer);
+    EXPECT_FALSE(renderer.value()->draw(list));
+    std::vector<std::uint8_t> rgba(32 * 32 * 4);
+    EXPECT_FALSE(renderer.value()->read(0, rgba));
+    std::set<std::uint8_t> found;
+    for (std::size_t i = 0; i < rgba.size(); i += 4) found.insert(rgba[i]);
+    return found.size();
+  };
+  EXPECT_EQ(shades(1), 2u);
+  EXPECT_EQ(shades(4), 5u);
+  EXPECT_GE(shades(1000), 2u);  // as many as there are
 }
 
 TEST(PictureRenderer, RefusesSizesThatNoBufferHas) {
