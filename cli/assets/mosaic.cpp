@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
+#include <utility>
 
 namespace stadion::assets {
 namespace {
@@ -23,28 +23,39 @@ Spot crossing(Spot p, Spot q, std::int64_t dp, std::int64_t dq) {
           p.y + std::llround(s * static_cast<double>(q.y - p.y))};
 }
 
-Piece tidy(Piece piece) {
-  piece.erase(std::unique(piece.begin(), piece.end()), piece.end());
-  while (piece.size() > 1 && piece.front() == piece.back()) piece.pop_back();
-  std::int64_t area = 0;
-  for (std::size_t i = 1; i + 1 < piece.size(); ++i) area += turn(piece[0], piece[i], piece[i + 1]);
-  if (area <= 0) piece.clear();
-  return piece;
+std::int64_t area(const Piece& piece) {
+  std::int64_t twice = 0;
+  for (std::size_t i = 1; i + 1 < piece.size(); ++i) twice += turn(piece[0], piece[i], piece[i + 1]);
+  return twice;
 }
 
+/// Which side of the line a -> b: 1 left, -1 right, 0 on it within what rounding may have moved a point.
+int sideOf(Spot a, Spot b, Spot p) {
+  const std::int64_t dx = b.x - a.x, dy = b.y - a.y, d = turn(a, b, p);
+  const double off = static_cast<double>(d) / std::sqrt(static_cast<double>(dx * dx + dy * dy));
+  return std::fabs(off) < 3 ? 0 : off > 0 ? 1 : -1;
+}
+
+struct Cut {
+  Spot from, to, at;  ///< the edge from -> to got the new corner `at`
+};
+
 /// Splits by the line a -> b into what lies to its left and to its right.
-void split(const Piece& piece, Spot a, Spot b, Piece& left, Piece& right) {
+void split(const Piece& piece, Spot a, Spot b, Piece& left, Piece& right, std::vector<Cut>& cuts) {
+  bool anyLeft = false, anyRight = false;
   for (std::size_t i = 0; i < piece.size(); ++i) {
     const Spot p = piece[i], q = piece[(i + 1) % piece.size()];
-    const std::int64_t dp = turn(a, b, p), dq = turn(a, b, q);
-    if (dp >= 0) left.push_back(p);
-    if (dp <= 0) right.push_back(p);
-    if ((dp > 0 && dq < 0) || (dp < 0 && dq > 0)) {
-      const Spot c = crossing(p, q, dp, dq);
-      left.push_back(c), right.push_back(c);
-    }
+    const int sp = sideOf(a, b, p), sq = sideOf(a, b, q);
+    anyLeft |= sp > 0, anyRight |= sp < 0;
+    if (sp >= 0) left.push_back(p);
+    if (sp <= 0) right.push_back(p);
+    if (sp * sq >= 0) continue;
+    const Spot c = crossing(p, q, turn(a, b, p), turn(a, b, q));
+    left.push_back(c), right.push_back(c);
+    if (c != p && c != q) cuts.push_back({p, q, c});
   }
-  left = tidy(std::move(left)), right = tidy(std::move(right));
+  if (!anyLeft) left.clear();
+  if (!anyRight && anyLeft) right.clear();  // what is all on the line stays as it is
 }
 
 bool apart(const Piece& a, const Piece& b) {
@@ -60,37 +71,13 @@ bool apart(const Piece& a, const Piece& b) {
 }
 
 bool overlap(Piece piece, const Piece& shape) {
+  std::vector<Cut> unused;
   for (std::size_t i = 0; i < shape.size() && !piece.empty(); ++i) {
     Piece left, right;
-    split(piece, shape[i], shape[(i + 1) % shape.size()], left, right);
+    split(piece, shape[i], shape[(i + 1) % shape.size()], left, right, unused);
     piece = std::move(left);
   }
   return !piece.empty();
-}
-
-/// Between p and q and no farther from the line than rounding has moved it.
-bool onSide(Spot p, Spot q, Spot s) {
-  const std::int64_t dx = q.x - p.x, dy = q.y - p.y;
-  const std::int64_t along = (s.x - p.x) * dx + (s.y - p.y) * dy, length = dx * dx + dy * dy;
-  if (along <= 0 || along >= length) return false;
-  const double off = std::fabs(static_cast<double>(turn(p, q, s))) / std::sqrt(static_cast<double>(length));
-  return off < 2.0;
-}
-
-Piece withNeighboursCorners(const Piece& piece, const std::set<Spot>& corners) {
-  Piece out;
-  for (std::size_t i = 0; i < piece.size(); ++i) {
-    const Spot p = piece[i], q = piece[(i + 1) % piece.size()];
-    out.push_back(p);
-    std::vector<Spot> between;
-    const std::int64_t lo = std::min(p.x, q.x) - 2, hi = std::max(p.x, q.x) + 2;
-    for (auto at = corners.lower_bound({lo, INT64_MIN}); at != corners.end() && at->x <= hi; ++at)
-      if (*at != p && *at != q && onSide(p, q, *at)) between.push_back(*at);
-    const auto along = [&](Spot s) { return (s.x - p.x) * (q.x - p.x) + (s.y - p.y) * (q.y - p.y); };
-    std::sort(between.begin(), between.end(), [&](Spot a, Spot b) { return along(a) < along(b); });
-    out.insert(out.end(), between.begin(), between.end());
-  }
-  return out;
 }
 
 double sharpest(Spot a, Spot b, Spot c) {
@@ -114,7 +101,7 @@ std::vector<std::array<Spot, 3>> triangulate(Piece rest) {
       if (q <= quality) continue;
       Piece left = rest;
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
-      if (tidy(left).empty()) continue;
+      if (area(left) <= 0) continue;
       best = i, quality = q;
     }
     if (best == n) return out;
@@ -131,28 +118,38 @@ Spot spot(double x, double y) {
   return {std::llround(x * kSteps), std::llround(y * kSteps)};
 }
 
-void Mosaic::paint(const Piece& shape, std::uint32_t paint) {
-  std::vector<Tile> next;
+// The tile on the other side of a cut edge gets the new corner as well, so that corners always meet corners.
+void Mosaic::insert(Spot from, Spot to, Spot at) {
   for (Tile& tile : tiles_) {
-    if (apart(tile.outline, shape) || !overlap(tile.outline, shape)) {
-      next.push_back(std::move(tile));
-      continue;
+    Piece& outline = tile.outline;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const std::size_t next = (i + 1) % outline.size();
+      if (outline[i] != to || outline[next] != from) continue;
+      outline.insert(outline.begin() + static_cast<std::ptrdiff_t>(i + 1), at);
+      return;
     }
-    Piece inside = std::move(tile.outline);
+  }
+}
+
+void Mosaic::paint(const Piece& shape, std::uint32_t paint) {
+  const std::size_t before = tiles_.size();
+  for (std::size_t t = 0; t < before; ++t) {
+    if (apart(tiles_[t].outline, shape) || !overlap(tiles_[t].outline, shape)) continue;
+    Piece inside = std::exchange(tiles_[t].outline, {});
+    const std::uint32_t old = tiles_[t].paint;
     for (std::size_t i = 0; i < shape.size() && !inside.empty(); ++i) {
       Piece left, right;
-      split(inside, shape[i], shape[(i + 1) % shape.size()], left, right);
-      if (!right.empty()) next.push_back({std::move(right), tile.paint});
+      std::vector<Cut> cuts;
+      split(inside, shape[i], shape[(i + 1) % shape.size()], left, right, cuts);
+      for (const Cut& cut : cuts) insert(cut.from, cut.to, cut.at);
+      if (!right.empty()) tiles_.push_back({std::move(right), old});
       inside = std::move(left);
     }
-    if (!inside.empty()) next.push_back({std::move(inside), paint});
+    tiles_[t] = {std::move(inside), paint};
   }
-  tiles_ = std::move(next);
 }
 
 void Mosaic::triangulateInto(Model& model) const {
-  std::set<Spot> corners;
-  for (const Tile& tile : tiles_) corners.insert(tile.outline.begin(), tile.outline.end());
   std::map<Spot, std::uint32_t> known;
   const auto vertex = [&](Spot s) {
     const auto [at, fresh] = known.emplace(s, static_cast<std::uint32_t>(model.points.size()));
@@ -161,7 +158,7 @@ void Mosaic::triangulateInto(Model& model) const {
     return at->second;
   };
   for (const Tile& tile : tiles_)
-    for (const auto& t : triangulate(withNeighboursCorners(tile.outline, corners)))
+    for (const auto& t : triangulate(tile.outline))
       if (turn(t[0], t[1], t[2]) > 0)
         model.triangles.push_back({{vertex(t[0]), vertex(t[1]), vertex(t[2])}, tile.paint});
 }

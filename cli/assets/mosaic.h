@@ -18,7 +18,7 @@ using Piece = std::vector<Spot>;  ///< convex, counter-clockwise
 
 class Mosaic {
 public:
-  /// A first piece; pieces laid must not overlap.
+  /// A first piece; pieces laid must not overlap, and share whole edges.
   void lay(Piece piece, std::uint32_t paint) { tiles_.push_back({std::move(piece), paint}); }
   /// Gives everything inside the convex `shape` another paint.
   void paint(const Piece& shape, std::uint32_t paint);
@@ -26,6 +26,8 @@ public:
   void triangulateInto(Model& model) const;
 
 private:
+  void insert(Spot from, Spot to, Spot at);
+
   struct Tile {
     Piece outline;
     std::uint32_t paint;

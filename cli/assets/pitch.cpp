@@ -67,20 +67,16 @@ void paintSpot(Mosaic& field, double y) {
 }
 
 void layGrass(Mosaic& field) {
-  const double step = 2 * kHalfLength / kStripes, margin = 2.5;
-  for (int i = 0; i < kStripes; ++i) {
-    const double y = -kHalfLength + i * step;
-    field.lay(box(-kHalfWidth - margin, y, 0, y + step), i % 2 == 0 ? Light : Dark);
-    field.lay(box(0, y, kHalfWidth + margin, y + step), i % 2 == 0 ? Light : Dark);
-  }
-  const double x = kHalfWidth + margin, y = kHalfLength;
-  for (double from = -kBorder; from < kBorder; from += 17.5)
-    for (double s : {-1.0, 1.0})
-      field.lay(s < 0 ? box(from, -kBorder, from + 17.5, -y) : box(from, y, from + 17.5, kBorder), Rough);
-  for (int i = 0; i < 6; ++i) {
-    const double low = -y + i * 17.5;
-    field.lay(box(-kBorder, low, -x, low + 17.5), Rough);
-    field.lay(box(x, low, kBorder, low + 17.5), Rough);
+  const double step = 2 * kHalfLength / kStripes;
+  const double columns[] = {-kBorder, -kHalfWidth - 2.5, 0, kHalfWidth + 2.5, kBorder};
+  for (int c = 0; c < 4; ++c) {
+    const double x0 = columns[c], x1 = columns[c + 1];
+    for (int i = 0; i < kStripes; ++i) {
+      const double y = -kHalfLength + i * step;
+      field.lay(box(x0, y, x1, y + step), c == 0 || c == 3 ? Rough : i % 2 == 0 ? Light : Dark);
+    }
+    field.lay(box(x0, -kBorder, x1, -kHalfLength), Rough);
+    field.lay(box(x0, kHalfLength, x1, kBorder), Rough);
   }
 }
 

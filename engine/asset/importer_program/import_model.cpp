@@ -57,18 +57,50 @@ Affine toShow(const FormatInfo& format, const RequestHead& head, const std::vect
   return X;
 }
 
+// assimp's own steps trust the indices that its loaders made of the file, so they are looked at before.
+void checkNode(const aiScene& scene, const aiNode& node, std::uint32_t depthLeft) {
+  if (depthLeft == 0) throw Refusal("nests its nodes too deep");
+  for (unsigned i = 0; i < node.mNumMeshes; ++i)
+    if (node.mMeshes[i] >= scene.mNumMeshes) throw Refusal("has a node with a mesh that does not exist");
+  for (unsigned i = 0; i < node.mNumChildren; ++i)
+    if (node.mChildren[i]) checkNode(scene, *node.mChildren[i], depthLeft - 1);
+}
+
+void checkScene(const aiScene& scene, const RequestHead& head) {
+  if (!scene.mRootNode) throw Refusal("holds no scene");
+  checkNode(scene, *scene.mRootNode, head.nodeDepth);
+  bool faces = false;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    const aiMesh* mesh = scene.mMeshes[i];
+    if (!mesh) throw Refusal("has a mesh without content");
+    if (mesh->mNumVertices > head.mesh.vertices) throw Refusal("has too many vertices");
+    for (unsigned f = 0; f < mesh->mNumFaces; ++f)
+      for (unsigned k = 0; k < mesh->mFaces[f].mNumIndices; ++k)
+        if (mesh->mFaces[f].mIndices[k] >= mesh->mNumVertices)
+          throw Refusal("has a face with a vertex that does not exist");
+    faces |= mesh->mNumFaces > 0;
+  }
+  if (!faces) throw Refusal("holds no triangles");
+}
+
+[[noreturn]] void refuse(const FormatInfo& format, const std::string& why) {
+  if (why.find("bad_alloc") != std::string::npos || why.find("length_error") != std::string::npos)
+    throw std::bad_alloc();
+  if (why.find("No meshes remaining") != std::string::npos) throw Refusal("holds no triangles");
+  throw Refusal("cannot be read as " + std::string(format.name) + (why.empty() ? "" : ": " + why));
+}
+
 const aiScene& readScene(Assimp::Importer& importer, const Request& request, const FormatInfo& format) {
   importer.SetIOHandler(new Jail(request.root.get(), request.head.fileBytes));  // assimp owns it
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, request.head.up != 0);
   keepOneLoader(importer, format);
-  const unsigned steps = aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType;
-  const aiScene* scene = importer.ReadFile(request.path, steps);
-  if (scene) return *scene;
-  const std::string why = importer.GetErrorString();
-  if (why.find("bad_alloc") != std::string::npos || why.find("length_error") != std::string::npos)
-    throw std::bad_alloc();
-  throw Refusal("cannot be read as " + std::string(format.name) + (why.empty() ? "" : ": " + why));
+  const aiScene* scene = importer.ReadFile(request.path, 0);
+  if (!scene) refuse(format, importer.GetErrorString());
+  checkScene(*scene, request.head);
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
+  if (!scene) refuse(format, importer.GetErrorString());
+  return *scene;
 }
 
 // glTF 1.0 shares the extension; naming it beats "unknown format".
@@ -83,6 +115,11 @@ void refuseOldGltf(const FormatInfo& format, const std::vector<std::uint8_t>& fi
   const bool json =
       quote != std::string_view::npos && text.substr(quote, 3).find("1.") != std::string_view::npos;
   if (binary || json) throw Refusal("is glTF 1.0; convert it to glTF 2.0");
+}
+
+// 3DS files hold no normals, and those of STL files say nothing about smoothness.
+bool givesNormals(ModelFormat format) {
+  return format != ModelFormat::Stl && format != ModelFormat::ThreeDs;
 }
 
 std::string folderOf(const std::string& path) {
@@ -114,9 +151,10 @@ Imported importModel(const Request& request) {
   Assimp::Importer importer;
   const aiScene& scene = readScene(importer, request, *format);
   Flat flat = flatten(scene, {toShow(*format, request.head, *file), request.head.nodeDepth, request.head.mesh,
-                              format->format != ModelFormat::Stl, format->linearColours});
+                              givesNormals(format->format), format->linearColours});
   const Dropped dropped = dropBadTriangles(flat);
-  if (flat.triangles.empty()) throw Refusal("holds no triangles");
+  if (flat.triangles.empty())
+    throw Refusal(dropped.notFinite ? "holds no triangles with finite corners" : "holds no triangles");
   Imported result;
   std::vector<std::string> notes;
   readMaterials(scene, *format,

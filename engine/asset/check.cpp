@@ -1,0 +1,52 @@
+#include "engine/asset/check.h"
+
+#include <algorithm>
+
+namespace stadion {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> modelsBelow(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end;
+       !error && at != end; at.increment(error)) {
+    std::error_code ignored;
+    if (at->is_symlink(ignored) || !at->is_regular_file(ignored)) continue;
+    const std::string name = at->path().lexically_relative(folder).string();
+    if (formatOf(name) || refusedFormat(name)) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+Result<AssetCounts> checkAssets(const fs::path& importerProgram, const fs::path& folder,
+                                const std::function<void(const AssetFinding&)>& tell,
+                                const ImportLimits& limits) {
+  AssetRoots roots;
+  if (!roots.add(folder))
+    return Result<AssetCounts>::failure("\"" + folder.string() + "\" is not a folder that can be opened");
+  Importer importer(importerProgram, std::move(roots), limits);
+  AssetCounts counts;
+  for (const std::string& name : modelsBelow(folder)) {
+    AssetFinding finding;
+    finding.file = name;
+    const bool readable = formatOf(name) != nullptr;
+    auto mesh = importer.load(name, {}, {name, 0, 0}, &finding.notes);
+    finding.verdict = mesh ? AssetVerdict::Loaded : readable ? AssetVerdict::Failed : AssetVerdict::Refused;
+    if (mesh)
+      finding.mesh = mesh.value().get();
+    else
+      finding.message = mesh.error().message;
+    ++(mesh ? counts.loaded : readable ? counts.failed : counts.refused);
+    // A program that fell over is gone; after an ordinary failure it waits for the next file.
+    if (!mesh && readable && importer.pid() == 0) ++counts.faults;
+    tell(finding);
+  }
+  return counts;
+}
+
+}  // namespace stadion

@@ -1,0 +1,37 @@
+#pragma once
+/// Imports every model file of a folder and tells how it went, for `stadion check --assets`.
+
+#include "engine/asset/import.h"
+
+#include <filesystem>
+#include <functional>
+
+namespace stadion {
+
+enum class AssetVerdict {
+  Loaded,
+  Refused,  ///< a 3D format that shows do not read
+  Failed,   ///< a readable format, but this file is broken or beyond the limits
+};
+
+struct AssetFinding {
+  AssetVerdict verdict = AssetVerdict::Failed;
+  std::string file;            ///< below the folder
+  std::string message;         ///< why not; empty when loaded
+  Diagnostics notes;           ///< what was lost on the way
+  const Mesh* mesh = nullptr;  ///< when loaded; valid during the call
+};
+
+struct AssetCounts {
+  std::size_t loaded = 0, refused = 0, failed = 0;
+  std::size_t faults = 0;  ///< of the failed: the importer program crashed, hung or ran out of memory
+};
+
+/// Goes through `folder` in the order of names, without following symbolic links; files that are no models
+/// are passed over. The error, when there is one, is that the folder cannot be opened.
+Result<AssetCounts> checkAssets(const std::filesystem::path& importerProgram,
+                                const std::filesystem::path& folder,
+                                const std::function<void(const AssetFinding&)>& tell,
+                                const ImportLimits& limits = {});
+
+}  // namespace stadion

@@ -1,0 +1,69 @@
+#pragma once
+// What the tests of the importer share.
+
+#include "engine/asset/import.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace stadion::test {
+
+inline std::filesystem::path models() {
+  return std::filesystem::path(STADION_SOURCE_DIR) / "tests/corpus/models";
+}
+
+inline Importer importerOf(const std::filesystem::path& folder, ImportLimits limits = {},
+                           std::filesystem::path program = Importer::programBesideThis()) {
+  AssetRoots roots;
+  EXPECT_TRUE(roots.add(folder));
+  return Importer(std::move(program), std::move(roots), limits);
+}
+
+/// A folder that goes away with the test.
+class TemporaryFolder {
+public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "stadion-test-XXXXXX").string();
+    path_ = ::mkdtemp(name.data()) ? name : std::string();
+  }
+  ~TemporaryFolder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    return path_ / name;
+  }
+
+private:
+  std::filesystem::path path_;
+};
+
+inline std::string bytesOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Six times the volume is the sum of the triple products; positive when the triangles face outwards [m³].
+inline double volume(const Mesh& mesh) {
+  double sum = 0;
+  const auto at = [&](std::size_t i) {
+    const auto& p = mesh.positions[mesh.indices[i]];
+    return Vec3(p[0], p[1], p[2]);
+  };
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) sum += at(i).dot(at(i + 1).cross(at(i + 2)));
+  return sum / 6;
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace stadion::test

@@ -1,0 +1,100 @@
+// The models in assets/: what the program writes, and what shows rely on.
+
+#include "tests/engine/asset_importing.h"
+
+#include "engine/asset/mesh_checks.h"
+
+#include <set>
+
+namespace stadion::test {
+namespace {
+
+const std::filesystem::path kAssets = std::filesystem::path(STADION_SOURCE_DIR) / "assets";
+
+TEST(AssetShowModels, AreMadeByTheirProgramByteForByte) {
+  TemporaryFolder folder;
+  const auto program = Importer::programBesideThis().parent_path() / "stadion-assets";
+  ASSERT_EQ(::system(("'" + program.string() + "' '" + folder.path().string() + "'").c_str()), 0);
+  for (const char* name : {"football.3ds", "plane.3ds", "grass.png", "crude_foot.obj", "crude_foot.mtl"}) {
+    const std::string made = bytesOf(folder.path() / name);
+    EXPECT_FALSE(made.empty()) << name;
+    EXPECT_TRUE(made == bytesOf(kAssets / name)) << name << " differs from the one that is checked in";
+  }
+}
+
+TEST(AssetShowModels, TheFootballIsARoundClosedBallOnTheOrigin) {
+  auto loaded = importerOf(kAssets).load("football.3ds");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  const Mesh& ball = *loaded.value();
+  constexpr double kRadius = 0.11;
+  EXPECT_TRUE(closed(ball));
+  EXPECT_GE(ball.indices.size() / 3, 1280u);
+  EXPECT_EQ(ball.bounds.lo.z(), 0);
+  for (const auto& p : ball.positions)
+    ASSERT_NEAR((Vec3(p[0], p[1], p[2]) - Vec3(0, 0, kRadius)).norm(), kRadius, 3e-8)
+        << "a vertex off the sphere";
+  for (std::size_t i = 0; i < ball.indices.size(); i += 3) {
+    Vec3 middle = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const auto& p = ball.positions[ball.indices[i + k]];
+      middle += Vec3(p[0], p[1], p[2]) / 3;
+    }
+    ASSERT_GT((middle - Vec3(0, 0, kRadius)).norm(), 0.99 * kRadius) << "farther than 1 % inside the sphere";
+  }
+  const double sphere = 4.0 / 3 * 3.14159265358979 * kRadius * kRadius * kRadius;
+  EXPECT_NEAR(volume(ball) / sphere, 1, 0.01);
+  std::set<std::string> paints;
+  for (const Submesh& s : ball.submeshes) paints.insert(ball.materials[s.material].name);
+  EXPECT_EQ(paints, (std::set<std::string>{"white", "black", "seam"}));
+}
+
+TEST(AssetShowModels, ThePlaneIsOneFlatLayerWithoutOverlaps) {
+  Diagnostics notes;
+  auto loaded = importerOf(kAssets).load("plane.3ds", {}, {}, &notes);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_TRUE(notes.all().empty()) << format(notes.all()[0]);
+  const Mesh& plane = *loaded.value();
+  EXPECT_FALSE(closed(plane));
+  const Vec3 size = plane.bounds.hi - plane.bounds.lo;
+  EXPECT_GE(size.x(), 120);
+  EXPECT_GE(size.y(), 120);
+  for (const auto& p : plane.positions) ASSERT_EQ(p[2], 0);
+  for (const auto& n : plane.normals) ASSERT_NEAR(n[2], 1, 1e-6);
+  // Every triangle faces up, so equal areas mean neither overlap nor hole.
+  EXPECT_NEAR(area(plane), size.x() * size.y(), 1e-2);
+  EXPECT_EQ(plane.textures.size(), 1u);
+}
+
+TEST(AssetShowModels, CornersOfThePlaneMeetOnlyCorners) {
+  auto loaded = importerOf(kAssets).load("plane.3ds");
+  ASSERT_TRUE(loaded);
+  const Mesh& plane = *loaded.value();
+  const auto weld = weldPositions(plane.positions);
+  std::multiset<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (std::size_t i = 0; i < plane.indices.size(); i += 3)
+    for (int k = 0; k < 3; ++k)
+      edges.emplace(weld[plane.indices[i + k]], weld[plane.indices[i + (k + 1) % 3]]);
+  for (const auto& [a, b] : edges) {
+    ASSERT_EQ(edges.count({a, b}), 1u);
+    const bool rim = std::abs(plane.positions[a][0]) == 70 || std::abs(plane.positions[a][1]) == 70;
+    ASSERT_TRUE(rim || edges.count({b, a}) == 1) << plane.positions[a][0] << ' ' << plane.positions[a][1];
+  }
+}
+
+TEST(AssetShowModels, TheFootIsClosedAndPointsForward) {
+  auto loaded = importerOf(kAssets).load("crude_foot.obj");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  const Mesh& foot = *loaded.value();
+  EXPECT_TRUE(closed(foot));
+  EXPECT_GT(volume(foot), 1e-3);
+  EXPECT_NEAR(foot.bounds.lo.z(), 0, 1e-6);
+  EXPECT_GT(foot.bounds.hi.z(), 0.4) << "the leg stands up";
+  EXPECT_GT(foot.bounds.hi.y(), 0.2) << "toes forward";
+  double heel = 0;
+  for (const auto& p : foot.positions)
+    if (p[2] < 0.06f) heel = std::min(heel, double{p[1]});
+  EXPECT_NEAR(foot.bounds.hi.y() - heel, 0.28, 0.005);
+}
+
+}  // namespace
+}  // namespace stadion::test
