@@ -187,6 +187,7 @@ EventMessage Document::messageAt(std::uint32_t index) const {
   message.tracker = source_.slice(stored.tracker, stored.trackerLength);
   message.delay = stored.delay;
   message.where = stored.where;
+  message.command = stored.command;
   return message;
 }
 

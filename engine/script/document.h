@@ -156,6 +156,7 @@ private:
   struct StoredMessage {
     Nanoseconds delay;
     std::uint32_t where;
+    std::uint32_t command;
     std::uint32_t target;  // into references_
     std::uint32_t field;   // into references_, or kNone
     std::uint32_t tracker;
@@ -178,7 +179,8 @@ private:
   std::vector<double> numbers_;
   std::vector<StoredReference> references_;
   std::vector<StoredMessage> messages_;
-  std::vector<std::uint32_t> byName_;  // named nodes, sorted by name, then by position
+  std::vector<std::uint32_t> byName_;   // named nodes, sorted by name, then by position
+  std::vector<std::string> lostNames_;  // of declarations that could not be understood
   bool incomplete_ = false;
 };
 

@@ -45,6 +45,7 @@ void DocumentWriter::addMessage(TextSpan value, const ReadMessage& read) {
   Document::StoredMessage message{};
   message.delay = read.delay;
   message.where = value.offset;
+  message.command = at(read.command).offset;
   message.target = storeReference(at(read.target));
   message.field = read.field.text.empty() ? Document::kNone : storeReference(at(read.field));
   message.tracker = at(read.tracker).offset;
@@ -55,6 +56,11 @@ void DocumentWriter::addMessage(TextSpan value, const ReadMessage& read) {
   document_.values_.push_back({value.offset, static_cast<std::uint32_t>(document_.messages_.size()),
                                Attr::EventMessage, ValueKind::EventMessage});
   document_.messages_.push_back(message);
+}
+
+bool DocumentWriter::mayHaveLost(std::string_view name) const {
+  const auto& lost = document_.lostNames_;
+  return document_.incomplete_ || std::find(lost.begin(), lost.end(), name) != lost.end();
 }
 
 void DocumentWriter::finish(const std::function<void(std::uint32_t, std::uint32_t)>& duplicate) {

@@ -21,6 +21,11 @@ public:
   void addReference(Attr attr, TextSpan name);
   void addMessage(TextSpan value, const ReadMessage& message);
   void setIncomplete() { document_.incomplete_ = true; }
+  /// Remembers a name whose declaration is wrong, so that its users are not called wrong too.
+  void addLostName(std::string name) { document_.lostNames_.push_back(std::move(name)); }
+  bool mayHaveLost(std::string_view name) const;
+
+  std::uint32_t offsetOf(std::uint32_t node) const { return document_.nodes_[node].where; }
 
   /// Sorts the names, gives back unused memory. `duplicate(first, again)` is called for each name that
   /// recurs.

@@ -39,6 +39,7 @@ struct EventMessage {
   std::string_view tracker;           ///< attach, grab; empty: the default
   Nanoseconds delay = 0;              ///< from the event to the command [ns]
   std::uint32_t where = 0;            ///< offset in the source text
+  std::uint32_t command = 0;          ///< offset of the command in the source text
 };
 
 }  // namespace stadion

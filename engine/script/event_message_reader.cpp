@@ -169,6 +169,7 @@ std::optional<ValueError> readEventMessage(std::string_view text, NodeKind sende
                       fmt::format("\"{}\" {}", shortened(message.target.text), *fault)};
   const Piece command = takeUntil(',', rest, offset);
   if (command.text.empty()) return missing(command.offset, "command");
+  message.command = command;
   if (auto failure = readCommand(command, message)) return failure;
 
   unsigned seen = 0;

@@ -11,6 +11,7 @@ namespace stadion {
 struct ReadMessage {
   Event event{};
   Piece target;
+  Piece command;  ///< with its arguments
   Verb verb{};
   AttachPart part = AttachPart::All;
   Piece field;

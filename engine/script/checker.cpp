@@ -1,0 +1,268 @@
+#include "engine/script/checker.h"
+
+#include "engine/script/file_path.h"
+#include "engine/script/suggestion.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace stadion {
+
+namespace {
+
+constexpr NumberRange kTimeOfKey{0, 1e6};
+constexpr NumberRange kPlace{-1e6, 1e6};
+constexpr NumberRange kTurn{-36000, 36000};
+
+const AttributeSpec* findAttribute(NodeKind kind, std::string_view word) {
+  const auto attr = attrNamed(word);
+  return attr ? specOf(kind, *attr) : nullptr;
+}
+
+std::string kindsThatHave(Attr attr) {
+  KindSet kinds;
+  for (std::size_t i = 0; i < kNodeKindCount; ++i)
+    if (specOf(static_cast<NodeKind>(i), attr) != nullptr) kinds = kinds | KindSet{static_cast<NodeKind>(i)};
+  return describe(kinds);
+}
+
+/// The numbers of numbers that a value may have.
+bool countIsRight(ValueKind kind, std::size_t count) {
+  switch (kind) {
+  case ValueKind::Number: return count == 1;
+  case ValueKind::Scale: return count == 1 || count == 3;
+  case ValueKind::Sphere: return count == 4;
+  case ValueKind::Box: return count == 6;
+  case ValueKind::Key: return count == 4 || count == 7;
+  default: return count == 3;
+  }
+}
+
+/// What the i-th number of a value is called, its unit and its range.
+struct Element {
+  std::string name;
+  std::string_view unit;
+  NumberRange range;
+};
+
+Element elementOf(const AttributeSpec& spec, std::size_t i) {
+  const auto part = [&](const char* of) { return fmt::format("{} of {}", of, nameOf(spec.attr)); };
+  switch (spec.kind) {
+  case ValueKind::Sphere:
+    return i < 3 ? Element{part("the centre"), "m", kPlace} : Element{part("the radius"), "m", spec.range};
+  case ValueKind::Box:
+    return i < 3 ? Element{part("the centre"), "m", kPlace} : Element{part("an edge"), "m", spec.range};
+  case ValueKind::Key:
+    if (i == 0) return {part("the time"), "s", kTimeOfKey};
+    return i < 4 ? Element{part("the position"), "m", spec.range}
+                 : Element{part("the orientation"), "degrees", kTurn};
+  default: return {std::string(nameOf(spec.attr)), spec.unit, spec.range};
+  }
+}
+
+bool contains(const NumberRange& range, double x) {
+  return (range.above ? x > range.least : x >= range.least) && x <= range.most;
+}
+
+}  // namespace
+
+Checker::Checker(Document& document, Reporter& report)
+    : document_(document), writer_(document), report_(report) {}
+
+void Checker::take(const RawDeclaration& raw) {
+  if (report_.full()) return writer_.setIncomplete();
+  const auto kind = nodeKindNamed(text(raw.type));
+  if (!kind) return takeUnknown(raw);
+  const std::uint32_t node = writer_.beginNode(*kind, raw.type.offset);
+  Seen seen;
+  for (const RawAttribute& attribute : raw.attributes) takeAttribute(*kind, attribute, seen);
+  if (!raw.complete) return writer_.setIncomplete();
+  checkRequired(*kind, raw.type, seen);
+  checkVolume(*kind, raw, seen);
+  if (*kind == NodeKind::Path) checkKeyTimes(raw, node);
+}
+
+void Checker::takeUnknown(const RawDeclaration& raw) {
+  if (!raw.complete)
+    writer_.setIncomplete();  // its syntax error says more than its type
+  else
+    report_.error(raw.type.offset,
+                  fmt::format("\"{}\" is not a node type{}", shortened(text(raw.type)),
+                              didYouMean(text(raw.type), {kNodeKindNames.begin(), kNodeKindNames.end()})));
+  for (const RawAttribute& attribute : raw.attributes)
+    if (text(attribute.name) == nameOf(Attr::Name) && !report_.full())
+      writer_.addLostName(std::string(text(attribute.value)));
+}
+
+void Checker::takeAttribute(NodeKind kind, const RawAttribute& raw, Seen& seen) {
+  if (report_.full()) return;
+  const AttributeSpec* spec = findAttribute(kind, text(raw.name));
+  if (spec == nullptr) return reportUnknown(kind, raw);
+  const auto bit = static_cast<std::size_t>(spec->attr);
+  if (seen[bit] && !spec->repeatable)
+    return report_.error(raw.name.offset, fmt::format("\"{}\" is given twice; {} takes one",
+                                                      nameOf(spec->attr), nameOf(kind)));
+  seen[bit] = true;
+  takeValue(kind, *spec, raw.value);
+}
+
+void Checker::reportUnknown(NodeKind kind, const RawAttribute& raw) {
+  if (report_.full()) return;
+  const std::string_view word = text(raw.name);
+  std::vector<std::string> words;
+  for (const AttributeSpec* spec : attributesOf(kind)) words.emplace_back(nameOf(spec->attr));
+  const auto elsewhere = attrNamed(word);
+  const std::string otherwise = elsewhere ? fmt::format("; it belongs to {}", kindsThatHave(*elsewhere)) : "";
+  report_.error(raw.name.offset, fmt::format("\"{}\" is not an attribute of {}{}", shortened(word),
+                                             nameOf(kind), elsewhere ? otherwise : didYouMean(word, words)));
+}
+
+void Checker::takeValue(NodeKind kind, const AttributeSpec& spec, TextSpan value) {
+  switch (spec.kind) {
+  case ValueKind::Flag: return takeFlag(spec, value);
+  case ValueKind::Choice: return takeChoice(spec, value);
+  case ValueKind::NewName:
+  case ValueKind::Tracker:
+  case ValueKind::Reference: return takeWord(spec, value);
+  case ValueKind::File: return takeFile(spec, value);
+  case ValueKind::EventMessage: return takeMessage(kind, value);
+  default: return takeNumbers(spec, value);
+  }
+}
+
+void Checker::takeNumbers(const AttributeSpec& spec, TextSpan value) {
+  NumberList numbers;
+  const std::string name(nameOf(spec.attr));
+  if (const auto failure = readNumbers(text(value), numbers, name, formOf(spec)))
+    return report_.error(value.offset + static_cast<std::uint32_t>(failure->offset), failure->message);
+  if (!countIsRight(spec.kind, numbers.count))
+    return report_.error(value.offset,
+                         fmt::format("{} must be {}, not {}", name, formOf(spec),
+                                     numbers.count == 0 ? "empty"
+                                                        : fmt::format("{} number{}", numbers.count,
+                                                                      numbers.count == 1 ? "" : "s")));
+  if (!numbersInRange(spec, value, numbers)) return;
+  if (spec.kind == ValueKind::Scale && numbers.count == 1)
+    numbers.value[1] = numbers.value[2] = numbers.value[0];
+  const std::size_t stored = spec.kind == ValueKind::Scale ? 3
+                             : spec.kind == ValueKind::Key ? 7
+                                                           : numbers.count;
+  writer_.addNumbers(spec.attr, spec.kind, value.offset, std::span(numbers.value).first(stored));
+}
+
+bool Checker::numbersInRange(const AttributeSpec& spec, TextSpan value, const NumberList& numbers) {
+  bool allZero = true;
+  for (std::size_t i = 0; i < numbers.count; ++i) {
+    if (numbers.value[i] != 0) allZero = false;
+    const Element element = elementOf(spec, i);
+    if (contains(element.range, numbers.value[i])) continue;
+    report_.error(value.offset + static_cast<std::uint32_t>(numbers.offset[i]),
+                  fmt::format("{} must be {}, not {}", element.name, describe(element.range, element.unit),
+                              numbers.value[i]));
+    return false;
+  }
+  if (spec.kind == ValueKind::Direction && allZero) {
+    report_.error(value.offset, fmt::format("{} must not be zero", nameOf(spec.attr)));
+    return false;
+  }
+  return true;
+}
+
+void Checker::takeFlag(const AttributeSpec& spec, TextSpan value) {
+  if (const auto flag = readFlag(text(value)))
+    return writer_.addIndex(spec.attr, spec.kind, value.offset, *flag ? 1 : 0);
+  report_.error(value.offset,
+                fmt::format("{} must be on or off, not \"{}\"", nameOf(spec.attr), shortened(text(value))));
+}
+
+void Checker::takeChoice(const AttributeSpec& spec, TextSpan value) {
+  const auto found = std::find(spec.choices.begin(), spec.choices.end(), text(value));
+  if (found != spec.choices.end())
+    return writer_.addIndex(spec.attr, spec.kind, value.offset,
+                            static_cast<std::uint32_t>(found - spec.choices.begin()));
+  report_.error(value.offset, fmt::format("{} must be {}, not \"{}\"", nameOf(spec.attr), formOf(spec),
+                                          shortened(text(value))));
+}
+
+void Checker::takeWord(const AttributeSpec& spec, TextSpan value) {
+  const bool reference = spec.kind == ValueKind::Reference;
+  if (const auto fault = reference ? faultOfReference(text(value)) : faultOfName(text(value))) {
+    if (spec.kind == ValueKind::NewName) writer_.addLostName(std::string(text(value)));
+    return report_.error(value.offset,
+                         fmt::format("{}: \"{}\" {}", nameOf(spec.attr), shortened(text(value)), *fault));
+  }
+  if (reference)
+    writer_.addReference(spec.attr, value);
+  else if (spec.kind == ValueKind::NewName)
+    writer_.setName(value);
+  else
+    writer_.addText(spec.attr, spec.kind, value);
+}
+
+void Checker::takeFile(const AttributeSpec& spec, TextSpan value) {
+  if (value.length == 0)
+    return report_.error(value.offset, fmt::format("{} must be a file name, not empty", nameOf(spec.attr)));
+  if (const auto fault = faultOfPath(text(value)))
+    return report_.error(value.offset, fmt::format("\"{}\" {}", shortened(text(value)), *fault));
+  writer_.addText(spec.attr, spec.kind, value);
+}
+
+void Checker::takeMessage(NodeKind kind, TextSpan value) {
+  ReadMessage message;
+  if (const auto failure = readEventMessage(text(value), kind, message))
+    return report_.error(value.offset + static_cast<std::uint32_t>(failure->offset), failure->message);
+  writer_.addMessage(value, message);
+}
+
+void Checker::checkRequired(NodeKind kind, TextSpan type, const Seen& seen) {
+  for (const AttributeSpec& spec : specOf(kind).own)
+    if (spec.required && !seen[static_cast<std::size_t>(spec.attr)])
+      report_.error(type.offset, fmt::format("{} has no \"{}\", which it must have: {}", nameOf(kind),
+                                             nameOf(spec.attr), spec.help));
+}
+
+void Checker::checkVolume(NodeKind kind, const RawDeclaration& raw, const Seen& seen) {
+  if (kind != NodeKind::UserTrigger && kind != NodeKind::WandTrigger) return;
+  const bool sphere = seen[static_cast<std::size_t>(Attr::Sphere)];
+  const bool box = seen[static_cast<std::size_t>(Attr::Box)];
+  if (sphere != box) return;
+  report_.error(raw.type.offset, fmt::format("{} needs {} \"sphere\" or \"box\"{}", nameOf(kind),
+                                             sphere ? "either" : "a", sphere ? ", not both" : ""));
+}
+
+void Checker::checkKeyTimes(const RawDeclaration& raw, std::uint32_t node) {
+  const auto keys = document_[node].keys();
+  std::vector<std::uint32_t> places;
+  for (const RawAttribute& attribute : raw.attributes)
+    if (text(attribute.name) == nameOf(Attr::Key)) places.push_back(attribute.value.offset);
+  if (places.size() != keys.size()) return;  // a key was wrong by itself
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    if (!(keys[i].time > keys[i - 1].time))
+      return report_.error(places[i], fmt::format("the times of keys must increase, but {} follows {}",
+                                                  keys[i].time, keys[i - 1].time));
+}
+
+void Checker::finish() {
+  writer_.finish([this](std::uint32_t first, std::uint32_t again) {
+    const Declaration before = document_[first];
+    const auto name = document_[again].name();
+    report_.error(static_cast<std::uint32_t>(name.data() - document_.source().text().data()),
+                  fmt::format("the name \"{}\" is already taken by the {} in line {}", shortened(name),
+                              nameOf(before.kind()), before.line()));
+  });
+  std::array<std::uint32_t, kNodeKindCount> firstOf;
+  firstOf.fill(NodeReference::kNone);
+  for (const Declaration node : document_) {
+    auto& first = firstOf[static_cast<std::size_t>(node.kind())];
+    if (first == NodeReference::kNone) {
+      first = node.index();
+    } else if (specOf(node.kind()).single) {
+      report_.error(writer_.offsetOf(node.index()),
+                    fmt::format("a script has at most one {}; the first is in line {}", nameOf(node.kind()),
+                                document_[first].line()));
+    }
+  }
+}
+
+}  // namespace stadion

@@ -1,0 +1,203 @@
+#include "engine/script/document_writer.h"
+#include "engine/script/reporter.h"
+#include "engine/script/script.h"
+#include "engine/script/suggestion.h"
+
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+namespace stadion {
+
+namespace {
+
+constexpr std::size_t kMostCandidates = 20'000;  // for suggestions
+constexpr std::size_t kMostSuggestions = 20;
+
+std::string withArticle(NodeKind kind) {
+  return fmt::format("{} {}", kind == NodeKind::Object ? "an" : "a", nameOf(kind));
+}
+
+std::string commandsOf(NodeKind kind) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < kVerbCount; ++i)
+    if (specOf(static_cast<Verb>(i)).receivers.has(kind)) words.emplace_back(kVerbNames[i]);
+  return joinWithOr(words);
+}
+
+class Resolver {
+public:
+  Resolver(Document& document, const Surroundings& surroundings, Reporter& report)
+      : document_(document), surroundings_(surroundings), writer_(document), report_(report) {}
+
+  void run() {
+    for (const Declaration node : document_)
+      writer_.resolveReferences(node.index(),
+                                [&](Attr attr, const NodeReference& r, const EventMessage* message) {
+                                  return resolve(node, attr, r, message);
+                                });
+    checkParents();
+    checkOwners();
+  }
+
+private:
+  using Resolution = DocumentWriter::Resolution;
+
+  const Document& documentAt(std::uint32_t level) const {
+    return level == 0 ? document_ : *surroundings_.enclosing[level - 1];
+  }
+
+  Resolution lookUp(std::string_view name) const {
+    for (std::uint32_t level = 0; level <= surroundings_.enclosing.size(); ++level)
+      if (const auto found = documentAt(level).find(name)) return {found->index(), level};
+    return {};
+  }
+
+  Resolution resolve(const Declaration& user, Attr attr, const NodeReference& reference,
+                     const EventMessage* message) {
+    const std::string_view first = reference.name.substr(0, reference.name.find('/'));
+    const Resolution found = lookUp(first);
+    if (found.declaration == NodeReference::kNone) {
+      if (!writer_.mayHaveLost(first)) reportUnresolved(reference, first, nullptr);
+      return found;
+    }
+    const Declaration target = documentAt(found.level)[found.declaration];
+    const auto final = enter(target, reference);
+    if (final && !mayUse(user, attr, reference, final->kind(), message)) return {};
+    return found;
+  }
+
+  /// The node that the rest of the name leads to; nothing if that cannot be known or was reported.
+  std::optional<Declaration> enter(Declaration node, const NodeReference& reference) {
+    std::string_view rest = reference.inner();
+    while (!rest.empty()) {
+      if (node.kind() != NodeKind::Scene) {
+        report_.error(reference.where, fmt::format("\"{}\": \"{}\" is {}, and only a scene has nodes inside",
+                                                   reference.name, node.name(), withArticle(node.kind())));
+        return std::nullopt;
+      }
+      const Document* inside = surroundings_.subScene ? surroundings_.subScene(node) : nullptr;
+      if (inside == nullptr) return std::nullopt;
+      const std::size_t end = std::min(rest.find('/'), rest.size());
+      const auto next = inside->find(rest.substr(0, end));
+      if (!next) {
+        if (!inside->incomplete()) reportUnresolved(reference, rest.substr(0, end), inside);
+        return std::nullopt;
+      }
+      node = *next;
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return node;
+  }
+
+  bool mayUse(const Declaration& user, Attr attr, const NodeReference& reference, NodeKind kind,
+              const EventMessage* message) {
+    if (message != nullptr) {
+      if (specOf(message->verb).receivers.has(kind)) return true;
+      report_.error(message->command,
+                    fmt::format("\"{}\" is {}, which does not take \"{}\"; it takes {}", reference.name,
+                                withArticle(kind), nameOf(message->verb), commandsOf(kind)));
+      return false;
+    }
+    const AttributeSpec* spec = specOf(user.kind(), attr);
+    // hook and unhook in an eventmessage come as Attr::Hook from senders that have no such attribute
+    const KindSet allowed = attr == Attr::Hook || spec == nullptr ? fieldKinds() : spec->targets;
+    if (allowed.has(kind)) return true;
+    report_.error(reference.where, fmt::format("\"{}\" is {}; {} takes the name of a {}", reference.name,
+                                               withArticle(kind), nameOf(attr), describe(allowed)));
+    return false;
+  }
+
+  void reportUnresolved(const NodeReference& reference, std::string_view part, const Document* inside) {
+    std::string suggestion;
+    if (suggestions_ < kMostSuggestions) {
+      ++suggestions_;
+      suggestion = inside != nullptr ? didYouMean(part, namesIn(*inside)) : didYouMean(part, visibleNames());
+    }
+    report_.error(reference.where,
+                  fmt::format("there is no node named \"{}\"{}{}", part,
+                              inside != nullptr ? fmt::format(" in {}", inside->file()) : "", suggestion));
+  }
+
+  static std::vector<std::string> namesIn(const Document& document) {
+    std::vector<std::string> names;
+    for (const Declaration node : document)
+      if (!node.name().empty() && names.size() < kMostCandidates) names.emplace_back(node.name());
+    return names;
+  }
+
+  const std::vector<std::string>& visibleNames() {
+    if (!visible_.empty()) return visible_;
+    for (std::uint32_t level = 0; level <= surroundings_.enclosing.size(); ++level)
+      for (std::string& name : namesIn(documentAt(level))) visible_.push_back(std::move(name));
+    return visible_;
+  }
+
+  /// The parent in this file, or kNone.
+  std::uint32_t parentOf(std::uint32_t node) const {
+    const auto parent = document_[node].reference(Attr::Parent);
+    const bool here = parent && parent->resolved() && parent->level == 0 && parent->inner().empty();
+    return here ? parent->declaration : NodeReference::kNone;
+  }
+
+  void checkParents() {
+    std::vector<std::uint32_t> visitedBy(document_.size(), NodeReference::kNone);
+    for (std::uint32_t start = 0; start < document_.size(); ++start) {
+      std::uint32_t node = start;
+      while (node != NodeReference::kNone && visitedBy[node] == NodeReference::kNone) {
+        visitedBy[node] = start;
+        node = parentOf(node);
+      }
+      if (node != NodeReference::kNone && visitedBy[node] == start) reportCircle(node);
+    }
+  }
+
+  void reportCircle(std::uint32_t node) {
+    constexpr int kMostNames = 6;
+    std::uint32_t first = node;  // the one written first is the one to point at
+    for (std::uint32_t next = parentOf(node); next != node; next = parentOf(next))
+      first = std::min(first, next);
+    std::string chain = fmt::format("\"{}\"", document_[first].name());
+    int names = 1;
+    for (std::uint32_t next = parentOf(first); next != first && names < kMostNames;
+         next = parentOf(next), ++names)
+      chain += fmt::format(" is below \"{}\", which", document_[next].name());
+    chain += fmt::format(" is below {}",
+                         names == kMostNames ? "others" : fmt::format("\"{}\"", document_[first].name()));
+    report_.error(document_[first].reference(Attr::Parent)->where, "parents form a circle: " + chain);
+  }
+
+  void checkOwners() {
+    std::unordered_map<std::string_view, std::uint32_t> ownerOf;
+    for (const Declaration node : document_) {
+      if (node.kind() != NodeKind::Dynamics) continue;
+      for (const NodeReference& body : node.references(Attr::Collidee)) {
+        const auto [entry, isNew] = ownerOf.emplace(body.name, node.index());
+        if (isNew) continue;
+        const Declaration owner = document_[entry->second];
+        const bool same = owner.index() == node.index();
+        report_.error(body.where,
+                      same ? fmt::format("\"{}\" is collidee of this node twice", body.name)
+                           : fmt::format("\"{}\" is already collidee of the dynamics node in line {}; a body "
+                                         "belongs to one",
+                                         body.name, owner.line()));
+      }
+    }
+  }
+
+  Document& document_;
+  const Surroundings& surroundings_;
+  DocumentWriter writer_;
+  Reporter& report_;
+  std::vector<std::string> visible_;
+  std::size_t suggestions_ = 0;
+};
+
+}  // namespace
+
+void resolveNames(Document& document, const Surroundings& surroundings, Diagnostics& findings) {
+  Reporter report(document.source(), findings);
+  Resolver(document, surroundings, report).run();
+}
+
+}  // namespace stadion
