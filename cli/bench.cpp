@@ -17,7 +17,8 @@ int benchOverlap(bool json) {
   const OverlapTimes t;
   OverlapTimes shorter = t;
   shorter.frames = 30;
-  const double pipelined = overlapPeriod(Mode::Pipelined, t), sequential = overlapPeriod(Mode::Sequential, shorter);
+  const double pipelined = overlapPeriod(Mode::Pipelined, t),
+               sequential = overlapPeriod(Mode::Sequential, shorter);
   const double slowest = std::max({t.app, t.cull, t.draw});
   const double sum = t.app + static_cast<double>(t.walls) * (t.cull + t.draw);
   const bool ok = pipelined <= 1.1 * slowest && std::abs(sequential - sum) <= 0.05 * sum;
@@ -35,7 +36,8 @@ int benchOverlap(bool json) {
     std::printf("stages that wait: App %.0f ms, Cull %.0f ms and Draw %.0f ms for each of %zu walls\n"
                 "  pipelined   %7.2f ms a frame   (at most %.2f)\n"
                 "  sequential  %7.2f ms a frame   (%.0f +- 5 %%)\n%s\n",
-                t.app, t.cull, t.draw, t.walls, pipelined, 1.1 * slowest, sequential, sum, ok ? "ok" : "FAILED");
+                t.app, t.cull, t.draw, t.walls, pipelined, 1.1 * slowest, sequential, sum,
+                ok ? "ok" : "FAILED");
   return ok ? kOk : kCheckFailed;
 }
 
@@ -45,7 +47,8 @@ void addBenchCommand(CLI::App& app, int& code) {
   auto json = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("bench", "Measure, and fail when a limit is missed");
   command->require_subcommand(1);
-  CLI::App* overlap = command->add_subcommand("overlap", "Do App, Cull and Draw overlap? Stages that only wait");
+  CLI::App* overlap =
+      command->add_subcommand("overlap", "Do App, Cull and Draw overlap? Stages that only wait");
   overlap->add_flag("--json", *json, "one JSON object a line");
   overlap->callback([json, &code] { code = benchOverlap(*json); });
 }

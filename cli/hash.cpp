@@ -40,8 +40,8 @@ int hashShow(ShowOptions options) {
 
 void addHashCommand(CLI::App& app, int& code) {
   auto options = std::make_shared<ShowOptions>();
-  CLI::App* command =
-      app.add_subcommand("hash", "Print the state hash of every frame, one line FRAME HEX16 each; draws nothing");
+  CLI::App* command = app.add_subcommand(
+      "hash", "Print the state hash of every frame, one line FRAME HEX16 each; draws nothing");
   options->addTo(*command);
   command->callback([options, &code] { code = hashShow(*options); });
 }

@@ -13,7 +13,7 @@ namespace {
 
 /// Nobody is there: no tracker says anything.
 class NoInput final : public InputDevice {
- public:
+public:
   using InputDevice::sampleAt;
   void sampleAt(Nanoseconds showTime, InputSample& sample) override {
     sample.time = showTime;
@@ -37,20 +37,25 @@ void ShowOptions::addTo(CLI::App& command) {
   command.add_option("SHOW", script, "the script to play (.evs)")->required();
   command.add_option("--walls", walls, "cave4, cave6, powerwall, desktop, or a wall file of your own")
       ->capture_default_str();
-  command.add_option("--mode", mode, "pipelined (App, Cull and Draw overlap) or sequential: the same pictures")
+  command
+      .add_option("--mode", mode, "pipelined (App, Cull and Draw overlap) or sequential: the same pictures")
       ->check(CLI::IsMember({"pipelined", "sequential"}))
       ->capture_default_str();
   command.add_option("--size", size, "pixels of one eye's picture")->capture_default_str();
-  command.add_option("--rate", rate, "frames per second of show time")->check(CLI::Range(1.0, 1000.0))->capture_default_str();
+  command.add_option("--rate", rate, "frames per second of show time")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str();
   command.add_option("--frames", frames, "stop after so many frames");
   command.add_option("--seconds", seconds, "stop after so much show time")->check(CLI::PositiveNumber);
-  command.add_option("--input", input, "input log to replay (default: SHOW's name with .input, if there is one), or none");
+  command.add_option("--input", input,
+                     "input log to replay (default: SHOW's name with .input, if there is one), or none");
   command.add_option("--asset-root", assetRoots, "further folder to look for assets in");
 }
 
 bool ShowOptions::settle(Diagnostics& findings) {
   if (!parseSize(size, width, height))
-    findings.error({}, "--size: \"" + size + "\" is not WIDTHxHEIGHT in pixels from 1x1 to 16384x16384, such as 800x600");
+    findings.error({}, "--size: \"" + size +
+                           "\" is not WIDTHxHEIGHT in pixels from 1x1 to 16384x16384, such as 800x600");
   if (frames == 0 && seconds > 0) frames = static_cast<std::uint64_t>(std::ceil(seconds * rate)) + 1;
   return !findings.hasErrors();
 }
@@ -89,7 +94,8 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   p.roots_ = AssetRoots::ofScript(options.script);
   AssetRoots forImporter = AssetRoots::ofScript(options.script);
   for (const std::string& root : options.assetRoots)
-    if (!p.roots_.add(root) || !forImporter.add(root)) findings.error({}, "--asset-root: cannot open the folder " + root);
+    if (!p.roots_.add(root) || !forImporter.add(root))
+      findings.error({}, "--asset-root: cannot open the folder " + root);
   if (findings.hasErrors()) return nullptr;
 
   addEngineFactories(p.factories_);
@@ -103,7 +109,8 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
 }
 
 ShowParts Player::parts(StereoLayout stereo) {
-  ShowParts parts{*scene_, state_, meshes_, *input_, {}, nullptr, options_.width, options_.height, nullptr, {}, nullptr};
+  ShowParts parts{*scene_,        state_,          meshes_, *input_, {},     nullptr,
+                  options_.width, options_.height, nullptr, {},      nullptr};
   for (const WallEntry& entry : walls_.walls) {
     WallView view;
     view.wall = entry.wall;

@@ -1,5 +1,6 @@
 #pragma once
-/// A show, put together: script, walls, input, scene, loader and stages. What `run` and `hash` have in common.
+/// A show, put together: script, walls, input, scene, loader and stages. What `run` and `hash` have in
+/// common.
 
 #include "engine/asset/import.h"
 #include "engine/display/wall_file.h"
@@ -44,7 +45,7 @@ struct ShowOptions {
 ///
 /// Ownership  owns all parts; nothing outlives it.
 class Player {
- public:
+public:
   /// Reads, checks and loads everything. Null if something of the user's is wrong; the findings say what.
   static std::unique_ptr<Player> create(const ShowOptions& options, Diagnostics& findings);
   ~Player();
@@ -61,7 +62,7 @@ class Player {
   /// To be called after each App stage: unloaded files go when they are no longer shown.
   void collect(std::uint64_t shownFrame) { loader_->shown(shownFrame); }
 
- private:
+private:
   Player();
 
   NodeFactories factories_{};

@@ -14,7 +14,8 @@ namespace stadion {
 void addWallsCommand(CLI::App& app, int& code) {
   auto file = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("walls", "Check a wall file and print its floor plan");
-  command->add_option("FILE", *file, "cave4, cave6, powerwall, desktop, or a wall file of your own")->required();
+  command->add_option("FILE", *file, "cave4, cave6, powerwall, desktop, or a wall file of your own")
+      ->required();
   command->callback([file, &code] {
     Diagnostics findings;
     const auto walls = loadWalls(*file, std::string(STADION_ROOT) + "/walls", findings);

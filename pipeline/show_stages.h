@@ -65,6 +65,8 @@ public:
   /// Of the frame shown last. For when the run is over.
   const std::vector<EyePictures>& lastPictures() const { return pictures_; }
   std::string glDescription() const { return glDescription_; }
+  /// The newest frame that all walls have shown. Any thread.
+  std::uint64_t shownFrame() const { return shownFrame_; }
 
 private:
   struct WallContext {

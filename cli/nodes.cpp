@@ -1,0 +1,10 @@
+/// `stadion nodes [TYPE]`: the language reference.
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+
+#include <CLI/CLI.hpp>
+namespace stadion {
+void addNodesCommand(CLI::App&, int&) {}
+void addCheckCommand(CLI::App&, int&) {}
+}  // namespace stadion

@@ -1,0 +1,152 @@
+#include "cli/run_output.h"
+
+#include "pipeline/output/contact_sheet.h"
+
+#include <charconv>
+#include <fmt/format.h>
+
+namespace stadion {
+namespace {
+
+constexpr std::size_t kQueue = 4;  // frames that may wait to be written
+
+}  // namespace
+
+std::optional<PictureChoice> PictureChoice::parse(const std::string& text) {
+  if (text == "last") return PictureChoice{Kind::Last, 1};
+  if (text == "all") return PictureChoice{Kind::All, 1};
+  if (text == "none") return PictureChoice{Kind::None, 1};
+  PictureChoice c{Kind::EveryNth, 0};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), c.n);
+  if (error != std::errc{} || end != text.data() + text.size() || c.n == 0) return std::nullopt;
+  return c;
+}
+
+RunOutput::RunOutput(RunOutputOptions options) : options_(std::move(options)), writer_([this] { work(); }) {}
+
+RunOutput::~RunOutput() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+    changed_.notify_all();
+  }
+  if (writer_.joinable()) writer_.join();
+}
+
+bool RunOutput::wantsPictures(std::uint64_t frame) const {
+  switch (options_.pictures.kind) {
+  case PictureChoice::Kind::All: return true;
+  case PictureChoice::Kind::EveryNth: return frame % options_.pictures.n == 0;
+  case PictureChoice::Kind::None:
+  case PictureChoice::Kind::Last: return false;
+  }
+  return false;
+}
+
+bool RunOutput::wants(const TimeSignature& now) const {
+  return options_.video || wantsPictures(now.frame);
+}
+
+Failure RunOutput::take(const TimeSignature& now, const std::vector<EyePictures>& walls) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return jobs_.size() < kQueue || failed_; });
+  if (failed_) return failure_;
+  jobs_.push_back({now.frame, walls, wantsPictures(now.frame)});
+  changed_.notify_all();
+  return {};
+}
+
+void RunOutput::work() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [&] { return ending_ || !jobs_.empty(); });
+    if (jobs_.empty()) return;
+    const Job job = std::move(jobs_.front());
+    jobs_.pop_front();
+    changed_.notify_all();
+    lock.unlock();
+    write(job);
+    lock.lock();
+    if (failed_) jobs_.clear();
+    changed_.notify_all();
+  }
+}
+
+void RunOutput::write(const Job& job) {
+  if (job.pictures) writePictures(job);
+  if (options_.video) addToVideo(job);
+}
+
+void RunOutput::writePictures(const Job& job) {
+  for (std::size_t w = 0; w < job.walls.size(); ++w) {
+    const std::vector<Picture>& eyes = job.walls[w].eyes;
+    const auto name = [&](const char* what) {
+      return fmt::format("{}-{}-{:06}.png", options_.wallNames[w], what, job.frame);
+    };
+    if (eyes.size() == 2 && !keepsEyesApart(options_.layout))
+      writeFile(name(stereoLayoutName(options_.layout)), compose(options_.layout, eyes[0], eyes[1]));
+    else
+      for (std::size_t e = 0; e < eyes.size(); ++e) writeFile(name(eyeName(kEyes[e])), eyes[e]);
+  }
+  if (options_.sheets) writeFile(fmt::format("contact-sheet-{:06}.png", job.frame), sheetOf(job, 320));
+  lastWritten_ = job.frame;
+}
+
+Picture RunOutput::sheetOf(const Job& job, std::uint32_t cellWidth) const {
+  std::vector<WallPictures> walls;
+  for (std::size_t w = 0; w < job.walls.size(); ++w) {
+    const std::vector<Picture>& eyes = job.walls[w].eyes;
+    walls.push_back(
+        {options_.wallNames[w], eyes.empty() ? nullptr : &eyes[0], eyes.size() < 2 ? nullptr : &eyes[1]});
+  }
+  return contactSheet(walls, job.frame, cellWidth);
+}
+
+void RunOutput::addToVideo(const Job& job) {
+  Picture frame = sheetOf(job, 480);
+  if (!video_) {
+    VideoOptions video;
+    video.width = frame.width, video.height = frame.height;
+    video.rate = options_.rate;
+    video_ = std::make_unique<VideoWriter>(options_.folder + "/video.mp4", video);
+  }
+  // Here every frame counts and nobody waits for us but the show's own back-pressure.
+  while (!video_->failed() && !video_->waitForRoom(std::chrono::seconds(1))) {
+  }
+  video_->offer(std::move(frame));
+}
+
+void RunOutput::writeFile(const std::string& name, const Picture& picture) {
+  if (failed_) return;
+  if (const auto wrong = writePng(options_.folder + "/" + name, picture)) {
+    failure_ = wrong->message;
+    failed_ = true;
+    return;
+  }
+  ++written_;
+}
+
+void RunOutput::finish(std::uint64_t lastFrame, const std::vector<EyePictures>& walls) {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+    changed_.notify_all();
+  }
+  writer_.join();
+  const Job last{lastFrame, walls, true};
+  const bool drawn = !walls.empty() && !walls[0].eyes.empty();
+  if (drawn && options_.pictures.kind != PictureChoice::Kind::None) {
+    if (options_.pictures.kind == PictureChoice::Kind::Last && lastWritten_ != lastFrame) writePictures(last);
+    writeFile("contact-sheet.png", sheetOf(last, 320));
+    if (!failed_) files_.push_back(options_.folder + "/contact-sheet.png");
+  }
+  if (failed_) remarks_.push_back(failure_);
+  if (!video_) return;
+  auto report = video_->finish();
+  if (report)
+    files_.push_back(options_.folder + "/video.mp4");
+  else
+    remarks_.push_back("no video: " + report.error().message);
+}
+
+}  // namespace stadion
