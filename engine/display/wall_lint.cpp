@@ -30,7 +30,7 @@ std::string point(const Vec3& p, double metresPerUnit) {
 /// "4.2 mm" or "1.25 m".
 std::string distance(double metres) {
   if (metres < 0.1) return fmt::format("{:.3g} mm", metres * 1e3);
-  return fmt::format("{:.3g} m", metres);
+  return metres < 100 ? fmt::format("{:.3g} m", metres) : fmt::format("{:.0f} m", metres);
 }
 
 class Linter {
