@@ -88,27 +88,39 @@ double sharpest(Spot a, Spot b, Spot c) {
   return static_cast<double>(turn(a, b, c)) / std::max({length(a, b), length(b, c), length(c, a)});
 }
 
-/// Cuts ears off, the best shaped first, and never so that nothing but a line is left.
+/// True if the corners lie on one line but for what rounding has moved them.
+bool onlyALine(const Piece& piece) {
+  std::int64_t reach = 0;
+  for (const Spot s : piece) reach = std::max(reach, std::abs(s.x - piece[0].x) + std::abs(s.y - piece[0].y));
+  return area(piece) <= 8 * reach;
+}
+
+/// The corner to cut off next: the best shaped, but never so that nothing but a line is left while that can
+/// be helped.
+std::size_t bestEar(const Piece& piece) {
+  const std::size_t n = piece.size();
+  std::size_t best = n;
+  std::pair<bool, double> quality{false, 0};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double shape = sharpest(piece[(i + n - 1) % n], piece[i], piece[(i + 1) % n]);
+    if (shape <= 0) continue;
+    Piece left = piece;
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
+    const std::pair<bool, double> q{!onlyALine(left), shape};
+    if (q > quality) best = i, quality = q;
+  }
+  return best;
+}
+
 std::vector<std::array<Spot, 3>> triangulate(Piece rest) {
   std::vector<std::array<Spot, 3>> out;
   while (rest.size() > 3) {
-    const std::size_t n = rest.size();
-    std::size_t best = n;
-    double quality = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const Spot a = rest[(i + n - 1) % n], b = rest[i], c = rest[(i + 1) % n];
-      const double q = sharpest(a, b, c);
-      if (q <= quality) continue;
-      Piece left = rest;
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
-      if (area(left) <= 0) continue;
-      best = i, quality = q;
-    }
+    const std::size_t n = rest.size(), best = bestEar(rest);
     if (best == n) return out;
     out.push_back({rest[(best + n - 1) % n], rest[best], rest[(best + 1) % n]});
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(best));
   }
-  out.push_back({rest[0], rest[1], rest[2]});
+  if (rest.size() == 3) out.push_back({rest[0], rest[1], rest[2]});
   return out;
 }
 
