@@ -61,6 +61,15 @@ Element elementOf(const AttributeSpec& spec, std::size_t i) {
   }
 }
 
+/// What a number outside the range must be.
+std::string demand(const NumberRange& range, double x, std::string_view unit) {
+  constexpr double kMemorable = 1000;  // a range that an author can keep in mind is told whole
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  if (range.most <= kMemorable && range.least >= -kMemorable) return describe(range, unit);
+  return x > range.most ? describe(NumberRange{-kNone, range.most}, unit)
+                        : describe(NumberRange{range.least, kNone, range.above}, unit);
+}
+
 bool contains(const NumberRange& range, double x) {
   return (range.above ? x > range.least : x >= range.least) && x <= range.most;
 }
@@ -136,12 +145,7 @@ void Checker::takeNumbers(const AttributeSpec& spec, TextSpan value) {
   const std::string name(nameOf(spec.attr));
   if (const auto failure = readNumbers(text(value), numbers, name, formOf(spec)))
     return report_.error(value.offset + static_cast<std::uint32_t>(failure->offset), failure->message);
-  if (!countIsRight(spec.kind, numbers.count))
-    return report_.error(value.offset,
-                         fmt::format("{} must be {}, not {}", name, formOf(spec),
-                                     numbers.count == 0 ? "empty"
-                                                        : fmt::format("{} number{}", numbers.count,
-                                                                      numbers.count == 1 ? "" : "s")));
+  if (!countIsRight(spec.kind, numbers.count)) return reportCount(spec, value, numbers.count);
   if (!numbersInRange(spec, value, numbers)) return;
   if (spec.kind == ValueKind::Scale && numbers.count == 1)
     numbers.value[1] = numbers.value[2] = numbers.value[0];
@@ -151,6 +155,13 @@ void Checker::takeNumbers(const AttributeSpec& spec, TextSpan value) {
   writer_.addNumbers(spec.attr, spec.kind, value.offset, std::span(numbers.value).first(stored));
 }
 
+void Checker::reportCount(const AttributeSpec& spec, TextSpan value, std::size_t count) {
+  std::string found = count == 0 ? "empty" : fmt::format("{} number{}", count, count == 1 ? "" : "s");
+  if (spec.kind == ValueKind::Number && text(value).find(',') != std::string_view::npos)
+    found += "; the decimal sign is \".\"";
+  report_.error(value.offset, fmt::format("{} must be {}, not {}", nameOf(spec.attr), formOf(spec), found));
+}
+
 bool Checker::numbersInRange(const AttributeSpec& spec, TextSpan value, const NumberList& numbers) {
   bool allZero = true;
   for (std::size_t i = 0; i < numbers.count; ++i) {
@@ -158,8 +169,8 @@ bool Checker::numbersInRange(const AttributeSpec& spec, TextSpan value, const Nu
     const Element element = elementOf(spec, i);
     if (contains(element.range, numbers.value[i])) continue;
     report_.error(value.offset + static_cast<std::uint32_t>(numbers.offset[i]),
-                  fmt::format("{} must be {}, not {}", element.name, describe(element.range, element.unit),
-                              numbers.value[i]));
+                  fmt::format("{} must be {}, not {}", element.name,
+                              demand(element.range, numbers.value[i], element.unit), numbers.value[i]));
     return false;
   }
   if (spec.kind == ValueKind::Direction && allZero) {
@@ -186,6 +197,9 @@ void Checker::takeChoice(const AttributeSpec& spec, TextSpan value) {
 }
 
 void Checker::takeWord(const AttributeSpec& spec, TextSpan value) {
+  if (value.length == 0)
+    return report_.error(value.offset,
+                         fmt::format("{} must be {}, not empty", nameOf(spec.attr), formOf(spec)));
   const bool reference = spec.kind == ValueKind::Reference;
   if (const auto fault = reference ? faultOfReference(text(value)) : faultOfName(text(value))) {
     if (spec.kind == ValueKind::NewName) writer_.addLostName(std::string(text(value)));

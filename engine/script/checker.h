@@ -29,6 +29,7 @@ private:
   void takeWord(const AttributeSpec& spec, TextSpan value);
   void takeFile(const AttributeSpec& spec, TextSpan value);
   void takeMessage(NodeKind kind, TextSpan value);
+  void reportCount(const AttributeSpec& spec, TextSpan value, std::size_t count);
   bool numbersInRange(const AttributeSpec& spec, TextSpan value, const NumberList& numbers);
   void checkRequired(NodeKind kind, TextSpan type, const Seen& seen);
   void checkVolume(NodeKind kind, const RawDeclaration& raw, const Seen& seen);

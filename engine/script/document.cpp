@@ -45,14 +45,18 @@ bool Declaration::has(Attr attr) const {
   return document_->find(index_, attr) != nullptr;
 }
 
-SourcePosition Declaration::where(Attr attr) const {
+std::uint32_t Declaration::offset(Attr attr) const {
+  const auto& node = document_->nodes_[index_];
+  if (attr == Attr::Name && node.nameLength > 0) return node.name;
   const auto* value = document_->find(index_, attr);
-  return value != nullptr ? document_->source_.position(value->where) : where();
+  return value != nullptr ? value->where : node.where;
 }
 
+SourcePosition Declaration::where(Attr attr) const {
+  return document_->source_.position(offset(attr));
+}
 std::string Declaration::excerpt(Attr attr) const {
-  const auto* value = document_->find(index_, attr);
-  return document_->source_.excerpt(value != nullptr ? value->where : document_->nodes_[index_].where);
+  return document_->source_.excerpt(offset(attr));
 }
 
 std::optional<double> Declaration::optionalNumber(Attr attr) const {

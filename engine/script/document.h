@@ -54,6 +54,8 @@ public:
   SourcePosition where() const;   ///< of the type word
   std::uint32_t line() const;     ///< cheaper than where()
 
+  /// Offset in the text of the first value of this attribute, of the type word if it is not stated.
+  std::uint32_t offset(Attr attr) const;
   bool has(Attr attr) const;  ///< stated in the script
   SourcePosition
   where(Attr attr) const;  ///< of the value, of the first if repeated; of the type word if not stated

@@ -99,7 +99,7 @@ void DocumentWriter::resolveReferences(std::uint32_t node, const Visit& visit) {
       const EventMessage message = document_.messageAt(value.data);
       const Document::StoredMessage& stored = document_.messages_[value.data];
       store(stored.target, visit(Attr::EventMessage, message.target, &message));
-      if (stored.field != Document::kNone) store(stored.field, visit(Attr::Hook, message.field, nullptr));
+      if (stored.field != Document::kNone) store(stored.field, visit(Attr::Hook, message.field, &message));
     }
   }
 }

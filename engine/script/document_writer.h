@@ -32,7 +32,7 @@ public:
   void finish(const std::function<void(std::uint32_t first, std::uint32_t again)>& duplicate);
 
   /// Visits every reference of a node once: `visit(attr, reference)`; for eventmessages the target and the
-  /// field come with Attr::EventMessage. What `visit` returns is stored.
+  /// field come with Attr::EventMessage and Attr::Hook, and with the message. What `visit` returns is stored.
   struct Resolution {
     std::uint32_t declaration = NodeReference::kNone;
     std::uint32_t level = 0;

@@ -14,8 +14,11 @@ namespace {
 constexpr std::size_t kMostCandidates = 20'000;  // for suggestions
 constexpr std::size_t kMostSuggestions = 20;
 
+std::string withArticle(const std::string& words) {
+  return (words.starts_with('o') ? "an " : "a ") + words;
+}
 std::string withArticle(NodeKind kind) {
-  return fmt::format("{} {}", kind == NodeKind::Object ? "an" : "a", nameOf(kind));
+  return withArticle(std::string(nameOf(kind)));
 }
 
 std::string commandsOf(NodeKind kind) {
@@ -92,19 +95,19 @@ private:
 
   bool mayUse(const Declaration& user, Attr attr, const NodeReference& reference, NodeKind kind,
               const EventMessage* message) {
-    if (message != nullptr) {
+    const bool field = attr == Attr::Hook && message != nullptr;  // the argument of a hook or unhook command
+    if (message != nullptr && !field) {
       if (specOf(message->verb).receivers.has(kind)) return true;
       report_.error(message->command,
                     fmt::format("\"{}\" is {}, which does not take \"{}\"; it takes {}", reference.name,
                                 withArticle(kind), nameOf(message->verb), commandsOf(kind)));
       return false;
     }
-    const AttributeSpec* spec = specOf(user.kind(), attr);
-    // hook and unhook in an eventmessage come as Attr::Hook from senders that have no such attribute
-    const KindSet allowed = attr == Attr::Hook || spec == nullptr ? fieldKinds() : spec->targets;
+    const KindSet allowed = field ? fieldKinds() : specOf(user.kind(), attr)->targets;
     if (allowed.has(kind)) return true;
-    report_.error(reference.where, fmt::format("\"{}\" is {}; {} takes the name of a {}", reference.name,
-                                               withArticle(kind), nameOf(attr), describe(allowed)));
+    report_.error(reference.where,
+                  fmt::format("\"{}\" is {}; {} takes the name of {}", reference.name, withArticle(kind),
+                              field ? nameOf(message->verb) : nameOf(attr), withArticle(describe(allowed))));
     return false;
   }
 

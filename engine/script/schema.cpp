@@ -101,7 +101,7 @@ std::string formOf(const AttributeSpec& spec) {
   case ValueKind::Key: return "seven numbers \"t, x, y, z, rx, ry, rz\", or the first four";
   case ValueKind::Flag: return "on or off";
   case ValueKind::Choice: return joinWithOr({spec.choices.begin(), spec.choices.end()});
-  case ValueKind::NewName: return "a name";
+  case ValueKind::NewName: return "one word";
   case ValueKind::Tracker: return "the name of a tracker";
   case ValueKind::Reference: return "the name of a node";
   case ValueKind::File: return "a file name";

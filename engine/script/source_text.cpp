@@ -111,10 +111,9 @@ SourcePosition SourceText::position(std::uint32_t offset) const {
 }
 
 std::string SourceText::excerpt(std::uint32_t offset) const {
-  const std::size_t start = lineStart(offset);
-  const std::size_t end = std::min(text().find_first_of("\r\n", start), text_.size());
-  if (end - start > kLongestExcerpt) return {};
-  return std::string(text().substr(start, end - start));
+  const std::string_view rest = text().substr(lineStart(offset), kLongestExcerpt + 1);
+  const std::string_view line = rest.substr(0, rest.find_first_of("\r\n"));
+  return line.size() > kLongestExcerpt ? std::string{} : std::string(line);
 }
 
 std::size_t SourceText::bytesHeld() const {

@@ -64,7 +64,7 @@ struct Reading {
   const char* begin;
   const char* end;
   RawDeclaration declaration;
-  const char* quote = nullptr;  // where the latest quoted value begins
+  const char* quote = nullptr;  // where the quoted value begins that is being read
 
   std::uint32_t offset(const char* p) const { return static_cast<std::uint32_t>(p - begin); }
   TextSpan span(const char* from, const char* to) const {
@@ -100,6 +100,14 @@ struct Action<OpeningQuote> {
 };
 
 template <>
+struct Action<ClosingQuote> {
+  template <class In>
+  static void apply(const In&, Reading& r) {
+    r.quote = nullptr;
+  }
+};
+
+template <>
 struct Action<QuotedText> {
   template <class In>
   static void apply(const In& in, Reading& r) {
@@ -120,6 +128,7 @@ struct Action<BareText> : Action<QuotedText> {};
 struct SyntaxError {
   const char* where;
   std::string message;
+  bool spoilsLast = false;  // the attribute before it is part of the mistake
 };
 
 std::string_view wordAt(std::string_view rest) {
@@ -164,6 +173,24 @@ bool attributeFollows(std::string_view rest) {
   return !word.empty() && after != rest.npos && rest[after] == '=';
 }
 
+/// Whether a word and "(" stand here, that is, the next declaration.
+bool declarationFollows(std::string_view rest) {
+  const std::string_view word = wordAt(rest);
+  const std::size_t after = rest.find_first_not_of(" \t", word.size());
+  return !word.empty() && after != rest.npos && rest[after] == '(';
+}
+
+std::string notClosed(const Reading& r, std::string_view next) {
+  return fmt::format("\"{}\" begins here, but \"{}\" is not closed: \")\" is missing", next,
+                     textOf(r, r.declaration.type));
+}
+
+SyntaxError neverClosed(const Reading& r) {
+  return {r.begin + r.declaration.type.offset,
+          fmt::format("\"{}\" is not closed: \")\" is missing before the end of the file",
+                      textOf(r, r.declaration.type))};
+}
+
 template <class Rule>
 SyntaxError explain(const char* at, const Reading& r);
 
@@ -174,6 +201,8 @@ SyntaxError explain<TypeWord>(const char* at, const Reading& r) {
 
 template <>
 SyntaxError explain<Open>(const char* at, const Reading& r) {
+  const char* const typeEnd = r.begin + r.declaration.type.offset + r.declaration.type.length;
+  if (std::find(typeEnd, at, '\n') != at) at = typeEnd;  // the mistake is in the line of the word
   return {at, fmt::format("\"(\" is expected after \"{}\", not {}", textOf(r, r.declaration.type),
                           describe({at, r.end}))};
 }
@@ -181,10 +210,7 @@ SyntaxError explain<Open>(const char* at, const Reading& r) {
 template <>
 SyntaxError explain<Equals>(const char* at, const Reading& r) {
   const TextSpan name = r.declaration.attributes.back().name;
-  if (at < r.end && *at == '(')
-    return {r.begin + name.offset,
-            fmt::format("\"{}\" begins here, but \"{}\" is not closed: \")\" is missing", textOf(r, name),
-                        textOf(r, r.declaration.type))};
+  if (at < r.end && *at == '(') return {r.begin + name.offset, notClosed(r, textOf(r, name))};
   return {at, fmt::format("\"=\" is expected after \"{}\", not {}", textOf(r, name), describe({at, r.end}))};
 }
 
@@ -205,22 +231,24 @@ SyntaxError explain<ClosingQuote>(const char*, const Reading& r) {
 template <>
 SyntaxError explain<Separator>(const char* at, const Reading& r) {
   const std::string_view rest(at, r.end);
-  if (rest.empty())
-    return {at, fmt::format("\"{}\" is not closed: \")\" is missing", textOf(r, r.declaration.type))};
+  if (rest.empty()) return neverClosed(r);
   if (attributeFollows(rest)) return {at, fmt::format("\",\" is missing before {}", describe(rest))};
+  if (declarationFollows(rest)) return {at, notClosed(r, wordAt(rest))};
   return {at,
           fmt::format("\",\" or \")\" is expected here, not {}; a value with blanks or commas needs quotes",
-                      describe(rest))};
+                      describe(rest)),
+          true};
 }
 
 template <>
 SyntaxError explain<Close>(const char* at, const Reading& r) {
   const std::string_view rest(at, r.end);
-  if (rest.empty())
-    return {at, fmt::format("\"{}\" is not closed: \")\" is missing", textOf(r, r.declaration.type))};
+  if (rest.empty()) return neverClosed(r);
   const bool number = (*at >= '0' && *at <= '9') || *at == '-' || *at == '.' || *at == '+';
-  return {at, fmt::format("an attribute or \")\" is expected here, not {}{}", describe(rest),
-                          number ? "; a value with commas needs quotes" : "")};
+  return {at,
+          fmt::format("an attribute or \")\" is expected here, not {}{}", describe(rest),
+                      number ? "; a value with commas needs quotes" : ""),
+          number};
 }
 
 template <class Rule>
@@ -264,6 +292,7 @@ void parseSyntax(const SourceText& source, const std::function<void(const RawDec
 
     r.declaration.type = {r.offset(at), 0};
     r.declaration.attributes.clear();
+    r.quote = nullptr;
     try {
       pegtl::parse<Declaration, Action, Control>(in, r);
       r.declaration.complete = true;
@@ -271,7 +300,9 @@ void parseSyntax(const SourceText& source, const std::function<void(const RawDec
       at = in.current();
     } catch (const SyntaxError& error) {
       auto& attributes = r.declaration.attributes;
-      if (!attributes.empty() && attributes.back().value.offset == kUnset) attributes.pop_back();
+      const bool halfRead =
+          !attributes.empty() && (attributes.back().value.offset == kUnset || r.quote != nullptr);
+      if (halfRead || (error.spoilsLast && !attributes.empty())) attributes.pop_back();
       r.declaration.complete = false;
       if (r.declaration.type.length > 0) take(r.declaration);
       if (!complain(r.offset(error.where), error.message)) return;

@@ -1,0 +1,195 @@
+#include "engine/script/lint.h"
+
+#include "engine/script/file_path.h"
+#include "engine/script/reporter.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include <fmt/format.h>
+
+namespace stadion {
+
+namespace {
+
+constexpr std::string_view kModelEndings[] = {"obj", "3ds", "gltf", "glb", "dae", "stl"};
+
+/// What other nodes of the file do to each node.
+struct Use {
+  bool hooked = false;      // by an attribute or a message
+  bool simulated = false;   // collidee of a dynamics node
+  bool switchedOn = false;  // target of enable or toggle
+  bool isParent = false;
+};
+
+class Linter {
+public:
+  Linter(const Document& document, bool alone, Reporter& report)
+      : document_(document), alone_(alone), report_(report), uses_(document.size()) {}
+
+  void run() {
+    for (const Declaration node : document_) noteUses(node);
+    for (const Declaration node : document_) look(node);
+  }
+
+private:
+  Use* useOf(const NodeReference& reference) {
+    const bool here = reference.resolved() && reference.level == 0 && reference.inner().empty();
+    return here ? &uses_[reference.declaration] : nullptr;
+  }
+
+  void noteUses(const Declaration& node) {
+    for (const NodeReference& field : referencesIf(node, Attr::Hook))
+      if (Use* use = useOf(field)) use->hooked = true;
+    if (node.kind() == NodeKind::Dynamics)
+      for (const NodeReference& body : node.references(Attr::Collidee))
+        if (Use* use = useOf(body)) use->simulated = true;
+    if (node.has(Attr::Parent))
+      if (Use* use = useOf(*node.reference(Attr::Parent))) use->isParent = true;
+    for (const EventMessage& message : node.eventMessages()) noteMessage(message);
+  }
+
+  void noteMessage(const EventMessage& message) {
+    if (Use* field = useOf(message.field); field != nullptr && message.verb == Verb::Hook)
+      field->hooked = true;
+    Use* use = useOf(message.target);
+    if (use == nullptr) return;
+    if (message.verb == Verb::Enable || message.verb == Verb::Toggle) use->switchedOn = true;
+  }
+
+  static std::vector<NodeReference> referencesIf(const Declaration& node, Attr attr) {
+    return node.has(attr) ? node.references(attr) : std::vector<NodeReference>{};
+  }
+
+  void look(const Declaration& node) {
+    switch (node.kind()) {
+    case NodeKind::Object: return lookAtModel(node);
+    case NodeKind::DynObject: return lookAtBody(node);
+    case NodeKind::Light: return lookAtLight(node);
+    case NodeKind::ForceLinear:
+    case NodeKind::ForceSpherical: return lookAtField(node);
+    case NodeKind::UserTrigger:
+    case NodeKind::WandTrigger:
+    case NodeKind::Timer: return lookAtSender(node);
+    case NodeKind::Scene: return lookAtScene(node);
+    case NodeKind::Path: return lookAtPath(node);
+    case NodeKind::Collision:
+    case NodeKind::Dynamics: return lookAtContacts(node);
+    default: return;
+    }
+  }
+
+  void lookAtModel(const Declaration& node) {
+    const std::string ending = endingOf(node.text(Attr::File));
+    if (std::find(std::begin(kModelEndings), std::end(kModelEndings), ending) == std::end(kModelEndings))
+      warn(node, Attr::File,
+           fmt::format("\"{}\" is not in a format that is read (.obj, .3ds, .gltf, .glb, .dae, .stl)",
+                       node.text(Attr::File)));
+  }
+
+  void lookAtBody(const Declaration& node) {
+    lookAtModel(node);
+    if (node.has(Attr::Mass) && node.has(Attr::Density))
+      warn(node, Attr::Density, "density has no effect, since mass is stated too");
+    warnRepeated(node, Attr::Hook);
+    if (alone_ && !uses_[node.index()].simulated)
+      warn(node, Attr::Name,
+           fmt::format("{} is collidee of no dynamics node and will never move", called(node)));
+  }
+
+  void lookAtLight(const Declaration& node) {
+    const std::string_view type = node.text(Attr::Type);
+    if (node.has(Attr::Intensity) && node.number(Attr::Intensity) == 0)
+      warn(node, Attr::Intensity, "a light of intensity 0 lights nothing");
+    if (node.has(Attr::Angle) && type != "spot")
+      warn(node, Attr::Angle, "angle has no effect: only a spot light has one");
+    if (node.has(Attr::Range) && type == "directional")
+      warn(node, Attr::Range, "range has no effect: a directional light reaches everywhere");
+    if (node.has(Attr::Direction) && type == "point")
+      warn(node, Attr::Direction, "direction has no effect: a point light shines all around");
+    warnNeverOn(node);
+  }
+
+  void lookAtField(const Declaration& node) {
+    const Use& use = uses_[node.index()];
+    const bool linear = node.kind() == NodeKind::ForceLinear;
+    if (linear ? node.has(Attr::Direction) && node.vec3(Attr::Direction).isZero(0)
+               : node.number(Attr::Strength) == 0)
+      warn(node, linear ? Attr::Direction : Attr::Strength, "this field exerts no force");
+    if (node.name().empty() || (alone_ && !use.hooked))
+      warn(node, Attr::Name, fmt::format("{} is never hooked to a body", called(node)));
+    warnNeverOn(node);
+  }
+
+  void lookAtSender(const Declaration& node) {
+    if (node.has(Attr::EventMessage)) return warnNeverOn(node);
+    warn(node, Attr::Name, fmt::format("{} has no eventmessage and so no effect", called(node)));
+  }
+
+  void lookAtScene(const Declaration& node) {
+    if (endingOf(node.text(Attr::File)) != "evs")
+      warn(node, Attr::File, fmt::format("\"{}\" does not look like a script (.evs)", node.text(Attr::File)));
+    if (!node.flag(Attr::InitState) && node.name().empty())
+      warn(node, Attr::InitState,
+           "this scene is not loaded at the start, and without a name it never can be");
+  }
+
+  void lookAtPath(const Declaration& node) {
+    if (!node.has(Attr::Target) && (node.name().empty() || (alone_ && !uses_[node.index()].isParent)))
+      warn(node, Attr::Name,
+           fmt::format("{} moves nothing: it has no target, and no node has it as parent", called(node)));
+    warnNeverOn(node);
+  }
+
+  void lookAtContacts(const Declaration& node) {
+    const auto colliders = node.references(Attr::Collider);
+    const auto collidees = node.references(Attr::Collidee);
+    if (collidees.empty())
+      warn(node, Attr::Name, fmt::format("{} has no collidee and so no effect", called(node)));
+    warnRepeated(node, Attr::Collider);
+    std::unordered_set<std::string_view> names;
+    for (const NodeReference& collider : colliders) names.insert(collider.name);
+    for (const NodeReference& collidee : collidees)
+      if (names.contains(collidee.name))
+        report_.warning(collidee.where,
+                        fmt::format("\"{}\" is both collider and collidee here", collidee.name));
+    warnNeverOn(node);
+  }
+
+  void warnNeverOn(const Declaration& node) {
+    if (node.flag(Attr::InitState)) return;
+    if (node.name().empty() || (alone_ && !uses_[node.index()].switchedOn))
+      warn(node, Attr::InitState, fmt::format("{} is off at the start and nothing enables it", called(node)));
+  }
+
+  void warnRepeated(const Declaration& node, Attr attr) {
+    std::unordered_set<std::string_view> names;
+    for (const NodeReference& reference : node.references(attr))
+      if (!names.insert(reference.name).second)
+        report_.warning(reference.where,
+                        fmt::format("{} \"{}\" is given twice", nameOf(attr), reference.name));
+  }
+
+  static std::string called(const Declaration& node) {
+    return node.name().empty() ? fmt::format("this {}", nameOf(node.kind()))
+                               : fmt::format("the {} \"{}\"", nameOf(node.kind()), node.name());
+  }
+
+  void warn(const Declaration& node, Attr attr, std::string message) {
+    report_.warning(node.offset(attr), std::move(message));
+  }
+
+  const Document& document_;
+  bool alone_;
+  Reporter& report_;
+  std::vector<Use> uses_;
+};
+
+}  // namespace
+
+void lint(const Document& document, bool alone, Diagnostics& findings) {
+  Reporter report(document.source(), findings);
+  Linter(document, alone, report).run();
+}
+
+}  // namespace stadion
