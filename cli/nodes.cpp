@@ -4,7 +4,9 @@
 #include "cli/exit_code.h"
 
 #include <CLI/CLI.hpp>
+
 namespace stadion {
+
 void addNodesCommand(CLI::App&, int&) {}
-void addCheckCommand(CLI::App&, int&) {}
+
 }  // namespace stadion

@@ -63,7 +63,8 @@ bool ShowOptions::settle(Diagnostics& findings) {
 Player::Player() = default;
 Player::~Player() = default;
 
-std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& findings) {
+std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& findings,
+                                       std::function<void(const Diagnostics&)> report) {
   namespace fs = std::filesystem;
   std::unique_ptr<Player> player(new Player);
   Player& p = *player;
@@ -102,7 +103,7 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   addDynamicsFactories(p.factories_);
   p.importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter));
   p.loader_ = std::make_unique<Loader>(
-      LoaderParts{p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_, tell});
+      LoaderParts{p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_, std::move(report)});
   p.scene_ = std::make_unique<Scene>(*p.loader_, p.meshes_);
   if (!p.scene_->open(options.script)) return nullptr;
   return player;

@@ -41,13 +41,18 @@ struct ShowOptions {
   bool settle(Diagnostics& findings);
 };
 
+/// Writes every finding to stderr as the compiler would.
+void tell(const Diagnostics& findings);
+
 /// Everything of a show but its drawing.
 ///
 /// Ownership  owns all parts; nothing outlives it.
 class Player {
 public:
   /// Reads, checks and loads everything. Null if something of the user's is wrong; the findings say what.
-  static std::unique_ptr<Player> create(const ShowOptions& options, Diagnostics& findings);
+  /// What is found while files are loaded, now and during the show, goes to `report`.
+  static std::unique_ptr<Player> create(const ShowOptions& options, Diagnostics& findings,
+                                        std::function<void(const Diagnostics&)> report = tell);
   ~Player();
 
   /// Frames to play: as asked, or to the end of the input log; 0 = until stopped.
@@ -79,8 +84,5 @@ private:
   bool inputFound_ = false;
   std::string inputName_;
 };
-
-/// Writes every finding to stderr as the compiler would.
-void tell(const Diagnostics& findings);
 
 }  // namespace stadion

@@ -63,6 +63,21 @@ void CollisionNode::findParts(Scene& scene) {
       [&](Part& part) { removeCollidee(part, scene); });
 }
 
+std::vector<CollisionNode::Overlap> CollisionNode::overlaps(double deeperThan) const {
+  std::vector<Overlap> found;
+  const auto test = [&](const Part& a, Party partyA, const Part& b) {
+    if (!a.ref.valid() || !b.ref.valid()) return;
+    const double separation = world_.separation(partyA, {true, b.id});
+    if (separation < -deeperThan) found.push_back({a.name, b.name, -separation});
+  };
+  for (std::size_t i = 0; i < collidees_.size(); ++i) {
+    for (const Part& c : colliders_) test(c, {false, c.id}, collidees_[i]);
+    for (std::size_t j = i + 1; j < collidees_.size(); ++j)
+      test(collidees_[j], {true, collidees_[j].id}, collidees_[i]);
+  }
+  return found;
+}
+
 bool CollisionNode::moveColliders(FrameContext& frame) {
   bool any = false;
   for (Part& part : colliders_) {

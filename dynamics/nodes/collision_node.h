@@ -33,6 +33,13 @@ public:
   /// What the last step did, for reports.
   const World& world() const { return world_; }
 
+  struct Overlap {
+    std::string a, b;
+    double depth;  ///< [m]
+  };
+  /// Pairs of its parts that stick in each other by more than `deeperThan` [m].
+  std::vector<Overlap> overlaps(double deeperThan) const;
+
 protected:
   /// An object that takes part.
   struct Part {

@@ -4,6 +4,7 @@
 #include "dynamics/nodes/dynamics_node.h"
 #include "engine/script/choice.h"
 
+#include <cstdio>
 #include <memory>
 
 namespace stadion {
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kStandardGravity = 9.80665;  // [m/s2]
 constexpr double kWaterDensity = 1000;        // [kg/m3]
+constexpr double kAirDensity = 1.225;         // [kg/m3] at sea level, 15 degrees C
 
 using Made = std::unique_ptr<Node>;
 
@@ -55,21 +57,33 @@ Made makeSpherical(const NodeRequest& r) {
                                      durationOf(d), d.flag(Attr::InitState));
 }
 
+/// The shape filled with `density` [kg/m3].
+Result<MassProperties> massOf(const ShapeChoice& chosen, const Mesh& mesh, double density) {
+  if (const auto* ball = std::get_if<BallShape>(&chosen.shape))
+    return massOfSphere(ball->centre, ball->radius, density);
+  if (const auto* box = std::get_if<BoxShape>(&chosen.shape)) return massOfBox(box->pose, box->half, density);
+  return massOfMesh(mesh, density);
+}
+
 /// The mass that the script states, or that the shape's volume and the density give.
 Result<MassProperties> massOf(const Declaration& d, const ShapeChoice& chosen, const Mesh& mesh) {
-  const double density = d.number(Attr::Density) * kWaterDensity;
-  MassProperties mass;
-  if (const auto* ball = std::get_if<BallShape>(&chosen.shape)) {
-    mass = massOfSphere(ball->centre, ball->radius, density);
-  } else if (const auto* box = std::get_if<BoxShape>(&chosen.shape)) {
-    mass = massOfBox(box->pose, box->half, density);
-  } else {
-    auto integral = massOfMesh(mesh, density);
-    if (!integral) return integral;
-    mass = integral.value();
-  }
-  if (const auto kilograms = d.optionalNumber(Attr::Mass)) mass = mass.withMass(*kilograms);
+  auto mass = massOf(chosen, mesh, d.number(Attr::Density) * kWaterDensity);
+  if (!mass) return mass;
+  if (const auto kilograms = d.optionalNumber(Attr::Mass)) return mass.value().withMass(*kilograms);
   return mass;
+}
+
+void warnIfLighterThanAir(const NodeRequest& r, const MassProperties& mass, const ShapeChoice& chosen,
+                          const Mesh& mesh) {
+  const auto unit = massOf(chosen, mesh, 1.0);
+  if (!unit || mass.mass >= kAirDensity * unit.value().mass) return;
+  const Attr attr = r.declaration.has(Attr::Mass) ? Attr::Mass : Attr::Density;
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "this body of %.3g kg is lighter than the air it displaces (%.3g kg); density is relative to water",
+      mass.mass, kAirDensity * unit.value().mass);
+  r.findings.warning(r.declaration.where(attr), text, r.declaration.excerpt(attr));
 }
 
 Made makeDynObject(const NodeRequest& r) {
@@ -83,6 +97,8 @@ Made makeDynObject(const NodeRequest& r) {
   if (!chosen) return fail(chosen.error().message);
   auto mass = massOf(d, chosen.value(), mesh);
   if (!mass) return fail(mass.error().message);
+
+  warnIfLighterThanAir(r, mass.value(), chosen.value(), mesh);
 
   BodyAttributes body;
   body.mass = mass.value();

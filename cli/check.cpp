@@ -1,0 +1,67 @@
+/// `stadion check SHOW...`: everything that can be found wrong without playing; `--assets DIR`: every model
+/// below a folder.
+
+#include "engine/asset/check.h"
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/show_check.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+namespace stadion {
+namespace {
+
+int checkScripts(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
+  bool wrong = false;
+  for (const std::string& file : files) {
+    const Diagnostics findings = checkShow(file, roots);
+    for (const Diagnostic& d : findings.all()) std::printf("%s\n", format(d).c_str());
+    wrong |= findings.hasErrors();
+    if (!findings.hasErrors()) std::printf("%s: ok\n", file.c_str());
+  }
+  return wrong ? kBadInput : kOk;
+}
+
+int checkModels(const std::string& folder) {
+  const auto counts = checkAssets(Importer::programBesideThis(), folder, [](const AssetFinding& f) {
+    if (f.verdict == AssetVerdict::Loaded)
+      std::printf("loaded   %s: %zu triangles\n", f.file.c_str(), f.mesh->indices.size() / 3);
+    else
+      std::printf("%s  %s: %s\n", f.verdict == AssetVerdict::Refused ? "refused" : "failed ", f.file.c_str(),
+                  f.message.c_str());
+    for (const Diagnostic& d : f.notes.all()) std::printf("         %s\n", d.message.c_str());
+  });
+  if (!counts) return std::fprintf(stderr, "%s\n", format(counts.error()).c_str()), kBadInput;
+  const AssetCounts& c = counts.value();
+  std::printf(
+      "%zu loaded, %zu refused by name, %zu failed (%zu of them took the importer down or timed out)\n",
+      c.loaded, c.refused, c.failed, c.faults);
+  return kOk;
+}
+
+}  // namespace
+
+void addCheckCommand(CLI::App& app, int& code) {
+  struct Options {
+    std::vector<std::string> scripts, roots;
+    std::string models;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("check", "Look for mistakes in scripts and assets; draws nothing");
+  command->add_option("SHOW", o->scripts, "scripts to check, with the sub-scenes and assets they name");
+  command->add_option("--assets", o->models, "try to import every model below this folder and count");
+  command->add_option("--asset-root", o->roots, "further folder to look for assets in");
+  command->callback([o, &code] {
+    if (o->scripts.empty() && o->models.empty()) {
+      std::fprintf(stderr, "check: name a script, or a folder with --assets DIR\n");
+      code = kBadInput;
+      return;
+    }
+    if (!o->scripts.empty()) code = checkScripts(o->scripts, o->roots);
+    if (!o->models.empty() && code == kOk) code = checkModels(o->models);
+  });
+}
+
+}  // namespace stadion

@@ -1,0 +1,155 @@
+#include "cli/show_check.h"
+
+#include "cli/player.h"
+#include "dynamics/nodes/collision_node.h"
+#include "dynamics/nodes/dynamics_factories.h"
+#include "engine/script/lint.h"
+#include "engine/script/script.h"
+
+#include <map>
+#include <memory>
+#include <set>
+
+namespace stadion {
+namespace {
+
+constexpr double kDeepestStart = 1e-3;  // [m]
+constexpr std::size_t kDeepestNesting = 16;
+
+/// Checks a file and the sub-scenes below it.
+class ShowChecker {
+public:
+  ShowChecker(const std::string& file, const std::vector<std::string>& roots, Diagnostics& findings)
+      : roots_(AssetRoots::ofScript(file)), findings_(findings) {
+    AssetRoots forImporter = AssetRoots::ofScript(file);
+    for (const std::string& r : roots)
+      if (!roots_.add(r) || !forImporter.add(r))
+        findings.error({}, "--asset-root: cannot open the folder " + r);
+    importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter));
+    addEngineFactories(factories_);
+    addDynamicsFactories(factories_);
+  }
+
+  void checkFile(Result<SourceText> source, std::vector<const Document*> enclosing) {
+    if (!source) return findings_.add(source.error());
+    Diagnostics own;
+    Document document = parseScript(std::move(source.value()), own);
+    std::map<std::string, std::unique_ptr<Document>> inner;
+    Surroundings around;
+    around.enclosing = enclosing;
+    around.subScene = [&](Declaration scene) { return subScene(scene, inner); };
+    resolveNames(document, around, own);
+    bool alone = enclosing.empty();
+    for (const Declaration d : document) alone &= d.kind() != NodeKind::Scene;
+    if (!own.hasErrors()) {
+      lint(document, alone, own);
+      buildOnce(document, own);
+    }
+    findings_.append(own);
+    if (enclosing.size() >= kDeepestNesting) return;
+    enclosing.insert(enclosing.begin(), &document);
+    for (const Declaration d : document)
+      if (d.kind() == NodeKind::Scene && seen_.insert(std::string(d.text(Attr::File))).second)
+        checkFile(readBelow(d), enclosing);
+  }
+
+private:
+  Result<SourceText> readBelow(const Declaration& scene) const {
+    auto found = roots_.open(std::string(scene.text(Attr::File)));
+    if (!found) {
+      Diagnostic d = found.error();
+      d.where = scene.where(Attr::File), d.excerpt = scene.excerpt(Attr::File);
+      return d;
+    }
+    return SourceText::read(found.value().path);
+  }
+
+  /// Its names alone; its mistakes are found in its own turn.
+  const Document* subScene(const Declaration& scene,
+                           std::map<std::string, std::unique_ptr<Document>>& inner) const {
+    const std::string file(scene.text(Attr::File));
+    if (const auto known = inner.find(file); known != inner.end()) return known->second.get();
+    auto source = readBelow(scene);
+    if (!source) return nullptr;
+    Diagnostics ignored;
+    auto& document = inner[file];
+    document = std::make_unique<Document>(parseScript(std::move(source.value()), ignored));
+    return document.get();
+  }
+
+  void buildOnce(const Document& document, Diagnostics& findings) {
+    const BuildInput input{document,
+                           1,
+                           {},
+                           Affine::Identity(),
+                           {},
+                           factories_,
+                           [&](const Declaration& d) { return importMesh(d, findings); },
+                           meshes_};
+    buildLoad(input, findings);
+  }
+
+  MeshId importMesh(const Declaration& d, Diagnostics& findings) {
+    ImportOptions options;
+    options.unit = d.optionalNumber(Attr::Unit);
+    options.up = d.optionalChoice<UpAxis>(Attr::Up);
+    const std::string file(d.text(Attr::File));
+    // A hundred objects with the same file: one import, and one word about it.
+    const auto key = std::tuple(file, options.unit.value_or(0),
+                                static_cast<int>(options.up.value_or(UpAxis::Z)), options.up.has_value());
+    if (const auto known = imported_.find(key); known != imported_.end()) return known->second;
+    Diagnostics notes;
+    auto mesh = importer_->load(file, options, d.where(Attr::File), &notes);
+    findings.append(notes);
+    if (!mesh) {
+      Diagnostic wrong = mesh.error();
+      wrong.excerpt = d.excerpt(Attr::File);
+      findings.add(wrong);
+    }
+    return imported_[key] = meshes_.add(mesh ? std::move(mesh.value()) : standIn(file));
+  }
+
+  AssetRoots roots_;
+  std::unique_ptr<Importer> importer_;
+  NodeFactories factories_{};
+  MeshStore meshes_;
+  std::map<std::tuple<std::string, double, int, bool>, MeshId> imported_;
+  std::set<std::string> seen_;
+  Diagnostics& findings_;
+};
+
+/// Bodies that stick in something when the show begins.
+void findOverlaps(const std::string& file, const std::vector<std::string>& roots, Diagnostics& findings) {
+  ShowOptions options;
+  options.script = file;
+  options.input = "none";
+  options.assetRoots = roots;
+  Diagnostics told;
+  auto player = options.settle(told) ? Player::create(options, told, [](const Diagnostics&) {}) : nullptr;
+  if (!player) return;
+  ChangeSet changes;
+  player->scene().advance(signatureAt(0, options.rate), {}, changes, nullptr);
+  player->scene().forEachNode([&](const Node& node) {
+    const auto* collision = dynamic_cast<const CollisionNode*>(&node);
+    const Load* load = player->scene().load(node.self().load);
+    if (!collision || !load) return;
+    for (const CollisionNode::Overlap& o : collision->overlaps(kDeepestStart)) {
+      char depth[32];
+      std::snprintf(depth, sizeof depth, "%.1f mm", 1000 * o.depth);
+      findings.warning({load->file, load->lines[node.self().position], 1},
+                       "\"" + o.a + "\" and \"" + o.b + "\" overlap by " + depth +
+                           " at the start; move one of them");
+    }
+  });
+}
+
+}  // namespace
+
+Diagnostics checkShow(const std::string& file, const std::vector<std::string>& assetRoots) {
+  Diagnostics findings;
+  ShowChecker(file, assetRoots, findings).checkFile(SourceText::read(file), {});
+  if (!findings.hasErrors()) findOverlaps(file, assetRoots, findings);
+  return sorted(findings);
+}
+
+}  // namespace stadion
