@@ -85,11 +85,12 @@ std::size_t editDistance(std::string_view a, std::string_view b, std::size_t lim
 std::string format(const Diagnostic& d) {
   std::string result = d.where.file;
   if (d.where.line > 0) {
-    result += (result.empty() ? "" : ":") + std::to_string(d.where.line);
-    if (d.where.column > 0) result += ":" + std::to_string(d.where.column);
+    if (!result.empty()) result += ':';
+    result += std::to_string(d.where.line);
+    if (d.where.column > 0) result.append(1, ':').append(std::to_string(d.where.column));
   }
   if (!result.empty()) result += ": ";
-  result += std::string(nameOf(d.severity)) + ": " + d.message;
+  result.append(nameOf(d.severity)).append(": ").append(d.message);
   if (!d.excerpt.empty()) result += pointAt(d.excerpt, d.where.column);
   return result;
 }

@@ -48,7 +48,7 @@ Failure readPart(std::string_view& rest, std::size_t& offset, ReadMessage& messa
   }
   return ValueError{word.offset,
                     fmt::format("\"attach\" must be followed by all, position or orientation, not {}",
-                                word.text.empty() ? "nothing" : "\"" + shortened(word.text) + "\"")};
+                                word.text.empty() ? "nothing" : fmt::format("\"{}\"", shortened(word.text)))};
 }
 
 Failure readTracker(std::string_view& rest, std::size_t& offset, ReadMessage& message) {

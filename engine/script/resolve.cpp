@@ -15,7 +15,7 @@ constexpr std::size_t kMostCandidates = 20'000;  // for suggestions
 constexpr std::size_t kMostSuggestions = 20;
 
 std::string withArticle(const std::string& words) {
-  return (words.starts_with('o') ? "an " : "a ") + words;
+  return fmt::format("{} {}", words.starts_with('o') ? "an" : "a", words);
 }
 std::string withArticle(NodeKind kind) {
   return withArticle(std::string(nameOf(kind)));

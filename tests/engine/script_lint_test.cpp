@@ -1,0 +1,80 @@
+#include "engine/script/lint.h"
+#include "engine/script/script.h"
+
+#include <gtest/gtest.h>
+
+namespace stadion {
+namespace {
+
+std::vector<std::string> warningsOf(std::string_view text, bool alone = true) {
+  Diagnostics findings;
+  const Document document = checkScript(std::move(SourceText::make("a.evs", text).value()), findings);
+  for (const Diagnostic& d : findings.all()) ADD_FAILURE() << format(d);
+  Diagnostics warnings;
+  lint(document, alone, warnings);
+  std::vector<std::string> messages;
+  for (const Diagnostic& d : warnings.all()) {
+    EXPECT_EQ(d.severity, Severity::Warning);
+    messages.push_back(d.message);
+  }
+  return messages;
+}
+
+using Messages = std::vector<std::string>;
+
+TEST(ScriptLint, AFieldThatNothingHooksIsNamed) {
+  const std::string_view wind = "forcelinear(name=wind, direction=\"1 0 0\")";
+  EXPECT_EQ(warningsOf(wind), Messages{"the forcelinear \"wind\" is never hooked to a body"});
+  EXPECT_TRUE(warningsOf(wind, false).empty());  // another file may hook it
+}
+
+TEST(ScriptLint, AFieldHookedByMessageIsUsed) {
+  EXPECT_TRUE(warningsOf("forcelinear(name=wind, direction=\"1 0 0\") dynobject(name=b, file=b.obj)\n"
+                         "dynamics(collidee=b) timer(period=1, eventmessage=\"timesup, b, hook wind\")")
+                  .empty());
+}
+
+TEST(ScriptLint, ABodyInNoDynamicsNodeIsNamed) {
+  EXPECT_EQ(warningsOf("dynobject(name=b, file=b.obj)").size(), 1U);
+}
+
+TEST(ScriptLint, ATriggerOrTimerWithoutMessageHasNoEffect) {
+  EXPECT_EQ(warningsOf("usertrigger(sphere=\"0 0 0 1\")"),
+            Messages{"this usertrigger has no eventmessage and so no effect"});
+  EXPECT_EQ(warningsOf("timer(period=1)").size(), 1U);
+}
+
+TEST(ScriptLint, WhatIsOffAndNeverEnabledIsNamed) {
+  const std::string lamp = "light(name=lamp, initstate=off)\n";
+  EXPECT_EQ(warningsOf(lamp), Messages{"the light \"lamp\" is off at the start and nothing enables it"});
+  EXPECT_TRUE(warningsOf(lamp + "timer(period=1, eventmessage=\"timesup, lamp, toggle\")").empty());
+}
+
+TEST(ScriptLint, AttributesWithoutEffectAreNamed) {
+  EXPECT_EQ(warningsOf("light(intensity=0)").size(), 1U);
+  EXPECT_EQ(warningsOf("light(type=point, direction=\"0 0 1\", angle=20, range=3)").size(), 2U);
+  EXPECT_EQ(warningsOf("dynobject(name=b, file=b.obj, mass=2, density=3) dynamics(collidee=b)").size(), 1U);
+}
+
+TEST(ScriptLint, AFormatThatIsNotReadIsNamed) {
+  EXPECT_EQ(warningsOf("object(file=models/Ball.fbx)").size(), 1U);
+  EXPECT_TRUE(warningsOf("object(file=models/Ball.OBJ)").empty());
+  EXPECT_EQ(warningsOf("scene(file=arena.txt)").size(), 1U);
+}
+
+TEST(ScriptLint, ContactNodesAreLookedAt) {
+  EXPECT_EQ(warningsOf("dynamics()"), Messages{"this dynamics has no collidee and so no effect"});
+  EXPECT_EQ(warningsOf("dynobject(name=b, file=b.obj) dynamics(collider=b, collidee=b)"),
+            Messages{"\"b\" is both collider and collidee here"});
+  EXPECT_EQ(warningsOf("object(name=a, file=a.obj) object(name=b, file=a.obj)\n"
+                       "collision(collider=a, collider=a, collidee=b)"),
+            Messages{"collider \"a\" is given twice"});
+}
+
+TEST(ScriptLint, APathThatMovesNothingIsNamed) {
+  EXPECT_EQ(warningsOf("path(name=p, key=\"0, 0 0 0\")").size(), 1U);
+  EXPECT_TRUE(warningsOf("path(name=p, key=\"0, 0 0 0\") group(parent=p)").empty());
+}
+
+}  // namespace
+}  // namespace stadion
