@@ -118,11 +118,11 @@ Result<ShapeChoice> chooseShape(const Mesh& mesh, ShapeKind requested, double to
   if (tree.empty()) return Result<ShapeChoice>::failure("has no usable triangle to collide with");
   const std::vector<Vec3> points = usedVertices(tree);
   const double size = 0.5 * (tree.bounds().hi - tree.bounds().lo).norm();
-  const auto accept = [&](ShapeChoice c, double off) -> Result<ShapeChoice> {
+  const auto accept = [&](ShapeChoice& c, double off) -> Result<ShapeChoice> {
     c.deviation = off;
     c.remark = fmt::format("collides as a {}, within {:.3g} m ({:.2g} % of its size)", nameOf(c.kind), off,
                            100 * off / size);
-    return c;
+    return std::move(c);
   };
   const bool any = requested == ShapeKind::Auto;
   if (any || requested == ShapeKind::Plane) {
@@ -142,10 +142,10 @@ Result<ShapeChoice> chooseShape(const Mesh& mesh, ShapeKind requested, double to
     if (!any || (tree.closed() && c.deviation <= tolerance * std::get<BoxShape>(c.shape).half.minCoeff()))
       return accept(c, c.deviation);
   }
-  ShapeChoice c{MeshShape{std::move(tree)}, ShapeKind::Mesh, 0, {}};
+  ShapeChoice c{MeshShape(std::move(tree)), ShapeKind::Mesh, 0, {}};
   const std::size_t used = std::get<MeshShape>(c.shape).tree.triangles().size();
   c.remark = fmt::format("collides as a mesh of {} triangles", used);
-  return c;
+  return Result<ShapeChoice>(std::move(c));
 }
 
 Sphere boundingSphere(const Shape& shape) {

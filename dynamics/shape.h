@@ -4,13 +4,15 @@
 /// Frames   in the node's coordinates N; metres.
 /// Threads  immutable once built.
 
+#include "dynamics/mesh_distance.h"
 #include "dynamics/triangle_tree.h"
 #include "engine/asset/mesh.h"
 #include "engine/diagnostic.h"
 #include "engine/maths/maths.h"
 
-#include <optional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace stadion {
@@ -34,7 +36,10 @@ struct PlaneShape {
 };
 
 struct MeshShape {
-  TriangleTree tree;
+  explicit MeshShape(TriangleTree t)
+      : tree(std::move(t)), hierarchy(std::make_unique<MeshHierarchy>(tree.triangles())) {}
+  TriangleTree tree;                         ///< for balls, corners and rays
+  std::unique_ptr<MeshHierarchy> hierarchy;  ///< for other meshes
 };
 
 /// Capsule, cylinder and convex join here; every switch over kinds is a std::visit in separation.cpp or

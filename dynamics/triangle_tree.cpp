@@ -85,6 +85,10 @@ TriangleTree::TriangleTree(const Mesh& mesh) : triangles_(usable(mesh)) {
   dropped_ = mesh.indices.size() / 3 - triangles_.size();
   for (const Triangle& t : triangles_) bounds_.include(boxOf(t));
   if (triangles_.empty()) return;
+  std::map<Key, bool> places;
+  for (const Triangle& t : triangles_)
+    for (const Vec3& v : t.v)
+      if (places.emplace(keyOf(v), true).second) corners_.push_back(v);
   connect();
   order_.resize(triangles_.size());
   std::iota(order_.begin(), order_.end(), 0u);

@@ -37,6 +37,7 @@ public:
   bool empty() const { return triangles_.empty(); }
   bool closed() const { return closed_; }  ///< encloses a volume: inside and outside are defined
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  const std::vector<Vec3>& corners() const { return corners_; }  ///< each place once
   const Aabb& bounds() const { return bounds_; }
   std::size_t dropped() const { return dropped_; }  ///< triangles left out as useless
 
@@ -57,6 +58,7 @@ private:
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
+  std::vector<Vec3> corners_;
   Aabb bounds_;
   std::size_t dropped_ = 0;
   bool closed_ = false;

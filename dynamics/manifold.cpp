@@ -1,0 +1,167 @@
+#include "dynamics/manifold.h"
+
+#include "dynamics/polyhedra.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr std::size_t kMost = 16;
+
+void flip(Gap& g) {
+  g.point += g.distance * g.normal;
+  g.normal = -g.normal;
+}
+
+/// A ball touches a mesh wherever a face, a ridge or a peak is near enough; merged edges do not count.
+void ballOnMesh(const Vec3& centre, double r, const MeshShape& mesh, const Pose& X, double margin,
+                std::vector<ManifoldPoint>& points) {
+  const Vec3 c = X.inverse() * centre;
+  Aabb box;
+  box.include(c);
+  box.lo.array() -= r + margin, box.hi.array() += r + margin;
+  std::vector<std::uint32_t> near;
+  mesh.tree.overlapping(box, near);
+  for (const bool edges : {false, true}) {
+    for (const std::uint32_t i : near) {
+      const Triangle& t = mesh.tree.triangles()[i];
+      const ClosestPoint q = closestPoint(t, c);
+      if ((q.edge >= 0) != edges) continue;
+      const double height = t.normal.dot(c - t.v[0]), away = (c - q.point).norm();
+      const bool behind = height < 0 && mesh.tree.closed();
+      if (behind && edges) continue;
+      if (away - r > margin) continue;
+      if (edges && !q.corner && t.merged[static_cast<std::size_t>(q.edge)]) continue;
+      const Vec3 n = away > 0 ? Vec3((c - q.point) / away * (behind ? -1 : 1)) : t.normal;
+      const bool known = std::any_of(points.begin(), points.end(), [&](const ManifoldPoint& p) {
+        return p.gap.normal.dot(X.q * n) > 1 - 1e-6;
+      });
+      if (known || points.size() >= kMost) continue;
+      points.push_back(
+          {{(behind ? -away : away) - r, X * q.point, X.q * n, !edges, static_cast<std::int32_t>(i)}, i + 1});
+    }
+  }
+}
+
+/// Where corners of a come near the surface of b.
+void cornersNear(const Side& a, const Side& b, double tau, double margin, bool flipped, std::uint32_t keyBase,
+                 std::vector<ManifoldPoint>& points) {
+  const Kinematics ka = a.at(tau), kb = b.at(tau);
+  std::uint32_t key = keyBase;
+  std::vector<ManifoldPoint> found;
+  forEachCorner(*a.shape, [&](const Vec3& corner) {
+    ++key;
+    const Vec3 x = ka.pose * corner;
+    Gap g = ballGap(x, 0, *b.shape, kb.pose, margin);
+    if (!(g.distance < margin)) return;
+    // A corner of a flat thing lies beside another's edge as well as above its face: only faces carry
+    // corners.
+    if (!g.face && std::holds_alternative<BoxShape>(*b.shape)) return;
+    if (flipped) flip(g);
+    found.push_back({g, key});
+  });
+  if (found.size() > kMost) {  // keep the deepest and the widest spread
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& l, const auto& r) { return l.gap.distance < r.gap.distance; });
+    std::vector<ManifoldPoint> kept{found.front()};
+    while (kept.size() < kMost) {
+      std::size_t best = 0;
+      double far = -1;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        double d = 1e300;
+        for (const ManifoldPoint& k : kept) d = std::min(d, (k.gap.point - found[i].gap.point).squaredNorm());
+        if (d > far) far = d, best = i;
+      }
+      kept.push_back(found[best]);
+    }
+    found = std::move(kept);
+  }
+  points.insert(points.end(), found.begin(), found.end());
+}
+
+/// Edges of two boxes that cross near each other.
+void crossingEdges(const Side& a, const Side& b, double tau, double margin,
+                   std::vector<ManifoldPoint>& points) {
+  const auto* boxA = std::get_if<BoxShape>(a.shape);
+  const auto* boxB = std::get_if<BoxShape>(b.shape);
+  if (!boxA || !boxB) return;
+  const Pose A = a.at(tau).pose * boxA->pose, B = b.at(tau).pose * boxB->pose;
+  const auto edgeOf = [](const BoxShape& box, const Pose& X, int axis, int signs, Vec3& p, Vec3& d) {
+    Vec3 l = Vec3::Zero();
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    l[u] = signs & 1 ? box.half[u] : -box.half[u], l[v] = signs & 2 ? box.half[v] : -box.half[v],
+    l[axis] = -box.half[axis];
+    p = X * l;
+    d = X.q * Vec3(2 * box.half[axis] * Vec3::Unit(axis));
+  };
+  // Faces whose normals agree with the touching direction: take it from the points found, else from the
+  // centres.
+  Vec3 towards = (A.p - B.p).normalized();
+  for (int i = 0; i < 12; ++i) {
+    Vec3 p, d;
+    edgeOf(*boxA, A, i / 4, i % 4, p, d);
+    for (int j = 0; j < 12; ++j) {
+      Vec3 q, e;
+      edgeOf(*boxB, B, j / 4, j % 4, q, e);
+      const Vec3 n0 = d.cross(e);
+      if (n0.squaredNorm() < 1e-6 * d.squaredNorm() * e.squaredNorm()) continue;
+      const Vec3 n = n0.normalized() * (n0.dot(towards) < 0 ? -1 : 1);
+      const Vec3 w = p - q;
+      const double det = n0.squaredNorm(), s = -w.cross(e).dot(n0) / det, t = -w.cross(d).dot(n0) / det;
+      if (s <= 1e-6 || s >= 1 - 1e-6 || t <= 1e-6 || t >= 1 - 1e-6) continue;
+      const Vec3 onA = p + s * d, onB = q + t * e;
+      const double distance = n.dot(onA - onB);
+      if (std::fabs(distance) > margin || points.size() >= 2 * kMost) continue;
+      // The crossing separates the boxes only if each lies on its side of the plane between.
+      const auto depthAlong = [&](const BoxShape& box, const Pose& X) {
+        return (X.q.conjugate() * n).cwiseAbs().dot(box.half);
+      };
+      const double lowA = n.dot(A.p) - depthAlong(*boxA, A), highB = n.dot(B.p) + depthAlong(*boxB, B);
+      if (lowA - highB < -margin) continue;
+      points.push_back({{distance, onB, n, false, -1}, 100u + static_cast<std::uint32_t>(12 * i + j)});
+    }
+  }
+}
+
+bool isBall(const Side& s) {
+  return std::holds_alternative<BallShape>(*s.shape);
+}
+bool isPlane(const Side& s) {
+  return std::holds_alternative<PlaneShape>(*s.shape);
+}
+
+void ballPoints(const Side& ball, const Side& other, double tau, double margin,
+                std::vector<ManifoldPoint>& points) {
+  const auto& s = std::get<BallShape>(*ball.shape);
+  const Vec3 c = ball.at(tau).pose * s.centre;
+  const Pose X = other.at(tau).pose;
+  if (const auto* mesh = std::get_if<MeshShape>(other.shape)) {
+    ballOnMesh(c, s.radius, *mesh, X, margin, points);
+    return;
+  }
+  const Gap g = ballGap(c, s.radius, *other.shape, X, margin);
+  if (g.distance < margin) points.push_back({g, 1});
+}
+
+}  // namespace
+
+void manifold(const Side& a, const Side& b, double tau, double margin, std::vector<ManifoldPoint>& points) {
+  points.clear();
+  if (isBall(a)) {
+    ballPoints(a, b, tau, margin, points);
+  } else if (isBall(b)) {
+    ballPoints(b, a, tau, margin, points);
+    for (ManifoldPoint& p : points) flip(p.gap);
+  } else {
+    if (!isPlane(a)) cornersNear(a, b, tau, margin, false, 1000, points);
+    if (!isPlane(b)) cornersNear(b, a, tau, margin, true, 1000000, points);
+    if (isPlane(a) || isPlane(b)) return;
+    crossingEdges(a, b, tau, margin, points);
+    const Gap nearest = points.empty() ? gapBetween(a, b, tau, margin) : Gap{};
+    if (nearest.distance < margin) points.push_back({nearest, 99});
+  }
+}
+
+}  // namespace stadion

@@ -1,0 +1,160 @@
+#pragma once
+/// What the world keeps of a body, a collider and their motion through one frame. Internal to dynamics/.
+///
+/// Times    tau is seconds after the start of the present frame; an arc's age is `age0 + tau`.
+
+#include "dynamics/arc.h"
+#include "dynamics/instant.h"
+#include "dynamics/shape.h"
+#include "dynamics/world.h"
+#include "engine/maths/functions.h"
+
+#include <array>
+#include <vector>
+
+namespace stadion {
+
+/// Position and velocity of a rigid frame at one moment.
+struct Kinematics {
+  Pose pose;              ///< X_WN
+  Vec3 p = Vec3::Zero();  ///< the point that v belongs to: a body's centre of mass, a collider's origin
+  Vec3 v = Vec3::Zero();
+  Vec3 omega = Vec3::Zero();
+  Vec3 velocityAt(const Vec3& x) const { return v + omega.cross(x - p); }
+};
+
+/// A straight move with constant angular velocity through the frame.
+struct GuidedMotion {
+  Pose start, end;
+  Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
+  double rate = 0;  ///< 1 / frame length [1/s]
+  bool moving = false;
+
+  void set(const Pose& from, const Pose& to, double seconds) {
+    start = from, end = to;
+    moving = seconds > 0 && (from.p != to.p || from.q.coeffs() != to.q.coeffs());
+    rate = moving ? 1 / seconds : 0;
+    v = moving ? Vec3((to.p - from.p) * rate) : Vec3::Zero();
+    omega = moving ? Vec3(from.q * det::logRotation(from.q.conjugate() * to.q) * rate) : Vec3::Zero();
+  }
+  Kinematics at(double tau) const {
+    const Pose X = moving ? det::interpolate(start, end, tau * rate) : end;
+    return {X, X.p, v, omega};
+  }
+};
+
+/// How wildly the points of a side can move until the end of the frame.
+struct MotionBound {
+  double speed = 0;         ///< of p [m/s]
+  double acceleration = 0;  ///< of p [m/s2]
+  double spin = 0;          ///< [rad/s]
+  double spinChange = 0;    ///< [rad/s2]
+  /// Of a point r metres from p.
+  double accelerationAt(double r) const { return acceleration + (spin * spin + spinChange) * r; }
+  double speedAt(double r) const { return speed + spin * r; }
+};
+
+/// A flat face that a ball slides or rolls on.
+struct Support {
+  Party on;                    ///< collider, or none
+  std::int32_t triangle = -1;  ///< of a mesh
+  Vec3 point = Vec3::Zero();   ///< the plane that the ball's surface touches
+  Vec3 normal = Vec3::UnitZ();
+  int edges = 0;  ///< the face ends where n . x < d for one of these
+  std::array<Vec3, 4> edgeNormal;
+  std::array<double, 4> edgeOffset{};
+  double friction = 0, rolling = 0, restitution = 0;
+};
+
+struct Hook {
+  FieldId field = 0;
+};
+
+struct RigidBody {
+  BodyId id = 0;
+  ShapeId shapeId = 0;
+  const Shape* shape = nullptr;
+  Surface surface;
+  double mass = 1, inverseMass = 1;
+  Vec3 inertia = Vec3::Ones();
+  Pose X_NC, X_CN;
+  Sphere bound;      ///< centre in N
+  double reach = 0;  ///< greatest distance of a surface point from the centre of mass [m]
+  double damping = 0, releaseDistance = 0.5;
+  bool enabled = true, fresh = true;
+
+  BodyMode mode = BodyMode::Flight;
+  Path path;
+  Spin spin;
+  Instant since;             ///< when the present arc began
+  double age0 = 0;           ///< its age at the start of the frame [s]
+  double until = 0;          ///< greatest valid tau in this frame's seconds; infinity if unlimited
+  double validAge = 0;       ///< the same as an age
+  Vec3 endL = Vec3::Zero();  ///< Contact: angular momentum at the end of the sub-step
+  double step = 0;           ///< last step of the general integrator [s]
+  Support support;
+  std::vector<Hook> hooks;
+  std::vector<Party> touching;  ///< Contact, Rest: whom the body leans on
+  GuidedMotion held;
+  std::uint32_t version = 0;  ///< counts arcs: older predictions are void
+  std::uint32_t impacts = 0;  ///< in this frame
+  double quiet = 0;           ///< Contact: how long it has hardly moved [s]
+  std::string trouble;
+  Pose pose;   ///< X_WN at the end of the last frame
+  Aabb swept;  ///< of the rest of the frame
+
+  bool isBall() const { return std::holds_alternative<BallShape>(*shape); }
+  double radius() const { return std::get<BallShape>(*shape).radius; }
+  bool movable() const { return mode != BodyMode::Held && mode != BodyMode::Quarantined; }
+  bool sampled() const { return mode != BodyMode::Held; }
+
+  double age(double tau) const { return age0 + tau; }
+  Vec3 position(double tau) const { return path.position(age(tau)); }
+  Vec3 velocity(double tau) const { return path.velocity(age(tau)); }
+  Quat orientation(double tau) const { return spin.orientation(age(tau)); }
+  Kinematics at(double tau) const {
+    if (mode == BodyMode::Held) {
+      Kinematics k = held.at(tau);
+      const Vec3 c = k.pose * X_NC.p;
+      k.v = k.velocityAt(c), k.p = c;
+      return k;
+    }
+    const Pose X_WC{position(tau), orientation(tau)};
+    return {X_WC * X_CN, X_WC.p, velocity(tau), spin.angularVelocity(age(tau))};
+  }
+  MotionBound boundOver(double from, double to) const;
+};
+
+struct Collider {
+  ColliderId id = 0;
+  ShapeId shapeId = 0;
+  const Shape* shape = nullptr;
+  Surface surface;
+  Sphere bound;  ///< in N
+  bool enabled = true;
+  Pose now;                  ///< X_WN at the start of the coming frame
+  std::optional<Pose> next;  ///< where it will be at its end
+  GuidedMotion motion;
+  bool disturbed = false;  ///< it moved, jumped or came: sleepers on it wake
+  bool fresh = true;
+  Aabb swept;
+};
+
+inline MotionBound RigidBody::boundOver(double from, double to) const {
+  MotionBound b;
+  if (mode == BodyMode::Held) {
+    b.spin = held.omega.norm();
+    const double arm = X_NC.p.norm();
+    b.speed = held.v.norm() + b.spin * arm, b.acceleration = b.spin * b.spin * arm;
+    return b;
+  }
+  b.acceleration = path.accelerationBound();
+  b.speed = path.velocity(age(from)).norm() + b.acceleration * (to - from);
+  b.spin = spin.speedBound(age(to));
+  b.spinChange = spin.kind == Spin::Kind::Driven    ? spin.alpha.norm()
+                 : spin.kind == Spin::Kind::Uniform ? 0
+                                                    : b.spin * b.spin;
+  return b;
+}
+
+}  // namespace stadion

@@ -1,0 +1,349 @@
+#include "dynamics/touch.h"
+
+#include "dynamics/polyhedra.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+struct Probe {
+  double gap, rate;
+};
+
+/// The first tau in [from, to] at which the gap closes; see the header. `acceleration` bounds |gap''| from
+/// below.
+template <class F>
+std::optional<double> firstRoot(F probe, double from, double to, double acceleration, double tolerance,
+                                std::uint64_t& iterations) {
+  double tau = from;
+  for (int i = 0; i < 200; ++i) {
+    ++iterations;
+    Probe p = probe(tau);
+    if (!(p.gap == p.gap) || !(p.rate == p.rate)) return {};
+    if (p.gap <= tolerance) {
+      if (p.rate < 0) return tau;
+      p.gap = 0;
+    }
+    const double root = std::sqrt(p.rate * p.rate + 2 * acceleration * p.gap);
+    double step;
+    if (p.rate < 0) {
+      step = 2 * p.gap / (root - p.rate);
+    } else if (acceleration > 0) {
+      step = (p.rate + root) / acceleration;
+    } else {
+      return {};
+    }
+    tau += std::max(step, 1e-12);
+    if (!(tau <= to)) return {};
+  }
+  return tau;  // grazing: as good as touching
+}
+
+struct Local {
+  double distance;
+  Vec3 point, normal;  ///< in the shape's frame
+  bool face;
+  std::int32_t triangle;
+};
+
+Local towards(const Vec3& c, const Vec3& q, double r, const Vec3& fallback) {
+  const Vec3 d = c - q;
+  const double n = d.norm();
+  return {n - r, q, n > 0 ? Vec3(d / n) : fallback, false, -1};
+}
+
+Local localGap(const Vec3& c, double r, const BallShape& s, double) {
+  Local l = towards(c, s.centre, r + s.radius, Vec3::UnitZ());
+  l.point = s.centre + s.radius * l.normal;
+  return l;
+}
+
+Local localGap(const Vec3& c, double r, const BoxShape& s, double) {
+  const Vec3 p = s.pose.q.conjugate() * (c - s.pose.p), inside = s.half - p.cwiseAbs();
+  int axis = 0;
+  if (inside.minCoeff(&axis) > 0) {  // the centre is inside: out through the nearest face
+    Vec3 n = Vec3::Zero();
+    n[axis] = p[axis] < 0 ? -1 : 1;
+    Vec3 q = p;
+    q[axis] = n[axis] * s.half[axis];
+    return {-inside[axis] - r, s.pose * q, s.pose.q * n, true, -1};
+  }
+  const Vec3 q = p.cwiseMin(s.half).cwiseMax(-s.half);
+  Local l = towards(p, q, r, Vec3::UnitZ());
+  l.face = (inside.array() >= 0).count() == 2;
+  l.point = s.pose * q, l.normal = s.pose.q * l.normal;
+  return l;
+}
+
+Local localGap(const Vec3& c, double r, const PlaneShape& s, double) {
+  const Vec3 p = s.pose.q.conjugate() * (c - s.pose.p);
+  if (!s.bounded()) return {p.z() - r, s.pose * Vec3(p.x(), p.y(), 0), s.normal(), true, -1};
+  const Vec3 q(std::clamp(p.x(), -s.half.x(), s.half.x()), std::clamp(p.y(), -s.half.y(), s.half.y()), 0);
+  Local l = towards(p, q, r, Vec3::UnitZ());
+  l.face = q.x() == p.x() && q.y() == p.y();
+  l.point = s.pose * q, l.normal = s.pose.q * l.normal;
+  return l;
+}
+
+/// Against one triangle; `solid`: its back is the inside of a closed mesh.
+Local triangleGap(const Vec3& c, double r, const Triangle& t, std::int32_t index, bool solid) {
+  const ClosestPoint q = closestPoint(t, c);
+  Local l = towards(c, q.point, r, t.normal);
+  const double height = t.normal.dot(c - q.point);
+  l.triangle = index;
+  l.face = q.edge < 0;
+  if (solid && height < 0 && q.edge < 0) l.normal = t.normal, l.distance = height - r;
+  // A merged edge has no normal of its own: the face speaks for it while the ball is in front of it.
+  if (q.edge >= 0 && !q.corner && t.merged[static_cast<std::size_t>(q.edge)] &&
+      height > 0.999 * (c - q.point).norm())
+    l.face = true, l.normal = t.normal;
+  return l;
+}
+
+Local localGap(const Vec3& c, double r, const MeshShape& s, double limit) {
+  ClosestPoint at;
+  const std::int32_t i = s.tree.nearest(c, limit + r, at);
+  if (i < 0) return {1e300, c, Vec3::UnitZ(), false, -1};
+  const Triangle& t = s.tree.triangles()[static_cast<std::size_t>(i)];
+  Local l = triangleGap(c, r, t, i, s.tree.closed());
+  if (s.tree.closed() && t.normal.dot(c - at.point) < 0) {  // inside: out the near way
+    const double depth = (c - at.point).norm();
+    l.distance = -depth - r;
+    l.normal = depth > 0 ? Vec3((at.point - c) / depth) : t.normal;
+  }
+  return l;
+}
+
+Gap inWorld(const Local& l, const Pose& X) {
+  return {l.distance, X * l.point, X.q * l.normal, l.face, l.triangle};
+}
+
+Vec3 ballCentre(const Side& s, const Kinematics& k) {
+  return k.pose * std::get<BallShape>(*s.shape).centre;
+}
+
+/// Bound on the relative acceleration of A's points as seen from B's turning frame, both within the frame's
+/// motion.
+double relativeAcceleration(const Side& a, const Side& b, double from, double to, double distance) {
+  const MotionBound ba = a.boundOver(from, to), bb = b.boundOver(from, to);
+  const double ra = a.body ? a.body->reach : a.bound().centre.norm() + a.bound().radius;
+  double arm = 0;
+  if (bb.spin > 0 || bb.spinChange > 0) {
+    // Points of A stay within this distance of B's centre while it matters.
+    const double rb = std::isfinite(b.bound().radius)
+                          ? (b.body ? b.body->reach : b.bound().centre.norm() + b.bound().radius)
+                          : distance;
+    arm = rb + 2 * ra + (ba.speedAt(ra) + bb.speedAt(rb)) * (to - from);
+    if (arm > distance + 2 * ra + (ba.speed + bb.speed) * (to - from))
+      arm = distance + 2 * ra + (ba.speed + bb.speed) * (to - from);
+  }
+  const double turning = bb.spin * 2 * (ba.speedAt(ra) + bb.speedAt(arm));
+  return ba.accelerationAt(std::holds_alternative<BallShape>(*a.shape)
+                               ? (a.body ? a.body->X_CN.p.norm() : a.bound().centre.norm())
+                               : ra) +
+         bb.accelerationAt(arm) + turning;
+}
+
+/// A still plane under a parabola has a closed form.
+std::optional<std::optional<double>> planeRoot(const Side& ball, const Side& plane, double from, double to) {
+  const auto& s = std::get<PlaneShape>(*plane.shape);
+  if (!ball.body || ball.body->mode == BodyMode::Held || !plane.still() || s.bounded() ||
+      !ball.body->path.isParabola() || !ball.body->X_CN.p.isZero(0) || plane.body)
+    return {};
+  const Pose X = plane.collider->motion.end * s.pose;
+  const Vec3 n = X.q * Vec3::UnitZ();
+  const double age = ball.body->age(from), r = ball.body->radius();
+  double h = n.dot(ball.body->path.position(age) - X.p) - r;
+  const double v = n.dot(ball.body->path.velocity(age)), a = 2 * n.dot(ball.body->path.c[2]);
+  using Answer = std::optional<double>;
+  if (h <= touchTolerance(X.p)) {
+    if (v < 0) return Answer(from);
+    h = 0;
+  }
+  const double d = v * v - 2 * a * h;
+  if (d < 0) return Answer();
+  double t;
+  if (v < 0) {
+    t = 2 * h / (std::sqrt(d) - v);
+  } else {
+    if (a >= 0) return Answer();
+    t = (v + std::sqrt(d)) / -a;
+  }
+  if (from + t > to) return Answer();
+  return Answer(from + t);
+}
+
+std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from, double to,
+                               std::uint64_t& count) {
+  const double r = std::get<BallShape>(*ball.shape).radius;
+  const auto gapAt = [&](double tau) {
+    return ballGap(ballCentre(ball, ball.at(tau)), r, *other.shape, other.at(tau).pose);
+  };
+  if (std::holds_alternative<PlaneShape>(*other.shape)) {
+    if (const auto exact = planeRoot(ball, other, from, to)) {
+      ++count;
+      if (!*exact) return {};
+      return Touch{**exact, gapAt(**exact), false};
+    }
+  }
+  const Kinematics kb = ball.at(from), ko = other.at(from);
+  const Vec3 c0 = ballCentre(ball, kb);
+  const double bound = relativeAcceleration(ball, other, from, to, (c0 - ko.p).norm());
+  const double tolerance = touchTolerance(c0);
+  const auto rateOf = [&](const Gap& g, const Kinematics& b, const Kinematics& o, const Vec3& c) {
+    return g.normal.dot(b.velocityAt(c) - o.velocityAt(g.point));
+  };
+  const auto* mesh = std::get_if<MeshShape>(other.shape);
+  if (!mesh) {
+    const auto probe = [&](double tau) {
+      const Kinematics b = ball.at(tau), o = other.at(tau);
+      const Vec3 c = ballCentre(ball, b);
+      const Gap g = ballGap(c, r, *other.shape, o.pose);
+      return Probe{g.distance, rateOf(g, b, o, c)};
+    };
+    const auto tau = firstRoot(probe, from, to, bound, tolerance, count);
+    if (!tau) return {};
+    return Touch{*tau, gapAt(*tau), false};
+  }
+  // The triangles that the ball can reach, each for itself.
+  const Vec3 l0 = ko.pose.inverse() * c0;
+  const Vec3 l1 = other.at(to).pose.inverse() * ballCentre(ball, ball.at(to));
+  const double sag = bound * (to - from) * (to - from) / 8 + r + 1e-9;
+  Aabb box;
+  box.include(l0), box.include(l1);
+  box.lo.array() -= sag, box.hi.array() += sag;
+  std::vector<std::uint32_t> candidates;
+  mesh->tree.overlapping(box, candidates);
+  std::optional<Touch> best;
+  double end = to;
+  const Support* support = ball.body && ball.body->support.on == other.party && ball.body->support.on.id
+                               ? &ball.body->support
+                               : nullptr;
+  const bool inside = ballGap(c0, r, *other.shape, ko.pose, r).distance < -r;
+  for (const std::uint32_t i : candidates) {
+    const Triangle& t = mesh->tree.triangles()[i];
+    if (support && (ko.pose.q * t.normal).dot(support->normal) > 1 - 1e-7 &&
+        std::fabs(support->normal.dot(ko.pose * t.v[0] - support->point)) < 1e-6)
+      continue;  // what the ball already rolls on
+    Local last{};
+    const auto probe = [&](double tau) {
+      const Kinematics b = ball.at(tau), o = other.at(tau);
+      const Vec3 c = ballCentre(ball, b);
+      last = triangleGap(o.pose.inverse() * c, r, t, static_cast<std::int32_t>(i), inside);
+      const Gap g = inWorld(last, o.pose);
+      return Probe{g.distance, rateOf(g, b, o, c)};
+    };
+    const auto tau = firstRoot(probe, from, end, bound, tolerance, count);
+    if (!tau || (best && *tau >= best->tau)) continue;
+    probe(*tau);
+    best = Touch{*tau, inWorld(last, other.at(*tau).pose), false};
+    end = *tau;
+  }
+  return best;
+}
+
+/// Corners against a plane, each on its own path.
+std::optional<Touch> cornersOnPlane(const Side& solid, const Side& plane, double from, double to,
+                                    std::uint64_t& count) {
+  const auto& s = std::get<PlaneShape>(*plane.shape);
+  const Kinematics k0 = solid.at(from), p0 = plane.at(from);
+  const double bound = relativeAcceleration(solid, plane, from, to, (k0.p - p0.p).norm());
+  std::optional<Touch> best;
+  double end = to;
+  const double tolerance = touchTolerance(k0.p);
+  forEachCorner(*solid.shape, [&](const Vec3& corner) {
+    const auto probe = [&](double tau) {
+      const Kinematics k = solid.at(tau), p = plane.at(tau);
+      const Pose X = p.pose * s.pose;
+      const Vec3 x = k.pose * corner, n = X.q * Vec3::UnitZ();
+      return Probe{n.dot(x - X.p), n.dot(k.velocityAt(x) - p.velocityAt(x))};
+    };
+    const auto tau = firstRoot(probe, from, end, bound, tolerance, count);
+    if (!tau || (best && *tau >= best->tau)) return;
+    const Pose X = plane.at(*tau).pose * s.pose;
+    const Vec3 x = solid.at(*tau).pose * corner, l = X.inverse() * x;
+    if (s.bounded() && (std::fabs(l.x()) > s.half.x() || std::fabs(l.y()) > s.half.y())) return;
+    best = Touch{*tau, {l.z(), x, X.q * Vec3::UnitZ(), true, -1}, false};
+    end = *tau;
+  });
+  return best;
+}
+
+bool isBall(const Side& s) {
+  return std::holds_alternative<BallShape>(*s.shape);
+}
+bool isPlane(const Side& s) {
+  return std::holds_alternative<PlaneShape>(*s.shape);
+}
+
+void flip(Gap& g) {
+  g.point += g.distance * g.normal;
+  g.normal = -g.normal;
+}
+
+}  // namespace
+
+double touchTolerance(const Vec3& p) {
+  return std::max(1e-12, 4e-15 * p.cwiseAbs().maxCoeff());
+}
+
+Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X, double limit) {
+  const Vec3 c = X.q.conjugate() * (centre - X.p);
+  return std::visit([&](const auto& s) { return inWorld(localGap(c, radius, s, limit), X); }, shape);
+}
+
+std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, double to, std::uint64_t& count) {
+  if (isBall(a)) return ballTouch(a, b, from, to, count);
+  const auto flipped = [](std::optional<Touch> t) {
+    if (t) flip(t->gap), t->swapped = true;
+    return t;
+  };
+  if (isBall(b)) return flipped(ballTouch(b, a, from, to, count));
+  if (isPlane(b)) return isPlane(a) ? std::nullopt : cornersOnPlane(a, b, from, to, count);
+  if (isPlane(a)) return flipped(cornersOnPlane(b, a, from, to, count));
+  return polyhedraTouch(a, b, from, to, count);
+}
+
+Gap gapBetween(const Side& a, const Side& b, double tau, double limit) {
+  const Kinematics ka = a.at(tau), kb = b.at(tau);
+  if (isBall(a))
+    return ballGap(ballCentre(a, ka), std::get<BallShape>(*a.shape).radius, *b.shape, kb.pose, limit);
+  if (isBall(b) || (isPlane(a) && !isPlane(b))) {
+    Gap g = gapBetween(b, a, tau, limit);
+    flip(g);
+    return g;
+  }
+  if (isPlane(b)) {
+    Gap best;
+    if (isPlane(a)) return best;
+    const auto& s = std::get<PlaneShape>(*b.shape);
+    forEachCorner(*a.shape, [&](const Vec3& corner) {
+      const Vec3 x = ka.pose * corner;
+      const Gap g = ballGap(x, 0, *b.shape, kb.pose);
+      if (g.distance < best.distance) best = {g.distance, x, g.normal, true, -1};
+    });
+    (void)s;
+    return best;
+  }
+  return polyhedraGap(*a.shape, ka.pose, *b.shape, kb.pose, limit);
+}
+
+Aabb sweptBox(const Side& side, double from, double to) {
+  const Sphere& s = side.bound();
+  Aabb box;
+  if (!std::isfinite(s.radius)) {
+    box.lo.setConstant(-1e300), box.hi.setConstant(1e300);
+    return box;
+  }
+  const Kinematics k0 = side.at(from), k1 = side.still() ? k0 : side.at(to);
+  const MotionBound b = side.boundOver(from, to);
+  const double arm = side.body ? (side.body->X_NC.p - s.centre).norm() : s.centre.norm();
+  const double sag = b.accelerationAt(arm) * (to - from) * (to - from) / 8 + s.radius + 1e-6;
+  box.include(k0.pose * s.centre), box.include(k1.pose * s.centre);
+  box.lo.array() -= sag, box.hi.array() += sag;
+  return box;
+}
+
+}  // namespace stadion

@@ -1,0 +1,400 @@
+#include "dynamics/world.h"
+
+#include "dynamics/world_core.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+double side(const std::optional<double>& a, const std::optional<double>& b, double fallback, bool product) {
+  if (!a && !b) return fallback;
+  if (!a || !b) return a ? *a : *b;
+  return product ? std::sqrt(*a * *b) : std::max(*a, *b);
+}
+
+bool usable(const std::optional<double>& x, double most) {
+  return !x || (*x >= 0 && *x <= most);
+}
+bool usable(const Surface& s) {
+  return usable(s.friction, 1e6) && usable(s.restitution, 1) && usable(s.rolling, 1e6);
+}
+bool usable(const Pose& X) {
+  return X.finite() && std::fabs(X.q.norm() - 1) < 1e-3 && X.p.cwiseAbs().maxCoeff() < 1e12;
+}
+Pose unit(const Pose& X) {
+  return {X.p, X.q.normalized()};
+}
+
+}  // namespace
+
+PairSurface combine(const Surface& a, const Surface& b) {
+  return {side(a.friction, b.friction, 0.5, true), side(a.restitution, b.restitution, 0.5, false),
+          side(a.rolling, b.rolling, 0.01, false)};
+}
+
+World::World() : core_(std::make_unique<Core>()) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+ShapeId World::addShape(Shape shape) {
+  const Sphere bound = boundingSphere(shape);
+  if (!bound.centre.allFinite() || !(bound.radius > 0)) return 0;
+  const ShapeId id = core_->nextShape++;
+  core_->shapes.emplace(id, Core::ShapeEntry{std::move(shape), bound, 0});
+  return id;
+}
+
+bool World::removeShape(ShapeId id) {
+  const auto at = core_->shapes.find(id);
+  if (at == core_->shapes.end() || at->second.uses > 0) return false;
+  core_->shapes.erase(at);
+  return true;
+}
+
+const Shape* World::shape(ShapeId id) const {
+  const auto at = core_->shapes.find(id);
+  return at == core_->shapes.end() ? nullptr : &at->second.shape;
+}
+
+BodyId World::addBody(const BodyDef& d) {
+  const auto s = core_->shapes.find(d.shape);
+  if (s == core_->shapes.end() || std::holds_alternative<PlaneShape>(s->second.shape) || !d.mass.valid() ||
+      !usable(d.pose) || !usable(d.surface) || !d.v.allFinite() || !d.omega.allFinite() ||
+      !(d.damping >= 0) || !std::isfinite(d.damping) || !(d.releaseDistance >= 0))
+    return 0;
+  ++s->second.uses;
+  const BodyId id = core_->nextBody++;
+  RigidBody& b = core_->bodies[id];
+  core_->bodyIds.push_back(id);
+  b.id = id, b.shapeId = d.shape, b.shape = &s->second.shape, b.bound = s->second.bound;
+  b.surface = d.surface, b.mass = d.mass.mass, b.inverseMass = 1 / d.mass.mass, b.inertia = d.mass.inertia;
+  b.X_NC = {d.mass.centre, d.mass.axes.normalized()};
+  if (const auto* ball = std::get_if<BallShape>(b.shape);
+      ball && (ball->centre - d.mass.centre).norm() <= 1e-6 * ball->radius &&
+      b.inertia.maxCoeff() - b.inertia.minCoeff() <= 1e-6 * b.inertia.maxCoeff()) {
+    b.X_NC = {ball->centre,
+              Quat::Identity()};  // rounding of a mesh integral: the centre of mass is the ball's centre
+    b.inertia.setConstant(b.inertia.mean());
+  }
+  b.X_CN = b.X_NC.inverse();
+  b.reach = (b.bound.centre - b.X_NC.p).norm() + b.bound.radius;
+  b.damping = d.damping, b.releaseDistance = d.releaseDistance;
+  b.pose = unit(d.pose);
+  const Pose X_WC = b.pose * b.X_NC;
+  const Quat& q = X_WC.q;
+  const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * d.omega);
+  core_->standStill();  // The ball's own centre, not the rounded composition, where it is what counts.
+  core_->startFlight(b, 0, X_WC.p, d.v, q, L);
+  return id;
+}
+
+bool World::removeBody(BodyId id) {
+  RigidBody* b = core_->body(id);
+  if (!b) return false;
+  enableBody(id, false);
+  --core_->shapes.at(b->shapeId).uses;
+  core_->memory.forget({true, id});
+  std::erase_if(core_->commands, [&](const Core::Command& c) { return c.body == id; });
+  std::erase_if(core_->ignored, [&](const auto& p) {
+    return p.first == Party{true, id} || p.second == Party{true, id};
+  });
+  std::erase(core_->bodyIds, id);
+  core_->bodies.erase(id);
+  return true;
+}
+
+ColliderId World::addCollider(const ColliderDef& d) {
+  const auto s = core_->shapes.find(d.shape);
+  if (s == core_->shapes.end() || !usable(d.pose) || !usable(d.surface)) return 0;
+  ++s->second.uses;
+  const ColliderId id = core_->nextCollider++;
+  Collider& c = core_->colliders[id];
+  c.id = id, c.shapeId = d.shape, c.shape = &s->second.shape, c.bound = s->second.bound,
+  c.surface = d.surface;
+  c.now = unit(d.pose);
+  c.motion.set(c.now, c.now, 0);
+  return id;
+}
+
+bool World::removeCollider(ColliderId id) {
+  Collider* c = core_->collider(id);
+  if (!c) return false;
+  enableCollider(id, false);
+  --core_->shapes.at(c->shapeId).uses;
+  core_->memory.forget({false, id});
+  std::erase_if(core_->ignored, [&](const auto& p) {
+    return p.first == Party{false, id} || p.second == Party{false, id};
+  });
+  core_->colliders.erase(id);
+  return true;
+}
+
+bool World::moveCollider(ColliderId id, const Pose& end, bool teleport) {
+  Collider* c = core_->collider(id);
+  if (!c || !usable(end)) return false;
+  if (teleport) {
+    c->now = unit(end), c->next.reset();
+    c->disturbed = true;
+  } else {
+    c->next = unit(end);
+  }
+  return true;
+}
+
+bool World::enableCollider(ColliderId id, bool on) {
+  Collider* c = core_->collider(id);
+  if (!c) return false;
+  if (c->enabled == on) return true;
+  c->enabled = on, c->fresh = on;
+  if (!on) {
+    core_->standStill();
+    core_->wakeOnto({false, id}, 0);
+    core_->memory.forget({false, id});
+  }
+  return true;
+}
+
+bool World::enableBody(BodyId id, bool on) {
+  RigidBody* b = core_->body(id);
+  if (!b) return false;
+  if (b->enabled == on) return true;
+  core_->standStill();
+  if (on) {
+    b->enabled = b->fresh = true;
+    const Pose X_WC = b->pose * b->X_NC;
+    core_->startFlight(*b, 0, X_WC.p, Vec3::Zero(), X_WC.q, Vec3::Zero());
+    return true;
+  }
+  b->enabled = false;
+  core_->freeze(*b, 0);
+  b->support.on = {};
+  b->touching.clear();
+  core_->wakeOnto({true, id}, 0);
+  core_->memory.forget({true, id});
+  return true;
+}
+
+bool World::ignorePair(Party a, Party b, bool on) {
+  const auto key = a < b ? std::pair(a, b) : std::pair(b, a);
+  if (on) {
+    core_->ignored.insert(key);
+  } else {
+    core_->ignored.erase(key);
+  }
+  return true;
+}
+
+void World::setBodiesCollide(bool on) {
+  core_->bodiesCollide = on;
+}
+
+FieldId World::addField(const ForceField& field, bool on) {
+  if (!usable(field.start) || !usable(field.end) || field.duration < 0) return 0;
+  const FieldId id = core_->nextField++;
+  core_->fields[id] = {field, false, true, 0};
+  if (on) switchField(id, true, core_->t1);
+  return id;
+}
+
+bool World::removeField(FieldId id) {
+  const auto at = core_->fields.find(id);
+  if (at == core_->fields.end()) return false;
+  for (auto& [bid, b] : core_->bodies)
+    if (hooked(bid, id)) unhook(bid, id, core_->t1);
+  switchField(id, false, core_->t1);
+  core_->standStill();
+  // Due at once; without a frame in between nobody may keep feeling it.
+  std::vector<Core::Command> due;
+  for (const Core::Command& c : core_->commands)
+    if (c.field == id && c.when <= core_->t1) due.push_back(c);
+  std::erase_if(core_->commands, [&](const Core::Command& c) { return c.field == id; });
+  for (const Core::Command& c : due)
+    if (c.kind == Core::Command::Kind::Unhook || !c.on) core_->execute(c, 0);
+  core_->fields.erase(id);
+  return true;
+}
+
+bool World::moveField(FieldId id, const Pose& start, const Pose& end) {
+  const auto at = core_->fields.find(id);
+  if (at == core_->fields.end() || !usable(start) || !usable(end)) return false;
+  ForceField& f = at->second.field;
+  const bool was = f.moving();
+  const bool same = f.end.p == start.p && f.end.q.coeffs() == start.q.coeffs();
+  f.start = unit(start), f.end = unit(end);
+  if (was || !same || f.moving()) at->second.changed = true;
+  return true;
+}
+
+bool World::setFieldLaw(FieldId id, const FieldLaw& law) {
+  const auto at = core_->fields.find(id);
+  if (at == core_->fields.end()) return false;
+  at->second.field.law = law;
+  at->second.changed = true;
+  return true;
+}
+
+bool World::switchField(FieldId id, bool on, Nanoseconds when) {
+  if (!core_->fields.count(id)) return false;
+  core_->insert({when, 0, Core::Command::Kind::Switch, id, 0, on, 0});
+  return true;
+}
+
+bool World::fieldOn(FieldId id) const {
+  const auto at = core_->fields.find(id);
+  return at != core_->fields.end() && at->second.on;
+}
+
+bool World::hook(BodyId body, FieldId field, Nanoseconds when) {
+  if (!core_->body(body) || !core_->fields.count(field)) return false;
+  core_->insert({when, 0, Core::Command::Kind::Hook, field, body, true, 0});
+  return true;
+}
+
+bool World::unhook(BodyId body, FieldId field, Nanoseconds when) {
+  if (!core_->body(body) || !core_->fields.count(field)) return false;
+  core_->insert({when, 0, Core::Command::Kind::Unhook, field, body, false, 0});
+  return true;
+}
+
+bool World::hooked(BodyId id, FieldId field) const {
+  const RigidBody* b = core_->body(id);
+  return b && std::any_of(b->hooks.begin(), b->hooks.end(), [&](const Hook& h) { return h.field == field; });
+}
+
+bool World::placeBody(BodyId id, const Pose& X_WN, const Vec3& v, const Vec3& omega) {
+  RigidBody* b = core_->body(id);
+  if (!b || !usable(X_WN) || !v.allFinite() || !omega.allFinite()) return false;
+  core_->standStill();
+  b->pose = unit(X_WN);
+  b->trouble.clear();
+  b->fresh = true;
+  b->touching.clear();
+  const Pose X_WC = b->pose * b->X_NC;
+  core_->memory.forget({true, id});
+  core_->startFlight(*b, 0, X_WC.p, v, X_WC.q, X_WC.q * b->inertia.cwiseProduct(X_WC.q.conjugate() * omega));
+  core_->wakeOnto({true, id}, 0);
+  return true;
+}
+
+bool World::push(BodyId id, const Vec3& impulse, const Vec3& at) {
+  RigidBody* b = core_->body(id);
+  if (!b || !impulse.allFinite() || !at.allFinite() || !b->movable()) return false;
+  core_->standStill();
+  Mobile m = mobileOf(*b, 0);
+  m.apply(impulse, at);
+  core_->afterImpulse(*b, m, 0, false);
+  return true;
+}
+
+bool World::holdBody(BodyId id) {
+  RigidBody* b = core_->body(id);
+  if (!b || b->mode == BodyMode::Quarantined) return false;
+  core_->standStill();
+  core_->freeze(*b, 0);
+  b->support.on = {};
+  b->touching.clear();
+  core_->wakeOnto({true, id}, 0);
+  b->mode = BodyMode::Held;
+  b->held.set(b->pose, b->pose, 0);
+  return true;
+}
+
+bool World::moveHeld(BodyId id, const Pose& end) {
+  RigidBody* b = core_->body(id);
+  if (!b || b->mode != BodyMode::Held || !usable(end)) return false;
+  b->held.start = b->pose;
+  b->held.end = unit(end);
+  ++b->version;
+  return true;
+}
+
+bool World::releaseBody(BodyId id, const Vec3& v, const Vec3& omega) {
+  RigidBody* b = core_->body(id);
+  if (!b || b->mode != BodyMode::Held) return false;
+  return placeBody(id, b->pose, v, omega);
+}
+
+bool World::advance(Nanoseconds t0, Nanoseconds t1) {
+  if (t1 < t0 || (core_->started && t0 != core_->t1)) return false;
+  if (!core_->started) {  // arcs made before the first frame begin with it
+    for (auto& [id, b] : core_->bodies) b.since = Instant{t0, 0};
+  }
+  core_->advance(t0, t1);
+  return true;
+}
+
+Pose World::pose(BodyId id) const {
+  const RigidBody* b = core_->body(id);
+  return b ? b->pose : Pose{};
+}
+
+BodyState World::state(BodyId id) const {
+  BodyState s;
+  const RigidBody* b = core_->body(id);
+  if (!b) return s;
+  const double age = Instant{core_->t1, 0}.since(b->since);
+  s.pose = b->pose, s.mode = b->mode, s.clock = b->since.ns, s.clockRest = b->since.rest;
+  const Pose X_WC = b->pose * b->X_NC;
+  if (b->mode == BodyMode::Held) {
+    s.p = X_WC.p, s.q = X_WC.q, s.v = b->held.v, s.omega = b->held.omega;
+    return s;
+  }
+  s.p = b->path.position(age), s.v = b->path.velocity(age), s.q = b->spin.orientation(age);
+  s.omega = b->spin.angularVelocity(age), s.L = b->spin.angularMomentum(age);
+  return s;
+}
+
+BodyMode World::mode(BodyId id) const {
+  const RigidBody* b = core_->body(id);
+  return b ? b->mode : BodyMode::Rest;
+}
+
+bool World::moving(BodyId id) const {
+  const BodyMode m = mode(id);
+  return m != BodyMode::Rest && m != BodyMode::Quarantined;
+}
+
+std::string World::troubleOf(BodyId id) const {
+  const RigidBody* b = core_->body(id);
+  return b ? b->trouble : std::string();
+}
+
+double World::mass(BodyId id) const {
+  const RigidBody* b = core_->body(id);
+  return b ? b->mass : 0;
+}
+
+double World::kineticEnergy(BodyId id) const {
+  const BodyState s = state(id);
+  return 0.5 * mass(id) * s.v.squaredNorm() + 0.5 * s.omega.dot(s.L);
+}
+
+const std::vector<ContactEvent>& World::events() const {
+  return core_->memory.events();
+}
+
+const std::vector<PairState>& World::pairs() const {
+  core_->pairList.clear();
+  for (const auto& [key, m] : core_->memory.all())
+    core_->pairList.push_back({key.first, key.second, m.touching, m.fired, m.impact});
+  return core_->pairList;
+}
+
+const std::vector<BodyId>& World::bodies() const {
+  return core_->bodyIds;
+}
+
+double World::separation(Party a, Party b) const {
+  const auto sa = core_->side(a), sb = core_->side(b);
+  if (!sa || !sb) return std::numeric_limits<double>::infinity();
+  return gapBetween(*sa, *sb, core_->length).distance;
+}
+
+const World::Counters& World::counters() const {
+  return core_->counters;
+}
+
+}  // namespace stadion

@@ -1,0 +1,237 @@
+#include "dynamics/world_core.h"
+
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+struct State {
+  Vec3 p, v;
+};
+
+/// One step of Dormand and Prince's pair of orders 5 and 4 for p'' = f(tau, p, v).
+template <class F>
+State dormandPrince(F f, double tau, const State& s, double h, double& error) {
+  static constexpr double c[7] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
+  static constexpr double a[7][6] = {
+      {},
+      {1.0 / 5},
+      {3.0 / 40, 9.0 / 40},
+      {44.0 / 45, -56.0 / 15, 32.0 / 9},
+      {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+      {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+      {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
+  static constexpr double d[7] = {71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
+                                  -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+  Vec3 kp[7], kv[7];
+  State y = s;
+  for (int i = 0; i < 7; ++i) {
+    y = s;
+    for (int j = 0; j < i; ++j) y.p += h * a[i][j] * kp[j], y.v += h * a[i][j] * kv[j];
+    kp[i] = y.v, kv[i] = f(tau + c[i] * h, y.p, y.v);
+  }
+  Vec3 ep = Vec3::Zero(), ev = Vec3::Zero();
+  for (int i = 0; i < 7; ++i) ep += h * d[i] * kp[i], ev += h * d[i] * kv[i];
+  error = std::max(ep.norm(), ev.norm());
+  return y;
+}
+
+}  // namespace
+
+Vec3 World::Core::accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& v, double tau) const {
+  Vec3 a = Vec3::Zero();
+  for (const Hook& h : b.hooks) {
+    const auto at = fields.find(h.field);
+    if (at == fields.end() || !at->second.on) continue;
+    a += accelerationOf(at->second.field, p, v, b.mass, length > 0 ? std::clamp(tau / length, 0.0, 1.0) : 1);
+  }
+  return a;
+}
+
+bool World::Core::uniformFor(const RigidBody& b) const {
+  for (const Hook& h : b.hooks) {
+    const auto at = fields.find(h.field);
+    if (at != fields.end() && at->second.on && !at->second.field.uniform()) return false;
+  }
+  return true;
+}
+
+void World::Core::setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon,
+                         BodyMode mode) {
+  ++counters.arcs;
+  if (!path.c[0].allFinite() || !path.c[1].allFinite() || !path.c[2].allFinite() ||
+      !spin.q0.coeffs().allFinite() || !spin.L.allFinite() || !spin.omega.allFinite() ||
+      path.c[0].cwiseAbs().maxCoeff() > 1e12) {
+    quarantine(b, tau, "its state would become infinite or undefined");
+    return;
+  }
+  b.path = path, b.spin = spin, b.mode = mode;
+  b.since = Instant{t0, 0}.plus(tau);
+  b.age0 = -tau;
+  b.validAge = std::min(horizon, spin.horizon);
+  b.until = tau + b.validAge;
+  ++b.version;
+}
+
+void World::Core::quarantine(RigidBody& b, double tau, std::string why) {
+  b.trouble = std::move(why);
+  const Pose X_WC = b.pose * b.X_NC;
+  const bool usable = b.path.c[0].allFinite() && b.spin.q0.coeffs().allFinite();
+  const Vec3 p = usable && b.position(tau).allFinite() && b.position(tau).cwiseAbs().maxCoeff() <= 1e12
+                     ? b.position(tau)
+                     : X_WC.p;
+  const Quat q = usable && b.orientation(tau).coeffs().allFinite() ? b.orientation(tau) : X_WC.q;
+  b.path = Path::still(p), b.spin = Spin::still(q);
+  b.mode = BodyMode::Quarantined;
+  b.since = Instant{t0, 0}.plus(tau);
+  b.age0 = -tau, b.until = b.validAge = kForever;
+  b.support.on = {};
+  b.touching.clear();
+  ++b.version;
+}
+
+void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, const Quat& q,
+                              const Vec3& L) {
+  if (b.support.on.id) memory.setTouching(ContactMemory::keyOf(b.support.on, {true, b.id}), false);
+  b.support.on = {};
+  const Spin spin = Spin::free(q, L, b.inertia);
+  if (uniformFor(b)) {
+    setArc(b, tau, Path::parabola(p, v, accelerationAt(b, p, v, tau), b.damping), spin, kForever,
+           BodyMode::Flight);
+    return;
+  }
+  const auto f = [&](double at, const Vec3& x, const Vec3& u) {
+    return Vec3(accelerationAt(b, x, u, at) - b.damping * u);
+  };
+  // A field that moves is known to the end of this frame only.
+  double longest = 0.05;
+  for (const Hook& h : b.hooks) {
+    const auto at = fields.find(h.field);
+    if (at != fields.end() && at->second.on && at->second.field.moving() && tau < length)
+      longest = std::min(longest, length - tau);
+  }
+  double h = std::min(b.step > 0 ? b.step : 0.01, longest), error = 0;
+  State end{p, v};
+  const double tolerance = 1e-13 * (1 + v.norm());
+  for (int i = 0; i < 60; ++i) {
+    end = dormandPrince(f, tau, {p, v}, h, error);
+    if (error <= tolerance || !(error == error) || h < 1e-7) break;
+    h *= std::clamp(0.9 * det::pow(tolerance / error, 0.2), 0.1, 0.8);
+  }
+  b.step = h * (error > 0 ? std::clamp(0.9 * det::pow(tolerance / error, 0.2), 0.3, 4.0) : 4.0);
+  const Vec3 from[3] = {p, v, f(tau, p, v)}, to[3] = {end.p, end.v, f(tau + h, end.p, end.v)};
+  setArc(b, tau, Path::hermite(from, to, h), spin, h, BodyMode::Flight);
+}
+
+void World::Core::startOnFace(RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped) {
+  const Party self{true, b.id};
+  const BallArc arc = ballOnFace(s, b.support, accelerationAt(b, s.p, s.v, tau), b.radius(), b.mass,
+                                 b.inertia.x(), gripped, stopped);
+  if (arc.leaves) {
+    startFlight(b, tau, s.p, s.v, s.q, b.inertia.x() * s.omega);
+    return;
+  }
+  memory.setTouching(ContactMemory::keyOf(b.support.on, self), true);
+  if (arc.mode == BodyMode::Rest) b.touching = {b.support.on};
+  double horizon = arc.horizon;
+  if (!uniformFor(b) && arc.mode != BodyMode::Rest) horizon = std::min(horizon, 1.0 / 480);
+  if (b.damping > 0 && arc.mode != BodyMode::Rest) {
+    // Drag on top of friction: short arcs of mean deceleration.
+    Path path = arc.path;
+    const double h = std::min(horizon, 1.0 / 480);
+    path.c[2] -= 0.5 * b.damping * path.c[1], path.degree = 2;
+    setArc(b, tau, path, arc.spin, h, arc.mode);
+    return;
+  }
+  setArc(b, tau, arc.path, arc.spin, horizon, arc.mode);
+}
+
+/// A new arc from the present state, because what acts on the body has changed.
+void World::Core::restart(RigidBody& b, double tau) {
+  switch (b.mode) {
+  case BodyMode::Flight:
+    startFlight(b, tau, b.position(tau), b.velocity(tau), b.orientation(tau),
+                b.spin.angularMomentum(b.age(tau)));
+    break;
+  case BodyMode::Slide:
+  case BodyMode::Roll:
+  case BodyMode::Rest:
+    if (b.support.on.id) {
+      startOnFace(b, tau,
+                  {b.position(tau), b.velocity(tau), b.spin.angularVelocity(b.age(tau)), b.orientation(tau)},
+                  false, false);
+    } else {
+      wake(b, tau);
+    }
+    break;
+  default: return;  // the contact solver looks at the fields at its next step
+  }
+  predict(b, tau);
+}
+
+void World::Core::freeze(RigidBody& b, double tau) {
+  setArc(b, tau, Path::still(b.position(tau)), Spin::still(b.orientation(tau)), kForever, BodyMode::Rest);
+}
+
+/// Looks for the face beyond the edge that the ball has reached: true if it rolls on in the same plane.
+bool World::Core::crossEdge(RigidBody& b, double tau) {
+  if (b.support.triangle < 0) return false;
+  const Collider* c = collider(b.support.on.id);
+  if (!c) return false;
+  const auto& tree = std::get<MeshShape>(*c->shape).tree;
+  const Vec3 n = b.support.normal, foot = b.position(tau) - b.radius() * n;
+  // Try a little ahead, so that the triangle beyond is found and not the one behind.
+  const Vec3 ahead = foot + 1e-7 * b.velocity(tau).normalized();
+  const Vec3 local = c->motion.end.inverse() * ahead;
+  std::vector<std::uint32_t> near;
+  Aabb box;
+  box.include(local);
+  box.lo.array() -= 1e-5, box.hi.array() += 1e-5;
+  tree.overlapping(box, near);
+  for (const std::uint32_t i : near) {
+    const Triangle& t = tree.triangles()[i];
+    const Vec3 up = c->motion.end.q * t.normal;
+    if (up.dot(n) < 1 - 1e-7) continue;
+    const ClosestPoint q = closestPoint(t, local);
+    if ((q.point - local).norm() > 2e-6) continue;
+    Gap gap;
+    gap.triangle = static_cast<std::int32_t>(i), gap.face = true, gap.normal = up;
+    gap.point = c->motion.end * q.point;
+    Support next;
+    if (!supportFor(b, *c, gap, tau, next)) continue;
+    next.point = b.support.point, next.normal = n;  // the same plane: no step of rounding from face to face
+    b.support = next;
+    return true;
+  }
+  return false;
+}
+
+void World::Core::reachHorizon(RigidBody& b, double tau) {
+  const Vec3 p = b.position(tau), v = b.velocity(tau);
+  const double age = b.age(tau);
+  const Quat q = b.orientation(tau);
+  if (b.mode == BodyMode::Slide || b.mode == BodyMode::Roll || b.mode == BodyMode::Rest) {
+    BallStart s{p, v, b.spin.angularVelocity(age), q};
+    const Vec3& n = b.support.normal;
+    bool outside = false;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(b.support.edges); ++i) {
+      const double h = b.support.edgeNormal[i].dot(p) - b.support.edgeOffset[i];
+      outside = outside || (h <= 1e-9 && b.support.edgeNormal[i].dot(v) < 0);
+    }
+    if (outside && !crossEdge(b, tau)) {
+      startFlight(b, tau, p, v, q, b.inertia.x() * s.omega);
+    } else {
+      Vec3 slip = v - b.radius() * s.omega.cross(n);
+      slip -= n * n.dot(slip);
+      const bool gripped = slip.norm() < 1e-7 * (1 + v.norm()), stopped = gripped && v.norm() < 1e-7;
+      startOnFace(b, tau, s, gripped, stopped);
+    }
+  } else {
+    startFlight(b, tau, p, v, q, b.spin.angularMomentum(age));
+  }
+  predict(b, tau);
+}
+
+}  // namespace stadion

@@ -1,0 +1,148 @@
+#include "dynamics/world_core.h"
+
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+/// Bounces that would rise less than this are over [m]: the rest of the geometric series is shorter than its
+/// rounding.
+constexpr double kLastBounce = 1e-9;
+/// The same between bodies that have no closed form to rest in [m].
+constexpr double kLastRattle = 1e-6;
+constexpr std::uint32_t kMostImpacts = 60;    ///< in one frame, then the contact solver takes over
+constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
+
+}  // namespace
+
+/// The flat face of a still collider under a ball's contact point.
+bool World::Core::supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, double tau,
+                             Support& s) const {
+  if (!gap.face || c.motion.moving || !ball.isBall() || !ball.X_CN.p.isZero(0)) return false;
+  const Pose& X = c.motion.end;
+  s = {};
+  s.on = {false, c.id};
+  s.normal = gap.normal;
+  s.triangle = gap.triangle;
+  s.point = ball.position(tau) - ball.radius() * gap.normal;
+  const PairSurface pair = combine(ball.surface, c.surface);
+  s.friction = pair.friction, s.rolling = pair.rolling, s.restitution = pair.restitution;
+  const auto edge = [&](const Vec3& inward, const Vec3& on) {
+    const auto i = static_cast<std::size_t>(s.edges++);
+    s.edgeNormal[i] = inward, s.edgeOffset[i] = inward.dot(on);
+  };
+  const auto rectangle = [&](const Pose& F, const Vec3& half, int up) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axis == up) continue;
+      const Vec3 out = F.q * Vec3::Unit(axis);
+      edge(out, F.p - half[axis] * out), edge(-out, F.p + half[axis] * out);
+    }
+  };
+  if (const auto* plane = std::get_if<PlaneShape>(c.shape)) {
+    if (plane->bounded()) rectangle(X * plane->pose, {plane->half.x(), plane->half.y(), 0}, 2);
+    return true;
+  }
+  if (const auto* box = std::get_if<BoxShape>(c.shape)) {
+    const Pose F = X * box->pose;
+    const Vec3 n = F.q.conjugate() * gap.normal;
+    int up = 0;
+    n.cwiseAbs().maxCoeff(&up);
+    rectangle(F, box->half, up);
+    return true;
+  }
+  if (const auto* mesh = std::get_if<MeshShape>(c.shape); mesh && gap.triangle >= 0) {
+    const Triangle& t = mesh->tree.triangles()[static_cast<std::size_t>(gap.triangle)];
+    const double facing = (X.q * t.normal).dot(gap.normal) < 0 ? -1 : 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 inward = t.normal.cross(t.v[(i + 1) % 3] - t.v[i]).normalized();
+      edge(X.q * inward, X * t.v[i]);
+    }
+    s.normal = facing * (X.q * t.normal);
+    return true;
+  }
+  return false;
+}
+
+/// The body goes on with the velocities of m.
+void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting) {
+  if (!b.movable()) return;
+  const Vec3 p = b.position(tau);
+  const Quat q = b.orientation(tau);
+  const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * m.omega);
+  const bool leaning = b.mode == BodyMode::Contact || (b.mode == BodyMode::Rest && !b.support.on.id);
+  if (lasting || leaning) {
+    if (b.mode == BodyMode::Rest) wake(b, tau);
+    b.endL = L;
+    setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia), 1e30,
+           BodyMode::Contact);
+    if (b.mode != BodyMode::Contact) return;
+    b.quiet = 0;
+    scheduleTick(tau);
+    predict(b, tau);
+    return;
+  }
+  if (b.support.on.id && b.mode != BodyMode::Flight) {
+    const double away = m.v.dot(b.support.normal);
+    if (std::fabs(away) <= 1e-9) {
+      startOnFace(b, tau, {p, m.v, m.omega, q}, false, false);
+      predict(b, tau);
+      return;
+    }
+  }
+  wakeOnto({true, b.id}, tau);
+  startFlight(b, tau, p, m.v, q, L);
+  predict(b, tau);
+}
+
+void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
+  if (!pa.isBody) {
+    std::swap(pa, pb);
+    Touch t = touch;
+    t.gap.normal = -t.gap.normal;
+    onTouch(t, pa, pb, tau);
+    return;
+  }
+  RigidBody& a = bodies.at(pa.id);
+  RigidBody* b = pb.isBody ? body(pb.id) : nullptr;
+  Collider* c = pb.isBody ? nullptr : collider(pb.id);
+  ++counters.impacts;
+  ++a.impacts;
+  if (b) ++b->impacts;
+  Mobile ma = mobileOf(a, tau), mb = b ? mobileOf(*b, tau) : mobileOf(*c, tau);
+  const Vec3 x = touch.gap.point, n = touch.gap.normal;
+  const double closing = -(ma.velocityAt(x) - mb.velocityAt(x)).dot(n);
+  const PairSurface pair = combine(a.surface, surfaceOf(pb));
+  // What presses the two together while neither is carried by something else.
+  const auto pull = [&](const RigidBody& body) {
+    return body.mode == BodyMode::Flight || body.mode == BodyMode::Slide || body.mode == BodyMode::Roll
+               ? Vec3(accelerationAt(body, body.position(tau), body.velocity(tau), tau))
+               : Vec3(Vec3::Zero());
+  };
+  const double press = -n.dot(pull(a) - (b ? pull(*b) : Vec3(Vec3::Zero())));
+  const double rebound = pair.restitution * std::max(closing, 0.0);
+
+  Support face;
+  const bool onFace = c && a.mode == BodyMode::Flight && supportFor(a, *c, touch.gap, tau, face);
+  const double last = onFace ? kLastBounce : kLastRattle;
+  const bool tired = a.impacts > (onFace ? kMostBounces : kMostImpacts) || (b && b->impacts > kMostImpacts);
+  const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
+  if (tired) ++counters.limited;
+  const Vec3 impulse = collide(ma, mb, x, n, ends ? 0 : pair.restitution, pair.friction);
+  memory.impact(ContactMemory::keyOf(pa, pb), timeAt(tau), x,
+                ContactMemory::keyOf(pa, pb).second == pa.id ? n : Vec3(-n), closing, impulse.dot(n), frame);
+  if (onFace && ends) {
+    BallStart s{a.position(tau), ma.v, ma.omega, a.orientation(tau)};
+    s.v -= n * n.dot(s.v);
+    s.p -= touch.gap.distance * n;
+    face.point = s.p - a.radius() * n;
+    a.support = face;
+    startOnFace(a, tau, s, false, false);
+    predict(a, tau);
+    return;
+  }
+  if (ends) memory.setTouching(ContactMemory::keyOf(pa, pb), true);
+  afterImpulse(a, ma, tau, ends);
+  if (b) afterImpulse(*b, mb, tau, ends);
+}
+
+}  // namespace stadion
