@@ -1,12 +1,56 @@
-/// `stadion nodes [TYPE]`: the language reference.
+/// `stadion nodes [TYPE]`: the language reference, and what editors need to know of it.
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "engine/atomic_file.h"
+#include "engine/diagnostic.h"
+#include "engine/script/reference.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
 
 namespace stadion {
+namespace {
 
-void addNodesCommand(CLI::App&, int&) {}
+int printReference(const std::string& type) {
+  if (type.empty()) return std::printf("%s", languageReference().c_str()), kOk;
+  if (const auto kind = nodeKindNamed(type)) return std::printf("%s", languageReference(*kind).c_str()), kOk;
+  const std::vector<std::string> known(kNodeKindNames.begin(), kNodeKindNames.end());
+  const auto meant = closest(type, known);
+  std::fprintf(stderr, "stadion: there is no node type \"%s\"%s\n", type.c_str(),
+               meant ? ("; did you mean \"" + *meant + "\"?").c_str() : "; `stadion nodes` lists them");
+  return kBadInput;
+}
+
+int writeEditorFiles(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  for (const auto& [name, content] : {std::pair{"evs.tmLanguage.json", editorGrammar()},
+                                      std::pair{"evs.completion.json", editorCompletion()}}) {
+    const std::string path = folder + "/" + name;
+    if (const auto wrong = writeFile(path, content))
+      return std::fprintf(stderr, "%s\n", format(*wrong).c_str()), kBadInput;
+    std::printf("%s\n", path.c_str());
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void addNodesCommand(CLI::App& app, int& code) {
+  struct Options {
+    std::string type, editor;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("nodes", "Print the language reference: node types, attributes, events, commands");
+  command->add_option("TYPE", o->type, "only this node type");
+  command->add_option("--editor", o->editor,
+                      "write a TextMate grammar and a completion file into this folder");
+  command->callback(
+      [o, &code] { code = o->editor.empty() ? printReference(o->type) : writeEditorFiles(o->editor); });
+}
 
 }  // namespace stadion

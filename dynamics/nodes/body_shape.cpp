@@ -43,17 +43,17 @@ ColliderDef colliderOf(const ObjectNode& object, Scene& scene, World& world) {
   const Affine& X_WN = scene.placements().world(object.placement());
   def.pose = poseOf(X_WN);
   // A body that another dynamics node moves takes part with the shape and surface that its script gave it.
-  if (const auto* body = dynamic_cast<const DynObjectNode*>(&object)) {
-    def.shape = world.addShape(body->body().shape);
-    def.surface = body->body().surface;
-    return def;
-  }
-  const Mesh* mesh = scene.mesh(object.appearance().mesh);
-  if (!mesh) return def;
-  const auto chosen =
-      chooseShape(scaledForCollision(*mesh, scaleOf(X_WN)), shapeKindOf(object.appearance().shape));
-  if (chosen) def.shape = world.addShape(chosen.value().shape);
+  if (const auto* body = dynamic_cast<const DynObjectNode*>(&object)) def.surface = body->body().surface;
+  def.shape = addShapeOf(object, scene, world);
   return def;
+}
+
+ShapeId addShapeOf(const ObjectNode& object, Scene& scene, World& world) {
+  const Affine& X_WN = scene.placements().world(object.placement());
+  const Mesh* mesh = scene.mesh(object.appearance().mesh);
+  if (!mesh) return 0;
+  auto chosen = chooseShape(scaledForCollision(*mesh, scaleOf(X_WN)), shapeKindOf(object.appearance().shape));
+  return chosen ? world.addShape(std::move(chosen.value().shape)) : 0;
 }
 
 }  // namespace stadion

@@ -11,12 +11,14 @@
 #include "dynamics/world.h"
 #include "engine/nodes/object_node.h"
 
+#include <optional>
+#include <utility>
+
 namespace stadion {
 
 /// What the script says about a body.
 struct BodyAttributes {
   MassProperties mass;
-  Shape shape;
   Surface surface;
   double damping = 0;              ///< [1/s]
   std::vector<std::string> hooks;  ///< names of force fields, as seen from its file
@@ -38,9 +40,12 @@ public:
   };
 
   DynObjectNode(NodeRef self, std::string name, PlaceAttributes place, Appearance appearance,
-                BodyAttributes body)
+                BodyAttributes body, Shape shape)
       : ObjectNode(NodeKind::DynObject, self, std::move(name), std::move(place), std::move(appearance)),
-        body_(std::move(body)) {}
+        body_(std::move(body)), shape_(std::move(shape)) {}
+
+  /// Its shape, made while it was loaded, for the dynamics node that moves it. Nothing if it has been taken.
+  std::optional<Shape> takeShape() { return std::exchange(shape_, std::nullopt); }
 
   const BodyAttributes& body() const { return body_; }
   const std::vector<NodeRef>& hooked() const { return hooked_; }
@@ -61,6 +66,7 @@ private:
   void restoreHooks(Scene& scene);
 
   BodyAttributes body_;
+  std::optional<Shape> shape_;
   std::vector<NodeRef> hooked_;
   Requests requests_;
   NodeRef simulation_;

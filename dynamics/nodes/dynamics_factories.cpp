@@ -102,13 +102,13 @@ Made makeDynObject(const NodeRequest& r) {
 
   BodyAttributes body;
   body.mass = mass.value();
-  body.shape = std::move(chosen.value().shape);
   // Only what the script states counts for a pair: a standard value must not outvote the other side.
   const auto stated = [&](Attr a) { return d.has(a) ? std::optional<double>(d.number(a)) : std::nullopt; };
   body.surface = {stated(Attr::Friction), stated(Attr::Restitution), stated(Attr::Rolling)};
   body.damping = d.number(Attr::Damping);
   for (const NodeReference& hook : d.references(Attr::Hook)) body.hooks.push_back(std::string(hook.name));
-  return std::make_unique<DynObjectNode>(r.self, r.name, r.place, r.appearance, std::move(body));
+  return std::make_unique<DynObjectNode>(r.self, r.name, r.place, r.appearance, std::move(body),
+                                         std::move(chosen.value().shape));
 }
 
 CollisionAttributes collisionOf(const Declaration& d) {

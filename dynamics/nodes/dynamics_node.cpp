@@ -37,7 +37,8 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   if (!node) return;  // the checker lets only dynobjects be collidees of a dynamics node
   const BodyAttributes& body = node->body();
   BodyDef def;
-  part.shape = def.shape = world_.addShape(body.shape);
+  std::optional<Shape> shape = node->takeShape();
+  part.shape = def.shape = shape ? world_.addShape(std::move(*shape)) : addShapeOf(object, scene, world_);
   def.pose = part.pose;
   def.mass = body.mass;
   def.surface = body.surface;
