@@ -61,9 +61,11 @@ bool World::Core::uniformFor(const RigidBody& b) const {
 void World::Core::setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon,
                          BodyMode mode) {
   ++counters.arcs;
-  if (!path.c[0].allFinite() || !path.c[1].allFinite() || !path.c[2].allFinite() ||
-      !spin.q0.coeffs().allFinite() || !spin.L.allFinite() || !spin.omega.allFinite() ||
-      path.c[0].cwiseAbs().maxCoeff() > 1e12) {
+  const auto sane = [](const Vec3& x, double most) {
+    return x.allFinite() && x.cwiseAbs().maxCoeff() <= most;
+  };
+  if (!sane(path.c[0], 1e12) || !sane(path.c[1], 1e12) || !sane(path.c[2], 1e12) ||
+      !spin.q0.coeffs().allFinite() || !sane(spin.L, 1e30) || !sane(spin.omega, 1e12)) {
     quarantine(b, tau, "its state would become infinite or undefined");
     return;
   }
@@ -182,20 +184,19 @@ bool World::Core::crossEdge(RigidBody& b, double tau) {
   if (!c) return false;
   const auto& tree = std::get<MeshShape>(*c->shape).tree;
   const Vec3 n = b.support.normal, foot = b.position(tau) - b.radius() * n;
-  // Try a little ahead, so that the triangle beyond is found and not the one behind.
-  const Vec3 ahead = foot + 1e-7 * b.velocity(tau).normalized();
-  const Vec3 local = c->motion.end.inverse() * ahead;
+  const Vec3 local = c->motion.end.inverse() * foot;
   std::vector<std::uint32_t> near;
   Aabb box;
   box.include(local);
   box.lo.array() -= 1e-5, box.hi.array() += 1e-5;
   tree.overlapping(box, near);
   for (const std::uint32_t i : near) {
+    if (static_cast<std::int32_t>(i) == b.support.triangle) continue;
     const Triangle& t = tree.triangles()[i];
     const Vec3 up = c->motion.end.q * t.normal;
     if (up.dot(n) < 1 - 1e-7) continue;
     const ClosestPoint q = closestPoint(t, local);
-    if ((q.point - local).norm() > 2e-6) continue;
+    if ((q.point - local).norm() > 5e-7) continue;
     Gap gap;
     gap.triangle = static_cast<std::int32_t>(i), gap.face = true, gap.normal = up;
     gap.point = c->motion.end * q.point;

@@ -7,7 +7,8 @@ namespace stadion {
 namespace {
 
 constexpr double kTouchesAtLoad = 1e-5;  ///< nearer than this when they appear, a pair is in contact [m]
-constexpr std::uint64_t kMostEvents = 2'000'000;  ///< in one frame: a last resort against endless chatter
+constexpr std::uint64_t kMostEvents =
+    3000;  ///< in one frame for each body: a last resort against endless chatter
 
 }  // namespace
 
@@ -167,16 +168,16 @@ void World::Core::beginFrame() {
   tickAt = -1;
   // Boxes first, so that predictions see everybody.
   for (auto& [id, b] : bodies) b.swept = sweptBox(Side::of(b), 0, std::max(0.0, std::min(length, b.until)));
-  settleFresh();
-  for (const ColliderId id : disturbed) {
-    wakeOnto({false, id}, 0);
-    colliders.at(id).disturbed = false;
-  }
   // Commands that are due now or were due before.
   while (!commands.empty() && commands.front().when <= t0) {
     const Command c = commands.front();
     commands.erase(commands.begin());
     execute(c, 0);
+  }
+  settleFresh();
+  for (const ColliderId id : disturbed) {
+    wakeOnto({false, id}, 0);
+    colliders.at(id).disturbed = false;
   }
   std::set<FieldId> changed;
   for (auto& [id, f] : fields)
@@ -258,7 +259,7 @@ void World::Core::runEvents() {
     const Event e = queue_.top();
     if (e.tau > length) break;
     queue_.pop();
-    if (++done > kMostEvents) {
+    if (++done > kMostEvents * (bodies.size() + 1)) {
       ++counters.limited;
       break;
     }
@@ -302,7 +303,7 @@ void World::Core::endFrame() {
                    [](const ContactEvent& a, const ContactEvent& b) { return a.time < b.time; });
   for (auto& [id, b] : bodies) {
     const Pose X = b.at(length).pose;
-    if (X.finite()) {
+    if (X.finite() && X.p.cwiseAbs().maxCoeff() <= 1e12) {
       b.pose = X;
     } else {
       quarantine(b, length, "its pose became undefined");

@@ -56,6 +56,7 @@ bool World::Core::supportFor(const RigidBody& ball, const Collider& c, const Gap
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 inward = t.normal.cross(t.v[(i + 1) % 3] - t.v[i]).normalized();
       edge(X.q * inward, X * t.v[i]);
+      s.edgeOffset[i] -= 1e-6;  // a micron of overlap, so that no ball balances on the seam of two triangles
     }
     s.normal = facing * (X.q * t.normal);
     return true;
