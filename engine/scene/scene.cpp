@@ -7,6 +7,19 @@
 
 namespace stadion {
 
+namespace {
+
+/// What shines on a show that declares no light.
+LightRecord afternoonSun() {
+  LightRecord sun;
+  const Vec3 direction = Vec3(-0.45, 0.35, -0.8).normalized();
+  const float colour[3] = {1.0f, 0.96f, 0.88f};
+  for (int i = 0; i < 3; ++i) sun.direction[i] = direction[i], sun.colour[i] = colour[i];
+  return sun;
+}
+
+}  // namespace
+
 Scene::Scene(SceneLoader& loader, MeshStore& meshes) : loader_(loader), meshes_(meshes) {}
 
 Scene::~Scene() {
@@ -440,6 +453,8 @@ void Scene::publishInstance(InstanceId id, ChangeSet& changes) {
 
 void Scene::publishLights(ChangeSet& changes) {
   changes.lightsChanged = true;
+  const bool anyLight = std::any_of(lights_.begin(), lights_.end(), [](const Light& l) { return l.live; });
+  if (!anyLight) changes.lights.push_back(afternoonSun());
   for (const Light& l : lights_) {
     if (!l.live || !l.on) continue;
     LightRecord r = l.local;
