@@ -14,8 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kQuotes =
-    "[\"\\u201C\\u201D\\u201E\\u201F\\u2033]";  // escapes are the regular expression's
+constexpr const char* kQuotes = "[\"\u201C\u201D\u201E\u201F\u2033]";
 
 /// "\b(a|b|c)\b", the longer words first so that none hides another.
 std::string anyOf(std::vector<std::string> words) {

@@ -18,7 +18,7 @@ A comment runs from # to the end of its line. A value with blanks or commas stan
 typographic. Numbers of a vector are separated by commas or blanks. Names are resolved after the whole file has been
 read, so the order of declarations does not matter: a name means the node of this file, else one of the files around
 it; "arena/ball" means the node "ball" in the file of the scene node "arena". Lengths are metres, times seconds, masses
-kilograms, angles degrees; +X is right, +Y forward, +Z up.
+kilograms, angles degrees; +X is right, +Y forward, +Z up. No place is farther than 1000 km away.
 
 An eventmessage is "event, target, command [arguments] [, delay in seconds]".
 )";
@@ -43,13 +43,22 @@ std::string wrapped(std::string_view text, std::size_t indent) {
   return result;
 }
 
+/// Without the bounds that only keep nonsense out, and that nobody meets.
+NumberRange memorable(NumberRange range) {
+  constexpr double kFarAway = 36000;
+  if (range.least <= -kFarAway) range.least = -std::numeric_limits<double>::infinity();
+  if (range.most >= kFarAway) range.most = std::numeric_limits<double>::infinity();
+  return range;
+}
+
 /// "three numbers "x, y, z" [m], greater than 0; standard 1; may be repeated".
 std::string termsOf(const AttributeSpec& spec) {
   std::string terms = spec.kind == ValueKind::Reference
-                          ? fmt::format("the name of a {}", describe(spec.targets))
+                          ? fmt::format("the name of a node: {}", describe(spec.targets))
                           : formOf(spec);
   if (!spec.unit.empty()) terms += fmt::format(" [{}]", spec.unit);
-  if (const std::string range = describe(spec.range, {}); !range.empty()) terms.append(", ").append(range);
+  if (const std::string range = describe(memorable(spec.range), {}); !range.empty())
+    terms.append(", ").append(range);
   if (spec.required) terms += "; required";
   if (!spec.standard.empty()) terms += fmt::format("; {} if not stated", spec.standard);
   if (spec.repeatable) terms += "; may be repeated";

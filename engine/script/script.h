@@ -14,6 +14,8 @@
 
 #include "engine/script/document.h"
 
+#include <functional>
+
 namespace stadion {
 
 /// Syntax, types and values of one file, and rules within one declaration.

@@ -11,8 +11,13 @@ Diagnostic at(std::uint32_t line, std::uint32_t column, std::string excerpt) {
 
 TEST(Diagnostic, APositionIsWrittenAsCompilersDo) {
   EXPECT_EQ(format(at(12, 7, "")), "a.evs:12:7: error: no");
-  EXPECT_EQ(format({Severity::Warning, {"a.evs", 0, 0}, "odd", ""}), "a.evs: warning: odd");
-  EXPECT_EQ(format({Severity::Note, {}, "by the way", ""}), "note: by the way");
+  Diagnostic odd = at(0, 0, "");
+  odd.severity = Severity::Warning;
+  EXPECT_EQ(format(odd), "a.evs: warning: no");
+  Diagnostic nowhere;
+  nowhere.severity = Severity::Note;
+  nowhere.message = "by the way";
+  EXPECT_EQ(format(nowhere), "note: by the way");
 }
 
 TEST(Diagnostic, TheCaretStandsUnderTheColumn) {

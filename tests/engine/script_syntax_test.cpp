@@ -1,5 +1,6 @@
 #include "engine/script/syntax.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -21,13 +22,13 @@ Parsed parse(std::string_view text) {
       [&](const RawDeclaration& d) {
         std::string line(s.slice(d.type.offset, d.type.length));
         for (const RawAttribute& a : d.attributes)
-          line += " " + std::string(s.slice(a.name.offset, a.name.length)) + "=[" +
-                  std::string(s.slice(a.value.offset, a.value.length)) + "]";
+          line += fmt::format(" {}=[{}]", s.slice(a.name.offset, a.name.length),
+                              s.slice(a.value.offset, a.value.length));
         result.declarations.push_back(line + (d.complete ? "" : " ..."));
       },
       [&](std::uint32_t offset, std::string message) {
         const SourcePosition at = s.position(offset);
-        result.errors.push_back(std::to_string(at.line) + ":" + std::to_string(at.column) + " " + message);
+        result.errors.push_back(fmt::format("{}:{} {}", at.line, at.column, message));
         return true;
       });
   return result;
