@@ -13,6 +13,7 @@ CollisionNode::CollisionNode(NodeKind kind, NodeRef self, std::string name, Coll
 }
 
 void CollisionNode::onEnter(Scene& scene) {
+  advancedTo_ = scene.now();
   scene.wakeNow(self());
 }
 
@@ -95,9 +96,12 @@ bool CollisionNode::moveColliders(FrameContext& frame) {
 void CollisionNode::simulate(FrameContext& frame) {
   findParts(frame.scene);
   if (!switch_.on()) return;
+  // Nothing moved while the node was not visited: the world only has to know that time has passed.
+  if (advancedTo_ < frame.start()) world_.advance(advancedTo_, frame.start());
   const bool outside = moveColliders(frame);
   const bool asked = beforeStep(frame);
   world_.advance(frame.start(), frame.now.time);
+  advancedTo_ = frame.now.time;
   for (const ContactEvent& e : world_.events())
     raise(e.kind == ContactEvent::Kind::Impact ? Event::OnImpact : Event::OnRelease, e.time);
   awake_ = afterStep(frame) || outside || asked;

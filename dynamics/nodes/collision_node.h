@@ -75,6 +75,7 @@ private:
   Switched switch_;
   std::uint64_t loadsSeen_ = ~std::uint64_t{0};
   bool awake_ = true;
+  Nanoseconds advancedTo_ = 0;
 };
 
 }  // namespace stadion
