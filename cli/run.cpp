@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/node_trace.h"
 #include "cli/player.h"
 #include "cli/run_output.h"
 #include "engine/input/input_recorder.h"
@@ -21,6 +22,7 @@ namespace {
 struct RunOptions {
   ShowOptions show;
   std::string stereo = "pair", pace, recordInput, out, pictures = "last", provider = "osmesa";
+  std::vector<std::string> trace;
   bool sheets = false, video = false, profile = false, json = false;
 };
 
@@ -118,6 +120,8 @@ int runShow(RunOptions o) {
     findings.error({}, "--pictures: \"" + o.pictures +
                            "\" is not last, all, none or a number N (every Nth frame)");
   if (!o.show.settle(findings)) return tell(findings), kBadInput;
+  if (!o.trace.empty() && o.out.empty())
+    findings.error({}, "--trace needs --out DIR to know where the table goes");
   if (o.video && o.out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
   if (!o.out.empty()) {
     std::error_code error;
@@ -144,6 +148,15 @@ int runShow(RunOptions o) {
   std::unique_ptr<InputRecorder> recorder;
   if (!o.recordInput.empty()) recorder = std::make_unique<InputRecorder>(o.recordInput);
   NodeTimes nodeTimes;
+  std::vector<NodeTrace> traces;
+  for (const std::string& node : o.trace) {
+    const NodeRef ref = player->scene().resolve(node, {1, 0});
+    if (!player->scene().find(ref)) {
+      std::fprintf(stderr, "stadion: --trace: the show has no node \"%s\"\n", node.c_str());
+      return kBadInput;
+    }
+    traces.emplace_back(node, ref);
+  }
 
   Watched seen;
   ProgressBar progress(player->frames());
@@ -161,6 +174,7 @@ int runShow(RunOptions o) {
     for (const EventRecord& e : scene.events())
       if (seen.events.size() < 200) seen.events.push_back(describe(e, scene));
     if (recorder) recorder->record(input);
+    for (NodeTrace& t : traces) t.record(now, scene);
     player->collect(running->shownFrame());
     progress.update(now.frame + 1);
   };
@@ -196,6 +210,13 @@ int runShow(RunOptions o) {
     }
   if (outcome.stopped) summary.remarks.push_back("stopped by request");
   if (output) {
+    for (const NodeTrace& t : traces) {
+      const std::string path = o.out + "/trace-" + t.fileName() + ".csv";
+      if (const auto wrong = writeFile(path, t.table()))
+        std::fprintf(stderr, "stadion: %s\n", wrong->message.c_str()), code = kBadInput;
+      else
+        summary.files.push_back(path);
+    }
     AtomicFile file(o.out + "/summary.json");
     file.write(toJson(summary) + "\n");
     if (const auto wrong = file.commit())
@@ -244,6 +265,8 @@ void addRunCommand(CLI::App& app, int& code) {
   command->add_option("--gl", o->provider, "who draws: osmesa or egl (the same pixels)")
       ->check(CLI::IsMember({"osmesa", "egl"}))
       ->capture_default_str();
+  command->add_option("--trace", o->trace,
+                      "write where this node is in every frame to trace-NODE.csv in --out DIR");
   command->add_flag("--json", o->json, "the summary as one JSON object on stdout");
   command->callback([o, &code] { code = runShow(*o); });
 }

@@ -6,6 +6,11 @@
 #include <unistd.h>
 
 namespace stadion {
+namespace {
+
+constexpr std::size_t kDeepestNesting = 16;
+
+}  // namespace
 
 Loader::Loader(LoaderParts parts) : parts_(std::move(parts)), worker_([this] { work(); }) {}
 
@@ -107,6 +112,11 @@ std::unique_ptr<Load> Loader::prepare(const Job& job) {
 
 std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> document, Diagnostics& findings) {
   const std::vector<std::uint32_t> numbers = around(job.owner.load);
+  if (numbers.size() > kDeepestNesting) {
+    findings.error({job.file, 0, 0}, "sub-scenes are nested more than " + std::to_string(kDeepestNesting) +
+                                         " deep; does this file load itself?");
+    return nullptr;
+  }
   Surroundings surroundings;
   for (const std::uint32_t n : numbers) surroundings.enclosing.push_back(around_.at(n).document.get());
   resolveNames(*document, surroundings, findings);

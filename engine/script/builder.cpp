@@ -76,6 +76,10 @@ private:
         parent_[d.index()] = p->declaration;
         hasChild_[p->declaration] = true;
       }
+    // A force field is carried by what it is attached to.
+    if (specOf(d.kind(), Attr::Attach))
+      if (const auto carrier = d.reference(Attr::Attach); carrier && carrier->resolved() && carrier->level == 0)
+        parent_[d.index()] = carrier->declaration;
     for (const Attr attr : {Attr::Attach, Attr::Target, Attr::Collider, Attr::Collidee, Attr::Hook})
       if (specOf(d.kind(), attr))
         for (const NodeReference& r : d.references(attr)) mention(r);

@@ -17,8 +17,12 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 
 using Made = std::unique_ptr<Node>;
 
-void copy(const Vec3& from, float (&to)[3], double factor = 1) {
-  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i] * factor);
+/// A colour as scripts write it (sRGB, 0 to 1) in linear light.
+void setColour(const Vec3& srgb, float (&linear)[3], double factor = 1) {
+  for (int i = 0; i < 3; ++i) {
+    const double c = srgb[i] <= 0.04045 ? srgb[i] / 12.92 : det::pow((srgb[i] + 0.055) / 1.055, 2.4);
+    linear[i] = static_cast<float>(c * factor);
+  }
 }
 
 Made makePlaced(const NodeRequest& r) {
@@ -33,7 +37,7 @@ Made makeLight(const NodeRequest& r) {
   const Declaration& d = r.declaration;
   LightRecord light;
   light.kind = static_cast<std::uint32_t>(d.choice<LightType>(Attr::Type));
-  copy(d.vec3(Attr::Colour), light.colour, d.number(Attr::Intensity));
+  setColour(d.vec3(Attr::Colour), light.colour, d.number(Attr::Intensity));
   const Vec3 direction = d.vec3(Attr::Direction).normalized();
   for (int i = 0; i < 3; ++i) light.direction[i] = direction[i];
   light.range = static_cast<float>(d.optionalNumber(Attr::Range).value_or(0));
@@ -45,10 +49,10 @@ Made makeLight(const NodeRequest& r) {
 
 Made makeSky(const NodeRequest& r) {
   SkyRecord sky;
-  copy(r.declaration.vec3(Attr::Zenith), sky.zenith);
-  copy(r.declaration.vec3(Attr::Horizon), sky.horizon);
-  copy(r.declaration.vec3(Attr::Ground), sky.ground);
-  copy(r.declaration.vec3(Attr::Ambient), sky.ambient);
+  setColour(r.declaration.vec3(Attr::Zenith), sky.zenith);
+  setColour(r.declaration.vec3(Attr::Horizon), sky.horizon);
+  setColour(r.declaration.vec3(Attr::Ground), sky.ground);
+  setColour(r.declaration.vec3(Attr::Ambient), sky.ambient);
   sky.haze = static_cast<float>(r.declaration.optionalNumber(Attr::Haze).value_or(0));
   return std::make_unique<SkyNode>(r.self, r.name, sky);
 }
