@@ -163,6 +163,7 @@ void World::Core::advance(Nanoseconds from, Nanoseconds to) {
 }
 
 void World::Core::standStill() {
+  if (length == 0 && t0 == t1 && order_.empty()) return;
   t0 = t1;
   length = 0;
   order_.clear(), strayed_.clear();
@@ -193,9 +194,11 @@ void World::Core::beginFrame() {
   fileBodies();
   // Commands that are due now or were due before.
   while (!commands.empty() && commands.front().when <= t0) {
-    const Command c = commands.front();
-    commands.erase(commands.begin());
-    execute(c, 0);
+    const auto end =
+        std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.when > t0; });
+    const std::vector<Command> due(commands.begin(), end);
+    commands.erase(commands.begin(), end);
+    for (const Command& c : due) execute(c, 0);
   }
   settleFresh();
   for (const ColliderId id : disturbed) {
@@ -230,6 +233,10 @@ void World::Core::beginFrame() {
 
 /// Pairs that touch when one of them appears are in contact and fire nothing.
 void World::Core::settleFresh() {
+  const auto isFresh = [](const auto& entry) { return entry.second.fresh; };
+  if (std::none_of(bodies.begin(), bodies.end(), isFresh) &&
+      std::none_of(colliders.begin(), colliders.end(), isFresh))
+    return;
   std::vector<std::pair<RigidBody*, std::vector<std::pair<Side, Gap>>>> found;
   for (auto& [id, b] : bodies) {
     if (!b.enabled) continue;
@@ -244,9 +251,9 @@ void World::Core::settleFresh() {
     };
     for (auto& [cid, c] : colliders)
       if (c.enabled && (b.fresh || c.fresh) && c.swept.overlaps(b.swept)) look(Side::of(c), c.fresh);
-    for (auto& [oid, o] : bodies)
-      if (&o != &b && o.enabled && (b.fresh || o.fresh) && o.swept.overlaps(b.swept))
-        look(Side::of(o), o.fresh);
+    eachNear(b.swept, [&](RigidBody& o) {
+      if (&o != &b && o.enabled && (b.fresh || o.fresh)) look(Side::of(o), o.fresh);
+    });
     if (b.fresh && !touching.empty()) found.emplace_back(&b, std::move(touching));
   }
   for (auto& [id, b] : bodies) b.fresh = false;
