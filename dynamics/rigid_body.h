@@ -100,8 +100,10 @@ struct RigidBody {
   std::uint32_t impacts = 0;  ///< in this frame
   double quiet = 0;           ///< Contact: how long it has hardly moved [s]
   std::string trouble;
-  Pose pose;   ///< X_WN at the end of the last frame
-  Aabb swept;  ///< of the rest of the frame
+  Pose pose;             ///< X_WN at the end of the last frame
+  Aabb swept;            ///< of the rest of the frame
+  Aabb filed;            ///< the same as the broad phase knows it
+  bool strayed = false;  ///< outside of `filed`
 
   bool isBall() const { return std::holds_alternative<BallShape>(*shape); }
   double radius() const { return std::get<BallShape>(*shape).radius; }

@@ -213,6 +213,13 @@ void World::Core::reachHorizon(RigidBody& b, double tau) {
   const Vec3 p = b.position(tau), v = b.velocity(tau);
   const double age = b.age(tau);
   const Quat q = b.orientation(tau);
+  if (b.mode == BodyMode::Flight && b.path.kind == Path::Kind::Polynomial && b.path.degree <= 2) {
+    // Only the expansion of the spin has worn out; the motion is the same, but what was foreseen ended here.
+    setArc(b, tau, Path::parabola(p, v, 2 * b.path.c[2]), Spin::free(q, b.spin.L, b.inertia), kForever,
+           BodyMode::Flight);
+    predict(b, tau);
+    return;
+  }
   if (b.mode == BodyMode::Slide || b.mode == BodyMode::Roll || b.mode == BodyMode::Rest) {
     BallStart s{p, v, b.spin.angularVelocity(age), q};
     const Vec3& n = b.support.normal;

@@ -117,17 +117,17 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
     if (!c.enabled || !mayTouch(self, other) || !c.swept.overlaps(box)) continue;
     against(other);
   }
-  for (auto& [id, o] : bodies) {
+  eachNear(box, [&](RigidBody& o) {
     const bool asleep =
         o.mode == BodyMode::Rest || o.mode == BodyMode::Quarantined || o.mode == BodyMode::Held;
-    if (&o == &b || !o.enabled || (o.mode == BodyMode::Contact && o.id < b.id)) continue;
+    if (&o == &b || !o.enabled || (o.mode == BodyMode::Contact && o.id < b.id)) return;
     const Side other = Side::of(o);
-    if (!mayTouch(self, other)) continue;
+    if (!mayTouch(self, other)) return;
     const double reach = b.bound.radius + o.bound.radius + margin;
-    if ((o.at(tau).pose * o.bound.centre - k.pose * b.bound.centre).squaredNorm() > reach * reach) continue;
-    if (!asleep && o.mode != BodyMode::Contact) continue;  // a flier: its touch is an event
+    if ((o.at(tau).pose * o.bound.centre - k.pose * b.bound.centre).squaredNorm() > reach * reach) return;
+    if (!asleep && o.mode != BodyMode::Contact) return;  // a flier: its touch is an event
     against(other);
-  }
+  });
 }
 
 bool World::Core::solveTick(std::vector<RigidBody*>& set, std::vector<Found>& found, double tau, double h) {

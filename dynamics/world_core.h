@@ -9,6 +9,7 @@
 #include "dynamics/touch.h"
 #include "dynamics/world.h"
 
+#include <algorithm>
 #include <map>
 #include <queue>
 #include <set>
@@ -148,6 +149,27 @@ public:
   }
 
 private:
+  /// Bodies by the low x of their swept boxes at the start of the frame (sort and sweep); those that left
+  /// theirs apart.
+  struct Filed {
+    double low;
+    RigidBody* body;
+  };
+  std::vector<Filed> order_;
+  std::vector<RigidBody*> strayed_;
+  double widest_ = 0;
+  void fileBodies();
+  /// Calls f for every body whose swept box overlaps `box`, in a fixed order.
+  template <class F>
+  void eachNear(const Aabb& box, F f) {
+    const auto before = [](const Filed& a, double x) { return a.low < x; };
+    for (auto i = std::lower_bound(order_.begin(), order_.end(), box.lo.x() - widest_, before);
+         i != order_.end() && i->low <= box.hi.x(); ++i)
+      if (!i->body->strayed && i->body->swept.overlaps(box)) f(*i->body);
+    for (RigidBody* b : strayed_)
+      if (b->swept.overlaps(box)) f(*b);
+  }
+
   std::priority_queue<Event> queue_;
   std::vector<Touch> touches_;
   void post(Event e) {

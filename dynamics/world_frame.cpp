@@ -123,10 +123,31 @@ void World::Core::predict(RigidBody& b, double tau, bool onlyGreater) {
   pushHorizon(b);
   for (auto& [id, c] : colliders)
     if (c.enabled && c.swept.overlaps(b.swept)) predictPair(self, Side::of(c), tau);
-  for (auto& [id, o] : bodies) {
-    if (&o == &b || !o.enabled || (onlyGreater && o.id < b.id)) continue;
-    if (o.swept.overlaps(b.swept)) predictPair(self, Side::of(o), tau);
+  if (!b.strayed && !((b.filed.lo.array() <= b.swept.lo.array()).all() &&
+                      (b.swept.hi.array() <= b.filed.hi.array()).all())) {
+    b.strayed = true;
+    strayed_.push_back(&b);
   }
+  eachNear(b.swept, [&](RigidBody& o) {
+    if (&o == &b || !o.enabled || (onlyGreater && o.id < b.id)) return;
+    predictPair(self, Side::of(o), tau);
+  });
+}
+
+void World::Core::fileBodies() {
+  order_.clear(), strayed_.clear();
+  widest_ = 0;
+  for (auto& [id, b] : bodies) {
+    // Wide enough that a fresh arc of the same motion stays inside.
+    b.filed = b.swept;
+    b.filed.lo.array() -= 1e-6, b.filed.hi.array() += 1e-6;
+    b.strayed = false;
+    if (!b.enabled) continue;
+    order_.push_back({b.filed.lo.x(), &b});
+    widest_ = std::max(widest_, b.filed.hi.x() - b.filed.lo.x());
+  }
+  std::stable_sort(order_.begin(), order_.end(),
+                   [](const Filed& a, const Filed& b) { return a.low < b.low; });
 }
 
 void World::Core::advance(Nanoseconds from, Nanoseconds to) {
@@ -142,8 +163,10 @@ void World::Core::advance(Nanoseconds from, Nanoseconds to) {
 }
 
 void World::Core::standStill() {
+  if (length == 0 && t0 == t1 && order_.empty()) return;
   t0 = t1;
   length = 0;
+  order_.clear(), strayed_.clear();
   for (auto& [id, b] : bodies) b.age0 = Instant{t0, 0}.since(b.since), b.until = b.validAge - b.age0;
   for (auto& [id, c] : colliders) c.motion.set(c.now, c.now, 0);
 }
@@ -167,12 +190,15 @@ void World::Core::beginFrame() {
   }
   tickAt = -1;
   // Boxes first, so that predictions see everybody.
-  for (auto& [id, b] : bodies) b.swept = sweptBox(Side::of(b), 0, std::max(0.0, std::min(length, b.until)));
+  for (auto& [id, b] : bodies) b.swept = sweptBox(Side::of(b), 0, length);
+  fileBodies();
   // Commands that are due now or were due before.
   while (!commands.empty() && commands.front().when <= t0) {
-    const Command c = commands.front();
-    commands.erase(commands.begin());
-    execute(c, 0);
+    const auto end =
+        std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.when > t0; });
+    const std::vector<Command> due(commands.begin(), end);
+    commands.erase(commands.begin(), end);
+    for (const Command& c : due) execute(c, 0);
   }
   settleFresh();
   for (const ColliderId id : disturbed) {
@@ -207,6 +233,10 @@ void World::Core::beginFrame() {
 
 /// Pairs that touch when one of them appears are in contact and fire nothing.
 void World::Core::settleFresh() {
+  const auto isFresh = [](const auto& entry) { return entry.second.fresh; };
+  if (std::none_of(bodies.begin(), bodies.end(), isFresh) &&
+      std::none_of(colliders.begin(), colliders.end(), isFresh))
+    return;
   std::vector<std::pair<RigidBody*, std::vector<std::pair<Side, Gap>>>> found;
   for (auto& [id, b] : bodies) {
     if (!b.enabled) continue;
@@ -221,9 +251,9 @@ void World::Core::settleFresh() {
     };
     for (auto& [cid, c] : colliders)
       if (c.enabled && (b.fresh || c.fresh) && c.swept.overlaps(b.swept)) look(Side::of(c), c.fresh);
-    for (auto& [oid, o] : bodies)
-      if (&o != &b && o.enabled && (b.fresh || o.fresh) && o.swept.overlaps(b.swept))
-        look(Side::of(o), o.fresh);
+    eachNear(b.swept, [&](RigidBody& o) {
+      if (&o != &b && o.enabled && (b.fresh || o.fresh)) look(Side::of(o), o.fresh);
+    });
     if (b.fresh && !touching.empty()) found.emplace_back(&b, std::move(touching));
   }
   for (auto& [id, b] : bodies) b.fresh = false;
