@@ -106,6 +106,10 @@ struct RigidBody {
   bool strayed = false;  ///< outside of `filed`
 
   bool isBall() const { return std::holds_alternative<BallShape>(*shape); }
+  /// How far the ball's centre is from the centre of mass [m].
+  double eccentricity() const { return (X_CN * std::get<BallShape>(*shape).centre).norm(); }
+  /// A ball that rotates about its own centre: it has closed forms on a plane.
+  bool isCentred() const { return isBall() && eccentricity() <= 1e-9 * radius(); }
   double radius() const { return std::get<BallShape>(*shape).radius; }
   bool movable() const { return mode != BodyMode::Held && mode != BodyMode::Quarantined; }
   bool sampled() const { return mode != BodyMode::Held; }

@@ -141,7 +141,7 @@ double relativeAcceleration(const Side& a, const Side& b, double from, double to
   }
   const double turning = bb.spin * 2 * (ba.speedAt(ra) + bb.speedAt(arm));
   return ba.accelerationAt(std::holds_alternative<BallShape>(*a.shape)
-                               ? (a.body ? a.body->X_CN.p.norm() : a.bound().centre.norm())
+                               ? (a.body ? a.body->eccentricity() : a.bound().centre.norm())
                                : ra) +
          bb.accelerationAt(arm) + turning;
 }
@@ -150,7 +150,7 @@ double relativeAcceleration(const Side& a, const Side& b, double from, double to
 std::optional<std::optional<double>> planeRoot(const Side& ball, const Side& plane, double from, double to) {
   const auto& s = std::get<PlaneShape>(*plane.shape);
   if (!ball.body || ball.body->mode == BodyMode::Held || !plane.still() || s.bounded() ||
-      !ball.body->path.isParabola() || !ball.body->X_CN.p.isZero(0) || plane.body)
+      !ball.body->path.isParabola() || !ball.body->isCentred() || plane.body)
     return {};
   const Pose X = plane.collider->motion.end * s.pose;
   const Vec3 n = X.q * Vec3::UnitZ();

@@ -18,7 +18,7 @@ constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
 /// The flat face of a still collider under a ball's contact point.
 bool World::Core::supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, double tau,
                              Support& s) const {
-  if (!gap.face || c.motion.moving || !ball.isBall() || !ball.X_CN.p.isZero(0)) return false;
+  if (!gap.face || c.motion.moving || !ball.isCentred()) return false;
   const Pose& X = c.motion.end;
   s = {};
   s.on = {false, c.id};
