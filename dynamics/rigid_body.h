@@ -61,7 +61,7 @@ struct Support {
   Vec3 point = Vec3::Zero();   ///< the plane that the ball's surface touches
   Vec3 normal = Vec3::UnitZ();
   int edges = 0;  ///< the face ends where n . x < d for one of these
-  std::array<Vec3, 4> edgeNormal;
+  std::array<Vec3, 4> edgeNormal{Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
   std::array<double, 4> edgeOffset{};
   double friction = 0, rolling = 0, restitution = 0;
 };

@@ -64,6 +64,7 @@ public:
   Nanoseconds t0 = 0, t1 = 0;
   double length = 0;  ///< of the frame [s]
   bool started = false, bodiesCollide = true;
+  bool foresee = false;  ///< predictions are wanted: only while events run
   std::uint64_t nextOrder = 0, frame = 0;
   std::uint32_t nextShape = 1, nextBody = 1, nextCollider = 1, nextField = 1;
   Counters counters;

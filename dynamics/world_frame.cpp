@@ -117,7 +117,7 @@ void World::Core::predictPair(const Side& a, const Side& b, double tau) {
 
 /// What the body's arc meets from tau to the end of the frame.
 void World::Core::predict(RigidBody& b, double tau, bool onlyGreater) {
-  if (!b.enabled) return;
+  if (!b.enabled || !foresee) return;
   const Side self = Side::of(b);
   b.swept = sweptBox(self, tau, std::max(tau, std::min(length, b.until)));
   pushHorizon(b);
@@ -189,21 +189,14 @@ void World::Core::beginFrame() {
     c.swept = sweptBox(Side::of(c), 0, length);
   }
   tickAt = -1;
-  // Boxes first, so that predictions see everybody.
-  for (auto& [id, b] : bodies) b.swept = sweptBox(Side::of(b), 0, length);
-  fileBodies();
-  // Commands that are due now or were due before.
+  foresee = false;
+  // Commands that are due now or were due before, and fields that are not what they were.
   while (!commands.empty() && commands.front().when <= t0) {
     const auto end =
         std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.when > t0; });
     const std::vector<Command> due(commands.begin(), end);
     commands.erase(commands.begin(), end);
     for (const Command& c : due) execute(c, 0);
-  }
-  settleFresh();
-  for (const ColliderId id : disturbed) {
-    wakeOnto({false, id}, 0);
-    colliders.at(id).disturbed = false;
   }
   std::set<FieldId> changed;
   for (auto& [id, f] : fields)
@@ -214,6 +207,15 @@ void World::Core::beginFrame() {
     if (concerned) restart(b, 0);
   }
   for (auto& [id, f] : fields) f.changed = f.field.moving();  // once it stops, the next frame differs again
+  // Boxes before predictions, so that these see everybody.
+  for (auto& [id, b] : bodies) b.swept = sweptBox(Side::of(b), 0, length);
+  fileBodies();
+  settleFresh();
+  for (const ColliderId id : disturbed) {
+    wakeOnto({false, id}, 0);
+    colliders.at(id).disturbed = false;
+  }
+  foresee = true;
   for (const Command& c : commands) {
     if (c.when >= t1) break;
     Event e;
@@ -328,6 +330,7 @@ void World::Core::runEvents() {
 }
 
 void World::Core::endFrame() {
+  foresee = false;
   reportReleases();
   std::stable_sort(memory.events().begin(), memory.events().end(),
                    [](const ContactEvent& a, const ContactEvent& b) { return a.time < b.time; });

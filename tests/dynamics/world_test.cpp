@@ -1,0 +1,117 @@
+#include "tests/dynamics/scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace stadion {
+namespace {
+
+using namespace scenes;
+
+TEST(World, AHeldBodyPushesOthersAndFliesOnWhenLetGo) {
+  World w;
+  const BodyId hand =
+      addBox(w, 0, {.half = Vec3::Constant(0.1), .pose = {{-1, 0, 0}, Quat::Identity()}, .restitution = 0.5});
+  const BodyId ball = addBall(w, 0, {.restitution = 0.5});
+  w.advance(0, 0);
+  ASSERT_TRUE(w.holdBody(hand));
+  for (std::uint64_t i = 1; i <= 60; ++i) {
+    const TimeSignature s = signatureAt(i, 60);
+    w.moveHeld(hand, {{-1 + 2 * toSeconds(s.time), 0, 0}, Quat::Identity()});
+    w.advance(s.time - s.step, s.time);
+    EXPECT_NEAR(w.pose(hand).p.x(), -1 + 2 * toSeconds(s.time), 1e-12);
+  }
+  EXPECT_NEAR(w.state(ball).v.x(), 3, 1e-9);
+  ASSERT_TRUE(w.releaseBody(hand, {0, 4, 0}, Vec3::Zero()));
+  const TimeSignature s = signatureAt(61, 60);
+  w.advance(s.time - s.step, s.time);
+  EXPECT_NEAR(w.pose(hand).p.y(), 4 * toSeconds(s.step), 1e-9);
+}
+
+TEST(World, SleepersFallWhenWhatCarriesThemIsTakenAway) {
+  World w;
+  const FieldId g = addGravity(w);
+  const ColliderId floor = addFloor(w, 0.5);
+  const BodyId low =
+      addBox(w, g, {.half = Vec3::Constant(0.1), .pose = {{0, 0, 0.1}, Quat::Identity()}, .friction = 0.5});
+  const BodyId high =
+      addBox(w, g, {.half = Vec3::Constant(0.1), .pose = {{0, 0, 0.3}, Quat::Identity()}, .friction = 0.5});
+  const BodyId ball = addBall(w, g, {.p = {2, 0, 0.1}, .friction = 0.5});
+  play(w, 1);
+  ASSERT_EQ(w.mode(high), BodyMode::Rest);
+  ASSERT_EQ(w.mode(ball), BodyMode::Rest);
+  w.removeBody(low);
+  const Nanoseconds second = 1'000'000'000;
+  w.advance(second, second + second / 10);
+  EXPECT_NEAR(w.state(high).p.z(), 0.3 - 0.5 * kG * 0.01, 5e-3);
+  w.enableCollider(floor, false);
+  w.advance(second + second / 10, 2 * second);
+  EXPECT_LT(w.state(ball).p.z(), -3);
+}
+
+TEST(World, AResetFieldWakesASleeper) {
+  World w;
+  const FieldId g = addGravity(w);
+  addFloor(w, 0.5);
+  const BodyId b =
+      addBox(w, g, {.half = Vec3::Constant(0.1), .pose = {{0, 0, 0.1}, Quat::Identity()}, .friction = 0.5});
+  ForceField f;
+  f.law = LinearField{{0, 0, 3 * kG}, LinearField::Unit::Acceleration};
+  const FieldId lift = w.addField(f);
+  w.hook(b, lift, 0);
+  w.switchField(lift, true, 1'000'000'000);
+  w.switchField(lift, false, 1'250'000'000);
+  play(w, 1.2);
+  EXPECT_NEAR(w.state(b).p.z(), 0.1 + 0.5 * 2 * kG * 0.04, 1e-6);
+}
+
+TEST(World, ImpactsFireOncePerTouchAndReleasesOnceEach) {
+  World w;
+  const FieldId g = addGravity(w);
+  const ColliderId floor = addFloor(w, 0.5, 0.9);
+  const BodyId b = addBall(w, g, {.p = {0, 0, 1.1}, .restitution = 0.9});
+  int impacts = 0, releases = 0;
+  bool due = false;
+  play(w, 20, 60, [&](double) {
+    bool fired = false;
+    for (const ContactEvent& e : w.events()) {
+      EXPECT_EQ(e.other, (Party{false, floor}));
+      EXPECT_EQ(e.body, b);
+      if (e.kind == ContactEvent::Kind::Impact) {
+        ++impacts, due = fired = true;
+        EXPECT_GT(e.speed, 0.05);
+        EXPECT_NEAR(e.normal.z(), 1, 1e-12);
+        EXPECT_NEAR(e.impulse, 1.9 * e.speed, 1e-9);
+      } else {
+        ++releases;
+        EXPECT_TRUE(due);
+        EXPECT_FALSE(fired);
+        due = false;
+      }
+    }
+  });
+  // Bounces rise above half a metre while 0.81^k > 0.5; closing speeds stay above 0.05 m/s while 4.43 * 0.9^k
+  // > 0.05.
+  EXPECT_EQ(releases, 3);
+  EXPECT_EQ(impacts, 1 + static_cast<int>(std::log(0.05 / std::sqrt(2 * kG)) / std::log(0.9)));
+}
+
+TEST(World, WhatOnlyOneSideStatesHoldsForThePair) {
+  const PairSurface a = combine({0.8, {}, {}}, {});
+  EXPECT_EQ(a.friction, 0.8);
+  EXPECT_EQ(a.restitution, 0.5);
+  const PairSurface b = combine({0.9, 0.2, 0.03}, {0.4, 0.6, 0.01});
+  EXPECT_NEAR(b.friction, 0.6, 1e-15);
+  EXPECT_EQ(b.restitution, 0.6);
+  EXPECT_EQ(b.rolling, 0.03);
+}
+
+TEST(World, IgnoredPairsPassThroughEachOther) {
+  World w;
+  const BodyId a = addBall(w, 0, {.p = {-1, 0, 0}, .v = {2, 0, 0}}), b = addBall(w, 0, {});
+  w.ignorePair({true, a}, {true, b}, true);
+  play(w, 1);
+  EXPECT_NEAR(w.state(a).p.x(), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace stadion
