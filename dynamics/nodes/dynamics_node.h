@@ -12,7 +12,7 @@
 
 namespace stadion {
 
-class DynamicsNode final : public CollisionNode {
+class DynamicsNode : public CollisionNode {
 public:
   DynamicsNode(NodeRef self, std::string name, CollisionAttributes attributes)
       : CollisionNode(NodeKind::Dynamics, self, std::move(name), std::move(attributes)) {}

@@ -1,0 +1,231 @@
+#include "dynamics/nodes/collision_node.h"
+#include "dynamics/nodes/dynamics_node.h"
+#include "tests/engine/show_fixture.h"
+
+#include <gtest/gtest.h>
+
+namespace stadion {
+namespace {
+
+constexpr double kG = 9.80665;
+
+class Field : public FieldNode {
+public:
+  Field(NodeRef self, std::string name, const Vec3& push, bool on, double duration = 0,
+        PlaceAttributes place = {})
+      : FieldNode(NodeKind::ForceLinear, self, std::move(name), std::move(place), LinearField{push},
+                  fromSeconds(duration), on) {}
+};
+
+/// An object with a ball for a mesh would need a mesh; here the body's shape is given.
+class Ball : public DynObjectNode {
+public:
+  Ball(NodeRef self, std::string name, const Vec3& p, std::vector<std::string> hooks)
+      : DynObjectNode(self, std::move(name), at(p), {}, body(std::move(hooks)),
+                      BallShape{Vec3::Zero(), 0.1}) {}
+
+private:
+  static PlaceAttributes at(const Vec3& p) {
+    PlaceAttributes place;
+    place.X_PN.translation() = p;
+    return place;
+  }
+  static BodyAttributes body(std::vector<std::string> hooks) {
+    BodyAttributes b;
+    b.mass = massOfSphere(Vec3::Zero(), 0.1, 500);
+    b.hooks = std::move(hooks);
+    return b;
+  }
+};
+
+class Sim : public DynamicsNode {
+public:
+  Sim(NodeRef self, std::string name, std::vector<std::string> colliders, std::vector<std::string> collidees)
+      : DynamicsNode(self, std::move(name), {std::move(colliders), std::move(collidees), 0.5, true, true}) {}
+};
+
+class Watch : public CollisionNode {
+public:
+  Watch(NodeRef self, std::string name, std::vector<std::string> colliders,
+        std::vector<std::string> collidees)
+      : CollisionNode(NodeKind::Collision, self, std::move(name),
+                      {std::move(colliders), std::move(collidees), 0.5, true, true}) {}
+};
+
+/// A unit cube, as meshes come: 12 triangles facing outwards.
+std::unique_ptr<Mesh> cube(double half) {
+  auto mesh = std::make_unique<Mesh>();
+  const auto h = static_cast<float>(half);
+  for (int i = 0; i < 8; ++i) mesh->positions.push_back({i & 1 ? h : -h, i & 2 ? h : -h, i & 4 ? h : -h});
+  mesh->indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                   2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  mesh->normals.assign(8, {0, 0, 1});
+  mesh->materials.emplace_back();
+  for (const auto& p : mesh->positions) mesh->bounds.include(Vec3(p[0], p[1], p[2]));
+  mesh->sphere = {Vec3::Zero(), half * 1.7320509};
+  mesh->hash = 7;
+  return mesh;
+}
+
+class Block : public ObjectNode {
+public:
+  Block(NodeRef self, std::string name, MeshId mesh, const Vec3& p)
+      : ObjectNode(NodeKind::Object, self, std::move(name), at(p), {mesh, true, "box"}) {}
+
+private:
+  static PlaceAttributes at(const Vec3& p) {
+    PlaceAttributes place;
+    place.X_PN.translation() = p;
+    return place;
+  }
+};
+
+TEST(DynamicsNode, AFieldSwitchedByMessageActsForExactlyItsTimeAtAnyFrameRate) {
+  for (const double rate : {30.0, 60.0, 96.0, 240.0}) {
+    ShowFixture show;
+    show.rate = rate;
+    Ball* ball = nullptr;
+    show.loader.files["show"] = [&](Load& load) {
+      auto& clock = addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{fromSeconds(0.0123)});
+      clock.addNotification(notify(Event::TimesUp, "push", Verb::Enable, 0.3));
+      clock.addNotification(notify(Event::TimesUp, "push", Verb::Disable, 0.5111));
+      addNode<Field>(load, "push", Vec3(0, 10, 0), false);
+      ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"push"});
+      addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
+    };
+    show.scene.open("show");
+    show.frames(static_cast<std::uint64_t>(rate) + 1);  // to 1 s
+    const double on = 0.2111, after = 1.0 - 0.5234;
+    EXPECT_NEAR(ball->state().v.y(), 10 * on, 1e-9) << rate;
+    EXPECT_NEAR(ball->state().p.y(), 5 * on * on + 10 * on * after, 1e-9) << rate;
+  }
+}
+
+TEST(DynamicsNode, ADurationEndsAnActivationInsideAFrame) {
+  ShowFixture show;
+  Ball* ball = nullptr;
+  show.loader.files["show"] = [&](Load& load) {
+    addNode<Field>(load, "push", Vec3(0, 0, 7), true, 0.1234);
+    ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"push"});
+    addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
+  };
+  show.scene.open("show");
+  show.frames(31);
+  EXPECT_NEAR(ball->state().v.z(), 7 * 0.1234, 1e-9);
+}
+
+TEST(DynamicsNode, UnhookedABodyNoLongerFeelsTheField) {
+  ShowFixture show;
+  Ball* ball = nullptr;
+  show.loader.files["show"] = [&](Load& load) {
+    addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{1})
+        .addNotification(notify(Event::TimesUp, "ball", Verb::Unhook, 0.25, {"gravity"}));
+    addNode<Field>(load, "gravity", Vec3(0, 0, -kG), true);
+    ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"gravity"});
+    addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
+  };
+  show.scene.open("show");
+  show.frames(61);
+  EXPECT_NEAR(ball->state().v.z(), -kG * 0.25, 1e-7);
+}
+
+TEST(DynamicsNode, AFieldTurnsWithWhatCarriesIt) {
+  ShowFixture show;
+  Ball* ball = nullptr;
+  show.loader.files["show"] = [&](Load& load) {
+    PlaceAttributes turned;
+    turned.X_PN.linear() = Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitZ()).toRotationMatrix() * 2.0;
+    addNode<MovingNode>(load, "leg", turned, false);
+    PlaceAttributes carried;
+    carried.parent = {load.number, 0};
+    addNode<Field>(load, "push", Vec3(1, 0, 0), true, 0.0, carried);
+    ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"push"});
+    addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
+  };
+  show.scene.open("show");
+  show.frames(61);
+  EXPECT_NEAR(ball->state().v.y(), 2.0, 1e-9) << "its scale multiplies its strength";
+  EXPECT_NEAR(ball->state().v.x(), 0.0, 1e-9);
+}
+
+TEST(DynamicsNode, IsNotVisitedWhileItsBodiesRestAndWakesWhenAColliderMoves) {
+  ShowFixture show;
+  const MeshId box = show.meshes.add(cube(1));
+  Ball* ball = nullptr;
+  show.loader.files["show"] = [&](Load& load) {
+    addNode<Field>(load, "gravity", Vec3(0, 0, -kG), true);
+    addNode<Block>(load, "floor", box, Vec3(0, 0, -1));
+    addNode<Block>(load, "foot", box, Vec3(0, -5, 1.05));
+    ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0.1), std::vector<std::string>{"gravity"});
+    addNode<Sim>(load, "sim", std::vector<std::string>{"floor", "foot"}, std::vector<std::string>{"ball"});
+  };
+  show.scene.open("show");
+  show.tracker("foot", {0, -5, 1.05});
+  show.frames(60);
+  EXPECT_EQ(show.scene.counters().nodesVisited, 0u);
+  EXPECT_EQ(show.scene.events().size(), 0u);
+  EXPECT_EQ(ball->state().p, Vec3(0, 0, 0.1));
+  show.scene.command("foot", Verb::Attach, {"all", "foot"}, show.input.time);
+  std::size_t impacts = 0;
+  for (int n = 0; n < 120; ++n) {  // at 4 m/s; the near face reaches the ball after 3.9 m
+    show.tracker("foot", {0, std::min(-5 + 4 * n / 60.0, -0.5), 1.05});
+    show.frame();
+    for (const EventRecord& e : show.scene.events()) impacts += e.event == Event::OnImpact;
+  }
+  EXPECT_EQ(impacts, 1u);
+  EXPECT_GT(ball->state().v.y(), 1.0);
+}
+
+TEST(DynamicsNode, AGrabbedBodyFollowsTheHandAndKeepsItsVelocityWhenReleased) {
+  ShowFixture show;
+  Ball* ball = nullptr;
+  show.loader.files["show"] = [&](Load& load) {
+    ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 1), std::vector<std::string>{});
+    addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
+  };
+  show.scene.open("show");
+  show.tracker("wand", {0, 0, 1});
+  show.frames(2);
+  show.scene.command("ball", Verb::Grab, {"wand"}, show.input.time);
+  show.frame();
+  for (int n = 1; n <= 30; ++n) {
+    show.tracker("wand", {0, 3 * n / 60.0, 1});
+    show.frame();
+  }
+  EXPECT_NEAR(ball->state().pose.p.y(), 1.5, 1e-9);
+  show.scene.command("ball", Verb::Release, {}, show.input.time);
+  show.frames(60);
+  EXPECT_NEAR(ball->state().v.y(), 3.0, 1e-3);
+  show.scene.command("ball", Verb::Reset, {}, show.input.time);
+  show.frames(2);
+  EXPECT_EQ(ball->state().p, Vec3(0, 0, 1));
+  EXPECT_EQ(ball->state().v, Vec3(0, 0, 0));
+}
+
+TEST(CollisionNode, TellsWhenObjectsThatOthersMoveTouchAndComeApart) {
+  ShowFixture show;
+  const MeshId box = show.meshes.add(cube(0.5));
+  std::vector<EventRecord> events;
+  show.loader.files["show"] = [&](Load& load) {
+    addNode<Block>(load, "wall", box, Vec3(0, 0, 0));
+    addNode<Block>(load, "hand", box, Vec3(0, -3, 0));
+    addNode<Watch>(load, "watch", std::vector<std::string>{"wall"}, std::vector<std::string>{"hand"});
+  };
+  show.scene.open("show");
+  show.tracker("hand", {0, -3, 0});
+  show.frames(2);
+  show.scene.command("hand", Verb::Attach, {"all", "hand"}, show.input.time);
+  for (int n = 0; n < 240; ++n) {  // forward 2.1 m at 2 m/s, and back
+    const double s = n / 60.0 * 2;
+    show.tracker("hand", {0, -3 + (s < 2.1 ? s : std::max(4.2 - s, -1.0)), 0});
+    show.frame();
+    for (const EventRecord& e : show.scene.events()) events.push_back(e);
+  }
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].event, Event::OnImpact);
+  EXPECT_EQ(events[1].event, Event::OnRelease);
+  EXPECT_NEAR(toSeconds(events[1].when - events[0].when), 0.1 + 0.25, 0.02);
+}
+
+}  // namespace
+}  // namespace stadion
