@@ -77,6 +77,8 @@ public:
   void settleFresh();
   void runEvents();
   void endFrame();
+  void partCarried();
+  static bool bothCarried(const Side& a, const Side& b);
   void reportReleases();
   void insert(Command c);
   void execute(const Command& c, double tau);

@@ -10,7 +10,16 @@ constexpr double kTouchesAtLoad = 1e-5;  ///< nearer than this when they appear,
 constexpr std::uint64_t kMostEvents =
     3000;  ///< in one frame for each body: a last resort against endless chatter
 
+bool isHeld(const Side& s) {
+  return s.body && s.body->mode == BodyMode::Held;
+}
+
 }  // namespace
+
+/// Whether both are moved from outside, so that no impulse can change either.
+bool World::Core::bothCarried(const Side& a, const Side& b) {
+  return !(a.body && a.body->movable()) && !(b.body && b.body->movable());
+}
 
 Nanoseconds World::Core::timeAt(double tau) const {
   return Instant{t0, 0}.plus(tau).rounded();
@@ -96,8 +105,11 @@ void World::Core::predictPair(const Side& a, const Side& b, double tau) {
         !std::holds_alternative<MeshShape>(*o->shape))
       return;
   }
-  if (a.body && !a.body->movable() && (!b.body || !b.body->movable())) return;
-  if (b.body && !b.body->movable() && !a.body) return;
+  if (bothCarried(a, b)) {
+    // Nothing comes of it but the news that they touch, once.
+    if (!isHeld(a) && !isHeld(b)) return;
+    if (memory.touching(ContactMemory::keyOf(a.party, b.party))) return;
+  }
   ++counters.pairTests;
   // An arc that ends before the frame is only asked up to its end.
   double to = length;
@@ -331,6 +343,7 @@ void World::Core::runEvents() {
 
 void World::Core::endFrame() {
   foresee = false;
+  partCarried();
   reportReleases();
   std::stable_sort(memory.events().begin(), memory.events().end(),
                    [](const ContactEvent& a, const ContactEvent& b) { return a.time < b.time; });
@@ -369,6 +382,18 @@ void World::Core::reportReleases() {
     due.emplace_back(key, timeAt(hi));
   }
   for (const auto& [key, time] : due) memory.release(key, time);
+}
+
+/// Things moved from outside touch until they are apart at the end of a frame.
+void World::Core::partCarried() {
+  std::vector<ContactMemory::Key> apart;
+  for (const auto& [key, m] : memory.all()) {
+    if (!m.touching) continue;
+    const auto a = side(key.first), b = side({true, key.second});
+    if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, length, 1e-3).distance > 1e-5)
+      apart.push_back(key);
+  }
+  for (const auto& key : apart) memory.setTouching(key, false);
 }
 
 }  // namespace stadion

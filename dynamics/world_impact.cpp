@@ -112,6 +112,12 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   Mobile ma = mobileOf(a, tau), mb = b ? mobileOf(*b, tau) : mobileOf(*c, tau);
   const Vec3 x = touch.gap.point, n = touch.gap.normal;
   const double closing = -(ma.velocityAt(x) - mb.velocityAt(x)).dot(n);
+  if (bothCarried(*side(pa), *side(pb))) {
+    const ContactMemory::Key key = ContactMemory::keyOf(pa, pb);
+    memory.impact(key, timeAt(tau), x, key.second == pa.id ? n : Vec3(-n), closing, 0, frame);
+    memory.setTouching(key, true);
+    return;
+  }
   const PairSurface pair = combine(a.surface, surfaceOf(pb));
   // What presses the two together while neither is carried by something else.
   const auto pull = [&](const RigidBody& body) {
