@@ -8,12 +8,12 @@
 
 namespace stadion {
 
-enum class LightType : std::uint8_t { Directional, Point, Spot };          ///< light: type
+enum class LightType : std::uint8_t { Directional, Point, Spot };        ///< light: type
 enum class ShapeWord : std::uint8_t { Auto, Sphere, Box, Mesh, Plane };  ///< object, dynobject: shape
-// object, dynobject: up is UpAxis of asset/format.h
-enum class ForceUnit : std::uint8_t { Gravity, Acceleration, Newton };     ///< force fields: unit
-enum class FieldMode : std::uint8_t { Attract, Repel };                    ///< forcespherical: mode
-enum class FieldFalloff : std::uint8_t { None, Linear, Inverse, InverseSquare };  ///< forcespherical: falloff
-enum class NavigatorMode : std::uint8_t { Walk, Fly };                            ///< navigator: mode
+// object, dynobject: `up` is the UpAxis of asset/format.h
+enum class ForceUnit : std::uint8_t { Gravity, Acceleration, Newton };  ///< force fields: unit
+enum class FieldMode : std::uint8_t { Attract, Repel };                 ///< forcespherical: mode
+enum class FieldFalloff : std::uint8_t { None, Linear, Square };        ///< forcespherical: falloff
+enum class NavigatorMode : std::uint8_t { Walk, Fly };                  ///< navigator: mode
 
 }  // namespace stadion

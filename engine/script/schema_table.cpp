@@ -32,7 +32,7 @@ constexpr std::string_view kShapes[] = {"auto", "sphere", "box", "mesh", "plane"
 constexpr std::string_view kAxes[] = {"x", "y", "z"};
 constexpr std::string_view kForceUnits[] = {"g", "m/s2", "N"};
 constexpr std::string_view kFieldModes[] = {"attract", "repel"};
-constexpr std::string_view kFalloffs[] = {"none", "linear", "inverse", "inversesquare"};
+constexpr std::string_view kFalloffs[] = {"none", "linear", "square"};
 constexpr std::string_view kNavigatorModes[] = {"walk", "fly"};
 
 constexpr AttributeSpec kCommonRows[] = {

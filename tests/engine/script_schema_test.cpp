@@ -78,7 +78,7 @@ TEST(ScriptSchema, ChoicesFollowTheirEnumerations) {
   EXPECT_EQ(word(NodeKind::ForceLinear, Attr::Unit, ForceUnit::Acceleration), "m/s2");
   EXPECT_EQ(word(NodeKind::ForceSpherical, Attr::Unit, ForceUnit::Newton), "N");
   EXPECT_EQ(word(NodeKind::ForceSpherical, Attr::Mode, FieldMode::Repel), "repel");
-  EXPECT_EQ(word(NodeKind::ForceSpherical, Attr::Falloff, FieldFalloff::InverseSquare), "inversesquare");
+  EXPECT_EQ(word(NodeKind::ForceSpherical, Attr::Falloff, FieldFalloff::Square), "square");
   EXPECT_EQ(word(NodeKind::Navigator, Attr::Mode, NavigatorMode::Fly), "fly");
 }
 
