@@ -1,5 +1,5 @@
-/// The launcher `./stadion`, in a house of its own: a copy of the script beside programs that only say that they were
-/// called.
+/// The launcher `./stadion`, in a house of its own: a copy of the script beside programs that only say that
+/// they were called.
 
 #include "tests/cli/program.h"
 
@@ -14,8 +14,8 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// A root folder with the launcher, sources to compare with, and stand-ins for every program it calls. What they were
-/// called with is in `calls`.
+/// A root folder with the launcher, sources to compare with, and stand-ins for every program it calls. What
+/// they were called with is in `calls`.
 class House {
 public:
   House() {
@@ -25,7 +25,8 @@ public:
       write(std::string(floor) + "/x.cpp", "// source\n");
     write("CMakeLists.txt", "# build\n"), write("CMakePresets.json", "{}\n");
     stub("id", "echo ${STUB_UID:-0}");
-    stub("dpkg-query", "for p; do :; done; case \" $STUB_MISSING \" in *\" $p \"*) exit 1;; esac; echo installed");
+    stub("dpkg-query",
+         "for p; do :; done; case \" $STUB_MISSING \" in *\" $p \"*) exit 1;; esac; echo installed");
     stub("apt-get", "exit ${STUB_APT:-0}");
     stub("sudo", "exit 1");
     stub("cmake", "case $1 in --build) [ -z \"$STUB_ERROR\" ] || { echo \"$STUB_ERROR\"; exit 1; };; "
@@ -100,14 +101,16 @@ TEST(ProgramLauncher, InstallsWhatIsMissingAsRoot) {
   House house;
   const ProgramResult r = house.start({"nodes"}, {"STUB_MISSING=libfcl-dev libegl1"});
   EXPECT_EQ(r.status, 0) << r.err;
-  EXPECT_TRUE(has(house.calls(), "apt-get install -y -qq --no-install-recommends libfcl-dev libegl1")) << house.calls();
+  EXPECT_TRUE(has(house.calls(), "apt-get install -y -qq --no-install-recommends libfcl-dev libegl1"))
+      << house.calls();
 }
 
 TEST(ProgramLauncher, SaysTheOneAptLineWhenItCannotBecomeRoot) {
   House house;
   const ProgramResult r = house.start({"nodes"}, {"STUB_UID=1000", "STUB_MISSING=libfcl-dev libegl1"});
   EXPECT_EQ(r.status, 2);
-  EXPECT_TRUE(has(r.out + r.err, "apt-get install --no-install-recommends libfcl-dev libegl1")) << r.out << r.err;
+  EXPECT_TRUE(has(r.out + r.err, "apt-get install --no-install-recommends libfcl-dev libegl1"))
+      << r.out << r.err;
   EXPECT_FALSE(has(house.calls(), "apt-get")) << house.calls();
   EXPECT_FALSE(has(house.calls(), "cmake")) << house.calls();
 }

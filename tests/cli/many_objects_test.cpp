@@ -1,4 +1,5 @@
-/// A node that has nothing to do costs nothing: a hundred thousand objects that stand still beside ten that move.
+/// A node that has nothing to do costs nothing: a hundred thousand objects that stand still beside ten that
+/// move.
 
 #include "tests/cli/played_show.h"
 #include "tests/cli/program.h"
@@ -13,24 +14,24 @@ namespace {
 
 constexpr int kStatic = 100'000, kMoving = 10;
 
-/// `count` objects on a grid, and ten that paths move.
+/// `count` objects on a grid behind the visitor, where they cost no drawing, and ten that paths move.
 std::string manyObjects(int count) {
   std::string text;
   for (int i = 0; i < count; ++i)
-    text += fmt::format("object( file=football.3ds, position=\"{}, {}, 0\" )\n", i % 400, i / 400);
+    text += fmt::format("object( file=football.3ds, position=\"{}, {}, 0\" )\n", i % 400, -10 - i / 400);
   for (int i = 0; i < kMoving; ++i)
-    text += fmt::format("object( name=m{0}, file=football.3ds )\n"
-                        "path( target=m{0}, loop=on, key=\"0, {0}, 0, 1\", key=\"1, {0}, 5, 1\", key=\"2, {0}, 0, 1\" )\n",
-                        i);
+    text += fmt::format(
+        "object( name=m{0}, file=football.3ds )\n"
+        "path( target=m{0}, loop=on, key=\"0, {0}, 0, 1\", key=\"1, {0}, 5, 1\", key=\"2, {0}, 0, 1\" )\n",
+        i);
   return text;
 }
 
 TEST(ProgramManyObjects, AppVisitsTenNodesAFrameAndPublishesTenChanges) {
   const TemporaryFolder folder;
   const std::string script = folder.write("many.evs", manyObjects(kStatic));
-  const ProgramResult r =
-      stadionProgram({"run", script, "--asset-root", assetFolder(), "--walls", "desktop", "--size", "32x24",
-                      "--frames", "20", "--input", "none", "--json"});
+  const ProgramResult r = stadionProgram({"run", script, "--asset-root", assetFolder(), "--walls", "desktop",
+                                          "--size", "32x24", "--frames", "20", "--input", "none", "--json"});
   ASSERT_EQ(r.status, 0) << r.err;
   const auto counters = nlohmann::json::parse(r.out).at("counters");
   EXPECT_EQ(counters.at("nodes visited per frame"), kMoving);

@@ -8,7 +8,8 @@
 
 namespace stadion {
 
-/// One of tests/corpus/shows, or any script, ready to be played. Null, with the findings told, if it is wrong.
+/// One of tests/corpus/shows, or any script, ready to be played. Null, with the findings told, if it is
+/// wrong.
 std::unique_ptr<Player> openShow(const std::string& script, const std::string& walls = "desktop");
 
 /// Plays `frames` frames with these parts.

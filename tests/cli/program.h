@@ -16,13 +16,13 @@ struct ProgramResult {
 };
 
 struct ProgramRun {
-  std::vector<std::string> words;         ///< the program first, found along PATH
-  std::vector<std::string> environment{}; ///< "NAME=value", over the caller's own
-  std::string folder{};                   ///< where to start it; empty = here
+  std::vector<std::string> words;          ///< the program first, found along PATH
+  std::vector<std::string> environment{};  ///< "NAME=value", over the caller's own
+  std::string folder{};                    ///< where to start it; empty = here
   /// A signal to its whole process group, as a terminal would send it; 0 = none.
   int signal = 0;
   std::chrono::milliseconds signalAfter{500};
-  std::chrono::seconds limit{120};        ///< killed past it
+  std::chrono::seconds limit{120};  ///< killed past it
 };
 
 ProgramResult runProgram(const ProgramRun& run);

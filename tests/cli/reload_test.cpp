@@ -1,5 +1,5 @@
-/// A part of the show that is loaded and unloaded again and again leaves no trace: not in memory, not in the time a
-/// frame takes, not in the bodies beside it.
+/// A part of the show that is loaded and unloaded again and again leaves no trace: not in memory, not in the
+/// time a frame takes, not in the bodies beside it.
 
 #include "tests/cli/played_show.h"
 #include "tests/cli/program.h"
@@ -28,8 +28,8 @@ std::size_t residentBytes() {
 }
 
 struct Growth {
-  std::size_t resident = 0;    ///< [bytes], at the end of the cycle
-  std::size_t allocated = 0;   ///< [bytes], likewise
+  std::size_t resident = 0;   ///< [bytes], at the end of the cycle
+  std::size_t allocated = 0;  ///< [bytes], likewise
 };
 
 /// What a run saw, cycle by cycle and frame by frame.
@@ -88,8 +88,9 @@ TEST(ProgramReload, LoadingAgainAndAgainDoesNotGrow) {
     return static_cast<double>(to) - static_cast<double>(from);
   };
   const double each = grown(early.allocated, late.allocated) / static_cast<double>(seen.cycles.size() - 11);
-  fmt::print("{} cycles: resident {:+.0f} kB, allocated {:+.0f} kB, {:+.1f} bytes a cycle\n", seen.cycles.size(),
-             grown(early.resident, late.resident) / 1024, grown(early.allocated, late.allocated) / 1024, each);
+  fmt::print("{} cycles: resident {:+.0f} kB, allocated {:+.0f} kB, {:+.1f} bytes a cycle\n",
+             seen.cycles.size(), grown(early.resident, late.resident) / 1024,
+             grown(early.allocated, late.allocated) / 1024, each);
   EXPECT_LT(grown(early.resident, late.resident), 1 << 20);
   // The times of the frames are kept, 8 bytes each for seven series, and the notes of this test.
   EXPECT_LT(each, 6 * (7 * 8 + sizeof(Affine)) * 2.2 + 64);
@@ -120,8 +121,8 @@ TEST(ProgramReload, NoFrameTakesLongerBecauseOfIt) {
     std::sort(seen.appMs.begin(), seen.appMs.end());
     median = seen.appMs[seen.appMs.size() / 2];
     worst = loading[loading.size() * 99 / 100];
-    fmt::print("App: median {:.3f} ms, frames that load: median {:.3f}, p99 {:.3f}, longest {:.3f} ms\n", median,
-               loading[loading.size() / 2], worst, loading.back());
+    fmt::print("App: median {:.3f} ms, frames that load: median {:.3f}, p99 {:.3f}, longest {:.3f} ms\n",
+               median, loading[loading.size() / 2], worst, loading.back());
   }
   EXPECT_LE(worst, 3 * median);
 }

@@ -1,5 +1,5 @@
-/// Overlapping the stages changes nothing that anybody can see: the same pictures, byte for byte, and the same
-/// state in every frame, whatever the number of walls.
+/// Overlapping the stages changes nothing that anybody can see: the same pictures, byte for byte, and the
+/// same state in every frame, whatever the number of walls.
 
 #include "tests/cli/program.h"
 
@@ -18,8 +18,17 @@ std::string frames() {
 }
 
 std::vector<std::string> playing(const std::string& mode, const std::string& walls) {
-  return {testShow("moving.evs"), "--asset-root", assetFolder(), "--walls", walls, "--mode", mode,
-          "--size", "96x72", "--frames", frames()};
+  return {testShow("moving.evs"),
+          "--asset-root",
+          assetFolder(),
+          "--walls",
+          walls,
+          "--mode",
+          mode,
+          "--size",
+          "96x72",
+          "--frames",
+          frames()};
 }
 
 /// Plays the show and returns every picture file by name.
@@ -33,8 +42,7 @@ std::map<std::string, std::string> picturesOf(const std::string& mode, const std
   EXPECT_EQ(r.status, 0) << r.err;
   std::map<std::string, std::string> pictures;
   for (const auto& entry : fs::directory_iterator(folder.path()))
-    if (entry.path().extension() == ".png")
-      pictures[entry.path().filename()] = fileContent(entry.path());
+    if (entry.path().extension() == ".png") pictures[entry.path().filename()] = fileContent(entry.path());
   return pictures;
 }
 
@@ -82,7 +90,8 @@ TEST(ProgramSameState, EveryFrameHasOneHashWhateverTheModeAndTheWalls) {
   const std::string expected = hashesOf("sequential", "cave4");
   EXPECT_EQ(std::count(expected.begin(), expected.end(), '\n'), std::stol(frames()));
   for (const char* walls : {"desktop", "cave4", "cave6"})
-    for (const char* mode : {"sequential", "pipelined"}) EXPECT_EQ(hashesOf(mode, walls), expected) << mode << walls;
+    for (const char* mode : {"sequential", "pipelined"})
+      EXPECT_EQ(hashesOf(mode, walls), expected) << mode << walls;
 }
 
 TEST(ProgramSameState, RunAndHashAgreeOnTheLastFrame) {

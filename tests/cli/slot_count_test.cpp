@@ -1,5 +1,5 @@
-/// The comparison of sequential and pipelined runs can fail: with the scene state's slots broken on purpose it
-/// does.
+/// The comparison of sequential and pipelined runs can fail: with the scene state's slots broken on purpose
+/// it does.
 
 #include "tests/cli/played_show.h"
 #include "tests/cli/program.h"
@@ -55,8 +55,10 @@ Drawn drawnWith(Mode mode, std::size_t memories) {
   if (!player) return {};
   SceneState state(memories);
   const ShowParts own = player->parts(StereoLayout::Pair);
-  // The same show, published into slots of our choice. (It has no static objects, whose chunk lies in its own.)
-  NotingStages stages(ShowParts{own.scene, state, own.meshes, own.input, own.walls, nullptr, 64, 48, nullptr, {}, nullptr});
+  // The same show, published into slots of our choice. (It has no static objects, whose chunk lies in its
+  // own.)
+  NotingStages stages(
+      ShowParts{own.scene, state, own.meshes, own.input, own.walls, nullptr, 64, 48, nullptr, {}, nullptr});
   FrameLoopOptions o;
   o.mode = mode, o.walls = kWalls, o.frames = kFrames;
   const std::atomic<bool> never = false;

@@ -1,5 +1,5 @@
-/// A real show in all its threads: loader, App, and for each wall Cull and Draw through OSMesa. What ThreadSanitizer
-/// says of it is the test.
+/// A real show in all its threads: loader, App, and for each wall Cull and Draw through OSMesa. What
+/// ThreadSanitizer says of it is the test.
 
 #include "tests/cli/played_show.h"
 #include "tests/cli/program.h"
@@ -45,7 +45,9 @@ void playOnFourWalls(Delivery delivery, std::uint64_t frames) {
   EXPECT_EQ(outcome.framesSimulated, frames);
   EXPECT_EQ(sink.frames, outcome.framesShown);
   EXPECT_EQ(sink.pictures, 8 * sink.frames);
-  if (delivery == Delivery::Every) EXPECT_EQ(outcome.framesShown, frames);
+  if (delivery == Delivery::Every) {
+    EXPECT_EQ(outcome.framesShown, frames);
+  }
 }
 
 TEST(ThreadsShow, EveryFrameOnFourWalls) {

@@ -15,8 +15,8 @@ bool has(const std::string& text, const std::string& part) {
 
 /// Arguments for a short, small run of one of the test shows.
 std::vector<std::string> shortRun(const std::string& show, std::vector<std::string> more = {}) {
-  std::vector<std::string> words{"run",    show,    "--asset-root", assetFolder(), "--walls", "desktop",
-                                 "--size", "32x24", "--frames",     "5"};
+  std::vector<std::string> words{"run",     show,     "--asset-root", assetFolder(), "--walls",
+                                 "desktop", "--size", "32x24",        "--frames",    "5"};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -29,9 +29,9 @@ TEST(ProgramUsage, AnUnknownOptionIsNamedAndIsBadUsage) {
 }
 
 TEST(ProgramUsage, AnUnknownSubcommandIsBadUsage) {
-  const ProgramResult r = stadionProgram({"dance"});
+  const ProgramResult r = stadionProgram({"chekc"});
   EXPECT_EQ(r.status, 2);
-  EXPECT_TRUE(has(r.err, "dance")) << r.err;
+  EXPECT_TRUE(has(r.err, "\"chekc\"; did you mean \"check\"?")) << r.err;
 }
 
 TEST(ProgramUsage, NoArgumentsAtAllIsBadUsage) {
@@ -78,14 +78,16 @@ TEST(ProgramUsage, ABadWallFileIsShownWithItsLine) {
 }
 
 TEST(ProgramUsage, AnUnknownWallSetIsNamed) {
-  const ProgramResult r = stadionProgram({"run", testShow("bodies.evs"), "--walls", "cave5", "--frames", "2"});
+  const ProgramResult r =
+      stadionProgram({"run", testShow("bodies.evs"), "--walls", "cave5", "--frames", "2"});
   EXPECT_EQ(r.status, 2);
   EXPECT_TRUE(has(r.err, "cave5")) << r.err;
 }
 
 TEST(ProgramUsage, SizesThatMakeNoSenseAreRefused) {
   for (const char* size : {"0x0", "800", "-1x5", "800x600x2", "99999999999x2", "axb"})
-    EXPECT_EQ(stadionProgram({"run", testShow("bodies.evs"), "--frames", "2", "--size", size}).status, 2) << size;
+    EXPECT_EQ(stadionProgram({"run", testShow("bodies.evs"), "--frames", "2", "--size", size}).status, 2)
+        << size;
 }
 
 TEST(ProgramUsage, ABadInputLogIsShownWithItsLine) {
@@ -108,7 +110,8 @@ TEST(ProgramUsage, AnOutputFolderThatCannotBeMadeIsBadInput) {
 
 TEST(ProgramUsage, AnOutputFolderThatTakesNoFilesIsFoundOutBeforePlaying) {
   // A folder that exists, but in which even root makes no file.
-  const ProgramResult r = stadionProgram(shortRun(testShow("bodies.evs"), {"--out", "/proc/self", "--frames", "100000"}));
+  const ProgramResult r = stadionProgram({"run", testShow("bodies.evs"), "--asset-root", assetFolder(),
+                                          "--size", "32x24", "--frames", "100000", "--out", "/proc/self"});
   EXPECT_EQ(r.status, 2);
   EXPECT_TRUE(has(r.err, "/proc/self")) << r.err;
   EXPECT_LT(r.seconds, 10);
@@ -116,7 +119,8 @@ TEST(ProgramUsage, AnOutputFolderThatTakesNoFilesIsFoundOutBeforePlaying) {
 
 TEST(ProgramUsage, AMissingModelIsAStandInInRunAndAnErrorInCheck) {
   const TemporaryFolder folder;
-  const std::string script = folder.write("show.evs", "object( file=nothing_here.obj )\nobject( file=football.3ds )\n");
+  const std::string script =
+      folder.write("show.evs", "object( file=nothing_here.obj )\nobject( file=football.3ds )\n");
   const ProgramResult run = stadionProgram(shortRun(script, {"--json"}));
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(has(run.err, "show.evs:1:")) << run.err;
@@ -141,15 +145,18 @@ TEST(ProgramUsage, JsonIsOneObjectOnStdoutAndNothingElse) {
   EXPECT_TRUE(summary.is_object());
   EXPECT_EQ(summary.at("frames"), 5);
   // The same summary lies beside the pictures.
-  EXPECT_EQ(nlohmann::json::parse(fileContent(pictures + "/summary.json")).at("state_hash"), summary.at("state_hash"));
+  EXPECT_EQ(nlohmann::json::parse(fileContent(pictures + "/summary.json")).at("state_hash"),
+            summary.at("state_hash"));
 }
 
 TEST(ProgramUsage, InterruptsEndTheShowWithItsSummary) {
   for (const int signal : {SIGINT, SIGTERM})
     for (const char* mode : {"sequential", "pipelined"}) {
       ProgramRun run;
-      run.words = {stadionPath(), "run",     testShow("reload_with.evs"), "--asset-root", assetFolder(), "--size", "64x48",
-                   "--walls",     "desktop", "--json",                     "--mode",       mode};
+      run.words = {stadionPath(),  "run",         testShow("reload_with.evs"),
+                   "--asset-root", assetFolder(), "--size",
+                   "64x48",        "--walls",     "desktop",
+                   "--json",       "--mode",      mode};
       run.signal = signal;
       run.signalAfter = std::chrono::milliseconds(1500);
       run.limit = std::chrono::seconds(30);
@@ -165,8 +172,8 @@ TEST(ProgramUsage, InterruptsEndTheShowWithItsSummary) {
 }
 
 TEST(ProgramUsage, CheckSaysNothingWrongOfTheTestShows) {
-  const ProgramResult r = stadionProgram(
-      {"check", testShow("moving.evs"), testShow("bodies.evs"), testShow("reload_with.evs"), "--asset-root", assetFolder()});
+  const ProgramResult r = stadionProgram({"check", testShow("moving.evs"), testShow("bodies.evs"),
+                                          testShow("reload_with.evs"), "--asset-root", assetFolder()});
   EXPECT_EQ(r.status, 0) << r.out << r.err;
   EXPECT_FALSE(has(r.out, "warning")) << r.out;
 }
