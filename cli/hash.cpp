@@ -20,11 +20,13 @@ int hashShow(ShowOptions options) {
   if (!player) return kBadInput;
 
   ShowParts parts = player->parts(StereoLayout::Off);
+  const ShowStages* running = nullptr;
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
     std::printf("%" PRIu64 " %016" PRIx64 "\n", now.frame, scene.stateHash());
-    player->collect(now.frame);
+    player->collect(running->shownFrame());
   };
   ShowStages stages(std::move(parts));
+  running = &stages;
   FrameLoopOptions loopOptions;
   loopOptions.mode = options.mode == "sequential" ? Mode::Sequential : Mode::Pipelined;
   loopOptions.rate = options.rate;

@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "engine/script/suggestion.h"
 #include "pipeline/target/rasteriser_settings.h"
 
 #include <CLI/CLI.hpp>
@@ -28,6 +29,15 @@ int runProgram(int argc, char** argv) {
   addTestCommand(app, code);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::RequiredError& e) {
+    if (argc > 1 && app.get_subcommands().empty()) {
+      std::vector<std::string> known;
+      for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+      std::fprintf(stderr, "stadion: there is no subcommand \"%s\"%s\n", argv[1],
+                   didYouMean(argv[1], known).c_str());
+    }
+    app.exit(e);
+    return kBadInput;
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? kOk : kBadInput;
   }

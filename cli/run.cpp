@@ -126,7 +126,10 @@ int runShow(RunOptions o) {
   if (!o.out.empty()) {
     std::error_code error;
     std::filesystem::create_directories(o.out, error);
-    if (error) findings.error({}, "--out: cannot make the folder " + o.out + ": " + error.message());
+    if (error)
+      findings.error({}, "--out: cannot make the folder " + o.out + ": " + error.message());
+    else if (AtomicFile(o.out + "/summary.json").failed())  // better known now than after the show
+      findings.error({}, "--out: cannot write into the folder " + o.out);
   }
   if (findings.hasErrors()) return tell(findings), kBadInput;
 

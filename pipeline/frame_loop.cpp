@@ -65,8 +65,9 @@ void FrameLoop::runSequential() {
   while (const auto now = nextFrame()) {
     appStage(*now, 0);
     for (std::size_t wall = 0; wall < options_.walls; ++wall) cullStage(wall, 0, lists[wall]);
-    for (std::size_t wall = 0; wall < options_.walls; ++wall) drawStage(wall, lists[wall]);
-    swapStage(*now);
+    bool drawn = true;
+    for (std::size_t wall = 0; drawn && wall < options_.walls; ++wall) drawn = drawStage(wall, lists[wall]);
+    if (drawn) swapStage(*now);
   }
 
   for (std::size_t wall = 0; wall < options_.walls; ++wall) stages_.closeWall(wall);

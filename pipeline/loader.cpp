@@ -122,12 +122,14 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
   resolveNames(*document, surroundings, findings);
   if (findings.hasErrors()) return nullptr;
 
+  Imports imports;
   const BuildInput input{*document, job.number,       job.owner,
                          job.X_WO,  numbers,          parts_.factories,
-                         [&](const Declaration& d) { return importMesh(d, findings); },
+                         [&](const Declaration& d) { return imports.of(d, *this, findings); },
                          parts_.meshes};
   Built built = buildLoad(input, findings);
   std::unique_ptr<Load> load = std::move(built.load);
+  load->meshes = std::move(imports.counted);
   if (findings.hasErrors()) {
     // Nobody has seen anything of it: it may go at once.
     for (const MeshId mesh : load->meshes) parts_.meshes.release(mesh, 0);
@@ -143,6 +145,15 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
       break;
     }
   return load;
+}
+
+// A hundred thousand objects with the same file: one import, and one word about it.
+MeshId Loader::Imports::of(const Declaration& d, Loader& loader, Diagnostics& findings) {
+  const auto up = d.optionalChoice<UpAxis>(Attr::Up);
+  const Key key(d.text(Attr::File), d.optionalNumber(Attr::Unit).value_or(0), up ? static_cast<int>(*up) : -1);
+  const auto [at, isNew] = known.try_emplace(key, kNoMesh);
+  if (isNew) counted.push_back(at->second = loader.importMesh(d, findings));
+  return at->second;
 }
 
 MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {

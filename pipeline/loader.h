@@ -16,7 +16,10 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <string>
 #include <thread>
+#include <tuple>
+#include <vector>
 
 namespace stadion {
 
@@ -57,6 +60,15 @@ private:
   struct Around {
     std::uint32_t outer = 0;  ///< the load around it
     std::unique_ptr<const Document> document;
+  };
+
+  /// The models of one load, each imported and counted once.
+  struct Imports {
+    using Key = std::tuple<std::string, double, int>;  ///< file, unit, up axis
+    std::map<Key, MeshId> known;
+    std::vector<MeshId> counted;
+
+    MeshId of(const Declaration& d, Loader& loader, Diagnostics& findings);
   };
 
   void work();

@@ -150,7 +150,6 @@ private:
     a.mesh = input_.meshes(d);
     a.drawn = d.flag(Attr::Draw);
     a.shape = std::string(d.text(Attr::Shape));
-    built_.load->meshes.push_back(a.mesh);
     return a;
   }
 

@@ -35,7 +35,7 @@ using NodeFactories = std::array<NodeFactory, kNodeKindCount>;
 /// Fills in the kinds that need neither dynamics nor anything above this floor.
 void addEngineFactories(NodeFactories& factories);
 
-/// Gives the mesh for a declaration's file, counted once for the load; never kNoMesh.
+/// Gives the mesh for a declaration's file; never kNoMesh. Who gives it keeps count of it, too.
 using MeshSource = std::function<MeshId(const Declaration&)>;
 
 struct BuildInput {
@@ -50,7 +50,7 @@ struct BuildInput {
 };
 
 struct Built {
-  std::unique_ptr<Load> load;                 ///< without its chunk
+  std::unique_ptr<Load> load;                 ///< without its chunk and its list of meshes
   std::vector<InstanceRecord> staticRecords;  ///< parallel to load->statics
 };
 

@@ -2,6 +2,7 @@
 
 #include "engine/asset/importer_program/jail.h"
 #include "engine/asset/importer_program/picture.h"
+#include "engine/maths/functions.h"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
@@ -168,7 +169,7 @@ Material readMaterial(const aiMaterial& from, const FormatInfo& format, Pictures
 }  // namespace
 
 float linearFromSrgb(float c) {
-  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+  return c <= 0.04045f ? c / 12.92f : static_cast<float>(det::pow((c + 0.055) / 1.055, 2.4));
 }
 
 void readMaterials(const aiScene& scene, const FormatInfo& format, const PictureSource& pictures, Mesh& mesh,

@@ -1,6 +1,7 @@
 #include "engine/asset/importer_program/geometry.h"
 
 #include "engine/asset/mesh_checks.h"
+#include "engine/maths/functions.h"
 
 #include <xxhash.h>
 
@@ -38,7 +39,7 @@ Face faceOf(const Flat& flat, const FlatTriangle& t) {
   if (n.norm() > 0) face.normal = n / n.norm();
   for (int k = 0; k < 3; ++k) {
     const Vec3 a = p[(k + 1) % 3] - p[k], b = p[(k + 2) % 3] - p[k];
-    face.angle[k] = std::atan2(a.cross(b).norm(), a.dot(b));
+    face.angle[k] = det::atan2(a.cross(b).norm(), a.dot(b));
   }
   return face;
 }

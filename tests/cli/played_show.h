@@ -1,0 +1,18 @@
+#pragma once
+/// Plays a test show in this process, so that a test can look into it.
+
+#include "cli/player.h"
+
+#include <memory>
+#include <string>
+
+namespace stadion {
+
+/// One of tests/corpus/shows, or any script, ready to be played. Null, with the findings told, if it is
+/// wrong.
+std::unique_ptr<Player> openShow(const std::string& script, const std::string& walls = "desktop");
+
+/// Plays `frames` frames with these parts.
+FrameLoopOutcome play(ShowStages& stages, Mode mode, std::size_t walls, std::uint64_t frames);
+
+}  // namespace stadion

@@ -1,0 +1,59 @@
+#pragma once
+/// Runs a program as a user would: words in, exit status and texts out.
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+struct ProgramResult {
+  int status = -1;  ///< exit status; 128 + signal if it was killed
+  std::string out, err;
+  double seconds = 0;
+};
+
+struct ProgramRun {
+  std::vector<std::string> words;          ///< the program first, found along PATH
+  std::vector<std::string> environment{};  ///< "NAME=value", over the caller's own
+  std::string folder{};                    ///< where to start it; empty = here
+  /// A signal to its whole process group, as a terminal would send it; 0 = none.
+  int signal = 0;
+  std::chrono::milliseconds signalAfter{500};
+  std::chrono::seconds limit{120};  ///< killed past it
+};
+
+ProgramResult runProgram(const ProgramRun& run);
+
+/// The built `stadion` with these arguments.
+ProgramResult stadionProgram(std::vector<std::string> arguments);
+std::string stadionPath();
+
+/// A file of tests/corpus/shows.
+std::string testShow(const std::string& name);
+/// The folder of the show's own models, for `--asset-root`.
+std::string assetFolder();
+
+/// A folder that goes when the test does.
+class TemporaryFolder {
+public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// Writes a file in it and returns its path.
+  std::string write(const std::string& name, const std::string& content) const;
+
+private:
+  std::filesystem::path path_;
+};
+
+std::string fileContent(const std::filesystem::path& file);
+/// Whether the long acceptance runs were asked for (`stadion test --full`).
+bool fullRuns();
+
+}  // namespace stadion

@@ -1,0 +1,110 @@
+/// Overlapping the stages changes nothing that anybody can see: the same pictures, byte for byte, and the
+/// same state in every frame, whatever the number of walls.
+
+#include "tests/cli/program.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace stadion {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string frames() {
+  return fullRuns() ? "300" : "60";
+}
+
+std::vector<std::string> playing(const std::string& mode, const std::string& walls) {
+  return {testShow("moving.evs"),
+          "--asset-root",
+          assetFolder(),
+          "--walls",
+          walls,
+          "--mode",
+          mode,
+          "--size",
+          "96x72",
+          "--frames",
+          frames()};
+}
+
+/// Plays the show and returns every picture file by name.
+std::map<std::string, std::string> picturesOf(const std::string& mode, const std::string& walls) {
+  const TemporaryFolder folder;
+  std::vector<std::string> words = playing(mode, walls);
+  words.insert(words.begin(), "run");
+  for (const char* w : {"--pictures", "all", "--json", "--out"}) words.push_back(w);
+  words.push_back(folder.path());
+  const ProgramResult r = stadionProgram(words);
+  EXPECT_EQ(r.status, 0) << r.err;
+  std::map<std::string, std::string> pictures;
+  for (const auto& entry : fs::directory_iterator(folder.path()))
+    if (entry.path().extension() == ".png") pictures[entry.path().filename()] = fileContent(entry.path());
+  return pictures;
+}
+
+std::string hashesOf(const std::string& mode, const std::string& walls) {
+  std::vector<std::string> words = playing(mode, walls);
+  words.insert(words.begin(), "hash");
+  const ProgramResult r = stadionProgram(words);
+  EXPECT_EQ(r.status, 0) << r.err;
+  return r.out;
+}
+
+/// Name of the first file that is not the same in both, or nothing.
+std::string firstDifference(const std::map<std::string, std::string>& a,
+                            const std::map<std::string, std::string>& b) {
+  for (const auto& [name, bytes] : a)
+    if (const auto other = b.find(name); other == b.end() || other->second != bytes) return name;
+  return a.size() == b.size() ? "" : "number of files";
+}
+
+void expectSamePictures(const std::string& walls, std::size_t count) {
+  const auto sequential = picturesOf("sequential", walls), pipelined = picturesOf("pipelined", walls);
+  // Two eyes a wall and one contact sheet of the last frame.
+  EXPECT_EQ(sequential.size(), 2 * count * std::stoul(frames()) + 1);
+  EXPECT_EQ(firstDifference(sequential, pipelined), "");
+}
+
+TEST(ProgramSamePictures, OneWallSequentialAndPipelined) {
+  expectSamePictures("desktop", 1);
+}
+TEST(ProgramSamePictures, FourWallsSequentialAndPipelined) {
+  expectSamePictures("cave4", 4);
+}
+TEST(ProgramSamePictures, SixWallsSequentialAndPipelined) {
+  expectSamePictures("cave6", 6);
+}
+
+TEST(ProgramSamePictures, TheShowReallyMovesInEveryFrame) {
+  const auto pictures = picturesOf("pipelined", "desktop");
+  std::map<std::string, int> seen;
+  for (const auto& [name, bytes] : pictures) ++seen[bytes];
+  EXPECT_EQ(seen.size(), pictures.size());
+}
+
+TEST(ProgramSameState, EveryFrameHasOneHashWhateverTheModeAndTheWalls) {
+  const std::string expected = hashesOf("sequential", "cave4");
+  EXPECT_EQ(std::count(expected.begin(), expected.end(), '\n'), std::stol(frames()));
+  for (const char* walls : {"desktop", "cave4", "cave6"})
+    for (const char* mode : {"sequential", "pipelined"})
+      EXPECT_EQ(hashesOf(mode, walls), expected) << mode << walls;
+}
+
+TEST(ProgramSameState, RunAndHashAgreeOnTheLastFrame) {
+  std::vector<std::string> words = playing("pipelined", "desktop");
+  words.insert(words.begin(), "run");
+  words.push_back("--json");
+  const ProgramResult r = stadionProgram(words);
+  ASSERT_EQ(r.status, 0) << r.err;
+  const std::string hash = nlohmann::json::parse(r.out).at("state_hash");
+  const std::string all = hashesOf("sequential", "desktop");
+  const std::string last = std::to_string(std::stoul(frames()) - 1) + " ";
+  EXPECT_EQ(all.substr(all.rfind("\n", all.size() - 2) + 1), last + hash + "\n");
+}
+
+}  // namespace
+}  // namespace stadion

@@ -1,0 +1,165 @@
+/// The house stands as it was drawn: includes go down and never up or sideways, each foreign library has its
+/// one room, and what is simulated calls no function whose results differ between machines.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = STADION_SOURCE_DIR;
+
+struct Line {
+  std::string file;  ///< relative to the root
+  std::size_t number;
+  std::string text;  ///< without comments and string contents
+
+  std::string place() const { return file + ":" + std::to_string(number) + ": " + text; }
+};
+
+/// The line without `//` comments and, but in includes, without what stands between quotes.
+std::string codeOf(const std::string& line) {
+  static const std::regex strings(R"("([^"\\]|\\.)*")");
+  std::string code = line;
+  if (code.find('"') != std::string::npos && code.find("#include") == std::string::npos)
+    code = std::regex_replace(code, strings, "\"\"");
+  return code.substr(0, code.find("//"));
+}
+
+std::vector<Line> linesBelow(const std::string& folder) {
+  std::vector<Line> lines;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+    const fs::path& p = entry.path();
+    if (p.extension() != ".h" && p.extension() != ".cpp") continue;
+    std::ifstream in(p);
+    std::string text;
+    for (std::size_t n = 1; std::getline(in, text); ++n)
+      lines.push_back({fs::relative(p, kRoot).string(), n, codeOf(text)});
+  }
+  EXPECT_FALSE(lines.empty()) << folder;
+  return lines;
+}
+
+const std::vector<std::string> kFloors{"engine", "pipeline", "dynamics", "profiling", "cli"};
+
+/// Which floors a file may include. Benches join floors as cli/ does.
+std::set<std::string> allowedFor(const std::string& file) {
+  const std::string floor = file.substr(0, file.find('/'));
+  if (floor == "cli") return {"engine", "pipeline", "dynamics", "profiling", "cli"};
+  if (file.starts_with("profiling/bench/")) return {"engine", "pipeline", "dynamics", "profiling"};
+  return {"engine", floor};
+}
+
+std::string included(const std::string& code, char open, char close) {
+  if (!code.starts_with('#')) return "";
+  const std::regex form(std::string("^\\s*#\\s*include\\s*") + open + "([^" + close + "]+)" + close);
+  std::smatch m;
+  return std::regex_search(code, m, form) ? m[1].str() : "";
+}
+
+TEST(Layering, IncludesGoDownAndNeverUpOrSideways) {
+  for (const std::string& floor : kFloors)
+    for (const Line& line : linesBelow(floor)) {
+      const std::string name = included(line.text, '"', '"');
+      if (name.empty()) continue;
+      EXPECT_TRUE(allowedFor(line.file).contains(name.substr(0, name.find('/')))) << line.place();
+      // A bench is a room of the top floor: nothing below may know it.
+      if (name.starts_with("profiling/bench/")) {
+        EXPECT_TRUE(line.file.starts_with("cli/") || line.file.starts_with("profiling/bench/"))
+            << line.place();
+      }
+    }
+}
+
+TEST(Layering, IncludesAreRelativeToTheRoot) {
+  for (const char* folder : {"engine", "pipeline", "dynamics", "profiling", "cli", "tests"})
+    for (const Line& line : linesBelow(folder)) {
+      const std::string name = included(line.text, '"', '"');
+      if (name.empty()) continue;
+      EXPECT_EQ(name.find(".."), std::string::npos) << line.place();
+      EXPECT_TRUE(fs::exists(kRoot / name)) << line.place();
+    }
+}
+
+TEST(Layering, TheFoldersOfAFloorFormNoCycleWithItsImporterProgram) {
+  for (const std::string& floor : kFloors)
+    for (const Line& line : linesBelow(floor))
+      if (!line.file.starts_with("engine/asset/importer_program/")) {
+        EXPECT_FALSE(included(line.text, '"', '"').starts_with("engine/asset/importer_program/"))
+            << line.place();
+      }
+}
+
+/// The files that include a header whose name begins so.
+std::set<std::string> whoIncludes(const std::string& prefix) {
+  std::set<std::string> files;
+  for (const std::string& floor : kFloors)
+    for (const Line& line : linesBelow(floor))
+      if (included(line.text, '<', '>').starts_with(prefix)) files.insert(line.file);
+  return files;
+}
+
+TEST(Layering, EachForeignLibraryHasItsRoom) {
+  using Files = std::set<std::string>;
+  EXPECT_EQ(whoIncludes("GL/osmesa"), Files{"pipeline/target/osmesa_provider.cpp"});
+  EXPECT_EQ(whoIncludes("EGL/"), Files{"pipeline/target/egl_provider.cpp"});
+  EXPECT_EQ(whoIncludes("fcl/"), Files{"dynamics/mesh_distance.cpp"});
+  EXPECT_EQ(whoIncludes("GL/gl"), Files{"pipeline/draw/gl_table.h"});
+  // assimp lives in a program of its own.
+  const Files assimp = whoIncludes("assimp/");
+  EXPECT_FALSE(assimp.empty());
+  for (const std::string& file : assimp)
+    EXPECT_TRUE(file.starts_with("engine/asset/importer_program/")) << file;
+}
+
+TEST(Layering, WhatIsSimulatedCallsNoFunctionThatDiffersBetweenMachines) {
+  // sqrt and fabs, and what IEEE 754 or integers make exact (floor, ceil, ...), are the same everywhere.
+  const std::regex call(
+      R"((^|[^A-Za-z0-9_:.>]|std::|Eigen::numext::|::)(sin|cos|tan|sincos|asin|acos|atan|atan2|sinh|cosh|tanh|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|fma|erf|lgamma|tgamma)[fl]?\s*\(\s*[^)\s])");
+  const std::regex own(R"(det::\w+)");
+  const std::regex hidden(
+      R"(AngleAxis|Rotation2D|\.slerp\(|angularDistance|eulerAngles|setFromTwoVectors|FromTwoVectors)");
+  for (const char* floor : {"engine", "dynamics"})
+    for (const Line& line : linesBelow(floor)) {
+      // rotations.cpp lies in the namespace of these functions and calls its neighbours.
+      if (line.file.starts_with("engine/maths/")) continue;
+      std::string code = line.text;
+      if (code.find_first_of("(<") == std::string::npos) continue;
+      if (code.find("det::") != std::string::npos) code = std::regex_replace(code, own, "det");
+      EXPECT_FALSE(std::regex_search(code, call)) << line.place();
+      EXPECT_FALSE(std::regex_search(code, hidden)) << line.place();
+    }
+  const std::regex fromLibrary(
+      R"(std::(sin|cos|tan|a?sinh?|acos|atan2?|exp2?|expm1|log\w*|pow|cbrt|hypot|fma)\s*\()");
+  for (const Line& line : linesBelow("engine/maths"))
+    EXPECT_FALSE(std::regex_search(line.text, fromLibrary)) << line.place();
+}
+
+TEST(Layering, NothingStandsOutsideTheRepository) {
+  std::vector<fs::path> files{kRoot / "stadion", kRoot / "CMakeLists.txt", kRoot / "CMakePresets.json",
+                              kRoot / ".ci/run"};
+  for (const char* folder :
+       {"engine", "pipeline", "dynamics", "profiling", "cli", "tests", "scripts", "walls"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+      if (std::set<std::string>{".h", ".cpp", ".txt", ".evs", ".walls", ".input", ".md"}.contains(
+              entry.path().extension()))
+        files.push_back(entry.path());
+  for (const fs::path& file : files) {
+    if (file.filename() == "layering_test.cpp") continue;  // names what it looks for
+    std::ifstream in(file);
+    std::string text;
+    for (std::size_t n = 1; std::getline(in, text); ++n)
+      for (const char* outside : {"../shared", "/work/", "/home/", "/root/"})
+        EXPECT_EQ(text.find(outside), std::string::npos) << file << ":" << n << ": " << text;
+  }
+}
+
+}  // namespace
