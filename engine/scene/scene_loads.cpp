@@ -1,0 +1,151 @@
+#include "engine/scene/scene.h"
+
+#include "engine/nodes/object_node.h"
+
+#include <algorithm>
+
+namespace stadion {
+
+// --------------------------------------------------------------------------------------------
+
+NodeRef Scene::parentOf(NodeRef ref) const {
+  const Load* l = load(ref.load);
+  if (!l) return {};
+  NodeRef parent;
+  if (const auto* placed = dynamic_cast<const PlacedNode*>(l->nodes[ref.position].get()))
+    parent = placed->attributes().parent;
+  else {
+    const auto s = std::lower_bound(l->statics.begin(), l->statics.end(), ref.position,
+                                    [](const StaticObject& o, std::uint32_t p) { return o.position < p; });
+    if (s != l->statics.end() && s->position == ref.position) parent = s->parent;
+  }
+  return parent.valid() ? parent : l->owner;
+}
+
+bool Scene::isBelow(NodeRef ref, NodeRef ancestor) const {
+  for (NodeRef at = parentOf(ref); at.valid(); at = parentOf(at))
+    if (at == ancestor) return true;
+  return false;
+}
+
+void Scene::promoteBelow(NodeRef ref) {
+  for (auto& [number, l] : loads_)
+    for (std::size_t i = 0; i < l->statics.size(); ++i) {
+      const NodeRef self{number, l->statics[i].position};
+      if (!l->nodes[self.position] && isBelow(self, ref)) promote(*l, i);
+    }
+}
+
+Node* Scene::promote(Load& load, std::size_t index, const Affine& moved) {
+  const StaticObject& object = load.statics[index];
+  const InstanceRecord& record = load.chunkRecords[index];
+  const NodeRef self{load.number, object.position};
+  PlaceAttributes place;
+  place.parent = object.parent;
+  Appearance appearance;
+  appearance.mesh = record.mesh;
+  appearance.drawn = (record.flags & InstanceRecord::kShown) != 0;
+  std::string name;
+  for (const auto& [n, position] : load.names)
+    if (position == object.position) name = n;
+  auto node = std::make_unique<ObjectNode>(NodeKind::Object, self, std::move(name), place, appearance);
+  ObjectNode& added = *node;
+  load.nodes[object.position] = std::move(node);
+  load.enterOrder.push_back(object.position);
+  enterNode(added);
+  Affine X_WN;
+  for (int row = 0; row < 3; ++row)
+    for (int col = 0; col < 4; ++col) X_WN.matrix()(row, col) = record.model[4 * row + col];
+  added.becomeHome(*this, moved * X_WN);
+  staticChanges_.push_back({load.chunk, static_cast<std::uint32_t>(index), true});
+  return &added;
+}
+
+// -------------------------------------------------------------------------------------
+
+std::uint32_t Scene::requestLoad(const std::string& file, NodeRef owner, Nanoseconds at) {
+  const std::uint32_t number = nextLoad_++;
+  const auto* placed = owner.valid() ? dynamic_cast<const PlacedNode*>(find(owner)) : nullptr;
+  loader_.request(number, file, owner, placed ? placements_.world(placed->placement()) : Affine::Identity());
+  pendingLoads_.push_back({at, number, true});
+  return number;
+}
+
+void Scene::requestUnload(std::uint32_t number, Nanoseconds at) {
+  // A load that has not arrived yet is taken back as soon as it arrives.
+  pendingLoads_.push_back({at, number, false});
+}
+
+void Scene::applyLoads(const TimeSignature& now) {
+  // Installing a load may ask for more of them (sub-scenes that are there from the start).
+  for (std::size_t i = 0; i < pendingLoads_.size();) {
+    const Change change = pendingLoads_[i];
+    if (change.at > now.time) {
+      ++i;
+      continue;
+    }
+    pendingLoads_.erase(pendingLoads_.begin() + static_cast<std::ptrdiff_t>(i));
+    if (!change.load)
+      remove(change.number, now.frame);
+    else if (auto load = loader_.take(change.number))
+      install(std::move(load));
+    i = 0;
+  }
+}
+
+void Scene::install(std::unique_ptr<Load> arrived) {
+  Load& load = *arrived;
+  if (load.owner.valid() && !find(load.owner)) {  // its scene node has gone meanwhile
+    loader_.dispose(std::move(arrived), 0);
+    return;
+  }
+  loads_[load.number] = std::move(arrived);
+  ++loadsVersion_;
+  for (const std::uint32_t position : load.enterOrder) enterNode(*load.nodes[position]);
+  if (load.chunk != kNoChunk) chunkChanges_.push_back({load.chunk, true});
+  auto* owner = dynamic_cast<PlacedNode*>(load.owner.valid() ? find(load.owner) : nullptr);
+  if (!owner || load.statics.empty()) return;
+  owner->carryStatics();
+  // Its scene node has moved since the load was asked for: what was placed then must follow.
+  const Affine& X_WO = placements_.world(owner->placement());
+  if (X_WO.matrix() == load.X_WO.matrix()) return;
+  const Affine moved = X_WO * load.X_WO.inverse();
+  for (std::size_t i = 0; i < load.statics.size(); ++i) promote(load, i, moved);
+}
+
+void Scene::enterNode(Node& node) {
+  node.enter(*this);
+  setBusy(node);
+  rehash(node);
+}
+
+void Scene::leaveNode(Node& node) {
+  node.leave(*this);
+  busy_.erase({node.rank(), node.self()});
+  if (const auto h = hashes_.find(node.self()); h != hashes_.end()) {
+    hashSum_ -= h->second;
+    hashes_.erase(h);
+  }
+}
+
+void Scene::remove(std::uint32_t number, std::uint64_t frame) {
+  const auto at = loads_.find(number);
+  if (at == loads_.end()) return;
+  // What this load brought in itself goes first.
+  std::vector<std::uint32_t> inner;
+  for (const auto& [n, l] : loads_)
+    if (l->owner.load == number) inner.push_back(n);
+  for (auto n = inner.rbegin(); n != inner.rend(); ++n) remove(*n, frame);
+  std::erase_if(pendingLoads_, [&](const Change& c) { return c.number == number; });
+
+  Load& load = *at->second;
+  for (auto p = load.enterOrder.rbegin(); p != load.enterOrder.rend(); ++p) leaveNode(*load.nodes[*p]);
+  if (load.chunk != kNoChunk) chunkChanges_.push_back({load.chunk, false});
+  std::erase_if(staticChanges_, [&](const ChangeSet::StaticItem& s) { return s.chunk == load.chunk; });
+  std::unique_ptr<Load> gone = std::move(at->second);
+  loads_.erase(at);
+  ++loadsVersion_;
+  loader_.dispose(std::move(gone), frame);
+}
+
+}  // namespace stadion
