@@ -24,12 +24,13 @@ const char* nameOf(BodyMode mode) {
 
 }  // namespace
 
-NodeTrace::NodeTrace(std::string name, NodeRef node)
-    : name_(std::move(name)), node_(node), table_("t,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,mode\n") {}
+NodeTrace::NodeTrace(std::string name)
+    : name_(std::move(name)), table_("t,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,mode\n") {}
 
 void NodeTrace::record(const TimeSignature& now, const Scene& scene) {
-  const Load* load = scene.load(node_.load);
-  const auto* placed = load ? dynamic_cast<const PlacedNode*>(load->nodes[node_.position].get()) : nullptr;
+  const NodeRef node = scene.resolve(name_, {1, 0});
+  const Load* load = scene.load(node.load);
+  const auto* placed = load ? dynamic_cast<const PlacedNode*>(load->nodes[node.position].get()) : nullptr;
   if (!placed) return;  // it is unloaded at the moment
   const Pose X = poseOf(scene.placements().world(placed->placement()));
   table_ += fmt::format("{:.9f},{},{},{},{},{},{},{}", toSeconds(now.time), X.p.x(), X.p.y(), X.p.z(),

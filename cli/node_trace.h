@@ -9,7 +9,7 @@ namespace stadion {
 
 class NodeTrace {
 public:
-  NodeTrace(std::string name, NodeRef node);
+  explicit NodeTrace(std::string name);
 
   void record(const TimeSignature& now, const Scene& scene);
   /// CSV: time [s], position [m], orientation (quaternion w x y z); of bodies also velocity [m/s], angular
@@ -20,7 +20,6 @@ public:
 
 private:
   std::string name_;
-  NodeRef node_;
   std::string table_;
 };
 

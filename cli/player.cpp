@@ -41,11 +41,13 @@ void ShowOptions::addTo(CLI::App& command) {
       .add_option("--mode", mode, "pipelined (App, Cull and Draw overlap) or sequential: the same pictures")
       ->check(CLI::IsMember({"pipelined", "sequential"}))
       ->capture_default_str();
-  command.add_option("--size", size, "pixels of one eye's picture")->capture_default_str();
+  command.add_option(
+      "--size", size,
+      "WIDTHxHEIGHT in pixels of one eye's picture (default: what the wall file says, else 800x600)");
   command.add_option("--rate", rate, "frames per second of show time")
       ->check(CLI::Range(1.0, 1000.0))
       ->capture_default_str();
-  command.add_option("--frames", frames, "stop after so many frames");
+  command.add_option("--frames", frames, "stop after so many frames")->check(CLI::NonNegativeNumber);
   command.add_option("--seconds", seconds, "stop after so much show time")->check(CLI::PositiveNumber);
   command.add_option("--input", input,
                      "input log to replay (default: SHOW's name with .input, if there is one), or none");
@@ -53,7 +55,7 @@ void ShowOptions::addTo(CLI::App& command) {
 }
 
 bool ShowOptions::settle(Diagnostics& findings) {
-  if (!parseSize(size, width, height))
+  if (!parseSize(size.empty() ? "800x600" : size, width, height))
     findings.error({}, "--size: \"" + size +
                            "\" is not WIDTHxHEIGHT in pixels from 1x1 to 16384x16384, such as 800x600");
   if (frames == 0 && seconds > 0) frames = static_cast<std::uint64_t>(std::ceil(seconds * rate)) + 1;
@@ -89,6 +91,7 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
     p.inputName_ = input;
   }
   p.frames_ = options.frames;
+  if (p.frames_ == 0) p.end_ = p.input_->end();
   if (p.frames_ == 0 && p.inputFound_)
     p.frames_ = static_cast<std::uint64_t>(std::ceil(toSeconds(p.input_->end()) * options.rate)) + 1;
 
@@ -110,14 +113,17 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
 }
 
 ShowParts Player::parts(StereoLayout stereo) {
-  ShowParts parts{*scene_,        state_,          meshes_, *input_, {},     nullptr,
-                  options_.width, options_.height, nullptr, {},      nullptr};
+  ShowParts parts{*scene_, state_, meshes_, *input_, {}, nullptr, nullptr, {}, nullptr};
   for (const WallEntry& entry : walls_.walls) {
     WallView view;
     view.wall = entry.wall;
     view.depth = walls_.depth;
     view.eyeSeparation = walls_.eyeSeparation;
     view.stereo = eyeCount(stereo) == 2;
+    // What the user says on the command line counts, else what the wall file says, else the standard size.
+    const bool byFile = options_.size.empty() && entry.pixels.width > 0;
+    view.width = byFile ? entry.pixels.width : options_.width;
+    view.height = byFile ? entry.pixels.height : options_.height;
     parts.walls.push_back(view);
   }
   return parts;

@@ -27,7 +27,7 @@ struct ShowOptions {
   std::string script;
   std::string walls = "cave4";
   std::string mode = "pipelined";
-  std::string size = "800x600";
+  std::string size;  ///< empty = as the wall file says, else 800x600
   double rate = 60;
   std::uint64_t frames = 0;
   double seconds = 0;
@@ -57,6 +57,8 @@ public:
 
   /// Frames to play: as asked, or to the end of the input log; 0 = until stopped.
   std::uint64_t frames() const { return frames_; }
+  /// Show time at which the input log ends, unless the number of frames was asked for; 0 = none.
+  Nanoseconds end() const { return end_; }
   bool inputFound() const { return inputFound_; }
   const WallFile& walls() const { return walls_; }
   Scene& scene() { return *scene_; }
@@ -81,6 +83,7 @@ private:
   WallFile walls_;
   ShowOptions options_;
   std::uint64_t frames_ = 0;
+  Nanoseconds end_ = 0;
   bool inputFound_ = false;
   std::string inputName_;
 };

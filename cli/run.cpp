@@ -43,6 +43,8 @@ FrameLoopOptions loopOptions(const RunOptions& o, const Player& player) {
   l.walls = player.walls().walls.size();
   l.frames = player.frames();
   l.delivery = everyFrameCounts(o) ? Delivery::Every : Delivery::Latest;
+  // A live show that drops frames ends with its log's last moment, not with its last frame's number.
+  if (l.delivery == Delivery::Latest && player.end() > 0) l.frames = 0, l.end = player.end();
   const bool free = o.pace.empty() ? (o.show.frames != 0 || !o.out.empty()) : o.pace == "free";
   l.pace = free ? Pace::Free : o.pace == "float" ? Pace::Float : Pace::Lock;
   return l;
@@ -154,11 +156,13 @@ int runShow(RunOptions o) {
   std::vector<NodeTrace> traces;
   for (const std::string& node : o.trace) {
     const NodeRef ref = player->scene().resolve(node, {1, 0});
-    if (!player->scene().find(ref)) {
-      std::fprintf(stderr, "stadion: --trace: the show has no node \"%s\"\n", node.c_str());
+    // What stands in a sub-scene may come later.
+    if (node.find('/') == node.npos && !player->scene().find(ref)) {
+      std::fprintf(stderr, "stadion: --trace: the show has no node \"%s\"
+", node.c_str());
       return kBadInput;
     }
-    traces.emplace_back(node, ref);
+    traces.emplace_back(node);
   }
 
   Watched seen;

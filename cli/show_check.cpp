@@ -6,6 +6,8 @@
 #include "engine/script/lint.h"
 #include "engine/script/script.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
@@ -48,9 +50,19 @@ public:
     findings_.append(own);
     if (enclosing.size() >= kDeepestNesting) return;
     enclosing.insert(enclosing.begin(), &document);
-    for (const Declaration d : document)
-      if (d.kind() == NodeKind::Scene && seen_.insert(std::string(d.text(Attr::File))).second)
-        checkFile(readBelow(d), enclosing);
+    for (const Declaration d : document) {
+      if (d.kind() != NodeKind::Scene) continue;
+      auto below = readBelow(d);
+      const bool circle =
+          below && std::any_of(enclosing.begin(), enclosing.end(), [&](const Document* around) {
+            return std::filesystem::equivalent(around->file(), below.value().file());
+          });
+      if (circle)
+        findings_.error(d.where(Attr::File), "this scene loads itself, and that one again, without end",
+                        d.excerpt(Attr::File));
+      else if (seen_.insert(std::string(d.text(Attr::File))).second)
+        checkFile(std::move(below), enclosing);
+    }
   }
 
 private:

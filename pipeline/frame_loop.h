@@ -30,6 +30,7 @@ struct FrameLoopOptions {
   double rate = 60;  ///< [1/s]
   std::size_t walls = 1;
   std::uint64_t frames = 0;  ///< 0 = until stopped
+  Nanoseconds end = 0;       ///< no frame after this show time; 0 = until stopped
 };
 
 struct FrameLoopOutcome {
@@ -56,7 +57,7 @@ private:
   void runPipelined();
 
   void appStage(const TimeSignature& now, std::size_t slot);
-  void cullStage(std::size_t wall, std::size_t slot, DrawList& list);
+  void cullStage(std::size_t wall, std::size_t slot, std::uint64_t frame, DrawList& list);
   bool drawStage(std::size_t wall, const DrawList& list);
   bool swapStage(const TimeSignature& now);
   void fail(std::string why);

@@ -93,7 +93,8 @@ Result<SourceText> Loader::read(const Job& job) const {
     if (n < 0) return Result<SourceText>::failure("cannot read " + found.value().path);
     if (n == 0) break;
     bytes.append(part.data(), static_cast<std::size_t>(n));
-    if (bytes.size() > SourceText::kMostBytes) return Result<SourceText>::failure(found.value().path + " is too large");
+    if (bytes.size() > SourceText::kMostBytes)
+      return Result<SourceText>::failure(found.value().path + " is too large");
   }
   return SourceText::make(found.value().path, bytes);
 }
@@ -110,7 +111,8 @@ std::unique_ptr<Load> Loader::prepare(const Job& job) {
   return load;
 }
 
-std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> document, Diagnostics& findings) {
+std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> document,
+                                    Diagnostics& findings) {
   const std::vector<std::uint32_t> numbers = around(job.owner.load);
   if (numbers.size() > kDeepestNesting) {
     findings.error({job.file, 0, 0}, "sub-scenes are nested more than " + std::to_string(kDeepestNesting) +
@@ -123,8 +125,12 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
   if (findings.hasErrors()) return nullptr;
 
   Imports imports;
-  const BuildInput input{*document, job.number,       job.owner,
-                         job.X_WO,  numbers,          parts_.factories,
+  const BuildInput input{*document,
+                         job.number,
+                         job.owner,
+                         job.X_WO,
+                         numbers,
+                         parts_.factories,
                          [&](const Declaration& d) { return imports.of(d, *this, findings); },
                          parts_.meshes};
   Built built = buildLoad(input, findings);
@@ -150,7 +156,8 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
 // A hundred thousand objects with the same file: one import, and one word about it.
 MeshId Loader::Imports::of(const Declaration& d, Loader& loader, Diagnostics& findings) {
   const auto up = d.optionalChoice<UpAxis>(Attr::Up);
-  const Key key(d.text(Attr::File), d.optionalNumber(Attr::Unit).value_or(0), up ? static_cast<int>(*up) : -1);
+  const Key key(d.text(Attr::File), d.optionalNumber(Attr::Unit).value_or(0),
+                up ? static_cast<int>(*up) : -1);
   const auto [at, isNew] = known.try_emplace(key, kNoMesh);
   if (isNew) counted.push_back(at->second = loader.importMesh(d, findings));
   return at->second;

@@ -29,11 +29,12 @@ void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
 
 Failure ShowStages::openWall(std::size_t wall) {
   if (!parts_.provider) return {};
-  auto target = parts_.provider->create(parts_.width, parts_.height);
+  auto target = parts_.provider->create(parts_.walls[wall].width, parts_.walls[wall].height);
   if (!target) return target.error().message;
   contexts_[wall].target = std::move(target.value());
   if (Failure f = enterContext(wall)) return f;
-  auto renderer = Renderer::create(contexts_[wall].target->gl(), parts_.meshes, parts_.width, parts_.height);
+  auto renderer = Renderer::create(contexts_[wall].target->gl(), parts_.meshes, parts_.walls[wall].width,
+                                   parts_.walls[wall].height);
   if (!renderer) return renderer.error().message;
   contexts_[wall].renderer = std::move(renderer.value());
   if (wall == 0) glDescription_ = describeGl(contexts_[wall].target->gl());
@@ -73,7 +74,7 @@ Failure ShowStages::readPictures(std::size_t wall) {
   pictures_[wall].eyes.resize(c.eyes);
   for (std::uint32_t eye = 0; eye < c.eyes; ++eye) {
     Picture& p = pictures_[wall].eyes[eye];
-    p = Picture(parts_.width, parts_.height);
+    p = Picture(parts_.walls[wall].width, parts_.walls[wall].height);
     if (Failure f = toFailure(c.renderer->read(eye, p.rgba))) return f;
   }
   c.read = true;

@@ -44,7 +44,6 @@ struct ShowParts {
   InputDevice& input;
   std::vector<WallView> walls;
   GlProvider* provider = nullptr;  ///< null draws nothing
-  std::uint32_t width = 800, height = 600;
   PictureSink* sink = nullptr;
   AppObserver observer;
   FrameProbe* probe = nullptr;

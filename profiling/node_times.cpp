@@ -4,7 +4,9 @@
 
 namespace stadion {
 
-void NodeTimes::nodePhaseBegan(NodeRef, NodePhase) { began_ = Clock::now(); }
+void NodeTimes::nodePhaseBegan(NodeRef, NodePhase) {
+  began_ = Clock::now();
+}
 
 void NodeTimes::nodePhaseEnded(NodeRef node, NodePhase phase) {
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - began_).count();

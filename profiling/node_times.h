@@ -20,7 +20,7 @@ struct NodeCost {
 };
 
 class NodeTimes final : public FrameProbe {
- public:
+public:
   void stageBegan(Stage, std::uint64_t, std::uint32_t) override {}
   void stageEnded(Stage, std::uint64_t, std::uint32_t) override {}
   void nodePhaseBegan(NodeRef node, NodePhase phase) override;
@@ -29,7 +29,7 @@ class NodeTimes final : public FrameProbe {
   /// The dearest first.
   std::vector<NodeCost> dearest(std::size_t most) const;
 
- private:
+private:
   using Clock = std::chrono::steady_clock;
   std::map<NodeRef, NodeCost> costs_;
   Clock::time_point began_;

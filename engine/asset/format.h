@@ -13,8 +13,9 @@
 ///   STL       +Z          1 m              states neither; drawn on the bed of a machine, +Z up
 ///
 /// Turning +Y up into +Z up: (x, y, z) -> (x, -z, y). Turning +X up into +Z up: (x, y, z) -> (-y, -z, x).
-/// Normals in OBJ, glTF and COLLADA files are kept; missing ones, and those of 3DS and STL, are made smooth except across
-/// edges sharper than 40 degrees. Colours of formats without a colour space (OBJ, 3DS, COLLADA) are taken as sRGB; those of glTF are linear.
+/// Normals in OBJ, glTF and COLLADA files are kept; missing ones, and those of 3DS and STL, are made smooth
+/// except across edges sharper than 40 degrees. Colours of formats without a colour space (OBJ, 3DS, COLLADA)
+/// are taken as sRGB; those of glTF are linear.
 
 #include <cstdint>
 #include <optional>

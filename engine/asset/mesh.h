@@ -40,19 +40,20 @@ struct Submesh {
 };
 
 struct Mesh {
-  std::vector<std::array<float, 3>> positions;     ///< [m], +Z up
-  std::vector<std::array<float, 3>> normals;       ///< unit; same length as positions
-  std::vector<std::array<float, 2>> uvs;           ///< (0,0) top left of the picture, u right, v down; same length, or empty
+  std::vector<std::array<float, 3>> positions;  ///< [m], +Z up
+  std::vector<std::array<float, 3>> normals;    ///< unit; same length as positions
+  std::vector<std::array<float, 2>>
+      uvs;  ///< (0,0) top left of the picture, u right, v down; same length, or empty
   std::vector<std::array<std::uint8_t, 4>> colours;  ///< linear RGBA per vertex, same length, or empty
-  std::vector<std::uint32_t> indices;              ///< triangles, counter-clockwise seen from outside
+  std::vector<std::uint32_t> indices;                ///< triangles, counter-clockwise seen from outside
   std::vector<Submesh> submeshes;
   std::vector<Material> materials;  ///< never empty
   std::vector<Texture> textures;
-  Aabb bounds;            ///< [m]
-  Sphere sphere;          ///< [m] bounding sphere
-  std::uint64_t hash = 0; ///< of the content: its identity
-  std::string name;       ///< the file it came from
-  bool standIn = false;   ///< drawn in place of an asset that could not be loaded
+  Aabb bounds;             ///< [m]
+  Sphere sphere;           ///< [m] bounding sphere
+  std::uint64_t hash = 0;  ///< of the content: its identity
+  std::string name;        ///< the file it came from
+  bool standIn = false;    ///< drawn in place of an asset that could not be loaded
 };
 
 }  // namespace stadion

@@ -19,7 +19,7 @@ using MeshId = std::uint32_t;  ///< never used again after its mesh is gone
 constexpr MeshId kNoMesh = 0;
 
 class MeshStore {
- public:
+public:
   /// Takes the mesh, or finds the one with the same content, and counts one use of it.
   MeshId add(std::unique_ptr<const Mesh> mesh);
   void retain(MeshId id);
@@ -37,7 +37,7 @@ class MeshStore {
 
   std::size_t size() const;
 
- private:
+private:
   struct Entry {
     std::unique_ptr<const Mesh> mesh;
     std::uint32_t uses = 0;

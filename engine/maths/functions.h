@@ -2,8 +2,8 @@
 /// Elementary functions whose results are the same on every machine.
 ///
 /// The C library chooses variants of these by processor and rounds differently from one to the next, which
-/// would let replicas drift apart. Simulated state therefore calls these, and from the C library only sqrt and
-/// fabs, which IEEE 754 fixes. Errors below 1 ulp or so on the ranges stated; NaN in, NaN out.
+/// would let replicas drift apart. Simulated state therefore calls these, and from the C library only sqrt
+/// and fabs, which IEEE 754 fixes. Errors below 1 ulp or so on the ranges stated; NaN in, NaN out.
 
 #include "engine/maths/maths.h"
 

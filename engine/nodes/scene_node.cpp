@@ -43,7 +43,12 @@ void SceneNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
   std::erase_if(expected_, [&](const auto& e) {
     if (e.first > frame.now.time) return false;
-    raise(e.second, e.first);
+    // A file that could not be loaded is not there; the load may be asked for again.
+    const bool failed = e.second == Event::Loaded && number_ != 0 && !frame.scene.load(number_);
+    if (failed)
+      number_ = 0;
+    else
+      raise(e.second, e.first);
     return true;
   });
 }

@@ -15,7 +15,7 @@ bool isPlaced(NodeKind kind) {
 
 PlaceAttributes placeOf(const Declaration& d) {
   PlaceAttributes place;
-  if (!isPlaced(d.kind())) return place;
+  if (!specOf(d.kind(), Attr::Position)) return place;
   const Vec3 turn = d.vec3(Attr::Orientation) * kDegree;
   const Vec3 scale = specOf(d.kind(), Attr::Scale) ? d.vec3(Attr::Scale) : Vec3::Ones();
   place.X_PN.linear() = det::fromEuler(turn.x(), turn.y(), turn.z()).toRotationMatrix() * scale.asDiagonal();
@@ -78,7 +78,8 @@ private:
       }
     // A force field is carried by what it is attached to.
     if (specOf(d.kind(), Attr::Attach))
-      if (const auto carrier = d.reference(Attr::Attach); carrier && carrier->resolved() && carrier->level == 0)
+      if (const auto carrier = d.reference(Attr::Attach);
+          carrier && carrier->resolved() && carrier->level == 0)
         parent_[d.index()] = carrier->declaration;
     for (const Attr attr : {Attr::Attach, Attr::Target, Attr::Collider, Attr::Collidee, Attr::Hook})
       if (specOf(d.kind(), attr))

@@ -15,8 +15,9 @@ namespace stadion {
 struct WallView {
   Wall wall;
   DepthRange depth;
-  double eyeSeparation = 0.064;  ///< [m]
-  bool stereo = true;            ///< false: one eye, in the middle
+  double eyeSeparation = 0.064;             ///< [m]
+  bool stereo = true;                       ///< false: one eye, in the middle
+  std::uint32_t width = 800, height = 600;  ///< of one eye's picture [pixels]
 };
 
 struct CullCounts {

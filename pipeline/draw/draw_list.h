@@ -1,7 +1,8 @@
 #pragma once
 /// What one wall draws in one frame, for both eyes: filled by Cull, read by Draw, self-contained.
 ///
-/// Frames   item matrices and light positions are relative to `origin`, a World point near the viewer, so that
+/// Frames   item matrices and light positions are relative to `origin`, a World point near the viewer, so
+/// that
 ///          single precision suffices anywhere in the world; axes are World's.
 /// Ownership  plain values; a list may outlive the scene state it was made from. It refers to meshes by id.
 /// Threads  one stage at a time owns it.
@@ -50,10 +51,10 @@ struct DrawEye {
 struct DrawList {
   TimeSignature signature;
   std::uint32_t wall = 0;
-  bool abandoned = false;        ///< made from a slot that was taken away meanwhile: not to be drawn
-  Vec3 origin = Vec3::Zero();    ///< in World [m]
-  std::array<DrawEye, 2> eyes;   ///< left, right
-  std::uint32_t eyeCount = 2;    ///< 1 = mono: eyes[0] only
+  bool abandoned = false;       ///< made from a slot that was taken away meanwhile: not to be drawn
+  Vec3 origin = Vec3::Zero();   ///< in World [m]
+  std::array<DrawEye, 2> eyes;  ///< left, right
+  std::uint32_t eyeCount = 2;   ///< 1 = mono: eyes[0] only
   DrawSky sky;
   std::vector<DrawLight> lights;      ///< at most kMaxLights
   std::vector<DrawItem> opaque;       ///< sorted by mesh, then near to far
