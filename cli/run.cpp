@@ -170,6 +170,7 @@ int runShow(RunOptions o) {
   ShowParts parts = player->parts(*layout);
   parts.provider = provider.value().get();
   parts.sink = output.get();
+  parts.drawUnseen = !output;
   parts.probe = o.profile ? &nodeTimes : nullptr;
   const ShowStages* running = nullptr;
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
@@ -261,7 +262,9 @@ void addRunCommand(CLI::App& app, int& code) {
           "(default: free with --frames or --out, else lock)")
       ->check(CLI::IsMember({"free", "lock", "float"}));
   command->add_option("--record-input", o->recordInput, "write what the trackers said to this input log");
-  command->add_option("--out", o->out, "folder for pictures, contact-sheet.png and summary.json");
+  command->add_option(
+      "--out", o->out,
+      "folder for pictures, contact-sheet.png and summary.json; only the frames of --pictures are drawn");
   command
       ->add_option("--pictures", o->pictures,
                    "of which frames pictures are written: last, all, none, or N for every Nth")

@@ -60,13 +60,25 @@ void ShowStages::leaveContext(std::size_t wall) {
 
 Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
   if (!parts_.provider) return {};
+  WallContext& c = contexts_[wall];
+  const bool wanted = parts_.sink && parts_.sink->wants(list.signature);
+  c.isSkipped = !wanted && !parts_.drawUnseen;
+  if (c.isSkipped) {
+    c.skipped = list;  // it may turn out to be the last frame
+    return {};
+  }
+  if (Failure f = drawNow(wall, list)) return f;
+  return wanted ? readPictures(wall) : std::nullopt;
+}
+
+Failure ShowStages::drawNow(std::size_t wall, const DrawList& list) {
   if (Failure f = enterContext(wall)) return f;
   WallContext& c = contexts_[wall];
   if (Failure f = toFailure(c.renderer->draw(list))) return f;
   c.renderer->finish();
   c.eyes = list.eyeCount;
   c.read = false;
-  return parts_.sink && parts_.sink->wants(list.signature) ? readPictures(wall) : std::nullopt;
+  return {};
 }
 
 Failure ShowStages::readPictures(std::size_t wall) {
@@ -86,6 +98,7 @@ void ShowStages::closeWall(std::size_t wall) {
   if (!c.target) return;
   if (!enterContext(wall)) {
     // Whoever wants the last picture need not know beforehand which one that will be.
+    if (c.renderer && c.isSkipped) drawNow(wall, c.skipped);
     if (c.renderer && c.eyes > 0 && !c.read) readPictures(wall);
     c.renderer.reset();
     leaveContext(wall);

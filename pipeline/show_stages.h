@@ -45,6 +45,7 @@ struct ShowParts {
   std::vector<WallView> walls;
   GlProvider* provider = nullptr;  ///< null draws nothing
   PictureSink* sink = nullptr;
+  bool drawUnseen = true;  ///< false: only frames that the sink wants, and the last one, are drawn
   AppObserver observer;
   FrameProbe* probe = nullptr;
 };
@@ -74,8 +75,11 @@ private:
     std::atomic<std::thread::id> currentOn;  ///< the thread on which the context is current
     std::uint32_t eyes = 0;                  ///< drawn in the last frame
     bool read = false;                       ///< the last frame's pictures have been read back
+    DrawList skipped;                        ///< the last frame's list, while it has not been drawn
+    bool isSkipped = false;
   };
 
+  Failure drawNow(std::size_t wall, const DrawList& list);
   Failure readPictures(std::size_t wall);
   Failure enterContext(std::size_t wall);
   void leaveContext(std::size_t wall);
