@@ -117,7 +117,9 @@ TEST(ProgramReload, LoadingAgainAndAgainDoesNotGrow) {
   fmt::print("{} cycles: resident {:+.0f} kB, allocated {:+.0f} kB, {:+.1f} bytes a cycle\n",
              seen.cycles.size(), grown(early.resident, late.resident) / 1024,
              grown(early.allocated, late.allocated) / 1024, each);
-  EXPECT_LT(grown(early.resident, late.resident), 1 << 20);
+  // The allocator's high-water mark may rise once, by a megabyte or so: loads are made on one thread and
+  // taken apart on another. A kilobyte and a half a cycle would be over this limit.
+  EXPECT_LT(grown(early.resident, late.resident), 1.5 * (1 << 20));
   // What is kept of each frame are its times, 8 bytes in each of seven series, and this test's own notes.
   EXPECT_LT(each, kFramesPerCycle * 7 * 8 + 64);
 }

@@ -53,7 +53,7 @@ TEST(ScriptDocument, WhatIsNotStatedHasItsStandardValue) {
   EXPECT_EQ(d[0].vec3(Attr::Position), Vec3::Zero());
   EXPECT_EQ(d[0].vec3(Attr::Scale), Vec3::Ones());
   EXPECT_TRUE(d[0].flag(Attr::Draw));
-  EXPECT_EQ(d[0].choice<ShapeChoice>(Attr::Shape), ShapeChoice::Auto);
+  EXPECT_EQ(d[0].choice<ShapeWord>(Attr::Shape), ShapeWord::Auto);
   EXPECT_EQ(d[0].text(Attr::Shape), "auto");
   EXPECT_EQ(d[0].optionalNumber(Attr::Mass), std::nullopt);
   EXPECT_EQ(d[0].optionalChoice<UpAxis>(Attr::Up), std::nullopt);

@@ -73,7 +73,7 @@ TEST(ScriptSchema, ChoicesFollowTheirEnumerations) {
     return specOf(kind, attr)->choices[static_cast<std::size_t>(choice)];
   };
   EXPECT_EQ(word(NodeKind::Light, Attr::Type, LightType::Spot), "spot");
-  EXPECT_EQ(word(NodeKind::Object, Attr::Shape, ShapeChoice::Plane), "plane");
+  EXPECT_EQ(word(NodeKind::Object, Attr::Shape, ShapeWord::Plane), "plane");
   EXPECT_EQ(word(NodeKind::Object, Attr::Up, UpAxis::Z), "z");
   EXPECT_EQ(word(NodeKind::ForceLinear, Attr::Unit, ForceUnit::Acceleration), "m/s2");
   EXPECT_EQ(word(NodeKind::ForceSpherical, Attr::Unit, ForceUnit::Newton), "N");
