@@ -5,6 +5,7 @@
 #include "tests/cli/program.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -14,10 +15,11 @@
 namespace stadion {
 namespace {
 
-constexpr double kRate = 60, kPeriod = 0.1;  // of the cycles in reload_with.evs
+constexpr double kRate = 60;
+constexpr std::uint64_t kFramesPerCycle = 6;  // in reload_with.evs
 
 std::uint64_t framesFor(int cycles) {
-  return static_cast<std::uint64_t>(kRate * kPeriod * cycles) + 6;
+  return kFramesPerCycle * static_cast<std::uint64_t>(cycles) + 6;
 }
 
 std::size_t residentBytes() {
@@ -32,29 +34,52 @@ struct Growth {
   std::size_t allocated = 0;  ///< [bytes], likewise
 };
 
-/// What a run saw, cycle by cycle and frame by frame.
-struct Seen {
-  std::vector<Growth> cycles;
-  std::vector<double> appMs;
-  std::vector<Affine> ball;
-  std::vector<std::uint64_t> loaded;
+/// What to play, and what to note of it.
+struct Playing {
+  std::string script;
+  std::uint64_t frames;
+  GlProvider* provider = nullptr;
+  Mode mode = Mode::Sequential;
+  Pace pace = Pace::Free;
+  bool noteBall = false, noteMemory = false;
 };
 
-Seen playReloading(const std::string& script, std::uint64_t frames, GlProvider* provider, Mode mode) {
+struct Seen {
+  std::vector<Growth> cycles;
+  std::vector<double> frameMs;  ///< all stages of a frame; of sequential runs
+  std::vector<Affine> ball;
+  std::vector<std::uint64_t> changed;  ///< frames in which the part came or went
+  std::size_t loaded = 0;
+};
+
+Affine placeOf(const std::string& name, Scene& scene) {
+  const Node* node = scene.find(scene.resolve(name, {1, 0}));
+  return scene.placements().world(dynamic_cast<const PlacedNode&>(*node).placement());
+}
+
+std::vector<double> frameTimes(const FrameTimes& t) {
+  std::vector<double> ms = t.app.values();
+  for (std::size_t n = 0; n < ms.size(); ++n)
+    for (std::size_t w = 0; w < t.cull.size(); ++w) ms[n] += t.cull[w].values()[n] + t.draw[w].values()[n];
+  return ms;
+}
+
+Seen playReloading(const Playing& what) {
   Seen seen;
-  const auto player = openShow(testShow(script));
+  const auto player = openShow(what.script);
   if (!player) return seen;
   ShowParts parts = player->parts(StereoLayout::Pair);
-  parts.provider = provider;
+  parts.provider = what.provider;
   const ShowStages* running = nullptr;
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
     player->collect(running->shownFrame());
-    const NodeRef ball = scene.resolve("ball", {1, 0});
-    seen.ball.push_back(
-        scene.placements().world(dynamic_cast<const PlacedNode&>(*player->scene().find(ball)).placement()));
-    for (const EventRecord& e : scene.events())
-      if (e.event == Event::Loaded) seen.loaded.push_back(now.frame);
-    if (now.frame % static_cast<std::uint64_t>(kRate * kPeriod) == 0) {
+    if (what.noteBall) seen.ball.push_back(placeOf("ball", player->scene()));
+    for (const EventRecord& e : scene.events()) {
+      if (e.event != Event::Loaded && e.event != Event::Unloaded) continue;
+      seen.changed.push_back(now.frame);
+      seen.loaded += e.event == Event::Loaded;
+    }
+    if (what.noteMemory && now.frame % kFramesPerCycle == 0) {
       const struct mallinfo2 m = mallinfo2();
       seen.cycles.push_back({residentBytes(), m.uordblks + m.hblkhd});
     }
@@ -62,13 +87,13 @@ Seen playReloading(const std::string& script, std::uint64_t frames, GlProvider* 
   ShowStages stages(std::move(parts));
   running = &stages;
   FrameLoopOptions o;
-  o.mode = mode, o.walls = 1, o.frames = frames;
+  o.mode = what.mode, o.walls = 1, o.frames = what.frames, o.pace = what.pace, o.rate = kRate;
   const std::atomic<bool> never = false;
   FrameLoop loop(stages, o, never);
   const FrameLoopOutcome outcome = loop.run();
   EXPECT_FALSE(outcome.failure) << *outcome.failure;
-  EXPECT_EQ(outcome.framesShown, frames);
-  seen.appMs = loop.times().app.values();
+  EXPECT_EQ(outcome.framesShown, what.frames);
+  if (what.mode == Mode::Sequential) seen.frameMs = frameTimes(loop.times());
   return seen;
 }
 
@@ -79,9 +104,10 @@ int cycles() {
 TEST(ProgramReload, LoadingAgainAndAgainDoesNotGrow) {
   auto provider = openGlProvider(GlProviderKind::OsMesa);
   ASSERT_TRUE(provider);
-  const Seen seen =
-      playReloading("reload_with.evs", framesFor(cycles()), provider.value().get(), Mode::Sequential);
-  ASSERT_GE(seen.loaded.size(), static_cast<std::size_t>(cycles()) - 1);
+  Playing what{testShow("reload_with.evs"), framesFor(cycles()), provider.value().get()};
+  what.noteMemory = true;
+  const Seen seen = playReloading(what);
+  ASSERT_GE(seen.loaded, static_cast<std::size_t>(cycles()) - 1);
   const Growth& early = seen.cycles[10];
   const Growth& late = seen.cycles.back();
   const auto grown = [](std::size_t from, std::size_t to) {
@@ -91,40 +117,65 @@ TEST(ProgramReload, LoadingAgainAndAgainDoesNotGrow) {
   fmt::print("{} cycles: resident {:+.0f} kB, allocated {:+.0f} kB, {:+.1f} bytes a cycle\n",
              seen.cycles.size(), grown(early.resident, late.resident) / 1024,
              grown(early.allocated, late.allocated) / 1024, each);
-  EXPECT_LT(grown(early.resident, late.resident), 1 << 20);
-  // The times of the frames are kept, 8 bytes each for seven series, and the notes of this test.
-  EXPECT_LT(each, 6 * (7 * 8 + sizeof(Affine)) * 2.2 + 64);
+  // The allocator's high-water mark may rise once, by a megabyte or so: loads are made on one thread and
+  // taken apart on another. A kilobyte and a half a cycle would be over this limit.
+  EXPECT_LT(grown(early.resident, late.resident), 1.5 * (1 << 20));
+  // What is kept of each frame are its times, 8 bytes in each of seven series, and this test's own notes.
+  EXPECT_LT(each, kFramesPerCycle * 7 * 8 + 64);
 }
 
 TEST(ProgramReload, ABallBesideItFliesTheSameToTheLastBit) {
   const std::uint64_t frames = framesFor(30);
-  const Seen with = playReloading("reload_with.evs", frames, nullptr, Mode::Pipelined),
-             without = playReloading("reload_without.evs", frames, nullptr, Mode::Pipelined);
+  Playing what{testShow("reload_with.evs"), frames};
+  what.mode = Mode::Pipelined, what.noteBall = true;
+  const Seen with = playReloading(what);
+  what.script = testShow("reload_without.evs");
+  const Seen without = playReloading(what);
   ASSERT_EQ(with.ball.size(), without.ball.size());
-  ASSERT_GT(with.loaded.size(), 25u);
-  EXPECT_TRUE(without.loaded.empty());
+  ASSERT_GT(with.loaded, 25u);
+  EXPECT_EQ(without.loaded, 0u);
   for (std::size_t n = 0; n < with.ball.size(); ++n)
     ASSERT_EQ(with.ball[n].matrix(), without.ball[n].matrix()) << "frame " << n;
   EXPECT_NE(with.ball.front().matrix(), with.ball.back().matrix()) << "it must have moved";
 }
 
+// In real time, since only there the loader can keep ahead of the show; with a part that has a tenth of a
+// second to get ready. Some frames are long because the machine has other things to do: the ones in which the
+// part comes or goes may be so no more often than the others.
 TEST(ProgramReload, NoFrameTakesLongerBecauseOfIt) {
   if (!fullRuns()) GTEST_SKIP() << "measures time; runs with --full";
-  // Frames in a row of which one loads something: only the ones that load are compared, and a second try is
-  // allowed, because this machine has other things to do.
-  double worst = 1e9, median = 1;
-  for (int attempt = 0; attempt < 3 && worst > 3 * median; ++attempt) {
-    Seen seen = playReloading("reload_with.evs", framesFor(1000), nullptr, Mode::Sequential);
-    std::vector<double> loading;
-    for (const std::uint64_t frame : seen.loaded) loading.push_back(seen.appMs[frame]);
-    std::sort(loading.begin(), loading.end());
-    std::sort(seen.appMs.begin(), seen.appMs.end());
-    median = seen.appMs[seen.appMs.size() / 2];
-    worst = loading[loading.size() * 99 / 100];
-    fmt::print("App: median {:.3f} ms, frames that load: median {:.3f}, p99 {:.3f}, longest {:.3f} ms\n",
-               median, loading[loading.size() / 2], worst, loading.back());
+  auto provider = openGlProvider(GlProviderKind::OsMesa);
+  ASSERT_TRUE(provider);
+  const TemporaryFolder folder;
+  folder.write("part.evs", fileContent(testShow("part.evs")));
+  Playing what;
+  what.script =
+      folder.write("live.evs", fileContent(testShow("reload_without.evs")) +
+                                   "timer( period=0.25, repeat=on, eventmessage=\"timesup, part, load\",\n"
+                                   "       eventmessage=\"timesup, part, unload, 0.12\" )\n"
+                                   "scene( name=part, file=part.evs, initstate=off, ready=0.1 )\n");
+  what.frames = 15 * 1000 + 30;
+  what.provider = provider.value().get();
+  what.pace = Pace::Lock;
+  const Seen seen = playReloading(what);
+  EXPECT_GE(seen.loaded, 1000u);
+
+  std::vector<double> sorted = seen.frameMs;
+  std::sort(sorted.begin(), sorted.end());
+  const double median = sorted[sorted.size() / 2];
+  const auto isLong = [&](std::uint64_t frame) { return seen.frameMs[frame] > 3 * median; };
+  std::vector<bool> changing(seen.frameMs.size());
+  for (const std::uint64_t frame : seen.changed) changing[frame] = true;
+  std::array<double, 2> count{}, longOnes{}, longest{};
+  for (std::size_t n = 1; n < seen.frameMs.size(); ++n) {  // the first one compiles shaders
+    const std::size_t kind = changing[n];
+    ++count[kind], longOnes[kind] += isLong(n), longest[kind] = std::max(longest[kind], seen.frameMs[n]);
   }
-  EXPECT_LE(worst, 3 * median);
+  fmt::print(
+      "frame: median {:.2f} ms; longer than three times that: {} of {} frames in which the part came or went "
+      "(longest {:.2f} ms), {} of {} others (longest {:.2f} ms)\n",
+      median, longOnes[1], count[1], longest[1], longOnes[0], count[0], longest[0]);
+  EXPECT_LE(longOnes[1] / count[1], longOnes[0] / count[0] + 0.002);
 }
 
 }  // namespace
