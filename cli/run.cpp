@@ -158,8 +158,7 @@ int runShow(RunOptions o) {
     const NodeRef ref = player->scene().resolve(node, {1, 0});
     // What stands in a sub-scene may come later.
     if (node.find('/') == node.npos && !player->scene().find(ref)) {
-      std::fprintf(stderr, "stadion: --trace: the show has no node \"%s\"
-", node.c_str());
+      std::fprintf(stderr, "stadion: --trace: the show has no node \"%s\"\n", node.c_str());
       return kBadInput;
     }
     traces.emplace_back(node);

@@ -54,8 +54,8 @@ public:
       if (d.kind() != NodeKind::Scene) continue;
       auto below = readBelow(d);
       const bool circle =
-          below && std::any_of(enclosing.begin(), enclosing.end(), [&](const Document* around) {
-            return std::filesystem::equivalent(around->file(), below.value().file());
+          below && std::any_of(enclosing.begin(), enclosing.end(), [&](const Document* outer) {
+            return std::filesystem::equivalent(outer->file(), below.value().file());
           });
       if (circle)
         findings_.error(d.where(Attr::File), "this scene loads itself, and that one again, without end",
