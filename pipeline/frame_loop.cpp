@@ -64,7 +64,7 @@ void FrameLoop::runSequential() {
 
   while (const auto now = nextFrame()) {
     appStage(*now, 0);
-    for (std::size_t wall = 0; wall < options_.walls; ++wall) cullStage(wall, 0, lists[wall]);
+    for (std::size_t wall = 0; wall < options_.walls; ++wall) cullStage(wall, 0, now->frame, lists[wall]);
     bool drawn = true;
     for (std::size_t wall = 0; drawn && wall < options_.walls; ++wall) drawn = drawStage(wall, lists[wall]);
     if (drawn) swapStage(*now);
@@ -99,7 +99,7 @@ void FrameLoop::runPipelined() {
     while (const auto lease = slots.lease(wall)) {
       DrawList* list = queues[wall].takeEmpty();
       if (!list) return;
-      cullStage(wall, lease->slot, *list);
+      cullStage(wall, lease->slot, lease->frame, *list);
       list->abandoned = !slots.release(*lease);
       queues[wall].giveFilled(list);
     }
@@ -157,8 +157,8 @@ void FrameLoop::appStage(const TimeSignature& now, std::size_t slot) {
   ++outcome_.framesSimulated;
 }
 
-void FrameLoop::cullStage(std::size_t wall, std::size_t slot, DrawList& list) {
-  const StageSpan span(times_.cull[wall], probe_, Stage::Cull, 0, wall);
+void FrameLoop::cullStage(std::size_t wall, std::size_t slot, std::uint64_t frame, DrawList& list) {
+  const StageSpan span(times_.cull[wall], probe_, Stage::Cull, frame, wall);
   stages_.cull(wall, slot, list);
 }
 

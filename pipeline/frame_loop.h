@@ -56,7 +56,7 @@ private:
   void runPipelined();
 
   void appStage(const TimeSignature& now, std::size_t slot);
-  void cullStage(std::size_t wall, std::size_t slot, DrawList& list);
+  void cullStage(std::size_t wall, std::size_t slot, std::uint64_t frame, DrawList& list);
   bool drawStage(std::size_t wall, const DrawList& list);
   bool swapStage(const TimeSignature& now);
   void fail(std::string why);
