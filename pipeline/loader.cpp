@@ -3,6 +3,7 @@
 #include "engine/script/script.h"
 
 #include <array>
+#include <filesystem>
 #include <unistd.h>
 
 namespace stadion {
@@ -114,6 +115,12 @@ std::unique_ptr<Load> Loader::prepare(const Job& job) {
 std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> document,
                                     Diagnostics& findings) {
   const std::vector<std::uint32_t> numbers = around(job.owner.load);
+  for (const std::uint32_t n : numbers) {
+    std::error_code unknown;
+    if (!std::filesystem::equivalent(around_.at(n).document->file(), document->file(), unknown)) continue;
+    findings.error({document->file(), 0, 0}, "this sub-scene is loaded by itself, without end; it stays out");
+    return nullptr;
+  }
   if (numbers.size() > kDeepestNesting) {
     findings.error({job.file, 0, 0}, "sub-scenes are nested more than " + std::to_string(kDeepestNesting) +
                                          " deep; does this file load itself?");
