@@ -113,7 +113,7 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
 }
 
 ShowParts Player::parts(StereoLayout stereo) {
-  ShowParts parts{*scene_, state_, meshes_, *input_, {}, nullptr, nullptr, {}, nullptr};
+  ShowParts parts{*scene_, state_, meshes_, *input_, {}, nullptr, nullptr, true, {}, nullptr};
   for (const WallEntry& entry : walls_.walls) {
     WallView view;
     view.wall = entry.wall;

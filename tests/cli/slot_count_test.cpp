@@ -58,7 +58,7 @@ Drawn drawnWith(Mode mode, std::size_t memories) {
   // The same show, published into slots of our choice. (It has no static objects, whose chunk lies in its
   // own.)
   NotingStages stages(
-      ShowParts{own.scene, state, own.meshes, own.input, own.walls, nullptr, 64, 48, nullptr, {}, nullptr});
+      ShowParts{own.scene, state, own.meshes, own.input, own.walls, nullptr, nullptr, true, {}, nullptr});
   FrameLoopOptions o;
   o.mode = mode, o.walls = kWalls, o.frames = kFrames;
   const std::atomic<bool> never = false;
