@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
@@ -27,8 +28,9 @@ struct RunOptions {
 };
 
 std::atomic<bool> stopRequested = false;  // set by the signal handler, which can reach nothing else
+/// The first signal ends the show after the present frame, the second one at once.
 extern "C" void requestStop(int) {
-  stopRequested = true;
+  if (stopRequested.exchange(true)) std::_Exit(130);
 }
 
 /// Every frame counts where somebody looks at the result later; else the newest one does.
