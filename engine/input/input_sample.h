@@ -7,7 +7,7 @@
 /// Units    metres, show time in nanoseconds, axes from -1 to 1.
 /// Threads  plain values, any thread.
 
-#include "engine/maths/maths.h"
+#include "engine/maths/course.h"
 #include "engine/time_signature.h"
 
 #include <array>
@@ -27,10 +27,13 @@ struct TrackerSample {
   std::array<float, kTrackerAxes> axes{};  ///< joypad and triggers
   Nanoseconds stamp = 0;                   ///< when the newest measurement in it was made [ns]
   bool valid = true;                       ///< false: the device is lost at the moment
+  /// The corners of its way since the frame before, X_RT at times inside the frame (a jump may be at its very
+  /// end); without any it came straight.
+  Course knots;
 
   bool operator==(const TrackerSample& o) const {
     return name == o.name && X_RT.p == o.X_RT.p && X_RT.q.coeffs() == o.X_RT.q.coeffs() &&
-           buttons == o.buttons && axes == o.axes && stamp == o.stamp && valid == o.valid;
+           buttons == o.buttons && axes == o.axes && stamp == o.stamp && valid == o.valid && knots == o.knots;
   }
 };
 
