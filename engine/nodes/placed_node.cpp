@@ -52,39 +52,91 @@ void PlacedNode::resetPlace(Scene& scene) {
   scene.placements().setShown(placement_, shown_);
 }
 
-void PlacedNode::follow(const std::string& what, const std::string& tracker, const FrameContext& frame) {
+void PlacedNode::follow(const Message& m, FrameContext& frame) {
+  const Nanoseconds when = frame.effective(m);
+  if (attached()) trace(when, frame);
+  const std::string what = m.arguments.empty() ? "all" : m.arguments[0];
   follow_ = what == "position" ? Follow::Position : what == "orientation" ? Follow::Orientation : Follow::All;
-  tracker_ = tracker;
+  tracker_ = m.arguments.size() > 1 ? m.arguments[1] : "";
   if (tracker_.empty()) tracker_ = frame.input.find("foot") ? "foot" : "wand";
+  traced_ = when;
+  arrived_ = false;
+}
+
+void PlacedNode::stopFollowing(Nanoseconds when, FrameContext& frame) {
+  if (attached() && trace(when, frame)) place(frame.scene, placedAt(course(frame).back().X, frame.scene));
+  follow_ = Follow::Nothing;
+}
+
+void PlacedNode::resetAt(Nanoseconds when, FrameContext& frame) {
+  if (attached()) trace(when, frame);
+  Course& way = course(frame);
+  resetPlace(frame.scene);
+  way.push_back({when, poseOf(frame.scene.placements().world(placement_)), true});
+}
+
+/// Its course in this frame, begun where it is if nothing has been said of it yet.
+Course& PlacedNode::course(FrameContext& frame) const {
+  return frame.scene.courses().of(placement_,
+                                  {frame.start(), poseOf(frame.scene.placements().world(placement_)), false});
+}
+
+/// Where the node is while its tracker is at X_WT: what it does not take over is its own.
+Pose PlacedNode::following(const Pose& X_WT, const Pose& own) const {
+  return {follow_ == Follow::Orientation ? own.p : X_WT.p, follow_ == Follow::Position ? own.q : X_WT.q};
+}
+
+/// Its placement with X_WN as far as it follows, and its own scale.
+Affine PlacedNode::placedAt(const Pose& X_WN, const Scene& scene) const {
+  Affine X = scene.placements().world(placement_);
+  if (follow_ != Follow::Orientation) X.translation() = X_WN.p;
+  if (follow_ != Follow::Position)
+    X.linear() = X_WN.q.toRotationMatrix() * scaleOf(attributes_.X_PN).asDiagonal();
+  return X;
+}
+
+/// Continues its course along the tracker's up to `to`. False if the tracker is silent.
+bool PlacedNode::trace(Nanoseconds to, FrameContext& frame) {
+  const std::optional<Course> tracker = frame.scene.trackerCourse(tracker_, frame);
+  if (!tracker) return false;
+  Course& way = course(frame);
+  const Pose own = way.back().X;
+  const Nanoseconds from = std::max(traced_, frame.start()), known = tracker->front().time;
+  const auto at = [&](Nanoseconds time, Limit limit) {
+    return following(poseOn(*tracker, time, limit), own);
+  };
+  if (arrived_ && from == frame.start() && known == from)
+    way.front().X = at(from, Limit::Before);
+  else if (!arrived_ && known <= from)
+    way.push_back({from, at(from, Limit::After), true});
+  for (const PoseKnot& k : *tracker)
+    if (k.time > from && k.time <= to) way.push_back({k.time, following(k.X, own), k.jump});
+  if (way.back().time < to && known <= to) way.push_back({to, at(to, Limit::Before), false});
+  arrived_ = arrived_ || known <= to;
+  traced_ = to;
+  return known <= to;
 }
 
 void PlacedNode::receive(const Message& m, FrameContext& frame) {
   switch (m.verb) {
-  case Verb::Attach:
-    follow(m.arguments.empty() ? "all" : m.arguments[0], m.arguments.size() > 1 ? m.arguments[1] : "", frame);
-    break;
-  case Verb::Detach: stopFollowing(); break;
+  case Verb::Attach: follow(m, frame); break;
+  case Verb::Detach: stopFollowing(frame.effective(m), frame); break;
   case Verb::Show:
   case Verb::Hide:
     aboutToChange(frame.scene);
     shown_ = m.verb == Verb::Show;
     frame.scene.placements().setShown(placement_, shown_);
     break;
-  case Verb::Reset: resetPlace(frame.scene); break;
+  case Verb::Reset: resetAt(frame.effective(m), frame); break;
   default: break;
   }
 }
 
 void PlacedNode::simulate(FrameContext& frame) {
-  if (!attached()) return;
-  const std::optional<Pose> X_WT = frame.scene.trackerInWorld(tracker_, frame.input);
-  if (!X_WT) return;  // a silent tracker holds the node where it is
-  const Affine& now = frame.scene.placements().world(placement_);
-  Affine X = now;
-  if (follow_ != Follow::Orientation) X.translation() = X_WT->p;
-  if (follow_ != Follow::Position)
-    X.linear() = X_WT->q.toRotationMatrix() * scaleOf(attributes_.X_PN).asDiagonal();
-  if (X.matrix() != now.matrix()) place(frame.scene, X);
+  if (!attached() || !trace(frame.now.time, frame)) return;  // a silent tracker holds the node where it is
+  const Course& way = course(frame);
+  const Affine X = placedAt(way.back().X, frame.scene);
+  if (moves(way) || X.matrix() != frame.scene.placements().world(placement_).matrix()) place(frame.scene, X);
 }
 
 void PlacedNode::hash(StateHash& h) const {

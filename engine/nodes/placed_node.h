@@ -3,8 +3,11 @@
 ///
 /// Commands  attach all|position|orientation [tracker], detach, show, hide, reset.
 /// Frames    X_PN maps Node to Parent. Attached, the node follows tracker x rig with no offset and keeps its
-/// scale.
+///          scale.
+/// Times    attach, detach and reset put it elsewhere at their exact time: inside the frame for dynamics (the
+///          course that it leaves in the scene), at the frame's end for the picture.
 
+#include "engine/maths/course.h"
 #include "engine/node.h"
 #include "engine/scene/placements.h"
 
@@ -42,12 +45,16 @@ protected:
   void simulate(FrameContext& frame) override;
   /// Back to how the script placed it.
   void resetPlace(Scene& scene);
-  void follow(const std::string& what, const std::string& tracker, const FrameContext& frame);
-  void stopFollowing() { follow_ = Follow::Nothing; }
-  const std::string& followedTracker() const { return tracker_; }
 
 private:
   void aboutToChange(Scene& scene);
+  void follow(const Message& m, FrameContext& frame);
+  void stopFollowing(Nanoseconds when, FrameContext& frame);
+  void resetAt(Nanoseconds when, FrameContext& frame);
+  Course& course(FrameContext& frame) const;
+  Pose following(const Pose& X_WT, const Pose& own) const;
+  Affine placedAt(const Pose& X_WN, const Scene& scene) const;
+  bool trace(Nanoseconds to, FrameContext& frame);
 
   enum class Follow : std::uint8_t { Nothing, All, Position, Orientation };
 
@@ -55,6 +62,8 @@ private:
   PlacementId placement_ = kNoPlacement;
   Follow follow_ = Follow::Nothing;
   std::string tracker_;
+  Nanoseconds traced_ = 0;  ///< up to here its way along the tracker is known
+  bool arrived_ = false;    ///< it has been put where the tracker is
   bool shown_ = true;
   bool carriesStatics_ = false;
   Affine X_PN_ = Affine::Identity();  ///< for the hash: where it is now, or when it is attached, was last put

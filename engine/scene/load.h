@@ -1,12 +1,13 @@
 #pragma once
 /// One loaded file: its nodes, its names, its static objects.
 ///
-/// Prepared on the loader thread, installed and removed by App at a frame boundary, destroyed on the loader
-/// thread.
+/// Prepared on the loader thread, installed by App before the frame in which its show time falls and removed
+/// after it, destroyed on the loader thread. Dynamics knows the exact times.
 
 #include "engine/node.h"
 #include "engine/scene/records.h"
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -25,7 +26,10 @@ struct StaticObject {
 struct Load {
   std::uint32_t number = 0;  ///< from 1, in the order of requests
   std::string file;
-  NodeRef owner;  ///< the scene node that asked for it; invalid = the show itself
+  NodeRef owner;          ///< the scene node that asked for it; invalid = the show itself
+  Nanoseconds since = 0;  ///< when it was installed [ns]
+  Nanoseconds until =
+      std::numeric_limits<Nanoseconds>::max();  ///< when it goes, once that is in the present frame
 
   Affine X_WO = Affine::Identity();  ///< where its owner was when it was asked for: statics are placed by it
 

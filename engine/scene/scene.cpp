@@ -24,8 +24,12 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
   counters_ = {};
   events_.clear();
   now_ = now.time;
+  courses_.clear();
   applyLoads(now);
+  rigStart_ = rigPose();
   visit(now, input, probe);
+  applyUnloads(now);
+  lastInput_ = input;
   for (const NodeRef ref : touched_) {
     const auto at = loads_.find(ref.load);
     if (at != loads_.end() && at->second->nodes[ref.position]) rehash(*at->second->nodes[ref.position]);
@@ -47,6 +51,12 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
     if (node) round_.insert({node->rank(), ref});
     return node != nullptr;
   };
+  // What is due after its target has gone finds nobody.
+  std::erase_if(mail, [&](const Message& m) {
+    const bool late = m.due > endOf(m.target.load);
+    counters_.messagesLost += late;
+    return late;
+  });
   for (const Message& m : mail) call(m.target) ? ++counters_.messagesDelivered : ++counters_.messagesLost;
   while (!wakes_.empty() && wakes_.begin()->at <= now.time) {
     call(wakes_.begin()->node);
@@ -55,6 +65,9 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
   std::vector<NodeRef> woken;
   woken.swap(wokenLate_);
   for (const NodeRef ref : woken) call(ref);
+  if (loadsTold_ != loadsVersion_)
+    for (const NodeRef ref : loadWatchers_) call(ref);
+  loadsTold_ = loadsVersion_;
   wakeWatchers();
   std::stable_sort(mail.begin(), mail.end(),
                    [](const Message& a, const Message& b) { return a.target < b.target; });
@@ -127,6 +140,7 @@ void Scene::wakeAt(Nanoseconds when, NodeRef node) {
 // --------------------------------------------------------------------------------------------------
 
 void Scene::post(const Node& sender, const Notification& n, Nanoseconds when) {
+  if (when > endOf(sender.self().load)) return;  // it is not there any more by then
   Message m;
   m.due = when + n.delay;
   m.sender = sender.self();
@@ -157,6 +171,7 @@ bool Scene::command(const std::string& target, Verb verb, std::vector<std::strin
 }
 
 void Scene::note(NodeRef node, Event event, Nanoseconds when) {
+  if (when > endOf(node.load)) return;
   events_.push_back({node, event, when});
 }
 

@@ -8,11 +8,13 @@
 
 #include "engine/input/input_sample.h"
 #include "engine/node.h"
+#include "engine/scene/courses.h"
 #include "engine/scene/load.h"
 #include "engine/scene/placements.h"
 #include "engine/scene/records.h"
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -80,6 +82,12 @@ public:
   /// Wakes `watcher` whenever the placement moves.
   void watch(PlacementId placement, NodeRef watcher);
   void unwatch(PlacementId placement, NodeRef watcher);
+  /// Visits `node` in the frame after a load came, and in the frame in which one goes.
+  void watchLoads(NodeRef node) { loadWatchers_.insert(node); }
+  void unwatchLoads(NodeRef node) { loadWatchers_.erase(node); }
+  /// When the load (or what brought it in) is unloaded, as far as it happens in this frame; else kNever.
+  Nanoseconds endOf(std::uint32_t load) const;
+  static constexpr Nanoseconds kNever = std::numeric_limits<Nanoseconds>::max();
   /// Changes whenever a load comes or goes: names may resolve differently.
   std::uint64_t loadsVersion() const { return loadsVersion_; }
 
@@ -92,7 +100,7 @@ public:
   void removeLight(std::size_t handle);
   void setSky(const SkyRecord& sky) { sky_ = sky; }
 
-  /// Show time at the end of this frame.
+  /// Show time at the end of this frame; while a load enters, the exact time at which it does.
   Nanoseconds now() const { return now_; }
 
   void setRig(NodeRef rig, PlacementId placement, double eyeHeight);
@@ -100,6 +108,11 @@ public:
   Pose rigPose() const;  ///< X_WR
   void moveRig(const Pose& X_WR);
   std::optional<Pose> trackerInWorld(const std::string& tracker, const InputSample& input) const;
+  /// Where the tracker has been in World since it was known in this frame, from the frame's start if it was
+  /// known before, to the frame's end. Nothing if it is not valid at the end.
+  std::optional<Course> trackerCourse(const std::string& tracker, const FrameContext& frame) const;
+  /// How placements have moved inside this frame.
+  Courses& courses() { return courses_; }
   Pose headInRig(const InputSample& input) const;
 
   /// Asks for a sub-scene; it is installed at show time `at`, whenever the loader finished.
@@ -149,7 +162,9 @@ private:
   };
 
   void applyLoads(const TimeSignature& now);
-  void install(std::unique_ptr<Load> load);
+  void foreseeUnloads(const TimeSignature& now);
+  void applyUnloads(const TimeSignature& now);
+  void install(std::unique_ptr<Load> load, Nanoseconds at);
   void remove(std::uint32_t number, std::uint64_t frame);
   void visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe);
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
@@ -178,7 +193,11 @@ private:
   std::optional<Visit> current_;
   std::vector<NodeRef> wokenLate_;
   std::multimap<PlacementId, NodeRef> watchers_;
-  std::uint64_t loadsVersion_ = 0;
+  std::uint64_t loadsVersion_ = 0, loadsTold_ = 0;
+  std::set<NodeRef> loadWatchers_;
+  Courses courses_;
+  InputSample lastInput_;  ///< of the frame before
+  Pose rigStart_;          ///< X_WR at this frame's start
   std::set<Wake> wakes_;
   std::map<NodeRef, std::uint64_t> hashes_;
   std::uint64_t hashSum_ = 0;

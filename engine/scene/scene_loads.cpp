@@ -3,6 +3,7 @@
 #include "engine/nodes/object_node.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace stadion {
 
@@ -77,31 +78,63 @@ void Scene::requestUnload(std::uint32_t number, Nanoseconds at) {
 }
 
 void Scene::applyLoads(const TimeSignature& now) {
+  foreseeUnloads(now);
   // Installing a load may ask for more of them (sub-scenes that are there from the start).
   for (std::size_t i = 0; i < pendingLoads_.size();) {
     const Change change = pendingLoads_[i];
-    if (change.at > now.time) {
+    if (change.at > now.time || !change.load) {
       ++i;
       continue;
     }
     pendingLoads_.erase(pendingLoads_.begin() + static_cast<std::ptrdiff_t>(i));
-    if (!change.load)
-      remove(change.number, now.frame);
-    else if (auto load = loader_.take(change.number))
-      install(std::move(load));
+    if (auto load = loader_.take(change.number))
+      install(std::move(load), std::max(change.at, now.time - now.step));
+    i = 0;
+  }
+  foreseeUnloads(now);
+}
+
+/// What goes in this frame stays to the frame's end, and is told when its time is.
+void Scene::foreseeUnloads(const TimeSignature& now) {
+  for (const Change& change : pendingLoads_) {
+    const auto at = change.load || change.at > now.time ? loads_.end() : loads_.find(change.number);
+    if (at == loads_.end() || at->second->until == change.at) continue;
+    at->second->until = change.at;
+    ++loadsVersion_;
+  }
+}
+
+void Scene::applyUnloads(const TimeSignature& now) {
+  for (std::size_t i = 0; i < pendingLoads_.size();) {
+    const Change change = pendingLoads_[i];
+    if (change.load || change.at > now.time) {
+      ++i;
+      continue;
+    }
+    pendingLoads_.erase(pendingLoads_.begin() + static_cast<std::ptrdiff_t>(i));
+    remove(change.number, now.frame);
     i = 0;
   }
 }
 
-void Scene::install(std::unique_ptr<Load> arrived) {
+Nanoseconds Scene::endOf(std::uint32_t number) const {
+  Nanoseconds end = kNever;
+  for (const Load* l = load(number); l; l = load(l->owner.load)) end = std::min(end, l->until);
+  return end;
+}
+
+void Scene::install(std::unique_ptr<Load> arrived, Nanoseconds at) {
   Load& load = *arrived;
-  if (load.owner.valid() && !find(load.owner)) {  // its scene node has gone meanwhile
-    loader_.dispose(std::move(arrived), 0);
+  if (load.owner.valid() && (!find(load.owner) || endOf(load.owner.load) <= at)) {
+    loader_.dispose(std::move(arrived), 0);  // its scene node has gone meanwhile
     return;
   }
+  load.since = at;
+  const Nanoseconds frameEnd = std::exchange(now_, at);
   loads_[load.number] = std::move(arrived);
   ++loadsVersion_;
   for (const std::uint32_t position : load.enterOrder) enterNode(*load.nodes[position]);
+  now_ = frameEnd;
   if (load.chunk != kNoChunk) chunkChanges_.push_back({load.chunk, true});
   auto* owner = dynamic_cast<PlacedNode*>(load.owner.valid() ? find(load.owner) : nullptr);
   if (!owner || load.statics.empty()) return;
@@ -144,6 +177,7 @@ void Scene::remove(std::uint32_t number, std::uint64_t frame) {
   std::erase_if(staticChanges_, [&](const ChangeSet::StaticItem& s) { return s.chunk == load.chunk; });
   std::unique_ptr<Load> gone = std::move(at->second);
   loads_.erase(at);
+  std::erase_if(wakes_, [&](const Wake& w) { return w.node.load == number; });
   ++loadsVersion_;
   loader_.dispose(std::move(gone), frame);
 }

@@ -1,5 +1,6 @@
 #include "engine/scene/scene.h"
 
+#include "engine/maths/functions.h"
 #include "engine/nodes/placed_node.h"
 
 #include <algorithm>
@@ -142,19 +143,37 @@ void Scene::moveRig(const Pose& X_WR) {
 
 Pose Scene::rigPose() const {
   if (rigs_.empty()) return freeRig_;
-  const Affine& X = placements_.world(rigs_.back().placement);
-  // Scale has no meaning for the rig: its axes are made orthonormal again, forward (+Y) first.
-  const Vec3 y = X.linear().col(1).normalized();
-  const Vec3 x = (X.linear().col(0) - y * y.dot(X.linear().col(0))).normalized();
-  Mat3 R;
-  R << x, y, x.cross(y);
-  return {X.translation(), Quat(R).normalized()};
+  return poseOf(placements_.world(rigs_.back().placement));  // scale has no meaning for the rig
 }
 
 std::optional<Pose> Scene::trackerInWorld(const std::string& tracker, const InputSample& input) const {
   const TrackerSample* t = input.find(tracker);
   if (!t || !t->valid) return std::nullopt;
   return rigPose() * t->X_RT;
+}
+
+std::optional<Course> Scene::trackerCourse(const std::string& tracker, const FrameContext& frame) const {
+  const TrackerSample* t = frame.input.find(tracker);
+  if (!t || !t->valid) return std::nullopt;
+  const Nanoseconds start = frame.start(), end = frame.now.time;
+  const Pose X_WR = rigPose();
+  const bool rides = X_WR.p != rigStart_.p || X_WR.q.coeffs() != rigStart_.q.coeffs();
+  Course way;
+  const auto add = [&](Nanoseconds time, const Pose& X_RT, bool jump) {
+    const double s = static_cast<double>(time - start) / static_cast<double>(end - start);
+    const Pose X_WT = (rides && time < end ? det::interpolate(rigStart_, X_WR, s) : X_WR) * X_RT;
+    jump = jump || way.empty() || teleported(way.back().X, X_WT, time - way.back().time);
+    way.push_back({time, X_WT, jump});
+  };
+  if (const TrackerSample* was = lastInput_.find(tracker); was && was->valid && start < end) {
+    add(start, was->X_RT, false);
+    way.front().jump = false;
+  }
+  for (const PoseKnot& k : t->knots)
+    if (k.X.finite() && k.time >= (way.empty() ? start : way.back().time) && k.time <= end)
+      add(k.time, k.X, k.jump);
+  if (way.empty() || way.back().time < end) add(end, t->X_RT, false);
+  return way;
 }
 
 Pose Scene::headInRig(const InputSample& input) const {

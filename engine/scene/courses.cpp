@@ -1,0 +1,56 @@
+#include "engine/scene/courses.h"
+
+#include "engine/input/input_sample.h"
+#include "engine/maths/functions.h"
+
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+bool same(const Pose& a, const Pose& b) {
+  return a.p == b.p && a.q.coeffs() == b.q.coeffs();
+}
+
+/// But for rounding.
+bool near(const Pose& a, const Pose& b) {
+  return (a.p - b.p).norm() <= 1e-9 * (1 + a.p.norm()) && std::fabs(a.q.dot(b.q)) >= 1 - 1e-12;
+}
+
+}  // namespace
+
+const std::pair<const PlacementId, Course>* Courses::above(PlacementId id,
+                                                           const Placements& placements) const {
+  if (courses_.empty()) return nullptr;
+  for (; id != kNoPlacement; id = placements.parent(id))
+    if (const auto at = courses_.find(id); at != courses_.end()) return &*at;
+  return nullptr;
+}
+
+Course Courses::within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
+                       const Placements& placements) const {
+  const Pose now = poseOf(placements.world(id));
+  const auto* carrier = above(id, placements);
+  const bool carried = carrier && moves(carrier->second);
+  if (!carried && same(before, now)) return {};
+  Course course{{start, before, false}};
+  if (carried) {
+    const Course& way = carrier->second;
+    const bool itself = carrier->first == id;
+    const Pose X_CN0 = itself ? Pose{} : way.front().X.inverse() * before;
+    const Pose X_CN1 = itself ? Pose{} : way.back().X.inverse() * now;
+    for (const PoseKnot& knot : way) {
+      const double s =
+          end > start ? static_cast<double>(knot.time - start) / static_cast<double>(end - start) : 1;
+      const Pose X = itself ? knot.X : knot.X * det::interpolate(X_CN0, X_CN1, s);
+      const bool first = &knot == &way.front();
+      if (!first || !near(X, before)) course.push_back({knot.time, X, knot.jump || first});
+    }
+    if (course.back().time >= end || near(course.back().X, now)) return course;
+  }
+  // What goes faster than a hand can move has been put there.
+  course.push_back({end, now, teleported(course.back().X, now, end - course.back().time)});
+  return course;
+}
+
+}  // namespace stadion

@@ -1,0 +1,35 @@
+#pragma once
+/// How placements have moved inside the present frame, where more is known than the two ends: of those that
+/// follow a tracker, and of those that were put somewhere by a command at an exact time.
+///
+/// Frames   World. Every course begins at the frame's start.
+/// Threads  App only.
+
+#include "engine/maths/course.h"
+#include "engine/scene/placements.h"
+
+#include <map>
+
+namespace stadion {
+
+class Courses {
+public:
+  void clear() { courses_.clear(); }
+  /// The placement's course in this frame; a new one begins with `first`.
+  Course& of(PlacementId id, const PoseKnot& first) {
+    const auto [at, fresh] = courses_.try_emplace(id);
+    if (fresh) at->second.push_back(first);
+    return at->second;
+  }
+  /// The course of the placement from `start`, where it was at `before`, to `end`: its own or that of the
+  /// nearest above it, on which its place changes evenly; else straight. Empty if it stays.
+  Course within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
+                const Placements& placements) const;
+
+private:
+  const std::pair<const PlacementId, Course>* above(PlacementId id, const Placements& placements) const;
+
+  std::map<PlacementId, Course> courses_;
+};
+
+}  // namespace stadion
