@@ -302,9 +302,16 @@ bool World::holdBody(BodyId id) {
   return true;
 }
 
-bool World::moveHeld(BodyId id, const Pose& end) {
+bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
   RigidBody* b = core_->body(id);
   if (!b || b->mode != BodyMode::Held || !usable(end)) return false;
+  if (teleport) {
+    core_->standStill();
+    b->pose = unit(end);
+    b->held.set(b->pose, b->pose, 0);
+    b->fresh = true;
+    core_->wakeOnto({true, id}, 0);
+  }
   b->held.start = b->pose;
   b->held.end = unit(end);
   ++b->version;
@@ -317,12 +324,12 @@ bool World::releaseBody(BodyId id, const Vec3& v, const Vec3& omega) {
   return placeBody(id, b->pose, v, omega);
 }
 
-bool World::advance(Nanoseconds t0, Nanoseconds t1) {
+bool World::advance(Nanoseconds t0, Nanoseconds t1, bool continues) {
   if (t1 < t0 || (core_->started && t0 != core_->t1)) return false;
   if (!core_->started) {  // arcs made before the first frame begin with it
     for (auto& [id, b] : core_->bodies) b.since = Instant{t0, 0};
   }
-  core_->advance(t0, t1);
+  core_->advance(t0, t1, continues);
   return true;
 }
 

@@ -137,7 +137,7 @@ public:
 
   /// Where the collider is at the end of the coming frame; it moves there evenly and its velocity enters
   /// impacts. Not told, it stays. `teleport`: it is there from the frame's start and gives no impulse for the
-  /// jump.
+  /// jump; sleepers that it is put into wake.
   bool moveCollider(ColliderId id, const Pose& end, bool teleport = false);
   /// A collider that is off takes part in nothing.
   bool enableCollider(ColliderId id, bool on);
@@ -162,17 +162,20 @@ public:
   bool unhook(BodyId body, FieldId field, Nanoseconds when);
   bool hooked(BodyId body, FieldId field) const;
 
-  /// Jumps. Sleeping neighbours wake.
+  /// Jumps. Those who leaned on it wake, and those it is put into.
   bool placeBody(BodyId id, const Pose& X_WN, const Vec3& v, const Vec3& omega);
   /// Adds momentum at a point of World, now.
   bool push(BodyId id, const Vec3& impulse, const Vec3& at);
   /// While held, a body follows `moveHeld` like a collider and pushes others; release gives it v and omega.
   bool holdBody(BodyId id);
-  bool moveHeld(BodyId id, const Pose& end);
+  /// `teleport`: it is put there and gives no impulse for the jump.
+  bool moveHeld(BodyId id, const Pose& end, bool teleport = false);
   bool releaseBody(BodyId id, const Vec3& v, const Vec3& omega);
 
-  /// From t0 (the last t1, or any start at first) to t1. False if t1 < t0.
-  bool advance(Nanoseconds t0, Nanoseconds t1);
+  /// From t0 (the last t1, or any start at first) to t1. False if t1 < t0. `continues`: a further part of the
+  /// frame that began with an earlier call. A frame is cut where something outside turns, jumps or is
+  /// commanded; what is told here of a frame's start and end holds for each part.
+  bool advance(Nanoseconds t0, Nanoseconds t1, bool continues = false);
 
   Pose pose(BodyId id) const;        ///< X_WN at t1
   BodyState state(BodyId id) const;  ///< at t1
@@ -183,7 +186,7 @@ public:
   /// Total energy of motion [J], for reports.
   double kineticEnergy(BodyId id) const;
 
-  /// What happened during the last advance, in the order of time.
+  /// What happened during the last frame, in the order of time.
   const std::vector<ContactEvent>& events() const;
   /// Pairs with a memory, in a fixed order; part of the simulated state.
   const std::vector<PairState>& pairs() const;

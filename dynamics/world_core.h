@@ -72,9 +72,11 @@ public:
 
   // --- one frame (world_frame.cpp)
   void standStill();  ///< between frames: changes take effect at the end of the last one
-  void advance(Nanoseconds from, Nanoseconds to);
+  void advance(Nanoseconds from, Nanoseconds to, bool continues);
   void beginFrame();
+  std::vector<Party> arrivals() const;
   void settleFresh();
+  void wakeWithin(Party arrived);
   void runEvents();
   void endFrame();
   void partCarried();

@@ -162,13 +162,15 @@ void World::Core::fileBodies() {
                    [](const Filed& a, const Filed& b) { return a.low < b.low; });
 }
 
-void World::Core::advance(Nanoseconds from, Nanoseconds to) {
+void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
   t0 = from, t1 = to;
   length = toSeconds(to - from);
   started = true;
-  ++frame;
-  counters = {};
-  memory.beginFrame();
+  if (!continues) {
+    ++frame;
+    counters = {};
+    memory.beginFrame();
+  }
   beginFrame();
   runEvents();
   endFrame();
@@ -222,7 +224,9 @@ void World::Core::beginFrame() {
   // Boxes before predictions, so that these see everybody.
   for (auto& [id, b] : bodies) b.swept = sweptBox(Side::of(b), 0, length);
   fileBodies();
+  const std::vector<Party> arrived = arrivals();
   settleFresh();
+  for (const Party p : arrived) wakeWithin(p);
   for (const ColliderId id : disturbed) {
     wakeOnto({false, id}, 0);
     colliders.at(id).disturbed = false;
@@ -242,6 +246,30 @@ void World::Core::beginFrame() {
   if (solving) {
     constexpr Nanoseconds grid = 2'000'000;
     scheduleTick(Instant{(t0 + grid - 1) / grid * grid, 0}.since(Instant{t0, 0}));
+  }
+}
+
+/// Who has appeared or jumped since the last frame.
+std::vector<Party> World::Core::arrivals() const {
+  std::vector<Party> arrived;
+  for (const auto& [id, c] : colliders)
+    if (c.enabled && (c.fresh || c.disturbed)) arrived.push_back({false, id});
+  for (const auto& [id, b] : bodies)
+    if (b.enabled && b.fresh) arrived.push_back({true, id});
+  return arrived;
+}
+
+/// Sleepers that something has been put into wake.
+void World::Core::wakeWithin(Party arrived) {
+  const Side self = *side(arrived);
+  std::vector<RigidBody*> stirred;
+  eachNear(self.body ? self.body->swept : self.collider->swept, [&](RigidBody& o) {
+    if (o.mode != BodyMode::Rest || !o.enabled || &o == self.body || !mayTouch(Side::of(o), self)) return;
+    if (gapBetween(Side::of(o), self, 0, 0.01).distance < -kTouchesAtLoad) stirred.push_back(&o);
+  });
+  for (RigidBody* o : stirred) {
+    enterContact(*o, 0);
+    wakeOnto({true, o->id}, 0);
   }
 }
 

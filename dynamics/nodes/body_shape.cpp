@@ -9,14 +9,6 @@ Vec3 scaleOf(const Affine& X) {
   return X.linear().colwise().norm().transpose();
 }
 
-Pose poseOf(const Affine& X) {
-  const Vec3 y = X.linear().col(1).normalized();
-  const Vec3 x = (X.linear().col(0) - y * y.dot(X.linear().col(0))).normalized();
-  Mat3 R;
-  R << x, y, x.cross(y);
-  return {X.translation(), Quat(R).normalized()};
-}
-
 Mesh scaledForCollision(const Mesh& mesh, const Vec3& scale) {
   Mesh scaled;
   scaled.positions = mesh.positions;

@@ -2,15 +2,14 @@
 /// From scene objects to what the world collides: shapes, poses, surfaces.
 
 #include "dynamics/world.h"
+#include "engine/maths/course.h"
 #include "engine/nodes/object_node.h"
 
 namespace stadion {
 
 class Scene;
 
-/// Rotation and origin of a placement, its scale left out.
-Pose poseOf(const Affine& X);
-/// The lengths of its axes.
+/// The lengths of a placement's axes.
 Vec3 scaleOf(const Affine& X);
 
 /// The mesh in a body's own coordinates: scaled, not placed.

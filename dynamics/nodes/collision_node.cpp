@@ -3,21 +3,31 @@
 #include "dynamics/nodes/body_shape.h"
 #include "engine/scene/scene.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace stadion {
 
 CollisionNode::CollisionNode(NodeKind kind, NodeRef self, std::string name, CollisionAttributes attributes)
     : Node(kind, self, std::move(name)), attributes_(std::move(attributes)), switch_(attributes_.on) {
-  for (const std::string& n : attributes_.colliders) colliders_.push_back({n, {}, 0, 0, kNoPlacement, {}});
-  for (const std::string& n : attributes_.collidees) collidees_.push_back({n, {}, 0, 0, kNoPlacement, {}});
+  const auto part = [](const std::string& n) {
+    Part p;
+    p.name = n;
+    return p;
+  };
+  for (const std::string& n : attributes_.colliders) colliders_.push_back(part(n));
+  for (const std::string& n : attributes_.collidees) collidees_.push_back(part(n));
   world_.setBodiesCollide(attributes_.selfCollide);
 }
 
 void CollisionNode::onEnter(Scene& scene) {
   advancedTo_ = scene.now();
+  scene.watchLoads(self());
   scene.wakeNow(self());
 }
 
 void CollisionNode::onLeave(Scene& scene) {
+  scene.unwatchLoads(self());
   for (Part& part : colliders_)
     if (part.ref.valid()) scene.unwatch(part.placement, self());
   for (Part& part : collidees_)
@@ -32,21 +42,43 @@ void CollisionNode::receive(const Message& m, FrameContext&) {
 void CollisionNode::findParts(Scene& scene) {
   if (loadsSeen_ == scene.loadsVersion()) return;
   loadsSeen_ = scene.loadsVersion();
-  const auto refresh = [&](std::vector<Part>& parts, auto add, auto drop) {
+  for (Part& part : colliders_) findPart(part, scene);
+  for (Part& part : collidees_) findPart(part, scene);
+}
+
+void CollisionNode::findPart(Part& part, Scene& scene) {
+  auto* object = dynamic_cast<ObjectNode*>(scene.find(scene.resolve(part.name, self())));
+  const NodeRef found = object ? object->self() : NodeRef{};
+  if (part.ref.valid()) part.leaveAt = scene.find(part.ref) ? scene.endOf(part.ref.load) : 0;
+  part.next = {};
+  if (found == part.ref) return;
+  if (object) {
+    part.next = found, part.nextAt = scene.load(found.load)->since;
+    part.leaveAt = std::min(part.leaveAt, part.nextAt);
+  } else {
+    part.leaveAt = 0;
+  }
+}
+
+/// Parts go and come at the exact times of their files.
+void CollisionNode::changeParts(Nanoseconds time, Scene& scene) {
+  const auto change = [&](std::vector<Part>& parts, auto add, auto drop) {
     for (Part& part : parts) {
-      auto* object = dynamic_cast<ObjectNode*>(scene.find(scene.resolve(part.name, self())));
-      const NodeRef now = object ? object->self() : NodeRef{};
-      if (now == part.ref) continue;
-      if (part.ref.valid()) drop(part);
-      part.ref = now;
+      if (part.ref.valid() && part.leaveAt <= time) {
+        drop(part);
+        part.ref = {}, part.id = 0, part.course.clear();
+      }
+      if (!part.next.valid() || part.nextAt > time || part.ref.valid()) continue;
+      auto* object = dynamic_cast<ObjectNode*>(scene.find(part.next));
+      const NodeRef ref = std::exchange(part.next, NodeRef{});
       if (!object) continue;
+      part.ref = ref, part.leaveAt = scene.endOf(ref.load);
       part.placement = object->placement();
       part.pose = poseOf(scene.placements().world(part.placement));
       add(part, *object);
-      awake_ = true;
     }
   };
-  refresh(
+  change(
       colliders_,
       [&](Part& part, ObjectNode& object) {
         const ColliderDef def = colliderOf(object, scene, world_);
@@ -59,7 +91,7 @@ void CollisionNode::findParts(Scene& scene) {
         world_.removeShape(part.shape);
         scene.unwatch(part.placement, self());
       });
-  refresh(
+  change(
       collidees_, [&](Part& part, ObjectNode& object) { addCollidee(part, object, scene); },
       [&](Part& part) { removeCollidee(part, scene); });
 }
@@ -79,18 +111,58 @@ std::vector<CollisionNode::Overlap> CollisionNode::overlaps(double deeperThan) c
   return found;
 }
 
-bool CollisionNode::moveColliders(FrameContext& frame) {
+void CollisionNode::addCuts(const Course& course, std::vector<Nanoseconds>& cuts) {
+  for (const PoseKnot& k : course) cuts.push_back(k.time);
+}
+
+bool CollisionNode::follow(Part& part, FrameContext& frame, std::vector<Nanoseconds>& cuts) {
+  part.course.clear();
+  if (!part.ref.valid()) return false;
+  const Placements& placements = frame.scene.placements();
+  part.course =
+      frame.scene.courses().within(part.placement, part.pose, frame.start(), frame.now.time, placements);
+  if (part.course.empty()) return false;
+  part.pose = poseOf(placements.world(part.placement));
+  addCuts(part.course, cuts);
+  return true;
+}
+
+bool CollisionNode::foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
   bool any = false;
-  for (Part& part : colliders_) {
-    if (!part.ref.valid()) continue;
-    const Pose pose = poseOf(frame.scene.placements().world(part.placement));
-    if (pose.p == part.pose.p && pose.q.coeffs() == part.pose.q.coeffs()) continue;
-    // What jumps farther than a hand can move has been put there, and gives no push.
-    world_.moveCollider(part.id, pose, teleported(part.pose, pose, frame.now.step));
-    part.pose = pose;
-    any = true;
+  for (std::vector<Part>* parts : {&colliders_, &collidees_})
+    for (const Part& part : *parts) {
+      const bool goes = part.ref.valid() && part.leaveAt <= frame.now.time, comes = part.next.valid();
+      if (goes) cuts.push_back(part.leaveAt);
+      if (comes) cuts.push_back(part.nextAt);
+      any |= goes || comes;
+    }
+  for (Part& part : colliders_) any |= follow(part, frame, cuts);
+  return prepare(frame, cuts) || any;
+}
+
+void CollisionNode::actAt(Nanoseconds time, FrameContext& frame) {
+  changeParts(time, frame.scene);
+  for (const Part& part : colliders_)
+    if (jumpsAt(part.course, time))
+      world_.moveCollider(part.id, poseOn(part.course, time, Limit::After), true);
+  act(time, frame);
+}
+
+void CollisionNode::step(FrameContext& frame, Nanoseconds begin, std::vector<Nanoseconds> cuts) {
+  std::erase_if(cuts, [&](Nanoseconds t) { return t <= begin || t > advancedTo_; });
+  cuts.push_back(advancedTo_);
+  std::ranges::sort(cuts);
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  actAt(begin, frame);
+  Nanoseconds from = begin;
+  for (const Nanoseconds to : cuts) {
+    for (const Part& part : colliders_)
+      if (!part.course.empty()) world_.moveCollider(part.id, poseOn(part.course, to, Limit::Before));
+    move(from, to);
+    world_.advance(from, to, from != begin);
+    if (to > begin) actAt(to, frame);
+    from = to;
   }
-  return any;
 }
 
 void CollisionNode::simulate(FrameContext& frame) {
@@ -98,13 +170,14 @@ void CollisionNode::simulate(FrameContext& frame) {
   if (!switch_.on()) return;
   // Nothing moved while the node was not visited: the world only has to know that time has passed.
   if (advancedTo_ < frame.start()) world_.advance(advancedTo_, frame.start());
-  const bool outside = moveColliders(frame);
-  const bool asked = beforeStep(frame);
-  world_.advance(frame.start(), frame.now.time);
-  advancedTo_ = frame.now.time;
+  const Nanoseconds begin = std::max(advancedTo_, frame.start());
+  advancedTo_ = std::max(begin, std::min(frame.now.time, frame.scene.endOf(self().load)));
+  std::vector<Nanoseconds> cuts;
+  const bool outside = foresee(frame, cuts);
+  step(frame, begin, std::move(cuts));
   for (const ContactEvent& e : world_.events())
     raise(e.kind == ContactEvent::Kind::Impact ? Event::OnImpact : Event::OnRelease, e.time);
-  awake_ = afterStep(frame) || outside || asked;
+  awake_ = afterStep(frame) || outside;
 }
 
 void CollisionNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
@@ -124,17 +197,20 @@ void CollisionNode::removeCollidee(Part& part, Scene& scene) {
   scene.unwatch(part.placement, self());
 }
 
-bool CollisionNode::beforeStep(FrameContext& frame) {
+bool CollisionNode::prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
   bool any = false;
-  for (Part& part : collidees_) {
-    if (!part.ref.valid()) continue;
-    const Pose pose = poseOf(frame.scene.placements().world(part.placement));
-    if (pose.p == part.pose.p && pose.q.coeffs() == part.pose.q.coeffs()) continue;
-    world_.moveHeld(part.id, pose);
-    part.pose = pose;
-    any = true;
-  }
+  for (Part& part : collidees_) any |= follow(part, frame, cuts);
   return any;
+}
+
+void CollisionNode::act(Nanoseconds time, FrameContext&) {
+  for (const Part& part : collidees_)
+    if (jumpsAt(part.course, time)) world_.moveHeld(part.id, poseOn(part.course, time, Limit::After), true);
+}
+
+void CollisionNode::move(Nanoseconds, Nanoseconds to) {
+  for (const Part& part : collidees_)
+    if (!part.course.empty()) world_.moveHeld(part.id, poseOn(part.course, to, Limit::Before));
 }
 
 bool CollisionNode::afterStep(FrameContext&) {

@@ -6,12 +6,17 @@
 /// farther than
 ///           releasedistance. Both carry the exact time.
 /// Commands  enable, disable, toggle, reset.
+/// Times     what moves its parts from outside is followed inside the frame: the knots of a tracker's way,
+/// commands,
+///           files that come and go, each at its exact time.
 /// Time-critical: it reads placements and moves bodies by direct calls, in App only. It is visited only while
 /// something in it moves.
 
 #include "dynamics/world.h"
 #include "engine/nodes/object_node.h"
 #include "engine/nodes/switched.h"
+
+#include <limits>
 
 namespace stadion {
 
@@ -48,7 +53,11 @@ protected:
     std::uint32_t id = 0;  ///< its collider or body in the world
     ShapeId shape = 0;
     PlacementId placement = kNoPlacement;
-    Pose pose;  ///< at the end of the last step
+    Pose pose;      ///< at the end of the last step
+    Course course;  ///< in this frame, if something outside moves it
+    /// When it goes, and what its name stands for from when on.
+    Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max(), nextAt = 0;
+    NodeRef next;
   };
 
   void onEnter(Scene& scene) override;
@@ -59,8 +68,14 @@ protected:
   /// Puts a collidee into the world; here as a body that is moved from outside.
   virtual void addCollidee(Part& part, ObjectNode& object, Scene& scene);
   virtual void removeCollidee(Part& part, Scene& scene);
-  /// Tells the world what has changed outside since the last step. True if anything has.
-  virtual bool beforeStep(FrameContext& frame);
+  // The frame is cut where something outside turns, jumps or is commanded; then act, move, act, ... in turn.
+  /// Looks at what has changed outside, and adds the times at which the frame must be cut. True if anything
+  /// has.
+  virtual bool prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts);
+  /// What happens at `time`.
+  virtual void act(Nanoseconds time, FrameContext& frame);
+  /// Tells the world where things that are moved from outside go until `to`.
+  virtual void move(Nanoseconds from, Nanoseconds to);
   /// Tells the outside what the step has done. True if the next frame must be simulated in any case.
   virtual bool afterStep(FrameContext& frame);
 
@@ -68,9 +83,17 @@ protected:
   CollisionAttributes attributes_;
   std::vector<Part> colliders_, collidees_;
 
+  /// The part's course in this frame, its knots added to the cuts. True if it moves.
+  static bool follow(Part& part, FrameContext& frame, std::vector<Nanoseconds>& cuts);
+  static void addCuts(const Course& course, std::vector<Nanoseconds>& cuts);
+
 private:
   void findParts(Scene& scene);
-  bool moveColliders(FrameContext& frame);
+  void findPart(Part& part, Scene& scene);
+  void changeParts(Nanoseconds time, Scene& scene);
+  bool foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts);
+  void actAt(Nanoseconds time, FrameContext& frame);
+  void step(FrameContext& frame, Nanoseconds begin, std::vector<Nanoseconds> cuts);
 
   Switched switch_;
   std::uint64_t loadsSeen_ = ~std::uint64_t{0};

@@ -14,11 +14,17 @@ void DynObjectNode::onEnter(Scene& scene) {
     if (const NodeRef field = scene.resolve(name, self()); field.valid()) hooked_.push_back(field);
 }
 
-DynObjectNode::Requests DynObjectNode::takeRequests() {
+std::vector<DynObjectNode::Request> DynObjectNode::takeRequests() {
   return std::exchange(requests_, {});
 }
 
+void DynObjectNode::ask(Request request) {
+  if (simulation_.valid()) requests_.push_back(std::move(request));  // else nobody would ever take it
+}
+
 void DynObjectNode::receive(const Message& m, FrameContext& frame) {
+  const Nanoseconds when = frame.effective(m);
+  const auto argument = [&](std::size_t i) { return m.arguments.size() > i ? m.arguments[i] : "wand"; };
   switch (m.verb) {
   case Verb::Hook:
   case Verb::Unhook: {
@@ -26,18 +32,16 @@ void DynObjectNode::receive(const Message& m, FrameContext& frame) {
     const bool hook = m.verb == Verb::Hook;
     std::erase(hooked_, m.node);
     if (hook) hooked_.push_back(m.node);
-    requests_.hooks.push_back({frame.effective(m), m.node, hook});
+    ask({when, hook ? Request::Kind::Hook : Request::Kind::Unhook, m.node, {}});
     break;
   }
-  case Verb::Grab: requests_.grab = m.arguments.empty() ? "wand" : m.arguments[0]; break;
-  case Verb::Release: requests_.release = true; break;
-  case Verb::Attach:  // to the hand, as a body
-    requests_.grab = m.arguments.size() > 1 ? m.arguments[1] : "wand";
-    break;
-  case Verb::Detach: requests_.release = true; break;
+  case Verb::Grab: ask({when, Request::Kind::Grab, {}, argument(0)}); break;
+  case Verb::Attach: ask({when, Request::Kind::Grab, {}, argument(1)}); break;  // to the hand, as a body
+  case Verb::Release:
+  case Verb::Detach: ask({when, Request::Kind::Release, {}, {}}); break;
   case Verb::Reset:
-    restoreHooks(frame.scene);
-    requests_.reset = true;
+    restoreHooks(when, frame.scene);
+    ask({when, Request::Kind::Reset, {}, {}});
     ObjectNode::receive(m, frame);
     break;
   default: ObjectNode::receive(m, frame); break;
@@ -45,14 +49,14 @@ void DynObjectNode::receive(const Message& m, FrameContext& frame) {
   if (simulation_.valid()) frame.scene.wakeNow(simulation_);
 }
 
-void DynObjectNode::restoreHooks(Scene& scene) {
+void DynObjectNode::restoreHooks(Nanoseconds when, Scene& scene) {
   // As at the start: the hooks of the script.
-  for (const NodeRef field : hooked_) requests_.hooks.push_back({0, field, false});
+  for (const NodeRef field : hooked_) ask({when, Request::Kind::Unhook, field, {}});
   hooked_.clear();
   for (const std::string& name : body_.hooks)
     if (const NodeRef field = scene.resolve(name, self()); field.valid()) {
       hooked_.push_back(field);
-      requests_.hooks.push_back({0, field, true});
+      ask({when, Request::Kind::Hook, field, {}});
     }
 }
 

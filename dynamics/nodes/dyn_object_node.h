@@ -4,7 +4,8 @@
 /// Commands  hook FIELD, unhook FIELD, grab [tracker], release, and those of a placed node (reset brings it
 /// back to its
 ///           place, at rest).
-/// It is passive: its dynamics node reads what was asked of it in this frame and moves it by direct calls.
+/// It is passive: its dynamics node reads what was asked of it in this frame, obeys at the exact times, and
+/// moves it by direct calls.
 
 #include "dynamics/mass_properties.h"
 #include "dynamics/shape.h"
@@ -26,17 +27,13 @@ struct BodyAttributes {
 
 class DynObjectNode : public ObjectNode {
 public:
-  struct HookChange {
-    Nanoseconds when;
-    NodeRef field;
-    bool hooked;
-  };
-  /// What has been asked of it since its dynamics node last looked.
-  struct Requests {
-    std::vector<HookChange> hooks;
-    bool reset = false;
-    std::string grab;  ///< the tracker, empty = not asked
-    bool release = false;
+  /// Something asked of it, for an exact time.
+  struct Request {
+    enum class Kind : std::uint8_t { Hook, Unhook, Grab, Release, Reset };
+    Nanoseconds when = 0;
+    Kind kind = Kind::Reset;
+    NodeRef field;        ///< Hook, Unhook
+    std::string tracker;  ///< Grab
   };
 
   DynObjectNode(NodeRef self, std::string name, PlaceAttributes place, Appearance appearance,
@@ -49,7 +46,8 @@ public:
 
   const BodyAttributes& body() const { return body_; }
   const std::vector<NodeRef>& hooked() const { return hooked_; }
-  Requests takeRequests();
+  /// What has been asked of it since its dynamics node last looked, in delivery order.
+  std::vector<Request> takeRequests();
   /// The dynamics node that moves it.
   void setSimulation(NodeRef dynamics) { simulation_ = dynamics; }
   /// Its simulated state, copied here by its dynamics node so that the state hash sees it.
@@ -63,12 +61,13 @@ protected:
   void receive(const Message& m, FrameContext& frame) override;
 
 private:
-  void restoreHooks(Scene& scene);
+  void ask(Request request);
+  void restoreHooks(Nanoseconds when, Scene& scene);
 
   BodyAttributes body_;
   std::optional<Shape> shape_;
   std::vector<NodeRef> hooked_;
-  Requests requests_;
+  std::vector<Request> requests_;
   NodeRef simulation_;
   BodyState state_;
 };

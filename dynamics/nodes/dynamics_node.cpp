@@ -46,7 +46,7 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   def.releaseDistance = attributes_.releaseDistance;
   part.id = world_.addBody(def);
   for (const NodeRef field : node->hooked())
-    if (const FieldId id = fieldFor(field, scene)) world_.hook(part.id, id, scene.now());
+    if (const FieldId id = fieldFor(field, scene)) world_.hook(part.id, id, 0);  // from its beginning
   node->takeRequests();
   node->setSimulation(self());
   node->setState(world_.state(part.id));
@@ -65,7 +65,8 @@ FieldId DynamicsNode::fieldFor(NodeRef ref, Scene& scene) {
   if (known != fields_.end()) return known->id;
   FieldNode* node = fieldAt(ref, scene);
   if (!node) return 0;
-  Field f{ref, 0, node->placement(), node->pose(scene)};
+  Field f;
+  f.ref = ref, f.placement = node->placement(), f.pose = node->pose(scene);
   f.id = world_.addField({node->law(scene), f.pose, f.pose, node->duration()}, false);
   if (node->on()) world_.switchField(f.id, true, node->activated());
   node->addUser(self());
@@ -75,85 +76,142 @@ FieldId DynamicsNode::fieldFor(NodeRef ref, Scene& scene) {
 }
 
 // The fields' own nodes have had their turn: what they say now holds for the end of this frame.
-bool DynamicsNode::moveFields(FrameContext& frame) {
+bool DynamicsNode::followFields(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
   bool any = false;
-  std::erase_if(fields_, [&](Field& f) {
+  for (Field& f : fields_) {
+    f.course.clear();
     const FieldNode* node = fieldAt(f.ref, frame.scene);
-    if (!node) {  // unloaded
-      world_.removeField(f.id);
-      frame.scene.unwatch(f.placement, self());
-      return any = true;
-    }
-    const Pose pose = node->pose(frame.scene);
-    if (pose.p != f.pose.p || pose.q.coeffs() != f.pose.q.coeffs()) any = true;
+    f.leaveAt = node ? frame.scene.endOf(f.ref.load) : 0;
+    if (f.leaveAt <= frame.now.time) cuts.push_back(f.leaveAt), any = true;
+    if (!node) continue;
     world_.setFieldLaw(f.id, node->law(frame.scene));
-    world_.moveField(f.id, f.pose, pose);
-    f.pose = pose;
+    f.course = frame.scene.courses().within(f.placement, f.pose, frame.start(), frame.now.time,
+                                            frame.scene.placements());
+    if (!f.course.empty()) any = true;
+    addCuts(f.course, cuts);
+    f.pose = node->pose(frame.scene);
     for (const FieldNode::Change& c : node->changes(frame.now.frame)) {
       world_.switchField(f.id, c.on, c.when);
       any = true;
     }
-    return false;
-  });
-  return any;
-}
-
-bool DynamicsNode::obeyRequests(FrameContext& frame) {
-  bool any = false;
-  for (Part& part : collidees_) {
-    DynObjectNode* node = bodyAt(part.ref, frame.scene);
-    if (!node) continue;
-    const DynObjectNode::Requests asked = node->takeRequests();
-    if (asked.reset) {
-      letGo(part.id);
-      world_.placeBody(part.id, poseOf(frame.scene.placements().world(part.placement)), Vec3::Zero(),
-                       Vec3::Zero());
-    }
-    for (const DynObjectNode::HookChange& h : asked.hooks)
-      if (const FieldId field = fieldFor(h.field, frame.scene))
-        h.hooked ? world_.hook(part.id, field, h.when) : world_.unhook(part.id, field, h.when);
-    if (asked.release) letGo(part.id);
-    if (!asked.grab.empty()) grab(part, asked.grab, frame);
-    any |= asked.reset || asked.release || !asked.hooks.empty() || !asked.grab.empty();
   }
   return any;
 }
 
-void DynamicsNode::grab(Part& part, const std::string& tracker, FrameContext& frame) {
-  const auto X_WT = frame.scene.trackerInWorld(tracker, frame.input);
-  if (!X_WT) return;
-  letGo(part.id);
-  const Pose now = world_.pose(part.id);
-  grips_.push_back({part.id, tracker, X_WT->inverse() * now, now, Vec3::Zero(), Vec3::Zero()});
-  world_.holdBody(part.id);
+bool DynamicsNode::takeOrders(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
+  using Kind = DynObjectNode::Request::Kind;
+  orders_.clear();
+  bool any = false;
+  for (const Part& part : collidees_) {
+    DynObjectNode* node = part.ref.valid() ? bodyAt(part.ref, frame.scene) : nullptr;
+    if (!node) continue;
+    for (DynObjectNode::Request& r : node->takeRequests()) {
+      any = true;
+      if (r.kind == Kind::Hook || r.kind == Kind::Unhook) {  // the world knows their times itself
+        if (const FieldId field = fieldFor(r.field, frame.scene))
+          r.kind == Kind::Hook ? world_.hook(part.id, field, r.when) : world_.unhook(part.id, field, r.when);
+        continue;
+      }
+      cuts.push_back(r.when);
+      if (const auto hand = frame.scene.trackerCourse(r.tracker, frame)) addCuts(*hand, cuts);
+      orders_.push_back({part.ref, std::move(r)});
+    }
+  }
+  std::ranges::stable_sort(orders_, {}, [](const Order& o) { return o.what.when; });
+  return any;
 }
 
-void DynamicsNode::letGo(BodyId body) {
+void DynamicsNode::obey(const Order& order, FrameContext& frame) {
+  using Kind = DynObjectNode::Request::Kind;
+  const auto part = std::ranges::find(collidees_, order.body, &Part::ref);
+  if (part == collidees_.end()) return;  // it has gone
+  switch (order.what.kind) {
+  case Kind::Reset:
+    std::erase_if(grips_, [&](const Grip& g) { return g.body == part->id; });
+    world_.placeBody(part->id, poseOf(frame.scene.placements().world(part->placement)), Vec3::Zero(),
+                     Vec3::Zero());
+    break;
+  case Kind::Release: letGo(part->id, order.what.when); break;
+  case Kind::Grab: grab(*part, order.what.tracker, order.what.when, frame); break;
+  default: break;
+  }
+}
+
+void DynamicsNode::grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame) {
+  auto way = frame.scene.trackerCourse(tracker, frame);
+  if (!way || when < way->front().time) return;  // nobody knows where the hand is
+  letGo(part.id, when);
+  if (!world_.holdBody(part.id)) return;
+  const Pose X_WT = poseOn(*way, when, Limit::After);
+  Grip& grip = grips_.emplace_back();
+  grip.body = part.id, grip.tracker = tracker, grip.X_TN = X_WT.inverse() * world_.pose(part.id);
+  grip.hand.put(when, X_WT);
+  grip.course = std::move(*way);
+}
+
+void DynamicsNode::letGo(BodyId body, Nanoseconds when) {
   const auto grip = std::find_if(grips_.begin(), grips_.end(), [&](const Grip& g) { return g.body == body; });
   if (grip == grips_.end()) return;
-  world_.releaseBody(body, grip->v, grip->omega);
+  // A hand of which nothing has been heard lately is taken to stand still, as its body does.
+  const bool silent = grip->hand.way().back().time < when;
+  const auto [v, omega] = silent ? HandMotion::Velocity{} : grip->hand.velocity();
+  const Vec3 arm = world_.state(body).p - grip->hand.now().p;  // to the centre of mass
+  world_.releaseBody(body, v + omega.cross(arm), omega);
   grips_.erase(grip);
 }
 
-bool DynamicsNode::moveGrips(FrameContext& frame) {
+bool DynamicsNode::prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
+  for (Part& part : collidees_) part.course.clear();
+  const bool asked = takeOrders(frame, cuts);
+  const bool fields = followFields(frame, cuts);
   for (Grip& grip : grips_) {
-    const auto X_WT = frame.scene.trackerInWorld(grip.tracker, frame.input);
-    if (!X_WT || frame.now.step <= 0) continue;
-    const Pose pose = *X_WT * grip.X_TN;
-    const double dt = toSeconds(frame.now.step);
-    grip.v = (pose.p - grip.last.p) / dt;
-    grip.omega = det::logRotation(pose.q * grip.last.q.conjugate()) / dt;
-    if (teleported(grip.last, pose, frame.now.step)) grip.v = grip.omega = Vec3::Zero();
-    grip.last = pose;
-    world_.moveHeld(grip.body, pose);
+    auto way = frame.scene.trackerCourse(grip.tracker, frame);
+    grip.course = way ? std::move(*way) : Course{};
+    addCuts(grip.course, cuts);
   }
-  return !grips_.empty();
+  return asked || fields || !grips_.empty();
 }
 
-bool DynamicsNode::beforeStep(FrameContext& frame) {
-  const bool requests = obeyRequests(frame);
-  const bool fields = moveFields(frame);
-  return moveGrips(frame) || requests || fields;
+void DynamicsNode::act(Nanoseconds time, FrameContext& frame) {
+  std::erase_if(fields_, [&](const Field& f) {
+    if (f.leaveAt > time) return false;
+    world_.removeField(f.id);
+    frame.scene.unwatch(f.placement, self());
+    return true;
+  });
+  for (Grip& grip : grips_) {
+    if (!jumpsAt(grip.course, time)) continue;
+    const Pose X_WT = poseOn(grip.course, time, Limit::After);
+    world_.moveHeld(grip.body, X_WT * grip.X_TN, true);
+    grip.hand.put(time, X_WT);
+  }
+  const auto later = std::ranges::upper_bound(orders_, time, {}, [](const Order& o) { return o.what.when; });
+  const std::vector<Order> due(orders_.begin(), later);
+  orders_.erase(orders_.begin(), later);
+  for (const Order& order : due) obey(order, frame);
+}
+
+void DynamicsNode::move(Nanoseconds from, Nanoseconds to) {
+  for (const Field& f : fields_) {
+    if (f.course.empty())
+      world_.moveField(f.id, f.pose, f.pose);
+    else
+      world_.moveField(f.id, poseOn(f.course, from, Limit::After), poseOn(f.course, to, Limit::Before));
+  }
+  for (Grip& grip : grips_) {
+    if (grip.silentBefore(to) || from == to) continue;
+    const Pose X_WT = poseOn(grip.course, to, Limit::Before);
+    world_.moveHeld(grip.body, X_WT * grip.X_TN);
+    grip.hand.go(to, X_WT);
+  }
+}
+
+void DynamicsNode::hash(StateHash& h) const {
+  CollisionNode::hash(h);
+  for (const Grip& g : grips_) {
+    h.add(g.body), h.add(std::string_view(g.tracker)), h.add(g.X_TN);
+    for (const PoseKnot& k : g.hand.way()) h.add(k.time), h.add(k.X);
+  }
 }
 
 bool DynamicsNode::afterStep(FrameContext& frame) {

@@ -4,8 +4,10 @@
 ///
 /// Events    onimpact, onrelease per pair of collider and collidee, and of two collidees.
 /// What happens inside a frame does not depend on the frame rate: bodies fly, bounce and rest on clocks of
-/// their own, and fields switch at exact times.
+/// their own; fields switch, hands grab and let go at exact times. A body that is let go goes on with the
+/// velocity of the hand (hand_motion.h).
 
+#include "dynamics/hand_motion.h"
 #include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dyn_object_node.h"
 #include "dynamics/nodes/field_node.h"
@@ -17,11 +19,15 @@ public:
   DynamicsNode(NodeRef self, std::string name, CollisionAttributes attributes)
       : CollisionNode(NodeKind::Dynamics, self, std::move(name), std::move(attributes)) {}
 
+  void hash(StateHash& h) const override;
+
 protected:
   void onLeave(Scene& scene) override;
   void addCollidee(Part& part, ObjectNode& object, Scene& scene) override;
   void removeCollidee(Part& part, Scene& scene) override;
-  bool beforeStep(FrameContext& frame) override;
+  bool prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts) override;
+  void act(Nanoseconds time, FrameContext& frame) override;
+  void move(Nanoseconds from, Nanoseconds to) override;
   bool afterStep(FrameContext& frame) override;
 
 private:
@@ -30,26 +36,37 @@ private:
     NodeRef ref;
     FieldId id = 0;
     PlacementId placement = kNoPlacement;
-    Pose pose;  ///< at the end of the last step
+    Pose pose;      ///< at the end of the last step
+    Course course;  ///< in this frame, if it moves
+    Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max();
   };
   /// A body in the visitor's hand.
   struct Grip {
     BodyId body;
     std::string tracker;
     Pose X_TN;  ///< how it lies in the hand
-    Pose last;  ///< its pose a frame ago
-    Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
+    HandMotion hand;
+    Course course;  ///< of the hand in this frame; empty while the tracker is silent
+    bool silentBefore(Nanoseconds t) const {
+      return course.empty() || (course.front().jump && t <= course.front().time);
+    }
+  };
+  /// Something asked of a body, for its exact time.
+  struct Order {
+    NodeRef body;
+    DynObjectNode::Request what;
   };
 
   FieldId fieldFor(NodeRef ref, Scene& scene);
-  bool moveFields(FrameContext& frame);
-  bool obeyRequests(FrameContext& frame);
-  bool moveGrips(FrameContext& frame);
-  void grab(Part& part, const std::string& tracker, FrameContext& frame);
-  void letGo(BodyId body);
+  bool followFields(FrameContext& frame, std::vector<Nanoseconds>& cuts);
+  bool takeOrders(FrameContext& frame, std::vector<Nanoseconds>& cuts);
+  void obey(const Order& order, FrameContext& frame);
+  void grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame);
+  void letGo(BodyId body, Nanoseconds when);
 
   std::vector<Field> fields_;
   std::vector<Grip> grips_;
+  std::vector<Order> orders_;  ///< of this frame, in the order of time
 };
 
 }  // namespace stadion

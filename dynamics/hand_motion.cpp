@@ -1,0 +1,46 @@
+#include "dynamics/hand_motion.h"
+
+#include "engine/maths/functions.h"
+
+#include <algorithm>
+
+namespace stadion {
+
+void HandMotion::put(Nanoseconds time, const Pose& X_WT) {
+  way_.assign(1, {time, X_WT, false});
+}
+
+void HandMotion::go(Nanoseconds time, const Pose& X_WT) {
+  way_.push_back({time, X_WT, false});
+  // The knot at or before the window's start is still needed.
+  const auto inside = std::ranges::upper_bound(way_, time - kWindow, {}, &PoseKnot::time);
+  if (inside - way_.begin() > 1) way_.erase(way_.begin(), inside - 1);
+}
+
+HandMotion::Velocity HandMotion::velocity() const {
+  if (way_.size() < 2) return {};
+  const PoseKnot& last = way_.back();
+  const Nanoseconds start = std::max(way_.front().time, last.time - kWindow);
+  // Over x in [-W, 0] seconds the line's slope is (int x y - m int y) / (W^3 / 12) with m = -W / 2. A product
+  // of two straight lines is integrated exactly by Simpson's rule.
+  const double window = toSeconds(last.time - start), mean = -0.5 * window;
+  Velocity slope;
+  const auto add = [&](Nanoseconds time, const Pose& X, double weight) {
+    const double x = toSeconds(time - last.time) - mean;
+    slope.v += weight * x * (X.p - last.X.p);
+    slope.omega += weight * x * det::logRotation(X.q * last.X.q.conjugate());
+  };
+  for (std::size_t i = 1; i < way_.size(); ++i) {
+    if (way_[i].time <= start) continue;
+    const Nanoseconds from = std::max(way_[i - 1].time, start), to = way_[i].time;
+    const double h = toSeconds(to - from);
+    const Nanoseconds middle = from + (to - from) / 2;
+    add(from, poseOn(way_, from, Limit::After), h / 6);
+    add(middle, poseOn(way_, middle, Limit::After), 4 * h / 6);
+    add(to, way_[i].X, h / 6);
+  }
+  const double scale = 12 / (window * window * window);
+  return {slope.v * scale, slope.omega * scale};
+}
+
+}  // namespace stadion

@@ -1,0 +1,40 @@
+#pragma once
+/// How a hand has moved lately, and with which velocity it lets go.
+///
+/// The velocity is the slope of the least-squares line through the last 80 ms of its way: of the positions,
+/// and of the rotation vectors relative to the last orientation. The way between the knots is straight and
+/// counts by the time that it takes, so more knots on a straight way change nothing: frames leave no trace in
+/// a throw.
+///
+/// Frames, units  poses X_WT; metres, seconds, radians.
+/// Threads        a plain value.
+
+#include "engine/maths/course.h"
+
+namespace stadion {
+
+class HandMotion {
+public:
+  static constexpr Nanoseconds kWindow = 80'000'000;  ///< [ns]
+
+  struct Velocity {
+    Vec3 v = Vec3::Zero();      ///< of the hand's origin [m/s]
+    Vec3 omega = Vec3::Zero();  ///< in World [rad/s]
+  };
+
+  /// It is there now, and how it came there does not count.
+  void put(Nanoseconds time, const Pose& X_WT);
+  /// It has gone there, straight. Expects a later time than the last.
+  void go(Nanoseconds time, const Pose& X_WT);
+
+  /// Zero while its way has no length in time.
+  Velocity velocity() const;
+  /// Where it is. Expects that it has been put somewhere.
+  const Pose& now() const { return way_.back().X; }
+  const Course& way() const { return way_; }  ///< all that counts
+
+private:
+  Course way_;
+};
+
+}  // namespace stadion
