@@ -116,6 +116,38 @@ TEST(MovingCollider, ATeleportGivesNoImpulse) {
   EXPECT_TRUE(w.events().empty());
 }
 
+TEST(MovingCollider, ATeleportIntoASleeperWakesIt) {
+  World w;
+  const FieldId g = addGravity(w);
+  addFloor(w, 0.5);
+  const ColliderId wall =
+      w.addCollider({w.addShape(BoxShape{{}, {0.1, 1, 1}}), {{-5, 0, 1.5}, Quat::Identity()}, {}});
+  const BodyId box =
+      addBox(w, g, {.half = {0.1, 0.1, 0.1}, .pose = {{0, 0, 0.1}, Quat::Identity()}, .friction = 0.5});
+  const BodyId ball = addBall(w, g, {.p = {0, 0.5, 0.1}, .friction = 0.5, .rolling = 0.05});
+  play(w, 1);
+  ASSERT_EQ(w.mode(box), BodyMode::Rest);
+  ASSERT_EQ(w.mode(ball), BodyMode::Rest);
+  w.moveCollider(wall, {{-0.15, 0, 1}, Quat::Identity()}, true);
+  w.advance(fromSeconds(1), fromSeconds(1.5));
+  EXPECT_GT(w.state(box).p.x(), 0.04) << "it was 5 cm inside";
+  EXPECT_GT(w.state(ball).p.x(), 0.04);
+}
+
+TEST(MovingCollider, ABodyPutIntoASleeperWakesIt) {
+  World w;
+  const FieldId g = addGravity(w);
+  addFloor(w, 0.5);
+  const BodyId sleeper = addBall(w, g, {.p = {0, 0, 0.1}, .friction = 0.5, .rolling = 0.05});
+  const BodyId other = addBall(w, g, {.p = {3, 0, 0.1}, .friction = 0.5, .rolling = 0.05});
+  play(w, 1);
+  ASSERT_EQ(w.mode(sleeper), BodyMode::Rest);
+  w.placeBody(other, {{0.15, 0, 0.1}, Quat::Identity()}, Vec3::Zero(), Vec3::Zero());
+  w.advance(fromSeconds(1), fromSeconds(1.5));
+  EXPECT_LT(w.state(sleeper).p.x(), -0.01);
+  EXPECT_GE(w.separation({true, sleeper}, {true, other}), -1e-3);
+}
+
 TEST(MovingCollider, ARestingBodyIsCarriedUpByALift) {
   World w;
   const FieldId g = addGravity(w);

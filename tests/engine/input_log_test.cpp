@@ -69,6 +69,35 @@ TEST(InputLog, EasesSmoothRecords) {
   EXPECT_LE((replay.sampleAt(fromSeconds(1)).trackers[0].X_RT * Vec3(0, 1, 0) - Vec3(0, 8, 1)).norm(), 1e-12);
 }
 
+TEST(InputLog, TellsTheSameWayHoweverItIsCutIntoFrames) {
+  const auto log = parsed(
+      "key foot 0.011  0 0 0\nkey foot 0.1037  0 1 0  turn 0 0 30\nkey foot 0.3  0 2 1  turn 40 0 0  smooth\n"
+      "lost foot 0.31\nkey foot 0.4111  5 5 5\nkey foot 0.6  5 6 5\n");
+  ASSERT_TRUE(log);
+  InputReplay replay(*log);
+  const auto wayAt = [&](double rate) {
+    Course way;
+    for (std::uint64_t n = 0; n <= static_cast<std::uint64_t>(rate); ++n) {
+      const TimeSignature now = signatureAt(n, rate);
+      InputSample sample;
+      replay.sampleFrame(now.time - now.step, now.time, sample);
+      const TrackerSample& foot = sample.trackers[0];
+      for (const PoseKnot& k : foot.knots) way.push_back(k);
+      if (foot.valid && (way.empty() || way.back().time < now.time))
+        way.push_back({now.time, foot.X_RT, false});
+    }
+    return way;
+  };
+  const Course slow = wayAt(7), fast = wayAt(240);
+  for (const double t : {0.005, 0.05, 0.1036, 0.1038, 0.2001, 0.2998, 0.305, 0.4110, 0.4112, 0.5}) {
+    const Pose a = poseOn(slow, fromSeconds(t), Limit::After), b = poseOn(fast, fromSeconds(t), Limit::After);
+    EXPECT_LE((a.p - b.p).norm(), 1e-12) << t;
+    EXPECT_LE((a.q.coeffs() - b.q.coeffs()).norm(), 1e-12) << t;
+  }
+  EXPECT_EQ(poseOn(slow, fromSeconds(0.41), Limit::After).p, Vec3(0, 2, 1)) << "lost, it stays where it was";
+  EXPECT_EQ(poseOn(slow, fromSeconds(0.4111), Limit::After).p, Vec3(5, 5, 5)) << "and is found elsewhere";
+}
+
 TEST(InputLog, KeepsALostTrackerWhereItWasSeenLast) {
   const auto log = parsed("pose wand 0  1 2 3  1 0 0 0\nlost wand 1\npose wand 3  5 2 3  1 0 0 0\n");
   ASSERT_TRUE(log);
@@ -183,6 +212,32 @@ TEST(InputRecorder, ReplaysEverySampleToTheBit) {
   const auto copy = parseInputLog(formatInputLog(*log), "t.input", again);
   ASSERT_TRUE(copy);
   EXPECT_EQ(formatInputLog(*copy), formatInputLog(*log));
+}
+
+TEST(InputRecorder, KeepsWhatHappenedInsideTheFrames) {
+  const Scratch scratch;
+  const auto log = parsed("key foot 0.011  0 0 0\nkey foot 0.1037  0 1 0  turn 0 0 30  buttons 2\nkey foot "
+                          "0.3  0 2 1  turn 40 0 0  smooth\n"
+                          "lost foot 0.31\nkey foot 0.4111  5 5 5\nkey foot 0.6  5 6 5\n");
+  ASSERT_TRUE(log);
+  InputReplay replay(*log);
+  InputRecorder recorder(scratch.file("a.input"));
+  std::vector<InputSample> samples(31);
+  for (std::uint64_t n = 0; n <= 30; ++n) {
+    const TimeSignature now = signatureAt(n, 30);
+    replay.sampleFrame(now.time - now.step, now.time, samples[n]);
+    recorder.record(samples[n]);
+  }
+  ASSERT_FALSE(recorder.commit());
+  Diagnostics out;
+  const auto copy = loadInputLog(scratch.file("a.input"), out);
+  ASSERT_TRUE(copy);
+  InputSample back;
+  for (std::uint64_t n = 0; n <= 30; ++n) {
+    const TimeSignature now = signatureAt(n, 30);
+    copy->sampleFrame(now.time - now.step, now.time, back);
+    EXPECT_EQ(back.trackers, samples[n].trackers) << n;
+  }
 }
 
 TEST(InputRecorder, WritesBadPosesAsLostAndOddNamesPlain) {
