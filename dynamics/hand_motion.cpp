@@ -25,19 +25,18 @@ HandMotion::Velocity HandMotion::velocity() const {
   // of two straight lines is integrated exactly by Simpson's rule.
   const double window = toSeconds(last.time - start), mean = -0.5 * window;
   Velocity slope;
-  const auto add = [&](Nanoseconds time, const Pose& X, double weight) {
-    const double x = toSeconds(time - last.time) - mean;
-    slope.v += weight * x * (X.p - last.X.p);
-    slope.omega += weight * x * det::logRotation(X.q * last.X.q.conjugate());
+  const auto add = [&](double x, const Pose& X, double weight) {
+    slope.v += weight * (x - mean) * (X.p - last.X.p);
+    slope.omega += weight * (x - mean) * det::logRotation(X.q * last.X.q.conjugate());
   };
   for (std::size_t i = 1; i < way_.size(); ++i) {
     if (way_[i].time <= start) continue;
-    const Nanoseconds from = std::max(way_[i - 1].time, start), to = way_[i].time;
-    const double h = toSeconds(to - from);
-    const Nanoseconds middle = from + (to - from) / 2;
-    add(from, poseOn(way_, from, Limit::After), h / 6);
-    add(middle, poseOn(way_, middle, Limit::After), 4 * h / 6);
-    add(to, way_[i].X, h / 6);
+    const Nanoseconds from = std::max(way_[i - 1].time, start);
+    const double x0 = toSeconds(from - last.time), x1 = toSeconds(way_[i].time - last.time), h = x1 - x0;
+    const Pose X0 = poseOn(way_, from, Limit::After);
+    add(x0, X0, h / 6);
+    add(0.5 * (x0 + x1), det::interpolate(X0, way_[i].X, 0.5), 4 * h / 6);
+    add(x1, way_[i].X, h / 6);
   }
   const double scale = 12 / (window * window * window);
   return {slope.v * scale, slope.omega * scale};

@@ -162,7 +162,7 @@ private:
   };
 
   void applyLoads(const TimeSignature& now);
-  void foreseeUnloads(const TimeSignature& now);
+  void foreseeUnloads(Nanoseconds now);
   void applyUnloads(const TimeSignature& now);
   void install(std::unique_ptr<Load> load, Nanoseconds at);
   void remove(std::uint32_t number, std::uint64_t frame);

@@ -75,10 +75,14 @@ std::uint32_t Scene::requestLoad(const std::string& file, NodeRef owner, Nanosec
 void Scene::requestUnload(std::uint32_t number, Nanoseconds at) {
   // A load that has not arrived yet is taken back as soon as it arrives.
   pendingLoads_.push_back({at, number, false});
+  if (!current_ || at > now_) return;
+  // In this very frame: dynamics has not had its turn yet.
+  foreseeUnloads(now_);
+  for (const NodeRef watcher : loadWatchers_) wakeNow(watcher);
 }
 
 void Scene::applyLoads(const TimeSignature& now) {
-  foreseeUnloads(now);
+  foreseeUnloads(now.time);
   // Installing a load may ask for more of them (sub-scenes that are there from the start).
   for (std::size_t i = 0; i < pendingLoads_.size();) {
     const Change change = pendingLoads_[i];
@@ -91,13 +95,13 @@ void Scene::applyLoads(const TimeSignature& now) {
       install(std::move(load), std::max(change.at, now.time - now.step));
     i = 0;
   }
-  foreseeUnloads(now);
+  foreseeUnloads(now.time);
 }
 
 /// What goes in this frame stays to the frame's end, and is told when its time is.
-void Scene::foreseeUnloads(const TimeSignature& now) {
+void Scene::foreseeUnloads(Nanoseconds now) {
   for (const Change& change : pendingLoads_) {
-    const auto at = change.load || change.at > now.time ? loads_.end() : loads_.find(change.number);
+    const auto at = change.load || change.at > now ? loads_.end() : loads_.find(change.number);
     if (at == loads_.end() || at->second->until == change.at) continue;
     at->second->until = change.at;
     ++loadsVersion_;
