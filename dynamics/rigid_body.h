@@ -1,7 +1,7 @@
 #pragma once
 /// What the world keeps of a body, a collider and their motion through one frame. Internal to dynamics/.
 ///
-/// Times    tau is seconds after the start of the present frame; an arc's age is `age0 + tau`.
+/// Times    tau is seconds after the start of the present window; an arc's age is `age0 + tau`.
 
 #include "dynamics/arc.h"
 #include "dynamics/instant.h"
@@ -27,18 +27,19 @@ struct Kinematics {
 struct GuidedMotion {
   Pose start, end;
   Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
-  double rate = 0;  ///< 1 / frame length [1/s]
+  double begin = 0;  ///< tau of `start`
+  double rate = 0;   ///< 1 / frame length [1/s]
   bool moving = false;
 
-  void set(const Pose& from, const Pose& to, double seconds) {
-    start = from, end = to;
+  void set(const Pose& from, const Pose& to, double tau, double seconds) {
+    start = from, end = to, begin = tau;
     moving = seconds > 0 && (from.p != to.p || from.q.coeffs() != to.q.coeffs());
     rate = moving ? 1 / seconds : 0;
     v = moving ? Vec3((to.p - from.p) * rate) : Vec3::Zero();
     omega = moving ? Vec3(from.q * det::logRotation(from.q.conjugate() * to.q) * rate) : Vec3::Zero();
   }
   Kinematics at(double tau) const {
-    const Pose X = moving ? det::interpolate(start, end, tau * rate) : end;
+    const Pose X = moving ? det::interpolate(start, end, (tau - begin) * rate) : end;
     return {X, X.p, v, omega};
   }
 };
@@ -87,9 +88,10 @@ struct RigidBody {
   Path path;
   Spin spin;
   Instant since;             ///< when the present arc began
-  double age0 = 0;           ///< its age at the start of the frame [s]
-  double until = 0;          ///< greatest valid tau in this frame's seconds; infinity if unlimited
+  double age0 = 0;           ///< its age at the start of the window [s]
+  double until = 0;          ///< greatest valid tau; infinity if unlimited
   double validAge = 0;       ///< the same as an age
+  double pathAge = 0;        ///< the same for the path alone: the spin may wear out earlier
   Vec3 endL = Vec3::Zero();  ///< Contact: angular momentum at the end of the sub-step
   double step = 0;           ///< last step of the general integrator [s]
   Support support;
@@ -97,13 +99,15 @@ struct RigidBody {
   std::vector<Party> touching;  ///< Contact, Rest: whom the body leans on
   GuidedMotion held;
   std::uint32_t version = 0;  ///< counts arcs: older predictions are void
-  std::uint32_t impacts = 0;  ///< in this frame
+  std::uint32_t impacts = 0;  ///< in the short time `impactSpan`
+  Nanoseconds impactSpan = -1;
   double quiet = 0;           ///< Contact: how long it has hardly moved [s]
   std::string trouble;
   Pose pose;             ///< X_WN at the end of the last frame
-  Aabb swept;            ///< of the rest of the frame
-  Aabb filed;            ///< the same as the broad phase knows it
-  bool strayed = false;  ///< outside of `filed`
+  Aabb swept;            ///< of the rest of the window, as far as it is known
+  std::uint32_t place = 0xffffffff;  ///< in the broad phase
+  bool active = false, marked = false;  ///< in the world's lists of these names
+  bool alone = false;  ///< nothing is near what it sweeps
 
   bool isBall() const { return std::holds_alternative<BallShape>(*shape); }
   /// How far the ball's centre is from the centre of mass [m].
@@ -118,6 +122,11 @@ struct RigidBody {
   Vec3 position(double tau) const { return path.position(age(tau)); }
   Vec3 velocity(double tau) const { return path.velocity(age(tau)); }
   Quat orientation(double tau) const { return spin.orientation(age(tau)); }
+  /// X_WN alone.
+  Pose poseAt(double tau) const {
+    if (mode == BodyMode::Held) return held.at(tau).pose;
+    return Pose{position(tau), orientation(tau)} * X_CN;
+  }
   Kinematics at(double tau) const {
     if (mode == BodyMode::Held) {
       Kinematics k = held.at(tau);
@@ -143,7 +152,9 @@ struct Collider {
   GuidedMotion motion;
   bool disturbed = false;  ///< it moved, jumped or came: sleepers on it wake
   bool fresh = true;
+  std::uint32_t version = 0;  ///< counts motions: older predictions are void
   Aabb swept;
+  std::uint32_t place = 0xffffffff;  ///< in the broad phase
 };
 
 inline MotionBound RigidBody::boundOver(double from, double to) const {

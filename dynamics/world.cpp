@@ -43,33 +43,34 @@ ShapeId World::addShape(Shape shape) {
   const Sphere bound = boundingSphere(shape);
   if (!bound.centre.allFinite() || !(bound.radius > 0)) return 0;
   const ShapeId id = core_->nextShape++;
-  core_->shapes.emplace(id, Core::ShapeEntry{std::move(shape), bound, 0});
+  Core::ShapeEntry& entry = core_->shapes.add(id);
+  entry.shape = std::move(shape), entry.bound = bound;
   return id;
 }
 
 bool World::removeShape(ShapeId id) {
-  const auto at = core_->shapes.find(id);
-  if (at == core_->shapes.end() || at->second.uses > 0) return false;
-  core_->shapes.erase(at);
+  const Core::ShapeEntry* s = core_->shapes.find(id);
+  if (!s || s->uses > 0) return false;
+  core_->shapes.erase(id);
   return true;
 }
 
 const Shape* World::shape(ShapeId id) const {
-  const auto at = core_->shapes.find(id);
-  return at == core_->shapes.end() ? nullptr : &at->second.shape;
+  const Core::ShapeEntry* s = core_->shapes.find(id);
+  return s ? &s->shape : nullptr;
 }
 
 BodyId World::addBody(const BodyDef& d) {
-  const auto s = core_->shapes.find(d.shape);
-  if (s == core_->shapes.end() || std::holds_alternative<PlaneShape>(s->second.shape) || !d.mass.valid() ||
+  Core::ShapeEntry* s = core_->shapes.find(d.shape);
+  if (!s || std::holds_alternative<PlaneShape>(s->shape) || !d.mass.valid() ||
       !usable(d.pose) || !usable(d.surface) || !d.v.allFinite() || !d.omega.allFinite() ||
       !(d.damping >= 0) || !std::isfinite(d.damping) || !(d.releaseDistance >= 0))
     return 0;
-  ++s->second.uses;
+  ++s->uses;
   const BodyId id = core_->nextBody++;
-  RigidBody& b = core_->bodies[id];
+  RigidBody& b = core_->bodies.add(id);
   core_->bodyIds.push_back(id);
-  b.id = id, b.shapeId = d.shape, b.shape = &s->second.shape, b.bound = s->second.bound;
+  b.id = id, b.shapeId = d.shape, b.shape = &s->shape, b.bound = s->bound;
   b.surface = d.surface, b.mass = d.mass.mass, b.inverseMass = 1 / d.mass.mass, b.inertia = d.mass.inertia;
   b.X_NC = {d.mass.centre, d.mass.axes.normalized()};
   if (const auto* ball = std::get_if<BallShape>(b.shape);
@@ -86,8 +87,8 @@ BodyId World::addBody(const BodyDef& d) {
   const Pose X_WC = b.pose * b.X_NC;
   const Quat& q = X_WC.q;
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * d.omega);
-  core_->standStill();  // The ball's own centre, not the rounded composition, where it is what counts.
-  core_->startFlight(b, 0, X_WC.p, d.v, q, L);
+  core_->mark(b);
+  core_->startFlight(b, core_->now, X_WC.p, d.v, q, L);
   return id;
 }
 
@@ -95,27 +96,28 @@ bool World::removeBody(BodyId id) {
   RigidBody* b = core_->body(id);
   if (!b) return false;
   enableBody(id, false);
-  --core_->shapes.at(b->shapeId).uses;
+  --core_->shapes.find(b->shapeId)->uses;
   core_->memory.forget({true, id});
   std::erase_if(core_->commands, [&](const Core::Command& c) { return c.body == id; });
   std::erase_if(core_->ignored, [&](const auto& p) {
     return p.first == Party{true, id} || p.second == Party{true, id};
   });
   std::erase(core_->bodyIds, id);
+  core_->forgetBody(*b);
   core_->bodies.erase(id);
   return true;
 }
 
 ColliderId World::addCollider(const ColliderDef& d) {
-  const auto s = core_->shapes.find(d.shape);
-  if (s == core_->shapes.end() || !usable(d.pose) || !usable(d.surface)) return 0;
-  ++s->second.uses;
+  Core::ShapeEntry* s = core_->shapes.find(d.shape);
+  if (!s || !usable(d.pose) || !usable(d.surface)) return 0;
+  ++s->uses;
   const ColliderId id = core_->nextCollider++;
-  Collider& c = core_->colliders[id];
-  c.id = id, c.shapeId = d.shape, c.shape = &s->second.shape, c.bound = s->second.bound,
-  c.surface = d.surface;
+  Collider& c = core_->colliders.add(id);
+  c.id = id, c.shapeId = d.shape, c.shape = &s->shape, c.bound = s->bound, c.surface = d.surface;
   c.now = unit(d.pose);
-  c.motion.set(c.now, c.now, 0);
+  c.motion.set(c.now, c.now, core_->now, 0);
+  core_->told.push_back(id);
   return id;
 }
 
@@ -123,11 +125,12 @@ bool World::removeCollider(ColliderId id) {
   Collider* c = core_->collider(id);
   if (!c) return false;
   enableCollider(id, false);
-  --core_->shapes.at(c->shapeId).uses;
+  --core_->shapes.find(c->shapeId)->uses;
   core_->memory.forget({false, id});
   std::erase_if(core_->ignored, [&](const auto& p) {
     return p.first == Party{false, id} || p.second == Party{false, id};
   });
+  core_->nearColliders.remove(*c);
   core_->colliders.erase(id);
   return true;
 }
@@ -141,6 +144,7 @@ bool World::moveCollider(ColliderId id, const Pose& end, bool teleport) {
   } else {
     c->next = unit(end);
   }
+  core_->told.push_back(id);
   return true;
 }
 
@@ -149,9 +153,11 @@ bool World::enableCollider(ColliderId id, bool on) {
   if (!c) return false;
   if (c->enabled == on) return true;
   c->enabled = on, c->fresh = on;
+  ++c->version;
+  core_->told.push_back(id);
   if (!on) {
-    core_->standStill();
-    core_->wakeOnto({false, id}, 0);
+    core_->nearColliders.remove(*c);
+    core_->wakeOnto({false, id}, core_->now);
     core_->memory.forget({false, id});
   }
   return true;
@@ -161,18 +167,19 @@ bool World::enableBody(BodyId id, bool on) {
   RigidBody* b = core_->body(id);
   if (!b) return false;
   if (b->enabled == on) return true;
-  core_->standStill();
+  core_->mark(*b);
   if (on) {
     b->enabled = b->fresh = true;
     const Pose X_WC = b->pose * b->X_NC;
-    core_->startFlight(*b, 0, X_WC.p, Vec3::Zero(), X_WC.q, Vec3::Zero());
+    core_->startFlight(*b, core_->now, X_WC.p, Vec3::Zero(), X_WC.q, Vec3::Zero());
     return true;
   }
   b->enabled = false;
-  core_->freeze(*b, 0);
+  core_->nearBodies.remove(*b);
+  core_->freeze(*b, core_->now);
   b->support.on = {};
   b->touching.clear();
-  core_->wakeOnto({true, id}, 0);
+  core_->wakeOnto({true, id}, core_->now);
   core_->memory.forget({true, id});
   return true;
 }
@@ -194,67 +201,66 @@ void World::setBodiesCollide(bool on) {
 FieldId World::addField(const ForceField& field, bool on) {
   if (!usable(field.start) || !usable(field.end) || field.duration < 0) return 0;
   const FieldId id = core_->nextField++;
-  core_->fields[id] = {field, false, true, 0};
+  Core::FieldEntry& f = core_->fields.add(id);
+  f.id = id, f.field = field, f.changed = true;
   if (on) switchField(id, true, core_->t1);
   return id;
 }
 
 bool World::removeField(FieldId id) {
-  const auto at = core_->fields.find(id);
-  if (at == core_->fields.end()) return false;
-  for (auto& [bid, b] : core_->bodies)
-    if (hooked(bid, id)) unhook(bid, id, core_->t1);
+  if (!core_->fields.find(id)) return false;
+  for (const BodyId body : core_->bodyIds)
+    if (hooked(body, id)) unhook(body, id, core_->t1);
   switchField(id, false, core_->t1);
-  core_->standStill();
   // Due at once; without a frame in between nobody may keep feeling it.
   std::vector<Core::Command> due;
   for (const Core::Command& c : core_->commands)
     if (c.field == id && c.when <= core_->t1) due.push_back(c);
   std::erase_if(core_->commands, [&](const Core::Command& c) { return c.field == id; });
   for (const Core::Command& c : due)
-    if (c.kind == Core::Command::Kind::Unhook || !c.on) core_->execute(c, 0);
+    if (c.kind == Core::Command::Kind::Unhook || !c.on) core_->execute(c, core_->now);
   core_->fields.erase(id);
   return true;
 }
 
 bool World::moveField(FieldId id, const Pose& start, const Pose& end) {
-  const auto at = core_->fields.find(id);
-  if (at == core_->fields.end() || !usable(start) || !usable(end)) return false;
-  ForceField& f = at->second.field;
+  Core::FieldEntry* entry = core_->fields.find(id);
+  if (!entry || !usable(start) || !usable(end)) return false;
+  ForceField& f = entry->field;
   const bool was = f.moving();
   const bool same = f.end.p == start.p && f.end.q.coeffs() == start.q.coeffs();
   f.start = unit(start), f.end = unit(end);
-  if (was || !same || f.moving()) at->second.changed = true;
+  if (was || !same || f.moving()) entry->changed = true;
   return true;
 }
 
 bool World::setFieldLaw(FieldId id, const FieldLaw& law) {
-  const auto at = core_->fields.find(id);
-  if (at == core_->fields.end()) return false;
-  at->second.field.law = law;
-  at->second.changed = true;
+  Core::FieldEntry* f = core_->fields.find(id);
+  if (!f) return false;
+  f->field.law = law;
+  f->changed = true;
   return true;
 }
 
 bool World::switchField(FieldId id, bool on, Nanoseconds when) {
-  if (!core_->fields.count(id)) return false;
+  if (!core_->fields.find(id)) return false;
   core_->insert({when, 0, Core::Command::Kind::Switch, id, 0, on, 0});
   return true;
 }
 
 bool World::fieldOn(FieldId id) const {
-  const auto at = core_->fields.find(id);
-  return at != core_->fields.end() && at->second.on;
+  const Core::FieldEntry* f = core_->fields.find(id);
+  return f && f->on;
 }
 
 bool World::hook(BodyId body, FieldId field, Nanoseconds when) {
-  if (!core_->body(body) || !core_->fields.count(field)) return false;
+  if (!core_->body(body) || !core_->fields.find(field)) return false;
   core_->insert({when, 0, Core::Command::Kind::Hook, field, body, true, 0});
   return true;
 }
 
 bool World::unhook(BodyId body, FieldId field, Nanoseconds when) {
-  if (!core_->body(body) || !core_->fields.count(field)) return false;
+  if (!core_->body(body) || !core_->fields.find(field)) return false;
   core_->insert({when, 0, Core::Command::Kind::Unhook, field, body, false, 0});
   return true;
 }
@@ -267,38 +273,35 @@ bool World::hooked(BodyId id, FieldId field) const {
 bool World::placeBody(BodyId id, const Pose& X_WN, const Vec3& v, const Vec3& omega) {
   RigidBody* b = core_->body(id);
   if (!b || !usable(X_WN) || !v.allFinite() || !omega.allFinite()) return false;
-  core_->standStill();
   b->pose = unit(X_WN);
   b->trouble.clear();
   b->fresh = true;
   b->touching.clear();
   const Pose X_WC = b->pose * b->X_NC;
   core_->memory.forget({true, id});
-  core_->startFlight(*b, 0, X_WC.p, v, X_WC.q, X_WC.q * b->inertia.cwiseProduct(X_WC.q.conjugate() * omega));
-  core_->wakeOnto({true, id}, 0);
+  core_->startFlight(*b, core_->now, X_WC.p, v, X_WC.q, X_WC.q * b->inertia.cwiseProduct(X_WC.q.conjugate() * omega));
+  core_->wakeOnto({true, id}, core_->now);
   return true;
 }
 
 bool World::push(BodyId id, const Vec3& impulse, const Vec3& at) {
   RigidBody* b = core_->body(id);
   if (!b || !impulse.allFinite() || !at.allFinite() || !b->movable()) return false;
-  core_->standStill();
-  Mobile m = mobileOf(*b, 0);
+  Mobile m = mobileOf(*b, core_->now);
   m.apply(impulse, at);
-  core_->afterImpulse(*b, m, 0, false);
+  core_->afterImpulse(*b, m, core_->now, false);
   return true;
 }
 
 bool World::holdBody(BodyId id) {
   RigidBody* b = core_->body(id);
   if (!b || b->mode == BodyMode::Quarantined) return false;
-  core_->standStill();
-  core_->freeze(*b, 0);
+  core_->freeze(*b, core_->now);
   b->support.on = {};
   b->touching.clear();
-  core_->wakeOnto({true, id}, 0);
+  core_->wakeOnto({true, id}, core_->now);
   b->mode = BodyMode::Held;
-  b->held.set(b->pose, b->pose, 0);
+  b->held.set(b->pose, b->pose, core_->now, 0);
   return true;
 }
 
@@ -306,11 +309,10 @@ bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
   RigidBody* b = core_->body(id);
   if (!b || b->mode != BodyMode::Held || !usable(end)) return false;
   if (teleport) {
-    core_->standStill();
-    b->pose = unit(end);
-    b->held.set(b->pose, b->pose, 0);
+      b->pose = unit(end);
+    b->held.set(b->pose, b->pose, core_->now, 0);
     b->fresh = true;
-    core_->wakeOnto({true, id}, 0);
+    core_->wakeOnto({true, id}, core_->now);
   }
   b->held.start = b->pose;
   b->held.end = unit(end);
@@ -326,9 +328,7 @@ bool World::releaseBody(BodyId id, const Vec3& v, const Vec3& omega) {
 
 bool World::advance(Nanoseconds t0, Nanoseconds t1, bool continues) {
   if (t1 < t0 || (core_->started && t0 != core_->t1)) return false;
-  if (!core_->started) {  // arcs made before the first frame begin with it
-    for (auto& [id, b] : core_->bodies) b.since = Instant{t0, 0};
-  }
+  if (!core_->started) core_->start(t0);
   core_->advance(t0, t1, continues);
   return true;
 }
@@ -397,7 +397,7 @@ const std::vector<BodyId>& World::bodies() const {
 double World::separation(Party a, Party b) const {
   const auto sa = core_->side(a), sb = core_->side(b);
   if (!sa || !sb) return std::numeric_limits<double>::infinity();
-  return gapBetween(*sa, *sb, core_->length).distance;
+  return gapBetween(*sa, *sb, core_->now).distance;
 }
 
 const World::Counters& World::counters() const {

@@ -43,17 +43,18 @@ State dormandPrince(F f, double tau, const State& s, double h, double& error) {
 Vec3 World::Core::accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& v, double tau) const {
   Vec3 a = Vec3::Zero();
   for (const Hook& h : b.hooks) {
-    const auto at = fields.find(h.field);
-    if (at == fields.end() || !at->second.on) continue;
-    a += accelerationOf(at->second.field, p, v, b.mass, length > 0 ? std::clamp(tau / length, 0.0, 1.0) : 1);
+    const FieldEntry* f = fields.find(h.field);
+    if (!f || !f->on) continue;
+    const double share = now > frameFrom ? std::clamp((tau - frameFrom) / (now - frameFrom), 0.0, 1.0) : 1;
+    a += accelerationOf(f->field, p, v, b.mass, share);
   }
   return a;
 }
 
 bool World::Core::uniformFor(const RigidBody& b) const {
   for (const Hook& h : b.hooks) {
-    const auto at = fields.find(h.field);
-    if (at != fields.end() && at->second.on && !at->second.field.uniform()) return false;
+    const FieldEntry* f = fields.find(h.field);
+    if (f && f->on && !f->field.uniform()) return false;
   }
   return true;
 }
@@ -70,11 +71,13 @@ void World::Core::setArc(RigidBody& b, double tau, const Path& path, const Spin&
     return;
   }
   b.path = path, b.spin = spin, b.mode = mode;
-  b.since = Instant{t0, 0}.plus(tau);
+  b.since = instantAt(tau);
   b.age0 = -tau;
+  b.pathAge = horizon;
   b.validAge = std::min(horizon, spin.horizon);
   b.until = tau + b.validAge;
   ++b.version;
+  if (!b.active) b.active = true, active.push_back(&b);
 }
 
 void World::Core::quarantine(RigidBody& b, double tau, std::string why) {
@@ -87,8 +90,8 @@ void World::Core::quarantine(RigidBody& b, double tau, std::string why) {
   const Quat q = usable && b.orientation(tau).coeffs().allFinite() ? b.orientation(tau) : X_WC.q;
   b.path = Path::still(p), b.spin = Spin::still(q);
   b.mode = BodyMode::Quarantined;
-  b.since = Instant{t0, 0}.plus(tau);
-  b.age0 = -tau, b.until = b.validAge = kForever;
+  b.since = instantAt(tau);
+  b.age0 = -tau, b.until = b.validAge = b.pathAge = kForever;
   b.support.on = {};
   b.touching.clear();
   ++b.version;
@@ -110,9 +113,8 @@ void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec
   // A field that moves is known to the end of this frame only.
   double longest = 0.05;
   for (const Hook& h : b.hooks) {
-    const auto at = fields.find(h.field);
-    if (at != fields.end() && at->second.on && at->second.field.moving() && tau < length)
-      longest = std::min(longest, length - tau);
+    const FieldEntry* field = fields.find(h.field);
+    if (field && field->on && field->field.moving() && tau < now) longest = std::min(longest, now - tau);
   }
   double h = std::min(b.step > 0 ? b.step : 0.01, longest), error = 0;
   State end{p, v};

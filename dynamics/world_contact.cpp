@@ -7,7 +7,6 @@
 namespace stadion {
 namespace {
 
-constexpr Nanoseconds kGrid = 2'000'000;   ///< the solver's steps fall on multiples of this show time [ns]
 constexpr double kTouching = 1e-4;         ///< pairs closer than this are in contact [m]
 constexpr double kSlop = 1e-5;             ///< overlap that is left alone [m]
 constexpr double kPushOut = 0.2;           ///< speed limit of the correction of deeper overlap [m/s]
@@ -46,7 +45,7 @@ void World::Core::enterContact(RigidBody& b, double tau) {
   const Vec3 L = b.spin.angularMomentum(b.age(tau));
   b.support.on = {};
   setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
-         Spin::free(b.orientation(tau), L, b.inertia), 1e30, BodyMode::Contact);
+         Spin::free(b.orientation(tau), L, b.inertia), kTick, BodyMode::Contact);
   b.endL = L;
   b.quiet = 0;
   scheduleTick(tau);
@@ -65,7 +64,7 @@ void World::Core::wake(RigidBody& b, double tau) {
 }
 
 void World::Core::wakeOnto(Party moved, double tau) {
-  for (auto& [id, other] : bodies) {
+  for (RigidBody& other : bodies) {
     if (other.mode == BodyMode::Rest || other.mode == BodyMode::Slide || other.mode == BodyMode::Roll) {
       if (other.support.on.id && other.support.on == moved) {
         startFlight(other, tau, other.position(tau), other.velocity(tau), other.orientation(tau),
@@ -112,12 +111,10 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
       found.push_back(f);
     }
   };
-  for (const auto& [id, c] : colliders) {
-    const Side other = Side::of(c);
-    if (!c.enabled || !mayTouch(self, other) || !c.swept.overlaps(box)) continue;
-    against(other);
-  }
-  eachNear(box, [&](RigidBody& o) {
+  nearColliders.eachNear(box, [&](const Collider& c) {
+    if (mayTouch(self, Side::of(c))) against(Side::of(c));
+  });
+  nearBodies.eachNear(box, [&](RigidBody& o) {
     const bool asleep =
         o.mode == BodyMode::Rest || o.mode == BodyMode::Quarantined || o.mode == BodyMode::Held;
     if (&o == &b || !o.enabled || (o.mode == BodyMode::Contact && o.id < b.id)) return;
@@ -134,8 +131,8 @@ bool World::Core::solveTick(std::vector<RigidBody*>& set, std::vector<Found>& fo
   // Sleepers touched by something that moves wake and join at the next step, which is now.
   for (const Found& f : found) {
     if (!f.b.isBody) continue;
-    RigidBody& o = bodies.at(f.b.id);
-    const RigidBody& mover = bodies.at(f.a.id);
+    RigidBody& o = *body(f.b.id);
+    const RigidBody& mover = *body(f.a.id);
     if (o.mode != BodyMode::Rest || f.gap.distance > kTouching) continue;
     const Mobile m = mobileOf(mover, tau);
     if (m.velocityAt(f.gap.point).norm() > 5e-3 || mover.quiet == 0) {
@@ -160,22 +157,22 @@ bool World::Core::solveTick(std::vector<RigidBody*>& set, std::vector<Found>& fo
   for (const Found& f : found) {
     if (index.count(f.b)) continue;
     index[f.b] = static_cast<std::uint32_t>(mobiles.size());
-    Mobile m = f.b.isBody ? mobileOf(bodies.at(f.b.id), tau) : mobileOf(colliders.at(f.b.id), tau);
+    Mobile m = f.b.isBody ? mobileOf(*body(f.b.id), tau) : mobileOf(*collider(f.b.id), tau);
     m.inverseMass = 0, m.inverseInertia.setZero();
     mobiles.push_back(m);
   }
   // First what is an impact: approaches that end now, with restitution if they are fast.
-  std::vector<SolverContact> now;
+  std::vector<SolverContact> hits;
   for (Found& f : found) {
     f.contact.a = index[f.a], f.contact.b = index[f.b];
     if (f.gap.distance > kSlop) continue;
     SolverContact c = f.contact;
     const double closing = -(mobiles[c.a].velocityAt(c.x) - mobiles[c.b].velocityAt(c.x)).dot(c.n);
     c.floor = closing > kRestitutionSpeed ? c.restitution * closing : 0;
-    now.push_back(c);
+    hits.push_back(c);
   }
   std::vector<Mobile> start = mobiles;
-  solveContacts(start, now);
+  solveContacts(start, hits);
   // Then the forces of the step: constant through it, so that the arcs are parabolas.
   mobiles = start;
   for (std::size_t i = 0; i < set.size(); ++i) {
@@ -201,7 +198,7 @@ bool World::Core::solveTick(std::vector<RigidBody*>& set, std::vector<Found>& fo
   for (std::size_t i = 0; i < found.size(); ++i) {
     found[i].contact = step[i];
     // Rolling resistance takes spin of balls up to c r N.
-    RigidBody& b = bodies.at(found[i].a.id);
+    RigidBody& b = *body(found[i].a.id);
     if (!b.isBall() || step[i].normalImpulse <= 0 || found[i].surface.rolling <= 0) continue;
     Mobile& m = mobiles[step[i].a];
     const double most = found[i].surface.rolling * b.radius() * step[i].normalImpulse / b.inertia.x();
@@ -241,22 +238,22 @@ void World::Core::concludeTick(RigidBody& b, const Mobile& start, const Mobile& 
       std::max(end.v.norm() + end.omega.norm() * b.reach, start.v.norm() + start.omega.norm() * b.reach);
   b.quiet = fastest < kQuietSpeed ? b.quiet + h : 0;
   setArc(b, tau, Path::parabola(start.p, start.v, (end.v - start.v) / h),
-         Spin::free(q, 0.5 * (L0 + L1), b.inertia), 1e30, BodyMode::Contact);
+         Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
   b.endL = L1;
 }
 
 void World::Core::tick(double tau) {
   ++counters.contactSteps;
   tickAt = -1;
-  const Nanoseconds now = timeAt(tau);
-  const Nanoseconds next = (now / kGrid + 1) * kGrid;
-  const double h = Instant{next, 0}.since(Instant{t0, 0}.plus(tau));
+  const Nanoseconds next = (timeAt(tau) / kTickGrid + 1) * kTickGrid;
+  const double h = Instant{next, 0}.since(instantAt(tau));
   std::vector<RigidBody*> set;
   std::vector<Found> found;
   for (int pass = 0; pass < 50; ++pass) {
     set.clear(), found.clear();
-    for (auto& [id, b] : bodies)
-      if (b.mode == BodyMode::Contact && b.enabled) set.push_back(&b);
+    for (RigidBody* b : active)
+      if (b->mode == BodyMode::Contact && b->enabled) set.push_back(b);
+    std::ranges::sort(set, {}, &RigidBody::id);
     if (set.empty()) return;
     for (RigidBody* b : set) findContacts(*b, tau, found, h);
     if (solveTick(set, found, tau, h)) break;
@@ -301,20 +298,20 @@ void World::Core::tick(double tau) {
   std::map<BodyId, std::size_t> place;
   for (std::size_t i = 0; i < set.size(); ++i) place[set[i]->id] = i;
   for (const Found& f : found)
-    if (f.b.isBody && place.count(f.b.id) && bodies.at(f.b.id).mode == BodyMode::Contact)
+    if (f.b.isBody && place.count(f.b.id) && body(f.b.id)->mode == BodyMode::Contact)
       groups.join(place[f.a.id], place[f.b.id]);
   std::vector<bool> restless(set.size(), false);
   for (std::size_t i = 0; i < set.size(); ++i)
     if (set[i]->mode != BodyMode::Contact || set[i]->quiet < kQuietTime) restless[groups.of(i)] = true;
   for (const Found& f : found)
-    if (!f.b.isBody && colliders.at(f.b.id).motion.moving) restless[groups.of(place[f.a.id])] = true;
+    if (!f.b.isBody && collider(f.b.id)->motion.moving) restless[groups.of(place[f.a.id])] = true;
   bool awake = false;
   for (std::size_t i = 0; i < set.size(); ++i) {
     if (set[i]->mode == BodyMode::Contact && !restless[groups.of(i)]) freeze(*set[i], tau);
     awake = awake || set[i]->mode == BodyMode::Contact;
   }
   for (RigidBody* b : set) predict(*b, tau);
-  if (awake) scheduleTick(Instant{next, 0}.since(Instant{t0, 0}));
+  if (awake) scheduleTick(tauOf(next));
 }
 
 }  // namespace stadion

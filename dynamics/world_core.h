@@ -1,10 +1,17 @@
 #pragma once
 /// The inside of World, shared by its source files: world.cpp (interface), world_frame.cpp (one frame),
-/// world_arcs.cpp (new arcs), world_impact.cpp (touches), world_contact.cpp (lasting contact).
+/// world_foresight.cpp (what will touch), world_arcs.cpp (new arcs), world_impact.cpp (touches),
+/// world_contact.cpp (lasting contact).
+///
+/// Time     runs in windows of 128 ms on a grid of show time. tau is seconds since the window's start. What
+/// will happen is foreseen to the window's end, once for each arc; a frame only lets happen what is due and
+/// looks where everybody is. What moves from outside is known to the end of the frame only.
 
 #include "dynamics/ball_motion.h"
+#include "dynamics/broad_phase.h"
 #include "dynamics/contact_events.h"
 #include "dynamics/contact_solver.h"
+#include "dynamics/id_table.h"
 #include "dynamics/rigid_body.h"
 #include "dynamics/touch.h"
 #include "dynamics/world.h"
@@ -24,6 +31,7 @@ public:
     std::uint32_t uses = 0;
   };
   struct FieldEntry {
+    FieldId id = 0;
     ForceField field;
     bool on = false;
     bool changed = false;  ///< its push may differ from the last frame's
@@ -53,43 +61,65 @@ public:
   };
 
   // --- state
-  std::map<ShapeId, ShapeEntry> shapes;
-  std::map<BodyId, RigidBody> bodies;
-  std::map<ColliderId, Collider> colliders;
-  std::map<FieldId, FieldEntry> fields;
+  IdTable<ShapeEntry> shapes;
+  IdTable<RigidBody> bodies;
+  IdTable<Collider> colliders;
+  IdTable<FieldEntry> fields;
   std::vector<BodyId> bodyIds;
   std::set<std::pair<Party, Party>> ignored;
   std::vector<Command> commands;  ///< in the order of (when, order)
   ContactMemory memory;
-  Nanoseconds t0 = 0, t1 = 0;
-  double length = 0;  ///< of the frame [s]
+  Nanoseconds t0 = 0, t1 = 0;             ///< the ends of the present part of a frame, the last one between frames
+  Nanoseconds origin = 0;                 ///< start of the window
+  double frameFrom = 0, now = 0;          ///< tau of t0 and t1; `now` may lie beyond the window
   bool started = false, bodiesCollide = true;
-  bool foresee = false;  ///< predictions are wanted: only while events run
+  bool foresee = false;  ///< predictions are made at once: while events run
   std::uint64_t nextOrder = 0, frame = 0;
   std::uint32_t nextShape = 1, nextBody = 1, nextCollider = 1, nextField = 1;
   Counters counters;
   mutable std::vector<PairState> pairList;
 
   // --- one frame (world_frame.cpp)
-  void standStill();  ///< between frames: changes take effect at the end of the last one
+  void start(Nanoseconds at);
+  void forgetBody(RigidBody& b);
   void advance(Nanoseconds from, Nanoseconds to, bool continues);
   void beginFrame();
+  void obeyCommands(double tau);
+  void followFields();
   std::vector<Party> arrivals() const;
-  void settleFresh();
+  void settleFresh(const std::vector<Party>& arrived);
+  void settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& touching);
   void wakeWithin(Party arrived);
-  void runEvents();
+  void runEvents(double until);
   void endFrame();
   void partCarried();
-  static bool bothCarried(const Side& a, const Side& b);
   void reportReleases();
   void insert(Command c);
+  void postCommand(const Command& c);
   void execute(const Command& c, double tau);
+  Nanoseconds timeAt(double tau) const { return Instant{origin, 0}.plus(tau).rounded(); }
+  double tauOf(Nanoseconds time) const { return toSeconds(time - origin); }
+  Instant instantAt(double tau) const { return Instant{origin, 0}.plus(tau); }
+
+  // --- what will touch (world_foresight.cpp)
+  static constexpr Nanoseconds kWindow = 128'000'000;  ///< a multiple of the contact solver's grid
+  double windowEnd() const { return toSeconds(kWindow); }
+  void openWindow(Nanoseconds at);
+  void mark(RigidBody& b);
+  void sweepMarked();
+  void foreseeMarked(double tau);
+  void fileBodies();
+  void fileColliders();
+  void sweep(RigidBody& b, double tau);
+  void sweep(Collider& c);
+  void lookAhead(RigidBody& b, double tau, bool onlyGreater);
   void predict(RigidBody& b, double tau, bool onlyGreater = false);
   void predictPair(const Side& a, const Side& b, double tau);
   void pushHorizon(const RigidBody& b);
+  static bool bothCarried(const Side& a, const Side& b);
   bool mayTouch(const Side& a, const Side& b) const;
   std::uint32_t versionOf(Party p) const;
-  Nanoseconds timeAt(double tau) const;
+  double knownUntil(const Side& s) const;
 
   // --- arcs (world_arcs.cpp)
   Vec3 accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& v, double tau) const;
@@ -104,11 +134,14 @@ public:
   bool crossEdge(RigidBody& b, double tau);
 
   // --- touches (world_impact.cpp)
+  void countImpact(RigidBody& b, double tau) const;
   void onTouch(const Touch& touch, Party a, Party b, double tau);
   bool supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, double tau, Support& out) const;
   void afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting);
 
   // --- lasting contact (world_contact.cpp)
+  static constexpr Nanoseconds kTickGrid = 2'000'000;  ///< the solver's steps end on multiples of this show time
+  static constexpr double kTick = 2e-3;                ///< the same [s]
   struct Found {
     SolverContact contact;
     Party a, b;
@@ -129,52 +162,26 @@ public:
   std::uint32_t tickNumber = 0;
   double tickAt = -1;  ///< [s] tau of the scheduled one
 
-  RigidBody* body(BodyId id) {
-    const auto at = bodies.find(id);
-    return at == bodies.end() ? nullptr : &at->second;
-  }
-  const RigidBody* body(BodyId id) const {
-    const auto at = bodies.find(id);
-    return at == bodies.end() ? nullptr : &at->second;
-  }
-  Collider* collider(ColliderId id) {
-    const auto at = colliders.find(id);
-    return at == colliders.end() ? nullptr : &at->second;
-  }
+  RigidBody* body(BodyId id) const { return bodies.find(id); }
+  Collider* collider(ColliderId id) const { return colliders.find(id); }
   std::optional<Side> side(Party p) const {
     if (p.isBody) {
-      const auto at = bodies.find(p.id);
-      return at == bodies.end() || !at->second.enabled ? std::nullopt : std::optional(Side::of(at->second));
+      const RigidBody* b = body(p.id);
+      return b && b->enabled ? std::optional(Side::of(*b)) : std::nullopt;
     }
-    const auto at = colliders.find(p.id);
-    return at == colliders.end() || !at->second.enabled ? std::nullopt : std::optional(Side::of(at->second));
+    const Collider* c = collider(p.id);
+    return c && c->enabled ? std::optional(Side::of(*c)) : std::nullopt;
   }
-  const Surface& surfaceOf(Party p) const {
-    return p.isBody ? bodies.at(p.id).surface : colliders.at(p.id).surface;
-  }
+  const Surface& surfaceOf(Party p) const { return p.isBody ? body(p.id)->surface : collider(p.id)->surface; }
+
+  BroadPhase<RigidBody> nearBodies;     ///< by what they sweep to the window's end
+  BroadPhase<Collider> nearColliders;
+  std::vector<RigidBody*> active;       ///< those that do not rest, and those that have just come to
+  std::vector<RigidBody*> marked;       ///< whose arcs nobody has looked ahead along yet
+
+  std::vector<ColliderId> told;         ///< that came, moved or jumped, or did so in the last frame
 
 private:
-  /// Bodies by the low x of their swept boxes at the start of the frame (sort and sweep); those that left
-  /// theirs apart.
-  struct Filed {
-    double low;
-    RigidBody* body;
-  };
-  std::vector<Filed> order_;
-  std::vector<RigidBody*> strayed_;
-  double widest_ = 0;
-  void fileBodies();
-  /// Calls f for every body whose swept box overlaps `box`, in a fixed order.
-  template <class F>
-  void eachNear(const Aabb& box, F f) {
-    const auto before = [](const Filed& a, double x) { return a.low < x; };
-    for (auto i = std::lower_bound(order_.begin(), order_.end(), box.lo.x() - widest_, before);
-         i != order_.end() && i->low <= box.hi.x(); ++i)
-      if (!i->body->strayed && i->body->swept.overlaps(box)) f(*i->body);
-    for (RigidBody* b : strayed_)
-      if (b->swept.overlaps(box)) f(*b);
-  }
-
   std::priority_queue<Event> queue_;
   std::vector<Touch> touches_;
   void post(Event e) {

@@ -10,10 +10,18 @@ namespace {
 constexpr double kLastBounce = 1e-9;
 /// The same between bodies that have no closed form to rest in [m].
 constexpr double kLastRattle = 1e-6;
-constexpr std::uint32_t kMostImpacts = 60;    ///< in one frame, then the contact solver takes over
+constexpr Nanoseconds kSpan = 16'000'000;     ///< in which impacts are counted [ns]
+constexpr std::uint32_t kMostImpacts = 60;    ///< in that time, then the contact solver takes over
 constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
 
 }  // namespace
+
+/// Chatter is counted in show time, so that it does not depend on frames.
+void World::Core::countImpact(RigidBody& b, double tau) const {
+  const Nanoseconds span = timeAt(tau) / kSpan;
+  if (span != b.impactSpan) b.impactSpan = span, b.impacts = 0;
+  ++b.impacts;
+}
 
 /// The flat face of a still collider under a ball's contact point.
 bool World::Core::supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, double tau,
@@ -74,7 +82,7 @@ void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool l
   if (lasting || leaning) {
     if (b.mode == BodyMode::Rest) wake(b, tau);
     b.endL = L;
-    setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia), 1e30,
+    setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia), kTick,
            BodyMode::Contact);
     if (b.mode != BodyMode::Contact) return;
     b.quiet = 0;
@@ -103,12 +111,12 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     onTouch(t, pa, pb, tau);
     return;
   }
-  RigidBody& a = bodies.at(pa.id);
+  RigidBody& a = *body(pa.id);
   RigidBody* b = pb.isBody ? body(pb.id) : nullptr;
   Collider* c = pb.isBody ? nullptr : collider(pb.id);
   ++counters.impacts;
-  ++a.impacts;
-  if (b) ++b->impacts;
+  countImpact(a, tau);
+  if (b) countImpact(*b, tau);
   Mobile ma = mobileOf(a, tau), mb = b ? mobileOf(*b, tau) : mobileOf(*c, tau);
   const Vec3 x = touch.gap.point, n = touch.gap.normal;
   const double closing = -(ma.velocityAt(x) - mb.velocityAt(x)).dot(n);

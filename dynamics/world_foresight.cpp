@@ -1,0 +1,211 @@
+#include "dynamics/world_core.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+bool isHeld(const Side& s) {
+  return s.body && s.body->mode == BodyMode::Held;
+}
+
+/// The box around a body from tau to `to`, however it turns.
+Aabb sweptBody(const RigidBody& b, double tau, double to) {
+  Aabb box;
+  const Vec3 p0 = b.position(tau), p1 = b.position(to);
+  box.include(p0), box.include(p1);
+  Vec3 sag = Vec3::Zero();
+  if (b.path.isParabola()) {
+    const Vec3 v0 = b.path.velocity(b.age(tau)), v1 = b.path.velocity(b.age(to));
+    for (int i = 0; i < 3; ++i)  // it turns back on the way: a parabola's vertex is this far beyond its ends at most
+      if (v0[i] * v1[i] < 0) sag[i] = std::fabs(2 * b.path.c[2][i]) * (to - tau) * (to - tau) / 8;
+  } else {
+    sag.setConstant(b.path.accelerationBound() * (to - tau) * (to - tau) / 8);
+  }
+  // A little wider, so that a fresh arc of the same motion stays inside.
+  const double margin = b.reach + 2e-6 + 1e-12 * p0.cwiseAbs().maxCoeff();
+  box.lo -= (sag.array() + margin).matrix(), box.hi += (sag.array() + margin).matrix();
+  return box;
+}
+
+}  // namespace
+
+/// Whether both are moved from outside, so that no impulse can change either.
+bool World::Core::bothCarried(const Side& a, const Side& b) {
+  return !(a.body && a.body->movable()) && !(b.body && b.body->movable());
+}
+
+std::uint32_t World::Core::versionOf(Party p) const {
+  if (p.isBody) {
+    const RigidBody* b = body(p.id);
+    return b ? b->version : 0;
+  }
+  const Collider* c = collider(p.id);
+  return c ? c->version : 0;
+}
+
+/// Whether the two are to collide at all.
+bool World::Core::mayTouch(const Side& a, const Side& b) const {
+  if (a.body && b.body && !bodiesCollide) return false;
+  if (ignored.empty()) return true;
+  return !ignored.count(a.party < b.party ? std::pair(a.party, b.party) : std::pair(b.party, a.party));
+}
+
+/// The last tau at which it is known where a side is.
+double World::Core::knownUntil(const Side& s) const {
+  if (s.collider) return s.collider->motion.moving ? now : windowEnd();
+  return isHeld(s) ? now : s.body->until;
+}
+
+void World::Core::pushHorizon(const RigidBody& b) {
+  if (!(b.until <= windowEnd()) || b.mode == BodyMode::Contact) return;
+  Event e;
+  e.tau = std::max(b.until, frameFrom), e.kind = Event::Kind::Horizon, e.a = {true, b.id}, e.versionA = b.version;
+  post(e);
+}
+
+void World::Core::predictPair(const Side& a, const Side& b, double tau) {
+  if (a.still() && b.still()) return;
+  if (!mayTouch(a, b)) return;
+  for (const auto& [s, o] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    if (!s->body) continue;
+    // What lasting contact is with is the solver's or the closed form's business.
+    if (s->body->mode == BodyMode::Contact &&
+        std::find(s->body->touching.begin(), s->body->touching.end(), o->party) != s->body->touching.end())
+      return;
+    if (s->body->mode != BodyMode::Flight && s->body->support.on.id && s->body->support.on == o->party &&
+        !std::holds_alternative<MeshShape>(*o->shape))
+      return;
+  }
+  if (bothCarried(a, b)) {
+    // Nothing comes of it but the news that they touch, once.
+    if (!isHeld(a) && !isHeld(b)) return;
+    if (memory.touching(ContactMemory::keyOf(a.party, b.party))) return;
+  }
+  ++counters.pairTests;
+  // An arc that ends before the window is only asked up to its end.
+  const double to = std::min({windowEnd(), knownUntil(a), knownUntil(b)});
+  if (!(tau <= to)) return;
+  std::uint64_t iterations = 0;
+  const auto touch = firstTouch(a, b, tau, to, iterations);
+  if (!touch) return;
+  Event e;
+  e.tau = touch->tau, e.kind = Event::Kind::Touch, e.a = a.party, e.b = b.party;
+  e.versionA = versionOf(a.party), e.versionB = versionOf(b.party);
+  e.detail = static_cast<std::uint32_t>(touches_.size());
+  touches_.push_back(*touch);
+  post(e);
+}
+
+/// Where the body goes until the end of the window, for the broad phase.
+void World::Core::sweep(RigidBody& b, double tau) {
+  if (!b.enabled) return nearBodies.remove(b);
+  if (b.mode == BodyMode::Held) {
+    b.swept = sweptBox(Side::of(b), std::max(tau, frameFrom), std::max({tau, frameFrom, now}));
+  } else {
+    b.swept = sweptBody(b, tau, std::max(tau, std::min(windowEnd(), b.pathAge - b.age0)));
+  }
+  nearBodies.put(b, b.swept);
+}
+
+/// What the body's new arc meets from tau to the end of the window.
+void World::Core::predict(RigidBody& b, double tau, bool onlyGreater) {
+  if (!foresee) return mark(b);
+  sweep(b, tau);
+  if (b.enabled) lookAhead(b, tau, onlyGreater);
+}
+
+void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
+  const Side self = Side::of(b);
+  pushHorizon(b);
+  b.alone = true;
+  nearColliders.eachNear(b.swept, [&](Collider& c) {
+    b.alone = false;
+    predictPair(self, Side::of(c), tau);
+  });
+  nearBodies.eachNear(b.swept, [&](RigidBody& o) {
+    if (&o == &b) return;
+    b.alone = o.alone = false;
+    if (onlyGreater && o.marked && o.id < b.id) return;
+    predictPair(self, Side::of(o), tau);
+  });
+}
+
+void World::Core::mark(RigidBody& b) {
+  if (b.marked) return;
+  b.marked = true;
+  marked.push_back(&b);
+}
+
+void World::Core::sweepMarked() {
+  std::ranges::sort(marked, {}, &RigidBody::id);
+  for (RigidBody* b : marked) sweep(*b, frameFrom);
+}
+
+/// Looks ahead from tau for everybody who is marked and for colliders that were told something.
+void World::Core::foreseeMarked(double tau) {
+  if (nearBodies.crowded()) fileBodies();
+  for (RigidBody* b : marked)
+    if (b->enabled) lookAhead(*b, tau, true);
+  for (const ColliderId id : told) {
+    Collider* c = collider(id);
+    if (!c || !c->enabled) continue;
+    nearBodies.eachNear(c->swept, [&](RigidBody& o) {
+      if (o.marked) return;  // it has just seen the collider itself
+      o.alone = false;
+      predictPair(Side::of(o), Side::of(*c), tau);
+    });
+  }
+  for (RigidBody* b : marked) b->marked = false;
+  marked.clear();
+}
+
+void World::Core::fileBodies() {
+  std::vector<BroadPhase<RigidBody>::Entry> entries;
+  entries.reserve(bodies.size());
+  for (RigidBody& b : bodies)
+    if (b.enabled) entries.push_back({b.swept, &b});
+  nearBodies.file(std::move(entries));
+}
+
+void World::Core::fileColliders() {
+  std::vector<BroadPhase<Collider>::Entry> entries;
+  for (Collider& c : colliders)
+    if (c.enabled) entries.push_back({c.swept, &c});
+  nearColliders.file(std::move(entries));
+}
+
+void World::Core::sweep(Collider& c) {
+  if (!c.enabled) return nearColliders.remove(c);
+  c.swept = sweptBox(Side::of(c), frameFrom, std::max(frameFrom, now));
+  nearColliders.put(c, c.swept);
+}
+
+/// A window begins: everybody is looked at anew.
+void World::Core::openWindow(Nanoseconds at) {
+  const Nanoseconds tickTime = tickAt >= 0 ? timeAt(tickAt) : -1;
+  origin = at;
+  frameFrom = tauOf(t0), now = tauOf(t1);
+  queue_ = {};
+  touches_.clear();
+  const Instant start{origin, 0};
+  const double from = std::max(0.0, frameFrom);
+  for (RigidBody& b : bodies) {
+    b.age0 = start.since(b.since);
+    b.until = b.validAge - b.age0;
+    b.held.begin = frameFrom;
+    if (b.enabled) sweep(b, from);
+  }
+  fileBodies();
+  for (Collider& c : colliders) c.motion.begin = frameFrom;
+  if (nearColliders.crowded()) fileColliders();
+  tickAt = -1;
+  if (tickTime >= 0) scheduleTick(tauOf(tickTime));
+  for (const Command& c : commands) postCommand(c);
+  for (RigidBody* b : active) mark(*b);
+  std::ranges::sort(marked, {}, &RigidBody::id);
+  foreseeMarked(from);
+}
+
+}  // namespace stadion
