@@ -192,6 +192,9 @@ int runShow(RunOptions o) {
 
   if (player->frames() == 0)
     std::fprintf(stderr, "no input log beside the show and no --frames: playing until Ctrl-C\n");
+  if (!output && player->frames() != 0)
+    std::fprintf(stderr, "playing %.1f s of %s; there is no window yet, --out DIR writes pictures\n",
+                 static_cast<double>(player->frames() - 1) / o.show.rate, o.show.script.c_str());
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
   FrameLoop loop(stages, loopOptions(o, *player), stopRequested, o.profile ? &nodeTimes : nullptr);
@@ -239,8 +242,7 @@ int runShow(RunOptions o) {
     std::printf("%s", toText(summary).c_str());
     if (!seen.events.empty()) std::printf("\nwhat happened\n");
     for (const std::string& e : seen.events) std::printf("%s\n", e.c_str());
-    if (o.out.empty())
-      std::printf("\nTo see it:  ./stadion run %s --out pictures --pictures 30\n", o.show.script.c_str());
+    if (o.out.empty()) std::printf("\nTo see it:  ./stadion run %s --out pictures\n", o.show.script.c_str());
   }
   if (o.profile) tellDearest(nodeTimes, player->scene(), std::max<std::uint64_t>(1, outcome.framesSimulated));
   return code;
