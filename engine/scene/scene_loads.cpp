@@ -76,11 +76,19 @@ void Scene::requestUnload(std::uint32_t number, Nanoseconds at) {
   pendingLoads_.push_back({at, number, false});
 }
 
+bool Scene::awaits(std::uint32_t number) const {
+  return std::any_of(pendingLoads_.begin(), pendingLoads_.end(),
+                     [&](const Change& c) { return c.load && c.number == number; });
+}
+
 void Scene::applyLoads(const TimeSignature& now) {
   // Installing a load may ask for more of them (sub-scenes that are there from the start).
   for (std::size_t i = 0; i < pendingLoads_.size();) {
     const Change change = pendingLoads_[i];
-    if (change.at > now.time) {
+    // What comes late cannot go before it is there.
+    const bool applies = change.at <= now.time && (change.load ? loader_.takesEffect(change.number, now.time)
+                                                               : !awaits(change.number));
+    if (!applies) {
       ++i;
       continue;
     }

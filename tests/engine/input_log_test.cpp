@@ -2,6 +2,7 @@
 #include "engine/input/input_recorder.h"
 #include "engine/input/scripted_input.h"
 #include "engine/maths/functions.h"
+#include "engine/plain_file.h"
 #include "engine/text_line.h"
 
 #include <gtest/gtest.h>
@@ -87,8 +88,8 @@ TEST(InputLog, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(firstError(""), "1:1: the file is empty; an input log begins with the line: stadion-input 1");
   EXPECT_EQ(firstError("pose head 0 0 0 0 1 0 0 0\n"),
             "1:1: this is not an input log; one begins with the line: stadion-input 1");
-  EXPECT_EQ(firstError("stadion-input 2\n"),
-            "1:15: version 2 of the format is newer than this program, which reads 1");
+  EXPECT_EQ(firstError("stadion-input 3\n"),
+            "1:15: version 3 of the format is newer than this program, which reads 2");
   EXPECT_EQ(firstError(h + "psoe head 0  0 0 0  1 0 0 0\n"),
             "2:1: \"psoe\" is not a kind of record; did you mean \"pose\"?");
   EXPECT_EQ(firstError(h + "\n# x\nsignature 5\n"),
@@ -231,7 +232,7 @@ TEST(InputRecorder, WithoutCommitLeavesNothingBehindAndTheOldFileAlone) {
     recorder.record(randomSample(random, 0));
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder), fs::directory_iterator()), 1);
-  EXPECT_EQ(readTextFile(scratch.file("a.input"), 100).value(), "old");
+  EXPECT_EQ(readPlainFile(scratch.file("a.input"), 100).value(), "old");
 }
 
 TEST(InputRecorder, SaysWhyItCannotWrite) {
