@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <new>
 
 namespace stadion {
 namespace {
@@ -63,6 +64,9 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
     std::fprintf(stderr, "stadion: the standard output cannot be written: %s\n", std::strerror(errno));
     return code == stadion::kOk ? stadion::kBadInput : code;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "stadion: out of memory\n");
+    return stadion::kInternalFault;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "stadion: internal fault: %s\n", e.what());
     return stadion::kInternalFault;

@@ -74,9 +74,9 @@ private:
     if (kind.text == "lost") return lost();
     if (version_ >= 2 && kind.text == "rate") return rate();
     if (version_ >= 2 && kind.text == "frame")
-      return decision(log_.decisions.frames, "the frame's number", 1'000'000'000'000);
+      return decision(log_.decisions.frames, "the frame's number", 1'000'000'000'000, true);
     if (version_ >= 2 && kind.text == "load")
-      return decision(log_.decisions.loads, "the load's number", 1'000'000'000);
+      return decision(log_.decisions.loads, "the load's number", 1'000'000'000, false);
     std::vector<std::string> known{"pose", "key", "lost"};
     if (version_ >= 2) known.insert(known.end(), {"rate", "frame", "load"});
     in_.error(kind.column, fmt::format("{} is not a kind of record{}", quotedWord(kind.text),
@@ -91,21 +91,24 @@ private:
     log_.decisions.rate = *value;
   }
 
-  /// NUMBER SECONDS; both grow from line to line.
+  /// NUMBER SECONDS; of frames, both grow from line to line.
   template <class Number>
-  void decision(std::map<Number, Nanoseconds>& known, std::string_view what, std::uint64_t most) {
+  void decision(std::map<Number, Nanoseconds>& known, std::string_view what, std::uint64_t most,
+                bool increasing) {
     const Word* numberWord = word(1, what);
     const Word* timeWord = numberWord ? word(2, "the time in seconds") : nullptr;
     if (!timeWord || !nothingAfter(3)) return;
     const auto index = in_.count(*numberWord, what, 1, most);
     const auto time = in_.seconds(*timeWord, "the time");
     if (!index || !time) return;
+    if (known.contains(static_cast<Number>(*index)))
+      return in_.error(numberWord->column, fmt::format("{} is there already", what));
     // Loads may take effect in any order; frames may not.
-    const bool frames = static_cast<const void*>(&known) == &log_.decisions.frames;
-    const bool grows =
-        known.empty() || !frames || (known.rbegin()->first < *index && known.rbegin()->second < *time);
-    if (!grows || !known.emplace(static_cast<Number>(*index), *time).second)
-      in_.error(numberWord->column, fmt::format("{} must increase, and the time with it", what));
+    const bool grows = known.empty() || !increasing ||
+                       (known.rbegin()->first < *index && known.rbegin()->second < *time);
+    if (!grows)
+      return in_.error(numberWord->column, fmt::format("{} must increase, and the time with it", what));
+    known.emplace(static_cast<Number>(*index), *time);
   }
 
   const Word* word(std::size_t index, std::string_view what) {

@@ -186,6 +186,46 @@ TEST(InputRecorder, ReplaysEverySampleToTheBit) {
   EXPECT_EQ(formatInputLog(*copy), formatInputLog(*log));
 }
 
+TEST(InputRecorder, KeepsWhatAClockDecidedAndWhereTheRunEnded) {
+  const Scratch scratch;
+  InputRecorder recorder(scratch.file("a.input"), 60);
+  std::vector<TimeSignature> run;
+  FrameClock live(60);
+  for (const std::uint64_t ticks : {1, 1, 1, 4, 1, 1, 9, 1}) recorder.frame(run.emplace_back(live.next(ticks)));
+  recorder.lateLoad(2, run[5].time);
+  ASSERT_FALSE(recorder.commit());
+  EXPECT_EQ(readPlainFile(scratch.file("a.input"), 1000).value(),
+            "stadion-input 2\nrate 60\nframe 3 0.1\nframe 6 0.283333333\nload 2 0.133333333\n"
+            "frame 7 0.3\n");
+  Diagnostics out;
+  const auto log = loadInputLog(scratch.file("a.input"), out);
+  ASSERT_TRUE(log);
+  EXPECT_EQ(log->decisions.rate, 60);
+  EXPECT_EQ(log->end(), run.back().time);
+  EXPECT_EQ(log->decisions.loads.at(2), run[5].time);
+  FrameClock replay(60, log->decisions.frames);
+  for (const TimeSignature& then : run) {
+    const TimeSignature now = replay.next();
+    EXPECT_EQ(now.frame, then.frame);
+    EXPECT_EQ(now.time, then.time);
+    EXPECT_EQ(now.step, then.step);
+  }
+  Diagnostics again;
+  EXPECT_EQ(formatInputLog(*parseInputLog(formatInputLog(*log), "t.input", again)), formatInputLog(*log));
+}
+
+TEST(InputLog, DecisionsThatMakeNoSenseAreNamed) {
+  const std::string h = "stadion-input 2\n";
+  EXPECT_EQ(firstError("stadion-input 1\nframe 3 0.1\n"),
+            "2:1: \"frame\" is not a kind of record; known are pose, key, lost");
+  EXPECT_EQ(firstError(h + "rate nan\n"), "2:6: \"nan\" is not a finite number in range (frames a second)");
+  EXPECT_EQ(firstError(h + "rate 0\n"), "2:6: the rate must be from 1 to 1000 frames a second");
+  EXPECT_EQ(firstError(h + "frame 3 0.1\nframe 4 0.1\n"),
+            "3:7: the frame's number must increase, and the time with it");
+  EXPECT_EQ(firstError(h + "load 2\n"), "2:7: the time in seconds is missing");
+  EXPECT_EQ(firstError(h + "load 2 1\nload 2 2\n"), "3:6: the load's number is there already");
+}
+
 TEST(InputRecorder, WritesBadPosesAsLostAndOddNamesPlain) {
   const Scratch scratch;
   InputSample s;
