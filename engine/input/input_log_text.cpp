@@ -104,8 +104,8 @@ private:
     if (known.contains(static_cast<Number>(*index)))
       return in_.error(numberWord->column, fmt::format("{} is there already", what));
     // Loads may take effect in any order; frames may not.
-    const bool grows = known.empty() || !increasing ||
-                       (known.rbegin()->first < *index && known.rbegin()->second < *time);
+    const bool grows =
+        known.empty() || !increasing || (known.rbegin()->first < *index && known.rbegin()->second < *time);
     if (!grows)
       return in_.error(numberWord->column, fmt::format("{} must increase, and the time with it", what));
     known.emplace(static_cast<Number>(*index), *time);

@@ -149,7 +149,8 @@ TEST(ProgramLauncher, TestBuildsEverythingAndPassesItsArgumentsOn) {
   EXPECT_TRUE(has(house.calls(), "--target all")) << house.calls();
 }
 
-// A folder in the place of the lock stands for a checkout that cannot be written: root may write anywhere else.
+// A folder in the place of the lock stands for a checkout that cannot be written: root may write anywhere
+// else.
 TEST(ProgramLauncher, WhatIsBuiltStartsFromAFolderThatCannotBeWritten) {
   House house;
   house.start({"nodes"});
@@ -170,7 +171,8 @@ TEST(ProgramLauncher, WithoutABuildAFolderThatCannotBeWrittenIsOneClearMessage) 
     EXPECT_EQ(r.status, 2) << r.err;
     EXPECT_EQ(r.out, "");
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
-    EXPECT_TRUE(has(r.err, "cannot write into " + fs::canonical(house.path("stadion")).parent_path().string() + "/build"))
+    EXPECT_TRUE(has(r.err, "cannot write into " +
+                               fs::canonical(house.path("stadion")).parent_path().string() + "/build"))
         << r.err;
     EXPECT_EQ(house.calls(), "");
   }

@@ -68,14 +68,14 @@ TEST(ProgramLiveRun, WithMissedTicksAndLateFilesReplaysToTheSameHashes) {
     EXPECT_NE(text.find("\nframe "), std::string::npos) << text;
     EXPECT_NE(text.find("\nload "), std::string::npos) << text;
     for (const char* replay : {"sequential", "pipelined"}) {
-      const ProgramResult r = stadionProgram(
-          {"hash", show, "--input", log, "--mode", replay, "--asset-root", assetFolder(), "--walls", "desktop"});
+      const ProgramResult r = stadionProgram({"hash", show, "--input", log, "--mode", replay, "--asset-root",
+                                              assetFolder(), "--walls", "desktop"});
       EXPECT_EQ(r.status, 0) << r.err;
       EXPECT_EQ(r.out, live.hashes) << text;
     }
     // Without the decisions it is another run.
-    const ProgramResult other = stadionProgram(
-        {"hash", show, "--frames", "60", "--asset-root", assetFolder(), "--walls", "desktop"});
+    const ProgramResult other =
+        stadionProgram({"hash", show, "--frames", "60", "--asset-root", assetFolder(), "--walls", "desktop"});
     EXPECT_NE(other.out, live.hashes);
   }
 }
@@ -85,8 +85,8 @@ TEST(ProgramLiveRun, ThatIsStoppedReplaysToItsLastFrame) {
   const std::string show = writeShow(folder), log = folder.path() / "live.input";
   ProgramRun run;
   // A thousand ticks a second are more than can be drawn.
-  run.words = {stadionPath(), "run",  show,   "--asset-root", assetFolder(), "--walls", "desktop", "--size",
-               "64x48",       "--rate", "1000", "--record-input", log,         "--json"};
+  run.words = {stadionPath(), "run",   show,     "--asset-root", assetFolder(),    "--walls", "desktop",
+               "--size",      "64x48", "--rate", "1000",         "--record-input", log,       "--json"};
   run.signal = SIGINT;
   run.signalAfter = std::chrono::milliseconds(2000);
   const ProgramResult live = runProgram(run);
@@ -96,15 +96,16 @@ TEST(ProgramLiveRun, ThatIsStoppedReplaysToItsLastFrame) {
   const ProgramResult r =
       stadionProgram({"hash", show, "--input", log, "--asset-root", assetFolder(), "--walls", "desktop"});
   ASSERT_EQ(r.status, 0) << r.err;
-  const std::string last =
-      fmt::format("\n{} {}\n", summary.at("last_frame").get<int>(), summary.at("state_hash").get<std::string>());
+  const std::string last = fmt::format("\n{} {}\n", summary.at("last_frame").get<int>(),
+                                       summary.at("state_hash").get<std::string>());
   ASSERT_GE(r.out.size(), last.size());
   EXPECT_EQ(r.out.substr(r.out.size() - last.size()), last);
 
   const ProgramResult refused = stadionProgram(
       {"hash", show, "--input", log, "--rate", "60", "--asset-root", assetFolder(), "--walls", "desktop"});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("live.input: error: was recorded live at 1000 frames a second"), std::string::npos)
+  EXPECT_NE(refused.err.find("live.input: error: was recorded live at 1000 frames a second"),
+            std::string::npos)
       << refused.err;
 }
 

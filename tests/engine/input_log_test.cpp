@@ -191,7 +191,8 @@ TEST(InputRecorder, KeepsWhatAClockDecidedAndWhereTheRunEnded) {
   InputRecorder recorder(scratch.file("a.input"), 60);
   std::vector<TimeSignature> run;
   FrameClock live(60);
-  for (const std::uint64_t ticks : {1, 1, 1, 4, 1, 1, 9, 1}) recorder.frame(run.emplace_back(live.next(ticks)));
+  for (const std::uint64_t ticks : {1, 1, 1, 4, 1, 1, 9, 1})
+    recorder.frame(run.emplace_back(live.next(ticks)));
   recorder.lateLoad(2, run[5].time);
   ASSERT_FALSE(recorder.commit());
   EXPECT_EQ(readPlainFile(scratch.file("a.input"), 1000).value(),

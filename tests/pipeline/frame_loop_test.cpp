@@ -104,7 +104,8 @@ TEST(ThreadsFrameLoop, AWallThatFailsStopsTheRunWithItsReason) {
 /// Throws in one of its stages, in frame 5 (or when it is opened).
 class ThrowingStages final : public CountingStages {
 public:
-  ThrowingStages(std::string where, bool memory) : CountingStages(2, kSlots), where_(std::move(where)), memory_(memory) {}
+  ThrowingStages(std::string where, bool memory)
+      : CountingStages(2, kSlots), where_(std::move(where)), memory_(memory) {}
   void app(const TimeSignature& now, std::size_t slot) override {
     if (now.frame == 5) maybe("App");
     CountingStages::app(now, slot);
@@ -155,7 +156,8 @@ TEST(ThreadsFrameLoop, WhatAStageThrowsEndsTheRunAndIsNamed) {
         o.mode = mode, o.walls = 2, o.frames = 20;
         const FrameLoopOutcome outcome = runFrames(stages, o);
         ASSERT_TRUE(outcome.failure) << stage;
-        EXPECT_EQ(outcome.failure->message, std::string(place) + (memory ? "out of memory" : "a fault of ours"));
+        EXPECT_EQ(outcome.failure->message,
+                  std::string(place) + (memory ? "out of memory" : "a fault of ours"));
         EXPECT_EQ(outcome.failure->kind, FailureKind::Fault);
         EXPECT_EQ(stages.closed, 2);
         EXPECT_FALSE(outcome.stopped);

@@ -36,8 +36,8 @@ public:
     std::ofstream(file()) << "timer( period=1 )\n";
     factories_[static_cast<std::size_t>(NodeKind::Timer)] = make;
     roots_.add(folder_);
-    loader = std::make_unique<Loader>(LoaderParts{
-        meshes_, state_.arena(), importer_, roots_, factories_, [](const Diagnostics&) {}, &stop});
+    loader = std::make_unique<Loader>(LoaderParts{meshes_, state_.arena(), importer_, roots_, factories_,
+                                                  [](const Diagnostics&) {}, &stop});
   }
   ~OneTimer() {
     released = true;
