@@ -74,6 +74,8 @@ public:
   FrameLoopOptions loopOptions() const;
   /// Files that come late do not hold up the show. Before the first frame.
   void playLive() { loader_->playLive(); }
+  /// The loads that were due when the run ended and had not taken effect.
+  std::vector<std::uint32_t> overdueLoads() const { return loader_->overdue(); }
   /// `told` learns which files came late, on the App thread. Before the first frame.
   void tellLateLoads(Loader::LateLoad told) { loader_->tellLateLoads(std::move(told)); }
   const WallFile& walls() const { return walls_; }

@@ -93,7 +93,7 @@ int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   verdict.add(run.outcome.failure);
   RunSummary summary = summarise(run);
   if (output) {
-    output->finish(run.watch.lastFrame(), run.stages.lastPictures());
+    output->finish(run.stages.shownFrame(), run.stages.lastPictures());  // after a failure App may be ahead
     summary.files = output->files();
     summary.remarks.insert(summary.remarks.end(), output->remarks().begin(), output->remarks().end());
     verdict.add(output->failure());

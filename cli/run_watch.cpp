@@ -15,7 +15,7 @@ std::string nameIn(const Scene& scene, NodeRef node) {
 }  // namespace
 
 std::unique_ptr<RunWatch> RunWatch::create(const RunOptions& options, Player& player, Diagnostics& findings) {
-  std::unique_ptr<RunWatch> watch(new RunWatch);
+  std::unique_ptr<RunWatch> watch(new RunWatch(player));
   for (const std::string& node : options.trace) {
     const NodeRef ref = player.scene().resolve(node, {1, 0});
     // What stands in a sub-scene may come later.
@@ -44,6 +44,13 @@ void RunWatch::see(const TimeSignature& now, const InputSample& input, const Sce
   for (const EventRecord& e : scene.events()) note(e, scene);
   if (recorder_) recorder_->frame(now), recorder_->record(input);
   for (NodeTrace& t : traces_) t.record(now, scene);
+}
+
+std::optional<Diagnostic> RunWatch::finish() {
+  if (!recorder_) return {};
+  // What had not come by the end must not come in a replay either.
+  for (const std::uint32_t load : player_.overdueLoads()) recorder_->lateLoad(load, last_.time + 1);
+  return recorder_->commit();
 }
 
 void RunWatch::note(const EventRecord& event, const Scene& scene) {

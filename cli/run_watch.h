@@ -23,17 +23,17 @@ public:
   /// After each App stage.
   void see(const TimeSignature& now, const InputSample& input, const Scene& scene);
   /// Completes the records; says what could not be written.
-  std::optional<Diagnostic> finish() { return recorder_ ? recorder_->commit() : std::nullopt; }
+  std::optional<Diagnostic> finish();
 
-  std::uint64_t lastFrame() const { return last_.frame; }
   const std::vector<NodeTrace>& traces() const { return traces_; }
   /// Writes down what was seen in `frames` frames.
   void addTo(RunSummary& summary, std::uint64_t frames) const;
 
 private:
-  RunWatch() = default;
+  explicit RunWatch(const Player& player) : player_(player) {}
   void note(const EventRecord& event, const Scene& scene);
 
+  const Player& player_;
   std::unique_ptr<InputRecorder> recorder_;
   std::vector<NodeTrace> traces_;
   TimeSignature last_;

@@ -41,11 +41,20 @@ bool Loader::takesEffect(std::uint32_t number, Nanoseconds now) {
     const std::lock_guard lock(mutex_);
     waits = !done_.contains(number);
   }
+  // What has been passed over in a frame stays out of it, even if it arrives while the frame is made.
+  const auto passedOver = awaited_.find(number);
+  waits = waits || (passedOver != awaited_.end() && passedOver->second == now);
   if (waits)
-    awaited_.insert(number);
+    awaited_[number] = now;
   else if (awaited_.erase(number) > 0 && late_)
     late_(number, now);
   return !waits;
+}
+
+std::vector<std::uint32_t> Loader::overdue() const {
+  std::vector<std::uint32_t> numbers;
+  for (const auto& [number, passedOver] : awaited_) numbers.push_back(number);
+  return numbers;
 }
 
 std::unique_ptr<Load> Loader::take(std::uint32_t number) {

@@ -23,7 +23,6 @@
 #include <functional>
 #include <map>
 #include <mutex>
-#include <set>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -51,6 +50,8 @@ public:
   void tellLateLoads(LateLoad told) { late_ = std::move(told); }
   /// The show is live: late loads do not hold it up. Before the first frame.
   void playLive() { live_ = true; }
+  /// The loads that are due and have not taken effect yet.
+  std::vector<std::uint32_t> overdue() const;
   /// The show is replayed: these loads came late. Before the first frame.
   void obey(std::map<std::uint32_t, Nanoseconds> late) { decided_ = std::move(late); }
 
@@ -117,7 +118,7 @@ private:
   bool live_ = false;                       ///< this and the next three are App's
   LateLoad late_;
   std::map<std::uint32_t, Nanoseconds> decided_;
-  std::set<std::uint32_t> awaited_;  ///< due, and passed over at least once
+  std::map<std::uint32_t, Nanoseconds> awaited_;  ///< due, and passed over, last at this show time
   std::thread worker_;
 };
 

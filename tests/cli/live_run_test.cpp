@@ -38,7 +38,9 @@ LiveRun playLive(const std::string& show, const std::string& log, Mode mode) {
   ShowParts parts = player->parts(StereoLayout::Off);
   const ShowStages* running = nullptr;
   FrameLoop* playing = nullptr;
+  Nanoseconds ended = 0;
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
+    ended = now.time;
     recorder.frame(now);
     recorder.record(input);
     run.hashes += fmt::format("{} {:016x}\n", now.frame, scene.stateHash());
@@ -54,6 +56,7 @@ LiveRun playLive(const std::string& show, const std::string& log, Mode mode) {
   FrameLoop loop(stages, o, never);
   playing = &loop;
   run.missed = loop.run().missedTicks;
+  for (const std::uint32_t load : player->overdueLoads()) recorder.lateLoad(load, ended + 1);
   EXPECT_FALSE(recorder.commit());
   return run;
 }

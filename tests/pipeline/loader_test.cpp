@@ -98,7 +98,11 @@ TEST(ThreadsLoader, ALiveShowGoesOnAndTheDecisionIsTold) {
   EXPECT_TRUE(show.loader->takesEffect(1, 0)) << "at the start everything is waited for";
   EXPECT_FALSE(show.loader->takesEffect(1, 10));
   EXPECT_FALSE(show.loader->takesEffect(1, 20));
+  EXPECT_EQ(show.loader->overdue(), std::vector<std::uint32_t>{1});
   released = true;
+  show.request(2);
+  show.loader->take(2);  // the worker has done both
+  EXPECT_FALSE(show.loader->takesEffect(1, 20)) << "decided for this frame";
   Nanoseconds now = 30;
   for (; !show.loader->takesEffect(1, now); ++now) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   ASSERT_EQ(told.size(), 1u);
