@@ -93,7 +93,7 @@ const InputTrack* InputLog::find(std::string_view name) const {
 }
 
 Nanoseconds InputLog::end() const {
-  Nanoseconds last = 0;
+  Nanoseconds last = decisions.end();
   for (const InputTrack& track : tracks) last = std::max(last, track.stamps.back().time);
   return last;
 }

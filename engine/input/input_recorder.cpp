@@ -33,8 +33,31 @@ std::string logName(const std::string& name) {
 
 }  // namespace
 
-InputRecorder::InputRecorder(const std::string& path) : file_(path) {
-  file_.write(inputLogHeading());
+InputRecorder::InputRecorder(const std::string& path, double rate) : file_(path), rate_(rate) {
+  file_.write(inputLogHeading(rate));
+}
+
+void InputRecorder::frame(const TimeSignature& now) {
+  if (rate_ == 0) return;
+  if (!expected_) expected_.emplace(rate_);
+  const bool onTick = expected_->next().time == now.time;
+  if (!onTick) {
+    file_.write(formatFrameTime(now.frame, now.time));
+    expected_.emplace(rate_, now);
+  }
+  lastFrame_ = now;
+  lastIsWritten_ = !onTick || now.frame == 0;
+}
+
+void InputRecorder::lateLoad(std::uint32_t number, Nanoseconds time) {
+  if (rate_ != 0) file_.write(formatLateLoad(number, time));
+}
+
+std::optional<Diagnostic> InputRecorder::commit() {
+  // So that a replay ends where the run did, whatever the trackers said.
+  if (!lastIsWritten_) file_.write(formatFrameTime(lastFrame_.frame, lastFrame_.time));
+  lastIsWritten_ = true;
+  return file_.commit();
 }
 
 void InputRecorder::record(const InputSample& sample) {

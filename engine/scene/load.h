@@ -57,8 +57,15 @@ public:
   virtual ~SceneLoader() = default;
   /// Begins to prepare `file` as load `number`, below `owner`, which is at X_WO now.
   virtual void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) = 0;
+  /// Whether the load, which is due, takes effect in the frame of show time `now`. Where it always does,
+  /// take() waits for what comes late; where it need not (live shows, and replays of them), it is asked again
+  /// in the next frame.
+  virtual bool takesEffect(std::uint32_t number, Nanoseconds now) {
+    static_cast<void>(number), static_cast<void>(now);
+    return true;
+  }
   /// The load, waiting for it if it is not ready yet; null if it could not be loaded (the reason has been
-  /// told).
+  /// told). Throws what the preparation threw, and RunStopped when the run is to end while it waits.
   virtual std::unique_ptr<Load> take(std::uint32_t number) = 0;
   /// Destroys a removed load, once no frame up to `lastFrame` needs it.
   virtual void dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) = 0;

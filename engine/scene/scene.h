@@ -115,9 +115,12 @@ public:
   Courses& courses() { return courses_; }
   Pose headInRig(const InputSample& input) const;
 
-  /// Asks for a sub-scene; it is installed at show time `at`, whenever the loader finished.
+  /// Asks for a sub-scene; it is installed at show time `at`, whenever the loader finished, unless the loader
+  /// delays it (see SceneLoader::takesEffect).
   std::uint32_t requestLoad(const std::string& file, NodeRef owner, Nanoseconds at);
   void requestUnload(std::uint32_t number, Nanoseconds at);
+  /// Whether that load has been asked for and has not taken effect yet.
+  bool awaits(std::uint32_t number) const;
 
   // --- for whoever runs the show
   // ---------------------------------------------------------------------------------

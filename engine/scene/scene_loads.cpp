@@ -81,12 +81,17 @@ void Scene::requestUnload(std::uint32_t number, Nanoseconds at) {
   for (const NodeRef watcher : loadWatchers_) wakeNow(watcher);
 }
 
+bool Scene::awaits(std::uint32_t number) const {
+  return std::any_of(pendingLoads_.begin(), pendingLoads_.end(),
+                     [&](const Change& c) { return c.load && c.number == number; });
+}
+
 void Scene::applyLoads(const TimeSignature& now) {
   foreseeUnloads(now.time);
   // Installing a load may ask for more of them (sub-scenes that are there from the start).
   for (std::size_t i = 0; i < pendingLoads_.size();) {
     const Change change = pendingLoads_[i];
-    if (change.at > now.time || !change.load) {
+    if (!change.load || change.at > now.time || !loader_.takesEffect(change.number, now.time)) {
       ++i;
       continue;
     }
@@ -111,7 +116,7 @@ void Scene::foreseeUnloads(Nanoseconds now) {
 void Scene::applyUnloads(const TimeSignature& now) {
   for (std::size_t i = 0; i < pendingLoads_.size();) {
     const Change change = pendingLoads_[i];
-    if (change.load || change.at > now.time) {
+    if (change.load || change.at > now.time || awaits(change.number)) {  // what comes late cannot go before
       ++i;
       continue;
     }
