@@ -1,0 +1,93 @@
+#include "engine/nodes/light_node.h"
+#include "engine/nodes/scene_node.h"
+#include "tests/engine/show_fixture.h"
+
+#include <gtest/gtest.h>
+
+namespace stadion {
+namespace {
+
+SkyRecord skyOf(float red) {
+  SkyRecord sky;
+  sky.zenith[0] = red;
+  return sky;
+}
+
+LightRecord lamp(float brightness, double x = 0) {
+  LightRecord light;
+  light.kind = 1;  // point
+  light.range = 100;
+  light.position[0] = x;
+  for (float& c : light.colour) c = brightness;
+  return light;
+}
+
+TEST(Sky, TheSkyOfASubSceneGivesWayToTheOneBeforeWhenItIsUnloaded) {
+  ShowFixture show;
+  show.loader.files["inner"] = [](Load& load) { addNode<SkyNode>(load, "night", skyOf(0.9f)); };
+  show.loader.files["show"] = [](Load& load) {
+    addNode<SkyNode>(load, "day", skyOf(0.1f));
+    addNode<SceneNode>(load, "inner", PlaceAttributes{}, "inner", Nanoseconds{0}, true);
+  };
+  show.scene.open("show");
+  show.frame();
+  EXPECT_EQ(show.changes.sky.zenith[0], 0.9f);
+  show.scene.command("inner", Verb::Unload, {}, 0);
+  show.frames(3);
+  EXPECT_EQ(show.changes.sky.zenith[0], 0.1f);
+}
+
+TEST(Sky, TheLastSkyToComeIsSeenWhicheverGoesFirst) {
+  ShowFixture show;
+  show.loader.files["a"] = [](Load& load) { addNode<SkyNode>(load, "", skyOf(0.2f)); };
+  show.loader.files["b"] = [](Load& load) { addNode<SkyNode>(load, "", skyOf(0.3f)); };
+  show.loader.files["show"] = [](Load& load) {
+    addNode<SceneNode>(load, "a", PlaceAttributes{}, "a", Nanoseconds{0}, true);
+    addNode<SceneNode>(load, "b", PlaceAttributes{}, "b", Nanoseconds{0}, true);
+  };
+  show.scene.open("show");
+  show.frame();
+  EXPECT_EQ(show.changes.sky.zenith[0], 0.3f);
+  show.scene.command("a", Verb::Unload, {}, 0);
+  show.frames(3);
+  EXPECT_EQ(show.changes.sky.zenith[0], 0.3f);
+  show.scene.command("b", Verb::Unload, {}, 0);
+  show.frames(3);
+  EXPECT_EQ(show.changes.sky.zenith[0], SkyRecord{}.zenith[0]) << "back to what a show without sky has";
+}
+
+TEST(Light, HideMakesItDarkAndShowBrightAgain) {
+  ShowFixture show;
+  show.loader.files["show"] = [](Load& load) {
+    addNode<LightNode>(load, "lamp", PlaceAttributes{}, lamp(1), true);
+  };
+  show.scene.open("show");
+  show.frame();
+  ASSERT_EQ(show.changes.lights.size(), 1u);
+  show.scene.command("lamp", Verb::Hide, {}, 0);
+  show.frame();
+  EXPECT_TRUE(show.changes.lightsChanged);
+  EXPECT_TRUE(show.changes.lights.empty()) << "neither the lamp nor the sun of a show without light";
+  show.scene.command("lamp", Verb::Show, {}, 0);
+  show.frame();
+  EXPECT_EQ(show.changes.lights.size(), 1u);
+}
+
+TEST(Light, HidingTheGroupAboveDarkensIt) {
+  ShowFixture show;
+  show.loader.files["show"] = [](Load& load) {
+    addNode<MovingNode>(load, "group", PlaceAttributes{}, false);
+    PlaceAttributes below;
+    below.parent = {load.number, 0};
+    addNode<LightNode>(load, "lamp", below, lamp(1), true);
+  };
+  show.scene.open("show");
+  show.frame();
+  show.scene.command("group", Verb::Hide, {}, 0);
+  show.frame();
+  EXPECT_TRUE(show.changes.lightsChanged);
+  EXPECT_TRUE(show.changes.lights.empty());
+}
+
+}  // namespace
+}  // namespace stadion
