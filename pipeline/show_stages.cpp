@@ -16,7 +16,8 @@ ShowStages::ShowStages(ShowParts parts)
 ShowStages::~ShowStages() = default;
 
 void ShowStages::app(const TimeSignature& now, std::size_t slot) {
-  const InputSample input = parts_.input.sampleAt(now.time);
+  InputSample input;
+  parts_.input.sampleFrame(now.time - now.step, now.time, input);
   parts_.scene.advance(now, input, changes_, parts_.probe);
   parts_.state.publish(slot, changes_);
   parts_.meshes.collect(shownFrame_);

@@ -1,7 +1,8 @@
 #pragma once
 /// Where input comes from: a recorded log, a script, live trackers.
 ///
-/// Threads  App calls sampleAt(), once a frame and with increasing time; a live device fills its samples on a
+/// Threads  App calls sampleFrame(), once a frame and with increasing time; a live device fills its samples
+/// on a
 ///          thread of its own and answers from what has arrived.
 /// Errors   a device that has nothing yet answers with trackers that are not valid; it never waits.
 
@@ -15,6 +16,13 @@ public:
 
   /// The input at `showTime`. The sample is refilled, so that a caller who keeps it allocates nothing.
   virtual void sampleAt(Nanoseconds showTime, InputSample& sample) = 0;
+
+  /// The same for a frame from `start` to `end`, with the corners of the trackers' ways inside it. A device
+  /// that does not know them says where they are at the end.
+  virtual void sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) {
+    (void)start;
+    sampleAt(end, sample);
+  }
 
   InputSample sampleAt(Nanoseconds showTime) {
     InputSample sample;

@@ -14,12 +14,33 @@ void copy(const InputStamp& stamp, TrackerSample& sample) {
   sample.valid = stamp.valid;
 }
 
+constexpr Nanoseconds kEasedGrid = 5'000'000;  ///< corners of an eased way fall on multiples of this [ns]
+constexpr std::size_t kMostKnots = 1000;       ///< of one tracker in one frame; what comes after is cut
+
+double share(const InputStamp& a, const InputStamp& b, Nanoseconds time) {
+  return static_cast<double>(time - a.time) / static_cast<double>(b.time - a.time);
+}
+
+double eased(const InputStamp& a, const InputStamp& b, Nanoseconds time) {
+  const double s = share(a, b, time);
+  return s * s * (3 - 2 * s);
+}
+
+/// How much of the way from a to b is done. An eased way is straight between its corners.
+double progress(const InputStamp& a, const InputStamp& b, Nanoseconds time) {
+  if (!b.smooth) return share(a, b, time);
+  const Nanoseconds corner = time / kEasedGrid * kEasedGrid;
+  const Nanoseconds from = std::max(corner, a.time), to = std::min(corner + kEasedGrid, b.time);
+  if (time == from) return eased(a, b, time);
+  const double part = static_cast<double>(time - from) / static_cast<double>(to - from);
+  return eased(a, b, from) + part * (eased(a, b, to) - eased(a, b, from));
+}
+
 /// Between two stamps, a.time < time < b.time.
 void blend(const InputStamp& a, const InputStamp& b, Nanoseconds time, TrackerSample& sample) {
   copy(a, sample);
   if (!a.valid || !b.valid) return;  // a lost tracker stays where it was last seen
-  const double linear = static_cast<double>(time - a.time) / static_cast<double>(b.time - a.time);
-  const double s = b.smooth ? linear * linear * (3 - 2 * linear) : linear;
+  const double s = progress(a, b, time);
   sample.X_RT = det::interpolate(a.X_RT, b.X_RT, s);
   for (std::size_t i = 0; i < kTrackerAxes; ++i)
     sample.axes[i] = static_cast<float>(a.axes[i] + s * (static_cast<double>(b.axes[i]) - a.axes[i]));
@@ -28,11 +49,73 @@ void blend(const InputStamp& a, const InputStamp& b, Nanoseconds time, TrackerSa
 void sampleTrack(const InputTrack& track, Nanoseconds time, TrackerSample& sample) {
   sample.name = track.name;
   sample.stamp = time;
+  sample.knots.clear(), sample.controls.clear();
   const auto after = std::ranges::upper_bound(track.stamps, time, {}, &InputStamp::time);
   if (after == track.stamps.begin()) return copy(*after, sample);
   const InputStamp& before = *(after - 1);
   if (before.time == time || after == track.stamps.end()) return copy(before, sample);
   blend(before, *after, time, sample);
+}
+
+bool samePose(const Pose& a, const Pose& b) {
+  return a.p == b.p && a.q.coeffs() == b.q.coeffs();
+}
+
+/// The corners between a and b, and b itself, as far as they lie strictly inside the frame.
+void addKnots(const InputStamp& a, const InputStamp& b, Nanoseconds start, Nanoseconds end, Course& knots) {
+  const bool whole = a.valid && b.valid;
+  if (whole && b.smooth && !(samePose(a.X_RT, b.X_RT) && a.axes == b.axes)) {
+    const Nanoseconds after = std::max(a.time, start), before = std::min(b.time, end);
+    for (Nanoseconds t = (after / kEasedGrid + 1) * kEasedGrid; t < before && knots.size() < kMostKnots;
+         t += kEasedGrid)
+      knots.push_back({t, det::interpolate(a.X_RT, b.X_RT, eased(a, b, t)), false});
+  }
+  // Lost and found it has jumped.
+  if (b.time > start && (b.time < end || (b.time == end && !whole)) && b.valid && knots.size() < kMostKnots)
+    knots.push_back({b.time, b.X_RT, !whole});
+}
+
+/// What the buttons and axes do on the way from a to b, and at b, as far as it lies inside the frame. The
+/// axes of a tracker that is lost or found do not go evenly: they jump.
+void addControls(const InputStamp& a, const InputStamp& b, Nanoseconds start, Nanoseconds end,
+                 std::vector<ControlKnot>& controls) {
+  const bool whole = a.valid && b.valid;
+  if (whole && b.smooth && a.axes != b.axes) {
+    const Nanoseconds after = std::max(a.time, start), before = std::min(b.time, end);
+    for (Nanoseconds t = (after / kEasedGrid + 1) * kEasedGrid; t < before && controls.size() < kMostKnots;
+         t += kEasedGrid) {
+      TrackerSample at;
+      blend(a, b, t, at);
+      controls.push_back({t, at.buttons, at.axes});
+    }
+  }
+  if (b.time <= start || b.time > end || controls.size() >= kMostKnots) return;
+  if (!whole) controls.push_back({b.time, a.buttons, a.axes});
+  if (b.time < end) controls.push_back({b.time, b.buttons, b.axes});
+}
+
+void addControls(const InputTrack& track, Nanoseconds start, Nanoseconds end,
+                 std::vector<ControlKnot>& controls) {
+  TrackerSample first;
+  sampleTrack(track, start, first);
+  controls.push_back({start, first.buttons, first.axes});
+  auto next = std::ranges::upper_bound(track.stamps, start, {}, &InputStamp::time);
+  if (next == track.stamps.begin()) {  // before the first it is as it is there
+    if (next->time < end) controls.push_back({next->time, next->buttons, next->axes});
+    ++next;
+  }
+  for (; next != track.stamps.end() && (next - 1)->time < end && controls.size() < kMostKnots; ++next)
+    addControls(*(next - 1), *next, start, end, controls);
+}
+
+void addKnots(const InputTrack& track, Nanoseconds start, Nanoseconds end, Course& knots) {
+  auto next = std::ranges::upper_bound(track.stamps, start, {}, &InputStamp::time);
+  if (next == track.stamps.begin()) {  // nothing moves before the first
+    if (next->valid && next->time < end) knots.push_back({next->time, next->X_RT, false});
+    ++next;
+  }
+  for (; next != track.stamps.end() && (next - 1)->time < end && knots.size() < kMostKnots; ++next)
+    addKnots(*(next - 1), *next, start, end, knots);
 }
 
 }  // namespace
@@ -52,6 +135,14 @@ void InputLog::sampleAt(Nanoseconds showTime, InputSample& sample) const {
   sample.time = showTime;
   sample.trackers.resize(tracks.size());
   for (std::size_t i = 0; i < tracks.size(); ++i) sampleTrack(tracks[i], showTime, sample.trackers[i]);
+}
+
+void InputLog::sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) const {
+  sampleAt(end, sample);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    addKnots(tracks[i], start, end, sample.trackers[i].knots);
+    addControls(tracks[i], start, end, sample.trackers[i].controls);
+  }
 }
 
 }  // namespace stadion

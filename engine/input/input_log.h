@@ -22,8 +22,9 @@
 /// (decimal or 0x...), `axes` up to eight numbers from -1 to 1; both are 0 where not given. Other kinds of
 /// record are reserved for later versions and are errors in this one.
 ///
-/// Between two records poses and axes are interpolated, buttons are those of the record before. Before the
-/// first record the first is held, after the last one the last.
+/// Between two records poses and axes are interpolated, buttons are those of the record before. An eased way
+/// is eased at whole multiples of 5 ms of show time and straight between them. Before the first record the
+/// first is held, after the last one the last.
 ///
 /// Frames, units  see input_sample.h.
 /// Threads        a log that nobody changes may be read from any thread.
@@ -61,6 +62,9 @@ struct InputLog {
   Nanoseconds end() const;
   /// What the trackers do at `showTime`; exactly the stamp's values at the time of a stamp.
   void sampleAt(Nanoseconds showTime, InputSample& sample) const;
+  /// The same at `end`, and the corners of every tracker's way between `start` and `end`. They lie on the
+  /// log's own time axis, so the way is the same however it is cut into frames.
+  void sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) const;
 };
 
 std::optional<InputLog> parseInputLog(std::string_view text, const std::string& file, Diagnostics& out);
@@ -81,6 +85,9 @@ public:
 
   using InputDevice::sampleAt;
   void sampleAt(Nanoseconds showTime, InputSample& sample) override { log_.sampleAt(showTime, sample); }
+  void sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) override {
+    log_.sampleFrame(start, end, sample);
+  }
   Nanoseconds end() const override { return log_.end(); }
   const InputLog& log() const { return log_; }
 

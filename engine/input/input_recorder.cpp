@@ -42,6 +42,25 @@ void InputRecorder::record(const InputSample& sample) {
 }
 
 void InputRecorder::record(const TrackerSample& tracker, Nanoseconds time) {
+  for (const PoseKnot& knot : tracker.knots) recordKnot(tracker, knot, time);
+  write(tracker, time);
+}
+
+/// Of a corner only the pose is known; buttons and axes are as the controls of that time say, else as they
+/// were.
+void InputRecorder::recordKnot(TrackerSample tracker, const PoseKnot& knot, Nanoseconds end) {
+  if (const auto last = last_.find(logName(tracker.name)); last != last_.end()) {
+    tracker.buttons = last->second.buttons, tracker.axes = last->second.axes;
+    tracker.valid = false;
+    if (knot.jump && last->second.valid) write(tracker, knot.time - 1);
+  }
+  for (const ControlKnot& c : tracker.controls)
+    if (c.time == knot.time) tracker.buttons = c.buttons, tracker.axes = c.axes;
+  tracker.X_RT = knot.X, tracker.valid = true;
+  if (knot.time < end) write(tracker, knot.time);
+}
+
+void InputRecorder::write(const TrackerSample& tracker, Nanoseconds time) {
   const std::string name = logName(tracker.name);
   if (time < 0 || (last_.size() == InputLog::kMaxTrackers && !last_.contains(name))) return;
   Last& last = last_[name];
@@ -49,7 +68,7 @@ void InputRecorder::record(const TrackerSample& tracker, Nanoseconds time) {
   const InputStamp stamp = stampOf(tracker, time);
   // A tracker that stays lost needs no second line.
   if (stamp.valid || last.valid) file_.write(formatRecord(name, stamp));
-  last = {time, stamp.valid};
+  last = {time, stamp.valid, stamp.buttons, stamp.axes};
 }
 
 }  // namespace stadion

@@ -1,7 +1,8 @@
 #pragma once
 /// Writes what the devices say to an input log, frame by frame.
 ///
-/// Replaying the log at the same times gives the same samples to the bit.
+/// Replaying the log at the same times gives the same samples to the bit; what happened inside a frame is
+/// written as records of its own.
 ///
 /// Ownership  owns the file, which appears under its name only with commit(); without it nothing is left
 /// behind. Threads    one thread. Errors     kept until commit() (a full disk loses the recording, not the
@@ -28,8 +29,12 @@ private:
   struct Last {
     Nanoseconds time = -1;
     bool valid = true;
+    std::uint32_t buttons = 0;
+    std::array<float, kTrackerAxes> axes{};
   };
   void record(const TrackerSample& tracker, Nanoseconds time);
+  void recordKnot(TrackerSample tracker, const PoseKnot& knot, Nanoseconds end);
+  void write(const TrackerSample& tracker, Nanoseconds time);
 
   AtomicFile file_;
   std::map<std::string, Last> last_;

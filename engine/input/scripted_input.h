@@ -23,6 +23,9 @@ public:
 
   using InputDevice::sampleAt;
   void sampleAt(Nanoseconds showTime, InputSample& sample) override { log_.sampleAt(showTime, sample); }
+  void sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) override {
+    log_.sampleFrame(start, end, sample);
+  }
   Nanoseconds end() const override { return log_.end(); }
   const InputLog& log() const { return log_; }
 

@@ -1,0 +1,38 @@
+#pragma once
+/// Where something is at any time of a frame: straight ways and even turns between knots, and jumps.
+///
+/// Times    non-decreasing. Before the first knot it is where that knot says, after the last one likewise.
+/// Frames   whatever the owner says; all knots of a course are in the same one.
+
+#include "engine/maths/maths.h"
+#include "engine/time_signature.h"
+
+#include <vector>
+
+namespace stadion {
+
+struct PoseKnot {
+  Nanoseconds time = 0;  ///< show time [ns]
+  Pose X;
+  bool jump = false;  ///< it did not move here: until `time` it stays where it was, from then on it is here
+
+  bool operator==(const PoseKnot& o) const {
+    return time == o.time && X.p == o.X.p && X.q.coeffs() == o.X.q.coeffs() && jump == o.jump;
+  }
+};
+
+using Course = std::vector<PoseKnot>;
+
+/// On which side of a jump at the very time that is asked for.
+enum class Limit { Before, After };
+
+/// Expects at least one knot.
+Pose poseOn(const Course& course, Nanoseconds time, Limit limit);
+
+/// Whether it is ever anywhere else than at first.
+bool moves(const Course& course);
+
+/// Whether it jumps at exactly `time`.
+bool jumpsAt(const Course& course, Nanoseconds time);
+
+}  // namespace stadion
