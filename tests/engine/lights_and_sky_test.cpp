@@ -89,5 +89,55 @@ TEST(Light, HidingTheGroupAboveDarkensIt) {
   EXPECT_TRUE(show.changes.lights.empty());
 }
 
+/// Lights along x, one a metre, brighter from one to the next.
+struct ManyLights : ShowFixture {
+  explicit ManyLights(std::size_t count) {
+    loader.files["show"] = [count](Load& load) {
+      load.file = "many.evs";
+      for (std::size_t i = 0; i < count; ++i) {
+        LightRecord light = lamp(1, 100 * static_cast<double>(i));
+        addNode<LightNode>(load, i % 2 == 0 ? "" : "lamp" + std::to_string(i), PlaceAttributes{}, light,
+                           true);
+        load.lines.push_back(static_cast<std::uint32_t>(i + 1));
+      }
+    };
+    scene.open("show");
+  }
+  std::vector<double> places() const {
+    std::vector<double> x;
+    for (const LightRecord& l : changes.lights) x.push_back(l.position[0]);
+    return x;
+  }
+};
+
+TEST(Light, OfMoreThanSixteenThoseShineThatAreBrightestWhereTheVisitorIs) {
+  ManyLights show(40);
+  show.head({0, 0, 0});
+  show.frame();
+  std::vector<double> expected;
+  for (int i = 0; i < 16; ++i) expected.push_back(100 * i);
+  EXPECT_EQ(show.places(), expected);
+  show.frame();
+  EXPECT_FALSE(show.changes.lightsChanged) << "nobody moved";
+  show.head({3900, 0, 0});
+  show.frame();
+  ASSERT_TRUE(show.changes.lightsChanged);
+  for (int i = 0; i < 16; ++i) expected[static_cast<std::size_t>(i)] = 100 * (24 + i);
+  EXPECT_EQ(show.places(), expected);
+}
+
+TEST(Light, TooManyAreToldOnceWithTheNamesOfThoseThatAreDark) {
+  ManyLights show(20);
+  show.frames(10);
+  ASSERT_EQ(show.loader.reported.size(), 1u);
+  const std::string told = format(show.loader.reported[0]);
+  EXPECT_EQ(told,
+            "many.evs:17:1: warning: 20 lights are on, of which the 16 brightest where the visitor is shine; "
+            "dark at the moment: line 17, \"lamp17\", line 19, \"lamp19\"");
+  ManyLights enough(16);
+  enough.frames(2);
+  EXPECT_TRUE(enough.loader.reported.empty());
+}
+
 }  // namespace
 }  // namespace stadion

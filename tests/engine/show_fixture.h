@@ -15,6 +15,7 @@ public:
   using Recipe = std::function<void(Load&)>;
   std::map<std::string, Recipe> files;
   std::size_t disposed = 0;
+  std::vector<Diagnostic> reported;
 
   void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine&) override {
     auto load = std::make_unique<Load>();
@@ -28,6 +29,7 @@ public:
     return load;
   }
   void dispose(std::unique_ptr<Load>, std::uint64_t) override { ++disposed; }
+  void report(const Diagnostic& finding) override { reported.push_back(finding); }
 
 private:
   std::map<std::uint32_t, std::unique_ptr<Load>> ready_;
