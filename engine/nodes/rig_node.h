@@ -41,7 +41,10 @@ public:
 
   Rank rank() const override { return Rank::Input; }
   bool busy() const override { return switch_.on(); }
-  void hash(StateHash& h) const override { switch_.hash(h); }
+  void hash(StateHash& h) const override {
+    switch_.hash(h);
+    h.add(ended_), h.add(q_RT_), h.add(p_RH_);
+  }
 
 protected:
   void receive(const Message& m, FrameContext& frame) override;
