@@ -73,6 +73,12 @@ void Loader::dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) {
   waiting_.push_back({std::move(load), lastFrame});
 }
 
+void Loader::report(const Diagnostic& finding) {
+  Diagnostics one;
+  one.add(finding);
+  parts_.report(one);
+}
+
 void Loader::shown(std::uint64_t frame) {
   const std::lock_guard lock(mutex_);
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));

@@ -59,6 +59,7 @@ public:
   bool takesEffect(std::uint32_t number, Nanoseconds now) override;
   std::unique_ptr<Load> take(std::uint32_t number) override;
   void dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) override;
+  void report(const Diagnostic& finding) override;
 
   /// All walls have shown `frame`: what was disposed of up to it may go.
   void shown(std::uint64_t frame);

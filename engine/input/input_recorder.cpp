@@ -69,13 +69,16 @@ void InputRecorder::record(const TrackerSample& tracker, Nanoseconds time) {
   write(tracker, time);
 }
 
-/// Of a corner only the pose is known; the rest is as it was.
+/// Of a corner only the pose is known; buttons and axes are as the controls of that time say, else as they
+/// were.
 void InputRecorder::recordKnot(TrackerSample tracker, const PoseKnot& knot, Nanoseconds end) {
   if (const auto last = last_.find(logName(tracker.name)); last != last_.end()) {
     tracker.buttons = last->second.buttons, tracker.axes = last->second.axes;
     tracker.valid = false;
     if (knot.jump && last->second.valid) write(tracker, knot.time - 1);
   }
+  for (const ControlKnot& c : tracker.controls)
+    if (c.time == knot.time) tracker.buttons = c.buttons, tracker.axes = c.axes;
   tracker.X_RT = knot.X, tracker.valid = true;
   if (knot.time < end) write(tracker, knot.time);
 }

@@ -95,7 +95,7 @@ Played playKick(const std::string& script, double rate) {
   const std::atomic<bool> never = false;
   FrameLoop loop(stages, o, never);
   const FrameLoopOutcome outcome = loop.run();
-  EXPECT_FALSE(outcome.failure) << *outcome.failure;
+  EXPECT_FALSE(outcome.failure) << outcome.failure->message;
   return played;
 }
 
