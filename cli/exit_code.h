@@ -1,6 +1,8 @@
 #pragma once
 /// What the program's exit status means, to scripts and CI.
 
+#include "pipeline/stages.h"
+
 namespace stadion {
 
 enum ExitCode : int {
@@ -8,6 +10,12 @@ enum ExitCode : int {
   kCheckFailed = 1,    ///< a check or comparison failed
   kBadInput = 2,       ///< bad usage, or a file of the user's is wrong
   kInternalFault = 3,  ///< our fault
+  kStopped = 128,      ///< plus the number of the signal that ended a run, as shells have it: 130, 143
 };
+
+/// Of a run that could not go on.
+inline ExitCode exitCodeOf(const Reason& why) {
+  return why.kind == FailureKind::Refusal ? kBadInput : kInternalFault;
+}
 
 }  // namespace stadion

@@ -27,15 +27,14 @@ int hashShow(ShowOptions options) {
   };
   ShowStages stages(std::move(parts));
   running = &stages;
-  FrameLoopOptions loopOptions;
-  loopOptions.mode = options.mode == "sequential" ? Mode::Sequential : Mode::Pipelined;
-  loopOptions.rate = options.rate;
-  loopOptions.walls = player->walls().walls.size();
-  loopOptions.frames = player->frames() == 0 ? 600 : player->frames();
+  FrameLoopOptions loopOptions = player->loopOptions();
+  if (loopOptions.frames == 0 && loopOptions.end == 0) loopOptions.frames = 600;
   const std::atomic<bool> never = false;
   FrameLoop loop(stages, loopOptions, never);
   const FrameLoopOutcome outcome = loop.run();
-  return outcome.failure ? kInternalFault : kOk;
+  if (!outcome.failure) return kOk;
+  std::fprintf(stderr, "stadion: %s\n", outcome.failure->message.c_str());
+  return exitCodeOf(*outcome.failure);
 }
 
 }  // namespace

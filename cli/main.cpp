@@ -6,8 +6,12 @@
 #include "pipeline/target/rasteriser_settings.h"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <new>
 
 namespace stadion {
 namespace {
@@ -15,7 +19,8 @@ namespace {
 int runProgram(int argc, char** argv) {
   CLI::App app("Stadion plays immersive shows written in the EVS world description language on stereo walls.",
                "stadion");
-  app.footer("Exit codes: 0 ok, 1 a check or comparison failed, 2 bad usage or bad input, 3 internal fault.\n"
+  app.footer("Exit codes: 0 ok, 1 a check or comparison failed, 2 bad usage or bad input, 3 internal fault,\n"
+             "130 or 143 stopped by SIGINT or SIGTERM.\n"
              "Start with:  ./stadion run scripts/kick.evs --out pictures");
   app.require_subcommand(1);
   app.set_version_flag("--version", "stadion 0.1.0");
@@ -52,8 +57,16 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "stadion: %s\n", wrong->message.c_str());
     return stadion::kBadInput;
   }
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file that may not grow is a full disk: an error with a name, not the end
   try {
-    return stadion::runProgram(argc, argv);
+    const int code = stadion::runProgram(argc, argv);
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+    std::fprintf(stderr, "stadion: the standard output cannot be written: %s\n", std::strerror(errno));
+    return code == stadion::kOk ? stadion::kBadInput : code;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "stadion: out of memory\n");
+    return stadion::kInternalFault;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "stadion: internal fault: %s\n", e.what());
     return stadion::kInternalFault;

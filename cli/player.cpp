@@ -1,5 +1,6 @@
 #include "cli/player.h"
 
+#include "cli/number_option.h"
 #include "dynamics/nodes/dynamics_factories.h"
 #include "engine/input/input_log.h"
 
@@ -7,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
+#include <tuple>
 
 namespace stadion {
 namespace {
@@ -21,10 +24,12 @@ public:
   }
 };
 
-bool parseSize(const std::string& text, std::uint32_t& width, std::uint32_t& height) {
-  char rest = 0;
-  return std::sscanf(text.c_str(), "%ux%u%c", &width, &height, &rest) == 2 && width >= 1 && height >= 1 &&
-         width <= 16384 && height <= 16384;
+/// No run lasts longer: some 31 years of show time [s].
+constexpr double kLongest = 1e9;
+
+bool existsBeside(const std::filesystem::path& file) {
+  std::error_code unknown;
+  return std::filesystem::exists(file, unknown);
 }
 
 }  // namespace
@@ -45,29 +50,75 @@ void ShowOptions::addTo(CLI::App& command) {
       "--size", size,
       "WIDTHxHEIGHT in pixels of one eye's picture (default: what the wall file says, else 800x600)");
   command.add_option("--rate", rate, "frames per second of show time")
-      ->check(CLI::Range(1.0, 1000.0))
+      ->check(numberFrom(1, 1000))
+      ->each([this](const std::string&) { rateGiven = true; })
       ->capture_default_str();
-  command.add_option("--frames", frames, "stop after so many frames")->check(CLI::NonNegativeNumber);
-  command.add_option("--seconds", seconds, "stop after so much show time")->check(CLI::PositiveNumber);
+  CLI::Option* count = command.add_option("--frames", frames, "stop after so many frames")
+                           ->check(wholeNumberFrom(1, 1'000'000'000));
+  command.add_option("--seconds", seconds, "stop after so much show time")
+      ->check(numberFrom(1e-3, kLongest))
+      ->excludes(count);
   command.add_option("--input", input,
                      "input log to replay (default: SHOW's name with .input, if there is one), or none");
   command.add_option("--asset-root", assetRoots, "further folder to look for assets in");
 }
 
 bool ShowOptions::settle(Diagnostics& findings) {
-  if (!parseSize(size.empty() ? "800x600" : size, width, height))
+  const auto sides = parseSize(size.empty() ? "800x600" : size);
+  const auto fits = [](std::uint32_t side) { return side >= 1 && side <= 16384; };
+  if (sides && fits(sides->first) && fits(sides->second))
+    std::tie(width, height) = *sides;
+  else
     findings.error({}, "--size: \"" + size +
                            "\" is not WIDTHxHEIGHT in pixels from 1x1 to 16384x16384, such as 800x600");
-  if (frames == 0 && seconds > 0) frames = static_cast<std::uint64_t>(std::ceil(seconds * rate)) + 1;
   return !findings.hasErrors();
 }
 
 Player::Player() = default;
 Player::~Player() = default;
 
+bool Player::openInput(Diagnostics& findings) {
+  inputName_ = options_.input;
+  if (inputName_.empty()) {
+    const auto beside = std::filesystem::path(options_.script).replace_extension(".input");
+    inputName_ = existsBeside(beside) ? beside.string() : "none";
+  }
+  rate_ = options_.rate;
+  if (inputName_ == "none") {
+    inputName_.clear();
+    input_ = std::make_unique<NoInput>();
+    return true;
+  }
+  auto log = loadInputLog(inputName_, findings);
+  if (!log) return false;
+  decisions_ = log->decisions;
+  if (decisions_.rate > 0 && !options_.rateGiven) rate_ = decisions_.rate;
+  if (decisions_.rate > 0 && rate_ != decisions_.rate && !decisions_.empty())
+    findings.error({inputName_, 0, 0},
+                   fmt::format("was recorded live at {} frames a second, and holds times that only this rate "
+                               "repeats; leave --rate out",
+                               decisions_.rate));
+  input_ = std::make_unique<InputReplay>(std::move(*log));
+  inputFound_ = true;
+  return !findings.hasErrors();
+}
+
+// As asked for, else to the end of the input, else until stopped.
+void Player::settleLength() {
+  const auto framesTo = [&](double seconds) {
+    return static_cast<std::uint64_t>(std::ceil(seconds * rate_)) + 1;
+  };
+  frames_ = options_.frames;
+  if (frames_ == 0 && options_.seconds > 0) frames_ = framesTo(options_.seconds);
+  if (frames_ > 0 || !inputFound_) return;
+  end_ = input_->end();
+  // Where ticks were missed there are fewer frames than that.
+  if (decisions_.frames.empty()) frames_ = framesTo(toSeconds(end_));
+}
+
 std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& findings,
-                                       std::function<void(const Diagnostics&)> report) {
-  namespace fs = std::filesystem;
+                                       std::function<void(const Diagnostics&)> report,
+                                       const std::atomic<bool>* stop) {
   std::unique_ptr<Player> player(new Player);
   Player& p = *player;
   p.options_ = options;
@@ -75,25 +126,8 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   auto walls = loadWalls(options.walls, std::string(STADION_ROOT) + "/walls", findings);
   if (!walls) return nullptr;
   p.walls_ = std::move(*walls);
-
-  std::string input = options.input;
-  if (input.empty()) {
-    const fs::path beside = fs::path(options.script).replace_extension(".input");
-    input = fs::exists(beside) ? beside.string() : "none";
-  }
-  if (input == "none") {
-    p.input_ = std::make_unique<NoInput>();
-  } else {
-    auto log = loadInputLog(input, findings);
-    if (!log) return nullptr;
-    p.input_ = std::make_unique<InputReplay>(std::move(*log));
-    p.inputFound_ = true;
-    p.inputName_ = input;
-  }
-  p.frames_ = options.frames;
-  if (p.frames_ == 0) p.end_ = p.input_->end();
-  if (p.frames_ == 0 && p.inputFound_)
-    p.frames_ = static_cast<std::uint64_t>(std::ceil(toSeconds(p.input_->end()) * options.rate)) + 1;
+  if (!p.openInput(findings)) return nullptr;
+  p.settleLength();
 
   p.roots_ = AssetRoots::ofScript(options.script);
   AssetRoots forImporter = AssetRoots::ofScript(options.script);
@@ -104,12 +138,26 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
 
   addEngineFactories(p.factories_);
   addDynamicsFactories(p.factories_);
-  p.importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter));
-  p.loader_ = std::make_unique<Loader>(
-      LoaderParts{p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_, std::move(report)});
+  ImportLimits limits;
+  limits.giveUp = stop;
+  p.importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);
+  p.loader_ = std::make_unique<Loader>(LoaderParts{p.meshes_, p.state_.arena(), *p.importer_, p.roots_,
+                                                   p.factories_, std::move(report), stop});
+  p.loader_->obey(p.decisions_.loads);
   p.scene_ = std::make_unique<Scene>(*p.loader_, p.meshes_);
   if (!p.scene_->open(options.script)) return nullptr;
   return player;
+}
+
+FrameLoopOptions Player::loopOptions() const {
+  FrameLoopOptions l;
+  l.mode = options_.mode == "sequential" ? Mode::Sequential : Mode::Pipelined;
+  l.rate = rate_;
+  l.walls = walls_.walls.size();
+  l.frames = frames_;
+  l.frameTimes = decisions_.frames;
+  if (frames_ == 0) l.end = end_;
+  return l;
 }
 
 ShowParts Player::parts(StereoLayout stereo) {

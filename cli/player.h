@@ -5,6 +5,7 @@
 #include "engine/asset/import.h"
 #include "engine/display/wall_file.h"
 #include "engine/input/input_device.h"
+#include "engine/input/run_decisions.h"
 #include "engine/scene/scene.h"
 #include "engine/script/builder.h"
 #include "pipeline/frame_loop.h"
@@ -12,6 +13,7 @@
 #include "pipeline/output/stereo.h"
 #include "pipeline/show_stages.h"
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,13 +31,15 @@ struct ShowOptions {
   std::string mode = "pipelined";
   std::string size;  ///< empty = as the wall file says, else 800x600
   double rate = 60;
-  std::uint64_t frames = 0;
-  double seconds = 0;
-  std::string input;  ///< empty = beside the script if there is one; "none"
+  bool rateGiven = false;    ///< else a recorded run's own rate counts more
+  std::uint64_t frames = 0;  ///< 0 = by `seconds`
+  double seconds = 0;        ///< 0 = to the end of the input
+  std::string input;         ///< empty = beside the script if there is one; "none"
   std::vector<std::string> assetRoots;
 
   std::uint32_t width = 0, height = 0;  ///< from `size`
 
+  /// Expects that this object stays where it is until the command line has been read.
   void addTo(CLI::App& command);
   /// Completes what depends on other options. Says what is wrong.
   bool settle(Diagnostics& findings);
@@ -50,16 +54,30 @@ void tell(const Diagnostics& findings);
 class Player {
 public:
   /// Reads, checks and loads everything. Null if something of the user's is wrong; the findings say what.
-  /// What is found while files are loaded, now and during the show, goes to `report`.
+  /// What is found while files are loaded, now and during the show, goes to `report`. Once `stop` is true,
+  /// nobody waits for a file any more.
   static std::unique_ptr<Player> create(const ShowOptions& options, Diagnostics& findings,
-                                        std::function<void(const Diagnostics&)> report = tell);
+                                        std::function<void(const Diagnostics&)> report = tell,
+                                        const std::atomic<bool>* stop = nullptr);
   ~Player();
 
   /// Frames to play: as asked, or to the end of the input log; 0 = until stopped.
   std::uint64_t frames() const { return frames_; }
   /// Show time at which the input log ends, unless the number of frames was asked for; 0 = none.
   Nanoseconds end() const { return end_; }
+  /// Frames a second: as asked, else as the input log was recorded.
+  double rate() const { return rate_; }
+  /// Whether the input log holds what a clock decided: then every frame is played as it was recorded.
+  bool obeysLog() const { return !decisions_.empty(); }
   bool inputFound() const { return inputFound_; }
+  /// Mode, rate, walls, length, and what the input log decided. Plays every frame, as fast as possible.
+  FrameLoopOptions loopOptions() const;
+  /// Files that come late do not hold up the show. Before the first frame.
+  void playLive() { loader_->playLive(); }
+  /// The loads that were due when the run ended and had not taken effect.
+  std::vector<std::uint32_t> overdueLoads() const { return loader_->overdue(); }
+  /// `told` learns which files came late, on the App thread. Before the first frame.
+  void tellLateLoads(Loader::LateLoad told) { loader_->tellLateLoads(std::move(told)); }
   const WallFile& walls() const { return walls_; }
   Scene& scene() { return *scene_; }
   const std::string& inputName() const { return inputName_; }
@@ -71,6 +89,8 @@ public:
 
 private:
   Player();
+  bool openInput(Diagnostics& findings);
+  void settleLength();
 
   NodeFactories factories_{};
   MeshStore meshes_;
@@ -82,6 +102,8 @@ private:
   std::unique_ptr<InputDevice> input_;
   WallFile walls_;
   ShowOptions options_;
+  RunDecisions decisions_;
+  double rate_ = 60;
   std::uint64_t frames_ = 0;
   Nanoseconds end_ = 0;
   bool inputFound_ = false;

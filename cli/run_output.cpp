@@ -3,7 +3,9 @@
 #include "pipeline/output/contact_sheet.h"
 
 #include <charconv>
+#include <exception>
 #include <fmt/format.h>
+#include <new>
 
 namespace stadion {
 namespace {
@@ -65,11 +67,29 @@ void RunOutput::work() {
     jobs_.pop_front();
     changed_.notify_all();
     lock.unlock();
-    write(job);
+    guard([&] { write(job); });
     lock.lock();
     if (failed_) jobs_.clear();
     changed_.notify_all();
   }
+}
+
+/// Nothing that is thrown while pictures are written may end the process.
+template <class Work>
+void RunOutput::guard(const Work& work) {
+  try {
+    work();
+  } catch (const std::bad_alloc&) {
+    fail("writing pictures: out of memory");
+  } catch (const std::exception& e) {
+    fail(std::string("writing pictures: ") + e.what());
+  }
+}
+
+void RunOutput::fail(Reason why) {
+  const std::lock_guard lock(mutex_);
+  if (!failure_) failure_ = std::move(why);
+  failed_ = true;
 }
 
 void RunOutput::write(const Job& job) {
@@ -108,7 +128,9 @@ void RunOutput::addToVideo(const Job& job) {
     VideoOptions video;
     video.width = frame.width, video.height = frame.height;
     video.rate = options_.rate;
-    video_ = std::make_unique<VideoWriter>(options_.folder + "/video.mp4", video);
+    if (const auto wrong = options_.folder.note("video.mp4"))
+      return fail(Reason(*wrong, FailureKind::Refusal));
+    video_ = std::make_unique<VideoWriter>(options_.folder.pathOf("video.mp4"), video);
   }
   // Here every frame counts and nobody waits for us but the show's own back-pressure.
   while (!video_->failed() && !video_->waitForRoom(std::chrono::seconds(1))) {
@@ -118,12 +140,18 @@ void RunOutput::addToVideo(const Job& job) {
 
 void RunOutput::writeFile(const std::string& name, const Picture& picture) {
   if (failed_) return;
-  if (const auto wrong = writePng(options_.folder + "/" + name, picture)) {
-    failure_ = wrong->message;
-    failed_ = true;
-    return;
-  }
+  auto wrong = options_.folder.note(name);
+  if (!wrong) wrong = writePng(options_.folder.pathOf(name), picture);
+  if (wrong) return fail(Reason(*wrong, FailureKind::Refusal));
   ++written_;
+}
+
+void RunOutput::writeLast(const Job& last) {
+  const bool drawn = !last.walls.empty() && !last.walls[0].eyes.empty();
+  if (!drawn || options_.pictures.kind == PictureChoice::Kind::None) return;
+  if (options_.pictures.kind == PictureChoice::Kind::Last && lastWritten_ != last.frame) writePictures(last);
+  writeFile("contact-sheet.png", sheetOf(last, 320));
+  if (!failed_) files_.push_back(options_.folder.pathOf("contact-sheet.png"));
 }
 
 void RunOutput::finish(std::uint64_t lastFrame, const std::vector<EyePictures>& walls) {
@@ -133,18 +161,11 @@ void RunOutput::finish(std::uint64_t lastFrame, const std::vector<EyePictures>& 
     changed_.notify_all();
   }
   writer_.join();
-  const Job last{lastFrame, walls, true};
-  const bool drawn = !walls.empty() && !walls[0].eyes.empty();
-  if (drawn && options_.pictures.kind != PictureChoice::Kind::None) {
-    if (options_.pictures.kind == PictureChoice::Kind::Last && lastWritten_ != lastFrame) writePictures(last);
-    writeFile("contact-sheet.png", sheetOf(last, 320));
-    if (!failed_) files_.push_back(options_.folder + "/contact-sheet.png");
-  }
-  if (failed_) remarks_.push_back(failure_);
+  guard([&] { writeLast({lastFrame, walls, true}); });
   if (!video_) return;
   auto report = video_->finish();
   if (report)
-    files_.push_back(options_.folder + "/video.mp4");
+    files_.push_back(options_.folder.pathOf("video.mp4"));
   else
     remarks_.push_back("no video: " + report.error().message);
 }

@@ -3,6 +3,7 @@
 /// Draw only hands pictures over; it waits when the writer falls far behind, because every picture asked for
 /// is written.
 
+#include "cli/output_folder.h"
 #include "pipeline/output/stereo.h"
 #include "pipeline/output/video.h"
 #include "pipeline/show_stages.h"
@@ -27,7 +28,7 @@ struct PictureChoice {
 };
 
 struct RunOutputOptions {
-  std::string folder;  ///< exists
+  OutputFolder& folder;
   PictureChoice pictures;
   bool sheets = false;  ///< a contact sheet beside each frame's pictures
   bool video = false;
@@ -45,12 +46,12 @@ public:
   Failure take(const TimeSignature& now, const std::vector<EyePictures>& walls) override;
 
   /// Writes the last frame's pictures and the contact sheet, waits for the writer, closes the video.
-  /// What went wrong is in remarks().
   void finish(std::uint64_t lastFrame, const std::vector<EyePictures>& walls);
 
   const std::vector<std::string>& files() const { return files_; }      ///< the ones worth naming
   const std::vector<std::string>& remarks() const { return remarks_; }  ///< what did not go as asked
-  bool failed() const { return failed_; }
+  /// Why pictures could not be written, if so. After finish().
+  const Failure& failure() const { return failure_; }
   std::size_t picturesWritten() const { return written_; }
 
 private:
@@ -64,8 +65,12 @@ private:
   void work();
   void write(const Job& job);
   void writePictures(const Job& job);
+  void writeLast(const Job& last);
   void addToVideo(const Job& job);
   void writeFile(const std::string& name, const Picture& picture);
+  void fail(Reason why);
+  template <class Work>
+  void guard(const Work& work);
   Picture sheetOf(const Job& job, std::uint32_t cellWidth) const;
 
   RunOutputOptions options_;
@@ -75,7 +80,7 @@ private:
   std::deque<Job> jobs_;
   bool ending_ = false;
   std::atomic<bool> failed_ = false;
-  std::string failure_;
+  Failure failure_;  ///< the first one
   std::vector<std::string> files_, remarks_;
   std::size_t written_ = 0;
   std::uint64_t lastWritten_ = ~std::uint64_t{0};

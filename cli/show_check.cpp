@@ -55,7 +55,8 @@ public:
       auto below = readBelow(d);
       const bool circle =
           below && std::any_of(enclosing.begin(), enclosing.end(), [&](const Document* outer) {
-            return std::filesystem::equivalent(outer->file(), below.value().file());
+            std::error_code unknown;
+            return std::filesystem::equivalent(outer->file(), below.value().file(), unknown);
           });
       if (circle)
         findings_.error(d.where(Attr::File), "this scene loads itself, and that one again, without end",
@@ -140,7 +141,7 @@ void findOverlaps(const std::string& file, const std::vector<std::string>& roots
   auto player = options.settle(told) ? Player::create(options, told, [](const Diagnostics&) {}) : nullptr;
   if (!player) return;
   ChangeSet changes;
-  player->scene().advance(signatureAt(0, options.rate), {}, changes, nullptr);
+  player->scene().advance(signatureAt(0, player->rate()), {}, changes, nullptr);
   player->scene().forEachNode([&](const Node& node) {
     const auto* collision = dynamic_cast<const CollisionNode*>(&node);
     const Load* load = player->scene().load(node.self().load);

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kWindow = 160;  // characters of a long line that are worth showing
 constexpr std::size_t kLongestWord = 64;
+constexpr std::size_t kMostComparisons = 1'000'000;  // of letters, in the search for one suggestion
 
 const char* nameOf(Severity s) {
   switch (s) {
@@ -122,7 +123,12 @@ std::optional<std::string> closest(const std::string& word, const std::vector<st
   if (word.empty() || word.size() > kLongestWord) return std::nullopt;
   std::size_t best = std::max<std::size_t>(1, word.size() / 3) + 1;  // a third of the letters may be wrong
   const std::string* found = nullptr;
+  std::size_t comparisons = 0;
   for (const std::string& candidate : candidates) {
+    const std::size_t gap = std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size());
+    if (gap >= best) continue;
+    comparisons += word.size() * candidate.size();
+    if (comparisons > kMostComparisons) break;  // a hostile file must not cost seconds
     const std::size_t distance = editDistance(word, candidate, best);
     if (distance >= best) continue;
     best = distance;

@@ -65,7 +65,8 @@ private:
   std::variant<T, Diagnostic> content_;
 };
 
-/// The candidate closest to `word` by edit distance if it is close enough to be a slip, else nothing.
+/// The candidate closest to `word` by edit distance if it is close enough to be a slip, else nothing. Of very
+/// many candidates only as many are looked at as take some milliseconds; the first ones come first.
 std::optional<std::string> closest(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace stadion

@@ -33,6 +33,9 @@ struct Message {
   Verb verb{};
   std::vector<std::string> arguments;
   NodeRef node;  ///< what the first argument names, for verbs that take a node
+  /// What of the names leads into sub-scenes. Which file a name's first part belongs to is settled when the
+  /// message is posted; the way from there is found when it is delivered: sub-scenes come and go meanwhile.
+  std::string targetInside{}, nodeInside{};
 };
 
 /// Holds messages until they are due. App only.

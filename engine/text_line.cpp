@@ -2,14 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cerrno>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <memory>
-#include <sys/stat.h>
 #include <system_error>
 
 namespace stadion {
@@ -180,29 +175,6 @@ std::string formatSeconds(Nanoseconds ns) {
 
 std::string quotedWord(std::string_view word) {
   return fmt::format("\"{}\"", printable(word, 40));
-}
-
-Result<std::string> readTextFile(const std::string& path, std::size_t limit) {
-  const auto failure = [&path](const std::string& why) {
-    Diagnostic d;
-    d.where.file = path;
-    d.message = fmt::format("cannot be read: {}", why);
-    return d;
-  };
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rbe"), &std::fclose);
-  if (!file) return failure(std::strerror(errno));
-  struct stat status {};
-  if (fstat(fileno(file.get()), &status) != 0) return failure(std::strerror(errno));
-  if (S_ISDIR(status.st_mode)) return failure("it is a folder");
-  if (!S_ISREG(status.st_mode)) return failure("it is not a plain file");
-  std::string text;
-  std::array<char, 65536> block;
-  while (const std::size_t got = std::fread(block.data(), 1, block.size(), file.get())) {
-    if (text.size() + got > limit) return failure(fmt::format("it is larger than {} bytes", limit));
-    text.append(block.data(), got);
-  }
-  if (std::ferror(file.get())) return failure(std::strerror(errno));
-  return text;
 }
 
 }  // namespace stadion

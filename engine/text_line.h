@@ -70,7 +70,4 @@ std::string formatSeconds(Nanoseconds ns);
 /// `"word"`, shortened and with control characters replaced, for messages.
 std::string quotedWord(std::string_view word);
 
-/// The whole file as text, or why not. Refuses folders, devices and files above `limit` bytes.
-Result<std::string> readTextFile(const std::string& path, std::size_t limit);
-
 }  // namespace stadion

@@ -7,6 +7,7 @@
 /// by frame.
 
 #include "engine/frame_probe.h"
+#include "engine/input/run_decisions.h"
 #include "engine/time_signature.h"
 #include "pipeline/frame_times.h"
 #include "pipeline/pacer.h"
@@ -14,6 +15,7 @@
 #include "pipeline/state/frame_slots.h"
 
 #include <atomic>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -31,6 +33,8 @@ struct FrameLoopOptions {
   std::size_t walls = 1;
   std::uint64_t frames = 0;  ///< 0 = until stopped
   Nanoseconds end = 0;       ///< no frame after this show time; 0 = until stopped
+  /// Show times that a recorded run decided for some of its frames (see RunDecisions); they are obeyed.
+  std::map<std::uint64_t, Nanoseconds> frameTimes{};
 };
 
 struct FrameLoopOutcome {
@@ -56,11 +60,16 @@ private:
   void runSequential();
   void runPipelined();
 
-  void appStage(const TimeSignature& now, std::size_t slot);
-  void cullStage(std::size_t wall, std::size_t slot, std::uint64_t frame, DrawList& list);
+  bool appStage(const TimeSignature& now, std::size_t slot);
+  bool cullStage(std::size_t wall, std::size_t slot, std::uint64_t frame, DrawList& list);
+  bool openStage(std::size_t wall);
   bool drawStage(std::size_t wall, const DrawList& list);
   bool swapStage(const TimeSignature& now);
-  void fail(std::string why);
+  void closeStage(std::size_t wall);
+  template <class Work>
+  bool guard(const char* what, std::size_t wall, std::uint64_t frame, const Work& work);
+  bool fail(const char* what, std::size_t wall, std::uint64_t frame, const char* why) noexcept;
+  bool fail(Reason why);
 
   Stages& stages_;
   FrameLoopOptions options_;
@@ -70,8 +79,7 @@ private:
   FrameTimes times_;
   FrameLoopOutcome outcome_;
   std::uint64_t nextIndex_ = 0;
-  Nanoseconds showTime_ = 0;
-  std::uint64_t tick_ = 0;
+  FrameClock clock_;
   bool ending_ = false;
   std::atomic<bool> failed_ = false;
   std::mutex failureMutex_;

@@ -1,10 +1,13 @@
 #include "pipeline/loader.h"
 
+#include "engine/plain_file.h"
+#include "engine/run_stopped.h"
 #include "engine/script/script.h"
 
-#include <array>
 #include <filesystem>
-#include <unistd.h>
+#include <new>
+#include <stdexcept>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -30,12 +33,38 @@ void Loader::request(std::uint32_t number, const std::string& file, NodeRef owne
   changed_.notify_all();
 }
 
+bool Loader::takesEffect(std::uint32_t number, Nanoseconds now) {
+  if (now == 0) return true;  // the show begins when all is there
+  const auto decided = decided_.find(number);
+  bool waits = decided != decided_.end() && now < decided->second;
+  if (live_ && decided == decided_.end()) {
+    const std::lock_guard lock(mutex_);
+    waits = !done_.contains(number);
+  }
+  // What has been passed over in a frame stays out of it, even if it arrives while the frame is made.
+  const auto passedOver = awaited_.find(number);
+  waits = waits || (passedOver != awaited_.end() && passedOver->second == now);
+  if (waits)
+    awaited_[number] = now;
+  else if (awaited_.erase(number) > 0 && late_)
+    late_(number, now);
+  return !waits;
+}
+
+std::vector<std::uint32_t> Loader::overdue() const {
+  std::vector<std::uint32_t> numbers;
+  for (const auto& [number, passedOver] : awaited_) numbers.push_back(number);
+  return numbers;
+}
+
 std::unique_ptr<Load> Loader::take(std::uint32_t number) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return done_.contains(number); });
-  auto load = std::move(done_[number]);
-  done_.erase(number);
-  return load;
+  // A signal handler can set a flag, but wake nobody: look at it now and then.
+  while (!changed_.wait_for(lock, std::chrono::milliseconds(20), [&] { return done_.contains(number); }))
+    if (stopped()) throw RunStopped();
+  Prepared prepared = std::move(done_.extract(number).mapped());
+  if (prepared.thrown) std::rethrow_exception(prepared.thrown);
+  return std::move(prepared.load);
 }
 
 void Loader::dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) {
@@ -44,8 +73,15 @@ void Loader::dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) {
   waiting_.push_back({std::move(load), lastFrame});
 }
 
+void Loader::report(const Diagnostic& finding) {
+  Diagnostics one;
+  one.add(finding);
+  parts_.report(one);
+}
+
 void Loader::shown(std::uint64_t frame) {
   const std::lock_guard lock(mutex_);
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   bool any = false;
   for (; !waiting_.empty() && waiting_.front().lastFrame <= frame; waiting_.pop_front(), any = true)
     garbage_.push_back(std::move(waiting_.front().load));
@@ -61,17 +97,41 @@ void Loader::work() {
       const Job job = std::move(jobs_.front());
       jobs_.pop_front();
       lock.unlock();
-      auto load = prepare(job);
+      Prepared prepared = prepareSafely(job);
       lock.lock();
-      done_[job.number] = std::move(load);
+      done_[job.number] = std::move(prepared);
       changed_.notify_all();
     } else {
       auto load = std::move(garbage_.front());
       garbage_.pop_front();
       lock.unlock();
-      destroy(std::move(load));
+      std::exception_ptr thrown;
+      try {
+        destroy(std::move(load));
+      } catch (...) {
+        thrown = std::current_exception();
+      }
       lock.lock();
+      if (thrown) thrown_ = thrown;
     }
+  }
+}
+
+// What happens here must not end the process, but the run: App throws it again and knows what to do.
+Loader::Prepared Loader::prepareSafely(const Job& job) {
+  const auto because = [&](const char* why) {
+    return std::make_exception_ptr(std::runtime_error("loading " + job.file + ": " + why));
+  };
+  try {
+    return {prepare(job), nullptr};
+  } catch (const RunStopped&) {
+    return {nullptr, std::current_exception()};
+  } catch (const std::bad_alloc&) {
+    return {nullptr, because("out of memory")};
+  } catch (const std::exception& e) {
+    return {nullptr, because(e.what())};
+  } catch (...) {
+    return {nullptr, because("an unknown exception")};
   }
 }
 
@@ -86,18 +146,20 @@ std::vector<std::uint32_t> Loader::around(std::uint32_t outer) const {
 Result<SourceText> Loader::read(const Job& job) const {
   if (!job.owner.valid()) return SourceText::read(job.file);
   auto found = parts_.roots.open(job.file);
-  if (!found) return found.error();
-  std::string bytes;
-  std::array<char, 1 << 16> part;
-  for (;;) {
-    const ssize_t n = ::read(found.value().file.get(), part.data(), part.size());
-    if (n < 0) return Result<SourceText>::failure("cannot read " + found.value().path);
-    if (n == 0) break;
-    bytes.append(part.data(), static_cast<std::size_t>(n));
-    if (bytes.size() > SourceText::kMostBytes)
-      return Result<SourceText>::failure(found.value().path + " is too large");
-  }
-  return SourceText::make(found.value().path, bytes);
+  if (!found) return askedForBy(job, found.error());
+  const auto bytes = readPlainFile(found.value().file.get(), found.value().path, SourceText::kMostBytes);
+  if (!bytes) return bytes.error();
+  return SourceText::make(found.value().path, bytes.value());
+}
+
+// Said where the scene node names its file.
+Diagnostic Loader::askedForBy(const Job& job, Diagnostic d) const {
+  const auto outer = around_.find(job.owner.load);
+  if (outer == around_.end()) return d;
+  const Declaration scene = (*outer->second.document)[job.owner.position];
+  d.where = scene.where(Attr::File);
+  d.excerpt = scene.excerpt(Attr::File);
+  return d;
 }
 
 std::unique_ptr<Load> Loader::prepare(const Job& job) {
@@ -122,8 +184,9 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
     return nullptr;
   }
   if (numbers.size() > kDeepestNesting) {
-    findings.error({job.file, 0, 0}, "sub-scenes are nested more than " + std::to_string(kDeepestNesting) +
-                                         " deep; does this file load itself?");
+    findings.error({document->file(), 0, 0}, "sub-scenes are nested more than " +
+                                                 std::to_string(kDeepestNesting) +
+                                                 " deep; does this file load itself?");
     return nullptr;
   }
   Surroundings surroundings;
@@ -176,10 +239,13 @@ MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {
   options.up = d.optionalChoice<UpAxis>(Attr::Up);
   const std::string file(d.text(Attr::File));
   Diagnostics notes;
+  if (stopped()) throw RunStopped();
   auto mesh = parts_.importer.load(file, options, d.where(Attr::File), &notes);
+  if (stopped()) throw RunStopped();
   findings.append(notes);
   if (mesh) return parts_.meshes.add(std::move(mesh.value()));
   Diagnostic missing = mesh.error();
+  missing.excerpt = d.excerpt(Attr::File);
   missing.severity = Severity::Warning;
   missing.message += "; a stand-in is shown in its place";
   findings.add(missing);

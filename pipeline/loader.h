@@ -3,16 +3,23 @@
 /// builds nodes, writes the static chunk. App only installs the result.
 ///
 /// Threads   one worker; request, take, dispose and shown are App's.
-/// Errors    go to the report function (on the worker's thread, or App's when the show is opened); the show
-/// goes on.
+/// Errors    what is wrong with a file goes to the report function (on the worker's thread, or App's when the
+/// show
+///           is opened); the show goes on. What the worker throws, take() throws again, with the file's name.
+///
+/// A load takes effect when it is due, and take() waits for it, unless the show is live: then one that is not
+/// ready takes effect in the first frame in which it is, and that decision is told, so that it can be
+/// recorded. A replay is given those decisions and obeys them.
 
 #include "engine/asset/import.h"
 #include "engine/scene/load.h"
 #include "engine/script/builder.h"
 #include "pipeline/state/chunk_arena.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -30,6 +37,7 @@ struct LoaderParts {
   const AssetRoots& roots;
   const NodeFactories& factories;
   std::function<void(const Diagnostics&)> report;
+  const std::atomic<bool>* stop = nullptr;  ///< once true, nobody waits for a load any more
 };
 
 class Loader final : public SceneLoader {
@@ -37,9 +45,21 @@ public:
   explicit Loader(LoaderParts parts);
   ~Loader() override;
 
+  /// Told of each load that came late: its number, and the show time at which it takes effect.
+  using LateLoad = std::function<void(std::uint32_t, Nanoseconds)>;
+  void tellLateLoads(LateLoad told) { late_ = std::move(told); }
+  /// The show is live: late loads do not hold it up. Before the first frame.
+  void playLive() { live_ = true; }
+  /// The loads that are due and have not taken effect yet.
+  std::vector<std::uint32_t> overdue() const;
+  /// The show is replayed: these loads came late. Before the first frame.
+  void obey(std::map<std::uint32_t, Nanoseconds> late) { decided_ = std::move(late); }
+
   void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) override;
+  bool takesEffect(std::uint32_t number, Nanoseconds now) override;
   std::unique_ptr<Load> take(std::uint32_t number) override;
   void dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) override;
+  void report(const Diagnostic& finding) override;
 
   /// All walls have shown `frame`: what was disposed of up to it may go.
   void shown(std::uint64_t frame);
@@ -50,6 +70,10 @@ private:
     std::string file;
     NodeRef owner;
     Affine X_WO;
+  };
+  struct Prepared {
+    std::unique_ptr<Load> load;
+    std::exception_ptr thrown;
   };
   struct Garbage {
     std::unique_ptr<Load> load;
@@ -72,7 +96,10 @@ private:
   };
 
   void work();
+  Prepared prepareSafely(const Job& job);
+  bool stopped() const { return parts_.stop && *parts_.stop; }
   Result<SourceText> read(const Job& job) const;
+  Diagnostic askedForBy(const Job& job, Diagnostic d) const;
   std::unique_ptr<Load> prepare(const Job& job);
   std::unique_ptr<Load> build(const Job& job, std::unique_ptr<Document> document, Diagnostics& findings);
   MeshId importMesh(const Declaration& d, Diagnostics& findings);
@@ -83,11 +110,16 @@ private:
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Job> jobs_;
-  std::map<std::uint32_t, std::unique_ptr<Load>> done_;
+  std::map<std::uint32_t, Prepared> done_;
+  std::exception_ptr thrown_;                  ///< outside of a preparation
   std::deque<Garbage> waiting_;                ///< for their last frame to be shown
   std::deque<std::unique_ptr<Load>> garbage_;  ///< may go
   bool ending_ = false;
   std::map<std::uint32_t, Around> around_;  ///< the worker's own
+  bool live_ = false;                       ///< this and the next three are App's
+  LateLoad late_;
+  std::map<std::uint32_t, Nanoseconds> decided_;
+  std::map<std::uint32_t, Nanoseconds> awaited_;  ///< due, and passed over, last at this show time
   std::thread worker_;
 };
 

@@ -4,7 +4,7 @@ namespace stadion {
 namespace {
 
 Failure toFailure(const std::optional<Diagnostic>& d) {
-  return d ? Failure(d->message) : std::nullopt;
+  return d ? Failure(Reason(*d)) : std::nullopt;
 }
 
 }  // namespace
@@ -31,12 +31,12 @@ void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
 Failure ShowStages::openWall(std::size_t wall) {
   if (!parts_.provider) return {};
   auto target = parts_.provider->create(parts_.walls[wall].width, parts_.walls[wall].height);
-  if (!target) return target.error().message;
+  if (!target) return Reason(target.error());
   contexts_[wall].target = std::move(target.value());
   if (Failure f = enterContext(wall)) return f;
   auto renderer = Renderer::create(contexts_[wall].target->gl(), parts_.meshes, parts_.walls[wall].width,
                                    parts_.walls[wall].height);
-  if (!renderer) return renderer.error().message;
+  if (!renderer) return Reason(renderer.error());
   contexts_[wall].renderer = std::move(renderer.value());
   if (wall == 0) glDescription_ = describeGl(contexts_[wall].target->gl());
   return {};

@@ -8,18 +8,41 @@
 ///          thread; swap() on the Draw thread that arrives last, while the others wait. In sequential mode
 ///          all on one thread.
 /// Errors   a stage that cannot go on returns a reason; the loop stops every thread and hands the reason on.
-/// No stage throws.
+/// What
+///          a stage throws (it should not: memory may run out) becomes such a reason, with the stage's name
+///          and frame; RunStopped, from App, ends the run before this frame.
 
+#include "engine/diagnostic.h"
 #include "engine/time_signature.h"
 #include "pipeline/draw/draw_list.h"
 
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace stadion {
 
-using Failure = std::optional<std::string>;  ///< why a stage could not go on; nothing = all is well
+/// Whose affair it is that a run cannot go on.
+enum class FailureKind {
+  Fault,    ///< ours, or OpenGL's
+  Refusal,  ///< the user's: a full disk, a size that nobody can draw
+};
+
+/// Why a stage could not go on.
+struct Reason {
+  Reason(std::string what) : message(std::move(what)) {}
+  Reason(const char* what) : message(what) {}
+  Reason(std::string what, FailureKind whose) : message(std::move(what)), kind(whose) {}
+  /// Of a finding: its file comes first.
+  explicit Reason(const Diagnostic& d, FailureKind whose = FailureKind::Fault)
+      : message(d.where.file.empty() ? d.message : d.where.file + ": " + d.message), kind(whose) {}
+
+  std::string message;
+  FailureKind kind = FailureKind::Fault;
+};
+
+using Failure = std::optional<Reason>;  ///< nothing = all is well
 
 class Stages {
 public:

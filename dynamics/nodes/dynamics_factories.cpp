@@ -89,7 +89,8 @@ void warnIfLighterThanAir(const NodeRequest& r, const MassProperties& mass, cons
 Made makeDynObject(const NodeRequest& r) {
   const Declaration& d = r.declaration;
   const auto fail = [&](const std::string& why) -> Made {
-    r.findings.error(d.where(Attr::File), why, d.excerpt(Attr::File));
+    const std::string model = "\"" + std::string(d.text(Attr::File)) + "\" ";
+    r.findings.error(d.where(Attr::File), model + why, d.excerpt(Attr::File));
     return nullptr;
   };
   const Mesh mesh = scaledForCollision(*r.mesh, scaleOf(r.place.X_PN));

@@ -84,7 +84,8 @@ Outcome Importer::load(const std::string& name, const ImportOptions& options, co
   if (const std::string fault = faultOf(name, options); !fault.empty()) return fail(fault);
   const std::lock_guard lock(mutex_);
   const auto& path = found.value().path;
-  const auto answer = process_.ask(requestFor(options, limits_), found.value().root, name, limits_.timeout);
+  const auto answer =
+      process_.ask(requestFor(options, limits_), found.value().root, name, limits_.timeout, limits_.giveUp);
   if (answer.end != End::Loaded) return fail(sentence(answer, path, process_.program(), limits_));
   auto mesh = decode(answer.mesh, limits_.mesh);
   if (!mesh) return fail("the importer made of \"" + path + "\" " + mesh.error().message);

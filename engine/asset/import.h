@@ -15,6 +15,7 @@
 #include "engine/asset/roots.h"
 #include "engine/diagnostic.h"
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -29,6 +30,7 @@ struct ImportLimits {
   std::uint64_t fileBytes = 512ull * 1024 * 1024;      ///< [bytes] of one file
   std::uint32_t nodeDepth = 256;
   MeshLimits mesh;
+  const std::atomic<bool>* giveUp = nullptr;  ///< once true, imports end at once, without a mesh
 };
 
 class Importer {

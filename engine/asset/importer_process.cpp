@@ -21,7 +21,8 @@ enum class Transfer { Done, Late, Broken };
 
 class Conversation {
 public:
-  Conversation(int socket, Clock::time_point deadline) : socket_(socket), deadline_(deadline) {}
+  Conversation(int socket, Clock::time_point deadline, const std::atomic<bool>* giveUp)
+      : socket_(socket), deadline_(deadline), giveUp_(giveUp) {}
 
   Transfer write(const void* from, std::size_t size) {
     const auto* at = static_cast<const char*>(from);
@@ -84,9 +85,9 @@ private:
   Transfer wait(short events) {
     for (;;) {
       const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
-      if (left <= 0) return Transfer::Late;
+      if (left <= 0 || (giveUp_ && *giveUp_)) return Transfer::Late;
       pollfd one{socket_, events, 0};
-      const int ready = ::poll(&one, 1, static_cast<int>(std::min<long long>(left, 60'000)));
+      const int ready = ::poll(&one, 1, static_cast<int>(std::min<long long>(left, giveUp_ ? 50 : 60'000)));
       if (ready > 0) return Transfer::Done;  // on a hang-up the transfer itself tells
       if (ready < 0 && errno != EINTR) return Transfer::Broken;
     }
@@ -94,6 +95,7 @@ private:
 
   int socket_;
   Clock::time_point deadline_;
+  const std::atomic<bool>* giveUp_;
 };
 
 struct SpawnSettings {
@@ -183,11 +185,12 @@ ImporterProcess::Answer ImporterProcess::fault(End end) {
 }
 
 ImporterProcess::Answer ImporterProcess::ask(RequestHead head, int root, const std::string& path,
-                                             std::chrono::milliseconds timeout) {
+                                             std::chrono::milliseconds timeout,
+                                             const std::atomic<bool>* giveUp) {
   if (pid_ != 0 && ::waitpid(pid_, nullptr, WNOHANG) == pid_) pid_ = 0, socket_.close();
   if (pid_ == 0)
     if (const std::string why = start(); !why.empty()) return {End::NotStarted, why, {}};
-  Conversation talk(socket_.get(), Clock::now() + timeout);
+  Conversation talk(socket_.get(), Clock::now() + timeout, giveUp);
   head.pathBytes = static_cast<std::uint32_t>(path.size());
   AnswerHead reply{};
   Answer answer;

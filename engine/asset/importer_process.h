@@ -9,6 +9,7 @@
 #include "engine/asset/file_descriptor.h"
 #include "engine/asset/importer_protocol.h"
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -31,8 +32,10 @@ public:
     std::vector<std::uint8_t> mesh;  ///< when Loaded; not checked yet
   };
 
-  /// Has the file `path` below the open folder `root` imported, and waits at most `timeout`.
-  Answer ask(RequestHead head, int root, const std::string& path, std::chrono::milliseconds timeout);
+  /// Has the file `path` below the open folder `root` imported, and waits at most `timeout`, or until
+  /// `giveUp` (if it is given) becomes true; both end as OutOfTime.
+  Answer ask(RequestHead head, int root, const std::string& path, std::chrono::milliseconds timeout,
+             const std::atomic<bool>* giveUp = nullptr);
 
   const std::filesystem::path& program() const { return program_; }
   /// Process id of the running program, 0 if none runs (for tests that kill it).

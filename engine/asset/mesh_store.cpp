@@ -11,7 +11,8 @@ MeshId MeshStore::add(std::unique_ptr<const Mesh> mesh) {
     ++entries_[known->second].uses;
     return known->second;
   }
-  const MeshId id = next_++;
+  auto id = static_cast<MeshId>(mesh->hash ^ (mesh->hash >> 32));
+  while (id == kNoMesh || entries_.contains(id)) ++id;
   byHash_[mesh->hash] = id;
   entries_[id] = {std::move(mesh), 1, 0};
   return id;
@@ -45,17 +46,14 @@ void MeshStore::collect(std::uint64_t shownFrame) {
     if (at->second.lastFrame > shownFrame) return false;
     byHash_.erase(at->second.mesh->hash);
     entries_.erase(at);
-    freed_.push_back(id);
+    ++freedCount_;
     return true;
   });
 }
 
-std::vector<MeshId> MeshStore::freedSince(std::size_t& cursor) const {
+std::uint64_t MeshStore::freedCount() const {
   const std::lock_guard lock(mutex_);
-  std::vector<MeshId> ids(freed_.begin() + static_cast<std::ptrdiff_t>(std::min(cursor, freed_.size())),
-                          freed_.end());
-  cursor = freed_.size();
-  return ids;
+  return freedCount_;
 }
 
 std::size_t MeshStore::size() const {

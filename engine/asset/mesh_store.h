@@ -15,7 +15,10 @@
 
 namespace stadion {
 
-using MeshId = std::uint32_t;  ///< never used again after its mesh is gone
+/// Follows from the mesh's content: the same on every replica, whatever came and went before and whenever
+/// memory was freed, so that what is ordered by it (draw lists) is the same everywhere. Two meshes that would
+/// get the same one by chance (1 in 4 billion) get different ones, in the order in which they come.
+using MeshId = std::uint32_t;
 constexpr MeshId kNoMesh = 0;
 
 class MeshStore {
@@ -32,8 +35,9 @@ public:
   /// Frees what nobody uses and no frame after `shownFrame` will draw. App, once a frame.
   void collect(std::uint64_t shownFrame);
 
-  /// The ids freed since `cursor`, which moves on; Draw frees its GL objects with this.
-  std::vector<MeshId> freedSince(std::size_t& cursor) const;
+  /// How many meshes have been freed so far. While it stays the same, every mesh that was found is still
+  /// there.
+  std::uint64_t freedCount() const;
 
   std::size_t size() const;
 
@@ -48,8 +52,7 @@ private:
   std::map<MeshId, Entry> entries_;
   std::map<std::uint64_t, MeshId> byHash_;
   std::vector<MeshId> unused_;
-  std::vector<MeshId> freed_;
-  MeshId next_ = 1;
+  std::uint64_t freedCount_ = 0;
 };
 
 }  // namespace stadion

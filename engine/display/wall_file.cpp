@@ -1,6 +1,7 @@
 #include "engine/display/wall_file.h"
 
 #include "engine/display/wall_lint.h"
+#include "engine/plain_file.h"
 #include "engine/text_line.h"
 
 #include <fmt/format.h>
@@ -282,7 +283,7 @@ std::optional<WallFile> loadWalls(const std::string& nameOrPath, const std::stri
     }
     path = (std::filesystem::path(folder) / (nameOrPath + ".walls")).string();
   }
-  const Result<std::string> text = readTextFile(path, kMaxFileBytes);
+  const Result<std::string> text = readPlainFile(path, kMaxFileBytes);
   if (!text) {
     out.add(text.error());
     return std::nullopt;

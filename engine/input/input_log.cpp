@@ -49,7 +49,7 @@ void blend(const InputStamp& a, const InputStamp& b, Nanoseconds time, TrackerSa
 void sampleTrack(const InputTrack& track, Nanoseconds time, TrackerSample& sample) {
   sample.name = track.name;
   sample.stamp = time;
-  sample.knots.clear();
+  sample.knots.clear(), sample.controls.clear();
   const auto after = std::ranges::upper_bound(track.stamps, time, {}, &InputStamp::time);
   if (after == track.stamps.begin()) return copy(*after, sample);
   const InputStamp& before = *(after - 1);
@@ -64,7 +64,7 @@ bool samePose(const Pose& a, const Pose& b) {
 /// The corners between a and b, and b itself, as far as they lie strictly inside the frame.
 void addKnots(const InputStamp& a, const InputStamp& b, Nanoseconds start, Nanoseconds end, Course& knots) {
   const bool whole = a.valid && b.valid;
-  if (whole && b.smooth && !samePose(a.X_RT, b.X_RT)) {
+  if (whole && b.smooth && !(samePose(a.X_RT, b.X_RT) && a.axes == b.axes)) {
     const Nanoseconds after = std::max(a.time, start), before = std::min(b.time, end);
     for (Nanoseconds t = (after / kEasedGrid + 1) * kEasedGrid; t < before && knots.size() < kMostKnots;
          t += kEasedGrid)
@@ -73,6 +73,51 @@ void addKnots(const InputStamp& a, const InputStamp& b, Nanoseconds start, Nanos
   // Lost and found it has jumped.
   if (b.time > start && (b.time < end || (b.time == end && !whole)) && b.valid && knots.size() < kMostKnots)
     knots.push_back({b.time, b.X_RT, !whole});
+}
+
+/// What the buttons and axes do on the way from a to b, and at b, as far as it lies inside the frame. The
+/// axes of a tracker that is lost or found do not go evenly: they jump.
+void addControls(const InputStamp& a, const InputStamp& b, Nanoseconds start, Nanoseconds end,
+                 std::vector<ControlKnot>& controls) {
+  const bool whole = a.valid && b.valid;
+  if (whole && b.smooth && a.axes != b.axes) {
+    const Nanoseconds after = std::max(a.time, start), before = std::min(b.time, end);
+    for (Nanoseconds t = (after / kEasedGrid + 1) * kEasedGrid; t < before && controls.size() < kMostKnots;
+         t += kEasedGrid) {
+      TrackerSample at;
+      blend(a, b, t, at);
+      controls.push_back({t, at.buttons, at.axes});
+    }
+  }
+  if (b.time <= start || b.time > end || controls.size() >= kMostKnots) return;
+  if (!whole) controls.push_back({b.time, a.buttons, a.axes});
+  if (b.time < end) controls.push_back({b.time, b.buttons, b.axes});
+}
+
+void addControls(const InputTrack& track, Nanoseconds start, Nanoseconds end,
+                 std::vector<ControlKnot>& controls) {
+  TrackerSample first;
+  sampleTrack(track, start, first);
+  controls.push_back({start, first.buttons, first.axes});
+  auto next = std::ranges::upper_bound(track.stamps, start, {}, &InputStamp::time);
+  if (next == track.stamps.begin()) {  // before the first it is as it is there
+    if (next->time < end) controls.push_back({next->time, next->buttons, next->axes});
+    ++next;
+  }
+  for (; next != track.stamps.end() && (next - 1)->time < end && controls.size() < kMostKnots; ++next)
+    addControls(*(next - 1), *next, start, end, controls);
+}
+
+/// Records at which neither buttons nor axes change say nothing.
+void dropIdle(std::vector<ControlKnot>& controls, const std::array<float, kTrackerAxes>& last) {
+  std::size_t kept = 1;
+  for (std::size_t i = 1; i < controls.size(); ++i) {
+    const ControlKnot &before = controls[kept - 1], &k = controls[i];
+    const auto& next = i + 1 < controls.size() ? controls[i + 1].axes : last;
+    if (k.buttons == before.buttons && k.axes == before.axes && k.axes == next) continue;
+    controls[kept++] = k;
+  }
+  controls.resize(kept);
 }
 
 void addKnots(const InputTrack& track, Nanoseconds start, Nanoseconds end, Course& knots) {
@@ -93,7 +138,7 @@ const InputTrack* InputLog::find(std::string_view name) const {
 }
 
 Nanoseconds InputLog::end() const {
-  Nanoseconds last = 0;
+  Nanoseconds last = decisions.end();
   for (const InputTrack& track : tracks) last = std::max(last, track.stamps.back().time);
   return last;
 }
@@ -106,7 +151,11 @@ void InputLog::sampleAt(Nanoseconds showTime, InputSample& sample) const {
 
 void InputLog::sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) const {
   sampleAt(end, sample);
-  for (std::size_t i = 0; i < tracks.size(); ++i) addKnots(tracks[i], start, end, sample.trackers[i].knots);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    addKnots(tracks[i], start, end, sample.trackers[i].knots);
+    addControls(tracks[i], start, end, sample.trackers[i].controls);
+    dropIdle(sample.trackers[i].controls, sample.trackers[i].axes);
+  }
 }
 
 }  // namespace stadion

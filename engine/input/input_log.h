@@ -22,6 +22,15 @@
 /// (decimal or 0x...), `axes` up to eight numbers from -1 to 1; both are 0 where not given. Other kinds of
 /// record are reserved for later versions and are errors in this one.
 ///
+/// A log of version 2 may also hold what a clock decided while a live run was recorded, for replays to obey:
+///     rate HZ
+///         frames a second of the recorded run
+///     frame N SECONDS
+///         the show time of frame N; it differs from the tick after frame N - 1 (ticks were missed), or it is
+///         the last frame. Increases from line to line; the frames after N follow at 1/rate again
+///     load N SECONDS
+///         the Nth file that the show loaded was not ready when it was due and took effect at this show time
+///
 /// Between two records poses and axes are interpolated, buttons are those of the record before. An eased way
 /// is eased at whole multiples of 5 ms of show time and straight between them. Before the first record the
 /// first is held, after the last one the last.
@@ -32,6 +41,7 @@
 
 #include "engine/diagnostic.h"
 #include "engine/input/input_device.h"
+#include "engine/input/run_decisions.h"
 
 #include <optional>
 
@@ -56,9 +66,10 @@ struct InputLog {
   static constexpr std::size_t kMaxTrackers = 64;
 
   std::vector<InputTrack> tracks;  ///< in the order of first appearance
+  RunDecisions decisions;          ///< of the run that was recorded
 
   const InputTrack* find(std::string_view name) const;
-  /// The time of the last record of all [ns].
+  /// The time of the last record of a tracker, or of the last frame that was decided [ns].
   Nanoseconds end() const;
   /// What the trackers do at `showTime`; exactly the stamp's values at the time of a stamp.
   void sampleAt(Nanoseconds showTime, InputSample& sample) const;
@@ -75,8 +86,10 @@ std::string formatInputLog(const InputLog& log);
 
 /// One record as a line of the format, with its newline.
 std::string formatRecord(const std::string& tracker, const InputStamp& stamp);
-/// The first line of a log.
-std::string inputLogHeading();
+/// The first line of a log; with a rate, the first two.
+std::string inputLogHeading(double rate = 0);
+std::string formatFrameTime(std::uint64_t frame, Nanoseconds time);
+std::string formatLateLoad(std::uint32_t load, Nanoseconds time);
 
 /// Plays a log.
 class InputReplay final : public InputDevice {

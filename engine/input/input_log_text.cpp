@@ -2,6 +2,7 @@
 
 #include "engine/input/input_log.h"
 #include "engine/maths/functions.h"
+#include "engine/plain_file.h"
 #include "engine/text_line.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,8 @@ namespace stadion {
 namespace {
 
 constexpr const char* kFormatName = "stadion-input";
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 1;        ///< of logs that hold input alone
+constexpr std::uint64_t kNewestVersion = 2;  ///< of logs that also hold what a clock decided
 constexpr std::size_t kMaxFileBytes = std::size_t(1) << 30;
 constexpr double kFarthest = 1e6;       ///< of a position [m]
 constexpr double kExactlyUnit = 1e-12;  ///< squared norms this near 1 are kept to the bit
@@ -57,10 +59,11 @@ private:
     if (!version) return false;
     const auto number = in_.count(*version, "the version of the format", 1, 1'000'000);
     if (!number) return false;
-    if (*number == kVersion) return nothingAfter(2);
+    version_ = *number;
+    if (version_ <= kNewestVersion) return nothingAfter(2);
     in_.error(version->column,
               fmt::format("version {} of the format is newer than this program, which reads {}", *number,
-                          kVersion));
+                          kNewestVersion));
     return false;
   }
 
@@ -69,8 +72,43 @@ private:
     if (kind.text == "pose") return pose(&Parser::quaternion);
     if (kind.text == "key") return pose(nullptr);
     if (kind.text == "lost") return lost();
+    if (version_ >= 2 && kind.text == "rate") return rate();
+    if (version_ >= 2 && kind.text == "frame")
+      return decision(log_.decisions.frames, "the frame's number", 1'000'000'000'000, true);
+    if (version_ >= 2 && kind.text == "load")
+      return decision(log_.decisions.loads, "the load's number", 1'000'000'000, false);
+    std::vector<std::string> known{"pose", "key", "lost"};
+    if (version_ >= 2) known.insert(known.end(), {"rate", "frame", "load"});
     in_.error(kind.column, fmt::format("{} is not a kind of record{}", quotedWord(kind.text),
-                                       didYouMean(kind.text, {"pose", "key", "lost"})));
+                                       didYouMean(kind.text, known)));
+  }
+
+  void rate() {
+    const auto value = number(1, "frames a second");
+    if (!value || !nothingAfter(2)) return;
+    if (!(*value >= 1 && *value <= 1000))
+      return in_.error(in_.words()[1].column, "the rate must be from 1 to 1000 frames a second");
+    log_.decisions.rate = *value;
+  }
+
+  /// NUMBER SECONDS; of frames, both grow from line to line.
+  template <class Number>
+  void decision(std::map<Number, Nanoseconds>& known, std::string_view what, std::uint64_t most,
+                bool increasing) {
+    const Word* numberWord = word(1, what);
+    const Word* timeWord = numberWord ? word(2, "the time in seconds") : nullptr;
+    if (!timeWord || !nothingAfter(3)) return;
+    const auto index = in_.count(*numberWord, what, 1, most);
+    const auto time = in_.seconds(*timeWord, "the time");
+    if (!index || !time) return;
+    if (known.contains(static_cast<Number>(*index)))
+      return in_.error(numberWord->column, fmt::format("{} is there already", what));
+    // Loads may take effect in any order; frames may not.
+    const bool grows =
+        known.empty() || !increasing || (known.rbegin()->first < *index && known.rbegin()->second < *time);
+    if (!grows)
+      return in_.error(numberWord->column, fmt::format("{} must increase, and the time with it", what));
+    known.emplace(static_cast<Number>(*index), *time);
   }
 
   const Word* word(std::size_t index, std::string_view what) {
@@ -251,6 +289,7 @@ private:
   LineReader in_;
   InputLog log_;
   std::map<std::string, std::size_t> byName_;
+  std::uint64_t version_ = kVersion;
 };
 
 }  // namespace
@@ -260,14 +299,23 @@ std::optional<InputLog> parseInputLog(std::string_view text, const std::string& 
 }
 
 std::optional<InputLog> loadInputLog(const std::string& path, Diagnostics& out) {
-  const Result<std::string> text = readTextFile(path, kMaxFileBytes);
+  const Result<std::string> text = readPlainFile(path, kMaxFileBytes);
   if (text) return parseInputLog(text.value(), path, out);
   out.add(text.error());
   return std::nullopt;
 }
 
-std::string inputLogHeading() {
-  return fmt::format("{} {}\n", kFormatName, kVersion);
+std::string inputLogHeading(double rate) {
+  if (rate == 0) return fmt::format("{} {}\n", kFormatName, kVersion);
+  return fmt::format("{} {}\nrate {}\n", kFormatName, kNewestVersion, rate);
+}
+
+std::string formatFrameTime(std::uint64_t frame, Nanoseconds time) {
+  return fmt::format("frame {} {}\n", frame, formatSeconds(time));
+}
+
+std::string formatLateLoad(std::uint32_t load, Nanoseconds time) {
+  return fmt::format("load {} {}\n", load, formatSeconds(time));
 }
 
 std::string formatRecord(const std::string& tracker, const InputStamp& stamp) {
@@ -286,7 +334,11 @@ std::string formatRecord(const std::string& tracker, const InputStamp& stamp) {
 }
 
 std::string formatInputLog(const InputLog& log) {
-  std::string text = inputLogHeading();
+  const RunDecisions& decided = log.decisions;
+  std::string text = inputLogHeading(decided.rate);
+  if (decided.rate == 0 && !decided.empty()) text = fmt::format("{} {}\n", kFormatName, kNewestVersion);
+  for (const auto& [frame, time] : decided.frames) text += formatFrameTime(frame, time);
+  for (const auto& [load, time] : decided.loads) text += formatLateLoad(load, time);
   for (const InputTrack& track : log.tracks)
     for (const InputStamp& stamp : track.stamps) text += formatRecord(track.name, stamp);
   return text;

@@ -33,8 +33,31 @@ std::string logName(const std::string& name) {
 
 }  // namespace
 
-InputRecorder::InputRecorder(const std::string& path) : file_(path) {
-  file_.write(inputLogHeading());
+InputRecorder::InputRecorder(const std::string& path, double rate) : file_(path), rate_(rate) {
+  file_.write(inputLogHeading(rate));
+}
+
+void InputRecorder::frame(const TimeSignature& now) {
+  if (rate_ == 0) return;
+  if (!expected_) expected_.emplace(rate_);
+  const bool onTick = expected_->next().time == now.time;
+  if (!onTick) {
+    file_.write(formatFrameTime(now.frame, now.time));
+    expected_.emplace(rate_, now);
+  }
+  lastFrame_ = now;
+  lastIsWritten_ = !onTick || now.frame == 0;
+}
+
+void InputRecorder::lateLoad(std::uint32_t number, Nanoseconds time) {
+  if (rate_ != 0) file_.write(formatLateLoad(number, time));
+}
+
+std::optional<Diagnostic> InputRecorder::commit() {
+  // So that a replay ends where the run did, whatever the trackers said.
+  if (!lastIsWritten_) file_.write(formatFrameTime(lastFrame_.frame, lastFrame_.time));
+  lastIsWritten_ = true;
+  return file_.commit();
 }
 
 void InputRecorder::record(const InputSample& sample) {
@@ -46,13 +69,16 @@ void InputRecorder::record(const TrackerSample& tracker, Nanoseconds time) {
   write(tracker, time);
 }
 
-/// Of a corner only the pose is known; the rest is as it was.
+/// Of a corner only the pose is known; buttons and axes are as the controls of that time say, else as they
+/// were.
 void InputRecorder::recordKnot(TrackerSample tracker, const PoseKnot& knot, Nanoseconds end) {
   if (const auto last = last_.find(logName(tracker.name)); last != last_.end()) {
     tracker.buttons = last->second.buttons, tracker.axes = last->second.axes;
     tracker.valid = false;
     if (knot.jump && last->second.valid) write(tracker, knot.time - 1);
   }
+  for (const ControlKnot& c : tracker.controls)
+    if (c.time == knot.time) tracker.buttons = c.buttons, tracker.axes = c.axes;
   tracker.X_RT = knot.X, tracker.valid = true;
   if (knot.time < end) write(tracker, knot.time);
 }

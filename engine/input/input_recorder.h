@@ -19,11 +19,16 @@ namespace stadion {
 
 class InputRecorder {
 public:
-  explicit InputRecorder(const std::string& path);
+  /// With a rate, what a clock decides is recorded as well.
+  explicit InputRecorder(const std::string& path, double rate = 0);
 
   void record(const InputSample& sample);
+  /// Every frame's signature, in order: written down where it is not on the tick after the last one.
+  void frame(const TimeSignature& now);
+  /// Load `number` came late and took effect at `time`.
+  void lateLoad(std::uint32_t number, Nanoseconds time);
   /// Finishes the file; nothing if all went well.
-  std::optional<Diagnostic> commit() { return file_.commit(); }
+  std::optional<Diagnostic> commit();
 
 private:
   struct Last {
@@ -37,6 +42,10 @@ private:
   void write(const TrackerSample& tracker, Nanoseconds time);
 
   AtomicFile file_;
+  double rate_;
+  std::optional<FrameClock> expected_;
+  TimeSignature lastFrame_;
+  bool lastIsWritten_ = true;
   std::map<std::string, Last> last_;
 };
 

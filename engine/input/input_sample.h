@@ -20,6 +20,15 @@ namespace stadion {
 
 constexpr std::size_t kTrackerAxes = 8;
 
+/// What a device's buttons and axes say from a time on.
+struct ControlKnot {
+  Nanoseconds time = 0;  ///< show time [ns]
+  std::uint32_t buttons = 0;
+  std::array<float, kTrackerAxes> axes{};
+
+  bool operator==(const ControlKnot&) const = default;
+};
+
 struct TrackerSample {
   std::string name;                        ///< such as head, wand, foot; unique in a sample
   Pose X_RT;                               ///< while not valid: the last one known
@@ -30,10 +39,16 @@ struct TrackerSample {
   /// The corners of its way since the frame before, X_RT at times inside the frame (a jump may be at its very
   /// end); without any it came straight.
   Course knots;
+  /// What buttons and axes said at the frame's start and whenever that changed inside the frame. Buttons stay
+  /// as they are until the next one; axes go evenly to the next one, the last of them to `axes` at the
+  /// frame's end. Two of the same time are a jump of the axes. Empty if the device does not know: then
+  /// buttons were pressed at the frame's end and axes were all the while as they are.
+  std::vector<ControlKnot> controls;
 
   bool operator==(const TrackerSample& o) const {
     return name == o.name && X_RT.p == o.X_RT.p && X_RT.q.coeffs() == o.X_RT.q.coeffs() &&
-           buttons == o.buttons && axes == o.axes && stamp == o.stamp && valid == o.valid && knots == o.knots;
+           buttons == o.buttons && axes == o.axes && stamp == o.stamp && valid == o.valid &&
+           knots == o.knots && controls == o.controls;
   }
 };
 

@@ -6,7 +6,7 @@ namespace stadion {
 
 void LightNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
-  handle_ = scene.addLight(placement(), light_);
+  handle_ = scene.addLight(placement(), light_, self());
   scene.setLight(handle_, light_, switch_.on());
 }
 
@@ -21,7 +21,11 @@ void LightNode::receive(const Message& m, FrameContext& frame) {
 }
 
 void SkyNode::onEnter(Scene& scene) {
-  scene.setSky(sky_);
+  scene.addSky(self(), sky_);
+}
+
+void SkyNode::onLeave(Scene& scene) {
+  scene.removeSky(self());
 }
 
 }  // namespace stadion

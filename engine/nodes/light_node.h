@@ -8,6 +8,7 @@
 namespace stadion {
 
 /// `light`: directional, point or spot. Direction and position are in its own coordinates and move with it.
+/// It is dark while it, or something above it, is hidden.
 /// Commands  enable, disable, toggle, and those of a placed node.
 class LightNode : public PlacedNode {
 public:
@@ -30,7 +31,8 @@ private:
   std::size_t handle_ = 0;
 };
 
-/// `sky`: colours of the background, light from everywhere, haze.
+/// `sky`: colours of the background, light from everywhere, haze. The last one to enter is seen; when it
+/// leaves, the one before returns.
 class SkyNode : public Node {
 public:
   SkyNode(NodeRef self, std::string name, const SkyRecord& sky)
@@ -38,6 +40,7 @@ public:
 
 protected:
   void onEnter(Scene& scene) override;
+  void onLeave(Scene& scene) override;
 
 private:
   SkyRecord sky_;

@@ -50,34 +50,37 @@ void PathNode::onEnter(Scene& scene) {
   since_ = scene.now();
 }
 
+void PathNode::advanceTo(Nanoseconds time) {
+  if (switch_.on()) elapsed_ += time - since_;
+  since_ = time;
+  if (!switch_.on() || elapsed_ < length()) return;
+  if (loop_ && length() > 0) {
+    for (; elapsed_ >= length(); elapsed_ -= length()) raise(Event::Finished, time - (elapsed_ - length()));
+    return;
+  }
+  raise(Event::Finished, time - (elapsed_ - length()));
+  elapsed_ = length();
+  switch_.set(false);
+}
+
 void PathNode::receive(const Message& m, FrameContext& frame) {
   PlacedNode::receive(m, frame);
-  const bool before = switch_.on();
   // What has passed up to the command still counts.
-  if (before && switch_.on()) elapsed_ += frame.effective(m) - since_;
-  since_ = frame.effective(m);
-  if (!switch_.obey(m)) return;
-  if (m.verb == Verb::Reset) {
-    elapsed_ = 0;
-    putTarget(frame.scene);
+  const bool moved = switch_.on();
+  advanceTo(frame.effective(m));
+  const bool before = switch_.on();
+  if (switch_.obey(m)) {
+    const bool again = !before && switch_.on() && elapsed_ >= length();
+    if (again || m.verb == Verb::Reset) elapsed_ = 0;
   }
+  // Once it is off nobody else puts the target where it is at this time.
+  if ((moved && !switch_.on()) || m.verb == Verb::Reset) putTarget(frame.scene);
 }
 
 void PathNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
   if (!switch_.on()) return;
-  elapsed_ += frame.now.time - since_;
-  since_ = frame.now.time;
-  const Nanoseconds length = fromSeconds(keys_.back().time);
-  if (elapsed_ >= length) {
-    if (loop_ && length > 0) {
-      elapsed_ %= length;
-    } else {
-      raise(Event::Finished, frame.now.time - (elapsed_ - length));
-      elapsed_ = length;
-      switch_.set(false);
-    }
-  }
+  advanceTo(frame.now.time);
   putTarget(frame.scene);
 }
 

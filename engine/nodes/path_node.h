@@ -4,10 +4,10 @@
 /// Positions run along straight lines or, with smooth=on, along a cubic through the keys (Catmull-Rom, with
 /// the keys' own times); orientations turn with constant angular velocity from key to key.
 ///
-/// Events    finished, at the last key's exact time (not when it loops).
-/// Commands  enable (goes on where it stopped), disable, toggle, reset (back to the first key), and those of
-/// a placed
-///           node when it moves what stands below it.
+/// Events    finished, at the last key's exact time; a looping path tells it at the end of each pass.
+/// Commands  enable (goes on where it stopped; after its end, from the first key again), disable (the target
+///           stays where it is at the command's time), toggle, reset (back to the first key), and those of a
+///           placed node when it moves what stands below it.
 /// Frames    keys are in the coordinates of the target's parent, or of its own parent.
 
 #include "engine/nodes/placed_node.h"
@@ -22,7 +22,7 @@ struct Keyframe {
 
 class PathNode : public PlacedNode {
 public:
-  /// Expects at least one key, times strictly increasing from >= 0.
+  /// Expects at least one key, times strictly increasing from >= 0; a looping path should last a millisecond.
   PathNode(NodeRef self, std::string name, PlaceAttributes place, NodeRef target, std::vector<Keyframe> keys,
            bool loop, bool smooth, bool on)
       : PlacedNode(NodeKind::Path, self, std::move(name), std::move(place)), target_(target),
@@ -40,6 +40,9 @@ protected:
   void simulate(FrameContext& frame) override;
 
 private:
+  Nanoseconds length() const { return fromSeconds(keys_.back().time); }
+  /// Lets what has passed up to `time` count: passes end, the path may.
+  void advanceTo(Nanoseconds time);
   void putTarget(Scene& scene);
 
   NodeRef target_;  ///< invalid = itself

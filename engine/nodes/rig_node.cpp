@@ -1,11 +1,25 @@
 #include "engine/nodes/rig_node.h"
 
-#include "engine/maths/functions.h"
+#include "engine/nodes/rig_drive.h"
 #include "engine/scene/scene.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace stadion {
+namespace {
+
+/// One axis at a time: it goes evenly from knot to knot.
+double axisAt(const std::vector<ControlKnot>& controls, std::size_t axis, Nanoseconds time, Limit limit) {
+  const auto next = limit == Limit::After ? std::ranges::upper_bound(controls, time, {}, &ControlKnot::time)
+                                          : std::ranges::lower_bound(controls, time, {}, &ControlKnot::time);
+  if (next == controls.begin()) return double{controls.front().axes[axis]};
+  if (next == controls.end()) return double{controls.back().axes[axis]};
+  const ControlKnot& last = *(next - 1);
+  const double s = static_cast<double>(time - last.time) / static_cast<double>(next->time - last.time);
+  return double{last.axes[axis]} + s * (double{next->axes[axis]} - double{last.axes[axis]});
+}
+
+}  // namespace
 
 void RigNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
@@ -17,29 +31,64 @@ void RigNode::onLeave(Scene& scene) {
   PlacedNode::onLeave(scene);
 }
 
-void NavigatorNode::receive(const Message& m, FrameContext&) {
+void NavigatorNode::receive(const Message& m, FrameContext& frame) {
+  const Nanoseconds at = frame.effective(m);
+  if (switch_.on()) drive(frame, at);  // what has passed up to the command still counts
+  since_ = at;
   switch_.obey(m);
 }
 
 void NavigatorNode::simulate(FrameContext& frame) {
+  if (switch_.on()) drive(frame, frame.now.time);
+  since_ = frame.now.time;
   const TrackerSample* t = frame.input.find(attributes_.tracker);
-  if (!switch_.on() || !t || !t->valid) return;
-  const double turn = t->axes[0], forward = t->axes[1];
-  if (turn == 0 && forward == 0) return;
-  const double dt = toSeconds(frame.now.step);
+  ended_ = frame.now.time;
+  q_RT_ = t ? t->X_RT.q : Quat::Identity();
+  p_RH_ = frame.scene.headInRig(frame.input).p;
+}
+
+Course NavigatorNode::way(const TrackerSample* t, const FrameContext& frame, const Pose& before,
+                          const Pose& now) const {
+  Course way;
+  if (ended_ == frame.start()) way.push_back({frame.start(), before, false});
+  if (t)
+    for (const PoseKnot& k : t->knots) way.push_back(k);
+  if (!t || t->valid || t->knots.empty()) way.push_back({frame.now.time, now, false});
+  return way;
+}
+
+void NavigatorNode::drive(FrameContext& frame, Nanoseconds until) {
+  const TrackerSample* t = frame.input.find(attributes_.tracker);
+  if (!t || !t->valid || frame.now.step == 0) return;
+  std::vector<ControlKnot> controls = t->controls;
+  if (controls.empty()) controls.push_back({frame.start(), t->buttons, t->axes});
+  controls.push_back({frame.now.time, t->buttons, t->axes});
+  const bool still = std::ranges::all_of(
+      controls, [](const ControlKnot& c) { return c.axes[0] == 0.0f && c.axes[1] == 0.0f; });
+  if (still) return;
+
+  const Course wand = way(t, frame, {Vec3::Zero(), q_RT_}, t->X_RT);
+  const Pose head_R = frame.scene.headInRig(frame.input);
+  const Course head = way(frame.input.find("head"), frame, {p_RH_, Quat::Identity()}, head_R);
+  const Nanoseconds from = std::max(since_, frame.start());
+  std::vector<Nanoseconds> stops{from, until};
+  for (const Course* course : {&wand, &head})
+    for (const PoseKnot& k : *course) stops.push_back(k.time);
+  for (const ControlKnot& c : controls) stops.push_back(c.time);
+  std::sort(stops.begin(), stops.end());
+  stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+
   Pose X_WR = frame.scene.rigPose();
-
-  // Turning is about the visitor's head, so that the world turns around them and not they around the room's
-  // centre.
-  const Vec3 head_W = X_WR * frame.scene.headInRig(frame.input).p;
-  const Quat turned = det::expRotation(Vec3(0, 0, -turn * attributes_.turnRate * dt));
-  X_WR.p = head_W + turned * (X_WR.p - head_W);
-  X_WR.q = (turned * X_WR.q).normalized();
-
-  Vec3 ahead = X_WR.q * (t->X_RT.q * Vec3::UnitY());
-  if (!attributes_.fly) ahead.z() = 0;
-  const double length = ahead.norm();
-  if (length > 1e-6) X_WR.p += ahead / length * (forward * attributes_.speed * dt);
+  for (std::size_t i = 1; i < stops.size(); ++i) {
+    if (stops[i - 1] < from || stops[i] > until) continue;
+    const auto end = [&](Nanoseconds time, Limit limit) {
+      return RigDrive::End{axisAt(controls, 0, time, limit), axisAt(controls, 1, time, limit),
+                           poseOn(head, time, limit).p, poseOn(wand, time, limit).q};
+    };
+    const RigDrive drive{attributes_.turnRate, attributes_.speed, attributes_.fly,
+                         toSeconds(stops[i] - stops[i - 1])};
+    X_WR = drive.moved(X_WR, end(stops[i - 1], Limit::After), end(stops[i], Limit::Before));
+  }
   frame.scene.moveRig(X_WR);
 }
 

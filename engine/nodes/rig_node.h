@@ -1,6 +1,7 @@
 #pragma once
 /// The visitor's platform and what drives it.
 
+#include "engine/input/input_sample.h"
 #include "engine/nodes/placed_node.h"
 #include "engine/nodes/switched.h"
 
@@ -22,8 +23,10 @@ private:
   double eyeHeight_;  ///< of an untracked head [m]
 };
 
-/// `navigator`: the joypad moves the rig where the wand points, and turns it.
-/// Axis 0 turns (right is positive), axis 1 goes forward. walk keeps to the horizontal, fly does not.
+/// `navigator`: the joypad moves the rig where the wand points, and turns it about the visitor's head, so
+/// that the world turns around them and not they around the room's centre. Axis 0 turns (right is positive),
+/// axis 1 goes forward; both at once go along an arc. walk keeps to the horizontal, fly does not. The motion
+/// is integrated over the times at which the axes changed, so that it does not depend on the frame rate.
 class NavigatorNode : public Node {
 public:
   struct Attributes {
@@ -38,15 +41,27 @@ public:
 
   Rank rank() const override { return Rank::Input; }
   bool busy() const override { return switch_.on(); }
-  void hash(StateHash& h) const override { switch_.hash(h); }
+  void hash(StateHash& h) const override {
+    switch_.hash(h);
+    h.add(ended_), h.add(q_RT_), h.add(p_RH_);
+  }
 
 protected:
   void receive(const Message& m, FrameContext& frame) override;
   void simulate(FrameContext& frame) override;
 
 private:
+  /// Moves the rig from where it was at since_ to where it is at `until`.
+  void drive(FrameContext& frame, Nanoseconds until);
+  Course way(const TrackerSample* t, const FrameContext& frame, const Pose& before, const Pose& now) const;
+
   Attributes attributes_;
   Switched switch_;
+  Nanoseconds since_ = 0;  ///< show time up to which it has driven or was off
+  // What the devices said at the end of the last frame it was visited in.
+  Nanoseconds ended_ = -1;
+  Quat q_RT_ = Quat::Identity();
+  Vec3 p_RH_ = Vec3::Zero();
 };
 
 }  // namespace stadion

@@ -2,6 +2,8 @@
 
 #include "engine/scene/scene.h"
 
+#include <algorithm>
+
 namespace stadion {
 
 void SceneNode::onEnter(Scene& scene) {
@@ -43,12 +45,16 @@ void SceneNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
   std::erase_if(expected_, [&](const auto& e) {
     if (e.first > frame.now.time) return false;
+    if (e.second == Event::Loaded && number_ != 0 && frame.scene.awaits(number_)) {  // it comes late
+      frame.scene.wakeAt(frame.now.time + 1, self());
+      return false;
+    }
     // A file that could not be loaded is not there; the load may be asked for again.
     const bool failed = e.second == Event::Loaded && number_ != 0 && !frame.scene.load(number_);
     if (failed)
       number_ = 0;
     else
-      raise(e.second, e.first);
+      raise(e.second, std::max(e.first, frame.now.time - frame.now.step));
     return true;
   });
 }

@@ -12,73 +12,146 @@ bool Region::contains(const Vec3& p) const {
   return ((p - centre).cwiseAbs().array() <= halfSize.array()).all();
 }
 
-double Region::crossing(const Vec3& a, const Vec3& b) const {
+std::optional<Region::Chord> Region::chord(const Vec3& a, const Vec3& b) const {
   const Vec3 d = b - a;
   if (form == Form::Sphere) {
-    // |a - c + s d|^2 = r^2; the smaller root on the way in, the larger one on the way out.
+    // |a - c + s d|^2 = r^2, as A s^2 + 2 B s + C = 0; the root that suffers no cancellation gives the other.
     const Vec3 m = a - centre;
     const double A = d.squaredNorm(), B = m.dot(d), C = m.squaredNorm() - radius * radius;
-    const double root = std::sqrt(std::max(0.0, B * B - A * C));
-    return std::clamp((C > 0 ? -B - root : -B + root) / A, 0.0, 1.0);
+    const double discriminant = B * B - A * C;
+    if (!(discriminant > 0)) return std::nullopt;
+    const double q = -(B + (B < 0 ? -1 : 1) * std::sqrt(discriminant));
+    const double s = q / A, t = C / q;
+    if (!(s - s == 0) || !(t - t == 0) || s == t) return std::nullopt;
+    return Chord{std::min(s, t), std::max(s, t)};
   }
-  double in = 0, out = 1;
+  Chord part{-1e300, 1e300};
   for (int i = 0; i < 3; ++i) {
-    if (d[i] == 0) continue;
-    const double s0 = (centre[i] - halfSize[i] - a[i]) / d[i], s1 = (centre[i] + halfSize[i] - a[i]) / d[i];
-    in = std::max(in, std::min(s0, s1));
-    out = std::min(out, std::max(s0, s1));
+    const double low = centre[i] - halfSize[i] - a[i], high = centre[i] + halfSize[i] - a[i];
+    if (d[i] == 0) {
+      if (low > 0 || high < 0) return std::nullopt;
+      continue;
+    }
+    part.in = std::max(part.in, std::min(low / d[i], high / d[i]));
+    part.out = std::min(part.out, std::max(low / d[i], high / d[i]));
   }
-  return std::clamp(contains(a) ? out : in, 0.0, 1.0);
+  return part.in < part.out && part.in > -1e300 ? std::optional(part) : std::nullopt;
 }
 
-std::optional<Vec3> TriggerNode::visitor(const FrameContext& frame) const {
-  Vec3 p_W;
-  if (tracker_ == "head") {
-    p_W = frame.scene.rigPose() * frame.scene.headInRig(frame.input).p;
-  } else {
-    const std::optional<Pose> X_WT = frame.scene.trackerInWorld(tracker_, frame.input);
-    if (!X_WT) return std::nullopt;
-    p_W = X_WT->p;
+double Region::crossing(const Vec3& a, const Vec3& b) const {
+  const std::optional<Chord> part = chord(a, b);
+  return part ? std::clamp(contains(a) ? part->out : part->in, 0.0, 1.0) : 1.0;
+}
+
+Course TriggerNode::wayInRig(const FrameContext& frame) const {
+  Course way;
+  if (looked_) way.push_back({seen_, {p_RV_, Quat::Identity()}, false});
+  const TrackerSample* t = frame.input.find(tracker_);
+  if (t)
+    for (const PoseKnot& k : t->knots)
+      if (k.time > seen_) way.push_back({k.time, {k.X.p, Quat::Identity()}, k.jump});
+  const bool there = t && t->valid;
+  const bool reached = !way.empty() && way.back().time >= frame.now.time;  // by a jump at the frame's end
+  if (tracker_ == "head" && (there || !t || t->knots.empty())) {
+    if (!reached)
+      way.push_back({frame.now.time, {frame.scene.headInRig(frame.input).p, Quat::Identity()}, false});
+  } else if (there && !reached) {
+    way.push_back({frame.now.time, {t->X_RT.p, Quat::Identity()}, false});
+  } else if (!there && (!t || t->knots.empty())) {
+    way.clear();  // a silent device changes nothing
   }
-  return frame.scene.placements().world(placement()).inverse() * p_W;
+  return way;
+}
+
+void TriggerNode::look(FrameContext& frame, Nanoseconds until) {
+  const Course way = wayInRig(frame);
+  if (way.empty()) return;
+  const TrackerSample* t = kind() == NodeKind::WandTrigger ? frame.input.find(tracker_) : nullptr;
+  std::vector<Nanoseconds> stops{until};
+  for (const PoseKnot& k : way) stops.push_back(k.time);
+  if (t)
+    for (const ControlKnot& c : t->controls) stops.push_back(c.time);
+  std::sort(stops.begin(), stops.end());
+  stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+
+  // The room moves evenly within the frame, as seen from the trigger.
+  const Affine X_NR = frame.scene.placements().world(placement()).inverse() * toAffine(frame.scene.rigPose());
+  const auto inNode = [&](Nanoseconds time, const Vec3& p_R) -> Vec3 {
+    const double s = looked_ && frame.now.step > 0
+                         ? static_cast<double>(time - frame.start()) / static_cast<double>(frame.now.step)
+                         : 1.0;
+    if (s == 1 || X_NR_.matrix() == X_NR.matrix()) return X_NR * p_R;
+    return (1 - s) * (X_NR_ * p_R) + s * (X_NR * p_R);
+  };
+  for (const Nanoseconds time : stops) {
+    if (time > until || (looked_ ? time <= seen_ : time < std::max(seen_, way.front().time))) continue;
+    const Vec3 p_RV = poseOn(way, time, Limit::After).p;
+    if (looked_) {
+      const bool jumps = jumpsAt(way, time);
+      if (jumps) goTo(inNode(time, poseOn(way, time, Limit::Before).p), false, time);
+      goTo(inNode(time, p_RV), jumps || seen_ < frame.start(), time);  // a gap in its way is a jump, too
+    } else {
+      last_ = inNode(time, p_RV);
+      inside_ = region_.contains(last_);
+      if (inside_) raise(Event::Enter, time);
+      // What was held down before was not pressed here; at the very start it was.
+      if (t && frame.now.step > 0) buttons_ = t->controls.empty() ? t->buttons : t->controls.front().buttons;
+    }
+    looked_ = true, seen_ = time, p_RV_ = p_RV;
+    if (t) watchButtons(*t, time, time == frame.now.time);
+  }
+  if (until == frame.now.time) X_NR_ = X_NR;
+}
+
+void TriggerNode::goTo(const Vec3& p, bool jumped, Nanoseconds time) {
+  const auto when = [&](double s) {
+    const auto span = static_cast<double>(time - seen_);
+    return seen_ + static_cast<Nanoseconds>(std::clamp(s, 0.0, 1.0) * span + 0.5);
+  };
+  const bool inside = region_.contains(p);
+  if (inside != inside_) {
+    raise(inside ? Event::Enter : Event::Exit, jumped ? time : when(region_.crossing(last_, p)));
+  } else if (!inside && !jumped) {
+    const std::optional<Region::Chord> part = region_.chord(last_, p);
+    if (part && part->in > 0 && part->out < 1) {
+      raise(Event::Enter, when(part->in));
+      raise(Event::Exit, when(part->out));
+    }
+  }
+  inside_ = inside;
+  last_ = p;
 }
 
 void TriggerNode::receive(const Message& m, FrameContext& frame) {
   PlacedNode::receive(m, frame);
+  const Nanoseconds at = frame.effective(m);
   const bool before = switch_.on();
-  if (switch_.obey(m) && (!before || m.verb == Verb::Reset)) inside_ = looked_ = false;
+  if (before) look(frame, at);  // what has happened up to the command still counts
+  if (switch_.obey(m) && (!before || m.verb == Verb::Reset)) inside_ = looked_ = false, seen_ = at;
 }
 
 void TriggerNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
-  if (!switch_.on()) return;
-  const std::optional<Vec3> p = visitor(frame);
-  if (!p) return;
-  const bool inside = region_.contains(*p);
-  if (inside != inside_) {
-    const double s = looked_ ? region_.crossing(last_, *p) : 1.0;
-    const auto back = static_cast<Nanoseconds>((1.0 - s) * static_cast<double>(frame.now.step));
-    raise(inside ? Event::Enter : Event::Exit, frame.now.time - back);
-  }
-  inside_ = inside;
-  last_ = *p;
-  looked_ = true;
-  watchButtons(frame);
+  if (switch_.on()) look(frame, frame.now.time);
 }
 
-void TriggerNode::watchButtons(const FrameContext& frame) {
-  const TrackerSample* t = frame.input.find(tracker_);
-  if (kind() != NodeKind::WandTrigger || !t) return;
+void TriggerNode::watchButtons(const TrackerSample& t, Nanoseconds time, bool atEnd) {
+  std::uint32_t now = t.buttons;
+  if (!atEnd) {
+    now = buttons_;  // a device that does not know tells at the frame's end
+    for (const ControlKnot& c : t.controls)
+      if (c.time <= time) now = c.buttons;
+  }
   constexpr Event pressed[] = {Event::Button1, Event::Button2, Event::Button3, Event::Button4};
   for (std::uint32_t b = 0; b < 4; ++b)
-    if (inside_ && (t->buttons & ~buttons_ & (1U << b))) raise(pressed[b], frame.now.time);
-  buttons_ = t->buttons;
+    if (inside_ && (now & ~buttons_ & (1U << b))) raise(pressed[b], time);
+  buttons_ = now;
 }
 
 void TriggerNode::hash(StateHash& h) const {
   PlacedNode::hash(h);
   switch_.hash(h);
-  h.add(inside_), h.add(looked_), h.add(last_), h.add(buttons_);
+  h.add(inside_), h.add(looked_), h.add(seen_), h.add(last_), h.add(p_RV_), h.add(X_NR_), h.add(buttons_);
 }
 
 }  // namespace stadion

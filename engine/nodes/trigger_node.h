@@ -3,11 +3,14 @@
 ///
 /// Events    enter, exit; wandtrigger also button1..button4, pressed inside. A visitor who is inside when the
 /// trigger first
-///           looks (or is enabled) enters it then. Each event carries the exact time of the crossing, the
-///           visitor being taken to move in a straight line within a frame.
+///           looks (or is enabled) enters it then. Each event carries the exact time of the crossing, also of
+///           one that is entered and left within a frame; a button that of its press. Between the corners of
+///           its way (frames, records of a log) the visitor moves straight; a device that was lost and found
+///           has jumped and crosses nothing in between.
 /// Frames    the region is in the node's own coordinates and moves with its parent.
 /// Commands  enable, disable, toggle, reset, and those of a placed node.
 
+#include "engine/input/input_sample.h"
 #include "engine/nodes/placed_node.h"
 #include "engine/nodes/switched.h"
 
@@ -21,6 +24,12 @@ struct Region {
   Vec3 halfSize = Vec3::Ones();  ///< [m]
 
   bool contains(const Vec3& p) const;
+  /// Which part of the line a + s (b - a) is inside, s from `in` to `out`; nothing if it misses or only
+  /// touches the region, or a is b.
+  struct Chord {
+    double in, out;
+  };
+  std::optional<Chord> chord(const Vec3& a, const Vec3& b) const;
   /// The first s in [0, 1] at which a + s (b - a) crosses the boundary; expects that exactly one end is
   /// inside.
   double crossing(const Vec3& a, const Vec3& b) const;
@@ -42,15 +51,23 @@ protected:
   void simulate(FrameContext& frame) override;
 
 private:
-  std::optional<Vec3> visitor(const FrameContext& frame) const;
-  void watchButtons(const FrameContext& frame);
+  /// Where the visitor was since the last look and is at the frame's end, in the rig; empty if nobody is
+  /// there.
+  Course wayInRig(const FrameContext& frame) const;
+  /// Follows the visitor up to `until`, which lies in this frame.
+  void look(FrameContext& frame, Nanoseconds until);
+  void goTo(const Vec3& p, bool jumped, Nanoseconds time);
+  void watchButtons(const TrackerSample& t, Nanoseconds time, bool atEnd);
 
   Region region_;
   std::string tracker_;  ///< "head" for a usertrigger
   Switched switch_;
   bool inside_ = false;
-  bool looked_ = false;       ///< last_ is valid
+  bool looked_ = false;       ///< what follows is valid
+  Nanoseconds seen_ = 0;      ///< show time of the last look; while not looked_, from when on to look [ns]
   Vec3 last_ = Vec3::Zero();  ///< visitor in the node's coordinates
+  Vec3 p_RV_ = Vec3::Zero();  ///< and in the rig
+  Affine X_NR_ = Affine::Identity();  ///< at the end of the frame before
   std::uint32_t buttons_ = 0;
 };
 

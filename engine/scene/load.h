@@ -4,6 +4,7 @@
 /// Prepared on the loader thread, installed by App before the frame in which its show time falls and removed
 /// after it, destroyed on the loader thread. Dynamics knows the exact times.
 
+#include "engine/diagnostic.h"
 #include "engine/node.h"
 #include "engine/scene/records.h"
 
@@ -21,6 +22,7 @@ struct StaticObject {
   std::uint32_t position = 0;  ///< in its file
   std::uint32_t line = 0;
   NodeRef parent;
+  const std::string* name = nullptr;  ///< its key in Load::names; null = it has none
 };
 
 struct Load {
@@ -39,6 +41,7 @@ struct Load {
   std::vector<std::uint32_t> lines;                      ///< source line by position
 
   ChunkId chunk = kNoChunk;
+  bool chunkShown = false;                       ///< the scene's own
   std::span<const InstanceRecord> chunkRecords;  ///< in published memory, immutable
   std::vector<StaticObject> statics;             ///< parallel to chunkRecords, ordered by position
   std::vector<MeshId> meshes;                    ///< each counted once, released with the load
@@ -57,11 +60,20 @@ public:
   virtual ~SceneLoader() = default;
   /// Begins to prepare `file` as load `number`, below `owner`, which is at X_WO now.
   virtual void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) = 0;
+  /// Whether the load, which is due, takes effect in the frame of show time `now`. Where it always does,
+  /// take() waits for what comes late; where it need not (live shows, and replays of them), it is asked again
+  /// in the next frame.
+  virtual bool takesEffect(std::uint32_t number, Nanoseconds now) {
+    static_cast<void>(number), static_cast<void>(now);
+    return true;
+  }
   /// The load, waiting for it if it is not ready yet; null if it could not be loaded (the reason has been
-  /// told).
+  /// told). Throws what the preparation threw, and RunStopped when the run is to end while it waits.
   virtual std::unique_ptr<Load> take(std::uint32_t number) = 0;
   /// Destroys a removed load, once no frame up to `lastFrame` needs it.
   virtual void dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) = 0;
+  /// Tells the author of something that was found while the show runs.
+  virtual void report(const Diagnostic&) {}
 };
 
 }  // namespace stadion

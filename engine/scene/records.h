@@ -17,6 +17,9 @@ using InstanceId = std::uint32_t;
 using ChunkId = std::uint32_t;
 constexpr ChunkId kNoChunk = 0;
 
+constexpr std::size_t kMostLights = 16;    ///< that shine at a time; the scene chooses them
+constexpr std::size_t kMostChunks = 4096;  ///< shown at a time; objects of further files are instances
+
 /// One thing to draw.
 struct InstanceRecord {
   double model[12];  ///< X_WN (3 x 4), row major
@@ -78,7 +81,7 @@ struct ChangeSet {
   std::vector<Chunk> chunks;
   std::vector<StaticItem> statics;
   bool lightsChanged = false;
-  std::vector<LightRecord> lights;  ///< all of them, when lightsChanged
+  std::vector<LightRecord> lights;  ///< all that shine (at most kMostLights), when lightsChanged
   SkyRecord sky;
   ViewerRecord viewer;
 

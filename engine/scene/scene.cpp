@@ -51,6 +51,10 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
     if (node) round_.insert({node->rank(), ref});
     return node != nullptr;
   };
+  for (Message& m : mail) {
+    m.target = resolveInside(m.target, m.targetInside);
+    m.node = resolveInside(m.node, m.nodeInside);
+  }
   // What is due after its target has gone finds nobody.
   std::erase_if(mail, [&](const Message& m) {
     const bool late = m.due > endOf(m.target.load);
@@ -79,7 +83,7 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
     Node* node = find(current_->node);
     if (!node) continue;
     const auto [first, last] =
-        std::equal_range(mail.begin(), mail.end(), Message{0, {}, 0, current_->node, {}, {}, {}},
+        std::equal_range(mail.begin(), mail.end(), Message{0, {}, 0, current_->node, {}, {}, {}, {}, {}},
                          [](const Message& a, const Message& b) { return a.target < b.target; });
     node->cycle({first, last}, frame, probe);
     ++counters_.nodesVisited;
@@ -139,32 +143,37 @@ void Scene::wakeAt(Nanoseconds when, NodeRef node) {
 
 // --------------------------------------------------------------------------------------------------
 
+Message Scene::addressed(const std::string& target, NodeRef from, std::vector<std::string> arguments) const {
+  Message m;
+  const auto split = [&](const std::string& name, std::string& inside) {
+    const std::size_t slash = name.find('/');
+    if (slash != std::string::npos) inside = name.substr(slash + 1);
+    return resolve(name.substr(0, slash), from);
+  };
+  m.target = split(target, m.targetInside);
+  if (!arguments.empty()) m.node = split(arguments[0], m.nodeInside);
+  m.arguments = std::move(arguments);
+  return m;
+}
+
 void Scene::post(const Node& sender, const Notification& n, Nanoseconds when) {
   if (when > endOf(sender.self().load)) return;  // it is not there any more by then
-  Message m;
+  Message m = addressed(n.target, sender.self(), n.arguments);
   m.due = when + n.delay;
   m.sender = sender.self();
-  m.target = resolve(n.target, sender.self());
   m.verb = n.verb;
-  m.arguments = n.arguments;
-  if (!m.target.valid()) {
+  if (m.target.valid())
+    messages_.post(std::move(m));
+  else
     ++counters_.messagesLost;
-    return;
-  }
-  if (!n.arguments.empty()) m.node = resolve(n.arguments[0], sender.self());
-  messages_.post(std::move(m));
 }
 
 bool Scene::command(const std::string& target, Verb verb, std::vector<std::string> arguments,
                     Nanoseconds when) {
   if (loads_.empty()) return false;
-  const NodeRef root{loads_.begin()->first, 0};
-  Message m;
+  Message m = addressed(target, {loads_.begin()->first, 0}, std::move(arguments));
   m.due = when;
-  m.target = resolve(target, root);
   m.verb = verb;
-  if (!arguments.empty()) m.node = resolve(arguments[0], root);
-  m.arguments = std::move(arguments);
   if (!m.target.valid()) return false;
   messages_.post(std::move(m));
   return true;
@@ -200,15 +209,19 @@ NodeRef Scene::resolve(const std::string& name, NodeRef from) const {
   const std::string head = name.substr(0, slash);
   NodeRef found;
   for (const Load* l = load(from.load); l && !found.valid(); l = load(l->owner.load)) found = l->find(head);
-  std::size_t at = slash;
-  while (found.valid() && at != std::string::npos) {
-    const std::size_t next = name.find('/', at + 1);
-    const std::string part = name.substr(at + 1, next == std::string::npos ? next : next - at - 1);
+  return slash == std::string::npos ? found : resolveInside(found, std::string_view(name).substr(slash + 1));
+}
+
+NodeRef Scene::resolveInside(NodeRef from, std::string_view path) const {
+  NodeRef found = from;
+  while (found.valid() && !path.empty()) {
+    const std::size_t end = std::min(path.find('/'), path.size());
+    const std::string part(path.substr(0, end));
     NodeRef inner;
     for (const auto& [number, l] : loads_)
       if (l->owner == found) inner = l->find(part);
     found = inner;
-    at = next;
+    path.remove_prefix(std::min(end + 1, path.size()));
   }
   return found;
 }
@@ -251,6 +264,7 @@ std::uint64_t Scene::stateHash() const {
     StateHash one(m.sequence);
     one.add(m.due), one.add(m.sender), one.add(m.target), one.add(static_cast<std::uint32_t>(m.verb));
     for (const std::string& a : m.arguments) one.add(std::string_view(a));
+    one.add(std::string_view(m.targetInside)), one.add(std::string_view(m.nodeInside));
     pending += one.value();
   }
   h.add(pending);

@@ -20,6 +20,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stadion {
@@ -95,10 +96,11 @@ public:
   void setDrawn(InstanceId id, bool drawn);
   void removeInstance(InstanceId id);
 
-  std::size_t addLight(PlacementId placement, const LightRecord& local);
+  std::size_t addLight(PlacementId placement, const LightRecord& local, NodeRef node);
   void setLight(std::size_t handle, const LightRecord& local, bool on);
   void removeLight(std::size_t handle);
-  void setSky(const SkyRecord& sky) { sky_ = sky; }
+  void addSky(NodeRef node, const SkyRecord& sky) { skies_.push_back({node, sky}); }
+  void removeSky(NodeRef node);
 
   /// Show time at the end of this frame; while a load enters, the exact time at which it does.
   Nanoseconds now() const { return now_; }
@@ -115,9 +117,12 @@ public:
   Courses& courses() { return courses_; }
   Pose headInRig(const InputSample& input) const;
 
-  /// Asks for a sub-scene; it is installed at show time `at`, whenever the loader finished.
+  /// Asks for a sub-scene; it is installed at show time `at`, whenever the loader finished, unless the loader
+  /// delays it (see SceneLoader::takesEffect).
   std::uint32_t requestLoad(const std::string& file, NodeRef owner, Nanoseconds at);
   void requestUnload(std::uint32_t number, Nanoseconds at);
+  /// Whether that load has been asked for and has not taken effect yet.
+  bool awaits(std::uint32_t number) const;
 
   // --- for whoever runs the show
   // ---------------------------------------------------------------------------------
@@ -138,7 +143,12 @@ private:
   struct Light {
     PlacementId placement = kNoPlacement;
     LightRecord local;
+    NodeRef node;
     bool on = true, live = false;
+  };
+  struct Sky {
+    NodeRef node;
+    SkyRecord record;
   };
   struct Rig {
     NodeRef node;
@@ -169,7 +179,14 @@ private:
   void visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe);
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
   void publishInstance(InstanceId id, ChangeSet& changes);
-  void publishLights(ChangeSet& changes);
+  void publishLights(const InputSample& input, ChangeSet& changes);
+  std::vector<std::size_t> lightsThatShine() const;
+  LightRecord lightInWorld(const Light& light) const;
+  void tellOfTooManyLights(const std::vector<std::size_t>& wanted, const std::vector<std::size_t>& chosen);
+  /// Follows the rest of a path, "arena/ball", from a scene node to what is loaded now.
+  NodeRef resolveInside(NodeRef from, std::string_view path) const;
+  /// A message with its names looked up as seen from `from`, as far as the first part.
+  Message addressed(const std::string& target, NodeRef from, std::vector<std::string> arguments) const;
   Node* promote(Load& load, std::size_t index, const Affine& moved = Affine::Identity());
   bool isBelow(NodeRef ref, NodeRef ancestor) const;
   NodeRef parentOf(NodeRef ref) const;
@@ -207,8 +224,12 @@ private:
   std::vector<InstanceId> freeInstances_, changedInstances_;
   std::vector<std::vector<InstanceId>> instancesAt_;  ///< by placement
   std::vector<Light> lights_;
+  std::vector<std::uint32_t> lightsAt_;  ///< how many, by placement
   bool lightsChanged_ = true;
-  SkyRecord sky_;
+  std::vector<std::size_t> shining_;  ///< those published last, while more than kMostLights would shine
+  bool toldOfLights_ = false;
+  std::vector<Sky> skies_;  ///< the last one is seen
+  std::size_t chunksShown_ = 0;
   std::vector<Rig> rigs_;  ///< the last one is in use
   Pose freeRig_;           ///< of a show without a rig node
   std::vector<ChangeSet::Chunk> chunkChanges_;

@@ -46,9 +46,7 @@ Node* Scene::promote(Load& load, std::size_t index, const Affine& moved) {
   Appearance appearance;
   appearance.mesh = record.mesh;
   appearance.drawn = (record.flags & InstanceRecord::kShown) != 0;
-  std::string name;
-  for (const auto& [n, position] : load.names)
-    if (position == object.position) name = n;
+  std::string name = object.name ? *object.name : std::string();
   auto node = std::make_unique<ObjectNode>(NodeKind::Object, self, std::move(name), place, appearance);
   ObjectNode& added = *node;
   load.nodes[object.position] = std::move(node);
@@ -81,12 +79,17 @@ void Scene::requestUnload(std::uint32_t number, Nanoseconds at) {
   for (const NodeRef watcher : loadWatchers_) wakeNow(watcher);
 }
 
+bool Scene::awaits(std::uint32_t number) const {
+  return std::any_of(pendingLoads_.begin(), pendingLoads_.end(),
+                     [&](const Change& c) { return c.load && c.number == number; });
+}
+
 void Scene::applyLoads(const TimeSignature& now) {
   foreseeUnloads(now.time);
   // Installing a load may ask for more of them (sub-scenes that are there from the start).
   for (std::size_t i = 0; i < pendingLoads_.size();) {
     const Change change = pendingLoads_[i];
-    if (change.at > now.time || !change.load) {
+    if (!change.load || change.at > now.time || !loader_.takesEffect(change.number, now.time)) {
       ++i;
       continue;
     }
@@ -111,7 +114,7 @@ void Scene::foreseeUnloads(Nanoseconds now) {
 void Scene::applyUnloads(const TimeSignature& now) {
   for (std::size_t i = 0; i < pendingLoads_.size();) {
     const Change change = pendingLoads_[i];
-    if (change.load || change.at > now.time) {
+    if (change.load || change.at > now.time || awaits(change.number)) {  // what comes late cannot go before
       ++i;
       continue;
     }
@@ -139,15 +142,21 @@ void Scene::install(std::unique_ptr<Load> arrived, Nanoseconds at) {
   ++loadsVersion_;
   for (const std::uint32_t position : load.enterOrder) enterNode(*load.nodes[position]);
   now_ = frameEnd;
-  if (load.chunk != kNoChunk) chunkChanges_.push_back({load.chunk, true});
   auto* owner = dynamic_cast<PlacedNode*>(load.owner.valid() ? find(load.owner) : nullptr);
-  if (!owner || load.statics.empty()) return;
-  owner->carryStatics();
+  if (load.chunk != kNoChunk && chunksShown_ < kMostChunks) {
+    chunkChanges_.push_back({load.chunk, true});
+    load.chunkShown = true;
+    ++chunksShown_;
+  }
+  if (owner && !load.statics.empty()) owner->carryStatics();
   // Its scene node has moved since the load was asked for: what was placed then must follow.
-  const Affine& X_WO = placements_.world(owner->placement());
-  if (X_WO.matrix() == load.X_WO.matrix()) return;
-  const Affine moved = X_WO * load.X_WO.inverse();
-  for (std::size_t i = 0; i < load.statics.size(); ++i) promote(load, i, moved);
+  const Affine X_WO = owner ? placements_.world(owner->placement()) : load.X_WO;
+  const bool moved = owner && X_WO.matrix() != load.X_WO.matrix();
+  // Nothing may vanish: what no chunk can show any more is shown one by one.
+  if (!moved && (load.chunkShown || load.chunk == kNoChunk)) return;
+  const Affine by = moved ? Affine(X_WO * load.X_WO.inverse()) : Affine::Identity();
+  for (std::size_t i = 0; i < load.statics.size(); ++i)
+    if (!load.nodes[load.statics[i].position]) promote(load, i, by);
 }
 
 void Scene::enterNode(Node& node) {
@@ -177,7 +186,7 @@ void Scene::remove(std::uint32_t number, std::uint64_t frame) {
 
   Load& load = *at->second;
   for (auto p = load.enterOrder.rbegin(); p != load.enterOrder.rend(); ++p) leaveNode(*load.nodes[*p]);
-  if (load.chunk != kNoChunk) chunkChanges_.push_back({load.chunk, false});
+  if (load.chunkShown) chunkChanges_.push_back({load.chunk, false}), --chunksShown_;
   std::erase_if(staticChanges_, [&](const ChangeSet::StaticItem& s) { return s.chunk == load.chunk; });
   std::unique_ptr<Load> gone = std::move(at->second);
   loads_.erase(at);

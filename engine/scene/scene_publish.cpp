@@ -4,6 +4,9 @@
 #include "engine/nodes/placed_node.h"
 
 #include <algorithm>
+#include <string>
+#include <tuple>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -15,6 +18,17 @@ LightRecord afternoonSun() {
   const float colour[3] = {1.0f, 0.96f, 0.88f};
   for (int i = 0; i < 3; ++i) sun.direction[i] = direction[i], sun.colour[i] = colour[i];
   return sun;
+}
+
+/// How much of the light arrives at p, as the shaders have it (a spot's cone does not count: it may light
+/// what is seen).
+double brightnessAt(const Vec3& p_W, const LightRecord& light) {
+  const double colour =
+      0.2126 * double{light.colour[0]} + 0.7152 * double{light.colour[1]} + 0.0722 * double{light.colour[2]};
+  if (light.kind == 0) return colour;
+  const double squared = (Vec3(light.position[0], light.position[1], light.position[2]) - p_W).squaredNorm();
+  const double range = double{light.range};
+  return colour / (1 + (range > 0 ? squared / (range * range) : 0));
 }
 
 }  // namespace
@@ -57,11 +71,13 @@ void Scene::markInstance(InstanceId id) {
   changedInstances_.push_back(id);
 }
 
-std::size_t Scene::addLight(PlacementId placement, const LightRecord& local) {
+std::size_t Scene::addLight(PlacementId placement, const LightRecord& local, NodeRef node) {
   lightsChanged_ = true;
   auto at = std::find_if(lights_.begin(), lights_.end(), [](const Light& l) { return !l.live; });
   if (at == lights_.end()) at = lights_.insert(lights_.end(), Light{});
-  *at = {placement, local, true, true};
+  *at = {placement, local, node, true, true};
+  if (lightsAt_.size() <= placement) lightsAt_.resize(placement + 1);
+  ++lightsAt_[placement];
   return static_cast<std::size_t>(at - lights_.begin());
 }
 
@@ -73,6 +89,7 @@ void Scene::setLight(std::size_t handle, const LightRecord& local, bool on) {
 
 void Scene::removeLight(std::size_t handle) {
   lights_[handle].live = false;
+  --lightsAt_[lights_[handle].placement];
   lightsChanged_ = true;
 }
 
@@ -84,13 +101,13 @@ void Scene::publish(const TimeSignature& now, const InputSample& input, ChangeSe
   for (const PlacementId p : placements_.takeChanged()) {
     if (p < instancesAt_.size())
       for (const InstanceId id : instancesAt_[p]) markInstance(id);
-    for (const Light& l : lights_) lightsChanged_ |= l.live && l.placement == p;
+    lightsChanged_ |= p < lightsAt_.size() && lightsAt_[p] > 0;
   }
   for (const InstanceId id : changedInstances_) publishInstance(id, changes);
   changedInstances_.clear();
   counters_.changesPublished = changes.instances.size();
-  if (lightsChanged_) publishLights(changes);
-  changes.sky = sky_;
+  if (lightsChanged_ || !shining_.empty()) publishLights(input, changes);
+  changes.sky = skies_.empty() ? SkyRecord{} : skies_.back().record;
   changes.viewer.set(rigPose(), headInRig(input));
   changes.viewer.poseTime = input.time;
 }
@@ -107,20 +124,81 @@ void Scene::publishInstance(InstanceId id, ChangeSet& changes) {
   changes.instances.push_back(change);
 }
 
-void Scene::publishLights(ChangeSet& changes) {
+std::vector<std::size_t> Scene::lightsThatShine() const {
+  std::vector<std::size_t> handles;
+  for (std::size_t i = 0; i < lights_.size(); ++i)
+    if (lights_[i].live && lights_[i].on && placements_.shown(lights_[i].placement)) handles.push_back(i);
+  return handles;
+}
+
+LightRecord Scene::lightInWorld(const Light& light) const {
+  LightRecord r = light.local;
+  const Affine& X_WN = placements_.world(light.placement);
+  const Vec3 p = X_WN * Vec3(r.position[0], r.position[1], r.position[2]);
+  const Vec3 d = (X_WN.linear() * Vec3(r.direction[0], r.direction[1], r.direction[2])).stableNormalized();
+  for (int k = 0; k < 3; ++k) r.position[k] = p[k], r.direction[k] = d[k];
+  return r;
+}
+
+void Scene::publishLights(const InputSample& input, ChangeSet& changes) {
+  std::vector<std::size_t> handles = lightsThatShine();
+  const bool tooMany = handles.size() > kMostLights;
+  if (tooMany) {
+    // Those that are brightest where the visitor is; among equals the one that came first.
+    const Vec3 head_W = rigPose() * headInRig(input).p;
+    std::vector<std::pair<double, std::size_t>> order;
+    for (const std::size_t h : handles)
+      order.emplace_back(-brightnessAt(head_W, lightInWorld(lights_[h])), h);
+    std::sort(order.begin(), order.end(), [this](const auto& a, const auto& b) {
+      return std::tie(a.first, lights_[a.second].node) < std::tie(b.first, lights_[b.second].node);
+    });
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < kMostLights; ++i) chosen.push_back(order[i].second);
+    std::sort(chosen.begin(), chosen.end());
+    tellOfTooManyLights(handles, chosen);
+    handles = std::move(chosen);
+  }
+  const bool same = tooMany && handles == shining_;
+  shining_ = tooMany ? handles : std::vector<std::size_t>{};
+  if (same && !lightsChanged_) return;
+  lightsChanged_ = false;
   changes.lightsChanged = true;
   const bool anyLight = std::any_of(lights_.begin(), lights_.end(), [](const Light& l) { return l.live; });
   if (!anyLight) changes.lights.push_back(afternoonSun());
-  for (const Light& l : lights_) {
-    if (!l.live || !l.on) continue;
-    LightRecord r = l.local;
-    const Affine& X_WN = placements_.world(l.placement);
-    const Vec3 p = X_WN * Vec3(r.position[0], r.position[1], r.position[2]);
-    const Vec3 d = (X_WN.linear() * Vec3(r.direction[0], r.direction[1], r.direction[2])).stableNormalized();
-    for (int k = 0; k < 3; ++k) r.position[k] = p[k], r.direction[k] = d[k];
-    changes.lights.push_back(r);
+  for (const std::size_t h : handles) changes.lights.push_back(lightInWorld(lights_[h]));
+}
+
+void Scene::tellOfTooManyLights(const std::vector<std::size_t>& wanted,
+                                const std::vector<std::size_t>& chosen) {
+  if (toldOfLights_) return;
+  toldOfLights_ = true;
+  constexpr std::size_t kMostNames = 5;
+  SourcePosition where;
+  std::string names;
+  std::size_t dark = 0;
+  for (const std::size_t h : wanted) {
+    if (std::binary_search(chosen.begin(), chosen.end(), h)) continue;
+    const NodeRef node = lights_[h].node;
+    const Load* from = load(node.load);
+    const std::uint32_t line =
+        from && node.position < from->lines.size() ? from->lines[node.position] : std::uint32_t{0};
+    if (dark == 0 && from) where = {from->file, line, line > 0 ? 1u : 0u};
+    if (dark++ >= kMostNames) continue;
+    const Node* light = from ? from->nodes[node.position].get() : nullptr;
+    names += names.empty() ? "" : ", ";
+    names += light && !light->name().empty() ? "\"" + light->name() + "\"" : "line " + std::to_string(line);
   }
-  lightsChanged_ = false;
+  if (dark > kMostNames) names += " and " + std::to_string(dark - kMostNames) + " more";
+  loader_.report({Severity::Warning,
+                  where,
+                  std::to_string(wanted.size()) + " lights are on, of which the " +
+                      std::to_string(kMostLights) +
+                      " brightest where the visitor is shine; dark at the moment: " + names,
+                  {}});
+}
+
+void Scene::removeSky(NodeRef node) {
+  std::erase_if(skies_, [&](const Sky& s) { return s.node == node; });
 }
 
 // -----------------------------------------------------------------------------------------------

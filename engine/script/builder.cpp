@@ -117,9 +117,10 @@ public:
     load.lines.reserve(input_.document.size());
     for (const Declaration d : input_.document) {
       load.lines.push_back(d.line());
-      if (!d.name().empty()) load.names.emplace(std::string(d.name()), d.index());
+      const std::string* name = nullptr;
+      if (!d.name().empty()) name = &load.names.emplace(std::string(d.name()), d.index()).first->first;
       if (layout_.isStatic(d.index()))
-        addStatic(d);
+        addStatic(d, name);
       else
         addNode(d);
     }
@@ -154,13 +155,13 @@ private:
     return a;
   }
 
-  void addStatic(const Declaration& d) {
+  void addStatic(const Declaration& d, const std::string* name) {
     Affine X = placeOf(d).X_PN;
     for (std::uint32_t up = layout_.parent(d.index()); up != Layout::kNone; up = layout_.parent(up))
       X = placeOf(input_.document[up]).X_PN * X;
     X = input_.X_WO * X;
     const Appearance a = appearanceOf(d);
-    built_.load->statics.push_back({d.index(), d.line(), parentOf(d)});
+    built_.load->statics.push_back({d.index(), d.line(), parentOf(d), name});
     built_.staticRecords.push_back(makeInstance(X, *input_.store.find(a.mesh), a.mesh, a.drawn, d.index()));
   }
 

@@ -12,6 +12,7 @@ namespace stadion {
 namespace {
 
 constexpr NumberRange kTimeOfKey{0, 1e6};
+constexpr double kShortestPass = 0.001;  // of a looping path, which tells the end of each pass [s]
 constexpr NumberRange kPlace{-1e6, 1e6};
 constexpr NumberRange kTurn{-36000, 36000};
 
@@ -255,6 +256,9 @@ void Checker::checkKeyTimes(const RawDeclaration& raw, std::uint32_t node) {
     if (!(keys[i].time > keys[i - 1].time))
       return report_.error(places[i], fmt::format("the times of keys must increase, but {} follows {}",
                                                   keys[i].time, keys[i - 1].time));
+  if (!keys.empty() && keys.back().time > 0 && keys.back().time < kShortestPass &&
+      document_[node].flag(Attr::Loop))
+    report_.error(places.back(), fmt::format("a path that loops must last at least {} s", kShortestPass));
 }
 
 void Checker::finish() {

@@ -58,6 +58,12 @@ void DocumentWriter::addMessage(TextSpan value, const ReadMessage& read) {
   document_.messages_.push_back(message);
 }
 
+void DocumentWriter::addLostName(std::string name) {
+  constexpr std::size_t kMostLostNames = 100;
+  if (document_.lostNames_.size() == kMostLostNames) return setIncomplete();
+  document_.lostNames_.push_back(std::move(name));
+}
+
 bool DocumentWriter::mayHaveLost(std::string_view name) const {
   const auto& lost = document_.lostNames_;
   return document_.incomplete_ || std::find(lost.begin(), lost.end(), name) != lost.end();

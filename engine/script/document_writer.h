@@ -22,7 +22,8 @@ public:
   void addMessage(TextSpan value, const ReadMessage& message);
   void setIncomplete() { document_.incomplete_ = true; }
   /// Remembers a name whose declaration is wrong, so that its users are not called wrong too.
-  void addLostName(std::string name) { document_.lostNames_.push_back(std::move(name)); }
+  /// Beyond a number that an author could mend, any name may have been lost.
+  void addLostName(std::string name);
   bool mayHaveLost(std::string_view name) const;
 
   std::uint32_t offsetOf(std::uint32_t node) const { return document_.nodes_[node].where; }

@@ -1,5 +1,6 @@
 #include "engine/script/lint.h"
 
+#include "engine/scene/records.h"
 #include "engine/script/file_path.h"
 #include "engine/script/reporter.h"
 
@@ -30,6 +31,7 @@ public:
   void run() {
     for (const Declaration node : document_) noteUses(node);
     for (const Declaration node : document_) look(node);
+    lookAtNumberOfLights();
   }
 
 private:
@@ -108,6 +110,20 @@ private:
     if (node.has(Attr::Direction) && type == "point")
       warn(node, Attr::Direction, "direction has no effect: a point light shines all around");
     warnNeverOn(node);
+  }
+
+  void lookAtNumberOfLights() {
+    std::size_t on = 0;
+    for (const Declaration node : document_) {
+      if (node.kind() != NodeKind::Light || !node.flag(Attr::InitState) || ++on != kMostLights + 1) continue;
+      std::size_t all = 0;
+      for (const Declaration light : document_)
+        all += light.kind() == NodeKind::Light && light.flag(Attr::InitState);
+      warn(node, Attr::Type,
+           fmt::format("{} lights are on at the start, but only {} shine at a time: those that are brightest "
+                       "where the visitor is",
+                       all, kMostLights));
+    }
   }
 
   void lookAtField(const Declaration& node) {

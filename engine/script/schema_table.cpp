@@ -459,7 +459,8 @@ constinit const std::array<NodeSpec, kNodeKindCount> kNodes = {{
 }};
 
 constinit const std::array<CommandSpec, kVerbCount> kCommands = {{
-    {Verb::Enable, ArgumentKind::None, kSwitched, "enable", "begins to act; a field's duration starts anew"},
+    {Verb::Enable, ArgumentKind::None, kSwitched, "enable",
+     "begins to act; a field's duration starts anew, a path that has ended too"},
     {Verb::Disable, ArgumentKind::None, kSwitched, "disable", "stops acting"},
     {Verb::Toggle, ArgumentKind::None, kSwitched, "toggle", "enables if disabled, disables if enabled"},
     {Verb::Attach, ArgumentKind::PartAndTracker, kMovable, "attach all|position|orientation [TRACKER]",
@@ -495,7 +496,7 @@ constinit const std::array<EventSpec, kEventCount> kEvents = {{
     {Event::TimesUp, "the timer's period is over"},
     {Event::Loaded, "the sub-scene has appeared"},
     {Event::Unloaded, "the sub-scene has gone"},
-    {Event::Finished, "the path has reached its last key"},
+    {Event::Finished, "the path has reached its last key; told at the end of each pass if it loops"},
     {Event::OnImpact, "a pair that was apart has touched"},
     {Event::OnRelease, "a pair that posted onimpact is farther apart than releasedistance"},
 }};

@@ -1,11 +1,8 @@
 #include "engine/script/source_text.h"
 
+#include "engine/plain_file.h"
+
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <memory>
 
 #include <fmt/format.h>
 #include <tao/pegtl.hpp>
@@ -57,20 +54,9 @@ Result<SourceText> SourceText::make(std::string file, std::string_view bytes) {
 }
 
 Result<SourceText> SourceText::read(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return refusal(path, "is a directory, not a script");
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) return refusal(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
-
-  std::string bytes;
-  std::vector<char> piece(std::size_t{1} << 16);
-  while (bytes.size() <= kMostBytes) {
-    const std::size_t got = std::fread(piece.data(), 1, piece.size(), file.get());
-    if (got == 0) break;
-    bytes.append(piece.data(), got);
-  }
-  if (std::ferror(file.get()) != 0) return refusal(path, "cannot be read");
-  return make(path, bytes);
+  const auto bytes = readPlainFile(path, kMostBytes);
+  if (!bytes) return bytes.error();
+  return make(path, bytes.value());
 }
 
 void SourceText::index() {

@@ -53,7 +53,6 @@ MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes)
       anisotropy_(!isSoftware(gl) && (hasGlExtension(gl, "GL_EXT_texture_filter_anisotropic") ||
                                       hasGlExtension(gl, "GL_ARB_texture_filter_anisotropic"))) {
   gl_.GetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &uniformAlignment_);
-  store_.freedSince(freedCursor_);  // what went before us is none of ours
 }
 
 const GlMesh* MeshCache::find(MeshId id) {
@@ -61,13 +60,19 @@ const GlMesh* MeshCache::find(MeshId id) {
   if (at == meshes_.end()) {
     const Mesh* mesh = store_.find(id);
     if (!mesh) report("mesh " + std::to_string(id) + " is to be drawn but no longer there");
-    at = meshes_.emplace(id, mesh ? upload(*mesh) : std::nullopt).first;
+    at = meshes_.emplace(id, mesh ? Cached{mesh->hash, upload(*mesh)} : Cached{}).first;
   }
-  return at->second ? &*at->second : nullptr;
+  return at->second.gl ? &*at->second.gl : nullptr;
 }
 
 void MeshCache::freeUnused() {
-  for (const MeshId id : store_.freedSince(freedCursor_)) meshes_.erase(id);
+  const std::uint64_t freed = store_.freedCount();
+  if (freed == freedCount_) return;
+  freedCount_ = freed;
+  std::erase_if(meshes_, [this](const auto& entry) {
+    const Mesh* mesh = store_.find(entry.first);
+    return !mesh || mesh->hash != entry.second.hash;
+  });
 }
 
 std::optional<Diagnostic> MeshCache::takeProblem() {

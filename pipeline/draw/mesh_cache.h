@@ -58,8 +58,12 @@ private:
 
   const GlTable& gl_;
   const MeshStore& store_;
-  std::unordered_map<MeshId, std::optional<GlMesh>> meshes_;  // empty: known not to be drawable
-  std::size_t freedCursor_ = 0;
+  struct Cached {
+    std::uint64_t hash = 0;    ///< of the content; an id may be given again
+    std::optional<GlMesh> gl;  ///< empty: known not to be drawable
+  };
+  std::unordered_map<MeshId, Cached> meshes_;
+  std::uint64_t freedCount_ = 0;  ///< of the store, when it was last looked at
   GLint uniformAlignment_ = 256;
   bool anisotropy_ = false;
   std::optional<Diagnostic> problem_;

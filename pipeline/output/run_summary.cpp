@@ -80,6 +80,21 @@ std::string toText(const RunSummary& s) {
   for (const auto& [name, value] : s.counters) text += fmt::format("  {}: {}\n", name, value);
   for (const std::string& file : s.files) text += fmt::format("  wrote {}\n", file);
   for (const std::string& remark : s.remarks) text += fmt::format("  note: {}\n", remark);
+  if (!s.stopped.empty()) text += fmt::format("  stopped by {} after frame {}\n", s.stopped, s.lastFrame);
+  return text;
+}
+
+std::string happeningsText(const RunSummary& s) {
+  if (s.happened.empty()) return {};
+  const std::size_t told = std::min(s.happened.size(), RunSummary::kHappeningsTold);
+  std::string text = "\nwhat happened\n";
+  for (std::size_t i = 0; i < told; ++i)
+    text +=
+        fmt::format("{:9.4f} s  {:<10} {}\n", s.happened[i].seconds, s.happened[i].event, s.happened[i].node);
+  if (s.happenedCount > told)
+    text += fmt::format(
+        "  ... and {} more; summary.json (--out DIR, or --json) has {} of them\n", s.happenedCount - told,
+        s.happened.size() == s.happenedCount ? "all" : fmt::format("the first {}", s.happened.size()));
   return text;
 }
 
@@ -114,6 +129,12 @@ std::string toJson(const RunSummary& s) {
   for (const auto& [name, value] : s.counters) j["counters"][name] = value;
   j["files"] = s.files;
   j["remarks"] = s.remarks;
+  j["stopped"] = s.stopped.empty() ? Json() : Json(s.stopped);
+  j["failure"] = s.failure.empty() ? Json() : Json(s.failure);
+  j["happened_count"] = s.happenedCount;
+  j["happened"] = Json::array();
+  for (const Happening& h : s.happened)
+    j["happened"].push_back(Json{{"seconds", h.seconds}, {"event", h.event}, {"node", h.node}});
   // File names may be any bytes; JSON may not.
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

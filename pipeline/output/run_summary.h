@@ -45,7 +45,16 @@ struct ImageHash {
   std::uint64_t hash = 0;
 };
 
+/// Something that happened in the show, such as an impact.
+struct Happening {
+  double seconds = 0;  ///< show time [s]
+  std::string event, node;
+};
+
 struct RunSummary {
+  static constexpr std::size_t kMostHappenings = 20'000;  ///< kept; a show may run all day
+  static constexpr std::size_t kHappeningsTold = 200;     ///< in the text
+
   std::string show, walls, mode, stereo;
   std::uint32_t width = 0, height = 0;
   double rate = 0;            ///< [frames/s]
@@ -62,9 +71,16 @@ struct RunSummary {
   std::map<std::string, double> counters;  ///< anything else worth a number
   std::vector<std::string> files;          ///< written
   std::vector<std::string> remarks;        ///< what did not go as asked
+  std::string stopped;                     ///< by which signal; empty = it played to its end
+  std::string failure;                     ///< why it could not go on; empty = it could
+  std::vector<Happening> happened;         ///< the first ones, at most kMostHappenings
+  std::uint64_t happenedCount = 0;         ///< all of them
 };
 
+/// Without the failure, which is told as an error, and without what happened.
 std::string toText(const RunSummary& summary);
+/// What happened, one a line, the first kHappeningsTold of them; empty if nothing did.
+std::string happeningsText(const RunSummary& summary);
 /// One JSON object on one line. Hashes are strings of 16 hexadecimal digits.
 std::string toJson(const RunSummary& summary);
 

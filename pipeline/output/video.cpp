@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstring>
 #include <deque>
+#include <exception>
 #include <fcntl.h>
 #include <filesystem>
 #include <mutex>
@@ -129,7 +130,11 @@ private:
     sigemptyset(&pipe);
     sigaddset(&pipe, SIGPIPE);
     pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
-    if (start() && feed() && finishEncoder() && verify()) publish();
+    try {
+      if (start() && feed() && finishEncoder() && verify()) publish();
+    } catch (const std::exception& e) {  // no memory, for instance: there is no video, and the show goes on
+      fail(e.what());
+    }
   }
 
   bool start() {

@@ -1,6 +1,7 @@
 #include "pipeline/state/scene_state.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace stadion {
 
@@ -68,9 +69,11 @@ void SceneState::catchUp(std::size_t slot, std::size_t& copied) {
     ensure(slot, from.instanceCount);
     for (const InstanceId id : missed.instances) instances(slot)[id] = instances(newest_)[id];
     copied += missed.instances.size();
-    for (const ChangeSet::StaticItem& s : missed.statics)
-      if (const ChunkView there = arena_.find(s.chunk, newest_); !there.records.empty())
-        setBit(arena_.find(s.chunk, slot).hidden, s.index, bitOf(there.hidden, s.index));
+    for (const auto& [chunk, indices] : missed.statics) {
+      const ChunkView there = arena_.find(chunk, newest_), here = arena_.find(chunk, slot);
+      if (there.records.empty()) continue;
+      for (const std::uint32_t index : indices) setBit(here.hidden, index, bitOf(there.hidden, index));
+    }
     to.lightCount = from.lightCount;
     std::copy_n(from.lights, from.lightCount, to.lights);
     to.chunkCount = from.chunkCount;
@@ -92,10 +95,12 @@ void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
       setBit(there.hidden, s.index, s.hidden);
   for (const ChangeSet::Chunk& c : changes.chunks) {
     ChunkId* end = std::remove(h.chunks, h.chunks + h.chunkCount, c.id);
+    assert(!c.shown || end < h.chunks + kMaxChunks);
     if (c.shown && end < h.chunks + kMaxChunks) *end++ = c.id;
     h.chunkCount = static_cast<std::uint32_t>(end - h.chunks);
   }
   if (changes.lightsChanged) {
+    assert(changes.lights.size() <= kMaxLights);
     h.lightCount = static_cast<std::uint32_t>(std::min(changes.lights.size(), kMaxLights));
     std::copy_n(changes.lights.begin(), h.lightCount, h.lights);
   }
@@ -112,7 +117,23 @@ void SceneState::miss(std::size_t slot, const ChangeSet& changes) {
     missed.listed[i.id] = true;
     missed.instances.push_back(i.id);
   }
-  missed.statics.insert(missed.statics.end(), changes.statics.begin(), changes.statics.end());
+  for (const ChangeSet::StaticItem& s : changes.statics) {
+    std::vector<std::uint32_t>& indices = missed.statics[s.chunk];
+    // An object leaves its chunk once; should it be told twice, once is enough.
+    if (indices.empty() || indices.back() != s.index) indices.push_back(s.index);
+  }
+  // A slot may never be written (the others always do), so what no longer matters must go here.
+  for (const ChangeSet::Chunk& c : changes.chunks)
+    if (!c.shown) missed.statics.erase(c.id);
+}
+
+std::size_t SceneState::noted() const {
+  std::size_t count = 0;
+  for (const Missed& missed : missed_) {
+    count += missed.instances.size();
+    for (const auto& [chunk, indices] : missed.statics) count += indices.size();
+  }
+  return count;
 }
 
 std::size_t SceneState::publish(std::size_t slot, const ChangeSet& changes) {

@@ -13,6 +13,7 @@
 
 #include "pipeline/state/chunk_arena.h"
 
+#include <map>
 #include <memory>
 
 namespace stadion {
@@ -33,7 +34,7 @@ struct SlotView {
 
 class SceneState {
 public:
-  static constexpr std::size_t kMaxLights = 256, kMaxChunks = 4096;
+  static constexpr std::size_t kMaxLights = kMostLights, kMaxChunks = kMostChunks;
 
   /// `memories` is how many slots really have memory of their own. Anything below kSlots is a broken
   /// pipeline, which tests use to show that they would notice.
@@ -43,9 +44,12 @@ public:
   ChunkArena& arena() { return arena_; }
 
   /// Writes frame `changes.signature.frame` into `slot`. Returns the number of records copied, catching up
-  /// included.
+  /// included. Expects at most kMaxLights lights and kMaxChunks chunks (the scene sees to it).
   std::size_t publish(std::size_t slot, const ChangeSet& changes);
   SlotView view(std::size_t slot) const;
+  /// How many changes are noted for slots that have not been written since: at most one a moved instance and
+  /// one an object that has left a chunk that is shown, for each slot, however long the show runs.
+  std::size_t noted() const;
 
 private:
   struct Header;
@@ -54,7 +58,7 @@ private:
   struct Missed {
     std::vector<InstanceId> instances;
     std::vector<bool> listed;
-    std::vector<ChangeSet::StaticItem> statics;
+    std::map<ChunkId, std::vector<std::uint32_t>> statics;  ///< who left which chunk, while it is shown
   };
 
   Header& header(std::size_t slot) const;

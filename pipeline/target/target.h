@@ -69,6 +69,10 @@ Result<std::unique_ptr<GlProvider>> openGlProvider(GlProviderKind kind);
 Result<std::unique_ptr<GlProvider>> openOsMesa();
 Result<std::unique_ptr<GlProvider>> openEgl();
 
+/// What stands against pictures of this size from this provider, or nothing. Asks it through a context that
+/// is made for the purpose; expects that none is current on the calling thread, and leaves none.
+std::optional<Diagnostic> checkPictureSize(GlProvider& provider, std::uint32_t width, std::uint32_t height);
+
 /// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6": of the target current here.
 std::string describeGl(const GlTable& gl);
 

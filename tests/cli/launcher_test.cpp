@@ -149,6 +149,49 @@ TEST(ProgramLauncher, TestBuildsEverythingAndPassesItsArgumentsOn) {
   EXPECT_TRUE(has(house.calls(), "--target all")) << house.calls();
 }
 
+// A folder in the place of the lock stands for a checkout that cannot be written: root may write anywhere
+// else.
+TEST(ProgramLauncher, WhatIsBuiltStartsFromAFolderThatCannotBeWritten) {
+  House house;
+  house.start({"nodes"});
+  fs::remove(house.path("build/.lock"));
+  fs::create_directory(house.path("build/.lock"));
+  const ProgramResult r = house.start({"run", "a.evs"});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.out, "<run><a.evs>");
+  EXPECT_EQ(r.err, "");
+}
+
+TEST(ProgramLauncher, WithoutABuildAFolderThatCannotBeWrittenIsOneClearMessage) {
+  House house;
+  fs::remove_all(house.path("build"));
+  house.write("build", "a file is in the way");
+  for (const char* command : {"run", "test"}) {
+    const ProgramResult r = house.start({command});
+    EXPECT_EQ(r.status, 2) << r.err;
+    EXPECT_EQ(r.out, "");
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    EXPECT_TRUE(has(r.err, "cannot write into " +
+                               fs::canonical(house.path("stadion")).parent_path().string() + "/build"))
+        << r.err;
+    EXPECT_EQ(house.calls(), "");
+  }
+}
+
+TEST(ProgramLauncher, AnOutdatedBuildThatCannotBeRenewedIsNotStarted) {
+  House house;
+  house.start({"nodes"});
+  house.forgetCalls();
+  fs::remove(house.path("build/.lock"));
+  fs::create_directory(house.path("build/.lock"));
+  house.write("engine/new.cpp", "// more\n");
+  const ProgramResult r = house.start({"nodes"});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_EQ(r.out, "");
+  EXPECT_TRUE(has(r.err, "older than its sources")) << r.err;
+  EXPECT_EQ(house.calls(), "");
+}
+
 TEST(ProgramLauncher, TheRealOneAddsLittleToASecondStart) {
   // Only where the launcher has built this very tree; elsewhere it would begin to build.
   if (!fs::exists(STADION_SOURCE_DIR "/build/release/.built") ||

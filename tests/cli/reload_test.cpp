@@ -91,7 +91,7 @@ Seen playReloading(const Playing& what) {
   const std::atomic<bool> never = false;
   FrameLoop loop(stages, o, never);
   const FrameLoopOutcome outcome = loop.run();
-  EXPECT_FALSE(outcome.failure) << *outcome.failure;
+  EXPECT_FALSE(outcome.failure) << outcome.failure->message;
   EXPECT_EQ(outcome.framesShown, what.frames);
   if (what.mode == Mode::Sequential) seen.frameMs = frameTimes(loop.times());
   return seen;

@@ -41,7 +41,7 @@ void playOnFourWalls(Delivery delivery, std::uint64_t frames) {
   const std::atomic<bool> never = false;
   FrameLoop loop(stages, o, never);
   const FrameLoopOutcome outcome = loop.run();
-  ASSERT_FALSE(outcome.failure) << *outcome.failure;
+  ASSERT_FALSE(outcome.failure) << outcome.failure->message;
   EXPECT_EQ(outcome.framesSimulated, frames);
   EXPECT_EQ(sink.frames, outcome.framesShown);
   EXPECT_EQ(sink.pictures, 8 * sink.frames);

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 namespace stadion {
 namespace {
@@ -14,9 +15,10 @@ bool has(const std::string& text, const std::string& part) {
 }
 
 /// Arguments for a short, small run of one of the test shows.
-std::vector<std::string> shortRun(const std::string& show, std::vector<std::string> more = {}) {
+std::vector<std::string> shortRun(const std::string& show, std::vector<std::string> more = {},
+                                  const char* frames = "5") {
   std::vector<std::string> words{"run",     show,     "--asset-root", assetFolder(), "--walls",
-                                 "desktop", "--size", "32x24",        "--frames",    "5"};
+                                 "desktop", "--size", "32x24",        "--frames",    frames};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -85,9 +87,153 @@ TEST(ProgramUsage, AnUnknownWallSetIsNamed) {
 }
 
 TEST(ProgramUsage, SizesThatMakeNoSenseAreRefused) {
-  for (const char* size : {"0x0", "800", "-1x5", "800x600x2", "99999999999x2", "axb"})
+  for (const char* size : {"0x0", "800", "-1x5", "800x600x2", "99999999999x2", "axb", "4294967297x2",
+                           "+80x60", " 80x60", "80x", "nanxnan", "16384x16384"})
     EXPECT_EQ(stadionProgram({"run", testShow("bodies.evs"), "--frames", "2", "--size", size}).status, 2)
         << size;
+}
+
+TEST(ProgramUsage, NumbersThatAreNoneAreRefusedAndWhatIsAllowedIsSaid) {
+  const std::vector<std::pair<const char*, std::vector<const char*>>> cases{
+      {"--rate", {"nan", "inf", "-inf", "0", "1001", "0x40", "60Hz", ""}},
+      {"--seconds", {"nan", "inf", "1e300", "0", "-1"}},
+      {"--frames", {"nan", "inf", "0", "-1", "1.5", "1e3", "99999999999999999999"}},
+  };
+  for (const auto& [option, values] : cases)
+    for (const char* value : values)
+      for (const char* command : {"run", "hash"}) {
+        const ProgramResult r = stadionProgram({command, testShow("bodies.evs"), option, value});
+        EXPECT_EQ(r.status, 2) << option << " " << value;
+        EXPECT_TRUE(has(r.err, option)) << r.err;
+        EXPECT_TRUE(*value == 0 || (has(r.err, "from ") && has(r.err, " to "))) << r.err;
+      }
+  for (const char* every : {"nan", "0", "-3", "1.5"}) {
+    const ProgramResult r = stadionProgram({"run", testShow("bodies.evs"), "--pictures", every});
+    EXPECT_EQ(r.status, 2) << every;
+    EXPECT_TRUE(has(r.err, "whole number")) << r.err;
+  }
+}
+
+TEST(ProgramUsage, WhatIsNoPlainFileIsRefusedWithoutWaiting) {
+  const TemporaryFolder folder;
+  const std::string fifo = folder.path() / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  ProgramRun run;
+  run.limit = std::chrono::seconds(20);
+  for (const std::string& file : {fifo, std::string("/dev/zero"), folder.path().string()}) {
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"run", file},
+                                               {"hash", file},
+                                               {"check", file},
+                                               {"walls", file},
+                                               {"hash", testShow("bodies.evs"), "--input", file},
+                                               {"run", testShow("bodies.evs"), "--walls", file}}) {
+      run.words = words;
+      run.words.insert(run.words.begin(), stadionPath());
+      const ProgramResult r = runProgram(run);
+      EXPECT_EQ(r.status, 2) << words[0] << " " << file;
+      EXPECT_TRUE(has(r.out + r.err, file)) << r.out << r.err;
+    }
+  }
+  const std::string model = folder.write("show.evs", "object( file=pipe.obj )\n");
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe.obj").c_str(), 0600), 0);
+  const ProgramResult r = stadionProgram({"check", model});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_TRUE(has(r.out, "show.evs:1:") && has(r.out, "pipe.obj")) << r.out;
+}
+
+TEST(ProgramUsage, AHugeScriptIsRefusedBeforeItIsRead) {
+  const TemporaryFolder folder;
+  const std::string script = folder.write("huge.evs", "");
+  std::filesystem::resize_file(script, std::uintmax_t{4} << 30);  // takes no room on the disk
+  for (const char* command : {"run", "hash", "check"}) {
+    // (run and hash reserve addresses for the published scene beforehand.)
+    const std::string limit = *command == 'c' ? "ulimit -v 500000; " : "";
+    const ProgramResult r =
+        runProgram({{"/bin/sh", "-c", limit + "exec \"$@\"", "sh", stadionPath(), command, script}});
+    EXPECT_EQ(r.status, 2) << command << r.err;
+    EXPECT_TRUE(has(r.out + r.err, "huge.evs: error: cannot be read: it is larger than 64 MiB"))
+        << r.out << r.err;
+  }
+}
+
+TEST(ProgramUsage, APictureThatCannotBeWrittenIsNamedOnce) {
+  const TemporaryFolder folder;
+  // A folder is in the place of a picture.
+  std::filesystem::create_directory(folder.path() / "screen-left-000002.png");
+  const ProgramResult r =
+      stadionProgram(shortRun(testShow("bodies.evs"), {"--out", folder.path(), "--pictures", "1", "--json"}));
+  EXPECT_EQ(r.status, 2) << r.err;
+  const std::string complaint = "screen-left-000002.png: cannot be written";
+  const std::size_t first = r.err.find(complaint);
+  ASSERT_NE(first, std::string::npos) << r.err;
+  EXPECT_EQ(r.err.find(complaint, first + 1), std::string::npos) << r.err;
+  EXPECT_TRUE(has(nlohmann::json::parse(r.out).at("failure"), complaint)) << r.out;
+}
+
+TEST(ProgramUsage, AFurtherRunRemovesTheFilesOfTheRunBeforeAndNoOthers) {
+  const TemporaryFolder folder;
+  folder.write("screen-left-000099.png", "somebody's own");
+  const auto run = [&](const char* frames) {
+    return stadionProgram(
+        shortRun(testShow("bodies.evs"), {"--out", folder.path(), "--pictures", "all"}, frames));
+  };
+  const auto exists = [&](const char* name) { return std::filesystem::exists(folder.path() / name); };
+  ASSERT_EQ(run("5").status, 0);
+  EXPECT_TRUE(exists("screen-left-000004.png"));
+  folder.write("notes.txt", "somebody's own");
+  const ProgramResult second = run("3");
+  ASSERT_EQ(second.status, 0) << second.err;
+  EXPECT_TRUE(has(second.err, "removed 12 files of an earlier run")) << second.err;
+  EXPECT_TRUE(exists("screen-left-000002.png"));
+  EXPECT_FALSE(exists("screen-left-000003.png"));
+  EXPECT_FALSE(exists("screen-right-000004.png"));
+  EXPECT_TRUE(exists("screen-left-000099.png"));
+  EXPECT_TRUE(exists("notes.txt"));
+}
+
+TEST(ProgramUsage, AListOfFilesDoesNotReachOutOfItsFolder) {
+  const TemporaryFolder folder;
+  const std::string outside = folder.write("outside.txt", "somebody's own");
+  const std::string out = folder.path() / "out";
+  folder.write("out/.stadion-files", "stadion-files 1\n../outside.txt\n" + outside + "\n..\n");
+  ASSERT_EQ(stadionProgram(shortRun(testShow("bodies.evs"), {"--out", out})).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(outside));
+  // And a list that is none is left alone.
+  folder.write("out/.stadion-files", "shopping\n");
+  const ProgramResult r = stadionProgram(shortRun(testShow("bodies.evs"), {"--out", out}));
+  EXPECT_EQ(r.status, 2);
+  EXPECT_EQ(fileContent(out + "/.stadion-files"), "shopping\n");
+}
+
+TEST(ProgramUsage, WhatHappenedIsCountedWhenItIsTooMuchToTell) {
+  const TemporaryFolder folder;
+  const std::string show = folder.write("show.evs", "timer( name=tick, period=0.001, repeat=on )\n");
+  const ProgramResult text = stadionProgram(shortRun(show, {}, "61"));
+  ASSERT_EQ(text.status, 0) << text.err;
+  EXPECT_TRUE(has(text.out, "... and 800 more")) << text.out;
+  const auto summary = nlohmann::json::parse(stadionProgram(shortRun(show, {"--json"}, "61")).out);
+  EXPECT_EQ(summary.at("happened_count"), 1000);
+  EXPECT_EQ(summary.at("happened").size(), 1000u);
+  EXPECT_EQ(summary.at("happened")[0].at("node"), "tick");
+}
+
+TEST(ProgramUsage, ErrorsInSubScenesAndModelsNameTheirFile) {
+  const TemporaryFolder folder;
+  folder.write("parts/inner.evs", "# one line\nobject( file=missing.obj )\ndynobject( file=flat.obj )\n");
+  folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string show =
+      folder.write("show.evs", "scene( file=\"parts/inner.evs\" )\n# x\nscene( file=gone.evs )\n");
+  for (const char* command : {"check", "run", "hash"}) {
+    std::vector<std::string> words{command, show};
+    if (*command != 'c') words.insert(words.end(), {"--frames", "2"});
+    const ProgramResult r = stadionProgram(words);
+    const std::string said = r.out + r.err;
+    EXPECT_TRUE(has(said, "show.evs:3:13: error: there is no asset \"gone.evs\"")) << command << said;
+    EXPECT_TRUE(has(said, folder.path().string() + "/parts/inner.evs:2:14: ")) << command << said;
+    EXPECT_TRUE(has(said, folder.path().string() + "/parts/inner.evs:3:17: error: \"flat.obj\" "))
+        << command << said;
+  }
 }
 
 TEST(ProgramUsage, ABadInputLogIsShownWithItsLine) {
@@ -152,19 +298,27 @@ TEST(ProgramUsage, JsonIsOneObjectOnStdoutAndNothingElse) {
 TEST(ProgramUsage, InterruptsEndTheShowWithItsSummary) {
   for (const int signal : {SIGINT, SIGTERM})
     for (const char* mode : {"sequential", "pipelined"}) {
+      const TemporaryFolder out;
       ProgramRun run;
       run.words = {stadionPath(),  "run",         testShow("reload_with.evs"),
                    "--asset-root", assetFolder(), "--size",
                    "64x48",        "--walls",     "desktop",
-                   "--json",       "--mode",      mode};
+                   "--json",       "--mode",      mode,
+                   "--out",        out.path(),    "--pictures",
+                   "100"};
       run.signal = signal;
       run.signalAfter = std::chrono::milliseconds(1500);
       run.limit = std::chrono::seconds(30);
       const ProgramResult r = runProgram(run);
-      ASSERT_EQ(r.status, 0) << mode << r.err;
+      ASSERT_EQ(r.status, 128 + signal) << mode << r.err;
       const auto summary = nlohmann::json::parse(r.out);
       EXPECT_GT(summary.at("frames"), 1);
-      EXPECT_TRUE(has(r.out, "stopped by request")) << r.out;
+      EXPECT_EQ(summary.at("stopped"), signal == SIGINT ? "SIGINT" : "SIGTERM");
+      EXPECT_TRUE(summary.at("failure").is_null());
+      EXPECT_EQ(nlohmann::json::parse(fileContent(out.path() / "summary.json")).at("stopped"),
+                summary.at("stopped"));
+      EXPECT_TRUE(std::filesystem::exists(out.path() / "screen-left-000000.png"));
+      EXPECT_TRUE(std::filesystem::exists(out.path() / "contact-sheet.png"));
       EXPECT_LT(r.seconds, 10);
       // The importer is a child in its own process group: it must not have been torn down with a complaint.
       EXPECT_FALSE(has(r.err, "importer")) << r.err;

@@ -68,6 +68,17 @@ TEST(Diagnostic, ASlipIsRecognisedAndANewWordIsNot) {
   EXPECT_EQ(closest("x", words), std::nullopt);
 }
 
+TEST(Diagnostic, TheSearchForASuggestionIsBounded) {
+  // Long words that differ in every third letter are the dearest to compare. The right one comes too late.
+  std::vector<std::string> candidates(20000, std::string(64, 'a'));
+  std::string word(64, 'a');
+  for (std::size_t i = 0; i < word.size(); i += 2) word[i] = 'b';
+  candidates.push_back(word);
+  EXPECT_FALSE(closest(word, candidates));
+  candidates.insert(candidates.begin(), word);
+  EXPECT_TRUE(closest(word, candidates));
+}
+
 TEST(Diagnostic, TheNearestCandidateWins) {
   EXPECT_EQ(closest("wall", {"ball", "walls", "wall"}), "wall");
   EXPECT_EQ(closest("onrelase", {"onimpact", "release", "onrelease"}), "onrelease");

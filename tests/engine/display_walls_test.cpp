@@ -1,5 +1,6 @@
 #include "engine/display/wall_file.h"
 #include "engine/display/wall_lint.h"
+#include "engine/plain_file.h"
 #include "engine/text_line.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ const std::string kShipped = std::string(STADION_SOURCE_DIR) + "/walls";
 const fs::path kCorpus = fs::path(STADION_SOURCE_DIR) / "tests/corpus/walls";
 
 std::string textOf(const fs::path& path) {
-  const auto text = readTextFile(path.string(), 1 << 20);
+  const auto text = readPlainFile(path.string(), 1 << 20);
   return text ? text.value() : std::string();
 }
 

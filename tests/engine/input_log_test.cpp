@@ -2,6 +2,7 @@
 #include "engine/input/input_recorder.h"
 #include "engine/input/scripted_input.h"
 #include "engine/maths/functions.h"
+#include "engine/plain_file.h"
 #include "engine/text_line.h"
 
 #include <gtest/gtest.h>
@@ -116,8 +117,8 @@ TEST(InputLog, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(firstError(""), "1:1: the file is empty; an input log begins with the line: stadion-input 1");
   EXPECT_EQ(firstError("pose head 0 0 0 0 1 0 0 0\n"),
             "1:1: this is not an input log; one begins with the line: stadion-input 1");
-  EXPECT_EQ(firstError("stadion-input 2\n"),
-            "1:15: version 2 of the format is newer than this program, which reads 1");
+  EXPECT_EQ(firstError("stadion-input 3\n"),
+            "1:15: version 3 of the format is newer than this program, which reads 2");
   EXPECT_EQ(firstError(h + "psoe head 0  0 0 0  1 0 0 0\n"),
             "2:1: \"psoe\" is not a kind of record; did you mean \"pose\"?");
   EXPECT_EQ(firstError(h + "\n# x\nsignature 5\n"),
@@ -240,6 +241,47 @@ TEST(InputRecorder, KeepsWhatHappenedInsideTheFrames) {
   }
 }
 
+TEST(InputRecorder, KeepsWhatAClockDecidedAndWhereTheRunEnded) {
+  const Scratch scratch;
+  InputRecorder recorder(scratch.file("a.input"), 60);
+  std::vector<TimeSignature> run;
+  FrameClock live(60);
+  for (const std::uint64_t ticks : {1, 1, 1, 4, 1, 1, 9, 1})
+    recorder.frame(run.emplace_back(live.next(ticks)));
+  recorder.lateLoad(2, run[5].time);
+  ASSERT_FALSE(recorder.commit());
+  EXPECT_EQ(readPlainFile(scratch.file("a.input"), 1000).value(),
+            "stadion-input 2\nrate 60\nframe 3 0.1\nframe 6 0.283333333\nload 2 0.133333333\n"
+            "frame 7 0.3\n");
+  Diagnostics out;
+  const auto log = loadInputLog(scratch.file("a.input"), out);
+  ASSERT_TRUE(log);
+  EXPECT_EQ(log->decisions.rate, 60);
+  EXPECT_EQ(log->end(), run.back().time);
+  EXPECT_EQ(log->decisions.loads.at(2), run[5].time);
+  FrameClock replay(60, log->decisions.frames);
+  for (const TimeSignature& then : run) {
+    const TimeSignature now = replay.next();
+    EXPECT_EQ(now.frame, then.frame);
+    EXPECT_EQ(now.time, then.time);
+    EXPECT_EQ(now.step, then.step);
+  }
+  Diagnostics again;
+  EXPECT_EQ(formatInputLog(*parseInputLog(formatInputLog(*log), "t.input", again)), formatInputLog(*log));
+}
+
+TEST(InputLog, DecisionsThatMakeNoSenseAreNamed) {
+  const std::string h = "stadion-input 2\n";
+  EXPECT_EQ(firstError("stadion-input 1\nframe 3 0.1\n"),
+            "2:1: \"frame\" is not a kind of record; known are pose, key, lost");
+  EXPECT_EQ(firstError(h + "rate nan\n"), "2:6: \"nan\" is not a finite number in range (frames a second)");
+  EXPECT_EQ(firstError(h + "rate 0\n"), "2:6: the rate must be from 1 to 1000 frames a second");
+  EXPECT_EQ(firstError(h + "frame 3 0.1\nframe 4 0.1\n"),
+            "3:7: the frame's number must increase, and the time with it");
+  EXPECT_EQ(firstError(h + "load 2\n"), "2:7: the time in seconds is missing");
+  EXPECT_EQ(firstError(h + "load 2 1\nload 2 2\n"), "3:6: the load's number is there already");
+}
+
 TEST(InputRecorder, WritesBadPosesAsLostAndOddNamesPlain) {
   const Scratch scratch;
   InputSample s;
@@ -286,7 +328,7 @@ TEST(InputRecorder, WithoutCommitLeavesNothingBehindAndTheOldFileAlone) {
     recorder.record(randomSample(random, 0));
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder), fs::directory_iterator()), 1);
-  EXPECT_EQ(readTextFile(scratch.file("a.input"), 100).value(), "old");
+  EXPECT_EQ(readPlainFile(scratch.file("a.input"), 100).value(), "old");
 }
 
 TEST(InputRecorder, SaysWhyItCannotWrite) {

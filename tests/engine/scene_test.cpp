@@ -108,6 +108,48 @@ TEST(Scene, LoadsAndUnloadsASubSceneAtAFixedShowTime) {
   EXPECT_FALSE(show.scene.resolve("game/ball", {1, 0}).valid());
 }
 
+TEST(Scene, AFileThatComesLateTakesEffectAndIsToldWhenItWasDecided) {
+  ShowFixture show;
+  show.loader.files["game"] = [](Load& load) { addNode<MovingNode>(load, "ball"); };
+  show.loader.files["show"] = [](Load& load) {
+    auto& game = addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", fromSeconds(0.1), false);
+    game.addNotification(notify(Event::Loaded, "ear", Verb::Enable));
+    addNode<ListeningNode>(load, "ear");
+  };
+  show.loader.late[2] = fromSeconds(0.2);
+  show.scene.open("show");
+  show.frames(1);
+  show.scene.command("game", Verb::Load, {}, signatureAt(1, 60).time);
+  show.frames(11);
+  EXPECT_EQ(show.scene.loadCount(), 1u) << "due at 0.117 s; frame 11 is at 0.183 s";
+  EXPECT_TRUE(show.scene.awaits(2));
+  show.frames(1);
+  EXPECT_EQ(show.scene.loadCount(), 2u) << "frame 12 is at 0.2 s";
+  EXPECT_FALSE(show.scene.awaits(2));
+  show.frames(2);
+  const auto& ear = dynamic_cast<const ListeningNode&>(*show.scene.find(show.scene.resolve("ear", {1, 0})));
+  ASSERT_EQ(ear.heard.size(), 1u);
+  EXPECT_EQ(ear.heard[0].frame, 13u);
+}
+
+TEST(Scene, AFileThatIsUnloadedBeforeItComesDoesNotStay) {
+  ShowFixture show;
+  show.loader.files["game"] = [](Load& load) { addNode<MovingNode>(load, "ball"); };
+  show.loader.files["show"] = [](Load& load) {
+    addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", fromSeconds(0.1), false);
+  };
+  show.loader.late[2] = fromSeconds(0.5);
+  show.scene.open("show");
+  show.frames(1);
+  show.scene.command("game", Verb::Load, {}, signatureAt(1, 60).time);
+  show.frames(2);
+  show.scene.command("game", Verb::Unload, {}, show.input.time);
+  show.frames(40);
+  EXPECT_EQ(show.scene.loadCount(), 1u);
+  EXPECT_EQ(show.loader.disposed, 1u);
+  EXPECT_FALSE(show.scene.awaits(2));
+}
+
 TEST(Scene, NamesResolveInTheFileThenOutwards) {
   ShowFixture show;
   show.loader.files["game"] = [](Load& load) {

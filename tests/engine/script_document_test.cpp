@@ -130,6 +130,16 @@ TEST(ScriptDocument, AWrongDeclarationDoesNotMakeItsUsersWrong) {
   EXPECT_EQ(errorsOf("group(name=a, scale=0)\ngroup(name=b, parent=a)").size(), 1U);
 }
 
+TEST(ScriptDocument, VeryManyLostNamesDoNotMakeReferencesDear) {
+  std::string text = "dynobjct(name=first";
+  for (int i = 0; i < 100000; ++i) text += ",name=lost" + std::to_string(i);
+  text += ")\n";
+  for (int i = 0; i < 100000; ++i) text += "group(parent=x" + std::to_string(i) + ")\n";
+  Diagnostics findings;  // a hundred thousand times a hundred thousand comparisons would take a minute
+  checkScript(std::move(SourceText::make("many.evs", text).value()), findings);
+  EXPECT_EQ(findings.errorCount(), 1u) << "any of the names may be among those lost";
+}
+
 TEST(ScriptDocument, TheFlowOfErrorsIsBounded) {
   std::string text;
   for (int i = 0; i < 10'000; ++i) text += "group(scal=1, nam=2, parent=nobody)\n";

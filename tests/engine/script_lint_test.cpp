@@ -56,6 +56,19 @@ TEST(ScriptLint, AttributesWithoutEffectAreNamed) {
   EXPECT_EQ(warningsOf("dynobject(name=b, file=b.obj, mass=2, density=3) dynamics(collidee=b)").size(), 1U);
 }
 
+TEST(ScriptLint, MoreLightsThanShineAreTold) {
+  std::string text;
+  for (int i = 0; i < 16; ++i) text += "light( position=\"0,0,3\" )\n";
+  EXPECT_TRUE(warningsOf(text).empty());
+  text += "light( name=off, initstate=off )\n";
+  text += "timer( period=1, eventmessage=\"timesup, off, enable\" )\n";
+  EXPECT_TRUE(warningsOf(text).empty());
+  text += "light()\nlight()\n";
+  const auto warnings = warningsOf(text);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("18 lights are on at the start, but only 16"), std::string::npos) << warnings[0];
+}
+
 TEST(ScriptLint, AFormatThatIsNotReadIsNamed) {
   EXPECT_EQ(warningsOf("object(file=models/Ball.fbx)").size(), 1U);
   EXPECT_TRUE(warningsOf("object(file=models/Ball.OBJ)").empty());

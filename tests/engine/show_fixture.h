@@ -15,7 +15,13 @@ public:
   using Recipe = std::function<void(Load&)>;
   std::map<std::string, Recipe> files;
   std::size_t disposed = 0;
+  std::map<std::uint32_t, Nanoseconds> late;  ///< when loads take effect that are not ready when they are due
+  std::vector<Diagnostic> reported;
 
+  bool takesEffect(std::uint32_t number, Nanoseconds now) override {
+    const auto at = late.find(number);
+    return at == late.end() || now >= at->second;
+  }
   void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine&) override {
     auto load = std::make_unique<Load>();
     load->number = number, load->file = file, load->owner = owner;
@@ -28,6 +34,7 @@ public:
     return load;
   }
   void dispose(std::unique_ptr<Load>, std::uint64_t) override { ++disposed; }
+  void report(const Diagnostic& finding) override { reported.push_back(finding); }
 
 private:
   std::map<std::uint32_t, std::unique_ptr<Load>> ready_;

@@ -1,5 +1,7 @@
 #include "pipeline/frame_loop.h"
 
+#include "engine/run_stopped.h"
+
 #include <gtest/gtest.h>
 #include <mutex>
 #include <set>
@@ -94,9 +96,112 @@ TEST(ThreadsFrameLoop, AWallThatFailsStopsTheRunWithItsReason) {
   o.walls = 4, o.frames = 1000;
   const FrameLoopOutcome outcome = runFrames(stages, o);
   ASSERT_TRUE(outcome.failure);
-  EXPECT_EQ(*outcome.failure, "wall 1 is broken");
+  EXPECT_EQ(outcome.failure->message, "wall 1 is broken");
   EXPECT_LE(outcome.framesShown, 20u);
   EXPECT_EQ(stages.closed, 4);
+}
+
+/// Throws in one of its stages, in frame 5 (or when it is opened).
+class ThrowingStages final : public CountingStages {
+public:
+  ThrowingStages(std::string where, bool memory)
+      : CountingStages(2, kSlots), where_(std::move(where)), memory_(memory) {}
+  void app(const TimeSignature& now, std::size_t slot) override {
+    if (now.frame == 5) maybe("App");
+    CountingStages::app(now, slot);
+  }
+  void cull(std::size_t wall, std::size_t slot, DrawList& list) override {
+    CountingStages::cull(wall, slot, list);
+    if (list.signature.frame == 5 && wall == 1) maybe("Cull");
+  }
+  Failure openWall(std::size_t wall) override {
+    if (wall == 1) maybe("opening");
+    return {};
+  }
+  Failure draw(std::size_t wall, const DrawList& list) override {
+    if (list.signature.frame == 5 && wall == 1) maybe("Draw");
+    return CountingStages::draw(wall, list);
+  }
+  Failure swap(const TimeSignature& now) override {
+    if (now.frame == 5) maybe("Swap");
+    return CountingStages::swap(now);
+  }
+  void closeWall(std::size_t wall) override {
+    CountingStages::closeWall(wall);
+    if (wall == 1) maybe("closing");
+  }
+
+private:
+  void maybe(const std::string& stage) const {
+    if (stage != where_) return;
+    if (memory_) throw std::bad_alloc();
+    throw std::runtime_error("a fault of ours");
+  }
+  std::string where_;
+  bool memory_;
+};
+
+TEST(ThreadsFrameLoop, WhatAStageThrowsEndsTheRunAndIsNamed) {
+  const std::vector<std::pair<const char*, const char*>> places{{"App", "App, frame 5: "},
+                                                                {"Cull", "Cull of wall 2, frame 5: "},
+                                                                {"Draw", "Draw of wall 2, frame 5: "},
+                                                                {"Swap", "Swap, frame 5: "},
+                                                                {"opening", "opening of wall 2: "},
+                                                                {"closing", "closing of wall 2: "}};
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
+    for (const auto& [stage, place] : places)
+      for (const bool memory : {false, true}) {
+        ThrowingStages stages(stage, memory);
+        FrameLoopOptions o;
+        o.mode = mode, o.walls = 2, o.frames = 20;
+        const FrameLoopOutcome outcome = runFrames(stages, o);
+        ASSERT_TRUE(outcome.failure) << stage;
+        EXPECT_EQ(outcome.failure->message,
+                  std::string(place) + (memory ? "out of memory" : "a fault of ours"));
+        EXPECT_EQ(outcome.failure->kind, FailureKind::Fault);
+        EXPECT_EQ(stages.closed, 2);
+        EXPECT_FALSE(outcome.stopped);
+      }
+}
+
+/// Waits in App for something that will not come, until the run is to stop.
+class WaitingStages final : public CountingStages {
+public:
+  explicit WaitingStages(std::atomic<bool>& stop) : CountingStages(2, kSlots), stop_(stop) {}
+  void app(const TimeSignature& now, std::size_t slot) override {
+    if (now.frame < 5) return CountingStages::app(now, slot);
+    stop_ = true;
+    throw RunStopped();
+  }
+
+private:
+  std::atomic<bool>& stop_;
+};
+
+TEST(ThreadsFrameLoop, AFrameThatIsGivenUpDoesNotCount) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    std::atomic<bool> stop = false;
+    WaitingStages stages(stop);
+    FrameLoopOptions o;
+    o.mode = mode, o.walls = 2;
+    FrameLoop loop(stages, o, stop);
+    const FrameLoopOutcome outcome = loop.run();
+    EXPECT_TRUE(outcome.stopped);
+    EXPECT_FALSE(outcome.failure);
+    EXPECT_EQ(outcome.framesSimulated, 5u);
+    EXPECT_EQ(outcome.framesShown, 5u);
+    EXPECT_EQ(stages.closed, 2);
+  }
+}
+
+TEST(ThreadsFrameLoop, TimesThatWereDecidedAreObeyed) {
+  CountingStages stages(1, kSlots);
+  FrameLoopOptions o;
+  o.mode = Mode::Sequential, o.rate = 10;
+  o.frameTimes = {{2, fromSeconds(0.5)}, {4, fromSeconds(1)}};
+  o.end = fromSeconds(1);
+  const FrameLoopOutcome outcome = runFrames(stages, o);
+  EXPECT_EQ(outcome.framesShown, 5u) << "at 0, 0.1, 0.5, 0.6 and 1 s";
 }
 
 TEST(ThreadsFrameLoop, StopsCleanlyWhenAsked) {

@@ -92,6 +92,29 @@ TEST(SceneState, ChunksAreStoredOnceAndShownAndHiddenBySlot) {
   EXPECT_TRUE(state.view(0).chunks.empty());
 }
 
+TEST(SceneState, WhatIsNotedForSlotsThatAreNeverWrittenDoesNotGrow) {
+  SceneState state;
+  const std::vector<InstanceRecord> records(100);
+  std::size_t most = 0;
+  for (int round = 0; round < 200; ++round) {  // a sub-scene comes, all its objects move, it goes
+    const ChunkId chunk = state.arena().add(records);
+    ChangeSet c;
+    c.chunks = {{chunk, true}};
+    for (std::uint32_t i = 0; i < 100; ++i) {
+      c.statics.push_back({chunk, i, true});
+      c.instances.push_back(instance(i, round));
+    }
+    state.publish(0, c);
+    c = {};
+    c.chunks = {{chunk, false}};
+    state.publish(0, c);
+    state.arena().free(chunk);
+    most = std::max(most, state.noted());
+  }
+  EXPECT_LE(most, 200u);
+  EXPECT_TRUE(state.view(0).chunks.empty());
+}
+
 TEST(ChunkArena, GivesFreedRoomToTheNextChunk) {
   ChunkArena arena;
   std::vector<InstanceRecord> records(1000);

@@ -33,6 +33,50 @@ TEST_P(TargetProvider, OffersAtLeastOpenGl33Core) {
   target.value()->release();
 }
 
+/// An implementation that draws less than Stadion would.
+class SmallTarget final : public Target {
+public:
+  explicit SmallTarget(const GlTable& gl) : Target(gl, 1, 1) {}
+  std::optional<Diagnostic> makeCurrent() override { return {}; }
+  void release() override {}
+};
+
+class SmallProvider final : public GlProvider {
+public:
+  SmallProvider() {
+    gl_.GetIntegerv = [](GLenum what, GLint* value) {
+      value[0] = what == GL_MAX_TEXTURE_SIZE ? 2048 : 4096;
+      if (what == GL_MAX_VIEWPORT_DIMS) value[1] = 1024;
+    };
+  }
+  std::string_view name() const override { return "small"; }
+  Result<std::unique_ptr<Target>> create(std::uint32_t, std::uint32_t) override {
+    return std::unique_ptr<Target>(std::make_unique<SmallTarget>(gl_));
+  }
+
+private:
+  GlTable gl_;
+};
+
+TEST(TargetSize, IsWhatTheProviderSaysItCanDraw) {
+  SmallProvider provider;
+  EXPECT_FALSE(checkPictureSize(provider, 2048, 1024));
+  for (const auto& [width, height] : {std::pair(2049u, 1u), std::pair(1u, 1025u)}) {
+    const auto why = checkPictureSize(provider, width, height);
+    ASSERT_TRUE(why);
+    EXPECT_NE(why->message.find("too large for small, which draws at most 2048 x 1024"), std::string::npos)
+        << why->message;
+  }
+  EXPECT_TRUE(checkPictureSize(provider, kMaxPictureSide + 1, 1));
+}
+
+TEST_P(TargetProvider, SaysBeforehandWhichSizesItDraws) {
+  GlProvider& provider = *test::provider(GetParam());
+  EXPECT_FALSE(checkPictureSize(provider, 800, 600));
+  EXPECT_TRUE(checkPictureSize(provider, kMaxPictureSide, kMaxPictureSide));
+  EXPECT_TRUE(checkPictureSize(provider, 0, 1));
+}
+
 TEST_P(TargetProvider, RefusesSizesThatCannotBeDrawn) {
   GlProvider& provider = *test::provider(GetParam());
   EXPECT_FALSE(provider.create(0, 10));

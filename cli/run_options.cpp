@@ -1,0 +1,71 @@
+#include "cli/run_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace stadion {
+
+void RunOptions::addTo(CLI::App& command) {
+  show.addTo(command);
+  std::vector<std::string> layouts = stereoLayoutNames();
+  command.add_option("--stereo", stereo, "how the two eyes' pictures are written")
+      ->check(CLI::IsMember(layouts))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--pace", pace,
+          "free: as fast as possible; lock: on the ticks of --rate; float: a late frame begins at once "
+          "(default: free with --frames or --out, else lock)")
+      ->check(CLI::IsMember({"free", "lock", "float"}));
+  command.add_option("--record-input", recordInput, "write what the trackers said to this input log");
+  command.add_option(
+      "--out", out,
+      "folder for pictures, contact-sheet.png and summary.json; only the frames of --pictures are drawn");
+  command
+      .add_option("--pictures", pictures,
+                  "of which frames pictures are written: last, all, none, or N for every Nth")
+      ->capture_default_str();
+  command.add_flag("--sheets", sheets, "a contact sheet of all walls beside each frame's pictures");
+  command.add_flag("--video", video, "a video of all walls (needs ffmpeg)");
+  command.add_flag("--profile", profile, "say which nodes cost App the most");
+  command.add_option("--gl", provider, "who draws: osmesa or egl (the same pixels)")
+      ->check(CLI::IsMember({"osmesa", "egl"}))
+      ->capture_default_str();
+  command.add_option("--trace", trace,
+                     "write where this node is in every frame to trace-NODE.csv in --out DIR");
+  command.add_flag("--json", json, "the summary as one JSON object on stdout");
+  command.footer("SIGINT (Ctrl-C) and SIGTERM end the run after the frames under way; all that was asked for "
+                 "is written, and "
+                 "the\nexit code is 130 or 143. The second one ends it at once. A further run into the same "
+                 "--out DIR removes "
+                 "the files of\nthe run before, and no others.");
+}
+
+bool RunOptions::settle(Diagnostics& findings) {
+  layout = *stereoLayout(stereo);
+  if (const auto choice = PictureChoice::parse(pictures))
+    pictureChoice = *choice;
+  else
+    findings.error({}, "--pictures: \"" + pictures +
+                           "\" is not last, all, none or a whole number N from 1 (every Nth frame)");
+  if (!trace.empty() && out.empty())
+    findings.error({}, "--trace needs --out DIR to know where the table goes");
+  if (video && out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
+  return show.settle(findings) && !findings.hasErrors();
+}
+
+bool RunOptions::everyFrameCounts(const Player& player) const {
+  const bool byInput = !show.input.empty() && show.input != "none";
+  return show.frames != 0 || show.seconds > 0 || !out.empty() || byInput || player.obeysLog();
+}
+
+FrameLoopOptions RunOptions::loopOptions(const Player& player) const {
+  FrameLoopOptions l = player.loopOptions();
+  l.delivery = everyFrameCounts(player) ? Delivery::Every : Delivery::Latest;
+  // A live show that drops frames ends with its log's last moment, not with its last frame's number.
+  if (l.delivery == Delivery::Latest && player.end() > 0) l.frames = 0, l.end = player.end();
+  const bool free = pace.empty() ? (show.frames != 0 || show.seconds > 0 || !out.empty()) : pace == "free";
+  l.pace = free ? Pace::Free : pace == "float" ? Pace::Float : Pace::Lock;
+  return l;
+}
+
+}  // namespace stadion

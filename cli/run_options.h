@@ -1,0 +1,32 @@
+#pragma once
+/// What `stadion run` can be asked for.
+
+#include "cli/player.h"
+#include "cli/run_output.h"
+
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+struct RunOptions {
+  ShowOptions show;
+  std::string stereo = "pair", pace, recordInput, out, pictures = "last", provider = "osmesa";
+  std::vector<std::string> trace;
+  bool sheets = false, video = false, profile = false, json = false;
+
+  StereoLayout layout = StereoLayout::Pair;  ///< from `stereo`
+  PictureChoice pictureChoice;               ///< from `pictures`
+
+  /// Expects that this object stays where it is until the command line has been read.
+  void addTo(CLI::App& command);
+  /// Completes what depends on other options. Says what is wrong.
+  bool settle(Diagnostics& findings);
+
+  /// Every frame counts where somebody looks at the result later, and where a log says when each one was;
+  /// else the newest one does.
+  bool everyFrameCounts(const Player& player) const;
+  FrameLoopOptions loopOptions(const Player& player) const;
+};
+
+}  // namespace stadion

@@ -1,0 +1,122 @@
+#include "cli/run_report.h"
+
+#include "cli/exit_code.h"
+#include "cli/stop_signal.h"
+#include "engine/atomic_file.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace stadion {
+namespace {
+
+void addTimes(const FinishedRun& run, RunSummary& s) {
+  const FrameTimes& t = run.loop.times();
+  s.frameMs = distributionOf(t.period.values());
+  const std::string clock = "steady clock around the stage",
+                    finish = "steady clock around draw + finish + read back";
+  s.stages.push_back({"app", "", distributionOf(t.app.values()), clock});
+  for (std::size_t w = 0; w < t.draw.size(); ++w) {
+    const std::string& name = run.player.walls().walls[w].wall.name;
+    s.stages.push_back({"cull", name, distributionOf(t.cull[w].values()), clock});
+    s.stages.push_back({"draw", name, distributionOf(t.draw[w].values()), finish});
+    s.latency.push_back({name, distributionOf(t.latency[w].values())});
+    const std::vector<Picture>& eyes = run.stages.lastPictures()[w].eyes;
+    for (std::size_t e = 0; e < eyes.size(); ++e)
+      s.imageHashes.push_back({name, eyeName(kEyes[e]), imageHash(eyes[e])});
+  }
+}
+
+RunSummary summarise(const FinishedRun& run) {
+  const RunOptions& o = run.options;
+  RunSummary s;
+  s.show = o.show.script, s.walls = o.show.walls, s.mode = o.show.mode, s.stereo = o.stereo;
+  s.width = o.show.width, s.height = o.show.height, s.rate = run.player.rate();
+  s.frames = run.outcome.framesShown, s.lateFrames = run.outcome.missedTicks;
+  s.elapsedSeconds = run.elapsed;
+  addTimes(run, s);
+  run.watch.addTo(s, run.outcome.framesSimulated);
+  s.remarks.push_back("drawn by " + run.stages.glDescription());
+  if (run.outcome.stopped) s.stopped = stopSignalName();
+  return s;
+}
+
+/// The first failure is told and decides the exit code; what follows from it is not told again.
+class Verdict {
+public:
+  void add(const Failure& why) {
+    if (!why || failure_) return;
+    failure_ = why;
+    std::fprintf(stderr, "stadion: %s\n", why->message.c_str());
+  }
+  void add(const std::optional<Diagnostic>& why) {
+    if (why) add(Failure(Reason(*why, FailureKind::Refusal)));
+  }
+  const Failure& failure() const { return failure_; }
+  int code(bool stopped) const {
+    return failure_ ? exitCodeOf(*failure_) : stopped ? kStopped + stopSignal() : kOk;
+  }
+
+private:
+  Failure failure_;
+};
+
+void writeTable(const NodeTrace& trace, OutputFolder& folder, RunSummary& summary, Verdict& verdict) {
+  const std::string name = "trace-" + trace.fileName() + ".csv";
+  auto wrong = folder.note(name);
+  if (!wrong) wrong = writeFile(folder.pathOf(name), trace.table());
+  if (!wrong) summary.files.push_back(folder.pathOf(name));
+  verdict.add(wrong);
+}
+
+void writeSummary(OutputFolder& folder, RunSummary& summary, Verdict& verdict) {
+  auto wrong = folder.note("summary.json");
+  if (!wrong) wrong = writeFile(folder.pathOf("summary.json"), toJson(summary) + "\n");
+  if (!wrong) summary.files.push_back(folder.pathOf("summary.json"));
+  verdict.add(wrong);
+}
+
+void print(const RunOptions& o, const RunSummary& summary) {
+  if (o.json) {
+    std::printf("%s\n", toJson(summary).c_str());
+    return;
+  }
+  std::printf("%s%s", toText(summary).c_str(), happeningsText(summary).c_str());
+  if (o.out.empty()) std::printf("\nTo see it:  ./stadion run %s --out pictures\n", o.show.script.c_str());
+}
+
+}  // namespace
+
+int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
+  Verdict verdict;
+  verdict.add(run.outcome.failure);
+  RunSummary summary = summarise(run);
+  if (output) {
+    output->finish(run.stages.shownFrame(), run.stages.lastPictures());  // after a failure App may be ahead
+    summary.files = output->files();
+    summary.remarks.insert(summary.remarks.end(), output->remarks().begin(), output->remarks().end());
+    verdict.add(output->failure());
+  }
+  verdict.add(run.watch.finish());
+  if (folder)
+    for (const NodeTrace& t : run.watch.traces()) writeTable(t, *folder, summary, verdict);
+  if (verdict.failure()) summary.failure = verdict.failure()->message;
+  if (folder) writeSummary(*folder, summary, verdict);
+  print(run.options, summary);
+  return verdict.code(run.outcome.stopped);
+}
+
+void tellDearest(const NodeTimes& times, const Scene& scene, std::uint64_t frames) {
+  frames = std::max<std::uint64_t>(1, frames);
+  std::fprintf(stderr, "\ndearest nodes in App (steady clock)\n   us/frame  visits  node\n");
+  for (const NodeCost& c : times.dearest(10)) {
+    const Load* load = scene.load(c.node.load);
+    const std::string where =
+        load ? load->file + ":" + std::to_string(load->lines[c.node.position]) : "(unloaded)";
+    const Node* node = load ? load->nodes[c.node.position].get() : nullptr;
+    std::fprintf(stderr, "%11.2f %7llu  %s %s\n", 1000 * c.total() / static_cast<double>(frames),
+                 static_cast<unsigned long long>(c.visits), node ? node->name().c_str() : "", where.c_str());
+  }
+}
+
+}  // namespace stadion

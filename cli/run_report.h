@@ -1,0 +1,29 @@
+#pragma once
+/// What `run` says and writes when the show is over.
+
+#include "cli/run_options.h"
+#include "cli/run_watch.h"
+#include "pipeline/output/run_summary.h"
+#include "profiling/node_times.h"
+
+namespace stadion {
+
+/// A run that is over.
+struct FinishedRun {
+  const RunOptions& options;
+  Player& player;
+  const ShowStages& stages;
+  const FrameLoop& loop;
+  const FrameLoopOutcome& outcome;
+  RunWatch& watch;
+  double elapsed;  ///< [s]
+};
+
+/// Completes every file and tells how it went. Returns the exit code. `output` and its folder: null without
+/// --out.
+int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder);
+
+/// Which nodes cost App the most, on stderr.
+void tellDearest(const NodeTimes& times, const Scene& scene, std::uint64_t frames);
+
+}  // namespace stadion

@@ -1,0 +1,75 @@
+#include "cli/run_watch.h"
+
+#include <algorithm>
+
+namespace stadion {
+namespace {
+
+std::string nameIn(const Scene& scene, NodeRef node) {
+  const Load* load = scene.load(node.load);
+  if (!load || node.position >= load->nodes.size() || !load->nodes[node.position]) return "?";
+  const std::string name = load->nodes[node.position]->name();
+  return name.empty() ? load->file + ":" + std::to_string(load->lines[node.position]) : name;
+}
+
+}  // namespace
+
+std::unique_ptr<RunWatch> RunWatch::create(const RunOptions& options, Player& player, Diagnostics& findings) {
+  std::unique_ptr<RunWatch> watch(new RunWatch(player));
+  for (const std::string& node : options.trace) {
+    const NodeRef ref = player.scene().resolve(node, {1, 0});
+    // What stands in a sub-scene may come later.
+    if (node.find('/') == node.npos && !player.scene().find(ref))
+      findings.error({options.show.script, 0, 0}, "--trace: the show has no node \"" + node + "\"");
+    watch->traces_.emplace_back(node);
+  }
+  if (findings.hasErrors()) return nullptr;
+  // Where every frame follows the last one at 1/rate there is nothing to record but the input.
+  const bool clockDecides = !options.everyFrameCounts(player) || player.obeysLog();
+  if (!options.recordInput.empty())
+    watch->recorder_ = std::make_unique<InputRecorder>(options.recordInput, clockDecides ? player.rate() : 0);
+  if (watch->recorder_)
+    player.tellLateLoads([recorder = watch->recorder_.get()](std::uint32_t load, Nanoseconds time) {
+      recorder->lateLoad(load, time);
+    });
+  return watch;
+}
+
+void RunWatch::see(const TimeSignature& now, const InputSample& input, const Scene& scene) {
+  last_ = now;
+  stateHash_ = scene.stateHash();
+  const FrameCounters& c = scene.counters();
+  visited_ += c.nodesVisited, published_ += c.changesPublished;
+  delivered_ += c.messagesDelivered, lost_ += c.messagesLost;
+  for (const EventRecord& e : scene.events()) note(e, scene);
+  if (recorder_) recorder_->frame(now), recorder_->record(input);
+  for (NodeTrace& t : traces_) t.record(now, scene);
+}
+
+std::optional<Diagnostic> RunWatch::finish() {
+  if (!recorder_) return {};
+  // What had not come by the end must not come in a replay either.
+  for (const std::uint32_t load : player_.overdueLoads()) recorder_->lateLoad(load, last_.time + 1);
+  return recorder_->commit();
+}
+
+void RunWatch::note(const EventRecord& event, const Scene& scene) {
+  ++happenedCount_;
+  if (happened_.size() < RunSummary::kMostHappenings)
+    happened_.push_back({toSeconds(event.when), std::string(nameOf(event.event)), nameIn(scene, event.node)});
+}
+
+void RunWatch::addTo(RunSummary& s, std::uint64_t frames) const {
+  s.seconds = toSeconds(last_.time);
+  s.lastFrame = last_.frame;
+  s.stateHash = stateHash_;
+  const double each = static_cast<double>(std::max<std::uint64_t>(1, frames));
+  s.counters = {{"nodes visited per frame", static_cast<double>(visited_) / each},
+                {"changes published per frame", static_cast<double>(published_) / each},
+                {"messages delivered", static_cast<double>(delivered_)},
+                {"messages lost", static_cast<double>(lost_)}};
+  s.happened = happened_;
+  s.happenedCount = happenedCount_;
+}
+
+}  // namespace stadion

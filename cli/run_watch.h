@@ -1,0 +1,45 @@
+#pragma once
+/// Looks on while a show is played: its hashes, what happened in it, and the records that were asked for (the
+/// input, where nodes are).
+///
+/// Threads  made before the run, told on the App thread, read when the run is over.
+
+#include "cli/node_trace.h"
+#include "cli/run_options.h"
+#include "engine/input/input_recorder.h"
+#include "pipeline/output/run_summary.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace stadion {
+
+class RunWatch {
+public:
+  /// Null, with the reason in the findings, if a node to be traced is not there.
+  static std::unique_ptr<RunWatch> create(const RunOptions& options, Player& player, Diagnostics& findings);
+
+  /// After each App stage.
+  void see(const TimeSignature& now, const InputSample& input, const Scene& scene);
+  /// Completes the records; says what could not be written.
+  std::optional<Diagnostic> finish();
+
+  const std::vector<NodeTrace>& traces() const { return traces_; }
+  /// Writes down what was seen in `frames` frames.
+  void addTo(RunSummary& summary, std::uint64_t frames) const;
+
+private:
+  explicit RunWatch(const Player& player) : player_(player) {}
+  void note(const EventRecord& event, const Scene& scene);
+
+  const Player& player_;
+  std::unique_ptr<InputRecorder> recorder_;
+  std::vector<NodeTrace> traces_;
+  TimeSignature last_;
+  std::uint64_t stateHash_ = 0, visited_ = 0, published_ = 0, delivered_ = 0, lost_ = 0;
+  std::vector<Happening> happened_;
+  std::uint64_t happenedCount_ = 0;
+};
+
+}  // namespace stadion

@@ -1,0 +1,47 @@
+#pragma once
+/// What a clock decided in a live run, as its input log keeps it, so that a replay obeys it.
+///
+/// Most frames follow each other at 1/rate, and most files are ready when they are due: only what differs is
+/// written down.
+///
+/// Units    show time [ns], from the start of the show.
+/// Threads  plain values.
+
+#include "engine/time_signature.h"
+
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace stadion {
+
+struct RunDecisions {
+  double rate = 0;                              ///< frames a second of the recorded run; 0 = not said
+  std::map<std::uint64_t, Nanoseconds> frames;  ///< frame number to its show time; the ones after it follow
+  std::map<std::uint32_t, Nanoseconds> loads;   ///< load number to when it took effect, because it came late
+
+  bool empty() const { return frames.empty() && loads.empty(); }
+  Nanoseconds end() const { return frames.empty() ? 0 : frames.rbegin()->second; }
+};
+
+/// The show time of each frame: on the ticks of the rate, unless it was decided otherwise.
+///
+/// Threads  one thread.
+class FrameClock {
+public:
+  explicit FrameClock(double rate, std::map<std::uint64_t, Nanoseconds> decided = {})
+      : rate_(rate), decided_(std::move(decided)) {}
+  /// One whose last frame was `last`.
+  FrameClock(double rate, const TimeSignature& last);
+
+  /// The next frame, `ticks` after the previous one; a decision made earlier counts more.
+  TimeSignature next(std::uint64_t ticks = 1);
+
+private:
+  double rate_;
+  std::map<std::uint64_t, Nanoseconds> decided_;
+  std::uint64_t frame_ = 0, tick_ = 0;
+  Nanoseconds time_ = 0;
+};
+
+}  // namespace stadion

@@ -1,0 +1,123 @@
+#include "pipeline/loader.h"
+
+#include "engine/run_stopped.h"
+#include "engine/script/builder.h"
+#include "pipeline/state/scene_state.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <new>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::atomic<bool> released = false;
+
+std::unique_ptr<Node> throwFault(const NodeRequest&) {
+  throw std::runtime_error("a fault of ours");
+}
+std::unique_ptr<Node> throwMemory(const NodeRequest&) {
+  throw std::bad_alloc();
+}
+std::unique_ptr<Node> waitForRelease(const NodeRequest&) {
+  while (!released) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return nullptr;
+}
+
+/// A loader for a show of one timer, which `make` makes.
+class OneTimer {
+public:
+  explicit OneTimer(NodeFactory make) {
+    fs::create_directories(folder_);
+    std::ofstream(file()) << "timer( period=1 )\n";
+    factories_[static_cast<std::size_t>(NodeKind::Timer)] = make;
+    roots_.add(folder_);
+    loader = std::make_unique<Loader>(LoaderParts{meshes_, state_.arena(), importer_, roots_, factories_,
+                                                  [](const Diagnostics&) {}, &stop});
+  }
+  ~OneTimer() {
+    released = true;
+    loader.reset();
+    fs::remove_all(folder_);
+  }
+  std::string file() const { return folder_ / "timer.evs"; }
+  void request(std::uint32_t number) { loader->request(number, file(), {}, Affine::Identity()); }
+
+  std::atomic<bool> stop = false;
+  std::unique_ptr<Loader> loader;
+
+private:
+  fs::path folder_ = fs::temp_directory_path() / ("stadion-loader-" + std::to_string(getpid()));
+  MeshStore meshes_;
+  SceneState state_;
+  AssetRoots roots_;
+  NodeFactories factories_{};
+  Importer importer_{"/nowhere/stadion-import", AssetRoots()};
+};
+
+std::string thrownBy(NodeFactory make) {
+  OneTimer show(make);
+  show.request(1);
+  try {
+    show.loader->take(1);
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+  return "nothing";
+}
+
+TEST(ThreadsLoader, WhatThePreparationThrowsIsThrownAgainWithTheFilesName) {
+  const std::string fault = thrownBy(throwFault), memory = thrownBy(throwMemory);
+  EXPECT_NE(fault.find("timer.evs: a fault of ours"), std::string::npos) << fault;
+  EXPECT_NE(memory.find("timer.evs: out of memory"), std::string::npos) << memory;
+}
+
+TEST(ThreadsLoader, NobodyWaitsForALoadWhenTheRunIsToStop) {
+  released = false;
+  OneTimer show(waitForRelease);
+  show.request(1);
+  std::thread signal([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    show.stop = true;
+  });
+  EXPECT_THROW(show.loader->take(1), RunStopped);
+  signal.join();
+}
+
+TEST(ThreadsLoader, ALiveShowGoesOnAndTheDecisionIsTold) {
+  released = false;
+  OneTimer show(waitForRelease);
+  std::vector<std::pair<std::uint32_t, Nanoseconds>> told;
+  show.loader->tellLateLoads([&](std::uint32_t load, Nanoseconds time) { told.emplace_back(load, time); });
+  show.loader->playLive();
+  show.request(1);
+  EXPECT_TRUE(show.loader->takesEffect(1, 0)) << "at the start everything is waited for";
+  EXPECT_FALSE(show.loader->takesEffect(1, 10));
+  EXPECT_FALSE(show.loader->takesEffect(1, 20));
+  EXPECT_EQ(show.loader->overdue(), std::vector<std::uint32_t>{1});
+  released = true;
+  show.request(2);
+  show.loader->take(2);  // the worker has done both
+  EXPECT_FALSE(show.loader->takesEffect(1, 20)) << "decided for this frame";
+  Nanoseconds now = 30;
+  for (; !show.loader->takesEffect(1, now); ++now) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0], std::pair(std::uint32_t{1}, now));
+}
+
+TEST(ThreadsLoader, AReplayObeysTheDecision) {
+  released = true;
+  OneTimer show(waitForRelease);
+  show.loader->obey({{1, 25}});
+  show.request(1);
+  EXPECT_FALSE(show.loader->takesEffect(1, 20));
+  EXPECT_TRUE(show.loader->takesEffect(1, 30));
+  EXPECT_TRUE(show.loader->takesEffect(2, 20)) << "the others are waited for";
+}
+
+}  // namespace
+}  // namespace stadion
