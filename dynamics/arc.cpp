@@ -22,25 +22,36 @@ void decay(double x, double& first, double& second) {
 /// Taylor coefficients of the orientation of a free body: w' = I^-1 (I w x w) in body axes, q' = q w / 2.
 void expand(Spin& s, const Vec3& inertia) {
   constexpr int n = Spin::kOrder;
-  std::array<Vec3, n + 1> w;
-  w[0] = s.inverse.cwiseProduct(s.q0.conjugate() * s.L);
+  double wx[n + 1], wy[n + 1], wz[n + 1];
+  const Vec3 w0 = s.inverse.cwiseProduct(s.q0.conjugate() * s.L);
+  wx[0] = w0.x(), wy[0] = w0.y(), wz[0] = w0.z();
   s.series[0] = {s.q0.w(), s.q0.x(), s.q0.y(), s.q0.z()};
   const Vec3 k((inertia.y() - inertia.z()) * s.inverse.x(), (inertia.z() - inertia.x()) * s.inverse.y(),
                (inertia.x() - inertia.y()) * s.inverse.z());
   for (int i = 0; i < n; ++i) {
-    Vec3 dw = Vec3::Zero();
-    Eigen::Vector4d dq = Eigen::Vector4d::Zero();
+    double dx = 0, dy = 0, dz = 0;
+    double a = 0, b = 0, c = 0, d = 0;
     for (int j = 0; j <= i; ++j) {
-      const Vec3 &a = w[j], &b = w[i - j];
-      dw += Vec3(a.y() * b.z(), a.z() * b.x(), a.x() * b.y());
-      const Eigen::Vector4d& q = s.series[j];
-      dq += Eigen::Vector4d(
-          -q[1] * b.x() - q[2] * b.y() - q[3] * b.z(), q[0] * b.x() + q[2] * b.z() - q[3] * b.y(),
-          q[0] * b.y() + q[3] * b.x() - q[1] * b.z(), q[0] * b.z() + q[1] * b.y() - q[2] * b.x());
+      const double x = wx[i - j], y = wy[i - j], z = wz[i - j];
+      dx += wy[j] * z, dy += wz[j] * x, dz += wx[j] * y;
+      const Eigen::Vector4d& q = s.series[static_cast<std::size_t>(j)];
+      a -= q[1] * x + q[2] * y + q[3] * z;
+      b += q[0] * x + q[2] * z - q[3] * y;
+      c += q[0] * y + q[3] * x - q[1] * z;
+      d += q[0] * z + q[1] * y - q[2] * x;
     }
-    w[i + 1] = k.cwiseProduct(dw) / (i + 1);
-    s.series[i + 1] = 0.5 / (i + 1) * dq;
+    const double share = 1.0 / (i + 1);
+    wx[i + 1] = k.x() * dx * share, wy[i + 1] = k.y() * dy * share, wz[i + 1] = k.z() * dz * share;
+    s.series[static_cast<std::size_t>(i + 1)] = 0.5 * share * Eigen::Vector4d(a, b, c, d);
   }
+  // As far as the last two terms stay below the tolerance; they may vanish, so the radius that bounds any
+  // free motion limits it as well.
+  constexpr double tolerance = 2e-15;
+  const double speed = s.L.norm() * s.inverse.maxCoeff();
+  const double last = std::max(s.series[n].cwiseAbs().maxCoeff(), 1e-300),
+               before = std::max(s.series[n - 1].cwiseAbs().maxCoeff(), 1e-300);
+  s.horizon = std::min(
+      {det::pow(tolerance / last, 1.0 / n), det::pow(tolerance / before, 1.0 / (n - 1)), 1.2 / speed});
 }
 
 Quat renormalised(const Quat& q) {
@@ -128,7 +139,6 @@ Spin Spin::free(const Quat& q, const Vec3& L, const Vec3& inertia) {
     s.axis = xy ? 2 : yz ? 0 : 1;
   } else {
     s.kind = Kind::Taylor;
-    s.horizon = 0.4 / (L.norm() * s.inverse.maxCoeff());
     expand(s, inertia);
   }
   return s;

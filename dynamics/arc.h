@@ -4,7 +4,7 @@
 /// Translation and rotation separate (the fields act at the centre of mass): a `Path` carries the centre, a
 /// `Spin` the orientation. Age is seconds since the arc began. Everything here is exact but for `Path` under
 /// fields that are not uniform (a quintic through a step of a fifth-order integrator) and `Spin` of
-/// asymmetric bodies (Taylor polynomial of order 14, error below 1e-13 over its horizon).
+/// asymmetric bodies (Taylor polynomial of order 14, whose horizon is chosen for an error below 1e-14).
 
 #include "engine/maths/maths.h"
 
@@ -36,10 +36,9 @@ struct Path {
   bool isParabola() const { return kind == Kind::Polynomial && degree <= 2; }
 };
 
-/// How the body turns.
-struct Spin {
+/// What every kind of spin has; see Spin.
+struct SpinTerms {
   enum class Kind { Still, Uniform, Symmetric, Taylor, Driven };
-  static constexpr int kOrder = 14;
   Kind kind = Kind::Still;
   int axis = 2;                 ///< of symmetry
   Quat q0 = Quat::Identity();   ///< at age 0, C to World
@@ -48,7 +47,20 @@ struct Spin {
   Vec3 alpha = Vec3::Zero();    ///< Driven: constant angular acceleration in World [rad/s2]
   Vec3 inverse = Vec3::Ones();  ///< inverse principal moments [1/(kg m2)]
   double horizon = std::numeric_limits<double>::infinity();  ///< greatest valid age [s]
-  std::array<Eigen::Vector4d, kOrder + 1> series;            ///< Taylor: of (w, x, y, z)
+};
+
+/// How the body turns.
+struct Spin : SpinTerms {
+  static constexpr int kOrder = 14;
+  std::array<Eigen::Vector4d, kOrder + 1> series;  ///< Taylor only: of (w, x, y, z)
+
+  Spin() = default;
+  Spin(const Spin& o) : SpinTerms(o) { copySeries(o); }
+  Spin& operator=(const Spin& o) {
+    SpinTerms::operator=(o);
+    copySeries(o);
+    return *this;
+  }
 
   /// Free rotation from orientation q and world angular momentum L.
   static Spin free(const Quat& q, const Vec3& L, const Vec3& inertia);
@@ -61,6 +73,11 @@ struct Spin {
   Vec3 angularMomentum(double age) const;
   /// At least the angular speed at any age up to `age`.
   double speedBound(double age) const;
+
+private:
+  void copySeries(const Spin& o) {
+    if (kind == Kind::Taylor) series = o.series;
+  }
 };
 
 }  // namespace stadion

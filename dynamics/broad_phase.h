@@ -1,5 +1,6 @@
 #pragma once
-/// Who may come near whom: the boxes that things sweep, sorted along one axis. Internal to dynamics/.
+/// Who may come near whom: the boxes that things sweep, in strips along one axis, sorted along another.
+/// Internal to dynamics/.
 ///
 /// Far larger boxes than most are kept apart and looked at one by one; so are those that have changed since
 /// the sorting, until there are too many of them.
@@ -9,6 +10,8 @@
 #include "engine/maths/maths.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -28,22 +31,18 @@ public:
   void file(std::vector<Entry> entries) {
     clear();
     if (entries.empty()) return;
-    chooseAxis(entries);
-    double mean = 0;
-    std::size_t bounded = 0;
+    chooseAxes(entries);
+    Vec3 mean = Vec3::Zero();
+    double bounded = 0;
     for (const Entry& e : entries)
-      if (extent(e) < 1e200) mean += extent(e), ++bounded;
-    const double large = bounded ? 8 * mean / static_cast<double>(bounded) : 0;
-    for (Entry& e : entries) (extent(e) <= large ? sorted_ : apart_).push_back(e);
-    std::stable_sort(sorted_.begin(), sorted_.end(),
-                     [&](const Entry& a, const Entry& b) { return a.box.lo[axis_] < b.box.lo[axis_]; });
-    for (std::size_t i = 0; i < sorted_.size(); ++i) {
-      sorted_[i].item->place = static_cast<std::uint32_t>(i);
-      low_.push_back(sorted_[i].box.lo[axis_]);
-      widest_ = std::max(widest_, extent(sorted_[i]));
-    }
+      if (extent(e).maxCoeff() < 1e200) mean += extent(e), ++bounded;
+    mean /= std::max(bounded, 1.0);
+    const double large = bounded > 0 ? 8 * std::max(mean[along_], mean[across_]) : 0;
+    for (Entry& e : entries)
+      (std::max(extent(e)[along_], extent(e)[across_]) <= large ? sorted_ : apart_).push_back(e);
     for (std::size_t i = 0; i < apart_.size(); ++i) apart_[i].item->place = apartAt(i);
     filedApart_ = apart_.size();
+    sortIntoStrips(2 * mean[across_]);
   }
 
   /// The item now sweeps this box.
@@ -72,8 +71,8 @@ public:
         if (e.item) e.item->place = kUnfiled;
       entries->clear();
     }
-    low_.clear();
-    widest_ = 0, filedApart_ = 0;
+    low_.clear(), strips_.clear();
+    widest_ = 0, widestAcross_ = 0, filedApart_ = 0;
   }
 
   /// So many have changed that sorting anew is cheaper.
@@ -82,9 +81,15 @@ public:
   /// Calls f(item) for everything whose box overlaps `box`. f must not file.
   template <class F>
   void eachNear(const Aabb& box, F f) const {
-    const auto first = std::lower_bound(low_.begin(), low_.end(), box.lo[axis_] - widest_);
-    for (auto i = static_cast<std::size_t>(first - low_.begin()); i < low_.size() && low_[i] <= box.hi[axis_]; ++i)
-      if (sorted_[i].item && sorted_[i].box.overlaps(box)) f(*sorted_[i].item);
+    const std::size_t end = strips_.empty() ? 0 : stripOf(box.hi[across_]) + 1;
+    for (std::size_t s = strips_.empty() ? 0 : stripOf(box.lo[across_] - widestAcross_); s < end; ++s) {
+      const auto last = low_.begin() + strips_[s + 1];
+      auto i = std::lower_bound(low_.begin() + strips_[s], last, box.lo[along_] - widest_);
+      for (; i != last && *i <= box.hi[along_]; ++i) {
+        const Entry& e = sorted_[static_cast<std::size_t>(i - low_.begin())];
+        if (e.item && e.box.overlaps(box)) f(*e.item);
+      }
+    }
     for (const Entry& e : apart_)
       if (e.item && e.box.overlaps(box)) f(*e.item);
   }
@@ -92,12 +97,17 @@ public:
 private:
   static constexpr std::uint32_t kApart = 0x80000000;
   static std::uint32_t apartAt(std::size_t i) { return kApart + static_cast<std::uint32_t>(i); }
-  double extent(const Entry& e) const { return e.box.hi[axis_] - e.box.lo[axis_]; }
+  static Vec3 extent(const Entry& e) { return e.box.hi - e.box.lo; }
   Entry& entryOf(const T& item) {
     return item.place >= kApart ? apart_[item.place - kApart] : sorted_[item.place];
   }
-  /// The one along which the boxes' middles are spread most.
-  void chooseAxis(const std::vector<Entry>& entries) {
+  std::size_t stripOf(double x) const {
+    const double s = (x - edge_) / width_;
+    return s > 0 ? std::min(static_cast<std::size_t>(std::min(s, 1e9)), strips_.size() - 2) : 0;
+  }
+
+  /// Those along which the boxes' middles are spread most.
+  void chooseAxes(const std::vector<Entry>& entries) {
     Vec3 sum = Vec3::Zero(), squares = Vec3::Zero();
     double n = 0;
     for (const Entry& e : entries) {
@@ -106,16 +116,54 @@ private:
       sum += c, squares += c.cwiseAbs2();
       ++n;
     }
-    axis_ = 0;
-    if (n > 1) (squares - sum.cwiseAbs2() / n).maxCoeff(&axis_);
+    Vec3 spread = n > 1 ? Vec3(squares - sum.cwiseAbs2() / n) : Vec3::Zero();
+    spread.maxCoeff(&along_);
+    spread[along_] = -1e300;
+    spread.maxCoeff(&across_);
+  }
+
+  void sortIntoStrips(double width) {
+    if (sorted_.empty()) return;
+    double far = -1e300;
+    edge_ = 1e300;
+    for (const Entry& e : sorted_) {
+      edge_ = std::min(edge_, e.box.lo[across_]), far = std::max(far, e.box.lo[across_]);
+      widest_ = std::max(widest_, extent(e)[along_]),
+      widestAcross_ = std::max(widestAcross_, extent(e)[across_]);
+    }
+    const double most = std::sqrt(static_cast<double>(sorted_.size())) * 4;
+    width_ = std::max({width, (far - edge_) / most, 1e-9});
+    strips_.assign(static_cast<std::size_t>((far - edge_) / width_) + 2, 0);
+    // By strip, within a strip along the axis, then as filed.
+    std::vector<std::uint32_t> strip;
+    for (const Entry& e : sorted_) strip.push_back(static_cast<std::uint32_t>(stripOf(e.box.lo[across_])));
+    std::vector<std::uint32_t> order(sorted_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      if (strip[a] != strip[b]) return strip[a] < strip[b];
+      const double la = sorted_[a].box.lo[along_], lb = sorted_[b].box.lo[along_];
+      return la != lb ? la < lb : a < b;
+    });
+    std::vector<Entry> sorted;
+    sorted.reserve(order.size());
+    for (const std::uint32_t i : order) {
+      sorted_[i].item->place = static_cast<std::uint32_t>(sorted.size());
+      low_.push_back(sorted_[i].box.lo[along_]);
+      sorted.push_back(sorted_[i]);
+      ++strips_[strip[i] + 1];
+    }
+    for (std::size_t s = 1; s < strips_.size(); ++s) strips_[s] += strips_[s - 1];
+    sorted_ = std::move(sorted);
   }
 
   std::vector<Entry> sorted_;
-  std::vector<double> low_;     ///< of the sorted ones, along the axis
-  std::vector<Entry> apart_;    ///< the large ones, then those that have changed
-  std::size_t filedApart_ = 0;  ///< how many large ones
-  double widest_ = 0;
-  int axis_ = 0;
+  std::vector<double> low_;             ///< of the sorted ones, along the axis
+  std::vector<std::ptrdiff_t> strips_;  ///< where each strip begins among them, and the end
+  std::vector<Entry> apart_;            ///< the large ones, then those that have changed
+  std::size_t filedApart_ = 0;          ///< how many large ones
+  double widest_ = 0, widestAcross_ = 0;
+  double edge_ = 0, width_ = 1;  ///< of the first strip, of each
+  int along_ = 0, across_ = 1;
 };
 
 }  // namespace stadion

@@ -31,8 +31,11 @@ public:
     bool touching = false, fired = false;
     Nanoseconds impact = 0;
     std::uint64_t frame = 0;  ///< of the last reported impact
+    Nanoseconds look = 0;     ///< before that it cannot be released unless an arc changes ...
+    std::uint32_t versionA = 0, versionB = 0;  ///< ... from these [ns]
   };
   const std::map<Key, Memory>& all() const { return memory_; }
+  std::map<Key, Memory>& all() { return memory_; }
   std::vector<ContactEvent>& events() { return events_; }
   const std::vector<ContactEvent>& events() const { return events_; }
 

@@ -101,13 +101,13 @@ struct RigidBody {
   std::uint32_t version = 0;  ///< counts arcs: older predictions are void
   std::uint32_t impacts = 0;  ///< in the short time `impactSpan`
   Nanoseconds impactSpan = -1;
-  double quiet = 0;           ///< Contact: how long it has hardly moved [s]
+  double quiet = 0;  ///< Contact: how long it has hardly moved [s]
   std::string trouble;
-  Pose pose;             ///< X_WN at the end of the last frame
-  Aabb swept;            ///< of the rest of the window, as far as it is known
-  std::uint32_t place = 0xffffffff;  ///< in the broad phase
+  Pose pose;                            ///< X_WN at the end of the last frame
+  Aabb swept;                           ///< of the rest of the window, as far as it is known
+  std::uint32_t place = 0xffffffff;     ///< in the broad phase
   bool active = false, marked = false;  ///< in the world's lists of these names
-  bool alone = false;  ///< nothing is near what it sweeps
+  bool alone = false;                   ///< nothing is near what it sweeps
 
   bool isBall() const { return std::holds_alternative<BallShape>(*shape); }
   /// How far the ball's centre is from the centre of mass [m].

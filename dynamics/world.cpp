@@ -62,9 +62,9 @@ const Shape* World::shape(ShapeId id) const {
 
 BodyId World::addBody(const BodyDef& d) {
   Core::ShapeEntry* s = core_->shapes.find(d.shape);
-  if (!s || std::holds_alternative<PlaneShape>(s->shape) || !d.mass.valid() ||
-      !usable(d.pose) || !usable(d.surface) || !d.v.allFinite() || !d.omega.allFinite() ||
-      !(d.damping >= 0) || !std::isfinite(d.damping) || !(d.releaseDistance >= 0))
+  if (!s || std::holds_alternative<PlaneShape>(s->shape) || !d.mass.valid() || !usable(d.pose) ||
+      !usable(d.surface) || !d.v.allFinite() || !d.omega.allFinite() || !(d.damping >= 0) ||
+      !std::isfinite(d.damping) || !(d.releaseDistance >= 0))
     return 0;
   ++s->uses;
   const BodyId id = core_->nextBody++;
@@ -87,7 +87,6 @@ BodyId World::addBody(const BodyDef& d) {
   const Pose X_WC = b.pose * b.X_NC;
   const Quat& q = X_WC.q;
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * d.omega);
-  core_->mark(b);
   core_->startFlight(b, core_->now, X_WC.p, d.v, q, L);
   return id;
 }
@@ -167,7 +166,6 @@ bool World::enableBody(BodyId id, bool on) {
   RigidBody* b = core_->body(id);
   if (!b) return false;
   if (b->enabled == on) return true;
-  core_->mark(*b);
   if (on) {
     b->enabled = b->fresh = true;
     const Pose X_WC = b->pose * b->X_NC;
@@ -279,7 +277,8 @@ bool World::placeBody(BodyId id, const Pose& X_WN, const Vec3& v, const Vec3& om
   b->touching.clear();
   const Pose X_WC = b->pose * b->X_NC;
   core_->memory.forget({true, id});
-  core_->startFlight(*b, core_->now, X_WC.p, v, X_WC.q, X_WC.q * b->inertia.cwiseProduct(X_WC.q.conjugate() * omega));
+  core_->startFlight(*b, core_->now, X_WC.p, v, X_WC.q,
+                     X_WC.q * b->inertia.cwiseProduct(X_WC.q.conjugate() * omega));
   core_->wakeOnto({true, id}, core_->now);
   return true;
 }
@@ -309,7 +308,7 @@ bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
   RigidBody* b = core_->body(id);
   if (!b || b->mode != BodyMode::Held || !usable(end)) return false;
   if (teleport) {
-      b->pose = unit(end);
+    b->pose = unit(end);
     b->held.set(b->pose, b->pose, core_->now, 0);
     b->fresh = true;
     core_->wakeOnto({true, id}, core_->now);

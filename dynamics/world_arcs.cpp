@@ -78,6 +78,7 @@ void World::Core::setArc(RigidBody& b, double tau, const Path& path, const Spin&
   b.until = tau + b.validAge;
   ++b.version;
   if (!b.active) b.active = true, active.push_back(&b);
+  if (!foresee) mark(b);  // a change between frames is looked at when the next one begins
 }
 
 void World::Core::quarantine(RigidBody& b, double tau, std::string why) {
@@ -219,7 +220,10 @@ void World::Core::reachHorizon(RigidBody& b, double tau) {
     // Only the expansion of the spin has worn out; the motion is the same, but what was foreseen ended here.
     setArc(b, tau, Path::parabola(p, v, 2 * b.path.c[2]), Spin::free(q, b.spin.L, b.inertia), kForever,
            BodyMode::Flight);
-    predict(b, tau);
+    if (b.alone)  // it goes where it was seen to go, and nobody is there
+      pushHorizon(b);
+    else
+      predict(b, tau);
     return;
   }
   if (b.mode == BodyMode::Slide || b.mode == BodyMode::Roll || b.mode == BodyMode::Rest) {

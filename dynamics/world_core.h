@@ -69,9 +69,9 @@ public:
   std::set<std::pair<Party, Party>> ignored;
   std::vector<Command> commands;  ///< in the order of (when, order)
   ContactMemory memory;
-  Nanoseconds t0 = 0, t1 = 0;             ///< the ends of the present part of a frame, the last one between frames
-  Nanoseconds origin = 0;                 ///< start of the window
-  double frameFrom = 0, now = 0;          ///< tau of t0 and t1; `now` may lie beyond the window
+  Nanoseconds t0 = 0, t1 = 0;     ///< the ends of the present part of a frame, the last one between frames
+  Nanoseconds origin = 0;         ///< start of the window
+  double frameFrom = 0, now = 0;  ///< tau of t0 and t1; `now` may lie beyond the window
   bool started = false, bodiesCollide = true;
   bool foresee = false;  ///< predictions are made at once: while events run
   std::uint64_t nextOrder = 0, frame = 0;
@@ -94,6 +94,7 @@ public:
   void endFrame();
   void partCarried();
   void reportReleases();
+  Nanoseconds soonest(const Side& a, const Side& b, double distance) const;
   void insert(Command c);
   void postCommand(const Command& c);
   void execute(const Command& c, double tau);
@@ -140,8 +141,9 @@ public:
   void afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting);
 
   // --- lasting contact (world_contact.cpp)
-  static constexpr Nanoseconds kTickGrid = 2'000'000;  ///< the solver's steps end on multiples of this show time
-  static constexpr double kTick = 2e-3;                ///< the same [s]
+  static constexpr Nanoseconds kTickGrid =
+      2'000'000;                         ///< the solver's steps end on multiples of this show time
+  static constexpr double kTick = 2e-3;  ///< the same [s]
   struct Found {
     SolverContact contact;
     Party a, b;
@@ -174,12 +176,12 @@ public:
   }
   const Surface& surfaceOf(Party p) const { return p.isBody ? body(p.id)->surface : collider(p.id)->surface; }
 
-  BroadPhase<RigidBody> nearBodies;     ///< by what they sweep to the window's end
+  BroadPhase<RigidBody> nearBodies;  ///< by what they sweep to the window's end
   BroadPhase<Collider> nearColliders;
-  std::vector<RigidBody*> active;       ///< those that do not rest, and those that have just come to
-  std::vector<RigidBody*> marked;       ///< whose arcs nobody has looked ahead along yet
+  std::vector<RigidBody*> active;  ///< those that do not rest, and those that have just come to
+  std::vector<RigidBody*> marked;  ///< whose arcs nobody has looked ahead along yet
 
-  std::vector<ColliderId> told;         ///< that came, moved or jumped, or did so in the last frame
+  std::vector<ColliderId> told;  ///< that came, moved or jumped, or did so in the last frame
 
 private:
   std::priority_queue<Event> queue_;

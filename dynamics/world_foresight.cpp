@@ -18,7 +18,8 @@ Aabb sweptBody(const RigidBody& b, double tau, double to) {
   Vec3 sag = Vec3::Zero();
   if (b.path.isParabola()) {
     const Vec3 v0 = b.path.velocity(b.age(tau)), v1 = b.path.velocity(b.age(to));
-    for (int i = 0; i < 3; ++i)  // it turns back on the way: a parabola's vertex is this far beyond its ends at most
+    for (int i = 0; i < 3;
+         ++i)  // it turns back on the way: a parabola's vertex is this far beyond its ends at most
       if (v0[i] * v1[i] < 0) sag[i] = std::fabs(2 * b.path.c[2][i]) * (to - tau) * (to - tau) / 8;
   } else {
     sag.setConstant(b.path.accelerationBound() * (to - tau) * (to - tau) / 8);
@@ -61,7 +62,8 @@ double World::Core::knownUntil(const Side& s) const {
 void World::Core::pushHorizon(const RigidBody& b) {
   if (!(b.until <= windowEnd()) || b.mode == BodyMode::Contact) return;
   Event e;
-  e.tau = std::max(b.until, frameFrom), e.kind = Event::Kind::Horizon, e.a = {true, b.id}, e.versionA = b.version;
+  e.tau = std::max(b.until, frameFrom), e.kind = Event::Kind::Horizon, e.a = {true, b.id},
+  e.versionA = b.version;
   post(e);
 }
 
