@@ -20,38 +20,44 @@ void decay(double x, double& first, double& second) {
 }
 
 /// Taylor coefficients of the orientation of a free body: w' = I^-1 (I w x w) in body axes, q' = q w / 2.
+/// The products of quaternions are sums of three permutations of q, so that four components go at once.
 void expand(Spin& s, const Vec3& inertia) {
-  constexpr int n = Spin::kOrder;
-  double wx[n + 1], wy[n + 1], wz[n + 1];
-  const Vec3 w0 = s.inverse.cwiseProduct(s.q0.conjugate() * s.L);
-  wx[0] = w0.x(), wy[0] = w0.y(), wz[0] = w0.z();
+  using Vec4 = Eigen::Vector4d;
+  constexpr std::size_t n = Spin::kOrder;
+  std::array<Vec4, n + 1> w, turned;               // (x, y, z, 0) and (y, z, x, 0)
+  std::array<Vec4, n + 1> alongX, alongY, alongZ;  // q times i, j, k
+  const auto keep = [&](std::size_t i) {
+    const Vec4& q = s.series[i];
+    alongX[i] = {-q[1], q[0], q[3], -q[2]};
+    alongY[i] = {-q[2], -q[3], q[0], q[1]};
+    alongZ[i] = {-q[3], q[2], -q[1], q[0]};
+    turned[i] = {w[i][1], w[i][2], w[i][0], 0};
+  };
+  w[0].head<3>() = s.inverse.cwiseProduct(s.q0.conjugate() * s.L);
+  w[0][3] = 0;
   s.series[0] = {s.q0.w(), s.q0.x(), s.q0.y(), s.q0.z()};
-  const Vec3 k((inertia.y() - inertia.z()) * s.inverse.x(), (inertia.z() - inertia.x()) * s.inverse.y(),
-               (inertia.x() - inertia.y()) * s.inverse.z());
-  for (int i = 0; i < n; ++i) {
-    double dx = 0, dy = 0, dz = 0;
-    double a = 0, b = 0, c = 0, d = 0;
-    for (int j = 0; j <= i; ++j) {
-      const double x = wx[i - j], y = wy[i - j], z = wz[i - j];
-      dx += wy[j] * z, dy += wz[j] * x, dz += wx[j] * y;
-      const Eigen::Vector4d& q = s.series[static_cast<std::size_t>(j)];
-      a -= q[1] * x + q[2] * y + q[3] * z;
-      b += q[0] * x + q[2] * z - q[3] * y;
-      c += q[0] * y + q[3] * x - q[1] * z;
-      d += q[0] * z + q[1] * y - q[2] * x;
+  keep(0);
+  const Vec4 k((inertia.y() - inertia.z()) * s.inverse.x(), (inertia.z() - inertia.x()) * s.inverse.y(),
+               (inertia.x() - inertia.y()) * s.inverse.z(), 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    Vec4 dw = Vec4::Zero(), dq = Vec4::Zero();  // dw: (y z, z x, x y)
+    for (std::size_t j = 0; j <= i; ++j) {
+      const Vec4& v = w[i - j];
+      const Vec4 other(v[2], v[0], v[1], 0);
+      dw += turned[j].cwiseProduct(other);
+      dq += v[0] * alongX[j] + v[1] * alongY[j] + v[2] * alongZ[j];
     }
-    const double share = 1.0 / (i + 1);
-    wx[i + 1] = k.x() * dx * share, wy[i + 1] = k.y() * dy * share, wz[i + 1] = k.z() * dz * share;
-    s.series[static_cast<std::size_t>(i + 1)] = 0.5 * share * Eigen::Vector4d(a, b, c, d);
+    const double share = 1.0 / static_cast<double>(i + 1);
+    w[i + 1] = share * k.cwiseProduct(dw);
+    s.series[i + 1] = 0.5 * share * dq;
+    keep(i + 1);
   }
   // As far as the last two terms stay below the tolerance; they may vanish, so the radius that bounds any
   // free motion limits it as well.
   constexpr double tolerance = 2e-15;
   const double speed = s.L.norm() * s.inverse.maxCoeff();
-  const double last = std::max(s.series[n].cwiseAbs().maxCoeff(), 1e-300),
-               before = std::max(s.series[n - 1].cwiseAbs().maxCoeff(), 1e-300);
-  s.horizon = std::min(
-      {det::pow(tolerance / last, 1.0 / n), det::pow(tolerance / before, 1.0 / (n - 1)), 1.2 / speed});
+  const double last = s.series[n].cwiseAbs().maxCoeff(), before = s.series[n - 1].cwiseAbs().maxCoeff();
+  s.horizon = std::min(reachOfSeries(last, before, tolerance), 1.2 / speed);
 }
 
 Quat renormalised(const Quat& q) {
@@ -59,6 +65,26 @@ Quat renormalised(const Quat& q) {
 }
 
 }  // namespace
+
+double reachOfSeries(double c16, double c15, double tolerance) {
+  const auto root = [](double x) { return std::sqrt(std::sqrt(std::sqrt(std::sqrt(x)))); };
+  const double t = root(tolerance / std::max(c16, 1e-290));
+  const double t2 = t * t, t4 = t2 * t2, t8 = t4 * t4, other = c15 * t8 * t4 * t2 * t;
+  return other > tolerance ? t * root(tolerance / other) : t;
+}
+
+Path& Path::operator=(const Path& o) {
+  kind = o.kind, degree = o.degree, damping = o.damping, spare = o.spare;
+  std::copy_n(o.c.begin(), std::max(3, degree + 1), c.begin());
+  return *this;
+}
+
+void Path::boundAcceleration(double horizon) {
+  spare = 0;
+  double power = 1;
+  for (int n = 2; n <= degree; ++n, power *= horizon)
+    spare += n * (n - 1) * power * c[static_cast<std::size_t>(n)].norm();
+}
 
 Path Path::still(const Vec3& p) {
   Path path;
@@ -86,8 +112,7 @@ Path Path::hermite(const Vec3 (&s)[3], const Vec3 (&e)[3], double h) {
   path.c[3] = 10 * dp - 4 * dv + 0.5 * da;
   path.c[4] = (-15 * dp + 7 * dv - da) / h;
   path.c[5] = (6 * dp - 3 * dv + 0.5 * da) / (h * h);
-  path.spare = 2 * path.c[2].norm() + 6 * h * path.c[3].norm() + 12 * h * h * path.c[4].norm() +
-               20 * h * h * h * path.c[5].norm();
+  path.boundAcceleration(h);
   return path;
 }
 
@@ -97,9 +122,16 @@ Vec3 Path::position(double t) const {
     decay(damping * t, f, g);
     return c[0] + t * (f * c[1] + t * g * c[2]);
   }
-  Vec3 p = c[static_cast<std::size_t>(degree)];
-  for (int i = degree - 1; i >= 0; --i) p = p * t + c[static_cast<std::size_t>(i)];
-  return p;
+  if (degree <= 2) return c[0] + t * (c[1] + t * c[2]);
+  // Even and odd powers apart: two short chains instead of a long one.
+  const double square = t * t;
+  int i = degree & ~1;
+  Vec3 even = c[static_cast<std::size_t>(i)];
+  for (i -= 2; i >= 0; i -= 2) even = even * square + c[static_cast<std::size_t>(i)];
+  i = (degree - 1) | 1;
+  Vec3 odd = c[static_cast<std::size_t>(i)];
+  for (i -= 2; i >= 1; i -= 2) odd = odd * square + c[static_cast<std::size_t>(i)];
+  return even + t * odd;
 }
 
 Vec3 Path::velocity(double t) const {

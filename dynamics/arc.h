@@ -4,7 +4,7 @@
 /// Translation and rotation separate (the fields act at the centre of mass): a `Path` carries the centre, a
 /// `Spin` the orientation. Age is seconds since the arc began. Everything here is exact but for `Path` under
 /// fields that are not uniform (a quintic through a step of a fifth-order integrator) and `Spin` of
-/// asymmetric bodies (Taylor polynomial of order 14, whose horizon is chosen for an error below 1e-14).
+/// asymmetric bodies (Taylor polynomial of order 16, whose horizon is chosen for an error below 1e-14).
 
 #include "engine/maths/maths.h"
 
@@ -13,16 +13,24 @@
 
 namespace stadion {
 
+/// The age up to which the last two terms, c_16 t^16 and c_15 t^15, of a Taylor series stay below the
+/// tolerance. (Two, since one may vanish by symmetry.)
+double reachOfSeries(double c16, double c15, double tolerance);
+
 /// Where the centre of mass goes.
 struct Path {
   enum class Kind { Polynomial, Damped };
   Kind kind = Kind::Polynomial;
+  static constexpr int kMostDegree = 16;
   int degree = 0;
-  double damping = 0;     ///< [1/s]
-  std::array<Vec3, 6> c;  ///< polynomial coefficients; damped: position, velocity, acceleration
-  double spare = 0;       ///< bound on the acceleration of a polynomial of degree > 2 [m/s2]
+  double damping = 0;  ///< [1/s]
+  double spare = 0;    ///< bound on the acceleration of a polynomial of degree > 2 [m/s2]
+  std::array<Vec3, kMostDegree + 1>
+      c;  ///< coefficients up to `degree`; damped: position, velocity, acceleration
 
-  Path() { c.fill(Vec3::Zero()); }
+  Path() { c[0].setZero(), c[1].setZero(), c[2].setZero(); }
+  Path(const Path& o) { *this = o; }
+  Path& operator=(const Path& o);
   static Path still(const Vec3& p);
   /// Uniform acceleration a, with velocity lost at the rate `damping`.
   static Path parabola(const Vec3& p, const Vec3& v, const Vec3& a, double damping = 0);
@@ -31,6 +39,8 @@ struct Path {
 
   Vec3 position(double age) const;
   Vec3 velocity(double age) const;
+  /// Sets `spare` for ages up to `horizon`.
+  void boundAcceleration(double horizon);
   /// At least the magnitude of the acceleration at any age within the horizon.
   double accelerationBound() const;
   bool isParabola() const { return kind == Kind::Polynomial && degree <= 2; }
@@ -51,7 +61,7 @@ struct SpinTerms {
 
 /// How the body turns.
 struct Spin : SpinTerms {
-  static constexpr int kOrder = 14;
+  static constexpr int kOrder = 16;
   std::array<Eigen::Vector4d, kOrder + 1> series;  ///< Taylor only: of (w, x, y, z)
 
   Spin() = default;

@@ -2,6 +2,8 @@
 
 #include "engine/maths/functions.h"
 
+#include <cmath>
+
 namespace stadion {
 namespace {
 
@@ -9,19 +11,51 @@ double divisor(LinearField::Unit unit, double mass) {
   return unit == LinearField::Unit::Force ? mass : 1;
 }
 
-Vec3 pushOf(const LinearField& f, const Pose& X_WF, const Vec3&, double mass) {
-  return X_WF.q * f.push / divisor(f.unit, mass);
+Vec3 pushOf(const LinearField& f, const Pose& X_WF, const Exposed& b) {
+  return X_WF.q * f.push / divisor(f.unit, b.mass);
 }
 
-Vec3 pushOf(const SphericalField& f, const Pose& X_WF, const Vec3& p, double mass) {
-  const Vec3 d = p - X_WF.p;
+Vec3 pushOf(const SphericalField& f, const Pose& X_WF, const Exposed& b) {
+  const Vec3 d = b.p - X_WF.p;
   const double r = d.norm();
   if (!(r < f.radius) || r < 1e-12) return Vec3::Zero();
   const double left = 1 - r / f.radius;
   double share = 1;
   if (f.falloff == SphericalField::Falloff::Linear) share = left;
   if (f.falloff == SphericalField::Falloff::Square) share = left * left;
-  return d * (f.strength * share / (r * divisor(f.unit, mass)));
+  return d * (f.strength * share / (r * divisor(f.unit, b.mass)));
+}
+
+Vec3 pushOf(const PointField& f, const Pose& X_WF, const Exposed& b) {
+  const Vec3 d = b.p - X_WF.p;
+  const double square = d.squaredNorm() + f.softening * f.softening;
+  if (!(square > 0)) return Vec3::Zero();
+  return d * (f.strength / (square * std::sqrt(square) * divisor(f.unit, b.mass)));
+}
+
+Vec3 pushOf(const VortexField& f, const Pose& X_WF, const Exposed& b) {
+  const Vec3 axis = X_WF.q * Vec3::UnitZ();
+  Vec3 d = b.p - X_WF.p;
+  d -= axis * axis.dot(d);
+  const double r = d.norm();
+  if (!(r < f.radius) || r < 1e-12) return Vec3::Zero();
+  const double size = f.strength * (r < f.core ? r / f.core : f.core / r) / divisor(f.unit, b.mass);
+  const Vec3 outward = d / r;
+  return size * (axis.cross(outward) - f.inward * outward);
+}
+
+bool inside(const MediumField& f, const Vec3& local) {
+  switch (f.region) {
+  case MediumField::Region::Everywhere: return true;
+  case MediumField::Region::Ball: return local.norm() < f.half.x();
+  case MediumField::Region::Box: return (local.cwiseAbs().array() < f.half.array()).all();
+  }
+  return false;
+}
+
+Vec3 pushOf(const MediumField& f, const Pose& X_WF, const Exposed& b) {
+  if (!inside(f, X_WF.inverse() * b.p)) return Vec3::Zero();
+  return dragOf(f, X_WF.q, b.mass, b.dragArea).at(b.v);
 }
 
 }  // namespace
@@ -30,10 +64,19 @@ bool ForceField::uniform() const {
   return std::holds_alternative<LinearField>(law) && start.q.coeffs() == end.q.coeffs();
 }
 
-Vec3 accelerationOf(const ForceField& field, const Vec3& p, const Vec3& v, double mass, double s) {
-  (void)v;  // no law of today depends on it
+const MediumField* ForceField::evenMedium() const {
+  const auto* medium = std::get_if<MediumField>(&law);
+  if (!medium || medium->region != MediumField::Region::Everywhere) return nullptr;
+  return medium->wind.isZero(0) || start.q.coeffs() == end.q.coeffs() ? medium : nullptr;
+}
+
+Drag dragOf(const MediumField& f, const Quat& q_WF, double mass, double dragArea) {
+  return {f.viscosity, 0.5 * f.density * dragArea / mass, q_WF * f.wind};
+}
+
+Vec3 accelerationOf(const ForceField& field, const Exposed& body, double s) {
   const Pose X_WF = field.moving() ? det::interpolate(field.start, field.end, s) : field.end;
-  return std::visit([&](const auto& law) { return pushOf(law, X_WF, p, mass); }, field.law);
+  return std::visit([&](const auto& law) { return pushOf(law, X_WF, body); }, field.law);
 }
 
 }  // namespace stadion

@@ -4,9 +4,7 @@
 ///
 /// Frames   a field has a pose at the start and at the end of the frame and moves evenly between them.
 /// Forces   all fields here act at the centre of mass. A new kind is a new struct in `FieldLaw` and one case
-/// in
-///          `accelerationOf` (point, vortex, wind, drag region); what depends on velocity has it at hand
-///          there.
+/// in `accelerationOf`.
 
 #include "engine/maths/maths.h"
 #include "engine/time_signature.h"
@@ -31,7 +29,35 @@ struct SphericalField {
   LinearField::Unit unit = LinearField::Unit::Acceleration;
 };
 
-using FieldLaw = std::variant<LinearField, SphericalField>;
+/// Attracts (strength < 0) or repels from the field's origin by the inverse square of the distance.
+struct PointField {
+  double strength = 0;     ///< at one metre [m/s2 or N]
+  double softening = 0.1;  ///< r^2 + softening^2 stands for r^2, so that nothing becomes infinite [m]
+  LinearField::Unit unit = LinearField::Unit::Acceleration;
+};
+
+/// Around the field's z axis, right-handed for strength > 0: grows evenly to `core`, then falls with 1 / r
+/// (Rankine's vortex), and pulls inward by `inward` times as much.
+struct VortexField {
+  double strength = 0;  ///< at the core's edge [m/s2 or N]
+  double core = 1;      ///< [m]
+  double inward = 0;
+  double radius = 1e300;  ///< nothing beyond [m]
+  LinearField::Unit unit = LinearField::Unit::Acceleration;
+};
+
+/// Air or water that moves with the wind u: a = -c (v - u) - (rho A / 2 m) |v - u| (v - u), A the body's drag
+/// area. Within `region` only.
+struct MediumField {
+  enum class Region { Everywhere, Ball, Box };
+  double density = 1.225;    ///< rho [kg/m3]
+  double viscosity = 0;      ///< c [1/s]
+  Vec3 wind = Vec3::Zero();  ///< in the field's own coordinates [m/s]
+  Region region = Region::Everywhere;
+  Vec3 half = Vec3::Ones();  ///< Box: half extents; Ball: radius in x [m]
+};
+
+using FieldLaw = std::variant<LinearField, SphericalField, PointField, VortexField, MediumField>;
 
 struct ForceField {
   FieldLaw law;
@@ -41,9 +67,26 @@ struct ForceField {
   bool moving() const { return start.p != end.p || start.q.coeffs() != end.q.coeffs(); }
   /// True if a body anywhere feels one constant vector through the frame.
   bool uniform() const;
+  /// A medium that is the same everywhere through the frame, or nothing.
+  const MediumField* evenMedium() const;
 };
 
-/// What a body of `mass` [kg] at `p` [m] with `v` [m/s] gains [m/s2]; s in [0, 1] from frame start to end.
-Vec3 accelerationOf(const ForceField& field, const Vec3& p, const Vec3& v, double mass, double s);
+/// What a field acts on.
+struct Exposed {
+  double mass = 1;      ///< [kg]
+  double dragArea = 0;  ///< drag coefficient times cross section [m2]
+  Vec3 p = Vec3::Zero(), v = Vec3::Zero();
+};
+
+/// The coefficients c [1/s] and k [1/m] of -c u - k |u| u.
+struct Drag {
+  double linear = 0, quadratic = 0;
+  Vec3 wind = Vec3::Zero();  ///< in World [m/s]
+  Vec3 at(const Vec3& v) const { return -(linear + quadratic * (v - wind).norm()) * (v - wind); }
+};
+Drag dragOf(const MediumField& medium, const Quat& q_WF, double mass, double dragArea);
+
+/// What the body gains [m/s2]; s in [0, 1] from frame start to end.
+Vec3 accelerationOf(const ForceField& field, const Exposed& body, double s);
 
 }  // namespace stadion

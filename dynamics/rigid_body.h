@@ -81,7 +81,7 @@ struct RigidBody {
   Pose X_NC, X_CN;
   Sphere bound;      ///< centre in N
   double reach = 0;  ///< greatest distance of a surface point from the centre of mass [m]
-  double damping = 0, releaseDistance = 0.5;
+  double damping = 0, dragArea = 0, releaseDistance = 0.5;
   bool enabled = true, fresh = true;
 
   BodyMode mode = BodyMode::Flight;
@@ -92,6 +92,7 @@ struct RigidBody {
   double until = 0;          ///< greatest valid tau; infinity if unlimited
   double validAge = 0;       ///< the same as an age
   double pathAge = 0;        ///< the same for the path alone: the spin may wear out earlier
+  double spinStart = 0;      ///< the arc's age at which the spin's own began
   Vec3 endL = Vec3::Zero();  ///< Contact: angular momentum at the end of the sub-step
   double step = 0;           ///< last step of the general integrator [s]
   Support support;
@@ -119,9 +120,10 @@ struct RigidBody {
   bool sampled() const { return mode != BodyMode::Held; }
 
   double age(double tau) const { return age0 + tau; }
+  double spinAge(double tau) const { return age0 + tau - spinStart; }
   Vec3 position(double tau) const { return path.position(age(tau)); }
   Vec3 velocity(double tau) const { return path.velocity(age(tau)); }
-  Quat orientation(double tau) const { return spin.orientation(age(tau)); }
+  Quat orientation(double tau) const { return spin.orientation(spinAge(tau)); }
   /// X_WN alone.
   Pose poseAt(double tau) const {
     if (mode == BodyMode::Held) return held.at(tau).pose;
@@ -135,7 +137,7 @@ struct RigidBody {
       return k;
     }
     const Pose X_WC{position(tau), orientation(tau)};
-    return {X_WC * X_CN, X_WC.p, velocity(tau), spin.angularVelocity(age(tau))};
+    return {X_WC * X_CN, X_WC.p, velocity(tau), spin.angularVelocity(spinAge(tau))};
   }
   MotionBound boundOver(double from, double to) const;
 };
@@ -167,7 +169,7 @@ inline MotionBound RigidBody::boundOver(double from, double to) const {
   }
   b.acceleration = path.accelerationBound();
   b.speed = path.velocity(age(from)).norm() + b.acceleration * (to - from);
-  b.spin = spin.speedBound(age(to));
+  b.spin = spin.speedBound(spinAge(to));
   b.spinChange = spin.kind == Spin::Kind::Driven    ? spin.alpha.norm()
                  : spin.kind == Spin::Kind::Uniform ? 0
                                                     : b.spin * b.spin;

@@ -82,7 +82,7 @@ BodyId World::addBody(const BodyDef& d) {
   }
   b.X_CN = b.X_NC.inverse();
   b.reach = (b.bound.centre - b.X_NC.p).norm() + b.bound.radius;
-  b.damping = d.damping, b.releaseDistance = d.releaseDistance;
+  b.damping = d.damping, b.dragArea = d.dragArea, b.releaseDistance = d.releaseDistance;
   b.pose = unit(d.pose);
   const Pose X_WC = b.pose * b.X_NC;
   const Quat& q = X_WC.q;
@@ -348,8 +348,8 @@ BodyState World::state(BodyId id) const {
     s.p = X_WC.p, s.q = X_WC.q, s.v = b->held.v, s.omega = b->held.omega;
     return s;
   }
-  s.p = b->path.position(age), s.v = b->path.velocity(age), s.q = b->spin.orientation(age);
-  s.omega = b->spin.angularVelocity(age), s.L = b->spin.angularMomentum(age);
+  s.p = b->path.position(age), s.v = b->path.velocity(age), s.q = b->spin.orientation(age - b->spinStart);
+  s.omega = b->spin.angularVelocity(age - b->spinStart), s.L = b->spin.angularMomentum(age - b->spinStart);
   return s;
 }
 

@@ -56,6 +56,7 @@ struct BodyDef {
   MassProperties mass;        ///< in N
   Surface surface;
   double damping = 0;            ///< velocity lost as exp(-c t) [1/s]
+  double dragArea = 0;           ///< drag coefficient times cross section, for media [m2]
   double releaseDistance = 0.5;  ///< [m]
 };
 

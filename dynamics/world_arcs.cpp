@@ -1,3 +1,4 @@
+#include "dynamics/drag_flight.h"
 #include "dynamics/world_core.h"
 
 #include <cmath>
@@ -46,7 +47,7 @@ Vec3 World::Core::accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& 
     const FieldEntry* f = fields.find(h.field);
     if (!f || !f->on) continue;
     const double share = now > frameFrom ? std::clamp((tau - frameFrom) / (now - frameFrom), 0.0, 1.0) : 1;
-    a += accelerationOf(f->field, p, v, b.mass, share);
+    a += accelerationOf(f->field, {b.mass, b.dragArea, p, v}, share);
   }
   return a;
 }
@@ -59,22 +60,47 @@ bool World::Core::uniformFor(const RigidBody& b) const {
   return true;
 }
 
+/// The drag on a body that feels constant pulls and one medium that is the same everywhere.
+std::optional<Drag> World::Core::evenDragOn(const RigidBody& b) const {
+  std::optional<Drag> drag;
+  for (const Hook& h : b.hooks) {
+    const FieldEntry* f = fields.find(h.field);
+    if (!f || !f->on || f->field.uniform()) continue;
+    const MediumField* medium = f->field.evenMedium();
+    if (!medium || drag) return {};
+    drag = dragOf(*medium, f->field.end.q, b.mass, b.dragArea);
+  }
+  return drag;
+}
+
 void World::Core::setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon,
                          BodyMode mode) {
-  ++counters.arcs;
   const auto sane = [](const Vec3& x, double most) {
-    return x.allFinite() && x.cwiseAbs().maxCoeff() <= most;
-  };
-  if (!sane(path.c[0], 1e12) || !sane(path.c[1], 1e12) || !sane(path.c[2], 1e12) ||
-      !spin.q0.coeffs().allFinite() || !sane(spin.L, 1e30) || !sane(spin.omega, 1e12)) {
+    return x.cwiseAbs().maxCoeff() <= most;
+  };  // false of NaN
+  if (!spin.q0.coeffs().allFinite() || !spin.L.allFinite() || !sane(spin.L, 1e30) ||
+      !spin.omega.allFinite() || !sane(spin.omega, 1e12)) {
     quarantine(b, tau, "its state would become infinite or undefined");
     return;
   }
-  b.path = path, b.spin = spin, b.mode = mode;
+  b.spin = spin, b.spinStart = 0;
+  setPath(b, tau, path, horizon, mode);
+}
+
+/// A new path from tau on; the spin has its own beginning.
+void World::Core::setPath(RigidBody& b, double tau, const Path& path, double horizon, BodyMode mode) {
+  ++counters.arcs;
+  const auto sane = [](const Vec3& x) { return x.allFinite() && x.cwiseAbs().maxCoeff() <= 1e12; };
+  if (!sane(path.c[0]) || !sane(path.c[1]) || !sane(path.c[2])) {
+    quarantine(b, tau, "its state would become infinite or undefined");
+    return;
+  }
+  if (&path != &b.path) b.path = path;
+  b.mode = mode;
   b.since = instantAt(tau);
   b.age0 = -tau;
   b.pathAge = horizon;
-  b.validAge = std::min(horizon, spin.horizon);
+  b.validAge = std::min(horizon, b.spinStart + b.spin.horizon);
   b.until = tau + b.validAge;
   ++b.version;
   if (!b.active) b.active = true, active.push_back(&b);
@@ -102,11 +128,28 @@ void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec
                               const Vec3& L) {
   if (b.support.on.id) memory.setTouching(ContactMemory::keyOf(b.support.on, {true, b.id}), false);
   b.support.on = {};
-  const Spin spin = Spin::free(q, L, b.inertia);
-  if (uniformFor(b)) {
-    setArc(b, tau, Path::parabola(p, v, accelerationAt(b, p, v, tau), b.damping), spin, kForever,
-           BodyMode::Flight);
+  b.spin = Spin::free(q, L, b.inertia), b.spinStart = 0;
+  if (!q.coeffs().allFinite() || !(L.cwiseAbs().maxCoeff() <= 1e30) || !L.allFinite()) {
+    b.spin = Spin::still(b.pose.q * b.X_NC.q);
+    quarantine(b, tau, "its state would become infinite or undefined");
     return;
+  }
+  fly(b, tau, p, v);
+}
+
+/// Flight from here; the spin goes on as it is.
+void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
+  const auto drag = evenDragOn(b);
+  if (drag ? drag->linear == 0 && drag->quadratic == 0 : uniformFor(b)) {
+    setPath(b, tau, Path::parabola(p, v, accelerationAt(b, p, v, tau), b.damping), kForever,
+            BodyMode::Flight);
+    return;
+  }
+  if (drag) {
+    const Vec3 pull = accelerationAt(b, p, drag->wind, tau) - b.damping * drag->wind;
+    const Drag total{drag->linear + b.damping, drag->quadratic, drag->wind};
+    const double horizon = dragFlight(p, v, pull, total, 1.0, 1e-11, b.path);
+    if (horizon > 1e-4) return setPath(b, tau, b.path, horizon, BodyMode::Flight);
   }
   const auto f = [&](double at, const Vec3& x, const Vec3& u) {
     return Vec3(accelerationAt(b, x, u, at) - b.damping * u);
@@ -127,7 +170,7 @@ void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec
   }
   b.step = h * (error > 0 ? std::clamp(0.9 * det::pow(tolerance / error, 0.2), 0.3, 4.0) : 4.0);
   const Vec3 from[3] = {p, v, f(tau, p, v)}, to[3] = {end.p, end.v, f(tau + h, end.p, end.v)};
-  setArc(b, tau, Path::hermite(from, to, h), spin, h, BodyMode::Flight);
+  setPath(b, tau, Path::hermite(from, to, h), h, BodyMode::Flight);
 }
 
 void World::Core::startOnFace(RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped) {
@@ -158,15 +201,16 @@ void World::Core::restart(RigidBody& b, double tau) {
   switch (b.mode) {
   case BodyMode::Flight:
     startFlight(b, tau, b.position(tau), b.velocity(tau), b.orientation(tau),
-                b.spin.angularMomentum(b.age(tau)));
+                b.spin.angularMomentum(b.spinAge(tau)));
     break;
   case BodyMode::Slide:
   case BodyMode::Roll:
   case BodyMode::Rest:
     if (b.support.on.id) {
-      startOnFace(b, tau,
-                  {b.position(tau), b.velocity(tau), b.spin.angularVelocity(b.age(tau)), b.orientation(tau)},
-                  false, false);
+      startOnFace(
+          b, tau,
+          {b.position(tau), b.velocity(tau), b.spin.angularVelocity(b.spinAge(tau)), b.orientation(tau)},
+          false, false);
     } else {
       wake(b, tau);
     }
@@ -216,10 +260,12 @@ void World::Core::reachHorizon(RigidBody& b, double tau) {
   const Vec3 p = b.position(tau), v = b.velocity(tau);
   const double age = b.age(tau);
   const Quat q = b.orientation(tau);
-  if (b.mode == BodyMode::Flight && b.path.kind == Path::Kind::Polynomial && b.path.degree <= 2) {
+  if (b.mode == BodyMode::Flight && age < b.pathAge - 1e-9) {
     // Only the expansion of the spin has worn out; the motion is the same, but what was foreseen ended here.
-    setArc(b, tau, Path::parabola(p, v, 2 * b.path.c[2]), Spin::free(q, b.spin.L, b.inertia), kForever,
-           BodyMode::Flight);
+    b.spin = Spin::free(q, b.spin.L, b.inertia), b.spinStart = age;
+    b.validAge = std::min(b.pathAge, age + b.spin.horizon);
+    b.until = b.validAge - b.age0;
+    ++b.version;
     if (b.alone)  // it goes where it was seen to go, and nobody is there
       pushHorizon(b);
     else
@@ -227,7 +273,7 @@ void World::Core::reachHorizon(RigidBody& b, double tau) {
     return;
   }
   if (b.mode == BodyMode::Slide || b.mode == BodyMode::Roll || b.mode == BodyMode::Rest) {
-    BallStart s{p, v, b.spin.angularVelocity(age), q};
+    BallStart s{p, v, b.spin.angularVelocity(b.spinAge(tau)), q};
     const Vec3& n = b.support.normal;
     bool outside = false;
     for (std::size_t i = 0; i < static_cast<std::size_t>(b.support.edges); ++i) {
@@ -243,7 +289,9 @@ void World::Core::reachHorizon(RigidBody& b, double tau) {
       startOnFace(b, tau, s, gripped, stopped);
     }
   } else {
-    startFlight(b, tau, p, v, q, b.spin.angularMomentum(age));
+    b.spinStart = -b.spinAge(tau);
+    fly(b, tau, p, v);
+    if (b.validAge < 1e-9) startFlight(b, tau, p, v, q, b.spin.L);  // both ended
   }
   predict(b, tau);
 }

@@ -42,7 +42,7 @@ struct Groups {
 
 void World::Core::enterContact(RigidBody& b, double tau) {
   if (b.mode == BodyMode::Contact || !b.movable()) return;
-  const Vec3 L = b.spin.angularMomentum(b.age(tau));
+  const Vec3 L = b.spin.angularMomentum(b.spinAge(tau));
   b.support.on = {};
   setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
          Spin::free(b.orientation(tau), L, b.inertia), kTick, BodyMode::Contact);
@@ -68,7 +68,7 @@ void World::Core::wakeOnto(Party moved, double tau) {
     if (other.mode == BodyMode::Rest || other.mode == BodyMode::Slide || other.mode == BodyMode::Roll) {
       if (other.support.on.id && other.support.on == moved) {
         startFlight(other, tau, other.position(tau), other.velocity(tau), other.orientation(tau),
-                    other.spin.angularMomentum(other.age(tau)));
+                    other.spin.angularMomentum(other.spinAge(tau)));
         predict(other, tau);
         continue;
       }
@@ -288,7 +288,7 @@ void World::Core::tick(double tau) {
         !supportFor(*b, *c, only->gap, tau, face))
       continue;
     b->support = face;
-    BallStart s{b->position(tau), b->velocity(tau), b->spin.angularVelocity(b->age(tau)),
+    BallStart s{b->position(tau), b->velocity(tau), b->spin.angularVelocity(b->spinAge(tau)),
                 b->orientation(tau)};
     s.v -= face.normal * face.normal.dot(s.v);
     startOnFace(*b, tau, s, false, false);

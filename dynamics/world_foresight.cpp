@@ -143,11 +143,12 @@ void World::Core::mark(RigidBody& b) {
 void World::Core::sweepMarked() {
   std::ranges::sort(marked, {}, &RigidBody::id);
   for (RigidBody* b : marked) sweep(*b, frameFrom);
+  if (nearBodies.crowded()) fileBodies();
+  if (nearColliders.crowded()) fileColliders();
 }
 
 /// Looks ahead from tau for everybody who is marked and for colliders that were told something.
 void World::Core::foreseeMarked(double tau) {
-  if (nearBodies.crowded()) fileBodies();
   for (RigidBody* b : marked)
     if (b->enabled) lookAhead(*b, tau, true);
   for (const ColliderId id : told) {
