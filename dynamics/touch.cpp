@@ -77,10 +77,19 @@ Local localGap(const Vec3& c, double r, const BoxShape& s, double) {
   return l;
 }
 
+/// How deep below a bounded plane things count as sunk into it [m].
+double sheetDepth(const PlaneShape& s) {
+  return std::min(1.0, 0.5 * s.half.minCoeff());
+}
+
 Local localGap(const Vec3& c, double r, const PlaneShape& s, double) {
   const Vec3 p = s.pose.q.conjugate() * (c - s.pose.p);
   if (!s.bounded()) return {p.z() - r, s.pose * Vec3(p.x(), p.y(), 0), s.normal(), true, -1};
   const Vec3 q(std::clamp(p.x(), -s.half.x(), s.half.x()), std::clamp(p.y(), -s.half.y(), s.half.y()), 0);
+  // Over the sheet its upper side counts, also for what has sunk in; what has come below otherwise meets its
+  // back.
+  if (q.x() == p.x() && q.y() == p.y() && p.z() > -sheetDepth(s))
+    return {p.z() - r, s.pose * q, s.normal(), true, -1};
   Local l = towards(p, q, r, Vec3::UnitZ());
   l.face = q.x() == p.x() && q.y() == p.y();
   l.point = s.pose * q, l.normal = s.pose.q * l.normal;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace stadion {
 namespace {
 
@@ -102,6 +104,41 @@ TEST(SolidContact, ADroppedBoxComesToRestAndSleeps) {
   const BodyState s = w.state(b);
   play(w, 0);
   EXPECT_EQ(s.p, w.state(b).p);
+}
+
+TEST(SolidContact, BoxesThrownDownAnyHowNeverSinkInAndComeToRest) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (const double gravity : {1.0, 100.0})
+    for (const bool bounded : {false, true})
+      for (int i = 0; i < 12; ++i) {
+        World w;
+        const FieldId g = addGravity(w, Vec3(0, 0, -kG * gravity));
+        PlaneShape ground;
+        if (bounded) ground.half = Vec2(60, 60);
+        w.addCollider({w.addShape(ground), {}, {0.5, 0.0, 0.0}});
+        const double half = 0.2;
+        const Quat q = Quat(u(random), u(random), u(random), u(random)).normalized();
+        const BodyId box = addBox(w, g,
+                                  {.half = Vec3::Constant(half),
+                                   .mass = 32,
+                                   .pose = {{0, 0, 2.3 + 1.7 * u(random)}, q},
+                                   .restitution = 0.5,
+                                   .friction = 0.5});
+        double lowest = 0;
+        for (std::uint64_t n = 1; n <= 300; ++n) {
+          const TimeSignature s = signatureAt(n, 60);
+          w.advance(s.time - s.step, s.time);
+          const Pose X = w.pose(box);
+          for (int k = 0; k < 8; ++k) {
+            const Vec3 corner(k & 1 ? half : -half, k & 2 ? half : -half, k & 4 ? half : -half);
+            lowest = std::min(lowest, (X * corner).z());
+          }
+        }
+        EXPECT_GT(lowest, -1e-3) << gravity << " g, bounded " << bounded << ", drop " << i;
+        EXPECT_NEAR(w.pose(box).p.z(), half, 1e-4) << gravity << " g, bounded " << bounded << ", drop " << i;
+        EXPECT_EQ(w.mode(box), BodyMode::Rest) << gravity << " g, bounded " << bounded << ", drop " << i;
+      }
 }
 
 TEST(SolidContact, AStackOfBoxesStandsAndSleeps) {
