@@ -54,7 +54,7 @@ bool inside(const MediumField& f, const Vec3& local) {
 }
 
 Vec3 pushOf(const MediumField& f, const Pose& X_WF, const Exposed& b) {
-  if (!inside(f, X_WF.inverse() * b.p)) return Vec3::Zero();
+  if (!inside(f, X_WF.inverse() * b.p - f.centre)) return Vec3::Zero();
   return dragOf(f, X_WF.q, b.mass, b.dragArea).at(b.v);
 }
 

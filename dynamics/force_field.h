@@ -54,7 +54,8 @@ struct MediumField {
   double viscosity = 0;      ///< c [1/s]
   Vec3 wind = Vec3::Zero();  ///< in the field's own coordinates [m/s]
   Region region = Region::Everywhere;
-  Vec3 half = Vec3::Ones();  ///< Box: half extents; Ball: radius in x [m]
+  Vec3 centre = Vec3::Zero();  ///< of the region, in the field's own coordinates [m]
+  Vec3 half = Vec3::Ones();    ///< Box: half extents; Ball: radius in x [m]
 };
 
 using FieldLaw = std::variant<LinearField, SphericalField, PointField, VortexField, MediumField>;

@@ -18,6 +18,9 @@ enum class NodeKind : std::uint8_t {
   Sky,
   ForceLinear,
   ForceSpherical,
+  ForcePoint,
+  ForceVortex,
+  Medium,
   UserTrigger,
   WandTrigger,
   Timer,
@@ -29,10 +32,10 @@ enum class NodeKind : std::uint8_t {
   Rig,
 };
 
-inline constexpr std::array<std::string_view, 17> kNodeKindNames = {
-    "group",       "transform",      "object",      "dynobject",   "light", "sky",
-    "forcelinear", "forcespherical", "usertrigger", "wandtrigger", "timer", "scene",
-    "path",        "collision",      "dynamics",    "navigator",   "rig"};
+inline constexpr std::array<std::string_view, 20> kNodeKindNames = {
+    "group",          "transform",  "object",      "dynobject", "light",       "sky",         "forcelinear",
+    "forcespherical", "forcepoint", "forcevortex", "medium",    "usertrigger", "wandtrigger", "timer",
+    "scene",          "path",       "collision",   "dynamics",  "navigator",   "rig"};
 inline constexpr std::size_t kNodeKindCount = kNodeKindNames.size();
 
 constexpr std::string_view nameOf(NodeKind kind) {

@@ -22,6 +22,7 @@ struct BodyAttributes {
   MassProperties mass;
   Surface surface;
   double damping = 0;              ///< [1/s]
+  double dragArea = 0;             ///< [m2]
   std::vector<std::string> hooks;  ///< names of force fields, as seen from its file
 };
 

@@ -57,6 +57,61 @@ Made makeSpherical(const NodeRequest& r) {
                                      durationOf(d), d.flag(Attr::InitState));
 }
 
+Made makeField(const NodeRequest& r, NodeKind kind, FieldLaw law) {
+  const Declaration& d = r.declaration;
+  return std::make_unique<FieldNode>(kind, r.self, r.name, fieldPlace(r), law, durationOf(d),
+                                     d.flag(Attr::InitState));
+}
+
+Made makePoint(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  const auto [factor, unit] = unitOf(d);
+  const double sign = d.choice<FieldMode>(Attr::Mode) == FieldMode::Attract ? -1 : 1;
+  return makeField(r, NodeKind::ForcePoint,
+                   PointField{d.number(Attr::Strength) * factor * sign, d.number(Attr::Softening), unit});
+}
+
+Made makeVortex(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  const auto [factor, unit] = unitOf(d);
+  VortexField law{d.number(Attr::Strength) * factor, d.number(Attr::Core), d.number(Attr::Inward)};
+  law.radius = d.optionalNumber(Attr::Radius).value_or(law.radius);
+  law.unit = unit;
+  return makeField(r, NodeKind::ForceVortex, law);
+}
+
+Made makeMedium(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  MediumField law;
+  law.density = d.number(Attr::Density) * kWaterDensity;
+  law.viscosity = d.number(Attr::Viscosity);
+  law.wind = d.vec3(Attr::Wind);
+  if (const auto ball = d.sphere(Attr::Sphere)) {
+    law.region = MediumField::Region::Ball;
+    law.centre = ball->centre, law.half.setConstant(ball->radius);
+  } else if (const auto box = d.box(Attr::Box)) {
+    law.region = MediumField::Region::Box;
+    law.centre = box->centre, law.half = 0.5 * box->edges;
+  }
+  return makeField(r, NodeKind::Medium, law);
+}
+
+/// Drag coefficient times cross section: of a ball by its shape; of others the mean cross section, a quarter
+/// of a convex surface (Cauchy), with a coefficient of 1.
+double dragAreaOf(const ShapeChoice& chosen, const Mesh& mesh) {
+  constexpr double pi = 3.14159265358979323846, ballCoefficient = 0.47;
+  if (const auto* ball = std::get_if<BallShape>(&chosen.shape))
+    return ballCoefficient * pi * ball->radius * ball->radius;
+  double surface = 0;
+  const auto corner = [&](std::size_t i) {
+    const auto& p = mesh.positions[mesh.indices[i]];
+    return Vec3(p[0], p[1], p[2]);
+  };
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+    surface += 0.5 * (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i)).norm();
+  return surface / 4;
+}
+
 /// The shape filled with `density` [kg/m3].
 Result<MassProperties> massOf(const ShapeChoice& chosen, const Mesh& mesh, double density) {
   if (const auto* ball = std::get_if<BallShape>(&chosen.shape))
@@ -107,6 +162,7 @@ Made makeDynObject(const NodeRequest& r) {
   const auto stated = [&](Attr a) { return d.has(a) ? std::optional<double>(d.number(a)) : std::nullopt; };
   body.surface = {stated(Attr::Friction), stated(Attr::Restitution), stated(Attr::Rolling)};
   body.damping = d.number(Attr::Damping);
+  body.dragArea = d.optionalNumber(Attr::DragArea).value_or(dragAreaOf(chosen.value(), mesh));
   for (const NodeReference& hook : d.references(Attr::Hook)) body.hooks.push_back(std::string(hook.name));
   return std::make_unique<DynObjectNode>(r.self, r.name, r.place, r.appearance, std::move(body),
                                          std::move(chosen.value().shape));
@@ -135,6 +191,8 @@ Made makeDynamics(const NodeRequest& r) {
 void addDynamicsFactories(NodeFactories& factories) {
   const auto set = [&](NodeKind kind, NodeFactory make) { factories[static_cast<std::size_t>(kind)] = make; };
   set(NodeKind::ForceLinear, makeLinear), set(NodeKind::ForceSpherical, makeSpherical);
+  set(NodeKind::ForcePoint, makePoint), set(NodeKind::ForceVortex, makeVortex);
+  set(NodeKind::Medium, makeMedium);
   set(NodeKind::DynObject, makeDynObject);
   set(NodeKind::Collision, makeCollision), set(NodeKind::Dynamics, makeDynamics);
 }

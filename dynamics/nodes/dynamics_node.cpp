@@ -42,7 +42,7 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   def.pose = part.pose;
   def.mass = body.mass;
   def.surface = body.surface;
-  def.damping = body.damping;
+  def.damping = body.damping, def.dragArea = body.dragArea;
   def.releaseDistance = attributes_.releaseDistance;
   part.id = world_.addBody(def);
   for (const NodeRef field : node->hooked())

@@ -9,7 +9,15 @@ FieldLaw FieldNode::law(const Scene& scene) const {
   const Vec3 scale = scaleOf(scene.placements().world(placement()));
   FieldLaw law = law_;
   if (auto* linear = std::get_if<LinearField>(&law)) linear->push = linear->push.cwiseProduct(scale);
-  if (auto* spherical = std::get_if<SphericalField>(&law)) spherical->radius *= scale.maxCoeff();
+  const double size = scale.maxCoeff();
+  if (auto* spherical = std::get_if<SphericalField>(&law)) spherical->radius *= size;
+  if (auto* point = std::get_if<PointField>(&law)) point->softening *= size;
+  if (auto* vortex = std::get_if<VortexField>(&law)) vortex->core *= size, vortex->radius *= size;
+  if (auto* medium = std::get_if<MediumField>(&law)) {
+    medium->centre = medium->centre.cwiseProduct(scale), medium->half = medium->half.cwiseProduct(scale);
+    medium->half.x() =
+        medium->region == MediumField::Region::Ball ? medium->half.x() / scale.x() * size : medium->half.x();
+  }
   return law;
 }
 

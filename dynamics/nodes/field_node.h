@@ -1,11 +1,12 @@
 #pragma once
-/// A force field as an ordinary leaf of the scene: `forcelinear`, `forcespherical`. It moves, turns, scales,
-/// is attached and switched; the dynamics nodes whose bodies are hooked to it read it, in their own step.
+/// A force field as an ordinary leaf of the scene: `forcelinear`, `forcespherical`, `forcepoint`,
+/// `forcevortex`, `medium`. It moves, turns, scales, is attached and switched; the dynamics nodes whose
+/// bodies are hooked to it read it, in their own step.
 ///
 /// Commands  enable (starts an activation that `duration` bounds), disable, toggle, reset, and those of a
 /// placed node. Frames    the law is in the field's own coordinates; its scale multiplies a linear field's
-/// strength and a spherical
-///           field's radius.
+/// strength and the
+///           lengths of the others.
 /// Times     a command takes effect inside dynamics at its exact time.
 
 #include "dynamics/force_field.h"

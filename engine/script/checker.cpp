@@ -238,10 +238,11 @@ void Checker::checkRequired(NodeKind kind, TextSpan type, const Seen& seen) {
 }
 
 void Checker::checkVolume(NodeKind kind, const RawDeclaration& raw, const Seen& seen) {
-  if (kind != NodeKind::UserTrigger && kind != NodeKind::WandTrigger) return;
+  const bool medium = kind == NodeKind::Medium;  // without a volume it is everywhere
+  if (!medium && kind != NodeKind::UserTrigger && kind != NodeKind::WandTrigger) return;
   const bool sphere = seen[static_cast<std::size_t>(Attr::Sphere)];
   const bool box = seen[static_cast<std::size_t>(Attr::Box)];
-  if (sphere != box) return;
+  if (sphere != box || (medium && !sphere)) return;
   report_.error(raw.type.offset, fmt::format("{} needs {} \"sphere\" or \"box\"{}", nameOf(kind),
                                              sphere ? "either" : "a", sphere ? ", not both" : ""));
 }

@@ -69,7 +69,10 @@ private:
     case NodeKind::DynObject: return lookAtBody(node);
     case NodeKind::Light: return lookAtLight(node);
     case NodeKind::ForceLinear:
-    case NodeKind::ForceSpherical: return lookAtField(node);
+    case NodeKind::ForceSpherical:
+    case NodeKind::ForcePoint:
+    case NodeKind::ForceVortex:
+    case NodeKind::Medium: return lookAtField(node);
     case NodeKind::UserTrigger:
     case NodeKind::WandTrigger:
     case NodeKind::Timer: return lookAtSender(node);
@@ -129,9 +132,13 @@ private:
   void lookAtField(const Declaration& node) {
     const Use& use = uses_[node.index()];
     const bool linear = node.kind() == NodeKind::ForceLinear;
-    if (linear ? node.has(Attr::Direction) && node.vec3(Attr::Direction).isZero(0)
-               : node.number(Attr::Strength) == 0)
+    if (node.kind() == NodeKind::Medium) {
+      if (node.number(Attr::Density) == 0 && node.number(Attr::Viscosity) == 0)
+        warn(node, Attr::Density, "this medium holds nothing back: its density and viscosity are 0");
+    } else if (linear ? node.has(Attr::Direction) && node.vec3(Attr::Direction).isZero(0)
+                      : node.number(Attr::Strength) == 0) {
       warn(node, linear ? Attr::Direction : Attr::Strength, "this field exerts no force");
+    }
     if (node.name().empty() || (alone_ && !use.hooked))
       warn(node, Attr::Name, fmt::format("{} is never hooked to a body", called(node)));
     warnNeverOn(node);

@@ -19,13 +19,13 @@ constexpr NumberRange kColourRange{0, 1};
 constexpr NumberRange kTurn{-36000, 36000};
 constexpr NumberRange kForce{-kFar, kFar};
 
-constexpr KindSet kFields{ForceLinear, ForceSpherical};
-constexpr KindSet kMovable{Group,       Transform,      Object,      DynObject,   Light, Path,
-                           ForceLinear, ForceSpherical, UserTrigger, WandTrigger, Scene};
+constexpr KindSet kFields{ForceLinear, ForceSpherical, ForcePoint, ForceVortex, Medium};
+constexpr KindSet kMovable =
+    KindSet{Group, Transform, Object, DynObject, Light, Path, UserTrigger, WandTrigger, Scene} | kFields;
 constexpr KindSet kParents{Group, Transform, Object, DynObject, Path, Scene, Rig};
 constexpr KindSet kSolid{Object, DynObject};
-constexpr KindSet kSwitched{ForceLinear, ForceSpherical, UserTrigger, WandTrigger, Timer,
-                            Light,       Path,           Navigator,   Dynamics,    Collision};
+constexpr KindSet kSwitched =
+    KindSet{UserTrigger, WandTrigger, Timer, Light, Path, Navigator, Dynamics, Collision} | kFields;
 
 constexpr std::string_view kLightTypes[] = {"directional", "point", "spot"};
 constexpr std::string_view kShapes[] = {"auto", "sphere", "box", "mesh", "plane"};
@@ -146,6 +146,12 @@ constexpr AttributeSpec kDynObjectRows[] = {
      .standard = "0",
      .unit = "1/s",
      .range = {0, 1000}},
+    {.attr = Attr::DragArea,
+     .kind = Number,
+     .help = "drag coefficient times cross section, for media; if not stated, 0.47 of a ball's or the mean "
+             "of others'",
+     .unit = "m2",
+     .range = {0, 1e6}},
     {.attr = Attr::Hook,
      .kind = Reference,
      .help = "a force field that acts on it from the start",
@@ -255,6 +261,95 @@ constexpr AttributeSpec kForceSphericalRows[] = {
      .standard = "none",
      .choices = kFalloffs},
     kFieldUnit,
+    kInitOn,
+    kFieldDuration,
+    kAttachRow,
+};
+
+constexpr AttributeSpec kFieldStrength{.attr = Attr::Strength,
+                                       .kind = Number,
+                                       .help = "strength at 1 m from the centre",
+                                       .standard = "1",
+                                       .unit = "the field's unit",
+                                       .range = {0, kFar}};
+constexpr AttributeSpec kFieldMode{.attr = Attr::Mode,
+                                   .kind = Choice,
+                                   .help = "towards the centre or away from it",
+                                   .standard = "attract",
+                                   .choices = kFieldModes};
+
+constexpr AttributeSpec kForcePointRows[] = {
+    kFieldStrength,
+    kFieldMode,
+    {.attr = Attr::Softening,
+     .kind = Number,
+     .help = "nearer than about this the force stops growing",
+     .standard = "0.1",
+     .unit = "m",
+     .range = kLength},
+    kFieldUnit,
+    kInitOn,
+    kFieldDuration,
+    kAttachRow,
+};
+
+constexpr AttributeSpec kForceVortexRows[] = {
+    {.attr = Attr::Strength,
+     .kind = Number,
+     .help = "strength at the core's edge; negative turns the other way",
+     .standard = "1",
+     .unit = "the field's unit",
+     .range = kForce},
+    {.attr = Attr::Core,
+     .kind = Number,
+     .help = "radius up to which it grows; beyond, it falls with the distance",
+     .standard = "1",
+     .unit = "m",
+     .range = kLength},
+    {.attr = Attr::Radius,
+     .kind = Number,
+     .help = "how far it reaches; without it, everywhere",
+     .unit = "m",
+     .range = kLength},
+    {.attr = Attr::Inward,
+     .kind = Number,
+     .help = "pull towards the axis, in multiples of the whirl",
+     .standard = "0",
+     .range = kForce},
+    kFieldUnit,
+    kInitOn,
+    kFieldDuration,
+    kAttachRow,
+};
+
+constexpr AttributeSpec kMediumRows[] = {
+    {.attr = Attr::Density,
+     .kind = Number,
+     .help = "relative to water; air has 0.001225",
+     .standard = "0.001225",
+     .range = {0, 1000}},
+    {.attr = Attr::Wind,
+     .kind = Vector,
+     .help = "how it flows, in the node's coordinates",
+     .standard = "0, 0, 0",
+     .unit = "m/s",
+     .range = kForce},
+    {.attr = Attr::Viscosity,
+     .kind = Number,
+     .help = "rate at which it takes away speed, besides the drag that grows with the square",
+     .standard = "0",
+     .unit = "1/s",
+     .range = {0, 1000}},
+    {.attr = Attr::Sphere,
+     .kind = ValueKind::Sphere,
+     .help = "where it is: centre and radius, in the node's coordinates; without it or a box, everywhere",
+     .unit = "m",
+     .range = kLength},
+    {.attr = Attr::Box,
+     .kind = ValueKind::Box,
+     .help = "where it is: centre and edges, in the node's coordinates",
+     .unit = "m",
+     .range = kLength},
     kInitOn,
     kFieldDuration,
     kAttachRow,
@@ -440,6 +535,9 @@ constinit const std::array<NodeSpec, kNodeKindCount> kNodes = {{
      {},
      true},
     {ForceSpherical, "a force field around a centre", kForceSphericalRows, {}, true},
+    {ForcePoint, "attraction or repulsion by the inverse square of the distance", kForcePointRows, {}, true},
+    {ForceVortex, "a whirl about the node's Z axis", kForceVortexRows, {}, true},
+    {Medium, "air or water that bodies fly through, and its wind", kMediumRows, {}, true},
     {UserTrigger, "notices the user's head in a part of space", kUserTriggerRows, kUserTriggerEvents, true},
     {WandTrigger, "notices a hand-held device and its buttons in a part of space", kWandTriggerRows,
      kWandTriggerEvents, true},
