@@ -36,9 +36,12 @@ double dragFlight(const Vec3& p, const Vec3& v, const Vec3& pull, const Drag& dr
     u[n + 1] = a / (n + 1);
     path.c[static_cast<std::size_t>(n + 2)] = u[n + 1] / (n + 2);
   }
-  const double horizon =
+  double horizon =
       std::min(longest, 0.8 * reachOfSeries(path.c[kOrder].cwiseAbs().maxCoeff(),
                                             path.c[kOrder - 1].cwiseAbs().maxCoeff(), tolerance));
+  // |u| must not reach zero: the series would go on with the root's other sign.
+  const double most = pull.norm() + (drag.linear + drag.quadratic * speed[0]) * speed[0];
+  if (drag.quadratic > 0 && most > 0) horizon = std::min(horizon, 0.95 * speed[0] / most);
   path.boundAcceleration(horizon);
   return horizon;
 }
