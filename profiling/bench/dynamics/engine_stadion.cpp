@@ -145,7 +145,7 @@ private:
   World world_;
   WorldSpec spec_;
   FieldId gravity_ = 0;
-  std::vector<Pushed> bodies_;
+  std::vector<Member> bodies_;
   bool pushed_ = false;
   long double elapsed_ = 0;  ///< [s]
   Nanoseconds now_ = 0;
