@@ -1,5 +1,7 @@
 #include "profiling/bench/dynamics/reference.h"
 
+#include <algorithm>
+
 namespace stadion::bench {
 namespace {
 
@@ -68,6 +70,34 @@ void taylorStep(Spinning& state, Real h, const Real c[3]) {
   for (int i = 3; i < 7; ++i) state.s[i] /= length;
 }
 
+Tumbling after(Tumbling s, double t) {
+  s.x += s.v * t;
+  s.angle += s.omega * t;
+  return s;
+}
+
+/// From the centre to the corner nearest to the wall.
+struct Corner {
+  double x, y;
+};
+
+Corner foremost(const TumblingDisc& d, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double R = c < 0 ? -d.R : d.R, b = s > 0 ? -d.b : d.b;
+  return {R * c - b * s, R * s + b * c};
+}
+
+double gap(const TumblingDisc& d, const Tumbling& s) {
+  return d.wall - s.x - foremost(d, s.angle).x;
+}
+
+void hit(const TumblingDisc& d, Tumbling& s) {
+  const double arm = foremost(d, s.angle).y, closing = s.v - s.omega * arm;
+  const double impulse = (1 + d.restitution) * closing / (1 / d.mass + arm * arm / d.inertia);
+  s.v -= impulse / d.mass;
+  s.omega += arm * impulse / d.inertia;
+}
+
 double rounded(Real x) {
   return static_cast<double>(x);
 }
@@ -118,6 +148,31 @@ double bounceTime(double h0, double e, double g, int k) {
   for (int i = 1; i < k; ++i) {
     v *= e;
     s += 2 * v / g;
+  }
+  return s;
+}
+
+Tumbling tumbleAgainstWall(const TumblingDisc& disc, Tumbling s, double seconds, double step) {
+  double t = 0;
+  while (t < seconds) {
+    const double h = std::min(step, seconds - t);
+    const Tumbling next = after(s, h);
+    if (gap(disc, next) > 0) {
+      s = next;
+      t += h;
+      continue;
+    }
+    double clear = 0, inside = h;
+    for (int i = 0; i < 80; ++i) {
+      const double middle = (clear + inside) / 2;
+      (gap(disc, after(s, middle)) > 0 ? clear : inside) = middle;
+    }
+    s = after(s, clear);
+    t += clear;
+    hit(disc, s);
+    // Away from the wall by a hair, so that the next look does not find the same touch.
+    s = after(s, 1e-13);
+    t += 1e-13;
   }
   return s;
 }

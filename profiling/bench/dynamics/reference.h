@@ -1,7 +1,8 @@
 #pragma once
 /// What the cases are compared with: solutions in long double that share no code with any engine.
 ///
-/// Errors   below 1e-12 in the state, which tests/profiling shows by halving the steps.
+/// Errors   below 1e-12 in the state, which tests/profiling shows by halving the steps (the tumbling disc:
+/// 1e-9).
 
 #include "profiling/bench/dynamics/engine.h"
 
@@ -25,5 +26,17 @@ struct SpinReference {
 double bounceHeight(double h0, double e, double g, double t, int* count = nullptr);
 /// When it bounces for the k-th time, from 1.
 double bounceTime(double h0, double e, double g, int k);
+
+/// A disc that tumbles about z into a frictionless wall, seen along z: a rectangle R x b (half extents).
+struct Tumbling {
+  double x = 0, v = 0;          ///< of its centre, towards the wall [m, m/s]
+  double angle = 0, omega = 0;  ///< about z [rad, rad/s]
+};
+struct TumblingDisc {
+  double R, b, mass, inertia, restitution;
+  double wall;  ///< the wall's x [m]
+};
+/// Where it is after `seconds`, hit by hit.
+Tumbling tumbleAgainstWall(const TumblingDisc& disc, Tumbling start, double seconds, double step = 1e-5);
 
 }  // namespace stadion::bench

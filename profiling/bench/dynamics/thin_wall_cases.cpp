@@ -2,6 +2,7 @@
 /// each at eight places between two frames.
 
 #include "profiling/bench/dynamics/cases.h"
+#include "profiling/bench/dynamics/reference.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -57,6 +58,16 @@ BodySpec bullet(const Shot& shot, int phase) {
   return b;
 }
 
+/// Where the disc's centre is at the end: exactly, hit by hit.
+double discAtEnd(const Shot& shot, const BodySpec& b, double wall, double seconds) {
+  if (shot.omega.z != 0) {
+    const TumblingDisc disc{b.half.x, b.half.y, b.mass, b.inertia().z, kRestitution, wall};
+    return tumbleAgainstWall(disc, {b.p.x, b.v.x, 0, shot.omega.z}, seconds).x;
+  }
+  const double hit = (wall - b.half.x - b.p.x) / b.v.x;  // the rim comes first, the disc turns in itself
+  return wall - b.half.x - kRestitution * b.v.x * (seconds - hit);
+}
+
 void shoot(Outcome& out, const Shot& shot) {
   Scene s(out, {0, 0, 0});
   if (s.lacks(s.engine().canBounce()) || s.lacks(addWall(s, shot.mesh))) return;
@@ -79,6 +90,10 @@ void shoot(Outcome& out, const Shot& shot) {
       continue;
     }
     if (st.v.x > -0.05 * v) ++stuck;
+    if (shot.disc) {
+      place = std::max(place, std::fabs(st.p.x - discAtEnd(shot, bullet(shot, j), -front, frames * kFrame)));
+      continue;
+    }
     const double hit = (-radius - front - from[static_cast<std::size_t>(j)]) / v;
     const double x = -radius - front - kRestitution * v * (frames * kFrame - hit);
     place = std::max(place, std::fabs(st.p.x - x));
@@ -88,6 +103,7 @@ void shoot(Outcome& out, const Shot& shot) {
   out.m["no_rebound_of_8"] = stuck;
   if (shot.disc) {
     out.m["err"] = tunnelled;
+    out.m["pos_err"] = place;
   } else {
     out.m["err"] = tunnelled ? 99 : place;
     out.m["vel_relerr"] = speed;
