@@ -120,7 +120,7 @@ void addBenchDynamics(CLI::App& bench, int& code) {
                     "the others at 1, 2, 4, 8 and 16 steps a frame, not just 1 and 4");
   command->add_option("--rounds", o->comparison.rounds, "how often; the median counts (3)")
       ->check(wholeNumberFrom(1, 99));
-  command->add_option("--limit", o->comparison.limit, "seconds for one case on one engine (30)")
+  command->add_option("--limit", o->comparison.limit, "processor seconds for one case on one engine (30)")
       ->check(wholeNumberFrom(1, 3600));
   command->add_option("--out", o->out,
                       "folder for results.json and a plot of error against cost for each case");

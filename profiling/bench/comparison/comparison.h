@@ -13,7 +13,7 @@ struct ComparisonOptions {
   std::vector<std::string> cases;  ///< parts of their names; empty: all
   bool everyStep = false;          ///< the peers at all steps a frame, not just 1 and 4
   int rounds = 3;
-  int limit = 30;  ///< [s] for one case on one engine
+  int limit = 30;  ///< [s] of processor time for one case on one engine
 };
 
 struct CaseResult {

@@ -22,7 +22,7 @@ struct ListedCase {
 std::vector<EngineProgram> enginePrograms(const std::string& folder);
 std::vector<ListedCase> casesOf(const EngineProgram& program);
 
-/// Plays one case; gives it up after `limit` seconds.
+/// Plays one case; gives it up after `limit` seconds of processor time.
 Measurement measure(const EngineProgram& program, const std::string& variant, const std::string& caseName,
                     int n, int limit);
 

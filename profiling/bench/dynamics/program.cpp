@@ -8,9 +8,11 @@
 #include "profiling/bench/dynamics/cases.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <ctime>
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -68,19 +70,40 @@ std::string play(const Case& c, const std::string& variant, int n) {
   return lineOf(c, first, costs[costs.size() / 2]);
 }
 
+/// Waits for the child's end; it gets a SIGALRM once it has used `limit` seconds of processor time. (Watched
+/// from here: a timer armed in the child makes its own clock of processor time coarse on some kernels.)
+int waitWithin(pid_t child, unsigned limit) {
+  clockid_t clock{};
+  const bool watched = clock_getcpuclockid(child, &clock) == 0;
+  for (;;) {
+    int status = 0;
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR) {
+      std::perror("stadion-dyn");
+      std::exit(3);
+    }
+    timespec used{};
+    if (watched && clock_gettime(clock, &used) == 0 && used.tv_sec >= static_cast<time_t>(limit))
+      kill(child, SIGALRM);
+    usleep(5000);
+  }
+}
+
 void playApart(const Case& c, const std::string& variant, int n, unsigned limit) {
   const pid_t child = fork();
   if (child == 0) {
-    alarm(limit);
-    if (!std::freopen("/dev/null", "w", stderr)) _exit(3);  // engines chatter
+    alarm(4 * limit);  // by the clock, should it sleep
+    // Engines chatter.
+    if (!std::freopen("/dev/null", "w", stderr)) _exit(3);
     print(play(c, variant, n));
     _exit(0);
   }
-  int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) < 0) {
+  if (child < 0) {
     std::perror("stadion-dyn");
     std::exit(3);
   }
+  const int status = waitWithin(child, limit);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   print(headOf(c, variant, n) + fmt::format(R"(,"crash":{}}})", WIFSIGNALED(status) ? WTERMSIG(status) : -1));
 }
