@@ -1,5 +1,6 @@
 /// `stadion bench NAME`: measurements with a limit each.
 
+#include "cli/bench_dynamics.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "profiling/bench/overlap.h"
@@ -51,6 +52,7 @@ void addBenchCommand(CLI::App& app, int& code) {
       command->add_subcommand("overlap", "Do App, Cull and Draw overlap? Stages that only wait");
   overlap->add_flag("--json", *json, "one JSON object a line");
   overlap->callback([json, &code] { code = benchOverlap(*json); });
+  addBenchDynamics(*command, code);
 }
 
 }  // namespace stadion

@@ -115,6 +115,36 @@ TEST(ProgramLauncher, SaysTheOneAptLineWhenItCannotBecomeRoot) {
   EXPECT_FALSE(has(house.calls(), "cmake")) << house.calls();
 }
 
+TEST(ProgramLauncher, SetupPeersInstallsAndBuildsTheOtherEngines) {
+  House house;
+  const ProgramResult r = house.start({"setup", "peers"}, {"STUB_MISSING=libode-dev libmujoco-dev"});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_TRUE(has(house.calls(), "--no-install-recommends libode-dev libmujoco-dev")) << house.calls();
+  EXPECT_TRUE(has(house.calls(), "cmake --preset release -DSTADION_PEERS=ON")) << house.calls();
+  EXPECT_TRUE(has(house.calls(), "--target programs")) << house.calls();
+  EXPECT_EQ(r.out, "");
+
+  house.forgetCalls();
+  EXPECT_EQ(house.start({"nodes"}, {"STUB_MISSING=libbullet-dev"}).out, "<nodes>");
+  EXPECT_EQ(house.calls(), "");  // nobody else needs them
+}
+
+TEST(ProgramLauncher, SetupPeersSaysTheAptLineWhenItCannotBecomeRoot) {
+  House house;
+  const ProgramResult r = house.start({"setup", "peers"}, {"STUB_UID=1000", "STUB_MISSING=libbullet-dev"});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_TRUE(has(r.out, "apt-get install --no-install-recommends libbullet-dev")) << r.out << r.err;
+  EXPECT_FALSE(has(house.calls(), "cmake")) << house.calls();
+}
+
+TEST(ProgramLauncher, SetupKnowsOnlyPeers) {
+  House house;
+  const ProgramResult r = house.start({"setup", "everything"});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_TRUE(has(r.err, "./stadion setup peers")) << r.err;
+  EXPECT_EQ(house.calls(), "");
+}
+
 TEST(ProgramLauncher, AFailedInstallationIsShown) {
   House house;
   const ProgramResult r = house.start({"nodes"}, {"STUB_MISSING=libfcl-dev", "STUB_APT=100"});
