@@ -75,6 +75,7 @@ void World::Core::setArc(RigidBody& b, double tau, const Path& path, const Spin&
   b.age0 = -tau;
   b.pathAge = horizon;
   b.validAge = std::min(horizon, spin.horizon);
+  b.dueAge = 0;
   b.until = tau + b.validAge;
   ++b.version;
   if (!b.active) b.active = true, active.push_back(&b);
@@ -171,7 +172,10 @@ void World::Core::restart(RigidBody& b, double tau) {
       wake(b, tau);
     }
     break;
-  default: return;  // the contact solver looks at the fields at its next step
+  case BodyMode::Contact:  // the solver looks at the fields at its next step, unless that is far away
+    hurry(b, tau);
+    return;
+  default: return;
   }
   predict(b, tau);
 }

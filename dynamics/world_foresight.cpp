@@ -186,7 +186,6 @@ void World::Core::sweep(Collider& c) {
 
 /// A window begins: everybody is looked at anew.
 void World::Core::openWindow(Nanoseconds at) {
-  const Nanoseconds tickTime = tickAt >= 0 ? timeAt(tickAt) : -1;
   origin = at;
   frameFrom = tauOf(t0), now = tauOf(t1);
   queue_ = {};
@@ -203,7 +202,7 @@ void World::Core::openWindow(Nanoseconds at) {
   for (Collider& c : colliders) c.motion.begin = frameFrom;
   if (nearColliders.crowded()) fileColliders();
   tickAt = -1;
-  if (tickTime >= 0) scheduleTick(tauOf(tickTime));
+  scheduleDue(from);
   for (const Command& c : commands) postCommand(c);
   for (RigidBody* b : active) mark(*b);
   std::ranges::sort(marked, {}, &RigidBody::id);
