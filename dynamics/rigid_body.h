@@ -106,6 +106,8 @@ struct RigidBody {
   std::vector<Party> leaning;    ///< Contact: those of them that the memory of pairs calls touching
   std::vector<Pressed> presses;  ///< Contact: forces of the last step on points that this body found
   double dueAge = 0;             ///< Contact: age at which the solver looks again; 0: at once [s]
+  bool crowd = false;            ///< Contact: one of many, advanced together with them
+  Vec3 endV = Vec3::Zero();      ///< crowd: velocity at the end of the step [m/s]
   std::uint32_t slot = 0;        ///< scratch of the contact solver
   GuidedMotion held;
   std::uint32_t version = 0;  ///< counts arcs: older predictions are void

@@ -76,6 +76,7 @@ void World::Core::setArc(RigidBody& b, double tau, const Path& path, const Spin&
   b.pathAge = horizon;
   b.validAge = std::min(horizon, spin.horizon);
   b.dueAge = 0;
+  b.crowd = b.crowd && mode == BodyMode::Contact;
   b.until = tau + b.validAge;
   ++b.version;
   if (!b.active) b.active = true, active.push_back(&b);

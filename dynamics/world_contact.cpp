@@ -10,14 +10,6 @@ constexpr double kTouching = 1e-4;  ///< pairs closer than this are in contact [
 constexpr double kDue = 1e-9;       ///< times as near as this are the same [s]
 constexpr double kShortest = 1e-6;  ///< a step to the grid that would be shorter goes one further [s]
 
-std::uint64_t pairKey(Party a, Party b, std::uint32_t feature) {
-  std::uint64_t h = 1469598103934665603ULL;
-  for (const std::uint64_t x : {std::uint64_t{a.isBody}, std::uint64_t{a.id}, std::uint64_t{b.isBody},
-                                std::uint64_t{b.id}, std::uint64_t{feature}})
-    h = (h ^ x) * 1099511628211ULL;
-  return h;
-}
-
 /// Groups bodies that touch, by the smallest index (union-find).
 struct Groups {
   std::vector<std::size_t> parent;
@@ -41,18 +33,23 @@ constexpr std::uint32_t kNowhere = 0xffffffff;
 void World::Core::enterContact(RigidBody& b, double tau) {
   if (b.mode == BodyMode::Contact || !b.movable()) return;
   const Vec3 L = b.spin.angularMomentum(b.age(tau));
+  // Among a crowd it moves with the crowd: between its steps nobody else gives way.
+  const bool crowded = b.mode == BodyMode::Rest && std::ranges::any_of(b.touching, [&](Party p) {
+                         return p.isBody && body(p.id) && body(p.id)->crowd;
+                       });
   b.support.on = {};
   setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
          Spin::free(b.orientation(tau), L, b.inertia), kTick, BodyMode::Contact);
   b.endL = L;
   b.quiet = 0;
   b.presses.clear();
+  if (crowded && b.mode == BodyMode::Contact) b.crowd = true, b.endV = b.velocity(tau);
   scheduleTick(tau);
 }
 
 /// What was foreseen for longer than a step is looked at anew.
 void World::Core::hurry(RigidBody& b, double tau) {
-  if (b.mode != BodyMode::Contact || b.dueAge <= kTick || b.age(tau) + kTick >= b.dueAge) return;
+  if (b.mode != BodyMode::Contact || b.crowd || b.dueAge <= kTick || b.age(tau) + kTick >= b.dueAge) return;
   b.dueAge = 0;
   scheduleTick(tau);
 }
@@ -138,10 +135,11 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
     if (!mayTouch(self, other)) return;
     const double reach = b.bound.radius + o.bound.radius + margin;
     if ((o.at(tau).pose * o.bound.centre - k.pose * b.bound.centre).squaredNorm() > reach * reach) return;
-    if (o.mode == BodyMode::Contact) {
+    if (o.mode == BodyMode::Contact && !o.crowd) {
       if (o.slot == kNowhere) o.slot = 0, set.push_back(&o);  // it is not due, but it comes along
       if (o.id < b.id) return;                                // the pair is found from there
-    } else if (o.mode != BodyMode::Rest && o.mode != BodyMode::Quarantined && o.mode != BodyMode::Held) {
+    } else if (!o.crowd && o.mode != BodyMode::Rest && o.mode != BodyMode::Quarantined &&
+               o.mode != BodyMode::Held) {
       return;  // a flier: its touch is an event
     }
     against(other);
@@ -185,13 +183,14 @@ void World::Core::tick(double tau) {
   Nanoseconds next = (timeAt(tau) / kTickGrid + 1) * kTickGrid;
   if (Instant{next, 0}.since(instantAt(tau)) < kShortest) next += kTickGrid;
   const double h = Instant{next, 0}.since(instantAt(tau));
+  if (timeAt(tau) % kCrowdGrid == 0) advanceCrowd(tau);
   std::vector<RigidBody*> set;
   std::vector<Found> found;
   for (int pass = 0; pass < 50; ++pass) {
     set.clear(), found.clear();
     for (RigidBody* b : active) {
       b->slot = kNowhere;
-      if (b->mode == BodyMode::Contact && b->enabled && b->dueAge <= b->age(tau) + kDue)
+      if (b->mode == BodyMode::Contact && b->enabled && !b->crowd && b->dueAge <= b->age(tau) + kDue)
         b->slot = 0, set.push_back(b);
     }
     std::ranges::sort(set, {}, &RigidBody::id);
@@ -201,7 +200,9 @@ void World::Core::tick(double tau) {
   std::ranges::sort(set, {}, &RigidBody::id);
   for (std::size_t i = 0; i < set.size(); ++i) set[i]->slot = static_cast<std::uint32_t>(i);
   Groups groups(set.size());
-  const auto comesAlong = [&](Party p) { return p.isBody && body(p.id)->mode == BodyMode::Contact; };
+  const auto comesAlong = [&](Party p) {
+    return p.isBody && body(p.id)->mode == BodyMode::Contact && !body(p.id)->crowd;
+  };
   for (const Found& f : found)
     if (comesAlong(f.b)) groups.join(body(f.a.id)->slot, body(f.b.id)->slot);
   std::vector<Island> islands;
@@ -213,8 +214,18 @@ void World::Core::tick(double tau) {
     islands[islandOf[i]].set.push_back(set[i]);
   }
   for (Found& f : found) islands[islandOf[body(f.a.id)->slot]].found.push_back(std::move(f));
-  for (Island& island : islands) advanceIsland(island, tau, h);
-  for (RigidBody* b : set) predict(*b, tau);
+  bool crowds = false;
+  for (Island& island : islands) {
+    if (island.set.size() >= kCrowd) {
+      for (RigidBody* b : island.set) b->crowd = true, b->dueAge = 0, b->endV = b->velocity(tau);
+      crowds = true;
+    } else {
+      advanceIsland(island, tau, h);
+    }
+  }
+  for (RigidBody* b : set)
+    if (!b->crowd) predict(*b, tau);
+  if (crowds) advanceCrowd(tau);
   scheduleDue(tau);
 }
 

@@ -24,6 +24,15 @@
 
 namespace stadion {
 
+/// Names a contact point of a pair.
+inline std::uint64_t pairKey(Party a, Party b, std::uint32_t feature) {
+  std::uint64_t h = 1469598103934665603ULL;
+  for (const std::uint64_t x : {std::uint64_t{a.isBody}, std::uint64_t{a.id}, std::uint64_t{b.isBody},
+                                std::uint64_t{b.id}, std::uint64_t{feature}})
+    h = (h ^ x) * 1099511628211ULL;
+  return h;
+}
+
 class World::Core {
 public:
   struct ShapeEntry {
@@ -171,6 +180,14 @@ public:
   void findContacts(RigidBody& b, double tau, std::vector<Found>& found, std::vector<RigidBody*>& set);
   bool wakeTouched(const std::vector<Found>& found, double tau);
   void remember(RigidBody& b, const std::vector<Party>& near);
+  // --- many bodies in one heap (world_crowd.cpp)
+  static constexpr Nanoseconds kCrowdGrid = 8'000'000;  ///< their steps end on multiples of this show time
+  static constexpr std::size_t kCrowd = 24;             ///< islands with so many bodies become one
+  struct CrowdStep;
+  void advanceCrowd(double tau);
+  void joinCrowd(RigidBody& b, double tau, CrowdStep& step);
+  void findCrowdContacts(RigidBody& b, double tau, CrowdStep& step);
+  void concludeCrowd(CrowdStep& step, double tau);
   // --- one island (world_island.cpp)
   void advanceIsland(Island& island, double tau, double h);
   void begin(Island& island, double tau) const;

@@ -77,6 +77,12 @@ void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool l
   if (!b.movable()) return;
   const Vec3 p = b.position(tau);
   const Quat q = b.orientation(tau);
+  if (b.crowd) {  // it takes effect with the crowd's next step
+    const Vec3 turn = m.omega - b.spin.angularVelocity(b.age(tau));
+    b.endV += m.v - b.velocity(tau);
+    b.endL += q * b.inertia.cwiseProduct(q.conjugate() * turn);
+    return;
+  }
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * m.omega);
   const bool leaning = b.mode == BodyMode::Contact || (b.mode == BodyMode::Rest && !b.support.on.id);
   if (lasting || leaning) {

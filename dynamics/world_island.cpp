@@ -85,7 +85,7 @@ void World::Core::begin(Island& s, double tau) const {
   for (Found& f : s.found) {
     SolverContact& c = f.contact;
     c.a = body(f.a.id)->slot;
-    if (f.b.isBody && body(f.b.id)->mode == BodyMode::Contact) {
+    if (f.b.isBody && body(f.b.id)->mode == BodyMode::Contact && !body(f.b.id)->crowd) {
       c.b = body(f.b.id)->slot;
       continue;
     }
