@@ -216,7 +216,8 @@ void World::Core::tick(double tau) {
   for (Found& f : found) islands[islandOf[body(f.a.id)->slot]].found.push_back(std::move(f));
   bool crowds = false;
   for (Island& island : islands) {
-    if (island.set.size() >= kCrowd) {
+    const bool balls = std::ranges::all_of(island.set, [](const RigidBody* b) { return b->isBall(); });
+    if (island.set.size() >= (balls ? kCrowdOfBalls : kCrowd)) {
       for (RigidBody* b : island.set) b->crowd = true, b->dueAge = 0, b->endV = b->velocity(tau);
       crowds = true;
     } else {

@@ -182,7 +182,8 @@ public:
   void remember(RigidBody& b, const std::vector<Party>& near);
   // --- many bodies in one heap (world_crowd.cpp)
   static constexpr Nanoseconds kCrowdGrid = 8'000'000;  ///< their steps end on multiples of this show time
-  static constexpr std::size_t kCrowd = 24;             ///< islands with so many bodies become one
+  static constexpr std::size_t kCrowd = 16;             ///< islands with so many bodies become one
+  static constexpr std::size_t kCrowdOfBalls = 5;       ///< the same if they are balls
   struct CrowdStep;
   void advanceCrowd(double tau);
   void joinCrowd(RigidBody& b, double tau, CrowdStep& step);

@@ -13,12 +13,13 @@ struct World::Core::CrowdStep {
   std::vector<CrowdContact> contacts;
   std::vector<Party> others;  ///< of each contact: its second side
   std::vector<Party> fixed;
+  std::vector<Vec3> pull;  ///< on the members [m/s2]
 };
 
 namespace {
 
 constexpr double kTouching = 1e-4;    ///< pairs closer than this are in contact [m]
-constexpr double kLeast = 12;         ///< a smaller crowd is none any more
+constexpr double kLeast = 4;          ///< a smaller crowd is none any more
 constexpr double kDue = 1e-9;         ///< times as near as this are the same [s]
 constexpr double kQuietSpeed = 4e-3;  ///< of surface points [m/s]
 constexpr double kQuietTime = 0.3;    ///< before a body sleeps among quiet ones [s]
@@ -128,7 +129,7 @@ void World::Core::findCrowdContacts(RigidBody& b, double tau, CrowdStep& step) {
 void World::Core::concludeCrowd(CrowdStep& s, double tau) {
   const std::size_t n = s.members.size();
   std::vector<std::vector<Party>> near(n);
-  std::vector<char> calm(n, 1);
+  std::vector<char> calm(n, 1), pressed(n, 0);
   std::vector<int> points(n, 0);
   const auto note = [](std::vector<Party>& list, Party p) {
     if (std::find(list.begin(), list.end(), p) == list.end()) list.push_back(p);
@@ -145,6 +146,7 @@ void World::Core::concludeCrowd(CrowdStep& s, double tau) {
   for (std::size_t k = 0; k < s.contacts.size(); ++k) {
     const CrowdContact& c = s.contacts[k];
     RigidBody& a = *s.members[c.a];
+    if (!c.impulse.isZero(0)) pressed[c.a] = 1, pressed[c.b < n ? c.b : c.a] = 1;
     if (c.pressed > 0) a.presses.push_back({c.key, c.impulse / s.h});
     note(a.touching, s.others[k]), ++points[c.a];
     if (c.gap < kTouching) note(near[c.a], s.others[k]);
@@ -178,7 +180,11 @@ void World::Core::concludeCrowd(CrowdStep& s, double tau) {
       continue;
     }
     const double quiet = b.quiet;
-    setArc(b, tau, Path::parabola(carried.p, carried.v, Vec3::Zero()),
+    // Who is not pressed falls; else the step's impulses come first and the way is straight.
+    const bool falls = !pressed[i];
+    setArc(b, tau,
+           falls ? Path::parabola(carried.p, after.v - s.h * s.pull[i], s.pull[i])
+                 : Path::parabola(carried.p, carried.v, Vec3::Zero()),
            Spin::free(q, inertia(carried.omega), b.inertia), s.h, BodyMode::Contact);
     if (b.mode != BodyMode::Contact) continue;
     b.endV = after.v, b.endL = inertia(after.omega), b.dueAge = s.h, b.quiet = quiet;
@@ -233,13 +239,13 @@ void World::Core::advanceCrowd(double tau) {
     }
     c.armB -= s.bodies[c.b].p;
   }
-  std::vector<Vec3> pull(n);
+  s.pull.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const RigidBody& b = *s.members[i];
-    pull[i] = accelerationAt(b, s.bodies[i].p, s.bodies[i].v, tau);
+    s.pull[i] = accelerationAt(b, s.bodies[i].p, s.bodies[i].v, tau);
     if (b.damping > 0) s.bodies[i].v *= det::exp(-b.damping * s.h);
   }
-  solveCrowd(s.bodies, s.contacts, pull, s.h, s.moved);
+  solveCrowd(s.bodies, s.contacts, s.pull, s.h, s.moved);
   for (const CrowdContact& c : s.contacts) {
     const RigidBody& b = *s.members[c.a];
     if (!(c.rolling > 0) || !(c.pressed > 0) || !b.isBall()) continue;
