@@ -65,7 +65,9 @@ void faceContact(const Pose& R, const Vec3& halfR, const Pose& I, const Vec3& ha
     const double gap = n.dot(x.p) - level;
     if (gap > margin) continue;
     const Vec3 onB = referenceIsB ? Vec3(x.p - gap * n) : x.p;
-    points.push_back({{gap, onB, referenceIsB ? n : Vec3(-n), true, -1}, (referenceIsB ? 0u : 500u) + x.key});
+    points.push_back({{gap, onB, referenceIsB ? n : Vec3(-n), true, -1},
+                      (referenceIsB ? 0u : 500u) + x.key,
+                      referenceIsB ? Carrier::A : Carrier::B});
   }
 }
 

@@ -1,9 +1,11 @@
 #pragma once
-/// Velocities of bodies in lasting contact: all contact points of a set at once.
+/// Velocities of bodies in lasting contact: all contact points of an island at once.
 ///
-/// Method   projected Gauss-Seidel over points, each with its normal and a friction disc, warm started,
-/// iterated until the
-///          velocities stand still (small sets) or a cap is reached (piles).
+/// Method   Gauss and Seidel's sweeps over points, each with its normal and a friction disc, warm started,
+/// find out which points push, stick and slip; small islands then solve exactly for that choice (dense, with
+/// a trace of regularisation and refinement, so that redundant points and mass ratios do not matter) and mend
+/// it until it holds. Islands too large for that, or whose choice does not settle, go on sweeping along
+/// conjugate directions.
 
 #include "dynamics/impulse.h"
 
@@ -12,17 +14,28 @@
 
 namespace stadion {
 
+/// A contact point through one step. Bases are (n, t1, t2), n from b to a; they and the arms differ where the
+/// bodies turn during the step: velocities are judged at its end, impulses act in its middle.
 struct SolverContact {
-  std::uint32_t a = 0, b = 0;                ///< indices of mobiles
-  Vec3 x = Vec3::Zero(), n = Vec3::UnitZ();  ///< n from b to a
-  double gap = 0;                            ///< [m]
-  double restitution = 0, friction = 0;
-  double floor = 0;          ///< normal velocity that the step must reach [m/s]
-  double normalImpulse = 0;  ///< accumulated [N s]; the guess on entry
-  Vec3 frictionImpulse = Vec3::Zero();
+  std::uint32_t a = 0, b = 0;                             ///< indices of mobiles
+  Mat3 rows = Mat3::Identity(), push = Mat3::Identity();  ///< bases at the end and in the middle
+  Vec3 armA = Vec3::Zero(), armB = Vec3::Zero();          ///< from the centres of mass at the end [m]
+  Vec3 pushA = Vec3::Zero(), pushB = Vec3::Zero();        ///< the same in the middle [m]
+  double friction = 0;
+  double floor = 0;             ///< normal velocity that the step must reach [m/s]
+  Vec2 slip = Vec2::Zero();     ///< before the step, if `slides`: friction goes against the mean slip [m/s]
+  bool slides = false;          ///< known to slip all through the step
+  Vec3 impulse = Vec3::Zero();  ///< in `push` [N s]; the guess on entry
+
+  Vec3 velocity(const std::vector<Mobile>& m) const {
+    return rows.transpose() * (m[a].v + m[a].omega.cross(armA) - m[b].v - m[b].omega.cross(armB));
+  }
 };
 
-/// Raises every contact's normal velocity to its `floor`, with friction. Returns the iterations used.
-int solveContacts(std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts);
+/// A basis with n first, the same for the same n.
+Mat3 basisAround(const Vec3& n);
+
+/// Raises every contact's normal velocity to its `floor`, with friction. True if it holds to rounding.
+bool solveContacts(std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts);
 
 }  // namespace stadion

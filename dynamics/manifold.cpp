@@ -61,7 +61,7 @@ void cornersNear(const Side& a, const Side& b, double tau, double margin, bool f
     // corners.
     if (!g.face && std::holds_alternative<BoxShape>(*b.shape)) return;
     if (flipped) flip(g);
-    found.push_back({g, key});
+    found.push_back({g, key, flipped ? Carrier::B : Carrier::A});
   });
   if (found.size() > kMost) {  // keep the deepest and the widest spread
     std::stable_sort(found.begin(), found.end(),

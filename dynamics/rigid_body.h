@@ -67,6 +67,12 @@ struct Support {
   double friction = 0, rolling = 0, restitution = 0;
 };
 
+/// A contact point of the last step of the solver, as a guess for the next.
+struct Pressed {
+  std::uint64_t key = 0;
+  Vec3 force = Vec3::Zero();  ///< on the body that found it [N]
+};
+
 struct Hook {
   FieldId field = 0;
 };
@@ -97,7 +103,13 @@ struct RigidBody {
   double step = 0;           ///< last step of the general integrator [s]
   Support support;
   std::vector<Hook> hooks;
-  std::vector<Party> touching;  ///< Contact, Rest: whom the body leans on
+  std::vector<Party> touching;   ///< Contact, Rest: whom the body leans on, or nearly
+  std::vector<Party> leaning;    ///< Contact: those of them that the memory of pairs calls touching
+  std::vector<Pressed> presses;  ///< Contact: forces of the last step on points that this body found
+  double dueAge = 0;             ///< Contact: age at which the solver looks again; 0: at once [s]
+  bool crowd = false;            ///< Contact: one of many, advanced together with them
+  Vec3 endV = Vec3::Zero();      ///< crowd: velocity at the end of the step [m/s]
+  std::uint32_t slot = 0;        ///< scratch of the contact solver
   GuidedMotion held;
   std::uint32_t version = 0;  ///< counts arcs: older predictions are void
   std::uint32_t impacts = 0;  ///< in the short time `impactSpan`

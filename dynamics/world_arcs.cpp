@@ -101,6 +101,8 @@ void World::Core::setPath(RigidBody& b, double tau, const Path& path, double hor
   b.age0 = -tau;
   b.pathAge = horizon;
   b.validAge = std::min(horizon, b.spinStart + b.spin.horizon);
+  b.dueAge = 0;
+  b.crowd = b.crowd && mode == BodyMode::Contact;
   b.until = tau + b.validAge;
   ++b.version;
   if (!b.active) b.active = true, active.push_back(&b);
@@ -215,7 +217,10 @@ void World::Core::restart(RigidBody& b, double tau) {
       wake(b, tau);
     }
     break;
-  default: return;  // the contact solver looks at the fields at its next step
+  case BodyMode::Contact:  // the solver looks at the fields at its next step, unless that is far away
+    hurry(b, tau);
+    return;
+  default: return;
   }
   predict(b, tau);
 }

@@ -12,6 +12,7 @@
 #include "dynamics/contact_events.h"
 #include "dynamics/contact_solver.h"
 #include "dynamics/id_table.h"
+#include "dynamics/manifold.h"
 #include "dynamics/rigid_body.h"
 #include "dynamics/touch.h"
 #include "dynamics/world.h"
@@ -22,6 +23,15 @@
 #include <set>
 
 namespace stadion {
+
+/// Names a contact point of a pair.
+inline std::uint64_t pairKey(Party a, Party b, std::uint32_t feature) {
+  std::uint64_t h = 1469598103934665603ULL;
+  for (const std::uint64_t x : {std::uint64_t{a.isBody}, std::uint64_t{a.id}, std::uint64_t{b.isBody},
+                                std::uint64_t{b.id}, std::uint64_t{feature}})
+    h = (h ^ x) * 1099511628211ULL;
+  return h;
+}
 
 class World::Core {
 public:
@@ -153,17 +163,45 @@ public:
     PairSurface surface;
     Gap gap;
     std::uint64_t key = 0;
+    Carrier carrier = Carrier::None;
+  };
+  /// Bodies that lean on each other, by id, and what they lean on.
+  struct Island {
+    std::vector<RigidBody*> set;
+    std::vector<Found> found;
+    std::vector<Mobile> start, end;  ///< the set's, then those of the parties that nothing moves
+    std::vector<Party> fixed;        ///< the latter
+    bool carried = false;            ///< one of them moves
   };
   void enterContact(RigidBody& b, double tau);
   void wake(RigidBody& b, double tau);
   void wakeOnto(Party gone, double tau);
+  void hurry(RigidBody& b, double tau);
   void scheduleTick(double tau);
+  void scheduleDue(double tau);
   void tick(double tau);
-  void findContacts(RigidBody& b, double tau, std::vector<Found>& found, double reachTime);
-  bool solveTick(std::vector<RigidBody*>& set, std::vector<Found>& found, double tau, double h);
-  void concludeTick(RigidBody& b, const Mobile& before, const Mobile& after, bool touches, double tau,
-                    double h);
-  std::map<std::uint64_t, std::pair<double, Vec3>> warm;  ///< impulses of the last step by contact
+  void findContacts(RigidBody& b, double tau, std::vector<Found>& found, std::vector<RigidBody*>& set);
+  bool wakeTouched(const std::vector<Found>& found, double tau);
+  void remember(RigidBody& b, const std::vector<Party>& near);
+  // --- many bodies in one heap (world_crowd.cpp)
+  static constexpr Nanoseconds kCrowdGrid = 8'000'000;  ///< their steps end on multiples of this show time
+  static constexpr std::size_t kCrowd = 16;             ///< islands with so many bodies become one
+  static constexpr std::size_t kCrowdOfBalls = 5;       ///< the same if they are balls
+  struct CrowdStep;
+  void advanceCrowd(double tau);
+  void joinCrowd(RigidBody& b, double tau, CrowdStep& step);
+  void findCrowdContacts(RigidBody& b, double tau, CrowdStep& step);
+  void concludeCrowd(CrowdStep& step, double tau);
+  // --- one island (world_island.cpp)
+  void advanceIsland(Island& island, double tau, double h);
+  void begin(Island& island, double tau) const;
+  void stopApproaches(Island& island) const;
+  bool solveStep(Island& island, double tau, double h) const;
+  double glide(Island& island, double tau, double h);
+  void resistRolling(Island& island) const;
+  void conclude(Island& island, double tau, double h);
+  void concludeFreely(RigidBody& b, const Mobile& start, double tau);
+  bool settleOnFace(RigidBody& b, const Found& only, double tau);
   std::uint32_t tickNumber = 0;
   double tickAt = -1;  ///< [s] tau of the scheduled one
 

@@ -106,7 +106,16 @@ void World::Core::sweep(RigidBody& b, double tau) {
   if (b.mode == BodyMode::Held) {
     b.swept = sweptBox(Side::of(b), std::max(tau, frameFrom), std::max({tau, frameFrom, now}));
   } else {
-    b.swept = sweptBody(b, tau, std::max(tau, std::min(windowEnd(), b.pathAge - b.age0)));
+    const Aabb box = sweptBody(b, tau, std::max(tau, std::min(windowEnd(), b.pathAge - b.age0)));
+    if (b.crowd) {  // steps are short and many: a roomy box serves several
+      if (b.place != kUnfiled && (b.swept.lo.array() <= box.lo.array()).all() &&
+          (box.hi.array() <= b.swept.hi.array()).all())
+        return;
+      const double room = 0.002 + 0.02 * b.velocity(tau).norm();
+      b.swept.lo = box.lo.array() - room, b.swept.hi = box.hi.array() + room;
+    } else {
+      b.swept = box;
+    }
   }
   nearBodies.put(b, b.swept);
 }
@@ -119,6 +128,7 @@ void World::Core::predict(RigidBody& b, double tau, bool onlyGreater) {
 }
 
 void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
+  if (b.crowd) return;  // whoever could touch it within its step has been taken into the step
   const Side self = Side::of(b);
   pushHorizon(b);
   b.alone = true;
@@ -187,7 +197,6 @@ void World::Core::sweep(Collider& c) {
 
 /// A window begins: everybody is looked at anew.
 void World::Core::openWindow(Nanoseconds at) {
-  const Nanoseconds tickTime = tickAt >= 0 ? timeAt(tickAt) : -1;
   origin = at;
   frameFrom = tauOf(t0), now = tauOf(t1);
   queue_ = {};
@@ -204,7 +213,7 @@ void World::Core::openWindow(Nanoseconds at) {
   for (Collider& c : colliders) c.motion.begin = frameFrom;
   if (nearColliders.crowded()) fileColliders();
   tickAt = -1;
-  if (tickTime >= 0) scheduleTick(tauOf(tickTime));
+  scheduleDue(from);
   for (const Command& c : commands) postCommand(c);
   for (RigidBody* b : active) mark(*b);
   std::ranges::sort(marked, {}, &RigidBody::id);

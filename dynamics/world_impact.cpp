@@ -12,6 +12,7 @@ constexpr double kLastBounce = 1e-9;
 constexpr double kLastRattle = 1e-6;
 constexpr Nanoseconds kSpan = 16'000'000;     ///< in which impacts are counted [ns]
 constexpr std::uint32_t kMostImpacts = 60;    ///< in that time, then the contact solver takes over
+constexpr std::uint32_t kMostRattles = 8;     ///< the same where bounces die away soon
 constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
 
 }  // namespace
@@ -77,6 +78,12 @@ void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool l
   if (!b.movable()) return;
   const Vec3 p = b.position(tau);
   const Quat q = b.orientation(tau);
+  if (b.crowd) {  // it takes effect with the crowd's next step
+    const Vec3 turn = m.omega - b.spin.angularVelocity(b.spinAge(tau));
+    b.endV += m.v - b.velocity(tau);
+    b.endL += q * b.inertia.cwiseProduct(q.conjugate() * turn);
+    return;
+  }
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * m.omega);
   const bool leaning = b.mode == BodyMode::Contact || (b.mode == BodyMode::Rest && !b.support.on.id);
   if (lasting || leaning) {
@@ -139,7 +146,8 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   Support face;
   const bool onFace = c && a.mode == BodyMode::Flight && supportFor(a, *c, touch.gap, tau, face);
   const double last = onFace ? kLastBounce : kLastRattle;
-  const bool tired = a.impacts > (onFace ? kMostBounces : kMostImpacts) || (b && b->impacts > kMostImpacts);
+  const std::uint32_t most = pair.restitution < 0.6 ? kMostRattles : kMostImpacts;
+  const bool tired = a.impacts > (onFace ? kMostBounces : most) || (b && b->impacts > most);
   const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
   if (tired) ++counters.limited;
   const Vec3 impulse = collide(ma, mb, x, n, ends ? 0 : pair.restitution, pair.friction);

@@ -1,0 +1,361 @@
+#include "dynamics/world_core.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr double kTouching = 1e-4;         ///< pairs closer than this are in contact [m]
+constexpr double kSlop = 1e-5;             ///< overlap that is left alone [m]
+constexpr double kPushOut = 0.2;           ///< speed limit of the correction of deeper overlap [m/s]
+constexpr double kApproach = 1e-4;         ///< approaches up to this end with the step's own forces [m/s]
+constexpr double kRestitutionSpeed = 0.1;  ///< slower approaches inside lasting contact do not bounce [m/s]
+constexpr double kQuietSpeed = 2e-3;       ///< of surface points [m/s]
+constexpr double kQuietTime = 0.2;         ///< before a set of bodies sleeps [s]
+constexpr double kStill = 1e-9;            ///< slower than this is not at all [m/s]
+constexpr double kBalanced = 1e-7;         ///< accelerations below this are rounding [m/s2]
+constexpr double kProbe = 1e-4;            ///< step in which accelerations are measured [s]
+constexpr double kFarthest = 1;            ///< how long a glide is foreseen at most [s]
+constexpr double kShortest = 1e-7;         ///< and at least [s]
+
+/// How a body lies during a step, from its velocities at both ends.
+struct Turned {
+  Vec3 p;
+  Mat3 R;  ///< turn since the start
+};
+
+Turned turned(const Mobile& start, const Mobile& end, double share, double h) {
+  const double s = share * h;
+  const Vec3 w = s * (start.omega + 0.5 * share * (end.omega - start.omega));
+  return {start.p + s * (start.v + 0.5 * share * (end.v - start.v)),
+          w.isZero(0) ? Mat3(Mat3::Identity()) : det::expRotation(w).toRotationMatrix()};
+}
+
+/// Arms and basis of a contact when its sides lie like this.
+void place(const Mobile& a0, const Mobile& b0, const Gap& gap, Carrier carrier, const Turned& a,
+           const Turned& b, Mat3& basis, Vec3& armA, Vec3& armB) {
+  basis = basisAround(gap.normal);
+  armA = gap.point - a0.p, armB = gap.point - b0.p;
+  if (carrier == Carrier::B) {
+    armB = b.R * armB;
+    armA = b.p + armB - a.p;
+    basis = a.R * basis;
+  } else {
+    if (carrier == Carrier::A) armA = a.R * armA, basis = b.R * basis;
+    armB = a.p + armA - b.p;
+  }
+}
+
+/// Seconds until a point that starts at x with velocity v and acceleration a (in the axes of a rectangle with
+/// these half extents) leaves it; negative if it is not inside.
+double timeInside(const Vec2& x, const Vec2& v, const Vec2& a, const Vec2& half) {
+  double first = 1e300;
+  for (int i = 0; i < 2; ++i) {
+    if (!(std::fabs(x[i]) < half[i] - 1e-6)) return -1;
+    for (const double side : {half[i], -half[i]}) {
+      // 0.5 a t^2 + v t = side - x, outwards
+      const double sign = side > 0 ? 1 : -1, d = half[i] - sign * x[i], u = sign * v[i], g = sign * a[i];
+      const double disc = u * u + 2 * g * d;
+      if (disc < 0) continue;
+      const double q = u + std::sqrt(disc);
+      if (q > 0) first = std::min(first, 2 * d / q);
+    }
+  }
+  return first;
+}
+
+}  // namespace
+
+/// Velocities now, and who is with whom.
+void World::Core::begin(Island& s, double tau) const {
+  for (std::size_t i = 0; i < s.set.size(); ++i) {
+    RigidBody& b = *s.set[i];
+    b.slot = static_cast<std::uint32_t>(i);
+    Mobile m = mobileOf(b, tau);
+    if (b.mode == BodyMode::Contact && b.dueAge > 0) {
+      // The arc has the mean angular momentum of its step, through which that grew evenly.
+      const Quat q = b.orientation(tau);
+      const double share = std::clamp(2 * b.age(tau) / b.dueAge - 1, -1.0, 1.0);
+      const Vec3 L = b.spin.L + share * (b.endL - b.spin.L);
+      m.omega = q * b.inertia.cwiseInverse().cwiseProduct(q.conjugate() * L);
+    }
+    s.start.push_back(m);
+  }
+  for (Found& f : s.found) {
+    SolverContact& c = f.contact;
+    c.a = body(f.a.id)->slot;
+    if (f.b.isBody && body(f.b.id)->mode == BodyMode::Contact && !body(f.b.id)->crowd) {
+      c.b = body(f.b.id)->slot;
+      continue;
+    }
+    const auto known = std::find(s.fixed.begin(), s.fixed.end(), f.b);
+    c.b = static_cast<std::uint32_t>(s.set.size() + static_cast<std::size_t>(known - s.fixed.begin()));
+    if (known != s.fixed.end()) continue;
+    s.fixed.push_back(f.b);
+    Mobile m = f.b.isBody ? mobileOf(*body(f.b.id), tau) : mobileOf(*collider(f.b.id), tau);
+    m.inverseMass = 0, m.inverseInertia.setZero();
+    s.carried = s.carried || !m.v.isZero(0) || !m.omega.isZero(0);
+    s.start.push_back(m);
+  }
+}
+
+/// What is an impact: approaches that end now, with restitution if they are fast.
+void World::Core::stopApproaches(Island& s) const {
+  bool any = false;
+  std::vector<SolverContact> hits;
+  for (const Found& f : s.found) {
+    if (f.gap.distance > kSlop) continue;
+    SolverContact c = f.contact;
+    const Mobile &a = s.start[c.a], &b = s.start[c.b];
+    c.rows = c.push = basisAround(f.gap.normal);
+    c.armA = c.pushA = f.gap.point - a.p, c.armB = c.pushB = f.gap.point - b.p;
+    c.impulse.setZero(), c.slides = false;
+    const double closing = -c.velocity(s.start)[0];
+    c.floor = closing > kRestitutionSpeed ? f.surface.restitution * closing : 0;
+    any = any || closing > kApproach;
+    hits.push_back(c);
+  }
+  if (any) solveContacts(s.start, hits);
+}
+
+/// Velocities after h seconds: forces act in the middle of the step, contact points obey at its end. A first
+/// pass foresees how the bodies turn, a second one counts.
+bool World::Core::solveStep(Island& s, double tau, double h) const {
+  std::vector<Mobile> guess = s.start;
+  std::vector<Vec3> pull(s.set.size());
+  for (std::size_t i = 0; i < s.set.size(); ++i) {
+    pull[i] = accelerationAt(*s.set[i], guess[i].p, guess[i].v, tau);
+    guess[i].v += h * pull[i];
+  }
+  std::vector<SolverContact> step;
+  step.reserve(s.found.size());
+  for (Found& f : s.found) {
+    SolverContact c = f.contact;
+    c.impulse.setZero();
+    for (const Pressed& p : body(f.a.id)->presses)
+      if (p.key == f.key) c.impulse = h * (basisAround(f.gap.normal).transpose() * p.force);
+    step.push_back(c);
+  }
+  bool holds = false;
+  for (int pass = 0; pass < 2; ++pass) {
+    s.end = s.start;
+    for (std::size_t i = 0; i < s.set.size(); ++i) {
+      const RigidBody& b = *s.set[i];
+      Mobile& m = s.end[i];
+      const Turned at = turned(s.start[i], guess[i], 1, h);
+      if (pass > 0 && !uniformFor(b)) {
+        const Turned mid = turned(s.start[i], guess[i], 0.5, h);
+        pull[i] = accelerationAt(b, mid.p, 0.5 * (s.start[i].v + guess[i].v), tau + 0.5 * h);
+      }
+      m.v += h * pull[i];
+      if (b.damping > 0) m.v *= det::exp(-b.damping * h);
+      if (!m.omega.isZero(0) || pass > 0) {  // its angular momentum stays, its inertia turns with it
+        const Mat3 turnedInverse = at.R * m.inverseInertia * at.R.transpose();
+        if (!b.isBall() && !m.omega.isZero(0))
+          m.omega = turnedInverse * s.start[i].inverseInertia.inverse() * m.omega;
+        m.inverseInertia = turnedInverse;
+      }
+    }
+    for (std::size_t i = 0; i < step.size(); ++i) {
+      const Found& f = s.found[i];
+      SolverContact& c = step[i];
+      const Mobile &a = s.start[c.a], &b = s.start[c.b], &a1 = guess[c.a], &b1 = guess[c.b];
+      place(a, b, f.gap, f.carrier, turned(a, a1, 0.5, h), turned(b, b1, 0.5, h), c.push, c.pushA, c.pushB);
+      place(a, b, f.gap, f.carrier, turned(a, a1, 1, h), turned(b, b1, 1, h), c.rows, c.armA, c.armB);
+      SolverContact before = c;
+      before.rows = basisAround(f.gap.normal), before.armA = f.gap.point - a.p,
+      before.armB = f.gap.point - b.p;
+      const Vec3 u0 = before.velocity(s.start);
+      if (f.gap.distance > kSlop) {
+        c.floor =
+            -2 * f.gap.distance / h - u0[0];  // the mean velocity of the step closes the gap and no more
+      } else {
+        c.floor = std::min(kPushOut, std::max(0.0, -f.gap.distance - kSlop) * 20);
+      }
+      c.slip = u0.tail<2>();
+      if (pass > 0) {
+        const Vec2 u1 = c.velocity(guess).tail<2>();
+        c.slides = c.slip.norm() > 2 * (u1 - c.slip).norm();
+      }
+    }
+    holds = solveContacts(s.end, step);
+    bool turns = false;
+    for (std::size_t i = 0; i < s.set.size(); ++i)
+      turns = turns || std::max(s.start[i].omega.norm(), s.end[i].omega.norm()) * s.set[i]->reach > 1e-8 ||
+              !uniformFor(*s.set[i]);
+    for (std::size_t i = 0; i < step.size() && !turns; ++i) {
+      const Vec2 u0 = step[i].slip, u1 = step[i].velocity(s.end).tail<2>();
+      turns = std::fabs(u0.x() * u1.y() - u0.y() * u1.x()) > 1e-9 * u0.squaredNorm() + 1e-16;
+    }
+    if (!turns) break;
+    guess = s.end;
+    for (std::size_t i = 0; i < guess.size(); ++i) guess[i].p = s.start[i].p;
+  }
+  for (std::size_t i = 0; i < step.size(); ++i) s.found[i].contact = step[i];
+  return holds;
+}
+
+/// Bodies that do not turn, on faces that they do not leave, keep their accelerations until a slip ends: how
+/// long that lasts, 0 if not even for this step, infinite if all are at rest for good.
+double World::Core::glide(Island& s, double tau, double h) {
+  if (s.carried) return 0;
+  for (std::size_t i = 0; i < s.set.size(); ++i) {
+    const RigidBody& b = *s.set[i];
+    if (s.start[i].omega.norm() * b.reach > kStill || b.damping > 0) return 0;
+  }
+  for (const Found& f : s.found)
+    if (f.gap.distance < -kSlop) return 0;  // it is being pushed out
+  const double probe = std::min(h, kProbe);
+  if (!solveStep(s, tau, probe)) return 0;
+  double most = kFarthest, fastest = 0, strongest = 0;
+  for (std::size_t i = 0; i < s.set.size(); ++i) {
+    const RigidBody& b = *s.set[i];
+    const Vec3 a = (s.end[i].v - s.start[i].v) / probe;
+    const double alpha = (s.end[i].omega - s.start[i].omega).norm() / probe * b.reach;
+    if (alpha > kBalanced) return 0;
+    fastest = std::max(fastest, s.start[i].v.norm()), strongest = std::max(strongest, a.norm());
+    if (!uniformFor(b) && (s.start[i].v.norm() > kStill || a.norm() > kBalanced)) return 0;
+  }
+  if (fastest <= kStill && strongest <= kBalanced) return 1e300;
+  for (const Found& f : s.found) {
+    const SolverContact& c = f.contact;
+    const Vec3 n = f.gap.normal, u = s.start[c.a].v - s.start[c.b].v,
+               a = (s.end[c.a].v - s.end[c.b].v - u) / probe;
+    const double un = u.dot(n), an = a.dot(n);
+    if (un < -kStill || an < -kBalanced) return 0;  // what nears it may hit it
+    if (un > kStill || an > kBalanced || c.impulse[0] <= 0) continue;
+    const Vec3 ut = u - un * n, at = a - an * n;
+    const double speed = ut.norm(), change = at.norm();
+    if (speed <= kStill && change <= kBalanced) continue;
+    if (ut.cross(at).norm() > 1e-9 * speed * (change + 1)) return 0;  // the slip turns
+    if (ut.dot(at) < 0 && c.friction > 0) most = std::min(most, speed / change);
+    // The faces must go on carrying the same points.
+    const Collider* on = f.b.isBody ? nullptr : collider(f.b.id);
+    if (!on || f.carrier != Carrier::A) return 0;
+    const Pose X = on->motion.end;
+    const auto inside = [&](const Pose& F, const Vec3& half) {
+      Vec2 x, v, w, extent;
+      int k = 0, j = 0;
+      (F.q.conjugate() * n).cwiseAbs().maxCoeff(&k);
+      const Vec3 lx = F.inverse() * f.gap.point, lv = F.q.conjugate() * ut, la = F.q.conjugate() * at;
+      for (int i = 0; i < 3; ++i)
+        if (i != k) x[j] = lx[i], v[j] = lv[i], w[j] = la[i], extent[j++] = half[i];
+      most = std::min(most, timeInside(x, v, w, extent));
+    };
+    if (const auto* plane = std::get_if<PlaneShape>(on->shape)) {
+      if (plane->bounded()) inside(X * plane->pose, {plane->half.x(), plane->half.y(), 0});
+    } else if (const auto* box = std::get_if<BoxShape>(on->shape)) {
+      inside(X * box->pose, box->half);
+    } else {
+      return 0;
+    }
+  }
+  if (!(most > kShortest)) return 0;
+  for (std::size_t i = 0; i < s.set.size(); ++i) {
+    s.start[i].omega.setZero(), s.end[i].omega.setZero();
+    s.end[i].v = s.start[i].v + (s.end[i].v - s.start[i].v) / probe * most;
+  }
+  for (Found& f : s.found) f.contact.impulse *= most / probe;
+  return most;
+}
+
+/// Rolling resistance takes spin of balls up to c r N.
+void World::Core::resistRolling(Island& s) const {
+  for (const Found& f : s.found) {
+    const RigidBody& b = *body(f.a.id);
+    if (!b.isBall() || f.contact.impulse[0] <= 0 || f.surface.rolling <= 0) continue;
+    Mobile& m = s.end[f.contact.a];
+    const double most = f.surface.rolling * b.radius() * f.contact.impulse[0] / b.inertia.x();
+    const double w = m.omega.norm();
+    if (w > 0) m.omega *= std::max(0.0, 1 - most / w);
+  }
+}
+
+/// Nothing is near any more: it flies.
+void World::Core::concludeFreely(RigidBody& b, const Mobile& start, double tau) {
+  const Quat q = b.orientation(tau);
+  wakeOnto({true, b.id}, tau);
+  startFlight(b, tau, start.p, start.v, q, q * b.inertia.cwiseProduct(q.conjugate() * start.omega));
+}
+
+/// A ball on one still face has a closed form.
+bool World::Core::settleOnFace(RigidBody& b, const Found& only, double tau) {
+  const Collider* c = only.b.isBody ? nullptr : collider(only.b.id);
+  Support face;
+  if (!c || only.gap.distance > kSlop || std::fabs(b.velocity(tau).dot(only.gap.normal)) > 1e-3 ||
+      !supportFor(b, *c, only.gap, tau, face))
+    return false;
+  b.support = face;
+  BallStart s{b.position(tau), b.velocity(tau), b.spin.angularVelocity(b.spinAge(tau)), b.orientation(tau)};
+  s.v -= face.normal * face.normal.dot(s.v);
+  startOnFace(b, tau, s, false, false);
+  return true;
+}
+
+/// The bodies' arcs of h seconds, and the forces as a guess for the next step.
+void World::Core::conclude(Island& s, double tau, double h) {
+  for (std::size_t i = 0; i < s.set.size(); ++i) {
+    RigidBody& b = *s.set[i];
+    b.touching.clear(), b.presses.clear();
+    std::vector<Party> near;
+    const Found* only = nullptr;
+    int points = 0;
+    const auto note = [](std::vector<Party>& list, Party p) {
+      if (std::find(list.begin(), list.end(), p) == list.end()) list.push_back(p);
+    };
+    for (const Found& f : s.found) {
+      if (f.contact.a != i && f.contact.b != i) continue;
+      ++points, only = &f;
+      const Party other = f.contact.a == i ? f.b : f.a;
+      note(b.touching, other);
+      if (f.gap.distance < kTouching) note(near, other);
+      if (f.contact.a == i && !f.contact.impulse.isZero(0))
+        b.presses.push_back({f.key, basisAround(f.gap.normal) * (f.contact.impulse / h)});
+    }
+    remember(b, near);
+    if (points == 0) {
+      concludeFreely(b, s.start[i], tau);
+      continue;
+    }
+    const Quat q = b.orientation(tau);
+    const Mobile &start = s.start[i], &end = s.end[i];
+    const Vec3 L0 = start.inverseInertia.inverse() * start.omega,
+               L1 = end.inverseInertia.inverse() * end.omega;
+    const double fastest =
+        std::max(end.v.norm() + end.omega.norm() * b.reach, start.v.norm() + start.omega.norm() * b.reach);
+    b.quiet = fastest < kQuietSpeed ? b.quiet + h : 0;
+    const double quiet = b.quiet;
+    setArc(b, tau, Path::parabola(start.p, start.v, (end.v - start.v) / h),
+           Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
+    b.endL = L1, b.dueAge = h, b.quiet = quiet;
+    if (points == 1 && b.isBall() && b.mode == BodyMode::Contact) settleOnFace(b, *only, tau);
+  }
+}
+
+void World::Core::advanceIsland(Island& s, double tau, double h) {
+  begin(s, tau);
+  stopApproaches(s);
+  const double last = glide(s, tau, h);
+  if (last > 1e299) {
+    for (std::size_t i = 0; i < s.set.size(); ++i) s.start[i].v.setZero(), s.start[i].omega.setZero();
+    s.end = s.start;
+    conclude(s, tau, h);
+    for (RigidBody* b : s.set)
+      if (b->mode == BodyMode::Contact) freeze(*b, tau);
+    return;
+  }
+  if (!(last > 0)) {
+    solveStep(s, tau, h);
+    resistRolling(s);
+  }
+  conclude(s, tau, last > 0 ? last : h);
+  // Sets that have been quiet together fall asleep together.
+  const bool quiet = !s.carried && std::ranges::all_of(s.set, [](const RigidBody* b) {
+    return b->mode == BodyMode::Contact && b->quiet >= kQuietTime;
+  });
+  if (quiet)
+    for (RigidBody* b : s.set) freeze(*b, tau);
+}
+
+}  // namespace stadion
