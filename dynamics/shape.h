@@ -4,6 +4,7 @@
 /// Frames   in the node's coordinates N; metres.
 /// Threads  immutable once built.
 
+#include "dynamics/convex_hull.h"
 #include "dynamics/mesh_distance.h"
 #include "dynamics/triangle_tree.h"
 #include "engine/asset/mesh.h"
@@ -35,6 +36,20 @@ struct PlaneShape {
   bool bounded() const { return half.x() < 1e299; }
 };
 
+/// Everything within `radius` of a segment along z of `pose`.
+struct CapsuleShape {
+  Pose pose;
+  double radius = 0.5;
+  double half = 0.5;  ///< half length of the segment [m]
+};
+
+/// A round rod or disc about z of `pose`.
+struct CylinderShape {
+  Pose pose;
+  double radius = 0.5;
+  double half = 0.5;  ///< half height [m]
+};
+
 struct MeshShape {
   explicit MeshShape(TriangleTree t)
       : tree(std::move(t)), hierarchy(std::make_unique<MeshHierarchy>(tree.triangles())) {}
@@ -42,11 +57,12 @@ struct MeshShape {
   std::unique_ptr<MeshHierarchy> hierarchy;  ///< for other meshes
 };
 
-/// Capsule, cylinder and convex join here; every switch over kinds is a std::visit in separation.cpp or
-/// manifold.cpp.
-using Shape = std::variant<BallShape, BoxShape, PlaneShape, MeshShape>;
+/// The convex ones go through convex_core.h; balls, unbounded planes and meshes have ways of their own as
+/// well.
+using Shape =
+    std::variant<BallShape, BoxShape, CapsuleShape, CylinderShape, ConvexShape, PlaneShape, MeshShape>;
 
-enum class ShapeKind { Auto, Ball, Box, Plane, Mesh };
+enum class ShapeKind { Auto, Ball, Box, Capsule, Cylinder, Convex, Plane, Mesh };
 
 struct ShapeChoice {
   Shape shape;

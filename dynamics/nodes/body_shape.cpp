@@ -25,6 +25,9 @@ Mesh scaledForCollision(const Mesh& mesh, const Vec3& scale) {
 ShapeKind shapeKindOf(const std::string& word) {
   if (word == "sphere") return ShapeKind::Ball;
   if (word == "box") return ShapeKind::Box;
+  if (word == "capsule") return ShapeKind::Capsule;
+  if (word == "cylinder") return ShapeKind::Cylinder;
+  if (word == "convex") return ShapeKind::Convex;
   if (word == "plane") return ShapeKind::Plane;
   if (word == "mesh") return ShapeKind::Mesh;
   return ShapeKind::Auto;
