@@ -77,12 +77,10 @@ Vec3 ConvexCore::support(const Vec3& d) const {
                         l.z() < 0 ? -half.z() : half.z());
   }
   case Kind::Cylinder: {
-    const double along = R.col(2).dot(d);
-    const Vec3 across = d - along * R.col(2);
-    const double n = across.norm();
-    Vec3 x = p + R.col(2) * (along < 0 ? -half.z() : half.z());
-    if (n > 1e-15 * std::fabs(along)) x += across * (half.x() / n);
-    return x;
+    const Vec3 l = R.transpose() * d;
+    const double n = std::sqrt(l.x() * l.x() + l.y() * l.y()), z = l.z() < 0 ? -half.z() : half.z();
+    if (!(n > 1e-15 * std::fabs(l.z()))) return p + R.col(2) * z;
+    return p + R * Vec3(l.x() * (half.x() / n), l.y() * (half.x() / n), z);
   }
   case Kind::Hull: {
     const Vec3 l = R.transpose() * d;

@@ -42,9 +42,12 @@ ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess)
   const CoreDistance d = coreDistance(a, b, guess);
   ConvexGap g;
   if (d.apart && d.distance > kNear) {
-    g.distance = d.distance - a.radius - b.radius, g.normal = d.normal;
+    // What the supports say is certain; the distance found may be too long where the search ended in
+    // rounding.
+    const double sure = separationAlong(d.normal, a, b);
+    g.distance = sure, g.normal = d.normal;
     g.onA = d.a - a.radius * d.normal, g.onB = d.b + b.radius * d.normal;
-    return g;
+    if (sure + a.radius + b.radius >= d.distance * (1 - 1e-6)) return g;
   }
   Vec3 towards = d.normal, nearA = d.a, nearB = d.b;
   Best best{a, b};
