@@ -64,6 +64,8 @@ using Shape =
 
 enum class ShapeKind { Auto, Ball, Box, Capsule, Cylinder, Convex, Plane, Mesh };
 
+inline constexpr double kShapeTolerance = 0.02;
+
 struct ShapeChoice {
   Shape shape;
   ShapeKind kind = ShapeKind::Mesh;  ///< never Auto
@@ -71,11 +73,13 @@ struct ShapeChoice {
   std::string remark;                ///< one sentence for reports: what was taken and how far off it is
 };
 
-/// The shape to collide with in place of `mesh`. Auto takes ball, box or plane if the mesh is that within
-/// `tolerance` (relative to its size), else the mesh itself. A kind that is asked for is fitted as well as it
-/// goes. Fails if the mesh has no usable triangle.
+/// The shape to collide with in place of `mesh`. Auto takes the first of plane, ball, box, capsule, cylinder
+/// and convex hull that the mesh is within `tolerance`, relative to its size and for all but balls to its
+/// thinner side; else the mesh itself. Of round shapes the vertices count; facets between them may cut four
+/// times as deep. A kind that is asked for is fitted as well as it goes. Fails if the mesh has no usable
+/// triangle.
 Result<ShapeChoice> chooseShape(const Mesh& mesh, ShapeKind requested = ShapeKind::Auto,
-                                double tolerance = 0.02);
+                                double tolerance = kShapeTolerance);
 
 /// Everything of the shape is inside this ball. Infinite radius for an unbounded plane.
 Sphere boundingSphere(const Shape& shape);

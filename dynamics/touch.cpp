@@ -264,6 +264,10 @@ bool isPlane(const Side& s) {
   return std::holds_alternative<PlaneShape>(*s.shape);
 }
 
+bool isMesh(const Side& s) {
+  return std::holds_alternative<MeshShape>(*s.shape);
+}
+
 void flip(Gap& g) {
   g.point += g.distance * g.normal;
   g.normal = -g.normal;
@@ -309,12 +313,12 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
   if (isBall(b)) return flipped(ballTouch(b, a, from, to, count));
   if (isPlane(a) && isPlane(b)) return {};
   const bool convexA = isConvex(*a.shape), convexB = isConvex(*b.shape);
+  if (isPlane(b) && isMesh(a)) return cornersOnPlane(a, b, from, to, count);
+  if (isPlane(a) && isMesh(b)) return flipped(cornersOnPlane(b, a, from, to, count));
   if (convexA && convexB) return convexTouch(a, b, from, to, count);
   if (convexA) return isPlane(b) ? planeTouch(a, b, from, to, count) : meshTouch(a, b, from, to, count);
   if (convexB)
     return flipped(isPlane(a) ? planeTouch(b, a, from, to, count) : meshTouch(b, a, from, to, count));
-  if (isPlane(b)) return cornersOnPlane(a, b, from, to, count);
-  if (isPlane(a)) return flipped(cornersOnPlane(b, a, from, to, count));
   return meshesTouch(a, b, from, to, count);
 }
 

@@ -43,11 +43,15 @@ ColliderDef colliderOf(const ObjectNode& object, Scene& scene, World& world) {
   return def;
 }
 
-ShapeId addShapeOf(const ObjectNode& object, Scene& scene, World& world) {
-  const Affine& X_WN = scene.placements().world(object.placement());
+Result<ShapeChoice> shapeOf(const ObjectNode& object, Scene& scene) {
   const Mesh* mesh = scene.mesh(object.appearance().mesh);
-  if (!mesh) return 0;
-  auto chosen = chooseShape(scaledForCollision(*mesh, scaleOf(X_WN)), shapeKindOf(object.appearance().shape));
+  if (!mesh) return Result<ShapeChoice>::failure("has no model to collide with");
+  return chooseShape(scaledForCollision(*mesh, scaleOf(scene.placements().world(object.placement()))),
+                     shapeKindOf(object.appearance().shape), object.appearance().tolerance);
+}
+
+ShapeId addShapeOf(const ObjectNode& object, Scene& scene, World& world) {
+  auto chosen = shapeOf(object, scene);
   return chosen ? world.addShape(std::move(chosen.value().shape)) : 0;
 }
 

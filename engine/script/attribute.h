@@ -57,6 +57,7 @@ enum class Attr : std::uint8_t {
   Sphere,
   Strength,
   Target,
+  Tolerance,
   Tracker,
   TurnRate,
   Type,
@@ -65,16 +66,15 @@ enum class Attr : std::uint8_t {
   Zenith,
 };
 
-inline constexpr std::array<std::string_view, 53> kAttrNames = {
-    "ambient",      "angle",       "attach",  "box",       "collidee",    "collider",
-    "colour",       "damping",     "density", "direction", "draw",        "duration",
-    "eventmessage", "eyeheight",   "falloff", "file",      "friction",    "ground",
-    "haze",         "hook",        "horizon", "initstate", "intensity",   "key",
-    "loop",         "mass",        "mode",    "name",      "orientation", "parent",
-    "period",       "position",    "radius",  "range",     "ready",       "releasedistance",
-    "repeat",       "restitution", "rolling", "scale",     "selfcollide", "shape",
-    "smooth",       "speed",       "sphere",  "strength",  "target",      "tracker",
-    "turnrate",     "type",        "unit",    "up",        "zenith"};
+inline constexpr std::array<std::string_view, 54> kAttrNames = {
+    "ambient",         "angle",     "attach",      "box",      "collidee", "collider",     "colour",
+    "damping",         "density",   "direction",   "draw",     "duration", "eventmessage", "eyeheight",
+    "falloff",         "file",      "friction",    "ground",   "haze",     "hook",         "horizon",
+    "initstate",       "intensity", "key",         "loop",     "mass",     "mode",         "name",
+    "orientation",     "parent",    "period",      "position", "radius",   "range",        "ready",
+    "releasedistance", "repeat",    "restitution", "rolling",  "scale",    "selfcollide",  "shape",
+    "smooth",          "speed",     "sphere",      "strength", "target",   "tolerance",    "tracker",
+    "turnrate",        "type",      "unit",        "up",       "zenith"};
 inline constexpr std::size_t kAttrCount = kAttrNames.size();
 
 constexpr std::string_view nameOf(Attr attr) {
