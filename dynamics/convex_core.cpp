@@ -104,6 +104,14 @@ Vec3 ConvexCore::middle() const {
   return p;
 }
 
+ConvexCore ConvexCore::moved(const Vec3& by) const {
+  ConvexCore c = *this;
+  c.p += by;
+  if (kind == Kind::Triangle)
+    for (Vec3& x : c.v) x += by;
+  return c;
+}
+
 double ConvexCore::thickness() const {
   switch (kind) {
   case Kind::Box: return half.minCoeff();

@@ -27,6 +27,7 @@ struct ConvexCore {
   /// The greatest n . x over the rounded body.
   double extent(const Vec3& n) const { return n.dot(support(n)) + radius; }
   Vec3 middle() const;
+  ConvexCore moved(const Vec3& by) const;
   /// The core with everything thinner by up to `depth`, but not turned inside out.
   ConvexCore eroded(double depth) const;
   /// Greatest sensible erosion [m].

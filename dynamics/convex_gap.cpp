@@ -7,7 +7,9 @@ namespace stadion {
 namespace {
 
 constexpr double kNear = 1e-5;     ///< cores closer than this have their normal from their features [m]
-constexpr double kFavour = 1e-11;  ///< faces are preferred to edges by this [m]
+constexpr double kFavour = 1e-11;  ///< faces and edges are preferred to what was only searched by this [m]
+constexpr double kHold = 1e-4;     ///< least distance to hold off for a look [m]
+constexpr int kMostTurns = 12;
 
 struct Best {
   const ConvexCore &a, &b;
@@ -32,14 +34,30 @@ void putOn(ConvexGap& g, const ConvexCore& a, const ConvexCore& b, const Vec3& n
   g.onB = nearB + n * (b.extent(n) - n.dot(nearB));
 }
 
+/// About the way out of an overlap, and points nearby.
+Vec3 overlapDirection(const ConvexCore& a, const ConvexCore& b, const Vec3& guess, Vec3& nearA, Vec3& nearB) {
+  const double most = a.thickness() + b.thickness();
+  for (double depth = 1e-4; depth < 8 * most; depth *= 8) {
+    const CoreDistance thin = coreDistance(a.eroded(depth), b.eroded(depth), guess, 1e-6);
+    if (!thin.apart) continue;
+    nearA = thin.a, nearB = thin.b;
+    return thin.normal;
+  }
+  Vec3 n = a.middle() - b.middle();
+  const double l = n.norm();
+  n = l > 0 ? Vec3(n / l) : Vec3::UnitZ();
+  nearA = nearB = 0.5 * (a.support(-n) + b.support(n));
+  return n;
+}
+
 }  // namespace
 
 double separationAlong(const Vec3& n, const ConvexCore& a, const ConvexCore& b) {
   return -a.extent(-n) - b.extent(n);
 }
 
-ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess) {
-  const CoreDistance d = coreDistance(a, b, guess);
+ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess, double accuracy) {
+  const CoreDistance d = coreDistance(a, b, guess, accuracy);
   ConvexGap g;
   if (d.apart && d.distance > kNear) {
     // What the supports say is certain; the distance found may be too long where the search ended in
@@ -47,42 +65,33 @@ ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess)
     const double sure = separationAlong(d.normal, a, b);
     g.distance = sure, g.normal = d.normal;
     g.onA = d.a - a.radius * d.normal, g.onB = d.b + b.radius * d.normal;
-    if (sure + a.radius + b.radius >= d.distance * (1 - 1e-6)) return g;
+    if (sure + a.radius + b.radius >= d.distance * (1 - 1e-6 - 2 * accuracy)) return g;
   }
-  Vec3 towards = d.normal, nearA = d.a, nearB = d.b;
+  Vec3 nearA = d.a, nearB = d.b;
+  const Vec3 towards = d.apart && d.distance > 1e-9 ? d.normal : overlapDirection(a, b, guess, nearA, nearB);
   Best best{a, b};
-  if (!d.apart || d.distance < 1e-9) {
-    // Thinner by and by, until they part.
-    const double most = a.thickness() + b.thickness();
-    CoreDistance thin;
-    for (double depth = 1e-4; depth < 8 * most; depth *= 8) {
-      // A round one alone at first: then the direction is exact where it meets a corner.
-      const bool roundA = a.kind == ConvexCore::Kind::Cylinder;
-      thin = roundA ? coreDistance(a.eroded(depth), b, guess) : coreDistance(a, b.eroded(depth), guess);
-      if (thin.apart) break;
-      thin = coreDistance(a.eroded(depth), b.eroded(depth), guess);
-      if (thin.apart) break;
-    }
-    if (thin.apart) {
-      towards = thin.normal, nearA = thin.a, nearB = thin.b;
-    } else {
-      towards = a.middle() - b.middle();
-      const double n = towards.norm();
-      towards = n > 0 ? Vec3(towards / n) : Vec3::UnitZ();
-      nearA = nearB = 0.5 * (a.support(-towards) + b.support(towards));
-    }
-  }
-  const Directions da = directionsNear(a, -towards, nearA), db = directionsNear(b, towards, nearB);
-  for (int i = 0; i < db.faceCount; ++i) best.attempt(db.faces[static_cast<std::size_t>(i)], towards);
-  for (int i = 0; i < da.faceCount; ++i) best.attempt(da.faces[static_cast<std::size_t>(i)], towards, 1e-13);
   best.attempt(towards, towards, kFavour);
+  // Held off along the normal; the more precise it is, the more precise the next.
+  for (int i = 0; i < kMostTurns; ++i) {
+    const double off = std::max(kHold, 4 * (std::fabs(best.gap) + a.radius + b.radius));
+    const CoreDistance held = coreDistance(a.moved(off * best.n), b, best.n);
+    if (!held.apart) break;
+    const double before = best.gap;
+    best.attempt(held.normal, held.normal, kFavour);
+    nearA = held.a - off * best.n, nearB = held.b;
+    if (!(best.gap > before + 1e-15)) break;
+  }
+  const Vec3 n = best.n;
+  const Directions da = directionsNear(a, -n, nearA), db = directionsNear(b, n, nearB);
+  for (int i = 0; i < db.faceCount; ++i) best.attempt(db.faces[static_cast<std::size_t>(i)], n);
+  for (int i = 0; i < da.faceCount; ++i) best.attempt(da.faces[static_cast<std::size_t>(i)], n, 1e-13);
   for (int i = 0; i < da.edgeCount; ++i)
     for (int j = 0; j < db.edgeCount; ++j) {
-      const Vec3 n = da.edges[static_cast<std::size_t>(i)].cross(db.edges[static_cast<std::size_t>(j)]);
-      const double s = n.norm();
-      if (s > 1e-4) best.attempt(n / s, towards, kFavour);
+      const Vec3 e = da.edges[static_cast<std::size_t>(i)].cross(db.edges[static_cast<std::size_t>(j)]);
+      const double s = e.norm();
+      if (s > 1e-4) best.attempt(e / s, n, 1e-13);
     }
-  g.distance = best.gap, g.normal = best.n;
+  g.distance = separationAlong(best.n, a, b), g.normal = best.n;
   putOn(g, a, b, nearA, nearB);
   return g;
 }

@@ -9,6 +9,7 @@ namespace stadion {
 namespace {
 
 constexpr int kMostLooks = 400;
+constexpr double kRough = 1e-5;  ///< accuracy of distances on the way
 
 double reachOf(const Side& s) {
   return s.body ? s.body->reach : s.bound().centre.norm() + s.bound().radius;
@@ -194,7 +195,7 @@ std::optional<Touch> convexTouch(const Side& sa, const Side& sb, double from, do
         first = false;
       },
       [&](double&) {
-        const ConvexGap g = convexGap(a.core, b.core, guess);
+        const ConvexGap g = convexGap(a.core, b.core, guess, kRough);
         guess = g.normal;
         return g;
       },
@@ -276,7 +277,7 @@ std::optional<Touch> meshTouch(const Side& sa, const Side& sm, double from, doub
             first = false;
           },
           [&](double&) {
-            ConvexGap g = convexGap(a.core, b.core, guess);
+            ConvexGap g = convexGap(a.core, b.core, guess, kRough);
             guess = g.normal;
             if (g.distance < 1e-6) meshNormal(a.core, b.core, face, g);
             return g;

@@ -82,7 +82,7 @@ bool nearest(const Simplex& t, Simplex& out) {
 
 }  // namespace
 
-CoreDistance coreDistance(const ConvexCore& A, const ConvexCore& B, const Vec3& guess) {
+CoreDistance coreDistance(const ConvexCore& A, const ConvexCore& B, const Vec3& guess, double accuracy) {
   CoreDistance out;
   const auto vertex = [&](const Vec3& d) {
     Vertex x;
@@ -98,7 +98,7 @@ CoreDistance coreDistance(const ConvexCore& A, const ConvexCore& B, const Vec3& 
     const Vertex x = vertex(v);
     size = std::max(size, x.w.cwiseAbs().maxCoeff());
     const double room = vv - v.dot(x.w);  // upper less lower bound, times |v|
-    if (room <= 1e-15 * vv || room <= 1e-16 * size * std::sqrt(vv)) break;
+    if (room <= accuracy * vv || room <= 1e-16 * size * std::sqrt(vv)) break;
     bool known = false;
     for (int i = 0; i < s.count; ++i) known = known || s[i].w == x.w;
     if (known) break;

@@ -16,7 +16,8 @@ struct CoreDistance {
   int steps = 0;
 };
 
-/// `guess`: a direction from b to a to begin with.
-CoreDistance coreDistance(const ConvexCore& a, const ConvexCore& b, const Vec3& guess);
+/// `guess`: a direction from b to a to begin with. `accuracy`: relative, of the distance.
+CoreDistance coreDistance(const ConvexCore& a, const ConvexCore& b, const Vec3& guess,
+                          double accuracy = 1e-15);
 
 }  // namespace stadion

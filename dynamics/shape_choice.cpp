@@ -10,7 +10,7 @@ namespace stadion {
 namespace {
 
 /// Vertices of curved models lie on the shape; the facets between them may cut this many tolerances deeper.
-constexpr double kFacets = 4;
+constexpr double kFacets = 4, kRodFacets = 2;
 /// A hull of more corners is no simpler than the mesh.
 constexpr std::size_t kMostCorners = 128;
 
@@ -229,20 +229,20 @@ Result<ShapeChoice> chooseShape(const Mesh& mesh, ShapeKind requested, double to
     ShapeChoice c = fitCapsule(mesh, tree, points);
     const auto& s = std::get<CapsuleShape>(c.shape);
     const double off = std::max(c.deviation, facetDepth(tree, s));
-    if (!any || (c.deviation <= 0.5 * tolerance * s.radius && off <= kFacets * tolerance * s.radius))
+    if (!any || (c.deviation <= 0.5 * tolerance * s.radius && off <= kRodFacets * tolerance * s.radius))
       return accept(c, off);
   }
   if (requested == ShapeKind::Cylinder || (any && tree.closed() && points.size() >= 60)) {
     ShapeChoice c = fitCylinder(mesh, tree, points);
     const auto& s = std::get<CylinderShape>(c.shape);
     const double off = std::max(c.deviation, facetDepth(tree, s)), thin = std::min(s.radius, s.half);
-    if (!any || (c.deviation <= 0.5 * tolerance * thin && off <= kFacets * tolerance * s.radius))
+    if (!any || (c.deviation <= 0.5 * tolerance * thin && off <= kRodFacets * tolerance * s.radius))
       return accept(c, off);
   }
   if (requested == ShapeKind::Convex || (any && tree.closed() && tree.corners().size() <= 4 * kMostCorners)) {
     if (auto hull = convexHull(tree.corners())) {
       const double off = hollow(tree, *hull);
-      if (!any || (hull->points.size() <= kMostCorners && off <= tolerance * hull->inside)) {
+      if (!any || (hull->points.size() <= kMostCorners && off <= tolerance * hull->inside + 1e-7 * size)) {
         ShapeChoice c{std::move(*hull), ShapeKind::Convex, off, {}};
         return accept(c, off);
       }

@@ -161,7 +161,7 @@ TEST(ConvexTouch, NothingTouchesBeforeItIsSaidToAndThenItDoes) {
   }
   std::printf("  %d touches, gap then %.1e m, before at least %.1e m, %.1f looks a pair\n", touched, worst,
               early, double(looks) / 3000);
-  EXPECT_GT(touched, 1000);
+  EXPECT_GT(touched, 400);
   EXPECT_LE(worst, 1e-10);
   EXPECT_GE(early, -1e-10);
 }
@@ -243,7 +243,7 @@ TEST(SolidShapes, ACylinderStandsAndACylinderRollsAndACapsuleLiesDown) {
                 b.p.z() - 0.1, c.p.z());
     EXPECT_LE((a.p - Vec3(0.11, 0.07, 0.3)).norm(), 1e-4);
     EXPECT_TRUE(a.asleep());
-    EXPECT_NEAR(b.v.x(), 1, 1e-3);
+    EXPECT_NEAR(b.v.x(), 1, mesh ? 2e-3 : 1e-9);
     EXPECT_NEAR(b.p.y(), -2, 1e-3);
     EXPECT_NEAR(b.p.z(), 0.1, 1e-4);
     EXPECT_NEAR(c.p.z(), 0.1, 1e-3);
