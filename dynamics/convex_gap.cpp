@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kNear = 1e-5;     ///< cores closer than this have their normal from their features [m]
 constexpr double kFavour = 1e-11;  ///< faces and edges are preferred to what was only searched by this [m]
-constexpr double kHold = 1e-4;     ///< least distance to hold off for a look [m]
+constexpr double kHold = 1e-4;     ///< distance to hold off for a first look [m]
+constexpr double kLeastHold = 1e-7;
 constexpr int kMostTurns = 12;
 
 struct Best {
@@ -63,23 +64,29 @@ ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess,
     // What the supports say is certain; the distance found may be too long where the search ended in
     // rounding.
     const double sure = separationAlong(d.normal, a, b);
+    const double rounding = a.radius + b.radius;
+    if (accuracy > 1e-15 && rounding > 0 &&
+        sure < rounding)  // the accuracy of the cores is not that of the gap
+      return convexGap(a, b, d.normal, 1e-15);
     g.distance = sure, g.normal = d.normal;
     g.onA = d.a - a.radius * d.normal, g.onB = d.b + b.radius * d.normal;
-    if (sure + a.radius + b.radius >= d.distance * (1 - 1e-6 - 2 * accuracy)) return g;
+    if (sure + rounding >= d.distance * (1 - 1e-6 - 2 * accuracy)) return g;
   }
   Vec3 nearA = d.a, nearB = d.b;
   const Vec3 towards = d.apart && d.distance > 1e-9 ? d.normal : overlapDirection(a, b, guess, nearA, nearB);
   Best best{a, b};
   best.attempt(towards, towards, kFavour);
   // Held off along the normal; the more precise it is, the more precise the next.
-  for (int i = 0; i < kMostTurns; ++i) {
-    const double off = std::max(kHold, 4 * (std::fabs(best.gap) + a.radius + b.radius));
+  // Close to, edges that cross at a small angle count for what they are.
+  double hold = kHold;
+  for (int i = 0; i < kMostTurns; ++i, hold = std::max(0.1 * hold, kLeastHold)) {
+    const double off = std::max(hold, 4 * (std::fabs(best.gap) + a.radius + b.radius));
     const CoreDistance held = coreDistance(a.moved(off * best.n), b, best.n);
     if (!held.apart) break;
     const double before = best.gap;
-    best.attempt(held.normal, held.normal, kFavour);
+    best.attempt(held.normal, held.normal, 1e-15);
     nearA = held.a - off * best.n, nearB = held.b;
-    if (!(best.gap > before + 1e-15)) break;
+    if (!(best.gap > before) && hold <= kLeastHold) break;
   }
   const Vec3 n = best.n;
   const Directions da = directionsNear(a, -n, nearA), db = directionsNear(b, n, nearB);
