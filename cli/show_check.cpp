@@ -1,6 +1,7 @@
 #include "cli/show_check.h"
 
 #include "cli/player.h"
+#include "dynamics/nodes/body_shape.h"
 #include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dynamics_factories.h"
 #include "engine/script/lint.h"
@@ -131,8 +132,8 @@ private:
   Diagnostics& findings_;
 };
 
-/// Bodies that stick in something when the show begins.
-void findOverlaps(const std::string& file, const std::vector<std::string>& roots, Diagnostics& findings) {
+/// What stands for each object in collisions, and bodies that stick in something when the show begins.
+void lookAtCollisions(const std::string& file, const std::vector<std::string>& roots, Diagnostics& findings) {
   ShowOptions options;
   options.script = file;
   options.input = "none";
@@ -142,10 +143,19 @@ void findOverlaps(const std::string& file, const std::vector<std::string>& roots
   if (!player) return;
   ChangeSet changes;
   player->scene().advance(signatureAt(0, player->rate()), {}, changes, nullptr);
+  std::set<const ObjectNode*> seen;
   player->scene().forEachNode([&](const Node& node) {
     const auto* collision = dynamic_cast<const CollisionNode*>(&node);
     const Load* load = player->scene().load(node.self().load);
     if (!collision || !load) return;
+    for (const NodeRef part : collision->parts()) {
+      const auto* object = dynamic_cast<const ObjectNode*>(player->scene().find(part));
+      const Load* from = player->scene().load(part.load);
+      if (!object || !from || !seen.insert(object).second) continue;
+      if (const auto shape = shapeOf(*object, player->scene()))
+        findings.note({from->file, from->lines[part.position], 1},
+                      "\"" + object->name() + "\" " + shape.value().remark);
+    }
     for (const CollisionNode::Overlap& o : collision->overlaps(kDeepestStart)) {
       char depth[32];
       std::snprintf(depth, sizeof depth, "%.1f mm", 1000 * o.depth);
@@ -161,7 +171,7 @@ void findOverlaps(const std::string& file, const std::vector<std::string>& roots
 Diagnostics checkShow(const std::string& file, const std::vector<std::string>& assetRoots) {
   Diagnostics findings;
   ShowChecker(file, assetRoots, findings).checkFile(SourceText::read(file), {});
-  if (!findings.hasErrors()) findOverlaps(file, assetRoots, findings);
+  if (!findings.hasErrors()) lookAtCollisions(file, assetRoots, findings);
   return sorted(findings);
 }
 

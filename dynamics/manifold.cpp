@@ -1,7 +1,7 @@
 #include "dynamics/manifold.h"
 
 #include "dynamics/box_manifold.h"
-#include "dynamics/polyhedra.h"
+#include "dynamics/convex_manifold.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +52,15 @@ void cornersNear(const Side& a, const Side& b, double tau, double margin, bool f
   const Kinematics ka = a.at(tau), kb = b.at(tau);
   std::uint32_t key = keyBase;
   std::vector<ManifoldPoint> found;
+  const auto forEachCorner = [](const Shape& shape, auto f) {
+    if (const auto* box = std::get_if<BoxShape>(&shape)) {
+      for (int i = 0; i < 8; ++i)
+        f(box->pose * Vec3((i & 1 ? 1 : -1) * box->half.x(), (i & 2 ? 1 : -1) * box->half.y(),
+                           (i & 4 ? 1 : -1) * box->half.z()));
+    } else if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
+      for (const Vec3& v : mesh->tree.corners()) f(v);
+    }
+  };
   forEachCorner(*a.shape, [&](const Vec3& corner) {
     ++key;
     const Vec3 x = ka.pose * corner;
@@ -115,6 +124,8 @@ void manifold(const Side& a, const Side& b, double tau, double margin, std::vect
              boxA && boxB) {
     boxManifold(a.at(tau).pose * boxA->pose, boxA->half, b.at(tau).pose * boxB->pose, boxB->half, margin,
                 points);
+  } else if (solidManifold(a, b, tau, margin, points)) {
+    return;
   } else {
     if (!isPlane(a)) cornersNear(a, b, tau, margin, false, 1000, points);
     if (!isPlane(b)) cornersNear(b, a, tau, margin, true, 1000000, points);

@@ -1,157 +1,33 @@
 #include "dynamics/shape.h"
 
-#include "dynamics/mass_properties.h"
-
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace stadion {
-namespace {
-
-std::vector<Vec3> usedVertices(const TriangleTree& tree) {
-  std::vector<Vec3> points;
-  for (const Triangle& t : tree.triangles()) points.insert(points.end(), t.v.begin(), t.v.end());
-  return points;
-}
-
-ShapeChoice fitBall(const std::vector<Vec3>& points, const Aabb& box) {
-  // Vertices of a faceted ball lie on it: take their common distance from the middle.
-  const Vec3 c = box.centre();
-  double lo = 1e300, hi = 0;
-  for (const Vec3& p : points) {
-    const double d = (p - c).norm();
-    lo = std::min(lo, d), hi = std::max(hi, d);
-  }
-  const bool onIt = hi - lo <= 1e-4 * hi;
-  const double r = onIt ? 0.5 * (lo + hi) : 0.5 * (lo + hi);
-  return {BallShape{c, r}, ShapeKind::Ball, std::max(hi - r, r - lo), {}};
-}
-
-/// How far the faces of a mesh sink below the ball through its vertices.
-double facetDepth(const TriangleTree& tree, const BallShape& ball) {
-  double depth = 0;
-  for (const Triangle& t : tree.triangles())
-    depth = std::max(depth, ball.radius - (closestPoint(t, ball.centre).point - ball.centre).norm());
-  return depth;
-}
-
-Quat frameOf(const Vec3& z, const Vec3& xHint) {
-  Mat3 r;
-  r.col(2) = z.normalized();
-  r.col(0) = (xHint - r.col(2) * r.col(2).dot(xHint)).normalized();
-  r.col(1) = r.col(2).cross(r.col(0));
-  return Quat(r).normalized();
-}
-
-/// Along the axes of the mesh's own faces: the largest face's normal and the largest one square to it.
-ShapeChoice fitBox(const TriangleTree& tree, const std::vector<Vec3>& points) {
-  const auto area = [](const Triangle& t) { return (t.v[1] - t.v[0]).cross(t.v[2] - t.v[0]).norm(); };
-  const Triangle *first = &tree.triangles().front(), *second = nullptr;
-  for (const Triangle& t : tree.triangles())
-    if (area(t) > area(*first)) first = &t;
-  for (const Triangle& t : tree.triangles())
-    if (std::fabs(t.normal.dot(first->normal)) < 1e-3 && (!second || area(t) > area(*second))) second = &t;
-  Quat q = Quat::Identity();
-  const auto along = [](const Vec3& n) { return n.cwiseAbs().maxCoeff() > 1 - 1e-9; };
-  if (second && !(along(first->normal) && along(second->normal))) q = frameOf(first->normal, second->normal);
-  Aabb box;
-  for (const Vec3& p : points) box.include(q.conjugate() * p);
-  BoxShape shape{{q * box.centre(), q}, 0.5 * (box.hi - box.lo)};
-  double deviation = 0;
-  for (const Vec3& p : points) {
-    // A vertex of a box is on its surface.
-    const Vec3 l = (q.conjugate() * p - box.centre()).cwiseAbs();
-    deviation = std::max(deviation, (shape.half - l).minCoeff());
-  }
-  // And every corner of the box is a vertex of the mesh.
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner =
-        shape.pose * Vec3((i & 1 ? 1 : -1) * shape.half.x(), (i & 2 ? 1 : -1) * shape.half.y(),
-                          (i & 4 ? 1 : -1) * shape.half.z());
-    double nearest = 1e300;
-    for (const Vec3& p : points) nearest = std::min(nearest, (p - corner).norm());
-    deviation = std::max(deviation, nearest);
-  }
-  return {shape, ShapeKind::Box, deviation, {}};
-}
-
-/// A sheet in one plane that fills its bounding rectangle; its upper side is where its triangles face.
-ShapeChoice fitPlane(const TriangleTree& tree, const std::vector<Vec3>& points) {
-  const Triangle* largest = &tree.triangles().front();
-  double best = 0, covered = 0;
-  Vec3 sum = Vec3::Zero();
-  for (const Triangle& t : tree.triangles()) {
-    const Vec3 n = (t.v[1] - t.v[0]).cross(t.v[2] - t.v[0]);
-    sum += n, covered += 0.5 * n.norm();
-    if (n.norm() > best) best = n.norm(), largest = &t;
-  }
-  Vec3 n = largest->normal;
-  if (n.dot(sum) < 0) n = -n;
-  const Vec3 hint = std::fabs(n.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
-  const Quat q = n.z() > 1 - 1e-12 ? Quat::Identity() : frameOf(n, hint);
-  Aabb box;
-  for (const Vec3& p : points) box.include(q.conjugate() * p);
-  const Vec3 half = 0.5 * (box.hi - box.lo);
-  PlaneShape shape{{q * box.centre(), q}, half.head<2>()};
-  const double area = 4 * half.x() * half.y();
-  // Twice-covered or holed sheets are not rectangles.
-  const double gap = std::fabs(area - covered) > 1e-3 * area ? std::sqrt(std::fabs(area - covered)) : 0;
-  return {shape, ShapeKind::Plane, std::max(half.z(), gap), {}};
-}
-
-}  // namespace
 
 const char* nameOf(ShapeKind kind) {
   switch (kind) {
   case ShapeKind::Auto: return "auto";
   case ShapeKind::Ball: return "sphere";
   case ShapeKind::Box: return "box";
+  case ShapeKind::Capsule: return "capsule";
+  case ShapeKind::Cylinder: return "cylinder";
+  case ShapeKind::Convex: return "convex";
   case ShapeKind::Plane: return "plane";
   case ShapeKind::Mesh: return "mesh";
   }
   return "";
 }
 
-Result<ShapeChoice> chooseShape(const Mesh& mesh, ShapeKind requested, double tolerance) {
-  TriangleTree tree(mesh);
-  if (tree.empty()) return Result<ShapeChoice>::failure("has no usable triangle to collide with");
-  const std::vector<Vec3> points = usedVertices(tree);
-  const double size = 0.5 * (tree.bounds().hi - tree.bounds().lo).norm();
-  const auto accept = [&](ShapeChoice& c, double off) -> Result<ShapeChoice> {
-    c.deviation = off;
-    c.remark = fmt::format("collides as a {}, within {:.3g} m ({:.2g} % of its size)", nameOf(c.kind), off,
-                           100 * off / size);
-    return std::move(c);
-  };
-  const bool any = requested == ShapeKind::Auto;
-  if (any || requested == ShapeKind::Plane) {
-    ShapeChoice c = fitPlane(tree, points);
-    if (!any || (!tree.closed() && c.deviation <= 1e-6 * size)) return accept(c, c.deviation);
-  }
-  if (any || requested == ShapeKind::Ball) {
-    ShapeChoice c = fitBall(points, tree.bounds());
-    const double off = std::max(c.deviation, facetDepth(tree, std::get<BallShape>(c.shape)));
-    // The vertices must be on the ball; the facets between them may cut inside it by the tolerance of coarse
-    // models.
-    if (!any || (points.size() >= 60 && c.deviation <= 0.5 * tolerance * size && off <= 4 * tolerance * size))
-      return accept(c, off);
-  }
-  if (any || requested == ShapeKind::Box) {
-    ShapeChoice c = fitBox(tree, points);
-    if (!any || (tree.closed() && c.deviation <= tolerance * std::get<BoxShape>(c.shape).half.minCoeff()))
-      return accept(c, c.deviation);
-  }
-  ShapeChoice c{MeshShape(std::move(tree)), ShapeKind::Mesh, 0, {}};
-  const std::size_t used = std::get<MeshShape>(c.shape).tree.triangles().size();
-  c.remark = fmt::format("collides as a mesh of {} triangles", used);
-  return Result<ShapeChoice>(std::move(c));
-}
-
 Sphere boundingSphere(const Shape& shape) {
   struct Visitor {
     Sphere operator()(const BallShape& s) const { return {s.centre, s.radius}; }
     Sphere operator()(const BoxShape& s) const { return {s.pose.p, s.half.norm()}; }
+    Sphere operator()(const CapsuleShape& s) const { return {s.pose.p, s.half + s.radius}; }
+    Sphere operator()(const CylinderShape& s) const {
+      return {s.pose.p, std::sqrt(s.half * s.half + s.radius * s.radius)};
+    }
+    Sphere operator()(const ConvexShape& s) const { return {s.centre, s.reach}; }
     Sphere operator()(const PlaneShape& s) const {
       return {s.pose.p, s.bounded() ? s.half.norm() : std::numeric_limits<double>::infinity()};
     }

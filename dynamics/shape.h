@@ -4,6 +4,7 @@
 /// Frames   in the node's coordinates N; metres.
 /// Threads  immutable once built.
 
+#include "dynamics/convex_hull.h"
 #include "dynamics/mesh_distance.h"
 #include "dynamics/triangle_tree.h"
 #include "engine/asset/mesh.h"
@@ -35,6 +36,20 @@ struct PlaneShape {
   bool bounded() const { return half.x() < 1e299; }
 };
 
+/// Everything within `radius` of a segment along z of `pose`.
+struct CapsuleShape {
+  Pose pose;
+  double radius = 0.5;
+  double half = 0.5;  ///< half length of the segment [m]
+};
+
+/// A round rod or disc about z of `pose`.
+struct CylinderShape {
+  Pose pose;
+  double radius = 0.5;
+  double half = 0.5;  ///< half height [m]
+};
+
 struct MeshShape {
   explicit MeshShape(TriangleTree t)
       : tree(std::move(t)), hierarchy(std::make_unique<MeshHierarchy>(tree.triangles())) {}
@@ -42,11 +57,14 @@ struct MeshShape {
   std::unique_ptr<MeshHierarchy> hierarchy;  ///< for other meshes
 };
 
-/// Capsule, cylinder and convex join here; every switch over kinds is a std::visit in separation.cpp or
-/// manifold.cpp.
-using Shape = std::variant<BallShape, BoxShape, PlaneShape, MeshShape>;
+/// The convex ones go through convex_core.h; balls, unbounded planes and meshes have ways of their own as
+/// well.
+using Shape =
+    std::variant<BallShape, BoxShape, CapsuleShape, CylinderShape, ConvexShape, PlaneShape, MeshShape>;
 
-enum class ShapeKind { Auto, Ball, Box, Plane, Mesh };
+enum class ShapeKind { Auto, Ball, Box, Capsule, Cylinder, Convex, Plane, Mesh };
+
+inline constexpr double kShapeTolerance = 0.02;
 
 struct ShapeChoice {
   Shape shape;
@@ -55,11 +73,13 @@ struct ShapeChoice {
   std::string remark;                ///< one sentence for reports: what was taken and how far off it is
 };
 
-/// The shape to collide with in place of `mesh`. Auto takes ball, box or plane if the mesh is that within
-/// `tolerance` (relative to its size), else the mesh itself. A kind that is asked for is fitted as well as it
-/// goes. Fails if the mesh has no usable triangle.
+/// The shape to collide with in place of `mesh`. Auto takes the first of plane, ball, box, capsule, cylinder
+/// and convex hull that the mesh is within `tolerance`, relative to its size and for all but balls to its
+/// thinner side; else the mesh itself. Of round shapes the vertices count; facets between them may cut four
+/// times as deep. A kind that is asked for is fitted as well as it goes. Fails if the mesh has no usable
+/// triangle.
 Result<ShapeChoice> chooseShape(const Mesh& mesh, ShapeKind requested = ShapeKind::Auto,
-                                double tolerance = 0.02);
+                                double tolerance = kShapeTolerance);
 
 /// Everything of the shape is inside this ball. Infinite radius for an unbounded plane.
 Sphere boundingSphere(const Shape& shape);

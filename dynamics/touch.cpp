@@ -1,5 +1,7 @@
 #include "dynamics/touch.h"
 
+#include "dynamics/convex_touch.h"
+#include "dynamics/nearest_surface.h"
 #include "dynamics/polyhedra.h"
 
 #include <algorithm>
@@ -77,6 +79,12 @@ Local localGap(const Vec3& c, double r, const BoxShape& s, double) {
   return l;
 }
 
+template <class Solid>
+Local localGap(const Vec3& c, double r, const Solid& s, double) {
+  const NearestSurface n = nearestSurface(s, c);
+  return {n.distance - r, n.point, n.normal, n.face, -1};
+}
+
 /// How deep below a bounded plane things count as sunk into it [m].
 double sheetDepth(const PlaneShape& s) {
   return std::min(1.0, 0.5 * s.half.minCoeff());
@@ -131,28 +139,6 @@ Gap inWorld(const Local& l, const Pose& X) {
 
 Vec3 ballCentre(const Side& s, const Kinematics& k) {
   return k.pose * std::get<BallShape>(*s.shape).centre;
-}
-
-/// Bound on the relative acceleration of A's points as seen from B's turning frame, both within the frame's
-/// motion.
-double relativeAcceleration(const Side& a, const Side& b, double from, double to, double distance) {
-  const MotionBound ba = a.boundOver(from, to), bb = b.boundOver(from, to);
-  const double ra = a.body ? a.body->reach : a.bound().centre.norm() + a.bound().radius;
-  double arm = 0;
-  if (bb.spin > 0 || bb.spinChange > 0) {
-    // Points of A stay within this distance of B's centre while it matters.
-    const double rb = std::isfinite(b.bound().radius)
-                          ? (b.body ? b.body->reach : b.bound().centre.norm() + b.bound().radius)
-                          : distance;
-    arm = rb + 2 * ra + (ba.speedAt(ra) + bb.speedAt(rb)) * (to - from);
-    if (arm > distance + 2 * ra + (ba.speed + bb.speed) * (to - from))
-      arm = distance + 2 * ra + (ba.speed + bb.speed) * (to - from);
-  }
-  const double turning = bb.spin * 2 * (ba.speedAt(ra) + bb.speedAt(arm));
-  return ba.accelerationAt(std::holds_alternative<BallShape>(*a.shape)
-                               ? (a.body ? a.body->eccentricity() : a.bound().centre.norm())
-                               : ra) +
-         bb.accelerationAt(arm) + turning;
 }
 
 /// A still plane under a parabola has a closed form.
@@ -253,7 +239,7 @@ std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from,
   return best;
 }
 
-/// Corners against a plane, each on its own path.
+/// A mesh's corners against a plane, each on its own path.
 std::optional<Touch> cornersOnPlane(const Side& solid, const Side& plane, double from, double to,
                                     std::uint64_t& count) {
   const auto& s = std::get<PlaneShape>(*plane.shape);
@@ -262,7 +248,7 @@ std::optional<Touch> cornersOnPlane(const Side& solid, const Side& plane, double
   std::optional<Touch> best;
   double end = to;
   const double tolerance = touchTolerance(k0.p);
-  forEachCorner(*solid.shape, [&](const Vec3& corner) {
+  for (const Vec3& corner : std::get<MeshShape>(*solid.shape).tree.corners()) {
     const auto probe = [&](double tau) {
       const Kinematics k = solid.at(tau), p = plane.at(tau);
       const Pose X = p.pose * s.pose;
@@ -270,13 +256,13 @@ std::optional<Touch> cornersOnPlane(const Side& solid, const Side& plane, double
       return Probe{n.dot(x - X.p), n.dot(k.velocityAt(x) - p.velocityAt(x))};
     };
     const auto tau = firstRoot(probe, from, end, bound, tolerance, count);
-    if (!tau || (best && *tau >= best->tau)) return;
+    if (!tau || (best && *tau >= best->tau)) continue;
     const Pose X = plane.at(*tau).pose * s.pose;
     const Vec3 x = solid.at(*tau).pose * corner, l = X.inverse() * x;
-    if (s.bounded() && (std::fabs(l.x()) > s.half.x() || std::fabs(l.y()) > s.half.y())) return;
+    if (s.bounded() && (std::fabs(l.x()) > s.half.x() || std::fabs(l.y()) > s.half.y())) continue;
     best = Touch{*tau, {l.z(), x, X.q * Vec3::UnitZ(), true, -1}, false};
     end = *tau;
-  });
+  }
   return best;
 }
 
@@ -287,12 +273,36 @@ bool isPlane(const Side& s) {
   return std::holds_alternative<PlaneShape>(*s.shape);
 }
 
+bool isMesh(const Side& s) {
+  return std::holds_alternative<MeshShape>(*s.shape);
+}
+
 void flip(Gap& g) {
   g.point += g.distance * g.normal;
   g.normal = -g.normal;
 }
 
 }  // namespace
+
+double relativeAcceleration(const Side& a, const Side& b, double from, double to, double distance) {
+  const MotionBound ba = a.boundOver(from, to), bb = b.boundOver(from, to);
+  const double ra = a.body ? a.body->reach : a.bound().centre.norm() + a.bound().radius;
+  double arm = 0;
+  if (bb.spin > 0 || bb.spinChange > 0) {
+    // Points of A stay within this distance of B's centre while it matters.
+    const double rb = std::isfinite(b.bound().radius)
+                          ? (b.body ? b.body->reach : b.bound().centre.norm() + b.bound().radius)
+                          : distance;
+    arm = rb + 2 * ra + (ba.speedAt(ra) + bb.speedAt(rb)) * (to - from);
+    if (arm > distance + 2 * ra + (ba.speed + bb.speed) * (to - from))
+      arm = distance + 2 * ra + (ba.speed + bb.speed) * (to - from);
+  }
+  const double turning = bb.spin * 2 * (ba.speedAt(ra) + bb.speedAt(arm));
+  return ba.accelerationAt(std::holds_alternative<BallShape>(*a.shape)
+                               ? (a.body ? a.body->eccentricity() : a.bound().centre.norm())
+                               : ra) +
+         bb.accelerationAt(arm) + turning;
+}
 
 double touchTolerance(const Vec3& p) {
   return std::max(1e-12, 4e-15 * p.cwiseAbs().maxCoeff());
@@ -310,33 +320,43 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
     return t;
   };
   if (isBall(b)) return flipped(ballTouch(b, a, from, to, count));
-  if (isPlane(b)) return isPlane(a) ? std::nullopt : cornersOnPlane(a, b, from, to, count);
-  if (isPlane(a)) return flipped(cornersOnPlane(b, a, from, to, count));
-  return polyhedraTouch(a, b, from, to, count);
+  if (isPlane(a) && isPlane(b)) return {};
+  const bool convexA = isConvex(*a.shape), convexB = isConvex(*b.shape);
+  if (isPlane(b) && isMesh(a)) return cornersOnPlane(a, b, from, to, count);
+  if (isPlane(a) && isMesh(b)) return flipped(cornersOnPlane(b, a, from, to, count));
+  if (convexA && convexB) return convexTouch(a, b, from, to, count);
+  if (convexA) return isPlane(b) ? planeTouch(a, b, from, to, count) : meshTouch(a, b, from, to, count);
+  if (convexB)
+    return flipped(isPlane(a) ? planeTouch(b, a, from, to, count) : meshTouch(b, a, from, to, count));
+  return meshesTouch(a, b, from, to, count);
 }
 
 Gap gapBetween(const Side& a, const Side& b, double tau, double limit) {
   const Kinematics ka = a.at(tau), kb = b.at(tau);
   if (isBall(a))
     return ballGap(ballCentre(a, ka), std::get<BallShape>(*a.shape).radius, *b.shape, kb.pose, limit);
-  if (isBall(b) || (isPlane(a) && !isPlane(b))) {
+  const bool swap = isBall(b) || (isPlane(a) && !isPlane(b)) || (!isConvex(*a.shape) && isConvex(*b.shape));
+  if (swap && !isPlane(b)) {
     Gap g = gapBetween(b, a, tau, limit);
     flip(g);
     return g;
   }
-  if (isPlane(b)) {
-    Gap best;
-    if (isPlane(a)) return best;
-    const auto& s = std::get<PlaneShape>(*b.shape);
-    forEachCorner(*a.shape, [&](const Vec3& corner) {
+  if (isPlane(a)) return {};
+  if (!isConvex(*a.shape)) {
+    const auto* mesh = std::get_if<MeshShape>(b.shape);
+    if (mesh) return meshesGap(std::get<MeshShape>(*a.shape), ka.pose, *mesh, kb.pose);
+    Gap best;  // a mesh over a plane, bounded or not
+    for (const Vec3& corner : std::get<MeshShape>(*a.shape).tree.corners()) {
       const Vec3 x = ka.pose * corner;
       const Gap g = ballGap(x, 0, *b.shape, kb.pose);
       if (g.distance < best.distance) best = {g.distance, x, g.normal, true, -1};
-    });
-    (void)s;
+    }
     return best;
   }
-  return polyhedraGap(*a.shape, ka.pose, *b.shape, kb.pose, limit);
+  if (isConvex(*b.shape)) return convexGapBetween(*a.shape, ka.pose, *b.shape, kb.pose);
+  if (const auto* plane = std::get_if<PlaneShape>(b.shape))
+    return planeGapBetween(*a.shape, ka.pose, *plane, kb.pose);
+  return meshGapBetween(*a.shape, ka.pose, std::get<MeshShape>(*b.shape), kb.pose, limit);
 }
 
 Aabb sweptBox(const Side& side, double from, double to) {

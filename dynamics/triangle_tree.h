@@ -43,6 +43,21 @@ public:
 
   /// Triangles whose boxes overlap `box`, in rising order.
   void overlapping(const Aabb& box, std::vector<std::uint32_t>& found) const;
+  /// Calls f(i) with every triangle whose box overlaps `box`, in a fixed order, without allocating.
+  template <class F>
+  void eachOverlapping(const Aabb& box, F f) const {
+    walk([&](const Aabb& b) { return b.overlaps(box); }, f);
+  }
+  /// The same within `within()` metres of p; the callback may shorten what `within` says as it learns.
+  template <class W, class F>
+  void eachWithin(const Vec3& p, W within, F f) const {
+    walk(
+        [&](const Aabb& b) {
+          const double d = within();
+          return (b.lo - p).cwiseMax(p - b.hi).cwiseMax(0.0).squaredNorm() <= d * d;
+        },
+        f);
+  }
   /// The triangle nearest to p within `limit` [m], -1 if none; `at` is set then.
   std::int32_t nearest(const Vec3& p, double limit, ClosestPoint& at) const;
 
@@ -52,6 +67,27 @@ private:
     std::uint32_t first = 0;  ///< leaf: first triangle in order_; inner: right child (left is the next node)
     std::uint32_t count = 0;  ///< triangles of a leaf, 0 for an inner node
   };
+  template <class T, class F>
+  void walk(T test, F f) const {
+    if (nodes_.empty()) return;
+    std::uint32_t stack[64];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+      const std::uint32_t at = stack[--top];
+      const Node& n = nodes_[at];
+      if (!test(n.box)) continue;
+      if (n.count == 0) {
+        stack[top++] = n.first, stack[top++] = at + 1;
+        continue;
+      }
+      for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
+        Aabb b;
+        for (const Vec3& v : triangles_[order_[i]].v) b.include(v);
+        if (test(b)) f(order_[i]);
+      }
+    }
+  }
   void build(std::uint32_t first, std::uint32_t count);
   void connect();
 

@@ -25,6 +25,9 @@ Mesh scaledForCollision(const Mesh& mesh, const Vec3& scale) {
 ShapeKind shapeKindOf(const std::string& word) {
   if (word == "sphere") return ShapeKind::Ball;
   if (word == "box") return ShapeKind::Box;
+  if (word == "capsule") return ShapeKind::Capsule;
+  if (word == "cylinder") return ShapeKind::Cylinder;
+  if (word == "convex") return ShapeKind::Convex;
   if (word == "plane") return ShapeKind::Plane;
   if (word == "mesh") return ShapeKind::Mesh;
   return ShapeKind::Auto;
@@ -40,11 +43,15 @@ ColliderDef colliderOf(const ObjectNode& object, Scene& scene, World& world) {
   return def;
 }
 
-ShapeId addShapeOf(const ObjectNode& object, Scene& scene, World& world) {
-  const Affine& X_WN = scene.placements().world(object.placement());
+Result<ShapeChoice> shapeOf(const ObjectNode& object, Scene& scene) {
   const Mesh* mesh = scene.mesh(object.appearance().mesh);
-  if (!mesh) return 0;
-  auto chosen = chooseShape(scaledForCollision(*mesh, scaleOf(X_WN)), shapeKindOf(object.appearance().shape));
+  if (!mesh) return Result<ShapeChoice>::failure("has no model to collide with");
+  return chooseShape(scaledForCollision(*mesh, scaleOf(scene.placements().world(object.placement()))),
+                     shapeKindOf(object.appearance().shape), object.appearance().tolerance);
+}
+
+ShapeId addShapeOf(const ObjectNode& object, Scene& scene, World& world) {
+  auto chosen = shapeOf(object, scene);
   return chosen ? world.addShape(std::move(chosen.value().shape)) : 0;
 }
 

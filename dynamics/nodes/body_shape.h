@@ -18,7 +18,10 @@ Mesh scaledForCollision(const Mesh& mesh, const Vec3& scale);
 /// The kind of shape that a script's word asks for; empty = auto.
 ShapeKind shapeKindOf(const std::string& word);
 
-/// The object's shape as its script asks for it, added to `world`. 0 if its mesh has no usable triangle.
+/// The object's shape as its script asks for it, with a remark on how near it is to the model.
+Result<ShapeChoice> shapeOf(const ObjectNode& object, Scene& scene);
+
+/// The same, added to `world`. 0 if its mesh has no usable triangle.
 ShapeId addShapeOf(const ObjectNode& object, Scene& scene, World& world);
 
 /// A collider for an object, its shape added to `world`. Shape 0 if its mesh has no usable triangle.

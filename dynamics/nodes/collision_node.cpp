@@ -111,6 +111,14 @@ std::vector<CollisionNode::Overlap> CollisionNode::overlaps(double deeperThan) c
   return found;
 }
 
+std::vector<NodeRef> CollisionNode::parts() const {
+  std::vector<NodeRef> refs;
+  for (const std::vector<Part>* list : {&colliders_, &collidees_})
+    for (const Part& part : *list)
+      if (part.ref.valid()) refs.push_back(part.ref);
+  return refs;
+}
+
 void CollisionNode::addCuts(const Course& course, std::vector<Nanoseconds>& cuts) {
   for (const PoseKnot& k : course) cuts.push_back(k.time);
 }

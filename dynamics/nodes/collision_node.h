@@ -44,6 +44,8 @@ public:
   };
   /// Pairs of its parts that stick in each other by more than `deeperThan` [m].
   std::vector<Overlap> overlaps(double deeperThan) const;
+  /// The objects that take part and are loaded.
+  std::vector<NodeRef> parts() const;
 
 protected:
   /// An object that takes part.

@@ -149,7 +149,7 @@ Made makeDynObject(const NodeRequest& r) {
     return nullptr;
   };
   const Mesh mesh = scaledForCollision(*r.mesh, scaleOf(r.place.X_PN));
-  auto chosen = chooseShape(mesh, shapeKindOf(r.appearance.shape));
+  auto chosen = chooseShape(mesh, shapeKindOf(r.appearance.shape), r.appearance.tolerance);
   if (!chosen) return fail(chosen.error().message);
   auto mass = massOf(d, chosen.value(), mesh);
   if (!mass) return fail(mass.error().message);

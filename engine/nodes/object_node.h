@@ -9,8 +9,9 @@ namespace stadion {
 /// What an object shows. The mesh is counted by its load, not by the node.
 struct Appearance {
   MeshId mesh = kNoMesh;
-  bool drawn = true;  ///< `draw=false` is not drawn and still collides
-  std::string shape;  ///< `shape=`: how it collides; empty = auto
+  bool drawn = true;        ///< `draw=false` is not drawn and still collides
+  std::string shape;        ///< `shape=`: how it collides; empty = auto
+  double tolerance = 0.02;  ///< `tolerance=`: of shape=auto, relative to the size
 };
 
 class ObjectNode : public PlacedNode {

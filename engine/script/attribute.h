@@ -61,6 +61,7 @@ enum class Attr : std::uint8_t {
   Sphere,
   Strength,
   Target,
+  Tolerance,
   Tracker,
   TurnRate,
   Type,
@@ -71,7 +72,7 @@ enum class Attr : std::uint8_t {
   Zenith,
 };
 
-inline constexpr std::array<std::string_view, 59> kAttrNames = {"ambient",   "angle",       "attach",
+inline constexpr std::array<std::string_view, 60> kAttrNames = {"ambient",   "angle",       "attach",
                                                                 "box",       "collidee",    "collider",
                                                                 "colour",    "core",        "damping",
                                                                 "density",   "direction",   "dragarea",
@@ -88,9 +89,9 @@ inline constexpr std::array<std::string_view, 59> kAttrNames = {"ambient",   "an
                                                                 "scale",     "selfcollide", "shape",
                                                                 "smooth",    "softening",   "speed",
                                                                 "sphere",    "strength",    "target",
-                                                                "tracker",   "turnrate",    "type",
-                                                                "unit",      "up",          "viscosity",
-                                                                "wind",      "zenith"};
+                                                                "tolerance", "tracker",     "turnrate",
+                                                                "type",      "unit",        "up",
+                                                                "viscosity", "wind",        "zenith"};
 inline constexpr std::size_t kAttrCount = kAttrNames.size();
 
 constexpr std::string_view nameOf(Attr attr) {

@@ -152,6 +152,7 @@ private:
     a.mesh = input_.meshes(d);
     a.drawn = d.flag(Attr::Draw);
     a.shape = std::string(d.text(Attr::Shape));
+    a.tolerance = d.number(Attr::Tolerance);
     return a;
   }
 

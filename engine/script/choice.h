@@ -8,8 +8,17 @@
 
 namespace stadion {
 
-enum class LightType : std::uint8_t { Directional, Point, Spot };        ///< light: type
-enum class ShapeWord : std::uint8_t { Auto, Sphere, Box, Mesh, Plane };  ///< object, dynobject: shape
+enum class LightType : std::uint8_t { Directional, Point, Spot };  ///< light: type
+enum class ShapeWord : std::uint8_t {
+  Auto,
+  Sphere,
+  Box,
+  Mesh,
+  Plane,
+  Capsule,
+  Cylinder,
+  Convex
+};  ///< object, dynobject: shape
 // object, dynobject: `up` is the UpAxis of asset/format.h
 enum class ForceUnit : std::uint8_t { Gravity, Acceleration, Newton };  ///< force fields: unit
 enum class FieldMode : std::uint8_t { Attract, Repel };                 ///< forcespherical: mode

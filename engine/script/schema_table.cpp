@@ -28,7 +28,8 @@ constexpr KindSet kSwitched =
     KindSet{UserTrigger, WandTrigger, Timer, Light, Path, Navigator, Dynamics, Collision} | kFields;
 
 constexpr std::string_view kLightTypes[] = {"directional", "point", "spot"};
-constexpr std::string_view kShapes[] = {"auto", "sphere", "box", "mesh", "plane"};
+constexpr std::string_view kShapes[] = {"auto",  "sphere",  "box",      "mesh",
+                                        "plane", "capsule", "cylinder", "convex"};
 constexpr std::string_view kAxes[] = {"x", "y", "z"};
 constexpr std::string_view kForceUnits[] = {"g", "m/s2", "N"};
 constexpr std::string_view kFieldModes[] = {"attract", "repel"};
@@ -107,11 +108,18 @@ constexpr AttributeSpec kObjectUp{.attr = Attr::Up,
 constexpr AttributeSpec kObjectShape{
     .attr = Attr::Shape,
     .kind = Choice,
-    .help = "what stands for it in collisions; auto recognises spheres, boxes, planes",
+    .help = "what stands for it in collisions; auto takes the simplest that is near enough",
     .standard = "auto",
     .choices = kShapes};
+constexpr AttributeSpec kObjectTolerance{
+    .attr = Attr::Tolerance,
+    .kind = Number,
+    .help = "how far auto's shape may be from the model, relative to its size",
+    .standard = "0.02",
+    .range = kUnitInterval};
 
-constexpr AttributeSpec kObjectRows[] = {kObjectFile, kObjectDraw, kObjectUnit, kObjectUp, kObjectShape};
+constexpr AttributeSpec kObjectRows[] = {kObjectFile, kObjectDraw,  kObjectUnit,
+                                         kObjectUp,   kObjectShape, kObjectTolerance};
 
 constexpr AttributeSpec kDynObjectRows[] = {
     kObjectFile,
@@ -119,6 +127,7 @@ constexpr AttributeSpec kDynObjectRows[] = {
     kObjectUnit,
     kObjectUp,
     kObjectShape,
+    kObjectTolerance,
     {.attr = Attr::Density,
      .kind = Number,
      .help = "relative to water; with the mesh's volume it gives the mass",

@@ -82,7 +82,7 @@ TEST(ChooseShape, AFacetedBallIsABallABoxIsABoxASheetIsAPlane) {
   EXPECT_EQ(std::get<PlaneShape>(sheet.value().shape).normal(), Vec3::UnitZ());
 }
 
-TEST(ChooseShape, ATurnedBoxIsFoundAndAWedgeStaysAMesh) {
+TEST(ChooseShape, ATurnedBoxIsFoundAWedgeIsConvexAndAnAngleStaysAMesh) {
   Mesh turned = boxMesh({0.5, 0.25, 0.125});
   const Quat q = det::fromEuler(0.4, 0.3, 1.0);
   for (auto& p : turned.positions) {
@@ -94,10 +94,68 @@ TEST(ChooseShape, ATurnedBoxIsFoundAndAWedgeStaysAMesh) {
   for (auto& p : wedge.positions)
     if (p[0] > 0 && p[2] > 0) p[2] = -0.1f;
   const auto w = chooseShape(wedge);
-  EXPECT_EQ(w.value().kind, ShapeKind::Mesh) << w.value().remark;
+  EXPECT_EQ(w.value().kind, ShapeKind::Convex) << w.value().remark;
   EXPECT_FALSE(w.value().remark.empty());
+  // Two boxes that overlap like an L.
+  Mesh angle = boxMesh({0.5, 0.1, 0.1});
+  const Mesh other = boxMesh({0.1, 0.1, 0.5});
+  for (const std::uint32_t i : other.indices)
+    angle.indices.push_back(i + static_cast<std::uint32_t>(angle.positions.size()));
+  for (auto p : other.positions) p[0] -= 0.4f, p[2] += 0.4f, angle.positions.push_back(p);
+  EXPECT_EQ(chooseShape(angle).value().kind, ShapeKind::Mesh);
   EXPECT_EQ(chooseShape(wedge, ShapeKind::Box).value().kind, ShapeKind::Box);
   EXPECT_FALSE(chooseShape(Mesh{}));
+}
+
+/// A rod about z: `rings` of radius and height, closed at both ends.
+Mesh latheMesh(const std::vector<std::pair<double, double>>& rings, int sectors, const Pose& X) {
+  std::vector<Vec3> p;
+  std::vector<std::array<std::uint32_t, 3>> t;
+  for (const auto& [r, z] : rings)
+    for (int j = 0; j < sectors; ++j) {
+      const double a = 2 * M_PI * j / sectors;
+      p.push_back(X * Vec3(r * std::cos(a), r * std::sin(a), z));
+    }
+  const auto n = static_cast<std::uint32_t>(sectors), last = static_cast<std::uint32_t>(rings.size() - 1);
+  const auto at = [&](std::uint32_t i, std::uint32_t j) { return i * n + j % n; };
+  for (std::uint32_t i = 0; i < last; ++i)
+    for (std::uint32_t j = 0; j < n; ++j) {
+      t.push_back({at(i, j), at(i, j + 1), at(i + 1, j)});
+      t.push_back({at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+    }
+  for (std::uint32_t j = 1; j + 1 < n; ++j) {
+    t.push_back({at(0, 0), at(0, j + 1), at(0, j)});
+    t.push_back({at(last, 0), at(last, j), at(last, j + 1)});
+  }
+  return meshOf(p, t);
+}
+
+TEST(ChooseShape, RodsAreCylindersOrCapsulesWhicheverWayTheyPoint) {
+  for (const Vec3& turn : {Vec3(0, 0, 0), Vec3(90, 0, 0), Vec3(0, 90, 0), Vec3(31, -47, 12)}) {
+    const Pose X{{1, 2, 3}, det::fromEuler(turn.x() / 57.3, turn.y() / 57.3, turn.z() / 57.3)};
+    const auto c = chooseShape(latheMesh({{0.11, -0.012}, {0.11, 0.012}}, 48, X));
+    ASSERT_EQ(c.value().kind, ShapeKind::Cylinder) << c.value().remark;
+    const auto& s = std::get<CylinderShape>(c.value().shape);
+    EXPECT_NEAR(s.radius, 0.11, 1e-6);
+    EXPECT_NEAR(s.half, 0.012, 1e-6);
+    EXPECT_LE((s.pose.p - X.p).norm(), 1e-6);
+
+    std::vector<std::pair<double, double>> rings;
+    for (int i = 0; i <= 24; ++i) {
+      const double a = -M_PI / 2 + M_PI * i / 24 * 0.999 + 0.0005 * M_PI;
+      rings.push_back({0.1 * std::cos(a), 0.1 * std::sin(a) + (i < 12 ? -0.3 : 0.3)});
+      if (i == 12) rings.insert(rings.end() - 1, {0.1 * std::cos(a), 0.1 * std::sin(a) - 0.3});
+    }
+    const auto k = chooseShape(latheMesh(rings, 48, X));
+    ASSERT_EQ(k.value().kind, ShapeKind::Capsule) << k.value().remark;
+    EXPECT_NEAR(std::get<CapsuleShape>(k.value().shape).half, 0.3, 1e-3);
+    EXPECT_NEAR(std::get<CapsuleShape>(k.value().shape).radius, 0.1, 1e-3);
+  }
+  // Eight corners are not round enough; asked for, they are.
+  const Mesh column = latheMesh({{0.2, -1}, {0.2, 1}}, 8, Pose{});
+  EXPECT_EQ(chooseShape(column).value().kind, ShapeKind::Convex);
+  EXPECT_EQ(chooseShape(column, ShapeKind::Cylinder).value().kind, ShapeKind::Cylinder);
+  EXPECT_EQ(chooseShape(column, ShapeKind::Auto, 0.0).value().kind, ShapeKind::Convex);
 }
 
 TEST(TriangleTree, UselessTrianglesAreLeftOutAndFlatSeamsMerged) {

@@ -1,0 +1,106 @@
+#include "dynamics/convex_gap.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr double kNear = 1e-5;     ///< cores closer than this have their normal from their features [m]
+constexpr double kFavour = 1e-11;  ///< faces and edges are preferred to what was only searched by this [m]
+constexpr double kHold = 1e-4;     ///< distance to hold off for a first look [m]
+constexpr double kLeastHold = 1e-7;
+constexpr int kMostTurns = 12;
+
+struct Best {
+  const ConvexCore &a, &b;
+  double gap = -1e300;
+  Vec3 n = Vec3::UnitZ();
+
+  void attempt(const Vec3& direction, const Vec3& guess, double handicap = 0) {
+    const double side = direction.dot(guess);
+    const Vec3 d = side < 0 ? Vec3(-direction) : direction;
+    const double g = separationAlong(d, a, b);
+    if (g - handicap > gap) gap = g, n = d;
+    if (std::fabs(side) > 0.02) return;
+    const double h = separationAlong(-d, a, b);
+    if (h - handicap > gap) gap = h, n = -d;
+  }
+};
+
+/// The points where the bodies touch, given a direction between them and points nearby.
+void putOn(ConvexGap& g, const ConvexCore& a, const ConvexCore& b, const Vec3& nearA, const Vec3& nearB) {
+  const Vec3& n = g.normal;
+  g.onA = nearA - n * (n.dot(nearA) + a.extent(-n));
+  g.onB = nearB + n * (b.extent(n) - n.dot(nearB));
+}
+
+/// About the way out of an overlap, and points nearby.
+Vec3 overlapDirection(const ConvexCore& a, const ConvexCore& b, const Vec3& guess, Vec3& nearA, Vec3& nearB) {
+  const double most = a.thickness() + b.thickness();
+  for (double depth = 1e-4; depth < 8 * most; depth *= 8) {
+    const CoreDistance thin = coreDistance(a.eroded(depth), b.eroded(depth), guess, 1e-6);
+    if (!thin.apart) continue;
+    nearA = thin.a, nearB = thin.b;
+    return thin.normal;
+  }
+  Vec3 n = a.middle() - b.middle();
+  const double l = n.norm();
+  n = l > 0 ? Vec3(n / l) : Vec3::UnitZ();
+  nearA = nearB = 0.5 * (a.support(-n) + b.support(n));
+  return n;
+}
+
+}  // namespace
+
+double separationAlong(const Vec3& n, const ConvexCore& a, const ConvexCore& b) {
+  return -a.extent(-n) - b.extent(n);
+}
+
+ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess, double accuracy) {
+  const CoreDistance d = coreDistance(a, b, guess, accuracy);
+  ConvexGap g;
+  if (d.apart && d.distance > kNear) {
+    // What the supports say is certain; the distance found may be too long where the search ended in
+    // rounding.
+    const double sure = separationAlong(d.normal, a, b);
+    const double rounding = a.radius + b.radius;
+    if (accuracy > 1e-15 && rounding > 0 &&
+        sure < rounding)  // the accuracy of the cores is not that of the gap
+      return convexGap(a, b, d.normal, 1e-15);
+    g.distance = sure, g.normal = d.normal;
+    g.onA = d.a - a.radius * d.normal, g.onB = d.b + b.radius * d.normal;
+    if (sure + rounding >= d.distance * (1 - 1e-6 - 2 * accuracy)) return g;
+  }
+  Vec3 nearA = d.a, nearB = d.b;
+  const Vec3 towards = d.apart && d.distance > 1e-9 ? d.normal : overlapDirection(a, b, guess, nearA, nearB);
+  Best best{a, b};
+  best.attempt(towards, towards, kFavour);
+  // Held off along the normal; the more precise it is, the more precise the next.
+  // Close to, edges that cross at a small angle count for what they are.
+  double hold = kHold;
+  for (int i = 0; i < kMostTurns; ++i, hold = std::max(0.1 * hold, kLeastHold)) {
+    const double off = std::max(hold, 4 * (std::fabs(best.gap) + a.radius + b.radius));
+    const CoreDistance held = coreDistance(a.moved(off * best.n), b, best.n);
+    if (!held.apart) break;
+    const double before = best.gap;
+    best.attempt(held.normal, held.normal, 1e-15);
+    nearA = held.a - off * best.n, nearB = held.b;
+    if (!(best.gap > before) && hold <= kLeastHold) break;
+  }
+  const Vec3 n = best.n;
+  const Directions da = directionsNear(a, -n, nearA), db = directionsNear(b, n, nearB);
+  for (int i = 0; i < db.faceCount; ++i) best.attempt(db.faces[static_cast<std::size_t>(i)], n);
+  for (int i = 0; i < da.faceCount; ++i) best.attempt(da.faces[static_cast<std::size_t>(i)], n, 1e-13);
+  for (int i = 0; i < da.edgeCount; ++i)
+    for (int j = 0; j < db.edgeCount; ++j) {
+      const Vec3 e = da.edges[static_cast<std::size_t>(i)].cross(db.edges[static_cast<std::size_t>(j)]);
+      const double s = e.norm();
+      if (s > 1e-4) best.attempt(e / s, n, 1e-13);
+    }
+  g.distance = separationAlong(best.n, a, b), g.normal = best.n;
+  putOn(g, a, b, nearA, nearB);
+  return g;
+}
+
+}  // namespace stadion

@@ -1,0 +1,38 @@
+#pragma once
+/// The convex hull of a cloud of points, with its faces merged to polygons.
+///
+/// Method   quickhull over triangles: each point outside is taken to be a corner of the hull, farthest first;
+/// faces in one plane are merged afterwards.
+///          Barber, Dobkin, Huhdanpaa, The Quickhull Algorithm for Convex Hulls, 1996.
+
+#include "engine/maths/maths.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace stadion {
+
+/// A convex body with flat faces. Points in the node's coordinates N; immutable.
+struct ConvexShape {
+  struct Face {
+    Vec3 normal;    ///< unit, outwards
+    double offset;  ///< normal . x of its points [m]
+    std::uint32_t
+        first;  ///< corners: loops[first] .. loops[first + count - 1], counter-clockwise from outside
+    std::uint32_t count;
+  };
+  std::vector<Vec3> points;
+  std::vector<Face> faces;
+  std::vector<std::uint32_t> loops;
+  std::vector<std::array<std::uint32_t, 2>> edges;  ///< each once
+  Vec3 centre = Vec3::Zero();                       ///< of the corners' bounds
+  double reach = 0;                                 ///< greatest distance of a corner from the centre [m]
+  double inside = 0;                                ///< radius of a ball about the centre that fits [m]
+};
+
+/// Nothing if the points are not finite or lie in one plane.
+std::optional<ConvexShape> convexHull(const std::vector<Vec3>& points);
+
+}  // namespace stadion

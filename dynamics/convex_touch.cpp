@@ -1,0 +1,334 @@
+#include "dynamics/convex_touch.h"
+
+#include "dynamics/convex_manifold.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr int kMostLooks = 400;
+constexpr double kRough = 1e-5;  ///< accuracy of distances on the way
+
+double reachOf(const Side& s) {
+  return s.body ? s.body->reach : s.bound().centre.norm() + s.bound().radius;
+}
+
+/// One body of a pair at the moment of a look, relative to `origin`.
+struct Mover {
+  ConvexCore core;
+  Vec3 p = Vec3::Zero(), v = Vec3::Zero(), omega = Vec3::Zero();
+  double reach = 0;         ///< of its points from p [m]
+  double drift = 0;         ///< bound on the acceleration of p [m/s2]
+  double acceleration = 0;  ///< the same of its points
+  bool turning = false;
+
+  void bound(const Side& s, double from, double to, double withReach) {
+    const MotionBound b = s.boundOver(from, to);
+    reach = withReach, drift = b.acceleration, acceleration = b.accelerationAt(reach);
+    turning = b.spin > 0 || b.spinChange > 0;
+  }
+  void take(const Kinematics& k, const Vec3& origin) { p = k.p - origin, v = k.v, omega = k.omega; }
+  Vec3 velocityAt(const Vec3& x) const { return v + omega.cross(x - p); }
+
+  /// The greatest of n . (x + s v_x) over the body, and its rate of change.
+  double farthest(const Vec3& n, double s, double& rate) const {
+    const Vec3 turn = n.cross(omega), d = n + s * turn;
+    const Vec3 r = core.support(d) - p;
+    double far = n.dot(p) + s * n.dot(v) + d.dot(r);
+    rate = n.dot(v) + turn.dot(r);
+    if (core.radius > 0) {
+      const double l = d.norm();
+      far += core.radius * l, rate += core.radius * d.dot(turn) / l;
+    }
+    return far;
+  }
+};
+
+/// f(s) of the header with its slope. `level`: where b is a plane, else b moves.
+struct Lower {
+  const Mover& a;
+  const Mover* b;
+  Vec3 n;
+  double level;
+  double acceleration;
+
+  double at(double s, double& slope) const {
+    double ra, rb = 0;
+    const double near = -a.farthest(-n, s, ra), far = b ? b->farthest(n, s, rb) : level;
+    slope = -ra - rb - acceleration * s;
+    return near - far - 0.5 * acceleration * s * s;
+  }
+};
+
+/// Seconds in which f, that is `gap` now, does not fall below zero; `most` if it never does until then.
+double safeTime(const Lower& f, double gap, double most) {
+  double slope = 0;
+  const double shift = gap - f.at(0, slope);  // no step back for bodies that overlap already
+  double right = most, value = f.at(right, slope) + shift;
+  if (value >= 0) return most;
+  for (int i = 0; i < 12; ++i) {  // Newton from beyond the root of a concave function comes down to it
+    if (!(slope < 0)) break;
+    const double next = right - value / slope;
+    if (!(next < right) || !(next > 0)) break;
+    const bool done = right - next < 1e-3 * next;
+    right = next, value = f.at(right, slope) + shift;
+    if (value >= 0) return right;
+    if (done) break;
+  }
+  if (gap > 0) return right * gap / (gap - value);  // the chord lies below
+  for (const double part : {0.99, 0.9, 0.5, 0.1}) {
+    double unused;
+    if (f.at(part * right, unused) + shift >= 0) return part * right;
+  }
+  return 0;
+}
+
+/// The same with everything held inside spheres, turning or not.
+double sphereTime(const Lower& f, double most) {
+  if (!f.a.turning && !(f.b && f.b->turning)) return 0;
+  double unused;
+  const double far = !f.b           ? f.level
+                     : f.b->turning ? f.n.dot(f.b->p) + f.b->reach
+                                    : f.b->farthest(f.n, 0, unused);
+  const double g = f.n.dot(f.a.p) - f.a.reach - far;
+  if (!(g > 0)) return 0;
+  const double u = f.n.dot(f.a.v) - (f.b ? f.n.dot(f.b->v) : 0), A = f.a.drift + (f.b ? f.b->drift : 0);
+  const double root = std::sqrt(u * u + 2 * A * g);
+  if (u < 0) return std::min(most, 2 * g / (root - u));
+  return A > 0 ? std::min(most, (u + root) / A) : most;
+}
+
+/// The rate at which the gap closes at its fastest point: bodies turn into the contact by a hair.
+double closingRate(const Lower& f) {
+  const double spin = f.a.omega.norm() + (f.b ? f.b->omega.norm() : 0);
+  double slope = 0;
+  f.at(spin > 0 ? 1e-9 / spin : 0, slope);
+  return slope + f.acceleration * (spin > 0 ? 1e-9 / spin : 0);
+}
+
+/// Of a patch that touches all at once: its middle if it comes flat on, else the point that comes fastest.
+bool contactPoint(const Mover& a, const Mover* b, const std::vector<ManifoldPoint>& patch, double gap,
+                  Vec3& x) {
+  const auto rateAt = [&](const ManifoldPoint& p) {
+    const Vec3& at = p.gap.point;
+    return p.gap.normal.dot(a.velocityAt(at) - (b ? b->velocityAt(at) : Vec3(Vec3::Zero())));
+  };
+  double least = 1e300, most = -1e300;
+  Vec3 sum = Vec3::Zero(), fastest = Vec3::Zero();
+  int n = 0;
+  for (const ManifoldPoint& p : patch) {
+    if (p.gap.distance > gap + 1e-9) continue;
+    const double r = rateAt(p);
+    if (r < least) least = r, fastest = p.gap.point;
+    most = std::max(most, r);
+    sum += p.gap.point, ++n;
+  }
+  if (n == 0) return false;
+  x = most - least <= 1e-9 * (1 + std::fabs(least)) ? Vec3(sum / n) : fastest;
+  return true;
+}
+
+/// Looks until the pair touches. `place(tau)` moves both, `measure()` gives their gap relative to the origin.
+template <class Place, class Measure, class Patch>
+std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double from, double to,
+                             double tolerance, std::uint64_t& count, Place place, Measure measure,
+                             Patch patch) {
+  double tau = from;
+  int stalls = 0;
+  std::vector<ManifoldPoint> points;
+  for (int i = 0; i < kMostLooks; ++i) {
+    ++count;
+    place(tau);
+    double level = 0;
+    const ConvexGap g = measure(level);
+    if (!std::isfinite(g.distance) || !g.normal.allFinite()) return {};
+    const Lower f{a, b, g.normal, level, acceleration};
+    double gap = g.distance;
+    if (gap <= tolerance) {
+      if (closingRate(f) < 0) {
+        Vec3 x = g.onB;
+        points.clear();
+        patch(g, points);
+        contactPoint(a, b, points, g.distance, x);
+        const double rate = g.normal.dot(a.velocityAt(x) - (b ? b->velocityAt(x) : Vec3(Vec3::Zero())));
+        if (rate < 0 || ++stalls > 20) return Touch{tau, {g.distance, x, g.normal, false, -1}, false};
+      }
+      gap = 0;
+    }
+    const double left = to - tau;
+    const double step = std::max(safeTime(f, gap, left), sphereTime(f, left));
+    if (step >= left) return {};
+    tau += std::max(step, gap > 0 ? 1e-16 : 1e-9);
+    if (!(tau <= to)) return {};
+  }
+  return {};
+}
+
+void toWorld(std::optional<Touch>& t, const Vec3& origin) {
+  if (t) t->gap.point += origin;
+}
+
+Pose shifted(const Pose& X, const Vec3& origin) {
+  return {X.p - origin, X.q};
+}
+
+}  // namespace
+
+std::optional<Touch> convexTouch(const Side& sa, const Side& sb, double from, double to,
+                                 std::uint64_t& count) {
+  const Vec3 origin = sa.at(from).p;
+  Mover a, b;
+  a.bound(sa, from, to, reachOf(sa)), b.bound(sb, from, to, reachOf(sb));
+  Vec3 guess = Vec3::UnitZ();
+  bool first = true;
+  auto t = advance(
+      a, &b, a.acceleration + b.acceleration, from, to, touchTolerance(origin), count,
+      [&](double tau) {
+        const Kinematics ka = sa.at(tau);
+        coreOf(*sa.shape, shifted(ka.pose, origin), a.core), a.take(ka, origin);
+        if (!first && sb.still()) return;
+        const Kinematics kb = sb.at(tau);
+        coreOf(*sb.shape, shifted(kb.pose, origin), b.core), b.take(kb, origin);
+        if (first) guess = a.core.middle() - b.core.middle();
+        first = false;
+      },
+      [&](double&) {
+        const ConvexGap g = convexGap(a.core, b.core, guess, kRough);
+        guess = g.normal;
+        return g;
+      },
+      [&](const ConvexGap& g, std::vector<ManifoldPoint>& points) {
+        convexManifold(a.core, b.core, g, g.distance + 1e-9, 0, points);
+      });
+  toWorld(t, origin);
+  return t;
+}
+
+std::optional<Touch> planeTouch(const Side& sa, const Side& plane, double from, double to,
+                                std::uint64_t& count) {
+  const auto& shape = std::get<PlaneShape>(*plane.shape);
+  const Vec3 origin = sa.at(from).p;
+  Mover a;
+  a.bound(sa, from, to, reachOf(sa));
+  double bound = a.acceleration;
+  if (!plane.still()) {
+    bound = relativeAcceleration(sa, plane, from, to, (origin - plane.at(from).p).norm());
+    a.drift = bound, a.turning = true;
+  }
+  Pose X;
+  auto t = advance(
+      a, nullptr, bound, from, to, touchTolerance(origin), count,
+      [&](double tau) {
+        const Kinematics k = sa.at(tau), o = plane.at(tau);
+        coreOf(*sa.shape, shifted(k.pose, origin), a.core), a.take(k, origin);
+        a.v -= o.velocityAt(k.p), a.omega -= o.omega;
+        X = shifted(o.pose * shape.pose, origin);
+      },
+      [&](double& level) {
+        ConvexGap g;
+        g.normal = X.q * Vec3::UnitZ(), level = g.normal.dot(X.p);
+        g.distance = -a.core.extent(-g.normal) - level;
+        g.onA = g.onB = a.core.support(-g.normal) - a.core.radius * g.normal;
+        return g;
+      },
+      [&](const ConvexGap& g, std::vector<ManifoldPoint>& points) {
+        planeManifold(a.core, g.normal, g.normal.dot(X.p), g.distance + 1e-9, points);
+      });
+  if (t) t->gap.face = true;
+  toWorld(t, origin);
+  return t;
+}
+
+std::optional<Touch> meshTouch(const Side& sa, const Side& sm, double from, double to, std::uint64_t& count) {
+  const auto& mesh = std::get<MeshShape>(*sm.shape);
+  const Vec3 origin = sa.at(from).p;
+  Mover a, b;
+  a.bound(sa, from, to, reachOf(sa)), b.bound(sm, from, to, reachOf(sm));
+  const double bend = relativeAcceleration(sa, sm, from, to, (origin - sm.at(from).p).norm());
+  const auto local = [&](double tau) { return Vec3(sm.at(tau).pose.inverse() * sa.at(tau).p); };
+  // Piece by piece of the way, about as long as the body: few triangles are near at a time.
+  const double way = (local(to) - local(from)).norm() + bend * (to - from) * (to - from) / 8;
+  const int pieces = static_cast<int>(std::clamp(way / (2 * a.reach), 1.0, 64.0));
+  const double tolerance = touchTolerance(origin);
+  std::optional<Touch> best;
+  for (int piece = 0; piece < pieces && !best; ++piece) {
+    const double begin = from + (to - from) * piece / pieces,
+                 end = piece + 1 == pieces ? to : from + (to - from) * (piece + 1) / pieces;
+    Aabb box;
+    box.include(local(begin)), box.include(local(end));
+    const double margin = a.reach + bend * (end - begin) * (end - begin) / 8 + 1e-9;
+    box.lo.array() -= margin, box.hi.array() += margin;
+    double until = end;
+    mesh.tree.eachOverlapping(box, [&](std::uint32_t i) {
+      const Triangle& face = mesh.tree.triangles()[i];
+      Vec3 guess = Vec3::UnitZ();
+      bool first = true;
+      auto t = advance(
+          a, &b, a.acceleration + b.acceleration, begin, until, tolerance, count,
+          [&](double tau) {
+            const Kinematics ka = sa.at(tau);
+            coreOf(*sa.shape, shifted(ka.pose, origin), a.core), a.take(ka, origin);
+            if (!first && sm.still()) return;
+            const Kinematics kb = sm.at(tau);
+            b.core = coreOf(face, shifted(kb.pose, origin)), b.take(kb, origin);
+            if (first) guess = a.core.middle() - b.core.middle();
+            first = false;
+          },
+          [&](double&) {
+            ConvexGap g = convexGap(a.core, b.core, guess, kRough);
+            guess = g.normal;
+            if (g.distance < 1e-6) meshNormal(a.core, b.core, face, g);
+            return g;
+          },
+          [&](const ConvexGap& g, std::vector<ManifoldPoint>& points) {
+            convexManifold(a.core, b.core, g, g.distance + 1e-9, 0, points);
+          });
+      if (!t || (best && t->tau >= best->tau)) return;
+      t->gap.triangle = static_cast<std::int32_t>(i);
+      best = t, until = t->tau;
+    });
+  }
+  toWorld(best, origin);
+  return best;
+}
+
+Gap convexGapBetween(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB) {
+  ConvexCore ca, cb;
+  coreOf(a, shifted(X_WA, X_WB.p), ca), coreOf(b, shifted(X_WB, X_WB.p), cb);
+  const ConvexGap g = convexGap(ca, cb, ca.middle() - cb.middle());
+  return {g.distance, g.onB + X_WB.p, g.normal, false, -1};
+}
+
+Gap planeGapBetween(const Shape& a, const Pose& X_WA, const PlaneShape& plane, const Pose& X_WP) {
+  const Pose X = X_WP * plane.pose;
+  ConvexCore c;
+  coreOf(a, shifted(X_WA, X.p), c);
+  const Vec3 n = X.q * Vec3::UnitZ(), low = c.support(-n) - c.radius * n;
+  return {n.dot(low), low + X.p, n, true, -1};
+}
+
+Gap meshGapBetween(const Shape& a, const Pose& X_WA, const MeshShape& mesh, const Pose& X_WM, double limit) {
+  ConvexCore c;
+  const Pose X = X_WM.inverse() * X_WA;
+  coreOf(a, X, c);
+  const Vec3 middle = c.middle();
+  const Sphere s = boundingSphere(a);
+  const double reach = (X * s.centre - middle).norm() + s.radius;
+  Gap best;
+  mesh.tree.eachWithin(
+      middle, [&] { return std::min(limit, std::max(best.distance, 0.0)) + reach; },
+      [&](std::uint32_t i) {
+        const Triangle& t = mesh.tree.triangles()[i];
+        const ConvexCore face = coreOf(t, Pose{});
+        ConvexGap g = convexGap(c, face, middle - face.middle());
+        if (g.distance < 0) meshNormal(c, face, t, g);
+        if (g.distance < best.distance)
+          best = {g.distance, g.onB, g.normal, false, static_cast<std::int32_t>(i)};
+      });
+  best.point = X_WM * best.point, best.normal = X_WM.q * best.normal;
+  return best;
+}
+
+}  // namespace stadion
