@@ -20,6 +20,9 @@
 namespace stadion {
 namespace {
 
+/// How long after the stop signal frames may still be drawn.
+constexpr std::chrono::seconds kDrawAfterStop{5};
+
 /// What a run needs. Anything that is not there is the user's affair; the findings say why.
 struct RunSetup {
   std::unique_ptr<OutputFolder> folder;  ///< null without --out
@@ -80,6 +83,7 @@ int play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   parts.sink = s.output.get();
   parts.drawUnseen = !s.output;
   parts.probe = o.profile ? &nodeTimes : nullptr;
+  parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     s.watch->see(now, input, scene);
     s.player->collect(running->shownFrame());

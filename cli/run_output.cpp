@@ -2,6 +2,7 @@
 
 #include "pipeline/output/contact_sheet.h"
 
+#include <algorithm>
 #include <charconv>
 #include <exception>
 #include <fmt/format.h>
@@ -147,21 +148,26 @@ void RunOutput::writeFile(const std::string& name, const Picture& picture) {
 }
 
 void RunOutput::writeLast(const Job& last) {
-  const bool drawn = !last.walls.empty() && !last.walls[0].eyes.empty();
-  if (!drawn || options_.pictures.kind == PictureChoice::Kind::None) return;
+  if (options_.pictures.kind == PictureChoice::Kind::None) return;
+  const bool whole = std::ranges::all_of(
+      last.walls, [&](const EyePictures& w) { return !w.eyes.empty() && w.frame == last.frame; });
+  if (last.walls.empty() || !whole) {
+    remarks_.push_back("no contact sheet: the run ended before its last frame was drawn");
+    return;
+  }
   if (options_.pictures.kind == PictureChoice::Kind::Last && lastWritten_ != last.frame) writePictures(last);
   writeFile("contact-sheet.png", sheetOf(last, 320));
   if (!failed_) files_.push_back(options_.folder.pathOf("contact-sheet.png"));
 }
 
-void RunOutput::finish(std::uint64_t lastFrame, const std::vector<EyePictures>& walls) {
+void RunOutput::finish(const std::vector<EyePictures>& walls) {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;
     changed_.notify_all();
   }
   writer_.join();
-  guard([&] { writeLast({lastFrame, walls, true}); });
+  guard([&] { writeLast({walls.empty() ? 0 : walls[0].frame, walls, true}); });
   if (!video_) return;
   auto report = video_->finish();
   if (report)

@@ -46,7 +46,8 @@ public:
   Failure take(const TimeSignature& now, const std::vector<EyePictures>& walls) override;
 
   /// Writes the last frame's pictures and the contact sheet, waits for the writer, closes the video.
-  void finish(std::uint64_t lastFrame, const std::vector<EyePictures>& walls);
+  /// Where the walls' pictures are of different frames (a frame was not finished), none of them is written.
+  void finish(const std::vector<EyePictures>& walls);
 
   const std::vector<std::string>& files() const { return files_; }      ///< the ones worth naming
   const std::vector<std::string>& remarks() const { return remarks_; }  ///< what did not go as asked

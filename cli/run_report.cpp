@@ -22,6 +22,7 @@ void addTimes(const FinishedRun& run, RunSummary& s) {
     s.stages.push_back({"draw", name, distributionOf(t.draw[w].values()), finish});
     s.latency.push_back({name, distributionOf(t.latency[w].values())});
     const std::vector<Picture>& eyes = run.stages.lastPictures()[w].eyes;
+    if (run.stages.lastPictures()[w].frame != s.lastFrame) continue;
     for (std::size_t e = 0; e < eyes.size(); ++e)
       s.imageHashes.push_back({name, eyeName(kEyes[e]), imageHash(eyes[e])});
   }
@@ -32,10 +33,11 @@ RunSummary summarise(const FinishedRun& run) {
   RunSummary s;
   s.show = o.show.script, s.walls = o.show.walls, s.mode = o.show.mode, s.stereo = o.stereo;
   s.width = o.show.width, s.height = o.show.height, s.rate = run.player.rate();
-  s.frames = run.outcome.framesShown, s.lateFrames = run.outcome.missedTicks;
+  s.frames = run.outcome.framesShown, s.framesDrawn = run.outcome.framesDrawn;
+  s.lateFrames = run.outcome.missedTicks;
   s.elapsedSeconds = run.elapsed;
-  addTimes(run, s);
   run.watch.addTo(s, run.outcome.framesSimulated);
+  addTimes(run, s);
   s.remarks.push_back("drawn by " + run.stages.glDescription());
   if (run.outcome.stopped) s.stopped = stopSignalName();
   return s;
@@ -92,7 +94,7 @@ int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   verdict.add(run.outcome.failure);
   RunSummary summary = summarise(run);
   if (output) {
-    output->finish(run.stages.shownFrame(), run.stages.lastPictures());  // after a failure App may be ahead
+    output->finish(run.stages.lastPictures());
     summary.files = output->files();
     summary.remarks.insert(summary.remarks.end(), output->remarks().begin(), output->remarks().end());
     verdict.add(output->failure());

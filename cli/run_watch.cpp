@@ -24,15 +24,19 @@ std::unique_ptr<RunWatch> RunWatch::create(const RunOptions& options, Player& pl
     watch->traces_.emplace_back(node);
   }
   if (findings.hasErrors()) return nullptr;
+  watch->recordInput(options, player, findings);
+  return findings.hasErrors() ? nullptr : std::move(watch);
+}
+
+void RunWatch::recordInput(const RunOptions& options, Player& player, Diagnostics& findings) {
+  if (options.recordInput.empty()) return;
   // Where every frame follows the last one at 1/rate there is nothing to record but the input.
   const bool clockDecides = !options.everyFrameCounts(player) || player.obeysLog();
-  if (!options.recordInput.empty())
-    watch->recorder_ = std::make_unique<InputRecorder>(options.recordInput, clockDecides ? player.rate() : 0);
-  if (watch->recorder_)
-    player.tellLateLoads([recorder = watch->recorder_.get()](std::uint32_t load, Nanoseconds time) {
-      recorder->lateLoad(load, time);
-    });
-  return watch;
+  recorder_ = std::make_unique<InputRecorder>(options.recordInput, clockDecides ? player.rate() : 0);
+  if (const auto& why = recorder_->refusal())
+    findings.error({}, "--record-input: " + options.recordInput + " " + why->message);
+  player.tellLateLoads(
+      [recorder = recorder_.get()](std::uint32_t load, Nanoseconds time) { recorder->lateLoad(load, time); });
 }
 
 void RunWatch::see(const TimeSignature& now, const InputSample& input, const Scene& scene) {

@@ -17,7 +17,8 @@ namespace stadion {
 
 class RunWatch {
 public:
-  /// Null, with the reason in the findings, if a node to be traced is not there.
+  /// Null, with the reason in the findings, if a node to be traced is not there or the input cannot be
+  /// recorded.
   static std::unique_ptr<RunWatch> create(const RunOptions& options, Player& player, Diagnostics& findings);
 
   /// After each App stage.
@@ -31,6 +32,7 @@ public:
 
 private:
   explicit RunWatch(const Player& player) : player_(player) {}
+  void recordInput(const RunOptions& options, Player& player, Diagnostics& findings);
   void note(const EventRecord& event, const Scene& scene);
 
   const Player& player_;

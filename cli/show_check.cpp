@@ -52,7 +52,8 @@ public:
     if (enclosing.size() >= kDeepestNesting) return;
     enclosing.insert(enclosing.begin(), &document);
     for (const Declaration d : document) {
-      if (d.kind() != NodeKind::Scene) continue;
+      // One whose file name was refused has been told already.
+      if (d.kind() != NodeKind::Scene || d.text(Attr::File).empty()) continue;
       auto below = readBelow(d);
       const bool circle =
           below && std::any_of(enclosing.begin(), enclosing.end(), [&](const Document* outer) {

@@ -8,9 +8,11 @@ namespace {
 
 std::atomic<bool> requested = false;  // set by the handler, which can reach nothing else
 std::atomic<int> received = 0;
+std::atomic<std::chrono::steady_clock::rep> receivedAt = 0;
 
 extern "C" void requestStop(int signal) {
   received = signal;
+  receivedAt = std::chrono::steady_clock::now().time_since_epoch().count();
   if (requested.exchange(true)) std::_Exit(128 + signal);
 }
 
@@ -24,6 +26,11 @@ const std::atomic<bool>& catchStopSignals() {
 
 int stopSignal() {
   return received;
+}
+
+std::chrono::steady_clock::duration sinceStopSignal() {
+  const std::chrono::steady_clock::duration at(receivedAt);
+  return at.count() == 0 ? at : std::chrono::steady_clock::now().time_since_epoch() - at;
 }
 
 const char* stopSignalName() {

@@ -2,6 +2,7 @@
 /// Ctrl-C (SIGINT) and SIGTERM: the first one asks the run to end, the second one ends the process at once.
 
 #include <atomic>
+#include <chrono>
 
 namespace stadion {
 
@@ -10,6 +11,9 @@ const std::atomic<bool>& catchStopSignals();
 
 /// The signal that came, 0 if none did.
 int stopSignal();
+
+/// How long ago it came; 0 if none did. Any thread.
+std::chrono::steady_clock::duration sinceStopSignal();
 
 /// "SIGINT", "SIGTERM".
 const char* stopSignalName();

@@ -31,6 +31,8 @@ public:
   /// Records a failure from elsewhere (an encoder, for instance), so that commit() discards the file.
   void fail(const std::string& why);
   bool failed() const { return error_.has_value(); }
+  /// Why it has failed so far, such as a folder that is not there.
+  const std::optional<Diagnostic>& error() const { return error_; }
 
   /// Finishes the file. Nothing if all went well, else why there is none; the old target is then untouched.
   std::optional<Diagnostic> commit();

@@ -3,8 +3,8 @@
 
 namespace stadion {
 
-/// Thrown by whoever would keep a run waiting that has been told to stop (a file is still being loaded). Ends
-/// App's work on the frame; the frame does not count.
+/// Thrown by whoever would keep a run waiting that has been told to stop (a file is still being loaded, a
+/// frame takes long to draw). Ends the work on the frame; the frame does not count.
 struct RunStopped {};
 
 }  // namespace stadion

@@ -5,6 +5,7 @@
 #include "pipeline/swap_barrier.h"
 
 #include <exception>
+#include <functional>
 #include <new>
 #include <thread>
 #include <vector>
@@ -31,12 +32,15 @@ public:
   }
   ~StageSpan() {
     if (probe_) probe_->stageEnded(stage_, frame_, wall_);
+    if (!counts_) return;
     try {
       series_.add(millisecondsSince(start_));
     } catch (const std::bad_alloc&) {
       // One duration less; what else needs memory will say so.
     }
   }
+  /// It was not finished: how long it took says nothing.
+  void leaveOut() { counts_ = false; }
   StageSpan(const StageSpan&) = delete;
   StageSpan& operator=(const StageSpan&) = delete;
 
@@ -46,16 +50,23 @@ private:
   Stage stage_;
   std::uint64_t frame_;
   std::uint32_t wall_;
+  bool counts_ = true;
   Clock::time_point start_ = Clock::now();
 };
 
 }  // namespace
 
+/// What each kind of thread does in a pipelined run.
+struct FrameLoop::StageThreads {
+  std::function<void()> app;
+  std::function<void(std::size_t wall)> cull, draw;
+  std::function<void()> stopAll;  ///< nobody waits for anybody any more
+};
+
 FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std::atomic<bool>& stopRequested,
                      FrameProbe* probe)
     : stages_(stages), options_(options), stopRequested_(stopRequested), probe_(probe),
-      pacer_(options.pace, options.rate), times_(options.walls), clock_(options.rate, options.frameTimes),
-      appStart_(kAppStarts) {}
+      pacer_(options.pace, options.rate), times_(options.walls), clock_(options.rate, options.frameTimes) {}
 
 FrameLoopOutcome FrameLoop::run() {
   if (options_.mode == Mode::Sequential)
@@ -63,6 +74,7 @@ FrameLoopOutcome FrameLoop::run() {
   else
     runPipelined();
   outcome_.missedTicks = pacer_.missed();
+  outcome_.stopped = stopped_;
   return outcome_;
 }
 
@@ -75,11 +87,12 @@ void FrameLoop::runSequential() {
   while (well) {
     const auto now = nextFrame();
     if (!now) break;
-    well = appStage(*now, 0);
+    const auto ticket = appStage(*now, 0);
+    well = ticket.has_value();
     for (std::size_t wall = 0; well && wall < options_.walls; ++wall)
-      well = cullStage(wall, 0, now->frame, lists[wall]);
+      well = cullStage(wall, 0, *ticket, lists[wall]);
     for (std::size_t wall = 0; well && wall < options_.walls; ++wall) well = drawStage(wall, lists[wall]);
-    well = well && swapStage(*now);
+    well = well && swapStage(*ticket);
   }
 
   for (std::size_t wall = 0; wall < options_.walls; ++wall) closeStage(wall);
@@ -91,84 +104,89 @@ void FrameLoop::runPipelined() {
   FrameSlots slots(options_.walls, options_.delivery);
   std::vector<ListQueue> queues(options_.walls);
   SwapBarrier barrier(options_.walls);
-  const auto stopAll = [&] {
-    slots.stop();
-    for (ListQueue& q : queues) q.stop();
-    barrier.stop();
-  };
 
-  const auto app = [&](std::size_t) {
+  StageThreads threads;
+  threads.app = [&] {
     while (const auto now = nextFrame()) {
       const auto slot = slots.beginWrite();
       if (!slot) return;
-      if (!appStage(*now, *slot)) break;
-      slots.endWrite(*slot, now->frame);
+      const auto ticket = appStage(*now, *slot);
+      if (!ticket) break;
+      slots.endWrite(*slot, *ticket);
     }
     slots.finish();
   };
-
-  const auto cull = [&](std::size_t wall) {
+  threads.cull = [&](std::size_t wall) {
     while (const auto lease = slots.lease(wall)) {
       DrawList* list = queues[wall].takeEmpty();
-      if (!list) return;
-      if (!cullStage(wall, lease->slot, lease->frame, *list)) return;
+      if (!list || !cullStage(wall, lease->slot, lease->ticket, *list)) return;
       list->abandoned = !slots.release(*lease);
       queues[wall].giveFilled(list);
     }
     queues[wall].finish();
   };
-
-  const auto draw = [&](std::size_t wall) {
+  threads.draw = [&](std::size_t wall) {
     if (!openStage(wall)) return;
     while (DrawList* list = queues[wall].takeFilled()) {
       if (!list->abandoned && !drawStage(wall, *list)) return;
-      const TimeSignature now = list->signature;
+      const FrameTicket ticket = list->ticket;
       bool shown = true;
-      if (!barrier.arrive([&] { shown = swapStage(now); }) || !shown) return;
+      if (!barrier.arrive([&] { shown = swapStage(ticket); }) || !shown) return;
       queues[wall].giveEmpty(list);
     }
   };
+  threads.stopAll = [&] {
+    slots.stop();
+    for (ListQueue& q : queues) q.stop();
+    barrier.stop();
+  };
+  runThreads(threads);
+}
 
-  // Whatever happens in one of the threads, the others must not wait for it.
-  const auto started = [&](const char* what, std::size_t wall, const auto& work) {
-    return std::thread([this, what, wall, &work, &stopAll] {
-      guard(what, wall, kNoFrame, [&]() -> Failure { return work(wall), Failure(); });
-      if (failed_) stopAll();
+// Whatever happens in one of the threads, the others must not wait for it.
+void FrameLoop::runThreads(const StageThreads& work) {
+  std::vector<std::thread> threads;
+  const auto start = [&](const char* what, std::size_t wall, std::function<void()> stage) {
+    threads.emplace_back([this, &work, what, wall, stage = std::move(stage)] {
+      guard(what, wall, kNoFrame, [&]() -> Failure { return stage(), Failure(); });
+      if (broken_) work.stopAll();
     });
   };
-  const auto drawAndClose = [&](std::size_t wall) {
-    draw(wall);
-    if (failed_) stopAll();
-    closeStage(wall);
-  };
-
-  std::vector<std::thread> threads;
   threads.reserve(1 + 2 * options_.walls);
   guard("starting the threads", kNoWall, kNoFrame, [&]() -> Failure {
     for (std::size_t wall = 0; wall < options_.walls; ++wall) {
-      threads.push_back(started("Cull", wall, cull));
-      threads.push_back(started("Draw", wall, drawAndClose));
+      start("Cull", wall, [&work, wall] { work.cull(wall); });
+      start("Draw", wall, [this, &work, wall] { drawAndClose(work, wall); });
     }
-    threads.push_back(started("App", kNoWall, app));
+    start("App", kNoWall, work.app);
     return Failure();
   });
-  if (failed_) stopAll();
+  if (broken_) work.stopAll();
   for (std::thread& t : threads) t.join();
 }
 
+void FrameLoop::drawAndClose(const StageThreads& work, std::size_t wall) {
+  work.draw(wall);
+  if (broken_) work.stopAll();
+  closeStage(wall);
+}
+
 std::optional<TimeSignature> FrameLoop::nextFrame() {
-  const bool all = options_.frames != 0 && nextIndex_ >= options_.frames;
-  if (all || ending_ || failed_) return std::nullopt;
-  if (stopRequested_) {
-    outcome_.stopped = true;
-    return std::nullopt;
-  }
+  if (nextIndex_ == 0 && stopRequested_) stopped_ = ended_ = true;
+  if (ended_ || broken_) return std::nullopt;
   const std::uint64_t ticks = pacer_.wait();
   // Where every frame counts, time goes by frames; where the newest counts, by the clock's ticks.
   const TimeSignature now = clock_.next(options_.delivery == Delivery::Latest ? ticks : 1);
   if (options_.end > 0 && now.time > options_.end) return std::nullopt;
   ++nextIndex_;
   return now;
+}
+
+// Asked once a frame, on the App thread, after App: so that the last frame is known before it is drawn.
+bool FrameLoop::noneFollows() {
+  if (stopRequested_) stopped_ = true;
+  return stopped_ || ending_ || (options_.frames != 0 && nextIndex_ >= options_.frames) ||
+         (options_.end > 0 && clock_.timeOfNext() > options_.end);
 }
 
 /// Runs a piece of work; false, with the reason kept, if it did not succeed or threw something.
@@ -178,7 +196,7 @@ bool FrameLoop::guard(const char* what, std::size_t wall, std::uint64_t frame, c
     Failure f = work();
     return !f || fail(std::move(*f));
   } catch (const RunStopped&) {
-    outcome_.stopped = true;  // App alone waits for others, and App alone says so
+    stopped_ = true;
     return false;
   } catch (const std::bad_alloc&) {
     return fail(what, wall, frame, "out of memory");
@@ -200,18 +218,28 @@ bool FrameLoop::fail(const char* what, std::size_t wall, std::uint64_t frame, co
   }
 }
 
-bool FrameLoop::appStage(const TimeSignature& now, std::size_t slot) {
-  appStart_[now.frame % kAppStarts] = Clock::now();
-  const StageSpan span(times_.app, probe_, Stage::App, now.frame, 0);
-  const bool well =
-      guard("App", kNoWall, now.frame, [&]() -> Failure { return stages_.app(now, slot), Failure(); });
-  if (well) ++outcome_.framesSimulated;
-  return well;
+std::optional<FrameTicket> FrameLoop::appStage(const TimeSignature& now, std::size_t slot) {
+  FrameTicket ticket{now, Clock::now()};
+  {
+    const StageSpan span(times_.app, probe_, Stage::App, now.frame, 0);
+    if (!guard("App", kNoWall, now.frame, [&]() -> Failure { return stages_.app(now, slot), Failure(); }))
+      return std::nullopt;
+  }
+  ++outcome_.framesSimulated;
+  ticket.last = ended_ = noneFollows();
+  ticket.drawn = stages_.wantsDrawn(ticket);
+  return ticket;
 }
 
-bool FrameLoop::cullStage(std::size_t wall, std::size_t slot, std::uint64_t frame, DrawList& list) {
-  const StageSpan span(times_.cull[wall], probe_, Stage::Cull, frame, wall);
-  return guard("Cull", wall, frame, [&]() -> Failure { return stages_.cull(wall, slot, list), Failure(); });
+bool FrameLoop::cullStage(std::size_t wall, std::size_t slot, const FrameTicket& ticket, DrawList& list) {
+  const std::uint64_t frame = ticket.signature.frame;
+  bool well = true;
+  if (ticket.drawn) {
+    const StageSpan span(times_.cull[wall], probe_, Stage::Cull, frame, wall);
+    well = guard("Cull", wall, frame, [&]() -> Failure { return stages_.cull(wall, slot, list), Failure(); });
+  }
+  list.ticket = ticket;
+  return well;
 }
 
 bool FrameLoop::openStage(std::size_t wall) {
@@ -223,29 +251,42 @@ void FrameLoop::closeStage(std::size_t wall) {
 }
 
 bool FrameLoop::drawStage(std::size_t wall, const DrawList& list) {
-  const std::uint64_t frame = list.signature.frame;
-  const StageSpan span(times_.draw[wall], probe_, Stage::Draw, frame, wall);
-  return guard("Draw", wall, frame, [&] { return stages_.draw(wall, list); });
+  if (!list.ticket.drawn) return true;
+  const std::uint64_t frame = list.ticket.signature.frame;
+  StageSpan span(times_.draw[wall], probe_, Stage::Draw, frame, wall);
+  if (guard("Draw", wall, frame, [&] { return stages_.draw(wall, list); })) return true;
+  span.leaveOut();
+  broken_ = true;  // given up, if it has not failed: the other walls would wait for this one
+  return false;
 }
 
-bool FrameLoop::swapStage(const TimeSignature& now) {
+bool FrameLoop::swapStage(const FrameTicket& ticket) {
+  const TimeSignature& now = ticket.signature;
   {
     const StageSpan span(times_.swap, probe_, Stage::Swap, now.frame, 0);
     if (!guard("Swap", kNoWall, now.frame, [&] { return stages_.swap(now); })) return false;
   }
-  const Clock::time_point shown = Clock::now();
-  if (outcome_.framesShown++ > 0)
-    times_.period.add(std::chrono::duration<double, std::milli>(shown - lastSwap_).count());
-  lastSwap_ = shown;
-  for (DurationSeries& latency : times_.latency)
-    latency.add(millisecondsSince(appStart_[now.frame % kAppStarts]));
+  ++outcome_.framesShown;
+  if (ticket.drawn) noteShown(ticket);
+  lastDrawn_ = ticket.drawn;
   return true;
+}
+
+void FrameLoop::noteShown(const FrameTicket& ticket) {
+  const Clock::time_point shown = Clock::now();
+  const auto since = [&](Clock::time_point then) {
+    return std::chrono::duration<double, std::milli>(shown - then).count();
+  };
+  ++outcome_.framesDrawn;
+  if (lastDrawn_) times_.period.add(since(lastSwap_));
+  lastSwap_ = shown;
+  for (DurationSeries& latency : times_.latency) latency.add(since(ticket.began));
 }
 
 bool FrameLoop::fail(Reason why) {
   const std::lock_guard lock(failureMutex_);
   if (!outcome_.failure) outcome_.failure = std::move(why);
-  failed_ = true;
+  broken_ = true;
   return false;
 }
 

@@ -39,6 +39,7 @@ struct FrameLoopOptions {
 
 struct FrameLoopOutcome {
   std::uint64_t framesSimulated = 0, framesShown = 0;
+  std::uint64_t framesDrawn = 0;  ///< of those shown
   std::uint64_t missedTicks = 0;
   bool stopped = false;  ///< by request, before all frames were done
   Failure failure;
@@ -46,7 +47,8 @@ struct FrameLoopOutcome {
 
 class FrameLoop {
 public:
-  /// `stopRequested` may be set by a signal handler; it is looked at before each frame.
+  /// `stopRequested` may be set by a signal handler; it is looked at once a frame. The frame in which it is
+  /// seen is the last one, and drawn as such.
   FrameLoop(Stages& stages, const FrameLoopOptions& options, const std::atomic<bool>& stopRequested,
             FrameProbe* probe = nullptr);
 
@@ -56,15 +58,21 @@ public:
   void endAfterThisFrame() { ending_ = true; }
 
 private:
-  std::optional<TimeSignature> nextFrame();
+  struct StageThreads;
+
   void runSequential();
   void runPipelined();
+  void runThreads(const StageThreads& work);
+  void drawAndClose(const StageThreads& work, std::size_t wall);
+  std::optional<TimeSignature> nextFrame();
+  bool noneFollows();
 
-  bool appStage(const TimeSignature& now, std::size_t slot);
-  bool cullStage(std::size_t wall, std::size_t slot, std::uint64_t frame, DrawList& list);
+  std::optional<FrameTicket> appStage(const TimeSignature& now, std::size_t slot);
+  bool cullStage(std::size_t wall, std::size_t slot, const FrameTicket& ticket, DrawList& list);
   bool openStage(std::size_t wall);
   bool drawStage(std::size_t wall, const DrawList& list);
-  bool swapStage(const TimeSignature& now);
+  bool swapStage(const FrameTicket& ticket);
+  void noteShown(const FrameTicket& ticket);
   void closeStage(std::size_t wall);
   template <class Work>
   bool guard(const char* what, std::size_t wall, std::uint64_t frame, const Work& work);
@@ -80,13 +88,14 @@ private:
   FrameLoopOutcome outcome_;
   std::uint64_t nextIndex_ = 0;
   FrameClock clock_;
-  bool ending_ = false;
-  std::atomic<bool> failed_ = false;
+  bool ending_ = false;  ///< App was told to end after this frame
+  bool ended_ = false;   ///< App has begun its last frame
+  std::atomic<bool> stopped_ = false;
+  std::atomic<bool> broken_ = false;  ///< failed, or Draw gave up: all threads are to end at once
   std::mutex failureMutex_;
-  /// When App began a frame, by frame: a frame is shown long before its entry is used again.
-  static constexpr std::size_t kAppStarts = 64;
-  std::vector<std::chrono::steady_clock::time_point> appStart_;
-  std::chrono::steady_clock::time_point lastSwap_;
+  // Of the frame shown last; whoever swaps has them.
+  std::chrono::steady_clock::time_point lastSwap_{};
+  bool lastDrawn_ = false;
 };
 
 }  // namespace stadion

@@ -180,13 +180,14 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
   for (const std::uint32_t n : numbers) {
     std::error_code unknown;
     if (!std::filesystem::equivalent(around_.at(n).document->file(), document->file(), unknown)) continue;
-    findings.error({document->file(), 0, 0}, "this sub-scene is loaded by itself, without end; it stays out");
+    findings.warning({document->file(), 0, 0},
+                     "this sub-scene is loaded by itself, without end; it stays out");
     return nullptr;
   }
   if (numbers.size() > kDeepestNesting) {
-    findings.error({document->file(), 0, 0}, "sub-scenes are nested more than " +
-                                                 std::to_string(kDeepestNesting) +
-                                                 " deep; does this file load itself?");
+    findings.warning({document->file(), 0, 0}, "sub-scenes are nested more than " +
+                                                   std::to_string(kDeepestNesting) +
+                                                   " deep; does this file load itself? It stays out");
     return nullptr;
   }
   Surroundings surroundings;

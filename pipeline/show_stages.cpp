@@ -59,31 +59,25 @@ void ShowStages::leaveContext(std::size_t wall) {
   contexts_[wall].currentOn = std::thread::id{};
 }
 
-Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
-  if (!parts_.provider) return {};
-  WallContext& c = contexts_[wall];
-  const bool wanted = parts_.sink && parts_.sink->wants(list.signature);
-  c.isSkipped = !wanted && !parts_.drawUnseen;
-  if (c.isSkipped) {
-    c.skipped = list;  // it may turn out to be the last frame
-    return {};
-  }
-  if (Failure f = drawNow(wall, list)) return f;
-  return wanted ? readPictures(wall) : std::nullopt;
+bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {
+  return parts_.drawUnseen || ticket.last || (parts_.sink && parts_.sink->wants(ticket.signature));
 }
 
-Failure ShowStages::drawNow(std::size_t wall, const DrawList& list) {
+Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
+  if (!parts_.provider) return {};
   if (Failure f = enterContext(wall)) return f;
   WallContext& c = contexts_[wall];
-  if (Failure f = toFailure(c.renderer->draw(list))) return f;
+  c.eyes = 0;  // until it is finished there is no picture
+  if (Failure f = toFailure(c.renderer->draw(list, parts_.giveUp))) return f;
   c.renderer->finish();
-  c.eyes = list.eyeCount;
-  c.read = false;
-  return {};
+  c.eyes = list.eyeCount, c.frame = list.ticket.signature.frame, c.read = false;
+  const bool wanted = parts_.sink && parts_.sink->wants(list.ticket.signature);
+  return wanted || list.ticket.last ? readPictures(wall) : std::nullopt;
 }
 
 Failure ShowStages::readPictures(std::size_t wall) {
   WallContext& c = contexts_[wall];
+  pictures_[wall].frame = c.frame;
   pictures_[wall].eyes.resize(c.eyes);
   for (std::uint32_t eye = 0; eye < c.eyes; ++eye) {
     Picture& p = pictures_[wall].eyes[eye];
@@ -98,8 +92,7 @@ void ShowStages::closeWall(std::size_t wall) {
   WallContext& c = contexts_[wall];
   if (!c.target) return;
   if (!enterContext(wall)) {
-    // Whoever wants the last picture need not know beforehand which one that will be.
-    if (c.renderer && c.isSkipped) drawNow(wall, c.skipped);
+    // After a failure, or a wait that was given up, nobody knew which frame would be the last.
     if (c.renderer && c.eyes > 0 && !c.read) readPictures(wall);
     c.renderer.reset();
     leaveContext(wall);

@@ -20,6 +20,7 @@ namespace stadion {
 
 /// One wall's pictures of one frame: left and right, or one for both.
 struct EyePictures {
+  std::uint64_t frame = 0;
   std::vector<Picture> eyes;
 };
 
@@ -29,7 +30,7 @@ struct EyePictures {
 class PictureSink {
 public:
   virtual ~PictureSink() = default;
-  /// Whether the pictures of this frame are wanted at all: reading them back costs time. Any Draw thread.
+  /// Whether the pictures of this frame are wanted at all: reading them back costs time. Any thread.
   virtual bool wants(const TimeSignature& now) const = 0;
   virtual Failure take(const TimeSignature& now, const std::vector<EyePictures>& walls) = 0;
 };
@@ -48,6 +49,8 @@ struct ShowParts {
   bool drawUnseen = true;  ///< false: only frames that the sink wants, and the last one, are drawn
   AppObserver observer;
   FrameProbe* probe = nullptr;
+  /// Once true, Draw gives up what it is at and the run ends. Any thread; null = never.
+  std::function<bool()> giveUp{};
 };
 
 class ShowStages final : public Stages {
@@ -56,13 +59,14 @@ public:
   ~ShowStages() override;
 
   void app(const TimeSignature& now, std::size_t slot) override;
+  bool wantsDrawn(const FrameTicket& ticket) const override;
   void cull(std::size_t wall, std::size_t slot, DrawList& list) override;
   Failure openWall(std::size_t wall) override;
   Failure draw(std::size_t wall, const DrawList& list) override;
   void closeWall(std::size_t wall) override;
   Failure swap(const TimeSignature& now) override;
 
-  /// Of the frame shown last. For when the run is over.
+  /// Of the frame drawn last; their number says which that is. For when the run is over.
   const std::vector<EyePictures>& lastPictures() const { return pictures_; }
   std::string glDescription() const { return glDescription_; }
   /// The newest frame that all walls have shown. Any thread.
@@ -74,12 +78,10 @@ private:
     std::unique_ptr<Renderer> renderer;
     std::atomic<std::thread::id> currentOn;  ///< the thread on which the context is current
     std::uint32_t eyes = 0;                  ///< drawn in the last frame
+    std::uint64_t frame = 0;                 ///< which that is
     bool read = false;                       ///< the last frame's pictures have been read back
-    DrawList skipped;                        ///< the last frame's list, while it has not been drawn
-    bool isSkipped = false;
   };
 
-  Failure drawNow(std::size_t wall, const DrawList& list);
   Failure readPictures(std::size_t wall);
   Failure enterContext(std::size_t wall);
   void leaveContext(std::size_t wall);

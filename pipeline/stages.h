@@ -3,18 +3,17 @@
 ///
 /// The loop decides who runs them and when; the stages do not know whether they are overlapped.
 ///
-/// Threads  app() on the App thread; cull(w) on wall w's Cull thread; openWall, draw and closeWall(w) on wall
-/// w's Draw
-///          thread; swap() on the Draw thread that arrives last, while the others wait. In sequential mode
-///          all on one thread.
+/// Threads  app() and wantsDrawn() on the App thread; cull(w) on wall w's Cull thread; openWall, draw and
+///          closeWall(w) on wall w's Draw thread; swap() on the Draw thread that arrives last, while the
+///          others wait. In sequential mode all on one thread.
 /// Errors   a stage that cannot go on returns a reason; the loop stops every thread and hands the reason on.
-/// What
-///          a stage throws (it should not: memory may run out) becomes such a reason, with the stage's name
-///          and frame; RunStopped, from App, ends the run before this frame.
+///          What a stage throws (it should not: memory may run out) becomes such a reason, with the stage's
+///          name and frame. RunStopped ends the run: from App before this frame, from Draw at once.
 
 #include "engine/diagnostic.h"
 #include "engine/time_signature.h"
 #include "pipeline/draw/draw_list.h"
+#include "pipeline/frame_ticket.h"
 
 #include <cstddef>
 #include <optional>
@@ -50,6 +49,8 @@ public:
 
   /// Advances the show to the signature's time and publishes it into `slot`.
   virtual void app(const TimeSignature& now, std::size_t slot) = 0;
+  /// Whether anybody looks at this frame; else it is neither culled nor drawn. Asked after app().
+  virtual bool wantsDrawn(const FrameTicket&) const { return true; }
   /// Fills `list` with what wall `wall` shows of the frame in `slot`, for both eyes.
   virtual void cull(std::size_t wall, std::size_t slot, DrawList& list) = 0;
 
@@ -57,7 +58,7 @@ public:
   virtual Failure draw(std::size_t wall, const DrawList& list) = 0;
   virtual void closeWall(std::size_t wall) = 0;
 
-  /// All walls have drawn this frame, both eyes: show it.
+  /// All walls have drawn this frame (if it is drawn), both eyes: show it.
   virtual Failure swap(const TimeSignature& now) = 0;
 };
 

@@ -1,5 +1,6 @@
 #include "dynamics/nodes/collision_node.h"
 
+#include "dynamics/broad_phase.h"
 #include "dynamics/nodes/body_shape.h"
 #include "engine/scene/scene.h"
 
@@ -7,6 +8,16 @@
 #include <utility>
 
 namespace stadion {
+namespace {
+
+/// The box around the ball around a shape. Of an unbounded plane it is as good as everywhere.
+Aabb boxAround(const Shape& shape, const Pose& X_WN) {
+  const Sphere ball = boundingSphere(shape);
+  const Vec3 centre = X_WN * ball.centre, reach = Vec3::Constant(std::min(ball.radius, 1e299));
+  return {centre - reach, centre + reach};
+}
+
+}  // namespace
 
 CollisionNode::CollisionNode(NodeKind kind, NodeRef self, std::string name, CollisionAttributes attributes)
     : Node(kind, self, std::move(name)), attributes_(std::move(attributes)), switch_(attributes_.on) {
@@ -97,16 +108,40 @@ void CollisionNode::changeParts(Nanoseconds time, Scene& scene) {
 }
 
 std::vector<CollisionNode::Overlap> CollisionNode::overlaps(double deeperThan) const {
-  std::vector<Overlap> found;
-  const auto test = [&](const Part& a, Party partyA, const Part& b) {
-    if (!a.ref.valid() || !b.ref.valid()) return;
-    const double separation = world_.separation(partyA, {true, b.id});
-    if (separation < -deeperThan) found.push_back({a.name, b.name, -separation});
+  // In the order of the script, colliders first.
+  struct Present {
+    const Part* part;
+    Party party;
+    Aabb box{};
+    std::uint32_t place = kUnfiled;
   };
-  for (std::size_t i = 0; i < collidees_.size(); ++i) {
-    for (const Part& c : colliders_) test(c, {false, c.id}, collidees_[i]);
-    for (std::size_t j = i + 1; j < collidees_.size(); ++j)
-      test(collidees_[j], {true, collidees_[j].id}, collidees_[i]);
+  std::vector<Present> all;
+  for (const Part& p : colliders_)
+    if (p.ref.valid()) all.push_back({&p, {false, p.id}});
+  const std::size_t bodies = all.size();
+  for (const Part& p : collidees_)
+    if (p.ref.valid()) all.push_back({&p, {true, p.id}});
+  std::vector<BroadPhase<Present>::Entry> entries;
+  for (Present& p : all) {
+    if (const Shape* shape = world_.shape(p.part->shape))
+      p.box = boxAround(*shape, p.party.isBody ? world_.pose(p.party.id) : p.part->pose);
+    entries.push_back({p.box, &p});
+  }
+  BroadPhase<Present> near;
+  near.file(std::move(entries));
+
+  std::vector<Overlap> found;
+  std::vector<const Present*> partners;
+  for (std::size_t i = bodies; i < all.size(); ++i) {
+    partners.clear();
+    near.eachNear(all[i].box, [&](const Present& other) {
+      if (!other.party.isBody || &other > &all[i]) partners.push_back(&other);
+    });
+    std::ranges::sort(partners);
+    for (const Present* other : partners) {
+      const double separation = world_.separation(other->party, all[i].party);
+      if (separation < -deeperThan) found.push_back({other->part->name, all[i].part->name, -separation});
+    }
   }
   return found;
 }

@@ -42,7 +42,8 @@ public:
     std::string a, b;
     double depth;  ///< [m]
   };
-  /// Pairs of its parts that stick in each other by more than `deeperThan` [m].
+  /// Pairs of its parts that stick in each other by more than `deeperThan` [m], in the order of the script.
+  /// Only those whose bounds overlap are measured.
   std::vector<Overlap> overlaps(double deeperThan) const;
   /// The objects that take part and are loaded.
   std::vector<NodeRef> parts() const;

@@ -5,10 +5,11 @@
 /// written as records of its own.
 ///
 /// Ownership  owns the file, which appears under its name only with commit(); without it nothing is left
-/// behind. Threads    one thread. Errors     kept until commit() (a full disk loses the recording, not the
-/// show). A tracker that is not valid
-///            or whose pose is not finite is recorded as lost; a pose out of true is normalised; a sample
-///            that is not later than the tracker's last one is left out.
+///            behind.
+/// Threads    one thread.
+/// Errors     kept until commit() (a full disk loses the recording, not the show). A tracker that is not
+///            valid or whose pose is not finite is recorded as lost; a pose out of true is normalised; a
+///            sample that is not later than the tracker's last one is left out.
 
 #include "engine/atomic_file.h"
 #include "engine/input/input_log.h"
@@ -21,6 +22,9 @@ class InputRecorder {
 public:
   /// With a rate, what a clock decides is recorded as well.
   explicit InputRecorder(const std::string& path, double rate = 0);
+
+  /// Why nothing can be recorded, known as soon as it is made: the file cannot be written.
+  const std::optional<Diagnostic>& refusal() const { return file_.error(); }
 
   void record(const InputSample& sample);
   /// Every frame's signature, in order: written down where it is not on the tick after the last one.

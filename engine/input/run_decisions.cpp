@@ -12,13 +12,20 @@ std::uint64_t tickAt(Nanoseconds time, double rate) {
 FrameClock::FrameClock(double rate, const TimeSignature& last)
     : rate_(rate), frame_(last.frame + 1), tick_(tickAt(last.time, rate)), time_(last.time) {}
 
+const Nanoseconds* FrameClock::decisionOfNext() const {
+  const auto decided = decided_.find(frame_);
+  return decided != decided_.end() && decided->second > time_ ? &decided->second : nullptr;
+}
+
+Nanoseconds FrameClock::timeOfNext(std::uint64_t ticks) const {
+  const Nanoseconds* decided = decisionOfNext();
+  return decided ? *decided : signatureAt(tickOfNext(ticks), rate_).time;
+}
+
 TimeSignature FrameClock::next(std::uint64_t ticks) {
-  if (frame_ > 0) tick_ += ticks;
-  TimeSignature now = signatureAt(tick_, rate_);
-  if (const auto decided = decided_.find(frame_); decided != decided_.end() && decided->second > time_) {
-    now.time = decided->second;
-    tick_ = tickAt(now.time, rate_);
-  }
+  TimeSignature now;
+  now.time = timeOfNext(ticks);
+  tick_ = decisionOfNext() ? tickAt(now.time, rate_) : tickOfNext(ticks);
   now.frame = frame_++;
   now.step = now.frame == 0 ? 0 : now.time - time_;
   time_ = now.time;

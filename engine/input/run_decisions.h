@@ -36,8 +36,14 @@ public:
 
   /// The next frame, `ticks` after the previous one; a decision made earlier counts more.
   TimeSignature next(std::uint64_t ticks = 1);
+  /// When that will be.
+  Nanoseconds timeOfNext(std::uint64_t ticks = 1) const;
 
 private:
+  std::uint64_t tickOfNext(std::uint64_t ticks) const { return frame_ > 0 ? tick_ + ticks : tick_; }
+  /// What was decided of the next frame; null if nothing was.
+  const Nanoseconds* decisionOfNext() const;
+
   double rate_;
   std::map<std::uint64_t, Nanoseconds> decided_;
   std::uint64_t frame_ = 0, tick_ = 0;

@@ -38,9 +38,7 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
   publish(now, input, changes);
 }
 
-// --- visiting --------------------------------------------------------------------------------------------
-
-// --------------------------------------------------------------------------------------------------
+// Visiting.
 
 void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe) {
   // Whom to visit: the busy, those with mail, those whose alarm rings, those who were woken after their turn.
@@ -139,9 +137,7 @@ void Scene::wakeAt(Nanoseconds when, NodeRef node) {
   wakes_.insert({when, node});
 }
 
-// --- messages --------------------------------------------------------------------------------------------
-
-// --------------------------------------------------------------------------------------------------
+// Messages.
 
 Message Scene::addressed(const std::string& target, NodeRef from, std::vector<std::string> arguments) const {
   Message m;
@@ -184,9 +180,7 @@ void Scene::note(NodeRef node, Event event, Nanoseconds when) {
   events_.push_back({node, event, when});
 }
 
-// --- names -----------------------------------------------------------------------------------------------
-
-// -----------------------------------------------------------------------------------------------------
+// Names.
 
 const Load* Scene::load(std::uint32_t number) const {
   const auto at = loads_.find(number);
@@ -236,9 +230,7 @@ PlacementId Scene::placementFor(NodeRef parent, NodeRef child) {
   return placed && placed->placement() != kNoPlacement ? placed->placement() : kWorldPlacement;
 }
 
-// --- the state hash --------------------------------------------------------------------------------------
-
-// --------------------------------------------------------------------------------------------
+// The state hash.
 
 std::uint64_t Scene::nodeHash(const Node& node) const {
   StateHash h((std::uint64_t{node.self().load} << 32) | node.self().position);

@@ -53,8 +53,7 @@ public:
   /// One frame of the application phase. Fills `changes` with what the later stages must know.
   void advance(const TimeSignature& now, const InputSample& input, ChangeSet& changes, FrameProbe* probe);
 
-  // --- what nodes use during their cycle
-  // -------------------------------------------------------------------------
+  // What nodes use during their cycle.
 
   Placements& placements() { return placements_; }
   const Placements& placements() const { return placements_; }
@@ -124,8 +123,7 @@ public:
   /// Whether that load has been asked for and has not taken effect yet.
   bool awaits(std::uint32_t number) const;
 
-  // --- for whoever runs the show
-  // ---------------------------------------------------------------------------------
+  // For whoever runs the show.
 
   std::uint64_t stateHash() const;
   const FrameCounters& counters() const { return counters_; }

@@ -7,8 +7,6 @@
 
 namespace stadion {
 
-// --------------------------------------------------------------------------------------------
-
 NodeRef Scene::parentOf(NodeRef ref) const {
   const Load* l = load(ref.load);
   if (!l) return {};
@@ -59,8 +57,6 @@ Node* Scene::promote(Load& load, std::size_t index, const Affine& moved) {
   staticChanges_.push_back({load.chunk, static_cast<std::uint32_t>(index), true});
   return &added;
 }
-
-// -------------------------------------------------------------------------------------
 
 std::uint32_t Scene::requestLoad(const std::string& file, NodeRef owner, Nanoseconds at) {
   const std::uint32_t number = nextLoad_++;

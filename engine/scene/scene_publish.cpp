@@ -33,8 +33,6 @@ double brightnessAt(const Vec3& p_W, const LightRecord& light) {
 
 }  // namespace
 
-// ---------------------------------------------------------------------------------------------
-
 InstanceId Scene::addInstance(PlacementId placement, MeshId mesh, bool drawn, std::uint32_t owner) {
   InstanceId id;
   if (freeInstances_.empty()) {
@@ -200,8 +198,6 @@ void Scene::tellOfTooManyLights(const std::vector<std::size_t>& wanted,
 void Scene::removeSky(NodeRef node) {
   std::erase_if(skies_, [&](const Sky& s) { return s.node == node; });
 }
-
-// -----------------------------------------------------------------------------------------------
 
 void Scene::setRig(NodeRef rig, PlacementId placement, double eyeHeight) {
   rigs_.push_back({rig, placement, eyeHeight});

@@ -78,7 +78,7 @@ void setSky(const SkyRecord& sky, DrawList& out) {
 }  // namespace
 
 CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, DrawList& out) {
-  out.signature = *state.signature;
+  out.ticket.signature = *state.signature;
   out.wall = index;
   out.opaque.clear(), out.transparent.clear();
   const ConvexVolume volume = setEyes(*state.viewer, view, out);

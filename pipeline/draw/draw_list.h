@@ -2,14 +2,13 @@
 /// What one wall draws in one frame, for both eyes: filled by Cull, read by Draw, self-contained.
 ///
 /// Frames   item matrices and light positions are relative to `origin`, a World point near the viewer, so
-/// that
-///          single precision suffices anywhere in the world; axes are World's.
+///          that single precision suffices anywhere in the world; axes are World's.
 /// Ownership  plain values; a list may outlive the scene state it was made from. It refers to meshes by id.
 /// Threads  one stage at a time owns it.
 
 #include "engine/asset/mesh_store.h"
 #include "engine/maths/maths.h"
-#include "engine/time_signature.h"
+#include "pipeline/frame_ticket.h"
 
 #include <array>
 #include <vector>
@@ -49,7 +48,7 @@ struct DrawEye {
 };
 
 struct DrawList {
-  TimeSignature signature;
+  FrameTicket ticket;
   std::uint32_t wall = 0;
   bool abandoned = false;       ///< made from a slot that was taken away meanwhile: not to be drawn
   Vec3 origin = Vec3::Zero();   ///< in World [m]

@@ -1,5 +1,6 @@
 #include "pipeline/draw/renderer.h"
 
+#include "engine/run_stopped.h"
 #include "pipeline/draw/picture_size.h"
 #include "pipeline/draw/problem.h"
 #include "pipeline/draw/shaders.h"
@@ -11,6 +12,8 @@
 namespace stadion {
 namespace {
 
+/// Instances a call: in software one call of a hundred thousand takes many seconds, in which nobody can stop.
+constexpr std::uint32_t kMostAtOnce = 1024;
 constexpr int kMostErrorsRead = 16;  // a lost context may report errors for ever
 
 const void* offset(std::size_t bytes) {
@@ -79,11 +82,17 @@ void Renderer::setUnchangingState() {
   gl_.ActiveTexture(GL_TEXTURE0);
 }
 
-std::optional<Diagnostic> Renderer::draw(const DrawList& list) {
+std::optional<Diagnostic> Renderer::draw(const DrawList& list, const std::function<bool()>& giveUp) {
+  giveUp_ = giveUp ? &giveUp : nullptr;
   prepare(list);
   const std::uint32_t eyes = std::min<std::uint32_t>(list.eyeCount, 2);
   for (std::uint32_t eye = 0; eye < eyes; ++eye) drawEye(list.eyes[eye], eye);
+  giveUp_ = nullptr;
   return collectProblems();
+}
+
+void Renderer::stopIfAsked() const {
+  if (giveUp_ && (*giveUp_)()) throw RunStopped();
 }
 
 std::optional<Diagnostic> Renderer::draw(const DrawList& list, std::uint32_t eye) {
@@ -144,11 +153,14 @@ void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass) {
       drawTransparent(*mesh, batch);
       continue;
     }
-    pointAtInstances(batch.first);
-    for (const GlSubmesh& part : mesh->parts) {
-      if (pass == Pass::OpaqueParts && part.transparent) continue;
-      cull(false, !part.bothSides);
-      drawPart(*mesh, part, batch.count, false);
+    for (std::uint32_t done = 0; done < batch.count; done += kMostAtOnce) {
+      stopIfAsked();
+      pointAtInstances(batch.first + done);
+      for (const GlSubmesh& part : mesh->parts) {
+        if (pass == Pass::OpaqueParts && part.transparent) continue;
+        cull(false, !part.bothSides);
+        drawPart(*mesh, part, std::min(batch.count - done, kMostAtOnce), false);
+      }
     }
   }
 }
@@ -159,8 +171,10 @@ void Renderer::drawTransparent(const GlMesh& mesh, const InstanceBatch& batch) {
   const auto simple = [](const GlSubmesh& part) { return !part.transparent || !part.bothSides; };
   const bool together =
       mesh.transparentParts == 1 && std::all_of(mesh.parts.begin(), mesh.parts.end(), simple);
-  const std::uint32_t step = together ? batch.count : 1;
-  for (std::uint32_t i = 0; i < batch.count; i += step) {
+  const std::uint32_t most = together ? kMostAtOnce : 1;
+  for (std::uint32_t i = 0; i < batch.count; i += most) {
+    const std::uint32_t step = std::min(batch.count - i, most);
+    stopIfAsked();
     pointAtInstances(batch.first + i);
     for (const GlSubmesh& part : mesh.parts) {
       if (!part.transparent) continue;

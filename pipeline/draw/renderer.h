@@ -2,13 +2,11 @@
 /// Draws a wall's draw lists with OpenGL 3.3 core.
 ///
 /// Order        opaque things instanced by mesh, then the sky where nothing was drawn, then transparent
-/// things
-///              in the list's order, blended and without writing depth. 4 samples a pixel, light computed in
-///              linear RGB, pictures in sRGB (shaders.h says how).
+///              things in the list's order, blended and without writing depth. 4 samples a pixel, light
+///              computed in linear RGB, pictures in sRGB (shaders.h says how).
 /// Same pixels  for the same list in every thread, context and provider of one Mesa version.
 /// Ownership    owns its GL objects; the table and the mesh store must outlive it. Meshes are uploaded at
-/// their
-///              first use and freed once the store has freed them.
+///              their first use and freed once the store has freed them.
 /// Threads      made, used and destroyed on the thread on which its context is current.
 /// Errors       returned once per kind, never thrown; what can be drawn is drawn.
 
@@ -19,6 +17,7 @@
 #include "pipeline/draw/mesh_cache.h"
 #include "pipeline/draw/uniform_blocks.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -46,8 +45,11 @@ public:
                                                   std::uint32_t width, std::uint32_t height,
                                                   RenderQuality quality = {});
 
-  /// Draws every eye of the list. Returns a problem that had not been reported before, or nothing.
-  std::optional<Diagnostic> draw(const DrawList& list);
+  /// Draws every eye of the list. Returns a problem that had not been reported before, or nothing. `giveUp`,
+  /// if there is one, is asked now and then; once it says true, RunStopped is thrown and the pictures are
+  /// void.
+  std::optional<Diagnostic> draw(const DrawList& list, const std::function<bool()>& giveUp);
+  std::optional<Diagnostic> draw(const DrawList& list) { return draw(list, {}); }
   /// Draws one eye, 0 left or mono, 1 right.
   std::optional<Diagnostic> draw(const DrawList& list, std::uint32_t eye);
 
@@ -80,6 +82,7 @@ private:
   void drawBatches(std::span<const InstanceBatch> batches, Pass pass);
   void drawTransparent(const GlMesh& mesh, const InstanceBatch& batch);
   void drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended);
+  void stopIfAsked() const;
   void drawSky();
   void pointAtInstances(std::uint32_t first);
   void cull(bool front, bool back);
@@ -98,6 +101,7 @@ private:
   GlVertexArray nothing_;  // the sky's triangle has no vertex data
   GLuint usedProgram_ = 0;
   bool localLights_ = false;
+  const std::function<bool()>* giveUp_ = nullptr;  ///< while a list is drawn
   DrawCounts counts_;
   std::set<std::string> reported_;
   std::optional<Diagnostic> problem_;

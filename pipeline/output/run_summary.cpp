@@ -62,18 +62,24 @@ Distribution distributionOf(std::vector<double> values) {
 }
 
 std::string toText(const RunSummary& s) {
-  std::string text = fmt::format(
-      "{}: {} frames, {:.3f} s of show in {:.3f} s ({:.1f} frames/s), {} late\n", s.show, s.frames, s.seconds,
-      s.elapsedSeconds, s.elapsedSeconds > 0 ? static_cast<double>(s.frames) / s.elapsedSeconds : 0.0,
-      s.lateFrames);
+  // How fast frames go by that nobody draws says nothing.
+  const bool all = s.framesDrawn == s.frames;
+  const double rate = s.elapsedSeconds > 0 ? static_cast<double>(s.frames) / s.elapsedSeconds : 0.0;
+  std::string text = fmt::format("{}: {}, {:.3f} s of show in {:.3f} s{}, {} late\n", s.show,
+                                 all ? fmt::format("{} frames", s.frames)
+                                     : fmt::format("drawn {} of {} frames", s.framesDrawn, s.frames),
+                                 s.seconds, s.elapsedSeconds,
+                                 all ? fmt::format(" ({:.1f} frames/s)", rate) : "", s.lateFrames);
   text += fmt::format("  walls {}, stereo {}, {} x {} pixels, {}, {} Hz\n", s.walls, s.stereo, s.width,
                       s.height, s.mode, s.rate);
   if (s.frameMs.count + s.stages.size() + s.latency.size() > 0)
     text += fmt::format("  {:<16} {:<12} {:>9} {:>9} {:>9} {:>9}\n", "milliseconds", "wall", "p50", "p95",
                         "p99", "max");
   if (s.frameMs.count > 0) text += row("frame", "", s.frameMs);
-  for (const StageTimes& t : s.stages) text += row(t.stage, t.wall, t.ms);
-  for (const WallLatency& l : s.latency) text += row("motion to image", l.wall, l.ms);
+  for (const StageTimes& t : s.stages)
+    if (t.ms.count > 0) text += row(t.stage, t.wall, t.ms);
+  for (const WallLatency& l : s.latency)
+    if (l.ms.count > 0) text += row("motion to image", l.wall, l.ms);
   if (s.stateHash) text += fmt::format("  state hash of frame {}: {}\n", s.lastFrame, hex(*s.stateHash));
   for (const ImageHash& h : s.imageHashes)
     text += fmt::format("  image hash of frame {}: {} {} {}\n", s.lastFrame, hex(h.hash), h.wall, h.eye);
@@ -108,6 +114,7 @@ std::string toJson(const RunSummary& s) {
   j["height"] = s.height;
   j["rate_hz"] = s.rate;
   j["frames"] = s.frames;
+  j["frames_drawn"] = s.framesDrawn;
   j["seconds"] = s.seconds;
   j["elapsed_seconds"] = s.elapsedSeconds;
   j["late_frames"] = s.lateFrames;

@@ -57,10 +57,11 @@ struct RunSummary {
 
   std::string show, walls, mode, stereo;
   std::uint32_t width = 0, height = 0;
-  double rate = 0;            ///< [frames/s]
-  std::uint64_t frames = 0;   ///< shown
-  double seconds = 0;         ///< of show time
-  double elapsedSeconds = 0;  ///< of the clock on the wall
+  double rate = 0;                ///< [frames/s]
+  std::uint64_t frames = 0;       ///< shown
+  std::uint64_t framesDrawn = 0;  ///< of these; nobody looks at the others, and the times are without them
+  double seconds = 0;             ///< of show time
+  double elapsedSeconds = 0;      ///< of the clock on the wall
   std::uint64_t lateFrames = 0;
   Distribution frameMs;  ///< from one frame shown to the next
   std::vector<StageTimes> stages;

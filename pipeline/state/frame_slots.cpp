@@ -12,7 +12,7 @@ std::optional<std::size_t> FrameSlots::writable() {
   for (std::size_t i = 0; i < kSlots; ++i) {
     if (slots_[i].state == State::Free) return i;
     const bool mayReplace = delivery_ == Delivery::Latest && slots_[i].state == State::Published;
-    if (mayReplace && (!oldest || slots_[i].frame < slots_[*oldest].frame)) oldest = i;
+    if (mayReplace && (!oldest || slots_[i].frame() < slots_[*oldest].frame())) oldest = i;
   }
   if (oldest || delivery_ == Delivery::Every) return oldest;
   // All slots are under lease: one that has outlived its deadline belongs to a reader that hangs.
@@ -34,10 +34,10 @@ std::optional<std::size_t> FrameSlots::beginWrite() {
   }
 }
 
-void FrameSlots::endWrite(std::size_t slot, std::uint64_t frame) {
+void FrameSlots::endWrite(std::size_t slot, const FrameTicket& ticket) {
   const std::lock_guard lock(mutex_);
   slots_[slot].state = State::Published;
-  slots_[slot].frame = frame;
+  slots_[slot].ticket = ticket;
   changed_.notify_all();
 }
 
@@ -45,8 +45,9 @@ std::optional<std::size_t> FrameSlots::choose() const {
   std::optional<std::size_t> chosen;
   for (std::size_t i = 0; i < kSlots; ++i) {
     if (slots_[i].state != State::Published) continue;
-    const bool better = !chosen || (delivery_ == Delivery::Every ? slots_[i].frame < slots_[*chosen].frame
-                                                                 : slots_[i].frame > slots_[*chosen].frame);
+    const bool better =
+        !chosen || (delivery_ == Delivery::Every ? slots_[i].frame() < slots_[*chosen].frame()
+                                                 : slots_[i].frame() > slots_[*chosen].frame());
     if (better) chosen = i;
   }
   return chosen;
@@ -59,7 +60,7 @@ std::optional<Lease> FrameSlots::lease(std::size_t wall) {
     const auto at = std::find_if(selections_.begin(), selections_.end(),
                                  [&](const Selection& s) { return s.serial == cursor_[wall]; });
     if (at != selections_.end()) {
-      const Lease lease{at->slot, at->frame, at->serial};
+      const Lease lease{at->slot, at->ticket, at->serial};
       ++cursor_[wall];
       if (--at->unread == 0) selections_.erase(at);
       return lease;
@@ -70,10 +71,10 @@ std::optional<Lease> FrameSlots::lease(std::size_t wall) {
       s.readers = cursor_.size();
       s.serial = nextSerial_++;
       s.since = std::chrono::steady_clock::now();
-      selections_.push_back({s.serial, *slot, s.frame, cursor_.size()});
+      selections_.push_back({s.serial, *slot, s.ticket, cursor_.size()});
       // What is older than the chosen frame will not be shown any more.
       for (Slot& other : slots_)
-        if (other.state == State::Published && other.frame < s.frame) other.state = State::Free;
+        if (other.state == State::Published && other.frame() < s.frame()) other.state = State::Free;
       changed_.notify_all();
       continue;
     }

@@ -7,6 +7,7 @@
 ///
 /// Threads  every function from any thread; one thread per wall.
 
+#include "pipeline/frame_ticket.h"
 #include "pipeline/state/chunk_arena.h"
 
 #include <array>
@@ -25,7 +26,7 @@ enum class Delivery {
 
 struct Lease {
   std::size_t slot = 0;
-  std::uint64_t frame = 0;
+  FrameTicket ticket;
   std::uint64_t serial = 0;  ///< which frame to show this is, counted from 0
 };
 
@@ -36,7 +37,7 @@ public:
 
   /// A slot for App to write; waits for one if need be. Nothing after stop().
   std::optional<std::size_t> beginWrite();
-  void endWrite(std::size_t slot, std::uint64_t frame);
+  void endWrite(std::size_t slot, const FrameTicket& ticket);
 
   /// The next frame for `wall`; waits for it. Nothing when the run is over.
   std::optional<Lease> lease(std::size_t wall);
@@ -53,15 +54,17 @@ private:
   enum class State { Free, Writing, Published, Leased };
   struct Slot {
     State state = State::Free;
-    std::uint64_t frame = 0;
+    FrameTicket ticket;
     std::size_t readers = 0;
     std::uint64_t serial = 0;
     std::chrono::steady_clock::time_point since{};
+
+    std::uint64_t frame() const { return ticket.signature.frame; }
   };
   struct Selection {
     std::uint64_t serial = 0;
     std::size_t slot = 0;
-    std::uint64_t frame = 0;
+    FrameTicket ticket;
     std::size_t unread = 0;  ///< walls that have not asked for it yet
   };
 

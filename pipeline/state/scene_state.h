@@ -8,8 +8,7 @@
 /// All of it lies in shared memory in plain fixed-width records without pointers.
 ///
 /// Threads  publish() by App alone, into a slot that nobody reads; view() by whoever holds a lease on the
-/// slot
-///          (FrameSlots decides who may do what when).
+///          slot (FrameSlots decides who may do what when).
 
 #include "pipeline/state/chunk_arena.h"
 

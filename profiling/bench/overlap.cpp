@@ -16,7 +16,7 @@ public:
   }
   void cull(std::size_t, std::size_t slot, DrawList& list) override {
     wait(times_.cull);
-    list.signature = signatures_[slot];
+    list.ticket.signature = signatures_[slot];
   }
   Failure openWall(std::size_t) override { return {}; }
   Failure draw(std::size_t, const DrawList&) override {

@@ -19,7 +19,7 @@ constexpr std::size_t kWalls = 4;
 using Drawn = std::vector<std::vector<std::uint64_t>>;
 
 std::uint64_t hashOf(const DrawList& list) {
-  StateHash h(list.signature.frame);
+  StateHash h(list.ticket.signature.frame);
   for (int k = 0; k < 3; ++k) h.add(list.origin[k]);
   for (const auto* items : {&list.opaque, &list.transparent})
     for (const DrawItem& item : *items) {

@@ -23,17 +23,17 @@ public:
   }
   void cull(std::size_t, std::size_t slot, DrawList& list) override {
     const Cell& c = memory_[slot % memory_.size()];
-    list.signature = c.signature;
+    list.ticket.signature = c.signature;
     for (const auto& v : c.values)
       if (v.load(std::memory_order_relaxed) != c.signature.frame) torn = true;
     std::this_thread::sleep_for(std::chrono::microseconds(200));
     for (const auto& v : c.values)
-      if (v.load(std::memory_order_relaxed) != list.signature.frame) torn = true;
+      if (v.load(std::memory_order_relaxed) != list.ticket.signature.frame) torn = true;
   }
   Failure openWall(std::size_t) override { return {}; }
   Failure draw(std::size_t wall, const DrawList& list) override {
-    if (list.signature.frame == failAt && wall == 1) return "wall 1 is broken";
-    drawn_[wall].push_back(list.signature.frame);
+    if (list.ticket.signature.frame == failAt && wall == 1) return "wall 1 is broken";
+    drawn_[wall].push_back(list.ticket.signature.frame);
     return {};
   }
   void closeWall(std::size_t) override { ++closed; }
@@ -112,14 +112,14 @@ public:
   }
   void cull(std::size_t wall, std::size_t slot, DrawList& list) override {
     CountingStages::cull(wall, slot, list);
-    if (list.signature.frame == 5 && wall == 1) maybe("Cull");
+    if (list.ticket.signature.frame == 5 && wall == 1) maybe("Cull");
   }
   Failure openWall(std::size_t wall) override {
     if (wall == 1) maybe("opening");
     return {};
   }
   Failure draw(std::size_t wall, const DrawList& list) override {
-    if (list.signature.frame == 5 && wall == 1) maybe("Draw");
+    if (list.ticket.signature.frame == 5 && wall == 1) maybe("Draw");
     return CountingStages::draw(wall, list);
   }
   Failure swap(const TimeSignature& now) override {
@@ -218,6 +218,135 @@ TEST(ThreadsFrameLoop, StopsCleanlyWhenAsked) {
   signal.join();
   EXPECT_TRUE(outcome.stopped);
   EXPECT_EQ(outcome.framesShown, outcome.framesSimulated);
+}
+
+/// Draw waits while App begins a hundred further frames, so that a frame that is shown was begun long before
+/// the newest one; and it notes how long that was.
+class SlowDraw final : public CountingStages {
+public:
+  explicit SlowDraw(std::size_t walls) : CountingStages(walls, kSlots) {}
+  void app(const TimeSignature& now, std::size_t slot) override {
+    CountingStages::app(now, slot);
+    begun_[now.frame] = std::chrono::steady_clock::now();
+    newest_ = now.frame;
+    newest_.notify_all();
+  }
+  Failure draw(std::size_t wall, const DrawList& list) override {
+    const std::uint64_t frame = list.ticket.signature.frame;
+    while (!list.ticket.last && newest_ < std::min(frame + 100, kFrames - 1)) newest_.wait(newest_);
+    return CountingStages::draw(wall, list);
+  }
+  Failure swap(const TimeSignature& now) override {
+    const auto age = std::chrono::steady_clock::now() - begun_[now.frame];
+    ages.push_back(std::chrono::duration<double, std::milli>(age).count());
+    return CountingStages::swap(now);
+  }
+
+  static constexpr std::uint64_t kFrames = 3000;
+  std::vector<double> ages;  ///< at each swap, from App to it [ms]
+
+private:
+  std::array<std::chrono::steady_clock::time_point, kFrames> begun_;
+  std::atomic<std::uint64_t> newest_ = 0;
+};
+
+TEST(ThreadsFrameLoop, LatencyCountsFromTheAppOfTheFrameThatIsShown) {
+  SlowDraw stages(2);
+  FrameLoopOptions o;
+  o.walls = 2, o.frames = SlowDraw::kFrames, o.rate = 10'000;
+  o.pace = Pace::Float, o.delivery = Delivery::Latest;
+  const std::atomic<bool> never = false;
+  FrameLoop loop(stages, o, never);
+  EXPECT_FALSE(loop.run().failure);
+  ASSERT_GT(stages.ages.size(), 2u);
+  for (const DurationSeries& latency : loop.times().latency) {
+    ASSERT_EQ(latency.values().size(), stages.ages.size());
+    for (std::size_t i = 0; i < stages.ages.size(); ++i) EXPECT_GE(latency.values()[i], stages.ages[i]);
+  }
+}
+
+/// Nobody looks at most of its frames.
+class SeldomSeen final : public CountingStages {
+public:
+  explicit SeldomSeen(std::uint64_t every) : CountingStages(2, kSlots), every_(every) {}
+  bool wantsDrawn(const FrameTicket& t) const override {
+    return t.last || (every_ > 0 && t.signature.frame % every_ == 0);
+  }
+  Failure draw(std::size_t wall, const DrawList& list) override {
+    if (wall == 0) drawn.push_back(list.ticket.signature.frame);
+    return {};
+  }
+  Failure swap(const TimeSignature& now) override { return shown.push_back(now.frame), Failure(); }
+  std::vector<std::uint64_t> drawn;
+
+private:
+  std::uint64_t every_;
+};
+
+TEST(ThreadsFrameLoop, OnlyFramesThatAreLookedAtAreDrawnAndTimed) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
+    for (const std::uint64_t every : {0, 1, 10}) {
+      SeldomSeen stages(every);
+      FrameLoopOptions o;
+      o.mode = mode, o.walls = 2, o.frames = 35;
+      const std::atomic<bool> never = false;
+      FrameLoop loop(stages, o, never);
+      const FrameLoopOutcome outcome = loop.run();
+      const std::uint64_t drawn = every == 0 ? 1 : every == 1 ? 35 : 5;
+      EXPECT_EQ(outcome.framesShown, 35u);
+      EXPECT_EQ(outcome.framesDrawn, drawn);
+      EXPECT_EQ(stages.drawn.size(), drawn);
+      EXPECT_EQ(stages.drawn.back(), 34u) << "the last one is always drawn";
+      EXPECT_EQ(loop.times().app.count(), 35u);
+      EXPECT_EQ(loop.times().period.count(), every == 1 ? 34u : 0u);
+      for (std::size_t wall = 0; wall < 2; ++wall) {
+        EXPECT_EQ(loop.times().cull[wall].count(), drawn);
+        EXPECT_EQ(loop.times().draw[wall].count(), drawn);
+        EXPECT_EQ(loop.times().latency[wall].count(), drawn);
+      }
+    }
+}
+
+TEST(ThreadsFrameLoop, TheFrameInWhichAStopIsSeenIsTheLastOneAndDrawn) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    SeldomSeen stages(0);
+    FrameLoopOptions o;
+    o.mode = mode, o.walls = 2, o.rate = 1000, o.pace = Pace::Lock;
+    std::atomic<bool> stop = false;
+    FrameLoop loop(stages, o, stop);
+    std::thread signal([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(30));
+      stop = true;
+    });
+    const FrameLoopOutcome outcome = loop.run();
+    signal.join();
+    EXPECT_TRUE(outcome.stopped);
+    ASSERT_EQ(stages.drawn.size(), 1u);
+    EXPECT_EQ(stages.drawn.back(), outcome.framesSimulated - 1);
+  }
+}
+
+/// Draw finds, on one wall, that it is to give up.
+class GivingUp final : public CountingStages {
+public:
+  GivingUp() : CountingStages(3, kSlots) {}
+  Failure draw(std::size_t wall, const DrawList& list) override {
+    if (wall == 1 && list.ticket.signature.frame == 4) throw RunStopped();
+    return CountingStages::draw(wall, list);
+  }
+};
+
+TEST(ThreadsFrameLoop, ADrawThatIsGivenUpEndsTheRunAndIsNoFailure) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    GivingUp stages;
+    FrameLoopOptions o;
+    o.mode = mode, o.walls = 3;  // without end
+    const FrameLoopOutcome outcome = runFrames(stages, o);
+    EXPECT_TRUE(outcome.stopped);
+    EXPECT_FALSE(outcome.failure);
+    EXPECT_EQ(outcome.framesShown, 4u);
+    EXPECT_EQ(stages.closed, 3);
+  }
 }
 
 // The tests above would notice a pipeline with too few slots: with the memory of one, frames tear.

@@ -6,51 +6,57 @@
 namespace stadion {
 namespace {
 
+FrameTicket frameOf(std::uint64_t number) {
+  FrameTicket ticket;
+  ticket.signature.frame = number;
+  return ticket;
+}
+
 TEST(FrameSlots, EveryFrameIsHandedToEveryWallInOrder) {
   FrameSlots slots(2, Delivery::Every);
-  for (std::uint64_t frame = 0; frame < 3; ++frame) slots.endWrite(*slots.beginWrite(), frame);
+  for (std::uint64_t frame = 0; frame < 3; ++frame) slots.endWrite(*slots.beginWrite(), frameOf(frame));
   for (std::uint64_t frame = 0; frame < 3; ++frame)
-    for (std::size_t wall = 0; wall < 2; ++wall) EXPECT_EQ(slots.lease(wall)->frame, frame);
+    for (std::size_t wall = 0; wall < 2; ++wall) EXPECT_EQ(slots.lease(wall)->ticket.signature.frame, frame);
 }
 
 TEST(FrameSlots, ASlotUnderLeaseIsNotWritten) {
   FrameSlots slots(1, Delivery::Latest);
-  slots.endWrite(*slots.beginWrite(), 0);
+  slots.endWrite(*slots.beginWrite(), frameOf(0));
   const auto lease = slots.lease(0);
   for (std::uint64_t frame = 1; frame < 20; ++frame) {
     const auto slot = slots.beginWrite();
     EXPECT_NE(*slot, lease->slot);
-    slots.endWrite(*slot, frame);
+    slots.endWrite(*slot, frameOf(frame));
   }
   EXPECT_TRUE(slots.release(*lease));
 }
 
 TEST(FrameSlots, LatestDeliveryHandsOutTheNewestFrameToAllWalls) {
   FrameSlots slots(2, Delivery::Latest);
-  for (std::uint64_t frame = 0; frame < 7; ++frame) slots.endWrite(*slots.beginWrite(), frame);
+  for (std::uint64_t frame = 0; frame < 7; ++frame) slots.endWrite(*slots.beginWrite(), frameOf(frame));
   const auto first = slots.lease(0);
-  EXPECT_EQ(first->frame, 6u);
-  slots.endWrite(*slots.beginWrite(), 7);
+  EXPECT_EQ(first->ticket.signature.frame, 6u);
+  slots.endWrite(*slots.beginWrite(), frameOf(7));
   // The choice was made when the first wall asked: the second one is not given frame 7 in its place.
-  EXPECT_EQ(slots.lease(1)->frame, 6u);
+  EXPECT_EQ(slots.lease(1)->ticket.signature.frame, 6u);
 }
 
 TEST(FrameSlots, AHangingReaderLosesItsSlotAfterTheDeadline) {
   FrameSlots slots(3, Delivery::Latest, std::chrono::milliseconds(5));
   std::vector<Lease> held;
   for (std::size_t i = 0; i < 3; ++i) {
-    slots.endWrite(*slots.beginWrite(), i);
+    slots.endWrite(*slots.beginWrite(), frameOf(i));
     held.push_back(*slots.lease(0));
   }
   const auto slot = slots.beginWrite();
   ASSERT_TRUE(slot);
-  slots.endWrite(*slot, 3);
+  slots.endWrite(*slot, frameOf(3));
   EXPECT_FALSE(slots.release(held[0]));
 }
 
 TEST(FrameSlots, FinishLetsReadersEmptyTheSlotsAndThenEnds) {
   FrameSlots slots(1, Delivery::Every);
-  slots.endWrite(*slots.beginWrite(), 0);
+  slots.endWrite(*slots.beginWrite(), frameOf(0));
   slots.finish();
   EXPECT_TRUE(slots.lease(0));
   EXPECT_FALSE(slots.lease(0));

@@ -1,0 +1,19 @@
+#pragma once
+/// What travels with a frame from App through its slot and its draw lists to the swap.
+///
+/// Threads  a plain value; each stage has its own copy.
+
+#include "engine/time_signature.h"
+
+#include <chrono>
+
+namespace stadion {
+
+struct FrameTicket {
+  TimeSignature signature;
+  std::chrono::steady_clock::time_point began{};  ///< when App began it, and sampled the poses
+  bool drawn = true;  ///< false: nobody looks at it, so it is neither culled nor drawn
+  bool last = false;  ///< no frame follows it
+};
+
+}  // namespace stadion
