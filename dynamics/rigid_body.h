@@ -71,6 +71,7 @@ struct Support {
 struct Pressed {
   std::uint64_t key = 0;
   Vec3 force = Vec3::Zero();  ///< on the body that found it [N]
+  double step = 0;            ///< how long that was, so that a blow is no guess for a long push [s]
 };
 
 struct Hook {

@@ -1,7 +1,8 @@
 #pragma once
 /// The inside of World, shared by its source files: world.cpp (interface), world_frame.cpp (one frame),
 /// world_foresight.cpp (what will touch), world_arcs.cpp (new arcs), world_impact.cpp (touches),
-/// world_contact.cpp (lasting contact).
+/// world_contact.cpp (lasting contact: who with whom), world_island.cpp (one island), world_crowd.cpp
+/// (heaps).
 ///
 /// Time     runs in windows of 128 ms on a grid of show time. tau is seconds since the window's start. What
 /// will happen is foreseen to the window's end, once for each arc; a frame only lets happen what is due and

@@ -73,7 +73,7 @@ void World::Core::findCrowdContacts(RigidBody& b, double tau, CrowdStep& step) {
     c.armA = gap.point - me.p, c.armB = gap.point;  // the other's centre is taken away when all are known
     c.key = pairKey(self.party, other, feature);
     for (const Pressed& p : b.presses)
-      if (p.key == c.key) c.impulse = h * p.force;
+      if (p.key == c.key) c.impulse = std::min(h, p.step) * p.force;
     step.contacts.push_back(c);
     step.others.push_back(other);
   };
@@ -147,7 +147,7 @@ void World::Core::concludeCrowd(CrowdStep& s, double tau) {
     const CrowdContact& c = s.contacts[k];
     RigidBody& a = *s.members[c.a];
     if (!c.impulse.isZero(0)) pressed[c.a] = 1, pressed[c.b < n ? c.b : c.a] = 1;
-    if (c.pressed > 0) a.presses.push_back({c.key, c.impulse / s.h});
+    if (c.pressed > 0) a.presses.push_back({c.key, c.impulse / s.h, s.h});
     note(a.touching, s.others[k]), ++points[c.a];
     if (c.gap < kTouching) note(near[c.a], s.others[k]);
     if (c.b < n) {
@@ -198,7 +198,8 @@ void World::Core::concludeCrowd(CrowdStep& s, double tau) {
 /// One step of all who lie in heaps, to the next time on the crowd's grid.
 void World::Core::advanceCrowd(double tau) {
   CrowdStep s;
-  const Nanoseconds next = (timeAt(tau) / kCrowdGrid + 1) * kCrowdGrid;
+  Nanoseconds next = (timeAt(tau) / kCrowdGrid + 1) * kCrowdGrid;
+  if (next - timeAt(tau) < kCrowdGrid / 8) next += kCrowdGrid;
   s.h = Instant{next, 0}.since(instantAt(tau));
   std::vector<RigidBody*> due;
   for (RigidBody* b : active) {

@@ -134,7 +134,7 @@ bool World::Core::solveStep(Island& s, double tau, double h) const {
     SolverContact c = f.contact;
     c.impulse.setZero();
     for (const Pressed& p : body(f.a.id)->presses)
-      if (p.key == f.key) c.impulse = h * (basisAround(f.gap.normal).transpose() * p.force);
+      if (p.key == f.key) c.impulse = std::min(h, p.step) * (basisAround(f.gap.normal).transpose() * p.force);
     step.push_back(c);
   }
   bool holds = false;
@@ -311,7 +311,7 @@ void World::Core::conclude(Island& s, double tau, double h) {
       note(b.touching, other);
       if (f.gap.distance < kTouching) note(near, other);
       if (f.contact.a == i && !f.contact.impulse.isZero(0))
-        b.presses.push_back({f.key, basisAround(f.gap.normal) * (f.contact.impulse / h)});
+        b.presses.push_back({f.key, basisAround(f.gap.normal) * (f.contact.impulse / h), h});
     }
     remember(b, near);
     if (points == 0) {

@@ -32,7 +32,7 @@ TEST(SolidContact, ASlidingBoxStopsWhereFrictionSays) {
   const Vec3 p = w.state(b).p;
   std::printf("  sliding box: stops at %.6f m (%.6f), worst %.2e m, direction %.2e rad\n",
               std::hypot(p.x(), p.y()), v0 * v0 / kG, worst, std::atan2(p.y(), p.x()) - M_PI / 6);
-  EXPECT_LE(worst, 1e-4);
+  EXPECT_LE(worst, 1e-8);
   EXPECT_EQ(w.mode(b), BodyMode::Rest);
 }
 
@@ -48,7 +48,7 @@ TEST(SolidContact, ABoxOnASlopeSticksBelowAndSlipsAboveTheAngleOfFriction) {
     play(w, T);
     const double truth = slips ? 0.5 * kG * (std::sin(angle) - 0.5 * std::cos(angle)) * T * T : 0;
     std::printf("  slope: moved %.9f m, should %.9f\n", w.state(b).p.x(), truth);
-    EXPECT_NEAR(w.state(b).p.x(), truth, slips ? 1e-4 : 1e-9);
+    EXPECT_NEAR(w.state(b).p.x(), truth, slips ? 1e-6 : 0);
   }
 }
 
@@ -70,9 +70,9 @@ TEST(SolidContact, ATallBlockTipsWhenItsEdgeSaysSo) {
     });
     if (tips) {
       std::printf("  tipping: 0.5 rad after %.5f s, should be 0.82028\n", reached);
-      EXPECT_NEAR(reached, 0.82028, 0.004);
+      EXPECT_NEAR(reached, 0.82028, 2e-4);  // read off between frames
     } else {
-      EXPECT_LE(most, 1e-9);
+      EXPECT_EQ(most, 0);
     }
   }
 }
