@@ -67,8 +67,12 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
   if (!s.folder) return true;
   if (const std::size_t removed = s.folder->clear(); removed > 0)
     std::fprintf(stderr, "removed %zu files of an earlier run from %s\n", removed, o.out.c_str());
-  RunOutputOptions out{*s.folder, o.pictureChoice, o.sheets, o.video, s.player->rate(), o.layout, {}};
-  for (const WallEntry& w : s.player->walls().walls) out.wallNames.push_back(w.wall.name);
+  RunOutputOptions out{*s.folder, o.pictureChoice, o.sheets, o.video, s.player->rate(), o.layout, {}, {}};
+  for (const WallEntry& w : s.player->walls().walls) {
+    out.wallNames.push_back(w.wall.name);
+    const WallBasis shape = basis(w.wall);
+    out.wallAspects.push_back(shape.width / shape.height);
+  }
   s.output = std::make_unique<RunOutput>(std::move(out));
   return true;
 }

@@ -117,8 +117,8 @@ Picture RunOutput::sheetOf(const Job& job, std::uint32_t cellWidth) const {
   std::vector<WallPictures> walls;
   for (std::size_t w = 0; w < job.walls.size(); ++w) {
     const std::vector<Picture>& eyes = job.walls[w].eyes;
-    walls.push_back(
-        {options_.wallNames[w], eyes.empty() ? nullptr : &eyes[0], eyes.size() < 2 ? nullptr : &eyes[1]});
+    walls.push_back({options_.wallNames[w], eyes.empty() ? nullptr : &eyes[0],
+                     eyes.size() < 2 ? nullptr : &eyes[1], options_.wallAspects[w]});
   }
   return contactSheet(walls, job.frame, cellWidth);
 }

@@ -35,6 +35,7 @@ struct RunOutputOptions {
   double rate = 60;
   StereoLayout layout = StereoLayout::Pair;
   std::vector<std::string> wallNames;
+  std::vector<double> wallAspects;  ///< width by height of each [1]
 };
 
 class RunOutput final : public PictureSink {

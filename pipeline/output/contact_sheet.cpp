@@ -57,27 +57,30 @@ struct Cell {
   std::uint32_t width = 0, height = 0;
 };
 
+/// How large a picture is shown: in the proportions of its wall, and neither side enlarged.
+Cell shownSize(const Picture& picture, double aspect, std::uint32_t cellWidth) {
+  const double own = double(picture.width) / picture.height;
+  if (!(aspect > 0)) aspect = own;
+  const double width = std::min({double(cellWidth), double(picture.width), picture.height * aspect});
+  const auto pixels = [](double side) { return std::max(1u, static_cast<std::uint32_t>(side + 0.5)); };
+  return {pixels(width), pixels(width / aspect)};
+}
+
 Cell cellOf(const WallPictures& wall, std::uint32_t cellWidth) {
   Cell cell{std::min(cellWidth, 8 * kLetterWidth), 0};
   for (const Picture* p : {wall.left, wall.right}) {
     if (!p || p->empty()) continue;
-    const std::uint32_t w = std::min(cellWidth, p->width);
-    const std::uint32_t h =
-        std::max(1u, static_cast<std::uint32_t>((std::uint64_t(p->height) * w + p->width / 2) / p->width));
-    cell = {std::max(cell.width, w), std::max(cell.height, h)};
+    const Cell shown = shownSize(*p, wall.aspect, cellWidth);
+    cell = {std::max(cell.width, shown.width), std::max(cell.height, shown.height)};
   }
   return cell;
 }
 
-void place(Picture& sheet, const Picture& picture, const Cell& cell, std::uint32_t x, std::uint32_t y) {
-  const std::uint32_t w = std::min(cell.width, picture.width);
-  const std::uint32_t h =
-      std::max(1u, static_cast<std::uint32_t>((std::uint64_t(picture.height) * w + picture.width / 2) /
-                                              picture.width));
-  const Picture small = resized(picture, w, h);
-  for (std::uint32_t row = 0; row < h; ++row) {
-    std::copy_n(small.at(0, row), std::size_t(w) * 4, sheet.at(x, y + row));
-    for (std::uint32_t column = 0; column < w; ++column) sheet.at(x + column, y + row)[3] = 255;
+void place(Picture& sheet, const Picture& picture, const Cell& shown, std::uint32_t x, std::uint32_t y) {
+  const Picture small = resized(picture, shown.width, shown.height);
+  for (std::uint32_t row = 0; row < shown.height; ++row) {
+    std::copy_n(small.at(0, row), std::size_t(shown.width) * 4, sheet.at(x, y + row));
+    for (std::uint32_t column = 0; column < shown.width; ++column) sheet.at(x + column, y + row)[3] = 255;
   }
 }
 
@@ -115,7 +118,8 @@ Picture contactSheet(std::span<const WallPictures> walls, std::uint64_t frame, s
       std::string label = fmt::format("{} {} {}", walls[i].wall, row == 0 ? "L" : "R", frame);
       label.resize(std::min<std::size_t>(label.size(), cells[i].width / kLetterWidth));
       letter(sheet, x, y, label, kInk);
-      if (picture && !picture->empty()) place(sheet, *picture, cells[i], x, y + kLabel);
+      if (picture && !picture->empty())
+        place(sheet, *picture, shownSize(*picture, walls[i].aspect, std::max(cellWidth, 1u)), x, y + kLabel);
     }
     x += cells[i].width + kGap;
   }

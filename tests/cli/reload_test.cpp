@@ -142,7 +142,7 @@ TEST(ProgramReload, ABallBesideItFliesTheSameToTheLastBit) {
 // In real time, since only there the loader can keep ahead of the show; with a part that has a tenth of a
 // second to get ready. Some frames are long because the machine has other things to do: the ones in which the
 // part comes or goes may be so no more often than the others.
-TEST(ProgramReload, NoFrameTakesLongerBecauseOfIt) {
+TEST(ProgramFullReload, NoFrameTakesLongerBecauseOfIt) {
   if (!fullRuns()) GTEST_SKIP() << "measures time; runs with --full";
   auto provider = openGlProvider(GlProviderKind::OsMesa);
   ASSERT_TRUE(provider);

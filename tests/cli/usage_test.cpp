@@ -3,6 +3,7 @@
 #include "tests/cli/program.h"
 
 #include <csignal>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
@@ -293,6 +294,76 @@ TEST(ProgramUsage, JsonIsOneObjectOnStdoutAndNothingElse) {
   // The same summary lies beside the pictures.
   EXPECT_EQ(nlohmann::json::parse(fileContent(pictures + "/summary.json")).at("state_hash"),
             summary.at("state_hash"));
+}
+
+TEST(ProgramUsage, OnlyDrawnFramesAreCountedAndTimed) {
+  const TemporaryFolder folder;
+  const std::string pictures = folder.path() / "pictures";
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> options{"--out", pictures};
+    options.insert(options.end(), more.begin(), more.end());
+    return stadionProgram(shortRun(testShow("moving.evs"), options));
+  };
+  const ProgramResult last = run({"--json"}), all = run({"--json", "--pictures", "all"}), text = run({});
+  ASSERT_EQ(last.status + all.status, 0) << last.err << all.err;
+  for (const auto& [result, drawn] : {std::pair(last, 1), std::pair(all, 5)}) {
+    const auto summary = nlohmann::json::parse(result.out);
+    EXPECT_EQ(summary.at("frames"), 5);
+    EXPECT_EQ(summary.at("frames_drawn"), drawn);
+    for (const auto& stage : summary.at("stages"))
+      EXPECT_EQ(stage.at("ms").at("count"), stage.at("stage") == "app" ? 5 : drawn);
+    for (const auto& wall : summary.at("motion_to_image_ms")) EXPECT_EQ(wall.at("count"), drawn);
+  }
+  EXPECT_EQ(nlohmann::json::parse(last.out).at("image_hashes"),
+            nlohmann::json::parse(all.out).at("image_hashes"));
+  EXPECT_TRUE(has(text.out, "drawn 1 of 5 frames")) << text.out;
+  EXPECT_FALSE(has(text.out, "frames/s")) << text.out;
+}
+
+TEST(ProgramUsage, AnInputLogThatCannotBeWrittenIsRefusedAtTheStart) {
+  const ProgramResult r = stadionProgram(shortRun(testShow("moving.evs"), {"--record-input", "/nope/x"}));
+  EXPECT_EQ(r.status, 2);
+  EXPECT_TRUE(has(r.err, "--record-input: /nope/x cannot be written")) << r.err;
+  EXPECT_EQ(r.out, "");
+}
+
+TEST(ProgramUsage, ASubSceneThatLoadsItselfStaysOutWithAWarning) {
+  const TemporaryFolder folder;
+  const std::string show = folder.write("self.evs", "scene( name=me, file=self.evs )\n");
+  const ProgramResult r = stadionProgram({"hash", show, "--frames", "3"});
+  EXPECT_EQ(r.status, 0);
+  EXPECT_TRUE(has(r.err, "warning: this sub-scene is loaded by itself")) << r.err;
+  EXPECT_FALSE(has(r.err, "error")) << r.err;
+}
+
+TEST(ProgramUsage, ASubSceneFileThatIsRefusedIsToldOnce) {
+  const TemporaryFolder folder;
+  const std::string show = folder.write("outside.evs", "scene( file=\"/etc/passwd\" )\n");
+  const ProgramResult r = stadionProgram({"check", show});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_TRUE(has(r.out, "is an absolute path")) << r.out;
+  EXPECT_EQ(r.out.find("error"), r.out.rfind("error")) << r.out;
+}
+
+// With a limit that comparing every pair would not keep.
+TEST(ProgramUsage, CheckFindsTheOneOverlapAmongTenThousandBodies) {
+  const TemporaryFolder folder;
+  std::string show = "object( name=field, file=plane.3ds )\n", bodies;
+  for (int i = 0; i < 10'000; ++i) {
+    // The last one stands a tenth of a diameter from the one before it.
+    const double x = 0.5 * (i % 100) - (i == 9'999 ? 0.48 : 0);
+    show += fmt::format("dynobject( name=b{}, file=football.3ds, position=\"{:.2f} {:.2f} 1\" )\n", i, x,
+                        0.5 * (i / 100));
+    bodies += fmt::format(", collidee=b{}", i);
+  }
+  show += "dynamics( collider=field" + bodies + " )\nlight( direction=\"-1 2 -3\" )\n";
+  ProgramRun run;
+  run.words = {stadionPath(), "check", folder.write("many.evs", show), "--asset-root", assetFolder()};
+  run.limit = std::chrono::seconds(60);
+  const ProgramResult r = runProgram(run);
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 2) << r.out;
+  EXPECT_TRUE(has(r.out, "\"b9999\" and \"b9998\" overlap by 2")) << r.out;
 }
 
 TEST(ProgramUsage, InterruptsEndTheShowWithItsSummary) {

@@ -2,6 +2,7 @@
 #include "engine/display/wall_lint.h"
 #include "engine/plain_file.h"
 #include "engine/text_line.h"
+#include "tests/mutations.h"
 
 #include <gtest/gtest.h>
 
@@ -203,11 +204,12 @@ std::string mutated(std::string text, std::mt19937& random) {
 }
 
 TEST(Walls, ThatAreMutatedNeverCrashAndWhatIsAcceptedDrawsFinitePictures) {
-  std::mt19937 random(7);
+  const auto [count, start] = test::mutations(5000);
+  std::mt19937 random(static_cast<std::uint32_t>(7 + start));
   std::vector<std::string> seeds{textOf(kShipped + "/cave4.walls"), textOf(kShipped + "/cave6.walls")};
   for (const auto& entry : fs::directory_iterator(kCorpus)) seeds.push_back(textOf(entry.path()));
   std::size_t good = 0;
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < count; ++i) {
     // Every other one from a good file, or hardly any would get past the parser.
     const auto seed = static_cast<std::size_t>(i % 2 == 0 ? i / 2 % 2 : i) % seeds.size();
     const std::string text = mutated(seeds[seed], random);
@@ -227,7 +229,7 @@ TEST(Walls, ThatAreMutatedNeverCrashAndWhatIsAcceptedDrawsFinitePictures) {
       ASSERT_TRUE(f.X_ER.matrix().allFinite()) << text;
     }
   }
-  EXPECT_GT(good, 50u);
+  EXPECT_GT(good, static_cast<std::size_t>(count / 100));
 }
 
 TEST(FloorPlan, ShowsTheWallsFromAbove) {

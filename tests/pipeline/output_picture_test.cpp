@@ -204,6 +204,18 @@ TEST(Lettering, DrawsALetterAndStopsAtTheEdge) {
   letter(p, 100, 100, "W", {255, 255, 255});    // wholly outside
 }
 
+TEST(ContactSheet, ShowsAWallInItsOwnProportions) {
+  const Picture picture(800, 600);
+  // 800 x 600 pixels on a square wall, on one that is twice as wide as it is high, on one as its pixels say.
+  const std::vector<WallPictures> walls{
+      {"a", &picture, nullptr, 1}, {"b", &picture, nullptr, 2}, {"c", &picture}};
+  EXPECT_EQ(contactSheet(std::span(walls).subspan(0, 1), 0, 300).height, 6u + 300 + 12 + 6);
+  EXPECT_EQ(contactSheet(std::span(walls).subspan(1, 1), 0, 300).height, 6u + 150 + 12 + 6);
+  EXPECT_EQ(contactSheet(std::span(walls).subspan(2, 1), 0, 300).height, 6u + 225 + 12 + 6);
+  // Neither side is enlarged.
+  EXPECT_EQ(contactSheet(std::span(walls).subspan(0, 1), 0, 5000).width, 6u + 600 + 6);
+}
+
 TEST(ContactSheet, HasAColumnForEachWallAndARowForEachEye) {
   const Picture a = noise(800, 600, 8), b = noise(400, 600, 9);
   const WallPictures walls[] = {{"front", &a, &a}, {"left", &b, &b}, {"gone", nullptr, nullptr}};

@@ -192,19 +192,15 @@ DrawList plainList() {
   return list;
 }
 
-DrawList richList(MeshStore& meshes, double aspect) {
-  const auto at = [](double x, double y, double z) {
-    Affine X = Affine::Identity();
-    X.translation() = Vec3(x, y, z);
-    return X;
-  };
-  const auto add = [&](MeshMaker& m) { return meshes.add(m.seal()); };
-  DrawList list;
-  list.eyeCount = 2;
-  for (int eye = 0; eye < 2; ++eye)
-    list.eyes[static_cast<std::size_t>(eye)] =
-        lookAt(Vec3(-0.032 + 0.064 * eye, -6, 1.7), Vec3(0, 0, 0.9), 1.1, aspect);
-  list.sky.hazeDistance = 300;
+namespace {
+
+Affine at(double x, double y, double z) {
+  Affine X = Affine::Identity();
+  X.translation() = Vec3(x, y, z);
+  return X;
+}
+
+std::vector<DrawLight> sunLampAndSpot() {
   DrawLight sun;
   sun.direction = {-0.45f, 0.35f, -0.82f};
   sun.colour = {1.0f, 0.95f, 0.85f};
@@ -221,12 +217,22 @@ DrawList richList(MeshStore& meshes, double aspect) {
   spot.range = 8;
   spot.cosInner = 0.96f;
   spot.cosOuter = 0.93f;
-  list.lights = {sun, lamp, spot};
+  return {sun, lamp, spot};
+}
 
+void addGroundAndCrates(MeshStore& meshes, DrawList& list) {
   MeshMaker plain(matt(0.32f, 0.36f, 0.24f));
   plain.quad(Vec3(-200, -200, 0), Vec3(200, -200, 0), Vec3(200, 200, 0), Vec3(-200, 200, 0));
   MeshMaker crate(matt(1, 1, 1));
   crate.texture(chequered(256, 4)).box(Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1));
+  list.opaque.push_back(place(meshes.add(plain.seal())));
+  const MeshId crates = meshes.add(crate.seal());
+  Affine turned = at(-1.6, 0.5, 0);
+  turned.linear() = Eigen::AngleAxisd(0.5, Vec3::UnitZ()).toRotationMatrix();
+  for (const Affine& X : {turned, at(3, 8, 0), at(-6, 20, 0)}) list.opaque.push_back(place(crates, X));
+}
+
+void addBallsAndGlass(MeshStore& meshes, DrawList& list) {
   Material red = matt(0.6f, 0.05f, 0.04f);
   red.roughness = 0.25f;
   MeshMaker ball(red);
@@ -239,20 +245,27 @@ DrawList richList(MeshStore& meshes, double aspect) {
   MeshMaker pane(matt(0.3f, 0.7f, 0.5f, 0.45f));
   pane.quad(Vec3(-0.6, 0, 0), Vec3(0.6, 0, 0), Vec3(0.6, 0, 1.4), Vec3(-0.6, 0, 1.4));
 
-  list.opaque.push_back(place(add(plain)));
-  const MeshId crates = add(crate);
-  Affine turned = at(-1.6, 0.5, 0);
-  turned.linear() = Eigen::AngleAxisd(0.5, Vec3::UnitZ()).toRotationMatrix();
-  list.opaque.push_back(place(crates, turned));
-  list.opaque.push_back(place(crates, at(3, 8, 0)));
-  list.opaque.push_back(place(crates, at(-6, 20, 0)));
-  const MeshId balls = add(ball);
+  const MeshId balls = meshes.add(ball.seal());
   list.opaque.push_back(place(balls, at(0, 0, 0.5)));
   Affine egg = at(0.1, 2.5, 0.8);
   egg.linear() = Vec3(0.8, 0.8, -1.6).asDiagonal();  // stretched and mirrored
   list.opaque.push_back(place(balls, egg));
-  list.opaque.push_back(place(add(metal), at(1.5, 0.4, 0.4)));
-  list.transparent.push_back(place(add(pane), at(0.75, -1, 0)));
+  list.opaque.push_back(place(meshes.add(metal.seal()), at(1.5, 0.4, 0.4)));
+  list.transparent.push_back(place(meshes.add(pane.seal()), at(0.75, -1, 0)));
+}
+
+}  // namespace
+
+DrawList richList(MeshStore& meshes, double aspect) {
+  DrawList list;
+  list.eyeCount = 2;
+  for (int eye = 0; eye < 2; ++eye)
+    list.eyes[static_cast<std::size_t>(eye)] =
+        lookAt(Vec3(-0.032 + 0.064 * eye, -6, 1.7), Vec3(0, 0, 0.9), 1.1, aspect);
+  list.sky.hazeDistance = 300;
+  list.lights = sunLampAndSpot();
+  addGroundAndCrates(meshes, list);
+  addBallsAndGlass(meshes, list);
   return list;
 }
 
