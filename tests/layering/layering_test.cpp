@@ -113,6 +113,9 @@ TEST(Layering, EachForeignLibraryHasItsRoom) {
   EXPECT_EQ(whoIncludes("EGL/"), Files{"pipeline/target/egl_provider.cpp"});
   EXPECT_EQ(whoIncludes("fcl/"), Files{"dynamics/mesh_distance.cpp"});
   EXPECT_EQ(whoIncludes("GL/gl"), Files{"pipeline/draw/gl_table.h"});
+  EXPECT_EQ(whoIncludes("btBulletDynamicsCommon"), Files{"profiling/bench/dynamics/engine_bullet.cpp"});
+  EXPECT_EQ(whoIncludes("ode/"), Files{"profiling/bench/dynamics/engine_ode.cpp"});
+  EXPECT_EQ(whoIncludes("mujoco/"), Files{"profiling/bench/dynamics/engine_mujoco.cpp"});
   // assimp lives in a program of its own.
   const Files assimp = whoIncludes("assimp/");
   EXPECT_FALSE(assimp.empty());

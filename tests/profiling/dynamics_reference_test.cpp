@@ -111,6 +111,16 @@ TEST(References, TheTumblingDiscDoesNotHangOnItsSteps) {
   }
 }
 
+TEST(References, NoPartOfTheDiscIsEverBehindTheWall) {
+  for (int phase = 0; phase < 8; ++phase)
+    for (int i = 0; i <= 160; ++i) {
+      const Tumbling s = tumbleAgainstWall(kThrown, {-1 - 0.5 * phase / 8, 30, 0, 40}, 1e-3 * i, 1e-4);
+      const double front =
+          kThrown.R * std::fabs(std::cos(s.angle)) + kThrown.b * std::fabs(std::sin(s.angle));
+      EXPECT_LE(s.x + front, kThrown.wall + 1e-9) << phase << ", after " << i << " ms";
+    }
+}
+
 TEST(References, AnElasticDiscKeepsItsEnergy) {
   TumblingDisc elastic = kThrown;
   elastic.restitution = 1;

@@ -10,6 +10,8 @@ CostLimit atSteps(int n, double ratio, const std::string& peers = "") {
 }
 
 const std::vector<MetricLimit> kThroughNoWall{{"tunnelled_of_8", 0}};
+const std::vector<MetricLimit> kRebound{
+    {"tunnelled_of_8", 0}, {"no_rebound_of_8", 0}, {"err", 1e-6}, {"vel_relerr", 1e-6}};
 const std::vector<MetricLimit> kStands{{"fell", 0}};
 
 const std::vector<CaseLimits>& table() {
@@ -60,11 +62,17 @@ const std::vector<CaseLimits>& table() {
        atSteps(4, 1),
        {{"err", 1}}},
       {"C08", {{"err", 1e-4}, {"stable_tilt", 1e-12}}, {}, {At::EqualError, 1, 1, "", 0}, {{"err", 10}}},
-      {"C09_tunnel",
-       {{"tunnelled_of_8", 0}, {"no_rebound_of_8", 0}, {"err", 1e-6}, {"vel_relerr", 1e-6}},
-       {},
-       atSteps(1, 1. / 4, "bullet"),
-       kThroughNoWall},
+      {"C09_tunnel", kRebound, {}, atSteps(1, 1. / 4, "bullet"), kThroughNoWall},
+      // Continuous detection is nothing that Stadion could switch off: its cost is compared with that of
+      // those who switch it on.
+      {"C09_tunnel_v5_noccd", kRebound, {}, {}, {}},
+      {"C09_tunnel_v10_noccd", kRebound, {}, {}, {}},
+      {"C09_tunnel_v20_noccd", kRebound, {}, {}, {}},
+      {"C09_tunnel_v50_noccd", kRebound, {}, {}, {}},
+      {"C09_tunnel_v100_noccd", kRebound, {}, {}, {}},
+      {"C09_tunnel_v200_noccd", kRebound, {}, {}, {}},
+      {"C09_tunnel_v500_noccd", kRebound, {}, {}, {}},
+      {"C09_tunnel_v1000_noccd", kRebound, {}, {}, {}},
       {"C09_disc",
        {{"tunnelled_of_8", 0}, {"pos_err", 1e-4}},
        {},
