@@ -47,8 +47,6 @@ public:
     gravity_ = world_.addField(gravity, true);
   }
 
-  bool has(Form form) const override { return form != Form::Cylinder; }
-
   int addBody(const BodySpec& b) override {
     const Surface surface{b.friction, b.restitution, 0.0};
     const ShapeId shape = addShape(b);
@@ -130,6 +128,7 @@ private:
 
   ShapeId addShape(const BodySpec& b) {
     if (b.form == Form::Box) return world_.addShape(BoxShape{{}, zUpSize(b.half)});
+    if (b.form == Form::Cylinder) return world_.addShape(CylinderShape{{}, b.half.x, b.half.y});
     return world_.addShape(BallShape{Vec3::Zero(), b.half.x});
   }
 
