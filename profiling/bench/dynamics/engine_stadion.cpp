@@ -62,6 +62,7 @@ public:
     def.mass.mass = b.mass;
     def.mass.inertia = zUpSize(b.inertia());
     def.surface = surface;
+    def.dragArea = 2 * b.mass;
     const BodyId id = world_.addBody(def);
     if (gravity_) world_.hook(id, gravity_, 0);
     bodies_.push_back({id, b.inertia()});
@@ -107,8 +108,18 @@ public:
     pushed_ = true;
   }
 
-  /// Until a medium can be a force field, the cases push. (Sets Member::drag once it can.)
-  bool quadraticDrag(int, double) override { return false; }
+  /// A medium of density k around bodies whose drag area is twice their mass: k = rho A / 2 m.
+  bool quadraticDrag(int body, double k) override {
+    if (!medium_) {
+      ForceField air;
+      air.law = MediumField{.density = k};
+      medium_ = world_.addField(air, true);
+      density_ = k;
+    }
+    Member& b = bodies_[static_cast<std::size_t>(body)];
+    b.drag = k;
+    return k == density_ && world_.hook(b.id, medium_, 0);
+  }
 
   void step(double h) override {
     if (pushed_) push(h);
@@ -143,7 +154,8 @@ private:
 
   World world_;
   WorldSpec spec_;
-  FieldId gravity_ = 0;
+  FieldId gravity_ = 0, medium_ = 0;
+  double density_ = 0;
   std::vector<Member> bodies_;
   bool pushed_ = false;
   long double elapsed_ = 0;  ///< [s]
