@@ -98,6 +98,30 @@ Vec3 ConvexCore::support(const Vec3& d) const {
   return p;
 }
 
+bool ConvexCore::holds(const Vec3& x, double margin) const {
+  const Vec3 l = R.transpose() * (x - p);
+  switch (kind) {
+  case Kind::Box: return ((half - l.cwiseAbs()).array() >= -margin).all();
+  case Kind::Cylinder: {
+    const double r = half.x() + margin;
+    return std::fabs(l.z()) <= half.z() + margin && l.x() * l.x() + l.y() * l.y() <= r * r;
+  }
+  case Kind::Hull:
+    return std::ranges::all_of(
+        hull->faces, [&](const ConvexShape::Face& f) { return f.normal.dot(l) <= f.offset + margin; });
+  case Kind::Triangle:
+    if (std::fabs(normal.dot(x - v[0])) > margin) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 e = v[(i + 1) % 3] - v[i];
+      if (normal.cross(e).dot(x - v[i]) < -margin * e.norm()) return false;
+    }
+    return true;
+  case Kind::Point:
+  case Kind::Segment: return false;
+  }
+  return false;
+}
+
 Vec3 ConvexCore::middle() const {
   if (kind == Kind::Hull) return p + R * hull->centre;
   if (kind == Kind::Triangle) return (v[0] + v[1] + v[2]) / 3;

@@ -26,6 +26,8 @@ struct ConvexCore {
   Vec3 support(const Vec3& d) const;
   /// The greatest n . x over the rounded body.
   double extent(const Vec3& n) const { return n.dot(support(n)) + radius; }
+  /// Whether x is in the core, give or take `margin`.
+  bool holds(const Vec3& x, double margin) const;
   Vec3 middle() const;
   ConvexCore moved(const Vec3& by) const;
   /// The core with everything thinner by up to `depth`, but not turned inside out.

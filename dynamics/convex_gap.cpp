@@ -11,6 +11,8 @@ constexpr double kFavour = 1e-11;  ///< faces and edges are preferred to what wa
 constexpr double kHold = 1e-4;     ///< distance to hold off for a first look [m]
 constexpr double kLeastHold = 1e-7;
 constexpr int kMostTurns = 12;
+constexpr double kShallow = 1e-6;  ///< overlap that a face may have found alone [m]
+constexpr double kOver = 1e-10;    ///< beside a face by this still counts as over it [m]
 
 struct Best {
   const ConvexCore &a, &b;
@@ -51,6 +53,31 @@ Vec3 overlapDirection(const ConvexCore& a, const ConvexCore& b, const Vec3& gues
   return n;
 }
 
+/// The usual case, proven at once: the point of one that reaches farthest along a face's normal of the other
+/// lies over that face.
+bool onFace(const ConvexCore& a, const ConvexCore& b, const Vec3& towards, Vec3& nearA, Vec3& nearB,
+            Best& best) {
+  const Directions da = directionsNear(a, -towards, nearA), db = directionsNear(b, towards, nearB);
+  Best face{a, b};
+  for (int i = 0; i < db.faceCount; ++i) face.attempt(db.faces[static_cast<std::size_t>(i)], towards);
+  const double ofB = face.gap;
+  for (int i = 0; i < da.faceCount; ++i) face.attempt(da.faces[static_cast<std::size_t>(i)], towards, 1e-13);
+  if (!(face.gap > -kShallow) || face.n.dot(towards) < 0.5) return false;
+  const Vec3& n = face.n;
+  if (face.gap == ofB) {
+    const Vec3 x = a.support(-n) - (a.radius + face.gap) * n;
+    if (!b.holds(x - b.radius * n, kOver)) return false;
+    nearB = x;
+  } else {
+    const Vec3 x = b.support(n) + b.radius * n;
+    if (!a.holds(x + (face.gap + a.radius) * n, kOver)) return false;
+    nearB = x;
+  }
+  nearA = nearB;
+  best.gap = face.gap, best.n = face.n;
+  return true;
+}
+
 }  // namespace
 
 double separationAlong(const Vec3& n, const ConvexCore& a, const ConvexCore& b) {
@@ -75,6 +102,12 @@ ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess,
   Vec3 nearA = d.a, nearB = d.b;
   const Vec3 towards = d.apart && d.distance > 1e-9 ? d.normal : overlapDirection(a, b, guess, nearA, nearB);
   Best best{a, b};
+  if (onFace(a, b, towards, nearA, nearB, best)) {
+    g.distance = best.gap, g.normal = best.n;
+    g.onA = g.onB = nearB;
+    g.onA += g.distance * g.normal;
+    return g;
+  }
   best.attempt(towards, towards, kFavour);
   // Held off along the normal; the more precise it is, the more precise the next.
   // Close to, edges that cross at a small angle count for what they are.
