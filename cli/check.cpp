@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -16,7 +17,10 @@ namespace {
 int checkScripts(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
   bool wrong = false;
   for (const std::string& file : files) {
+    const bool watched = isatty(2) == 1;
+    if (watched) std::fprintf(stderr, "checking %s ...", file.c_str());
     const Diagnostics findings = checkShow(file, roots);
+    if (watched) std::fprintf(stderr, "\r\x1b[K");
     for (const Diagnostic& d : findings.all()) std::printf("%s\n", format(d).c_str());
     wrong |= findings.hasErrors();
     if (!findings.hasErrors()) std::printf("%s: ok\n", file.c_str());

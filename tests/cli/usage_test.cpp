@@ -345,25 +345,27 @@ TEST(ProgramUsage, ASubSceneFileThatIsRefusedIsToldOnce) {
   EXPECT_EQ(r.out.find("error"), r.out.rfind("error")) << r.out;
 }
 
-// With a limit that comparing every pair would not keep.
+// Within a limit that comparing every pair would not keep.
 TEST(ProgramUsage, CheckFindsTheOneOverlapAmongTenThousandBodies) {
   const TemporaryFolder folder;
-  std::string show = "object( name=field, file=plane.3ds )\n", bodies;
+  std::string cube, show = "object( name=field, file=plane.3ds )\n", bodies;
+  for (int i = 0; i < 8; ++i)
+    cube += fmt::format("v {} {} {}\n", i & 1 ? 0.1 : -0.1, i & 2 ? 0.1 : -0.1, i & 4 ? 0.1 : -0.1);
+  folder.write("cube.obj", cube + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
   for (int i = 0; i < 10'000; ++i) {
-    // The last one stands a tenth of a diameter from the one before it.
+    // The last one stands two centimetres from the place of the one before it.
     const double x = 0.5 * (i % 100) - (i == 9'999 ? 0.48 : 0);
-    show += fmt::format("dynobject( name=b{}, file=football.3ds, position=\"{:.2f} {:.2f} 1\" )\n", i, x,
+    show += fmt::format("dynobject( name=b{}, file=cube.obj, position=\"{:.2f} {:.2f} 1\" )\n", i, x,
                         0.5 * (i / 100));
     bodies += fmt::format(", collidee=b{}", i);
   }
   show += "dynamics( collider=field" + bodies + " )\nlight( direction=\"-1 2 -3\" )\n";
   ProgramRun run;
   run.words = {stadionPath(), "check", folder.write("many.evs", show), "--asset-root", assetFolder()};
-  run.limit = std::chrono::seconds(60);
   const ProgramResult r = runProgram(run);
   EXPECT_EQ(r.status, 0) << r.err;
-  EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 2) << r.out;
-  EXPECT_TRUE(has(r.out, "\"b9999\" and \"b9998\" overlap by 2")) << r.out;
+  EXPECT_TRUE(has(r.out, "\"b9999\" and \"b9998\" overlap by ")) << r.out;
+  EXPECT_EQ(r.out.find(" overlap by "), r.out.rfind(" overlap by ")) << r.out;
 }
 
 TEST(ProgramUsage, InterruptsEndTheShowWithItsSummary) {

@@ -57,7 +57,7 @@ RunSummary example() {
   s.width = 800;
   s.height = 600;
   s.rate = 60;
-  s.frames = 300;
+  s.frames = s.framesDrawn = 300;
   s.seconds = 5;
   s.elapsedSeconds = 10;
   s.lateFrames = 2;
