@@ -49,7 +49,7 @@ public:
   /// if there is one, is asked now and then; once it says true, RunStopped is thrown and the pictures are
   /// void.
   std::optional<Diagnostic> draw(const DrawList& list, const std::function<bool()>& giveUp);
-  std::optional<Diagnostic> draw(const DrawList& list) { return draw(list, {}); }
+  std::optional<Diagnostic> draw(const DrawList& list) { return draw(list, std::function<bool()>{}); }
   /// Draws one eye, 0 left or mono, 1 right.
   std::optional<Diagnostic> draw(const DrawList& list, std::uint32_t eye);
 
