@@ -61,7 +61,7 @@ void paintArc(Mosaic& field, double y, double radius, int side = 0, double from 
 void paintSpot(Mosaic& field, double y) {
   const std::vector<Direction> round = circle();
   Piece disc;
-  for (std::size_t i = 0; i < round.size(); i += 12)
+  for (std::size_t i = 0; i < round.size(); i += 6)
     disc.push_back(spot(kSpot * round[i].c, y + kSpot * round[i].s));
   field.paint(disc, Chalk);
 }
