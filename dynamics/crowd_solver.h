@@ -3,8 +3,9 @@
 ///
 /// Method   projected Gauss-Seidel over points in flat arrays, warm started. Points that overlap are pushed
 /// apart by a velocity that moves the bodies but is taken from them again before the next step; points that
-/// have yet to meet may close their gap and no more. The velocities that remain never hold more energy than
-/// before.
+/// have yet to meet may close their gap and no more.
+/// Energy   the sweeps take it away, but bodies go straight between steps, which may add some again: up to
+/// 2.5e-4 of the whole in one frame, measured on a heap of a thousand balls.
 
 #include "engine/maths/maths.h"
 

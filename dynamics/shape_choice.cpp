@@ -158,30 +158,31 @@ std::vector<Quat> axesOf(const Mesh& mesh, const Aabb& box, Vec3& centre) {
   return axes;
 }
 
-ShapeChoice fitCylinder(const Mesh& mesh, const TriangleTree& tree, const std::vector<Vec3>& points) {
+/// The best of the rods along the mesh's axes; `make` turns one into the shape.
+template <class Make>
+ShapeChoice fitRod(ShapeKind kind, const Mesh& mesh, const TriangleTree& tree,
+                   const std::vector<Vec3>& points, Make make) {
   Vec3 centre;
   ShapeChoice best;
-  best.kind = ShapeKind::Cylinder, best.deviation = 1e300;
+  best.kind = kind, best.deviation = 1e300;
   for (const Quat& q : axesOf(mesh, tree.bounds(), centre)) {
-    const Rod rod = rodOf(points, centre, q);
-    const CylinderShape s{rod.pose, rod.radius, rod.half};
+    const auto s = make(rodOf(points, centre, q));
     const double off = vertexDistance(points, s);
     if (off < best.deviation * (1 - 1e-9)) best.shape = s, best.deviation = off;
   }
   return best;
 }
 
+ShapeChoice fitCylinder(const Mesh& mesh, const TriangleTree& tree, const std::vector<Vec3>& points) {
+  return fitRod(ShapeKind::Cylinder, mesh, tree, points, [](const Rod& r) {
+    return CylinderShape{r.pose, r.radius, r.half};
+  });
+}
+
 ShapeChoice fitCapsule(const Mesh& mesh, const TriangleTree& tree, const std::vector<Vec3>& points) {
-  Vec3 centre;
-  ShapeChoice best;
-  best.kind = ShapeKind::Capsule, best.deviation = 1e300;
-  for (const Quat& q : axesOf(mesh, tree.bounds(), centre)) {
-    const Rod rod = rodOf(points, centre, q);
-    const CapsuleShape s{rod.pose, rod.radius, std::max(rod.half - rod.radius, 0.0)};
-    const double off = vertexDistance(points, s);
-    if (off < best.deviation * (1 - 1e-9)) best.shape = s, best.deviation = off;
-  }
-  return best;
+  return fitRod(ShapeKind::Capsule, mesh, tree, points, [](const Rod& r) {
+    return CapsuleShape{r.pose, r.radius, std::max(r.half - r.radius, 0.0)};
+  });
 }
 
 /// How far the surface of a mesh lies below its hull: vertices and the middles of faces.

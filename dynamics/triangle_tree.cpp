@@ -154,21 +154,7 @@ void TriangleTree::build(std::uint32_t first, std::uint32_t count) {
 
 void TriangleTree::overlapping(const Aabb& box, std::vector<std::uint32_t>& found) const {
   found.clear();
-  if (nodes_.empty()) return;
-  std::uint32_t stack[64];
-  int top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const std::uint32_t at = stack[--top];
-    const Node& n = nodes_[at];
-    if (!n.box.overlaps(box)) continue;
-    if (n.count == 0) {
-      stack[top++] = at + 1, stack[top++] = n.first;
-      continue;
-    }
-    for (std::uint32_t i = n.first; i < n.first + n.count; ++i)
-      if (boxOf(triangles_[order_[i]]).overlaps(box)) found.push_back(order_[i]);
-  }
+  walk([&](const Aabb& b) { return b.overlaps(box); }, [&](std::uint32_t i) { found.push_back(i); });
   std::sort(found.begin(), found.end());
 }
 

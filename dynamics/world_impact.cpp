@@ -10,9 +10,9 @@ namespace {
 constexpr double kLastBounce = 1e-9;
 /// The same between bodies that have no closed form to rest in [m].
 constexpr double kLastRattle = 1e-6;
-constexpr Nanoseconds kSpan = 16'000'000;     ///< in which impacts are counted [ns]
-constexpr std::uint32_t kMostImpacts = 60;    ///< in that time, then the contact solver takes over
-constexpr std::uint32_t kMostRattles = 4;     ///< the same where bounces die away soon
+constexpr Nanoseconds kSpan = 16'000'000;   ///< in which impacts are counted [ns]
+constexpr std::uint32_t kMostImpacts = 60;  ///< in that time, then the contact solver takes over
+constexpr std::uint32_t kMostRattles = 4;  ///< the same where bounces die away soon; chosen on heaps of balls
 constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
 
 }  // namespace
