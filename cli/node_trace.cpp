@@ -1,6 +1,5 @@
 #include "cli/node_trace.h"
 
-#include "dynamics/nodes/body_shape.h"
 #include "dynamics/nodes/dyn_object_node.h"
 
 #include <algorithm>

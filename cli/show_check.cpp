@@ -1,7 +1,6 @@
 #include "cli/show_check.h"
 
 #include "cli/player.h"
-#include "dynamics/nodes/body_shape.h"
 #include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dynamics_factories.h"
 #include "engine/script/lint.h"
@@ -144,18 +143,22 @@ void lookAtCollisions(const std::string& file, const std::vector<std::string>& r
   if (!player) return;
   ChangeSet changes;
   player->scene().advance(signatureAt(0, player->rate()), {}, changes, nullptr);
-  std::set<const ObjectNode*> seen;
+  struct Alike {
+    const ObjectNode* first;
+    std::size_t count;
+  };
+  std::map<const FittedShape*, Alike> alike;
+  std::set<NodeRef> seen;
   player->scene().forEachNode([&](const Node& node) {
     const auto* collision = dynamic_cast<const CollisionNode*>(&node);
     const Load* load = player->scene().load(node.self().load);
     if (!collision || !load) return;
-    for (const NodeRef part : collision->parts()) {
-      const auto* object = dynamic_cast<const ObjectNode*>(player->scene().find(part));
-      const Load* from = player->scene().load(part.load);
-      if (!object || !from || !seen.insert(object).second) continue;
-      if (const auto shape = shapeOf(*object, player->scene()))
-        findings.note({from->file, from->lines[part.position], 1},
-                      "\"" + object->name() + "\" " + shape.value().remark);
+    for (const auto& [ref, fit] : collision->participants()) {
+      const auto* object = dynamic_cast<const ObjectNode*>(player->scene().find(ref));
+      if (!object || !fit || !seen.insert(ref).second) continue;
+      const auto [at, isNew] = alike.try_emplace(fit, Alike{object, 0});
+      ++at->second.count;
+      if (ref < at->second.first->self()) at->second.first = object;
     }
     for (const CollisionNode::Overlap& o : collision->overlaps(kDeepestStart)) {
       char depth[32];
@@ -165,6 +168,14 @@ void lookAtCollisions(const std::string& file, const std::vector<std::string>& r
                            " at the start; move one of them");
     }
   });
+  for (const auto& [fit, objects] : alike) {
+    const NodeRef ref = objects.first->self();
+    const Load& from = *player->scene().load(ref.load);
+    std::string who = "\"" + objects.first->name() + "\" " + fit->choice.remark;
+    if (objects.count > 1)
+      who += "; " + std::to_string(objects.count - 1) + " more of this model do the same";
+    findings.note({from.file, from.lines[ref.position], 1}, who);
+  }
 }
 
 }  // namespace

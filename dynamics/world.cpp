@@ -39,8 +39,8 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-ShapeId World::addShape(Shape shape) {
-  const Sphere bound = boundingSphere(shape);
+ShapeId World::addShape(std::shared_ptr<const Shape> shape) {
+  const Sphere bound = boundingSphere(*shape);
   if (!bound.centre.allFinite() || !(bound.radius > 0)) return 0;
   const ShapeId id = core_->nextShape++;
   Core::ShapeEntry& entry = core_->shapes.add(id);
@@ -57,12 +57,12 @@ bool World::removeShape(ShapeId id) {
 
 const Shape* World::shape(ShapeId id) const {
   const Core::ShapeEntry* s = core_->shapes.find(id);
-  return s ? &s->shape : nullptr;
+  return s ? s->shape.get() : nullptr;
 }
 
 BodyId World::addBody(const BodyDef& d) {
   Core::ShapeEntry* s = core_->shapes.find(d.shape);
-  if (!s || std::holds_alternative<PlaneShape>(s->shape) || !d.mass.valid() || !usable(d.pose) ||
+  if (!s || std::holds_alternative<PlaneShape>(*s->shape) || !d.mass.valid() || !usable(d.pose) ||
       !usable(d.surface) || !d.v.allFinite() || !d.omega.allFinite() || !(d.damping >= 0) ||
       !std::isfinite(d.damping) || !(d.releaseDistance >= 0))
     return 0;
@@ -70,7 +70,7 @@ BodyId World::addBody(const BodyDef& d) {
   const BodyId id = core_->nextBody++;
   RigidBody& b = core_->bodies.add(id);
   core_->bodyIds.push_back(id);
-  b.id = id, b.shapeId = d.shape, b.shape = &s->shape, b.bound = s->bound;
+  b.id = id, b.shapeId = d.shape, b.shape = s->shape.get(), b.bound = s->bound;
   b.surface = d.surface, b.mass = d.mass.mass, b.inverseMass = 1 / d.mass.mass, b.inertia = d.mass.inertia;
   b.X_NC = {d.mass.centre, d.mass.axes.normalized()};
   if (const auto* ball = std::get_if<BallShape>(b.shape);
@@ -113,7 +113,7 @@ ColliderId World::addCollider(const ColliderDef& d) {
   ++s->uses;
   const ColliderId id = core_->nextCollider++;
   Collider& c = core_->colliders.add(id);
-  c.id = id, c.shapeId = d.shape, c.shape = &s->shape, c.bound = s->bound, c.surface = d.surface;
+  c.id = id, c.shapeId = d.shape, c.shape = s->shape.get(), c.bound = s->bound, c.surface = d.surface;
   c.now = unit(d.pose);
   c.motion.set(c.now, c.now, core_->now, 0);
   core_->told.push_back(id);

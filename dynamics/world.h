@@ -125,8 +125,10 @@ public:
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Shapes may be shared by many bodies and colliders and stay until removed; a shape in use is not removed.
-  ShapeId addShape(Shape shape);
+  /// Shapes may be shared by many bodies and colliders, and with others; they stay until removed. A shape in
+  /// use is not removed. 0 if its bounds are not finite.
+  ShapeId addShape(std::shared_ptr<const Shape> shape);
+  ShapeId addShape(Shape shape) { return addShape(std::make_shared<const Shape>(std::move(shape))); }
   bool removeShape(ShapeId id);
   const Shape* shape(ShapeId id) const;
 

@@ -37,7 +37,7 @@ inline std::uint64_t pairKey(Party a, Party b, std::uint32_t feature) {
 class World::Core {
 public:
   struct ShapeEntry {
-    Shape shape;
+    std::shared_ptr<const Shape> shape;
     Sphere bound;
     std::uint32_t uses = 0;
   };

@@ -1,7 +1,7 @@
 #include "dynamics/nodes/collision_node.h"
 
 #include "dynamics/broad_phase.h"
-#include "dynamics/nodes/body_shape.h"
+#include "dynamics/nodes/dyn_object_node.h"
 #include "engine/scene/scene.h"
 
 #include <algorithm>
@@ -19,8 +19,10 @@ Aabb boxAround(const Shape& shape, const Pose& X_WN) {
 
 }  // namespace
 
-CollisionNode::CollisionNode(NodeKind kind, NodeRef self, std::string name, CollisionAttributes attributes)
-    : Node(kind, self, std::move(name)), attributes_(std::move(attributes)), switch_(attributes_.on) {
+CollisionNode::CollisionNode(NodeKind kind, NodeRef self, std::string name, CollisionAttributes attributes,
+                             std::shared_ptr<ShapeStore> shapes)
+    : Node(kind, self, std::move(name)), attributes_(std::move(attributes)), shapes_(std::move(shapes)),
+      switch_(attributes_.on) {
   const auto part = [](const std::string& n) {
     Part p;
     p.name = n;
@@ -77,7 +79,7 @@ void CollisionNode::changeParts(Nanoseconds time, Scene& scene) {
     for (Part& part : parts) {
       if (part.ref.valid() && part.leaveAt <= time) {
         drop(part);
-        part.ref = {}, part.id = 0, part.course.clear();
+        part.ref = {}, part.id = 0, part.fit = nullptr, part.course.clear();
       }
       if (!part.next.valid() || part.nextAt > time || part.ref.valid()) continue;
       auto* object = dynamic_cast<ObjectNode*>(scene.find(part.next));
@@ -92,9 +94,7 @@ void CollisionNode::changeParts(Nanoseconds time, Scene& scene) {
   change(
       colliders_,
       [&](Part& part, ObjectNode& object) {
-        const ColliderDef def = colliderOf(object, scene, world_);
-        part.shape = def.shape;
-        part.id = world_.addCollider(def);
+        part.id = world_.addCollider(colliderOf(part, object, scene));
         scene.watch(part.placement, self());
       },
       [&](Part& part) {
@@ -146,12 +146,33 @@ std::vector<CollisionNode::Overlap> CollisionNode::overlaps(double deeperThan) c
   return found;
 }
 
-std::vector<NodeRef> CollisionNode::parts() const {
-  std::vector<NodeRef> refs;
+std::vector<CollisionNode::Participant> CollisionNode::participants() const {
+  std::vector<Participant> all;
   for (const std::vector<Part>* list : {&colliders_, &collidees_})
     for (const Part& part : *list)
-      if (part.ref.valid()) refs.push_back(part.ref);
-  return refs;
+      if (part.ref.valid()) all.push_back({part.ref, part.fit.get()});
+  return all;
+}
+
+SharedFit CollisionNode::fitOf(const ObjectNode& object, const Scene& scene) {
+  const Mesh* mesh = scene.mesh(object.appearance().mesh);
+  if (!mesh) return nullptr;
+  auto fit = shapes_->fit(*mesh, object.appearance(), scaleOf(scene.placements().world(object.placement())));
+  return fit ? std::move(fit.value()) : nullptr;
+}
+
+ShapeId CollisionNode::addShape(const SharedFit& fit) {
+  return fit ? world_.addShape(std::shared_ptr<const Shape>(fit, &fit->choice.shape)) : 0;
+}
+
+ColliderDef CollisionNode::colliderOf(Part& part, const ObjectNode& object, const Scene& scene) {
+  part.fit = fitOf(object, scene);
+  part.shape = addShape(part.fit);
+  ColliderDef def;
+  def.pose = part.pose, def.shape = part.shape;
+  // A body that another dynamics node moves takes part with the surface that its script gave it.
+  if (const auto* body = dynamic_cast<const DynObjectNode*>(&object)) def.surface = body->body().surface;
+  return def;
 }
 
 void CollisionNode::addCuts(const Course& course, std::vector<Nanoseconds>& cuts) {
@@ -225,9 +246,8 @@ void CollisionNode::simulate(FrameContext& frame) {
 
 void CollisionNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   BodyDef def;
-  const ColliderDef collider = colliderOf(object, scene, world_);
-  part.shape = def.shape = collider.shape;
-  def.pose = collider.pose;
+  const ColliderDef collider = colliderOf(part, object, scene);
+  def.shape = collider.shape, def.pose = collider.pose;
   def.releaseDistance = attributes_.releaseDistance;
   part.id = world_.addBody(def);
   world_.holdBody(part.id);

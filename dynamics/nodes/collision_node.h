@@ -12,8 +12,8 @@
 /// Time-critical: it reads placements and moves bodies by direct calls, in App only. It is visited only while
 /// something in it moves.
 
+#include "dynamics/nodes/shape_store.h"
 #include "dynamics/world.h"
-#include "engine/nodes/object_node.h"
 #include "engine/nodes/switched.h"
 
 #include <limits>
@@ -25,11 +25,13 @@ struct CollisionAttributes {
   double releaseDistance = 0.5;                   ///< [m]
   bool selfCollide = true;
   bool on = true;
+  std::vector<SharedFit> fits;  ///< of colliders in its file: made by the loader, kept for App to find
 };
 
 class CollisionNode : public Node {
 public:
-  CollisionNode(NodeKind kind, NodeRef self, std::string name, CollisionAttributes attributes);
+  CollisionNode(NodeKind kind, NodeRef self, std::string name, CollisionAttributes attributes,
+                std::shared_ptr<ShapeStore> shapes);
 
   Rank rank() const override { return Rank::Dynamics; }
   bool busy() const override { return switch_.on() && awake_; }
@@ -45,8 +47,12 @@ public:
   /// Pairs of its parts that stick in each other by more than `deeperThan` [m], in the order of the script.
   /// Only those whose bounds overlap are measured.
   std::vector<Overlap> overlaps(double deeperThan) const;
-  /// The objects that take part and are loaded.
-  std::vector<NodeRef> parts() const;
+  /// An object that takes part and is loaded, and how it collides.
+  struct Participant {
+    NodeRef object;
+    const FittedShape* fit;  ///< null if it has no usable triangle
+  };
+  std::vector<Participant> participants() const;
 
 protected:
   /// An object that takes part.
@@ -54,6 +60,7 @@ protected:
     std::string name;
     NodeRef ref;           ///< invalid while it is not loaded
     std::uint32_t id = 0;  ///< its collider or body in the world
+    SharedFit fit;         ///< null if it has no usable triangle
     ShapeId shape = 0;
     PlacementId placement = kNoPlacement;
     Pose pose;      ///< at the end of the last step
@@ -82,6 +89,11 @@ protected:
   /// Tells the outside what the step has done. True if the next frame must be simulated in any case.
   virtual bool afterStep(FrameContext& frame);
 
+  /// How the object collides where it is now; null if it has no usable triangle.
+  SharedFit fitOf(const ObjectNode& object, const Scene& scene);
+  /// Adds the shape to the world; 0 of null.
+  ShapeId addShape(const SharedFit& fit);
+
   World world_;
   CollisionAttributes attributes_;
   std::vector<Part> colliders_, collidees_;
@@ -93,11 +105,13 @@ protected:
 private:
   void findParts(Scene& scene);
   void findPart(Part& part, Scene& scene);
+  ColliderDef colliderOf(Part& part, const ObjectNode& object, const Scene& scene);
   void changeParts(Nanoseconds time, Scene& scene);
   bool foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts);
   void actAt(Nanoseconds time, FrameContext& frame);
   void step(FrameContext& frame, Nanoseconds begin, std::vector<Nanoseconds> cuts);
 
+  std::shared_ptr<ShapeStore> shapes_;
   Switched switch_;
   std::uint64_t loadsSeen_ = ~std::uint64_t{0};
   bool awake_ = true;

@@ -7,6 +7,11 @@
 
 namespace stadion {
 
+MassProperties BodyAttributes::massOf(const FittedShape& fit) const {
+  const MassProperties& filled = fit.filled.value();
+  return filled.withMass(mass.value_or(density * filled.mass));
+}
+
 void DynObjectNode::onEnter(Scene& scene) {
   ObjectNode::onEnter(scene);
   hooked_.clear();

@@ -7,23 +7,24 @@
 /// It is passive: its dynamics node reads what was asked of it in this frame, obeys at the exact times, and
 /// moves it by direct calls.
 
-#include "dynamics/mass_properties.h"
-#include "dynamics/shape.h"
+#include "dynamics/nodes/shape_store.h"
 #include "dynamics/world.h"
-#include "engine/nodes/object_node.h"
 
 #include <optional>
-#include <utility>
 
 namespace stadion {
 
 /// What the script says about a body.
 struct BodyAttributes {
-  MassProperties mass;
+  double density = 1000;       ///< [kg/m3]
+  std::optional<double> mass;  ///< instead of the density [kg]
   Surface surface;
   double damping = 0;              ///< [1/s]
-  double dragArea = 0;             ///< [m2]
+  std::optional<double> dragArea;  ///< instead of the shape's [m2]
   std::vector<std::string> hooks;  ///< names of force fields, as seen from its file
+
+  /// Of a closed shape.
+  MassProperties massOf(const FittedShape& fit) const;
 };
 
 class DynObjectNode : public ObjectNode {
@@ -38,12 +39,12 @@ public:
   };
 
   DynObjectNode(NodeRef self, std::string name, PlaceAttributes place, Appearance appearance,
-                BodyAttributes body, Shape shape)
+                BodyAttributes body, SharedFit fit)
       : ObjectNode(NodeKind::DynObject, self, std::move(name), std::move(place), std::move(appearance)),
-        body_(std::move(body)), shape_(std::move(shape)) {}
+        body_(std::move(body)), fit_(std::move(fit)) {}
 
-  /// Its shape, made while it was loaded, for the dynamics node that moves it. Nothing if it has been taken.
-  std::optional<Shape> takeShape() { return std::exchange(shape_, std::nullopt); }
+  /// How its model collides at the scale that its script gives it; never null, closed.
+  const SharedFit& fit() const { return fit_; }
 
   const BodyAttributes& body() const { return body_; }
   const std::vector<NodeRef>& hooked() const { return hooked_; }
@@ -66,7 +67,7 @@ private:
   void restoreHooks(Nanoseconds when, Scene& scene);
 
   BodyAttributes body_;
-  std::optional<Shape> shape_;
+  SharedFit fit_;
   std::vector<NodeRef> hooked_;
   std::vector<Request> requests_;
   NodeRef simulation_;

@@ -1,7 +1,7 @@
 #include "dynamics/nodes/dynamics_factories.h"
 
-#include "dynamics/nodes/body_shape.h"
 #include "dynamics/nodes/dynamics_node.h"
+#include "dynamics/nodes/shape_store.h"
 #include "engine/script/choice.h"
 
 #include <cstdio>
@@ -96,105 +96,78 @@ Made makeMedium(const NodeRequest& r) {
   return makeField(r, NodeKind::Medium, law);
 }
 
-/// Drag coefficient times cross section: of a ball by its shape; of others the mean cross section, a quarter
-/// of a convex surface (Cauchy), with a coefficient of 1.
-double dragAreaOf(const ShapeChoice& chosen, const Mesh& mesh) {
-  constexpr double pi = 3.14159265358979323846, ballCoefficient = 0.47;
-  if (const auto* ball = std::get_if<BallShape>(&chosen.shape))
-    return ballCoefficient * pi * ball->radius * ball->radius;
-  double surface = 0;
-  const auto corner = [&](std::size_t i) {
-    const auto& p = mesh.positions[mesh.indices[i]];
-    return Vec3(p[0], p[1], p[2]);
-  };
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-    surface += 0.5 * (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i)).norm();
-  return surface / 4;
-}
-
-/// The shape filled with `density` [kg/m3].
-Result<MassProperties> massOf(const ShapeChoice& chosen, const Mesh& mesh, double density) {
-  if (const auto* ball = std::get_if<BallShape>(&chosen.shape))
-    return massOfSphere(ball->centre, ball->radius, density);
-  if (const auto* box = std::get_if<BoxShape>(&chosen.shape)) return massOfBox(box->pose, box->half, density);
-  return massOfMesh(mesh, density);
-}
-
-/// The mass that the script states, or that the shape's volume and the density give.
-Result<MassProperties> massOf(const Declaration& d, const ShapeChoice& chosen, const Mesh& mesh) {
-  auto mass = massOf(chosen, mesh, d.number(Attr::Density) * kWaterDensity);
-  if (!mass) return mass;
-  if (const auto kilograms = d.optionalNumber(Attr::Mass)) return mass.value().withMass(*kilograms);
-  return mass;
-}
-
-void warnIfLighterThanAir(const NodeRequest& r, const MassProperties& mass, const ShapeChoice& chosen,
-                          const Mesh& mesh) {
-  const auto unit = massOf(chosen, mesh, 1.0);
-  if (!unit || mass.mass >= kAirDensity * unit.value().mass) return;
+void warnIfLighterThanAir(const NodeRequest& r, const MassProperties& mass, double volume) {
+  if (mass.mass >= kAirDensity * volume) return;
   const Attr attr = r.declaration.has(Attr::Mass) ? Attr::Mass : Attr::Density;
   char text[160];
   std::snprintf(
       text, sizeof text,
       "this body of %.3g kg is lighter than the air it displaces (%.3g kg); density is relative to water",
-      mass.mass, kAirDensity * unit.value().mass);
+      mass.mass, kAirDensity * volume);
   r.findings.warning(r.declaration.where(attr), text, r.declaration.excerpt(attr));
 }
 
-Made makeDynObject(const NodeRequest& r) {
+Made makeDynObject(const NodeRequest& r, ShapeStore& shapes) {
   const Declaration& d = r.declaration;
   const auto fail = [&](const std::string& why) -> Made {
     const std::string model = "\"" + std::string(d.text(Attr::File)) + "\" ";
     r.findings.error(d.where(Attr::File), model + why, d.excerpt(Attr::File));
     return nullptr;
   };
-  const Mesh mesh = scaledForCollision(*r.mesh, scaleOf(r.place.X_PN));
-  auto chosen = chooseShape(mesh, shapeKindOf(r.appearance.shape), r.appearance.tolerance);
-  if (!chosen) return fail(chosen.error().message);
-  auto mass = massOf(d, chosen.value(), mesh);
-  if (!mass) return fail(mass.error().message);
-
-  warnIfLighterThanAir(r, mass.value(), chosen.value(), mesh);
+  auto fit = shapes.fit(*r.mesh, r.appearance, scaleOf(r.place.X_PN));
+  if (!fit) return fail(fit.error().message);
+  const FittedShape& fitted = *fit.value();
+  if (!fitted.filled) return fail(fitted.filled.error().message);
 
   BodyAttributes body;
-  body.mass = mass.value();
+  body.density = d.number(Attr::Density) * kWaterDensity;
+  body.mass = d.optionalNumber(Attr::Mass);
+  if (!body.massOf(fitted).valid()) return fail("is too small or too large for a body");
+  warnIfLighterThanAir(r, body.massOf(fitted), fitted.filled.value().mass);
   // Only what the script states counts for a pair: a standard value must not outvote the other side.
   const auto stated = [&](Attr a) { return d.has(a) ? std::optional<double>(d.number(a)) : std::nullopt; };
   body.surface = {stated(Attr::Friction), stated(Attr::Restitution), stated(Attr::Rolling)};
   body.damping = d.number(Attr::Damping);
-  body.dragArea = d.optionalNumber(Attr::DragArea).value_or(dragAreaOf(chosen.value(), mesh));
+  body.dragArea = d.optionalNumber(Attr::DragArea);
   for (const NodeReference& hook : d.references(Attr::Hook)) body.hooks.push_back(std::string(hook.name));
   return std::make_unique<DynObjectNode>(r.self, r.name, r.place, r.appearance, std::move(body),
-                                         std::move(chosen.value().shape));
+                                         std::move(fit.value()));
 }
 
-CollisionAttributes collisionOf(const Declaration& d) {
+CollisionAttributes collisionOf(const NodeRequest& r, ShapeStore& shapes) {
+  const Declaration& d = r.declaration;
   CollisionAttributes a;
   for (const NodeReference& n : d.references(Attr::Collider)) a.colliders.push_back(std::string(n.name));
   for (const NodeReference& n : d.references(Attr::Collidee)) a.collidees.push_back(std::string(n.name));
   a.releaseDistance = d.number(Attr::ReleaseDistance);
   if (specOf(d.kind(), Attr::SelfCollide)) a.selfCollide = d.flag(Attr::SelfCollide);
   if (specOf(d.kind(), Attr::InitState)) a.on = d.flag(Attr::InitState);
+  // Fitting a large model takes longer than a frame: it is done here, beside the show.
+  for (const NodeReference& n : d.references(Attr::Collider))
+    if (const auto model = r.model(n); model && model->mesh)
+      if (auto fit = shapes.fit(*model->mesh, model->appearance, scaleOf(model->X_WN)))
+        a.fits.push_back(std::move(fit.value()));
   return a;
-}
-
-Made makeCollision(const NodeRequest& r) {
-  return std::make_unique<CollisionNode>(NodeKind::Collision, r.self, r.name, collisionOf(r.declaration));
-}
-
-Made makeDynamics(const NodeRequest& r) {
-  return std::make_unique<DynamicsNode>(r.self, r.name, collisionOf(r.declaration));
 }
 
 }  // namespace
 
 void addDynamicsFactories(NodeFactories& factories) {
-  const auto set = [&](NodeKind kind, NodeFactory make) { factories[static_cast<std::size_t>(kind)] = make; };
+  const auto set = [&](NodeKind kind, NodeFactory make) {
+    factories[static_cast<std::size_t>(kind)] = std::move(make);
+  };
+  const auto shapes = std::make_shared<ShapeStore>();
   set(NodeKind::ForceLinear, makeLinear), set(NodeKind::ForceSpherical, makeSpherical);
   set(NodeKind::ForcePoint, makePoint), set(NodeKind::ForceVortex, makeVortex);
   set(NodeKind::Medium, makeMedium);
-  set(NodeKind::DynObject, makeDynObject);
-  set(NodeKind::Collision, makeCollision), set(NodeKind::Dynamics, makeDynamics);
+  set(NodeKind::DynObject, [shapes](const NodeRequest& r) { return makeDynObject(r, *shapes); });
+  set(NodeKind::Collision, [shapes](const NodeRequest& r) {
+    return std::make_unique<CollisionNode>(NodeKind::Collision, r.self, r.name, collisionOf(r, *shapes),
+                                           shapes);
+  });
+  set(NodeKind::Dynamics, [shapes](const NodeRequest& r) {
+    return std::make_unique<DynamicsNode>(r.self, r.name, collisionOf(r, *shapes), shapes);
+  });
 }
 
 }  // namespace stadion

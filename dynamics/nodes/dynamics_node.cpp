@@ -1,6 +1,5 @@
 #include "dynamics/nodes/dynamics_node.h"
 
-#include "dynamics/nodes/body_shape.h"
 #include "engine/maths/functions.h"
 #include "engine/scene/scene.h"
 
@@ -37,12 +36,13 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   if (!node) return;  // the checker lets only dynobjects be collidees of a dynamics node
   const BodyAttributes& body = node->body();
   BodyDef def;
-  std::optional<Shape> shape = node->takeShape();
-  part.shape = def.shape = shape ? world_.addShape(std::move(*shape)) : addShapeOf(object, scene, world_);
+  part.fit = fitOf(object, scene);
+  if (!part.fit || !part.fit->filled) part.fit = node->fit();
+  part.shape = def.shape = addShape(part.fit);
   def.pose = part.pose;
-  def.mass = body.mass;
+  def.mass = body.massOf(*part.fit);
   def.surface = body.surface;
-  def.damping = body.damping, def.dragArea = body.dragArea;
+  def.damping = body.damping, def.dragArea = body.dragArea.value_or(part.fit->dragArea);
   def.releaseDistance = attributes_.releaseDistance;
   part.id = world_.addBody(def);
   for (const NodeRef field : node->hooked())

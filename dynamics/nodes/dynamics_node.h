@@ -16,8 +16,9 @@ namespace stadion {
 
 class DynamicsNode : public CollisionNode {
 public:
-  DynamicsNode(NodeRef self, std::string name, CollisionAttributes attributes)
-      : CollisionNode(NodeKind::Dynamics, self, std::move(name), std::move(attributes)) {}
+  DynamicsNode(NodeRef self, std::string name, CollisionAttributes attributes,
+               std::shared_ptr<ShapeStore> shapes)
+      : CollisionNode(NodeKind::Dynamics, self, std::move(name), std::move(attributes), std::move(shapes)) {}
 
   void hash(StateHash& h) const override;
 

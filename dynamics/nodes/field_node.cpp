@@ -1,6 +1,6 @@
 #include "dynamics/nodes/field_node.h"
 
-#include "dynamics/nodes/body_shape.h"
+#include "dynamics/nodes/shape_store.h"
 #include "engine/scene/scene.h"
 
 namespace stadion {

@@ -106,7 +106,8 @@ class Builder {
 public:
   Builder(const BuildInput& input, Diagnostics& findings)
       : input_(input), findings_(findings), layout_(input.document),
-        resolve_([this](const NodeReference& r) { return resolve(r); }) {}
+        resolve_([this](const NodeReference& r) { return resolve(r); }),
+        model_([this](const NodeReference& r) { return modelOf(r); }) {}
 
   Built build() {
     built_.load = std::make_unique<Load>();
@@ -156,11 +157,23 @@ private:
     return a;
   }
 
-  void addStatic(const Declaration& d, const std::string* name) {
+  Affine worldPlaceOf(const Declaration& d) const {
     Affine X = placeOf(d).X_PN;
     for (std::uint32_t up = layout_.parent(d.index()); up != Layout::kNone; up = layout_.parent(up))
       X = placeOf(input_.document[up]).X_PN * X;
-    X = input_.X_WO * X;
+    return input_.X_WO * X;
+  }
+
+  std::optional<PlacedModel> modelOf(const NodeReference& r) const {
+    if (!r.resolved() || !r.inner().empty() || r.level != 0) return std::nullopt;
+    const Declaration d = input_.document[r.declaration];
+    const Appearance a = appearanceOf(d);
+    if (a.mesh == kNoMesh) return std::nullopt;
+    return PlacedModel{input_.store.find(a.mesh), a, worldPlaceOf(d)};
+  }
+
+  void addStatic(const Declaration& d, const std::string* name) {
+    const Affine X = worldPlaceOf(d);
     const Appearance a = appearanceOf(d);
     built_.load->statics.push_back({d.index(), d.line(), parentOf(d), name});
     built_.staticRecords.push_back(makeInstance(X, *input_.store.find(a.mesh), a.mesh, a.drawn, d.index()));
@@ -177,8 +190,9 @@ private:
                               a,
                               a.mesh == kNoMesh ? nullptr : input_.store.find(a.mesh),
                               resolve_,
+                              model_,
                               findings_};
-    const NodeFactory make = input_.factories[static_cast<std::size_t>(d.kind())];
+    const NodeFactory& make = input_.factories[static_cast<std::size_t>(d.kind())];
     std::unique_ptr<Node> node = make(request);
     if (!node) return;
     for (const EventMessage& m : d.eventMessages()) node->addNotification(notificationOf(m));
@@ -189,6 +203,7 @@ private:
   Diagnostics& findings_;
   Layout layout_;
   std::function<NodeRef(const NodeReference&)> resolve_;
+  std::function<std::optional<PlacedModel>(const NodeReference&)> model_;
   Built built_;
 };
 

@@ -13,8 +13,16 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace stadion {
+
+/// A declared model where its file puts it.
+struct PlacedModel {
+  const Mesh* mesh = nullptr;
+  Appearance appearance;
+  Affine X_WN = Affine::Identity();
+};
 
 /// Everything a factory may need to make one node.
 struct NodeRequest {
@@ -25,11 +33,13 @@ struct NodeRequest {
   Appearance appearance;
   const Mesh* mesh = nullptr;  ///< of kinds with a file
   const std::function<NodeRef(const NodeReference&)>& resolve;
+  /// Of objects in the same file.
+  const std::function<std::optional<PlacedModel>(const NodeReference&)>& model;
   Diagnostics& findings;
 };
 
 /// Makes a node, or says in the findings why it cannot.
-using NodeFactory = std::unique_ptr<Node> (*)(const NodeRequest&);
+using NodeFactory = std::function<std::unique_ptr<Node>(const NodeRequest&)>;
 using NodeFactories = std::array<NodeFactory, kNodeKindCount>;
 
 /// Fills in the kinds that need neither dynamics nor anything above this floor.

@@ -19,8 +19,7 @@ public:
 class Ball : public DynObjectNode {
 public:
   Ball(NodeRef self, std::string name, const Vec3& p, std::vector<std::string> hooks)
-      : DynObjectNode(self, std::move(name), at(p), {}, body(std::move(hooks)),
-                      BallShape{Vec3::Zero(), 0.1}) {}
+      : DynObjectNode(self, std::move(name), at(p), {}, body(std::move(hooks)), fit()) {}
 
 private:
   static PlaceAttributes at(const Vec3& p) {
@@ -30,16 +29,23 @@ private:
   }
   static BodyAttributes body(std::vector<std::string> hooks) {
     BodyAttributes b;
-    b.mass = massOfSphere(Vec3::Zero(), 0.1, 500);
+    b.density = 500;
     b.hooks = std::move(hooks);
     return b;
+  }
+  static SharedFit fit() {
+    ShapeChoice ball;
+    ball.shape = BallShape{Vec3::Zero(), 0.1}, ball.kind = ShapeKind::Ball;
+    return std::make_shared<const FittedShape>(
+        FittedShape{Vec3::Ones(), std::move(ball), massOfSphere(Vec3::Zero(), 0.1, 1), 0});
   }
 };
 
 class Sim : public DynamicsNode {
 public:
   Sim(NodeRef self, std::string name, std::vector<std::string> colliders, std::vector<std::string> collidees)
-      : DynamicsNode(self, std::move(name), {std::move(colliders), std::move(collidees), 0.5, true, true}) {}
+      : DynamicsNode(self, std::move(name), {std::move(colliders), std::move(collidees), 0.5, true, true, {}},
+                     std::make_shared<ShapeStore>()) {}
 };
 
 class Watch : public CollisionNode {
@@ -47,7 +53,8 @@ public:
   Watch(NodeRef self, std::string name, std::vector<std::string> colliders,
         std::vector<std::string> collidees)
       : CollisionNode(NodeKind::Collision, self, std::move(name),
-                      {std::move(colliders), std::move(collidees), 0.5, true, true}) {}
+                      {std::move(colliders), std::move(collidees), 0.5, true, true, {}},
+                      std::make_shared<ShapeStore>()) {}
 };
 
 /// A unit cube, as meshes come: 12 triangles facing outwards.
