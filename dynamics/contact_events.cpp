@@ -10,7 +10,7 @@ ContactMemory::Key ContactMemory::keyOf(Party a, Party b) {
 void ContactMemory::impact(const Key& pair, Nanoseconds time, const Vec3& point, const Vec3& normal,
                            double speed, double impulse, std::uint64_t frame) {
   if (!(speed > kImpactSpeed)) return;
-  Memory& m = memory_[pair];
+  Memory& m = at(pair);
   if (m.touching) return;
   m.fired = true, m.impact = time, m.frame = frame;
   events_.push_back(
@@ -20,11 +20,11 @@ void ContactMemory::impact(const Key& pair, Nanoseconds time, const Vec3& point,
 void ContactMemory::setTouching(const Key& pair, bool touching) {
   const auto at = memory_.find(pair);
   if (at == memory_.end()) {
-    if (touching) memory_[pair].touching = true;
+    if (touching) this->at(pair).touching = true;
     return;
   }
   at->second.touching = touching;
-  if (!touching && !at->second.fired) memory_.erase(at);
+  if (!touching && !at->second.fired) erase(pair);
 }
 
 bool ContactMemory::touching(const Key& pair) const {
@@ -38,13 +38,30 @@ void ContactMemory::release(const Key& pair, Nanoseconds time) {
   at->second.fired = false;
   events_.push_back(
       {ContactEvent::Kind::Release, time, pair.first, pair.second, Vec3::Zero(), Vec3::Zero(), 0, 0});
-  if (!at->second.touching) memory_.erase(at);
+  if (!at->second.touching) erase(pair);
 }
 
 void ContactMemory::forget(Party gone) {
-  std::erase_if(memory_, [&](const auto& m) {
-    return m.first.first == gone || (gone.isBody && m.first.second == gone.id);
-  });
+  for (auto m = memory_.lower_bound({gone, 0}); m != memory_.end() && m->first.first == gone;) {
+    others_.erase({m->first.second, gone});
+    m = memory_.erase(m);
+  }
+  if (!gone.isBody) return;
+  for (auto o = others_.lower_bound({gone.id, {}}); o != others_.end() && o->first == gone.id;) {
+    memory_.erase({o->second, gone.id});
+    o = others_.erase(o);
+  }
+}
+
+ContactMemory::Memory& ContactMemory::at(const Key& pair) {
+  const auto [at, isNew] = memory_.try_emplace(pair);
+  if (isNew) others_.emplace(pair.second, pair.first);
+  return at->second;
+}
+
+void ContactMemory::erase(const Key& pair) {
+  memory_.erase(pair);
+  others_.erase({pair.second, pair.first});
 }
 
 }  // namespace stadion

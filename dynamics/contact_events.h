@@ -4,6 +4,7 @@
 #include "dynamics/world.h"
 
 #include <map>
+#include <set>
 #include <utility>
 
 namespace stadion {
@@ -40,7 +41,11 @@ public:
   const std::vector<ContactEvent>& events() const { return events_; }
 
 private:
+  Memory& at(const Key& pair);
+  void erase(const Key& pair);
+
   std::map<Key, Memory> memory_;
+  std::set<std::pair<BodyId, Party>> others_;  ///< the same pairs by their body
   std::vector<ContactEvent> events_;
 };
 

@@ -2,8 +2,8 @@
 /// Things that keep their address and are found by an id that counts up and is never used again. Internal to
 /// dynamics/.
 ///
-/// Order    iteration is by id. Cost: finding is one look when nothing older has been erased, else a binary
-/// search.
+/// Order    iteration is by id. Cost: finding is one look when little has been erased, else a binary search;
+/// erasing costs little, as the gaps are closed once they are half of all.
 
 #include <algorithm>
 #include <cstdint>
@@ -19,22 +19,29 @@ class IdTable {
     std::unique_ptr<T> item;
   };
   std::vector<Entry> entries_;
+  std::size_t gaps_ = 0;  ///< entries without an item
 
   auto at(std::uint32_t id) const {
     if (entries_.empty() || id < entries_.front().id) return entries_.end();
     const std::size_t guess = id - entries_.front().id;  // right if there is no gap before it
+    auto found = entries_.begin();
     if (guess < entries_.size() && entries_[guess].id == id)
-      return entries_.begin() + static_cast<std::ptrdiff_t>(guess);
-    const auto found = std::ranges::lower_bound(entries_, id, {}, &Entry::id);
-    return found != entries_.end() && found->id == id ? found : entries_.end();
+      found += static_cast<std::ptrdiff_t>(guess);
+    else
+      found = std::ranges::lower_bound(entries_, id, {}, &Entry::id);
+    return found != entries_.end() && found->id == id && found->item ? found : entries_.end();
   }
 
   template <class U, class Base>
   struct Iterator {
-    Base base;
+    Base base, end;
     U& operator*() const { return *base->item; }
     Iterator& operator++() {
       ++base;
+      return overGaps();
+    }
+    Iterator& overGaps() {
+      while (base != end && !base->item) ++base;
       return *this;
     }
     bool operator!=(const Iterator& o) const { return base != o.base; }
@@ -48,15 +55,26 @@ public:
     return found == entries_.end() ? nullptr : found->item.get();
   }
   void erase(std::uint32_t id) {
-    if (const auto found = at(id); found != entries_.end()) entries_.erase(found);
+    const auto found = at(id);
+    if (found == entries_.end()) return;
+    entries_[static_cast<std::size_t>(found - entries_.begin())].item = nullptr;
+    if (2 * ++gaps_ <= entries_.size()) return;
+    std::erase_if(entries_, [](const Entry& e) { return !e.item; });
+    gaps_ = 0;
   }
-  std::size_t size() const { return entries_.size(); }
-  bool empty() const { return entries_.empty(); }
+  std::size_t size() const { return entries_.size() - gaps_; }
+  bool empty() const { return size() == 0; }
 
-  auto begin() const { return Iterator<const T, decltype(entries_.begin())>{entries_.begin()}; }
-  auto end() const { return Iterator<const T, decltype(entries_.begin())>{entries_.end()}; }
-  auto begin() { return Iterator<T, decltype(entries_.begin())>{entries_.begin()}; }
-  auto end() { return Iterator<T, decltype(entries_.begin())>{entries_.end()}; }
+  auto begin() const { return first<const T>(entries_); }
+  auto end() const { return Iterator<const T, decltype(entries_.begin())>{entries_.end(), entries_.end()}; }
+  auto begin() { return first<T>(entries_); }
+  auto end() { return Iterator<T, decltype(entries_.begin())>{entries_.end(), entries_.end()}; }
+
+private:
+  template <class U, class Entries>
+  static auto first(Entries& entries) {
+    return Iterator<U, decltype(entries.begin())>{entries.begin(), entries.end()}.overGaps();
+  }
 };
 
 }  // namespace stadion

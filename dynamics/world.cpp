@@ -69,7 +69,6 @@ BodyId World::addBody(const BodyDef& d) {
   ++s->uses;
   const BodyId id = core_->nextBody++;
   RigidBody& b = core_->bodies.add(id);
-  core_->bodyIds.push_back(id);
   b.id = id, b.shapeId = d.shape, b.shape = s->shape.get(), b.bound = s->bound;
   b.surface = d.surface, b.mass = d.mass.mass, b.inverseMass = 1 / d.mass.mass, b.inertia = d.mass.inertia;
   b.X_NC = {d.mass.centre, d.mass.axes.normalized()};
@@ -101,7 +100,8 @@ bool World::removeBody(BodyId id) {
   std::erase_if(core_->ignored, [&](const auto& p) {
     return p.first == Party{true, id} || p.second == Party{true, id};
   });
-  std::erase(core_->bodyIds, id);
+  core_->leaners.erase(core_->leaners.lower_bound({{true, id}, 0}),
+                       core_->leaners.lower_bound({{true, id + 1}, 0}));
   core_->forgetBody(*b);
   core_->bodies.erase(id);
   return true;
@@ -207,8 +207,8 @@ FieldId World::addField(const ForceField& field, bool on) {
 
 bool World::removeField(FieldId id) {
   if (!core_->fields.find(id)) return false;
-  for (const BodyId body : core_->bodyIds)
-    if (hooked(body, id)) unhook(body, id, core_->t1);
+  for (const RigidBody& body : core_->bodies)
+    if (hooked(body.id, id)) unhook(body.id, id, core_->t1);
   switchField(id, false, core_->t1);
   // Due at once; without a frame in between nobody may keep feeling it.
   std::vector<Core::Command> due;
@@ -387,10 +387,6 @@ const std::vector<PairState>& World::pairs() const {
   for (const auto& [key, m] : core_->memory.all())
     core_->pairList.push_back({key.first, key.second, m.touching, m.fired, m.impact});
   return core_->pairList;
-}
-
-const std::vector<BodyId>& World::bodies() const {
-  return core_->bodyIds;
 }
 
 double World::separation(Party a, Party b) const {

@@ -193,8 +193,6 @@ public:
   const std::vector<ContactEvent>& events() const;
   /// Pairs with a memory, in a fixed order; part of the simulated state.
   const std::vector<PairState>& pairs() const;
-  /// Bodies in the order of creation.
-  const std::vector<BodyId>& bodies() const;
 
   /// Distance between the surfaces of two parties now [m], negative or 0 when they touch.
   double separation(Party a, Party b) const;

@@ -105,6 +105,7 @@ void World::Core::setPath(RigidBody& b, double tau, const Path& path, double hor
   b.crowd = b.crowd && mode == BodyMode::Contact;
   b.until = tau + b.validAge;
   ++b.version;
+  if (mode != BodyMode::Flight && !b.crowd) noteLeaner(b);
   if (!b.active) b.active = true, active.push_back(&b);
   if (!foresee) mark(b);  // a change between frames is looked at when the next one begins
 }

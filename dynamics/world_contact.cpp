@@ -66,23 +66,49 @@ void World::Core::wake(RigidBody& b, double tau) {
   wakeOnto({true, b.id}, tau);
 }
 
+bool World::Core::leansOn(const RigidBody& b, Party p) {
+  return (b.support.on.id && b.support.on == p) ||
+         std::find(b.touching.begin(), b.touching.end(), p) != b.touching.end();
+}
+
+/// The list of leaners learns on whom the body leans. It may know more than is true, but no less.
+void World::Core::noteLeaner(const RigidBody& b) {
+  if (b.support.on.id) leaners.emplace(b.support.on, b.id);
+  for (const Party p : b.touching) leaners.emplace(p, b.id);
+  if (leaners.size() > leanersToPrune) {
+    std::erase_if(leaners,
+                  [&](const auto& l) { return !body(l.second) || !leansOn(*body(l.second), l.first); });
+    leanersToPrune = 64 + 2 * leaners.size();
+  }
+}
+
+/// Who leans on what moved falls, or leans anew; those who lean on them, in turn.
 void World::Core::wakeOnto(Party moved, double tau) {
-  for (RigidBody& other : bodies) {
-    if (other.mode == BodyMode::Rest || other.mode == BodyMode::Slide || other.mode == BodyMode::Roll) {
-      if (other.support.on.id && other.support.on == moved) {
-        startFlight(other, tau, other.position(tau), other.velocity(tau), other.orientation(tau),
-                    other.spin.angularMomentum(other.spinAge(tau)));
-        predict(other, tau);
+  std::vector<Party> waking{moved};
+  std::vector<BodyId> onIt;
+  for (std::size_t i = 0; i < waking.size(); ++i) {
+    const Party gone = waking[i];
+    onIt.clear();
+    for (auto at = leaners.lower_bound({gone, 0}); at != leaners.end() && at->first == gone; ++at)
+      onIt.push_back(at->second);
+    for (const BodyId id : onIt) {
+      RigidBody* other = body(id);
+      if (!other || !leansOn(*other, gone)) {
+        leaners.erase({gone, id});
         continue;
       }
-    }
-    if (other.mode == BodyMode::Contact &&
-        std::find(other.touching.begin(), other.touching.end(), moved) != other.touching.end())
-      hurry(other, tau);
-    if (other.mode == BodyMode::Rest &&
-        std::find(other.touching.begin(), other.touching.end(), moved) != other.touching.end()) {
-      enterContact(other, tau);
-      wakeOnto({true, other.id}, tau);
+      const bool onFace =
+          other->mode == BodyMode::Rest || other->mode == BodyMode::Slide || other->mode == BodyMode::Roll;
+      if (onFace && other->support.on.id && other->support.on == gone) {
+        startFlight(*other, tau, other->position(tau), other->velocity(tau), other->orientation(tau),
+                    other->spin.angularMomentum(other->spinAge(tau)));
+        predict(*other, tau);
+      } else if (other->mode == BodyMode::Contact) {
+        hurry(*other, tau);
+      } else if (other->mode == BodyMode::Rest) {
+        enterContact(*other, tau);
+        waking.push_back({true, id});
+      }
     }
   }
 }

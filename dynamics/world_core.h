@@ -76,7 +76,6 @@ public:
   IdTable<RigidBody> bodies;
   IdTable<Collider> colliders;
   IdTable<FieldEntry> fields;
-  std::vector<BodyId> bodyIds;
   std::set<std::pair<Party, Party>> ignored;
   std::vector<Command> commands;  ///< in the order of (when, order)
   ContactMemory memory;
@@ -177,6 +176,8 @@ public:
   void enterContact(RigidBody& b, double tau);
   void wake(RigidBody& b, double tau);
   void wakeOnto(Party gone, double tau);
+  static bool leansOn(const RigidBody& b, Party p);
+  void noteLeaner(const RigidBody& b);
   void hurry(RigidBody& b, double tau);
   void scheduleTick(double tau);
   void scheduleDue(double tau);
@@ -222,6 +223,9 @@ public:
   BroadPhase<Collider> nearColliders;
   std::vector<RigidBody*> active;  ///< those that do not rest, and those that have just come to
   std::vector<RigidBody*> marked;  ///< whose arcs nobody has looked ahead along yet
+
+  std::set<std::pair<Party, BodyId>> leaners;  ///< on whom a body not in flight or in a crowd leans
+  std::size_t leanersToPrune = 64;
 
   std::vector<ColliderId> told;  ///< that came, moved or jumped, or did so in the last frame
 
