@@ -1,5 +1,6 @@
 #include "cli/stop_signal.h"
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 
@@ -10,10 +11,16 @@ std::atomic<bool> requested = false;  // set by the handler, which can reach not
 std::atomic<int> received = 0;
 std::atomic<std::chrono::steady_clock::rep> receivedAt = 0;
 
+/// Programs that stop others may send the same signal to the process and to its group: that is one request.
+constexpr std::chrono::steady_clock::duration kOneRequest = std::chrono::milliseconds(100);
+
 extern "C" void requestStop(int signal) {
-  received = signal;
-  receivedAt = std::chrono::steady_clock::now().time_since_epoch().count();
-  if (requested.exchange(true)) std::_Exit(128 + signal);
+  const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+  std::chrono::steady_clock::rep before = 0;
+  if (receivedAt.compare_exchange_strong(before, now))
+    received = signal, requested = true;
+  else if (now - before > kOneRequest.count())
+    std::_Exit(128 + signal);
 }
 
 }  // namespace

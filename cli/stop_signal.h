@@ -1,5 +1,6 @@
 #pragma once
-/// Ctrl-C (SIGINT) and SIGTERM: the first one asks the run to end, the second one ends the process at once.
+/// Ctrl-C (SIGINT) and SIGTERM: the first one asks the run to end, the second one ends the process at once,
+/// unless it comes within a tenth of a second and so is most likely the same.
 
 #include <atomic>
 #include <chrono>

@@ -112,5 +112,33 @@ TEST(ProgramLiveRun, ThatIsStoppedReplaysToItsLastFrame) {
       << refused.err;
 }
 
+// timeout(1) signals the process and then its whole group.
+TEST(ProgramLiveRun, ThatIsToldTwiceAtOnceToStopEndsInOrder) {
+  const TemporaryFolder folder;
+  ProgramRun run;
+  run.words = {"timeout",
+               "--preserve-status",
+               "--signal=INT",
+               "1.5",
+               stadionPath(),
+               "run",
+               writeShow(folder),
+               "--asset-root",
+               assetFolder(),
+               "--walls",
+               "desktop",
+               "--size",
+               "64x48",
+               "--frames",
+               "1000000",
+               "--pictures",
+               "none",
+               "--out",
+               folder.path() / "out"};
+  const ProgramResult r = runProgram(run);
+  EXPECT_EQ(r.status, 130) << r.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / "summary.json")) << r.out << r.err;
+}
+
 }  // namespace
 }  // namespace stadion
