@@ -76,7 +76,10 @@ public:
   }
 
   /// So many have changed that sorting anew is cheaper.
-  bool crowded() const { return apart_.size() - filedApart_ > 32 + sorted_.size() / 8; }
+  bool crowded() const {
+    return static_cast<double>(apart_.size() - filedApart_) >
+           32 + 4 * std::sqrt(static_cast<double>(sorted_.size()));
+  }
 
   /// Calls f(item) for everything whose box overlaps `box`. f must not file.
   template <class F>

@@ -29,22 +29,39 @@ public:
   void forget(Party gone);
 
   struct Memory {
-    bool touching = false, fired = false;
-    Nanoseconds impact = 0;
+    bool touching = false;    ///< in lasting contact, or touched since load
+    bool fired = false;       ///< an impact was told and its release is due
+    Nanoseconds impact = 0;   ///< when [ns]
     std::uint64_t frame = 0;  ///< of the last reported impact
     Nanoseconds look = 0;     ///< before that it cannot be released unless an arc changes ...
     std::uint32_t versionA = 0, versionB = 0;  ///< ... from these [ns]
   };
-  const std::map<Key, Memory>& all() const { return memory_; }
-  std::map<Key, Memory>& all() { return memory_; }
+  /// Only what is kept for the sake of speed may be changed.
+  Memory& of(const Key& known) { return memory_.find(known)->second; }
+  /// Equal for equal memories, up to chance; costs nothing.
+  std::uint64_t digest() const { return digest_; }
+  /// Those whose impact has been told and whose release has not.
+  const std::set<Key>& fired() const { return fired_; }
+  /// f(key) for all pairs with this party. f must not change them.
+  template <class F>
+  void eachWith(Party p, F f) const {
+    for (auto m = memory_.lower_bound({p, 0}); m != memory_.end() && m->first.first == p; ++m) f(m->first);
+    if (!p.isBody) return;
+    for (auto o = others_.lower_bound({p.id, {}}); o != others_.end() && o->first == p.id; ++o)
+      f(Key{o->second, p.id});
+  }
   std::vector<ContactEvent>& events() { return events_; }
   const std::vector<ContactEvent>& events() const { return events_; }
 
 private:
-  Memory& at(const Key& pair);
+  /// change(memory) of a pair, known or not; forgotten if nothing is left to remember.
+  template <class F>
+  void update(const Key& pair, F change);
   void erase(const Key& pair);
 
   std::map<Key, Memory> memory_;
+  std::uint64_t digest_ = 0;  ///< a sum over the pairs
+  std::set<Key> fired_;
   std::set<std::pair<BodyId, Party>> others_;  ///< the same pairs by their body
   std::vector<ContactEvent> events_;
 };

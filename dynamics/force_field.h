@@ -18,6 +18,7 @@ struct LinearField {
   enum class Unit { Acceleration, Force };
   Vec3 push = Vec3::Zero();  ///< in the field's own coordinates [m/s2 or N]
   Unit unit = Unit::Acceleration;
+  bool operator==(const LinearField&) const = default;
 };
 
 /// Away from the field's origin (strength > 0) or towards it (< 0), inside `radius` only.
@@ -27,6 +28,7 @@ struct SphericalField {
   double radius = 1;                            ///< [m]
   Falloff falloff = Falloff::Linear;
   LinearField::Unit unit = LinearField::Unit::Acceleration;
+  bool operator==(const SphericalField&) const = default;
 };
 
 /// Attracts (strength < 0) or repels from the field's origin by the inverse square of the distance.
@@ -34,6 +36,7 @@ struct PointField {
   double strength = 0;     ///< at one metre [m/s2 or N]
   double softening = 0.1;  ///< r^2 + softening^2 stands for r^2, so that nothing becomes infinite [m]
   LinearField::Unit unit = LinearField::Unit::Acceleration;
+  bool operator==(const PointField&) const = default;
 };
 
 /// Around the field's z axis, right-handed for strength > 0: grows evenly to `core`, then falls with 1 / r
@@ -44,6 +47,7 @@ struct VortexField {
   double inward = 0;
   double radius = 1e300;  ///< nothing beyond [m]
   LinearField::Unit unit = LinearField::Unit::Acceleration;
+  bool operator==(const VortexField&) const = default;
 };
 
 /// Air or water that moves with the wind u: a = -c (v - u) - (rho A / 2 m) |v - u| (v - u), A the body's drag
@@ -56,6 +60,7 @@ struct MediumField {
   Region region = Region::Everywhere;
   Vec3 centre = Vec3::Zero();  ///< of the region, in the field's own coordinates [m]
   Vec3 half = Vec3::Ones();    ///< Box: half extents; Ball: radius in x [m]
+  bool operator==(const MediumField&) const = default;
 };
 
 using FieldLaw = std::variant<LinearField, SphericalField, PointField, VortexField, MediumField>;

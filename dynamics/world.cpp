@@ -235,8 +235,8 @@ bool World::moveField(FieldId id, const Pose& start, const Pose& end) {
 bool World::setFieldLaw(FieldId id, const FieldLaw& law) {
   Core::FieldEntry* f = core_->fields.find(id);
   if (!f) return false;
+  f->changed = f->changed || f->field.law != law;
   f->field.law = law;
-  f->changed = true;
   return true;
 }
 
@@ -332,6 +332,17 @@ bool World::advance(Nanoseconds t0, Nanoseconds t1, bool continues) {
   return true;
 }
 
+bool World::pause(Nanoseconds t0, Nanoseconds t1, bool continues) {
+  if (t1 < t0 || (core_->started && t0 != core_->t1)) return false;
+  if (!core_->started) core_->start(t0);
+  core_->pause(t1, continues);
+  return true;
+}
+
+const std::vector<BodyId>& World::changed() const {
+  return core_->changed;
+}
+
 Pose World::pose(BodyId id) const {
   const RigidBody* b = core_->body(id);
   return b ? b->pose : Pose{};
@@ -382,11 +393,8 @@ const std::vector<ContactEvent>& World::events() const {
   return core_->memory.events();
 }
 
-const std::vector<PairState>& World::pairs() const {
-  core_->pairList.clear();
-  for (const auto& [key, m] : core_->memory.all())
-    core_->pairList.push_back({key.first, key.second, m.touching, m.fired, m.impact});
-  return core_->pairList;
+std::uint64_t World::pairsDigest() const {
+  return core_->memory.digest();
 }
 
 double World::separation(Party a, Party b) const {

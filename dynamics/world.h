@@ -109,15 +109,6 @@ struct ContactEvent {
   double impulse = 0;          ///< along the normal [N s]
 };
 
-/// The memory of one pair that touches, has touched or has yet to be released.
-struct PairState {
-  Party other;
-  BodyId body = 0;
-  bool touching = false;   ///< in lasting contact, or touched since load
-  bool fired = false;      ///< an impact was reported and its release is due
-  Nanoseconds impact = 0;  ///< when [ns]
-};
-
 class World {
 public:
   World();
@@ -179,6 +170,11 @@ public:
   /// frame that began with an earlier call. A frame is cut where something outside turns, jumps or is
   /// commanded; what is told here of a frame's start and end holds for each part.
   bool advance(Nanoseconds t0, Nanoseconds t1, bool continues = false);
+  /// The same, but nothing moves and nothing happens: the world stands still while show time goes on.
+  bool pause(Nanoseconds t0, Nanoseconds t1, bool continues = false);
+
+  /// Bodies that may not be where, or as, they were before the last frame; by id. All others are.
+  const std::vector<BodyId>& changed() const;
 
   Pose pose(BodyId id) const;        ///< X_WN at t1
   BodyState state(BodyId id) const;  ///< at t1
@@ -191,8 +187,8 @@ public:
 
   /// What happened during the last frame, in the order of time.
   const std::vector<ContactEvent>& events() const;
-  /// Pairs with a memory, in a fixed order; part of the simulated state.
-  const std::vector<PairState>& pairs() const;
+  /// Of all pairs that touch, or whose release has yet to be told: part of the simulated state.
+  std::uint64_t pairsDigest() const;
 
   /// Distance between the surfaces of two parties now [m], negative or 0 when they touch.
   double separation(Party a, Party b) const;

@@ -87,12 +87,13 @@ public:
   std::uint64_t nextOrder = 0, frame = 0;
   std::uint32_t nextShape = 1, nextBody = 1, nextCollider = 1, nextField = 1;
   Counters counters;
-  mutable std::vector<PairState> pairList;
 
   // --- one frame (world_frame.cpp)
   void start(Nanoseconds at);
   void forgetBody(RigidBody& b);
+  void newFrame();
   void advance(Nanoseconds from, Nanoseconds to, bool continues);
+  void pause(Nanoseconds to, bool continues);
   void beginFrame();
   void obeyCommands(double tau);
   void followFields();
@@ -227,6 +228,7 @@ public:
   std::set<std::pair<Party, BodyId>> leaners;  ///< on whom a body not in flight or in a crowd leans
   std::size_t leanersToPrune = 64;
 
+  std::vector<BodyId> changed;   ///< who has been active in this frame
   std::vector<ColliderId> told;  ///< that came, moved or jumped, or did so in the last frame
 
 private:

@@ -207,9 +207,14 @@ void World::Core::openWindow(Nanoseconds at) {
     b.age0 = start.since(b.since);
     b.until = b.validAge - b.age0;
     b.held.begin = frameFrom;
-    if (b.enabled) sweep(b, from);
   }
-  fileBodies();
+  // Who rests sweeps what it did before. Sorting all anew pays if many move.
+  const bool many = active.size() * active.size() > 16 * bodies.size();
+  for (RigidBody* b : active) {
+    if (!many) nearBodies.remove(*b);
+    if (b->enabled) sweep(*b, from);
+  }
+  if (many || nearBodies.crowded()) fileBodies();
   for (Collider& c : colliders) c.motion.begin = frameFrom;
   if (nearColliders.crowded()) fileColliders();
   tickAt = -1;

@@ -91,14 +91,27 @@ void World::Core::forgetBody(RigidBody& b) {
   std::erase(marked, &b);
 }
 
+void World::Core::newFrame() {
+  ++frame;
+  counters = {};
+  memory.beginFrame();
+  changed.clear();
+}
+
+/// All clocks are put forward; a new window begins with them.
+void World::Core::pause(Nanoseconds to, bool continues) {
+  if (!continues) newFrame();
+  const Nanoseconds gap = to - t1;
+  if (gap == 0) return;
+  for (RigidBody& b : bodies) b.since.ns += gap;
+  t0 = t1 = to;
+  openWindow(to / kWindow * kWindow);
+}
+
 void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
   t0 = from, t1 = to;
   frameFrom = tauOf(from), now = tauOf(to);
-  if (!continues) {
-    ++frame;
-    counters = {};
-    memory.beginFrame();
-  }
+  if (!continues) newFrame();
   beginFrame();
   while (t1 - origin >= kWindow) {
     runEvents(windowEnd());
@@ -145,15 +158,15 @@ void World::Core::beginFrame() {
 
 /// Bodies that feel a field which is not what it was, or which moves, begin new arcs.
 void World::Core::followFields() {
-  std::vector<FieldId> changed;
+  std::vector<FieldId> different;
   for (FieldEntry& f : fields) {
-    if (f.changed || f.field.moving()) changed.push_back(f.id);
+    if (f.changed || f.field.moving()) different.push_back(f.id);
     f.changed = f.field.moving();  // once it stops, the next frame differs again
   }
-  if (changed.empty()) return;
+  if (different.empty()) return;
   for (RigidBody& b : bodies) {
     const bool concerned = std::ranges::any_of(
-        b.hooks, [&](const Hook& h) { return std::ranges::find(changed, h.field) != changed.end(); });
+        b.hooks, [&](const Hook& h) { return std::ranges::find(different, h.field) != different.end(); });
     if (concerned && b.enabled) restart(b, frameFrom);
   }
 }
@@ -289,9 +302,12 @@ void World::Core::endFrame() {
       quarantine(*b, now, "its pose became undefined");
     }
     if (b->mode == BodyMode::Held) b->held.start = b->held.end;
+    changed.push_back(b->id);
     b->active = b->mode != BodyMode::Rest && b->mode != BodyMode::Quarantined;
   }
   std::erase_if(active, [](const RigidBody* b) { return !b->active; });
+  std::ranges::sort(changed);
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   // Who moved is told once more next time that it stands.
   std::erase_if(told, [&](ColliderId id) {
     Collider* c = collider(id);
@@ -304,8 +320,9 @@ void World::Core::endFrame() {
 /// frame.
 void World::Core::reportReleases() {
   std::vector<std::pair<ContactMemory::Key, Nanoseconds>> due;
-  for (auto& [key, m] : memory.all()) {
-    if (!m.fired || m.frame == frame) continue;
+  for (const ContactMemory::Key& key : memory.fired()) {
+    ContactMemory::Memory& m = memory.of(key);
+    if (m.frame == frame) continue;
     const auto a = side(key.first), b = side({true, key.second});
     if (!a || !b) {
       due.emplace_back(key, t1);
@@ -343,11 +360,13 @@ Nanoseconds World::Core::soonest(const Side& a, const Side& b, double distance) 
 /// Things moved from outside touch until they are apart at the end of a frame.
 void World::Core::partCarried() {
   std::vector<ContactMemory::Key> apart;
-  for (const auto& [key, m] : memory.all()) {
-    if (!m.touching) continue;
+  const auto look = [&](const ContactMemory::Key& key) {
+    if (!memory.touching(key)) return;
     const auto a = side(key.first), b = side({true, key.second});
     if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, now, 1e-3).distance > 1e-5) apart.push_back(key);
-  }
+  };
+  for (const RigidBody* b : active)
+    if (b->mode == BodyMode::Held) memory.eachWith({true, b->id}, look);
   for (const auto& key : apart) memory.setTouching(key, false);
 }
 

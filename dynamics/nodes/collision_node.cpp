@@ -22,7 +22,7 @@ Aabb boxAround(const Shape& shape, const Pose& X_WN) {
 CollisionNode::CollisionNode(NodeKind kind, NodeRef self, std::string name, CollisionAttributes attributes,
                              std::shared_ptr<ShapeStore> shapes)
     : Node(kind, self, std::move(name)), attributes_(std::move(attributes)), shapes_(std::move(shapes)),
-      switch_(attributes_.on) {
+      switch_(attributes_.on), on_(attributes_.on) {
   const auto part = [](const std::string& n) {
     Part p;
     p.name = n;
@@ -47,16 +47,22 @@ void CollisionNode::onLeave(Scene& scene) {
     if (part.ref.valid()) removeCollidee(part, scene);
 }
 
-void CollisionNode::receive(const Message& m, FrameContext&) {
-  if (switch_.obey(m)) awake_ = true;
+void CollisionNode::receive(const Message& m, FrameContext& frame) {
+  if (!switch_.obey(m)) return;
+  awake_ = true;
+  switchings_.push_back({frame.effective(m), switch_.on()});
 }
 
 // Parts may stand in files that come and go; they are looked up again whenever a file has.
 void CollisionNode::findParts(Scene& scene) {
   if (loadsSeen_ == scene.loadsVersion()) return;
   loadsSeen_ = scene.loadsVersion();
-  for (Part& part : colliders_) findPart(part, scene);
-  for (Part& part : collidees_) findPart(part, scene);
+  comingOrGoing_.clear();
+  for (std::vector<Part>* parts : {&colliders_, &collidees_})
+    for (Part& part : *parts) {
+      findPart(part, scene);
+      if (part.next.valid() || part.leaveAt != Scene::kNever) comingOrGoing_.push_back(&part);
+    }
 }
 
 void CollisionNode::findPart(Part& part, Scene& scene) {
@@ -75,36 +81,32 @@ void CollisionNode::findPart(Part& part, Scene& scene) {
 
 /// Parts go and come at the exact times of their files.
 void CollisionNode::changeParts(Nanoseconds time, Scene& scene) {
-  const auto change = [&](std::vector<Part>& parts, auto add, auto drop) {
-    for (Part& part : parts) {
-      if (part.ref.valid() && part.leaveAt <= time) {
-        drop(part);
-        part.ref = {}, part.id = 0, part.fit = nullptr, part.course.clear();
-      }
-      if (!part.next.valid() || part.nextAt > time || part.ref.valid()) continue;
-      auto* object = dynamic_cast<ObjectNode*>(scene.find(part.next));
-      const NodeRef ref = std::exchange(part.next, NodeRef{});
-      if (!object) continue;
-      part.ref = ref, part.leaveAt = scene.endOf(ref.load);
-      part.placement = object->placement();
-      part.pose = poseOf(scene.placements().world(part.placement));
-      add(part, *object);
+  for (Part* part : comingOrGoing_) {
+    const bool isCollider = part >= colliders_.data() && part < colliders_.data() + colliders_.size();
+    if (part->ref.valid() && part->leaveAt <= time) {
+      isCollider ? removeCollider(*part, scene) : removeCollidee(*part, scene);
+      part->ref = {}, part->id = 0, part->fit = nullptr, part->course.clear();
     }
-  };
-  change(
-      colliders_,
-      [&](Part& part, ObjectNode& object) {
-        part.id = world_.addCollider(colliderOf(part, object, scene));
-        scene.watch(part.placement, self());
-      },
-      [&](Part& part) {
-        world_.removeCollider(part.id);
-        world_.removeShape(part.shape);
-        scene.unwatch(part.placement, self());
-      });
-  change(
-      collidees_, [&](Part& part, ObjectNode& object) { addCollidee(part, object, scene); },
-      [&](Part& part) { removeCollidee(part, scene); });
+    if (!part->next.valid() || part->nextAt > time || part->ref.valid()) continue;
+    auto* object = dynamic_cast<ObjectNode*>(scene.find(part->next));
+    const NodeRef ref = std::exchange(part->next, NodeRef{});
+    if (!object) continue;
+    part->ref = ref, part->leaveAt = scene.endOf(ref.load);
+    part->placement = object->placement();
+    part->pose = poseOf(scene.placements().world(part->placement));
+    isCollider ? addCollider(*part, *object, scene) : addCollidee(*part, *object, scene);
+  }
+}
+
+void CollisionNode::addCollider(Part& part, const ObjectNode& object, Scene& scene) {
+  part.id = world_.addCollider(colliderOf(part, object, scene));
+  scene.watch(part.placement, self());
+}
+
+void CollisionNode::removeCollider(Part& part, Scene& scene) {
+  world_.removeCollider(part.id);
+  world_.removeShape(part.shape);
+  scene.unwatch(part.placement, self());
 }
 
 std::vector<CollisionNode::Overlap> CollisionNode::overlaps(double deeperThan) const {
@@ -193,18 +195,20 @@ bool CollisionNode::follow(Part& part, FrameContext& frame, std::vector<Nanoseco
 
 bool CollisionNode::foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
   bool any = false;
-  for (std::vector<Part>* parts : {&colliders_, &collidees_})
-    for (const Part& part : *parts) {
-      const bool goes = part.ref.valid() && part.leaveAt <= frame.now.time, comes = part.next.valid();
-      if (goes) cuts.push_back(part.leaveAt);
-      if (comes) cuts.push_back(part.nextAt);
-      any |= goes || comes;
-    }
+  for (const Part* part : comingOrGoing_) {
+    const bool goes = part->ref.valid() && part->leaveAt <= frame.now.time, comes = part->next.valid();
+    if (goes) cuts.push_back(part->leaveAt);
+    if (comes) cuts.push_back(part->nextAt);
+    any |= goes || comes;
+  }
+  for (const Switching& s : switchings_) cuts.push_back(s.when), any = true;
   for (Part& part : colliders_) any |= follow(part, frame, cuts);
   return prepare(frame, cuts) || any;
 }
 
 void CollisionNode::actAt(Nanoseconds time, FrameContext& frame) {
+  for (const Switching& s : switchings_)
+    if (s.when == time) on_ = s.on;
   changeParts(time, frame.scene);
   for (const Part& part : colliders_)
     if (jumpsAt(part.course, time))
@@ -212,7 +216,16 @@ void CollisionNode::actAt(Nanoseconds time, FrameContext& frame) {
   act(time, frame);
 }
 
-void CollisionNode::step(FrameContext& frame, Nanoseconds begin, std::vector<Nanoseconds> cuts) {
+void CollisionNode::step(FrameContext& frame, Nanoseconds end, std::vector<Nanoseconds> cuts) {
+  // Nothing moved while the node was not visited: the world only has to know that time has passed.
+  const Nanoseconds begin = std::max(advancedTo_, frame.start());
+  bool continues = false;
+  const auto pass = [&](Nanoseconds from, Nanoseconds to) {
+    on_ ? world_.advance(from, to, continues) : world_.pause(from, to, continues);
+    continues = true;
+  };
+  if (advancedTo_ < begin) pass(advancedTo_, begin);
+  advancedTo_ = std::max(begin, end);
   std::erase_if(cuts, [&](Nanoseconds t) { return t <= begin || t > advancedTo_; });
   cuts.push_back(advancedTo_);
   std::ranges::sort(cuts);
@@ -221,9 +234,9 @@ void CollisionNode::step(FrameContext& frame, Nanoseconds begin, std::vector<Nan
   Nanoseconds from = begin;
   for (const Nanoseconds to : cuts) {
     for (const Part& part : colliders_)
-      if (!part.course.empty()) world_.moveCollider(part.id, poseOn(part.course, to, Limit::Before));
-    move(from, to);
-    world_.advance(from, to, from != begin);
+      if (!part.course.empty()) world_.moveCollider(part.id, poseOn(part.course, to, Limit::Before), !on_);
+    move(from, to, !on_);
+    pass(from, to);
     if (to > begin) actAt(to, frame);
     from = to;
   }
@@ -231,16 +244,14 @@ void CollisionNode::step(FrameContext& frame, Nanoseconds begin, std::vector<Nan
 
 void CollisionNode::simulate(FrameContext& frame) {
   findParts(frame.scene);
-  if (!switch_.on()) return;
-  // Nothing moved while the node was not visited: the world only has to know that time has passed.
-  if (advancedTo_ < frame.start()) world_.advance(advancedTo_, frame.start());
-  const Nanoseconds begin = std::max(advancedTo_, frame.start());
-  advancedTo_ = std::max(begin, std::min(frame.now.time, frame.scene.endOf(self().load)));
   std::vector<Nanoseconds> cuts;
   const bool outside = foresee(frame, cuts);
-  step(frame, begin, std::move(cuts));
+  step(frame, std::min(frame.now.time, frame.scene.endOf(self().load)), std::move(cuts));
+  switchings_.clear();
   for (const ContactEvent& e : world_.events())
     raise(e.kind == ContactEvent::Kind::Impact ? Event::OnImpact : Event::OnRelease, e.time);
+  std::erase_if(comingOrGoing_,
+                [](const Part* p) { return !p->next.valid() && p->leaveAt == Scene::kNever; });
   awake_ = afterStep(frame) || outside;
 }
 
@@ -271,9 +282,9 @@ void CollisionNode::act(Nanoseconds time, FrameContext&) {
     if (jumpsAt(part.course, time)) world_.moveHeld(part.id, poseOn(part.course, time, Limit::After), true);
 }
 
-void CollisionNode::move(Nanoseconds, Nanoseconds to) {
+void CollisionNode::move(Nanoseconds, Nanoseconds to, bool jump) {
   for (const Part& part : collidees_)
-    if (!part.course.empty()) world_.moveHeld(part.id, poseOn(part.course, to, Limit::Before));
+    if (!part.course.empty()) world_.moveHeld(part.id, poseOn(part.course, to, Limit::Before), jump);
 }
 
 bool CollisionNode::afterStep(FrameContext&) {
@@ -282,10 +293,7 @@ bool CollisionNode::afterStep(FrameContext&) {
 
 void CollisionNode::hash(StateHash& h) const {
   switch_.hash(h);
-  for (const PairState& p : world_.pairs()) {
-    h.add(p.other.isBody), h.add(p.other.id), h.add(p.body);
-    h.add(p.touching), h.add(p.fired), h.add(p.impact);
-  }
+  h.add(world_.pairsDigest());
 }
 
 }  // namespace stadion

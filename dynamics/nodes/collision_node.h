@@ -5,7 +5,7 @@
 /// Events    onimpact: once when a separated pair touches; onrelease: once when it has come apart again
 /// farther than
 ///           releasedistance. Both carry the exact time.
-/// Commands  enable, disable, toggle, reset.
+/// Commands  enable, disable, toggle, reset. While it is off, what it moves stands still where it is.
 /// Times     what moves its parts from outside is followed inside the frame: the knots of a tracker's way,
 /// commands,
 ///           files that come and go, each at its exact time.
@@ -84,8 +84,9 @@ protected:
   virtual bool prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts);
   /// What happens at `time`.
   virtual void act(Nanoseconds time, FrameContext& frame);
-  /// Tells the world where things that are moved from outside go until `to`.
-  virtual void move(Nanoseconds from, Nanoseconds to);
+  /// Tells the world where things that are moved from outside go until `to`; evenly, or as the world stands
+  /// still in between, with a jump.
+  virtual void move(Nanoseconds from, Nanoseconds to, bool jump);
   /// Tells the outside what the step has done. True if the next frame must be simulated in any case.
   virtual bool afterStep(FrameContext& frame);
 
@@ -106,13 +107,23 @@ private:
   void findParts(Scene& scene);
   void findPart(Part& part, Scene& scene);
   ColliderDef colliderOf(Part& part, const ObjectNode& object, const Scene& scene);
+  void addCollider(Part& part, const ObjectNode& object, Scene& scene);
+  void removeCollider(Part& part, Scene& scene);
   void changeParts(Nanoseconds time, Scene& scene);
   bool foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts);
   void actAt(Nanoseconds time, FrameContext& frame);
-  void step(FrameContext& frame, Nanoseconds begin, std::vector<Nanoseconds> cuts);
+  void step(FrameContext& frame, Nanoseconds end, std::vector<Nanoseconds> cuts);
 
   std::shared_ptr<ShapeStore> shapes_;
   Switched switch_;
+  /// A command that switched it, at its exact time.
+  struct Switching {
+    Nanoseconds when;
+    bool on;
+  };
+  std::vector<Switching> switchings_;  ///< of this frame
+  bool on_;                            ///< at advancedTo_
+  std::vector<Part*> comingOrGoing_;   ///< parts that stand in files that come or go in this frame
   std::uint64_t loadsSeen_ = ~std::uint64_t{0};
   bool awake_ = true;
   Nanoseconds advancedTo_ = 0;

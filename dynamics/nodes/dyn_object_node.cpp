@@ -24,7 +24,9 @@ std::vector<DynObjectNode::Request> DynObjectNode::takeRequests() {
 }
 
 void DynObjectNode::ask(Request request) {
-  if (simulation_.valid()) requests_.push_back(std::move(request));  // else nobody would ever take it
+  if (!simulation_.asking) return;  // nobody would ever take it
+  requests_.push_back(std::move(request));
+  simulation_.asking->push_back(self());
 }
 
 void DynObjectNode::receive(const Message& m, FrameContext& frame) {
@@ -51,7 +53,7 @@ void DynObjectNode::receive(const Message& m, FrameContext& frame) {
     break;
   default: ObjectNode::receive(m, frame); break;
   }
-  if (simulation_.valid()) frame.scene.wakeNow(simulation_);
+  if (simulation_.asking) frame.scene.wakeNow(simulation_.dynamics);
 }
 
 void DynObjectNode::restoreHooks(Nanoseconds when, Scene& scene) {

@@ -50,8 +50,14 @@ public:
   const std::vector<NodeRef>& hooked() const { return hooked_; }
   /// What has been asked of it since its dynamics node last looked, in delivery order.
   std::vector<Request> takeRequests();
-  /// The dynamics node that moves it.
-  void setSimulation(NodeRef dynamics) { simulation_ = dynamics; }
+  /// The dynamics node that moves it, as which body, and where to say that something has been asked of it.
+  struct Simulation {
+    NodeRef dynamics;
+    BodyId body = 0;
+    std::vector<NodeRef>* asking = nullptr;
+  };
+  void setSimulation(const Simulation& simulation) { simulation_ = simulation; }
+  BodyId bodyId() const { return simulation_.body; }
   /// Its simulated state, copied here by its dynamics node so that the state hash sees it.
   void setState(const BodyState& state) { state_ = state; }
   const BodyState& state() const { return state_; }
@@ -70,7 +76,7 @@ private:
   SharedFit fit_;
   std::vector<NodeRef> hooked_;
   std::vector<Request> requests_;
-  NodeRef simulation_;
+  Simulation simulation_;
   BodyState state_;
 };
 

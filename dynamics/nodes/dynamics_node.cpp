@@ -48,12 +48,14 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   for (const NodeRef field : node->hooked())
     if (const FieldId id = fieldFor(field, scene)) world_.hook(part.id, id, 0);  // from its beginning
   node->takeRequests();
-  node->setSimulation(self());
+  node->setSimulation({self(), part.id, &asking_});
+  partOf_[part.id] = &part;
   node->setState(world_.state(part.id));
 }
 
 void DynamicsNode::removeCollidee(Part& part, Scene& scene) {
   std::erase_if(grips_, [&](const Grip& g) { return g.body == part.id; });
+  partOf_.erase(part.id);
   world_.removeBody(part.id);
   world_.removeShape(part.shape);
   if (DynObjectNode* node = bodyAt(part.ref, scene)) node->setSimulation({});
@@ -102,19 +104,21 @@ bool DynamicsNode::takeOrders(FrameContext& frame, std::vector<Nanoseconds>& cut
   using Kind = DynObjectNode::Request::Kind;
   orders_.clear();
   bool any = false;
-  for (const Part& part : collidees_) {
-    DynObjectNode* node = part.ref.valid() ? bodyAt(part.ref, frame.scene) : nullptr;
+  std::ranges::sort(asking_);
+  for (const NodeRef ref : std::exchange(asking_, {})) {
+    DynObjectNode* node = bodyAt(ref, frame.scene);
     if (!node) continue;
     for (DynObjectNode::Request& r : node->takeRequests()) {
       any = true;
       if (r.kind == Kind::Hook || r.kind == Kind::Unhook) {  // the world knows their times itself
         if (const FieldId field = fieldFor(r.field, frame.scene))
-          r.kind == Kind::Hook ? world_.hook(part.id, field, r.when) : world_.unhook(part.id, field, r.when);
+          r.kind == Kind::Hook ? world_.hook(node->bodyId(), field, r.when)
+                               : world_.unhook(node->bodyId(), field, r.when);
         continue;
       }
       cuts.push_back(r.when);
       if (const auto hand = frame.scene.trackerCourse(r.tracker, frame)) addCuts(*hand, cuts);
-      orders_.push_back({part.ref, std::move(r)});
+      orders_.push_back({ref, std::move(r)});
     }
   }
   std::ranges::stable_sort(orders_, {}, [](const Order& o) { return o.what.when; });
@@ -123,8 +127,10 @@ bool DynamicsNode::takeOrders(FrameContext& frame, std::vector<Nanoseconds>& cut
 
 void DynamicsNode::obey(const Order& order, FrameContext& frame) {
   using Kind = DynObjectNode::Request::Kind;
-  const auto part = std::ranges::find(collidees_, order.body, &Part::ref);
-  if (part == collidees_.end()) return;  // it has gone
+  const DynObjectNode* node = bodyAt(order.body, frame.scene);
+  const auto at = node ? partOf_.find(node->bodyId()) : partOf_.end();
+  if (at == partOf_.end()) return;  // it has gone
+  const Part* part = at->second;
   switch (order.what.kind) {
   case Kind::Reset:
     std::erase_if(grips_, [&](const Grip& g) { return g.body == part->id; });
@@ -161,7 +167,6 @@ void DynamicsNode::letGo(BodyId body, Nanoseconds when) {
 }
 
 bool DynamicsNode::prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
-  for (Part& part : collidees_) part.course.clear();
   const bool asked = takeOrders(frame, cuts);
   const bool fields = followFields(frame, cuts);
   for (Grip& grip : grips_) {
@@ -191,17 +196,18 @@ void DynamicsNode::act(Nanoseconds time, FrameContext& frame) {
   for (const Order& order : due) obey(order, frame);
 }
 
-void DynamicsNode::move(Nanoseconds from, Nanoseconds to) {
+void DynamicsNode::move(Nanoseconds from, Nanoseconds to, bool jump) {
   for (const Field& f : fields_) {
     if (f.course.empty())
       world_.moveField(f.id, f.pose, f.pose);
     else
-      world_.moveField(f.id, poseOn(f.course, from, Limit::After), poseOn(f.course, to, Limit::Before));
+      world_.moveField(f.id, poseOn(f.course, jump ? to : from, jump ? Limit::Before : Limit::After),
+                       poseOn(f.course, to, Limit::Before));
   }
   for (Grip& grip : grips_) {
     if (grip.silentBefore(to) || from == to) continue;
     const Pose X_WT = poseOn(grip.course, to, Limit::Before);
-    world_.moveHeld(grip.body, X_WT * grip.X_TN);
+    world_.moveHeld(grip.body, X_WT * grip.X_TN, jump);
     grip.hand.go(to, X_WT);
   }
 }
@@ -216,11 +222,13 @@ void DynamicsNode::hash(StateHash& h) const {
 
 bool DynamicsNode::afterStep(FrameContext& frame) {
   bool any = false;
-  for (Part& part : collidees_) {
-    DynObjectNode* node = bodyAt(part.ref, frame.scene);
+  for (const BodyId id : world_.changed()) {
+    const auto at = partOf_.find(id);
+    DynObjectNode* node = at == partOf_.end() ? nullptr : bodyAt(at->second->ref, frame.scene);
     if (!node) continue;
-    const BodyState state = world_.state(part.id);
-    any |= world_.moving(part.id);
+    Part& part = *at->second;
+    const BodyState state = world_.state(id);
+    any |= world_.moving(id);
     const bool same = state.pose.p == part.pose.p && state.pose.q.coeffs() == part.pose.q.coeffs();
     part.pose = state.pose;
     node->setState(state);

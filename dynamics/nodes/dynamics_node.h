@@ -12,6 +12,8 @@
 #include "dynamics/nodes/dyn_object_node.h"
 #include "dynamics/nodes/field_node.h"
 
+#include <unordered_map>
+
 namespace stadion {
 
 class DynamicsNode : public CollisionNode {
@@ -28,7 +30,7 @@ protected:
   void removeCollidee(Part& part, Scene& scene) override;
   bool prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts) override;
   void act(Nanoseconds time, FrameContext& frame) override;
-  void move(Nanoseconds from, Nanoseconds to) override;
+  void move(Nanoseconds from, Nanoseconds to, bool jump) override;
   bool afterStep(FrameContext& frame) override;
 
 private:
@@ -65,6 +67,8 @@ private:
   void grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame);
   void letGo(BodyId body, Nanoseconds when);
 
+  std::vector<NodeRef> asking_;               ///< bodies of which something has been asked
+  std::unordered_map<BodyId, Part*> partOf_;  ///< by its body
   std::vector<Field> fields_;
   std::vector<Grip> grips_;
   std::vector<Order> orders_;  ///< of this frame, in the order of time

@@ -149,6 +149,36 @@ TEST(ExactTimes, AResetTakesEffectInsideTheFrameAndCommandsKeepTheirOrder) {
   }
 }
 
+TEST(ExactTimes, ASwitchedOffSimulationStandsStillAndThenGoesOn) {
+  for (const double rate : kRates) {
+    VisitedShow show(rate);
+    const MeshId box = show.meshes.add(cube(0.1));
+    Ball* ball = nullptr;
+    show.loader.files["show"] = [&](Load& load) {
+      addNode<Field>(load, "gravity", Vec3(0, 0, -kG), true);
+      addNode<Block>(load, "foot", box, Vec3(5, 0, 0));
+      ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"gravity"});
+      addNode<Sim>(load, "sim", std::vector<std::string>{"foot"}, std::vector<std::string>{"ball"});
+    };
+    show.scene.open("show");
+    // While all stands still a foot passes through the ball, which will not feel it.
+    show.visitor.key("foot", 0, {5, 0, -0.5}).key("foot", 0.5, {5, 0, -0.5});
+    show.visitor.key("foot", 0.8, {-5, 0, -0.5}).key("foot", 3, {-5, 0, -0.5});
+    show.tell("foot", Verb::Attach, {"all", "foot"}, 0);
+    show.playTo(0.1);
+    const double off = 0.3217, on = 1.2345;
+    show.tell("sim", Verb::Disable, {}, off);
+    show.tell("sim", Verb::Enable, {}, on);
+    show.playTo(1);
+    EXPECT_NEAR(ball->state().v.z(), -kG * off, 1e-12) << rate;
+    show.playTo(2);
+    const double flown = 2 - (on - off);
+    EXPECT_NEAR(ball->state().p.z(), -0.5 * kG * flown * flown, 1e-9) << rate;
+    EXPECT_EQ(ball->state().p.x(), 0) << rate;
+    EXPECT_TRUE(show.events.empty()) << rate;
+  }
+}
+
 TEST(ExactTimes, ALoadedBodyBeginsAtTheTimeOfItsLoad) {
   for (const double rate : kRates) {
     VisitedShow show(rate);
