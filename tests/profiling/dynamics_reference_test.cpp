@@ -51,6 +51,7 @@ TEST(References, WithoutDragABodyFliesAParabola) {
 }
 
 struct Top {
+  const char* name;
   V3 inertia, omega;
   int frames, steps;
 };
@@ -82,10 +83,12 @@ TEST_P(Spin, KeepsAngularMomentum) {
 const V3 kDisc{2 * (3 * 0.0121 + 4 * 0.000529) / 12, 0.0121, 2 * (3 * 0.0121 + 4 * 0.000529) / 12};
 
 // The first ten seconds of Dzhanibekov's nut are what limits speak of.
-INSTANTIATE_TEST_SUITE_P(Tops, Spin,
-                         testing::Values(Top{boxInertia(1, {0.15, 0.10, 0.025}), {0.01, 5, 0.01}, 600, 8},
-                                         Top{kDisc, {2, 40, 0}, 600, 8}, Top{kDisc, {30, 300, 0}, 600, 8},
-                                         Top{boxInertia(1, {0.15, 0.1, 0.025}), {3, -3, 3}, 120, 2}));
+INSTANTIATE_TEST_SUITE_P(
+    Tops, Spin,
+    testing::Values(Top{"Nut", boxInertia(1, {0.15, 0.10, 0.025}), {0.01, 5, 0.01}, 600, 8},
+                    Top{"SlowDisc", kDisc, {2, 40, 0}, 600, 8}, Top{"FastDisc", kDisc, {30, 300, 0}, 600, 8},
+                    Top{"Box", boxInertia(1, {0.15, 0.1, 0.025}), {3, -3, 3}, 120, 2}),
+    [](const auto& top) { return std::string(top.param.name); });
 
 TEST(References, BouncesFollowEachOtherWithoutAGap) {
   for (const double e : {1.0, 0.8, 0.5})
