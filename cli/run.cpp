@@ -117,9 +117,12 @@ int runShow(RunOptions o) try {
   if (!ready) return kBadInput;
   if (setup.player->frames() == 0 && setup.player->end() == 0)
     std::fprintf(stderr, "no input log beside the show and no --frames: playing until Ctrl-C\n");
-  else if (o.out.empty())
-    std::fprintf(stderr, "playing %.1f s of %s; there is no window yet, --out DIR writes pictures\n",
-                 toSeconds(setup.player->end()), o.show.script.c_str());
+  else if (o.out.empty()) {
+    const Player& p = *setup.player;
+    const double seconds = p.end() > 0 ? toSeconds(p.end()) : static_cast<double>(p.frames() - 1) / p.rate();
+    std::fprintf(stderr, "playing %.1f s of %s; there is no window yet, --out DIR writes pictures\n", seconds,
+                 o.show.script.c_str());
+  }
   return play(o, stop, setup);
 } catch (const RunStopped&) {
   std::fprintf(stderr, "stadion: stopped by %s before the show was loaded\n", stopSignalName());

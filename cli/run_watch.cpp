@@ -1,6 +1,9 @@
 #include "cli/run_watch.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
 
 namespace stadion {
 namespace {
@@ -10,6 +13,16 @@ std::string nameIn(const Scene& scene, NodeRef node) {
   if (!load || node.position >= load->nodes.size() || !load->nodes[node.position]) return "?";
   const std::string name = load->nodes[node.position]->name();
   return name.empty() ? load->file + ":" + std::to_string(load->lines[node.position]) : name;
+}
+
+/// Whether something is there that must not be lost for a new input log.
+bool isAnotherFile(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none) || std::filesystem::file_size(path, none) == 0)
+    return false;
+  constexpr std::string_view kBegin = "stadion-input ";
+  std::string begin(kBegin.size(), 0);
+  return !std::ifstream(path, std::ios::binary).read(begin.data(), std::ssize(begin)) || begin != kBegin;
 }
 
 }  // namespace
@@ -30,6 +43,11 @@ std::unique_ptr<RunWatch> RunWatch::create(const RunOptions& options, Player& pl
 
 void RunWatch::recordInput(const RunOptions& options, Player& player, Diagnostics& findings) {
   if (options.recordInput.empty()) return;
+  if (isAnotherFile(options.recordInput)) {
+    findings.error({}, "--record-input: " + options.recordInput +
+                           " is there and is no input log; name another file, or remove this one");
+    return;
+  }
   // Where every frame follows the last one at 1/rate there is nothing to record but the input.
   const bool clockDecides = !options.everyFrameCounts(player) || player.obeysLog();
   recorder_ = std::make_unique<InputRecorder>(options.recordInput, clockDecides ? player.rate() : 0);

@@ -37,7 +37,7 @@ struct FrameContext {
 
 /// In which order nodes run within a frame: what places things comes before what looks at them. Within a
 /// rank, the order is (load number, position in file).
-enum class Rank : std::uint8_t { Input, Motion, Sensing, Dynamics };
+enum class Rank : std::uint8_t { Input, Attachment, Motion, Sensing, Dynamics };
 
 /// One `eventmessage` of a node: what it posts when something happens to it.
 struct Notification {

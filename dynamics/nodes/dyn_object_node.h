@@ -62,6 +62,7 @@ public:
   void setState(const BodyState& state) { state_ = state; }
   const BodyState& state() const { return state_; }
 
+  bool moved() const override { return simulation_.asking != nullptr || ObjectNode::moved(); }
   void hash(StateHash& h) const override;
 
 protected:

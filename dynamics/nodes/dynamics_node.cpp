@@ -15,12 +15,6 @@ FieldNode* fieldAt(NodeRef ref, Scene& scene) {
   return dynamic_cast<FieldNode*>(scene.find(ref));
 }
 
-Affine withScale(const Pose& X_WN, const Affine& like) {
-  Affine X = toAffine(X_WN);
-  X.linear() = X.linear() * scaleOf(like).asDiagonal();
-  return X;
-}
-
 }  // namespace
 
 void DynamicsNode::onLeave(Scene& scene) {
@@ -51,6 +45,7 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   node->setSimulation({self(), part.id, &asking_});
   partOf_[part.id] = &part;
   node->setState(world_.state(part.id));
+  node->hold(scene, scene.placements().world(part.placement));
 }
 
 void DynamicsNode::removeCollidee(Part& part, Scene& scene) {
@@ -58,7 +53,10 @@ void DynamicsNode::removeCollidee(Part& part, Scene& scene) {
   partOf_.erase(part.id);
   world_.removeBody(part.id);
   world_.removeShape(part.shape);
-  if (DynObjectNode* node = bodyAt(part.ref, scene)) node->setSimulation({});
+  DynObjectNode* node = bodyAt(part.ref, scene);
+  if (!node) return;
+  node->setSimulation({});
+  node->place(scene, scene.placements().world(part.placement));
 }
 
 FieldId DynamicsNode::fieldFor(NodeRef ref, Scene& scene) {
@@ -127,7 +125,7 @@ bool DynamicsNode::takeOrders(FrameContext& frame, std::vector<Nanoseconds>& cut
 
 void DynamicsNode::obey(const Order& order, FrameContext& frame) {
   using Kind = DynObjectNode::Request::Kind;
-  const DynObjectNode* node = bodyAt(order.body, frame.scene);
+  DynObjectNode* node = bodyAt(order.body, frame.scene);
   const auto at = node ? partOf_.find(node->bodyId()) : partOf_.end();
   if (at == partOf_.end()) return;  // it has gone
   const Part* part = at->second;
@@ -136,6 +134,7 @@ void DynamicsNode::obey(const Order& order, FrameContext& frame) {
     std::erase_if(grips_, [&](const Grip& g) { return g.body == part->id; });
     world_.placeBody(part->id, poseOf(frame.scene.placements().world(part->placement)), Vec3::Zero(),
                      Vec3::Zero());
+    node->hold(frame.scene, frame.scene.placements().world(part->placement));
     break;
   case Kind::Release: letGo(part->id, order.what.when); break;
   case Kind::Grab: grab(*part, order.what.tracker, order.what.when, frame); break;
@@ -235,7 +234,7 @@ bool DynamicsNode::afterStep(FrameContext& frame) {
     if (same)
       frame.scene.touch(node->self());
     else
-      node->place(frame.scene, withScale(state.pose, frame.scene.placements().world(part.placement)));
+      node->hold(frame.scene, withScale(state.pose, frame.scene.placements().world(part.placement)));
   }
   return any || !grips_.empty();
 }

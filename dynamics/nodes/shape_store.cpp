@@ -52,10 +52,6 @@ Result<MassProperties> filled(const Shape& shape, const Mesh& mesh) {
 
 }  // namespace
 
-Vec3 scaleOf(const Affine& X) {
-  return X.linear().colwise().norm().transpose();
-}
-
 Result<SharedFit> ShapeStore::fit(const Mesh& mesh, const Appearance& appearance, const Vec3& scale) {
   const Eigen::Vector3f s = scale.cast<float>();
   const Key key{appearance.mesh, s.x(), s.y(), s.z(), appearance.shape, appearance.tolerance};

@@ -3,6 +3,7 @@
 
 #include "dynamics/mass_properties.h"
 #include "dynamics/shape.h"
+#include "engine/maths/course.h"
 #include "engine/nodes/object_node.h"
 
 #include <map>
@@ -11,9 +12,6 @@
 #include <tuple>
 
 namespace stadion {
-
-/// The lengths of a placement's axes.
-Vec3 scaleOf(const Affine& X);
 
 /// A model's shape and what follows from it, in the coordinates of its objects: scaled, not placed.
 struct FittedShape {

@@ -14,6 +14,16 @@ Pose poseOf(const Affine& X) {
   return {X.translation(), Quat(R).normalized()};
 }
 
+Vec3 scaleOf(const Affine& X) {
+  return X.linear().colwise().norm().transpose();
+}
+
+Affine withScale(const Pose& X, const Affine& like) {
+  Affine scaled = toAffine(X);
+  scaled.linear() = scaled.linear() * scaleOf(like).asDiagonal();
+  return scaled;
+}
+
 Pose poseOn(const Course& course, Nanoseconds time, Limit limit) {
   const auto next = limit == Limit::After ? std::ranges::upper_bound(course, time, {}, &PoseKnot::time)
                                           : std::ranges::lower_bound(course, time, {}, &PoseKnot::time);

@@ -13,6 +13,10 @@ namespace stadion {
 
 /// Rotation and origin of a placement, its scale left out; of skewed axes, forward (+Y) counts first.
 Pose poseOf(const Affine& X);
+/// The lengths of a placement's axes.
+Vec3 scaleOf(const Affine& X);
+/// A placement at X with the scale of `like`.
+Affine withScale(const Pose& X, const Affine& like);
 
 struct PoseKnot {
   Nanoseconds time = 0;  ///< show time [ns]

@@ -37,7 +37,7 @@ Pose PathNode::poseAt(double seconds) const {
 
 void PathNode::putTarget(Scene& scene) {
   Node* node = target_.valid() ? scene.find(target_) : this;
-  if (auto* placed = dynamic_cast<PlacedNode*>(node)) {
+  if (auto* placed = dynamic_cast<PlacedNode*>(node); placed && !placed->moved()) {
     const PlacementId up = scene.placements().parent(placed->placement());
     Affine X_PN = toAffine(poseAt(toSeconds(elapsed_)));
     X_PN.linear() = X_PN.linear() * placed->attributes().X_PN.linear().colwise().norm().asDiagonal();

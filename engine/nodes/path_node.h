@@ -28,6 +28,7 @@ public:
       : PlacedNode(NodeKind::Path, self, std::move(name), std::move(place)), target_(target),
         keys_(std::move(keys)), loop_(loop), smooth_(smooth), switch_(on) {}
 
+  Rank rank() const override { return Rank::Motion; }
   bool busy() const override { return switch_.on() || PlacedNode::busy(); }
   void hash(StateHash& h) const override;
 

@@ -5,15 +5,6 @@
 
 namespace stadion {
 
-namespace {
-
-/// What attaching keeps: the lengths of the node's axes.
-Vec3 scaleOf(const Affine& X) {
-  return X.linear().colwise().norm().transpose();
-}
-
-}  // namespace
-
 void PlacedNode::onEnter(Scene& scene) {
   placement_ = scene.placements().add(scene.placementFor(attributes_.parent, self()), attributes_.X_PN);
   shown_ = attributes_.shown;
@@ -39,13 +30,27 @@ bool PlacedNode::place(Scene& scene, const Affine& X_WN) {
   return true;
 }
 
+bool PlacedNode::hold(Scene& scene, const Affine& X_WN, Held part) {
+  aboutToChange(scene);
+  if (!scene.placements().hold(placement_, X_WN, part)) return false;
+  X_PN_ = X_WN;
+  return true;
+}
+
+void PlacedNode::rejoin(Scene& scene, const Affine& X_WP) {
+  if (attached() || scene.placements().held(placement_) == Held::Nothing) return;
+  scene.placements().rejoin(placement_, X_WP);
+  scene.touch(self());
+  X_PN_ = scene.placements().local(placement_);
+}
+
 void PlacedNode::becomeHome(Scene& scene, const Affine& X_WN) {
   if (place(scene, X_WN)) attributes_.X_PN = X_PN_;
 }
 
 void PlacedNode::resetPlace(Scene& scene) {
   aboutToChange(scene);
-  follow_ = Follow::Nothing;
+  follow_ = Held::Nothing;
   X_PN_ = attributes_.X_PN;
   scene.placements().setLocal(placement_, X_PN_);
   shown_ = attributes_.shown;
@@ -56,7 +61,7 @@ void PlacedNode::follow(const Message& m, FrameContext& frame) {
   const Nanoseconds when = frame.effective(m);
   if (attached()) trace(when, frame);
   const std::string what = m.arguments.empty() ? "all" : m.arguments[0];
-  follow_ = what == "position" ? Follow::Position : what == "orientation" ? Follow::Orientation : Follow::All;
+  follow_ = what == "position" ? Held::Position : what == "orientation" ? Held::Orientation : Held::All;
   tracker_ = m.arguments.size() > 1 ? m.arguments[1] : "";
   if (tracker_.empty()) tracker_ = frame.input.find("foot") ? "foot" : "wand";
   traced_ = when;
@@ -64,8 +69,9 @@ void PlacedNode::follow(const Message& m, FrameContext& frame) {
 }
 
 void PlacedNode::stopFollowing(Nanoseconds when, FrameContext& frame) {
-  if (attached() && trace(when, frame)) place(frame.scene, placedAt(course(frame).back().X, frame.scene));
-  follow_ = Follow::Nothing;
+  if (attached() && trace(when, frame))
+    hold(frame.scene, placedAt(course(frame).back().X, frame.scene), follow_);
+  follow_ = Held::Nothing;
 }
 
 void PlacedNode::resetAt(Nanoseconds when, FrameContext& frame) {
@@ -83,14 +89,14 @@ Course& PlacedNode::course(FrameContext& frame) const {
 
 /// Where the node is while its tracker is at X_WT: what it does not take over is its own.
 Pose PlacedNode::following(const Pose& X_WT, const Pose& own) const {
-  return {follow_ == Follow::Orientation ? own.p : X_WT.p, follow_ == Follow::Position ? own.q : X_WT.q};
+  return {follow_ == Held::Orientation ? own.p : X_WT.p, follow_ == Held::Position ? own.q : X_WT.q};
 }
 
 /// Its placement with X_WN as far as it follows, and its own scale.
 Affine PlacedNode::placedAt(const Pose& X_WN, const Scene& scene) const {
   Affine X = scene.placements().world(placement_);
-  if (follow_ != Follow::Orientation) X.translation() = X_WN.p;
-  if (follow_ != Follow::Position)
+  if (follow_ != Held::Orientation) X.translation() = X_WN.p;
+  if (follow_ != Held::Position)
     X.linear() = X_WN.q.toRotationMatrix() * scaleOf(attributes_.X_PN).asDiagonal();
   return X;
 }
@@ -136,7 +142,8 @@ void PlacedNode::simulate(FrameContext& frame) {
   if (!attached() || !trace(frame.now.time, frame)) return;  // a silent tracker holds the node where it is
   const Course& way = course(frame);
   const Affine X = placedAt(way.back().X, frame.scene);
-  if (moves(way) || X.matrix() != frame.scene.placements().world(placement_).matrix()) place(frame.scene, X);
+  if (moves(way) || X.matrix() != frame.scene.placements().world(placement_).matrix())
+    hold(frame.scene, X, follow_);
 }
 
 void PlacedNode::hash(StateHash& h) const {

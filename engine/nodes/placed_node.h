@@ -3,7 +3,8 @@
 ///
 /// Commands  attach all|position|orientation [tracker], detach, show, hide, reset.
 /// Frames    X_PN maps Node to Parent. Attached, the node follows tracker x rig with no offset and keeps its
-///          scale.
+///          scale; what it does not take over from the tracker still comes from its parent. Detached, it goes
+///          along with its parent again, from where the two were at that time.
 /// Times    attach, detach and reset put it elsewhere at their exact time: inside the frame for dynamics (the
 ///          course that it leaves in the scene), at the frame's end for the picture.
 
@@ -29,12 +30,19 @@ public:
   const PlaceAttributes& attributes() const { return attributes_; }
   /// Makes X_WN the place that reset brings it back to, and goes there.
   void becomeHome(Scene& scene, const Affine& X_WN);
-  /// Places the node in World by a direct call (dynamics nodes and paths). False if X_WN is not finite.
+  /// Places the node below its parent, so that it is at X_WN now. False if X_WN is not finite.
   bool place(Scene& scene, const Affine& X_WN);
-  bool attached() const { return follow_ != Follow::Nothing; }
+  /// Places the node in World by a direct call (dynamics nodes), whatever its parent does from now on.
+  bool hold(Scene& scene, const Affine& X_WN, Held part = Held::All);
+  /// It has been detached in this frame, when its parent was at X_WP: goes along with it from now on.
+  void rejoin(Scene& scene, const Affine& X_WP);
+  bool attached() const { return follow_ != Held::Nothing; }
+  /// Whether a tracker or the dynamics moves it: then no path does.
+  virtual bool moved() const { return attached(); }
   /// Static objects stand below this node: they must become nodes before it may move.
   void carryStatics() { carriesStatics_ = true; }
 
+  Rank rank() const override { return Rank::Attachment; }
   bool busy() const override { return attached(); }
   void hash(StateHash& h) const override;
 
@@ -56,17 +64,15 @@ private:
   Affine placedAt(const Pose& X_WN, const Scene& scene) const;
   bool trace(Nanoseconds to, FrameContext& frame);
 
-  enum class Follow : std::uint8_t { Nothing, All, Position, Orientation };
-
   PlaceAttributes attributes_;
   PlacementId placement_ = kNoPlacement;
-  Follow follow_ = Follow::Nothing;
+  Held follow_ = Held::Nothing;
   std::string tracker_;
   Nanoseconds traced_ = 0;  ///< up to here its way along the tracker is known
   bool arrived_ = false;    ///< it has been put where the tracker is
   bool shown_ = true;
   bool carriesStatics_ = false;
-  Affine X_PN_ = Affine::Identity();  ///< for the hash: where it is now, or when it is attached, was last put
+  Affine X_PN_ = Affine::Identity();  ///< for the hash: where it was last put, in World if it is held there
 };
 
 }  // namespace stadion

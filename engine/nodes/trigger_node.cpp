@@ -45,8 +45,17 @@ double Region::crossing(const Vec3& a, const Vec3& b) const {
 
 Course TriggerNode::wayInRig(const FrameContext& frame) const {
   Course way;
-  if (looked_) way.push_back({seen_, {p_RV_, Quat::Identity()}, false});
   const TrackerSample* t = frame.input.find(tracker_);
+  if (looked_) {
+    way.push_back({seen_, {p_RV_, Quat::Identity()}, false});
+  } else if (seen_ < frame.now.time) {  // it begins to look inside this frame
+    const InputSample& before = frame.scene.lastInput();
+    const TrackerSample* was = before.find(tracker_);
+    if (tracker_ == "head" && (was ? was->valid : !t || t->knots.empty()))
+      way.push_back({frame.start(), {frame.scene.headInRig(before).p, Quat::Identity()}, false});
+    else if (was && was->valid)
+      way.push_back({frame.start(), {was->X_RT.p, Quat::Identity()}, false});
+  }
   if (t)
     for (const PoseKnot& k : t->knots)
       if (k.time > seen_) way.push_back({k.time, {k.X.p, Quat::Identity()}, k.jump});
@@ -63,11 +72,20 @@ Course TriggerNode::wayInRig(const FrameContext& frame) const {
   return way;
 }
 
+std::uint32_t TriggerNode::heldBefore(const TrackerSample& t, Nanoseconds time,
+                                      const FrameContext& frame) const {
+  const TrackerSample* was = frame.scene.lastInput().find(tracker_);
+  std::uint32_t held = was ? was->buttons : t.controls.empty() ? t.buttons : t.controls.front().buttons;
+  for (const ControlKnot& c : t.controls)
+    if (c.time < time) held = c.buttons;
+  return held;
+}
+
 void TriggerNode::look(FrameContext& frame, Nanoseconds until) {
   const Course way = wayInRig(frame);
   if (way.empty()) return;
   const TrackerSample* t = kind() == NodeKind::WandTrigger ? frame.input.find(tracker_) : nullptr;
-  std::vector<Nanoseconds> stops{until};
+  std::vector<Nanoseconds> stops{std::max(seen_, frame.start()), until};
   for (const PoseKnot& k : way) stops.push_back(k.time);
   if (t)
     for (const ControlKnot& c : t->controls) stops.push_back(c.time);
@@ -95,7 +113,7 @@ void TriggerNode::look(FrameContext& frame, Nanoseconds until) {
       inside_ = region_.contains(last_);
       if (inside_) raise(Event::Enter, time);
       // What was held down before was not pressed here; at the very start it was.
-      if (t && frame.now.step > 0) buttons_ = t->controls.empty() ? t->buttons : t->controls.front().buttons;
+      if (t && frame.now.step > 0) buttons_ = heldBefore(*t, time, frame);
     }
     looked_ = true, seen_ = time, p_RV_ = p_RV;
     if (t) watchButtons(*t, time, time == frame.now.time);
@@ -120,6 +138,11 @@ void TriggerNode::goTo(const Vec3& p, bool jumped, Nanoseconds time) {
   }
   inside_ = inside;
   last_ = p;
+}
+
+void TriggerNode::onEnter(Scene& scene) {
+  PlacedNode::onEnter(scene);
+  seen_ = scene.now();
 }
 
 void TriggerNode::receive(const Message& m, FrameContext& frame) {

@@ -47,6 +47,7 @@ public:
   void hash(StateHash& h) const override;
 
 protected:
+  void onEnter(Scene& scene) override;
   void receive(const Message& m, FrameContext& frame) override;
   void simulate(FrameContext& frame) override;
 
@@ -57,6 +58,8 @@ private:
   /// Follows the visitor up to `until`, which lies in this frame.
   void look(FrameContext& frame, Nanoseconds until);
   void goTo(const Vec3& p, bool jumped, Nanoseconds time);
+  /// The buttons that were down when it began to look.
+  std::uint32_t heldBefore(const TrackerSample& t, Nanoseconds time, const FrameContext& frame) const;
   void watchButtons(const TrackerSample& t, Nanoseconds time, bool atEnd);
 
   Region region_;

@@ -22,7 +22,7 @@ bool near(const Pose& a, const Pose& b) {
 const std::pair<const PlacementId, Course>* Courses::above(PlacementId id,
                                                            const Placements& placements) const {
   if (courses_.empty()) return nullptr;
-  for (; id != kNoPlacement; id = placements.parent(id))
+  for (; id != kNoPlacement; id = placements.carrier(id))
     if (const auto at = courses_.find(id); at != courses_.end()) return &*at;
   return nullptr;
 }

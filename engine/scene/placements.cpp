@@ -71,6 +71,7 @@ void Placements::markBelow(PlacementId top, bool moved) {
 bool Placements::setLocal(PlacementId id, const Affine& X_PN) {
   if (!X_PN.matrix().allFinite()) return false;
   entries_[id].X_PN = X_PN;
+  entries_[id].held = Held::Nothing;
   markBelow(id, true);
   return true;
 }
@@ -83,6 +84,37 @@ bool Placements::setWorld(PlacementId id, const Affine& X_WN) {
   return setLocal(id, local);
 }
 
+bool Placements::hold(PlacementId id, const Affine& X_WN, Held part) {
+  if (!X_WN.matrix().allFinite()) return false;
+  entries_[id].X_WH = X_WN;
+  entries_[id].held = part;
+  markBelow(id, true);
+  return true;
+}
+
+void Placements::rejoin(PlacementId id, const Affine& X_WP) {
+  const Affine X_PN = X_WP.inverse() * carried(entries_[id], X_WP);
+  setLocal(id, X_PN);
+}
+
+Affine Placements::local(PlacementId id) const {
+  const Entry& e = entries_[id];
+  if (e.held == Held::Nothing) return e.X_PN;
+  return e.parent == kWorldPlacement ? world(id) : Affine(world(e.parent).inverse() * world(id));
+}
+
+PlacementId Placements::carrier(PlacementId id) const {
+  return entries_[id].held == Held::All ? kWorldPlacement : entries_[id].parent;
+}
+
+/// Where it is while its parent is at X_WP.
+Affine Placements::carried(const Entry& e, const Affine& X_WP) {
+  Affine X = e.parent == kWorldPlacement ? e.X_PN : X_WP * e.X_PN;
+  if (e.held == Held::All || e.held == Held::Position) X.translation() = e.X_WH.translation();
+  if (e.held == Held::All || e.held == Held::Orientation) X.linear() = e.X_WH.linear();
+  return X;
+}
+
 const Affine& Placements::world(PlacementId id) const {
   if (!entries_[id].stale) return entries_[id].X_WN;
   std::vector<PlacementId> chain;
@@ -93,7 +125,7 @@ const Affine& Placements::world(PlacementId id) const {
   }
   for (auto i = chain.rbegin(); i != chain.rend(); ++i) {
     Entry& e = entries_[*i];
-    e.X_WN = e.parent == kWorldPlacement ? e.X_PN : entries_[e.parent].X_WN * e.X_PN;
+    e.X_WN = carried(e, entries_[e.parent].X_WN);
     e.stale = false;
   }
   return entries_[id].X_WN;

@@ -1,9 +1,10 @@
 #pragma once
 /// Where every movable thing is: a tree of placements in flat arrays.
 ///
-/// A placement has a local matrix relative to its parent and, from that, a World matrix. Nothing is
-/// recomputed unless it or something above it moved. World matrices may be asked for at any time in App and
-/// are always up to date.
+/// A placement has a local matrix relative to its parent and, from that, a World matrix. What something
+/// outside the tree moves, a tracker or the dynamics, is held in World instead: its parent does not carry it,
+/// so that it does not matter which of the two moves first. Nothing is recomputed unless it or something
+/// above it moved. World matrices may be asked for at any time in App and are always up to date.
 ///
 /// Frames   X_PN maps Node to Parent coordinates, X_WN Node to World.
 /// Threads  App only; other stages see published instance records.
@@ -20,6 +21,9 @@ using PlacementId = std::uint32_t;
 constexpr PlacementId kWorldPlacement = 0;  ///< World itself: the identity, never moves
 constexpr PlacementId kNoPlacement = ~PlacementId{0};
 
+/// What of a placement is held in World.
+enum class Held : std::uint8_t { Nothing, Position, Orientation, All };
+
 class Placements {
 public:
   Placements();
@@ -28,11 +32,19 @@ public:
   /// Expects that its children are gone.
   void remove(PlacementId id);
 
+  /// Puts it there below its parent, which carries it from now on.
   bool setLocal(PlacementId id, const Affine& X_PN);
-  bool setWorld(PlacementId id, const Affine& X_WN);  ///< moves it so that it is at X_WN now
-  const Affine& local(PlacementId id) const { return entries_[id].X_PN; }
+  bool setWorld(PlacementId id, const Affine& X_WN);  ///< the same, so that it is at X_WN now
+  /// Holds it, or the part of it that is named, at X_WN until it is put below its parent again.
+  bool hold(PlacementId id, const Affine& X_WN, Held part = Held::All);
+  /// Puts what is held below its parent again, which was at X_WP when it was let go.
+  void rejoin(PlacementId id, const Affine& X_WP);
+  Held held(PlacementId id) const { return entries_[id].held; }
   const Affine& world(PlacementId id) const;
+  Affine local(PlacementId id) const;  ///< where it is relative to its parent now
   PlacementId parent(PlacementId id) const { return entries_[id].parent; }
+  /// What moves it when it does not move itself: its parent, or World if it is held there.
+  PlacementId carrier(PlacementId id) const;
 
   /// Hides or shows this placement and everything below it.
   void setShown(PlacementId id, bool shown);
@@ -49,8 +61,10 @@ public:
 private:
   struct Entry {
     Affine X_PN = Affine::Identity(), X_WN = Affine::Identity();
+    Affine X_WH = Affine::Identity();  ///< where it is held
     PlacementId parent = kNoPlacement, firstChild = kNoPlacement, nextSibling = kNoPlacement,
                 previousSibling = kNoPlacement;
+    Held held = Held::Nothing;
     bool stale = false;    ///< X_WN must be recomputed
     bool changed = false;  ///< is in changed_
     bool shownSelf = true;
@@ -58,6 +72,7 @@ private:
     bool watched = false;
   };
 
+  static Affine carried(const Entry& e, const Affine& X_WP);
   void markBelow(PlacementId id, bool moved);
 
   mutable std::vector<Entry> entries_;

@@ -1,6 +1,7 @@
 #include "engine/scene/scene.h"
 
 #include "engine/nodes/object_node.h"
+#include "engine/nodes/placed_node.h"
 
 #include <algorithm>
 #include <cassert>
@@ -75,6 +76,7 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
                    [](const Message& a, const Message& b) { return a.target < b.target; });
 
   FrameContext frame{now, input, *this};
+  const std::vector<Detached> detached = detachedBy(mail, frame);
   while (!round_.empty()) {
     current_ = *round_.begin();
     round_.erase(round_.begin());
@@ -90,6 +92,27 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
     wakeWatchers();
   }
   current_.reset();
+  for (const Detached& d : detached) rejoinParent(d, frame);
+}
+
+std::vector<Scene::Detached> Scene::detachedBy(const std::vector<Message>& mail, const FrameContext& frame) {
+  std::vector<Detached> detached;
+  for (const Message& m : mail) {
+    const auto* node = m.verb == Verb::Detach ? dynamic_cast<const PlacedNode*>(find(m.target)) : nullptr;
+    if (!node) continue;
+    const PlacementId parent = placements_.parent(node->placement());
+    detached.push_back({m.target, frame.effective(m), parent, poseOf(placements_.world(parent))});
+  }
+  return detached;
+}
+
+void Scene::rejoinParent(const Detached& d, const FrameContext& frame) {
+  auto* node = dynamic_cast<PlacedNode*>(find(d.node));
+  if (!node) return;
+  Affine X_WP = placements_.world(d.parent);
+  const Course way = courses_.within(d.parent, d.X_WP, frame.start(), frame.now.time, placements_);
+  if (!way.empty()) X_WP = withScale(poseOn(way, d.when, Limit::After), X_WP);
+  node->rejoin(*this, X_WP);
 }
 
 void Scene::wakeNow(NodeRef ref) {

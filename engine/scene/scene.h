@@ -115,6 +115,7 @@ public:
   /// How placements have moved inside this frame.
   Courses& courses() { return courses_; }
   Pose headInRig(const InputSample& input) const;
+  const InputSample& lastInput() const { return lastInput_; }  ///< of the frame before
 
   /// Asks for a sub-scene; it is installed at show time `at`, whenever the loader finished, unless the loader
   /// delays it (see SceneLoader::takesEffect).
@@ -163,6 +164,13 @@ private:
     NodeRef node;
     auto operator<=>(const Wake&) const = default;
   };
+  /// A node that leaves its tracker in this frame, to go along with its parent from where that is then.
+  struct Detached {
+    NodeRef node;
+    Nanoseconds when;
+    PlacementId parent;
+    Pose X_WP;  ///< at the frame's start
+  };
   struct Visit {
     Rank rank;
     NodeRef node;
@@ -175,6 +183,8 @@ private:
   void install(std::unique_ptr<Load> load, Nanoseconds at);
   void remove(std::uint32_t number, std::uint64_t frame);
   void visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe);
+  std::vector<Detached> detachedBy(const std::vector<Message>& mail, const FrameContext& frame);
+  void rejoinParent(const Detached& d, const FrameContext& frame);
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
   void publishInstance(InstanceId id, ChangeSet& changes);
   void publishLights(const InputSample& input, ChangeSet& changes);

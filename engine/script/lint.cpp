@@ -161,6 +161,14 @@ private:
     if (!node.has(Attr::Target) && (node.name().empty() || (alone_ && !uses_[node.index()].isParent)))
       warn(node, Attr::Name,
            fmt::format("{} moves nothing: it has no target, and no node has it as parent", called(node)));
+    if (const auto target = node.has(Attr::Target) ? node.reference(Attr::Target) : std::nullopt) {
+      const Use* use = useOf(*target);
+      if (use && use->simulated)
+        report_.warning(
+            target->where,
+            fmt::format("\"{}\" is moved by a dynamics node, never by this path; make it an object",
+                        target->name));
+    }
     warnNeverOn(node);
   }
 

@@ -13,9 +13,12 @@
 namespace stadion {
 namespace {
 
-/// A ball, and a part of the show that is to be there at once when it is asked for: it will come late.
+/// A ball, and a part of the show that is to be there at once when it is asked for: so large that it will
+/// come late on the fastest machine.
 std::string writeShow(const TemporaryFolder& folder) {
-  folder.write("part.evs", fileContent(testShow("part.evs")));
+  std::string part = fileContent(testShow("part.evs"));
+  for (int i = 0; i < 20000; ++i) part += fmt::format("group( name=g{}, position=\"0, 0, {}\" )\n", i, i);
+  folder.write("part.evs", part);
   return folder.write("show.evs", fileContent(testShow("reload_without.evs")) +
                                       "timer( period=0.2, repeat=on, eventmessage=\"timesup, part, load\",\n"
                                       "       eventmessage=\"timesup, part, unload, 0.12\" )\n"

@@ -1,4 +1,5 @@
 #include "engine/input/scripted_input.h"
+#include "engine/nodes/path_node.h"
 #include "engine/nodes/scene_node.h"
 #include "engine/nodes/timer_node.h"
 #include "tests/dynamics/show_nodes.h"
@@ -78,6 +79,104 @@ TEST(ExactTimes, AFootOfAnInputLogHitsAtTheSameTimeWithTheSameVelocityAtEveryFra
       EXPECT_LE((kick.after.p - first.after.p).norm(), 1e-9) << rate << " Hz, smooth " << smooth;
       EXPECT_LE((kick.after.omega - first.after.omega).norm(), 1e-8) << rate << " Hz, smooth " << smooth;
     }
+  }
+}
+
+/// A cart that drives along +X with 1 m/s, or a ball that falls, and a lamp below it.
+struct Carried {
+  VisitedShow show;
+  MovingNode* lamp = nullptr;
+
+  enum class By { PathBefore, PathAfter, Body };
+
+  Carried(double rate, By by) : show(rate) {
+    show.loader.files["show"] = [&](Load& load) {
+      const NodeRef parent{load.number, by == By::PathBefore ? 1u : 0u};
+      const auto drive = [&](NodeRef cart) {
+        Keyframe start, end;
+        end.time = 10, end.X_PN.p = {10, 0, 0};
+        addNode<PathNode>(load, "drive", PlaceAttributes{}, cart, std::vector<Keyframe>{start, end}, false,
+                          false, true);
+      };
+      if (by == By::PathBefore) drive(parent);
+      if (by == By::Body)
+        addNode<Ball>(load, "cart", Vec3(0, 0, 0), std::vector<std::string>{"push"});
+      else
+        addNode<MovingNode>(load, "cart", PlaceAttributes{}, false);
+      PlaceAttributes below;
+      below.parent = parent, below.X_PN.translation() = Vec3(0, 0, 1);
+      lamp = &addNode<MovingNode>(load, "lamp", below, false);
+      if (by == By::PathAfter) drive(parent);
+      if (by != By::Body) return;
+      addNode<Field>(load, "push", Vec3(2, 0, 0), true);
+      addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"cart"});
+    };
+    show.scene.open("show");
+    show.visitor.key("head", 0, {3, 4, 2});
+  }
+  Vec3 lampAt() const { return show.scene.placements().world(lamp->placement()).translation(); }
+};
+
+TEST(ExactTimes, WhatFollowsATrackerIsThereWhateverMovesItsParentInWhicheverOrder) {
+  for (const double rate : kRates)
+    for (const auto by : {Carried::By::PathBefore, Carried::By::PathAfter, Carried::By::Body}) {
+      Carried c(rate, by);
+      c.show.playTo(0.5);
+      c.show.tell("lamp", Verb::Attach, {"all", "head"}, 0.5);
+      c.show.playTo(1);
+      EXPECT_LE((c.lampAt() - Vec3(3, 4, 2)).norm(), 1e-12) << rate << " Hz";
+      c.show.tell("lamp", Verb::Reset, {}, 1);
+      c.show.tell("lamp", Verb::Attach, {"all", "head"}, 1.2);
+      c.show.playTo(2);
+      EXPECT_LE((c.lampAt() - Vec3(3, 4, 2)).norm(), 1e-12) << rate << " Hz";
+    }
+}
+
+TEST(ExactTimes, WhatOnlyTurnsWithATrackerIsStillCarried) {
+  for (const double rate : kRates)
+    for (const auto by : {Carried::By::PathBefore, Carried::By::PathAfter, Carried::By::Body}) {
+      Carried c(rate, by);
+      c.show.tell("lamp", Verb::Attach, {"orientation", "head"}, 0);
+      c.show.playTo(2);
+      EXPECT_LE((c.lampAt() - Vec3(by == Carried::By::Body ? 4 : 2, 0, 1)).norm(), 1e-9) << rate << " Hz";
+    }
+}
+
+TEST(ExactTimes, WhatLeavesItsTrackerGoesAlongWithItsParentFromThatTime) {
+  constexpr double kWhen = 1.01234;
+  for (const double rate : kRates)
+    for (const auto by : {Carried::By::PathBefore, Carried::By::PathAfter, Carried::By::Body}) {
+      Carried c(rate, by);
+      c.show.tell("lamp", Verb::Attach, {"all", "head"}, 0);
+      c.show.tell("lamp", Verb::Detach, {}, kWhen);
+      c.show.playTo(2);
+      const double gone = by == Carried::By::Body ? 4 - kWhen * kWhen : 2 - kWhen;
+      // Between frames a body's way is taken to be straight.
+      const double straight = by == Carried::By::Body ? 0.25 / rate / rate : 1e-9;
+      EXPECT_LE((c.lampAt() - Vec3(3 + gone, 4, 2)).norm(), straight) << rate << " Hz";
+    }
+}
+
+TEST(ExactTimes, NeitherItsParentNorAPathMovesABodyAtRest) {
+  for (const bool parent : {false, true}) {
+    VisitedShow show(60);
+    const Ball* ball = nullptr;
+    show.loader.files["show"] = [&](Load& load) {
+      const NodeRef cart = addNode<MovingNode>(load, "cart", PlaceAttributes{}, false).self();
+      ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 5), std::vector<std::string>{}, cart);
+      Keyframe start, end;
+      end.time = 10, end.X_PN.p = {10, 0, 0};
+      addNode<PathNode>(load, "drive", PlaceAttributes{}, parent ? cart : ball->self(),
+                        std::vector<Keyframe>{start, end}, false, false, true);
+      addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
+    };
+    show.scene.open("show");
+    show.playTo(0.5);
+    const Vec3 placed = show.scene.placements().world(ball->placement()).translation();
+    EXPECT_LE((placed - Vec3(0, 0, 5)).norm(), parent ? 0.02 : 5.0);
+    show.playTo(2);
+    EXPECT_EQ(show.scene.placements().world(ball->placement()).translation(), placed);
+    EXPECT_EQ(ball->state().pose.p, placed);
   }
 }
 

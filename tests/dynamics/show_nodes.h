@@ -18,12 +18,13 @@ public:
 /// An object with a ball for a mesh would need a mesh; here the body's shape is given.
 class Ball : public DynObjectNode {
 public:
-  Ball(NodeRef self, std::string name, const Vec3& p, std::vector<std::string> hooks)
-      : DynObjectNode(self, std::move(name), at(p), {}, body(std::move(hooks)), fit()) {}
+  Ball(NodeRef self, std::string name, const Vec3& p, std::vector<std::string> hooks, NodeRef parent = {})
+      : DynObjectNode(self, std::move(name), at(p, parent), {}, body(std::move(hooks)), fit()) {}
 
 private:
-  static PlaceAttributes at(const Vec3& p) {
+  static PlaceAttributes at(const Vec3& p, NodeRef parent) {
     PlaceAttributes place;
+    place.parent = parent;
     place.X_PN.translation() = p;
     return place;
   }

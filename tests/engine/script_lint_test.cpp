@@ -84,6 +84,12 @@ TEST(ScriptLint, ContactNodesAreLookedAt) {
             Messages{"collider \"a\" is given twice"});
 }
 
+TEST(ScriptLint, APathOnABodyIsNamed) {
+  const std::string path = "dynobject(name=b, file=b.obj) path(target=b, key=\"0 0 0 0\", key=\"1 0 0 1\")\n";
+  EXPECT_EQ(warningsOf(path + "dynamics(collidee=b)"),
+            Messages{"\"b\" is moved by a dynamics node, never by this path; make it an object"});
+}
+
 TEST(ScriptLint, APathThatMovesNothingIsNamed) {
   EXPECT_EQ(warningsOf("path(name=p, key=\"0, 0 0 0\")").size(), 1U);
   EXPECT_TRUE(warningsOf("path(name=p, key=\"0, 0 0 0\") group(parent=p)").empty());

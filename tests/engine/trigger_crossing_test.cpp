@@ -123,6 +123,17 @@ TEST(TriggerCrossing, DisableEndsTheWatchAtItsTimeWithinTheFrame) {
     expectEvents(told(ball(1), input, rate, 1, "head", {{Verb::Disable, 0.6}}), {{Event::Enter, 0.25}});
 }
 
+TEST(TriggerCrossing, EnableBeginsTheWatchAtItsTimeWithinTheFrame) {
+  ScriptedInput head, wand;
+  head.key("head", 0, {0, 0, 0}).key("head", 0.6, {0, 0, 0}).key("head", 1, {4, 0, 0});  // 10 m/s
+  wand.key("wand", 0, {0, 0, 0}).key("wand", 0.6, {0, 0, 0}).key("wand", 1, {4, 0, 0});
+  for (const double rate : {5.0, 30.0, 60.0, 144.0, 1000.0})
+    for (const std::string device : {"head", "wand"})
+      expectEvents(told(ball(0.05), device == "head" ? head : wand, rate, 1.2, device,
+                        {{Verb::Enable, 0.6017}}, false),
+                   {{Event::Enter, 0.6017}, {Event::Exit, 0.605}});
+}
+
 TEST(TriggerCrossing, ATriggerThatMovesPastAVisitorNoticesThem) {
   ShowFixture show;
   show.rate = 4;
