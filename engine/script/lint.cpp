@@ -140,6 +140,8 @@ private:
                       : node.number(Attr::Strength) == 0) {
       warn(node, linear ? Attr::Direction : Attr::Strength, "this field exerts no force");
     }
+    if (node.has(Attr::Tracker) && !node.has(Attr::StrengthAxis))
+      warn(node, Attr::Tracker, "the tracker has no effect without strengthaxis");
     if (node.name().empty() || (alone_ && !use.hooked))
       warn(node, Attr::Name, fmt::format("{} is never hooked to a body", called(node)));
     warnNeverOn(node);

@@ -29,6 +29,13 @@ TEST(ScriptLint, AFieldThatNothingHooksIsNamed) {
   EXPECT_TRUE(warningsOf(wind, false).empty());  // another file may hook it
 }
 
+TEST(ScriptLint, ATrackerOfAFieldNeedsAnAxis) {
+  const std::string body = "dynobject(name=b, file=b.obj, hook=push) dynamics(collidee=b)\n";
+  const std::string push = "forcelinear(name=push, direction=\"1 0 0\", tracker=left";
+  EXPECT_EQ(warningsOf(body + push + ")"), Messages{"the tracker has no effect without strengthaxis"});
+  EXPECT_TRUE(warningsOf(body + push + ", strengthaxis=7)").empty());
+}
+
 TEST(ScriptLint, AFieldHookedByMessageIsUsed) {
   EXPECT_TRUE(warningsOf("forcelinear(name=wind, direction=\"1 0 0\") dynobject(name=b, file=b.obj)\n"
                          "dynamics(collidee=b) timer(period=1, eventmessage=\"timesup, b, hook wind\")")
