@@ -141,8 +141,9 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   ImportLimits limits;
   limits.giveUp = stop;
   p.importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);
-  p.loader_ = std::make_unique<Loader>(LoaderParts{p.meshes_, p.state_.arena(), *p.importer_, p.roots_,
-                                                   p.factories_, std::move(report), stop});
+  p.loader_ =
+      std::make_unique<Loader>(LoaderParts{p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_,
+                                           std::move(report), stop, fromSeconds(1 / p.rate_)});
   p.loader_->obey(p.decisions_.loads);
   p.scene_ = std::make_unique<Scene>(*p.loader_, p.meshes_);
   if (!p.scene_->open(options.script)) return nullptr;

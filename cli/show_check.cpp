@@ -45,6 +45,7 @@ public:
     for (const Declaration d : document) alone &= d.kind() != NodeKind::Scene;
     if (!own.hasErrors()) {
       lint(document, alone, own);
+      lintLatencies(document, fromSeconds(1 / ShowOptions{}.rate), own);
       buildOnce(document, own);
     }
     findings_.append(own);

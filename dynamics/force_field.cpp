@@ -61,22 +61,37 @@ Vec3 pushOf(const MediumField& f, const Pose& X_WF, const Exposed& b) {
 }  // namespace
 
 bool ForceField::uniform() const {
-  return std::holds_alternative<LinearField>(law) && start.q.coeffs() == end.q.coeffs();
+  return std::holds_alternative<LinearField>(law) && start.q.coeffs() == end.q.coeffs() && first == last;
 }
 
 const MediumField* ForceField::evenMedium() const {
   const auto* medium = std::get_if<MediumField>(&law);
   if (!medium || medium->region != MediumField::Region::Everywhere) return nullptr;
-  return medium->wind.isZero(0) || start.q.coeffs() == end.q.coeffs() ? medium : nullptr;
+  const bool steady = start.q.coeffs() == end.q.coeffs() && first == last;
+  return medium->wind.isZero(0) || steady ? medium : nullptr;
 }
 
 Drag dragOf(const MediumField& f, const Quat& q_WF, double mass, double dragArea) {
   return {f.viscosity, 0.5 * f.density * dragArea / mass, q_WF * f.wind};
 }
 
+FieldLaw scaled(const FieldLaw& law, double factor) {
+  FieldLaw to = law;
+  if (auto* linear = std::get_if<LinearField>(&to)) linear->push *= factor;
+  if (auto* spherical = std::get_if<SphericalField>(&to)) spherical->strength *= factor;
+  if (auto* point = std::get_if<PointField>(&to)) point->strength *= factor;
+  if (auto* vortex = std::get_if<VortexField>(&to)) vortex->strength *= factor;
+  if (auto* medium = std::get_if<MediumField>(&to)) medium->wind *= factor;
+  return to;
+}
+
 Vec3 accelerationOf(const ForceField& field, const Exposed& body, double s) {
   const Pose X_WF = field.moving() ? det::interpolate(field.start, field.end, s) : field.end;
-  return std::visit([&](const auto& law) { return pushOf(law, X_WF, body); }, field.law);
+  const auto push = [&](const FieldLaw& f) {
+    return std::visit([&](const auto& law) { return pushOf(law, X_WF, body); }, f);
+  };
+  const double strength = field.first + s * (field.last - field.first);
+  return strength == 1 ? push(field.law) : push(scaled(field.law, strength));
 }
 
 }  // namespace stadion

@@ -2,7 +2,8 @@
 /// What pushes bodies: plain descriptions that the world evaluates; the scene nodes that own them move and
 /// switch them.
 ///
-/// Frames   a field has a pose at the start and at the end of the frame and moves evenly between them.
+/// Frames   a field has a pose and a strength at the start and at the end of the frame and goes evenly
+///          between them.
 /// Forces   all fields here act at the centre of mass. A new kind is a new struct in `FieldLaw` and one case
 /// in `accelerationOf`.
 
@@ -67,10 +68,13 @@ using FieldLaw = std::variant<LinearField, SphericalField, PointField, VortexFie
 
 struct ForceField {
   FieldLaw law;
-  Pose start, end;           ///< X_WF at the two ends of the frame
-  Nanoseconds duration = 0;  ///< longest activation [ns], 0 = no limit
+  Pose start, end;             ///< X_WF at the two ends of the frame
+  Nanoseconds duration = 0;    ///< longest activation [ns], 0 = no limit
+  double first = 1, last = 1;  ///< strength at the two ends of the frame, in multiples of the law's
 
   bool moving() const { return start.p != end.p || start.q.coeffs() != end.q.coeffs(); }
+  /// What it does to a body at a given place differs in the course of the frame.
+  bool changing() const { return moving() || first != last; }
   /// True if a body anywhere feels one constant vector through the frame.
   bool uniform() const;
   /// A medium that is the same everywhere through the frame, or nothing.
@@ -91,6 +95,9 @@ struct Drag {
   Vec3 at(const Vec3& v) const { return -(linear + quadratic * (v - wind).norm()) * (v - wind); }
 };
 Drag dragOf(const MediumField& medium, const Quat& q_WF, double mass, double dragArea);
+
+/// The law with its push `factor` times as strong; a medium with its wind so.
+FieldLaw scaled(const FieldLaw& law, double factor);
 
 /// What the body gains [m/s2]; s in [0, 1] from frame start to end.
 Vec3 accelerationOf(const ForceField& field, const Exposed& body, double s);

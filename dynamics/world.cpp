@@ -232,6 +232,15 @@ bool World::moveField(FieldId id, const Pose& start, const Pose& end) {
   return true;
 }
 
+bool World::setFieldStrength(FieldId id, double start, double end) {
+  Core::FieldEntry* entry = core_->fields.find(id);
+  if (!entry || !std::isfinite(start) || !std::isfinite(end)) return false;
+  ForceField& f = entry->field;
+  entry->changed = entry->changed || f.first != f.last || f.last != start || start != end;
+  f.first = start, f.last = end;
+  return true;
+}
+
 bool World::setFieldLaw(FieldId id, const FieldLaw& law) {
   Core::FieldEntry* f = core_->fields.find(id);
   if (!f) return false;

@@ -145,6 +145,8 @@ public:
   bool removeField(FieldId id);
   /// Where the field is at the two ends of the coming frame; its law may change as well.
   bool moveField(FieldId id, const Pose& start, const Pose& end);
+  /// How strong it is at the two ends of the coming frame, in multiples of its law; 1 if never told.
+  bool setFieldStrength(FieldId id, double start, double end);
   bool setFieldLaw(FieldId id, const FieldLaw& law);
   /// Takes effect at exactly `when`, or at once if that is past. Switching on starts a new activation, which
   /// ends after the field's duration or with an earlier switch off.

@@ -7,6 +7,8 @@ namespace stadion {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
+/// Of a ball on a face under pulls that differ from place to place or in time [s].
+constexpr double kFaceStep = 1.0 / 480;
 
 struct State {
   Vec3 p, v;
@@ -60,6 +62,16 @@ bool World::Core::uniformFor(const RigidBody& b) const {
   return true;
 }
 
+/// How long from tau on it is known what acts on the body: a field that changes is known to the end of this
+/// frame only [s].
+double World::Core::knownFor(const RigidBody& b, double tau) const {
+  for (const Hook& h : b.hooks) {
+    const FieldEntry* f = fields.find(h.field);
+    if (f && f->on && f->field.changing() && tau < now) return now - tau;
+  }
+  return kForever;
+}
+
 /// The drag on a body that feels constant pulls and one medium that is the same everywhere.
 std::optional<Drag> World::Core::evenDragOn(const RigidBody& b) const {
   std::optional<Drag> drag;
@@ -69,6 +81,7 @@ std::optional<Drag> World::Core::evenDragOn(const RigidBody& b) const {
     const MediumField* medium = f->field.evenMedium();
     if (!medium || drag) return {};
     drag = dragOf(*medium, f->field.end.q, b.mass, b.dragArea);
+    drag->wind *= f->field.last;
   }
   return drag;
 }
@@ -157,13 +170,7 @@ void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   const auto f = [&](double at, const Vec3& x, const Vec3& u) {
     return Vec3(accelerationAt(b, x, u, at) - b.damping * u);
   };
-  // A field that moves is known to the end of this frame only.
-  double longest = 0.05;
-  for (const Hook& h : b.hooks) {
-    const FieldEntry* field = fields.find(h.field);
-    if (field && field->on && field->field.moving() && tau < now) longest = std::min(longest, now - tau);
-  }
-  double h = std::min(b.step > 0 ? b.step : 0.01, longest), error = 0;
+  double h = std::min({b.step > 0 ? b.step : 0.01, 0.05, knownFor(b, tau)}), error = 0;
   State end{p, v};
   const double tolerance = 1e-13 * (1 + v.norm());
   for (int i = 0; i < 60; ++i) {
@@ -176,27 +183,66 @@ void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   setPath(b, tau, Path::hermite(from, to, h), h, BodyMode::Flight);
 }
 
+/// How long a ball stays at rest on its face: until what pulls at it, as far as that is known, becomes too
+/// much for friction [s].
+double World::Core::restLasts(const RigidBody& b, const BallStart& s, double tau) const {
+  const double known = knownFor(b, tau);
+  const auto rests = [&](double after) {
+    const Vec3 a = accelerationAt(b, s.p, s.v, tau + after);
+    const BallArc arc = ballOnFace(s, b.support, a, b.radius(), b.mass, b.inertia.x(), true, true);
+    return !arc.leaves && arc.mode == BodyMode::Rest;
+  };
+  if (known == kForever || rests(known)) return kForever;
+  // What keeps a ball at rest is a cone of pulls: one that goes evenly from inside to outside leaves it once.
+  double holds = 0, breaks = known;
+  for (int i = 0; i < 60 && breaks - holds > 1e-12; ++i) {
+    const double middle = 0.5 * (holds + breaks);
+    (rests(middle) ? holds : breaks) = middle;
+  }
+  return breaks;
+}
+
+/// The next arc of a ball that touches its face. Pulls that are not the same everywhere and always are taken
+/// from the middle of a short step.
+BallArc World::Core::arcOnFace(const RigidBody& b, double tau, const BallStart& s, bool gripped,
+                               bool stopped) const {
+  const auto arcUnder = [&](const Vec3& a) {
+    return ballOnFace(s, b.support, a, b.radius(), b.mass, b.inertia.x(), gripped, stopped);
+  };
+  const Vec3 a = accelerationAt(b, s.p, s.v, tau);
+  BallArc arc = arcUnder(a);
+  if (uniformFor(b) || arc.leaves) return arc;
+  if (arc.mode == BodyMode::Rest) {
+    arc.horizon = restLasts(b, s, tau);
+    return arc;
+  }
+  const double step = std::min(kFaceStep, knownFor(b, tau));
+  const Vec3 along = a - b.support.normal * b.support.normal.dot(a);
+  const BallArc better =
+      arcUnder(accelerationAt(b, s.p + 0.5 * step * s.v, s.v + 0.5 * step * along, tau + 0.5 * step));
+  if (!better.leaves) arc = better;
+  arc.horizon = arc.mode == BodyMode::Rest ? step : std::min(arc.horizon, step);
+  return arc;
+}
+
 void World::Core::startOnFace(RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped) {
   const Party self{true, b.id};
-  const BallArc arc = ballOnFace(s, b.support, accelerationAt(b, s.p, s.v, tau), b.radius(), b.mass,
-                                 b.inertia.x(), gripped, stopped);
+  const BallArc arc = arcOnFace(b, tau, s, gripped, stopped);
   if (arc.leaves) {
     startFlight(b, tau, s.p, s.v, s.q, b.inertia.x() * s.omega);
     return;
   }
   memory.setTouching(ContactMemory::keyOf(b.support.on, self), true);
   if (arc.mode == BodyMode::Rest) b.touching = {b.support.on};
-  double horizon = arc.horizon;
-  if (!uniformFor(b) && arc.mode != BodyMode::Rest) horizon = std::min(horizon, 1.0 / 480);
   if (b.damping > 0 && arc.mode != BodyMode::Rest) {
     // Drag on top of friction: short arcs of mean deceleration.
     Path path = arc.path;
-    const double h = std::min(horizon, 1.0 / 480);
+    const double h = std::min(arc.horizon, kFaceStep);
     path.c[2] -= 0.5 * b.damping * path.c[1], path.degree = 2;
     setArc(b, tau, path, arc.spin, h, arc.mode);
     return;
   }
-  setArc(b, tau, arc.path, arc.spin, horizon, arc.mode);
+  setArc(b, tau, arc.path, arc.spin, arc.horizon, arc.mode);
 }
 
 /// A new arc from the present state, because what acts on the body has changed.

@@ -136,11 +136,14 @@ public:
   // --- arcs (world_arcs.cpp)
   Vec3 accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& v, double tau) const;
   bool uniformFor(const RigidBody& b) const;
+  double knownFor(const RigidBody& b, double tau) const;
+  double restLasts(const RigidBody& b, const BallStart& s, double tau) const;
   std::optional<Drag> evenDragOn(const RigidBody& b) const;
   void setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon, BodyMode mode);
   void setPath(RigidBody& b, double tau, const Path& path, double horizon, BodyMode mode);
   void fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
   void startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, const Quat& q, const Vec3& L);
+  BallArc arcOnFace(const RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped) const;
   void startOnFace(RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped);
   void restart(RigidBody& b, double tau);
   void freeze(RigidBody& b, double tau);

@@ -160,8 +160,8 @@ void World::Core::beginFrame() {
 void World::Core::followFields() {
   std::vector<FieldId> different;
   for (FieldEntry& f : fields) {
-    if (f.changed || f.field.moving()) different.push_back(f.id);
-    f.changed = f.field.moving();  // once it stops, the next frame differs again
+    if (f.changed || f.field.changing()) different.push_back(f.id);
+    f.changed = f.field.changing();  // once it stops, the next frame differs again
   }
   if (different.empty()) return;
   for (RigidBody& b : bodies) {

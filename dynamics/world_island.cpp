@@ -217,7 +217,10 @@ double World::Core::glide(Island& s, double tau, double h) {
     fastest = std::max(fastest, s.start[i].v.norm()), strongest = std::max(strongest, a.norm());
     if (!uniformFor(b) && (s.start[i].v.norm() > kStill || a.norm() > kBalanced)) return 0;
   }
-  if (fastest <= kStill && strongest <= kBalanced) return 1e300;
+  if (fastest <= kStill && strongest <= kBalanced)  // what changes may stir them in this very frame
+    return std::ranges::any_of(s.set, [&](const RigidBody* b) { return knownFor(*b, tau) < kFarthest; })
+               ? 0
+               : 1e300;
   for (const Found& f : s.found) {
     const SolverContact& c = f.contact;
     const Vec3 n = f.gap.normal, u = s.start[c.a].v - s.start[c.b].v,

@@ -2,6 +2,7 @@
 
 #include "engine/plain_file.h"
 #include "engine/run_stopped.h"
+#include "engine/script/lint.h"
 #include "engine/script/script.h"
 
 #include <filesystem>
@@ -194,6 +195,7 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
   for (const std::uint32_t n : numbers) surroundings.enclosing.push_back(around_.at(n).document.get());
   resolveNames(*document, surroundings, findings);
   if (findings.hasErrors()) return nullptr;
+  lintLatencies(*document, parts_.step, findings);
 
   Imports imports;
   const BuildInput input{*document,

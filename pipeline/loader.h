@@ -38,6 +38,7 @@ struct LoaderParts {
   const NodeFactories& factories;
   std::function<void(const Diagnostics&)> report;
   const std::atomic<bool>* stop = nullptr;  ///< once true, nobody waits for a load any more
+  Nanoseconds step = 0;  ///< of a frame, to warn of latencies that are shorter [ns]; 0: do not
 };
 
 class Loader final : public SceneLoader {

@@ -23,10 +23,6 @@ PlaceAttributes fieldPlace(const NodeRequest& r) {
   return place;
 }
 
-Nanoseconds durationOf(const Declaration& d) {
-  return fromSeconds(d.optionalNumber(Attr::Duration).value_or(0));
-}
-
 /// Factor to SI, and whether the number is a force rather than an acceleration.
 std::pair<double, LinearField::Unit> unitOf(const Declaration& d) {
   switch (d.choice<ForceUnit>(Attr::Unit)) {
@@ -37,11 +33,18 @@ std::pair<double, LinearField::Unit> unitOf(const Declaration& d) {
   return {1.0, LinearField::Unit::Acceleration};
 }
 
+Made makeField(const NodeRequest& r, FieldLaw law) {
+  const Declaration& d = r.declaration;
+  FieldAttributes a{
+      law, fromSeconds(d.optionalNumber(Attr::Duration).value_or(0)), d.flag(Attr::InitState), {}};
+  if (const auto axis = d.optionalChoice<DeviceAxis>(Attr::StrengthAxis))
+    a.axis = {std::string(d.text(Attr::Tracker)), static_cast<std::size_t>(*axis)};
+  return std::make_unique<FieldNode>(d.kind(), r.self, r.name, fieldPlace(r), std::move(a));
+}
+
 Made makeLinear(const NodeRequest& r) {
   const auto [factor, unit] = unitOf(r.declaration);
-  return std::make_unique<FieldNode>(NodeKind::ForceLinear, r.self, r.name, fieldPlace(r),
-                                     LinearField{r.declaration.vec3(Attr::Direction) * factor, unit},
-                                     durationOf(r.declaration), r.declaration.flag(Attr::InitState));
+  return makeField(r, LinearField{r.declaration.vec3(Attr::Direction) * factor, unit});
 }
 
 Made makeSpherical(const NodeRequest& r) {
@@ -53,22 +56,14 @@ Made makeSpherical(const NodeRequest& r) {
       d.number(Attr::Strength) * factor * (d.choice<FieldMode>(Attr::Mode) == FieldMode::Attract ? -1 : 1);
   law.falloff = static_cast<SphericalField::Falloff>(d.choice<FieldFalloff>(Attr::Falloff));
   law.unit = unit;
-  return std::make_unique<FieldNode>(NodeKind::ForceSpherical, r.self, r.name, fieldPlace(r), law,
-                                     durationOf(d), d.flag(Attr::InitState));
-}
-
-Made makeField(const NodeRequest& r, NodeKind kind, FieldLaw law) {
-  const Declaration& d = r.declaration;
-  return std::make_unique<FieldNode>(kind, r.self, r.name, fieldPlace(r), law, durationOf(d),
-                                     d.flag(Attr::InitState));
+  return makeField(r, law);
 }
 
 Made makePoint(const NodeRequest& r) {
   const Declaration& d = r.declaration;
   const auto [factor, unit] = unitOf(d);
   const double sign = d.choice<FieldMode>(Attr::Mode) == FieldMode::Attract ? -1 : 1;
-  return makeField(r, NodeKind::ForcePoint,
-                   PointField{d.number(Attr::Strength) * factor * sign, d.number(Attr::Softening), unit});
+  return makeField(r, PointField{d.number(Attr::Strength) * factor * sign, d.number(Attr::Softening), unit});
 }
 
 Made makeVortex(const NodeRequest& r) {
@@ -77,7 +72,7 @@ Made makeVortex(const NodeRequest& r) {
   VortexField law{d.number(Attr::Strength) * factor, d.number(Attr::Core), d.number(Attr::Inward)};
   law.radius = d.optionalNumber(Attr::Radius).value_or(law.radius);
   law.unit = unit;
-  return makeField(r, NodeKind::ForceVortex, law);
+  return makeField(r, law);
 }
 
 Made makeMedium(const NodeRequest& r) {
@@ -93,7 +88,7 @@ Made makeMedium(const NodeRequest& r) {
     law.region = MediumField::Region::Box;
     law.centre = box->centre, law.half = 0.5 * box->edges;
   }
-  return makeField(r, NodeKind::Medium, law);
+  return makeField(r, law);
 }
 
 void warnIfLighterThanAir(const NodeRequest& r, const MassProperties& mass, double volume) {

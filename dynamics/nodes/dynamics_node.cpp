@@ -66,7 +66,7 @@ FieldId DynamicsNode::fieldFor(NodeRef ref, Scene& scene) {
   FieldNode* node = fieldAt(ref, scene);
   if (!node) return 0;
   Field f;
-  f.ref = ref, f.placement = node->placement(), f.pose = node->pose(scene);
+  f.ref = ref, f.placement = node->placement(), f.pose = node->pose(scene), f.strength = node->strength();
   f.id = world_.addField({node->law(scene), f.pose, f.pose, node->duration()}, false);
   if (node->on()) world_.switchField(f.id, true, node->activated());
   node->addUser(self());
@@ -89,6 +89,8 @@ bool DynamicsNode::followFields(FrameContext& frame, std::vector<Nanoseconds>& c
                                             frame.scene.placements());
     if (!f.course.empty()) any = true;
     addCuts(f.course, cuts);
+    f.strength = node->strength();
+    for (const AxisKnot& k : f.strength) cuts.push_back(k.time);
     f.pose = node->pose(frame.scene);
     for (const FieldNode::Change& c : node->changes(frame.now.frame)) {
       world_.switchField(f.id, c.on, c.when);
@@ -197,6 +199,9 @@ void DynamicsNode::act(Nanoseconds time, FrameContext& frame) {
 
 void DynamicsNode::move(Nanoseconds from, Nanoseconds to, bool jump) {
   for (const Field& f : fields_) {
+    if (!f.strength.empty())
+      world_.setFieldStrength(f.id, axisOn(f.strength, jump ? to : from, jump ? Limit::Before : Limit::After),
+                              axisOn(f.strength, to, Limit::Before));
     if (f.course.empty())
       world_.moveField(f.id, f.pose, f.pose);
     else

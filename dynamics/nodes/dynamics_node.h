@@ -39,8 +39,9 @@ private:
     NodeRef ref;
     FieldId id = 0;
     PlacementId placement = kNoPlacement;
-    Pose pose;      ///< at the end of the last step
-    Course course;  ///< in this frame, if it moves
+    Pose pose;            ///< at the end of the last step
+    Course course;        ///< in this frame, if it moves
+    AxisCourse strength;  ///< in this frame, if a device's axis says it
     Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max();
   };
   /// A body in the visitor's hand.

@@ -3,6 +3,8 @@
 #include "dynamics/nodes/shape_store.h"
 #include "engine/scene/scene.h"
 
+#include <algorithm>
+
 namespace stadion {
 
 FieldLaw FieldNode::law(const Scene& scene) const {
@@ -55,8 +57,17 @@ void FieldNode::receive(const Message& m, FrameContext& frame) {
   if (switch_.obey(m)) change(switch_.on(), when, frame);
 }
 
+void FieldNode::followAxis(FrameContext& frame) {
+  if (!axis_) return;
+  const double before = strength_.empty() ? 0 : strength_.back().value;
+  strength_ = axisCourse(frame.input, axis_->tracker, axis_->axis, frame.start(), frame.now.time);
+  if (std::ranges::any_of(strength_, [&](const AxisKnot& k) { return k.value != before; }))
+    for (const NodeRef user : users_) frame.scene.wakeNow(user);
+}
+
 void FieldNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
+  followAxis(frame);
   // The world ends the activation by itself, at the same exact time.
   if (switch_.on() && duration_ > 0 && since_ + duration_ <= frame.now.time) switch_.set(false);
 }
@@ -65,6 +76,7 @@ void FieldNode::hash(StateHash& h) const {
   PlacedNode::hash(h);
   switch_.hash(h);
   h.add(since_);
+  if (!strength_.empty()) h.add(strength_.back().value);
 }
 
 }  // namespace stadion

@@ -4,16 +4,32 @@
 /// bodies are hooked to it read it, in their own step.
 ///
 /// Commands  enable (starts an activation that `duration` bounds), disable, toggle, reset, and those of a
-/// placed node. Frames    the law is in the field's own coordinates; its scale multiplies a linear field's
-/// strength and the
-///           lengths of the others.
-/// Times     a command takes effect inside dynamics at its exact time.
+///           placed node.
+/// Frames    the law is in the field's own coordinates; its scale multiplies a linear field's strength and
+///           the lengths of the others.
+/// Times     a command takes effect inside dynamics at its exact time; a device's axis scales the strength
+///           evenly between the times at which it changed.
 
 #include "dynamics/force_field.h"
+#include "engine/input/axis_course.h"
 #include "engine/nodes/placed_node.h"
 #include "engine/nodes/switched.h"
 
 namespace stadion {
+
+/// Which axis of which device a field's strength is multiplied by.
+struct StrengthAxis {
+  std::string tracker;
+  std::size_t axis = 0;
+};
+
+/// What the script says about a field.
+struct FieldAttributes {
+  FieldLaw law;
+  Nanoseconds duration = 0;  ///< longest activation [ns], 0 = no limit
+  bool on = true;            ///< at the start
+  std::optional<StrengthAxis> axis;
+};
 
 class FieldNode : public PlacedNode {
 public:
@@ -23,10 +39,9 @@ public:
     bool on;
   };
 
-  FieldNode(NodeKind kind, NodeRef self, std::string name, PlaceAttributes place, FieldLaw law,
-            Nanoseconds duration, bool on)
-      : PlacedNode(kind, self, std::move(name), std::move(place)), law_(law), duration_(duration),
-        switch_(on) {}
+  FieldNode(NodeKind kind, NodeRef self, std::string name, PlaceAttributes place, FieldAttributes attributes)
+      : PlacedNode(kind, self, std::move(name), std::move(place)), law_(attributes.law),
+        duration_(attributes.duration), axis_(std::move(attributes.axis)), switch_(attributes.on) {}
 
   /// The law as the field's present scale makes it.
   FieldLaw law(const Scene& scene) const;
@@ -38,10 +53,14 @@ public:
   /// The switches of frame `frame`, in order.
   const std::vector<Change>& changes(std::uint64_t frame) const;
 
-  /// A dynamics node that wants to be woken when this field is switched.
+  /// What its strength is multiplied by in this frame, while it is on; empty without an axis.
+  const AxisCourse& strength() const { return strength_; }
+
+  /// A dynamics node that wants to be woken when this field is switched, or its strength changes.
   void addUser(NodeRef dynamics) { users_.push_back(dynamics); }
   void removeUser(NodeRef dynamics) { std::erase(users_, dynamics); }
 
+  bool busy() const override { return PlacedNode::busy() || (axis_ && switch_.on()); }
   void hash(StateHash& h) const override;
 
 protected:
@@ -50,10 +69,13 @@ protected:
   void simulate(FrameContext& frame) override;
 
 private:
+  void followAxis(FrameContext& frame);
   void change(bool on, Nanoseconds when, FrameContext& frame);
 
   FieldLaw law_;
   Nanoseconds duration_;  ///< 0 = no limit
+  std::optional<StrengthAxis> axis_;
+  AxisCourse strength_;
   Switched switch_;
   Nanoseconds since_ = 0;
   std::vector<Change> changes_;

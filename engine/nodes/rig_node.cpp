@@ -1,25 +1,12 @@
 #include "engine/nodes/rig_node.h"
 
+#include "engine/input/axis_course.h"
 #include "engine/nodes/rig_drive.h"
 #include "engine/scene/scene.h"
 
 #include <algorithm>
 
 namespace stadion {
-namespace {
-
-/// One axis at a time: it goes evenly from knot to knot.
-double axisAt(const std::vector<ControlKnot>& controls, std::size_t axis, Nanoseconds time, Limit limit) {
-  const auto next = limit == Limit::After ? std::ranges::upper_bound(controls, time, {}, &ControlKnot::time)
-                                          : std::ranges::lower_bound(controls, time, {}, &ControlKnot::time);
-  if (next == controls.begin()) return double{controls.front().axes[axis]};
-  if (next == controls.end()) return double{controls.back().axes[axis]};
-  const ControlKnot& last = *(next - 1);
-  const double s = static_cast<double>(time - last.time) / static_cast<double>(next->time - last.time);
-  return double{last.axes[axis]} + s * (double{next->axes[axis]} - double{last.axes[axis]});
-}
-
-}  // namespace
 
 void RigNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
@@ -60,12 +47,14 @@ Course NavigatorNode::way(const TrackerSample* t, const FrameContext& frame, con
 void NavigatorNode::drive(FrameContext& frame, Nanoseconds until) {
   const TrackerSample* t = frame.input.find(attributes_.tracker);
   if (!t || !t->valid || frame.now.step == 0) return;
-  std::vector<ControlKnot> controls = t->controls;
-  if (controls.empty()) controls.push_back({frame.start(), t->buttons, t->axes});
-  controls.push_back({frame.now.time, t->buttons, t->axes});
-  const bool still = std::ranges::all_of(
-      controls, [](const ControlKnot& c) { return c.axes[0] == 0.0f && c.axes[1] == 0.0f; });
-  if (still) return;
+  const auto axis = [&](std::size_t i) {
+    return axisCourse(frame.input, attributes_.tracker, i, frame.start(), frame.now.time);
+  };
+  const AxisCourse turn = axis(0), forward = axis(1);
+  const auto still = [](const AxisCourse& c) {
+    return std::ranges::all_of(c, [](const AxisKnot& k) { return k.value == 0; });
+  };
+  if (still(turn) && still(forward)) return;
 
   const Course wand = way(t, frame, {Vec3::Zero(), q_RT_}, t->X_RT);
   const Pose head_R = frame.scene.headInRig(frame.input);
@@ -74,7 +63,7 @@ void NavigatorNode::drive(FrameContext& frame, Nanoseconds until) {
   std::vector<Nanoseconds> stops{from, until};
   for (const Course* course : {&wand, &head})
     for (const PoseKnot& k : *course) stops.push_back(k.time);
-  for (const ControlKnot& c : controls) stops.push_back(c.time);
+  for (const AxisKnot& k : turn) stops.push_back(k.time);  // those of `forward` too
   std::sort(stops.begin(), stops.end());
   stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
 
@@ -82,7 +71,7 @@ void NavigatorNode::drive(FrameContext& frame, Nanoseconds until) {
   for (std::size_t i = 1; i < stops.size(); ++i) {
     if (stops[i - 1] < from || stops[i] > until) continue;
     const auto end = [&](Nanoseconds time, Limit limit) {
-      return RigDrive::End{axisAt(controls, 0, time, limit), axisAt(controls, 1, time, limit),
+      return RigDrive::End{axisOn(turn, time, limit), axisOn(forward, time, limit),
                            poseOn(head, time, limit).p, poseOn(wand, time, limit).q};
     };
     const RigDrive drive{attributes_.turnRate, attributes_.speed, attributes_.fly,

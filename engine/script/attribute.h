@@ -60,6 +60,7 @@ enum class Attr : std::uint8_t {
   Speed,
   Sphere,
   Strength,
+  StrengthAxis,
   Target,
   Tolerance,
   Tracker,
@@ -72,7 +73,7 @@ enum class Attr : std::uint8_t {
   Zenith,
 };
 
-inline constexpr std::array<std::string_view, 60> kAttrNames = {"ambient",   "angle",       "attach",
+inline constexpr std::array<std::string_view, 61> kAttrNames = {"ambient",   "angle",       "attach",
                                                                 "box",       "collidee",    "collider",
                                                                 "colour",    "core",        "damping",
                                                                 "density",   "direction",   "dragarea",
@@ -88,10 +89,11 @@ inline constexpr std::array<std::string_view, 60> kAttrNames = {"ambient",   "an
                                                                 "repeat",    "restitution", "rolling",
                                                                 "scale",     "selfcollide", "shape",
                                                                 "smooth",    "softening",   "speed",
-                                                                "sphere",    "strength",    "target",
-                                                                "tolerance", "tracker",     "turnrate",
-                                                                "type",      "unit",        "up",
-                                                                "viscosity", "wind",        "zenith"};
+                                                                "sphere",    "strength",    "strengthaxis",
+                                                                "target",    "tolerance",   "tracker",
+                                                                "turnrate",  "type",        "unit",
+                                                                "up",        "viscosity",   "wind",
+                                                                "zenith"};
 inline constexpr std::size_t kAttrCount = kAttrNames.size();
 
 constexpr std::string_view nameOf(Attr attr) {

@@ -25,7 +25,7 @@ PlaceAttributes placeOf(const Declaration& d) {
 
 Notification notificationOf(const EventMessage& m) {
   Notification n;
-  n.event = m.event, n.verb = m.verb, n.delay = m.delay;
+  n.event = m.event, n.verb = m.verb, n.delay = m.delay + m.latency;
   n.target = std::string(m.target.name);
   if (m.verb == Verb::Attach) n.arguments = {std::string(kAttachPartNames[static_cast<std::size_t>(m.part)])};
   if (!m.field.name.empty()) n.arguments.push_back(std::string(m.field.name));

@@ -25,4 +25,6 @@ enum class FieldMode : std::uint8_t { Attract, Repel };                 ///< for
 enum class FieldFalloff : std::uint8_t { None, Linear, Square };        ///< forcespherical: falloff
 enum class NavigatorMode : std::uint8_t { Walk, Fly };                  ///< navigator: mode
 
+enum class DeviceAxis : std::uint8_t {};  ///< force fields: strengthaxis
+
 }  // namespace stadion

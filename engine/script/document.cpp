@@ -190,6 +190,7 @@ EventMessage Document::messageAt(std::uint32_t index) const {
   if (stored.field != kNone) message.field = referenceAt(stored.field);
   message.tracker = source_.slice(stored.tracker, stored.trackerLength);
   message.delay = stored.delay;
+  message.latency = stored.latency;
   message.where = stored.where;
   message.command = stored.command;
   return message;

@@ -156,7 +156,7 @@ private:
   };
 
   struct StoredMessage {
-    Nanoseconds delay;
+    Nanoseconds delay, latency;
     std::uint32_t where;
     std::uint32_t command;
     std::uint32_t target;  // into references_

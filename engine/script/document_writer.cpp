@@ -44,6 +44,7 @@ void DocumentWriter::addMessage(TextSpan value, const ReadMessage& read) {
   };
   Document::StoredMessage message{};
   message.delay = read.delay;
+  message.latency = read.latency;
   message.where = value.offset;
   message.command = at(read.command).offset;
   message.target = storeReference(at(read.target));

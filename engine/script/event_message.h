@@ -1,5 +1,10 @@
 #pragma once
-/// "event, target, command [arguments] [, delay]": what a node tells another when something happens to it.
+/// "event, target, command [arguments] [, delay] [, latency=seconds]": what a node tells another when
+/// something happens to it.
+///
+/// Times    the command is due at the event's exact time + delay + latency, and takes effect then, but not
+///          before the frame after the one in which the event was told. A latency of at least a frame's
+///          step therefore fixes the lag: the same at every frame rate up to that step.
 
 #include "engine/diagnostic.h"
 #include "engine/event.h"
@@ -38,6 +43,7 @@ struct EventMessage {
   NodeReference field;                ///< hook, unhook; else unresolved
   std::string_view tracker;           ///< attach, grab; empty: the default
   Nanoseconds delay = 0;              ///< from the event to the command [ns]
+  Nanoseconds latency = 0;            ///< on top of the delay; 0: none is stated [ns]
   std::uint32_t where = 0;            ///< offset in the source text
   std::uint32_t command = 0;          ///< offset of the command in the source text
 };

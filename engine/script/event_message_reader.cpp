@@ -102,17 +102,36 @@ Failure readCommand(const Piece& piece, ReadMessage& message) {
   return std::nullopt;
 }
 
-Failure readDelay(const Piece& piece, ReadMessage& message) {
+/// A number of seconds from 0 to kLongestDelay, called `what` in messages.
+Failure readTime(const Piece& piece, std::string_view what, double& seconds) {
   NumberList numbers;
-  if (auto failure = readNumbers(piece.text, numbers, "the delay", "a number of seconds")) {
+  const std::string called = fmt::format("the {}", what);
+  if (auto failure = readNumbers(piece.text, numbers, called, "a number of seconds")) {
     failure->offset += piece.offset;
     return failure;
   }
-  if (numbers.count != 1) return ValueError{piece.offset, "the delay must be one number of seconds"};
-  if (numbers.value[0] < 0 || numbers.value[0] > kLongestDelay)
-    return ValueError{piece.offset, fmt::format("the delay must be from 0 to {} s, not {}", kLongestDelay,
-                                                numbers.value[0])};
-  message.delay = fromSeconds(numbers.value[0]);
+  if (numbers.count != 1) return ValueError{piece.offset, called + " must be one number of seconds"};
+  seconds = numbers.value[0];
+  if (seconds < 0 || seconds > kLongestDelay)
+    return ValueError{piece.offset,
+                      fmt::format("{} must be from 0 to {} s, not {}", called, kLongestDelay, seconds)};
+  return std::nullopt;
+}
+
+Failure readDelay(const Piece& piece, ReadMessage& message) {
+  double seconds = 0;
+  if (auto failure = readTime(piece, "delay", seconds)) return failure;
+  message.delay = fromSeconds(seconds);
+  return std::nullopt;
+}
+
+Failure readLatency(const Piece& piece, ReadMessage& message) {
+  double seconds = 0;
+  if (auto failure = readTime(piece, "latency", seconds)) return failure;
+  message.latency = fromSeconds(seconds);
+  if (message.latency == 0)
+    return ValueError{piece.offset, "a latency of 0 fixes nothing; state at least the time of a frame at the "
+                                    "lowest frame rate, such as 0.04, or leave it out"};
   return std::nullopt;
 }
 
@@ -121,7 +140,7 @@ struct Option {
   std::string_view word;
   Failure (*read)(const Piece& value, ReadMessage& message);
 };
-constexpr Option kOptions[] = {{"delay", readDelay}};
+constexpr Option kOptions[] = {{"delay", readDelay}, {"latency", readLatency}};
 
 const Option* optionNamed(std::string_view word) {
   for (const Option& option : kOptions)
@@ -137,8 +156,9 @@ Failure readOption(const Piece& piece, unsigned& seen, ReadMessage& message) {
   const Piece word = named ? takeUntil('=', rest, offset) : Piece{"delay", offset};
   const Option* option = optionNamed(word.text);
   if (option == nullptr)
-    return ValueError{word.offset, fmt::format("\"{}\" is not an option of an eventmessage{}",
-                                               shortened(word.text), didYouMean(word.text, {"delay"}))};
+    return ValueError{word.offset,
+                      fmt::format("\"{}\" is not an option of an eventmessage{}", shortened(word.text),
+                                  didYouMean(word.text, {"delay", "latency"}))};
   const unsigned bit = 1U << (option - kOptions);
   if ((seen & bit) != 0) return ValueError{piece.offset, fmt::format("the {} is given twice", option->word)};
   seen |= bit;

@@ -16,11 +16,11 @@ struct ReadMessage {
   AttachPart part = AttachPart::All;
   Piece field;
   Piece tracker;
-  Nanoseconds delay = 0;
+  Nanoseconds delay = 0, latency = 0;
 };
 
 /// "event, target, command [arguments] [, delay]" posted by a node of kind `sender`. After the command come,
-/// in any order, the delay as a bare number and options of the form `word=value`, of which `delay` is one.
+/// in any order, the delay as a bare number and options of the form `word=value`: `delay` and `latency`.
 std::optional<ValueError> readEventMessage(std::string_view text, NodeKind sender, ReadMessage& message);
 
 /// What is wrong with a word as a name, as the end of a sentence that begins with it.

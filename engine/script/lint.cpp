@@ -5,6 +5,7 @@
 #include "engine/script/reporter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_set>
 
 #include <fmt/format.h>
@@ -139,6 +140,8 @@ private:
                       : node.number(Attr::Strength) == 0) {
       warn(node, linear ? Attr::Direction : Attr::Strength, "this field exerts no force");
     }
+    if (node.has(Attr::Tracker) && !node.has(Attr::StrengthAxis))
+      warn(node, Attr::Tracker, "the tracker has no effect without strengthaxis");
     if (node.name().empty() || (alone_ && !use.hooked))
       warn(node, Attr::Name, fmt::format("{} is never hooked to a body", called(node)));
     warnNeverOn(node);
@@ -221,6 +224,19 @@ private:
 void lint(const Document& document, bool alone, Diagnostics& findings) {
   Reporter report(document.source(), findings);
   Linter(document, alone, report).run();
+}
+
+void lintLatencies(const Document& document, Nanoseconds step, Diagnostics& findings) {
+  Reporter report(document.source(), findings);
+  for (const Declaration node : document)
+    for (const EventMessage& m : node.eventMessages()) {
+      if (m.latency == 0 || m.delay + m.latency >= step) continue;
+      report.warning(
+          m.where, fmt::format("the latency of {:g} s is shorter than a frame ({:.4f} s at {:g} Hz), so that "
+                               "the command waits for the next frame; state {:.3f} or more",
+                               toSeconds(m.latency), toSeconds(step), 1 / toSeconds(step),
+                               std::ceil(1e3 * toSeconds(step - m.delay)) / 1e3));
+    }
 }
 
 }  // namespace stadion

@@ -11,4 +11,9 @@ namespace stadion {
 /// (`alone`: no file loads it and it loads none).
 void lint(const Document& document, bool alone, Diagnostics& findings);
 
+/// Warns of messages whose stated latency is shorter than a frame: it fixes nothing then.
+///
+/// Units    `step` is the time of one frame [ns].
+void lintLatencies(const Document& document, Nanoseconds step, Diagnostics& findings);
+
 }  // namespace stadion

@@ -20,7 +20,9 @@ read, so the order of declarations does not matter: a name means the node of thi
 it; "arena/ball" means the node "ball" in the file of the scene node "arena". Lengths are metres, times seconds, masses
 kilograms, angles degrees; +X is right, +Y forward, +Z up. No place is farther than 1000 km away.
 
-An eventmessage is "event, target, command [arguments] [, delay in seconds]".
+An eventmessage is "event, target, command [arguments] [, delay in seconds] [, latency=seconds]". The command takes
+effect at the exact time of the event + delay + latency, but not before the next frame: with a latency of at least a
+frame's time it does so alike at every frame rate.
 )";
 
 std::string wrapped(std::string_view text, std::size_t indent) {

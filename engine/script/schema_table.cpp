@@ -31,6 +31,7 @@ constexpr std::string_view kLightTypes[] = {"directional", "point", "spot"};
 constexpr std::string_view kShapes[] = {"auto",  "sphere",  "box",      "mesh",
                                         "plane", "capsule", "cylinder", "convex"};
 constexpr std::string_view kAxes[] = {"x", "y", "z"};
+constexpr std::string_view kDeviceAxes[] = {"0", "1", "2", "3", "4", "5", "6", "7"};
 constexpr std::string_view kForceUnits[] = {"g", "m/s2", "N"};
 constexpr std::string_view kFieldModes[] = {"attract", "repel"};
 constexpr std::string_view kFalloffs[] = {"none", "linear", "square"};
@@ -86,6 +87,15 @@ constexpr AttributeSpec kFieldUnit{
     .help = "what the strength is counted in: standard gravity, acceleration or force",
     .standard = "g",
     .choices = kForceUnits};
+constexpr AttributeSpec kFieldAxis{
+    .attr = Attr::StrengthAxis,
+    .kind = Choice,
+    .help = "axis of the device that the strength (of a medium, the wind) is multiplied by; without it, 1",
+    .choices = kDeviceAxes};
+constexpr AttributeSpec kFieldTracker{.attr = Attr::Tracker,
+                                      .kind = Tracker,
+                                      .help = "the device of strengthaxis; while it is lost its axes are 0",
+                                      .standard = "wand"};
 
 constexpr AttributeSpec kObjectFile{.attr = Attr::File,
                                     .kind = File,
@@ -243,6 +253,8 @@ constexpr AttributeSpec kForceLinearRows[] = {
     kFieldUnit,
     kInitOn,
     kFieldDuration,
+    kFieldAxis,
+    kFieldTracker,
     kAttachRow,
 };
 
@@ -272,6 +284,8 @@ constexpr AttributeSpec kForceSphericalRows[] = {
     kFieldUnit,
     kInitOn,
     kFieldDuration,
+    kFieldAxis,
+    kFieldTracker,
     kAttachRow,
 };
 
@@ -299,6 +313,8 @@ constexpr AttributeSpec kForcePointRows[] = {
     kFieldUnit,
     kInitOn,
     kFieldDuration,
+    kFieldAxis,
+    kFieldTracker,
     kAttachRow,
 };
 
@@ -328,6 +344,8 @@ constexpr AttributeSpec kForceVortexRows[] = {
     kFieldUnit,
     kInitOn,
     kFieldDuration,
+    kFieldAxis,
+    kFieldTracker,
     kAttachRow,
 };
 
@@ -361,6 +379,8 @@ constexpr AttributeSpec kMediumRows[] = {
      .range = kLength},
     kInitOn,
     kFieldDuration,
+    kFieldAxis,
+    kFieldTracker,
     kAttachRow,
 };
 

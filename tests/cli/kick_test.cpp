@@ -71,10 +71,11 @@ Moment momentOf(const TimeSignature& now, Scene& scene, const std::vector<Vec3>&
   return m;
 }
 
-Played playKick(const std::string& script, double rate) {
+Played playKick(const std::string& script, double rate, const std::string& input = {}) {
   Played played;
   ShowOptions options;
-  options.script = script, options.walls = "desktop", options.size = "64x48", options.rate = rate;
+  options.script = script, options.walls = "desktop", options.size = "64x48", options.rate = rate,
+  options.input = input;
   options.assetRoots = {assetFolder()};
   Diagnostics findings;
   if (!options.settle(findings)) return played;
@@ -221,6 +222,21 @@ TEST(Kick, AtSixtyHertzTheBallComesToRestBeforeTheVisitor) {
   EXPECT_LT(std::fabs(end.x()), 1.5);
   EXPECT_GT(end.y(), 1);
   EXPECT_LT(end.y(), 3.5);
+}
+
+TEST(Kick, WithALatencyTheBallComesToRestAtTheSamePlaceAtEveryFrameRate) {
+  const std::string folder = STADION_SOURCE_DIR "/scripts/";
+  Vec3 rest = Vec3::Zero();
+  for (const double rate : {60., 96., 144., 240.}) {
+    const Played played = playKick(folder + "kick_latency.evs", rate, folder + "kick.input");
+    ASSERT_FALSE(played.moments.empty());
+    const Moment& end = played.moments.back();
+    EXPECT_TRUE(end.asleep);
+    if (rate == 60) rest = end.ball;
+    fmt::print("{:3.0f} Hz: at rest {:.3g} m from where it lies at 60 Hz\n", rate, (end.ball - rest).norm());
+    EXPECT_LT((end.ball - rest).norm(), 1e-5) << rate;
+  }
+  EXPECT_GT((rest - Vec3(10, 0, 0)).norm(), 5) << "it was a kick";
 }
 
 }  // namespace

@@ -18,9 +18,9 @@ std::unique_ptr<Player> openShow(const std::string& script, const std::string& w
   return player;
 }
 
-FrameLoopOutcome play(ShowStages& stages, Mode mode, std::size_t walls, std::uint64_t frames) {
+FrameLoopOutcome play(ShowStages& stages, Mode mode, std::size_t walls, std::uint64_t frames, double rate) {
   FrameLoopOptions o;
-  o.mode = mode, o.walls = walls, o.frames = frames;
+  o.mode = mode, o.walls = walls, o.frames = frames, o.rate = rate;
   const std::atomic<bool> never = false;
   FrameLoop loop(stages, o, never);
   return loop.run();

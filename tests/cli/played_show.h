@@ -13,6 +13,7 @@ namespace stadion {
 std::unique_ptr<Player> openShow(const std::string& script, const std::string& walls = "desktop");
 
 /// Plays `frames` frames with these parts.
-FrameLoopOutcome play(ShowStages& stages, Mode mode, std::size_t walls, std::uint64_t frames);
+FrameLoopOutcome play(ShowStages& stages, Mode mode, std::size_t walls, std::uint64_t frames,
+                      double rate = 60);
 
 }  // namespace stadion

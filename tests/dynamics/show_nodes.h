@@ -10,9 +10,9 @@ namespace stadion::show_nodes {
 class Field : public FieldNode {
 public:
   Field(NodeRef self, std::string name, const Vec3& push, bool on, double duration = 0,
-        PlaceAttributes place = {})
-      : FieldNode(NodeKind::ForceLinear, self, std::move(name), std::move(place), LinearField{push},
-                  fromSeconds(duration), on) {}
+        PlaceAttributes place = {}, std::optional<StrengthAxis> axis = {})
+      : FieldNode(NodeKind::ForceLinear, self, std::move(name), std::move(place),
+                  {LinearField{push}, fromSeconds(duration), on, std::move(axis)}) {}
 };
 
 /// An object with a ball for a mesh would need a mesh; here the body's shape is given.

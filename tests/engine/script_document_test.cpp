@@ -81,11 +81,11 @@ TEST(ScriptDocument, RepeatedAttributesAccumulateInOrder) {
 }
 
 TEST(ScriptDocument, EventMessagesAreTyped) {
-  const Document d =
-      right("usertrigger(sphere=\"0 0 0 2\", eventmessage=\"enter, leg, attach position wand, 0.25\",\n"
-            "  eventmessage=\"exit,ball,unhook  wind\", eventmessage=\"exit, ball, grab, delay=2\")\n"
-            "object(name=leg, file=a.obj) dynobject(name=ball, file=b.obj)\n"
-            "forcelinear(name=wind, direction=\"1 0 0\")");
+  const Document d = right(
+      "usertrigger(sphere=\"0 0 0 2\", eventmessage=\"enter, leg, attach position wand, 0.25\",\n"
+      "  eventmessage=\"exit,ball,unhook  wind\", eventmessage=\"exit, ball, grab, latency=0.02, delay=2\")\n"
+      "object(name=leg, file=a.obj) dynobject(name=ball, file=b.obj)\n"
+      "forcelinear(name=wind, direction=\"1 0 0\")");
   const auto messages = d[0].eventMessages();
   ASSERT_EQ(messages.size(), 3U);
   EXPECT_EQ(messages[0].event, Event::Enter);
@@ -98,7 +98,9 @@ TEST(ScriptDocument, EventMessagesAreTyped) {
   EXPECT_EQ(messages[1].verb, Verb::Unhook);
   EXPECT_EQ(messages[1].field.declaration, 3U);
   EXPECT_EQ(messages[1].delay, 0);
+  EXPECT_EQ(messages[1].latency, 0);
   EXPECT_EQ(messages[2].delay, 2'000'000'000);
+  EXPECT_EQ(messages[2].latency, 20'000'000);
   EXPECT_TRUE(messages[2].tracker.empty());
 }
 

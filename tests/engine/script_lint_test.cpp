@@ -1,6 +1,7 @@
 #include "engine/script/lint.h"
 #include "engine/script/script.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace stadion {
@@ -26,6 +27,13 @@ TEST(ScriptLint, AFieldThatNothingHooksIsNamed) {
   const std::string_view wind = "forcelinear(name=wind, direction=\"1 0 0\")";
   EXPECT_EQ(warningsOf(wind), Messages{"the forcelinear \"wind\" is never hooked to a body"});
   EXPECT_TRUE(warningsOf(wind, false).empty());  // another file may hook it
+}
+
+TEST(ScriptLint, ATrackerOfAFieldNeedsAnAxis) {
+  const std::string body = "dynobject(name=b, file=b.obj, hook=push) dynamics(collidee=b)\n";
+  const std::string push = "forcelinear(name=push, direction=\"1 0 0\", tracker=left";
+  EXPECT_EQ(warningsOf(body + push + ")"), Messages{"the tracker has no effect without strengthaxis"});
+  EXPECT_TRUE(warningsOf(body + push + ", strengthaxis=7)").empty());
 }
 
 TEST(ScriptLint, AFieldHookedByMessageIsUsed) {
@@ -67,6 +75,26 @@ TEST(ScriptLint, MoreLightsThanShineAreTold) {
   const auto warnings = warningsOf(text);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("18 lights are on at the start, but only 16"), std::string::npos) << warnings[0];
+}
+
+TEST(ScriptLint, ALatencyShorterThanAFrameIsTold) {
+  const auto warningsAt = [](double rate) {
+    Diagnostics findings, warnings;
+    const std::string_view text = "light(name=lamp)\n"
+                                  "timer(period=1, eventmessage=\"timesup, lamp, hide, latency=0.02\",\n"
+                                  "  eventmessage=\"timesup, lamp, show, 0.02, latency=0.02\")";
+    const Document document = checkScript(std::move(SourceText::make("a.evs", text).value()), findings);
+    EXPECT_FALSE(findings.hasErrors());
+    lintLatencies(document, fromSeconds(1 / rate), warnings);
+    std::string all;
+    for (const Diagnostic& d : warnings.all()) all += fmt::format("{}: {}\n", d.where.line, d.message);
+    return all;
+  };
+  EXPECT_EQ(warningsAt(60), "");
+  EXPECT_EQ(warningsAt(50), "");
+  EXPECT_EQ(warningsAt(30),
+            "2: the latency of 0.02 s is shorter than a frame (0.0333 s at 30 Hz), so that the "
+            "command waits for the next frame; state 0.034 or more\n");
 }
 
 TEST(ScriptLint, AFormatThatIsNotReadIsNamed) {
