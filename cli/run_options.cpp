@@ -3,6 +3,14 @@
 #include <CLI/CLI.hpp>
 
 namespace stadion {
+namespace {
+
+/// Refuses the empty word of a shell variable that is not set.
+std::string aName(const std::string& word) {
+  return word.empty() ? "a name is expected, not an empty word" : "";
+}
+
+}  // namespace
 
 void RunOptions::addTo(CLI::App& command) {
   show.addTo(command);
@@ -16,10 +24,13 @@ void RunOptions::addTo(CLI::App& command) {
           "free: as fast as possible; lock: on the ticks of --rate; float: a late frame begins at once "
           "(default: free with --frames or --out, else lock)")
       ->check(CLI::IsMember({"free", "lock", "float"}));
-  command.add_option("--record-input", recordInput, "write what the trackers said to this input log");
-  command.add_option(
-      "--out", out,
-      "folder for pictures, contact-sheet.png and summary.json; only the frames of --pictures are drawn");
+  command.add_option("--record-input", recordInput, "write what the trackers said to this input log")
+      ->check(aName, "FILE");
+  command
+      .add_option(
+          "--out", out,
+          "folder for pictures, contact-sheet.png and summary.json; only the frames of --pictures are drawn")
+      ->check(aName, "DIR");
   command
       .add_option("--pictures", pictures,
                   "of which frames pictures are written: last, all, none, or N for every Nth")

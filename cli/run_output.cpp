@@ -173,7 +173,8 @@ void RunOutput::finish(const std::vector<EyePictures>& walls) {
   if (report)
     files_.push_back(options_.folder.pathOf("video.mp4"));
   else
-    remarks_.push_back("no video: " + report.error().message);
+    video_->lacksEncoder() ? remarks_.push_back("no video: " + report.error().message)
+                           : fail(Reason(report.error(), FailureKind::Refusal));
 }
 
 }  // namespace stadion

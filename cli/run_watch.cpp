@@ -43,6 +43,12 @@ std::unique_ptr<RunWatch> RunWatch::create(const RunOptions& options, Player& pl
 
 void RunWatch::recordInput(const RunOptions& options, Player& player, Diagnostics& findings) {
   if (options.recordInput.empty()) return;
+  std::error_code none;
+  if (std::filesystem::equivalent(options.recordInput, player.inputName(), none)) {
+    findings.error({}, "--record-input: " + options.recordInput +
+                           " is the input log being played; name another file");
+    return;
+  }
   if (isAnotherFile(options.recordInput)) {
     findings.error({}, "--record-input: " + options.recordInput +
                            " is there and is no input log; name another file, or remove this one");

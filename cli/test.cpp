@@ -23,7 +23,7 @@ void addTestCommand(CLI::App& app, int& code) {
   command->add_flag(
       "--full", options->full,
       "the acceptance counts as well: 10 000 damaged scripts, models, input logs and wall files each, "
-      "1000 reloads, 300 frames of every comparison, and the tests that measure time (an hour or so)");
+      "1000 reloads, 300 frames of every comparison, and the tests that measure time (about ten minutes)");
   command->add_option("--only", options->only, "only tests whose name matches this regular expression");
   command->callback([options, &code] {
     const std::string folder = std::filesystem::canonical("/proc/self/exe").parent_path().parent_path();

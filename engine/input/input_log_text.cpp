@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -160,7 +161,8 @@ private:
 
   bool position(std::size_t index, Pose& pose) {
     for (int axis = 0; axis < 3; ++axis) {
-      const auto value = number(index + static_cast<std::size_t>(axis), "a position has x, y and z");
+      const auto value = number(index + static_cast<std::size_t>(axis),
+                                fmt::format("{} of the position", "xyz"[axis]));
       if (!value) return false;
       if (std::fabs(*value) > kFarthest) {
         in_.error(in_.words()[index + static_cast<std::size_t>(axis)].column,
@@ -175,7 +177,7 @@ private:
   bool quaternion(std::size_t index, Pose& pose) {
     double q[4];
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto value = number(index + i, "a unit quaternion has w, x, y and z");
+      const auto value = number(index + i, fmt::format("{} of the unit quaternion w, x, y, z", "wxyz"[i]));
       if (!value) return false;
       q[i] = *value;
     }
@@ -221,14 +223,15 @@ private:
 
   bool turn(std::size_t& i, Pose& pose) {
     double angle[3];
-    for (double& a : angle) {
-      const auto value = number(i++, "turn has roll, pitch and yaw in degrees");
+    constexpr std::array<std::string_view, 3> kNames{"roll", "pitch", "yaw"};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto value = number(i++, fmt::format("{} of turn (roll, pitch, yaw in degrees)", kNames[k]));
       if (!value) return false;
       if (std::fabs(*value) > 3600) {
         in_.error(in_.words()[i - 1].column, "an angle must be within ten turns (3600 degrees)");
         return false;
       }
-      a = *value * kRadiansPerDegree;
+      angle[k] = *value * kRadiansPerDegree;
     }
     pose.q = det::fromEuler(angle[0], angle[1], angle[2]);
     return true;

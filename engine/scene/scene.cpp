@@ -36,6 +36,7 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
     if (at != loads_.end() && at->second->nodes[ref.position]) rehash(*at->second->nodes[ref.position]);
   }
   touched_.clear();
+  std::ranges::stable_sort(events_, {}, &EventRecord::when);
   publish(now, input, changes);
 }
 

@@ -128,7 +128,7 @@ public:
 
   std::uint64_t stateHash() const;
   const FrameCounters& counters() const { return counters_; }
-  const std::vector<EventRecord>& events() const { return events_; }  ///< of the last frame
+  const std::vector<EventRecord>& events() const { return events_; }  ///< of the last frame, by time
   std::size_t loadCount() const { return loads_.size(); }
   void forEachNode(const std::function<void(const Node&)>& f) const;
 

@@ -225,9 +225,10 @@ void Checker::takeFile(const AttributeSpec& spec, TextSpan value) {
 
 void Checker::takeMessage(NodeKind kind, TextSpan value) {
   ReadMessage message;
-  if (const auto failure = readEventMessage(text(value), kind, message))
-    return report_.error(value.offset + static_cast<std::uint32_t>(failure->offset), failure->message);
-  writer_.addMessage(value, message);
+  const std::vector<ValueError> faults = readEventMessage(text(value), kind, message);
+  for (const ValueError& fault : faults)
+    report_.error(value.offset + static_cast<std::uint32_t>(fault.offset), fault.message);
+  if (faults.empty()) writer_.addMessage(value, message);
 }
 
 void Checker::checkRequired(NodeKind kind, TextSpan type, const Seen& seen) {

@@ -176,28 +176,38 @@ Failure missing(std::size_t offset, const char* what) {
 
 }  // namespace
 
-std::optional<ValueError> readEventMessage(std::string_view text, NodeKind sender, ReadMessage& message) {
+std::vector<ValueError> readEventMessage(std::string_view text, NodeKind sender, ReadMessage& message) {
+  std::vector<ValueError> faults;
+  const auto note = [&](Failure failure) {
+    if (failure) faults.push_back(std::move(*failure));
+  };
   std::string_view rest = text;
   std::size_t offset = 0;
   const Piece event = takeUntil(',', rest, offset);
-  if (event.text.empty()) return missing(0, "event");
-  if (auto failure = readEvent(event, sender, message)) return failure;
+  note(event.text.empty() ? missing(0, "event") : readEvent(event, sender, message));
   message.target = takeUntil(',', rest, offset);
-  if (message.target.text.empty()) return missing(message.target.offset, "target");
+  if (message.target.text.empty()) {
+    note(missing(message.target.offset, "target"));
+    return faults;
+  }
   if (auto fault = faultOfReference(message.target.text))
-    return ValueError{message.target.offset,
-                      fmt::format("\"{}\" {}", shortened(message.target.text), *fault)};
-  const Piece command = takeUntil(',', rest, offset);
-  if (command.text.empty()) return missing(command.offset, "command");
-  message.command = command;
-  if (auto failure = readCommand(command, message)) return failure;
+    note(ValueError{message.target.offset, fmt::format("\"{}\" {}", shortened(message.target.text), *fault)});
+  message.command = takeUntil(',', rest, offset);
+  if (message.command.text.empty()) {
+    note(missing(message.command.offset, "command"));
+    return faults;
+  }
+  note(readCommand(message.command, message));
 
   unsigned seen = 0;
-  while (text[offset - 1] == ',') {  // an empty part is a failure, so this ends
+  while (text[offset - 1] == ',') {
     const Piece option = takeUntil(',', rest, offset);
-    if (auto failure = readOption(option, seen, message)) return failure;
+    if (auto failure = readOption(option, seen, message)) {  // an empty part is a failure, so this ends
+      note(std::move(failure));
+      break;
+    }
   }
-  return std::nullopt;
+  return faults;
 }
 
 std::optional<std::string> faultOfName(std::string_view name) {

@@ -21,7 +21,8 @@ struct ReadMessage {
 
 /// "event, target, command [arguments] [, delay]" posted by a node of kind `sender`. After the command come,
 /// in any order, the delay as a bare number and options of the form `word=value`: `delay` and `latency`.
-std::optional<ValueError> readEventMessage(std::string_view text, NodeKind sender, ReadMessage& message);
+/// What is wrong with each part; nothing if the message is whole.
+std::vector<ValueError> readEventMessage(std::string_view text, NodeKind sender, ReadMessage& message);
 
 /// What is wrong with a word as a name, as the end of a sentence that begins with it.
 std::optional<std::string> faultOfName(std::string_view name);

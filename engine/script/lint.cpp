@@ -176,17 +176,10 @@ private:
   }
 
   void lookAtContacts(const Declaration& node) {
-    const auto colliders = node.references(Attr::Collider);
     const auto collidees = node.references(Attr::Collidee);
     if (collidees.empty())
       warn(node, Attr::Name, fmt::format("{} has no collidee and so no effect", called(node)));
     warnRepeated(node, Attr::Collider);
-    std::unordered_set<std::string_view> names;
-    for (const NodeReference& collider : colliders) names.insert(collider.name);
-    for (const NodeReference& collidee : collidees)
-      if (names.contains(collidee.name))
-        report_.warning(collidee.where,
-                        fmt::format("\"{}\" is both collider and collidee here", collidee.name));
     warnNeverOn(node);
   }
 

@@ -4,6 +4,7 @@
 #include "engine/script/suggestion.h"
 
 #include <unordered_map>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -173,8 +174,18 @@ private:
   void checkOwners() {
     std::unordered_map<std::string_view, std::uint32_t> ownerOf;
     for (const Declaration node : document_) {
-      if (node.kind() != NodeKind::Dynamics) continue;
+      const bool dynamics = node.kind() == NodeKind::Dynamics;
+      if (!dynamics && node.kind() != NodeKind::Collision) continue;
+      std::unordered_set<std::string_view> colliders;
+      for (const NodeReference& collider : node.references(Attr::Collider)) colliders.insert(collider.name);
       for (const NodeReference& body : node.references(Attr::Collidee)) {
+        if (colliders.contains(body.name))
+          report_.error(body.where,
+                        fmt::format("\"{}\" is collider of this node as well; it would collide with "
+                                    "itself{}",
+                                    body.name,
+                                    dynamics ? " (collidees meet each other without being colliders)" : ""));
+        if (!dynamics) continue;
         const auto [entry, isNew] = ownerOf.emplace(body.name, node.index());
         if (isNew) continue;
         const Declaration owner = document_[entry->second];

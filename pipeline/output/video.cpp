@@ -102,6 +102,8 @@ public:
     return report_;
   }
 
+  bool lacksEncoder() const { return lacksEncoder_; }
+
 private:
   void close(bool abandon) {
     {
@@ -147,7 +149,8 @@ private:
     if (!pipe.write || !complaints_) return no(fmt::format("no pipe to ffmpeg: {}", std::strerror(errno)));
     const auto problem =
         encoder_.start(encoderArguments(options_, temporary_), {pipe.read.get(), -1, complaints_.get()});
-    if (problem && *problem == ENOENT)
+    lacksEncoder_ = problem && *problem == ENOENT;
+    if (lacksEncoder_)
       return no("ffmpeg is not installed (apt-get install ffmpeg); the run goes on without video");
     if (problem) return no(fmt::format("ffmpeg did not start: {}", std::strerror(*problem)));
     toEncoder_ = std::move(pipe.write);
@@ -262,6 +265,7 @@ private:
   std::condition_variable changed_;
   std::deque<Picture> queue_;
   bool closed_ = false;
+  bool lacksEncoder_ = false;  ///< the thread's until it is joined
   std::optional<Diagnostic> failed_;
   VideoReport report_;
   std::atomic<bool> abandoned_ = false;
@@ -289,6 +293,10 @@ bool VideoWriter::waitForRoom(std::chrono::milliseconds limit) {
 
 bool VideoWriter::failed() const {
   return work_->failed();
+}
+
+bool VideoWriter::lacksEncoder() const {
+  return work_->lacksEncoder();
 }
 
 Result<VideoReport> VideoWriter::finish() {

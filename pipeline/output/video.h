@@ -50,6 +50,7 @@ public:
   /// Waits until there is room, the video fails or the time is up; true if an offer would not be Full.
   bool waitForRoom(std::chrono::milliseconds limit);
   bool failed() const;
+  bool lacksEncoder() const;  ///< ffmpeg is not installed; known after finish()
 
   /// Ends the file and checks it: what it holds, or why there is none.
   Result<VideoReport> finish();

@@ -320,6 +320,31 @@ TEST(ProgramUsage, OnlyDrawnFramesAreCountedAndTimed) {
   EXPECT_FALSE(has(text.out, "frames/s")) << text.out;
 }
 
+TEST(ProgramUsage, NothingButAnInputLogIsReplacedByAnInputLog) {
+  const TemporaryFolder folder;
+  const std::string show = folder.write("show.evs", "group( name=a )\n"),
+                    log = folder.write("old.input", "stadion-input 1\npose head 0  0 0 1.7  1 0 0 0\n");
+  const auto record = [&](const std::string& file, const std::string& input) {
+    return stadionProgram({"run", show, "--input", input, "--frames", "1", "--size", "64x48", "--walls",
+                           "desktop", "--record-input", file});
+  };
+  ProgramResult r = record(show, "none");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_TRUE(has(r.err, "is there and is no input log")) << r.err;
+  EXPECT_EQ(fileContent(show), "group( name=a )\n");
+  r = record(log, log);
+  EXPECT_EQ(r.status, 2);
+  EXPECT_TRUE(has(r.err, "is the input log being played")) << r.err;
+  EXPECT_EQ(record(log, "none").status, 0);
+  EXPECT_FALSE(has(fileContent(log), "1.7"));
+}
+
+TEST(ProgramUsage, AnEmptyWordIsNoFolder) {
+  const ProgramResult r = stadionProgram(shortRun(testShow("moving.evs"), {"--out", ""}));
+  EXPECT_EQ(r.status, 2);
+  EXPECT_TRUE(has(r.err, "--out")) << r.err;
+}
+
 TEST(ProgramUsage, AnInputLogThatCannotBeWrittenIsRefusedAtTheStart) {
   const ProgramResult r = stadionProgram(shortRun(testShow("moving.evs"), {"--record-input", "/nope/x"}));
   EXPECT_EQ(r.status, 2);

@@ -129,13 +129,13 @@ TEST(InputLog, NamesTheLineOfWhatIsWrong) {
                  "pose head 1  0 0 0  1 0 0 0\npose wand 0.5 0 0 0 1 0 0 0\npose head 1  0 0 0  1 0 0 0\n"),
       "4:11: time must increase, but 1 s comes after 1 s of the same tracker");
   EXPECT_EQ(firstError(h + "pose head 0  0 nan 0  1 0 0 0\n"),
-            "2:16: \"nan\" is not a finite number in range (a position has x, y and z)");
+            "2:16: \"nan\" is not a finite number in range (y of the position)");
   EXPECT_EQ(firstError(h + "pose head 0  0 0 0  1 1 0 0\n"),
             "2:21: the quaternion must have length 1, not 1.41421");
   EXPECT_EQ(firstError(h + "pose head 0  0 0 0  0 0 0 0\n"),
             "2:21: the quaternion must have length 1, not 0");
   EXPECT_EQ(firstError(h + "pose head 0  0 0 0  1 0 0\n"),
-            "2:26: a unit quaternion has w, x, y and z is missing");
+            "2:26: z of the unit quaternion w, x, y, z is missing");
   EXPECT_EQ(firstError(h + "pose head -1  0 0 0  1 0 0 0\n"),
             "2:11: the time must be seconds, such as 1.25, not \"-1\"");
   EXPECT_EQ(firstError(h + "pose head 0.0000000001  0 0 0  1 0 0 0\n"),

@@ -127,6 +127,13 @@ TEST(ScriptDocument, SeveralErrorsComeInOnePassInTheOrderOfTheLines) {
   EXPECT_EQ(lines, (std::vector<std::uint32_t>{1, 4, 4, 5}));
 }
 
+TEST(ScriptDocument, EachPartOfAMessageIsToldOf) {
+  const auto errors = errorsOf("timer(name=t, period=1, eventmessage=\"timsup, t, enabel, soon\")");
+  ASSERT_EQ(errors.size(), 3U);
+  EXPECT_EQ(errors[0].substr(0, 8), "\"timsup\"");
+  EXPECT_EQ(errors[1].substr(0, 8), "\"enabel\"");
+}
+
 TEST(ScriptDocument, AWrongDeclarationDoesNotMakeItsUsersWrong) {
   EXPECT_EQ(errorsOf("objct(name=a, file=a.obj)\ngroup(name=b, parent=a)").size(), 1U);
   EXPECT_EQ(errorsOf("group(name=a, scale=0)\ngroup(name=b, parent=a)").size(), 1U);

@@ -105,8 +105,6 @@ TEST(ScriptLint, AFormatThatIsNotReadIsNamed) {
 
 TEST(ScriptLint, ContactNodesAreLookedAt) {
   EXPECT_EQ(warningsOf("dynamics()"), Messages{"this dynamics has no collidee and so no effect"});
-  EXPECT_EQ(warningsOf("dynobject(name=b, file=b.obj) dynamics(collider=b, collidee=b)"),
-            Messages{"\"b\" is both collider and collidee here"});
   EXPECT_EQ(warningsOf("object(name=a, file=a.obj) object(name=b, file=a.obj)\n"
                        "collision(collider=a, collider=a, collidee=b)"),
             Messages{"collider \"a\" is given twice"});
