@@ -31,6 +31,7 @@ int runProgram(int argc, char** argv) {
   addHashCommand(app, code);
   addWallsCommand(app, code);
   addBenchCommand(app, code);
+  addProfileCommand(app, code);
   addTestCommand(app, code);
   try {
     app.parse(argc, argv);

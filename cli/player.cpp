@@ -1,7 +1,6 @@
 #include "cli/player.h"
 
 #include "cli/number_option.h"
-#include "dynamics/nodes/dynamics_factories.h"
 #include "engine/input/input_log.h"
 
 #include <CLI/CLI.hpp>
@@ -49,6 +48,10 @@ void ShowOptions::addTo(CLI::App& command) {
   command.add_option(
       "--size", size,
       "WIDTHxHEIGHT in pixels of one eye's picture (default: what the wall file says, else 800x600)");
+  addLengthTo(command);
+}
+
+void ShowOptions::addLengthTo(CLI::App& command) {
   command.add_option("--rate", rate, "frames per second of show time")
       ->check(numberFrom(1, 1000))
       ->each([this](const std::string&) { rateGiven = true; })
@@ -137,7 +140,7 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   if (findings.hasErrors()) return nullptr;
 
   addEngineFactories(p.factories_);
-  addDynamicsFactories(p.factories_);
+  addDynamicsFactories(p.factories_, options.variation);
   ImportLimits limits;
   limits.giveUp = stop;
   p.importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);

@@ -2,6 +2,7 @@
 /// A show, put together: script, walls, input, scene, loader and stages. What `run` and `hash` have in
 /// common.
 
+#include "dynamics/nodes/dynamics_factories.h"
 #include "engine/asset/import.h"
 #include "engine/display/wall_file.h"
 #include "engine/input/input_device.h"
@@ -36,11 +37,14 @@ struct ShowOptions {
   double seconds = 0;        ///< 0 = to the end of the input
   std::string input;         ///< empty = beside the script if there is one; "none"
   std::vector<std::string> assetRoots;
+  DynamicsVariation variation;  ///< of the script's models; no option
 
   std::uint32_t width = 0, height = 0;  ///< from `size`
 
   /// Expects that this object stays where it is until the command line has been read.
   void addTo(CLI::App& command);
+  /// Only those that say what is played and how long: rate, length, input, assets.
+  void addLengthTo(CLI::App& command);
   /// Completes what depends on other options. Says what is wrong.
   bool settle(Diagnostics& findings);
 };

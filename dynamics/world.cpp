@@ -357,12 +357,22 @@ Pose World::pose(BodyId id) const {
   return b ? b->pose : Pose{};
 }
 
+namespace {
+
+FlightClass flightClassOf(const Path& path) {
+  if (path.kind == Path::Kind::Damped || path.isParabola()) return FlightClass::Exact;
+  return path.degree == Path::kMostDegree ? FlightClass::Series : FlightClass::Steps;
+}
+
+}  // namespace
+
 BodyState World::state(BodyId id) const {
   BodyState s;
   const RigidBody* b = core_->body(id);
   if (!b) return s;
   const double age = Instant{core_->t1, 0}.since(b->since);
   s.pose = b->pose, s.mode = b->mode, s.clock = b->since.ns, s.clockRest = b->since.rest;
+  s.flight = flightClassOf(b->path), s.arcs = b->version;
   const Pose X_WC = b->pose * b->X_NC;
   if (b->mode == BodyMode::Held) {
     s.p = X_WC.p, s.q = X_WC.q, s.v = b->held.v, s.omega = b->held.omega;
@@ -371,6 +381,11 @@ BodyState World::state(BodyId id) const {
   s.p = b->path.position(age), s.v = b->path.velocity(age), s.q = b->spin.orientation(age - b->spinStart);
   s.omega = b->spin.angularVelocity(age - b->spinStart), s.L = b->spin.angularMomentum(age - b->spinStart);
   return s;
+}
+
+void World::setFineness(std::uint32_t parts) {
+  core_->tickGrid /= parts, core_->crowdGrid /= parts;
+  core_->tickTime /= parts, core_->faceStep /= parts;
 }
 
 BodyMode World::mode(BodyId id) const {

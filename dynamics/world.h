@@ -76,6 +76,13 @@ enum class BodyMode : std::uint8_t {
   Quarantined,  ///< its state would have become non-finite
 };
 
+/// How the path of a body in flight is known.
+enum class FlightClass : std::uint8_t {
+  Exact,   ///< in closed form, under pulls that are the same everywhere
+  Series,  ///< to order 16, in one medium that is the same everywhere
+  Steps,   ///< by steps of order 5, under anything else
+};
+
 /// A body's whole simulated state at the end of the last advance, for hashing and reports.
 struct BodyState {
   Pose pose;                  ///< X_WN
@@ -87,6 +94,9 @@ struct BodyState {
   BodyMode mode = BodyMode::Flight;
   Nanoseconds clock = 0;  ///< when its present arc began [ns]
   double clockRest = 0;   ///< [s], part of the clock below a nanosecond
+  // For reports, no part of the state:
+  FlightClass flight = FlightClass::Exact;  ///< in flight
+  std::uint32_t arcs = 0;                   ///< how many it has begun so far: the measure of work
   bool asleep() const { return mode == BodyMode::Rest; }
 };
 
@@ -140,6 +150,9 @@ public:
   bool ignorePair(Party a, Party b, bool ignored);
   /// Whether bodies collide with each other at all, default on.
   void setBodiesCollide(bool on);
+  /// Divides the steps of lasting contact and of pulled balls on faces by 1, 2, 4, 8 or 16: nearer to the
+  /// truth, and dearer. Before the first advance.
+  void setFineness(std::uint32_t parts);
 
   FieldId addField(const ForceField& field, bool on = false);
   bool removeField(FieldId id);

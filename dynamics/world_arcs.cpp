@@ -7,8 +7,6 @@ namespace stadion {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-/// Of a ball on a face under pulls that differ from place to place or in time [s].
-constexpr double kFaceStep = 1.0 / 480;
 
 struct State {
   Vec3 p, v;
@@ -216,7 +214,7 @@ BallArc World::Core::arcOnFace(const RigidBody& b, double tau, const BallStart& 
     arc.horizon = restLasts(b, s, tau);
     return arc;
   }
-  const double step = std::min(kFaceStep, knownFor(b, tau));
+  const double step = std::min(faceStep, knownFor(b, tau));
   const Vec3 along = a - b.support.normal * b.support.normal.dot(a);
   const BallArc better =
       arcUnder(accelerationAt(b, s.p + 0.5 * step * s.v, s.v + 0.5 * step * along, tau + 0.5 * step));
@@ -237,7 +235,7 @@ void World::Core::startOnFace(RigidBody& b, double tau, const BallStart& s, bool
   if (b.damping > 0 && arc.mode != BodyMode::Rest) {
     // Drag on top of friction: short arcs of mean deceleration.
     Path path = arc.path;
-    const double h = std::min(arc.horizon, kFaceStep);
+    const double h = std::min(arc.horizon, faceStep);
     path.c[2] -= 0.5 * b.damping * path.c[1], path.degree = 2;
     setArc(b, tau, path, arc.spin, h, arc.mode);
     return;

@@ -39,7 +39,7 @@ void World::Core::enterContact(RigidBody& b, double tau) {
                        });
   b.support.on = {};
   setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
-         Spin::free(b.orientation(tau), L, b.inertia), kTick, BodyMode::Contact);
+         Spin::free(b.orientation(tau), L, b.inertia), tickTime, BodyMode::Contact);
   b.endL = L;
   b.quiet = 0;
   b.presses.clear();
@@ -49,7 +49,8 @@ void World::Core::enterContact(RigidBody& b, double tau) {
 
 /// What was foreseen for longer than a step is looked at anew.
 void World::Core::hurry(RigidBody& b, double tau) {
-  if (b.mode != BodyMode::Contact || b.crowd || b.dueAge <= kTick || b.age(tau) + kTick >= b.dueAge) return;
+  if (b.mode != BodyMode::Contact || b.crowd || b.dueAge <= tickTime || b.age(tau) + tickTime >= b.dueAge)
+    return;
   b.dueAge = 0;
   scheduleTick(tau);
 }
@@ -134,7 +135,7 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
                                std::vector<RigidBody*>& set) {
   const Side self = Side::of(b);
   const Kinematics k = b.at(tau);
-  const double h = kTick;
+  const double h = tickTime;
   const double margin = kTouching + 1.5 * h * (k.v.norm() + k.omega.norm() * b.reach + 9.81 * h);
   Aabb box;
   box.include(k.pose * b.bound.centre);
@@ -206,10 +207,10 @@ void World::Core::remember(RigidBody& b, const std::vector<Party>& near) {
 void World::Core::tick(double tau) {
   ++counters.contactSteps;
   tickAt = -1;
-  Nanoseconds next = (timeAt(tau) / kTickGrid + 1) * kTickGrid;
-  if (Instant{next, 0}.since(instantAt(tau)) < kShortest) next += kTickGrid;
+  Nanoseconds next = (timeAt(tau) / tickGrid + 1) * tickGrid;
+  if (Instant{next, 0}.since(instantAt(tau)) < kShortest) next += tickGrid;
   const double h = Instant{next, 0}.since(instantAt(tau));
-  if (timeAt(tau) % kCrowdGrid == 0) advanceCrowd(tau);
+  if (timeAt(tau) % crowdGrid == 0) advanceCrowd(tau);
   std::vector<RigidBody*> set;
   std::vector<Found> found;
   for (int pass = 0; pass < 50; ++pass) {

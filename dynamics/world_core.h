@@ -83,6 +83,8 @@ public:
   Nanoseconds origin = 0;         ///< start of the window
   double frameFrom = 0, now = 0;  ///< tau of t0 and t1; `now` may lie beyond the window
   bool started = false, bodiesCollide = true;
+  double faceStep =
+      1.0 / 480;         ///< of a ball on a face under pulls that differ from place to place or in time [s]
   bool foresee = false;  ///< predictions are made at once: while events run
   std::uint64_t nextOrder = 0, frame = 0;
   std::uint32_t nextShape = 1, nextBody = 1, nextCollider = 1, nextField = 1;
@@ -158,9 +160,8 @@ public:
   void afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting);
 
   // --- lasting contact (world_contact.cpp)
-  static constexpr Nanoseconds kTickGrid =
-      2'000'000;                         ///< the solver's steps end on multiples of this show time
-  static constexpr double kTick = 2e-3;  ///< the same [s]
+  Nanoseconds tickGrid = 2'000'000;  ///< the solver's steps end on multiples of this show time
+  double tickTime = 2e-3;            ///< the same [s]
   struct Found {
     SolverContact contact;
     Party a, b;
@@ -190,9 +191,9 @@ public:
   bool wakeTouched(const std::vector<Found>& found, double tau);
   void remember(RigidBody& b, const std::vector<Party>& near);
   // --- many bodies in one heap (world_crowd.cpp)
-  static constexpr Nanoseconds kCrowdGrid = 8'000'000;  ///< their steps end on multiples of this show time
-  static constexpr std::size_t kCrowd = 16;             ///< islands with so many bodies become one
-  static constexpr std::size_t kCrowdOfBalls = 5;       ///< the same if they are balls
+  Nanoseconds crowdGrid = 8'000'000;               ///< their steps end on multiples of this show time
+  static constexpr std::size_t kCrowd = 16;        ///< islands with so many bodies become one
+  static constexpr std::size_t kCrowdOfBalls = 5;  ///< the same if they are balls
   struct CrowdStep;
   void advanceCrowd(double tau);
   void joinCrowd(RigidBody& b, double tau, CrowdStep& step);

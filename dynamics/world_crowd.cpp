@@ -198,8 +198,8 @@ void World::Core::concludeCrowd(CrowdStep& s, double tau) {
 /// One step of all who lie in heaps, to the next time on the crowd's grid.
 void World::Core::advanceCrowd(double tau) {
   CrowdStep s;
-  Nanoseconds next = (timeAt(tau) / kCrowdGrid + 1) * kCrowdGrid;
-  if (next - timeAt(tau) < kCrowdGrid / 8) next += kCrowdGrid;
+  Nanoseconds next = (timeAt(tau) / crowdGrid + 1) * crowdGrid;
+  if (next - timeAt(tau) < crowdGrid / 8) next += crowdGrid;
   s.h = Instant{next, 0}.since(instantAt(tau));
   std::vector<RigidBody*> due;
   for (RigidBody* b : active) {
@@ -212,7 +212,7 @@ void World::Core::advanceCrowd(double tau) {
       const Vec3 L = b->endL;
       if (b->dueAge > 0)
         setArc(*b, tau, Path::parabola(b->position(tau), b->endV, Vec3::Zero()),
-               Spin::free(b->orientation(tau), L, b->inertia), kTick, BodyMode::Contact);
+               Spin::free(b->orientation(tau), L, b->inertia), tickTime, BodyMode::Contact);
       b->crowd = false, b->endL = L;
     }
     return;

@@ -89,7 +89,7 @@ void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool l
   if (lasting || leaning) {
     if (b.mode == BodyMode::Rest) wake(b, tau);
     b.endL = L;
-    setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia), kTick,
+    setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia), tickTime,
            BodyMode::Contact);
     if (b.mode != BodyMode::Contact) return;
     b.quiet = 0;

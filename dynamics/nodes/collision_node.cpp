@@ -31,6 +31,7 @@ CollisionNode::CollisionNode(NodeKind kind, NodeRef self, std::string name, Coll
   for (const std::string& n : attributes_.colliders) colliders_.push_back(part(n));
   for (const std::string& n : attributes_.collidees) collidees_.push_back(part(n));
   world_.setBodiesCollide(attributes_.selfCollide);
+  world_.setFineness(attributes_.fineness);
 }
 
 void CollisionNode::onEnter(Scene& scene) {

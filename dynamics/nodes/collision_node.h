@@ -26,6 +26,7 @@ struct CollisionAttributes {
   bool selfCollide = true;
   bool on = true;
   std::vector<SharedFit> fits;  ///< of colliders in its file: made by the loader, kept for App to find
+  std::uint32_t fineness = 1;   ///< as in World::setFineness
 };
 
 class CollisionNode : public Node {

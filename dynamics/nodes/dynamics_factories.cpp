@@ -102,30 +102,37 @@ void warnIfLighterThanAir(const NodeRequest& r, const MassProperties& mass, doub
   r.findings.warning(r.declaration.where(attr), text, r.declaration.excerpt(attr));
 }
 
-Made makeDynObject(const NodeRequest& r, ShapeStore& shapes) {
-  const Declaration& d = r.declaration;
-  const auto fail = [&](const std::string& why) -> Made {
-    const std::string model = "\"" + std::string(d.text(Attr::File)) + "\" ";
-    r.findings.error(d.where(Attr::File), model + why, d.excerpt(Attr::File));
-    return nullptr;
-  };
-  auto fit = shapes.fit(*r.mesh, r.appearance, scaleOf(r.place.X_PN));
-  if (!fit) return fail(fit.error().message);
-  const FittedShape& fitted = *fit.value();
-  if (!fitted.filled) return fail(fitted.filled.error().message);
-
+BodyAttributes bodyOf(const Declaration& d) {
   BodyAttributes body;
   body.density = d.number(Attr::Density) * kWaterDensity;
   body.mass = d.optionalNumber(Attr::Mass);
-  if (!body.massOf(fitted).valid()) return fail("is too small or too large for a body");
-  warnIfLighterThanAir(r, body.massOf(fitted), fitted.filled.value().mass);
   // Only what the script states counts for a pair: a standard value must not outvote the other side.
   const auto stated = [&](Attr a) { return d.has(a) ? std::optional<double>(d.number(a)) : std::nullopt; };
   body.surface = {stated(Attr::Friction), stated(Attr::Restitution), stated(Attr::Rolling)};
   body.damping = d.number(Attr::Damping);
   body.dragArea = d.optionalNumber(Attr::DragArea);
   for (const NodeReference& hook : d.references(Attr::Hook)) body.hooks.push_back(std::string(hook.name));
-  return std::make_unique<DynObjectNode>(r.self, r.name, r.place, r.appearance, std::move(body),
+  return body;
+}
+
+Made makeDynObject(const NodeRequest& r, ShapeStore& shapes, const DynamicsVariation& variation) {
+  const Declaration& d = r.declaration;
+  const auto fail = [&](const std::string& why) -> Made {
+    const std::string model = "\"" + std::string(d.text(Attr::File)) + "\" ";
+    r.findings.error(d.where(Attr::File), model + why, d.excerpt(Attr::File));
+    return nullptr;
+  };
+  BodyAttributes body = bodyOf(d);
+  Appearance appearance = r.appearance;
+  if (variation.body) variation.body(r.self, appearance, body);
+  auto fit = shapes.fit(*r.mesh, appearance, scaleOf(r.place.X_PN));
+  if (!fit) return fail(fit.error().message);
+  const FittedShape& fitted = *fit.value();
+  if (!fitted.filled) return fail(fitted.filled.error().message);
+
+  if (!body.massOf(fitted).valid()) return fail("is too small or too large for a body");
+  warnIfLighterThanAir(r, body.massOf(fitted), fitted.filled.value().mass);
+  return std::make_unique<DynObjectNode>(r.self, r.name, r.place, std::move(appearance), std::move(body),
                                          std::move(fit.value()));
 }
 
@@ -147,7 +154,7 @@ CollisionAttributes collisionOf(const NodeRequest& r, ShapeStore& shapes) {
 
 }  // namespace
 
-void addDynamicsFactories(NodeFactories& factories) {
+void addDynamicsFactories(NodeFactories& factories, const DynamicsVariation& variation) {
   const auto set = [&](NodeKind kind, NodeFactory make) {
     factories[static_cast<std::size_t>(kind)] = std::move(make);
   };
@@ -155,13 +162,16 @@ void addDynamicsFactories(NodeFactories& factories) {
   set(NodeKind::ForceLinear, makeLinear), set(NodeKind::ForceSpherical, makeSpherical);
   set(NodeKind::ForcePoint, makePoint), set(NodeKind::ForceVortex, makeVortex);
   set(NodeKind::Medium, makeMedium);
-  set(NodeKind::DynObject, [shapes](const NodeRequest& r) { return makeDynObject(r, *shapes); });
+  set(NodeKind::DynObject,
+      [shapes, variation](const NodeRequest& r) { return makeDynObject(r, *shapes, variation); });
   set(NodeKind::Collision, [shapes](const NodeRequest& r) {
     return std::make_unique<CollisionNode>(NodeKind::Collision, r.self, r.name, collisionOf(r, *shapes),
                                            shapes);
   });
-  set(NodeKind::Dynamics, [shapes](const NodeRequest& r) {
-    return std::make_unique<DynamicsNode>(r.self, r.name, collisionOf(r, *shapes), shapes);
+  set(NodeKind::Dynamics, [shapes, fineness = variation.fineness](const NodeRequest& r) {
+    CollisionAttributes attributes = collisionOf(r, *shapes);
+    attributes.fineness = fineness;
+    return std::make_unique<DynamicsNode>(r.self, r.name, std::move(attributes), shapes);
   });
 }
 

@@ -3,8 +3,20 @@
 
 #include "engine/script/builder.h"
 
+#include <functional>
+
 namespace stadion {
 
-void addDynamicsFactories(NodeFactories& factories);
+struct BodyAttributes;
+
+/// How a show is built with other models than its script says, so that they can be compared.
+struct DynamicsVariation {
+  /// May change how a body looks to collisions (its shape) and what it is (fields, drag area). On the
+  /// loader's thread; empty: nothing.
+  std::function<void(NodeRef body, Appearance&, BodyAttributes&)> body;
+  std::uint32_t fineness = 1;  ///< of all dynamics nodes, as in World::setFineness
+};
+
+void addDynamicsFactories(NodeFactories& factories, const DynamicsVariation& variation = {});
 
 }  // namespace stadion

@@ -15,9 +15,10 @@ double tilt(const World& w, BodyId b) {
 }
 
 /// Seconds until a block of this size, on gravity tilted 0.02 rad beyond its balance, leans by 0.5 rad.
-double tippingTime(double size) {
+double tippingTime(double size, std::uint32_t fineness = 1) {
   const double a = std::atan2(0.1, 0.3) + 0.02, step = 1e-4 * std::sqrt(size);
   World w;
+  w.setFineness(fineness);
   const FieldId g = addGravity(w, Vec3(kG * std::sin(a), 0, -kG * std::cos(a)));
   addFloor(w, 1);
   const BodyId b = addBox(
@@ -45,6 +46,11 @@ double tippingTruth(double size) {
     x += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), v += h / 6 * (l1 + 2 * l2 + 2 * l3 + l4), t += h;
   }
   return t - (x - 0.5) / (x - before) * h;
+}
+
+TEST(LastingContact, FinerStepsComeNearerToTheTruth) {
+  const double size = 1.0 / 64, truth = tippingTruth(size);
+  EXPECT_LT(std::fabs(tippingTime(size, 8) - truth), std::fabs(tippingTime(size) - truth) / 10);
 }
 
 TEST(LastingContact, TippingConvergesAtSecondOrder) {

@@ -113,5 +113,18 @@ TEST(World, IgnoredPairsPassThroughEachOther) {
   EXPECT_NEAR(w.state(a).p.x(), 1, 1e-12);
 }
 
+TEST(World, SaysHowAFlightIsKnown) {
+  const auto classUnder = [](const FieldLaw& law) {
+    World w;
+    const BodyId ball = addBall(w, addGravity(w), {.v = {1, 0, 5}});
+    w.hook(ball, w.addField({law, {}, {}}, true), 0);
+    play(w, 0.5);
+    return w.state(ball).flight;
+  };
+  EXPECT_EQ(classUnder(LinearField{Vec3::UnitX()}), FlightClass::Exact);
+  EXPECT_EQ(classUnder(MediumField{1.2, 0.5}), FlightClass::Series);
+  EXPECT_EQ(classUnder(VortexField{1}), FlightClass::Steps);
+}
+
 }  // namespace
 }  // namespace stadion

@@ -1,0 +1,98 @@
+/// `stadion profile --fidelity SHOW`: how near each body comes to its finest model, and what would be
+/// cheaper.
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/fidelity.h"
+#include "cli/number_option.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+struct Options {
+  FidelityOptions fidelity;
+  double millimetres = 1;
+  bool askedFor = false, json = false;
+};
+
+int profileShow(Options o) {
+  if (!o.askedFor) {
+    std::fprintf(stderr, "stadion: say what to look at: profile --fidelity %s\n",
+                 o.fidelity.show.script.c_str());
+    return kBadInput;
+  }
+  FidelityOptions& options = o.fidelity;
+  options.tolerance = 1e-3 * o.millimetres;
+  options.show.walls = "desktop";
+  Diagnostics findings;
+  if (!options.show.settle(findings)) return tell(findings), kBadInput;
+  const bool watched = isatty(2) == 1;
+  const auto progress = [watched](const std::string& what) {
+    if (watched) std::fprintf(stderr, "\r\x1b[Kplaying %s", what.c_str());
+  };
+  const auto measured = measureFidelity(options, findings, progress);
+  if (watched) std::fprintf(stderr, "\r\x1b[K");
+  tell(findings);
+  if (!measured) return kBadInput;
+  std::printf("%s", o.json ? (fidelityJson(*measured) + "\n").c_str() : fidelityTable(*measured).c_str());
+  return kOk;
+}
+
+constexpr const char* kFooter =
+    R"(Every dynobject is listed with what stands for it: the shape that collides, the fields it is hooked to, how its
+flight is computed (in closed form; by a series of order 16, in one medium; by steps of order 5, under other fields),
+its contact states, and its cost: its share of the dynamics node's time, by the arcs it begins.
+
+Then the show is played again with one body's model changed at a time, never drawn, and the body's places are
+compared, frame by frame, with those of the finest model: its own mesh, and the steps of lasting contact divided by
+eight. `error` is how far off it ever is, `at the end` how far in the last frame, `degrees` how differently it is
+turned. A bounce magnifies what was off before it: see from when on a model is beyond the tolerance. The mesh is the
+model as it was drawn; if a ball of flat facets is meant to be round, say --finest sphere.
+
+`as it is, steps / 8` tells how much of the error is due to steps in time, not to the shape. `shape=...` goes into the
+script as it stands; `without FIELD` means to leave that hook out. What a body is not hooked to, such as air, is no
+part of any of its models.
+
+  ./stadion profile --fidelity scripts/kick.evs --finest sphere --tolerance 5)";
+
+}  // namespace
+
+void addProfileCommand(CLI::App& app, int& code) {
+  auto o = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "profile",
+      "Say how exact and how dear the models of a show's bodies are, and which cheaper ones would do");
+  ShowOptions& show = o->fidelity.show;
+  command->add_option("SHOW", show.script, "the script to play (.evs)")->required();
+  command->add_flag("--fidelity", o->askedFor,
+                    "each body's model, its error against the finest, and its cost");
+  command->add_option("--tolerance", o->millimetres, "how far off a body may ever be [mm]")
+      ->check(numberFrom(1e-6, 1e6))
+      ->capture_default_str();
+  command->add_option("--body", o->fidelity.bodies,
+                      "only this body is played with other models; may be repeated");
+  command
+      ->add_option(
+          "--finest", o->fidelity.finest,
+          "the shape that bodies have in truth: a drawn ball may be meant to be round (default: mesh)")
+      ->check(CLI::IsMember({"mesh", "convex", "cylinder", "box", "capsule", "sphere"}));
+  command->add_option("--most", o->fidelity.most, "how many bodies are, the dearest first")
+      ->check(wholeNumberFrom(0, 1000000))
+      ->capture_default_str();
+  command
+      ->add_option("--rounds", o->fidelity.rounds,
+                   "how often each model but the finest is played; the least time counts")
+      ->check(wholeNumberFrom(1, 99))
+      ->capture_default_str();
+  show.addLengthTo(*command);
+  command->add_flag("--json", o->json, "one JSON object");
+  command->footer(kFooter);
+  command->callback([o, &code] { code = profileShow(*o); });
+}
+
+}  // namespace stadion
