@@ -1,5 +1,6 @@
 #include "dynamics/arc.h"
 
+#include "dynamics/wide.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -19,45 +20,93 @@ void decay(double x, double& first, double& second) {
   second = (1 - first) / x;
 }
 
-/// Taylor coefficients of the orientation of a free body: w' = I^-1 (I w x w) in body axes, q' = q w / 2.
-/// The products of quaternions are sums of three permutations of q, so that four components go at once.
-void expand(Spin& s, const Vec3& inertia) {
-  using Vec4 = Eigen::Vector4d;
-  constexpr std::size_t n = Spin::kOrder;
-  std::array<Vec4, n + 1> w, turned;               // (x, y, z, 0) and (y, z, x, 0)
-  std::array<Vec4, n + 1> alongX, alongY, alongZ;  // q times i, j, k
-  const auto keep = [&](std::size_t i) {
-    const Vec4& q = s.series[i];
-    alongX[i] = {-q[1], q[0], q[3], -q[2]};
-    alongY[i] = {-q[2], -q[3], q[0], q[1]};
-    alongZ[i] = {-q[3], q[2], -q[1], q[0]};
-    turned[i] = {w[i][1], w[i][2], w[i][0], 0};
-  };
-  w[0].head<3>() = s.inverse.cwiseProduct(s.q0.conjugate() * s.L);
-  w[0][3] = 0;
-  s.series[0] = {s.q0.w(), s.q0.x(), s.q0.y(), s.q0.z()};
-  keep(0);
-  const Vec4 k((inertia.y() - inertia.z()) * s.inverse.x(), (inertia.z() - inertia.x()) * s.inverse.y(),
-               (inertia.x() - inertia.y()) * s.inverse.z(), 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    Vec4 dw = Vec4::Zero(), dq = Vec4::Zero();  // dw: (y z, z x, x y)
-    for (std::size_t j = 0; j <= i; ++j) {
-      const Vec4& v = w[i - j];
-      const Vec4 other(v[2], v[0], v[1], 0);
-      dw += turned[j].cwiseProduct(other);
-      dq += v[0] * alongX[j] + v[1] * alongY[j] + v[2] * alongZ[j];
+/// Taylor coefficients of the orientation of a free body: w' = I^-1 (I w x w) in body axes, q' = q w / 2,
+/// with quaternions as (w, x, y, z). `k` are the moments' differences over the third, `q` and `w` begin with
+/// theirs.
+struct SpinSeries {
+  Wide q[Spin::kOrder + 1], w[Spin::kOrder + 1], k;
+};
+
+[[gnu::always_inline]] inline void expandSeries(SpinSeries& s) {
+  constexpr int n = Spin::kOrder;
+  // The products of quaternions are sums of permutations of q; those of w' are of (y, z, x) and (z, x, y).
+  Wide byI[n], byJ[n], byK[n], next[n], last[n];
+  for (int i = 0; i < n; ++i) {
+    const Wide q = s.q[i], v = s.w[i];
+    byI[i] = Wide{-q[1], q[0], q[3], -q[2]};
+    byJ[i] = Wide{-q[2], -q[3], q[0], q[1]};
+    byK[i] = Wide{-q[3], q[2], -q[1], q[0]};
+    next[i] = Wide{v[1], v[2], v[0], 0}, last[i] = Wide{v[2], v[0], v[1], 0};
+    Wide dw{}, dq{};
+    for (int j = 0; j <= i; ++j) {
+      const Wide& u = s.w[i - j];
+      dw += next[j] * last[i - j];
+      dq += u[0] * byI[j] + u[1] * byJ[j] + u[2] * byK[j];
     }
-    const double share = 1.0 / static_cast<double>(i + 1);
-    w[i + 1] = share * k.cwiseProduct(dw);
-    s.series[i + 1] = 0.5 * share * dq;
-    keep(i + 1);
+    const double share = 1.0 / (i + 1);
+    s.w[i + 1] = share * (s.k * dw);
+    s.q[i + 1] = 0.5 * share * dq;
   }
+}
+[[gnu::target("avx2")]] void expandWide(SpinSeries& s) {
+  expandSeries(s);
+}
+void expandPlain(SpinSeries& s) {
+  expandSeries(s);
+}
+
+void expand(Spin& s, const Vec3& inertia) {
+  constexpr std::size_t n = Spin::kOrder;
+  SpinSeries terms;
+  terms.q[0] = Wide{s.q0.w(), s.q0.x(), s.q0.y(), s.q0.z()};
+  set(terms.w[0], s.inverse.cwiseProduct(s.q0.conjugate() * s.L));
+  terms.k = Wide{(inertia.y() - inertia.z()) * s.inverse.x(), (inertia.z() - inertia.x()) * s.inverse.y(),
+                 (inertia.x() - inertia.y()) * s.inverse.z(), 0};
+  hasWide() ? expandWide(terms) : expandPlain(terms);
+  for (std::size_t i = 0; i <= n; ++i)
+    s.series[i] = {terms.q[i][0], terms.q[i][1], terms.q[i][2], terms.q[i][3]};
   // As far as the last two terms stay below the tolerance; they may vanish, so the radius that bounds any
   // free motion limits it as well.
-  constexpr double tolerance = 2e-15;
+  constexpr double tolerance = 1e-13;
   const double speed = s.L.norm() * s.inverse.maxCoeff();
   const double last = s.series[n].cwiseAbs().maxCoeff(), before = s.series[n - 1].cwiseAbs().maxCoeff();
-  s.horizon = std::min(reachOfSeries(last, before, tolerance), 1.2 / speed);
+  s.horizon = std::min(reachOfSeries(last, before, tolerance), 2.4 / speed);
+}
+
+/// A series of degree 16, or its rate of change, in four chains of every fourth power: a single one would
+/// wait for its own results.
+template <bool kRate, int kStride>
+[[gnu::always_inline]] inline void sumSeries(const double* c, double t, Wide& sum) {
+  static_assert(Path::kMostDegree == 16 && Spin::kOrder == 16);
+  constexpr int kLowest = kRate ? 1 : 0;
+  const double t2 = t * t, t4 = t2 * t2;
+  Wide chain[4];  // of powers lowest + k, + 4, + 8 ...
+#pragma GCC unroll 4
+  for (int k = 0; k < 4; ++k) {
+    const int top = (16 - kLowest - k) / 4 * 4 + kLowest + k;
+#pragma GCC unroll 5
+    for (int i = top; i >= kLowest; i -= 4) {
+      Wide term = *reinterpret_cast<const WideAnywhere*>(c + kStride * i);
+      if (kRate) term *= static_cast<double>(i);
+      chain[k] = i == top ? term : chain[k] * t4 + term;
+    }
+  }
+  sum = (chain[0] + t * chain[1]) + t2 * (chain[2] + t * chain[3]);
+}
+template <bool kRate, int kStride>
+[[gnu::target("avx2")]] void sumWide(const double* c, double t, Wide& sum) {
+  sumSeries<kRate, kStride>(c, t, sum);
+}
+/// Of terms of three numbers (and one more behind the last) or of four.
+template <bool kRate, int kStride>
+void sum(const double* c, double t, Wide& sum) {
+  hasWide() ? sumWide<kRate, kStride>(c, t, sum) : sumSeries<kRate, kStride>(c, t, sum);
+}
+template <bool kRate>
+Vec3 sumOf(const Path& path, double t) {
+  Wide s;
+  sum<kRate, 3>(path.c[0].data(), t, s);
+  return firstThree(s);
 }
 
 Quat renormalised(const Quat& q) {
@@ -80,10 +129,11 @@ Path& Path::operator=(const Path& o) {
 }
 
 void Path::boundAcceleration(double horizon) {
-  spare = 0;
+  Vec3 most = Vec3::Zero();
   double power = 1;
   for (int n = 2; n <= degree; ++n, power *= horizon)
-    spare += n * (n - 1) * power * c[static_cast<std::size_t>(n)].norm();
+    most += n * (n - 1) * power * c[static_cast<std::size_t>(n)].cwiseAbs();
+  spare = most.norm();
 }
 
 Path Path::still(const Vec3& p) {
@@ -123,6 +173,7 @@ Vec3 Path::position(double t) const {
     return c[0] + t * (f * c[1] + t * g * c[2]);
   }
   if (degree <= 2) return c[0] + t * (c[1] + t * c[2]);
+  if (isSeries()) return sumOf<false>(*this, t);
   // Even and odd powers apart: two short chains instead of a long one.
   const double square = t * t;
   int i = degree & ~1;
@@ -140,6 +191,7 @@ Vec3 Path::velocity(double t) const {
     decay(damping * t, f, g);
     return c[1] * (1 - damping * t * f) + t * f * c[2];
   }
+  if (isSeries()) return sumOf<true>(*this, t);
   Vec3 v = Vec3::Zero();
   for (int i = degree; i >= 1; --i) v = v * t + i * c[static_cast<std::size_t>(i)];
   return v;
@@ -198,8 +250,8 @@ Quat Spin::orientation(double t) const {
     return renormalised(det::expRotation(t * inverse[across] * L) * q0 * det::expRotation(w));
   }
   case Kind::Taylor: {
-    Eigen::Vector4d q = series[kOrder];
-    for (int i = kOrder - 1; i >= 0; --i) q = q * t + series[static_cast<std::size_t>(i)];
+    Wide q;
+    sum<false, 4>(series[0].data(), t, q);
     return renormalised(Quat(q[0], q[1], q[2], q[3]));
   }
   case Kind::Driven: {

@@ -4,7 +4,7 @@
 /// Translation and rotation separate (the fields act at the centre of mass): a `Path` carries the centre, a
 /// `Spin` the orientation. Age is seconds since the arc began. Everything here is exact but for `Path` under
 /// fields that are not uniform (a quintic through a step of a fifth-order integrator) and `Spin` of
-/// asymmetric bodies (Taylor polynomial of order 16, whose horizon is chosen for an error below 1e-14).
+/// asymmetric bodies (Taylor polynomial of order 16, whose horizon is chosen for an error below 1e-13).
 
 #include "engine/maths/maths.h"
 
@@ -25,11 +25,12 @@ struct Path {
   int degree = 0;
   double damping = 0;  ///< [1/s]
   double spare = 0;    ///< bound on the acceleration of a polynomial of degree > 2 [m/s2]
-  std::array<Vec3, kMostDegree + 1>
-      c;  ///< coefficients up to `degree`; damped: position, velocity, acceleration
+  /// Coefficients up to `degree`, and one to spare for those who read four numbers at once; damped: position,
+  /// velocity, acceleration.
+  std::array<Vec3, kMostDegree + 2> c;
 
-  Path() { c[0].setZero(), c[1].setZero(), c[2].setZero(); }
-  Path(const Path& o) { *this = o; }
+  Path() { c[0].setZero(), c[1].setZero(), c[2].setZero(), c.back().setZero(); }
+  Path(const Path& o) : Path() { *this = o; }
   Path& operator=(const Path& o);
   static Path still(const Vec3& p);
   /// Uniform acceleration a, with velocity lost at the rate `damping`.
@@ -43,6 +44,7 @@ struct Path {
   void boundAcceleration(double horizon);
   /// At least the magnitude of the acceleration at any age within the horizon.
   double accelerationBound() const;
+  bool isSeries() const { return degree == kMostDegree; }
   bool isParabola() const { return kind == Kind::Polynomial && degree <= 2; }
 };
 

@@ -1,6 +1,9 @@
 #include "dynamics/drag_flight.h"
 
+#include "dynamics/wide.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace stadion {
@@ -9,39 +12,70 @@ namespace {
 constexpr int kOrder = Path::kMostDegree;
 static_assert(kOrder == 16);
 
+constexpr auto kInverse = [] {
+  std::array<double, kOrder + 1> inverse{};
+  for (int n = 1; n <= kOrder; ++n) inverse[static_cast<std::size_t>(n)] = 1.0 / n;
+  return inverse;
+}();
+
+/// u of v - wind, and |u| in the last place; `u[0]` is given, without it.
+struct DragSeries {
+  Wide u[kOrder];
+  double speed[kOrder];
+  double linear, quadratic;
+  Wide pull;
+};
+
+[[gnu::always_inline]] inline void expandSeries(DragSeries& s) {
+  const double half = 0.5 / s.speed[0];
+  for (int n = 0; n + 1 < kOrder; ++n) {
+    if (n > 0 && s.quadratic > 0) {
+      // 2 |u|_0 |u|_n = sum of u_i u_(n-i), less that of |u|_i |u|_(n-i) but for its ends: in `u`, |u|_0 is
+      // 0.
+      Wide products{};
+      for (int i = 0; 2 * i < n; ++i) products += s.u[i] * s.u[n - i];
+      products += products;
+      if (n % 2 == 0) products += s.u[n / 2] * s.u[n / 2];
+      s.speed[n] = (products[0] + products[1] + products[2] - products[3]) * half;
+      s.u[n][3] = s.speed[n];
+    }
+    Wide resisted{};
+    if (s.quadratic > 0)
+      for (int i = 0; i <= n; ++i) resisted += s.speed[i] * s.u[n - i];
+    Wide a = -s.linear * s.u[n] - s.quadratic * resisted;
+    if (n == 0) a += s.pull;
+    a[3] = 0;
+    s.u[n + 1] = kInverse[n + 1] * a;
+  }
+}
+[[gnu::target("avx2")]] void expandWide(DragSeries& s) {
+  expandSeries(s);
+}
+void expandPlain(DragSeries& s) {
+  expandSeries(s);
+}
+
 }  // namespace
 
 double dragFlight(const Vec3& p, const Vec3& v, const Vec3& pull, const Drag& drag, double longest,
                   double tolerance, Path& path) {
-  Vec3 u[kOrder];  // of v - wind
-  double square[kOrder], speed[kOrder];
-  u[0] = v - drag.wind;
-  square[0] = u[0].squaredNorm(), speed[0] = std::sqrt(square[0]);
-  if (drag.quadratic > 0 && !(speed[0] > 1e-6)) return 0;
+  DragSeries s;
+  const Vec3 u0 = v - drag.wind;
+  const double speed = u0.norm();
+  if (drag.quadratic > 0 && !(speed > 1e-6)) return 0;
+  set(s.u[0], u0), set(s.pull, pull), s.speed[0] = speed, s.linear = drag.linear,
+                                      s.quadratic = drag.quadratic;
+  hasWide() ? expandWide(s) : expandPlain(s);
   path.kind = Path::Kind::Polynomial, path.degree = kOrder;
   path.c[0] = p, path.c[1] = v;
-  for (int n = 0; n + 1 < kOrder; ++n) {
-    if (n > 0) {
-      double a = 0;
-      for (int i = 0; i <= n; ++i) a += u[i].dot(u[n - i]);
-      square[n] = a;
-      for (int i = 1; i < n; ++i) a -= speed[i] * speed[n - i];
-      speed[n] = drag.quadratic > 0 ? a / (2 * speed[0]) : 0;
-    }
-    Vec3 resisted = Vec3::Zero();
-    if (drag.quadratic > 0)
-      for (int i = 0; i <= n; ++i) resisted += speed[i] * u[n - i];
-    Vec3 a = -drag.linear * u[n] - drag.quadratic * resisted;
-    if (n == 0) a += pull;
-    u[n + 1] = a / (n + 1);
-    path.c[static_cast<std::size_t>(n + 2)] = u[n + 1] / (n + 2);
-  }
+  for (int n = 1; n < kOrder; ++n)
+    path.c[static_cast<std::size_t>(n + 1)] = kInverse[n + 1] * firstThree(s.u[n]);
   double horizon =
       std::min(longest, 0.8 * reachOfSeries(path.c[kOrder].cwiseAbs().maxCoeff(),
                                             path.c[kOrder - 1].cwiseAbs().maxCoeff(), tolerance));
   // |u| must not reach zero: the series would go on with the root's other sign.
-  const double most = pull.norm() + (drag.linear + drag.quadratic * speed[0]) * speed[0];
-  if (drag.quadratic > 0 && most > 0) horizon = std::min(horizon, 0.95 * speed[0] / most);
+  const double most = pull.norm() + (drag.linear + drag.quadratic * speed) * speed;
+  if (drag.quadratic > 0 && most > 0) horizon = std::min(horizon, 0.95 * speed / most);
   path.boundAcceleration(horizon);
   return horizon;
 }

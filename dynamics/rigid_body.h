@@ -86,8 +86,9 @@ struct RigidBody {
   double mass = 1, inverseMass = 1;
   Vec3 inertia = Vec3::Ones();
   Pose X_NC, X_CN;
-  Sphere bound;      ///< centre in N
-  double reach = 0;  ///< greatest distance of a surface point from the centre of mass [m]
+  bool aligned = false;  ///< both are the identity
+  Sphere bound;          ///< centre in N
+  double reach = 0;      ///< greatest distance of a surface point from the centre of mass [m]
   double damping = 0, dragArea = 0, releaseDistance = 0.5;
   bool enabled = true, fresh = true;
 
@@ -140,7 +141,8 @@ struct RigidBody {
   /// X_WN alone.
   Pose poseAt(double tau) const {
     if (mode == BodyMode::Held) return held.at(tau).pose;
-    return Pose{position(tau), orientation(tau)} * X_CN;
+    const Pose X_WC{position(tau), orientation(tau)};
+    return aligned ? X_WC : X_WC * X_CN;
   }
   Kinematics at(double tau) const {
     if (mode == BodyMode::Held) {

@@ -80,6 +80,7 @@ BodyId World::addBody(const BodyDef& d) {
     b.inertia.setConstant(b.inertia.mean());
   }
   b.X_CN = b.X_NC.inverse();
+  b.aligned = b.X_NC.p.isZero(0) && b.X_NC.q.coeffs() == Quat::Identity().coeffs();
   b.reach = (b.bound.centre - b.X_NC.p).norm() + b.bound.radius;
   b.damping = d.damping, b.dragArea = d.dragArea, b.releaseDistance = d.releaseDistance;
   b.pose = unit(d.pose);

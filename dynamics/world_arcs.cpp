@@ -162,7 +162,7 @@ void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   if (drag) {
     const Vec3 pull = accelerationAt(b, p, drag->wind, tau) - b.damping * drag->wind;
     const Drag total{drag->linear + b.damping, drag->quadratic, drag->wind};
-    const double horizon = dragFlight(p, v, pull, total, 1.0, 1e-11, b.path);
+    const double horizon = dragFlight(p, v, pull, total, 1.0, 1e-10, b.path);
     if (horizon > 1e-4) return setPath(b, tau, b.path, horizon, BodyMode::Flight);
   }
   const auto f = [&](double at, const Vec3& x, const Vec3& u) {

@@ -19,6 +19,7 @@
 #include "dynamics/world.h"
 
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <queue>
 #include <set>
@@ -77,7 +78,7 @@ public:
   IdTable<Collider> colliders;
   IdTable<FieldEntry> fields;
   std::set<std::pair<Party, Party>> ignored;
-  std::vector<Command> commands;  ///< in the order of (when, order)
+  std::deque<Command> commands;  ///< in the order of (when, order)
   ContactMemory memory;
   Nanoseconds t0 = 0, t1 = 0;     ///< the ends of the present part of a frame, the last one between frames
   Nanoseconds origin = 0;         ///< start of the window

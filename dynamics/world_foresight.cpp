@@ -10,6 +10,20 @@ bool isHeld(const Side& s) {
   return s.body && s.body->mode == BodyMode::Held;
 }
 
+/// Makes room in the box for where the body will probably be `d` seconds after tau, so that its next arc
+/// finds its place there.
+void reachOn(const RigidBody& b, double tau, double d, Aabb& box) {
+  const Vec3 p = b.position(tau) + d * b.velocity(tau);
+  const Vec3 room = Vec3::Constant(b.reach + b.path.accelerationBound() * d * d);
+  Aabb there;
+  there.lo = p - room, there.hi = p + room;
+  box.include(there.lo), box.include(there.hi);
+}
+
+bool holds(const Aabb& outer, const Aabb& inner) {
+  return (outer.lo.array() <= inner.lo.array()).all() && (inner.hi.array() <= outer.hi.array()).all();
+}
+
 /// The box around a body from tau to `to`, however it turns.
 Aabb sweptBody(const RigidBody& b, double tau, double to) {
   Aabb box;
@@ -106,14 +120,14 @@ void World::Core::sweep(RigidBody& b, double tau) {
   if (b.mode == BodyMode::Held) {
     b.swept = sweptBox(Side::of(b), std::max(tau, frameFrom), std::max({tau, frameFrom, now}));
   } else {
-    const Aabb box = sweptBody(b, tau, std::max(tau, std::min(windowEnd(), b.pathAge - b.age0)));
+    const double end = b.pathAge - b.age0;
+    Aabb box = sweptBody(b, tau, std::max(tau, std::min(windowEnd(), end)));
     if (b.crowd) {  // steps are short and many: a roomy box serves several
-      if (b.place != kUnfiled && (b.swept.lo.array() <= box.lo.array()).all() &&
-          (box.hi.array() <= b.swept.hi.array()).all())
-        return;
+      if (b.place != kUnfiled && holds(b.swept, box)) return;
       const double room = 0.002 + 0.02 * b.velocity(tau).norm();
       b.swept.lo = box.lo.array() - room, b.swept.hi = box.hi.array() + room;
     } else {
+      if (b.path.isSeries() && tau < end && end < windowEnd()) reachOn(b, end, windowEnd() - end, box);
       b.swept = box;
     }
   }
@@ -123,8 +137,15 @@ void World::Core::sweep(RigidBody& b, double tau) {
 /// What the body's new arc meets from tau to the end of the window.
 void World::Core::predict(RigidBody& b, double tau, bool onlyGreater) {
   if (!foresee) return mark(b);
+  const Aabb before = b.swept;
   sweep(b, tau);
-  if (b.enabled) lookAhead(b, tau, onlyGreater);
+  if (!b.enabled) return;
+  if (b.alone && b.place != kUnfiled && holds(before, b.swept)) {  // nobody is where it goes
+    b.swept = before;
+    pushHorizon(b);
+  } else {
+    lookAhead(b, tau, onlyGreater);
+  }
 }
 
 void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {

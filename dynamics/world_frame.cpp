@@ -32,7 +32,7 @@ void World::Core::postCommand(const Command& c) {
 void World::Core::obeyCommands(double tau) {
   while (!commands.empty() && tauOf(commands.front().when) <= tau) {
     const Command c = commands.front();
-    commands.erase(commands.begin());
+    commands.pop_front();
     execute(c, tau);
   }
 }
@@ -306,7 +306,7 @@ void World::Core::endFrame() {
     b->active = b->mode != BodyMode::Rest && b->mode != BodyMode::Quarantined;
   }
   std::erase_if(active, [](const RigidBody* b) { return !b->active; });
-  std::ranges::sort(changed);
+  if (!std::ranges::is_sorted(changed)) std::ranges::sort(changed);
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   // Who moved is told once more next time that it stands.
   std::erase_if(told, [&](ColliderId id) {
