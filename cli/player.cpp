@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <thread>
 #include <tuple>
 
 namespace stadion {
@@ -29,6 +30,10 @@ constexpr double kLongest = 1e9;
 bool existsBeside(const std::filesystem::path& file) {
   std::error_code unknown;
   return std::filesystem::exists(file, unknown);
+}
+
+std::size_t appThreadsOf(const ShowOptions& o) {
+  return o.appThreads > 0 ? o.appThreads : std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
 }
 
 }  // namespace
@@ -64,6 +69,12 @@ void ShowOptions::addLengthTo(CLI::App& command) {
   command.add_option("--input", input,
                      "input log to replay (default: SHOW's name with .input, if there is one), or none");
   command.add_option("--asset-root", assetRoots, "further folder to look for assets in");
+  command
+      .add_option(
+          "--app-threads", appThreads,
+          "threads on which dynamics nodes that do not meet simulate side by side; their number changes no "
+          "result (default: one for each processor, 8 at most)")
+      ->check(wholeNumberFrom(1, 64));
 }
 
 bool ShowOptions::settle(Diagnostics& findings) {
@@ -148,7 +159,7 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
       std::make_unique<Loader>(LoaderParts{p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_,
                                            std::move(report), stop, fromSeconds(1 / p.rate_)});
   p.loader_->obey(p.decisions_.loads);
-  p.scene_ = std::make_unique<Scene>(*p.loader_, p.meshes_);
+  p.scene_ = std::make_unique<Scene>(*p.loader_, p.meshes_, appThreadsOf(options));
   if (!p.scene_->open(options.script)) return nullptr;
   return player;
 }

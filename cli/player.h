@@ -37,6 +37,7 @@ struct ShowOptions {
   double seconds = 0;        ///< 0 = to the end of the input
   std::string input;         ///< empty = beside the script if there is one; "none"
   std::vector<std::string> assetRoots;
+  std::size_t appThreads = 0;   ///< 0 = as many as there are processors, 8 at most
   DynamicsVariation variation;  ///< of the script's models; no option
 
   std::uint32_t width = 0, height = 0;  ///< from `size`

@@ -25,17 +25,28 @@ private:
 
 }  // namespace
 
-void Node::cycle(std::span<const Message> inbox, FrameContext& frame, FrameProbe* probe) {
+void Node::begin(std::span<const Message> inbox, FrameContext& frame, FrameProbe* probe) {
   {
     const PhaseSpan span(probe, self_, NodePhase::Receive);
     for (const Message& m : inbox) receive(m, frame);
   }
-  {
-    const PhaseSpan span(probe, self_, NodePhase::Simulate);
-    simulate(frame);
-  }
+  const PhaseSpan span(probe, self_, NodePhase::Simulate);
+  simulate(frame);
+}
+
+void Node::compute(FrameProbe* probe) {
+  const PhaseSpan span(probe, self_, NodePhase::Simulate);
+  simulateApart();
+}
+
+void Node::conclude(FrameContext& frame, FrameProbe* probe) {
   const PhaseSpan span(probe, self_, NodePhase::Dispatch);
+  afterSimulation(frame);
   dispatch(frame);
+}
+
+bool Node::awaits(const Node&, const Scene&) const {
+  return true;
 }
 
 void Node::dispatch(FrameContext& frame) {

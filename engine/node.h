@@ -2,7 +2,8 @@
 /// A node of the show: identically structured and interfaced, whatever it does.
 ///
 /// In each frame in which it has something to do a node runs one cycle of the application phase: it receives
-/// its messages, simulates, and dispatches notifications. A node with nothing to do is not visited at all.
+/// its messages, simulates, and dispatches notifications. Nodes that do not look at each other's results
+/// (dynamics nodes, mostly) simulate side by side. A node with nothing to do is not visited at all.
 /// What is drawn is not the node but an instance record that it publishes through the scene.
 ///
 /// Threads  App only. Nodes are constructed on the loader thread and belong to it until they are installed.
@@ -66,8 +67,15 @@ public:
   /// Gives back what enter() took. Once, in reverse order.
   void leave(Scene& scene) { onLeave(scene); }
 
-  /// The node cycle. `inbox` holds this frame's messages in delivery order.
-  void cycle(std::span<const Message> inbox, FrameContext& frame, FrameProbe* probe);
+  // The node cycle, in three parts. Between the first and the last of them other nodes may have theirs.
+  /// Receives this frame's messages, in delivery order, and simulates as far as that needs the scene.
+  void begin(std::span<const Message> inbox, FrameContext& frame, FrameProbe* probe);
+  /// The rest of the simulation, which touches nothing but the node: on any thread.
+  void compute(FrameProbe* probe);
+  /// Tells the scene what has come of it, and dispatches notifications.
+  void conclude(FrameContext& frame, FrameProbe* probe);
+  /// Whether it may look at what `earlier` tells the scene in this frame, and so can begin only after that.
+  virtual bool awaits(const Node& earlier, const Scene& scene) const;
 
   virtual Rank rank() const { return Rank::Motion; }
   /// Whether it wants to be visited in the next frame even if no message arrives.
@@ -89,6 +97,8 @@ private:
   virtual void onLeave(Scene&) {}
   virtual void receive(const Message&, FrameContext&) {}
   virtual void simulate(FrameContext&) {}
+  virtual void simulateApart() {}  ///< on any thread
+  virtual void afterSimulation(FrameContext&) {}
 
   void dispatch(FrameContext& frame);
 

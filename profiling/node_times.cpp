@@ -4,15 +4,18 @@
 
 namespace stadion {
 
-void NodeTimes::nodePhaseBegan(NodeRef, NodePhase) {
-  began_ = Clock::now();
+void NodeTimes::nodePhaseBegan(NodeRef node, NodePhase) {
+  const std::lock_guard lock(mutex_);
+  began_[node] = Clock::now();
 }
 
 void NodeTimes::nodePhaseEnded(NodeRef node, NodePhase phase) {
-  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - began_).count();
+  const Clock::time_point end = Clock::now();
+  const std::lock_guard lock(mutex_);
   NodeCost& cost = costs_[node];
   cost.node = node;
-  cost.ms[static_cast<std::size_t>(phase)] += ms;
+  cost.ms[static_cast<std::size_t>(phase)] +=
+      std::chrono::duration<double, std::milli>(end - began_[node]).count();
   if (phase == NodePhase::Receive) ++cost.visits;
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 /// What each node cost App: time in its three phases, and how often it was visited.
 ///
-/// Threads  nodes are timed on the App thread; read when the run is over.
+/// Threads  nodes are timed on whatever threads they run; read when the run is over.
 
 #include "engine/frame_probe.h"
 
 #include <array>
 #include <chrono>
 #include <map>
+#include <mutex>
 #include <vector>
 
 namespace stadion {
@@ -32,7 +33,8 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
   std::map<NodeRef, NodeCost> costs_;
-  Clock::time_point began_;
+  std::mutex mutex_;  ///< nodes may compute side by side
+  std::map<NodeRef, Clock::time_point> began_;
 };
 
 }  // namespace stadion

@@ -207,26 +207,27 @@ bool CollisionNode::foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts)
   return prepare(frame, cuts) || any;
 }
 
-void CollisionNode::actAt(Nanoseconds time, FrameContext& frame) {
+void CollisionNode::actAt(Nanoseconds time, FrameContext* frame) {
   for (const Switching& s : switchings_)
     if (s.when == time) on_ = s.on;
-  changeParts(time, frame.scene);
+  if (frame) changeParts(time, frame->scene);
   for (const Part& part : colliders_)
     if (jumpsAt(part.course, time))
       world_.moveCollider(part.id, poseOn(part.course, time, Limit::After), true);
   act(time, frame);
 }
 
-void CollisionNode::step(FrameContext& frame, Nanoseconds end, std::vector<Nanoseconds> cuts) {
+void CollisionNode::step(FrameContext* frame) {
   // Nothing moved while the node was not visited: the world only has to know that time has passed.
-  const Nanoseconds begin = std::max(advancedTo_, frame.start());
+  const Nanoseconds begin = std::max(advancedTo_, span_.from);
   bool continues = false;
   const auto pass = [&](Nanoseconds from, Nanoseconds to) {
     on_ ? world_.advance(from, to, continues) : world_.pause(from, to, continues);
     continues = true;
   };
   if (advancedTo_ < begin) pass(advancedTo_, begin);
-  advancedTo_ = std::max(begin, end);
+  advancedTo_ = std::max(begin, span_.to);
+  std::vector<Nanoseconds>& cuts = span_.cuts;
   std::erase_if(cuts, [&](Nanoseconds t) { return t <= begin || t > advancedTo_; });
   cuts.push_back(advancedTo_);
   std::ranges::sort(cuts);
@@ -241,19 +242,51 @@ void CollisionNode::step(FrameContext& frame, Nanoseconds end, std::vector<Nanos
     if (to > begin) actAt(to, frame);
     from = to;
   }
+  span_.done = true;
 }
 
 void CollisionNode::simulate(FrameContext& frame) {
   findParts(frame.scene);
-  std::vector<Nanoseconds> cuts;
-  const bool outside = foresee(frame, cuts);
-  step(frame, std::min(frame.now.time, frame.scene.endOf(self().load)), std::move(cuts));
+  span_ = {frame.start(), std::min(frame.now.time, frame.scene.endOf(self().load)), {}, false, false};
+  span_.outside = foresee(frame, span_.cuts);
+  if (needsScene(frame.now.time)) step(&frame);
+}
+
+void CollisionNode::simulateApart() {
+  if (!span_.done) step(nullptr);
+}
+
+void CollisionNode::afterSimulation(FrameContext& frame) {
   switchings_.clear();
   for (const ContactEvent& e : world_.events())
     raise(e.kind == ContactEvent::Kind::Impact ? Event::OnImpact : Event::OnRelease, e.time);
   std::erase_if(comingOrGoing_,
                 [](const Part* p) { return !p->next.valid() && p->leaveAt == Scene::kNever; });
-  awake_ = afterStep(frame) || outside;
+  awake_ = afterStep(frame) || span_.outside;
+}
+
+bool CollisionNode::needsScene(Nanoseconds) const {
+  return !comingOrGoing_.empty();
+}
+
+bool CollisionNode::awaits(const Node& earlier, const Scene& scene) const {
+  return loadsSeen_ != scene.loadsVersion() || looksAt(earlier, scene);
+}
+
+bool CollisionNode::looksAt(const Node& mover, const Scene& scene) const {
+  for (const std::vector<Part>* parts : {&colliders_, &collidees_})
+    for (const Part& part : *parts)
+      if (part.ref.valid() && isMovedBy(mover, part.ref, scene)) return true;
+  return false;
+}
+
+bool CollisionNode::isMovedBy(const Node& mover, NodeRef node, const Scene& scene) {
+  for (NodeRef at = node; at.valid(); at = scene.parentOf(at)) {
+    const Load* load = scene.load(at.load);
+    const auto* body = load ? dynamic_cast<const DynObjectNode*>(load->nodes[at.position].get()) : nullptr;
+    if (body && body->movedBy() == mover.self()) return true;
+  }
+  return false;
 }
 
 void CollisionNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
@@ -278,7 +311,7 @@ bool CollisionNode::prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts)
   return any;
 }
 
-void CollisionNode::act(Nanoseconds time, FrameContext&) {
+void CollisionNode::act(Nanoseconds time, FrameContext*) {
   for (const Part& part : collidees_)
     if (jumpsAt(part.course, time)) world_.moveHeld(part.id, poseOn(part.course, time, Limit::After), true);
 }

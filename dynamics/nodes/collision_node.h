@@ -37,6 +37,7 @@ public:
   Rank rank() const override { return Rank::Dynamics; }
   bool busy() const override { return switch_.on() && awake_; }
   void hash(StateHash& h) const override;
+  bool awaits(const Node& earlier, const Scene& scene) const override;
 
   /// What the last step did, for reports.
   const World& world() const { return world_; }
@@ -75,6 +76,8 @@ protected:
   void onLeave(Scene& scene) override;
   void receive(const Message& m, FrameContext& frame) override;
   void simulate(FrameContext& frame) final;
+  void simulateApart() final;
+  void afterSimulation(FrameContext& frame) final;
 
   /// Puts a collidee into the world; here as a body that is moved from outside.
   virtual void addCollidee(Part& part, ObjectNode& object, Scene& scene);
@@ -83,8 +86,12 @@ protected:
   /// Looks at what has changed outside, and adds the times at which the frame must be cut. True if anything
   /// has.
   virtual bool prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts);
-  /// What happens at `time`.
-  virtual void act(Nanoseconds time, FrameContext& frame);
+  /// Whether something happens in this frame that needs the scene at its exact time.
+  virtual bool needsScene(Nanoseconds end) const;
+  /// What happens at `time`; no frame is given if nothing of it needs the scene.
+  virtual void act(Nanoseconds time, FrameContext* frame);
+  /// Whether somebody whom `mover` moves is among those it looks at, or carries one.
+  virtual bool looksAt(const Node& mover, const Scene& scene) const;
   /// Tells the world where things that are moved from outside go until `to`; evenly, or as the world stands
   /// still in between, with a jump.
   virtual void move(Nanoseconds from, Nanoseconds to, bool jump);
@@ -102,6 +109,8 @@ protected:
 
   /// The part's course in this frame, its knots added to the cuts. True if it moves.
   static bool follow(Part& part, FrameContext& frame, std::vector<Nanoseconds>& cuts);
+  /// Whether `mover` moves the node or something that carries it.
+  static bool isMovedBy(const Node& mover, NodeRef node, const Scene& scene);
   static void addCuts(const Course& course, std::vector<Nanoseconds>& cuts);
 
 private:
@@ -112,8 +121,8 @@ private:
   void removeCollider(Part& part, Scene& scene);
   void changeParts(Nanoseconds time, Scene& scene);
   bool foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts);
-  void actAt(Nanoseconds time, FrameContext& frame);
-  void step(FrameContext& frame, Nanoseconds end, std::vector<Nanoseconds> cuts);
+  void actAt(Nanoseconds time, FrameContext* frame);
+  void step(FrameContext* frame);
 
   std::shared_ptr<ShapeStore> shapes_;
   Switched switch_;
@@ -128,6 +137,14 @@ private:
   std::uint64_t loadsSeen_ = ~std::uint64_t{0};
   bool awake_ = true;
   Nanoseconds advancedTo_ = 0;
+  /// What the present frame's step needs to know.
+  struct Span {
+    Nanoseconds from = 0, to = 0;
+    std::vector<Nanoseconds> cuts;
+    bool outside = false;  ///< something has changed outside
+    bool done = false;
+  };
+  Span span_;
 };
 
 }  // namespace stadion

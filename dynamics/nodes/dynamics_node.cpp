@@ -178,23 +178,36 @@ bool DynamicsNode::prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts) 
   return asked || fields || !grips_.empty();
 }
 
-void DynamicsNode::act(Nanoseconds time, FrameContext& frame) {
-  std::erase_if(fields_, [&](const Field& f) {
-    if (f.leaveAt > time) return false;
-    world_.removeField(f.id);
-    frame.scene.unwatch(f.placement, self());
-    return true;
-  });
+bool DynamicsNode::needsScene(Nanoseconds end) const {
+  return CollisionNode::needsScene(end) || !orders_.empty() ||
+         std::ranges::any_of(fields_, [&](const Field& f) { return f.leaveAt <= end; });
+}
+
+/// Its own bodies only move as it says; it looks at colliders and fields.
+bool DynamicsNode::looksAt(const Node& mover, const Scene& scene) const {
+  const auto moved = [&](NodeRef node) { return node.valid() && isMovedBy(mover, node, scene); };
+  return std::ranges::any_of(colliders_, moved, &Part::ref) ||
+         std::ranges::any_of(fields_, moved, &Field::ref);
+}
+
+void DynamicsNode::act(Nanoseconds time, FrameContext* frame) {
   for (Grip& grip : grips_) {
     if (!jumpsAt(grip.course, time)) continue;
     const Pose X_WT = poseOn(grip.course, time, Limit::After);
     world_.moveHeld(grip.body, X_WT * grip.X_TN, true);
     grip.hand.put(time, X_WT);
   }
+  if (!frame) return;
+  std::erase_if(fields_, [&](const Field& f) {
+    if (f.leaveAt > time) return false;
+    world_.removeField(f.id);
+    frame->scene.unwatch(f.placement, self());
+    return true;
+  });
   const auto later = std::ranges::upper_bound(orders_, time, {}, [](const Order& o) { return o.what.when; });
   const std::vector<Order> due(orders_.begin(), later);
   orders_.erase(orders_.begin(), later);
-  for (const Order& order : due) obey(order, frame);
+  for (const Order& order : due) obey(order, *frame);
 }
 
 void DynamicsNode::move(Nanoseconds from, Nanoseconds to, bool jump) {

@@ -29,7 +29,9 @@ protected:
   void addCollidee(Part& part, ObjectNode& object, Scene& scene) override;
   void removeCollidee(Part& part, Scene& scene) override;
   bool prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts) override;
-  void act(Nanoseconds time, FrameContext& frame) override;
+  bool needsScene(Nanoseconds end) const override;
+  void act(Nanoseconds time, FrameContext* frame) override;
+  bool looksAt(const Node& mover, const Scene& scene) const override;
   void move(Nanoseconds from, Nanoseconds to, bool jump) override;
   bool afterStep(FrameContext& frame) override;
 

@@ -8,7 +8,8 @@
 
 namespace stadion {
 
-Scene::Scene(SceneLoader& loader, MeshStore& meshes) : loader_(loader), meshes_(meshes) {}
+Scene::Scene(SceneLoader& loader, MeshStore& meshes, std::size_t threads)
+    : loader_(loader), meshes_(meshes), crew_(threads) {}
 
 Scene::~Scene() {
   while (!loads_.empty()) remove(loads_.rbegin()->first, 0);
@@ -78,22 +79,45 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
 
   FrameContext frame{now, input, *this};
   const std::vector<Detached> detached = detachedBy(mail, frame);
-  while (!round_.empty()) {
-    current_ = *round_.begin();
-    round_.erase(round_.begin());
-    Node* node = find(current_->node);
-    if (!node) continue;
-    const auto [first, last] =
-        std::equal_range(mail.begin(), mail.end(), Message{0, {}, 0, current_->node, {}, {}, {}, {}, {}},
-                         [](const Message& a, const Message& b) { return a.target < b.target; });
-    node->cycle({first, last}, frame, probe);
-    ++counters_.nodesVisited;
-    setBusy(*node);
-    rehash(*node);
-    wakeWatchers();
+  std::vector<Node*> batch;
+  while (takeBatch(mail, frame, probe, batch)) {
+    if (batch.size() > 1)
+      crew_.run(batch.size(), [&](std::size_t i) { batch[i]->compute(probe); });
+    else
+      batch[0]->compute(probe);
+    for (Node* node : batch) {
+      current_ = Visit{node->rank(), node->self()};
+      node->conclude(frame, probe);
+      ++counters_.nodesVisited;
+      setBusy(*node);
+      rehash(*node);
+      wakeWatchers();
+    }
   }
   current_.reset();
   for (const Detached& d : detached) rejoinParent(d, frame);
+}
+
+/// The next nodes of this round that do not look at each other's results, each of them begun. False: no more.
+bool Scene::takeBatch(const std::vector<Message>& mail, FrameContext& frame, FrameProbe* probe,
+                      std::vector<Node*>& batch) {
+  batch.clear();
+  while (!round_.empty()) {
+    const Visit next = *round_.begin();
+    Node* node = find(next.node);
+    const bool waits =
+        node && std::ranges::any_of(batch, [&](const Node* n) { return node->awaits(*n, *this); });
+    if (waits) break;
+    round_.erase(round_.begin());
+    if (!node) continue;
+    current_ = next;
+    const auto [first, last] =
+        std::equal_range(mail.begin(), mail.end(), Message{0, {}, 0, next.node, {}, {}, {}, {}, {}},
+                         [](const Message& a, const Message& b) { return a.target < b.target; });
+    node->begin({first, last}, frame, probe);
+    batch.push_back(node);
+  }
+  return !batch.empty();
 }
 
 std::vector<Scene::Detached> Scene::detachedBy(const std::vector<Message>& mail, const FrameContext& frame) {

@@ -4,8 +4,9 @@
 /// The scene has no control logic: it visits the nodes that have something to do, in an order that is the
 /// same everywhere, and collects what they publish.
 ///
-/// Threads  App only.
+/// Threads  App only; while nodes compute side by side nobody else is in here.
 
+#include "engine/crew.h"
 #include "engine/input/input_sample.h"
 #include "engine/node.h"
 #include "engine/scene/courses.h"
@@ -44,7 +45,8 @@ struct EventRecord {
 
 class Scene {
 public:
-  Scene(SceneLoader& loader, MeshStore& meshes);
+  /// `threads` share the work of nodes that simulate side by side; their number changes no result.
+  Scene(SceneLoader& loader, MeshStore& meshes, std::size_t threads = 1);
   ~Scene();
 
   /// Loads the show's own file and whatever it loads at its start. Before the first frame.
@@ -65,6 +67,8 @@ public:
   /// into a sub-scene.
   NodeRef resolve(const std::string& name, NodeRef from) const;
   const Load* load(std::uint32_t number) const;
+  /// What the node is placed below: its parent, in a sub-scene at least the scene node; invalid = World.
+  NodeRef parentOf(NodeRef ref) const;
   /// Turns every static object below `ref` into a node of its own, so that it can move.
   void promoteBelow(NodeRef ref);
   /// Says that a node's state changed outside its own cycle (direct calls).
@@ -185,6 +189,8 @@ private:
   void visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe);
   std::vector<Detached> detachedBy(const std::vector<Message>& mail, const FrameContext& frame);
   void rejoinParent(const Detached& d, const FrameContext& frame);
+  bool takeBatch(const std::vector<Message>& mail, FrameContext& frame, FrameProbe* probe,
+                 std::vector<Node*>& batch);
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
   void publishInstance(InstanceId id, ChangeSet& changes);
   void publishLights(const InputSample& input, ChangeSet& changes);
@@ -197,7 +203,6 @@ private:
   Message addressed(const std::string& target, NodeRef from, std::vector<std::string> arguments) const;
   Node* promote(Load& load, std::size_t index, const Affine& moved = Affine::Identity());
   bool isBelow(NodeRef ref, NodeRef ancestor) const;
-  NodeRef parentOf(NodeRef ref) const;
   void enterNode(Node& node);
   void leaveNode(Node& node);
   void setBusy(Node& node);
@@ -242,6 +247,7 @@ private:
   Pose freeRig_;           ///< of a show without a rig node
   std::vector<ChangeSet::Chunk> chunkChanges_;
   std::vector<ChangeSet::StaticItem> staticChanges_;
+  Crew crew_;
   FrameCounters counters_;
   std::vector<EventRecord> events_;
   Nanoseconds now_ = 0;

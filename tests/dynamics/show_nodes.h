@@ -18,8 +18,10 @@ public:
 /// An object with a ball for a mesh would need a mesh; here the body's shape is given.
 class Ball : public DynObjectNode {
 public:
-  Ball(NodeRef self, std::string name, const Vec3& p, std::vector<std::string> hooks, NodeRef parent = {})
-      : DynObjectNode(self, std::move(name), at(p, parent), {}, body(std::move(hooks)), fit()) {}
+  Ball(NodeRef self, std::string name, const Vec3& p, std::vector<std::string> hooks, NodeRef parent = {},
+       MeshId mesh = kNoMesh)
+      : DynObjectNode(self, std::move(name), at(p, parent), {mesh, true, "box"}, body(std::move(hooks)),
+                      fit()) {}
 
 private:
   static PlaceAttributes at(const Vec3& p, NodeRef parent) {

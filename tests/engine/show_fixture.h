@@ -134,9 +134,11 @@ private:
 
 class ShowFixture {
 public:
+  explicit ShowFixture(std::size_t threads = 1) : scene(loader, meshes, threads) {}
+
   TestLoader loader;
   MeshStore meshes;
-  Scene scene{loader, meshes};
+  Scene scene;
   InputSample input;
   ChangeSet changes;
   double rate = 60;
