@@ -30,7 +30,7 @@ void ContactMemory::update(const Key& pair, F change) {
     digest_ -= share(pair, m);
   change(m);
   digest_ += share(pair, m);
-  m.fired ? void(fired_.insert(pair)) : void(fired_.erase(pair));
+  m.fired ? void(fired_.emplace(pair, &m)) : void(fired_.erase(pair));
   if (!m.touching && !m.fired) erase(pair);
 }
 

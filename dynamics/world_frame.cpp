@@ -316,47 +316,6 @@ void World::Core::endFrame() {
   });
 }
 
-/// Pairs whose impact was told are released when their surfaces are far enough apart, not in the impact's own
-/// frame.
-void World::Core::reportReleases() {
-  std::vector<std::pair<ContactMemory::Key, Nanoseconds>> due;
-  for (const ContactMemory::Key& key : memory.fired()) {
-    ContactMemory::Memory& m = memory.of(key);
-    if (m.frame == frame) continue;
-    const auto a = side(key.first), b = side({true, key.second});
-    if (!a || !b) {
-      due.emplace_back(key, t1);
-      continue;
-    }
-    if (t1 < m.look && m.versionA == versionOf(key.first) && m.versionB == b->body->version) continue;
-    const double far = b->body->releaseDistance;
-    const auto gapAt = [&](double tau) { return gapBetween(*b, *a, tau, far + 1e-3).distance; };
-    const double gap = gapAt(now);
-    if (!(gap > far)) {
-      m.look = t1 + soonest(*a, *b, far - gap);
-      m.versionA = versionOf(key.first), m.versionB = b->body->version;
-      continue;
-    }
-    double lo = frameFrom, hi = now;
-    if (gapAt(lo) > far) hi = lo;
-    for (int i = 0; i < 40 && hi - lo > 1e-10; ++i)
-      (gapAt(0.5 * (lo + hi)) > far ? hi : lo) = 0.5 * (lo + hi);
-    due.emplace_back(key, timeAt(hi));
-  }
-  for (const auto& [key, time] : due) memory.release(key, time);
-}
-
-/// The two cannot part by `distance` more sooner than this, as long as their arcs last [ns].
-Nanoseconds World::Core::soonest(const Side& a, const Side& b, double distance) const {
-  if ((a.collider && a.collider->motion.moving) || (a.body && a.body->mode == BodyMode::Held) ||
-      b.body->mode == BodyMode::Held)
-    return 0;
-  constexpr double most = 0.5;  // [s]
-  const MotionBound ma = a.boundOver(now, now + most), mb = b.boundOver(now, now + most);
-  const double speed = ma.speedAt(a.body ? a.body->reach : 0) + mb.speedAt(b.body->reach);
-  return speed * most <= distance ? fromSeconds(most) : fromSeconds(distance / speed);
-}
-
 /// Things moved from outside touch until they are apart at the end of a frame.
 void World::Core::partCarried() {
   std::vector<ContactMemory::Key> apart;
