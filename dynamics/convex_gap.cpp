@@ -12,6 +12,7 @@ constexpr double kHold = 1e-4;     ///< distance to hold off for a first look [m
 constexpr double kLeastHold = 1e-7;
 constexpr int kMostTurns = 12;
 constexpr double kShallow = 1e-6;  ///< overlap that a face may have found alone [m]
+constexpr double kGrazing = 1e-9;  ///< overlap up to which nothing but that face can be meant [m]
 constexpr double kOver = 1e-10;    ///< beside a face by this still counts as over it [m]
 
 struct Best {
@@ -78,13 +79,68 @@ bool onFace(const ConvexCore& a, const ConvexCore& b, const Vec3& towards, Vec3&
   return true;
 }
 
+/// The plane of b's face that a's middle is farthest outside of; false if b has none there.
+bool facePlane(const ConvexCore& b, const Vec3& middle, Vec3& n, double& level) {
+  const Vec3 l = b.R.transpose() * (middle - b.p);
+  switch (b.kind) {
+  case ConvexCore::Kind::Box: {
+    int k = 0;
+    (l.cwiseAbs() - b.half).maxCoeff(&k);
+    n = l[k] < 0 ? Vec3(-b.R.col(k)) : Vec3(b.R.col(k)), level = n.dot(b.p) + b.half[k];
+    return true;
+  }
+  case ConvexCore::Kind::Cylinder: {
+    const double r = l.head<2>().norm() - b.half.x();
+    if (r > 0 && r > std::fabs(l.z()) - b.half.z()) return false;
+    n = l.z() < 0 ? Vec3(-b.R.col(2)) : Vec3(b.R.col(2)), level = n.dot(b.p) + b.half.z();
+    return true;
+  }
+  case ConvexCore::Kind::Hull: {
+    if (b.shrink != 1) return false;
+    double most = -1e300;
+    const ConvexShape::Face* best = nullptr;
+    for (const ConvexShape::Face& f : b.hull->faces)
+      if (const double h = f.normal.dot(l) - f.offset; h > most) most = h, best = &f;
+    if (!best) return false;
+    n = b.R * best->normal, level = n.dot(b.p) + best->offset;
+    return true;
+  }
+  case ConvexCore::Kind::Triangle:
+    n = b.normal.dot(middle - b.v[0]) < 0 ? Vec3(-b.normal) : b.normal, level = n.dot(b.v[0]);
+    return true;
+  case ConvexCore::Kind::Point:
+  case ConvexCore::Kind::Segment: return false;
+  }
+  return false;
+}
+
 }  // namespace
+
+bool gapOverFace(const ConvexCore& a, const ConvexCore& b, double beside, ConvexGap& g) {
+  Vec3 n;
+  double level;
+  if (!facePlane(b, a.middle(), n, level)) return false;
+  const Vec3 x = a.support(-n) - a.radius * n;
+  const double gap = n.dot(x) - level - b.radius;
+  if (!(gap > -kGrazing)) return false;
+  if (!(gap > beside) && !b.holds(x - (gap + b.radius) * n, kOver)) return false;
+  g.distance = gap, g.normal = n;
+  g.onA = x, g.onB = x - gap * n;
+  return true;
+}
 
 double separationAlong(const Vec3& n, const ConvexCore& a, const ConvexCore& b) {
   return -a.extent(-n) - b.extent(n);
 }
 
 ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess, double accuracy) {
+  ConvexGap easy;
+  if (gapOverFace(a, b, 1e300, easy)) return easy;
+  if (gapOverFace(b, a, 1e300, easy)) {
+    easy.normal = -easy.normal;
+    std::swap(easy.onA, easy.onB);
+    return easy;
+  }
   const CoreDistance d = coreDistance(a, b, guess, accuracy);
   ConvexGap g;
   if (d.apart && d.distance > kNear) {
