@@ -114,6 +114,40 @@ bool facePlane(const ConvexCore& b, const Vec3& middle, Vec3& n, double& level) 
   return false;
 }
 
+/// A rim over an edge: the best direction square to the edge, where the line between the supports is square
+/// to the next ones. The slope there falls through zero.
+void acrossEdge(Best& best, const Vec3& edge) {
+  const Vec3 square = best.n - edge * edge.dot(best.n);
+  const double l = square.norm();
+  if (!(l > 0.5)) return;
+  const Vec3 n0 = square / l, u = edge.cross(n0);
+  const auto along = [&](double t) { return Vec3((n0 + t * u) / std::sqrt(1 + t * t)); };
+  const auto slope = [&](double t) {
+    const Vec3 n = along(t);
+    return edge.cross(n).dot(best.a.support(-n) - best.b.support(n));
+  };
+  double lo = -0.02, hi = 0.02, atLo = slope(lo), atHi = slope(hi);
+  if (!(atLo > 0 && atHi < 0)) return;
+  double t = 0;
+  int side = 0;
+  for (int i = 0; i < 40 && hi - lo > 1e-15; ++i) {  // false position after Illinois
+    const double last = t;
+    t = (lo * atHi - hi * atLo) / (atHi - atLo);
+    const double s = slope(t);
+    if (std::fabs(t - last) < 1e-16 || s == 0) break;
+    if (s > 0) {
+      lo = t, atLo = s;
+      if (side > 0) atHi *= 0.5;
+      side = 1;
+    } else {
+      hi = t, atHi = s;
+      if (side < 0) atLo *= 0.5;
+      side = -1;
+    }
+  }
+  best.attempt(along(t), best.n);
+}
+
 }  // namespace
 
 bool gapOverFace(const ConvexCore& a, const ConvexCore& b, double beside, ConvexGap& g) {
@@ -187,6 +221,10 @@ ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess,
       const double s = e.norm();
       if (s > 1e-4) best.attempt(e / s, n, 1e-13);
     }
+  if (a.kind == ConvexCore::Kind::Cylinder)
+    for (int j = 0; j < db.edgeCount; ++j) acrossEdge(best, db.edges[static_cast<std::size_t>(j)]);
+  if (b.kind == ConvexCore::Kind::Cylinder)
+    for (int i = 0; i < da.edgeCount; ++i) acrossEdge(best, da.edges[static_cast<std::size_t>(i)]);
   g.distance = separationAlong(best.n, a, b), g.normal = best.n;
   putOn(g, a, b, nearA, nearB);
   return g;

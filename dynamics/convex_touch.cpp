@@ -15,6 +15,17 @@ double reachOf(const Side& s) {
   return s.body ? s.body->reach : s.bound().centre.norm() + s.bound().radius;
 }
 
+/// Whether the body is round about the axis that it spins freely about.
+bool precesses(const Side& s) {
+  if (!s.body || s.body->spin.kind != Spin::Kind::Symmetric || s.body->mode == BodyMode::Held) return false;
+  const auto* cylinder = std::get_if<CylinderShape>(s.shape);
+  const auto* capsule = std::get_if<CapsuleShape>(s.shape);
+  if (!cylinder && !capsule) return false;
+  const Pose X = s.body->X_CN * (cylinder ? cylinder->pose : capsule->pose);
+  const Vec3 along = Vec3::Unit(s.body->spin.axis), own = X.q * Vec3::UnitZ();
+  return own.cross(along).norm() <= 1e-9 && X.p.cross(along).norm() <= 1e-9 * s.body->reach;
+}
+
 /// One body of a pair at the moment of a look, relative to `origin`.
 struct Mover {
   ConvexCore core;
@@ -23,13 +34,28 @@ struct Mover {
   double drift = 0;         ///< bound on the acceleration of p [m/s2]
   double acceleration = 0;  ///< the same of its points
   bool turning = false;
+  bool round = false;  ///< a disc or rod that precesses: what it spins about its axis does not show
+  Vec3 precession = Vec3::Zero();  ///< round: steady [rad/s]
 
   void bound(const Side& s, double from, double to, double withReach) {
     const MotionBound b = s.boundOver(from, to);
-    reach = withReach, drift = b.acceleration, acceleration = b.accelerationAt(reach);
+    reach = withReach, drift = b.acceleration;
+    round = precesses(s);
+    if (round) {
+      const Spin& spin = s.body->spin;
+      precession = spin.inverse[(spin.axis + 1) % 3] * spin.L;
+      const Vec3 own = s.body->orientation(from) * Vec3::Unit(spin.axis);
+      turning = own.cross(precession).norm() > 1e-12 * precession.norm();
+      if (!turning) precession.setZero();
+      acceleration = drift + precession.squaredNorm() * reach;
+      return;
+    }
+    acceleration = b.accelerationAt(reach);
     turning = b.spin > 0 || b.spinChange > 0;
   }
-  void take(const Kinematics& k, const Vec3& origin) { p = k.p - origin, v = k.v, omega = k.omega; }
+  void take(const Kinematics& k, const Vec3& origin) {
+    p = k.p - origin, v = k.v, omega = round ? precession : k.omega;
+  }
   Vec3 velocityAt(const Vec3& x) const { return v + omega.cross(x - p); }
 
   /// The greatest of n . (x + s v_x) over the body, and its rate of change.
@@ -46,28 +72,46 @@ struct Mover {
   }
 };
 
-/// f(s) of the header with its slope. `level`: where b is a plane, else b moves.
+/// f(s) of the header with its slope, for the direction n from b to a.
 struct Lower {
   const Mover& a;
-  const Mover* b;
+  const Mover* b;  ///< if it turns
   Vec3 n;
-  double level;
-  double acceleration;
+  double level = 0, rise = 0;  ///< else how far it reaches along n, and the rate of that
+  double acceleration, drift;
 
+  Lower(const Mover& movingA, const Mover* movingB, const Vec3& normal, double plane, double bound)
+      : a(movingA), b(movingB), n(normal), level(plane), acceleration(bound),
+        drift(movingA.drift + (movingB ? movingB->drift : 0)) {
+    if (!b || b->turning) return;
+    level = b->farthest(n, 0, rise);
+    b = nullptr;
+  }
   double at(double s, double& slope) const {
-    double ra, rb = 0;
-    const double near = -a.farthest(-n, s, ra), far = b ? b->farthest(n, s, rb) : level;
+    double ra, rb = rise;
+    const double near = -a.farthest(-n, s, ra), far = b ? b->farthest(n, s, rb) : level + s * rise;
     slope = -ra - rb - acceleration * s;
     return near - far - 0.5 * acceleration * s * s;
   }
 };
 
-/// Seconds in which f, that is `gap` now, does not fall below zero; `most` if it never does until then.
-double safeTime(const Lower& f, double gap, double most) {
+/// When g + u s - A s^2 / 2 reaches zero, `most` if later; g >= 0.
+double fallTime(double g, double u, double A, double most) {
+  const double root = std::sqrt(u * u + 2 * A * g);
+  if (u < 0) return std::min(most, 2 * g / (root - u));
+  return A > 0 ? std::min(most, (u + root) / A) : most;
+}
+
+/// Seconds in which f, that is `gap` now, does not fall below zero; `most` if it never does until then;
+/// `known` if it is no more than that.
+double safeTime(const Lower& f, double gap, double most, double known) {
   double slope = 0;
   const double shift = gap - f.at(0, slope);  // no step back for bodies that overlap already
-  double right = most, value = f.at(right, slope) + shift;
-  if (value >= 0) return most;
+  // Its tangent less A s^2 / 2 lies above a concave function.
+  double right = fallTime(gap, slope, f.acceleration, most);
+  if (right <= known) return known;
+  double value = f.at(right, slope) + shift;
+  if (value >= 0) return right;
   for (int i = 0; i < 12; ++i) {  // Newton from beyond the root of a concave function comes down to it
     if (!(slope < 0)) break;
     const double next = right - value / slope;
@@ -87,17 +131,12 @@ double safeTime(const Lower& f, double gap, double most) {
 
 /// The same with everything held inside spheres, turning or not.
 double sphereTime(const Lower& f, double most) {
-  if (!f.a.turning && !(f.b && f.b->turning)) return 0;
-  double unused;
-  const double far = !f.b           ? f.level
-                     : f.b->turning ? f.n.dot(f.b->p) + f.b->reach
-                                    : f.b->farthest(f.n, 0, unused);
+  if (!f.a.turning && !f.b) return 0;
+  const double far = f.b ? f.n.dot(f.b->p) + f.b->reach : f.level;
   const double g = f.n.dot(f.a.p) - f.a.reach - far;
   if (!(g > 0)) return 0;
-  const double u = f.n.dot(f.a.v) - (f.b ? f.n.dot(f.b->v) : 0), A = f.a.drift + (f.b ? f.b->drift : 0);
-  const double root = std::sqrt(u * u + 2 * A * g);
-  if (u < 0) return std::min(most, 2 * g / (root - u));
-  return A > 0 ? std::min(most, (u + root) / A) : most;
+  const double u = f.n.dot(f.a.v) - (f.b ? f.n.dot(f.b->v) : f.rise);
+  return fallTime(g, u, f.drift, most);
 }
 
 /// The rate at which the gap closes at its fastest point: bodies turn into the contact by a hair.
@@ -144,7 +183,7 @@ std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double fro
     double level = 0;
     const ConvexGap g = measure(level);
     if (!std::isfinite(g.distance) || !g.normal.allFinite()) return {};
-    const Lower f{a, b, g.normal, level, acceleration};
+    const Lower f(a, b, g.normal, level, acceleration);
     double gap = g.distance;
     if (gap <= tolerance) {
       if (closingRate(f) < 0) {
@@ -158,7 +197,9 @@ std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double fro
       gap = 0;
     }
     const double left = to - tau;
-    const double step = std::max(safeTime(f, gap, left), sphereTime(f, left));
+    const double outside = sphereTime(f, left);
+    if (outside >= left) return {};
+    const double step = safeTime(f, gap, left, outside);
     if (step >= left) return {};
     tau += std::max(step, gap > 0 ? 1e-16 : 1e-9);
     if (!(tau <= to)) return {};
