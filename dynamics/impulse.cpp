@@ -5,15 +5,18 @@
 namespace stadion {
 
 Mobile mobileOf(const RigidBody& b, double tau) {
-  const Kinematics k = b.at(tau);
-  Mobile m{0, Mat3::Zero(), k.p, k.v, k.omega};
-  if (!b.movable()) return m;
-  m.inverseMass = b.inverseMass;
+  if (!b.movable()) {
+    const Kinematics k = b.at(tau);
+    return {0, Mat3::Zero(), k.p, k.v, k.omega};
+  }
+  const Quat q = b.orientation(tau);
+  Mobile m{b.inverseMass, Mat3::Zero(), b.position(tau), b.velocity(tau),
+           b.spin.angularVelocity(b.spinAge(tau), q)};
   const Vec3 inverse = b.inertia.cwiseInverse();
   if (inverse.x() == inverse.y() && inverse.y() == inverse.z()) {
     m.inverseInertia = inverse.x() * Mat3::Identity();
   } else {
-    const Mat3 R = b.orientation(tau).toRotationMatrix();
+    const Mat3 R = q.toRotationMatrix();
     m.inverseInertia = R * inverse.asDiagonal() * R.transpose();
   }
   return m;
