@@ -148,6 +148,38 @@ void acrossEdge(Best& best, const Vec3& edge) {
   best.attempt(along(t), best.n);
 }
 
+/// The widest gap near a direction, and points nearby.
+void search(Best& best, const Vec3& towards, Vec3& nearA, Vec3& nearB) {
+  const ConvexCore &a = best.a, &b = best.b;
+  best.attempt(towards, towards, kFavour);
+  // Held off along the normal; the more precise it is, the more precise the next.
+  // Close to, edges that cross at a small angle count for what they are.
+  double hold = kHold;
+  for (int i = 0; i < kMostTurns; ++i, hold = std::max(0.1 * hold, kLeastHold)) {
+    const double off = std::max(hold, 4 * (std::fabs(best.gap) + a.radius + b.radius));
+    const CoreDistance held = coreDistance(a.moved(off * best.n), b, best.n);
+    if (!held.apart) break;
+    const double before = best.gap;
+    best.attempt(held.normal, held.normal, 1e-15);
+    nearA = held.a - off * best.n, nearB = held.b;
+    if (!(best.gap > before) && hold <= kLeastHold) break;
+  }
+  const Vec3 n = best.n;
+  const Directions da = directionsNear(a, -n, nearA), db = directionsNear(b, n, nearB);
+  for (int i = 0; i < db.faceCount; ++i) best.attempt(db.faces[static_cast<std::size_t>(i)], n);
+  for (int i = 0; i < da.faceCount; ++i) best.attempt(da.faces[static_cast<std::size_t>(i)], n, 1e-13);
+  for (int i = 0; i < da.edgeCount; ++i)
+    for (int j = 0; j < db.edgeCount; ++j) {
+      const Vec3 e = da.edges[static_cast<std::size_t>(i)].cross(db.edges[static_cast<std::size_t>(j)]);
+      const double s = e.norm();
+      if (s > 1e-4) best.attempt(e / s, n, 1e-13);
+    }
+  if (a.kind == ConvexCore::Kind::Cylinder)
+    for (int j = 0; j < db.edgeCount; ++j) acrossEdge(best, db.edges[static_cast<std::size_t>(j)]);
+  if (b.kind == ConvexCore::Kind::Cylinder)
+    for (int i = 0; i < da.edgeCount; ++i) acrossEdge(best, da.edges[static_cast<std::size_t>(i)]);
+}
+
 }  // namespace
 
 bool gapOverFace(const ConvexCore& a, const ConvexCore& b, double beside, ConvexGap& g) {
@@ -198,33 +230,7 @@ ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess,
     g.onA += g.distance * g.normal;
     return g;
   }
-  best.attempt(towards, towards, kFavour);
-  // Held off along the normal; the more precise it is, the more precise the next.
-  // Close to, edges that cross at a small angle count for what they are.
-  double hold = kHold;
-  for (int i = 0; i < kMostTurns; ++i, hold = std::max(0.1 * hold, kLeastHold)) {
-    const double off = std::max(hold, 4 * (std::fabs(best.gap) + a.radius + b.radius));
-    const CoreDistance held = coreDistance(a.moved(off * best.n), b, best.n);
-    if (!held.apart) break;
-    const double before = best.gap;
-    best.attempt(held.normal, held.normal, 1e-15);
-    nearA = held.a - off * best.n, nearB = held.b;
-    if (!(best.gap > before) && hold <= kLeastHold) break;
-  }
-  const Vec3 n = best.n;
-  const Directions da = directionsNear(a, -n, nearA), db = directionsNear(b, n, nearB);
-  for (int i = 0; i < db.faceCount; ++i) best.attempt(db.faces[static_cast<std::size_t>(i)], n);
-  for (int i = 0; i < da.faceCount; ++i) best.attempt(da.faces[static_cast<std::size_t>(i)], n, 1e-13);
-  for (int i = 0; i < da.edgeCount; ++i)
-    for (int j = 0; j < db.edgeCount; ++j) {
-      const Vec3 e = da.edges[static_cast<std::size_t>(i)].cross(db.edges[static_cast<std::size_t>(j)]);
-      const double s = e.norm();
-      if (s > 1e-4) best.attempt(e / s, n, 1e-13);
-    }
-  if (a.kind == ConvexCore::Kind::Cylinder)
-    for (int j = 0; j < db.edgeCount; ++j) acrossEdge(best, db.edges[static_cast<std::size_t>(j)]);
-  if (b.kind == ConvexCore::Kind::Cylinder)
-    for (int i = 0; i < da.edgeCount; ++i) acrossEdge(best, da.edges[static_cast<std::size_t>(i)]);
+  search(best, towards, nearA, nearB);
   g.distance = separationAlong(best.n, a, b), g.normal = best.n;
   putOn(g, a, b, nearA, nearB);
   return g;

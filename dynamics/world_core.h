@@ -160,7 +160,10 @@ public:
 
   // --- who has parted (world_release.cpp)
   void reportReleases();
-  Nanoseconds soonest(const Side& a, const Side& b, double distance) const;
+  void foreseeRelease(const ContactMemory::Key& key, double tau);
+  void awaitRelease(ContactMemory::Memory& m, const Side& a, const Side& b, double distance,
+                    double tau) const;
+  Nanoseconds soonest(const Side& a, const Side& b, double distance, double tau) const;
 
   // --- lasting contact (world_contact.cpp)
   Nanoseconds tickGrid = 2'000'000;  ///< the solver's steps end on multiples of this show time

@@ -127,9 +127,10 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   Mobile ma = mobileOf(a, tau), mb = b ? mobileOf(*b, tau) : mobileOf(*c, tau);
   const Vec3 x = touch.gap.point, n = touch.gap.normal;
   const double closing = -(ma.velocityAt(x) - mb.velocityAt(x)).dot(n);
+  const ContactMemory::Key key = ContactMemory::keyOf(pa, pb);
+  const Vec3 outwards = key.second == pa.id ? n : Vec3(-n);
   if (bothCarried(*side(pa), *side(pb))) {
-    const ContactMemory::Key key = ContactMemory::keyOf(pa, pb);
-    memory.impact(key, timeAt(tau), x, key.second == pa.id ? n : Vec3(-n), closing, 0, frame);
+    memory.impact(key, timeAt(tau), x, outwards, closing, 0, frame);
     memory.setTouching(key, true);
     return;
   }
@@ -151,8 +152,7 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
   if (tired) ++counters.limited;
   const Vec3 impulse = collide(ma, mb, x, n, ends ? 0 : pair.restitution, pair.friction);
-  memory.impact(ContactMemory::keyOf(pa, pb), timeAt(tau), x,
-                ContactMemory::keyOf(pa, pb).second == pa.id ? n : Vec3(-n), closing, impulse.dot(n), frame);
+  memory.impact(key, timeAt(tau), x, outwards, closing, impulse.dot(n), frame);
   if (onFace && ends) {
     BallStart s{a.position(tau), ma.v, ma.omega, a.orientation(tau)};
     s.v -= n * n.dot(s.v);
@@ -163,9 +163,10 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     predict(a, tau);
     return;
   }
-  if (ends) memory.setTouching(ContactMemory::keyOf(pa, pb), true);
+  if (ends) memory.setTouching(key, true);
   afterImpulse(a, ma, tau, ends);
   if (b) afterImpulse(*b, mb, tau, ends);
+  foreseeRelease(key, tau);
 }
 
 }  // namespace stadion

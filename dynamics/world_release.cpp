@@ -7,13 +7,13 @@ namespace {
 
 constexpr double kFineEnough = 1e-11;  ///< of times at which pairs part [s]
 
-/// When between `lo` and `hi` the gap of two sides grew beyond `far`; at `hi` it has. Newton's method, kept
+/// When between `lo` and `hi` the gap of two sides grew beyond `far`; at `hi` it is g. Newton's method, kept
 /// between what is known.
-double whenApart(const Side& a, const Side& b, double far, double lo, double hi) {
+double whenApart(const Side& a, const Side& b, Gap g, double far, double lo, double hi) {
   bool nearAtLo = false;
   double tau = hi;
   for (int i = 0; i < 60 && hi - lo > kFineEnough; ++i) {
-    const Gap g = gapBetween(a, b, tau);
+    if (i > 0 || g.distance > 1e200) g = gapBetween(a, b, tau);
     const double over = g.distance - far;
     (over > 0 ? hi : lo) = tau;
     nearAtLo = nearAtLo || !(over > 0);
@@ -47,19 +47,33 @@ void World::Core::reportReleases() {
       continue;
     }
     const double far = b->body->releaseDistance;
-    const double gap = gapBetween(*b, *a, now, far + 1e-3).distance;
-    if (gap > far) {
-      due.emplace_back(key, timeAt(whenApart(*b, *a, far, frameFrom, now)));
+    const Gap gap = gapBetween(*b, *a, now, far + 1e-3);
+    if (gap.distance > far) {
+      due.emplace_back(key, timeAt(whenApart(*b, *a, gap, far, frameFrom, now)));
     } else {
-      m.look = t1 + soonest(*a, *b, far - gap);
-      m.versionA = versionOf(other), m.versionB = b->body->version;
+      awaitRelease(m, *a, *b, far - gap.distance, now);
     }
   }
   for (const auto& [key, time] : due) memory.release(key, time);
 }
 
-/// The two cannot part by `distance` more sooner than this, as long as their arcs last [ns].
-Nanoseconds World::Core::soonest(const Side& a, const Side& b, double distance) const {
+/// At tau the two are to part by `distance` more: notes when to look for that.
+void World::Core::awaitRelease(ContactMemory::Memory& m, const Side& a, const Side& b, double distance,
+                               double tau) const {
+  m.look = timeAt(tau) + soonest(a, b, distance, tau);
+  m.versionA = versionOf(a.party), m.versionB = versionOf(b.party);
+}
+
+/// An impact at tau has been dealt with: the pair, if it was told, need not be looked at before it can part.
+void World::Core::foreseeRelease(const ContactMemory::Key& key, double tau) {
+  const auto at = memory.fired().find(key);
+  if (at == memory.fired().end()) return;
+  const Side a = *side(key.first), b = *side({true, key.second});
+  awaitRelease(*at->second, a, b, b.body->releaseDistance, tau);
+}
+
+/// After tau the two cannot part by `distance` more sooner than this, as long as their arcs last [ns].
+Nanoseconds World::Core::soonest(const Side& a, const Side& b, double distance, double tau) const {
   if ((a.collider && a.collider->motion.moving) || (a.body && a.body->mode == BodyMode::Held) ||
       b.body->mode == BodyMode::Held)
     return 0;
@@ -67,7 +81,7 @@ Nanoseconds World::Core::soonest(const Side& a, const Side& b, double distance) 
   double speed = 0, acceleration = 0;
   for (const Side* s : {&a, &b}) {
     if (!s->body) continue;
-    speed += s->body->velocity(now).norm() + s->boundOver(now, now + most).spin * s->body->reach;
+    speed += s->body->velocity(tau).norm() + s->boundOver(tau, tau + most).spin * s->body->reach;
     acceleration += s->body->path.accelerationBound();
   }
   const double root = std::sqrt(speed * speed + 2 * acceleration * distance);
