@@ -19,8 +19,8 @@ public:
                    Party b);  ///< at least one side is a body; the body with the greater id comes last
 
   void beginFrame() { events_.clear(); }
-  /// A separated pair fires if it closes fast enough.
-  void impact(const Key& pair, Nanoseconds time, const Vec3& point, const Vec3& normal, double speed,
+  /// A separated pair fires if it closes fast enough: true then.
+  bool impact(const Key& pair, Nanoseconds time, const Vec3& point, const Vec3& normal, double speed,
               double impulse, std::uint64_t frame);
   /// The pair is in lasting contact (or no longer).
   void setTouching(const Key& pair, bool touching);

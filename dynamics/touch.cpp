@@ -141,46 +141,42 @@ Vec3 ballCentre(const Side& s, const Kinematics& k) {
   return k.pose * std::get<BallShape>(*s.shape).centre;
 }
 
-/// A still plane under a parabola has a closed form.
-std::optional<std::optional<double>> planeRoot(const Side& ball, const Side& plane, double from, double to) {
+/// A still plane under a parabola has a closed form; nothing if it is not that.
+std::optional<std::optional<Touch>> planeRoot(const Side& ball, const Side& plane, double from, double to) {
   const auto& s = std::get<PlaneShape>(*plane.shape);
-  if (!ball.body || ball.body->mode == BodyMode::Held || !plane.still() || s.bounded() ||
-      !ball.body->path.isParabola() || !ball.body->isCentred() || plane.body)
+  if (!ball.body || ball.body->mode == BodyMode::Held || plane.body || !plane.still() || s.bounded() ||
+      !ball.body->path.isParabola() || !ball.body->isCentred())
     return {};
-  const Pose X = plane.collider->motion.end * s.pose;
-  const Vec3 n = X.q * Vec3::UnitZ();
+  using Answer = std::optional<Touch>;
+  const Path& path = ball.body->path;
+  const Pose& X = plane.collider->motion.end;
+  const Vec3 n = X.q * s.normal(), on = X * s.pose.p;
   const double age = ball.body->age(from), r = ball.body->radius();
-  double h = n.dot(ball.body->path.position(age) - X.p) - r;
-  const double v = n.dot(ball.body->path.velocity(age)), a = 2 * n.dot(ball.body->path.c[2]);
-  using Answer = std::optional<double>;
-  if (h <= touchTolerance(X.p)) {
-    if (v < 0) return Answer(from);
+  const auto touchAt = [&](double t) {
+    const Vec3 c = path.position(age + t);
+    const double distance = n.dot(c - on) - r;
+    return Answer(Touch{from + t, {distance, c - (distance + r) * n, n, true, -1}, false});
+  };
+  double h = n.dot(path.position(age) - on) - r;
+  const double v = n.dot(path.velocity(age)), a = 2 * n.dot(path.c[2]);
+  if (h <= touchTolerance(on)) {
+    if (v < 0) return touchAt(0);
     h = 0;
   }
   const double d = v * v - 2 * a * h;
-  if (d < 0) return Answer();
-  double t;
-  if (v < 0) {
-    t = 2 * h / (std::sqrt(d) - v);
-  } else {
-    if (a >= 0) return Answer();
-    t = (v + std::sqrt(d)) / -a;
-  }
+  if (d < 0 || (v >= 0 && a >= 0)) return Answer();
+  const double t = v < 0 ? 2 * h / (std::sqrt(d) - v) : (v + std::sqrt(d)) / -a;
   if (from + t > to) return Answer();
-  return Answer(from + t);
+  return touchAt(t);
 }
 
 std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from, double to,
                                std::uint64_t& count) {
   const double r = std::get<BallShape>(*ball.shape).radius;
-  const auto gapAt = [&](double tau) {
-    return ballGap(ballCentre(ball, ball.at(tau)), r, *other.shape, other.at(tau).pose);
-  };
   if (std::holds_alternative<PlaneShape>(*other.shape)) {
     if (const auto exact = planeRoot(ball, other, from, to)) {
       ++count;
-      if (!*exact) return {};
-      return Touch{**exact, gapAt(**exact), false};
+      return *exact;
     }
   }
   const Kinematics kb = ball.at(from), ko = other.at(from);
@@ -200,7 +196,7 @@ std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from,
     };
     const auto tau = firstRoot(probe, from, to, bound, tolerance, count);
     if (!tau) return {};
-    return Touch{*tau, gapAt(*tau), false};
+    return Touch{*tau, ballGap(ballCentre(ball, ball.at(*tau)), r, *other.shape, other.at(*tau).pose), false};
   }
   // The triangles that the ball can reach, each for itself.
   const Vec3 l0 = ko.pose.inverse() * c0;

@@ -155,6 +155,7 @@ public:
   // --- touches (world_impact.cpp)
   void countImpact(RigidBody& b, double tau) const;
   void onTouch(const Touch& touch, Party a, Party b, double tau);
+  static bool carries(const RigidBody& ball, const Collider& c, const Gap& gap);
   bool supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, double tau, Support& out) const;
   void afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting);
 
