@@ -170,6 +170,80 @@ std::optional<std::optional<Touch>> planeRoot(const Side& ball, const Side& plan
   return touchAt(t);
 }
 
+/// A ball that flies along a parabola about its own centre, in the frame of what stands still.
+struct Flight {
+  Vec3 p, v, a;
+
+  /// Seconds until it is as near as r to the triangle's plane, from either side; 0 if it is already, infinity
+  /// if it is not within `most`.
+  double timeToPlane(const Triangle& t, double r, double most) const {
+    constexpr double kLeaves = 1e-9;  ///< so deep it has just bounced [m]
+    double h = t.normal.dot(p - t.v[0]), u = t.normal.dot(v), b = t.normal.dot(a);
+    if (h < 0) h = -h, u = -u, b = -b;
+    h -= r;
+    if (h <= 0 && !(u > 0 && h > -kLeaves)) return 0;
+    h = std::max(h, 0.0);
+    const double d = u * u - 2 * b * h;
+    if (d < 0 || (u >= 0 && b >= 0)) return std::numeric_limits<double>::infinity();
+    const double time = u < 0 ? 2 * h / (std::sqrt(d) - u) : (u + std::sqrt(d)) / -b;
+    return time <= most ? time : std::numeric_limits<double>::infinity();
+  }
+};
+
+std::optional<Flight> flightOf(const Side& ball, const Side& other, double from) {
+  const RigidBody* b = ball.body;
+  if (!b || b->mode == BodyMode::Held || !other.still() || !b->path.isParabola() || !b->isCentred())
+    return {};
+  const Pose X = other.at(from).pose;
+  const Quat back = X.q.conjugate();
+  return Flight{back * (b->position(from) - X.p), back * b->velocity(from), back * Vec3(2 * b->path.c[2])};
+}
+
+std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinematics& ko, double from,
+                                double to, double bound, std::uint64_t& count) {
+  const double r = std::get<BallShape>(*ball.shape).radius;
+  const auto& tree = std::get<MeshShape>(*other.shape).tree;
+  const Vec3 c0 = ballCentre(ball, ball.at(from));
+  const double tolerance = touchTolerance(c0);
+  // The triangles that the ball can reach, each for itself.
+  const Vec3 l0 = ko.pose.inverse() * c0;
+  const Vec3 l1 = other.at(to).pose.inverse() * ballCentre(ball, ball.at(to));
+  const double sag = bound * (to - from) * (to - from) / 8 + r + 1e-9;
+  Aabb box;
+  box.include(l0), box.include(l1);
+  box.lo.array() -= sag, box.hi.array() += sag;
+  std::vector<std::uint32_t> candidates;
+  tree.overlapping(box, candidates);
+  std::optional<Touch> best;
+  if (candidates.empty()) return best;
+  double end = to;
+  const Support* support = ball.body && ball.body->support.on == other.party && ball.body->support.on.id
+                               ? &ball.body->support
+                               : nullptr;
+  const bool inside = tree.closed() && ballGap(c0, r, *other.shape, ko.pose, r).distance < -r;
+  const auto flight = inside ? std::nullopt : flightOf(ball, other, from);
+  for (const std::uint32_t i : candidates) {
+    const Triangle& t = tree.triangles()[i];
+    if (support && (ko.pose.q * t.normal).dot(support->normal) > 1 - 1e-7 &&
+        std::fabs(support->normal.dot(ko.pose * t.v[0] - support->point)) < 1e-6)
+      continue;  // what the ball already rolls on
+    const double begin = flight ? from + flight->timeToPlane(t, r, end - from) : from;
+    if (!(begin <= end)) continue;
+    Gap last;
+    const auto probe = [&](double tau) {
+      const Kinematics b = ball.at(tau), o = other.at(tau);
+      const Vec3 c = ballCentre(ball, b);
+      last = inWorld(triangleGap(o.pose.inverse() * c, r, t, static_cast<std::int32_t>(i), inside), o.pose);
+      return Probe{last.distance, last.normal.dot(b.velocityAt(c) - o.velocityAt(last.point))};
+    };
+    const auto tau = firstRoot(probe, begin, end, bound, tolerance, count);
+    if (!tau || (best && *tau >= best->tau)) continue;
+    best = Touch{*tau, last, false};
+    end = *tau;
+  }
+  return best;
+}
+
 std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from, double to,
                                std::uint64_t& count) {
   const double r = std::get<BallShape>(*ball.shape).radius;
@@ -182,57 +256,17 @@ std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from,
   const Kinematics kb = ball.at(from), ko = other.at(from);
   const Vec3 c0 = ballCentre(ball, kb);
   const double bound = relativeAcceleration(ball, other, from, to, (c0 - ko.p).norm());
-  const double tolerance = touchTolerance(c0);
-  const auto rateOf = [&](const Gap& g, const Kinematics& b, const Kinematics& o, const Vec3& c) {
-    return g.normal.dot(b.velocityAt(c) - o.velocityAt(g.point));
+  if (std::holds_alternative<MeshShape>(*other.shape))
+    return ballOnMesh(ball, other, ko, from, to, bound, count);
+  const auto probe = [&](double tau) {
+    const Kinematics b = ball.at(tau), o = other.at(tau);
+    const Vec3 c = ballCentre(ball, b);
+    const Gap g = ballGap(c, r, *other.shape, o.pose);
+    return Probe{g.distance, g.normal.dot(b.velocityAt(c) - o.velocityAt(g.point))};
   };
-  const auto* mesh = std::get_if<MeshShape>(other.shape);
-  if (!mesh) {
-    const auto probe = [&](double tau) {
-      const Kinematics b = ball.at(tau), o = other.at(tau);
-      const Vec3 c = ballCentre(ball, b);
-      const Gap g = ballGap(c, r, *other.shape, o.pose);
-      return Probe{g.distance, rateOf(g, b, o, c)};
-    };
-    const auto tau = firstRoot(probe, from, to, bound, tolerance, count);
-    if (!tau) return {};
-    return Touch{*tau, ballGap(ballCentre(ball, ball.at(*tau)), r, *other.shape, other.at(*tau).pose), false};
-  }
-  // The triangles that the ball can reach, each for itself.
-  const Vec3 l0 = ko.pose.inverse() * c0;
-  const Vec3 l1 = other.at(to).pose.inverse() * ballCentre(ball, ball.at(to));
-  const double sag = bound * (to - from) * (to - from) / 8 + r + 1e-9;
-  Aabb box;
-  box.include(l0), box.include(l1);
-  box.lo.array() -= sag, box.hi.array() += sag;
-  std::vector<std::uint32_t> candidates;
-  mesh->tree.overlapping(box, candidates);
-  std::optional<Touch> best;
-  double end = to;
-  const Support* support = ball.body && ball.body->support.on == other.party && ball.body->support.on.id
-                               ? &ball.body->support
-                               : nullptr;
-  const bool inside = ballGap(c0, r, *other.shape, ko.pose, r).distance < -r;
-  for (const std::uint32_t i : candidates) {
-    const Triangle& t = mesh->tree.triangles()[i];
-    if (support && (ko.pose.q * t.normal).dot(support->normal) > 1 - 1e-7 &&
-        std::fabs(support->normal.dot(ko.pose * t.v[0] - support->point)) < 1e-6)
-      continue;  // what the ball already rolls on
-    Local last{};
-    const auto probe = [&](double tau) {
-      const Kinematics b = ball.at(tau), o = other.at(tau);
-      const Vec3 c = ballCentre(ball, b);
-      last = triangleGap(o.pose.inverse() * c, r, t, static_cast<std::int32_t>(i), inside);
-      const Gap g = inWorld(last, o.pose);
-      return Probe{g.distance, rateOf(g, b, o, c)};
-    };
-    const auto tau = firstRoot(probe, from, end, bound, tolerance, count);
-    if (!tau || (best && *tau >= best->tau)) continue;
-    probe(*tau);
-    best = Touch{*tau, inWorld(last, other.at(*tau).pose), false};
-    end = *tau;
-  }
-  return best;
+  const auto tau = firstRoot(probe, from, to, bound, touchTolerance(c0), count);
+  if (!tau) return {};
+  return Touch{*tau, ballGap(ballCentre(ball, ball.at(*tau)), r, *other.shape, other.at(*tau).pose), false};
 }
 
 /// A mesh's corners against a plane, each on its own path.
