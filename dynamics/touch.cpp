@@ -56,13 +56,13 @@ Local towards(const Vec3& c, const Vec3& q, double r, const Vec3& fallback) {
   return {n - r, q, n > 0 ? Vec3(d / n) : fallback, false, -1};
 }
 
-Local localGap(const Vec3& c, double r, const BallShape& s, double) {
+Local localGap(const Vec3& c, double r, const BallShape& s, Within) {
   Local l = towards(c, s.centre, r + s.radius, Vec3::UnitZ());
   l.point = s.centre + s.radius * l.normal;
   return l;
 }
 
-Local localGap(const Vec3& c, double r, const BoxShape& s, double) {
+Local localGap(const Vec3& c, double r, const BoxShape& s, Within) {
   const Vec3 p = s.pose.q.conjugate() * (c - s.pose.p), inside = s.half - p.cwiseAbs();
   int axis = 0;
   if (inside.minCoeff(&axis) > 0) {  // the centre is inside: out through the nearest face
@@ -80,7 +80,7 @@ Local localGap(const Vec3& c, double r, const BoxShape& s, double) {
 }
 
 template <class Solid>
-Local localGap(const Vec3& c, double r, const Solid& s, double) {
+Local localGap(const Vec3& c, double r, const Solid& s, Within) {
   const NearestSurface n = nearestSurface(s, c);
   return {n.distance - r, n.point, n.normal, n.face, -1};
 }
@@ -90,7 +90,7 @@ double sheetDepth(const PlaneShape& s) {
   return std::min(1.0, 0.5 * s.half.minCoeff());
 }
 
-Local localGap(const Vec3& c, double r, const PlaneShape& s, double) {
+Local localGap(const Vec3& c, double r, const PlaneShape& s, Within) {
   const Vec3 p = s.pose.q.conjugate() * (c - s.pose.p);
   if (!s.bounded()) return {p.z() - r, s.pose * Vec3(p.x(), p.y(), 0), s.normal(), true, -1};
   const Vec3 q(std::clamp(p.x(), -s.half.x(), s.half.x()), std::clamp(p.y(), -s.half.y(), s.half.y()), 0);
@@ -119,9 +119,9 @@ Local triangleGap(const Vec3& c, double r, const Triangle& t, std::int32_t index
   return l;
 }
 
-Local localGap(const Vec3& c, double r, const MeshShape& s, double limit) {
+Local localGap(const Vec3& c, double r, const MeshShape& s, Within within) {
   ClosestPoint at;
-  const std::int32_t i = s.tree.nearest(c, limit + r, at);
+  const std::int32_t i = s.tree.nearest(c, within.limit + r, at, within.enough > 0 ? within.enough + r : 0);
   if (i < 0) return {1e300, c, Vec3::UnitZ(), false, -1};
   const Triangle& t = s.tree.triangles()[static_cast<std::size_t>(i)];
   Local l = triangleGap(c, r, t, i, s.tree.closed());
@@ -220,7 +220,7 @@ std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinem
   const Support* support = ball.body && ball.body->support.on == other.party && ball.body->support.on.id
                                ? &ball.body->support
                                : nullptr;
-  const bool inside = tree.closed() && ballGap(c0, r, *other.shape, ko.pose, r).distance < -r;
+  const bool inside = tree.closed() && ballGap(c0, r, *other.shape, ko.pose, {r}).distance < -r;
   const auto flight = inside ? std::nullopt : flightOf(ball, other, from);
   for (const std::uint32_t i : candidates) {
     const Triangle& t = tree.triangles()[i];
@@ -338,9 +338,9 @@ double touchTolerance(const Vec3& p) {
   return std::max(1e-12, 4e-15 * p.cwiseAbs().maxCoeff());
 }
 
-Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X, double limit) {
+Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X, Within within) {
   const Vec3 c = X.q.conjugate() * (centre - X.p);
-  return std::visit([&](const auto& s) { return inWorld(localGap(c, radius, s, limit), X); }, shape);
+  return std::visit([&](const auto& s) { return inWorld(localGap(c, radius, s, within), X); }, shape);
 }
 
 std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, double to, std::uint64_t& count) {
@@ -361,13 +361,13 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
   return meshesTouch(a, b, from, to, count);
 }
 
-Gap gapBetween(const Side& a, const Side& b, double tau, double limit) {
+Gap gapBetween(const Side& a, const Side& b, double tau, Within within) {
   const Kinematics ka = a.at(tau), kb = b.at(tau);
   if (isBall(a))
-    return ballGap(ballCentre(a, ka), std::get<BallShape>(*a.shape).radius, *b.shape, kb.pose, limit);
+    return ballGap(ballCentre(a, ka), std::get<BallShape>(*a.shape).radius, *b.shape, kb.pose, within);
   const bool swap = isBall(b) || (isPlane(a) && !isPlane(b)) || (!isConvex(*a.shape) && isConvex(*b.shape));
   if (swap && !isPlane(b)) {
-    Gap g = gapBetween(b, a, tau, limit);
+    Gap g = gapBetween(b, a, tau, within);
     flip(g);
     return g;
   }
@@ -386,7 +386,7 @@ Gap gapBetween(const Side& a, const Side& b, double tau, double limit) {
   if (isConvex(*b.shape)) return convexGapBetween(*a.shape, ka.pose, *b.shape, kb.pose);
   if (const auto* plane = std::get_if<PlaneShape>(b.shape))
     return planeGapBetween(*a.shape, ka.pose, *plane, kb.pose);
-  return meshGapBetween(*a.shape, ka.pose, std::get<MeshShape>(*b.shape), kb.pose, limit);
+  return meshGapBetween(*a.shape, ka.pose, std::get<MeshShape>(*b.shape), kb.pose, within.limit);
 }
 
 Aabb sweptBox(const Side& side, double from, double to) {

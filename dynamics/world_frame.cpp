@@ -188,7 +188,7 @@ void World::Core::wakeWithin(Party arrived) {
   std::vector<RigidBody*> stirred;
   nearBodies.eachNear(self.body ? self.body->swept : self.collider->swept, [&](RigidBody& o) {
     if (o.mode != BodyMode::Rest || !o.enabled || &o == self.body || !mayTouch(Side::of(o), self)) return;
-    if (gapBetween(Side::of(o), self, frameFrom, 0.01).distance < -kTouchesAtLoad) stirred.push_back(&o);
+    if (gapBetween(Side::of(o), self, frameFrom, {0.01}).distance < -kTouchesAtLoad) stirred.push_back(&o);
   });
   for (RigidBody* o : stirred) {
     enterContact(*o, frameFrom);
@@ -205,7 +205,7 @@ void World::Core::settleFresh(const std::vector<Party>& arrived) {
   std::vector<Settler> settlers;
   const auto look = [&](const Side& self, const Side& other, std::vector<std::pair<Side, Gap>>* touching) {
     if (!mayTouch(self, other)) return;
-    const Gap g = gapBetween(self, other, frameFrom, 0.01);
+    const Gap g = gapBetween(self, other, frameFrom, {0.01});
     if (!(g.distance < kTouchesAtLoad)) return;
     memory.setTouching(ContactMemory::keyOf(self.party, other.party), true);
     if (touching) touching->emplace_back(other, g);
@@ -322,7 +322,8 @@ void World::Core::partCarried() {
   const auto look = [&](const ContactMemory::Key& key) {
     if (!memory.touching(key)) return;
     const auto a = side(key.first), b = side({true, key.second});
-    if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, now, 1e-3).distance > 1e-5) apart.push_back(key);
+    if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, now, {1e-3}).distance > 1e-5)
+      apart.push_back(key);
   };
   for (const RigidBody* b : active)
     if (b->mode == BodyMode::Held) memory.eachWith({true, b->id}, look);

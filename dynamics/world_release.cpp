@@ -47,7 +47,7 @@ void World::Core::reportReleases() {
       continue;
     }
     const double far = b->body->releaseDistance;
-    const Gap gap = gapBetween(*b, *a, now, far + 1e-3);
+    const Gap gap = gapBetween(*b, *a, now, {far + 1e-3, 0.5 * far});
     if (gap.distance > far) {
       due.emplace_back(key, timeAt(whenApart(*b, *a, gap, far, frameFrom, now)));
     } else {
