@@ -274,14 +274,15 @@ Vec3 Spin::angularMomentum(double t) const {
 }
 
 Vec3 Spin::angularVelocity(double t) const {
+  return angularVelocity(t, kind == Kind::Symmetric || kind == Kind::Taylor ? orientation(t) : q0);
+}
+
+Vec3 Spin::angularVelocity(double t, const Quat& q) const {
   switch (kind) {
   case Kind::Still: return Vec3::Zero();
   case Kind::Uniform: return omega;
   case Kind::Driven: return omega + t * alpha;
-  default: {
-    const Quat q = orientation(t);
-    return q * inverse.cwiseProduct(q.conjugate() * L);
-  }
+  default: return q * inverse.cwiseProduct(q.conjugate() * L);
   }
 }
 

@@ -82,6 +82,7 @@ struct Spin : SpinTerms {
 
   Quat orientation(double age) const;
   Vec3 angularVelocity(double age) const;
+  Vec3 angularVelocity(double age, const Quat& orientation) const;  ///< if that is known already
   Vec3 angularMomentum(double age) const;
   /// At least the angular speed at any age up to `age`.
   double speedBound(double age) const;

@@ -30,16 +30,17 @@ void ContactMemory::update(const Key& pair, F change) {
     digest_ -= share(pair, m);
   change(m);
   digest_ += share(pair, m);
-  m.fired ? void(fired_.insert(pair)) : void(fired_.erase(pair));
+  m.fired ? void(fired_.emplace(pair, &m)) : void(fired_.erase(pair));
   if (!m.touching && !m.fired) erase(pair);
 }
 
-void ContactMemory::impact(const Key& pair, Nanoseconds time, const Vec3& point, const Vec3& normal,
+bool ContactMemory::impact(const Key& pair, Nanoseconds time, const Vec3& point, const Vec3& normal,
                            double speed, double impulse, std::uint64_t frame) {
-  if (!(speed > kImpactSpeed) || touching(pair)) return;
+  if (!(speed > kImpactSpeed) || touching(pair)) return false;
   update(pair, [&](Memory& m) { m.fired = true, m.impact = time, m.frame = frame; });
   events_.push_back(
       {ContactEvent::Kind::Impact, time, pair.first, pair.second, point, normal, speed, impulse});
+  return true;
 }
 
 void ContactMemory::setTouching(const Key& pair, bool now) {

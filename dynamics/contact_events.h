@@ -19,8 +19,8 @@ public:
                    Party b);  ///< at least one side is a body; the body with the greater id comes last
 
   void beginFrame() { events_.clear(); }
-  /// A separated pair fires if it closes fast enough.
-  void impact(const Key& pair, Nanoseconds time, const Vec3& point, const Vec3& normal, double speed,
+  /// A separated pair fires if it closes fast enough: true then.
+  bool impact(const Key& pair, Nanoseconds time, const Vec3& point, const Vec3& normal, double speed,
               double impulse, std::uint64_t frame);
   /// The pair is in lasting contact (or no longer).
   void setTouching(const Key& pair, bool touching);
@@ -36,12 +36,11 @@ public:
     Nanoseconds look = 0;     ///< before that it cannot be released unless an arc changes ...
     std::uint32_t versionA = 0, versionB = 0;  ///< ... from these [ns]
   };
-  /// Only what is kept for the sake of speed may be changed.
-  Memory& of(const Key& known) { return memory_.find(known)->second; }
   /// Equal for equal memories, up to chance; costs nothing.
   std::uint64_t digest() const { return digest_; }
-  /// Those whose impact has been told and whose release has not.
-  const std::set<Key>& fired() const { return fired_; }
+  /// Those whose impact has been told and whose release has not. Of them only what is kept for the sake of
+  /// speed may be changed.
+  const std::map<Key, Memory*>& fired() const { return fired_; }
   /// f(key) for all pairs with this party. f must not change them.
   template <class F>
   void eachWith(Party p, F f) const {
@@ -61,7 +60,7 @@ private:
 
   std::map<Key, Memory> memory_;
   std::uint64_t digest_ = 0;  ///< a sum over the pairs
-  std::set<Key> fired_;
+  std::map<Key, Memory*> fired_;
   std::set<std::pair<BodyId, Party>> others_;  ///< the same pairs by their body
   std::vector<ContactEvent> events_;
 };

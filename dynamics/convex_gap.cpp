@@ -12,6 +12,7 @@ constexpr double kHold = 1e-4;     ///< distance to hold off for a first look [m
 constexpr double kLeastHold = 1e-7;
 constexpr int kMostTurns = 12;
 constexpr double kShallow = 1e-6;  ///< overlap that a face may have found alone [m]
+constexpr double kGrazing = 1e-9;  ///< overlap up to which nothing but that face can be meant [m]
 constexpr double kOver = 1e-10;    ///< beside a face by this still counts as over it [m]
 
 struct Best {
@@ -78,36 +79,78 @@ bool onFace(const ConvexCore& a, const ConvexCore& b, const Vec3& towards, Vec3&
   return true;
 }
 
-}  // namespace
-
-double separationAlong(const Vec3& n, const ConvexCore& a, const ConvexCore& b) {
-  return -a.extent(-n) - b.extent(n);
+/// The plane of b's face that a's middle is farthest outside of; false if b has none there.
+bool facePlane(const ConvexCore& b, const Vec3& middle, Vec3& n, double& level) {
+  const Vec3 l = b.R.transpose() * (middle - b.p);
+  switch (b.kind) {
+  case ConvexCore::Kind::Box: {
+    int k = 0;
+    (l.cwiseAbs() - b.half).maxCoeff(&k);
+    n = l[k] < 0 ? Vec3(-b.R.col(k)) : Vec3(b.R.col(k)), level = n.dot(b.p) + b.half[k];
+    return true;
+  }
+  case ConvexCore::Kind::Cylinder: {
+    const double r = l.head<2>().norm() - b.half.x();
+    if (r > 0 && r > std::fabs(l.z()) - b.half.z()) return false;
+    n = l.z() < 0 ? Vec3(-b.R.col(2)) : Vec3(b.R.col(2)), level = n.dot(b.p) + b.half.z();
+    return true;
+  }
+  case ConvexCore::Kind::Hull: {
+    if (b.shrink != 1) return false;
+    double most = -1e300;
+    const ConvexShape::Face* best = nullptr;
+    for (const ConvexShape::Face& f : b.hull->faces)
+      if (const double h = f.normal.dot(l) - f.offset; h > most) most = h, best = &f;
+    if (!best) return false;
+    n = b.R * best->normal, level = n.dot(b.p) + best->offset;
+    return true;
+  }
+  case ConvexCore::Kind::Triangle:
+    n = b.normal.dot(middle - b.v[0]) < 0 ? Vec3(-b.normal) : b.normal, level = n.dot(b.v[0]);
+    return true;
+  case ConvexCore::Kind::Point:
+  case ConvexCore::Kind::Segment: return false;
+  }
+  return false;
 }
 
-ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess, double accuracy) {
-  const CoreDistance d = coreDistance(a, b, guess, accuracy);
-  ConvexGap g;
-  if (d.apart && d.distance > kNear) {
-    // What the supports say is certain; the distance found may be too long where the search ended in
-    // rounding.
-    const double sure = separationAlong(d.normal, a, b);
-    const double rounding = a.radius + b.radius;
-    if (accuracy > 1e-15 && rounding > 0 &&
-        sure < rounding)  // the accuracy of the cores is not that of the gap
-      return convexGap(a, b, d.normal, 1e-15);
-    g.distance = sure, g.normal = d.normal;
-    g.onA = d.a - a.radius * d.normal, g.onB = d.b + b.radius * d.normal;
-    if (sure + rounding >= d.distance * (1 - 1e-6 - 2 * accuracy)) return g;
+/// A rim over an edge: the best direction square to the edge, where the line between the supports is square
+/// to the next ones. The slope there falls through zero.
+void acrossEdge(Best& best, const Vec3& edge) {
+  const Vec3 square = best.n - edge * edge.dot(best.n);
+  const double l = square.norm();
+  if (!(l > 0.5)) return;
+  const Vec3 n0 = square / l, u = edge.cross(n0);
+  const auto along = [&](double t) { return Vec3((n0 + t * u) / std::sqrt(1 + t * t)); };
+  const auto slope = [&](double t) {
+    const Vec3 n = along(t);
+    return edge.cross(n).dot(best.a.support(-n) - best.b.support(n));
+  };
+  double lo = -0.02, hi = 0.02, atLo = slope(lo), atHi = slope(hi);
+  if (!(atLo > 0 && atHi < 0)) return;
+  double t = 0;
+  int side = 0;
+  for (int i = 0; i < 40 && hi - lo > 1e-15; ++i) {  // false position after Illinois
+    const double last = t;
+    t = (lo * atHi - hi * atLo) / (atHi - atLo);
+    const double s = slope(t);
+    if (std::fabs(t - last) < 1e-16 || s == 0) break;
+    if (s > 0) {
+      lo = t, atLo = s;
+      if (side > 0) atHi *= 0.5;
+      side = 1;
+    } else {
+      hi = t, atHi = s;
+      if (side < 0) atLo *= 0.5;
+      side = -1;
+    }
   }
-  Vec3 nearA = d.a, nearB = d.b;
-  const Vec3 towards = d.apart && d.distance > 1e-9 ? d.normal : overlapDirection(a, b, guess, nearA, nearB);
-  Best best{a, b};
-  if (onFace(a, b, towards, nearA, nearB, best)) {
-    g.distance = best.gap, g.normal = best.n;
-    g.onA = g.onB = nearB;
-    g.onA += g.distance * g.normal;
-    return g;
-  }
+  best.attempt(along(t), best.n);
+}
+
+/// The widest gap near a direction, and points nearby.
+void search(Best& best, const Vec3& towards, Vec3& nearA, Vec3& nearB) {
+  const ConvexCore &a = best.a, &b = best.b;
   best.attempt(towards, towards, kFavour);
   // Held off along the normal; the more precise it is, the more precise the next.
   // Close to, edges that cross at a small angle count for what they are.
@@ -131,6 +174,63 @@ ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess,
       const double s = e.norm();
       if (s > 1e-4) best.attempt(e / s, n, 1e-13);
     }
+  if (a.kind == ConvexCore::Kind::Cylinder)
+    for (int j = 0; j < db.edgeCount; ++j) acrossEdge(best, db.edges[static_cast<std::size_t>(j)]);
+  if (b.kind == ConvexCore::Kind::Cylinder)
+    for (int i = 0; i < da.edgeCount; ++i) acrossEdge(best, da.edges[static_cast<std::size_t>(i)]);
+}
+
+}  // namespace
+
+bool gapOverFace(const ConvexCore& a, const ConvexCore& b, double beside, ConvexGap& g) {
+  Vec3 n;
+  double level;
+  if (!facePlane(b, a.middle(), n, level)) return false;
+  const Vec3 x = a.support(-n) - a.radius * n;
+  const double gap = n.dot(x) - level - b.radius;
+  if (!(gap > -kGrazing)) return false;
+  if (!(gap > beside) && !b.holds(x - (gap + b.radius) * n, kOver)) return false;
+  g.distance = gap, g.normal = n;
+  g.onA = x, g.onB = x - gap * n;
+  return true;
+}
+
+double separationAlong(const Vec3& n, const ConvexCore& a, const ConvexCore& b) {
+  return -a.extent(-n) - b.extent(n);
+}
+
+ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess, double accuracy) {
+  ConvexGap easy;
+  if (gapOverFace(a, b, 1e300, easy)) return easy;
+  if (gapOverFace(b, a, 1e300, easy)) {
+    easy.normal = -easy.normal;
+    std::swap(easy.onA, easy.onB);
+    return easy;
+  }
+  const CoreDistance d = coreDistance(a, b, guess, accuracy);
+  ConvexGap g;
+  if (d.apart && d.distance > kNear) {
+    // What the supports say is certain; the distance found may be too long where the search ended in
+    // rounding.
+    const double sure = separationAlong(d.normal, a, b);
+    const double rounding = a.radius + b.radius;
+    if (accuracy > 1e-15 && rounding > 0 &&
+        sure < rounding)  // the accuracy of the cores is not that of the gap
+      return convexGap(a, b, d.normal, 1e-15);
+    g.distance = sure, g.normal = d.normal;
+    g.onA = d.a - a.radius * d.normal, g.onB = d.b + b.radius * d.normal;
+    if (sure + rounding >= d.distance * (1 - 1e-6 - 2 * accuracy)) return g;
+  }
+  Vec3 nearA = d.a, nearB = d.b;
+  const Vec3 towards = d.apart && d.distance > 1e-9 ? d.normal : overlapDirection(a, b, guess, nearA, nearB);
+  Best best{a, b};
+  if (onFace(a, b, towards, nearA, nearB, best)) {
+    g.distance = best.gap, g.normal = best.n;
+    g.onA = g.onB = nearB;
+    g.onA += g.distance * g.normal;
+    return g;
+  }
+  search(best, towards, nearA, nearB);
   g.distance = separationAlong(best.n, a, b), g.normal = best.n;
   putOn(g, a, b, nearA, nearB);
   return g;

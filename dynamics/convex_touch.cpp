@@ -10,26 +10,67 @@ namespace {
 
 constexpr int kMostLooks = 400;
 constexpr double kRough = 1e-5;  ///< accuracy of distances on the way
+constexpr double kFar = 0.05;    ///< of the body's reach: farther off a face its plane will do
 
 double reachOf(const Side& s) {
   return s.body ? s.body->reach : s.bound().centre.norm() + s.bound().radius;
 }
 
+/// The point that a side's velocity belongs to.
+Vec3 placeOf(const Side& s, double tau) {
+  return s.body && s.body->mode != BodyMode::Held ? s.body->position(tau) : s.at(tau).p;
+}
+
+/// Whether the body is round about the axis that it spins freely about.
+bool precesses(const Side& s) {
+  if (!s.body || s.body->spin.kind != Spin::Kind::Symmetric || s.body->mode == BodyMode::Held) return false;
+  const auto* cylinder = std::get_if<CylinderShape>(s.shape);
+  const auto* capsule = std::get_if<CapsuleShape>(s.shape);
+  if (!cylinder && !capsule) return false;
+  const Pose X = s.body->X_CN * (cylinder ? cylinder->pose : capsule->pose);
+  const Vec3 along = Vec3::Unit(s.body->spin.axis), own = X.q * Vec3::UnitZ();
+  return own.cross(along).norm() <= 1e-9 && X.p.cross(along).norm() <= 1e-9 * s.body->reach;
+}
+
 /// One body of a pair at the moment of a look, relative to `origin`.
 struct Mover {
+  const Side& side;
   ConvexCore core;
   Vec3 p = Vec3::Zero(), v = Vec3::Zero(), omega = Vec3::Zero();
   double reach = 0;         ///< of its points from p [m]
   double drift = 0;         ///< bound on the acceleration of p [m/s2]
   double acceleration = 0;  ///< the same of its points
   bool turning = false;
+  bool round = false;  ///< a disc or rod that precesses: what it spins about its axis does not show
+  Vec3 precession = Vec3::Zero();  ///< round: steady [rad/s]
 
-  void bound(const Side& s, double from, double to, double withReach) {
+  Mover(const Side& s, double from, double to) : side(s), reach(reachOf(s)), round(precesses(s)) {
     const MotionBound b = s.boundOver(from, to);
-    reach = withReach, drift = b.acceleration, acceleration = b.accelerationAt(reach);
+    drift = b.acceleration;
+    if (round) {
+      const Spin& spin = s.body->spin;
+      precession = spin.inverse[(spin.axis + 1) % 3] * spin.L;
+      const Vec3 own = spin.q0 * Vec3::Unit(spin.axis);
+      turning = own.cross(precession).norm() > 1e-12 * precession.norm();
+      if (!turning) precession.setZero();
+      acceleration = drift + precession.squaredNorm() * reach;
+      return;
+    }
+    acceleration = b.accelerationAt(reach);
     turning = b.spin > 0 || b.spinChange > 0;
   }
-  void take(const Kinematics& k, const Vec3& origin) { p = k.p - origin, v = k.v, omega = k.omega; }
+  /// Moves it there; returns X_RN.
+  Pose moveTo(double tau, const Vec3& origin) {
+    if (!round) {
+      const Kinematics k = side.at(tau);
+      p = k.p - origin, v = k.v, omega = k.omega;
+      return {k.pose.p - origin, k.pose.q};
+    }
+    const RigidBody& body = *side.body;
+    p = body.position(tau) - origin, v = body.velocity(tau), omega = precession;
+    const Quat q = turning ? det::expRotation(body.spinAge(tau) * precession) * body.spin.q0 : body.spin.q0;
+    return Pose{p, q} * body.X_CN;
+  }
   Vec3 velocityAt(const Vec3& x) const { return v + omega.cross(x - p); }
 
   /// The greatest of n . (x + s v_x) over the body, and its rate of change.
@@ -46,28 +87,46 @@ struct Mover {
   }
 };
 
-/// f(s) of the header with its slope. `level`: where b is a plane, else b moves.
+/// f(s) of the header with its slope, for the direction n from b to a.
 struct Lower {
   const Mover& a;
-  const Mover* b;
+  const Mover* b;  ///< if it turns
   Vec3 n;
-  double level;
-  double acceleration;
+  double level = 0, rise = 0;  ///< else how far it reaches along n, and the rate of that
+  double acceleration, drift;
 
+  Lower(const Mover& movingA, const Mover* movingB, const Vec3& normal, double plane, double bound)
+      : a(movingA), b(movingB), n(normal), level(plane), acceleration(bound),
+        drift(movingA.drift + (movingB ? movingB->drift : 0)) {
+    if (!b || b->turning) return;
+    level = b->farthest(n, 0, rise);
+    b = nullptr;
+  }
   double at(double s, double& slope) const {
-    double ra, rb = 0;
-    const double near = -a.farthest(-n, s, ra), far = b ? b->farthest(n, s, rb) : level;
+    double ra, rb = rise;
+    const double near = -a.farthest(-n, s, ra), far = b ? b->farthest(n, s, rb) : level + s * rise;
     slope = -ra - rb - acceleration * s;
     return near - far - 0.5 * acceleration * s * s;
   }
 };
 
-/// Seconds in which f, that is `gap` now, does not fall below zero; `most` if it never does until then.
-double safeTime(const Lower& f, double gap, double most) {
+/// When g + u s - A s^2 / 2 reaches zero, `most` if later; g >= 0.
+double fallTime(double g, double u, double A, double most) {
+  const double root = std::sqrt(u * u + 2 * A * g);
+  if (u < 0) return std::min(most, 2 * g / (root - u));
+  return A > 0 ? std::min(most, (u + root) / A) : most;
+}
+
+/// Seconds in which f, that is `gap` now, does not fall below zero; `most` if it never does until then;
+/// `known` if it is no more than that.
+double safeTime(const Lower& f, double gap, double most, double known) {
   double slope = 0;
   const double shift = gap - f.at(0, slope);  // no step back for bodies that overlap already
-  double right = most, value = f.at(right, slope) + shift;
-  if (value >= 0) return most;
+  // Its tangent less A s^2 / 2 lies above a concave function.
+  double right = fallTime(gap, slope, f.acceleration, most);
+  if (right <= known) return known;
+  double value = f.at(right, slope) + shift;
+  if (value >= 0) return right;
   for (int i = 0; i < 12; ++i) {  // Newton from beyond the root of a concave function comes down to it
     if (!(slope < 0)) break;
     const double next = right - value / slope;
@@ -87,17 +146,12 @@ double safeTime(const Lower& f, double gap, double most) {
 
 /// The same with everything held inside spheres, turning or not.
 double sphereTime(const Lower& f, double most) {
-  if (!f.a.turning && !(f.b && f.b->turning)) return 0;
-  double unused;
-  const double far = !f.b           ? f.level
-                     : f.b->turning ? f.n.dot(f.b->p) + f.b->reach
-                                    : f.b->farthest(f.n, 0, unused);
+  if (!f.a.turning && !f.b) return 0;
+  const double far = f.b ? f.n.dot(f.b->p) + f.b->reach : f.level;
   const double g = f.n.dot(f.a.p) - f.a.reach - far;
   if (!(g > 0)) return 0;
-  const double u = f.n.dot(f.a.v) - (f.b ? f.n.dot(f.b->v) : 0), A = f.a.drift + (f.b ? f.b->drift : 0);
-  const double root = std::sqrt(u * u + 2 * A * g);
-  if (u < 0) return std::min(most, 2 * g / (root - u));
-  return A > 0 ? std::min(most, (u + root) / A) : most;
+  const double u = f.n.dot(f.a.v) - (f.b ? f.n.dot(f.b->v) : f.rise);
+  return fallTime(g, u, f.drift, most);
 }
 
 /// The rate at which the gap closes at its fastest point: bodies turn into the contact by a hair.
@@ -130,6 +184,20 @@ bool contactPoint(const Mover& a, const Mover* b, const std::vector<ManifoldPoin
   return true;
 }
 
+/// Whether the body reaches farthest against n with a single point.
+bool pointed(const ConvexCore& c, const Vec3& n) {
+  constexpr double kEven = 1e-8;  // [m]
+  const Vec3 l = c.R.transpose() * n;
+  switch (c.kind) {
+  case ConvexCore::Kind::Point: return true;
+  case ConvexCore::Kind::Segment: return std::fabs(l.z()) * c.half.z() > kEven;
+  case ConvexCore::Kind::Box: return l.cwiseAbs().cwiseProduct(c.half).minCoeff() > kEven;
+  case ConvexCore::Kind::Cylinder:
+    return l.head<2>().norm() * c.half.x() > kEven && std::fabs(l.z()) * c.half.z() > kEven;
+  default: return false;
+  }
+}
+
 /// Looks until the pair touches. `place(tau)` moves both, `measure()` gives their gap relative to the origin.
 template <class Place, class Measure, class Patch>
 std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double from, double to,
@@ -144,21 +212,25 @@ std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double fro
     double level = 0;
     const ConvexGap g = measure(level);
     if (!std::isfinite(g.distance) || !g.normal.allFinite()) return {};
-    const Lower f{a, b, g.normal, level, acceleration};
+    const Lower f(a, b, g.normal, level, acceleration);
     double gap = g.distance;
     if (gap <= tolerance) {
       if (closingRate(f) < 0) {
         Vec3 x = g.onB;
-        points.clear();
-        patch(g, points);
-        contactPoint(a, b, points, g.distance, x);
+        if (!pointed(a.core, g.normal)) {
+          points.clear();
+          patch(g, points);
+          contactPoint(a, b, points, g.distance, x);
+        }
         const double rate = g.normal.dot(a.velocityAt(x) - (b ? b->velocityAt(x) : Vec3(Vec3::Zero())));
         if (rate < 0 || ++stalls > 20) return Touch{tau, {g.distance, x, g.normal, false, -1}, false};
       }
       gap = 0;
     }
     const double left = to - tau;
-    const double step = std::max(safeTime(f, gap, left), sphereTime(f, left));
+    const double outside = sphereTime(f, left);
+    if (outside >= left) return {};
+    const double step = safeTime(f, gap, left, outside);
     if (step >= left) return {};
     tau += std::max(step, gap > 0 ? 1e-16 : 1e-9);
     if (!(tau <= to)) return {};
@@ -178,24 +250,23 @@ Pose shifted(const Pose& X, const Vec3& origin) {
 
 std::optional<Touch> convexTouch(const Side& sa, const Side& sb, double from, double to,
                                  std::uint64_t& count) {
-  const Vec3 origin = sa.at(from).p;
-  Mover a, b;
-  a.bound(sa, from, to, reachOf(sa)), b.bound(sb, from, to, reachOf(sb));
+  const Vec3 origin = placeOf(sa, from);
+  Mover a(sa, from, to), b(sb, from, to);
   Vec3 guess = Vec3::UnitZ();
   bool first = true;
   auto t = advance(
       a, &b, a.acceleration + b.acceleration, from, to, touchTolerance(origin), count,
       [&](double tau) {
-        const Kinematics ka = sa.at(tau);
-        coreOf(*sa.shape, shifted(ka.pose, origin), a.core), a.take(ka, origin);
+        coreOf(*sa.shape, a.moveTo(tau, origin), a.core);
         if (!first && sb.still()) return;
-        const Kinematics kb = sb.at(tau);
-        coreOf(*sb.shape, shifted(kb.pose, origin), b.core), b.take(kb, origin);
+        coreOf(*sb.shape, b.moveTo(tau, origin), b.core);
         if (first) guess = a.core.middle() - b.core.middle();
         first = false;
       },
       [&](double&) {
-        const ConvexGap g = convexGap(a.core, b.core, guess, kRough);
+        ConvexGap g;
+        if (gapOverFace(a.core, b.core, kFar * a.reach, g)) return g;
+        g = convexGap(a.core, b.core, guess, kRough);
         guess = g.normal;
         return g;
       },
@@ -209,9 +280,8 @@ std::optional<Touch> convexTouch(const Side& sa, const Side& sb, double from, do
 std::optional<Touch> planeTouch(const Side& sa, const Side& plane, double from, double to,
                                 std::uint64_t& count) {
   const auto& shape = std::get<PlaneShape>(*plane.shape);
-  const Vec3 origin = sa.at(from).p;
-  Mover a;
-  a.bound(sa, from, to, reachOf(sa));
+  const Vec3 origin = placeOf(sa, from);
+  Mover a(sa, from, to);
   double bound = a.acceleration;
   if (!plane.still()) {
     bound = relativeAcceleration(sa, plane, from, to, (origin - plane.at(from).p).norm());
@@ -221,9 +291,9 @@ std::optional<Touch> planeTouch(const Side& sa, const Side& plane, double from, 
   auto t = advance(
       a, nullptr, bound, from, to, touchTolerance(origin), count,
       [&](double tau) {
-        const Kinematics k = sa.at(tau), o = plane.at(tau);
-        coreOf(*sa.shape, shifted(k.pose, origin), a.core), a.take(k, origin);
-        a.v -= o.velocityAt(k.p), a.omega -= o.omega;
+        const Kinematics o = plane.at(tau);
+        coreOf(*sa.shape, a.moveTo(tau, origin), a.core);
+        a.v -= o.velocityAt(a.p + origin), a.omega -= o.omega;
         X = shifted(o.pose * shape.pose, origin);
       },
       [&](double& level) {
@@ -243,11 +313,10 @@ std::optional<Touch> planeTouch(const Side& sa, const Side& plane, double from, 
 
 std::optional<Touch> meshTouch(const Side& sa, const Side& sm, double from, double to, std::uint64_t& count) {
   const auto& mesh = std::get<MeshShape>(*sm.shape);
-  const Vec3 origin = sa.at(from).p;
-  Mover a, b;
-  a.bound(sa, from, to, reachOf(sa)), b.bound(sm, from, to, reachOf(sm));
+  const Vec3 origin = placeOf(sa, from);
+  Mover a(sa, from, to), b(sm, from, to);
   const double bend = relativeAcceleration(sa, sm, from, to, (origin - sm.at(from).p).norm());
-  const auto local = [&](double tau) { return Vec3(sm.at(tau).pose.inverse() * sa.at(tau).p); };
+  const auto local = [&](double tau) { return Vec3(sm.at(tau).pose.inverse() * placeOf(sa, tau)); };
   // Piece by piece of the way, about as long as the body: few triangles are near at a time.
   const double way = (local(to) - local(from)).norm() + bend * (to - from) * (to - from) / 8;
   const int pieces = static_cast<int>(std::clamp(way / (2 * a.reach), 1.0, 64.0));
@@ -268,16 +337,16 @@ std::optional<Touch> meshTouch(const Side& sa, const Side& sm, double from, doub
       auto t = advance(
           a, &b, a.acceleration + b.acceleration, begin, until, tolerance, count,
           [&](double tau) {
-            const Kinematics ka = sa.at(tau);
-            coreOf(*sa.shape, shifted(ka.pose, origin), a.core), a.take(ka, origin);
+            coreOf(*sa.shape, a.moveTo(tau, origin), a.core);
             if (!first && sm.still()) return;
-            const Kinematics kb = sm.at(tau);
-            b.core = coreOf(face, shifted(kb.pose, origin)), b.take(kb, origin);
+            b.core = coreOf(face, b.moveTo(tau, origin));
             if (first) guess = a.core.middle() - b.core.middle();
             first = false;
           },
           [&](double&) {
-            ConvexGap g = convexGap(a.core, b.core, guess, kRough);
+            ConvexGap g;
+            if (gapOverFace(a.core, b.core, kFar * a.reach, g) && g.distance > 1e-6) return g;
+            g = convexGap(a.core, b.core, guess, kRough);
             guess = g.normal;
             if (g.distance < 1e-6) meshNormal(a.core, b.core, face, g);
             return g;

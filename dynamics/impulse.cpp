@@ -5,15 +5,18 @@
 namespace stadion {
 
 Mobile mobileOf(const RigidBody& b, double tau) {
-  const Kinematics k = b.at(tau);
-  Mobile m{0, Mat3::Zero(), k.p, k.v, k.omega};
-  if (!b.movable()) return m;
-  m.inverseMass = b.inverseMass;
+  if (!b.movable()) {
+    const Kinematics k = b.at(tau);
+    return {0, Mat3::Zero(), k.p, k.v, k.omega};
+  }
+  const Quat q = b.orientation(tau);
+  Mobile m{b.inverseMass, Mat3::Zero(), b.position(tau), b.velocity(tau),
+           b.spin.angularVelocity(b.spinAge(tau), q)};
   const Vec3 inverse = b.inertia.cwiseInverse();
   if (inverse.x() == inverse.y() && inverse.y() == inverse.z()) {
     m.inverseInertia = inverse.x() * Mat3::Identity();
   } else {
-    const Mat3 R = b.orientation(tau).toRotationMatrix();
+    const Mat3 R = q.toRotationMatrix();
     m.inverseInertia = R * inverse.asDiagonal() * R.transpose();
   }
   return m;
@@ -30,14 +33,26 @@ Mat3 response(const Mobile& m, const Vec3& x) {
   return m.inverseMass * Mat3::Identity() - r * m.inverseInertia * r;
 }
 
+namespace {
+
+/// The same along n alone.
+double responseAlong(const Mobile& m, const Vec3& x, const Vec3& n) {
+  if (m.inverseMass == 0) return 0;
+  const Vec3 turn = (x - m.p).cross(n);
+  return m.inverseMass + turn.dot(m.inverseInertia * turn);
+}
+
+}  // namespace
+
 Vec3 collide(Mobile& a, Mobile& b, const Vec3& x, const Vec3& n, double restitution, double friction) {
   const Vec3 u = a.velocityAt(x) - b.velocityAt(x);
   const double closing = -u.dot(n);
   if (!(closing > 0)) return Vec3::Zero();
-  const Mat3 K = response(a, x) + response(b, x);
-  const Vec3 slip = u + closing * n;
-  Vec3 impulse = (restitution + 1) * closing / n.dot(K * n) * n;
+  const double along = responseAlong(a, x, n) + responseAlong(b, x, n);
+  Vec3 impulse = (restitution + 1) * closing / along * n;
   if (friction > 0) {
+    const Mat3 K = response(a, x) + response(b, x);
+    const Vec3 slip = u + closing * n;
     const Vec3 stick = K.inverse() * ((1 + restitution) * closing * n - slip);
     const double normal = stick.dot(n);
     if (normal > 0 && (stick - normal * n).norm() <= friction * normal) {
@@ -45,7 +60,7 @@ Vec3 collide(Mobile& a, Mobile& b, const Vec3& x, const Vec3& n, double restitut
     } else if (slip.norm() > 0) {
       const Vec3 t = slip.normalized();
       const double resist = n.dot(K * (n - friction * t));
-      if (resist > 0.1 * n.dot(K * n)) {
+      if (resist > 0.1 * along) {
         const double j = (1 + restitution) * closing / resist;
         // Friction stops the slip at most.
         const double most = slip.norm() / std::max(t.dot(K * t), 1e-300);

@@ -64,7 +64,7 @@ void cornersNear(const Side& a, const Side& b, double tau, double margin, bool f
   forEachCorner(*a.shape, [&](const Vec3& corner) {
     ++key;
     const Vec3 x = ka.pose * corner;
-    Gap g = ballGap(x, 0, *b.shape, kb.pose, margin);
+    Gap g = ballGap(x, 0, *b.shape, kb.pose, {margin});
     if (!(g.distance < margin)) return;
     // A corner of a flat thing lies beside another's edge as well as above its face: only faces carry
     // corners.
@@ -107,7 +107,7 @@ void ballPoints(const Side& ball, const Side& other, double tau, double margin,
     ballOnMesh(c, s.radius, *mesh, X, margin, points);
     return;
   }
-  const Gap g = ballGap(c, s.radius, *other.shape, X, margin);
+  const Gap g = ballGap(c, s.radius, *other.shape, X, {margin});
   if (g.distance < margin) points.push_back({g, 1});
 }
 
@@ -130,7 +130,7 @@ void manifold(const Side& a, const Side& b, double tau, double margin, std::vect
     if (!isPlane(a)) cornersNear(a, b, tau, margin, false, 1000, points);
     if (!isPlane(b)) cornersNear(b, a, tau, margin, true, 1000000, points);
     if (isPlane(a) || isPlane(b)) return;
-    const Gap nearest = points.empty() ? gapBetween(a, b, tau, margin) : Gap{};
+    const Gap nearest = points.empty() ? gapBetween(a, b, tau, {margin}) : Gap{};
     if (nearest.distance < margin) points.push_back({nearest, 99});
   }
 }

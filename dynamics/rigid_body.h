@@ -152,7 +152,7 @@ struct RigidBody {
       return k;
     }
     const Pose X_WC{position(tau), orientation(tau)};
-    return {X_WC * X_CN, X_WC.p, velocity(tau), spin.angularVelocity(spinAge(tau))};
+    return {X_WC * X_CN, X_WC.p, velocity(tau), spin.angularVelocity(spinAge(tau), X_WC.q)};
   }
   MotionBound boundOver(double from, double to) const;
 };

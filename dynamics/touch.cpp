@@ -56,13 +56,13 @@ Local towards(const Vec3& c, const Vec3& q, double r, const Vec3& fallback) {
   return {n - r, q, n > 0 ? Vec3(d / n) : fallback, false, -1};
 }
 
-Local localGap(const Vec3& c, double r, const BallShape& s, double) {
+Local localGap(const Vec3& c, double r, const BallShape& s, Within) {
   Local l = towards(c, s.centre, r + s.radius, Vec3::UnitZ());
   l.point = s.centre + s.radius * l.normal;
   return l;
 }
 
-Local localGap(const Vec3& c, double r, const BoxShape& s, double) {
+Local localGap(const Vec3& c, double r, const BoxShape& s, Within) {
   const Vec3 p = s.pose.q.conjugate() * (c - s.pose.p), inside = s.half - p.cwiseAbs();
   int axis = 0;
   if (inside.minCoeff(&axis) > 0) {  // the centre is inside: out through the nearest face
@@ -80,7 +80,7 @@ Local localGap(const Vec3& c, double r, const BoxShape& s, double) {
 }
 
 template <class Solid>
-Local localGap(const Vec3& c, double r, const Solid& s, double) {
+Local localGap(const Vec3& c, double r, const Solid& s, Within) {
   const NearestSurface n = nearestSurface(s, c);
   return {n.distance - r, n.point, n.normal, n.face, -1};
 }
@@ -90,7 +90,7 @@ double sheetDepth(const PlaneShape& s) {
   return std::min(1.0, 0.5 * s.half.minCoeff());
 }
 
-Local localGap(const Vec3& c, double r, const PlaneShape& s, double) {
+Local localGap(const Vec3& c, double r, const PlaneShape& s, Within) {
   const Vec3 p = s.pose.q.conjugate() * (c - s.pose.p);
   if (!s.bounded()) return {p.z() - r, s.pose * Vec3(p.x(), p.y(), 0), s.normal(), true, -1};
   const Vec3 q(std::clamp(p.x(), -s.half.x(), s.half.x()), std::clamp(p.y(), -s.half.y(), s.half.y()), 0);
@@ -119,9 +119,9 @@ Local triangleGap(const Vec3& c, double r, const Triangle& t, std::int32_t index
   return l;
 }
 
-Local localGap(const Vec3& c, double r, const MeshShape& s, double limit) {
+Local localGap(const Vec3& c, double r, const MeshShape& s, Within within) {
   ClosestPoint at;
-  const std::int32_t i = s.tree.nearest(c, limit + r, at);
+  const std::int32_t i = s.tree.nearest(c, within.limit + r, at, within.enough > 0 ? within.enough + r : 0);
   if (i < 0) return {1e300, c, Vec3::UnitZ(), false, -1};
   const Triangle& t = s.tree.triangles()[static_cast<std::size_t>(i)];
   Local l = triangleGap(c, r, t, i, s.tree.closed());
@@ -141,67 +141,70 @@ Vec3 ballCentre(const Side& s, const Kinematics& k) {
   return k.pose * std::get<BallShape>(*s.shape).centre;
 }
 
-/// A still plane under a parabola has a closed form.
-std::optional<std::optional<double>> planeRoot(const Side& ball, const Side& plane, double from, double to) {
+/// A still plane under a parabola has a closed form; nothing if it is not that.
+std::optional<std::optional<Touch>> planeRoot(const Side& ball, const Side& plane, double from, double to) {
   const auto& s = std::get<PlaneShape>(*plane.shape);
-  if (!ball.body || ball.body->mode == BodyMode::Held || !plane.still() || s.bounded() ||
-      !ball.body->path.isParabola() || !ball.body->isCentred() || plane.body)
+  if (!ball.body || ball.body->mode == BodyMode::Held || plane.body || !plane.still() || s.bounded() ||
+      !ball.body->path.isParabola() || !ball.body->isCentred())
     return {};
-  const Pose X = plane.collider->motion.end * s.pose;
-  const Vec3 n = X.q * Vec3::UnitZ();
+  using Answer = std::optional<Touch>;
+  const Path& path = ball.body->path;
+  const Pose& X = plane.collider->motion.end;
+  const Vec3 n = X.q * s.normal(), on = X * s.pose.p;
   const double age = ball.body->age(from), r = ball.body->radius();
-  double h = n.dot(ball.body->path.position(age) - X.p) - r;
-  const double v = n.dot(ball.body->path.velocity(age)), a = 2 * n.dot(ball.body->path.c[2]);
-  using Answer = std::optional<double>;
-  if (h <= touchTolerance(X.p)) {
-    if (v < 0) return Answer(from);
+  const auto touchAt = [&](double t) {
+    const Vec3 c = path.position(age + t);
+    const double distance = n.dot(c - on) - r;
+    return Answer(Touch{from + t, {distance, c - (distance + r) * n, n, true, -1}, false});
+  };
+  double h = n.dot(path.position(age) - on) - r;
+  const double v = n.dot(path.velocity(age)), a = 2 * n.dot(path.c[2]);
+  if (h <= touchTolerance(on)) {
+    if (v < 0) return touchAt(0);
     h = 0;
   }
   const double d = v * v - 2 * a * h;
-  if (d < 0) return Answer();
-  double t;
-  if (v < 0) {
-    t = 2 * h / (std::sqrt(d) - v);
-  } else {
-    if (a >= 0) return Answer();
-    t = (v + std::sqrt(d)) / -a;
-  }
+  if (d < 0 || (v >= 0 && a >= 0)) return Answer();
+  const double t = v < 0 ? 2 * h / (std::sqrt(d) - v) : (v + std::sqrt(d)) / -a;
   if (from + t > to) return Answer();
-  return Answer(from + t);
+  return touchAt(t);
 }
 
-std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from, double to,
-                               std::uint64_t& count) {
+/// A ball that flies along a parabola about its own centre, in the frame of what stands still.
+struct Flight {
+  Vec3 p, v, a;
+
+  /// Seconds until it is as near as r to the triangle's plane, from either side; 0 if it is already, infinity
+  /// if it is not within `most`.
+  double timeToPlane(const Triangle& t, double r, double most) const {
+    constexpr double kLeaves = 1e-9;  ///< so deep it has just bounced [m]
+    double h = t.normal.dot(p - t.v[0]), u = t.normal.dot(v), b = t.normal.dot(a);
+    if (h < 0) h = -h, u = -u, b = -b;
+    h -= r;
+    if (h <= 0 && !(u > 0 && h > -kLeaves)) return 0;
+    h = std::max(h, 0.0);
+    const double d = u * u - 2 * b * h;
+    if (d < 0 || (u >= 0 && b >= 0)) return std::numeric_limits<double>::infinity();
+    const double time = u < 0 ? 2 * h / (std::sqrt(d) - u) : (u + std::sqrt(d)) / -b;
+    return time <= most ? time : std::numeric_limits<double>::infinity();
+  }
+};
+
+std::optional<Flight> flightOf(const Side& ball, const Side& other, double from) {
+  const RigidBody* b = ball.body;
+  if (!b || b->mode == BodyMode::Held || !other.still() || !b->path.isParabola() || !b->isCentred())
+    return {};
+  const Pose X = other.at(from).pose;
+  const Quat back = X.q.conjugate();
+  return Flight{back * (b->position(from) - X.p), back * b->velocity(from), back * Vec3(2 * b->path.c[2])};
+}
+
+std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinematics& ko, double from,
+                                double to, double bound, std::uint64_t& count) {
   const double r = std::get<BallShape>(*ball.shape).radius;
-  const auto gapAt = [&](double tau) {
-    return ballGap(ballCentre(ball, ball.at(tau)), r, *other.shape, other.at(tau).pose);
-  };
-  if (std::holds_alternative<PlaneShape>(*other.shape)) {
-    if (const auto exact = planeRoot(ball, other, from, to)) {
-      ++count;
-      if (!*exact) return {};
-      return Touch{**exact, gapAt(**exact), false};
-    }
-  }
-  const Kinematics kb = ball.at(from), ko = other.at(from);
-  const Vec3 c0 = ballCentre(ball, kb);
-  const double bound = relativeAcceleration(ball, other, from, to, (c0 - ko.p).norm());
+  const auto& tree = std::get<MeshShape>(*other.shape).tree;
+  const Vec3 c0 = ballCentre(ball, ball.at(from));
   const double tolerance = touchTolerance(c0);
-  const auto rateOf = [&](const Gap& g, const Kinematics& b, const Kinematics& o, const Vec3& c) {
-    return g.normal.dot(b.velocityAt(c) - o.velocityAt(g.point));
-  };
-  const auto* mesh = std::get_if<MeshShape>(other.shape);
-  if (!mesh) {
-    const auto probe = [&](double tau) {
-      const Kinematics b = ball.at(tau), o = other.at(tau);
-      const Vec3 c = ballCentre(ball, b);
-      const Gap g = ballGap(c, r, *other.shape, o.pose);
-      return Probe{g.distance, rateOf(g, b, o, c)};
-    };
-    const auto tau = firstRoot(probe, from, to, bound, tolerance, count);
-    if (!tau) return {};
-    return Touch{*tau, gapAt(*tau), false};
-  }
   // The triangles that the ball can reach, each for itself.
   const Vec3 l0 = ko.pose.inverse() * c0;
   const Vec3 l1 = other.at(to).pose.inverse() * ballCentre(ball, ball.at(to));
@@ -210,33 +213,60 @@ std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from,
   box.include(l0), box.include(l1);
   box.lo.array() -= sag, box.hi.array() += sag;
   std::vector<std::uint32_t> candidates;
-  mesh->tree.overlapping(box, candidates);
+  tree.overlapping(box, candidates);
   std::optional<Touch> best;
+  if (candidates.empty()) return best;
   double end = to;
   const Support* support = ball.body && ball.body->support.on == other.party && ball.body->support.on.id
                                ? &ball.body->support
                                : nullptr;
-  const bool inside = ballGap(c0, r, *other.shape, ko.pose, r).distance < -r;
+  const bool inside = tree.closed() && ballGap(c0, r, *other.shape, ko.pose, {r}).distance < -r;
+  const auto flight = inside ? std::nullopt : flightOf(ball, other, from);
   for (const std::uint32_t i : candidates) {
-    const Triangle& t = mesh->tree.triangles()[i];
+    const Triangle& t = tree.triangles()[i];
     if (support && (ko.pose.q * t.normal).dot(support->normal) > 1 - 1e-7 &&
         std::fabs(support->normal.dot(ko.pose * t.v[0] - support->point)) < 1e-6)
       continue;  // what the ball already rolls on
-    Local last{};
+    const double begin = flight ? from + flight->timeToPlane(t, r, end - from) : from;
+    if (!(begin <= end)) continue;
+    Gap last;
     const auto probe = [&](double tau) {
       const Kinematics b = ball.at(tau), o = other.at(tau);
       const Vec3 c = ballCentre(ball, b);
-      last = triangleGap(o.pose.inverse() * c, r, t, static_cast<std::int32_t>(i), inside);
-      const Gap g = inWorld(last, o.pose);
-      return Probe{g.distance, rateOf(g, b, o, c)};
+      last = inWorld(triangleGap(o.pose.inverse() * c, r, t, static_cast<std::int32_t>(i), inside), o.pose);
+      return Probe{last.distance, last.normal.dot(b.velocityAt(c) - o.velocityAt(last.point))};
     };
-    const auto tau = firstRoot(probe, from, end, bound, tolerance, count);
+    const auto tau = firstRoot(probe, begin, end, bound, tolerance, count);
     if (!tau || (best && *tau >= best->tau)) continue;
-    probe(*tau);
-    best = Touch{*tau, inWorld(last, other.at(*tau).pose), false};
+    best = Touch{*tau, last, false};
     end = *tau;
   }
   return best;
+}
+
+std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from, double to,
+                               std::uint64_t& count) {
+  const double r = std::get<BallShape>(*ball.shape).radius;
+  if (std::holds_alternative<PlaneShape>(*other.shape)) {
+    if (const auto exact = planeRoot(ball, other, from, to)) {
+      ++count;
+      return *exact;
+    }
+  }
+  const Kinematics kb = ball.at(from), ko = other.at(from);
+  const Vec3 c0 = ballCentre(ball, kb);
+  const double bound = relativeAcceleration(ball, other, from, to, (c0 - ko.p).norm());
+  if (std::holds_alternative<MeshShape>(*other.shape))
+    return ballOnMesh(ball, other, ko, from, to, bound, count);
+  const auto probe = [&](double tau) {
+    const Kinematics b = ball.at(tau), o = other.at(tau);
+    const Vec3 c = ballCentre(ball, b);
+    const Gap g = ballGap(c, r, *other.shape, o.pose);
+    return Probe{g.distance, g.normal.dot(b.velocityAt(c) - o.velocityAt(g.point))};
+  };
+  const auto tau = firstRoot(probe, from, to, bound, touchTolerance(c0), count);
+  if (!tau) return {};
+  return Touch{*tau, ballGap(ballCentre(ball, ball.at(*tau)), r, *other.shape, other.at(*tau).pose), false};
 }
 
 /// A mesh's corners against a plane, each on its own path.
@@ -308,9 +338,9 @@ double touchTolerance(const Vec3& p) {
   return std::max(1e-12, 4e-15 * p.cwiseAbs().maxCoeff());
 }
 
-Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X, double limit) {
+Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X, Within within) {
   const Vec3 c = X.q.conjugate() * (centre - X.p);
-  return std::visit([&](const auto& s) { return inWorld(localGap(c, radius, s, limit), X); }, shape);
+  return std::visit([&](const auto& s) { return inWorld(localGap(c, radius, s, within), X); }, shape);
 }
 
 std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, double to, std::uint64_t& count) {
@@ -331,13 +361,13 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
   return meshesTouch(a, b, from, to, count);
 }
 
-Gap gapBetween(const Side& a, const Side& b, double tau, double limit) {
+Gap gapBetween(const Side& a, const Side& b, double tau, Within within) {
   const Kinematics ka = a.at(tau), kb = b.at(tau);
   if (isBall(a))
-    return ballGap(ballCentre(a, ka), std::get<BallShape>(*a.shape).radius, *b.shape, kb.pose, limit);
+    return ballGap(ballCentre(a, ka), std::get<BallShape>(*a.shape).radius, *b.shape, kb.pose, within);
   const bool swap = isBall(b) || (isPlane(a) && !isPlane(b)) || (!isConvex(*a.shape) && isConvex(*b.shape));
   if (swap && !isPlane(b)) {
-    Gap g = gapBetween(b, a, tau, limit);
+    Gap g = gapBetween(b, a, tau, within);
     flip(g);
     return g;
   }
@@ -356,7 +386,7 @@ Gap gapBetween(const Side& a, const Side& b, double tau, double limit) {
   if (isConvex(*b.shape)) return convexGapBetween(*a.shape, ka.pose, *b.shape, kb.pose);
   if (const auto* plane = std::get_if<PlaneShape>(b.shape))
     return planeGapBetween(*a.shape, ka.pose, *plane, kb.pose);
-  return meshGapBetween(*a.shape, ka.pose, std::get<MeshShape>(*b.shape), kb.pose, limit);
+  return meshGapBetween(*a.shape, ka.pose, std::get<MeshShape>(*b.shape), kb.pose, within.limit);
 }
 
 Aabb sweptBox(const Side& side, double from, double to) {

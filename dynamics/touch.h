@@ -47,8 +47,14 @@ struct Touch {
   bool swapped = false;  ///< gap was measured from the second side
 };
 
-/// How far a ball is from a shape at X_WN; `limit`: farther than this need not be exact.
-Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X_WN, double limit = 1e300);
+/// Which distances must be exact.
+struct Within {
+  double limit = 1e300;  ///< farther than this none [m]
+  double enough = 0;     ///< nearer than this any point will do instead of the nearest [m]
+};
+
+/// How far a ball is from a shape at X_WN.
+Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X_WN, Within within = {});
 
 /// The first contact in [from, to] of sides that approach; nothing if they stay apart. `iterations` is
 /// counted up.
@@ -56,7 +62,7 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
                                 std::uint64_t& iterations);
 
 /// Distance now, for release events and reports. Normal from b to a.
-Gap gapBetween(const Side& a, const Side& b, double tau, double limit = 1e300);
+Gap gapBetween(const Side& a, const Side& b, double tau, Within within = {});
 
 /// The box around a side from `from` to `to`.
 Aabb sweptBox(const Side& side, double from, double to);

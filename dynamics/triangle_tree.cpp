@@ -158,7 +158,7 @@ void TriangleTree::overlapping(const Aabb& box, std::vector<std::uint32_t>& foun
   std::sort(found.begin(), found.end());
 }
 
-std::int32_t TriangleTree::nearest(const Vec3& p, double limit, ClosestPoint& at) const {
+std::int32_t TriangleTree::nearest(const Vec3& p, double limit, ClosestPoint& at, double enough) const {
   std::int32_t best = -1;
   double bound = limit < 1e150 ? limit * limit : std::numeric_limits<double>::infinity();
   if (nodes_.empty()) return best;
@@ -185,6 +185,7 @@ std::int32_t TriangleTree::nearest(const Vec3& p, double limit, ClosestPoint& at
                         (best < 0 || (triangles_[order_[i]].normal.dot(p - c.point) >
                                       triangles_[static_cast<std::size_t>(best)].normal.dot(p - c.point))))) {
         bound = d, best = index, at = c;
+        if (d < enough * enough) return best;
       }
     }
   }

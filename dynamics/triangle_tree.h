@@ -58,8 +58,9 @@ public:
         },
         f);
   }
-  /// The triangle nearest to p within `limit` [m], -1 if none; `at` is set then.
-  std::int32_t nearest(const Vec3& p, double limit, ClosestPoint& at) const;
+  /// The triangle nearest to p within `limit` [m], -1 if none; `at` is set then. Any that is nearer than
+  /// `enough` will do.
+  std::int32_t nearest(const Vec3& p, double limit, ClosestPoint& at, double enough = 0) const;
 
 private:
   struct Node {

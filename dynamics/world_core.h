@@ -1,6 +1,7 @@
 #pragma once
 /// The inside of World, shared by its source files: world.cpp (interface), world_frame.cpp (one frame),
 /// world_foresight.cpp (what will touch), world_arcs.cpp (new arcs), world_impact.cpp (touches),
+/// world_release.cpp (who has parted),
 /// world_contact.cpp (lasting contact: who with whom), world_island.cpp (one island), world_crowd.cpp
 /// (heaps).
 ///
@@ -107,8 +108,6 @@ public:
   void runEvents(double until);
   void endFrame();
   void partCarried();
-  void reportReleases();
-  Nanoseconds soonest(const Side& a, const Side& b, double distance) const;
   void insert(Command c);
   void postCommand(const Command& c);
   void execute(const Command& c, double tau);
@@ -157,8 +156,16 @@ public:
   // --- touches (world_impact.cpp)
   void countImpact(RigidBody& b, double tau) const;
   void onTouch(const Touch& touch, Party a, Party b, double tau);
+  static bool carries(const RigidBody& ball, const Collider& c, const Gap& gap);
   bool supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, double tau, Support& out) const;
   void afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting);
+
+  // --- who has parted (world_release.cpp)
+  void reportReleases();
+  void foreseeRelease(const ContactMemory::Key& key, double tau);
+  void awaitRelease(ContactMemory::Memory& m, const Side& a, const Side& b, double distance,
+                    double tau) const;
+  Nanoseconds soonest(const Side& a, const Side& b, double distance, double tau) const;
 
   // --- lasting contact (world_contact.cpp)
   Nanoseconds tickGrid = 2'000'000;  ///< the solver's steps end on multiples of this show time

@@ -188,7 +188,7 @@ void World::Core::wakeWithin(Party arrived) {
   std::vector<RigidBody*> stirred;
   nearBodies.eachNear(self.body ? self.body->swept : self.collider->swept, [&](RigidBody& o) {
     if (o.mode != BodyMode::Rest || !o.enabled || &o == self.body || !mayTouch(Side::of(o), self)) return;
-    if (gapBetween(Side::of(o), self, frameFrom, 0.01).distance < -kTouchesAtLoad) stirred.push_back(&o);
+    if (gapBetween(Side::of(o), self, frameFrom, {0.01}).distance < -kTouchesAtLoad) stirred.push_back(&o);
   });
   for (RigidBody* o : stirred) {
     enterContact(*o, frameFrom);
@@ -205,7 +205,7 @@ void World::Core::settleFresh(const std::vector<Party>& arrived) {
   std::vector<Settler> settlers;
   const auto look = [&](const Side& self, const Side& other, std::vector<std::pair<Side, Gap>>* touching) {
     if (!mayTouch(self, other)) return;
-    const Gap g = gapBetween(self, other, frameFrom, 0.01);
+    const Gap g = gapBetween(self, other, frameFrom, {0.01});
     if (!(g.distance < kTouchesAtLoad)) return;
     memory.setTouching(ContactMemory::keyOf(self.party, other.party), true);
     if (touching) touching->emplace_back(other, g);
@@ -316,54 +316,14 @@ void World::Core::endFrame() {
   });
 }
 
-/// Pairs whose impact was told are released when their surfaces are far enough apart, not in the impact's own
-/// frame.
-void World::Core::reportReleases() {
-  std::vector<std::pair<ContactMemory::Key, Nanoseconds>> due;
-  for (const ContactMemory::Key& key : memory.fired()) {
-    ContactMemory::Memory& m = memory.of(key);
-    if (m.frame == frame) continue;
-    const auto a = side(key.first), b = side({true, key.second});
-    if (!a || !b) {
-      due.emplace_back(key, t1);
-      continue;
-    }
-    if (t1 < m.look && m.versionA == versionOf(key.first) && m.versionB == b->body->version) continue;
-    const double far = b->body->releaseDistance;
-    const auto gapAt = [&](double tau) { return gapBetween(*b, *a, tau, far + 1e-3).distance; };
-    const double gap = gapAt(now);
-    if (!(gap > far)) {
-      m.look = t1 + soonest(*a, *b, far - gap);
-      m.versionA = versionOf(key.first), m.versionB = b->body->version;
-      continue;
-    }
-    double lo = frameFrom, hi = now;
-    if (gapAt(lo) > far) hi = lo;
-    for (int i = 0; i < 40 && hi - lo > 1e-10; ++i)
-      (gapAt(0.5 * (lo + hi)) > far ? hi : lo) = 0.5 * (lo + hi);
-    due.emplace_back(key, timeAt(hi));
-  }
-  for (const auto& [key, time] : due) memory.release(key, time);
-}
-
-/// The two cannot part by `distance` more sooner than this, as long as their arcs last [ns].
-Nanoseconds World::Core::soonest(const Side& a, const Side& b, double distance) const {
-  if ((a.collider && a.collider->motion.moving) || (a.body && a.body->mode == BodyMode::Held) ||
-      b.body->mode == BodyMode::Held)
-    return 0;
-  constexpr double most = 0.5;  // [s]
-  const MotionBound ma = a.boundOver(now, now + most), mb = b.boundOver(now, now + most);
-  const double speed = ma.speedAt(a.body ? a.body->reach : 0) + mb.speedAt(b.body->reach);
-  return speed * most <= distance ? fromSeconds(most) : fromSeconds(distance / speed);
-}
-
 /// Things moved from outside touch until they are apart at the end of a frame.
 void World::Core::partCarried() {
   std::vector<ContactMemory::Key> apart;
   const auto look = [&](const ContactMemory::Key& key) {
     if (!memory.touching(key)) return;
     const auto a = side(key.first), b = side({true, key.second});
-    if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, now, 1e-3).distance > 1e-5) apart.push_back(key);
+    if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, now, {1e-3}).distance > 1e-5)
+      apart.push_back(key);
   };
   for (const RigidBody* b : active)
     if (b->mode == BodyMode::Held) memory.eachWith({true, b->id}, look);

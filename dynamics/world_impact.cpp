@@ -24,10 +24,17 @@ void World::Core::countImpact(RigidBody& b, double tau) const {
   ++b.impacts;
 }
 
-/// The flat face of a still collider under a ball's contact point.
+/// Whether what a ball has met there can carry it in closed form: a flat face of a still collider.
+bool World::Core::carries(const RigidBody& ball, const Collider& c, const Gap& gap) {
+  if (!gap.face || c.motion.moving || !ball.isCentred()) return false;
+  return std::holds_alternative<PlaneShape>(*c.shape) || std::holds_alternative<BoxShape>(*c.shape) ||
+         (std::holds_alternative<MeshShape>(*c.shape) && gap.triangle >= 0);
+}
+
+/// That face.
 bool World::Core::supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, double tau,
                              Support& s) const {
-  if (!gap.face || c.motion.moving || !ball.isCentred()) return false;
+  if (!carries(ball, c, gap)) return false;
   const Pose& X = c.motion.end;
   s = {};
   s.on = {false, c.id};
@@ -106,8 +113,13 @@ void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool l
     }
   }
   wakeOnto({true, b.id}, tau);
-  startFlight(b, tau, p, m.v, q, L);
-  predict(b, tau);
+  if (b.mode == BodyMode::Flight && b.path.isParabola()) {  // what pulls at it is the same as before
+    setArc(b, tau, Path::parabola(p, m.v, 2 * b.path.c[2]), Spin::free(q, L, b.inertia),
+           std::numeric_limits<double>::infinity(), BodyMode::Flight);
+  } else {
+    startFlight(b, tau, p, m.v, q, L);
+  }
+  if (b.movable()) predict(b, tau);
 }
 
 void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
@@ -127,15 +139,17 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   Mobile ma = mobileOf(a, tau), mb = b ? mobileOf(*b, tau) : mobileOf(*c, tau);
   const Vec3 x = touch.gap.point, n = touch.gap.normal;
   const double closing = -(ma.velocityAt(x) - mb.velocityAt(x)).dot(n);
+  const ContactMemory::Key key = ContactMemory::keyOf(pa, pb);
+  const Vec3 outwards = key.second == pa.id ? n : Vec3(-n);
   if (bothCarried(*side(pa), *side(pb))) {
-    const ContactMemory::Key key = ContactMemory::keyOf(pa, pb);
-    memory.impact(key, timeAt(tau), x, key.second == pa.id ? n : Vec3(-n), closing, 0, frame);
+    memory.impact(key, timeAt(tau), x, outwards, closing, 0, frame);
     memory.setTouching(key, true);
     return;
   }
   const PairSurface pair = combine(a.surface, surfaceOf(pb));
   // What presses the two together while neither is carried by something else.
   const auto pull = [&](const RigidBody& body) {
+    if (body.mode == BodyMode::Flight && body.path.isParabola()) return Vec3(2 * body.path.c[2]);
     return body.mode == BodyMode::Flight || body.mode == BodyMode::Slide || body.mode == BodyMode::Roll
                ? Vec3(accelerationAt(body, body.position(tau), body.velocity(tau), tau))
                : Vec3(Vec3::Zero());
@@ -143,17 +157,15 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   const double press = -n.dot(pull(a) - (b ? pull(*b) : Vec3(Vec3::Zero())));
   const double rebound = pair.restitution * std::max(closing, 0.0);
 
-  Support face;
-  const bool onFace = c && a.mode == BodyMode::Flight && supportFor(a, *c, touch.gap, tau, face);
+  const bool onFace = c && a.mode == BodyMode::Flight && carries(a, *c, touch.gap);
   const double last = onFace ? kLastBounce : kLastRattle;
   const std::uint32_t most = pair.restitution < 0.6 ? kMostRattles : kMostImpacts;
   const bool tired = a.impacts > (onFace ? kMostBounces : most) || (b && b->impacts > most);
   const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
   if (tired) ++counters.limited;
   const Vec3 impulse = collide(ma, mb, x, n, ends ? 0 : pair.restitution, pair.friction);
-  memory.impact(ContactMemory::keyOf(pa, pb), timeAt(tau), x,
-                ContactMemory::keyOf(pa, pb).second == pa.id ? n : Vec3(-n), closing, impulse.dot(n), frame);
-  if (onFace && ends) {
+  const bool fired = memory.impact(key, timeAt(tau), x, outwards, closing, impulse.dot(n), frame);
+  if (Support face; onFace && ends && supportFor(a, *c, touch.gap, tau, face)) {
     BallStart s{a.position(tau), ma.v, ma.omega, a.orientation(tau)};
     s.v -= n * n.dot(s.v);
     s.p -= touch.gap.distance * n;
@@ -163,9 +175,10 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     predict(a, tau);
     return;
   }
-  if (ends) memory.setTouching(ContactMemory::keyOf(pa, pb), true);
+  if (ends) memory.setTouching(key, true);
   afterImpulse(a, ma, tau, ends);
   if (b) afterImpulse(*b, mb, tau, ends);
+  if (fired) foreseeRelease(key, tau);
 }
 
 }  // namespace stadion
