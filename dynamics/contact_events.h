@@ -34,7 +34,8 @@ public:
     Nanoseconds impact = 0;   ///< when [ns]
     std::uint64_t frame = 0;  ///< of the last reported impact
     Nanoseconds look = 0;     ///< before that it cannot be released unless an arc changes ...
-    std::uint32_t versionA = 0, versionB = 0;  ///< ... from these [ns]
+    std::uint32_t versionA = 0, versionB = 0;  ///< ... from these
+    std::int32_t triangle = -1;                ///< of a mesh, that was near at the last look
   };
   /// Equal for equal memories, up to chance; costs nothing.
   std::uint64_t digest() const { return digest_; }

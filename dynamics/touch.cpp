@@ -121,7 +121,8 @@ Local triangleGap(const Vec3& c, double r, const Triangle& t, std::int32_t index
 
 Local localGap(const Vec3& c, double r, const MeshShape& s, Within within) {
   ClosestPoint at;
-  const std::int32_t i = s.tree.nearest(c, within.limit + r, at, within.enough > 0 ? within.enough + r : 0);
+  const std::int32_t i =
+      s.tree.nearest(c, within.limit + r, at, within.enough > 0 ? within.enough + r : 0, within.triangle);
   if (i < 0) return {1e300, c, Vec3::UnitZ(), false, -1};
   const Triangle& t = s.tree.triangles()[static_cast<std::size_t>(i)];
   Local l = triangleGap(c, r, t, i, s.tree.closed());

@@ -49,8 +49,9 @@ struct Touch {
 
 /// Which distances must be exact.
 struct Within {
-  double limit = 1e300;  ///< farther than this none [m]
-  double enough = 0;     ///< nearer than this any point will do instead of the nearest [m]
+  double limit = 1e300;        ///< farther than this none [m]
+  double enough = 0;           ///< nearer than this any point will do instead of the nearest [m]
+  std::int32_t triangle = -1;  ///< of a mesh, where such a point may be
 };
 
 /// How far a ball is from a shape at X_WN.

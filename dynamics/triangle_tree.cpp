@@ -158,10 +158,15 @@ void TriangleTree::overlapping(const Aabb& box, std::vector<std::uint32_t>& foun
   std::sort(found.begin(), found.end());
 }
 
-std::int32_t TriangleTree::nearest(const Vec3& p, double limit, ClosestPoint& at, double enough) const {
+std::int32_t TriangleTree::nearest(const Vec3& p, double limit, ClosestPoint& at, double enough,
+                                   std::int32_t hint) const {
   std::int32_t best = -1;
   double bound = limit < 1e150 ? limit * limit : std::numeric_limits<double>::infinity();
   if (nodes_.empty()) return best;
+  if (hint >= 0 && static_cast<std::size_t>(hint) < triangles_.size() && enough > 0) {
+    at = closestPoint(triangles_[static_cast<std::size_t>(hint)], p);
+    if ((at.point - p).squaredNorm() < enough * enough) return hint;
+  }
   std::uint32_t stack[64];
   int top = 0;
   stack[top++] = 0;

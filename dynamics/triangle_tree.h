@@ -59,8 +59,9 @@ public:
         f);
   }
   /// The triangle nearest to p within `limit` [m], -1 if none; `at` is set then. Any that is nearer than
-  /// `enough` will do.
-  std::int32_t nearest(const Vec3& p, double limit, ClosestPoint& at, double enough = 0) const;
+  /// `enough` will do; triangle `hint` is tried first.
+  std::int32_t nearest(const Vec3& p, double limit, ClosestPoint& at, double enough = 0,
+                       std::int32_t hint = -1) const;
 
 private:
   struct Node {

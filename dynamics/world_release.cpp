@@ -47,10 +47,11 @@ void World::Core::reportReleases() {
       continue;
     }
     const double far = b->body->releaseDistance;
-    const Gap gap = gapBetween(*b, *a, now, {far + 1e-3, 0.5 * far});
+    const Gap gap = gapBetween(*b, *a, now, {far + 1e-3, 0.7 * far, m.triangle});
     if (gap.distance > far) {
       due.emplace_back(key, timeAt(whenApart(*b, *a, gap, far, frameFrom, now)));
     } else {
+      m.triangle = gap.triangle;
       awaitRelease(m, *a, *b, far - gap.distance, now);
     }
   }

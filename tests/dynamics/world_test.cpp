@@ -95,6 +95,33 @@ TEST(World, ImpactsFireOncePerTouchAndReleasesOnceEach) {
   EXPECT_EQ(impacts, 1 + static_cast<int>(std::log(0.05 / std::sqrt(2 * kG)) / std::log(0.9)));
 }
 
+TEST(World, ReleasesAreToldToTheNanosecondAtAnyFrameRateOverPlanesBoxesAndMeshes) {
+  const double fall = std::sqrt(2 / kG), v = kG * fall;
+  const double rise = (v - std::sqrt(v * v - 2 * kG * 0.5)) / kG;  // until it is half a metre up
+  Mesh sheet;
+  sheet.positions = {{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}};
+  sheet.indices = {0, 1, 2, 0, 2, 3};
+  for (const int kind : {0, 1, 2})
+    for (const double rate : {30., 96., 240.}) {
+      World w;
+      const FieldId g = addGravity(w);
+      const ShapeId shape = kind == 0   ? w.addShape(PlaneShape{})
+                            : kind == 1 ? w.addShape(BoxShape{{{0, 0, -1}, Quat::Identity()}, {9, 9, 1}})
+                                        : w.addShape(MeshShape(TriangleTree(sheet)));
+      w.addCollider({shape, {}, {0.5, 1.0, 0.0}});
+      addBall(w, g, {.p = {0.3, 0.1, 1.1}, .v = {2, 0, 0}, .restitution = 1});
+      std::vector<Nanoseconds> releases;
+      play(w, 3, rate, [&](double) {
+        for (const ContactEvent& e : w.events())
+          if (e.kind == ContactEvent::Kind::Release) releases.push_back(e.time);
+      });
+      ASSERT_EQ(releases.size(), 3u) << kind << ' ' << rate;
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(static_cast<double>(releases[k]), 1e9 * (fall * (2 * static_cast<double>(k) + 1) + rise),
+                    1.0);
+    }
+}
+
 TEST(World, WhatOnlyOneSideStatesHoldsForThePair) {
   const PairSurface a = combine({0.8, {}, {}}, {});
   EXPECT_EQ(a.friction, 0.8);
