@@ -30,20 +30,29 @@ constexpr std::uint32_t kNowhere = 0xffffffff;
 
 }  // namespace
 
+/// Angular momentum now: a step's arc has the mean of the step, through which it grows evenly.
+Vec3 World::Core::momentumOf(const RigidBody& b, double tau) {
+  if (b.mode != BodyMode::Contact || !(b.dueAge > 0) || b.spin.kind == Spin::Kind::Driven)
+    return b.spin.angularMomentum(b.spinAge(tau));
+  const double share = std::clamp(2 * b.age(tau) / b.dueAge - 1, -1.0, 1.0);
+  return b.spin.L + share * (b.endL - b.spin.L);
+}
+
 void World::Core::enterContact(RigidBody& b, double tau) {
   if (b.mode == BodyMode::Contact || !b.movable()) return;
   const Vec3 L = b.spin.angularMomentum(b.spinAge(tau));
   // Among a crowd it moves with the crowd: between its steps nobody else gives way.
-  const bool crowded = b.mode == BodyMode::Rest && std::ranges::any_of(b.touching, [&](Party p) {
-                         return p.isBody && body(p.id) && body(p.id)->crowd;
-                       });
+  const bool rests = b.mode == BodyMode::Rest;
+  const bool crowded = rests && (b.heaped || std::ranges::any_of(b.touching, [&](Party p) {
+                                   return p.isBody && body(p.id) && body(p.id)->crowd;
+                                 }));
   b.support.on = {};
   setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
          Spin::free(b.orientation(tau), L, b.inertia), tickTime, BodyMode::Contact);
   b.endL = L;
   b.quiet = 0;
-  b.presses.clear();
-  if (crowded && b.mode == BodyMode::Contact) b.crowd = true, b.endV = b.velocity(tau);
+  if (!rests) b.presses.clear();
+  if (crowded && b.mode == BodyMode::Contact) b.crowd = true;
   scheduleTick(tau);
 }
 
@@ -107,8 +116,9 @@ void World::Core::wakeOnto(Party moved, double tau) {
       } else if (other->mode == BodyMode::Contact) {
         hurry(*other, tau);
       } else if (other->mode == BodyMode::Rest) {
+        // In a heap those who lean on it wake when it moves; elsewhere nobody would wake them.
+        if (!other->heaped) waking.push_back({true, id});
         enterContact(*other, tau);
-        waking.push_back({true, id});
       }
     }
   }
@@ -245,7 +255,7 @@ void World::Core::tick(double tau) {
   for (Island& island : islands) {
     const bool balls = std::ranges::all_of(island.set, [](const RigidBody* b) { return b->isBall(); });
     if (island.set.size() >= (balls ? kCrowdOfBalls : kCrowd)) {
-      for (RigidBody* b : island.set) b->crowd = true, b->dueAge = 0, b->endV = b->velocity(tau);
+      for (RigidBody* b : island.set) b->crowd = true, b->dueAge = 0;
       crowds = true;
     } else {
       advanceIsland(island, tau, h);

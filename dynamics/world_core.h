@@ -2,7 +2,7 @@
 /// The inside of World, shared by its source files: world.cpp (interface), world_frame.cpp (one frame),
 /// world_foresight.cpp (what will touch), world_arcs.cpp (new arcs), world_impact.cpp (touches),
 /// world_contact.cpp (lasting contact: who with whom), world_island.cpp (one island), world_crowd.cpp
-/// (heaps).
+/// and world_crowd_contacts.cpp (heaps).
 ///
 /// Time     runs in windows of 128 ms on a grid of show time. tau is seconds since the window's start. What
 /// will happen is foreseen to the window's end, once for each arc; a frame only lets happen what is due and
@@ -157,6 +157,7 @@ public:
   void countImpact(RigidBody& b, double tau) const;
   void onTouch(const Touch& touch, Party a, Party b, double tau);
   bool supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, double tau, Support& out) const;
+  void strikeInCrowd(RigidBody& b, const Mobile& m, double tau);
   void afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting);
 
   // --- lasting contact (world_contact.cpp)
@@ -179,6 +180,7 @@ public:
     bool carried = false;            ///< one of them moves
   };
   void enterContact(RigidBody& b, double tau);
+  static Vec3 momentumOf(const RigidBody& b, double tau);
   void wake(RigidBody& b, double tau);
   void wakeOnto(Party gone, double tau);
   static bool leansOn(const RigidBody& b, Party p);
@@ -196,9 +198,19 @@ public:
   static constexpr std::size_t kCrowdOfBalls = 5;  ///< the same if they are balls
   struct CrowdStep;
   void advanceCrowd(double tau);
-  void joinCrowd(RigidBody& b, double tau, CrowdStep& step);
-  void findCrowdContacts(RigidBody& b, double tau, CrowdStep& step);
-  void concludeCrowd(CrowdStep& step, double tau);
+  void dissolveCrowd(const std::vector<RigidBody*>& due, double tau);
+  void joinCrowd(RigidBody& b, CrowdStep& step);
+  static std::vector<char> calmInCrowd(const CrowdStep& step);
+  bool noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const std::uint32_t> list);
+  void followCrowd(const CrowdStep& step, std::size_t i);
+  void concludeCrowd(CrowdStep& step);
+  // (world_crowd_contacts.cpp)
+  void addCrowdContact(const RigidBody& b, Party other, const Surface& surface, const Gap& gap,
+                       std::uint32_t feature, CrowdStep& step);
+  void findCrowdColliders(const RigidBody& b, const Aabb& box, double margin, CrowdStep& step);
+  void meetInCrowd(RigidBody& b, RigidBody& o, double margin, CrowdStep& step);
+  void findCrowdContacts(RigidBody& b, CrowdStep& step);
+  void linkCrowdContacts(CrowdStep& step);
   // --- one island (world_island.cpp)
   void advanceIsland(Island& island, double tau, double h);
   void begin(Island& island, double tau) const;

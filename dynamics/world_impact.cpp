@@ -73,17 +73,29 @@ bool World::Core::supportFor(const RigidBody& ball, const Collider& c, const Gap
   return false;
 }
 
+/// The rest of a crowd's step with other velocities, under the same forces.
+void World::Core::strikeInCrowd(RigidBody& b, const Mobile& m, double tau) {
+  const Quat q = b.orientation(tau);
+  const double left = b.dueAge - b.age(tau), quiet = b.quiet;
+  const Vec3 a = left > 0 && b.path.isParabola() ? Vec3(2 * b.path.c[2]) : Vec3(Vec3::Zero());
+  const Vec3 before = b.spin.angularVelocity(b.spinAge(tau)), L = momentumOf(b, tau);
+  const Vec3 more = q * b.inertia.cwiseProduct(q.conjugate() * (m.omega - before));
+  const Vec3 end = b.endL + more;
+  Spin spin = Spin::free(q, left > 0 ? Vec3(0.5 * (L + more + end)) : Vec3(L + more), b.inertia);
+  if (b.spin.kind == Spin::Kind::Driven)
+    spin = Spin::driven(q, m.omega, b.spin.alpha, b.inertia.x());
+  setArc(b, tau, Path::parabola(b.position(tau), m.v, a), spin, std::max(left, tickTime), BodyMode::Contact);
+  if (b.mode != BodyMode::Contact) return;
+  b.endL = end, b.dueAge = std::max(left, 0.0), b.quiet = quiet;
+  sweep(b, tau);
+}
+
 /// The body goes on with the velocities of m.
 void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting) {
   if (!b.movable()) return;
   const Vec3 p = b.position(tau);
   const Quat q = b.orientation(tau);
-  if (b.crowd) {  // it takes effect with the crowd's next step
-    const Vec3 turn = m.omega - b.spin.angularVelocity(b.spinAge(tau));
-    b.endV += m.v - b.velocity(tau);
-    b.endL += q * b.inertia.cwiseProduct(q.conjugate() * turn);
-    return;
-  }
+  if (b.crowd) return strikeInCrowd(b, m, tau);
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * m.omega);
   const bool leaning = b.mode == BodyMode::Contact || (b.mode == BodyMode::Rest && !b.support.on.id);
   if (lasting || leaning) {

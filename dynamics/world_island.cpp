@@ -74,11 +74,8 @@ void World::Core::begin(Island& s, double tau) const {
     b.slot = static_cast<std::uint32_t>(i);
     Mobile m = mobileOf(b, tau);
     if (b.mode == BodyMode::Contact && b.dueAge > 0) {
-      // The arc has the mean angular momentum of its step, through which that grew evenly.
       const Quat q = b.orientation(tau);
-      const double share = std::clamp(2 * b.age(tau) / b.dueAge - 1, -1.0, 1.0);
-      const Vec3 L = b.spin.L + share * (b.endL - b.spin.L);
-      m.omega = q * b.inertia.cwiseInverse().cwiseProduct(q.conjugate() * L);
+      m.omega = q * b.inertia.cwiseInverse().cwiseProduct(q.conjugate() * momentumOf(b, tau));
     }
     s.start.push_back(m);
   }
