@@ -8,7 +8,9 @@
 namespace stadion {
 namespace {
 
-constexpr int kJumps = 4, kSweeps = 16, kShifts = 2;
+constexpr int kJumps = 8, kShifts = 2;
+constexpr int kSweeps = 8, kStillSweeps = 16;  ///< while it moves; when it comes to rest, and sleep depends on it
+constexpr double kSlow = 0.1;                  ///< root mean square speed at rest, nearly [m/s]
 constexpr double kSettled = 1e-5;     ///< a sweep that changes less is the last [m/s]
 constexpr double kSlop = 1e-4;        ///< overlap that is left alone [m]
 constexpr double kDeep = 2e-2;        ///< overlap that no step leaves behind: somebody was put there [m]
@@ -29,6 +31,7 @@ private:
   double relax(CrowdContact& c);
   double relaxRound(CrowdContact& c);
   double sweep(bool forward);
+  double meanSquare() const;
   void jump();
   void shift();
   void push();
@@ -140,6 +143,13 @@ double CrowdSolver::sweep(bool forward) {
   return change;
 }
 
+/// Of the members' speeds at the step's start [m2/s2].
+double CrowdSolver::meanSquare() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < crowd_.members; ++i) sum += crowd_.start[i].v.squaredNorm();
+  return sum / static_cast<double>(std::max<std::size_t>(crowd_.members, 1));
+}
+
 /// Whoever would meet within the step bounces now, or slows down so far that it just meets.
 void CrowdSolver::jump() {
   bool any = false;
@@ -190,7 +200,8 @@ void CrowdSolver::push() {
   for (std::size_t i = 0; i < crowd_.members; ++i) crowd_.bodies[i].v += crowd_.h * crowd_.pull[i];
   for (const CrowdContact& c : all)
     if (c.pressed > 0) give(c, c.pressed * c.n + c.held);
-  for (int i = 0; i < kSweeps; ++i)
+  const int sweeps = meanSquare() < kSlow * kSlow ? kStillSweeps : kSweeps;
+  for (int i = 0; i < sweeps; ++i)
     if (sweep(i % 2 == 0) < kSettled * kSettled) break;
   for (const CrowdContact& c : all) {  // rolling resistance takes spin
     if (!(c.rolling * c.pressed > 0)) continue;

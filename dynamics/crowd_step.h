@@ -35,6 +35,7 @@ struct World::Core::CrowdStep {
   std::vector<Note> notes;  ///< of each contact
   std::vector<Vec3> points;  ///< of each contact
   std::vector<ManifoldPoint> found;
+  std::vector<RigidBody*> near;
   Crowd crowd;
 
   bool has(const RigidBody& b) const {

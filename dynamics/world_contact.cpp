@@ -141,6 +141,32 @@ void World::Core::scheduleTick(double tau) {
   post(e);
 }
 
+/// A ball whose centre is inside something leaves by one way: the shortest that nothing else that it touches
+/// is in. `first`: where its points begin.
+void World::Core::chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found) {
+  if (!b.isBall()) return;
+  const auto inside = [&](const Found& f) { return f.gap.distance < -b.radius(); };
+  for (std::size_t i = first; i < found.size(); ++i) {
+    if (!inside(found[i])) continue;
+    const Party on = found[i].b;
+    const auto barred = [&](const Found& way) {
+      return std::any_of(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), [&](const Found& f) {
+        return f.b != on && f.gap.distance < kTouching && f.gap.normal.dot(way.gap.normal) < -0.5;
+      });
+    };
+    std::size_t best = i;
+    for (std::size_t k = i; k < found.size() && found[k].b == on; ++k)
+      if (!barred(found[k])) {
+        best = k;
+        break;
+      }
+    const Found way = found[best];
+    std::erase_if(found, [&](const Found& f) { return f.a == way.a && f.b == on; });
+    found.push_back(way);
+    return;
+  }
+}
+
 void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& found,
                                std::vector<RigidBody*>& set) {
   const Side self = Side::of(b);
@@ -150,6 +176,7 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
   Aabb box;
   box.include(k.pose * b.bound.centre);
   box.lo.array() -= b.bound.radius + margin, box.hi.array() += b.bound.radius + margin;
+  const std::size_t first = found.size();
   std::vector<ManifoldPoint> points;
   const auto against = [&](const Side& other) {
     manifold(self, other, tau, margin, points);
@@ -181,6 +208,7 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
     }
     against(other);
   });
+  chooseWayOut(b, first, found);
 }
 
 /// Sleepers touched by something that moves wake; true if there were any, who then take part.
@@ -214,6 +242,32 @@ void World::Core::remember(RigidBody& b, const std::vector<Party>& near) {
   b.leaning = near;
 }
 
+/// How many balls move around this one within its own size: they will lean on each other before long.
+std::size_t World::Core::thickness(const RigidBody& b, double tau) const {
+  if (!b.isBall()) return 0;
+  std::size_t many = 0;
+  const Vec3 middle = b.position(tau);
+  const double reach = 2 * b.bound.radius;
+  Aabb box;
+  box.include(middle);
+  box.lo.array() -= reach, box.hi.array() += reach;
+  nearBodies.eachNear(box, [&](const RigidBody& o) {
+    if (&o == &b || !o.enabled || !o.isBall()) return;
+    if (o.mode != BodyMode::Flight && o.mode != BodyMode::Contact) return;
+    const double far = reach + o.bound.radius;
+    if ((o.position(tau) - middle).squaredNorm() < far * far) ++many;
+  });
+  return many;
+}
+
+/// Whether an island is better off as a crowd: it is large, or its balls are in the thick of it.
+bool World::Core::isCrowd(const std::vector<RigidBody*>& island, double tau) const {
+  const bool balls = std::ranges::all_of(island, [](const RigidBody* b) { return b->isBall(); });
+  if (island.size() >= (balls ? kCrowdOfBalls : kCrowd)) return true;
+  return balls && std::ranges::any_of(
+                      island, [&](const RigidBody* b) { return thickness(*b, tau) + 1 >= kCrowdOfBalls; });
+}
+
 void World::Core::tick(double tau) {
   ++counters.contactSteps;
   tickAt = -1;
@@ -235,6 +289,7 @@ void World::Core::tick(double tau) {
     if (!wakeTouched(found, tau)) break;
   }
   std::ranges::sort(set, {}, &RigidBody::id);
+  std::ranges::stable_sort(found, {}, [](const Found& f) { return std::pair(f.a, f.b); });
   for (std::size_t i = 0; i < set.size(); ++i) set[i]->slot = static_cast<std::uint32_t>(i);
   Groups groups(set.size());
   const auto comesAlong = [&](Party p) {
@@ -253,8 +308,7 @@ void World::Core::tick(double tau) {
   for (Found& f : found) islands[islandOf[body(f.a.id)->slot]].found.push_back(std::move(f));
   bool crowds = false;
   for (Island& island : islands) {
-    const bool balls = std::ranges::all_of(island.set, [](const RigidBody* b) { return b->isBall(); });
-    if (island.set.size() >= (balls ? kCrowdOfBalls : kCrowd)) {
+    if (isCrowd(island.set, tau)) {
       for (RigidBody* b : island.set) b->crowd = true, b->dueAge = 0;
       crowds = true;
     } else {

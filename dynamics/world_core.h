@@ -189,7 +189,10 @@ public:
   void scheduleTick(double tau);
   void scheduleDue(double tau);
   void tick(double tau);
+  std::size_t thickness(const RigidBody& b, double tau) const;
+  bool isCrowd(const std::vector<RigidBody*>& island, double tau) const;
   void findContacts(RigidBody& b, double tau, std::vector<Found>& found, std::vector<RigidBody*>& set);
+  static void chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found);
   bool wakeTouched(const std::vector<Found>& found, double tau);
   void remember(RigidBody& b, const std::vector<Party>& near);
   // --- many bodies in one heap (world_crowd.cpp)
@@ -201,7 +204,8 @@ public:
   void dissolveCrowd(const std::vector<RigidBody*>& due, double tau);
   void joinCrowd(RigidBody& b, CrowdStep& step);
   static std::vector<char> calmInCrowd(const CrowdStep& step);
-  bool noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const std::uint32_t> list);
+  bool noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const std::uint32_t> list,
+                      std::vector<Party>& near);
   void followCrowd(const CrowdStep& step, std::size_t i);
   void concludeCrowd(CrowdStep& step);
   // (world_crowd_contacts.cpp)

@@ -18,8 +18,9 @@ constexpr double kWaking = 1e-9;     ///< quiet time of one who has been woken s
 bool in(const std::vector<Party>& list, Party p) {
   return std::find(list.begin(), list.end(), p) != list.end();
 }
+/// The points of a pair come one after the other.
 void note(std::vector<Party>& list, Party p) {
-  if (!in(list, p)) list.push_back(p);
+  if (list.empty() || list.back() != p) list.push_back(p);
 }
 
 /// The contacts of each member, one after the other.
@@ -104,11 +105,12 @@ std::vector<char> World::Core::calmInCrowd(const CrowdStep& step) {
 }
 
 /// Whom the member leans on, and the forces as a guess for the next step. False if nothing is near.
-bool World::Core::noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const std::uint32_t> list) {
+bool World::Core::noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const std::uint32_t> list,
+                                 std::vector<Party>& near) {
   const Crowd& crowd = step.crowd;
   RigidBody& b = *step.members[i].body;
   b.touching.clear(), b.presses.clear();
-  std::vector<Party> near;
+  near.clear();
   for (const std::uint32_t k : list) {
     const CrowdContact& c = crowd.contacts[k];
     const bool first = c.a == i;
@@ -165,10 +167,11 @@ void World::Core::concludeCrowd(CrowdStep& step) {
   const double tau = step.tau;
   const ContactLists lists(crowd);
   const std::vector<char> may = calmInCrowd(step);
+  std::vector<Party> near;
   for (std::size_t i = 0; i < crowd.members; ++i) {
     RigidBody& b = *step.members[i].body;
     const std::span list(lists.of.data() + lists.begin[i], lists.begin[i + 1] - lists.begin[i]);
-    if (!noteNeighbours(step, i, list)) {
+    if (!noteNeighbours(step, i, list, near)) {
       const Quat q = b.orientation(tau);
       const Vec3 L = momentumOf(b, tau);
       wakeOnto({true, b.id}, tau);
@@ -210,7 +213,7 @@ void World::Core::advanceCrowd(double tau) {
     if (b->crowd && b->enabled && b->dueAge <= b->age(tau) + kDue) due.push_back(b);
   }
   if (due.empty()) return;
-  if (due.size() < kLeast) return dissolveCrowd(due, tau);
+  if (due.size() < kLeast && !isCrowd(due, tau)) return dissolveCrowd(due, tau);
   std::ranges::sort(due, {}, &RigidBody::id);
   for (RigidBody* b : due) joinCrowd(*b, step);
   for (std::size_t i = 0; i < step.members.size(); ++i) findCrowdContacts(*step.members[i].body, step);

@@ -14,12 +14,13 @@ bool sleeps(const RigidBody& b) {
   return b.mode == BodyMode::Rest || b.mode == BodyMode::Quarantined;
 }
 
-/// A lower bound of the ball's distance from a flat face that does not move; negative where there is none.
-double aboveFace(const Vec3& centre, double radius, const Collider& c) {
-  const auto* plane = std::get_if<PlaneShape>(c.shape);
-  if (!plane) return -1;
-  const Pose& X = c.motion.end;
-  return (X.q * plane->normal()).dot(centre - X * plane->pose.p) - radius;
+/// The gap between a ball and a plane that does not move and has no rim.
+Gap planeGap(const Vec3& centre, double radius, const PlaneShape& plane, const Pose& X) {
+  Gap gap;
+  gap.normal = X.q * plane.normal();
+  const double height = gap.normal.dot(centre - X * plane.pose.p);
+  gap.distance = height - radius, gap.point = centre - height * gap.normal, gap.face = true;
+  return gap;
 }
 
 }  // namespace
@@ -63,15 +64,19 @@ void World::Core::findCrowdColliders(const RigidBody& b, const Aabb& box, double
   nearColliders.eachNear(box, [&](const Collider& c) {
     const Party other{false, c.id};
     const bool moves = c.motion.moving;
-    if (me.round && !moves && aboveFace(me.middle, me.bound, c) > margin) return;
     if (!mayTouch(self, Side::of(c))) return;
     if (me.round && !moves && !std::holds_alternative<MeshShape>(*c.shape)) {
-      const Gap gap = ballGap(me.middle, me.bound, *c.shape, c.motion.end, margin);
+      const auto* plane = std::get_if<PlaneShape>(c.shape);
+      const Gap gap = plane && !plane->bounded()
+                          ? planeGap(me.middle, me.bound, *plane, c.motion.end)
+                          : ballGap(me.middle, me.bound, *c.shape, c.motion.end, margin);
       if (gap.distance < margin) addCrowdContact(b, other, c.surface, gap, 1, step);
       return;
     }
     const double theirs = moves ? step.crowd.h * c.motion.at(step.tau).velocityAt(me.middle).norm() : 0;
     manifold(self, Side::of(c), step.tau, margin + theirs, step.found);
+    // Whose centre is inside leaves by one way, the shortest.
+    if (me.round && !step.found.empty() && step.found.front().gap.distance < -me.bound) step.found.resize(1);
     for (const ManifoldPoint& p : step.found) addCrowdContact(b, other, c.surface, p.gap, p.key, step);
   });
 }
@@ -123,8 +128,12 @@ void World::Core::findCrowdContacts(RigidBody& b, CrowdStep& step) {
   box.include(me.middle);
   box.lo.array() -= me.bound + margin, box.hi.array() += me.bound + margin;
   findCrowdColliders(b, box, margin, step);
-  // Fliers' boxes hold their whole way, so that those who come fast are met as well.
-  nearBodies.eachNear(box, [&](RigidBody& o) { meetInCrowd(b, o, margin, step); });
+  // Fliers' boxes hold their whole way, so that those who come fast are met as well. In the order of ids:
+  // sweeps depend on it, and the broad phase's own depends on frames.
+  step.near.clear();
+  nearBodies.eachNear(box, [&](RigidBody& o) { step.near.push_back(&o); });
+  std::ranges::sort(step.near, {}, &RigidBody::id);
+  for (RigidBody* o : step.near) meetInCrowd(b, *o, margin, step);
 }
 
 /// Everybody is known now: who moves, who does not, and where the points are on both.

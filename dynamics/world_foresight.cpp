@@ -111,7 +111,7 @@ void World::Core::sweep(RigidBody& b, double tau) {
       if (b.place != kUnfiled && (b.swept.lo.array() <= box.lo.array()).all() &&
           (box.hi.array() <= b.swept.hi.array()).all())
         return;
-      const double room = 0.002 + 0.02 * b.velocity(tau).norm();
+      const double room = 0.004 + 0.05 * b.velocity(tau).norm();
       b.swept.lo = box.lo.array() - room, b.swept.hi = box.hi.array() + room;
     } else {
       b.swept = box;

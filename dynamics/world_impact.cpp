@@ -12,7 +12,8 @@ constexpr double kLastBounce = 1e-9;
 constexpr double kLastRattle = 1e-6;
 constexpr Nanoseconds kSpan = 16'000'000;   ///< in which impacts are counted [ns]
 constexpr std::uint32_t kMostImpacts = 60;  ///< in that time, then the contact solver takes over
-constexpr std::uint32_t kMostRattles = 4;  ///< the same where bounces die away soon; chosen on heaps of balls
+constexpr std::uint32_t kMostRattles = 4;  ///< the same where bounces die away soon
+constexpr std::uint32_t kMostInThick = 1;  ///< and among many balls, who will lean on each other anyway
 constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
 
 }  // namespace
@@ -158,7 +159,8 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   Support face;
   const bool onFace = c && a.mode == BodyMode::Flight && supportFor(a, *c, touch.gap, tau, face);
   const double last = onFace ? kLastBounce : kLastRattle;
-  const std::uint32_t most = pair.restitution < 0.6 ? kMostRattles : kMostImpacts;
+  std::uint32_t most = kMostImpacts;
+  if (pair.restitution < 0.6) most = b && thickness(a, tau) + 1 >= kCrowdOfBalls ? kMostInThick : kMostRattles;
   const bool tired = a.impacts > (onFace ? kMostBounces : most) || (b && b->impacts > most);
   const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
   if (tired) ++counters.limited;
