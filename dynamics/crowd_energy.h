@@ -22,8 +22,8 @@ public:
 
 private:
   struct Group {
-    double before = 0, start = 0, end = 0;  ///< v M v [J]
-    double across = 0;                      ///< start M end
+    double before = 0, start = 0, end = 0;    ///< v M v [J]
+    double across = 0;                        ///< start M end
     double fallsAtStart = 0, fallsAtEnd = 0;  ///< h v M g
     double lifts = 0;                         ///< by the shift [J]
     bool driven = false, touched = false, deep = false;

@@ -9,8 +9,9 @@ namespace stadion {
 namespace {
 
 constexpr int kJumps = 8, kShifts = 2;
-constexpr int kSweeps = 8, kStillSweeps = 16;  ///< while it moves; when it comes to rest, and sleep depends on it
-constexpr double kSlow = 0.1;                  ///< root mean square speed at rest, nearly [m/s]
+constexpr int kSweeps = 8,
+              kStillSweeps = 16;      ///< while it moves; when it comes to rest, and sleep depends on it
+constexpr double kSlow = 0.1;         ///< root mean square speed at rest, nearly [m/s]
 constexpr double kSettled = 1e-5;     ///< a sweep that changes less is the last [m/s]
 constexpr double kSlop = 1e-4;        ///< overlap that is left alone [m]
 constexpr double kDeep = 2e-2;        ///< overlap that no step leaves behind: somebody was put there [m]

@@ -26,15 +26,15 @@ struct CrowdBody {
 };
 
 struct CrowdContact {
-  std::uint32_t a = 0, b = 0;       ///< indices of bodies
-  Vec3 n = Vec3::UnitZ();           ///< from b to a
-  double pressed = 0;               ///< impulse on a along n [N s]
-  Vec3 held = Vec3::Zero();         ///< impulse on a across n [N s]
-  double leverA = 0, leverB = 0;    ///< round: how far the centres are from the point, along n [m]
+  std::uint32_t a = 0, b = 0;     ///< indices of bodies
+  Vec3 n = Vec3::UnitZ();         ///< from b to a
+  double pressed = 0;             ///< impulse on a along n [N s]
+  Vec3 held = Vec3::Zero();       ///< impulse on a across n [N s]
+  double leverA = 0, leverB = 0;  ///< round: how far the centres are from the point, along n [m]
   double friction = 0, restitution = 0;
-  double rolling = 0;               ///< moment that resists a's spin, per force along n [m]
-  double gap = 0;                   ///< [m]
-  double floor = 0;                 ///< least normal velocity [m/s]
+  double rolling = 0;  ///< moment that resists a's spin, per force along n [m]
+  double gap = 0;      ///< [m]
+  double floor = 0;    ///< least normal velocity [m/s]
   double normalMass = 0, tangentMass = 0;
   std::int32_t arms = -1;  ///< index into Crowd::arms; -1: round
 };

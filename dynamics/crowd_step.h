@@ -32,15 +32,13 @@ struct World::Core::CrowdStep {
   double tau = 0;
   std::vector<Member> members;
   std::vector<Fixed> fixed;
-  std::vector<Note> notes;  ///< of each contact
+  std::vector<Note> notes;   ///< of each contact
   std::vector<Vec3> points;  ///< of each contact
   std::vector<ManifoldPoint> found;
   std::vector<RigidBody*> near;
   Crowd crowd;
 
-  bool has(const RigidBody& b) const {
-    return b.slot < members.size() && members[b.slot].body == &b;
-  }
+  bool has(const RigidBody& b) const { return b.slot < members.size() && members[b.slot].body == &b; }
 };
 
 }  // namespace stadion

@@ -10,11 +10,25 @@ namespace stadion {
 namespace {
 
 constexpr std::size_t kMost = 16;
+constexpr double kOnFace = 1e-6;  ///< a centre this near to a face is inside [m]
+constexpr double kDeep = 0.2;     ///< balls overlap so much of their radius only when put there
+constexpr std::size_t kMostDeep = 4;
 constexpr double kSameWay = 0.7;  ///< cosine of directions that lead out at the same side
 
 void flip(Gap& g) {
   g.point += g.distance * g.normal;
   g.normal = -g.normal;
+}
+
+/// Of points that lead the same way only the first.
+void keepDistinct(std::vector<ManifoldPoint>& points, std::size_t most) {
+  std::vector<ManifoldPoint> kept;
+  for (const ManifoldPoint& p : points) {
+    const bool known = std::ranges::any_of(
+        kept, [&](const ManifoldPoint& k) { return k.gap.normal.dot(p.gap.normal) > kSameWay; });
+    if (!known && kept.size() < most) kept.push_back(p);
+  }
+  points = std::move(kept);
 }
 
 /// Ways out for a ball whose centre is inside a closed mesh: the faces that it sees from behind, nearest
@@ -27,7 +41,7 @@ void waysOut(const Vec3& c, double r, const TriangleTree& tree, const std::vecto
     const Triangle& t = tree.triangles()[i];
     const double away = (c - closestPoint(t, c).point).norm(), height = t.normal.dot(c - t.v[0]);
     if (away > nearest + 1e-9) continue;
-    inside = height < 0 && (inside || away < nearest - 1e-9);
+    inside = height <= kOnFace && (inside || away < nearest - 1e-9);
     nearest = std::min(nearest, away);
   }
   if (!inside) return;
@@ -35,17 +49,13 @@ void waysOut(const Vec3& c, double r, const TriangleTree& tree, const std::vecto
     const Triangle& t = tree.triangles()[i];
     const ClosestPoint q = closestPoint(t, c);
     const double away = (c - q.point).norm();
-    if (q.edge >= 0 || !(t.normal.dot(c - t.v[0]) < 0) || away > r) continue;
-    points.push_back({{-away - r, X * q.point, X.q * t.normal, true, static_cast<std::int32_t>(i)}, i + 1});
+    if (q.edge >= 0 || !(t.normal.dot(c - t.v[0]) <= kOnFace) || away > r) continue;
+    points.push_back({{std::min(t.normal.dot(c - q.point), 0.0) - r, X * q.point, X.q * t.normal, true,
+                       static_cast<std::int32_t>(i)},
+                      i + 1});
   }
   std::ranges::stable_sort(points, std::greater{}, [](const ManifoldPoint& p) { return p.gap.distance; });
-  std::vector<ManifoldPoint> kept;
-  for (const ManifoldPoint& p : points) {
-    const bool known = std::ranges::any_of(
-        kept, [&](const ManifoldPoint& k) { return k.gap.normal.dot(p.gap.normal) > kSameWay; });
-    if (!known && kept.size() < kMost) kept.push_back(p);
-  }
-  points = std::move(kept);
+  keepDistinct(points, kMost);
 }
 
 /// A ball touches a mesh wherever a face, a ridge or a peak is near enough; merged edges do not count.
@@ -73,9 +83,13 @@ void ballOnMesh(const Vec3& centre, double r, const MeshShape& mesh, const Pose&
         return p.gap.normal.dot(X.q * n) > 1 - 1e-6;
       });
       if (known || points.size() >= kMost) continue;
-      points.push_back(
-          {{away - r, X * q.point, X.q * n, !edges, static_cast<std::int32_t>(i)}, i + 1});
+      points.push_back({{away - r, X * q.point, X.q * n, !edges, static_cast<std::int32_t>(i)}, i + 1});
     }
+  }
+  const auto deepest = std::ranges::min_element(points, {}, [](const auto& p) { return p.gap.distance; });
+  if (deepest != points.end() && deepest->gap.distance < -kDeep * r) {
+    std::ranges::stable_sort(points, {}, [](const ManifoldPoint& p) { return p.gap.distance; });
+    keepDistinct(points, kMostDeep);
   }
 }
 

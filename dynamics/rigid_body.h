@@ -111,7 +111,7 @@ struct RigidBody {
   bool crowd = false;            ///< Contact: one of many, advanced together with them
   bool heaped = false;           ///< Rest: it fell asleep as one of them
   Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< crowd: how far since it is quiet [m], [rad]
-  std::uint32_t slot = 0;        ///< scratch of the contact solver
+  std::uint32_t slot = 0;                           ///< scratch of the contact solver
   GuidedMotion held;
   std::uint32_t version = 0;  ///< counts arcs: older predictions are void
   std::uint32_t impacts = 0;  ///< in the short time `impactSpan`

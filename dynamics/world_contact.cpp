@@ -7,6 +7,7 @@ namespace stadion {
 namespace {
 
 constexpr double kTouching = 1e-4;  ///< pairs closer than this are in contact [m]
+constexpr double kDeep = 0.2;       ///< share of a ball's radius that it overlaps only when put there
 constexpr double kDue = 1e-9;       ///< times as near as this are the same [s]
 constexpr double kShortest = 1e-6;  ///< a step to the grid that would be shorter goes one further [s]
 
@@ -52,7 +53,7 @@ void World::Core::enterContact(RigidBody& b, double tau) {
   b.endL = L;
   b.quiet = 0;
   if (!rests) b.presses.clear();
-  if (crowded && b.mode == BodyMode::Contact) b.crowd = true;
+  if (crowded && b.mode == BodyMode::Contact) b.crowd = true, b.dueAge = untilCrowdStep(tau);
   scheduleTick(tau);
 }
 
@@ -141,18 +142,22 @@ void World::Core::scheduleTick(double tau) {
   post(e);
 }
 
-/// A ball whose centre is inside something leaves by one way: the shortest that nothing else that it touches
-/// is in. `first`: where its points begin.
-void World::Core::chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found) {
+/// A ball that has been put deep into a mesh leaves by one way: the shortest that nothing else that it
+/// touches bars. `first`: where its points begin.
+void World::Core::chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found) const {
   if (!b.isBall()) return;
-  const auto inside = [&](const Found& f) { return f.gap.distance < -b.radius(); };
+  const auto inside = [&](const Found& f) {
+    return f.gap.distance <= -kDeep * b.radius() && !f.b.isBody &&
+           std::holds_alternative<MeshShape>(*side(f.b)->shape);
+  };
   for (std::size_t i = first; i < found.size(); ++i) {
     if (!inside(found[i])) continue;
     const Party on = found[i].b;
     const auto barred = [&](const Found& way) {
-      return std::any_of(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), [&](const Found& f) {
-        return f.b != on && f.gap.distance < kTouching && f.gap.normal.dot(way.gap.normal) < -0.5;
-      });
+      return std::any_of(
+          found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), [&](const Found& f) {
+            return f.b != on && f.gap.distance < kTouching && f.gap.normal.dot(way.gap.normal) < -0.1;
+          });
     };
     std::size_t best = i;
     for (std::size_t k = i; k < found.size() && found[k].b == on; ++k)

@@ -192,7 +192,7 @@ public:
   std::size_t thickness(const RigidBody& b, double tau) const;
   bool isCrowd(const std::vector<RigidBody*>& island, double tau) const;
   void findContacts(RigidBody& b, double tau, std::vector<Found>& found, std::vector<RigidBody*>& set);
-  static void chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found);
+  void chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found) const;
   bool wakeTouched(const std::vector<Found>& found, double tau);
   void remember(RigidBody& b, const std::vector<Party>& near);
   // --- many bodies in one heap (world_crowd.cpp)
@@ -200,6 +200,7 @@ public:
   static constexpr std::size_t kCrowd = 16;        ///< islands with so many bodies become one
   static constexpr std::size_t kCrowdOfBalls = 5;  ///< the same if they are balls
   struct CrowdStep;
+  double untilCrowdStep(double tau) const;
   void advanceCrowd(double tau);
   void dissolveCrowd(const std::vector<RigidBody*>& due, double tau);
   void joinCrowd(RigidBody& b, CrowdStep& step);

@@ -7,13 +7,13 @@ namespace stadion {
 
 namespace {
 
-constexpr double kTouching = 1e-4;   ///< pairs closer than this are in contact [m]
-constexpr double kParted = 1e-3;     ///< and those farther than this no longer [m]
-constexpr std::size_t kLeast = 4;    ///< a smaller crowd is none any more
-constexpr double kDue = 1e-9;        ///< times as near as this are the same [s]
-constexpr double kQuietWay = 1.2e-3; ///< a surface point that stays within this is quiet [m]
-constexpr double kQuietTime = 0.3;   ///< before a body sleeps among quiet ones [s]
-constexpr double kWaking = 1e-9;     ///< quiet time of one who has been woken softly [s]
+constexpr double kTouching = 1e-4;    ///< pairs closer than this are in contact [m]
+constexpr double kParted = 1e-3;      ///< and those farther than this no longer [m]
+constexpr std::size_t kLeast = 4;     ///< a smaller crowd is none any more
+constexpr double kDue = 1e-9;         ///< times as near as this are the same [s]
+constexpr double kQuietWay = 1.2e-3;  ///< a surface point that stays within this is quiet [m]
+constexpr double kQuietTime = 0.3;    ///< before a body sleeps among quiet ones [s]
+constexpr double kWaking = 1e-9;      ///< quiet time of one who has been woken softly [s]
 
 bool in(const std::vector<Party>& list, Party p) {
   return std::find(list.begin(), list.end(), p) != list.end();
@@ -43,6 +43,13 @@ struct ContactLists {
 };
 
 }  // namespace
+
+/// From tau to the next step but a very short one [s].
+double World::Core::untilCrowdStep(double tau) const {
+  Nanoseconds next = (timeAt(tau) / crowdGrid + 1) * crowdGrid;
+  if (next - timeAt(tau) < crowdGrid / 8) next += crowdGrid;
+  return Instant{next, 0}.since(instantAt(tau));
+}
 
 void World::Core::joinCrowd(RigidBody& b, CrowdStep& step) {
   const double tau = step.tau;
@@ -141,8 +148,7 @@ void World::Core::followCrowd(const CrowdStep& step, std::size_t i) {
   const CrowdBody &start = crowd.start[i], &end = crowd.bodies[i];
   const Quat q = b.orientation(tau);
   const double quiet = b.quiet;
-  const Path path =
-      Path::parabola(step.members[i].p + crowd.shift[i], start.v, (end.v - start.v) / h);
+  const Path path = Path::parabola(step.members[i].p + crowd.shift[i], start.v, (end.v - start.v) / h);
   if (step.members[i].round) {
     const Vec3 alpha = (end.omega - start.omega) / h;
     setArc(b, tau, path,
@@ -204,9 +210,7 @@ void World::Core::advanceCrowd(double tau) {
   CrowdStep step;
   step.tau = tau;
   Crowd& crowd = step.crowd;
-  Nanoseconds next = (timeAt(tau) / crowdGrid + 1) * crowdGrid;
-  if (next - timeAt(tau) < crowdGrid / 8) next += crowdGrid;
-  crowd.h = Instant{next, 0}.since(instantAt(tau));
+  crowd.h = untilCrowdStep(tau);
   std::vector<RigidBody*> due;
   for (RigidBody* b : active) {
     b->slot = CrowdStep::kNobody;

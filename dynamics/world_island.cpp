@@ -283,8 +283,8 @@ void World::Core::concludeFreely(RigidBody& b, const Mobile& start, double tau) 
 bool World::Core::settleOnFace(RigidBody& b, const Found& only, double tau) {
   const Collider* c = only.b.isBody ? nullptr : collider(only.b.id);
   Support face;
-  if (!c || only.gap.distance > kSlop || std::fabs(b.velocity(tau).dot(only.gap.normal)) > 1e-3 ||
-      !supportFor(b, *c, only.gap, tau, face))
+  if (!c || std::fabs(only.gap.distance) > 2 * kSlop ||
+      std::fabs(b.velocity(tau).dot(only.gap.normal)) > 1e-3 || !supportFor(b, *c, only.gap, tau, face))
     return false;
   b.support = face;
   BallStart s{b.position(tau), b.velocity(tau), b.spin.angularVelocity(b.spinAge(tau)), b.orientation(tau)};
