@@ -1,77 +1,230 @@
 #include "dynamics/crowd_solver.h"
 
+#include "dynamics/crowd_energy.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace stadion {
 namespace {
 
-constexpr int kSweeps = 10, kCalming = 2;
+constexpr int kJumps = 8, kShifts = 2;
+constexpr int kSweeps = 8,
+              kStillSweeps = 16;      ///< while it moves; when it comes to rest, and sleep depends on it
+constexpr double kSlow = 0.1;         ///< root mean square speed at rest, nearly [m/s]
+constexpr double kSettled = 1e-5;     ///< a sweep that changes less is the last [m/s]
 constexpr double kSlop = 1e-4;        ///< overlap that is left alone [m]
-constexpr double kShare = 0.2;        ///< of deeper overlap that a step removes
-constexpr double kPushOut = 0.5;      ///< speed limit of that [m/s]
+constexpr double kDeep = 2e-2;        ///< overlap that no step leaves behind: somebody was put there [m]
+constexpr double kShare = 0.3;        ///< of deeper overlap that a step takes back
+constexpr double kMostShift = 2e-3;   ///< in a step [m]
 constexpr double kBounceSpeed = 0.5;  ///< slower approaches do not bounce [m/s]
 
-double responseAlong(const CrowdBody& b, const Vec3& arm, const Vec3& n) {
+class CrowdSolver {
+public:
+  explicit CrowdSolver(Crowd& crowd) : crowd_(crowd), energy_(crowd) {}
+  void solve();
+
+private:
+  double response(std::uint32_t body, const Vec3& arm, const Vec3& along) const;
+  double normalVelocity(const CrowdContact& c) const;
+  void prepare(CrowdContact& c) const;
+  void give(const CrowdContact& c, const Vec3& impulse);
+  double relax(CrowdContact& c);
+  double relaxRound(CrowdContact& c);
+  double sweep(bool forward);
+  double meanSquare() const;
+  void jump();
+  void shift();
+  void push();
+
+  struct Guess {
+    double pressed;
+    Vec3 held;
+  };
+  Crowd& crowd_;
+  CrowdEnergy energy_;
+  std::vector<Guess> guess_;
+};
+
+double CrowdSolver::response(std::uint32_t body, const Vec3& arm, const Vec3& along) const {
+  const CrowdBody& b = crowd_.bodies[body];
   if (b.inverseMass == 0) return 0;
-  const Vec3 c = arm.cross(n);
+  const Vec3 c = arm.cross(along);
   return b.inverseMass +
-         (b.roundInertia > 0 ? b.roundInertia * c.squaredNorm() : c.dot(b.inverseInertia * c));
+         (b.roundInertia > 0 ? b.roundInertia * c.squaredNorm() : c.dot(crowd_.inverseInertia[body] * c));
 }
 
-Vec3 velocity(const CrowdBody& a, const CrowdBody& b, const CrowdContact& c) {
-  return a.v + a.omega.cross(c.armA) - b.v - b.omega.cross(c.armB);
+double CrowdSolver::normalVelocity(const CrowdContact& c) const {
+  const CrowdBody &a = crowd_.bodies[c.a], &b = crowd_.bodies[c.b];
+  if (c.arms < 0) return (a.v - b.v).dot(c.n);
+  const CrowdArms& arms = crowd_.arms[static_cast<std::size_t>(c.arms)];
+  return (a.v + a.omega.cross(arms.a) - b.v - b.omega.cross(arms.b)).dot(c.n);
 }
 
-void prepare(CrowdContact& c, std::vector<CrowdBody>& bodies, double h) {
-  CrowdBody &a = bodies[c.a], &b = bodies[c.b];
-  const double kn = responseAlong(a, c.armA, c.n) + responseAlong(b, c.armB, c.n);
-  const Vec3 t1 = (std::fabs(c.n.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY()).cross(c.n).normalized(),
-             t2 = c.n.cross(t1);
-  const double k1 = responseAlong(a, c.armA, t1) + responseAlong(b, c.armB, t1),
-               k2 = responseAlong(a, c.armA, t2) + responseAlong(b, c.armB, t2);
-  const bool round = (a.roundInertia > 0 || a.inverseMass == 0) && (b.roundInertia > 0 || b.inverseMass == 0);
-  const double kt = round ? k1 : k1 + k2;  // at least the greatest
+/// What an impulse changes, along the normal and (at most) across it.
+void CrowdSolver::prepare(CrowdContact& c) const {
+  const CrowdBody &a = crowd_.bodies[c.a], &b = crowd_.bodies[c.b];
+  double kn = a.inverseMass + b.inverseMass, kt = kn;
+  if (c.arms < 0) {
+    kt += a.roundInertia * c.leverA * c.leverA + b.roundInertia * c.leverB * c.leverB;
+  } else {
+    const CrowdArms& arms = crowd_.arms[static_cast<std::size_t>(c.arms)];
+    const Vec3 t1 = (std::fabs(c.n.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY()).cross(c.n).normalized(),
+               t2 = c.n.cross(t1);
+    const auto along = [&](const Vec3& t) { return response(c.a, arms.a, t) + response(c.b, arms.b, t); };
+    kn = along(c.n), kt = along(t1) + along(t2);
+  }
   c.normalMass = kn > 0 ? 1 / kn : 0, c.tangentMass = kt > 0 ? 1 / kt : 0;
-  const double closing = -velocity(a, b, c).dot(c.n);
-  c.floor = c.gap > 0 ? -c.gap / h : std::min(kPushOut, std::max(0.0, -c.gap - kSlop) * kShare / h);
-  c.calm = std::min(c.floor, 0.0);
-  if (closing > kBounceSpeed && closing * h > c.gap) c.calm = c.restitution * closing;
-  c.pressed = std::max(0.0, c.impulse.dot(c.n));
 }
 
-void relax(CrowdContact& c, std::vector<CrowdBody>& bodies, double floor) {
-  CrowdBody &a = bodies[c.a], &b = bodies[c.b];
-  const Vec3 u = velocity(a, b, c);
-  const double un = u.dot(c.n);
-  const double pressed = std::max(0.0, c.pressed + (floor - un) * c.normalMass);
-  if (pressed == 0 && c.pressed == 0) return;
-  const Vec3 held = c.impulse - c.n * c.impulse.dot(c.n);
-  Vec3 f = held - c.tangentMass * (u - un * c.n);
-  const double most = c.friction * pressed, size = f.squaredNorm();
-  if (size > most * most) f *= most / std::sqrt(size);
-  const Vec3 impulse = pressed * c.n + f, step = impulse - c.impulse;
-  c.pressed = pressed, c.impulse = impulse;
-  a.apply(step, c.armA), b.apply(-step, c.armB);
+void CrowdSolver::give(const CrowdContact& c, const Vec3& impulse) {
+  CrowdBody &a = crowd_.bodies[c.a], &b = crowd_.bodies[c.b];
+  a.v += a.inverseMass * impulse, b.v -= b.inverseMass * impulse;
+  if (c.arms < 0) {
+    const Vec3 turn = c.n.cross(impulse);
+    a.omega -= a.roundInertia * c.leverA * turn, b.omega -= b.roundInertia * c.leverB * turn;
+    return;
+  }
+  const CrowdArms& arms = crowd_.arms[static_cast<std::size_t>(c.arms)];
+  const auto turn = [&](CrowdBody& body, std::uint32_t i, const Vec3& moment) {
+    if (body.roundInertia > 0)
+      body.omega += body.roundInertia * moment;
+    else if (body.inverseMass > 0)
+      body.omega += crowd_.inverseInertia[i] * moment;
+  };
+  turn(a, c.a, arms.a.cross(impulse)), turn(b, c.b, -arms.b.cross(impulse));
+}
+
+/// One pass over a point; returns the greatest change of a velocity, squared.
+double CrowdSolver::relax(CrowdContact& c) {
+  const CrowdBody &a = crowd_.bodies[c.a], &b = crowd_.bodies[c.b];
+  const CrowdArms& arms = crowd_.arms[static_cast<std::size_t>(c.arms)];
+  const Vec3 u = a.v + a.omega.cross(arms.a) - b.v - b.omega.cross(arms.b);
+  const double un = u.dot(c.n), pressed = std::max(0.0, c.pressed + (c.floor - un) * c.normalMass);
+  if (pressed == 0 && c.pressed == 0) return 0;
+  Vec3 held = c.held - c.tangentMass * (u - un * c.n);
+  const double most = c.friction * pressed, size = held.squaredNorm();
+  if (size > most * most) held *= most / std::sqrt(size);
+  const Vec3 step = (pressed - c.pressed) * c.n + (held - c.held);
+  c.pressed = pressed, c.held = held;
+  give(c, step);
+  const double mass = std::max(a.inverseMass, b.inverseMass);
+  return step.squaredNorm() * mass * mass;
+}
+
+/// The same where both sides are balls, or moved by nothing: the normal does not turn them.
+inline double CrowdSolver::relaxRound(CrowdContact& c) {
+  CrowdBody &a = crowd_.bodies[c.a], &b = crowd_.bodies[c.b];
+  const Vec3 apart = a.v - b.v;
+  const double un = apart.dot(c.n), pressed = std::max(0.0, c.pressed + (c.floor - un) * c.normalMass);
+  if (pressed == 0 && c.pressed == 0) return 0;
+  const Vec3 rolls = c.leverA * a.omega + c.leverB * b.omega;
+  Vec3 held = c.held - c.tangentMass * (apart - un * c.n - rolls.cross(c.n));
+  const double most = c.friction * pressed, size = held.squaredNorm();
+  if (size > most * most) held *= most / std::sqrt(size);
+  const Vec3 step = (pressed - c.pressed) * c.n + (held - c.held);
+  c.pressed = pressed, c.held = held;
+  const Vec3 turn = c.n.cross(step);
+  a.v += a.inverseMass * step, b.v -= b.inverseMass * step;
+  a.omega -= a.roundInertia * c.leverA * turn, b.omega -= b.roundInertia * c.leverB * turn;
+  const double mass = std::max(a.inverseMass, b.inverseMass);
+  return step.squaredNorm() * mass * mass;
+}
+
+double CrowdSolver::sweep(bool forward) {
+  double change = 0;
+  const auto visit = [&](CrowdContact& c) {
+    change = std::max(change, c.arms < 0 ? relaxRound(c) : relax(c));
+  };
+  std::vector<CrowdContact>& all = crowd_.contacts;
+  if (forward)
+    for (CrowdContact& c : all) visit(c);
+  else
+    for (std::size_t k = all.size(); k-- > 0;) visit(all[k]);
+  return change;
+}
+
+/// Of the members' speeds at the step's start [m2/s2].
+double CrowdSolver::meanSquare() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < crowd_.members; ++i) sum += crowd_.start[i].v.squaredNorm();
+  return sum / static_cast<double>(std::max<std::size_t>(crowd_.members, 1));
+}
+
+/// Whoever would meet within the step bounces now, or slows down so far that it just meets.
+void CrowdSolver::jump() {
+  bool any = false;
+  for (CrowdContact& c : crowd_.contacts) {
+    const double closing = -normalVelocity(c), gap = std::max(c.gap, 0.0) / crowd_.h;
+    c.floor = closing > kBounceSpeed && closing > gap ? c.restitution * closing : -gap;
+    any = any || closing > gap + kSettled;
+    c.pressed = 0, c.held.setZero();
+  }
+  if (!any) return;
+  const std::vector<CrowdBody> before = crowd_.bodies;
+  for (int i = 0; i < kJumps; ++i)
+    if (sweep(i % 2 != 0) < kSettled * kSettled) break;
+  energy_.boundJump(crowd_, before);
+}
+
+/// Takes back a share of what overlaps; who is in the way moves along.
+void CrowdSolver::shift() {
+  crowd_.shift.assign(crowd_.bodies.size(), Vec3::Zero());
+  bool any = false;
+  for (CrowdContact& c : crowd_.contacts) {
+    c.floor = c.gap < -kSlop ? std::min(kMostShift, kShare * (-kSlop - c.gap)) : std::min(0.0, -c.gap);
+    any = any || c.floor > 0;
+    c.pressed = 0;
+  }
+  if (!any) return;
+  std::vector<Vec3>& d = crowd_.shift;
+  for (int i = 0; i < kShifts; ++i)
+    for (CrowdContact& c : crowd_.contacts) {
+      const double ka = crowd_.bodies[c.a].inverseMass, kb = crowd_.bodies[c.b].inverseMass;
+      const double more = std::max(-c.pressed, (c.floor - (d[c.a] - d[c.b]).dot(c.n)) / (ka + kb));
+      c.pressed += more;
+      d[c.a] += more * ka * c.n, d[c.b] -= more * kb * c.n;
+    }
+  energy_.payShift(crowd_, kDeep);
+  for (CrowdContact& c : crowd_.contacts) c.gap += (d[c.a] - d[c.b]).dot(c.n);
+}
+
+/// Forces through the step.
+void CrowdSolver::push() {
+  std::vector<CrowdContact>& all = crowd_.contacts;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    CrowdContact& c = all[k];
+    c.pressed = guess_[k].pressed, c.held = guess_[k].held;
+    c.floor = std::min(0.0, -2 * std::max(c.gap, 0.0) / crowd_.h - normalVelocity(c));
+  }
+  crowd_.start = crowd_.bodies;
+  for (std::size_t i = 0; i < crowd_.members; ++i) crowd_.bodies[i].v += crowd_.h * crowd_.pull[i];
+  for (const CrowdContact& c : all)
+    if (c.pressed > 0) give(c, c.pressed * c.n + c.held);
+  const int sweeps = meanSquare() < kSlow * kSlow ? kStillSweeps : kSweeps;
+  for (int i = 0; i < sweeps; ++i)
+    if (sweep(i % 2 == 0) < kSettled * kSettled) break;
+  for (const CrowdContact& c : all) {  // rolling resistance takes spin
+    if (!(c.rolling * c.pressed > 0)) continue;
+    CrowdBody& a = crowd_.bodies[c.a];
+    const double most = c.rolling * c.pressed * a.roundInertia, w = a.omega.norm();
+    if (w > 0) a.omega *= std::max(0.0, 1 - most / w);
+  }
+  energy_.boundWork(crowd_);
+}
+
+void CrowdSolver::solve() {
+  guess_.reserve(crowd_.contacts.size());
+  for (CrowdContact& c : crowd_.contacts) prepare(c), guess_.push_back({c.pressed, c.held});
+  jump();
+  shift();
+  push();
 }
 
 }  // namespace
 
-void solveCrowd(std::vector<CrowdBody>& bodies, std::vector<CrowdContact>& contacts,
-                const std::vector<Vec3>& pull, double h, std::vector<CrowdBody>& moved) {
-  for (CrowdContact& c : contacts) prepare(c, bodies, h);
-  for (std::size_t i = 0; i < pull.size(); ++i) bodies[i].v += h * pull[i];
-  for (const CrowdContact& c : contacts)
-    bodies[c.a].apply(c.impulse, c.armA), bodies[c.b].apply(-c.impulse, c.armB);
-  for (int i = 0; i < kSweeps; ++i) {
-    if (i % 2 == 0)
-      for (CrowdContact& c : contacts) relax(c, bodies, c.floor);
-    else
-      for (std::size_t k = contacts.size(); k-- > 0;) relax(contacts[k], bodies, contacts[k].floor);
-  }
-  moved = bodies;
-  for (int i = 0; i < kCalming; ++i)
-    for (CrowdContact& c : contacts) relax(c, bodies, c.pressed > 0 ? c.calm : std::min(c.floor, 0.0));
+void solveCrowd(Crowd& crowd) {
+  CrowdSolver(crowd).solve();
 }
 
 }  // namespace stadion

@@ -1,11 +1,16 @@
 #pragma once
-/// Velocities of a heap of bodies: many contact points, a fixed number of sweeps.
+/// One step of a heap of bodies: many contact points, a few sweeps, and energy that contacts never add.
 ///
-/// Method   projected Gauss-Seidel over points in flat arrays, warm started. Points that overlap are pushed
-/// apart by a velocity that moves the bodies but is taken from them again before the next step; points that
-/// have yet to meet may close their gap and no more.
-/// Energy   the sweeps take it away, but bodies go straight between steps, which may add some again: up to
-/// 2.5e-4 of the whole in one frame, measured on a heap of a thousand balls.
+/// Method   a step has two parts. At its start velocities jump, so that whoever would meet within the step
+/// bounces or closes its gap and no more. Through the step every body has one acceleration, from its pull and
+/// from the contact points' forces, which keep the mean velocity from closing more than the gap. Both are
+/// found by projected Gauss-Seidel sweeps; the forces begin with those of the last step.
+/// Energy   with even accelerations the work of all contact forces on a set of bodies goes linearly through
+/// the step: it is negative throughout if it is so at both ends. Where the sweeps leave it otherwise, the set
+/// is slowed down until it is. The jump's energy is bounded likewise. Overlap is taken back by a shift, which
+/// the set pays for with what the jump took and with a little of its motion; only far deeper overlap, which
+/// no step leaves behind, is undone for free. So the energy of a heap that nothing moves from outside does
+/// not rise from any moment to a later one (round bodies; others turn with their mean momentum).
 
 #include "engine/maths/maths.h"
 
@@ -16,32 +21,43 @@ namespace stadion {
 
 struct CrowdBody {
   Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
-  Vec3 p = Vec3::Zero();
   double inverseMass = 0;
-  double roundInertia = 0;             ///< inverse, of balls; 0: see the next
-  Mat3 inverseInertia = Mat3::Zero();  ///< in World, of others
-  void apply(const Vec3& impulse, const Vec3& arm) {
-    v += inverseMass * impulse;
-    if (roundInertia > 0)
-      omega += roundInertia * arm.cross(impulse);
-    else if (inverseMass > 0)
-      omega += inverseInertia * arm.cross(impulse);
-  }
+  double roundInertia = 0;  ///< inverse, of balls; 0: see Crowd::inverseInertia
 };
 
 struct CrowdContact {
-  std::uint32_t a = 0, b = 0;  ///< indices of bodies
-  Vec3 n = Vec3::UnitZ();      ///< from b to a
-  Vec3 armA = Vec3::Zero(), armB = Vec3::Zero();
-  double gap = 0, friction = 0, restitution = 0, rolling = 0;
-  Vec3 impulse = Vec3::Zero();  ///< on a, in World [N s]; the guess on entry
-  std::uint64_t key = 0;
-  // Set by the solver.
-  double pressed = 0, normalMass = 0, tangentMass = 0, floor = 0, calm = 0;
+  std::uint32_t a = 0, b = 0;     ///< indices of bodies
+  Vec3 n = Vec3::UnitZ();         ///< from b to a
+  double pressed = 0;             ///< impulse on a along n [N s]
+  Vec3 held = Vec3::Zero();       ///< impulse on a across n [N s]
+  double leverA = 0, leverB = 0;  ///< round: how far the centres are from the point, along n [m]
+  double friction = 0, restitution = 0;
+  double rolling = 0;  ///< moment that resists a's spin, per force along n [m]
+  double gap = 0;      ///< [m]
+  double floor = 0;    ///< least normal velocity [m/s]
+  double normalMass = 0, tangentMass = 0;
+  std::int32_t arms = -1;  ///< index into Crowd::arms; -1: round
 };
 
-/// `moved` become the velocities that carry the bodies through the step, `bodies` those they have after it.
-void solveCrowd(std::vector<CrowdBody>& bodies, std::vector<CrowdContact>& contacts,
-                const std::vector<Vec3>& pull, double h, std::vector<CrowdBody>& moved);
+struct CrowdArms {
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  ///< from the centres of mass to the point [m]
+};
+
+struct Crowd {
+  double h = 0;             ///< [s]
+  std::size_t members = 0;  ///< the bodies behind them are moved by nothing
+  std::vector<CrowdBody> bodies;
+  std::vector<Mat3> inverseInertia;  ///< in World, of members that are not round
+  std::vector<Vec3> pull;            ///< on the members [m/s2]
+  std::vector<CrowdContact> contacts;
+  std::vector<CrowdArms> arms;
+
+  // Results; `bodies` have the velocities of the step's end, contacts the impulses of their forces.
+  std::vector<CrowdBody> start;  ///< after the jump
+  std::vector<Vec3> shift;       ///< of the places, at the step's start [m]
+};
+
+/// On entry the contacts' impulses are a guess of what the forces will do.
+void solveCrowd(Crowd& crowd);
 
 }  // namespace stadion

@@ -10,10 +10,52 @@ namespace stadion {
 namespace {
 
 constexpr std::size_t kMost = 16;
+constexpr double kOnFace = 1e-6;  ///< a centre this near to a face is inside [m]
+constexpr double kDeep = 0.2;     ///< balls overlap so much of their radius only when put there
+constexpr std::size_t kMostDeep = 4;
+constexpr double kSameWay = 0.7;  ///< cosine of directions that lead out at the same side
 
 void flip(Gap& g) {
   g.point += g.distance * g.normal;
   g.normal = -g.normal;
+}
+
+/// Of points that lead the same way only the first.
+void keepDistinct(std::vector<ManifoldPoint>& points, std::size_t most) {
+  std::vector<ManifoldPoint> kept;
+  for (const ManifoldPoint& p : points) {
+    const bool known = std::ranges::any_of(
+        kept, [&](const ManifoldPoint& k) { return k.gap.normal.dot(p.gap.normal) > kSameWay; });
+    if (!known && kept.size() < most) kept.push_back(p);
+  }
+  points = std::move(kept);
+}
+
+/// Ways out for a ball whose centre is inside a closed mesh: the faces that it sees from behind, nearest
+/// first, one for each direction. None if the centre is outside.
+void waysOut(const Vec3& c, double r, const TriangleTree& tree, const std::vector<std::uint32_t>& near,
+             const Pose& X, std::vector<ManifoldPoint>& points) {
+  double nearest = 1e300;
+  bool inside = false;
+  for (const std::uint32_t i : near) {
+    const Triangle& t = tree.triangles()[i];
+    const double away = (c - closestPoint(t, c).point).norm(), height = t.normal.dot(c - t.v[0]);
+    if (away > nearest + 1e-9) continue;
+    inside = height <= kOnFace && (inside || away < nearest - 1e-9);
+    nearest = std::min(nearest, away);
+  }
+  if (!inside) return;
+  for (const std::uint32_t i : near) {
+    const Triangle& t = tree.triangles()[i];
+    const ClosestPoint q = closestPoint(t, c);
+    const double away = (c - q.point).norm();
+    if (q.edge >= 0 || !(t.normal.dot(c - t.v[0]) <= kOnFace) || away > r) continue;
+    points.push_back({{std::min(t.normal.dot(c - q.point), 0.0) - r, X * q.point, X.q * t.normal, true,
+                       static_cast<std::int32_t>(i)},
+                      i + 1});
+  }
+  std::ranges::stable_sort(points, std::greater{}, [](const ManifoldPoint& p) { return p.gap.distance; });
+  keepDistinct(points, kMost);
 }
 
 /// A ball touches a mesh wherever a face, a ridge or a peak is near enough; merged edges do not count.
@@ -25,24 +67,29 @@ void ballOnMesh(const Vec3& centre, double r, const MeshShape& mesh, const Pose&
   box.lo.array() -= r + margin, box.hi.array() += r + margin;
   std::vector<std::uint32_t> near;
   mesh.tree.overlapping(box, near);
+  if (mesh.tree.closed()) waysOut(c, r, mesh.tree, near, X, points);
+  if (!points.empty()) return;
   for (const bool edges : {false, true}) {
     for (const std::uint32_t i : near) {
       const Triangle& t = mesh.tree.triangles()[i];
       const ClosestPoint q = closestPoint(t, c);
       if ((q.edge >= 0) != edges) continue;
       const double height = t.normal.dot(c - t.v[0]), away = (c - q.point).norm();
-      const bool behind = height < 0 && mesh.tree.closed();
-      if (behind && edges) continue;
+      if (height < 0 && mesh.tree.closed()) continue;  // the far side of what it is outside of
       if (away - r > margin) continue;
       if (edges && !q.corner && t.merged[static_cast<std::size_t>(q.edge)]) continue;
-      const Vec3 n = away > 0 ? Vec3((c - q.point) / away * (behind ? -1 : 1)) : t.normal;
+      const Vec3 n = away > 0 ? Vec3((c - q.point) / away) : t.normal;
       const bool known = std::any_of(points.begin(), points.end(), [&](const ManifoldPoint& p) {
         return p.gap.normal.dot(X.q * n) > 1 - 1e-6;
       });
       if (known || points.size() >= kMost) continue;
-      points.push_back(
-          {{(behind ? -away : away) - r, X * q.point, X.q * n, !edges, static_cast<std::int32_t>(i)}, i + 1});
+      points.push_back({{away - r, X * q.point, X.q * n, !edges, static_cast<std::int32_t>(i)}, i + 1});
     }
+  }
+  const auto deepest = std::ranges::min_element(points, {}, [](const auto& p) { return p.gap.distance; });
+  if (deepest != points.end() && deepest->gap.distance < -kDeep * r) {
+    std::ranges::stable_sort(points, {}, [](const ManifoldPoint& p) { return p.gap.distance; });
+    keepDistinct(points, kMostDeep);
   }
 }
 

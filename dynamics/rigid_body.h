@@ -70,7 +70,7 @@ struct Support {
 /// A contact point of the last step of the solver, as a guess for the next.
 struct Pressed {
   std::uint64_t key = 0;
-  Vec3 force = Vec3::Zero();  ///< on the body that found it [N]
+  Vec3 force = Vec3::Zero();  ///< on the body [N]
   double step = 0;            ///< how long that was, so that a blow is no guess for a long push [s]
 };
 
@@ -101,17 +101,18 @@ struct RigidBody {
   double validAge = 0;       ///< the same as an age
   double pathAge = 0;        ///< the same for the path alone: the spin may wear out earlier
   double spinStart = 0;      ///< the arc's age at which the spin's own began
-  Vec3 endL = Vec3::Zero();  ///< Contact: angular momentum at the end of the sub-step
+  Vec3 endL = Vec3::Zero();  ///< Contact, but for Driven spins: angular momentum at the end of the sub-step
   double step = 0;           ///< last step of the general integrator [s]
   Support support;
   std::vector<Hook> hooks;
   std::vector<Party> touching;   ///< Contact, Rest: whom the body leans on, or nearly
   std::vector<Party> leaning;    ///< Contact: those of them that the memory of pairs calls touching
-  std::vector<Pressed> presses;  ///< Contact: forces of the last step on points that this body found
+  std::vector<Pressed> presses;  ///< Contact: forces of the last step on the points of this body
   double dueAge = 0;             ///< Contact: age at which the solver looks again; 0: at once [s]
   bool crowd = false;            ///< Contact: one of many, advanced together with them
-  Vec3 endV = Vec3::Zero();      ///< crowd: velocity at the end of the step [m/s]
-  std::uint32_t slot = 0;        ///< scratch of the contact solver
+  bool heaped = false;           ///< Rest: it fell asleep as one of them
+  Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< crowd: how far since it is quiet [m], [rad]
+  std::uint32_t slot = 0;                           ///< scratch of the contact solver
   GuidedMotion held;
   std::uint32_t version = 0;  ///< counts arcs: older predictions are void
   std::uint32_t impacts = 0;  ///< in the short time `impactSpan`

@@ -7,6 +7,7 @@ namespace stadion {
 namespace {
 
 constexpr double kTouching = 1e-4;  ///< pairs closer than this are in contact [m]
+constexpr double kDeep = 0.2;       ///< share of a ball's radius that it overlaps only when put there
 constexpr double kDue = 1e-9;       ///< times as near as this are the same [s]
 constexpr double kShortest = 1e-6;  ///< a step to the grid that would be shorter goes one further [s]
 
@@ -30,20 +31,29 @@ constexpr std::uint32_t kNowhere = 0xffffffff;
 
 }  // namespace
 
+/// Angular momentum now: a step's arc has the mean of the step, through which it grows evenly.
+Vec3 World::Core::momentumOf(const RigidBody& b, double tau) {
+  if (b.mode != BodyMode::Contact || !(b.dueAge > 0) || b.spin.kind == Spin::Kind::Driven)
+    return b.spin.angularMomentum(b.spinAge(tau));
+  const double share = std::clamp(2 * b.age(tau) / b.dueAge - 1, -1.0, 1.0);
+  return b.spin.L + share * (b.endL - b.spin.L);
+}
+
 void World::Core::enterContact(RigidBody& b, double tau) {
   if (b.mode == BodyMode::Contact || !b.movable()) return;
   const Vec3 L = b.spin.angularMomentum(b.spinAge(tau));
   // Among a crowd it moves with the crowd: between its steps nobody else gives way.
-  const bool crowded = b.mode == BodyMode::Rest && std::ranges::any_of(b.touching, [&](Party p) {
-                         return p.isBody && body(p.id) && body(p.id)->crowd;
-                       });
+  const bool rests = b.mode == BodyMode::Rest;
+  const bool crowded = rests && (b.heaped || std::ranges::any_of(b.touching, [&](Party p) {
+                                   return p.isBody && body(p.id) && body(p.id)->crowd;
+                                 }));
   b.support.on = {};
   setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
          Spin::free(b.orientation(tau), L, b.inertia), tickTime, BodyMode::Contact);
   b.endL = L;
   b.quiet = 0;
-  b.presses.clear();
-  if (crowded && b.mode == BodyMode::Contact) b.crowd = true, b.endV = b.velocity(tau);
+  if (!rests) b.presses.clear();
+  if (crowded && b.mode == BodyMode::Contact) b.crowd = true, b.dueAge = untilCrowdStep(tau);
   scheduleTick(tau);
 }
 
@@ -107,8 +117,9 @@ void World::Core::wakeOnto(Party moved, double tau) {
       } else if (other->mode == BodyMode::Contact) {
         hurry(*other, tau);
       } else if (other->mode == BodyMode::Rest) {
+        // In a heap those who lean on it wake when it moves; elsewhere nobody would wake them.
+        if (!other->heaped) waking.push_back({true, id});
         enterContact(*other, tau);
-        waking.push_back({true, id});
       }
     }
   }
@@ -131,6 +142,36 @@ void World::Core::scheduleTick(double tau) {
   post(e);
 }
 
+/// A ball that has been put deep into a mesh leaves by one way: the shortest that nothing else that it
+/// touches bars. `first`: where its points begin.
+void World::Core::chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found) const {
+  if (!b.isBall()) return;
+  const auto inside = [&](const Found& f) {
+    return f.gap.distance <= -kDeep * b.radius() && !f.b.isBody &&
+           std::holds_alternative<MeshShape>(*side(f.b)->shape);
+  };
+  for (std::size_t i = first; i < found.size(); ++i) {
+    if (!inside(found[i])) continue;
+    const Party on = found[i].b;
+    const auto barred = [&](const Found& way) {
+      return std::any_of(
+          found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), [&](const Found& f) {
+            return f.b != on && f.gap.distance < kTouching && f.gap.normal.dot(way.gap.normal) < -0.1;
+          });
+    };
+    std::size_t best = i;
+    for (std::size_t k = i; k < found.size() && found[k].b == on; ++k)
+      if (!barred(found[k])) {
+        best = k;
+        break;
+      }
+    const Found way = found[best];
+    std::erase_if(found, [&](const Found& f) { return f.a == way.a && f.b == on; });
+    found.push_back(way);
+    return;
+  }
+}
+
 void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& found,
                                std::vector<RigidBody*>& set) {
   const Side self = Side::of(b);
@@ -140,6 +181,7 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
   Aabb box;
   box.include(k.pose * b.bound.centre);
   box.lo.array() -= b.bound.radius + margin, box.hi.array() += b.bound.radius + margin;
+  const std::size_t first = found.size();
   std::vector<ManifoldPoint> points;
   const auto against = [&](const Side& other) {
     manifold(self, other, tau, margin, points);
@@ -171,6 +213,7 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
     }
     against(other);
   });
+  chooseWayOut(b, first, found);
 }
 
 /// Sleepers touched by something that moves wake; true if there were any, who then take part.
@@ -204,6 +247,32 @@ void World::Core::remember(RigidBody& b, const std::vector<Party>& near) {
   b.leaning = near;
 }
 
+/// How many balls move around this one within its own size: they will lean on each other before long.
+std::size_t World::Core::thickness(const RigidBody& b, double tau) const {
+  if (!b.isBall()) return 0;
+  std::size_t many = 0;
+  const Vec3 middle = b.position(tau);
+  const double reach = 2 * b.bound.radius;
+  Aabb box;
+  box.include(middle);
+  box.lo.array() -= reach, box.hi.array() += reach;
+  nearBodies.eachNear(box, [&](const RigidBody& o) {
+    if (&o == &b || !o.enabled || !o.isBall()) return;
+    if (o.mode != BodyMode::Flight && o.mode != BodyMode::Contact) return;
+    const double far = reach + o.bound.radius;
+    if ((o.position(tau) - middle).squaredNorm() < far * far) ++many;
+  });
+  return many;
+}
+
+/// Whether an island is better off as a crowd: it is large, or its balls are in the thick of it.
+bool World::Core::isCrowd(const std::vector<RigidBody*>& island, double tau) const {
+  const bool balls = std::ranges::all_of(island, [](const RigidBody* b) { return b->isBall(); });
+  if (island.size() >= (balls ? kCrowdOfBalls : kCrowd)) return true;
+  return balls && std::ranges::any_of(
+                      island, [&](const RigidBody* b) { return thickness(*b, tau) + 1 >= kCrowdOfBalls; });
+}
+
 void World::Core::tick(double tau) {
   ++counters.contactSteps;
   tickAt = -1;
@@ -225,6 +294,7 @@ void World::Core::tick(double tau) {
     if (!wakeTouched(found, tau)) break;
   }
   std::ranges::sort(set, {}, &RigidBody::id);
+  std::ranges::stable_sort(found, {}, [](const Found& f) { return std::pair(f.a, f.b); });
   for (std::size_t i = 0; i < set.size(); ++i) set[i]->slot = static_cast<std::uint32_t>(i);
   Groups groups(set.size());
   const auto comesAlong = [&](Party p) {
@@ -243,9 +313,8 @@ void World::Core::tick(double tau) {
   for (Found& f : found) islands[islandOf[body(f.a.id)->slot]].found.push_back(std::move(f));
   bool crowds = false;
   for (Island& island : islands) {
-    const bool balls = std::ranges::all_of(island.set, [](const RigidBody* b) { return b->isBall(); });
-    if (island.set.size() >= (balls ? kCrowdOfBalls : kCrowd)) {
-      for (RigidBody* b : island.set) b->crowd = true, b->dueAge = 0, b->endV = b->velocity(tau);
+    if (isCrowd(island.set, tau)) {
+      for (RigidBody* b : island.set) b->crowd = true, b->dueAge = 0;
       crowds = true;
     } else {
       advanceIsland(island, tau, h);

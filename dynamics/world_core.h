@@ -3,7 +3,7 @@
 /// world_foresight.cpp (what will touch), world_arcs.cpp (new arcs), world_impact.cpp (touches),
 /// world_release.cpp (who has parted),
 /// world_contact.cpp (lasting contact: who with whom), world_island.cpp (one island), world_crowd.cpp
-/// (heaps).
+/// and world_crowd_contacts.cpp (heaps).
 ///
 /// Time     runs in windows of 128 ms on a grid of show time. tau is seconds since the window's start. What
 /// will happen is foreseen to the window's end, once for each arc; a frame only lets happen what is due and
@@ -158,6 +158,7 @@ public:
   void onTouch(const Touch& touch, Party a, Party b, double tau);
   static bool carries(const RigidBody& ball, const Collider& c, const Gap& gap);
   bool supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, double tau, Support& out) const;
+  void strikeInCrowd(RigidBody& b, const Mobile& m, double tau);
   void afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting);
 
   // --- who has parted (world_release.cpp)
@@ -187,6 +188,7 @@ public:
     bool carried = false;            ///< one of them moves
   };
   void enterContact(RigidBody& b, double tau);
+  static Vec3 momentumOf(const RigidBody& b, double tau);
   void wake(RigidBody& b, double tau);
   void wakeOnto(Party gone, double tau);
   static bool leansOn(const RigidBody& b, Party p);
@@ -195,7 +197,10 @@ public:
   void scheduleTick(double tau);
   void scheduleDue(double tau);
   void tick(double tau);
+  std::size_t thickness(const RigidBody& b, double tau) const;
+  bool isCrowd(const std::vector<RigidBody*>& island, double tau) const;
   void findContacts(RigidBody& b, double tau, std::vector<Found>& found, std::vector<RigidBody*>& set);
+  void chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found) const;
   bool wakeTouched(const std::vector<Found>& found, double tau);
   void remember(RigidBody& b, const std::vector<Party>& near);
   // --- many bodies in one heap (world_crowd.cpp)
@@ -203,10 +208,22 @@ public:
   static constexpr std::size_t kCrowd = 16;        ///< islands with so many bodies become one
   static constexpr std::size_t kCrowdOfBalls = 5;  ///< the same if they are balls
   struct CrowdStep;
+  double untilCrowdStep(double tau) const;
   void advanceCrowd(double tau);
-  void joinCrowd(RigidBody& b, double tau, CrowdStep& step);
-  void findCrowdContacts(RigidBody& b, double tau, CrowdStep& step);
-  void concludeCrowd(CrowdStep& step, double tau);
+  void dissolveCrowd(const std::vector<RigidBody*>& due, double tau);
+  void joinCrowd(RigidBody& b, CrowdStep& step);
+  static std::vector<char> calmInCrowd(const CrowdStep& step);
+  bool noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const std::uint32_t> list,
+                      std::vector<Party>& near);
+  void followCrowd(const CrowdStep& step, std::size_t i);
+  void concludeCrowd(CrowdStep& step);
+  // (world_crowd_contacts.cpp)
+  void addCrowdContact(const RigidBody& b, Party other, const Surface& surface, const Gap& gap,
+                       std::uint32_t feature, CrowdStep& step);
+  void findCrowdColliders(const RigidBody& b, const Aabb& box, double margin, CrowdStep& step);
+  void meetInCrowd(RigidBody& b, RigidBody& o, double margin, CrowdStep& step);
+  void findCrowdContacts(RigidBody& b, CrowdStep& step);
+  void linkCrowdContacts(CrowdStep& step);
   // --- one island (world_island.cpp)
   void advanceIsland(Island& island, double tau, double h);
   void begin(Island& island, double tau) const;

@@ -124,7 +124,7 @@ void World::Core::sweep(RigidBody& b, double tau) {
     Aabb box = sweptBody(b, tau, std::max(tau, std::min(windowEnd(), end)));
     if (b.crowd) {  // steps are short and many: a roomy box serves several
       if (b.place != kUnfiled && holds(b.swept, box)) return;
-      const double room = 0.002 + 0.02 * b.velocity(tau).norm();
+      const double room = 0.004 + 0.05 * b.velocity(tau).norm();
       b.swept.lo = box.lo.array() - room, b.swept.hi = box.hi.array() + room;
     } else {
       if (b.path.isSeries() && tau < end && end < windowEnd()) reachOn(b, end, windowEnd() - end, box);

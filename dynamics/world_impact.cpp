@@ -10,9 +10,10 @@ namespace {
 constexpr double kLastBounce = 1e-9;
 /// The same between bodies that have no closed form to rest in [m].
 constexpr double kLastRattle = 1e-6;
-constexpr Nanoseconds kSpan = 16'000'000;   ///< in which impacts are counted [ns]
-constexpr std::uint32_t kMostImpacts = 60;  ///< in that time, then the contact solver takes over
-constexpr std::uint32_t kMostRattles = 4;  ///< the same where bounces die away soon; chosen on heaps of balls
+constexpr Nanoseconds kSpan = 16'000'000;     ///< in which impacts are counted [ns]
+constexpr std::uint32_t kMostImpacts = 60;    ///< in that time, then the contact solver takes over
+constexpr std::uint32_t kMostRattles = 4;     ///< the same where bounces die away soon
+constexpr std::uint32_t kMostInThick = 1;     ///< and among many balls, who will lean on each other anyway
 constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
 
 }  // namespace
@@ -80,21 +81,33 @@ bool World::Core::supportFor(const RigidBody& ball, const Collider& c, const Gap
   return false;
 }
 
+/// The rest of a crowd's step with other velocities, under the same forces.
+void World::Core::strikeInCrowd(RigidBody& b, const Mobile& m, double tau) {
+  const Quat q = b.orientation(tau);
+  const double left = b.dueAge - b.age(tau), quiet = b.quiet;
+  const Vec3 a = left > 0 && b.path.isParabola() ? Vec3(2 * b.path.c[2]) : Vec3(Vec3::Zero());
+  const Vec3 before = b.spin.angularVelocity(b.spinAge(tau)), L = momentumOf(b, tau);
+  const Vec3 more = q * b.inertia.cwiseProduct(q.conjugate() * (m.omega - before));
+  const Vec3 end = b.endL + more;
+  Spin spin = Spin::free(q, left > 0 ? Vec3(0.5 * (L + more + end)) : Vec3(L + more), b.inertia);
+  if (b.spin.kind == Spin::Kind::Driven) spin = Spin::driven(q, m.omega, b.spin.alpha, b.inertia.x());
+  setArc(b, tau, Path::parabola(b.position(tau), m.v, a), spin, std::max(left, tickTime), BodyMode::Contact);
+  if (b.mode != BodyMode::Contact) return;
+  b.endL = end, b.dueAge = left > 0 ? left : untilCrowdStep(tau), b.quiet = quiet;
+  sweep(b, tau);
+}
+
 /// The body goes on with the velocities of m.
 void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting) {
   if (!b.movable()) return;
   const Vec3 p = b.position(tau);
   const Quat q = b.orientation(tau);
-  if (b.crowd) {  // it takes effect with the crowd's next step
-    const Vec3 turn = m.omega - b.spin.angularVelocity(b.spinAge(tau));
-    b.endV += m.v - b.velocity(tau);
-    b.endL += q * b.inertia.cwiseProduct(q.conjugate() * turn);
-    return;
-  }
+  if (b.crowd) return strikeInCrowd(b, m, tau);
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * m.omega);
   const bool leaning = b.mode == BodyMode::Contact || (b.mode == BodyMode::Rest && !b.support.on.id);
   if (lasting || leaning) {
     if (b.mode == BodyMode::Rest) wake(b, tau);
+    if (b.crowd) return strikeInCrowd(b, m, tau);
     b.endL = L;
     setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia), tickTime,
            BodyMode::Contact);
@@ -159,7 +172,9 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
 
   const bool onFace = c && a.mode == BodyMode::Flight && carries(a, *c, touch.gap);
   const double last = onFace ? kLastBounce : kLastRattle;
-  const std::uint32_t most = pair.restitution < 0.6 ? kMostRattles : kMostImpacts;
+  std::uint32_t most = kMostImpacts;
+  if (pair.restitution < 0.6)
+    most = b && thickness(a, tau) + 1 >= kCrowdOfBalls ? kMostInThick : kMostRattles;
   const bool tired = a.impacts > (onFace ? kMostBounces : most) || (b && b->impacts > most);
   const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
   if (tired) ++counters.limited;

@@ -74,11 +74,8 @@ void World::Core::begin(Island& s, double tau) const {
     b.slot = static_cast<std::uint32_t>(i);
     Mobile m = mobileOf(b, tau);
     if (b.mode == BodyMode::Contact && b.dueAge > 0) {
-      // The arc has the mean angular momentum of its step, through which that grew evenly.
       const Quat q = b.orientation(tau);
-      const double share = std::clamp(2 * b.age(tau) / b.dueAge - 1, -1.0, 1.0);
-      const Vec3 L = b.spin.L + share * (b.endL - b.spin.L);
-      m.omega = q * b.inertia.cwiseInverse().cwiseProduct(q.conjugate() * L);
+      m.omega = q * b.inertia.cwiseInverse().cwiseProduct(q.conjugate() * momentumOf(b, tau));
     }
     s.start.push_back(m);
   }
@@ -286,8 +283,8 @@ void World::Core::concludeFreely(RigidBody& b, const Mobile& start, double tau) 
 bool World::Core::settleOnFace(RigidBody& b, const Found& only, double tau) {
   const Collider* c = only.b.isBody ? nullptr : collider(only.b.id);
   Support face;
-  if (!c || only.gap.distance > kSlop || std::fabs(b.velocity(tau).dot(only.gap.normal)) > 1e-3 ||
-      !supportFor(b, *c, only.gap, tau, face))
+  if (!c || std::fabs(only.gap.distance) > 2 * kSlop ||
+      std::fabs(b.velocity(tau).dot(only.gap.normal)) > 1e-3 || !supportFor(b, *c, only.gap, tau, face))
     return false;
   b.support = face;
   BallStart s{b.position(tau), b.velocity(tau), b.spin.angularVelocity(b.spinAge(tau)), b.orientation(tau)};
