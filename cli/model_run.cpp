@@ -34,7 +34,7 @@ private:
   }
 
   void note(const DynObjectNode& node, std::uint64_t frame) {
-    if (!node.dynamics().valid()) return;
+    if (!node.movedBy().valid()) return;
     const auto [at, isNew] = bodies_.try_emplace(node.self());
     PlayedBody& body = at->second;
     if (isNew) describe(node, body);
@@ -55,7 +55,7 @@ private:
     body.chosen = node.appearance().shape == "auto" || node.appearance().shape.empty();
     if (const Mesh* mesh = scene_.mesh(node.appearance().mesh)) body.triangles = mesh->indices.size() / 3;
     body.dragArea = node.body().dragArea.value_or(fit.dragArea);
-    body.dynamics = node.dynamics();
+    body.dynamics = node.movedBy();
     for (const std::string& name : node.body().hooks)
       if (const Node* field = scene_.find(scene_.resolve(name, node.self())))
         body.fields.push_back({name, field->kind()});

@@ -57,8 +57,6 @@ public:
     std::vector<NodeRef>* asking = nullptr;
   };
   void setSimulation(const Simulation& simulation) { simulation_ = simulation; }
-  /// The dynamics node that moves it; invalid if there is none.
-  NodeRef dynamics() const { return simulation_.dynamics; }
   BodyId bodyId() const { return simulation_.body; }
   NodeRef movedBy() const { return simulation_.dynamics; }  ///< invalid while nobody simulates it
   /// Its simulated state, copied here by its dynamics node so that the state hash sees it.
