@@ -24,6 +24,21 @@ std::string readAll(int fd) {
   }
 }
 
+/// Our environment, with all symbols bound at the start: else the first frame of an engine in shared
+/// libraries pays for its linking.
+std::vector<std::string> boundAtStart() {
+  std::vector<std::string> settings{"LD_BIND_NOW=1"};
+  for (char** entry = environ; *entry; ++entry) settings.emplace_back(*entry);
+  return settings;
+}
+
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 /// What the program prints, empty if it cannot be started.
 std::string outputOf(std::vector<std::string> words) {
   int ends[2];
@@ -33,11 +48,11 @@ std::string outputOf(std::vector<std::string> words) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, to.get(), STDOUT_FILENO);
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
+  std::vector<std::string> settings = boundAtStart();
+  const std::vector<char*> arguments = pointersTo(words), environment = pointersTo(settings);
   pid_t child = 0;
-  const int wrong = posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  const int wrong =
+      posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
   to.close();
   if (wrong) return {};
