@@ -166,15 +166,19 @@ Path Path::hermite(const Vec3 (&s)[3], const Vec3 (&e)[3], double h) {
   return path;
 }
 
-Vec3 Path::position(double t) const {
-  if (kind == Kind::Damped) {
-    double f, g;
-    decay(damping * t, f, g);
-    return c[0] + t * (f * c[1] + t * g * c[2]);
-  }
-  if (degree <= 2) return c[0] + t * (c[1] + t * c[2]);
+Vec3 Path::curvedPosition(double t) const {
   if (isSeries()) return sumOf<false>(*this, t);
-  // Even and odd powers apart: two short chains instead of a long one.
+  return kind == Kind::Damped ? dampedPosition(t) : polynomialPosition(t);
+}
+
+Vec3 Path::dampedPosition(double t) const {
+  double f, g;
+  decay(damping * t, f, g);
+  return c[0] + t * (f * c[1] + t * g * c[2]);
+}
+
+/// Even and odd powers apart: two short chains instead of a long one.
+Vec3 Path::polynomialPosition(double t) const {
   const double square = t * t;
   int i = degree & ~1;
   Vec3 even = c[static_cast<std::size_t>(i)];
@@ -237,7 +241,7 @@ Spin Spin::driven(const Quat& q, const Vec3& omega, const Vec3& alpha, double in
   return s;
 }
 
-Quat Spin::orientation(double t) const {
+Quat Spin::turnedOrientation(double t) const {
   switch (kind) {
   case Kind::Still: return q0;
   case Kind::Uniform: return renormalised(det::expRotation(t * omega) * q0);

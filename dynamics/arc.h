@@ -38,7 +38,9 @@ struct Path {
   /// Quintic through position, velocity and acceleration at both ends of a step of h seconds.
   static Path hermite(const Vec3 (&start)[3], const Vec3 (&end)[3], double h);
 
-  Vec3 position(double age) const;
+  Vec3 position(double age) const {
+    return isParabola() ? Vec3(c[0] + age * (c[1] + age * c[2])) : curvedPosition(age);
+  }
   Vec3 velocity(double age) const;
   /// Sets `spare` for ages up to `horizon`.
   void boundAcceleration(double horizon);
@@ -46,6 +48,11 @@ struct Path {
   double accelerationBound() const;
   bool isSeries() const { return degree == kMostDegree; }
   bool isParabola() const { return kind == Kind::Polynomial && degree <= 2; }
+
+private:
+  Vec3 curvedPosition(double age) const;
+  Vec3 dampedPosition(double age) const;
+  Vec3 polynomialPosition(double age) const;
 };
 
 /// What every kind of spin has; see Spin.
@@ -80,7 +87,7 @@ struct Spin : SpinTerms {
   /// A ball under constant torque.
   static Spin driven(const Quat& q, const Vec3& omega, const Vec3& alpha, double inertia);
 
-  Quat orientation(double age) const;
+  Quat orientation(double age) const { return kind == Kind::Still ? q0 : turnedOrientation(age); }
   Vec3 angularVelocity(double age) const;
   Vec3 angularVelocity(double age, const Quat& orientation) const;  ///< if that is known already
   Vec3 angularMomentum(double age) const;
@@ -88,6 +95,7 @@ struct Spin : SpinTerms {
   double speedBound(double age) const;
 
 private:
+  Quat turnedOrientation(double age) const;
   void copySeries(const Spin& o) {
     if (kind == Kind::Taylor) series = o.series;
   }

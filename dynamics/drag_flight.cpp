@@ -76,7 +76,8 @@ double dragFlight(const Vec3& p, const Vec3& v, const Vec3& pull, const Drag& dr
   // |u| must not reach zero: the series would go on with the root's other sign.
   const double most = pull.norm() + (drag.linear + drag.quadratic * speed) * speed;
   if (drag.quadratic > 0 && most > 0) horizon = std::min(horizon, 0.95 * speed / most);
-  path.boundAcceleration(horizon);
+  const double fastest = speed + pull.norm() * horizon;  // drag only slows it
+  path.spare = pull.norm() + (drag.linear + drag.quadratic * fastest) * fastest;
   return horizon;
 }
 

@@ -92,6 +92,7 @@ struct Exposed {
 struct Drag {
   double linear = 0, quadratic = 0;
   Vec3 wind = Vec3::Zero();  ///< in World [m/s]
+  bool resists() const { return linear != 0 || quadratic != 0; }
   Vec3 at(const Vec3& v) const { return -(linear + quadratic * (v - wind).norm()) * (v - wind); }
 };
 Drag dragOf(const MediumField& medium, const Quat& q_WF, double mass, double dragArea);

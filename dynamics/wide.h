@@ -22,8 +22,7 @@ inline Vec3 firstThree(const Wide& w) {
 
 /// Whether this machine has AVX2.
 inline bool hasWide() {
-  static const bool has = __builtin_cpu_supports("avx2") != 0;
-  return has;
+  return __builtin_cpu_supports("avx2") != 0;
 }
 
 }  // namespace stadion

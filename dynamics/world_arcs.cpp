@@ -70,18 +70,25 @@ double World::Core::knownFor(const RigidBody& b, double tau) const {
   return kForever;
 }
 
-/// The drag on a body that feels constant pulls and one medium that is the same everywhere.
-std::optional<Drag> World::Core::evenDragOn(const RigidBody& b) const {
-  std::optional<Drag> drag;
+/// What acts on a body that feels nothing but constant pulls and at most one medium that is the same
+/// everywhere.
+std::optional<World::Core::EvenPull> World::Core::evenPullOn(const RigidBody& b) const {
+  EvenPull even;
+  bool immersed = false;
   for (const Hook& h : b.hooks) {
     const FieldEntry* f = fields.find(h.field);
-    if (!f || !f->on || f->field.uniform()) continue;
+    if (!f || !f->on) continue;
+    if (f->field.uniform()) {
+      even.pull += accelerationOf(f->field, {b.mass, b.dragArea}, 1);
+      continue;
+    }
     const MediumField* medium = f->field.evenMedium();
-    if (!medium || drag) return {};
-    drag = dragOf(*medium, f->field.end.q, b.mass, b.dragArea);
-    drag->wind *= f->field.last;
+    if (!medium || immersed) return {};
+    immersed = true;
+    even.drag = dragOf(*medium, f->field.end.q, b.mass, b.dragArea);
+    even.drag.wind *= f->field.last;
   }
-  return drag;
+  return even;
 }
 
 void World::Core::setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon,
@@ -154,16 +161,15 @@ void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec
 
 /// Flight from here; the spin goes on as it is.
 void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
-  const auto drag = evenDragOn(b);
-  if (drag ? drag->linear == 0 && drag->quadratic == 0 : uniformFor(b)) {
-    setPath(b, tau, Path::parabola(p, v, accelerationAt(b, p, v, tau), b.damping), kForever,
-            BodyMode::Flight);
+  const auto even = evenPullOn(b);
+  if (even && !even->drag.resists()) {
+    setPath(b, tau, Path::parabola(p, v, even->pull, b.damping), kForever, BodyMode::Flight);
     return;
   }
-  if (drag) {
-    const Vec3 pull = accelerationAt(b, p, drag->wind, tau) - b.damping * drag->wind;
-    const Drag total{drag->linear + b.damping, drag->quadratic, drag->wind};
-    const double horizon = dragFlight(p, v, pull, total, 1.0, 1e-10, b.path);
+  if (even) {
+    const Drag total{even->drag.linear + b.damping, even->drag.quadratic, even->drag.wind};
+    const Vec3 pull = even->pull - b.damping * total.wind;
+    const double horizon = dragFlight(p, v, pull, total, 1.0, 5e-10, b.path);
     if (horizon > 1e-4) return setPath(b, tau, b.path, horizon, BodyMode::Flight);
   }
   const auto f = [&](double at, const Vec3& x, const Vec3& u) {
@@ -180,6 +186,14 @@ void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   b.step = h * (error > 0 ? std::clamp(0.9 * det::pow(tolerance / error, 0.2), 0.3, 4.0) : 4.0);
   const Vec3 from[3] = {p, v, f(tau, p, v)}, to[3] = {end.p, end.v, f(tau + h, end.p, end.v)};
   setPath(b, tau, Path::hermite(from, to, h), h, BodyMode::Flight);
+}
+
+/// The same where the spin began earlier, unless it ends here as well.
+void World::Core::continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
+  const double spinAge = b.spinAge(tau);
+  if (spinAge > b.spin.horizon - 1e-9) return startFlight(b, tau, p, v, b.orientation(tau), b.spin.L);
+  b.spinStart = -spinAge;
+  fly(b, tau, p, v);
 }
 
 /// How long a ball stays at rest on its face: until what pulls at it, as far as that is known, becomes too
@@ -247,10 +261,11 @@ void World::Core::startOnFace(RigidBody& b, double tau, const BallStart& s, bool
 /// A new arc from the present state, because what acts on the body has changed.
 void World::Core::restart(RigidBody& b, double tau) {
   switch (b.mode) {
-  case BodyMode::Flight:
-    startFlight(b, tau, b.position(tau), b.velocity(tau), b.orientation(tau),
-                b.spin.angularMomentum(b.spinAge(tau)));
+  case BodyMode::Flight: {
+    const Vec3 p = b.position(tau), v = b.velocity(tau);
+    continueFlight(b, tau, p, v);
     break;
+  }
   case BodyMode::Slide:
   case BodyMode::Roll:
   case BodyMode::Rest:
@@ -340,9 +355,7 @@ void World::Core::reachHorizon(RigidBody& b, double tau) {
       startOnFace(b, tau, s, gripped, stopped);
     }
   } else {
-    b.spinStart = -b.spinAge(tau);
-    fly(b, tau, p, v);
-    if (b.validAge < 1e-9) startFlight(b, tau, p, v, q, b.spin.L);  // both ended
+    continueFlight(b, tau, p, v);
   }
   predict(b, tau);
 }

@@ -106,6 +106,8 @@ public:
   void settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& touching);
   void wakeWithin(Party arrived);
   void runEvents(double until);
+  void fetchNext() const;
+  void sample(RigidBody& b);
   void endFrame();
   void partCarried();
   void insert(Command c);
@@ -140,10 +142,15 @@ public:
   bool uniformFor(const RigidBody& b) const;
   double knownFor(const RigidBody& b, double tau) const;
   double restLasts(const RigidBody& b, const BallStart& s, double tau) const;
-  std::optional<Drag> evenDragOn(const RigidBody& b) const;
+  struct EvenPull {
+    Vec3 pull = Vec3::Zero();  ///< [m/s2]
+    Drag drag;
+  };
+  std::optional<EvenPull> evenPullOn(const RigidBody& b) const;
   void setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon, BodyMode mode);
   void setPath(RigidBody& b, double tau, const Path& path, double horizon, BodyMode mode);
   void fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
+  void continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
   void startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, const Quat& q, const Vec3& L);
   BallArc arcOnFace(const RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped) const;
   void startOnFace(RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped);
