@@ -189,7 +189,7 @@ Vec3 Path::polynomialPosition(double t) const {
   return even + t * odd;
 }
 
-Vec3 Path::velocity(double t) const {
+Vec3 Path::curvedVelocity(double t) const {
   if (kind == Kind::Damped) {
     double f, g;
     decay(damping * t, f, g);

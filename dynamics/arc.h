@@ -41,7 +41,7 @@ struct Path {
   Vec3 position(double age) const {
     return isParabola() ? Vec3(c[0] + age * (c[1] + age * c[2])) : curvedPosition(age);
   }
-  Vec3 velocity(double age) const;
+  Vec3 velocity(double age) const { return isParabola() ? Vec3(c[1] + 2 * age * c[2]) : curvedVelocity(age); }
   /// Sets `spare` for ages up to `horizon`.
   void boundAcceleration(double horizon);
   /// At least the magnitude of the acceleration at any age within the horizon.
@@ -51,6 +51,7 @@ struct Path {
 
 private:
   Vec3 curvedPosition(double age) const;
+  Vec3 curvedVelocity(double age) const;
   Vec3 dampedPosition(double age) const;
   Vec3 polynomialPosition(double age) const;
 };

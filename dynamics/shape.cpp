@@ -42,4 +42,23 @@ Sphere boundingSphere(const Shape& shape) {
   return std::visit(Visitor{}, shape);
 }
 
+Aabb boundingBox(const Shape& shape, const Pose& X) {
+  const auto turned = [&](const Pose& F, const Vec3& half) {
+    const Pose whole = X * F;
+    const Vec3 reach = whole.q.toRotationMatrix().cwiseAbs() * half;
+    return Aabb{whole.p - reach, whole.p + reach};
+  };
+  if (const auto* box = std::get_if<BoxShape>(&shape)) return turned(box->pose, box->half);
+  if (const auto* plane = std::get_if<PlaneShape>(&shape); plane && plane->bounded())
+    return turned(plane->pose, {plane->half.x(), plane->half.y(), plane->half.minCoeff()});
+  if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
+    const Aabb& b = mesh->tree.bounds();
+    return turned({b.centre(), Quat::Identity()}, 0.5 * (b.hi - b.lo));
+  }
+  const Sphere s = boundingSphere(shape);
+  if (!std::isfinite(s.radius)) return {Vec3::Constant(-1e300), Vec3::Constant(1e300)};
+  const Vec3 c = X * s.centre;
+  return {c.array() - s.radius, c.array() + s.radius};
+}
+
 }  // namespace stadion

@@ -83,6 +83,8 @@ Result<ShapeChoice> chooseShape(const Mesh& mesh, ShapeKind requested = ShapeKin
 
 /// Everything of the shape is inside this ball. Infinite radius for an unbounded plane.
 Sphere boundingSphere(const Shape& shape);
+/// Everything of the shape at X is inside this box, for sheets also what has sunk below them.
+Aabb boundingBox(const Shape& shape, const Pose& X);
 const char* nameOf(ShapeKind kind);
 
 }  // namespace stadion

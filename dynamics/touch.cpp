@@ -1,6 +1,8 @@
 #include "dynamics/touch.h"
 
+#include "dynamics/ball_touch.h"
 #include "dynamics/convex_touch.h"
+#include "dynamics/first_root.h"
 #include "dynamics/nearest_surface.h"
 #include "dynamics/polyhedra.h"
 
@@ -9,39 +11,6 @@
 
 namespace stadion {
 namespace {
-
-struct Probe {
-  double gap, rate;
-};
-
-/// The first tau in [from, to] at which the gap closes; see the header. `acceleration` bounds |gap''| from
-/// below.
-template <class F>
-std::optional<double> firstRoot(F probe, double from, double to, double acceleration, double tolerance,
-                                std::uint64_t& iterations) {
-  double tau = from;
-  for (int i = 0; i < 200; ++i) {
-    ++iterations;
-    Probe p = probe(tau);
-    if (!(p.gap == p.gap) || !(p.rate == p.rate)) return {};
-    if (p.gap <= tolerance) {
-      if (p.rate < 0) return tau;
-      p.gap = 0;
-    }
-    const double root = std::sqrt(p.rate * p.rate + 2 * acceleration * p.gap);
-    double step;
-    if (p.rate < 0) {
-      step = 2 * p.gap / (root - p.rate);
-    } else if (acceleration > 0) {
-      step = (p.rate + root) / acceleration;
-    } else {
-      return {};
-    }
-    tau += std::max(step, 1e-12);
-    if (!(tau <= to)) return {};
-  }
-  return tau;  // grazing: as good as touching
-}
 
 struct Local {
   double distance;
@@ -142,6 +111,17 @@ Vec3 ballCentre(const Side& s, const Kinematics& k) {
   return k.pose * std::get<BallShape>(*s.shape).centre;
 }
 
+/// The centre of a ball, and its velocity.
+struct Centre {
+  Vec3 p, v;
+};
+Centre centreAt(const Side& s, double tau) {
+  if (isFreeBall(s) && s.body) return {s.body->position(tau), s.body->velocity(tau)};
+  const Kinematics k = s.at(tau);
+  const Vec3 c = ballCentre(s, k);
+  return {c, k.velocityAt(c)};
+}
+
 /// A still plane under a parabola has a closed form; nothing if it is not that.
 std::optional<std::optional<Touch>> planeRoot(const Side& ball, const Side& plane, double from, double to) {
   const auto& s = std::get<PlaneShape>(*plane.shape);
@@ -175,6 +155,26 @@ std::optional<std::optional<Touch>> planeRoot(const Side& ball, const Side& plan
 struct Flight {
   Vec3 p, v, a;
 
+  /// Seconds until h + u t + b t^2 / 2 falls to 0, from h >= 0; infinity if it is not within `most`.
+  static double fall(double h, double u, double b, double most) {
+    const double d = u * u - 2 * b * h;
+    if (d < 0 || (u >= 0 && b >= 0)) return std::numeric_limits<double>::infinity();
+    const double time = u < 0 ? 2 * h / (std::sqrt(d) - u) : (u + std::sqrt(d)) / -b;
+    return time <= most ? time : std::numeric_limits<double>::infinity();
+  }
+
+  /// The same until it is as near as r to each pair of a box's faces: no sooner can it touch the box.
+  double timeToBox(const BoxShape& box, double r, double most) const {
+    const Quat back = box.pose.q.conjugate();
+    const Vec3 at = back * (p - box.pose.p), u = back * v, b = back * a;
+    double time = 0;
+    for (int i = 0; i < 3 && time <= most; ++i) {
+      const double h = std::fabs(at[i]) - box.half[i] - r;
+      if (h > 0) time = std::max(time, at[i] < 0 ? fall(h, -u[i], -b[i], most) : fall(h, u[i], b[i], most));
+    }
+    return time;
+  }
+
   /// Seconds until it is as near as r to the triangle's plane, from either side; 0 if it is already, infinity
   /// if it is not within `most`.
   double timeToPlane(const Triangle& t, double r, double most) const {
@@ -183,11 +183,7 @@ struct Flight {
     if (h < 0) h = -h, u = -u, b = -b;
     h -= r;
     if (h <= 0 && !(u > 0 && h > -kLeaves)) return 0;
-    h = std::max(h, 0.0);
-    const double d = u * u - 2 * b * h;
-    if (d < 0 || (u >= 0 && b >= 0)) return std::numeric_limits<double>::infinity();
-    const double time = u < 0 ? 2 * h / (std::sqrt(d) - u) : (u + std::sqrt(d)) / -b;
-    return time <= most ? time : std::numeric_limits<double>::infinity();
+    return fall(std::max(h, 0.0), u, b, most);
   }
 };
 
@@ -254,20 +250,27 @@ std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from,
       return *exact;
     }
   }
-  const Kinematics kb = ball.at(from), ko = other.at(from);
-  const Vec3 c0 = ballCentre(ball, kb);
+  double begin = from;
+  if (const auto* box = std::get_if<BoxShape>(other.shape)) {
+    if (const auto flight = flightOf(ball, other, from)) begin += flight->timeToBox(*box, r, to - from);
+    if (!(begin <= to)) return {};
+  }
+  const Kinematics ko = other.at(from);
+  const Vec3 c0 = centreAt(ball, from).p;
   const double bound = relativeAcceleration(ball, other, from, to, (c0 - ko.p).norm());
   if (std::holds_alternative<MeshShape>(*other.shape))
     return ballOnMesh(ball, other, ko, from, to, bound, count);
+  Gap gap;
   const auto probe = [&](double tau) {
-    const Kinematics b = ball.at(tau), o = other.at(tau);
-    const Vec3 c = ballCentre(ball, b);
-    const Gap g = ballGap(c, r, *other.shape, o.pose);
-    return Probe{g.distance, g.normal.dot(b.velocityAt(c) - o.velocityAt(g.point))};
+    const Centre c = centreAt(ball, tau);
+    const Kinematics o = other.at(tau);
+    gap = ballGap(c.p, r, *other.shape, o.pose);
+    return Probe{gap.distance, gap.normal.dot(c.v - o.velocityAt(gap.point))};
   };
-  const auto tau = firstRoot(probe, from, to, bound, touchTolerance(c0), count);
+  const auto tau = firstRoot(probe, begin, to, bound, touchTolerance(c0), count);
   if (!tau) return {};
-  return Touch{*tau, ballGap(ballCentre(ball, ball.at(*tau)), r, *other.shape, other.at(*tau).pose), false};
+  probe(*tau);
+  return Touch{*tau, gap, false};
 }
 
 /// A mesh's corners against a plane, each on its own path.
@@ -345,6 +348,7 @@ Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X
 }
 
 std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, double to, std::uint64_t& count) {
+  if (isBall(a) && isBall(b) && isFreeBall(a) && isFreeBall(b)) return ballsTouch(a, b, from, to, count);
   if (isBall(a)) return ballTouch(a, b, from, to, count);
   const auto flipped = [](std::optional<Touch> t) {
     if (t) flip(t->gap), t->swapped = true;
@@ -363,9 +367,12 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
 }
 
 Gap gapBetween(const Side& a, const Side& b, double tau, Within within) {
+  if (isBall(a)) {
+    if (isBall(b) && isFreeBall(a) && isFreeBall(b)) return ballsGap(a, b, tau);
+    return ballGap(centreAt(a, tau).p, std::get<BallShape>(*a.shape).radius, *b.shape, b.at(tau).pose,
+                   within);
+  }
   const Kinematics ka = a.at(tau), kb = b.at(tau);
-  if (isBall(a))
-    return ballGap(ballCentre(a, ka), std::get<BallShape>(*a.shape).radius, *b.shape, kb.pose, within);
   const bool swap = isBall(b) || (isPlane(a) && !isPlane(b)) || (!isConvex(*a.shape) && isConvex(*b.shape));
   if (swap && !isPlane(b)) {
     Gap g = gapBetween(b, a, tau, within);

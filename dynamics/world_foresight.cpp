@@ -212,7 +212,13 @@ void World::Core::fileColliders() {
 
 void World::Core::sweep(Collider& c) {
   if (!c.enabled) return nearColliders.remove(c);
-  c.swept = sweptBox(Side::of(c), frameFrom, std::max(frameFrom, now));
+  if (c.motion.moving) {
+    c.swept = sweptBox(Side::of(c), frameFrom, std::max(frameFrom, now));
+  } else {
+    constexpr double margin = 2e-5;  // so that whoever touches it at load is seen
+    c.swept = boundingBox(*c.shape, c.motion.end);
+    c.swept.lo.array() -= margin, c.swept.hi.array() += margin;
+  }
   nearColliders.put(c, c.swept);
 }
 
