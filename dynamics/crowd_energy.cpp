@@ -7,7 +7,7 @@ namespace stadion {
 namespace {
 
 constexpr double kRounding = 1e-13;    ///< relative excess that is none
-constexpr double kMotionSpent = 0.02;  ///< share of a group's energy of motion that a shift may use
+constexpr double kMotionSpent = 0.05;  ///< share of a group's energy of motion that a shift may use
 
 }  // namespace
 

@@ -111,6 +111,7 @@ struct RigidBody {
   std::vector<Pressed> presses;  ///< Contact: forces of the last step on the points of this body
   double dueAge = 0;             ///< Contact: age at which the solver looks again; 0: at once [s]
   bool crowd = false;            ///< Contact: one of many, advanced together with them
+  bool drowsy = false;           ///< crowd: it falls asleep when the present step is over
   bool heaped = false;           ///< Rest: it fell asleep as one of them
   Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< crowd: how far since it is quiet [m], [rad]
   std::uint32_t slot = 0;                           ///< scratch of the contact solver

@@ -120,6 +120,7 @@ void World::Core::setPath(RigidBody& b, double tau, const Path& path, double hor
   b.pathAge = horizon;
   b.validAge = std::min(horizon, b.spinStart + b.spin.horizon);
   b.dueAge = 0;
+  b.drowsy = false;
   b.heaped = b.crowd && mode == BodyMode::Rest;
   b.crowd = b.crowd && mode == BodyMode::Contact;
   b.until = tau + b.validAge;

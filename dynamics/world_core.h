@@ -211,7 +211,8 @@ public:
   bool wakeTouched(const std::vector<Found>& found, double tau);
   void remember(RigidBody& b, const std::vector<Party>& near);
   // --- many bodies in one heap (world_crowd.cpp)
-  Nanoseconds crowdGrid = 8'000'000;               ///< their steps end on multiples of this show time
+  /// Their steps end on multiples of this show time: 1/120 s, so that frames of 60 Hz have two steps each.
+  Nanoseconds crowdGrid = 8'333'333;
   static constexpr std::size_t kCrowd = 16;        ///< islands with so many bodies become one
   static constexpr std::size_t kCrowdOfBalls = 5;  ///< the same if they are balls
   struct CrowdStep;

@@ -10,6 +10,7 @@ namespace {
 constexpr double kTouching = 1e-4;    ///< pairs closer than this are in contact [m]
 constexpr double kParted = 1e-3;      ///< and those farther than this no longer [m]
 constexpr std::size_t kLeast = 4;     ///< a smaller crowd is none any more
+constexpr double kLeaving = 0.1;      ///< the least speed of who may leave a heap for good [m/s]
 constexpr double kDue = 1e-9;         ///< times as near as this are the same [s]
 constexpr double kQuietWay = 1.2e-3;  ///< a surface point that stays within this is quiet [m]
 constexpr double kQuietTime = 0.3;    ///< before a body sleeps among quiet ones [s]
@@ -187,14 +188,13 @@ void World::Core::concludeCrowd(CrowdStep& step) {
     }
     followCrowd(step, i);
     if (b.mode != BodyMode::Contact) continue;
-    if (may[i])
-      freeze(b, tau), predict(b, tau);
-    else
-      sweep(b, tau);
+    b.drowsy = may[i] != 0;  // not at once: the others' motion counts on its own
+    sweep(b, tau);
   }
 }
 
-/// Too few are left: they go on as an island.
+/// Too few are left: they go on as an island. (Not those that hardly move: an island takes overlap back
+/// whether or not their motion pays for it.)
 void World::Core::dissolveCrowd(const std::vector<RigidBody*>& due, double tau) {
   for (RigidBody* b : due) {
     const Vec3 L = momentumOf(*b, tau);
@@ -216,9 +216,14 @@ void World::Core::advanceCrowd(double tau) {
     b->slot = CrowdStep::kNobody;
     if (b->crowd && b->enabled && b->dueAge <= b->age(tau) + kDue) due.push_back(b);
   }
-  if (due.empty()) return;
-  if (due.size() < kLeast && !isCrowd(due, tau)) return dissolveCrowd(due, tau);
   std::ranges::sort(due, {}, &RigidBody::id);
+  for (RigidBody* b : due)
+    if (b->drowsy) freeze(*b, tau), predict(*b, tau);
+  std::erase_if(due, [](const RigidBody* b) { return b->mode != BodyMode::Contact; });
+  if (due.empty()) return;
+  const auto leaves = [&](const RigidBody* b) { return b->velocity(tau).norm() > kLeaving; };
+  if (due.size() < kLeast && std::ranges::any_of(due, leaves) && !isCrowd(due, tau))
+    return dissolveCrowd(due, tau);
   for (RigidBody* b : due) joinCrowd(*b, step);
   for (std::size_t i = 0; i < step.members.size(); ++i) findCrowdContacts(*step.members[i].body, step);
   crowd.members = step.members.size();
