@@ -1,6 +1,7 @@
 #include "dynamics/crowd_solver.h"
 
 #include "dynamics/crowd_energy.h"
+#include "dynamics/wide.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,21 @@ constexpr double kShare = 0.3;        ///< of deeper overlap that a step takes b
 constexpr double kMostShift = 2e-3;   ///< in a step [m]
 constexpr double kBounceSpeed = 0.5;  ///< slower approaches do not bounce [m/s]
 
+/// Three numbers and the one behind them.
+inline WideAnywhere& wide(Vec3& v) {
+  return *reinterpret_cast<WideAnywhere*>(v.data());
+}
+/// Of the first three.
+inline double dot(const Wide& a, const Wide& b) {
+  const Wide each = a * b;
+  return each[0] + each[1] + each[2];
+}
+inline void cross(const Wide& a, const Wide& b, Wide& product) {
+  const Wide nextA{a[1], a[2], a[0], a[3]}, nextB{b[1], b[2], b[0], b[3]};
+  const Wide turned = a * nextB - nextA * b;  // (z, x, y)
+  product = Wide{turned[1], turned[2], turned[0], turned[3]};
+}
+
 class CrowdSolver {
 public:
   explicit CrowdSolver(Crowd& crowd) : crowd_(crowd), energy_(crowd) {}
@@ -30,7 +46,8 @@ private:
   void prepare(CrowdContact& c) const;
   void give(const CrowdContact& c, const Vec3& impulse);
   double relax(CrowdContact& c);
-  double relaxRound(CrowdContact& c);
+  double sweepAll(bool forward);
+  double sweepWide(bool forward);
   double sweep(bool forward);
   double meanSquare() const;
   void jump();
@@ -113,35 +130,45 @@ double CrowdSolver::relax(CrowdContact& c) {
 }
 
 /// The same where both sides are balls, or moved by nothing: the normal does not turn them.
-inline double CrowdSolver::relaxRound(CrowdContact& c) {
-  CrowdBody &a = crowd_.bodies[c.a], &b = crowd_.bodies[c.b];
-  const Vec3 apart = a.v - b.v;
-  const double un = apart.dot(c.n), pressed = std::max(0.0, c.pressed + (c.floor - un) * c.normalMass);
+[[gnu::always_inline]] inline double relaxRound(CrowdContact& c, std::vector<CrowdBody>& bodies) {
+  constexpr Wide kThree{1, 1, 1, 0};
+  CrowdBody &a = bodies[c.a], &b = bodies[c.b];
+  const Wide n = wide(c.n), va = wide(a.v), vb = wide(b.v), apart = va - vb;
+  const double un = dot(apart, n), pressed = std::max(0.0, c.pressed + (c.floor - un) * c.normalMass);
   if (pressed == 0 && c.pressed == 0) return 0;
-  const Vec3 rolls = c.leverA * a.omega + c.leverB * b.omega;
-  Vec3 held = c.held - c.tangentMass * (apart - un * c.n - rolls.cross(c.n));
-  const double most = c.friction * pressed, size = held.squaredNorm();
+  const Wide wa = wide(a.omega), wb = wide(b.omega), before = wide(c.held);
+  const Wide rolls = c.leverA * wa + c.leverB * wb;
+  Wide across, turn;
+  cross(rolls, n, across);
+  Wide held = before - c.tangentMass * (apart - un * n - across);
+  const double most = c.friction * pressed, size = dot(held, held);
   if (size > most * most) held *= most / std::sqrt(size);
-  const Vec3 step = (pressed - c.pressed) * c.n + (held - c.held);
-  c.pressed = pressed, c.held = held;
-  const Vec3 turn = c.n.cross(step);
-  a.v += a.inverseMass * step, b.v -= b.inverseMass * step;
-  a.omega -= a.roundInertia * c.leverA * turn, b.omega -= b.roundInertia * c.leverB * turn;
+  const Wide step = kThree * ((pressed - c.pressed) * n + (held - before));
+  held[3] = c.floor;
+  c.pressed = pressed, wide(c.held) = held;
+  cross(n, step, turn);
+  wide(a.v) = va + a.inverseMass * step, wide(b.v) = vb - b.inverseMass * step;
+  wide(a.omega) = wa - a.roundInertia * c.leverA * turn;
+  wide(b.omega) = wb - b.roundInertia * c.leverB * turn;
   const double mass = std::max(a.inverseMass, b.inverseMass);
-  return step.squaredNorm() * mass * mass;
+  return dot(step, step) * mass * mass;
 }
 
-double CrowdSolver::sweep(bool forward) {
+[[gnu::always_inline]] inline double CrowdSolver::sweepAll(bool forward) {
   double change = 0;
-  const auto visit = [&](CrowdContact& c) {
-    change = std::max(change, c.arms < 0 ? relaxRound(c) : relax(c));
-  };
   std::vector<CrowdContact>& all = crowd_.contacts;
-  if (forward)
-    for (CrowdContact& c : all) visit(c);
-  else
-    for (std::size_t k = all.size(); k-- > 0;) visit(all[k]);
+  const std::size_t n = all.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    CrowdContact& c = all[forward ? i : n - 1 - i];
+    change = std::max(change, c.arms < 0 ? relaxRound(c, crowd_.bodies) : relax(c));
+  }
   return change;
+}
+[[gnu::target("avx2")]] double CrowdSolver::sweepWide(bool forward) {
+  return sweepAll(forward);
+}
+double CrowdSolver::sweep(bool forward) {
+  return hasWide() ? sweepWide(forward) : sweepAll(forward);
 }
 
 /// Of the members' speeds at the step's start [m2/s2].

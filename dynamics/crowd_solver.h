@@ -19,9 +19,11 @@
 
 namespace stadion {
 
+/// Behind every three numbers lies a fourth, so that the solver reads four at once.
 struct CrowdBody {
-  Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
+  Vec3 v = Vec3::Zero();
   double inverseMass = 0;
+  Vec3 omega = Vec3::Zero();
   double roundInertia = 0;  ///< inverse, of balls; 0: see Crowd::inverseInertia
 };
 
@@ -30,11 +32,11 @@ struct CrowdContact {
   Vec3 n = Vec3::UnitZ();         ///< from b to a
   double pressed = 0;             ///< impulse on a along n [N s]
   Vec3 held = Vec3::Zero();       ///< impulse on a across n [N s]
+  double floor = 0;               ///< least normal velocity [m/s]
   double leverA = 0, leverB = 0;  ///< round: how far the centres are from the point, along n [m]
   double friction = 0, restitution = 0;
   double rolling = 0;  ///< moment that resists a's spin, per force along n [m]
   double gap = 0;      ///< [m]
-  double floor = 0;    ///< least normal velocity [m/s]
   double normalMass = 0, tangentMass = 0;
   std::int32_t arms = -1;  ///< index into Crowd::arms; -1: round
 };
