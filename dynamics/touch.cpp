@@ -1,5 +1,6 @@
 #include "dynamics/touch.h"
 
+#include "dynamics/ball_flight.h"
 #include "dynamics/convex_touch.h"
 #include "dynamics/nearest_surface.h"
 #include "dynamics/polyhedra.h"
@@ -171,35 +172,6 @@ std::optional<std::optional<Touch>> planeRoot(const Side& ball, const Side& plan
   return touchAt(t);
 }
 
-/// A ball that flies along a parabola about its own centre, in the frame of what stands still.
-struct Flight {
-  Vec3 p, v, a;
-
-  /// Seconds until it is as near as r to the triangle's plane, from either side; 0 if it is already, infinity
-  /// if it is not within `most`.
-  double timeToPlane(const Triangle& t, double r, double most) const {
-    constexpr double kLeaves = 1e-9;  ///< so deep it has just bounced [m]
-    double h = t.normal.dot(p - t.v[0]), u = t.normal.dot(v), b = t.normal.dot(a);
-    if (h < 0) h = -h, u = -u, b = -b;
-    h -= r;
-    if (h <= 0 && !(u > 0 && h > -kLeaves)) return 0;
-    h = std::max(h, 0.0);
-    const double d = u * u - 2 * b * h;
-    if (d < 0 || (u >= 0 && b >= 0)) return std::numeric_limits<double>::infinity();
-    const double time = u < 0 ? 2 * h / (std::sqrt(d) - u) : (u + std::sqrt(d)) / -b;
-    return time <= most ? time : std::numeric_limits<double>::infinity();
-  }
-};
-
-std::optional<Flight> flightOf(const Side& ball, const Side& other, double from) {
-  const RigidBody* b = ball.body;
-  if (!b || b->mode == BodyMode::Held || !other.still() || !b->path.isParabola() || !b->isCentred())
-    return {};
-  const Pose X = other.at(from).pose;
-  const Quat back = X.q.conjugate();
-  return Flight{back * (b->position(from) - X.p), back * b->velocity(from), back * Vec3(2 * b->path.c[2])};
-}
-
 std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinematics& ko, double from,
                                 double to, double bound, std::uint64_t& count) {
   const double r = std::get<BallShape>(*ball.shape).radius;
@@ -228,7 +200,7 @@ std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinem
     if (support && (ko.pose.q * t.normal).dot(support->normal) > 1 - 1e-7 &&
         std::fabs(support->normal.dot(ko.pose * t.v[0] - support->point)) < 1e-6)
       continue;  // what the ball already rolls on
-    const double begin = flight ? from + flight->timeToPlane(t, r, end - from) : from;
+    const double begin = flight ? from + flight->timeToPlane(t, end - from) : from;
     if (!(begin <= end)) continue;
     Gap last;
     const auto probe = [&](double tau) {

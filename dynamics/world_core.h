@@ -170,8 +170,9 @@ public:
 
   // --- who has parted (world_release.cpp)
   void reportReleases();
-  void foreseeRelease(const ContactMemory::Key& key, double tau);
-  void awaitRelease(ContactMemory::Memory& m, const Side& a, const Side& b, double distance,
+  bool nobodyNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const;
+  void foreseeRelease(ContactMemory::Waiting& w, double tau, std::int32_t triangle) const;
+  void awaitRelease(ContactMemory::Waiting& w, const Side& a, const Side& b, double distance,
                     double tau) const;
   Nanoseconds soonest(const Side& a, const Side& b, double distance, double tau) const;
 

@@ -179,7 +179,8 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
   if (tired) ++counters.limited;
   const Vec3 impulse = collide(ma, mb, x, n, ends ? 0 : pair.restitution, pair.friction);
-  const bool fired = memory.impact(key, timeAt(tau), x, outwards, closing, impulse.dot(n), frame);
+  ContactMemory::Waiting* waiting =
+      memory.impact(key, timeAt(tau), x, outwards, closing, impulse.dot(n), frame);
   if (Support face; onFace && ends && supportFor(a, *c, touch.gap, tau, face)) {
     BallStart s{a.position(tau), ma.v, ma.omega, a.orientation(tau)};
     s.v -= n * n.dot(s.v);
@@ -193,7 +194,7 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   if (ends) memory.setTouching(key, true);
   afterImpulse(a, ma, tau, ends);
   if (b) afterImpulse(*b, mb, tau, ends);
-  if (fired) foreseeRelease(key, tau);
+  if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
 }
 
 }  // namespace stadion

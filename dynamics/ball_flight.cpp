@@ -1,0 +1,81 @@
+#include "dynamics/ball_flight.h"
+
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// When u t + b t^2 / 2 first rises to g >= 0.
+double riseTime(double g, double u, double b) {
+  if (u <= 0) return b > 0 ? (std::sqrt(u * u + 2 * b * g) - u) / b : kNever;
+  const double d = u * u + 2 * b * g;
+  return d < 0 ? kNever : 2 * g / (u + std::sqrt(d));
+}
+
+}  // namespace
+
+double BallFlight::timeToPlane(const Triangle& t, double most) const {
+  constexpr double kLeaves = 1e-9;  ///< so deep it has just bounced [m]
+  double h = t.normal.dot(p - t.v[0]), u = t.normal.dot(v), b = t.normal.dot(a);
+  if (h < 0) h = -h, u = -u, b = -b;
+  h -= radius;
+  if (h <= 0 && !(u > 0 && h > -kLeaves)) return 0;
+  h = std::max(h, 0.0);
+  const double d = u * u - 2 * b * h;
+  if (d < 0 || (u >= 0 && b >= 0)) return kNever;
+  const double time = u < 0 ? 2 * h / (std::sqrt(d) - u) : (u + std::sqrt(d)) / -b;
+  return time <= most ? time : kNever;
+}
+
+BallFlight::Stay BallFlight::stayNear(const Vec3& on, const Vec3& normal, double far) const {
+  const double room = far + radius - normal.dot(p - on);
+  if (!(room > 0)) return {};
+  return {riseTime(room, normal.dot(v), normal.dot(a)), true, -1};
+}
+
+BallFlight::Stay BallFlight::stayNear(const TriangleTree& tree, std::int32_t triangle, double far) const {
+  constexpr int kMostFaces = 32;
+  constexpr double kBeside = 1e-9;  ///< so far beside a face counts as over it [m]
+  Stay stay{0, false, triangle};
+  for (int i = 0; i < kMostFaces; ++i) {
+    const Triangle& face = tree.triangles()[static_cast<std::size_t>(stay.triangle)];
+    const Vec3 x = at(stay.seconds), u = v + stay.seconds * a;
+    const double h = face.normal.dot(x - face.v[0]), hu = face.normal.dot(u), hb = face.normal.dot(a),
+                 room = far + radius;
+    if (!(std::fabs(h) < room)) return stay;
+    double least = std::min(riseTime(room - h, hu, hb), riseTime(room + h, -hu, -hb));
+    int edge = -1;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3& from = face.v[static_cast<std::size_t>(k)];
+      const Vec3 out = (face.v[static_cast<std::size_t>((k + 1) % 3)] - from).cross(face.normal);
+      const double beside = out.dot(x - from);
+      if (beside > 0 && beside * beside > kBeside * kBeside * out.squaredNorm()) return stay;
+      const double time = riseTime(std::max(-beside, 0.0), out.dot(u), out.dot(a));
+      if (time < least) least = time, edge = k;
+    }
+    stay.seconds += least;
+    if (edge < 0) {
+      stay.sure = true;
+      return stay;
+    }
+    const std::int32_t next = face.next[static_cast<std::size_t>(edge)];
+    if (next < 0) return stay;
+    stay.triangle = next;
+  }
+  return stay;
+}
+
+std::optional<BallFlight> flightOf(const Side& ball, const Side& other, double tau) {
+  const RigidBody* b = ball.body;
+  if (!b || b->mode == BodyMode::Held || !other.still() || !b->path.isParabola() || !b->isCentred())
+    return {};
+  const double age = b->age(tau);
+  const Vec3 p = b->path.position(age), v = b->path.velocity(age), a = 2 * b->path.c[2];
+  const Pose X = other.at(tau).pose;
+  const Quat back = X.q.conjugate();
+  return BallFlight{back * (p - X.p), back * v, back * a, b->radius()};
+}
+
+}  // namespace stadion
