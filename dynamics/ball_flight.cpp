@@ -16,6 +16,20 @@ double riseTime(double g, double u, double b) {
 
 }  // namespace
 
+Aabb BallFlight::around(double s, double t) const {
+  const Vec3 from = at(s), to = at(t);
+  Aabb box{from.cwiseMin(to), from.cwiseMax(to)};
+  for (int i = 0; i < 3; ++i) {
+    const double turn = -v[i] / a[i];
+    if (!(turn > s && turn < t)) continue;
+    const double x = p[i] + 0.5 * turn * v[i];
+    box.lo[i] = std::min(box.lo[i], x), box.hi[i] = std::max(box.hi[i], x);
+  }
+  const double margin = radius + 1e-9;
+  box.lo.array() -= margin, box.hi.array() += margin;
+  return box;
+}
+
 double BallFlight::timeToPlane(const Triangle& t, double most) const {
   constexpr double kLeaves = 1e-9;  ///< so deep it has just bounced [m]
   double h = t.normal.dot(p - t.v[0]), u = t.normal.dot(v), b = t.normal.dot(a);

@@ -13,10 +13,14 @@ struct BallFlight {
   double radius = 0;
 
   Vec3 at(double t) const { return p + t * (v + 0.5 * t * a); }
+  Vec3 velocityAt(double t) const { return v + t * a; }
 
   /// Seconds until it is as near as its radius to the triangle's plane, from either side; 0 if it is already,
   /// infinity if it is not within `most`.
   double timeToPlane(const Triangle& t, double most) const;
+
+  /// The box around it from s to t.
+  Aabb around(double s, double t) const;
 
   struct Stay {
     double seconds = 0;  ///< so long its gap is `far` at most

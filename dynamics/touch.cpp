@@ -172,12 +172,90 @@ std::optional<std::optional<Touch>> planeRoot(const Side& ball, const Side& plan
   return touchAt(t);
 }
 
+/// A flat face of a mesh that a ball already rolls on is nothing it can meet.
+class OwnFace {
+public:
+  OwnFace(const Side& ball, const Side& mesh, const Pose& X)
+      : support_(ball.body && ball.body->support.on == mesh.party && ball.body->support.on.id
+                     ? &ball.body->support
+                     : nullptr),
+        X_(X) {}
+  bool operator()(const Triangle& t) const {
+    return support_ && (X_.q * t.normal).dot(support_->normal) > 1 - 1e-7 &&
+           std::fabs(support_->normal.dot(X_ * t.v[0] - support_->point)) < 1e-6;
+  }
+
+private:
+  const Support* support_;
+  const Pose& X_;
+};
+
+/// Whether the ball's centre is in the mesh, farther than its radius from the surface.
+bool isInside(const BallFlight& flight, const MeshShape& mesh) {
+  const double r = flight.radius;
+  return mesh.tree.closed() && localGap(flight.p, r, mesh, {r}).distance < -r;
+}
+
+/// Whether x lies in the prism over the triangle.
+bool isOver(const Triangle& t, const Vec3& x) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (t.normal.cross(t.v[(i + 1) % 3] - t.v[i]).dot(x - t.v[i]) < 0) return false;
+  return true;
+}
+
+/// A ball in free flight against a mesh that stands still: the planes of faces in closed form, then edges and
+/// corners that come sooner.
+std::optional<Touch> flightOnMesh(const BallFlight& flight, const TriangleTree& tree, const OwnFace& isOwn,
+                                  const Pose& X, double from, double to, double tolerance,
+                                  std::uint64_t& count) {
+  struct Reached {
+    std::uint32_t triangle;
+    double from, to;
+  };
+  std::vector<Reached> beside;  // whose planes it reaches, but not in the triangle
+  std::int32_t hit = -1;
+  double best = to - from;
+  const auto seize = [&](std::uint32_t i, double time) { hit = static_cast<std::int32_t>(i), best = time; };
+  // What is met as soon as something else is met will be met after that.
+  const auto late = [&](double time) { return hit >= 0 && time + 1e-12 >= best; };
+  tree.eachOnWay(
+      0, best, [&](double s, double t) { return flight.around(s, t); },
+      [&](std::uint32_t i, double s, double t) {
+        const Triangle& face = tree.triangles()[i];
+        const double plane = flight.timeToPlane(face, t);
+        if (!(plane <= t) || late(plane) || isOwn(face)) return best;
+        ++count;
+        if (plane <= 0 || !isOver(face, flight.at(plane)))
+          beside.push_back({i, std::max(plane, s), t});
+        else if (plane >= s)
+          seize(i, plane);
+        return best;
+      });
+  const auto gapAt = [&](std::uint32_t i, double t) {
+    return triangleGap(flight.at(t), flight.radius, tree.triangles()[i], static_cast<std::int32_t>(i), false);
+  };
+  const double bound = flight.a.norm();
+  for (const Reached& near : beside) {
+    if (late(near.from)) continue;
+    const auto probe = [&](double time) {
+      const Local l = gapAt(near.triangle, time);
+      return Probe{l.distance, l.normal.dot(flight.velocityAt(time))};
+    };
+    const auto time = firstRoot(probe, near.from, std::min(near.to, best), bound, tolerance, count);
+    if (time && (hit < 0 || *time < best)) seize(near.triangle, *time);
+  }
+  if (hit < 0) return {};
+  return Touch{from + best, inWorld(gapAt(static_cast<std::uint32_t>(hit), best), X), false};
+}
+
 std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinematics& ko, double from,
                                 double to, double bound, std::uint64_t& count) {
   const double r = std::get<BallShape>(*ball.shape).radius;
   const auto& tree = std::get<MeshShape>(*other.shape).tree;
   const Vec3 c0 = ballCentre(ball, ball.at(from));
   const double tolerance = touchTolerance(c0);
+  const bool inside = tree.closed() && ballGap(c0, r, *other.shape, ko.pose, {r}).distance < -r;
+  const OwnFace isOwn(ball, other, ko.pose);
   // The triangles that the ball can reach, each for itself.
   const Vec3 l0 = ko.pose.inverse() * c0;
   const Vec3 l1 = other.at(to).pose.inverse() * ballCentre(ball, ball.at(to));
@@ -188,20 +266,10 @@ std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinem
   std::vector<std::uint32_t> candidates;
   tree.overlapping(box, candidates);
   std::optional<Touch> best;
-  if (candidates.empty()) return best;
   double end = to;
-  const Support* support = ball.body && ball.body->support.on == other.party && ball.body->support.on.id
-                               ? &ball.body->support
-                               : nullptr;
-  const bool inside = tree.closed() && ballGap(c0, r, *other.shape, ko.pose, {r}).distance < -r;
-  const auto flight = inside ? std::nullopt : flightOf(ball, other, from);
   for (const std::uint32_t i : candidates) {
     const Triangle& t = tree.triangles()[i];
-    if (support && (ko.pose.q * t.normal).dot(support->normal) > 1 - 1e-7 &&
-        std::fabs(support->normal.dot(ko.pose * t.v[0] - support->point)) < 1e-6)
-      continue;  // what the ball already rolls on
-    const double begin = flight ? from + flight->timeToPlane(t, end - from) : from;
-    if (!(begin <= end)) continue;
+    if (isOwn(t)) continue;
     Gap last;
     const auto probe = [&](double tau) {
       const Kinematics b = ball.at(tau), o = other.at(tau);
@@ -209,7 +277,7 @@ std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinem
       last = inWorld(triangleGap(o.pose.inverse() * c, r, t, static_cast<std::int32_t>(i), inside), o.pose);
       return Probe{last.distance, last.normal.dot(b.velocityAt(c) - o.velocityAt(last.point))};
     };
-    const auto tau = firstRoot(probe, begin, end, bound, tolerance, count);
+    const auto tau = firstRoot(probe, from, end, bound, tolerance, count);
     if (!tau || (best && *tau >= best->tau)) continue;
     best = Touch{*tau, last, false};
     end = *tau;
@@ -224,6 +292,14 @@ std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from,
     if (const auto exact = planeRoot(ball, other, from, to)) {
       ++count;
       return *exact;
+    }
+  }
+  if (const auto* mesh = std::get_if<MeshShape>(other.shape)) {
+    const auto flight = flightOf(ball, other, from);
+    if (flight && !isInside(*flight, *mesh)) {
+      const Pose X = other.at(from).pose;
+      return flightOnMesh(*flight, mesh->tree, OwnFace(ball, other, X), X, from, to,
+                          touchTolerance(ball.body->position(from)), count);
     }
   }
   const Kinematics kb = ball.at(from), ko = other.at(from);

@@ -100,6 +100,7 @@ void World::Core::predictPair(const Side& a, const Side& b, double tau) {
     if (memory.touching(ContactMemory::keyOf(a.party, b.party))) return;
   }
   ++counters.pairTests;
+  if (a.body && b.body) ++looks.bodies;
   // An arc that ends before the window is only asked up to its end.
   const double to = std::min({windowEnd(), knownUntil(a), knownUntil(b)});
   if (!(tau <= to)) return;
@@ -153,8 +154,10 @@ void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
   const Side self = Side::of(b);
   pushHorizon(b);
   b.alone = true;
+  ++looks.looks;
   nearColliders.eachNear(b.swept, [&](Collider& c) {
     b.alone = false;
+    ++looks.colliders;
     predictPair(self, Side::of(c), tau);
   });
   nearBodies.eachNear(b.swept, [&](RigidBody& o) {
@@ -216,9 +219,20 @@ void World::Core::sweep(Collider& c) {
   nearColliders.put(c, c.swept);
 }
 
+/// How long the next window is to be: while nobody comes near anybody else and little else is near, far looks
+/// cost less than many. What it depends on does not depend on frames.
+Nanoseconds World::Core::nextWindow() const {
+  const bool moves = std::ranges::any_of(
+      active, [](const RigidBody* b) { return b->mode != BodyMode::Rest && b->mode != BodyMode::Quarantined; });
+  if (!moves || looks.bodies > 0) return kWindow;
+  if (looks.colliders > 2 * looks.looks) return std::max(window / 2, kWindow);
+  return std::min(2 * window, kLongestWindow);
+}
+
 /// A window begins: everybody is looked at anew.
 void World::Core::openWindow(Nanoseconds at) {
   origin = at;
+  window = nextWindow(), looks = {};
   frameFrom = tauOf(t0), now = tauOf(t1);
   queue_ = {};
   touches_.clear();
