@@ -113,7 +113,7 @@ private:
   bool closed_ = false;
 };
 
-/// Below a node, on the part of the way that is in `box`: in halves while that is much wider than the node.
+/// Below a node, on the part of the way that is in `box`: in halves while that is wider than the node.
 template <class B, class F>
 void TriangleTree::followWay(std::uint32_t node, double from, double to, const Aabb& box, B& around, F& f,
                              double& end) const {
@@ -123,7 +123,7 @@ void TriangleTree::followWay(std::uint32_t node, double from, double to, const A
   if (n.count > 0) {
     for (std::uint32_t i = n.first; i < n.first + n.count; ++i)
       end = std::min(end, f(order_[i], from, std::min(to, end)));
-  } else if (size(box) > 2 * size(n.box) && to - from > 1e-9) {
+  } else if (size(box) > size(n.box) && to - from > 1e-9) {
     const double middle = 0.5 * (from + to);
     followWay(node, from, middle, around(from, middle), around, f, end);
     followWay(node, middle, to, around(middle, to), around, f, end);
