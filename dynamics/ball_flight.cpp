@@ -81,15 +81,11 @@ BallFlight::Stay BallFlight::stayNear(const TriangleTree& tree, std::int32_t tri
   return stay;
 }
 
-std::optional<BallFlight> flightOf(const Side& ball, const Side& other, double tau) {
+std::optional<BallFlight> flightOf(const Side& ball, double tau) {
   const RigidBody* b = ball.body;
-  if (!b || b->mode == BodyMode::Held || !other.still() || !b->path.isParabola() || !b->isCentred())
-    return {};
+  if (!b || b->mode == BodyMode::Held || !b->path.isParabola() || !b->isCentred()) return {};
   const double age = b->age(tau);
-  const Vec3 p = b->path.position(age), v = b->path.velocity(age), a = 2 * b->path.c[2];
-  const Pose X = other.at(tau).pose;
-  const Quat back = X.q.conjugate();
-  return BallFlight{back * (p - X.p), back * v, back * a, b->radius()};
+  return BallFlight{b->path.position(age), b->path.velocity(age), 2 * b->path.c[2], b->radius()};
 }
 
 }  // namespace stadion

@@ -1,5 +1,5 @@
 #pragma once
-/// A ball in free flight as a parabola in the frame of something that stands still: when it comes near faces
+/// A ball in free flight as a parabola, in the frame of something that stands still: when it comes near faces
 /// there, and when it gets away from them. In closed form.
 
 #include "dynamics/touch.h"
@@ -12,6 +12,10 @@ struct BallFlight {
   Vec3 p, v, a;  ///< of its centre now [m, m/s, m/s2]
   double radius = 0;
 
+  BallFlight seenFrom(const Pose& X) const {
+    const Quat back = X.q.conjugate();
+    return {back * (p - X.p), back * v, back * a, radius};
+  }
   Vec3 at(double t) const { return p + t * (v + 0.5 * t * a); }
   Vec3 velocityAt(double t) const { return v + t * a; }
 
@@ -33,8 +37,8 @@ struct BallFlight {
   Stay stayNear(const TriangleTree& tree, std::int32_t triangle, double far) const;
 };
 
-/// The flight of a ball about its own centre from tau on, for a while that its arc knows; nothing if it is
-/// not that simple.
-std::optional<BallFlight> flightOf(const Side& ball, const Side& other, double tau);
+/// The flight of a ball about its own centre from tau on, in World, until its arc ends; nothing if it is not
+/// that simple.
+std::optional<BallFlight> flightOf(const Side& ball, double tau);
 
 }  // namespace stadion

@@ -143,33 +143,21 @@ Vec3 ballCentre(const Side& s, const Kinematics& k) {
   return k.pose * std::get<BallShape>(*s.shape).centre;
 }
 
-/// A still plane under a parabola has a closed form; nothing if it is not that.
-std::optional<std::optional<Touch>> planeRoot(const Side& ball, const Side& plane, double from, double to) {
-  const auto& s = std::get<PlaneShape>(*plane.shape);
-  if (!ball.body || ball.body->mode == BodyMode::Held || plane.body || !plane.still() || s.bounded() ||
-      !ball.body->path.isParabola() || !ball.body->isCentred())
-    return {};
-  using Answer = std::optional<Touch>;
-  const Path& path = ball.body->path;
-  const Pose& X = plane.collider->motion.end;
-  const Vec3 n = X.q * s.normal(), on = X * s.pose.p;
-  const double age = ball.body->age(from), r = ball.body->radius();
-  const auto touchAt = [&](double t) {
-    const Vec3 c = path.position(age + t);
-    const double distance = n.dot(c - on) - r;
-    return Answer(Touch{from + t, {distance, c - (distance + r) * n, n, true, -1}, false});
-  };
-  double h = n.dot(path.position(age) - on) - r;
-  const double v = n.dot(path.velocity(age)), a = 2 * n.dot(path.c[2]);
-  if (h <= touchTolerance(on)) {
-    if (v < 0) return touchAt(0);
-    h = 0;
+/// A still plane under a parabola has a closed form.
+std::optional<Touch> planeRoot(const BallFlight& flight, const Collider& plane, double from, double to) {
+  const Vec3 &n = plane.planeNormal, &on = plane.planePoint;
+  const double u = n.dot(flight.v), b = n.dot(flight.a);
+  double h = n.dot(flight.p - on) - flight.radius, t = 0;
+  if (h > touchTolerance(on) || u >= 0) {
+    h = std::max(h, 0.0);
+    const double d = u * u - 2 * b * h;
+    if (d < 0 || (u >= 0 && b >= 0)) return {};
+    t = u < 0 ? 2 * h / (std::sqrt(d) - u) : (u + std::sqrt(d)) / -b;
+    if (from + t > to) return {};
   }
-  const double d = v * v - 2 * a * h;
-  if (d < 0 || (v >= 0 && a >= 0)) return Answer();
-  const double t = v < 0 ? 2 * h / (std::sqrt(d) - v) : (v + std::sqrt(d)) / -a;
-  if (from + t > to) return Answer();
-  return touchAt(t);
+  const Vec3 c = flight.at(t);
+  const double height = n.dot(c - on);
+  return Touch{from + t, {height - flight.radius, c - height * n, n, true, -1}, false};
 }
 
 /// A flat face of a mesh that a ball already rolls on is nothing it can meet.
@@ -288,18 +276,17 @@ std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinem
 std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from, double to,
                                std::uint64_t& count) {
   const double r = std::get<BallShape>(*ball.shape).radius;
-  if (std::holds_alternative<PlaneShape>(*other.shape)) {
-    if (const auto exact = planeRoot(ball, other, from, to)) {
+  if (const auto flight = other.still() ? flightOf(ball, from) : std::nullopt) {
+    if (const auto* plane = std::get_if<PlaneShape>(other.shape); plane && !plane->bounded()) {
       ++count;
-      return *exact;
+      return planeRoot(*flight, *other.collider, from, to);
     }
-  }
-  if (const auto* mesh = std::get_if<MeshShape>(other.shape)) {
-    const auto flight = flightOf(ball, other, from);
-    if (flight && !isInside(*flight, *mesh)) {
+    if (const auto* mesh = std::get_if<MeshShape>(other.shape)) {
       const Pose X = other.at(from).pose;
-      return flightOnMesh(*flight, mesh->tree, OwnFace(ball, other, X), X, from, to,
-                          touchTolerance(ball.body->position(from)), count);
+      const BallFlight local = flight->seenFrom(X);
+      if (!isInside(local, *mesh))
+        return flightOnMesh(local, mesh->tree, OwnFace(ball, other, X), X, from, to,
+                            touchTolerance(flight->p), count);
     }
   }
   const Kinematics kb = ball.at(from), ko = other.at(from);

@@ -116,7 +116,7 @@ ColliderId World::addCollider(const ColliderDef& d) {
   Collider& c = core_->colliders.add(id);
   c.id = id, c.shapeId = d.shape, c.shape = s->shape.get(), c.bound = s->bound, c.surface = d.surface;
   c.now = unit(d.pose);
-  c.motion.set(c.now, c.now, core_->now, 0);
+  c.move(c.now, c.now, core_->now, 0);
   core_->told.push_back(id);
   return id;
 }

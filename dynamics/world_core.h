@@ -136,6 +136,7 @@ public:
   void sweep(RigidBody& b, double tau);
   void sweep(Collider& c);
   void lookAhead(RigidBody& b, double tau, bool onlyGreater);
+  void lookAtOnly(RigidBody& b, double tau);
   void predict(RigidBody& b, double tau, bool onlyGreater = false);
   void predictPair(const Side& a, const Side& b, double tau);
   void pushHorizon(const RigidBody& b);

@@ -141,9 +141,9 @@ void World::Core::predict(RigidBody& b, double tau, bool onlyGreater) {
   const Aabb before = b.swept;
   sweep(b, tau);
   if (!b.enabled) return;
-  if (b.alone && b.place != kUnfiled && holds(before, b.swept)) {  // nobody is where it goes
+  if (b.alone && b.place != kUnfiled && holds(before, b.swept)) {  // nobody else is where it goes
     b.swept = before;
-    pushHorizon(b);
+    lookAtOnly(b, tau);
   } else {
     lookAhead(b, tau, onlyGreater);
   }
@@ -153,10 +153,11 @@ void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
   if (b.crowd) return;  // whoever could touch it within its step has been taken into the step
   const Side self = Side::of(b);
   pushHorizon(b);
-  b.alone = true;
+  b.alone = true, b.only = 0;
   ++looks.looks;
   nearColliders.eachNear(b.swept, [&](Collider& c) {
-    b.alone = false;
+    b.alone = b.alone && b.only == 0;
+    b.only = c.id;
     ++looks.colliders;
     predictPair(self, Side::of(c), tau);
   });
@@ -166,6 +167,16 @@ void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
     if (onlyGreater && o.marked && o.id < b.id) return;
     predictPair(self, Side::of(o), tau);
   });
+}
+
+/// The same for one who is alone and goes nowhere else than it was seen to go.
+void World::Core::lookAtOnly(RigidBody& b, double tau) {
+  pushHorizon(b);
+  ++looks.looks;
+  const Collider* c = b.only ? collider(b.only) : nullptr;
+  if (!c || !c->enabled) return;
+  ++looks.colliders;
+  predictPair(Side::of(b), Side::of(*c), tau);
 }
 
 void World::Core::mark(RigidBody& b) {

@@ -144,7 +144,7 @@ void World::Core::beginFrame() {
   told.erase(std::unique(told.begin(), told.end()), told.end());
   for (const ColliderId id : told)
     if (Collider* c = collider(id)) {
-      c->motion.set(c->now, c->next.value_or(c->now), frameFrom, seconds);
+      c->move(c->now, c->next.value_or(c->now), frameFrom, seconds);
       c->next.reset();
       ++c->version;
       sweep(*c);

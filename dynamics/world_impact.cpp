@@ -150,7 +150,9 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   countImpact(a, tau);
   if (b) countImpact(*b, tau);
   Mobile ma = mobileOf(a, tau), mb = b ? mobileOf(*b, tau) : mobileOf(*c, tau);
-  const Vec3 x = touch.gap.point, n = touch.gap.normal;
+  const Vec3 n = touch.gap.normal;
+  // What presses a ball at its middle does not turn it, not even by rounding.
+  const Vec3 x = a.isCentred() ? Vec3(ma.p - (a.radius() + touch.gap.distance) * n) : touch.gap.point;
   const double closing = -(ma.velocityAt(x) - mb.velocityAt(x)).dot(n);
   const ContactMemory::Key key = ContactMemory::keyOf(pa, pb);
   const Vec3 outwards = key.second == pa.id ? n : Vec3(-n);

@@ -77,12 +77,12 @@ void World::Core::awaitRelease(ContactMemory::Waiting& w, const Side& a, const S
   w.versions = *w.versionA + *w.versionB;
   w.sure = false;
   BallFlight::Stay stay;
-  if (const auto flight = flightOf(b, a, tau)) {
+  if (const auto flight = a.still() ? flightOf(b, tau) : std::nullopt) {
     const double far = b.body->releaseDistance;
     if (const auto* plane = std::get_if<PlaneShape>(a.shape); plane && !plane->bounded())
-      stay = flight->stayNear(plane->pose.p, plane->normal(), far);
+      stay = flight->stayNear(a.collider->planePoint, a.collider->planeNormal, far);
     if (const auto* mesh = std::get_if<MeshShape>(a.shape); mesh && w.triangle >= 0)
-      stay = flight->stayNear(mesh->tree, w.triangle, far);
+      stay = flight->seenFrom(a.at(tau).pose).stayNear(mesh->tree, w.triangle, far);
     w.triangle = stay.triangle, w.sure = stay.sure;
   }
   constexpr double kForever = 1e6;  // [s]
