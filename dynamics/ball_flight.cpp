@@ -83,9 +83,10 @@ BallFlight::Stay BallFlight::stayNear(const TriangleTree& tree, std::int32_t tri
 
 std::optional<BallFlight> flightOf(const Side& ball, double tau) {
   const RigidBody* b = ball.body;
-  if (!b || b->mode == BodyMode::Held || !b->path.isParabola() || !b->isCentred()) return {};
+  if (!b || b->mode == BodyMode::Held || !b->path.isParabola() || !b->centred) return {};
   const double age = b->age(tau);
-  return BallFlight{b->path.position(age), b->path.velocity(age), 2 * b->path.c[2], b->radius()};
+  const auto& c = b->path.c;
+  return BallFlight{c[0] + age * (c[1] + age * c[2]), c[1] + age * (2 * c[2]), 2 * c[2], b->radius()};
 }
 
 }  // namespace stadion

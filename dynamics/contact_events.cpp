@@ -22,9 +22,9 @@ void ContactMemory::update(const Key& pair, F change) {
   Memory& m = at->second;
   if (isNew) others_.emplace(pair.second, pair.first);
   if (!isNew && m.idle()) --idle_;
-  digest_ -= share(pair, m);
   change(m);
-  digest_ += share(pair, m);
+  digest_ -= m.share;
+  digest_ += m.share = share(pair, m);
   if (m.idle() && ++idle_ > 64 + memory_.size() / 2) forgetIdle();
 }
 
@@ -79,7 +79,7 @@ void ContactMemory::forget(Party gone) {
 
 void ContactMemory::erase(const Key& pair) {
   const auto at = memory_.find(pair);
-  digest_ -= share(pair, at->second);
+  digest_ -= at->second.share;
   if (at->second.waiting != kNowhere) leave(at->second);
   memory_.erase(at);
   others_.erase({pair.second, pair.first});

@@ -62,6 +62,7 @@ private:
     bool touching = false;             ///< in lasting contact, or touched since load
     std::uint32_t waiting = kNowhere;  ///< where in waiting_: its release is due
     Nanoseconds impact = 0;            ///< when [ns]
+    std::uint64_t share = 0;           ///< of the digest
     bool idle() const { return !touching && waiting == kNowhere; }
   };
   /// What a pair adds to the digest.

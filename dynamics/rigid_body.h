@@ -87,6 +87,7 @@ struct RigidBody {
   Vec3 inertia = Vec3::Ones();
   Pose X_NC, X_CN;
   bool aligned = false;  ///< both are the identity
+  bool centred = false;  ///< a ball that rotates about its own centre: it has closed forms on a plane
   Sphere bound;          ///< centre in N
   double reach = 0;      ///< greatest distance of a surface point from the centre of mass [m]
   double damping = 0, dragArea = 0, releaseDistance = 0.5;
@@ -129,8 +130,6 @@ struct RigidBody {
   bool isBall() const { return std::holds_alternative<BallShape>(*shape); }
   /// How far the ball's centre is from the centre of mass [m].
   double eccentricity() const { return (X_CN * std::get<BallShape>(*shape).centre).norm(); }
-  /// A ball that rotates about its own centre: it has closed forms on a plane.
-  bool isCentred() const { return isBall() && eccentricity() <= 1e-9 * radius(); }
   double radius() const { return std::get<BallShape>(*shape).radius; }
   bool movable() const { return mode != BodyMode::Held && mode != BodyMode::Quarantined; }
   bool sampled() const { return mode != BodyMode::Held; }

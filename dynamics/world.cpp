@@ -82,6 +82,7 @@ BodyId World::addBody(const BodyDef& d) {
   b.X_CN = b.X_NC.inverse();
   b.aligned = b.X_NC.p.isZero(0) && b.X_NC.q.coeffs() == Quat::Identity().coeffs();
   b.reach = (b.bound.centre - b.X_NC.p).norm() + b.bound.radius;
+  b.centred = b.isBall() && b.eccentricity() <= 1e-9 * b.radius();
   b.damping = d.damping, b.dragArea = d.dragArea, b.releaseDistance = d.releaseDistance;
   b.pose = unit(d.pose);
   const Pose X_WC = b.pose * b.X_NC;

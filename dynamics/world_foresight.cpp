@@ -26,15 +26,15 @@ bool holds(const Aabb& outer, const Aabb& inner) {
 
 /// The box around a body from tau to `to`, however it turns.
 Aabb sweptBody(const RigidBody& b, double tau, double to) {
-  Aabb box;
   const Vec3 p0 = b.position(tau), p1 = b.position(to);
-  box.include(p0), box.include(p1);
+  Aabb box{p0.cwiseMin(p1), p0.cwiseMax(p1)};
   Vec3 sag = Vec3::Zero();
   if (b.path.isParabola()) {
-    const Vec3 v0 = b.path.velocity(b.age(tau)), v1 = b.path.velocity(b.age(to));
+    const auto& c = b.path.c;
+    const Vec3 v0 = c[1] + b.age(tau) * (2 * c[2]), v1 = c[1] + b.age(to) * (2 * c[2]);
     for (int i = 0; i < 3;
          ++i)  // it turns back on the way: a parabola's vertex is this far beyond its ends at most
-      if (v0[i] * v1[i] < 0) sag[i] = std::fabs(2 * b.path.c[2][i]) * (to - tau) * (to - tau) / 8;
+      if (v0[i] * v1[i] < 0) sag[i] = std::fabs(c[2][i]) * (to - tau) * (to - tau) / 4;
   } else {
     sag.setConstant(b.path.accelerationBound() * (to - tau) * (to - tau) / 8);
   }
@@ -109,7 +109,7 @@ void World::Core::predictPair(const Side& a, const Side& b, double tau) {
   if (!touch) return;
   Event e;
   e.tau = touch->tau, e.kind = Event::Kind::Touch, e.a = a.party, e.b = b.party;
-  e.versionA = versionOf(a.party), e.versionB = versionOf(b.party);
+  e.versionA = a.version(), e.versionB = b.version();
   e.detail = static_cast<std::uint32_t>(touches_.size());
   touches_.push_back(*touch);
   post(e);
