@@ -14,6 +14,18 @@ double riseTime(double g, double u, double b) {
   return d < 0 ? kNever : 2 * g / (u + std::sqrt(d));
 }
 
+/// When a height h over a surface, that changes at the rate u, falls to zero under b; 0 if it has, infinity
+/// if it does not within `most`.
+double fallTime(double h, double u, double b, double most) {
+  constexpr double kLeaves = 1e-9;  ///< so deep it has just bounced [m]
+  if (h <= 0 && !(u > 0 && h > -kLeaves)) return 0;
+  h = std::max(h, 0.0);
+  const double d = u * u - 2 * b * h;
+  if (d < 0 || (u >= 0 && b >= 0)) return kNever;
+  const double time = u < 0 ? 2 * h / (std::sqrt(d) - u) : (u + std::sqrt(d)) / -b;
+  return time <= most ? time : kNever;
+}
+
 }  // namespace
 
 Aabb BallFlight::around(double s, double t) const {
@@ -31,16 +43,42 @@ Aabb BallFlight::around(double s, double t) const {
 }
 
 double BallFlight::timeToPlane(const Triangle& t, double most) const {
-  constexpr double kLeaves = 1e-9;  ///< so deep it has just bounced [m]
   double h = t.normal.dot(p - t.v[0]), u = t.normal.dot(v), b = t.normal.dot(a);
   if (h < 0) h = -h, u = -u, b = -b;
-  h -= radius;
-  if (h <= 0 && !(u > 0 && h > -kLeaves)) return 0;
-  h = std::max(h, 0.0);
-  const double d = u * u - 2 * b * h;
-  if (d < 0 || (u >= 0 && b >= 0)) return kNever;
-  const double time = u < 0 ? 2 * h / (std::sqrt(d) - u) : (u + std::sqrt(d)) / -b;
-  return time <= most ? time : kNever;
+  return fallTime(h - radius, u, b, most);
+}
+
+BallFlight::Entry BallFlight::timeToBox(const BoxShape& box, double most) const {
+  const BallFlight f = seenFrom(box.pose);
+  Entry entry;
+  int face = -1;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      // While it is outside of one face's plane it is outside of all.
+      const double h = side * f.p[axis] - box.half[axis] - radius;
+      const double time = fallTime(h, side * f.v[axis], side * f.a[axis], most);
+      if (time > entry.time) entry.time = time, face = axis;
+    }
+  if (face < 0 || !(entry.time < kNever)) return entry;
+  const Vec3 room = box.half - f.at(entry.time).cwiseAbs();
+  entry.hit = room[(face + 1) % 3] >= 0 && room[(face + 2) % 3] >= 0;
+  return entry;
+}
+
+BallFlight::Stay BallFlight::stayNear(const BoxShape& box, double far) const {
+  const BallFlight f = seenFrom(box.pose);
+  int face = 0;
+  (f.p.cwiseAbs() - box.half).maxCoeff(&face);
+  Stay stay{kNever, true, -1};
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      if (axis == face && side * f.p[axis] < 0) continue;
+      const double room = box.half[axis] + (axis == face ? far + radius : 0) - side * f.p[axis];
+      if (!(room > 0)) return {};
+      const double time = riseTime(room, side * f.v[axis], side * f.a[axis]);
+      if (time < stay.seconds) stay.seconds = time, stay.sure = axis == face;
+    }
+  return stay;
 }
 
 BallFlight::Stay BallFlight::stayNear(const Vec3& on, const Vec3& normal, double far) const {

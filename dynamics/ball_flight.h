@@ -26,6 +26,13 @@ struct BallFlight {
   /// The box around it from s to t.
   Aabb around(double s, double t) const;
 
+  struct Entry {
+    double time = 0;   ///< before that it does not touch; infinity: never within `most`
+    bool hit = false;  ///< it touches a face then
+  };
+  /// Into a box.
+  Entry timeToBox(const BoxShape& box, double most) const;
+
   struct Stay {
     double seconds = 0;  ///< so long its gap is `far` at most
     bool sure = false;   ///< then it is `far` off the face that was the last below it; else something ended there
@@ -33,6 +40,8 @@ struct BallFlight {
   };
   /// Over a plane.
   Stay stayNear(const Vec3& on, const Vec3& normal, double far) const;
+  /// Over the face of a box that is below it.
+  Stay stayNear(const BoxShape& box, double far) const;
   /// Over faces of a mesh, from `triangle` on and from neighbour to neighbour as it crosses their edges.
   Stay stayNear(const TriangleTree& tree, std::int32_t triangle, double far) const;
 };

@@ -281,8 +281,18 @@ std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from,
       ++count;
       return planeRoot(*flight, *other.collider, from, to);
     }
+    const Pose X = other.at(from).pose;
+    if (const auto* box = std::get_if<BoxShape>(other.shape)) {
+      const BallFlight local = flight->seenFrom(X);
+      const auto entry = local.timeToBox(*box, to - from);
+      if (entry.hit) {
+        ++count;
+        return Touch{from + entry.time, ballGap(flight->at(entry.time), r, *other.shape, X), false};
+      }
+      from += entry.time;
+      if (!(from <= to)) return {};
+    }
     if (const auto* mesh = std::get_if<MeshShape>(other.shape)) {
-      const Pose X = other.at(from).pose;
       const BallFlight local = flight->seenFrom(X);
       if (!isInside(local, *mesh))
         return flightOnMesh(local, mesh->tree, OwnFace(ball, other, X), X, from, to,

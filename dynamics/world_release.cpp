@@ -81,6 +81,8 @@ void World::Core::awaitRelease(ContactMemory::Waiting& w, const Side& a, const S
     const double far = b.body->releaseDistance;
     if (const auto* plane = std::get_if<PlaneShape>(a.shape); plane && !plane->bounded())
       stay = flight->stayNear(a.collider->planePoint, a.collider->planeNormal, far);
+    if (const auto* box = std::get_if<BoxShape>(a.shape))
+      stay = flight->seenFrom(a.at(tau).pose).stayNear(*box, far);
     if (const auto* mesh = std::get_if<MeshShape>(a.shape); mesh && w.triangle >= 0)
       stay = flight->seenFrom(a.at(tau).pose).stayNear(mesh->tree, w.triangle, far);
     w.triangle = stay.triangle, w.sure = stay.sure;
