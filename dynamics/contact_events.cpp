@@ -3,17 +3,13 @@
 #include "engine/state_hash.h"
 
 namespace stadion {
-namespace {
-
-/// What a pair adds to the digest.
-std::uint64_t share(const ContactMemory::Key& pair, const ContactMemory::Memory& m) {
+std::uint64_t ContactMemory::share(const Key& pair, const Memory& m) {
+  if (m.idle()) return 0;
   StateHash h;
   h.add(pair.first.isBody), h.add(pair.first.id), h.add(pair.second);
-  h.add(m.touching), h.add(m.fired), h.add(m.impact);
+  h.add(m.touching), h.add(m.waiting != kNowhere), h.add(m.impact);
   return h.value();
 }
-
-}  // namespace
 
 ContactMemory::Key ContactMemory::keyOf(Party a, Party b) {
   if (a.isBody && (!b.isBody || b.id < a.id)) std::swap(a, b);
@@ -24,23 +20,30 @@ template <class F>
 void ContactMemory::update(const Key& pair, F change) {
   const auto [at, isNew] = memory_.try_emplace(pair);
   Memory& m = at->second;
-  if (isNew)
-    others_.emplace(pair.second, pair.first);
-  else
-    digest_ -= share(pair, m);
+  if (isNew) others_.emplace(pair.second, pair.first);
+  if (!isNew && m.idle()) --idle_;
   change(m);
-  digest_ += share(pair, m);
-  m.fired ? void(fired_.emplace(pair, &m)) : void(fired_.erase(pair));
-  if (!m.touching && !m.fired) erase(pair);
+  digest_ -= m.share;
+  digest_ += m.share = share(pair, m);
+  if (m.idle() && ++idle_ > 64 + memory_.size() / 2) forgetIdle();
 }
 
-bool ContactMemory::impact(const Key& pair, Nanoseconds time, const Vec3& point, const Vec3& normal,
-                           double speed, double impulse, std::uint64_t frame) {
-  if (!(speed > kImpactSpeed) || touching(pair)) return false;
-  update(pair, [&](Memory& m) { m.fired = true, m.impact = time, m.frame = frame; });
+ContactMemory::Waiting* ContactMemory::impact(const Key& pair, Nanoseconds time, const Vec3& point,
+                                              const Vec3& normal, double speed, double impulse,
+                                              std::uint64_t frame) {
+  if (!(speed > kImpactSpeed) || touching(pair)) return nullptr;
+  Waiting* waiting = nullptr;
+  update(pair, [&](Memory& m) {
+    if (m.waiting == kNowhere) {
+      m.waiting = static_cast<std::uint32_t>(waiting_.size());
+      waiting_.push_back({pair});
+    }
+    waiting = &waiting_[m.waiting];
+    m.impact = time, waiting->frame = frame;
+  });
   events_.push_back(
       {ContactEvent::Kind::Impact, time, pair.first, pair.second, point, normal, speed, impulse});
-  return true;
+  return waiting;
 }
 
 void ContactMemory::setTouching(const Key& pair, bool now) {
@@ -53,10 +56,19 @@ bool ContactMemory::touching(const Key& pair) const {
 }
 
 void ContactMemory::release(const Key& pair, Nanoseconds time) {
-  if (!fired_.contains(pair)) return;
-  update(pair, [](Memory& m) { m.fired = false; });
+  const auto at = memory_.find(pair);
+  if (at == memory_.end() || at->second.waiting == kNowhere) return;
+  update(pair, [&](Memory& m) { leave(m); });
   events_.push_back(
       {ContactEvent::Kind::Release, time, pair.first, pair.second, Vec3::Zero(), Vec3::Zero(), 0, 0});
+}
+
+/// It waits no longer; the last one takes its place.
+void ContactMemory::leave(Memory& m) {
+  memory_.find(waiting_.back().pair)->second.waiting = m.waiting;
+  waiting_[m.waiting] = waiting_.back();
+  waiting_.pop_back();
+  m.waiting = kNowhere;
 }
 
 void ContactMemory::forget(Party gone) {
@@ -67,10 +79,19 @@ void ContactMemory::forget(Party gone) {
 
 void ContactMemory::erase(const Key& pair) {
   const auto at = memory_.find(pair);
-  digest_ -= share(pair, at->second);
+  digest_ -= at->second.share;
+  if (at->second.waiting != kNowhere) leave(at->second);
   memory_.erase(at);
-  fired_.erase(pair);
   others_.erase({pair.second, pair.first});
+}
+
+void ContactMemory::forgetIdle() {
+  std::erase_if(memory_, [&](const auto& known) {
+    if (!known.second.idle()) return false;
+    others_.erase({known.first.second, known.first.first});
+    return true;
+  });
+  idle_ = 0;
 }
 
 }  // namespace stadion

@@ -19,49 +19,66 @@ public:
                    Party b);  ///< at least one side is a body; the body with the greater id comes last
 
   void beginFrame() { events_.clear(); }
-  /// A separated pair fires if it closes fast enough: true then.
-  bool impact(const Key& pair, Nanoseconds time, const Vec3& point, const Vec3& normal, double speed,
-              double impulse, std::uint64_t frame);
+  struct Waiting;
+  /// A separated pair fires if it closes fast enough: it waits for its release then.
+  Waiting* impact(const Key& pair, Nanoseconds time, const Vec3& point, const Vec3& normal, double speed,
+                  double impulse, std::uint64_t frame);
   /// The pair is in lasting contact (or no longer).
   void setTouching(const Key& pair, bool touching);
   bool touching(const Key& pair) const;
   void release(const Key& pair, Nanoseconds time);
   void forget(Party gone);
 
-  struct Memory {
-    bool touching = false;    ///< in lasting contact, or touched since load
-    bool fired = false;       ///< an impact was told and its release is due
-    Nanoseconds impact = 0;   ///< when [ns]
+  /// A pair whose impact has been told and whose release has not.
+  struct Waiting {
+    Key pair;
     std::uint64_t frame = 0;  ///< of the last reported impact
-    Nanoseconds look = 0;     ///< before that it cannot be released unless an arc changes ...
-    std::uint32_t versionA = 0, versionB = 0;  ///< ... from these
-    std::int32_t triangle = -1;                ///< of a mesh, that was near at the last look
+    // For the sake of speed only:
+    Nanoseconds look = 0;        ///< before that it cannot be released unless an arc changes ...
+    std::uint32_t versions = 0;  ///< ... from these, in sum
+    const std::uint32_t *versionA = nullptr, *versionB = nullptr;  ///< what they are now
+    std::int32_t triangle = -1;                                    ///< of a mesh, that was near
+    bool sure = false;  ///< it will be as far off by then as it must be from what was near
   };
   /// Equal for equal memories, up to chance; costs nothing.
   std::uint64_t digest() const { return digest_; }
-  /// Those whose impact has been told and whose release has not. Of them only what is kept for the sake of
-  /// speed may be changed.
-  const std::map<Key, Memory*>& fired() const { return fired_; }
+  /// In no order. What decides when to look may be changed.
+  std::vector<Waiting>& waiting() { return waiting_; }
   /// f(key) for all pairs with this party. f must not change them.
   template <class F>
   void eachWith(Party p, F f) const {
-    for (auto m = memory_.lower_bound({p, 0}); m != memory_.end() && m->first.first == p; ++m) f(m->first);
+    for (auto m = memory_.lower_bound({p, 0}); m != memory_.end() && m->first.first == p; ++m)
+      if (!m->second.idle()) f(m->first);
     if (!p.isBody) return;
     for (auto o = others_.lower_bound({p.id, {}}); o != others_.end() && o->first == p.id; ++o)
-      f(Key{o->second, p.id});
+      if (const Key key{o->second, p.id}; !memory_.find(key)->second.idle()) f(key);
   }
   std::vector<ContactEvent>& events() { return events_; }
   const std::vector<ContactEvent>& events() const { return events_; }
 
 private:
-  /// change(memory) of a pair, known or not; forgotten if nothing is left to remember.
+  static constexpr std::uint32_t kNowhere = 0xffffffff;
+  struct Memory {
+    bool touching = false;             ///< in lasting contact, or touched since load
+    std::uint32_t waiting = kNowhere;  ///< where in waiting_: its release is due
+    Nanoseconds impact = 0;            ///< when [ns]
+    std::uint64_t share = 0;           ///< of the digest
+    bool idle() const { return !touching && waiting == kNowhere; }
+  };
+  /// What a pair adds to the digest.
+  static std::uint64_t share(const Key& pair, const Memory& m);
+  /// change(memory) of a pair, known or not. One with nothing to remember stays for a while: it may soon
+  /// touch again.
   template <class F>
   void update(const Key& pair, F change);
+  void leave(Memory& m);
   void erase(const Key& pair);
+  void forgetIdle();
 
   std::map<Key, Memory> memory_;
-  std::uint64_t digest_ = 0;  ///< a sum over the pairs
-  std::map<Key, Memory*> fired_;
+  std::size_t idle_ = 0;      ///< so many of them remember nothing
+  std::uint64_t digest_ = 0;  ///< a sum over the others
+  std::vector<Waiting> waiting_;
   std::set<std::pair<BodyId, Party>> others_;  ///< the same pairs by their body
   std::vector<ContactEvent> events_;
 };

@@ -48,6 +48,12 @@ Vec3 collide(Mobile& a, Mobile& b, const Vec3& x, const Vec3& n, double restitut
   const Vec3 u = a.velocityAt(x) - b.velocityAt(x);
   const double closing = -u.dot(n);
   if (!(closing > 0)) return Vec3::Zero();
+  if (friction == 0 && b.inverseMass == 0 && (x - a.p).cross(n).isZero(0)) {  // a ball on a smooth wall
+    const Vec3 change = (restitution + 1) * closing * n;
+    if (!change.allFinite()) return Vec3::Zero();
+    a.v += change;
+    return change / a.inverseMass;
+  }
   const double along = responseAlong(a, x, n) + responseAlong(b, x, n);
   Vec3 impulse = (restitution + 1) * closing / along * n;
   if (friction > 0) {

@@ -125,12 +125,12 @@ struct RigidBody {
   Aabb swept;                           ///< of the rest of the window, as far as it is known
   std::uint32_t place = 0xffffffff;     ///< in the broad phase
   bool active = false, marked = false;  ///< in the world's lists of these names
-  bool alone = false;                   ///< nothing is near what it sweeps
+  bool alone = false;                   ///< nothing is near what it sweeps, but ...
+  ColliderId only = 0;                  ///< ... this
 
   bool isBall() const { return std::holds_alternative<BallShape>(*shape); }
   /// How far the ball's centre is from the centre of mass [m].
   double eccentricity() const { return (X_CN * std::get<BallShape>(*shape).centre).norm(); }
-  bool isCentred() const { return centred; }
   double radius() const { return std::get<BallShape>(*shape).radius; }
   bool movable() const { return mode != BodyMode::Held && mode != BodyMode::Quarantined; }
   bool sampled() const { return mode != BodyMode::Held; }
@@ -169,11 +169,18 @@ struct Collider {
   Pose now;                  ///< X_WN at the start of the coming frame
   std::optional<Pose> next;  ///< where it will be at its end
   GuidedMotion motion;
+  Vec3 planePoint = Vec3::Zero(), planeNormal = Vec3::UnitZ();  ///< of a PlaneShape, at the motion's end
   bool disturbed = false;  ///< it moved, jumped or came: sleepers on it wake
   bool fresh = true;
   std::uint32_t version = 0;  ///< counts motions: older predictions are void
   Aabb swept;
   std::uint32_t place = 0xffffffff;  ///< in the broad phase
+
+  void move(const Pose& from, const Pose& to, double tau, double seconds) {
+    motion.set(from, to, tau, seconds);
+    if (const auto* plane = std::get_if<PlaneShape>(shape))
+      planePoint = to * plane->pose.p, planeNormal = to.q * plane->normal();
+  }
 };
 
 inline MotionBound RigidBody::boundOver(double from, double to) const {

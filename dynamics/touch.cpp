@@ -1,5 +1,6 @@
 #include "dynamics/touch.h"
 
+#include "dynamics/ball_flight.h"
 #include "dynamics/ball_touch.h"
 #include "dynamics/convex_touch.h"
 #include "dynamics/first_root.h"
@@ -122,78 +123,97 @@ Centre centreAt(const Side& s, double tau) {
   return {c, k.velocityAt(c)};
 }
 
-/// A still plane under a parabola has a closed form; nothing if it is not that.
-std::optional<std::optional<Touch>> planeRoot(const Side& ball, const Side& plane, double from, double to) {
-  const auto& s = std::get<PlaneShape>(*plane.shape);
-  if (!ball.body || ball.body->mode == BodyMode::Held || plane.body || !plane.still() || s.bounded() ||
-      !ball.body->path.isParabola() || !ball.body->isCentred())
-    return {};
-  using Answer = std::optional<Touch>;
-  const Path& path = ball.body->path;
-  const Pose& X = plane.collider->motion.end;
-  const Vec3 n = X.q * s.normal(), on = X * s.pose.p;
-  const double age = ball.body->age(from), r = ball.body->radius();
-  const auto touchAt = [&](double t) {
-    const Vec3 c = path.position(age + t);
-    const double distance = n.dot(c - on) - r;
-    return Answer(Touch{from + t, {distance, c - (distance + r) * n, n, true, -1}, false});
-  };
-  double h = n.dot(path.position(age) - on) - r;
-  const double v = n.dot(path.velocity(age)), a = 2 * n.dot(path.c[2]);
-  if (h <= touchTolerance(on)) {
-    if (v < 0) return touchAt(0);
-    h = 0;
+/// A still plane under a parabola has a closed form.
+std::optional<Touch> planeRoot(const BallFlight& flight, const Collider& plane, double from, double to) {
+  const Vec3 &n = plane.planeNormal, &on = plane.planePoint;
+  const double u = n.dot(flight.v), b = n.dot(flight.a);
+  double h = n.dot(flight.p - on) - flight.radius, t = 0;
+  if (h > touchTolerance(on) || u >= 0) {
+    h = std::max(h, 0.0);
+    const double d = u * u - 2 * b * h;
+    if (d < 0 || (u >= 0 && b >= 0)) return {};
+    t = u < 0 ? 2 * h / (std::sqrt(d) - u) : (u + std::sqrt(d)) / -b;
+    if (from + t > to) return {};
   }
-  const double d = v * v - 2 * a * h;
-  if (d < 0 || (v >= 0 && a >= 0)) return Answer();
-  const double t = v < 0 ? 2 * h / (std::sqrt(d) - v) : (v + std::sqrt(d)) / -a;
-  if (from + t > to) return Answer();
-  return touchAt(t);
+  const Vec3 c = flight.at(t);
+  const double height = n.dot(c - on);
+  return Touch{from + t, {height - flight.radius, c - height * n, n, true, -1}, false};
 }
 
-/// A ball that flies along a parabola about its own centre, in the frame of what stands still.
-struct Flight {
-  Vec3 p, v, a;
-
-  /// Seconds until h + u t + b t^2 / 2 falls to 0, from h >= 0; infinity if it is not within `most`.
-  static double fall(double h, double u, double b, double most) {
-    const double d = u * u - 2 * b * h;
-    if (d < 0 || (u >= 0 && b >= 0)) return std::numeric_limits<double>::infinity();
-    const double time = u < 0 ? 2 * h / (std::sqrt(d) - u) : (u + std::sqrt(d)) / -b;
-    return time <= most ? time : std::numeric_limits<double>::infinity();
+/// A flat face of a mesh that a ball already rolls on is nothing it can meet.
+class OwnFace {
+public:
+  OwnFace(const Side& ball, const Side& mesh, const Pose& X)
+      : support_(ball.body && ball.body->support.on == mesh.party && ball.body->support.on.id
+                     ? &ball.body->support
+                     : nullptr),
+        X_(X) {}
+  bool operator()(const Triangle& t) const {
+    return support_ && (X_.q * t.normal).dot(support_->normal) > 1 - 1e-7 &&
+           std::fabs(support_->normal.dot(X_ * t.v[0] - support_->point)) < 1e-6;
   }
 
-  /// The same until it is as near as r to each pair of a box's faces: no sooner can it touch the box.
-  double timeToBox(const BoxShape& box, double r, double most) const {
-    const Quat back = box.pose.q.conjugate();
-    const Vec3 at = back * (p - box.pose.p), u = back * v, b = back * a;
-    double time = 0;
-    for (int i = 0; i < 3 && time <= most; ++i) {
-      const double h = std::fabs(at[i]) - box.half[i] - r;
-      if (h > 0) time = std::max(time, at[i] < 0 ? fall(h, -u[i], -b[i], most) : fall(h, u[i], b[i], most));
-    }
-    return time;
-  }
-
-  /// Seconds until it is as near as r to the triangle's plane, from either side; 0 if it is already, infinity
-  /// if it is not within `most`.
-  double timeToPlane(const Triangle& t, double r, double most) const {
-    constexpr double kLeaves = 1e-9;  ///< so deep it has just bounced [m]
-    double h = t.normal.dot(p - t.v[0]), u = t.normal.dot(v), b = t.normal.dot(a);
-    if (h < 0) h = -h, u = -u, b = -b;
-    h -= r;
-    if (h <= 0 && !(u > 0 && h > -kLeaves)) return 0;
-    return fall(std::max(h, 0.0), u, b, most);
-  }
+private:
+  const Support* support_;
+  const Pose& X_;
 };
 
-std::optional<Flight> flightOf(const Side& ball, const Side& other, double from) {
-  const RigidBody* b = ball.body;
-  if (!b || b->mode == BodyMode::Held || !other.still() || !b->path.isParabola() || !b->isCentred())
-    return {};
-  const Pose X = other.at(from).pose;
-  const Quat back = X.q.conjugate();
-  return Flight{back * (b->position(from) - X.p), back * b->velocity(from), back * Vec3(2 * b->path.c[2])};
+/// Whether the ball's centre is in the mesh, farther than its radius from the surface.
+bool isInside(const BallFlight& flight, const MeshShape& mesh) {
+  const double r = flight.radius;
+  return mesh.tree.closed() && localGap(flight.p, r, mesh, {r}).distance < -r;
+}
+
+/// Whether x lies in the prism over the triangle.
+bool isOver(const Triangle& t, const Vec3& x) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (t.normal.cross(t.v[(i + 1) % 3] - t.v[i]).dot(x - t.v[i]) < 0) return false;
+  return true;
+}
+
+/// A ball in free flight against a mesh that stands still: the planes of faces in closed form, then edges and
+/// corners that come sooner.
+std::optional<Touch> flightOnMesh(const BallFlight& flight, const TriangleTree& tree, const OwnFace& isOwn,
+                                  const Pose& X, double from, double to, double tolerance,
+                                  std::uint64_t& count) {
+  struct Reached {
+    std::uint32_t triangle;
+    double from, to;
+  };
+  std::vector<Reached> beside;  // whose planes it reaches, but not in the triangle
+  std::int32_t hit = -1;
+  double best = to - from;
+  const auto seize = [&](std::uint32_t i, double time) { hit = static_cast<std::int32_t>(i), best = time; };
+  // What is met as soon as something else is met will be met after that.
+  const auto late = [&](double time) { return hit >= 0 && time + 1e-12 >= best; };
+  tree.eachOnWay(
+      0, best, [&](double s, double t) { return flight.around(s, t); },
+      [&](std::uint32_t i, double s, double t) {
+        const Triangle& face = tree.triangles()[i];
+        const double plane = flight.timeToPlane(face, t);
+        if (!(plane <= t) || late(plane) || isOwn(face)) return best;
+        ++count;
+        if (plane <= 0 || !isOver(face, flight.at(plane)))
+          beside.push_back({i, std::max(plane, s), t});
+        else if (plane >= s)
+          seize(i, plane);
+        return best;
+      });
+  const auto gapAt = [&](std::uint32_t i, double t) {
+    return triangleGap(flight.at(t), flight.radius, tree.triangles()[i], static_cast<std::int32_t>(i), false);
+  };
+  const double bound = flight.a.norm();
+  for (const Reached& near : beside) {
+    if (late(near.from)) continue;
+    const auto probe = [&](double time) {
+      const Local l = gapAt(near.triangle, time);
+      return Probe{l.distance, l.normal.dot(flight.velocityAt(time))};
+    };
+    const auto time = firstRoot(probe, near.from, std::min(near.to, best), bound, tolerance, count);
+    if (time && (hit < 0 || *time < best)) seize(near.triangle, *time);
+  }
+  if (hit < 0) return {};
+  return Touch{from + best, inWorld(gapAt(static_cast<std::uint32_t>(hit), best), X), false};
 }
 
 std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinematics& ko, double from,
@@ -202,6 +222,8 @@ std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinem
   const auto& tree = std::get<MeshShape>(*other.shape).tree;
   const Vec3 c0 = ballCentre(ball, ball.at(from));
   const double tolerance = touchTolerance(c0);
+  const bool inside = tree.closed() && ballGap(c0, r, *other.shape, ko.pose, {r}).distance < -r;
+  const OwnFace isOwn(ball, other, ko.pose);
   // The triangles that the ball can reach, each for itself.
   const Vec3 l0 = ko.pose.inverse() * c0;
   const Vec3 l1 = other.at(to).pose.inverse() * ballCentre(ball, ball.at(to));
@@ -212,20 +234,10 @@ std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinem
   std::vector<std::uint32_t> candidates;
   tree.overlapping(box, candidates);
   std::optional<Touch> best;
-  if (candidates.empty()) return best;
   double end = to;
-  const Support* support = ball.body && ball.body->support.on == other.party && ball.body->support.on.id
-                               ? &ball.body->support
-                               : nullptr;
-  const bool inside = tree.closed() && ballGap(c0, r, *other.shape, ko.pose, {r}).distance < -r;
-  const auto flight = inside ? std::nullopt : flightOf(ball, other, from);
   for (const std::uint32_t i : candidates) {
     const Triangle& t = tree.triangles()[i];
-    if (support && (ko.pose.q * t.normal).dot(support->normal) > 1 - 1e-7 &&
-        std::fabs(support->normal.dot(ko.pose * t.v[0] - support->point)) < 1e-6)
-      continue;  // what the ball already rolls on
-    const double begin = flight ? from + flight->timeToPlane(t, r, end - from) : from;
-    if (!(begin <= end)) continue;
+    if (isOwn(t)) continue;
     Gap last;
     const auto probe = [&](double tau) {
       const Kinematics b = ball.at(tau), o = other.at(tau);
@@ -233,7 +245,7 @@ std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinem
       last = inWorld(triangleGap(o.pose.inverse() * c, r, t, static_cast<std::int32_t>(i), inside), o.pose);
       return Probe{last.distance, last.normal.dot(b.velocityAt(c) - o.velocityAt(last.point))};
     };
-    const auto tau = firstRoot(probe, begin, end, bound, tolerance, count);
+    const auto tau = firstRoot(probe, from, end, bound, tolerance, count);
     if (!tau || (best && *tau >= best->tau)) continue;
     best = Touch{*tau, last, false};
     end = *tau;
@@ -244,16 +256,28 @@ std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinem
 std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from, double to,
                                std::uint64_t& count) {
   const double r = std::get<BallShape>(*ball.shape).radius;
-  if (std::holds_alternative<PlaneShape>(*other.shape)) {
-    if (const auto exact = planeRoot(ball, other, from, to)) {
+  if (const auto flight = other.still() ? flightOf(ball, from) : std::nullopt) {
+    if (const auto* plane = std::get_if<PlaneShape>(other.shape); plane && !plane->bounded()) {
       ++count;
-      return *exact;
+      return planeRoot(*flight, *other.collider, from, to);
     }
-  }
-  double begin = from;
-  if (const auto* box = std::get_if<BoxShape>(other.shape)) {
-    if (const auto flight = flightOf(ball, other, from)) begin += flight->timeToBox(*box, r, to - from);
-    if (!(begin <= to)) return {};
+    const Pose X = other.at(from).pose;
+    if (const auto* box = std::get_if<BoxShape>(other.shape)) {
+      const BallFlight local = flight->seenFrom(X);
+      const auto entry = local.timeToBox(*box, to - from);
+      if (entry.hit) {
+        ++count;
+        return Touch{from + entry.time, ballGap(flight->at(entry.time), r, *other.shape, X), false};
+      }
+      from += entry.time;
+      if (!(from <= to)) return {};
+    }
+    if (const auto* mesh = std::get_if<MeshShape>(other.shape)) {
+      const BallFlight local = flight->seenFrom(X);
+      if (!isInside(local, *mesh))
+        return flightOnMesh(local, mesh->tree, OwnFace(ball, other, X), X, from, to,
+                            touchTolerance(flight->p), count);
+    }
   }
   const Kinematics ko = other.at(from);
   const Vec3 c0 = centreAt(ball, from).p;
@@ -267,7 +291,7 @@ std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from,
     gap = ballGap(c.p, r, *other.shape, o.pose);
     return Probe{gap.distance, gap.normal.dot(c.v - o.velocityAt(gap.point))};
   };
-  const auto tau = firstRoot(probe, begin, to, bound, touchTolerance(c0), count);
+  const auto tau = firstRoot(probe, from, to, bound, touchTolerance(c0), count);
   if (!tau) return {};
   probe(*tau);
   return Touch{*tau, gap, false};

@@ -25,6 +25,7 @@ struct Side {
     if (body) return body->boundOver(from, to);
     return {collider->motion.v.norm(), 0, collider->motion.omega.norm(), 0};
   }
+  std::uint32_t version() const { return body ? body->version : collider->version; }
   const Sphere& bound() const { return body ? body->bound : collider->bound; }
   bool still() const {
     return body ? (body->mode == BodyMode::Rest || body->mode == BodyMode::Quarantined)

@@ -7,6 +7,7 @@
 #include "engine/asset/mesh.h"
 #include "engine/maths/maths.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -58,6 +59,13 @@ public:
         },
         f);
   }
+  /// Calls f(i, s, t) with every triangle that something comes near between the times s and t on its way, about
+  /// in the order of time; more than once, it may be. `around(s, t)` is a box around the way from s to t. f
+  /// returns the time up to which the way still matters.
+  template <class B, class F>
+  void eachOnWay(double from, double to, B around, F f) const {
+    if (!nodes_.empty()) followWay(0, from, to, around(from, to), around, f, to);
+  }
   /// The triangle nearest to p within `limit` [m], -1 if none; `at` is set then. Any that is nearer than
   /// `enough` will do; triangle `hint` is tried first.
   std::int32_t nearest(const Vec3& p, double limit, ClosestPoint& at, double enough = 0,
@@ -90,6 +98,9 @@ private:
       }
     }
   }
+  template <class B, class F>
+  void followWay(std::uint32_t node, double from, double to, const Aabb& box, B& around, F& f,
+                 double& end) const;
   void build(std::uint32_t first, std::uint32_t count);
   void connect();
 
@@ -101,5 +112,25 @@ private:
   std::size_t dropped_ = 0;
   bool closed_ = false;
 };
+
+/// Below a node, on the part of the way that is in `box`: in halves while that is wider than the node.
+template <class B, class F>
+void TriangleTree::followWay(std::uint32_t node, double from, double to, const Aabb& box, B& around, F& f,
+                             double& end) const {
+  const Node& n = nodes_[node];
+  if (from > end || !n.box.overlaps(box)) return;
+  const auto size = [](const Aabb& b) { return (b.hi - b.lo).maxCoeff(); };
+  if (n.count > 0) {
+    for (std::uint32_t i = n.first; i < n.first + n.count; ++i)
+      end = std::min(end, f(order_[i], from, std::min(to, end)));
+  } else if (size(box) > size(n.box) && to - from > 1e-9) {
+    const double middle = 0.5 * (from + to);
+    followWay(node, from, middle, around(from, middle), around, f, end);
+    followWay(node, middle, to, around(middle, to), around, f, end);
+  } else {
+    followWay(node + 1, from, to, box, around, f, end);
+    followWay(n.first, from, to, box, around, f, end);
+  }
+}
 
 }  // namespace stadion

@@ -83,6 +83,7 @@ BodyId World::addBody(const BodyDef& d) {
   b.aligned = b.X_NC.p.isZero(0) && b.X_NC.q.coeffs() == Quat::Identity().coeffs();
   b.centred = b.isBall() && b.eccentricity() <= 1e-9 * b.radius();
   b.reach = (b.bound.centre - b.X_NC.p).norm() + b.bound.radius;
+  b.centred = b.isBall() && b.eccentricity() <= 1e-9 * b.radius();
   b.damping = d.damping, b.dragArea = d.dragArea, b.releaseDistance = d.releaseDistance;
   b.pose = unit(d.pose);
   const Pose X_WC = b.pose * b.X_NC;
@@ -117,7 +118,7 @@ ColliderId World::addCollider(const ColliderDef& d) {
   Collider& c = core_->colliders.add(id);
   c.id = id, c.shapeId = d.shape, c.shape = s->shape.get(), c.bound = s->bound, c.surface = d.surface;
   c.now = unit(d.pose);
-  c.motion.set(c.now, c.now, core_->now, 0);
+  c.move(c.now, c.now, core_->now, 0);
   core_->told.push_back(id);
   return id;
 }

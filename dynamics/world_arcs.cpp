@@ -333,8 +333,8 @@ void World::Core::reachHorizon(RigidBody& b, double tau) {
     b.validAge = std::min(b.pathAge, age + b.spin.horizon);
     b.until = b.validAge - b.age0;
     ++b.version;
-    if (b.alone)  // it goes where it was seen to go, and nobody is there
-      pushHorizon(b);
+    if (b.alone)  // it goes where it was seen to go
+      lookAtOnly(b, tau);
     else
       predict(b, tau);
     return;

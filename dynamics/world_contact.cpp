@@ -95,6 +95,8 @@ void World::Core::noteLeaner(const RigidBody& b) {
 
 /// Who leans on what moved falls, or leans anew; those who lean on them, in turn.
 void World::Core::wakeOnto(Party moved, double tau) {
+  if (const auto first = leaners.lower_bound({moved, 0}); first == leaners.end() || first->first != moved)
+    return;
   std::vector<Party> waking{moved};
   std::vector<BodyId> onIt;
   for (std::size_t i = 0; i < waking.size(); ++i) {

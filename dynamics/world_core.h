@@ -5,7 +5,7 @@
 /// world_contact.cpp (lasting contact: who with whom), world_island.cpp (one island), world_crowd.cpp
 /// and world_crowd_contacts.cpp (heaps).
 ///
-/// Time     runs in windows of 128 ms on a grid of show time. tau is seconds since the window's start. What
+/// Time     runs in windows of 128 ms to 1 s on a grid of show time. tau is seconds since the window's start. What
 /// will happen is foreseen to the window's end, once for each arc; a frame only lets happen what is due and
 /// looks where everybody is. What moves from outside is known to the end of the frame only.
 
@@ -119,7 +119,14 @@ public:
 
   // --- what will touch (world_foresight.cpp)
   static constexpr Nanoseconds kWindow = 128'000'000;  ///< a multiple of the contact solver's grid
-  double windowEnd() const { return toSeconds(kWindow); }
+  static constexpr Nanoseconds kLongestWindow = 8 * kWindow;
+  Nanoseconds window = kWindow;  ///< how long the present one is
+  struct Looks {
+    std::size_t looks = 0, colliders = 0, bodies = 0;  ///< and how much was near
+  };
+  Looks looks;  ///< in this window
+  double windowEnd() const { return toSeconds(window); }
+  Nanoseconds nextWindow() const;
   void openWindow(Nanoseconds at);
   void mark(RigidBody& b);
   void sweepMarked();
@@ -129,6 +136,7 @@ public:
   void sweep(RigidBody& b, double tau);
   void sweep(Collider& c);
   void lookAhead(RigidBody& b, double tau, bool onlyGreater);
+  void lookAtOnly(RigidBody& b, double tau);
   void predict(RigidBody& b, double tau, bool onlyGreater = false);
   void predictPair(const Side& a, const Side& b, double tau);
   void pushHorizon(const RigidBody& b);
@@ -170,8 +178,9 @@ public:
 
   // --- who has parted (world_release.cpp)
   void reportReleases();
-  void foreseeRelease(const ContactMemory::Key& key, double tau);
-  void awaitRelease(ContactMemory::Memory& m, const Side& a, const Side& b, double distance,
+  bool nobodyNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const;
+  void foreseeRelease(ContactMemory::Waiting& w, double tau, std::int32_t triangle) const;
+  void awaitRelease(ContactMemory::Waiting& w, const Side& a, const Side& b, double distance,
                     double tau) const;
   Nanoseconds soonest(const Side& a, const Side& b, double distance, double tau) const;
 

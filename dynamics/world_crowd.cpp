@@ -64,7 +64,7 @@ void World::Core::joinCrowd(RigidBody& b, CrowdStep& step) {
   CrowdStep::Member m;
   CrowdBody c;
   m.body = &b;
-  m.p = b.position(tau), m.round = b.isCentred(), m.bound = b.bound.radius;
+  m.p = b.position(tau), m.round = b.centred, m.bound = b.bound.radius;
   m.middle = m.round ? m.p : Vec3(b.poseAt(tau) * b.bound.centre);
   const Vec3 L = momentumOf(b, tau);
   c.v = b.velocity(tau), c.inverseMass = b.inverseMass;

@@ -93,12 +93,12 @@ void World::Core::meetInCrowd(RigidBody& b, RigidBody& o, double margin, CrowdSt
     reach += step.members[o.slot].way, there = step.members[o.slot].middle;
   } else {
     reach += step.crowd.h * o.velocity(step.tau).norm();
-    there = o.isCentred() ? o.position(step.tau) : Vec3(o.poseAt(step.tau) * o.bound.centre);
+    there = o.centred ? o.position(step.tau) : Vec3(o.poseAt(step.tau) * o.bound.centre);
   }
   const Vec3 apart = me.middle - there;
   const double square = apart.squaredNorm(), far = me.bound + o.bound.radius + reach;
   if (square > far * far || !mayTouch(Side::of(b), Side::of(o))) return;
-  if (me.round && o.isCentred()) {
+  if (me.round && o.centred) {
     const double d = std::sqrt(square);
     Gap gap;
     gap.distance = d - me.bound - o.bound.radius;

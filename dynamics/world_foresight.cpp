@@ -26,15 +26,15 @@ bool holds(const Aabb& outer, const Aabb& inner) {
 
 /// The box around a body from tau to `to`, however it turns.
 Aabb sweptBody(const RigidBody& b, double tau, double to) {
-  Aabb box;
   const Vec3 p0 = b.position(tau), p1 = b.position(to);
-  box.include(p0), box.include(p1);
+  Aabb box{p0.cwiseMin(p1), p0.cwiseMax(p1)};
   Vec3 sag = Vec3::Zero();
   if (b.path.isParabola()) {
-    const Vec3 v0 = b.path.velocity(b.age(tau)), v1 = b.path.velocity(b.age(to));
+    const auto& c = b.path.c;
+    const Vec3 v0 = c[1] + b.age(tau) * (2 * c[2]), v1 = c[1] + b.age(to) * (2 * c[2]);
     for (int i = 0; i < 3;
          ++i)  // it turns back on the way: a parabola's vertex is this far beyond its ends at most
-      if (v0[i] * v1[i] < 0) sag[i] = std::fabs(2 * b.path.c[2][i]) * (to - tau) * (to - tau) / 8;
+      if (v0[i] * v1[i] < 0) sag[i] = std::fabs(c[2][i]) * (to - tau) * (to - tau) / 4;
   } else {
     sag.setConstant(b.path.accelerationBound() * (to - tau) * (to - tau) / 8);
   }
@@ -100,6 +100,7 @@ void World::Core::predictPair(const Side& a, const Side& b, double tau) {
     if (memory.touching(ContactMemory::keyOf(a.party, b.party))) return;
   }
   ++counters.pairTests;
+  if (a.body && b.body) ++looks.bodies;
   // An arc that ends before the window is only asked up to its end.
   const double to = std::min({windowEnd(), knownUntil(a), knownUntil(b)});
   if (!(tau <= to)) return;
@@ -108,7 +109,7 @@ void World::Core::predictPair(const Side& a, const Side& b, double tau) {
   if (!touch) return;
   Event e;
   e.tau = touch->tau, e.kind = Event::Kind::Touch, e.a = a.party, e.b = b.party;
-  e.versionA = versionOf(a.party), e.versionB = versionOf(b.party);
+  e.versionA = a.version(), e.versionB = b.version();
   e.detail = static_cast<std::uint32_t>(touches_.size());
   touches_.push_back(*touch);
   post(e);
@@ -140,9 +141,9 @@ void World::Core::predict(RigidBody& b, double tau, bool onlyGreater) {
   const Aabb before = b.swept;
   sweep(b, tau);
   if (!b.enabled) return;
-  if (b.alone && b.place != kUnfiled && holds(before, b.swept)) {  // nobody is where it goes
+  if (b.alone && b.place != kUnfiled && holds(before, b.swept)) {  // nobody else is where it goes
     b.swept = before;
-    pushHorizon(b);
+    lookAtOnly(b, tau);
   } else {
     lookAhead(b, tau, onlyGreater);
   }
@@ -152,9 +153,12 @@ void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
   if (b.crowd) return;  // whoever could touch it within its step has been taken into the step
   const Side self = Side::of(b);
   pushHorizon(b);
-  b.alone = true;
+  b.alone = true, b.only = 0;
+  ++looks.looks;
   nearColliders.eachNear(b.swept, [&](Collider& c) {
-    b.alone = false;
+    b.alone = b.alone && b.only == 0;
+    b.only = c.id;
+    ++looks.colliders;
     predictPair(self, Side::of(c), tau);
   });
   nearBodies.eachNear(b.swept, [&](RigidBody& o) {
@@ -163,6 +167,16 @@ void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
     if (onlyGreater && o.marked && o.id < b.id) return;
     predictPair(self, Side::of(o), tau);
   });
+}
+
+/// The same for one who is alone and goes nowhere else than it was seen to go.
+void World::Core::lookAtOnly(RigidBody& b, double tau) {
+  pushHorizon(b);
+  ++looks.looks;
+  const Collider* c = b.only ? collider(b.only) : nullptr;
+  if (!c || !c->enabled) return;
+  ++looks.colliders;
+  predictPair(Side::of(b), Side::of(*c), tau);
 }
 
 void World::Core::mark(RigidBody& b) {
@@ -222,9 +236,20 @@ void World::Core::sweep(Collider& c) {
   nearColliders.put(c, c.swept);
 }
 
+/// How long the next window is to be: while nobody comes near anybody else and little else is near, far looks
+/// cost less than many. What it depends on does not depend on frames.
+Nanoseconds World::Core::nextWindow() const {
+  const bool moves = std::ranges::any_of(
+      active, [](const RigidBody* b) { return b->mode != BodyMode::Rest && b->mode != BodyMode::Quarantined; });
+  if (!moves || looks.bodies > 0) return kWindow;
+  if (looks.colliders > 2 * looks.looks) return std::max(window / 2, kWindow);
+  return std::min(2 * window, kLongestWindow);
+}
+
 /// A window begins: everybody is looked at anew.
 void World::Core::openWindow(Nanoseconds at) {
   origin = at;
+  window = nextWindow(), looks = {};
   frameFrom = tauOf(t0), now = tauOf(t1);
   queue_ = {};
   touches_.clear();

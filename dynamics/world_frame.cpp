@@ -31,7 +31,7 @@ void World::Core::insert(Command c) {
 }
 
 void World::Core::postCommand(const Command& c) {
-  if (!started || c.when >= origin + kWindow) return;
+  if (!started || c.when >= origin + window) return;
   Event e;
   e.tau = tauOf(c.when), e.kind = Event::Kind::Command;
   post(e);
@@ -122,10 +122,10 @@ void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
   frameFrom = tauOf(from), now = tauOf(to);
   if (!continues) newFrame();
   beginFrame();
-  while (t1 - origin >= kWindow) {
+  while (t1 - origin >= window) {
     runEvents(windowEnd());
     const bool idle = active.empty() && commands.empty() && told.empty();
-    openWindow(idle ? t1 / kWindow * kWindow : origin + kWindow);
+    openWindow(idle ? t1 / kWindow * kWindow : origin + window);
   }
   runEvents(now);
   endFrame();
@@ -144,7 +144,7 @@ void World::Core::beginFrame() {
   told.erase(std::unique(told.begin(), told.end()), told.end());
   for (const ColliderId id : told)
     if (Collider* c = collider(id)) {
-      c->motion.set(c->now, c->next.value_or(c->now), frameFrom, seconds);
+      c->move(c->now, c->next.value_or(c->now), frameFrom, seconds);
       c->next.reset();
       ++c->version;
       sweep(*c);

@@ -27,7 +27,7 @@ void World::Core::countImpact(RigidBody& b, double tau) const {
 
 /// Whether what a ball has met there can carry it in closed form: a flat face of a still collider.
 bool World::Core::carries(const RigidBody& ball, const Collider& c, const Gap& gap) {
-  if (!gap.face || c.motion.moving || !ball.isCentred()) return false;
+  if (!gap.face || c.motion.moving || !ball.centred) return false;
   return std::holds_alternative<PlaneShape>(*c.shape) || std::holds_alternative<BoxShape>(*c.shape) ||
          (std::holds_alternative<MeshShape>(*c.shape) && gap.triangle >= 0);
 }
@@ -150,11 +150,13 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   countImpact(a, tau);
   if (b) countImpact(*b, tau);
   Mobile ma = mobileOf(a, tau), mb = b ? mobileOf(*b, tau) : mobileOf(*c, tau);
-  const Vec3 x = touch.gap.point, n = touch.gap.normal;
+  const Vec3 n = touch.gap.normal;
+  // What presses a ball at its middle does not turn it, not even by rounding.
+  const Vec3 x = a.centred ? Vec3(ma.p - (a.radius() + touch.gap.distance) * n) : touch.gap.point;
   const double closing = -(ma.velocityAt(x) - mb.velocityAt(x)).dot(n);
   const ContactMemory::Key key = ContactMemory::keyOf(pa, pb);
   const Vec3 outwards = key.second == pa.id ? n : Vec3(-n);
-  if (bothCarried(*side(pa), *side(pb))) {
+  if (!a.movable() && !(b && b->movable())) {
     memory.impact(key, timeAt(tau), x, outwards, closing, 0, frame);
     memory.setTouching(key, true);
     return;
@@ -179,7 +181,8 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
   if (tired) ++counters.limited;
   const Vec3 impulse = collide(ma, mb, x, n, ends ? 0 : pair.restitution, pair.friction);
-  const bool fired = memory.impact(key, timeAt(tau), x, outwards, closing, impulse.dot(n), frame);
+  ContactMemory::Waiting* waiting =
+      memory.impact(key, timeAt(tau), x, outwards, closing, impulse.dot(n), frame);
   if (Support face; onFace && ends && supportFor(a, *c, touch.gap, tau, face)) {
     BallStart s{a.position(tau), ma.v, ma.omega, a.orientation(tau)};
     s.v -= n * n.dot(s.v);
@@ -193,7 +196,7 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   if (ends) memory.setTouching(key, true);
   afterImpulse(a, ma, tau, ends);
   if (b) afterImpulse(*b, mb, tau, ends);
-  if (fired) foreseeRelease(key, tau);
+  if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
 }
 
 }  // namespace stadion

@@ -1,5 +1,7 @@
+#include "dynamics/ball_flight.h"
 #include "dynamics/world_core.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stadion {
@@ -36,41 +38,66 @@ double whenApart(const Side& a, const Side& b, Gap g, double far, double lo, dou
 /// frame.
 void World::Core::reportReleases() {
   std::vector<std::pair<ContactMemory::Key, Nanoseconds>> due;
-  for (const auto& [key, known] : memory.fired()) {
-    ContactMemory::Memory& m = *known;
-    if (m.frame == frame) continue;
-    const Party other = key.first, self{true, key.second};
-    if (t1 < m.look && m.versionA == versionOf(other) && m.versionB == versionOf(self)) continue;
-    const auto a = side(other), b = side(self);
-    if (!a || !b) {
-      due.emplace_back(key, t1);
+  for (ContactMemory::Waiting& w : memory.waiting()) {
+    if (w.frame == frame) continue;
+    const bool asForeseen = w.versionA && *w.versionA + *w.versionB == w.versions;
+    if (asForeseen && t1 < w.look) continue;
+    const Side a = *side(w.pair.first), b = *side({true, w.pair.second});
+    const double far = b.body->releaseDistance;
+    if (asForeseen && w.sure && nobodyNearer(w, a, b)) {
+      due.emplace_back(w.pair, std::max(w.look, t0));
       continue;
     }
-    const double far = b->body->releaseDistance;
-    const Gap gap = gapBetween(*b, *a, now, {far + 1e-3, 0.7 * far, m.triangle});
+    const Gap gap = gapBetween(b, a, now, {far + 1e-3, 0.7 * far, w.triangle});
     if (gap.distance > far) {
-      due.emplace_back(key, timeAt(whenApart(*b, *a, gap, far, frameFrom, now)));
+      due.emplace_back(w.pair, timeAt(whenApart(b, a, gap, far, frameFrom, now)));
     } else {
-      m.triangle = gap.triangle;
-      awaitRelease(m, *a, *b, far - gap.distance, now);
+      w.triangle = gap.triangle;
+      awaitRelease(w, a, b, far - gap.distance, now);
     }
   }
+  std::ranges::sort(due);
   for (const auto& [key, time] : due) memory.release(key, time);
 }
 
-/// At tau the two are to part by `distance` more: notes when to look for that.
-void World::Core::awaitRelease(ContactMemory::Memory& m, const Side& a, const Side& b, double distance,
-                               double tau) const {
-  m.look = timeAt(tau) + soonest(a, b, distance, tau);
-  m.versionA = versionOf(a.party), m.versionB = versionOf(b.party);
+/// The body has got as far off the face that was below it as it must be: whether no other part of the same
+/// thing is nearer.
+bool World::Core::nobodyNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const {
+  if (!std::holds_alternative<MeshShape>(*a.shape)) return true;
+  const double tau = tauOf(w.look), far = b.body->releaseDistance;
+  // It has been so near until half a nanosecond ago.
+  const double limit = far - 2e-9 * (1 + b.body->velocity(tau).norm());
+  return gapBetween(b, a, tau, {limit, limit, w.triangle}).distance > limit;
 }
 
-/// An impact at tau has been dealt with: the pair, if it was told, need not be looked at before it can part.
-void World::Core::foreseeRelease(const ContactMemory::Key& key, double tau) {
-  const auto at = memory.fired().find(key);
-  if (at == memory.fired().end()) return;
-  const Side a = *side(key.first), b = *side({true, key.second});
-  awaitRelease(*at->second, a, b, b.body->releaseDistance, tau);
+/// At tau the two are to part by `distance` more: notes when to look for that.
+void World::Core::awaitRelease(ContactMemory::Waiting& w, const Side& a, const Side& b, double distance,
+                               double tau) const {
+  w.versionA = a.body ? &a.body->version : &a.collider->version, w.versionB = &b.body->version;
+  w.versions = *w.versionA + *w.versionB;
+  w.sure = false;
+  BallFlight::Stay stay;
+  if (const auto flight = a.still() ? flightOf(b, tau) : std::nullopt) {
+    const double far = b.body->releaseDistance;
+    if (const auto* plane = std::get_if<PlaneShape>(a.shape); plane && !plane->bounded())
+      stay = flight->stayNear(a.collider->planePoint, a.collider->planeNormal, far);
+    if (const auto* box = std::get_if<BoxShape>(a.shape))
+      stay = flight->seenFrom(a.at(tau).pose).stayNear(*box, far);
+    if (const auto* mesh = std::get_if<MeshShape>(a.shape); mesh && w.triangle >= 0)
+      stay = flight->seenFrom(a.at(tau).pose).stayNear(mesh->tree, w.triangle, far);
+    w.triangle = stay.triangle, w.sure = stay.sure;
+  }
+  constexpr double kForever = 1e6;  // [s]
+  w.look = timeAt(tau) +
+           (w.sure ? fromSeconds(std::min(stay.seconds, kForever))
+                   : std::max(fromSeconds(stay.seconds), soonest(a, b, distance, tau)));
+}
+
+/// An impact at tau has been dealt with: the pair need not be looked at before it can part.
+void World::Core::foreseeRelease(ContactMemory::Waiting& w, double tau, std::int32_t triangle) const {
+  const Side a = *side(w.pair.first), b = *side({true, w.pair.second});
+  w.triangle = triangle;
+  awaitRelease(w, a, b, b.body->releaseDistance, tau);
 }
 
 /// After tau the two cannot part by `distance` more sooner than this, as long as their arcs last [ns].
