@@ -66,8 +66,8 @@ std::optional<Touch> meshesTouch(const Side& a, const Side& b, double from, doub
     tau += std::max(step, 1e-9);
     if (!(tau <= to)) return {};
   }
-  // Too near for too long to see farther: nothing gets lost if they meet here, even as they part. Whoever does
-  // so again and again is in lasting contact.
+  // Too near for too long to see farther: nothing gets lost if they meet here, even as they part. Whoever
+  // does so again and again is in lasting contact.
   return lastFree;
 }
 
