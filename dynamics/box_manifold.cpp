@@ -8,6 +8,7 @@ namespace stadion {
 namespace {
 
 constexpr double kFavourFaces = 1e-5;  ///< an edge pair must separate better than any face by this [m]
+constexpr double kSquare = 1e-6;       ///< sine of the angle by which a normal may miss that of two edges
 
 struct Vertex {
   Vec3 p;
@@ -109,7 +110,8 @@ void boxManifold(const Pose& A, const Vec3& halfA, const Pose& B, const Vec3& ha
     }
     if (!points.empty()) return;
   }
-  // The edges that reach farthest towards each other along n.
+  // The edges that reach farthest towards each other along n, and are square to it: of bodies deep in each
+  // other, others may be nearer.
   const auto supportingEdge = [](const Pose& X, const Vec3& half, const Vec3& along, int axis, Vec3& p,
                                  Vec3& d) {
     const Vec3 l = X.q.conjugate() * along;
@@ -124,7 +126,9 @@ void boxManifold(const Pose& A, const Vec3& halfA, const Pose& B, const Vec3& ha
       Vec3 p, d, q, e;
       supportingEdge(A, halfA, -n, i, p, d);
       supportingEdge(B, halfB, n, j, q, e);
-      if (d.cross(e).squaredNorm() < 1e-6 * d.squaredNorm() * e.squaredNorm()) continue;
+      const Vec3 across = d.cross(e);
+      if (across.squaredNorm() < 1e-6 * d.squaredNorm() * e.squaredNorm()) continue;
+      if (across.cross(n).squaredNorm() > kSquare * kSquare * across.squaredNorm()) continue;
       const NearestPoints x = nearestOfSegments(p, d, q, e);
       if (x.distance < best.distance) best = x;
     }

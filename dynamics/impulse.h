@@ -1,5 +1,5 @@
 #pragma once
-/// Collision impulses at one point: Newton's restitution, Coulomb's friction.
+/// Collision impulses at one point: Newton's restitution, Coulomb's friction; none brings energy.
 ///
 /// Formula  K = sum (1/m + [r]^T I^-1 [r]); the impulse that stops the slip and reverses the approach is K^-1
 /// du; outside the

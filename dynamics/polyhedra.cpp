@@ -66,11 +66,9 @@ std::optional<Touch> meshesTouch(const Side& a, const Side& b, double from, doub
     tau += std::max(step, 1e-9);
     if (!(tau <= to)) return {};
   }
-  if (!lastFree) return {};
-  const Kinematics ka = a.at(lastFree->tau), kb = b.at(lastFree->tau);
-  const bool closing =
-      lastFree->gap.normal.dot(ka.velocityAt(lastFree->gap.point) - kb.velocityAt(lastFree->gap.point)) < 0;
-  return closing ? lastFree : std::nullopt;
+  // Too near for too long to see farther: nothing gets lost if they meet here, even as they part. Whoever
+  // does so again and again is in lasting contact.
+  return lastFree;
 }
 
 }  // namespace stadion

@@ -210,7 +210,9 @@ public:
 
   /// Work done by the last advance, for cost reports.
   struct Counters {
-    std::uint64_t arcs = 0, impacts = 0, contactSteps = 0, pairTests = 0, limited = 0;
+    std::uint64_t arcs = 0, impacts = 0, contactSteps = 0, pairTests = 0;
+    std::uint64_t tired = 0;    ///< impacts of bodies that have bounced too often in too short a time
+    std::uint64_t limited = 0;  ///< frames cut short because their events would not end: never expected
   };
   const Counters& counters() const;
 

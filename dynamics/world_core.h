@@ -247,6 +247,7 @@ public:
   void stopApproaches(Island& island) const;
   bool solveStep(Island& island, double tau, double h) const;
   double glide(Island& island, double tau, double h);
+  static double stepOf(const Island& island, double h);
   void resistRolling(Island& island) const;
   void conclude(Island& island, double tau, double h);
   void concludeFreely(RigidBody& b, const Mobile& start, double tau);

@@ -15,6 +15,8 @@ constexpr std::uint32_t kMostImpacts = 60;    ///< in that time, then the contac
 constexpr std::uint32_t kMostRattles = 4;     ///< the same where bounces die away soon
 constexpr std::uint32_t kMostInThick = 1;     ///< and among many balls, who will lean on each other anyway
 constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
+constexpr std::uint32_t kMostElastic =
+    600;  ///< where nothing is lost: no bounces that die away, but squeezes
 
 }  // namespace
 
@@ -174,12 +176,12 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
 
   const bool onFace = c && a.mode == BodyMode::Flight && carries(a, *c, touch.gap);
   const double last = onFace ? kLastBounce : kLastRattle;
-  std::uint32_t most = kMostImpacts;
+  std::uint32_t most = pair.restitution < 1 ? kMostImpacts : kMostElastic;
   if (pair.restitution < 0.6)
     most = b && thickness(a, tau) + 1 >= kCrowdOfBalls ? kMostInThick : kMostRattles;
   const bool tired = a.impacts > (onFace ? kMostBounces : most) || (b && b->impacts > most);
   const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
-  if (tired) ++counters.limited;
+  if (tired) ++counters.tired;
   const Vec3 impulse = collide(ma, mb, x, n, ends ? 0 : pair.restitution, pair.friction);
   ContactMemory::Waiting* waiting =
       memory.impact(key, timeAt(tau), x, outwards, closing, impulse.dot(n), frame);
