@@ -339,7 +339,7 @@ void World::Core::conclude(Island& s, double tau, double h) {
 double World::Core::stepOf(const Island& s, double h) {
   double fastest = 0;
   for (std::size_t i = 0; i < s.set.size(); ++i)
-    if (!s.set[i]->isCentred()) fastest = std::max(fastest, s.start[i].omega.norm());
+    if (!s.set[i]->centred) fastest = std::max(fastest, s.start[i].omega.norm());
   return h / std::max(1.0, std::ceil(fastest * h / kMostTurn));
 }
 
