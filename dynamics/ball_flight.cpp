@@ -72,7 +72,6 @@ BallFlight::Stay BallFlight::stayNear(const BoxShape& box, double far) const {
   Stay stay{kNever, true, -1};
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0}) {
-      if (axis == face && side * f.p[axis] < 0) continue;
       const double room = box.half[axis] + (axis == face ? far + radius : 0) - side * f.p[axis];
       if (!(room > 0)) return {};
       const double time = riseTime(room, side * f.v[axis], side * f.a[axis]);

@@ -396,10 +396,15 @@ Gap gapBetween(const Side& a, const Side& b, double tau, Within within) {
     return ballGap(centreAt(a, tau).p, std::get<BallShape>(*a.shape).radius, *b.shape, b.at(tau).pose,
                    within);
   }
-  const Kinematics ka = a.at(tau), kb = b.at(tau);
+  return gapBetween(a, a.at(tau), b, b.at(tau), within);
+}
+
+Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinematics& kb, Within within) {
+  if (isBall(a))
+    return ballGap(ballCentre(a, ka), std::get<BallShape>(*a.shape).radius, *b.shape, kb.pose, within);
   const bool swap = isBall(b) || (isPlane(a) && !isPlane(b)) || (!isConvex(*a.shape) && isConvex(*b.shape));
   if (swap && !isPlane(b)) {
-    Gap g = gapBetween(b, a, tau, within);
+    Gap g = gapBetween(b, kb, a, ka, within);
     flip(g);
     return g;
   }

@@ -65,6 +65,8 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
 
 /// Distance now, for release events and reports. Normal from b to a.
 Gap gapBetween(const Side& a, const Side& b, double tau, Within within = {});
+/// The same where they are already known to be.
+Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinematics& kb, Within within = {});
 
 /// The box around a side from `from` to `to`.
 Aabb sweptBox(const Side& side, double from, double to);

@@ -9,20 +9,24 @@ namespace {
 
 constexpr double kFineEnough = 1e-11;  ///< of times at which pairs part [s]
 
-/// When between `lo` and `hi` the gap of two sides grew beyond `far`; at `hi` it is g. Newton's method, kept
-/// between what is known.
-double whenApart(const Side& a, const Side& b, Gap g, double far, double lo, double hi) {
+/// When between `lo` and `hi` the gap of two sides, which is wider at `hi`, grew beyond `far`. Newton's
+/// method, kept between what is known.
+double whenApart(const Side& a, const Side& b, double far, double lo, double hi) {
   bool nearAtLo = false;
-  double tau = hi;
+  double tau = hi, before = hi, rateBefore = 0;
   for (int i = 0; i < 60 && hi - lo > kFineEnough; ++i) {
-    if (i > 0 || g.distance > 1e200) g = gapBetween(a, b, tau);
+    const Kinematics ka = a.at(tau), kb = b.at(tau);
+    const Gap g = gapBetween(a, ka, b, kb);
     const double over = g.distance - far;
     (over > 0 ? hi : lo) = tau;
     nearAtLo = nearAtLo || !(over > 0);
     const Vec3 x = g.point + g.distance * g.normal;
-    const double rate = g.normal.dot(a.at(tau).velocityAt(x) - b.at(tau).velocityAt(g.point));
-    double next = tau - over / rate;
-    if (std::fabs(next - tau) < kFineEnough) return next;
+    const double rate = g.normal.dot(ka.velocityAt(x) - kb.velocityAt(g.point)), step = over / rate;
+    // What the next step would be is about the square of this one times half the curvature.
+    const double bend = i > 0 && tau != before ? std::fabs((rate - rateBefore) / (tau - before)) : 1e9;
+    before = tau, rateBefore = rate;
+    double next = tau - step;
+    if (std::fabs(step) < kFineEnough || step * step * bend < kFineEnough * std::fabs(rate)) return next;
     if (!(next > lo && next < hi)) {
       if (!nearAtLo && gapBetween(a, b, lo).distance > far) return lo;
       nearAtLo = true, next = 0.5 * (lo + hi);
@@ -50,7 +54,7 @@ void World::Core::reportReleases() {
     }
     const Gap gap = gapBetween(b, a, now, {far + 1e-3, 0.7 * far, w.triangle});
     if (gap.distance > far) {
-      due.emplace_back(w.pair, timeAt(whenApart(b, a, gap, far, frameFrom, now)));
+      due.emplace_back(w.pair, timeAt(whenApart(b, a, far, frameFrom, now)));
     } else {
       w.triangle = gap.triangle;
       awaitRelease(w, a, b, far - gap.distance, now);
@@ -88,9 +92,8 @@ void World::Core::awaitRelease(ContactMemory::Waiting& w, const Side& a, const S
     w.triangle = stay.triangle, w.sure = stay.sure;
   }
   constexpr double kForever = 1e6;  // [s]
-  w.look = timeAt(tau) +
-           (w.sure ? fromSeconds(std::min(stay.seconds, kForever))
-                   : std::max(fromSeconds(stay.seconds), soonest(a, b, distance, tau)));
+  w.look = timeAt(tau) + (w.sure ? fromSeconds(std::min(stay.seconds, kForever))
+                                 : std::max(fromSeconds(stay.seconds), soonest(a, b, distance, tau)));
 }
 
 /// An impact at tau has been dealt with: the pair need not be looked at before it can part.
