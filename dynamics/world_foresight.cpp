@@ -237,10 +237,15 @@ void World::Core::sweep(Collider& c) {
 }
 
 /// How long the next window is to be: while nobody comes near anybody else and little else is near, far looks
-/// cost less than many. What it depends on does not depend on frames.
+/// cost less than many. Solids that could meet something take small steps anyway. What it depends on does not
+/// depend on frames.
 Nanoseconds World::Core::nextWindow() const {
-  const bool moves = std::ranges::any_of(
-      active, [](const RigidBody* b) { return b->mode != BodyMode::Rest && b->mode != BodyMode::Quarantined; });
+  bool moves = false;
+  for (const RigidBody* b : active) {
+    if (b->mode == BodyMode::Rest || b->mode == BodyMode::Quarantined) continue;
+    moves = true;
+    if (!b->centred && !colliders.empty()) return kWindow;
+  }
   if (!moves || looks.bodies > 0) return kWindow;
   if (looks.colliders > 2 * looks.looks) return std::max(window / 2, kWindow);
   return std::min(2 * window, kLongestWindow);
