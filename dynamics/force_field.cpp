@@ -3,6 +3,7 @@
 #include "engine/maths/functions.h"
 
 #include <cmath>
+#include <limits>
 
 namespace stadion {
 namespace {
@@ -73,6 +74,44 @@ const MediumField* ForceField::evenMedium() const {
 
 Drag dragOf(const MediumField& f, const Quat& q_WF, double mass, double dragArea) {
   return {f.viscosity, 0.5 * f.density * dragArea / mass, q_WF * f.wind};
+}
+
+namespace {
+
+constexpr double kFree = std::numeric_limits<double>::infinity();
+
+/// Towards something so large at that distance.
+double stride(double distance, double size) {
+  return std::max(distance, 0.0) + 0.4 * size;
+}
+
+double strideOf(const LinearField&, const Vec3&) {
+  return kFree;
+}
+double strideOf(const SphericalField& f, const Vec3& local) {
+  return stride(local.norm() - f.radius, f.radius);
+}
+double strideOf(const PointField& f, const Vec3& local) {
+  return stride(0.4 * local.norm(), f.softening);
+}
+double strideOf(const VortexField& f, const Vec3& local) {
+  return stride(0.4 * std::hypot(local.x(), local.y()), f.core);
+}
+double strideOf(const MediumField& f, const Vec3& local) {
+  const Vec3 d = local - f.centre;
+  switch (f.region) {
+  case MediumField::Region::Everywhere: return kFree;
+  case MediumField::Region::Ball: return stride(d.norm() - f.half.x(), f.half.x());
+  case MediumField::Region::Box: return stride((d.cwiseAbs() - f.half).cwiseMax(0).norm(), f.half.minCoeff());
+  }
+  return kFree;
+}
+
+}  // namespace
+
+double strideIn(const ForceField& field, const Vec3& p) {
+  const Vec3 local = field.end.inverse() * p;
+  return std::visit([&](const auto& law) { return strideOf(law, local); }, field.law);
 }
 
 FieldLaw scaled(const FieldLaw& law, double factor) {

@@ -100,6 +100,10 @@ Drag dragOf(const MediumField& medium, const Quat& q_WF, double mass, double dra
 /// The law with its push `factor` times as strong; a medium with its wind so.
 FieldLaw scaled(const FieldLaw& law, double factor);
 
+/// How far a body at p may go in one step without passing over what the field does somewhere; infinity if it
+/// does the same everywhere [m].
+double strideIn(const ForceField& field, const Vec3& p);
+
 /// What the body gains [m/s2]; s in [0, 1] from frame start to end.
 Vec3 accelerationOf(const ForceField& field, const Exposed& body, double s);
 

@@ -360,6 +360,16 @@ Pose World::pose(BodyId id) const {
   return b ? b->pose : Pose{};
 }
 
+Pose World::poseAhead(BodyId id, Nanoseconds when) const {
+  const RigidBody* b = core_->body(id);
+  if (!b) return {};
+  if (b->mode == BodyMode::Held) return b->held.end;
+  const double tau = core_->tauOf(when), known = std::min(tau, b->until);
+  Pose X = b->poseAt(known);
+  X.p += (tau - known) * b->velocity(known);
+  return X.finite() ? X : b->pose;
+}
+
 namespace {
 
 FlightClass flightClassOf(const Path& path) {

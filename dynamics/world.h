@@ -192,6 +192,8 @@ public:
   const std::vector<BodyId>& changed() const;
 
   Pose pose(BodyId id) const;        ///< X_WN at t1
+  /// Where it will be at `when` > t1 if nothing happens to it; if it is held, where it has been told to go.
+  Pose poseAhead(BodyId id, Nanoseconds when) const;
   BodyState state(BodyId id) const;  ///< at t1
   BodyMode mode(BodyId id) const;
   bool moving(BodyId id) const;            ///< false asleep or quarantined: nothing to publish

@@ -160,6 +160,15 @@ void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec
   fly(b, tau, p, v);
 }
 
+/// How long the body takes for a step that passes over nothing that a field does, if it gains `more` speed.
+double World::Core::timeToPass(const RigidBody& b, const Vec3& p, const Vec3& v, double more) const {
+  double stride = kForever;
+  for (const Hook& h : b.hooks)
+    if (const FieldEntry* f = fields.find(h.field); f && f->on)
+      stride = std::min(stride, strideIn(f->field, p) / std::max(v.norm() + more, 1e-9));
+  return std::max(stride, 1e-6);
+}
+
 /// Flight from here; the spin goes on as it is.
 void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   const auto even = evenPullOn(b);
@@ -177,6 +186,7 @@ void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
     return Vec3(accelerationAt(b, x, u, at) - b.damping * u);
   };
   double h = std::min({b.step > 0 ? b.step : 0.01, 0.05, knownFor(b, tau)}), error = 0;
+  h = std::min(h, timeToPass(b, p, v, h * f(tau, p, v).norm()));
   State end{p, v};
   const double tolerance = 1e-13 * (1 + v.norm());
   for (int i = 0; i < 60; ++i) {

@@ -149,6 +149,7 @@ public:
   Vec3 accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& v, double tau) const;
   bool uniformFor(const RigidBody& b) const;
   double knownFor(const RigidBody& b, double tau) const;
+  double timeToPass(const RigidBody& b, const Vec3& p, const Vec3& v, double more) const;
   double restLasts(const RigidBody& b, const BallStart& s, double tau) const;
   struct EvenPull {
     Vec3 pull = Vec3::Zero();  ///< [m/s2]

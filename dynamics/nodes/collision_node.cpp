@@ -81,7 +81,8 @@ void CollisionNode::findPart(Part& part, Scene& scene) {
 }
 
 /// Parts go and come at the exact times of their files.
-void CollisionNode::changeParts(Nanoseconds time, Scene& scene) {
+void CollisionNode::changeParts(Nanoseconds time, FrameContext& frame) {
+  Scene& scene = frame.scene;
   for (Part* part : comingOrGoing_) {
     const bool isCollider = part >= colliders_.data() && part < colliders_.data() + colliders_.size();
     if (part->ref.valid() && part->leaveAt <= time) {
@@ -94,9 +95,24 @@ void CollisionNode::changeParts(Nanoseconds time, Scene& scene) {
     if (!object) continue;
     part->ref = ref, part->leaveAt = scene.endOf(ref.load);
     part->placement = object->placement();
-    part->pose = poseOf(scene.placements().world(part->placement));
-    isCollider ? addCollider(*part, *object, scene) : addCollidee(*part, *object, scene);
+    if (isCollider)
+      bringCollider(*part, *object, time, frame);
+    else
+      part->pose = poseOf(scene.placements().world(part->placement)), addCollidee(*part, *object, scene);
   }
+}
+
+/// A collider comes where it is at that time, and goes on from there.
+void CollisionNode::bringCollider(Part& part, const ObjectNode& object, Nanoseconds time,
+                                  FrameContext& frame) {
+  const Placements& placements = frame.scene.placements();
+  const Courses& courses = frame.scene.courses();
+  part.course = courses.within(part.placement, courses.startOf(part.placement, placements), frame.start(),
+                               frame.now.time, placements);
+  part.pose = part.course.empty() ? poseOf(placements.world(part.placement))
+                                  : poseOn(part.course, time, Limit::After);
+  addCollider(part, object, frame.scene);
+  part.pose = poseOf(placements.world(part.placement));
 }
 
 void CollisionNode::addCollider(Part& part, const ObjectNode& object, Scene& scene) {
@@ -210,7 +226,7 @@ bool CollisionNode::foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts)
 void CollisionNode::actAt(Nanoseconds time, FrameContext* frame) {
   for (const Switching& s : switchings_)
     if (s.when == time) on_ = s.on;
-  if (frame) changeParts(time, frame->scene);
+  if (frame) changeParts(time, *frame);
   for (const Part& part : colliders_)
     if (jumpsAt(part.course, time))
       world_.moveCollider(part.id, poseOn(part.course, time, Limit::After), true);

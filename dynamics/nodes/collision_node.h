@@ -119,7 +119,8 @@ private:
   ColliderDef colliderOf(Part& part, const ObjectNode& object, const Scene& scene);
   void addCollider(Part& part, const ObjectNode& object, Scene& scene);
   void removeCollider(Part& part, Scene& scene);
-  void changeParts(Nanoseconds time, Scene& scene);
+  void bringCollider(Part& part, const ObjectNode& object, Nanoseconds time, FrameContext& frame);
+  void changeParts(Nanoseconds time, FrameContext& frame);
   bool foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts);
   void actAt(Nanoseconds time, FrameContext* frame);
   void step(FrameContext* frame);

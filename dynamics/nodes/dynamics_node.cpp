@@ -8,6 +8,9 @@
 namespace stadion {
 namespace {
 
+/// A field that a body of the same world carries goes straight for so long, on a grid of show time.
+constexpr Nanoseconds kCarried = 2'000'000;
+
 DynObjectNode* bodyAt(NodeRef ref, Scene& scene) {
   return dynamic_cast<DynObjectNode*>(scene.find(ref));
 }
@@ -66,13 +69,24 @@ FieldId DynamicsNode::fieldFor(NodeRef ref, Scene& scene) {
   FieldNode* node = fieldAt(ref, scene);
   if (!node) return 0;
   Field f;
-  f.ref = ref, f.placement = node->placement(), f.pose = node->pose(scene), f.strength = node->strength();
+  f.ref = ref, f.placement = node->placement(),
+  f.pose = scene.courses().startOf(f.placement, scene.placements());
+  f.strength = node->strength();
   f.id = world_.addField({node->law(scene), f.pose, f.pose, node->duration()}, false);
   if (node->on()) world_.switchField(f.id, true, node->activated());
   node->addUser(self());
   scene.watch(f.placement, self());
   fields_.push_back(f);
   return f.id;
+}
+
+/// The body that carries the field, if it is one of this node's.
+BodyId DynamicsNode::carrierOf(PlacementId field, const Placements& placements) const {
+  for (PlacementId id = placements.carrier(field); id != kWorldPlacement && id != kNoPlacement;
+       id = placements.carrier(id))
+    for (const Part& part : collidees_)
+      if (part.ref.valid() && part.placement == id) return part.id;
+  return 0;
 }
 
 // The fields' own nodes have had their turn: what they say now holds for the end of this frame.
@@ -89,6 +103,12 @@ bool DynamicsNode::followFields(FrameContext& frame, std::vector<Nanoseconds>& c
                                             frame.scene.placements());
     if (!f.course.empty()) any = true;
     addCuts(f.course, cuts);
+    if (f.carrier = carrierOf(f.placement, frame.scene.placements()); f.carrier) {
+      // Where the body goes is only known from part to part.
+      f.X_BF = world_.pose(f.carrier).inverse() * node->pose(frame.scene);
+      for (Nanoseconds t = frame.start() / kCarried * kCarried; t < frame.now.time; t += kCarried)
+        cuts.push_back(t);
+    }
     f.strength = node->strength();
     for (const AxisKnot& k : f.strength) cuts.push_back(k.time);
     f.pose = node->pose(frame.scene);
@@ -211,21 +231,23 @@ void DynamicsNode::act(Nanoseconds time, FrameContext* frame) {
 }
 
 void DynamicsNode::move(Nanoseconds from, Nanoseconds to, bool jump) {
-  for (const Field& f : fields_) {
-    if (!f.strength.empty())
-      world_.setFieldStrength(f.id, axisOn(f.strength, jump ? to : from, jump ? Limit::Before : Limit::After),
-                              axisOn(f.strength, to, Limit::Before));
-    if (f.course.empty())
-      world_.moveField(f.id, f.pose, f.pose);
-    else
-      world_.moveField(f.id, poseOn(f.course, jump ? to : from, jump ? Limit::Before : Limit::After),
-                       poseOn(f.course, to, Limit::Before));
-  }
   for (Grip& grip : grips_) {
     if (grip.silentBefore(to) || from == to) continue;
     const Pose X_WT = poseOn(grip.course, to, Limit::Before);
     world_.moveHeld(grip.body, X_WT * grip.X_TN, jump);
     grip.hand.go(to, X_WT);
+  }
+  for (const Field& f : fields_) {
+    if (!f.strength.empty())
+      world_.setFieldStrength(f.id, axisOn(f.strength, jump ? to : from, jump ? Limit::Before : Limit::After),
+                              axisOn(f.strength, to, Limit::Before));
+    if (f.carrier)
+      world_.moveField(f.id, world_.pose(f.carrier) * f.X_BF, world_.poseAhead(f.carrier, to) * f.X_BF);
+    else if (f.course.empty())
+      world_.moveField(f.id, f.pose, f.pose);
+    else
+      world_.moveField(f.id, poseOn(f.course, jump ? to : from, jump ? Limit::Before : Limit::After),
+                       poseOn(f.course, to, Limit::Before));
   }
 }
 

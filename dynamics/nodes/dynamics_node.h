@@ -44,6 +44,8 @@ private:
     Pose pose;            ///< at the end of the last step
     Course course;        ///< in this frame, if it moves
     AxisCourse strength;  ///< in this frame, if a device's axis says it
+    BodyId carrier = 0;   ///< one of this node's bodies, if that carries it
+    Pose X_BF;            ///< where it is then, in the body's coordinates
     Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max();
   };
   /// A body in the visitor's hand.
@@ -69,6 +71,7 @@ private:
   void obey(const Order& order, FrameContext& frame);
   void grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame);
   void letGo(BodyId body, Nanoseconds when);
+  BodyId carrierOf(PlacementId field, const Placements& placements) const;
 
   std::vector<NodeRef> asking_;               ///< bodies of which something has been asked
   std::unordered_map<BodyId, Part*> partOf_;  ///< by its body

@@ -8,6 +8,8 @@
 namespace stadion {
 namespace {
 
+constexpr Nanoseconds kChord = 2'000'000;
+
 /// The tangent at key k by finite differences over the neighbours' own times.
 Vec3 tangent(const std::vector<Keyframe>& keys, std::size_t k) {
   const std::size_t before = k == 0 ? k : k - 1, after = std::min(k + 1, keys.size() - 1);
@@ -35,13 +37,79 @@ Pose PathNode::poseAt(double seconds) const {
   return X;
 }
 
+/// Whether it is ever anything but straight ways.
+bool PathNode::bends() const {
+  const auto turned = [&](const Keyframe& key) {
+    return key.X_PN.q.coeffs() != keys_.front().X_PN.q.coeffs();
+  };
+  return smooth_ || std::ranges::any_of(keys_, turned);
+}
+
+/// What it moves; null if that is not there or moves itself.
+PlacedNode* PathNode::target(Scene& scene) {
+  auto* placed = dynamic_cast<PlacedNode*>(target_.valid() ? scene.find(target_) : this);
+  return placed && !placed->moved() ? placed : nullptr;
+}
+
+/// Tells those who look at what it moves how that goes from since_ on.
+void PathNode::trace(Nanoseconds to, FrameContext& frame) {
+  const PlacedNode* placed = target(frame.scene);
+  const Placements& placements = frame.scene.placements();
+  // In its first frame nobody may have had the time to say that he looks.
+  if (!placed || to <= since_ || (putAt_ && !placements.watchedBelow(placed->placement()))) return;
+  const PlacementId id = placed->placement(), up = placements.parent(id);
+  const auto at = [&](Nanoseconds time, double seconds) {
+    const Pose X_WP = frame.scene.courses().at(up, time, placements);
+    return poseOf(withScale(X_WP, placements.world(up)) * toAffine(poseAt(seconds)));
+  };
+  const Pose begin = at(since_, toSeconds(elapsed_));
+  const bool goesOn = putAt_ == since_;
+  Course& way =
+      frame.scene.courses().of(id, {frame.start(), goesOn ? begin : poseOf(placements.world(id)), false});
+  if (!goesOn) way.push_back({since_, begin, true});
+  // Where it may turn: on the grid, at keys, and where a pass ends.
+  std::vector<Nanoseconds> passed;  // since since_
+  const Nanoseconds span = loop_ ? to - since_ : std::min(to - since_, length() - elapsed_);
+  if (bends_)
+    for (Nanoseconds t = (since_ / kChord + 1) * kChord - since_; t < span; t += kChord) passed.push_back(t);
+  const Nanoseconds pass = std::max<Nanoseconds>(length(), 1);
+  for (Nanoseconds base = -elapsed_; base < span; base += pass) {
+    auto key =
+        std::ranges::upper_bound(keys_, -base, {}, [](const Keyframe& k) { return fromSeconds(k.time); });
+    for (; key != keys_.end() && base + fromSeconds(key->time) < span; ++key)
+      passed.push_back(base + fromSeconds(key->time));
+    if (!loop_) break;
+  }
+  passed.push_back(span);
+  std::ranges::sort(passed);
+  passed.erase(std::unique(passed.begin(), passed.end()), passed.end());
+  for (const Nanoseconds t : passed) {
+    const Nanoseconds in = (elapsed_ + t - 1) % pass + 1;  // of this pass, its end included
+    way.push_back({since_ + t, at(since_ + t, loop_ ? toSeconds(in) : toSeconds(elapsed_ + t)), false});
+    if (loop_ && in == pass) way.push_back({since_ + t, at(since_ + t, 0), true});
+  }
+}
+
+/// It is put where the path is now.
+void PathNode::jump(Nanoseconds when, FrameContext& frame) {
+  const PlacedNode* placed = target(frame.scene);
+  if (!placed) return;
+  const Placements& placements = frame.scene.placements();
+  Course* way = nullptr;
+  if (placements.watchedBelow(placed->placement()))
+    way = &frame.scene.courses().of(placed->placement(),
+                                    {frame.start(), poseOf(placements.world(placed->placement())), false});
+  putTarget(frame.scene);
+  if (way) way->push_back({when, poseOf(placements.world(placed->placement())), true});
+}
+
 void PathNode::putTarget(Scene& scene) {
-  Node* node = target_.valid() ? scene.find(target_) : this;
-  if (auto* placed = dynamic_cast<PlacedNode*>(node); placed && !placed->moved()) {
+  if (PlacedNode* placed = target(scene)) {
     const PlacementId up = scene.placements().parent(placed->placement());
     Affine X_PN = toAffine(poseAt(toSeconds(elapsed_)));
     X_PN.linear() = X_PN.linear() * placed->attributes().X_PN.linear().colwise().norm().asDiagonal();
     placed->place(scene, scene.placements().world(up) * X_PN);
+    putAt_ = since_;
   }
 }
 
@@ -50,8 +118,11 @@ void PathNode::onEnter(Scene& scene) {
   since_ = scene.now();
 }
 
-void PathNode::advanceTo(Nanoseconds time) {
-  if (switch_.on()) elapsed_ += time - since_;
+void PathNode::advanceTo(Nanoseconds time, FrameContext& frame) {
+  if (switch_.on()) {
+    trace(time, frame);
+    elapsed_ += time - since_;
+  }
   since_ = time;
   if (!switch_.on() || elapsed_ < length()) return;
   if (loop_ && length() > 0) {
@@ -67,20 +138,23 @@ void PathNode::receive(const Message& m, FrameContext& frame) {
   PlacedNode::receive(m, frame);
   // What has passed up to the command still counts.
   const bool moved = switch_.on();
-  advanceTo(frame.effective(m));
+  advanceTo(frame.effective(m), frame);
   const bool before = switch_.on();
   if (switch_.obey(m)) {
     const bool again = !before && switch_.on() && elapsed_ >= length();
     if (again || m.verb == Verb::Reset) elapsed_ = 0;
   }
   // Once it is off nobody else puts the target where it is at this time.
-  if ((moved && !switch_.on()) || m.verb == Verb::Reset) putTarget(frame.scene);
+  if (m.verb == Verb::Reset)
+    jump(frame.effective(m), frame);
+  else if (moved && !switch_.on())
+    putTarget(frame.scene);
 }
 
 void PathNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
   if (!switch_.on()) return;
-  advanceTo(frame.now.time);
+  advanceTo(frame.now.time, frame);
   putTarget(frame.scene);
 }
 

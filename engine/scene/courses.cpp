@@ -8,6 +8,8 @@
 namespace stadion {
 namespace {
 
+constexpr Nanoseconds kChord = 2'000'000;  ///< on a grid of show time
+
 bool same(const Pose& a, const Pose& b) {
   return a.p == b.p && a.q.coeffs() == b.q.coeffs();
 }
@@ -27,6 +29,20 @@ const std::pair<const PlacementId, Course>* Courses::above(PlacementId id,
   return nullptr;
 }
 
+Pose Courses::at(PlacementId id, Nanoseconds time, const Placements& placements) const {
+  const Pose now = poseOf(placements.world(id));
+  const auto* carrier = above(id, placements);
+  if (!carrier) return now;
+  const Course& way = carrier->second;
+  return poseOn(way, time, Limit::After) * (way.back().X.inverse() * now);
+}
+
+Pose Courses::startOf(PlacementId id, const Placements& placements) const {
+  const Pose now = poseOf(placements.world(id));
+  const auto* carrier = above(id, placements);
+  return carrier ? carrier->second.front().X * (carrier->second.back().X.inverse() * now) : now;
+}
+
 Course Courses::within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
                        const Placements& placements) const {
   const Pose now = poseOf(placements.world(id));
@@ -39,12 +55,19 @@ Course Courses::within(PlacementId id, const Pose& before, Nanoseconds start, Na
     const bool itself = carrier->first == id;
     const Pose X_CN0 = itself ? Pose{} : way.front().X.inverse() * before;
     const Pose X_CN1 = itself ? Pose{} : way.back().X.inverse() * now;
+    const auto at = [&](Nanoseconds time, const Pose& X) {
+      const double s = end > start ? static_cast<double>(time - start) / static_cast<double>(end - start) : 1;
+      return itself ? X : X * det::interpolate(X_CN0, X_CN1, s);
+    };
+    const PoseKnot* last = nullptr;
     for (const PoseKnot& knot : way) {
-      const double s =
-          end > start ? static_cast<double>(knot.time - start) / static_cast<double>(end - start) : 1;
-      const Pose X = itself ? knot.X : knot.X * det::interpolate(X_CN0, X_CN1, s);
-      const bool first = &knot == &way.front();
-      if (!first || !near(X, before)) course.push_back({knot.time, X, knot.jump || first});
+      // What hangs off something that turns goes round, not straight.
+      if (last && !itself && !knot.jump && knot.X.q.coeffs() != last->X.q.coeffs())
+        for (Nanoseconds t = (last->time / kChord + 1) * kChord; t < knot.time; t += kChord)
+          course.push_back({t, at(t, poseOn(way, t, Limit::Before)), false});
+      const Pose X = at(knot.time, knot.X);
+      if (last || !near(X, before)) course.push_back({knot.time, X, knot.jump || !last});
+      last = &knot;
     }
     if (course.back().time >= end || near(course.back().X, now)) return course;
   }

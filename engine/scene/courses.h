@@ -1,6 +1,6 @@
 #pragma once
 /// How placements have moved inside the present frame, where more is known than the two ends: of those that
-/// follow a tracker, and of those that were put somewhere by a command at an exact time.
+/// follow a tracker or a path, and of those that were put somewhere by a command at an exact time.
 ///
 /// Frames   World. Every course begins at the frame's start.
 /// Threads  App only.
@@ -25,6 +25,10 @@ public:
   /// nearest above it, on which its place changes evenly; else straight. Empty if it stays.
   Course within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
                 const Placements& placements) const;
+
+  /// Where it was at a time of this frame, and at its start, if nothing moved on what carries it.
+  Pose at(PlacementId id, Nanoseconds time, const Placements& placements) const;
+  Pose startOf(PlacementId id, const Placements& placements) const;
 
 private:
   const std::pair<const PlacementId, Course>* above(PlacementId id, const Placements& placements) const;

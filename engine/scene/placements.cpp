@@ -103,6 +103,12 @@ Affine Placements::local(PlacementId id) const {
   return e.parent == kWorldPlacement ? world(id) : Affine(world(e.parent).inverse() * world(id));
 }
 
+void Placements::watch(PlacementId id) {
+  entries_[id].watched = true;
+  for (; id != kNoPlacement && !entries_[id].watchedBelow; id = entries_[id].parent)
+    entries_[id].watchedBelow = true;
+}
+
 PlacementId Placements::carrier(PlacementId id) const {
   return entries_[id].held == Held::All ? kWorldPlacement : entries_[id].parent;
 }

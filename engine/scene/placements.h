@@ -51,7 +51,9 @@ public:
   bool shown(PlacementId id) const;  ///< itself and everything above it
 
   /// From now on takeMovedWatched() tells when this placement moves.
-  void watch(PlacementId id) { entries_[id].watched = true; }
+  void watch(PlacementId id);
+  /// Whether this placement or one below it has ever been watched.
+  bool watchedBelow(PlacementId id) const { return entries_[id].watchedBelow; }
   std::vector<PlacementId> takeMovedWatched();
 
   /// Every placement whose World matrix or visibility may have changed since the last call, each once. Clears
@@ -69,7 +71,7 @@ private:
     bool changed = false;  ///< is in changed_
     bool shownSelf = true;
     bool live = false;
-    bool watched = false;
+    bool watched = false, watchedBelow = false;
   };
 
   static Affine carried(const Entry& e, const Affine& X_WP);

@@ -111,7 +111,7 @@ void shoot(Outcome& out, const Shot& shot) {
 }
 
 void addShot(CaseList& list, const std::string& name, const Shot& shot, const std::vector<int>& steps) {
-  list.push_back({name, [shot](Outcome& o) { shoot(o, shot); }, steps, 1});
+  list.push_back({name, [shot](Outcome& o) { shoot(o, shot); }, steps, 3});
 }
 
 }  // namespace
