@@ -203,6 +203,8 @@ public:
     std::vector<Found> found;
     std::vector<Mobile> start, end;  ///< the set's, then those of the parties that nothing moves
     std::vector<Party> fixed;        ///< the latter
+    std::vector<Vec3> pull;          ///< on the set in this step [m/s2]
+    std::vector<Mobile> free;        ///< what `end` would be without contacts
     bool carried = false;            ///< one of them moves
     bool glides = false;             ///< in closed form: it stops when it stops, however slow
   };
@@ -252,6 +254,7 @@ public:
   bool solveStep(Island& island, double tau, double h) const;
   double glide(Island& island, double tau, double h);
   double stepOf(const Island& island, double tau, double h) const;
+  static void boundStep(Island& island, double h);
   void resistRolling(Island& island) const;
   void conclude(Island& island, double tau, double h);
   void concludeFreely(RigidBody& b, const Mobile& start, double tau);

@@ -1,3 +1,4 @@
+#include "dynamics/island_energy.h"
 #include "dynamics/world_core.h"
 
 #include <algorithm>
@@ -116,14 +117,18 @@ void World::Core::stopApproaches(Island& s) const {
     any = any || closing > kApproach;
     hits.push_back(c);
   }
-  if (any) solveContacts(s.start, hits);
+  if (!any) return;
+  const std::vector<Mobile> before = s.start;
+  solveContacts(s.start, hits);
+  if (!s.carried) boundWork(s.set.size(), before, s.start, {}, 0);
 }
 
 /// Velocities after h seconds: forces act in the middle of the step, contact points obey at its end. A first
 /// pass foresees how the bodies turn, a second one counts.
 bool World::Core::solveStep(Island& s, double tau, double h) const {
   std::vector<Mobile> guess = s.start;
-  std::vector<Vec3> pull(s.set.size());
+  std::vector<Vec3>& pull = s.pull;
+  pull.resize(s.set.size());
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     pull[i] = accelerationAt(*s.set[i], guess[i].p, guess[i].v, tau);
     guess[i].v += h * pull[i];
@@ -180,6 +185,7 @@ bool World::Core::solveStep(Island& s, double tau, double h) const {
         c.slides = c.slip.norm() > 2 * (u1 - c.slip).norm();
       }
     }
+    s.free = s.end;
     holds = solveContacts(s.end, step);
     bool turns = false;
     for (std::size_t i = 0; i < s.set.size(); ++i)
@@ -359,6 +365,17 @@ double World::Core::stepOf(const Island& s, double tau, double h) const {
   return h / std::max(1.0, std::ceil(fastest * h / kMostTurn));
 }
 
+/// The step's forces bring no energy but what takes back overlap.
+void World::Core::boundStep(Island& s, double h) {
+  if (s.carried) return;
+  const std::size_t n = s.set.size();
+  double speed = 0;
+  for (const Found& f : s.found) speed = std::max(speed, f.contact.floor);
+  const double allowed = pushOutWork(n, s.start, s.pull, h, speed);
+  for (Vec3& a : s.pull) a *= 0.5 * h;
+  boundWork(n, s.free, s.end, s.pull, allowed);
+}
+
 void World::Core::advanceIsland(Island& s, double tau, double h) {
   begin(s, tau);
   stopApproaches(s);
@@ -375,6 +392,7 @@ void World::Core::advanceIsland(Island& s, double tau, double h) {
   if (!s.glides) {
     h = stepOf(s, tau, h);
     solveStep(s, tau, h);
+    boundStep(s, h);
     resistRolling(s);
   }
   conclude(s, tau, s.glides ? last : h);

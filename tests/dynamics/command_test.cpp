@@ -39,14 +39,14 @@ TEST(Command, AShortPulseGivesABoxOnTheFloorItsExactSpeedWheneverItComes) {
     }
 }
 
-TEST(Command, PulsesOnATippedBodyInContactAddUp) {
+TEST(Command, PulsesOnABoxThatTurnsOnTheFloorAddUp) {
   // It turns, so that its island takes steps; sideways nothing but the pulses acts.
   World w;
   const FieldId g = addGravity(w), pulse = addPulse(w, 2 * kG);
   addFloor(w);
   const BodyId b = addBox(w, g,
                           {.half = Vec3::Constant(0.15),
-                           .pose = {{0, 0, 0.1501}, Quat(Eigen::AngleAxisd(0.01, Vec3::UnitX()))},
+                           .pose = {{0, 0, 0.15}, Quat::Identity()},
                            .omega = {0, 0, 1}});
   w.hook(b, pulse, 0);
   for (int k = 0; k < 20; ++k) {
@@ -91,7 +91,7 @@ TEST(Command, ABoxUnderAStrengthThatGrowsGoesAsFarAtEveryFrameRate) {
     addFloor(w);
     const BodyId b = addSlider(w, g, push, {0, 0, 0.15});
     w.switchField(push, true, 0);
-    double worst = 0;
+    double worst = 0, off = 0;
     for (std::uint64_t n = 1; n <= static_cast<std::uint64_t>(2 * rate); ++n) {
       const TimeSignature s = signatureAt(n, rate);
       Nanoseconds from = s.time - s.step;
@@ -102,10 +102,11 @@ TEST(Command, ABoxUnderAStrengthThatGrowsGoesAsFarAtEveryFrameRate) {
       }
       const double t = toSeconds(s.time);
       worst = std::max(worst, std::fabs(w.state(b).p.x() - 4 * t * t * t / 6));
-      EXPECT_NEAR(w.state(b).v.x(), 2 * t * t, 1e-8) << rate << " Hz, " << t << " s";
+      off = std::max(off, std::fabs(w.state(b).v.x() - 2 * t * t));
     }
     std::printf("  %g Hz: %.1e m\n", rate, worst);
     EXPECT_LE(worst, 4e-6) << rate;
+    EXPECT_LE(off, 1e-8) << rate;
   }
 }
 
