@@ -78,6 +78,14 @@ struct Hook {
   FieldId field = 0;
 };
 
+/// How a body that hardly moves changes its velocity: who is being accelerated does not fall asleep.
+struct Calm {
+  Vec3 v = Vec3::Zero(), omega = Vec3::Zero();  ///< when the present look began
+  double since = 0;                             ///< its quiet time then [s]
+  double span = 0;                              ///< how long this look takes [s]
+  bool balanced = false;                        ///< what the last one said
+};
+
 struct RigidBody {
   BodyId id = 0;
   ShapeId shapeId = 0;
@@ -120,6 +128,7 @@ struct RigidBody {
   std::uint32_t impacts = 0;  ///< in the short time `impactSpan`
   Nanoseconds impactSpan = -1;
   double quiet = 0;  ///< Contact: how long it has hardly moved [s]
+  Calm calm;         ///< Contact, islands
   std::string trouble;
   Pose pose;                            ///< X_WN at the end of the last frame
   Aabb swept;                           ///< of the rest of the window, as far as it is known

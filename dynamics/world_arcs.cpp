@@ -63,11 +63,15 @@ bool World::Core::uniformFor(const RigidBody& b) const {
 /// How long from tau on it is known what acts on the body: a field that changes is known to the end of this
 /// frame only [s].
 double World::Core::knownFor(const RigidBody& b, double tau) const {
-  for (const Hook& h : b.hooks) {
+  return tau < now && feelsChange(b) ? now - tau : kForever;
+}
+
+/// Whether what acts on the body differs in the course of this part of the frame.
+bool World::Core::feelsChange(const RigidBody& b) const {
+  return std::ranges::any_of(b.hooks, [&](const Hook& h) {
     const FieldEntry* f = fields.find(h.field);
-    if (f && f->on && f->field.changing() && tau < now) return now - tau;
-  }
-  return kForever;
+    return f && f->on && f->field.changing();
+  });
 }
 
 /// What acts on a body that feels nothing but constant pulls and at most one medium that is the same
@@ -289,9 +293,7 @@ void World::Core::restart(RigidBody& b, double tau) {
       wake(b, tau);
     }
     break;
-  case BodyMode::Contact:  // the solver looks at the fields at its next step, unless that is far away
-    hurry(b, tau);
-    return;
+  case BodyMode::Contact: cutStep(b, tau); return;
   default: return;
   }
   predict(b, tau);

@@ -9,7 +9,6 @@ namespace {
 constexpr double kTouching = 1e-4;  ///< pairs closer than this are in contact [m]
 constexpr double kDeep = 0.2;       ///< share of a ball's radius that it overlaps only when put there
 constexpr double kDue = 1e-9;       ///< times as near as this are the same [s]
-constexpr double kShortest = 1e-6;  ///< a step to the grid that would be shorter goes one further [s]
 
 /// Groups bodies that touch, by the smallest index (union-find).
 struct Groups {
@@ -54,6 +53,17 @@ void World::Core::enterContact(RigidBody& b, double tau) {
   b.quiet = 0;
   if (!rests) b.presses.clear();
   if (crowded && b.mode == BodyMode::Contact) b.crowd = true, b.dueAge = untilCrowdStep(tau);
+  scheduleTick(tau);
+}
+
+/// What acts on the body changes: its step ends here and a new one begins, from what it does now.
+void World::Core::cutStep(RigidBody& b, double tau) {
+  if (b.mode != BodyMode::Contact) return;
+  const Vec3 L = momentumOf(b, tau);
+  setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
+         Spin::free(b.orientation(tau), L, b.inertia), tickTime, BodyMode::Contact);
+  b.endL = L;
+  b.quiet = 0;
   scheduleTick(tau);
 }
 
@@ -279,9 +289,9 @@ void World::Core::tick(double tau) {
   ++counters.contactSteps;
   tickAt = -1;
   Nanoseconds next = (timeAt(tau) / tickGrid + 1) * tickGrid;
-  if (Instant{next, 0}.since(instantAt(tau)) < kShortest) next += tickGrid;
+  if (Instant{next, 0}.since(instantAt(tau)) < kShortestStep) next += tickGrid;
   const double h = Instant{next, 0}.since(instantAt(tau));
-  if (timeAt(tau) % crowdGrid == 0) advanceCrowd(tau);
+  advanceCrowd(tau);
   std::vector<RigidBody*> set;
   std::vector<Found> found;
   for (int pass = 0; pass < 50; ++pass) {

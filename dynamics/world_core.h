@@ -150,6 +150,7 @@ public:
   bool uniformFor(const RigidBody& b) const;
   double knownFor(const RigidBody& b, double tau) const;
   double timeToPass(const RigidBody& b, const Vec3& p, const Vec3& v, double more) const;
+  bool feelsChange(const RigidBody& b) const;
   double restLasts(const RigidBody& b, const BallStart& s, double tau) const;
   struct EvenPull {
     Vec3 pull = Vec3::Zero();  ///< [m/s2]
@@ -188,6 +189,7 @@ public:
   // --- lasting contact (world_contact.cpp)
   Nanoseconds tickGrid = 2'000'000;  ///< the solver's steps end on multiples of this show time
   double tickTime = 2e-3;            ///< the same [s]
+  static constexpr double kShortestStep = 1e-6;  ///< one that would be shorter goes a little further [s]
   struct Found {
     SolverContact contact;
     Party a, b;
@@ -202,7 +204,10 @@ public:
     std::vector<Found> found;
     std::vector<Mobile> start, end;  ///< the set's, then those of the parties that nothing moves
     std::vector<Party> fixed;        ///< the latter
+    std::vector<Vec3> pull;          ///< on the set in this step [m/s2]
+    std::vector<Mobile> free;        ///< what `end` would be without contacts
     bool carried = false;            ///< one of them moves
+    bool glides = false;             ///< in closed form: it stops when it stops, however slow
   };
   void enterContact(RigidBody& b, double tau);
   static Vec3 momentumOf(const RigidBody& b, double tau);
@@ -211,6 +216,7 @@ public:
   static bool leansOn(const RigidBody& b, Party p);
   void noteLeaner(const RigidBody& b);
   void hurry(RigidBody& b, double tau);
+  void cutStep(RigidBody& b, double tau);
   void scheduleTick(double tau);
   void scheduleDue(double tau);
   void tick(double tau);
@@ -248,10 +254,12 @@ public:
   void stopApproaches(Island& island) const;
   bool solveStep(Island& island, double tau, double h) const;
   double glide(Island& island, double tau, double h);
-  static double stepOf(const Island& island, double h);
+  double stepOf(const Island& island, double tau, double h) const;
+  static void boundStep(Island& island, double h);
   void resistRolling(Island& island) const;
   void conclude(Island& island, double tau, double h);
   void concludeFreely(RigidBody& b, const Mobile& start, double tau);
+  void noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end, double tau, double h) const;
   bool settleOnFace(RigidBody& b, const Found& only, double tau);
   std::uint32_t tickNumber = 0;
   double tickAt = -1;  ///< [s] tau of the scheduled one

@@ -1,3 +1,4 @@
+#include "dynamics/island_energy.h"
 #include "dynamics/world_core.h"
 
 #include <algorithm>
@@ -13,6 +14,8 @@ constexpr double kApproach = 1e-4;         ///< approaches up to this end with t
 constexpr double kRestitutionSpeed = 0.1;  ///< slower approaches inside lasting contact do not bounce [m/s]
 constexpr double kQuietSpeed = 2e-3;       ///< of surface points [m/s]
 constexpr double kQuietTime = 0.2;         ///< before a set of bodies sleeps [s]
+constexpr double kGliding = 1e-9;          ///< quiet time of one whose slow motion is known [s]
+constexpr double kCalm = 1e-5;             ///< mean accelerations below this are balance, per pull [m/s2]
 constexpr double kStill = 1e-9;            ///< slower than this is not at all [m/s]
 constexpr double kBalanced = 1e-7;         ///< accelerations below this are rounding [m/s2]
 constexpr double kProbe = 1e-4;            ///< step in which accelerations are measured [s]
@@ -114,14 +117,18 @@ void World::Core::stopApproaches(Island& s) const {
     any = any || closing > kApproach;
     hits.push_back(c);
   }
-  if (any) solveContacts(s.start, hits);
+  if (!any) return;
+  const std::vector<Mobile> before = s.start;
+  solveContacts(s.start, hits);
+  if (!s.carried) boundWork(s.set.size(), before, s.start, {}, 0);
 }
 
 /// Velocities after h seconds: forces act in the middle of the step, contact points obey at its end. A first
 /// pass foresees how the bodies turn, a second one counts.
 bool World::Core::solveStep(Island& s, double tau, double h) const {
   std::vector<Mobile> guess = s.start;
-  std::vector<Vec3> pull(s.set.size());
+  std::vector<Vec3>& pull = s.pull;
+  pull.resize(s.set.size());
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     pull[i] = accelerationAt(*s.set[i], guess[i].p, guess[i].v, tau);
     guess[i].v += h * pull[i];
@@ -178,6 +185,7 @@ bool World::Core::solveStep(Island& s, double tau, double h) const {
         c.slides = c.slip.norm() > 2 * (u1 - c.slip).norm();
       }
     }
+    s.free = s.end;
     holds = solveContacts(s.end, step);
     bool turns = false;
     for (std::size_t i = 0; i < s.set.size(); ++i)
@@ -217,9 +225,7 @@ double World::Core::glide(Island& s, double tau, double h) {
     if (!uniformFor(b) && (s.start[i].v.norm() > kStill || a.norm() > kBalanced)) return 0;
   }
   if (fastest <= kStill && strongest <= kBalanced)  // what changes may stir them in this very frame
-    return std::ranges::any_of(s.set, [&](const RigidBody* b) { return knownFor(*b, tau) < kFarthest; })
-               ? 0
-               : 1e300;
+    return std::ranges::any_of(s.set, [&](const RigidBody* b) { return feelsChange(*b); }) ? 0 : 1e300;
   for (const Found& f : s.found) {
     const SolverContact& c = f.contact;
     const Vec3 n = f.gap.normal, u = s.start[c.a].v - s.start[c.b].v,
@@ -295,6 +301,22 @@ bool World::Core::settleOnFace(RigidBody& b, const Found& only, double tau) {
   return true;
 }
 
+/// How long it has hardly moved, and whether it has not been gaining or losing speed meanwhile. Each look takes
+/// twice as long as the last one, so that what only trembles is found out to be in balance.
+void World::Core::noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end, double tau,
+                            double h) const {
+  const double before = b.quiet;
+  const double fastest =
+      std::max(end.v.norm() + end.omega.norm() * b.reach, start.v.norm() + start.omega.norm() * b.reach);
+  b.quiet = fastest < kQuietSpeed ? before + h : 0;
+  if (!(before > kGliding)) b.calm = {start.v, start.omega, 0, kQuietTime, false};
+  const double seconds = b.quiet - b.calm.since;
+  if (seconds < b.calm.span) return;
+  const double change = (end.v - b.calm.v).norm() + (end.omega - b.calm.omega).norm() * b.reach;
+  const double pull = accelerationAt(b, start.p, start.v, tau).norm();
+  b.calm = {end.v, end.omega, b.quiet, 2 * b.calm.span, change <= kCalm * (1 + pull) * seconds};
+}
+
 /// The bodies' arcs of h seconds, and the forces as a guess for the next step.
 void World::Core::conclude(Island& s, double tau, double h) {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
@@ -324,23 +346,34 @@ void World::Core::conclude(Island& s, double tau, double h) {
     const Mobile &start = s.start[i], &end = s.end[i];
     const Vec3 L0 = start.inverseInertia.inverse() * start.omega,
                L1 = end.inverseInertia.inverse() * end.omega;
-    const double fastest =
-        std::max(end.v.norm() + end.omega.norm() * b.reach, start.v.norm() + start.omega.norm() * b.reach);
-    b.quiet = fastest < kQuietSpeed ? b.quiet + h : 0;
-    const double quiet = b.quiet;
+    noteQuiet(b, start, end, tau, h);
+    if (s.glides) b.quiet = b.quiet > 0 ? kGliding : 0;
     setArc(b, tau, Path::parabola(start.p, start.v, (end.v - start.v) / h),
            Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
-    b.endL = L1, b.dueAge = h, b.quiet = quiet;
+    b.endL = L1, b.dueAge = h;
     if (points == 1 && b.isBall() && b.mode == BodyMode::Contact) settleOnFace(b, *only, tau);
   }
 }
 
-/// Even parts of h in which nobody turns far: contact points of fast tops would leave their arcs.
-double World::Core::stepOf(const Island& s, double h) {
+/// Even parts of h in which nobody turns far: contact points of fast tops would leave their arcs. Nor does a
+/// step go on, but for a moment, when it is not known any more how strong a field is that pulls.
+double World::Core::stepOf(const Island& s, double tau, double h) const {
+  for (const RigidBody* b : s.set) h = std::min(h, std::max(knownFor(*b, tau), kShortestStep));
   double fastest = 0;
   for (std::size_t i = 0; i < s.set.size(); ++i)
     if (!s.set[i]->centred) fastest = std::max(fastest, s.start[i].omega.norm());
   return h / std::max(1.0, std::ceil(fastest * h / kMostTurn));
+}
+
+/// The step's forces bring no energy but what takes back overlap.
+void World::Core::boundStep(Island& s, double h) {
+  if (s.carried) return;
+  const std::size_t n = s.set.size();
+  double speed = 0;
+  for (const Found& f : s.found) speed = std::max(speed, f.contact.floor);
+  const double allowed = pushOutWork(n, s.start, s.pull, h, speed);
+  for (Vec3& a : s.pull) a *= 0.5 * h;
+  boundWork(n, s.free, s.end, s.pull, allowed);
 }
 
 void World::Core::advanceIsland(Island& s, double tau, double h) {
@@ -355,15 +388,17 @@ void World::Core::advanceIsland(Island& s, double tau, double h) {
       if (b->mode == BodyMode::Contact) freeze(*b, tau);
     return;
   }
-  if (!(last > 0)) {
-    h = stepOf(s, h);
+  s.glides = last > 0;
+  if (!s.glides) {
+    h = stepOf(s, tau, h);
     solveStep(s, tau, h);
+    boundStep(s, h);
     resistRolling(s);
   }
-  conclude(s, tau, last > 0 ? last : h);
+  conclude(s, tau, s.glides ? last : h);
   // Sets that have been quiet together fall asleep together.
-  const bool quiet = !s.carried && std::ranges::all_of(s.set, [](const RigidBody* b) {
-    return b->mode == BodyMode::Contact && b->quiet >= kQuietTime;
+  const bool quiet = !s.carried && std::ranges::all_of(s.set, [&](const RigidBody* b) {
+    return b->mode == BodyMode::Contact && b->quiet >= kQuietTime && b->calm.balanced && !feelsChange(*b);
   });
   if (quiet)
     for (RigidBody* b : s.set) freeze(*b, tau);
