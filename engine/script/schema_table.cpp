@@ -401,8 +401,8 @@ constinit const std::array<EventSpec, kEventCount> kEvents = {{
     {Event::Finished, "the path has reached its last key; told at the end of each pass if it loops"},
     {Event::OnImpact, "a pair that was apart has touched"},
     {Event::OnRelease, "a pair that posted onimpact is farther apart than releasedistance"},
-    {Event::OnQuarantine, "the body's state would have become infinite or undefined; it stands still where "
-                          "it was until its reset"},
+    {Event::OnQuarantine,
+     "its state would have become infinite or undefined; it stands still until its reset"},
 }};
 
 }  // namespace stadion::schema_table
