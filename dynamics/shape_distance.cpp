@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846, kEverywhere = std::numeric_limits<double>::infinity();
 /// Parts of a flat side's edge, of a circle, and of a quarter of one.
-constexpr int kParts = 20, kRound = 48, kQuarter = 12;
+constexpr int kParts = 20, kRound = 64, kQuarter = 16;
 
 /// A point of a shape's surface, and which way the surface looks there.
 struct SurfacePoint {
@@ -33,6 +33,7 @@ Vec3 onCircle(int i, int parts) {
 
 /// The half of a ball on the side of `up` (1 or -1) along the pose's z.
 void addDome(const Pose& X, double z, double radius, double up, Samples& out) {
+  out.push_back({X * Vec3(0, 0, z + up * radius), X.q * Vec3(0, 0, up)});
   for (int i = 0; i < kQuarter; ++i) {
     const double a = 0.5 * kPi * (i + 0.5) / kQuarter;
     const int around = std::max(4, static_cast<int>(kRound * std::cos(a)));
@@ -52,6 +53,7 @@ void addTube(const Pose& X, double radius, double half, Samples& out) {
 }
 
 void addDisc(const Pose& X, double radius, double z, Samples& out) {
+  out.push_back({X * Vec3(0, 0, z), X.q * Vec3(0, 0, z < 0 ? -1 : 1)});
   for (int i = 0; i < kQuarter; ++i) {
     const double r = radius * (i + 0.5) / kQuarter;
     const int around = std::max(4, kRound * (i + 1) / kQuarter);

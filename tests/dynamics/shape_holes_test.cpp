@@ -105,6 +105,15 @@ TEST(ShapeHoles, WhatHasAHoleOrIsOpenStaysAMesh) {
   }
 }
 
+TEST(ShapeHoles, AFineModelIsLookedAtAsClosely) {
+  const Mesh ball = ballMesh(1, 225, 225);
+  EXPECT_EQ(chooseShape(ball).value().kind, ShapeKind::Ball);
+  EXPECT_EQ(chooseShape(cutMesh(ball, -1.1, 0.95)).value().kind, ShapeKind::Mesh);
+  const auto small = chooseShape(cutMesh(ball, -1.1, 0.996));  // an opening of 0.09 m
+  EXPECT_EQ(small.value().kind, ShapeKind::Ball) << "within the tolerance, and";
+  EXPECT_NEAR(small.value().deviation, 0.09, 0.01) << "told of";
+}
+
 TEST(ShapeHoles, AShapeThatIsAskedForSaysHowFarOffItIs) {
   for (const ShapeKind kind : {ShapeKind::Box, ShapeKind::Convex}) {
     EXPECT_GT(chooseShape(archMesh(), kind).value().deviation, 0.1) << nameOf(kind);
