@@ -28,8 +28,9 @@ std::vector<TriedModel> modelsFor(NodeRef ref, const PlayedBody& body, const std
     t.model.body = ref, t.model.shape = std::move(shape), t.model.dragArea = body.dragArea;
     return t;
   };
-  const std::vector<std::string> finest =
-      truth.empty() ? std::vector<std::string>{"mesh", "convex"} : std::vector<std::string>{truth};
+  std::vector<std::string> finest{"mesh", "convex"};
+  if (!body.exact.empty()) finest.insert(finest.begin(), body.exact);
+  if (!truth.empty()) finest = {truth};
   for (const std::string& shape : finest) {
     TriedModel& t = add(fmt::format("shape={}, steps / {}", shape, kFinestSteps), shape);
     t.finest = true, t.model.fineness = kFinestSteps;
@@ -51,6 +52,7 @@ std::vector<TriedModel> modelsFor(NodeRef ref, const PlayedBody& body, const std
 
 struct Run {
   double milliseconds = 0;  ///< least, of the body's dynamics node
+  double spread = 0;        ///< how much more the next least took [ms]; 0 after one round
   std::vector<std::optional<Pose>> places;
 };
 
@@ -87,6 +89,10 @@ private:
     const auto body = played->bodies.find(t.model.body);
     if (body == played->bodies.end()) return;
     const double ms = played->milliseconds[dynamics_];
+    if (t.played) {
+      const double more = std::fabs(ms - run.milliseconds);
+      run.spread = run.spread > 0 && ms >= run.milliseconds ? std::min(run.spread, more) : more;
+    }
     run.milliseconds = t.played ? std::min(run.milliseconds, ms) : ms;
     run.places = std::move(body->second.places);
     t.played = true;
@@ -121,8 +127,10 @@ void tryModels(const FidelityOptions& options, NodeRef ref, const PlayedShow& sh
   for (std::size_t i = 0; i < body.tried.size(); ++i) {
     TriedModel& t = body.tried[i];
     const Run& run = trial.runs()[i];
-    const double more = 1e3 * (run.milliseconds - base.milliseconds) / static_cast<double>(show.frames);
-    t.cost = std::max(0.0, body.cost + more);
+    const double perFrame = 1e3 / static_cast<double>(show.frames);
+    t.cost = body.cost + perFrame * (run.milliseconds - base.milliseconds);
+    // Less than nothing it cannot have cost: so far off is the measurement at least.
+    t.noise = std::max(perFrame * std::max(run.spread, base.spread), -t.cost);
     compare(run, trial.runs().front(), show.rate, options.tolerance, t);
   }
 }
@@ -176,6 +184,16 @@ std::optional<Fidelity> measureFidelity(const FidelityOptions& options, Diagnost
     fidelity.bodies.push_back(std::move(body));
   }
   return fidelity;
+}
+
+std::string cautionAbout(const BodyFidelity& b) {
+  const auto in = [&](BodyMode mode) { return b.body.modes[static_cast<std::size_t>(mode)] > 0; };
+  const bool lasting =
+      in(BodyMode::Contact) || in(BodyMode::Rest) || in(BodyMode::Slide) || in(BodyMode::Roll);
+  if (b.tried.empty() || b.tried.front().model.shape != "mesh" || !lasting) return {};
+  return "the finest model is a mesh in lasting contact, where a mesh is no exact reference; if the body is "
+         "in "
+         "truth a simple shape, name it with --finest";
 }
 
 std::vector<const TriedModel*> advisable(const BodyFidelity& body) {

@@ -1,11 +1,11 @@
 #pragma once
 /// How near each body of a show comes to its finest model, what that costs, and which models would do.
 ///
-/// The finest model of a body collides as its own mesh (as its hull if it is not closed, or as the shape that
-/// it is said to have in truth), with the steps of lasting contact divided by eight. The same show is played
-/// with one body's model changed at a time, and the body's places are compared frame by frame. Fields, masses
-/// by density, and the drag area stay what the script says: what a body is not hooked to is no part of any
-/// model.
+/// The finest model of a body collides as its own mesh (as the box or convex body that the mesh is to
+/// rounding, as its hull if it is not closed, or as the shape that it is said to have in truth), with the
+/// steps of lasting contact divided by eight. The same show is played with one body's model changed at a
+/// time, and the body's places are compared frame by frame. Fields, masses by density, and the drag area stay
+/// what the script says: what a body is not hooked to is no part of any model.
 ///
 /// Errors   of place: how far the node's origin is from where it is with the finest model [m].
 /// Costs    processor time a frame. A body's own is its share, by the arcs it begins, of its dynamics node's;
@@ -33,6 +33,7 @@ struct TriedModel {
   bool asIs = false, finest = false, simpler = false;
   bool played = false;               ///< false: the model cannot be fitted like that
   double cost = 0;                   ///< [us] a frame
+  double noise = 0;                  ///< costs up to this are as good as none [us]
   double error = 0, endError = 0;    ///< greatest, and at the end [m]
   double turned = 0;                 ///< greatest difference in orientation [rad]
   std::optional<double> beyondFrom;  ///< when the error first exceeds the tolerance [s]
@@ -56,6 +57,9 @@ struct Fidelity {
 /// `progress` is told what is being played. Nothing, with the findings, if the show cannot be played.
 std::optional<Fidelity> measureFidelity(const FidelityOptions& options, Diagnostics& findings,
                                         const std::function<void(const std::string&)>& progress);
+
+/// Why the finest model is not to be trusted as the truth; empty if it is.
+std::string cautionAbout(const BodyFidelity& body);
 
 /// Models that are simpler than what the script says and stay within the tolerance; if that itself does not,
 /// all that do.

@@ -60,13 +60,20 @@ std::string describe(const BodyFidelity& b) {
   return text + fmt::format("  cost         {:.3g} us a frame\n", b.cost);
 }
 
+/// "12.3", or what it is less than as far as can be measured.
+std::string costOf(const TriedModel& t) {
+  return t.cost > t.noise ? fmt::format("{:.3g}", t.cost)
+         : t.noise > 0    ? fmt::format("< {:.2g}", t.noise)
+                          : "0";
+}
+
 std::string rowOf(const TriedModel& t, double tolerance) {
   std::string remark = t.finest ? "the finest" : "";
   if (!t.finest)
     remark = t.beyondFrom ? fmt::format("beyond {} from {:.3f} s on", lengthOf(tolerance), *t.beyondFrom)
                           : fmt::format("within {}", lengthOf(tolerance));
-  return fmt::format("    {:<26} {:>10} {:>10} {:>8.1f} {:>9.3g}  {}\n", t.name, lengthOf(t.error),
-                     lengthOf(t.endError), kDegrees * t.turned, t.cost, remark);
+  return fmt::format("    {:<26} {:>10} {:>10} {:>8.1f} {:>9}  {}\n", t.name, lengthOf(t.error),
+                     lengthOf(t.endError), kDegrees * t.turned, costOf(t), remark);
 }
 
 std::string adviceFor(const BodyFidelity& b, double tolerance) {
@@ -92,10 +99,11 @@ nlohmann::json toJson(const TriedModel& t) {
                    {"as_is", t.asIs},
                    {"finest", t.finest},
                    {"simpler", t.simpler},
-                   {"cost_us", t.cost},
                    {"error_m", t.error},
                    {"end_error_m", t.endError},
                    {"turned_degrees", kDegrees * t.turned}};
+  j["cost_us"] = t.cost > t.noise ? nlohmann::json(t.cost) : nlohmann::json();
+  j["cost_noise_us"] = t.noise;
   j["beyond_from_s"] = t.beyondFrom ? nlohmann::json(*t.beyondFrom) : nlohmann::json();
   return j;
 }
@@ -121,6 +129,8 @@ nlohmann::json toJson(const BodyFidelity& b) {
     j["models"].push_back(toJson(t));
     if (t.asIs) j["error_m"] = t.error;
   }
+  const std::string caution = cautionAbout(b);
+  j["caution"] = caution.empty() ? nlohmann::json() : nlohmann::json(caution);
   j["advice"] = nlohmann::json::array();
   for (const TriedModel* t : advisable(b)) j["advice"].push_back(t->name);
   return j;
@@ -137,6 +147,8 @@ std::string fidelityTable(const Fidelity& f) {
     text += fmt::format("    {:<26} {:>10} {:>10} {:>8} {:>9}\n", "model", "error", "at the end", "degrees",
                         "us/frame");
     for (const TriedModel& t : b.tried) text += rowOf(t, f.tolerance);
+    if (const std::string caution = cautionAbout(b); !caution.empty())
+      text += fmt::format("  Caution: {}.\n", caution);
     text += adviceFor(b, f.tolerance);
   }
   if (f.lookedAt() == f.bodies.size()) return text;

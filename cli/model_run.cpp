@@ -53,7 +53,10 @@ private:
     body.name = node.name(), body.file = load.file, body.line = load.lines[node.self().position];
     body.shape = fit.choice.kind, body.deviation = fit.choice.deviation;
     body.chosen = node.appearance().shape == "auto" || node.appearance().shape.empty();
-    if (const Mesh* mesh = scene_.mesh(node.appearance().mesh)) body.triangles = mesh->indices.size() / 3;
+    if (const Mesh* mesh = scene_.mesh(node.appearance().mesh)) {
+      body.triangles = mesh->indices.size() / 3;
+      if (!only_.valid()) body.exact = exactShapeOf(node.appearance().mesh, *mesh);
+    }
     body.dragArea = node.body().dragArea.value_or(fit.dragArea);
     body.dynamics = node.movedBy();
     for (const std::string& name : node.body().hooks)
@@ -61,7 +64,18 @@ private:
         body.fields.push_back({name, field->kind()});
   }
 
+  /// Of a model with flat faces: the simple shape that it is without tolerance.
+  const std::string& exactShapeOf(MeshId id, const Mesh& mesh) {
+    const auto [at, isNew] = exact_.try_emplace(id);
+    if (!isNew) return at->second;
+    const auto choice = chooseShape(mesh, ShapeKind::Auto, 0);
+    if (choice && (choice.value().kind == ShapeKind::Box || choice.value().kind == ShapeKind::Convex))
+      at->second = nameOf(choice.value().kind);
+    return at->second;
+  }
+
   Scene& scene_;
+  std::map<MeshId, std::string> exact_;
   NodeRef only_;
   std::uint64_t loadsSeen_ = ~std::uint64_t{0};
   std::vector<NodeRef> present_;

@@ -35,6 +35,7 @@ struct PlayedBody {
   bool chosen = false;   ///< by shape=auto
   double deviation = 0;  ///< of the shape from the model [m]
   std::size_t triangles = 0;
+  std::string exact;    ///< box or convex, if its model is just that to rounding; else empty
   double dragArea = 0;  ///< [m2]
   std::vector<HookedField> fields;
   NodeRef dynamics;                           ///< the node that moves it

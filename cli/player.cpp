@@ -112,6 +112,7 @@ bool Player::openInput(Diagnostics& findings) {
                    fmt::format("was recorded live at {} frames a second, and holds times that only this rate "
                                "repeats; leave --rate out",
                                decisions_.rate));
+  for (const InputTrack& track : log->tracks) trackers_.push_back(track.name);
   input_ = std::make_unique<InputReplay>(std::move(*log));
   inputFound_ = true;
   return !findings.hasErrors();
@@ -155,9 +156,9 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   ImportLimits limits;
   limits.giveUp = stop;
   p.importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);
-  p.loader_ =
-      std::make_unique<Loader>(LoaderParts{p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_,
-                                           std::move(report), stop, fromSeconds(1 / p.rate_)});
+  p.loader_ = std::make_unique<Loader>(LoaderParts{p.meshes_, p.state_.arena(), *p.importer_, p.roots_,
+                                                   p.factories_, std::move(report), stop,
+                                                   fromSeconds(1 / p.rate_), p.trackers_, p.inputName_});
   p.loader_->obey(p.decisions_.loads);
   p.scene_ = std::make_unique<Scene>(*p.loader_, p.meshes_, appThreadsOf(options));
   if (!p.scene_->open(options.script)) return nullptr;

@@ -113,6 +113,7 @@ private:
   Nanoseconds end_ = 0;
   bool inputFound_ = false;
   std::string inputName_;
+  std::vector<std::string> trackers_;  ///< that the input log names
 };
 
 }  // namespace stadion

@@ -3,6 +3,7 @@
 #include "cli/player.h"
 #include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dynamics_factories.h"
+#include "engine/input/input_log.h"
 #include "engine/script/lint.h"
 #include "engine/script/script.h"
 
@@ -30,6 +31,7 @@ public:
     importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter));
     addEngineFactories(factories_);
     addDynamicsFactories(factories_);
+    readLogBeside(file);
   }
 
   void checkFile(Result<SourceText> source, std::vector<const Document*> enclosing) {
@@ -46,6 +48,7 @@ public:
     if (!own.hasErrors()) {
       lint(document, alone, own);
       lintLatencies(document, fromSeconds(1 / ShowOptions{}.rate), own);
+      lintTrackers(document, trackers_, log_, own);
       buildOnce(document, own);
     }
     findings_.append(own);
@@ -69,6 +72,18 @@ public:
   }
 
 private:
+  /// The devices that a run would hear of.
+  void readLogBeside(const std::string& file) {
+    const std::filesystem::path beside = std::filesystem::path(file).replace_extension(".input");
+    std::error_code none;
+    if (!std::filesystem::exists(beside, none)) return;
+    Diagnostics ignored;  // a run tells what is wrong with it
+    const auto log = loadInputLog(beside.string(), ignored);
+    if (!log) return;
+    log_ = beside.string();
+    for (const InputTrack& track : log->tracks) trackers_.push_back(track.name);
+  }
+
   Result<SourceText> readBelow(const Declaration& scene) const {
     auto found = roots_.open(std::string(scene.text(Attr::File)));
     if (!found) {
@@ -130,6 +145,8 @@ private:
   MeshStore meshes_;
   std::map<std::tuple<std::string, double, int, bool>, MeshId> imported_;
   std::set<std::string> seen_;
+  std::vector<std::string> trackers_;
+  std::string log_;
   Diagnostics& findings_;
 };
 

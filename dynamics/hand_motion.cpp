@@ -25,18 +25,22 @@ HandMotion::Velocity HandMotion::velocity() const {
   // of two straight lines is integrated exactly by Simpson's rule.
   const double window = toSeconds(last.time - start), mean = -0.5 * window;
   Velocity slope;
-  const auto add = [&](double x, const Pose& X, double weight) {
-    slope.v += weight * (x - mean) * (X.p - last.X.p);
-    slope.omega += weight * (x - mean) * det::logRotation(X.q * last.X.q.conjugate());
+  Vec3 turned =
+      Vec3::Zero();  // so far: the sum of all small turns, which does not wrap as an orientation does
+  const auto add = [&](double x, const Vec3& p, const Vec3& angle, double weight) {
+    slope.v += weight * (x - mean) * (p - last.X.p);
+    slope.omega += weight * (x - mean) * angle;
   };
   for (std::size_t i = 1; i < way_.size(); ++i) {
     if (way_[i].time <= start) continue;
     const Nanoseconds from = std::max(way_[i - 1].time, start);
     const double x0 = toSeconds(from - last.time), x1 = toSeconds(way_[i].time - last.time), h = x1 - x0;
     const Pose X0 = poseOn(way_, from, Limit::After);
-    add(x0, X0, h / 6);
-    add(0.5 * (x0 + x1), det::interpolate(X0, way_[i].X, 0.5), 4 * h / 6);
-    add(x1, way_[i].X, h / 6);
+    const Vec3 turn = det::logRotation(way_[i].X.q * X0.q.conjugate());
+    add(x0, X0.p, turned, h / 6);
+    add(0.5 * (x0 + x1), 0.5 * (X0.p + way_[i].X.p), turned + 0.5 * turn, 4 * h / 6);
+    turned += turn;
+    add(x1, way_[i].X.p, turned, h / 6);
   }
   const double scale = 12 / (window * window * window);
   return {slope.v * scale, slope.omega * scale};

@@ -2,9 +2,10 @@
 /// How a hand has moved lately, and with which velocity it lets go.
 ///
 /// The velocity is the slope of the least-squares line through the last 80 ms of its way: of the positions,
-/// and of the rotation vectors relative to the last orientation. The way between the knots is straight and
-/// counts by the time that it takes, so more knots on a straight way change nothing: frames leave no trace in
-/// a throw.
+/// and of the angles that it has turned, added up from knot to knot (so that a fast spin is no slow one
+/// backwards; within one step it is taken to turn less than half a turn). The way between the knots is
+/// straight and counts by the time that it takes, so more knots on a straight way change nothing: frames
+/// leave no trace in a throw.
 ///
 /// Frames, units  poses X_WT; metres, seconds, radians.
 /// Threads        a plain value.

@@ -1,10 +1,12 @@
 #include "dynamics/mass_properties.h"
 #include "dynamics/nearest_surface.h"
 #include "dynamics/shape.h"
+#include "dynamics/shape_distance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace stadion {
 namespace {
@@ -13,6 +15,7 @@ namespace {
 constexpr double kFacets = 4, kRodFacets = 2;
 /// A hull of more corners is no simpler than the mesh.
 constexpr std::size_t kMostCorners = 128;
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 std::vector<Vec3> usedVertices(const TriangleTree& tree) {
   std::vector<Vec3> points;
@@ -30,14 +33,6 @@ ShapeChoice fitBall(const std::vector<Vec3>& points, const Aabb& box) {
   }
   const double r = 0.5 * (lo + hi);
   return {BallShape{c, r}, ShapeKind::Ball, std::max(hi - r, r - lo), {}};
-}
-
-/// How far the faces of a mesh sink below the ball through its vertices.
-double facetDepth(const TriangleTree& tree, const BallShape& ball) {
-  double depth = 0;
-  for (const Triangle& t : tree.triangles())
-    depth = std::max(depth, ball.radius - (closestPoint(t, ball.centre).point - ball.centre).norm());
-  return depth;
 }
 
 Quat frameOf(const Vec3& z, const Vec3& xHint) {
@@ -102,19 +97,6 @@ ShapeChoice fitPlane(const TriangleTree& tree, const std::vector<Vec3>& points) 
   // Twice-covered or holed sheets are not rectangles.
   const double gap = std::fabs(area - covered) > 1e-3 * area ? std::sqrt(std::fabs(area - covered)) : 0;
   return {shape, ShapeKind::Plane, std::max(half.z(), gap), {}};
-}
-
-/// How far the middles of faces and edges are from the surface of a round shape.
-template <class Round>
-double facetDepth(const TriangleTree& tree, const Round& shape) {
-  double depth = 0;
-  for (const Triangle& t : tree.triangles()) {
-    const Vec3 middle = (t.v[0] + t.v[1] + t.v[2]) / 3;
-    depth = std::max(depth, std::fabs(nearestSurface(shape, middle).distance));
-    for (std::size_t i = 0; i < 3; ++i)
-      depth = std::max(depth, std::fabs(nearestSurface(shape, 0.5 * (t.v[i] + t.v[(i + 1) % 3])).distance));
-  }
-  return depth;
 }
 
 template <class Round>
@@ -185,68 +167,56 @@ ShapeChoice fitCapsule(const Mesh& mesh, const TriangleTree& tree, const std::ve
   });
 }
 
-/// How far the surface of a mesh lies below its hull: vertices and the middles of faces.
-double hollow(const TriangleTree& tree, const ConvexShape& hull) {
-  double depth = 0;
-  for (const Vec3& p : tree.corners()) depth = std::max(depth, std::fabs(nearestSurface(hull, p).distance));
-  for (const Triangle& t : tree.triangles())
-    depth = std::max(depth, std::fabs(nearestSurface(hull, (t.v[0] + t.v[1] + t.v[2]) / 3).distance));
-  return depth;
-}
-
 }  // namespace
 
 Result<ShapeChoice> chooseShape(const Mesh& mesh, ShapeKind requested, double tolerance) {
   TriangleTree tree(mesh);
   if (tree.empty()) return Result<ShapeChoice>::failure("has no usable triangle to collide with");
   const std::vector<Vec3> points = usedVertices(tree);
-  const double size = 0.5 * (tree.bounds().hi - tree.bounds().lo).norm();
-  const auto accept = [&](ShapeChoice& c, double off) -> Result<ShapeChoice> {
-    c.deviation = off;
-    c.remark = fmt::format("collides as a {}, within {:.3g} m ({:.2g} % of its size)", nameOf(c.kind), off,
-                           100 * off / size);
-    return std::move(c);
-  };
+  const double size = 0.5 * (tree.bounds().hi - tree.bounds().lo).norm(), rounding = 1e-7 * size;
   const bool any = requested == ShapeKind::Auto;
-  if (any || requested == ShapeKind::Plane) {
+  /// Taken if it was asked for, or if it and the mesh are within `limit` of each other.
+  const auto take = [&](ShapeChoice& c, double limit) {
+    if (any && !(c.deviation <= limit)) return false;
+    c.deviation = std::max(c.deviation, distanceBetween(c.shape, tree, any ? limit : kNoLimit));
+    if (any && !(c.deviation <= limit)) return false;
+    c.remark = fmt::format("collides as a {}, within {:.3g} m ({:.2g} % of its size)", nameOf(c.kind),
+                           c.deviation, 100 * c.deviation / size);
+    return true;
+  };
+  const bool round = points.size() >= 60;
+  if (requested == ShapeKind::Plane || (any && !tree.closed())) {
     ShapeChoice c = fitPlane(tree, points);
-    if (!any || (!tree.closed() && c.deviation <= 1e-6 * size)) return accept(c, c.deviation);
+    if (take(c, 1e-6 * size)) return c;
   }
-  if (any || requested == ShapeKind::Ball) {
+  if (requested == ShapeKind::Ball || (any && round)) {
     ShapeChoice c = fitBall(points, tree.bounds());
-    const double off = std::max(c.deviation, facetDepth(tree, std::get<BallShape>(c.shape)));
     // The vertices must be on the ball; the facets between them may cut inside it by the tolerance of coarse
     // models.
-    if (!any ||
-        (points.size() >= 60 && c.deviation <= 0.5 * tolerance * size && off <= kFacets * tolerance * size))
-      return accept(c, off);
+    if ((!any || c.deviation <= 0.5 * tolerance * size) && take(c, kFacets * tolerance * size)) return c;
   }
-  if (any || requested == ShapeKind::Box) {
+  if (requested == ShapeKind::Box || (any && tree.closed())) {
     ShapeChoice c = fitBox(tree, points);
-    if (!any || (tree.closed() && c.deviation <= tolerance * std::get<BoxShape>(c.shape).half.minCoeff()))
-      return accept(c, c.deviation);
+    if (take(c, tolerance * std::get<BoxShape>(c.shape).half.minCoeff() + rounding)) return c;
   }
-  if (requested == ShapeKind::Capsule || (any && tree.closed() && points.size() >= 60)) {
+  if (requested == ShapeKind::Capsule || (any && tree.closed() && round)) {
     ShapeChoice c = fitCapsule(mesh, tree, points);
-    const auto& s = std::get<CapsuleShape>(c.shape);
-    const double off = std::max(c.deviation, facetDepth(tree, s));
-    if (!any || (c.deviation <= 0.5 * tolerance * s.radius && off <= kRodFacets * tolerance * s.radius))
-      return accept(c, off);
+    const double r = std::get<CapsuleShape>(c.shape).radius;
+    if ((!any || c.deviation <= 0.5 * tolerance * r) && take(c, kRodFacets * tolerance * r)) return c;
   }
-  if (requested == ShapeKind::Cylinder || (any && tree.closed() && points.size() >= 60)) {
+  if (requested == ShapeKind::Cylinder || (any && tree.closed() && round)) {
     ShapeChoice c = fitCylinder(mesh, tree, points);
     const auto& s = std::get<CylinderShape>(c.shape);
-    const double off = std::max(c.deviation, facetDepth(tree, s)), thin = std::min(s.radius, s.half);
-    if (!any || (c.deviation <= 0.5 * tolerance * thin && off <= kRodFacets * tolerance * s.radius))
-      return accept(c, off);
+    const double thin = std::min(s.radius, s.half);
+    if ((!any || c.deviation <= 0.5 * tolerance * thin) && take(c, kRodFacets * tolerance * s.radius))
+      return c;
   }
   if (requested == ShapeKind::Convex || (any && tree.closed() && tree.corners().size() <= 4 * kMostCorners)) {
-    if (auto hull = convexHull(tree.corners())) {
-      const double off = hollow(tree, *hull);
-      if (!any || (hull->points.size() <= kMostCorners && off <= tolerance * hull->inside + 1e-7 * size)) {
-        ShapeChoice c{std::move(*hull), ShapeKind::Convex, off, {}};
-        return accept(c, off);
-      }
+    auto hull = convexHull(tree.corners());
+    if (hull && (!any || hull->points.size() <= kMostCorners)) {
+      const double limit = tolerance * hull->inside + rounding;
+      ShapeChoice c{std::move(*hull), ShapeKind::Convex, 0, {}};
+      if (take(c, limit)) return c;
     }
   }
   ShapeChoice c{MeshShape(std::move(tree)), ShapeKind::Mesh, 0, {}};

@@ -291,6 +291,8 @@ bool World::placeBody(BodyId id, const Pose& X_WN, const Vec3& v, const Vec3& om
   core_->memory.forget({true, id});
   core_->startFlight(*b, core_->now, X_WC.p, v, X_WC.q,
                      X_WC.q * b->inertia.cwiseProduct(X_WC.q.conjugate() * omega));
+  // One that is in trouble again at once is told of, too.
+  if (b->mode == BodyMode::Quarantined && !b->active) b->active = true, core_->active.push_back(b);
   core_->wakeOnto({true, id}, core_->now);
   return true;
 }

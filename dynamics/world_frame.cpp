@@ -19,6 +19,11 @@ void fetch(const RigidBody& b) {
   for (std::size_t i = 0; i < sizeof b; i += kLine) __builtin_prefetch(reinterpret_cast<const char*>(&b) + i);
 }
 
+/// False of what is not a number.
+bool inBounds(const Pose& X) {
+  return X.p.squaredNorm() <= 1e24 && X.q.squaredNorm() < 2;
+}
+
 }  // namespace
 
 void World::Core::insert(Command c) {
@@ -312,10 +317,20 @@ void World::Core::fetchNext() const {
 /// Where it is at the end of the frame.
 void World::Core::sample(RigidBody& b) {
   const Pose X = b.poseAt(now);
-  if (X.p.squaredNorm() <= 1e24 && X.q.squaredNorm() < 2) {  // false of what is not a number
+  if (inBounds(X)) {
     b.pose = X;
   } else {
-    quarantine(b, now, "its pose became undefined");
+    // When it left, between its arc's start or the frame's, and now.
+    double in = std::max(frameFrom, -b.age0), out = now;
+    const bool left = inBounds(b.poseAt(in));
+    while (left && out - in > 1e-10) {
+      const double middle = 0.5 * (in + out);
+      if (!(in < middle && middle < out)) break;
+      (inBounds(b.poseAt(middle)) ? in : out) = middle;
+    }
+    quarantine(b, left ? in : now,
+               left ? "it went beyond all bounds (10^12 m)" : "its pose became undefined");
+    if (left) b.pose = b.poseAt(in);
   }
   if (b.mode == BodyMode::Held) b.held.start = b.held.end;
   changed.push_back(b.id);

@@ -21,11 +21,12 @@ enum class Event : std::uint8_t {
   Finished,
   OnImpact,
   OnRelease,
+  OnQuarantine,
 };
 
-inline constexpr std::array<std::string_view, 12> kEventNames = {
-    "enter",   "exit",   "button1",  "button2",  "button3",  "button4",
-    "timesup", "loaded", "unloaded", "finished", "onimpact", "onrelease"};
+inline constexpr std::array<std::string_view, 13> kEventNames = {
+    "enter",  "exit",     "button1",  "button2",  "button3",   "button4",     "timesup",
+    "loaded", "unloaded", "finished", "onimpact", "onrelease", "onquarantine"};
 inline constexpr std::size_t kEventCount = kEventNames.size();
 
 constexpr std::string_view nameOf(Event event) {

@@ -74,6 +74,11 @@ public:
   void compute(FrameProbe* probe);
   /// Tells the scene what has come of it, and dispatches notifications.
   void conclude(FrameContext& frame, FrameProbe* probe);
+  /// Something has happened to it that another node has found out: told at once.
+  void tell(Event event, Nanoseconds when, FrameContext& frame) {
+    raise(event, when);
+    dispatch(frame);
+  }
   /// Whether it may look at what `earlier` tells the scene in this frame, and so can begin only after that.
   virtual bool awaits(const Node& earlier, const Scene& scene) const;
 

@@ -196,6 +196,7 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
   resolveNames(*document, surroundings, findings);
   if (findings.hasErrors()) return nullptr;
   lintLatencies(*document, parts_.step, findings);
+  lintTrackers(*document, parts_.trackers, parts_.log, findings);
 
   Imports imports;
   const BuildInput input{*document,

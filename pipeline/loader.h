@@ -38,7 +38,9 @@ struct LoaderParts {
   const NodeFactories& factories;
   std::function<void(const Diagnostics&)> report;
   const std::atomic<bool>* stop = nullptr;  ///< once true, nobody waits for a load any more
-  Nanoseconds step = 0;  ///< of a frame, to warn of latencies that are shorter [ns]; 0: do not
+  Nanoseconds step = 0;                 ///< of a frame, to warn of latencies that are shorter [ns]; 0: do not
+  std::vector<std::string> trackers{};  ///< devices of the input log, to warn of other names
+  std::string log{};                    ///< the input log; empty: nobody knows which devices there will be
 };
 
 class Loader final : public SceneLoader {

@@ -1,6 +1,7 @@
 #pragma once
 /// `dynobject`: an object that a dynamics node moves, or the visitor's hand while it is grabbed.
 ///
+/// Events    onquarantine: its state would have become infinite or undefined; it stands still.
 /// Commands  hook FIELD, unhook FIELD, grab [tracker], release, and those of a placed node (reset brings it
 /// back to its
 ///           place, at rest).

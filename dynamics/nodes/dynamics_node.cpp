@@ -4,6 +4,7 @@
 #include "engine/scene/scene.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace stadion {
 namespace {
@@ -158,7 +159,7 @@ void DynamicsNode::obey(const Order& order, FrameContext& frame) {
                      Vec3::Zero());
     node->hold(frame.scene, frame.scene.placements().world(part->placement));
     break;
-  case Kind::Release: letGo(part->id, order.what.when); break;
+  case Kind::Release: letGo(*part, order.what.when, frame.scene); break;
   case Kind::Grab: grab(*part, order.what.tracker, order.what.when, frame); break;
   default: break;
   }
@@ -167,7 +168,7 @@ void DynamicsNode::obey(const Order& order, FrameContext& frame) {
 void DynamicsNode::grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame) {
   auto way = frame.scene.trackerCourse(tracker, frame);
   if (!way || when < way->front().time) return;  // nobody knows where the hand is
-  letGo(part.id, when);
+  letGo(part, when, frame.scene);
   if (!world_.holdBody(part.id)) return;
   const Pose X_WT = poseOn(*way, when, Limit::After);
   Grip& grip = grips_.emplace_back();
@@ -176,12 +177,19 @@ void DynamicsNode::grab(const Part& part, const std::string& tracker, Nanosecond
   grip.course = std::move(*way);
 }
 
-void DynamicsNode::letGo(BodyId body, Nanoseconds when) {
+void DynamicsNode::letGo(const Part& part, Nanoseconds when, Scene& scene) {
+  const BodyId body = part.id;
   const auto grip = std::find_if(grips_.begin(), grips_.end(), [&](const Grip& g) { return g.body == body; });
   if (grip == grips_.end()) return;
   // A hand of which nothing has been heard lately is taken to stand still, as its body does.
   const bool silent = grip->hand.way().back().time < when;
   const auto [v, omega] = silent ? HandMotion::Velocity{} : grip->hand.velocity();
+  if (const Node* node = scene.find(part.ref);
+      node && grip->jumped >= 0 && when - grip->jumped < HandMotion::kWindow)
+    scene.warn(*node,
+               fmt::format("is let go at {:.3f} s, but \"{}\" jumped at {:.3f} s; only what the hand did "
+                           "after that counts for the throw",
+                           toSeconds(when), grip->tracker, toSeconds(grip->jumped)));
   const Vec3 arm = world_.state(body).p - grip->hand.now().p;  // to the centre of mass
   world_.releaseBody(body, v + omega.cross(arm), omega);
   grips_.erase(grip);
@@ -216,6 +224,7 @@ void DynamicsNode::act(Nanoseconds time, FrameContext* frame) {
     const Pose X_WT = poseOn(grip.course, time, Limit::After);
     world_.moveHeld(grip.body, X_WT * grip.X_TN, true);
     grip.hand.put(time, X_WT);
+    grip.jumped = time;
   }
   if (!frame) return;
   std::erase_if(fields_, [&](const Field& f) {
@@ -259,8 +268,22 @@ void DynamicsNode::hash(StateHash& h) const {
   }
 }
 
+/// Of a body that has been taken out of the simulation in this frame.
+void DynamicsNode::tellTrouble(const BodyState& before, DynObjectNode& node, FrameContext& frame) {
+  const BodyState& now = node.state();
+  const auto out = [](const BodyState& s) { return s.mode == BodyMode::Quarantined; };
+  if (!out(now) || (out(before) && before.clock == now.clock)) return;
+  frame.scene.warn(
+      node, fmt::format("is out of the simulation from {:.3f} s on: {}; it stands still until its reset",
+                        toSeconds(now.clock), world_.troubleOf(node.bodyId())));
+  node.tell(Event::OnQuarantine, now.clock, frame);
+}
+
 bool DynamicsNode::afterStep(FrameContext& frame) {
   bool any = false;
+  if (world_.counters().limited > 0 && !std::exchange(toldOfLimit_, true))
+    frame.scene.warn(*this, fmt::format("cut the frame at {:.3f} s short: its contacts came without end",
+                                        toSeconds(frame.now.time)));
   for (const BodyId id : world_.changed()) {
     const auto at = partOf_.find(id);
     DynObjectNode* node = at == partOf_.end() ? nullptr : bodyAt(at->second->ref, frame.scene);
@@ -270,7 +293,9 @@ bool DynamicsNode::afterStep(FrameContext& frame) {
     any |= world_.moving(id);
     const bool same = state.pose.p == part.pose.p && state.pose.q.coeffs() == part.pose.q.coeffs();
     part.pose = state.pose;
+    const BodyState before = node->state();
     node->setState(state);
+    tellTrouble(before, *node, frame);
     if (same)
       frame.scene.touch(node->self());
     else

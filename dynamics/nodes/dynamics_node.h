@@ -55,6 +55,7 @@ private:
     Pose X_TN;  ///< how it lies in the hand
     HandMotion hand;
     Course course;  ///< of the hand in this frame; empty while the tracker is silent
+    Nanoseconds jumped = -1;  ///< when the hand last jumped while it held the body [ns]
     bool silentBefore(Nanoseconds t) const {
       return course.empty() || (course.front().jump && t <= course.front().time);
     }
@@ -70,7 +71,8 @@ private:
   bool takeOrders(FrameContext& frame, std::vector<Nanoseconds>& cuts);
   void obey(const Order& order, FrameContext& frame);
   void grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame);
-  void letGo(BodyId body, Nanoseconds when);
+  void letGo(const Part& part, Nanoseconds when, Scene& scene);
+  void tellTrouble(const BodyState& before, DynObjectNode& node, FrameContext& frame);
   BodyId carrierOf(PlacementId field, const Placements& placements) const;
 
   std::vector<NodeRef> asking_;               ///< bodies of which something has been asked
@@ -78,6 +80,7 @@ private:
   std::vector<Field> fields_;
   std::vector<Grip> grips_;
   std::vector<Order> orders_;  ///< of this frame, in the order of time
+  bool toldOfLimit_ = false;   ///< once is enough
 };
 
 }  // namespace stadion

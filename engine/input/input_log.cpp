@@ -17,6 +17,25 @@ void copy(const InputStamp& stamp, TrackerSample& sample) {
 constexpr Nanoseconds kEasedGrid = 5'000'000;  ///< corners of an eased way fall on multiples of this [ns]
 constexpr std::size_t kMostKnots = 1000;       ///< of one tracker in one frame; what comes after is cut
 
+constexpr Nanoseconds kLongestLeap = 50'000'000;  ///< [ns]
+constexpr double kLeapSpeed = 15;                 ///< faster than before and after, too [m/s]
+
+/// How it goes from the stamp before `i` to it; nothing where it is not known to move.
+Vec3 velocityTo(const InputTrack& track, std::size_t i) {
+  if (i == 0 || i >= track.stamps.size()) return Vec3::Zero();
+  const InputStamp &a = track.stamps[i - 1], &b = track.stamps[i];
+  return a.valid && b.valid ? Vec3((b.X_RT.p - a.X_RT.p) / toSeconds(b.time - a.time)) : Vec3::Zero();
+}
+
+/// Whether it came to stamp `i` as no hand or foot does: faster than before and after, and in one step.
+bool leaps(const InputTrack& track, std::size_t i) {
+  if (i == 0 || i >= track.stamps.size() || track.stamps[i].smooth) return false;
+  if (track.stamps[i].time - track.stamps[i - 1].time > kLongestLeap) return false;
+  const Vec3 v = velocityTo(track, i);
+  return v.norm() > kLeapSpeed && (v - velocityTo(track, i - 1)).norm() > kLeapSpeed &&
+         (v - velocityTo(track, i + 1)).norm() > kLeapSpeed;
+}
+
 double share(const InputStamp& a, const InputStamp& b, Nanoseconds time) {
   return static_cast<double>(time - a.time) / static_cast<double>(b.time - a.time);
 }
@@ -36,12 +55,12 @@ double progress(const InputStamp& a, const InputStamp& b, Nanoseconds time) {
   return eased(a, b, from) + part * (eased(a, b, to) - eased(a, b, from));
 }
 
-/// Between two stamps, a.time < time < b.time.
-void blend(const InputStamp& a, const InputStamp& b, Nanoseconds time, TrackerSample& sample) {
+/// Between two stamps, a.time < time < b.time; `leap`: it does not go, but is at b from b.time on.
+void blend(const InputStamp& a, const InputStamp& b, Nanoseconds time, bool leap, TrackerSample& sample) {
   copy(a, sample);
   if (!a.valid || !b.valid) return;  // a lost tracker stays where it was last seen
   const double s = progress(a, b, time);
-  sample.X_RT = det::interpolate(a.X_RT, b.X_RT, s);
+  if (!leap) sample.X_RT = det::interpolate(a.X_RT, b.X_RT, s);
   for (std::size_t i = 0; i < kTrackerAxes; ++i)
     sample.axes[i] = static_cast<float>(a.axes[i] + s * (static_cast<double>(b.axes[i]) - a.axes[i]));
 }
@@ -54,7 +73,7 @@ void sampleTrack(const InputTrack& track, Nanoseconds time, TrackerSample& sampl
   if (after == track.stamps.begin()) return copy(*after, sample);
   const InputStamp& before = *(after - 1);
   if (before.time == time || after == track.stamps.end()) return copy(before, sample);
-  blend(before, *after, time, sample);
+  blend(before, *after, time, leaps(track, static_cast<std::size_t>(after - track.stamps.begin())), sample);
 }
 
 bool samePose(const Pose& a, const Pose& b) {
@@ -62,7 +81,8 @@ bool samePose(const Pose& a, const Pose& b) {
 }
 
 /// The corners between a and b, and b itself, as far as they lie strictly inside the frame.
-void addKnots(const InputStamp& a, const InputStamp& b, Nanoseconds start, Nanoseconds end, Course& knots) {
+void addKnots(const InputStamp& a, const InputStamp& b, bool leap, Nanoseconds start, Nanoseconds end,
+              Course& knots) {
   const bool whole = a.valid && b.valid;
   if (whole && b.smooth && !(samePose(a.X_RT, b.X_RT) && a.axes == b.axes)) {
     const Nanoseconds after = std::max(a.time, start), before = std::min(b.time, end);
@@ -71,8 +91,9 @@ void addKnots(const InputStamp& a, const InputStamp& b, Nanoseconds start, Nanos
       knots.push_back({t, det::interpolate(a.X_RT, b.X_RT, eased(a, b, t)), false});
   }
   // Lost and found it has jumped.
-  if (b.time > start && (b.time < end || (b.time == end && !whole)) && b.valid && knots.size() < kMostKnots)
-    knots.push_back({b.time, b.X_RT, !whole});
+  const bool jump = !whole || leap;
+  if (b.time > start && (b.time < end || (b.time == end && jump)) && b.valid && knots.size() < kMostKnots)
+    knots.push_back({b.time, b.X_RT, jump});
 }
 
 /// What the buttons and axes do on the way from a to b, and at b, as far as it lies inside the frame. The
@@ -85,7 +106,7 @@ void addControls(const InputStamp& a, const InputStamp& b, Nanoseconds start, Na
     for (Nanoseconds t = (after / kEasedGrid + 1) * kEasedGrid; t < before && controls.size() < kMostKnots;
          t += kEasedGrid) {
       TrackerSample at;
-      blend(a, b, t, at);
+      blend(a, b, t, false, at);
       controls.push_back({t, at.buttons, at.axes});
     }
   }
@@ -127,7 +148,8 @@ void addKnots(const InputTrack& track, Nanoseconds start, Nanoseconds end, Cours
     ++next;
   }
   for (; next != track.stamps.end() && (next - 1)->time < end && knots.size() < kMostKnots; ++next)
-    addKnots(*(next - 1), *next, start, end, knots);
+    addKnots(*(next - 1), *next, leaps(track, static_cast<std::size_t>(next - track.stamps.begin())), start,
+             end, knots);
 }
 
 }  // namespace

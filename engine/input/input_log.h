@@ -31,6 +31,10 @@
 ///     load N SECONDS
 ///         the Nth file that the show loaded was not ready when it was due and took effect at this show time
 ///
+/// A tracker leaps where it would go faster than 15 m/s between two records less than 50 ms apart, and more
+/// than 15 m/s faster than both before and after: it was taken for another, or lost. Until the later record
+/// it stays where it was. (A fast swing comes and goes in several records, and is no leap.)
+///
 /// Between two records poses and axes are interpolated, buttons are those of the record before. An eased way
 /// is eased at whole multiples of 5 ms of show time and straight between them. Before the first record the
 /// first is held, after the last one the last.

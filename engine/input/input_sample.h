@@ -64,7 +64,7 @@ struct InputSample {
   }
 };
 
-constexpr double kTeleportSpeed = 15;  ///< faster than any hand or foot [m/s]
+constexpr double kTeleportSpeed = 60;  ///< faster than any hand, foot or bat [m/s]
 
 /// Whether a tracker that went from `previous` to `next` in `dt` cannot have moved there: it was lost and
 /// found, or another one took its name. What follows it must be put there without impulse.

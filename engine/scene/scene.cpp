@@ -228,6 +228,17 @@ void Scene::note(NodeRef node, Event event, Nanoseconds when) {
   events_.push_back({node, event, when});
 }
 
+void Scene::warn(const Node& about, const std::string& what) {
+  const Load* from = load(about.self().load);
+  SourcePosition where;
+  if (from) where.file = from->file;
+  if (from && about.self().position < from->lines.size())
+    where.line = from->lines[about.self().position], where.column = 1;
+  const std::string name =
+      about.name().empty() ? std::string(nameOf(about.kind())) : "\"" + about.name() + "\"";
+  loader_.report({Severity::Warning, where, name + " " + what, {}});
+}
+
 // Names.
 
 const Load* Scene::load(std::uint32_t number) const {

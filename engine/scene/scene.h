@@ -79,6 +79,8 @@ public:
   /// A command from outside the show, to be delivered in the next frame.
   bool command(const std::string& target, Verb verb, std::vector<std::string> arguments, Nanoseconds when);
   void note(NodeRef node, Event event, Nanoseconds when);
+  /// Tells the author what the show did about a node, with its name and where it is declared.
+  void warn(const Node& about, const std::string& what);
   /// Visits `node` in the frame in which `when` falls.
   void wakeAt(Nanoseconds when, NodeRef node);
   /// Visits `node` in this frame still if its rank has not had its turn, else in the next one.

@@ -3,12 +3,14 @@
 #include "engine/scene/records.h"
 #include "engine/script/file_path.h"
 #include "engine/script/reporter.h"
+#include "engine/script/suggestion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace stadion {
 
@@ -230,6 +232,31 @@ void lintLatencies(const Document& document, Nanoseconds step, Diagnostics& find
                                toSeconds(m.latency), toSeconds(step), 1 / toSeconds(step),
                                std::ceil(1e3 * toSeconds(step - m.delay)) / 1e3));
     }
+}
+
+void lintTrackers(const Document& document, const std::vector<std::string>& known, const std::string& log,
+                  Diagnostics& findings) {
+  static const std::vector<std::string> kUsual = {"head", "wand", "foot"};
+  Reporter report(document.source(), findings);
+  const auto among = [](const std::vector<std::string>& names, std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  const auto look = [&](std::string_view name, std::uint32_t where) {
+    if (name.empty() || among(kUsual, name) || among(known, name)) return;
+    std::vector<std::string> near = known;
+    near.insert(near.end(), kUsual.begin(), kUsual.end());
+    const std::string meant = didYouMean(name, near);
+    if (!log.empty())
+      report.warning(where,
+                     fmt::format("no device is called \"{}\": {} has {}{}", name, log,
+                                 known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")), meant));
+    else if (!meant.empty())
+      report.warning(where, fmt::format("\"{}\" is no usual name of a device{}", name, meant));
+  };
+  for (const Declaration node : document) {
+    if (node.has(Attr::Tracker)) look(node.text(Attr::Tracker), node.offset(Attr::Tracker));
+    for (const EventMessage& m : node.eventMessages()) look(m.tracker, m.command);
+  }
 }
 
 }  // namespace stadion

@@ -16,4 +16,9 @@ void lint(const Document& document, bool alone, Diagnostics& findings);
 /// Units    `step` is the time of one frame [ns].
 void lintLatencies(const Document& document, Nanoseconds step, Diagnostics& findings);
 
+/// Warns of trackers that no device is called: `known` are those of the show's input log, `log` its name.
+/// Without a log, of names that look like a slip of the usual ones.
+void lintTrackers(const Document& document, const std::vector<std::string>& known, const std::string& log,
+                  Diagnostics& findings);
+
 }  // namespace stadion

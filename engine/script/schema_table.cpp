@@ -312,6 +312,7 @@ constexpr Event kTimerEvents[] = {Event::TimesUp};
 constexpr Event kSceneEvents[] = {Event::Loaded, Event::Unloaded};
 constexpr Event kPathEvents[] = {Event::Finished};
 constexpr Event kContactEvents[] = {Event::OnImpact, Event::OnRelease};
+constexpr Event kBodyEvents[] = {Event::OnQuarantine};
 
 }  // namespace
 
@@ -324,7 +325,7 @@ constinit const std::array<NodeSpec, kNodeKindCount> kNodes = {{
     {Group, "gathers nodes under one name and place", {}, {}, true},
     {Transform, "places its children; made to be moved by messages and paths", {}, {}, true},
     {Object, "a model from a file, drawn and solid but not moved by dynamics", kObjectRows, {}, true},
-    {DynObject, "a body: a model with mass that a dynamics node moves", kDynObjectRows, {}, true},
+    {DynObject, "a body: a model with mass that a dynamics node moves", kDynObjectRows, kBodyEvents, true},
     {Light, "lights the scene", kLightRows, {}, true},
     {Sky,
      "what is seen behind everything, and the light that comes from all sides",
@@ -400,6 +401,8 @@ constinit const std::array<EventSpec, kEventCount> kEvents = {{
     {Event::Finished, "the path has reached its last key; told at the end of each pass if it loops"},
     {Event::OnImpact, "a pair that was apart has touched"},
     {Event::OnRelease, "a pair that posted onimpact is farther apart than releasedistance"},
+    {Event::OnQuarantine,
+     "its state would have become infinite or undefined; it stands still until its reset"},
 }};
 
 }  // namespace stadion::schema_table

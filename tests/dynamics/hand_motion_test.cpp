@@ -37,6 +37,33 @@ TEST(HandMotion, IsTheLeastSquaresLineOfTheLast80Milliseconds) {
   EXPECT_EQ(hand.way().size(), 3u) << "older ways are forgotten";
 }
 
+TEST(HandMotion, OfAFastSpinIsThatSpinHoweverItIsCut) {
+  for (const Vec3& w : {Vec3(0, 0, 50), Vec3(-80, 20, 0), Vec3(0, 150, 30)})
+    for (const Nanoseconds step : {1 * kMs, 5 * kMs, 16 * kMs}) {
+      HandMotion hand;
+      const auto at = [&](Nanoseconds t) { return Pose{{}, det::expRotation(w * toSeconds(t))}; };
+      hand.put(0, at(0));
+      for (Nanoseconds t = step; t <= 200 * kMs; t += step) hand.go(t, at(t));
+      EXPECT_LE((hand.velocity().omega - w).norm(), 1e-9) << w.transpose() << " every " << step;
+    }
+}
+
+TEST(HandMotion, OfATumblingHandDoesNotDependOnKnotsBetweenItsOwn) {
+  const auto at = [](int i) {
+    return Pose{{0.07 * i, 0, 0}, det::fromEuler(0.7 * i, 0.44 * i, 0.1 * i * i)};
+  };
+  HandMotion whole, cut;
+  whole.put(0, at(0)), cut.put(0, at(0));
+  for (int i = 1; i <= 20; ++i) {
+    for (const double part : {0.2, 0.55})
+      cut.go((i - 1) * 5 * kMs + fromSeconds(0.005 * part),
+             {(at(i - 1).p + part * (at(i).p - at(i - 1).p)), det::interpolate(at(i - 1), at(i), part).q});
+    whole.go(i * 5 * kMs, at(i)), cut.go(i * 5 * kMs, at(i));
+  }
+  EXPECT_GT(whole.velocity().omega.norm(), 100);
+  EXPECT_LE((whole.velocity().omega - cut.velocity().omega).norm(), 1e-6);
+}
+
 TEST(HandMotion, OfAHandThatHasJustBeenPutSomewhereIsNothing) {
   HandMotion hand;
   hand.put(5, {{1, 2, 3}, Quat::Identity()});

@@ -131,6 +131,70 @@ TEST(DynamicsNode, AGrabbedBodyFollowsTheHandAndKeepsItsVelocityWhenReleased) {
   EXPECT_EQ(ball->state().v, Vec3(0, 0, 0));
 }
 
+TEST(DynamicsNode, ABodyThatLeavesAllBoundsIsToldOfByEventAndByName) {
+  for (const auto& [pull, rate] : {std::pair{1e11, 60.}, {1e11, 240.}, {1e13, 60.}}) {
+    ShowFixture show;
+    show.rate = rate;
+    Ball* ball = nullptr;
+    show.loader.files["show"] = [&, pull = pull](Load& load) {
+      addNode<Field>(load, "storm", Vec3(pull, 0, 0), true);
+      addNode<Field>(load, "other", Vec3(0, 0, 0), false);
+      ball = &addNode<Ball>(load, "doomed", Vec3(0, 0, 1), std::vector<std::string>{"storm"});
+      ball->addNotification({Event::OnQuarantine, "other", Verb::Enable, {}, 0});
+      addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"doomed"});
+    };
+    show.scene.open("show");
+    std::vector<EventRecord> told;
+    const auto play = [&](std::size_t frames) {
+      for (std::size_t n = 0; n < frames; ++n) {
+        show.frame();
+        for (const EventRecord& e : show.scene.events())
+          if (e.event == Event::OnQuarantine) told.push_back(e);
+      }
+    };
+    play(static_cast<std::size_t>(5 * rate));
+    ASSERT_EQ(ball->state().mode, BodyMode::Quarantined);
+    ASSERT_EQ(told.size(), 1u) << "once";
+    EXPECT_EQ(told[0].node, ball->self());
+    EXPECT_EQ(told[0].when, ball->state().clock);
+    ASSERT_EQ(show.loader.reported.size(), 1u);
+    const std::string& what = show.loader.reported[0].message;
+    EXPECT_NE(what.find("\"doomed\" is out of the simulation from"), what.npos) << what;
+    const bool atOnce = pull > 1e12;  // no such pull is followed at all
+    EXPECT_NE(what.find(atOnce ? "infinite" : "bounds"), what.npos) << what;
+    EXPECT_NEAR(toSeconds(told[0].when), atOnce ? 0 : std::sqrt(20), 1e-6)
+        << "10^12 m at 10^11 m/s2, at any rate";
+    EXPECT_NEAR(ball->state().pose.p.x(), atOnce ? 0 : 1e12, 1e6);
+    show.scene.command("doomed", Verb::Reset, {}, show.input.time);
+    play(static_cast<std::size_t>(5 * rate));
+    EXPECT_EQ(told.size(), 2u) << "it is in the same storm again";
+  }
+}
+
+TEST(DynamicsNode, AHandThatJumpsThrowsNothingAndItIsSaid) {
+  for (const double speed : {40., 100.}) {
+    ShowFixture show;
+    Ball* ball = nullptr;
+    show.loader.files["show"] = [&](Load& load) {
+      ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 1), std::vector<std::string>{});
+      addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
+    };
+    show.scene.open("show");
+    show.tracker("wand", {0, 0, 1});
+    show.frames(2);
+    show.scene.command("ball", Verb::Grab, {"wand"}, show.input.time);
+    show.frame();
+    for (int n = 1; n <= 10; ++n) {
+      show.tracker("wand", {0, speed * n / 60.0, 1});
+      show.frame();
+    }
+    show.scene.command("ball", Verb::Release, {}, show.input.time);
+    show.frames(2);
+    EXPECT_NEAR(ball->state().v.y(), speed < 60 ? speed : 0, 1e-3);
+    EXPECT_EQ(show.loader.reported.size(), speed < 60 ? 0u : 1u);
+  }
+}
+
 TEST(CollisionNode, TellsWhenObjectsThatOthersMoveTouchAndComeApart) {
   ShowFixture show;
   const MeshId box = show.meshes.add(cube(0.5));

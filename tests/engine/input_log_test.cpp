@@ -354,14 +354,40 @@ TEST(ScriptedInput, RunsThroughItsKeysAndRefusesWhatIsOutOfOrder) {
   EXPECT_EQ(log->tracks[0].stamps[1].X_RT.q.coeffs(), foot.log().tracks[0].stamps[1].X_RT.q.coeffs());
 }
 
-TEST(Teleport, IsFasterThanFifteenMetresASecond) {
-  const Pose a, b{{0.24, 0, 0}, Quat::Identity()}, c{{0.26, 0, 0}, Quat::Identity()};
+TEST(Teleport, IsFasterThanSixtyMetresASecond) {
+  const Pose a, b{{0.99, 0, 0}, Quat::Identity()}, c{{1.01, 0, 0}, Quat::Identity()};
   const Nanoseconds frame = fromSeconds(1.0 / 60);
   EXPECT_FALSE(teleported(a, b, frame));
   EXPECT_TRUE(teleported(a, c, frame));
   EXPECT_FALSE(teleported(a, a, 0));
   EXPECT_TRUE(teleported(a, b, 0));
   EXPECT_TRUE(teleported(a, {{NAN, 0, 0}, Quat::Identity()}, frame));
+}
+
+/// A wand that is at these heights every 10 ms.
+InputLog wandAt(const std::vector<double>& heights) {
+  InputLog log;
+  log.tracks.push_back({"wand", {}});
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    log.tracks[0].stamps.push_back(
+        {fromSeconds(0.01 * static_cast<double>(i)), {{0, 0, heights[i]}, Quat::Identity()}});
+  return log;
+}
+
+TEST(InputLog, AStepThatIsFasterThanBeforeAndAfterIsALeapAFastSwingIsNone) {
+  InputSample sample;
+  wandAt({0, 0, 0.4, 0.4, 0.4}).sampleFrame(fromSeconds(0.005), fromSeconds(0.018), sample);
+  EXPECT_EQ(sample.trackers[0].X_RT.p.z(), 0) << "it stays until it is seen elsewhere";
+  wandAt({0, 0, 0.4, 0.4, 0.4}).sampleFrame(fromSeconds(0.015), fromSeconds(0.02), sample);
+  ASSERT_EQ(sample.trackers[0].knots.size(), 1u);
+  EXPECT_TRUE(sample.trackers[0].knots[0].jump);
+  EXPECT_EQ(sample.trackers[0].knots[0].X.p.z(), 0.4);
+  // 30 m/s, steadily; and a swing that gains 10 m/s a step.
+  for (const std::vector<double>& swing :
+       {std::vector<double>{0, 0, 0.3, 0.6, 0.9}, {0, 0, 0.1, 0.3, 0.6, 1.0, 1.3, 1.5, 1.6, 1.6}}) {
+    wandAt(swing).sampleFrame(fromSeconds(0.005), fromSeconds(0.085), sample);
+    for (const PoseKnot& k : sample.trackers[0].knots) EXPECT_FALSE(k.jump) << k.time;
+  }
 }
 
 TEST(InputLog, ThatIsMutatedNeverCrashesAndWhatIsAcceptedStaysFinite) {

@@ -97,6 +97,29 @@ TEST(ScriptLint, ALatencyShorterThanAFrameIsTold) {
             "command waits for the next frame; state 0.034 or more\n");
 }
 
+TEST(ScriptLint, ATrackerThatNoDeviceIsCalledIsNamed) {
+  const auto warnings = [](std::vector<std::string> known, const std::string& log) {
+    Diagnostics findings, warnings;
+    const std::string_view text = "forcelinear(name=f, direction=\"0 0 -1\", strengthaxis=1, tracker=wnd)\n"
+                                  "dynobject(name=ball, file=b.obj, hook=f)\n"
+                                  "timer(period=1, eventmessage=\"timesup, ball, grab nosuch\", "
+                                  "eventmessage=\"timesup, ball, grab foot\")\n"
+                                  "dynamics(collidee=ball)";
+    const Document document = checkScript(std::move(SourceText::make("a.evs", text).value()), findings);
+    EXPECT_FALSE(findings.hasErrors());
+    lintTrackers(document, known, log, warnings);
+    std::string all;
+    for (const Diagnostic& d : warnings.all()) all += fmt::format("{}: {}\n", d.where.line, d.message);
+    return all;
+  };
+  EXPECT_EQ(warnings({"wand", "head"}, "a.input"),
+            "1: no device is called \"wnd\": a.input has wand, head; did you mean \"wand\"?\n"
+            "3: no device is called \"nosuch\": a.input has wand, head\n");
+  EXPECT_EQ(warnings({"wand", "nosuch", "wnd"}, "a.input"), "");
+  EXPECT_EQ(warnings({}, ""), "1: \"wnd\" is no usual name of a device; did you mean \"wand\"?\n")
+      << "without a log any other name may be right";
+}
+
 TEST(ScriptLint, AFormatThatIsNotReadIsNamed) {
   EXPECT_EQ(warningsOf("object(file=models/Ball.fbx)").size(), 1U);
   EXPECT_TRUE(warningsOf("object(file=models/Ball.OBJ)").empty());

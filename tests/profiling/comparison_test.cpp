@@ -127,6 +127,28 @@ TEST(Comparison, ThePlotHasALineForEachSettingAndADotForEachStep) {
   EXPECT_NE(workPrecisionPlot("empty", {}).find("nothing was measured"), svg.npos);
 }
 
+TEST(Comparison, DotsThatLieOnEachOtherShareALabelAndTheLegendNamesTheHidden) {
+  const std::string svg = workPrecisionPlot(
+      "C01", {of("stadion", "C01", 1, 100, {{"err", 0.2}}), of("bullet", "C01", 1, 100, {{"err", 0.2}}),
+              of("ode", "C01", 4, 101, {{"err", 0.2}}), of("ode", "C01", 8, 4000, {{"err", 1e-6}})});
+  EXPECT_NE(svg.find(">n=1,4<"), svg.npos) << svg;
+  EXPECT_EQ(svg.find(">1<"), svg.npos);
+  EXPECT_NE(svg.find(">8<"), svg.npos);
+  EXPECT_NE(svg.find("stadion (under others)"), svg.npos);
+  EXPECT_EQ(svg.find("ode (under others)"), svg.npos);
+}
+
+TEST(Comparison, WhatRefusedTheCasesMeshHasNoNumbers) {
+  const auto m = parseMeasurement(
+      R"({"engine":"mujoco","case":"C13","n":1,"ns_per_body_frame":0.0,"m":{"mesh_refused":1}})");
+  ASSERT_TRUE(m);
+  EXPECT_FALSE(m->played());
+  EXPECT_NE(toJson(*m).find(R"("ns_per_body_frame":null)"), std::string::npos) << toJson(*m);
+  ASSERT_TRUE(parseMeasurement(toJson(*m))) << "it reads what it writes";
+  CaseResult r{"C13_degenerate_mesh", {*m}, {}};
+  EXPECT_NE(tableOf(r).find("refused the mesh"), std::string::npos) << tableOf(r);
+}
+
 TEST(Comparison, TheReportNamesWhatWasMissed) {
   CaseResult r{"C01_ballistic", {of("stadion", "C01_ballistic", 1, 20, {{"err", 1}})}, {}};
   r.verdict = judge(r.name, r.measurements);

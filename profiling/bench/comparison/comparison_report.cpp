@@ -40,6 +40,7 @@ std::string rowOf(const Measurement& m, const CaseResult& result, const std::vec
   std::string row = fmt::format("  {:<16}{:>3}", m.engine, m.n);
   if (m.unsupported) return row + "  has no such thing\n";
   if (m.crash) return row + (m.crash == SIGALRM ? "  out of time\n" : "  crashed\n");
+  if (m.refused()) return row + "  refused the mesh\n";
   row += fmt::format("{:>12.1f}", m.ns);
   for (const std::string& c : columns) row += fmt::format("  {:>{}}", cell(m, c), widthOf(c));
   if (result.verdict.peer)

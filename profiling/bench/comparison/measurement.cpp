@@ -32,7 +32,8 @@ std::optional<Measurement> parseMeasurement(const std::string& line) {
   r.engine = json.value("engine", "");
   r.caseName = json.value("case", "");
   r.n = json.value("n", 1);
-  r.ns = json.value("ns_per_body_frame", 0.0);
+  if (const auto ns = json.find("ns_per_body_frame"); ns != json.end() && ns->is_number())
+    r.ns = ns->get<double>();
   r.unsupported = json.value("unsupported", false);
   r.crash = json.value("crash", 0);
   if (json.contains("m"))
@@ -47,7 +48,9 @@ std::string toJson(const Measurement& r) {
     json["crash"] = r.crash;
     return json.dump();
   }
-  json["ns_per_body_frame"] = std::round(r.ns * 10) / 10;
+  json["ns_per_body_frame"] =
+      r.played() ? nlohmann::ordered_json(std::round(r.ns * 10) / 10) : nlohmann::ordered_json();
+  if (r.refused()) json["refused"] = true;
   if (r.unsupported) json["unsupported"] = true;
   json["m"] = nlohmann::ordered_json::object();
   for (const auto& [name, value] : r.m)

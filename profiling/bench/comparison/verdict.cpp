@@ -120,9 +120,9 @@ Verdict judge(const std::string& caseName, const std::vector<Measurement>& of) {
       judgeErrors(*limits, m, verdict);
       judgeCost(*limits, m, of, verdict);
     } else {
-      verdict.findings.push_back({Kind::Missed, m.unsupported        ? m.engine + " cannot play this"
-                                                : m.crash == SIGALRM ? m.engine + " ran out of time"
-                                                                     : m.engine + " crashed"});
+      verdict.findings.push_back({Kind::Missed, m.unsupported || m.refused() ? m.engine + " cannot play this"
+                                                : m.crash == SIGALRM         ? m.engine + " ran out of time"
+                                                                             : m.engine + " crashed"});
     }
   }
   judgeFinest(*limits, of, verdict);

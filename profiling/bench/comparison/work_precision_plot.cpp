@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 namespace stadion::bench {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 constexpr double kWidth = 860, kHeight = 520;
 constexpr double kLeft = 80, kRight = 640, kTop = 50, kBottom = 460;
 constexpr double kLeastError = 1e-16;
+constexpr double kLabelWidth = 16, kLabelHeight = 12, kDotRadius = 4;  ///< [px]
 
 /// From decades of a value to a place on the paper.
 struct Axis {
@@ -70,7 +72,44 @@ std::string gridOf(const Axis& cost, const Axis& error) {
   return svg;
 }
 
-std::string draw(const Series& series, std::size_t number, const Axis& cost, const Axis& error) {
+/// The numbers beside dots that are so close that their labels would lie on each other.
+struct Label {
+  double x, y;  ///< of the first dot
+  std::set<int> n;
+};
+
+std::vector<Label> labelsOf(const std::vector<Series>& all, const Axis& cost, const Axis& error) {
+  std::vector<Label> labels;
+  for (const Series& s : all)
+    for (const Dot& d : s.second) {
+      const double x = cost.at(d.cost), y = error.at(d.error);
+      auto near = std::ranges::find_if(labels, [&](const Label& l) {
+        return std::fabs(l.x - x) < kLabelWidth && std::fabs(l.y - y) < kLabelHeight;
+      });
+      if (near == labels.end()) near = labels.insert(labels.end(), {x, y, {}});
+      near->n.insert(d.n);
+    }
+  return labels;
+}
+
+std::string draw(const Label& label) {
+  std::string numbers;
+  for (const int n : label.n) numbers += (numbers.empty() ? "" : ",") + std::to_string(n);
+  return text(label.x + 7, label.y - 5, "start", (label.n.size() > 1 ? "n=" : "") + numbers);
+}
+
+/// Whether every dot of the series lies under one that is drawn later.
+bool hidden(const std::vector<Series>& all, std::size_t number, const Axis& cost, const Axis& error) {
+  return std::ranges::all_of(all[number].second, [&](const Dot& d) {
+    for (std::size_t later = number + 1; later < all.size(); ++later)
+      for (const Dot& o : all[later].second)
+        if (std::hypot(cost.at(o.cost) - cost.at(d.cost), error.at(o.error) - error.at(d.error)) < kDotRadius)
+          return true;
+    return false;
+  });
+}
+
+std::string draw(const Series& series, std::size_t number, bool under, const Axis& cost, const Axis& error) {
   static constexpr const char* kColours[] = {"#c00000", "#1f77b4", "#17becf", "#2ca02c",
                                              "#8c564b", "#9467bd", "#ff7f0e", "#7f7f7f"};
   const std::string colour = kColours[number % std::size(kColours)];
@@ -78,13 +117,12 @@ std::string draw(const Series& series, std::size_t number, const Axis& cost, con
   for (const Dot& d : series.second) {
     const double x = cost.at(d.cost), y = error.at(d.error);
     path += fmt::format("{:.1f},{:.1f} ", x, y);
-    dots += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='4' fill='{}'/>\n", x, y, colour) +
-            text(x + 7, y - 5, "start", fmt::format("{}", d.n));
+    dots += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='{}'/>\n", x, y, kDotRadius, colour);
   }
   const double legend = kTop + 20 * static_cast<double>(number);
   return fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-width='1.5'/>\n", path, colour) +
          dots + fmt::format("<circle cx='{}' cy='{}' r='5' fill='{}'/>\n", kRight + 25, legend - 4, colour) +
-         text(kRight + 38, legend, "start", series.first);
+         text(kRight + 38, legend, "start", series.first + (under ? " (under others)" : ""));
 }
 
 }  // namespace
@@ -106,7 +144,9 @@ std::string workPrecisionPlot(const std::string& title, const std::vector<Measur
     }
   const Axis cost = axisFor(costs, kLeft, kRight), error = axisFor(errors, kBottom, kTop);
   svg += gridOf(cost, error);
-  for (std::size_t i = 0; i < all.size(); ++i) svg += draw(all[i], i, cost, error);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    svg += draw(all[i], i, hidden(all, i, cost, error), cost, error);
+  for (const Label& l : labelsOf(all, cost, error)) svg += draw(l);
   svg += text((kLeft + kRight) / 2, kHeight - 16, "middle", "processor time per body and frame [ns]");
   svg += fmt::format("<text x='24' y='{0}' text-anchor='middle' transform='rotate(-90 24 {0})'>error "
                      "(metric \"err\")</text>\n",
