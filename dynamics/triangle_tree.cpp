@@ -56,6 +56,14 @@ std::vector<Triangle> usable(const Mesh& mesh) {
   return out;
 }
 
+/// Negative if the faces look inwards [m3].
+double volume(const std::vector<Triangle>& triangles) {
+  double sum = 0;
+  const Vec3 from = triangles.front().v[0];
+  for (const Triangle& t : triangles) sum += (t.v[0] - from).dot((t.v[1] - from).cross(t.v[2] - from)) / 6;
+  return sum;
+}
+
 }  // namespace
 
 ClosestPoint closestPoint(const Triangle& t, const Vec3& p) {
@@ -85,15 +93,32 @@ TriangleTree::TriangleTree(const Mesh& mesh) : triangles_(usable(mesh)) {
   dropped_ = mesh.indices.size() / 3 - triangles_.size();
   for (const Triangle& t : triangles_) bounds_.include(boxOf(t));
   if (triangles_.empty()) return;
-  std::map<Key, bool> places;
-  for (const Triangle& t : triangles_)
-    for (const Vec3& v : t.v)
-      if (places.emplace(keyOf(v), true).second) corners_.push_back(v);
+  collectCorners();
   connect();
   order_.resize(triangles_.size());
   std::iota(order_.begin(), order_.end(), 0u);
   nodes_.reserve(2 * triangles_.size());
   build(0, static_cast<std::uint32_t>(order_.size()));
+}
+
+void TriangleTree::collectCorners() {
+  std::map<Key, std::uint32_t> places;
+  for (const Triangle& t : triangles_) {
+    std::array<std::uint32_t, 3>& own = cornersOf_.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [at, fresh] = places.emplace(keyOf(t.v[k]), static_cast<std::uint32_t>(corners_.size()));
+      if (fresh) corners_.push_back(t.v[k]);
+      own[k] = at->second;
+    }
+  }
+  aroundFirst_.assign(corners_.size() + 1, 0);
+  for (const auto& own : cornersOf_)
+    for (const std::uint32_t c : own) ++aroundFirst_[c + 1];
+  std::partial_sum(aroundFirst_.begin(), aroundFirst_.end(), aroundFirst_.begin());
+  around_.resize(aroundFirst_.back());
+  std::vector<std::uint32_t> next(aroundFirst_.begin(), aroundFirst_.end() - 1);
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i)
+    for (const std::uint32_t c : cornersOf_[i]) around_[next[c]++] = i;
 }
 
 void TriangleTree::connect() {
@@ -120,7 +145,8 @@ void TriangleTree::connect() {
       t.merged[k] = u.merged[l] = t.normal.dot(far) >= -1e-5 * far.norm();
     }
   }
-  closed_ = unmatched == 0;
+  closed_ = unmatched == 0 && std::fabs(volume(triangles_)) > 1e-9 * (bounds_.hi - bounds_.lo).squaredNorm() *
+                                                          (bounds_.hi - bounds_.lo).norm();
 }
 
 void TriangleTree::build(std::uint32_t first, std::uint32_t count) {
