@@ -160,6 +160,22 @@ void ballPoints(const Side& ball, const Side& other, double tau, double margin,
   if (g.distance < margin) points.push_back({g, 1});
 }
 
+/// Meshes, and bounded planes against them.
+bool triangleManifold(const Side& a, const Side& b, double tau, double margin,
+                      std::vector<ManifoldPoint>& points) {
+  if (!std::holds_alternative<MeshShape>(*a.shape) && !std::holds_alternative<MeshShape>(*b.shape))
+    return false;
+  TriangleTree sheet;
+  const TriangleTree *ta = trianglesOf(*a.shape, sheet), *tb = trianglesOf(*b.shape, sheet);
+  if (!ta || !tb) return false;
+  const Kinematics ka = a.at(tau), kb = b.at(tau);
+  meshesManifold(*ta, ka.pose, ka.p, *tb, kb.pose, kb.p, margin, points);
+  if (!points.empty()) return true;
+  const Gap nearest = meshesGapWithin(*ta, ka.pose, *tb, kb.pose, margin);
+  if (nearest.distance < margin) points.push_back({nearest, 99});
+  return true;
+}
+
 }  // namespace
 
 void manifold(const Side& a, const Side& b, double tau, double margin, std::vector<ManifoldPoint>& points) {
@@ -173,15 +189,8 @@ void manifold(const Side& a, const Side& b, double tau, double margin, std::vect
              boxA && boxB) {
     boxManifold(a.at(tau).pose * boxA->pose, boxA->half, b.at(tau).pose * boxB->pose, boxB->half, margin,
                 points);
-  } else if (solidManifold(a, b, tau, margin, points)) {
+  } else if (triangleManifold(a, b, tau, margin, points) || solidManifold(a, b, tau, margin, points)) {
     return;
-  } else if (const auto* meshA = std::get_if<MeshShape>(a.shape), *meshB = std::get_if<MeshShape>(b.shape);
-             meshA && meshB) {
-    const Kinematics ka = a.at(tau), kb = b.at(tau);
-    meshesManifold(*meshA, ka.pose, ka.p, *meshB, kb.pose, kb.p, margin, points);
-    if (!points.empty()) return;
-    const Gap nearest = meshesGapWithin(*meshA, ka.pose, *meshB, kb.pose, margin);
-    if (nearest.distance < margin) points.push_back({nearest, 99});
   } else {
     if (!isPlane(a)) cornersNear(a, b, tau, margin, false, 1000, points);
     if (!isPlane(b)) cornersNear(b, a, tau, margin, true, 1000000, points);

@@ -48,12 +48,7 @@ struct Edge {
 class Gather {
 public:
   Gather(const Body& a, const Body& b, double margin, std::vector<ManifoldPoint>& found)
-      : a_(a),
-        b_(b),
-        margin_(margin),
-        sunkA_(limitOf(a, b)),
-        sunkB_(limitOf(b, a)),
-        found_(found) {}
+      : a_(a), b_(b), margin_(margin), sunkA_(limitOf(a, b)), sunkB_(limitOf(b, a)), found_(found) {}
 
   void run() {
     MeshPairs(a_.tree, b_.tree, b_.X.inverse() * a_.X)
@@ -76,7 +71,8 @@ private:
     const double sideA = sideOf(a_, ta, b_.middle), sideB = sideOf(b_, tb, a_.middle);
     for (std::size_t k = 0; k < 3; ++k) {
       if (const std::uint32_t c = a_.tree.cornersOf(i)[k]; a_.tree.around(c).front() == i)
-        cornerOverFace(a_, c, ta.v[k], b_, tb, sideB * tb.normal, sunkB_, static_cast<std::int32_t>(j), false);
+        cornerOverFace(a_, c, ta.v[k], b_, tb, sideB * tb.normal, sunkB_, static_cast<std::int32_t>(j),
+                       false);
       if (const std::uint32_t c = b_.tree.cornersOf(j)[k]; b_.tree.around(c).front() == j)
         cornerOverFace(b_, c, tb.v[k], a_, ta, sideA * ta.normal, sunkA_, -1, true);
     }
@@ -88,8 +84,8 @@ private:
     }
   }
 
-  void cornerOverFace(const Body& corners, std::uint32_t c, const Vec3& x, const Body& faces, const Triangle& t,
-                      const Vec3& n, double sunk, std::int32_t triangle, bool flipped) {
+  void cornerOverFace(const Body& corners, std::uint32_t c, const Vec3& x, const Body& faces,
+                      const Triangle& t, const Vec3& n, double sunk, std::int32_t triangle, bool flipped) {
     const double height = n.dot(x - t.v[0]);
     if (!(height < margin_) || height < -sunk) return;
     for (std::size_t m = 0; m < 3; ++m) {
@@ -107,7 +103,8 @@ private:
   }
 
   /// False if the edge is none that sticks out, or another triangle's.
-  static bool edgeOf(const Body& body, std::uint32_t i, const Triangle& t, std::size_t k, double side, Edge& e) {
+  static bool edgeOf(const Body& body, std::uint32_t i, const Triangle& t, std::size_t k, double side,
+                     Edge& e) {
     const std::int32_t next = t.next[k];
     if (next >= 0 && static_cast<std::uint32_t>(next) < i) return false;
     if (side > 0 && t.merged[k]) return false;
@@ -176,13 +173,25 @@ void thin(std::vector<ManifoldPoint>& points, double size) {
 
 }  // namespace
 
-void meshesManifold(const MeshShape& a, const Pose& X_WA, const Vec3& middleA, const MeshShape& b,
+const TriangleTree* trianglesOf(const Shape& shape, TriangleTree& sheet) {
+  if (const auto* mesh = std::get_if<MeshShape>(&shape)) return &mesh->tree;
+  const auto* plane = std::get_if<PlaneShape>(&shape);
+  if (!plane || !plane->bounded()) return nullptr;
+  std::array<Vec3, 4> corner;
+  for (std::size_t i = 0; i < 4; ++i)
+    corner[i] = plane->pose * Vec3(i == 0 || i == 3 ? -plane->half.x() : plane->half.x(),
+                                   i < 2 ? -plane->half.y() : plane->half.y(), 0);
+  sheet = TriangleTree({{corner[0], corner[1], corner[2]}, {corner[0], corner[2], corner[3]}});
+  return &sheet;
+}
+
+void meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA, const TriangleTree& b,
                     const Pose& X_WB, const Vec3& middleB, double margin,
                     std::vector<ManifoldPoint>& points) {
   // Around A's middle, for the sake of digits.
-  const auto bodyOf = [&](const MeshShape& m, const Pose& X, const Vec3& middle) {
-    const Aabb& box = m.tree.bounds();
-    return Body{m.tree, {X.p - middleA, X.q}, middle - middleA, 0.5 * (box.hi - box.lo).norm()};
+  const auto bodyOf = [&](const TriangleTree& m, const Pose& X, const Vec3& middle) {
+    const Aabb& box = m.bounds();
+    return Body{m, {X.p - middleA, X.q}, middle - middleA, 0.5 * (box.hi - box.lo).norm()};
   };
   const Body ba = bodyOf(a, X_WA, middleA), bb = bodyOf(b, X_WB, middleB);
   std::vector<ManifoldPoint> found;

@@ -21,8 +21,8 @@ public:
   MeshPairs(const TriangleTree& a, const TriangleTree& b, const Pose& X_BA)
       : a_(a), b_(b), X_(X_BA), R_(X_BA.q.toRotationMatrix()), size_(R_.cwiseAbs()) {}
 
-  /// Calls f(i, j, triangle i of a in the frame of b) with pairs of triangles whose boxes are within `within()`
-  /// metres, nearer parts first; f may shorten what `within` says as it learns. In a fixed order.
+  /// Calls f(i, j, triangle i of a in the frame of b) with pairs of triangles whose boxes are within
+  /// `within()` metres, nearer parts first; f may shorten what `within` says as it learns. In a fixed order.
   template <class W, class F>
   void each(W within, F f) const {
     if (!a_.empty() && !b_.empty()) follow(0, 0, within, f);

@@ -37,7 +37,8 @@ Gap nearestWithin(const TriangleTree& a, const TriangleTree& b, const Pose& X_BA
   look(pair.a, pair.b, moved(a.triangles()[pair.a], X_BA));
   // Meshes that cross are near enough.
   MeshPairs(a, b, X_BA)
-      .each([&] { return best.distance > 0 ? best.distance : std::numeric_limits<double>::quiet_NaN(); }, look);
+      .each([&] { return best.distance > 0 ? best.distance : std::numeric_limits<double>::quiet_NaN(); },
+            look);
   if (!any) return {};
   Gap g = gapOf(best, b.triangles()[pair.b]);
   g.triangle = static_cast<std::int32_t>(pair.b);
@@ -49,13 +50,14 @@ Gap inWorld(Gap g, const Pose& X) {
   return g;
 }
 
-/// How long points that come at `speed`, and no faster than `acceleration` allows, need for `distance` at least.
+/// How long points that come at `speed`, and no faster than `acceleration` allows, need for `distance` at
+/// least.
 double leastTime(double distance, double speed, double acceleration) {
   return 2 * distance / (speed + std::sqrt(speed * speed + 2 * acceleration * distance));
 }
 
 /// Where the meshes, in touch, move towards each other fastest; nothing if they part everywhere.
-std::optional<Gap> closingPoint(const MeshShape& a, const Kinematics& ka, const MeshShape& b,
+std::optional<Gap> closingPoint(const TriangleTree& a, const Kinematics& ka, const TriangleTree& b,
                                 const Kinematics& kb, const Gap& nearest) {
   std::vector<ManifoldPoint> points;
   meshesManifold(a, ka.pose, ka.p, b, kb.pose, kb.p, kNear, points);
@@ -71,9 +73,10 @@ std::optional<Gap> closingPoint(const MeshShape& a, const Kinematics& ka, const 
 
 }  // namespace
 
-Gap meshesGapWithin(const MeshShape& a, const Pose& X_WA, const MeshShape& b, const Pose& X_WB, double limit) {
+Gap meshesGapWithin(const TriangleTree& a, const Pose& X_WA, const TriangleTree& b, const Pose& X_WB,
+                    double limit) {
   Pair pair;
-  return inWorld(nearestWithin(a.tree, b.tree, X_WB.inverse() * X_WA, limit, pair), X_WB);
+  return inWorld(nearestWithin(a, b, X_WB.inverse() * X_WA, limit, pair), X_WB);
 }
 
 Gap meshesGap(const MeshShape& a, const Pose& X_WA, const MeshShape& b, const Pose& X_WB) {
@@ -94,8 +97,9 @@ std::optional<Touch> meshesTouch(const Side& a, const Side& b, double from, doub
     return s.body ? s.body->reach : s.bound().centre.norm() + s.bound().radius;
   };
   const double ra = reachOf(a), rb = reachOf(b), acceleration = ma.accelerationAt(ra) + mb.accelerationAt(rb);
-  const auto& meshA = std::get<MeshShape>(*a.shape);
-  const auto& meshB = std::get<MeshShape>(*b.shape);
+  TriangleTree sheet;
+  const TriangleTree *meshA = trianglesOf(*a.shape, sheet), *meshB = trianglesOf(*b.shape, sheet);
+  if (!meshA || !meshB) return {};
   double tau = from;
   std::optional<Touch> lastFree;
   Pair pair;
@@ -106,15 +110,15 @@ std::optional<Touch> meshesTouch(const Side& a, const Side& b, double from, doub
     const double speed = (ka.v - kb.v).norm() + ka.omega.norm() * ra + kb.omega.norm() * rb, left = to - tau;
     if (!(speed + acceleration > 0)) return {};
     const double reach = (speed + 0.5 * acceleration * left) * left + kNear;
-    const double apart = (ka.pose * a.bound().centre - kb.pose * b.bound().centre).norm() -
-                         a.bound().radius - b.bound().radius;
+    const double apart = (ka.pose * a.bound().centre - kb.pose * b.bound().centre).norm() - a.bound().radius -
+                         b.bound().radius;
     if (apart > reach) return {};
     const Pose X = kb.pose.inverse() * ka.pose;
     if (!X.finite()) return lastFree;  // unknown: the last free pose
-    const Gap g = inWorld(nearestWithin(meshA.tree, meshB.tree, X, reach, pair), kb.pose);
+    const Gap g = inWorld(nearestWithin(*meshA, *meshB, X, reach, pair), kb.pose);
     if (!(g.distance < reach)) return {};
     if (g.distance <= kNear)
-      if (const auto closing = closingPoint(meshA, ka, meshB, kb, g)) return Touch{tau, *closing, false};
+      if (const auto closing = closingPoint(*meshA, ka, *meshB, kb, g)) return Touch{tau, *closing, false};
     if (g.distance > 0) lastFree = Touch{tau, g, false};
     tau += std::max(leastTime(std::max(g.distance, kLeast), speed, acceleration), 1e-9);
     if (!(tau <= to)) return {};

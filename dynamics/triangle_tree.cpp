@@ -25,33 +25,41 @@ double squaredDistance(const Aabb& b, const Vec3& p) {
 }
 
 /// Useful triangles only: finite, not degenerate, each once.
-std::vector<Triangle> usable(const Mesh& mesh) {
+std::vector<Triangle> usable(const std::vector<std::array<Vec3, 3>>& all) {
   std::vector<Triangle> out;
   std::map<std::array<Key, 3>, bool> seen;
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+  for (const std::array<Vec3, 3>& v : all) {
     Triangle t;
-    bool good = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t at = mesh.indices[i + k];
-      if (at >= mesh.positions.size()) {
-        good = false;
-        break;
-      }
-      const auto& p = mesh.positions[at];
-      t.v[k] = {p[0], p[1], p[2]};
-      good = good && t.v[k].allFinite();
-    }
-    if (!good) continue;
-    const Vec3 n = (t.v[1] - t.v[0]).cross(t.v[2] - t.v[0]);
-    const double longest = std::max(
-        {(t.v[1] - t.v[0]).squaredNorm(), (t.v[2] - t.v[1]).squaredNorm(), (t.v[0] - t.v[2]).squaredNorm()});
-    if (!(n.norm() > 1e-7 * longest)) continue;
+    t.v = v;
+    const Vec3 n = (v[1] - v[0]).cross(v[2] - v[0]);
+    const double longest =
+        std::max({(v[1] - v[0]).squaredNorm(), (v[2] - v[1]).squaredNorm(), (v[0] - v[2]).squaredNorm()});
+    if (!(n.norm() > 1e-7 * longest) || !std::isfinite(longest)) continue;
     t.normal = n.normalized();
     t.next = {-1, -1, -1};
     t.merged = {false, false, false};
     std::array<Key, 3> key = {keyOf(t.v[0]), keyOf(t.v[1]), keyOf(t.v[2])};
     std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
     if (seen.emplace(key, true).second) out.push_back(t);
+  }
+  return out;
+}
+
+/// Those whose corners exist and are finite.
+std::vector<std::array<Vec3, 3>> trianglesOf(const Mesh& mesh) {
+  std::vector<std::array<Vec3, 3>> out;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    std::array<Vec3, 3>& v = out.emplace_back();
+    bool good = true;
+    for (std::size_t k = 0; k < 3 && good; ++k) {
+      const std::uint32_t at = mesh.indices[i + k];
+      good = at < mesh.positions.size();
+      if (!good) break;
+      const auto& p = mesh.positions[at];
+      v[k] = {p[0], p[1], p[2]};
+      good = v[k].allFinite();
+    }
+    if (!good) out.pop_back();
   }
   return out;
 }
@@ -89,8 +97,18 @@ ClosestPoint closestPoint(const Triangle& t, const Vec3& p) {
   return best;
 }
 
-TriangleTree::TriangleTree(const Mesh& mesh) : triangles_(usable(mesh)) {
+TriangleTree::TriangleTree(const Mesh& mesh) : triangles_(usable(trianglesOf(mesh))) {
   dropped_ = mesh.indices.size() / 3 - triangles_.size();
+  prepare();
+}
+
+TriangleTree::TriangleTree(const std::vector<std::array<Vec3, 3>>& triangles)
+    : triangles_(usable(triangles)) {
+  dropped_ = triangles.size() - triangles_.size();
+  prepare();
+}
+
+void TriangleTree::prepare() {
   for (const Triangle& t : triangles_) bounds_.include(boxOf(t));
   if (triangles_.empty()) return;
   collectCorners();
@@ -146,7 +164,7 @@ void TriangleTree::connect() {
     }
   }
   closed_ = unmatched == 0 && std::fabs(volume(triangles_)) > 1e-9 * (bounds_.hi - bounds_.lo).squaredNorm() *
-                                                          (bounds_.hi - bounds_.lo).norm();
+                                                                  (bounds_.hi - bounds_.lo).norm();
 }
 
 void TriangleTree::build(std::uint32_t first, std::uint32_t count) {

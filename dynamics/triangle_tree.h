@@ -35,9 +35,12 @@ class TriangleTree {
 public:
   TriangleTree() = default;
   explicit TriangleTree(const Mesh& mesh);
+  explicit TriangleTree(const std::vector<std::array<Vec3, 3>>& triangles);
 
   bool empty() const { return triangles_.empty(); }
-  bool closed() const { return closed_; }  ///< encloses a volume: inside and outside are defined; a sheet with two sides does not
+  bool closed() const {
+    return closed_;
+  }  ///< encloses a volume: inside and outside are defined; a sheet with two sides does not
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<Vec3>& corners() const { return corners_; }  ///< each place once
   const Aabb& bounds() const { return bounds_; }
@@ -60,9 +63,9 @@ public:
         },
         f);
   }
-  /// Calls f(i, s, t) with every triangle that something comes near between the times s and t on its way, about
-  /// in the order of time; more than once, it may be. `around(s, t)` is a box around the way from s to t. f
-  /// returns the time up to which the way still matters.
+  /// Calls f(i, s, t) with every triangle that something comes near between the times s and t on its way,
+  /// about in the order of time; more than once, it may be. `around(s, t)` is a box around the way from s to
+  /// t. f returns the time up to which the way still matters.
   template <class B, class F>
   void eachOnWay(double from, double to, B around, F f) const {
     if (!nodes_.empty()) followWay(0, from, to, around(from, to), around, f, to);
@@ -112,6 +115,7 @@ private:
   void followWay(std::uint32_t node, double from, double to, const Aabb& box, B& around, F& f,
                  double& end) const;
   void build(std::uint32_t first, std::uint32_t count);
+  void prepare();
   void collectCorners();
   void connect();
 
