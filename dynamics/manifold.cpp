@@ -2,6 +2,8 @@
 
 #include "dynamics/box_manifold.h"
 #include "dynamics/convex_manifold.h"
+#include "dynamics/mesh_manifold.h"
+#include "dynamics/polyhedra.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +15,6 @@ constexpr std::size_t kMost = 16;
 constexpr double kOnFace = 1e-6;  ///< a centre this near to a face is inside [m]
 constexpr double kDeep = 0.2;     ///< balls overlap so much of their radius only when put there
 constexpr std::size_t kMostDeep = 4;
-constexpr double kSheet = 0.2;    ///< share of its size by which a mesh may have sunk into a sheet
 constexpr double kSameWay = 0.7;  ///< cosine of directions that lead out at the same side
 
 void flip(Gap& g) {
@@ -94,14 +95,6 @@ void ballOnMesh(const Vec3& centre, double r, const MeshShape& mesh, const Pose&
   }
 }
 
-/// A corner that has come through a sheet belongs to the side on which its body's middle is.
-void keepSide(const Vec3& middle, const Vec3& corner, const TriangleTree& sheet, const Pose& X, Gap& g) {
-  if (!g.face || g.triangle < 0) return;
-  const Vec3 n = X.q * sheet.triangles()[static_cast<std::size_t>(g.triangle)].normal;
-  const double side = n.dot(middle - g.point) < 0 ? -1 : 1, height = side * n.dot(corner - g.point);
-  if (height < 0) g.distance = height, g.normal = side * n;
-}
-
 /// Where corners of a come near the surface of b.
 void cornersNear(const Side& a, const Side& b, double tau, double margin, bool flipped, std::uint32_t keyBase,
                  std::vector<ManifoldPoint>& points) {
@@ -117,14 +110,10 @@ void cornersNear(const Side& a, const Side& b, double tau, double margin, bool f
       for (const Vec3& v : mesh->tree.corners()) f(v);
     }
   };
-  const auto* mesh = std::get_if<MeshShape>(b.shape);
-  const bool sheet = mesh && !mesh->tree.closed();
-  const double limit = sheet ? std::max(margin, kSheet * a.bound().radius) : margin;
   forEachCorner(*a.shape, [&](const Vec3& corner) {
     ++key;
     const Vec3 x = ka.pose * corner;
-    Gap g = ballGap(x, 0, *b.shape, kb.pose, {limit});
-    if (sheet) keepSide(ka.p, x, mesh->tree, kb.pose, g);
+    Gap g = ballGap(x, 0, *b.shape, kb.pose, {margin});
     if (!(g.distance < margin)) return;
     // A corner of a flat thing lies beside another's edge as well as above its face: only faces carry
     // corners.
@@ -171,6 +160,22 @@ void ballPoints(const Side& ball, const Side& other, double tau, double margin,
   if (g.distance < margin) points.push_back({g, 1});
 }
 
+/// Meshes, and bounded planes against them.
+bool triangleManifold(const Side& a, const Side& b, double tau, double margin,
+                      std::vector<ManifoldPoint>& points) {
+  if (!std::holds_alternative<MeshShape>(*a.shape) && !std::holds_alternative<MeshShape>(*b.shape))
+    return false;
+  TriangleTree sheet;
+  const TriangleTree *ta = trianglesOf(*a.shape, sheet), *tb = trianglesOf(*b.shape, sheet);
+  if (!ta || !tb) return false;
+  const Kinematics ka = a.at(tau), kb = b.at(tau);
+  meshesManifold(*ta, ka.pose, ka.p, *tb, kb.pose, kb.p, margin, points);
+  if (!points.empty()) return true;
+  const Gap nearest = meshesGapWithin(*ta, ka.pose, *tb, kb.pose, margin);
+  if (nearest.distance < margin) points.push_back({nearest, 99});
+  return true;
+}
+
 }  // namespace
 
 void manifold(const Side& a, const Side& b, double tau, double margin, std::vector<ManifoldPoint>& points) {
@@ -184,7 +189,7 @@ void manifold(const Side& a, const Side& b, double tau, double margin, std::vect
              boxA && boxB) {
     boxManifold(a.at(tau).pose * boxA->pose, boxA->half, b.at(tau).pose * boxB->pose, boxB->half, margin,
                 points);
-  } else if (solidManifold(a, b, tau, margin, points)) {
+  } else if (triangleManifold(a, b, tau, margin, points) || solidManifold(a, b, tau, margin, points)) {
     return;
   } else {
     if (!isPlane(a)) cornersNear(a, b, tau, margin, false, 1000, points);

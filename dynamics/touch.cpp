@@ -335,6 +335,21 @@ bool isMesh(const Side& s) {
   return std::holds_alternative<MeshShape>(*s.shape);
 }
 
+/// Whether what the solid sweeps is not all over the plane: its faces may then meet the plane's rim.
+bool mayMeetRim(const Side& solid, const Side& plane, double from, double to) {
+  const auto& s = std::get<PlaneShape>(*plane.shape);
+  if (!s.bounded()) return false;
+  if (!plane.still()) return true;
+  const Aabb box = sweptBox(solid, from, to);
+  const Pose X = (plane.at(from).pose * s.pose).inverse();
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 l = X * Vec3(i & 1 ? box.hi.x() : box.lo.x(), i & 2 ? box.hi.y() : box.lo.y(),
+                            i & 4 ? box.hi.z() : box.lo.z());
+    if (std::fabs(l.x()) > s.half.x() || std::fabs(l.y()) > s.half.y()) return true;
+  }
+  return false;
+}
+
 void flip(Gap& g) {
   g.point += g.distance * g.normal;
   g.normal = -g.normal;
@@ -381,8 +396,10 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
   if (isBall(b)) return flipped(ballTouch(b, a, from, to, count));
   if (isPlane(a) && isPlane(b)) return {};
   const bool convexA = isConvex(*a.shape), convexB = isConvex(*b.shape);
-  if (isPlane(b) && isMesh(a)) return cornersOnPlane(a, b, from, to, count);
-  if (isPlane(a) && isMesh(b)) return flipped(cornersOnPlane(b, a, from, to, count));
+  if (isPlane(b) && isMesh(a))
+    return mayMeetRim(a, b, from, to) ? meshesTouch(a, b, from, to, count)
+                                      : cornersOnPlane(a, b, from, to, count);
+  if (isPlane(a) && isMesh(b)) return flipped(firstTouch(b, a, from, to, count));
   if (convexA && convexB) return convexTouch(a, b, from, to, count);
   if (convexA) return isPlane(b) ? planeTouch(a, b, from, to, count) : meshTouch(a, b, from, to, count);
   if (convexB)

@@ -25,27 +25,16 @@ double squaredDistance(const Aabb& b, const Vec3& p) {
 }
 
 /// Useful triangles only: finite, not degenerate, each once.
-std::vector<Triangle> usable(const Mesh& mesh) {
+std::vector<Triangle> usable(const std::vector<std::array<Vec3, 3>>& all) {
   std::vector<Triangle> out;
   std::map<std::array<Key, 3>, bool> seen;
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+  for (const std::array<Vec3, 3>& v : all) {
     Triangle t;
-    bool good = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t at = mesh.indices[i + k];
-      if (at >= mesh.positions.size()) {
-        good = false;
-        break;
-      }
-      const auto& p = mesh.positions[at];
-      t.v[k] = {p[0], p[1], p[2]};
-      good = good && t.v[k].allFinite();
-    }
-    if (!good) continue;
-    const Vec3 n = (t.v[1] - t.v[0]).cross(t.v[2] - t.v[0]);
-    const double longest = std::max(
-        {(t.v[1] - t.v[0]).squaredNorm(), (t.v[2] - t.v[1]).squaredNorm(), (t.v[0] - t.v[2]).squaredNorm()});
-    if (!(n.norm() > 1e-7 * longest)) continue;
+    t.v = v;
+    const Vec3 n = (v[1] - v[0]).cross(v[2] - v[0]);
+    const double longest =
+        std::max({(v[1] - v[0]).squaredNorm(), (v[2] - v[1]).squaredNorm(), (v[0] - v[2]).squaredNorm()});
+    if (!(n.norm() > 1e-7 * longest) || !std::isfinite(longest)) continue;
     t.normal = n.normalized();
     t.next = {-1, -1, -1};
     t.merged = {false, false, false};
@@ -54,6 +43,33 @@ std::vector<Triangle> usable(const Mesh& mesh) {
     if (seen.emplace(key, true).second) out.push_back(t);
   }
   return out;
+}
+
+/// Those whose corners exist and are finite.
+std::vector<std::array<Vec3, 3>> trianglesOf(const Mesh& mesh) {
+  std::vector<std::array<Vec3, 3>> out;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    std::array<Vec3, 3>& v = out.emplace_back();
+    bool good = true;
+    for (std::size_t k = 0; k < 3 && good; ++k) {
+      const std::uint32_t at = mesh.indices[i + k];
+      good = at < mesh.positions.size();
+      if (!good) break;
+      const auto& p = mesh.positions[at];
+      v[k] = {p[0], p[1], p[2]};
+      good = v[k].allFinite();
+    }
+    if (!good) out.pop_back();
+  }
+  return out;
+}
+
+/// Negative if the faces look inwards [m3].
+double volume(const std::vector<Triangle>& triangles) {
+  double sum = 0;
+  const Vec3 from = triangles.front().v[0];
+  for (const Triangle& t : triangles) sum += (t.v[0] - from).dot((t.v[1] - from).cross(t.v[2] - from)) / 6;
+  return sum;
 }
 
 }  // namespace
@@ -81,19 +97,46 @@ ClosestPoint closestPoint(const Triangle& t, const Vec3& p) {
   return best;
 }
 
-TriangleTree::TriangleTree(const Mesh& mesh) : triangles_(usable(mesh)) {
+TriangleTree::TriangleTree(const Mesh& mesh) : triangles_(usable(trianglesOf(mesh))) {
   dropped_ = mesh.indices.size() / 3 - triangles_.size();
+  prepare();
+}
+
+TriangleTree::TriangleTree(const std::vector<std::array<Vec3, 3>>& triangles)
+    : triangles_(usable(triangles)) {
+  dropped_ = triangles.size() - triangles_.size();
+  prepare();
+}
+
+void TriangleTree::prepare() {
   for (const Triangle& t : triangles_) bounds_.include(boxOf(t));
   if (triangles_.empty()) return;
-  std::map<Key, bool> places;
-  for (const Triangle& t : triangles_)
-    for (const Vec3& v : t.v)
-      if (places.emplace(keyOf(v), true).second) corners_.push_back(v);
+  collectCorners();
   connect();
   order_.resize(triangles_.size());
   std::iota(order_.begin(), order_.end(), 0u);
   nodes_.reserve(2 * triangles_.size());
   build(0, static_cast<std::uint32_t>(order_.size()));
+}
+
+void TriangleTree::collectCorners() {
+  std::map<Key, std::uint32_t> places;
+  for (const Triangle& t : triangles_) {
+    std::array<std::uint32_t, 3>& own = cornersOf_.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [at, fresh] = places.emplace(keyOf(t.v[k]), static_cast<std::uint32_t>(corners_.size()));
+      if (fresh) corners_.push_back(t.v[k]);
+      own[k] = at->second;
+    }
+  }
+  aroundFirst_.assign(corners_.size() + 1, 0);
+  for (const auto& own : cornersOf_)
+    for (const std::uint32_t c : own) ++aroundFirst_[c + 1];
+  std::partial_sum(aroundFirst_.begin(), aroundFirst_.end(), aroundFirst_.begin());
+  around_.resize(aroundFirst_.back());
+  std::vector<std::uint32_t> next(aroundFirst_.begin(), aroundFirst_.end() - 1);
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i)
+    for (const std::uint32_t c : cornersOf_[i]) around_[next[c]++] = i;
 }
 
 void TriangleTree::connect() {
@@ -120,7 +163,8 @@ void TriangleTree::connect() {
       t.merged[k] = u.merged[l] = t.normal.dot(far) >= -1e-5 * far.norm();
     }
   }
-  closed_ = unmatched == 0;
+  closed_ = unmatched == 0 && std::fabs(volume(triangles_)) > 1e-9 * (bounds_.hi - bounds_.lo).squaredNorm() *
+                                                                  (bounds_.hi - bounds_.lo).norm();
 }
 
 void TriangleTree::build(std::uint32_t first, std::uint32_t count) {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace stadion {
@@ -34,9 +35,12 @@ class TriangleTree {
 public:
   TriangleTree() = default;
   explicit TriangleTree(const Mesh& mesh);
+  explicit TriangleTree(const std::vector<std::array<Vec3, 3>>& triangles);
 
   bool empty() const { return triangles_.empty(); }
-  bool closed() const { return closed_; }  ///< encloses a volume: inside and outside are defined
+  bool closed() const {
+    return closed_;
+  }  ///< encloses a volume: inside and outside are defined; a sheet with two sides does not
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<Vec3>& corners() const { return corners_; }  ///< each place once
   const Aabb& bounds() const { return bounds_; }
@@ -59,9 +63,9 @@ public:
         },
         f);
   }
-  /// Calls f(i, s, t) with every triangle that something comes near between the times s and t on its way, about
-  /// in the order of time; more than once, it may be. `around(s, t)` is a box around the way from s to t. f
-  /// returns the time up to which the way still matters.
+  /// Calls f(i, s, t) with every triangle that something comes near between the times s and t on its way,
+  /// about in the order of time; more than once, it may be. `around(s, t)` is a box around the way from s to
+  /// t. f returns the time up to which the way still matters.
   template <class B, class F>
   void eachOnWay(double from, double to, B around, F f) const {
     if (!nodes_.empty()) followWay(0, from, to, around(from, to), around, f, to);
@@ -71,12 +75,21 @@ public:
   std::int32_t nearest(const Vec3& p, double limit, ClosestPoint& at, double enough = 0,
                        std::int32_t hint = -1) const;
 
-private:
   struct Node {
     Aabb box;
-    std::uint32_t first = 0;  ///< leaf: first triangle in order_; inner: right child (left is the next node)
+    std::uint32_t first = 0;  ///< leaf: first triangle in order(); inner: right child (left is the next node)
     std::uint32_t count = 0;  ///< triangles of a leaf, 0 for an inner node
   };
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<std::uint32_t>& order() const { return order_; }
+  /// Where the triangle's corners are in corners().
+  const std::array<std::uint32_t, 3>& cornersOf(std::uint32_t triangle) const { return cornersOf_[triangle]; }
+  /// The triangles around a corner.
+  std::span<const std::uint32_t> around(std::uint32_t corner) const {
+    return std::span(around_).subspan(aroundFirst_[corner], aroundFirst_[corner + 1] - aroundFirst_[corner]);
+  }
+
+private:
   template <class T, class F>
   void walk(T test, F f) const {
     if (nodes_.empty()) return;
@@ -102,12 +115,16 @@ private:
   void followWay(std::uint32_t node, double from, double to, const Aabb& box, B& around, F& f,
                  double& end) const;
   void build(std::uint32_t first, std::uint32_t count);
+  void prepare();
+  void collectCorners();
   void connect();
 
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
   std::vector<Vec3> corners_;
+  std::vector<std::array<std::uint32_t, 3>> cornersOf_;
+  std::vector<std::uint32_t> around_, aroundFirst_;
   Aabb bounds_;
   std::size_t dropped_ = 0;
   bool closed_ = false;

@@ -1,0 +1,204 @@
+#include "dynamics/mesh_manifold.h"
+
+#include "dynamics/mesh_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr std::size_t kMost = 8;      ///< points of a pair
+constexpr double kSunk = 0.1;         ///< share of a mesh's size by which it may have sunk into another
+constexpr double kSheet = 0.2;        ///< the same into an open mesh
+constexpr double kTurnedAway = 1e-3;  ///< cosine above which a face looks away
+constexpr double kParallel = 1e-5;    ///< sine of the angle between edges that do not cross
+constexpr double kSame = 1e-6;        ///< distances that differ less are equal [m]
+
+/// One of the two meshes, in the frame in which the search is done.
+struct Body {
+  const TriangleTree& tree;
+  Pose X;       ///< tree to search frame
+  Vec3 middle;  ///< in the search frame
+  double size;  ///< half a diagonal [m]
+
+  /// Whether some face at the corner looks against n. What is open looks both ways.
+  bool facesAgainst(std::uint32_t corner, const Vec3& n) const {
+    if (!tree.closed()) return true;
+    const Vec3 local = X.q.conjugate() * n;
+    return std::ranges::any_of(tree.around(corner), [&](std::uint32_t i) {
+      return tree.triangles()[i].normal.dot(local) < -kTurnedAway;
+    });
+  }
+  /// Whether nothing of the surface is nearer to x than `depth`.
+  bool nothingNearer(const Vec3& x, double depth) const {
+    ClosestPoint at;
+    const Vec3 local = X.inverse() * x;
+    const double nearer = depth * (1 - 1e-6) - 1e-9;
+    return !(nearer > 0) || tree.nearest(local, nearer, at) < 0;
+  }
+};
+
+/// An edge of a mesh with the directions that its faces leave free: n . out >= 0 for both.
+struct Edge {
+  Vec3 p, d, out[2], up;  ///< up: the middle of those directions
+  bool border;
+};
+
+class Gather {
+public:
+  Gather(const Body& a, const Body& b, double margin, std::vector<ManifoldPoint>& found)
+      : a_(a), b_(b), margin_(margin), sunkA_(limitOf(a, b)), sunkB_(limitOf(b, a)), found_(found) {}
+
+  void run() {
+    MeshPairs(a_.tree, b_.tree, b_.X.inverse() * a_.X)
+        .each([&] { return margin_; },
+              [&](std::uint32_t i, std::uint32_t j, const Triangle&) {
+                meet(i, moved(a_.tree.triangles()[i], a_.X), j, moved(b_.tree.triangles()[j], b_.X));
+              });
+  }
+
+private:
+  /// How far the other may be below a face of this one.
+  static double limitOf(const Body& faces, const Body& other) {
+    return faces.tree.closed() ? kSunk * std::min(faces.size, other.size) : kSheet * other.size;
+  }
+  static double sideOf(const Body& faces, const Triangle& t, const Vec3& other) {
+    return faces.tree.closed() || t.normal.dot(other - t.v[0]) >= 0 ? 1 : -1;
+  }
+
+  void meet(std::uint32_t i, const Triangle& ta, std::uint32_t j, const Triangle& tb) {
+    const double sideA = sideOf(a_, ta, b_.middle), sideB = sideOf(b_, tb, a_.middle);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (const std::uint32_t c = a_.tree.cornersOf(i)[k]; a_.tree.around(c).front() == i)
+        cornerOverFace(a_, c, ta.v[k], b_, tb, sideB * tb.normal, sunkB_, static_cast<std::int32_t>(j),
+                       false);
+      if (const std::uint32_t c = b_.tree.cornersOf(j)[k]; b_.tree.around(c).front() == j)
+        cornerOverFace(b_, c, tb.v[k], a_, ta, sideA * ta.normal, sunkA_, -1, true);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      Edge ea;
+      if (!edgeOf(a_, i, ta, k, sideA, ea)) continue;
+      for (std::size_t l = 0; l < 3; ++l)
+        if (Edge eb; edgeOf(b_, j, tb, l, sideB, eb)) edgesCross(i * 3 + k, ea, j * 3 + l, eb);
+    }
+  }
+
+  void cornerOverFace(const Body& corners, std::uint32_t c, const Vec3& x, const Body& faces,
+                      const Triangle& t, const Vec3& n, double sunk, std::int32_t triangle, bool flipped) {
+    const double height = n.dot(x - t.v[0]);
+    if (!(height < margin_) || height < -sunk) return;
+    for (std::size_t m = 0; m < 3; ++m) {
+      const Vec3 e = t.v[(m + 1) % 3] - t.v[m];
+      if (t.normal.cross(e).dot(x - t.v[m]) < -1e-9 * e.norm()) return;
+    }
+    const std::uint32_t key = (flipped ? 1u << 30 : 0u) + c;
+    for (const ManifoldPoint& p : found_)  // on a seam it is over both faces
+      if (p.key == key && p.gap.normal.dot(flipped ? Vec3(-n) : n) > 0.999) return;
+    if (!corners.facesAgainst(c, n) || (height < 0 && !faces.nothingNearer(x, -height))) return;
+    if (flipped)
+      found_.push_back({{height, x, -n, true, -1}, key, Carrier::B});
+    else
+      found_.push_back({{height, x - height * n, n, true, triangle}, key, Carrier::A});
+  }
+
+  /// False if the edge is none that sticks out, or another triangle's.
+  static bool edgeOf(const Body& body, std::uint32_t i, const Triangle& t, std::size_t k, double side,
+                     Edge& e) {
+    const std::int32_t next = t.next[k];
+    if (next >= 0 && static_cast<std::uint32_t>(next) < i) return false;
+    if (side > 0 && t.merged[k]) return false;
+    e.p = t.v[k], e.d = t.v[(k + 1) % 3] - e.p;
+    e.border = next < 0;
+    e.out[0] = e.d.cross(t.normal).normalized();
+    if (e.border) {
+      e.out[1] = e.out[0], e.up = e.out[0];
+      return true;
+    }
+    const Vec3 other = body.X.q * body.tree.triangles()[static_cast<std::size_t>(next)].normal;
+    e.out[1] = other.cross(e.d).normalized();
+    const Vec3 normals = side * (t.normal + other);
+    e.up = normals.squaredNorm() > 0.01 ? normals : Vec3(e.out[0] + e.out[1]);
+    // From behind it sticks out where it is hollow in front.
+    return side > 0 || e.out[0].dot(other) * side > 1e-5;
+  }
+
+  void edgesCross(std::size_t i, const Edge& a, std::size_t j, const Edge& b) {
+    Vec3 n = a.d.cross(b.d);
+    const double size = n.norm(), la = a.d.norm(), lb = b.d.norm();
+    if (!(size > kParallel * la * lb)) return;
+    n /= size;
+    const Vec3 w = b.p - a.p;
+    const double s = w.cross(b.d).dot(n) / size, t = w.cross(a.d).dot(n) / size;
+    if (!(s > 0 && s < 1 && t > 0 && t < 1)) return;
+    const double towards = n.dot(b.up) - n.dot(a.up);
+    if (towards < 0) n = -n;
+    const double gap = -n.dot(w);
+    if (!(gap < margin_) || gap < -std::min(0.05 * std::min(la, lb), std::max(sunkA_, sunkB_))) return;
+    constexpr double kWedge = -1e-9;
+    for (int k = 0; k < 2; ++k)
+      if (n.dot(b.out[k]) < kWedge || n.dot(a.out[k]) > -kWedge) return;
+    const Vec3 on = b.p + t * b.d;
+    const auto key = static_cast<std::uint32_t>((i * 73856093u ^ j * 19349663u) | (1u << 31));
+    found_.push_back({{gap, on, n, false, -1}, key, Carrier::None});
+  }
+
+  const Body &a_, &b_;
+  double margin_, sunkA_, sunkB_;
+  std::vector<ManifoldPoint>& found_;
+};
+
+/// Keeps the deepest point and the widest spread, the same ones while they differ only by rounding.
+void thin(std::vector<ManifoldPoint>& points, double size) {
+  if (points.size() <= kMost) return;
+  std::ranges::sort(points, {}, &ManifoldPoint::key);
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (points[i].gap.distance < points[first].gap.distance - kSame) first = i;
+  std::swap(points[0], points[first]);
+  std::vector<double> away(points.size(), 1e300);
+  for (std::size_t kept = 1; kept < kMost; ++kept) {
+    const Gap& last = points[kept - 1].gap;
+    std::size_t best = kept;
+    for (std::size_t i = kept; i < points.size(); ++i) {
+      away[i] = std::min(away[i], (points[i].gap.point - last.point).squaredNorm() +
+                                      size * size * (points[i].gap.normal - last.normal).squaredNorm());
+      if (away[i] > away[best] * (1 + 1e-6)) best = i;
+    }
+    std::swap(points[kept], points[best]);
+    std::swap(away[kept], away[best]);
+  }
+  points.resize(kMost);
+}
+
+}  // namespace
+
+const TriangleTree* trianglesOf(const Shape& shape, TriangleTree& sheet) {
+  if (const auto* mesh = std::get_if<MeshShape>(&shape)) return &mesh->tree;
+  const auto* plane = std::get_if<PlaneShape>(&shape);
+  if (!plane || !plane->bounded()) return nullptr;
+  std::array<Vec3, 4> corner;
+  for (std::size_t i = 0; i < 4; ++i)
+    corner[i] = plane->pose * Vec3(i == 0 || i == 3 ? -plane->half.x() : plane->half.x(),
+                                   i < 2 ? -plane->half.y() : plane->half.y(), 0);
+  sheet = TriangleTree({{corner[0], corner[1], corner[2]}, {corner[0], corner[2], corner[3]}});
+  return &sheet;
+}
+
+void meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA, const TriangleTree& b,
+                    const Pose& X_WB, const Vec3& middleB, double margin,
+                    std::vector<ManifoldPoint>& points) {
+  // Around A's middle, for the sake of digits.
+  const auto bodyOf = [&](const TriangleTree& m, const Pose& X, const Vec3& middle) {
+    const Aabb& box = m.bounds();
+    return Body{m, {X.p - middleA, X.q}, middle - middleA, 0.5 * (box.hi - box.lo).norm()};
+  };
+  const Body ba = bodyOf(a, X_WA, middleA), bb = bodyOf(b, X_WB, middleB);
+  std::vector<ManifoldPoint> found;
+  Gather(ba, bb, margin, found).run();
+  thin(found, std::min(ba.size, bb.size));
+  for (ManifoldPoint& p : found) p.gap.point += middleA;
+  points.insert(points.end(), found.begin(), found.end());
+}
+
+}  // namespace stadion
