@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kFlat = 0.9999;   ///< a face this square to the normal carries a patch
 constexpr std::size_t kMost = 16;  ///< points of a pair
+constexpr double kWall = 0.2;      ///< share of its size by which a body may be behind a face that it touches
 
 struct Corner {
   Vec3 p;
@@ -167,8 +168,12 @@ bool meshNormal(const ConvexCore& a, const ConvexCore& face, const Triangle& t, 
   }
   if (edge < 0 || !t.merged[static_cast<std::size_t>(edge)]) return true;
   const Vec3 n = facing < 0 && face.normal.dot(a.middle() - face.v[0]) < 0 ? Vec3(-face.normal) : face.normal;
+  const double depth = a.extent(-n) + n.dot(face.v[0]);
+  // Far behind that face it has not come through it: the face stands on it like a wall.
+  const double across = std::min(a.extent(n) + a.extent(-n), (face.v[1] - face.v[0]).norm());
+  if (depth > kWall * across) return true;
   gap.normal = n;
-  gap.distance = -a.extent(-n) - n.dot(face.v[0]);
+  gap.distance = -depth;
   gap.onA = gap.onB = a.support(-n) - a.radius * n;
   return false;
 }

@@ -15,10 +15,10 @@ constexpr double kTurnedAway = 1e-3;  ///< cosine above which a face looks away
 constexpr double kParallel = 1e-5;    ///< sine of the angle between edges that do not cross
 constexpr double kSame = 1e-6;        ///< distances that differ less are equal [m]
 
-/// One of the two meshes, in the frame in which the search is done.
+/// One of the two meshes, in the frame of B, in which the search is done.
 struct Body {
   const TriangleTree& tree;
-  Pose X;       ///< tree to search frame
+  Pose X;       ///< tree to search frame, which is B's
   Vec3 middle;  ///< in the search frame
   double size;  ///< half a diagonal [m]
 
@@ -51,11 +51,9 @@ public:
       : a_(a), b_(b), margin_(margin), sunkA_(limitOf(a, b)), sunkB_(limitOf(b, a)), found_(found) {}
 
   void run() {
-    MeshPairs(a_.tree, b_.tree, b_.X.inverse() * a_.X)
-        .each([&] { return margin_; },
-              [&](std::uint32_t i, std::uint32_t j, const Triangle&) {
-                meet(i, moved(a_.tree.triangles()[i], a_.X), j, moved(b_.tree.triangles()[j], b_.X));
-              });
+    MeshPairs(a_.tree, b_.tree, a_.X)
+        .each([&] { return margin_; }, [&](std::uint32_t i, std::uint32_t j,
+                                           const Triangle& t) { meet(i, t, j, b_.tree.triangles()[j]); });
   }
 
 private:
@@ -188,16 +186,16 @@ const TriangleTree* trianglesOf(const Shape& shape, TriangleTree& sheet) {
 void meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA, const TriangleTree& b,
                     const Pose& X_WB, const Vec3& middleB, double margin,
                     std::vector<ManifoldPoint>& points) {
-  // Around A's middle, for the sake of digits.
+  const Pose X_BW = X_WB.inverse();
   const auto bodyOf = [&](const TriangleTree& m, const Pose& X, const Vec3& middle) {
     const Aabb& box = m.bounds();
-    return Body{m, {X.p - middleA, X.q}, middle - middleA, 0.5 * (box.hi - box.lo).norm()};
+    return Body{m, X, X_BW * middle, 0.5 * (box.hi - box.lo).norm()};
   };
-  const Body ba = bodyOf(a, X_WA, middleA), bb = bodyOf(b, X_WB, middleB);
+  const Body ba = bodyOf(a, X_BW * X_WA, middleA), bb = bodyOf(b, {}, middleB);
   std::vector<ManifoldPoint> found;
   Gather(ba, bb, margin, found).run();
   thin(found, std::min(ba.size, bb.size));
-  for (ManifoldPoint& p : found) p.gap.point += middleA;
+  for (ManifoldPoint& p : found) p.gap.point = X_WB * p.gap.point, p.gap.normal = X_WB.q * p.gap.normal;
   points.insert(points.end(), found.begin(), found.end());
 }
 

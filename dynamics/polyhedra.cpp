@@ -11,8 +11,11 @@
 namespace stadion {
 namespace {
 
-constexpr double kNear = 1e-6;   ///< meshes closer than this touch [m]
-constexpr double kLeast = 1e-5;  ///< least motion between two looks at a pair that parts [m]
+constexpr double kNear = 1e-6;  ///< meshes closer than this touch [m]
+/// Motion between two looks at a pair that touches and parts [m]: less than kNear, so that it cannot get
+/// past.
+constexpr double kLeast = 5e-7;
+constexpr double kShare = 0.9;  ///< steps believe this much of a gap: it is found much sooner
 constexpr int kMostLooks = 400;
 
 Gap gapOf(const NearestPoints& n, const Triangle& b) {
@@ -25,8 +28,10 @@ struct Pair {
   std::uint32_t a = 0, b = 0;
 };
 
-/// The nearest pair nearer than `limit`, in the frame of b. `pair` is a guess, and what was found.
-Gap nearestWithin(const TriangleTree& a, const TriangleTree& b, const Pose& X_BA, double limit, Pair& pair) {
+/// A pair nearer than `limit`, in the frame of b: none is nearer than `share` of its distance. `pair` is a
+/// guess, and what was found.
+Gap nearestWithin(const TriangleTree& a, const TriangleTree& b, const Pose& X_BA, double limit, double share,
+                  Pair& pair) {
   NearestPoints best;
   best.distance = limit;
   bool any = false;
@@ -34,11 +39,12 @@ Gap nearestWithin(const TriangleTree& a, const TriangleTree& b, const Pose& X_BA
     const NearestPoints n = nearestOfTriangles(t, b.triangles()[j]);
     if (n.distance < best.distance) best = n, pair = {i, j}, any = true;
   };
+  // Between faces that lie flat on each other very many pairs are about as near.
+  const auto reach = [&] { return any ? share * best.distance : limit; };
   look(pair.a, pair.b, moved(a.triangles()[pair.a], X_BA));
   // Meshes that cross are near enough.
   MeshPairs(a, b, X_BA)
-      .each([&] { return best.distance > 0 ? best.distance : std::numeric_limits<double>::quiet_NaN(); },
-            look);
+      .each([&] { return best.distance > 0 ? reach() : std::numeric_limits<double>::quiet_NaN(); }, look);
   if (!any) return {};
   Gap g = gapOf(best, b.triangles()[pair.b]);
   g.triangle = static_cast<std::int32_t>(pair.b);
@@ -76,7 +82,7 @@ std::optional<Gap> closingPoint(const TriangleTree& a, const Kinematics& ka, con
 Gap meshesGapWithin(const TriangleTree& a, const Pose& X_WA, const TriangleTree& b, const Pose& X_WB,
                     double limit) {
   Pair pair;
-  return inWorld(nearestWithin(a, b, X_WB.inverse() * X_WA, limit, pair), X_WB);
+  return inWorld(nearestWithin(a, b, X_WB.inverse() * X_WA, limit, 1, pair), X_WB);
 }
 
 Gap meshesGap(const MeshShape& a, const Pose& X_WA, const MeshShape& b, const Pose& X_WB) {
@@ -115,12 +121,12 @@ std::optional<Touch> meshesTouch(const Side& a, const Side& b, double from, doub
     if (apart > reach) return {};
     const Pose X = kb.pose.inverse() * ka.pose;
     if (!X.finite()) return lastFree;  // unknown: the last free pose
-    const Gap g = inWorld(nearestWithin(*meshA, *meshB, X, reach, pair), kb.pose);
+    const Gap g = inWorld(nearestWithin(*meshA, *meshB, X, reach, kShare, pair), kb.pose);
     if (!(g.distance < reach)) return {};
     if (g.distance <= kNear)
       if (const auto closing = closingPoint(*meshA, ka, *meshB, kb, g)) return Touch{tau, *closing, false};
     if (g.distance > 0) lastFree = Touch{tau, g, false};
-    tau += std::max(leastTime(std::max(g.distance, kLeast), speed, acceleration), 1e-9);
+    tau += std::max(leastTime(g.distance > kNear ? kShare * g.distance : kLeast, speed, acceleration), 1e-9);
     if (!(tau <= to)) return {};
   }
   // Too near for too long to see farther: nothing gets lost if they meet here, even as they part. Whoever
