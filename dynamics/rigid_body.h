@@ -121,7 +121,7 @@ struct RigidBody {
   bool crowd = false;            ///< Contact: one of many, advanced together with them
   bool drowsy = false;           ///< crowd: it falls asleep when the present step is over
   bool heaped = false;           ///< Rest: it fell asleep as one of them
-  Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< crowd: how far since it is quiet [m], [rad]
+  Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< how far since it is quiet, or is looked at [m], [rad]
   std::uint32_t slot = 0;                           ///< scratch of the contact solver
   GuidedMotion held;
   std::uint32_t version = 0;  ///< counts arcs: older predictions are void

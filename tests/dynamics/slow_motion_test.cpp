@@ -35,6 +35,18 @@ TEST(SlowMotion, ABoxWithoutFrictionThatHasBeenPushedDriftsForEver) {
   }
 }
 
+TEST(SlowMotion, ABoxOnAMeshDriftsToo) {
+  World w;
+  const FieldId g = addGravity(w);
+  const Mesh floor = gridMesh(-5, 5, -5, 5, 1, 1);
+  w.addCollider({w.addShape(MeshShape(TriangleTree(floor))), {}, {0.0, 0.0, 0.0}});
+  const BodyId b = addBox(w, g, {.pose = {{0.3, 0, 0.5}, Quat::Identity()}});
+  play(w, 0.5);
+  w.push(b, Vec3(1.5e-3, 0, 0), w.state(b).p);
+  play(w, 10.5, 60, [n = std::uint64_t{0}](double) mutable { ++n; });
+  EXPECT_NEAR(w.state(b).v.x(), 1.5e-3, 1e-9);
+}
+
 TEST(SlowMotion, ABoxJustAboveTheAngleOfFrictionSlides) {
   World w;
   const double slope = std::atan(0.5) + 2e-4, a = kG * (std::sin(slope) - 0.5 * std::cos(slope));
