@@ -9,6 +9,7 @@
 #include "dynamics/world.h"
 #include "engine/maths/functions.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -149,6 +150,20 @@ struct RigidBody {
   Vec3 position(double tau) const { return path.position(age(tau)); }
   Vec3 velocity(double tau) const { return path.velocity(age(tau)); }
   Quat orientation(double tau) const { return spin.orientation(spinAge(tau)); }
+  /// In a step of contact the arc turns with the mean of the step, through which the momentum grows evenly.
+  bool torqued() const { return mode == BodyMode::Contact && dueAge > 0 && spin.kind != Spin::Kind::Driven; }
+  /// Angular momentum now.
+  Vec3 momentum(double tau) const {
+    if (!torqued()) return spin.angularMomentum(spinAge(tau));
+    const double share = std::clamp(2 * age(tau) / dueAge - 1, -1.0, 1.0);
+    return spin.L + share * (endL - spin.L);
+  }
+  /// Angular velocity that belongs to it.
+  Vec3 turning(double tau) const {
+    const Quat q = orientation(tau);
+    if (!torqued()) return spin.angularVelocity(spinAge(tau), q);
+    return q * inertia.cwiseInverse().cwiseProduct(q.conjugate() * momentum(tau));
+  }
   /// X_WN alone.
   Pose poseAt(double tau) const {
     if (mode == BodyMode::Held) return held.at(tau).pose;

@@ -209,7 +209,6 @@ public:
     bool glides = false;             ///< in closed form: it stops when it stops, however slow
   };
   void enterContact(RigidBody& b, double tau);
-  static Vec3 momentumOf(const RigidBody& b, double tau);
   void wake(RigidBody& b, double tau);
   void wakeOnto(Party gone, double tau);
   static bool leansOn(const RigidBody& b, Party p);

@@ -77,12 +77,7 @@ void World::Core::begin(Island& s, double tau) const {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     RigidBody& b = *s.set[i];
     b.slot = static_cast<std::uint32_t>(i);
-    Mobile m = mobileOf(b, tau);
-    if (b.mode == BodyMode::Contact && b.dueAge > 0) {
-      const Quat q = b.orientation(tau);
-      m.omega = q * b.inertia.cwiseInverse().cwiseProduct(q.conjugate() * momentumOf(b, tau));
-    }
-    s.start.push_back(m);
+    s.start.push_back(mobileOf(b, tau));
   }
   for (Found& f : s.found) {
     SolverContact& c = f.contact;
