@@ -162,7 +162,9 @@ struct RigidBody {
   Vec3 turning(double tau) const {
     const Quat q = orientation(tau);
     if (!torqued()) return spin.angularVelocity(spinAge(tau), q);
-    return q * inertia.cwiseInverse().cwiseProduct(q.conjugate() * momentum(tau));
+    const Vec3 inverse = inertia.cwiseInverse();
+    if (inverse.x() == inverse.y() && inverse.y() == inverse.z()) return inverse.x() * momentum(tau);
+    return q * inverse.cwiseProduct(q.conjugate() * momentum(tau));
   }
   /// X_WN alone.
   Pose poseAt(double tau) const {
