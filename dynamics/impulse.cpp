@@ -11,8 +11,7 @@ Mobile mobileOf(const RigidBody& b, double tau) {
     return {0, Mat3::Zero(), k.p, k.v, k.omega};
   }
   const Quat q = b.orientation(tau);
-  Mobile m{b.inverseMass, Mat3::Zero(), b.position(tau), b.velocity(tau),
-           b.spin.angularVelocity(b.spinAge(tau), q)};
+  Mobile m{b.inverseMass, Mat3::Zero(), b.position(tau), b.velocity(tau), b.turning(tau)};
   const Vec3 inverse = b.inertia.cwiseInverse();
   if (inverse.x() == inverse.y() && inverse.y() == inverse.z()) {
     m.inverseInertia = inverse.x() * Mat3::Identity();

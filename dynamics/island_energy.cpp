@@ -42,7 +42,7 @@ double pushOutWork(std::size_t members, const std::vector<Mobile>& start, const 
     moves += 0.5 * (m * start[i].v.squaredNorm() + start[i].omega.dot(spun(start[i], start[i].omega)));
     wanted += m * speed * speed, lifts += m * h * pull[i].norm() * speed;
   }
-  return std::max(0.0, wanted - moves) + lifts;
+  return std::max(0.0, wanted + lifts - moves);
 }
 
 }  // namespace stadion

@@ -9,6 +9,7 @@
 #include "dynamics/world.h"
 #include "engine/maths/functions.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -121,7 +122,7 @@ struct RigidBody {
   bool crowd = false;            ///< Contact: one of many, advanced together with them
   bool drowsy = false;           ///< crowd: it falls asleep when the present step is over
   bool heaped = false;           ///< Rest: it fell asleep as one of them
-  Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< crowd: how far since it is quiet [m], [rad]
+  Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< how far since it is quiet, or is looked at [m], [rad]
   std::uint32_t slot = 0;                           ///< scratch of the contact solver
   GuidedMotion held;
   std::uint32_t version = 0;  ///< counts arcs: older predictions are void
@@ -149,6 +150,22 @@ struct RigidBody {
   Vec3 position(double tau) const { return path.position(age(tau)); }
   Vec3 velocity(double tau) const { return path.velocity(age(tau)); }
   Quat orientation(double tau) const { return spin.orientation(spinAge(tau)); }
+  /// In a step of contact the arc turns with the mean of the step, through which the momentum grows evenly.
+  bool torqued() const { return mode == BodyMode::Contact && dueAge > 0 && spin.kind != Spin::Kind::Driven; }
+  /// Angular momentum now.
+  Vec3 momentum(double tau) const {
+    if (!torqued()) return spin.angularMomentum(spinAge(tau));
+    const double share = std::clamp(2 * age(tau) / dueAge - 1, -1.0, 1.0);
+    return spin.L + share * (endL - spin.L);
+  }
+  /// Angular velocity that belongs to it.
+  Vec3 turning(double tau) const {
+    const Quat q = orientation(tau);
+    if (!torqued()) return spin.angularVelocity(spinAge(tau), q);
+    const Vec3 inverse = inertia.cwiseInverse();
+    if (inverse.x() == inverse.y() && inverse.y() == inverse.z()) return inverse.x() * momentum(tau);
+    return q * inverse.cwiseProduct(q.conjugate() * momentum(tau));
+  }
   /// X_WN alone.
   Pose poseAt(double tau) const {
     if (mode == BodyMode::Held) return held.at(tau).pose;

@@ -394,7 +394,8 @@ BodyState World::state(BodyId id) const {
     return s;
   }
   s.p = b->path.position(age), s.v = b->path.velocity(age), s.q = b->spin.orientation(age - b->spinStart);
-  s.omega = b->spin.angularVelocity(age - b->spinStart), s.L = b->spin.angularMomentum(age - b->spinStart);
+  const double tau = age - b->age0;
+  s.omega = b->turning(tau), s.L = b->momentum(tau);
   return s;
 }
 

@@ -30,14 +30,6 @@ constexpr std::uint32_t kNowhere = 0xffffffff;
 
 }  // namespace
 
-/// Angular momentum now: a step's arc has the mean of the step, through which it grows evenly.
-Vec3 World::Core::momentumOf(const RigidBody& b, double tau) {
-  if (b.mode != BodyMode::Contact || !(b.dueAge > 0) || b.spin.kind == Spin::Kind::Driven)
-    return b.spin.angularMomentum(b.spinAge(tau));
-  const double share = std::clamp(2 * b.age(tau) / b.dueAge - 1, -1.0, 1.0);
-  return b.spin.L + share * (b.endL - b.spin.L);
-}
-
 void World::Core::enterContact(RigidBody& b, double tau) {
   if (b.mode == BodyMode::Contact || !b.movable()) return;
   const Vec3 L = b.spin.angularMomentum(b.spinAge(tau));
@@ -59,7 +51,7 @@ void World::Core::enterContact(RigidBody& b, double tau) {
 /// What acts on the body changes: its step ends here and a new one begins, from what it does now.
 void World::Core::cutStep(RigidBody& b, double tau) {
   if (b.mode != BodyMode::Contact) return;
-  const Vec3 L = momentumOf(b, tau);
+  const Vec3 L = b.momentum(tau);
   setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
          Spin::free(b.orientation(tau), L, b.inertia), tickTime, BodyMode::Contact);
   b.endL = L;

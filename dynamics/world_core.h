@@ -5,9 +5,9 @@
 /// world_contact.cpp (lasting contact: who with whom), world_island.cpp (one island), world_crowd.cpp
 /// and world_crowd_contacts.cpp (heaps).
 ///
-/// Time     runs in windows of 128 ms to 1 s on a grid of show time. tau is seconds since the window's start. What
-/// will happen is foreseen to the window's end, once for each arc; a frame only lets happen what is due and
-/// looks where everybody is. What moves from outside is known to the end of the frame only.
+/// Time     runs in windows of 128 ms to 1 s on a grid of show time. tau is seconds since the window's start.
+/// What will happen is foreseen to the window's end, once for each arc; a frame only lets happen what is due
+/// and looks where everybody is. What moves from outside is known to the end of the frame only.
 
 #include "dynamics/ball_motion.h"
 #include "dynamics/broad_phase.h"
@@ -187,8 +187,8 @@ public:
   Nanoseconds soonest(const Side& a, const Side& b, double distance, double tau) const;
 
   // --- lasting contact (world_contact.cpp)
-  Nanoseconds tickGrid = 2'000'000;  ///< the solver's steps end on multiples of this show time
-  double tickTime = 2e-3;            ///< the same [s]
+  Nanoseconds tickGrid = 2'000'000;              ///< the solver's steps end on multiples of this show time
+  double tickTime = 2e-3;                        ///< the same [s]
   static constexpr double kShortestStep = 1e-6;  ///< one that would be shorter goes a little further [s]
   struct Found {
     SolverContact contact;
@@ -210,7 +210,6 @@ public:
     bool glides = false;             ///< in closed form: it stops when it stops, however slow
   };
   void enterContact(RigidBody& b, double tau);
-  static Vec3 momentumOf(const RigidBody& b, double tau);
   void wake(RigidBody& b, double tau);
   void wakeOnto(Party gone, double tau);
   static bool leansOn(const RigidBody& b, Party p);

@@ -66,7 +66,7 @@ void World::Core::joinCrowd(RigidBody& b, CrowdStep& step) {
   m.body = &b;
   m.p = b.position(tau), m.round = b.centred, m.bound = b.bound.radius;
   m.middle = m.round ? m.p : Vec3(b.poseAt(tau) * b.bound.centre);
-  const Vec3 L = momentumOf(b, tau);
+  const Vec3 L = b.momentum(tau);
   c.v = b.velocity(tau), c.inverseMass = b.inverseMass;
   Mat3 inverse = Mat3::Zero();
   if (m.round && b.inertia.x() == b.inertia.y() && b.inertia.y() == b.inertia.z()) {
@@ -180,7 +180,7 @@ void World::Core::concludeCrowd(CrowdStep& step) {
     const std::span list(lists.of.data() + lists.begin[i], lists.begin[i + 1] - lists.begin[i]);
     if (!noteNeighbours(step, i, list, near)) {
       const Quat q = b.orientation(tau);
-      const Vec3 L = momentumOf(b, tau);
+      const Vec3 L = b.momentum(tau);
       wakeOnto({true, b.id}, tau);
       startFlight(b, tau, step.members[i].p, crowd.start[i].v, q, L);
       predict(b, tau);
@@ -197,7 +197,7 @@ void World::Core::concludeCrowd(CrowdStep& step) {
 /// whether or not their motion pays for it.)
 void World::Core::dissolveCrowd(const std::vector<RigidBody*>& due, double tau) {
   for (RigidBody* b : due) {
-    const Vec3 L = momentumOf(*b, tau);
+    const Vec3 L = b->momentum(tau);
     if (b->dueAge > 0)
       setArc(*b, tau, Path::parabola(b->position(tau), b->velocity(tau), Vec3::Zero()),
              Spin::free(b->orientation(tau), L, b->inertia), tickTime, BodyMode::Contact);

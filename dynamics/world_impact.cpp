@@ -88,7 +88,7 @@ void World::Core::strikeInCrowd(RigidBody& b, const Mobile& m, double tau) {
   const Quat q = b.orientation(tau);
   const double left = b.dueAge - b.age(tau), quiet = b.quiet;
   const Vec3 a = left > 0 && b.path.isParabola() ? Vec3(2 * b.path.c[2]) : Vec3(Vec3::Zero());
-  const Vec3 before = b.spin.angularVelocity(b.spinAge(tau)), L = momentumOf(b, tau);
+  const Vec3 before = b.turning(tau), L = b.momentum(tau);
   const Vec3 more = q * b.inertia.cwiseProduct(q.conjugate() * (m.omega - before));
   const Vec3 end = b.endL + more;
   Spin spin = Spin::free(q, left > 0 ? Vec3(0.5 * (L + more + end)) : Vec3(L + more), b.inertia);

@@ -15,6 +15,7 @@ constexpr double kRestitutionSpeed = 0.1;  ///< slower approaches inside lasting
 constexpr double kQuietSpeed = 2e-3;       ///< of surface points [m/s]
 constexpr double kQuietTime = 0.2;         ///< before a set of bodies sleeps [s]
 constexpr double kGliding = 1e-9;          ///< quiet time of one whose slow motion is known [s]
+constexpr double kCreep = 1e-4;            ///< mean speeds below this are none [m/s]
 constexpr double kCalm = 1e-5;             ///< mean accelerations below this are balance, per pull [m/s2]
 constexpr double kStill = 1e-9;            ///< slower than this is not at all [m/s]
 constexpr double kBalanced = 1e-7;         ///< accelerations below this are rounding [m/s2]
@@ -76,12 +77,7 @@ void World::Core::begin(Island& s, double tau) const {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     RigidBody& b = *s.set[i];
     b.slot = static_cast<std::uint32_t>(i);
-    Mobile m = mobileOf(b, tau);
-    if (b.mode == BodyMode::Contact && b.dueAge > 0) {
-      const Quat q = b.orientation(tau);
-      m.omega = q * b.inertia.cwiseInverse().cwiseProduct(q.conjugate() * momentumOf(b, tau));
-    }
-    s.start.push_back(m);
+    s.start.push_back(mobileOf(b, tau));
   }
   for (Found& f : s.found) {
     SolverContact& c = f.contact;
@@ -301,20 +297,27 @@ bool World::Core::settleOnFace(RigidBody& b, const Found& only, double tau) {
   return true;
 }
 
-/// How long it has hardly moved, and whether it has not been gaining or losing speed meanwhile. Each look takes
-/// twice as long as the last one, so that what only trembles is found out to be in balance.
+/// How long it has hardly moved, and whether it has been getting nowhere meanwhile and not gaining or losing
+/// speed. Each look takes twice as long as the last one, so that what only trembles is found out to be in
+/// balance.
 void World::Core::noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end, double tau,
                             double h) const {
   const double before = b.quiet;
   const double fastest =
       std::max(end.v.norm() + end.omega.norm() * b.reach, start.v.norm() + start.omega.norm() * b.reach);
   b.quiet = fastest < kQuietSpeed ? before + h : 0;
-  if (!(before > kGliding)) b.calm = {start.v, start.omega, 0, kQuietTime, false};
+  const auto look = [&](const Mobile& from, double since, double span, bool balanced) {
+    b.calm = {from.v, from.omega, since, span, balanced};
+    b.drift.setZero(), b.twist.setZero();
+  };
+  if (!(before > kGliding)) look(start, 0, kQuietTime, false);
+  b.drift += 0.5 * h * (start.v + end.v), b.twist += 0.5 * h * (start.omega + end.omega);
   const double seconds = b.quiet - b.calm.since;
   if (seconds < b.calm.span) return;
   const double change = (end.v - b.calm.v).norm() + (end.omega - b.calm.omega).norm() * b.reach;
   const double pull = accelerationAt(b, start.p, start.v, tau).norm();
-  b.calm = {end.v, end.omega, b.quiet, 2 * b.calm.span, change <= kCalm * (1 + pull) * seconds};
+  const double way = b.drift.norm() + b.twist.norm() * b.reach;
+  look(end, b.quiet, 2 * b.calm.span, change <= kCalm * (1 + pull) * seconds && way <= kCreep * seconds);
 }
 
 /// The bodies' arcs of h seconds, and the forces as a guess for the next step.

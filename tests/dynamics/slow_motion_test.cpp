@@ -35,6 +35,19 @@ TEST(SlowMotion, ABoxWithoutFrictionThatHasBeenPushedDriftsForEver) {
   }
 }
 
+TEST(SlowMotion, ABoxOnAMeshDriftsToo) {
+  World w;
+  const FieldId g = addGravity(w);
+  const Mesh floor = gridMesh(-5, 5, -5, 5, 1, 1);
+  w.addCollider({w.addShape(MeshShape(TriangleTree(floor))), {}, {0.0, 0.0, 0.0}});
+  const BodyId b = addBox(w, g, {.pose = {{0.3, 0, 0.5}, Quat::Identity()}});
+  play(w, 0.5);
+  w.push(b, Vec3(1.5e-3, 0, 0), w.state(b).p);
+  Nanoseconds now = 500'000'000;
+  for (int n = 0; n < 600; ++n, now += 16'000'000) w.advance(now, now + 16'000'000);
+  EXPECT_NEAR(w.state(b).v.x(), 1.5e-3, 1e-9);
+}
+
 TEST(SlowMotion, ABoxJustAboveTheAngleOfFrictionSlides) {
   World w;
   const double slope = std::atan(0.5) + 2e-4, a = kG * (std::sin(slope) - 0.5 * std::cos(slope));

@@ -98,7 +98,7 @@ TEST(ScriptLint, ALatencyShorterThanAFrameIsTold) {
 }
 
 TEST(ScriptLint, ATrackerThatNoDeviceIsCalledIsNamed) {
-  const auto warnings = [](std::vector<std::string> known, const std::string& log) {
+  const auto warned = [](std::vector<std::string> known, const std::string& log) {
     Diagnostics findings, warnings;
     const std::string_view text = "forcelinear(name=f, direction=\"0 0 -1\", strengthaxis=1, tracker=wnd)\n"
                                   "dynobject(name=ball, file=b.obj, hook=f)\n"
@@ -112,10 +112,10 @@ TEST(ScriptLint, ATrackerThatNoDeviceIsCalledIsNamed) {
     for (const Diagnostic& d : warnings.all()) all += fmt::format("{}: {}\n", d.where.line, d.message);
     return all;
   };
-  EXPECT_EQ(warnings({"wand", "head"}, "a.input"),
+  EXPECT_EQ(warned({"wand", "head"}, "a.input"),
             "1: no device is called \"wnd\": a.input has wand, head; did you mean \"wand\"?\n"
             "3: no device is called \"nosuch\": a.input has wand, head\n");
-  EXPECT_EQ(warnings({"wand", "nosuch", "wnd"}, "a.input"), "");
+  EXPECT_EQ(warned({"wand", "nosuch", "wnd"}, "a.input"), "");
   EXPECT_EQ(warnings({}, ""), "1: \"wnd\" is no usual name of a device; did you mean \"wand\"?\n")
       << "without a log any other name may be right";
 }
