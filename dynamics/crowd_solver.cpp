@@ -9,8 +9,8 @@
 namespace stadion {
 namespace {
 
-constexpr int kJumps = 8, kShifts = 2;
-constexpr int kSweeps = 8,
+constexpr int kJumps = 12, kShifts = 4;
+constexpr int kSweeps = 14,
               kStillSweeps = 16;      ///< while it moves; when it comes to rest, and sleep depends on it
 constexpr double kSlow = 0.1;         ///< root mean square speed at rest, nearly [m/s]
 constexpr double kSettled = 1e-5;     ///< a sweep that changes less is the last [m/s]

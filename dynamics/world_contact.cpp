@@ -318,7 +318,10 @@ void World::Core::tick(double tau) {
   bool crowds = false;
   for (Island& island : islands) {
     if (isCrowd(island.set, tau)) {
-      for (RigidBody* b : island.set) b->crowd = true, b->dueAge = 0;
+      for (RigidBody* b : island.set) {
+        b->crowd = true, b->dueAge = 0;
+        b->drift.setZero(), b->twist.setZero();
+      }
       crowds = true;
     } else {
       advanceIsland(island, tau, h);

@@ -116,7 +116,7 @@ TEST(ScriptLint, ATrackerThatNoDeviceIsCalledIsNamed) {
             "1: no device is called \"wnd\": a.input has wand, head; did you mean \"wand\"?\n"
             "3: no device is called \"nosuch\": a.input has wand, head\n");
   EXPECT_EQ(warned({"wand", "nosuch", "wnd"}, "a.input"), "");
-  EXPECT_EQ(warnings({}, ""), "1: \"wnd\" is no usual name of a device; did you mean \"wand\"?\n")
+  EXPECT_EQ(warned({}, ""), "1: \"wnd\" is no usual name of a device; did you mean \"wand\"?\n")
       << "without a log any other name may be right";
 }
 
