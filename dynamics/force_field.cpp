@@ -95,7 +95,7 @@ double strideOf(const PointField& f, const Vec3& local) {
   return stride(0.4 * local.norm(), f.softening);
 }
 double strideOf(const VortexField& f, const Vec3& local) {
-  return stride(0.4 * std::hypot(local.x(), local.y()), f.core);
+  return stride(0.4 * std::sqrt(local.x() * local.x() + local.y() * local.y()), f.core);
 }
 double strideOf(const MediumField& f, const Vec3& local) {
   const Vec3 d = local - f.centre;

@@ -1,4 +1,5 @@
 #include "dynamics/shape_distance.h"
+#include "engine/maths/functions.h"
 
 #include "dynamics/nearest_surface.h"
 
@@ -28,7 +29,7 @@ void addRectangle(const Vec3& c, const Vec3& u, const Vec3& v, const Vec3& norma
 
 Vec3 onCircle(int i, int parts) {
   const double a = 2 * kPi * (i + 0.5) / parts;
-  return {std::cos(a), std::sin(a), 0};
+  return {det::cos(a), det::sin(a), 0};
 }
 
 /// The half of a ball on the side of `up` (1 or -1) along the pose's z.
@@ -36,9 +37,9 @@ void addDome(const Pose& X, double z, double radius, double up, Samples& out) {
   out.push_back({X * Vec3(0, 0, z + up * radius), X.q * Vec3(0, 0, up)});
   for (int i = 0; i < kQuarter; ++i) {
     const double a = 0.5 * kPi * (i + 0.5) / kQuarter;
-    const int around = std::max(4, static_cast<int>(kRound * std::cos(a)));
+    const int around = std::max(4, static_cast<int>(kRound * det::cos(a)));
     for (int j = 0; j < around; ++j) {
-      const Vec3 n = std::cos(a) * onCircle(j, around) + Vec3(0, 0, up * std::sin(a));
+      const Vec3 n = det::cos(a) * onCircle(j, around) + Vec3(0, 0, up * det::sin(a));
       out.push_back({X * Vec3(radius * n + Vec3(0, 0, z)), X.q * n});
     }
   }

@@ -130,7 +130,8 @@ private:
   bool closed_ = false;
 };
 
-/// Below a node, on the part of the way that is in `box`: in halves while that is wider than the node.
+/// Below a node, on the part of the way that is in `box`: in halves while that is wider than the node and
+/// gains from it.
 template <class B, class F>
 void TriangleTree::followWay(std::uint32_t node, double from, double to, const Aabb& box, B& around, F& f,
                              double& end) const {
@@ -140,14 +141,20 @@ void TriangleTree::followWay(std::uint32_t node, double from, double to, const A
   if (n.count > 0) {
     for (std::uint32_t i = n.first; i < n.first + n.count; ++i)
       end = std::min(end, f(order_[i], from, std::min(to, end)));
-  } else if (size(box) > size(n.box) && to - from > 1e-9) {
-    const double middle = 0.5 * (from + to);
-    followWay(node, from, middle, around(from, middle), around, f, end);
-    followWay(node, middle, to, around(middle, to), around, f, end);
-  } else {
-    followWay(node + 1, from, to, box, around, f, end);
-    followWay(n.first, from, to, box, around, f, end);
+    return;
   }
+  if (size(box) > size(n.box)) {
+    const double middle = 0.5 * (from + to);
+    const Aabb first = around(from, middle);
+    // Where the ball itself is most of the box, halves are hardly smaller.
+    if (size(first) < 0.75 * size(box)) {
+      followWay(node, from, middle, first, around, f, end);
+      followWay(node, middle, to, around(middle, to), around, f, end);
+      return;
+    }
+  }
+  followWay(node + 1, from, to, box, around, f, end);
+  followWay(n.first, from, to, box, around, f, end);
 }
 
 }  // namespace stadion
