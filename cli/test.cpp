@@ -10,8 +10,34 @@
 #include <memory>
 #include <string>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace stadion {
+namespace {
+
+/// True for a line of ctest that says only that a test begins or has passed. In a file or a CI log thousands
+/// of them bury the one test that failed; whoever waits at a terminal sees them.
+bool tellsOfSuccessOnly(const std::string& line) {
+  return line.find("  Start ") != std::string::npos || line.find("   Passed  ") != std::string::npos;
+}
+
+/// Runs `line` in a shell and shows what it prints. Returns its status, as of waitpid.
+int runShowingFailures(const std::string& line) {
+  if (isatty(STDOUT_FILENO)) return std::system(line.c_str());
+  std::FILE* output = popen(line.c_str(), "r");
+  if (!output) return -1;
+  char* text = nullptr;
+  std::size_t size = 0;
+  while (getline(&text, &size, output) > 0)
+    if (!tellsOfSuccessOnly(text)) {
+      std::fputs(text, stdout);
+      std::fflush(stdout);
+    }
+  std::free(text);
+  return pclose(output);
+}
+
+}  // namespace
 
 void addTestCommand(CLI::App& app, int& code) {
   struct Options {
@@ -32,7 +58,7 @@ void addTestCommand(CLI::App& app, int& code) {
     const std::string line = "ctest --test-dir '" + folder + "' --output-on-failure --no-tests=error -j2" +
                              (options->full ? "" : " -E '^ProgramFull'") +
                              (options->only.empty() ? "" : " -R \"$STADION_ONLY\"");
-    const int status = std::system(line.c_str());
+    const int status = runShowingFailures(line);
     if (!options->full)
       std::printf(
           "\nThe acceptance counts and the tests that measure time (ProgramFull...) belong to --full.\n");
