@@ -237,14 +237,16 @@ void World::Core::sweep(Collider& c) {
 }
 
 /// How long the next window is to be: while nobody comes near anybody else and little else is near, far looks
-/// cost less than many. Solids that could meet something take small steps anyway. What it depends on does not
-/// depend on frames.
+/// cost less than many. Solids that could meet something take small steps anyway: far looks are for few of
+/// them, since many would come near each other. What it depends on does not depend on frames.
 Nanoseconds World::Core::nextWindow() const {
+  constexpr std::size_t kFewSolids = 64;
   bool moves = false;
+  std::size_t solids = 0;
   for (const RigidBody* b : active) {
     if (b->mode == BodyMode::Rest || b->mode == BodyMode::Quarantined) continue;
     moves = true;
-    if (!b->centred && !colliders.empty()) return kWindow;
+    if (!b->centred && (++solids > kFewSolids || !colliders.empty())) return kWindow;
   }
   if (!moves || looks.bodies > 0) return kWindow;
   if (looks.colliders > 2 * looks.looks) return std::max(window / 2, kWindow);
