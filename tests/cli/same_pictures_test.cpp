@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 namespace stadion {
 namespace {
@@ -54,19 +56,21 @@ std::string hashesOf(const std::string& mode, const std::string& walls) {
   return r.out;
 }
 
-/// Name of the first file that is not the same in both, or nothing.
-std::string firstDifference(const std::map<std::string, std::string>& a,
-                            const std::map<std::string, std::string>& b) {
+/// Nothing, or which files are not the same in both: how many, the first and the last by name.
+std::string differences(const std::map<std::string, std::string>& a,
+                        const std::map<std::string, std::string>& b) {
+  std::vector<std::string> names;
   for (const auto& [name, bytes] : a)
-    if (const auto other = b.find(name); other == b.end() || other->second != bytes) return name;
-  return a.size() == b.size() ? "" : "number of files";
+    if (const auto other = b.find(name); other == b.end() || other->second != bytes) names.push_back(name);
+  if (names.empty()) return a.size() == b.size() ? "" : "number of files";
+  return std::to_string(names.size()) + " files, from " + names.front() + " to " + names.back();
 }
 
 void expectSamePictures(const std::string& walls, std::size_t count) {
   const auto sequential = picturesOf("sequential", walls), pipelined = picturesOf("pipelined", walls);
   // Two eyes a wall and one contact sheet of the last frame.
   EXPECT_EQ(sequential.size(), 2 * count * std::stoul(frames()) + 1);
-  EXPECT_EQ(firstDifference(sequential, pipelined), "");
+  EXPECT_EQ(differences(sequential, pipelined), "");
 }
 
 TEST(ProgramSamePictures, OneWallSequentialAndPipelined) {
