@@ -6,9 +6,10 @@
 namespace stadion {
 namespace {
 
-constexpr double kFlat = 0.9999;   ///< a face this square to the normal carries a patch
-constexpr std::size_t kMost = 16;  ///< points of a pair
-constexpr double kWall = 0.2;      ///< share of its size by which a body may be behind a face that it touches
+constexpr double kFlat = 0.9999;    ///< a face this square to the normal carries a patch
+constexpr std::size_t kMost = 16;   ///< points of a pair
+constexpr double kUpright = 0.99999;  ///< a disc nearer to flat lies on points that turn with it
+constexpr double kWall = 0.2;  ///< share of its size by which a body may be behind a face that it touches
 
 struct Corner {
   Vec3 p;
@@ -45,9 +46,18 @@ Polygon polygonOf(const Feature& f) {
   return p;
 }
 
+/// How the core is round at its point x, under which it lies on a plane with normal n.
+Rounding roundingAt(const ConvexCore& c, const Vec3& n, const Vec3& x) {
+  if (c.kind != ConvexCore::Kind::Cylinder) return {c.radius, Vec3::Zero()};
+  const Rounding rim{c.half.x(), c.R.col(2)};
+  if (std::fabs(rim.axis.dot(n)) > kUpright) return {};
+  const Vec3 across = x - c.p - rim.axis * rim.axis.dot(x - c.p);
+  return (across - rim.offset(-n, rim.axis)).norm() < 1e-6 * rim.radius ? rim : Rounding{};
+}
+
 /// The part of `body`'s side over the flat face of `flat`, whose outward normal is m.
 void overFace(const ConvexCore& body, const Feature& face, const Vec3& n, bool faceIsB, double margin,
-              double rounding, std::uint32_t key, std::vector<ManifoldPoint>& points) {
+              std::uint32_t key, std::vector<ManifoldPoint>& points) {
   const Vec3 m = face.normal;  // of the face, outwards
   Polygon p = polygonOf(featureTowards(body, -m, false));
   for (int i = 0; i < face.count && p.count > 0; ++i) {
@@ -60,11 +70,13 @@ void overFace(const ConvexCore& body, const Feature& face, const Vec3& n, bool f
   }
   const double level = m.dot(face.points[0]);
   for (int i = 0; i < p.count; ++i) {
-    const double gap = m.dot(p[i].p) - level - rounding;
+    const double gap = m.dot(p[i].p) - level - body.radius;
     if (gap > margin || points.size() >= 4 * kMost) continue;
     const Vec3 onBody = p[i].p - body.radius * m;
     const Vec3 onB = faceIsB ? Vec3(onBody - gap * n) : onBody;
-    points.push_back({{gap, onB, n, true, -1}, key + p[i].key + (faceIsB ? 0 : 2048)});
+    const Rounding rounding = roundingAt(body, m, p[i].p);
+    const Carrier carrier = rounding.radius == 0 ? Carrier::None : faceIsB ? Carrier::A : Carrier::B;
+    points.push_back({{gap, onB, n, true, -1}, key + p[i].key + (faceIsB ? 0 : 2048), carrier, rounding});
   }
 }
 
@@ -124,9 +136,9 @@ void convexManifold(const ConvexCore& a, const ConvexCore& b, const ConvexGap& g
   const double flatB = fb.count > 2 && b.radius == 0 ? fb.normal.dot(n) : 0,
                flatA = fa.count > 2 && a.radius == 0 ? -fa.normal.dot(n) : 0;
   if (flatB > kFlat && flatB >= flatA - 1e-9) {
-    overFace(a, fb, n, true, margin, a.radius, key, points);
+    overFace(a, fb, n, true, margin, key, points);
   } else if (flatA > kFlat) {
-    overFace(b, fa, n, false, margin, b.radius, key, points);
+    overFace(b, fa, n, false, margin, key, points);
   } else {
     alongLines(a, featureTowards(a, -n, false), b, featureTowards(b, n, false), n, margin, key, points);
   }
@@ -150,7 +162,11 @@ void planeManifold(const ConvexCore& a, const Vec3& n, double level, double marg
     bool known = false;
     for (std::size_t k = before; k < points.size(); ++k)
       known = known || (points[k].gap.point - x).squaredNorm() < 1e-16;
-    if (!known) points.push_back({{gap, x, n, true, -1}, 1000 + static_cast<std::uint32_t>(i)});
+    if (known) continue;
+    points.push_back({{gap, x, n, true, -1},
+                      1000 + static_cast<std::uint32_t>(i),
+                      Carrier::A,
+                      roundingAt(a, n, x + a.radius * n)});
   }
   thin(points, before, 8);
 }
@@ -220,8 +236,10 @@ bool solidManifold(const Side& a, const Side& b, double tau, double margin,
   if (!convexA && !convexB) return false;
   if (!convexA) {
     if (!solidManifold(b, a, tau, margin, points)) return false;
-    for (ManifoldPoint& p : points)
+    for (ManifoldPoint& p : points) {
       p.gap.point += p.gap.distance * p.gap.normal, p.gap.normal = -p.gap.normal;
+      if (p.carrier != Carrier::None) p.carrier = p.carrier == Carrier::A ? Carrier::B : Carrier::A;
+    }
     return true;
   }
   const Vec3 origin = a.at(tau).p;  // all is relative to here, for the sake of digits

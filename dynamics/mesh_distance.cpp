@@ -26,12 +26,13 @@ struct MeshHierarchy::Model {
 };
 
 MeshHierarchy::MeshHierarchy(const std::vector<Triangle>& triangles) : model_(std::make_unique<Model>()) {
+  if (triangles.empty()) return;
   try {
     model_->bvh.beginModel(static_cast<int>(triangles.size()), static_cast<int>(3 * triangles.size()));
     for (const Triangle& t : triangles) model_->bvh.addTriangle(t.v[0], t.v[1], t.v[2]);
     model_->bvh.endModel();
     model_->count = static_cast<std::uint32_t>(triangles.size());
-    model_->usable = !triangles.empty();
+    model_->usable = true;
   } catch (const std::exception&) {
     model_->usable = false;
   }

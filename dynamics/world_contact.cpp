@@ -193,7 +193,7 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
       Found f;
       f.a = self.party, f.b = other.party;
       f.surface = combine(b.surface, surfaceOf(other.party));
-      f.gap = p.gap, f.carrier = p.carrier;
+      f.gap = p.gap, f.carrier = p.carrier, f.rounding = p.rounding;
       f.key = pairKey(f.a, f.b, p.key);
       f.contact.friction = f.surface.friction;
       found.push_back(f);

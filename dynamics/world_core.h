@@ -197,6 +197,7 @@ public:
     Gap gap;
     std::uint64_t key = 0;
     Carrier carrier = Carrier::None;
+    Rounding rounding;
   };
   /// Bodies that lean on each other, by id, and what they lean on.
   struct Island {

@@ -21,8 +21,10 @@ constexpr double kStill = 1e-9;            ///< slower than this is not at all [
 constexpr double kBalanced = 1e-7;         ///< accelerations below this are rounding [m/s2]
 constexpr double kProbe = 1e-4;            ///< step in which accelerations are measured [s]
 constexpr double kMostTurn = 0.05;         ///< angle by which a solid turns in a step [rad]
+constexpr double kMostParts = 32;          ///< of a step in which the lowest point of a rim runs far
 constexpr double kFarthest = 1;            ///< how long a glide is foreseen at most [s]
 constexpr double kShortest = 1e-7;         ///< and at least [s]
+constexpr double kLanding = 1e-5;          ///< shortest step towards a touch [s]
 
 /// How a body lies during a step, from its velocities at both ends.
 struct Turned {
@@ -37,17 +39,27 @@ Turned turned(const Mobile& start, const Mobile& end, double share, double h) {
           w.isZero(0) ? Mat3(Mat3::Identity()) : det::expRotation(w).toRotationMatrix()};
 }
 
+/// Where the point of the carrier is that touches when the carrier has turned by R; `down` leads from it to
+/// the other side, at the start and now.
+Vec3 carried(const Vec3& arm, const Rounding& r, const Mat3& R, const Vec3& down, const Vec3& downNow) {
+  if (r.radius == 0) return R * arm;
+  return R * (arm - r.offset(down, r.axis)) + r.offset(downNow, R * r.axis);
+}
+
 /// Arms and basis of a contact when its sides lie like this.
-void place(const Mobile& a0, const Mobile& b0, const Gap& gap, Carrier carrier, const Turned& a,
-           const Turned& b, Mat3& basis, Vec3& armA, Vec3& armB) {
+void place(const Mobile& a0, const Mobile& b0, const Gap& gap, Carrier carrier, const Rounding& rounding,
+           const Turned& a, const Turned& b, Mat3& basis, Vec3& armA, Vec3& armB) {
   basis = basisAround(gap.normal);
   armA = gap.point - a0.p, armB = gap.point - b0.p;
   if (carrier == Carrier::B) {
-    armB = b.R * armB;
-    armA = b.p + armB - a.p;
     basis = a.R * basis;
+    armB = carried(armB, rounding, b.R, gap.normal, basis.col(0));
+    armA = b.p + armB - a.p;
   } else {
-    if (carrier == Carrier::A) armA = a.R * armA, basis = b.R * basis;
+    if (carrier == Carrier::A) {
+      basis = b.R * basis;
+      armA = carried(armA, rounding, a.R, -gap.normal, -basis.col(0));
+    }
     armB = a.p + armA - b.p;
   }
 }
@@ -162,8 +174,10 @@ bool World::Core::solveStep(Island& s, double tau, double h) const {
       const Found& f = s.found[i];
       SolverContact& c = step[i];
       const Mobile &a = s.start[c.a], &b = s.start[c.b], &a1 = guess[c.a], &b1 = guess[c.b];
-      place(a, b, f.gap, f.carrier, turned(a, a1, 0.5, h), turned(b, b1, 0.5, h), c.push, c.pushA, c.pushB);
-      place(a, b, f.gap, f.carrier, turned(a, a1, 1, h), turned(b, b1, 1, h), c.rows, c.armA, c.armB);
+      place(a, b, f.gap, f.carrier, f.rounding, turned(a, a1, 0.5, h), turned(b, b1, 0.5, h), c.push, c.pushA,
+            c.pushB);
+      place(a, b, f.gap, f.carrier, f.rounding, turned(a, a1, 1, h), turned(b, b1, 1, h), c.rows, c.armA,
+            c.armB);
       SolverContact before = c;
       before.rows = basisAround(f.gap.normal), before.armA = f.gap.point - a.p,
       before.armB = f.gap.point - b.p;
@@ -264,15 +278,23 @@ double World::Core::glide(Island& s, double tau, double h) {
   return most;
 }
 
-/// Rolling resistance takes spin of balls up to c r N.
+/// Rolling resistance takes spin, up to c r N, from balls, and from rods and discs that roll.
 void World::Core::resistRolling(Island& s) const {
+  const auto resist = [&](std::size_t i, const Found& f, Carrier side) {
+    if (i >= s.set.size()) return;
+    const bool ball = s.set[i]->isBall(), round = f.carrier == side;
+    const double radius = ball ? s.set[i]->radius() : round ? f.rounding.radius : 0;
+    Mobile& m = s.end[i];
+    const Vec3 about = ball ? m.omega : Vec3(m.omega - f.gap.normal * f.gap.normal.dot(m.omega));
+    const double w = about.norm();
+    if (!(radius > 0) || !(w > 0)) return;
+    const Vec3 loss = m.inverseInertia * (about / w);  // per unit of angular impulse
+    const double most = f.surface.rolling * radius * f.contact.impulse[0];
+    m.omega -= std::min(most, w / loss.dot(about / w)) * loss;
+  };
   for (const Found& f : s.found) {
-    const RigidBody& b = *body(f.a.id);
-    if (!b.isBall() || f.contact.impulse[0] <= 0 || f.surface.rolling <= 0) continue;
-    Mobile& m = s.end[f.contact.a];
-    const double most = f.surface.rolling * b.radius() * f.contact.impulse[0] / b.inertia.x();
-    const double w = m.omega.norm();
-    if (w > 0) m.omega *= std::max(0.0, 1 - most / w);
+    if (f.contact.impulse[0] <= 0 || f.surface.rolling <= 0) continue;
+    resist(f.contact.a, f, Carrier::A), resist(f.contact.b, f, Carrier::B);
   }
 }
 
@@ -359,13 +381,32 @@ void World::Core::conclude(Island& s, double tau, double h) {
 }
 
 /// Even parts of h in which nobody turns far: contact points of fast tops would leave their arcs. Nor does a
-/// step go on, but for a moment, when it is not known any more how strong a field is that pulls.
+/// step go on, but for a moment, when it is not known any more how strong a field is that pulls; nor when a
+/// corner that comes fast is down: that is an impact.
 double World::Core::stepOf(const Island& s, double tau, double h) const {
   for (const RigidBody* b : s.set) h = std::min(h, std::max(knownFor(*b, tau), kShortestStep));
+  const double shortest = s.set.size() > 1 ? h / 8 : kLanding;
+  for (const Found& f : s.found) {
+    if (f.gap.distance <= kSlop) continue;
+    const Mobile &a = s.start[f.contact.a], &b = s.start[f.contact.b];
+    const double closing =
+        f.gap.normal.dot(b.v + b.omega.cross(f.gap.point - b.p) - a.v - a.omega.cross(f.gap.point - a.p));
+    if (closing > kRestitutionSpeed && closing * h > f.gap.distance)
+      h = std::min(h, std::max(f.gap.distance / closing, shortest));
+  }
   double fastest = 0;
   for (std::size_t i = 0; i < s.set.size(); ++i)
     if (!s.set[i]->centred) fastest = std::max(fastest, s.start[i].omega.norm());
-  return h / std::max(1.0, std::ceil(fastest * h / kMostTurn));
+  double parts = std::ceil(fastest * h / kMostTurn);
+  for (const Found& f : s.found) {  // the flatter a disc, the faster its lowest point runs round its rim
+    if (f.rounding.axis.isZero(0)) continue;
+    const std::size_t i = f.carrier == Carrier::A ? f.contact.a : f.contact.b;
+    const double lean = f.rounding.axis.cross(f.gap.normal).norm();
+    if (lean < 0.5)
+      parts =
+          std::max(parts, std::min(kMostParts, std::ceil(s.start[i].omega.norm() / lean * h / kMostTurn)));
+  }
+  return h / std::max(1.0, parts);
 }
 
 /// The step's forces bring no energy but what takes back overlap.
