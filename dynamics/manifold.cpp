@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t kMost = 16;
 constexpr double kOnFace = 1e-6;  ///< a centre this near to a face is inside [m]
-constexpr double kDeep = 0.2;     ///< balls overlap so much of their radius only when put there
 constexpr std::size_t kMostDeep = 4;
 constexpr double kSameWay = 0.7;  ///< cosine of directions that lead out at the same side
 
@@ -89,7 +88,7 @@ void ballOnMesh(const Vec3& centre, double r, const MeshShape& mesh, const Pose&
     }
   }
   const auto deepest = std::ranges::min_element(points, {}, [](const auto& p) { return p.gap.distance; });
-  if (deepest != points.end() && deepest->gap.distance < -kDeep * r) {
+  if (deepest != points.end() && deepest->gap.distance < -kDeepBall * r) {
     std::ranges::stable_sort(points, {}, [](const ManifoldPoint& p) { return p.gap.distance; });
     keepDistinct(points, kMostDeep);
   }

@@ -6,9 +6,8 @@
 namespace stadion {
 namespace {
 
-constexpr double kTouching = 1e-4;  ///< pairs closer than this are in contact [m]
-constexpr double kDeep = 0.2;       ///< share of a ball's radius that it overlaps only when put there
-constexpr double kDue = 1e-9;       ///< times as near as this are the same [s]
+constexpr double kUsualPull = 9.81;  ///< that others in contact feel at least [m/s2]
+constexpr double kDue = 1e-9;        ///< times as near as this are the same [s]
 
 /// Groups bodies that touch, by the smallest index (union-find).
 struct Groups {
@@ -151,7 +150,7 @@ void World::Core::scheduleTick(double tau) {
 void World::Core::chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found) const {
   if (!b.isBall()) return;
   const auto inside = [&](const Found& f) {
-    return f.gap.distance <= -kDeep * b.radius() && !f.b.isBody &&
+    return f.gap.distance <= -kDeepBall * b.radius() && !f.b.isBody &&
            std::holds_alternative<MeshShape>(*side(f.b)->shape);
   };
   for (std::size_t i = first; i < found.size(); ++i) {
@@ -181,7 +180,8 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
   const Side self = Side::of(b);
   const Kinematics k = b.at(tau);
   const double h = tickTime;
-  const double margin = kTouching + 1.5 * h * (k.v.norm() + k.omega.norm() * b.reach + 9.81 * h);
+  const double pull = std::max(kUsualPull, accelerationAt(b, k.p, k.v, tau).norm());
+  const double margin = kTouching + 1.5 * h * (k.v.norm() + k.omega.norm() * b.reach + pull * h);
   Aabb box;
   box.include(k.pose * b.bound.centre);
   box.lo.array() -= b.bound.radius + margin, box.hi.array() += b.bound.radius + margin;

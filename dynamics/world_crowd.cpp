@@ -7,7 +7,6 @@ namespace stadion {
 
 namespace {
 
-constexpr double kTouching = 1e-4;    ///< pairs closer than this are in contact [m]
 constexpr double kParted = 1e-3;      ///< and those farther than this no longer [m]
 constexpr std::size_t kLeast = 4;     ///< a smaller crowd is none any more
 constexpr double kLeaving = 0.1;      ///< the least speed of who may leave a heap for good [m/s]

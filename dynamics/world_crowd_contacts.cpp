@@ -6,7 +6,6 @@
 namespace stadion {
 namespace {
 
-constexpr double kTouching = 1e-4;   ///< pairs closer than this are in contact [m]
 constexpr double kWakeSpeed = 5e-3;  ///< whoever touches a sleeper faster wakes it [m/s]
 constexpr double kStrongest = 9.81;  ///< acceleration that a step allows for [m/s2]
 

@@ -7,7 +7,6 @@
 namespace stadion {
 namespace {
 
-constexpr double kTouching = 1e-4;         ///< pairs closer than this are in contact [m]
 constexpr double kSlop = 1e-5;             ///< overlap that is left alone [m]
 constexpr double kPushOut = 0.2;           ///< speed limit of the correction of deeper overlap [m/s]
 constexpr double kApproach = 1e-4;         ///< approaches up to this end with the step's own forces [m/s]

@@ -30,6 +30,9 @@ struct PoseKnot {
 
 using Course = std::vector<PoseKnot>;
 
+/// What turns or bends on its way is followed by chords of this length, on a grid of show time [ns].
+constexpr Nanoseconds kChord = 2'000'000;
+
 /// On which side of a jump at the very time that is asked for.
 enum class Limit { Before, After };
 

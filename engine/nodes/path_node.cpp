@@ -8,8 +8,6 @@
 namespace stadion {
 namespace {
 
-constexpr Nanoseconds kChord = 2'000'000;
-
 /// The tangent at key k by finite differences over the neighbours' own times.
 Vec3 tangent(const std::vector<Keyframe>& keys, std::size_t k) {
   const std::size_t before = k == 0 ? k : k - 1, after = std::min(k + 1, keys.size() - 1);

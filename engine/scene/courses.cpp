@@ -8,8 +8,6 @@
 namespace stadion {
 namespace {
 
-constexpr Nanoseconds kChord = 2'000'000;  ///< on a grid of show time
-
 bool same(const Pose& a, const Pose& b) {
   return a.p == b.p && a.q.coeffs() == b.q.coeffs();
 }
