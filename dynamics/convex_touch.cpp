@@ -158,8 +158,9 @@ double sphereTime(const Lower& f, double most) {
 double closingRate(const Lower& f) {
   const double spin = f.a.omega.norm() + (f.b ? f.b->omega.norm() : 0);
   double slope = 0;
-  f.at(spin > 0 ? 1e-9 / spin : 0, slope);
-  return slope + f.acceleration * (spin > 0 ? 1e-9 / spin : 0);
+  const double s = spin > 1e-9 ? 1e-9 / spin : 0;
+  f.at(s, slope);
+  return slope + f.acceleration * s;
 }
 
 /// Of a patch that touches all at once: its middle if it comes flat on, else the point that comes fastest.

@@ -1,3 +1,4 @@
+#include "dynamics/patch_impact.h"
 #include "dynamics/world_core.h"
 
 #include <cmath>
@@ -182,9 +183,13 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   const bool tired = a.impacts > (onFace ? kMostBounces : most) || (b && b->impacts > most);
   const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
   if (tired) ++counters.tired;
-  const Vec3 impulse = collide(ma, mb, x, n, ends ? 0 : pair.restitution, pair.friction);
+  const double restitution = ends ? 0 : pair.restitution;
+  std::optional<PatchImpact> patch;
+  if (!a.isBall() && !(b && b->isBall()))
+    patch = collidePatch(Side::of(a), *side(pb), tau, touch.gap, ma, mb, restitution, pair.friction);
+  const Vec3 impulse = patch ? patch->impulse : collide(ma, mb, x, n, restitution, pair.friction);
   ContactMemory::Waiting* waiting =
-      memory.impact(key, timeAt(tau), x, outwards, closing, impulse.dot(n), frame);
+      memory.impact(key, timeAt(tau), patch ? patch->middle : x, outwards, closing, impulse.dot(n), frame);
   if (Support face; onFace && ends && supportFor(a, *c, touch.gap, tau, face)) {
     BallStart s{a.position(tau), ma.v, ma.omega, a.orientation(tau)};
     s.v -= n * n.dot(s.v);

@@ -35,8 +35,7 @@ TEST(GrabAndThrow, WhatAHeldBodyHitsGetsMomentumAsFromAWallOfItsSpeed) {
         w.advance(0, 0);
         ASSERT_TRUE(w.holdBody(hand));
         carry(w, hand, 0, 0.5, rate, [](double t) { return Pose{{-1 + 2 * t, 0, 0}, Quat::Identity()}; });
-        // Of meshes that come flat on, one of the nearest points stands for the whole face.
-        EXPECT_NEAR(w.state(hit).v.x(), 3, kind == Solid::Mesh ? 0.05 : 1e-6) << nameOf(kind) << mass;
+        EXPECT_NEAR(w.state(hit).v.x(), 3, 1e-6) << nameOf(kind) << mass;
         EXPECT_NEAR(w.pose(hand).p.x(), 0, 1e-12) << "the hand goes where it goes";
       }
 }

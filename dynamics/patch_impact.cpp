@@ -1,0 +1,53 @@
+#include "dynamics/patch_impact.h"
+
+#include "dynamics/contact_solver.h"
+#include "dynamics/manifold.h"
+
+#include <algorithm>
+
+namespace stadion {
+namespace {
+
+constexpr double kTogether = 1e-4;  ///< between the first and the last point of an impact [s]
+constexpr double kSameSide = 0.99;  ///< cosine between the normals of its points
+
+}  // namespace
+
+std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau, const Gap& first,
+                                        Mobile& ma, Mobile& mb, double restitution, double friction) {
+  const auto closing = [&](const Gap& g) {
+    return g.normal.dot(mb.velocityAt(g.point) - ma.velocityAt(g.point));
+  };
+  const double speed = closing(first);
+  if (!(speed > 0)) return {};
+  std::vector<ManifoldPoint> points;
+  manifold(a, b, tau, std::max(first.distance, 0.0) + kTogether * speed, points);
+  std::vector<SolverContact> contacts;
+  for (const ManifoldPoint& p : points) {
+    const double comes = closing(p.gap);
+    if (p.gap.normal.dot(first.normal) < kSameSide || !(p.gap.distance < kTogether * comes)) continue;
+    SolverContact c;
+    c.b = 1;
+    c.rows = c.push = basisAround(p.gap.normal);
+    c.armA = c.pushA = p.gap.point - ma.p, c.armB = c.pushB = p.gap.point - mb.p;
+    c.friction = friction, c.floor = restitution * comes;
+    contacts.push_back(c);
+  }
+  if (contacts.size() < 2) return {};
+  std::vector<Mobile> mobiles{ma, mb};
+  if (!solveContacts(mobiles, contacts)) return {};
+  PatchImpact sum;
+  double work = 0, pushed = 0;
+  const std::vector<Mobile> before{ma, mb};
+  for (const SolverContact& c : contacts) {
+    work += 0.5 * c.impulse.dot(c.velocity(before) + c.velocity(mobiles));
+    sum.impulse += c.push * c.impulse;
+    sum.middle += c.impulse[0] * c.pushA, pushed += c.impulse[0];
+  }
+  if (work > 0 || !(pushed > 0)) return {};
+  sum.middle = ma.p + sum.middle / pushed;
+  ma = mobiles[0], mb = mobiles[1];
+  return sum;
+}
+
+}  // namespace stadion
