@@ -22,13 +22,22 @@ struct Body {
   Vec3 middle;  ///< in the search frame
   double size;  ///< half a diagonal [m]
 
-  /// Whether some face at the corner looks against n. What is open looks both ways.
+  /// Whether some face at the corner looks against n. What is open looks both ways, and sticks out at its
+  /// rim; but in the middle of a flat part there is no corner for what comes along it.
   bool facesAgainst(std::uint32_t corner, const Vec3& n) const {
-    if (!tree.closed()) return true;
     const Vec3 local = X.q.conjugate() * n;
     return std::ranges::any_of(tree.around(corner), [&](std::uint32_t i) {
-      return tree.triangles()[i].normal.dot(local) < -kTurnedAway;
+      const double facing = tree.triangles()[i].normal.dot(local);
+      return facing < -kTurnedAway || (!tree.closed() && (facing > kTurnedAway || endsAt(i, corner)));
     });
+  }
+  /// Whether the surface ends with one of the triangle's edges at its corner.
+  bool endsAt(std::uint32_t i, std::uint32_t corner) const {
+    const auto& corners = tree.cornersOf(i);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (tree.triangles()[i].next[k] < 0 && (corners[k] == corner || corners[(k + 1) % 3] == corner))
+        return true;
+    return false;
   }
   /// Whether nothing of the surface is nearer to x than `depth`.
   bool nothingNearer(const Vec3& x, double depth) const {

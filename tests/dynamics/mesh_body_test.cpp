@@ -39,10 +39,10 @@ Mesh ringMesh(double outer, double inner, double height, int sectors) {
 }
 
 BodyId addMesh(World& w, FieldId gravity, const Mesh& mesh, const Pose& pose, double friction = 0.5,
-               double restitution = 0.3) {
+               double restitution = 0.3, const Vec3& v = Vec3::Zero()) {
   BodyDef d;
   d.shape = w.addShape(MeshShape(TriangleTree(mesh)));
-  d.pose = pose;
+  d.pose = pose, d.v = v;
   const auto mass = massOfMesh(mesh, 1000);
   d.mass = mass.value().withMass(1);
   d.surface = {friction, restitution, 0.0};
@@ -141,6 +141,28 @@ TEST(MeshBody, ThatFallsOnABoxLiesOnIt) {
   EXPECT_EQ(w.mode(b), BodyMode::Rest);
   EXPECT_LT(w.state(b).p.head<2>().norm(), 1.5);
   EXPECT_GT(w.separation({true, b}, {false, 1}), -2e-4);
+}
+
+TEST(MeshBody, SlidesOverTheSeamsOfAnOpenFloorAsOverAPlane) {
+  // The floor's vertices once stopped a mesh body's upright faces, though the floor is flat there.
+  for (const bool oblique : {false, true}) {
+    Vec3 end[2];
+    for (const bool mesh : {false, true}) {
+      World w;
+      const FieldId g = addGravity(w);
+      if (mesh)
+        addMeshFloor(w, gridMesh(-5, 5, -5, 5, 50, 50));
+      else
+        w.addCollider({w.addShape(PlaneShape{}), {}, {0.5, 0.3, 0.0}});
+      const BodyId b = addMesh(w, g, boxMesh({0.1, 0.1, 0.1}), {{-3, 0.03, 0.1}, Quat::Identity()}, 0.1, 0.3,
+                               oblique ? Vec3(2, 1, 0) : Vec3(2.5, 0, 0));
+      double highest = 0;
+      play(w, 3, 60, [&](double) { highest = std::max(highest, w.state(b).p.z()); });
+      EXPECT_LE(highest, 0.1 + 1e-5);
+      end[mesh] = w.state(b).p;
+    }
+    EXPECT_LE((end[0] - end[1]).norm(), 1e-4) << oblique;
+  }
 }
 
 TEST(MeshBody, AStackOfRingsRestsAndLooksNoFartherThanItMust) {
