@@ -244,11 +244,20 @@ BallArc World::Core::arcOnFace(const RigidBody& b, double tau, const BallStart& 
     arc.horizon = restLasts(b, s, tau);
     return arc;
   }
-  const double step = std::min(faceStep, knownFor(b, tau));
+  double step = std::min(faceStep, knownFor(b, tau));
   const Vec3 along = a - b.support.normal * b.support.normal.dot(a);
-  const BallArc better =
-      arcUnder(accelerationAt(b, s.p + 0.5 * step * s.v, s.v + 0.5 * step * along, tau + 0.5 * step));
-  if (!better.leaves) arc = better;
+  const auto arcAfter = [&](double after) {
+    const Vec3 p = s.p + after * (s.v + 0.5 * after * along), v = s.v + after * along;
+    return arcUnder(accelerationAt(b, p, v, tau + after));
+  };
+  if (arcAfter(step).leaves) {  // when it does so is the end of the step
+    double holds = 0;
+    while (step - holds > 1e-12) {
+      const double middle = 0.5 * (holds + step);
+      (arcAfter(middle).leaves ? step : holds) = middle;
+    }
+  }
+  if (const BallArc better = arcAfter(0.5 * step); !better.leaves) arc = better;
   arc.horizon = arc.mode == BodyMode::Rest ? step : std::min(arc.horizon, step);
   return arc;
 }
