@@ -54,18 +54,28 @@ struct Run {
   double milliseconds = 0;  ///< least, of the body's dynamics node
   double spread = 0;        ///< how much more the next least took [ms]; 0 after one round
   std::vector<std::optional<Pose>> places;
+
+  void took(double ms, bool first) {
+    if (!first) {
+      const double more = std::fabs(ms - milliseconds);
+      spread = spread > 0 && ms >= milliseconds ? std::min(spread, more) : more;
+    }
+    milliseconds = first ? ms : std::min(milliseconds, ms);
+  }
 };
 
 /// Every model in turn, round by round, so that what else the machine does befalls all alike. Of those that
 /// could be the finest the first that can be built is kept.
 class Trial {
 public:
-  Trial(const FidelityOptions& options, NodeRef dynamics, std::vector<TriedModel>& tried)
-      : options_(options), dynamics_(dynamics), tried_(tried), runs_(tried.size()) {}
+  Trial(const FidelityOptions& options, NodeRef body, NodeRef dynamics, std::vector<TriedModel>& tried)
+      : options_(options), body_(body), dynamics_(dynamics), tried_(tried), runs_(tried.size()) {}
 
   void play(const std::function<void(const std::string&)>& progress) {
     bool finestFound = false;
-    for (std::uint64_t round = 0; round < options_.rounds; ++round)
+    for (std::uint64_t round = 0; round < options_.rounds; ++round) {
+      progress(fmt::format("without it (round {} of {})", round + 1, options_.rounds));
+      playWithout(round == 0);
       for (std::size_t i = 0; i < tried_.size(); ++i) {
         TriedModel& t = tried_[i];
         if (round > 0 ? !t.played || t.finest : t.finest && finestFound) continue;
@@ -73,6 +83,7 @@ public:
         playOnce(t, runs_[i]);
         finestFound |= t.finest && t.played;
       }
+    }
     std::size_t i = 0;
     std::erase_if(runs_, [&](const Run&) { return !tried_[i++].played; });
     std::erase_if(tried_, [](const TriedModel& t) { return !t.played; });
@@ -80,28 +91,34 @@ public:
   }
 
   const std::vector<Run>& runs() const { return runs_; }
+  /// The show without the body.
+  const Run& without() const { return without_; }
 
 private:
+  void playWithout(bool first) {
+    BodyModel absent;
+    absent.body = body_, absent.absent = true;
+    Diagnostics findings;
+    if (auto played = playWith(options_.show, absent, findings))
+      without_.took(played->milliseconds[dynamics_], first);
+  }
+
   void playOnce(TriedModel& t, Run& run) const {
     Diagnostics findings;
     auto played = playWith(options_.show, t.model, findings);
     if (!played) return;
     const auto body = played->bodies.find(t.model.body);
     if (body == played->bodies.end()) return;
-    const double ms = played->milliseconds[dynamics_];
-    if (t.played) {
-      const double more = std::fabs(ms - run.milliseconds);
-      run.spread = run.spread > 0 && ms >= run.milliseconds ? std::min(run.spread, more) : more;
-    }
-    run.milliseconds = t.played ? std::min(run.milliseconds, ms) : ms;
+    run.took(played->milliseconds[dynamics_], !t.played);
     run.places = std::move(body->second.places);
     t.played = true;
   }
 
   const FidelityOptions& options_;
-  NodeRef dynamics_;
+  NodeRef body_, dynamics_;
   std::vector<TriedModel>& tried_;
   std::vector<Run> runs_;
+  Run without_;
 };
 
 void compare(const Run& run, const Run& finest, double rate, double tolerance, TriedModel& t) {
@@ -119,18 +136,16 @@ void compare(const Run& run, const Run& finest, double rate, double tolerance, T
 void tryModels(const FidelityOptions& options, NodeRef ref, const PlayedShow& show, BodyFidelity& body,
                const std::function<void(const std::string&)>& progress) {
   body.tried = modelsFor(ref, body.body, options.finest);
-  Trial trial(options, body.body.dynamics, body.tried);
+  Trial trial(options, ref, body.body.dynamics, body.tried);
   trial.play([&](const std::string& what) { progress(body.body.name + ": " + what); });
-  const auto asIs = std::ranges::find_if(body.tried, [](const TriedModel& t) { return t.asIs; });
-  if (body.tried.empty() || asIs == body.tried.end()) return;
-  const Run& base = trial.runs()[static_cast<std::size_t>(asIs - body.tried.begin())];
+  const Run& without = trial.without();
   for (std::size_t i = 0; i < body.tried.size(); ++i) {
     TriedModel& t = body.tried[i];
     const Run& run = trial.runs()[i];
     const double perFrame = 1e3 / static_cast<double>(show.frames);
-    t.cost = body.cost + perFrame * (run.milliseconds - base.milliseconds);
+    t.cost = perFrame * (run.milliseconds - without.milliseconds);
     // Less than nothing it cannot have cost: so far off is the measurement at least.
-    t.noise = std::max(perFrame * std::max(run.spread, base.spread), -t.cost);
+    t.noise = std::max(perFrame * std::max(run.spread, without.spread), -t.cost);
     compare(run, trial.runs().front(), show.rate, options.tolerance, t);
   }
 }

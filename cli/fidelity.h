@@ -8,8 +8,9 @@
 /// what the script says: what a body is not hooked to is no part of any model.
 ///
 /// Errors   of place: how far the node's origin is from where it is with the finest model [m].
-/// Costs    processor time a frame. A body's own is its share, by the arcs it begins, of its dynamics node's;
-///          another model's is that plus what the node takes more (or less) with it. The least of the rounds.
+/// Costs    processor time a frame. A model's is what the body's dynamics node takes more with it than without
+///          the body, the least of the rounds; that of bodies which are only listed is their share of the
+///          node's time, by the arcs they begin.
 
 #include "cli/model_run.h"
 
@@ -41,7 +42,7 @@ struct TriedModel {
 
 struct BodyFidelity {
   PlayedBody body;
-  double cost = 0;                  ///< [us] a frame, as the script says
+  double cost = 0;                  ///< [us] a frame, its share as the script says
   std::vector<TriedModel> tried{};  ///< the finest first; empty if it was not among those looked at
 };
 

@@ -57,7 +57,8 @@ std::string describe(const BodyFidelity& b) {
   text += fmt::format("  states       {} of its frames\n", shares(body.modes, kModes));
   if (const std::string flights = shares(body.flights, kFlightHelp); !flights.empty())
     text += fmt::format("  flight       {}\n", flights);
-  return text + fmt::format("  cost         {:.3g} us a frame\n", b.cost);
+  return text + fmt::format("  share        {:.3g} us a frame of its dynamics node, by the arcs it begins\n",
+                            b.cost);
 }
 
 /// "12.3", or what it is less than as far as can be measured.

@@ -87,6 +87,7 @@ DynamicsVariation variationOf(const BodyModel& model) {
   v.fineness = model.fineness;
   v.body = [model](NodeRef ref, Appearance& appearance, BodyAttributes& body) {
     if (ref != model.body) return;
+    body.simulated = !model.absent;
     if (!model.shape.empty()) appearance.shape = model.shape;
     if (model.dragArea) body.dragArea = model.dragArea;
     for (const std::string& name : model.without) std::erase(body.hooks, name);

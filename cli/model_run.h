@@ -19,6 +19,7 @@ struct BodyModel {
   std::optional<double> dragArea;    ///< so that another shape does not change the drag [m2]
   std::vector<std::string> without;  ///< fields that it is not hooked to
   std::uint32_t fineness = 1;        ///< of the whole show's dynamics, as in World::setFineness
+  bool absent = false;               ///< not simulated at all: what the show costs without it
 };
 
 /// A field that a body is hooked to when it is first seen.

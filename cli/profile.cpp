@@ -46,7 +46,7 @@ int profileShow(Options o) {
 constexpr const char* kFooter =
     R"(Every dynobject is listed with what stands for it: the shape that collides, the fields it is hooked to, how its
 flight is computed (in closed form; by a series of order 16, in one medium; by steps of order 5, under other fields),
-its contact states, and its cost: its share of the dynamics node's time, by the arcs it begins.
+its contact states, and its share of the dynamics node's time, by the arcs it begins.
 
 Then the show is played again with one body's model changed at a time, never drawn, and the body's places are
 compared, frame by frame, with those of the finest model: its own mesh (or the box or convex body that the mesh is to
@@ -54,7 +54,8 @@ rounding, which is more exact in contact), and the steps of lasting contact divi
 it ever is, `at the end` how far in the last frame, `degrees` how differently it is turned. A bounce magnifies what was
 off before it: see from when on a model is beyond the tolerance. The mesh is the model as it was drawn; if a ball of
 flat facets is meant to be round, say --finest sphere. In lasting contact a mesh is no exact reference; a caution says
-so. Costs below what can be measured in the rounds are given as `< x`.
+so. `us/frame` is what the dynamics node takes more with the model than without the body; what is less than can be
+measured in the rounds is given as `< x`.
 
 `as it is, steps / 8` tells how much of the error is due to steps in time, not to the shape. `shape=...` goes into the
 script as it stands; `without FIELD` means to leave that hook out. What a body is not hooked to, such as air, is no

@@ -23,6 +23,7 @@ struct BodyAttributes {
   double damping = 0;              ///< [1/s]
   std::optional<double> dragArea;  ///< instead of the shape's [m2]
   std::vector<std::string> hooks;  ///< names of force fields, as seen from its file
+  bool simulated = true;           ///< false: no dynamics node takes it in, to see what a show costs without
 
   /// Of a closed shape.
   MassProperties massOf(const FittedShape& fit) const;

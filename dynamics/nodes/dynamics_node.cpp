@@ -33,6 +33,7 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   auto* node = dynamic_cast<DynObjectNode*>(&object);
   if (!node) return;  // the checker lets only dynobjects be collidees of a dynamics node
   const BodyAttributes& body = node->body();
+  if (!body.simulated) return;
   BodyDef def;
   part.fit = fitOf(object, scene);
   if (!part.fit || !part.fit->filled) part.fit = node->fit();
