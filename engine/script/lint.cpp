@@ -174,7 +174,23 @@ private:
             fmt::format("\"{}\" is moved by a dynamics node, never by this path; make it an object",
                         target->name));
     }
+    lookAtTurns(node);
     warnNeverOn(node);
+  }
+
+  /// From key to key a path turns the shorter way round.
+  void lookAtTurns(const Declaration& node) {
+    const auto keys = node.keys();
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+      const double turn = (keys[i].orientation - keys[i - 1].orientation).cwiseAbs().maxCoeff();
+      if (turn < 180) continue;
+      warn(node, Attr::Key,
+           fmt::format(
+               "from {} s to {} s the keys turn by {:g} degrees, but a path turns the shorter way from "
+               "key to key: put keys between them, less than 180 degrees apart",
+               keys[i - 1].time, keys[i].time, turn));
+      return;
+    }
   }
 
   void lookAtContacts(const Declaration& node) {

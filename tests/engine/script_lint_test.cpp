@@ -144,5 +144,15 @@ TEST(ScriptLint, APathThatMovesNothingIsNamed) {
   EXPECT_TRUE(warningsOf("path(name=p, key=\"0, 0 0 0\") group(parent=p)").empty());
 }
 
+TEST(ScriptLint, APathThatIsToTurnFartherThanItCanBetweenTwoKeysIsNamed) {
+  const auto turning = [](const char* to) {
+    return warningsOf(
+        fmt::format("path(name=p, key=\"0, 0 0 0\", key=\"2, 0 0 0, 0 0 {}\") group(parent=p)", to));
+  };
+  EXPECT_TRUE(turning("170").empty());
+  ASSERT_EQ(turning("360").size(), 1U);
+  EXPECT_NE(turning("360").front().find("360 degrees"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace stadion
