@@ -11,7 +11,7 @@ namespace {
 constexpr double kWidth = 860, kHeight = 520;
 constexpr double kLeft = 80, kRight = 640, kTop = 50, kBottom = 460;
 constexpr double kLeastError = 1e-16;
-constexpr double kLabelWidth = 16, kLabelHeight = 12, kDotRadius = 4;  ///< [px]
+constexpr double kLabelWidth = 16, kLabelHeight = 12, kDotRadius = 4, kLetter = 7;  ///< [px]
 
 /// From decades of a value to a place on the paper.
 struct Axis {
@@ -67,7 +67,8 @@ std::string gridOf(const Axis& cost, const Axis& error) {
   const int each = (error.last - error.first) / 10 + 1;
   for (int d = error.first; d <= error.last; d += each) {
     const double y = error.at(std::pow(10, d));
-    svg += line(kLeft, y, kRight, y) + text(kLeft - 8, y + 4, "end", fmt::format("1e{}", d));
+    svg += line(kLeft, y, kRight, y) +
+           text(kLeft - 8, y + 4, "end", std::pow(10, d) > kLeastError ? fmt::format("1e{}", d) : "to 0");
   }
   return svg;
 }
@@ -92,10 +93,34 @@ std::vector<Label> labelsOf(const std::vector<Series>& all, const Axis& cost, co
   return labels;
 }
 
-std::string draw(const Label& label) {
-  std::string numbers;
-  for (const int n : label.n) numbers += (numbers.empty() ? "" : ",") + std::to_string(n);
-  return text(label.x + 7, label.y - 5, "start", (label.n.size() > 1 ? "n=" : "") + numbers);
+/// Where a label's words are on the paper.
+struct Words {
+  double x, y, width;  ///< left end of the base line [px]
+  bool meets(const Words& o) const {
+    return x < o.x + o.width && o.x < x + width && std::fabs(y - o.y) < kLabelHeight;
+  }
+};
+
+/// The labels, each beside its dot where no other has its words already.
+std::string drawLabels(const std::vector<Label>& labels) {
+  std::vector<Words> taken;
+  std::string svg;
+  for (const Label& label : labels) {
+    std::string numbers = label.n.size() > 1 ? "n=" : "";
+    for (const int n : label.n) numbers += (n == *label.n.begin() ? "" : ",") + std::to_string(n);
+    const double width = kLetter * static_cast<double>(numbers.size());
+    const Words places[] = {{label.x + 7, label.y - 5, width},
+                            {label.x + 7, label.y + 14, width},
+                            {label.x - 7 - width, label.y - 5, width},
+                            {label.x - 7 - width, label.y + 14, width}};
+    const auto free = std::ranges::find_if(places, [&](const Words& w) {
+      return std::ranges::none_of(taken, [&](const Words& t) { return w.meets(t); });
+    });
+    const Words& at = free == std::end(places) ? places[0] : *free;
+    taken.push_back(at);
+    svg += text(at.x, at.y, "start", numbers);
+  }
+  return svg;
 }
 
 /// Whether every dot of the series lies under one that is drawn later.
@@ -146,7 +171,7 @@ std::string workPrecisionPlot(const std::string& title, const std::vector<Measur
   svg += gridOf(cost, error);
   for (std::size_t i = 0; i < all.size(); ++i)
     svg += draw(all[i], i, hidden(all, i, cost, error), cost, error);
-  for (const Label& l : labelsOf(all, cost, error)) svg += draw(l);
+  svg += drawLabels(labelsOf(all, cost, error));
   svg += text((kLeft + kRight) / 2, kHeight - 16, "middle", "processor time per body and frame [ns]");
   svg += fmt::format("<text x='24' y='{0}' text-anchor='middle' transform='rotate(-90 24 {0})'>error "
                      "(metric \"err\")</text>\n",
