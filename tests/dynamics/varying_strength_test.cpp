@@ -145,5 +145,29 @@ TEST(VaryingStrength, AHeapWokenOffItsStepsGoesOnAndItsFramesEnd) {
   EXPECT_TRUE(watch.finite);
 }
 
+TEST(VaryingStrength, ABallIsLiftedOffItsFaceWhereThePullBecomesTooMuch) {
+  // It rolls under an attractor half a metre above the floor; steps sixteen times as fine agree.
+  Vec3 end[2];
+  for (const bool fine : {false, true}) {
+    World w;
+    if (fine) w.setFineness(16);
+    const FieldId g = addGravity(w);
+    ForceField f;
+    f.law = SphericalField{-300, 1.0, SphericalField::Falloff::Linear, LinearField::Unit::Acceleration};
+    f.start.p = f.end.p = {2, 0, 0.5};
+    const FieldId pull = w.addField(f, true);
+    addFloor(w, 0.5, 0);
+    const BodyId b = addBall(
+        w, g, {.radius = 0.1, .p = {0, 0, 0.1}, .v = {6, 0, 0}, .omega = {0, 60, 0}, .friction = 0.5});
+    w.hook(b, pull, 0);
+    double highest = 0;
+    play(w, 0.3, 60, [&](double) { highest = std::max(highest, w.state(b).p.z()); });
+    EXPECT_GT(highest, 0.15) << "it leaves the floor";
+    end[fine] = w.state(b).p;
+  }
+  std::printf("  lifted ball: %.1e m\n", (end[0] - end[1]).norm());
+  EXPECT_LE((end[0] - end[1]).norm(), 1e-4);
+}
+
 }  // namespace
 }  // namespace stadion
