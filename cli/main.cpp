@@ -1,6 +1,7 @@
 /// The `stadion` program: one small file per subcommand.
 
 #include "cli/commands.h"
+#include "cli/crash_report.h"
 #include "cli/exit_code.h"
 #include "engine/script/suggestion.h"
 #include "pipeline/target/rasteriser_settings.h"
@@ -54,6 +55,7 @@ int runProgram(int argc, char** argv) {
 }  // namespace stadion
 
 int main(int argc, char** argv) {
+  stadion::reportCrashes();
   if (const auto wrong = stadion::pinRasteriser()) {
     std::fprintf(stderr, "stadion: %s\n", wrong->message.c_str());
     return stadion::kBadInput;

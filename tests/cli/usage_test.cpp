@@ -423,6 +423,18 @@ TEST(ProgramUsage, InterruptsEndTheShowWithItsSummary) {
     }
 }
 
+TEST(ProgramUsage, ACrashSaysWhereItWas) {
+  ProgramRun run;
+  run.words = {stadionPath(), "hash",   testShow("reload_with.evs"), "--asset-root", assetFolder(),
+               "--frames",    "1000000"};
+  run.signal = SIGSEGV;
+  run.signalAfter = std::chrono::milliseconds(500);
+  const ProgramResult r = runProgram(run);
+  EXPECT_EQ(r.status, 128 + SIGSEGV);
+  EXPECT_TRUE(has(r.err, "stadion: crashed with SIGSEGV")) << r.err;
+  EXPECT_TRUE(has(r.err, "bin/stadion")) << "some function of the program: " << r.err;
+}
+
 TEST(ProgramUsage, CheckSaysNothingWrongOfTheTestShows) {
   const ProgramResult r = stadionProgram({"check", testShow("moving.evs"), testShow("bodies.evs"),
                                           testShow("reload_with.evs"), "--asset-root", assetFolder()});
