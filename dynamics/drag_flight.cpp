@@ -57,6 +57,12 @@ void expandPlain(DragSeries& s) {
 
 }  // namespace
 
+Vec3 EvenPull::accelerationBound(const Vec3& v, double seconds) const {
+  const Vec3 u = v - drag.wind;
+  const double rate = drag.linear + drag.quadratic * (u.norm() + pull.norm() * seconds);
+  return pull.cwiseAbs() + rate * (u.cwiseAbs() + seconds * pull.cwiseAbs());
+}
+
 double dragFlight(const Vec3& p, const Vec3& v, const Vec3& pull, const Drag& drag, double longest,
                   double tolerance, Path& path) {
   DragSeries s;

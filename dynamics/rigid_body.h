@@ -4,6 +4,7 @@
 /// Times    tau is seconds after the start of the present window; an arc's age is `age0 + tau`.
 
 #include "dynamics/arc.h"
+#include "dynamics/drag_flight.h"
 #include "dynamics/instant.h"
 #include "dynamics/shape.h"
 #include "dynamics/world.h"
@@ -105,6 +106,7 @@ struct RigidBody {
   BodyMode mode = BodyMode::Flight;
   Path path;
   Spin spin;
+  EvenPull even;             ///< a path that is a series: what acts on the body
   Instant since;             ///< when the present arc began
   double age0 = 0;           ///< its age at the start of the window [s]
   double until = 0;          ///< greatest valid tau; infinity if unlimited
@@ -137,6 +139,7 @@ struct RigidBody {
   bool active = false, marked = false;  ///< in the world's lists of these names
   bool alone = false;                   ///< nothing is near what it sweeps, but ...
   ColliderId only = 0;                  ///< ... this
+  bool lazy = false;  ///< nothing at all, whatever its next arcs: they are made when asked for
 
   bool isBall() const { return std::holds_alternative<BallShape>(*shape); }
   /// How far the ball's centre is from the centre of mass [m].

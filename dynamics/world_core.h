@@ -138,6 +138,12 @@ public:
   void lookAhead(RigidBody& b, double tau, bool onlyGreater);
   void lookAtOnly(RigidBody& b, double tau);
   void predict(RigidBody& b, double tau, bool onlyGreater = false);
+  void catchUp(RigidBody& b, double tau);
+  void comeNear(RigidBody& b, double tau);
+  template <class F>
+  void eachBodyNear(const Aabb& box, double tau, F f) {
+    nearBodies.eachNear(box, [&](RigidBody& o) { catchUp(o, tau), f(o); });
+  }
   void predictPair(const Side& a, const Side& b, double tau);
   void pushHorizon(const RigidBody& b);
   static bool bothCarried(const Side& a, const Side& b);
@@ -152,14 +158,11 @@ public:
   double timeToPass(const RigidBody& b, const Vec3& p, const Vec3& v, double more) const;
   bool feelsChange(const RigidBody& b) const;
   double restLasts(const RigidBody& b, const BallStart& s, double tau) const;
-  struct EvenPull {
-    Vec3 pull = Vec3::Zero();  ///< [m/s2]
-    Drag drag;
-  };
   std::optional<EvenPull> evenPullOn(const RigidBody& b) const;
   void setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon, BodyMode mode);
   void setPath(RigidBody& b, double tau, const Path& path, double horizon, BodyMode mode);
   void fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
+  bool resist(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
   void continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
   void startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, const Quat& q, const Vec3& L);
   BallArc arcOnFace(const RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped) const;
@@ -167,6 +170,7 @@ public:
   void restart(RigidBody& b, double tau);
   void freeze(RigidBody& b, double tau);
   void quarantine(RigidBody& b, double tau, std::string why);
+  bool flyOn(RigidBody& b, double tau);
   void reachHorizon(RigidBody& b, double tau);
   bool crossEdge(RigidBody& b, double tau);
 
@@ -220,8 +224,8 @@ public:
   void scheduleTick(double tau);
   void scheduleDue(double tau);
   void tick(double tau);
-  std::size_t thickness(const RigidBody& b, double tau) const;
-  bool isCrowd(const std::vector<RigidBody*>& island, double tau) const;
+  std::size_t thickness(const RigidBody& b, double tau);
+  bool isCrowd(const std::vector<RigidBody*>& island, double tau);
   void findContacts(RigidBody& b, double tau, std::vector<Found>& found, std::vector<RigidBody*>& set);
   void chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found) const;
   bool wakeTouched(const std::vector<Found>& found, double tau);

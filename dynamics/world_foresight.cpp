@@ -10,14 +10,14 @@ bool isHeld(const Side& s) {
   return s.body && s.body->mode == BodyMode::Held;
 }
 
-/// Makes room in the box for where the body will probably be `d` seconds after tau, so that its next arc
-/// finds its place there.
+constexpr double kMargin = 2e-6;  ///< so that a fresh arc of the same motion stays inside [m]
+
+/// Makes room in the box for wherever the body's further arcs through a medium may go in `d` seconds after
+/// tau, at which the box holds it.
 void reachOn(const RigidBody& b, double tau, double d, Aabb& box) {
-  const Vec3 p = b.position(tau) + d * b.velocity(tau);
-  const Vec3 room = Vec3::Constant(b.reach + b.path.accelerationBound() * d * d);
-  Aabb there;
-  there.lo = p - room, there.hi = p + room;
-  box.include(there.lo), box.include(there.hi);
+  const Vec3 v = b.velocity(tau), p = b.position(tau) + d * v;
+  const Vec3 room = Vec3::Constant(b.reach + kMargin) + 0.5 * d * d * b.even.accelerationBound(v, d);
+  box.include(p - room), box.include(p + room);
 }
 
 bool holds(const Aabb& outer, const Aabb& inner) {
@@ -36,11 +36,13 @@ Aabb sweptBody(const RigidBody& b, double tau, double to) {
          ++i)  // it turns back on the way: a parabola's vertex is this far beyond its ends at most
       if (v0[i] * v1[i] < 0) sag[i] = std::fabs(c[2][i]) * (to - tau) * (to - tau) / 4;
   } else {
-    sag.setConstant(b.path.accelerationBound() * (to - tau) * (to - tau) / 8);
+    const Vec3 most = b.path.isSeries() ? b.even.accelerationBound(b.velocity(tau), to - tau)
+                                        : Vec3::Constant(b.path.accelerationBound());
+    sag = (to - tau) * (to - tau) / 8 * most;
   }
-  // A little wider, so that a fresh arc of the same motion stays inside.
-  const double margin = b.reach + 2e-6 + 1e-12 * p0.cwiseAbs().maxCoeff();
-  box.lo -= (sag.array() + margin).matrix(), box.hi += (sag.array() + margin).matrix();
+  const double margin = b.reach + kMargin + 1e-12 * p0.cwiseAbs().maxCoeff();
+  sag.array() += margin;
+  box.lo -= sag, box.hi += sag;
   return box;
 }
 
@@ -151,7 +153,6 @@ void World::Core::predict(RigidBody& b, double tau, bool onlyGreater) {
 void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
   if (b.crowd) return;  // whoever could touch it within its step has been taken into the step
   const Side self = Side::of(b);
-  pushHorizon(b);
   b.alone = true, b.only = 0;
   ++looks.looks;
   nearColliders.eachNear(b.swept, [&](Collider& c) {
@@ -162,10 +163,32 @@ void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
   });
   nearBodies.eachNear(b.swept, [&](RigidBody& o) {
     if (&o == &b) return;
-    b.alone = o.alone = false;
+    b.alone = false;
+    comeNear(o, tau);
     if (onlyGreater && o.marked && o.id < b.id) return;
     predictPair(self, Side::of(o), tau);
   });
+  // What its next arcs sweep is known if they go through the same medium.
+  b.lazy = b.alone && b.only == 0 && b.mode == BodyMode::Flight &&
+           (b.path.isSeries() || b.pathAge - b.age0 > windowEnd());
+  if (!b.lazy) pushHorizon(b);
+}
+
+/// The arcs of a lazy body up to tau, which nobody has asked for yet.
+void World::Core::catchUp(RigidBody& b, double tau) {
+  while (b.lazy && b.until <= tau) {
+    flyOn(b, b.until);
+    b.lazy = b.mode == BodyMode::Flight;
+  }
+}
+
+/// Something has come near what the body sweeps: it is one who must be watched.
+void World::Core::comeNear(RigidBody& b, double tau) {
+  b.alone = false;
+  if (!b.lazy) return;
+  catchUp(b, tau);
+  b.lazy = false;
+  pushHorizon(b);
 }
 
 /// The same for one who is alone and goes nowhere else than it was seen to go.
@@ -200,7 +223,7 @@ void World::Core::foreseeMarked(double tau) {
     if (!c || !c->enabled) continue;
     nearBodies.eachNear(c->swept, [&](RigidBody& o) {
       if (o.marked) return;  // it has just seen the collider itself
-      o.alone = false;
+      comeNear(o, tau);
       predictPair(Side::of(o), Side::of(*c), tau);
     });
   }

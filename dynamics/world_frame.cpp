@@ -129,6 +129,7 @@ void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
   beginFrame();
   while (t1 - origin >= window) {
     runEvents(windowEnd());
+    for (RigidBody* b : active) catchUp(*b, windowEnd());
     const bool idle = active.empty() && commands.empty() && told.empty();
     openWindow(idle ? t1 / kWindow * kWindow : origin + window);
   }
@@ -316,6 +317,7 @@ void World::Core::fetchNext() const {
 
 /// Where it is at the end of the frame.
 void World::Core::sample(RigidBody& b) {
+  catchUp(b, now);
   const Pose X = b.poseAt(now);
   if (inBounds(X)) {
     b.pose = X;
@@ -338,7 +340,8 @@ void World::Core::sample(RigidBody& b) {
 }
 
 void World::Core::endFrame() {
-  foresee = false;
+  if (!memory.waiting().empty())
+    for (RigidBody* b : active) catchUp(*b, now);
   partCarried();
   reportReleases();
   std::stable_sort(memory.events().begin(), memory.events().end(),
@@ -348,6 +351,7 @@ void World::Core::endFrame() {
     if (active.size() > kFitInCache && i + kAhead < active.size()) fetch(*active[i + kAhead]);
     sample(*active[i]);
   }
+  foresee = false;
   std::erase_if(active, [](const RigidBody* b) { return !b->active; });
   if (!std::ranges::is_sorted(changed)) std::ranges::sort(changed);
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
