@@ -27,10 +27,12 @@ struct SpinSeries {
   Wide q[Spin::kOrder + 1], w[Spin::kOrder + 1], k;
 };
 
+/// In sums, what has just been found comes last: the rest does not wait for it.
 [[gnu::always_inline]] inline void expandSeries(SpinSeries& s) {
   constexpr int n = Spin::kOrder;
   // The products of quaternions are sums of permutations of q; those of w' are of (y, z, x) and (z, x, y).
   Wide byI[n], byJ[n], byK[n], next[n], last[n];
+#pragma GCC unroll 16
   for (int i = 0; i < n; ++i) {
     const Wide q = s.q[i], v = s.w[i];
     byI[i] = Wide{-q[1], q[0], q[3], -q[2]};
@@ -38,7 +40,9 @@ struct SpinSeries {
     byK[i] = Wide{-q[3], q[2], -q[1], q[0]};
     next[i] = Wide{v[1], v[2], v[0], 0}, last[i] = Wide{v[2], v[0], v[1], 0};
     Wide dw{}, dq{};
-    for (int j = 0; j <= i; ++j) {
+#pragma GCC unroll 16
+    for (int k = 1; k <= i + 1; ++k) {
+      const int j = k % (i + 1);
       const Wide& u = s.w[i - j];
       dw += next[j] * last[i - j];
       dq += u[0] * byI[j] + u[1] * byJ[j] + u[2] * byK[j];

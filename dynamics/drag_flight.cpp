@@ -18,7 +18,7 @@ constexpr auto kInverse = [] {
   return inverse;
 }();
 
-/// u of v - wind, and |u| in the last place; `u[0]` is given, without it.
+/// u of v - wind (and 0), and |u|; the first of each are given.
 struct DragSeries {
   Wide u[kOrder];
   double speed[kOrder];
@@ -26,25 +26,31 @@ struct DragSeries {
   Wide pull;
 };
 
+/// In sums, what has just been found comes last: the rest does not wait for it.
 [[gnu::always_inline]] inline void expandSeries(DragSeries& s) {
-  const double half = 0.5 / s.speed[0];
+  const double half = s.speed[0] > 0 ? 0.5 / s.speed[0] : 0;
+#pragma GCC unroll 16
   for (int n = 0; n + 1 < kOrder; ++n) {
-    if (n > 0 && s.quadratic > 0) {
-      // 2 |u|_0 |u|_n = sum of u_i u_(n-i), less that of |u|_i |u|_(n-i) but for its ends: in `u`, |u|_0 is
-      // 0.
+    if (n > 0) {
+      // 2 |u|_0 |u|_n = sum of u_i u_(n-i), less that of |u|_i |u|_(n-i) but for its ends.
+      const int middle = n / 2;
       Wide products{};
-      for (int i = 0; 2 * i < n; ++i) products += s.u[i] * s.u[n - i];
-      products += products;
-      if (n % 2 == 0) products += s.u[n / 2] * s.u[n / 2];
-      s.speed[n] = (products[0] + products[1] + products[2] - products[3]) * half;
-      s.u[n][3] = s.speed[n];
+      double others = 0;
+#pragma GCC unroll 16
+      for (int i = (n - 1) / 2; i >= 0; --i) {
+        products += s.u[i] * s.u[n - i];
+        if (i > 0) others += s.speed[i] * s.speed[n - i];
+      }
+      products += products, others += others;
+      if (n % 2 == 0) products += s.u[middle] * s.u[middle], others += s.speed[middle] * s.speed[middle];
+      s.speed[n] = (products[0] + products[1] + products[2] - others) * half;
     }
     Wide resisted{};
-    if (s.quadratic > 0)
-      for (int i = 0; i <= n; ++i) resisted += s.speed[i] * s.u[n - i];
+#pragma GCC unroll 16
+    for (int i = 1; i <= n; ++i) resisted += s.speed[n - i] * s.u[i];
+    resisted += s.speed[n] * s.u[0];
     Wide a = -s.linear * s.u[n] - s.quadratic * resisted;
     if (n == 0) a += s.pull;
-    a[3] = 0;
     s.u[n + 1] = kInverse[n + 1] * a;
   }
 }
