@@ -127,6 +127,9 @@ public:
   Looks looks;  ///< in this window
   double windowEnd() const { return toSeconds(window); }
   Nanoseconds nextWindow() const;
+  bool solidsMayMeet() const;
+  bool anyoneNear() const;
+  void sweepActive(double tau);
   void openWindow(Nanoseconds at);
   void mark(RigidBody& b);
   void sweepMarked();

@@ -258,21 +258,49 @@ void World::Core::sweep(Collider& c) {
   nearColliders.put(c, c.swept);
 }
 
-/// How long the next window is to be: while nobody comes near anybody else and little else is near, far looks
-/// cost less than many. Solids that could meet something take small steps anyway: far looks are for few of
-/// them, since many would come near each other. What it depends on does not depend on frames.
-Nanoseconds World::Core::nextWindow() const {
-  constexpr std::size_t kFewSolids = 64;
-  bool moves = false;
+/// Whether far looks could be dear: solids that could meet something take small steps.
+bool World::Core::solidsMayMeet() const {
+  constexpr std::size_t kFew = 64;
   std::size_t solids = 0;
+  for (const RigidBody* b : active)
+    if (!b->centred && b->mode != BodyMode::Rest && b->mode != BodyMode::Quarantined) ++solids;
+  return solids > kFew || (solids > 0 && !colliders.empty());
+}
+
+/// How long the next window is to be: while nobody comes near anybody else and little else is near, far looks
+/// cost less than many. What it depends on does not depend on frames.
+Nanoseconds World::Core::nextWindow() const {
+  bool moves = false, lazy = true;
   for (const RigidBody* b : active) {
     if (b->mode == BodyMode::Rest || b->mode == BodyMode::Quarantined) continue;
-    moves = true;
-    if (!b->centred && (++solids > kFewSolids || !colliders.empty())) return kWindow;
+    moves = true, lazy = lazy && b->lazy;
   }
-  if (!moves || looks.bodies > 0) return kWindow;
+  if (!moves || looks.bodies > 0 || (!lazy && solidsMayMeet())) return kWindow;
   if (looks.colliders > 2 * looks.looks) return std::max(window / 2, kWindow);
   return std::min(2 * window, kLongestWindow);
+}
+
+/// Whether a body that moves sweeps a box that something else is near.
+bool World::Core::anyoneNear() const {
+  bool near = false;
+  for (const RigidBody* b : active) {
+    if (near) break;
+    if (!b->enabled) continue;
+    nearColliders.eachNear(b->swept, [&](const Collider&) { near = true; });
+    nearBodies.eachNear(b->swept, [&](const RigidBody& o) { near = near || &o != b; });
+  }
+  return near;
+}
+
+/// The broad phase learns what everybody sweeps from tau to the end of the window.
+void World::Core::sweepActive(double tau) {
+  // Who rests sweeps what it did before. Sorting all anew pays if many move.
+  const bool many = active.size() * active.size() > 16 * bodies.size();
+  for (RigidBody* b : active) {
+    if (!many) nearBodies.remove(*b);
+    if (b->enabled) sweep(*b, tau);
+  }
+  if (many || nearBodies.crowded()) fileBodies();
 }
 
 /// A window begins: everybody is looked at anew.
@@ -289,15 +317,13 @@ void World::Core::openWindow(Nanoseconds at) {
     b.until = b.validAge - b.age0;
     b.held.begin = frameFrom;
   }
-  // Who rests sweeps what it did before. Sorting all anew pays if many move.
-  const bool many = active.size() * active.size() > 16 * bodies.size();
-  for (RigidBody* b : active) {
-    if (!many) nearBodies.remove(*b);
-    if (b->enabled) sweep(*b, from);
-  }
-  if (many || nearBodies.crowded()) fileBodies();
   for (Collider& c : colliders) c.motion.begin = frameFrom;
   if (nearColliders.crowded()) fileColliders();
+  sweepActive(from);
+  if (window > kWindow && solidsMayMeet() && anyoneNear()) {
+    window = kWindow;
+    sweepActive(from);
+  }
   tickAt = -1;
   scheduleDue(from);
   for (const Command& c : commands) postCommand(c);
