@@ -314,6 +314,7 @@ bool World::holdBody(BodyId id) {
   b->touching.clear();
   core_->wakeOnto({true, id}, core_->now);
   b->mode = BodyMode::Held;
+  if (std::ranges::find(core_->held, b) == core_->held.end()) core_->held.push_back(b);
   b->held.set(b->pose, b->pose, core_->now, 0);
   return true;
 }

@@ -286,6 +286,7 @@ public:
   BroadPhase<RigidBody> nearBodies;  ///< by what they sweep to the window's end
   BroadPhase<Collider> nearColliders;
   std::vector<RigidBody*> active;  ///< those that do not rest, and those that have just come to
+  std::vector<RigidBody*> held;    ///< and perhaps some that were
   std::vector<RigidBody*> marked;  ///< whose arcs nobody has looked ahead along yet
 
   std::set<std::pair<Party, BodyId>> leaners;  ///< on whom a body not in flight or in a crowd leans

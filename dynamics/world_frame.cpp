@@ -13,7 +13,7 @@ constexpr std::uint64_t kMostEvents =
 /// Where more than these move, they do not fit a processor's own cache: who comes next is fetched in time.
 constexpr std::size_t kFitInCache = 256;
 
-void fetch(const RigidBody& b) {
+void fetch(const RigidMotion& b) {
   constexpr std::size_t kLine = 64;
 #pragma GCC unroll 64
   for (std::size_t i = 0; i < sizeof b; i += kLine) __builtin_prefetch(reinterpret_cast<const char*>(&b) + i);
@@ -103,6 +103,7 @@ void World::Core::forgetBody(RigidBody& b) {
   nearBodies.remove(b);
   std::erase(active, &b);
   std::erase(marked, &b);
+  std::erase(held, &b);
 }
 
 void World::Core::newFrame() {
@@ -140,12 +141,12 @@ void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
 void World::Core::beginFrame() {
   foresee = false;
   const double seconds = now - frameFrom;
-  for (RigidBody* b : active)
-    if (b->mode == BodyMode::Held) {
-      b->held.set(b->held.start, b->held.end, frameFrom, seconds);
-      ++b->version;
-      mark(*b);
-    }
+  std::erase_if(held, [](const RigidBody* b) { return b->mode != BodyMode::Held; });
+  for (RigidBody* b : held) {
+    b->held.set(b->held.start, b->held.end, frameFrom, seconds);
+    ++b->version;
+    mark(*b);
+  }
   std::ranges::sort(told);
   told.erase(std::unique(told.begin(), told.end()), told.end());
   for (const ColliderId id : told)
@@ -347,12 +348,15 @@ void World::Core::endFrame() {
   std::stable_sort(memory.events().begin(), memory.events().end(),
                    [](const ContactEvent& a, const ContactEvent& b) { return a.time < b.time; });
   constexpr std::size_t kAhead = 4;
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < active.size(); ++i) {
     if (active.size() > kFitInCache && i + kAhead < active.size()) fetch(*active[i + kAhead]);
-    sample(*active[i]);
+    RigidBody* b = active[i];
+    sample(*b);
+    if (b->active) active[kept++] = b;
   }
+  active.resize(kept);
   foresee = false;
-  std::erase_if(active, [](const RigidBody* b) { return !b->active; });
   if (!std::ranges::is_sorted(changed)) std::ranges::sort(changed);
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   // Who moved is told once more next time that it stands.
@@ -372,7 +376,7 @@ void World::Core::partCarried() {
     if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, now, {1e-3}).distance > 1e-5)
       apart.push_back(key);
   };
-  for (const RigidBody* b : active)
+  for (const RigidBody* b : held)
     if (b->mode == BodyMode::Held) memory.eachWith({true, b->id}, look);
   for (const auto& key : apart) memory.setTouching(key, false);
 }
