@@ -94,6 +94,7 @@ struct RigidMotion {
   BodyMode mode = BodyMode::Flight;
   bool enabled = true, fresh = true;
   bool active = false, marked = false;  ///< in the world's lists of these names
+  bool stirred = false;                 ///< and of this
   bool aligned = false;                 ///< X_NC is the identity
   bool alone = false;                   ///< nothing is near what it sweeps, but `only`
   bool lazy = false;          ///< nothing at all, whatever its next arcs: they are made when asked for

@@ -220,6 +220,7 @@ bool World::removeField(FieldId id) {
   std::erase_if(core_->commands, [&](const Core::Command& c) { return c.field == id; });
   for (const Core::Command& c : due)
     if (c.kind == Core::Command::Kind::Unhook || !c.on) core_->execute(c, core_->now);
+  core_->restartStirred(core_->now);
   core_->fields.erase(id);
   return true;
 }

@@ -99,6 +99,8 @@ public:
   void advance(Nanoseconds from, Nanoseconds to, bool continues);
   void pause(Nanoseconds to, bool continues);
   void beginFrame();
+  void stir(RigidBody& b);
+  void restartStirred(double tau);
   void obeyCommands(double tau);
   void followFields();
   std::vector<Party> arrivals() const;
@@ -130,8 +132,10 @@ public:
   bool solidsMayMeet() const;
   bool anyoneNear() const;
   void sweepActive(double tau);
+  void beginWindow(Nanoseconds at);
   void openWindow(Nanoseconds at);
   void mark(RigidBody& b);
+  void sortMarked();
   void sweepMarked();
   void foreseeMarked(double tau);
   void fileBodies();
@@ -285,9 +289,10 @@ public:
 
   BroadPhase<RigidBody> nearBodies;  ///< by what they sweep to the window's end
   BroadPhase<Collider> nearColliders;
-  std::vector<RigidBody*> active;  ///< those that do not rest, and those that have just come to
-  std::vector<RigidBody*> held;    ///< and perhaps some that were
-  std::vector<RigidBody*> marked;  ///< whose arcs nobody has looked ahead along yet
+  std::vector<RigidBody*> active;   ///< those that do not rest, and those that have just come to
+  std::vector<RigidBody*> stirred;  ///< who is to begin a new arc at once
+  std::vector<RigidBody*> held;     ///< and perhaps some that were
+  std::vector<RigidBody*> marked;   ///< whose arcs nobody has looked ahead along yet
 
   std::set<std::pair<Party, BodyId>> leaners;  ///< on whom a body not in flight or in a crowd leans
   std::size_t leanersToPrune = 64;

@@ -207,8 +207,12 @@ void World::Core::mark(RigidBody& b) {
   marked.push_back(&b);
 }
 
+void World::Core::sortMarked() {
+  if (!std::ranges::is_sorted(marked, {}, &RigidBody::id)) std::ranges::sort(marked, {}, &RigidBody::id);
+}
+
 void World::Core::sweepMarked() {
-  std::ranges::sort(marked, {}, &RigidBody::id);
+  sortMarked();
   for (RigidBody* b : marked) sweep(*b, frameFrom);
   if (nearBodies.crowded()) fileBodies();
   if (nearColliders.crowded()) fileColliders();
@@ -303,8 +307,8 @@ void World::Core::sweepActive(double tau) {
   if (many || nearBodies.crowded()) fileBodies();
 }
 
-/// A window begins: everybody is looked at anew.
-void World::Core::openWindow(Nanoseconds at) {
+/// All clocks go by a new window.
+void World::Core::beginWindow(Nanoseconds at) {
   origin = at;
   window = nextWindow(), looks = {};
   frameFrom = tauOf(t0), now = tauOf(t1);
@@ -318,17 +322,27 @@ void World::Core::openWindow(Nanoseconds at) {
     b.held.begin = frameFrom;
   }
   for (Collider& c : colliders) c.motion.begin = frameFrom;
+  tickAt = -1;
+  scheduleDue(from);
+  const Command* before = nullptr;
+  for (const Command& c : commands) {  // one event for all of the same time
+    if (!before || before->when != c.when) postCommand(c);
+    before = &c;
+  }
+}
+
+/// A window begins: everybody is looked at anew.
+void World::Core::openWindow(Nanoseconds at) {
+  beginWindow(at);
+  const double from = std::max(0.0, frameFrom);
   if (nearColliders.crowded()) fileColliders();
   sweepActive(from);
   if (window > kWindow && solidsMayMeet() && anyoneNear()) {
     window = kWindow;
     sweepActive(from);
   }
-  tickAt = -1;
-  scheduleDue(from);
-  for (const Command& c : commands) postCommand(c);
   for (RigidBody* b : active) mark(*b);
-  std::ranges::sort(marked, {}, &RigidBody::id);
+  sortMarked();
   foreseeMarked(from);
 }
 

@@ -42,6 +42,22 @@ void World::Core::postCommand(const Command& c) {
   post(e);
 }
 
+/// Something else pulls at the body now: it is to begin a new arc.
+void World::Core::stir(RigidBody& b) {
+  if (b.stirred || !b.enabled) return;
+  b.stirred = true;
+  stirred.push_back(&b);
+}
+
+/// Whoever has been stirred begins a new arc, once for all that has changed at tau.
+void World::Core::restartStirred(double tau) {
+  for (RigidBody* b : stirred) {
+    b->stirred = false;
+    restart(*b, tau);
+  }
+  stirred.clear();
+}
+
 /// What is due up to tau, in its order.
 void World::Core::obeyCommands(double tau) {
   while (!commands.empty() && tauOf(commands.front().when) <= tau) {
@@ -51,12 +67,8 @@ void World::Core::obeyCommands(double tau) {
   }
 }
 
-/// Applies a change of fields at tau and gives the bodies it concerns new arcs.
+/// Applies a change of fields at tau and stirs the bodies it concerns.
 void World::Core::execute(const Command& c, double tau) {
-  const auto renew = [&](auto concerned) {
-    for (RigidBody& b : bodies)
-      if (concerned(b) && b.enabled) restart(b, tau);
-  };
   const auto feels = [&](const RigidBody& b) {
     return std::any_of(b.hooks.begin(), b.hooks.end(), [&](const Hook& h) { return h.field == c.field; });
   };
@@ -75,7 +87,8 @@ void World::Core::execute(const Command& c, double tau) {
     }
     if (field->on == c.on) return;
     field->on = c.on;
-    renew(feels);
+    for (RigidBody& o : bodies)
+      if (feels(o)) stir(o);
     return;
   case Command::Kind::Hook:
     if (!b || !field || feels(*b)) return;
@@ -86,16 +99,17 @@ void World::Core::execute(const Command& c, double tau) {
     std::erase_if(b->hooks, [&](const Hook& h) { return h.field == c.field; });
     break;
   }
-  if (field->on) restart(*b, tau);
+  if (field->on) stir(*b);
 }
 
-/// The first frame begins: arcs made before begin with it.
+/// The first frame begins: arcs made before begin with it. If there are commands, they will change most of
+/// them before anybody looks.
 void World::Core::start(Nanoseconds at) {
   started = true;
   t0 = t1 = at;
-  const Nanoseconds whole = at / kWindow * kWindow;
+  const Nanoseconds whole = at / kWindow * kWindow, opens = at < whole ? whole - kWindow : whole;
   for (RigidBody& b : bodies) b.since = Instant{at, 0};
-  openWindow(at < whole ? whole - kWindow : whole);
+  commands.empty() ? openWindow(opens) : beginWindow(opens);
 }
 
 /// No list remembers it any more.
@@ -158,10 +172,12 @@ void World::Core::beginFrame() {
     }
   obeyCommands(frameFrom);
   followFields();
+  restartStirred(frameFrom);
   sweepMarked();  // boxes before predictions, so that these see everybody
   const std::vector<Party> arrived = arrivals();
   settleFresh(arrived);
-  for (const Party p : arrived) wakeWithin(p);
+  if (active.size() < bodies.size())  // somebody sleeps
+    for (const Party p : arrived) wakeWithin(p);
   for (const ColliderId id : told)
     if (Collider* c = collider(id); c && c->enabled && (c->motion.moving || c->disturbed)) {
       wakeOnto({false, id}, frameFrom);
@@ -172,7 +188,7 @@ void World::Core::beginFrame() {
   foreseeMarked(frameFrom);
 }
 
-/// Bodies that feel a field which is not what it was, or which moves, begin new arcs.
+/// Bodies that feel a field which is not what it was, or which moves, are to begin new arcs.
 void World::Core::followFields() {
   std::vector<FieldId> different;
   for (FieldEntry& f : fields) {
@@ -186,7 +202,7 @@ void World::Core::followFields() {
     if (!concerned || !b.enabled) continue;
     // Steps of heaps go on; so do those that end at once, since a frame's parts may be as short.
     if (b.mode == BodyMode::Contact && (b.crowd || b.dueAge - b.age(frameFrom) <= kShortestStep)) continue;
-    restart(b, frameFrom);
+    stir(b);
   }
 }
 
@@ -204,12 +220,12 @@ std::vector<Party> World::Core::arrivals() const {
 /// Sleepers that something has been put into wake.
 void World::Core::wakeWithin(Party arrived) {
   const Side self = *side(arrived);
-  std::vector<RigidBody*> stirred;
+  std::vector<RigidBody*> woken;
   nearBodies.eachNear(self.body ? self.body->swept : self.collider->swept, [&](RigidBody& o) {
     if (o.mode != BodyMode::Rest || !o.enabled || &o == self.body || !mayTouch(Side::of(o), self)) return;
-    if (gapBetween(Side::of(o), self, frameFrom, {0.01}).distance < -kTouchesAtLoad) stirred.push_back(&o);
+    if (gapBetween(Side::of(o), self, frameFrom, {0.01}).distance < -kTouchesAtLoad) woken.push_back(&o);
   });
-  for (RigidBody* o : stirred) {
+  for (RigidBody* o : woken) {
     enterContact(*o, frameFrom);
     wakeOnto({true, o->id}, frameFrom);
   }
@@ -292,7 +308,7 @@ void World::Core::runEvents(double until) {
     }
     if (nearBodies.crowded()) fileBodies();
     switch (e.kind) {
-    case Event::Kind::Command: obeyCommands(e.tau); break;
+    case Event::Kind::Command: obeyCommands(e.tau), restartStirred(e.tau); break;
     case Event::Kind::Tick:
       if (e.detail == tickNumber && tickAt >= 0) tick(e.tau);
       break;
