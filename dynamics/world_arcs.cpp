@@ -210,11 +210,13 @@ void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   setPath(b, tau, Path::hermite(from, to, h), h, BodyMode::Flight);
 }
 
-/// The same where the spin began earlier, unless it ends here as well.
-void World::Core::continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
+/// The same where the spin began earlier, unless it ends here as well. `pullsAsBefore`: what acts on the body
+/// is what did so in the last arc.
+void World::Core::continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, bool pullsAsBefore) {
   const double spinAge = b.spinAge(tau);
   if (spinAge > b.spin.horizon - 1e-9) return startFlight(b, tau, p, v, b.orientation(tau), b.spin.L);
   b.spinStart = -spinAge;
+  if (pullsAsBefore && b.path.isSeries() && resist(b, tau, p, v)) return;
   fly(b, tau, p, v);
 }
 
@@ -229,7 +231,7 @@ bool World::Core::flyOn(RigidBody& b, double tau) {
     ++b.version;
     return false;
   }
-  continueFlight(b, tau, b.position(tau), b.velocity(tau));
+  continueFlight(b, tau, b.position(tau), b.velocity(tau), true);
   return true;
 }
 
@@ -310,7 +312,7 @@ void World::Core::restart(RigidBody& b, double tau) {
   switch (b.mode) {
   case BodyMode::Flight: {
     const Vec3 p = b.position(tau), v = b.velocity(tau);
-    continueFlight(b, tau, p, v);
+    continueFlight(b, tau, p, v, false);
     break;
   }
   case BodyMode::Slide:

@@ -145,6 +145,7 @@ public:
   void lookAhead(RigidBody& b, double tau, bool onlyGreater);
   void lookAtOnly(RigidBody& b, double tau);
   void predict(RigidBody& b, double tau, bool onlyGreater = false);
+  void awaitHorizon(RigidBody& b);
   void catchUp(RigidBody& b, double tau);
   void comeNear(RigidBody& b, double tau);
   template <class F>
@@ -170,7 +171,7 @@ public:
   void setPath(RigidBody& b, double tau, const Path& path, double horizon, BodyMode mode);
   void fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
   bool resist(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
-  void continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
+  void continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, bool pullsAsBefore);
   void startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, const Quat& q, const Vec3& L);
   BallArc arcOnFace(const RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped) const;
   void startOnFace(RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped);

@@ -168,6 +168,11 @@ void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
     if (onlyGreater && o.marked && o.id < b.id) return;
     predictPair(self, Side::of(o), tau);
   });
+  awaitHorizon(b);
+}
+
+/// The body has been looked at: its next arc begins in time, or when somebody asks for it.
+void World::Core::awaitHorizon(RigidBody& b) {
   // What its next arcs sweep is known if they go through the same medium.
   b.lazy = b.alone && b.only == 0 && b.mode == BodyMode::Flight &&
            (b.path.isSeries() || b.pathAge - b.age0 > windowEnd());
@@ -337,7 +342,11 @@ void World::Core::openWindow(Nanoseconds at) {
   const double from = std::max(0.0, frameFrom);
   if (nearColliders.crowded()) fileColliders();
   sweepActive(from);
-  if (window > kWindow && solidsMayMeet() && anyoneNear()) {
+  if (window > kWindow && solidsMayMeet()) {
+    if (!anyoneNear()) {
+      for (RigidBody* b : active) b->alone = true, b->only = 0, awaitHorizon(*b);
+      return;
+    }
     window = kWindow;
     sweepActive(from);
   }
