@@ -172,8 +172,11 @@ Path Path::hermite(const Vec3 (&s)[3], const Vec3 (&e)[3], double h) {
   return path;
 }
 
+Vec3 Path::seriesPosition(double t) const {
+  return sumOf<false>(*this, t);
+}
+
 Vec3 Path::curvedPosition(double t) const {
-  if (isSeries()) return sumOf<false>(*this, t);
   return kind == Kind::Damped ? dampedPosition(t) : polynomialPosition(t);
 }
 
@@ -247,6 +250,12 @@ Spin Spin::driven(const Quat& q, const Vec3& omega, const Vec3& alpha, double in
   return s;
 }
 
+Quat Spin::seriesOrientation(double t) const {
+  Wide q;
+  sum<false, 4>(series[0].data(), t, q);
+  return renormalised(Quat(q[0], q[1], q[2], q[3]));
+}
+
 Quat Spin::turnedOrientation(double t) const {
   switch (kind) {
   case Kind::Still: return q0;
@@ -259,11 +268,7 @@ Quat Spin::turnedOrientation(double t) const {
     w[axis] = t * own * (inverse[axis] - inverse[across]);
     return renormalised(det::expRotation(t * inverse[across] * L) * q0 * det::expRotation(w));
   }
-  case Kind::Taylor: {
-    Wide q;
-    sum<false, 4>(series[0].data(), t, q);
-    return renormalised(Quat(q[0], q[1], q[2], q[3]));
-  }
+  case Kind::Taylor: return seriesOrientation(t);
   case Kind::Driven: {
     // Magnus expansion to fourth order for an angular velocity linear in time, in pieces short enough for
     // 1e-8.

@@ -109,6 +109,7 @@ public:
   void wakeWithin(Party arrived);
   void runEvents(double until);
   void fetchNext() const;
+  void expel(RigidBody& b);
   void sample(RigidBody& b);
   void endFrame();
   void partCarried();

@@ -332,25 +332,27 @@ void World::Core::fetchNext() const {
   if (const RigidBody* b = next.isBody ? body(next.id) : nullptr) fetch(*b);
 }
 
+/// The body has left the world, between its arc's start or the frame's, and now.
+void World::Core::expel(RigidBody& b) {
+  double in = std::max(frameFrom, -b.age0), out = now;
+  const bool left = inBounds(b.poseAt(in));
+  while (left && out - in > 1e-10) {
+    const double middle = 0.5 * (in + out);
+    if (!(in < middle && middle < out)) break;
+    (inBounds(b.poseAt(middle)) ? in : out) = middle;
+  }
+  quarantine(b, left ? in : now, left ? "it went beyond all bounds (10^12 m)" : "its pose became undefined");
+  if (left) b.pose = b.poseAt(in);
+}
+
 /// Where it is at the end of the frame.
 void World::Core::sample(RigidBody& b) {
   catchUp(b, now);
   const Pose X = b.poseAt(now);
-  if (inBounds(X)) {
+  if (inBounds(X))
     b.pose = X;
-  } else {
-    // When it left, between its arc's start or the frame's, and now.
-    double in = std::max(frameFrom, -b.age0), out = now;
-    const bool left = inBounds(b.poseAt(in));
-    while (left && out - in > 1e-10) {
-      const double middle = 0.5 * (in + out);
-      if (!(in < middle && middle < out)) break;
-      (inBounds(b.poseAt(middle)) ? in : out) = middle;
-    }
-    quarantine(b, left ? in : now,
-               left ? "it went beyond all bounds (10^12 m)" : "its pose became undefined");
-    if (left) b.pose = b.poseAt(in);
-  }
+  else
+    expel(b);
   if (b.mode == BodyMode::Held) b.held.start = b.held.end;
   changed.push_back(b.id);
   b.active = b.mode != BodyMode::Rest && b.mode != BodyMode::Quarantined;
