@@ -69,9 +69,9 @@ void expand(Spin& s, const Vec3& inertia) {
   hasWide() ? expandWide(terms) : expandPlain(terms);
   for (std::size_t i = 0; i <= n; ++i)
     s.series[i] = {terms.q[i][0], terms.q[i][1], terms.q[i][2], terms.q[i][3]};
-  // As far as the last two terms stay below the tolerance; they may vanish, so the radius that bounds any
-  // free motion limits it as well.
-  constexpr double tolerance = 1e-13;
+  // As far as the last two terms stay below the tolerance, of which what follows them is a tenth; they may
+  // vanish, so the radius that bounds any free motion limits it as well.
+  constexpr double tolerance = 1e-12;
   const double speed = s.L.norm() * s.inverse.maxCoeff();
   const double last = s.series[n].cwiseAbs().maxCoeff(), before = s.series[n - 1].cwiseAbs().maxCoeff();
   s.horizon = std::min(reachOfSeries(last, before, tolerance), 2.4 / speed);
