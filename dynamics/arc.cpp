@@ -35,10 +35,10 @@ struct SpinSeries {
 #pragma GCC unroll 16
   for (int i = 0; i < n; ++i) {
     const Wide q = s.q[i], v = s.w[i];
-    byI[i] = Wide{-q[1], q[0], q[3], -q[2]};
-    byJ[i] = Wide{-q[2], -q[3], q[0], q[1]};
-    byK[i] = Wide{-q[3], q[2], -q[1], q[0]};
-    next[i] = Wide{v[1], v[2], v[0], 0}, last[i] = Wide{v[2], v[0], v[1], 0};
+    byI[i] = Wide{-1, 1, 1, -1} * __builtin_shufflevector(q, q, 1, 0, 3, 2);
+    byJ[i] = Wide{-1, -1, 1, 1} * __builtin_shufflevector(q, q, 2, 3, 0, 1);
+    byK[i] = Wide{-1, 1, -1, 1} * __builtin_shufflevector(q, q, 3, 2, 1, 0);
+    next[i] = __builtin_shufflevector(v, v, 1, 2, 0, 3), last[i] = __builtin_shufflevector(v, v, 2, 0, 1, 3);
     Wide dw{}, dq{};
 #pragma GCC unroll 16
     for (int k = 1; k <= i + 1; ++k) {
