@@ -18,40 +18,39 @@ constexpr auto kInverse = [] {
   return inverse;
 }();
 
-/// u of v - wind (and 0), and |u|; the first of each are given.
+/// u of v - wind (and 0), |u|, and the rate of loss c + k |u|; the first of each are given.
 struct DragSeries {
   Wide u[kOrder];
-  double speed[kOrder];
-  double linear, quadratic;
+  double speed[kOrder], rate[kOrder];
+  double quadratic;
   Wide pull;
 };
 
 /// In sums, what has just been found comes last: the rest does not wait for it.
 [[gnu::always_inline]] inline void expandSeries(DragSeries& s) {
-  const double half = s.speed[0] > 0 ? 0.5 / s.speed[0] : 0;
+  const double inverse = s.speed[0] > 0 ? 1 / s.speed[0] : 0, share = s.quadratic * inverse;
 #pragma GCC unroll 16
   for (int n = 0; n + 1 < kOrder; ++n) {
     if (n > 0) {
-      // 2 |u|_0 |u|_n = sum of u_i u_(n-i), less that of |u|_i |u|_(n-i) but for its ends.
+      // |u|_0 |u|_n = half the sum of u_i u_(n-i), less that of |u|_i |u|_(n-i) but for its ends.
       const int middle = n / 2;
       Wide products{};
       double others = 0;
+      if (n % 2 == 0)
+        products = 0.5 * s.u[middle] * s.u[middle], others = 0.5 * s.speed[middle] * s.speed[middle];
 #pragma GCC unroll 16
       for (int i = (n - 1) / 2; i >= 0; --i) {
         products += s.u[i] * s.u[n - i];
         if (i > 0) others += s.speed[i] * s.speed[n - i];
       }
-      products += products, others += others;
-      if (n % 2 == 0) products += s.u[middle] * s.u[middle], others += s.speed[middle] * s.speed[middle];
-      s.speed[n] = (products[0] + products[1] + products[2] - others) * half;
+      const double sum = (products[0] + products[1]) + (products[2] - others);
+      s.speed[n] = sum * inverse, s.rate[n] = sum * share;
     }
-    Wide resisted{};
+    Wide lost{};
 #pragma GCC unroll 16
-    for (int i = 1; i <= n; ++i) resisted += s.speed[n - i] * s.u[i];
-    resisted += s.speed[n] * s.u[0];
-    Wide a = -s.linear * s.u[n] - s.quadratic * resisted;
-    if (n == 0) a += s.pull;
-    s.u[n + 1] = kInverse[n + 1] * a;
+    for (int i = 1; i <= n; ++i) lost += s.rate[n - i] * s.u[i];
+    lost += s.rate[n] * s.u[0];
+    s.u[n + 1] = n == 0 ? s.pull - lost : -kInverse[n + 1] * lost;
   }
 }
 [[gnu::target("avx2")]] void expandWide(DragSeries& s) {
@@ -75,8 +74,8 @@ double dragFlight(const Vec3& p, const Vec3& v, const Vec3& pull, const Drag& dr
   const Vec3 u0 = v - drag.wind;
   const double speed = u0.norm();
   if (drag.quadratic > 0 && !(speed > 1e-6)) return 0;
-  set(s.u[0], u0), set(s.pull, pull), s.speed[0] = speed, s.linear = drag.linear,
-                                      s.quadratic = drag.quadratic;
+  set(s.u[0], u0), set(s.pull, pull);
+  s.speed[0] = speed, s.rate[0] = drag.linear + drag.quadratic * speed, s.quadratic = drag.quadratic;
   hasWide() ? expandWide(s) : expandPlain(s);
   path.kind = Path::Kind::Polynomial, path.degree = kOrder;
   path.c[0] = p, path.c[1] = v;

@@ -94,29 +94,28 @@ TEST(Wide, ASpinInFourLanesIsTheSpinNumberByNumber) {
 std::array<Four, kOrder> dragTerms(const Vec3& v, const Vec3& pull, const Drag& drag) {
   const Vec3 u0 = v - drag.wind;
   std::array<Four, kOrder> u{};
-  std::array<double, kOrder> speed{};
+  std::array<double, kOrder> speed{}, rate{};
   u[0] = {u0.x(), u0.y(), u0.z(), 0}, speed[0] = u0.norm();
-  const double half = 0.5 / speed[0];
+  rate[0] = drag.linear + drag.quadratic * speed[0];
+  const double inverse = 1 / speed[0], share = drag.quadratic * inverse;
   for (std::size_t n = 0; n + 1 < kOrder; ++n) {
     if (n > 0) {
       Four products{};
       double others = 0;
+      if (n % 2 == 0)
+        products = times(times(0.5, u[n / 2]), u[n / 2]), others = 0.5 * speed[n / 2] * speed[n / 2];
       for (std::size_t i = (n + 1) / 2; i-- > 0;) {  // the newest terms come last
         products = plus(products, times(u[i], u[n - i]));
         if (i > 0) others += speed[i] * speed[n - i];
       }
-      products = plus(products, products), others += others;
-      if (n % 2 == 0)
-        products = plus(products, times(u[n / 2], u[n / 2])), others += speed[n / 2] * speed[n / 2];
-      speed[n] = (products[0] + products[1] + products[2] - others) * half;
+      const double sum = (products[0] + products[1]) + (products[2] - others);
+      speed[n] = sum * inverse, rate[n] = sum * share;
     }
-    Four resisted{};
-    for (std::size_t i = 1; i <= n; ++i) resisted = plus(resisted, times(speed[n - i], u[i]));
-    resisted = plus(resisted, times(speed[n], u[0]));
-    const Four braked = times(-drag.linear, u[n]), pushed = times(drag.quadratic, resisted);
-    Four a = plus(braked, {-pushed[0], -pushed[1], -pushed[2], -pushed[3]});
-    if (n == 0) a = plus(a, {pull.x(), pull.y(), pull.z(), 0});
-    u[n + 1] = times(1.0 / static_cast<double>(n + 1), a);
+    Four lost{};
+    for (std::size_t i = 1; i <= n; ++i) lost = plus(lost, times(rate[n - i], u[i]));
+    lost = plus(lost, times(rate[n], u[0]));
+    const double part = -1.0 / static_cast<double>(n + 1);
+    u[n + 1] = n > 0 ? times(part, lost) : plus({pull.x(), pull.y(), pull.z(), 0}, times(part, lost));
   }
   return u;
 }
