@@ -39,8 +39,8 @@ struct Path {
   static Path hermite(const Vec3 (&start)[3], const Vec3 (&end)[3], double h);
 
   Vec3 position(double age) const {
-    if (isSeries()) return seriesPosition(age);
-    return isParabola() ? Vec3(c[0] + age * (c[1] + age * c[2])) : curvedPosition(age);
+    if (isParabola()) return c[0] + age * (c[1] + age * c[2]);
+    return isSeries() ? seriesPosition(age) : curvedPosition(age);
   }
   Vec3 velocity(double age) const { return isParabola() ? Vec3(c[1] + 2 * age * c[2]) : curvedVelocity(age); }
   /// Sets `spare` for ages up to `horizon`.
@@ -91,8 +91,8 @@ struct Spin : SpinTerms {
   static Spin driven(const Quat& q, const Vec3& omega, const Vec3& alpha, double inertia);
 
   Quat orientation(double age) const {
-    if (kind == Kind::Taylor) return seriesOrientation(age);
-    return kind == Kind::Still ? q0 : turnedOrientation(age);
+    if (kind == Kind::Still) return q0;
+    return kind == Kind::Taylor ? seriesOrientation(age) : turnedOrientation(age);
   }
   Vec3 angularVelocity(double age) const;
   Vec3 angularVelocity(double age, const Quat& orientation) const;  ///< if that is known already

@@ -147,7 +147,11 @@ public:
   void lookAtOnly(RigidBody& b, double tau);
   void predict(RigidBody& b, double tau, bool onlyGreater = false);
   void awaitHorizon(RigidBody& b);
-  void catchUp(RigidBody& b, double tau);
+  void flyOnLazily(RigidBody& b);
+  /// From now on its arc is the one that it follows at tau.
+  void catchUp(RigidBody& b, double tau) {
+    while (b.lazy && b.until <= tau) flyOnLazily(b);
+  }
   void comeNear(RigidBody& b, double tau);
   template <class F>
   void eachBodyNear(const Aabb& box, double tau, F f) {

@@ -179,12 +179,10 @@ void World::Core::awaitHorizon(RigidBody& b) {
   if (!b.lazy) pushHorizon(b);
 }
 
-/// The arcs of a lazy body up to tau, which nobody has asked for yet.
-void World::Core::catchUp(RigidBody& b, double tau) {
-  while (b.lazy && b.until <= tau) {
-    flyOn(b, b.until);
-    b.lazy = b.mode == BodyMode::Flight;
-  }
+/// The next arc of a lazy body, which nobody has asked for yet.
+void World::Core::flyOnLazily(RigidBody& b) {
+  flyOn(b, b.until);
+  b.lazy = b.mode == BodyMode::Flight;
 }
 
 /// Something has come near what the body sweeps: it is one who must be watched.
