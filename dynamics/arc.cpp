@@ -27,18 +27,22 @@ struct SpinSeries {
   Wide q[Spin::kOrder + 1], w[Spin::kOrder + 1], k;
 };
 
+/// In sums, what has just been found comes last: the rest does not wait for it.
 [[gnu::always_inline]] inline void expandSeries(SpinSeries& s) {
   constexpr int n = Spin::kOrder;
   // The products of quaternions are sums of permutations of q; those of w' are of (y, z, x) and (z, x, y).
   Wide byI[n], byJ[n], byK[n], next[n], last[n];
+#pragma GCC unroll 16
   for (int i = 0; i < n; ++i) {
     const Wide q = s.q[i], v = s.w[i];
-    byI[i] = Wide{-q[1], q[0], q[3], -q[2]};
-    byJ[i] = Wide{-q[2], -q[3], q[0], q[1]};
-    byK[i] = Wide{-q[3], q[2], -q[1], q[0]};
-    next[i] = Wide{v[1], v[2], v[0], 0}, last[i] = Wide{v[2], v[0], v[1], 0};
+    byI[i] = Wide{-1, 1, 1, -1} * __builtin_shufflevector(q, q, 1, 0, 3, 2);
+    byJ[i] = Wide{-1, -1, 1, 1} * __builtin_shufflevector(q, q, 2, 3, 0, 1);
+    byK[i] = Wide{-1, 1, -1, 1} * __builtin_shufflevector(q, q, 3, 2, 1, 0);
+    next[i] = __builtin_shufflevector(v, v, 1, 2, 0, 3), last[i] = __builtin_shufflevector(v, v, 2, 0, 1, 3);
     Wide dw{}, dq{};
-    for (int j = 0; j <= i; ++j) {
+#pragma GCC unroll 16
+    for (int k = 1; k <= i + 1; ++k) {
+      const int j = k % (i + 1);
       const Wide& u = s.w[i - j];
       dw += next[j] * last[i - j];
       dq += u[0] * byI[j] + u[1] * byJ[j] + u[2] * byK[j];
@@ -65,9 +69,9 @@ void expand(Spin& s, const Vec3& inertia) {
   hasWide() ? expandWide(terms) : expandPlain(terms);
   for (std::size_t i = 0; i <= n; ++i)
     s.series[i] = {terms.q[i][0], terms.q[i][1], terms.q[i][2], terms.q[i][3]};
-  // As far as the last two terms stay below the tolerance; they may vanish, so the radius that bounds any
-  // free motion limits it as well.
-  constexpr double tolerance = 1e-13;
+  // As far as the last two terms stay below the tolerance, of which what follows them is a tenth; they may
+  // vanish, so the radius that bounds any free motion limits it as well.
+  constexpr double tolerance = 1e-12;
   const double speed = s.L.norm() * s.inverse.maxCoeff();
   const double last = s.series[n].cwiseAbs().maxCoeff(), before = s.series[n - 1].cwiseAbs().maxCoeff();
   s.horizon = std::min(reachOfSeries(last, before, tolerance), 2.4 / speed);
@@ -109,8 +113,10 @@ Vec3 sumOf(const Path& path, double t) {
   return firstThree(s);
 }
 
+/// Of unit length again: the root of 1 + e is 1 + e / 2 to the last place.
 Quat renormalised(const Quat& q) {
-  return Quat(q.coeffs() / std::sqrt(q.squaredNorm()));
+  const double square = q.squaredNorm(), e = square - 1;
+  return Quat(q.coeffs() * (std::fabs(e) < 1e-9 ? 1 - 0.5 * e : 1 / std::sqrt(square)));
 }
 
 }  // namespace
@@ -166,8 +172,11 @@ Path Path::hermite(const Vec3 (&s)[3], const Vec3 (&e)[3], double h) {
   return path;
 }
 
+Vec3 Path::seriesPosition(double t) const {
+  return sumOf<false>(*this, t);
+}
+
 Vec3 Path::curvedPosition(double t) const {
-  if (isSeries()) return sumOf<false>(*this, t);
   return kind == Kind::Damped ? dampedPosition(t) : polynomialPosition(t);
 }
 
@@ -241,6 +250,12 @@ Spin Spin::driven(const Quat& q, const Vec3& omega, const Vec3& alpha, double in
   return s;
 }
 
+Quat Spin::seriesOrientation(double t) const {
+  Wide q;
+  sum<false, 4>(series[0].data(), t, q);
+  return renormalised(Quat(q[0], q[1], q[2], q[3]));
+}
+
 Quat Spin::turnedOrientation(double t) const {
   switch (kind) {
   case Kind::Still: return q0;
@@ -253,11 +268,7 @@ Quat Spin::turnedOrientation(double t) const {
     w[axis] = t * own * (inverse[axis] - inverse[across]);
     return renormalised(det::expRotation(t * inverse[across] * L) * q0 * det::expRotation(w));
   }
-  case Kind::Taylor: {
-    Wide q;
-    sum<false, 4>(series[0].data(), t, q);
-    return renormalised(Quat(q[0], q[1], q[2], q[3]));
-  }
+  case Kind::Taylor: return seriesOrientation(t);
   case Kind::Driven: {
     // Magnus expansion to fourth order for an angular velocity linear in time, in pieces short enough for
     // 1e-8.

@@ -39,7 +39,8 @@ struct Path {
   static Path hermite(const Vec3 (&start)[3], const Vec3 (&end)[3], double h);
 
   Vec3 position(double age) const {
-    return isParabola() ? Vec3(c[0] + age * (c[1] + age * c[2])) : curvedPosition(age);
+    if (isParabola()) return c[0] + age * (c[1] + age * c[2]);
+    return isSeries() ? seriesPosition(age) : curvedPosition(age);
   }
   Vec3 velocity(double age) const { return isParabola() ? Vec3(c[1] + 2 * age * c[2]) : curvedVelocity(age); }
   /// Sets `spare` for ages up to `horizon`.
@@ -50,6 +51,7 @@ struct Path {
   bool isParabola() const { return kind == Kind::Polynomial && degree <= 2; }
 
 private:
+  Vec3 seriesPosition(double age) const;
   Vec3 curvedPosition(double age) const;
   Vec3 curvedVelocity(double age) const;
   Vec3 dampedPosition(double age) const;
@@ -88,7 +90,10 @@ struct Spin : SpinTerms {
   /// A ball under constant torque.
   static Spin driven(const Quat& q, const Vec3& omega, const Vec3& alpha, double inertia);
 
-  Quat orientation(double age) const { return kind == Kind::Still ? q0 : turnedOrientation(age); }
+  Quat orientation(double age) const {
+    if (kind == Kind::Still) return q0;
+    return kind == Kind::Taylor ? seriesOrientation(age) : turnedOrientation(age);
+  }
   Vec3 angularVelocity(double age) const;
   Vec3 angularVelocity(double age, const Quat& orientation) const;  ///< if that is known already
   Vec3 angularMomentum(double age) const;
@@ -96,6 +101,7 @@ struct Spin : SpinTerms {
   double speedBound(double age) const;
 
 private:
+  Quat seriesOrientation(double age) const;
   Quat turnedOrientation(double age) const;
   void copySeries(const Spin& o) {
     if (kind == Kind::Taylor) series = o.series;

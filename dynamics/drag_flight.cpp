@@ -18,34 +18,39 @@ constexpr auto kInverse = [] {
   return inverse;
 }();
 
-/// u of v - wind, and |u| in the last place; `u[0]` is given, without it.
+/// u of v - wind (and 0), |u|, and the rate of loss c + k |u|; the first of each are given.
 struct DragSeries {
   Wide u[kOrder];
-  double speed[kOrder];
-  double linear, quadratic;
+  double speed[kOrder], rate[kOrder];
+  double quadratic;
   Wide pull;
 };
 
+/// In sums, what has just been found comes last: the rest does not wait for it.
 [[gnu::always_inline]] inline void expandSeries(DragSeries& s) {
-  const double half = 0.5 / s.speed[0];
+  const double inverse = s.speed[0] > 0 ? 1 / s.speed[0] : 0, share = s.quadratic * inverse;
+#pragma GCC unroll 16
   for (int n = 0; n + 1 < kOrder; ++n) {
-    if (n > 0 && s.quadratic > 0) {
-      // 2 |u|_0 |u|_n = sum of u_i u_(n-i), less that of |u|_i |u|_(n-i) but for its ends: in `u`, |u|_0 is
-      // 0.
+    if (n > 0) {
+      // |u|_0 |u|_n = half the sum of u_i u_(n-i), less that of |u|_i |u|_(n-i) but for its ends.
+      const int middle = n / 2;
       Wide products{};
-      for (int i = 0; 2 * i < n; ++i) products += s.u[i] * s.u[n - i];
-      products += products;
-      if (n % 2 == 0) products += s.u[n / 2] * s.u[n / 2];
-      s.speed[n] = (products[0] + products[1] + products[2] - products[3]) * half;
-      s.u[n][3] = s.speed[n];
+      double others = 0;
+      if (n % 2 == 0)
+        products = 0.5 * s.u[middle] * s.u[middle], others = 0.5 * s.speed[middle] * s.speed[middle];
+#pragma GCC unroll 16
+      for (int i = (n - 1) / 2; i >= 0; --i) {
+        products += s.u[i] * s.u[n - i];
+        if (i > 0) others += s.speed[i] * s.speed[n - i];
+      }
+      const double sum = (products[0] + products[1]) + (products[2] - others);
+      s.speed[n] = sum * inverse, s.rate[n] = sum * share;
     }
-    Wide resisted{};
-    if (s.quadratic > 0)
-      for (int i = 0; i <= n; ++i) resisted += s.speed[i] * s.u[n - i];
-    Wide a = -s.linear * s.u[n] - s.quadratic * resisted;
-    if (n == 0) a += s.pull;
-    a[3] = 0;
-    s.u[n + 1] = kInverse[n + 1] * a;
+    Wide lost{};
+#pragma GCC unroll 16
+    for (int i = 1; i <= n; ++i) lost += s.rate[n - i] * s.u[i];
+    lost += s.rate[n] * s.u[0];
+    s.u[n + 1] = n == 0 ? s.pull - lost : -kInverse[n + 1] * lost;
   }
 }
 [[gnu::target("avx2")]] void expandWide(DragSeries& s) {
@@ -57,14 +62,20 @@ void expandPlain(DragSeries& s) {
 
 }  // namespace
 
+Vec3 EvenPull::accelerationBound(const Vec3& v, double seconds) const {
+  const Vec3 u = v - drag.wind;
+  const double rate = drag.linear + drag.quadratic * (u.norm() + pull.norm() * seconds);
+  return pull.cwiseAbs() + rate * (u.cwiseAbs() + seconds * pull.cwiseAbs());
+}
+
 double dragFlight(const Vec3& p, const Vec3& v, const Vec3& pull, const Drag& drag, double longest,
                   double tolerance, Path& path) {
   DragSeries s;
   const Vec3 u0 = v - drag.wind;
   const double speed = u0.norm();
   if (drag.quadratic > 0 && !(speed > 1e-6)) return 0;
-  set(s.u[0], u0), set(s.pull, pull), s.speed[0] = speed, s.linear = drag.linear,
-                                      s.quadratic = drag.quadratic;
+  set(s.u[0], u0), set(s.pull, pull);
+  s.speed[0] = speed, s.rate[0] = drag.linear + drag.quadratic * speed, s.quadratic = drag.quadratic;
   hasWide() ? expandWide(s) : expandPlain(s);
   path.kind = Path::Kind::Polynomial, path.degree = kOrder;
   path.c[0] = p, path.c[1] = v;

@@ -10,6 +10,15 @@
 
 namespace stadion {
 
+/// What acts on a body that feels nothing but constant pulls and one medium that is the same everywhere.
+struct EvenPull {
+  Vec3 pull = Vec3::Zero();  ///< [m/s2]
+  Drag drag;
+  /// At least the acceleration along each axis of a body that had this velocity up to `seconds` ago: drag
+  /// only slows it.
+  Vec3 accelerationBound(const Vec3& v, double seconds) const;
+};
+
 /// Sets the path; returns to what age it is exact to `tolerance` [m], `longest` at most [s]. 0: the body is
 /// too near to standing in the air for a series.
 double dragFlight(const Vec3& p, const Vec3& v, const Vec3& pull, const Drag& drag, double longest,

@@ -4,6 +4,7 @@
 /// Times    tau is seconds after the start of the present window; an arc's age is `age0 + tau`.
 
 #include "dynamics/arc.h"
+#include "dynamics/drag_flight.h"
 #include "dynamics/instant.h"
 #include "dynamics/shape.h"
 #include "dynamics/world.h"
@@ -87,30 +88,41 @@ struct Calm {
   bool balanced = false;                        ///< what the last one said
 };
 
-struct RigidBody {
+/// What is asked of every body in flight, in one piece: where many fly, most of the cost is to fetch it.
+struct RigidMotion {
   BodyId id = 0;
+  BodyMode mode = BodyMode::Flight;
+  bool enabled = true, fresh = true;
+  bool active = false, marked = false;  ///< in the world's lists of these names
+  bool stirred = false;                 ///< and of this
+  bool aligned = false;                 ///< X_NC is the identity
+  bool alone = false;                   ///< nothing is near what it sweeps, but `only`
+  bool lazy = false;          ///< nothing at all, whatever its next arcs: they are made when asked for
+  std::uint32_t version = 0;  ///< counts arcs: older predictions are void
+  Instant since;              ///< when the present arc began
+  double age0 = 0;            ///< its age at the start of the window [s]
+  double until = 0;           ///< greatest valid tau; infinity if unlimited
+  double validAge = 0;        ///< the same as an age
+  double pathAge = 0;         ///< the same for the path alone: the spin may wear out earlier
+  double spinStart = 0;       ///< the arc's age at which the spin's own began
+  Pose pose;                  ///< X_WN at the end of the last frame
+  Path path;
+  Spin spin;
+};
+
+struct RigidBody : RigidMotion {
   ShapeId shapeId = 0;
   const Shape* shape = nullptr;
   Surface surface;
   double mass = 1, inverseMass = 1;
   Vec3 inertia = Vec3::Ones();
+  EvenPull even;  ///< a path that is a series: what acts on the body
   Pose X_NC, X_CN;
-  bool aligned = false;  ///< both are the identity
   bool centred = false;  ///< a ball that rotates about its own centre: it has closed forms
   Sphere bound;          ///< centre in N
   double reach = 0;      ///< greatest distance of a surface point from the centre of mass [m]
   double damping = 0, dragArea = 0, releaseDistance = 0.5;
-  bool enabled = true, fresh = true;
 
-  BodyMode mode = BodyMode::Flight;
-  Path path;
-  Spin spin;
-  Instant since;             ///< when the present arc began
-  double age0 = 0;           ///< its age at the start of the window [s]
-  double until = 0;          ///< greatest valid tau; infinity if unlimited
-  double validAge = 0;       ///< the same as an age
-  double pathAge = 0;        ///< the same for the path alone: the spin may wear out earlier
-  double spinStart = 0;      ///< the arc's age at which the spin's own began
   Vec3 endL = Vec3::Zero();  ///< Contact, but for Driven spins: angular momentum at the end of the sub-step
   double step = 0;           ///< last step of the general integrator [s]
   Support support;
@@ -125,18 +137,14 @@ struct RigidBody {
   Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< how far since it is quiet, or is looked at [m], [rad]
   std::uint32_t slot = 0;                           ///< scratch of the contact solver
   GuidedMotion held;
-  std::uint32_t version = 0;  ///< counts arcs: older predictions are void
   std::uint32_t impacts = 0;  ///< in the short time `impactSpan`
   Nanoseconds impactSpan = -1;
   double quiet = 0;  ///< Contact: how long it has hardly moved [s]
   Calm calm;         ///< Contact, islands
   std::string trouble;
-  Pose pose;                            ///< X_WN at the end of the last frame
-  Aabb swept;                           ///< of the rest of the window, as far as it is known
-  std::uint32_t place = 0xffffffff;     ///< in the broad phase
-  bool active = false, marked = false;  ///< in the world's lists of these names
-  bool alone = false;                   ///< nothing is near what it sweeps, but ...
-  ColliderId only = 0;                  ///< ... this
+  Aabb swept;                        ///< of the rest of the window, as far as it is known
+  std::uint32_t place = 0xffffffff;  ///< in the broad phase
+  ColliderId only = 0;               ///< all that is near what it sweeps, if it is alone
 
   bool isBall() const { return std::holds_alternative<BallShape>(*shape); }
   /// How far the ball's centre is from the centre of mass [m].

@@ -220,6 +220,7 @@ bool World::removeField(FieldId id) {
   std::erase_if(core_->commands, [&](const Core::Command& c) { return c.field == id; });
   for (const Core::Command& c : due)
     if (c.kind == Core::Command::Kind::Unhook || !c.on) core_->execute(c, core_->now);
+  core_->restartStirred(core_->now);
   core_->fields.erase(id);
   return true;
 }
@@ -314,6 +315,7 @@ bool World::holdBody(BodyId id) {
   b->touching.clear();
   core_->wakeOnto({true, id}, core_->now);
   b->mode = BodyMode::Held;
+  if (std::ranges::find(core_->held, b) == core_->held.end()) core_->held.push_back(b);
   b->held.set(b->pose, b->pose, core_->now, 0);
   return true;
 }

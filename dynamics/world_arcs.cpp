@@ -76,7 +76,7 @@ bool World::Core::feelsChange(const RigidBody& b) const {
 
 /// What acts on a body that feels nothing but constant pulls and at most one medium that is the same
 /// everywhere.
-std::optional<World::Core::EvenPull> World::Core::evenPullOn(const RigidBody& b) const {
+std::optional<EvenPull> World::Core::evenPullOn(const RigidBody& b) const {
   EvenPull even;
   bool immersed = false;
   for (const Hook& h : b.hooks) {
@@ -124,7 +124,7 @@ void World::Core::setPath(RigidBody& b, double tau, const Path& path, double hor
   b.pathAge = horizon;
   b.validAge = std::min(horizon, b.spinStart + b.spin.horizon);
   b.dueAge = 0;
-  b.drowsy = false;
+  b.drowsy = b.lazy = false;
   b.heaped = b.crowd && mode == BodyMode::Rest;
   b.crowd = b.crowd && mode == BodyMode::Contact;
   b.until = tau + b.validAge;
@@ -173,6 +173,14 @@ double World::Core::timeToPass(const RigidBody& b, const Vec3& p, const Vec3& v,
   return std::max(stride, 1e-6);
 }
 
+/// Flight under the even pull that the body knows; false if it is too near to standing in the air for a
+/// series.
+bool World::Core::resist(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
+  const double horizon = dragFlight(p, v, b.even.pull, b.even.drag, 1.0, 5e-10, b.path);
+  if (horizon > 1e-4) setPath(b, tau, b.path, horizon, BodyMode::Flight);
+  return horizon > 1e-4;
+}
+
 /// Flight from here; the spin goes on as it is.
 void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   const auto even = evenPullOn(b);
@@ -182,9 +190,8 @@ void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   }
   if (even) {
     const Drag total{even->drag.linear + b.damping, even->drag.quadratic, even->drag.wind};
-    const Vec3 pull = even->pull - b.damping * total.wind;
-    const double horizon = dragFlight(p, v, pull, total, 1.0, 5e-10, b.path);
-    if (horizon > 1e-4) return setPath(b, tau, b.path, horizon, BodyMode::Flight);
+    b.even = {even->pull - b.damping * total.wind, total};
+    if (resist(b, tau, p, v)) return;
   }
   const auto f = [&](double at, const Vec3& x, const Vec3& u) {
     return Vec3(accelerationAt(b, x, u, at) - b.damping * u);
@@ -203,12 +210,29 @@ void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   setPath(b, tau, Path::hermite(from, to, h), h, BodyMode::Flight);
 }
 
-/// The same where the spin began earlier, unless it ends here as well.
-void World::Core::continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
+/// The same where the spin began earlier, unless it ends here as well. `pullsAsBefore`: what acts on the body
+/// is what did so in the last arc.
+void World::Core::continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, bool pullsAsBefore) {
   const double spinAge = b.spinAge(tau);
   if (spinAge > b.spin.horizon - 1e-9) return startFlight(b, tau, p, v, b.orientation(tau), b.spin.L);
   b.spinStart = -spinAge;
+  if (pullsAsBefore && b.path.isSeries() && resist(b, tau, p, v)) return;
   fly(b, tau, p, v);
+}
+
+/// An arc of flight has ended, the motion goes on as it was. False if only the expansion of the spin has worn
+/// out.
+bool World::Core::flyOn(RigidBody& b, double tau) {
+  const double age = b.age(tau);
+  if (age < b.pathAge - 1e-9) {
+    b.spin = Spin::free(b.orientation(tau), b.spin.L, b.inertia), b.spinStart = age;
+    b.validAge = std::min(b.pathAge, age + b.spin.horizon);
+    b.until = b.validAge - b.age0;
+    ++b.version;
+    return false;
+  }
+  continueFlight(b, tau, b.position(tau), b.velocity(tau), true);
+  return true;
 }
 
 /// How long a ball stays at rest on its face: until what pulls at it, as far as that is known, becomes too
@@ -284,10 +308,11 @@ void World::Core::startOnFace(RigidBody& b, double tau, const BallStart& s, bool
 
 /// A new arc from the present state, because what acts on the body has changed.
 void World::Core::restart(RigidBody& b, double tau) {
+  catchUp(b, tau);
   switch (b.mode) {
   case BodyMode::Flight: {
     const Vec3 p = b.position(tau), v = b.velocity(tau);
-    continueFlight(b, tau, p, v);
+    continueFlight(b, tau, p, v, false);
     break;
   }
   case BodyMode::Slide:
@@ -345,39 +370,30 @@ bool World::Core::crossEdge(RigidBody& b, double tau) {
 }
 
 void World::Core::reachHorizon(RigidBody& b, double tau) {
-  const Vec3 p = b.position(tau), v = b.velocity(tau);
-  const double age = b.age(tau);
-  const Quat q = b.orientation(tau);
-  if (b.mode == BodyMode::Flight && age < b.pathAge - 1e-9) {
-    // Only the expansion of the spin has worn out; the motion is the same, but what was foreseen ended here.
-    b.spin = Spin::free(q, b.spin.L, b.inertia), b.spinStart = age;
-    b.validAge = std::min(b.pathAge, age + b.spin.horizon);
-    b.until = b.validAge - b.age0;
-    ++b.version;
-    if (b.alone)  // it goes where it was seen to go
+  if (b.mode == BodyMode::Flight) {
+    // The motion is the same, but what was foreseen ended here.
+    if (!flyOn(b, tau) && b.alone)  // it goes where it was seen to go
       lookAtOnly(b, tau);
     else
       predict(b, tau);
     return;
   }
-  if (b.mode == BodyMode::Slide || b.mode == BodyMode::Roll || b.mode == BodyMode::Rest) {
-    BallStart s{p, v, b.spin.angularVelocity(b.spinAge(tau)), q};
-    const Vec3& n = b.support.normal;
-    bool outside = false;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(b.support.edges); ++i) {
-      const double h = b.support.edgeNormal[i].dot(p) - b.support.edgeOffset[i];
-      outside = outside || (h <= 1e-9 && b.support.edgeNormal[i].dot(v) < 0);
-    }
-    if (outside && !crossEdge(b, tau)) {
-      startFlight(b, tau, p, v, q, b.inertia.x() * s.omega);
-    } else {
-      Vec3 slip = v - b.radius() * s.omega.cross(n);
-      slip -= n * n.dot(slip);
-      const bool gripped = slip.norm() < 1e-7 * (1 + v.norm()), stopped = gripped && v.norm() < 1e-7;
-      startOnFace(b, tau, s, gripped, stopped);
-    }
+  const Vec3 p = b.position(tau), v = b.velocity(tau);
+  const Quat q = b.orientation(tau);
+  BallStart s{p, v, b.spin.angularVelocity(b.spinAge(tau)), q};
+  const Vec3& n = b.support.normal;
+  bool outside = false;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(b.support.edges); ++i) {
+    const double h = b.support.edgeNormal[i].dot(p) - b.support.edgeOffset[i];
+    outside = outside || (h <= 1e-9 && b.support.edgeNormal[i].dot(v) < 0);
+  }
+  if (outside && !crossEdge(b, tau)) {
+    startFlight(b, tau, p, v, q, b.inertia.x() * s.omega);
   } else {
-    continueFlight(b, tau, p, v);
+    Vec3 slip = v - b.radius() * s.omega.cross(n);
+    slip -= n * n.dot(slip);
+    const bool gripped = slip.norm() < 1e-7 * (1 + v.norm()), stopped = gripped && v.norm() < 1e-7;
+    startOnFace(b, tau, s, gripped, stopped);
   }
   predict(b, tau);
 }

@@ -202,7 +202,7 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
   nearColliders.eachNear(box, [&](const Collider& c) {
     if (mayTouch(self, Side::of(c))) against(Side::of(c));
   });
-  nearBodies.eachNear(box, [&](RigidBody& o) {
+  eachBodyNear(box, tau, [&](RigidBody& o) {
     if (&o == &b || !o.enabled) return;
     const Side other = Side::of(o);
     if (!mayTouch(self, other)) return;
@@ -252,7 +252,7 @@ void World::Core::remember(RigidBody& b, const std::vector<Party>& near) {
 }
 
 /// How many balls move around this one within its own size: they will lean on each other before long.
-std::size_t World::Core::thickness(const RigidBody& b, double tau) const {
+std::size_t World::Core::thickness(const RigidBody& b, double tau) {
   if (!b.isBall()) return 0;
   std::size_t many = 0;
   const Vec3 middle = b.position(tau);
@@ -260,7 +260,7 @@ std::size_t World::Core::thickness(const RigidBody& b, double tau) const {
   Aabb box;
   box.include(middle);
   box.lo.array() -= reach, box.hi.array() += reach;
-  nearBodies.eachNear(box, [&](const RigidBody& o) {
+  eachBodyNear(box, tau, [&](const RigidBody& o) {
     if (&o == &b || !o.enabled || !o.isBall()) return;
     if (o.mode != BodyMode::Flight && o.mode != BodyMode::Contact) return;
     const double far = reach + o.bound.radius;
@@ -270,7 +270,7 @@ std::size_t World::Core::thickness(const RigidBody& b, double tau) const {
 }
 
 /// Whether an island is better off as a crowd: it is large, or its balls are in the thick of it.
-bool World::Core::isCrowd(const std::vector<RigidBody*>& island, double tau) const {
+bool World::Core::isCrowd(const std::vector<RigidBody*>& island, double tau) {
   const bool balls = std::ranges::all_of(island, [](const RigidBody* b) { return b->isBall(); });
   if (island.size() >= (balls ? kCrowdOfBalls : kCrowd)) return true;
   return balls && std::ranges::any_of(

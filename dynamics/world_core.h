@@ -99,6 +99,8 @@ public:
   void advance(Nanoseconds from, Nanoseconds to, bool continues);
   void pause(Nanoseconds to, bool continues);
   void beginFrame();
+  void stir(RigidBody& b);
+  void restartStirred(double tau);
   void obeyCommands(double tau);
   void followFields();
   std::vector<Party> arrivals() const;
@@ -107,6 +109,7 @@ public:
   void wakeWithin(Party arrived);
   void runEvents(double until);
   void fetchNext() const;
+  void expel(RigidBody& b);
   void sample(RigidBody& b);
   void endFrame();
   void partCarried();
@@ -127,8 +130,13 @@ public:
   Looks looks;  ///< in this window
   double windowEnd() const { return toSeconds(window); }
   Nanoseconds nextWindow() const;
+  bool solidsMayMeet() const;
+  bool anyoneNear() const;
+  void sweepActive(double tau);
+  void beginWindow(Nanoseconds at);
   void openWindow(Nanoseconds at);
   void mark(RigidBody& b);
+  void sortMarked();
   void sweepMarked();
   void foreseeMarked(double tau);
   void fileBodies();
@@ -138,6 +146,17 @@ public:
   void lookAhead(RigidBody& b, double tau, bool onlyGreater);
   void lookAtOnly(RigidBody& b, double tau);
   void predict(RigidBody& b, double tau, bool onlyGreater = false);
+  void awaitHorizon(RigidBody& b);
+  void flyOnLazily(RigidBody& b);
+  /// From now on its arc is the one that it follows at tau.
+  void catchUp(RigidBody& b, double tau) {
+    while (b.lazy && b.until <= tau) flyOnLazily(b);
+  }
+  void comeNear(RigidBody& b, double tau);
+  template <class F>
+  void eachBodyNear(const Aabb& box, double tau, F f) {
+    nearBodies.eachNear(box, [&](RigidBody& o) { catchUp(o, tau), f(o); });
+  }
   void predictPair(const Side& a, const Side& b, double tau);
   void pushHorizon(const RigidBody& b);
   static bool bothCarried(const Side& a, const Side& b);
@@ -152,21 +171,19 @@ public:
   double timeToPass(const RigidBody& b, const Vec3& p, const Vec3& v, double more) const;
   bool feelsChange(const RigidBody& b) const;
   double restLasts(const RigidBody& b, const BallStart& s, double tau) const;
-  struct EvenPull {
-    Vec3 pull = Vec3::Zero();  ///< [m/s2]
-    Drag drag;
-  };
   std::optional<EvenPull> evenPullOn(const RigidBody& b) const;
   void setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon, BodyMode mode);
   void setPath(RigidBody& b, double tau, const Path& path, double horizon, BodyMode mode);
   void fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
-  void continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
+  bool resist(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
+  void continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, bool pullsAsBefore);
   void startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, const Quat& q, const Vec3& L);
   BallArc arcOnFace(const RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped) const;
   void startOnFace(RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped);
   void restart(RigidBody& b, double tau);
   void freeze(RigidBody& b, double tau);
   void quarantine(RigidBody& b, double tau, std::string why);
+  bool flyOn(RigidBody& b, double tau);
   void reachHorizon(RigidBody& b, double tau);
   bool crossEdge(RigidBody& b, double tau);
 
@@ -220,8 +237,8 @@ public:
   void scheduleTick(double tau);
   void scheduleDue(double tau);
   void tick(double tau);
-  std::size_t thickness(const RigidBody& b, double tau) const;
-  bool isCrowd(const std::vector<RigidBody*>& island, double tau) const;
+  std::size_t thickness(const RigidBody& b, double tau);
+  bool isCrowd(const std::vector<RigidBody*>& island, double tau);
   void findContacts(RigidBody& b, double tau, std::vector<Found>& found, std::vector<RigidBody*>& set);
   void chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found) const;
   bool wakeTouched(const std::vector<Found>& found, double tau);
@@ -278,8 +295,10 @@ public:
 
   BroadPhase<RigidBody> nearBodies;  ///< by what they sweep to the window's end
   BroadPhase<Collider> nearColliders;
-  std::vector<RigidBody*> active;  ///< those that do not rest, and those that have just come to
-  std::vector<RigidBody*> marked;  ///< whose arcs nobody has looked ahead along yet
+  std::vector<RigidBody*> active;   ///< those that do not rest, and those that have just come to
+  std::vector<RigidBody*> stirred;  ///< who is to begin a new arc at once
+  std::vector<RigidBody*> held;     ///< and perhaps some that were
+  std::vector<RigidBody*> marked;   ///< whose arcs nobody has looked ahead along yet
 
   std::set<std::pair<Party, BodyId>> leaners;  ///< on whom a body not in flight or in a crowd leans
   std::size_t leanersToPrune = 64;

@@ -130,7 +130,7 @@ void World::Core::findCrowdContacts(RigidBody& b, CrowdStep& step) {
   // Fliers' boxes hold their whole way, so that those who come fast are met as well. In the order of ids:
   // sweeps depend on it, and the broad phase's own depends on frames.
   step.near.clear();
-  nearBodies.eachNear(box, [&](RigidBody& o) {
+  eachBodyNear(box, step.tau, [&](RigidBody& o) {
     if (step.has(o)) {  // most of them: the pair is found from the other, or too far apart
       const CrowdStep::Member& other = step.members[o.slot];
       const double far = me.bound + other.bound + margin + other.way;

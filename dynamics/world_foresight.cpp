@@ -10,14 +10,14 @@ bool isHeld(const Side& s) {
   return s.body && s.body->mode == BodyMode::Held;
 }
 
-/// Makes room in the box for where the body will probably be `d` seconds after tau, so that its next arc
-/// finds its place there.
+constexpr double kMargin = 2e-6;  ///< so that a fresh arc of the same motion stays inside [m]
+
+/// Makes room in the box for wherever the body's further arcs through a medium may go in `d` seconds after
+/// tau, at which the box holds it.
 void reachOn(const RigidBody& b, double tau, double d, Aabb& box) {
-  const Vec3 p = b.position(tau) + d * b.velocity(tau);
-  const Vec3 room = Vec3::Constant(b.reach + b.path.accelerationBound() * d * d);
-  Aabb there;
-  there.lo = p - room, there.hi = p + room;
-  box.include(there.lo), box.include(there.hi);
+  const Vec3 v = b.velocity(tau), p = b.position(tau) + d * v;
+  const Vec3 room = Vec3::Constant(b.reach + kMargin) + 0.5 * d * d * b.even.accelerationBound(v, d);
+  box.include(p - room), box.include(p + room);
 }
 
 bool holds(const Aabb& outer, const Aabb& inner) {
@@ -36,11 +36,13 @@ Aabb sweptBody(const RigidBody& b, double tau, double to) {
          ++i)  // it turns back on the way: a parabola's vertex is this far beyond its ends at most
       if (v0[i] * v1[i] < 0) sag[i] = std::fabs(c[2][i]) * (to - tau) * (to - tau) / 4;
   } else {
-    sag.setConstant(b.path.accelerationBound() * (to - tau) * (to - tau) / 8);
+    const Vec3 most = b.path.isSeries() ? b.even.accelerationBound(b.velocity(tau), to - tau)
+                                        : Vec3::Constant(b.path.accelerationBound());
+    sag = (to - tau) * (to - tau) / 8 * most;
   }
-  // A little wider, so that a fresh arc of the same motion stays inside.
-  const double margin = b.reach + 2e-6 + 1e-12 * p0.cwiseAbs().maxCoeff();
-  box.lo -= (sag.array() + margin).matrix(), box.hi += (sag.array() + margin).matrix();
+  const double margin = b.reach + kMargin + 1e-12 * p0.cwiseAbs().maxCoeff();
+  sag.array() += margin;
+  box.lo -= sag, box.hi += sag;
   return box;
 }
 
@@ -151,7 +153,6 @@ void World::Core::predict(RigidBody& b, double tau, bool onlyGreater) {
 void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
   if (b.crowd) return;  // whoever could touch it within its step has been taken into the step
   const Side self = Side::of(b);
-  pushHorizon(b);
   b.alone = true, b.only = 0;
   ++looks.looks;
   nearColliders.eachNear(b.swept, [&](Collider& c) {
@@ -162,10 +163,35 @@ void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
   });
   nearBodies.eachNear(b.swept, [&](RigidBody& o) {
     if (&o == &b) return;
-    b.alone = o.alone = false;
+    b.alone = false;
+    comeNear(o, tau);
     if (onlyGreater && o.marked && o.id < b.id) return;
     predictPair(self, Side::of(o), tau);
   });
+  awaitHorizon(b);
+}
+
+/// The body has been looked at: its next arc begins in time, or when somebody asks for it.
+void World::Core::awaitHorizon(RigidBody& b) {
+  // What its next arcs sweep is known if they go through the same medium.
+  b.lazy = b.alone && b.only == 0 && b.mode == BodyMode::Flight &&
+           (b.path.isSeries() || b.pathAge - b.age0 > windowEnd());
+  if (!b.lazy) pushHorizon(b);
+}
+
+/// The next arc of a lazy body, which nobody has asked for yet.
+void World::Core::flyOnLazily(RigidBody& b) {
+  flyOn(b, b.until);
+  b.lazy = b.mode == BodyMode::Flight;
+}
+
+/// Something has come near what the body sweeps: it is one who must be watched.
+void World::Core::comeNear(RigidBody& b, double tau) {
+  b.alone = false;
+  if (!b.lazy) return;
+  catchUp(b, tau);
+  b.lazy = false;
+  pushHorizon(b);
 }
 
 /// The same for one who is alone and goes nowhere else than it was seen to go.
@@ -184,8 +210,12 @@ void World::Core::mark(RigidBody& b) {
   marked.push_back(&b);
 }
 
+void World::Core::sortMarked() {
+  if (!std::ranges::is_sorted(marked, {}, &RigidBody::id)) std::ranges::sort(marked, {}, &RigidBody::id);
+}
+
 void World::Core::sweepMarked() {
-  std::ranges::sort(marked, {}, &RigidBody::id);
+  sortMarked();
   for (RigidBody* b : marked) sweep(*b, frameFrom);
   if (nearBodies.crowded()) fileBodies();
   if (nearColliders.crowded()) fileColliders();
@@ -200,7 +230,7 @@ void World::Core::foreseeMarked(double tau) {
     if (!c || !c->enabled) continue;
     nearBodies.eachNear(c->swept, [&](RigidBody& o) {
       if (o.marked) return;  // it has just seen the collider itself
-      o.alone = false;
+      comeNear(o, tau);
       predictPair(Side::of(o), Side::of(*c), tau);
     });
   }
@@ -235,25 +265,53 @@ void World::Core::sweep(Collider& c) {
   nearColliders.put(c, c.swept);
 }
 
-/// How long the next window is to be: while nobody comes near anybody else and little else is near, far looks
-/// cost less than many. Solids that could meet something take small steps anyway: far looks are for few of
-/// them, since many would come near each other. What it depends on does not depend on frames.
-Nanoseconds World::Core::nextWindow() const {
-  constexpr std::size_t kFewSolids = 64;
-  bool moves = false;
+/// Whether far looks could be dear: solids that could meet something take small steps.
+bool World::Core::solidsMayMeet() const {
+  constexpr std::size_t kFew = 64;
   std::size_t solids = 0;
+  for (const RigidBody* b : active)
+    if (!b->centred && b->mode != BodyMode::Rest && b->mode != BodyMode::Quarantined) ++solids;
+  return solids > kFew || (solids > 0 && !colliders.empty());
+}
+
+/// How long the next window is to be: while nobody comes near anybody else and little else is near, far looks
+/// cost less than many. What it depends on does not depend on frames.
+Nanoseconds World::Core::nextWindow() const {
+  bool moves = false, lazy = true;
   for (const RigidBody* b : active) {
     if (b->mode == BodyMode::Rest || b->mode == BodyMode::Quarantined) continue;
-    moves = true;
-    if (!b->centred && (++solids > kFewSolids || !colliders.empty())) return kWindow;
+    moves = true, lazy = lazy && b->lazy;
   }
-  if (!moves || looks.bodies > 0) return kWindow;
+  if (!moves || looks.bodies > 0 || (!lazy && solidsMayMeet())) return kWindow;
   if (looks.colliders > 2 * looks.looks) return std::max(window / 2, kWindow);
   return std::min(2 * window, kLongestWindow);
 }
 
-/// A window begins: everybody is looked at anew.
-void World::Core::openWindow(Nanoseconds at) {
+/// Whether a body that moves sweeps a box that something else is near.
+bool World::Core::anyoneNear() const {
+  bool near = false;
+  for (const RigidBody* b : active) {
+    if (near) break;
+    if (!b->enabled) continue;
+    nearColliders.eachNear(b->swept, [&](const Collider&) { near = true; });
+    nearBodies.eachNear(b->swept, [&](const RigidBody& o) { near = near || &o != b; });
+  }
+  return near;
+}
+
+/// The broad phase learns what everybody sweeps from tau to the end of the window.
+void World::Core::sweepActive(double tau) {
+  // Who rests sweeps what it did before. Sorting all anew pays if many move.
+  const bool many = active.size() * active.size() > 16 * bodies.size();
+  for (RigidBody* b : active) {
+    if (!many) nearBodies.remove(*b);
+    if (b->enabled) sweep(*b, tau);
+  }
+  if (many || nearBodies.crowded()) fileBodies();
+}
+
+/// All clocks go by a new window.
+void World::Core::beginWindow(Nanoseconds at) {
   origin = at;
   window = nextWindow(), looks = {};
   frameFrom = tauOf(t0), now = tauOf(t1);
@@ -266,20 +324,32 @@ void World::Core::openWindow(Nanoseconds at) {
     b.until = b.validAge - b.age0;
     b.held.begin = frameFrom;
   }
-  // Who rests sweeps what it did before. Sorting all anew pays if many move.
-  const bool many = active.size() * active.size() > 16 * bodies.size();
-  for (RigidBody* b : active) {
-    if (!many) nearBodies.remove(*b);
-    if (b->enabled) sweep(*b, from);
-  }
-  if (many || nearBodies.crowded()) fileBodies();
   for (Collider& c : colliders) c.motion.begin = frameFrom;
-  if (nearColliders.crowded()) fileColliders();
   tickAt = -1;
   scheduleDue(from);
-  for (const Command& c : commands) postCommand(c);
+  const Command* before = nullptr;
+  for (const Command& c : commands) {  // one event for all of the same time
+    if (!before || before->when != c.when) postCommand(c);
+    before = &c;
+  }
+}
+
+/// A window begins: everybody is looked at anew.
+void World::Core::openWindow(Nanoseconds at) {
+  beginWindow(at);
+  const double from = std::max(0.0, frameFrom);
+  if (nearColliders.crowded()) fileColliders();
+  sweepActive(from);
+  if (window > kWindow && solidsMayMeet()) {
+    if (!anyoneNear()) {
+      for (RigidBody* b : active) b->alone = true, b->only = 0, awaitHorizon(*b);
+      return;
+    }
+    window = kWindow;
+    sweepActive(from);
+  }
   for (RigidBody* b : active) mark(*b);
-  std::ranges::sort(marked, {}, &RigidBody::id);
+  sortMarked();
   foreseeMarked(from);
 }
 

@@ -13,7 +13,7 @@ constexpr std::uint64_t kMostEvents =
 /// Where more than these move, they do not fit a processor's own cache: who comes next is fetched in time.
 constexpr std::size_t kFitInCache = 256;
 
-void fetch(const RigidBody& b) {
+void fetch(const RigidMotion& b) {
   constexpr std::size_t kLine = 64;
 #pragma GCC unroll 64
   for (std::size_t i = 0; i < sizeof b; i += kLine) __builtin_prefetch(reinterpret_cast<const char*>(&b) + i);
@@ -42,6 +42,22 @@ void World::Core::postCommand(const Command& c) {
   post(e);
 }
 
+/// Something else pulls at the body now: it is to begin a new arc.
+void World::Core::stir(RigidBody& b) {
+  if (b.stirred || !b.enabled) return;
+  b.stirred = true;
+  stirred.push_back(&b);
+}
+
+/// Whoever has been stirred begins a new arc, once for all that has changed at tau.
+void World::Core::restartStirred(double tau) {
+  for (RigidBody* b : stirred) {
+    b->stirred = false;
+    restart(*b, tau);
+  }
+  stirred.clear();
+}
+
 /// What is due up to tau, in its order.
 void World::Core::obeyCommands(double tau) {
   while (!commands.empty() && tauOf(commands.front().when) <= tau) {
@@ -51,12 +67,8 @@ void World::Core::obeyCommands(double tau) {
   }
 }
 
-/// Applies a change of fields at tau and gives the bodies it concerns new arcs.
+/// Applies a change of fields at tau and stirs the bodies it concerns.
 void World::Core::execute(const Command& c, double tau) {
-  const auto renew = [&](auto concerned) {
-    for (RigidBody& b : bodies)
-      if (concerned(b) && b.enabled) restart(b, tau);
-  };
   const auto feels = [&](const RigidBody& b) {
     return std::any_of(b.hooks.begin(), b.hooks.end(), [&](const Hook& h) { return h.field == c.field; });
   };
@@ -75,7 +87,8 @@ void World::Core::execute(const Command& c, double tau) {
     }
     if (field->on == c.on) return;
     field->on = c.on;
-    renew(feels);
+    for (RigidBody& o : bodies)
+      if (feels(o)) stir(o);
     return;
   case Command::Kind::Hook:
     if (!b || !field || feels(*b)) return;
@@ -86,16 +99,17 @@ void World::Core::execute(const Command& c, double tau) {
     std::erase_if(b->hooks, [&](const Hook& h) { return h.field == c.field; });
     break;
   }
-  if (field->on) restart(*b, tau);
+  if (field->on) stir(*b);
 }
 
-/// The first frame begins: arcs made before begin with it.
+/// The first frame begins: arcs made before begin with it. If there are commands, they will change most of
+/// them before anybody looks.
 void World::Core::start(Nanoseconds at) {
   started = true;
   t0 = t1 = at;
-  const Nanoseconds whole = at / kWindow * kWindow;
+  const Nanoseconds whole = at / kWindow * kWindow, opens = at < whole ? whole - kWindow : whole;
   for (RigidBody& b : bodies) b.since = Instant{at, 0};
-  openWindow(at < whole ? whole - kWindow : whole);
+  commands.empty() ? openWindow(opens) : beginWindow(opens);
 }
 
 /// No list remembers it any more.
@@ -103,6 +117,7 @@ void World::Core::forgetBody(RigidBody& b) {
   nearBodies.remove(b);
   std::erase(active, &b);
   std::erase(marked, &b);
+  std::erase(held, &b);
 }
 
 void World::Core::newFrame() {
@@ -129,6 +144,7 @@ void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
   beginFrame();
   while (t1 - origin >= window) {
     runEvents(windowEnd());
+    for (RigidBody* b : active) catchUp(*b, windowEnd());
     const bool idle = active.empty() && commands.empty() && told.empty();
     openWindow(idle ? t1 / kWindow * kWindow : origin + window);
   }
@@ -139,12 +155,12 @@ void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
 void World::Core::beginFrame() {
   foresee = false;
   const double seconds = now - frameFrom;
-  for (RigidBody* b : active)
-    if (b->mode == BodyMode::Held) {
-      b->held.set(b->held.start, b->held.end, frameFrom, seconds);
-      ++b->version;
-      mark(*b);
-    }
+  std::erase_if(held, [](const RigidBody* b) { return b->mode != BodyMode::Held; });
+  for (RigidBody* b : held) {
+    b->held.set(b->held.start, b->held.end, frameFrom, seconds);
+    ++b->version;
+    mark(*b);
+  }
   std::ranges::sort(told);
   told.erase(std::unique(told.begin(), told.end()), told.end());
   for (const ColliderId id : told)
@@ -156,10 +172,12 @@ void World::Core::beginFrame() {
     }
   obeyCommands(frameFrom);
   followFields();
+  restartStirred(frameFrom);
   sweepMarked();  // boxes before predictions, so that these see everybody
   const std::vector<Party> arrived = arrivals();
   settleFresh(arrived);
-  for (const Party p : arrived) wakeWithin(p);
+  if (active.size() < bodies.size())  // somebody sleeps
+    for (const Party p : arrived) wakeWithin(p);
   for (const ColliderId id : told)
     if (Collider* c = collider(id); c && c->enabled && (c->motion.moving || c->disturbed)) {
       wakeOnto({false, id}, frameFrom);
@@ -170,7 +188,7 @@ void World::Core::beginFrame() {
   foreseeMarked(frameFrom);
 }
 
-/// Bodies that feel a field which is not what it was, or which moves, begin new arcs.
+/// Bodies that feel a field which is not what it was, or which moves, are to begin new arcs.
 void World::Core::followFields() {
   std::vector<FieldId> different;
   for (FieldEntry& f : fields) {
@@ -184,7 +202,7 @@ void World::Core::followFields() {
     if (!concerned || !b.enabled) continue;
     // Steps of heaps go on; so do those that end at once, since a frame's parts may be as short.
     if (b.mode == BodyMode::Contact && (b.crowd || b.dueAge - b.age(frameFrom) <= kShortestStep)) continue;
-    restart(b, frameFrom);
+    stir(b);
   }
 }
 
@@ -202,12 +220,12 @@ std::vector<Party> World::Core::arrivals() const {
 /// Sleepers that something has been put into wake.
 void World::Core::wakeWithin(Party arrived) {
   const Side self = *side(arrived);
-  std::vector<RigidBody*> stirred;
+  std::vector<RigidBody*> woken;
   nearBodies.eachNear(self.body ? self.body->swept : self.collider->swept, [&](RigidBody& o) {
     if (o.mode != BodyMode::Rest || !o.enabled || &o == self.body || !mayTouch(Side::of(o), self)) return;
-    if (gapBetween(Side::of(o), self, frameFrom, {0.01}).distance < -kTouchesAtLoad) stirred.push_back(&o);
+    if (gapBetween(Side::of(o), self, frameFrom, {0.01}).distance < -kTouchesAtLoad) woken.push_back(&o);
   });
-  for (RigidBody* o : stirred) {
+  for (RigidBody* o : woken) {
     enterContact(*o, frameFrom);
     wakeOnto({true, o->id}, frameFrom);
   }
@@ -290,7 +308,7 @@ void World::Core::runEvents(double until) {
     }
     if (nearBodies.crowded()) fileBodies();
     switch (e.kind) {
-    case Event::Kind::Command: obeyCommands(e.tau); break;
+    case Event::Kind::Command: obeyCommands(e.tau), restartStirred(e.tau); break;
     case Event::Kind::Tick:
       if (e.detail == tickNumber && tickAt >= 0) tick(e.tau);
       break;
@@ -314,41 +332,49 @@ void World::Core::fetchNext() const {
   if (const RigidBody* b = next.isBody ? body(next.id) : nullptr) fetch(*b);
 }
 
+/// The body has left the world, between its arc's start or the frame's, and now.
+void World::Core::expel(RigidBody& b) {
+  double in = std::max(frameFrom, -b.age0), out = now;
+  const bool left = inBounds(b.poseAt(in));
+  while (left && out - in > 1e-10) {
+    const double middle = 0.5 * (in + out);
+    if (!(in < middle && middle < out)) break;
+    (inBounds(b.poseAt(middle)) ? in : out) = middle;
+  }
+  quarantine(b, left ? in : now, left ? "it went beyond all bounds (10^12 m)" : "its pose became undefined");
+  if (left) b.pose = b.poseAt(in);
+}
+
 /// Where it is at the end of the frame.
 void World::Core::sample(RigidBody& b) {
+  catchUp(b, now);
   const Pose X = b.poseAt(now);
-  if (inBounds(X)) {
+  if (inBounds(X))
     b.pose = X;
-  } else {
-    // When it left, between its arc's start or the frame's, and now.
-    double in = std::max(frameFrom, -b.age0), out = now;
-    const bool left = inBounds(b.poseAt(in));
-    while (left && out - in > 1e-10) {
-      const double middle = 0.5 * (in + out);
-      if (!(in < middle && middle < out)) break;
-      (inBounds(b.poseAt(middle)) ? in : out) = middle;
-    }
-    quarantine(b, left ? in : now,
-               left ? "it went beyond all bounds (10^12 m)" : "its pose became undefined");
-    if (left) b.pose = b.poseAt(in);
-  }
+  else
+    expel(b);
   if (b.mode == BodyMode::Held) b.held.start = b.held.end;
   changed.push_back(b.id);
   b.active = b.mode != BodyMode::Rest && b.mode != BodyMode::Quarantined;
 }
 
 void World::Core::endFrame() {
-  foresee = false;
+  if (!memory.waiting().empty())
+    for (RigidBody* b : active) catchUp(*b, now);
   partCarried();
   reportReleases();
   std::stable_sort(memory.events().begin(), memory.events().end(),
                    [](const ContactEvent& a, const ContactEvent& b) { return a.time < b.time; });
   constexpr std::size_t kAhead = 4;
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < active.size(); ++i) {
     if (active.size() > kFitInCache && i + kAhead < active.size()) fetch(*active[i + kAhead]);
-    sample(*active[i]);
+    RigidBody* b = active[i];
+    sample(*b);
+    if (b->active) active[kept++] = b;
   }
-  std::erase_if(active, [](const RigidBody* b) { return !b->active; });
+  active.resize(kept);
+  foresee = false;
   if (!std::ranges::is_sorted(changed)) std::ranges::sort(changed);
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   // Who moved is told once more next time that it stands.
@@ -368,7 +394,7 @@ void World::Core::partCarried() {
     if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, now, {1e-3}).distance > 1e-5)
       apart.push_back(key);
   };
-  for (const RigidBody* b : active)
+  for (const RigidBody* b : held)
     if (b->mode == BodyMode::Held) memory.eachWith({true, b->id}, look);
   for (const auto& key : apart) memory.setTouching(key, false);
 }

@@ -36,7 +36,8 @@ std::array<Four, kOrder + 1> spinTerms(const Quat& q0, const Vec3& L, const Vec3
   q[0] = {q0.w(), q0.x(), q0.y(), q0.z()}, w[0] = {w0.x(), w0.y(), w0.z(), 0};
   for (std::size_t i = 0; i < kOrder; ++i) {
     Four dw{}, dq{};
-    for (std::size_t j = 0; j <= i; ++j) {
+    for (std::size_t nth = 1; nth <= i + 1; ++nth) {  // the newest terms come last
+      const std::size_t j = nth % (i + 1);
       const Four &a = w[j], &u = w[i - j], &p = q[j];
       dw = plus(dw, times(Four{a[1], a[2], a[0], 0}, Four{u[2], u[0], u[1], 0}));
       dq = plus(dq,
@@ -84,34 +85,37 @@ TEST(Wide, ASpinInFourLanesIsTheSpinNumberByNumber) {
       sum[k] = sumOf(c, t, 0);
     }
     const Quat at(sum[0], sum[1], sum[2], sum[3]);
-    EXPECT_EQ(spin.orientation(t).coeffs(), Quat(at.coeffs() / std::sqrt(at.squaredNorm())).coeffs()) << i;
+    const double excess = at.squaredNorm() - 1;
+    EXPECT_EQ(spin.orientation(t).coeffs(), Quat(at.coeffs() * (1 - 0.5 * excess)).coeffs()) << i;
   }
 }
 
-/// Taylor coefficients of a flight in a medium; the fourth lane is the speed in the air.
+/// Taylor coefficients of a flight in a medium.
 std::array<Four, kOrder> dragTerms(const Vec3& v, const Vec3& pull, const Drag& drag) {
   const Vec3 u0 = v - drag.wind;
   std::array<Four, kOrder> u{};
-  std::array<double, kOrder> speed{};
+  std::array<double, kOrder> speed{}, rate{};
   u[0] = {u0.x(), u0.y(), u0.z(), 0}, speed[0] = u0.norm();
-  const double half = 0.5 / speed[0];
+  rate[0] = drag.linear + drag.quadratic * speed[0];
+  const double inverse = 1 / speed[0], share = drag.quadratic * inverse;
   for (std::size_t n = 0; n + 1 < kOrder; ++n) {
-    if (n > 0 && drag.quadratic > 0) {
+    if (n > 0) {
       Four products{};
-      for (std::size_t i = 0; 2 * i < n; ++i) products = plus(products, times(u[i], u[n - i]));
-      products = plus(products, products);
-      if (n % 2 == 0) products = plus(products, times(u[n / 2], u[n / 2]));
-      speed[n] = (products[0] + products[1] + products[2] - products[3]) * half;
-      u[n][3] = speed[n];
+      double others = 0;
+      if (n % 2 == 0)
+        products = times(times(0.5, u[n / 2]), u[n / 2]), others = 0.5 * speed[n / 2] * speed[n / 2];
+      for (std::size_t i = (n + 1) / 2; i-- > 0;) {  // the newest terms come last
+        products = plus(products, times(u[i], u[n - i]));
+        if (i > 0) others += speed[i] * speed[n - i];
+      }
+      const double sum = (products[0] + products[1]) + (products[2] - others);
+      speed[n] = sum * inverse, rate[n] = sum * share;
     }
-    Four resisted{};
-    if (drag.quadratic > 0)
-      for (std::size_t i = 0; i <= n; ++i) resisted = plus(resisted, times(speed[i], u[n - i]));
-    const Four braked = times(-drag.linear, u[n]), pushed = times(drag.quadratic, resisted);
-    Four a = plus(braked, {-pushed[0], -pushed[1], -pushed[2], -pushed[3]});
-    if (n == 0) a = plus(a, {pull.x(), pull.y(), pull.z(), 0});
-    a[3] = 0;
-    u[n + 1] = times(1.0 / static_cast<double>(n + 1), a);
+    Four lost{};
+    for (std::size_t i = 1; i <= n; ++i) lost = plus(lost, times(rate[n - i], u[i]));
+    lost = plus(lost, times(rate[n], u[0]));
+    const double part = -1.0 / static_cast<double>(n + 1);
+    u[n + 1] = n > 0 ? times(part, lost) : plus({pull.x(), pull.y(), pull.z(), 0}, times(part, lost));
   }
   return u;
 }
