@@ -8,7 +8,8 @@
 namespace stadion {
 namespace {
 
-constexpr double kTogether = 1e-4;  ///< between the first and the last point of an impact [s]
+constexpr double kTogether = 1e-5;  ///< way that the last point of an impact has still to go [m]
+constexpr double kSoon = 1e-4;      ///< and time [s]
 constexpr double kSameSide = 0.99;  ///< cosine between the normals of its points
 
 }  // namespace
@@ -21,11 +22,11 @@ std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau
   const double speed = closing(first);
   if (!(speed > 0)) return {};
   std::vector<ManifoldPoint> points;
-  manifold(a, b, tau, std::max(first.distance, 0.0) + kTogether * speed, points);
+  manifold(a, b, tau, std::max(first.distance, 0.0) + kTogether, points);
   std::vector<SolverContact> contacts;
   for (const ManifoldPoint& p : points) {
     const double comes = closing(p.gap);
-    if (p.gap.normal.dot(first.normal) < kSameSide || !(p.gap.distance < kTogether * comes)) continue;
+    if (p.gap.normal.dot(first.normal) < kSameSide || !(p.gap.distance < kSoon * comes)) continue;
     SolverContact c;
     c.b = 1;
     c.rows = c.push = basisAround(p.gap.normal);

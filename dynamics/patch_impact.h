@@ -1,9 +1,9 @@
 #pragma once
 /// Impacts of solids that come flat on, or nearly: several points at once.
 ///
-/// Points that will touch within `kTogether` take part in one impact, in which each rebounds (Newton's
-/// restitution). One by one, in whatever order rounding has them touch, they would turn a body that lands
-/// flat.
+/// Points that are nearly as near as the first one, and will touch as soon, take part in one impact, in which
+/// each rebounds (Newton's restitution). One by one, in whatever order rounding has them touch, they would
+/// turn a body that lands flat.
 
 #include "dynamics/impulse.h"
 #include "dynamics/touch.h"
