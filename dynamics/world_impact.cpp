@@ -6,9 +6,9 @@
 namespace stadion {
 namespace {
 
-/// Bounces that would rise less than this are over [m]: the rest of the geometric series is shorter than its
-/// rounding.
-constexpr double kLastBounce = 1e-9;
+/// Bounces that would rise less than this are over [m]: all that follow are lower still, and last for less
+/// than two milliseconds on earth with a restitution of 0.8.
+constexpr double kLastBounce = 1e-7;
 /// The same between bodies that have no closed form to rest in [m].
 constexpr double kLastRattle = 1e-6;
 constexpr Nanoseconds kSpan = 16'000'000;     ///< in which impacts are counted [ns]
