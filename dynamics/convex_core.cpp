@@ -246,6 +246,18 @@ Feature featureTowards(const ConvexCore& c, const Vec3& d, bool around) {
   return f;
 }
 
+bool pointed(const ConvexCore& c, const Vec3& n, double even) {
+  const Vec3 l = c.R.transpose() * n;
+  switch (c.kind) {
+  case ConvexCore::Kind::Point: return true;
+  case ConvexCore::Kind::Segment: return std::fabs(l.z()) * c.half.z() > even;
+  case ConvexCore::Kind::Box: return l.cwiseAbs().cwiseProduct(c.half).minCoeff() > even;
+  case ConvexCore::Kind::Cylinder:
+    return l.head<2>().norm() * c.half.x() > even && std::fabs(l.z()) * c.half.z() > even;
+  default: return false;
+  }
+}
+
 Directions directionsNear(const ConvexCore& c, const Vec3& d, const Vec3& x) {
   Directions out;
   switch (c.kind) {

@@ -55,6 +55,10 @@ struct Feature {
 /// farthest along d first.
 Feature featureTowards(const ConvexCore& core, const Vec3& d, bool around);
 
+/// Whether the core reaches farthest along n, or against it, with a single point, the others staying back by
+/// more than `even` [m]. False if that is not known at once.
+bool pointed(const ConvexCore& core, const Vec3& n, double even);
+
 /// Directions that separating planes can have near a contact.
 struct Directions {
   static constexpr int kMost = 12;

@@ -9,6 +9,7 @@ namespace stadion {
 namespace {
 
 constexpr int kMostLooks = 400;
+constexpr double kEven = 1e-8;   ///< points that reach as far but for this touch together [m]
 constexpr double kRough = 1e-5;  ///< accuracy of distances on the way
 constexpr double kFar = 0.05;    ///< of the body's reach: farther off a face its plane will do
 
@@ -185,20 +186,6 @@ bool contactPoint(const Mover& a, const Mover* b, const std::vector<ManifoldPoin
   return true;
 }
 
-/// Whether the body reaches farthest against n with a single point.
-bool pointed(const ConvexCore& c, const Vec3& n) {
-  constexpr double kEven = 1e-8;  // [m]
-  const Vec3 l = c.R.transpose() * n;
-  switch (c.kind) {
-  case ConvexCore::Kind::Point: return true;
-  case ConvexCore::Kind::Segment: return std::fabs(l.z()) * c.half.z() > kEven;
-  case ConvexCore::Kind::Box: return l.cwiseAbs().cwiseProduct(c.half).minCoeff() > kEven;
-  case ConvexCore::Kind::Cylinder:
-    return l.head<2>().norm() * c.half.x() > kEven && std::fabs(l.z()) * c.half.z() > kEven;
-  default: return false;
-  }
-}
-
 /// Looks until the pair touches. `place(tau)` moves both, `measure()` gives their gap relative to the origin.
 template <class Place, class Measure, class Patch>
 std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double from, double to,
@@ -218,7 +205,7 @@ std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double fro
     if (gap <= tolerance) {
       if (closingRate(f) < 0) {
         Vec3 x = g.onB;
-        if (!pointed(a.core, g.normal)) {
+        if (!pointed(a.core, g.normal, kEven)) {
           points.clear();
           patch(g, points);
           contactPoint(a, b, points, g.distance, x);

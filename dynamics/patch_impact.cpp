@@ -1,6 +1,7 @@
 #include "dynamics/patch_impact.h"
 
 #include "dynamics/contact_solver.h"
+#include "dynamics/convex_core.h"
 #include "dynamics/manifold.h"
 
 #include <algorithm>
@@ -12,6 +13,11 @@ constexpr double kTogether = 1e-5;  ///< way that the last point of an impact ha
 constexpr double kSoon = 1e-4;      ///< and time [s]
 constexpr double kSameSide = 0.99;  ///< cosine between the normals of its points
 
+bool strikesWithAPoint(const Side& s, double tau, const Vec3& n) {
+  ConvexCore core;
+  return isConvex(*s.shape) && coreOf(*s.shape, s.at(tau).pose, core) && pointed(core, n, kTogether);
+}
+
 }  // namespace
 
 std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau, const Gap& first,
@@ -20,7 +26,8 @@ std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau
     return g.normal.dot(mb.velocityAt(g.point) - ma.velocityAt(g.point));
   };
   const double speed = closing(first);
-  if (!(speed > 0)) return {};
+  if (!(speed > 0) || strikesWithAPoint(a, tau, first.normal) || strikesWithAPoint(b, tau, first.normal))
+    return {};
   std::vector<ManifoldPoint> points;
   manifold(a, b, tau, std::max(first.distance, 0.0) + kTogether, points);
   std::vector<SolverContact> contacts;
