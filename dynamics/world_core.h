@@ -252,7 +252,7 @@ public:
   void advanceIsland(Island& island, double tau, double h);
   void begin(Island& island, double tau) const;
   void stopApproaches(Island& island) const;
-  bool solveStep(Island& island, double tau, double h) const;
+  bool solveStep(Island& island, double tau, double h, Effort effort) const;
   double glide(Island& island, double tau, double h);
   double stepOf(const Island& island, double tau, double h) const;
   static void boundStep(Island& island, double h);

@@ -132,7 +132,7 @@ void World::Core::stopApproaches(Island& s) const {
 
 /// Velocities after h seconds: forces act in the middle of the step, contact points obey at its end. A first
 /// pass foresees how the bodies turn, a second one counts.
-bool World::Core::solveStep(Island& s, double tau, double h) const {
+bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) const {
   std::vector<Mobile> guess = s.start;
   std::vector<Vec3>& pull = s.pull;
   pull.resize(s.set.size());
@@ -195,7 +195,7 @@ bool World::Core::solveStep(Island& s, double tau, double h) const {
       }
     }
     s.free = s.end;
-    holds = solveContacts(s.end, step);
+    holds = solveContacts(s.end, step, effort);
     bool turns = false;
     for (std::size_t i = 0; i < s.set.size(); ++i)
       turns = turns || std::max(s.start[i].omega.norm(), s.end[i].omega.norm()) * s.set[i]->reach > 1e-8 ||
@@ -223,7 +223,7 @@ double World::Core::glide(Island& s, double tau, double h) {
   for (const Found& f : s.found)
     if (f.gap.distance < -kSlop) return 0;  // it is being pushed out
   const double probe = std::min(h, kProbe);
-  if (!solveStep(s, tau, probe)) return 0;
+  if (!solveStep(s, tau, probe, Effort::AtRest)) return 0;
   double most = kFarthest, fastest = 0, strongest = 0;
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     const RigidBody& b = *s.set[i];
@@ -434,7 +434,7 @@ void World::Core::advanceIsland(Island& s, double tau, double h) {
   s.glides = last > 0;
   if (!s.glides) {
     h = stepOf(s, tau, h);
-    solveStep(s, tau, h);
+    solveStep(s, tau, h, Effort::Moving);
     boundStep(s, h);
     resistRolling(s);
   }
