@@ -208,6 +208,7 @@ public:
     std::vector<Vec3> pull;          ///< on the set in this step [m/s2]
     std::vector<Mobile> free;        ///< what `end` would be without contacts
     bool carried = false;            ///< one of them moves
+    bool wedged = false;             ///< no velocities suit all: what moves from outside gives way
     bool glides = false;             ///< in closed form: it stops when it stops, however slow
   };
   void enterContact(RigidBody& b, double tau);
@@ -251,7 +252,11 @@ public:
   // --- one island (world_island.cpp)
   void advanceIsland(Island& island, double tau, double h);
   void begin(Island& island, double tau) const;
+  bool isDriven(Party p) const;
+  bool solveIsland(Island& island, std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
+                   Effort effort) const;
   void stopApproaches(Island& island) const;
+  static bool staysWedged(const Island& island);
   bool solveStep(Island& island, double tau, double h, Effort effort) const;
   double glide(Island& island, double tau, double h);
   double stepOf(const Island& island, double tau, double h) const;

@@ -23,6 +23,8 @@ constexpr double kMostTurn = 0.05;         ///< angle by which a solid turns in 
 constexpr double kMostParts = 32;          ///< of a step in which the lowest point of a rim runs far
 constexpr double kFarthest = 1;            ///< how long a glide is foreseen at most [s]
 constexpr double kShortest = 1e-7;         ///< and at least [s]
+constexpr double kGive = 1;                ///< share of what presses that a hand or a lift yields
+constexpr double kShort = 1e-3;            ///< a floor missed by less is reached, nearly [m/s]
 constexpr double kLanding = 1e-5;          ///< shortest step towards a touch [s]
 
 /// How a body lies during a step, from its velocities at both ends.
@@ -89,6 +91,7 @@ void World::Core::begin(Island& s, double tau) const {
     RigidBody& b = *s.set[i];
     b.slot = static_cast<std::uint32_t>(i);
     s.start.push_back(mobileOf(b, tau));
+    s.wedged = s.wedged || b.wedged;
   }
   for (Found& f : s.found) {
     SolverContact& c = f.contact;
@@ -106,6 +109,45 @@ void World::Core::begin(Island& s, double tau) const {
     s.carried = s.carried || !m.v.isZero(0) || !m.omega.isZero(0);
     s.start.push_back(m);
   }
+}
+
+/// Whether it moves from outside, or may.
+bool World::Core::isDriven(Party p) const {
+  if (p.isBody) return !body(p.id)->movable();
+  return collider(p.id)->motion.moving;
+}
+
+/// Between a hand, or a lift, and what does not move no velocities may be left: then the hand's contacts give
+/// way, here and in the next steps, until all floors can be reached again.
+bool World::Core::solveIsland(Island& s, std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
+                              Effort effort) const {
+  const auto yield = [&] {
+    bool any = false;
+    for (SolverContact& c : contacts) {
+      if (c.b < s.set.size() || !isDriven(s.fixed[c.b - s.set.size()])) continue;
+      c.give = kGive, any = true;
+    }
+    return any;
+  };
+  if (s.wedged) yield();
+  const std::vector<Mobile> before = mobiles;
+  const std::vector<SolverContact> guess = contacts;
+  const bool holds = solveContacts(mobiles, contacts, effort);
+  if (holds || s.wedged) return holds;
+  std::vector<SolverContact> tried = guess;
+  std::swap(tried, contacts);
+  if (!yield()) {
+    std::swap(tried, contacts);
+    return false;
+  }
+  s.wedged = true, mobiles = before;
+  return solveContacts(mobiles, contacts, effort);
+}
+
+bool World::Core::staysWedged(const Island& s) {
+  return s.wedged && std::ranges::any_of(s.found, [&](const Found& f) {
+           return f.contact.give > 0 && f.contact.velocity(s.end)[0] < f.contact.floor - kShort;
+         });
 }
 
 /// What is an impact: approaches that end now, with restitution if they are fast.
@@ -126,7 +168,7 @@ void World::Core::stopApproaches(Island& s) const {
   }
   if (!any) return;
   const std::vector<Mobile> before = s.start;
-  solveContacts(s.start, hits);
+  solveIsland(s, s.start, hits, Effort::Moving);
   if (!s.carried) boundWork(s.set.size(), before, s.start, {}, 0);
 }
 
@@ -195,7 +237,7 @@ bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) cons
       }
     }
     s.free = s.end;
-    holds = solveContacts(s.end, step, effort);
+    holds = solveIsland(s, s.end, step, effort);
     bool turns = false;
     for (std::size_t i = 0; i < s.set.size(); ++i)
       turns = turns || std::max(s.start[i].omega.norm(), s.end[i].omega.norm()) * s.set[i]->reach > 1e-8 ||
@@ -438,6 +480,8 @@ void World::Core::advanceIsland(Island& s, double tau, double h) {
     boundStep(s, h);
     resistRolling(s);
   }
+  const bool wedged = staysWedged(s);
+  for (RigidBody* b : s.set) b->wedged = wedged;
   conclude(s, tau, s.glides ? last : h);
   // Sets that have been quiet together fall asleep together.
   const bool quiet = !s.carried && std::ranges::all_of(s.set, [&](const RigidBody* b) {
