@@ -12,8 +12,8 @@ namespace {
 constexpr int kJumps = 12, kShifts = 4;
 constexpr int kSweeps = 14,
               kStillSweeps = 16;       ///< while it moves; when it comes to rest, and sleep depends on it
-constexpr int kMostSweeps = 300;       ///< of small heaps ...
-constexpr std::size_t kSwept = 20000;  ///< ... and the points that these relax in all
+constexpr int kMostSweeps = 500;       ///< of small heaps ...
+constexpr std::size_t kSwept = 40000;  ///< ... and the points that these relax in all
 constexpr double kConverged = 1e-8;    ///< a sweep that changes less is the last there [m/s]
 constexpr double kSlow = 0.1;          ///< root mean square speed at rest, nearly [m/s]
 constexpr double kSettled = 1e-5;      ///< a sweep that changes less is the last [m/s]
