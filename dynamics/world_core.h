@@ -231,6 +231,7 @@ public:
   /// Their steps end on multiples of this show time: 1/120 s, so that frames of 60 Hz have two steps each.
   Nanoseconds crowdGrid = 8'333'333;
   static constexpr std::size_t kCrowd = 16;        ///< islands with so many bodies become one
+  static constexpr std::size_t kRestless = 5;      ///< the same if they are not solved exactly
   static constexpr std::size_t kCrowdOfBalls = 5;  ///< the same if they are balls
   struct CrowdStep;
   double untilCrowdStep(double tau) const;

@@ -476,7 +476,8 @@ void World::Core::advanceIsland(Island& s, double tau, double h) {
   s.glides = last > 0;
   if (!s.glides) {
     h = stepOf(s, tau, h);
-    solveStep(s, tau, h, Effort::Moving);
+    const bool holds = solveStep(s, tau, h, Effort::Moving);
+    for (RigidBody* b : s.set) b->restless = !holds;
     boundStep(s, h);
     resistRolling(s);
   }
