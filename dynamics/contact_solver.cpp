@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kExact = 48;                ///< islands with so many points are solved exactly
 constexpr int kRounds = 4, kRoundsAtRest = 12;    ///< so often at most a choice is looked for ...
-constexpr double kWork = 2e6, kWorkAtRest = 3e7;  ///< ... and with so many multiplications
+constexpr double kWork = 6e5, kWorkAtRest = 3e7;  ///< ... and with so many multiplications
 constexpr double kSwept = 2000;                   ///< points that are relaxed where none is found
 constexpr double kHolds = 1e-13;                  ///< a sweep that changes less is the last [m/s]
 constexpr double kExactly = 1e-17;                ///< the same where an exact solution is at hand [m/s]
