@@ -272,8 +272,10 @@ void CrowdSolver::push() {
   for (std::size_t i = 0; i < crowd_.members; ++i) crowd_.bodies[i].v += crowd_.h * crowd_.pull[i];
   for (const CrowdContact& c : all)
     if (c.pressed > 0) give(c, c.pressed * c.n + c.held);
-  const int sweeps = meanSquare() < kSlow * kSlow ? kStillSweeps : kSweeps;
-  const auto affordable = static_cast<int>(kSwept / std::max<std::size_t>(all.size(), 1));
+  const bool still = meanSquare() < kSlow * kSlow;
+  const int sweeps = still ? kStillSweeps : kSweeps;
+  const auto affordable =
+      static_cast<int>((still ? kSwept : kSwept / 4) / std::max<std::size_t>(all.size(), 1));
   if (affordable > 2 * sweeps) {
     converge(std::min(affordable, kMostSweeps));
   } else {
