@@ -257,6 +257,7 @@ public:
   bool solveIsland(Island& island, std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
                    Effort effort) const;
   void stopApproaches(Island& island) const;
+  static double pushOutOf(const std::vector<Found>& found, std::size_t i);
   static bool staysWedged(const Island& island);
   bool solveStep(Island& island, double tau, double h, Effort effort) const;
   double glide(Island& island, double tau, double h);

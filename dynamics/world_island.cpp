@@ -24,6 +24,7 @@ constexpr double kMostParts = 32;          ///< of a step in which the lowest po
 constexpr double kFarthest = 1;            ///< how long a glide is foreseen at most [s]
 constexpr double kShortest = 1e-7;         ///< and at least [s]
 constexpr double kGive = 1;                ///< share of what presses that a hand or a lift yields
+constexpr double kOneFace = 0.9999;        ///< cosine of normals that are one face's
 constexpr double kShort = 1e-3;            ///< a floor missed by less is reached, nearly [m/s]
 constexpr double kLanding = 1e-5;          ///< shortest step towards a touch [s]
 
@@ -83,7 +84,23 @@ double timeInside(const Vec2& x, const Vec2& v, const Vec2& a, const Vec2& half)
   return first;
 }
 
+double pushOut(double gap) {
+  return std::min(kPushOut, std::max(0.0, -gap - kSlop) * 20);
+}
+
 }  // namespace
+
+/// The speed at which overlap is taken back [m/s]. Points of one face go at one speed, that of the least
+/// deep: if each had its own, three of them would contradict the fourth.
+double World::Core::pushOutOf(const std::vector<Found>& found, std::size_t i) {
+  const Found& f = found[i];
+  double sum = 0, many = 0;
+  if (!(pushOut(f.gap.distance) > 0)) return 0;
+  for (const Found& o : found)
+    if (o.a == f.a && o.b == f.b && o.gap.normal.dot(f.gap.normal) > kOneFace)
+      if (const double speed = pushOut(o.gap.distance); speed > 0) sum += speed, many += 1;
+  return sum / many;
+}
 
 /// Velocities now, and who is with whom.
 void World::Core::begin(Island& s, double tau) const {
@@ -228,7 +245,7 @@ bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) cons
         // sinks in a little rather than being thrown back from all sides at once, which could bring energy.
         c.floor = std::min(-2 * f.gap.distance / h - u0[0], s.set.size() > 1 ? kPushOut : 1e300);
       } else {
-        c.floor = std::min(kPushOut, std::max(0.0, -f.gap.distance - kSlop) * 20);
+        c.floor = pushOutOf(s.found, i);
       }
       c.slip = u0.tail<2>();
       if (pass > 0) {
