@@ -53,6 +53,7 @@ private:
   double sweepWide(bool forward);
   double sweep(bool forward);
   double meanSquare() const;
+  int sweepsFor(std::size_t points) const;
   void converge(int most);
   void go(CrowdContact& c, double pressed, const Vec3& held);
   void jump();
@@ -177,6 +178,11 @@ double CrowdSolver::sweep(bool forward) {
   return hasWide() ? sweepWide(forward) : sweepAll(forward);
 }
 
+/// So many sweeps relax so many points. Balls do not pile up high: they need no more than usual.
+int CrowdSolver::sweepsFor(std::size_t points) const {
+  return crowd_.arms.empty() ? 0 : static_cast<int>(points / crowd_.contacts.size());
+}
+
 /// Changes what a contact point pushes.
 void CrowdSolver::go(CrowdContact& c, double pressed, const Vec3& held) {
   give(c, pressed * c.n + held);
@@ -232,7 +238,7 @@ void CrowdSolver::jump() {
   }
   if (!any) return;
   const std::vector<CrowdBody> before = crowd_.bodies;
-  const auto affordable = static_cast<int>(kSwept / 4 / crowd_.contacts.size());
+  const int affordable = sweepsFor(kSwept / 4);
   for (int i = 0; i < std::clamp(affordable, kJumps, kMostSweeps); ++i)
     if (sweep(i % 2 != 0) < kSettled * kSettled) break;
   energy_.boundJump(crowd_, before);
@@ -274,8 +280,7 @@ void CrowdSolver::push() {
     if (c.pressed > 0) give(c, c.pressed * c.n + c.held);
   const bool still = meanSquare() < kSlow * kSlow;
   const int sweeps = still ? kStillSweeps : kSweeps;
-  const auto affordable =
-      static_cast<int>((still ? kSwept : kSwept / 4) / std::max<std::size_t>(all.size(), 1));
+  const int affordable = sweepsFor(still ? kSwept : kSwept / 4);
   if (affordable > 2 * sweeps) {
     converge(std::min(affordable, kMostSweeps));
   } else {
