@@ -138,26 +138,19 @@ bool World::Core::isDriven(Party p) const {
 /// way, here and in the next steps, until all floors can be reached again.
 bool World::Core::solveIsland(Island& s, std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
                               Effort effort) const {
-  const auto yield = [&] {
-    bool any = false;
-    for (SolverContact& c : contacts) {
-      if (c.b < s.set.size() || !isDriven(s.fixed[c.b - s.set.size()])) continue;
-      c.give = kGive, any = true;
-    }
-    return any;
-  };
-  if (s.wedged) yield();
-  const std::vector<Mobile> before = mobiles;
-  const std::vector<SolverContact> guess = contacts;
-  const bool holds = solveContacts(mobiles, contacts, effort);
-  if (holds || s.wedged) return holds;
-  std::vector<SolverContact> tried = guess;
-  std::swap(tried, contacts);
-  if (!yield()) {
-    std::swap(tried, contacts);
-    return false;
+  std::vector<SolverContact> yielding = contacts;
+  bool driven = false;
+  for (SolverContact& c : yielding) {
+    if (c.b < s.set.size() || !isDriven(s.fixed[c.b - s.set.size()])) continue;
+    c.give = kGive, driven = true;
   }
-  s.wedged = true, mobiles = before;
+  if (!driven) return solveContacts(mobiles, contacts, effort);
+  if (!s.wedged) {
+    const std::vector<Mobile> before = mobiles;
+    if (solveContacts(mobiles, contacts, effort)) return true;
+    mobiles = before, s.wedged = true;
+  }
+  contacts = yielding;
   return solveContacts(mobiles, contacts, effort);
 }
 
