@@ -8,45 +8,30 @@
 namespace stadion {
 namespace {
 
-constexpr std::size_t kExact = 48;  ///< islands with so many points are solved exactly
-constexpr double kHolds = 1e-13;    ///< a sweep that changes less is the last [m/s]
-constexpr double kExactly = 1e-17;  ///< the same where an exact solution is at hand [m/s]
-
-struct Row {
-  double normalMass, tangentMass;  ///< 1 / response along n; 1 / greatest response across it
-  double weight;                   ///< response: makes impulses of light and heavy pairs comparable
-};
-
-Row rowOf(const SolverContact& c, const std::vector<Mobile>& m) {
-  const auto share = [](const Mobile& body, const Vec3& at, const Vec3& from) {
-    if (body.inverseMass == 0) return Mat3(Mat3::Zero());
-    return Mat3(body.inverseMass * Mat3::Identity() - skew(at) * body.inverseInertia * skew(from));
-  };
-  const Mat3 K =
-      c.rows.transpose() * (share(m[c.a], c.armA, c.pushA) + share(m[c.b], c.armB, c.pushB)) * c.push;
-  const double kn = K(0, 0), a = K(1, 1), b = K(2, 2), d = 0.5 * (K(1, 2) + K(2, 1));
-  const double kt = 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + d * d);
-  return {kn > 0 ? 1 / kn : 0, kt > 0 ? 1 / kt : 0, kn};
-}
+constexpr std::size_t kExact = 48;                ///< islands with so many points are solved exactly
+constexpr int kRounds = 4, kRoundsAtRest = 12;    ///< so often at most a choice is looked for ...
+constexpr double kWork = 6e5, kWorkAtRest = 3e7;  ///< ... and with so many multiplications
+constexpr double kSwept = 2000;                   ///< points that are relaxed where none is found
+constexpr double kHolds = 1e-13;                  ///< a sweep that changes less is the last [m/s]
+constexpr double kExactly = 1e-17;                ///< the same where an exact solution is at hand [m/s]
 
 /// One pass over a contact; returns the change of velocity it made.
-double relax(std::vector<Mobile>& m, SolverContact& c, const Row& row) {
-  Vec3 before = c.impulse;
-  const double wanted = (c.floor - c.velocity(m)[0]) * row.normalMass;
-  c.impulse[0] = std::max(0.0, c.impulse[0] + wanted);
-  const double dn = c.impulse[0] - before[0];
-  if (dn != 0) giveImpulse(m, c, c.impulse - before);
+double relax(std::vector<Mobile>& m, SolverContact& c, const ContactRow& row) {
+  const double normal = row.axis[0].velocity(m[row.a], m[row.b]) + row.shortfall * c.impulse[0];
+  const double pressed = std::max(0.0, c.impulse[0] + (c.floor - normal) * row.normalMass);
+  const double dn = pressed - c.impulse[0];
+  if (dn != 0) row.axis[0].give(m[row.a], m[row.b], dn);
+  c.impulse[0] = pressed;
   double change = std::fabs(dn) / std::max(row.normalMass, 1e-300);
-  if (c.friction > 0) {
-    Vec2 u = c.velocity(m).tail<2>();
+  if (c.friction > 0 && (pressed > 0 || !c.impulse.isZero(0))) {
+    Vec2 u{row.axis[1].velocity(m[row.a], m[row.b]), row.axis[2].velocity(m[row.a], m[row.b])};
     if (c.slides) u = 0.5 * (u + c.slip);
-    before = c.impulse;
     Vec2 f = c.impulse.tail<2>() - row.tangentMass * u;
-    const double most = c.friction * c.impulse[0], size = f.norm();
+    const double most = c.friction * pressed, size = f.norm();
     if (size > most) f *= size > 0 ? most / size : 0;
+    const Vec2 df = f - c.impulse.tail<2>();
     c.impulse.tail<2>() = f;
-    const Vec3 df = c.impulse - before;
-    if (!df.isZero(0)) giveImpulse(m, c, df);
+    if (!df.isZero(0)) row.give(m, {0, df[0], df[1]});
     change = std::max(change, df.norm() / std::max(row.tangentMass, 1e-300));
   }
   return change;
@@ -55,7 +40,7 @@ double relax(std::vector<Mobile>& m, SolverContact& c, const Row& row) {
 struct Sweeps {
   std::vector<Mobile>& mobiles;
   std::vector<SolverContact>& contacts;
-  const std::vector<Row>& rows;
+  const std::vector<ContactRow>& rows;
   std::vector<Vec3> direction, previous;
   double lastSquare = 0;
 
@@ -67,16 +52,16 @@ struct Sweeps {
   }
 
   /// What a pass did is a gradient: go on along it, conjugate to where it went before.
-  bool conjugate(int most) {
+  bool conjugate(int most, double holds = kHolds) {
     const std::size_t n = contacts.size();
     direction.assign(n, Vec3::Zero()), previous.resize(n);
     lastSquare = 0;
     for (int i = 0; i < most; ++i) {
       for (std::size_t k = 0; k < n; ++k) previous[k] = contacts[k].impulse;
-      if (!(sweep() > kHolds)) return true;
+      if (!(sweep() > holds)) return true;
       double square = 0;
       for (std::size_t k = 0; k < n; ++k)
-        square += rows[k].weight * (contacts[k].impulse - previous[k]).squaredNorm();
+        square += rows[k].response * (contacts[k].impulse - previous[k]).squaredNorm();
       const double beta = lastSquare > 0 ? square / lastSquare : 2;
       lastSquare = square;
       if (i + 1 == most) break;
@@ -87,7 +72,7 @@ struct Sweeps {
       for (std::size_t k = 0; k < n; ++k) {
         const Vec3 step = beta * direction[k], gradient = contacts[k].impulse - previous[k];
         contacts[k].impulse += step;
-        if (!step.isZero(0)) giveImpulse(mobiles, contacts[k], step);
+        rows[k].give(mobiles, step);
         direction[k] = step + gradient;
       }
     }
@@ -105,22 +90,21 @@ Mat3 basisAround(const Vec3& n) {
   return B;
 }
 
-bool solveContacts(std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts) {
-  std::vector<Row> rows;
-  rows.reserve(contacts.size());
-  for (SolverContact& c : contacts) {
-    rows.push_back(rowOf(c, mobiles));
-    giveImpulse(mobiles, c, c.impulse);
-  }
+bool solveContacts(std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts, Effort effort) {
+  const std::vector<ContactRow> rows = rowsOf(mobiles, contacts);
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].give(mobiles, contacts[k].impulse);
   Sweeps sweeps{mobiles, contacts, rows, {}, {}, 0};
-  if (contacts.size() > kExact) return sweeps.conjugate(60);
-  ContactChoice choice(mobiles, contacts);
-  for (int round = 0; round < 8; ++round) {
-    for (int i = 0; i < 3; ++i)
-      if (!(sweeps.sweep() > kExactly)) return true;
-    if (choice.settle()) return true;
+  if (contacts.size() <= kExact) {
+    ContactChoice choice(mobiles, contacts, rows);
+    const bool atRest = effort == Effort::AtRest;
+    double work = atRest ? kWorkAtRest : kWork;
+    for (int round = 0; round < (atRest ? kRoundsAtRest : kRounds) && work > 0; ++round) {
+      if (sweeps.conjugate(round == 0 ? 3 : 16, kExactly)) return true;
+      if (choice.settle(work)) return true;
+    }
   }
-  return sweeps.conjugate(contacts.size() > 24 ? 150 : 400);
+  return sweeps.conjugate(static_cast<int>(
+      std::clamp(kSwept / static_cast<double>(std::max<std::size_t>(contacts.size(), 1)), 20.0, 200.0)));
 }
 
 }  // namespace stadion

@@ -23,6 +23,7 @@ struct SolverContact {
   Vec3 pushA = Vec3::Zero(), pushB = Vec3::Zero();        ///< the same in the middle [m]
   double friction = 0;
   double floor = 0;             ///< normal velocity that the step must reach [m/s]
+  double give = 0;              ///< it may fall short of it by so much of what the impulse changes
   Vec2 slip = Vec2::Zero();     ///< before the step, if `slides`: friction goes against the mean slip [m/s]
   bool slides = false;          ///< known to slip all through the step
   Vec3 impulse = Vec3::Zero();  ///< in `push` [N s]; the guess on entry
@@ -35,7 +36,12 @@ struct SolverContact {
 /// A basis with n first, the same for the same n.
 Mat3 basisAround(const Vec3& n);
 
+/// How long the exact solution is looked for: in each step of what moves, or once for what stands still and
+/// may sleep at once.
+enum class Effort : std::uint8_t { Moving, AtRest };
+
 /// Raises every contact's normal velocity to its `floor`, with friction. True if it holds to rounding.
-bool solveContacts(std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts);
+bool solveContacts(std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
+                   Effort effort = Effort::Moving);
 
 }  // namespace stadion

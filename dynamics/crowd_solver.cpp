@@ -11,14 +11,17 @@ namespace {
 
 constexpr int kJumps = 12, kShifts = 4;
 constexpr int kSweeps = 14,
-              kStillSweeps = 16;      ///< while it moves; when it comes to rest, and sleep depends on it
-constexpr double kSlow = 0.1;         ///< root mean square speed at rest, nearly [m/s]
-constexpr double kSettled = 1e-5;     ///< a sweep that changes less is the last [m/s]
-constexpr double kSlop = 1e-4;        ///< overlap that is left alone [m]
-constexpr double kDeep = 2e-2;        ///< overlap that no step leaves behind: somebody was put there [m]
-constexpr double kShare = 0.3;        ///< of deeper overlap that a step takes back
-constexpr double kMostShift = 2e-3;   ///< in a step [m]
-constexpr double kBounceSpeed = 0.5;  ///< slower approaches do not bounce [m/s]
+              kStillSweeps = 16;       ///< while it moves; when it comes to rest, and sleep depends on it
+constexpr int kMostSweeps = 500;       ///< of small heaps ...
+constexpr std::size_t kSwept = 40000;  ///< ... and the points that these relax in all
+constexpr double kConverged = 1e-8;    ///< a sweep that changes less is the last there [m/s]
+constexpr double kSlow = 0.1;          ///< root mean square speed at rest, nearly [m/s]
+constexpr double kSettled = 1e-5;      ///< a sweep that changes less is the last [m/s]
+constexpr double kSlop = 1e-4;         ///< overlap that is left alone [m]
+constexpr double kDeep = 2e-2;         ///< overlap that no step leaves behind: somebody was put there [m]
+constexpr double kShare = 0.3;         ///< of deeper overlap that a step takes back
+constexpr double kMostShift = 2e-3;    ///< in a step [m]
+constexpr double kBounceSpeed = 0.5;   ///< slower approaches do not bounce [m/s]
 
 /// Three numbers and the one behind them.
 inline WideAnywhere& wide(Vec3& v) {
@@ -50,6 +53,9 @@ private:
   double sweepWide(bool forward);
   double sweep(bool forward);
   double meanSquare() const;
+  int sweepsFor(std::size_t points) const;
+  void converge(int most);
+  void go(CrowdContact& c, double pressed, const Vec3& held);
   void jump();
   void shift();
   void push();
@@ -61,6 +67,7 @@ private:
   Crowd& crowd_;
   CrowdEnergy energy_;
   std::vector<Guess> guess_;
+  std::vector<Guess> before_, direction_;
 };
 
 double CrowdSolver::response(std::uint32_t body, const Vec3& arm, const Vec3& along) const {
@@ -171,6 +178,48 @@ double CrowdSolver::sweep(bool forward) {
   return hasWide() ? sweepWide(forward) : sweepAll(forward);
 }
 
+/// So many sweeps relax so many points. Balls do not pile up high: they need no more than usual.
+int CrowdSolver::sweepsFor(std::size_t points) const {
+  return crowd_.arms.empty() ? 0 : static_cast<int>(points / crowd_.contacts.size());
+}
+
+/// Changes what a contact point pushes.
+void CrowdSolver::go(CrowdContact& c, double pressed, const Vec3& held) {
+  give(c, pressed * c.n + held);
+  c.pressed += pressed, c.held += held;
+}
+
+/// Small heaps can afford more sweeps, and need them where they are tall. What a sweep did is a gradient: the
+/// next one begins farther along it, conjugate to where it went before (Silcowitz, Niebe and Erleben 2010).
+void CrowdSolver::converge(int most) {
+  std::vector<CrowdContact>& all = crowd_.contacts;
+  const std::size_t n = all.size();
+  before_.resize(n), direction_.assign(n, {0, Vec3::Zero()});
+  double last = 0;
+  for (int i = 0; i < most; ++i) {
+    for (std::size_t k = 0; k < n; ++k) before_[k] = {all[k].pressed, all[k].held};
+    if (sweep(i % 2 == 0) < kConverged * kConverged || i + 1 == most) return;
+    double square = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double dp = all[k].pressed - before_[k].pressed;
+      square +=
+          (dp * dp + (all[k].held - before_[k].held).squaredNorm()) / std::max(all[k].normalMass, 1e-300);
+    }
+    const double beta = last > 0 ? square / last : 2;
+    last = square;
+    if (beta > 1) {
+      for (Guess& d : direction_) d = {0, Vec3::Zero()};
+      continue;
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      const Guess step{beta * direction_[k].pressed, beta * direction_[k].held};
+      direction_[k] = {step.pressed + all[k].pressed - before_[k].pressed,
+                       step.held + all[k].held - before_[k].held};
+      if (step.pressed != 0 || !step.held.isZero(0)) go(all[k], step.pressed, step.held);
+    }
+  }
+}
+
 /// Of the members' speeds at the step's start [m2/s2].
 double CrowdSolver::meanSquare() const {
   double sum = 0;
@@ -189,7 +238,8 @@ void CrowdSolver::jump() {
   }
   if (!any) return;
   const std::vector<CrowdBody> before = crowd_.bodies;
-  for (int i = 0; i < kJumps; ++i)
+  const int affordable = sweepsFor(kSwept / 4);
+  for (int i = 0; i < std::clamp(affordable, kJumps, kMostSweeps); ++i)
     if (sweep(i % 2 != 0) < kSettled * kSettled) break;
   energy_.boundJump(crowd_, before);
 }
@@ -228,9 +278,15 @@ void CrowdSolver::push() {
   for (std::size_t i = 0; i < crowd_.members; ++i) crowd_.bodies[i].v += crowd_.h * crowd_.pull[i];
   for (const CrowdContact& c : all)
     if (c.pressed > 0) give(c, c.pressed * c.n + c.held);
-  const int sweeps = meanSquare() < kSlow * kSlow ? kStillSweeps : kSweeps;
-  for (int i = 0; i < sweeps; ++i)
-    if (sweep(i % 2 == 0) < kSettled * kSettled) break;
+  const bool still = meanSquare() < kSlow * kSlow;
+  const int sweeps = still ? kStillSweeps : kSweeps;
+  const int affordable = sweepsFor(still ? kSwept : kSwept / 4);
+  if (affordable > 2 * sweeps) {
+    converge(std::min(affordable, kMostSweeps));
+  } else {
+    for (int i = 0; i < sweeps; ++i)
+      if (sweep(i % 2 == 0) < kSettled * kSettled) break;
+  }
   for (const CrowdContact& c : all) {  // rolling resistance takes spin
     if (!(c.rolling * c.pressed > 0)) continue;
     CrowdBody& a = crowd_.bodies[c.a];

@@ -16,7 +16,7 @@ constexpr double kNear = 1e-6;  ///< meshes closer than this touch [m]
 /// past.
 constexpr double kLeast = 5e-7;
 constexpr double kShare = 0.9;  ///< steps believe this much of a gap: it is found much sooner
-constexpr int kMostLooks = 400;
+constexpr int kMostLooks = 100;
 
 Gap gapOf(const NearestPoints& n, const Triangle& b) {
   if (n.distance > 0) return {n.distance, n.b, (n.a - n.b) / n.distance, false, -1};

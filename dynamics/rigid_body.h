@@ -132,6 +132,8 @@ struct RigidBody : RigidMotion {
   std::vector<Pressed> presses;  ///< Contact: forces of the last step on the points of this body
   double dueAge = 0;             ///< Contact: age at which the solver looks again; 0: at once [s]
   bool crowd = false;            ///< Contact: one of many, advanced together with them
+  bool wedged = false;           ///< Contact, islands: a hand or a lift presses it against what does not move
+  bool restless = false;         ///< Contact, islands: the last step had no exact solution, or not soon
   bool drowsy = false;           ///< crowd: it falls asleep when the present step is over
   bool heaped = false;           ///< Rest: it fell asleep as one of them
   Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< how far since it is quiet, or is looked at [m], [rad]

@@ -269,10 +269,16 @@ std::size_t World::Core::thickness(const RigidBody& b, double tau) {
   return many;
 }
 
-/// Whether an island is better off as a crowd: it is large, or its balls are in the thick of it.
+/// Whether an island is better off as a crowd: it is large, not solved exactly, or its balls are in the thick
+/// of it.
 bool World::Core::isCrowd(const std::vector<RigidBody*>& island, double tau) {
   const bool balls = std::ranges::all_of(island, [](const RigidBody* b) { return b->isBall(); });
-  if (island.size() >= (balls ? kCrowdOfBalls : kCrowd)) return true;
+  // Thin meshes would sink through each other in a crowd's longer steps.
+  const bool restless = std::ranges::any_of(island, &RigidBody::restless) &&
+                        std::ranges::none_of(island, [](const RigidBody* b) {
+                          return std::holds_alternative<MeshShape>(*b->shape);
+                        });
+  if (island.size() >= (balls ? kCrowdOfBalls : restless ? kRestless : kCrowd)) return true;
   return balls && std::ranges::any_of(
                       island, [&](const RigidBody* b) { return thickness(*b, tau) + 1 >= kCrowdOfBalls; });
 }

@@ -225,6 +225,7 @@ public:
     std::vector<Vec3> pull;          ///< on the set in this step [m/s2]
     std::vector<Mobile> free;        ///< what `end` would be without contacts
     bool carried = false;            ///< one of them moves
+    bool wedged = false;             ///< no velocities suit all: what moves from outside gives way
     bool glides = false;             ///< in closed form: it stops when it stops, however slow
   };
   void enterContact(RigidBody& b, double tau);
@@ -247,6 +248,7 @@ public:
   /// Their steps end on multiples of this show time: 1/120 s, so that frames of 60 Hz have two steps each.
   Nanoseconds crowdGrid = 8'333'333;
   static constexpr std::size_t kCrowd = 16;        ///< islands with so many bodies become one
+  static constexpr std::size_t kRestless = 5;      ///< the same if they are not solved exactly
   static constexpr std::size_t kCrowdOfBalls = 5;  ///< the same if they are balls
   struct CrowdStep;
   double untilCrowdStep(double tau) const;
@@ -268,8 +270,13 @@ public:
   // --- one island (world_island.cpp)
   void advanceIsland(Island& island, double tau, double h);
   void begin(Island& island, double tau) const;
+  bool isDriven(Party p) const;
+  bool solveIsland(Island& island, std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
+                   Effort effort) const;
   void stopApproaches(Island& island) const;
-  bool solveStep(Island& island, double tau, double h) const;
+  static double pushOutOf(const std::vector<Found>& found, std::size_t i);
+  static bool staysWedged(const Island& island);
+  bool solveStep(Island& island, double tau, double h, Effort effort) const;
   double glide(Island& island, double tau, double h);
   double stepOf(const Island& island, double tau, double h) const;
   static void boundStep(Island& island, double h);

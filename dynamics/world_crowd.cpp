@@ -57,7 +57,7 @@ void World::Core::joinCrowd(RigidBody& b, CrowdStep& step) {
     const double quiet = b.mode == BodyMode::Rest ? kWaking : b.quiet;
     enterContact(b, tau);
     if (b.mode != BodyMode::Contact) return;
-    b.crowd = true, b.quiet = quiet, b.dueAge = 0;
+    b.crowd = true, b.restless = false, b.quiet = quiet, b.dueAge = 0;
     b.drift.setZero(), b.twist.setZero();
   }
   CrowdStep::Member m;

@@ -23,6 +23,9 @@ constexpr double kMostTurn = 0.05;         ///< angle by which a solid turns in 
 constexpr double kMostParts = 32;          ///< of a step in which the lowest point of a rim runs far
 constexpr double kFarthest = 1;            ///< how long a glide is foreseen at most [s]
 constexpr double kShortest = 1e-7;         ///< and at least [s]
+constexpr double kGive = 1;                ///< share of what presses that a hand or a lift yields
+constexpr double kOneFace = 0.9999;        ///< cosine of normals that are one face's
+constexpr double kShort = 1e-3;            ///< a floor missed by less is reached, nearly [m/s]
 constexpr double kLanding = 1e-5;          ///< shortest step towards a touch [s]
 
 /// How a body lies during a step, from its velocities at both ends.
@@ -81,7 +84,23 @@ double timeInside(const Vec2& x, const Vec2& v, const Vec2& a, const Vec2& half)
   return first;
 }
 
+double pushOut(double gap) {
+  return std::min(kPushOut, std::max(0.0, -gap - kSlop) * 20);
+}
+
 }  // namespace
+
+/// The speed at which overlap is taken back [m/s]. Points of one face go at one speed, that of the least
+/// deep: if each had its own, three of them would contradict the fourth.
+double World::Core::pushOutOf(const std::vector<Found>& found, std::size_t i) {
+  const Found& f = found[i];
+  double sum = 0, many = 0;
+  if (!(pushOut(f.gap.distance) > 0)) return 0;
+  for (const Found& o : found)
+    if (o.a == f.a && o.b == f.b && o.gap.normal.dot(f.gap.normal) > kOneFace)
+      if (const double speed = pushOut(o.gap.distance); speed > 0) sum += speed, many += 1;
+  return sum / many;
+}
 
 /// Velocities now, and who is with whom.
 void World::Core::begin(Island& s, double tau) const {
@@ -89,6 +108,7 @@ void World::Core::begin(Island& s, double tau) const {
     RigidBody& b = *s.set[i];
     b.slot = static_cast<std::uint32_t>(i);
     s.start.push_back(mobileOf(b, tau));
+    s.wedged = s.wedged || b.wedged;
   }
   for (Found& f : s.found) {
     SolverContact& c = f.contact;
@@ -106,6 +126,38 @@ void World::Core::begin(Island& s, double tau) const {
     s.carried = s.carried || !m.v.isZero(0) || !m.omega.isZero(0);
     s.start.push_back(m);
   }
+}
+
+/// Whether it moves from outside, or may.
+bool World::Core::isDriven(Party p) const {
+  if (p.isBody) return !body(p.id)->movable();
+  return collider(p.id)->motion.moving;
+}
+
+/// Between a hand, or a lift, and what does not move no velocities may be left: then the hand's contacts give
+/// way, here and in the next steps, until all floors can be reached again.
+bool World::Core::solveIsland(Island& s, std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
+                              Effort effort) const {
+  std::vector<SolverContact> yielding = contacts;
+  bool driven = false;
+  for (SolverContact& c : yielding) {
+    if (c.b < s.set.size() || !isDriven(s.fixed[c.b - s.set.size()])) continue;
+    c.give = kGive, driven = true;
+  }
+  if (!driven) return solveContacts(mobiles, contacts, effort);
+  if (!s.wedged) {
+    const std::vector<Mobile> before = mobiles;
+    if (solveContacts(mobiles, contacts, effort)) return true;
+    mobiles = before, s.wedged = true;
+  }
+  contacts = yielding;
+  return solveContacts(mobiles, contacts, effort);
+}
+
+bool World::Core::staysWedged(const Island& s) {
+  return s.wedged && std::ranges::any_of(s.found, [&](const Found& f) {
+           return f.contact.give > 0 && f.contact.velocity(s.end)[0] < f.contact.floor - kShort;
+         });
 }
 
 /// What is an impact: approaches that end now, with restitution if they are fast.
@@ -126,13 +178,13 @@ void World::Core::stopApproaches(Island& s) const {
   }
   if (!any) return;
   const std::vector<Mobile> before = s.start;
-  solveContacts(s.start, hits);
+  solveIsland(s, s.start, hits, Effort::Moving);
   if (!s.carried) boundWork(s.set.size(), before, s.start, {}, 0);
 }
 
 /// Velocities after h seconds: forces act in the middle of the step, contact points obey at its end. A first
 /// pass foresees how the bodies turn, a second one counts.
-bool World::Core::solveStep(Island& s, double tau, double h) const {
+bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) const {
   std::vector<Mobile> guess = s.start;
   std::vector<Vec3>& pull = s.pull;
   pull.resize(s.set.size());
@@ -186,7 +238,7 @@ bool World::Core::solveStep(Island& s, double tau, double h) const {
         // sinks in a little rather than being thrown back from all sides at once, which could bring energy.
         c.floor = std::min(-2 * f.gap.distance / h - u0[0], s.set.size() > 1 ? kPushOut : 1e300);
       } else {
-        c.floor = std::min(kPushOut, std::max(0.0, -f.gap.distance - kSlop) * 20);
+        c.floor = pushOutOf(s.found, i);
       }
       c.slip = u0.tail<2>();
       if (pass > 0) {
@@ -195,7 +247,7 @@ bool World::Core::solveStep(Island& s, double tau, double h) const {
       }
     }
     s.free = s.end;
-    holds = solveContacts(s.end, step);
+    holds = solveIsland(s, s.end, step, effort);
     bool turns = false;
     for (std::size_t i = 0; i < s.set.size(); ++i)
       turns = turns || std::max(s.start[i].omega.norm(), s.end[i].omega.norm()) * s.set[i]->reach > 1e-8 ||
@@ -223,7 +275,7 @@ double World::Core::glide(Island& s, double tau, double h) {
   for (const Found& f : s.found)
     if (f.gap.distance < -kSlop) return 0;  // it is being pushed out
   const double probe = std::min(h, kProbe);
-  if (!solveStep(s, tau, probe)) return 0;
+  if (!solveStep(s, tau, probe, Effort::AtRest)) return 0;
   double most = kFarthest, fastest = 0, strongest = 0;
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     const RigidBody& b = *s.set[i];
@@ -434,10 +486,13 @@ void World::Core::advanceIsland(Island& s, double tau, double h) {
   s.glides = last > 0;
   if (!s.glides) {
     h = stepOf(s, tau, h);
-    solveStep(s, tau, h);
+    const bool holds = solveStep(s, tau, h, Effort::Moving);
+    for (RigidBody* b : s.set) b->restless = !holds;
     boundStep(s, h);
     resistRolling(s);
   }
+  const bool wedged = staysWedged(s);
+  for (RigidBody* b : s.set) b->wedged = wedged;
   conclude(s, tau, s.glides ? last : h);
   // Sets that have been quiet together fall asleep together.
   const bool quiet = !s.carried && std::ranges::all_of(s.set, [&](const RigidBody* b) {
