@@ -38,6 +38,12 @@ const Mesh* MeshStore::find(MeshId id) const {
   return at == entries_.end() ? nullptr : at->second.mesh.get();
 }
 
+bool MeshStore::holds(MeshId id, std::uint64_t hash) const {
+  const std::lock_guard lock(mutex_);
+  const auto at = entries_.find(id);
+  return at != entries_.end() && at->second.mesh->hash == hash;
+}
+
 void MeshStore::collect(std::uint64_t shownFrame) {
   const std::lock_guard lock(mutex_);
   std::erase_if(unused_, [&](MeshId id) {

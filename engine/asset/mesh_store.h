@@ -31,6 +31,9 @@ public:
 
   /// The mesh, or nullptr if it is gone.
   const Mesh* find(MeshId id) const;
+  /// Whether a mesh of this content is there under this id, used or not: what nobody uses may go the next
+  /// moment, so a pointer to it would be no good.
+  bool holds(MeshId id, std::uint64_t hash) const;
 
   /// Frees what nobody uses and no frame after `shownFrame` will draw. App, once a frame.
   void collect(std::uint64_t shownFrame);

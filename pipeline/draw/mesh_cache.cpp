@@ -69,10 +69,7 @@ void MeshCache::freeUnused() {
   const std::uint64_t freed = store_.freedCount();
   if (freed == freedCount_) return;
   freedCount_ = freed;
-  std::erase_if(meshes_, [this](const auto& entry) {
-    const Mesh* mesh = store_.find(entry.first);
-    return !mesh || mesh->hash != entry.second.hash;
-  });
+  std::erase_if(meshes_, [this](const auto& entry) { return !store_.holds(entry.first, entry.second.hash); });
 }
 
 std::optional<Diagnostic> MeshCache::takeProblem() {

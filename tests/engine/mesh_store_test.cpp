@@ -1,6 +1,8 @@
 #include "engine/asset/mesh_store.h"
 
+#include <atomic>
 #include <gtest/gtest.h>
+#include <thread>
 
 namespace stadion {
 namespace {
@@ -49,6 +51,27 @@ TEST(MeshStore, CountsWhatItFreed) {
   store.collect(5);
   EXPECT_EQ(store.freedCount(), 1u);
   EXPECT_FALSE(store.find(a));
+}
+
+// A wall that looked through its meshes once read one that App was just freeing.
+TEST(ThreadsMeshStore, AskingWhetherAMeshIsThereNeedsNoneThatIsGoing) {
+  MeshStore store;
+  std::atomic<bool> over = false;
+  std::thread wall([&] {
+    while (!over) (void)store.holds(1, 1);
+  });
+  std::uint64_t held = 0;
+  for (std::uint64_t frame = 0; frame < 2000; ++frame) {
+    const MeshId id = store.add(meshWith(1));
+    ASSERT_EQ(id, 1u);
+    held += store.holds(id, 1) && !store.holds(id, 2);
+    store.release(id, frame);
+    store.collect(frame);
+    EXPECT_FALSE(store.holds(id, 1));
+  }
+  over = true;
+  wall.join();
+  EXPECT_EQ(held, 2000u);
 }
 
 }  // namespace
