@@ -69,8 +69,7 @@ private:
       const Aabb box = boxOf(t);
       if (const double d = within(); squaredGap(box, n.box) > d * d) continue;
       for (std::uint32_t y = n.first; y < n.first + n.count; ++y) {
-        const std::uint32_t j = b_.order()[y];
-        if (const double d = within(); squaredGap(box, boxOf(b_.triangles()[j])) <= d * d) f(i, j, t);
+        if (const double d = within(); squaredGap(box, b_.boxes()[y]) <= d * d) f(i, b_.order()[y], t);
       }
     }
   }

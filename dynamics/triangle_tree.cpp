@@ -117,6 +117,7 @@ void TriangleTree::prepare() {
   std::iota(order_.begin(), order_.end(), 0u);
   nodes_.reserve(2 * triangles_.size());
   build(0, static_cast<std::uint32_t>(order_.size()));
+  for (const std::uint32_t i : order_) boxes_.push_back(boxOf(triangles_[i]));
 }
 
 void TriangleTree::collectCorners() {

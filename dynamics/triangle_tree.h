@@ -82,6 +82,8 @@ public:
   };
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<std::uint32_t>& order() const { return order_; }
+  /// Around the triangles, in the order of order().
+  const std::vector<Aabb>& boxes() const { return boxes_; }
   /// Where the triangle's corners are in corners().
   const std::array<std::uint32_t, 3>& cornersOf(std::uint32_t triangle) const { return cornersOf_[triangle]; }
   /// The triangles around a corner.
@@ -105,9 +107,7 @@ private:
         continue;
       }
       for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
-        Aabb b;
-        for (const Vec3& v : triangles_[order_[i]].v) b.include(v);
-        if (test(b)) f(order_[i]);
+        if (test(boxes_[i])) f(order_[i]);
       }
     }
   }
@@ -121,6 +121,7 @@ private:
 
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> order_;
+  std::vector<Aabb> boxes_;
   std::vector<Node> nodes_;
   std::vector<Vec3> corners_;
   std::vector<std::array<std::uint32_t, 3>> cornersOf_;
