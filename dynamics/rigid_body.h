@@ -88,8 +88,9 @@ struct Calm {
   bool balanced = false;                        ///< what the last one said
 };
 
-/// What is asked of every body in flight, in one piece: where many fly, most of the cost is to fetch it.
-struct RigidMotion {
+/// What is asked of every body in flight, in one piece that begins with a cache line: where many fly, most of
+/// the cost is to fetch it.
+struct alignas(64) RigidMotion {
   BodyId id = 0;
   BodyMode mode = BodyMode::Flight;
   bool enabled = true, fresh = true;
