@@ -271,7 +271,7 @@ Quat Spin::turnedOrientation(double t) const {
   case Kind::Taylor: return seriesOrientation(t);
   case Kind::Driven: {
     // Magnus expansion to fourth order for an angular velocity linear in time, in pieces short enough for
-    // 1e-8.
+    // about 1e-6.
     const Vec3 turn = alpha.cross(omega);
     const int pieces = turn.squaredNorm() < 1e-20 ? 1 : std::clamp(static_cast<int>(t / 0.01) + 1, 1, 100);
     const double h = t / pieces;

@@ -82,6 +82,11 @@ struct Sweeps {
 
 }  // namespace
 
+void SolverContact::placeAt(const Vec3& point, const Vec3& n, const Vec3& pa, const Vec3& pb) {
+  rows = push = basisAround(n);
+  armA = pushA = point - pa, armB = pushB = point - pb;
+}
+
 Mat3 basisAround(const Vec3& n) {
   Mat3 B;
   B.col(0) = n;

@@ -28,6 +28,8 @@ struct SolverContact {
   bool slides = false;          ///< known to slip all through the step
   Vec3 impulse = Vec3::Zero();  ///< in `push` [N s]; the guess on entry
 
+  /// Takes place at a point of a (at pa) and b (at pb), as at one moment.
+  void placeAt(const Vec3& point, const Vec3& n, const Vec3& pa, const Vec3& pb);
   Vec3 velocity(const std::vector<Mobile>& m) const {
     return rows.transpose() * (m[a].v + m[a].omega.cross(armA) - m[b].v - m[b].omega.cross(armB));
   }

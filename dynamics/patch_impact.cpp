@@ -36,8 +36,7 @@ std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau
     if (p.gap.normal.dot(first.normal) < kSameSide || !(p.gap.distance < kSoon * comes)) continue;
     SolverContact c;
     c.b = 1;
-    c.rows = c.push = basisAround(p.gap.normal);
-    c.armA = c.pushA = p.gap.point - ma.p, c.armB = c.pushB = p.gap.point - mb.p;
+    c.placeAt(p.gap.point, p.gap.normal, ma.p, mb.p);
     c.friction = friction, c.floor = restitution * comes;
     contacts.push_back(c);
   }

@@ -168,8 +168,7 @@ void World::Core::stopApproaches(Island& s) const {
     if (f.gap.distance > kSlop) continue;
     SolverContact c = f.contact;
     const Mobile &a = s.start[c.a], &b = s.start[c.b];
-    c.rows = c.push = basisAround(f.gap.normal);
-    c.armA = c.pushA = f.gap.point - a.p, c.armB = c.pushB = f.gap.point - b.p;
+    c.placeAt(f.gap.point, f.gap.normal, a.p, b.p);
     c.impulse.setZero(), c.slides = false;
     const double closing = -c.velocity(s.start)[0];
     c.floor = closing > kRestitutionSpeed ? f.surface.restitution * closing : 0;
@@ -230,8 +229,7 @@ bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) cons
       place(a, b, f.gap, f.carrier, f.rounding, turned(a, a1, 1, h), turned(b, b1, 1, h), c.rows, c.armA,
             c.armB);
       SolverContact before = c;
-      before.rows = basisAround(f.gap.normal), before.armA = f.gap.point - a.p,
-      before.armB = f.gap.point - b.p;
+      before.placeAt(f.gap.point, f.gap.normal, a.p, b.p);
       const Vec3 u0 = before.velocity(s.start);
       if (f.gap.distance > kSlop) {
         // The mean velocity of the step closes the gap and no more. Among several bodies what comes faster
