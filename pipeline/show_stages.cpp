@@ -34,8 +34,8 @@ Failure ShowStages::openWall(std::size_t wall) {
   if (!target) return Reason(target.error());
   contexts_[wall].target = std::move(target.value());
   if (Failure f = enterContext(wall)) return f;
-  auto renderer = Renderer::create(contexts_[wall].target->gl(), parts_.meshes, parts_.walls[wall].width,
-                                   parts_.walls[wall].height);
+  auto renderer = Renderer::create(contexts_[wall].target->gl(), contexts_[wall].target->turns(),
+                                   parts_.meshes, parts_.walls[wall].width, parts_.walls[wall].height);
   if (!renderer) return Reason(renderer.error());
   contexts_[wall].renderer = std::move(renderer.value());
   if (wall == 0) glDescription_ = describeGl(contexts_[wall].target->gl());
@@ -69,7 +69,6 @@ Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
   WallContext& c = contexts_[wall];
   c.eyes = 0;  // until it is finished there is no picture
   if (Failure f = toFailure(c.renderer->draw(list, parts_.giveUp))) return f;
-  c.renderer->finish();
   c.eyes = list.eyeCount, c.frame = list.ticket.signature.frame, c.read = false;
   const bool wanted = parts_.sink && parts_.sink->wants(list.ticket.signature);
   return wanted || list.ticket.last ? readPictures(wall) : std::nullopt;

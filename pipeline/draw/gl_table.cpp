@@ -27,6 +27,11 @@ bool hasGlExtension(const GlTable& gl, const char* name) {
   return false;
 }
 
+bool isSoftware(const GlTable& gl) {
+  const auto* renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
+  return renderer && (std::strstr(renderer, "llvmpipe") || std::strstr(renderer, "softpipe"));
+}
+
 const char* glErrorName(GLenum error) {
   switch (error) {
   case GL_NO_ERROR: return "no error";

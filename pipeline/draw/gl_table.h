@@ -29,6 +29,7 @@ namespace stadion {
   X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                                 \
   X(PFNGLCLEARPROC, Clear)                                                                                   \
   X(PFNGLCLEARCOLORPROC, ClearColor)                                                                         \
+  X(PFNGLCLIENTWAITSYNCPROC, ClientWaitSync)                                                                 \
   X(PFNGLCOMPILESHADERPROC, CompileShader)                                                                   \
   X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                                   \
   X(PFNGLCREATESHADERPROC, CreateShader)                                                                     \
@@ -38,6 +39,7 @@ namespace stadion {
   X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                                   \
   X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                                                       \
   X(PFNGLDELETESHADERPROC, DeleteShader)                                                                     \
+  X(PFNGLDELETESYNCPROC, DeleteSync)                                                                         \
   X(PFNGLDELETETEXTURESPROC, DeleteTextures)                                                                 \
   X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                                                         \
   X(PFNGLDEPTHFUNCPROC, DepthFunc)                                                                           \
@@ -47,15 +49,16 @@ namespace stadion {
   X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)                                                   \
   X(PFNGLENABLEPROC, Enable)                                                                                 \
   X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                               \
-  X(PFNGLFINISHPROC, Finish)                                                                                 \
+  X(PFNGLFENCESYNCPROC, FenceSync)                                                                           \
+  X(PFNGLFLUSHPROC, Flush)                                                                                   \
   X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)                                               \
   X(PFNGLFRONTFACEPROC, FrontFace)                                                                           \
   X(PFNGLGENBUFFERSPROC, GenBuffers)                                                                         \
-  X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap)                                                                 \
   X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                                                               \
   X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)                                                             \
   X(PFNGLGENTEXTURESPROC, GenTextures)                                                                       \
   X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                               \
+  X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap)                                                                 \
   X(PFNGLGETERRORPROC, GetError)                                                                             \
   X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                       \
   X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                           \
@@ -97,6 +100,9 @@ Result<GlTable> loadGlTable(GlResolver resolve);
 
 /// Whether the current context has the extension.
 bool hasGlExtension(const GlTable& gl, const char* name);
+
+/// Whether the current context draws on the processor.
+bool isSoftware(const GlTable& gl);
 
 /// What glGetError returned, in words.
 const char* glErrorName(GLenum error);

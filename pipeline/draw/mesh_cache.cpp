@@ -18,7 +18,7 @@ struct Vertex {
   std::array<std::uint8_t, 4> colour;
 };
 
-constexpr float kAnisotropy = 8;
+constexpr float kAnisotropy = 8;  // on the processor it makes textured scenes 2 to 3 times as slow
 
 float finite(float x) {
   return std::isfinite(x) ? x : 0.0f;
@@ -34,12 +34,6 @@ std::vector<Vertex> interleave(const Mesh& mesh) {
     v.colour = mesh.colours.empty() ? std::array<std::uint8_t, 4>{255, 255, 255, 255} : mesh.colours[i];
   }
   return vertices;
-}
-
-/// Anisotropic filtering makes textured scenes 2 to 3 times as slow on the processor.
-bool isSoftware(const GlTable& gl) {
-  const auto* renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
-  return renderer && (std::strstr(renderer, "llvmpipe") || std::strstr(renderer, "softpipe"));
 }
 
 const void* offset(std::size_t bytes) {

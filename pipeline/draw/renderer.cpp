@@ -14,7 +14,8 @@ namespace {
 
 /// Instances a call: in software one call of a hundred thousand takes many seconds, in which nobody can stop.
 constexpr std::uint32_t kMostAtOnce = 1024;
-constexpr int kMostErrorsRead = 16;  // a lost context may report errors for ever
+constexpr GLuint64 kLongWait = 1'000'000'000;  // [ns]
+constexpr int kMostErrorsRead = 16;            // a lost context may report errors for ever
 
 const void* offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);
@@ -38,24 +39,37 @@ void stream(const GlTable& gl, GLenum target, const GlBuffer& buffer, std::span<
 
 }  // namespace
 
-Result<std::unique_ptr<Renderer>> Renderer::create(const GlTable& gl, const MeshStore& meshes,
-                                                   std::uint32_t width, std::uint32_t height,
-                                                   RenderQuality quality) {
+Result<std::unique_ptr<Renderer>> Renderer::create(const GlTable& gl, std::mutex& turns,
+                                                   const MeshStore& meshes, std::uint32_t width,
+                                                   std::uint32_t height, RenderQuality quality) {
   if (auto why = checkPictureSize(width, height)) return *why;
-  auto programs = buildPrograms(gl);
-  if (!programs) return programs.error();
-  std::unique_ptr<Renderer> renderer(
-      new Renderer(gl, meshes, width, height, quality, std::move(programs.value())));
-  if (auto why = renderer->buffers_.check()) return *why;
+  std::unique_ptr<Renderer> renderer;
+  std::optional<Diagnostic> why;
+  {
+    const std::lock_guard turn(turns);
+    auto programs = buildPrograms(gl);
+    if (!programs) return programs.error();
+    renderer.reset(new Renderer(gl, turns, meshes, width, height, quality, std::move(programs.value())));
+    why = renderer->buffers_.check();
+  }
+  if (why) return *why;  // the renderer waits for a turn of its own to free what it has
   return renderer;
 }
 
-Renderer::Renderer(const GlTable& gl, const MeshStore& meshes, std::uint32_t width, std::uint32_t height,
-                   RenderQuality quality, Programs programs)
-    : gl_(gl), width_(width), height_(height), programs_(std::move(programs)),
-      buffers_(gl, width, height, quality.samples), cache_(gl, meshes), instances_(gl),
-      scene_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl) {
+Renderer::Renderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes, std::uint32_t width,
+                   std::uint32_t height, RenderQuality quality, Programs programs)
+    : gl_(gl), turns_(turns), takesTurns_(isSoftware(gl)), width_(width), height_(height),
+      programs_(std::move(programs)), buffers_(gl, width, height, quality.samples), cache_(gl, meshes),
+      instances_(gl), scene_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl) {
   setUnchangingState();
+}
+
+Renderer::~Renderer() {
+  lastTurn_ = turn();
+}
+
+std::unique_lock<std::mutex> Renderer::turn() const {
+  return takesTurns_ ? std::unique_lock(turns_) : std::unique_lock<std::mutex>();
 }
 
 Result<Renderer::Programs> Renderer::buildPrograms(const GlTable& gl) {
@@ -84,11 +98,23 @@ void Renderer::setUnchangingState() {
 
 std::optional<Diagnostic> Renderer::draw(const DrawList& list, const std::function<bool()>& giveUp) {
   giveUp_ = giveUp ? &giveUp : nullptr;
-  prepare(list);
-  const std::uint32_t eyes = std::min<std::uint32_t>(list.eyeCount, 2);
-  for (std::uint32_t eye = 0; eye < eyes; ++eye) drawEye(list.eyes[eye], eye);
+  drawEyes(list, 0, std::min<std::uint32_t>(list.eyeCount, 2));
   giveUp_ = nullptr;
   return collectProblems();
+}
+
+void Renderer::drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t end) {
+  GLsync drawn = nullptr;
+  {
+    const auto mine = turn();
+    prepare(list);
+    for (std::uint32_t eye = first; eye < end; ++eye) drawEye(list.eyes[eye], eye);
+    drawn = gl_.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl_.Flush();
+  }
+  while (gl_.ClientWaitSync(drawn, 0, kLongWait) == GL_TIMEOUT_EXPIRED) {
+  }
+  gl_.DeleteSync(drawn);
 }
 
 void Renderer::stopIfAsked() const {
@@ -97,8 +123,7 @@ void Renderer::stopIfAsked() const {
 
 std::optional<Diagnostic> Renderer::draw(const DrawList& list, std::uint32_t eye) {
   assert(eye < list.eyes.size());
-  prepare(list);
-  drawEye(list.eyes[eye], eye);
+  drawEyes(list, eye, eye + 1);
   return collectProblems();
 }
 
@@ -232,7 +257,10 @@ void Renderer::use(const GlProgram& program) {
 
 std::optional<Diagnostic> Renderer::read(std::uint32_t eye, std::span<std::uint8_t> rgba) {
   assert(eye < 2 && rgba.size() == std::size_t{width_} * height_ * 4);
-  buffers_.read(eye, rgba);
+  {
+    const auto mine = turn();
+    buffers_.read(eye, rgba);
+  }
   return collectProblems();
 }
 

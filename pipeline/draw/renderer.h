@@ -5,9 +5,13 @@
 ///              things in the list's order, blended and without writing depth. 4 samples a pixel, light
 ///              computed in linear RGB, pictures in sRGB (shaders.h says how).
 /// Same pixels  for the same list in every thread, context and provider of one Mesa version.
-/// Ownership    owns its GL objects; the table and the mesh store must outlive it. Meshes are uploaded at
+/// Ownership    owns its GL objects; the table, the mutex and the mesh store must outlive it. Meshes are
+/// uploaded at
 ///              their first use and freed once the store has freed them.
-/// Threads      made, used and destroyed on the thread on which its context is current.
+/// Threads      made, used and destroyed on the thread on which its context is current. Renderers of a
+///              software rasteriser take turns, since Mesa looks for a texture that is bound or read in what
+///              its other contexts are drawing, without a lock (22.3, lp_scene_is_resource_referenced), and
+///              crashes when one of them ends a scene just then. They wait for their pixels together.
 /// Errors       returned once per kind, never thrown; what can be drawn is drawn.
 
 #include "pipeline/draw/draw_list.h"
@@ -19,6 +23,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <span>
@@ -41,21 +46,19 @@ struct RenderQuality {
 class Renderer {
 public:
   /// Pictures of width x height pixels; fails if the size or the context does not serve.
-  static Result<std::unique_ptr<Renderer>> create(const GlTable& gl, const MeshStore& meshes,
-                                                  std::uint32_t width, std::uint32_t height,
-                                                  RenderQuality quality = {});
+  static Result<std::unique_ptr<Renderer>> create(const GlTable& gl, std::mutex& turns,
+                                                  const MeshStore& meshes, std::uint32_t width,
+                                                  std::uint32_t height, RenderQuality quality = {});
+  ~Renderer();
 
-  /// Draws every eye of the list. Returns a problem that had not been reported before, or nothing. `giveUp`,
-  /// if there is one, is asked now and then; once it says true, RunStopped is thrown and the pictures are
-  /// void.
+  /// Draws every eye of the list and waits until that is done: time around it is what drawing costs. Returns
+  /// a problem that had not been reported before, or nothing. `giveUp`, if there is one, is asked now and
+  /// then; once it says true, RunStopped is thrown and the pictures are void.
   std::optional<Diagnostic> draw(const DrawList& list, const std::function<bool()>& giveUp);
   std::optional<Diagnostic> draw(const DrawList& list) { return draw(list, std::function<bool()>{}); }
   /// Draws one eye, 0 left or mono, 1 right.
   std::optional<Diagnostic> draw(const DrawList& list, std::uint32_t eye);
 
-  /// Waits until all drawing is done. Time around draw() and finish() is what drawing costs: a software
-  /// rasteriser does most of its work here.
-  void finish() { gl_.Finish(); }
   /// The last picture of `eye`: 8-bit RGBA (height x width x 4), rows from the top, sRGB, alpha 255.
   /// Expects room for exactly that. Returns a new problem, or nothing.
   std::optional<Diagnostic> read(std::uint32_t eye, std::span<std::uint8_t> rgba);
@@ -72,10 +75,12 @@ private:
   };
   enum class Pass { Opaque, OpaqueParts, Transparent };
 
-  Renderer(const GlTable& gl, const MeshStore& meshes, std::uint32_t width, std::uint32_t height,
-           RenderQuality quality, Programs programs);
+  Renderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes, std::uint32_t width,
+           std::uint32_t height, RenderQuality quality, Programs programs);
+  std::unique_lock<std::mutex> turn() const;
   static Result<Programs> buildPrograms(const GlTable& gl);
 
+  void drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
   void prepare(const DrawList& list);
   void drawEye(const DrawEye& eye, std::uint32_t index);
   void setUnchangingState();
@@ -91,6 +96,9 @@ private:
   void report(std::string what);
 
   const GlTable& gl_;
+  std::mutex& turns_;
+  std::unique_lock<std::mutex> lastTurn_;  ///< held while the members below are destroyed
+  bool takesTurns_ = false;
   std::uint32_t width_, height_;
   Programs programs_;
   EyeBuffers buffers_;

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstring>
+#include <mutex>
 
 namespace stadion {
 namespace {
@@ -35,8 +36,8 @@ struct Egl {
 
 class EglTarget : public Target {
 public:
-  EglTarget(const Egl& egl, EGLContext context, std::uint32_t width, std::uint32_t height)
-      : Target(egl.gl, width, height), egl_(egl), context_(context) {}
+  EglTarget(const Egl& egl, std::mutex& turns, EGLContext context, std::uint32_t width, std::uint32_t height)
+      : Target(egl.gl, turns, width, height), egl_(egl), context_(context) {}
 
   ~EglTarget() override { egl_.call.destroyContext(egl_.display, context_); }
 
@@ -69,7 +70,7 @@ public:
     if (context == EGL_NO_CONTEXT) context = createContext(3, 3);
     if (context == EGL_NO_CONTEXT)
       return Result<std::unique_ptr<Target>>::failure("EGL offers no OpenGL 3.3 core context");
-    return std::unique_ptr<Target>(std::make_unique<EglTarget>(egl_, context, width, height));
+    return std::unique_ptr<Target>(std::make_unique<EglTarget>(egl_, turns_, context, width, height));
   }
 
 private:
@@ -86,6 +87,7 @@ private:
   }
 
   const Egl egl_;
+  std::mutex turns_;
 };
 
 bool contains(const char* extensions, const char* name) {

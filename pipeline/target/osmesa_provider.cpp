@@ -24,27 +24,27 @@ struct OsMesaFunctions {
 struct OsMesa {
   OsMesaFunctions call;
   GlTable gl;
-  std::mutex contexts;  // OSMesa keeps unguarded lists of what belongs to its contexts
+  std::mutex turns;  // for the contexts themselves too: OSMesa keeps unguarded lists of what belongs to them
 };
 
 class OsMesaTarget : public Target {
 public:
   OsMesaTarget(OsMesa& mesa, OSMesaContext context, std::uint32_t width, std::uint32_t height)
-      : Target(mesa.gl, width, height), mesa_(mesa), context_(context) {}
+      : Target(mesa.gl, mesa.turns, width, height), mesa_(mesa), context_(context) {}
 
   ~OsMesaTarget() override {
-    const std::lock_guard lock(mesa_.contexts);
+    const std::lock_guard turn(mesa_.turns);
     mesa_.call.destroyContext(context_);
   }
 
   std::optional<Diagnostic> makeCurrent() override {
-    const std::lock_guard lock(mesa_.contexts);
+    const std::lock_guard turn(mesa_.turns);
     if (mesa_.call.makeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1)) return {};
     return problem("OSMesa cannot make its context current");
   }
 
   void release() override {
-    const std::lock_guard lock(mesa_.contexts);
+    const std::lock_guard turn(mesa_.turns);
     mesa_.call.makeCurrent(nullptr, nullptr, 0, 0, 0);
   }
 
@@ -82,7 +82,7 @@ private:
                                      OSMESA_CONTEXT_MINOR_VERSION,
                                      minor,
                                      0};
-    const std::lock_guard lock(mesa_.contexts);
+    const std::lock_guard turn(mesa_.turns);
     return mesa_.call.createContext(wanted.data(), nullptr);
   }
 

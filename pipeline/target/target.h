@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,15 +36,18 @@ public:
   virtual void release() = 0;
 
   const GlTable& gl() const { return gl_; }
+  /// Whose turn it is among the provider's contexts, where they have to take turns (Renderer).
+  std::mutex& turns() const { return turns_; }
   std::uint32_t width() const { return width_; }    ///< [pixels]
   std::uint32_t height() const { return height_; }  ///< [pixels]
 
 protected:
-  Target(const GlTable& gl, std::uint32_t width, std::uint32_t height)
-      : gl_(gl), width_(width), height_(height) {}
+  Target(const GlTable& gl, std::mutex& turns, std::uint32_t width, std::uint32_t height)
+      : gl_(gl), turns_(turns), width_(width), height_(height) {}
 
 private:
   const GlTable& gl_;
+  std::mutex& turns_;
   std::uint32_t width_, height_;
 };
 

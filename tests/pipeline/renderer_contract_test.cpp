@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <malloc.h>
 #include <set>
 #include <thread>
 
@@ -43,6 +44,31 @@ TEST(ThreadsRenderer, TwoThreadsWithAContextEachGiveThePicturesOfOne) {
   }
   for (const auto& picture : found[0]) EXPECT_EQ(picture, left);
   for (const auto& picture : found[1]) EXPECT_EQ(picture, right);
+}
+
+/// Some threads read their picture while others draw theirs: there Mesa looks, unguarded, at what other
+/// contexts are just giving up. Memory given back is overwritten, so that a look at it does not pass by luck.
+TEST(ThreadsRenderer, ManyContextsDrawAndReadAllTheTime) {
+  constexpr std::size_t kWalls = 6, kPictures = 20, kMeshes = 100;
+  mallopt(M_PERTURB, 0xa5);
+  MeshStore meshes;
+  DrawList list = test::plainList();
+  for (std::size_t i = 0; i < kMeshes; ++i) {
+    auto textured = MeshMaker(matt(0.5f, 0.4f, 0.01f * static_cast<float>(i)));
+    list.opaque.push_back(place(meshes.add(textured.texture(test::chequered(8, 2)).sphere(0.5, 8).seal())));
+  }
+  const test::Picture expected = Stage(meshes, 16, 16).draw(list);
+  std::array<std::size_t, kWalls> wrong{};
+  {
+    std::array<std::jthread, kWalls> threads;
+    for (std::size_t wall = 0; wall < kWalls; ++wall)
+      threads[wall] = std::jthread([&, wall] {
+        Stage stage(meshes, 16, 16);
+        for (std::size_t i = 0; i < kPictures; ++i) wrong[wall] += stage.draw(list) != expected;
+      });
+  }
+  mallopt(M_PERTURB, 0);
+  EXPECT_EQ(wrong, (std::array<std::size_t, kWalls>{}));
 }
 
 TEST(PictureRenderer, OneCallDrawsBothEyes) {
@@ -93,7 +119,7 @@ TEST(PictureRenderer, OneSampleAPixelGivesHardEdges) {
   list.opaque = {place(meshes.add(MeshMaker(white).triangle({-1, 0, -1}, {1, 0, -1}, {-0.9, 0, 1}).seal()))};
   Stage stage(meshes, 32, 32);
   const auto shades = [&](std::uint32_t samples) {
-    auto renderer = Renderer::create(stage.gl(), meshes, 32, 32, {samples});
+    auto renderer = Renderer::create(stage.gl(), stage.turns(), meshes, 32, 32, {samples});
     EXPECT_TRUE(renderer);
     EXPECT_FALSE(renderer.value()->draw(list));
     std::vector<std::uint8_t> rgba(32 * 32 * 4);
@@ -110,8 +136,8 @@ TEST(PictureRenderer, OneSampleAPixelGivesHardEdges) {
 TEST(PictureRenderer, RefusesSizesThatNoBufferHas) {
   MeshStore meshes;
   Stage stage(meshes, 4, 4);
-  EXPECT_FALSE(Renderer::create(stage.gl(), meshes, 0, 4));
-  EXPECT_FALSE(Renderer::create(stage.gl(), meshes, 16385, 4));
+  EXPECT_FALSE(Renderer::create(stage.gl(), stage.turns(), meshes, 0, 4));
+  EXPECT_FALSE(Renderer::create(stage.gl(), stage.turns(), meshes, 16385, 4));
 }
 
 TEST(PictureRenderer, FreesMeshesThatTheStoreHasFreed) {

@@ -31,6 +31,7 @@ public:
 
   Renderer& renderer() { return *renderer_; }
   const GlTable& gl() const { return target_->gl(); }
+  std::mutex& turns() const { return target_->turns(); }
   /// Draws and reads one eye; a problem fails the test.
   Picture draw(const DrawList& list, std::uint32_t eye = 0);
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <mutex>
 
 namespace stadion {
 namespace {
@@ -36,7 +37,7 @@ TEST_P(TargetProvider, OffersAtLeastOpenGl33Core) {
 /// An implementation that draws less than Stadion would.
 class SmallTarget final : public Target {
 public:
-  explicit SmallTarget(const GlTable& gl) : Target(gl, 1, 1) {}
+  SmallTarget(const GlTable& gl, std::mutex& turns) : Target(gl, turns, 1, 1) {}
   std::optional<Diagnostic> makeCurrent() override { return {}; }
   void release() override {}
 };
@@ -51,11 +52,12 @@ public:
   }
   std::string_view name() const override { return "small"; }
   Result<std::unique_ptr<Target>> create(std::uint32_t, std::uint32_t) override {
-    return std::unique_ptr<Target>(std::make_unique<SmallTarget>(gl_));
+    return std::unique_ptr<Target>(std::make_unique<SmallTarget>(gl_, turns_));
   }
 
 private:
   GlTable gl_;
+  std::mutex turns_;
 };
 
 TEST(TargetSize, IsWhatTheProviderSaysItCanDraw) {
