@@ -67,6 +67,14 @@ struct Support {
   std::array<Vec3, 4> edgeNormal{Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
   std::array<double, 4> edgeOffset{};
   double friction = 0, rolling = 0, restitution = 0;
+
+  /// Whether a ball at p that moves with v has come to the face's end.
+  bool ends(const Vec3& p, const Vec3& v) const {
+    constexpr double kAtEdge = 1e-9;  // [m]
+    for (std::size_t i = 0; i < static_cast<std::size_t>(edges); ++i)
+      if (edgeNormal[i].dot(p) - edgeOffset[i] <= kAtEdge && edgeNormal[i].dot(v) < 0) return true;
+    return false;
+  }
 };
 
 /// A contact point of the last step of the solver, as a guess for the next.

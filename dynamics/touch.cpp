@@ -140,7 +140,8 @@ std::optional<Touch> planeRoot(const BallFlight& flight, const Collider& plane, 
   return Touch{from + t, {height - flight.radius, c - height * n, n, true, -1}, false};
 }
 
-/// A flat face of a mesh that a ball already rolls on is nothing it can meet.
+/// A flat face of a mesh that a ball already rolls on is nothing it can meet; nor is what lies wholly below
+/// the plane of that face, as beyond the edges of a hill, until the ball leaves it.
 class OwnFace {
 public:
   OwnFace(const Side& ball, const Side& mesh, const Pose& X)
@@ -149,8 +150,11 @@ public:
                      : nullptr),
         X_(X) {}
   bool operator()(const Triangle& t) const {
-    return support_ && (X_.q * t.normal).dot(support_->normal) > 1 - 1e-7 &&
-           std::fabs(support_->normal.dot(X_ * t.v[0] - support_->point)) < 1e-6;
+    if (!support_) return false;
+    const auto height = [&](const Vec3& v) { return support_->normal.dot(X_ * v - support_->point); };
+    if ((X_.q * t.normal).dot(support_->normal) > 1 - 1e-7) return std::fabs(height(t.v[0])) < 1e-6;
+    constexpr double kNotAbove = 1e-8;  // [m]
+    return std::ranges::all_of(t.v, [&](const Vec3& v) { return height(v) < kNotAbove; });
   }
 
 private:

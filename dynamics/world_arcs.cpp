@@ -361,7 +361,7 @@ bool World::Core::crossEdge(RigidBody& b, double tau) {
     gap.triangle = static_cast<std::int32_t>(i), gap.face = true, gap.normal = up;
     gap.point = c->motion.end * q.point;
     Support next;
-    if (!supportFor(b, *c, gap, tau, next)) continue;
+    if (!supportFor(b, *c, gap, next)) continue;
     next.point = b.support.point, next.normal = n;  // the same plane: no step of rounding from face to face
     b.support = next;
     return true;
@@ -382,12 +382,7 @@ void World::Core::reachHorizon(RigidBody& b, double tau) {
   const Quat q = b.orientation(tau);
   BallStart s{p, v, b.spin.angularVelocity(b.spinAge(tau)), q};
   const Vec3& n = b.support.normal;
-  bool outside = false;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(b.support.edges); ++i) {
-    const double h = b.support.edgeNormal[i].dot(p) - b.support.edgeOffset[i];
-    outside = outside || (h <= 1e-9 && b.support.edgeNormal[i].dot(v) < 0);
-  }
-  if (outside && !crossEdge(b, tau)) {
+  if (b.support.ends(p, v) && !crossEdge(b, tau)) {
     startFlight(b, tau, p, v, q, b.inertia.x() * s.omega);
   } else {
     Vec3 slip = v - b.radius() * s.omega.cross(n);

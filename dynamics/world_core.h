@@ -191,7 +191,7 @@ public:
   void countImpact(RigidBody& b, double tau) const;
   void onTouch(const Touch& touch, Party a, Party b, double tau);
   static bool carries(const RigidBody& ball, const Collider& c, const Gap& gap);
-  bool supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, double tau, Support& out) const;
+  bool supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, Support& out) const;
   void strikeInCrowd(RigidBody& b, const Mobile& m, double tau);
   void afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting);
 
@@ -284,6 +284,7 @@ public:
   void conclude(Island& island, double tau, double h);
   void concludeFreely(RigidBody& b, const Mobile& start, double tau);
   void noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end, double tau, double h) const;
+  bool inFold(const RigidBody& b, const Collider& c, const Support& face, double tau) const;
   bool settleOnFace(RigidBody& b, const Found& only, double tau);
   std::uint32_t tickNumber = 0;
   double tickAt = -1;  ///< [s] tau of the scheduled one

@@ -277,7 +277,7 @@ void World::Core::settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& 
   const bool pressed = accelerationAt(b, k.p, k.v, tau).dot(gap.normal) < 0;
   Support face;
   if (touching.size() == 1 && other.collider && gap.distance > -1e-4 &&
-      supportFor(b, *other.collider, gap, tau, face)) {
+      supportFor(b, *other.collider, gap, face)) {
     if (away > 1e-9 || !pressed) return;  // it leaves by itself
     b.support = face;
     startOnFace(b, tau, {k.p, k.v - gap.normal * away, k.omega, b.orientation(tau)}, false, false);

@@ -11,10 +11,12 @@ namespace {
 constexpr double kLastBounce = 1e-7;
 /// The same between bodies that have no closed form to rest in [m].
 constexpr double kLastRattle = 1e-6;
+constexpr double kExact = 1e-9;  ///< a touch is taken to its surface from no farther: nobody is lifted [m]
 constexpr Nanoseconds kSpan = 16'000'000;     ///< in which impacts are counted [ns]
 constexpr std::uint32_t kMostImpacts = 60;    ///< in that time, then the contact solver takes over
 constexpr std::uint32_t kMostRattles = 4;     ///< the same where bounces die away soon
 constexpr std::uint32_t kMostInThick = 1;     ///< and among many balls, who will lean on each other anyway
+constexpr std::uint32_t kMostFolds = 200;     ///< of faces that a ball rolls over
 constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
 constexpr std::uint32_t kMostElastic =
     600;  ///< where nothing is lost: no bounces that die away, but squeezes
@@ -36,15 +38,14 @@ bool World::Core::carries(const RigidBody& ball, const Collider& c, const Gap& g
 }
 
 /// That face.
-bool World::Core::supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, double tau,
-                             Support& s) const {
+bool World::Core::supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, Support& s) const {
   if (!carries(ball, c, gap)) return false;
   const Pose& X = c.motion.end;
   s = {};
   s.on = {false, c.id};
   s.normal = gap.normal;
   s.triangle = gap.triangle;
-  s.point = ball.position(tau) - ball.radius() * gap.normal;
+  s.point = gap.point;
   const PairSurface pair = combine(ball.surface, c.surface);
   s.friction = pair.friction, s.rolling = pair.rolling, s.restitution = pair.restitution;
   const auto edge = [&](const Vec3& inward, const Vec3& on) {
@@ -175,7 +176,10 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   const double press = -n.dot(pull(a) - (b ? pull(*b) : Vec3(Vec3::Zero())));
   const double rebound = pair.restitution * std::max(closing, 0.0);
 
-  const bool onFace = c && a.mode == BodyMode::Flight && carries(a, *c, touch.gap);
+  // A ball that rolls into the next face of its mesh goes on there, unless it rocks in a fold.
+  const bool rolls = (a.mode == BodyMode::Slide || a.mode == BodyMode::Roll) && a.support.on.id &&
+                     a.support.on == pb && a.impacts <= kMostFolds;
+  const bool onFace = c && (a.mode == BodyMode::Flight || rolls) && carries(a, *c, touch.gap);
   const double last = onFace ? kLastBounce : kLastRattle;
   std::uint32_t most = pair.restitution < 1 ? kMostImpacts : kMostElastic;
   if (pair.restitution < 0.6)
@@ -190,11 +194,11 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   const Vec3 impulse = patch ? patch->impulse : collide(ma, mb, x, n, restitution, pair.friction);
   ContactMemory::Waiting* waiting =
       memory.impact(key, timeAt(tau), patch ? patch->middle : x, outwards, closing, impulse.dot(n), frame);
-  if (Support face; onFace && ends && supportFor(a, *c, touch.gap, tau, face)) {
+  if (Support face;
+      onFace && ends && supportFor(a, *c, touch.gap, face) && !face.ends(a.position(tau), ma.v)) {
     BallStart s{a.position(tau), ma.v, ma.omega, a.orientation(tau)};
     s.v -= n * n.dot(s.v);
-    s.p -= touch.gap.distance * n;
-    face.point = s.p - a.radius() * n;
+    if (std::fabs(touch.gap.distance) < kExact) s.p -= touch.gap.distance * n;
     a.support = face;
     startOnFace(a, tau, s, false, false);
     predict(a, tau);

@@ -90,8 +90,8 @@ double pushOut(double gap) {
 
 }  // namespace
 
-/// The speed at which overlap is taken back [m/s]. Points of one face go at one speed, that of the least
-/// deep: if each had its own, three of them would contradict the fourth.
+/// The speed at which overlap is taken back [m/s]. Points of one face go at one speed, the mean of theirs: if
+/// each had its own, three of them would contradict the fourth.
 double World::Core::pushOutOf(const std::vector<Found>& found, std::size_t i) {
   const Found& f = found[i];
   double sum = 0, many = 0;
@@ -354,12 +354,35 @@ void World::Core::concludeFreely(RigidBody& b, const Mobile& start, double tau) 
   startFlight(b, tau, start.p, start.v, q, q * b.inertia.cwiseProduct(q.conjugate() * start.omega));
 }
 
+/// Whether another face of the mesh is in the way of a ball that would go on along this one.
+bool World::Core::inFold(const RigidBody& b, const Collider& c, const Support& face, double tau) const {
+  constexpr double kTouches = 1e-8;     // [m]
+  constexpr double kClosingIn = 1e-10;  // [m/s]
+  const auto* mesh = std::get_if<MeshShape>(&*c.shape);
+  if (!mesh) return false;
+  const Vec3 v = b.velocity(tau), along = v - face.normal * face.normal.dot(v);
+  const Pose X = c.motion.end;
+  const Vec3 centre = X.inverse() * b.position(tau), local = X.q.conjugate() * along;
+  const double reach = b.radius() + kTouches;
+  Aabb box;
+  box.lo = centre.array() - reach, box.hi = centre.array() + reach;
+  std::vector<std::uint32_t> near;
+  mesh->tree.overlapping(box, near);
+  return std::ranges::any_of(near, [&](std::uint32_t i) {
+    if (static_cast<std::int32_t>(i) == face.triangle) return false;
+    const Vec3 from = centre - closestPoint(mesh->tree.triangles()[i], centre).point;
+    const double distance = from.norm();
+    return distance < reach && from.dot(local) < -kClosingIn * distance;
+  });
+}
+
 /// A ball on one still face has a closed form.
 bool World::Core::settleOnFace(RigidBody& b, const Found& only, double tau) {
   const Collider* c = only.b.isBody ? nullptr : collider(only.b.id);
   Support face;
   if (!c || std::fabs(only.gap.distance) > 2 * kSlop ||
-      std::fabs(b.velocity(tau).dot(only.gap.normal)) > 1e-3 || !supportFor(b, *c, only.gap, tau, face))
+      std::fabs(b.velocity(tau).dot(only.gap.normal)) > 1e-3 || !supportFor(b, *c, only.gap, face) ||
+      face.ends(b.position(tau), b.velocity(tau)) || inFold(b, *c, face, tau))
     return false;
   b.support = face;
   BallStart s{b.position(tau), b.velocity(tau), b.spin.angularVelocity(b.spinAge(tau)), b.orientation(tau)};

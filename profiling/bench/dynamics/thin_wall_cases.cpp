@@ -102,7 +102,7 @@ void shoot(Outcome& out, const Shot& shot) {
   out.m["tunnelled_of_8"] = tunnelled;
   out.m["no_rebound_of_8"] = stuck;
   if (shot.disc) {
-    out.m["err"] = tunnelled;
+    out.m["err"] = tunnelled ? 99 : place;
     out.m["pos_err"] = place;
   } else {
     out.m["err"] = tunnelled ? 99 : place;
