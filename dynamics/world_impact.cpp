@@ -16,7 +16,7 @@ constexpr Nanoseconds kSpan = 16'000'000;     ///< in which impacts are counted 
 constexpr std::uint32_t kMostImpacts = 60;    ///< in that time, then the contact solver takes over
 constexpr std::uint32_t kMostRattles = 4;     ///< the same where bounces die away soon
 constexpr std::uint32_t kMostInThick = 1;     ///< and among many balls, who will lean on each other anyway
-constexpr std::uint32_t kMostFolds = 200;     ///< of faces that a ball rolls over
+constexpr std::uint32_t kMostFolds = 200;     ///< and of faces that a ball rolls over
 constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
 constexpr std::uint32_t kMostElastic =
     600;  ///< where nothing is lost: no bounces that die away, but squeezes

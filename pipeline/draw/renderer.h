@@ -5,8 +5,8 @@
 ///              things in the list's order, blended and without writing depth. 4 samples a pixel, light
 ///              computed in linear RGB, pictures in sRGB (shaders.h says how).
 /// Same pixels  for the same list in every thread, context and provider of one Mesa version.
-/// Ownership    owns its GL objects; the table, the mutex and the mesh store must outlive it. Meshes are
-/// uploaded at
+/// Ownership    owns its GL objects; the table, the mutex and the mesh store must outlive it.
+///              Meshes are uploaded at
 ///              their first use and freed once the store has freed them.
 /// Threads      made, used and destroyed on the thread on which its context is current. Renderers of a
 ///              software rasteriser take turns, since Mesa looks for a texture that is bound or read in what
