@@ -84,11 +84,8 @@ Vec3 ConvexCore::support(const Vec3& d) const {
   }
   case Kind::Hull: {
     const Vec3 l = R.transpose() * d;
-    double far = -1e300;
-    const Vec3* best = &hull->points.front();
-    for (const Vec3& x : hull->points)
-      if (const double h = l.dot(x); h > far) far = h, best = &x;
-    return p + R * (shrink == 1 ? *best : Vec3(hull->centre + shrink * (*best - hull->centre)));
+    const Vec3& far = hull->points[hull->farthest(l)];
+    return p + R * (shrink == 1 ? far : Vec3(hull->centre + shrink * (far - hull->centre)));
   }
   case Kind::Triangle: {
     const double a = d.dot(v[0]), b = d.dot(v[1]), c = d.dot(v[2]);

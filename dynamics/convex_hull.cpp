@@ -147,7 +147,45 @@ void merge(const std::vector<Facet>& facets, double tolerance, ConvexShape& s) {
   s.edges.assign(edges.begin(), edges.end());
 }
 
+std::uint32_t farthestOfAll(const std::vector<Vec3>& points, const Vec3& d) {
+  double far = -1e300;
+  std::uint32_t best = 0;
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    if (const double h = d.dot(points[i]); h > far) far = h, best = i;
+  return best;
+}
+
+/// Each edge of the triangles, from both its ends: also those inside flat faces, so that no corner is alone.
+void connect(const std::vector<Facet>& facets, ConvexShape& s) {
+  s.firstNeighbour.assign(s.points.size() + 1, 0);
+  for (const Facet& f : facets)
+    for (const Index v : f.v) ++s.firstNeighbour[v + 1];
+  for (std::size_t i = 1; i < s.firstNeighbour.size(); ++i) s.firstNeighbour[i] += s.firstNeighbour[i - 1];
+  s.neighbours.resize(s.firstNeighbour.back());
+  std::vector<Index> next(s.firstNeighbour.begin(), s.firstNeighbour.end() - 1);
+  for (const Facet& f : facets)
+    for (std::size_t k = 0; k < 3; ++k) s.neighbours[next[f.v[k]]++] = f.v[(k + 1) % 3];
+  for (std::size_t i = 0; i < 8; ++i)
+    s.outermost[i] = farthestOfAll(s.points, Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+}
+
 }  // namespace
+
+std::uint32_t ConvexShape::farthest(const Vec3& d) const {
+  constexpr std::size_t kFew = 24;
+  if (points.size() <= kFew) return farthestOfAll(points, d);
+  std::uint32_t best =
+      outermost[std::size_t{d.x() > 0} | std::size_t{d.y() > 0} << 1 | std::size_t{d.z() > 0} << 2];
+  double far = d.dot(points[best]);
+  for (bool higher = true; higher;) {
+    higher = false;
+    const std::uint32_t from = best;
+    for (std::uint32_t i = firstNeighbour[from]; i < firstNeighbour[from + 1]; ++i)
+      if (const double h = d.dot(points[neighbours[i]]); h > far)
+        far = h, best = neighbours[i], higher = true;
+  }
+  return best;
+}
 
 std::optional<ConvexShape> convexHull(const std::vector<Vec3>& cloud) {
   if (!std::ranges::all_of(cloud, [](const Vec3& p) { return p.allFinite(); })) return {};
@@ -172,6 +210,7 @@ std::optional<ConvexShape> convexHull(const std::vector<Vec3>& cloud) {
   for (const Vec3& p : s.points) box.include(p);
   s.centre = box.centre();
   for (const Vec3& p : s.points) s.reach = std::max(s.reach, (p - s.centre).norm());
+  connect(facets, s);
   merge(facets, 2e-7 * s.reach, s);
   s.inside = 1e300;
   for (const ConvexShape::Face& f : s.faces) s.inside = std::min(s.inside, f.offset - f.normal.dot(s.centre));

@@ -30,6 +30,13 @@ struct ConvexShape {
   Vec3 centre = Vec3::Zero();                       ///< of the corners' bounds
   double reach = 0;                                 ///< greatest distance of a corner from the centre [m]
   double inside = 0;                                ///< radius of a ball about the centre that fits [m]
+
+  /// A corner that lies farthest along d; of many corners, found by going uphill from one to the next.
+  std::uint32_t farthest(const Vec3& d) const;
+
+  /// Who is next to corner i: neighbours[firstNeighbour[i]] and on, before firstNeighbour[i + 1].
+  std::vector<std::uint32_t> neighbours, firstNeighbour;
+  std::array<std::uint32_t, 8> outermost{};  ///< along (-1, -1, -1), (1, -1, -1), (-1, 1, -1) and so on
 };
 
 /// Nothing if the points are not finite or lie in one plane.
