@@ -139,6 +139,30 @@ struct Flier {
   }
 };
 
+/// Of round hulls, boxes with many points on their sides, and flat lenses.
+TEST(ConvexHull, TheFarthestCornerOfManyIsFoundGoingUphill) {
+  Dice d(8);
+  for (int shape = 0; shape < 30; ++shape) {
+    std::vector<Vec3> cloud;
+    for (int i = 0; i < 600; ++i) {
+      Vec3 x = d.vec();
+      if (shape % 3 == 1) x[i % 3] = i % 2 ? 1 : -1;
+      if (shape % 3 != 1) x.normalize();
+      if (shape % 3 == 2) x.z() *= 0.05;
+      cloud.push_back(x);
+    }
+    const auto hull = convexHull(cloud);
+    ASSERT_TRUE(hull);
+    ASSERT_GT(hull->points.size(), 24u);
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 along = i < 6 ? Vec3(Vec3::Unit(i % 3) * (i < 3 ? 1 : -1)) : d.vec();
+      double far = -1e300;
+      for (const Vec3& x : hull->points) far = std::max(far, along.dot(x));
+      EXPECT_GE(along.dot(hull->points[hull->farthest(along)]), far - 1e-12) << shape;
+    }
+  }
+}
+
 TEST(ConvexTouch, NothingTouchesBeforeItIsSaidToAndThenItDoes) {
   Dice d(21);
   double worst = 0, early = 0;
