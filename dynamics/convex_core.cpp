@@ -10,22 +10,22 @@ double signOf(double x) {
   return x < 0 ? -1 : 1;
 }
 
-/// Faces of a hull that look most along d, best first.
+/// Up to four faces of a hull that look most along d, best first.
 int facesAlong(const ConvexShape& hull, const Vec3& d, std::array<std::uint32_t, 4>& best) {
   std::array<double, 4> score;
   int n = 0;
-  for (std::uint32_t i = 0; i < hull.faces.size(); ++i) {
+  hull.eachFaceTowards(d, [&](std::uint32_t i) {
     const double s = hull.faces[i].normal.dot(d);
     int at = n;
     while (at > 0 && score[static_cast<std::size_t>(at - 1)] < s) --at;
-    if (at == 4) continue;
+    if (at == 4) return;
     n = std::min(n + 1, 4);
     for (int k = n - 1; k > at; --k) {
       const auto to = static_cast<std::size_t>(k);
       score[to] = score[to - 1], best[to] = best[to - 1];
     }
     score[static_cast<std::size_t>(at)] = s, best[static_cast<std::size_t>(at)] = i;
-  }
+  });
   return n;
 }
 

@@ -79,7 +79,8 @@ bool onFace(const ConvexCore& a, const ConvexCore& b, const Vec3& towards, Vec3&
   return true;
 }
 
-/// The plane of b's face that a's middle is farthest outside of; false if b has none there.
+/// The plane of a face of b, of those towards a's middle, that the middle is farthest outside of; false if
+/// b has none there.
 bool facePlane(const ConvexCore& b, const Vec3& middle, Vec3& n, double& level) {
   const Vec3 l = b.R.transpose() * (middle - b.p);
   switch (b.kind) {
@@ -99,8 +100,10 @@ bool facePlane(const ConvexCore& b, const Vec3& middle, Vec3& n, double& level) 
     if (b.shrink != 1) return false;
     double most = -1e300;
     const ConvexShape::Face* best = nullptr;
-    for (const ConvexShape::Face& f : b.hull->faces)
+    b.hull->eachFaceTowards(l - b.hull->centre, [&](std::uint32_t i) {
+      const ConvexShape::Face& f = b.hull->faces[i];
       if (const double h = f.normal.dot(l) - f.offset; h > most) most = h, best = &f;
+    });
     if (!best) return false;
     n = b.R * best->normal, level = n.dot(b.p) + best->offset;
     return true;

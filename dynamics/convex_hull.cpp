@@ -106,24 +106,24 @@ private:
   double tolerance_ = 0;
 };
 
-/// Facets in one plane become one polygon: the rim of their union, in order.
-void merge(const std::vector<Facet>& facets, double tolerance, ConvexShape& s) {
-  std::vector<bool> used(facets.size(), false);
-  std::vector<Index> order(facets.size());
+/// Facets in one plane become one polygon: the rim of their union, in order. Returns the face of each.
+std::vector<Index> merge(const std::vector<Facet>& facets, double tolerance, ConvexShape& s) {
+  constexpr Index kNone = ~Index{0};
+  std::vector<Index> faceOf(facets.size(), kNone);
   std::set<std::array<Index, 2>> edges;
   for (std::size_t i = 0; i < facets.size(); ++i) {
-    if (used[i]) continue;
+    if (faceOf[i] != kNone) continue;
     std::map<Index, Index> next;
     std::set<std::pair<Index, Index>> rim;
     for (std::size_t j = i; j < facets.size(); ++j) {
       const Facet& f = facets[j];
       const bool flat =
-          j == i ||
-          (!used[j] && f.normal.dot(facets[i].normal) > 1 - 1e-6 && std::ranges::all_of(f.v, [&](Index v) {
-            return std::fabs(facets[i].normal.dot(s.points[v]) - facets[i].offset) <= tolerance;
-          }));
+          j == i || (faceOf[j] == kNone && f.normal.dot(facets[i].normal) > 1 - 1e-6 &&
+                     std::ranges::all_of(f.v, [&](Index v) {
+                       return std::fabs(facets[i].normal.dot(s.points[v]) - facets[i].offset) <= tolerance;
+                     }));
       if (!flat) continue;
-      used[j] = true;
+      faceOf[j] = static_cast<Index>(s.faces.size());
       for (std::size_t k = 0; k < 3; ++k) {
         const Index a = f.v[k], b = f.v[(k + 1) % 3];
         if (!rim.erase({b, a})) rim.insert({a, b});
@@ -145,6 +145,7 @@ void merge(const std::vector<Facet>& facets, double tolerance, ConvexShape& s) {
     s.faces.push_back(face);
   }
   s.edges.assign(edges.begin(), edges.end());
+  return faceOf;
 }
 
 std::uint32_t farthestOfAll(const std::vector<Vec3>& points, const Vec3& d) {
@@ -156,7 +157,7 @@ std::uint32_t farthestOfAll(const std::vector<Vec3>& points, const Vec3& d) {
 }
 
 /// Each edge of the triangles, from both its ends: also those inside flat faces, so that no corner is alone.
-void connect(const std::vector<Facet>& facets, ConvexShape& s) {
+void connect(const std::vector<Facet>& facets, const std::vector<Index>& faceOf, ConvexShape& s) {
   s.firstNeighbour.assign(s.points.size() + 1, 0);
   for (const Facet& f : facets)
     for (const Index v : f.v) ++s.firstNeighbour[v + 1];
@@ -165,6 +166,13 @@ void connect(const std::vector<Facet>& facets, ConvexShape& s) {
   std::vector<Index> next(s.firstNeighbour.begin(), s.firstNeighbour.end() - 1);
   for (const Facet& f : facets)
     for (std::size_t k = 0; k < 3; ++k) s.neighbours[next[f.v[k]]++] = f.v[(k + 1) % 3];
+  std::set<std::array<Index, 2>> around;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    for (const Index v : facets[i].v)
+      if (faceOf[i] < s.faces.size()) around.insert({v, faceOf[i]});
+  s.firstFace.assign(s.points.size() + 1, 0);
+  for (const auto& [corner, face] : around) ++s.firstFace[corner + 1], s.facesAround.push_back(face);
+  for (std::size_t i = 1; i < s.firstFace.size(); ++i) s.firstFace[i] += s.firstFace[i - 1];
   for (std::size_t i = 0; i < 8; ++i)
     s.outermost[i] = farthestOfAll(s.points, Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
 }
@@ -172,8 +180,7 @@ void connect(const std::vector<Facet>& facets, ConvexShape& s) {
 }  // namespace
 
 std::uint32_t ConvexShape::farthest(const Vec3& d) const {
-  constexpr std::size_t kFew = 24;
-  if (points.size() <= kFew) return farthestOfAll(points, d);
+  if (few()) return farthestOfAll(points, d);
   std::uint32_t best =
       outermost[std::size_t{d.x() > 0} | std::size_t{d.y() > 0} << 1 | std::size_t{d.z() > 0} << 2];
   double far = d.dot(points[best]);
@@ -210,8 +217,7 @@ std::optional<ConvexShape> convexHull(const std::vector<Vec3>& cloud) {
   for (const Vec3& p : s.points) box.include(p);
   s.centre = box.centre();
   for (const Vec3& p : s.points) s.reach = std::max(s.reach, (p - s.centre).norm());
-  connect(facets, s);
-  merge(facets, 2e-7 * s.reach, s);
+  connect(facets, merge(facets, 2e-7 * s.reach, s), s);
   s.inside = 1e300;
   for (const ConvexShape::Face& f : s.faces) s.inside = std::min(s.inside, f.offset - f.normal.dot(s.centre));
   if (!(s.inside >

@@ -33,9 +33,21 @@ struct ConvexShape {
 
   /// A corner that lies farthest along d; of many corners, found by going uphill from one to the next.
   std::uint32_t farthest(const Vec3& d) const;
+  /// Visits the faces whose outward normals are near d: those around that corner, or all of few.
+  template <class Visit>
+  void eachFaceTowards(const Vec3& d, Visit visit) const {
+    if (few()) {
+      for (std::uint32_t i = 0; i < faces.size(); ++i) visit(i);
+      return;
+    }
+    const std::uint32_t corner = farthest(d);
+    for (std::uint32_t i = firstFace[corner]; i < firstFace[corner + 1]; ++i) visit(facesAround[i]);
+  }
+  bool few() const { return points.size() <= 24; }  ///< looking through all is faster than walking
 
   /// Who is next to corner i: neighbours[firstNeighbour[i]] and on, before firstNeighbour[i + 1].
   std::vector<std::uint32_t> neighbours, firstNeighbour;
+  std::vector<std::uint32_t> facesAround, firstFace;  ///< the faces that meet in a corner, in the same way
   std::array<std::uint32_t, 8> outermost{};  ///< along (-1, -1, -1), (1, -1, -1), (-1, 1, -1) and so on
 };
 

@@ -6,8 +6,8 @@
 namespace stadion {
 namespace {
 
-constexpr double kFlat = 0.9999;    ///< a face this square to the normal carries a patch
-constexpr std::size_t kMost = 16;   ///< points of a pair
+constexpr double kFlat = 0.9999;      ///< a face this square to the normal carries a patch
+constexpr std::size_t kMost = 16;     ///< points of a pair
 constexpr double kUpright = 0.99999;  ///< a disc nearer to flat lies on points that turn with it
 constexpr double kWall = 0.2;  ///< share of its size by which a body may be behind a face that it touches
 

@@ -9,6 +9,7 @@ namespace stadion {
 namespace {
 
 constexpr int kMostLooks = 400;
+constexpr int kPatience = 4;     ///< looks until planes that turn are tried
 constexpr double kEven = 1e-8;   ///< points that reach as far but for this touch together [m]
 constexpr double kRough = 1e-5;  ///< accuracy of distances on the way
 constexpr double kFar = 0.05;    ///< of the body's reach: farther off a face its plane will do
@@ -74,12 +75,14 @@ struct Mover {
   }
   Vec3 velocityAt(const Vec3& x) const { return v + omega.cross(x - p); }
 
-  /// The greatest of n . (x + s v_x) over the body, and its rate of change.
-  double farthest(const Vec3& n, double s, double& rate) const {
-    const Vec3 turn = n.cross(omega), d = n + s * turn;
+  /// The greatest of (n + s w x n) . (x - o + s v_x) over the body, less what is of s^2, and its rate of
+  /// change; `w x n` is given.
+  double farthest(const Vec3& n, const Vec3& tilt, const Vec3& o, double s, double& rate) const {
+    const Vec3 turn = n.cross(omega) + tilt, d = n + s * turn;
     const Vec3 r = core.support(d) - p;
-    double far = n.dot(p) + s * n.dot(v) + d.dot(r);
-    rate = n.dot(v) + turn.dot(r);
+    const double pass = n.dot(v) + tilt.dot(p - o);
+    double far = n.dot(p - o) + s * pass + d.dot(r);
+    rate = pass + turn.dot(r);
     if (core.radius > 0) {
       const double l = d.norm();
       far += core.radius * l, rate += core.radius * d.dot(turn) / l;
@@ -88,24 +91,37 @@ struct Mover {
   }
 };
 
-/// f(s) of the header with its slope, for the direction n from b to a.
+/// f(s) of the header with its slope, for the direction n from b to a that turns with w about o.
 struct Lower {
   const Mover& a;
-  const Mover* b;  ///< if it turns
+  const Mover* b;  ///< if it turns as seen from n
   Vec3 n;
   double level = 0, rise = 0;  ///< else how far it reaches along n, and the rate of that
   double acceleration, drift;
+  Vec3 tilt = Vec3::Zero(), o = Vec3::Zero();
 
   Lower(const Mover& movingA, const Mover* movingB, const Vec3& normal, double plane, double bound)
       : a(movingA), b(movingB), n(normal), level(plane), acceleration(bound),
         drift(movingA.drift + (movingB ? movingB->drift : 0)) {
     if (!b || b->turning) return;
-    level = b->farthest(n, 0, rise);
+    level = b->farthest(n, tilt, o, 0, rise);
     b = nullptr;
   }
+  /// The same with the direction turning, for no longer than `most`: of what is of s^2 and more, tilt . v is
+  /// bounded by the speeds of all points, and the direction grows a little.
+  Lower(const Mover& movingA, const Mover& movingB, const Vec3& normal, double bound, const Vec3& w,
+        const Vec3& about)
+      : a(movingA), b(&movingB), n(normal), drift(0), tilt(w.cross(normal)), o(about) {
+    const double speed = (a.velocityAt(o) - b->velocityAt(o)).norm() +
+                         a.omega.norm() * ((a.p - o).norm() + a.reach) +
+                         b->omega.norm() * ((b->p - o).norm() + b->reach);
+    acceleration = std::sqrt(2.0) * bound + 2 * tilt.norm() * speed;
+  }
+  double most() const { return 1 / std::max(tilt.norm(), 1e-300); }
   double at(double s, double& slope) const {
     double ra, rb = rise;
-    const double near = -a.farthest(-n, s, ra), far = b ? b->farthest(n, s, rb) : level + s * rise;
+    const double near = -a.farthest(-n, -tilt, o, s, ra),
+                 far = b ? b->farthest(n, tilt, o, s, rb) : level + s * rise;
     slope = -ra - rb - acceleration * s;
     return near - far - 0.5 * acceleration * s * s;
   }
@@ -143,6 +159,29 @@ double safeTime(const Lower& f, double gap, double most, double known) {
     if (f.at(part * right, unused) + shift >= 0) return part * right;
   }
   return 0;
+}
+
+/// The same for planes that turn with what they touch: with a face of a or b, or with an edge of each.
+double turningTime(const Mover& a, const Mover& b, const ConvexGap& g, double gap, double acceleration,
+                   double most, double known) {
+  const Vec3& n = g.normal;
+  std::array<Vec3, 8> turns{a.omega, b.omega};
+  std::size_t count = b.turning ? 2 : 1;
+  const Directions da = directionsNear(a.core, -n, g.onA), db = directionsNear(b.core, n, g.onB);
+  for (int i = 0; i < da.edgeCount; ++i)
+    for (int j = 0; j < db.edgeCount && count < turns.size(); ++j) {
+      const Vec3 &ea = da.edges[static_cast<std::size_t>(i)], &eb = db.edges[static_cast<std::size_t>(j)];
+      const Vec3 across = n.cross(ea);
+      const double along = across.dot(eb);
+      if (std::fabs(n.dot(ea)) > 1e-4 || std::fabs(n.dot(eb)) > 1e-4 || std::fabs(along) < 0.05) continue;
+      turns[count++] = b.omega + eb * ((a.omega - b.omega).dot(across) / along);
+    }
+  double longest = known;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Lower f(a, b, n, acceleration, turns[i], g.onB);
+    longest = std::max(longest, safeTime(f, gap, std::min(most, f.most()), longest));
+  }
+  return longest;
 }
 
 /// The same with everything held inside spheres, turning or not.
@@ -218,7 +257,8 @@ std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double fro
     const double left = to - tau;
     const double outside = sphereTime(f, left);
     if (outside >= left) return {};
-    const double step = safeTime(f, gap, left, outside);
+    double step = safeTime(f, gap, left, outside);
+    if (b && i >= kPatience && step < left) step = turningTime(a, *b, g, gap, acceleration, left, step);
     if (step >= left) return {};
     tau += std::max(step, gap > 0 ? 1e-16 : 1e-9);
     if (!(tau <= to)) return {};

@@ -6,7 +6,9 @@
 ///          A a bound on the acceleration of points. The two extremes are supports along n + s n x omega, so
 ///          f is exact in s but for A, and concave: a step to its root cannot pass a contact however fast the
 ///          bodies turn, and near one the steps converge quadratically. Far off, a second bound holds the
-///          bodies inside their spheres, where their spin does not count.
+///          bodies inside their spheres, where their spin does not count. Where a face rocks on an edge, or
+///          two edges cross, corners beside the contact come through a fixed plane: there n turns with that
+///          face or those edges, n + s w x n, which adds to A what two speeds can make of it.
 
 #include "dynamics/convex_core.h"
 #include "dynamics/touch.h"

@@ -200,6 +200,44 @@ TEST(ConvexTouch, NothingTouchesBeforeItIsSaidToAndThenItDoes) {
   EXPECT_GE(early, -1e-10);
 }
 
+/// A plate's face against the edge of a beam, crossed edges, both all but steady while the plate's corners
+/// swing down beside the beam.
+TEST(ConvexTouch, ThatHardlyChangesTakesFewLooksHoweverFastCornersSwingBeside) {
+  const BoxShape beam{{}, {0.25, 2, 0.25}};
+  const auto about = [](double angle, const Vec3& axis) { return Quat(Eigen::AngleAxisd(angle, axis)); };
+  for (const double slant : {0.0, 0.6})
+    for (const double spin : {1.0, 30.0})
+      for (const double rate : {0.01, -0.01}) {
+        const double start = rate > 0 ? 1e-10 : 1e-4;
+        // Slanted, an edge of the plate crosses the beam's; else its face lies on it.
+        const Quat q = slant > 0 ? about(-slant, Vec3::UnitX()) : Quat::Identity();
+        const BoxShape plate{{}, {0.2, 0.3, 0.05}};
+        const Vec3 turn(0, spin, 0);
+        const Vec3 lowest = q * Vec3(slant > 0 ? 0 : 0.1, slant > 0 ? 0.3 : 0, -0.05);
+        const Vec3 X = Vec3(0, 0, start) - lowest;
+        Flier a(1, plate, {X, q}, Vec3(0, 0, rate) - turn.cross(lowest), q.conjugate() * turn, Vec3::Zero());
+        a.body.inertia = {1, 1, 1};
+        a.body.spin = Spin::free(q, turn, a.body.inertia);
+        Flier b(2, beam, {{0, 0, -0.25 * M_SQRT2}, about(M_PI / 4, Vec3::UnitY())}, Vec3::Zero(),
+                Vec3::Zero(), Vec3::Zero());
+        const auto gapAt = [&](double tau) {
+          return gapBetween(Side::of(a.body), Side::of(b.body), tau).distance;
+        };
+        const double to = 0.02 / spin;
+        std::uint64_t looks = 0;
+        const auto touch = firstTouch(Side::of(a.body), Side::of(b.body), 0, to, looks);
+        EXPECT_NEAR(gapAt(0), start, 1e-10);
+        const double end = touch ? touch->tau : to;
+        double least = 1e300;
+        for (int i = 0; i <= 200; ++i) least = std::min(least, gapAt(end * i / 200));
+        EXPECT_GE(least, -1e-10);
+        EXPECT_LE(touch ? std::fabs(gapAt(touch->tau)) : 0, 1e-10);
+        std::printf("  slant %.1f spin %4.0f rate %5.2f: %3llu looks, %s, least gap %.1e m\n", slant, spin,
+                    rate, static_cast<unsigned long long>(looks), touch ? "touch" : "none", least);
+        EXPECT_LE(looks, 40u);
+      }
+}
+
 TEST(ThinWall, NothingThatFliesAndTumblesGetsThroughABoxASheetOrAMesh) {
   Dice d(31);
   int through = 0;
