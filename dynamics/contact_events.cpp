@@ -30,8 +30,11 @@ void ContactMemory::update(const Key& pair, F change) {
 
 ContactMemory::Waiting* ContactMemory::impact(const Key& pair, Nanoseconds time, const Vec3& point,
                                               const Vec3& normal, double speed, double impulse,
-                                              std::uint64_t frame) {
+                                              std::uint64_t frame, bool awaited) {
   if (!(speed > kImpactSpeed) || touching(pair)) return nullptr;
+  events_.push_back(
+      {ContactEvent::Kind::Impact, time, pair.first, pair.second, point, normal, speed, impulse});
+  if (!awaited) return nullptr;
   Waiting* waiting = nullptr;
   update(pair, [&](Memory& m) {
     if (m.waiting == kNowhere) {
@@ -41,8 +44,6 @@ ContactMemory::Waiting* ContactMemory::impact(const Key& pair, Nanoseconds time,
     waiting = &waiting_[m.waiting];
     m.impact = time, waiting->frame = frame;
   });
-  events_.push_back(
-      {ContactEvent::Kind::Impact, time, pair.first, pair.second, point, normal, speed, impulse});
   return waiting;
 }
 

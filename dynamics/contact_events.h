@@ -20,9 +20,9 @@ public:
 
   void beginFrame() { events_.clear(); }
   struct Waiting;
-  /// A separated pair fires if it closes fast enough: it waits for its release then.
+  /// A separated pair fires if it closes fast enough: it waits for its release then, if that is asked for.
   Waiting* impact(const Key& pair, Nanoseconds time, const Vec3& point, const Vec3& normal, double speed,
-                  double impulse, std::uint64_t frame);
+                  double impulse, std::uint64_t frame, bool awaited);
   /// The pair is in lasting contact (or no longer).
   void setTouching(const Key& pair, bool touching);
   bool touching(const Key& pair) const;

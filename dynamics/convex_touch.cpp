@@ -9,7 +9,7 @@ namespace stadion {
 namespace {
 
 constexpr int kMostLooks = 400;
-constexpr int kPatience = 4;     ///< looks until planes that turn are tried
+constexpr int kPatience = 6;     ///< looks until planes that turn are tried
 constexpr double kEven = 1e-8;   ///< points that reach as far but for this touch together [m]
 constexpr double kRough = 1e-5;  ///< accuracy of distances on the way
 constexpr double kFar = 0.05;    ///< of the body's reach: farther off a face its plane will do
@@ -47,6 +47,7 @@ struct Mover {
   Vec3 precession = Vec3::Zero();  ///< round: steady [rad/s]
 
   Mover(const Side& s, double from, double to) : side(s), reach(reachOf(s)), round(precesses(s)) {
+    if (s.still()) return;
     const MotionBound b = s.boundOver(from, to);
     drift = b.acceleration;
     if (round) {
@@ -148,7 +149,7 @@ double safeTime(const Lower& f, double gap, double most, double known) {
     if (!(slope < 0)) break;
     const double next = right - value / slope;
     if (!(next < right) || !(next > 0)) break;
-    const bool done = right - next < 1e-3 * next;
+    const bool done = right - next < 1e-2 * next;
     right = next, value = f.at(right, slope) + shift;
     if (value >= 0) return right;
     if (done) break;
@@ -225,7 +226,8 @@ bool contactPoint(const Mover& a, const Mover* b, const std::vector<ManifoldPoin
   return true;
 }
 
-/// Looks until the pair touches. `place(tau)` moves both, `measure()` gives their gap relative to the origin.
+/// Looks until the pair touches. `place(tau)` moves both, `measure(level)` gives their gap relative to the
+/// origin and, of a b that stands still, how far it reaches along the normal if that is known anyway.
 template <class Place, class Measure, class Patch>
 std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double from, double to,
                              double tolerance, std::uint64_t& count, Place place, Measure measure,
@@ -236,10 +238,10 @@ std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double fro
   for (int i = 0; i < kMostLooks; ++i) {
     ++count;
     place(tau);
-    double level = 0;
+    std::optional<double> level;
     const ConvexGap g = measure(level);
     if (!std::isfinite(g.distance) || !g.normal.allFinite()) return {};
-    const Lower f(a, b, g.normal, level, acceleration);
+    const Lower f(a, level ? nullptr : b, g.normal, level.value_or(0), acceleration);
     double gap = g.distance;
     if (gap <= tolerance) {
       if (closingRate(f) < 0) {
@@ -291,9 +293,12 @@ std::optional<Touch> convexTouch(const Side& sa, const Side& sb, double from, do
         if (first) guess = a.core.middle() - b.core.middle();
         first = false;
       },
-      [&](double&) {
+      [&](std::optional<double>& level) {
         ConvexGap g;
-        if (gapOverFace(a.core, b.core, kFar * a.reach, g)) return g;
+        if (gapOverFace(a.core, b.core, kFar * a.reach, g)) {
+          if (sb.still()) level = g.normal.dot(g.onB);
+          return g;
+        }
         g = convexGap(a.core, b.core, guess, kRough);
         guess = g.normal;
         return g;
@@ -324,10 +329,10 @@ std::optional<Touch> planeTouch(const Side& sa, const Side& plane, double from, 
         a.v -= o.velocityAt(a.p + origin), a.omega -= o.omega;
         X = shifted(o.pose * shape.pose, origin);
       },
-      [&](double& level) {
+      [&](std::optional<double>& level) {
         ConvexGap g;
         g.normal = X.q * Vec3::UnitZ(), level = g.normal.dot(X.p);
-        g.distance = -a.core.extent(-g.normal) - level;
+        g.distance = -a.core.extent(-g.normal) - *level;
         g.onA = g.onB = a.core.support(-g.normal) - a.core.radius * g.normal;
         return g;
       },
@@ -371,9 +376,12 @@ std::optional<Touch> meshTouch(const Side& sa, const Side& sm, double from, doub
             if (first) guess = a.core.middle() - b.core.middle();
             first = false;
           },
-          [&](double&) {
+          [&](std::optional<double>& level) {
             ConvexGap g;
-            if (gapOverFace(a.core, b.core, kFar * a.reach, g) && g.distance > 1e-6) return g;
+            if (gapOverFace(a.core, b.core, kFar * a.reach, g) && g.distance > 1e-6) {
+              if (sm.still()) level = g.normal.dot(g.onB);
+              return g;
+            }
             g = convexGap(a.core, b.core, guess, kRough);
             guess = g.normal;
             if (g.distance < 1e-6) meshNormal(a.core, b.core, face, g);

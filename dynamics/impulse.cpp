@@ -8,10 +8,10 @@ namespace stadion {
 Mobile mobileOf(const RigidBody& b, double tau) {
   if (!b.movable()) {
     const Kinematics k = b.at(tau);
-    return {0, Mat3::Zero(), k.p, k.v, k.omega};
+    return {0, Mat3::Zero(), k.p, k.v, k.omega, k.pose.q * b.X_NC.q};
   }
   const Quat q = b.orientation(tau);
-  Mobile m{b.inverseMass, Mat3::Zero(), b.position(tau), b.velocity(tau), b.turning(tau)};
+  Mobile m{b.inverseMass, Mat3::Zero(), b.position(tau), b.velocity(tau), b.turning(tau, q), q};
   const Vec3 inverse = b.inertia.cwiseInverse();
   if (inverse.x() == inverse.y() && inverse.y() == inverse.z()) {
     m.inverseInertia = inverse.x() * Mat3::Identity();
@@ -24,7 +24,7 @@ Mobile mobileOf(const RigidBody& b, double tau) {
 
 Mobile mobileOf(const Collider& c, double tau) {
   const Kinematics k = c.motion.at(tau);
-  return {0, Mat3::Zero(), k.p, k.v, k.omega};
+  return {0, Mat3::Zero(), k.p, k.v, k.omega, k.pose.q};
 }
 
 Mat3 response(const Mobile& m, const Vec3& x) {

@@ -13,9 +13,10 @@ constexpr double kTogether = 1e-5;  ///< way that the last point of an impact ha
 constexpr double kSoon = 1e-4;      ///< and time [s]
 constexpr double kSameSide = 0.99;  ///< cosine between the normals of its points
 
-bool strikesWithAPoint(const Side& s, double tau, const Vec3& n) {
+bool strikesWithAPoint(const Side& s, const Mobile& m, const Vec3& n) {
   ConvexCore core;
-  return isConvex(*s.shape) && coreOf(*s.shape, s.at(tau).pose, core) && pointed(core, n, kTogether);
+  const Pose turned{Vec3::Zero(), s.body ? Quat(m.q * s.body->X_CN.q) : m.q};
+  return isConvex(*s.shape) && coreOf(*s.shape, turned, core) && pointed(core, n, kTogether);
 }
 
 }  // namespace
@@ -26,7 +27,7 @@ std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau
     return g.normal.dot(mb.velocityAt(g.point) - ma.velocityAt(g.point));
   };
   const double speed = closing(first);
-  if (!(speed > 0) || strikesWithAPoint(a, tau, first.normal) || strikesWithAPoint(b, tau, first.normal))
+  if (!(speed > 0) || strikesWithAPoint(a, ma, first.normal) || strikesWithAPoint(b, mb, first.normal))
     return {};
   std::vector<ManifoldPoint> points;
   manifold(a, b, tau, std::max(first.distance, 0.0) + kTogether, points);

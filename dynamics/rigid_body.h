@@ -178,8 +178,8 @@ struct RigidBody : RigidMotion {
     return spin.L + share * (endL - spin.L);
   }
   /// Angular velocity that belongs to it.
-  Vec3 turning(double tau) const {
-    const Quat q = orientation(tau);
+  Vec3 turning(double tau) const { return turning(tau, orientation(tau)); }
+  Vec3 turning(double tau, const Quat& q) const {  ///< if the orientation is known already
     if (!torqued()) return spin.angularVelocity(spinAge(tau), q);
     const Vec3 inverse = inertia.cwiseInverse();
     if (inverse.x() == inverse.y() && inverse.y() == inverse.z()) return inverse.x() * momentum(tau);

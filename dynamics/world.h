@@ -57,7 +57,7 @@ struct BodyDef {
   Surface surface;
   double damping = 0;            ///< velocity lost as exp(-c t) [1/s]
   double dragArea = 0;           ///< drag coefficient times cross section, for media [m2]
-  double releaseDistance = 0.5;  ///< [m]
+  double releaseDistance = 0.5;  ///< [m]; if infinite, releases are not watched for and not told
 };
 
 struct ColliderDef {

@@ -363,8 +363,8 @@ void World::Core::endFrame() {
     for (RigidBody* b : active) catchUp(*b, now);
   partCarried();
   reportReleases();
-  std::stable_sort(memory.events().begin(), memory.events().end(),
-                   [](const ContactEvent& a, const ContactEvent& b) { return a.time < b.time; });
+  if (!std::ranges::is_sorted(memory.events(), {}, &ContactEvent::time))
+    std::ranges::stable_sort(memory.events(), {}, &ContactEvent::time);
   constexpr std::size_t kAhead = 4;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < active.size(); ++i) {

@@ -104,8 +104,8 @@ void World::Core::strikeInCrowd(RigidBody& b, const Mobile& m, double tau) {
 /// The body goes on with the velocities of m.
 void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting) {
   if (!b.movable()) return;
-  const Vec3 p = b.position(tau);
-  const Quat q = b.orientation(tau);
+  const Vec3& p = m.p;
+  const Quat& q = m.q;
   if (b.crowd) return strikeInCrowd(b, m, tau);
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * m.omega);
   const bool leaning = b.mode == BodyMode::Contact || (b.mode == BodyMode::Rest && !b.support.on.id);
@@ -160,8 +160,9 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   const double closing = -(ma.velocityAt(x) - mb.velocityAt(x)).dot(n);
   const ContactMemory::Key key = ContactMemory::keyOf(pa, pb);
   const Vec3 outwards = key.second == pa.id ? n : Vec3(-n);
+  const bool awaited = std::isfinite((key.second == pa.id ? a : *b).releaseDistance);
   if (!a.movable() && !(b && b->movable())) {
-    memory.impact(key, timeAt(tau), x, outwards, closing, 0, frame);
+    memory.impact(key, timeAt(tau), x, outwards, closing, 0, frame, awaited);
     memory.setTouching(key, true);
     return;
   }
@@ -192,11 +193,10 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   if (!a.isBall() && !(b && b->isBall()))
     patch = collidePatch(Side::of(a), *side(pb), tau, touch.gap, ma, mb, restitution, pair.friction);
   const Vec3 impulse = patch ? patch->impulse : collide(ma, mb, x, n, restitution, pair.friction);
-  ContactMemory::Waiting* waiting =
-      memory.impact(key, timeAt(tau), patch ? patch->middle : x, outwards, closing, impulse.dot(n), frame);
-  if (Support face;
-      onFace && ends && supportFor(a, *c, touch.gap, face) && !face.ends(a.position(tau), ma.v)) {
-    BallStart s{a.position(tau), ma.v, ma.omega, a.orientation(tau)};
+  ContactMemory::Waiting* waiting = memory.impact(key, timeAt(tau), patch ? patch->middle : x, outwards,
+                                                  closing, impulse.dot(n), frame, awaited);
+  if (Support face; onFace && ends && supportFor(a, *c, touch.gap, face) && !face.ends(ma.p, ma.v)) {
+    BallStart s{ma.p, ma.v, ma.omega, ma.q};
     s.v -= n * n.dot(s.v);
     if (std::fabs(touch.gap.distance) < kExact) s.p -= touch.gap.distance * n;
     a.support = face;

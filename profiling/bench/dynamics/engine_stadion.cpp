@@ -11,6 +11,8 @@
 #include "dynamics/world.h"
 #include "profiling/bench/dynamics/engine.h"
 
+#include <limits>
+
 namespace stadion::bench {
 namespace {
 
@@ -63,6 +65,7 @@ public:
     def.mass.inertia = zUpSize(b.inertia());
     def.surface = surface;
     def.dragArea = 2 * b.mass;
+    def.releaseDistance = std::numeric_limits<double>::infinity();  // nor do the others watch for that
     const BodyId id = world_.addBody(def);
     if (gravity_) world_.hook(id, gravity_, 0);
     bodies_.push_back({id, b.inertia()});
