@@ -16,6 +16,7 @@ constexpr double kQuietTime = 0.2;         ///< before a set of bodies sleeps [s
 constexpr double kGliding = 1e-9;          ///< quiet time of one whose slow motion is known [s]
 constexpr double kCreep = 1e-4;            ///< mean speeds below this are none [m/s]
 constexpr double kCalm = 1e-5;             ///< mean accelerations below this are balance, per pull [m/s2]
+constexpr double kRolls = 0.01;            ///< slip of what rolls, relative to how it turns
 constexpr double kStill = 1e-9;            ///< slower than this is not at all [m/s]
 constexpr double kBalanced = 1e-7;         ///< accelerations below this are rounding [m/s2]
 constexpr double kProbe = 1e-4;            ///< step in which accelerations are measured [s]
@@ -337,9 +338,16 @@ void World::Core::resistRolling(Island& s) const {
     const Vec3 about = ball ? m.omega : Vec3(m.omega - f.gap.normal * f.gap.normal.dot(m.omega));
     const double w = about.norm();
     if (!(radius > 0) || !(w > 0)) return;
-    const Vec3 loss = m.inverseInertia * (about / w);  // per unit of angular impulse
+    const Vec3 axis = about / w, turn = m.inverseInertia * axis;  // per unit of angular impulse
+    const double inertia = 1 / turn.dot(axis);
     const double most = f.surface.rolling * radius * f.contact.impulse[0];
-    m.omega -= std::min(most, w / loss.dot(about / w)) * loss;
+    // What rolls turns about the point that it rolls on, and is taken its way with its spin.
+    const Vec3 arm = m.p - f.gap.point;
+    const bool rolls = m.velocityAt(f.gap.point).norm() < kRolls * w * radius;
+    const double carried = rolls ? (arm - axis * axis.dot(arm)).squaredNorm() / m.inverseMass : 0;
+    const Vec3 change = std::min(most / (inertia + carried), w) * inertia * turn;
+    m.omega -= change;
+    if (rolls) m.v -= change.cross(arm);
   };
   for (const Found& f : s.found) {
     if (f.contact.impulse[0] <= 0 || f.surface.rolling <= 0) continue;

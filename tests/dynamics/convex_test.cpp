@@ -322,6 +322,32 @@ TEST(SolidShapes, ACylinderStandsAndACylinderRollsAndACapsuleLiesDown) {
   }
 }
 
+TEST(SolidShapes, RollingResistanceStopsARodWhereItShouldAndHoldsItAgainstASmallPull) {
+  World w;
+  const double c = 0.02, r = 0.1, half = 0.2, v0 = 1;
+  w.addCollider({w.addShape(PlaneShape{}), {}, {0.5, 0.0, c}});
+  const FieldId down = addGravity(w);
+  ForceField sideways;
+  sideways.law = LinearField{{0, 0.1, 0}};
+  const FieldId aside = w.addField(sideways, true);
+  const Quat lying = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX());
+  const BodyId rolls = addSolid(w, down, CylinderShape{Pose{}, r, half}, rodMass(1, r, half),
+                                {{0, 0, r}, lying}, {0, v0, 0}, {-v0 / r, 0, 0});
+  const BodyId held =
+      addSolid(w, down, CylinderShape{Pose{}, r, half}, rodMass(1, r, half), {{3, 0, r}, lying});
+  w.hook(held, aside, 0);
+  play(w, 12);
+  // (I + m r^2) alpha = c r m g about the line that it rolls on.
+  const double way = v0 * v0 / (2 * c * kG / 1.5);
+  std::printf("  rolled %.5f m, %.5f expected; the other crept %.1e m\n", w.state(rolls).p.y(), way,
+              w.state(held).p.y());
+  EXPECT_NEAR(w.state(rolls).p.y(), way, 2e-3 * way);
+  EXPECT_TRUE(w.state(rolls).asleep());
+  EXPECT_EQ(w.state(held).v.norm(), 0);
+  EXPECT_LE(std::fabs(w.state(held).p.y()), 1e-5);
+  EXPECT_TRUE(w.state(held).asleep());
+}
+
 TEST(SolidShapes, ABoxAndADiscSlideOverTheSeamsOfAFlatFloorAsOverAPlane) {
   for (const bool disc : {false, true}) {
     Vec3 end[2];
