@@ -1,6 +1,7 @@
 #include "tests/dynamics/scenes.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace stadion {
 namespace {
@@ -120,6 +121,37 @@ TEST(World, ReleasesAreToldToTheNanosecondAtAnyFrameRateOverPlanesBoxesAndMeshes
         EXPECT_NEAR(static_cast<double>(releases[k]), 1e9 * (fall * (2 * static_cast<double>(k) + 1) + rise),
                     1.0);
     }
+}
+
+TEST(World, ReleasesThatNobodyAskedForAreNotToldAndChangeNothingElse) {
+  std::vector<Nanoseconds> impacts[2];
+  BodyState end[2];
+  for (const bool asked : {true, false}) {
+    World w;
+    const FieldId g = addGravity(w);
+    w.addCollider({w.addShape(BoxShape{{{0, 0, -1}, Quat::Identity()}, {9, 9, 1}}), {}, {0.5, 0.8, 0.0}});
+    BodyDef d;
+    d.shape = w.addShape(BoxShape{{}, {0.1, 0.2, 0.3}});
+    d.mass.inertia = {0.1, 0.2, 0.3};
+    d.pose.p = {0, 0, 2}, d.omega = {3, 2, 1};
+    if (!asked) d.releaseDistance = std::numeric_limits<double>::infinity();
+    const BodyId box = w.addBody(d);
+    w.hook(box, g, 0);
+    int releases = 0;
+    play(w, 3, 60, [&](double) {
+      for (const ContactEvent& e : w.events())
+        if (e.kind == ContactEvent::Kind::Release)
+          ++releases;
+        else
+          impacts[asked].push_back(e.time);
+    });
+    EXPECT_EQ(releases > 0, asked);
+    end[asked] = w.state(box);
+  }
+  EXPECT_GT(impacts[1].size(), 1u);
+  EXPECT_EQ(impacts[0], impacts[1]);
+  EXPECT_EQ(end[0].p, end[1].p);
+  EXPECT_EQ(end[0].q.coeffs(), end[1].q.coeffs());
 }
 
 TEST(World, WhatOnlyOneSideStatesHoldsForThePair) {
