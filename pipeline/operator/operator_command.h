@@ -1,0 +1,52 @@
+#pragma once
+/// What the person at the desk can ask of a show that is running.
+///
+/// Keys of a terminal or a window and messages of a network all become these.
+///
+/// Threads  plain values.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace stadion {
+
+enum class OperatorAction : std::uint8_t {
+  Start,          ///< ends waiting: show time begins
+  Pause,          ///< on: show time stands still; the visitor can still look around
+  Step,           ///< one frame of show time, while it is paused
+  Black,          ///< on: all walls are black; the show goes on unless it is paused too
+  NextGroup,      ///< the show begins again, as if the program had been started anew
+  SwapEyes,       ///< on: left and right are exchanged on every wall
+  EyeSeparation,  ///< between the eyes [m]
+  FreezeHead,     ///< on: the head stays where it is, whatever its tracker says
+  Volume,         ///< of all sounds, from 0 to 1
+  End,            ///< the run ends after this frame
+};
+
+/// As addresses (/stadion/next-group) and in texts.
+inline constexpr std::array<std::string_view, 10> kOperatorActionNames = {
+    "start",     "pause",          "step",        "black",  "next-group",
+    "swap-eyes", "eye-separation", "freeze-head", "volume", "end"};
+
+constexpr std::string_view nameOf(OperatorAction action) {
+  return kOperatorActionNames[static_cast<std::size_t>(action)];
+}
+
+constexpr std::optional<OperatorAction> operatorActionNamed(std::string_view word) {
+  for (std::size_t i = 0; i < kOperatorActionNames.size(); ++i)
+    if (kOperatorActionNames[i] == word) return static_cast<OperatorAction>(i);
+  return std::nullopt;
+}
+
+struct OperatorCommand {
+  OperatorAction action{};
+  /// 1 on, 0 off, nothing: the other of what it is; of eye separation and volume the figure itself.
+  std::optional<double> value{};
+  bool relative = false;  ///< the value is added to what is
+
+  bool operator==(const OperatorCommand&) const = default;
+};
+
+}  // namespace stadion

@@ -1,0 +1,46 @@
+#include "pipeline/operator/operator_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+void turn(bool& what, const OperatorCommand& command) {
+  what = command.value ? *command.value != 0 : !what;
+}
+
+bool set(double& what, double now, double most, const OperatorCommand& command) {
+  if (!command.value) return false;
+  const double wanted = command.relative ? now + *command.value : *command.value;
+  // A step beyond the end stops there; a figure beyond it is a mistake.
+  if (!command.relative && (wanted < 0 || wanted > most)) return false;
+  what = std::clamp(wanted, 0.0, most);
+  return true;
+}
+
+}  // namespace
+
+bool OperatorState::obey(const OperatorCommand& command) {
+  if (command.value && !std::isfinite(*command.value)) return false;
+  switch (command.action) {
+  case OperatorAction::Start: waiting = false; return true;
+  case OperatorAction::Pause:
+    turn(paused, command);
+    steps = 0;
+    return true;
+  case OperatorAction::Step:
+    if (paused && steps < 1000) ++steps;
+    return paused;
+  case OperatorAction::Black: turn(shown.black, command); return true;
+  case OperatorAction::NextGroup: nextGroup = true; return true;
+  case OperatorAction::SwapEyes: turn(shown.swapEyes, command); return true;
+  case OperatorAction::EyeSeparation: return set(shown.eyeSeparation, eyeSeparation(), kWidestEyes, command);
+  case OperatorAction::FreezeHead: turn(headFrozen, command); return true;
+  case OperatorAction::Volume: return set(volume, volume, 1, command);
+  case OperatorAction::End: end = true; return true;
+  }
+  return false;
+}
+
+}  // namespace stadion
