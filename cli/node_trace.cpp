@@ -17,6 +17,7 @@ const char* nameOf(BodyMode mode) {
   case BodyMode::Rest: return "rest";
   case BodyMode::Held: return "held";
   case BodyMode::Quarantined: return "quarantined";
+  case BodyMode::Stuck: return "stuck";
   }
   return "?";
 }

@@ -131,6 +131,7 @@ struct RigidBody : RigidMotion {
   Sphere bound;          ///< centre in N
   double reach = 0;      ///< greatest distance of a surface point from the centre of mass [m]
   double damping = 0, dragArea = 0, releaseDistance = 0.5;
+  std::optional<Stick> stick;
 
   Vec3 endL = Vec3::Zero();  ///< Contact, but for Driven spins: angular momentum at the end of the sub-step
   double step = 0;           ///< last step of the general integrator [s]
@@ -148,7 +149,10 @@ struct RigidBody : RigidMotion {
   Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< how far since it is quiet, or is looked at [m], [rad]
   std::uint32_t slot = 0;                           ///< scratch of the contact solver
   GuidedMotion held;
-  std::uint32_t impacts = 0;  ///< in the short time `impactSpan`
+  std::vector<FieldId> carried;  ///< Held: fields in the same hand
+  Vec3 wound = Vec3::Zero();     ///< Held: the velocity that their pushes have added up to, in N [m/s]
+  Instant woundTo;               ///< Held: until when
+  std::uint32_t impacts = 0;     ///< in the short time `impactSpan`
   Nanoseconds impactSpan = -1;
   double quiet = 0;  ///< Contact: how long it has hardly moved [s]
   Calm calm;         ///< Contact, islands
@@ -161,7 +165,9 @@ struct RigidBody : RigidMotion {
   /// How far the ball's centre is from the centre of mass [m].
   double eccentricity() const { return (X_CN * std::get<BallShape>(*shape).centre).norm(); }
   double radius() const { return std::get<BallShape>(*shape).radius; }
-  bool movable() const { return mode != BodyMode::Held && mode != BodyMode::Quarantined; }
+  bool movable() const {
+    return mode != BodyMode::Held && mode != BodyMode::Quarantined && mode != BodyMode::Stuck;
+  }
   bool sampled() const { return mode != BodyMode::Held; }
 
   double age(double tau) const { return age0 + tau; }

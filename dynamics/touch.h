@@ -27,10 +27,7 @@ struct Side {
   }
   std::uint32_t version() const { return body ? body->version : collider->version; }
   const Sphere& bound() const { return body ? body->bound : collider->bound; }
-  bool still() const {
-    return body ? (body->mode == BodyMode::Rest || body->mode == BodyMode::Quarantined)
-                : !collider->motion.moving;
-  }
+  bool still() const { return body ? standsStill(body->mode) : !collider->motion.moving; }
 };
 
 /// The nearest points of two shapes.

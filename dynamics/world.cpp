@@ -20,6 +20,10 @@ bool usable(const std::optional<double>& x, double most) {
 bool usable(const Surface& s) {
   return usable(s.friction, 1e6) && usable(s.restitution, 1) && usable(s.rolling, 1e6);
 }
+bool usable(const std::optional<Stick>& s) {
+  return !s || (std::fabs(s->nose.norm() - 1) < 1e-6 && std::isfinite(s->tip) && std::isfinite(s->reach) &&
+                std::isfinite(s->cosine));
+}
 bool usable(const Pose& X) {
   return X.finite() && std::fabs(X.q.norm() - 1) < 1e-3 && X.p.cwiseAbs().maxCoeff() < 1e12;
 }
@@ -64,7 +68,7 @@ BodyId World::addBody(const BodyDef& d) {
   Core::ShapeEntry* s = core_->shapes.find(d.shape);
   if (!s || std::holds_alternative<PlaneShape>(*s->shape) || !d.mass.valid() || !usable(d.pose) ||
       !usable(d.surface) || !d.v.allFinite() || !d.omega.allFinite() || !(d.damping >= 0) ||
-      !std::isfinite(d.damping) || !(d.releaseDistance >= 0))
+      !std::isfinite(d.damping) || !(d.releaseDistance >= 0) || !usable(d.stick))
     return 0;
   ++s->uses;
   const BodyId id = core_->nextBody++;
@@ -85,6 +89,7 @@ BodyId World::addBody(const BodyDef& d) {
   b.reach = (b.bound.centre - b.X_NC.p).norm() + b.bound.radius;
   b.centred = b.isBall() && b.eccentricity() <= 1e-9 * b.radius();
   b.damping = d.damping, b.dragArea = d.dragArea, b.releaseDistance = d.releaseDistance;
+  b.stick = d.stick;
   b.pose = unit(d.pose);
   const Pose X_WC = b.pose * b.X_NC;
   const Quat& q = X_WC.q;
@@ -317,7 +322,22 @@ bool World::holdBody(BodyId id) {
   b->mode = BodyMode::Held;
   if (std::ranges::find(core_->held, b) == core_->held.end()) core_->held.push_back(b);
   b->held.set(b->pose, b->pose, core_->now, 0);
+  b->carried.clear();
+  b->wound.setZero();
   return true;
+}
+
+bool World::carryFields(BodyId id, std::vector<FieldId> fields) {
+  RigidBody* b = core_->body(id);
+  if (!b || b->mode != BodyMode::Held) return false;
+  if (b->carried.empty()) b->woundTo = core_->instantAt(core_->now);
+  b->carried = std::move(fields);
+  return true;
+}
+
+Vec3 World::woundUp(BodyId id) const {
+  const RigidBody* b = core_->body(id);
+  return b && b->mode == BodyMode::Held ? Vec3(b->pose.q * b->wound) : Vec3::Zero();
 }
 
 bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
@@ -413,7 +433,7 @@ BodyMode World::mode(BodyId id) const {
 
 bool World::moving(BodyId id) const {
   const BodyMode m = mode(id);
-  return m != BodyMode::Rest && m != BodyMode::Quarantined;
+  return !standsStill(m);
 }
 
 std::string World::troubleOf(BodyId id) const {

@@ -48,6 +48,15 @@ struct PairSurface {
 };
 PairSurface combine(const Surface& a, const Surface& b);
 
+/// A body that sticks fast in what its tip meets first, as a javelin does in the ground: in a collider that
+/// stands still, at more than 1 m/s.
+struct Stick {
+  Vec3 nose = Vec3::UnitX();  ///< the way the tip points, unit, in N
+  double tip = 0;             ///< of the foremost point, along the nose [m]
+  double reach = 0.01;        ///< points so far behind it still belong to the tip [m]
+  double cosine = 0.5;        ///< of the greatest angle between the nose and straight into the surface
+};
+
 struct BodyDef {
   ShapeId shape = 0;
   Pose pose;                  ///< X_WN
@@ -58,6 +67,7 @@ struct BodyDef {
   double damping = 0;            ///< velocity lost as exp(-c t) [1/s]
   double dragArea = 0;           ///< drag coefficient times cross section, for media [m2]
   double releaseDistance = 0.5;  ///< [m]; if infinite, releases are not watched for and not told
+  std::optional<Stick> stick;
 };
 
 struct ColliderDef {
@@ -74,7 +84,12 @@ enum class BodyMode : std::uint8_t {
   Rest,         ///< asleep: its state is frozen
   Held,         ///< moved from outside (grabbed)
   Quarantined,  ///< its state would have become non-finite
+  Stuck,        ///< its tip sticks in a collider, until that moves or goes, or somebody takes it out
 };
+/// Whether a body of this mode neither moves nor is moved.
+constexpr bool standsStill(BodyMode mode) {
+  return mode == BodyMode::Rest || mode == BodyMode::Quarantined || mode == BodyMode::Stuck;
+}
 
 /// How the path of a body in flight is known.
 enum class FlightClass : std::uint8_t {
@@ -180,6 +195,11 @@ public:
   /// `teleport`: it is put there and gives no impulse for the jump.
   bool moveHeld(BodyId id, const Pose& end, bool teleport = false);
   bool releaseBody(BodyId id, const Vec3& v, const Vec3& omega);
+  /// The fields that the holding hand carries, until told otherwise or it is held anew: while one of them is
+  /// a linear field, on, and hooked to the body, its push adds up instead of moving the body.
+  bool carryFields(BodyId id, std::vector<FieldId> fields);
+  /// The velocity that has added up since the body is held, as the hand is turned now, in World [m/s].
+  Vec3 woundUp(BodyId id) const;
 
   /// From t0 (the last t1, or any start at first) to t1. False if t1 < t0. `continues`: a further part of the
   /// frame that began with an earlier call. A frame is cut where something outside turns, jumps or is
@@ -191,7 +211,7 @@ public:
   /// Bodies that may not be where, or as, they were before the last frame; by id. All others are.
   const std::vector<BodyId>& changed() const;
 
-  Pose pose(BodyId id) const;        ///< X_WN at t1
+  Pose pose(BodyId id) const;  ///< X_WN at t1
   /// Where it will be at `when` > t1 if nothing happens to it; if it is held, where it has been told to go.
   Pose poseAhead(BodyId id, Nanoseconds when) const;
   BodyState state(BodyId id) const;  ///< at t1
@@ -214,8 +234,8 @@ public:
   struct Counters {
     std::uint64_t arcs = 0, impacts = 0, contactSteps = 0, pairTests = 0;
     std::uint64_t distances = 0;  ///< asked for on the way to a touch, by what has no closed form
-    std::uint64_t tired = 0;    ///< impacts of bodies that have bounced too often in too short a time
-    std::uint64_t limited = 0;  ///< frames cut short because their events would not end: never expected
+    std::uint64_t tired = 0;      ///< impacts of bodies that have bounced too often in too short a time
+    std::uint64_t limited = 0;    ///< frames cut short because their events would not end: never expected
   };
   const Counters& counters() const;
 

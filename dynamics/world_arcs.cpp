@@ -46,8 +46,7 @@ Vec3 World::Core::accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& 
   for (const Hook& h : b.hooks) {
     const FieldEntry* f = fields.find(h.field);
     if (!f || !f->on) continue;
-    const double share = now > frameFrom ? std::clamp((tau - frameFrom) / (now - frameFrom), 0.0, 1.0) : 1;
-    a += accelerationOf(f->field, {b.mass, b.dragArea, p, v}, share);
+    a += accelerationOf(f->field, {b.mass, b.dragArea, p, v}, shareAt(tau));
   }
   return a;
 }

@@ -117,6 +117,9 @@ void World::Core::wakeOnto(Party moved, double tau) {
         startFlight(*other, tau, other->position(tau), other->velocity(tau), other->orientation(tau),
                     other->spin.angularMomentum(other->spinAge(tau)));
         predict(*other, tau);
+      } else if (other->mode == BodyMode::Stuck) {
+        startFlight(*other, tau, other->position(tau), Vec3::Zero(), other->orientation(tau), Vec3::Zero());
+        predict(*other, tau);
       } else if (other->mode == BodyMode::Contact) {
         hurry(*other, tau);
       } else if (other->mode == BodyMode::Rest) {
@@ -211,8 +214,7 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
     if (o.mode == BodyMode::Contact && !o.crowd) {
       if (o.slot == kNowhere) o.slot = 0, set.push_back(&o);  // it is not due, but it comes along
       if (o.id < b.id) return;                                // the pair is found from there
-    } else if (!o.crowd && o.mode != BodyMode::Rest && o.mode != BodyMode::Quarantined &&
-               o.mode != BodyMode::Held) {
+    } else if (!o.crowd && !standsStill(o.mode) && o.mode != BodyMode::Held) {
       return;  // a flier: its touch is an event
     }
     against(other);

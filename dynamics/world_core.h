@@ -111,6 +111,7 @@ public:
   void fetchNext() const;
   void expel(RigidBody& b);
   void sample(RigidBody& b);
+  void windUp(double tau);
   void endFrame();
   void partCarried();
   void insert(Command c);
@@ -165,6 +166,10 @@ public:
   double knownUntil(const Side& s) const;
 
   // --- arcs (world_arcs.cpp)
+  /// How much of the present part of a frame is over at tau, in [0, 1].
+  double shareAt(double tau) const {
+    return now > frameFrom ? std::clamp((tau - frameFrom) / (now - frameFrom), 0.0, 1.0) : 1;
+  }
   Vec3 accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& v, double tau) const;
   bool uniformFor(const RigidBody& b) const;
   double knownFor(const RigidBody& b, double tau) const;
@@ -190,6 +195,8 @@ public:
   // --- touches (world_impact.cpp)
   void countImpact(RigidBody& b, double tau) const;
   void onTouch(const Touch& touch, Party a, Party b, double tau);
+  bool sticksIn(const RigidBody& b, const Vec3& x, const Vec3& n, double closing, double tau) const;
+  void stick(RigidBody& b, Party in, double tau);
   static bool carries(const RigidBody& ball, const Collider& c, const Gap& gap);
   bool supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, Support& out) const;
   void strikeInCrowd(RigidBody& b, const Mobile& m, double tau);

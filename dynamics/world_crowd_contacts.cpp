@@ -10,7 +10,7 @@ constexpr double kWakeSpeed = 5e-3;  ///< whoever touches a sleeper faster wakes
 constexpr double kStrongest = 9.81;  ///< acceleration that a step allows for [m/s2]
 
 bool sleeps(const RigidBody& b) {
-  return b.mode == BodyMode::Rest || b.mode == BodyMode::Quarantined;
+  return standsStill(b.mode);
 }
 
 /// The gap between a ball and a plane that does not move and has no rim.

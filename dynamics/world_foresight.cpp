@@ -270,7 +270,7 @@ bool World::Core::solidsMayMeet() const {
   constexpr std::size_t kFew = 64;
   std::size_t solids = 0;
   for (const RigidBody* b : active)
-    if (!b->centred && b->mode != BodyMode::Rest && b->mode != BodyMode::Quarantined) ++solids;
+    if (!b->centred && !standsStill(b->mode)) ++solids;
   return solids > kFew || (solids > 0 && !colliders.empty());
 }
 
@@ -279,7 +279,7 @@ bool World::Core::solidsMayMeet() const {
 Nanoseconds World::Core::nextWindow() const {
   bool moves = false, lazy = true;
   for (const RigidBody* b : active) {
-    if (b->mode == BodyMode::Rest || b->mode == BodyMode::Quarantined) continue;
+    if (standsStill(b->mode)) continue;
     moves = true, lazy = lazy && b->lazy;
   }
   if (!moves || looks.bodies > 0 || (!lazy && solidsMayMeet())) return kWindow;

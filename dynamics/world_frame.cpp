@@ -74,6 +74,7 @@ void World::Core::execute(const Command& c, double tau) {
   };
   FieldEntry* field = fields.find(c.field);
   RigidBody* b = body(c.body);
+  windUp(tau);
   switch (c.kind) {
   case Command::Kind::Switch:
   case Command::Kind::Expire:
@@ -132,7 +133,7 @@ void World::Core::pause(Nanoseconds to, bool continues) {
   if (!continues) newFrame();
   const Nanoseconds gap = to - t1;
   if (gap == 0) return;
-  for (RigidBody& b : bodies) b.since.ns += gap;
+  for (RigidBody& b : bodies) b.since.ns += gap, b.woundTo.ns += gap;
   t0 = t1 = to;
   openWindow(to / kWindow * kWindow);
 }
@@ -355,10 +356,29 @@ void World::Core::sample(RigidBody& b) {
     expel(b);
   if (b.mode == BodyMode::Held) b.held.start = b.held.end;
   changed.push_back(b.id);
-  b.active = b.mode != BodyMode::Rest && b.mode != BodyMode::Quarantined;
+  b.active = !standsStill(b.mode);
+}
+
+/// What carried fields have done to held bodies up to tau adds up. As long as nothing is switched, a push
+/// goes evenly and stays the same way in the hand: its mean is that of the middle.
+void World::Core::windUp(double tau) {
+  for (RigidBody* b : held) {
+    if (b->mode != BodyMode::Held || b->carried.empty()) continue;
+    const double span = instantAt(tau).since(b->woundTo), middle = tau - 0.5 * span;
+    if (!(span > 0)) continue;
+    b->woundTo = instantAt(tau);
+    const Quat q_NW = b->held.at(middle).pose.q.conjugate();
+    for (const FieldId id : b->carried) {
+      const FieldEntry* f = fields.find(id);
+      const bool hooked = std::ranges::any_of(b->hooks, [&](const Hook& h) { return h.field == id; });
+      if (!f || !f->on || !hooked || !std::holds_alternative<LinearField>(f->field.law)) continue;
+      b->wound += span * (q_NW * accelerationOf(f->field, {b->mass, b->dragArea}, shareAt(middle)));
+    }
+  }
 }
 
 void World::Core::endFrame() {
+  windUp(now);
   if (!memory.waiting().empty())
     for (RigidBody* b : active) catchUp(*b, now);
   partCarried();

@@ -18,6 +18,7 @@ constexpr std::uint32_t kMostRattles = 4;     ///< the same where bounces die aw
 constexpr std::uint32_t kMostInThick = 1;     ///< and among many balls, who will lean on each other anyway
 constexpr std::uint32_t kMostFolds = 200;     ///< and of faces that a ball rolls over
 constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
+constexpr double kLeastStick = 1;             ///< what comes slower does not stick [m/s]
 constexpr std::uint32_t kMostElastic =
     600;  ///< where nothing is lost: no bounces that die away, but squeezes
 
@@ -139,6 +140,25 @@ void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool l
   if (b.movable()) predict(b, tau);
 }
 
+/// Whether the body's tip comes to x first, straight enough against the normal n.
+bool World::Core::sticksIn(const RigidBody& b, const Vec3& x, const Vec3& n, double closing,
+                           double tau) const {
+  if (!b.stick || !(closing > kLeastStick)) return false;
+  const Pose X_WN = b.poseAt(tau);
+  return -(X_WN.q * b.stick->nose).dot(n) >= b.stick->cosine &&
+         b.stick->nose.dot(X_WN.inverse() * x) >= b.stick->tip - b.stick->reach;
+}
+
+/// It stays as it is now, until what it sticks in goes or moves.
+void World::Core::stick(RigidBody& b, Party in, double tau) {
+  wakeOnto({true, b.id}, tau);
+  b.support.on = {};
+  b.touching = {in};
+  memory.setTouching(ContactMemory::keyOf(in, {true, b.id}), true);
+  setArc(b, tau, Path::still(b.position(tau)), Spin::still(b.orientation(tau)),
+         std::numeric_limits<double>::infinity(), BodyMode::Stuck);
+}
+
 void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   if (!pa.isBody) {
     std::swap(pa, pb);
@@ -164,6 +184,14 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   if (!a.movable() && !(b && b->movable())) {
     memory.impact(key, timeAt(tau), x, outwards, closing, 0, frame, awaited);
     memory.setTouching(key, true);
+    return;
+  }
+  if (c && !c->motion.moving && sticksIn(a, x, n, closing, tau)) {
+    const double impulse = collide(ma, mb, x, n, 0, 0).dot(n);
+    ContactMemory::Waiting* waiting =
+        memory.impact(key, timeAt(tau), x, outwards, closing, impulse, frame, awaited);
+    stick(a, pb, tau);
+    if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
     return;
   }
   const PairSurface pair = combine(a.surface, surfaceOf(pb));

@@ -3,13 +3,13 @@
 ///
 /// Events    onquarantine: its state would have become infinite or undefined; it stands still.
 /// Commands  hook FIELD, unhook FIELD, grab [tracker], release, and those of a placed node (reset brings it
-/// back to its
-///           place, at rest).
+/// back to its place, with the velocity that its script gives it).
 /// It is passive: its dynamics node reads what was asked of it in this frame, obeys at the exact times, and
 /// moves it by direct calls.
 
 #include "dynamics/nodes/shape_store.h"
 #include "dynamics/world.h"
+#include "engine/script/choice.h"
 
 #include <optional>
 
@@ -20,10 +20,16 @@ struct BodyAttributes {
   double density = 1000;       ///< [kg/m3]
   std::optional<double> mass;  ///< instead of the density [kg]
   Surface surface;
-  double damping = 0;              ///< [1/s]
-  std::optional<double> dragArea;  ///< instead of the shape's [m2]
-  std::vector<std::string> hooks;  ///< names of force fields, as seen from its file
-  bool simulated = true;           ///< false: no dynamics node takes it in, to see what a show costs without
+  double damping = 0;                   ///< [1/s]
+  std::optional<double> dragArea;       ///< instead of the shape's [m2]
+  std::vector<std::string> hooks;       ///< names of force fields, as seen from its file
+  Vec3 velocity = Vec3::Zero();         ///< at the start and after reset, in its parent [m/s]
+  Vec3 angularVelocity = Vec3::Zero();  ///< the same [rad/s]
+  ThrowSource throwSource = ThrowSource::Both;
+  double spin = 0;               ///< about its axis of symmetry, added when a hand lets go [rad/s]
+  std::optional<Vec3> nose;      ///< the way its tip points, in the model, unit
+  std::optional<double> sticks;  ///< up to this angle from straight on [rad]
+  bool simulated = true;         ///< false: no dynamics node takes it in, to see what a show costs without
 
   /// Of a closed shape.
   MassProperties massOf(const FittedShape& fit) const;

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kStandardGravity = 9.80665;  // [m/s2]
 constexpr double kWaterDensity = 1000;        // [kg/m3]
-constexpr double kAirDensity = 1.225;         // [kg/m3] at sea level, 15 degrees C
+constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kAirDensity = 1.225;  // [kg/m3] at sea level, 15 degrees C
 
 using Made = std::unique_ptr<Node>;
 
@@ -111,6 +112,12 @@ BodyAttributes bodyOf(const Declaration& d) {
   body.surface = {stated(Attr::Friction), stated(Attr::Restitution), stated(Attr::Rolling)};
   body.damping = d.number(Attr::Damping);
   body.dragArea = d.optionalNumber(Attr::DragArea);
+  body.velocity = d.vec3(Attr::Velocity);
+  body.angularVelocity = d.vec3(Attr::AngularVelocity) * kDegree;
+  body.throwSource = d.choice<ThrowSource>(Attr::Throw);
+  body.spin = d.number(Attr::Spin) * kDegree;
+  if (d.has(Attr::Nose)) body.nose = d.vec3(Attr::Nose).normalized();
+  if (const auto angle = d.optionalNumber(Attr::Sticks)) body.sticks = *angle * kDegree;
   for (const NodeReference& hook : d.references(Attr::Hook)) body.hooks.push_back(std::string(hook.name));
   return body;
 }

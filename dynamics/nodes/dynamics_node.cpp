@@ -1,5 +1,6 @@
 #include "dynamics/nodes/dynamics_node.h"
 
+#include "dynamics/body_axes.h"
 #include "engine/maths/functions.h"
 #include "engine/scene/scene.h"
 
@@ -43,6 +44,12 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   def.surface = body.surface;
   def.damping = body.damping, def.dragArea = body.dragArea.value_or(part.fit->dragArea);
   def.releaseDistance = attributes_.releaseDistance;
+  const Velocity start = startOf(*node, scene);
+  def.v = start.v, def.omega = start.omega;
+  if (const Mesh* mesh = body.sticks ? scene.mesh(object.appearance().mesh) : nullptr) {
+    const Vec3 nose = body.nose.value_or(heavyEnd(*mesh, part.fit->scale, def.mass));
+    def.stick = stickAlong(nose, *body.sticks, *mesh, part.fit->scale);
+  }
   part.id = world_.addBody(def);
   for (const NodeRef field : node->hooked())
     if (const FieldId id = fieldFor(field, scene)) world_.hook(part.id, id, 0);  // from its beginning
@@ -51,6 +58,13 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   partOf_[part.id] = &part;
   node->setState(world_.state(part.id));
   node->hold(scene, scene.placements().world(part.placement));
+}
+
+/// With which velocities its script lets it start.
+DynamicsNode::Velocity DynamicsNode::startOf(const DynObjectNode& node, const Scene& scene) const {
+  const Placements& placements = scene.placements();
+  const Quat q_WP = poseOf(placements.world(placements.parent(node.placement()))).q;
+  return {q_WP * node.body().velocity, q_WP * node.body().angularVelocity};
 }
 
 void DynamicsNode::removeCollidee(Part& part, Scene& scene) {
@@ -154,12 +168,13 @@ void DynamicsNode::obey(const Order& order, FrameContext& frame) {
   if (at == partOf_.end()) return;  // it has gone
   const Part* part = at->second;
   switch (order.what.kind) {
-  case Kind::Reset:
+  case Kind::Reset: {
     std::erase_if(grips_, [&](const Grip& g) { return g.body == part->id; });
-    world_.placeBody(part->id, poseOf(frame.scene.placements().world(part->placement)), Vec3::Zero(),
-                     Vec3::Zero());
+    const Velocity start = startOf(*node, frame.scene);
+    world_.placeBody(part->id, poseOf(frame.scene.placements().world(part->placement)), start.v, start.omega);
     node->hold(frame.scene, frame.scene.placements().world(part->placement));
     break;
+  }
   case Kind::Release: letGo(*part, order.what.when, frame.scene); break;
   case Kind::Grab: grab(*part, order.what.tracker, order.what.when, frame); break;
   default: break;
@@ -173,9 +188,30 @@ void DynamicsNode::grab(const Part& part, const std::string& tracker, Nanosecond
   if (!world_.holdBody(part.id)) return;
   const Pose X_WT = poseOn(*way, when, Limit::After);
   Grip& grip = grips_.emplace_back();
-  grip.body = part.id, grip.tracker = tracker, grip.X_TN = X_WT.inverse() * world_.pose(part.id);
+  grip.body = part.id, grip.node = part.ref, grip.tracker = tracker,
+  grip.X_TN = X_WT.inverse() * world_.pose(part.id);
   grip.hand.put(when, X_WT);
   grip.course = std::move(*way);
+  carryFields(grip, frame.scene);
+}
+
+/// The world is told which fields the hand carries: those below what follows the same tracker, or below the
+/// body that it holds.
+void DynamicsNode::carryFields(const Grip& grip, const Scene& scene) {
+  std::vector<FieldId> carried;
+  const auto moves = [&](NodeRef ref) {
+    if (ref == grip.node) return true;
+    const Load* load = scene.load(ref.load);
+    const auto* placed = load ? dynamic_cast<const PlacedNode*>(load->nodes[ref.position].get()) : nullptr;
+    return placed && placed->follows(grip.tracker);
+  };
+  for (const Field& f : fields_)
+    for (NodeRef at = f.ref; at.valid(); at = scene.parentOf(at))
+      if (moves(at)) {
+        carried.push_back(f.id);
+        break;
+      }
+  world_.carryFields(grip.body, std::move(carried));
 }
 
 void DynamicsNode::letGo(const Part& part, Nanoseconds when, Scene& scene) {
@@ -184,15 +220,21 @@ void DynamicsNode::letGo(const Part& part, Nanoseconds when, Scene& scene) {
   if (grip == grips_.end()) return;
   // A hand of which nothing has been heard lately is taken to stand still, as its body does.
   const bool silent = grip->hand.way().back().time < when;
-  const auto [v, omega] = silent ? HandMotion::Velocity{} : grip->hand.velocity();
-  if (const Node* node = scene.find(part.ref);
-      node && grip->jumped >= 0 && when - grip->jumped < HandMotion::kWindow)
+  HandMotion::Velocity hand = silent ? HandMotion::Velocity{} : grip->hand.velocity();
+  const DynObjectNode* node = bodyAt(part.ref, scene);
+  if (node && grip->jumped >= 0 && when - grip->jumped < HandMotion::kWindow)
     scene.warn(*node,
                fmt::format("is let go at {:.3f} s, but \"{}\" jumped at {:.3f} s; only what the hand did "
                            "after that counts for the throw",
                            toSeconds(when), grip->tracker, toSeconds(grip->jumped)));
+  const ThrowSource source = node ? node->body().throwSource : ThrowSource::Both;
+  if (source == ThrowSource::Field) hand = {};
   const Vec3 arm = world_.state(body).p - grip->hand.now().p;  // to the centre of mass
-  world_.releaseBody(body, v + omega.cross(arm), omega);
+  Velocity thrown{hand.v + hand.omega.cross(arm), hand.omega};
+  if (source != ThrowSource::Hand) thrown.v += world_.woundUp(body);
+  if (node && node->body().spin != 0 && part.fit)
+    thrown.omega += node->body().spin * (world_.pose(body).q * symmetryAxis(part.fit->filled.value()));
+  world_.releaseBody(body, thrown.v, thrown.omega);
   grips_.erase(grip);
 }
 
@@ -203,6 +245,7 @@ bool DynamicsNode::prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts) 
     auto way = frame.scene.trackerCourse(grip.tracker, frame);
     grip.course = way ? std::move(*way) : Course{};
     addCuts(grip.course, cuts);
+    carryFields(grip, frame.scene);
   }
   return asked || fields || !grips_.empty();
 }
@@ -266,6 +309,7 @@ void DynamicsNode::hash(StateHash& h) const {
   for (const Grip& g : grips_) {
     h.add(g.body), h.add(std::string_view(g.tracker)), h.add(g.X_TN);
     for (const PoseKnot& k : g.hand.way()) h.add(k.time), h.add(k.X);
+    h.add(world_.woundUp(g.body));
   }
 }
 

@@ -5,7 +5,7 @@
 /// Events    onimpact, onrelease per pair of collider and collidee, and of two collidees.
 /// What happens inside a frame does not depend on the frame rate: bodies fly, bounce and rest on clocks of
 /// their own; fields switch, hands grab and let go at exact times. A body that is let go goes on with the
-/// velocity of the hand (hand_motion.h).
+/// velocity of the hand (hand_motion.h) and with what the fields in the same hand have added up.
 
 #include "dynamics/hand_motion.h"
 #include "dynamics/nodes/collision_node.h"
@@ -51,14 +51,18 @@ private:
   /// A body in the visitor's hand.
   struct Grip {
     BodyId body;
+    NodeRef node;
     std::string tracker;
     Pose X_TN;  ///< how it lies in the hand
     HandMotion hand;
-    Course course;  ///< of the hand in this frame; empty while the tracker is silent
+    Course course;            ///< of the hand in this frame; empty while the tracker is silent
     Nanoseconds jumped = -1;  ///< when the hand last jumped while it held the body [ns]
     bool silentBefore(Nanoseconds t) const {
       return course.empty() || (course.front().jump && t <= course.front().time);
     }
+  };
+  struct Velocity {
+    Vec3 v = Vec3::Zero(), omega = Vec3::Zero();  ///< in World [m/s], [rad/s]
   };
   /// Something asked of a body, for its exact time.
   struct Order {
@@ -73,6 +77,8 @@ private:
   void grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame);
   void letGo(const Part& part, Nanoseconds when, Scene& scene);
   void tellTrouble(const BodyState& before, DynObjectNode& node, FrameContext& frame);
+  void carryFields(const Grip& grip, const Scene& scene);
+  Velocity startOf(const DynObjectNode& node, const Scene& scene) const;
   BodyId carrierOf(PlacementId field, const Placements& placements) const;
 
   std::vector<NodeRef> asking_;               ///< bodies of which something has been asked

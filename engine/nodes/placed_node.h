@@ -37,6 +37,7 @@ public:
   /// It has been detached in this frame, when its parent was at X_WP: goes along with it from now on.
   void rejoin(Scene& scene, const Affine& X_WP);
   bool attached() const { return follow_ != Held::Nothing; }
+  bool follows(std::string_view tracker) const { return attached() && tracker_ == tracker; }
   /// Whether a tracker or the dynamics moves it: then no path does.
   virtual bool moved() const { return attached(); }
   /// Static objects stand below this node: they must become nodes before it may move.

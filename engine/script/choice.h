@@ -23,6 +23,7 @@ enum class ShapeWord : std::uint8_t {
 enum class ForceUnit : std::uint8_t { Gravity, Acceleration, Newton };  ///< force fields: unit
 enum class FieldMode : std::uint8_t { Attract, Repel };                 ///< forcespherical: mode
 enum class FieldFalloff : std::uint8_t { None, Linear, Square };        ///< forcespherical: falloff
+enum class ThrowSource : std::uint8_t { Hand, Field, Both };            ///< dynobject: throw
 enum class NavigatorMode : std::uint8_t { Walk, Fly };                  ///< navigator: mode
 
 enum class DeviceAxis : std::uint8_t {};  ///< force fields: strengthaxis

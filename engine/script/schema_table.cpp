@@ -10,6 +10,7 @@ constexpr std::string_view kLightTypes[] = {"directional", "point", "spot"};
 constexpr std::string_view kShapes[] = {"auto",  "sphere",  "box",      "mesh",
                                         "plane", "capsule", "cylinder", "convex"};
 constexpr std::string_view kAxes[] = {"x", "y", "z"};
+constexpr std::string_view kThrows[] = {"hand", "field", "both"};
 constexpr std::string_view kNavigatorModes[] = {"walk", "fly"};
 
 constexpr AttributeSpec kObjectFile{.attr = Attr::File,
@@ -91,6 +92,41 @@ constexpr AttributeSpec kDynObjectRows[] = {
      .help = "a force field that acts on it from the start",
      .repeatable = true,
      .targets = kFields},
+    {.attr = Attr::Velocity,
+     .kind = Vector,
+     .help = "at the start and after reset, along the parent's axes",
+     .standard = "0, 0, 0",
+     .unit = "m/s",
+     .range = kPlace},
+    {.attr = Attr::AngularVelocity,
+     .kind = Vector,
+     .help = "at the start and after reset, about the parent's axes",
+     .standard = "0, 0, 0",
+     .unit = "degrees/s",
+     .range = kTurn},
+    {.attr = Attr::Throw,
+     .kind = Choice,
+     .help = "what it takes along when a hand lets go: the hand's velocity, the pushes of the linear fields "
+             "that the hand carries, or both",
+     .standard = "both",
+     .choices = kThrows},
+    {.attr = Attr::Spin,
+     .kind = Number,
+     .help = "what a hand that lets go adds to its turning, about the axis of symmetry",
+     .standard = "0",
+     .unit = "degrees/s",
+     .range = kTurn},
+    {.attr = Attr::Nose,
+     .kind = Direction,
+     .help = "the way its tip points, in the model's coordinates; if not stated, along its longest axis to "
+             "the heavier end",
+     .range = kPlace},
+    {.attr = Attr::Sticks,
+     .kind = Number,
+     .help = "it sticks fast in a collider that its tip meets first, within this angle of straight on; "
+             "without it, never",
+     .unit = "degrees",
+     .range = {0, 90, true}},
 };
 
 constexpr AttributeSpec kLightRows[] = {

@@ -1,0 +1,56 @@
+#include "dynamics/body_axes.h"
+
+#include "engine/maths/functions.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr double kNoAxis = 1e-6;    ///< moments as near to each other, relatively, are the same
+constexpr double kTipShare = 0.05;  ///< how much of its length belongs to the tip
+
+/// How far the mesh reaches along a direction, least and most [m].
+struct Extent {
+  double back = 1e300, front = -1e300;
+};
+Extent extentAlong(const Vec3& direction, const Mesh& mesh, const Vec3& scale) {
+  Extent e;
+  for (const auto& p : mesh.positions) {
+    const double x = direction.dot(scale.cwiseProduct(Vec3(p[0], p[1], p[2])));
+    e.back = std::min(e.back, x), e.front = std::max(e.front, x);
+  }
+  return e;
+}
+
+}  // namespace
+
+Vec3 symmetryAxis(const MassProperties& mass) {
+  const Vec3& I = mass.inertia;
+  const auto apart = [&](int i) { return std::fabs(I[i] - 0.5 * (I[(i + 1) % 3] + I[(i + 2) % 3])); };
+  int best = 2;
+  for (const int i : {0, 1})
+    if (apart(i) > apart(best)) best = i;
+  if (apart(best) <= kNoAxis * I.maxCoeff()) return Vec3::UnitZ();
+  const Vec3 axis = mass.axes * Vec3::Unit(best);
+  int largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  return axis[largest] < 0 ? Vec3(-axis) : axis;
+}
+
+Vec3 heavyEnd(const Mesh& mesh, const Vec3& scale, const MassProperties& mass) {
+  int least = 0;
+  mass.inertia.minCoeff(&least);
+  const Vec3 axis = mass.axes * Vec3::Unit(least);
+  const Extent e = extentAlong(axis, mesh, scale);
+  const double c = axis.dot(mass.centre);
+  return e.front - c > c - e.back ? Vec3(-axis) : axis;
+}
+
+Stick stickAlong(const Vec3& nose, double angle, const Mesh& mesh, const Vec3& scale) {
+  const Extent e = extentAlong(nose, mesh, scale);
+  return {nose, e.front, kTipShare * (e.front - e.back), det::cos(angle)};
+}
+
+}  // namespace stadion

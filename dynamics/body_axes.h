@@ -1,0 +1,23 @@
+#pragma once
+/// Directions that a body has by its form: the axis it spins about, the nose it flies and sticks with.
+///
+/// Frames  in the node's coordinates N, unit vectors.
+
+#include "dynamics/mass_properties.h"
+#include "dynamics/world.h"
+#include "engine/asset/mesh.h"
+
+namespace stadion {
+
+/// The principal axis whose moment differs most from the other two: along a rod, across a disc. Its largest
+/// component is positive. Z of a body that has no such axis.
+Vec3 symmetryAxis(const MassProperties& mass);
+
+/// The principal axis of the least moment, towards the end that the centre of mass is nearer to: where a
+/// javelin has its point. `scale`: of the mesh, as its body has it.
+Vec3 heavyEnd(const Mesh& mesh, const Vec3& scale, const MassProperties& mass);
+
+/// How a body with this nose sticks, up to `angle` [rad] from straight on.
+Stick stickAlong(const Vec3& nose, double angle, const Mesh& mesh, const Vec3& scale);
+
+}  // namespace stadion
