@@ -4,6 +4,8 @@
 /// uses only arithmetic that is the same on every machine.
 
 #include "cli/assets/models.h"
+#include "cli/assets/olympia/olympia.h"
+#include "cli/assets/picture.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -31,8 +33,34 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(out, error);
   using namespace stadion::assets;
   const ObjFile foot = toObj(crudeFoot(), "crude_foot");
-  const bool good = write(out / "football.3ds", to3ds(football())) &&
-                    write(out / "plane.3ds", to3ds(pitch())) && write(out / "grass.png", grassPicture()) &&
-                    write(out / "crude_foot.obj", foot.obj) && write(out / "crude_foot.mtl", foot.mtl);
-  return good ? 0 : 2;
+  const std::pair<const char*, std::string> files[] = {
+      {"football.3ds", to3ds(football())},
+      {"plane.3ds", to3ds(pitch())},
+      {"grass.png", grassPicture()},
+      {"crude_foot.obj", foot.obj},
+      {"crude_foot.mtl", foot.mtl},
+      {"earth.png", earthPicture()},
+      {"meadow.png", meadowPicture()},
+      {"stone.png", stonePicture()},
+      {"leaves.png", leavesPicture()},
+      {"discus.glb", toGlb(discus())},
+      {"javelin.glb", toGlb(javelin())},
+      {"leather_ball.glb", toGlb(leatherBall())},
+      {"olympia_ground.glb", toGlb(groundPlane())},
+      {"olympia_track.glb", toGlb(track())},
+      {"olympia_banks.glb", toGlb(embankments())},
+      {"olympia_land.glb", toGlb(countryside())},
+      {"olympia_trees.glb", toGlb(trees())},
+      {"olympia_wood.glb", toGlb(kronosWood())},
+      {"olympia_stands.glb", toGlb(stands())},
+      {"olympia_temples.glb", toGlb(temples())},
+      {"olympia_passage.glb", toGlb(passage())},
+      {"crowd_north_1.glb", toGlb(crowd(1, -9, 42))},
+      {"crowd_north_2.glb", toGlb(crowd(1, 42, 202))},
+      {"crowd_south_1.glb", toGlb(crowd(-1, -9, 42))},
+      {"crowd_south_2.glb", toGlb(crowd(-1, 42, 202))},
+  };
+  for (const auto& [name, bytes] : files)
+    if (!write(out / name, bytes)) return 2;
+  return 0;
 }
