@@ -4,6 +4,7 @@
 /// uses only arithmetic that is the same on every machine.
 
 #include "cli/assets/models.h"
+#include "cli/assets/olympia/body.h"
 #include "cli/assets/olympia/olympia.h"
 #include "cli/assets/picture.h"
 
@@ -32,19 +33,27 @@ int main(int argc, char** argv) {
   std::error_code error;
   std::filesystem::create_directories(out, error);
   using namespace stadion::assets;
-  const ObjFile foot = toObj(crudeFoot(), "crude_foot");
+  const ObjFile footFiles = toObj(crudeFoot(), "crude_foot");
   const std::pair<const char*, std::string> files[] = {
       {"football.3ds", to3ds(football())},
       {"plane.3ds", to3ds(pitch())},
       {"grass.png", grassPicture()},
-      {"crude_foot.obj", foot.obj},
-      {"crude_foot.mtl", foot.mtl},
+      {"crude_foot.obj", footFiles.obj},
+      {"crude_foot.mtl", footFiles.mtl},
       {"earth.png", earthPicture()},
       {"meadow.png", meadowPicture()},
       {"stone.png", stonePicture()},
       {"leaves.png", leavesPicture()},
       {"discus.glb", toGlb(discus())},
       {"javelin.glb", toGlb(javelin())},
+      {"athlete_pelvis.glb", toGlb(pelvis())},
+      {"athlete_chest.glb", toGlb(chest())},
+      {"athlete_head_dark.glb", toGlb(head(Hair::Dark))},
+      {"athlete_head_fair.glb", toGlb(head(Hair::Fair))},
+      {"athlete_head_beard.glb", toGlb(head(Hair::Bearded))},
+      {"judge_robe.glb", toGlb(robe({0.50, 0.18, 0.28}, {0.86, 0.74, 0.46}))},
+      {"herald_robe.glb", toGlb(robe({0.92, 0.89, 0.82}, {0.62, 0.22, 0.18}))},
+      {"trumpet.glb", toGlb(trumpet())},
       {"leather_ball.glb", toGlb(leatherBall())},
       {"olympia_ground.glb", toGlb(groundPlane())},
       {"olympia_track.glb", toGlb(track())},
@@ -60,6 +69,13 @@ int main(int argc, char** argv) {
       {"crowd_south_1.glb", toGlb(crowd(-1, -9, 42))},
       {"crowd_south_2.glb", toGlb(crowd(-1, 42, 202))},
   };
+  const std::pair<const char*, Parts> limbs[] = {{"upper_arm", upperArm()}, {"forearm", forearm()},
+                                                 {"hand", hand()},          {"thigh", thigh()},
+                                                 {"shin", shin()},          {"foot", foot()}};
+  for (const auto& [name, right] : limbs)
+    if (!write(out / ("athlete_right_" + std::string(name) + ".glb"), toGlb(right)) ||
+        !write(out / ("athlete_left_" + std::string(name) + ".glb"), toGlb(leftOf(right))))
+      return 2;
   for (const auto& [name, bytes] : files)
     if (!write(out / name, bytes)) return 2;
   return 0;
