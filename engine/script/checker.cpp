@@ -218,9 +218,9 @@ void Checker::takeWord(const AttributeSpec& spec, TextSpan value) {
 }
 
 void Checker::takeWords(const AttributeSpec& spec, TextSpan value) {
-  if (value.length > kLongestText)
+  if (value.length > kLongestWords)
     return report_.error(value.offset, fmt::format("{} may have {} bytes at most, not {}", nameOf(spec.attr),
-                                                   kLongestText, value.length));
+                                                   kLongestWords, value.length));
   writer_.addText(spec.attr, spec.kind, value);
 }
 

@@ -75,9 +75,9 @@ Failure readField(std::string_view& rest, std::size_t& offset, ReadMessage& mess
 
 Failure readWords(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
   message.words = takeUntil(',', rest, offset);  // the whole rest: commas end commands
-  if (message.words.text.size() <= kLongestText) return std::nullopt;
+  if (message.words.text.size() <= kLongestWords) return std::nullopt;
   return ValueError{message.words.offset,
-                    fmt::format("\"{}\" takes {} bytes at most, not {}", nameOf(message.verb), kLongestText,
+                    fmt::format("\"{}\" takes {} bytes at most, not {}", nameOf(message.verb), kLongestWords,
                                 message.words.text.size())};
 }
 

@@ -110,7 +110,7 @@ Laid layText(std::string_view utf8, TextAlign align) {
     y -= kLineHeight;
     line.clear();
   };
-  for (const char32_t c : charactersOf(utf8.substr(0, kLongestText)))
+  for (const char32_t c : charactersOf(utf8.substr(0, kLongestWords)))
     c == U'\n' ? endLine() : line.push_back(c);
   endLine();
   return laid;

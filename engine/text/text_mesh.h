@@ -27,10 +27,10 @@ struct TextStyle {
   bool lit = false;  ///< lit like any surface; else it shows its colour in any light
 };
 
-constexpr std::size_t kLongestText = 1000;  ///< [bytes]
+constexpr std::size_t kLongestWords = 1000;  ///< [bytes]
 
 /// The letters, and the board behind them if there is one; null if there is nothing to draw. What goes beyond
-/// kLongestText is left out.
+/// kLongestWords is left out.
 std::unique_ptr<Mesh> textMesh(std::string_view utf8, const TextStyle& style);
 
 /// With every "\n" turned into an end of line.
