@@ -85,6 +85,7 @@ public:
   void tellLateLoads(Loader::LateLoad told) { loader_->tellLateLoads(std::move(told)); }
   const WallFile& walls() const { return walls_; }
   Scene& scene() { return *scene_; }
+  const AssetRoots& assets() const { return roots_; }
   const std::string& inputName() const { return inputName_; }
 
   /// The parts for a ShowStages; provider and sink are the caller's to add.
