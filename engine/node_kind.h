@@ -27,6 +27,7 @@ enum class NodeKind : std::uint8_t {
   Timer,
   Scene,
   Path,
+  Sound,
   Collision,
   Dynamics,
   Measure,
@@ -34,11 +35,11 @@ enum class NodeKind : std::uint8_t {
   Rig,
 };
 
-inline constexpr std::array<std::string_view, 22> kNodeKindNames = {
+inline constexpr std::array<std::string_view, 23> kNodeKindNames = {
     "group",       "transform",   "object",         "dynobject",  "light",       "sky",
     "text",        "forcelinear", "forcespherical", "forcepoint", "forcevortex", "medium",
-    "usertrigger", "wandtrigger", "timer",          "scene",      "path",        "collision",
-    "dynamics",    "measure",     "navigator",      "rig"};
+    "usertrigger", "wandtrigger", "timer",          "scene",      "path",        "sound",
+    "collision",   "dynamics",    "measure",        "navigator",  "rig"};
 inline constexpr std::size_t kNodeKindCount = kNodeKindNames.size();
 
 constexpr std::string_view nameOf(NodeKind kind) {
