@@ -18,6 +18,11 @@ Parts javelin();
 /// A ball of sewn leather of radius 0.11 m, about its centre.
 Parts leatherBall();
 
+/// A stone stand 0.9 m high for what is to be thrown, on the ground at the origin.
+Parts plinth();
+/// A whitewashed board of 3.2 m on two posts, as decrees were painted on; its face looks along -Y.
+Parts whiteboard();
+
 /// The track with its sills, the water channel and its basins.
 Parts track();
 /// The flat ground at z = 0 under track and embankments, for collisions: two triangles.
