@@ -108,30 +108,6 @@ inline constexpr std::array<std::string_view, 79> kAttrNames = {
     "strengthaxis", "target",      "text",        "throw",   "tolerance",
     "tracker",      "turnrate",    "type",        "unit",    "up",
     "velocity",     "viscosity",   "wind",        "zenith"};
-inline constexpr std::array<std::string_view, 68> kAttrNames = {
-    "ambient",      "angle",        "angularvelocity",
-    "attach",       "box",          "collidee",
-    "collider",     "colour",       "core",
-    "damping",      "density",      "direction",
-    "dragarea",     "draw",         "duration",
-    "eventmessage", "eyeheight",    "falloff",
-    "file",         "friction",     "gain",
-    "ground",       "haze",         "hook",
-    "horizon",      "initstate",    "intensity",
-    "inward",       "key",          "loop",
-    "mass",         "mode",         "name",
-    "nose",         "orientation",  "parent",
-    "period",       "position",     "radius",
-    "range",        "ready",        "releasedistance",
-    "repeat",       "restitution",  "rolling",
-    "scale",        "selfcollide",  "shape",
-    "smooth",       "softening",    "speed",
-    "sphere",       "spin",         "sticks",
-    "strength",     "strengthaxis", "target",
-    "throw",        "tolerance",    "tracker",
-    "turnrate",     "type",         "unit",
-    "up",           "velocity",     "viscosity",
-    "wind",         "zenith"};
 inline constexpr std::size_t kAttrCount = kAttrNames.size();
 
 constexpr std::string_view nameOf(Attr attr) {
