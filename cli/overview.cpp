@@ -27,7 +27,7 @@ Aabb roomOf(const WallFile& walls) {
 
 double usualDistance(const WallFile& walls) {
   const Aabb room = roomOf(walls);
-  return 1.1 * (room.hi - room.lo).norm();
+  return 1.35 * (room.hi - room.lo).norm();
 }
 
 /// Boxes along lines, of one colour that shines by itself, so that it is seen in a dark show too.

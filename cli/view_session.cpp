@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <sstream>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -130,7 +131,7 @@ int ViewSession::run(const std::atomic<bool>& stop) {
     pollPad();
     watchFiles();
     const bool fresh = mailbox_.fetch(pictures_, shown_);
-    if (fresh && shown_.frame == 0) say("playing " + options_.run.show.script);
+    if (fresh && std::exchange(begins_, false)) say("playing " + options_.run.show.script);
     updateHud();
     if (fresh || stale_)
       show(fresh);
@@ -255,7 +256,8 @@ void ViewSession::finishReload() {
   const ShowPlace place = show_->place();
   show_ = std::move(r->show);
   show_->overview().move(overview_);
-  ended_ = false;
+  mailbox_.fetch(pictures_, shown_);  // what the old one left is not the new one's
+  ended_ = false, begins_ = true;
   show_->start(place);
   say(fmt::format("reloaded {}; the rig stands at {}", options_.run.show.script, pointText(place.X_WR.p)));
 }
@@ -317,7 +319,11 @@ void ViewSession::show(bool fresh) {
   }
   for (const auto& window : windows_) window->swap();
   stale_ = false;
-  if (fresh && wasStepped_ && playback_.paused()) hudDrawn_ = {};
+  if (fresh && wasStepped_ && shown_.frame != before_) {
+    wasStepped_ = false;
+    say(fmt::format("one frame, to {:.3f} s", toSeconds(shown_.time)));
+  }
+  before_ = shown_.frame;
 }
 
 HudFigures ViewSession::figures() const {

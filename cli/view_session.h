@@ -91,6 +91,8 @@ private:
   Clock::time_point filesLookedAt_{}, hudDrawn_{}, padAsked_{};
   std::atomic<bool> ended_ = false;
   bool quit_ = false, stale_ = true, wasStepped_ = false;
+  bool begins_ = true;        ///< nothing of this show has been shown yet
+  std::uint64_t before_ = 0;  ///< the frame shown before
   int shots_ = 0;
   int code_ = 0;
 };

@@ -1,6 +1,6 @@
 #pragma once
-/// A desk for tests: a display that exists in memory only, a program that runs on it, and hands for keyboard and
-/// mouse.
+/// A desk for tests: a display that exists in memory only, a program that runs on it, and hands for keyboard
+/// and mouse.
 
 #include "tests/cli/program.h"
 
