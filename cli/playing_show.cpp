@@ -108,6 +108,7 @@ void PlayingShow::see(const TimeSignature& now, const InputSample& input, const 
   if (now.frame == 0 && from_) takeUp(*from_);
   notePlace(scene);
   frames_ = now.frame + 1;
+  time_ = now.time;
   const auto ticks = std::llround(toSeconds(now.step) * player_->rate());
   if (ticks > 1) dropped_ += static_cast<std::uint64_t>(ticks - 1);
 }

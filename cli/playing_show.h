@@ -59,6 +59,8 @@ public:
   FrameBudget budget() const { return budget_.now(); }
   std::uint64_t droppedTicks() const { return dropped_; }
   std::uint64_t framesPlayed() const { return frames_; }
+  /// Show time of the newest frame; what is shown comes a little later.
+  Nanoseconds time() const { return time_; }
   /// Why it could not go on, if so. After stop().
   const Failure& failure() const { return outcome_.failure; }
   std::string glDescription() const { return stages_ ? stages_->glDescription() : ""; }
@@ -80,6 +82,7 @@ private:
   FrameLoopOutcome outcome_;
   std::atomic<bool> stopping_ = false;
   std::atomic<std::uint64_t> dropped_ = 0, frames_ = 0;
+  std::atomic<Nanoseconds> time_ = 0;
   std::optional<ShowPlace> from_;
   std::uint64_t loadsSeen_ = 0;
   mutable std::mutex mutex_;

@@ -180,8 +180,8 @@ bool ViewSession::command(Key key) {
     switch (static_cast<char>(key)) {
     case 'H': hud_.helpShown = !hud_.helpShown; break;
     case '.':
+      steppedFrom_ = show_->framesPlayed();
       playback_.step();
-      wasStepped_ = true;
       break;
     case '[': changeSpeed(0.5); break;
     case ']': changeSpeed(2); break;
@@ -199,7 +199,7 @@ bool ViewSession::command(Key key) {
 
 void ViewSession::setPaused(bool paused) {
   playback_.setPaused(paused);
-  say(fmt::format("{} at {:.3f} s", paused ? "paused" : "going on", toSeconds(shown_.time)));
+  say(fmt::format("{} at {:.3f} s", paused ? "paused" : "going on", toSeconds(show_->time())));
 }
 
 void ViewSession::changeSpeed(double factor) {
@@ -319,11 +319,9 @@ void ViewSession::show(bool fresh) {
   }
   for (const auto& window : windows_) window->swap();
   stale_ = false;
-  if (fresh && wasStepped_ && shown_.frame != before_) {
-    wasStepped_ = false;
-    say(fmt::format("one frame, to {:.3f} s", toSeconds(shown_.time)));
-  }
-  before_ = shown_.frame;
+  if (!fresh || !steppedFrom_ || shown_.frame < *steppedFrom_) return;
+  steppedFrom_.reset();
+  say(fmt::format("one frame, to {:.3f} s", toSeconds(shown_.time)));
 }
 
 HudFigures ViewSession::figures() const {

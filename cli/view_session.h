@@ -90,9 +90,9 @@ private:
   TimeSignature shown_;
   Clock::time_point filesLookedAt_{}, hudDrawn_{}, padAsked_{};
   std::atomic<bool> ended_ = false;
-  bool quit_ = false, stale_ = true, wasStepped_ = false;
-  bool begins_ = true;        ///< nothing of this show has been shown yet
-  std::uint64_t before_ = 0;  ///< the frame shown before
+  bool quit_ = false, stale_ = true;
+  bool begins_ = true;                        ///< nothing of this show has been shown yet
+  std::optional<std::uint64_t> steppedFrom_;  ///< a single frame was asked for: the first number it can have
   int shots_ = 0;
   int code_ = 0;
 };

@@ -177,7 +177,9 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   const std::uint64_t ticks = pacer_.wait();
   const double speed = options_.playback && nextIndex_ > 0 ? options_.playback->takeFrame() : 1;
   if (speed == 0) return Turn{lastSignature_, true};
-  const TimeSignature now = signatureAfter(ticks, speed);
+  // A single frame is one tick, however long the last one took.
+  const bool single = options_.playback && options_.playback->paused();
+  const TimeSignature now = signatureAfter(single ? 1 : ticks, speed);
   if (options_.end > 0 && now.time > options_.end) return std::nullopt;
   ++nextIndex_;
   lastSignature_ = now;

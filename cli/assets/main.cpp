@@ -1,9 +1,11 @@
-/// stadion-assets: writes the show's own models and sounds into a folder.
+/// stadion-assets: writes the show's own models and sounds into a folder, and the scripts of its athletes into
+/// another.
 ///
 /// The models in assets/ are made by this program and nothing else; a test compares them byte for byte. It
 /// uses only arithmetic that is the same on every machine.
 
 #include "cli/assets/models.h"
+#include "cli/assets/olympia/athletes.h"
 #include "cli/assets/olympia/body.h"
 #include "cli/assets/olympia/olympia.h"
 #include "cli/assets/picture.h"
@@ -33,8 +35,8 @@ bool writeSounds(const std::filesystem::path& out) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fputs("usage: stadion-assets OUTDIR\n", stderr);
+  if (argc < 2 || argc > 3) {
+    std::fputs("usage: stadion-assets MODELDIR [SCRIPTDIR]\n", stderr);
     return 2;
   }
   const std::filesystem::path out = argv[1];
@@ -88,5 +90,13 @@ int main(int argc, char** argv) {
       return 2;
   for (const auto& [name, bytes] : files)
     if (!write(out / name, bytes)) return 2;
-  return writeSounds(out) ? 0 : 2;
+  if (!writeSounds(out)) return 2;
+  if (argc == 2) return 0;
+  const std::filesystem::path scripts = argv[2];
+  std::filesystem::create_directories(scripts, error);
+  const bool written = write(scripts / "athlete_discus.evs", discusScript()) &&
+                       write(scripts / "athlete_javelin.evs", javelinScript()) &&
+                       write(scripts / "athlete_ball.evs", ballScript()) &&
+                       write(scripts / "officials.evs", officialsScript());
+  return written ? 0 : 2;
 }

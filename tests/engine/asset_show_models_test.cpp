@@ -101,6 +101,23 @@ TEST(AssetShowModels, TheFootIsClosedAndPointsForward) {
   EXPECT_NEAR(foot.bounds.hi.y() - heel, 0.28, 0.005);
 }
 
+TEST(AssetShowModels, TheAthletesScriptsAreWrittenByTheirProgramByteForByte) {
+  TemporaryFolder models, scripts;
+  const auto program = Importer::programBesideThis().parent_path() / "stadion-assets";
+  ASSERT_EQ(::system(("'" + program.string() + "' '" + models.path().string() + "' '" +
+                      scripts.path().string() + "'")
+                         .c_str()),
+            0);
+  int compared = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scripts.path())) {
+    const std::string name = entry.path().filename();
+    EXPECT_TRUE(bytesOf(entry.path()) == bytesOf(kAssets / "../scripts/olympia" / name))
+        << name << " differs from the one that is checked in";
+    ++compared;
+  }
+  EXPECT_EQ(compared, 4) << "three athletes and the officials";
+}
+
 std::unique_ptr<Mesh> modelOf(const char* name) {
   Diagnostics notes;
   auto loaded = importerOf(kAssets).load(name, {}, {}, &notes);
