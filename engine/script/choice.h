@@ -24,7 +24,18 @@ enum class ForceUnit : std::uint8_t { Gravity, Acceleration, Newton };  ///< for
 enum class FieldMode : std::uint8_t { Attract, Repel };                 ///< forcespherical: mode
 enum class FieldFalloff : std::uint8_t { None, Linear, Square };        ///< forcespherical: falloff
 enum class ThrowSource : std::uint8_t { Hand, Field, Both };            ///< dynobject: throw
-enum class NavigatorMode : std::uint8_t { Walk, Fly };                  ///< navigator: mode
+enum class FlightWord : std::uint8_t {
+  Point,
+  Ballistic,
+  Bias,
+  Rod,
+  Plate,
+  Ball,
+  Table
+};                                                               ///< dynobject: flight
+enum class BiasWord : std::uint8_t { Flow, Paper, Covariance };  ///< dynobject: bias
+enum class AxesWord : std::uint8_t { Area, Vertices };           ///< dynobject: axes
+enum class NavigatorMode : std::uint8_t { Walk, Fly };           ///< navigator: mode
 
 enum class DeviceAxis : std::uint8_t {};  ///< force fields: strengthaxis
 
