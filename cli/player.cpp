@@ -152,7 +152,7 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   if (findings.hasErrors()) return nullptr;
 
   addEngineFactories(p.factories_);
-  addDynamicsFactories(p.factories_, options.variation);
+  addDynamicsFactories(p.factories_, options.variation, &p.roots_);
   ImportLimits limits;
   limits.giveUp = stop;
   p.importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);

@@ -31,7 +31,7 @@ public:
         findings.error({}, "--asset-root: cannot open the folder " + r);
     importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter));
     addEngineFactories(factories_);
-    addDynamicsFactories(factories_);
+    addDynamicsFactories(factories_, {}, &roots_);
     readLogBeside(file);
   }
 

@@ -250,6 +250,85 @@ Spin Spin::driven(const Quat& q, const Vec3& omega, const Vec3& alpha, double in
   return s;
 }
 
+Vec3 rateOfTurn(const Vec3& w, const Vec3& omega) {
+  const Vec3 a = w.cross(omega);
+  return omega - 0.5 * a + 1.0 / 12 * w.cross(a);
+}
+
+Spin Spin::unsteered(const Quat& q, const Vec3& L, const Vec3& inertia) {
+  const double size = inertia.maxCoeff();
+  const auto equal = [&](int i, int j) { return std::fabs(inertia[i] - inertia[j]) <= 1e-12 * size; };
+  if (equal(0, 1) || equal(1, 2) || equal(0, 2) || L.squaredNorm() == 0) return free(q, L, inertia);
+  Spin s;
+  s.kind = Kind::Uniform;
+  s.q0 = q, s.L = L, s.inverse = inertia.cwiseInverse();
+  s.omega = q * s.inverse.cwiseProduct(q.conjugate() * L);
+  return s;
+}
+
+namespace {
+
+/// a t^2 + b t^3 + c t^4, t in [0, h]: greatest of |d/dt| and of |d2/dt2|.
+std::pair<double, double> boundsOf(const Vec3& a, const Vec3& b, const Vec3& c, double h) {
+  const double A = a.norm(), B = b.norm(), C = c.norm();
+  return {h * (2 * A + h * (3 * B + h * 4 * C)), 2 * A + h * (6 * B + h * 12 * C)};
+}
+
+Vec3 firstThree(const Eigen::Vector4d& x) {
+  return x.head<3>();
+}
+Eigen::Vector4d padded(const Vec3& x) {
+  return {x.x(), x.y(), x.z(), 0};
+}
+
+}  // namespace
+
+Spin Spin::steered(const End& start, const End& end, double h, const Vec3& inertia) {
+  const Spin base = unsteered(start.q, start.L, inertia);
+  const auto turned = [&](const Quat& q, const Vec3& L) -> Vec3 {
+    return q * base.inverse.cwiseProduct(q.conjugate() * L);
+  };
+  const Quat q1 = base.orientation(h);
+  const Vec3 w = det::logRotation(end.q * q1.conjugate());
+  const Vec3 rate = rateOfTurn(w, turned(end.q, end.L) - det::expRotation(w) * base.angularVelocity(h, q1));
+  // The torque's own share of how the angular velocity changes, and what an even base motion leaves out.
+  Vec3 second = turned(start.q, start.torque);
+  if (base.kind == Kind::Uniform) second += turned(start.q, start.L.cross(base.omega));
+
+  Spin s;
+  static_cast<SpinTerms&>(s) = base;
+  s.kind = Kind::Steered;
+  s.omega = turned(start.q, start.L), s.alpha.setZero();
+  s.axis = base.kind == Kind::Symmetric ? base.axis : base.kind == Kind::Uniform ? kEven : kStanding;
+  const Vec3 a = 0.5 * second, u = (w - h * h * a) / (h * h * h), v = (rate - 2 * h * a) / (h * h);
+  const Vec3 b = 4 * u - v, c = (v - 3 * u) / h;
+  s.series[0] = padded(a), s.series[1] = padded(b), s.series[2] = padded(c);
+  const Vec3 gained = (end.L - start.L - h * start.torque) / (h * h), more = (end.torque - start.torque) / h;
+  s.series[3] = padded(start.torque), s.series[4] = padded(3 * gained - more),
+  s.series[5] = padded((more - 2 * gained) / h);
+  const auto [speed, change] = boundsOf(a, b, c, h);
+  const double own = base.speedBound(h);
+  s.series[6] = {own + 1.1 * speed, own * own + 2 * own * speed + 1.1 * change, 0, 0};
+  return s;
+}
+
+Quat Spin::steeredOrientation(double t) const {
+  const Vec3 w = t * t * (firstThree(series[0]) + t * (firstThree(series[1]) + t * firstThree(series[2])));
+  Quat own = q0;
+  if (axis == kEven) own = det::expRotation(t * omega) * q0;
+  if (axis < kEven) own = precession(t);
+  return renormalised(det::expRotation(w) * own);
+}
+
+/// Precession about L at L / I_transverse, then rotation about the body's own axis by what remains.
+Quat Spin::precession(double t) const {
+  const int across = (axis + 1) % 3;
+  const double own = (q0.conjugate() * L)[axis];
+  Vec3 w = Vec3::Zero();
+  w[axis] = t * own * (inverse[axis] - inverse[across]);
+  return det::expRotation(t * inverse[across] * L) * q0 * det::expRotation(w);
+}
+
 Quat Spin::seriesOrientation(double t) const {
   Wide q;
   sum<false, 4>(series[0].data(), t, q);
@@ -260,14 +339,8 @@ Quat Spin::turnedOrientation(double t) const {
   switch (kind) {
   case Kind::Still: return q0;
   case Kind::Uniform: return renormalised(det::expRotation(t * omega) * q0);
-  case Kind::Symmetric: {
-    // Precession about L at L / I_transverse, then rotation about the body's own axis by what remains.
-    const int across = (axis + 1) % 3;
-    const double own = (q0.conjugate() * L)[axis];
-    Vec3 w = Vec3::Zero();
-    w[axis] = t * own * (inverse[axis] - inverse[across]);
-    return renormalised(det::expRotation(t * inverse[across] * L) * q0 * det::expRotation(w));
-  }
+  case Kind::Symmetric: return renormalised(precession(t));
+  case Kind::Steered: return steeredOrientation(t);
   case Kind::Taylor: return seriesOrientation(t);
   case Kind::Driven: {
     // Magnus expansion to fourth order for an angular velocity linear in time, in pieces short enough for
@@ -285,11 +358,14 @@ Quat Spin::turnedOrientation(double t) const {
 }
 
 Vec3 Spin::angularMomentum(double t) const {
+  if (kind == Kind::Steered)
+    return L + t * (firstThree(series[3]) + t * (firstThree(series[4]) + t * firstThree(series[5])));
   return kind == Kind::Driven ? Vec3((omega + t * alpha) / inverse.x()) : L;
 }
 
 Vec3 Spin::angularVelocity(double t) const {
-  return angularVelocity(t, kind == Kind::Symmetric || kind == Kind::Taylor ? orientation(t) : q0);
+  return angularVelocity(
+      t, kind == Kind::Still || kind == Kind::Uniform || kind == Kind::Driven ? q0 : orientation(t));
 }
 
 Vec3 Spin::angularVelocity(double t, const Quat& q) const {
@@ -297,6 +373,7 @@ Vec3 Spin::angularVelocity(double t, const Quat& q) const {
   case Kind::Still: return Vec3::Zero();
   case Kind::Uniform: return omega;
   case Kind::Driven: return omega + t * alpha;
+  case Kind::Steered: return q * inverse.cwiseProduct(q.conjugate() * angularMomentum(t));
   default: return q * inverse.cwiseProduct(q.conjugate() * L);
   }
 }
@@ -306,6 +383,7 @@ double Spin::speedBound(double t) const {
   case Kind::Still: return 0;
   case Kind::Uniform: return omega.norm();
   case Kind::Driven: return omega.norm() + t * alpha.norm();
+  case Kind::Steered: return series[6][0];
   default: return L.norm() * inverse.maxCoeff();
   }
 }

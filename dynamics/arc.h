@@ -3,11 +3,13 @@
 ///
 /// Translation and rotation separate (the fields act at the centre of mass): a `Path` carries the centre, a
 /// `Spin` the orientation. Age is seconds since the arc began. Everything here is exact but for `Path` under
-/// fields that are not uniform (a quintic through a step of a fifth-order integrator) and `Spin` of
-/// asymmetric bodies (Taylor polynomial of order 16, whose horizon is chosen for an error below 1e-13).
+/// fields that are not uniform (a quintic through a step of a fifth-order integrator), `Spin` of asymmetric
+/// bodies (Taylor polynomial of order 16, whose horizon is chosen for an error below 1e-13), and what the air
+/// turns (`Spin::steered`, through a step of the same integrator).
 
 #include "engine/maths/maths.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -16,6 +18,9 @@ namespace stadion {
 /// The age up to which the last two terms, c_16 t^16 and c_15 t^15, of a Taylor series stay below the
 /// tolerance. (Two, since one may vanish by symmetry.)
 double reachOfSeries(double c16, double c15, double tolerance);
+
+/// The rate of change of a rotation vector w whose rotation has the angular velocity `omega`, to w^4.
+Vec3 rateOfTurn(const Vec3& w, const Vec3& omega);
 
 /// Where the centre of mass goes.
 struct Path {
@@ -60,12 +65,12 @@ private:
 
 /// What every kind of spin has; see Spin.
 struct SpinTerms {
-  enum class Kind { Still, Uniform, Symmetric, Taylor, Driven };
+  enum class Kind { Still, Uniform, Symmetric, Taylor, Driven, Steered };
   Kind kind = Kind::Still;
   int axis = 2;                 ///< of symmetry
   Quat q0 = Quat::Identity();   ///< at age 0, C to World
-  Vec3 L = Vec3::Zero();        ///< angular momentum in World, constant but for Driven [kg m2/s]
-  Vec3 omega = Vec3::Zero();    ///< Uniform, Driven: at age 0, in World [rad/s]
+  Vec3 L = Vec3::Zero();        ///< angular momentum in World, constant but for Driven, Steered [kg m2/s]
+  Vec3 omega = Vec3::Zero();    ///< Uniform, Driven, Steered: at age 0, in World [rad/s]
   Vec3 alpha = Vec3::Zero();    ///< Driven: constant angular acceleration in World [rad/s2]
   Vec3 inverse = Vec3::Ones();  ///< inverse principal moments [1/(kg m2)]
   double horizon = std::numeric_limits<double>::infinity();  ///< greatest valid age [s]
@@ -74,7 +79,10 @@ struct SpinTerms {
 /// How the body turns.
 struct Spin : SpinTerms {
   static constexpr int kOrder = 16;
-  std::array<Eigen::Vector4d, kOrder + 1> series;  ///< Taylor only: of (w, x, y, z)
+  static constexpr std::size_t kSteered = 7;  ///< how much of the series a steered one has
+  /// Taylor: of (w, x, y, z). Steered: of the turn beside the free motion from the second power on, of the
+  /// angular momentum from the first on, then the bounds of speed and of its change.
+  std::array<Eigen::Vector4d, kOrder + 1> series;
 
   Spin() = default;
   Spin(const Spin& o) : SpinTerms(o) { copySeries(o); }
@@ -87,6 +95,18 @@ struct Spin : SpinTerms {
   /// Free rotation from orientation q and world angular momentum L.
   static Spin free(const Quat& q, const Vec3& L, const Vec3& inertia);
   static Spin still(const Quat& q);
+  /// How it turns at one end of a step.
+  struct End {
+    Quat q;       ///< C to World
+    Vec3 L;       ///< [kg m2/s]
+    Vec3 torque;  ///< in World [N m]
+  };
+  /// A body under torques through a step of h seconds of which both ends are known: it moves as if it were
+  /// free, and makes a small smooth turn beside, which carries it to the second end.
+  static Spin steered(const End& start, const End& end, double h, const Vec3& inertia);
+  /// What `steered` adds a small turn to: the exact motion of a free body of revolution, of others an even
+  /// one.
+  static Spin unsteered(const Quat& q, const Vec3& L, const Vec3& inertia);
   /// A ball under constant torque.
   static Spin driven(const Quat& q, const Vec3& omega, const Vec3& alpha, double inertia);
 
@@ -99,12 +119,21 @@ struct Spin : SpinTerms {
   Vec3 angularMomentum(double age) const;
   /// At least the angular speed at any age up to `age`.
   double speedBound(double age) const;
+  /// Steered: at least how fast the angular velocity changes [rad/s2].
+  double steeredChange() const { return series[6][1]; }
 
 private:
   Quat seriesOrientation(double age) const;
   Quat turnedOrientation(double age) const;
+  Quat steeredOrientation(double age) const;
+  Quat precession(double age) const;
+  /// Steered: for `axis`, of what else is beside the small turn: an even one, none.
+  static constexpr int kEven = 3, kStanding = 4;
   void copySeries(const Spin& o) {
-    if (kind == Kind::Taylor) series = o.series;
+    if (kind == Kind::Taylor)
+      series = o.series;
+    else if (kind == Kind::Steered)
+      std::copy_n(o.series.begin(), kSteered, series.begin());
   }
 };
 

@@ -15,10 +15,10 @@ constexpr double kTipShare = 0.05;  ///< how much of its length belongs to the t
 struct Extent {
   double back = 1e300, front = -1e300;
 };
-Extent extentAlong(const Vec3& direction, const Mesh& mesh, const Vec3& scale) {
+Extent extentAlong(const Vec3& direction, const Mesh& mesh) {
   Extent e;
   for (const auto& p : mesh.positions) {
-    const double x = direction.dot(scale.cwiseProduct(Vec3(p[0], p[1], p[2])));
+    const double x = direction.dot(Vec3(p[0], p[1], p[2]));
     e.back = std::min(e.back, x), e.front = std::max(e.front, x);
   }
   return e;
@@ -39,17 +39,8 @@ Vec3 symmetryAxis(const MassProperties& mass) {
   return axis[largest] < 0 ? Vec3(-axis) : axis;
 }
 
-Vec3 heavyEnd(const Mesh& mesh, const Vec3& scale, const MassProperties& mass) {
-  int least = 0;
-  mass.inertia.minCoeff(&least);
-  const Vec3 axis = mass.axes * Vec3::Unit(least);
-  const Extent e = extentAlong(axis, mesh, scale);
-  const double c = axis.dot(mass.centre);
-  return e.front - c > c - e.back ? Vec3(-axis) : axis;
-}
-
-Stick stickAlong(const Vec3& nose, double angle, const Mesh& mesh, const Vec3& scale) {
-  const Extent e = extentAlong(nose, mesh, scale);
+Stick stickAlong(const Vec3& nose, double angle, const Mesh& mesh) {
+  const Extent e = extentAlong(nose, mesh);
   return {nose, e.front, kTipShare * (e.front - e.back), det::cos(angle)};
 }
 

@@ -13,11 +13,7 @@ namespace stadion {
 /// component is positive. Z of a body that has no such axis.
 Vec3 symmetryAxis(const MassProperties& mass);
 
-/// The principal axis of the least moment, towards the end that the centre of mass is nearer to: where a
-/// javelin has its point. `scale`: of the mesh, as its body has it.
-Vec3 heavyEnd(const Mesh& mesh, const Vec3& scale, const MassProperties& mass);
-
 /// How a body with this nose sticks, up to `angle` [rad] from straight on.
-Stick stickAlong(const Vec3& nose, double angle, const Mesh& mesh, const Vec3& scale);
+Stick stickAlong(const Vec3& nose, double angle, const Mesh& mesh);
 
 }  // namespace stadion

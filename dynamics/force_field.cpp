@@ -114,6 +114,15 @@ double strideIn(const ForceField& field, const Vec3& p) {
   return std::visit([&](const auto& law) { return strideOf(law, local); }, field.law);
 }
 
+std::optional<Air> airAt(const ForceField& field, const Vec3& p, double s) {
+  const auto* medium = std::get_if<MediumField>(&field.law);
+  if (!medium) return {};
+  const Pose X_WF = field.moving() ? det::interpolate(field.start, field.end, s) : field.end;
+  if (!inside(*medium, X_WF.inverse() * p - medium->centre)) return {};
+  const double strength = field.first + s * (field.last - field.first);
+  return Air{medium->density, X_WF.q * (strength * medium->wind)};
+}
+
 FieldLaw scaled(const FieldLaw& law, double factor) {
   FieldLaw to = law;
   if (auto* linear = std::get_if<LinearField>(&to)) linear->push *= factor;

@@ -10,6 +10,7 @@
 #include "engine/maths/maths.h"
 #include "engine/time_signature.h"
 
+#include <optional>
 #include <variant>
 
 namespace stadion {
@@ -103,6 +104,14 @@ FieldLaw scaled(const FieldLaw& law, double factor);
 /// How far a body at p may go in one step without passing over what the field does somewhere; infinity if it
 /// does the same everywhere [m].
 double strideIn(const ForceField& field, const Vec3& p);
+
+/// The air (or water) at a place.
+struct Air {
+  double density = 0;        ///< [kg/m3]
+  Vec3 wind = Vec3::Zero();  ///< in World [m/s]
+};
+/// What a medium is at p; nothing outside it, and of other fields. s as below.
+std::optional<Air> airAt(const ForceField& field, const Vec3& p, double s);
 
 /// What the body gains [m/s2]; s in [0, 1] from frame start to end.
 Vec3 accelerationOf(const ForceField& field, const Exposed& body, double s);

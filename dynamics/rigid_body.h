@@ -4,6 +4,7 @@
 /// Times    tau is seconds after the start of the present window; an arc's age is `age0 + tau`.
 
 #include "dynamics/arc.h"
+#include "dynamics/body_flight.h"
 #include "dynamics/drag_flight.h"
 #include "dynamics/instant.h"
 #include "dynamics/shape.h"
@@ -132,6 +133,8 @@ struct RigidBody : RigidMotion {
   double reach = 0;      ///< greatest distance of a surface point from the centre of mass [m]
   double damping = 0, dragArea = 0, releaseDistance = 0.5;
   std::optional<Stick> stick;
+  std::shared_ptr<const BodyFlight> flight;
+  Quat q_CA = Quat::Identity();  ///< flight frame A to C, of a body with `flight`
 
   Vec3 endL = Vec3::Zero();  ///< Contact, but for Driven spins: angular momentum at the end of the sub-step
   double step = 0;           ///< last step of the general integrator [s]
@@ -247,6 +250,7 @@ inline MotionBound RigidBody::boundOver(double from, double to) const {
   b.spin = spin.speedBound(spinAge(to));
   b.spinChange = spin.kind == Spin::Kind::Driven    ? spin.alpha.norm()
                  : spin.kind == Spin::Kind::Uniform ? 0
+                 : spin.kind == Spin::Kind::Steered ? spin.steeredChange()
                                                     : b.spin * b.spin;
   return b;
 }

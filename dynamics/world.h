@@ -57,6 +57,8 @@ struct Stick {
   double cosine = 0.5;        ///< of the greatest angle between the nose and straight into the surface
 };
 
+struct BodyFlight;
+
 struct BodyDef {
   ShapeId shape = 0;
   Pose pose;                  ///< X_WN
@@ -68,6 +70,7 @@ struct BodyDef {
   double dragArea = 0;           ///< drag coefficient times cross section, for media [m2]
   double releaseDistance = 0.5;  ///< [m]; if infinite, releases are not watched for and not told
   std::optional<Stick> stick;
+  std::shared_ptr<const BodyFlight> flight;  ///< null: it feels media as a point with its drag area
 };
 
 struct ColliderDef {

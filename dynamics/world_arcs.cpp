@@ -154,12 +154,13 @@ void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec
                               const Vec3& L) {
   if (b.support.on.id) memory.setTouching(ContactMemory::keyOf(b.support.on, {true, b.id}), false);
   b.support.on = {};
-  b.spin = Spin::free(q, L, b.inertia), b.spinStart = 0;
+  b.spin = b.flight ? spinFrom(b, tau, {p, v, q, L}) : Spin::free(q, L, b.inertia), b.spinStart = 0;
   if (!q.coeffs().allFinite() || !(L.cwiseAbs().maxCoeff() <= 1e30) || !L.allFinite()) {
     b.spin = Spin::still(b.pose.q * b.X_NC.q);
     quarantine(b, tau, "its state would become infinite or undefined");
     return;
   }
+  if (b.flight && flyInAir(b, tau, {p, v, q, L})) return;
   fly(b, tau, p, v);
 }
 
@@ -213,6 +214,7 @@ void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
 /// is what did so in the last arc.
 void World::Core::continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, bool pullsAsBefore) {
   const double spinAge = b.spinAge(tau);
+  if (b.flight) return startFlight(b, tau, p, v, b.orientation(tau), b.spin.angularMomentum(spinAge));
   if (spinAge > b.spin.horizon - 1e-9) return startFlight(b, tau, p, v, b.orientation(tau), b.spin.L);
   b.spinStart = -spinAge;
   if (pullsAsBefore && b.path.isSeries() && resist(b, tau, p, v)) return;
@@ -224,10 +226,10 @@ void World::Core::continueFlight(RigidBody& b, double tau, const Vec3& p, const 
 bool World::Core::flyOn(RigidBody& b, double tau) {
   const double age = b.age(tau);
   if (age < b.pathAge - 1e-9) {
-    b.spin = Spin::free(b.orientation(tau), b.spin.L, b.inertia), b.spinStart = age;
-    b.validAge = std::min(b.pathAge, age + b.spin.horizon);
-    b.until = b.validAge - b.age0;
-    ++b.version;
+    const Quat q = b.orientation(tau);
+    setSpin(b, tau,
+            b.flight ? spinFrom(b, tau, {b.position(tau), b.velocity(tau), q, b.momentum(tau)})
+                     : Spin::free(q, b.spin.L, b.inertia));
     return false;
   }
   continueFlight(b, tau, b.position(tau), b.velocity(tau), true);

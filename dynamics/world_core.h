@@ -1,7 +1,7 @@
 #pragma once
 /// The inside of World, shared by its source files: world.cpp (interface), world_frame.cpp (one frame),
 /// world_foresight.cpp (what will touch), world_arcs.cpp (new arcs), world_impact.cpp (touches),
-/// world_release.cpp (who has parted),
+/// world_air.cpp (flight in air), world_release.cpp (who has parted),
 /// world_contact.cpp (lasting contact: who with whom), world_island.cpp (one island), world_crowd.cpp
 /// and world_crowd_contacts.cpp (heaps).
 ///
@@ -13,6 +13,7 @@
 #include "dynamics/broad_phase.h"
 #include "dynamics/contact_events.h"
 #include "dynamics/contact_solver.h"
+#include "dynamics/coupled_step.h"
 #include "dynamics/id_table.h"
 #include "dynamics/manifold.h"
 #include "dynamics/rigid_body.h"
@@ -191,6 +192,14 @@ public:
   bool flyOn(RigidBody& b, double tau);
   void reachHorizon(RigidBody& b, double tau);
   bool crossEdge(RigidBody& b, double tau);
+
+  // --- flight in air (world_air.cpp)
+  bool inMedium(const RigidBody& b) const;
+  CoupledPush airPush(const RigidBody& b, const CoupledState& s, const Vec3& omega, double tau) const;
+  bool flyInAir(RigidBody& b, double tau, const CoupledState& s);
+  Spin spinFrom(const RigidBody& b, double tau, const CoupledState& s) const;
+  void turnByFrame();
+  static void setSpin(RigidBody& b, double tau, const Spin& spin);
 
   // --- touches (world_impact.cpp)
   void countImpact(RigidBody& b, double tau) const;

@@ -93,6 +93,7 @@ void World::Core::execute(const Command& c, double tau) {
     return;
   case Command::Kind::Hook:
     if (!b || !field || feels(*b)) return;
+    if (b->flight && b->flight->inVacuum && std::holds_alternative<MediumField>(field->field.law)) return;
     b->hooks.push_back({c.field});
     break;
   case Command::Kind::Unhook:
@@ -141,7 +142,7 @@ void World::Core::pause(Nanoseconds to, bool continues) {
 void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
   t0 = from, t1 = to;
   frameFrom = tauOf(from), now = tauOf(to);
-  if (!continues) newFrame();
+  if (!continues) newFrame(), turnByFrame();
   beginFrame();
   while (t1 - origin >= window) {
     runEvents(windowEnd());

@@ -131,7 +131,8 @@ void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool l
     }
   }
   wakeOnto({true, b.id}, tau);
-  if (b.mode == BodyMode::Flight && b.path.isParabola()) {  // what pulls at it is the same as before
+  if (b.mode == BodyMode::Flight && b.path.isParabola() &&
+      !b.flight) {  // what pulls at it is the same as before
     setArc(b, tau, Path::parabola(p, m.v, 2 * b.path.c[2]), Spin::free(q, L, b.inertia),
            std::numeric_limits<double>::infinity(), BodyMode::Flight);
   } else {

@@ -26,6 +26,7 @@ struct BodyAttributes {
   Vec3 velocity = Vec3::Zero();         ///< at the start and after reset, in its parent [m/s]
   Vec3 angularVelocity = Vec3::Zero();  ///< the same [rad/s]
   ThrowSource throwSource = ThrowSource::Both;
+  std::shared_ptr<const BodyFlight> flight;  ///< null: as a point
   double spin = 0;               ///< about its axis of symmetry, added when a hand lets go [rad/s]
   std::optional<Vec3> nose;      ///< the way its tip points, in the model, unit
   std::optional<double> sticks;  ///< up to this angle from straight on [rad]

@@ -1,6 +1,7 @@
 #include "dynamics/nodes/dynamics_factories.h"
 
 #include "dynamics/nodes/dynamics_node.h"
+#include "dynamics/nodes/flight_factory.h"
 #include "dynamics/nodes/shape_store.h"
 #include "engine/script/choice.h"
 
@@ -122,7 +123,8 @@ BodyAttributes bodyOf(const Declaration& d) {
   return body;
 }
 
-Made makeDynObject(const NodeRequest& r, ShapeStore& shapes, const DynamicsVariation& variation) {
+Made makeDynObject(const NodeRequest& r, ShapeStore& shapes, const DynamicsVariation& variation,
+                   const AssetRoots* roots) {
   const Declaration& d = r.declaration;
   const auto fail = [&](const std::string& why) -> Made {
     const std::string model = "\"" + std::string(d.text(Attr::File)) + "\" ";
@@ -138,6 +140,12 @@ Made makeDynObject(const NodeRequest& r, ShapeStore& shapes, const DynamicsVaria
   if (!fitted.filled) return fail(fitted.filled.error().message);
 
   if (!body.massOf(fitted).valid()) return fail("is too small or too large for a body");
+  auto flight = flightOf(r, body.massOf(fitted), roots);
+  if (!flight) {
+    r.findings.add(flight.error());
+    return nullptr;
+  }
+  body.flight = std::move(flight.value());
   warnIfLighterThanAir(r, body.massOf(fitted), fitted.filled.value().mass);
   return std::make_unique<DynObjectNode>(r.self, r.name, r.place, std::move(appearance), std::move(body),
                                          std::move(fit.value()));
@@ -161,7 +169,8 @@ CollisionAttributes collisionOf(const NodeRequest& r, ShapeStore& shapes) {
 
 }  // namespace
 
-void addDynamicsFactories(NodeFactories& factories, const DynamicsVariation& variation) {
+void addDynamicsFactories(NodeFactories& factories, const DynamicsVariation& variation,
+                          const AssetRoots* roots) {
   const auto set = [&](NodeKind kind, NodeFactory make) {
     factories[static_cast<std::size_t>(kind)] = std::move(make);
   };
@@ -169,8 +178,9 @@ void addDynamicsFactories(NodeFactories& factories, const DynamicsVariation& var
   set(NodeKind::ForceLinear, makeLinear), set(NodeKind::ForceSpherical, makeSpherical);
   set(NodeKind::ForcePoint, makePoint), set(NodeKind::ForceVortex, makeVortex);
   set(NodeKind::Medium, makeMedium);
-  set(NodeKind::DynObject,
-      [shapes, variation](const NodeRequest& r) { return makeDynObject(r, *shapes, variation); });
+  set(NodeKind::DynObject, [shapes, variation, roots](const NodeRequest& r) {
+    return makeDynObject(r, *shapes, variation, roots);
+  });
   set(NodeKind::Collision, [shapes](const NodeRequest& r) {
     return std::make_unique<CollisionNode>(NodeKind::Collision, r.self, r.name, collisionOf(r, *shapes),
                                            shapes);

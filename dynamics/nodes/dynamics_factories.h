@@ -8,6 +8,7 @@
 namespace stadion {
 
 struct BodyAttributes;
+class AssetRoots;
 
 /// How a show is built with other models than its script says, so that they can be compared.
 struct DynamicsVariation {
@@ -17,6 +18,8 @@ struct DynamicsVariation {
   std::uint32_t fineness = 1;  ///< of all dynamics nodes, as in World::setFineness
 };
 
-void addDynamicsFactories(NodeFactories& factories, const DynamicsVariation& variation = {});
+/// `roots`: where tables of coefficients are looked for; null: nowhere. Borrowed.
+void addDynamicsFactories(NodeFactories& factories, const DynamicsVariation& variation = {},
+                          const AssetRoots* roots = nullptr);
 
 }  // namespace stadion

@@ -1,6 +1,8 @@
 #include "dynamics/nodes/dynamics_node.h"
 
 #include "dynamics/body_axes.h"
+#include "dynamics/body_flight.h"
+#include "dynamics/flight/flight_shape.h"
 #include "engine/maths/functions.h"
 #include "engine/scene/scene.h"
 
@@ -46,9 +48,12 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   def.releaseDistance = attributes_.releaseDistance;
   const Velocity start = startOf(*node, scene);
   def.v = start.v, def.omega = start.omega;
-  if (const Mesh* mesh = body.sticks ? scene.mesh(object.appearance().mesh) : nullptr) {
-    const Vec3 nose = body.nose.value_or(heavyEnd(*mesh, part.fit->scale, def.mass));
-    def.stick = stickAlong(nose, *body.sticks, *mesh, part.fit->scale);
+  def.flight = body.flight;
+  if (def.flight) def.mass = revolved(def.mass, *def.flight);
+  if (const Mesh* model = body.sticks ? scene.mesh(object.appearance().mesh) : nullptr) {
+    const Mesh mesh = scaled(*model, part.fit->scale.cast<float>());
+    const Vec3 nose = body.nose ? *body.nose : measureShape(mesh, def.mass.centre).q_NA * Vec3::UnitX();
+    def.stick = stickAlong(nose, *body.sticks, mesh);
   }
   part.id = world_.addBody(def);
   for (const NodeRef field : node->hooked())

@@ -5,19 +5,6 @@
 namespace stadion {
 namespace {
 
-Mesh scaled(const Mesh& mesh, const Eigen::Vector3f& scale) {
-  Mesh m;
-  m.positions = mesh.positions;
-  m.indices = mesh.indices;
-  m.name = mesh.name;
-  for (auto& p : m.positions)
-    for (std::size_t i = 0; i < 3; ++i) p[i] *= scale[static_cast<int>(i)];
-  for (const auto& p : m.positions) m.bounds.include(Vec3(p[0], p[1], p[2]));
-  const Vec3 s = scale.cast<double>();
-  m.sphere = {mesh.sphere.centre.cwiseProduct(s), mesh.sphere.radius * s.maxCoeff()};
-  return m;
-}
-
 /// Empty = auto.
 ShapeKind shapeKindOf(const std::string& word) {
   if (word == "sphere") return ShapeKind::Ball;
@@ -51,6 +38,19 @@ Result<MassProperties> filled(const Shape& shape, const Mesh& mesh) {
 }
 
 }  // namespace
+
+Mesh scaled(const Mesh& mesh, const Eigen::Vector3f& scale) {
+  Mesh m;
+  m.positions = mesh.positions;
+  m.indices = mesh.indices;
+  m.name = mesh.name;
+  for (auto& p : m.positions)
+    for (std::size_t i = 0; i < 3; ++i) p[i] *= scale[static_cast<int>(i)];
+  for (const auto& p : m.positions) m.bounds.include(Vec3(p[0], p[1], p[2]));
+  const Vec3 s = scale.cast<double>();
+  m.sphere = {mesh.sphere.centre.cwiseProduct(s), mesh.sphere.radius * s.maxCoeff()};
+  return m;
+}
 
 Result<SharedFit> ShapeStore::fit(const Mesh& mesh, const Appearance& appearance, const Vec3& scale) {
   const Eigen::Vector3f s = scale.cast<float>();

@@ -1,5 +1,6 @@
 #include "engine/script/checker.h"
 
+#include "engine/script/choice.h"
 #include "engine/script/file_path.h"
 #include "engine/script/suggestion.h"
 #include "engine/text/text_mesh.h"
@@ -92,6 +93,7 @@ void Checker::take(const RawDeclaration& raw) {
   checkRequired(*kind, raw.type, seen);
   checkVolume(*kind, raw, seen);
   if (*kind == NodeKind::Path) checkKeyTimes(raw, node);
+  if (*kind == NodeKind::DynObject) checkFlight(node);
 }
 
 void Checker::takeUnknown(const RawDeclaration& raw) {
@@ -138,6 +140,7 @@ void Checker::takeValue(NodeKind kind, const AttributeSpec& spec, TextSpan value
   case ValueKind::Reference: return takeWord(spec, value);
   case ValueKind::File: return takeFile(spec, value);
   case ValueKind::Words: return takeWords(spec, value);
+  case ValueKind::Coefficients: return takeCoefficients(spec, value);
   case ValueKind::EventMessage: return takeMessage(kind, value);
   default: return takeNumbers(spec, value);
   }
@@ -222,6 +225,45 @@ void Checker::takeWords(const AttributeSpec& spec, TextSpan value) {
     return report_.error(value.offset, fmt::format("{} may have {} bytes at most, not {}", nameOf(spec.attr),
                                                    kLongestWords, value.length));
   writer_.addText(spec.attr, spec.kind, value);
+}
+
+/// How many there must be, and what they may be, is for those who know the models.
+void Checker::takeCoefficients(const AttributeSpec& spec, TextSpan value) {
+  const char first = value.length > 0 ? text(value).front() : '\0';
+  const bool word = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
+  if (word && text(value) != "nan" && text(value) != "inf") return takeWord(spec, value);
+  NumberList numbers;
+  const std::string name(nameOf(spec.attr));
+  if (const auto failure = readNumbers(text(value), numbers, name, formOf(spec)))
+    return report_.error(value.offset + static_cast<std::uint32_t>(failure->offset), failure->message);
+  if (numbers.count == 0)
+    return report_.error(value.offset, fmt::format("{} must be {}, not empty", name, formOf(spec)));
+  writer_.addText(spec.attr, spec.kind, value);
+}
+
+/// What only one way of flight has a use for.
+void Checker::checkFlight(std::uint32_t node) {
+  using enum FlightWord;
+  const Declaration d = document_[node];
+  const auto flight = d.choice<FlightWord>(Attr::Flight);
+  struct Use {
+    Attr attr;
+    std::initializer_list<FlightWord> of;
+    const char* words;
+  };
+  for (const Use& use : {Use{Attr::Coefficients, {Rod, Plate, Ball}, "rod, plate or ball"},
+                         Use{Attr::FlightTable, {Table}, "table"}, Use{Attr::Bias, {Bias}, "bias"},
+                         Use{Attr::BiasRate, {Bias}, "bias"}, Use{Attr::Axes, {Bias}, "bias"}})
+    if (d.has(use.attr) && std::ranges::find(use.of, flight) == use.of.end())
+      report_.error(writer_.offsetOf(node), fmt::format("\"{}\" is of flight={}, not of flight={}",
+                                                        nameOf(use.attr), use.words, d.text(Attr::Flight)));
+  if (flight == Table && !d.has(Attr::FlightTable))
+    report_.error(writer_.offsetOf(node), "flight=table needs a \"flighttable\"");
+  if (d.has(Attr::BiasRate) && d.choice<BiasWord>(Attr::Bias) == BiasWord::Paper &&
+      d.number(Attr::BiasRate) > 1)
+    report_.error(writer_.offsetOf(node),
+                  fmt::format("biasrate is a share of the angle with bias=paper, at most 1, not {}",
+                              d.number(Attr::BiasRate)));
 }
 
 void Checker::takeFile(const AttributeSpec& spec, TextSpan value) {

@@ -28,7 +28,18 @@ enum class FieldFalloff : std::uint8_t { None, Linear, Square };        ///< for
 enum class ThrowSource : std::uint8_t { Hand, Field, Both };            ///< dynobject: throw
 // measure: `from` is the MeasureFrom of nodes/measure_node.h
 // text: `align` is the TextAlign of text/text_mesh.h
-enum class NavigatorMode : std::uint8_t { Walk, Fly };  ///< navigator: mode
+enum class FlightWord : std::uint8_t {
+  Point,
+  Ballistic,
+  Bias,
+  Rod,
+  Plate,
+  Ball,
+  Table
+};                                                               ///< dynobject: flight
+enum class BiasWord : std::uint8_t { Flow, Paper, Covariance };  ///< dynobject: bias
+enum class AxesWord : std::uint8_t { Area, Vertices };           ///< dynobject: axes
+enum class NavigatorMode : std::uint8_t { Walk, Fly };           ///< navigator: mode
 
 enum class DeviceAxis : std::uint8_t {};  ///< force fields: strengthaxis
 

@@ -24,20 +24,21 @@ namespace stadion {
 /// What the value of an attribute is, and thereby how it is written.
 enum class ValueKind : std::uint8_t {
   Number,
-  Vector,     ///< "x, y, z"
-  Direction,  ///< "x, y, z", not all zero
-  Colour,     ///< "r, g, b"
-  Scale,      ///< one number or three
-  Sphere,     ///< "x, y, z, radius"
-  Box,        ///< "x, y, z, sx, sy, sz": the centre and the full lengths of the edges
-  Key,        ///< "t, x, y, z, rx, ry, rz" or "t, x, y, z": a time, a position, an orientation
-  Flag,       ///< on, off, true, false, 1, 0
-  Choice,     ///< one word of a few
-  NewName,    ///< the name that this node gets
-  Tracker,    ///< the name of a tracker
-  Reference,  ///< the name of another node
-  File,       ///< a path below the show's asset roots
-  Words,      ///< any text; \n ends a line
+  Vector,        ///< "x, y, z"
+  Direction,     ///< "x, y, z", not all zero
+  Colour,        ///< "r, g, b"
+  Scale,         ///< one number or three
+  Sphere,        ///< "x, y, z, radius"
+  Box,           ///< "x, y, z, sx, sy, sz": the centre and the full lengths of the edges
+  Key,           ///< "t, x, y, z, rx, ry, rz" or "t, x, y, z": a time, a position, an orientation
+  Flag,          ///< on, off, true, false, 1, 0
+  Choice,        ///< one word of a few
+  NewName,       ///< the name that this node gets
+  Tracker,       ///< the name of a tracker
+  Reference,     ///< the name of another node
+  File,          ///< a path below the show's asset roots
+  Coefficients,  ///< up to seven numbers, or one word
+  Words,         ///< any text; \n ends a line
   EventMessage,
 };
 

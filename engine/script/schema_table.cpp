@@ -13,6 +13,9 @@ constexpr std::string_view kAxes[] = {"x", "y", "z"};
 constexpr std::string_view kThrows[] = {"hand", "field", "both"};
 constexpr std::string_view kOrigins[] = {"line", "point"};
 constexpr std::string_view kAligns[] = {"left", "centre", "right"};
+constexpr std::string_view kFlights[] = {"point", "ballistic", "bias", "rod", "plate", "ball", "table"};
+constexpr std::string_view kBiases[] = {"flow", "paper", "covariance"};
+constexpr std::string_view kAxesFrom[] = {"area", "vertices"};
 constexpr std::string_view kNavigatorModes[] = {"walk", "fly"};
 
 constexpr AttributeSpec kObjectFile{.attr = Attr::File,
@@ -129,6 +132,35 @@ constexpr AttributeSpec kDynObjectRows[] = {
              "without it, never",
      .unit = "degrees",
      .range = {0, 90, true}},
+    {.attr = Attr::Flight,
+     .kind = Choice,
+     .help = "how air acts on it: as on a point with drag, not at all, by the paper's bias, as on a rod, a "
+             "plate or a ball, or by a table",
+     .standard = "point",
+     .choices = kFlights},
+    {.attr = Attr::Coefficients,
+     .kind = ValueKind::Coefficients,
+     .help = "of flight=rod, plate or ball, in the order of docs/flight.md; or javelin, discus or football; "
+             "if not stated, from the model's form"},
+    {.attr = Attr::FlightTable,
+     .kind = File,
+     .help = "of flight=table: coefficients by the angle of attack (.csv)"},
+    {.attr = Attr::Bias,
+     .kind = Choice,
+     .help = "of flight=bias: its angle to the velocity decays evenly, or by a share in every frame as in "
+             "the paper, or by the form's covariance",
+     .standard = "flow",
+     .choices = kBiases},
+    {.attr = Attr::BiasRate,
+     .kind = Number,
+     .help = "of flight=bias: per second (flow), share of the angle in a frame (paper), per metre "
+             "(covariance); if not stated 1.8, 0.03, 0.07",
+     .range = {0, 1000}},
+    {.attr = Attr::Axes,
+     .kind = Choice,
+     .help = "of flight=bias: its axes from the surface's area, or from random vertices as in the paper",
+     .standard = "area",
+     .choices = kAxesFrom},
 };
 
 constexpr AttributeSpec kLightRows[] = {

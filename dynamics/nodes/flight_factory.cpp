@@ -1,0 +1,116 @@
+#include "dynamics/nodes/flight_factory.h"
+
+#include "dynamics/flight/flight_shape.h"
+#include "dynamics/nodes/shape_store.h"
+#include "engine/plain_file.h"
+#include "engine/script/choice.h"
+#include "engine/script/value.h"
+
+#include <fmt/format.h>
+
+namespace stadion {
+namespace {
+
+constexpr std::size_t kSamples = 512;           ///< random vertices, as many as the paper's figure shows
+constexpr double kRates[] = {1.8, 0.03, 0.07};  ///< of a bias, where the script states none; by BiasWord
+
+FlightKind kindOf(FlightWord word) {
+  constexpr FlightKind kinds[] = {FlightKind::Ballistic, FlightKind::Ballistic, FlightKind::Bias,
+                                  FlightKind::Rod,       FlightKind::Plate,     FlightKind::Ball,
+                                  FlightKind::Table};
+  return kinds[static_cast<std::size_t>(word)];
+}
+
+Diagnostic wrong(const Declaration& d, Attr attr, std::string why) {
+  return {Severity::Error, d.where(attr), std::move(why), d.excerpt(attr)};
+}
+
+/// "rod takes 6 numbers: axial area [m2], ...".
+std::string orderOf(FlightKind kind, std::string_view word) {
+  const auto all = coefficientsOf(kind);
+  std::string text = fmt::format("flight={} takes {} numbers: ", word, all.size());
+  for (const Coefficient& c : all)
+    text += fmt::format("{}{}{}", &c == all.data() ? "" : ", ", c.name,
+                        *c.unit ? fmt::format(" [{}]", c.unit) : "");
+  return text;
+}
+
+/// With the numbers or the name that the script states.
+Result<FlightModel> statedModel(const Declaration& d, FlightKind kind, const FlightShape& shape) {
+  const std::string text(d.text(Attr::Coefficients)), word(d.text(Attr::Flight));
+  NumberList numbers;
+  if (readNumbers(text, numbers, {}, {})) {
+    if (auto model = shippedFlight(kind, text, shape)) return *model;
+    return wrong(d, Attr::Coefficients,
+                 fmt::format("flight={} knows no \"{}\"; it knows {}", word, shortened(text),
+                             joinWithOr(shippedFlights(kind))));
+  }
+  const auto order = coefficientsOf(kind);
+  if (numbers.count != order.size())
+    return wrong(d, Attr::Coefficients, fmt::format("{}; not {}", orderOf(kind, word), numbers.count));
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (!(numbers.value[i] >= order[i].least && numbers.value[i] <= order[i].most))
+      return wrong(d, Attr::Coefficients,
+                   fmt::format("{} must be {}, not {}", order[i].name,
+                               describe(NumberRange{order[i].least, order[i].most}, order[i].unit),
+                               numbers.value[i]));
+  return *modelFrom(kind, {numbers.value.data(), numbers.count});
+}
+
+Result<FlightModel> modelOf(const Declaration& d, FlightKind kind, const FlightShape& shape) {
+  if (kind == FlightKind::Ballistic || kind == FlightKind::Bias) return FlightModel{BallisticFlight{}};
+  if (d.has(Attr::Coefficients)) return statedModel(d, kind, shape);
+  if (kind == FlightKind::Rod) return FlightModel{rodFrom(shape)};
+  if (kind == FlightKind::Plate) return FlightModel{plateFrom(shape)};
+  return FlightModel{ballFrom(shape)};
+}
+
+Bias biasOf(const Declaration& d, const FlightShape& shape) {
+  const auto word = static_cast<std::size_t>(d.choice<BiasWord>(Attr::Bias));
+  const double rate = d.optionalNumber(Attr::BiasRate).value_or(kRates[word]);
+  return biasFor(shape, static_cast<BiasForm>(word), rate);
+}
+
+/// The other end flies first.
+void turnAround(FlightShape& s, double volume) {
+  s.q_NA = s.q_NA * Quat(0, 0, 0, 1);  // half a turn about z
+  s.sideArm = -s.sideArm, s.wetArm = -s.wetArm;
+  // The moments of front and back differ by the volume (divergence theorem).
+  s.noseArm = s.frontArea > 0 ? volume / s.frontArea - s.noseArm : 0;
+}
+
+/// The form of the model, its nose where the script says, its axes as the paper takes them if it says so.
+FlightShape formOf(const Declaration& d, const Mesh& mesh, const MassProperties& mass) {
+  FlightShape s = measureShape(mesh, mass.centre);
+  const Vec3 nose = d.has(Attr::Nose) ? d.vec3(Attr::Nose) : s.q_NA * Vec3::UnitX();
+  const auto volume = integrateVolume(mesh);
+  if (nose.dot(s.q_NA * Vec3::UnitX()) < 0) turnAround(s, volume ? volume.value().volume : 0);
+  if (d.choice<AxesWord>(Attr::Axes) == AxesWord::Vertices) {
+    s.axes = sampledAxes(mesh, kSamples), s.q_NA = s.axes.q_NP;
+    if (nose.dot(s.q_NA * Vec3::UnitX()) < 0) s.q_NA = s.q_NA * Quat(0, 0, 0, 1);
+  }
+  return s;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const BodyFlight>> flightOf(const NodeRequest& r, const MassProperties& mass,
+                                                   const AssetRoots* roots) {
+  const Declaration& d = r.declaration;
+  const auto word = d.choice<FlightWord>(Attr::Flight);
+  if (word == FlightWord::Point) return std::shared_ptr<const BodyFlight>();
+  const FlightKind kind = kindOf(word);
+  const Mesh mesh = scaled(*r.mesh, scaleOf(r.place.X_PN).cast<float>());
+  const FlightShape shape = formOf(d, mesh, mass);
+  auto flight = std::make_shared<BodyFlight>();
+  flight->q_NA = shape.q_NA;
+  flight->inVacuum = kind == FlightKind::Ballistic;
+  if (kind == FlightKind::Bias) flight->bias = biasOf(d, shape);
+  (void)roots;
+  auto model = modelOf(d, kind, shape);
+  if (!model) return model.error();
+  flight->model = std::move(model.value());
+  return std::shared_ptr<const BodyFlight>(std::move(flight));
+}
+
+}  // namespace stadion
