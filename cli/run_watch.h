@@ -41,6 +41,7 @@ private:
   TimeSignature last_;
   std::uint64_t stateHash_ = 0, visited_ = 0, published_ = 0, delivered_ = 0, lost_ = 0;
   std::vector<Happening> happened_;
+  std::vector<MeasuredDistance> measured_;
   std::uint64_t happenedCount_ = 0;
 };
 

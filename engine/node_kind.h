@@ -16,6 +16,7 @@ enum class NodeKind : std::uint8_t {
   DynObject,
   Light,
   Sky,
+  Text,
   ForceLinear,
   ForceSpherical,
   ForcePoint,
@@ -28,14 +29,16 @@ enum class NodeKind : std::uint8_t {
   Path,
   Collision,
   Dynamics,
+  Measure,
   Navigator,
   Rig,
 };
 
-inline constexpr std::array<std::string_view, 20> kNodeKindNames = {
-    "group",          "transform",  "object",      "dynobject", "light",       "sky",         "forcelinear",
-    "forcespherical", "forcepoint", "forcevortex", "medium",    "usertrigger", "wandtrigger", "timer",
-    "scene",          "path",       "collision",   "dynamics",  "navigator",   "rig"};
+inline constexpr std::array<std::string_view, 22> kNodeKindNames = {
+    "group",       "transform",   "object",         "dynobject",  "light",       "sky",
+    "text",        "forcelinear", "forcespherical", "forcepoint", "forcevortex", "medium",
+    "usertrigger", "wandtrigger", "timer",          "scene",      "path",        "collision",
+    "dynamics",    "measure",     "navigator",      "rig"};
 inline constexpr std::size_t kNodeKindCount = kNodeKindNames.size();
 
 constexpr std::string_view nameOf(NodeKind kind) {

@@ -10,6 +10,7 @@
 #include "engine/input/input_sample.h"
 #include "engine/node.h"
 #include "engine/scene/courses.h"
+#include "engine/scene/impact.h"
 #include "engine/scene/load.h"
 #include "engine/scene/placements.h"
 #include "engine/scene/records.h"
@@ -41,6 +42,7 @@ struct EventRecord {
   NodeRef node;
   Event event;
   Nanoseconds when;
+  std::optional<double> figure{};  ///< measured: the distance [m]
 };
 
 class Scene {
@@ -78,7 +80,7 @@ public:
   void post(const Node& sender, const Notification& n, Nanoseconds when);
   /// A command from outside the show, to be delivered in the next frame.
   bool command(const std::string& target, Verb verb, std::vector<std::string> arguments, Nanoseconds when);
-  void note(NodeRef node, Event event, Nanoseconds when);
+  void note(NodeRef node, Event event, Nanoseconds when, std::optional<double> figure = {});
   /// Tells the author what the show did about a node, with its name and where it is declared.
   void warn(const Node& about, const std::string& what);
   /// Visits `node` in the frame in which `when` falls.
@@ -94,12 +96,24 @@ public:
   /// When the load (or what brought it in) is unloaded, as far as it happens in this frame; else kNever.
   Nanoseconds endOf(std::uint32_t load) const;
   static constexpr Nanoseconds kNever = std::numeric_limits<Nanoseconds>::max();
+  /// Wakes `watcher` in the frame in which `body` touches something.
+  void watchImpacts(NodeRef body, NodeRef watcher) { impactWatchers_.insert({body, watcher}); }
+  void unwatchImpacts(NodeRef body, NodeRef watcher);
+  /// Whether anybody would look at impacts: else nobody needs to note them.
+  bool impactsWanted() const { return !impactWatchers_.empty(); }
+  void noteImpact(const Impact& impact);
+  const std::vector<Impact>& impacts() const { return impacts_; }  ///< of this frame, as they were noted
   /// Changes whenever a load comes or goes: names may resolve differently.
   std::uint64_t loadsVersion() const { return loadsVersion_; }
 
   InstanceId addInstance(PlacementId placement, MeshId mesh, bool drawn, std::uint32_t owner);
   void setDrawn(InstanceId id, bool drawn);
   void removeInstance(InstanceId id);
+  /// What the instance shows from now on; kNoMesh = nothing.
+  void setMesh(InstanceId id, MeshId mesh);
+  /// A mesh that a node has made itself; to be given back with releaseMesh.
+  MeshId addMesh(std::unique_ptr<const Mesh> mesh) { return meshes_.add(std::move(mesh)); }
+  void releaseMesh(MeshId mesh);
 
   std::size_t addLight(PlacementId placement, const LightRecord& local, NodeRef node);
   void setLight(std::size_t handle, const LightRecord& local, bool on);
@@ -252,7 +266,10 @@ private:
   Crew crew_;
   FrameCounters counters_;
   std::vector<EventRecord> events_;
+  std::multimap<NodeRef, NodeRef> impactWatchers_;  ///< by the body that is watched
+  std::vector<Impact> impacts_;
   Nanoseconds now_ = 0;
+  std::uint64_t frame_ = 0;
 };
 
 }  // namespace stadion

@@ -63,6 +63,16 @@ void Scene::removeInstance(InstanceId id) {
   freeInstances_.push_back(id);
 }
 
+void Scene::setMesh(InstanceId id, MeshId mesh) {
+  instances_[id].mesh = mesh;
+  markInstance(id);
+}
+
+/// This frame is not published yet: the last one that may show the mesh came before it.
+void Scene::releaseMesh(MeshId mesh) {
+  if (mesh != kNoMesh) meshes_.release(mesh, frame_);
+}
+
 void Scene::markInstance(InstanceId id) {
   if (instances_[id].changed) return;
   instances_[id].changed = true;

@@ -2,6 +2,7 @@
 
 #include "engine/script/file_path.h"
 #include "engine/script/suggestion.h"
+#include "engine/text/text_mesh.h"
 
 #include <algorithm>
 
@@ -136,6 +137,7 @@ void Checker::takeValue(NodeKind kind, const AttributeSpec& spec, TextSpan value
   case ValueKind::Tracker:
   case ValueKind::Reference: return takeWord(spec, value);
   case ValueKind::File: return takeFile(spec, value);
+  case ValueKind::Words: return takeWords(spec, value);
   case ValueKind::EventMessage: return takeMessage(kind, value);
   default: return takeNumbers(spec, value);
   }
@@ -213,6 +215,13 @@ void Checker::takeWord(const AttributeSpec& spec, TextSpan value) {
     writer_.setName(value);
   else
     writer_.addText(spec.attr, spec.kind, value);
+}
+
+void Checker::takeWords(const AttributeSpec& spec, TextSpan value) {
+  if (value.length > kLongestWords)
+    return report_.error(value.offset, fmt::format("{} may have {} bytes at most, not {}", nameOf(spec.attr),
+                                                   kLongestWords, value.length));
+  writer_.addText(spec.attr, spec.kind, value);
 }
 
 void Checker::takeFile(const AttributeSpec& spec, TextSpan value) {

@@ -27,6 +27,7 @@ private:
   void takeFlag(const AttributeSpec& spec, TextSpan value);
   void takeChoice(const AttributeSpec& spec, TextSpan value);
   void takeWord(const AttributeSpec& spec, TextSpan value);
+  void takeWords(const AttributeSpec& spec, TextSpan value);
   void takeFile(const AttributeSpec& spec, TextSpan value);
   void takeMessage(NodeKind kind, TextSpan value);
   void reportCount(const AttributeSpec& spec, TextSpan value, std::size_t count);

@@ -24,7 +24,9 @@ enum class ForceUnit : std::uint8_t { Gravity, Acceleration, Newton };  ///< for
 enum class FieldMode : std::uint8_t { Attract, Repel };                 ///< forcespherical: mode
 enum class FieldFalloff : std::uint8_t { None, Linear, Square };        ///< forcespherical: falloff
 enum class ThrowSource : std::uint8_t { Hand, Field, Both };            ///< dynobject: throw
-enum class NavigatorMode : std::uint8_t { Walk, Fly };                  ///< navigator: mode
+// measure: `from` is the MeasureFrom of nodes/measure_node.h
+// text: `align` is the TextAlign of text/text_mesh.h
+enum class NavigatorMode : std::uint8_t { Walk, Fly };  ///< navigator: mode
 
 enum class DeviceAxis : std::uint8_t {};  ///< force fields: strengthaxis
 

@@ -4,6 +4,8 @@
 #include "engine/script/file_path.h"
 #include "engine/script/reporter.h"
 #include "engine/script/suggestion.h"
+#include "engine/text/glyphs.h"
+#include "engine/text/text_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +53,10 @@ private:
         if (Use* use = useOf(body)) use->simulated = true;
     if (node.has(Attr::Parent))
       if (Use* use = useOf(*node.reference(Attr::Parent))) use->isParent = true;
-    for (const EventMessage& message : node.eventMessages()) noteMessage(message);
+    for (const EventMessage& message : node.eventMessages()) {
+      noteMessage(message);
+      warnOfMissing(message.words, message.command);
+    }
   }
 
   void noteMessage(const EventMessage& message) {
@@ -71,6 +76,7 @@ private:
     case NodeKind::Object: return lookAtModel(node);
     case NodeKind::DynObject: return lookAtBody(node);
     case NodeKind::Light: return lookAtLight(node);
+    case NodeKind::Text: return warnOfMissing(node.text(Attr::Text), node.offset(Attr::Text));
     case NodeKind::ForceLinear:
     case NodeKind::ForceSpherical:
     case NodeKind::ForcePoint:
@@ -116,6 +122,12 @@ private:
     if (node.has(Attr::Direction) && type == "point")
       warn(node, Attr::Direction, "direction has no effect: a point light shines all around");
     warnNeverOn(node);
+  }
+
+  void warnOfMissing(std::string_view words, std::uint32_t where) {
+    for (const char32_t c : missingFrom(withLineEnds(words)))
+      report_.warning(where, fmt::format("the letters of the show have no U+{:04X}; a box stands for it",
+                                         static_cast<std::uint32_t>(c)));
   }
 
   void lookAtNumberOfLights() {

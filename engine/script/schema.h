@@ -37,6 +37,7 @@ enum class ValueKind : std::uint8_t {
   Tracker,    ///< the name of a tracker
   Reference,  ///< the name of another node
   File,       ///< a path below the show's asset roots
+  Words,      ///< any text; \n ends a line
   EventMessage,
 };
 
@@ -75,6 +76,7 @@ enum class ArgumentKind : std::uint8_t {
   PartAndTracker,  ///< all|position|orientation [tracker]
   Tracker,         ///< [tracker]
   Field,           ///< the name of a force field
+  Words,           ///< the rest of the command, any text without commas
 };
 
 struct CommandSpec {

@@ -21,8 +21,9 @@ inline constexpr NumberRange kTurn{-36000, 36000};
 inline constexpr NumberRange kForce{-kFar, kFar};
 
 inline constexpr KindSet kFields{ForceLinear, ForceSpherical, ForcePoint, ForceVortex, Medium};
-inline constexpr KindSet kMovable =
-    KindSet{Group, Transform, Object, DynObject, Light, Path, UserTrigger, WandTrigger, Scene} | kFields;
+inline constexpr KindSet kMovable = KindSet{Group, Transform,   Object,      DynObject, Light,  Text,
+                                            Path,  UserTrigger, WandTrigger, Scene,     Measure} |
+                                    kFields;
 inline constexpr KindSet kParents{Group, Transform, Object, DynObject, Path, Scene, Rig};
 inline constexpr KindSet kSolid{Object, DynObject};
 inline constexpr KindSet kSwitched =

@@ -11,6 +11,8 @@ constexpr std::string_view kShapes[] = {"auto",  "sphere",  "box",      "mesh",
                                         "plane", "capsule", "cylinder", "convex"};
 constexpr std::string_view kAxes[] = {"x", "y", "z"};
 constexpr std::string_view kThrows[] = {"hand", "field", "both"};
+constexpr std::string_view kOrigins[] = {"line", "point"};
+constexpr std::string_view kAligns[] = {"left", "centre", "right"};
 constexpr std::string_view kNavigatorModes[] = {"walk", "fly"};
 
 constexpr AttributeSpec kObjectFile{.attr = Attr::File,
@@ -194,6 +196,40 @@ constexpr AttributeSpec kSkyRows[] = {
      .range = kDistance},
 };
 
+constexpr AttributeSpec kTextRows[] = {
+    {.attr = Attr::Text, .kind = Words, .help = "what it says at the start"},
+    {.attr = Attr::Size,
+     .kind = Number,
+     .help = "height of a capital",
+     .standard = "0.5",
+     .unit = "m",
+     .range = {0, 1000, true}},
+    {.attr = Attr::Colour,
+     .kind = Colour,
+     .help = "red, green, blue (sRGB)",
+     .standard = "1, 1, 1",
+     .range = kColourRange},
+    {.attr = Attr::Lit,
+     .kind = Flag,
+     .help = "whether light falls on it as on any surface; if not, it shows its colour in any light",
+     .standard = "off"},
+    {.attr = Attr::Align,
+     .kind = Choice,
+     .help = "what of each line is at the node's place: its beginning, its middle or its end",
+     .standard = "centre",
+     .choices = kAligns},
+    {.attr = Attr::Depth,
+     .kind = Number,
+     .help = "how thick the letters are; 0 is flat",
+     .standard = "0",
+     .unit = "m",
+     .range = {0, 1000}},
+    {.attr = Attr::Background,
+     .kind = Colour,
+     .help = "colour of a board behind the letters (sRGB); no board if not stated",
+     .range = kColourRange},
+};
+
 constexpr AttributeSpec kTriggerSphere{.attr = Attr::Sphere,
                                        .kind = ValueKind::Sphere,
                                        .help =
@@ -298,6 +334,38 @@ constexpr AttributeSpec kDynamicsRows[] = {
     kInitOn,
 };
 
+constexpr AttributeSpec kMeasureRows[] = {
+    {.attr = Attr::Body,
+     .kind = Reference,
+     .help = "what is thrown; its first impact after \"start\" counts",
+     .required = true,
+     .targets = {DynObject}},
+    {.attr = Attr::Ground,
+     .kind = Reference,
+     .help = "only an impact with this counts; any, if not stated",
+     .targets = kSolid},
+    {.attr = Attr::From,
+     .kind = Choice,
+     .help = "square from the node's X axis, or from its place",
+     .standard = "line",
+     .choices = kOrigins},
+    {.attr = Attr::Sector,
+     .kind = Number,
+     .help = "full angle about the node's +Y, outside which a throw is a foul; if not stated, only one that "
+             "lands behind the line is",
+     .unit = "degrees",
+     .range = {0, 180, true}},
+    {.attr = Attr::Label, .kind = Words, .help = "what the result is called; the node's name if not stated"},
+    {.attr = Attr::Text,
+     .kind = Reference,
+     .help = "a text node that shows the result",
+     .targets = {NodeKind::Text}},
+    {.attr = Attr::Against,
+     .kind = Reference,
+     .help = "the measure to compare with, once both have a result",
+     .targets = {Measure}},
+};
+
 constexpr AttributeSpec kNavigatorRows[] = {
     {.attr = Attr::Speed,
      .kind = Number,
@@ -348,6 +416,7 @@ constexpr Event kTimerEvents[] = {Event::TimesUp};
 constexpr Event kSceneEvents[] = {Event::Loaded, Event::Unloaded};
 constexpr Event kPathEvents[] = {Event::Finished};
 constexpr Event kContactEvents[] = {Event::OnImpact, Event::OnRelease};
+constexpr Event kMeasureEvents[] = {Event::Measured, Event::Foul, Event::Won, Event::Lost, Event::Drawn};
 constexpr Event kBodyEvents[] = {Event::OnQuarantine};
 
 }  // namespace
@@ -369,6 +438,7 @@ constinit const std::array<NodeSpec, kNodeKindCount> kNodes = {{
      {},
      false,
      true},
+    {Text, "words in the scene, read by who looks along +Y", kTextRows, {}, true},
     {ForceLinear,
      "a force field with the same force everywhere, such as gravity or a kick",
      kForceLinearRows,
@@ -387,6 +457,8 @@ constinit const std::array<NodeSpec, kNodeKindCount> kNodes = {{
     {Collision, "notices contact between objects and leaves them where they are", kCollisionRows,
      kContactEvents},
     {Dynamics, "moves its bodies by forces and collisions", kDynamicsRows, kContactEvents},
+    {Measure, "takes the distance of a throw where the body first touches, from its X axis towards +Y",
+     kMeasureRows, kMeasureEvents, true},
     {Navigator, "lets the user move the rig with joypad and wand", kNavigatorRows, {}},
     {Rig,
      "the platform that carries walls, trackers and viewers through the world",
@@ -422,6 +494,8 @@ constinit const std::array<CommandSpec, kVerbCount> kCommands = {{
      "the body flies on with the velocity it was held with"},
     {Verb::Load, ArgumentKind::None, {Scene}, "load", "the scene appears after its `ready` time"},
     {Verb::Unload, ArgumentKind::None, {Scene}, "unload", "the scene goes after its `ready` time"},
+    {Verb::Say, ArgumentKind::Words, {Text}, "say [WORDS]", "shows these words; \\n ends a line"},
+    {Verb::Start, ArgumentKind::None, {Measure}, "start", "the body's next impact is measured"},
 }};
 
 constinit const std::array<EventSpec, kEventCount> kEvents = {{
@@ -439,6 +513,11 @@ constinit const std::array<EventSpec, kEventCount> kEvents = {{
     {Event::OnRelease, "a pair that posted onimpact is farther apart than releasedistance"},
     {Event::OnQuarantine,
      "its state would have become infinite or undefined; it stands still until its reset"},
+    {Event::Measured, "the throw has been measured"},
+    {Event::Foul, "the throw has landed behind the line or outside the sector"},
+    {Event::Won, "both throws have a result, and this one is farther, by a centimetre at least"},
+    {Event::Lost, "both throws have a result, and the other is farther"},
+    {Event::Drawn, "both throws have a result, and neither is farther"},
 }};
 
 }  // namespace stadion::schema_table

@@ -49,6 +49,13 @@ struct ImageHash {
 struct Happening {
   double seconds = 0;  ///< show time [s]
   std::string event, node;
+  std::optional<double> metres{};  ///< of a distance that was measured
+};
+
+struct MeasuredDistance {
+  double seconds = 0;  ///< show time [s]
+  std::string node;    ///< the measure
+  double metres = 0;
 };
 
 struct RunSummary {
@@ -75,6 +82,7 @@ struct RunSummary {
   std::string stopped;                     ///< by which signal; empty = it played to its end
   std::string failure;                     ///< why it could not go on; empty = it could
   std::vector<Happening> happened;         ///< the first ones, at most kMostHappenings
+  std::vector<MeasuredDistance> measured;  ///< the first ones, at most kMostHappenings
   std::uint64_t happenedCount = 0;         ///< all of them
 };
 
