@@ -115,7 +115,7 @@ TEST(Text, AnUnknownCharacterIsABoxAndIsNamed) {
 TEST(Text, NothingAndBlanksDrawNothing) {
   EXPECT_EQ(trianglesOf(""), 0u);
   EXPECT_EQ(trianglesOf(" \n "), 0u);
-  EXPECT_EQ(trianglesOf(std::string(2 * kLongestText, 'I')), 2 * kLongestText);
+  EXPECT_EQ(trianglesOf(std::string(2 * kLongestWords, 'I')), 2 * kLongestWords);
 }
 
 TEST(Text, SaysWhatItIsToldAndTheMeshOfTheOldWordsIsFreedOnceItHasBeenShown) {
