@@ -15,5 +15,6 @@ void addWallsCommand(CLI::App& app, int& code);
 void addBenchCommand(CLI::App& app, int& code);
 void addProfileCommand(CLI::App& app, int& code);
 void addTestCommand(CLI::App& app, int& code);
+void addViewCommand(CLI::App& app, int& code);
 
 }  // namespace stadion

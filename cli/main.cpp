@@ -34,6 +34,7 @@ int runProgram(int argc, char** argv) {
   addBenchCommand(app, code);
   addProfileCommand(app, code);
   addTestCommand(app, code);
+  addViewCommand(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RequiredError& e) {

@@ -177,7 +177,7 @@ FrameLoopOptions Player::loopOptions() const {
 }
 
 ShowParts Player::parts(StereoLayout stereo) {
-  ShowParts parts{*scene_, state_, meshes_, *input_, {}, nullptr, nullptr, true, {}, nullptr};
+  ShowParts parts{*scene_, state_, meshes_, live_ ? *live_ : *input_, {}, nullptr, nullptr, true, {}, nullptr};
   for (const WallEntry& entry : walls_.walls) {
     WallView view;
     view.wall = entry.wall;

@@ -85,10 +85,13 @@ public:
   void tellLateLoads(Loader::LateLoad told) { loader_->tellLateLoads(std::move(told)); }
   const WallFile& walls() const { return walls_; }
   Scene& scene() { return *scene_; }
+  MeshStore& meshes() { return meshes_; }
   const std::string& inputName() const { return inputName_; }
 
   /// The parts for a ShowStages; provider and sink are the caller's to add.
   ShowParts parts(StereoLayout stereo);
+  /// From now on the input is what this device says, not the log's. Before the first frame.
+  void takeInputFrom(InputDevice& device) { live_ = &device; }
   /// To be called after each App stage: unloaded files go when they are no longer shown.
   void collect(std::uint64_t shownFrame) { loader_->shown(shownFrame); }
 
@@ -105,6 +108,7 @@ private:
   std::unique_ptr<Loader> loader_;
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<InputDevice> input_;
+  InputDevice* live_ = nullptr;  ///< counts more than input_
   WallFile walls_;
   ShowOptions options_;
   RunDecisions decisions_;

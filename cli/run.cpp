@@ -120,7 +120,7 @@ int runShow(RunOptions o) try {
   else if (o.out.empty()) {
     const Player& p = *setup.player;
     const double seconds = p.end() > 0 ? toSeconds(p.end()) : static_cast<double>(p.frames() - 1) / p.rate();
-    std::fprintf(stderr, "playing %.1f s of %s; there is no window yet, --out DIR writes pictures\n", seconds,
+    std::fprintf(stderr, "playing %.1f s of %s unseen; --out DIR writes pictures, stadion view shows it\n", seconds,
                  o.show.script.c_str());
   }
   return play(o, stop, setup);

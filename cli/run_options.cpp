@@ -65,6 +65,7 @@ bool RunOptions::settle(Diagnostics& findings) {
 }
 
 bool RunOptions::everyFrameCounts(const Player& player) const {
+  if (live) return false;
   const bool byInput = !show.input.empty() && show.input != "none";
   return show.frames != 0 || show.seconds > 0 || !out.empty() || byInput || player.obeysLog();
 }

@@ -85,9 +85,9 @@ void FrameLoop::runSequential() {
   for (std::size_t wall = 0; well && wall < options_.walls; ++wall) well = openStage(wall);
 
   while (well) {
-    const auto now = nextFrame();
-    if (!now) break;
-    const auto ticket = appStage(*now, 0);
+    const auto turn = nextTurn();
+    if (!turn) break;
+    const auto ticket = appStage(*turn, 0);
     well = ticket.has_value();
     for (std::size_t wall = 0; well && wall < options_.walls; ++wall)
       well = cullStage(wall, 0, *ticket, lists[wall]);
@@ -107,10 +107,10 @@ void FrameLoop::runPipelined() {
 
   StageThreads threads;
   threads.app = [&] {
-    while (const auto now = nextFrame()) {
+    while (const auto turn = nextTurn()) {
       const auto slot = slots.beginWrite();
       if (!slot) return;
-      const auto ticket = appStage(*now, *slot);
+      const auto ticket = appStage(*turn, *slot);
       if (!ticket) break;
       slots.endWrite(*slot, *ticket);
     }
@@ -171,15 +171,26 @@ void FrameLoop::drawAndClose(const StageThreads& work, std::size_t wall) {
   closeStage(wall);
 }
 
-std::optional<TimeSignature> FrameLoop::nextFrame() {
+std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   if (nextIndex_ == 0 && stopRequested_) stopped_ = ended_ = true;
   if (ended_ || broken_) return std::nullopt;
   const std::uint64_t ticks = pacer_.wait();
-  // Where every frame counts, time goes by frames; where the newest counts, by the clock's ticks.
-  const TimeSignature now = clock_.next(options_.delivery == Delivery::Latest ? ticks : 1);
+  const double speed = options_.playback && nextIndex_ > 0 ? options_.playback->takeFrame() : 1;
+  if (speed == 0) return Turn{lastSignature_, true};
+  // A single frame is one tick, however long the last one took.
+  const bool single = options_.playback && options_.playback->paused();
+  const TimeSignature now = signatureAfter(single ? 1 : ticks, speed);
   if (options_.end > 0 && now.time > options_.end) return std::nullopt;
   ++nextIndex_;
-  return now;
+  lastSignature_ = now;
+  return Turn{now};
+}
+
+// Where every frame counts, time goes by frames; where the newest counts, by the clock's ticks.
+TimeSignature FrameLoop::signatureAfter(std::uint64_t ticks, double speed) {
+  const std::uint64_t counted = options_.delivery == Delivery::Latest ? ticks : 1;
+  if (speed == 1) return clock_.next(counted);
+  return clock_.nextAfter(fromSeconds(speed * static_cast<double>(counted) / options_.rate));
 }
 
 // Asked once a frame, on the App thread, after App: so that the last frame is known before it is drawn.
@@ -218,8 +229,16 @@ bool FrameLoop::fail(const char* what, std::size_t wall, std::uint64_t frame, co
   }
 }
 
-std::optional<FrameTicket> FrameLoop::appStage(const TimeSignature& now, std::size_t slot) {
+std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slot) {
+  const TimeSignature& now = turn.signature;
   FrameTicket ticket{now, Clock::now()};
+  if (turn.still) {
+    if (!guard("App", kNoWall, now.frame, [&]() -> Failure { return stages_.still(slot), Failure(); }))
+      return std::nullopt;
+    if (stopRequested_) stopped_ = true;
+    ticket.last = ended_ = stopped_;
+    return ticket;
+  }
   {
     const StageSpan span(times_.app, probe_, Stage::App, now.frame, 0);
     if (!guard("App", kNoWall, now.frame, [&]() -> Failure { return stages_.app(now, slot), Failure(); }))

@@ -11,6 +11,7 @@
 #include "engine/time_signature.h"
 #include "pipeline/frame_times.h"
 #include "pipeline/pacer.h"
+#include "pipeline/playback.h"
 #include "pipeline/stages.h"
 #include "pipeline/state/frame_slots.h"
 
@@ -35,6 +36,7 @@ struct FrameLoopOptions {
   Nanoseconds end = 0;       ///< no frame after this show time; 0 = until stopped
   /// Show times that a recorded run decided for some of its frames (see RunDecisions); they are obeyed.
   std::map<std::uint64_t, Nanoseconds> frameTimes{};
+  Playback* playback = nullptr;  ///< who may pause a live run or slow it down; null = nobody
 };
 
 struct FrameLoopOutcome {
@@ -64,10 +66,16 @@ private:
   void runPipelined();
   void runThreads(const StageThreads& work);
   void drawAndClose(const StageThreads& work, std::size_t wall);
-  std::optional<TimeSignature> nextFrame();
+  /// What App does next.
+  struct Turn {
+    TimeSignature signature;
+    bool still = false;  ///< the show is paused: its last frame once more
+  };
+  std::optional<Turn> nextTurn();
+  TimeSignature signatureAfter(std::uint64_t ticks, double speed);
   bool noneFollows();
 
-  std::optional<FrameTicket> appStage(const TimeSignature& now, std::size_t slot);
+  std::optional<FrameTicket> appStage(const Turn& turn, std::size_t slot);
   bool cullStage(std::size_t wall, std::size_t slot, const FrameTicket& ticket, DrawList& list);
   bool openStage(std::size_t wall);
   bool drawStage(std::size_t wall, const DrawList& list);
@@ -88,6 +96,7 @@ private:
   FrameLoopOutcome outcome_;
   std::uint64_t nextIndex_ = 0;
   FrameClock clock_;
+  TimeSignature lastSignature_;
   bool ending_ = false;  ///< App was told to end after this frame
   bool ended_ = false;   ///< App has begun its last frame
   std::atomic<bool> stopped_ = false;

@@ -24,6 +24,12 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   if (parts_.observer) parts_.observer(now, input, parts_.scene);
 }
 
+// The signature, sky and viewer of the last frame stay in the change set.
+void ShowStages::still(std::size_t slot) {
+  changes_.clear();
+  parts_.state.publish(slot, changes_);
+}
+
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   cullWall(parts_.state.view(slot), parts_.walls[wall], static_cast<std::uint32_t>(wall), list);
 }

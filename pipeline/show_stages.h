@@ -59,6 +59,7 @@ public:
   ~ShowStages() override;
 
   void app(const TimeSignature& now, std::size_t slot) override;
+  void still(std::size_t slot) override;
   bool wantsDrawn(const FrameTicket& ticket) const override;
   void cull(std::size_t wall, std::size_t slot, DrawList& list) override;
   Failure openWall(std::size_t wall) override;

@@ -22,6 +22,13 @@ Nanoseconds FrameClock::timeOfNext(std::uint64_t ticks) const {
   return decided ? *decided : signatureAt(tickOfNext(ticks), rate_).time;
 }
 
+TimeSignature FrameClock::nextAfter(Nanoseconds step) {
+  const TimeSignature now{frame_++, time_ + step, step};
+  tick_ = tickAt(now.time, rate_);
+  time_ = now.time;
+  return now;
+}
+
 TimeSignature FrameClock::next(std::uint64_t ticks) {
   TimeSignature now;
   now.time = timeOfNext(ticks);

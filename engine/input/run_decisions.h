@@ -36,6 +36,9 @@ public:
 
   /// The next frame, `ticks` after the previous one; a decision made earlier counts more.
   TimeSignature next(std::uint64_t ticks = 1);
+  /// The next frame, so much show time after the previous one, whatever the ticks; the ones after it are on
+  /// ticks again. For slow motion. Expects a step of at least 1 ns.
+  TimeSignature nextAfter(Nanoseconds step);
   /// When that will be.
   Nanoseconds timeOfNext(std::uint64_t ticks = 1) const;
 

@@ -7,6 +7,18 @@
 namespace stadion {
 namespace {
 
+/// What a camera that is nobody's eye can see (World axes relative to the list's origin).
+ConvexVolume setCamera(const ViewerRecord& viewer, const CameraView& from, const DepthRange& depth,
+                       DrawList& out) {
+  const Pose X_WR = viewer.rig();
+  out.origin = X_WR * from.eye;
+  out.eyeCount = 1;
+  const EyeFrustum frustum = eyeFrustum(from.screen, from.eye, depth);
+  out.eyes[0].projection = projectionMatrix(frustum);
+  out.eyes[0].view = viewMatrix(frustum, X_WR, out.origin);
+  return unionFrustum(from.screen, {&from.eye, 1}, depth).transformed(X_WR, out.origin);
+}
+
 /// The cameras of the wall's eyes, and what they can see together (World axes relative to the list's origin).
 ConvexVolume setEyes(const ViewerRecord& viewer, const WallView& view, DrawList& out) {
   const Pose X_WR = viewer.rig(), X_RH = viewer.head();
@@ -81,7 +93,13 @@ CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t i
   out.ticket.signature = *state.signature;
   out.wall = index;
   out.opaque.clear(), out.transparent.clear();
-  const ConvexVolume volume = setEyes(*state.viewer, view, out);
+  const auto from = view.camera ? view.camera->view() : std::nullopt;
+  if (view.camera && !from) {
+    out.eyeCount = 0;
+    return {};
+  }
+  const ConvexVolume volume =
+      from ? setCamera(*state.viewer, *from, view.depth, out) : setEyes(*state.viewer, view, out);
   setLights(state, out);
   setSky(*state.sky, out);
 
@@ -93,6 +111,7 @@ CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t i
         filler.consider(chunk.records[i], chunk.records[i].owner);
   }
   for (const InstanceRecord& r : state.instances) filler.consider(r, r.owner);
+  if (from) view.camera->addTo(out, *state.viewer);
 
   // The order must not depend on where records lie, only on what they are.
   const auto key = [](const DrawItem& d) { return std::tuple(d.mesh, d.distance, d.instance, d.model); };

@@ -6,6 +6,7 @@
 /// Threads  pure but for `out`; any thread that holds a lease on the view's slot.
 
 #include "engine/display/frustum.h"
+#include "pipeline/cull/free_camera.h"
 #include "pipeline/draw/draw_list.h"
 #include "pipeline/state/scene_state.h"
 
@@ -18,6 +19,7 @@ struct WallView {
   double eyeSeparation = 0.064;             ///< [m]
   bool stereo = true;                       ///< false: one eye, in the middle
   std::uint32_t width = 800, height = 600;  ///< of one eye's picture [pixels]
+  const FreeCamera* camera = nullptr;       ///< it looks, not the visitor; `wall` does not count then
 };
 
 struct CullCounts {

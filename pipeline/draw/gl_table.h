@@ -46,6 +46,7 @@ namespace stadion {
   X(PFNGLDEPTHMASKPROC, DepthMask)                                                                           \
   X(PFNGLDISABLEPROC, Disable)                                                                               \
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                         \
+  X(PFNGLDRAWBUFFERPROC, DrawBuffer)                                                                         \
   X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)                                                   \
   X(PFNGLENABLEPROC, Enable)                                                                                 \
   X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                               \
@@ -72,14 +73,20 @@ namespace stadion {
   X(PFNGLISBUFFERPROC, IsBuffer)                                                                             \
   X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                       \
   X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                       \
+  X(PFNGLREADBUFFERPROC, ReadBuffer)                                                                         \
   X(PFNGLREADPIXELSPROC, ReadPixels)                                                                         \
   X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample)                                 \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                     \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                                                         \
   X(PFNGLTEXPARAMETERFPROC, TexParameterf)                                                                   \
   X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                                                   \
+  X(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                                                                   \
   X(PFNGLUNIFORM1IPROC, Uniform1i)                                                                           \
+  X(PFNGLUNIFORM3FPROC, Uniform3f)                                                                           \
+  X(PFNGLUNIFORM4FPROC, Uniform4f)                                                                           \
+  X(PFNGLUNIFORM4IPROC, Uniform4i)                                                                           \
   X(PFNGLUNIFORMBLOCKBINDINGPROC, UniformBlockBinding)                                                       \
+  X(PFNGLUNIFORMMATRIX3FVPROC, UniformMatrix3fv)                                                             \
   X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                         \
   X(PFNGLVERTEXATTRIB4FPROC, VertexAttrib4f)                                                                 \
   X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)                                                       \

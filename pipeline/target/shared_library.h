@@ -14,6 +14,8 @@ class SharedLibrary {
 public:
   /// Fails with "FILE is missing: apt-get install PACKAGE", or with the linker's own words if it is there.
   static Result<SharedLibrary> open(const char* file, const char* package);
+  /// The same library once more, with static memory of its own. What it needs itself is not copied.
+  static Result<SharedLibrary> openCopy(const char* file, const char* package);
 
   /// The function of that name, or nullptr.
   template <class Function>

@@ -56,16 +56,21 @@ int statusWithin(pid_t child, const ProgramRun& run) {
 
 }  // namespace
 
-ProgramResult runProgram(const ProgramRun& run) {
-  const TemporaryFolder folder;
-  const std::string out = folder.path() / "out", err = folder.path() / "err";
+pid_t startProgram(const ProgramRun& run, const std::string& out, const std::string& err) {
   std::vector<std::string> words = run.words;
   std::vector<char*> pointers = pointersTo(words);
-  const auto start = Clock::now();
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) becomeProgram(run, pointers, out, err);
   ::setpgid(child, child);
+  return child;
+}
+
+ProgramResult runProgram(const ProgramRun& run) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path() / "out", err = folder.path() / "err";
+  const auto start = Clock::now();
+  const pid_t child = startProgram(run, out, err);
   ProgramResult result;
   result.status = statusWithin(child, run);
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();

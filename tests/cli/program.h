@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <sys/types.h>
 #include <vector>
 
 namespace stadion {
@@ -26,6 +27,8 @@ struct ProgramRun {
 };
 
 ProgramResult runProgram(const ProgramRun& run);
+/// Starts it and returns its number, which is that of its process group too; its texts go to these files.
+pid_t startProgram(const ProgramRun& run, const std::string& out, const std::string& err);
 
 /// The built `stadion` with these arguments.
 ProgramResult stadionProgram(std::vector<std::string> arguments);

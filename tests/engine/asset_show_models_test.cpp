@@ -15,11 +15,16 @@ TEST(AssetShowModels, AreMadeByTheirProgramByteForByte) {
   TemporaryFolder folder;
   const auto program = Importer::programBesideThis().parent_path() / "stadion-assets";
   ASSERT_EQ(::system(("'" + program.string() + "' '" + folder.path().string() + "'").c_str()), 0);
-  for (const char* name : {"football.3ds", "plane.3ds", "grass.png", "crude_foot.obj", "crude_foot.mtl"}) {
+  for (const auto& entry : std::filesystem::directory_iterator(kAssets)) {
+    const std::string name = entry.path().filename();
+    if (name == "README.md") continue;
     const std::string made = bytesOf(folder.path() / name);
-    EXPECT_FALSE(made.empty()) << name;
+    EXPECT_FALSE(made.empty()) << name << " is not made by the program";
     EXPECT_TRUE(made == bytesOf(kAssets / name)) << name << " differs from the one that is checked in";
   }
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    EXPECT_TRUE(std::filesystem::exists(kAssets / entry.path().filename()))
+        << entry.path() << " is not checked in";
 }
 
 TEST(AssetShowModels, TheFootballIsARoundClosedBallOnTheOrigin) {
@@ -94,6 +99,79 @@ TEST(AssetShowModels, TheFootIsClosedAndPointsForward) {
   for (const auto& p : foot.positions)
     if (p[2] < 0.06f) heel = std::min(heel, double{p[1]});
   EXPECT_NEAR(foot.bounds.hi.y() - heel, 0.28, 0.005);
+}
+
+TEST(AssetShowModels, TheAthletesScriptsAreWrittenByTheirProgramByteForByte) {
+  TemporaryFolder models, scripts;
+  const auto program = Importer::programBesideThis().parent_path() / "stadion-assets";
+  ASSERT_EQ(::system(("'" + program.string() + "' '" + models.path().string() + "' '" +
+                      scripts.path().string() + "'")
+                         .c_str()),
+            0);
+  int compared = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scripts.path())) {
+    const std::string name = entry.path().filename();
+    EXPECT_TRUE(bytesOf(entry.path()) == bytesOf(kAssets / "../scripts/olympia" / name))
+        << name << " differs from the one that is checked in";
+    ++compared;
+  }
+  EXPECT_EQ(compared, 4) << "three athletes and the officials";
+}
+
+std::unique_ptr<Mesh> modelOf(const char* name) {
+  Diagnostics notes;
+  auto loaded = importerOf(kAssets).load(name, {}, {}, &notes);
+  EXPECT_TRUE(loaded) << loaded.error().message;
+  EXPECT_TRUE(notes.all().empty()) << format(notes.all()[0]);
+  return loaded ? std::move(loaded.value()) : nullptr;
+}
+
+TEST(AssetShowModels, TheDiscusIsAClosedLensAboutItsCentre) {
+  const auto discus = modelOf("discus.glb");
+  ASSERT_TRUE(discus);
+  EXPECT_TRUE(closed(*discus));
+  EXPECT_NEAR(discus->bounds.hi.x() - discus->bounds.lo.x(), 0.22, 1e-6);
+  EXPECT_NEAR(discus->bounds.hi.z(), -discus->bounds.lo.z(), 1e-7);
+  EXPECT_GT(discus->bounds.hi.z(), 0.01);
+  // Two kilograms are 2.4 times as dense as water: a wooden core in bronze.
+  EXPECT_NEAR(2.0 / (1000 * volume(*discus)), 2.4, 0.05);
+}
+
+TEST(AssetShowModels, TheJavelinLooksAlongXAndItsOriginIsWhereItBalances) {
+  const auto javelin = modelOf("javelin.glb");
+  ASSERT_TRUE(javelin);
+  EXPECT_TRUE(closed(*javelin));
+  EXPECT_NEAR(javelin->bounds.hi.x(), 1.05, 1e-6);
+  EXPECT_NEAR(javelin->bounds.lo.x(), 1.05 - 2.65, 1e-6);
+  EXPECT_LT(javelin->bounds.hi.z(), 0.016);
+  EXPECT_NEAR(0.806 / (1000 * volume(*javelin)), 0.79, 0.03) << "relative density of cornel wood";
+}
+
+TEST(AssetShowModels, TheLeatherBallIsASphereAboutItsCentre) {
+  const auto ball = modelOf("leather_ball.glb");
+  ASSERT_TRUE(ball);
+  EXPECT_TRUE(closed(*ball));
+  for (const auto& p : ball->positions) ASSERT_NEAR(Vec3(p[0], p[1], p[2]).norm(), 0.11, 1e-7);
+}
+
+TEST(AssetShowModels, TheTrackOfOlympiaIsSixHundredFeetFromSillToSill) {
+  const auto track = modelOf("olympia_track.glb");
+  ASSERT_TRUE(track);
+  // Only the sills rise 25 mm above the earth inside the channel.
+  double first = 1e9, last = -1e9;
+  for (const auto& p : track->positions)
+    if (std::abs(p[2] - 0.025f) < 1e-6f)
+      first = std::min(first, double{p[1]}), last = std::max(last, double{p[1]});
+  const double depth = 0.48;
+  EXPECT_NEAR(last - first - depth, 600 * 0.32045, 1e-3);
+  EXPECT_NEAR(first + depth / 2, 0, 1e-6) << "the origin is the middle of the start sill";
+}
+
+TEST(AssetShowModels, EveryModelOfOlympiaIsReadWithoutANote) {
+  for (const auto& entry : std::filesystem::directory_iterator(kAssets))
+    if (entry.path().extension() == ".glb") {
+      EXPECT_TRUE(modelOf(entry.path().filename().c_str())) << entry.path();
+    }
 }
 
 }  // namespace

@@ -111,6 +111,7 @@ TEST(Layering, EachForeignLibraryHasItsRoom) {
   using Files = std::set<std::string>;
   EXPECT_EQ(whoIncludes("GL/osmesa"), Files{"pipeline/target/osmesa_provider.cpp"});
   EXPECT_EQ(whoIncludes("EGL/"), Files{"pipeline/target/egl_provider.cpp"});
+  EXPECT_EQ(whoIncludes("GLFW/"), Files{"pipeline/target/glfw_windows.cpp"});
   EXPECT_EQ(whoIncludes("fcl/"), Files{"dynamics/mesh_distance.cpp"});
   EXPECT_EQ(whoIncludes("GL/gl"), Files{"pipeline/draw/gl_table.h"});
   EXPECT_EQ(whoIncludes("btBulletDynamicsCommon"), Files{"profiling/bench/dynamics/engine_bullet.cpp"});

@@ -1,0 +1,136 @@
+#include "cli/playing_show.h"
+
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+/// The scene nodes of the show's own file, and which of them have their file loaded.
+std::map<std::string, bool> subScenes(const Scene& scene) {
+  std::map<std::string, bool> known;
+  std::set<std::uint32_t> loads;
+  scene.forEachNode([&](const Node& node) {
+    const NodeRef ref = node.self();
+    const Load* load = scene.load(ref.load);
+    if (load && !load->owner.valid() && node.kind() == NodeKind::Scene && !node.name().empty())
+      known.try_emplace(node.name(), false);
+    loads.insert(ref.load);
+  });
+  for (const std::uint32_t number : loads) {
+    const Load* load = scene.load(number);
+    const Load* outer = load ? scene.load(load->owner.load) : nullptr;
+    if (!outer || outer->owner.valid() || load->owner.position >= outer->nodes.size()) continue;
+    if (const Node* owner = outer->nodes[load->owner.position].get()) known[owner->name()] = true;
+  }
+  return known;
+}
+
+}  // namespace
+
+std::unique_ptr<PlayingShow> PlayingShow::open(const ShowSurroundings& around, Diagnostics& findings) {
+  std::unique_ptr<PlayingShow> show(new PlayingShow(around));
+  show->player_ = Player::create(around.options.show, findings, around.report, &show->stopping_);
+  if (!show->player_) return nullptr;
+  Player& player = *show->player_;
+  if (around.visitor) player.takeInputFrom(*around.visitor);
+  show->watch_ = RunWatch::create(around.options, player, findings);
+  if (!show->watch_) return nullptr;
+  const SheetPlace& size = around.overviewSize;
+  show->overview_ = std::make_unique<Overview>(player.meshes(), player.walls(),
+                                               static_cast<double>(size.width) / size.height);
+  if (!player.obeysLog()) player.playLive();
+  return show;
+}
+
+PlayingShow::~PlayingShow() {
+  stop();
+}
+
+ShowParts PlayingShow::parts() {
+  ShowParts parts = player_->parts(around_.options.layout);
+  for (std::size_t i = 0; i < parts.walls.size() && i < around_.pictureSizes.size(); ++i) {
+    const bool stated = !around_.options.show.size.empty() || player_->walls().walls[i].pixels.width > 0;
+    if (stated) continue;
+    parts.walls[i].width = around_.pictureSizes[i].width;
+    parts.walls[i].height = around_.pictureSizes[i].height;
+  }
+  WallView outside;
+  outside.camera = overview_.get();
+  outside.depth = player_->walls().depth;
+  outside.stereo = false;
+  outside.width = around_.overviewSize.width, outside.height = around_.overviewSize.height;
+  parts.walls.push_back(outside);
+  parts.provider = &around_.provider;
+  parts.sink = &around_.sink;
+  parts.probe = &budget_;
+  parts.giveUp = [this] { return stopping_.load(); };
+  parts.observer = [this](const TimeSignature& now, const InputSample& input, const Scene& scene) {
+    see(now, input, scene);
+  };
+  return parts;
+}
+
+void PlayingShow::start(const std::optional<ShowPlace>& place) {
+  from_ = place;
+  stages_ = std::make_unique<ShowStages>(parts());
+  FrameLoopOptions options = player_->loopOptions();
+  options.walls += 1;  // the overview
+  options.delivery = player_->obeysLog() ? Delivery::Every : Delivery::Latest;
+  // A live show that drops frames ends with its log's last moment, not with its last frame's number.
+  if (around_.visitor)
+    options.frames = 0, options.end = 0;
+  else if (options.delivery == Delivery::Latest && player_->end() > 0)
+    options.frames = 0, options.end = player_->end();
+  options.pace = Pace::Lock;
+  options.playback = &around_.playback;
+  loop_ = std::make_unique<FrameLoop>(*stages_, options, stopping_, &budget_);
+  thread_ = std::thread([this] {
+    outcome_ = loop_->run();
+    if (around_.ended) around_.ended();
+  });
+}
+
+void PlayingShow::stop() {
+  stopping_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+ShowPlace PlayingShow::place() const {
+  const std::lock_guard lock(mutex_);
+  return place_;
+}
+
+// On the App thread, after each App stage.
+void PlayingShow::see(const TimeSignature& now, const InputSample& input, const Scene& scene) {
+  watch_->see(now, input, scene);
+  overview_->see(input);
+  player_->collect(stages_->shownFrame());
+  if (now.frame == 0 && from_) takeUp(*from_);
+  notePlace(scene);
+  frames_ = now.frame + 1;
+  time_ = now.time;
+  const auto ticks = std::llround(toSeconds(now.step) * player_->rate());
+  if (ticks > 1) dropped_ += static_cast<std::uint64_t>(ticks - 1);
+}
+
+void PlayingShow::takeUp(const ShowPlace& place) {
+  Scene& scene = player_->scene();
+  scene.moveRig(place.X_WR);
+  for (const auto& [name, loaded] : subScenes(scene)) {
+    const bool wanted = place.loaded.contains(name);
+    if (wanted != loaded) scene.command(name, wanted ? Verb::Load : Verb::Unload, {}, 0);
+  }
+}
+
+void PlayingShow::notePlace(const Scene& scene) {
+  const bool changed = scene.loadsVersion() != loadsSeen_;
+  loadsSeen_ = scene.loadsVersion();
+  const std::lock_guard lock(mutex_);
+  place_.X_WR = scene.rigPose();
+  if (!changed) return;
+  place_.loaded.clear();
+  for (const auto& [name, loaded] : subScenes(scene))
+    if (loaded) place_.loaded.insert(name);
+}
+
+}  // namespace stadion

@@ -1,0 +1,75 @@
+#pragma once
+/// The windows of a show: which walls stand where in them, and how both eyes become one picture.
+///
+/// Threads  the main thread alone.
+/// Errors   open() says what stands against it; afterwards windows only show what they are given.
+
+#include "engine/display/unfolding.h"
+#include "pipeline/draw/output_pass.h"
+#include "pipeline/show_stages.h"
+#include "pipeline/target/window.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+enum class WindowStereo { Mono, SideBySide, Anaglyph, Interlaced, Quad };
+
+/// "mono", "side-by-side", ...
+std::optional<WindowStereo> windowStereo(const std::string& name);
+std::vector<std::string> windowStereoNames();
+
+/// A wall in a window.
+struct WindowPane {
+  std::size_t wall = 0;
+  SheetPlace place;
+  OutputShape shape{};
+};
+
+class ShowWindow {
+public:
+  /// `walls` = how many walls there are in all: pictures come for all of them.
+  static Result<std::unique_ptr<ShowWindow>> open(WindowSystem& system, const WindowPlan& plan,
+                                                  WindowStereo stereo, std::size_t walls);
+  ~ShowWindow();
+
+  Window& window() { return *window_; }
+  /// Takes the pictures of the walls among `wanted`.
+  void take(const std::vector<EyePictures>& pictures, const std::vector<std::size_t>& wanted);
+  /// A picture that lies over the walls, in a corner; an empty one is none.
+  void setOverlay(std::size_t number, const Picture& picture, bool atBottom = false);
+  /// Draws the panes and what lies over them. `keep`: and returns what was drawn.
+  std::optional<Picture> draw(const std::vector<WindowPane>& panes, bool keep = false);
+  /// Shows what was drawn.
+  void swap();
+
+private:
+  struct Eyes {
+    explicit Eyes(const GlTable& gl) : left(gl), right(gl) {}
+    PictureTexture left, right;
+    bool two = false;
+  };
+  struct Overlay {
+    explicit Overlay(const GlTable& gl) : picture(gl) {}
+    PictureTexture picture;
+    bool shown = false, atBottom = false;
+  };
+
+  ShowWindow(std::unique_ptr<Window> window, WindowStereo stereo)
+      : window_(std::move(window)), stereo_(stereo) {}
+  void drawSide(const std::vector<WindowPane>& panes, GLenum buffer, EyeMix mix);
+  void drawBeside(const std::vector<WindowPane>& panes);
+  void drawPane(const WindowPane& pane, EyeMix mix);
+  void drawOverlays(std::int32_t x);
+  void enter();
+
+  std::unique_ptr<Window> window_;
+  WindowStereo stereo_;
+  std::unique_ptr<OutputPass> pass_;
+  std::vector<std::unique_ptr<Eyes>> eyes_;  ///< by wall
+  std::vector<std::unique_ptr<Overlay>> overlays_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,38 @@
+/// `stadion view SHOW`: plays a show in windows.
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/stop_signal.h"
+#include "cli/view_session.h"
+#include "engine/run_stopped.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+namespace stadion {
+namespace {
+
+int viewShow(ViewOptions options) try {
+  Diagnostics findings;
+  const std::atomic<bool>& stop = catchStopSignals();
+  std::unique_ptr<ViewSession> session;
+  if (options.settle(findings)) session = ViewSession::open(std::move(options), findings);
+  tell(findings);
+  return session ? session->run(stop) : kBadInput;
+} catch (const RunStopped&) {
+  std::fprintf(stderr, "stadion: stopped by %s before the show was loaded\n", stopSignalName());
+  return kStopped + stopSignal();
+}
+
+}  // namespace
+
+void addViewCommand(CLI::App& app, int& code) {
+  auto o = std::make_shared<ViewOptions>();
+  CLI::App* command =
+      app.add_subcommand("view", "Play a show in windows, with keyboard and mouse for a visitor");
+  o->addTo(*command);
+  command->callback([o, &code] { code = viewShow(*o); });
+}
+
+}  // namespace stadion

@@ -1,0 +1,32 @@
+#pragma once
+/// A camera that is nobody's eye: it looks at the room, its walls and the visitor from outside, and changes
+/// nothing of the show.
+///
+/// Frames   rig space, so that it goes along with the visitor's platform.
+/// Threads  asked on the Cull thread of its view; whoever moves it may do so from another.
+
+#include "engine/display/wall.h"
+#include "engine/scene/records.h"
+#include "pipeline/draw/draw_list.h"
+
+#include <optional>
+
+namespace stadion {
+
+/// Where it is, and a rectangle in front of it that its picture shows.
+struct CameraView {
+  Wall screen;
+  Vec3 eye = Vec3::Zero();  ///< in R [m]
+};
+
+class FreeCamera {
+public:
+  virtual ~FreeCamera() = default;
+
+  /// Nothing while nobody looks through it.
+  virtual std::optional<CameraView> view() const = 0;
+  /// Adds what only it sees. The list's origin is set.
+  virtual void addTo(DrawList& list, const ViewerRecord& viewer) const = 0;
+};
+
+}  // namespace stadion

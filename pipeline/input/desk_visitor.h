@@ -1,0 +1,69 @@
+#pragma once
+/// A visitor at a desk: keyboard, mouse and gamepad stand in for head, wand and joypad.
+///
+/// The head stands on the rig's floor and looks somewhere; the hand with the wand is held before the body and
+/// points where the head looks. Dragging moves the hand, and the mouse buttons are the wand's. The hand
+/// follows what the mouse says within a few hundredths of a second and never faster than a throw, since a
+/// pointer goes in jumps and a hand does not: what jumps would be a device that was lost (see input_log.h).
+///
+/// Frames   rig space: +X right, +Y forward, +Z up. Units  metres, radians, seconds.
+/// Threads  what the user does comes from one thread, samples are taken on another (App).
+/// Errors   none: whatever comes, poses are finite and inside the reach of an arm.
+
+#include "engine/input/input_device.h"
+
+#include <array>
+#include <mutex>
+#include <string>
+
+namespace stadion {
+
+class DeskVisitor final : public InputDevice {
+public:
+  explicit DeskVisitor(double eyeHeight = 1.7);
+
+  // What the user does.
+
+  /// Turns the head by so much: to the right, and up [rad].
+  void look(double right, double up);
+  /// Moves the hand, in the direction in which the head looks: right, forward, up [m].
+  void moveHand(const Vec3& by);
+  /// Walks about on the rig as long as it lasts: right, forward, up, from -1 to 1.
+  void setStep(const Vec3& direction);
+  /// The joypad's axes: 0 turns (right is positive), 1 goes forward.
+  void setAxis(std::size_t axis, double value);
+  /// Presses or lets go a button of the wand, 0 to 3.
+  void setButton(std::uint32_t button, bool down);
+  /// A gamepad's own axes and buttons; they add to those of the keyboard.
+  void setGamepad(const std::array<double, kTrackerAxes>& axes, std::uint32_t buttons);
+  /// Everything that is held is let go.
+  void letGo();
+  /// Back to the middle, looking ahead.
+  void reset();
+
+  // InputDevice
+
+  using InputDevice::sampleAt;
+  void sampleAt(Nanoseconds showTime, InputSample& sample) override;
+
+private:
+  /// What moves at a speed of its own, carried to the sample's time.
+  void advance(double seconds);
+  Quat heading() const;
+  Pose head() const;
+  Vec3 handWanted() const;
+
+  std::mutex mutex_;
+  double eyeHeight_;
+  Vec3 feet_ = Vec3::Zero(), step_ = Vec3::Zero();
+  bool returning_ = false;      ///< to the middle
+  double yaw_ = 0, pitch_ = 0;  ///< to the left, up
+  Vec3 wantedHand_;             ///< from the head, in the direction in which it looks
+  Vec3 hand_;                   ///< on the rig
+  std::array<double, kTrackerAxes> axes_{}, padAxes_{};
+  std::uint32_t buttons_ = 0, padButtons_ = 0;
+  std::uint32_t pressed_ = 0;  ///< since the last sample: a press that is over already must be seen once
+  Nanoseconds sampled_ = -1;
+};
+
+}  // namespace stadion

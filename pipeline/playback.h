@@ -1,0 +1,45 @@
+#pragma once
+/// Whether show time goes on, and how fast: what somebody at the controls of a live run decides.
+///
+/// While the show is paused its App stage rests; what it published last is still culled and drawn, so that
+/// cameras which are not the visitor's stay alive. In slow motion frames come as often as ever, and each
+/// takes the show less far. The times that come of it are in the frames' signatures, and so in the input log.
+///
+/// Threads  every function from any thread; FrameLoop asks once a frame.
+
+#include <algorithm>
+#include <atomic>
+
+namespace stadion {
+
+class Playback {
+public:
+  static constexpr double kSlowest = 1.0 / 64;
+
+  void setPaused(bool paused) { paused_ = paused; }
+  bool paused() const { return paused_; }
+  /// Plays one frame at full speed, and pauses after it.
+  void step() {
+    paused_ = true;
+    ++steps_;
+  }
+  /// 1 = as the clock goes.
+  void setSpeed(double speed) { speed_ = std::clamp(speed, kSlowest, 1.0); }
+  double speed() const { return speed_; }
+
+  /// How far the next frame goes, in parts of a frame: 0 = the show stands still.
+  double takeFrame() {
+    if (!paused_) return speed_;
+    int waiting = steps_;
+    while (waiting > 0 && !steps_.compare_exchange_weak(waiting, waiting - 1)) {
+    }
+    return waiting > 0 ? 1 : 0;
+  }
+
+private:
+  std::atomic<bool> paused_ = false;
+  std::atomic<int> steps_ = 0;
+  std::atomic<double> speed_ = 1;
+};
+
+}  // namespace stadion

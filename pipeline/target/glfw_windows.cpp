@@ -1,0 +1,334 @@
+// The only file that knows GLFW.
+#include "pipeline/draw/gl_table.h"
+#include "pipeline/draw/problem.h"
+#include "pipeline/target/shared_library.h"
+#include "pipeline/target/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <cstdlib>
+#include <fmt/format.h>
+#include <optional>
+#include <utility>
+
+namespace stadion {
+namespace {
+
+#define STADION_GLFW_FUNCTIONS(X)                                                                            \
+  X(CreateWindow)                                                                                            \
+  X(DestroyWindow)                                                                                           \
+  X(GetCursorPos)                                                                                            \
+  X(GetError)                                                                                                \
+  X(GetFramebufferSize)                                                                                      \
+  X(GetGamepadState)                                                                                         \
+  X(GetMonitorName)                                                                                          \
+  X(GetMonitorPos)                                                                                           \
+  X(GetMonitors)                                                                                             \
+  X(GetProcAddress)                                                                                          \
+  X(GetVideoMode)                                                                                            \
+  X(GetWindowUserPointer)                                                                                    \
+  X(Init)                                                                                                    \
+  X(MakeContextCurrent)                                                                                      \
+  X(PollEvents)                                                                                              \
+  X(SetCursorEnterCallback)                                                                                  \
+  X(SetCursorPosCallback)                                                                                    \
+  X(SetKeyCallback)                                                                                          \
+  X(SetMouseButtonCallback)                                                                                  \
+  X(SetScrollCallback)                                                                                       \
+  X(SetWindowCloseCallback)                                                                                  \
+  X(SetWindowFocusCallback)                                                                                  \
+  X(SetWindowPos)                                                                                            \
+  X(SetWindowTitle)                                                                                          \
+  X(SetWindowUserPointer)                                                                                    \
+  X(ShowWindow)                                                                                              \
+  X(SwapBuffers)                                                                                             \
+  X(SwapInterval)                                                                                            \
+  X(Terminate)                                                                                               \
+  X(WindowHint)
+
+struct Glfw {
+#define STADION_GLFW_MEMBER(name) decltype(&glfw##name) name = nullptr;
+  STADION_GLFW_FUNCTIONS(STADION_GLFW_MEMBER)
+#undef STADION_GLFW_MEMBER
+};
+
+// All that a callback of GLFW is given is the window; this says what of ours it belongs to. The same function
+// in every copy of the library.
+decltype(&glfwGetWindowUserPointer) ownerOf = nullptr;
+
+Result<Glfw> loadGlfw(const SharedLibrary& library) {
+  Glfw glfw;
+  const char* missing = nullptr;
+#define STADION_GLFW_LOAD(name)                                                                              \
+  glfw.name = library.find<std::remove_pointer_t<decltype(glfw.name)>>("glfw" #name);                        \
+  if (!glfw.name) missing = "glfw" #name;
+  STADION_GLFW_FUNCTIONS(STADION_GLFW_LOAD)
+#undef STADION_GLFW_LOAD
+  if (missing) return Result<Glfw>::failure(fmt::format("libglfw.so.3 is too old: it has no {}", missing));
+  return glfw;
+}
+
+std::string lastError(const Glfw& glfw) {
+  const char* why = nullptr;
+  glfw.GetError(&why);
+  return why ? why : "no reason given";
+}
+
+Key keyOf(int code) {
+  constexpr std::pair<int, Key> kNamed[] = {{GLFW_KEY_ESCAPE, Key::Escape},
+                                            {GLFW_KEY_ENTER, Key::Enter},
+                                            {GLFW_KEY_TAB, Key::Tab},
+                                            {GLFW_KEY_LEFT, Key::Left},
+                                            {GLFW_KEY_RIGHT, Key::Right},
+                                            {GLFW_KEY_BACKSPACE, Key::Backspace},
+                                            {GLFW_KEY_UP, Key::Up},
+                                            {GLFW_KEY_DOWN, Key::Down},
+                                            {GLFW_KEY_PAGE_UP, Key::PageUp},
+                                            {GLFW_KEY_HOME, Key::Home},
+                                            {GLFW_KEY_PAGE_DOWN, Key::PageDown}};
+  for (const auto& [theirs, ours] : kNamed)
+    if (code == theirs) return ours;
+  if (code >= GLFW_KEY_F1 && code <= GLFW_KEY_F12)
+    return static_cast<Key>(static_cast<int>(Key::F1) + code - GLFW_KEY_F1);
+  return code >= 32 && code < 127 ? static_cast<Key>(code) : Key::Unknown;
+}
+
+class GlfwWindow final : public Window {
+public:
+  GlfwWindow(const Glfw& glfw, GLFWwindow* handle, const GlTable& gl, std::mutex& turns, std::uint32_t width,
+             std::uint32_t height, bool quadBuffered)
+      : Window(gl, turns, width, height), glfw_(glfw), handle_(handle), quadBuffered_(quadBuffered) {
+    glfw_.SetWindowUserPointer(handle_, this);
+    glfw_.SetKeyCallback(handle_, [](GLFWwindow* w, int key, int, int action, int mods) {
+      if (action == GLFW_REPEAT) return;
+      WindowEvent e;
+      e.kind = WindowEvent::Kind::Key, e.key = keyOf(key), e.down = action == GLFW_PRESS;
+      e.shift = mods & GLFW_MOD_SHIFT;
+      note(w, e);
+    });
+    glfw_.SetMouseButtonCallback(handle_, [](GLFWwindow* w, int button, int action, int mods) {
+      WindowEvent e;
+      e.kind = WindowEvent::Kind::Button, e.button = static_cast<std::uint32_t>(button);
+      e.down = action == GLFW_PRESS, e.shift = mods & GLFW_MOD_SHIFT;
+      note(w, e);
+    });
+    glfw_.SetCursorPosCallback(
+        handle_, [](GLFWwindow* w, double x, double y) { note(w, at(WindowEvent::Kind::Move, x, y)); });
+    glfw_.SetScrollCallback(
+        handle_, [](GLFWwindow* w, double x, double y) { note(w, at(WindowEvent::Kind::Wheel, x, y)); });
+    glfw_.SetCursorEnterCallback(handle_, [](GLFWwindow* w, int entered) {
+      if (entered) note(w, at(WindowEvent::Kind::PointerEntered, 0, 0));
+    });
+    glfw_.SetWindowFocusCallback(handle_, [](GLFWwindow* w, int focused) {
+      if (!focused) note(w, at(WindowEvent::Kind::FocusLost, 0, 0));
+    });
+    glfw_.SetWindowCloseCallback(handle_, [](GLFWwindow* w) { note(w, at(WindowEvent::Kind::Close, 0, 0)); });
+  }
+  ~GlfwWindow() override { glfw_.DestroyWindow(handle_); }
+
+  std::optional<Diagnostic> makeCurrent() override {
+    glfw_.GetError(nullptr);
+    glfw_.MakeContextCurrent(handle_);
+    const char* why = nullptr;
+    if (glfw_.GetError(&why) == GLFW_NO_ERROR) return {};
+    return problem(std::string("the window's context cannot be made current: ") + (why ? why : ""));
+  }
+  void release() override { glfw_.MakeContextCurrent(nullptr); }
+  void swap() override { glfw_.SwapBuffers(handle_); }
+  void waitForDisplay(bool wait) override { glfw_.SwapInterval(wait ? 1 : 0); }
+  std::array<std::uint32_t, 2> size() const override {
+    int width = 0, height = 0;
+    glfw_.GetFramebufferSize(handle_, &width, &height);
+    return {static_cast<std::uint32_t>(std::max(width, 1)), static_cast<std::uint32_t>(std::max(height, 1))};
+  }
+  std::vector<WindowEvent> takeEvents() override { return std::exchange(events_, {}); }
+  void setTitle(const std::string& title) override { glfw_.SetWindowTitle(handle_, title.c_str()); }
+  bool quadBuffered() const override { return quadBuffered_; }
+
+private:
+  static WindowEvent at(WindowEvent::Kind kind, double x, double y) {
+    WindowEvent e;
+    e.kind = kind, e.x = x, e.y = y;
+    return e;
+  }
+  static void note(GLFWwindow* window, const WindowEvent& event) {
+    static_cast<GlfwWindow*>(ownerOf(window))->events_.push_back(event);
+  }
+
+  const Glfw& glfw_;
+  GLFWwindow* handle_;
+  bool quadBuffered_;
+  std::vector<WindowEvent> events_;
+};
+
+class GlfwSystem final : public WindowSystem {
+public:
+  explicit GlfwSystem(const Glfw& glfw) : glfw_(glfw) {}
+  ~GlfwSystem() override { glfw_.Terminate(); }
+
+  Result<std::unique_ptr<Window>> create(const WindowPlan& plan) override {
+    using Created = Result<std::unique_ptr<Window>>;
+    GLFWmonitor* monitor = nullptr;
+    if (!plan.monitor.empty() || plan.fullscreen) {
+      monitor = find(plan.monitor);
+      if (!monitor) return Created::failure(noSuch(plan.monitor));
+    }
+    GLFWwindow* handle = nullptr;
+    for (const auto& [major, minor] : {std::pair(4, 5), std::pair(3, 3)})
+      if (!handle) handle = make(plan, monitor, major, minor);
+    if (!handle)
+      return Created::failure(
+          fmt::format("no window{} with OpenGL 3.3 core: {}",
+                      plan.quadBuffer ? " with a back buffer for each eye (quad-buffered stereo)" : "",
+                      lastError(glfw_)));
+    place(handle, plan, monitor);
+    if (const auto why = loadTable(handle)) {
+      glfw_.DestroyWindow(handle);
+      return *why;
+    }
+    int width = 0, height = 0;
+    glfw_.GetFramebufferSize(handle, &width, &height);
+    return std::unique_ptr<Window>(
+        std::make_unique<GlfwWindow>(glfw_, handle, gl_, turns_, static_cast<std::uint32_t>(width),
+                                     static_cast<std::uint32_t>(height), plan.quadBuffer));
+  }
+
+  void poll() override { glfw_.PollEvents(); }
+
+  std::optional<GamepadState> gamepad() override {
+    GLFWgamepadstate raw;
+    if (!glfw_.GetGamepadState(GLFW_JOYSTICK_1, &raw)) return {};
+    GamepadState state;
+    for (std::size_t i = 0; i < state.axes.size(); ++i) state.axes[i] = raw.axes[i];
+    constexpr int kButtons[] = {GLFW_GAMEPAD_BUTTON_A,           GLFW_GAMEPAD_BUTTON_B,
+                                GLFW_GAMEPAD_BUTTON_X,           GLFW_GAMEPAD_BUTTON_Y,
+                                GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER};
+    for (std::size_t i = 0; i < std::size(kButtons); ++i)
+      if (raw.buttons[kButtons[i]] == GLFW_PRESS) state.buttons |= 1u << i;
+    return state;
+  }
+
+  std::vector<std::string> monitors() override {
+    std::vector<std::string> names;
+    for (GLFWmonitor* m : all()) {
+      const GLFWvidmode* mode = glfw_.GetVideoMode(m);
+      names.push_back(fmt::format("{} ({} x {})", glfw_.GetMonitorName(m), mode ? mode->width : 0,
+                                  mode ? mode->height : 0));
+    }
+    return names;
+  }
+
+private:
+  std::vector<GLFWmonitor*> all() {
+    int count = 0;
+    GLFWmonitor** first = glfw_.GetMonitors(&count);
+    return {first, first + count};
+  }
+
+  /// By name, or by number from 1; the first one if nothing is said.
+  GLFWmonitor* find(const std::string& name) {
+    const std::vector<GLFWmonitor*> there = all();
+    for (std::size_t i = 0; i < there.size(); ++i)
+      if (name.empty() || name == glfw_.GetMonitorName(there[i]) || name == std::to_string(i + 1))
+        return there[i];
+    return nullptr;
+  }
+
+  std::string noSuch(const std::string& name) {
+    return fmt::format("there is no monitor {}; there are: {}", name.empty() ? "at all" : "\"" + name + "\"",
+                       fmt::join(monitors(), ", "));
+  }
+
+  GLFWwindow* make(const WindowPlan& plan, GLFWmonitor* monitor, int major, int minor) {
+    const GLFWvidmode* mode = monitor ? glfw_.GetVideoMode(monitor) : nullptr;
+    const std::pair<int, int> hints[] = {
+        {GLFW_CONTEXT_VERSION_MAJOR, major},
+        {GLFW_CONTEXT_VERSION_MINOR, minor},
+        {GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE},
+        {GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE},
+        {GLFW_DEPTH_BITS, 0},
+        {GLFW_STENCIL_BITS, 0},
+        {GLFW_STEREO, plan.quadBuffer ? GLFW_TRUE : GLFW_FALSE},
+        {GLFW_DECORATED, plan.frame ? GLFW_TRUE : GLFW_FALSE},
+        {GLFW_RESIZABLE, plan.frame ? GLFW_TRUE : GLFW_FALSE},
+        {GLFW_AUTO_ICONIFY, GLFW_FALSE},
+        {GLFW_VISIBLE, plan.fullscreen ? GLFW_TRUE : GLFW_FALSE},
+        {GLFW_REFRESH_RATE, plan.refresh > 0 ? static_cast<int>(plan.refresh) : GLFW_DONT_CARE}};
+    for (const auto& [hint, value] : hints) glfw_.WindowHint(hint, value);
+    const bool full = plan.fullscreen && mode;
+    return glfw_.CreateWindow(full ? mode->width : static_cast<int>(plan.width),
+                              full ? mode->height : static_cast<int>(plan.height), plan.title.c_str(),
+                              full ? monitor : nullptr, nullptr);
+  }
+
+  void place(GLFWwindow* handle, const WindowPlan& plan, GLFWmonitor* monitor) {
+    if (plan.fullscreen) return;
+    int x = 0, y = 0;
+    if (monitor) glfw_.GetMonitorPos(monitor, &x, &y);
+    if (plan.placed || monitor) glfw_.SetWindowPos(handle, x + plan.x, y + plan.y);
+    glfw_.ShowWindow(handle);
+  }
+
+  /// The functions are the same for all windows of a connection.
+  std::optional<Diagnostic> loadTable(GLFWwindow* handle) {
+    if (loaded_) return {};
+    glfw_.MakeContextCurrent(handle);
+    const auto table = loadGlTable(glfw_.GetProcAddress);
+    glfw_.MakeContextCurrent(nullptr);
+    if (!table) return table.error();
+    gl_ = table.value();
+    loaded_ = true;
+    return {};
+  }
+
+  const Glfw glfw_;
+  GlTable gl_;
+  std::mutex turns_;
+  bool loaded_ = false;
+};
+
+/// Sets a variable of the environment for as long as it lives; an empty value changes nothing.
+class EnvironmentValue {
+public:
+  EnvironmentValue(const char* name, const std::string& value) : name_(name), set_(!value.empty()) {
+    if (!set_) return;
+    if (const char* before = std::getenv(name)) before_ = before;
+    setenv(name, value.c_str(), 1);
+  }
+  ~EnvironmentValue() {
+    if (!set_) return;
+    before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_);
+  }
+  EnvironmentValue(const EnvironmentValue&) = delete;
+  EnvironmentValue& operator=(const EnvironmentValue&) = delete;
+
+private:
+  const char* name_;
+  bool set_;
+  std::optional<std::string> before_;
+};
+
+}  // namespace
+
+// GLFW keeps its one connection, to one screen of one display, in static memory: a further screen gets a copy
+// of the library.
+Result<std::unique_ptr<WindowSystem>> WindowSystem::open(const std::string& screen) {
+  using Opened = Result<std::unique_ptr<WindowSystem>>;
+  const auto library = screen.empty() ? SharedLibrary::open("libglfw.so.3", "libglfw3")
+                                      : SharedLibrary::openCopy("libglfw.so.3", "libglfw3");
+  if (!library) return library.error();
+  const auto glfw = loadGlfw(library.value());
+  if (!glfw) return glfw.error();
+  ownerOf = glfw.value().GetWindowUserPointer;
+  const EnvironmentValue display("DISPLAY", screen);
+  if (glfw.value().Init()) return std::unique_ptr<WindowSystem>(std::make_unique<GlfwSystem>(glfw.value()));
+  if (!screen.empty())
+    return Opened::failure(
+        fmt::format("the screen {} cannot be opened ({})", screen, lastError(glfw.value())));
+  return Opened::failure(fmt::format("there is no display ({}); set DISPLAY, such as DISPLAY=:0, or draw "
+                                     "without a window: stadion run SHOW --out DIR",
+                                     lastError(glfw.value())));
+}
+
+}  // namespace stadion

@@ -1,0 +1,50 @@
+#include "profiling/live_budget.h"
+
+#include <algorithm>
+
+namespace stadion {
+namespace {
+
+constexpr double kNewest = 0.1;
+constexpr std::chrono::seconds kStill{1};  ///< after so long without a swap there is no rate
+
+double millisecondsBetween(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
+  return std::chrono::duration<double, std::milli>(b - a).count();
+}
+
+}  // namespace
+
+void LiveBudget::Mean::add(double value) {
+  ms = any ? ms + kNewest * (value - ms) : value;
+  any = true;
+}
+
+void LiveBudget::stageBegan(Stage stage, std::uint64_t, std::uint32_t wall) {
+  const std::lock_guard lock(mutex_);
+  means_[{stage, wall}].began = Clock::now();
+}
+
+void LiveBudget::stageEnded(Stage stage, std::uint64_t, std::uint32_t wall) {
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  Mean& mean = means_[{stage, wall}];
+  mean.add(millisecondsBetween(mean.began, now));
+  if (stage != Stage::Swap) return;
+  if (period_.began != Clock::time_point{}) period_.add(millisecondsBetween(period_.began, now));
+  period_.began = now;
+}
+
+double LiveBudget::slowest(Stage stage) const {
+  double most = 0;
+  for (const auto& [who, mean] : means_)
+    if (who.first == stage) most = std::max(most, mean.ms);
+  return most;
+}
+
+FrameBudget LiveBudget::now() const {
+  const std::lock_guard lock(mutex_);
+  const bool alive = Clock::now() - period_.began < kStill && period_.ms > 0;
+  return {slowest(Stage::App), slowest(Stage::Cull), slowest(Stage::Draw), alive ? 1000 / period_.ms : 0};
+}
+
+}  // namespace stadion

@@ -1,0 +1,109 @@
+#include "tests/cli/desk.h"
+
+#include <csignal>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <thread>
+
+namespace stadion {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kGoodTime{120};  // a machine may be busy
+
+/// Until it is true; false if that takes too long.
+template <class Condition>
+bool until(const Condition& condition) {
+  const auto end = Clock::now() + kGoodTime;
+  while (!condition()) {
+    if (Clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return true;
+}
+
+bool hasProgram(const std::string& name) {
+  return runProgram({{"sh", "-c", "command -v " + name}}).status == 0;
+}
+
+int occurrences(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace
+
+RunningProgram::RunningProgram(const ProgramRun& run)
+    : child_(startProgram(run, folder_.path() / "out", folder_.path() / "err")) {}
+
+RunningProgram::~RunningProgram() {
+  if (runs()) ::kill(-child_, SIGKILL), ::waitpid(child_, nullptr, 0);
+}
+
+std::string RunningProgram::out() const {
+  return fileContent(folder_.path() / "out");
+}
+
+std::string RunningProgram::err() const {
+  return fileContent(folder_.path() / "err");
+}
+
+bool RunningProgram::runs() {
+  int status = 0;
+  if (!ended_ && ::waitpid(child_, &status, WNOHANG) == child_) {
+    ended_ = true;
+    status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  return !ended_;
+}
+
+bool RunningProgram::says(const std::string& text, int times) const {
+  const bool said = until([&] { return occurrences(err(), text) >= times; });
+  EXPECT_TRUE(said) << "\"" << text << "\" is missing in:\n" << err();
+  return said;
+}
+
+int RunningProgram::status() {
+  const bool over = until([&] { return !runs(); });
+  EXPECT_TRUE(over) << err();
+  return status_;
+}
+
+std::unique_ptr<Display> Display::open(std::vector<std::string> screens) {
+  if (!hasProgram("Xvfb") || !hasProgram("xdotool") || !hasProgram("import")) return nullptr;
+  std::unique_ptr<Display> display(new Display);
+  // It looks for a free number by itself and says which.
+  ProgramRun run{{"Xvfb", "-displayfd", "1", "-nolisten", "tcp", "-noreset"}};
+  for (std::size_t i = 0; i < screens.size(); ++i) {
+    run.words.insert(run.words.end(), {"-screen", std::to_string(i), screens[i]});
+  }
+  display->server_ = std::make_unique<RunningProgram>(run);
+  if (!until([&] { return display->server_->out().find('\n') != std::string::npos; })) return nullptr;
+  const std::string number = display->server_->out();
+  display->name_ = ":" + number.substr(0, number.find('\n'));
+  return display;
+}
+
+void Display::hands(std::vector<std::string> words) const {
+  words.insert(words.begin(), "xdotool");
+  ProgramRun run{words};
+  run.environment = {"DISPLAY=" + name_};
+  const ProgramResult result = runProgram(run);
+  EXPECT_EQ(result.status, 0) << result.err;
+}
+
+bool Display::photograph(const std::string& file, int screen) const {
+  ProgramRun run{{"import", "-window", "root", "-depth", "8", file}};
+  run.environment = {"DISPLAY=" + name_ + "." + std::to_string(screen)};
+  return runProgram(run).status == 0;
+}
+
+ProgramRun onDisplay(const Display& display, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), stadionPath());
+  ProgramRun run{arguments};
+  run.environment = {"DISPLAY=" + display.name()};
+  return run;
+}
+
+}  // namespace stadion

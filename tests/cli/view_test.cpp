@@ -1,0 +1,247 @@
+/// `stadion view` on a display in memory, driven by keys and mouse as a person would.
+
+#include "pipeline/output/picture.h"
+#include "tests/cli/desk.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace stadion {
+namespace {
+
+/// A show that somebody views, in a folder of its own.
+class Viewing {
+public:
+  Viewing(const Display& display, std::string show, std::vector<std::string> more = {"--walls", "desktop"})
+      : display_(display), program_(onDisplay(display, words(std::move(show), std::move(more)))) {
+    playing_ = program_.says("playing ");
+    display_.hands({"mousemove", "200", "150"});
+  }
+
+  bool playing() const { return playing_; }
+  std::filesystem::path folder() const { return folder_.path(); }
+  RunningProgram& program() { return program_; }
+  void hands(std::vector<std::string> what) { display_.hands(std::move(what)); }
+  void press(const std::string& key) { hands({"key", key}); }
+  bool pressed(const std::string& key, const std::string& answer, int times = 1) {
+    press(key);
+    return program_.says(answer, times);
+  }
+  /// Quits, and returns what it said of the whole.
+  std::string end() {
+    press("Escape");
+    EXPECT_EQ(program_.status(), 0) << program_.err();
+    return program_.out();
+  }
+  std::string log() const { return folder_.path() / "desk.input"; }
+  /// The screenshot of the window with that number.
+  Picture shot(int number, const std::string& what = "window") const {
+    char name[64];
+    std::snprintf(name, sizeof name, "shots/%03d-%s.png", number, what.c_str());
+    auto picture = readPng(folder_.path() / name);
+    EXPECT_TRUE(picture) << name;
+    return picture ? picture.value() : Picture{};
+  }
+
+private:
+  std::vector<std::string> words(std::string show, std::vector<std::string> more) {
+    std::vector<std::string> w{
+        "view",    std::move(show), "--asset-root",           assetFolder(),    "--window",
+        "400x300", "--shots",       folder_.path() / "shots", "--record-input", log()};
+    w.insert(w.end(), more.begin(), more.end());
+    return w;
+  }
+
+  TemporaryFolder folder_;
+  const Display& display_;
+  RunningProgram program_;
+  bool playing_ = false;
+};
+
+#define REQUIRE_DISPLAY(display)                                                                             \
+  const auto display = Display::open();                                                                      \
+  if (!display) GTEST_SKIP() << "needs Xvfb, xdotool and import: apt-get install xvfb xdotool imagemagick"
+
+/// The number behind `word` in the text.
+double numberAfter(const std::string& text, const std::string& word) {
+  const std::size_t at = text.rfind(word);
+  return at == text.npos ? std::nan("") : std::strtod(text.c_str() + at + word.size(), nullptr);
+}
+
+std::string hashIn(const std::string& text) {
+  const std::string word = "state hash ";
+  return text.substr(text.find(word) + word.size(), 16);
+}
+
+TEST(ProgramView, WithoutADisplaySaysWhatToDo) {
+  ProgramRun run{{stadionPath(), "view", testShow("desk.evs"), "--asset-root", assetFolder()}};
+  run.environment = {"DISPLAY="};
+  const ProgramResult r = runProgram(run);
+  EXPECT_EQ(r.status, 2);
+  EXPECT_NE(r.err.find("there is no display"), r.err.npos) << r.err;
+  EXPECT_NE(r.err.find("--out DIR"), r.err.npos) << r.err;
+}
+
+TEST(ProgramView, HelpTellsEveryKey) {
+  const std::string help = stadionProgram({"view", "--help"}).out;
+  for (const char* key : {"F1", "F2", "F5", "F12", "W S A D", "space", "[ ]", "Esc", "wheel", "gamepad"})
+    EXPECT_NE(help.find(key), help.npos) << key;
+}
+
+TEST(ProgramView, PausesGoesFrameByFrameAndSlowly) {
+  REQUIRE_DISPLAY(display);
+  Viewing view(*display, testShow("desk.evs"));
+  ASSERT_TRUE(view.playing());
+  ASSERT_TRUE(view.pressed("space", "paused at"));
+  ASSERT_TRUE(view.pressed("bracketleft", "speed 1/2"));
+  ASSERT_TRUE(view.pressed("bracketleft", "speed 1/4"));
+  ASSERT_TRUE(view.pressed("bracketright", "speed 1/2", 2));
+  ASSERT_TRUE(view.pressed("space", "going on at"));
+  view.end();
+}
+
+TEST(ProgramView, ASingleStepIsOneFrame) {
+  REQUIRE_DISPLAY(display);
+  Viewing view(*display, testShow("desk.evs"));
+  ASSERT_TRUE(view.playing());
+  ASSERT_TRUE(view.pressed("space", "paused at"));
+  ASSERT_TRUE(view.pressed("period", "one frame, to "));
+  ASSERT_TRUE(view.pressed("F12", "screenshot:"));  // takes a while, in which the show must stand still
+  ASSERT_TRUE(view.pressed("period", "one frame, to ", 2));
+  const std::string said = view.program().err();
+  const double second = numberAfter(said, "one frame, to ");
+  const double first = numberAfter(said.substr(0, said.rfind("one frame, to ")), "one frame, to ");
+  EXPECT_NEAR(second - first, 1.0 / 60, 0.0011);  // told in milliseconds
+  view.end();
+}
+
+// The visitor takes what floats before the hand, swings it and lets go; the record tells the same again.
+TEST(ProgramView, AGrabbedBallIsThrownAndTheRecordRepeatsIt) {
+  REQUIRE_DISPLAY(display);
+  Viewing view(*display, testShow("desk.evs"));
+  ASSERT_TRUE(view.playing());
+  view.hands({"mousedown", "1", "sleep", "0.4"});  // button 1: grab
+  std::vector<std::string> swing;
+  for (int i = 0; i < 12; ++i)
+    swing.insert(swing.end(), {"mousemove_relative", "--", "3", "-6", "sleep", "0.03"});
+  swing.insert(swing.end(), {"click", "3"});  // button 2: release
+  for (int i = 0; i < 4; ++i)
+    swing.insert(swing.end(), {"mousemove_relative", "--", "3", "-6", "sleep", "0.03"});
+  swing.insert(swing.end(), {"mouseup", "1", "sleep", "1.5"});
+  view.hands(swing);
+  const std::string told = view.end();
+  EXPECT_NE(told.find("button1"), told.npos) << told;
+  EXPECT_NE(told.find("button2"), told.npos) << told;
+
+  const std::string out = view.folder() / "again";
+  const ProgramResult again = stadionProgram({"run", testShow("desk.evs"), "--asset-root", assetFolder(),
+                                              "--walls", "desktop", "--size", "32x24", "--pictures", "none",
+                                              "--input", view.log(), "--out", out, "--trace", "ball"});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_NE(fileContent(out + "/summary.json").find(hashIn(told)), std::string::npos) << told << "\nagainst\n"
+                                                                                      << again.out;
+  // Held, then in flight, upwards: only the hand can have done that.
+  std::ifstream table(out + "/trace-ball.csv");
+  bool held = false;
+  double fastest = 0;
+  for (std::string line; std::getline(table, line);) {
+    held |= line.ends_with("held");
+    std::vector<double> v;
+    std::istringstream fields(line);
+    for (std::string f; std::getline(fields, f, ',');) v.push_back(std::strtod(f.c_str(), nullptr));
+    if (held && line.ends_with("flight") && v.size() > 10) fastest = std::max(fastest, v[10]);
+  }
+  EXPECT_TRUE(held);
+  EXPECT_GT(fastest, 0.1) << "upwards [m/s]";
+}
+
+TEST(ProgramView, KeysWalkAndASavedScriptKeepsTheVisitorsPlace) {
+  REQUIRE_DISPLAY(display);
+  const TemporaryFolder scripts;
+  scripts.write("desk_corner.evs", fileContent(testShow("desk_corner.evs")));
+  const std::string text = fileContent(testShow("desk.evs"));
+  const std::string show = scripts.write("desk.evs", text);
+  Viewing view(*display, show);
+  ASSERT_TRUE(view.playing());
+  view.hands({"keydown", "w", "sleep", "1.5", "keyup", "w"});
+
+  scripts.write("desk.evs",
+                text + "object( name=more, file=nowhere_to_be_found.3ds, positon=\"0, 1, 1\" )\n");
+  ASSERT_TRUE(view.program().says("the script has errors; the show goes on as it was"));
+  EXPECT_NE(view.program().err().find("did you mean \"position\"?"), std::string::npos);
+  ASSERT_TRUE(view.pressed("F12", "screenshot:"));
+
+  scripts.write("desk.evs",
+                text + "object( name=more, file=football.3ds, position=\"0, 3, 1.7\", scale=4 )\n");
+  ASSERT_TRUE(view.program().says("reloaded "));
+  const std::string at = "the rig stands at 0.000 ";
+  const double walked = numberAfter(view.program().err(), at);
+  EXPECT_GT(walked, 0.1);
+  ASSERT_TRUE(view.program().says("playing ", 2));
+  ASSERT_TRUE(view.pressed("F12", "screenshot:", 2));
+  EXPECT_NE(imageHash(view.shot(1, "screen")), imageHash(view.shot(2, "screen"))) << "what was added is seen";
+  const std::string told = view.end();
+  EXPECT_NEAR(numberAfter(told, at), walked, 1e-3);
+}
+
+TEST(ProgramView, ASubSceneThatIsSavedIsReadAgainToo) {
+  REQUIRE_DISPLAY(display);
+  const TemporaryFolder scripts;
+  const std::string corner = fileContent(testShow("desk_corner.evs"));
+  scripts.write("desk_corner.evs", corner);
+  Viewing view(*display, scripts.write("desk.evs", fileContent(testShow("desk.evs"))));
+  ASSERT_TRUE(view.playing());
+  scripts.write("desk_corner.evs", corner + "light( name=lamp, position=\"0, 0, 3\" )\n");
+  ASSERT_TRUE(view.program().says("reloaded "));
+  view.end();
+}
+
+/// How many pixels have the colour of the frame budget's letters: within it, or beyond.
+std::size_t budgetLetters(const Picture& p) {
+  const auto is = [](const std::uint8_t* c, int r, int g, int b) {
+    return c[0] == r && c[1] == g && c[2] == b;
+  };
+  std::size_t count = 0;
+  for (std::uint32_t y = 0; y < p.height; ++y)
+    for (std::uint32_t x = 0; x < p.width; ++x)
+      count += is(p.at(x, y), 120, 230, 120) || is(p.at(x, y), 250, 105, 90) ? 1 : 0;
+  return count;
+}
+
+TEST(ProgramView, TheFrameBudgetAndTheOverviewAreOnTheScreenshot) {
+  REQUIRE_DISPLAY(display);
+  Viewing view(*display, testShow("desk.evs"));
+  ASSERT_TRUE(view.playing());
+  ASSERT_TRUE(view.pressed("F12", "screenshot:"));
+  view.press("F2");
+  ASSERT_TRUE(view.pressed("F12", "screenshot:", 2));
+  view.press("o");
+  ASSERT_TRUE(view.pressed("F12", "screenshot:", 3));
+  view.hands({"mousedown", "3", "mousemove_relative", "60", "10", "mouseup", "3", "click", "4"});
+  ASSERT_TRUE(view.pressed("F12", "screenshot:", 4));
+  view.end();
+  EXPECT_EQ(budgetLetters(view.shot(1)), 0u);
+  EXPECT_GT(budgetLetters(view.shot(2)), 300u);
+  EXPECT_EQ(view.shot(1).width, 400u);
+  EXPECT_NE(imageHash(view.shot(3)), imageHash(view.shot(2)));
+  EXPECT_TRUE(std::filesystem::exists(view.folder() / "shots" / "001-screen.png"));
+}
+
+TEST(ProgramView, EachWallMayHaveItsWindowAndEyesAreMixed) {
+  REQUIRE_DISPLAY(display);
+  Viewing view(*display, testShow("desk.evs"),
+               {"--walls", "cave4", "--windows", "walls", "--stereo", "anaglyph"});
+  ASSERT_TRUE(view.playing());
+  ASSERT_TRUE(view.pressed("F12", "screenshot:"));
+  view.end();
+  for (const char* wall : {"front", "left", "right", "floor"}) {
+    for (const char* eye : {"-left", "-right"}) EXPECT_FALSE(view.shot(1, std::string(wall) + eye).empty());
+    EXPECT_FALSE(view.shot(1, std::string("window-") + wall).empty());
+  }
+}
+
+}  // namespace
+}  // namespace stadion
