@@ -3,7 +3,7 @@
 #include "dynamics/flight/flight_model.h"
 
 #include "dynamics/flight/flight_shape.h"
-#include "tests/dynamics/flight/bodies.h"
+#include "profiling/bench/flight/bodies.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -134,6 +134,12 @@ TEST(FlightShape, TheNoseIsWhereTheMassIsWhicheverWayTheMeshLies) {
   const FlightShape s = measureShape(m, Vec3(1.05, 0, 0));
   expectNear(s.q_NA * Vec3::UnitX(), -Vec3::UnitX(), 1e-6);
   EXPECT_GT(s.sideArm, 0.19);
+}
+
+TEST(FlightShape, ANoseThatIsStatedGoesBefore) {
+  const FlightShape s = measureShape(bodies::javelin(), Vec3(-1.05, 0, 0), Vec3(-1, 0, 0));
+  expectNear(s.q_NA * Vec3::UnitX(), -Vec3::UnitX(), 1e-6);
+  EXPECT_LT(s.sideArm, -0.19);
 }
 
 TEST(FlightShape, WhatFollowsFromTheShapeIsLikeTheShippedFit) {
