@@ -90,6 +90,7 @@ BodyId World::addBody(const BodyDef& d) {
   b.centred = b.isBall() && b.eccentricity() <= 1e-9 * b.radius();
   b.damping = d.damping, b.dragArea = d.dragArea, b.releaseDistance = d.releaseDistance;
   b.stick = d.stick;
+  core_->jerking = core_->jerking || (d.flight && d.flight->jerks());
   if (d.flight) b.flight = d.flight, b.q_CA = (b.X_NC.q.conjugate() * d.flight->q_NA).normalized();
   b.pose = unit(d.pose);
   const Pose X_WC = b.pose * b.X_NC;

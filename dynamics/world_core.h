@@ -86,6 +86,7 @@ public:
   Nanoseconds origin = 0;         ///< start of the window
   double frameFrom = 0, now = 0;  ///< tau of t0 and t1; `now` may lie beyond the window
   bool started = false, bodiesCollide = true;
+  bool jerking = false;  ///< a body has come whose bias turns it once a frame
   double faceStep =
       1.0 / 480;         ///< of a ball on a face under pulls that differ from place to place or in time [s]
   bool foresee = false;  ///< predictions are made at once: while events run

@@ -142,7 +142,10 @@ void World::Core::pause(Nanoseconds to, bool continues) {
 void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
   t0 = from, t1 = to;
   frameFrom = tauOf(from), now = tauOf(to);
-  if (!continues) newFrame(), turnByFrame();
+  if (!continues) {
+    newFrame();
+    if (jerking) turnByFrame();
+  }
   beginFrame();
   while (t1 - origin >= window) {
     runEvents(windowEnd());
@@ -379,7 +382,7 @@ void World::Core::windUp(double tau) {
 }
 
 void World::Core::endFrame() {
-  windUp(now);
+  if (!held.empty()) windUp(now);
   if (!memory.waiting().empty())
     for (RigidBody* b : active) catchUp(*b, now);
   partCarried();

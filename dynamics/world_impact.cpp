@@ -141,10 +141,10 @@ void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool l
   if (b.movable()) predict(b, tau);
 }
 
-/// Whether the body's tip comes to x first, straight enough against the normal n.
+/// Whether a body that may stick meets x with its tip, straight enough against the normal n.
 bool World::Core::sticksIn(const RigidBody& b, const Vec3& x, const Vec3& n, double closing,
                            double tau) const {
-  if (!b.stick || !(closing > kLeastStick)) return false;
+  if (!(closing > kLeastStick)) return false;
   const Pose X_WN = b.poseAt(tau);
   return -(X_WN.q * b.stick->nose).dot(n) >= b.stick->cosine &&
          b.stick->nose.dot(X_WN.inverse() * x) >= b.stick->tip - b.stick->reach;
@@ -187,7 +187,7 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     memory.setTouching(key, true);
     return;
   }
-  if (c && !c->motion.moving && sticksIn(a, x, n, closing, tau)) {
+  if (a.stick && c && !c->motion.moving && sticksIn(a, x, n, closing, tau)) {
     const double impulse = collide(ma, mb, x, n, 0, 0).dot(n);
     ContactMemory::Waiting* waiting =
         memory.impact(key, timeAt(tau), x, outwards, closing, impulse, frame, awaited);

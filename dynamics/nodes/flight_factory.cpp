@@ -1,6 +1,7 @@
 #include "dynamics/nodes/flight_factory.h"
 
 #include "dynamics/flight/flight_shape.h"
+#include "dynamics/flight/flight_table.h"
 #include "dynamics/nodes/shape_store.h"
 #include "engine/plain_file.h"
 #include "engine/script/choice.h"
@@ -11,6 +12,7 @@
 namespace stadion {
 namespace {
 
+constexpr std::size_t kMostBytes = 1 << 20;     ///< of a table
 constexpr std::size_t kSamples = 512;           ///< random vertices, as many as the paper's figure shows
 constexpr double kRates[] = {1.8, 0.03, 0.07};  ///< of a bias, where the script states none; by BiasWord
 
@@ -65,6 +67,20 @@ Result<FlightModel> modelOf(const Declaration& d, FlightKind kind, const FlightS
   return FlightModel{ballFrom(shape)};
 }
 
+/// From the file that the script names.
+Result<FlightModel> tableModel(const Declaration& d, const FlightShape& shape, const AssetRoots* roots) {
+  const std::string name(d.text(Attr::FlightTable));
+  const auto found = roots
+                         ? roots->open(name)
+                         : Result<AssetRoots::Found>(wrong(d, Attr::FlightTable, "no folder to look for it"));
+  if (!found) return wrong(d, Attr::FlightTable, found.error().message);
+  const auto text = readPlainFile(found.value().file.get(), found.value().path, kMostBytes);
+  if (!text) return wrong(d, Attr::FlightTable, text.error().message);
+  auto table = readFlightTable(text.value(), found.value().path, shape.elongated() ? 0 : 2);
+  if (!table) return table.error();
+  return FlightModel{std::move(table.value())};
+}
+
 Bias biasOf(const Declaration& d, const FlightShape& shape) {
   const auto word = static_cast<std::size_t>(d.choice<BiasWord>(Attr::Bias));
   const double rate = d.optionalNumber(Attr::BiasRate).value_or(kRates[word]);
@@ -106,8 +122,7 @@ Result<std::shared_ptr<const BodyFlight>> flightOf(const NodeRequest& r, const M
   flight->q_NA = shape.q_NA;
   flight->inVacuum = kind == FlightKind::Ballistic;
   if (kind == FlightKind::Bias) flight->bias = biasOf(d, shape);
-  (void)roots;
-  auto model = modelOf(d, kind, shape);
+  auto model = kind == FlightKind::Table ? tableModel(d, shape, roots) : modelOf(d, kind, shape);
   if (!model) return model.error();
   flight->model = std::move(model.value());
   return std::shared_ptr<const BodyFlight>(std::move(flight));

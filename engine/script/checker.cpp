@@ -6,6 +6,7 @@
 #include "engine/text/text_mesh.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -93,7 +94,7 @@ void Checker::take(const RawDeclaration& raw) {
   checkRequired(*kind, raw.type, seen);
   checkVolume(*kind, raw, seen);
   if (*kind == NodeKind::Path) checkKeyTimes(raw, node);
-  if (*kind == NodeKind::DynObject) checkFlight(node);
+  if (*kind == NodeKind::DynObject) checkFlight(raw, node);
 }
 
 void Checker::takeUnknown(const RawDeclaration& raw) {
@@ -229,9 +230,8 @@ void Checker::takeWords(const AttributeSpec& spec, TextSpan value) {
 
 /// How many there must be, and what they may be, is for those who know the models.
 void Checker::takeCoefficients(const AttributeSpec& spec, TextSpan value) {
-  const char first = value.length > 0 ? text(value).front() : '\0';
-  const bool word = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
-  if (word && text(value) != "nan" && text(value) != "inf") return takeWord(spec, value);
+  const bool letter = value.length > 0 && std::isalpha(static_cast<unsigned char>(text(value).front()));
+  if (letter && !faultOfName(text(value))) return writer_.addText(spec.attr, spec.kind, value);
   NumberList numbers;
   const std::string name(nameOf(spec.attr));
   if (const auto failure = readNumbers(text(value), numbers, name, formOf(spec)))
@@ -242,10 +242,15 @@ void Checker::takeCoefficients(const AttributeSpec& spec, TextSpan value) {
 }
 
 /// What only one way of flight has a use for.
-void Checker::checkFlight(std::uint32_t node) {
+void Checker::checkFlight(const RawDeclaration& raw, std::uint32_t node) {
   using enum FlightWord;
   const Declaration d = document_[node];
   const auto flight = d.choice<FlightWord>(Attr::Flight);
+  const auto report = [&](Attr attr, std::string why) {
+    const auto at = std::ranges::find_if(raw.attributes,
+                                         [&](const RawAttribute& a) { return text(a.name) == nameOf(attr); });
+    report_.error(at == raw.attributes.end() ? raw.type.offset : at->value.offset, std::move(why));
+  };
   struct Use {
     Attr attr;
     std::initializer_list<FlightWord> of;
@@ -255,15 +260,14 @@ void Checker::checkFlight(std::uint32_t node) {
                          Use{Attr::FlightTable, {Table}, "table"}, Use{Attr::Bias, {Bias}, "bias"},
                          Use{Attr::BiasRate, {Bias}, "bias"}, Use{Attr::Axes, {Bias}, "bias"}})
     if (d.has(use.attr) && std::ranges::find(use.of, flight) == use.of.end())
-      report_.error(writer_.offsetOf(node), fmt::format("\"{}\" is of flight={}, not of flight={}",
-                                                        nameOf(use.attr), use.words, d.text(Attr::Flight)));
+      report(use.attr, fmt::format("{} is for flight={}, not for flight={}", nameOf(use.attr), use.words,
+                                   d.text(Attr::Flight)));
   if (flight == Table && !d.has(Attr::FlightTable))
-    report_.error(writer_.offsetOf(node), "flight=table needs a \"flighttable\"");
-  if (d.has(Attr::BiasRate) && d.choice<BiasWord>(Attr::Bias) == BiasWord::Paper &&
-      d.number(Attr::BiasRate) > 1)
-    report_.error(writer_.offsetOf(node),
-                  fmt::format("biasrate is a share of the angle with bias=paper, at most 1, not {}",
-                              d.number(Attr::BiasRate)));
+    report(Attr::Flight, "flight=table needs a flighttable: the file of its coefficients");
+  const double rate = d.optionalNumber(Attr::BiasRate).value_or(0);
+  if (rate > 1 && d.choice<BiasWord>(Attr::Bias) == BiasWord::Paper)
+    report(Attr::BiasRate,
+           fmt::format("with bias=paper, biasrate is a share of the angle, at most 1, not {}", rate));
 }
 
 void Checker::takeFile(const AttributeSpec& spec, TextSpan value) {

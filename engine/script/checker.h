@@ -29,7 +29,7 @@ private:
   void takeWord(const AttributeSpec& spec, TextSpan value);
   void takeWords(const AttributeSpec& spec, TextSpan value);
   void takeCoefficients(const AttributeSpec& spec, TextSpan value);
-  void checkFlight(std::uint32_t node);
+  void checkFlight(const RawDeclaration& raw, std::uint32_t node);
   void takeFile(const AttributeSpec& spec, TextSpan value);
   void takeMessage(NodeKind kind, TextSpan value);
   void reportCount(const AttributeSpec& spec, TextSpan value, std::size_t count);
