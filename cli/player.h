@@ -86,6 +86,7 @@ public:
   const WallFile& walls() const { return walls_; }
   Scene& scene() { return *scene_; }
   MeshStore& meshes() { return meshes_; }
+  const AssetRoots& assets() const { return roots_; }
   const std::string& inputName() const { return inputName_; }
 
   /// The parts for a ShowStages; provider and sink are the caller's to add.

@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 namespace stadion {
 namespace {
@@ -82,11 +83,18 @@ int play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   NodeTimes nodeTimes;
   ProgressBar progress(s.player->frames());
   const ShowStages* running = nullptr;
+  const FrameLoopOptions options = o.loopOptions(*s.player);
   ShowParts parts = s.player->parts(o.layout);
   parts.provider = s.provider.get();
   parts.sink = s.output.get();
   parts.drawUnseen = !s.output;
   parts.probe = o.profile ? &nodeTimes : nullptr;
+  std::optional<SoundPlayer> sounds;
+  // Whoever plays faster than the clock has no ear for it.
+  if (options.pace != Pace::Free)
+    sounds.emplace(s.player->assets(),
+                   [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); });
+  parts.sounds = sounds ? &*sounds : nullptr;
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     s.watch->see(now, input, scene);
@@ -95,7 +103,7 @@ int play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   };
   ShowStages stages(std::move(parts));
   running = &stages;
-  FrameLoop loop(stages, o.loopOptions(*s.player), stop, parts.probe);
+  FrameLoop loop(stages, options, stop, parts.probe);
 
   const auto start = std::chrono::steady_clock::now();
   const FrameLoopOutcome outcome = loop.run();

@@ -26,16 +26,17 @@ enum class NodeKind : std::uint8_t {
   Timer,
   Scene,
   Path,
+  Sound,
   Collision,
   Dynamics,
   Navigator,
   Rig,
 };
 
-inline constexpr std::array<std::string_view, 20> kNodeKindNames = {
+inline constexpr std::array<std::string_view, 21> kNodeKindNames = {
     "group",          "transform",  "object",      "dynobject", "light",       "sky",         "forcelinear",
     "forcespherical", "forcepoint", "forcevortex", "medium",    "usertrigger", "wandtrigger", "timer",
-    "scene",          "path",       "collision",   "dynamics",  "navigator",   "rig"};
+    "scene",          "path",       "sound",       "collision", "dynamics",    "navigator",   "rig"};
 inline constexpr std::size_t kNodeKindCount = kNodeKindNames.size();
 
 constexpr std::string_view nameOf(NodeKind kind) {

@@ -106,6 +106,7 @@ private:
   std::unique_ptr<Load> prepare(const Job& job);
   std::unique_ptr<Load> build(const Job& job, std::unique_ptr<Document> document, Diagnostics& findings);
   MeshId importMesh(const Declaration& d, Diagnostics& findings);
+  Nanoseconds soundLength(const Declaration& d, Diagnostics& findings);
   void destroy(std::unique_ptr<Load> load);
   std::vector<std::uint32_t> around(std::uint32_t outer) const;
 

@@ -21,6 +21,10 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   parts_.scene.advance(now, input, changes_, parts_.probe);
   parts_.state.publish(slot, changes_);
   parts_.meshes.collect(shownFrame_);
+  if (parts_.sounds) {
+    parts_.scene.listen(input, heard_);
+    parts_.sounds->hear(heard_, {});
+  }
   if (parts_.observer) parts_.observer(now, input, parts_.scene);
 }
 

@@ -6,6 +6,7 @@
 #include "pipeline/cull/cull.h"
 #include "pipeline/draw/renderer.h"
 #include "pipeline/output/picture.h"
+#include "pipeline/output/sound_player.h"
 #include "pipeline/stages.h"
 #include "pipeline/state/scene_state.h"
 #include "pipeline/target/target.h"
@@ -51,6 +52,7 @@ struct ShowParts {
   FrameProbe* probe = nullptr;
   /// Once true, Draw gives up what it is at and the run ends. Any thread; null = never.
   std::function<bool()> giveUp{};
+  SoundPlayer* sounds = nullptr;  ///< null: nobody listens
 };
 
 class ShowStages final : public Stages {
@@ -89,6 +91,7 @@ private:
 
   ShowParts parts_;
   ChangeSet changes_;
+  SoundScape heard_;
   std::unique_ptr<WallContext[]> contexts_;
   std::vector<EyePictures> pictures_;
   std::atomic<std::uint64_t> shownFrame_ = 0;

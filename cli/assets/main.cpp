@@ -1,4 +1,5 @@
-/// stadion-assets: writes the show's own models into a folder, and the scripts of its athletes into another.
+/// stadion-assets: writes the show's own models and sounds into a folder, and the scripts of its athletes
+/// into another.
 ///
 /// The models in assets/ are made by this program and nothing else; a test compares them byte for byte. It
 /// uses only arithmetic that is the same on every machine.
@@ -8,6 +9,7 @@
 #include "cli/assets/olympia/body.h"
 #include "cli/assets/olympia/olympia.h"
 #include "cli/assets/picture.h"
+#include "cli/assets/sounds.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -21,6 +23,13 @@ bool write(const std::filesystem::path& path, const std::string& bytes) {
   file.close();
   if (!file) std::fprintf(stderr, "stadion-assets: cannot write %s\n", path.c_str());
   return bool(file);
+}
+
+bool writeSounds(const std::filesystem::path& out) {
+  using namespace stadion::assets;
+  return write(out / "wind.wav", toWav(wind())) && write(out / "cheer.wav", toWav(cheer())) &&
+         write(out / "trumpet.wav", toWav(trumpetCall())) && write(out / "thud.wav", toWav(thud())) &&
+         write(out / "whoosh.wav", toWav(whoosh()));
 }
 
 }  // namespace
@@ -79,6 +88,7 @@ int main(int argc, char** argv) {
       return 2;
   for (const auto& [name, bytes] : files)
     if (!write(out / name, bytes)) return 2;
+  if (!writeSounds(out)) return 2;
   if (argc == 2) return 0;
   const std::filesystem::path scripts = argv[2];
   std::filesystem::create_directories(scripts, error);

@@ -13,6 +13,7 @@
 #include "engine/scene/load.h"
 #include "engine/scene/placements.h"
 #include "engine/scene/records.h"
+#include "engine/scene/sounds.h"
 
 #include <functional>
 #include <limits>
@@ -107,6 +108,10 @@ public:
   void addSky(NodeRef node, const SkyRecord& sky) { skies_.push_back({node, sky}); }
   void removeSky(NodeRef node);
 
+  std::size_t addSound(PlacementId placement);
+  void setSound(std::size_t handle, bool on, const SoundRecord& sound);
+  void removeSound(std::size_t handle);
+
   /// Show time at the end of this frame; while a load enters, the exact time at which it does.
   Nanoseconds now() const { return now_; }
 
@@ -136,6 +141,8 @@ public:
   const FrameCounters& counters() const { return counters_; }
   const std::vector<EventRecord>& events() const { return events_; }  ///< of the last frame, by time
   std::size_t loadCount() const { return loads_.size(); }
+  /// What is heard at the end of the last frame; refilled.
+  void listen(const InputSample& input, SoundScape& out) const;
   void forEachNode(const std::function<void(const Node&)>& f) const;
 
 private:
@@ -154,6 +161,11 @@ private:
   struct Sky {
     NodeRef node;
     SkyRecord record;
+  };
+  struct SoundSpot {
+    PlacementId placement = kNoPlacement;
+    SoundRecord sound;
+    bool on = false, live = false;
   };
   struct Rig {
     NodeRef node;
@@ -243,6 +255,7 @@ private:
   bool lightsChanged_ = true;
   std::vector<std::size_t> shining_;  ///< those published last, while more than kMostLights would shine
   bool toldOfLights_ = false;
+  std::vector<SoundSpot> sounds_;
   std::vector<Sky> skies_;  ///< the last one is seen
   std::size_t chunksShown_ = 0;
   std::vector<Rig> rigs_;  ///< the last one is in use

@@ -157,6 +157,10 @@ private:
     return a;
   }
 
+  Nanoseconds soundLengthOf(const Declaration& d) const {
+    return d.kind() == NodeKind::Sound ? input_.sounds(d) : 0;
+  }
+
   Affine worldPlaceOf(const Declaration& d) const {
     Affine X = placeOf(d).X_PN;
     for (std::uint32_t up = layout_.parent(d.index()); up != Layout::kNone; up = layout_.parent(up))
@@ -191,7 +195,8 @@ private:
                               a.mesh == kNoMesh ? nullptr : input_.store.find(a.mesh),
                               resolve_,
                               model_,
-                              findings_};
+                              findings_,
+                              soundLengthOf(d)};
     const NodeFactory& make = input_.factories[static_cast<std::size_t>(d.kind())];
     std::unique_ptr<Node> node = make(request);
     if (!node) return;

@@ -3,6 +3,7 @@
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/rig_node.h"
 #include "engine/nodes/scene_node.h"
+#include "engine/nodes/sound_node.h"
 #include "engine/nodes/timer_node.h"
 #include "engine/nodes/trigger_node.h"
 #include "engine/script/builder.h"
@@ -97,6 +98,17 @@ Made makePath(const NodeRequest& r) {
                                     d.flag(Attr::InitState));
 }
 
+Made makeSound(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  SoundNode::Attributes a;
+  a.file = std::string(d.text(Attr::File));
+  a.length = r.soundLength;
+  a.gain = d.number(Attr::Gain);
+  a.range = d.optionalNumber(Attr::Range).value_or(0);
+  a.loop = d.flag(Attr::Loop);
+  return std::make_unique<SoundNode>(r.self, r.name, r.place, std::move(a), d.flag(Attr::InitState));
+}
+
 Made makeNavigator(const NodeRequest& r) {
   const Declaration& d = r.declaration;
   NavigatorNode::Attributes a;
@@ -122,6 +134,7 @@ void addEngineFactories(NodeFactories& factories) {
   set(NodeKind::Timer, makeTimer);
   set(NodeKind::Scene, makeScene);
   set(NodeKind::Path, makePath);
+  set(NodeKind::Sound, makeSound);
   set(NodeKind::Navigator, makeNavigator), set(NodeKind::Rig, makeRig);
 }
 

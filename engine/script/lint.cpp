@@ -16,6 +16,7 @@ namespace stadion {
 
 namespace {
 
+constexpr std::string_view kSoundEndings[] = {"wav", "aiff", "aif", "flac", "ogg"};
 constexpr std::string_view kModelEndings[] = {"obj", "3ds", "gltf", "glb", "dae", "stl"};
 
 /// What other nodes of the file do to each node.
@@ -81,6 +82,7 @@ private:
     case NodeKind::Timer: return lookAtSender(node);
     case NodeKind::Scene: return lookAtScene(node);
     case NodeKind::Path: return lookAtPath(node);
+    case NodeKind::Sound: return lookAtSound(node);
     case NodeKind::Collision:
     case NodeKind::Dynamics: return lookAtContacts(node);
     default: return;
@@ -175,6 +177,16 @@ private:
                         target->name));
     }
     lookAtTurns(node);
+    warnNeverOn(node);
+  }
+
+  void lookAtSound(const Declaration& node) {
+    const std::string ending = endingOf(node.text(Attr::File));
+    if (std::find(std::begin(kSoundEndings), std::end(kSoundEndings), ending) == std::end(kSoundEndings))
+      warn(node, Attr::File,
+           fmt::format("\"{}\" is not in a format that is read (.wav, .aiff, .flac, .ogg)",
+                       node.text(Attr::File)));
+    if (node.number(Attr::Gain) == 0) warn(node, Attr::Gain, "a sound of gain 0 is never heard");
     warnNeverOn(node);
   }
 

@@ -260,6 +260,25 @@ constexpr AttributeSpec kPathRows[] = {
     kInitOn,
 };
 
+constexpr AttributeSpec kSoundRows[] = {
+    {.attr = Attr::File,
+     .kind = File,
+     .help = "what is heard: .wav, .aiff, .flac or .ogg (Vorbis)",
+     .required = true},
+    {.attr = Attr::Gain,
+     .kind = Number,
+     .help = "how loud it is: 1 as the file has it",
+     .standard = "1",
+     .range = kUnitInterval},
+    {.attr = Attr::Range,
+     .kind = Number,
+     .help = "how far from its place it is heard; without it, it is heard everywhere alike",
+     .unit = "m",
+     .range = kLength},
+    {.attr = Attr::Loop, .kind = Flag, .help = "whether it starts again at its end", .standard = "off"},
+    kInitOn,
+};
+
 constexpr AttributeSpec kCollider{.attr = Attr::Collider,
                                   .kind = Reference,
                                   .help = "takes part, and is not moved",
@@ -347,6 +366,7 @@ constexpr Event kWandTriggerEvents[] = {Event::Enter,   Event::Exit,    Event::B
 constexpr Event kTimerEvents[] = {Event::TimesUp};
 constexpr Event kSceneEvents[] = {Event::Loaded, Event::Unloaded};
 constexpr Event kPathEvents[] = {Event::Finished};
+constexpr Event kSoundEvents[] = {Event::Finished};
 constexpr Event kContactEvents[] = {Event::OnImpact, Event::OnRelease};
 constexpr Event kBodyEvents[] = {Event::OnQuarantine};
 
@@ -384,6 +404,7 @@ constinit const std::array<NodeSpec, kNodeKindCount> kNodes = {{
     {Timer, "posts an event after a time", kTimerRows, kTimerEvents},
     {Scene, "another script, loaded into this one and unloaded by message", kSceneRows, kSceneEvents, true},
     {Path, "moves a node along keys given in advance", kPathRows, kPathEvents, true},
+    {Sound, "something that is heard, from its place or from everywhere", kSoundRows, kSoundEvents, true},
     {Collision, "notices contact between objects and leaves them where they are", kCollisionRows,
      kContactEvents},
     {Dynamics, "moves its bodies by forces and collisions", kDynamicsRows, kContactEvents},
@@ -398,7 +419,7 @@ constinit const std::array<NodeSpec, kNodeKindCount> kNodes = {{
 
 constinit const std::array<CommandSpec, kVerbCount> kCommands = {{
     {Verb::Enable, ArgumentKind::None, kSwitched, "enable",
-     "begins to act; a field's duration starts anew, a path that has ended too"},
+     "begins to act; a field's duration starts anew, a path that has ended too, and every sound"},
     {Verb::Disable, ArgumentKind::None, kSwitched, "disable", "stops acting"},
     {Verb::Toggle, ArgumentKind::None, kSwitched, "toggle", "enables if disabled, disables if enabled"},
     {Verb::Attach, ArgumentKind::PartAndTracker, kMovable, "attach all|position|orientation [TRACKER]",
@@ -434,7 +455,8 @@ constinit const std::array<EventSpec, kEventCount> kEvents = {{
     {Event::TimesUp, "the timer's period is over"},
     {Event::Loaded, "the sub-scene has appeared"},
     {Event::Unloaded, "the sub-scene has gone"},
-    {Event::Finished, "the path has reached its last key; told at the end of each pass if it loops"},
+    {Event::Finished,
+     "the path has reached its last key, the sound its end; told at the end of each pass if it loops"},
     {Event::OnImpact, "a pair that was apart has touched"},
     {Event::OnRelease, "a pair that posted onimpact is farther apart than releasedistance"},
     {Event::OnQuarantine,
