@@ -1,5 +1,7 @@
 #include "cli/run_options.h"
 
+#include "cli/number_option.h"
+
 #include <CLI/CLI.hpp>
 
 namespace stadion {
@@ -43,6 +45,11 @@ void RunOptions::addTo(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--trace", trace,
                      "write where this node is in every frame to trace-NODE.csv in --out DIR");
+  trackers.addTo(command);
+  command
+      .add_option("--osc", oscPort, "listen for the operator's commands on this UDP port (docs/operator.md)")
+      ->check(wholeNumberFrom(0, 65535));
+  command.add_flag("--wait", wait, "stand at the first frame until the operator says start");
   command.add_flag("--json", json, "the summary as one JSON object on stdout");
   command.footer("SIGINT (Ctrl-C) and SIGTERM end the run after the frames under way; all that was asked for "
                  "is written, and "
@@ -61,13 +68,32 @@ bool RunOptions::settle(Diagnostics& findings) {
   if (!trace.empty() && out.empty())
     findings.error({}, "--trace needs --out DIR to know where the table goes");
   if (video && out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
+  settleLive(findings);
   return show.settle(findings) && !findings.hasErrors();
 }
 
-bool RunOptions::everyFrameCounts(const Player& player) const {
+/// What needs somebody who is there.
+void RunOptions::settleLive(Diagnostics& findings) {
+  const auto refuse = [&](const char* option) {
+    findings.error({}, std::string(option) +
+                           " is for live runs: leave out --frames, --seconds, --out and --input FILE");
+  };
+  if (asksForEveryFrame() && oscPort >= 0) refuse("--osc");
+  if (asksForEveryFrame() && wait) refuse("--wait");
+  if (asksForEveryFrame() && !trackers.device.empty()) refuse("--tracker");
+  if (!trackers.rig.empty() && trackers.device.empty())
+    findings.error({}, "--rig says where trackers are, and there are none: --tracker osc:PORT");
+  if (!trackers.device.empty()) show.input = "none";  // not the log beside the show
+}
+
+bool RunOptions::asksForEveryFrame() const {
   if (live) return false;
   const bool byInput = !show.input.empty() && show.input != "none";
-  return show.frames != 0 || show.seconds > 0 || !out.empty() || byInput || player.obeysLog();
+  return show.frames != 0 || show.seconds > 0 || !out.empty() || byInput;
+}
+
+bool RunOptions::everyFrameCounts(const Player& player) const {
+  return asksForEveryFrame() || (!live && player.obeysLog());
 }
 
 FrameLoopOptions RunOptions::loopOptions(const Player& player) const {

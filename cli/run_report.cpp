@@ -36,6 +36,7 @@ RunSummary summarise(const FinishedRun& run) {
   s.frames = run.outcome.framesShown, s.framesDrawn = run.outcome.framesDrawn;
   s.lateFrames = run.outcome.missedTicks;
   s.elapsedSeconds = run.elapsed;
+  s.groups = run.groups, s.uptimeSeconds = run.uptime;
   run.watch.addTo(s, run.outcome.framesSimulated);
   addTimes(run, s);
   s.remarks.push_back("drawn by " + run.stages.glDescription());

@@ -239,17 +239,31 @@ MeshId Loader::Imports::of(const Declaration& d, Loader& loader, Diagnostics& fi
   return at->second;
 }
 
+/// Under which key the model is kept from show to show, if any are.
+std::optional<ImportedMeshes::Key> Loader::keyOf(const std::string& file,
+                                                 const ImportOptions& options) const {
+  if (!parts_.kept) return {};
+  const auto found = parts_.roots.open(file);
+  return found ? ImportedMeshes::Key::of(found.value().file.get(), options) : std::nullopt;
+}
+
 MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {
   ImportOptions options;
   options.unit = d.optionalNumber(Attr::Unit);
   options.up = d.optionalChoice<UpAxis>(Attr::Up);
   const std::string file(d.text(Attr::File));
+  const auto key = keyOf(file, options);
+  if (const MeshId known = key ? parts_.kept->find(*key) : kNoMesh; known != kNoMesh) return known;
   Diagnostics notes;
   if (stopped()) throw RunStopped();
   auto mesh = parts_.importer.load(file, options, d.where(Attr::File), &notes);
   if (stopped()) throw RunStopped();
   findings.append(notes);
-  if (mesh) return parts_.meshes.add(std::move(mesh.value()));
+  if (mesh) {
+    const MeshId id = parts_.meshes.add(std::move(mesh.value()));
+    if (key) parts_.kept->keep(*key, id);
+    return id;
+  }
   Diagnostic missing = mesh.error();
   missing.excerpt = d.excerpt(Attr::File);
   missing.severity = Severity::Warning;

@@ -35,6 +35,8 @@ public:
     (void)sample;
     return false;
   }
+  /// The head stays where it is, or is let go. Before a frame.
+  virtual void freezeHead(bool frozen) { (void)frozen; }
   /// The show begins again: its times count from 0. Before the first frame.
   virtual void restart() {}
 

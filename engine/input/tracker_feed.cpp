@@ -44,8 +44,7 @@ bool mayLeap(const InputTrack& track, const Pose& X, Nanoseconds time) {
 
 TrackerFeed::TrackerFeed(const RigFile& rig) : rig_(rig) {
   for (const RigTracker& t : rig_.trackers) {
-    Channel c{&t, OneEuroFilter(rig_.cutoff, rig_.beta), false, 0, {}, {}, 0, {}, 0, 0, {}, {}};
-    channels_.push_back(std::move(c));
+    channels_.emplace_back(&t, OneEuroFilter(rig_.cutoff, rig_.beta));
   }
   restart();
 }
@@ -94,6 +93,18 @@ bool TrackerFeed::pose(std::string_view name, Nanoseconds clock, const Pose& X_S
   return true;
 }
 
+void TrackerFeed::freeze(std::string_view name, Nanoseconds clock, bool frozen) {
+  for (Channel& c : channels_) {
+    if (c.tracker->name != name || c.frozen.has_value() == frozen) continue;
+    if (frozen) {
+      c.frozen = poseAt(c, clock);
+      continue;
+    }
+    c.from = *c.frozen, c.found = clock;
+    c.frozen.reset();
+  }
+}
+
 void TrackerFeed::change(Channel& c, Nanoseconds clock) {
   ++counts_.taken;
   if (c.changes.size() == kMostChanges) c.changes.pop_back();
@@ -127,6 +138,7 @@ Pose TrackerFeed::carriedOn(const Channel& c, Nanoseconds clock) const {
 }
 
 std::optional<Pose> TrackerFeed::poseAt(const Channel& c, Nanoseconds clock) const {
+  if (c.frozen) return c.frozen;
   if (!c.ever) return {};
   const double age = toSeconds(clock - c.last);
   Pose X = carriedOn(c, clock);

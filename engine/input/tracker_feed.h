@@ -43,6 +43,9 @@ public:
   bool button(std::string_view tracker, Nanoseconds clock, std::int64_t index, bool down);
   bool axis(std::string_view tracker, Nanoseconds clock, std::int64_t index, double value);
 
+  /// The tracker stays where it is, whatever it says, or is let go and eases back.
+  void freeze(std::string_view tracker, Nanoseconds clock, bool frozen);
+
   /// The show begins, or begins again: its time counts from 0.
   void restart();
   /// A frame from `start` to `end`, which is `clock`.
@@ -73,13 +76,15 @@ private:
     std::array<float, kTrackerAxes> axes;
   };
   struct Channel {
+    Channel(const RigTracker* which, const OneEuroFilter& smooth) : tracker(which), filter(smooth) {}
     const RigTracker* tracker;
     OneEuroFilter filter;
     bool ever = false;
     Nanoseconds last = 0;  ///< measurement [ns]
     Pose X_SD, X_RT;       ///< as it came; smoothed
     double period = 0;     ///< between measurements, smoothed [s]
-    Pose from;             ///< where it was when it was heard of again
+    std::optional<Pose> frozen{};
+    Pose from;  ///< where it was when it was heard of again
     Nanoseconds found = 0;
     std::uint32_t buttons = 0;
     std::array<float, kTrackerAxes> axes{};

@@ -65,6 +65,11 @@ bool LiveTrackers::sampleNow(InputSample& sample) {
   return true;
 }
 
+void LiveTrackers::freezeHead(bool frozen) {
+  const std::lock_guard lock(mutex_);
+  feed_.freeze("head", clock_(), frozen);
+}
+
 void LiveTrackers::restart() {
   const std::lock_guard lock(mutex_);
   feed_.restart();

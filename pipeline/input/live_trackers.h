@@ -36,6 +36,7 @@ public:
   }
   void sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) override;
   bool sampleNow(InputSample& sample) override;
+  void freezeHead(bool frozen) override;
   void restart() override;
 
   FeedCounts counts() const;

@@ -70,6 +70,7 @@ std::string toText(const RunSummary& s) {
                                      : fmt::format("drawn {} of {} frames", s.framesDrawn, s.frames),
                                  s.seconds, s.elapsedSeconds,
                                  all ? fmt::format(" ({:.1f} frames/s)", rate) : "", s.lateFrames);
+  if (s.groups > 1) text += fmt::format("  the last of {} groups in {:.0f} s\n", s.groups, s.uptimeSeconds);
   text += fmt::format("  walls {}, stereo {}, {} x {} pixels, {}, {} Hz\n", s.walls, s.stereo, s.width,
                       s.height, s.mode, s.rate);
   if (s.frameMs.count + s.stages.size() + s.latency.size() > 0)
@@ -121,6 +122,8 @@ std::string toJson(const RunSummary& s) {
   j["frames_drawn"] = s.framesDrawn;
   j["seconds"] = s.seconds;
   j["elapsed_seconds"] = s.elapsedSeconds;
+  j["groups"] = s.groups;
+  j["uptime_seconds"] = s.uptimeSeconds;
   j["late_frames"] = s.lateFrames;
   j["frame_ms"] = json(s.frameMs);
   j["stages"] = Json::array();

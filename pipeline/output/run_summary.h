@@ -69,6 +69,8 @@ struct RunSummary {
   std::uint64_t framesDrawn = 0;  ///< of these; nobody looks at the others, and the times are without them
   double seconds = 0;             ///< of show time
   double elapsedSeconds = 0;      ///< of the clock on the wall
+  std::uint64_t groups = 1;       ///< of visitors; the other figures are of the last one
+  double uptimeSeconds = 0;       ///< of all groups, and between them
   std::uint64_t lateFrames = 0;
   Distribution frameMs;  ///< from one frame shown to the next
   std::vector<StageTimes> stages;

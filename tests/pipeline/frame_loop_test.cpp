@@ -377,5 +377,50 @@ TEST(FrameLoop, SignaturesDoNotAccumulateRounding) {
   EXPECT_EQ(signatureAt(1, 60).step, 16666667);
 }
 
+TEST(ThreadsFrameLoop, TheNextGroupEndsTheRunInOrderAndASecondRunBegins) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    OperatorDesk desk(false, 0.064);
+    CountingStages stages(2, 3);
+    FrameLoopOptions o;
+    o.mode = mode, o.walls = 2, o.frames = 1000, o.desk = &desk, o.playback = &desk.playback();
+    const std::atomic<bool> never = false;
+    FrameLoop loop(stages, o, never);
+    desk.queue().post({OperatorAction::NextGroup});
+    const FrameLoopOutcome outcome = loop.run();
+    EXPECT_TRUE(outcome.nextGroup);
+    EXPECT_FALSE(outcome.failure);
+    EXPECT_EQ(outcome.framesSimulated, 0u);
+    EXPECT_EQ(stages.closed, 2);
+    desk.beginGroup();
+    EXPECT_EQ(desk.groups(), 2u);
+    desk.queue().post({OperatorAction::End});
+    FrameLoop again(stages, o, never);
+    EXPECT_FALSE(again.run().nextGroup);
+    EXPECT_EQ(stages.shown, std::vector<std::uint64_t>{0}) << "the frame that was begun is the last one";
+  }
+}
+
+TEST(ThreadsFrameLoop, WhatTheOperatorSaysOfAFrameTravelsWithIt) {
+  /// Notes how each frame was to be shown.
+  struct NotingStages : CountingStages {
+    using CountingStages::CountingStages;
+    Failure draw(std::size_t wall, const DrawList& list) override {
+      if (wall == 0) black.push_back(list.ticket.shown.black);
+      return CountingStages::draw(wall, list);
+    }
+    std::vector<bool> black;
+  };
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    OperatorDesk desk(false, 0.064);
+    desk.obey({{2, {OperatorAction::Black, 1, false}}, {4, {OperatorAction::Black, 0, false}}});
+    NotingStages stages(2, 3);
+    FrameLoopOptions o;
+    o.mode = mode, o.walls = 2, o.frames = 6, o.desk = &desk, o.playback = &desk.playback();
+    const std::atomic<bool> never = false;
+    FrameLoop(stages, o, never).run();
+    EXPECT_EQ(stages.black, (std::vector<bool>{false, false, true, true, false, false}));
+  }
+}
+
 }  // namespace
 }  // namespace stadion
