@@ -58,6 +58,8 @@ int main(int argc, char** argv) {
       {"herald_robe.glb", toGlb(robe({0.92, 0.89, 0.82}, {0.62, 0.22, 0.18}))},
       {"trumpet.glb", toGlb(trumpet())},
       {"leather_ball.glb", toGlb(leatherBall())},
+      {"plinth.glb", toGlb(plinth())},
+      {"javelin_rack.glb", toGlb(javelinRack())},
       {"olympia_ground.glb", toGlb(groundPlane())},
       {"olympia_track.glb", toGlb(track())},
       {"olympia_banks.glb", toGlb(embankments())},
