@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
       {"leather_ball.glb", toGlb(leatherBall())},
       {"plinth.glb", toGlb(plinth())},
       {"whiteboard.glb", toGlb(whiteboard())},
+      {"javelin_rack.glb", toGlb(javelinRack())},
       {"olympia_ground.glb", toGlb(groundPlane())},
       {"olympia_track.glb", toGlb(track())},
       {"olympia_banks.glb", toGlb(embankments())},

@@ -31,7 +31,9 @@ void addHead(Part& body, const Person& who, Point at, Detail detail) {
     v.n = {0, 0, 0};
     const bool face = v.p.y > 0.15 && v.p.z < 0.45;
     const bool beard = who.beard && v.p.z < -0.35 && v.p.y > -0.2;
-    v.colour = (face && !beard) || (v.p.z < -0.6 && !beard) ? who.skin : who.hair;
+    v.colour = (face && !beard) || (v.p.z < -0.6 && !beard) || (detail == Detail::Far && v.p.z < 0.5)
+                   ? who.skin
+                   : who.hair;
   }
   add(body, head, {at, 0, {0.085, 0.105, 0.13}});
   if (who.hat && detail != Detail::Far) {
@@ -76,7 +78,10 @@ Part figure(const Person& who, Detail detail) {
   Part body;
   const double hip = who.standing ? 0.88 : 0.1, shoulder = hip + 0.56;
   if (who.standing) {
-    Part robe = detail == Detail::Far ? loft({{{0, 0, 0}, 0.2, 0.16}, {{0, 0, shoulder}, 0.21, 0.12}}, sides)
+    Part robe = detail == Detail::Far ? loft({{{0, 0, 0}, 0.19, 0.16},
+                                              {{0, 0, shoulder - 0.06}, 0.22, 0.14},
+                                              {{0, 0, shoulder + 0.07}, 0.06, 0.05}},
+                                             sides)
                                       : loft({{{0, 0, 0.02}, 0.22, 0.19},
                                               {{0, 0, hip}, 0.17, 0.13},
                                               {{0, 0.02, hip + 0.34}, 0.21, 0.145},
@@ -91,16 +96,22 @@ Part figure(const Person& who, Detail detail) {
             ? loft({{{0, 0.2, 0}, 0.24, 0.38}, {{0, 0.36, 0.42}, 0.16, 0.1}}, sides)
             : loft({{{0, 0.2, 0}, 0.24, 0.38}, {{0, 0.3, 0.3}, 0.2, 0.24}, {{0, 0.38, 0.42}, 0.15, 0.09}},
                    sides);
-    Part chest = detail == Detail::Far
-                     ? loft({{{0, -0.02, 0.05}, 0.19, 0.16}, {{0, 0, shoulder}, 0.2, 0.11}}, sides)
-                     : loft({{{0, -0.02, 0.02}, 0.2, 0.18},
-                             {{0, 0, hip + 0.34}, 0.19, 0.14},
-                             {{0, 0, shoulder - 0.03}, 0.22, 0.12},
-                             {{0, 0, shoulder + 0.05}, 0.08, 0.07}},
-                            sides);
+    Part chest = detail == Detail::Far ? loft({{{0, -0.02, 0.02}, 0.18, 0.16},
+                                               {{0, 0, shoulder - 0.06}, 0.21, 0.13},
+                                               {{0, 0, shoulder + 0.07}, 0.06, 0.05}},
+                                              sides)
+                                       : loft({{{0, -0.02, 0.02}, 0.2, 0.18},
+                                               {{0, 0, hip + 0.34}, 0.19, 0.14},
+                                               {{0, 0, shoulder - 0.03}, 0.22, 0.12},
+                                               {{0, 0, shoulder + 0.05}, 0.08, 0.07}},
+                                              sides);
     drape(lap, 0.95 * who.cloth, 0.4), drape(chest, who.cloth, 0.6);
     add(body, lap), add(body, chest);
   }
+  // What nobody sees: the undersides.
+  std::erase_if(body.triangles, [&](const auto& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t c) { return body.vertices[c].p.z < 0.03; });
+  });
   addHead(body, who, {0, 0.02, shoulder + 0.19}, detail);
   if (detail != Detail::Far) addArms(body, who, shoulder, detail);
   return body;

@@ -1,14 +1,7 @@
 #include "cli/assets/olympia/olympia.h"
-#include "cli/assets/olympia/stadium_shape.h"
 
 namespace stadion::assets {
 namespace {
-
-Part stoneBox(Point low, Point high) {
-  Part stone = box(low, high);
-  paint(stone, [&](const Vertex& v) { return stoneColour(v.p + 3.0 * low); });
-  return stone;
-}
 
 void addWood(Part& to, Part from, Rgb colour) {
   paint(from, [&](const Vertex& v) { return mix(0.88, 1.06, noise(times(v.p, {3, 3, 14}))) * colour; });
@@ -16,22 +9,6 @@ void addWood(Part& to, Part from, Rgb colour) {
 }
 
 }  // namespace
-
-Parts plinth() {
-  constexpr double kHeight = 0.9;
-  Part stone = stoneBox({-0.24, -0.24, 0}, {0.24, 0.24, 0.12});
-  stone.finish = {"limestone", "stone.png"};
-  std::vector<Turning> shaft;
-  for (int i = 0; i <= 6; ++i)
-    shaft.push_back({mix(0.185, 0.165, i / 6.0), mix(0.12, kHeight - 0.12, i / 6.0)});
-  shaft.push_back({0.23, kHeight - 0.06});
-  Part drum = lathe(shaft, 24);
-  paint(drum, [](const Vertex& v) { return stoneColour(3.0 * v.p); });
-  add(stone, drum);
-  add(stone, stoneBox({-0.25, -0.25, kHeight - 0.06}, {0.25, 0.25, kHeight}));
-  layPicture(stone, 1.2);
-  return {stone};
-}
 
 Parts whiteboard() {
   constexpr double kWidth = 3.2, kLow = 0.75, kHigh = 2.0;
