@@ -13,7 +13,9 @@ struct RunOptions {
   ShowOptions show;
   std::string stereo = "pair", pace, recordInput, out, pictures = "last", provider = "osmesa";
   std::vector<std::string> trace;
-  bool live = false;  ///< by the clock, whatever else is asked for; no option
+  bool display = false;      ///< on the walls' outputs
+  bool stereoGiven = false;  ///< else `stereo` is the standard
+  bool live = false;         ///< by the clock, whatever else is asked for; no option
   bool sheets = false, video = false, profile = false, json = false;
 
   StereoLayout layout = StereoLayout::Pair;  ///< from `stereo`

@@ -319,7 +319,10 @@ void ViewSession::show(bool fresh) {
   }
   for (const auto& window : windows_) window->swap();
   stale_ = false;
-  if (!fresh || !steppedFrom_ || shown_.frame < *steppedFrom_) return;
+  // Told when the last of them is seen.
+  const bool reached = steppedFrom_ && shown_.frame >= *steppedFrom_ && playback_.stepsWaiting() == 0 &&
+                       shown_.frame + 1 == show_->framesPlayed();
+  if (!fresh || !reached) return;
   steppedFrom_.reset();
   say(fmt::format("one frame, to {:.3f} s", toSeconds(shown_.time)));
 }
