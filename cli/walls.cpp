@@ -27,7 +27,7 @@ struct WallsOptions {
     command.add_flag(
         "--pattern", pattern,
         "show the test pattern on the outputs that the file names, until Escape or Ctrl-C: border, "
-        "metres, wall's name, L or R, and a cube of 1 m on the floor in the middle of the room");
+        "metres, wall's name, L or R, and a cube of 1 m in the middle of the room");
     command.add_option("--out", out, "with --pattern: write it to WALL-EYE.png in this folder instead");
     command.add_option("--stereo", stereo, "with --pattern: how an output shows both eyes")
         ->check(CLI::IsMember(windowStereoNames()))

@@ -99,14 +99,14 @@ void drawBorder(Sketch& sketch) {
   for (std::size_t i = 0; i < 4; ++i) sketch.line(corners[i], corners[(i + 1) % 4], kBorder, 1);
 }
 
-/// The lower left corner of the cube's floor: it stands in the middle of the room.
+/// The cube's lowest corner. It hangs in the middle of the room, so low that its edges are on floor and walls.
 Vec3 cubeCorner(const WallFile& walls) {
   Aabb room;
   room.include(Vec3::Zero());
   for (const WallEntry& e : walls.walls)
     for (const Vec3& p : {e.wall.lowerLeft, e.wall.lowerRight, e.wall.upperLeft, e.wall.upperRight()})
       room.include(p);
-  return {room.centre().x() - 0.5, room.centre().y() - 0.5, 0};
+  return {room.centre().x() - 0.5, room.centre().y() - 0.5, 0.5};
 }
 
 /// An edge as the eye sees it on the wall.

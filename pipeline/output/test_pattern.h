@@ -2,9 +2,9 @@
 /// A picture by which walls are put up and projectors are lined up.
 ///
 /// A border on the outermost pixels, lines every quarter of a metre and heavy ones every metre from the lower
-/// left corner, a circle that must be round, the wall's name, L or R, and a cube of one metre that stands on
-/// the floor in the middle of the room. The cube is drawn as the standing visitor's eye sees it: on walls
-/// that are where their file says, its edges go on straight from wall to wall.
+/// left corner, a circle that must be round, the wall's name, L or R, and a cube of one metre in the
+/// middle of the room, half a metre above the floor. The cube is drawn as the standing visitor's eye sees it:
+/// on walls that are where their file says, its edges go on straight from wall to wall.
 ///
 /// Units    metres, pixels. Threads  pure functions.
 
