@@ -1,6 +1,7 @@
 /// `stadion run SHOW`: plays a show.
 
 #include "cli/commands.h"
+#include "cli/display_run.h"
 #include "cli/exit_code.h"
 #include "cli/live_desk.h"
 #include "cli/output_folder.h"
@@ -32,7 +33,8 @@ struct RunSetup {
   std::unique_ptr<GlProvider> provider;
   std::unique_ptr<Player> player;
   std::unique_ptr<RunWatch> watch;
-  std::unique_ptr<RunOutput> output;  ///< null without --out
+  std::unique_ptr<RunOutput> output;     ///< null without --out
+  std::unique_ptr<DisplayRun> displays;  ///< null without --display
 };
 
 template <class T>
@@ -79,6 +81,7 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
   if (!s.player || !canDraw(*s.provider, s.player->parts(o.layout), findings)) return false;
   if (!s.desk->begin(*s.player, findings)) return false;
   if (!beginGroup(o, s, findings)) return false;
+  if (o.display && !(s.displays = DisplayRun::open(o, s.player->walls(), findings))) return false;
   if (!s.folder) return true;
   if (const std::size_t removed = s.folder->clear(); removed > 0)
     std::fprintf(stderr, "removed %zu files of an earlier run from %s\n", removed, o.out.c_str());
@@ -96,11 +99,14 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
 std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   NodeTimes nodeTimes;
   ProgressBar progress(s.player->frames());
+  std::atomic<bool> endAsked = false;
+  FrameLoop* playing = nullptr;
   const ShowStages* running = nullptr;
   FrameLoopOptions options = o.loopOptions(*s.player);
   ShowParts parts = s.player->parts(o.layout);
   parts.provider = s.provider.get();
   parts.sink = s.output.get();
+  if (s.displays) parts.sink = &s.displays->sink(), s.displays->fitPictures(parts.walls);
   parts.drawUnseen = !s.output;
   parts.probe = o.profile ? &nodeTimes : nullptr;
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
@@ -108,14 +114,16 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
     s.watch->see(now, input, scene);
     s.player->collect(running->shownFrame());
     progress.update(now.frame + 1);
+    if (endAsked) playing->endAfterThisFrame();
   };
   s.desk->addTo(parts, options);
   ShowStages stages(std::move(parts));
   running = &stages;
   FrameLoop loop(stages, options, stop, o.profile ? &nodeTimes : nullptr);
+  playing = &loop;
 
   const auto start = std::chrono::steady_clock::now();
-  const FrameLoopOutcome outcome = loop.run();
+  const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, [&] { endAsked = true; }) : loop.run();
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
   if (outcome.nextGroup && !outcome.failure && !stop) return {};
@@ -150,11 +158,13 @@ int runShow(RunOptions o) try {
   if (!ready) return kBadInput;
   if (setup.player->frames() == 0 && setup.player->end() == 0)
     std::fprintf(stderr, "no input log beside the show and no --frames: playing until Ctrl-C\n");
-  else if (o.out.empty()) {
+  else if (o.out.empty() && !o.display) {
     const Player& p = *setup.player;
     const double seconds = p.end() > 0 ? toSeconds(p.end()) : static_cast<double>(p.frames() - 1) / p.rate();
-    std::fprintf(stderr, "playing %.1f s of %s unseen; --out DIR writes pictures, stadion view shows it\n", seconds,
-                 o.show.script.c_str());
+    std::fprintf(
+        stderr,
+        "playing %.1f s of %s unseen; --display and stadion view show it, --out DIR writes pictures\n",
+        seconds, o.show.script.c_str());
   }
   for (;;) {
     if (const auto code = play(o, stop, setup)) return *code;

@@ -19,7 +19,13 @@ void RunOptions::addTo(CLI::App& command) {
   std::vector<std::string> layouts = stereoLayoutNames();
   command.add_option("--stereo", stereo, "how the two eyes' pictures are written")
       ->check(CLI::IsMember(layouts))
+      ->each([this](const std::string&) { stereoGiven = true; })
       ->capture_default_str();
+  command.add_flag(
+      "--display", display,
+      "show the walls on the outputs that the wall file names (a window for each that has none), "
+      "live; Escape ends it. --stereo pair is a buffer for each eye then (quad-buffered); without "
+      "--stereo both eyes see the same");
   command
       .add_option(
           "--pace", pace,
@@ -65,6 +71,10 @@ bool RunOptions::settle(Diagnostics& findings) {
   else
     findings.error({}, "--pictures: \"" + pictures +
                            "\" is not last, all, none or a whole number N from 1 (every Nth frame)");
+  if (display && !out.empty())
+    findings.error(
+        {}, "--display plays live, and --out writes every frame that is asked for; leave one of them out");
+  if (display && !stereoGiven) layout = StereoLayout::Off;
   if (!trace.empty() && out.empty())
     findings.error({}, "--trace needs --out DIR to know where the table goes");
   if (video && out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
@@ -87,13 +97,13 @@ void RunOptions::settleLive(Diagnostics& findings) {
 }
 
 bool RunOptions::asksForEveryFrame() const {
-  if (live) return false;
+  if (live || display) return false;
   const bool byInput = !show.input.empty() && show.input != "none";
   return show.frames != 0 || show.seconds > 0 || !out.empty() || byInput;
 }
 
 bool RunOptions::everyFrameCounts(const Player& player) const {
-  return asksForEveryFrame() || (!live && player.obeysLog());
+  return asksForEveryFrame() || player.obeysLog();
 }
 
 FrameLoopOptions RunOptions::loopOptions(const Player& player) const {
@@ -101,6 +111,8 @@ FrameLoopOptions RunOptions::loopOptions(const Player& player) const {
   l.delivery = everyFrameCounts(player) ? Delivery::Every : Delivery::Latest;
   // A live show that drops frames ends with its log's last moment, not with its last frame's number.
   if (l.delivery == Delivery::Latest && player.end() > 0) l.frames = 0, l.end = player.end();
+  if (display) l.pace = pace == "float" ? Pace::Float : Pace::Lock;
+  if (display) return l;
   const bool free = pace.empty() ? (show.frames != 0 || show.seconds > 0 || !out.empty()) : pace == "free";
   l.pace = free ? Pace::Free : pace == "float" ? Pace::Float : Pace::Lock;
   return l;

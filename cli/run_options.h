@@ -17,7 +17,9 @@ struct RunOptions {
   TrackerOptions trackers;
   int oscPort = -1;  ///< where commands of the operator are listened for; -1: nowhere
   bool wait = false;
-  bool live = false;  ///< by the clock, whatever else is asked for; no option
+  bool display = false;      ///< on the walls' outputs
+  bool stereoGiven = false;  ///< else `stereo` is the standard
+  bool live = false;         ///< by the clock, whatever else is asked for; no option
   bool sheets = false, video = false, profile = false, json = false;
 
   StereoLayout layout = StereoLayout::Pair;  ///< from `stereo`

@@ -85,7 +85,7 @@ void print(const RunOptions& o, const RunSummary& summary) {
     return;
   }
   std::printf("%s%s", toText(summary).c_str(), happeningsText(summary).c_str());
-  if (o.out.empty())
+  if (o.out.empty() && !o.display)
     std::printf("\nTo see it:  ./stadion view %s, or ./stadion run %s --out pictures\n",
                 o.show.script.c_str(), o.show.script.c_str());
 }

@@ -204,6 +204,45 @@ TEST(ThreadsFrameLoop, TimesThatWereDecidedAreObeyed) {
   EXPECT_EQ(outcome.framesShown, 5u) << "at 0, 0.1, 0.5, 0.6 and 1 s";
 }
 
+/// Stages at which somebody sits who pauses the show, lets it go on by single frames, and slows it down.
+class PlayedStages final : public CountingStages {
+public:
+  PlayedStages(Playback& playback) : CountingStages(1, kSlots), playback_(playback) {}
+  void app(const TimeSignature& now, std::size_t slot) override {
+    CountingStages::app(now, slot);
+    times.push_back(now.time);
+    if (now.frame == 3) playback_.setPaused(true);
+    if (now.frame == 5) playback_.setPaused(false), playback_.setSpeed(0.25);
+    if (now.frame == 8) playback_.setSpeed(1);
+  }
+  void still(std::size_t slot) override {
+    ++stills;
+    CountingStages::app(signatureAt(times.size() - 1, 10), slot);
+    if (stills % 5 == 0) playback_.step();
+  }
+  std::vector<Nanoseconds> times;
+  int stills = 0;
+
+private:
+  Playback& playback_;
+};
+
+TEST(ThreadsFrameLoop, APausedShowIsDrawnOnAndGoesByFramesAndSlowly) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    Playback playback;
+    PlayedStages stages(playback);
+    FrameLoopOptions o;
+    o.mode = mode, o.rate = 10, o.frames = 11, o.playback = &playback;
+    const FrameLoopOutcome outcome = runFrames(stages, o);
+    EXPECT_EQ(stages.stills, 10) << "five before each of two steps";
+    EXPECT_EQ(outcome.framesSimulated, 11u);
+    std::vector<Nanoseconds> expected;
+    for (const double s : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.525, 0.55, 0.575, 0.7, 0.8})
+      expected.push_back(fromSeconds(s));
+    EXPECT_EQ(stages.times, expected) << "on ticks again after slow motion";
+  }
+}
+
 TEST(ThreadsFrameLoop, StopsCleanlyWhenAsked) {
   CountingStages stages(4, kSlots);
   FrameLoopOptions o;
