@@ -7,9 +7,9 @@ Failure toFailure(const std::optional<Diagnostic>& d) {
   return d ? Failure(Reason(*d)) : std::nullopt;
 }
 
-/// Nothing is drawn, in front of a sky without light.
+/// Nothing is drawn, in front of a sky without light and without a sun.
 void makeBlack(DrawList& list) {
-  list.opaque.clear(), list.transparent.clear();
+  list.opaque.clear(), list.transparent.clear(), list.lights.clear();
   list.sky = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0};
 }
 
