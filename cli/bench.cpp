@@ -1,6 +1,7 @@
 /// `stadion bench NAME`: measurements with a limit each.
 
 #include "cli/bench_dynamics.h"
+#include "cli/bench_flight.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "profiling/bench/overlap.h"
@@ -53,6 +54,7 @@ void addBenchCommand(CLI::App& app, int& code) {
   overlap->add_flag("--json", *json, "one JSON object a line");
   overlap->callback([json, &code] { code = benchOverlap(*json); });
   addBenchDynamics(*command, code);
+  addBenchFlight(*command, code);
 }
 
 }  // namespace stadion

@@ -9,7 +9,7 @@ namespace {
 
 template <class Law>
 Wrench wrenchOfRevolution(const Law& law, const Vec3& k, double density, const Vec3& u, const Vec3& w) {
-  const Airflow<double> flow = airflow(plain(u), plain(k));
+  const Airflow<double> flow = crossing(plain(u), plain(k)).flow;
   const Rates<double> r = law.rates(flow);
   const double half = 0.5 * density;
   const Vec3 across = u - flow.along * k, spin = w.dot(k) * k;

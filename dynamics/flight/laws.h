@@ -26,13 +26,16 @@ struct Rates {
   S across, along, push, turn, damp;
 };
 
-/// u_k, |u_p| and |u|. The part across is summed from its own components: no digits are lost nose on.
+/// The same, and k x u, whose size is |u_p|: no digits are lost nose on.
 template <class S>
-[[gnu::always_inline]] inline Airflow<S> airflow(const V3<S>& u, const V3<S>& k) {
-  const S along = dot(u, k);
-  const V3<S> p = u - along * k;
-  const S square = dot(p, p);
-  return {root(square + along * along), along, root(square)};
+struct Crossing {
+  V3<S> lift;
+  Airflow<S> flow;
+};
+template <class S>
+[[gnu::always_inline]] inline Crossing<S> crossing(const V3<S>& u, const V3<S>& k) {
+  const V3<S> c = cross(k, u);
+  return {c, {root(dot(u, u)), dot(u, k), root(dot(c, c))}};
 }
 
 struct RodLaw {
@@ -103,8 +106,11 @@ struct TableLaw {
     const int i = at >= 0 ? (at < count ? static_cast<int>(at) : count - 1) : 0;
     const double t = at - i;
     const Piece& p = pieces[i];
-    const double v = f.speed;
-    return {v * value(p.across, t), 0, v * v * value(p.along, t), v * value(p.turn, t), v * value(p.damp, t)};
+    const double v = f.speed, push = v * v * value(p.along, t);
+    const Rates<double> r{v * value(p.across, t), 0, push, v * value(p.turn, t), v * value(p.damp, t)};
+    // What slows the motion along the axis goes with it: then no strength is too great for a step.
+    const bool slows = (push < 0.0 ? -f.along : f.along) > 0.02 * v;
+    return slows ? Rates<double>{r.across, push / f.along, 0, r.turn, r.damp} : r;
   }
 };
 

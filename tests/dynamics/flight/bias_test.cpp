@@ -3,7 +3,7 @@
 #include "dynamics/flight/bias.h"
 
 #include "engine/maths/functions.h"
-#include "tests/dynamics/flight/bodies.h"
+#include "profiling/bench/flight/bodies.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "dynamics/flight/flight_model.h"
 
 #include "dynamics/flight/flight_shape.h"
-#include "tests/dynamics/flight/bodies.h"
+#include "profiling/bench/flight/bodies.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

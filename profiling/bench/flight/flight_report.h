@@ -1,0 +1,26 @@
+#pragma once
+/// All that `stadion bench flight` measures, as text and as JSON.
+
+#include "profiling/bench/flight/cost.h"
+#include "profiling/bench/flight/hard_cases.h"
+#include "profiling/bench/flight/integrators.h"
+#include "profiling/bench/flight/ladder.h"
+#include "profiling/bench/flight/published.h"
+
+namespace stadion::bench {
+
+struct FlightReport {
+  Ladder ladder;
+  Integrators integrators;
+  Costs costs;
+  Published published;
+  Checks hard;
+
+  Checks checks() const;  ///< all of them
+};
+
+std::string textOf(const FlightReport& report);
+std::string jsonOf(const FlightReport& report);
+bool allMet(const FlightReport& report);
+
+}  // namespace stadion::bench

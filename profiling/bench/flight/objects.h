@@ -1,0 +1,82 @@
+#pragma once
+/// The three things that fly, how they are thrown, and how far off a flight is.
+///
+/// Frames   World: x downrange, y left, z up; g = 9.81 and rho = 1.2, as the references have them.
+
+#include "dynamics/flight/flight_shape.h"
+#include "dynamics/flight/trajectory.h"
+#include "profiling/bench/flight/reference_models.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace stadion::bench {
+
+constexpr double kGravity = 9.81, kDensity = 1.2;
+constexpr double kDegree = 3.14159265358979324 / 180;
+
+enum class Thing { Javelin, Discus, Ball };
+
+using AnyModel = std::function<Wrench(const Vec3& u, const Vec3& w)>;
+
+struct ThingFacts {
+  const char* name;
+  FlightBody body;
+  int axis;       ///< of symmetry in A: 0 = x, 2 = z
+  double height;  ///< of release [m]
+  AnyModel exact;
+  FlightModel shipped;   ///< its fit
+  FlightModel fromMesh;  ///< what follows from its mesh alone
+  FlightShape shape;
+  Vec3 inertia() const {
+    Vec3 i = Vec3::Constant(body.across);
+    i[axis] = body.along;
+    return i;
+  }
+};
+const ThingFacts& factsOf(Thing thing);
+
+/// One throw.
+struct Throw {
+  std::string name;
+  Thing thing = Thing::Javelin;
+  RigidFlight start;
+  Vec3 wind = Vec3::Zero();
+
+  runge_kutta::Surroundings surroundings() const;
+  FlightAir air() const;
+};
+
+/// At speed [m/s] upwards by `gamma`, pitched by `alpha` more, then rolled about its own x, turning with w_A;
+/// angles in degrees.
+Throw thrown(Thing thing, double speed, double gamma, double alpha, double roll, const Vec3& w_A,
+             const Vec3& wind);
+
+/// The flights that ship with the program, with their exact end; empty if they cannot be read.
+struct ReferenceFlight {
+  Throw release;
+  Trajectory path;
+  bool smooth = true;
+};
+Result<std::vector<ReferenceFlight>> referenceFlights(const std::string& folder);
+
+/// `count` random throws: speed, angles, roll, wind of up to 5 m/s along x and y, pitch rate. The same every
+/// time.
+std::vector<Throw> heldOut(Thing thing, int count);
+
+/// Goes on with `step(flight)` of 1/hz s until the centre is on the ground, 20 s at most. Samples every 0.1 s
+/// (hz is a multiple of 10), and the landing.
+Trajectory flyBy(const Throw& release, int hz, const std::function<void(RigidFlight&)>& step);
+
+/// The exact flight of the exact model.
+Trajectory flyExactly(const Throw& release, double tolerance = 1e-11);
+
+struct FlightErrors {
+  double range = 0;     ///< of the distance downrange, in its parts
+  double landing = 0;   ///< between the points of landing, in parts of the range
+  double attitude = 0;  ///< of the axis, mean over the flight [degrees]
+};
+FlightErrors errorsOf(const Trajectory& flight, const Trajectory& exact, int axis);
+
+}  // namespace stadion::bench
