@@ -13,6 +13,7 @@ void addNodesCommand(CLI::App& app, int& code);
 void addHashCommand(CLI::App& app, int& code);
 void addWallsCommand(CLI::App& app, int& code);
 void addBenchCommand(CLI::App& app, int& code);
+void addFitCommand(CLI::App& app, int& code);
 void addProfileCommand(CLI::App& app, int& code);
 void addTestCommand(CLI::App& app, int& code);
 void addViewCommand(CLI::App& app, int& code);

@@ -32,6 +32,7 @@ int runProgram(int argc, char** argv) {
   addHashCommand(app, code);
   addWallsCommand(app, code);
   addBenchCommand(app, code);
+  addFitCommand(app, code);
   addProfileCommand(app, code);
   addTestCommand(app, code);
   addViewCommand(app, code);

@@ -54,11 +54,12 @@ FlightShape FlightShape::scaled(double f) const {
   return s;
 }
 
-FlightShape measureShape(const Mesh& mesh, const Vec3& centreOfMass) {
+FlightShape measureShape(const Mesh& mesh, const Vec3& centreOfMass, const std::optional<Vec3>& nose) {
   FlightShape s;
   s.axes = surfaceAxes(mesh);
   s.q_NA = s.axes.q_NP;
-  if (noseSide(s.axes, centreOfMass) < 0) s.q_NA = s.q_NA * Quat(0, 0, 0, 1);  // half a turn about z
+  const double side = nose ? nose->dot(s.q_NA * Vec3::UnitX()) : noseSide(s.axes, centreOfMass);
+  if (side < 0) s.q_NA = s.q_NA * Quat(0, 0, 0, 1);  // half a turn about z
   Silhouettes sum;
   const auto corner = [&](std::size_t i) -> Vec3 {
     const auto& p = mesh.positions[mesh.indices[i]];

@@ -37,9 +37,11 @@ struct FlightShape {
   bool elongated() const;
 };
 
-/// Of a mesh with its centre of mass in N. The nose is the end on the centre of mass's side of the surface's
-/// middle (there the wind keeps it), by the skewness of the surface where that does not tell.
-FlightShape measureShape(const Mesh& mesh, const Vec3& centreOfMass);
+/// Of a mesh with its centre of mass in N. The nose is the end that `nose` points to or, if it is not stated,
+/// the one on the centre of mass's side of the surface's middle (there the wind keeps it), or by the skewness
+/// of the surface where that does not tell.
+FlightShape measureShape(const Mesh& mesh, const Vec3& centreOfMass,
+                         const std::optional<Vec3>& nose = std::nullopt);
 
 /// Models for a body of which nothing but its shape is known.
 RodFlight rodFrom(const FlightShape& shape);

@@ -8,8 +8,8 @@ namespace stadion::bench {
 namespace {
 
 constexpr double kWidth = 1100, kLeft = 60, kRight = 900, kTop = 60, kGap = 70;  ///< [px]
-constexpr const char* kColours[] = {"#888888", "#c00000", "#1f77b4", "#2ca02c",
-                                    "#ff7f0e", "#9467bd", "#17becf"};
+constexpr const char* kColours[] = {"#888888", "#c00000", "#1f77b4", "#2ca02c", "#ff7f0e",
+                                    "#9467bd", "#17becf", "#8c564b", "#e377c2"};
 
 /// One view: x to the right, another coordinate upwards.
 struct View {
@@ -34,23 +34,25 @@ std::string gridOf(const View& v, double far, double each, const char* name) {
   for (double x = 0; x <= far; x += each)
     svg += line(kLeft + v.scale * x, top, kLeft + v.scale * x, v.bottom, "stroke='#e4e4e4'") +
            text(kLeft + v.scale * x, v.bottom + 16, "middle", fmt::format("{:g}", x));
-  for (double y = std::ceil(v.low / each) * each; y <= v.high; y += each) {
+  for (double y = std::ceil(v.low / each) * each + 0.0; y <= v.high; y += each) {
     const double py = v.bottom - v.scale * (y - v.low);
     svg += line(kLeft, py, kLeft + v.scale * far, py, "stroke='#e4e4e4'") +
-           text(kLeft - 8, py + 4, "end", fmt::format("{:g}", y));
+           text(kLeft - 8, py + 4, "end", fmt::format("{:g}", y + 0.0));
   }
   return svg + text(kLeft, top - 8, "start", name);
 }
 
-/// A cross-section of the body along its axis, every half second, 3 m long so that it can be seen.
+/// The body every half second, 3 m long so that it can be seen: a rod along its axis, a plate across it.
 std::string attitudeOf(const Trajectory& path, const View& v, int axis) {
   std::string svg;
   double next = 0;
   for (const TrajectorySample& s : path) {
     if (s.t < next - 1e-9) continue;
     next = s.t + 0.5;
-    const Vec3 k = s.at.q * Vec3::Unit(axis), a = s.at.p - 1.5 * k, b = s.at.p + 1.5 * k;
-    svg += line(v.px(a), v.py(a), v.px(b), v.py(b), "stroke='#444' stroke-width='2'");
+    const Vec3 k = s.at.q * Vec3::Unit(axis);
+    const Vec3 d = 1.5 * (axis == 2 ? Vec3(k.cross(Vec3::Unit(3 - v.up))) : k), a = s.at.p - d,
+               b = s.at.p + d;
+    svg += line(v.px(a), v.py(a), v.px(b), v.py(b), "stroke='#222' stroke-width='2.5'");
   }
   return svg;
 }

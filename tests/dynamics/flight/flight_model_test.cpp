@@ -136,6 +136,12 @@ TEST(FlightShape, TheNoseIsWhereTheMassIsWhicheverWayTheMeshLies) {
   EXPECT_GT(s.sideArm, 0.19);
 }
 
+TEST(FlightShape, ANoseThatIsStatedGoesBefore) {
+  const FlightShape s = measureShape(bodies::javelin(), Vec3(-1.05, 0, 0), Vec3(-1, 0, 0));
+  expectNear(s.q_NA * Vec3::UnitX(), -Vec3::UnitX(), 1e-6);
+  EXPECT_LT(s.sideArm, -0.19);
+}
+
 TEST(FlightShape, WhatFollowsFromTheShapeIsLikeTheShippedFit) {
   const std::vector<double> rod =
       coefficientsOf(FlightModel(rodFrom(measureShape(bodies::javelin(96), Vec3(-1.05, 0, 0)))));

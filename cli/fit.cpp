@@ -1,0 +1,182 @@
+/// `stadion fit OBJECT --reference CSV`: the cheapest flight model that is good enough, and the line to
+/// paste.
+
+#include "dynamics/flight/fit.h"
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/fit_object.h"
+#include "cli/number_option.h"
+#include "engine/plain_file.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+
+namespace stadion {
+namespace {
+
+struct Options {
+  std::string object;
+  std::vector<std::string> references, roots;
+  double landing = 1, attitude = 0;  ///< [%], [degrees]; 0: as it comes
+  std::optional<double> mass;
+  std::vector<double> wind{0, 0, 0}, inertia, centre;
+  double gravity = 9.80665, density = 1.225;
+  std::string table;
+};
+
+int refuse(const Diagnostic& why) {
+  std::fprintf(stderr, "%s\n",
+               why.where.file.empty() ? ("stadion: " + why.message).c_str() : format(why).c_str());
+  return kBadInput;
+}
+
+/// As the script gives them to the world: flights of A about the centre of mass.
+std::optional<Diagnostic> readFlights(const Options& o, FitTask& task) {
+  for (const std::string& file : o.references) {
+    const auto text = readPlainFile(file, std::size_t{64} << 20);
+    if (!text) return text.error();
+    auto flight = readTrajectory(text.value(), file);
+    if (!flight) return flight.error();
+    if ((flight.value().back().at.p - flight.value().front().at.p).head<2>().norm() < 0.1)
+      return Diagnostic{
+          Severity::Error, {file, 0, 0}, "this flight goes nowhere: it ends where it began", {}};
+    for (TrajectorySample& s : flight.value()) {
+      s.at.q = s.at.q * task.shape.q_NA;
+      s.at.w = task.shape.q_NA.conjugate() * s.at.w;
+    }
+    task.flights.push_back(std::move(flight.value()));
+  }
+  return std::nullopt;
+}
+
+/// Moments about A's axis and across it, of principal moments in the model's coordinates.
+FlightBody bodyOf(const MassProperties& mass, const FlightShape& shape) {
+  const Mat3 axes = (shape.q_NA.conjugate() * mass.axes).toRotationMatrix();
+  const Vec3 i = (axes * mass.inertia.asDiagonal() * axes.transpose()).diagonal();
+  const int axis = shape.elongated() ? 0 : 2;
+  return {mass.mass, i[axis], 0.5 * (i.sum() - i[axis])};
+}
+
+Result<FitTask> taskOf(const Options& o) {
+  auto object = readFlownObject(o.object, o.roots, o.mass);
+  if (!object) return object.error();
+  FlownObject& body = object.value();
+  if (!o.centre.empty()) body.mass.centre = Vec3(o.centre[0], o.centre[1], o.centre[2]);
+  FitTask task;
+  task.shape = measureShape(body.mesh, body.mass.centre, body.nose);
+  task.body = bodyOf(body.mass, task.shape);
+  if (!o.inertia.empty()) task.body.along = o.inertia[0], task.body.across = o.inertia[1];
+  task.air = {Vec3(0, 0, -o.gravity), Vec3(o.wind[0], o.wind[1], o.wind[2]), o.density};
+  if (auto wrong = readFlights(o, task)) return *wrong;
+  return task;
+}
+
+std::string nameOf(FlightKind kind) {
+  constexpr const char* names[] = {"ballistic", "bias", "rod", "plate", "ball", "table"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+/// What a script says to have it.
+std::string attributesOf(const FittedRung& rung, const std::string& table) {
+  std::string text = "flight=" + nameOf(rung.kind);
+  if (rung.kind == FlightKind::Bias) text += fmt::format(", bias=flow, biasrate={:.4g}", rung.bias.rate);
+  if (rung.kind == FlightKind::Table) text += fmt::format(", flighttable=\"{}\"", table);
+  const std::vector<double> numbers = coefficientsOf(rung.model);
+  if (numbers.empty()) return text;
+  text += ", coefficients=\"";
+  for (std::size_t i = 0; i < numbers.size(); ++i) text += fmt::format("{}{:.6g}", i ? ", " : "", numbers[i]);
+  return text + "\"";
+}
+
+bool writeTable(const FittedRung& rung, int axis, const std::string& path) {
+  std::ofstream file(path, std::ios::binary);
+  file << flightTableText(rung.rows, rung.area, rung.length, axis);
+  file.close();
+  if (!file) std::fprintf(stderr, "stadion: cannot write %s\n", path.c_str());
+  return static_cast<bool>(file);
+}
+
+std::string tableFileOf(const Options& o) {
+  if (!o.table.empty()) return o.table;
+  const std::size_t colon = o.object.rfind(".evs:");
+  const std::string stem = colon != std::string::npos ? o.object.substr(colon + 5)
+                                                      : std::filesystem::path(o.object).stem().string();
+  return stem + "-flight.csv";
+}
+
+void printRungs(const std::vector<FittedRung>& rungs, bool round) {
+  std::printf("  %-11s%12s%18s\n", "flight", "landing", round ? "" : "axis (mean)");
+  for (const FittedRung& r : rungs)
+    std::printf("  %-11s%10.3f %%%s   %s\n", nameOf(r.kind).c_str(), 100 * r.errors.landing,
+                round ? "" : fmt::format("{:14.2f} deg", r.errors.attitude).c_str(),
+                r.good ? "within the tolerance" : "");
+}
+
+int fit(const Options& o) {
+  auto task = taskOf(o);
+  if (!task) return refuse(task.error());
+  const FlightShape& shape = task.value().shape;
+  const char* form = shape.round() ? "round" : shape.elongated() ? "long" : "flat";
+  std::printf("%s: %s, %.4g kg, %zu flight%s; the worst of them, from the cheapest model on\n",
+              o.object.c_str(), form, task.value().body.mass, task.value().flights.size(),
+              task.value().flights.size() == 1 ? "" : "s");
+  const std::vector<FittedRung> rungs =
+      fitRungs(task.value(), {o.landing / 100, o.attitude > 0 ? o.attitude : 1e9});
+  printRungs(rungs, shape.round());
+  const auto good = std::ranges::find_if(rungs, &FittedRung::good);
+  const auto nearest = std::ranges::min_element(rungs, {}, [](const FittedRung& r) {
+    return std::isfinite(r.errors.landing) ? r.errors.landing : 1e300;
+  });
+  const FittedRung& chosen = good != rungs.end() ? *good : *nearest;
+  const std::string table = tableFileOf(o);
+  if (chosen.kind == FlightKind::Table && !writeTable(chosen, shape.elongated() ? 0 : 2, table))
+    return kBadInput;
+  std::printf("%s\n  %s\n",
+              good != rungs.end() ? "The cheapest within the tolerance; in the dynobject write"
+                                  : "None is within the tolerance; the nearest is",
+              attributesOf(chosen, table).c_str());
+  return good != rungs.end() ? kOk : kCheckFailed;
+}
+
+}  // namespace
+
+void addFitCommand(CLI::App& app, int& code) {
+  auto o = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("fit", "Find the cheapest flight model that follows recorded flights");
+  command->add_option("OBJECT", o->object, "a model file, or SCRIPT.evs:NAME for a dynobject")->required();
+  command->add_option("--reference", o->references, "recorded flights (.csv, see docs/flight.md)")
+      ->required();
+  command->add_option("--tolerance", o->landing, "how far off it may land, in % of the range (1)")
+      ->check(numberFrom(1e-6, 1000));
+  command
+      ->add_option("--attitude", o->attitude,
+                   "how far off its axis may point, mean over a flight [degrees] (any)")
+      ->check(numberFrom(1e-6, 180));
+  command->add_option("--mass", o->mass, "[kg]; else the script's, else 1000 kg/m3")
+      ->check(numberFrom(1e-9, 1e9));
+  command
+      ->add_option("--inertia", o->inertia, "moments along the axis and across it [kg m2]; else the model's")
+      ->expected(2)
+      ->check(numberFrom(1e-15, 1e15));
+  command->add_option("--centre", o->centre, "centre of mass in the model [m]; else the model's")
+      ->expected(3)
+      ->check(numberFrom(-1e6, 1e6));
+  command->add_option("--wind", o->wind, "of the flights, x y z [m/s] (0 0 0)")
+      ->expected(3)
+      ->check(numberFrom(-1e3, 1e3));
+  command->add_option("--gravity", o->gravity, "[m/s2] (9.80665)")->check(numberFrom(0, 1e3));
+  command->add_option("--density", o->density, "of the air [kg/m3] (1.225)")->check(numberFrom(0, 1e4));
+  command->add_option("--table", o->table, "where to write a table, if that is chosen (OBJECT-flight.csv)");
+  command->add_option("--asset-root", o->roots, "further folder to look for the model in");
+  command->callback([o, &code] { code = fit(*o); });
+}
+
+}  // namespace stadion

@@ -1,0 +1,112 @@
+/// The exact models, the reference flights, and what must hold of the shipped models on them.
+
+#include "dynamics/flight/split_step.h"
+#include "profiling/bench/flight/flight_report.h"
+#include "profiling/bench/flight/trajectory_plot.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace stadion::bench {
+namespace {
+
+const std::vector<ReferenceFlight>& references() {
+  static const auto read = referenceFlights(STADION_SOURCE_DIR "/profiling/bench/flight/reference");
+  EXPECT_TRUE(read) << format(read.error());
+  return read.value();
+}
+
+TEST(FlightBench, TheExactModelsFlyTheReferenceFlights) {
+  EXPECT_EQ(references().size(), 21U);
+  for (const ReferenceFlight& f : references()) {
+    const FlightErrors e = errorsOf(flyExactly(f.release), f.path, factsOf(f.release.thing).axis);
+    EXPECT_LE(e.landing, 1e-9) << f.release.name;
+    EXPECT_LE(e.attitude, 1e-3) << f.release.name;
+  }
+}
+
+TEST(FlightBench, TheDefaultStepAt60HzKeepsToThem) {
+  for (const ReferenceFlight& f : references()) {
+    const Throw& t = f.release;
+    if (!f.smooth || t.thing == Thing::Ball) continue;
+    const ThingFacts& facts = factsOf(t.thing);
+    FlightState s{t.start.p, t.start.v, t.start.q, momentumOf(facts.body, facts.axis, t.start.q, t.start.w)};
+    const Trajectory path = flyBy(t, 60, [&](RigidFlight& r) {
+      splitStep(s, facts.body, facts.axis, t.air(), 1.0 / 60, facts.exact);
+      r = {s.p, s.v, s.q, angularVelocityOf(facts.body, facts.axis, s)};
+    });
+    const FlightErrors e = errorsOf(path, f.path, facts.axis);
+    EXPECT_LE(e.landing, t.thing == Thing::Javelin ? 5e-4 : 1e-3) << t.name;
+    EXPECT_LE(e.attitude, 0.15) << t.name;
+  }
+}
+
+TEST(FlightBench, RungeAndKuttaAt960HzReproduceEachSmoothOne) {
+  for (const ReferenceFlight& f : references()) {
+    if (!f.smooth) continue;
+    const auto around = f.release.surroundings();
+    const AnyModel& model = factsOf(f.release.thing).exact;
+    const Trajectory path =
+        flyBy(f.release, 960, [&](RigidFlight& r) { runge_kutta::step4(r, 1.0 / 960, around, model); });
+    EXPECT_LE(errorsOf(path, f.path, 0).landing, 1e-5) << f.release.name;
+  }
+}
+
+TEST(FlightBench, TheLadderHoldsOnFlightsItWasNotFittedTo) {
+  const Ladder ladder = measureLadder(references(), 30);
+  EXPECT_GE(ladder.checks.size(), 10U);
+  for (const Check& c : ladder.checks)
+    EXPECT_TRUE(c.met()) << c.what << ": " << c.value << ", at most " << c.most;
+}
+
+TEST(FlightBench, HardCasesAndPublishedThrowsHold) {
+  Checks all = measureHardCases();
+  const Checks published = measurePublished().checks;
+  all.insert(all.end(), published.begin(), published.end());
+  for (const Check& c : all) EXPECT_TRUE(c.met()) << c.what << ": " << c.value;
+}
+
+TEST(FlightBench, HeldOutFlightsAreTheSameEveryTime) {
+  const std::vector<Throw> a = heldOut(Thing::Javelin, 5), b = heldOut(Thing::Javelin, 7);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].start.v, b[i].start.v);
+    EXPECT_EQ(a[i].wind, b[i].wind);
+  }
+  EXPECT_NE(a[0].start.v, a[1].start.v);
+}
+
+TEST(FlightBench, ErrorsAreOfLandingRangeAndAxis) {
+  const Trajectory exact{{0, {}}, {0.1, {}}, {1, {Vec3(50, 0, 0), {}, Quat::Identity(), {}}}};
+  Trajectory flight = exact;
+  flight.back().at.p = Vec3(51, 1, 0);
+  flight[1].at.q = det::expRotation(Vec3(0, 0.1, 0));
+  const FlightErrors e = errorsOf(flight, exact, 0);
+  EXPECT_NEAR(e.range, 0.02, 1e-12);
+  EXPECT_NEAR(e.landing, std::sqrt(2) / 50, 1e-12);
+  EXPECT_NEAR(e.attitude, 0.05 / kDegree, 1e-9);  // mean of 0.1 and 0
+}
+
+TEST(FlightBench, AMissedLimitIsSaidAndFails) {
+  FlightReport report;
+  report.hard = {{"a", 1, 2, 0, "m"}, {"b", 3, 2, 0, "m"}, {"c", NAN, 2, 0, ""}};
+  EXPECT_FALSE(allMet(report));
+  EXPECT_NE(textOf(report).find("MISSED  b: 3 m, at most 2 m"), std::string::npos);
+  EXPECT_NE(textOf(report).find("1 limits met, 2 missed"), std::string::npos);
+  const auto json = nlohmann::json::parse(jsonOf(report));
+  EXPECT_EQ(json["ok"], false);
+  EXPECT_EQ(json["limits"][1]["met"], false);
+}
+
+TEST(FlightBench, PlotsShowEveryFlightFromTwoSides) {
+  const Trajectory path{{0, {Vec3(0, 0, 2), {}, Quat::Identity(), {}}},
+                        {1, {Vec3(50, 3, 0), {}, Quat::Identity(), {}}}};
+  const std::string svg = trajectoryPlot("flights", {{"exact", path}, {"rod", path}}, 0);
+  std::size_t lines = 0;
+  for (std::size_t at = svg.find("<polyline"); at != std::string::npos; at = svg.find("<polyline", at + 1))
+    ++lines;
+  EXPECT_EQ(lines, 4U);
+  EXPECT_NE(svg.find("rod 50.1 m"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stadion::bench
