@@ -160,7 +160,9 @@ TEST(World, WhatStartsUpwardsFromTheGroundTellsItsLanding) {
     const FieldId g = addGravity(w);
     w.addCollider({w.addShape(BoxShape{{{0, 0, -1}, Quat::Identity()}, {9, 9, 1}}), {}, {}});
     BodyDef d;
-    d.shape = round ? w.addShape(BallShape{{}, 0.1}) : w.addShape(BoxShape{{}, {0.1, 0.1, 0.1}});
+    BallShape ball;
+    ball.radius = 0.1;
+    d.shape = round ? w.addShape(ball) : w.addShape(BoxShape{{}, {0.1, 0.1, 0.1}});
     d.pose.p = {0, 0, 0.1}, d.v = {1, 0, 5};
     w.hook(w.addBody(d), g, 0);
     int impacts = 0;
