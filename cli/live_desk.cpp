@@ -56,9 +56,7 @@ bool LiveDesk::begin(const Player& player, Diagnostics& findings) {
 }
 
 void LiveDesk::beginGroup(Player& player, RunWatch& watch) {
-  if (ended_ != Clock::time_point{}) {
-    desk_->beginGroup();
-    if (trackers_) trackers_->trackers().restart();
+  if (groups() > 1) {
     const double took = std::chrono::duration<double>(Clock::now() - ended_).count();
     say(fmt::format("group {} begins, {:.2f} s after the last one; up {}", groups(), took,
                     clockText(uptime())));
@@ -87,6 +85,8 @@ void LiveDesk::beginGroup(Player& player, RunWatch& watch) {
 
 void LiveDesk::endGroup() {
   ended_ = Clock::now();
+  desk_->beginGroup();
+  if (trackers_) trackers_->trackers().restart();
   if (!sounds_) return;
   SoundScape silence;
   sounds_->hear(silence, {});

@@ -30,7 +30,7 @@ public:
   void beginGroup(Player& player, RunWatch& watch);
   /// Where the record of the present group goes.
   std::string recordName() const;
-  /// The show is gone; the next one is being made.
+  /// The show is over; the next one is being made, and counts from now on.
   void endGroup();
 
   void addTo(ShowParts& parts, FrameLoopOptions& loop);

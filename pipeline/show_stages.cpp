@@ -7,9 +7,9 @@ Failure toFailure(const std::optional<Diagnostic>& d) {
   return d ? Failure(Reason(*d)) : std::nullopt;
 }
 
-/// Nothing is drawn, in front of a sky without light.
+/// Nothing is drawn, in front of a sky without light and without a sun.
 void makeBlack(DrawList& list) {
-  list.opaque.clear(), list.transparent.clear();
+  list.opaque.clear(), list.transparent.clear(), list.lights.clear();
   list.sky = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0};
 }
 
@@ -28,16 +28,14 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   parts_.scene.advance(now, input, changes_, parts_.probe);
   parts_.state.publish(slot, changes_);
   parts_.meshes.collect(shownFrame_);
-  hear(input);
+  hear(input, false);
   if (parts_.observer) parts_.observer(now, input, parts_.scene);
 }
 
-void ShowStages::hear(const InputSample& input) {
+void ShowStages::hear(const InputSample& input, bool still) {
   if (!parts_.sounds) return;
   parts_.scene.listen(input, heard_);
-  SoundMix mix;
-  if (parts_.desk) mix = {parts_.desk->state().volume, parts_.desk->state().still()};
-  parts_.sounds->hear(heard_, mix);
+  parts_.sounds->hear(heard_, {parts_.desk ? parts_.desk->state().volume : 1, still});
 }
 
 // The signature, sky and viewer of the last frame stay in the change set, but that the visitor looks around.
@@ -46,7 +44,7 @@ void ShowStages::still(std::size_t slot) {
   if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
   InputSample now;
   if (parts_.input.sampleNow(now)) changes_.viewer.set(parts_.scene.rigPose(), parts_.scene.headInRig(now));
-  hear(parts_.scene.lastInput());
+  hear(parts_.scene.lastInput(), true);
   parts_.state.publish(slot, changes_);
 }
 
