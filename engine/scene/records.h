@@ -36,11 +36,11 @@ static_assert(std::is_trivially_copyable_v<InstanceRecord> && sizeof(InstanceRec
 InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, std::uint32_t owner);
 
 struct LightRecord {
-  std::uint32_t kind = 0;            ///< DrawLight::Kind
-  float colour[3] = {1, 1, 1};       ///< linear, intensity included
-  double position[3] = {0, 0, 0};    ///< World [m]
-  double direction[3] = {0, 0, -1};  ///< World, unit, the way the light goes
-  float range = 0, cosInner = 1, cosOuter = 0;
+  std::uint32_t kind = 0;                       ///< DrawLight::Kind
+  float colour[3] = {1, 1, 1};                  ///< linear, intensity included
+  double position[3] = {0, 0, 0};               ///< World [m]
+  double direction[3] = {0, 0, -1};             ///< World, unit, the way the light goes
+  float range = 0, cosInner = 1, cosOuter = 0;  ///< range [m]; directional: greater than 0 = casts shadows
 };
 
 struct SkyRecord {

@@ -17,6 +17,7 @@ LightRecord afternoonSun() {
   const Vec3 direction = Vec3(-0.45, 0.35, -0.8).normalized();
   const float colour[3] = {1.0f, 0.96f, 0.88f};
   for (int i = 0; i < 3; ++i) sun.direction[i] = direction[i], sun.colour[i] = colour[i];
+  sun.range = 1;
   return sun;
 }
 

@@ -45,6 +45,7 @@ Made makeLight(const NodeRequest& r) {
   const Vec3 direction = d.vec3(Attr::Direction).normalized();
   for (int i = 0; i < 3; ++i) light.direction[i] = direction[i];
   light.range = static_cast<float>(d.optionalNumber(Attr::Range).value_or(0));
+  if (d.choice<LightType>(Attr::Type) == LightType::Directional) light.range = d.flag(Attr::Shadows) ? 1 : 0;
   const double half = 0.5 * d.number(Attr::Angle) * kDegree;
   light.cosOuter = static_cast<float>(det::cos(half));
   light.cosInner = static_cast<float>(det::cos(0.8 * half));

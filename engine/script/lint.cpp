@@ -121,6 +121,8 @@ private:
       warn(node, Attr::Angle, "angle has no effect: only a spot light has one");
     if (node.has(Attr::Range) && type == "directional")
       warn(node, Attr::Range, "range has no effect: a directional light reaches everywhere");
+    if (node.has(Attr::Shadows) && type != "directional")
+      warn(node, Attr::Shadows, "shadows has no effect: only a directional light casts them");
     if (node.has(Attr::Direction) && type == "point")
       warn(node, Attr::Direction, "direction has no effect: a point light shines all around");
     warnNeverOn(node);

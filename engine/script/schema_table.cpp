@@ -196,6 +196,10 @@ constexpr AttributeSpec kLightRows[] = {
      .standard = "45",
      .unit = "degrees",
      .range = {0, 180, true}},
+    {.attr = Attr::Shadows,
+     .kind = Flag,
+     .help = "directional: whether things cast shadows; of several such lights, the first that is on",
+     .standard = "on"},
     kInitOn,
 };
 

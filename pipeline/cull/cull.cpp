@@ -1,5 +1,7 @@
 #include "pipeline/cull/cull.h"
 
+#include "pipeline/cull/shadow_cull.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -74,6 +76,7 @@ void setLights(const SlotView& state, DrawList& out) {
       d.colour[k] = l.colour[k];
     }
     d.range = l.range, d.cosInner = l.cosInner, d.cosOuter = l.cosOuter;
+    d.shadows = d.kind == DrawLight::Kind::Directional && l.range > 0;
     out.lights.push_back(d);
   }
 }
@@ -95,7 +98,7 @@ CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t i
   out.opaque.clear(), out.transparent.clear();
   const auto from = view.camera ? view.camera->view() : std::nullopt;
   if (view.camera && !from) {
-    out.eyeCount = 0;
+    out.eyeCount = 0, out.shadows.light = -1;
     return {};
   }
   const ConvexVolume volume =
@@ -104,13 +107,17 @@ CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t i
   setSky(*state.sky, out);
 
   ListFiller filler(volume, out);
+  ShadowCull shadows(state, out);
+  const auto consider = [&](const InstanceRecord& r) {
+    filler.consider(r, r.owner);
+    shadows.consider(r);
+  };
   for (const ChunkId id : state.chunks) {
     const ChunkView chunk = state.chunk(id);
     for (std::size_t i = 0; i < chunk.records.size(); ++i)
-      if (!((chunk.hidden[i / 64] >> (i % 64)) & 1))
-        filler.consider(chunk.records[i], chunk.records[i].owner);
+      if (!((chunk.hidden[i / 64] >> (i % 64)) & 1)) consider(chunk.records[i]);
   }
-  for (const InstanceRecord& r : state.instances) filler.consider(r, r.owner);
+  for (const InstanceRecord& r : state.instances) consider(r);
   if (from) view.camera->addTo(out, *state.viewer);
 
   // The order must not depend on where records lie, only on what they are.

@@ -9,6 +9,7 @@
 #include "engine/asset/mesh_store.h"
 #include "engine/maths/maths.h"
 #include "pipeline/frame_ticket.h"
+#include "pipeline/state/shadow_places.h"
 
 #include <array>
 #include <vector>
@@ -31,6 +32,7 @@ struct DrawLight {
   std::array<float, 3> colour{1, 1, 1};      ///< linear, intensity included
   float range = 0;                           ///< where it has faded out [m]; 0 = it does not fade
   float cosInner = 1, cosOuter = 0;          ///< of the spot's half angles
+  bool shadows = false;                      ///< directional: things stand in its way
 };
 
 struct DrawSky {
@@ -39,6 +41,25 @@ struct DrawSky {
   std::array<float, 3> ground{0.28f, 0.26f, 0.22f};   ///< linear, below the horizon
   std::array<float, 3> ambient{0.25f, 0.27f, 0.30f};  ///< linear, light from everywhere
   float hazeDistance = 0;                             ///< where 63 % is haze [m]; 0 = none
+};
+
+constexpr std::uint32_t kShadowTexels = 1024;  ///< a side of a ring of the shadow maps
+constexpr double kShadowDepth = 600;           ///< of a ring, along the light, from its middle either way [m]
+
+/// A square across the light, and what casts shadows into it. Matrices are relative to the ring's middle.
+struct DrawShadowRing {
+  std::array<float, 3> offset{};  ///< of the list's origin from the ring's middle, along the axes [m]
+  std::vector<DrawItem> still, moving;
+  std::uint64_t stillKey = 0, movingKey = 0;  ///< follow from what casts and from where the ring is
+  std::array<float, 4> movingArea{1, 1, -1,
+                                  -1};  ///< what moves covers: from x, y to x, y; the ring is -1 .. 1
+};
+
+/// The light whose shadows are drawn, and the rings from the nearest, finest one outwards.
+struct DrawShadows {
+  std::int32_t light = -1;      ///< its index in the list; -1 = there are no shadows
+  std::array<float, 9> axes{};  ///< (3 x 3), rows: right, up, towards the light; in World
+  std::array<DrawShadowRing, kShadowRings> rings;
 };
 
 /// One eye's camera.
@@ -55,7 +76,8 @@ struct DrawList {
   std::array<DrawEye, 2> eyes;  ///< left, right
   std::uint32_t eyeCount = 2;   ///< 1 = mono: eyes[0] only
   DrawSky sky;
-  std::vector<DrawLight> lights;      ///< at most kMaxLights
+  std::vector<DrawLight> lights;  ///< at most kMaxLights
+  DrawShadows shadows;
   std::vector<DrawItem> opaque;       ///< sorted by mesh, then near to far
   std::vector<DrawItem> transparent;  ///< items with any transparent material, far to near
 

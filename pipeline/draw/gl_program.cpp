@@ -69,8 +69,10 @@ Result<GlProgram> GlProgram::build(const GlTable& gl, const std::string& vertex,
   bindBlock(gl, program.name(), "View", kViewBinding);
   bindBlock(gl, program.name(), "Scene", kSceneBinding);
   bindBlock(gl, program.name(), "Material", kMaterialBinding);
+  bindBlock(gl, program.name(), "Shadow", kShadowBinding);
   gl.UseProgram(program.name());
   gl.Uniform1i(gl.GetUniformLocation(program.name(), "baseTexture"), 0);  // the same for every view
+  gl.Uniform1i(gl.GetUniformLocation(program.name(), "shadowMap"), kShadowUnit);
   return program;
 }
 

@@ -53,6 +53,7 @@ namespace stadion {
   X(PFNGLFENCESYNCPROC, FenceSync)                                                                           \
   X(PFNGLFLUSHPROC, Flush)                                                                                   \
   X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)                                               \
+  X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                                                     \
   X(PFNGLFRONTFACEPROC, FrontFace)                                                                           \
   X(PFNGLGENBUFFERSPROC, GenBuffers)                                                                         \
   X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                                                               \
@@ -73,9 +74,11 @@ namespace stadion {
   X(PFNGLISBUFFERPROC, IsBuffer)                                                                             \
   X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                       \
   X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                       \
+  X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                                                                   \
   X(PFNGLREADBUFFERPROC, ReadBuffer)                                                                         \
   X(PFNGLREADPIXELSPROC, ReadPixels)                                                                         \
   X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample)                                 \
+  X(PFNGLSCISSORPROC, Scissor)                                                                               \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                     \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                                                         \
   X(PFNGLTEXPARAMETERFPROC, TexParameterf)                                                                   \

@@ -30,21 +30,21 @@ void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
   if (count > 0) opaque_.push_back({run.front().mesh, first, count, mirrored});
 }
 
-void InstanceBatches::build(const DrawList& list) {
+void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent) {
   matrices_.clear();
   opaque_.clear();
   transparent_.clear();
 
-  for (std::size_t begin = 0; begin < list.opaque.size();) {
+  for (std::size_t begin = 0; begin < opaque.size();) {
     std::size_t end = begin + 1;
-    while (end < list.opaque.size() && list.opaque[end].mesh == list.opaque[begin].mesh) ++end;
-    const std::span run(list.opaque.data() + begin, end - begin);
+    while (end < opaque.size() && opaque[end].mesh == opaque[begin].mesh) ++end;
+    const std::span run = opaque.subspan(begin, end - begin);
     addRun(run, false);
     addRun(run, true);
     begin = end;
   }
 
-  for (const DrawItem& item : list.transparent) {
+  for (const DrawItem& item : transparent) {
     const Handedness hand = handednessOf(item.model);
     if (hand == Handedness::NotFinite) continue;
     const bool mirrored = hand == Handedness::Mirrored;
@@ -54,7 +54,7 @@ void InstanceBatches::build(const DrawList& list) {
     matrices_.push_back(item.model);
     ++transparent_.back().count;
   }
-  refused_ = list.opaque.size() + list.transparent.size() - matrices_.size();
+  refused_ = opaque.size() + transparent.size() - matrices_.size();
 }
 
 }  // namespace stadion

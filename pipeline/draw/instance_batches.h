@@ -23,7 +23,9 @@ using InstanceMatrix = std::array<float, 12>;  ///< (3 x 4), row major, as in Dr
 class InstanceBatches {
 public:
   /// Items whose matrix is not finite are left out and counted.
-  void build(const DrawList& list);
+  void build(const DrawList& list) { build(list.opaque, list.transparent); }
+  /// Expects opaque items of one mesh next to each other.
+  void build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent);
 
   std::span<const InstanceMatrix> matrices() const { return matrices_; }
   std::span<const InstanceBatch> opaque() const { return opaque_; }

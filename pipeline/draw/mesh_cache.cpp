@@ -42,6 +42,14 @@ const void* offset(std::size_t bytes) {
 
 }  // namespace
 
+void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_t first) {
+  constexpr std::size_t kRow = 4 * sizeof(float), kMatrix = 3 * kRow;
+  gl.BindBuffer(GL_ARRAY_BUFFER, instances.name());
+  for (GLuint row = 0; row < 3; ++row)
+    gl.VertexAttribPointer(kModelX + row, 4, GL_FLOAT, GL_FALSE, kMatrix,
+                           offset(first * kMatrix + row * kRow));
+}
+
 MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes)
     : gl_(gl), store_(meshes),
       anisotropy_(!isSoftware(gl) && (hasGlExtension(gl, "GL_EXT_texture_filter_anisotropic") ||

@@ -36,6 +36,9 @@ struct GlMesh {
 /// Where vertex arrays find what; the shaders use the same numbers.
 enum VertexAttribute : GLuint { kPosition, kNormal, kUv, kColour, kModelX, kModelY, kModelZ };
 
+/// Points the model matrices of the bound vertex array at `instances`, from number `first` on.
+void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_t first);
+
 class MeshCache {
 public:
   MeshCache(const GlTable& gl, const MeshStore& meshes);

@@ -3,7 +3,6 @@
 #include "engine/run_stopped.h"
 #include "pipeline/draw/picture_size.h"
 #include "pipeline/draw/problem.h"
-#include "pipeline/draw/shaders.h"
 
 #include <algorithm>
 #include <cassert>
@@ -74,17 +73,37 @@ std::unique_lock<std::mutex> Renderer::turn() const {
 
 Result<Renderer::Programs> Renderer::buildPrograms(const GlTable& gl) {
   Programs programs;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const SurfaceTraits traits{(i & 1) != 0, (i & 2) != 0, (i & 4) != 0};
-    auto built = GlProgram::build(gl, surfaceVertexShader(traits), surfaceFragmentShader(traits));
-    if (!built) return built.error();
-    assert(surfaceIndex(traits) == i);
-    programs.surface.push_back(std::move(built.value()));
-  }
+  auto surfaces = buildSurfaces(gl, false, false);
+  if (!surfaces) return surfaces.error();
+  programs.surface[0] = std::move(surfaces.value());
   auto sky = GlProgram::build(gl, skyVertexShader(), skyFragmentShader());
   if (!sky) return sky.error();
   programs.sky.push_back(std::move(sky.value()));
   return programs;
+}
+
+Result<std::vector<GlProgram>> Renderer::buildSurfaces(const GlTable& gl, bool shadowed, bool hazy) {
+  std::vector<GlProgram> programs;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const SurfaceTraits traits{(i & 1) != 0, (i & 2) != 0, shadowed, hazy, (i & 4) != 0};
+    auto built = GlProgram::build(gl, surfaceVertexShader(traits), surfaceFragmentShader(traits));
+    if (!built) return built.error();
+    assert(surfaceIndex(traits) == i);
+    programs.push_back(std::move(built.value()));
+  }
+  return programs;
+}
+
+void Renderer::chooseSurfaces(bool shadowed, bool hazy) {
+  std::vector<GlProgram>& set = programs_.surface[std::size_t{shadowed} | std::size_t{hazy} << 1];
+  if (set.empty()) {
+    auto built = buildSurfaces(gl_, shadowed, hazy);
+    if (built)
+      set = std::move(built.value());
+    else
+      report(built.error().message);
+  }
+  surfaces_ = set.empty() ? &programs_.surface[0] : &set;
 }
 
 void Renderer::setUnchangingState() {
@@ -135,8 +154,26 @@ void Renderer::prepare(const DrawList& list) {
     report("more than " + std::to_string(DrawList::kMaxLights) + " lights: the rest are left out");
   stream(gl_, GL_ARRAY_BUFFER, instances_, batches_.matrices());
   localLights_ = std::any_of(list.lights.begin(), list.lights.end(), isLocal);
-  const SceneBlock scene = fillScene(list.sky, list.lights);
+  prepareShadows(list);
+  const SceneBlock scene = fillScene(list.sky, list.lights, shadowed_ ? list.shadows.light : -1);
   stream(gl_, GL_UNIFORM_BUFFER, scene_, std::span(&scene, 1));
+  chooseSurfaces(shadowed_, list.sky.hazeDistance > 0);
+}
+
+void Renderer::prepareShadows(const DrawList& list) {
+  shadowed_ = list.shadows.light >= 0 && !noShadows_;
+  if (!shadowed_) return;
+  if (!shadows_) {
+    auto made = ShadowMaps::create(gl_);
+    if (made)
+      shadows_ = std::move(made.value());
+    else
+      report(made.error().message);
+    noShadows_ = !made, shadowed_ = !noShadows_;
+  }
+  if (!shadowed_) return;
+  shadows_->update(list.shadows, cache_, [this] { stopIfAsked(); });
+  shadows_->bind();
 }
 
 void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
@@ -172,7 +209,6 @@ void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass) {
     if (pass == Pass::Transparent && mesh->transparentParts == 0) continue;
     if (pass == Pass::OpaqueParts && mesh->transparentParts == mesh->parts.size()) continue;
     gl_.BindVertexArray(mesh->vertexArray.name());
-    gl_.BindBuffer(GL_ARRAY_BUFFER, instances_.name());
     gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
     if (pass == Pass::Transparent) {
       drawTransparent(*mesh, batch);
@@ -180,7 +216,7 @@ void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass) {
     }
     for (std::uint32_t done = 0; done < batch.count; done += kMostAtOnce) {
       stopIfAsked();
-      pointAtInstances(batch.first + done);
+      pointAtInstances(gl_, instances_, batch.first + done);
       for (const GlSubmesh& part : mesh->parts) {
         if (pass == Pass::OpaqueParts && part.transparent) continue;
         cull(false, !part.bothSides);
@@ -200,7 +236,7 @@ void Renderer::drawTransparent(const GlMesh& mesh, const InstanceBatch& batch) {
   for (std::uint32_t i = 0; i < batch.count; i += most) {
     const std::uint32_t step = std::min(batch.count - i, most);
     stopIfAsked();
-    pointAtInstances(batch.first + i);
+    pointAtInstances(gl_, instances_, batch.first + i);
     for (const GlSubmesh& part : mesh.parts) {
       if (!part.transparent) continue;
       if (part.bothSides) {
@@ -214,7 +250,7 @@ void Renderer::drawTransparent(const GlMesh& mesh, const InstanceBatch& batch) {
 }
 
 void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended) {
-  use(programs_.surface[surfaceIndex({part.texture != 0, localLights_, blended})]);
+  use((*surfaces_)[surfaceIndex({part.texture != 0, localLights_, false, false, blended})]);
   if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
   gl_.BindBufferRange(GL_UNIFORM_BUFFER, kMaterialBinding, mesh.materials.name(), part.materialOffset,
                       sizeof(MaterialBlock));
@@ -232,12 +268,6 @@ void Renderer::drawSky() {
   cull(false, false);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   ++counts_.calls;
-}
-
-void Renderer::pointAtInstances(std::uint32_t first) {
-  for (GLuint row = 0; row < 3; ++row)
-    gl_.VertexAttribPointer(kModelX + row, 4, GL_FLOAT, GL_FALSE, sizeof(InstanceMatrix),
-                            offset(first * sizeof(InstanceMatrix) + row * 4 * sizeof(float)));
 }
 
 void Renderer::cull(bool front, bool back) {

@@ -1,7 +1,8 @@
 #pragma once
 /// Draws a wall's draw lists with OpenGL 3.3 core.
 ///
-/// Order        opaque things instanced by mesh, then the sky where nothing was drawn, then transparent
+/// Order        shadow maps, as far as they have changed, then opaque things instanced by mesh, then the sky
+/// where nothing was drawn, then transparent
 ///              things in the list's order, blended and without writing depth. 4 samples a pixel, light
 ///              computed in linear RGB, pictures in sRGB (shaders.h says how).
 /// Same pixels  for the same list in every thread, context and provider of one Mesa version.
@@ -19,6 +20,8 @@
 #include "pipeline/draw/gl_program.h"
 #include "pipeline/draw/instance_batches.h"
 #include "pipeline/draw/mesh_cache.h"
+#include "pipeline/draw/shaders.h"
+#include "pipeline/draw/shadow_maps.h"
 #include "pipeline/draw/uniform_blocks.h"
 
 #include <functional>
@@ -70,8 +73,10 @@ public:
 
 private:
   struct Programs {
-    std::vector<GlProgram> surface;  ///< by surfaceIndex()
-    std::vector<GlProgram> sky;      ///< one
+    /// By surfaceIndex() of those that differ in the mesh and the light. One set for air without haze and
+    /// shadows, which is there from the start; the others, each at its first use.
+    std::array<std::vector<GlProgram>, 4> surface;
+    std::vector<GlProgram> sky;  ///< one
   };
   enum class Pass { Opaque, OpaqueParts, Transparent };
 
@@ -82,6 +87,9 @@ private:
 
   void drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
   void prepare(const DrawList& list);
+  void prepareShadows(const DrawList& list);
+  static Result<std::vector<GlProgram>> buildSurfaces(const GlTable& gl, bool shadowed, bool hazy);
+  void chooseSurfaces(bool shadowed, bool hazy);
   void drawEye(const DrawEye& eye, std::uint32_t index);
   void setUnchangingState();
   void drawBatches(std::span<const InstanceBatch> batches, Pass pass);
@@ -89,7 +97,6 @@ private:
   void drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended);
   void stopIfAsked() const;
   void drawSky();
-  void pointAtInstances(std::uint32_t first);
   void cull(bool front, bool back);
   void use(const GlProgram& program);
   std::optional<Diagnostic> collectProblems();
@@ -108,8 +115,11 @@ private:
   std::array<GlBuffer, 2> views_;
   GlVertexArray nothing_;  // the sky's triangle has no vertex data
   GLuint usedProgram_ = 0;
-  bool localLights_ = false;
-  const std::function<bool()>* giveUp_ = nullptr;  ///< while a list is drawn
+  bool localLights_ = false, shadowed_ = false;
+  const std::vector<GlProgram>* surfaces_ = nullptr;  ///< of the list that is drawn
+  std::unique_ptr<ShadowMaps> shadows_;               ///< from the first list with shadows on
+  bool noShadows_ = false;                            ///< this OpenGL cannot
+  const std::function<bool()>* giveUp_ = nullptr;     ///< while a list is drawn
   DrawCounts counts_;
   std::set<std::string> reported_;
   std::optional<Diagnostic> problem_;

@@ -29,6 +29,19 @@ layout(std140) uniform Scene {
   Light lights[16];
 };
 
+// The sun's glow in the air.
+vec3 glow(vec3 d) {
+  float off = max(1.0 - dot(d, sunDirection.xyz), 0.0);  // half the square of the angle
+  float near = 1.0 / (1.0 + 900.0 * off);
+  return sunColour.rgb * (0.3 * near * near + 0.06 / (1.0 + 18.0 * off)) * sunDirection.w;
+}
+
+// Air without end, seen in direction d.
+vec3 air(vec3 d) {
+  float low = (1.0 - max(d.z, 0.0)) * (1.0 - max(d.z, 0.0));
+  return mix(zenith.rgb, horizon.rgb, low * low) + glow(d);
+}
+
 // Leaves 0 .. 0.8 alone and bends what is brighter towards 1, with a continuous slope.
 vec3 softClip(vec3 c) {
   vec3 over = max(c - 0.8, 0.0) * 5.0;
@@ -95,6 +108,41 @@ out vec4 shown;
 
 vec3 ambientFrom(vec3 n) { return ambient.rgb * mix(0.3 + ground.rgb, vec3(1.0), 0.5 + 0.5 * n.z); }
 
+#ifdef SHADOWED
+layout(std140) uniform Shadow {
+  vec4 shadowRight;
+  vec4 shadowUp;
+  vec4 shadowTowards;
+  vec4 shadowRings[4];
+  vec4 shadowLift;
+};
+uniform sampler2DShadow shadowMap;
+
+// How far p lies from the middle of a ring's quarter of the map; the quarter ends at 0.25.
+float outside(vec2 p, vec4 ring, vec2 middle) {
+  vec2 away = abs(p * ring.w + ring.xy - middle);
+  return max(away.x, away.y);
+}
+
+// The part of the light that arrives.
+float lightArriving(vec3 n) {
+  vec3 s = vec3(dot(shadowRight.xyz, placed), dot(shadowUp.xyz, placed), dot(shadowTowards.xyz, placed));
+  vec4 ring = shadowRings[3];
+  float lift = shadowLift.w;
+  float edge = outside(s.xy, ring, vec2(0.75, 0.75));
+  if (outside(s.xy, shadowRings[2], vec2(0.25, 0.75)) < 0.245) { ring = shadowRings[2]; lift = shadowLift.z; }
+  if (outside(s.xy, shadowRings[1], vec2(0.75, 0.25)) < 0.245) { ring = shadowRings[1]; lift = shadowLift.y; }
+  if (outside(s.xy, shadowRings[0], vec2(0.25, 0.25)) < 0.245) { ring = shadowRings[0]; lift = shadowLift.x; }
+  s += lift * vec3(dot(shadowRight.xyz, n), dot(shadowUp.xyz, n), dot(shadowTowards.xyz, n));
+  vec2 at = s.xy * ring.w + ring.xy;
+  float depth = s.z * shadowTowards.w + ring.z;
+  const vec2 o = vec2(0.75, -0.75) / 2048.0;  // of a texel, so that the edge is some three texels wide
+  float lit = textureLod(shadowMap, vec3(at + o.xx, depth), 0.0) + textureLod(shadowMap, vec3(at + o.xy, depth), 0.0) +
+              textureLod(shadowMap, vec3(at + o.yx, depth), 0.0) + textureLod(shadowMap, vec3(at + o.yy, depth), 0.0);
+  return mix(0.25 * lit, 1.0, clamp((edge - 0.22) * 40.0, 0.0, 1.0));
+}
+#endif
+
 float fifth(float x) {
   float squared = x * x;
   return squared * squared * x;
@@ -126,6 +174,9 @@ void main() {
   float spread = roughness * roughness;
   float spreadSquared = spread * spread;
   float k = 0.5 * spread;
+#ifdef SHADOWED
+  float arriving = lightArriving(n);  // not in the loop: its lines are run whatever the branches say
+#endif
   for (int i = 0; i < lightCount.x; ++i) {
     vec3 l = lights[i].direction.xyz;
     float strength = 1.0;
@@ -145,6 +196,9 @@ void main() {
 #endif
     float nl = dot(n, l);
     if (nl > 0.0) {
+#ifdef SHADOWED
+      strength *= i == lightCount.y ? arriving : 1.0;
+#endif
       vec3 h = l + v;
       h *= inversesqrt(max(dot(h, h), 1e-12));
       float nh = clamp(dot(n, h), 0.0, 1.0);
@@ -156,12 +210,26 @@ void main() {
     }
   }
 
-  if (ambient.w > 0.0) light = mix(horizon.rgb, light, exp2(-1.442695 * distanceSquared * perDistance * ambient.w));
+#ifdef HAZY
+  light = mix(air(-v), light, exp2(-1.442695 * distanceSquared * perDistance * ambient.w));
+#endif
 #ifdef BLENDED
   shown = vec4(softClip(light), clamp(base.a, 0.0, 1.0));
 #else
   shown = encoded(softClip(light));
 #endif
+}
+)";
+
+constexpr const char* kShadowVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 4) in vec4 modelX;
+layout(location = 5) in vec4 modelY;
+layout(location = 6) in vec4 modelZ;
+
+void main() {
+  vec4 p = vec4(position, 1.0);
+  gl_Position = viewProjection * vec4(dot(modelX, p), dot(modelY, p), dot(modelZ, p), 1.0);
 }
 )";
 
@@ -182,17 +250,11 @@ void main() {
   vec3 d = normalize(ray);
   vec3 c;
   if (d.z >= 0.0) {
-    float low = (1.0 - d.z) * (1.0 - d.z);
-    c = mix(zenith.rgb, horizon.rgb, low * low);
-    if (sunDirection.w > 0.5) {
-      float off = max(1.0 - dot(d, sunDirection.xyz), 0.0);  // half the square of the angle
-      float glow = 1.0 / (1.0 + 900.0 * off);
-      float disc = 1.0 - smoothstep(6.0e-5, 9.0e-5, off);
-      c += sunColour.rgb * (0.3 * glow * glow + 0.06 / (1.0 + 18.0 * off) + 3.0 * disc);
-    }
+    float off = max(1.0 - dot(d, sunDirection.xyz), 0.0);
+    c = air(d) + sunColour.rgb * (3.0 * sunDirection.w * (1.0 - smoothstep(6.0e-5, 9.0e-5, off)));
   } else {
     // An endless plain in thin haze: near the horizon one looks through ever more of it.
-    c = mix(horizon.rgb, ground.rgb, exp2(0.03 / min(d.z, -1e-4)));
+    c = mix(air(d), ground.rgb, exp2(0.03 / min(d.z, -1e-4)));
   }
   shown = encoded(softClip(c));
 }
@@ -201,6 +263,8 @@ void main() {
 std::string definitions(const SurfaceTraits& traits) {
   std::string text;
   if (traits.textured) text += "#define TEXTURED\n";
+  if (traits.shadowed) text += "#define SHADOWED\n";
+  if (traits.hazy) text += "#define HAZY\n";
   if (traits.localLights) text += "#define LOCAL_LIGHTS\n";
   if (traits.blended) text += "#define BLENDED\n";
   return text;
@@ -214,6 +278,14 @@ std::string surfaceVertexShader(const SurfaceTraits& traits) {
 
 std::string surfaceFragmentShader(const SurfaceTraits& traits) {
   return kVersion + definitions(traits) + kBlocks + kSurfaceFragment;
+}
+
+std::string shadowVertexShader() {
+  return std::string(kVersion) + kBlocks + kShadowVertex;
+}
+
+std::string shadowFragmentShader() {
+  return std::string(kVersion) + "void main() {}\n";
 }
 
 std::string skyVertexShader() {

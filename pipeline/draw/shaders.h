@@ -9,7 +9,11 @@
 ///              between in proportion to their normal's z.
 /// Range        radiance up to 0.8 is shown as it is; above, it approaches 1 smoothly (softClip).
 /// sRGB         opaque surfaces and the sky encode it themselves: once a pixel, not once a sample.
-/// Haze         what lies d away keeps exp(-d / haze distance) of its colour; the rest is the horizon's.
+/// Haze         what lies d away keeps exp(-d / haze distance) of its colour; the rest is the sky's behind
+/// it,
+///              brighter towards the sun, so that what is far melts into the horizon.
+/// Shadows      of one directional light: four lookups of two by two texels in the ring of the shadow maps
+///              that is finest there (shadow_maps.h). Beyond the last ring everything is lit.
 
 #include <string>
 
@@ -20,11 +24,16 @@ namespace stadion {
 struct SurfaceTraits {
   bool textured = false;
   bool localLights = false;  ///< there are point or spot lights
+  bool shadowed = false;     ///< a light casts shadows
+  bool hazy = false;         ///< there is haze
   bool blended = false;      ///< writes linear light, for blending in a buffer that encodes sRGB itself
 };
 
 std::string surfaceVertexShader(const SurfaceTraits& traits);
 std::string surfaceFragmentShader(const SurfaceTraits& traits);
+/// Depth alone, as the light sees it.
+std::string shadowVertexShader();
+std::string shadowFragmentShader();
 std::string skyVertexShader();
 std::string skyFragmentShader();
 

@@ -71,7 +71,7 @@ bool fillView(const DrawEye& eye, ViewBlock& out) {
   return true;
 }
 
-SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights) {
+SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights, std::int32_t shadowed) {
   SceneBlock out{};
   out.zenith = widen(sky.zenith, 0);
   out.horizon = widen(sky.horizon, 0);
@@ -79,7 +79,7 @@ SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights) {
   out.ambient = widen(sky.ambient, sky.hazeDistance > 0 ? 1 / sky.hazeDistance : 0);
   placeSun(lights, out);
   const std::size_t count = std::min(lights.size(), DrawList::kMaxLights);
-  out.lightCount[0] = static_cast<std::int32_t>(count);
+  out.lightCount = {static_cast<std::int32_t>(count), shadowed, 0, 0};
   for (std::size_t i = 0; i < count; ++i) out.lights[i] = fillLight(lights[i]);
   return out;
 }

@@ -30,11 +30,11 @@ struct LightBlock {
 
 /// What both eyes of a wall share.
 struct SceneBlock {
-  Float4 zenith, horizon, ground;  ///< linear; w unused
-  Float4 ambient;                  ///< linear; w: 1 / haze distance [1/m], or 0
-  Float4 sunDirection;             ///< towards the sun, unit; w: 1 if there is one
-  Float4 sunColour;                ///< linear, brightest component 1
-  std::array<std::int32_t, 4> lightCount;
+  Float4 zenith, horizon, ground;          ///< linear; w unused
+  Float4 ambient;                          ///< linear; w: 1 / haze distance [1/m], or 0
+  Float4 sunDirection;                     ///< towards the sun, unit; w: 1 if there is one
+  Float4 sunColour;                        ///< linear, brightest component 1
+  std::array<std::int32_t, 4> lightCount;  ///< y: the light that casts shadows, or -1
   std::array<LightBlock, DrawList::kMaxLights> lights;
 };
 
@@ -44,12 +44,26 @@ struct MaterialBlock {
   Float4 finish;      ///< x: metallic
 };
 
+/// Where the shadow maps lie: from World axes relative to the list's origin to the texture.
+struct ShadowBlock {
+  Float4 right, up;                        ///< the light's axes; w unused
+  Float4 towards;                          ///< w: depth per metre
+  std::array<Float4, kShadowRings> rings;  ///< what to add to texture coordinates and depth; w: their scale
+  Float4 lift;                             ///< for each ring: along the surface's normal [m]
+};
+
 /// Where the blocks are bound.
-enum UniformBinding : std::uint32_t { kViewBinding = 0, kSceneBinding = 1, kMaterialBinding = 2 };
+enum UniformBinding : std::uint32_t {
+  kViewBinding = 0,
+  kSceneBinding = 1,
+  kMaterialBinding = 2,
+  kShadowBinding = 3
+};
+constexpr int kShadowUnit = 1;  ///< the texture unit of the shadow maps
 
 /// False if the eye's matrices are not finite or cannot be inverted: nothing can be drawn then.
 bool fillView(const DrawEye& eye, ViewBlock& out);
-SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights);
+SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights, std::int32_t shadowed = -1);
 MaterialBlock fillMaterial(const Material& material);
 
 }  // namespace stadion

@@ -9,6 +9,7 @@ struct SceneState::Header {
   TimeSignature signature;
   ViewerRecord viewer;
   SkyRecord sky;
+  ShadowRecord shadows;
   std::uint32_t lightCount, chunkCount;
   std::uint64_t instanceCount;
   LightRecord lights[kMaxLights];
@@ -84,11 +85,21 @@ void SceneState::catchUp(std::size_t slot, std::size_t& copied) {
   missed.statics.clear();
 }
 
+/// Notes that the instance is published, and says whether it was there before.
+bool SceneState::movesBy(const ChangeSet::Instance& change) {
+  if (known_.size() <= change.id) known_.resize(change.id + std::size_t{1}, Known::Absent);
+  Known& known = known_[change.id];
+  const bool there = change.record.radius >= 0;
+  known = !there ? Known::Absent : known == Known::Absent ? Known::Still : Known::Moves;
+  return known == Known::Moves;
+}
+
 void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
   Header& h = header(slot);
   for (const ChangeSet::Instance& i : changes.instances) {
     ensure(slot, i.id + std::size_t{1});
     instances(slot)[i.id] = i.record;
+    if (movesBy(i)) instances(slot)[i.id].flags |= kMoves;
   }
   for (const ChangeSet::StaticItem& s : changes.statics)
     if (const ChunkView there = arena_.find(s.chunk, slot); !there.records.empty())
@@ -106,6 +117,7 @@ void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
   }
   h.sky = changes.sky;
   h.viewer = changes.viewer;
+  h.shadows = shadowPlaces_.follow(changes.viewer.rig() * changes.viewer.head().p);
   h.signature = changes.signature;
 }
 
@@ -150,7 +162,7 @@ std::size_t SceneState::publish(std::size_t slot, const ChangeSet& changes) {
 SlotView SceneState::view(std::size_t slot) const {
   const Header& h = header(slot);
   SlotView v;
-  v.signature = &h.signature, v.viewer = &h.viewer, v.sky = &h.sky;
+  v.signature = &h.signature, v.viewer = &h.viewer, v.sky = &h.sky, v.shadows = &h.shadows;
   v.lights = {h.lights, h.lightCount};
   v.instances = {instances(slot), h.instanceCount};
   v.chunks = {h.chunks, h.chunkCount};

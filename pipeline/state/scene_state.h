@@ -11,17 +11,23 @@
 ///          slot (FrameSlots decides who may do what when).
 
 #include "pipeline/state/chunk_arena.h"
+#include "pipeline/state/shadow_places.h"
 
 #include <map>
 #include <memory>
 
 namespace stadion {
 
+/// In the flags of a published instance: it has been published before, elsewhere or otherwise. What only ever
+/// stood still is kept in the shadow maps.
+constexpr std::uint32_t kMoves = 1U << 31;
+
 /// One frame's state, read-only. Valid while the lease on its slot is held.
 struct SlotView {
   const TimeSignature* signature = nullptr;
   const ViewerRecord* viewer = nullptr;
   const SkyRecord* sky = nullptr;
+  const ShadowRecord* shadows = nullptr;
   std::span<const LightRecord> lights;
   std::span<const InstanceRecord> instances;  ///< by InstanceId; radius < 0 = not there
   std::span<const ChunkId> chunks;            ///< shown
@@ -63,6 +69,7 @@ private:
   Header& header(std::size_t slot) const;
   InstanceRecord* instances(std::size_t slot) const;
   void ensure(std::size_t slot, std::size_t instanceCount);
+  bool movesBy(const ChangeSet::Instance& change);
   void catchUp(std::size_t slot, std::size_t& copied);
   void apply(std::size_t slot, const ChangeSet& changes);
   void miss(std::size_t slot, const ChangeSet& changes);
@@ -70,6 +77,9 @@ private:
   ChunkArena arena_;
   std::vector<std::unique_ptr<SharedSegment>> memory_;
   std::array<Missed, kSlots> missed_;
+  enum class Known : std::uint8_t { Absent, Still, Moves };
+  std::vector<Known> known_;  ///< by InstanceId; App's own
+  ShadowPlaces shadowPlaces_;
   std::size_t newest_ = 0;
   bool any_ = false;
 };

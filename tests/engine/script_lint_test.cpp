@@ -162,5 +162,11 @@ TEST(ScriptLint, CharactersThatTheFontLacksAreNamed) {
             Messages{"the letters of the show have no U+263A; a box stands for it"});
 }
 
+TEST(ScriptLint, OnlyADirectionalLightCastsShadows) {
+  EXPECT_EQ(warningsOf("light(type=point, shadows=on)"),
+            Messages{"shadows has no effect: only a directional light casts them"});
+  EXPECT_TRUE(warningsOf("light(shadows=off)").empty());
+}
+
 }  // namespace
 }  // namespace stadion

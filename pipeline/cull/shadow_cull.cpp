@@ -1,0 +1,108 @@
+#include "pipeline/cull/shadow_cull.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+/// What is smaller than this part of a texel casts no shadow that could be seen.
+constexpr double kLeastCaster = 0.5;
+
+std::uint64_t stirred(std::uint64_t x) {  // the finaliser of MurmurHash3
+  x = (x ^ (x >> 33)) * 0xff51afd7ed558ccd;
+  x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53;
+  return x ^ (x >> 33);
+}
+
+std::uint64_t keyOf(const DrawItem& item) {
+  std::uint64_t key = item.mesh;
+  for (std::size_t k = 0; k < 12; k += 2)
+    key = stirred(key ^ (std::uint64_t{std::bit_cast<std::uint32_t>(item.model[k])} |
+                         std::uint64_t{std::bit_cast<std::uint32_t>(item.model[k + 1])} << 32));
+  return key;
+}
+
+/// Right, up and towards the light: any frame will do that depends on the direction alone.
+Mat3 axesTowards(const Vec3& light) {
+  const Vec3 helper = std::abs(light.z()) < 0.99 ? Vec3::UnitZ() : Vec3::UnitY();
+  const Vec3 right = helper.cross(light).normalized();
+  Mat3 axes;
+  axes.row(0) = right, axes.row(1) = light.cross(right), axes.row(2) = light;
+  return axes;
+}
+
+}  // namespace
+
+ShadowCull::ShadowCull(const SlotView& state, DrawList& out) : shadows_(out.shadows), origin_(out.origin) {
+  shadows_.light = -1;
+  const auto casts = [](const DrawLight& l) { return l.kind == DrawLight::Kind::Directional && l.shadows; };
+  const auto light = std::ranges::find_if(out.lights, casts);
+  if (light == out.lights.end()) return;
+  const auto index = static_cast<std::size_t>(light - out.lights.begin());
+  const double* d = state.lights[index].direction;
+  const Vec3 towards = -Vec3(d[0], d[1], d[2]);
+  if (!towards.allFinite() || towards.squaredNorm() < 0.5) return;
+  shadows_.light = static_cast<std::int32_t>(index);
+  axes_ = axesTowards(towards.normalized());
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t k = 0; k < 3; ++k)
+      shadows_.axes[3 * row + k] =
+          static_cast<float>(axes_(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(k)));
+  for (std::size_t ring = 0; ring < kShadowRings; ++ring) {
+    const double* c = state.shadows->centre[ring];
+    placeRing(ring, Vec3(c[0], c[1], c[2]));
+  }
+}
+
+void ShadowCull::placeRing(std::size_t index, const Vec3& centre) {
+  DrawShadowRing& ring = shadows_.rings[index];
+  const double texel = 2 * kShadowReach[index] / kShadowTexels;
+  Vec3 c_L = axes_ * centre;
+  for (int k = 0; k < 2; ++k) c_L[k] = std::round(c_L[k] / texel) * texel;
+  centre_L_[index] = c_L;
+  centre_W_[index] = axes_.transpose() * c_L;
+  const Vec3 offset = axes_ * origin_ - c_L;
+  for (std::size_t k = 0; k < 3; ++k) ring.offset[k] = static_cast<float>(offset[static_cast<int>(k)]);
+  ring.still.clear(), ring.moving.clear();
+  ring.stillKey = 0;
+  for (const double x : {c_L[0], c_L[1], c_L[2], axes_(2, 0), axes_(2, 1), axes_(2, 2)})
+    ring.stillKey = stirred(ring.stillKey ^ std::bit_cast<std::uint64_t>(x));
+  ring.movingKey = 0;
+  ring.movingArea = {1, 1, -1, -1};
+}
+
+void ShadowCull::cast(const InstanceRecord& r) {
+  constexpr std::uint32_t kCasts = InstanceRecord::kShown;
+  if (r.radius < 0 || (r.flags & (kCasts | InstanceRecord::kTransparent)) != kCasts) return;
+  const double radius = double{r.radius};
+  const Vec3 p_L = axes_ * Vec3(r.centre[0], r.centre[1], r.centre[2]);
+  for (std::size_t index = 0; index < kShadowRings; ++index) {
+    const double reach = kShadowReach[index];
+    const Vec3 p = p_L - centre_L_[index];
+    // Not the other way round: what is not finite is left out.
+    if (!(std::max(std::abs(p.x()), std::abs(p.y())) < reach + radius)) continue;
+    if (!(std::abs(p.z()) < kShadowDepth + radius)) continue;
+    if (radius < kLeastCaster * 2 * reach / kShadowTexels) continue;
+    DrawItem item;
+    for (int k = 0; k < 12; ++k) {
+      const double shift = k % 4 == 3 ? centre_W_[index][k / 4] : 0.0;
+      item.model[static_cast<std::size_t>(k)] = static_cast<float>(r.model[k] - shift);
+    }
+    item.mesh = r.mesh;
+    DrawShadowRing& ring = shadows_.rings[index];
+    const bool moves = (r.flags & kMoves) != 0;
+    (moves ? ring.movingKey : ring.stillKey) += keyOf(item);
+    (moves ? ring.moving : ring.still).push_back(item);
+    if (!moves) continue;
+    auto& area = ring.movingArea;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double at = p[static_cast<int>(k)];
+      area[k] = std::min(area[k], static_cast<float>((at - radius) / reach));
+      area[2 + k] = std::max(area[2 + k], static_cast<float>((at + radius) / reach));
+    }
+  }
+}
+
+}  // namespace stadion

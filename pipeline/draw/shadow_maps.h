@@ -1,0 +1,66 @@
+#pragma once
+/// Depth as the light sees it: the maps that surfaces look up whether the light reaches them.
+///
+/// One texture holds the rings of a draw list side by side, two by two. What does not move is drawn into a
+/// texture of its own and kept as long as it stays the same; each frame that something moves, the part of it
+/// that the movers cover is copied back and the movers are drawn over it. A frame in which nothing moves
+/// costs nothing.
+///
+/// Same pixels  what is in the maps follows from the list alone, not from what was drawn before it.
+/// Ownership    owns its GL objects. Threads: the thread on which its context is current.
+
+#include "pipeline/draw/draw_list.h"
+#include "pipeline/draw/gl_program.h"
+#include "pipeline/draw/instance_batches.h"
+#include "pipeline/draw/mesh_cache.h"
+
+#include <functional>
+
+namespace stadion {
+
+class ShadowMaps {
+public:
+  /// Fails with the compiler's words, or if the context has no such framebuffers.
+  static Result<std::unique_ptr<ShadowMaps>> create(const GlTable& gl);
+
+  /// Brings the maps up to date. `between` is called now and then; it may throw. Leaves another framebuffer
+  /// bound, and another viewport.
+  void update(const DrawShadows& shadows, MeshCache& meshes, const std::function<void()>& between);
+  /// For the surface shaders: the texture at kShadowUnit, the block at kShadowBinding.
+  void bind() const;
+
+private:
+  ShadowMaps(const GlTable& gl, GlProgram program);
+
+  /// Texels of the whole texture: x, y, width, height.
+  struct Area {
+    GLint x = 0, y = 0;
+    GLsizei width = 0, height = 0;
+  };
+  struct Ring {
+    std::uint64_t stillKey = 0, movingKey = 0;
+    bool drawn = false;
+    Area moved;  ///< what the movers cover
+  };
+
+  static Area tileOf(std::size_t ring);
+  static Area coveredBy(const DrawShadowRing& ring, const Area& tile);
+  static Area around(const Area& a, const Area& b);
+  void updateRing(const DrawShadows& shadows, std::size_t index, MeshCache& meshes,
+                  const std::function<void()>& between);
+  void drawCasters(const DrawShadows& shadows, std::size_t index, std::span<const DrawItem> casters,
+                   MeshCache& meshes, const std::function<void()>& between);
+  void restore(const Area& area);
+  void fillBlock(const DrawShadows& shadows);
+
+  const GlTable& gl_;
+  GlProgram program_;
+  GlTexture still_, shown_;
+  GlFramebuffer intoStill_, intoShown_;
+  GlBuffer view_, block_, instances_;
+  InstanceBatches batches_;
+  std::vector<DrawItem> sorted_;
+  std::array<Ring, kShadowRings> rings_;
+};
+
+}  // namespace stadion
