@@ -17,5 +17,6 @@ void addFitCommand(CLI::App& app, int& code);
 void addProfileCommand(CLI::App& app, int& code);
 void addTestCommand(CLI::App& app, int& code);
 void addViewCommand(CLI::App& app, int& code);
+void addTrackerCommand(CLI::App& app, int& code);
 
 }  // namespace stadion

@@ -44,9 +44,12 @@ std::optional<Diagnostic> readFlights(const Options& o, FitTask& task) {
     if (!text) return text.error();
     auto flight = readTrajectory(text.value(), file);
     if (!flight) return flight.error();
-    if ((flight.value().back().at.p - flight.value().front().at.p).head<2>().norm() < 0.1)
-      return Diagnostic{
-          Severity::Error, {file, 0, 0}, "this flight goes nowhere: it ends where it began", {}};
+    if ((flight.value().back().at.p - flight.value().front().at.p).head<2>().norm() < 0.1) {
+      Diagnostic wrong;
+      wrong.where.file = file;
+      wrong.message = "this flight goes nowhere: it ends where it began";
+      return wrong;
+    }
     for (TrajectorySample& s : flight.value()) {
       s.at.q = s.at.q * task.shape.q_NA;
       s.at.w = task.shape.q_NA.conjugate() * s.at.w;

@@ -64,9 +64,12 @@ Read fromScript(const std::string& file, const std::string& name, const std::vec
   for (const Declaration d : document)
     if (d.kind() == NodeKind::DynObject) names.emplace_back(d.name());
   const auto found = document.find(name);
-  if (!found || found->kind() != NodeKind::DynObject)
-    return Diagnostic{
-        Severity::Error, {file, 0, 0}, "has no dynobject \"" + name + "\"" + didYouMean(name, names), {}};
+  if (!found || found->kind() != NodeKind::DynObject) {
+    Diagnostic wrong;
+    wrong.where.file = file;
+    wrong.message = "has no dynobject \"" + name + "\"" + didYouMean(name, names);
+    return wrong;
+  }
   const Declaration& d = *found;
   AssetRoots roots = AssetRoots::ofScript(file);
   for (const std::string& r : further)

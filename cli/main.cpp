@@ -36,6 +36,7 @@ int runProgram(int argc, char** argv) {
   addProfileCommand(app, code);
   addTestCommand(app, code);
   addViewCommand(app, code);
+  addTrackerCommand(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RequiredError& e) {

@@ -133,10 +133,11 @@ void Player::settleLength() {
 
 std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& findings,
                                        std::function<void(const Diagnostics&)> report,
-                                       const std::atomic<bool>* stop) {
+                                       const std::atomic<bool>* stop, ImportedMeshes* kept) {
   std::unique_ptr<Player> player(new Player);
   Player& p = *player;
   p.options_ = options;
+  if (kept) p.meshes_ = &kept->store();
 
   auto walls = loadWalls(options.walls, std::string(STADION_ROOT) + "/walls", findings);
   if (!walls) return nullptr;
@@ -156,11 +157,11 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   ImportLimits limits;
   limits.giveUp = stop;
   p.importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);
-  p.loader_ = std::make_unique<Loader>(LoaderParts{p.meshes_, p.state_.arena(), *p.importer_, p.roots_,
-                                                   p.factories_, std::move(report), stop,
-                                                   fromSeconds(1 / p.rate_), p.trackers_, p.inputName_});
+  p.loader_ = std::make_unique<Loader>(
+      LoaderParts{*p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_, std::move(report), stop,
+                  fromSeconds(1 / p.rate_), p.trackers_, p.inputName_, kept});
   p.loader_->obey(p.decisions_.loads);
-  p.scene_ = std::make_unique<Scene>(*p.loader_, p.meshes_, appThreadsOf(options));
+  p.scene_ = std::make_unique<Scene>(*p.loader_, *p.meshes_, appThreadsOf(options));
   if (!p.scene_->open(options.script)) return nullptr;
   return player;
 }
@@ -177,7 +178,8 @@ FrameLoopOptions Player::loopOptions() const {
 }
 
 ShowParts Player::parts(StereoLayout stereo) {
-  ShowParts parts{*scene_, state_, meshes_, live_ ? *live_ : *input_, {}, nullptr, nullptr, true, {}, nullptr};
+  ShowParts parts{*scene_, state_, *meshes_, live_ ? *live_ : *input_, {}, nullptr, nullptr,
+                  true,    {},     nullptr};
   for (const WallEntry& entry : walls_.walls) {
     WallView view;
     view.wall = entry.wall;

@@ -60,10 +60,12 @@ class Player {
 public:
   /// Reads, checks and loads everything. Null if something of the user's is wrong; the findings say what.
   /// What is found while files are loaded, now and during the show, goes to `report`. Once `stop` is true,
-  /// nobody waits for a file any more.
+  /// nobody waits for a file any more. Models that are `kept` from an earlier show are not imported again; it
+  /// must outlive the player.
   static std::unique_ptr<Player> create(const ShowOptions& options, Diagnostics& findings,
                                         std::function<void(const Diagnostics&)> report = tell,
-                                        const std::atomic<bool>* stop = nullptr);
+                                        const std::atomic<bool>* stop = nullptr,
+                                        ImportedMeshes* kept = nullptr);
   ~Player();
 
   /// Frames to play: as asked, or to the end of the input log; 0 = until stopped.
@@ -83,9 +85,11 @@ public:
   std::vector<std::uint32_t> overdueLoads() const { return loader_->overdue(); }
   /// `told` learns which files came late, on the App thread. Before the first frame.
   void tellLateLoads(Loader::LateLoad told) { loader_->tellLateLoads(std::move(told)); }
+  const RunDecisions& decisions() const { return decisions_; }
   const WallFile& walls() const { return walls_; }
   Scene& scene() { return *scene_; }
-  MeshStore& meshes() { return meshes_; }
+  const AssetRoots& assets() const { return roots_; }
+  MeshStore& meshes() { return *meshes_; }
   const std::string& inputName() const { return inputName_; }
 
   /// The parts for a ShowStages; provider and sink are the caller's to add.
@@ -101,7 +105,8 @@ private:
   void settleLength();
 
   NodeFactories factories_{};
-  MeshStore meshes_;
+  MeshStore ownMeshes_;
+  MeshStore* meshes_ = &ownMeshes_;
   SceneState state_;
   AssetRoots roots_;
   std::unique_ptr<Importer> importer_;

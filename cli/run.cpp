@@ -1,7 +1,9 @@
 /// `stadion run SHOW`: plays a show.
 
 #include "cli/commands.h"
+#include "cli/display_run.h"
 #include "cli/exit_code.h"
+#include "cli/live_desk.h"
 #include "cli/output_folder.h"
 #include "cli/run_options.h"
 #include "cli/run_output.h"
@@ -16,6 +18,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 namespace stadion {
 namespace {
@@ -26,10 +29,12 @@ constexpr std::chrono::seconds kDrawAfterStop{5};
 /// What a run needs. Anything that is not there is the user's affair; the findings say why.
 struct RunSetup {
   std::unique_ptr<OutputFolder> folder;  ///< null without --out
+  std::unique_ptr<LiveDesk> desk;
   std::unique_ptr<GlProvider> provider;
   std::unique_ptr<Player> player;
   std::unique_ptr<RunWatch> watch;
-  std::unique_ptr<RunOutput> output;  ///< null without --out
+  std::unique_ptr<RunOutput> output;     ///< null without --out
+  std::unique_ptr<DisplayRun> displays;  ///< null without --display
 };
 
 template <class T>
@@ -54,16 +59,29 @@ bool canDraw(GlProvider& provider, const ShowParts& parts, Diagnostics& findings
   return !why;
 }
 
+/// The show is there; who looks on while it is played comes with it.
+bool beginGroup(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
+  RunOptions recorded = o;
+  recorded.recordInput = s.desk->recordName();
+  s.watch = RunWatch::create(recorded, *s.player, findings);
+  if (!s.watch) return false;
+  if (!o.everyFrameCounts(*s.player)) s.player->playLive();
+  s.desk->beginGroup(*s.player, *s.watch);
+  return true;
+}
+
 /// Opens everything before anything is played, so that whatever is wrong is found first.
 bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostics& findings) {
   if (!o.out.empty() && !keep(OutputFolder::open(o.out), s.folder, findings)) return false;
   const GlProviderKind kind = o.provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa;
   if (!keep(openGlProvider(kind), s.provider, findings)) return false;
-  s.player = Player::create(o.show, findings, tell, &stop);
+  s.desk = LiveDesk::open(o, findings);
+  if (!s.desk) return false;
+  s.player = Player::create(o.show, findings, tell, &stop, s.desk->kept());
   if (!s.player || !canDraw(*s.provider, s.player->parts(o.layout), findings)) return false;
-  s.watch = RunWatch::create(o, *s.player, findings);
-  if (!s.watch) return false;
-  if (!o.everyFrameCounts(*s.player)) s.player->playLive();
+  if (!s.desk->begin(*s.player, findings)) return false;
+  if (!beginGroup(o, s, findings)) return false;
+  if (o.display && !(s.displays = DisplayRun::open(o, s.player->walls(), findings))) return false;
   if (!s.folder) return true;
   if (const std::size_t removed = s.folder->clear(); removed > 0)
     std::fprintf(stderr, "removed %zu files of an earlier run from %s\n", removed, o.out.c_str());
@@ -77,14 +95,18 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
   return true;
 }
 
-/// Plays the show to its end and reports on it.
-int play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
+/// Plays the show to its end and reports on it, unless it is to begin again: then there is no exit code yet.
+std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   NodeTimes nodeTimes;
   ProgressBar progress(s.player->frames());
+  std::atomic<bool> endAsked = false;
+  FrameLoop* playing = nullptr;
   const ShowStages* running = nullptr;
+  FrameLoopOptions options = o.loopOptions(*s.player);
   ShowParts parts = s.player->parts(o.layout);
   parts.provider = s.provider.get();
   parts.sink = s.output.get();
+  if (s.displays) parts.sink = &s.displays->sink(), s.displays->fitPictures(parts.walls);
   parts.drawUnseen = !s.output;
   parts.probe = o.profile ? &nodeTimes : nullptr;
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
@@ -92,20 +114,39 @@ int play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
     s.watch->see(now, input, scene);
     s.player->collect(running->shownFrame());
     progress.update(now.frame + 1);
+    if (endAsked) playing->endAfterThisFrame();
   };
+  s.desk->addTo(parts, options);
   ShowStages stages(std::move(parts));
   running = &stages;
-  FrameLoop loop(stages, o.loopOptions(*s.player), stop, parts.probe);
+  FrameLoop loop(stages, options, stop, o.profile ? &nodeTimes : nullptr);
+  playing = &loop;
 
   const auto start = std::chrono::steady_clock::now();
-  const FrameLoopOutcome outcome = loop.run();
+  const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, [&] { endAsked = true; }) : loop.run();
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
+  if (outcome.nextGroup && !outcome.failure && !stop) return {};
 
   const int code =
-      report({o, *s.player, stages, loop, outcome, *s.watch, elapsed}, s.output.get(), s.folder.get());
+      report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime()},
+             s.output.get(), s.folder.get());
   if (o.profile) tellDearest(nodeTimes, s.player->scene(), outcome.framesSimulated);
   return code;
+}
+
+/// Everything of the show is made anew, but for what was read from files.
+bool nextGroup(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
+  s.desk->endGroup();
+  Diagnostics findings;
+  if (const auto wrong = s.watch->finish()) findings.add(*wrong);
+  s.watch.reset();
+  s.player.reset();
+  s.desk->kept()->store().collect(~std::uint64_t{0});  // no frame shows it any more
+  s.player = Player::create(o.show, findings, tell, &stop, s.desk->kept());
+  const bool well = s.player && beginGroup(o, s, findings);
+  tell(findings);
+  return well;
 }
 
 int runShow(RunOptions o) try {
@@ -117,13 +158,18 @@ int runShow(RunOptions o) try {
   if (!ready) return kBadInput;
   if (setup.player->frames() == 0 && setup.player->end() == 0)
     std::fprintf(stderr, "no input log beside the show and no --frames: playing until Ctrl-C\n");
-  else if (o.out.empty()) {
+  else if (o.out.empty() && !o.display) {
     const Player& p = *setup.player;
     const double seconds = p.end() > 0 ? toSeconds(p.end()) : static_cast<double>(p.frames() - 1) / p.rate();
-    std::fprintf(stderr, "playing %.1f s of %s unseen; --out DIR writes pictures, stadion view shows it\n", seconds,
-                 o.show.script.c_str());
+    std::fprintf(
+        stderr,
+        "playing %.1f s of %s unseen; --display and stadion view show it, --out DIR writes pictures\n",
+        seconds, o.show.script.c_str());
   }
-  return play(o, stop, setup);
+  for (;;) {
+    if (const auto code = play(o, stop, setup)) return *code;
+    if (!nextGroup(o, stop, setup)) return kBadInput;
+  }
 } catch (const RunStopped&) {
   std::fprintf(stderr, "stadion: stopped by %s before the show was loaded\n", stopSignalName());
   return kStopped + stopSignal();

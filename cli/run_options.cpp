@@ -1,5 +1,7 @@
 #include "cli/run_options.h"
 
+#include "cli/number_option.h"
+
 #include <CLI/CLI.hpp>
 
 namespace stadion {
@@ -17,7 +19,13 @@ void RunOptions::addTo(CLI::App& command) {
   std::vector<std::string> layouts = stereoLayoutNames();
   command.add_option("--stereo", stereo, "how the two eyes' pictures are written")
       ->check(CLI::IsMember(layouts))
+      ->each([this](const std::string&) { stereoGiven = true; })
       ->capture_default_str();
+  command.add_flag(
+      "--display", display,
+      "show the walls on the outputs that the wall file names (a window for each that has none), "
+      "live; Escape ends it. --stereo pair is a buffer for each eye then (quad-buffered); without "
+      "--stereo both eyes see the same");
   command
       .add_option(
           "--pace", pace,
@@ -43,6 +51,11 @@ void RunOptions::addTo(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--trace", trace,
                      "write where this node is in every frame to trace-NODE.csv in --out DIR");
+  trackers.addTo(command);
+  command
+      .add_option("--osc", oscPort, "listen for the operator's commands on this UDP port (docs/operator.md)")
+      ->check(wholeNumberFrom(0, 65535));
+  command.add_flag("--wait", wait, "stand at the first frame until the operator says start");
   command.add_flag("--json", json, "the summary as one JSON object on stdout");
   command.footer("SIGINT (Ctrl-C) and SIGTERM end the run after the frames under way; all that was asked for "
                  "is written, and "
@@ -58,16 +71,39 @@ bool RunOptions::settle(Diagnostics& findings) {
   else
     findings.error({}, "--pictures: \"" + pictures +
                            "\" is not last, all, none or a whole number N from 1 (every Nth frame)");
+  if (display && !out.empty())
+    findings.error(
+        {}, "--display plays live, and --out writes every frame that is asked for; leave one of them out");
+  if (display && !stereoGiven) layout = StereoLayout::Off;
   if (!trace.empty() && out.empty())
     findings.error({}, "--trace needs --out DIR to know where the table goes");
   if (video && out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
+  settleLive(findings);
   return show.settle(findings) && !findings.hasErrors();
 }
 
-bool RunOptions::everyFrameCounts(const Player& player) const {
-  if (live) return false;
+/// What needs somebody who is there.
+void RunOptions::settleLive(Diagnostics& findings) {
+  const auto refuse = [&](const char* option) {
+    findings.error({}, std::string(option) +
+                           " is for live runs: leave out --frames, --seconds, --out and --input FILE");
+  };
+  if (asksForEveryFrame() && oscPort >= 0) refuse("--osc");
+  if (asksForEveryFrame() && wait) refuse("--wait");
+  if (asksForEveryFrame() && !trackers.device.empty()) refuse("--tracker");
+  if (!trackers.rig.empty() && trackers.device.empty())
+    findings.error({}, "--rig says where trackers are, and there are none: --tracker osc:PORT");
+  if (!trackers.device.empty()) show.input = "none";  // not the log beside the show
+}
+
+bool RunOptions::asksForEveryFrame() const {
+  if (live || display) return false;
   const bool byInput = !show.input.empty() && show.input != "none";
-  return show.frames != 0 || show.seconds > 0 || !out.empty() || byInput || player.obeysLog();
+  return show.frames != 0 || show.seconds > 0 || !out.empty() || byInput;
+}
+
+bool RunOptions::everyFrameCounts(const Player& player) const {
+  return asksForEveryFrame() || player.obeysLog();
 }
 
 FrameLoopOptions RunOptions::loopOptions(const Player& player) const {
@@ -75,6 +111,8 @@ FrameLoopOptions RunOptions::loopOptions(const Player& player) const {
   l.delivery = everyFrameCounts(player) ? Delivery::Every : Delivery::Latest;
   // A live show that drops frames ends with its log's last moment, not with its last frame's number.
   if (l.delivery == Delivery::Latest && player.end() > 0) l.frames = 0, l.end = player.end();
+  if (display) l.pace = pace == "float" ? Pace::Float : Pace::Lock;
+  if (display) return l;
   const bool free = pace.empty() ? (show.frames != 0 || show.seconds > 0 || !out.empty()) : pace == "free";
   l.pace = free ? Pace::Free : pace == "float" ? Pace::Float : Pace::Lock;
   return l;

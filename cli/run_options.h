@@ -3,6 +3,7 @@
 
 #include "cli/player.h"
 #include "cli/run_output.h"
+#include "cli/tracker_device.h"
 
 #include <string>
 #include <vector>
@@ -13,7 +14,12 @@ struct RunOptions {
   ShowOptions show;
   std::string stereo = "pair", pace, recordInput, out, pictures = "last", provider = "osmesa";
   std::vector<std::string> trace;
-  bool live = false;  ///< by the clock, whatever else is asked for; no option
+  TrackerOptions trackers;
+  int oscPort = -1;  ///< where commands of the operator are listened for; -1: nowhere
+  bool wait = false;
+  bool display = false;      ///< on the walls' outputs
+  bool stereoGiven = false;  ///< else `stereo` is the standard
+  bool live = false;         ///< by the clock, whatever else is asked for; no option
   bool sheets = false, video = false, profile = false, json = false;
 
   StereoLayout layout = StereoLayout::Pair;  ///< from `stereo`
@@ -24,6 +30,9 @@ struct RunOptions {
   /// Completes what depends on other options. Says what is wrong.
   bool settle(Diagnostics& findings);
 
+  void settleLive(Diagnostics& findings);
+  /// Whether the options ask for a run that does not go by the clock.
+  bool asksForEveryFrame() const;
   /// Every frame counts where somebody looks at the result later, and where a log says when each one was;
   /// else the newest one does.
   bool everyFrameCounts(const Player& player) const;

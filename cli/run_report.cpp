@@ -36,6 +36,7 @@ RunSummary summarise(const FinishedRun& run) {
   s.frames = run.outcome.framesShown, s.framesDrawn = run.outcome.framesDrawn;
   s.lateFrames = run.outcome.missedTicks;
   s.elapsedSeconds = run.elapsed;
+  s.groups = run.groups, s.uptimeSeconds = run.uptime;
   run.watch.addTo(s, run.outcome.framesSimulated);
   addTimes(run, s);
   s.remarks.push_back("drawn by " + run.stages.glDescription());
@@ -84,7 +85,7 @@ void print(const RunOptions& o, const RunSummary& summary) {
     return;
   }
   std::printf("%s%s", toText(summary).c_str(), happeningsText(summary).c_str());
-  if (o.out.empty())
+  if (o.out.empty() && !o.display)
     std::printf("\nTo see it:  ./stadion view %s, or ./stadion run %s --out pictures\n",
                 o.show.script.c_str(), o.show.script.c_str());
 }

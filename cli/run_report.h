@@ -17,6 +17,8 @@ struct FinishedRun {
   const FrameLoopOutcome& outcome;
   RunWatch& watch;
   double elapsed;  ///< [s]
+  std::uint64_t groups = 1;
+  double uptime = 0;  ///< of all groups [s]
 };
 
 /// Completes every file and tells how it went. Returns the exit code. `output` and its folder: null without

@@ -84,7 +84,10 @@ std::optional<Diagnostic> RunWatch::finish() {
 void RunWatch::note(const EventRecord& event, const Scene& scene) {
   ++happenedCount_;
   if (happened_.size() < RunSummary::kMostHappenings)
-    happened_.push_back({toSeconds(event.when), std::string(nameOf(event.event)), nameIn(scene, event.node)});
+    happened_.push_back(
+        {toSeconds(event.when), std::string(nameOf(event.event)), nameIn(scene, event.node), event.figure});
+  if (event.figure && measured_.size() < RunSummary::kMostHappenings)
+    measured_.push_back({toSeconds(event.when), nameIn(scene, event.node), *event.figure});
 }
 
 void RunWatch::addTo(RunSummary& s, std::uint64_t frames) const {
@@ -97,6 +100,7 @@ void RunWatch::addTo(RunSummary& s, std::uint64_t frames) const {
                 {"messages delivered", static_cast<double>(delivered_)},
                 {"messages lost", static_cast<double>(lost_)}};
   s.happened = happened_;
+  s.measured = measured_;
   s.happenedCount = happenedCount_;
 }
 

@@ -23,6 +23,10 @@ public:
 
   /// After each App stage.
   void see(const TimeSignature& now, const InputSample& input, const Scene& scene);
+  /// From frame `frame` on the operator has it so.
+  void order(std::uint64_t frame, const OperatorCommand& order) {
+    if (recorder_) recorder_->order(frame, order);
+  }
   /// Completes the records; says what could not be written.
   std::optional<Diagnostic> finish();
 
@@ -41,6 +45,7 @@ private:
   TimeSignature last_;
   std::uint64_t stateHash_ = 0, visited_ = 0, published_ = 0, delivered_ = 0, lost_ = 0;
   std::vector<Happening> happened_;
+  std::vector<MeasuredDistance> measured_;
   std::uint64_t happenedCount_ = 0;
 };
 

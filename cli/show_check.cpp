@@ -3,6 +3,7 @@
 #include "cli/player.h"
 #include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dynamics_factories.h"
+#include "engine/asset/sound_file.h"
 #include "engine/input/input_log.h"
 #include "engine/script/lint.h"
 #include "engine/script/script.h"
@@ -115,7 +116,8 @@ private:
                            {},
                            factories_,
                            [&](const Declaration& d) { return importMesh(d, findings); },
-                           meshes_};
+                           meshes_,
+                           [&](const Declaration& d) { return readSoundOf(d, findings); }};
     buildLoad(input, findings);
   }
 
@@ -137,6 +139,26 @@ private:
       findings.add(wrong);
     }
     return imported_[key] = meshes_.add(mesh ? std::move(mesh.value()) : standIn(file));
+  }
+
+  Nanoseconds readSoundOf(const Declaration& d, Diagnostics& findings) const {
+    const auto read = [&]() -> Result<SoundInfo> {
+      auto found = roots_.open(std::string(d.text(Attr::File)));
+      if (!found) return found.error();
+      return readSoundInfo(found.value().file.get(), found.value().path);
+    };
+    const auto info = read();
+    if (!info) {
+      Diagnostic wrong = info.error();
+      wrong.where = d.where(Attr::File), wrong.excerpt = d.excerpt(Attr::File);
+      findings.add(wrong);
+      return kSilentStandIn;
+    }
+    if (info.value().channels == 2 && d.has(Attr::Range))
+      findings.note(d.where(Attr::File),
+                    "\"" + std::string(d.text(Attr::File)) +
+                        "\" has two channels; heard from a place they are mixed into one");
+    return info.value().length();
   }
 
   AssetRoots roots_;

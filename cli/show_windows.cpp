@@ -6,7 +6,8 @@ namespace stadion {
 namespace {
 
 constexpr std::int32_t kMargin = 8;  ///< of what lies over the walls [pixels]
-constexpr std::array<const char*, 5> kStereoNames{"mono", "side-by-side", "anaglyph", "interlaced", "quad"};
+constexpr std::array<const char*, 6> kStereoNames{"mono",     "side-by-side", "top-bottom",
+                                                  "anaglyph", "interlaced",   "quad"};
 
 }  // namespace
 
@@ -72,8 +73,9 @@ void ShowWindow::drawPane(const WindowPane& pane, EyeMix mix) {
 }
 
 // From the upper left corner down, and from the lower left corner up.
-void ShowWindow::drawOverlays(std::int32_t x) {
-  std::int32_t top = kMargin, bottom = static_cast<std::int32_t>(window_->size()[1]) - kMargin;
+void ShowWindow::drawOverlays(std::int32_t x, std::int32_t y, std::int32_t bottom) {
+  std::int32_t top = y + kMargin;
+  bottom -= kMargin;
   for (const auto& o : overlays_) {
     if (!o->shown) continue;
     const auto high = static_cast<std::int32_t>(o->picture.height());
@@ -87,29 +89,36 @@ void ShowWindow::drawSide(const std::vector<WindowPane>& panes, GLenum buffer, E
   const auto [width, height] = window_->size();
   pass_->begin(width, height, buffer);
   for (const WindowPane& pane : panes) drawPane(pane, mix);
-  drawOverlays(0);
+  drawOverlays(0, 0, static_cast<std::int32_t>(height));
 }
 
-// A display for such pictures stretches each half to its whole width.
-void ShowWindow::drawBeside(const std::vector<WindowPane>& panes) {
+// A display for such pictures stretches each half to its whole content.
+void ShowWindow::drawHalves(const std::vector<WindowPane>& panes, bool beside) {
   const auto [width, height] = window_->size();
-  const auto half = static_cast<std::int32_t>(width / 2);
+  const auto right = static_cast<std::int32_t>(beside ? width / 2 : 0),
+             down = static_cast<std::int32_t>(beside ? 0 : height / 2);
   pass_->begin(width, height);
   for (WindowPane pane : panes) {
-    pane.place.x /= 2, pane.place.width = std::max(1u, pane.place.width / 2);
+    SheetPlace& p = pane.place;
+    if (beside)
+      p.x /= 2, p.width = std::max(1u, p.width / 2);
+    else
+      p.y /= 2, p.height = std::max(1u, p.height / 2);
     drawPane(pane, EyeMix::Left);
-    pane.place.x += half;
+    p.x += right, p.y += down;
     drawPane(pane, EyeMix::Right);
   }
-  drawOverlays(0);
-  drawOverlays(half);
+  const auto bottom = static_cast<std::int32_t>(height);
+  drawOverlays(0, 0, beside ? bottom : down);
+  drawOverlays(right, down, bottom);
 }
 
 std::optional<Picture> ShowWindow::draw(const std::vector<WindowPane>& panes, bool keep) {
   enter();
   switch (stereo_) {
   case WindowStereo::Mono: drawSide(panes, GL_BACK, EyeMix::Left); break;
-  case WindowStereo::SideBySide: drawBeside(panes); break;
+  case WindowStereo::SideBySide: drawHalves(panes, true); break;
+  case WindowStereo::TopBottom: drawHalves(panes, false); break;
   case WindowStereo::Anaglyph: drawSide(panes, GL_BACK, EyeMix::Anaglyph); break;
   case WindowStereo::Interlaced: drawSide(panes, GL_BACK, EyeMix::Interlaced); break;
   case WindowStereo::Quad:

@@ -15,7 +15,7 @@
 
 namespace stadion {
 
-enum class WindowStereo { Mono, SideBySide, Anaglyph, Interlaced, Quad };
+enum class WindowStereo { Mono, SideBySide, TopBottom, Anaglyph, Interlaced, Quad };
 
 /// "mono", "side-by-side", ...
 std::optional<WindowStereo> windowStereo(const std::string& name);
@@ -60,9 +60,9 @@ private:
   ShowWindow(std::unique_ptr<Window> window, WindowStereo stereo)
       : window_(std::move(window)), stereo_(stereo) {}
   void drawSide(const std::vector<WindowPane>& panes, GLenum buffer, EyeMix mix);
-  void drawBeside(const std::vector<WindowPane>& panes);
+  void drawHalves(const std::vector<WindowPane>& panes, bool beside);
   void drawPane(const WindowPane& pane, EyeMix mix);
-  void drawOverlays(std::int32_t x);
+  void drawOverlays(std::int32_t x, std::int32_t y, std::int32_t bottom);
   void enter();
 
   std::unique_ptr<Window> window_;

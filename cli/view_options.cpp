@@ -35,10 +35,10 @@ void ViewOptions::addTo(CLI::App& command) {
       ->check(CLI::IsMember({"one", "walls"}))
       ->capture_default_str();
   command
-      .add_option(
-          "--stereo", stereo,
-          "how a window shows both eyes: mono (one eye between them), side-by-side, anaglyph (red-cyan "
-          "glasses), interlaced (rows), quad (where the driver has a buffer for each eye)")
+      .add_option("--stereo", stereo,
+                  "how a window shows both eyes: mono (one eye between them), side-by-side, top-bottom, "
+                  "anaglyph (red-cyan "
+                  "glasses), interlaced (rows), quad (where the driver has a buffer for each eye)")
       ->check(CLI::IsMember(windowStereoNames()))
       ->capture_default_str();
   command.add_option("--window", window, "WIDTHxHEIGHT of the window at the start")->capture_default_str();

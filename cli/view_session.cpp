@@ -123,7 +123,7 @@ void ViewSession::say(const std::string& line) {
 }
 
 int ViewSession::run(const std::atomic<bool>& stop) {
-  show_->start({});
+  begin({});
   hud_.say("H: help   Esc: quit");
   while (!quit_ && !ended_ && !stop) {
     system_->poll();
@@ -131,7 +131,10 @@ int ViewSession::run(const std::atomic<bool>& stop) {
     pollPad();
     watchFiles();
     const bool fresh = mailbox_.fetch(pictures_, shown_);
-    if (fresh && std::exchange(begins_, false)) say("playing " + options_.run.show.script);
+    if (fresh && std::exchange(begins_, false)) {
+      say("playing " + options_.run.show.script);
+      playback_.setPaused(pausedByUser_);
+    }
     updateHud();
     if (fresh || stale_)
       show(fresh);
@@ -197,6 +200,14 @@ bool ViewSession::command(Key key) {
   return true;
 }
 
+// Until there is a first picture the show stands at its first frame.
+void ViewSession::begin(const std::optional<ShowPlace>& place) {
+  ended_ = false, begins_ = true;
+  pausedByUser_ = playback_.paused();
+  playback_.setPaused(true);
+  show_->start(place);
+}
+
 void ViewSession::setPaused(bool paused) {
   playback_.setPaused(paused);
   say(fmt::format("{} at {:.3f} s", paused ? "paused" : "going on", toSeconds(show_->time())));
@@ -257,8 +268,7 @@ void ViewSession::finishReload() {
   show_ = std::move(r->show);
   show_->overview().move(overview_);
   mailbox_.fetch(pictures_, shown_);  // what the old one left is not the new one's
-  ended_ = false, begins_ = true;
-  show_->start(place);
+  begin(place);
   say(fmt::format("reloaded {}; the rig stands at {}", options_.run.show.script, pointText(place.X_WR.p)));
 }
 
@@ -319,7 +329,10 @@ void ViewSession::show(bool fresh) {
   }
   for (const auto& window : windows_) window->swap();
   stale_ = false;
-  if (!fresh || !steppedFrom_ || shown_.frame < *steppedFrom_) return;
+  // Told when the last of them is seen.
+  const bool reached = steppedFrom_ && shown_.frame >= *steppedFrom_ && playback_.stepsWaiting() == 0 &&
+                       shown_.frame + 1 == show_->framesPlayed();
+  if (!fresh || !reached) return;
   steppedFrom_.reset();
   say(fmt::format("one frame, to {:.3f} s", toSeconds(shown_.time)));
 }

@@ -52,6 +52,7 @@ private:
   void takeEvents();
   void take(std::size_t window, const WindowEvent& event);
   bool command(Key key);
+  void begin(const std::optional<ShowPlace>& place);
   void setPaused(bool paused);
   void changeSpeed(double factor);
   void moveOverview();
@@ -92,6 +93,7 @@ private:
   std::atomic<bool> ended_ = false;
   bool quit_ = false, stale_ = true;
   bool begins_ = true;                        ///< nothing of this show has been shown yet
+  bool pausedByUser_ = false;                 ///< before it began
   std::optional<std::uint64_t> steppedFrom_;  ///< a single frame was asked for: the first number it can have
   int shots_ = 0;
   int code_ = 0;

@@ -283,6 +283,7 @@ void World::Core::settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& 
   Support face;
   if (touching.size() == 1 && other.collider && gap.distance > -1e-4 &&
       supportFor(b, *other.collider, gap, face)) {
+    if (away > 1e-9) memory.setTouching(ContactMemory::keyOf(other.party, {true, b.id}), false);
     if (away > 1e-9 || !pressed) return;  // it leaves by itself
     b.support = face;
     startOnFace(b, tau, {k.p, k.v - gap.normal * away, k.omega, b.orientation(tau)}, false, false);
@@ -295,6 +296,8 @@ void World::Core::settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& 
     if (u.dot(g.normal) < 1e-3 &&
         (carried || g.distance < -1e-4 || accelerationAt(b, k.p, k.v, tau).dot(g.normal) < 0))
       lasting = true;
+    else if (u.dot(g.normal) > kImpactSpeed)  // they part, and will meet as if they had never touched
+      memory.setTouching(ContactMemory::keyOf(o.party, {true, b.id}), false);
   }
   if (lasting && accelerationAt(b, k.p, k.v, tau).squaredNorm() > 0) enterContact(b, tau);
 }

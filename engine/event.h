@@ -22,11 +22,17 @@ enum class Event : std::uint8_t {
   OnImpact,
   OnRelease,
   OnQuarantine,
+  Measured,
+  Foul,
+  Won,
+  Lost,
+  Drawn,
 };
 
-inline constexpr std::array<std::string_view, 13> kEventNames = {
-    "enter",  "exit",     "button1",  "button2",  "button3",   "button4",     "timesup",
-    "loaded", "unloaded", "finished", "onimpact", "onrelease", "onquarantine"};
+inline constexpr std::array<std::string_view, 18> kEventNames = {
+    "enter",        "exit",     "button1",  "button2",  "button3",  "button4",
+    "timesup",      "loaded",   "unloaded", "finished", "onimpact", "onrelease",
+    "onquarantine", "measured", "foul",     "won",      "lost",     "drawn"};
 inline constexpr std::size_t kEventCount = kEventNames.size();
 
 constexpr std::string_view nameOf(Event event) {

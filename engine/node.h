@@ -38,7 +38,7 @@ struct FrameContext {
 
 /// In which order nodes run within a frame: what places things comes before what looks at them. Within a
 /// rank, the order is (load number, position in file).
-enum class Rank : std::uint8_t { Input, Attachment, Motion, Sensing, Dynamics };
+enum class Rank : std::uint8_t { Input, Attachment, Motion, Sensing, Dynamics, Outcome };
 
 /// One `eventmessage` of a node: what it posts when something happens to it.
 struct Notification {
@@ -90,12 +90,16 @@ public:
 
 protected:
   /// Notes that something happened; the messages that tell of it go out when the node dispatches.
-  void raise(Event event, Nanoseconds when) { raised_.push_back({event, when}); }
+  /// A figure, such as a distance [m], is for reports.
+  void raise(Event event, Nanoseconds when, std::optional<double> figure = {}) {
+    raised_.push_back({event, when, figure});
+  }
 
 private:
   struct Raised {
     Event event;
     Nanoseconds when;
+    std::optional<double> figure;
   };
 
   virtual void onEnter(Scene&) {}

@@ -16,6 +16,7 @@ enum class NodeKind : std::uint8_t {
   DynObject,
   Light,
   Sky,
+  Text,
   ForceLinear,
   ForceSpherical,
   ForcePoint,
@@ -26,16 +27,19 @@ enum class NodeKind : std::uint8_t {
   Timer,
   Scene,
   Path,
+  Sound,
   Collision,
   Dynamics,
+  Measure,
   Navigator,
   Rig,
 };
 
-inline constexpr std::array<std::string_view, 20> kNodeKindNames = {
-    "group",          "transform",  "object",      "dynobject", "light",       "sky",         "forcelinear",
-    "forcespherical", "forcepoint", "forcevortex", "medium",    "usertrigger", "wandtrigger", "timer",
-    "scene",          "path",       "collision",   "dynamics",  "navigator",   "rig"};
+inline constexpr std::array<std::string_view, 23> kNodeKindNames = {
+    "group",       "transform",   "object",         "dynobject",  "light",       "sky",
+    "text",        "forcelinear", "forcespherical", "forcepoint", "forcevortex", "medium",
+    "usertrigger", "wandtrigger", "timer",          "scene",      "path",        "sound",
+    "collision",   "dynamics",    "measure",        "navigator",  "rig"};
 inline constexpr std::size_t kNodeKindCount = kNodeKindNames.size();
 
 constexpr std::string_view nameOf(NodeKind kind) {

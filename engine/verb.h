@@ -23,11 +23,13 @@ enum class Verb : std::uint8_t {
   Release,
   Load,
   Unload,
+  Say,
+  Start,
 };
 
-inline constexpr std::array<std::string_view, 14> kVerbNames = {
-    "enable", "disable", "toggle", "attach", "detach",  "show", "hide",
-    "reset",  "hook",    "unhook", "grab",   "release", "load", "unload"};
+inline constexpr std::array<std::string_view, 16> kVerbNames = {
+    "enable", "disable", "toggle", "attach",  "detach", "show",   "hide", "reset",
+    "hook",   "unhook",  "grab",   "release", "load",   "unload", "say",  "start"};
 inline constexpr std::size_t kVerbCount = kVerbNames.size();
 
 constexpr std::string_view nameOf(Verb verb) {

@@ -175,6 +175,7 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   if (nextIndex_ == 0 && stopRequested_) stopped_ = ended_ = true;
   if (ended_ || broken_) return std::nullopt;
   const std::uint64_t ticks = pacer_.wait();
+  if (!takeCommands()) return std::nullopt;
   const double speed = options_.playback && nextIndex_ > 0 ? options_.playback->takeFrame() : 1;
   if (speed == 0) return Turn{lastSignature_, true};
   // A single frame is one tick, however long the last one took.
@@ -184,6 +185,16 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   ++nextIndex_;
   lastSignature_ = now;
   return Turn{now};
+}
+
+// What the operator asked for takes effect now, in the whole of the coming frame. False: none is to come.
+bool FrameLoop::takeCommands() {
+  if (!options_.desk) return true;
+  options_.desk->beginFrame(nextIndex_);
+  const OperatorState& state = options_.desk->state();
+  outcome_.nextGroup = state.nextGroup;
+  ending_ = ending_ || state.end;
+  return !state.nextGroup;
 }
 
 // Where every frame counts, time goes by frames; where the newest counts, by the clock's ticks.
@@ -232,11 +243,12 @@ bool FrameLoop::fail(const char* what, std::size_t wall, std::uint64_t frame, co
 std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slot) {
   const TimeSignature& now = turn.signature;
   FrameTicket ticket{now, Clock::now()};
+  if (options_.desk) ticket.shown = options_.desk->state().shown;
   if (turn.still) {
     if (!guard("App", kNoWall, now.frame, [&]() -> Failure { return stages_.still(slot), Failure(); }))
       return std::nullopt;
     if (stopRequested_) stopped_ = true;
-    ticket.last = ended_ = stopped_;
+    ticket.last = ended_ = stopped_ || ending_;
     return ticket;
   }
   {
@@ -253,6 +265,7 @@ std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slo
 bool FrameLoop::cullStage(std::size_t wall, std::size_t slot, const FrameTicket& ticket, DrawList& list) {
   const std::uint64_t frame = ticket.signature.frame;
   bool well = true;
+  list.ticket = ticket;
   if (ticket.drawn) {
     const StageSpan span(times_.cull[wall], probe_, Stage::Cull, frame, wall);
     well = guard("Cull", wall, frame, [&]() -> Failure { return stages_.cull(wall, slot, list), Failure(); });

@@ -10,6 +10,7 @@
 #include "engine/input/run_decisions.h"
 #include "engine/time_signature.h"
 #include "pipeline/frame_times.h"
+#include "pipeline/operator/operator_desk.h"
 #include "pipeline/pacer.h"
 #include "pipeline/playback.h"
 #include "pipeline/stages.h"
@@ -37,13 +38,15 @@ struct FrameLoopOptions {
   /// Show times that a recorded run decided for some of its frames (see RunDecisions); they are obeyed.
   std::map<std::uint64_t, Nanoseconds> frameTimes{};
   Playback* playback = nullptr;  ///< who may pause a live run or slow it down; null = nobody
+  OperatorDesk* desk = nullptr;  ///< whose commands are taken at the start of each frame; null = nobody's
 };
 
 struct FrameLoopOutcome {
   std::uint64_t framesSimulated = 0, framesShown = 0;
   std::uint64_t framesDrawn = 0;  ///< of those shown
   std::uint64_t missedTicks = 0;
-  bool stopped = false;  ///< by request, before all frames were done
+  bool stopped = false;    ///< by request, before all frames were done
+  bool nextGroup = false;  ///< the operator asked for the show to begin again
   Failure failure;
 };
 
@@ -72,6 +75,7 @@ private:
     bool still = false;  ///< the show is paused: its last frame once more
   };
   std::optional<Turn> nextTurn();
+  bool takeCommands();
   TimeSignature signatureAfter(std::uint64_t ticks, double speed);
   bool noneFollows();
 

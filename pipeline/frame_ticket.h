@@ -4,6 +4,7 @@
 /// Threads  a plain value; each stage has its own copy.
 
 #include "engine/time_signature.h"
+#include "pipeline/operator/presentation.h"
 
 #include <chrono>
 
@@ -13,6 +14,7 @@ struct FrameTicket {
   TimeSignature signature;
   std::chrono::steady_clock::time_point began{};  ///< when App began it, and sampled the poses
   bool drawn = true;  ///< false: nobody looks at it, so it is neither culled nor drawn
+  Presentation shown{};
   bool last = false;  ///< no frame follows it
 };
 

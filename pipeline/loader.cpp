@@ -1,5 +1,6 @@
 #include "pipeline/loader.h"
 
+#include "engine/asset/sound_file.h"
 #include "engine/plain_file.h"
 #include "engine/run_stopped.h"
 #include "engine/script/lint.h"
@@ -206,7 +207,8 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
                          numbers,
                          parts_.factories,
                          [&](const Declaration& d) { return imports.of(d, *this, findings); },
-                         parts_.meshes};
+                         parts_.meshes,
+                         [&](const Declaration& d) { return soundLength(d, findings); }};
   Built built = buildLoad(input, findings);
   std::unique_ptr<Load> load = std::move(built.load);
   load->meshes = std::move(imports.counted);
@@ -237,23 +239,53 @@ MeshId Loader::Imports::of(const Declaration& d, Loader& loader, Diagnostics& fi
   return at->second;
 }
 
+/// Under which key the model is kept from show to show, if any are.
+std::optional<ImportedMeshes::Key> Loader::keyOf(const std::string& file,
+                                                 const ImportOptions& options) const {
+  if (!parts_.kept) return {};
+  const auto found = parts_.roots.open(file);
+  return found ? ImportedMeshes::Key::of(found.value().file.get(), options) : std::nullopt;
+}
+
 MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {
   ImportOptions options;
   options.unit = d.optionalNumber(Attr::Unit);
   options.up = d.optionalChoice<UpAxis>(Attr::Up);
   const std::string file(d.text(Attr::File));
+  const auto key = keyOf(file, options);
+  if (const MeshId known = key ? parts_.kept->find(*key) : kNoMesh; known != kNoMesh) return known;
   Diagnostics notes;
   if (stopped()) throw RunStopped();
   auto mesh = parts_.importer.load(file, options, d.where(Attr::File), &notes);
   if (stopped()) throw RunStopped();
   findings.append(notes);
-  if (mesh) return parts_.meshes.add(std::move(mesh.value()));
+  if (mesh) {
+    const MeshId id = parts_.meshes.add(std::move(mesh.value()));
+    if (key) parts_.kept->keep(*key, id);
+    return id;
+  }
   Diagnostic missing = mesh.error();
   missing.excerpt = d.excerpt(Attr::File);
   missing.severity = Severity::Warning;
   missing.message += "; a stand-in is shown in its place";
   findings.add(missing);
   return parts_.meshes.add(standIn(file));
+}
+
+Nanoseconds Loader::soundLength(const Declaration& d, Diagnostics& findings) {
+  const auto read = [&]() -> Result<SoundInfo> {
+    auto found = parts_.roots.open(std::string(d.text(Attr::File)));
+    if (!found) return found.error();
+    return readSoundInfo(found.value().file.get(), found.value().path);
+  };
+  const auto info = read();
+  if (info) return info.value().length();
+  Diagnostic missing = info.error();
+  missing.where = d.where(Attr::File), missing.excerpt = d.excerpt(Attr::File);
+  missing.severity = Severity::Warning;
+  missing.message += "; a second of silence stands in for it";
+  findings.add(missing);
+  return kSilentStandIn;
 }
 
 void Loader::destroy(std::unique_ptr<Load> load) {

@@ -14,6 +14,7 @@
 #include "engine/asset/import.h"
 #include "engine/scene/load.h"
 #include "engine/script/builder.h"
+#include "pipeline/imported_meshes.h"
 #include "pipeline/state/chunk_arena.h"
 
 #include <atomic>
@@ -41,6 +42,7 @@ struct LoaderParts {
   Nanoseconds step = 0;                 ///< of a frame, to warn of latencies that are shorter [ns]; 0: do not
   std::vector<std::string> trackers{};  ///< devices of the input log, to warn of other names
   std::string log{};                    ///< the input log; empty: nobody knows which devices there will be
+  ImportedMeshes* kept = nullptr;       ///< models that need not be imported again; null: none
 };
 
 class Loader final : public SceneLoader {
@@ -105,7 +107,9 @@ private:
   Diagnostic askedForBy(const Job& job, Diagnostic d) const;
   std::unique_ptr<Load> prepare(const Job& job);
   std::unique_ptr<Load> build(const Job& job, std::unique_ptr<Document> document, Diagnostics& findings);
+  std::optional<ImportedMeshes::Key> keyOf(const std::string& file, const ImportOptions& options) const;
   MeshId importMesh(const Declaration& d, Diagnostics& findings);
+  Nanoseconds soundLength(const Declaration& d, Diagnostics& findings);
   void destroy(std::unique_ptr<Load> load);
   std::vector<std::uint32_t> around(std::uint32_t outer) const;
 

@@ -23,6 +23,8 @@ public:
     paused_ = true;
     ++steps_;
   }
+  /// Single frames that are still to come.
+  int stepsWaiting() const { return steps_; }
   /// 1 = as the clock goes.
   void setSpeed(double speed) { speed_ = std::clamp(speed, kSlowest, 1.0); }
   double speed() const { return speed_; }

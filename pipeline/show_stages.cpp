@@ -7,6 +7,12 @@ Failure toFailure(const std::optional<Diagnostic>& d) {
   return d ? Failure(Reason(*d)) : std::nullopt;
 }
 
+/// Nothing is drawn, in front of a sky without light and without a sun.
+void makeBlack(DrawList& list) {
+  list.opaque.clear(), list.transparent.clear(), list.lights.clear();
+  list.sky = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0};
+}
+
 }  // namespace
 
 ShowStages::ShowStages(ShowParts parts)
@@ -17,21 +23,39 @@ ShowStages::~ShowStages() = default;
 
 void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   InputSample input;
+  if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
   parts_.input.sampleFrame(now.time - now.step, now.time, input);
   parts_.scene.advance(now, input, changes_, parts_.probe);
   parts_.state.publish(slot, changes_);
   parts_.meshes.collect(shownFrame_);
+  hear(input, false);
   if (parts_.observer) parts_.observer(now, input, parts_.scene);
 }
 
-// The signature, sky and viewer of the last frame stay in the change set.
+void ShowStages::hear(const InputSample& input, bool still) {
+  if (!parts_.sounds) return;
+  parts_.scene.listen(input, heard_);
+  parts_.sounds->hear(heard_, {parts_.desk ? parts_.desk->state().volume : 1, still});
+}
+
+// The signature, sky and viewer of the last frame stay in the change set, but that the visitor looks around.
 void ShowStages::still(std::size_t slot) {
   changes_.clear();
+  if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
+  InputSample now;
+  if (parts_.input.sampleNow(now)) changes_.viewer.set(parts_.scene.rigPose(), parts_.scene.headInRig(now));
+  hear(parts_.scene.lastInput(), true);
   parts_.state.publish(slot, changes_);
 }
 
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
-  cullWall(parts_.state.view(slot), parts_.walls[wall], static_cast<std::uint32_t>(wall), list);
+  const Presentation& shown = list.ticket.shown;
+  WallView view = parts_.walls[wall];
+  if (shown.eyeSeparation >= 0) view.eyeSeparation = shown.eyeSeparation;
+  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), list);
+  if (view.camera) return;  // somebody else's, not the visitor's
+  if (shown.swapEyes && list.eyeCount == 2) std::swap(list.eyes[0], list.eyes[1]);
+  if (shown.black) makeBlack(list);
 }
 
 Failure ShowStages::openWall(std::size_t wall) {

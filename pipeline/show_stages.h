@@ -5,7 +5,9 @@
 #include "engine/scene/scene.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/draw/renderer.h"
+#include "pipeline/operator/operator_desk.h"
 #include "pipeline/output/picture.h"
+#include "pipeline/output/sound_player.h"
 #include "pipeline/stages.h"
 #include "pipeline/state/scene_state.h"
 #include "pipeline/target/target.h"
@@ -51,6 +53,8 @@ struct ShowParts {
   FrameProbe* probe = nullptr;
   /// Once true, Draw gives up what it is at and the run ends. Any thread; null = never.
   std::function<bool()> giveUp{};
+  SoundPlayer* sounds = nullptr;       ///< null: nobody listens
+  const OperatorDesk* desk = nullptr;  ///< null: nobody commands
 };
 
 class ShowStages final : public Stages {
@@ -83,12 +87,14 @@ private:
     bool read = false;                       ///< the last frame's pictures have been read back
   };
 
+  void hear(const InputSample& input, bool still);
   Failure readPictures(std::size_t wall);
   Failure enterContext(std::size_t wall);
   void leaveContext(std::size_t wall);
 
   ShowParts parts_;
   ChangeSet changes_;
+  SoundScape heard_;
   std::unique_ptr<WallContext[]> contexts_;
   std::vector<EyePictures> pictures_;
   std::atomic<std::uint64_t> shownFrame_ = 0;

@@ -1,4 +1,5 @@
-/// stadion-assets: writes the show's own models into a folder, and the scripts of its athletes into another.
+/// stadion-assets: writes the show's own models and sounds into a folder, and the scripts of its athletes into
+/// another.
 ///
 /// The models in assets/ are made by this program and nothing else; a test compares them byte for byte. It
 /// uses only arithmetic that is the same on every machine.
@@ -8,6 +9,7 @@
 #include "cli/assets/olympia/body.h"
 #include "cli/assets/olympia/olympia.h"
 #include "cli/assets/picture.h"
+#include "cli/assets/sounds.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -21,6 +23,13 @@ bool write(const std::filesystem::path& path, const std::string& bytes) {
   file.close();
   if (!file) std::fprintf(stderr, "stadion-assets: cannot write %s\n", path.c_str());
   return bool(file);
+}
+
+bool writeSounds(const std::filesystem::path& out) {
+  using namespace stadion::assets;
+  return write(out / "wind.wav", toWav(wind())) && write(out / "cheer.wav", toWav(cheer())) &&
+         write(out / "trumpet.wav", toWav(trumpetCall())) && write(out / "thud.wav", toWav(thud())) &&
+         write(out / "whoosh.wav", toWav(whoosh()));
 }
 
 }  // namespace
@@ -49,13 +58,18 @@ int main(int argc, char** argv) {
       {"javelin.glb", toGlb(javelin())},
       {"athlete_pelvis.glb", toGlb(pelvis())},
       {"athlete_chest.glb", toGlb(chest())},
-      {"athlete_head_dark.glb", toGlb(head(Hair::Dark))},
-      {"athlete_head_fair.glb", toGlb(head(Hair::Fair))},
-      {"athlete_head_beard.glb", toGlb(head(Hair::Bearded))},
+      {"athlete_head_dark.glb", toGlb(head(Hair::Dark, 0.0098))},
+      {"athlete_head_fair.glb", toGlb(head(Hair::Fair, 0.0098))},
+      {"athlete_head_beard.glb", toGlb(head(Hair::Bearded, 0.0098))},
+      {"judge_head.glb", toGlb(head(Hair::Bearded, 0.0145))},
+      {"herald_head.glb", toGlb(head(Hair::Fair, 0.0145))},
       {"judge_robe.glb", toGlb(robe({0.50, 0.18, 0.28}, {0.86, 0.74, 0.46}))},
       {"herald_robe.glb", toGlb(robe({0.92, 0.89, 0.82}, {0.62, 0.22, 0.18}))},
       {"trumpet.glb", toGlb(trumpet())},
       {"leather_ball.glb", toGlb(leatherBall())},
+      {"plinth.glb", toGlb(plinth())},
+      {"whiteboard.glb", toGlb(whiteboard())},
+      {"javelin_rack.glb", toGlb(javelinRack())},
       {"olympia_ground.glb", toGlb(groundPlane())},
       {"olympia_track.glb", toGlb(track())},
       {"olympia_banks.glb", toGlb(embankments())},
@@ -65,9 +79,9 @@ int main(int argc, char** argv) {
       {"olympia_stands.glb", toGlb(stands())},
       {"olympia_temples.glb", toGlb(temples())},
       {"olympia_passage.glb", toGlb(passage())},
-      {"crowd_north_1.glb", toGlb(crowd(1, -9, 42))},
+      {"crowd_north_1.glb", toGlb(crowd(1, -50, 42))},
       {"crowd_north_2.glb", toGlb(crowd(1, 42, 202))},
-      {"crowd_south_1.glb", toGlb(crowd(-1, -9, 42))},
+      {"crowd_south_1.glb", toGlb(crowd(-1, -50, 42))},
       {"crowd_south_2.glb", toGlb(crowd(-1, 42, 202))},
   };
   const std::pair<const char*, Parts> limbs[] = {{"upper_arm", upperArm()}, {"forearm", forearm()},
@@ -79,6 +93,7 @@ int main(int argc, char** argv) {
       return 2;
   for (const auto& [name, bytes] : files)
     if (!write(out / name, bytes)) return 2;
+  if (!writeSounds(out)) return 2;
   if (argc == 2) return 0;
   const std::filesystem::path scripts = argv[2];
   std::filesystem::create_directories(scripts, error);

@@ -276,9 +276,23 @@ void CollisionNode::afterSimulation(FrameContext& frame) {
   switchings_.clear();
   for (const ContactEvent& e : world_.events())
     raise(e.kind == ContactEvent::Kind::Impact ? Event::OnImpact : Event::OnRelease, e.time);
+  if (frame.scene.impactsWanted()) noteImpacts(frame.scene);
   std::erase_if(comingOrGoing_,
                 [](const Part* p) { return !p->next.valid() && p->leaveAt == Scene::kNever; });
   awake_ = afterStep(frame) || span_.outside;
+}
+
+NodeRef CollisionNode::nodeOf(Party party) const {
+  const std::vector<Part>& parts = party.isBody ? collidees_ : colliders_;
+  const auto at =
+      std::ranges::find_if(parts, [&](const Part& p) { return p.ref.valid() && p.id == party.id; });
+  return at == parts.end() ? NodeRef{} : at->ref;
+}
+
+void CollisionNode::noteImpacts(Scene& scene) const {
+  for (const ContactEvent& e : world_.events())
+    if (e.kind == ContactEvent::Kind::Impact)
+      scene.noteImpact({nodeOf({true, e.body}), nodeOf(e.other), e.point, e.time});
 }
 
 bool CollisionNode::needsScene(Nanoseconds) const {

@@ -114,6 +114,8 @@ protected:
   static void addCuts(const Course& course, std::vector<Nanoseconds>& cuts);
 
 private:
+  void noteImpacts(Scene& scene) const;
+  NodeRef nodeOf(Party party) const;
   void findParts(Scene& scene);
   void findPart(Part& part, Scene& scene);
   ColliderDef colliderOf(Part& part, const ObjectNode& object, const Scene& scene);

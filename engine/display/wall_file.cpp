@@ -1,5 +1,6 @@
 #include "engine/display/wall_file.h"
 
+#include "engine/display/output_reader.h"
 #include "engine/display/wall_lint.h"
 #include "engine/plain_file.h"
 #include "engine/text_line.h"
@@ -47,6 +48,7 @@ public:
     }
     for (WallEntry& entry : walls_.walls)
       if (entry.pixels.width == 0) entry.pixels = pixels_;
+    if (!giveOutputs()) return std::nullopt;
     return std::move(walls_);
   }
 
@@ -59,12 +61,11 @@ private:
 
   /// What may begin a line.
   static std::span<const Statement> statements() {
-    static constexpr Statement kStatements[] = {{"wall", &Parser::wall, false},
-                                                {"unit", &Parser::unit, true},
-                                                {"eye-separation", &Parser::eyeSeparation, true},
-                                                {"near", &Parser::near, true},
-                                                {"far", &Parser::far, true},
-                                                {"pixels", &Parser::pixels, true}};
+    static constexpr Statement kStatements[] = {
+        {"wall", &Parser::wall, false},   {"output", &Parser::output, false},
+        {"unit", &Parser::unit, true},    {"eye-separation", &Parser::eyeSeparation, true},
+        {"near", &Parser::near, true},    {"far", &Parser::far, true},
+        {"pixels", &Parser::pixels, true}};
     return kStatements;
   }
 
@@ -241,11 +242,54 @@ private:
     walls_.walls.push_back(std::move(entry));
   }
 
+  void output() {
+    const Word* wall = word(1, "the name of the output's wall");
+    if (!wall) return;
+    const auto name = in_.name(*wall, "a wall");
+    if (!name) return;
+    const auto read = readOutput(in_, 2);
+    if (!read) return;
+    for (const NamedOutput& other : outputs_)
+      if (other.wall == *name)
+        return in_.error(wall->column,
+                         fmt::format("wall \"{}\" has an output already, on line {}; keep one of "
+                                     "them",
+                                     *name, other.where.line));
+    outputs_.push_back({*name, *read, in_.at(wall->column), in_.excerpt()});
+  }
+
+  /// Walls may stand below their outputs, so this is done last.
+  bool giveOutputs() {
+    bool good = true;
+    for (const NamedOutput& o : outputs_) {
+      const auto wall =
+          std::ranges::find_if(walls_.walls, [&](const WallEntry& e) { return e.wall.name == o.wall; });
+      if (wall != walls_.walls.end()) {
+        wall->output = o.output;
+        continue;
+      }
+      std::vector<std::string> known;
+      for (const WallEntry& e : walls_.walls) known.push_back(e.wall.name);
+      out_.error(o.where, fmt::format("there is no wall {}{}", quotedWord(o.wall), didYouMean(o.wall, known)),
+                 o.excerpt);
+      good = false;
+    }
+    return good;
+  }
+
+  struct NamedOutput {
+    std::string wall;
+    WallOutput output;
+    SourcePosition where;
+    std::string excerpt;
+  };
+
   std::string file_;
   Diagnostics& out_;
   LineReader in_;
   WallFile walls_;
   PixelSize pixels_;
+  std::vector<NamedOutput> outputs_;
   std::vector<std::string> seen_;
   std::size_t lengths_ = 0;
 };
@@ -308,6 +352,7 @@ std::string formatWalls(const WallFile& walls) {
     if (entry.pixels.width > 0)
       text += fmt::format("  pixels {} {}", entry.pixels.width, entry.pixels.height);
     text += '\n';
+    if (entry.output) text += fmt::format("output {}{}\n", entry.wall.name, formatOutput(*entry.output));
   }
   return text;
 }

@@ -22,6 +22,7 @@
 
 #include "engine/diagnostic.h"
 #include "engine/display/frustum.h"
+#include "engine/display/output.h"
 #include "engine/display/wall.h"
 
 #include <array>
@@ -40,10 +41,11 @@ struct PixelSize {
 /// A wall as a file describes it.
 struct WallEntry {
   Wall wall;
-  PixelSize pixels;          ///< of one eye's picture, if the file says
-  std::uint32_t line = 0;    ///< in the file; 0 = made by a program
-  std::uint32_t column = 0;  ///< of the name
-  std::string excerpt;       ///< the line, for messages
+  PixelSize pixels;                  ///< of one eye's picture, if the file says
+  std::optional<WallOutput> output;  ///< where it comes out, if the file says
+  std::uint32_t line = 0;            ///< in the file; 0 = made by a program
+  std::uint32_t column = 0;          ///< of the name
+  std::string excerpt;               ///< the line, for messages
 };
 
 struct WallFile {

@@ -30,6 +30,16 @@ public:
     return sample;
   }
 
+  /// What it says at this moment, while show time stands still: for the pictures alone. False: as before.
+  virtual bool sampleNow(InputSample& sample) {
+    (void)sample;
+    return false;
+  }
+  /// The head stays where it is, or is let go. Before a frame.
+  virtual void freezeHead(bool frozen) { (void)frozen; }
+  /// The show begins again: its times count from 0. Before the first frame.
+  virtual void restart() {}
+
   /// When it has no more to say [ns]; 0 = never.
   virtual Nanoseconds end() const { return 0; }
 

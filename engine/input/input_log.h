@@ -30,6 +30,8 @@
 ///         the last frame. Increases from line to line; the frames after N follow at 1/rate again
 ///     load N SECONDS
 ///         the Nth file that the show loaded was not ready when it was due and took effect at this show time
+///     order N ACTION VALUE
+///         from frame N on: black 0|1, swap-eyes 0|1, eye-separation METRES or volume 0..1
 ///
 /// A tracker leaps where it would go faster than 15 m/s between two records less than 50 ms apart, and more
 /// than 15 m/s faster than both before and after: it was taken for another, or lost. Until the later record
@@ -94,6 +96,7 @@ std::string formatRecord(const std::string& tracker, const InputStamp& stamp);
 std::string inputLogHeading(double rate = 0);
 std::string formatFrameTime(std::uint64_t frame, Nanoseconds time);
 std::string formatLateLoad(std::uint32_t load, Nanoseconds time);
+std::string formatOrder(std::uint64_t frame, const OperatorCommand& order);
 
 /// Plays a log.
 class InputReplay final : public InputDevice {

@@ -78,8 +78,9 @@ private:
       return decision(log_.decisions.frames, "the frame's number", 1'000'000'000'000, true);
     if (version_ >= 2 && kind.text == "load")
       return decision(log_.decisions.loads, "the load's number", 1'000'000'000, false);
+    if (version_ >= 2 && kind.text == "order") return order();
     std::vector<std::string> known{"pose", "key", "lost"};
-    if (version_ >= 2) known.insert(known.end(), {"rate", "frame", "load"});
+    if (version_ >= 2) known.insert(known.end(), {"rate", "frame", "load", "order"});
     in_.error(kind.column, fmt::format("{} is not a kind of record{}", quotedWord(kind.text),
                                        didYouMean(kind.text, known)));
   }
@@ -110,6 +111,22 @@ private:
     if (!grows)
       return in_.error(numberWord->column, fmt::format("{} must increase, and the time with it", what));
     known.emplace(static_cast<Number>(*index), *time);
+  }
+
+  void order() {
+    const Word* frameWord = word(1, "the frame's number");
+    const Word* actionWord = frameWord ? word(2, "what was asked for") : nullptr;
+    const auto value = actionWord ? number(3, "the figure") : std::nullopt;
+    if (!value || !nothingAfter(4)) return;
+    const auto frame = in_.count(*frameWord, "the frame's number", 0, 1'000'000'000'000);
+    const auto action = operatorActionNamed(actionWord->text);
+    if (!action || !isOfPresentation(*action))
+      return in_.error(actionWord->column,
+                       fmt::format("{} is no order; known are black, swap-eyes, eye-separation, volume",
+                                   quotedWord(actionWord->text)));
+    if (!(*value >= 0 && *value <= 1))
+      return in_.error(in_.words()[3].column, "the figure must be from 0 to 1");
+    if (frame) log_.decisions.orders.insert({*frame, {*action, *value, false}});
   }
 
   const Word* word(std::size_t index, std::string_view what) {
@@ -161,8 +178,8 @@ private:
 
   bool position(std::size_t index, Pose& pose) {
     for (int axis = 0; axis < 3; ++axis) {
-      const auto value = number(index + static_cast<std::size_t>(axis),
-                                fmt::format("{} of the position", "xyz"[axis]));
+      const auto value =
+          number(index + static_cast<std::size_t>(axis), fmt::format("{} of the position", "xyz"[axis]));
       if (!value) return false;
       if (std::fabs(*value) > kFarthest) {
         in_.error(in_.words()[index + static_cast<std::size_t>(axis)].column,
@@ -321,6 +338,10 @@ std::string formatLateLoad(std::uint32_t load, Nanoseconds time) {
   return fmt::format("load {} {}\n", load, formatSeconds(time));
 }
 
+std::string formatOrder(std::uint64_t frame, const OperatorCommand& order) {
+  return fmt::format("order {} {} {}\n", frame, nameOf(order.action), order.value.value_or(0));
+}
+
 std::string formatRecord(const std::string& tracker, const InputStamp& stamp) {
   if (!stamp.valid) return fmt::format("lost {} {}\n", tracker, formatSeconds(stamp.time));
   const Vec3& p = stamp.X_RT.p;
@@ -342,6 +363,7 @@ std::string formatInputLog(const InputLog& log) {
   if (decided.rate == 0 && !decided.empty()) text = fmt::format("{} {}\n", kFormatName, kNewestVersion);
   for (const auto& [frame, time] : decided.frames) text += formatFrameTime(frame, time);
   for (const auto& [load, time] : decided.loads) text += formatLateLoad(load, time);
+  for (const auto& [frame, order] : decided.orders) text += formatOrder(frame, order);
   for (const InputTrack& track : log.tracks)
     for (const InputStamp& stamp : track.stamps) text += formatRecord(track.name, stamp);
   return text;

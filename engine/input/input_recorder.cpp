@@ -53,6 +53,10 @@ void InputRecorder::lateLoad(std::uint32_t number, Nanoseconds time) {
   if (rate_ != 0) file_.write(formatLateLoad(number, time));
 }
 
+void InputRecorder::order(std::uint64_t frame, const OperatorCommand& order) {
+  if (rate_ != 0) file_.write(formatOrder(frame, order));
+}
+
 std::optional<Diagnostic> InputRecorder::commit() {
   // So that a replay ends where the run did, whatever the trackers said.
   if (!lastIsWritten_) file_.write(formatFrameTime(lastFrame_.frame, lastFrame_.time));

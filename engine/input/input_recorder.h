@@ -31,6 +31,8 @@ public:
   void frame(const TimeSignature& now);
   /// Load `number` came late and took effect at `time`.
   void lateLoad(std::uint32_t number, Nanoseconds time);
+  /// The operator asked for something that changes pictures and sounds, from frame `frame` on.
+  void order(std::uint64_t frame, const OperatorCommand& order);
   /// Finishes the file; nothing if all went well.
   std::optional<Diagnostic> commit();
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a clock decided in a live run, as its input log keeps it, so that a replay obeys it.
+/// What a clock and an operator decided in a live run, as its input log keeps it, so that a replay obeys it.
 ///
 /// Most frames follow each other at 1/rate, and most files are ready when they are due: only what differs is
 /// written down.
@@ -7,6 +7,7 @@
 /// Units    show time [ns], from the start of the show.
 /// Threads  plain values.
 
+#include "engine/input/operator_command.h"
 #include "engine/time_signature.h"
 
 #include <cstdint>
@@ -15,12 +16,17 @@
 
 namespace stadion {
 
+/// What the operator asked for, by the frame in which it took effect.
+using RunOrders = std::multimap<std::uint64_t, OperatorCommand>;
+
 struct RunDecisions {
   double rate = 0;                              ///< frames a second of the recorded run; 0 = not said
   std::map<std::uint64_t, Nanoseconds> frames;  ///< frame number to its show time; the ones after it follow
   std::map<std::uint32_t, Nanoseconds> loads;   ///< load number to when it took effect, because it came late
 
-  bool empty() const { return frames.empty() && loads.empty(); }
+  RunOrders orders;  ///< about pictures and sounds alone, with their figures
+
+  bool empty() const { return frames.empty() && loads.empty() && orders.empty(); }
   Nanoseconds end() const { return frames.empty() ? 0 : frames.rbegin()->second; }
 };
 

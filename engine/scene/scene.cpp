@@ -26,7 +26,9 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
   counters_ = {};
   events_.clear();
   now_ = now.time;
+  frame_ = now.frame;
   courses_.clear();
+  impacts_.clear();
   applyLoads(now);
   rigStart_ = rigPose();
   visit(now, input, probe);
@@ -185,6 +187,22 @@ void Scene::wakeAt(Nanoseconds when, NodeRef node) {
   wakes_.insert({when, node});
 }
 
+void Scene::unwatchImpacts(NodeRef body, NodeRef watcher) {
+  const auto [first, last] = impactWatchers_.equal_range(body);
+  const auto at = std::find_if(first, last, [&](const auto& w) { return w.second == watcher; });
+  if (at != last) impactWatchers_.erase(at);
+}
+
+void Scene::noteImpact(const Impact& impact) {
+  bool anybody = false;
+  for (const NodeRef party : {impact.body, impact.other}) {
+    const auto [first, last] = impactWatchers_.equal_range(party);
+    for (auto w = first; w != last; ++w) wakeNow(w->second);
+    anybody |= first != last;
+  }
+  if (anybody) impacts_.push_back(impact);
+}
+
 // Messages.
 
 Message Scene::addressed(const std::string& target, NodeRef from, std::vector<std::string> arguments) const {
@@ -223,9 +241,9 @@ bool Scene::command(const std::string& target, Verb verb, std::vector<std::strin
   return true;
 }
 
-void Scene::note(NodeRef node, Event event, Nanoseconds when) {
+void Scene::note(NodeRef node, Event event, Nanoseconds when, std::optional<double> figure) {
   if (when > endOf(node.load)) return;
-  events_.push_back({node, event, when});
+  events_.push_back({node, event, when, figure});
 }
 
 void Scene::warn(const Node& about, const std::string& what) {

@@ -10,9 +10,11 @@
 #include "engine/input/input_sample.h"
 #include "engine/node.h"
 #include "engine/scene/courses.h"
+#include "engine/scene/impact.h"
 #include "engine/scene/load.h"
 #include "engine/scene/placements.h"
 #include "engine/scene/records.h"
+#include "engine/scene/sounds.h"
 
 #include <functional>
 #include <limits>
@@ -41,6 +43,7 @@ struct EventRecord {
   NodeRef node;
   Event event;
   Nanoseconds when;
+  std::optional<double> figure{};  ///< measured: the distance [m]
 };
 
 class Scene {
@@ -78,7 +81,7 @@ public:
   void post(const Node& sender, const Notification& n, Nanoseconds when);
   /// A command from outside the show, to be delivered in the next frame.
   bool command(const std::string& target, Verb verb, std::vector<std::string> arguments, Nanoseconds when);
-  void note(NodeRef node, Event event, Nanoseconds when);
+  void note(NodeRef node, Event event, Nanoseconds when, std::optional<double> figure = {});
   /// Tells the author what the show did about a node, with its name and where it is declared.
   void warn(const Node& about, const std::string& what);
   /// Visits `node` in the frame in which `when` falls.
@@ -94,18 +97,34 @@ public:
   /// When the load (or what brought it in) is unloaded, as far as it happens in this frame; else kNever.
   Nanoseconds endOf(std::uint32_t load) const;
   static constexpr Nanoseconds kNever = std::numeric_limits<Nanoseconds>::max();
+  /// Wakes `watcher` in the frame in which `body` touches something.
+  void watchImpacts(NodeRef body, NodeRef watcher) { impactWatchers_.insert({body, watcher}); }
+  void unwatchImpacts(NodeRef body, NodeRef watcher);
+  /// Whether anybody would look at impacts: else nobody needs to note them.
+  bool impactsWanted() const { return !impactWatchers_.empty(); }
+  void noteImpact(const Impact& impact);
+  const std::vector<Impact>& impacts() const { return impacts_; }  ///< of this frame, as they were noted
   /// Changes whenever a load comes or goes: names may resolve differently.
   std::uint64_t loadsVersion() const { return loadsVersion_; }
 
   InstanceId addInstance(PlacementId placement, MeshId mesh, bool drawn, std::uint32_t owner);
   void setDrawn(InstanceId id, bool drawn);
   void removeInstance(InstanceId id);
+  /// What the instance shows from now on; kNoMesh = nothing.
+  void setMesh(InstanceId id, MeshId mesh);
+  /// A mesh that a node has made itself; to be given back with releaseMesh.
+  MeshId addMesh(std::unique_ptr<const Mesh> mesh) { return meshes_.add(std::move(mesh)); }
+  void releaseMesh(MeshId mesh);
 
   std::size_t addLight(PlacementId placement, const LightRecord& local, NodeRef node);
   void setLight(std::size_t handle, const LightRecord& local, bool on);
   void removeLight(std::size_t handle);
   void addSky(NodeRef node, const SkyRecord& sky) { skies_.push_back({node, sky}); }
   void removeSky(NodeRef node);
+
+  std::size_t addSound(PlacementId placement);
+  void setSound(std::size_t handle, bool on, const SoundRecord& sound);
+  void removeSound(std::size_t handle);
 
   /// Show time at the end of this frame; while a load enters, the exact time at which it does.
   Nanoseconds now() const { return now_; }
@@ -136,6 +155,8 @@ public:
   const FrameCounters& counters() const { return counters_; }
   const std::vector<EventRecord>& events() const { return events_; }  ///< of the last frame, by time
   std::size_t loadCount() const { return loads_.size(); }
+  /// What is heard at the end of the last frame; refilled.
+  void listen(const InputSample& input, SoundScape& out) const;
   void forEachNode(const std::function<void(const Node&)>& f) const;
 
 private:
@@ -154,6 +175,11 @@ private:
   struct Sky {
     NodeRef node;
     SkyRecord record;
+  };
+  struct SoundSpot {
+    PlacementId placement = kNoPlacement;
+    SoundRecord sound;
+    bool on = false, live = false;
   };
   struct Rig {
     NodeRef node;
@@ -243,6 +269,7 @@ private:
   bool lightsChanged_ = true;
   std::vector<std::size_t> shining_;  ///< those published last, while more than kMostLights would shine
   bool toldOfLights_ = false;
+  std::vector<SoundSpot> sounds_;
   std::vector<Sky> skies_;  ///< the last one is seen
   std::size_t chunksShown_ = 0;
   std::vector<Rig> rigs_;  ///< the last one is in use
@@ -252,7 +279,10 @@ private:
   Crew crew_;
   FrameCounters counters_;
   std::vector<EventRecord> events_;
+  std::multimap<NodeRef, NodeRef> impactWatchers_;  ///< by the body that is watched
+  std::vector<Impact> impacts_;
   Nanoseconds now_ = 0;
+  std::uint64_t frame_ = 0;
 };
 
 }  // namespace stadion

@@ -63,6 +63,16 @@ void Scene::removeInstance(InstanceId id) {
   freeInstances_.push_back(id);
 }
 
+void Scene::setMesh(InstanceId id, MeshId mesh) {
+  instances_[id].mesh = mesh;
+  markInstance(id);
+}
+
+/// This frame is not published yet: the last one that may show the mesh came before it.
+void Scene::releaseMesh(MeshId mesh) {
+  if (mesh != kNoMesh) meshes_.release(mesh, frame_);
+}
+
 void Scene::markInstance(InstanceId id) {
   if (instances_[id].changed) return;
   instances_[id].changed = true;
@@ -89,6 +99,33 @@ void Scene::removeLight(std::size_t handle) {
   lights_[handle].live = false;
   --lightsAt_[lights_[handle].placement];
   lightsChanged_ = true;
+}
+
+std::size_t Scene::addSound(PlacementId placement) {
+  auto at = std::find_if(sounds_.begin(), sounds_.end(), [](const SoundSpot& s) { return !s.live; });
+  if (at == sounds_.end()) at = sounds_.insert(sounds_.end(), SoundSpot{});
+  *at = {placement, {}, false, true};
+  return static_cast<std::size_t>(at - sounds_.begin());
+}
+
+void Scene::setSound(std::size_t handle, bool on, const SoundRecord& sound) {
+  sounds_[handle].on = on;
+  sounds_[handle].sound = sound;
+}
+
+void Scene::removeSound(std::size_t handle) {
+  sounds_[handle] = {};
+}
+
+void Scene::listen(const InputSample& input, SoundScape& out) const {
+  out.time = now_;
+  out.X_WH = rigPose() * headInRig(input);
+  out.sounds.clear();
+  for (const SoundSpot& s : sounds_) {
+    if (!s.on) continue;
+    out.sounds.push_back(s.sound);
+    out.sounds.back().position = placements_.world(s.placement).translation();
+  }
 }
 
 void Scene::publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes) {

@@ -1,6 +1,7 @@
 #include "engine/script/builder.h"
 
 #include "engine/maths/functions.h"
+#include "engine/text/text_mesh.h"
 
 #include <algorithm>
 
@@ -29,6 +30,7 @@ Notification notificationOf(const EventMessage& m) {
   n.target = std::string(m.target.name);
   if (m.verb == Verb::Attach) n.arguments = {std::string(kAttachPartNames[static_cast<std::size_t>(m.part)])};
   if (!m.field.name.empty()) n.arguments.push_back(std::string(m.field.name));
+  if (m.verb == Verb::Say) n.arguments.push_back(withLineEnds(m.words));
   if (!m.tracker.empty()) n.arguments.push_back(std::string(m.tracker));
   return n;
 }
@@ -157,6 +159,10 @@ private:
     return a;
   }
 
+  Nanoseconds soundLengthOf(const Declaration& d) const {
+    return d.kind() == NodeKind::Sound ? input_.sounds(d) : 0;
+  }
+
   Affine worldPlaceOf(const Declaration& d) const {
     Affine X = placeOf(d).X_PN;
     for (std::uint32_t up = layout_.parent(d.index()); up != Layout::kNone; up = layout_.parent(up))
@@ -191,7 +197,8 @@ private:
                               a.mesh == kNoMesh ? nullptr : input_.store.find(a.mesh),
                               resolve_,
                               model_,
-                              findings_};
+                              findings_,
+                              soundLengthOf(d)};
     const NodeFactory& make = input_.factories[static_cast<std::size_t>(d.kind())];
     std::unique_ptr<Node> node = make(request);
     if (!node) return;

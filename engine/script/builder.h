@@ -31,11 +31,12 @@ struct NodeRequest {
   std::string name;
   PlaceAttributes place;
   Appearance appearance;
-  const Mesh* mesh = nullptr;  ///< of kinds with a file
+  const Mesh* mesh = nullptr;  ///< of kinds with a model
   const std::function<NodeRef(const NodeReference&)>& resolve;
   /// Of objects in the same file.
   const std::function<std::optional<PlacedModel>(const NodeReference&)>& model;
   Diagnostics& findings;
+  Nanoseconds soundLength = 0;  ///< of sounds [ns]
 };
 
 /// Makes a node, or says in the findings why it cannot.
@@ -48,6 +49,9 @@ void addEngineFactories(NodeFactories& factories);
 /// Gives the mesh for a declaration's file; never kNoMesh. Who gives it keeps count of it, too.
 using MeshSource = std::function<MeshId(const Declaration&)>;
 
+/// Gives the length of a declaration's sound file, of a silent stand-in if it cannot be read [ns].
+using SoundSource = std::function<Nanoseconds(const Declaration&)>;
+
 struct BuildInput {
   const Document& document;
   std::uint32_t number;  ///< of the load
@@ -57,6 +61,7 @@ struct BuildInput {
   const NodeFactories& factories;
   MeshSource meshes;
   const MeshStore& store;
+  SoundSource sounds;
 };
 
 struct Built {

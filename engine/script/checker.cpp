@@ -3,6 +3,7 @@
 #include "engine/script/choice.h"
 #include "engine/script/file_path.h"
 #include "engine/script/suggestion.h"
+#include "engine/text/text_mesh.h"
 
 #include <algorithm>
 #include <cctype>
@@ -139,6 +140,7 @@ void Checker::takeValue(NodeKind kind, const AttributeSpec& spec, TextSpan value
   case ValueKind::Tracker:
   case ValueKind::Reference: return takeWord(spec, value);
   case ValueKind::File: return takeFile(spec, value);
+  case ValueKind::Words: return takeWords(spec, value);
   case ValueKind::Coefficients: return takeCoefficients(spec, value);
   case ValueKind::EventMessage: return takeMessage(kind, value);
   default: return takeNumbers(spec, value);
@@ -217,6 +219,13 @@ void Checker::takeWord(const AttributeSpec& spec, TextSpan value) {
     writer_.setName(value);
   else
     writer_.addText(spec.attr, spec.kind, value);
+}
+
+void Checker::takeWords(const AttributeSpec& spec, TextSpan value) {
+  if (value.length > kLongestWords)
+    return report_.error(value.offset, fmt::format("{} may have {} bytes at most, not {}", nameOf(spec.attr),
+                                                   kLongestWords, value.length));
+  writer_.addText(spec.attr, spec.kind, value);
 }
 
 /// How many there must be, and what they may be, is for those who know the models.

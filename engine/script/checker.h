@@ -27,6 +27,7 @@ private:
   void takeFlag(const AttributeSpec& spec, TextSpan value);
   void takeChoice(const AttributeSpec& spec, TextSpan value);
   void takeWord(const AttributeSpec& spec, TextSpan value);
+  void takeWords(const AttributeSpec& spec, TextSpan value);
   void takeCoefficients(const AttributeSpec& spec, TextSpan value);
   void checkFlight(const RawDeclaration& raw, std::uint32_t node);
   void takeFile(const AttributeSpec& spec, TextSpan value);

@@ -189,6 +189,7 @@ EventMessage Document::messageAt(std::uint32_t index) const {
   message.part = stored.part;
   if (stored.field != kNone) message.field = referenceAt(stored.field);
   message.tracker = source_.slice(stored.tracker, stored.trackerLength);
+  message.words = source_.slice(stored.words, stored.wordsLength);
   message.delay = stored.delay;
   message.latency = stored.latency;
   message.where = stored.where;

@@ -66,7 +66,7 @@ public:
   Vec3 vec3(Attr attr) const;                             ///< Vec3, Direction, Colour, Scale (always three)
   bool flag(Attr attr) const;
   std::string_view
-  text(Attr attr) const;  ///< NewName, Tracker, File, and the word of a Choice; empty if neither
+  text(Attr attr) const;  ///< NewName, Tracker, File, Words, and the word of a Choice; empty if neither
   /// The position of the word among the schema's choices, as an enumeration of choice.h.
   template <class E>
   E choice(Attr attr) const {
@@ -163,6 +163,8 @@ private:
     std::uint32_t field;   // into references_, or kNone
     std::uint32_t tracker;
     std::uint32_t trackerLength;
+    std::uint32_t words;
+    std::uint32_t wordsLength;
     Event event;
     Verb verb;
     AttachPart part;

@@ -51,6 +51,8 @@ void DocumentWriter::addMessage(TextSpan value, const ReadMessage& read) {
   message.field = read.field.text.empty() ? Document::kNone : storeReference(at(read.field));
   message.tracker = at(read.tracker).offset;
   message.trackerLength = at(read.tracker).length;
+  message.words = at(read.words).offset;
+  message.wordsLength = at(read.words).length;
   message.event = read.event;
   message.verb = read.verb;
   message.part = read.part;

@@ -1,8 +1,11 @@
 #include "engine/maths/functions.h"
 #include "engine/nodes/light_node.h"
+#include "engine/nodes/measure_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/rig_node.h"
 #include "engine/nodes/scene_node.h"
+#include "engine/nodes/sound_node.h"
+#include "engine/nodes/text_node.h"
 #include "engine/nodes/timer_node.h"
 #include "engine/nodes/trigger_node.h"
 #include "engine/script/builder.h"
@@ -18,8 +21,9 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 using Made = std::unique_ptr<Node>;
 
 /// A colour as scripts write it (sRGB, 0 to 1) in linear light.
-void setColour(const Vec3& srgb, float (&linear)[3], double factor = 1) {
-  for (int i = 0; i < 3; ++i) {
+template <class Linear>
+void setColour(const Vec3& srgb, Linear& linear, double factor = 1) {
+  for (unsigned i = 0; i < 3; ++i) {
     const double c = srgb[i] <= 0.04045 ? srgb[i] / 12.92 : det::pow((srgb[i] + 0.055) / 1.055, 2.4);
     linear[i] = static_cast<float>(c * factor);
   }
@@ -55,6 +59,33 @@ Made makeSky(const NodeRequest& r) {
   setColour(r.declaration.vec3(Attr::Ambient), sky.ambient);
   sky.haze = static_cast<float>(r.declaration.optionalNumber(Attr::Haze).value_or(0));
   return std::make_unique<SkyNode>(r.self, r.name, sky);
+}
+
+Made makeText(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  TextStyle style;
+  style.size = d.number(Attr::Size);
+  style.depth = d.number(Attr::Depth);
+  setColour(d.vec3(Attr::Colour), style.colour);
+  if (d.has(Attr::Background)) setColour(d.vec3(Attr::Background), style.background.emplace());
+  style.align = d.choice<TextAlign>(Attr::Align);
+  style.lit = d.flag(Attr::Lit);
+  return std::make_unique<TextNode>(r.self, r.name, r.place, withLineEnds(d.text(Attr::Text)), style);
+}
+
+Made makeMeasure(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  const auto named = [&](Attr attr) {
+    const auto reference = d.reference(attr);
+    return reference ? std::string(reference->name) : std::string();
+  };
+  MeasureAttributes a;
+  a.body = named(Attr::Body), a.ground = named(Attr::Ground);
+  a.text = named(Attr::Text), a.against = named(Attr::Against);
+  a.label = std::string(d.text(Attr::Label));
+  a.from = d.choice<MeasureFrom>(Attr::From);
+  if (const auto sector = d.optionalNumber(Attr::Sector)) a.cosHalfSector = det::cos(0.5 * *sector * kDegree);
+  return std::make_unique<MeasureNode>(r.self, r.name, r.place, std::move(a));
 }
 
 Made makeTrigger(const NodeRequest& r) {
@@ -97,6 +128,17 @@ Made makePath(const NodeRequest& r) {
                                     d.flag(Attr::InitState));
 }
 
+Made makeSound(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  SoundNode::Attributes a;
+  a.file = std::string(d.text(Attr::File));
+  a.length = r.soundLength;
+  a.gain = d.number(Attr::Gain);
+  a.range = d.optionalNumber(Attr::Range).value_or(0);
+  a.loop = d.flag(Attr::Loop);
+  return std::make_unique<SoundNode>(r.self, r.name, r.place, std::move(a), d.flag(Attr::InitState));
+}
+
 Made makeNavigator(const NodeRequest& r) {
   const Declaration& d = r.declaration;
   NavigatorNode::Attributes a;
@@ -118,10 +160,12 @@ void addEngineFactories(NodeFactories& factories) {
   set(NodeKind::Group, makePlaced), set(NodeKind::Transform, makePlaced);
   set(NodeKind::Object, makeObject);
   set(NodeKind::Light, makeLight), set(NodeKind::Sky, makeSky);
+  set(NodeKind::Text, makeText), set(NodeKind::Measure, makeMeasure);
   set(NodeKind::UserTrigger, makeTrigger), set(NodeKind::WandTrigger, makeTrigger);
   set(NodeKind::Timer, makeTimer);
   set(NodeKind::Scene, makeScene);
   set(NodeKind::Path, makePath);
+  set(NodeKind::Sound, makeSound);
   set(NodeKind::Navigator, makeNavigator), set(NodeKind::Rig, makeRig);
 }
 

@@ -42,6 +42,7 @@ struct EventMessage {
   AttachPart part = AttachPart::All;  ///< attach
   NodeReference field;                ///< hook, unhook; else unresolved
   std::string_view tracker;           ///< attach, grab; empty: the default
+  std::string_view words;             ///< say
   Nanoseconds delay = 0;              ///< from the event to the command [ns]
   Nanoseconds latency = 0;            ///< on top of the delay; 0: none is stated [ns]
   std::uint32_t where = 0;            ///< offset in the source text

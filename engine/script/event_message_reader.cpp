@@ -3,6 +3,7 @@
 #include "engine/diagnostic.h"
 #include "engine/script/schema.h"
 #include "engine/script/suggestion.h"
+#include "engine/text/text_mesh.h"
 
 #include <fmt/format.h>
 
@@ -72,11 +73,20 @@ Failure readField(std::string_view& rest, std::size_t& offset, ReadMessage& mess
   return std::nullopt;
 }
 
+Failure readWords(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
+  message.words = takeUntil(',', rest, offset);  // the whole rest: commas end commands
+  if (message.words.text.size() <= kLongestWords) return std::nullopt;
+  return ValueError{message.words.offset,
+                    fmt::format("\"{}\" takes {} bytes at most, not {}", nameOf(message.verb), kLongestWords,
+                                message.words.text.size())};
+}
+
 Failure readArguments(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
   switch (specOf(message.verb).argument) {
   case ArgumentKind::None: return std::nullopt;
   case ArgumentKind::Field: return readField(rest, offset, message);
   case ArgumentKind::Tracker: return readTracker(rest, offset, message);
+  case ArgumentKind::Words: return readWords(rest, offset, message);
   case ArgumentKind::PartAndTracker:
     if (auto failure = readPart(rest, offset, message)) return failure;
     return readTracker(rest, offset, message);

@@ -16,6 +16,7 @@ struct ReadMessage {
   AttachPart part = AttachPart::All;
   Piece field;
   Piece tracker;
+  Piece words;
   Nanoseconds delay = 0, latency = 0;
 };
 

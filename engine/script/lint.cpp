@@ -4,6 +4,8 @@
 #include "engine/script/file_path.h"
 #include "engine/script/reporter.h"
 #include "engine/script/suggestion.h"
+#include "engine/text/glyphs.h"
+#include "engine/text/text_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +18,7 @@ namespace stadion {
 
 namespace {
 
+constexpr std::string_view kSoundEndings[] = {"wav", "aiff", "aif", "flac", "ogg"};
 constexpr std::string_view kModelEndings[] = {"obj", "3ds", "gltf", "glb", "dae", "stl"};
 
 /// What other nodes of the file do to each node.
@@ -51,7 +54,10 @@ private:
         if (Use* use = useOf(body)) use->simulated = true;
     if (node.has(Attr::Parent))
       if (Use* use = useOf(*node.reference(Attr::Parent))) use->isParent = true;
-    for (const EventMessage& message : node.eventMessages()) noteMessage(message);
+    for (const EventMessage& message : node.eventMessages()) {
+      noteMessage(message);
+      warnOfMissing(message.words, message.command);
+    }
   }
 
   void noteMessage(const EventMessage& message) {
@@ -71,6 +77,7 @@ private:
     case NodeKind::Object: return lookAtModel(node);
     case NodeKind::DynObject: return lookAtBody(node);
     case NodeKind::Light: return lookAtLight(node);
+    case NodeKind::Text: return warnOfMissing(node.text(Attr::Text), node.offset(Attr::Text));
     case NodeKind::ForceLinear:
     case NodeKind::ForceSpherical:
     case NodeKind::ForcePoint:
@@ -81,6 +88,7 @@ private:
     case NodeKind::Timer: return lookAtSender(node);
     case NodeKind::Scene: return lookAtScene(node);
     case NodeKind::Path: return lookAtPath(node);
+    case NodeKind::Sound: return lookAtSound(node);
     case NodeKind::Collision:
     case NodeKind::Dynamics: return lookAtContacts(node);
     default: return;
@@ -116,6 +124,12 @@ private:
     if (node.has(Attr::Direction) && type == "point")
       warn(node, Attr::Direction, "direction has no effect: a point light shines all around");
     warnNeverOn(node);
+  }
+
+  void warnOfMissing(std::string_view words, std::uint32_t where) {
+    for (const char32_t c : missingFrom(withLineEnds(words)))
+      report_.warning(where, fmt::format("the letters of the show have no U+{:04X}; a box stands for it",
+                                         static_cast<std::uint32_t>(c)));
   }
 
   void lookAtNumberOfLights() {
@@ -175,6 +189,16 @@ private:
                         target->name));
     }
     lookAtTurns(node);
+    warnNeverOn(node);
+  }
+
+  void lookAtSound(const Declaration& node) {
+    const std::string ending = endingOf(node.text(Attr::File));
+    if (std::find(std::begin(kSoundEndings), std::end(kSoundEndings), ending) == std::end(kSoundEndings))
+      warn(node, Attr::File,
+           fmt::format("\"{}\" is not in a format that is read (.wav, .aiff, .flac, .ogg)",
+                       node.text(Attr::File)));
+    if (node.number(Attr::Gain) == 0) warn(node, Attr::Gain, "a sound of gain 0 is never heard");
     warnNeverOn(node);
   }
 

@@ -105,6 +105,7 @@ std::string formOf(const AttributeSpec& spec) {
   case ValueKind::Tracker: return "the name of a tracker";
   case ValueKind::Reference: return "the name of a node";
   case ValueKind::File: return "a file name";
+  case ValueKind::Words: return "any text; \\n ends a line";
   case ValueKind::Coefficients: return "numbers \"a, b, ...\" or one word";
   case ValueKind::EventMessage: return "\"event, target, command [arguments] [, delay] [, latency=seconds]\"";
   }

@@ -38,6 +38,7 @@ enum class ValueKind : std::uint8_t {
   Reference,     ///< the name of another node
   File,          ///< a path below the show's asset roots
   Coefficients,  ///< up to seven numbers, or one word
+  Words,         ///< any text; \n ends a line
   EventMessage,
 };
 
@@ -76,6 +77,7 @@ enum class ArgumentKind : std::uint8_t {
   PartAndTracker,  ///< all|position|orientation [tracker]
   Tracker,         ///< [tracker]
   Field,           ///< the name of a force field
+  Words,           ///< the rest of the command, any text without commas
 };
 
 struct CommandSpec {

@@ -21,12 +21,13 @@ inline constexpr NumberRange kTurn{-36000, 36000};
 inline constexpr NumberRange kForce{-kFar, kFar};
 
 inline constexpr KindSet kFields{ForceLinear, ForceSpherical, ForcePoint, ForceVortex, Medium};
-inline constexpr KindSet kMovable =
-    KindSet{Group, Transform, Object, DynObject, Light, Path, UserTrigger, WandTrigger, Scene} | kFields;
+inline constexpr KindSet kMovable = KindSet{Group, Transform, Object,      DynObject,   Light, Text,
+                                            Path,  Sound,     UserTrigger, WandTrigger, Scene, Measure} |
+                                    kFields;
 inline constexpr KindSet kParents{Group, Transform, Object, DynObject, Path, Scene, Rig};
 inline constexpr KindSet kSolid{Object, DynObject};
 inline constexpr KindSet kSwitched =
-    KindSet{UserTrigger, WandTrigger, Timer, Light, Path, Navigator, Dynamics, Collision} | kFields;
+    KindSet{UserTrigger, WandTrigger, Timer, Light, Path, Sound, Navigator, Dynamics, Collision} | kFields;
 
 inline constexpr AttributeSpec kCommonRows[] = {
     {.attr = Attr::Name, .kind = NewName, .help = "how other nodes call this one; unique in its file"},

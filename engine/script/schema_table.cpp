@@ -11,6 +11,8 @@ constexpr std::string_view kShapes[] = {"auto",  "sphere",  "box",      "mesh",
                                         "plane", "capsule", "cylinder", "convex"};
 constexpr std::string_view kAxes[] = {"x", "y", "z"};
 constexpr std::string_view kThrows[] = {"hand", "field", "both"};
+constexpr std::string_view kOrigins[] = {"line", "point"};
+constexpr std::string_view kAligns[] = {"left", "centre", "right"};
 constexpr std::string_view kFlights[] = {"point", "ballistic", "bias", "rod", "plate", "ball", "table"};
 constexpr std::string_view kBiases[] = {"flow", "paper", "covariance"};
 constexpr std::string_view kAxesFrom[] = {"area", "vertices"};
@@ -226,6 +228,40 @@ constexpr AttributeSpec kSkyRows[] = {
      .range = kDistance},
 };
 
+constexpr AttributeSpec kTextRows[] = {
+    {.attr = Attr::Text, .kind = Words, .help = "what it says at the start"},
+    {.attr = Attr::Size,
+     .kind = Number,
+     .help = "height of a capital",
+     .standard = "0.5",
+     .unit = "m",
+     .range = {0, 1000, true}},
+    {.attr = Attr::Colour,
+     .kind = Colour,
+     .help = "red, green, blue (sRGB)",
+     .standard = "1, 1, 1",
+     .range = kColourRange},
+    {.attr = Attr::Lit,
+     .kind = Flag,
+     .help = "whether light falls on it as on any surface; if not, it shows its colour in any light",
+     .standard = "off"},
+    {.attr = Attr::Align,
+     .kind = Choice,
+     .help = "what of each line is at the node's place: its beginning, its middle or its end",
+     .standard = "centre",
+     .choices = kAligns},
+    {.attr = Attr::Depth,
+     .kind = Number,
+     .help = "how thick the letters are; 0 is flat",
+     .standard = "0",
+     .unit = "m",
+     .range = {0, 1000}},
+    {.attr = Attr::Background,
+     .kind = Colour,
+     .help = "colour of a board behind the letters (sRGB); no board if not stated",
+     .range = kColourRange},
+};
+
 constexpr AttributeSpec kTriggerSphere{.attr = Attr::Sphere,
                                        .kind = ValueKind::Sphere,
                                        .help =
@@ -292,6 +328,25 @@ constexpr AttributeSpec kPathRows[] = {
     kInitOn,
 };
 
+constexpr AttributeSpec kSoundRows[] = {
+    {.attr = Attr::File,
+     .kind = File,
+     .help = "what is heard: .wav, .aiff, .flac or .ogg (Vorbis)",
+     .required = true},
+    {.attr = Attr::Gain,
+     .kind = Number,
+     .help = "how loud it is: 1 as the file has it",
+     .standard = "1",
+     .range = kUnitInterval},
+    {.attr = Attr::Range,
+     .kind = Number,
+     .help = "how far from its place it is heard; without it, it is heard everywhere alike",
+     .unit = "m",
+     .range = kLength},
+    {.attr = Attr::Loop, .kind = Flag, .help = "whether it starts again at its end", .standard = "off"},
+    kInitOn,
+};
+
 constexpr AttributeSpec kCollider{.attr = Attr::Collider,
                                   .kind = Reference,
                                   .help = "takes part, and is not moved",
@@ -328,6 +383,38 @@ constexpr AttributeSpec kDynamicsRows[] = {
      .help = "whether the bodies of this node collide with each other",
      .standard = "on"},
     kInitOn,
+};
+
+constexpr AttributeSpec kMeasureRows[] = {
+    {.attr = Attr::Body,
+     .kind = Reference,
+     .help = "what is thrown; its first impact after \"start\" counts",
+     .required = true,
+     .targets = {DynObject}},
+    {.attr = Attr::Ground,
+     .kind = Reference,
+     .help = "only an impact with this counts; any, if not stated",
+     .targets = kSolid},
+    {.attr = Attr::From,
+     .kind = Choice,
+     .help = "square from the node's X axis, or from its place",
+     .standard = "line",
+     .choices = kOrigins},
+    {.attr = Attr::Sector,
+     .kind = Number,
+     .help = "full angle about the node's +Y, outside which a throw is a foul; if not stated, only one that "
+             "lands behind the line is",
+     .unit = "degrees",
+     .range = {0, 180, true}},
+    {.attr = Attr::Label, .kind = Words, .help = "what the result is called; the node's name if not stated"},
+    {.attr = Attr::Text,
+     .kind = Reference,
+     .help = "a text node that shows the result",
+     .targets = {NodeKind::Text}},
+    {.attr = Attr::Against,
+     .kind = Reference,
+     .help = "the measure to compare with, once both have a result",
+     .targets = {Measure}},
 };
 
 constexpr AttributeSpec kNavigatorRows[] = {
@@ -379,7 +466,9 @@ constexpr Event kWandTriggerEvents[] = {Event::Enter,   Event::Exit,    Event::B
 constexpr Event kTimerEvents[] = {Event::TimesUp};
 constexpr Event kSceneEvents[] = {Event::Loaded, Event::Unloaded};
 constexpr Event kPathEvents[] = {Event::Finished};
+constexpr Event kSoundEvents[] = {Event::Finished};
 constexpr Event kContactEvents[] = {Event::OnImpact, Event::OnRelease};
+constexpr Event kMeasureEvents[] = {Event::Measured, Event::Foul, Event::Won, Event::Lost, Event::Drawn};
 constexpr Event kBodyEvents[] = {Event::OnQuarantine};
 
 }  // namespace
@@ -401,6 +490,7 @@ constinit const std::array<NodeSpec, kNodeKindCount> kNodes = {{
      {},
      false,
      true},
+    {Text, "words in the scene, read by who looks along +Y", kTextRows, {}, true},
     {ForceLinear,
      "a force field with the same force everywhere, such as gravity or a kick",
      kForceLinearRows,
@@ -416,9 +506,12 @@ constinit const std::array<NodeSpec, kNodeKindCount> kNodes = {{
     {Timer, "posts an event after a time", kTimerRows, kTimerEvents},
     {Scene, "another script, loaded into this one and unloaded by message", kSceneRows, kSceneEvents, true},
     {Path, "moves a node along keys given in advance", kPathRows, kPathEvents, true},
+    {Sound, "something that is heard, from its place or from everywhere", kSoundRows, kSoundEvents, true},
     {Collision, "notices contact between objects and leaves them where they are", kCollisionRows,
      kContactEvents},
     {Dynamics, "moves its bodies by forces and collisions", kDynamicsRows, kContactEvents},
+    {Measure, "takes the distance of a throw where the body first touches, from its X axis towards +Y",
+     kMeasureRows, kMeasureEvents, true},
     {Navigator, "lets the user move the rig with joypad and wand", kNavigatorRows, {}},
     {Rig,
      "the platform that carries walls, trackers and viewers through the world",
@@ -430,7 +523,7 @@ constinit const std::array<NodeSpec, kNodeKindCount> kNodes = {{
 
 constinit const std::array<CommandSpec, kVerbCount> kCommands = {{
     {Verb::Enable, ArgumentKind::None, kSwitched, "enable",
-     "begins to act; a field's duration starts anew, a path that has ended too"},
+     "begins to act; a field's duration starts anew, a path that has ended too, and every sound"},
     {Verb::Disable, ArgumentKind::None, kSwitched, "disable", "stops acting"},
     {Verb::Toggle, ArgumentKind::None, kSwitched, "toggle", "enables if disabled, disables if enabled"},
     {Verb::Attach, ArgumentKind::PartAndTracker, kMovable, "attach all|position|orientation [TRACKER]",
@@ -454,6 +547,8 @@ constinit const std::array<CommandSpec, kVerbCount> kCommands = {{
      "the body flies on with the velocity it was held with"},
     {Verb::Load, ArgumentKind::None, {Scene}, "load", "the scene appears after its `ready` time"},
     {Verb::Unload, ArgumentKind::None, {Scene}, "unload", "the scene goes after its `ready` time"},
+    {Verb::Say, ArgumentKind::Words, {Text}, "say [WORDS]", "shows these words; \\n ends a line"},
+    {Verb::Start, ArgumentKind::None, {Measure}, "start", "the body's next impact is measured"},
 }};
 
 constinit const std::array<EventSpec, kEventCount> kEvents = {{
@@ -466,11 +561,17 @@ constinit const std::array<EventSpec, kEventCount> kEvents = {{
     {Event::TimesUp, "the timer's period is over"},
     {Event::Loaded, "the sub-scene has appeared"},
     {Event::Unloaded, "the sub-scene has gone"},
-    {Event::Finished, "the path has reached its last key; told at the end of each pass if it loops"},
+    {Event::Finished,
+     "the path has reached its last key, the sound its end; told at the end of each pass if it loops"},
     {Event::OnImpact, "a pair that was apart has touched"},
     {Event::OnRelease, "a pair that posted onimpact is farther apart than releasedistance"},
     {Event::OnQuarantine,
      "its state would have become infinite or undefined; it stands still until its reset"},
+    {Event::Measured, "the throw has been measured"},
+    {Event::Foul, "the throw has landed behind the line or outside the sector"},
+    {Event::Won, "both throws have a result, and this one is farther, by a centimetre at least"},
+    {Event::Lost, "both throws have a result, and the other is farther"},
+    {Event::Drawn, "both throws have a result, and neither is farther"},
 }};
 
 }  // namespace stadion::schema_table

@@ -8,7 +8,7 @@
 ///          with a whole frame on all walls.
 /// Errors   a full queue refuses (post() is false): nobody has taken anything for a long time.
 
-#include "pipeline/operator/operator_command.h"
+#include "engine/input/operator_command.h"
 
 #include <mutex>
 #include <utility>

@@ -25,13 +25,8 @@ bool OperatorState::obey(const OperatorCommand& command) {
   if (command.value && !std::isfinite(*command.value)) return false;
   switch (command.action) {
   case OperatorAction::Start: waiting = false; return true;
-  case OperatorAction::Pause:
-    turn(paused, command);
-    steps = 0;
-    return true;
-  case OperatorAction::Step:
-    if (paused && steps < 1000) ++steps;
-    return paused;
+  case OperatorAction::Pause: turn(paused, command); return true;
+  case OperatorAction::Step: return paused;
   case OperatorAction::Black: turn(shown.black, command); return true;
   case OperatorAction::NextGroup: nextGroup = true; return true;
   case OperatorAction::SwapEyes: turn(shown.swapEyes, command); return true;

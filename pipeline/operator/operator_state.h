@@ -4,20 +4,12 @@
 /// Threads  App's own. What the walls need of it travels with each frame (Presentation).
 /// Errors   a value that is not finite or out of range is refused; the others are as documented.
 
-#include "pipeline/operator/operator_command.h"
+#include "engine/input/operator_command.h"
+#include "pipeline/operator/presentation.h"
 
 #include <cstdint>
 
 namespace stadion {
-
-/// How a frame is shown, decided once for all walls.
-struct Presentation {
-  bool black = false;
-  bool swapEyes = false;
-  double eyeSeparation = -1;  ///< [m]; negative: as the wall file says
-
-  bool operator==(const Presentation&) const = default;
-};
 
 struct OperatorState {
   static constexpr double kWidestEyes = 1;  ///< [m]
@@ -28,13 +20,12 @@ struct OperatorState {
   double volume = 1;  ///< from 0 to 1
   Presentation shown;
   double wallsEyeSeparation = 0.064;  ///< what the wall file says [m]
-  std::uint32_t steps = 0;            ///< frames still to be made although it is paused
   bool nextGroup = false, end = false;
 
   /// False if the command's value makes no sense; then nothing changes.
   bool obey(const OperatorCommand& command);
-  /// Whether show time stands still in the coming frame.
-  bool still() const { return waiting || (paused && steps == 0); }
+  /// Whether show time stands still, but for single steps.
+  bool still() const { return waiting || paused; }
   double eyeSeparation() const { return shown.eyeSeparation < 0 ? wallsEyeSeparation : shown.eyeSeparation; }
 };
 

@@ -70,6 +70,7 @@ std::string toText(const RunSummary& s) {
                                      : fmt::format("drawn {} of {} frames", s.framesDrawn, s.frames),
                                  s.seconds, s.elapsedSeconds,
                                  all ? fmt::format(" ({:.1f} frames/s)", rate) : "", s.lateFrames);
+  if (s.groups > 1) text += fmt::format("  the last of {} groups in {:.0f} s\n", s.groups, s.uptimeSeconds);
   text += fmt::format("  walls {}, stereo {}, {} x {} pixels, {}, {} Hz\n", s.walls, s.stereo, s.width,
                       s.height, s.mode, s.rate);
   if (s.frameMs.count + s.stages.size() + s.latency.size() > 0)
@@ -84,6 +85,8 @@ std::string toText(const RunSummary& s) {
   for (const ImageHash& h : s.imageHashes)
     text += fmt::format("  image hash of frame {}: {} {} {}\n", s.lastFrame, hex(h.hash), h.wall, h.eye);
   for (const auto& [name, value] : s.counters) text += fmt::format("  {}: {}\n", name, value);
+  for (const MeasuredDistance& m : s.measured)
+    text += fmt::format("  measured {:.3f} m: {} at {:.3f} s\n", m.metres, m.node, m.seconds);
   for (const std::string& file : s.files) text += fmt::format("  wrote {}\n", file);
   for (const std::string& remark : s.remarks) text += fmt::format("  note: {}\n", remark);
   if (!s.stopped.empty()) text += fmt::format("  stopped by {} after frame {}\n", s.stopped, s.lastFrame);
@@ -94,9 +97,11 @@ std::string happeningsText(const RunSummary& s) {
   if (s.happened.empty()) return {};
   const std::size_t told = std::min(s.happened.size(), RunSummary::kHappeningsTold);
   std::string text = "\nwhat happened\n";
-  for (std::size_t i = 0; i < told; ++i)
-    text +=
-        fmt::format("{:9.4f} s  {:<10} {}\n", s.happened[i].seconds, s.happened[i].event, s.happened[i].node);
+  for (std::size_t i = 0; i < told; ++i) {
+    const Happening& h = s.happened[i];
+    text += fmt::format("{:9.4f} s  {:<10} {}{}\n", h.seconds, h.event, h.node,
+                        h.metres ? fmt::format("  {:.3f} m", *h.metres) : "");
+  }
   if (s.happenedCount > told)
     text += fmt::format(
         "  ... and {} more; summary.json (--out DIR, or --json) has {} of them\n", s.happenedCount - told,
@@ -117,6 +122,8 @@ std::string toJson(const RunSummary& s) {
   j["frames_drawn"] = s.framesDrawn;
   j["seconds"] = s.seconds;
   j["elapsed_seconds"] = s.elapsedSeconds;
+  j["groups"] = s.groups;
+  j["uptime_seconds"] = s.uptimeSeconds;
   j["late_frames"] = s.lateFrames;
   j["frame_ms"] = json(s.frameMs);
   j["stages"] = Json::array();
@@ -140,8 +147,14 @@ std::string toJson(const RunSummary& s) {
   j["failure"] = s.failure.empty() ? Json() : Json(s.failure);
   j["happened_count"] = s.happenedCount;
   j["happened"] = Json::array();
-  for (const Happening& h : s.happened)
-    j["happened"].push_back(Json{{"seconds", h.seconds}, {"event", h.event}, {"node", h.node}});
+  for (const Happening& h : s.happened) {
+    Json happening{{"seconds", h.seconds}, {"event", h.event}, {"node", h.node}};
+    if (h.metres) happening["metres"] = *h.metres;
+    j["happened"].push_back(std::move(happening));
+  }
+  j["measured"] = Json::array();
+  for (const MeasuredDistance& m : s.measured)
+    j["measured"].push_back(Json{{"seconds", m.seconds}, {"node", m.node}, {"metres", m.metres}});
   // File names may be any bytes; JSON may not.
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

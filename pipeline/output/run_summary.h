@@ -49,6 +49,13 @@ struct ImageHash {
 struct Happening {
   double seconds = 0;  ///< show time [s]
   std::string event, node;
+  std::optional<double> metres{};  ///< of a distance that was measured
+};
+
+struct MeasuredDistance {
+  double seconds = 0;  ///< show time [s]
+  std::string node;    ///< the measure
+  double metres = 0;
 };
 
 struct RunSummary {
@@ -62,6 +69,8 @@ struct RunSummary {
   std::uint64_t framesDrawn = 0;  ///< of these; nobody looks at the others, and the times are without them
   double seconds = 0;             ///< of show time
   double elapsedSeconds = 0;      ///< of the clock on the wall
+  std::uint64_t groups = 1;       ///< of visitors; the other figures are of the last one
+  double uptimeSeconds = 0;       ///< of all groups, and between them
   std::uint64_t lateFrames = 0;
   Distribution frameMs;  ///< from one frame shown to the next
   std::vector<StageTimes> stages;
@@ -75,6 +84,7 @@ struct RunSummary {
   std::string stopped;                     ///< by which signal; empty = it played to its end
   std::string failure;                     ///< why it could not go on; empty = it could
   std::vector<Happening> happened;         ///< the first ones, at most kMostHappenings
+  std::vector<MeasuredDistance> measured;  ///< the first ones, at most kMostHappenings
   std::uint64_t happenedCount = 0;         ///< all of them
 };
 

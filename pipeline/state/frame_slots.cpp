@@ -12,7 +12,7 @@ std::optional<std::size_t> FrameSlots::writable() {
   for (std::size_t i = 0; i < kSlots; ++i) {
     if (slots_[i].state == State::Free) return i;
     const bool mayReplace = delivery_ == Delivery::Latest && slots_[i].state == State::Published;
-    if (mayReplace && (!oldest || slots_[i].frame() < slots_[*oldest].frame())) oldest = i;
+    if (mayReplace && (!oldest || slots_[i].written < slots_[*oldest].written)) oldest = i;
   }
   if (oldest || delivery_ == Delivery::Every) return oldest;
   // All slots are under lease: one that has outlived its deadline belongs to a reader that hangs.
@@ -38,6 +38,7 @@ void FrameSlots::endWrite(std::size_t slot, const FrameTicket& ticket) {
   const std::lock_guard lock(mutex_);
   slots_[slot].state = State::Published;
   slots_[slot].ticket = ticket;
+  slots_[slot].written = writes_++;
   changed_.notify_all();
 }
 
@@ -46,8 +47,8 @@ std::optional<std::size_t> FrameSlots::choose() const {
   for (std::size_t i = 0; i < kSlots; ++i) {
     if (slots_[i].state != State::Published) continue;
     const bool better =
-        !chosen || (delivery_ == Delivery::Every ? slots_[i].frame() < slots_[*chosen].frame()
-                                                 : slots_[i].frame() > slots_[*chosen].frame());
+        !chosen || (delivery_ == Delivery::Every ? slots_[i].written < slots_[*chosen].written
+                                                 : slots_[i].written > slots_[*chosen].written);
     if (better) chosen = i;
   }
   return chosen;
@@ -74,7 +75,7 @@ std::optional<Lease> FrameSlots::lease(std::size_t wall) {
       selections_.push_back({s.serial, *slot, s.ticket, cursor_.size()});
       // What is older than the chosen frame will not be shown any more.
       for (Slot& other : slots_)
-        if (other.state == State::Published && other.frame() < s.frame()) other.state = State::Free;
+        if (other.state == State::Published && other.written < s.written) other.state = State::Free;
       changed_.notify_all();
       continue;
     }

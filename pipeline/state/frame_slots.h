@@ -59,7 +59,8 @@ private:
     std::uint64_t serial = 0;
     std::chrono::steady_clock::time_point since{};
 
-    std::uint64_t frame() const { return ticket.signature.frame; }
+    std::uint64_t written =
+        0;  ///< how many frames had been written before; a frame that stands still comes again
   };
   struct Selection {
     std::uint64_t serial = 0;
@@ -76,7 +77,7 @@ private:
   std::array<Slot, kSlots> slots_;
   std::vector<std::uint64_t> cursor_;  ///< per wall: the serial it wants next
   std::deque<Selection> selections_;
-  std::uint64_t nextSerial_ = 0;
+  std::uint64_t nextSerial_ = 0, writes_ = 0;
   Delivery delivery_;
   std::chrono::milliseconds deadline_;
   bool finished_ = false, stopped_ = false;

@@ -33,6 +33,7 @@ namespace {
   X(PollEvents)                                                                                              \
   X(SetCursorEnterCallback)                                                                                  \
   X(SetCursorPosCallback)                                                                                    \
+  X(SetInputMode)                                                                                            \
   X(SetKeyCallback)                                                                                          \
   X(SetMouseButtonCallback)                                                                                  \
   X(SetScrollCallback)                                                                                       \
@@ -183,6 +184,7 @@ public:
                       plan.quadBuffer ? " with a back buffer for each eye (quad-buffered stereo)" : "",
                       lastError(glfw_)));
     place(handle, plan, monitor);
+    if (!plan.pointer) glfw_.SetInputMode(handle, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
     if (const auto why = loadTable(handle)) {
       glfw_.DestroyWindow(handle);
       return *why;

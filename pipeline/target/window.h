@@ -71,6 +71,7 @@ struct WindowPlan {
   std::string monitor;        ///< its name, or its number from 1; empty = any
   bool fullscreen = false;    ///< alone on its monitor
   std::uint32_t refresh = 0;  ///< of a full screen [1/s]; 0 = as it is
+  bool pointer = true;        ///< the mouse's pointer is seen over it
   bool quadBuffer = false;    ///< a left and a right back buffer
 };
 

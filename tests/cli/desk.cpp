@@ -64,6 +64,12 @@ bool RunningProgram::says(const std::string& text, int times) const {
   return said;
 }
 
+bool RunningProgram::waitUntil(const std::function<bool()>& condition) const {
+  const bool came = until(condition);
+  EXPECT_TRUE(came) << err();
+  return came;
+}
+
 int RunningProgram::status() {
   const bool over = until([&] { return !runs(); });
   EXPECT_TRUE(over) << err();

@@ -4,6 +4,7 @@
 
 #include "tests/cli/program.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <sys/types.h>
@@ -22,6 +23,8 @@ public:
   std::string out() const, err() const;
   /// Waits until its standard error contains the text `times` times; false if it does not in good time.
   bool says(const std::string& text, int times = 1) const;
+  /// Waits for anything else; false if it does not come in good time.
+  bool waitUntil(const std::function<bool()>& condition) const;
   bool runs();
   /// Waits for its end and returns its exit status; -1 if it does not end in good time.
   int status();

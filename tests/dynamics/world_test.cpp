@@ -154,6 +154,25 @@ TEST(World, ReleasesThatNobodyAskedForAreNotToldAndChangeNothingElse) {
   EXPECT_EQ(end[0].q.coeffs(), end[1].q.coeffs());
 }
 
+TEST(World, WhatStartsUpwardsFromTheGroundTellsItsLanding) {
+  for (const bool round : {true, false}) {
+    World w;
+    const FieldId g = addGravity(w);
+    w.addCollider({w.addShape(BoxShape{{{0, 0, -1}, Quat::Identity()}, {9, 9, 1}}), {}, {}});
+    BodyDef d;
+    BallShape ball;
+    ball.radius = 0.1;
+    d.shape = round ? w.addShape(ball) : w.addShape(BoxShape{{}, {0.1, 0.1, 0.1}});
+    d.pose.p = {0, 0, 0.1}, d.v = {1, 0, 5};
+    w.hook(w.addBody(d), g, 0);
+    int impacts = 0;
+    play(w, 1.1, 60, [&](double) {
+      for (const ContactEvent& e : w.events()) impacts += e.kind == ContactEvent::Kind::Impact;
+    });
+    EXPECT_EQ(impacts, 1) << (round ? "ball" : "box");
+  }
+}
+
 TEST(World, WhatOnlyOneSideStatesHoldsForThePair) {
   const PairSurface a = combine({0.8, {}, {}}, {});
   EXPECT_EQ(a.friction, 0.8);

@@ -11,20 +11,29 @@ namespace {
 
 const std::filesystem::path kAssets = std::filesystem::path(STADION_SOURCE_DIR) / "assets";
 
-TEST(AssetShowModels, AreMadeByTheirProgramByteForByte) {
-  TemporaryFolder folder;
+TEST(AssetShowModels, AndTheAthletesScriptsAreMadeByTheirProgramByteForByte) {
+  TemporaryFolder models, scripts;
   const auto program = Importer::programBesideThis().parent_path() / "stadion-assets";
-  ASSERT_EQ(::system(("'" + program.string() + "' '" + folder.path().string() + "'").c_str()), 0);
+  const std::string folders = "' '" + models.path().string() + "' '" + scripts.path().string() + "'";
+  ASSERT_EQ(::system(("'" + program.string() + folders).c_str()), 0);
   for (const auto& entry : std::filesystem::directory_iterator(kAssets)) {
     const std::string name = entry.path().filename();
     if (name == "README.md") continue;
-    const std::string made = bytesOf(folder.path() / name);
+    const std::string made = bytesOf(models.path() / name);
     EXPECT_FALSE(made.empty()) << name << " is not made by the program";
     EXPECT_TRUE(made == bytesOf(kAssets / name)) << name << " differs from the one that is checked in";
   }
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+  for (const auto& entry : std::filesystem::directory_iterator(models.path()))
     EXPECT_TRUE(std::filesystem::exists(kAssets / entry.path().filename()))
         << entry.path() << " is not checked in";
+  int compared = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scripts.path())) {
+    const std::string name = entry.path().filename();
+    EXPECT_TRUE(bytesOf(entry.path()) == bytesOf(kAssets / "../scripts/olympia" / name))
+        << name << " differs from the one that is checked in";
+    ++compared;
+  }
+  EXPECT_EQ(compared, 4) << "three athletes and the officials";
 }
 
 TEST(AssetShowModels, TheFootballIsARoundClosedBallOnTheOrigin) {
@@ -99,23 +108,6 @@ TEST(AssetShowModels, TheFootIsClosedAndPointsForward) {
   for (const auto& p : foot.positions)
     if (p[2] < 0.06f) heel = std::min(heel, double{p[1]});
   EXPECT_NEAR(foot.bounds.hi.y() - heel, 0.28, 0.005);
-}
-
-TEST(AssetShowModels, TheAthletesScriptsAreWrittenByTheirProgramByteForByte) {
-  TemporaryFolder models, scripts;
-  const auto program = Importer::programBesideThis().parent_path() / "stadion-assets";
-  ASSERT_EQ(::system(("'" + program.string() + "' '" + models.path().string() + "' '" +
-                      scripts.path().string() + "'")
-                         .c_str()),
-            0);
-  int compared = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(scripts.path())) {
-    const std::string name = entry.path().filename();
-    EXPECT_TRUE(bytesOf(entry.path()) == bytesOf(kAssets / "../scripts/olympia" / name))
-        << name << " differs from the one that is checked in";
-    ++compared;
-  }
-  EXPECT_EQ(compared, 4) << "three athletes and the officials";
 }
 
 std::unique_ptr<Mesh> modelOf(const char* name) {

@@ -154,5 +154,13 @@ TEST(ScriptLint, APathThatIsToTurnFartherThanItCanBetweenTwoKeysIsNamed) {
   EXPECT_NE(turning("360").front().find("360 degrees"), std::string::npos);
 }
 
+TEST(ScriptLint, CharactersThatTheFontLacksAreNamed) {
+  EXPECT_EQ(warningsOf("text(name=board, text=\"Ж 3.5 m\")\n"
+                       "timer(period=1, eventmessage=\"timesup, board, say Wien, 2\")"),
+            Messages{"the letters of the show have no U+0416; a box stands for it"});
+  EXPECT_EQ(warningsOf("text(name=board) timer(period=1, eventmessage=\"timesup, board, say ☺\")"),
+            Messages{"the letters of the show have no U+263A; a box stands for it"});
+}
+
 }  // namespace
 }  // namespace stadion

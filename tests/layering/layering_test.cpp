@@ -112,6 +112,10 @@ TEST(Layering, EachForeignLibraryHasItsRoom) {
   EXPECT_EQ(whoIncludes("GL/osmesa"), Files{"pipeline/target/osmesa_provider.cpp"});
   EXPECT_EQ(whoIncludes("EGL/"), Files{"pipeline/target/egl_provider.cpp"});
   EXPECT_EQ(whoIncludes("GLFW/"), Files{"pipeline/target/glfw_windows.cpp"});
+  EXPECT_EQ(whoIncludes("sndfile"), Files{"engine/asset/sound_file.cpp"});
+  EXPECT_EQ(whoIncludes("lo/"), Files{"pipeline/input/osc_server.cpp"});
+  EXPECT_EQ(whoIncludes("vrpn"), Files{"pipeline/input/vrpn_trackers.cpp"});
+  EXPECT_EQ(whoIncludes("AL/"), Files{"pipeline/output/sound_device.cpp"});
   EXPECT_EQ(whoIncludes("fcl/"), Files{"dynamics/mesh_distance.cpp"});
   EXPECT_EQ(whoIncludes("GL/gl"), Files{"pipeline/draw/gl_table.h"});
   EXPECT_EQ(whoIncludes("btBulletDynamicsCommon"), Files{"profiling/bench/dynamics/engine_bullet.cpp"});

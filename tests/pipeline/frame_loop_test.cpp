@@ -204,6 +204,45 @@ TEST(ThreadsFrameLoop, TimesThatWereDecidedAreObeyed) {
   EXPECT_EQ(outcome.framesShown, 5u) << "at 0, 0.1, 0.5, 0.6 and 1 s";
 }
 
+/// Stages at which somebody sits who pauses the show, lets it go on by single frames, and slows it down.
+class PlayedStages final : public CountingStages {
+public:
+  PlayedStages(Playback& playback) : CountingStages(1, kSlots), playback_(playback) {}
+  void app(const TimeSignature& now, std::size_t slot) override {
+    CountingStages::app(now, slot);
+    times.push_back(now.time);
+    if (now.frame == 3) playback_.setPaused(true);
+    if (now.frame == 5) playback_.setPaused(false), playback_.setSpeed(0.25);
+    if (now.frame == 8) playback_.setSpeed(1);
+  }
+  void still(std::size_t slot) override {
+    ++stills;
+    CountingStages::app(signatureAt(times.size() - 1, 10), slot);
+    if (stills % 5 == 0) playback_.step();
+  }
+  std::vector<Nanoseconds> times;
+  int stills = 0;
+
+private:
+  Playback& playback_;
+};
+
+TEST(ThreadsFrameLoop, APausedShowIsDrawnOnAndGoesByFramesAndSlowly) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    Playback playback;
+    PlayedStages stages(playback);
+    FrameLoopOptions o;
+    o.mode = mode, o.rate = 10, o.frames = 11, o.playback = &playback;
+    const FrameLoopOutcome outcome = runFrames(stages, o);
+    EXPECT_EQ(stages.stills, 10) << "five before each of two steps";
+    EXPECT_EQ(outcome.framesSimulated, 11u);
+    std::vector<Nanoseconds> expected;
+    for (const double s : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.525, 0.55, 0.575, 0.7, 0.8})
+      expected.push_back(fromSeconds(s));
+    EXPECT_EQ(stages.times, expected) << "on ticks again after slow motion";
+  }
+}
+
 TEST(ThreadsFrameLoop, StopsCleanlyWhenAsked) {
   CountingStages stages(4, kSlots);
   FrameLoopOptions o;
@@ -375,6 +414,51 @@ TEST(FrameLoop, SignaturesDoNotAccumulateRounding) {
   EXPECT_EQ(signatureAt(60ull * 3600 * 24, 60).time, 86400ll * 1000000000);
   EXPECT_EQ(signatureAt(0, 60).step, 0);
   EXPECT_EQ(signatureAt(1, 60).step, 16666667);
+}
+
+TEST(ThreadsFrameLoop, TheNextGroupEndsTheRunInOrderAndASecondRunBegins) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    OperatorDesk desk(false, 0.064);
+    CountingStages stages(2, 3);
+    FrameLoopOptions o;
+    o.mode = mode, o.walls = 2, o.frames = 1000, o.desk = &desk, o.playback = &desk.playback();
+    const std::atomic<bool> never = false;
+    FrameLoop loop(stages, o, never);
+    desk.queue().post({OperatorAction::NextGroup});
+    const FrameLoopOutcome outcome = loop.run();
+    EXPECT_TRUE(outcome.nextGroup);
+    EXPECT_FALSE(outcome.failure);
+    EXPECT_EQ(outcome.framesSimulated, 0u);
+    EXPECT_EQ(stages.closed, 2);
+    desk.beginGroup();
+    EXPECT_EQ(desk.groups(), 2u);
+    desk.queue().post({OperatorAction::End});
+    FrameLoop again(stages, o, never);
+    EXPECT_FALSE(again.run().nextGroup);
+    EXPECT_EQ(stages.shown, std::vector<std::uint64_t>{0}) << "the frame that was begun is the last one";
+  }
+}
+
+TEST(ThreadsFrameLoop, WhatTheOperatorSaysOfAFrameTravelsWithIt) {
+  /// Notes how each frame was to be shown.
+  struct NotingStages : CountingStages {
+    using CountingStages::CountingStages;
+    Failure draw(std::size_t wall, const DrawList& list) override {
+      if (wall == 0) black.push_back(list.ticket.shown.black);
+      return CountingStages::draw(wall, list);
+    }
+    std::vector<bool> black;
+  };
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    OperatorDesk desk(false, 0.064);
+    desk.obey({{2, {OperatorAction::Black, 1, false}}, {4, {OperatorAction::Black, 0, false}}});
+    NotingStages stages(2, 3);
+    FrameLoopOptions o;
+    o.mode = mode, o.walls = 2, o.frames = 6, o.desk = &desk, o.playback = &desk.playback();
+    const std::atomic<bool> never = false;
+    FrameLoop(stages, o, never).run();
+    EXPECT_EQ(stages.black, (std::vector<bool>{false, false, true, true, false, false}));
+  }
 }
 
 }  // namespace

@@ -62,6 +62,22 @@ TEST(FrameSlots, FinishLetsReadersEmptyTheSlotsAndThenEnds) {
   EXPECT_FALSE(slots.lease(0));
 }
 
+TEST(FrameSlots, AFrameThatStandsStillComesAgainTheLatestLast) {
+  FrameSlots latest(1, Delivery::Latest), every(1, Delivery::Every);
+  std::vector<std::size_t> written;
+  for (int i = 0; i < 2; ++i) {
+    const auto slot = latest.beginWrite();
+    written.push_back(*slot);
+    latest.endWrite(*slot, frameOf(7));
+    every.endWrite(*every.beginWrite(), frameOf(7));
+  }
+  latest.finish(), every.finish();
+  EXPECT_EQ(latest.lease(0)->slot, written[1]);
+  EXPECT_FALSE(latest.lease(0)) << "the older one is not shown after it";
+  EXPECT_TRUE(every.lease(0));
+  EXPECT_TRUE(every.lease(0));
+}
+
 TEST(ThreadsFrameSlots, StopWakesAWaitingReaderAndWriter) {
   FrameSlots slots(1, Delivery::Every);
   std::thread reader([&] { EXPECT_FALSE(slots.lease(0)); });

@@ -19,15 +19,23 @@ TEST(OperatorState, ACommandWithoutValueTurnsOverWhatIs) {
   EXPECT_TRUE(s.shown.black) << "told twice to be black it is black";
 }
 
-TEST(OperatorState, StepsCountOnlyWhileItIsPaused) {
+TEST(OperatorState, StepsAreForPausedShowsAlone) {
   OperatorState s;
   EXPECT_FALSE(s.obey({OperatorAction::Step}));
   s.obey({OperatorAction::Pause, 1});
   EXPECT_TRUE(s.still());
-  s.obey({OperatorAction::Step});
-  EXPECT_FALSE(s.still());
+  EXPECT_TRUE(s.obey({OperatorAction::Step}));
   s.obey({OperatorAction::Pause, 0});
-  EXPECT_EQ(s.steps, 0u);
+  EXPECT_FALSE(s.still());
+}
+
+TEST(OperatorState, WhoWaitsStandsStillUntilTheStart) {
+  OperatorState s;
+  s.waiting = true;
+  s.obey({OperatorAction::Pause, 0});
+  EXPECT_TRUE(s.still());
+  s.obey({OperatorAction::Start});
+  EXPECT_FALSE(s.still());
 }
 
 TEST(OperatorState, EyesBeginAtTheWallFilesSeparationAndStopAtTheEnds) {

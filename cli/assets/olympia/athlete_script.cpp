@@ -12,6 +12,10 @@ constexpr double kPlaceError = 0.002;           // [m]
 constexpr double kTurnError = 0.5 * kPi / 180;  // [rad]
 constexpr double kBreath = 3.6, kIdle = 115.2;  // [s] one breath; one pass of the idle paths
 
+// Messages act so long after their events, the same at every frame rate from 50 Hz on.
+constexpr double kLatency = 0.02;  // [s]
+constexpr double kStart = 0.05;    // [s] from `go, enable` to the first movement
+
 struct JointName {
   const char *name, *parent, *model;
 };
@@ -133,9 +137,9 @@ std::string script(const Role& role) {
   std::string out =
       "# " + role.title +
       "\n# Written by stadion-assets. His place is the origin; he looks and throws along +Y.\n#\n" +
-      "#   go, enable      he begins; " + number(p.duration, 1) +
+      "#   go, enable      he begins; " + number(kStart + p.duration, 2) +
       " s later he stands still again, and move_pelvis has finished\n" +
-      "#   again, enable   he is back at the start at once\n#\n" + "# " + number(p.release, 2) +
+      "#   again, enable   he is back at the start at once\n#\n" + "# " + number(kStart + p.release, 2) +
       " s after `go, enable` `held` leaves him and is hidden. " + "It is then at (" + list(leaving(role), 2) +
       ").\n" + "\n";
   for (std::size_t k = 0; k < kJoints; ++k) {
@@ -171,17 +175,20 @@ std::string script(const Role& role) {
   const auto timer = [](const std::string& name, double period) {
     return "timer( name=" + name + ", period=" + number(period, 3) + ", initstate=off";
   };
-  out += "\n" + timer("go", 0.001);
-  for (const std::string& target : targets)
-    out += ",\n       eventmessage=\"timesup, move_" + target + ", enable\"";
-  out += ",\n       eventmessage=\"timesup, release, enable\" )\n";
-  out += timer("release", p.release - 0.001) + ", eventmessage=\"timesup, held, hide\" )\n" +
-         timer("again", 0.001);
-  for (const std::string& target : targets)
-    out += ",\n       eventmessage=\"timesup, move_" + target + ", reset\"";
-  return out +
-         ",\n       eventmessage=\"timesup, release, reset\", eventmessage=\"timesup, held, show\" )\n\n" +
-         paths;
+  out += "\n" + timer("go", kStart - kLatency);
+  const auto message = [](const std::string& to, const std::string& command) {
+    return ",\n       eventmessage=\"timesup, " + to + ", " + command + ", latency=" + number(kLatency, 3) +
+           "\"";
+  };
+  std::string starts, resets = message("held", "show");
+  for (const std::string& target : targets) {
+    resets += message("move_" + target, "reset");
+    starts += message("move_" + target, "enable");
+  }
+  out += resets + starts + message("release", "enable") + " )\n";
+  out += timer("release", p.release - kLatency) + message("held", "hide") + " )\n";
+  out += timer("again", 0.001) + resets + message("release", "reset") + " )\n\n";
+  return out + paths;
 }
 
 }  // namespace

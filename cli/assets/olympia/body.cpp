@@ -40,7 +40,7 @@ Parts pelvis() {
     const double fold = det::sin(70 * p.z + 40 * std::fabs(p.x));
     const double rim = 0.082 + 0.004 * det::sin(30 * p.x);
     if (p.z > rim + 0.022) return skinAt(p, n);
-    return p.z > rim - 0.012 ? 0.93 * kLinen : mix(0.80, 1.0, 0.5 + 0.5 * fold) * kLinen;
+    return p.z > rim - 0.012 ? 0.93 * kLinen : mix(0.91, 1.0, 0.5 + 0.5 * fold) * kLinen;
   });
   part.finish = {"skin and linen", "", 0.75, 0};
   return {part};
@@ -163,12 +163,12 @@ Parts robe(Rgb cloth, Rgb border) {
       .ball({0, -0.01, 0.52}, {0.14, 0.085, 0.06}, 0.06);
   clay.rod({-0.19, 0, 0.50}, {0.12, 0.11, 0.05}, 0.06, 0.06, 0.06)
       .rod({0.12, 0.11, 0.05}, {-0.2, 0.10, 0.10}, 0.05, 0.07, 0.06);
-  clay.rod({-0.25, 0.08, 0.12}, {-0.24, 0.06, -0.45}, 0.06, 0.09, 0.06);
+  clay.rod({-0.21, 0.08, 0.12}, {-0.22, 0.05, -0.45}, 0.05, 0.08, 0.10);
   clay.relief([folds](Point p) { return 0.011 * folds(p); });
-  Part part = clay.cast(0.033, [=](Point p, Point) {
+  Part part = clay.cast(0.034, [=](Point p, Point) {
     if (p.z < -0.86 && p.z > -0.92) return border;
     const double sling = std::fabs(p.z - 0.05 - 0.8 * (0.12 - p.x) * (p.y > 0 ? 1 : 0) - (p.y > 0 ? 0 : 0.4));
-    const Rgb colour = sling < 0.018 ? border : cloth;
+    const Rgb colour = mix(border, cloth, smoothstep(0.012, 0.05, sling));
     return mix(0.74, 1.03, 0.5 + 0.5 * std::clamp(folds(p), -1.0, 1.0)) * colour;
   });
   part.finish = {"wool", "", 0.95, 0};

@@ -25,7 +25,8 @@ enum class Hair { Dark, Fair, Bearded };
 
 Parts pelvis();
 Parts chest();
-Parts head(Hair hair);
+/// In cells of `step` metres: finer for who is seen from near.
+Parts head(Hair hair, double step);
 // Of the right side.
 Parts upperArm();
 Parts forearm();

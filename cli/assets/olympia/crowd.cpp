@@ -14,8 +14,19 @@ bool taken(Point p) {  // by the judges' stand or the altar
 }
 
 Detail detailAt(Point p) {
-  const double far = length({p.x, std::max(0.0, p.y - 12), 0});
-  return far < 27 ? Detail::Near : far < 62 ? Detail::Middle : Detail::Far;
+  const double far = length({p.x, p.y < 12 ? std::min(3 * (p.y + 10), 0.0) : p.y - 12, 0});
+  return far < 17.5 ? Detail::Near : far < 40 ? Detail::Middle : Detail::Far;
+}
+
+/// Where people may sit on one side's embankment: along the track, then around the corner at the start.
+std::vector<Point> seats(double side) {
+  std::vector<Point> all;
+  for (double d = 4.2; d < 28; d += kRow) {
+    for (double y = -10; y < 202; y += kSeat) all.push_back({side * (kTrackSide + d), y, 0});
+    for (double x = 3; x < kTrackSide + 0.6 * d; x += 1.6 * kSeat)
+      all.push_back({side * x, kTrackLow - d, 0});
+  }
+  return all;
 }
 
 }  // namespace
@@ -24,18 +35,17 @@ Parts crowd(double side, double low, double high) {
   Dice dice(side > 0 ? 11 : 12);
   Part people;
   people.finish = {"people", "", 0.95, 0};
-  for (double d = 4.2; d < 28; d += kRow) {
-    for (double y = -8; y < 202; y += kSeat) {
-      const Point p{side * (kTrackSide + d + dice.between(-0.3, 0.3)), y + dice.between(-0.3, 0.3), 0};
-      const double cluster = roughNoise(0.11 * p + Point{31, 0, 0}, 2);
-      const bool there = dice.even() < 0.45 * smoothstep(0.47, 0.66, cluster) + 0.015;
-      const Person person = somebody(dice, dice.even() < (d > 24 ? 0.8 : 0.12));
-      if (!there || taken(p) || p.y < low || p.y >= high) continue;
-      const Point to{0, mix(22, p.y, 0.45), 0};
-      const double yaw = det::atan2(-(to.x - p.x), to.y - p.y) + 0.25 * (person.turn - 0.5);
-      const double size = mix(0.92, 1.06, person.turn);
-      add(people, figure(person, detailAt(p)), {{p.x, p.y, groundHeight(p) - 0.04}, yaw, {size, size, size}});
-    }
+  for (const Point& seat : seats(side)) {
+    const Point p = seat + Point{dice.between(-0.3, 0.3), dice.between(-0.3, 0.3), 0};
+    const double cluster = roughNoise(0.11 * p + Point{31, 0, 0}, 2);
+    const double full = p.y < -11 ? 0.2 : mix(0.40, 0.18, smoothstep(10, 90, p.y));
+    const bool there = dice.even() < full * smoothstep(0.42, 0.64, cluster) + 0.015;
+    const Person person = somebody(dice, dice.even() < (outside(p) > 24 ? 0.8 : 0.12));
+    if (!there || taken(p) || p.y < low || p.y >= high) continue;
+    const Point to{0, mix(22, std::max(p.y, -10.0), 0.45), 0};
+    const double yaw = det::atan2(-(to.x - p.x), to.y - p.y) + 0.25 * (person.turn - 0.5);
+    const double size = mix(0.92, 1.06, person.turn);
+    add(people, figure(person, detailAt(p)), {{p.x, p.y, groundHeight(p) - 0.04}, yaw, {size, size, size}});
   }
   return {people};
 }

@@ -8,8 +8,9 @@ namespace {
 
 constexpr double kBankRings[] = {0.55, 1.5,  2.6, 4,  5.5, 7.5, 9.5, 12, 14.5, 17, 19.5,
                                  22,   24.5, 27,  30, 33,  36,  40,  44, 48,   54};
-constexpr double kLandRings[] = {54,  62,  72,  84,  98,  114, 132, 152,  174,  198,  224,  252,  282, 316,
-                                 356, 404, 464, 540, 640, 770, 930, 1130, 1380, 1690, 2060, 2500, 3000};
+constexpr double kLandRings[] = {54,  62,  72,  84,  97,   111,  126,  142,  159,  177,
+                                 196, 216, 237, 259, 282,  308,  338,  374,  418,  474,
+                                 548, 640, 770, 930, 1130, 1380, 1690, 2060, 2500, 3000};
 
 Rgb grassColour(Point p) {
   const double dry = roughNoise(0.09 * p, 4), patch = roughNoise(0.55 * p + Point{40, 0, 0}, 3);
@@ -31,7 +32,11 @@ Rgb landColour(const Vertex& v) {
   const Rgb field{0.80, 0.72, 0.45}, olive{0.50, 0.54, 0.31}, scrub{0.38, 0.44, 0.24}, rock{0.68, 0.62, 0.52};
   const double patch = roughNoise(0.011 * p + Point{7, 3, 0}, 3), wood = roughNoise(0.02 * p, 4);
   Rgb c = mix(mix(field, olive, smoothstep(0.4, 0.58, patch)), scrub, smoothstep(0.48, 0.6, wood));
-  c = mix(c, mix(scrub, rock, smoothstep(0.5, 0.75, wood)), smoothstep(40, 130, v.p.z));
+  // Under the wood of the hill.
+  const double rocky = smoothstep(0.5, 0.62, roughNoise(0.035 * p + Point{0, 0, 4}, 3));
+  c = mix(c, mix(Rgb{0.44, 0.48, 0.27}, Rgb{0.72, 0.64, 0.44}, rocky),
+          smoothstep(215, 150, length(p - kKronos)));
+  c = mix(c, mix(scrub, rock, smoothstep(0.5, 0.75, wood)), smoothstep(70, 160, v.p.z));
   return mix(grassColour(p), c, smoothstep(60, 130, outside(p)));
 }
 

@@ -53,7 +53,7 @@ bool hairy(Point p, const Look& look) {
 
 }  // namespace
 
-Parts head(Hair hair) {
+Parts head(Hair hair, double step) {
   const Look look = lookOf(hair);
   const Clay face = faceClay();
   Clay clay = face;
@@ -67,7 +67,7 @@ Parts head(Hair hair) {
   }
   const auto bandAt = [](Point p) { return std::fabs(p.z - (0.186 - 0.12 * p.y)); };
   clay.relief([&](Point p) { return bandAt(p) < 0.0105 && p.z > 0.12 ? 0.003 : 0.0; });
-  Part part = clay.cast(0.0088, [&](Point p, Point n) {
+  Part part = clay.cast(step, [&](Point p, Point n) {
     if (bandAt(p) < 0.0105 && p.z > 0.13) return look.band;
     const double eye =
         std::min(length(p - Point{0.030, 0.0855, 0.133}), length(p - Point{-0.030, 0.0855, 0.133}));

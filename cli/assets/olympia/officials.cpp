@@ -62,13 +62,13 @@ std::string figure(const Official& o) {
 }  // namespace
 
 std::string officialsScript() {
-  const Official herald{"herald",       "herald_robe", "athlete_head_fair",
+  const Official herald{"herald",       "herald_robe", "herald_head",
                         {-3.6, 5.2, 0}, -35,           {0.17, 0.32, 0.44},
                         {1, 0.1, -0.5}, {0, -8, 0},    -40};
-  const Official first{"judge",           "judge_robe", "athlete_head_beard",
+  const Official first{"judge",           "judge_robe", "judge_head",
                        {6.6, 8.5, 0},     125,          {0.24, 0.22, 0.02},
                        {0.6, -0.8, -0.3}, {4, 0, 0},    0};
-  const Official second{"second_judge",    "judge_robe", "athlete_head_beard",
+  const Official second{"second_judge",    "judge_robe", "judge_head",
                         {7.6, 7.9, 0},     105,          {0.28, 0.05, -0.19},
                         {0.5, -0.8, -0.3}, {-14, 2, 0},  0};
   return "# Two judges and a herald beside the start, in the coordinates of the stadium. Written by "

@@ -18,6 +18,13 @@ Parts javelin();
 /// A ball of sewn leather of radius 0.11 m, about its centre.
 Parts leatherBall();
 
+/// What a discus or a ball waits on: a stone of 0.95 m, standing on the origin.
+Parts plinth();
+/// Two forked posts 1.1 m apart along X, standing on the origin; a javelin lies in them at z = 1.01.
+Parts javelinRack();
+/// A whitewashed board of 3.2 m on two posts, as decrees were painted on; its face looks along -Y.
+Parts whiteboard();
+
 /// The track with its sills, the water channel and its basins.
 Parts track();
 /// The flat ground at z = 0 under track and embankments, for collisions: two triangles.

@@ -1,4 +1,5 @@
 #include "cli/assets/olympia/olympia.h"
+#include "cli/assets/olympia/stadium_shape.h"
 
 namespace stadion::assets {
 namespace {
@@ -76,6 +77,37 @@ Parts leatherBall() {
     v.colour = mix(Rgb{0.25, 0.14, 0.08}, worn, smoothstep(0.02, 0.05, seam));
     v.p = 0.11 * d;
   }
+  return {part};
+}
+
+Parts plinth() {
+  Part part;
+  part.finish = {"limestone", "stone.png", 0.9, 0};
+  const auto block = [&](double half, double low, double high) {
+    Part stone = box({-half, -half, low}, {half, half, high});
+    paint(stone, [&](const Vertex& v) { return stoneColour(v.p + Point{0, 0, 7 * low}); });
+    add(part, stone);
+  };
+  block(0.24, 0, 0.12), block(0.20, 0.12, 0.17), block(0.17, 0.17, 0.83), block(0.20, 0.83, 0.87),
+      block(0.23, 0.87, 0.95);
+  layPicture(part, 1.3);
+  return {part};
+}
+
+Parts javelinRack() {
+  Part part;
+  part.finish = {"wood", "", 0.8, 0};
+  for (double x : {-0.55, 0.55}) {
+    add(part, limb({x, 0, 0}, {x, 0, 0.98}, 0.032, 0.026, 8));
+    for (double s : {-1.0, 1.0}) {
+      add(part, limb({x, 0, 0.96}, {x, 0.06 * s, 1.08}, 0.02, 0.013, 6));
+      add(part, limb({x, 0, 0.25}, {x, 0.24 * s, 0.0}, 0.02, 0.022, 6));
+    }
+  }
+  add(part, limb({-0.55, 0, 0.3}, {0.55, 0, 0.3}, 0.018, 0.018, 6));
+  paint(part, [](const Vertex& v) {
+    return mix(0.8, 1.1, noise({25 * v.p.x, 25 * v.p.y, 4 * v.p.z})) * Rgb{0.56, 0.40, 0.25};
+  });
   return {part};
 }
 

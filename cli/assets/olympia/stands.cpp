@@ -165,11 +165,13 @@ Parts passage() {
     addQuad(stone, {Vertex{wall(a), stoneColour(wall(a))}, Vertex{wall(b), stoneColour(wall(b))},
                     Vertex{b, stoneColour(b)}, Vertex{a, stoneColour(a)}});
   }
-  for (double s : {-1.0, 1.0})  // between the springing and the top at the ends
-    addQuad(stone,
-            {Vertex{{s * kWall, 0, s < 0 ? kTop : kSpring}}, Vertex{{s * kWall, 0, s < 0 ? kSpring : kTop}},
-             Vertex{{s * kWall, 0.01, s < 0 ? kSpring : kTop}},
-             Vertex{{s * kWall, 0.01, s < 0 ? kTop : kSpring}}});
+  for (double s : {-1.0, 1.0}) {  // between the springing and the top at the ends
+    std::array<Point, 3> corner{{{s * kHalf, 0, kSpring}, {s * kWall, 0, kSpring}, {s * kWall, 0, kTop}}};
+    if (s < 0) std::swap(corner[1], corner[2]);
+    const auto first = static_cast<std::uint32_t>(stone.vertices.size());
+    for (const Point& p : corner) stone.vertices.push_back({p, stoneColour(p)});
+    stone.triangles.push_back({first, first + 1, first + 2});
+  }
   addStone(stone, {-kWall - 0.3, -0.2, kTop}, {kWall + 0.3, kDeep + 4, kTop + 0.35});
   for (double s : {-1.0, 1.0})
     addStone(stone, {std::min(s * kWall, s * (kWall + 0.6)), -2.2, -0.3},

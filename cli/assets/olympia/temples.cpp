@@ -38,11 +38,11 @@ void addRoof(Part& part, double x, double y, double z, double rise) {
     if (s < 0) std::swap(slope[1], slope[3]);
     addQuad(part, slope);
     const double end = s * (y - 0.3);
-    std::array<Vertex, 4> gable{Vertex{{-x, end, z}, kBlue}, Vertex{{x, end, z}, kBlue},
-                                Vertex{{0, end, z + rise - 0.3}, kBlue},
-                                Vertex{{0, end, z + rise - 0.3}, kBlue}};
+    const Rgb field = mix(kBlue, kMarble, 0.55);
+    const std::array<Vertex, 3> gable{Vertex{{-x, end, z}, field}, Vertex{{x, end, z}, field},
+                                      Vertex{{0, end, z + rise - 0.3}, field}};
     const auto first = static_cast<std::uint32_t>(part.vertices.size());
-    part.vertices.insert(part.vertices.end(), gable.begin(), gable.begin() + 3);
+    part.vertices.insert(part.vertices.end(), gable.begin(), gable.end());
     if (s < 0)
       part.triangles.push_back({first, first + 1, first + 2});
     else

@@ -86,7 +86,7 @@ Rgb stoneColour(Point p) {
 }
 
 Parts track() {
-  Part earth = grid({-kTrackSide - 0.02, kTrackLow - 0.02}, {kTrackSide + 0.02, kTrackHigh + 0.02}, 20, 143);
+  Part earth = grid({-kTrackSide - 0.02, kTrackLow - 0.02}, {kTrackSide + 0.02, kTrackHigh + 0.02}, 14, 108);
   earth.finish = {"earth", "earth.png", 1, 0};
   paint(earth, earthColour);
   for (Vertex& v : earth.vertices) v.uv = {v.p.x / 3, v.p.y / 3};

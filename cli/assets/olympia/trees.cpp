@@ -10,8 +10,8 @@ namespace {
 struct Foliage {
   Rgb dark, light;
 };
-constexpr Foliage kPine{{0.20, 0.30, 0.13}, {0.52, 0.60, 0.28}},
-    kCypress{{0.15, 0.24, 0.12}, {0.38, 0.48, 0.24}}, kOlive{{0.34, 0.38, 0.26}, {0.72, 0.74, 0.56}};
+constexpr Foliage kPine{{0.36, 0.46, 0.22}, {0.74, 0.82, 0.42}},
+    kCypress{{0.28, 0.38, 0.22}, {0.60, 0.70, 0.38}}, kOlive{{0.52, 0.57, 0.42}, {0.96, 0.98, 0.80}};
 
 struct Tree {
   Part crown, trunk;
@@ -38,19 +38,33 @@ void addTrunk(Part& trunk, Point from, Point to, double r, int sides) {
   add(trunk, stem);
 }
 
-Tree pine(Dice& dice, int divisions) {
+Tree pine(Dice& dice) {
+  Tree tree;
+  const double height = dice.between(8, 12);
+  const Point top{dice.between(-1, 1), dice.between(-1, 1), height}, middle = {top.x, top.y, 0.7 * height};
+  addTrunk(tree.trunk, {0, 0, -0.5}, {top.x, top.y, 0.85 * height}, 0.28, 6);
+  constexpr int kLumps = 5;
+  for (int i = 0; i < kLumps; ++i) {
+    const auto [s, c] = det::sincos(2 * kPi * (i + dice.even()) / (kLumps - 1));
+    const double r = i == 0 ? 0 : dice.between(1.3, 2.0);
+    const Point at =
+        middle + Point{r * c, r * s, i == 0 ? 0.16 * height : dice.between(-0.16, 0.08) * height};
+    addLump(tree.crown, at, {dice.between(1.6, 2.3), dice.between(1.6, 2.3), dice.between(1.3, 1.9)}, kPine,
+            middle, 1, dice);
+  }
+  return tree;
+}
+
+/// A tree far away: two lumps on a stem.
+Tree distantPine(Dice& dice) {
   Tree tree;
   const double height = dice.between(7, 11);
-  const Point top{dice.between(-1, 1), dice.between(-1, 1), height}, middle = {top.x, top.y, 0.75 * height};
-  addTrunk(tree.trunk, {0, 0, -0.5}, {top.x, top.y, 0.85 * height}, 0.28, divisions > 0 ? 6 : 3);
-  const int lumps = divisions > 0 ? 6 : 2;
-  for (int i = 0; i < lumps; ++i) {
-    const auto [s, c] = det::sincos(2 * kPi * (i + dice.even()) / lumps);
-    const double r = i == 0 ? 0 : dice.between(1.2, 2.1);
-    const Point at = middle + Point{r * c, r * s, i == 0 ? 0.14 * height : dice.between(-0.14, 0.1) * height};
-    addLump(tree.crown, at, {dice.between(1.5, 2.2), dice.between(1.5, 2.2), dice.between(0.9, 1.4)}, kPine,
-            middle, divisions, dice);
-  }
+  const Point middle{0, 0, 0.6 * height};
+  addTrunk(tree.trunk, {0, 0, -0.8}, {0, 0, 0.5 * height}, 0.3, 3);
+  addLump(tree.crown, middle, {dice.between(2.4, 3.2), dice.between(2.4, 3.2), dice.between(2.0, 2.8)}, kPine,
+          middle, 0, dice);
+  addLump(tree.crown, middle + Point{dice.between(-1, 1), dice.between(-1, 1), 1.9}, {1.9, 1.9, 1.7}, kPine,
+          middle, 0, dice);
   return tree;
 }
 
@@ -121,13 +135,13 @@ Point atAround(double share, double d) {  // a place `d` outside the track
 Parts trees() {
   Dice dice(21);
   Wood wood;
-  for (int i = 0; i < 62; ++i) {
-    const double share = (i + 0.8 * dice.even()) / 62, d = dice.between(36, 58);
+  for (int i = 0; i < 54; ++i) {
+    const double share = (i + 0.8 * dice.even()) / 54, d = dice.between(36, 58);
     const unsigned kind = dice.roll(6);
     const Point at = atAround(share, d);
     const bool view = std::fabs(at.x - kTunnel.x) < 22 &&
                       at.y > kTrackHigh;  // the way to the passage, and the temple beyond
-    const Tree tree = kind < 3 ? olive(dice) : kind < 5 ? cypress(dice) : pine(dice, 1);
+    const Tree tree = kind < 3 ? olive(dice) : kind < 5 ? cypress(dice) : pine(dice);
     if (!view) wood.plant(tree, at, dice);
   }
   // A few together are more than the same number apart.
@@ -140,26 +154,36 @@ Parts trees() {
                                  {0.83, 38.0}})
     for (int i = 0; i < 3; ++i) {
       const Point at = atAround(share, d) + Point{dice.between(-4, 4), dice.between(-5, 5), 0};
-      wood.plant(i == 2 && share < 0.5 ? pine(dice, 1) : cypress(dice), at, dice);
+      wood.plant(i == 2 && share < 0.5 ? pine(dice) : cypress(dice), at, dice);
     }
+  // Shrubs on the slopes.
+  for (int i = 0; i < 200; ++i) {
+    const Point at = atAround(dice.even(), dice.between(6, 40)) +
+                     Point{dice.between(-1.5, 1.5), dice.between(-1.5, 1.5), 0};
+    const double size = dice.between(0.25, 0.6) * (outside(at) > 24 ? 1.6 : 1);
+    Tree shrub;
+    addLump(shrub.crown, {0, 0, 0.4 * size}, {size, size, 0.7 * size}, dice.roll(3) == 0 ? kPine : kOlive,
+            {0, 0, 0}, 0, dice);
+    wood.plant(shrub, at, dice);
+  }
   return {wood.crowns, wood.trunks};
 }
 
 Parts kronosWood() {
   Dice dice(22);
   Wood wood;
-  for (int i = 0; i < 330; ++i) {
+  for (int i = 0; i < 480; ++i) {
     const double r = 175 * std::sqrt(dice.even());
     const auto [s, c] = det::sincos(dice.between(0, 2 * kPi));
     const Point at{kKronos.x + r * c, kKronos.y + r * s, 0};
-    const Tree tree = pine(dice, 0);
-    if (outside(at) > 62 && roughNoise(0.03 * at, 2) > 0.42) wood.plant(tree, at, dice);
+    const Tree tree = distantPine(dice);
+    if (outside(at) > 62 && roughNoise(0.02 * at, 2) > mix(0.5, 0.36, r / 175)) wood.plant(tree, at, dice);
   }
   for (int i = 0; i < 90; ++i) {  // groves on the plain
     const auto [s, c] = det::sincos(dice.between(0, 2 * kPi));
     const double r = dice.between(190, 520);
     const Point at{r * c, 96 + 1.1 * r * s, 0};
-    const Tree tree = dice.roll(3) == 0 ? cypress(dice) : pine(dice, 0);
+    const Tree tree = dice.roll(3) == 0 ? cypress(dice) : distantPine(dice);
     if (outside(at) > 60 && length(at - kTemple) > 75) wood.plant(tree, at, dice);
   }
   return {wood.crowns, wood.trunks};

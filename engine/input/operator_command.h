@@ -40,6 +40,12 @@ constexpr std::optional<OperatorAction> operatorActionNamed(std::string_view wor
   return std::nullopt;
 }
 
+/// Whether it changes pictures and sounds alone, not what happens in the show.
+constexpr bool isOfPresentation(OperatorAction action) {
+  return action == OperatorAction::Black || action == OperatorAction::SwapEyes ||
+         action == OperatorAction::EyeSeparation || action == OperatorAction::Volume;
+}
+
 struct OperatorCommand {
   OperatorAction action{};
   /// 1 on, 0 off, nothing: the other of what it is; of eye separation and volume the figure itself.

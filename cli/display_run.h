@@ -1,0 +1,37 @@
+#pragma once
+/// A run on real displays: the frame loop plays on threads of its own, while the main thread owns the
+/// windows.
+///
+/// Threads  main.
+
+#include "cli/run_options.h"
+#include "cli/wall_displays.h"
+#include "pipeline/output/picture_mailbox.h"
+
+#include <atomic>
+#include <memory>
+
+namespace stadion {
+
+class DisplayRun {
+public:
+  /// Opens the outputs. Null if one cannot be opened; the findings say which and why.
+  static std::unique_ptr<DisplayRun> open(const RunOptions& options, const WallFile& walls,
+                                          Diagnostics& findings);
+
+  PictureSink& sink() { return mailbox_; }
+  /// The walls' pictures fill their outputs pixel by pixel, unless --size or the wall file says otherwise.
+  void fitPictures(std::vector<WallView>& views) const;
+  /// Plays the loop to its end, or until somebody presses Escape: `end` is told then, on this thread.
+  FrameLoopOutcome play(FrameLoop& loop, const std::function<void()>& end);
+
+private:
+  DisplayRun(const RunOptions& options, const WallFile& walls) : options_(options), walls_(walls) {}
+
+  const RunOptions& options_;
+  const WallFile& walls_;
+  std::unique_ptr<WallDisplays> displays_;
+  PictureMailbox mailbox_;
+};
+
+}  // namespace stadion

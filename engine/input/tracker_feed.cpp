@@ -1,0 +1,230 @@
+#include "engine/input/tracker_feed.h"
+
+#include "engine/maths/functions.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr double kFarthest = 1000;                ///< from the tracking system's origin [m]
+constexpr std::size_t kMostChanges = 64;          ///< of one tracker in one frame
+constexpr std::size_t kStampsKept = 16;           ///< more than a frame adds and looks back
+constexpr Nanoseconds kLongestLeap = 50'000'000;  ///< [ns]; as input logs have it
+constexpr double kLeapSpeed = 15;                 ///< [m/s]
+
+double eased(double s) {
+  s = std::clamp(s, 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
+InputStamp lostAt(Nanoseconds time, const InputTrack& track) {
+  InputStamp lost;
+  lost.time = time, lost.valid = false;
+  if (!track.stamps.empty()) lost.X_RT = track.stamps.back().X_RT;
+  return lost;
+}
+
+Vec3 speedTo(const InputTrack& track, std::size_t i) {
+  if (i == 0) return Vec3::Zero();
+  const InputStamp &a = track.stamps[i - 1], &b = track.stamps[i];
+  return a.valid && b.valid ? Vec3((b.X_RT.p - a.X_RT.p) / toSeconds(b.time - a.time)) : Vec3::Zero();
+}
+
+/// Whether the way from the last stamp to X at `time` may be taken for a leap when the log is read.
+bool mayLeap(const InputTrack& track, const Pose& X, Nanoseconds time) {
+  const InputStamp& last = track.stamps.back();
+  if (!last.valid || time - last.time > kLongestLeap) return false;
+  const Vec3 v = (X.p - last.X_RT.p) / toSeconds(time - last.time);
+  return v.norm() > kLeapSpeed && (v - speedTo(track, track.stamps.size() - 1)).norm() > kLeapSpeed;
+}
+
+}  // namespace
+
+TrackerFeed::TrackerFeed(const RigFile& rig) : rig_(rig) {
+  for (const RigTracker& t : rig_.trackers) {
+    channels_.emplace_back(&t, OneEuroFilter(rig_.cutoff, rig_.beta));
+  }
+  restart();
+}
+
+void TrackerFeed::restart() {
+  log_.tracks.clear();
+  for (const RigTracker& t : rig_.trackers) log_.tracks.push_back({t.name, {lostAt(0, {})}});
+  for (Channel& c : channels_) c.changes.clear();
+  lastClock_ = 0;
+}
+
+TrackerFeed::Channel* TrackerFeed::channel(std::string_view name) {
+  const auto at = std::ranges::find_if(channels_, [&](const Channel& c) { return c.tracker->name == name; });
+  if (at != channels_.end()) return &*at;
+  ++counts_.unknown;
+  return nullptr;
+}
+
+bool TrackerFeed::heard(const Channel& c, Nanoseconds clock) const {
+  return c.ever && toSeconds(clock - c.last) <= rig_.hold;
+}
+
+bool TrackerFeed::pose(std::string_view name, Nanoseconds clock, const Pose& X_SD) {
+  Channel* c = channel(name);
+  if (!c) return false;
+  const double squared = X_SD.q.squaredNorm();
+  if (!X_SD.finite() || X_SD.p.cwiseAbs().maxCoeff() * rig_.unit > kFarthest || !(squared > 0.25) ||
+      !(squared < 4))
+    return refuse();
+  if (c->ever && clock <= c->last) return ++counts_.late, false;
+  const double dt = toSeconds(clock - c->last);
+  if (!heard(*c, clock)) {
+    c->from = c->ever ? poseAt(*c, clock).value_or(c->X_RT) : Pose();
+    if (c->tracker->safe && (!c->ever || dt > rig_.hold + rig_.ease))
+      c->from = {*c->tracker->safe, Quat::Identity()};
+    c->found = clock;
+    c->filter.reset();
+    c->period = 0;
+  } else {
+    c->period = c->period == 0 ? dt : c->period + 0.1 * (dt - c->period);
+  }
+  c->X_SD = {X_SD.p, X_SD.q.normalized()};
+  c->X_RT = c->filter.pass(rig_.inRig(c->X_SD, *c->tracker), c->ever ? dt : 0);
+  c->last = clock, c->ever = true;
+  ++counts_.taken;
+  return true;
+}
+
+void TrackerFeed::freeze(std::string_view name, Nanoseconds clock, bool frozen) {
+  for (Channel& c : channels_) {
+    if (c.tracker->name != name || c.frozen.has_value() == frozen) continue;
+    if (frozen) {
+      c.frozen = poseAt(c, clock);
+      continue;
+    }
+    c.from = *c.frozen, c.found = clock;
+    c.frozen.reset();
+  }
+}
+
+void TrackerFeed::change(Channel& c, Nanoseconds clock) {
+  ++counts_.taken;
+  if (c.changes.size() == kMostChanges) c.changes.pop_back();
+  c.changes.push_back({clock, c.buttons, c.axes});
+}
+
+bool TrackerFeed::button(std::string_view name, Nanoseconds clock, std::int64_t index, bool down) {
+  Channel* c = channel(name);
+  if (!c) return false;
+  if (index < 1 || index > 32) return refuse();
+  const std::uint32_t bit = 1u << (index - 1);
+  c->buttons = down ? c->buttons | bit : c->buttons & ~bit;
+  change(*c, clock);
+  return true;
+}
+
+bool TrackerFeed::axis(std::string_view name, Nanoseconds clock, std::int64_t index, double value) {
+  Channel* c = channel(name);
+  if (!c) return false;
+  if (index < 0 || index >= static_cast<std::int64_t>(kTrackerAxes) || !std::isfinite(value)) return refuse();
+  c->axes[static_cast<std::size_t>(index)] = static_cast<float>(std::clamp(value, -1.0, 1.0));
+  change(*c, clock);
+  return true;
+}
+
+/// A measurement is some milliseconds old when its frame ends: it goes on as it went.
+Pose TrackerFeed::carriedOn(const Channel& c, Nanoseconds clock) const {
+  const double t = std::clamp(toSeconds(clock - c.last), 0.0, rig_.predict);
+  return {c.X_RT.p + t * c.filter.velocity(),
+          (det::expRotation(t * c.filter.rotation()) * c.X_RT.q).normalized()};
+}
+
+std::optional<Pose> TrackerFeed::poseAt(const Channel& c, Nanoseconds clock) const {
+  if (c.frozen) return c.frozen;
+  if (!c.ever) return {};
+  const double age = toSeconds(clock - c.last);
+  Pose X = carriedOn(c, clock);
+  if (!c.tracker->safe) return age <= rig_.hold ? std::optional(X) : std::nullopt;
+  if (age > rig_.hold + rig_.ease) return {};
+  const auto along = [&](const Pose& a, const Pose& b, double s) {
+    Pose X_ab = det::interpolate(a, b, eased(s));
+    X_ab.q.normalize();
+    return X_ab;
+  };
+  const double back = toSeconds(clock - c.found);
+  if (back < rig_.ease) X = along(c.from, X, back / rig_.ease);
+  if (age <= rig_.hold) return X;
+  return along(X, {*c.tracker->safe, Quat::Identity()}, rig_.ease > 0 ? (age - rig_.hold) / rig_.ease : 1);
+}
+
+void TrackerFeed::addStamps(Channel& c, InputTrack& track, Nanoseconds clock, Nanoseconds start,
+                            Nanoseconds end) {
+  std::vector<Change> changes;
+  changes.swap(c.changes);
+  if (!heard(c, clock)) c.buttons = 0, c.axes = {}, changes.clear();
+  const auto X = poseAt(c, clock);
+  const bool was = track.stamps.back().valid;
+  if (!X) {
+    if (was && end > track.stamps.back().time) track.stamps.push_back(lostAt(end, track));
+    return;
+  }
+  InputStamp now;
+  now.time = end, now.X_RT = *X, now.buttons = c.buttons, now.axes = c.axes;
+  if (end <= track.stamps.back().time) {  // frame 0
+    track.stamps.back() = now;
+    return;
+  }
+  if (mayLeap(track, *X, end)) {
+    if (end - 1 > track.stamps.back().time) track.stamps.push_back(lostAt(end - 1, track));
+  } else if (was) {
+    const InputStamp first = track.stamps.back();
+    const double span = std::max(1.0, static_cast<double>(clock - lastClock_));
+    for (const Change& change : changes) {
+      InputStamp s;
+      const double share = std::clamp(static_cast<double>(change.clock - lastClock_) / span, 0.0, 1.0);
+      s.time = start + static_cast<Nanoseconds>(share * static_cast<double>(end - start));
+      if (s.time <= track.stamps.back().time || s.time >= end) continue;
+      const double way = static_cast<double>(s.time - first.time) / static_cast<double>(end - first.time);
+      s.X_RT = det::interpolate(first.X_RT, *X, way);
+      s.X_RT.q.normalize();
+      s.buttons = change.buttons, s.axes = change.axes;
+      track.stamps.push_back(s);
+    }
+  }
+  track.stamps.push_back(now);
+}
+
+void TrackerFeed::sampleFrame(Nanoseconds clock, Nanoseconds start, Nanoseconds end, InputSample& sample) {
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    InputTrack& track = log_.tracks[i];
+    addStamps(channels_[i], track, clock, start, end);
+    const std::size_t extra = track.stamps.size() > kMostChanges + kStampsKept ? kMostChanges : 0;
+    track.stamps.erase(track.stamps.begin(), track.stamps.begin() + static_cast<std::ptrdiff_t>(extra));
+  }
+  lastClock_ = clock;
+  log_.sampleFrame(start, end, sample);
+}
+
+void TrackerFeed::sampleNow(Nanoseconds clock, InputSample& sample) const {
+  sample.trackers.resize(channels_.size());
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const Channel& c = channels_[i];
+    TrackerSample& t = sample.trackers[i] = {};
+    const auto X = poseAt(c, clock);
+    t.name = c.tracker->name, t.valid = X.has_value();
+    if (X) t.X_RT = *X;
+    if (heard(c, clock)) t.buttons = c.buttons, t.axes = c.axes;
+  }
+}
+
+std::vector<TrackerFeed::Status> TrackerFeed::status(Nanoseconds clock) const {
+  std::vector<Status> all;
+  for (const Channel& c : channels_) {
+    Status s;
+    s.name = c.tracker->name, s.heard = heard(c, clock), s.age = c.ever ? toSeconds(clock - c.last) : 0;
+    s.rate = s.heard && c.period > 0 ? 1 / c.period : 0;
+    s.X_SD = c.X_SD, s.X_RT = c.X_RT, s.buttons = c.buttons, s.axes = c.axes;
+    all.push_back(std::move(s));
+  }
+  return all;
+}
+
+}  // namespace stadion

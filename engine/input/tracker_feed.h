@@ -1,0 +1,109 @@
+#pragma once
+/// From measurements, as a tracking system sends them, to input samples, as the show wants them: placed in
+/// the rig, smoothed, carried on to the frame's end, and led to a safe pose when they stop coming.
+///
+/// A tracker that has been silent for `hold` lets go of its buttons and axes. One with a safe pose then eases
+/// there; after that it is lost, as is one without. When it is heard of again it eases back.
+///
+/// Only trackers of the rig file are known, from the first frame on. What is not finite, absurdly far, not a
+/// rotation, or of an unknown name is refused.
+///
+/// The samples are those of an input log with one record a frame, and one for each change of a button or axis
+/// inside it: so a log that InputRecorder wrote gives the very same samples again.
+///
+/// Times    `clock` is that of the machine [ns]; show time may stand still or go slower than it. What came
+///          between two frames is spread over the frame's show time in proportion.
+/// Threads  one at a time (pipeline/input/live_trackers.h lets several use it).
+
+#include "engine/input/input_log.h"
+#include "engine/input/one_euro_filter.h"
+#include "engine/input/rig_file.h"
+
+#include <span>
+#include <string_view>
+
+namespace stadion {
+
+/// What has become of measurements.
+struct FeedCounts {
+  std::uint64_t taken = 0;
+  std::uint64_t unknown = 0;  ///< of trackers that the rig file does not have
+  std::uint64_t refused = 0;  ///< not finite, too far, no rotation, no such button or axis
+  std::uint64_t late = 0;     ///< older than one that came before
+};
+
+class TrackerFeed {
+public:
+  explicit TrackerFeed(const RigFile& rig);
+  TrackerFeed(const TrackerFeed&) = delete;
+  TrackerFeed& operator=(const TrackerFeed&) = delete;
+
+  // Measurements, in whatever order they come. False: refused, and counted.
+  bool pose(std::string_view tracker, Nanoseconds clock, const Pose& X_SD);
+  bool button(std::string_view tracker, Nanoseconds clock, std::int64_t index, bool down);
+  bool axis(std::string_view tracker, Nanoseconds clock, std::int64_t index, double value);
+
+  /// The tracker stays where it is, whatever it says, or is let go and eases back.
+  void freeze(std::string_view tracker, Nanoseconds clock, bool frozen);
+
+  /// The show begins, or begins again: its time counts from 0.
+  void restart();
+  /// A frame from `start` to `end`, which is `clock`.
+  void sampleFrame(Nanoseconds clock, Nanoseconds start, Nanoseconds end, InputSample& sample);
+  /// Where everything is now, apart from the show's frames.
+  void sampleNow(Nanoseconds clock, InputSample& sample) const;
+
+  const FeedCounts& counts() const { return counts_; }
+  const RigFile& rig() const { return rig_; }
+
+  /// How a tracker does, for people who set one up.
+  struct Status {
+    std::string name;
+    bool heard = false;  ///< within `hold`
+    double age = 0;      ///< of the last measurement [s]
+    double rate = 0;     ///< measurements a second
+    Pose X_SD;           ///< as it came
+    Pose X_RT;           ///< in the rig, smoothed
+    std::uint32_t buttons = 0;
+    std::array<float, kTrackerAxes> axes{};
+  };
+  std::vector<Status> status(Nanoseconds clock) const;
+
+private:
+  struct Change {
+    Nanoseconds clock;
+    std::uint32_t buttons;
+    std::array<float, kTrackerAxes> axes;
+  };
+  struct Channel {
+    Channel(const RigTracker* which, const OneEuroFilter& smooth) : tracker(which), filter(smooth) {}
+    const RigTracker* tracker;
+    OneEuroFilter filter;
+    bool ever = false;
+    Nanoseconds last = 0;  ///< measurement [ns]
+    Pose X_SD, X_RT;       ///< as it came; smoothed
+    double period = 0;     ///< between measurements, smoothed [s]
+    std::optional<Pose> frozen{};
+    Pose from;  ///< where it was when it was heard of again
+    Nanoseconds found = 0;
+    std::uint32_t buttons = 0;
+    std::array<float, kTrackerAxes> axes{};
+    std::vector<Change> changes;  ///< since the last frame
+  };
+
+  Channel* channel(std::string_view name);
+  bool refuse() { return ++counts_.refused, false; }
+  bool heard(const Channel& c, Nanoseconds clock) const;
+  std::optional<Pose> poseAt(const Channel& c, Nanoseconds clock) const;
+  Pose carriedOn(const Channel& c, Nanoseconds clock) const;
+  void change(Channel& c, Nanoseconds clock);
+  void addStamps(Channel& c, InputTrack& track, Nanoseconds clock, Nanoseconds start, Nanoseconds end);
+
+  RigFile rig_;
+  std::vector<Channel> channels_;
+  InputLog log_;  ///< what the last frames said, as a log would have it
+  Nanoseconds lastClock_ = 0;
+  FeedCounts counts_;
+};
+
+}  // namespace stadion

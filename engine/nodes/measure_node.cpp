@@ -1,0 +1,126 @@
+#include "engine/nodes/measure_node.h"
+
+#include "engine/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+namespace stadion {
+namespace {
+
+std::string metres(int centimetres) {
+  return fmt::format("{}.{:02} m", centimetres / 100, centimetres % 100);
+}
+
+}  // namespace
+
+int MeasureNode::Result::centimetres() const {
+  constexpr double kFarthest = 1e7;   // [m]
+  constexpr double kRounding = 1e-6;  // of a centimetre: 3 m are 300 cm however they were computed
+  return foul ? -1 : static_cast<int>(std::floor(100 * std::min(metres, kFarthest) + kRounding));
+}
+
+void MeasureNode::onLeave(Scene& scene) {
+  stop(scene);
+  PlacedNode::onLeave(scene);
+}
+
+void MeasureNode::start(Nanoseconds when, Scene& scene) {
+  stop(scene);
+  result_.reset();
+  compared_ = written_ = false;
+  started_ = when;
+  body_ = scene.resolve(attributes_.body, self());
+  if (body_.valid()) scene.watchImpacts(body_, self());
+}
+
+void MeasureNode::stop(Scene& scene) {
+  if (body_.valid()) scene.unwatchImpacts(body_, self());
+  body_ = {};
+}
+
+void MeasureNode::receive(const Message& m, FrameContext& frame) {
+  PlacedNode::receive(m, frame);
+  if (m.verb == Verb::Start) start(frame.effective(m), frame.scene);
+  if (m.verb == Verb::Reset) {
+    stop(frame.scene);
+    result_.reset();
+    compared_ = written_ = false;
+  }
+}
+
+void MeasureNode::simulate(FrameContext& frame) {
+  PlacedNode::simulate(frame);
+  if (!body_.valid()) return;
+  const NodeRef ground =
+      attributes_.ground.empty() ? NodeRef{} : frame.scene.resolve(attributes_.ground, self());
+  const Impact* first = nullptr;
+  for (const Impact& i : frame.scene.impacts()) {
+    const bool ours = i.body == body_ || i.other == body_;
+    const NodeRef touched = i.body == body_ ? i.other : i.body;
+    if (!ours || i.when < started_ || (ground.valid() && touched != ground)) continue;
+    if (!first || i.when < first->when) first = &i;
+  }
+  if (!first) return;
+  stop(frame.scene);
+  result_ = resultOf(*first, frame.scene);
+  compared_ = attributes_.against.empty();
+  result_->foul ? raise(Event::Foul, result_->when) : raise(Event::Measured, result_->when, result_->metres);
+}
+
+MeasureNode::Result MeasureNode::resultOf(const Impact& impact, const Scene& scene) const {
+  const Vec3 p = poseOf(scene.placements().world(placement())).inverse() * impact.point_W;
+  const double reach = std::sqrt(p.x() * p.x() + p.y() * p.y());
+  Result r;
+  r.when = impact.when;
+  r.metres = attributes_.from == MeasureFrom::Line ? p.y() : reach;
+  r.foul = !(p.y() > 0) || p.y() < attributes_.cosHalfSector * reach;
+  return r;
+}
+
+void MeasureNode::afterSimulation(FrameContext& frame) {
+  if (!result_) return;
+  if (!written_) write(told(), result_->when, frame.scene);
+  written_ = true;
+  if (compared_) return;
+  const auto* other =
+      dynamic_cast<const MeasureNode*>(frame.scene.find(frame.scene.resolve(attributes_.against, self())));
+  if (other && other != this && other->result()) compare(*other, frame);
+}
+
+void MeasureNode::compare(const MeasureNode& other, FrameContext& frame) {
+  compared_ = true;
+  const int ours = result_->centimetres(), theirs = other.result()->centimetres();
+  const Nanoseconds when = std::max(result_->when, other.result()->when);
+  raise(ours > theirs ? Event::Won : ours < theirs ? Event::Lost : Event::Drawn, when);
+  std::string verdict = "a draw";
+  if (ours != theirs) {
+    verdict = (ours > theirs ? called() : other.called()) + " wins";
+    if (std::min(ours, theirs) >= 0) verdict += fmt::format(" by {}", metres(std::abs(ours - theirs)));
+  }
+  write(told() + "\n" + other.told() + "\n" + verdict, when, frame.scene);
+}
+
+std::string MeasureNode::told() const {
+  return called() + " " + (result_->foul ? std::string("foul") : metres(result_->centimetres()));
+}
+
+std::string MeasureNode::called() const {
+  return attributes_.label.empty() ? name() : attributes_.label;
+}
+
+void MeasureNode::write(const std::string& words, Nanoseconds when, Scene& scene) const {
+  if (attributes_.text.empty()) return;
+  scene.post(*this, {Event::Measured, attributes_.text, Verb::Say, {words}, 0}, when);
+}
+
+void MeasureNode::hash(StateHash& h) const {
+  PlacedNode::hash(h);
+  h.add(body_.load), h.add(body_.position), h.add(started_);
+  h.add(result_.has_value()), h.add(compared_);
+  if (result_) h.add(result_->metres), h.add(result_->foul), h.add(result_->when);
+}
+
+}  // namespace stadion

@@ -1,0 +1,37 @@
+#pragma once
+/// `text`: words in the scene, such as a score board's.
+///
+/// Commands  say WORDS, reset, and those of a placed node. What it says is part of the show's state.
+/// Its mesh is made anew when the words change; two nodes that say the same in the same style share one.
+
+#include "engine/nodes/placed_node.h"
+#include "engine/scene/records.h"
+#include "engine/text/text_mesh.h"
+
+namespace stadion {
+
+class TextNode : public PlacedNode {
+public:
+  TextNode(NodeRef self, std::string name, PlaceAttributes place, std::string words, const TextStyle& style)
+      : PlacedNode(NodeKind::Text, self, std::move(name), std::move(place)), declared_(words),
+        words_(std::move(words)), style_(style) {}
+
+  const std::string& words() const { return words_; }
+  void hash(StateHash& h) const override;
+
+protected:
+  void onEnter(Scene& scene) override;
+  void onLeave(Scene& scene) override;
+  void receive(const Message& m, FrameContext& frame) override;
+
+private:
+  void say(std::string words, Scene& scene);
+  void draw(Scene& scene);
+
+  std::string declared_, words_;  ///< UTF-8, lines separated by line feeds
+  TextStyle style_;
+  InstanceId instance_ = 0;
+  MeshId mesh_ = kNoMesh;
+};
+
+}  // namespace stadion

@@ -1,0 +1,18 @@
+#pragma once
+/// What a simulation found out about a touch, for nodes that judge it: the exact place and time, not the
+/// frame's.
+
+#include "engine/maths/maths.h"
+#include "engine/message.h"
+#include "engine/time_signature.h"
+
+namespace stadion {
+
+/// A pair of objects that was apart has touched.
+struct Impact {
+  NodeRef body, other;
+  Vec3 point_W = Vec3::Zero();  ///< where [m]
+  Nanoseconds when = 0;
+};
+
+}  // namespace stadion

@@ -1,0 +1,35 @@
+#pragma once
+/// What is to be heard in a frame: published by App beside what is to be seen.
+///
+/// Frames   World [m].
+/// Units    show time in nanoseconds.
+/// Threads  plain values.
+
+#include "engine/maths/maths.h"
+#include "engine/message.h"
+#include "engine/time_signature.h"
+
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+/// A sound that plays.
+struct SoundRecord {
+  NodeRef node;      ///< who plays it
+  std::string file;  ///< below the asset roots
+  Vec3 position = Vec3::Zero();
+  double gain = 1;   ///< from 0 to 1
+  double range = 0;  ///< how far it is heard [m]; 0: everywhere alike, from no direction
+  bool loop = false;
+  Nanoseconds since = 0;  ///< when it began; another time is another beginning
+};
+
+/// All of them, and where they are heard from.
+struct SoundScape {
+  Nanoseconds time = 0;
+  Pose X_WH;  ///< the head
+  std::vector<SoundRecord> sounds;
+};
+
+}  // namespace stadion

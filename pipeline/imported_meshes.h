@@ -1,0 +1,50 @@
+#pragma once
+/// Models that stay in memory from one group's show to the next, so that the next one need not read them.
+///
+/// A model is known by its file as it is on the disk (device, inode, size, time of change) and by how it was
+/// imported: one that has been edited is imported again. (A texture in a file of its own that has been edited
+/// is not noticed.)
+///
+/// Ownership  owns the store that the shows use, and counts one use of each mesh in it.
+/// Threads    one loader's at a time.
+
+#include "engine/asset/format.h"
+#include "engine/asset/mesh_store.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <tuple>
+
+namespace stadion {
+
+class ImportedMeshes {
+public:
+  /// A file and a way to import it.
+  struct Key {
+    std::uint64_t device = 0, inode = 0, size = 0;
+    std::int64_t changed = 0;  ///< [ns]
+    double unit = 0;           ///< 0 = the file's own
+    int up = -1;               ///< UpAxis; -1 = the file's own
+
+    auto operator<=>(const Key&) const = default;
+    /// Of an open file; nothing if it cannot be told.
+    static std::optional<Key> of(int file, const ImportOptions& options);
+  };
+
+  ImportedMeshes() = default;
+  ImportedMeshes(const ImportedMeshes&) = delete;
+  ImportedMeshes& operator=(const ImportedMeshes&) = delete;
+
+  MeshStore& store() { return store_; }
+  /// The mesh, with one use more of it, or kNoMesh.
+  MeshId find(const Key& key);
+  void keep(const Key& key, MeshId mesh);
+  std::size_t size() const { return known_.size(); }
+
+private:
+  MeshStore store_;
+  std::map<Key, MeshId> known_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,94 @@
+#include "pipeline/input/live_trackers.h"
+
+#include "engine/text_line.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+
+namespace stadion {
+
+Nanoseconds steadyNow() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+LiveTrackers::LiveTrackers(const RigFile& rig, Tell tell, std::function<Nanoseconds()> clock)
+    : feed_(rig), tell_(std::move(tell)), clock_(std::move(clock)) {}
+
+void LiveTrackers::tellOnce(const std::string& what) {
+  if (told_.size() < kMostToldOf && told_.insert(what).second) tell_(what);
+}
+
+template <class Take>
+void LiveTrackers::take(std::string_view tracker, const Take& measurement) {
+  const std::lock_guard lock(mutex_);
+  const std::uint64_t unknown = feed_.counts().unknown, refused = feed_.counts().refused;
+  measurement();
+  if (feed_.counts().unknown != unknown)
+    tellOnce(fmt::format("tracker {} is not in the rig file, which has {}; what it says is left out",
+                         quotedWord(tracker), fmt::join(names(), ", ")));
+  if (feed_.counts().refused != refused)
+    tellOnce(
+        fmt::format("tracker {} says what cannot be (not finite, too far away, no rotation, no such button "
+                    "or axis); it is left out",
+                    quotedWord(tracker)));
+}
+
+void LiveTrackers::pose(std::string_view tracker, Nanoseconds clock, const Pose& X_SD) {
+  take(tracker, [&] { feed_.pose(tracker, clock, X_SD); });
+}
+
+void LiveTrackers::button(std::string_view tracker, Nanoseconds clock, std::int64_t index, bool down) {
+  take(tracker, [&] { feed_.button(tracker, clock, index, down); });
+}
+
+void LiveTrackers::axis(std::string_view tracker, Nanoseconds clock, std::int64_t index, double value) {
+  take(tracker, [&] { feed_.axis(tracker, clock, index, value); });
+}
+
+void LiveTrackers::misunderstood(const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  tellOnce(what);
+}
+
+void LiveTrackers::sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) {
+  const std::lock_guard lock(mutex_);
+  feed_.sampleFrame(clock_(), start, end, sample);
+}
+
+bool LiveTrackers::sampleNow(InputSample& sample) {
+  const std::lock_guard lock(mutex_);
+  feed_.sampleNow(clock_(), sample);
+  return true;
+}
+
+void LiveTrackers::freezeHead(bool frozen) {
+  const std::lock_guard lock(mutex_);
+  feed_.freeze("head", clock_(), frozen);
+}
+
+void LiveTrackers::restart() {
+  const std::lock_guard lock(mutex_);
+  feed_.restart();
+}
+
+FeedCounts LiveTrackers::counts() const {
+  const std::lock_guard lock(mutex_);
+  return feed_.counts();
+}
+
+std::vector<TrackerFeed::Status> LiveTrackers::status() const {
+  const std::lock_guard lock(mutex_);
+  return feed_.status(clock_());
+}
+
+std::vector<std::string> LiveTrackers::names() const {
+  std::vector<std::string> names;
+  for (const RigTracker& t : feed_.rig().trackers) names.push_back(t.name);
+  return names;
+}
+
+}  // namespace stadion

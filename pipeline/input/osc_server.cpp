@@ -1,0 +1,110 @@
+#include "pipeline/input/osc_server.h"
+
+#include <lo/lo.h>
+#include <lo/lo_lowlevel.h>
+
+#include <array>
+#include <exception>
+#include <thread>
+
+namespace stadion {
+namespace {
+
+constexpr int kLookForEnd = 50;  ///< how often the thread looks whether it is to end [ms]
+
+/// An argument as a number; nothing if it is none.
+std::optional<double> numberOf(char type, const lo_arg* a) {
+  switch (type) {
+  case LO_INT32: return a->i;
+  case LO_INT64: return static_cast<double>(a->h);
+  case LO_FLOAT: return double{a->f};
+  case LO_DOUBLE: return a->d;
+  case LO_TRUE: return 1;
+  case LO_FALSE: return 0;
+  default: return {};
+  }
+}
+
+std::optional<Nanoseconds> timeOf(lo_timetag tag) {
+  if (tag.sec == 0) return {};  // immediately
+  return static_cast<Nanoseconds>(tag.sec) * 1'000'000'000 +
+         static_cast<Nanoseconds>(std::uint64_t{tag.frac} * 1'000'000'000 >> 32);
+}
+
+}  // namespace
+
+struct OscServer::Socket {
+  lo_server server = nullptr;
+  Handler handler;
+  std::atomic<std::uint64_t> malformed = 0;
+  std::atomic<bool> ending = false;
+  std::thread thread;
+
+  ~Socket() {
+    ending = true;
+    if (thread.joinable()) thread.join();
+    if (server) lo_server_free(server);
+  }
+
+  static int receive(const char* path, const char* types, lo_arg** args, int count, lo_message message,
+                     void* self) {
+    try {
+      static_cast<Socket*>(self)->take(path, types, args, count, lo_message_get_timestamp(message));
+    } catch (const std::exception&) {
+      ++static_cast<Socket*>(self)->malformed;
+    }
+    return 0;
+  }
+
+  void take(const char* path, const char* types, lo_arg** args, int count, lo_timetag tag) const {
+    std::array<double, OscMessage::kMostNumbers> numbers{};
+    OscMessage m{path, {}, true, timeOf(tag)};
+    std::size_t n = 0;
+    for (int i = 0; i < count; ++i) {
+      const auto x = numberOf(types[i], args[i]);
+      if (!x || n == numbers.size()) {
+        m.numeric = false;
+        break;
+      }
+      numbers[n++] = *x;
+    }
+    m.numbers = {numbers.data(), n};
+    handler(m);
+  }
+
+  void listen() {
+    while (!ending)
+      if (lo_server_wait(server, kLookForEnd) > 0 && lo_server_recv_noblock(server, 0) < 0) ++malformed;
+  }
+};
+
+OscServer::OscServer(std::unique_ptr<Socket> socket) : socket_(std::move(socket)) {
+  socket_->thread = std::thread([s = socket_.get()] { s->listen(); });
+}
+
+OscServer::~OscServer() = default;
+
+Result<std::unique_ptr<OscServer>> OscServer::open(std::uint16_t port, Handler handler) {
+  auto socket = std::make_unique<Socket>();
+  socket->handler = std::move(handler);
+  const std::string name = std::to_string(port);
+  socket->server = lo_server_new_with_proto(port == 0 ? nullptr : name.c_str(), LO_UDP,
+                                            [](int, const char*, const char*) {});
+  if (!socket->server)
+    return Result<std::unique_ptr<OscServer>>::failure(
+        "UDP port " + name + " cannot be listened to; does another program have it?");
+  // A time tag says when something was measured, not when it is to be done.
+  lo_server_enable_queue(socket->server, 0, 1);
+  lo_server_add_method(socket->server, nullptr, nullptr, &Socket::receive, socket.get());
+  return std::unique_ptr<OscServer>(new OscServer(std::move(socket)));
+}
+
+std::uint16_t OscServer::port() const {
+  return static_cast<std::uint16_t>(lo_server_get_port(socket_->server));
+}
+
+std::uint64_t OscServer::malformed() const {
+  return socket_->malformed;
+}
+
+}  // namespace stadion

@@ -1,0 +1,51 @@
+#pragma once
+/// Listens to Open Sound Control messages on a UDP port (liblo).
+///
+/// Ownership  owns its socket and its thread; both end with it.
+/// Threads    one of its own, on which the handler is called; bundles with a time in the future are not held
+///            back.
+/// Errors     what is no OSC message is counted and otherwise ignored; the handler must not throw.
+
+#include "engine/diagnostic.h"
+#include "engine/time_signature.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace stadion {
+
+struct OscMessage {
+  static constexpr std::size_t kMostNumbers = 16;
+
+  std::string_view path;            ///< such as /tracker/head/pose
+  std::span<const double> numbers;  ///< its arguments, true as 1 and false as 0
+  bool numeric = true;              ///< false: there were other arguments, or too many
+  std::optional<Nanoseconds> sent;  ///< the time tag, by the sender's clock [ns]
+};
+
+class OscServer {
+public:
+  using Handler = std::function<void(const OscMessage&)>;
+
+  /// Port 0 takes any that is free. Fails if the port is taken.
+  static Result<std::unique_ptr<OscServer>> open(std::uint16_t port, Handler handler);
+  ~OscServer();
+  OscServer(const OscServer&) = delete;
+  OscServer& operator=(const OscServer&) = delete;
+
+  std::uint16_t port() const;
+  /// Packets that were no OSC messages.
+  std::uint64_t malformed() const;
+
+private:
+  struct Socket;
+  explicit OscServer(std::unique_ptr<Socket> socket);
+  std::unique_ptr<Socket> socket_;
+};
+
+}  // namespace stadion

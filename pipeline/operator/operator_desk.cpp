@@ -1,0 +1,32 @@
+#include "pipeline/operator/operator_desk.h"
+
+namespace stadion {
+
+OperatorDesk::OperatorDesk(bool waits, double wallsEyeSeparation) : waits_(waits) {
+  state_.wallsEyeSeparation = wallsEyeSeparation;
+  beginGroup();
+}
+
+void OperatorDesk::beginGroup() {
+  ++groups_;
+  state_.waiting = waits_;
+  state_.paused = state_.headFrozen = state_.nextGroup = false;
+  playback_.setPaused(state_.still());
+}
+
+void OperatorDesk::beginFrame(std::uint64_t frame) {
+  for (auto [at, end] = recorded_.equal_range(frame); at != end; ++at) take(frame, at->second);
+  for (const OperatorCommand& c : queue_.take()) take(frame, c);
+  recorded_.erase(recorded_.begin(), recorded_.upper_bound(frame));
+}
+
+void OperatorDesk::take(std::uint64_t frame, const OperatorCommand& command) {
+  if (!state_.obey(command)) return;
+  if (command.action == OperatorAction::Step)
+    playback_.step();
+  else
+    playback_.setPaused(state_.still());
+  if (told) told(frame, command);
+}
+
+}  // namespace stadion

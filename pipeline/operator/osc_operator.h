@@ -1,0 +1,43 @@
+#pragma once
+/// The operator's commands as Open Sound Control messages: a tablet, a show controller, `oscsend`.
+///
+///     /stadion/start           /stadion/step          /stadion/next-group      /stadion/end
+///     /stadion/pause [0|1]     /stadion/black [0|1]   /stadion/swap-eyes [0|1] /stadion/freeze-head [0|1]
+///     /stadion/eye-separation METRES    /stadion/eye-separation/by METRES
+///     /stadion/volume 0..1              /stadion/volume/by -1..1
+///
+/// Without a number, what is on goes off and the other way round.
+///
+/// Threads  the server's own.
+/// Errors   what is no command is counted and told of once. Who can send to the port can command the show.
+
+#include "pipeline/input/osc_server.h"
+#include "pipeline/operator/operator_queue.h"
+
+#include <set>
+
+namespace stadion {
+
+/// The command that a message is, or nothing.
+std::optional<OperatorCommand> operatorCommandOf(const OscMessage& m);
+
+class OscOperator {
+public:
+  using Tell = std::function<void(const std::string&)>;
+
+  /// Fails if the port is taken. The queue must outlive it.
+  static Result<std::unique_ptr<OscOperator>> open(std::uint16_t port, OperatorQueue& queue, Tell tell);
+
+  std::uint16_t port() const { return server_->port(); }
+
+private:
+  OscOperator(OperatorQueue& queue, Tell tell) : queue_(queue), tell_(std::move(tell)) {}
+  void take(const OscMessage& m);
+
+  OperatorQueue& queue_;
+  Tell tell_;
+  std::set<std::string> told_;
+  std::unique_ptr<OscServer> server_;  ///< the last one: its thread uses the others
+};
+
+}  // namespace stadion
