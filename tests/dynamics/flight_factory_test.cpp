@@ -76,8 +76,8 @@ TEST(FlightFactory, CoefficientsAreNumbersOrAName) {
   EXPECT_EQ(rod.damping, 6);
   const auto named = std::get<RodFlight>(made(", flight=rod, coefficients=javelin").flight->model);
   EXPECT_NEAR(named.crossArea, javelinFlight(2.2).crossArea, 1e-6) << "of its own length";
-  EXPECT_EQ(made(", flight=rod, coefficients=discus").why.substr(0, 74),
-            "a.evs:1:56: error: flight=rod knows no \"discus\"; it knows javelin\ndynobject");
+  EXPECT_TRUE(made(", flight=rod, coefficients=discus")
+                  .why.starts_with("a.evs:1:57: error: flight=rod knows no \"discus\"; it knows javelin\n"));
   EXPECT_NE(
       made(", flight=rod, coefficients=\"1, 2\"").why.find("flight=rod takes 6 numbers: axial area [m2], "),
       std::string::npos);
