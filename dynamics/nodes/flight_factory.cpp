@@ -82,7 +82,7 @@ Result<FlightModel> tableModel(const Declaration& d, const FlightShape& shape, c
 }
 
 Bias biasOf(const Declaration& d, const FlightShape& shape) {
-  const auto word = static_cast<std::size_t>(d.choice<BiasWord>(Attr::Bias));
+  const auto word = static_cast<std::size_t>(d.optionalChoice<BiasWord>(Attr::Bias).value_or(BiasWord::Flow));
   const double rate = d.optionalNumber(Attr::BiasRate).value_or(kRates[word]);
   return biasFor(shape, static_cast<BiasForm>(word), rate);
 }
@@ -101,7 +101,7 @@ FlightShape formOf(const Declaration& d, const Mesh& mesh, const MassProperties&
   const Vec3 nose = d.has(Attr::Nose) ? d.vec3(Attr::Nose) : s.q_NA * Vec3::UnitX();
   const auto volume = integrateVolume(mesh);
   if (nose.dot(s.q_NA * Vec3::UnitX()) < 0) turnAround(s, volume ? volume.value().volume : 0);
-  if (d.choice<AxesWord>(Attr::Axes) == AxesWord::Vertices) {
+  if (d.optionalChoice<AxesWord>(Attr::Axes) == AxesWord::Vertices) {
     s.axes = sampledAxes(mesh, kSamples), s.q_NA = s.axes.q_NP;
     if (nose.dot(s.q_NA * Vec3::UnitX()) < 0) s.q_NA = s.q_NA * Quat(0, 0, 0, 1);
   }

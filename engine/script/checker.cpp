@@ -265,7 +265,7 @@ void Checker::checkFlight(const RawDeclaration& raw, std::uint32_t node) {
   if (flight == Table && !d.has(Attr::FlightTable))
     report(Attr::Flight, "flight=table needs a flighttable: the file of its coefficients");
   const double rate = d.optionalNumber(Attr::BiasRate).value_or(0);
-  if (rate > 1 && d.choice<BiasWord>(Attr::Bias) == BiasWord::Paper)
+  if (rate > 1 && d.optionalChoice<BiasWord>(Attr::Bias) == BiasWord::Paper)
     report(Attr::BiasRate,
            fmt::format("with bias=paper, biasrate is a share of the angle, at most 1, not {}", rate));
 }

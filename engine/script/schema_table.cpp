@@ -148,8 +148,7 @@ constexpr AttributeSpec kDynObjectRows[] = {
     {.attr = Attr::Bias,
      .kind = Choice,
      .help = "of flight=bias: its angle to the velocity decays evenly, or by a share in every frame as in "
-             "the paper, or by the form's covariance",
-     .standard = "flow",
+             "the paper, or by the form's covariance; flow if not stated",
      .choices = kBiases},
     {.attr = Attr::BiasRate,
      .kind = Number,
@@ -158,8 +157,8 @@ constexpr AttributeSpec kDynObjectRows[] = {
      .range = {0, 1000}},
     {.attr = Attr::Axes,
      .kind = Choice,
-     .help = "of flight=bias: its axes from the surface's area, or from random vertices as in the paper",
-     .standard = "area",
+     .help = "of flight=bias: its axes from the surface's area, or from random vertices as in the paper; "
+             "area if not stated",
      .choices = kAxesFrom},
 };
 

@@ -60,8 +60,7 @@ TEST(ScriptSchema, StandardValuesObeyTheirOwnRules) {
     for (const AttributeSpec* spec : attributesOf(static_cast<NodeKind>(i))) {
       if (spec->standard.empty()) continue;
       std::string script = std::string(kNodeKindNames[i]) + "(" + std::string(nameOf(spec->attr)) + "=\"" +
-                           std::string(spec->standard) + "\"" +
-                           (spec->attr == Attr::Bias || spec->attr == Attr::Axes ? ", flight=bias)" : ")");
+                           std::string(spec->standard) + "\")";
       Diagnostics findings;
       checkScript(std::move(SourceText::make("a.evs", script).value()), findings);
       for (const Diagnostic& d : findings.all())
