@@ -1,6 +1,7 @@
 #include "cli/display_run.h"
 
-#include <algorithm>
+#include "cli/operator_keys.h"
+
 #include <chrono>
 #include <cstdio>
 #include <thread>
@@ -22,6 +23,16 @@ WindowStereo windowStereoOf(StereoLayout layout) {
   return WindowStereo::Mono;
 }
 
+/// The same keys as in the terminal.
+std::optional<OperatorCommand> orderOf(Key key) {
+  if (key == Key::Escape) return OperatorCommand{OperatorAction::End};
+  if (key == Key::Enter) return operatorCommandOf('\n');
+  const auto code = static_cast<std::uint32_t>(key);
+  if (code >= 127) return {};
+  const char c = static_cast<char>(code);
+  return operatorCommandOf(c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
+}
+
 }  // namespace
 
 std::unique_ptr<DisplayRun> DisplayRun::open(const RunOptions& options, const WallFile& walls,
@@ -40,7 +51,7 @@ void DisplayRun::fitPictures(std::vector<WallView>& views) const {
   }
 }
 
-FrameLoopOutcome DisplayRun::play(FrameLoop& loop, const std::function<void()>& end) {
+FrameLoopOutcome DisplayRun::play(FrameLoop& loop, OperatorQueue& orders) {
   FrameLoopOutcome outcome;
   std::atomic<bool> over = false;
   std::thread playing([&] {
@@ -56,7 +67,8 @@ FrameLoopOutcome DisplayRun::play(FrameLoop& loop, const std::function<void()>& 
       std::fprintf(stderr, "the walls are shown; Escape ends the show\n");
       told = true;
     }
-    if (std::ranges::find(keys, Key::Escape) != keys.end()) end();
+    for (const Key key : keys)
+      if (const auto order = orderOf(key)) orders.post(*order);
     if (mailbox_.fetch(pictures, shown))
       displays_->show(pictures);
     else

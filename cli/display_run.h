@@ -6,6 +6,7 @@
 
 #include "cli/run_options.h"
 #include "cli/wall_displays.h"
+#include "pipeline/operator/operator_queue.h"
 #include "pipeline/output/picture_mailbox.h"
 
 #include <atomic>
@@ -22,14 +23,15 @@ public:
   PictureSink& sink() { return mailbox_; }
   /// The walls' pictures fill their outputs pixel by pixel, unless --size or the wall file says otherwise.
   void fitPictures(std::vector<WallView>& views) const;
-  /// Plays the loop to its end, or until somebody presses Escape: `end` is told then, on this thread.
-  FrameLoopOutcome play(FrameLoop& loop, const std::function<void()>& end);
+  /// Plays the loop to its end. Keys pressed in the windows are the operator's (docs/operator.md); Escape
+  /// ends the run.
+  FrameLoopOutcome play(FrameLoop& loop, OperatorQueue& orders);
 
 private:
   DisplayRun(const RunOptions& options, const WallFile& walls) : options_(options), walls_(walls) {}
 
   const RunOptions& options_;
-  const WallFile& walls_;
+  const WallFile walls_;  ///< a copy: the show it came from may be made anew
   std::unique_ptr<WallDisplays> displays_;
   PictureMailbox mailbox_;
 };

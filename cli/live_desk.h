@@ -34,6 +34,8 @@ public:
   void endGroup();
 
   void addTo(ShowParts& parts, FrameLoopOptions& loop);
+  /// Takes orders from elsewhere too, such as keys in a window.
+  OperatorQueue& queue() { return desk_->queue(); }
   std::uint64_t groups() const { return desk_->groups(); }
   double uptime() const;  ///< since it was opened [s]
 

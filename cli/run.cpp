@@ -99,8 +99,6 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
 std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   NodeTimes nodeTimes;
   ProgressBar progress(s.player->frames());
-  std::atomic<bool> endAsked = false;
-  FrameLoop* playing = nullptr;
   const ShowStages* running = nullptr;
   FrameLoopOptions options = o.loopOptions(*s.player);
   ShowParts parts = s.player->parts(o.layout);
@@ -114,16 +112,14 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
     s.watch->see(now, input, scene);
     s.player->collect(running->shownFrame());
     progress.update(now.frame + 1);
-    if (endAsked) playing->endAfterThisFrame();
   };
   s.desk->addTo(parts, options);
   ShowStages stages(std::move(parts));
   running = &stages;
   FrameLoop loop(stages, options, stop, o.profile ? &nodeTimes : nullptr);
-  playing = &loop;
 
   const auto start = std::chrono::steady_clock::now();
-  const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, [&] { endAsked = true; }) : loop.run();
+  const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, s.desk->queue()) : loop.run();
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
   if (outcome.nextGroup && !outcome.failure && !stop) return {};
