@@ -128,4 +128,13 @@ void DeskVisitor::sampleAt(Nanoseconds showTime, InputSample& sample) {
     wand.axes[i] = static_cast<float>(std::clamp(axes_[i] + padAxes_[i], -1.0, 1.0));
 }
 
+void DeskVisitor::sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) {
+  sampleAt(end, sample);
+  TrackerSample& wand = sample.trackers[1];
+  const ControlKnot now{start, wand.buttons, wand.axes};
+  wand.controls = {told_.value_or(now)};
+  wand.controls.front().time = start;
+  told_ = now;
+}
+
 }  // namespace stadion

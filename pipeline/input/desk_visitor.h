@@ -14,6 +14,7 @@
 
 #include <array>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace stadion {
@@ -45,6 +46,8 @@ public:
 
   using InputDevice::sampleAt;
   void sampleAt(Nanoseconds showTime, InputSample& sample) override;
+  /// As an input log with one record a frame says it: axes go evenly from what they were to what they are.
+  void sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) override;
 
 private:
   /// What moves at a speed of its own, carried to the sample's time.
@@ -64,6 +67,7 @@ private:
   std::uint32_t buttons_ = 0, padButtons_ = 0;
   std::uint32_t pressed_ = 0;  ///< since the last sample: a press that is over already must be seen once
   Nanoseconds sampled_ = -1;
+  std::optional<ControlKnot> told_;  ///< what the wand's buttons and axes were in the last frame; App's own
 };
 
 }  // namespace stadion

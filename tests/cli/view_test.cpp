@@ -201,7 +201,9 @@ TEST_P(ProgramViewThrow, FliesWithTheHandsSpeedAndTheRecordRepeatsIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shows, ProgramViewThrow,
-                         testing::Values(Throw{"desk", testShow("desk.evs"), 0, 0, 0, 0, "3", "ball"}),
+                         testing::Values(Throw{"desk", testShow("desk.evs"), 0, 0, 0, 0, "3", "ball"},
+                                         Throw{"olympia", assetFolder() + "/../scripts/olympia.evs", 180, 80,
+                                               100, 20, "2", "discus/discus"}),
                          [](const auto& each) { return std::string(each.param.name); });
 
 TEST(ProgramView, KeysWalkAndASavedScriptKeepsTheVisitorsPlace) {
