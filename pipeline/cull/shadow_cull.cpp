@@ -10,6 +10,10 @@ namespace {
 /// What is smaller than this part of a texel casts no shadow that could be seen.
 constexpr double kLeastCaster = 0.5;
 
+/// How far inside a ring, in texels of the next one, its own texels alone are looked up: the lookups there
+/// reach that far. Of the ring itself a fiftieth at the edge is left to the next one (shaders.cpp).
+constexpr double kLookup = 4, kUsed = 0.98;
+
 std::uint64_t stirred(std::uint64_t x) {  // the finaliser of MurmurHash3
   x = (x ^ (x >> 33)) * 0xff51afd7ed558ccd;
   x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53;
@@ -73,12 +77,25 @@ void ShadowCull::placeRing(std::size_t index, const Vec3& centre) {
   ring.movingArea = {1, 1, -1, -1};
 }
 
+/// Whether all that may see the shadow of this ball is looked up in that ring or in a finer one.
+bool ShadowCull::coveredBy(std::size_t ring, const Vec3& p_L, double radius) const {
+  const Vec3 p = p_L - centre_L_[ring];
+  const double nextTexel = 2 * kShadowReach[ring + 1] / kShadowTexels;
+  return std::max(std::abs(p.x()), std::abs(p.y())) + radius <
+         kUsed * kShadowReach[ring] - kLookup * nextTexel;
+}
+
 void ShadowCull::cast(const InstanceRecord& r) {
   constexpr std::uint32_t kCasts = InstanceRecord::kShown;
   if (r.radius < 0 || (r.flags & (kCasts | InstanceRecord::kTransparent)) != kCasts) return;
   const double radius = double{r.radius};
   const Vec3 p_L = axes_ * Vec3(r.centre[0], r.centre[1], r.centre[2]);
+  const bool moves = (r.flags & kMoves) != 0;
   for (std::size_t index = 0; index < kShadowRings; ++index) {
+    // What moves costs a drawing in each frame, so it is drawn only where it is looked up. What stands still
+    // is drawn everywhere, so that the outer rings need not be drawn again when the inner ones follow the
+    // head.
+    if (moves && index > 0 && coveredBy(index - 1, p_L, radius)) break;
     const double reach = kShadowReach[index];
     const Vec3 p = p_L - centre_L_[index];
     // Not the other way round: what is not finite is left out.
@@ -92,7 +109,6 @@ void ShadowCull::cast(const InstanceRecord& r) {
     }
     item.mesh = r.mesh;
     DrawShadowRing& ring = shadows_.rings[index];
-    const bool moves = (r.flags & kMoves) != 0;
     (moves ? ring.movingKey : ring.stillKey) += keyOf(item);
     (moves ? ring.moving : ring.still).push_back(item);
     if (!moves) continue;

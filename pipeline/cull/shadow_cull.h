@@ -24,6 +24,7 @@ public:
 
 private:
   void placeRing(std::size_t ring, const Vec3& centre);
+  bool coveredBy(std::size_t ring, const Vec3& p_L, double radius) const;
   void cast(const InstanceRecord& r);
 
   DrawShadows& shadows_;

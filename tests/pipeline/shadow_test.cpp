@@ -216,6 +216,38 @@ TEST(Shadows, GlassAndWhatIsHiddenCastNone) {
   for (const DrawShadowRing& ring : yard.list().shadows.rings) EXPECT_TRUE(ring.still.empty());
 }
 
+TEST(Shadows, WhatMovesIsDrawnOnlyIntoTheRingsWhereItIsLookedUp) {
+  const auto ringsOf = [](double away, bool moves) {
+    Yard yard;
+    yard.head = {0, 0, 1.7};
+    yard.sun({0, 0.001, -1});
+    yard.addCrate(at(0, away, 1), moves);
+    std::string rings;
+    const DrawList list = yard.list();
+    for (const DrawShadowRing& ring : list.shadows.rings)
+      rings += std::to_string(ring.still.size() + ring.moving.size());
+    return rings;
+  };
+  EXPECT_EQ(ringsOf(3, true), "1000");
+  EXPECT_EQ(ringsOf(5.5, true), "1100") << "at the border both are";
+  EXPECT_EQ(ringsOf(15, true), "0100");
+  EXPECT_EQ(ringsOf(50, true), "0010");
+  EXPECT_EQ(ringsOf(3, false), "1111");
+}
+
+TEST(Shadows, WhatMovesHasTheSameShadowAsWhatStandsStill) {
+  std::array<test::Picture, 2> pictures;
+  for (const bool moves : {false, true}) {
+    Yard yard;
+    yard.addGround();
+    for (int i = 0; i < 12; ++i) yard.addCrate(at(-4 + 0.7 * i, -5 + 1.1 * i, 1.5), moves);
+    const DrawList list = yard.list();
+    Stage stage(yard.meshes, kWidth, kHeight);
+    pictures[moves] = stage.draw(list);
+  }
+  EXPECT_TRUE(pictures[0] == pictures[1]);
+}
+
 TEST(Shadows, BothProvidersDrawThemAlike) {
   Yard yard;
   yard.addGround();
