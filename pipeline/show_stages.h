@@ -87,6 +87,7 @@ private:
     bool read = false;                       ///< the last frame's pictures have been read back
   };
 
+  void tellPublished();
   void hear(const InputSample& input, bool still);
   Failure readPictures(std::size_t wall);
   Failure enterContext(std::size_t wall);
