@@ -35,6 +35,7 @@ enum class Span : std::uint8_t {
   Input,     ///< devices and logs are asked
   Loading,   ///< files take effect or go
   Mail,      ///< who is to be visited, with which messages
+  Crew,      ///< nodes that simulate side by side are waited for
   Settle,    ///< what a node's cycle changed is taken up: its hash, who is woken by it
   Publish,   ///< what changed, into the slot
   Sound,     ///< what is heard

@@ -76,7 +76,7 @@ private:
       StageRow row;
       row.name = stageName(stageOf(what), wall);
       if (!isStage(what)) row.part = std::string(nameOf(what));
-      row.ms = (isWait(what) ? total.own : total.ms.sum()) / frames_;
+      row.ms = (isStage(what) ? total.ms.sum() : total.own) / frames_;
       row.p95 = total.ms.percentile(95), row.most = total.ms.most(), row.count = total.ms.count();
       row.wait = isWait(what);
       out_.stages.push_back(std::move(row));
@@ -99,7 +99,7 @@ private:
   double sum(Span what) const {
     double ms = 0;
     for (const auto& [who, total] : profile_.spans())
-      if (who.first == what) ms += total.ms.sum();
+      if (who.first == what) ms += isStage(what) ? total.ms.sum() : total.own;
     return ms / frames_;
   }
 
@@ -108,7 +108,7 @@ private:
     app.stage = "app", app.measured = sum(Span::App);
     double published = 0;
     for (const NodeRow& row : out_.nodes) app.nodes += row.app, published += row.publish;
-    for (const Span s : {Span::Input, Span::Loading, Span::Mail, Span::Sound, Span::Watching})
+    for (const Span s : {Span::Input, Span::Loading, Span::Mail, Span::Crew, Span::Sound, Span::Watching})
       app.named += sum(s);
     app.named += std::max(0.0, sum(Span::Publish) - published);
 

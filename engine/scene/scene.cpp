@@ -57,8 +57,8 @@ void Scene::settleTouched(FrameProbe* probe) {
 
 // Visiting.
 
-/// Whom to visit in this round: the busy, those with mail, those whose alarm rings, those who were woken after
-/// their turn. Returns the mail, by target.
+/// Whom to visit in this round: the busy, those with mail, those whose alarm rings, those who were woken
+/// after their turn. Returns the mail, by target.
 std::vector<Message> Scene::callRound(const TimeSignature& now) {
   std::vector<Message> mail = messages_.takeDue(now.time);
   round_ = busy_;
@@ -104,11 +104,12 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
     detached = detachedBy(mail, frame);
   }
   std::vector<Node*> batch;
-  while (takeBatch(mail, frame, probe, batch)) {
-    if (batch.size() > 1)
-      crew_.run(batch.size(), [&](std::size_t i) { batch[i]->compute(probe); });
-    else
-      batch[0]->compute(probe);
+  const auto next = [&] {
+    const SpanScope span(probe, Span::Mail);
+    return takeBatch(mail, frame, probe, batch);
+  };
+  while (next()) {
+    computeTogether(batch, probe);
     for (Node* node : batch) {
       current_ = Visit{node->rank(), node->self()};
       node->conclude(frame, probe);
@@ -121,6 +122,12 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
   }
   current_.reset();
   for (const Detached& d : detached) rejoinParent(d, frame);
+}
+
+void Scene::computeTogether(std::span<Node* const> batch, FrameProbe* probe) {
+  if (batch.size() == 1) return batch[0]->compute(probe);
+  const SpanScope span(probe, Span::Crew);
+  crew_.run(batch.size(), [&](std::size_t i) { batch[i]->compute(probe); });
 }
 
 /// The next nodes of this round that do not look at each other's results, each of them begun. False: no more.

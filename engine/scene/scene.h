@@ -22,6 +22,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -218,6 +219,7 @@ private:
   void visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe);
   std::vector<Message> callRound(const TimeSignature& now);
   void settleTouched(FrameProbe* probe);
+  void computeTogether(std::span<Node* const> batch, FrameProbe* probe);
   std::vector<Detached> detachedBy(const std::vector<Message>& mail, const FrameContext& frame);
   void rejoinParent(const Detached& d, const FrameContext& frame);
   bool takeBatch(const std::vector<Message>& mail, FrameContext& frame, FrameProbe* probe,
