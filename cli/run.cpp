@@ -115,13 +115,14 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
     s.player->collect(running->shownFrame());
     progress.update(now.frame + 1);
   };
+  if (!s.displays) parts.shown = [&] { s.desk->pictureSeen(); };
   s.desk->addTo(parts, options);
   ShowStages stages(std::move(parts));
   running = &stages;
   FrameLoop loop(stages, options, stop, recording ? &recording->probe() : nullptr);
 
   const auto start = std::chrono::steady_clock::now();
-  const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, s.desk->queue()) : loop.run();
+  const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, *s.desk) : loop.run();
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
   if (outcome.nextGroup && !outcome.failure && !stop) return {};

@@ -153,6 +153,7 @@ void ShowStages::closeWall(std::size_t wall) {
 
 Failure ShowStages::swap(const TimeSignature& now) {
   shownFrame_ = now.frame;
+  if (parts_.shown) parts_.shown();
   if (parts_.sink && parts_.sink->wants(now)) return parts_.sink->take(now, pictures_);
   return {};
 }

@@ -53,6 +53,7 @@ struct ShowParts {
   FrameProbe* probe = nullptr;
   /// Once true, Draw gives up what it is at and the run ends. Any thread; null = never.
   std::function<bool()> giveUp{};
+  std::function<void()> shown{};       ///< all walls have shown a frame; on the Draw thread that swaps
   SoundPlayer* sounds = nullptr;       ///< null: nobody listens
   const OperatorDesk* desk = nullptr;  ///< null: nobody commands
 };
