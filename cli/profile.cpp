@@ -60,7 +60,8 @@ int profileModels(Options o) {
 constexpr const char* kFooter =
     R"(The show is played as in run, and each node's share of the frame is told: App is timed in every frame, by node;
 Cull by wall, shared among the nodes that it looked at; Draw by drawing a few batches alone in some frames, in their
-place in the frame, until every node has had its turn. `explained` says how much of what the stages took that is.
+place in the frame, until every node has had its turn. `visitor` stands for the trackers and for the eyes in front of the walls.
+`explained` says how much of what the stages took is found with nodes, or with parts of the stages themselves.
 
 With --fidelity, every dynobject is listed with what stands for it: the shape that collides, the fields it is hooked to, how its
 flight is computed (in closed form; by a series of order 16, in one medium; by steps of order 5, under other fields),

@@ -103,7 +103,8 @@ void FrameLog::collect() {
   SpanRecord record;
   for (std::size_t i = 0; i < tracks.size(); ++i)
     while (tracks[i]->take(record))
-      for (SpanReader* reader : readers_) reader->take(i, record);
+      if (record.frame >= options_.from)
+        for (SpanReader* reader : readers_) reader->take(i, record);
   for (const SharedSpan& s : shared)
     for (SpanReader* reader : readers_) reader->take(s);
   for (const Alone& a : alone)

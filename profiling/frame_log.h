@@ -40,7 +40,8 @@ public:
 
 struct FrameLogOptions {
   bool samples = true;  ///< shares and drawing too
-  std::uint64_t sampleEvery = 8, from = 4;
+  std::uint64_t sampleEvery = 8;
+  std::uint64_t from = 4;  ///< frames before it are not recorded: what is touched for the first time is slow
 };
 
 class FrameLog final : public FrameProbe {

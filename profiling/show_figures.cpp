@@ -14,6 +14,7 @@ public:
     out_.frames = profile.frames();
     out_.walls = walls;
     for (const auto& [ref, node] : profile.nodes()) addNode(ref, node);
+    addVisitor();
     addStages();
     explain();
     const double all = out_.explained[0].measured + out_.explained[1].measured + out_.explained[2].measured;
@@ -57,6 +58,18 @@ private:
     out_.nodes.push_back(std::move(row));
   }
 
+  /// Whom no node of the script stands for: what the trackers say, and the eyes in front of the walls.
+  void addVisitor() {
+    NodeRow row;
+    row.name.path = "visitor", row.name.kind = NodeKind::Rig;
+    row.receive = row.app = sum(Span::Input);
+    row.walls.resize(out_.walls.size());
+    for (std::uint32_t wall = 0; wall < row.walls.size(); ++wall)
+      row.cull += row.walls[wall].cull = sum(Span::Eyes, wall);
+    row.total = row.app + row.cull;
+    if (row.total > 0) out_.nodes.push_back(std::move(row));
+  }
+
   std::string stageName(Span stage, std::uint32_t wall) const {
     std::string name(nameOf(stage));
     return wall < out_.walls.size() ? name + " " + out_.walls[wall] : name;
@@ -96,10 +109,12 @@ private:
   /// The sky is cleared, then drawn.
   static double timesAFrame(Span part) { return part == Span::Sky ? 2 : 1; }
 
-  double sum(Span what) const {
+  /// A frame's, of one wall or of all.
+  double sum(Span what, std::optional<std::uint32_t> wall = {}) const {
     double ms = 0;
     for (const auto& [who, total] : profile_.spans())
-      if (who.first == what) ms += isStage(what) ? total.ms.sum() : total.own;
+      if (who.first == what && (!wall || who.second == *wall))
+        ms += isStage(what) ? total.ms.sum() : total.own;
     return ms / frames_;
   }
 
@@ -108,14 +123,16 @@ private:
     app.stage = "app", app.measured = sum(Span::App);
     double published = 0;
     for (const NodeRow& row : out_.nodes) app.nodes += row.app, published += row.publish;
-    for (const Span s : {Span::Input, Span::Loading, Span::Mail, Span::Crew, Span::Sound, Span::Watching})
+    for (const Span s : {Span::Loading, Span::Mail, Span::Crew, Span::Sound, Span::Watching})
       app.named += sum(s);
     app.named += std::max(0.0, sum(Span::Publish) - published);
 
     Explained& cull = out_.explained[1];
     cull.stage = "cull", cull.measured = sum(Span::Cull);
     for (const NodeRow& row : out_.nodes) cull.nodes += row.cull;
-    cull.named = sum(Span::Eyes);
+    for (const Span s : {Span::Test, Span::Fill, Span::ShadowCasts, Span::Sort}) cull.named += sum(s);
+    for (const NodeRow& row : out_.nodes) cull.named -= row.node.valid() ? row.cull : 0;
+    cull.named = std::max(0.0, cull.named);
 
     Explained& draw = out_.explained[2];
     draw.stage = "draw";

@@ -8,6 +8,7 @@ namespace stadion {
 namespace {
 
 std::string placeOf(const NodeName& name) {
+  if (name.file.empty()) return "";
   const std::size_t slash = name.file.rfind('/');
   const std::string file = slash == std::string::npos ? name.file : name.file.substr(slash + 1);
   return fmt::format("{}:{}{}", file, name.line, name.unloaded ? " (unloaded)" : "");
