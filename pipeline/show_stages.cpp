@@ -17,7 +17,9 @@ void makeBlack(DrawList& list) {
 
 ShowStages::ShowStages(ShowParts parts)
     : parts_(std::move(parts)), contexts_(std::make_unique<WallContext[]>(parts_.walls.size())),
-      pictures_(parts_.walls.size()) {}
+      pictures_(parts_.walls.size()) {
+  for (std::size_t wall = 0; wall < parts_.walls.size(); ++wall) contexts_[wall].view = parts_.walls[wall];
+}
 
 ShowStages::~ShowStages() = default;
 
@@ -71,8 +73,8 @@ void ShowStages::still(std::size_t slot) {
 
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
-  WallView view = parts_.walls[wall];
-  if (shown.eyeSeparation >= 0) view.eyeSeparation = shown.eyeSeparation;
+  WallView& view = contexts_[wall].view;
+  view.eyeSeparation = shown.eyeSeparation >= 0 ? shown.eyeSeparation : parts_.walls[wall].eyeSeparation;
   cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), list, parts_.probe);
   if (view.camera) return;  // somebody else's, not the visitor's
   if (shown.swapEyes && list.eyeCount == 2) std::swap(list.eyes[0], list.eyes[1]);

@@ -80,6 +80,7 @@ public:
 
 private:
   struct WallContext {
+    WallView view;  ///< as the operator has it; Cull's own
     std::unique_ptr<Target> target;
     std::unique_ptr<Renderer> renderer;
     std::atomic<std::thread::id> currentOn;  ///< the thread on which the context is current

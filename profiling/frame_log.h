@@ -2,6 +2,9 @@
 /// Records what frames are spent on: a probe that writes each thread's spans into a buffer of its own,
 /// without locks, and a thread that collects them.
 ///
+/// What recording takes is measured beforehand and taken off: the figures are those of a show that nobody
+/// watches.
+///
 /// Of drawing and of what nodes share, samples are taken, every kSampleEvery frames, so that recording costs
 /// little: the stages' times are exact, a node's share of Cull and Draw is that of the frames sampled.
 ///
@@ -60,6 +63,7 @@ public:
 
   /// Hands on what is left. After the last frame.
   void finish();
+  const SpanOverhead& overhead() const { return overhead_; }
   /// Records that were lost because collecting could not keep up.
   std::uint64_t lost() const;
 
@@ -74,6 +78,7 @@ private:
 
   std::vector<SpanReader*> readers_;
   FrameLogOptions options_;
+  SpanOverhead overhead_;
   std::uint64_t number_;  ///< of this log, among all there were: what threads remember of one is no other's
   std::atomic<std::uint64_t> appFrame_ = kNoFrame;
   mutable std::mutex mutex_;

@@ -31,13 +31,18 @@ private:
     return samples > 0 ? ms / static_cast<double>(samples) : 0;
   }
 
+  double shareOf(std::uint64_t shares, Span what, std::uint32_t wall) const {
+    const std::uint64_t all = profile_.shares(what, wall);
+    return all > 0 ? sum(what, wall) * static_cast<double>(shares) / static_cast<double>(all) : 0;
+  }
+
   void addNode(NodeRef ref, const NodeProfile& node) {
     NodeRow row;
     row.node = ref;
     if (auto name = names_.find(ref)) row.name = std::move(*name);
     row.receive = node.phases[0] / frames_, row.simulate = node.phases[1] / frames_;
     row.dispatch = node.phases[2] / frames_, row.settle = node.settle / frames_;
-    row.publish = perSample(node.publish, kNoWall);
+    row.publish = shareOf(node.published, Span::Publish, kNoWall);
     row.app = row.receive + row.simulate + row.dispatch + row.settle + row.publish;
     row.visitP95 = node.visit.percentile(95), row.visitMost = node.visit.most();
     row.visits = static_cast<double>(node.visit.count()) / frames_;
@@ -45,8 +50,10 @@ private:
     for (const auto& [wall, cost] : node.walls) {
       if (wall >= row.walls.size()) continue;
       NodeOnWall& on = row.walls[wall];
-      on.cull = perSample(cost.cull, wall);
-      const double present = perSample(static_cast<double>(cost.seen), wall);
+      for (const auto& [what, shares] : cost.shares) on.cull += shareOf(shares, what, wall);
+      const auto seen = cost.shares.find(Span::Fill);
+      const double present =
+          seen == cost.shares.end() ? 0 : perSample(static_cast<double>(seen->second), wall);
       for (std::size_t eye = 0; eye < 2; ++eye) {
         if (cost.drawn[eye] > 0)
           on.draw[eye] = present * cost.draw[eye] / static_cast<double>(cost.drawn[eye]);
@@ -130,9 +137,10 @@ private:
     Explained& cull = out_.explained[1];
     cull.stage = "cull", cull.measured = sum(Span::Cull);
     for (const NodeRow& row : out_.nodes) cull.nodes += row.cull;
-    for (const Span s : {Span::Test, Span::Fill, Span::ShadowCasts, Span::Sort}) cull.named += sum(s);
-    for (const NodeRow& row : out_.nodes) cull.named -= row.node.valid() ? row.cull : 0;
-    cull.named = std::max(0.0, cull.named);
+    // What no node had a part in.
+    for (const Span s : {Span::Test, Span::Fill, Span::ShadowCasts, Span::Sort})
+      for (std::uint32_t wall = 0; wall < out_.walls.size(); ++wall)
+        if (profile_.shares(s, wall) == 0) cull.named += sum(s, wall);
 
     Explained& draw = out_.explained[2];
     draw.stage = "draw";

@@ -51,7 +51,7 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
   for (const Explained& e : f.explained)
     text += fmt::format("{:5} {:5.1f}% {:9.4f} {:9.4f} {:9.4f}\n", e.stage, 100 * e.covered(), e.measured,
                         e.nodes, e.named);
-  return text + "draw: " + f.drawMethod + "\n";
+  return f.explained[2].measured > 0 ? text + "draw: " + f.drawMethod + "\n" : text;
 }
 
 std::string toJson(const ShowFigures& f) {

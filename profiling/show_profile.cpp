@@ -4,15 +4,15 @@ namespace stadion {
 
 void ShowProfile::take(std::size_t, const SpanRecord& r) {
   SpanTotal& total = spans_[{r.what, r.wall}];
-  total.ms.add(r.ms());
-  total.own += 1e-6 * r.own;
+  total.ms.add(r.took);
+  total.own += r.own;
   if (r.what == Span::App) ++frames_;
   if (r.node.valid()) addPhase(r.node, r);
 }
 
 void ShowProfile::addPhase(NodeRef ref, const SpanRecord& r) {
   NodeProfile& node = nodes_[ref];
-  const double ms = 1e-6 * r.own;
+  const double ms = r.own;
   if (isOfNode(r.what))
     node.phases[static_cast<std::size_t>(r.what) - static_cast<std::size_t>(Span::Receive)] += ms;
   else
@@ -28,18 +28,12 @@ void ShowProfile::addPhase(NodeRef ref, const SpanRecord& r) {
 
 void ShowProfile::take(const SharedSpan& s) {
   if (s.what == Span::Publish || s.what == Span::Fill) ++sampled_[s.wall];
-  if (s.among.empty()) return;
-  const double each = s.ms / static_cast<double>(s.among.size());
-  for (const NodeRef ref : s.among) {
-    NodeProfile& node = nodes_[ref];
-    if (s.what == Span::Publish) {
-      node.publish += each;
-      continue;
-    }
-    WallCost& wall = node.walls[s.wall];
-    wall.cull += each;
-    wall.seen += s.what == Span::Fill;
-  }
+  shares_[{s.what, s.wall}] += s.among.size();
+  for (const NodeRef ref : s.among)
+    if (s.what == Span::Publish)
+      ++nodes_[ref].published;
+    else
+      ++nodes_[ref].walls[s.wall].shares[s.what];
 }
 
 void ShowProfile::take(const DrawnAlone& d, const std::vector<NodeRef>& nodes) {
@@ -57,6 +51,11 @@ void ShowProfile::take(const DrawnAlone& d, const std::vector<NodeRef>& nodes) {
     wall.draw[d.eye] += each;
     ++wall.drawn[d.eye];
   }
+}
+
+std::uint64_t ShowProfile::shares(Span what, std::uint32_t wall) const {
+  const auto at = shares_.find({what, wall});
+  return at == shares_.end() ? 0 : at->second;
 }
 
 std::uint64_t ShowProfile::sampled(std::uint32_t wall) const {

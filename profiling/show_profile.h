@@ -4,7 +4,8 @@
 /// App       each node's phases are timed in every frame.
 /// Cull      tests, filling, sorting are timed for a whole wall; in the frames that are sampled each node
 /// gets
-///           its part: all alike that were tested, all alike that are seen, all alike that cast shadows.
+///           its part: all alike that were tested, all alike that are seen, all alike that cast shadows. So
+///           does publishing, in App.
 /// Draw      in the frames that are sampled a few batches are drawn alone, each in its place, until all have
 ///           been; instances of one batch (of one mesh, next to each other by distance) share alike. A node's
 ///           cost in a frame is what it cost when drawn, by how often it was drawn. Nothing is normalised:
@@ -21,16 +22,15 @@ namespace stadion {
 
 /// A node's cost on one wall, of both eyes.
 struct WallCost {
-  double cull = 0;               ///< in the frames sampled, in all
-  std::uint64_t seen = 0;        ///< how often it was in the list, in the frames sampled
-  std::array<double, 2> draw{};  ///< alone, in all, by eye
+  std::map<Span, std::uint64_t> shares;  ///< of tests, fillings and so on, in the frames sampled
+  std::array<double, 2> draw{};          ///< alone, in all, by eye
   std::array<std::uint64_t, 2> drawn{};
 };
 
 struct NodeProfile {
   std::array<double, 3> phases{};  ///< receive, simulate, dispatch, in all
   double settle = 0;               ///< what it changed is taken up, in all
-  double publish = 0;              ///< in the frames sampled, in all
+  std::uint64_t published = 0;     ///< how often, in the frames sampled
   CostSeries visit;                ///< all phases of a frame together, of the frames in which it was visited
   std::map<std::uint32_t, WallCost> walls;
 };
@@ -61,6 +61,8 @@ public:
   /// By wall and eye.
   const std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost>& eyes() const { return eyes_; }
   std::uint64_t frames() const { return frames_; }
+  /// Of all nodes together: how often they shared a span of that kind, in the frames sampled.
+  std::uint64_t shares(Span what, std::uint32_t wall) const;
   /// Frames in which shares were told, by wall; kNoWall: of App.
   std::uint64_t sampled(std::uint32_t wall) const;
 
@@ -76,6 +78,7 @@ private:
   std::map<std::pair<Span, std::uint32_t>, SpanTotal> spans_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost> eyes_;
   std::map<std::uint32_t, std::uint64_t> sampled_;
+  std::map<std::pair<Span, std::uint32_t>, std::uint64_t> shares_;
   std::uint64_t frames_ = 0;
 };
 

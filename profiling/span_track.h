@@ -5,6 +5,7 @@
 
 #include "engine/frame_probe.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -14,17 +15,21 @@ namespace stadion {
 
 using ProfileClock = std::chrono::steady_clock;
 
+/// What recording a span itself takes, as far as the span contains it, and outside of it [ns].
+struct SpanOverhead {
+  double inside = 0, outside = 0;
+};
+
 /// A span that is over. Within a thread spans end in the order of their ends: parts before what holds them.
 struct SpanRecord {
-  ProfileClock::time_point began, ended;
+  ProfileClock::time_point began, ended;  ///< as they were, recording included
   std::uint64_t frame = kNoFrame;
   std::uint32_t wall = kNoWall;
   NodeRef node;
   Span what = Span::App;
   std::uint8_t depth = 0;  ///< 0 = in no other
-  std::uint32_t own = 0;   ///< [ns] of it in no part
-
-  double ms() const { return std::chrono::duration<double, std::milli>(ended - began).count(); }
+  double took = 0;         ///< [ms] without recording
+  double own = 0;          ///< [ms] of it in no part
 };
 
 class SpanTrack {
@@ -32,7 +37,7 @@ public:
   static constexpr std::size_t kCapacity = 1 << 16;
   static constexpr std::size_t kDeepest = 12;
 
-  SpanTrack() : ring_(kCapacity) {}
+  explicit SpanTrack(SpanOverhead overhead = {}) : overhead_(overhead), ring_(kCapacity) {}
 
   /// What comes below it inherits the frame and the wall.
   void began(Span what, std::uint64_t frame, std::uint32_t wall, NodeRef node) {
@@ -42,36 +47,33 @@ public:
     }
     Open& open = open_[depth_++];
     open.what = what, open.frame = frame, open.wall = wall, open.node = node;
-    open.within = 0;
+    open.within = 0, open.spans = 0;
     open.began = ProfileClock::now();
   }
   void ended() {
     const ProfileClock::time_point now = ProfileClock::now();
     if (depth_ == 0 || --depth_ >= kDeepest) return;
     const Open& open = open_[depth_];
-    const auto took = nanoseconds(now - open.began);
-    if (depth_ > 0) open_[depth_ - 1].within += took;
+    const double recording = overhead_.inside + open.spans * (overhead_.inside + overhead_.outside);
+    const double took = std::max(0.0, nanoseconds(now - open.began) - recording);
+    if (depth_ > 0) open_[depth_ - 1].within += took, open_[depth_ - 1].spans += open.spans + 1;
     last_[static_cast<std::size_t>(open.what)] = took;
     const std::size_t head = head_.load(std::memory_order_relaxed);
     if (head - tail_.load(std::memory_order_acquire) == kCapacity) {
       lost_.fetch_add(1, std::memory_order_relaxed);
       return;
     }
-    ring_[head % kCapacity] = {open.began,
-                               now,
-                               open.frame,
-                               open.wall,
-                               open.node,
-                               open.what,
-                               static_cast<std::uint8_t>(depth_),
-                               static_cast<std::uint32_t>(took - std::min(took, open.within))};
+    SpanRecord& r = ring_[head % kCapacity];
+    r.began = open.began, r.ended = now, r.frame = open.frame, r.wall = open.wall, r.node = open.node;
+    r.what = open.what, r.depth = static_cast<std::uint8_t>(depth_);
+    r.took = 1e-6 * took, r.own = 1e-6 * std::max(0.0, took - open.within);
     head_.store(head + 1, std::memory_order_release);
   }
   /// The frame and wall of the span that is under way.
   std::uint64_t frame() const { return depth_ > 0 ? open_[std::min(depth_, kDeepest) - 1].frame : kNoFrame; }
   std::uint32_t wall() const { return depth_ > 0 ? open_[std::min(depth_, kDeepest) - 1].wall : kNoWall; }
   /// How long the last span of that kind took [ms].
-  double last(Span what) const { return 1e-6 * static_cast<double>(last_[static_cast<std::size_t>(what)]); }
+  double last(Span what) const { return 1e-6 * last_[static_cast<std::size_t>(what)]; }
 
   /// The next record, if there is one.
   bool take(SpanRecord& out) {
@@ -85,21 +87,23 @@ public:
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
 private:
-  static std::uint64_t nanoseconds(ProfileClock::duration d) {
-    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(d).count());
+  static double nanoseconds(ProfileClock::duration d) {
+    return std::chrono::duration<double, std::nano>(d).count();
   }
   struct Open {
     Span what = Span::App;
     std::uint64_t frame = kNoFrame;
     std::uint32_t wall = kNoWall;
     NodeRef node;
-    std::uint64_t within = 0;  ///< [ns] that its parts took
+    double within = 0;        ///< [ns] that its parts took
+    std::uint32_t spans = 0;  ///< in it, and in those
     ProfileClock::time_point began;
   };
 
   std::array<Open, kDeepest> open_;
   std::size_t depth_ = 0;
-  std::array<std::uint64_t, kSpans> last_{};
+  SpanOverhead overhead_;
+  std::array<double, kSpans> last_{};
   std::vector<SpanRecord> ring_;
   std::atomic<std::size_t> head_ = 0, tail_ = 0;
   std::atomic<std::uint64_t> lost_ = 0;

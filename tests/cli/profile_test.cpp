@@ -10,7 +10,7 @@ namespace {
 
 ProgramResult profileKick(const std::vector<std::string>& options) {
   std::vector<std::string> words = {
-      "profile", std::string(STADION_SOURCE_DIR "/scripts/kick.evs"), "--frames", "48", "--size", "96x72"};
+      "profile", std::string(STADION_SOURCE_DIR "/scripts/kick.evs"), "--frames", "180", "--size", "96x72"};
   words.insert(words.end(), options.begin(), options.end());
   return stadionProgram(words);
 }

@@ -19,9 +19,8 @@ void burn(std::chrono::microseconds time) {
 /// Spans made up by hand, as a reader gets them.
 SpanRecord record(Span what, std::uint64_t frame, std::uint32_t wall, NodeRef node, double ms) {
   SpanRecord r;
-  r.ended = r.began + std::chrono::nanoseconds(static_cast<std::int64_t>(1e6 * ms));
   r.frame = frame, r.wall = wall, r.node = node, r.what = what;
-  r.own = static_cast<std::uint32_t>(1e6 * ms);
+  r.took = r.own = ms;
   return r;
 }
 
@@ -31,7 +30,7 @@ TEST(ThreadsFrameLog, SpansOfManyThreadsArriveWholeAndNested) {
     using SpanReader::take;
     void take(std::size_t track, const SpanRecord& r) override { tracks[track].push_back(r); }
   } kept;
-  FrameLog log({&kept}, {.samples = false});
+  FrameLog log({&kept}, {.samples = false, .from = 0});
   constexpr std::uint64_t kFrames = 2000;
   std::vector<std::thread> walls;
   for (std::uint32_t wall = 0; wall < 4; ++wall)
@@ -79,6 +78,8 @@ TEST(ShowProfile, ASpanIsSharedAmongThoseItWasSpentOn) {
   ShowProfile profile;
   profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
   profile.take(0, record(Span::Cull, 8, 0, {}, 3));
+  profile.take(0, record(Span::Test, 8, 0, {}, 2));
+  profile.take(0, record(Span::Fill, 8, 0, {}, 1));
   profile.take({Span::Test, 8, 0, 2, {kBall, kStone}});
   profile.take({Span::Fill, 8, 0, 1, {kStone}});
   const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
