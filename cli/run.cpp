@@ -17,8 +17,11 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -33,9 +36,27 @@ struct RunSetup {
   std::unique_ptr<GlProvider> provider;
   std::unique_ptr<Player> player;
   std::unique_ptr<RunWatch> watch;
-  std::unique_ptr<RunOutput> output;     ///< null without --out
-  std::unique_ptr<DisplayRun> displays;  ///< null without --display
+  std::unique_ptr<RunOutput> output;         ///< null without --out
+  std::unique_ptr<DisplayRun> displays;      ///< null without --display
+  std::unique_ptr<ShowRecording> recording;  ///< null if nobody asks
 };
+
+/// Where the last frames of a live run are kept if nobody says where.
+std::string standardBlackBox() {
+  const auto name = "stadion-" + std::to_string(getpid()) + ".frames";
+  return (std::filesystem::temp_directory_path() / name).string();
+}
+
+/// Late frames, in words, one in ten seconds.
+std::function<void(const std::string&)> tellSometimes() {
+  return [next = std::chrono::steady_clock::time_point{}](const std::string& text) mutable {
+    constexpr std::chrono::seconds kApart{10};
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next) return;
+    next = now + kApart;
+    std::fprintf(stderr, "late: %s\n", text.c_str());
+  };
+}
 
 template <class T>
 bool keep(Result<std::unique_ptr<T>> made, std::unique_ptr<T>& place, Diagnostics& findings) {
@@ -59,6 +80,23 @@ bool canDraw(GlProvider& provider, const ShowParts& parts, Diagnostics& findings
   return !why;
 }
 
+/// Who looks where frames go: of a live run always, so that late frames have a cause.
+bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
+  s.recording.reset();
+  const bool live = !o.everyFrameCounts(*s.player);
+  if (!o.profile && !live) return true;
+  RecordingOptions options;
+  options.profile = o.profile, options.log.samples = o.profile;
+  if (live) {
+    const FrameLoopOptions loop = o.loopOptions(*s.player);
+    options.keep =
+        BlackBoxOptions{o.blackBox.empty() ? standardBlackBox() : o.blackBox,
+                        loop.pace == Pace::Free ? 0 : loop.rate, s.player->walls().names(), tellSometimes()};
+  }
+  s.recording = ShowRecording::create(std::move(options), findings);
+  return s.recording != nullptr;
+}
+
 /// The show is there; who looks on while it is played comes with it.
 bool beginGroup(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   RunOptions recorded = o;
@@ -66,6 +104,7 @@ bool beginGroup(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   s.watch = RunWatch::create(recorded, *s.player, findings);
   if (!s.watch) return false;
   if (!o.everyFrameCounts(*s.player)) s.player->playLive();
+  if (!beginRecording(o, s, findings)) return false;
   s.desk->beginGroup(*s.player, *s.watch);
   return true;
 }
@@ -97,8 +136,7 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
 
 /// Plays the show to its end and reports on it, unless it is to begin again: then there is no exit code yet.
 std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
-  std::optional<ShowRecording> recording;
-  if (o.profile) recording.emplace();
+  ShowRecording* const recording = s.recording.get();
   ProgressBar progress(s.player->frames());
   const ShowStages* running = nullptr;
   FrameLoopOptions options = o.loopOptions(*s.player);
@@ -130,7 +168,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   const int code =
       report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime()},
              s.output.get(), s.folder.get());
-  if (recording) tellProfile(*recording, *s.player, o.provider != "egl");
+  if (recording) tellRecording(o, *recording, *s.player);
   return code;
 }
 

@@ -46,6 +46,12 @@ void RunOptions::addTo(CLI::App& command) {
   command.add_flag("--sheets", sheets, "a contact sheet of all walls beside each frame's pictures");
   command.add_flag("--video", video, "a video of all walls (needs ffmpeg)");
   command.add_flag("--profile", profile, "say which nodes cost the most; stadion profile says more");
+  command
+      .add_option(
+          "--black-box", blackBox,
+          "where a live run keeps its last 600 frames while it plays (default: a temporary file); it stays "
+          "if one was late or the program died: stadion profile --black-box FILE")
+      ->check(aName, "FILE");
   command.add_option("--gl", provider, "who draws: osmesa or egl (the same pixels)")
       ->check(CLI::IsMember({"osmesa", "egl"}))
       ->capture_default_str();
