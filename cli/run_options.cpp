@@ -46,12 +46,14 @@ void RunOptions::addTo(CLI::App& command) {
   command.add_flag("--sheets", sheets, "a contact sheet of all walls beside each frame's pictures");
   command.add_flag("--video", video, "a video of all walls (needs ffmpeg)");
   command.add_flag("--profile", profile, "say which nodes cost App the most");
-  command.add_option("--gl", provider, "who draws: osmesa or egl (the same pixels)")
-      ->check(CLI::IsMember({"osmesa", "egl"}))
+  command
+      .add_option("--gl", provider, "who draws: osmesa or egl (the same pixels), none: App and Cull alone")
+      ->check(CLI::IsMember({"osmesa", "egl", "none"}))
       ->capture_default_str();
   command.add_option("--trace", trace,
                      "write where this node is in every frame to trace-NODE.csv in --out DIR");
   trackers.addTo(command);
+  spans.addTo(command);
   command
       .add_option("--osc", oscPort, "listen for the operator's commands on this UDP port (docs/operator.md)")
       ->check(wholeNumberFrom(0, 65535));
@@ -74,6 +76,13 @@ bool RunOptions::settle(Diagnostics& findings) {
   if (display && !out.empty())
     findings.error(
         {}, "--display plays live, and --out writes every frame that is asked for; leave one of them out");
+  if (provider == "none" && (display || !out.empty()))
+    findings.error({}, "--gl none draws nothing that --display or --out could show");
+  if (!spans.file.empty() && !asksForEveryFrame())
+    findings.error(
+        {}, "--spans is for runs in which every frame counts: say --frames N, --seconds S or --input FILE");
+  if (profile && !spans.file.empty())
+    findings.error({}, "--profile and --spans both time the nodes; leave one of them out");
   if (display && !stereoGiven) layout = StereoLayout::Off;
   if (!trace.empty() && out.empty())
     findings.error({}, "--trace needs --out DIR to know where the table goes");

@@ -3,6 +3,7 @@
 
 #include "cli/player.h"
 #include "cli/run_output.h"
+#include "cli/span_options.h"
 #include "cli/tracker_device.h"
 
 #include <string>
@@ -15,6 +16,7 @@ struct RunOptions {
   std::string stereo = "pair", pace, recordInput, out, pictures = "last", provider = "osmesa";
   std::vector<std::string> trace;
   TrackerOptions trackers;
+  SpanOptions spans;
   int oscPort = -1;  ///< where commands of the operator are listened for; -1: nowhere
   bool wait = false;
   bool display = false;      ///< on the walls' outputs
