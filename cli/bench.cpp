@@ -1,5 +1,6 @@
 /// `stadion bench NAME`: measurements with a limit each.
 
+#include "cli/bench_detection.h"
 #include "cli/bench_dynamics.h"
 #include "cli/bench_flight.h"
 #include "cli/commands.h"
@@ -55,6 +56,7 @@ void addBenchCommand(CLI::App& app, int& code) {
   overlap->callback([json, &code] { code = benchOverlap(*json); });
   addBenchDynamics(*command, code);
   addBenchFlight(*command, code);
+  addBenchDetection(*command, code);
 }
 
 }  // namespace stadion

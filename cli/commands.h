@@ -15,6 +15,7 @@ void addWallsCommand(CLI::App& app, int& code);
 void addBenchCommand(CLI::App& app, int& code);
 void addFitCommand(CLI::App& app, int& code);
 void addProfileCommand(CLI::App& app, int& code);
+void addRegressCommand(CLI::App& app, int& code);
 void addTestCommand(CLI::App& app, int& code);
 void addViewCommand(CLI::App& app, int& code);
 void addTrackerCommand(CLI::App& app, int& code);

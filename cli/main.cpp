@@ -34,6 +34,7 @@ int runProgram(int argc, char** argv) {
   addBenchCommand(app, code);
   addFitCommand(app, code);
   addProfileCommand(app, code);
+  addRegressCommand(app, code);
   addTestCommand(app, code);
   addViewCommand(app, code);
   addTrackerCommand(app, code);

@@ -10,6 +10,7 @@
 #include "cli/run_report.h"
 #include "cli/run_watch.h"
 #include "cli/show_recording.h"
+#include "cli/span_recording.h"
 #include "cli/stop_signal.h"
 #include "engine/run_stopped.h"
 #include "pipeline/output/progress.h"
@@ -37,6 +38,7 @@ struct RunSetup {
   std::unique_ptr<Player> player;
   std::unique_ptr<RunWatch> watch;
   std::unique_ptr<RunOutput> output;         ///< null without --out
+  std::unique_ptr<SpanRecording> spans;      ///< null without --spans
   std::unique_ptr<DisplayRun> displays;      ///< null without --display
   std::unique_ptr<ShowRecording> recording;  ///< null if nobody asks
 };
@@ -113,11 +115,14 @@ bool beginGroup(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
 bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostics& findings) {
   if (!o.out.empty() && !keep(OutputFolder::open(o.out), s.folder, findings)) return false;
   const GlProviderKind kind = o.provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa;
-  if (!keep(openGlProvider(kind), s.provider, findings)) return false;
+  if (o.provider != "none" && !keep(openGlProvider(kind), s.provider, findings)) return false;
   s.desk = LiveDesk::open(o, findings);
   if (!s.desk) return false;
   s.player = Player::create(o.show, findings, tell, &stop, s.desk->kept());
-  if (!s.player || !canDraw(*s.provider, s.player->parts(o.layout), findings)) return false;
+  if (!s.player) return false;
+  if (s.provider && !canDraw(*s.provider, s.player->parts(o.layout), findings)) return false;
+  s.spans = SpanRecording::create(o.spans, *s.player, findings);
+  if (findings.hasErrors()) return false;
   if (!s.desk->begin(*s.player, findings)) return false;
   if (!beginGroup(o, s, findings)) return false;
   if (o.display && !(s.displays = DisplayRun::open(o, s.player->walls(), findings))) return false;
@@ -145,7 +150,8 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   parts.sink = s.output.get();
   if (s.displays) parts.sink = &s.displays->sink(), s.displays->fitPictures(parts.walls);
   parts.drawUnseen = !s.output;
-  parts.probe = recording ? &recording->probe() : nullptr;
+  FrameProbe* const probe = s.spans ? s.spans->probe() : recording ? &recording->probe() : nullptr;
+  parts.probe = probe;
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     s.watch->see(now, input, scene);
@@ -157,7 +163,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   s.desk->addTo(parts, options);
   ShowStages stages(std::move(parts));
   running = &stages;
-  FrameLoop loop(stages, options, stop, recording ? &recording->probe() : nullptr);
+  FrameLoop loop(stages, options, stop, probe);
 
   const auto start = std::chrono::steady_clock::now();
   const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, *s.desk) : loop.run();
@@ -165,9 +171,13 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   progress.finish();
   if (outcome.nextGroup && !outcome.failure && !stop) return {};
 
-  const int code =
-      report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime()},
-             s.output.get(), s.folder.get());
+  const int code = report(
+      {o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime(), recording},
+      s.output.get(), s.folder.get());
+  if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
+    std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
+    return kBadInput;
+  }
   if (recording) tellRecording(o, *recording, *s.player);
   return code;
 }

@@ -52,12 +52,14 @@ void RunOptions::addTo(CLI::App& command) {
           "where a live run keeps its last 600 frames while it plays (default: a temporary file); it stays "
           "if one was late or the program died: stadion profile --black-box FILE")
       ->check(aName, "FILE");
-  command.add_option("--gl", provider, "who draws: osmesa or egl (the same pixels)")
-      ->check(CLI::IsMember({"osmesa", "egl"}))
+  command
+      .add_option("--gl", provider, "who draws: osmesa or egl (the same pixels), none: App and Cull alone")
+      ->check(CLI::IsMember({"osmesa", "egl", "none"}))
       ->capture_default_str();
   command.add_option("--trace", trace,
                      "write where this node is in every frame to trace-NODE.csv in --out DIR");
   trackers.addTo(command);
+  spans.addTo(command);
   addOperatorTo(command);
   command.add_flag("--json", json, "the summary as one JSON object on stdout");
   command.footer("SIGINT (Ctrl-C) and SIGTERM end the run after the frames under way; all that was asked for "
@@ -85,6 +87,13 @@ bool RunOptions::settle(Diagnostics& findings) {
   if (display && !out.empty())
     findings.error(
         {}, "--display plays live, and --out writes every frame that is asked for; leave one of them out");
+  if (provider == "none" && (display || !out.empty()))
+    findings.error({}, "--gl none draws nothing that --display or --out could show");
+  if (!spans.file.empty() && !asksForEveryFrame())
+    findings.error(
+        {}, "--spans is for runs in which every frame counts: say --frames N, --seconds S or --input FILE");
+  if (profile && !spans.file.empty())
+    findings.error({}, "--profile and --spans both time the nodes; leave one of them out");
   if (display && !stereoGiven) layout = StereoLayout::Off;
   if (!trace.empty() && out.empty())
     findings.error({}, "--trace needs --out DIR to know where the table goes");

@@ -3,6 +3,7 @@
 
 #include "cli/player.h"
 #include "cli/run_output.h"
+#include "cli/span_options.h"
 #include "cli/tracker_device.h"
 
 #include <string>
@@ -17,6 +18,7 @@ struct RunOptions {
   TrackerOptions trackers;
   int oscPort = -1;      ///< where commands of the operator are listened for; -1: nowhere
   std::string blackBox;  ///< where a live run keeps its last frames; empty: a temporary file
+  SpanOptions spans;
   bool wait = false;
   bool noSound = false;
   bool display = false;      ///< on the walls' outputs

@@ -1,6 +1,7 @@
 #include "cli/run_report.h"
 
 #include "cli/exit_code.h"
+#include "cli/span_recording.h"
 #include "cli/stop_signal.h"
 #include "engine/atomic_file.h"
 
@@ -23,6 +24,10 @@ void addTimes(const FinishedRun& run, RunSummary& s) {
     s.stages.push_back({"draw", name, distributionOf(t.draw[w].values()), finish});
     s.latency.push_back({name, distributionOf(t.latency[w].values())});
     const std::vector<Picture>& eyes = run.stages.lastPictures()[w].eyes;
+    const std::array<DrawTotals, 2>& drawn = run.stages.drawn(w);
+    for (std::size_t e = 0; e < drawn.size(); ++e)
+      if (const DrawTotals& d = drawn[e]; d.frames > 0)
+        s.drawn.push_back({name, eyeName(kEyes[e]), d.frames, d.calls, d.instances, d.triangles});
     if (run.stages.lastPictures()[w].frame != s.lastFrame) continue;
     for (std::size_t e = 0; e < eyes.size(); ++e)
       s.imageHashes.push_back({name, eyeName(kEyes[e]), imageHash(eyes[e])});
@@ -93,6 +98,22 @@ void print(const RunOptions& o, const RunSummary& summary) {
 
 }  // namespace
 
+namespace {
+
+std::string nodeRows(const ShowProfile& profile, const Scene& scene) {
+  std::vector<regression::SpanRow> rows;
+  for (const auto& [ref, node] : profile.nodes()) {
+    if (node.visit.count() == 0) continue;
+    regression::SpanRow& row = rows.emplace_back();
+    nameNode(scene, ref, row);
+    row.stage = "app", row.count = node.visit.count();
+    row.msMean = node.visit.mean();
+  }
+  return regression::toJson(rows);
+}
+
+}  // namespace
+
 int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   Verdict verdict;
   verdict.add(run.outcome.failure);
@@ -106,6 +127,8 @@ int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   verdict.add(run.watch.finish());
   if (folder)
     for (const NodeTrace& t : run.watch.traces()) writeTable(t, *folder, summary, verdict);
+  if (run.recording && run.options.profile)
+    summary.nodes = nodeRows(run.recording->profile(), run.player.scene());
   if (verdict.failure()) summary.failure = verdict.failure()->message;
   if (folder) writeSummary(*folder, summary, verdict);
   print(run.options, summary);

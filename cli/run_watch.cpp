@@ -1,5 +1,7 @@
 #include "cli/run_watch.h"
 
+#include "engine/state_hash.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -66,6 +68,9 @@ void RunWatch::recordInput(const RunOptions& options, Player& player, Diagnostic
 void RunWatch::see(const TimeSignature& now, const InputSample& input, const Scene& scene) {
   last_ = now;
   stateHash_ = scene.stateHash();
+  StateHash history(historyHash_);
+  history.add(stateHash_);
+  historyHash_ = history.value();
   const FrameCounters& c = scene.counters();
   visited_ += c.nodesVisited, published_ += c.changesPublished;
   delivered_ += c.messagesDelivered, lost_ += c.messagesLost;
@@ -94,6 +99,7 @@ void RunWatch::addTo(RunSummary& s, std::uint64_t frames) const {
   s.seconds = toSeconds(last_.time);
   s.lastFrame = last_.frame;
   s.stateHash = stateHash_;
+  s.historyHash = historyHash_;
   const double each = static_cast<double>(std::max<std::uint64_t>(1, frames));
   s.counters = {{"nodes visited per frame", static_cast<double>(visited_) / each},
                 {"changes published per frame", static_cast<double>(published_) / each},

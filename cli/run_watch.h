@@ -45,7 +45,7 @@ private:
   std::unique_ptr<InputRecorder> recorder_;
   std::vector<NodeTrace> traces_;
   TimeSignature last_;
-  std::uint64_t stateHash_ = 0, visited_ = 0, published_ = 0, delivered_ = 0, lost_ = 0;
+  std::uint64_t stateHash_ = 0, historyHash_ = 0, visited_ = 0, published_ = 0, delivered_ = 0, lost_ = 0;
   std::vector<Happening> happened_;
   std::vector<MeasuredDistance> measured_;
   std::uint64_t happenedCount_ = 0;

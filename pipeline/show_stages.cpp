@@ -147,6 +147,7 @@ void ShowStages::closeWall(std::size_t wall) {
   if (!enterContext(wall)) {
     // After a failure, or a wait that was given up, nobody knew which frame would be the last.
     if (c.renderer && c.eyes > 0 && !c.read) readPictures(wall);
+    if (c.renderer) c.drawn = c.renderer->totals();
     c.renderer.reset();
     leaveContext(wall);
   }

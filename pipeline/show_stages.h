@@ -74,6 +74,8 @@ public:
 
   /// Of the frame drawn last; their number says which that is. For when the run is over.
   const std::vector<EyePictures>& lastPictures() const { return pictures_; }
+  /// Of wall `wall`, by eye: what it was drawn with in all. For when the run is over.
+  const std::array<DrawTotals, 2>& drawn(std::size_t wall) const { return contexts_[wall].drawn; }
   std::string glDescription() const { return glDescription_; }
   /// The newest frame that all walls have shown. Any thread.
   std::uint64_t shownFrame() const { return shownFrame_; }
@@ -87,6 +89,7 @@ private:
     std::uint32_t eyes = 0;                  ///< drawn in the last frame
     std::uint64_t frame = 0;                 ///< which that is
     bool read = false;                       ///< the last frame's pictures have been read back
+    std::array<DrawTotals, 2> drawn{};       ///< by eye, when it has been closed
   };
 
   void tellPublished();

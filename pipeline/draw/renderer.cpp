@@ -289,6 +289,7 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_BLEND);
   piece(Span::Resolve, [&] { buffers_.resolve(index); });
+  totals_[index].add(counts_);
 }
 
 void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass) {

@@ -42,6 +42,14 @@ struct DrawCounts {
   std::uint64_t triangles = 0;
 };
 
+/// The same, of everything that was drawn so far.
+struct DrawTotals {
+  std::uint64_t frames = 0, calls = 0, instances = 0, triangles = 0;
+  void add(const DrawCounts& c) {
+    ++frames, calls += c.calls, instances += c.instances, triangles += c.triangles;
+  }
+};
+
 /// How much drawing may cost.
 struct RenderQuality {
   std::uint32_t samples = 4;  ///< per pixel; 1 = hard edges at about a third of the cost in software
@@ -71,6 +79,8 @@ public:
   std::uint32_t width() const { return width_; }    ///< [pixels]
   std::uint32_t height() const { return height_; }  ///< [pixels]
   const DrawCounts& counts() const { return counts_; }
+  /// By eye, 0 left or mono, 1 right. Shadow maps are not counted.
+  const std::array<DrawTotals, 2>& totals() const { return totals_; }
   std::size_t meshesHeld() const { return cache_.size(); }
 
 private:
@@ -137,6 +147,7 @@ private:
   std::unique_ptr<DrawSampler> sampler_;              ///< from the first frame on that is sampled
   DrawSample sample_ = DrawSample::None;              ///< of the list that is drawn
   DrawCounts counts_;
+  std::array<DrawTotals, 2> totals_{};
   std::set<std::string> reported_;
   std::optional<Diagnostic> problem_;
 };

@@ -136,6 +136,15 @@ std::string toJson(const RunSummary& s) {
   for (const WallLatency& l : s.latency) j["motion_to_image_ms"][l.wall] = json(l.ms);
   j["last_frame"] = s.lastFrame;
   j["state_hash"] = s.stateHash ? Json(hex(*s.stateHash)) : Json();
+  j["history_hash"] = s.historyHash ? Json(hex(*s.historyHash)) : Json();
+  j["drawn"] = Json::array();
+  for (const DrawnCounts& d : s.drawn)
+    j["drawn"].push_back(Json{{"wall", d.wall},
+                              {"eye", d.eye},
+                              {"frames", d.frames},
+                              {"calls", d.calls},
+                              {"instances", d.instances},
+                              {"triangles", d.triangles}});
   j["image_hashes"] = Json::array();
   for (const ImageHash& h : s.imageHashes)
     j["image_hashes"].push_back(Json{{"wall", h.wall}, {"eye", h.eye}, {"hash", hex(h.hash)}});
@@ -152,6 +161,7 @@ std::string toJson(const RunSummary& s) {
     if (h.metres) happening["metres"] = *h.metres;
     j["happened"].push_back(std::move(happening));
   }
+  if (!s.nodes.empty()) j["nodes"] = Json::parse(s.nodes);
   j["measured"] = Json::array();
   for (const MeasuredDistance& m : s.measured)
     j["measured"].push_back(Json{{"seconds", m.seconds}, {"node", m.node}, {"metres", m.metres}});

@@ -45,6 +45,13 @@ struct ImageHash {
   std::uint64_t hash = 0;
 };
 
+/// What a wall was drawn with for one eye, in all frames: the same on every machine.
+struct DrawnCounts {
+  std::string wall;
+  std::string eye;  ///< left, right
+  std::uint64_t frames = 0, calls = 0, instances = 0, triangles = 0;
+};
+
 /// Something that happened in the show, such as an impact.
 struct Happening {
   double seconds = 0;  ///< show time [s]
@@ -77,7 +84,9 @@ struct RunSummary {
   std::vector<WallLatency> latency;  ///< motion to image
   std::uint64_t lastFrame = 0;       ///< the hashes are of this one
   std::optional<std::uint64_t> stateHash;
+  std::optional<std::uint64_t> historyHash;  ///< over the state hashes of all frames
   std::vector<ImageHash> imageHashes;
+  std::vector<DrawnCounts> drawn;
   std::map<std::string, double> counters;  ///< anything else worth a number
   std::vector<std::string> files;          ///< written
   std::vector<std::string> remarks;        ///< what did not go as asked
@@ -86,6 +95,7 @@ struct RunSummary {
   std::vector<Happening> happened;         ///< the first ones, at most kMostHappenings
   std::vector<MeasuredDistance> measured;  ///< the first ones, at most kMostHappenings
   std::uint64_t happenedCount = 0;         ///< all of them
+  std::string nodes{};  ///< what each cost, rows as a JSON array; empty: nobody asked
 };
 
 /// Without the failure, which is told as an error, and without what happened.

@@ -1,0 +1,135 @@
+/// `stadion regress SUITE`: plays a suite of shows and compares what comes out.
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/player.h"
+#include "cli/regress_case.h"
+#include "cli/regress_folder.h"
+#include "cli/stop_signal.h"
+#include "engine/atomic_file.h"
+#include "engine/plain_file.h"
+#include "profiling/regression/reports.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+std::string nowUtc() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+/// What to compare with, as the options say; false if it should be there and is not.
+bool findReference(const RegressOptions& o, RegressReference& with, Diagnostics& findings) {
+  with.program = o.against, with.baselineFile = o.baseline;
+  std::error_code none;
+  if (!o.against.empty() || o.update || !std::filesystem::exists(o.baseline, none)) return true;
+  auto read = regression::readBaseline(o.baseline);
+  if (!read) return findings.add(read.error()), false;
+  with.baseline = std::move(read.value());
+  return true;
+}
+
+/// Of a baseline that is there, the cases that are not played now are kept.
+regression::Baseline keptCases(const RegressOptions& o) {
+  auto before = regression::readBaseline(o.baseline);
+  return before && !o.cases.empty() ? before.value() : regression::Baseline();
+}
+
+std::string textOf(const std::string& file) {
+  constexpr std::size_t kMostBytes = 1 << 20;
+  const Result<std::string> text = readPlainFile(file, kMostBytes);
+  return text ? text.value() : std::string();
+}
+
+bool write(const std::string& file, const std::string& content) {
+  const auto wrong = writeFile(file, content);
+  if (wrong) std::fprintf(stderr, "stadion: %s: %s\n", file.c_str(), wrong->message.c_str());
+  return !wrong;
+}
+
+/// The exit code of what was found; `written`: all files could be.
+int codeOf(const regression::SuiteResult& result, bool written) {
+  if (result.faults() > 0) return result.refused() ? kBadInput : kInternalFault;
+  if (!written) return kBadInput;
+  return result.count(regression::Outcome::Failed) > 0 ? kCheckFailed : kOk;
+}
+
+int regress(RegressOptions o) {
+  Diagnostics findings;
+  RegressReference with;
+  std::optional<regression::Suite> suite;
+  const bool ready = o.settle(findings) && (suite = regression::loadSuite(o.suite, findings)) &&
+                     o.choose(*suite, findings) && findReference(o, with, findings);
+  tell(findings);
+  if (!ready) return kBadInput;
+
+  RegressFolder folder;
+  if (!o.out.empty() && !folder.open(o, textOf(o.suite))) return kBadInput;
+  const std::atomic<bool>& stop = catchStopSignals();
+  regression::Baseline updated = o.update ? keptCases(o) : regression::Baseline();
+  regression::SuiteResult result{o.suite,
+                                 o.program,
+                                 !o.against.empty() ? o.against
+                                 : with.baseline    ? o.baseline
+                                                    : "",
+                                 nowUtc(),
+                                 {}};
+  const bool watched = isatty(2) == 1;
+  const auto progress = [watched](const std::string& what) {
+    if (watched) std::fprintf(stderr, "\r\x1b[K%s", what.c_str());
+  };
+  for (const regression::SuiteCase& c : suite->cases) {
+    const auto done = folder.done().find(c.name);
+    const auto results = done != folder.done().end()
+                             ? done->second
+                             : playCase(c, o, with, o.update ? &updated : nullptr, stop, progress);
+    if (stop) break;
+    if (!o.out.empty() && done == folder.done().end() && !folder.note(c.name, results)) return kBadInput;
+    result.cases.insert(result.cases.end(), results.begin(), results.end());
+  }
+  progress("");
+  if (stop) {
+    std::fprintf(stderr, "stadion: stopped by %s%s\n", stopSignalName(),
+                 o.out.empty() ? "" : "; with --resume the suite goes on where it was");
+    return kStopped + stopSignal();
+  }
+
+  bool written = o.out.empty() || folder.finish(result);
+  if (!o.out.empty() && written) std::fprintf(stderr, "wrote %s/report.html\n", o.out.c_str());
+  if (o.update && result.faults() == 0) {
+    written = write(o.baseline, regression::toJson(updated));
+    if (written) std::fprintf(stderr, "wrote %s\n", o.baseline.c_str());
+  }
+  if (!o.junit.empty()) written = write(o.junit, regression::junitOf(result)) && written;
+  const std::string text = o.json ? regression::benchmarkJsonOf(result) + "\n" : regression::tableOf(result);
+  std::printf("%s", text.c_str());
+  if (!o.update && o.against.empty() && !with.baseline)
+    std::fprintf(stderr, "there is no baseline %s: --update writes it, --against BUILD does without\n",
+                 o.baseline.c_str());
+  return codeOf(result, written);
+}
+
+}  // namespace
+
+void addRegressCommand(CLI::App& app, int& code) {
+  auto o = std::make_shared<RegressOptions>();
+  CLI::App* command = app.add_subcommand(
+      "regress",
+      "Play a suite of shows and compare hashes, counts and times with a baseline or another build");
+  o->addTo(*command);
+  command->callback([o, &code] { code = regress(*o); });
+}
+
+}  // namespace stadion

@@ -1,0 +1,202 @@
+#include "cli/regress_case.h"
+
+#include "cli/regress_child.h"
+#include "cli/regress_rounds.h"
+#include "profiling/regression/instruction_comparison.h"
+
+#include <fmt/format.h>
+
+namespace stadion {
+namespace {
+
+using namespace regression;
+
+struct Played {
+  std::optional<RunFacts> facts{};
+  std::string fault{};
+  bool refused = false;  ///< for a mistake of the user's
+};
+
+class CasePlay {
+public:
+  CasePlay(const SuiteCase& c, const RegressOptions& o, const RegressReference& with, Baseline* update,
+           const std::atomic<bool>& stop, const RegressProgress& progress)
+      : case_(c), o_(o), with_(with), update_(update), stop_(stop), progress_(progress) {}
+
+  CaseResult play(const std::string& mode, const Played* first, const std::string& firstMode) {
+    const auto start = std::chrono::steady_clock::now();
+    result_ = {};
+    result_.name = case_.name + "/" + mode;
+    progress_(result_.name);
+    last_ = run(o_.program, mode);
+    result_.fault = last_.fault, result_.refused = last_.refused;
+    if (last_.facts) {
+      result_.facts = allOf(*last_.facts);
+      compareExactly(mode);
+      if (first && first->facts) compareModes(*first->facts, firstMode);
+      if (update_) (*update_)[result_.name].facts = *last_.facts;
+      if (case_.metrics.times && result_.fault.empty()) takeTimes(mode);
+      // The mode does not change what is done.
+      if (case_.metrics.instructions && !first && result_.fault.empty()) takeInstructions();
+    }
+    result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return std::move(result_);
+  }
+  const Played& last() const { return last_; }
+
+private:
+  Played run(const std::string& program, const std::string& mode) {
+    const ChildResult child =
+        runChild(playWords(program, case_, mode), std::chrono::seconds(o_.limit), stop_);
+    if (!child.fault.empty()) return {{}, child.fault, child.status == 2};
+    auto facts = factsOf(child.out);
+    if (!facts) return {{}, "it did not print a summary as JSON"};
+    facts->renderer += " on " + processorName();
+    return {std::move(facts), {}};
+  }
+
+  void add(std::vector<Check> checks) {
+    for (Check& c : checks) result_.checks.push_back(std::move(c));
+  }
+
+  void compareExactly(const std::string& mode) {
+    if (!with_.program.empty()) return compareBuilds(mode);
+    if (update_) return;
+    const auto at = with_.baseline ? with_.baseline->find(result_.name) : Baseline::const_iterator();
+    if (with_.baseline && at != with_.baseline->end())
+      add(compareFacts(*last_.facts, {&at->second.facts, "the baseline"}, case_.metrics));
+    else if (with_.baseline)
+      result_.checks.push_back(
+          {"baseline", Outcome::Failed,
+           fmt::format("{} knows no case {}; --update adds it", with_.baselineFile, result_.name)});
+    else
+      add(compareFacts(*last_.facts, {nullptr, "a suite without a baseline"}, case_.metrics));
+  }
+
+  void compareBuilds(const std::string& mode) {
+    const Played other = run(with_.program, mode);
+    if (!other.facts) {
+      result_.fault = fmt::format("{}: {}", with_.program, other.fault);
+      result_.refused = other.refused;
+      return;
+    }
+    // What an older build does not tell of cannot be compared.
+    RunFacts known = *last_.facts;
+    const auto keep = [](NamedFacts& mine, const NamedFacts& theirs) {
+      std::erase_if(mine, [&](const auto& fact) { return !theirs.contains(fact.first); });
+    };
+    keep(known.state, other.facts->state), keep(known.counts, other.facts->counts);
+    add(compareFacts(known, {&*other.facts, "the other build"}, case_.metrics));
+  }
+
+  /// Whatever the mode, the state and the pictures are the same.
+  void compareModes(const RunFacts& first, const std::string& firstMode) {
+    Metrics metrics = case_.metrics;
+    metrics.counts = false;
+    for (Check& c : compareFacts(*last_.facts, {&first, firstMode}, metrics)) {
+      c.metric += " as " + firstMode;
+      result_.checks.push_back(std::move(c));
+    }
+  }
+
+  MeasuringOptions measuring() const { return {case_.rounds, std::chrono::seconds(o_.limit), stop_}; }
+
+  /// Of this case in the baseline; null if there is none.
+  const BaselineCase* known() const {
+    if (!with_.baseline || !with_.program.empty() || update_) return nullptr;
+    const auto at = with_.baseline->find(result_.name);
+    return at == with_.baseline->end() ? nullptr : &at->second;
+  }
+
+  bool failed(const std::string& fault) {
+    result_.fault = fault;
+    return !fault.empty();
+  }
+
+  void nothingFor(const std::string& metric) {
+    result_.checks.push_back(
+        {metric, Outcome::Skipped,
+         fmt::format("there are no {} to compare with: --against BUILD, or --update", metric)});
+  }
+
+  void takeTimes(const std::string& mode) {
+    const bool needed = !with_.program.empty() || update_ || (known() && !known()->times.empty());
+    if (!needed) return nothingFor("times");
+    progress_(fmt::format("{}: times, {} rounds", result_.name, case_.rounds));
+    const double tolerance = case_.tolerances.times / 100;
+    if (!with_.program.empty()) {
+      const MeasuredRounds m = measureRounds(case_, mode, {with_.program}, {o_.program}, measuring());
+      if (failed(m.fault)) return;
+      keepMilliseconds(m);
+      add(checksOf(compareRounds(m.rounds, tolerance), "the other build", tolerance, case_.rounds));
+      return;
+    }
+    const MeasuredRounds m = measureRounds(case_, mode, {o_.program}, measuring());
+    if (failed(m.fault)) return;
+    keepMilliseconds(m);
+    StageTimesByName times;
+    for (const auto& [stage, ms] : result_.milliseconds)
+      for (std::size_t i = 0; i < ms.size(); ++i) times[stage].push_back(ms[i] / m.calibrationMs[i]);
+    if (update_)
+      (*update_)[result_.name].times = times;
+    else
+      add(checksOf(compareTimes(known()->times, times, typicalStages(m.rounds.front().now), tolerance),
+                   "the baseline", tolerance, case_.rounds));
+  }
+
+  void keepMilliseconds(const MeasuredRounds& m) {
+    for (const Round& r : m.rounds)
+      for (const auto& [stage, us] : typicalStages(r.now)) result_.milliseconds[stage].push_back(us / 1000);
+  }
+
+  void takeInstructions() {
+    if (!o_.instructions) {
+      result_.checks.push_back({"instructions", Outcome::Skipped,
+                                "counted on request: --instructions (callgrind, half a minute a case)"});
+      return;
+    }
+    const bool needed = !with_.program.empty() || update_ || (known() && !known()->instructions.empty());
+    if (!needed) return nothingFor("instructions");
+    progress_(result_.name + ": instructions");
+    const CountedInstructions now = countInstructions(case_, {o_.program}, true, measuring());
+    if (failed(now.fault)) return;
+    result_.instructions = stageInstructions(now.rows);
+    const double tolerance = case_.tolerances.instructions / 100;
+    if (update_) {
+      (*update_)[result_.name].instructions = result_.instructions;
+    } else if (with_.program.empty()) {
+      add(checksOf(compareInstructions(known()->instructions, result_.instructions, tolerance),
+                   "the baseline", tolerance));
+    } else {
+      const CountedInstructions before = countInstructions(case_, {with_.program}, true, measuring());
+      if (!failed(before.fault))
+        add(checksOf(compareInstructions(before.rows, now.rows, tolerance), "the other build", tolerance));
+    }
+  }
+
+  const SuiteCase& case_;
+  const RegressOptions& o_;
+  const RegressReference& with_;
+  Baseline* update_;
+  const std::atomic<bool>& stop_;
+  const RegressProgress& progress_;
+  CaseResult result_;
+  Played last_;
+};
+
+}  // namespace
+
+std::vector<CaseResult> playCase(const SuiteCase& c, const RegressOptions& o, const RegressReference& with,
+                                 Baseline* update, const std::atomic<bool>& stop,
+                                 const RegressProgress& progress) {
+  CasePlay play(c, o, with, update, stop, progress);
+  std::vector<CaseResult> results;
+  Played first;
+  for (std::size_t i = 0; i < c.modes.size() && !stop; ++i) {
+    results.push_back(play.play(c.modes[i], i > 0 ? &first : nullptr, c.modes.front()));
+    if (i == 0) first = play.last();
+  }
+  return results;
+}
+
+}  // namespace stadion

@@ -1,0 +1,39 @@
+#pragma once
+/// A `stadion` program, ours or another build's, run to play a case of a suite.
+///
+/// Threads  one at a time.
+/// Errors   in the result, as a sentence; Ctrl-C ends the child and is told.
+
+#include "profiling/regression/facts.h"
+#include "profiling/regression/suite.h"
+
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stadion {
+
+struct ChildResult {
+  int status = -1;       ///< exit status; 128 + signal
+  std::string out, err;  ///< what it said
+  std::string fault;     ///< why it did not do what was asked; empty: it did
+};
+
+/// Runs the words to the end; past the limit, or once `stop` is true, it is killed.
+ChildResult runChild(const std::vector<std::string>& words, std::chrono::seconds limit,
+                     const std::atomic<bool>& stop);
+/// Two at a time, whose standard inputs are the ends of a socket: they take turns, the first one first.
+std::pair<ChildResult, ChildResult> runInTurns(const std::vector<std::string>& first,
+                                               const std::vector<std::string>& second,
+                                               std::chrono::seconds limit, const std::atomic<bool>& stop);
+
+/// `PROGRAM run SHOW ... --json`, as the case has it.
+std::vector<std::string> playWords(const std::string& program, const regression::SuiteCase& c,
+                                   const std::string& mode);
+
+/// "Intel(R) Xeon(R) Processor (family 6, model 167)", as the system names it.
+std::string processorName();
+
+}  // namespace stadion

@@ -1,0 +1,34 @@
+#pragma once
+/// The folder of `regress --out DIR`: the page, results for machines, the history, and how far a suite is.
+///
+/// Threads  one at a time.
+/// Errors   what cannot be written is told at once, on stderr.
+
+#include "cli/regress_options.h"
+#include "profiling/regression/progress.h"
+
+#include <string>
+
+namespace stadion {
+
+class RegressFolder {
+public:
+  /// Makes the folder if need be. With `resume`, cases that an interrupted run of the same suite has
+  /// completed are known.
+  bool open(const RegressOptions& options, const std::string& suiteText);
+
+  const regression::DoneCases& done() const { return done_; }
+  /// A case is complete.
+  bool note(const std::string& caseName, const std::vector<regression::CaseResult>& results);
+  /// The suite is complete: report.html, results.json, junit.xml, a line more in history.jsonl.
+  bool finish(const regression::SuiteResult& result);
+
+private:
+  bool append(const std::string& name, const std::string& text);
+  bool write(const std::string& name, const std::string& text);
+
+  std::string folder_;
+  regression::DoneCases done_;
+};
+
+}  // namespace stadion

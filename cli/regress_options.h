@@ -1,0 +1,45 @@
+#pragma once
+/// What `stadion regress` can be asked for.
+
+#include "engine/diagnostic.h"
+#include "profiling/regression/baseline.h"
+#include "profiling/regression/suite.h"
+
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace stadion {
+
+struct RegressOptions {
+  std::string suite;
+  std::string program;            ///< --stadion; empty: this one
+  std::string against, baseline;  ///< another program; a file
+  std::string junit, out;
+  std::vector<std::string> cases, compare;
+  std::size_t rounds = 0;   ///< 0: as the suite says
+  std::size_t limit = 600;  ///< [s] for a child
+  bool update = false, instructions = false, json = false, resume = false;
+
+  /// Expects that this object stays where it is until the command line has been read.
+  void addTo(CLI::App& command);
+  /// Completes what depends on other options. Says what is wrong.
+  bool settle(Diagnostics& findings);
+  /// Leaves what was asked for in the suite. Says which names it does not have.
+  bool choose(regression::Suite& suite, Diagnostics& findings) const;
+};
+
+/// What a suite is compared with.
+struct RegressReference {
+  std::string program;                             ///< another one; empty: none
+  std::optional<regression::Baseline> baseline{};  ///< nothing: none
+  std::string baselineFile{};
+};
+
+}  // namespace stadion

@@ -1,0 +1,167 @@
+#include "cli/regress_rounds.h"
+
+#include "cli/regress_child.h"
+#include "cli/temporary_folder.h"
+#include "engine/plain_file.h"
+#include "profiling/regression/calibration.h"
+#include "profiling/regression/callgrind_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stadion {
+namespace {
+
+using namespace regression;
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+
+std::string textOf(const std::string& file) {
+  const Result<std::string> text = readPlainFile(file, kMostBytes);
+  return text ? text.value() : std::string();
+}
+
+/// The rasteriser works in the thread that draws: else nobody knows whose time it is.
+void drawAlone(std::vector<std::string>& words) {
+  words.insert(words.begin(), {"env", "LP_NUM_THREADS=0"});
+}
+
+std::vector<std::string> measuredWords(const SuiteCase& c, const std::string& mode,
+                                       const MeasuredProgram& program, const std::string& file, bool turns) {
+  std::vector<std::string> words = playWords(program.path, c, mode);
+  words.insert(words.end(), {"--spans", file, "--app-threads", "1"});
+  if (turns) words.emplace_back("--turns");
+  if (!program.planted.empty()) words.insert(words.end(), {"--plant", program.planted});
+  drawAlone(words);
+  return words;
+}
+
+/// Builds that know nothing of --spans tell in their summary what the stages cost.
+std::vector<SpanRow> playedOld(const SuiteCase& c, const std::string& mode, const MeasuredProgram& program,
+                               const MeasuringOptions& o, std::string& fault) {
+  std::vector<std::string> words = playWords(program.path, c, mode);
+  drawAlone(words);
+  const ChildResult child = runChild(words, o.limit, o.stop);
+  fault = child.fault;
+  return stagesOfSummary(child.out);
+}
+
+bool knowsNoSpans(const ChildResult& child) {
+  return child.status == 2 && child.err.find("--spans") != std::string::npos;
+}
+
+/// A program and where its record goes.
+struct Side {
+  const MeasuredProgram& program;
+  std::string file;
+  std::vector<SpanRow> rows{};
+};
+
+class Rounds {
+public:
+  Rounds(const SuiteCase& c, const std::string& mode, const MeasuringOptions& o)
+      : case_(c), mode_(mode), o_(o), turns_(mode == "sequential") {}
+
+  /// False, with the reason in `fault`, if one of the two could not be played.
+  bool play(Side& first, Side& second) {
+    if (!old_ && turns_) {
+      const auto [a, b] = runInTurns(words(first), words(second), o_.limit, o_.stop);
+      if (knowsNoSpans(a) || knowsNoSpans(b)) return old_ = true, play(first, second);
+      return take(a, first) && take(b, second);
+    }
+    return play(first) && play(second);
+  }
+
+  bool play(Side& side) {
+    if (old_) {
+      side.rows = playedOld(case_, mode_, side.program, o_, fault);
+      return fault.empty();
+    }
+    const ChildResult child =
+        runChild(measuredWords(case_, mode_, side.program, side.file, false), o_.limit, o_.stop);
+    if (knowsNoSpans(child)) return old_ = true, play(side);
+    return take(child, side);
+  }
+
+  std::string fault;
+
+private:
+  std::vector<std::string> words(const Side& side) const {
+    return measuredWords(case_, mode_, side.program, side.file, true);
+  }
+
+  bool take(const ChildResult& child, Side& side) {
+    fault = child.fault;
+    if (fault.empty()) side.rows = spanRows(textOf(side.file));
+    if (fault.empty() && side.rows.empty()) fault = "it did not write what it cost";
+    return fault.empty();
+  }
+
+  const SuiteCase& case_;
+  const std::string& mode_;
+  const MeasuringOptions& o_;
+  bool turns_, old_ = false;
+};
+
+}  // namespace
+
+MeasuredRounds measureRounds(const SuiteCase& c, const std::string& mode, const MeasuredProgram& before,
+                             const MeasuredProgram& now, const MeasuringOptions& options) {
+  const TemporaryFolder folder;
+  Rounds rounds(c, mode, options);
+  MeasuredRounds measured;
+  for (std::size_t i = 0; i < options.rounds && !options.stop; ++i) {
+    Side a{before, folder.path("before")}, b{now, folder.path("now")};
+    if (!(i % 2 == 0 ? rounds.play(a, b) : rounds.play(b, a))) {
+      measured.fault = rounds.fault;
+      return measured;
+    }
+    measured.rounds.push_back({std::move(a.rows), std::move(b.rows)});
+  }
+  return measured;
+}
+
+MeasuredRounds measureRounds(const SuiteCase& c, const std::string& mode, const MeasuredProgram& now,
+                             const MeasuringOptions& options) {
+  const TemporaryFolder folder;
+  Rounds rounds(c, mode, options);
+  MeasuredRounds measured;
+  for (std::size_t i = 0; i < options.rounds && !options.stop; ++i) {
+    Side side{now, folder.path("now")};
+    const double earlier = calibrationMs();
+    if (!rounds.play(side)) {
+      measured.fault = rounds.fault;
+      return measured;
+    }
+    measured.calibrationMs.push_back((earlier + calibrationMs()) / 2);
+    measured.rounds.push_back({{}, std::move(side.rows)});
+  }
+  return measured;
+}
+
+CountedInstructions countInstructions(const SuiteCase& c, const MeasuredProgram& program, bool drawn,
+                                      const MeasuringOptions& options) {
+  const TemporaryFolder folder;
+  SuiteCase shorter = c;
+  shorter.frames = c.frames == 0 ? kCountedFrames : std::min(c.frames, kCountedFrames);
+  std::vector<std::string> words = measuredWords(shorter, "sequential", program, folder.path("spans"), false);
+  const auto at = std::ranges::find(words, program.path);
+  words.insert(at, {"valgrind", "--tool=callgrind", "--instr-atstart=no", "--combine-dumps=yes",
+                    "--callgrind-out-file=" + folder.path("callgrind")});
+  words.emplace_back("--count-instructions");
+  if (!drawn) words.insert(words.end(), {"--gl", "none"});
+
+  const ChildResult child = runChild(words, options.limit, options.stop);
+  CountedInstructions counted;
+  counted.fault =
+      child.status == 127 ? "there is no valgrind; install it: apt install valgrind" : child.fault;
+  if (!counted.fault.empty()) return counted;
+  counted.rows = spanRows(textOf(folder.path("spans")));
+  const auto counts = instructionsByLabel(textOf(folder.path("callgrind")), "/stadion");
+  giveInstructions(counted.rows, counts);
+  if (counts.empty()) counted.fault = "callgrind has counted nothing";
+  return counted;
+}
+
+}  // namespace stadion

@@ -1,0 +1,69 @@
+#include "profiling/regression/baseline.h"
+
+#include "engine/plain_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace stadion::regression {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "stadion-baseline 1";
+constexpr std::size_t kMaxFileBytes = 64 << 20;
+
+BaselineCase caseOf(const Json& j) {
+  BaselineCase c;
+  c.facts.renderer = j.at("renderer").get<std::string>();
+  j.at("state").get_to(c.facts.state);
+  j.at("images").get_to(c.facts.images);
+  j.at("counts").get_to(c.facts.counts);
+  if (j.contains("times")) j.at("times").get_to(c.times);
+  if (j.contains("instructions")) j.at("instructions").get_to(c.instructions);
+  return c;
+}
+
+Json jsonOf(const BaselineCase& c) {
+  Json j{{"renderer", c.facts.renderer},
+         {"state", c.facts.state},
+         {"images", c.facts.images},
+         {"counts", c.facts.counts}};
+  if (!c.times.empty()) j["times"] = c.times;
+  if (!c.instructions.empty()) j["instructions"] = c.instructions;
+  return j;
+}
+
+Diagnostic refused(const std::string& path, const std::string& why) {
+  return {Severity::Error, {path, 0, 0}, "is no baseline: " + why + "; --update writes one", {}};
+}
+
+}  // namespace
+
+Result<Baseline> readBaseline(const std::string& path) try {
+  const Result<std::string> text = readPlainFile(path, kMaxFileBytes);
+  if (!text) return text.error();
+  const Json j = Json::parse(text.value());
+  if (!j.is_object() || j.value("format", "") != kFormat)
+    return refused(path, std::string("its format is not \"") + kFormat + "\"");
+  Baseline baseline;
+  for (const auto& [name, value] : j.at("cases").items()) baseline[name] = caseOf(value);
+  return baseline;
+} catch (const Json::exception& e) {
+  return refused(path, e.what());
+}
+
+std::string toJson(const Baseline& baseline) {
+  Json j{{"format", kFormat}, {"cases", Json::object()}};
+  for (const auto& [name, c] : baseline) j["cases"][name] = jsonOf(c);
+  return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string baselineBeside(const std::string& suiteFile) {
+  std::filesystem::path path = suiteFile;
+  if (path.extension() == ".suite") path.replace_extension();
+  return path.string() + ".baseline.json";
+}
+
+}  // namespace stadion::regression

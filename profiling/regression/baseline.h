@@ -1,0 +1,32 @@
+#pragma once
+/// What a suite found when its baseline was written: to be kept beside the suite and compared with later.
+///
+/// Units    times in multiples of the calibration kernel's (calibration.h), so that a faster machine, or a
+///          busier one, changes little; instructions a frame.
+/// Threads  plain values, any thread.
+/// Errors   a file that is none is refused with its name and what is wrong.
+
+#include "engine/diagnostic.h"
+#include "profiling/regression/facts.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace stadion::regression {
+
+struct BaselineCase {
+  RunFacts facts;
+  std::map<std::string, std::vector<double>> times;  ///< by stage, round by round
+  std::map<std::string, double> instructions;        ///< by stage
+};
+
+using Baseline = std::map<std::string, BaselineCase>;  ///< by CASE/MODE
+
+Result<Baseline> readBaseline(const std::string& path);
+std::string toJson(const Baseline& baseline);
+
+/// SUITE.suite -> SUITE.baseline.json
+std::string baselineBeside(const std::string& suiteFile);
+
+}  // namespace stadion::regression

@@ -1,0 +1,158 @@
+#include "profiling/regression/detection.h"
+
+#include "profiling/regression/time_comparison.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion::regression {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kNothing = "nothing";
+
+/// Named nodes that are visited in every frame, in a fixed order.
+std::vector<const SpanRow*> candidates(const std::vector<SpanRow>& rows) {
+  std::size_t frames = 0;
+  for (const SpanRow& r : rows)
+    if (r.isStage() && r.stage == "app") frames = r.count;
+  std::vector<const SpanRow*> all;
+  for (const SpanRow& r : rows)
+    if (!r.path.empty() && r.stage == "app" && r.count == frames) all.push_back(&r);
+  std::ranges::sort(all, {}, [](const SpanRow* r) { return r->key(); });
+  return all;
+}
+
+std::vector<const SpanRow*> stages(const std::vector<SpanRow>& rows, const std::string& stage) {
+  std::vector<const SpanRow*> all;
+  for (const SpanRow& r : rows)
+    if (r.isStage() && r.stage == stage) all.push_back(&r);
+  return all;
+}
+
+std::uint64_t iterations(const SpanRow& stage, double share, double nsPerIteration) {
+  const auto typical = typicalStages({stage});
+  const double us = typical.empty() ? 0 : typical.begin()->second;
+  return static_cast<std::uint64_t>(std::max(1.0, 1000 * us * share / nsPerIteration));
+}
+
+}  // namespace
+
+std::vector<Trial> trialsOf(std::size_t planted, std::size_t same) {
+  std::vector<Trial> trials;
+  const std::size_t rounds = std::max<std::size_t>(1, planted);
+  std::size_t sameDone = 0;
+  for (std::size_t i = 0; i < rounds; ++i) {
+    if (i < planted)
+      for (const char* kind : {"simulate", "cull", "draw"})
+        trials.push_back({kind, i, std::string(kind) == "draw"});
+    for (; sameDone < same * (i + 1) / rounds; ++sameDone)
+      trials.push_back({kNothing, sameDone, sameDone % 3 == 2});
+  }
+  return trials;
+}
+
+// Every one of the nodes has its turn before one has a second.
+std::optional<PlantedDelay> plantedIn(const Trial& trial, const std::vector<SpanRow>& rows, double share,
+                                      double nsPerIteration) {
+  PlantedDelay planted;
+  if (trial.kind == "simulate") {
+    const auto nodes = candidates(rows), app = stages(rows, "app");
+    if (nodes.empty() || app.empty()) return std::nullopt;
+    const SpanRow& node = *nodes[trial.number * 7 % nodes.size()];
+    planted.where = PlantedDelay::Where::Simulate, planted.name = node.path;
+    planted.iterations = iterations(*app.front(), share, nsPerIteration);
+    return planted;
+  }
+  const auto walls = stages(rows, trial.kind);
+  if (walls.empty()) return std::nullopt;
+  const SpanRow& wall = *walls[trial.number % walls.size()];
+  planted.where = trial.kind == "cull" ? PlantedDelay::Where::Cull : PlantedDelay::Where::Draw;
+  planted.name = wall.wall, planted.iterations = iterations(wall, share, nsPerIteration);
+  return planted;
+}
+
+std::string toText(const PlantedDelay& planted) {
+  const char* where = planted.where == PlantedDelay::Where::Simulate ? "simulate"
+                      : planted.where == PlantedDelay::Where::Cull   ? "cull"
+                                                                     : "draw";
+  return fmt::format("{}:{}={}", where, planted.name, planted.iterations);
+}
+
+bool isNamedBy(const PlantedDelay& planted, const std::string& alarm) {
+  if (planted.where == PlantedDelay::Where::Simulate)
+    return alarm.starts_with(planted.name + " (") && alarm.ends_with(" in app");
+  return alarm ==
+         (planted.where == PlantedDelay::Where::Cull ? "cull" : "draw") + (" of wall " + planted.name);
+}
+
+double burnNanoseconds() {
+  constexpr std::uint64_t kIterations = 2'000'000;
+  std::uint64_t least = ~std::uint64_t{0};
+  for (int i = 0; i < 9; ++i) {
+    const std::uint64_t start = threadNanoseconds();
+    burn(kIterations);
+    least = std::min(least, threadNanoseconds() - start);
+  }
+  return static_cast<double>(least) / kIterations;
+}
+
+std::string toJsonLine(const TrialResult& r) {
+  return Json{{"trial", r.trial},   {"kind", r.kind},   {"planted", r.planted},
+              {"alarms", r.alarms}, {"right", r.right}, {"seconds", r.seconds}}
+             .dump(-1, ' ', false, Json::error_handler_t::replace) +
+         "\n";
+}
+
+std::vector<TrialResult> readTrials(const std::string& text) {
+  std::vector<TrialResult> all;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    try {
+      const Json j = Json::parse(text.substr(at, end - at));
+      all.push_back(
+          {j.at("trial"), j.at("kind"), j.at("planted"), j.at("alarms"), j.at("right"), j.at("seconds")});
+    } catch (const Json::exception&) {
+      // Half a line, of an experiment that was interrupted.
+    }
+    at = end + 1;
+  }
+  return all;
+}
+
+std::string detectionTable(const std::vector<TrialResult>& results, std::size_t planted, std::size_t same,
+                           bool& met) {
+  met = true;
+  double seconds = 0;
+  std::string text = "planted in     trials  found, right place named   limit\n";
+  const auto count = [&](const std::string& kind, bool right) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        results, [&](const TrialResult& r) { return r.kind == kind && (!right || r.right); }));
+  };
+  const std::size_t least = planted - planted / 20;
+  for (const char* kind : {"simulate", "cull", "draw"}) {
+    if (planted == 0) break;
+    const std::size_t right = count(kind, true);
+    met = met && right >= least;
+    text += fmt::format("{:<12} {:>8}  {:>23}   at least {:>3}  {}\n", kind, count(kind, false), right, least,
+                        right >= least ? "ok" : "MISSED");
+  }
+  const std::size_t alarms = count(kNothing, false) - count(kNothing, true), most = same / 100;
+  met = met && alarms <= most && count(kNothing, false) >= same;
+  text += fmt::format("{:<12} {:>8}  {:>10} false alarms   at most {:>4}  {}\n", kNothing,
+                      count(kNothing, false), alarms, most, alarms <= most ? "ok" : "MISSED");
+  for (const TrialResult& r : results) {
+    seconds += r.seconds;
+    if (!r.right)
+      text += fmt::format("  {}: planted {}, moved: {}\n", r.trial, r.planted.empty() ? kNothing : r.planted,
+                          r.alarms.empty() ? kNothing : fmt::format("{}", fmt::join(r.alarms, "; ")));
+  }
+  return text + fmt::format("{:.1f} minutes\n", seconds / 60);
+}
+
+}  // namespace stadion::regression

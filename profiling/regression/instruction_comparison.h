@@ -1,0 +1,36 @@
+#pragma once
+/// Instructions of two builds, or of one and its baseline: the same on every run but for a little, so that
+/// one run of each is enough and the machine may be as busy as it likes.
+///
+/// Threads  free functions, any thread.
+
+#include "profiling/regression/result.h"
+#include "profiling/regression/span_record.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace stadion::regression {
+
+struct InstructionShift {
+  std::string name;            ///< of the stage
+  double before = 0, now = 0;  ///< a frame
+  bool more = false, fewer = false;
+  std::string culprit{};  ///< if more: the node in the stage that moved, or that none did
+
+  double shift() const { return before > 0 ? now / before - 1 : 0; }
+};
+
+/// The stages' instructions a frame, by name.
+std::map<std::string, double> stageInstructions(const std::vector<SpanRow>& rows);
+
+/// `tolerance`: [1].
+std::vector<InstructionShift> compareInstructions(const std::vector<SpanRow>& before,
+                                                  const std::vector<SpanRow>& now, double tolerance);
+std::vector<InstructionShift> compareInstructions(const std::map<std::string, double>& before,
+                                                  const std::map<std::string, double>& now, double tolerance);
+std::vector<Check> checksOf(const std::vector<InstructionShift>& shifts, const std::string& with,
+                            double tolerance);
+
+}  // namespace stadion::regression

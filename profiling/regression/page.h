@@ -1,0 +1,15 @@
+#pragma once
+/// What a suite has found as a page for a browser: nothing beside the file is needed, no script, no network.
+
+#include "profiling/regression/history.h"
+#include "profiling/regression/result.h"
+
+#include <string>
+#include <vector>
+
+namespace stadion::regression {
+
+/// `history`: with this run as its last entry.
+std::string pageOf(const SuiteResult& result, const std::vector<HistoryEntry>& history);
+
+}  // namespace stadion::regression

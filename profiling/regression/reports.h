@@ -1,0 +1,22 @@
+#pragma once
+/// What a suite has found, for people and for programs.
+///
+/// Threads  free functions, any thread.
+
+#include "profiling/regression/result.h"
+
+#include <string>
+
+namespace stadion::regression {
+
+/// A line for each check, worst last, and a line that sums up.
+std::string tableOf(const SuiteResult& result);
+
+/// JUnit's XML: a test case for each check, a suite for each case.
+std::string junitOf(const SuiteResult& result);
+
+/// Google Benchmark's layout: "context", and "benchmarks" with an entry for each round of each stage and its
+/// median; hashes and counts are further fields of an entry named after the case. Checks are in "checks".
+std::string benchmarkJsonOf(const SuiteResult& result);
+
+}  // namespace stadion::regression

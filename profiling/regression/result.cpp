@@ -1,0 +1,28 @@
+#include "profiling/regression/result.h"
+
+#include <algorithm>
+
+namespace stadion::regression {
+
+bool CaseResult::failed() const {
+  return std::ranges::any_of(checks, [](const Check& c) { return c.outcome == Outcome::Failed; });
+}
+
+std::size_t SuiteResult::count(Outcome outcome) const {
+  std::size_t n = 0;
+  for (const CaseResult& c : cases)
+    n += static_cast<std::size_t>(std::ranges::count(c.checks, outcome, &Check::outcome));
+  return n;
+}
+
+std::size_t SuiteResult::faults() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(cases, [](const CaseResult& c) { return !c.fault.empty(); }));
+}
+
+bool SuiteResult::refused() const {
+  return faults() > 0 &&
+         std::ranges::none_of(cases, [](const CaseResult& c) { return !c.fault.empty() && !c.refused; });
+}
+
+}  // namespace stadion::regression

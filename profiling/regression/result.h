@@ -1,0 +1,50 @@
+#pragma once
+/// What a suite has found: one check for each thing that was compared.
+///
+/// Threads  plain values, any thread.
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace stadion::regression {
+
+enum class Outcome {
+  Passed,
+  Failed,
+  Skipped,  ///< there was nothing to compare with
+};
+
+struct Check {
+  std::string metric;  ///< "state", "counts", "times of draw front" ...
+  Outcome outcome = Outcome::Passed;
+  std::string said;       ///< what was found, in a sentence
+  std::string culprit{};  ///< the node and stage that moved, if a figure did
+};
+
+struct CaseResult {
+  std::string name;  ///< CASE/MODE
+  std::vector<Check> checks;
+  std::string fault{};   ///< why it could not be played; then there are no checks
+  bool refused = false;  ///< the fault is the user's: a show with mistakes
+  std::map<std::string, std::vector<double>> milliseconds{};  ///< by stage, round by round
+  std::map<std::string, double> instructions{};               ///< by stage, a frame
+  std::map<std::string, std::string> facts{};                 ///< hashes and counts
+  double seconds = 0;                                         ///< that it took
+
+  bool failed() const;
+};
+
+struct SuiteResult {
+  std::string suite;    ///< file
+  std::string program;  ///< that was played
+  std::string against;  ///< what it was compared with: another program, a baseline; may be empty
+  std::string when;     ///< UTC, ISO 8601
+  std::vector<CaseResult> cases;
+
+  std::size_t count(Outcome outcome) const;
+  std::size_t faults() const;  ///< cases that could not be played
+  bool refused() const;        ///< all of these for mistakes of the user's
+};
+
+}  // namespace stadion::regression

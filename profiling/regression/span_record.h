@@ -1,0 +1,48 @@
+#pragma once
+/// What a run cost, row by row: of each stage and wall, and of the dearest nodes, as a table of JSON objects.
+///
+///     {"path": "sim_kick", "file": "scripts/kick.evs", "line": 12, "stage": "app", "wall": null,
+///      "eye": null, "ms_mean": 0.012, "count": 180, "frame_us": {"0": 12.1, "1": 11.9, ...}}
+///
+/// `path` is null for a stage itself. `frame_us`, where there is one, has the cost of each frame.
+///
+/// Threads  plain values, any thread.
+/// Errors   rows that are none are left out.
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace stadion::regression {
+
+struct SpanRow {
+  std::string path;  ///< the node's name; empty: the stage itself
+  std::string file;
+  std::uint32_t line = 0;
+  std::string stage;  ///< app, cull, draw
+  std::string wall, eye;
+  double msMean = 0;                       ///< a frame in which it had something to do
+  std::size_t count = 0;                   ///< of such frames
+  std::map<std::uint64_t, double> frames;  ///< cost [us] by frame; empty if it was not told
+  double instructions = 0;                 ///< a frame; 0 if nobody counted
+
+  bool isStage() const { return path.empty() && line == 0; }
+  /// The same in another run has the same.
+  std::string key() const {
+    return stage + "|" + wall + "|" + eye + "|" + path + "|" + file + ":" + std::to_string(line);
+  }
+  /// "sim_kick (scripts/kick.evs:12) in app", "cull of wall front".
+  std::string name() const;
+};
+
+/// Of an array of such objects, or of an object whose "rows" or "nodes" it is.
+std::vector<SpanRow> spanRows(const std::string& json);
+std::string toJson(const std::vector<SpanRow>& rows);
+
+/// The stages of a run's summary, without frames: each costs its typical frame. For builds that tell no more.
+std::vector<SpanRow> stagesOfSummary(const std::string& summaryJson);
+/// Gives rows the instructions that were counted under "row N", a frame; of stages all that is in them.
+void giveInstructions(std::vector<SpanRow>& rows, const std::map<std::string, double>& byLabel);
+
+}  // namespace stadion::regression

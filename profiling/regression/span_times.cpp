@@ -1,0 +1,139 @@
+#include "profiling/regression/span_times.h"
+
+#include "profiling/regression/callgrind_request.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace stadion::regression {
+namespace {
+
+constexpr std::size_t kNodesWithFrames = 200;
+constexpr std::uint64_t kFirstCounted = 2;
+
+bool isPlantedIn(const std::optional<PlantedDelay>& planted, Span stage, std::uint32_t wall) {
+  if (!planted || planted->wall != wall) return false;
+  return (stage == Span::Cull && planted->where == PlantedDelay::Where::Cull) ||
+         (stage == Span::Draw && planted->where == PlantedDelay::Where::Draw);
+}
+
+}  // namespace
+
+void SpanTimes::began(Span what, std::uint64_t frame, std::uint32_t wall) {
+  if (!isStage(what)) return;
+  if (what == Span::App && options_.turns) options_.turns->take();
+  if (what == Span::App && frame == kFirstCounted && options_.countInstructions) {
+    beginCountingInstructions();
+    counting_ = true;
+  }
+  const Key key{what, wall == kNoWall ? 0 : wall, {}};
+  const std::lock_guard lock(mutex_);
+  open_[std::this_thread::get_id()].push_back({key, frame});
+  begin(key);
+  boundary(nullptr);
+  stage_ = &costs_[key];
+}
+
+void SpanTimes::began(Span what, NodeRef node) {
+  if (!isOfNode(what)) return;
+  const Key key{Span::App, 0, node};
+  const std::lock_guard lock(mutex_);
+  open_[std::this_thread::get_id()].push_back({key, 0});
+  boundary(stage_);
+  begin(key);
+}
+
+void SpanTimes::ended(Span what) {
+  if (!isStage(what) && !isOfNode(what)) return;
+  Open last;
+  {
+    const std::lock_guard lock(mutex_);
+    std::vector<Open>& open = open_[std::this_thread::get_id()];
+    last = open.back();
+    open.pop_back();
+  }
+  if (isStage(what))
+    stageEnded(last);
+  else
+    nodeEnded(last.key, what);
+}
+
+void SpanTimes::stageEnded(const Open& stage) {
+  const Key& key = stage.key;
+  if (isPlantedIn(options_.planted, key.stage, key.wall)) burn(options_.planted->iterations);
+  {
+    const std::lock_guard lock(mutex_);
+    Cost& cost = end(key);
+    boundary(&cost);
+    stage_ = nullptr;
+    cost.frames.emplace_back(stage.frame, cost.now);
+    cost.total += cost.now, cost.now = 0;
+    if (key.stage == Span::App) closeFrame(stage.frame);
+  }
+  if (key.stage == Span::Swap && options_.turns) options_.turns->give();
+}
+
+void SpanTimes::nodeEnded(const Key& key, Span phase) {
+  const auto& planted = options_.planted;
+  if (planted && planted->where == PlantedDelay::Where::Simulate && phase == Span::Simulate &&
+      planted->node == key.node)
+    burn(planted->iterations);
+  const std::lock_guard lock(mutex_);
+  const std::uint64_t before = costs_[key].now;
+  Cost& cost = end(key);
+  boundary(&cost);
+  if (before == 0) touched_.push_back(&cost);
+}
+
+void SpanTimes::begin(const Key& key) {
+  const auto [at, isNew] = costs_.try_emplace(key);
+  if (isNew) at->second.row = costs_.size() - 1;
+  at->second.began = threadNanoseconds();
+}
+
+SpanTimes::Cost& SpanTimes::end(const Key& key) {
+  Cost& cost = costs_[key];
+  cost.now += std::max<std::uint64_t>(1, threadNanoseconds() - cost.began);
+  return cost;
+}
+
+void SpanTimes::closeFrame(std::uint64_t frame) {
+  for (Cost* node : touched_) {
+    node->frames.emplace_back(frame, node->now);
+    node->total += node->now, node->now = 0;
+  }
+  touched_.clear();
+}
+
+// Whatever was executed since the boundary before belongs to this row, or to nobody.
+void SpanTimes::boundary(const Cost* cost) {
+  if (!counting_) return;
+  char label[32];
+  std::snprintf(label, sizeof label, "row %zu", cost ? cost->row : costs_.size() + 1'000'000);
+  dumpInstructionsAs(label);
+}
+
+std::vector<SpanRow> SpanTimes::rows(const std::vector<std::string>& walls,
+                                     const std::function<void(NodeRef, SpanRow&)>& nameNode) const {
+  std::vector<std::uint64_t> totals;
+  for (const auto& [key, cost] : costs_)
+    if (key.node.valid()) totals.push_back(cost.total);
+  std::ranges::sort(totals, std::greater());
+  const std::uint64_t dear = totals.size() > kNodesWithFrames ? totals[kNodesWithFrames] : 0;
+
+  std::vector<SpanRow> all(costs_.size());
+  for (const auto& [key, cost] : costs_) {
+    SpanRow& row = all[cost.row];
+    row.stage = std::string(nameOf(key.stage));
+    const bool ofWall = key.stage == Span::Cull || key.stage == Span::Draw;
+    if (ofWall && key.wall < walls.size()) row.wall = walls[key.wall];
+    if (key.node.valid()) nameNode(key.node, row);
+    row.count = cost.frames.size();
+    if (row.count > 0) row.msMean = 1e-6 * static_cast<double>(cost.total) / static_cast<double>(row.count);
+    if (key.node.valid() && cost.total < dear) continue;
+    for (const auto& [frame, ns] : cost.frames) row.frames[frame] = 1e-3 * static_cast<double>(ns);
+  }
+  return all;
+}
+
+}  // namespace stadion::regression

@@ -1,0 +1,76 @@
+#pragma once
+/// What each stage of each wall and each node of App cost, frame by frame, for comparisons: processor time of
+/// the thread that did it, so that waiting and being interrupted do not count.
+///
+/// Under callgrind, and if asked to, the instructions between any two of its calls are written down under
+/// "row N", N being the index in rows().
+///
+/// Threads  told on the threads that do the work; read when the run is over.
+/// Errors   none.
+
+#include "engine/frame_probe.h"
+#include "profiling/regression/planted_delay.h"
+#include "profiling/regression/span_record.h"
+#include "profiling/regression/turns.h"
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace stadion::regression {
+
+struct SpanTimesOptions {
+  std::optional<PlantedDelay> planted{};
+  Turns* turns = nullptr;          ///< null: frames wait for nobody
+  bool countInstructions = false;  ///< from the third frame on; the first ones build what the others use
+};
+
+class SpanTimes final : public FrameProbe {
+public:
+  explicit SpanTimes(SpanTimesOptions options) : options_(std::move(options)) {}
+
+  void began(Span what, std::uint64_t frame, std::uint32_t wall) override;
+  void began(Span what, NodeRef node) override;
+  void ended(Span what) override;
+
+  /// `nameNode` fills in path, file and line. Frames are told of stages and of the dearest nodes.
+  std::vector<SpanRow> rows(const std::vector<std::string>& walls,
+                            const std::function<void(NodeRef, SpanRow&)>& nameNode) const;
+
+private:
+  struct Key {
+    Span stage = Span::App;
+    std::uint32_t wall = 0;
+    NodeRef node;
+    auto operator<=>(const Key&) const = default;
+  };
+  struct Cost {
+    std::size_t row = 0;
+    std::uint64_t began = 0, now = 0, total = 0;  ///< [ns]; `now`: of this frame
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> frames;
+  };
+
+  /// A stage, or a node's phase, that is under way.
+  struct Open {
+    Key key;
+    std::uint64_t frame = 0;
+  };
+
+  void stageEnded(const Open& stage);
+  void nodeEnded(const Key& key, Span phase);
+  void begin(const Key& key);
+  Cost& end(const Key& key);
+  void closeFrame(std::uint64_t frame);
+  void boundary(const Cost* cost);
+
+  SpanTimesOptions options_;
+  std::mutex mutex_;  ///< of what follows; nodes may compute side by side
+  std::map<Key, Cost> costs_;
+  std::map<std::thread::id, std::vector<Open>> open_;
+  std::vector<Cost*> touched_;  ///< nodes, in this frame
+  Cost* stage_ = nullptr;       ///< that is under way, where one thread does all
+  bool counting_ = false;
+};
+
+}  // namespace stadion::regression

@@ -1,0 +1,73 @@
+#pragma once
+/// Suite files: which shows a regression suite plays, how, and what it compares, as text.
+///
+///     stadion-suite 1
+///     size 96x72                          # before the first case: of every case
+///     case kick
+///       show     ../kick.evs
+///       modes    sequential pipelined
+///       frames   180
+///       compare  state images counts times
+///       tolerance times 3
+///
+/// docs/formats.md has every statement.
+///
+/// Units    tolerances in percent.
+/// Threads  plain values, any thread.
+/// Errors   go to the Diagnostics with line, column and a fix where one is known; there may be several.
+
+#include "engine/diagnostic.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stadion::regression {
+
+/// What of a case is compared.
+struct Metrics {
+  bool state = true;          ///< state hashes of all frames, exactly
+  bool images = true;         ///< hashes of the last frame's pictures, exactly
+  bool counts = true;         ///< of nodes, messages, draw calls and so on, exactly
+  bool instructions = false;  ///< by callgrind, without the rasteriser's
+  bool times = false;         ///< of stages, by rank test
+};
+
+struct Tolerances {
+  double instructions = 0.5;  ///< [%]
+  double times = 3;           ///< [%]
+};
+
+struct SuiteCase {
+  std::string name;
+  std::string show;             ///< path
+  std::string walls = "cave4";  ///< name or path
+  std::string input;            ///< path, "none", or empty: the log beside the show
+  std::string stereo = "pair";
+  std::string size;  ///< "WxH"; empty: as the wall file says
+  std::vector<std::string> modes{"sequential"};
+  std::vector<std::string> assetRoots;
+  double rate = 0;           ///< [1/s]; 0: the show's
+  std::uint64_t frames = 0;  ///< 0: to the end of the input log
+  Metrics metrics;
+  Tolerances tolerances;
+  std::uint64_t rounds = 10;  ///< of times, at least 6: fewer cannot tell a difference from chance
+};
+
+struct Suite {
+  static constexpr std::size_t kMostCases = 1000;
+
+  std::string file;              ///< as the user named it
+  std::vector<SuiteCase> cases;  ///< in file order
+};
+
+/// Reads the text; nothing if it has errors. Names of files are made relative to the suite's own folder;
+/// whether they are there is not asked.
+std::optional<Suite> parseSuite(std::string_view text, const std::string& file, Diagnostics& out);
+
+/// Reads the file; shows, wall files and logs that are not there are errors where they are named.
+std::optional<Suite> loadSuite(const std::string& path, Diagnostics& out);
+
+}  // namespace stadion::regression

@@ -1,0 +1,62 @@
+#pragma once
+/// Times of two builds, or of one and its baseline: is a stage slower by more than chance and more than the
+/// tolerance, and which node is it?
+///
+/// Every frame of a round is a pair: both builds do the same work in it. A round says by how much the typical
+/// frame differs (the median of the ratios over its frames); the rounds are judged by their ranks. A stage
+/// has become slower if the probability of that by chance, corrected for the number of stages, is at most 1
+/// %, and the typical round differs by more than the tolerance.
+///
+/// Units    ratios: 0.05 is 5 % slower.
+/// Threads  free functions, any thread.
+
+#include "profiling/regression/result.h"
+#include "profiling/regression/span_record.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stadion::regression {
+
+/// What one round told of two builds.
+struct Round {
+  std::vector<SpanRow> before, now;
+};
+
+struct StageShift {
+  std::string stage;       ///< its key
+  std::string name;        ///< for people
+  double beforeUs = 0;     ///< the typical frame [us]
+  double shift = 0;        ///< of the typical round [1]
+  double probability = 1;  ///< of as much by chance, corrected
+  bool slower = false, faster = false;
+  std::string culprit{};  ///< if slower: the node in it that moved, or that none did
+};
+
+constexpr double kAlarm = 0.01;          ///< probability below which it is no chance
+constexpr double kShortest = 10;         ///< [us]: what takes less is not judged by the clock
+constexpr std::size_t kFirstFrames = 5;  ///< left out: they build what the others use
+
+/// Of every stage that all rounds told of.
+std::vector<StageShift> compareRounds(const std::vector<Round>& rounds, double tolerance);
+/// Times of rounds by stage, in multiples of the calibration kernel's.
+using StageTimesByName = std::map<std::string, std::vector<double>>;
+/// The same of rounds of one build now, and of those that a baseline has kept: not paired. `us`: the typical
+/// frames now.
+std::vector<StageShift> compareTimes(const StageTimesByName& baseline, const StageTimesByName& now,
+                                     const std::map<std::string, double>& us, double tolerance);
+
+/// A check for each.
+std::vector<Check> checksOf(const std::vector<StageShift>& shifts, const std::string& with, double tolerance,
+                            std::size_t rounds);
+
+/// The typical frame of each stage [us], by its name.
+std::map<std::string, double> typicalStages(const std::vector<SpanRow>& rows);
+
+/// The row below stage `stage` whose cost grew the most, if that explains half of what the stage grew by;
+/// else says so. `cost` is of a row in a run.
+std::string culpritIn(const std::string& stage, const std::vector<std::pair<SpanRow, double>>& grownRows,
+                      double stageGrowth);
+
+}  // namespace stadion::regression

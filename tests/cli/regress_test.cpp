@@ -1,0 +1,140 @@
+/// `stadion regress`, as CI uses it.
+
+#include "tests/cli/program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <regex>
+
+namespace stadion {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kBasic = STADION_SOURCE_DIR "/scripts/suites/basic.suite";
+
+/// A suite of one small case.
+std::string smallSuite(const TemporaryFolder& folder, const std::string& more = {}) {
+  return folder.write("small.suite", "stadion-suite 1\nsize 32x24\nwalls desktop\ncase bodies\n  show " +
+                                         testShow("bodies.evs") + "\n  asset-root " + assetFolder() +
+                                         "\n  frames 12\n" + more);
+}
+
+ProgramResult regress(std::vector<std::string> words) {
+  words.insert(words.begin(), "regress");
+  return stadionProgram(words);
+}
+
+TEST(ProgramRegress, TheShippedSuiteHasTheHashesAndCountsOfItsBaseline) {
+  const ProgramResult r = regress({kBasic});
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  EXPECT_NE(r.out.find("kick/pipelined"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find(" 0 failed"), std::string::npos) << r.out;
+}
+
+TEST(ProgramRegress, WritesABaselineAndThenAgreesWithIt) {
+  const TemporaryFolder folder;
+  const std::string suite = smallSuite(folder, "  modes sequential pipelined\n");
+  const ProgramResult without = regress({suite});
+  EXPECT_EQ(without.status, 0) << "the modes agree" << without.out << without.err;
+  EXPECT_NE(without.err.find("--update"), std::string::npos) << without.err;
+  EXPECT_NE(without.out.find("state as sequential"), std::string::npos) << without.out;
+
+  EXPECT_EQ(regress({suite, "--update"}).status, 0);
+  const ProgramResult again = regress({suite});
+  EXPECT_EQ(again.status, 0) << again.out << again.err;
+  EXPECT_NE(again.out.find("equal to the baseline"), std::string::npos) << again.out;
+}
+
+TEST(ProgramRegress, NamesWhatIsNotAsInTheBaseline) {
+  const TemporaryFolder folder;
+  const std::string suite = smallSuite(folder);
+  ASSERT_EQ(regress({suite, "--update"}).status, 0);
+  const std::string file = folder.path() / "small.baseline.json";
+  Json baseline = Json::parse(fileContent(file));
+  Json& found = baseline["cases"]["bodies/sequential"];
+  found["counts"]["triangles screen left"] = "7";
+  found["state"]["state hash"] = "0123456789abcdef";
+  folder.write("small.baseline.json", baseline.dump());
+
+  const ProgramResult r = regress({suite});
+  EXPECT_EQ(r.status, 1) << r.err;
+  EXPECT_NE(r.out.find("was 0123456789abcdef"), std::string::npos) << r.out;
+  EXPECT_TRUE(std::regex_search(r.out, std::regex("triangles screen left: [0-9]+, was 7"))) << r.out;
+  EXPECT_NE(r.out.find("1 comparisons passed, 2 failed"), std::string::npos) << r.out;
+  EXPECT_EQ(regress({suite, "--compare", "images"}).status, 0) << "what differs was not asked for";
+}
+
+TEST(ProgramRegress, AShowThatChangedIsFoundAgainstItsOldBaseline) {
+  const TemporaryFolder folder;
+  const auto suiteOf = [&](const std::string& height) {
+    folder.write("drop.evs", "rig( position=\"0, -4, 0\" )\nforcelinear( name=g, direction=\"0, 0, -1\" )\n"
+                             "dynobject( name=a, file=football.3ds, position=\"0, 0, " +
+                                 height + "\", hook=g )\ndynamics( collidee=a )\n");
+    return folder.write("drop.suite",
+                        "stadion-suite 1\ncase drop\n  show drop.evs\n  frames 5\n  size 16x12\n"
+                        "  walls desktop\n  asset-root " +
+                            assetFolder() + "\n");
+  };
+  ASSERT_EQ(regress({suiteOf("2"), "--update"}).status, 0);
+  const ProgramResult r = regress({suiteOf("2.001"), "--compare", "state,counts"});
+  EXPECT_EQ(r.status, 1) << r.out << r.err;
+  EXPECT_NE(r.out.find("history hash"), std::string::npos) << r.out;
+}
+
+TEST(ProgramRegress, ReportsForMachinesAreWhatTheyClaimToBe) {
+  const TemporaryFolder folder;
+  const std::string suite = smallSuite(folder), junit = folder.path() / "r.xml";
+  ASSERT_EQ(regress({suite, "--update"}).status, 0);
+  const ProgramResult r = regress({suite, "--json", "--junit", junit});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const Json j = Json::parse(r.out);
+  EXPECT_TRUE(j["context"].contains("num_cpus"));
+  ASSERT_GE(j["benchmarks"].size(), 1u);
+  const Json& b = j["benchmarks"][0];
+  EXPECT_EQ(b["name"], "bodies/sequential");
+  EXPECT_EQ(b["time_unit"], "ms");
+  EXPECT_TRUE(b["real_time"].is_number() && b["cpu_time"].is_number());
+  EXPECT_TRUE(b["triangles screen left"].is_number());
+  EXPECT_TRUE(b["state hash"].is_string());
+  const std::string xml = fileContent(junit);
+  EXPECT_NE(xml.find("<testsuites name="), std::string::npos) << xml;
+  EXPECT_NE(xml.find("tests=\"3\" failures=\"0\" errors=\"0\""), std::string::npos) << xml;
+}
+
+TEST(ProgramRegress, ComparesWithAnotherBuild) {
+  const TemporaryFolder folder;
+  const std::string suite = smallSuite(folder);
+  const ProgramResult r = regress({suite, "--against", stadionPath()});
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  EXPECT_NE(r.out.find("equal to the other build"), std::string::npos) << r.out;
+}
+
+TEST(ProgramRegress, WrongUseAndWrongSuitesAreToldWithTheFix) {
+  const TemporaryFolder folder;
+  const std::string suite = smallSuite(folder);
+  const auto refused = [](const ProgramResult& r, const std::string& why) {
+    EXPECT_EQ(r.status, 2) << r.out << r.err;
+    EXPECT_NE(r.err.find(why), std::string::npos) << r.err;
+  };
+  refused(regress({folder.write("w.suite", "stadion-suite 1\ncase a\n  shwo a.evs\n")}),
+          "w.suite:3:3: error: \"shwo\" does not begin a statement; did you mean \"show\"?");
+  refused(regress({suite, "--case", "bodeis"}), "there is no case \"bodeis\"; did you mean \"bodies\"?");
+  refused(regress({suite, "--against", "/there/is/none"}), "--against: there is no program /there/is/none");
+  refused(regress({suite, "--against", "/bin/true", "--update"}), "leave one of them out");
+  refused(regress({suite, "--baseline", folder.write("b.json", "{}")}), "is no baseline");
+  refused(regress({folder.write("e.suite", "stadion-suite 1\ncase a\n  show e.evs\n  frames 9\n" +
+                                               (folder.write("e.evs", "nonsense("), std::string()))}),
+          "");
+}
+
+TEST(ProgramRegress, AProgramThatFailsIsAFaultNotADifference) {
+  const TemporaryFolder folder;
+  const ProgramResult r = regress({smallSuite(folder), "--stadion", "/bin/false"});
+  EXPECT_EQ(r.status, 3) << r.out << r.err;
+  EXPECT_NE(r.out.find("exit status 1"), std::string::npos) << r.out;
+}
+
+}  // namespace
+}  // namespace stadion

@@ -1,0 +1,361 @@
+/// What is made of the figures of two builds: exactly, by times, by instructions; and what is written of it.
+
+#include "profiling/regression/baseline.h"
+#include "profiling/regression/calibration.h"
+#include "profiling/regression/callgrind_record.h"
+#include "profiling/regression/detection.h"
+#include "profiling/regression/exact_comparison.h"
+#include "profiling/regression/instruction_comparison.h"
+#include "profiling/regression/page.h"
+#include "profiling/regression/progress.h"
+#include "profiling/regression/reports.h"
+#include "profiling/regression/time_comparison.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace stadion::regression {
+namespace {
+
+constexpr const char* kSummary = R"({"frames": 60, "frames_drawn": 60, "happened_count": 3,
+  "state_hash": "00000000000000aa", "history_hash": "00000000000000bb",
+  "image_hashes": [{"wall": "front", "eye": "left", "hash": "00000000000000cc"}],
+  "counters": {"messages lost": 0.0, "nodes visited per frame": 2.5},
+  "drawn": [{"wall": "front", "eye": "left", "frames": 60, "calls": 120, "instances": 180, "triangles": 720}],
+  "stages": [{"stage": "app", "wall": null, "ms": {"count": 60, "p50": 0.25}}],
+  "remarks": ["drawn by llvmpipe"]})";
+
+TEST(RegressionFacts, AreTheHashesAndCountsOfASummary) {
+  const auto facts = factsOf(kSummary);
+  ASSERT_TRUE(facts);
+  EXPECT_EQ(facts->state.at("history hash"), "00000000000000bb");
+  EXPECT_EQ(facts->images.at("image front left"), "00000000000000cc");
+  EXPECT_EQ(facts->counts.at("triangles front left"), "720");
+  EXPECT_EQ(facts->counts.at("nodes visited per frame"), "2.5");
+  EXPECT_EQ(facts->renderer, "llvmpipe");
+  for (const char* none :
+       {"", "null", "[]", "{}", "{\"frames\": 1, \"drawn\": 7}", "{\"frames\": 1, \"drawn\": [{}]}"})
+    EXPECT_FALSE(factsOf(none)) << none;
+}
+
+TEST(RegressionFacts, ThatDifferAreNamedWithBothValues) {
+  const RunFacts before = *factsOf(kSummary);
+  RunFacts now = before;
+  now.counts["triangles front left"] = "722";
+  now.counts.erase("events of nodes");
+  now.counts["instances front right"] = "1";
+  const auto checks = compareFacts(now, {&before, "the baseline"}, {});
+  ASSERT_EQ(checks.size(), 3u);
+  EXPECT_EQ(checks[0].outcome, Outcome::Passed);
+  EXPECT_EQ(checks[1].outcome, Outcome::Passed);
+  EXPECT_EQ(checks[2].outcome, Outcome::Failed);
+  EXPECT_NE(checks[2].said.find("triangles front left: 722, was 720"), std::string::npos) << checks[2].said;
+  EXPECT_NE(checks[2].said.find("events of nodes: missing, was 3"), std::string::npos) << checks[2].said;
+  EXPECT_NE(checks[2].said.find("instances front right: 1, was not there"), std::string::npos)
+      << checks[2].said;
+}
+
+TEST(RegressionFacts, ImagesOfAnotherRendererAreNotCompared) {
+  const RunFacts before = *factsOf(kSummary);
+  RunFacts now = before;
+  now.renderer = "another", now.images["image front left"] = "1";
+  Metrics onlyImages{false, true, false, false, false};
+  const auto checks = compareFacts(now, {&before, "the baseline"}, onlyImages);
+  ASSERT_EQ(checks.size(), 1u);
+  EXPECT_EQ(checks[0].outcome, Outcome::Skipped);
+}
+
+/// Stages and nodes of a run whose frames are noisy, some of them spoilt.
+class MadeRun {
+public:
+  explicit MadeRun(unsigned seed) : random_(seed) {}
+
+  std::vector<SpanRow> rows(double appFactor, double nodeFactor, double drawFactor) {
+    std::vector<SpanRow> all{row("app", "", "", 200 * appFactor + 40 * (nodeFactor - 1)),
+                             row("cull", "front", "", 50),
+                             row("draw", "front", "", 3000 * drawFactor),
+                             row("swap", "", "", 20),
+                             row("app", "", "ball", 40 * nodeFactor),
+                             row("app", "", "lane", 60)};
+    return all;
+  }
+
+private:
+  SpanRow row(const std::string& stage, const std::string& wall, const std::string& node, double us) {
+    SpanRow r;
+    r.stage = stage, r.wall = wall, r.path = node, r.line = node.empty() ? 0 : 7;
+    r.file = node.empty() ? "" : "show.evs";
+    std::lognormal_distribution<double> noise(0, 0.04);
+    for (std::uint64_t frame = 0; frame < 60; ++frame)
+      r.frames[frame] = us * (1 + 0.3 * std::sin(0.3 * static_cast<double>(frame))) * noise(random_) *
+                        (random_() % 15 == 0 ? 4 : 1);
+    r.count = r.frames.size(), r.msMean = us / 1000;
+    return r;
+  }
+  std::mt19937_64 random_;
+};
+
+std::vector<Round> madeRounds(unsigned seed, double nodeFactor, double drawFactor) {
+  MadeRun made(seed);
+  std::vector<Round> rounds;
+  for (int i = 0; i < 10; ++i) rounds.push_back({made.rows(1, 1, 1), made.rows(1, nodeFactor, drawFactor)});
+  return rounds;
+}
+
+std::vector<std::string> alarms(const std::vector<StageShift>& shifts) {
+  std::vector<std::string> all;
+  for (const StageShift& s : shifts)
+    if (s.slower) all.push_back(s.culprit);
+  return all;
+}
+
+TEST(RegressionTimes, ANodeThatBecameDearerIsNamedWithItsPlace) {
+  // 25 % of a node of 40 us: 5 % of App.
+  EXPECT_EQ(alarms(compareRounds(madeRounds(1, 1.25, 1), 0.03)),
+            std::vector<std::string>{"ball (show.evs:7) in app"});
+}
+
+TEST(RegressionTimes, AStageThatBecameDearerIsNamedWithItsWall) {
+  EXPECT_EQ(alarms(compareRounds(madeRounds(2, 1, 1.05), 0.03)),
+            std::vector<std::string>{"draw of wall front"});
+}
+
+TEST(RegressionTimes, WhatIsTheSameRaisesNoAlarm) {
+  int alarmed = 0;
+  for (unsigned seed = 10; seed < 60; ++seed)
+    alarmed += !alarms(compareRounds(madeRounds(seed, 1, 1), 0.005)).empty();
+  EXPECT_LE(alarmed, 2);
+}
+
+TEST(RegressionTimes, WithinTheToleranceIsNoAlarmAndFasterIsNoFailure) {
+  EXPECT_TRUE(alarms(compareRounds(madeRounds(3, 1, 1.05), 0.10)).empty());
+  const auto shifts = compareRounds(madeRounds(4, 1, 0.8), 0.03);
+  EXPECT_TRUE(alarms(shifts).empty());
+  EXPECT_TRUE(std::ranges::any_of(shifts, &StageShift::faster));
+}
+
+TEST(RegressionTimes, AShiftThatNoNodeExplainsIsSaidToBeNobodys) {
+  SpanRow small;
+  small.path = "ball", small.stage = "app";
+  EXPECT_EQ(culpritIn("app", {}, 10), "app");
+  EXPECT_NE(culpritIn("app", {{small, 2.0}}, 10).find("no single node"), std::string::npos);
+  EXPECT_EQ(culpritIn("app", {{small, 9.0}}, 10), "ball in app");
+}
+
+TEST(RegressionTimes, AStageTooShortForTheClockIsNotJudged) {
+  std::vector<Round> rounds = madeRounds(5, 1, 1);
+  for (Round& r : rounds)
+    for (auto* rows : {&r.before, &r.now})
+      for (SpanRow& row : *rows)
+        for (auto& [frame, us] : row.frames) us *= (rows == &r.now ? 2e-3 : 1e-3);
+  const auto checks = checksOf(compareRounds(rounds, 0.03), "the other build", 0.03, 10);
+  ASSERT_EQ(checks.size(), 3u);
+  EXPECT_EQ(checks[0].outcome, Outcome::Skipped) << checks[0].said;
+  EXPECT_EQ(checks[1].outcome, Outcome::Skipped) << checks[1].said;
+}
+
+TEST(RegressionTimes, OfABaselineAreComparedInMultiplesOfTheKernel) {
+  const StageTimesByName baseline{{"app", {1, 1.1, 0.9, 1, 1.05, 0.95, 1.02, 0.98}}};
+  StageTimesByName now{{"app", {1.3, 1.2, 1.25, 1.28, 1.3, 1.31, 1.22, 1.27}}};
+  const auto slower = compareTimes(baseline, now, {{"app", 100}}, 0.05);
+  ASSERT_EQ(slower.size(), 1u);
+  EXPECT_TRUE(slower[0].slower);
+  EXPECT_NEAR(slower[0].shift, 0.27, 0.03);
+  EXPECT_FALSE(compareTimes(baseline, baseline, {{"app", 100}}, 0.05)[0].slower);
+  EXPECT_GT(calibrationMs(), 0.1);
+}
+
+TEST(RegressionTimes, OfOldBuildsAreThoseOfTheirSummaries) {
+  const auto rows = stagesOfSummary(kSummary);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].name(), "app");
+  EXPECT_EQ(rows[0].msMean, 0.25);
+  EXPECT_TRUE(stagesOfSummary("nonsense").empty());
+}
+
+TEST(RegressionSpans, AreReadBackAsTheyWereWritten) {
+  MadeRun made(6);
+  const auto rows = made.rows(1, 1, 1);
+  const auto again = spanRows(toJson(rows));
+  ASSERT_EQ(again.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(again[i].key(), rows[i].key());
+    EXPECT_EQ(again[i].frames, rows[i].frames);
+    EXPECT_EQ(again[i].count, rows[i].count);
+  }
+  EXPECT_EQ(spanRows("{\"nodes\": " + toJson(rows) + "}").size(), rows.size());
+  for (const char* none : {"", "{", "7", "{\"rows\": 3}", "[1, null, \"x\"]"})
+    EXPECT_TRUE(spanRows(none).empty());
+}
+
+constexpr const char* kCallgrind = R"(# callgrind format
+version: 1
+part: 1
+desc: Trigger: Client Request: row 0
+events: Ir
+ob=(1) /usr/bin/stadion
+fl=(1) a.cpp
+fn=(1) stadion::f()
+10 100
++2 20
+cob=(2) /lib/libOSMesa.so
+cfi=(2) b.c
+cfn=(2) g
+calls=3 50
+12 5000
+ob=(2)
+fl=(2)
+fn=(2)
+50 5000
+
+part: 2
+desc: Trigger: Client Request: row 1
+ob=(1)
+fn=(1)
+10 7
+* 3
+part: 3
+desc: Trigger: Program termination
+ob=(1)
+fn=(1)
+10 999
+)";
+
+TEST(RegressionInstructions, OfOurOwnProgramAreSummedByLabelWithoutWhatIsCalled) {
+  const auto counts = instructionsByLabel(kCallgrind, "/stadion");
+  EXPECT_EQ(counts, (std::map<std::string, double>{{"row 0", 120}, {"row 1", 10}}));
+  EXPECT_TRUE(instructionsByLabel("", "/stadion").empty());
+}
+
+TEST(RegressionInstructions, AStageHasThoseOfItsNodesAndTheOneThatGrewIsNamed) {
+  MadeRun made(7);
+  std::vector<SpanRow> before = made.rows(1, 1, 1), now = before;
+  giveInstructions(before, {{"row 0", 5800}, {"row 4", 2900}, {"row 5", 5800}});
+  giveInstructions(now, {{"row 0", 5800}, {"row 4", 3480}, {"row 5", 5800}});
+  EXPECT_DOUBLE_EQ(before[0].instructions, 14500.0 / 58) << "the first two frames are not counted";
+  const auto shifts = compareInstructions(before, now, 0.005);
+  ASSERT_EQ(shifts.size(), 1u);
+  EXPECT_TRUE(shifts[0].more);
+  EXPECT_NEAR(shifts[0].shift(), 0.04, 1e-9);
+  EXPECT_EQ(shifts[0].culprit, "ball (show.evs:7) in app");
+  EXPECT_FALSE(compareInstructions(before, now, 0.05)[0].more);
+  EXPECT_TRUE(compareInstructions(now, before, 0.005)[0].fewer);
+}
+
+SuiteResult madeResult() {
+  SuiteResult result{"a&b.suite", "/bin/stadion", "the baseline", "2026-11-22T11:40:00Z", {}};
+  CaseResult c;
+  c.name = "kick/sequential", c.seconds = 1.5;
+  c.checks = {{"state", Outcome::Passed, "2 equal"},
+              {"counts", Outcome::Failed, "triangles <front>: 7, was \"8\"", "ball in app"},
+              {"times", Outcome::Skipped, "nothing"}};
+  c.milliseconds["app"] = {1, 3, 2};
+  c.facts = {{"state hash", "00000000000000aa"}, {"frames", "60"}};
+  result.cases.push_back(c);
+  CaseResult lost;
+  lost.name = "lost/sequential", lost.fault = "signal 11 ended it";
+  result.cases.push_back(lost);
+  return result;
+}
+
+TEST(RegressionReports, ForMachinesHaveEveryCheckAndAreWellFormed) {
+  const auto j = nlohmann::json::parse(benchmarkJsonOf(madeResult()));
+  EXPECT_EQ(j["checks"].size(), 4u);
+  const auto median = std::ranges::find_if(
+      j["benchmarks"], [](const auto& b) { return b["name"] == "kick/sequential/app_median"; });
+  ASSERT_NE(median, j["benchmarks"].end());
+  EXPECT_EQ((*median)["real_time"], 2);
+  EXPECT_EQ((*median)["aggregate_name"], "median");
+
+  const std::string xml = junitOf(madeResult());
+  EXPECT_NE(xml.find("tests=\"4\" failures=\"1\" errors=\"1\""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("triangles &lt;front&gt;: 7, was &quot;8&quot;; moved: ball in app"), std::string::npos)
+      << xml;
+  EXPECT_NE(xml.find("a&amp;b.suite"), std::string::npos);
+}
+
+TEST(RegressionReports, ForPeopleSayWhatMovedAndHowMuchFailed) {
+  const std::string text = tableOf(madeResult());
+  EXPECT_NE(text.find("moved: ball in app"), std::string::npos) << text;
+  EXPECT_NE(
+      text.find("1 comparisons passed, 1 failed, 1 had nothing to compare with; 1 cases could not be played"),
+      std::string::npos)
+      << text;
+  const std::vector<HistoryEntry> history{historyEntryOf(madeResult()), historyEntryOf(madeResult())};
+  const std::string page = pageOf(madeResult(), history);
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos) << "nothing is fetched";
+  EXPECT_EQ(page.find("<front>"), std::string::npos) << "text is escaped";
+}
+
+TEST(RegressionFiles, HistoryAndProgressSurviveAHalfWrittenLine) {
+  const std::string line = toJsonLine(historyEntryOf(madeResult()));
+  const auto history = readHistory(line + line + line.substr(0, line.size() / 2));
+  ASSERT_EQ(history.size(), 2u);
+  EXPECT_EQ(history[0].cases.at("kick/sequential").figures.at("app [ms]"), 2);
+  EXPECT_TRUE(history[0].cases.at("lost/sequential").failed);
+
+  std::vector<CaseResult> results = madeResult().cases;
+  EXPECT_EQ(progressLine("lost", results), "") << "what could not be played is not done";
+  results.pop_back();
+  const std::string done = progressHeading("1234") + progressLine("kick", results);
+  const DoneCases read = readProgress(done + progressLine("throw", results).substr(0, 20), "1234");
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read.at("kick")[0].checks[1].culprit, "ball in app");
+  EXPECT_EQ(read.at("kick")[0].milliseconds.at("app").size(), 3u);
+  EXPECT_TRUE(readProgress(done, "4321").empty()) << "another program, or another suite";
+}
+
+TEST(RegressionFiles, ABaselineIsNamedAfterItsSuite) {
+  EXPECT_EQ(baselineBeside("a/b.suite"), "a/b.baseline.json");
+  EXPECT_FALSE(readBaseline("/there/is/none.json"));
+}
+
+TEST(RegressionDetection, TrialsComeInTurnsAndEachWallAndNodeHasItsTurn) {
+  const auto trials = trialsOf(20, 100);
+  EXPECT_EQ(trials.size(), 160u);
+  EXPECT_EQ(std::ranges::count(trials, std::string("nothing"), &Trial::kind), 100);
+  MadeRun made(8);
+  const auto rows = made.rows(1, 1, 1);
+  const auto first = plantedIn({"simulate", 0}, rows, 0.05, 2),
+             second = plantedIn({"simulate", 1}, rows, 0.05, 2);
+  ASSERT_TRUE(first && second);
+  EXPECT_NE(first->name, second->name);
+  EXPECT_NEAR(static_cast<double>(first->iterations), 0.05 * 200'000 / 2, 1500)
+      << "5 % of App's typical frame";
+  EXPECT_FALSE(plantedIn({"nothing", 0}, rows, 0.05, 2));
+  EXPECT_TRUE(isNamedBy(*first, first->name + " (show.evs:7) in app"));
+  EXPECT_FALSE(isNamedBy(*first, second->name + " (show.evs:7) in app"));
+  const auto read = PlantedDelay::parse(toText(*plantedIn({"draw", 3}, rows, 0.05, 2)));
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(isNamedBy(*read, "draw of wall front"));
+  for (const char* wrong :
+       {"", "draw", "draw:front", "drew:front=3", "cull:front=x", "cull:=3", "cull=3:front"})
+    EXPECT_FALSE(PlantedDelay::parse(wrong)) << wrong;
+}
+
+TEST(RegressionDetection, MissesItsLimitsWhenTwoAreNotFoundOrTwoAlarmsAreFalse) {
+  std::vector<TrialResult> results;
+  for (const Trial& t : trialsOf(20, 100)) results.push_back({t.name(), t.kind, "", {}, true, 1});
+  bool met = false;
+  detectionTable(results, 20, 100, met);
+  EXPECT_TRUE(met);
+  const auto spoil = [&](const std::string& kind, std::size_t count) {
+    auto spoilt = results;
+    for (TrialResult& r : spoilt)
+      if (r.kind == kind && count > 0) r.right = false, --count;
+    detectionTable(spoilt, 20, 100, met);
+    return met;
+  };
+  EXPECT_TRUE(spoil("cull", 1));
+  EXPECT_FALSE(spoil("cull", 2));
+  EXPECT_TRUE(spoil("nothing", 1));
+  EXPECT_FALSE(spoil("nothing", 2));
+}
+
+}  // namespace
+}  // namespace stadion::regression
