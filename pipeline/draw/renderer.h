@@ -92,6 +92,7 @@ private:
   void chooseSurfaces(bool shadowed, bool hazy);
   void drawEye(const DrawEye& eye, std::uint32_t index);
   void setUnchangingState();
+  void settleState();
   void drawBatches(std::span<const InstanceBatch> batches, Pass pass);
   void drawTransparent(const GlMesh& mesh, const InstanceBatch& batch);
   void drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended);
