@@ -276,7 +276,7 @@ void expectNothingLeftBehind(const MeshStore& meshes, const DrawList& list) {
     }
     ASSERT_EQ(stage.draw(list), whole) << "given up at question " << givenUp;
   }
-  EXPECT_GT(givenUp, 4);
+  EXPECT_GT(givenUp, 2);
 }
 
 TEST(Shadows, ADrawingThatWasGivenUpLeavesNothingBehind) {
