@@ -45,7 +45,7 @@ void RunOptions::addTo(CLI::App& command) {
       ->capture_default_str();
   command.add_flag("--sheets", sheets, "a contact sheet of all walls beside each frame's pictures");
   command.add_flag("--video", video, "a video of all walls (needs ffmpeg)");
-  command.add_flag("--profile", profile, "say which nodes cost App the most");
+  command.add_flag("--profile", profile, "say which nodes cost the most; stadion profile says more");
   command.add_option("--gl", provider, "who draws: osmesa or egl (the same pixels)")
       ->check(CLI::IsMember({"osmesa", "egl"}))
       ->capture_default_str();

@@ -17,7 +17,7 @@ void makeBlack(DrawList& list) {
 
 ShowStages::ShowStages(ShowParts parts)
     : parts_(std::move(parts)), contexts_(parts_.contexts ? *parts_.contexts : ownContexts_),
-      drawn_(parts_.walls.size()), pictures_(parts_.walls.size()) {
+      drawn_(parts_.walls.size()), views_(parts_.walls), pictures_(parts_.walls.size()) {
   contexts_.resize(parts_.walls.size());
 }
 
@@ -25,13 +25,34 @@ ShowStages::~ShowStages() = default;
 
 void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   InputSample input;
-  if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
-  parts_.input.sampleFrame(now.time - now.step, now.time, input);
+  {
+    const SpanScope span(parts_.probe, Span::Input);
+    if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
+    parts_.input.sampleFrame(now.time - now.step, now.time, input);
+  }
   parts_.scene.advance(now, input, changes_, parts_.probe);
-  parts_.state.publish(slot, changes_);
-  parts_.meshes.collect(shownFrame_);
-  hear(input, false);
-  if (parts_.observer) parts_.observer(now, input, parts_.scene);
+  {
+    const SpanScope span(parts_.probe, Span::Publish);
+    parts_.state.publish(slot, changes_);
+    parts_.meshes.collect(shownFrame_);
+  }
+  tellPublished();
+  if (parts_.sounds) {
+    const SpanScope span(parts_.probe, Span::Sound);
+    hear(input, false);
+  }
+  if (!parts_.observer) return;
+  const SpanScope span(parts_.probe, Span::Watching);
+  parts_.observer(now, input, parts_.scene);
+}
+
+/// For whom publishing was.
+void ShowStages::tellPublished() {
+  if (!parts_.probe || !parts_.probe->wantsShares(changes_.signature.frame, kNoWall)) return;
+  std::vector<NodeRef> owners;
+  for (const ChangeSet::Instance& i : changes_.instances)
+    if (i.record.radius >= 0) owners.push_back(i.record.owner);
+  parts_.probe->shared(Span::Publish, changes_.signature.frame, kNoWall, owners);
 }
 
 void ShowStages::hear(const InputSample& input, bool still) {
@@ -52,9 +73,9 @@ void ShowStages::still(std::size_t slot) {
 
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
-  WallView view = parts_.walls[wall];
-  if (shown.eyeSeparation >= 0) view.eyeSeparation = shown.eyeSeparation;
-  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), list);
+  WallView& view = views_[wall];
+  view.eyeSeparation = shown.eyeSeparation >= 0 ? shown.eyeSeparation : parts_.walls[wall].eyeSeparation;
+  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), list, parts_.probe);
   if (view.camera) return;  // somebody else's, not the visitor's
   if (shown.swapEyes && list.eyeCount == 2) std::swap(list.eyes[0], list.eyes[1]);
   if (shown.black) makeBlack(list);
@@ -76,13 +97,14 @@ Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
   if (!parts_.provider) return {};
   if (Failure f = contexts_.enter(wall)) return f;
   drawn_[wall].eyes = 0;  // until it is finished there is no picture
-  if (Failure f = toFailure(contexts_.renderer(wall).draw(list, parts_.giveUp))) return f;
+  if (Failure f = toFailure(contexts_.renderer(wall).draw(list, parts_.giveUp, parts_.probe))) return f;
   drawn_[wall] = {list.eyeCount, list.ticket.signature.frame, false};
   const bool wanted = parts_.sink && parts_.sink->wants(list.ticket.signature);
   return wanted || list.ticket.last ? readPictures(wall) : std::nullopt;
 }
 
 Failure ShowStages::readPictures(std::size_t wall) {
+  const SpanScope span(parts_.probe, Span::Read);
   Drawn& drawn = drawn_[wall];
   pictures_[wall].frame = drawn.frame;
   pictures_[wall].eyes.resize(drawn.eyes);

@@ -86,6 +86,7 @@ private:
     bool read = false;  ///< the pictures have been read back
   };
 
+  void tellPublished();
   void hear(const InputSample& input, bool still);
   Failure readPictures(std::size_t wall);
 
@@ -94,7 +95,8 @@ private:
   SoundScape heard_;
   WallContexts ownContexts_;
   WallContexts& contexts_;
-  std::vector<Drawn> drawn_;  ///< by wall
+  std::vector<Drawn> drawn_;     ///< by wall
+  std::vector<WallView> views_;  ///< by wall, as the operator has it; each its Cull's own
   std::vector<EyePictures> pictures_;
   std::atomic<std::uint64_t> shownFrame_ = 0;
   std::string glDescription_;
