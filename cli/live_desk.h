@@ -1,9 +1,11 @@
 #pragma once
 /// What a live show has beside it, longer than one group of visitors stays: the operator with keys and
-/// network, trackers, sounds, and the models that need not be read again. `run` and `view` have one each.
+/// network, trackers, sounds, and the parts of a show that need not be made again. `run` and `view` have one
+/// each.
 ///
 /// Threads  main, but for what its parts say of theirs.
 
+#include "cli/kept_parts.h"
 #include "cli/operator_keys.h"
 #include "cli/run_options.h"
 #include "cli/run_watch.h"
@@ -24,8 +26,8 @@ public:
   static std::unique_ptr<LiveDesk> open(const RunOptions& options, Diagnostics& findings, Say say = {});
   ~LiveDesk();
 
-  /// Where models of a live run are kept from group to group; null: this run is for one.
-  ImportedMeshes* kept() { return live_ ? &kept_ : nullptr; }
+  /// What a live run keeps from group to group; null: this run is for one.
+  KeptParts* kept() { return live_ ? &kept_ : nullptr; }
 
   /// The first show is there: opens sounds and what hears commands. False, with the reason in the findings,
   /// if it cannot.
@@ -66,7 +68,7 @@ private:
   Clock::time_point ready_{};  ///< the present group's show could begin
   bool groupIsNew_ = false;
   std::atomic<bool> pictureAwaited_ = false;
-  ImportedMeshes kept_;
+  KeptParts kept_;
   AssetRoots roots_;
   std::unique_ptr<TrackerDevice> trackers_;
   std::unique_ptr<OperatorDesk> desk_;

@@ -30,7 +30,7 @@ std::map<std::string, bool> subScenes(const Scene& scene) {
 std::unique_ptr<PlayingShow> PlayingShow::open(const ShowSurroundings& around, Diagnostics& findings) {
   std::unique_ptr<PlayingShow> show(new PlayingShow(around));
   show->player_ =
-      Player::create(around.options.show, findings, around.report, &show->stopping_, around.models.get());
+      Player::create(around.options.show, findings, around.report, &show->stopping_, &around.kept->models);
   if (!show->player_) return nullptr;
   Player& player = *show->player_;
   if (around.visitor) player.takeInputFrom(*around.visitor);
@@ -65,6 +65,7 @@ ShowParts PlayingShow::parts() {
   parts.walls.push_back(outside);
   parts.provider = &around_.provider;
   parts.sink = &around_.sink;
+  parts.contexts = &around_.kept->contexts;
   parts.probe = &budget_;
   parts.giveUp = [this] { return stopping_.load(); };
   parts.observer = [this](const TimeSignature& now, const InputSample& input, const Scene& scene) {

@@ -34,9 +34,8 @@ struct ShowSurroundings {
   GlProvider& provider;
   PictureSink& sink;
   LiveDesk& desk;
-  /// Where models are kept from one show of a script to the next; shows that play at the same time have one
-  /// each.
-  std::shared_ptr<ImportedMeshes> models;
+  /// From one show of a script to the next; shows that are there at the same time and play have one each.
+  std::shared_ptr<KeptParts> kept;
   InputDevice* visitor = nullptr;        ///< null: the input log plays
   std::vector<SheetPlace> pictureSizes;  ///< by wall, where neither --size nor the wall file says
   SheetPlace overviewSize;
@@ -57,7 +56,7 @@ public:
   void stop();
 
   const Player& player() const { return *player_; }
-  std::shared_ptr<ImportedMeshes> models() const { return around_.models; }
+  std::shared_ptr<KeptParts> kept() const { return around_.kept; }
   Overview& overview() { return *overview_; }
   RunWatch& watch() { return *watch_; }
   ShowPlace place() const;

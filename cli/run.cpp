@@ -33,8 +33,8 @@ constexpr std::chrono::seconds kDrawAfterStop{5};
 /// What a run needs. Anything that is not there is the user's affair; the findings say why.
 struct RunSetup {
   std::unique_ptr<OutputFolder> folder;  ///< null without --out
-  std::unique_ptr<LiveDesk> desk;
   std::unique_ptr<GlProvider> provider;
+  std::unique_ptr<LiveDesk> desk;
   std::unique_ptr<Player> player;
   std::unique_ptr<RunWatch> watch;
   std::unique_ptr<RunOutput> output;         ///< null without --out
@@ -111,6 +111,10 @@ bool beginGroup(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   return true;
 }
 
+ImportedMeshes* modelsOf(LiveDesk& desk) {
+  return desk.kept() ? &desk.kept()->models : nullptr;
+}
+
 /// Opens everything before anything is played, so that whatever is wrong is found first.
 bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostics& findings) {
   if (!o.out.empty() && !keep(OutputFolder::open(o.out), s.folder, findings)) return false;
@@ -118,7 +122,7 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
   if (o.provider != "none" && !keep(openGlProvider(kind), s.provider, findings)) return false;
   s.desk = LiveDesk::open(o, findings);
   if (!s.desk) return false;
-  s.player = Player::create(o.show, findings, tell, &stop, s.desk->kept());
+  s.player = Player::create(o.show, findings, tell, &stop, modelsOf(*s.desk));
   if (!s.player) return false;
   if (s.provider && !canDraw(*s.provider, s.player->parts(o.layout), findings)) return false;
   s.spans = SpanRecording::create(o.spans, *s.player, findings);
@@ -150,6 +154,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   parts.sink = s.output.get();
   if (s.displays) parts.sink = &s.displays->sink(), s.displays->fitPictures(parts.walls);
   parts.drawUnseen = !s.output;
+  if (s.desk->kept()) parts.contexts = &s.desk->kept()->contexts;
   FrameProbe* const probe = s.spans ? s.spans->probe() : recording ? &recording->probe() : nullptr;
   parts.probe = probe;
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
@@ -189,8 +194,8 @@ bool nextGroup(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
   if (const auto wrong = s.watch->finish()) findings.add(*wrong);
   s.watch.reset();
   s.player.reset();
-  s.desk->kept()->store().collect(~std::uint64_t{0});  // no frame shows it any more
-  s.player = Player::create(o.show, findings, tell, &stop, s.desk->kept());
+  s.desk->kept()->models.store().collect(~std::uint64_t{0});  // no frame shows it any more
+  s.player = Player::create(o.show, findings, tell, &stop, modelsOf(*s.desk));
   const bool well = s.player && beginGroup(o, s, findings);
   tell(findings);
   return well;

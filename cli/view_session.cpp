@@ -48,7 +48,7 @@ std::unique_ptr<ViewSession> ViewSession::open(ViewOptions options, Diagnostics&
   s.hud_.budgetShown = s.options_.hud;
   s.desk_ = LiveDesk::open(s.options_.run, findings, [&s](const std::string& line) { s.say(line); });
   if (!s.desk_) return nullptr;
-  s.show_ = PlayingShow::open(s.surroundings(std::make_shared<ImportedMeshes>()), findings);
+  s.show_ = PlayingShow::open(s.surroundings(std::make_shared<KeptParts>()), findings);
   if (!s.show_ || !s.desk_->begin(s.show_->player(), findings)) return nullptr;
   return session;
 }
@@ -68,7 +68,7 @@ bool ViewSession::openDrawing(Diagnostics& findings) {
   return true;
 }
 
-ShowSurroundings ViewSession::surroundings(std::shared_ptr<ImportedMeshes> models) {
+ShowSurroundings ViewSession::surroundings(std::shared_ptr<KeptParts> kept) {
   RunOptions& run = options_.run;
   const bool live = run.show.input.empty() || run.show.input == "none";
   if (live) run.show.input = "none";
@@ -76,7 +76,7 @@ ShowSurroundings ViewSession::surroundings(std::shared_ptr<ImportedMeshes> model
           *provider_,
           mailbox_,
           *desk_,
-          std::move(models),
+          std::move(kept),
           live ? &visitor_ : nullptr,
           windows_->pictureSizes(),
           {0, 0, options_.width, options_.height},
@@ -241,7 +241,7 @@ void ViewSession::nextGroup() {
   if (const auto wrong = show_->watch().finish()) say(format(*wrong));
   desk_->endGroup();
   Diagnostics findings;
-  auto next = PlayingShow::open(surroundings(show_->models()), findings);
+  auto next = PlayingShow::open(surroundings(show_->kept()), findings);
   tell(findings);
   hud_.setTrouble(linesOf(findings));
   if (!next) {
@@ -249,6 +249,7 @@ void ViewSession::nextGroup() {
     return say("the script has errors; the next group's show begins once it is saved without them");
   }
   putInPlace(std::move(next));
+  show_->kept()->models.store().collect(~std::uint64_t{0});  // no frame shows the old one any more
   begin({});
 }
 
@@ -267,14 +268,13 @@ void ViewSession::beginReload(const char* why) {
   if (const auto wrong = show_->watch().finish()) say(format(*wrong));
   options_.run.recordInput.clear();  // another script, another log
   reload_ = std::make_unique<Reload>();
-  reload_->thread =
-      std::thread([this, &r = *reload_, around = surroundings(std::make_shared<ImportedMeshes>())] {
-        Diagnostics found = checkShow(options_.run.show.script, options_.run.show.assetRoots);
-        for (const Diagnostic& d : found.all())
-          if (d.severity == Severity::Error) r.findings.add(d);
-        if (!r.findings.hasErrors()) r.show = PlayingShow::open(around, r.findings);
-        r.done = true;
-      });
+  reload_->thread = std::thread([this, &r = *reload_, around = surroundings(std::make_shared<KeptParts>())] {
+    Diagnostics found = checkShow(options_.run.show.script, options_.run.show.assetRoots);
+    for (const Diagnostic& d : found.all())
+      if (d.severity == Severity::Error) r.findings.add(d);
+    if (!r.findings.hasErrors()) r.show = PlayingShow::open(around, r.findings);
+    r.done = true;
+  });
 }
 
 void ViewSession::finishReload() {

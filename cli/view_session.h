@@ -47,7 +47,7 @@ private:
   explicit ViewSession(ViewOptions options)
       : options_(std::move(options)), files_(options_.run.show.script, options_.run.show.assetRoots) {}
   bool openDrawing(Diagnostics& findings);
-  ShowSurroundings surroundings(std::shared_ptr<ImportedMeshes> models);
+  ShowSurroundings surroundings(std::shared_ptr<KeptParts> kept);
 
   void takeEvents();
   void take(std::size_t window, const WindowEvent& event);

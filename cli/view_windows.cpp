@@ -17,7 +17,7 @@ SheetPlace moved(SheetPlace place, std::int32_t x, std::int32_t y) {
 
 std::unique_ptr<ViewWindows> ViewWindows::open(const ViewOptions& options, const WallFile& walls,
                                                Diagnostics& findings) {
-  std::unique_ptr<ViewWindows> made(new ViewWindows(walls));
+  std::unique_ptr<ViewWindows> made(new ViewWindows(walls, options.windowStereo));
   auto system = WindowSystem::open();
   if (!system) return findings.add(system.error()), nullptr;
   made->system_ = std::move(system.value());
@@ -99,7 +99,8 @@ void ViewWindows::show(bool overview) {
 }
 
 void ViewWindows::setPanel(std::size_t number, const std::vector<PanelLine>& lines, bool atBottom) {
-  const std::uint32_t width = windows_[0]->window().size()[0];
+  std::uint32_t width = windows_[0]->window().size()[0];
+  if (stereo_ == WindowStereo::SideBySide) width /= 2;  // it stands in each half
   const std::uint32_t room = width > 32 ? width - 16 : 16;
   const std::uint32_t scale = width >= 700 ? 2 : 1;
   windows_[0]->setOverlay(number, lines.empty() ? Picture{} : textPanel(lines, room, scale), atBottom);

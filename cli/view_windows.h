@@ -40,12 +40,13 @@ public:
   std::string screenshot(const std::string& folder, const std::vector<EyePictures>& pictures, bool overview);
 
 private:
-  explicit ViewWindows(const WallFile& walls) : walls_(walls) {}
+  ViewWindows(const WallFile& walls, WindowStereo stereo) : walls_(walls), stereo_(stereo) {}
   std::vector<std::size_t> wallsOf(std::size_t window) const;
   std::vector<WindowPane> panesOf(std::size_t window, bool overview) const;
   std::size_t overviewIndex() const { return walls_.walls.size(); }
 
   const WallFile& walls_;
+  WindowStereo stereo_;
   std::unique_ptr<WindowSystem> system_;
   std::vector<std::unique_ptr<ShowWindow>> windows_;  ///< go before their system
   std::vector<SheetPlace> sizes_;

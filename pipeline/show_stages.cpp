@@ -16,9 +16,9 @@ void makeBlack(DrawList& list) {
 }  // namespace
 
 ShowStages::ShowStages(ShowParts parts)
-    : parts_(std::move(parts)), contexts_(std::make_unique<WallContext[]>(parts_.walls.size())),
-      pictures_(parts_.walls.size()) {
-  for (std::size_t wall = 0; wall < parts_.walls.size(); ++wall) contexts_[wall].view = parts_.walls[wall];
+    : parts_(std::move(parts)), contexts_(parts_.contexts ? *parts_.contexts : ownContexts_),
+      drawn_(parts_.walls.size()), views_(parts_.walls), pictures_(parts_.walls.size()) {
+  contexts_.resize(parts_.walls.size());
 }
 
 ShowStages::~ShowStages() = default;
@@ -73,7 +73,7 @@ void ShowStages::still(std::size_t slot) {
 
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
-  WallView& view = contexts_[wall].view;
+  WallView& view = views_[wall];
   view.eyeSeparation = shown.eyeSeparation >= 0 ? shown.eyeSeparation : parts_.walls[wall].eyeSeparation;
   cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), list, parts_.probe);
   if (view.camera) return;  // somebody else's, not the visitor's
@@ -83,33 +83,10 @@ void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
 
 Failure ShowStages::openWall(std::size_t wall) {
   if (!parts_.provider) return {};
-  auto target = parts_.provider->create(parts_.walls[wall].width, parts_.walls[wall].height);
-  if (!target) return Reason(target.error());
-  contexts_[wall].target = std::move(target.value());
-  if (Failure f = enterContext(wall)) return f;
-  auto renderer = Renderer::create(contexts_[wall].target->gl(), contexts_[wall].target->turns(),
-                                   parts_.meshes, parts_.walls[wall].width, parts_.walls[wall].height);
-  if (!renderer) return Reason(renderer.error());
-  contexts_[wall].renderer = std::move(renderer.value());
-  if (wall == 0) glDescription_ = describeGl(contexts_[wall].target->gl());
+  const WallView& view = parts_.walls[wall];
+  if (Failure f = contexts_.open(wall, *parts_.provider, parts_.meshes, view.width, view.height)) return f;
+  if (wall == 0) glDescription_ = describeGl(contexts_.gl(wall));
   return {};
-}
-
-// A thread that draws one wall enters its context once; a thread that draws all of them goes from one to the
-// next.
-Failure ShowStages::enterContext(std::size_t wall) {
-  const std::thread::id me = std::this_thread::get_id();
-  if (contexts_[wall].currentOn == me) return {};
-  for (std::size_t other = 0; other < parts_.walls.size(); ++other)
-    if (contexts_[other].currentOn == me) leaveContext(other);
-  if (Failure f = toFailure(contexts_[wall].target->makeCurrent())) return f;
-  contexts_[wall].currentOn = me;
-  return {};
-}
-
-void ShowStages::leaveContext(std::size_t wall) {
-  contexts_[wall].target->release();
-  contexts_[wall].currentOn = std::thread::id{};
 }
 
 bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {
@@ -118,40 +95,39 @@ bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {
 
 Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
   if (!parts_.provider) return {};
-  if (Failure f = enterContext(wall)) return f;
-  WallContext& c = contexts_[wall];
-  c.eyes = 0;  // until it is finished there is no picture
-  if (Failure f = toFailure(c.renderer->draw(list, parts_.giveUp, parts_.probe))) return f;
-  c.eyes = list.eyeCount, c.frame = list.ticket.signature.frame, c.read = false;
+  if (Failure f = contexts_.enter(wall)) return f;
+  drawn_[wall].eyes = 0;  // until it is finished there is no picture
+  if (Failure f = toFailure(contexts_.renderer(wall).draw(list, parts_.giveUp, parts_.probe))) return f;
+  drawn_[wall] = {list.eyeCount, list.ticket.signature.frame, false};
   const bool wanted = parts_.sink && parts_.sink->wants(list.ticket.signature);
   return wanted || list.ticket.last ? readPictures(wall) : std::nullopt;
 }
 
 Failure ShowStages::readPictures(std::size_t wall) {
   const SpanScope span(parts_.probe, Span::Read);
-  WallContext& c = contexts_[wall];
-  pictures_[wall].frame = c.frame;
-  pictures_[wall].eyes.resize(c.eyes);
-  for (std::uint32_t eye = 0; eye < c.eyes; ++eye) {
+  Drawn& drawn = drawn_[wall];
+  pictures_[wall].frame = drawn.frame;
+  pictures_[wall].eyes.resize(drawn.eyes);
+  for (std::uint32_t eye = 0; eye < drawn.eyes; ++eye) {
     Picture& p = pictures_[wall].eyes[eye];
     p = Picture(parts_.walls[wall].width, parts_.walls[wall].height);
-    if (Failure f = toFailure(c.renderer->read(eye, p.rgba))) return f;
+    if (Failure f = toFailure(contexts_.renderer(wall).read(eye, p.rgba))) return f;
   }
-  c.read = true;
+  drawn.read = true;
   return {};
 }
 
 void ShowStages::closeWall(std::size_t wall) {
-  WallContext& c = contexts_[wall];
-  if (!c.target) return;
-  if (!enterContext(wall)) {
-    // After a failure, or a wait that was given up, nobody knew which frame would be the last.
-    if (c.renderer && c.eyes > 0 && !c.read) readPictures(wall);
-    if (c.renderer) c.drawn = c.renderer->totals();
-    c.renderer.reset();
-    leaveContext(wall);
-  }
-  c.target.reset();
+  if (!parts_.provider) return;
+  // After a failure, or a wait that was given up, nobody knew which frame would be the last.
+  const bool wanted = drawn_[wall].eyes > 0 && !drawn_[wall].read && !(parts_.desk && parts_.desk->leaving());
+  const bool entered = contexts_.hasContext(wall) && !contexts_.enter(wall);
+  if (entered && wanted) readPictures(wall);
+  if (entered) drawn_[wall].totals = contexts_.renderer(wall).takeTotals();
+  if (parts_.contexts)
+    contexts_.leave(wall);
+  else
+    contexts_.close(wall);
 }
 
 Failure ShowStages::swap(const TimeSignature& now) {

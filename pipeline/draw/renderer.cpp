@@ -113,6 +113,14 @@ void Renderer::chooseSurfaces(bool shadowed, bool hazy) {
   surfaces_ = set.empty() ? &programs_.surface[0] : &set;
 }
 
+// A drawing that was given up may have left it otherwise.
+void Renderer::settleState() {
+  gl_.Disable(GL_SCISSOR_TEST);
+  gl_.Disable(GL_POLYGON_OFFSET_FILL);
+  gl_.Disable(GL_BLEND);
+  gl_.DepthMask(GL_TRUE);
+}
+
 void Renderer::setUnchangingState() {
   gl_.Enable(GL_MULTISAMPLE);
   gl_.Enable(GL_DEPTH_TEST);
@@ -232,6 +240,7 @@ std::optional<Diagnostic> Renderer::draw(const DrawList& list, std::uint32_t eye
 }
 
 void Renderer::prepare(const DrawList& list) {
+  settleState();
   cache_.freeUnused();
   batches_.build(list, sample_ == DrawSample::Some);
   if (batches_.refused() > 0) report("an object is left out: its matrix is not finite");

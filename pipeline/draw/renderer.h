@@ -32,6 +32,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace stadion {
 
@@ -79,8 +80,8 @@ public:
   std::uint32_t width() const { return width_; }    ///< [pixels]
   std::uint32_t height() const { return height_; }  ///< [pixels]
   const DrawCounts& counts() const { return counts_; }
-  /// By eye, 0 left or mono, 1 right. Shadow maps are not counted.
-  const std::array<DrawTotals, 2>& totals() const { return totals_; }
+  /// What was drawn since the last call, by eye, 0 left or mono, 1 right. Shadow maps are not counted.
+  std::array<DrawTotals, 2> takeTotals() { return std::exchange(totals_, {}); }
   std::size_t meshesHeld() const { return cache_.size(); }
 
 private:
@@ -113,6 +114,7 @@ private:
   void chooseSurfaces(bool shadowed, bool hazy);
   void drawEye(const DrawEye& eye, std::uint32_t index);
   void setUnchangingState();
+  void settleState();
   void drawBatches(std::span<const InstanceBatch> batches, Pass pass);
   void drawInstances(const GlMesh& mesh, std::uint32_t first, std::uint32_t count, Pass pass);
   void drawOpaqueParts(const GlMesh& mesh, std::uint32_t count, Pass pass);

@@ -137,6 +137,18 @@ TEST(ProgramOperator, WhoWaitsStandsAtTheFirstFrameUntilTheStart) {
   EXPECT_GT(started.finish().at("last_frame"), 0) << started.err;
 }
 
+// Contexts, programs and meshes are those of the groups before, whose drawings were given up.
+TEST(ProgramOperator, TheNextGroupSeesTheSamePictures) {
+  LiveShow first({"--wait"});
+  const json seen = first.finish();
+  LiveShow second({"--wait"});
+  for (int i = 0; i < 200; ++i) second.send("/stadion/next-group"), wait(10);
+  const json seenAgain = second.finish();
+  ASSERT_GT(seenAgain.at("groups"), 1) << second.err;
+  EXPECT_EQ(seenAgain.at("image_hashes").size(), 2u);
+  EXPECT_EQ(seenAgain.at("image_hashes"), seen.at("image_hashes"));
+}
+
 TEST(ProgramOperator, OrdersOfALogAreObeyedInTheirFrame) {
   const TemporaryFolder folder;
   const std::string show = folder.write("show.evs", kShow);

@@ -90,7 +90,8 @@ TEST(ProgramView, WithoutADisplaySaysWhatToDo) {
 
 TEST(ProgramView, HelpTellsEveryKey) {
   const std::string help = stadionProgram({"view", "--help"}).out;
-  for (const char* key : {"F1", "F2", "F5", "F12", "W S A D", "space", "[ ]", "Esc", "wheel", "gamepad"})
+  for (const char* key : {"F1", "F2", "F5", "F12", "W S A D", "space", "[ ]", "Esc", "wheel", "gamepad",
+                          "next group", "freeze the head", "--osc", "--no-sound"})
     EXPECT_NE(help.find(key), help.npos) << key;
 }
 
