@@ -98,6 +98,7 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
 /// Plays the show to its end and reports on it, unless it is to begin again: then there is no exit code yet.
 std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   NodeTimes nodeTimes;
+  NodeNames names;
   ProgressBar progress(s.player->frames());
   const ShowStages* running = nullptr;
   FrameLoopOptions options = o.loopOptions(*s.player);
@@ -110,6 +111,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     s.watch->see(now, input, scene);
+    if (o.profile) names.see(scene);
     s.player->collect(running->shownFrame());
     progress.update(now.frame + 1);
   };
@@ -127,7 +129,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   const int code =
       report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime()},
              s.output.get(), s.folder.get());
-  if (o.profile) tellDearest(nodeTimes, s.player->scene(), outcome.framesSimulated);
+  if (o.profile) tellDearest(nodeTimes, names, s.player->scene(), outcome.framesSimulated);
   return code;
 }
 

@@ -49,8 +49,10 @@ void RunOptions::addTo(CLI::App& command) {
   command.add_option("--gl", provider, "who draws: osmesa or egl (the same pixels)")
       ->check(CLI::IsMember({"osmesa", "egl"}))
       ->capture_default_str();
-  command.add_option("--trace", trace,
-                     "write where this node is in every frame to trace-NODE.csv in --out DIR");
+  command
+      .add_option("--trace", trace,
+                  "write where this node is in every frame to trace-NODE.csv in --out DIR; may be repeated")
+      ->allow_extra_args(false);
   trackers.addTo(command);
   command
       .add_option("--osc", oscPort, "listen for the operator's commands on this UDP port (docs/operator.md)")

@@ -111,17 +111,13 @@ int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   return verdict.code(run.outcome.stopped);
 }
 
-void tellDearest(const NodeTimes& times, const Scene& scene, std::uint64_t frames) {
+void tellDearest(const NodeTimes& times, const NodeNames& names, const Scene& scene, std::uint64_t frames) {
   frames = std::max<std::uint64_t>(1, frames);
   std::fprintf(stderr, "\ndearest nodes in App (steady clock)\n   us/frame  visits  node\n");
-  for (const NodeCost& c : times.dearest(10)) {
-    const Load* load = scene.load(c.node.load);
-    const std::string where =
-        load ? load->file + ":" + std::to_string(load->lines[c.node.position]) : "(unloaded)";
-    const Node* node = load ? load->nodes[c.node.position].get() : nullptr;
-    std::fprintf(stderr, "%11.2f %7llu  %s %s\n", 1000 * c.total() / static_cast<double>(frames),
-                 static_cast<unsigned long long>(c.visits), node ? node->name().c_str() : "", where.c_str());
-  }
+  for (const NodeCost& c : times.dearest(10))
+    std::fprintf(stderr, "%11.2f %7llu  %s%s\n", 1000 * c.total() / static_cast<double>(frames),
+                 static_cast<unsigned long long>(c.visits), names.of(c.node).c_str(),
+                 scene.load(c.node.load) ? "" : " (unloaded)");
 }
 
 }  // namespace stadion

@@ -1,6 +1,7 @@
 #pragma once
 /// What `run` says and writes when the show is over.
 
+#include "cli/node_names.h"
 #include "cli/run_options.h"
 #include "cli/run_watch.h"
 #include "pipeline/output/run_summary.h"
@@ -26,6 +27,6 @@ struct FinishedRun {
 int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder);
 
 /// Which nodes cost App the most, on stderr.
-void tellDearest(const NodeTimes& times, const Scene& scene, std::uint64_t frames);
+void tellDearest(const NodeTimes& times, const NodeNames& names, const Scene& scene, std::uint64_t frames);
 
 }  // namespace stadion

@@ -57,7 +57,8 @@ struct Edge {
 class Gather {
 public:
   Gather(const Body& a, const Body& b, double margin, std::vector<ManifoldPoint>& found)
-      : a_(a), b_(b), margin_(margin), sunkA_(limitOf(a, b)), sunkB_(limitOf(b, a)), found_(found) {}
+      : a_(a), b_(b), margin_(margin), sunkA_(limitOf(a, b)), sunkB_(limitOf(b, a)),
+        reach_(1e-6 + std::max({margin, sunkA_, sunkB_})), found_(found) {}
 
   void run() {
     MeshPairs(a_.tree, b_.tree, a_.X)
@@ -74,21 +75,51 @@ private:
     return faces.tree.closed() || t.normal.dot(other - t.v[0]) >= 0 ? 1 : -1;
   }
 
+  /// Most corners and edges of two triangles are far from each other: boxes say so first.
   void meet(std::uint32_t i, const Triangle& ta, std::uint32_t j, const Triangle& tb) {
     const double sideA = sideOf(a_, ta, b_.middle), sideB = sideOf(b_, tb, a_.middle);
+    const Aabb boxA = boxOf(ta.v), boxB = boxOf(tb.v), nearA = widened(boxA), nearB = widened(boxB);
     for (std::size_t k = 0; k < 3; ++k) {
-      if (const std::uint32_t c = a_.tree.cornersOf(i)[k]; a_.tree.around(c).front() == i)
+      if (const std::uint32_t c = a_.tree.cornersOf(i)[k];
+          a_.tree.around(c).front() == i && contains(nearB, ta.v[k]))
         cornerOverFace(a_, c, ta.v[k], b_, tb, sideB * tb.normal, sunkB_, static_cast<std::int32_t>(j),
                        false);
-      if (const std::uint32_t c = b_.tree.cornersOf(j)[k]; b_.tree.around(c).front() == j)
+      if (const std::uint32_t c = b_.tree.cornersOf(j)[k];
+          b_.tree.around(c).front() == j && contains(nearA, tb.v[k]))
         cornerOverFace(b_, c, tb.v[k], a_, ta, sideA * ta.normal, sunkA_, -1, true);
     }
-    for (std::size_t k = 0; k < 3; ++k) {
-      Edge ea;
-      if (!edgeOf(a_, i, ta, k, sideA, ea)) continue;
-      for (std::size_t l = 0; l < 3; ++l)
-        if (Edge eb; edgeOf(b_, j, tb, l, sideB, eb)) edgesCross(i * 3 + k, ea, j * 3 + l, eb);
+    std::array<Aabb, 3> around;  // the edges of b
+    std::array<bool, 3> counts;
+    for (std::size_t l = 0; l < 3; ++l) {
+      counts[l] = mayStickOut(tb, j, l, sideB);
+      if (counts[l]) around[l] = widened(boxOf(edge(tb, l))), counts[l] = around[l].overlaps(boxA);
     }
+    if (!(counts[0] || counts[1] || counts[2])) return;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!mayStickOut(ta, i, k, sideA)) continue;
+      const Aabb box = boxOf(edge(ta, k));
+      const auto isNear = [&](std::size_t l) { return counts[l] && around[l].overlaps(box); };
+      Edge ea;
+      if (!(isNear(0) || isNear(1) || isNear(2)) || !edgeOf(a_, ta, k, sideA, ea)) continue;
+      for (std::size_t l = 0; l < 3; ++l)
+        if (Edge eb; isNear(l) && edgeOf(b_, tb, l, sideB, eb)) edgesCross(i * 3 + k, ea, j * 3 + l, eb);
+    }
+  }
+
+  static std::array<Vec3, 2> edge(const Triangle& t, std::size_t k) { return {t.v[k], t.v[(k + 1) % 3]}; }
+  template <std::size_t N>
+  static Aabb boxOf(const std::array<Vec3, N>& corners) {
+    Aabb box;
+    for (const Vec3& v : corners) box.include(v);
+    return box;
+  }
+  /// What lies over it, has sunk into it or crosses it is in here.
+  Aabb widened(Aabb box) const {
+    box.lo.array() -= reach_, box.hi.array() += reach_;
+    return box;
+  }
+  static bool contains(const Aabb& box, const Vec3& p) {
+    return (p.array() >= box.lo.array()).all() && (p.array() <= box.hi.array()).all();
   }
 
   void cornerOverFace(const Body& corners, std::uint32_t c, const Vec3& x, const Body& faces,
@@ -100,21 +131,24 @@ private:
       if (t.normal.cross(e).dot(x - t.v[m]) < -1e-9 * e.norm()) return;
     }
     const std::uint32_t key = (flipped ? 1u << 30 : 0u) + c;
-    for (const ManifoldPoint& p : found_)  // on a seam it is over both faces
-      if (p.key == key && p.gap.normal.dot(flipped ? Vec3(-n) : n) > 0.999) return;
+    for (std::size_t f = 0; f < keys_.size(); ++f)  // on a seam it is over both faces
+      if (keys_[f] == key && found_[f].gap.normal.dot(flipped ? Vec3(-n) : n) > 0.999) return;
     if (!corners.facesAgainst(c, n) || (height < 0 && !faces.nothingNearer(x, -height))) return;
     if (flipped)
-      found_.push_back({{height, x, -n, true, -1}, key, Carrier::B});
+      add({{height, x, -n, true, -1}, key, Carrier::B});
     else
-      found_.push_back({{height, x - height * n, n, true, triangle}, key, Carrier::A});
+      add({{height, x - height * n, n, true, triangle}, key, Carrier::A});
   }
 
-  /// False if the edge is none that sticks out, or another triangle's.
-  static bool edgeOf(const Body& body, std::uint32_t i, const Triangle& t, std::size_t k, double side,
-                     Edge& e) {
+  /// False of an edge that is another triangle's, and of most that stick out nowhere.
+  static bool mayStickOut(const Triangle& t, std::uint32_t i, std::size_t k, double side) {
     const std::int32_t next = t.next[k];
-    if (next >= 0 && static_cast<std::uint32_t>(next) < i) return false;
-    if (side > 0 && t.merged[k]) return false;
+    return !(next >= 0 && static_cast<std::uint32_t>(next) < i) && !(side > 0 && t.merged[k]);
+  }
+
+  /// False if the edge is none that sticks out.
+  static bool edgeOf(const Body& body, const Triangle& t, std::size_t k, double side, Edge& e) {
+    const std::int32_t next = t.next[k];
     e.p = t.v[k], e.d = t.v[(k + 1) % 3] - e.p;
     e.border = next < 0;
     e.out[0] = e.d.cross(t.normal).normalized();
@@ -147,12 +181,18 @@ private:
       if (n.dot(b.out[k]) < kWedge || n.dot(a.out[k]) > -kWedge) return;
     const Vec3 on = b.p + t * b.d;
     const auto key = static_cast<std::uint32_t>((i * 73856093u ^ j * 19349663u) | (1u << 31));
-    found_.push_back({{gap, on, n, false, -1}, key, Carrier::None});
+    add({{gap, on, n, false, -1}, key, Carrier::None});
+  }
+
+  void add(ManifoldPoint p) {
+    keys_.push_back(p.key);
+    found_.push_back(std::move(p));
   }
 
   const Body &a_, &b_;
-  double margin_, sunkA_, sunkB_;
+  double margin_, sunkA_, sunkB_, reach_;
   std::vector<ManifoldPoint>& found_;
+  std::vector<std::uint32_t> keys_;  ///< of found_, to be searched
 };
 
 /// Keeps the deepest point and the widest spread, the same ones while they differ only by rounding.

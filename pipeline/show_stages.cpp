@@ -52,7 +52,7 @@ void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
   WallView view = parts_.walls[wall];
   if (shown.eyeSeparation >= 0) view.eyeSeparation = shown.eyeSeparation;
-  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), list);
+  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), stillCasters_, list);
   if (view.camera) return;  // somebody else's, not the visitor's
   if (shown.swapEyes && list.eyeCount == 2) std::swap(list.eyes[0], list.eyes[1]);
   if (shown.black) makeBlack(list);

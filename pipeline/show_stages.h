@@ -94,6 +94,7 @@ private:
 
   ShowParts parts_;
   ChangeSet changes_;
+  StillCasters stillCasters_;
   SoundScape heard_;
   std::unique_ptr<WallContext[]> contexts_;
   std::vector<EyePictures> pictures_;

@@ -92,7 +92,8 @@ void setSky(const SkyRecord& sky, DrawList& out) {
 
 }  // namespace
 
-CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, DrawList& out) {
+CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, StillCasters& still,
+                    DrawList& out) {
   out.ticket.signature = *state.signature;
   out.wall = index;
   out.opaque.clear(), out.transparent.clear();
@@ -107,17 +108,14 @@ CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t i
   setSky(*state.sky, out);
 
   ListFiller filler(volume, out);
-  ShadowCull shadows(state, out);
-  const auto consider = [&](const InstanceRecord& r) {
-    filler.consider(r, r.owner);
-    shadows.consider(r);
-  };
+  ShadowCull shadows(state, still, out);
   for (const ChunkId id : state.chunks) {
     const ChunkView chunk = state.chunk(id);
     for (std::size_t i = 0; i < chunk.records.size(); ++i)
-      if (!((chunk.hidden[i / 64] >> (i % 64)) & 1)) consider(chunk.records[i]);
+      if (!((chunk.hidden[i / 64] >> (i % 64)) & 1))
+        filler.consider(chunk.records[i], chunk.records[i].owner);
   }
-  for (const InstanceRecord& r : state.instances) consider(r);
+  for (const InstanceRecord& r : state.instances) filler.consider(r, r.owner), shadows.consider(r);
   if (from) view.camera->addTo(out, *state.viewer);
 
   // The order must not depend on where records lie, only on what they are.

@@ -73,13 +73,13 @@ void DeskVisitor::setButton(std::uint32_t button, bool down) {
   const std::lock_guard lock(mutex_);
   const std::uint32_t bit = 1u << button;
   buttons_ = down ? buttons_ | bit : buttons_ & ~bit;
-  if (down) pressed_ |= bit;
+  (down ? pressed_ : letGo_) |= bit;
 }
 
 void DeskVisitor::setGamepad(const std::array<double, kTrackerAxes>& axes, std::uint32_t buttons) {
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < axes.size(); ++i) padAxes_[i] = std::clamp(orZero(axes[i]), -1.0, 1.0);
-  pressed_ |= buttons & ~padButtons_;
+  pressed_ |= buttons & ~padButtons_, letGo_ |= padButtons_ & ~buttons;
   padButtons_ = buttons;
 }
 
@@ -122,8 +122,9 @@ void DeskVisitor::sampleAt(Nanoseconds showTime, InputSample& sample) {
   sample.time = showTime;
   sample.trackers = {tracker("head", head(), showTime), tracker("wand", {hand_, head().q}, showTime)};
   TrackerSample& wand = sample.trackers[1];
-  wand.buttons = buttons_ | padButtons_ | pressed_;
-  pressed_ = 0;
+  const std::uint32_t between = down_ & letGo_ & pressed_;  // let go and pressed again: up now, down then
+  wand.buttons = down_ = (buttons_ | padButtons_ | pressed_) & ~between;
+  pressed_ = between, letGo_ = 0;
   for (std::size_t i = 0; i < axes_.size(); ++i)
     wand.axes[i] = static_cast<float>(std::clamp(axes_[i] + padAxes_[i], -1.0, 1.0));
 }

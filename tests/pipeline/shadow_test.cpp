@@ -57,6 +57,7 @@ struct Yard {
     state.lights = lights;
     const ShadowRecord rings = places.follow(head);
     state.shadows = &rings;
+    state.instances = things;
     DrawList out;
     out.origin = head;
     out.eyeCount = 1;
@@ -65,7 +66,8 @@ struct Yard {
     for (std::size_t k = 0; k < 3; ++k) light.direction[k] = static_cast<float>(lights[0].direction[k]);
     light.shadows = lights[0].range > 0;
     out.lights = {light};
-    ShadowCull casters(state, out);
+    StillCasters still;
+    ShadowCull casters(state, still, out);
     for (const InstanceRecord& r : things) {
       casters.consider(r);
       DrawItem item;
