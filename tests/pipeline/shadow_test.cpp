@@ -207,7 +207,7 @@ TEST(Shadows, AShowWithoutThemCarriesNothingForThem) {
   const DrawList list = yard.list();
   EXPECT_EQ(list.shadows.light, -1);
   for (const DrawShadowRing& ring : list.shadows.rings)
-    EXPECT_TRUE(ring.still.empty() && ring.moving.empty());
+    EXPECT_TRUE(!ring.still && ring.moving.empty());
 }
 
 TEST(Shadows, GlassAndWhatIsHiddenCastNone) {
@@ -215,7 +215,7 @@ TEST(Shadows, GlassAndWhatIsHiddenCastNone) {
   yard.add(MeshMaker(matt(0.2f, 0.5f, 0.5f, 0.3f)).box({-1, -1, 1}, {1, 1, 2}).seal(), Affine::Identity());
   yard.addCrate(at(0, 0, 1));
   yard.things.back().flags &= ~InstanceRecord::kShown;
-  for (const DrawShadowRing& ring : yard.list().shadows.rings) EXPECT_TRUE(ring.still.empty());
+  for (const DrawShadowRing& ring : yard.list().shadows.rings) EXPECT_TRUE(ring.still->empty());
 }
 
 TEST(Shadows, WhatMovesIsDrawnOnlyIntoTheRingsWhereItIsLookedUp) {
@@ -227,7 +227,7 @@ TEST(Shadows, WhatMovesIsDrawnOnlyIntoTheRingsWhereItIsLookedUp) {
     std::string rings;
     const DrawList list = yard.list();
     for (const DrawShadowRing& ring : list.shadows.rings)
-      rings += std::to_string(ring.still.size() + ring.moving.size());
+      rings += std::to_string(ring.still->size() + ring.moving.size());
     return rings;
   };
   EXPECT_EQ(ringsOf(3, true), "1000");
