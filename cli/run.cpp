@@ -9,10 +9,10 @@
 #include "cli/run_output.h"
 #include "cli/run_report.h"
 #include "cli/run_watch.h"
+#include "cli/show_recording.h"
 #include "cli/stop_signal.h"
 #include "engine/run_stopped.h"
 #include "pipeline/output/progress.h"
-#include "profiling/node_times.h"
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -97,8 +97,8 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
 
 /// Plays the show to its end and reports on it, unless it is to begin again: then there is no exit code yet.
 std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
-  NodeTimes nodeTimes;
-  NodeNames names;
+  std::optional<ShowRecording> recording;
+  if (o.profile) recording.emplace();
   ProgressBar progress(s.player->frames());
   const ShowStages* running = nullptr;
   FrameLoopOptions options = o.loopOptions(*s.player);
@@ -107,21 +107,22 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   parts.sink = s.output.get();
   if (s.displays) parts.sink = &s.displays->sink(), s.displays->fitPictures(parts.walls);
   parts.drawUnseen = !s.output;
-  parts.probe = o.profile ? &nodeTimes : nullptr;
+  parts.probe = recording ? &recording->probe() : nullptr;
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     s.watch->see(now, input, scene);
-    if (o.profile) names.see(scene);
+    if (recording) recording->see(scene);
     s.player->collect(running->shownFrame());
     progress.update(now.frame + 1);
   };
+  if (!s.displays) parts.shown = [&] { s.desk->pictureSeen(); };
   s.desk->addTo(parts, options);
   ShowStages stages(std::move(parts));
   running = &stages;
-  FrameLoop loop(stages, options, stop, o.profile ? &nodeTimes : nullptr);
+  FrameLoop loop(stages, options, stop, recording ? &recording->probe() : nullptr);
 
   const auto start = std::chrono::steady_clock::now();
-  const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, s.desk->queue()) : loop.run();
+  const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, *s.desk) : loop.run();
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
   if (outcome.nextGroup && !outcome.failure && !stop) return {};
@@ -129,7 +130,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   const int code =
       report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime()},
              s.output.get(), s.folder.get());
-  if (o.profile) tellDearest(nodeTimes, names, s.player->scene(), outcome.framesSimulated);
+  if (recording) tellProfile(*recording, *s.player, o.provider != "egl");
   return code;
 }
 

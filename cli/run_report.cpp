@@ -111,13 +111,11 @@ int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   return verdict.code(run.outcome.stopped);
 }
 
-void tellDearest(const NodeTimes& times, const NodeNames& names, const Scene& scene, std::uint64_t frames) {
-  frames = std::max<std::uint64_t>(1, frames);
-  std::fprintf(stderr, "\ndearest nodes in App (steady clock)\n   us/frame  visits  node\n");
-  for (const NodeCost& c : times.dearest(10))
-    std::fprintf(stderr, "%11.2f %7llu  %s%s\n", 1000 * c.total() / static_cast<double>(frames),
-                 static_cast<unsigned long long>(c.visits), names.of(c.node).c_str(),
-                 scene.load(c.node.load) ? "" : " (unloaded)");
+void tellProfile(ShowRecording& recording, const Player& player, bool software) {
+  constexpr std::size_t kNodes = 10;
+  std::vector<std::string> walls;
+  for (const WallEntry& w : player.walls().walls) walls.push_back(w.wall.name);
+  std::fprintf(stderr, "\n%s", toText(recording.figures(walls, software), kNodes).c_str());
 }
 
 }  // namespace stadion

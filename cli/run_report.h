@@ -1,11 +1,10 @@
 #pragma once
 /// What `run` says and writes when the show is over.
 
-#include "cli/node_names.h"
 #include "cli/run_options.h"
 #include "cli/run_watch.h"
+#include "cli/show_recording.h"
 #include "pipeline/output/run_summary.h"
-#include "profiling/node_times.h"
 
 namespace stadion {
 
@@ -26,7 +25,7 @@ struct FinishedRun {
 /// --out.
 int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder);
 
-/// Which nodes cost App the most, on stderr.
-void tellDearest(const NodeTimes& times, const NodeNames& names, const Scene& scene, std::uint64_t frames);
+/// Which nodes cost the most, on stderr.
+void tellProfile(ShowRecording& recording, const Player& player, bool software);
 
 }  // namespace stadion

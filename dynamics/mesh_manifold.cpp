@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 
 namespace stadion {
 namespace {
@@ -58,15 +60,30 @@ class Gather {
 public:
   Gather(const Body& a, const Body& b, double margin, std::vector<ManifoldPoint>& found)
       : a_(a), b_(b), margin_(margin), sunkA_(limitOf(a, b)), sunkB_(limitOf(b, a)),
-        reach_(1e-6 + std::max({margin, sunkA_, sunkB_})), found_(found) {}
+        reach_(1e-6 + std::max({margin, sunkA_, sunkB_})), found_(found), known_(a.tree.corners().size()),
+        corners_(std::make_unique_for_overwrite<Vec3[]>(known_.size())) {}
 
-  void run() {
-    MeshPairs(a_.tree, b_.tree, a_.X)
-        .each([&] { return margin_; }, [&](std::uint32_t i, std::uint32_t j,
-                                           const Triangle& t) { meet(i, t, j, b_.tree.triangles()[j]); });
+  /// False if no triangles of the two are within the margin.
+  bool run() {
+    bool any = false;
+    const auto place = [&](std::uint32_t i) {
+      const auto& c = a_.tree.cornersOf(i);
+      return Corners{{cornerOfA(c[0]), cornerOfA(c[1]), cornerOfA(c[2])}};
+    };
+    const auto look = [&](std::uint32_t i, std::uint32_t j, const Corners& t) {
+      any = true;
+      meet(i, t.v, j, b_.tree.triangles()[j]);
+    };
+    MeshPairs(a_.tree, b_.tree, a_.X).each([&] { return margin_; }, place, look);
+    return any;
   }
 
 private:
+  /// All that is needed of most triangles.
+  struct Corners {
+    std::array<Vec3, 3> v;
+  };
+
   /// How far the other may be below a face of this one.
   static double limitOf(const Body& faces, const Body& other) {
     return faces.tree.closed() ? kSunk * std::min(faces.size, other.size) : kSheet * other.size;
@@ -75,18 +92,29 @@ private:
     return faces.tree.closed() || t.normal.dot(other - t.v[0]) >= 0 ? 1 : -1;
   }
 
-  /// Most corners and edges of two triangles are far from each other: boxes say so first.
-  void meet(std::uint32_t i, const Triangle& ta, std::uint32_t j, const Triangle& tb) {
-    const double sideA = sideOf(a_, ta, b_.middle), sideB = sideOf(b_, tb, a_.middle);
-    const Aabb boxA = boxOf(ta.v), boxB = boxOf(tb.v), nearA = widened(boxA), nearB = widened(boxB);
+  /// A corner of a in the search frame, found when it is first asked for.
+  const Vec3& cornerOfA(std::uint32_t c) {
+    if (!known_[c]) known_[c] = true, corners_[c] = a_.X * a_.tree.corners()[c];
+    return corners_[c];
+  }
+
+  /// `va`: the corners of triangle i of a. Most corners and edges of two triangles are far from each other:
+  /// boxes say so first, and the rest of triangle i is hardly ever wanted.
+  void meet(std::uint32_t i, const std::array<Vec3, 3>& va, std::uint32_t j, const Triangle& tb) {
+    const double sideB = sideOf(b_, tb, a_.middle);
+    const Aabb boxA = boxOf(va), nearA = widened(boxA), nearB = widened(boxOf(tb.v));
+    std::optional<Triangle> made;
+    const auto ta = [&]() -> const Triangle& {
+      if (!made) made = a_.tree.triangles()[i], made->v = va, made->normal = a_.X.q * made->normal;
+      return *made;
+    };
     for (std::size_t k = 0; k < 3; ++k) {
       if (const std::uint32_t c = a_.tree.cornersOf(i)[k];
-          a_.tree.around(c).front() == i && contains(nearB, ta.v[k]))
-        cornerOverFace(a_, c, ta.v[k], b_, tb, sideB * tb.normal, sunkB_, static_cast<std::int32_t>(j),
-                       false);
+          a_.tree.around(c).front() == i && contains(nearB, va[k]))
+        cornerOverFace(a_, c, va[k], b_, tb, sideB * tb.normal, sunkB_, static_cast<std::int32_t>(j), false);
       if (const std::uint32_t c = b_.tree.cornersOf(j)[k];
           b_.tree.around(c).front() == j && contains(nearA, tb.v[k]))
-        cornerOverFace(b_, c, tb.v[k], a_, ta, sideA * ta.normal, sunkA_, -1, true);
+        cornerOverFace(b_, c, tb.v[k], a_, ta(), sideOf(a_, ta(), b_.middle) * ta().normal, sunkA_, -1, true);
     }
     std::array<Aabb, 3> around;  // the edges of b
     std::array<bool, 3> counts;
@@ -94,7 +122,13 @@ private:
       counts[l] = mayStickOut(tb, j, l, sideB);
       if (counts[l]) around[l] = widened(boxOf(edge(tb, l))), counts[l] = around[l].overlaps(boxA);
     }
-    if (!(counts[0] || counts[1] || counts[2])) return;
+    if (counts[0] || counts[1] || counts[2]) meetEdges(i, ta(), j, tb, sideB, around, counts);
+  }
+
+  /// Of the edges of b those that count, with a box around each that is wide enough.
+  void meetEdges(std::uint32_t i, const Triangle& ta, std::uint32_t j, const Triangle& tb, double sideB,
+                 const std::array<Aabb, 3>& around, const std::array<bool, 3>& counts) {
+    const double sideA = sideOf(a_, ta, b_.middle);
     for (std::size_t k = 0; k < 3; ++k) {
       if (!mayStickOut(ta, i, k, sideA)) continue;
       const Aabb box = boxOf(edge(ta, k));
@@ -193,6 +227,8 @@ private:
   double margin_, sunkA_, sunkB_, reach_;
   std::vector<ManifoldPoint>& found_;
   std::vector<std::uint32_t> keys_;  ///< of found_, to be searched
+  std::vector<bool> known_;          ///< which corners of a have been placed
+  std::unique_ptr<Vec3[]> corners_;
 };
 
 /// Keeps the deepest point and the widest spread, the same ones while they differ only by rounding.
@@ -232,7 +268,7 @@ const TriangleTree* trianglesOf(const Shape& shape, TriangleTree& sheet) {
   return &sheet;
 }
 
-void meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA, const TriangleTree& b,
+bool meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA, const TriangleTree& b,
                     const Pose& X_WB, const Vec3& middleB, double margin,
                     std::vector<ManifoldPoint>& points) {
   const Pose X_BW = X_WB.inverse();
@@ -242,10 +278,11 @@ void meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA
   };
   const Body ba = bodyOf(a, X_BW * X_WA, middleA), bb = bodyOf(b, {}, middleB);
   std::vector<ManifoldPoint> found;
-  Gather(ba, bb, margin, found).run();
+  const bool near = Gather(ba, bb, margin, found).run();
   thin(found, std::min(ba.size, bb.size));
   for (ManifoldPoint& p : found) p.gap.point = X_WB * p.gap.point, p.gap.normal = X_WB.q * p.gap.normal;
   points.insert(points.end(), found.begin(), found.end());
+  return near;
 }
 
 }  // namespace stadion

@@ -17,19 +17,42 @@ void makeBlack(DrawList& list) {
 
 ShowStages::ShowStages(ShowParts parts)
     : parts_(std::move(parts)), contexts_(std::make_unique<WallContext[]>(parts_.walls.size())),
-      pictures_(parts_.walls.size()) {}
+      pictures_(parts_.walls.size()) {
+  for (std::size_t wall = 0; wall < parts_.walls.size(); ++wall) contexts_[wall].view = parts_.walls[wall];
+}
 
 ShowStages::~ShowStages() = default;
 
 void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   InputSample input;
-  if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
-  parts_.input.sampleFrame(now.time - now.step, now.time, input);
+  {
+    const SpanScope span(parts_.probe, Span::Input);
+    if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
+    parts_.input.sampleFrame(now.time - now.step, now.time, input);
+  }
   parts_.scene.advance(now, input, changes_, parts_.probe);
-  parts_.state.publish(slot, changes_);
-  parts_.meshes.collect(shownFrame_);
-  hear(input, false);
-  if (parts_.observer) parts_.observer(now, input, parts_.scene);
+  {
+    const SpanScope span(parts_.probe, Span::Publish);
+    parts_.state.publish(slot, changes_);
+    parts_.meshes.collect(shownFrame_);
+  }
+  tellPublished();
+  if (parts_.sounds) {
+    const SpanScope span(parts_.probe, Span::Sound);
+    hear(input, false);
+  }
+  if (!parts_.observer) return;
+  const SpanScope span(parts_.probe, Span::Watching);
+  parts_.observer(now, input, parts_.scene);
+}
+
+/// For whom publishing was.
+void ShowStages::tellPublished() {
+  if (!parts_.probe || !parts_.probe->wantsShares(changes_.signature.frame, kNoWall)) return;
+  std::vector<NodeRef> owners;
+  for (const ChangeSet::Instance& i : changes_.instances)
+    if (i.record.radius >= 0) owners.push_back(i.record.owner);
+  parts_.probe->shared(Span::Publish, changes_.signature.frame, kNoWall, owners);
 }
 
 void ShowStages::hear(const InputSample& input, bool still) {
@@ -50,9 +73,10 @@ void ShowStages::still(std::size_t slot) {
 
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
-  WallView view = parts_.walls[wall];
-  if (shown.eyeSeparation >= 0) view.eyeSeparation = shown.eyeSeparation;
-  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), stillCasters_, list);
+  WallView& view = contexts_[wall].view;
+  view.eyeSeparation = shown.eyeSeparation >= 0 ? shown.eyeSeparation : parts_.walls[wall].eyeSeparation;
+  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), stillCasters_, list,
+           parts_.probe);
   if (view.camera) return;  // somebody else's, not the visitor's
   if (shown.swapEyes && list.eyeCount == 2) std::swap(list.eyes[0], list.eyes[1]);
   if (shown.black) makeBlack(list);
@@ -98,13 +122,14 @@ Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
   if (Failure f = enterContext(wall)) return f;
   WallContext& c = contexts_[wall];
   c.eyes = 0;  // until it is finished there is no picture
-  if (Failure f = toFailure(c.renderer->draw(list, parts_.giveUp))) return f;
+  if (Failure f = toFailure(c.renderer->draw(list, parts_.giveUp, parts_.probe))) return f;
   c.eyes = list.eyeCount, c.frame = list.ticket.signature.frame, c.read = false;
   const bool wanted = parts_.sink && parts_.sink->wants(list.ticket.signature);
   return wanted || list.ticket.last ? readPictures(wall) : std::nullopt;
 }
 
 Failure ShowStages::readPictures(std::size_t wall) {
+  const SpanScope span(parts_.probe, Span::Read);
   WallContext& c = contexts_[wall];
   pictures_[wall].frame = c.frame;
   pictures_[wall].eyes.resize(c.eyes);
@@ -131,6 +156,7 @@ void ShowStages::closeWall(std::size_t wall) {
 
 Failure ShowStages::swap(const TimeSignature& now) {
   shownFrame_ = now.frame;
+  if (parts_.shown) parts_.shown();
   if (parts_.sink && parts_.sink->wants(now)) return parts_.sink->take(now, pictures_);
   return {};
 }

@@ -53,6 +53,7 @@ struct ShowParts {
   FrameProbe* probe = nullptr;
   /// Once true, Draw gives up what it is at and the run ends. Any thread; null = never.
   std::function<bool()> giveUp{};
+  std::function<void()> shown{};       ///< all walls have shown a frame; on the Draw thread that swaps
   SoundPlayer* sounds = nullptr;       ///< null: nobody listens
   const OperatorDesk* desk = nullptr;  ///< null: nobody commands
 };
@@ -79,6 +80,7 @@ public:
 
 private:
   struct WallContext {
+    WallView view;  ///< as the operator has it; Cull's own
     std::unique_ptr<Target> target;
     std::unique_ptr<Renderer> renderer;
     std::atomic<std::thread::id> currentOn;  ///< the thread on which the context is current
@@ -87,6 +89,7 @@ private:
     bool read = false;                       ///< the last frame's pictures have been read back
   };
 
+  void tellPublished();
   void hear(const InputSample& input, bool still);
   Failure readPictures(std::size_t wall);
   Failure enterContext(std::size_t wall);

@@ -6,6 +6,7 @@
 /// Threads  pure but for `out`; any thread that holds a lease on the view's slot.
 
 #include "engine/display/frustum.h"
+#include "engine/frame_probe.h"
 #include "pipeline/cull/free_camera.h"
 #include "pipeline/cull/still_casters.h"
 #include "pipeline/draw/draw_list.h"
@@ -29,6 +30,6 @@ struct CullCounts {
 
 /// Fills `out` for wall number `index`, reusing its memory. `still` is the same for all walls.
 CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, StillCasters& still,
-                    DrawList& out);
+                    DrawList& out, FrameProbe* probe = nullptr);
 
 }  // namespace stadion

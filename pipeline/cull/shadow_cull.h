@@ -18,9 +18,10 @@ public:
   /// still. Expects the list's origin and lights to be set.
   ShadowCull(const SlotView& state, StillCasters& still, DrawList& out);
 
+  bool any() const { return shadows_.light >= 0; }
   /// Adds what has ever moved; of others nothing is to be done.
   void consider(const InstanceRecord& r) {
-    if (shadows_.light >= 0 && (r.flags & kMoves) != 0) cast(r);
+    if (any() && (r.flags & kMoves) != 0) cast(r);
   }
 
 private:

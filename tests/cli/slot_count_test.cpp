@@ -24,7 +24,7 @@ std::uint64_t hashOf(const DrawList& list) {
   for (const auto* items : {&list.opaque, &list.transparent})
     for (const DrawItem& item : *items) {
       for (const float m : item.model) h.add(static_cast<double>(m));
-      h.add(item.instance);
+      h.add(item.owner);
     }
   return h.value();
 }

@@ -220,18 +220,6 @@ TEST(ProgramUsage, WhatHappenedIsCountedWhenItIsTooMuchToTell) {
   EXPECT_EQ(summary.at("happened")[0].at("node"), "tick");
 }
 
-TEST(ProgramUsage, TheProfileNamesNodesByTheirPathAlsoOnceTheyAreUnloaded) {
-  const TemporaryFolder folder;
-  folder.write("part.evs", "timer( name=tick, period=0.001, repeat=on )\n");
-  const std::string show =
-      folder.write("show.evs", "scene( name=part, file=part.evs, ready=0 )\n"
-                               "timer( period=0.1, repeat=off, eventmessage=\"timesup, part, unload\" )\n");
-  const ProgramResult r = stadionProgram(shortRun(show, {"--profile"}, "30"));
-  ASSERT_EQ(r.status, 0) << r.err;
-  EXPECT_TRUE(has(r.err, "part/tick " + folder.path().string() + "/part.evs:1 (unloaded)\n")) << r.err;
-  EXPECT_TRUE(has(r.err, " (timer) " + show + ":2\n")) << r.err;
-}
-
 TEST(ProgramUsage, ErrorsInSubScenesAndModelsNameTheirFile) {
   const TemporaryFolder folder;
   folder.write("parts/inner.evs", "# one line\nobject( file=missing.obj )\ndynobject( file=flat.obj )\n");

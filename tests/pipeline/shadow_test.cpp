@@ -40,7 +40,7 @@ struct Yard {
   void add(std::unique_ptr<Mesh> mesh, const Affine& X, bool moves = false) {
     finish(*mesh);  // its bounds are needed here
     const MeshId id = meshes.add(std::move(mesh));
-    things.push_back(makeInstance(X, *meshes.find(id), id, true, 0));
+    things.push_back(makeInstance(X, *meshes.find(id), id, true, NodeRef{}));
     if (moves) things.back().flags |= kMoves;
   }
   void addGround(double half = 50) {
@@ -151,7 +151,7 @@ TEST(Shadows, WhatIsInTheMapsDoesNotDependOnWhatWasDrawnBefore) {
   const std::size_t mover = yard.things.size() - 1;
   const MeshId mesh = yard.things[mover].mesh;
   const auto go = [&](double x) {
-    yard.things[mover] = makeInstance(at(x, 0, 2), *yard.meshes.find(mesh), mesh, true, 0);
+    yard.things[mover] = makeInstance(at(x, 0, 2), *yard.meshes.find(mesh), mesh, true, NodeRef{});
     yard.things[mover].flags |= kMoves;
   };
   std::vector<DrawList> lists;
