@@ -56,7 +56,8 @@ void addCheckCommand(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand("check", "Look for mistakes in scripts and assets; draws nothing");
   command->add_option("SHOW", o->scripts, "scripts to check, with the sub-scenes and assets they name");
   command->add_option("--assets", o->models, "try to import every model below this folder and count");
-  command->add_option("--asset-root", o->roots, "further folder to look for assets in");
+  command->add_option("--asset-root", o->roots, "further folder to look for assets in; may be repeated")
+      ->allow_extra_args(false);  // what follows the folder is a script
   command->callback([o, &code] {
     if (o->scripts.empty() && o->models.empty()) {
       std::fprintf(stderr, "check: name a script, or a folder with --assets DIR\n");

@@ -178,7 +178,8 @@ void addFitCommand(CLI::App& app, int& code) {
   command->add_option("--gravity", o->gravity, "[m/s2] (9.80665)")->check(numberFrom(0, 1e3));
   command->add_option("--density", o->density, "of the air [kg/m3] (1.225)")->check(numberFrom(0, 1e4));
   command->add_option("--table", o->table, "where to write a table, if that is chosen (OBJECT-flight.csv)");
-  command->add_option("--asset-root", o->roots, "further folder to look for the model in");
+  command->add_option("--asset-root", o->roots, "further folder to look for the model in; may be repeated")
+      ->allow_extra_args(false);
   command->callback([o, &code] { code = fit(*o); });
 }
 

@@ -137,7 +137,8 @@ void addProfileCommand(CLI::App& app, int& code) {
       ->check(numberFrom(1e-6, 1e6))
       ->capture_default_str();
   command->add_option("--body", o->fidelity.bodies,
-                      "only this body is played with other models; may be repeated");
+                      "only this body is played with other models; may be repeated")
+      ->allow_extra_args(false);
   command
       ->add_option(
           "--finest", o->fidelity.finest,

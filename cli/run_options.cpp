@@ -56,8 +56,10 @@ void RunOptions::addTo(CLI::App& command) {
       .add_option("--gl", provider, "who draws: osmesa or egl (the same pixels), none: App and Cull alone")
       ->check(CLI::IsMember({"osmesa", "egl", "none"}))
       ->capture_default_str();
-  command.add_option("--trace", trace,
-                     "write where this node is in every frame to trace-NODE.csv in --out DIR");
+  command
+      .add_option("--trace", trace,
+                  "write where this node is in every frame to trace-NODE.csv in --out DIR; may be repeated")
+      ->allow_extra_args(false);
   trackers.addTo(command);
   spans.addTo(command);
   addOperatorTo(command);

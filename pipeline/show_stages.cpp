@@ -75,7 +75,8 @@ void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
   WallView& view = views_[wall];
   view.eyeSeparation = shown.eyeSeparation >= 0 ? shown.eyeSeparation : parts_.walls[wall].eyeSeparation;
-  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), list, parts_.probe);
+  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), stillCasters_, list,
+           parts_.probe);
   if (view.camera) return;  // somebody else's, not the visitor's
   if (shown.swapEyes && list.eyeCount == 2) std::swap(list.eyes[0], list.eyes[1]);
   if (shown.black) makeBlack(list);

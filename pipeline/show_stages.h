@@ -95,6 +95,7 @@ private:
 
   ShowParts parts_;
   ChangeSet changes_;
+  StillCasters stillCasters_;
   SoundScape heard_;
   WallContexts ownContexts_;
   WallContexts& contexts_;

@@ -71,7 +71,7 @@ Made makeText(const NodeRequest& r) {
   if (d.has(Attr::Background)) setColour(d.vec3(Attr::Background), style.background.emplace());
   style.align = d.choice<TextAlign>(Attr::Align);
   style.lit = d.flag(Attr::Lit);
-  return std::make_unique<TextNode>(r.self, r.name, r.place, withLineEnds(d.text(Attr::Text)), style);
+  return std::make_unique<TextNode>(r.self, r.name, r.place, unescaped(d.text(Attr::Text)), style);
 }
 
 Made makeMeasure(const NodeRequest& r) {

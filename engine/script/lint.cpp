@@ -129,7 +129,7 @@ private:
   }
 
   void warnOfMissing(std::string_view words, std::uint32_t where) {
-    for (const char32_t c : missingFrom(withLineEnds(words)))
+    for (const char32_t c : missingFrom(unescaped(words)))
       report_.warning(where, fmt::format("the letters of the show have no U+{:04X}; a box stands for it",
                                          static_cast<std::uint32_t>(c)));
   }

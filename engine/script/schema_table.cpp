@@ -464,8 +464,9 @@ constexpr AttributeSpec kRigRows[] = {
 };
 
 constexpr Event kUserTriggerEvents[] = {Event::Enter, Event::Exit};
-constexpr Event kWandTriggerEvents[] = {Event::Enter,   Event::Exit,    Event::Button1,
-                                        Event::Button2, Event::Button3, Event::Button4};
+constexpr Event kWandTriggerEvents[] = {Event::Enter,     Event::Exit,     Event::Button1,   Event::Button2,
+                                        Event::Button3,   Event::Button4,  Event::Button1Up, Event::Button2Up,
+                                        Event::Button3Up, Event::Button4Up};
 constexpr Event kTimerEvents[] = {Event::TimesUp};
 constexpr Event kSceneEvents[] = {Event::Loaded, Event::Unloaded};
 constexpr Event kPathEvents[] = {Event::Finished};
@@ -550,7 +551,11 @@ constinit const std::array<CommandSpec, kVerbCount> kCommands = {{
      "the body flies on with the velocity it was held with"},
     {Verb::Load, ArgumentKind::None, {Scene}, "load", "the scene appears after its `ready` time"},
     {Verb::Unload, ArgumentKind::None, {Scene}, "unload", "the scene goes after its `ready` time"},
-    {Verb::Say, ArgumentKind::Words, {Text}, "say [WORDS]", "shows these words; \\n ends a line"},
+    {Verb::Say,
+     ArgumentKind::Words,
+     {Text},
+     "say [WORDS]",
+     "shows these words; \\n ends a line, \\, is a comma"},
     {Verb::Start, ArgumentKind::None, {Measure}, "start", "the body's next impact is measured"},
 }};
 
@@ -575,6 +580,10 @@ constinit const std::array<EventSpec, kEventCount> kEvents = {{
     {Event::Won, "both throws have a result, and this one is farther, by a centimetre at least"},
     {Event::Lost, "both throws have a result, and the other is farther"},
     {Event::Drawn, "both throws have a result, and neither is farther"},
+    {Event::Button1Up, "button 1, of whose press the trigger told, was let go, wherever the device is then"},
+    {Event::Button2Up, "button 2, of whose press the trigger told, was let go, wherever the device is then"},
+    {Event::Button3Up, "button 3, of whose press the trigger told, was let go, wherever the device is then"},
+    {Event::Button4Up, "button 4, of whose press the trigger told, was let go, wherever the device is then"},
 }};
 
 }  // namespace stadion::schema_table
