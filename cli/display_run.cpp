@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <thread>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -24,13 +25,9 @@ WindowStereo windowStereoOf(StereoLayout layout) {
 }
 
 /// The same keys as in the terminal.
-std::optional<OperatorCommand> orderOf(Key key) {
+std::optional<OperatorCommand> windowOrderOf(Key key) {
   if (key == Key::Escape) return OperatorCommand{OperatorAction::End};
-  if (key == Key::Enter) return operatorCommandOf('\n');
-  const auto code = static_cast<std::uint32_t>(key);
-  if (code >= 127) return {};
-  const char c = static_cast<char>(code);
-  return operatorCommandOf(c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
+  return operatorCommandOf(key);
 }
 
 }  // namespace
@@ -51,28 +48,26 @@ void DisplayRun::fitPictures(std::vector<WallView>& views) const {
   }
 }
 
-FrameLoopOutcome DisplayRun::play(FrameLoop& loop, OperatorQueue& orders) {
+FrameLoopOutcome DisplayRun::play(FrameLoop& loop, LiveDesk& desk) {
   FrameLoopOutcome outcome;
+  std::vector<EyePictures> pictures;
+  TimeSignature now;
+  mailbox_.fetch(pictures, now);  // what the group before has left is not this one's
   std::atomic<bool> over = false;
   std::thread playing([&] {
     outcome = loop.run();
     over = true;
   });
-  std::vector<EyePictures> pictures;
-  TimeSignature shown;
-  bool told = false;
   while (!over) {
-    const std::vector<Key> keys = displays_->poll();
-    if (!told && !pictures.empty()) {
-      std::fprintf(stderr, "the walls are shown; Escape ends the show\n");
-      told = true;
-    }
-    for (const Key key : keys)
-      if (const auto order = orderOf(key)) orders.post(*order);
-    if (mailbox_.fetch(pictures, shown))
-      displays_->show(pictures);
-    else
+    for (const Key key : displays_->poll())
+      if (const auto order = windowOrderOf(key)) desk.queue().post(*order);
+    if (!mailbox_.fetch(pictures, now)) {
       std::this_thread::sleep_for(kNap);
+      continue;
+    }
+    displays_->show(pictures);
+    desk.pictureSeen();
+    if (!std::exchange(shown_, true)) std::fprintf(stderr, "the walls are shown; Escape ends the show\n");
   }
   playing.join();
   return outcome;

@@ -4,9 +4,9 @@
 ///
 /// Threads  main.
 
+#include "cli/live_desk.h"
 #include "cli/run_options.h"
 #include "cli/wall_displays.h"
-#include "pipeline/operator/operator_queue.h"
 #include "pipeline/output/picture_mailbox.h"
 
 #include <atomic>
@@ -25,7 +25,7 @@ public:
   void fitPictures(std::vector<WallView>& views) const;
   /// Plays the loop to its end. Keys pressed in the windows are the operator's (docs/operator.md); Escape
   /// ends the run.
-  FrameLoopOutcome play(FrameLoop& loop, OperatorQueue& orders);
+  FrameLoopOutcome play(FrameLoop& loop, LiveDesk& desk);
 
 private:
   DisplayRun(const RunOptions& options, const WallFile& walls) : options_(options), walls_(walls) {}
@@ -34,6 +34,7 @@ private:
   const WallFile walls_;  ///< a copy: the show it came from may be made anew
   std::unique_ptr<WallDisplays> displays_;
   PictureMailbox mailbox_;
+  bool shown_ = false;  ///< something has been
 };
 
 }  // namespace stadion

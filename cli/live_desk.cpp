@@ -9,7 +9,7 @@
 namespace stadion {
 namespace {
 
-void say(const std::string& line) {
+void sayInTerminal(const std::string& line) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 
@@ -18,14 +18,18 @@ std::string clockText(double seconds) {
   return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
+double seconds(std::chrono::steady_clock::duration d) {
+  return std::chrono::duration<double>(d).count();
+}
+
 }  // namespace
 
-std::unique_ptr<LiveDesk> LiveDesk::open(const RunOptions& options, Diagnostics& findings) {
-  std::unique_ptr<LiveDesk> desk(new LiveDesk(options));
+std::unique_ptr<LiveDesk> LiveDesk::open(const RunOptions& options, Diagnostics& findings, Say say) {
+  std::unique_ptr<LiveDesk> desk(new LiveDesk(options, say ? std::move(say) : sayInTerminal));
   if (options.trackers.device.empty()) return desk;
-  desk->trackers_ = TrackerDevice::open(options.trackers, say, findings);
+  desk->trackers_ = TrackerDevice::open(options.trackers, desk->say_, findings);
   if (!desk->trackers_) return nullptr;
-  say("trackers: " + desk->trackers_->description());
+  desk->say_("trackers: " + desk->trackers_->description());
   return desk;
 }
 
@@ -34,45 +38,37 @@ LiveDesk::~LiveDesk() = default;
 bool LiveDesk::begin(const Player& player, Diagnostics& findings) {
   desk_ = std::make_unique<OperatorDesk>(options_.wait, player.walls().eyeSeparation);
   const FrameLoopOptions loop = options_.loopOptions(player);
-  live_ = loop.delivery == Delivery::Latest;
+  live_ = options_.live || loop.delivery == Delivery::Latest;
   // Whoever plays faster than the clock has no ear for it.
-  if (loop.pace != Pace::Free) {
+  if (loop.pace != Pace::Free && !options_.noSound) {
     roots_ = AssetRoots::ofScript(options_.show.script);
     for (const std::string& root : options_.show.assetRoots) roots_.add(root);
-    sounds_ = std::make_unique<SoundPlayer>(roots_, say);
+    sounds_ = std::make_unique<SoundPlayer>(roots_, say_);
   }
   if (!live_) return true;
   if (options_.oscPort >= 0) {
-    auto osc = OscOperator::open(static_cast<std::uint16_t>(options_.oscPort), desk_->queue(), say);
+    auto osc = OscOperator::open(static_cast<std::uint16_t>(options_.oscPort), desk_->queue(), say_);
     if (!osc) return findings.error({}, "--osc: " + osc.error().message), false;
     osc_ = std::move(osc.value());
-    say(fmt::format("operator: OSC on UDP port {}", osc_->port()));
+    say_(fmt::format("operator: OSC on UDP port {}", osc_->port()));
   }
   keys_ = OperatorKeys::open(STDIN_FILENO, desk_->queue());
-  if (options_.wait && !keys_ && !osc_)
+  const bool hasWindows = options_.live || options_.display;
+  if (options_.wait && !keys_ && !osc_ && !hasWindows)
     return findings.error({}, "--wait: nobody can say start; there is no terminal and no --osc PORT"), false;
-  if (keys_) say("operator: keys in this terminal, h shows them");
+  if (keys_) sayInTerminal("operator: keys in this terminal, h shows them");
   return true;
 }
 
 void LiveDesk::beginGroup(Player& player, RunWatch& watch) {
-  if (groups() > 1) {
-    const double took = std::chrono::duration<double>(Clock::now() - ended_).count();
-    say(fmt::format("group {} begins, {:.2f} s after the last one; up {}", groups(), took,
-                    clockText(uptime())));
-  }
+  ready_ = Clock::now();
+  pictureAwaited_ = std::exchange(groupIsNew_, false);
   if (trackers_) player.takeInputFrom(trackers_->trackers());
+  visitorIsLive_ = player.inputIsLive();
   desk_->obey(player.decisions().orders);
   desk_->told = [this, &watch](std::uint64_t frame, const OperatorCommand& command) {
-    tell(command);
-    if (!isOfPresentation(command.action)) return;
-    // Written down is what came of it, whatever it was before.
-    const OperatorState& s = desk_->state();
-    const double value = command.action == OperatorAction::Black      ? s.shown.black
-                         : command.action == OperatorAction::SwapEyes ? s.shown.swapEyes
-                         : command.action == OperatorAction::Volume   ? s.volume
-                                                                      : s.eyeSeparation();
-    watch.order(frame, {command.action, value, false});
+    tell(command, watch.time());
+    if (isOfPresentation(command.action)) writeDown(frame, command, watch);
   };
   // What stands already stands from the first frame on.
   const Presentation& shown = desk_->state().shown;
@@ -80,16 +76,37 @@ void LiveDesk::beginGroup(Player& player, RunWatch& watch) {
   if (shown.swapEyes) watch.order(0, {OperatorAction::SwapEyes, 1, false});
   if (shown.eyeSeparation >= 0) watch.order(0, {OperatorAction::EyeSeparation, shown.eyeSeparation, false});
   if (desk_->state().volume != 1) watch.order(0, {OperatorAction::Volume, desk_->state().volume, false});
-  if (desk_->state().waiting) say("waiting for start");
+  if (desk_->state().waiting) say_("waiting for start");
+}
+
+// What came of it, whatever it was before.
+void LiveDesk::writeDown(std::uint64_t frame, const OperatorCommand& command, RunWatch& watch) const {
+  const OperatorState& s = desk_->state();
+  const double value = command.action == OperatorAction::Black      ? s.shown.black
+                       : command.action == OperatorAction::SwapEyes ? s.shown.swapEyes
+                       : command.action == OperatorAction::Volume   ? s.volume
+                                                                    : s.eyeSeparation();
+  watch.order(frame, {command.action, value, false});
+}
+
+void LiveDesk::pictureSeen() {
+  if (!pictureAwaited_.exchange(false)) return;
+  const auto asked = desk_->queue().nextGroupAsked();
+  say_(fmt::format("group {} begins: reset in {:.2f} s, first picture after {:.2f} s; up {}", groups(),
+                   seconds(ready_ - asked), seconds(Clock::now() - asked), clockText(uptime())));
 }
 
 void LiveDesk::endGroup() {
-  ended_ = Clock::now();
+  groupIsNew_ = true;
   desk_->beginGroup();
   if (trackers_) trackers_->trackers().restart();
+  silence();
+}
+
+void LiveDesk::silence() {
   if (!sounds_) return;
-  SoundScape silence;
-  sounds_->hear(silence, {});
+  SoundScape nothing;
+  sounds_->hear(nothing, {});
   sounds_->settle();
 }
 
@@ -104,28 +121,37 @@ void LiveDesk::addTo(ShowParts& parts, FrameLoopOptions& loop) {
   parts.sounds = sounds_.get();
   parts.desk = loop.desk = desk_.get();
   loop.playback = &desk_->playback();
+  parts.giveUp = [desk = desk_.get(), before = std::move(parts.giveUp)] {
+    return desk->leaving() || (before && before());
+  };
 }
 
 double LiveDesk::uptime() const {
-  return std::chrono::duration<double>(Clock::now() - opened_).count();
+  return seconds(Clock::now() - opened_);
 }
 
-void LiveDesk::tell(const OperatorCommand& command) const {
+void LiveDesk::tell(const OperatorCommand& command, Nanoseconds showTime) const {
   const OperatorState& s = desk_->state();
   const auto onOff = [](bool on) { return on ? " on" : " off"; };
-  std::string how;
+  std::string what(nameOf(command.action));
   switch (command.action) {
-  case OperatorAction::Pause: how = onOff(s.paused); break;
-  case OperatorAction::Black: how = onOff(s.shown.black); break;
-  case OperatorAction::SwapEyes: how = onOff(s.shown.swapEyes); break;
-  case OperatorAction::FreezeHead:
-    how = onOff(s.headFrozen) + std::string(trackers_ ? "" : " (without effect: there are no live trackers)");
+  case OperatorAction::Pause:
+    what = fmt::format("{} at {:.3f} s", s.paused ? "paused" : "going on", toSeconds(showTime));
     break;
-  case OperatorAction::EyeSeparation: how = fmt::format(" {:.4f} m", s.eyeSeparation()); break;
-  case OperatorAction::Volume: how = fmt::format(" {:.0f} %", 100 * s.volume); break;
+  case OperatorAction::Step:
+    if (options_.live) return;  // view tells of the picture
+    break;
+  case OperatorAction::Black: what += onOff(s.shown.black); break;
+  case OperatorAction::SwapEyes: what += onOff(s.shown.swapEyes); break;
+  case OperatorAction::FreezeHead:
+    what += onOff(s.headFrozen);
+    if (!visitorIsLive_) what += " (without effect: the head is a record's)";
+    break;
+  case OperatorAction::EyeSeparation: what += fmt::format(" {:.4f} m", s.eyeSeparation()); break;
+  case OperatorAction::Volume: what += fmt::format(" {:.0f} %", 100 * s.volume); break;
   default: break;
   }
-  say(fmt::format("operator: {}{} ({})", nameOf(command.action), how, clockText(uptime())));
+  say_(fmt::format("operator: {} ({})", what, clockText(uptime())));
 }
 
 }  // namespace stadion

@@ -1,14 +1,17 @@
 #pragma once
-/// What a live run has beside the show, longer than one group of visitors stays: the operator with keys and
-/// network, trackers, sounds, and the models that need not be read again.
+/// What a live show has beside it, longer than one group of visitors stays: the operator with keys and
+/// network, trackers, sounds, and the parts of a show that need not be made again. `run` and `view` have one
+/// each.
 ///
 /// Threads  main, but for what its parts say of theirs.
 
+#include "cli/kept_parts.h"
 #include "cli/operator_keys.h"
 #include "cli/run_options.h"
 #include "cli/run_watch.h"
 #include "pipeline/operator/osc_operator.h"
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 
@@ -16,39 +19,56 @@ namespace stadion {
 
 class LiveDesk {
 public:
-  /// Opens trackers and sounds. Null, with the reason in the findings, if the trackers cannot be opened.
-  static std::unique_ptr<LiveDesk> open(const RunOptions& options, Diagnostics& findings);
+  using Say = std::function<void(const std::string&)>;
+
+  /// Opens trackers. Null, with the reason in the findings, if they cannot be opened. `say` is given what
+  /// there is to tell, a line at a time, from any thread; none: it goes to the terminal.
+  static std::unique_ptr<LiveDesk> open(const RunOptions& options, Diagnostics& findings, Say say = {});
   ~LiveDesk();
 
-  /// Where models of a live run are kept from group to group; null: this run is for one.
-  ImportedMeshes* kept() { return live_ ? &kept_ : nullptr; }
+  /// What a live run keeps from group to group; null: this run is for one.
+  KeptParts* kept() { return live_ ? &kept_ : nullptr; }
 
-  /// The first show is there: opens what hears commands. False, with the reason in the findings, if it
-  /// cannot.
+  /// The first show is there: opens sounds and what hears commands. False, with the reason in the findings,
+  /// if it cannot.
   bool begin(const Player& player, Diagnostics& findings);
-  /// Tells of the group that is to begin, and what is written down of the operator's orders goes to `watch`.
+  /// A show is about to begin, of the next group or of the same one: what is written down of the operator's
+  /// orders goes to `watch`.
   void beginGroup(Player& player, RunWatch& watch);
+  /// A picture of the present show is seen: tells how long it took since the operator asked, once a group.
+  /// Any thread.
+  void pictureSeen();
   /// Where the record of the present group goes.
   std::string recordName() const;
-  /// The show is over; the next one is being made, and counts from now on.
+  /// The show is over; the next one is being made, for the next group.
   void endGroup();
+  /// Nothing is heard until the next show.
+  void silence();
 
   void addTo(ShowParts& parts, FrameLoopOptions& loop);
   /// Takes orders from elsewhere too, such as keys in a window.
   OperatorQueue& queue() { return desk_->queue(); }
+  Playback& playback() { return desk_->playback(); }
   std::uint64_t groups() const { return desk_->groups(); }
   double uptime() const;  ///< since it was opened [s]
 
 private:
-  explicit LiveDesk(const RunOptions& options) : options_(options), live_(!options.asksForEveryFrame()) {}
-  void tell(const OperatorCommand& command) const;
+  LiveDesk(const RunOptions& options, Say say)
+      : options_(options), say_(std::move(say)), live_(!options.asksForEveryFrame()) {}
+  void writeDown(std::uint64_t frame, const OperatorCommand& command, RunWatch& watch) const;
+  void tell(const OperatorCommand& command, Nanoseconds showTime) const;
 
   using Clock = std::chrono::steady_clock;
 
   const RunOptions& options_;
+  Say say_;
   bool live_;
-  Clock::time_point opened_ = Clock::now(), ended_{};
-  ImportedMeshes kept_;
+  bool visitorIsLive_ = false;
+  Clock::time_point opened_ = Clock::now();
+  Clock::time_point ready_{};  ///< the present group's show could begin
+  bool groupIsNew_ = false;
+  std::atomic<bool> pictureAwaited_ = false;
+  KeptParts kept_;
   AssetRoots roots_;
   std::unique_ptr<TrackerDevice> trackers_;
   std::unique_ptr<OperatorDesk> desk_;

@@ -4,6 +4,7 @@
 #include "cli/crash_report.h"
 #include "cli/exit_code.h"
 #include "engine/script/suggestion.h"
+#include "pipeline/output/sound_libraries.h"
 #include "pipeline/target/rasteriser_settings.h"
 
 #include <CLI/CLI.hpp>
@@ -64,6 +65,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "stadion: %s\n", wrong->message.c_str());
     return stadion::kBadInput;
   }
+  stadion::quietOpenAl();
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file that may not grow is a full disk: an error with a name, not the end
   try {

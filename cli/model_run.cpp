@@ -1,8 +1,8 @@
 #include "cli/model_run.h"
 
+#include "cli/show_recording.h"
 #include "dynamics/nodes/dyn_object_node.h"
 #include "dynamics/nodes/field_node.h"
-#include "profiling/node_times.h"
 
 #include <algorithm>
 
@@ -107,10 +107,10 @@ std::optional<PlayedShow> playWith(const ShowOptions& show, const BodyModel& mod
   };
   const auto player = Player::create(options, findings, report);
   if (!player) return {};
-  NodeTimes times;
+  ShowRecording recording({.samples = false});
   BodyWatch watch(player->scene(), model.body);
   ShowParts parts = player->parts(StereoLayout::Off);
-  parts.probe = &times;
+  parts.probe = &recording.probe();
   const ShowStages* running = nullptr;
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene&) {
     watch.look(now);
@@ -129,9 +129,9 @@ std::optional<PlayedShow> playWith(const ShowOptions& show, const BodyModel& mod
     return {};
   }
   PlayedShow played{outcome.framesSimulated, player->rate(), watch.take()};
-  for (const NodeCost& cost : times.dearest(~std::size_t{0}))
-    if (const Node* node = player->scene().find(cost.node); node && node->kind() == NodeKind::Dynamics)
-      played.milliseconds[cost.node] = cost.total();
+  for (const auto& [ref, cost] : recording.profile().nodes())
+    if (const Node* node = player->scene().find(ref); node && node->kind() == NodeKind::Dynamics)
+      played.milliseconds[ref] = cost.phases[0] + cost.phases[1] + cost.phases[2];
   return played;
 }
 

@@ -1,13 +1,15 @@
 #pragma once
 /// The operator's keys in the terminal that the show was started from.
 ///
-/// While it lives the terminal hands over each key at once and does not show it; Ctrl-C works as ever. Only
-/// if the standard input is a terminal and the program is in its foreground.
+/// While it lives the terminal hands over each key at once and does not show it (raw_terminal.h). Only if the
+/// standard input is a terminal and the program is in its foreground.
 ///
 /// Threads    one of its own, which posts into the queue.
-/// Ownership  borrows the queue; gives the terminal back as it was.
+/// Ownership  borrows the queue.
 
+#include "cli/raw_terminal.h"
 #include "pipeline/operator/operator_queue.h"
+#include "pipeline/target/window.h"
 
 #include <atomic>
 #include <memory>
@@ -19,6 +21,8 @@ namespace stadion {
 
 /// What a key asks for; nothing if it is none of ours.
 std::optional<OperatorCommand> operatorCommandOf(char key);
+/// The same, of a key that was pressed in a window.
+std::optional<OperatorCommand> operatorCommandOf(Key key);
 /// All keys, a line or two.
 std::string operatorKeysHelp();
 
@@ -31,11 +35,10 @@ public:
   OperatorKeys& operator=(const OperatorKeys&) = delete;
 
 private:
-  struct Terminal;
-  OperatorKeys(std::unique_ptr<Terminal> terminal, OperatorQueue& queue);
+  OperatorKeys(std::unique_ptr<RawTerminal> terminal, OperatorQueue& queue);
   void listen();
 
-  std::unique_ptr<Terminal> terminal_;
+  std::unique_ptr<RawTerminal> terminal_;
   OperatorQueue& queue_;
   std::atomic<bool> ending_ = false;
   std::thread thread_;

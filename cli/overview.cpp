@@ -89,15 +89,21 @@ std::unique_ptr<const Mesh> roomMesh(const WallFile& walls) {
   return figure.take("the room's walls");
 }
 
-/// From the eyes down, looking along +Y; the origin is the head's.
-std::unique_ptr<const Mesh> visitorMesh() {
+/// Looking along +Y; the origin is between the eyes.
+std::unique_ptr<const Mesh> headMesh() {
   Figure figure(kFigure);
-  figure.beam({0, -0.02, -0.12}, {0, -0.02, 0.12}, 0.17, 0.2);   // head
-  figure.beam({0, 0.05, -0.02}, {0, 0.14, -0.02}, 0.04, 0.05);   // nose
+  figure.beam({0, -0.02, -0.12}, {0, -0.02, 0.12}, 0.17, 0.2);  // head
+  figure.beam({0, 0.05, -0.02}, {0, 0.14, -0.02}, 0.04, 0.05);  // nose
+  return figure.take("the visitor's head");
+}
+
+/// From the eyes down, turned as the head is, and upright.
+std::unique_ptr<const Mesh> bodyMesh() {
+  Figure figure(kFigure);
   figure.beam({0, -0.06, -0.85}, {0, -0.06, -0.2}, 0.42, 0.22);  // trunk
   figure.beam({-0.11, -0.06, -1.65}, {-0.11, -0.06, -0.85}, 0.14, 0.16);
   figure.beam({0.11, -0.06, -1.65}, {0.11, -0.06, -0.85}, 0.14, 0.16);
-  return figure.take("the visitor");
+  return figure.take("the visitor's body");
 }
 
 std::unique_ptr<const Mesh> wandMesh() {
@@ -105,6 +111,13 @@ std::unique_ptr<const Mesh> wandMesh() {
   figure.beam({0, -0.08, 0}, {0, 0.3, 0}, 0.04, 0.04);
   figure.beam({-0.06, 0.2, 0}, {0.06, 0.2, 0}, 0.03, 0.03);
   return figure.take("the wand");
+}
+
+/// The pose without its tilt.
+Pose upright(const Pose& X) {
+  const Vec3 ahead = X.q * Vec3::UnitY();
+  const double turn = ahead.head<2>().norm() > 1e-6 ? det::atan2(-ahead.x(), ahead.y()) : 0;
+  return {X.p, det::expRotation(Vec3(0, 0, turn))};
 }
 
 void add(DrawList& list, MeshId mesh, const Pose& X_WN) {
@@ -133,10 +146,10 @@ void OverviewPlace::zoom(double factor, const WallFile& walls) {
 
 Overview::Overview(MeshStore& meshes, const WallFile& walls, double aspect)
     : meshes_(meshes), walls_(walls), aspect_(aspect), room_(meshes.add(roomMesh(walls))),
-      visitor_(meshes.add(visitorMesh())), wand_(meshes.add(wandMesh())) {}
+      head_(meshes.add(headMesh())), body_(meshes.add(bodyMesh())), wand_(meshes.add(wandMesh())) {}
 
 Overview::~Overview() {
-  for (const MeshId mesh : {room_, visitor_, wand_}) meshes_.release(mesh, 0);
+  for (const MeshId mesh : {room_, head_, body_, wand_}) meshes_.release(mesh, 0);
 }
 
 void Overview::move(const OverviewPlace& place) {
@@ -174,7 +187,8 @@ std::optional<CameraView> Overview::view() const {
 
 void Overview::addTo(DrawList& list, const ViewerRecord& viewer) const {
   add(list, room_, viewer.rig());
-  add(list, visitor_, viewer.rig() * viewer.head());
+  add(list, head_, viewer.rig() * viewer.head());
+  add(list, body_, viewer.rig() * upright(viewer.head()));
   const std::lock_guard lock(mutex_);
   if (X_RT_) add(list, wand_, viewer.rig() * *X_RT_);
 }

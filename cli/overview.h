@@ -40,7 +40,7 @@ private:
   MeshStore& meshes_;
   const WallFile& walls_;
   double aspect_;
-  MeshId room_, visitor_, wand_;
+  MeshId room_, head_, body_, wand_;
   mutable std::mutex mutex_;
   OverviewPlace place_;
   std::optional<Pose> X_RT_;  ///< the wand

@@ -178,7 +178,7 @@ FrameLoopOptions Player::loopOptions() const {
 }
 
 ShowParts Player::parts(StereoLayout stereo) {
-  ShowParts parts{*scene_, state_, *meshes_, live_ ? *live_ : *input_, {}, nullptr, nullptr,
+  ShowParts parts{*scene_, state_, *meshes_, live_ ? *live_ : *input_, {}, nullptr, nullptr, nullptr,
                   true,    {},     nullptr};
   for (const WallEntry& entry : walls_.walls) {
     WallView view;

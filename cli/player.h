@@ -96,6 +96,7 @@ public:
   ShowParts parts(StereoLayout stereo);
   /// From now on the input is what this device says, not the log's. Before the first frame.
   void takeInputFrom(InputDevice& device) { live_ = &device; }
+  bool inputIsLive() const { return live_ != nullptr; }
   /// To be called after each App stage: unloaded files go when they are no longer shown.
   void collect(std::uint64_t shownFrame) { loader_->shown(shownFrame); }
 

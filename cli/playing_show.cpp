@@ -29,11 +29,14 @@ std::map<std::string, bool> subScenes(const Scene& scene) {
 
 std::unique_ptr<PlayingShow> PlayingShow::open(const ShowSurroundings& around, Diagnostics& findings) {
   std::unique_ptr<PlayingShow> show(new PlayingShow(around));
-  show->player_ = Player::create(around.options.show, findings, around.report, &show->stopping_);
+  show->player_ =
+      Player::create(around.options.show, findings, around.report, &show->stopping_, &around.kept->models);
   if (!show->player_) return nullptr;
   Player& player = *show->player_;
   if (around.visitor) player.takeInputFrom(*around.visitor);
-  show->watch_ = RunWatch::create(around.options, player, findings);
+  RunOptions recorded = around.options;
+  recorded.recordInput = around.desk.recordName();
+  show->watch_ = RunWatch::create(recorded, player, findings);
   if (!show->watch_) return nullptr;
   const SheetPlace& size = around.overviewSize;
   show->overview_ = std::make_unique<Overview>(player.meshes(), player.walls(),
@@ -62,6 +65,7 @@ ShowParts PlayingShow::parts() {
   parts.walls.push_back(outside);
   parts.provider = &around_.provider;
   parts.sink = &around_.sink;
+  parts.contexts = &around_.kept->contexts;
   parts.probe = &budget_;
   parts.giveUp = [this] { return stopping_.load(); };
   parts.observer = [this](const TimeSignature& now, const InputSample& input, const Scene& scene) {
@@ -72,17 +76,12 @@ ShowParts PlayingShow::parts() {
 
 void PlayingShow::start(const std::optional<ShowPlace>& place) {
   from_ = place;
-  stages_ = std::make_unique<ShowStages>(parts());
-  FrameLoopOptions options = player_->loopOptions();
+  FrameLoopOptions options = around_.options.loopOptions(*player_);
   options.walls += 1;  // the overview
-  options.delivery = player_->obeysLog() ? Delivery::Every : Delivery::Latest;
-  // A live show that drops frames ends with its log's last moment, not with its last frame's number.
-  if (around_.visitor)
-    options.frames = 0, options.end = 0;
-  else if (options.delivery == Delivery::Latest && player_->end() > 0)
-    options.frames = 0, options.end = player_->end();
-  options.pace = Pace::Lock;
-  options.playback = &around_.playback;
+  ShowParts show = parts();
+  around_.desk.beginGroup(*player_, *watch_);
+  around_.desk.addTo(show, options);
+  stages_ = std::make_unique<ShowStages>(std::move(show));
   loop_ = std::make_unique<FrameLoop>(*stages_, options, stopping_, &budget_);
   thread_ = std::thread([this] {
     outcome_ = loop_->run();

@@ -5,6 +5,7 @@
 /// rest
 ///          of what is const may be asked meanwhile.
 
+#include "cli/live_desk.h"
 #include "cli/overview.h"
 #include "cli/run_options.h"
 #include "cli/run_watch.h"
@@ -32,7 +33,9 @@ struct ShowSurroundings {
   const RunOptions& options;
   GlProvider& provider;
   PictureSink& sink;
-  Playback& playback;
+  LiveDesk& desk;
+  /// From one show of a script to the next; shows that are there at the same time and play have one each.
+  std::shared_ptr<KeptParts> kept;
   InputDevice* visitor = nullptr;        ///< null: the input log plays
   std::vector<SheetPlace> pictureSizes;  ///< by wall, where neither --size nor the wall file says
   SheetPlace overviewSize;
@@ -52,7 +55,8 @@ public:
   /// Ends it after the frame under way, and waits for that.
   void stop();
 
-  const WallFile& walls() const { return player_->walls(); }
+  const Player& player() const { return *player_; }
+  std::shared_ptr<KeptParts> kept() const { return around_.kept; }
   Overview& overview() { return *overview_; }
   RunWatch& watch() { return *watch_; }
   ShowPlace place() const;
@@ -63,6 +67,8 @@ public:
   Nanoseconds time() const { return time_; }
   /// Why it could not go on, if so. After stop().
   const Failure& failure() const { return outcome_.failure; }
+  /// Whether it ended because the operator asked for the next group. After stop().
+  bool nextGroup() const { return outcome_.nextGroup && !outcome_.failure; }
   std::string glDescription() const { return stages_ ? stages_->glDescription() : ""; }
 
 private:

@@ -1,10 +1,11 @@
-/// `stadion profile --fidelity SHOW`: how near each body comes to its finest model, and what would be
-/// cheaper.
+/// `stadion profile SHOW`: what the frames of a show are spent on, node by node; with --fidelity, how near
+/// each body comes to its finest model, and what would be cheaper.
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/fidelity.h"
 #include "cli/number_option.h"
+#include "cli/profile_run.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -16,16 +17,29 @@ namespace {
 
 struct Options {
   FidelityOptions fidelity;
+  ProfileRunOptions run;
+  std::size_t nodes = 25;
   double millimetres = 1;
-  bool askedFor = false, json = false;
+  bool fidelityAsked = false, json = false, csv = false, undrawn = false;
 };
 
-int profileShow(Options o) {
-  if (!o.askedFor) {
-    std::fprintf(stderr, "stadion: say what to look at: profile --fidelity %s\n",
-                 o.fidelity.show.script.c_str());
-    return kBadInput;
-  }
+int profileFrames(Options o) {
+  ProfileRunOptions& options = o.run;
+  options.show = o.fidelity.show;
+  options.layout = *stereoLayout(options.stereo);
+  options.drawn = !o.undrawn;
+  Diagnostics findings;
+  const bool settled = options.show.settle(findings);
+  const auto figures = settled ? profileShow(options, findings) : std::nullopt;
+  tell(findings);
+  if (!figures) return kBadInput;
+  std::printf("%s", o.json  ? (toJson(*figures) + "\n").c_str()
+                    : o.csv ? toCsv(*figures).c_str()
+                            : toText(*figures, o.nodes).c_str());
+  return kOk;
+}
+
+int profileModels(Options o) {
   FidelityOptions& options = o.fidelity;
   options.tolerance = 1e-3 * o.millimetres;
   options.show.walls = "desktop";
@@ -44,7 +58,12 @@ int profileShow(Options o) {
 }
 
 constexpr const char* kFooter =
-    R"(Every dynobject is listed with what stands for it: the shape that collides, the fields it is hooked to, how its
+    R"(The show is played as in run, and each node's share of the frame is told: App is timed in every frame, by node;
+Cull by wall, shared among the nodes that it looked at; Draw by drawing a few batches alone in some frames, in their
+place in the frame, until every node has had its turn. `visitor` stands for the trackers and for the eyes in front of the walls.
+`explained` says how much of what the stages took is found with nodes, or with parts of the stages themselves.
+
+With --fidelity, every dynobject is listed with what stands for it: the shape that collides, the fields it is hooked to, how its
 flight is computed (in closed form; by a series of order 16, in one medium; by steps of order 5, under other fields),
 its contact states, and its share of the dynamics node's time, by the arcs it begins.
 
@@ -69,10 +88,22 @@ void addProfileCommand(CLI::App& app, int& code) {
   auto o = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "profile",
-      "Say how exact and how dear the models of a show's bodies are, and which cheaper ones would do");
+      "Say what the frames of a show are spent on, node by node; or how exact and how dear the models of its "
+      "bodies are");
   ShowOptions& show = o->fidelity.show;
-  command->add_option("SHOW", show.script, "the script to play (.evs)")->required();
-  command->add_flag("--fidelity", o->askedFor,
+  show.addTo(*command);
+  command->add_option("--stereo", o->run.stereo, "pair, or off for one eye")
+      ->check(CLI::IsMember({"pair", "off"}))
+      ->capture_default_str();
+  command->add_option("--gl", o->run.provider, "who draws: osmesa or egl")
+      ->check(CLI::IsMember({"osmesa", "egl"}))
+      ->capture_default_str();
+  command->add_flag("--no-draw", o->undrawn, "App and Cull alone");
+  command->add_option("--nodes", o->nodes, "how many nodes are listed, the dearest first")
+      ->check(wholeNumberFrom(0, 1000000))
+      ->capture_default_str();
+  command->add_flag("--csv", o->csv, "a row a node, stage, wall and eye");
+  command->add_flag("--fidelity", o->fidelityAsked,
                     "each body's model, its error against the finest, and its cost");
   command->add_option("--tolerance", o->millimetres, "how far off a body may ever be [mm]")
       ->check(numberFrom(1e-6, 1e6))
@@ -92,10 +123,9 @@ void addProfileCommand(CLI::App& app, int& code) {
                    "how often each model but the finest is played; the least time counts")
       ->check(wholeNumberFrom(1, 99))
       ->capture_default_str();
-  show.addLengthTo(*command);
   command->add_flag("--json", o->json, "one JSON object");
   command->footer(kFooter);
-  command->callback([o, &code] { code = profileShow(*o); });
+  command->callback([o, &code] { code = o->fidelityAsked ? profileModels(*o) : profileFrames(*o); });
 }
 
 }  // namespace stadion

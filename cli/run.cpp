@@ -9,11 +9,11 @@
 #include "cli/run_output.h"
 #include "cli/run_report.h"
 #include "cli/run_watch.h"
+#include "cli/show_recording.h"
 #include "cli/span_recording.h"
 #include "cli/stop_signal.h"
 #include "engine/run_stopped.h"
 #include "pipeline/output/progress.h"
-#include "profiling/node_times.h"
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -30,8 +30,8 @@ constexpr std::chrono::seconds kDrawAfterStop{5};
 /// What a run needs. Anything that is not there is the user's affair; the findings say why.
 struct RunSetup {
   std::unique_ptr<OutputFolder> folder;  ///< null without --out
-  std::unique_ptr<LiveDesk> desk;
   std::unique_ptr<GlProvider> provider;
+  std::unique_ptr<LiveDesk> desk;
   std::unique_ptr<Player> player;
   std::unique_ptr<RunWatch> watch;
   std::unique_ptr<RunOutput> output;     ///< null without --out
@@ -72,6 +72,10 @@ bool beginGroup(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   return true;
 }
 
+ImportedMeshes* modelsOf(LiveDesk& desk) {
+  return desk.kept() ? &desk.kept()->models : nullptr;
+}
+
 /// Opens everything before anything is played, so that whatever is wrong is found first.
 bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostics& findings) {
   if (!o.out.empty() && !keep(OutputFolder::open(o.out), s.folder, findings)) return false;
@@ -79,7 +83,7 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
   if (o.provider != "none" && !keep(openGlProvider(kind), s.provider, findings)) return false;
   s.desk = LiveDesk::open(o, findings);
   if (!s.desk) return false;
-  s.player = Player::create(o.show, findings, tell, &stop, s.desk->kept());
+  s.player = Player::create(o.show, findings, tell, &stop, modelsOf(*s.desk));
   if (!s.player) return false;
   if (s.provider && !canDraw(*s.provider, s.player->parts(o.layout), findings)) return false;
   s.spans = SpanRecording::create(o.spans, *s.player, findings);
@@ -102,7 +106,8 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
 
 /// Plays the show to its end and reports on it, unless it is to begin again: then there is no exit code yet.
 std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
-  NodeTimes nodeTimes;
+  std::optional<ShowRecording> recording;
+  if (o.profile) recording.emplace();
   ProgressBar progress(s.player->frames());
   const ShowStages* running = nullptr;
   FrameLoopOptions options = o.loopOptions(*s.player);
@@ -111,33 +116,36 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   parts.sink = s.output.get();
   if (s.displays) parts.sink = &s.displays->sink(), s.displays->fitPictures(parts.walls);
   parts.drawUnseen = !s.output;
-  FrameProbe* const probe = s.spans ? s.spans->probe() : o.profile ? &nodeTimes : nullptr;
+  if (s.desk->kept()) parts.contexts = &s.desk->kept()->contexts;
+  FrameProbe* const probe = s.spans ? s.spans->probe() : recording ? &recording->probe() : nullptr;
   parts.probe = probe;
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     s.watch->see(now, input, scene);
+    if (recording) recording->see(scene);
     s.player->collect(running->shownFrame());
     progress.update(now.frame + 1);
   };
+  if (!s.displays) parts.shown = [&] { s.desk->pictureSeen(); };
   s.desk->addTo(parts, options);
   ShowStages stages(std::move(parts));
   running = &stages;
   FrameLoop loop(stages, options, stop, probe);
 
   const auto start = std::chrono::steady_clock::now();
-  const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, s.desk->queue()) : loop.run();
+  const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, *s.desk) : loop.run();
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
   if (outcome.nextGroup && !outcome.failure && !stop) return {};
 
-  const int code = report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(),
-                           s.desk->uptime(), o.profile ? &nodeTimes : nullptr},
-                          s.output.get(), s.folder.get());
+  const int code =
+      report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime()},
+             s.output.get(), s.folder.get());
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;
   }
-  if (o.profile) tellDearest(nodeTimes, s.player->scene(), outcome.framesSimulated);
+  if (recording) tellProfile(*recording, *s.player, o.provider != "egl");
   return code;
 }
 
@@ -148,8 +156,8 @@ bool nextGroup(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
   if (const auto wrong = s.watch->finish()) findings.add(*wrong);
   s.watch.reset();
   s.player.reset();
-  s.desk->kept()->store().collect(~std::uint64_t{0});  // no frame shows it any more
-  s.player = Player::create(o.show, findings, tell, &stop, s.desk->kept());
+  s.desk->kept()->models.store().collect(~std::uint64_t{0});  // no frame shows it any more
+  s.player = Player::create(o.show, findings, tell, &stop, modelsOf(*s.desk));
   const bool well = s.player && beginGroup(o, s, findings);
   tell(findings);
   return well;

@@ -45,7 +45,7 @@ void RunOptions::addTo(CLI::App& command) {
       ->capture_default_str();
   command.add_flag("--sheets", sheets, "a contact sheet of all walls beside each frame's pictures");
   command.add_flag("--video", video, "a video of all walls (needs ffmpeg)");
-  command.add_flag("--profile", profile, "say which nodes cost App the most");
+  command.add_flag("--profile", profile, "say which nodes cost the most; stadion profile says more");
   command
       .add_option("--gl", provider, "who draws: osmesa or egl (the same pixels), none: App and Cull alone")
       ->check(CLI::IsMember({"osmesa", "egl", "none"}))
@@ -54,16 +54,21 @@ void RunOptions::addTo(CLI::App& command) {
                      "write where this node is in every frame to trace-NODE.csv in --out DIR");
   trackers.addTo(command);
   spans.addTo(command);
-  command
-      .add_option("--osc", oscPort, "listen for the operator's commands on this UDP port (docs/operator.md)")
-      ->check(wholeNumberFrom(0, 65535));
-  command.add_flag("--wait", wait, "stand at the first frame until the operator says start");
+  addOperatorTo(command);
   command.add_flag("--json", json, "the summary as one JSON object on stdout");
   command.footer("SIGINT (Ctrl-C) and SIGTERM end the run after the frames under way; all that was asked for "
                  "is written, and "
                  "the\nexit code is 130 or 143. The second one ends it at once. A further run into the same "
                  "--out DIR removes "
                  "the files of\nthe run before, and no others.");
+}
+
+void RunOptions::addOperatorTo(CLI::App& command) {
+  command
+      .add_option("--osc", oscPort, "listen for the operator's commands on this UDP port (docs/operator.md)")
+      ->check(wholeNumberFrom(0, 65535));
+  command.add_flag("--wait", wait, "stand at the first frame until the operator says start");
+  command.add_flag("--no-sound", noSound, "the show's sounds are not played");
 }
 
 bool RunOptions::settle(Diagnostics& findings) {
@@ -120,8 +125,8 @@ FrameLoopOptions RunOptions::loopOptions(const Player& player) const {
   l.delivery = everyFrameCounts(player) ? Delivery::Every : Delivery::Latest;
   // A live show that drops frames ends with its log's last moment, not with its last frame's number.
   if (l.delivery == Delivery::Latest && player.end() > 0) l.frames = 0, l.end = player.end();
-  if (display) l.pace = pace == "float" ? Pace::Float : Pace::Lock;
-  if (display) return l;
+  if (display || live) l.pace = pace == "float" ? Pace::Float : Pace::Lock;
+  if (display || live) return l;
   const bool free = pace.empty() ? (show.frames != 0 || show.seconds > 0 || !out.empty()) : pace == "free";
   l.pace = free ? Pace::Free : pace == "float" ? Pace::Float : Pace::Lock;
   return l;

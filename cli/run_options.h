@@ -19,6 +19,7 @@ struct RunOptions {
   SpanOptions spans;
   int oscPort = -1;  ///< where commands of the operator are listened for; -1: nowhere
   bool wait = false;
+  bool noSound = false;
   bool display = false;      ///< on the walls' outputs
   bool stereoGiven = false;  ///< else `stereo` is the standard
   bool live = false;         ///< by the clock, whatever else is asked for; no option
@@ -29,6 +30,8 @@ struct RunOptions {
 
   /// Expects that this object stays where it is until the command line has been read.
   void addTo(CLI::App& command);
+  /// Only those that are about the operator: where commands come from, how a group begins, sounds.
+  void addOperatorTo(CLI::App& command);
   /// Completes what depends on other options. Says what is wrong.
   bool settle(Diagnostics& findings);
 

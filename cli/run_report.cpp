@@ -1,7 +1,6 @@
 #include "cli/run_report.h"
 
 #include "cli/exit_code.h"
-#include "cli/span_recording.h"
 #include "cli/stop_signal.h"
 #include "engine/atomic_file.h"
 
@@ -97,21 +96,6 @@ void print(const RunOptions& o, const RunSummary& summary) {
 
 }  // namespace
 
-namespace {
-
-std::string nodeRows(const NodeTimes& times, const Scene& scene) {
-  std::vector<regression::SpanRow> rows;
-  for (const NodeCost& c : times.dearest(~std::size_t{0})) {
-    regression::SpanRow& row = rows.emplace_back();
-    nameNode(scene, c.node, row);
-    row.stage = "app", row.count = c.visits;
-    row.msMean = c.total() / static_cast<double>(std::max<std::uint64_t>(1, c.visits));
-  }
-  return regression::toJson(rows);
-}
-
-}  // namespace
-
 int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   Verdict verdict;
   verdict.add(run.outcome.failure);
@@ -125,24 +109,17 @@ int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   verdict.add(run.watch.finish());
   if (folder)
     for (const NodeTrace& t : run.watch.traces()) writeTable(t, *folder, summary, verdict);
-  if (run.nodeTimes) summary.nodes = nodeRows(*run.nodeTimes, run.player.scene());
   if (verdict.failure()) summary.failure = verdict.failure()->message;
   if (folder) writeSummary(*folder, summary, verdict);
   print(run.options, summary);
   return verdict.code(run.outcome.stopped);
 }
 
-void tellDearest(const NodeTimes& times, const Scene& scene, std::uint64_t frames) {
-  frames = std::max<std::uint64_t>(1, frames);
-  std::fprintf(stderr, "\ndearest nodes in App (steady clock)\n   us/frame  visits  node\n");
-  for (const NodeCost& c : times.dearest(10)) {
-    const Load* load = scene.load(c.node.load);
-    const std::string where =
-        load ? load->file + ":" + std::to_string(load->lines[c.node.position]) : "(unloaded)";
-    const Node* node = load ? load->nodes[c.node.position].get() : nullptr;
-    std::fprintf(stderr, "%11.2f %7llu  %s %s\n", 1000 * c.total() / static_cast<double>(frames),
-                 static_cast<unsigned long long>(c.visits), node ? node->name().c_str() : "", where.c_str());
-  }
+void tellProfile(ShowRecording& recording, const Player& player, bool software) {
+  constexpr std::size_t kNodes = 10;
+  std::vector<std::string> walls;
+  for (const WallEntry& w : player.walls().walls) walls.push_back(w.wall.name);
+  std::fprintf(stderr, "\n%s", toText(recording.figures(walls, software), kNodes).c_str());
 }
 
 }  // namespace stadion

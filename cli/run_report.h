@@ -3,8 +3,8 @@
 
 #include "cli/run_options.h"
 #include "cli/run_watch.h"
+#include "cli/show_recording.h"
 #include "pipeline/output/run_summary.h"
-#include "profiling/node_times.h"
 
 namespace stadion {
 
@@ -18,15 +18,14 @@ struct FinishedRun {
   RunWatch& watch;
   double elapsed;  ///< [s]
   std::uint64_t groups = 1;
-  double uptime = 0;                     ///< of all groups [s]
-  const NodeTimes* nodeTimes = nullptr;  ///< null: nobody asked
+  double uptime = 0;  ///< of all groups [s]
 };
 
 /// Completes every file and tells how it went. Returns the exit code. `output` and its folder: null without
 /// --out.
 int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder);
 
-/// Which nodes cost App the most, on stderr.
-void tellDearest(const NodeTimes& times, const Scene& scene, std::uint64_t frames);
+/// Which nodes cost the most, on stderr.
+void tellProfile(ShowRecording& recording, const Player& player, bool software);
 
 }  // namespace stadion

@@ -30,6 +30,8 @@ public:
   /// Completes the records; says what could not be written.
   std::optional<Diagnostic> finish();
 
+  /// Show time of the last frame seen.
+  Nanoseconds time() const { return last_.time; }
   const std::vector<NodeTrace>& traces() const { return traces_; }
   /// Writes down what was seen in `frames` frames.
   void addTo(RunSummary& summary, std::uint64_t frames) const;

@@ -1,5 +1,7 @@
 #include "cli/stop_signal.h"
 
+#include "cli/raw_terminal.h"
+
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -19,8 +21,10 @@ extern "C" void requestStop(int signal) {
   std::chrono::steady_clock::rep before = 0;
   if (receivedAt.compare_exchange_strong(before, now))
     received = signal, requested = true;
-  else if (now - before > kOneRequest.count())
+  else if (now - before > kOneRequest.count()) {
+    giveTerminalBack();
     std::_Exit(128 + signal);
+  }
 }
 
 }  // namespace

@@ -17,13 +17,16 @@ std::vector<std::string> viewKeys() {
           "buttons   left, right, middle: the wand's buttons 1, 2, 3",
           "1 2 3 4   the wand's buttons, too.  Home: stand in the middle again",
           "gamepad   left stick: joypad.  Right stick: look.  A B X Y: buttons 1 to 4",
-          "space     pause, go on",
+          "space P   pause, go on.  Enter: start, with --wait",
           ".         a single frame",
-          "[ ]       slower, as fast as the clock",
+          "[ ]       slower, as fast as the clock.  With shift: eyes closer, wider",
+          "N         next group: the show from its start",
+          "B X F     black walls; swap eyes; freeze the head",
+          "- +       the sounds' volume",
           "O         the room from outside; drag with the right button turns it, the wheel goes nearer",
           "F5        read the script again (so does saving it)",
           "F12       screenshot: the window and every wall's pictures",
-          "Esc       quit"};
+          "Esc Q     quit"};
 }
 
 void ViewOptions::addTo(CLI::App& command) {
@@ -48,6 +51,7 @@ void ViewOptions::addTo(CLI::App& command) {
       "--record-input", run.recordInput,
       "write what head, wand and joypad did to this input log; run and hash --input FILE come to "
       "the same state. The log ends where the script is read again");
+  run.addOperatorTo(command);
   command
       .add_option(
           "--gl", provider,

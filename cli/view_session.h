@@ -3,16 +3,17 @@
 /// last.
 ///
 /// The show plays on threads of its own (PlayingShow); this is the main thread's part: windows, keys, the
-/// text over the walls, screenshots, and reading a changed script again beside the show that goes on.
+/// text over the walls, screenshots, the next group, and reading a changed script again beside the show that
+/// goes on.
 ///
 /// Threads  main.
 
 #include "cli/playing_show.h"
 #include "cli/script_watch.h"
-#include "cli/show_windows.h"
 #include "cli/view_controls.h"
 #include "cli/view_hud.h"
 #include "cli/view_options.h"
+#include "cli/view_windows.h"
 #include "pipeline/output/picture_mailbox.h"
 
 #include <atomic>
@@ -45,28 +46,30 @@ private:
 
   explicit ViewSession(ViewOptions options)
       : options_(std::move(options)), files_(options_.run.show.script, options_.run.show.assetRoots) {}
-  bool openWindows(Diagnostics& findings);
   bool openDrawing(Diagnostics& findings);
-  ShowSurroundings surroundings();
+  ShowSurroundings surroundings(std::shared_ptr<KeptParts> kept);
 
   void takeEvents();
   void take(std::size_t window, const WindowEvent& event);
-  bool command(Key key);
-  void begin(const std::optional<ShowPlace>& place);
-  void setPaused(bool paused);
+  bool command(const WindowEvent& event);
+  bool viewersCommand(Key key);
+  bool operatorsCommand(Key key, bool shift);
+  void step();
   void changeSpeed(double factor);
   void moveOverview();
   void pollPad();
 
+  void takePictures();
+  void begin(const std::optional<ShowPlace>& place);
+  void afterTheEnd();
+  void nextGroup();
+  void putInPlace(std::unique_ptr<PlayingShow> show);
   void watchFiles();
   void beginReload(const char* why);
   void finishReload();
   void endShow();
 
-  std::vector<WindowPane> panesOf(std::size_t window) const;
-  std::vector<std::size_t> wallsOf(std::size_t window) const;
-  std::size_t overviewIndex() const { return walls_.walls.size(); }
-  void show(bool fresh);
+  void tellOfStep();
   void updateHud();
   HudFigures figures() const;
   void takeScreenshot();
@@ -74,15 +77,13 @@ private:
 
   ViewOptions options_;
   WallFile walls_;
-  std::unique_ptr<WindowSystem> system_;
-  std::vector<std::unique_ptr<ShowWindow>> windows_;
-  std::vector<SheetPlace> sizes_;  ///< of the walls' pictures
+  std::unique_ptr<ViewWindows> windows_;
   std::unique_ptr<GlProvider> provider_;
   DeskVisitor visitor_;
   ViewControls controls_{visitor_};
-  Playback playback_;
   PictureMailbox mailbox_;
   ViewHud hud_;
+  std::unique_ptr<LiveDesk> desk_;
   OverviewPlace overview_;
   ScriptWatch files_;
   std::unique_ptr<PlayingShow> show_;
@@ -92,10 +93,10 @@ private:
   Clock::time_point filesLookedAt_{}, hudDrawn_{}, padAsked_{};
   std::atomic<bool> ended_ = false;
   bool quit_ = false, stale_ = true;
-  bool begins_ = true;                        ///< nothing of this show has been shown yet
-  bool pausedByUser_ = false;                 ///< before it began
-  std::optional<std::uint64_t> steppedFrom_;  ///< a single frame was asked for: the first number it can have
-  int shots_ = 0;
+  bool begins_ = true;  ///< nothing of this show has been shown yet
+  bool over_ = false;   ///< it has ended, and the one after it has errors
+  /// Single frames were asked for: the first number that has not been told of.
+  std::optional<std::uint64_t> steppedFrom_;
   int code_ = 0;
 };
 

@@ -3,6 +3,14 @@
 #include <algorithm>
 
 namespace stadion {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// About what it takes to wake a thread and to wait for it again.
+constexpr std::chrono::nanoseconds kWaking{50'000};
+
+}  // namespace
 
 Crew::Crew(std::size_t threads) {
   for (std::size_t i = 1; i < threads; ++i) threads_.emplace_back([this] { help(); });
@@ -25,14 +33,19 @@ void Crew::run(std::size_t count, const std::function<void(std::size_t)>& piece)
     next_ = 0;
     ++round_;
   }
-  for (std::size_t i = 0; i < std::min(threads_.size(), count - std::min<std::size_t>(count, 1)); ++i)
-    begin_.notify_one();
+  work_ = 0;
+  if (worthIt_) callHelp(count);
   takePieces();
   std::unique_lock lock(mutex_);
   end_.wait(lock, [this] { return helping_ == 0; });
   piece_ = nullptr;  // who wakes up late finds nothing to do
+  worthIt_ = work_ > kWaking.count();
   for (const std::exception_ptr& e : thrown_)
     if (e) std::rethrow_exception(e);
+}
+
+void Crew::callHelp(std::size_t count) {
+  for (std::size_t i = 1; i < count && i <= threads_.size(); ++i) begin_.notify_one();
 }
 
 void Crew::help() {
@@ -51,11 +64,13 @@ void Crew::help() {
 }
 
 void Crew::takePieces() {
+  const Clock::time_point began = Clock::now();
   for (std::size_t i = next_++; i < count_; i = next_++) try {
       (*piece_)(i);
     } catch (...) {
       thrown_[i] = std::current_exception();
     }
+  work_ += std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - began).count();
 }
 
 }  // namespace stadion

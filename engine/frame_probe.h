@@ -1,25 +1,148 @@
 #pragma once
-/// Where the frame loop reports what it does. Implemented by the profiling floor; absent when nobody asks.
+/// Where the frame loop, the stages and the nodes report what they do. Implemented by the profiling floor;
+/// where nobody asks, there is no probe, and nothing is called.
 ///
-/// Threads  each function is called on the thread that does the work.
+/// Stretches of time (spans) nest strictly within a thread: a stage holds its parts, which hold nodes. Time
+/// within a stage that is in no part is the stage's own.
+///
+/// What cannot be timed a node at a time is timed together, and shared: `shared` says among whom, `drewAlone`
+/// what a few of them cost when nothing else was drawn.
+///
+/// Threads  each function is called on the thread that does the work; an implementation takes calls of
+///          several threads at a time.
 
 #include "engine/message.h"
 #include "engine/time_signature.h"
 
 #include <cstdint>
+#include <span>
+#include <string_view>
 
 namespace stadion {
 
-enum class Stage : std::uint32_t { App, Cull, Draw, Swap };
-enum class NodePhase : std::uint32_t { Receive, Simulate, Dispatch };
+/// What a stretch of time is spent on.
+enum class Span : std::uint8_t {
+  // The stages.
+  App,
+  Cull,
+  Draw,
+  Swap,
+  // Of a node, within App (the paper's figure 4).
+  Receive,
+  Simulate,
+  Dispatch,
+  // Of App beside the nodes' cycles.
+  Input,     ///< devices and logs are asked
+  Loading,   ///< files take effect or go
+  Mail,      ///< who is to be visited, with which messages
+  Crew,      ///< nodes that simulate side by side are waited for
+  Settle,    ///< what a node's cycle changed is taken up: its hash, who is woken by it
+  Publish,   ///< what changed, into the slot
+  Sound,     ///< what is heard
+  Watching,  ///< whoever looks on: hashes, reports, records
+  // Of Cull.
+  Eyes,         ///< cameras and what they can see, lights, sky
+  Test,         ///< spheres against what can be seen
+  Fill,         ///< what is seen, into the draw list
+  ShadowCasts,  ///< what casts shadows, into the rings' lists
+  Sort,
+  // Of Draw.
+  Prepare,     ///< batches and buffers
+  ShadowMaps,  ///< casters, as the light sees them
+  LeftEye,     ///< or the only one
+  RightEye,
+  Sky,      ///< clearing, and the sky where nothing was drawn
+  Resolve,  ///< samples become pixels
+  Finish,   ///< the rasteriser, or the graphics processor, completes what it was told
+  Read,     ///< pictures are read back
+  // Waits.
+  ForTick,   ///< App, for the clock
+  ForSlot,   ///< App, for Cull to give a slot back
+  ForFrame,  ///< Cull, for App
+  ForList,   ///< Cull, for Draw to give a list back
+  ForDraw,   ///< Draw, for Cull
+  ForTurn,   ///< Draw, for other walls that use the rasteriser
+  ForWalls,  ///< Draw, for the walls that are not done
+};
+constexpr std::size_t kSpans = static_cast<std::size_t>(Span::ForWalls) + 1;
+
+constexpr bool isStage(Span s) {
+  return s <= Span::Swap;
+}
+constexpr bool isOfNode(Span s) {
+  return s >= Span::Receive && s <= Span::Dispatch;
+}
+constexpr bool isWait(Span s) {
+  return s >= Span::ForTick;
+}
+std::string_view nameOf(Span span);
+
+/// Of each eye that is sampled.
+constexpr std::size_t kBatchesAFrame = 8;
+
+constexpr std::uint64_t kNoFrame = ~std::uint64_t{0};
+constexpr std::uint32_t kNoWall = ~std::uint32_t{0};
+
+/// What a probe wants of a wall's drawing of a frame, beside its spans. It changes no pixel, but takes time.
+enum class DrawSample : std::uint8_t {
+  None,
+  Whole,  ///< each eye alone, from an idle rasteriser to an idle rasteriser: what there is to be explained
+  Some,   ///< a few of the batches, each alone
+};
+
+/// Drawing that nothing else overlapped.
+struct DrawnAlone {
+  std::uint64_t frame = 0;
+  std::uint32_t wall = 0;
+  std::uint32_t eye = 0;  ///< 0 left or the only one, 1 right
+  Span what =
+      Span::LeftEye;   ///< the eye: everything of it; Draw: nodes; Sky, Resolve, ShadowMaps, Prepare: these
+  double ms = 0;       ///< without what drawing nothing takes
+  double emptyMs = 0;  ///< what drawing nothing takes
+};
 
 class FrameProbe {
 public:
   virtual ~FrameProbe() = default;
-  virtual void stageBegan(Stage, std::uint64_t frame, std::uint32_t wall) = 0;
-  virtual void stageEnded(Stage, std::uint64_t frame, std::uint32_t wall) = 0;
-  virtual void nodePhaseBegan(NodeRef, NodePhase) = 0;
-  virtual void nodePhaseEnded(NodeRef, NodePhase) = 0;
+
+  /// A stage, or a wait. kNoFrame: nobody knows yet for which frame; kNoWall: it is of no wall.
+  virtual void began(Span what, std::uint64_t frame, std::uint32_t wall) = 0;
+  /// Anything within a stage; of a node if that is valid.
+  virtual void began(Span what, NodeRef node) = 0;
+  virtual void ended(Span what) = 0;
+
+  /// Whether `shared` is wanted for this frame of that wall.
+  virtual bool wantsShares(std::uint64_t, std::uint32_t) const { return false; }
+  /// The last span `what` of this frame and wall was spent on these nodes, on all alike; who is named twice
+  /// cost twice.
+  virtual void shared(Span, std::uint64_t, std::uint32_t, std::span<const NodeRef>) {}
+
+  virtual DrawSample drawSample(std::uint64_t, std::uint32_t) const { return DrawSample::None; }
+  /// Which of `batches` batches of nodes is drawn alone next; those that follow it may be, too.
+  virtual std::size_t nextBatch(std::uint32_t, std::uint32_t, std::size_t) { return 0; }
+  /// What was drawn alone, and for which nodes, if for any.
+  virtual void drewAlone(const DrawnAlone&, std::span<const NodeRef>) {}
+};
+
+/// A span as a scope. Without a probe it does nothing.
+class SpanScope {
+public:
+  SpanScope(FrameProbe* probe, Span what, NodeRef node = {}) : probe_(probe), what_(what) {
+    if (probe_) probe_->began(what_, node);
+  }
+  SpanScope(FrameProbe* probe, Span what, std::uint64_t frame, std::uint32_t wall)
+      : probe_(probe), what_(what) {
+    if (probe_) probe_->began(what_, frame, wall);
+  }
+  ~SpanScope() {
+    if (probe_) probe_->ended(what_);
+  }
+  SpanScope(const SpanScope&) = delete;
+  SpanScope& operator=(const SpanScope&) = delete;
+
+private:
+  FrameProbe* probe_;
+  Span what_;
 };
 
 }  // namespace stadion

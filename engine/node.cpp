@@ -3,44 +3,22 @@
 #include "engine/scene/scene.h"
 
 namespace stadion {
-namespace {
-
-/// Tells the probe, if there is one, when a phase of a node begins and ends.
-class PhaseSpan {
-public:
-  PhaseSpan(FrameProbe* probe, NodeRef node, NodePhase phase) : probe_(probe), node_(node), phase_(phase) {
-    if (probe_) probe_->nodePhaseBegan(node_, phase_);
-  }
-  ~PhaseSpan() {
-    if (probe_) probe_->nodePhaseEnded(node_, phase_);
-  }
-  PhaseSpan(const PhaseSpan&) = delete;
-  PhaseSpan& operator=(const PhaseSpan&) = delete;
-
-private:
-  FrameProbe* probe_;
-  NodeRef node_;
-  NodePhase phase_;
-};
-
-}  // namespace
-
 void Node::begin(std::span<const Message> inbox, FrameContext& frame, FrameProbe* probe) {
   {
-    const PhaseSpan span(probe, self_, NodePhase::Receive);
+    const SpanScope span(probe, Span::Receive, self_);
     for (const Message& m : inbox) receive(m, frame);
   }
-  const PhaseSpan span(probe, self_, NodePhase::Simulate);
+  const SpanScope span(probe, Span::Simulate, self_);
   simulate(frame);
 }
 
 void Node::compute(FrameProbe* probe) {
-  const PhaseSpan span(probe, self_, NodePhase::Simulate);
+  const SpanScope span(probe, Span::Simulate, self_);
   simulateApart();
 }
 
 void Node::conclude(FrameContext& frame, FrameProbe* probe) {
-  const PhaseSpan span(probe, self_, NodePhase::Dispatch);
+  const SpanScope span(probe, Span::Dispatch, self_);
   afterSimulation(frame);
   dispatch(frame);
 }

@@ -15,8 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kNoWall = ~std::size_t{0};
-constexpr std::uint64_t kNoFrame = ~std::uint64_t{0};
+constexpr std::size_t kAllWalls = ~std::size_t{0};
 
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -25,13 +24,10 @@ double millisecondsSince(Clock::time_point start) {
 /// Times one stage of one frame, and tells the probe if there is one.
 class StageSpan {
 public:
-  StageSpan(DurationSeries& series, FrameProbe* probe, Stage stage, std::uint64_t frame, std::size_t wall)
-      : series_(series), probe_(probe), stage_(stage), frame_(frame),
-        wall_(static_cast<std::uint32_t>(wall)) {
-    if (probe_) probe_->stageBegan(stage_, frame_, wall_);
-  }
+  StageSpan(DurationSeries& series, FrameProbe* probe, Span stage, std::uint64_t frame,
+            std::uint32_t wall = kNoWall)
+      : series_(series), scope_(probe, stage, frame, wall) {}
   ~StageSpan() {
-    if (probe_) probe_->stageEnded(stage_, frame_, wall_);
     if (!counts_) return;
     try {
       series_.add(millisecondsSince(start_));
@@ -46,13 +42,14 @@ public:
 
 private:
   DurationSeries& series_;
-  FrameProbe* probe_;
-  Stage stage_;
-  std::uint64_t frame_;
-  std::uint32_t wall_;
+  SpanScope scope_;
   bool counts_ = true;
   Clock::time_point start_ = Clock::now();
 };
+
+std::uint32_t numberOf(std::size_t wall) {
+  return static_cast<std::uint32_t>(wall);
+}
 
 }  // namespace
 
@@ -76,6 +73,12 @@ FrameLoopOutcome FrameLoop::run() {
   outcome_.missedTicks = pacer_.missed();
   outcome_.stopped = stopped_;
   return outcome_;
+}
+
+template <class Wait>
+auto FrameLoop::waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait) {
+  const SpanScope span(probe_, what, frame, numberOf(wall));
+  return wait();
 }
 
 // One frame after the other, one stage after the other.
@@ -108,7 +111,7 @@ void FrameLoop::runPipelined() {
   StageThreads threads;
   threads.app = [&] {
     while (const auto turn = nextTurn()) {
-      const auto slot = slots.beginWrite();
+      const auto slot = waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return slots.beginWrite(); });
       if (!slot) return;
       const auto ticket = appStage(*turn, *slot);
       if (!ticket) break;
@@ -117,8 +120,9 @@ void FrameLoop::runPipelined() {
     slots.finish();
   };
   threads.cull = [&](std::size_t wall) {
-    while (const auto lease = slots.lease(wall)) {
-      DrawList* list = queues[wall].takeEmpty();
+    while (const auto lease = waited(Span::ForFrame, kNoFrame, wall, [&] { return slots.lease(wall); })) {
+      const std::uint64_t frame = lease->ticket.signature.frame;
+      DrawList* list = waited(Span::ForList, frame, wall, [&] { return queues[wall].takeEmpty(); });
       if (!list || !cullStage(wall, lease->slot, lease->ticket, *list)) return;
       list->abandoned = !slots.release(*lease);
       queues[wall].giveFilled(list);
@@ -127,11 +131,13 @@ void FrameLoop::runPipelined() {
   };
   threads.draw = [&](std::size_t wall) {
     if (!openStage(wall)) return;
-    while (DrawList* list = queues[wall].takeFilled()) {
+    const auto next = [&] { return queues[wall].takeFilled(); };
+    while (DrawList* list = waited(Span::ForDraw, kNoFrame, wall, next)) {
       if (!list->abandoned && !drawStage(wall, *list)) return;
       const FrameTicket ticket = list->ticket;
       bool shown = true;
-      if (!barrier.arrive([&] { shown = swapStage(ticket); }) || !shown) return;
+      const auto arrive = [&] { return barrier.arrive([&] { shown = swapStage(ticket); }); };
+      if (!waited(Span::ForWalls, ticket.signature.frame, wall, arrive) || !shown) return;
       queues[wall].giveEmpty(list);
     }
   };
@@ -153,12 +159,12 @@ void FrameLoop::runThreads(const StageThreads& work) {
     });
   };
   threads.reserve(1 + 2 * options_.walls);
-  guard("starting the threads", kNoWall, kNoFrame, [&]() -> Failure {
+  guard("starting the threads", kAllWalls, kNoFrame, [&]() -> Failure {
     for (std::size_t wall = 0; wall < options_.walls; ++wall) {
       start("Cull", wall, [&work, wall] { work.cull(wall); });
       start("Draw", wall, [this, &work, wall] { drawAndClose(work, wall); });
     }
-    start("App", kNoWall, work.app);
+    start("App", kAllWalls, work.app);
     return Failure();
   });
   if (broken_) work.stopAll();
@@ -174,7 +180,7 @@ void FrameLoop::drawAndClose(const StageThreads& work, std::size_t wall) {
 std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   if (nextIndex_ == 0 && stopRequested_) stopped_ = ended_ = true;
   if (ended_ || broken_) return std::nullopt;
-  const std::uint64_t ticks = pacer_.wait();
+  const std::uint64_t ticks = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return pacer_.wait(); });
   if (!takeCommands()) return std::nullopt;
   const double speed = options_.playback && nextIndex_ > 0 ? options_.playback->takeFrame() : 1;
   if (speed == 0) return Turn{lastSignature_, true};
@@ -232,7 +238,7 @@ bool FrameLoop::guard(const char* what, std::size_t wall, std::uint64_t frame, c
 bool FrameLoop::fail(const char* what, std::size_t wall, std::uint64_t frame, const char* why) noexcept {
   try {
     std::string text = what;
-    if (wall != kNoWall) text += " of wall " + std::to_string(wall + 1);
+    if (wall != kAllWalls) text += " of wall " + std::to_string(wall + 1);
     if (frame != kNoFrame) text += ", frame " + std::to_string(frame);
     return fail(Reason(text + ": " + why));
   } catch (...) {
@@ -245,15 +251,15 @@ std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slo
   FrameTicket ticket{now, Clock::now()};
   if (options_.desk) ticket.shown = options_.desk->state().shown;
   if (turn.still) {
-    if (!guard("App", kNoWall, now.frame, [&]() -> Failure { return stages_.still(slot), Failure(); }))
+    if (!guard("App", kAllWalls, now.frame, [&]() -> Failure { return stages_.still(slot), Failure(); }))
       return std::nullopt;
     if (stopRequested_) stopped_ = true;
     ticket.last = ended_ = stopped_ || ending_;
     return ticket;
   }
   {
-    const StageSpan span(times_.app, probe_, Stage::App, now.frame, 0);
-    if (!guard("App", kNoWall, now.frame, [&]() -> Failure { return stages_.app(now, slot), Failure(); }))
+    const StageSpan span(times_.app, probe_, Span::App, now.frame);
+    if (!guard("App", kAllWalls, now.frame, [&]() -> Failure { return stages_.app(now, slot), Failure(); }))
       return std::nullopt;
   }
   ++outcome_.framesSimulated;
@@ -267,7 +273,7 @@ bool FrameLoop::cullStage(std::size_t wall, std::size_t slot, const FrameTicket&
   bool well = true;
   list.ticket = ticket;
   if (ticket.drawn) {
-    const StageSpan span(times_.cull[wall], probe_, Stage::Cull, frame, wall);
+    const StageSpan span(times_.cull[wall], probe_, Span::Cull, frame, numberOf(wall));
     well = guard("Cull", wall, frame, [&]() -> Failure { return stages_.cull(wall, slot, list), Failure(); });
   }
   list.ticket = ticket;
@@ -285,7 +291,7 @@ void FrameLoop::closeStage(std::size_t wall) {
 bool FrameLoop::drawStage(std::size_t wall, const DrawList& list) {
   if (!list.ticket.drawn) return true;
   const std::uint64_t frame = list.ticket.signature.frame;
-  StageSpan span(times_.draw[wall], probe_, Stage::Draw, frame, wall);
+  StageSpan span(times_.draw[wall], probe_, Span::Draw, frame, numberOf(wall));
   if (guard("Draw", wall, frame, [&] { return stages_.draw(wall, list); })) return true;
   span.leaveOut();
   broken_ = true;  // given up, if it has not failed: the other walls would wait for this one
@@ -295,8 +301,8 @@ bool FrameLoop::drawStage(std::size_t wall, const DrawList& list) {
 bool FrameLoop::swapStage(const FrameTicket& ticket) {
   const TimeSignature& now = ticket.signature;
   {
-    const StageSpan span(times_.swap, probe_, Stage::Swap, now.frame, 0);
-    if (!guard("Swap", kNoWall, now.frame, [&] { return stages_.swap(now); })) return false;
+    const StageSpan span(times_.swap, probe_, Span::Swap, now.frame);
+    if (!guard("Swap", kAllWalls, now.frame, [&] { return stages_.swap(now); })) return false;
   }
   ++outcome_.framesShown;
   if (ticket.drawn) noteShown(ticket);

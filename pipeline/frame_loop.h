@@ -75,6 +75,8 @@ private:
     bool still = false;  ///< the show is paused: its last frame once more
   };
   std::optional<Turn> nextTurn();
+  template <class Wait>
+  auto waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait);
   bool takeCommands();
   TimeSignature signatureAfter(std::uint64_t ticks, double speed);
   bool noneFollows();

@@ -18,6 +18,8 @@ public:
 
   void setPaused(bool paused) { paused_ = paused; }
   bool paused() const { return paused_; }
+  /// Lets nothing through, whoever wants to go on or to step, as long as it holds.
+  void hold(bool holds) { held_ = holds; }
   /// Plays one frame at full speed, and pauses after it.
   void step() {
     paused_ = true;
@@ -31,6 +33,7 @@ public:
 
   /// How far the next frame goes, in parts of a frame: 0 = the show stands still.
   double takeFrame() {
+    if (held_) return 0;
     if (!paused_) return speed_;
     int waiting = steps_;
     while (waiting > 0 && !steps_.compare_exchange_weak(waiting, waiting - 1)) {
@@ -39,7 +42,7 @@ public:
   }
 
 private:
-  std::atomic<bool> paused_ = false;
+  std::atomic<bool> paused_ = false, held_ = false;
   std::atomic<int> steps_ = 0;
   std::atomic<double> speed_ = 1;
 };

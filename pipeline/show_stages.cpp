@@ -16,20 +16,43 @@ void makeBlack(DrawList& list) {
 }  // namespace
 
 ShowStages::ShowStages(ShowParts parts)
-    : parts_(std::move(parts)), contexts_(std::make_unique<WallContext[]>(parts_.walls.size())),
-      pictures_(parts_.walls.size()) {}
+    : parts_(std::move(parts)), contexts_(parts_.contexts ? *parts_.contexts : ownContexts_),
+      drawn_(parts_.walls.size()), views_(parts_.walls), pictures_(parts_.walls.size()) {
+  contexts_.resize(parts_.walls.size());
+}
 
 ShowStages::~ShowStages() = default;
 
 void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   InputSample input;
-  if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
-  parts_.input.sampleFrame(now.time - now.step, now.time, input);
+  {
+    const SpanScope span(parts_.probe, Span::Input);
+    if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
+    parts_.input.sampleFrame(now.time - now.step, now.time, input);
+  }
   parts_.scene.advance(now, input, changes_, parts_.probe);
-  parts_.state.publish(slot, changes_);
-  parts_.meshes.collect(shownFrame_);
-  hear(input, false);
-  if (parts_.observer) parts_.observer(now, input, parts_.scene);
+  {
+    const SpanScope span(parts_.probe, Span::Publish);
+    parts_.state.publish(slot, changes_);
+    parts_.meshes.collect(shownFrame_);
+  }
+  tellPublished();
+  if (parts_.sounds) {
+    const SpanScope span(parts_.probe, Span::Sound);
+    hear(input, false);
+  }
+  if (!parts_.observer) return;
+  const SpanScope span(parts_.probe, Span::Watching);
+  parts_.observer(now, input, parts_.scene);
+}
+
+/// For whom publishing was.
+void ShowStages::tellPublished() {
+  if (!parts_.probe || !parts_.probe->wantsShares(changes_.signature.frame, kNoWall)) return;
+  std::vector<NodeRef> owners;
+  for (const ChangeSet::Instance& i : changes_.instances)
+    if (i.record.radius >= 0) owners.push_back(i.record.owner);
+  parts_.probe->shared(Span::Publish, changes_.signature.frame, kNoWall, owners);
 }
 
 void ShowStages::hear(const InputSample& input, bool still) {
@@ -50,9 +73,9 @@ void ShowStages::still(std::size_t slot) {
 
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
-  WallView view = parts_.walls[wall];
-  if (shown.eyeSeparation >= 0) view.eyeSeparation = shown.eyeSeparation;
-  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), list);
+  WallView& view = views_[wall];
+  view.eyeSeparation = shown.eyeSeparation >= 0 ? shown.eyeSeparation : parts_.walls[wall].eyeSeparation;
+  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), list, parts_.probe);
   if (view.camera) return;  // somebody else's, not the visitor's
   if (shown.swapEyes && list.eyeCount == 2) std::swap(list.eyes[0], list.eyes[1]);
   if (shown.black) makeBlack(list);
@@ -60,33 +83,11 @@ void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
 
 Failure ShowStages::openWall(std::size_t wall) {
   if (!parts_.provider) return {};
-  auto target = parts_.provider->create(parts_.walls[wall].width, parts_.walls[wall].height);
-  if (!target) return Reason(target.error());
-  contexts_[wall].target = std::move(target.value());
-  if (Failure f = enterContext(wall)) return f;
-  auto renderer = Renderer::create(contexts_[wall].target->gl(), contexts_[wall].target->turns(),
-                                   parts_.meshes, parts_.walls[wall].width, parts_.walls[wall].height);
-  if (!renderer) return Reason(renderer.error());
-  contexts_[wall].renderer = std::move(renderer.value());
-  if (wall == 0) glDescription_ = describeGl(contexts_[wall].target->gl());
+  const WallView& view = parts_.walls[wall];
+  if (Failure f = contexts_.open(wall, *parts_.provider, parts_.meshes, view.width, view.height)) return f;
+  contexts_.renderer(wall).forgetTotals();
+  if (wall == 0) glDescription_ = describeGl(contexts_.gl(wall));
   return {};
-}
-
-// A thread that draws one wall enters its context once; a thread that draws all of them goes from one to the
-// next.
-Failure ShowStages::enterContext(std::size_t wall) {
-  const std::thread::id me = std::this_thread::get_id();
-  if (contexts_[wall].currentOn == me) return {};
-  for (std::size_t other = 0; other < parts_.walls.size(); ++other)
-    if (contexts_[other].currentOn == me) leaveContext(other);
-  if (Failure f = toFailure(contexts_[wall].target->makeCurrent())) return f;
-  contexts_[wall].currentOn = me;
-  return {};
-}
-
-void ShowStages::leaveContext(std::size_t wall) {
-  contexts_[wall].target->release();
-  contexts_[wall].currentOn = std::thread::id{};
 }
 
 bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {
@@ -95,43 +96,42 @@ bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {
 
 Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
   if (!parts_.provider) return {};
-  if (Failure f = enterContext(wall)) return f;
-  WallContext& c = contexts_[wall];
-  c.eyes = 0;  // until it is finished there is no picture
-  if (Failure f = toFailure(c.renderer->draw(list, parts_.giveUp))) return f;
-  c.eyes = list.eyeCount, c.frame = list.ticket.signature.frame, c.read = false;
+  if (Failure f = contexts_.enter(wall)) return f;
+  drawn_[wall].eyes = 0;  // until it is finished there is no picture
+  if (Failure f = toFailure(contexts_.renderer(wall).draw(list, parts_.giveUp, parts_.probe))) return f;
+  drawn_[wall] = {list.eyeCount, list.ticket.signature.frame, false, contexts_.renderer(wall).totals()};
   const bool wanted = parts_.sink && parts_.sink->wants(list.ticket.signature);
   return wanted || list.ticket.last ? readPictures(wall) : std::nullopt;
 }
 
 Failure ShowStages::readPictures(std::size_t wall) {
-  WallContext& c = contexts_[wall];
-  pictures_[wall].frame = c.frame;
-  pictures_[wall].eyes.resize(c.eyes);
-  for (std::uint32_t eye = 0; eye < c.eyes; ++eye) {
+  const SpanScope span(parts_.probe, Span::Read);
+  Drawn& drawn = drawn_[wall];
+  pictures_[wall].frame = drawn.frame;
+  pictures_[wall].eyes.resize(drawn.eyes);
+  for (std::uint32_t eye = 0; eye < drawn.eyes; ++eye) {
     Picture& p = pictures_[wall].eyes[eye];
     p = Picture(parts_.walls[wall].width, parts_.walls[wall].height);
-    if (Failure f = toFailure(c.renderer->read(eye, p.rgba))) return f;
+    if (Failure f = toFailure(contexts_.renderer(wall).read(eye, p.rgba))) return f;
   }
-  c.read = true;
+  drawn.read = true;
   return {};
 }
 
 void ShowStages::closeWall(std::size_t wall) {
-  WallContext& c = contexts_[wall];
-  if (!c.target) return;
-  if (!enterContext(wall)) {
-    // After a failure, or a wait that was given up, nobody knew which frame would be the last.
-    if (c.renderer && c.eyes > 0 && !c.read) readPictures(wall);
-    if (c.renderer) c.drawn = c.renderer->totals();
-    c.renderer.reset();
-    leaveContext(wall);
-  }
-  c.target.reset();
+  if (!parts_.provider) return;
+  // After a failure, or a wait that was given up, nobody knew which frame would be the last.
+  const bool wanted = drawn_[wall].eyes > 0 && !drawn_[wall].read && !(parts_.desk && parts_.desk->leaving());
+  if (contexts_.hasContext(wall) && !contexts_.enter(wall) && wanted) readPictures(wall);
+  if (parts_.contexts)
+    contexts_.leave(wall);
+  else
+    contexts_.close(wall);
 }
 
 Failure ShowStages::swap(const TimeSignature& now) {
   shownFrame_ = now.frame;
+  if (parts_.shown) parts_.shown();
   if (parts_.sink && parts_.sink->wants(now)) return parts_.sink->take(now, pictures_);
   return {};
 }

@@ -11,11 +11,10 @@
 #include "pipeline/stages.h"
 #include "pipeline/state/scene_state.h"
 #include "pipeline/target/target.h"
+#include "pipeline/wall_contexts.h"
 
 #include <atomic>
 #include <functional>
-#include <memory>
-#include <thread>
 #include <vector>
 
 namespace stadion {
@@ -48,11 +47,13 @@ struct ShowParts {
   std::vector<WallView> walls;
   GlProvider* provider = nullptr;  ///< null draws nothing
   PictureSink* sink = nullptr;
-  bool drawUnseen = true;  ///< false: only frames that the sink wants, and the last one, are drawn
+  WallContexts* contexts = nullptr;  ///< that outlive the show; null: it makes its own
+  bool drawUnseen = true;            ///< false: only frames that the sink wants, and the last one, are drawn
   AppObserver observer;
   FrameProbe* probe = nullptr;
   /// Once true, Draw gives up what it is at and the run ends. Any thread; null = never.
   std::function<bool()> giveUp{};
+  std::function<void()> shown{};       ///< all walls have shown a frame; on the Draw thread that swaps
   SoundPlayer* sounds = nullptr;       ///< null: nobody listens
   const OperatorDesk* desk = nullptr;  ///< null: nobody commands
 };
@@ -74,31 +75,31 @@ public:
   /// Of the frame drawn last; their number says which that is. For when the run is over.
   const std::vector<EyePictures>& lastPictures() const { return pictures_; }
   /// Of wall `wall`, by eye: what it was drawn with in all. For when the run is over.
-  const std::array<DrawTotals, 2>& drawn(std::size_t wall) const { return contexts_[wall].drawn; }
+  const std::array<DrawTotals, 2>& drawn(std::size_t wall) const { return drawn_[wall].totals; }
   std::string glDescription() const { return glDescription_; }
   /// The newest frame that all walls have shown. Any thread.
   std::uint64_t shownFrame() const { return shownFrame_; }
 
 private:
-  struct WallContext {
-    std::unique_ptr<Target> target;
-    std::unique_ptr<Renderer> renderer;
-    std::atomic<std::thread::id> currentOn;  ///< the thread on which the context is current
-    std::uint32_t eyes = 0;                  ///< drawn in the last frame
-    std::uint64_t frame = 0;                 ///< which that is
-    bool read = false;                       ///< the last frame's pictures have been read back
-    std::array<DrawTotals, 2> drawn{};       ///< by eye, when it has been closed
+  /// What a wall has drawn last.
+  struct Drawn {
+    std::uint32_t eyes = 0;
+    std::uint64_t frame = 0;
+    bool read = false;                   ///< the pictures have been read back
+    std::array<DrawTotals, 2> totals{};  ///< by eye, of all frames
   };
 
+  void tellPublished();
   void hear(const InputSample& input, bool still);
   Failure readPictures(std::size_t wall);
-  Failure enterContext(std::size_t wall);
-  void leaveContext(std::size_t wall);
 
   ShowParts parts_;
   ChangeSet changes_;
   SoundScape heard_;
-  std::unique_ptr<WallContext[]> contexts_;
+  WallContexts ownContexts_;
+  WallContexts& contexts_;
+  std::vector<Drawn> drawn_;     ///< by wall
+  std::vector<WallView> views_;  ///< by wall, as the operator has it; each its Cull's own
   std::vector<EyePictures> pictures_;
   std::atomic<std::uint64_t> shownFrame_ = 0;
   std::string glDescription_;

@@ -19,22 +19,25 @@ void LiveBudget::Mean::add(double value) {
   any = true;
 }
 
-void LiveBudget::stageBegan(Stage stage, std::uint64_t, std::uint32_t wall) {
+void LiveBudget::began(Span what, std::uint64_t, std::uint32_t wall) {
+  if (!isStage(what)) return;
   const std::lock_guard lock(mutex_);
-  means_[{stage, wall}].began = Clock::now();
+  walls_[{std::this_thread::get_id(), what}] = wall;
+  means_[{what, wall}].began = Clock::now();
 }
 
-void LiveBudget::stageEnded(Stage stage, std::uint64_t, std::uint32_t wall) {
+void LiveBudget::ended(Span what) {
+  if (!isStage(what)) return;
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
-  Mean& mean = means_[{stage, wall}];
+  Mean& mean = means_[{what, walls_[{std::this_thread::get_id(), what}]}];
   mean.add(millisecondsBetween(mean.began, now));
-  if (stage != Stage::Swap) return;
+  if (what != Span::Swap) return;
   if (period_.began != Clock::time_point{}) period_.add(millisecondsBetween(period_.began, now));
   period_.began = now;
 }
 
-double LiveBudget::slowest(Stage stage) const {
+double LiveBudget::slowest(Span stage) const {
   double most = 0;
   for (const auto& [who, mean] : means_)
     if (who.first == stage) most = std::max(most, mean.ms);
@@ -44,7 +47,7 @@ double LiveBudget::slowest(Stage stage) const {
 FrameBudget LiveBudget::now() const {
   const std::lock_guard lock(mutex_);
   const bool alive = Clock::now() - period_.began < kStill && period_.ms > 0;
-  return {slowest(Stage::App), slowest(Stage::Cull), slowest(Stage::Draw), alive ? 1000 / period_.ms : 0};
+  return {slowest(Span::App), slowest(Span::Cull), slowest(Span::Draw), alive ? 1000 / period_.ms : 0};
 }
 
 }  // namespace stadion

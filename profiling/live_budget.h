@@ -10,6 +10,7 @@
 #include <chrono>
 #include <map>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 namespace stadion {
@@ -22,10 +23,9 @@ struct FrameBudget {
 
 class LiveBudget final : public FrameProbe {
 public:
-  void stageBegan(Stage stage, std::uint64_t frame, std::uint32_t wall) override;
-  void stageEnded(Stage stage, std::uint64_t frame, std::uint32_t wall) override;
-  void nodePhaseBegan(NodeRef, NodePhase) override {}
-  void nodePhaseEnded(NodeRef, NodePhase) override {}
+  void began(Span what, std::uint64_t frame, std::uint32_t wall) override;
+  void began(Span, NodeRef) override {}
+  void ended(Span what) override;
 
   FrameBudget now() const;
 
@@ -38,11 +38,12 @@ private:
     void add(double value);
   };
 
-  double slowest(Stage stage) const;
+  double slowest(Span stage) const;
 
   mutable std::mutex mutex_;
-  std::map<std::pair<Stage, std::uint32_t>, Mean> means_;  ///< by stage and wall
-  Mean period_;                                            ///< from swap to swap
+  std::map<std::pair<Span, std::uint32_t>, Mean> means_;             ///< by stage and wall
+  std::map<std::pair<std::thread::id, Span>, std::uint32_t> walls_;  ///< whose stage a thread is in
+  Mean period_;                                                      ///< from swap to swap
 };
 
 }  // namespace stadion

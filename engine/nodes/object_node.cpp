@@ -6,7 +6,7 @@ namespace stadion {
 
 void ObjectNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
-  instance_ = scene.addInstance(placement(), appearance_.mesh, appearance_.drawn, self().position);
+  instance_ = scene.addInstance(placement(), appearance_.mesh, appearance_.drawn, self());
 }
 
 void ObjectNode::onLeave(Scene& scene) {

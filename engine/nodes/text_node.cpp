@@ -8,7 +8,7 @@ namespace stadion {
 
 void TextNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
-  instance_ = scene.addInstance(placement(), kNoMesh, true, self().position);
+  instance_ = scene.addInstance(placement(), kNoMesh, true, self());
   draw(scene);
 }
 

@@ -4,8 +4,7 @@
 
 namespace stadion {
 
-InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown,
-                            std::uint32_t owner) {
+InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, NodeRef owner) {
   InstanceRecord r{};
   for (int row = 0; row < 3; ++row)
     for (int col = 0; col < 4; ++col) r.model[4 * row + col] = X_WN.matrix()(row, col);

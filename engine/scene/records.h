@@ -5,6 +5,7 @@
 
 #include "engine/asset/mesh_store.h"
 #include "engine/maths/maths.h"
+#include "engine/message.h"
 #include "engine/time_signature.h"
 
 #include <cstdint>
@@ -27,13 +28,13 @@ struct InstanceRecord {
   float radius;      ///< [m]; < 0 = not there
   MeshId mesh;
   std::uint32_t flags;
-  std::uint32_t owner;  ///< position in its file, for profiling
+  NodeRef owner;  ///< for profiling
 
   static constexpr std::uint32_t kShown = 1, kTransparent = 2;
 };
-static_assert(std::is_trivially_copyable_v<InstanceRecord> && sizeof(InstanceRecord) == 136);
+static_assert(std::is_trivially_copyable_v<InstanceRecord> && sizeof(InstanceRecord) == 144);
 
-InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, std::uint32_t owner);
+InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, NodeRef owner);
 
 struct LightRecord {
   std::uint32_t kind = 0;                       ///< DrawLight::Kind

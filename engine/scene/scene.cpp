@@ -29,24 +29,37 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
   frame_ = now.frame;
   courses_.clear();
   impacts_.clear();
-  applyLoads(now);
+  {
+    const SpanScope span(probe, Span::Loading);
+    applyLoads(now);
+  }
   rigStart_ = rigPose();
   visit(now, input, probe);
-  applyUnloads(now);
+  {
+    const SpanScope span(probe, Span::Loading);
+    applyUnloads(now);
+  }
   lastInput_ = input;
+  settleTouched(probe);
+  std::ranges::stable_sort(events_, {}, &EventRecord::when);
+  const SpanScope span(probe, Span::Publish);
+  publish(now, input, changes);
+}
+
+void Scene::settleTouched(FrameProbe* probe) {
   for (const NodeRef ref : touched_) {
+    const SpanScope span(probe, Span::Settle, ref);
     const auto at = loads_.find(ref.load);
     if (at != loads_.end() && at->second->nodes[ref.position]) rehash(*at->second->nodes[ref.position]);
   }
   touched_.clear();
-  std::ranges::stable_sort(events_, {}, &EventRecord::when);
-  publish(now, input, changes);
 }
 
 // Visiting.
 
-void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe) {
-  // Whom to visit: the busy, those with mail, those whose alarm rings, those who were woken after their turn.
+/// Whom to visit in this round: the busy, those with mail, those whose alarm rings, those who were woken
+/// after their turn. Returns the mail, by target.
+std::vector<Message> Scene::callRound(const TimeSignature& now) {
   std::vector<Message> mail = messages_.takeDue(now.time);
   round_ = busy_;
   const auto call = [&](NodeRef ref) {
@@ -78,19 +91,30 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
   wakeWatchers();
   std::stable_sort(mail.begin(), mail.end(),
                    [](const Message& a, const Message& b) { return a.target < b.target; });
+  return mail;
+}
 
+void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe) {
   FrameContext frame{now, input, *this};
-  const std::vector<Detached> detached = detachedBy(mail, frame);
+  std::vector<Message> mail;
+  std::vector<Detached> detached;
+  {
+    const SpanScope span(probe, Span::Mail);
+    mail = callRound(now);
+    detached = detachedBy(mail, frame);
+  }
   std::vector<Node*> batch;
-  while (takeBatch(mail, frame, probe, batch)) {
-    if (batch.size() > 1)
-      crew_.run(batch.size(), [&](std::size_t i) { batch[i]->compute(probe); });
-    else
-      batch[0]->compute(probe);
+  const auto next = [&] {
+    const SpanScope span(probe, Span::Mail);
+    return takeBatch(mail, frame, probe, batch);
+  };
+  while (next()) {
+    computeTogether(batch, probe);
     for (Node* node : batch) {
       current_ = Visit{node->rank(), node->self()};
       node->conclude(frame, probe);
       ++counters_.nodesVisited;
+      const SpanScope span(probe, Span::Settle, node->self());
       setBusy(*node);
       rehash(*node);
       wakeWatchers();
@@ -98,6 +122,12 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
   }
   current_.reset();
   for (const Detached& d : detached) rejoinParent(d, frame);
+}
+
+void Scene::computeTogether(std::span<Node* const> batch, FrameProbe* probe) {
+  if (batch.size() == 1) return batch[0]->compute(probe);
+  const SpanScope span(probe, Span::Crew);
+  crew_.run(batch.size(), [&](std::size_t i) { batch[i]->compute(probe); });
 }
 
 /// The next nodes of this round that do not look at each other's results, each of them begun. False: no more.
@@ -340,6 +370,10 @@ std::uint64_t Scene::stateHash() const {
   for (const Wake& w : wakes_) h.add(w.at), h.add(w.node);
   for (const Change& c : pendingLoads_) h.add(c.at), h.add(c.number), h.add(c.load);
   return h.value();
+}
+
+void Scene::forEachLoad(const std::function<void(const Load&)>& f) const {
+  for (const auto& [number, l] : loads_) f(*l);
 }
 
 void Scene::forEachNode(const std::function<void(const Node&)>& f) const {

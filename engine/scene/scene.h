@@ -22,6 +22,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -107,7 +108,7 @@ public:
   /// Changes whenever a load comes or goes: names may resolve differently.
   std::uint64_t loadsVersion() const { return loadsVersion_; }
 
-  InstanceId addInstance(PlacementId placement, MeshId mesh, bool drawn, std::uint32_t owner);
+  InstanceId addInstance(PlacementId placement, MeshId mesh, bool drawn, NodeRef owner);
   void setDrawn(InstanceId id, bool drawn);
   void removeInstance(InstanceId id);
   /// What the instance shows from now on; kNoMesh = nothing.
@@ -158,12 +159,13 @@ public:
   /// What is heard at the end of the last frame; refilled.
   void listen(const InputSample& input, SoundScape& out) const;
   void forEachNode(const std::function<void(const Node&)>& f) const;
+  void forEachLoad(const std::function<void(const Load&)>& f) const;
 
 private:
   struct Instance {
     PlacementId placement = kNoPlacement;
     MeshId mesh = kNoMesh;
-    std::uint32_t owner = 0;
+    NodeRef owner;
     bool drawn = true, live = false, changed = false;
   };
   struct Light {
@@ -215,6 +217,9 @@ private:
   void install(std::unique_ptr<Load> load, Nanoseconds at);
   void remove(std::uint32_t number, std::uint64_t frame);
   void visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe);
+  std::vector<Message> callRound(const TimeSignature& now);
+  void settleTouched(FrameProbe* probe);
+  void computeTogether(std::span<Node* const> batch, FrameProbe* probe);
   std::vector<Detached> detachedBy(const std::vector<Message>& mail, const FrameContext& frame);
   void rejoinParent(const Detached& d, const FrameContext& frame);
   bool takeBatch(const std::vector<Message>& mail, FrameContext& frame, FrameProbe* probe,

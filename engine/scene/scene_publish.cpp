@@ -34,7 +34,7 @@ double brightnessAt(const Vec3& p_W, const LightRecord& light) {
 
 }  // namespace
 
-InstanceId Scene::addInstance(PlacementId placement, MeshId mesh, bool drawn, std::uint32_t owner) {
+InstanceId Scene::addInstance(PlacementId placement, MeshId mesh, bool drawn, NodeRef owner) {
   InstanceId id;
   if (freeInstances_.empty()) {
     id = static_cast<InstanceId>(instances_.size());

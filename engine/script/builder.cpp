@@ -182,7 +182,8 @@ private:
     const Affine X = worldPlaceOf(d);
     const Appearance a = appearanceOf(d);
     built_.load->statics.push_back({d.index(), d.line(), parentOf(d), name});
-    built_.staticRecords.push_back(makeInstance(X, *input_.store.find(a.mesh), a.mesh, a.drawn, d.index()));
+    built_.staticRecords.push_back(
+        makeInstance(X, *input_.store.find(a.mesh), a.mesh, a.drawn, {input_.number, d.index()}));
   }
 
   void addNode(const Declaration& d) {

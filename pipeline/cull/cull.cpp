@@ -36,33 +36,83 @@ ConvexVolume setEyes(const ViewerRecord& viewer, const WallView& view, DrawList&
   return unionFrustum(view.wall, {eyes.data(), out.eyeCount}, view.depth).transformed(X_WR, out.origin);
 }
 
-class ListFiller {
-public:
-  ListFiller(const ConvexVolume& volume, DrawList& out) : volume_(volume), out_(out) {}
-
-  void consider(const InstanceRecord& r, std::uint32_t instance) {
-    if (r.radius < 0 || !(r.flags & InstanceRecord::kShown)) return;
-    ++counts_.tested;
-    const Vec3 centre = Vec3(r.centre[0], r.centre[1], r.centre[2]) - out_.origin;
-    if (!volume_.mayTouch(Sphere{centre, r.radius})) return;
-    ++counts_.kept;
-    DrawItem item;
-    for (int k = 0; k < 12; ++k) {
-      const double shift = k % 4 == 3 ? out_.origin[k / 4] : 0.0;
-      item.model[static_cast<std::size_t>(k)] = static_cast<float>(r.model[k] - shift);
-    }
-    item.mesh = r.mesh;
-    item.instance = instance;
-    item.distance = static_cast<float>(centre.norm());
-    (r.flags & InstanceRecord::kTransparent ? out_.transparent : out_.opaque).push_back(item);
+/// What is in the slot, one record after the other.
+template <class F>
+void forEachRecord(const SlotView& state, const F& f) {
+  for (const ChunkId id : state.chunks) {
+    const ChunkView chunk = state.chunk(id);
+    for (std::size_t i = 0; i < chunk.records.size(); ++i)
+      if (!((chunk.hidden[i / 64] >> (i % 64)) & 1)) f(chunk.records[i]);
   }
-  const CullCounts& counts() const { return counts_; }
+  for (const InstanceRecord& r : state.instances) f(r);
+}
 
-private:
-  const ConvexVolume& volume_;
-  DrawList& out_;
-  CullCounts counts_;
-};
+bool isShown(const InstanceRecord& r) {
+  return r.radius >= 0 && (r.flags & InstanceRecord::kShown) != 0;
+}
+
+Vec3 centreOf(const InstanceRecord& r, const DrawList& list) {
+  return Vec3(r.centre[0], r.centre[1], r.centre[2]) - list.origin;
+}
+
+CullCounts findSeen(const SlotView& state, const ConvexVolume& volume, DrawList& out) {
+  CullCounts counts;
+  out.seen.clear();
+  forEachRecord(state, [&](const InstanceRecord& r) {
+    if (!isShown(r)) return;
+    ++counts.tested;
+    if (volume.mayTouch(Sphere{centreOf(r, out), r.radius})) out.seen.push_back(&r);
+  });
+  counts.kept = out.seen.size();
+  return counts;
+}
+
+DrawItem itemOf(const InstanceRecord& r, const DrawList& list) {
+  DrawItem item;
+  for (int k = 0; k < 12; ++k) {
+    const double shift = k % 4 == 3 ? list.origin[k / 4] : 0.0;
+    item.model[static_cast<std::size_t>(k)] = static_cast<float>(r.model[k] - shift);
+  }
+  item.mesh = r.mesh;
+  item.owner = r.owner;
+  item.distance = static_cast<float>(centreOf(r, list).norm());
+  return item;
+}
+
+void fill(DrawList& out) {
+  for (const InstanceRecord* r : out.seen)
+    (r->flags & InstanceRecord::kTransparent ? out.transparent : out.opaque).push_back(itemOf(*r, out));
+}
+
+/// The order must not depend on where records lie, only on what they are.
+void sort(DrawList& out) {
+  const auto key = [](const DrawItem& d) { return std::tuple(d.mesh, d.distance, d.owner, d.model); };
+  std::sort(out.opaque.begin(), out.opaque.end(),
+            [&](const DrawItem& a, const DrawItem& b) { return key(a) < key(b); });
+  std::sort(out.transparent.begin(), out.transparent.end(), [](const DrawItem& a, const DrawItem& b) {
+    return std::tuple(-a.distance, a.mesh, a.owner, a.model) <
+           std::tuple(-b.distance, b.mesh, b.owner, b.model);
+  });
+}
+
+/// Who the tests and the filling were for.
+void tellShares(const SlotView& state, const DrawList& list, FrameProbe& probe) {
+  const std::uint64_t frame = state.signature->frame;
+  std::vector<NodeRef> owners;
+  forEachRecord(state, [&](const InstanceRecord& r) {
+    if (isShown(r)) owners.push_back(r.owner);
+  });
+  probe.shared(Span::Test, frame, list.wall, owners);
+  owners.clear();
+  for (const InstanceRecord* r : list.seen) owners.push_back(r->owner);
+  probe.shared(Span::Fill, frame, list.wall, owners);
+  probe.shared(Span::Sort, frame, list.wall, owners);
+  owners.clear();
+  for (const DrawShadowRing& ring : list.shadows.rings)
+    for (const auto* casters : {&ring.still, &ring.moving})
+      for (const DrawItem& item : *casters) owners.push_back(item.owner);
+  probe.shared(Span::ShadowCasts, frame, list.wall, owners);
+}
 
 void setLights(const SlotView& state, DrawList& out) {
   out.lights.clear();
@@ -92,7 +142,8 @@ void setSky(const SkyRecord& sky, DrawList& out) {
 
 }  // namespace
 
-CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, DrawList& out) {
+CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, DrawList& out,
+                    FrameProbe* probe) {
   out.ticket.signature = *state.signature;
   out.wall = index;
   out.opaque.clear(), out.transparent.clear();
@@ -101,34 +152,35 @@ CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t i
     out.eyeCount = 0, out.shadows.light = -1;
     return {};
   }
-  const ConvexVolume volume =
-      from ? setCamera(*state.viewer, *from, view.depth, out) : setEyes(*state.viewer, view, out);
-  setLights(state, out);
-  setSky(*state.sky, out);
-
-  ListFiller filler(volume, out);
-  ShadowCull shadows(state, out);
-  const auto consider = [&](const InstanceRecord& r) {
-    filler.consider(r, r.owner);
-    shadows.consider(r);
-  };
-  for (const ChunkId id : state.chunks) {
-    const ChunkView chunk = state.chunk(id);
-    for (std::size_t i = 0; i < chunk.records.size(); ++i)
-      if (!((chunk.hidden[i / 64] >> (i % 64)) & 1)) consider(chunk.records[i]);
+  const ConvexVolume volume = [&] {
+    const SpanScope span(probe, Span::Eyes);
+    const ConvexVolume visible =
+        from ? setCamera(*state.viewer, *from, view.depth, out) : setEyes(*state.viewer, view, out);
+    setLights(state, out);
+    setSky(*state.sky, out);
+    return visible;
+  }();
+  CullCounts counts;
+  {
+    const SpanScope span(probe, Span::Test);
+    counts = findSeen(state, volume, out);
   }
-  for (const InstanceRecord& r : state.instances) consider(r);
+  {
+    const SpanScope span(probe, Span::Fill);
+    fill(out);
+  }
+  {
+    const SpanScope span(probe, Span::ShadowCasts);
+    ShadowCull shadows(state, out);
+    if (shadows.any()) forEachRecord(state, [&](const InstanceRecord& r) { shadows.consider(r); });
+  }
   if (from) view.camera->addTo(out, *state.viewer);
-
-  // The order must not depend on where records lie, only on what they are.
-  const auto key = [](const DrawItem& d) { return std::tuple(d.mesh, d.distance, d.instance, d.model); };
-  std::sort(out.opaque.begin(), out.opaque.end(),
-            [&](const DrawItem& a, const DrawItem& b) { return key(a) < key(b); });
-  std::sort(out.transparent.begin(), out.transparent.end(), [](const DrawItem& a, const DrawItem& b) {
-    return std::tuple(-a.distance, a.mesh, a.instance, a.model) <
-           std::tuple(-b.distance, b.mesh, b.instance, b.model);
-  });
-  return filler.counts();
+  {
+    const SpanScope span(probe, Span::Sort);
+    sort(out);
+  }
+  if (probe && probe->wantsShares(state.signature->frame, index)) tellShares(state, out, *probe);
+  return counts;
 }
 
 }  // namespace stadion

@@ -6,6 +6,7 @@
 /// Threads  pure but for `out`; any thread that holds a lease on the view's slot.
 
 #include "engine/display/frustum.h"
+#include "engine/frame_probe.h"
 #include "pipeline/cull/free_camera.h"
 #include "pipeline/draw/draw_list.h"
 #include "pipeline/state/scene_state.h"
@@ -27,6 +28,7 @@ struct CullCounts {
 };
 
 /// Fills `out` for wall number `index`, reusing its memory.
-CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, DrawList& out);
+CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, DrawList& out,
+                    FrameProbe* probe = nullptr);
 
 }  // namespace stadion

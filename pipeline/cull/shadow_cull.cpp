@@ -107,7 +107,7 @@ void ShadowCull::cast(const InstanceRecord& r) {
       const double shift = k % 4 == 3 ? centre_W_[index][k / 4] : 0.0;
       item.model[static_cast<std::size_t>(k)] = static_cast<float>(r.model[k] - shift);
     }
-    item.mesh = r.mesh;
+    item.mesh = r.mesh, item.owner = r.owner;
     DrawShadowRing& ring = shadows_.rings[index];
     (moves ? ring.movingKey : ring.stillKey) += keyOf(item);
     (moves ? ring.moving : ring.still).push_back(item);

@@ -18,8 +18,9 @@ public:
   /// list's origin and lights to be set.
   ShadowCull(const SlotView& state, DrawList& out);
 
+  bool any() const { return shadows_.light >= 0; }
   void consider(const InstanceRecord& r) {
-    if (shadows_.light >= 0) cast(r);
+    if (any()) cast(r);
   }
 
 private:

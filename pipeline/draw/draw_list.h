@@ -8,6 +8,7 @@
 
 #include "engine/asset/mesh_store.h"
 #include "engine/maths/maths.h"
+#include "engine/scene/records.h"
 #include "pipeline/frame_ticket.h"
 #include "pipeline/state/shadow_places.h"
 
@@ -20,8 +21,8 @@ namespace stadion {
 struct DrawItem {
   std::array<float, 12> model;  ///< (3 x 4), row major: mesh coordinates to World axes relative to origin
   MeshId mesh = kNoMesh;
-  std::uint32_t instance = 0;  ///< who it is, for profiling
-  float distance = 0;          ///< of its centre from the viewer [m]
+  NodeRef owner;       ///< who it is, for profiling
+  float distance = 0;  ///< of its centre from the viewer [m]
 };
 
 struct DrawLight {
@@ -80,6 +81,9 @@ struct DrawList {
   DrawShadows shadows;
   std::vector<DrawItem> opaque;       ///< sorted by mesh, then near to far
   std::vector<DrawItem> transparent;  ///< items with any transparent material, far to near
+
+  /// Cull's own, while it holds the lease on the slot: what is seen, in the slot's order.
+  std::vector<const InstanceRecord*> seen;
 
   static constexpr std::size_t kMaxLights = 16;
 };

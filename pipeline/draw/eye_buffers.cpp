@@ -46,9 +46,13 @@ std::optional<Diagnostic> EyeBuffers::check() {
   return {};
 }
 
-void EyeBuffers::begin() {
+void EyeBuffers::bind() {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
   gl_.Viewport(0, 0, width(), height());
+}
+
+void EyeBuffers::begin() {
+  bind();
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 

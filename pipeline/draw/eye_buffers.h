@@ -21,7 +21,9 @@ public:
 
   /// Why the buffers cannot be used, or nothing. Once, after construction.
   std::optional<Diagnostic> check();
-  /// Directs drawing into the multisampled buffer and clears it.
+  /// Directs drawing into the multisampled buffer.
+  void bind();
+  /// Directs drawing into it and clears it.
   void begin();
   /// Averages the samples into the picture of `eye`.
   void resolve(std::uint32_t eye);

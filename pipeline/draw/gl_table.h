@@ -17,6 +17,7 @@ namespace stadion {
   X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                                                   \
   X(PFNGLATTACHSHADERPROC, AttachShader)                                                                     \
   X(PFNGLBINDBUFFERPROC, BindBuffer)                                                                         \
+  X(PFNGLBEGINQUERYPROC, BeginQuery)                                                                         \
   X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                                 \
   X(PFNGLBINDBUFFERRANGEPROC, BindBufferRange)                                                               \
   X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                               \
@@ -30,6 +31,7 @@ namespace stadion {
   X(PFNGLCLEARPROC, Clear)                                                                                   \
   X(PFNGLCLEARCOLORPROC, ClearColor)                                                                         \
   X(PFNGLCLIENTWAITSYNCPROC, ClientWaitSync)                                                                 \
+  X(PFNGLCOLORMASKPROC, ColorMask)                                                                           \
   X(PFNGLCOMPILESHADERPROC, CompileShader)                                                                   \
   X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                                   \
   X(PFNGLCREATESHADERPROC, CreateShader)                                                                     \
@@ -37,6 +39,7 @@ namespace stadion {
   X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                   \
   X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                         \
   X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                                   \
+  X(PFNGLDELETEQUERIESPROC, DeleteQueries)                                                                   \
   X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                                                       \
   X(PFNGLDELETESHADERPROC, DeleteShader)                                                                     \
   X(PFNGLDELETESYNCPROC, DeleteSync)                                                                         \
@@ -50,13 +53,16 @@ namespace stadion {
   X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)                                                   \
   X(PFNGLENABLEPROC, Enable)                                                                                 \
   X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                               \
+  X(PFNGLENDQUERYPROC, EndQuery)                                                                             \
   X(PFNGLFENCESYNCPROC, FenceSync)                                                                           \
+  X(PFNGLFINISHPROC, Finish)                                                                                 \
   X(PFNGLFLUSHPROC, Flush)                                                                                   \
   X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)                                               \
   X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                                                     \
   X(PFNGLFRONTFACEPROC, FrontFace)                                                                           \
   X(PFNGLGENBUFFERSPROC, GenBuffers)                                                                         \
   X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                                                               \
+  X(PFNGLGENQUERIESPROC, GenQueries)                                                                         \
   X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)                                                             \
   X(PFNGLGENTEXTURESPROC, GenTextures)                                                                       \
   X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                               \
@@ -65,6 +71,7 @@ namespace stadion {
   X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                       \
   X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                           \
   X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                                     \
+  X(PFNGLGETQUERYOBJECTUI64VPROC, GetQueryObjectui64v)                                                       \
   X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                                                             \
   X(PFNGLGETSHADERIVPROC, GetShaderiv)                                                                       \
   X(PFNGLGETSTRINGPROC, GetString)                                                                           \

@@ -21,17 +21,25 @@ Handedness handednessOf(const InstanceMatrix& m) {
 
 }  // namespace
 
+void InstanceBatches::add(const DrawItem& item) {
+  matrices_.push_back(item.model);
+  if (withOwners_) owners_.push_back(item.owner);
+}
+
 void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
   const auto first = static_cast<std::uint32_t>(matrices_.size());
   const Handedness wanted = mirrored ? Handedness::Mirrored : Handedness::Kept;
   for (const DrawItem& item : run)
-    if (handednessOf(item.model) == wanted) matrices_.push_back(item.model);
+    if (handednessOf(item.model) == wanted) add(item);
   const auto count = static_cast<std::uint32_t>(matrices_.size()) - first;
   if (count > 0) opaque_.push_back({run.front().mesh, first, count, mirrored});
 }
 
-void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent) {
+void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent,
+                            bool withOwners) {
+  withOwners_ = withOwners;
   matrices_.clear();
+  owners_.clear();
   opaque_.clear();
   transparent_.clear();
 
@@ -51,7 +59,7 @@ void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const Dr
     if (transparent_.empty() || transparent_.back().mesh != item.mesh ||
         transparent_.back().mirrored != mirrored)
       transparent_.push_back({item.mesh, static_cast<std::uint32_t>(matrices_.size()), 0, mirrored});
-    matrices_.push_back(item.model);
+    add(item);
     ++transparent_.back().count;
   }
   refused_ = opaque.size() + transparent.size() - matrices_.size();

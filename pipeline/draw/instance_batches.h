@@ -23,11 +23,16 @@ using InstanceMatrix = std::array<float, 12>;  ///< (3 x 4), row major, as in Dr
 class InstanceBatches {
 public:
   /// Items whose matrix is not finite are left out and counted.
-  void build(const DrawList& list) { build(list.opaque, list.transparent); }
+  void build(const DrawList& list, bool withOwners = false) {
+    build(list.opaque, list.transparent, withOwners);
+  }
   /// Expects opaque items of one mesh next to each other.
-  void build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent);
+  void build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent,
+             bool withOwners = false);
 
   std::span<const InstanceMatrix> matrices() const { return matrices_; }
+  /// Whose they are; empty unless they were asked for.
+  std::span<const NodeRef> owners() const { return owners_; }
   std::span<const InstanceBatch> opaque() const { return opaque_; }
   /// In the list's order; neighbours of the same mesh share a batch.
   std::span<const InstanceBatch> transparent() const { return transparent_; }
@@ -35,8 +40,11 @@ public:
 
 private:
   void addRun(std::span<const DrawItem> run, bool mirrored);
+  void add(const DrawItem& item);
 
+  bool withOwners_ = false;
   std::vector<InstanceMatrix> matrices_;
+  std::vector<NodeRef> owners_;
   std::vector<InstanceBatch> opaque_, transparent_;
   std::size_t refused_ = 0;
 };

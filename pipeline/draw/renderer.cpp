@@ -29,6 +29,13 @@ std::size_t surfaceIndex(const SurfaceTraits& traits) {
          std::size_t{traits.blended} << 2;
 }
 
+/// Instances of one part keep their order within a call; with several parts, or with inner sides to draw
+/// before the outer ones, each instance has to be finished before the next.
+bool drawnTogether(const GlMesh& mesh) {
+  const auto simple = [](const GlSubmesh& part) { return !part.transparent || !part.bothSides; };
+  return mesh.transparentParts == 1 && std::all_of(mesh.parts.begin(), mesh.parts.end(), simple);
+}
+
 /// New storage each time, so that no frame waits for one that still reads the old.
 template <class T>
 void stream(const GlTable& gl, GLenum target, const GlBuffer& buffer, std::span<const T> data) {
@@ -106,6 +113,14 @@ void Renderer::chooseSurfaces(bool shadowed, bool hazy) {
   surfaces_ = set.empty() ? &programs_.surface[0] : &set;
 }
 
+// A drawing that was given up may have left it otherwise.
+void Renderer::settleState() {
+  gl_.Disable(GL_SCISSOR_TEST);
+  gl_.Disable(GL_POLYGON_OFFSET_FILL);
+  gl_.Disable(GL_BLEND);
+  gl_.DepthMask(GL_TRUE);
+}
+
 void Renderer::setUnchangingState() {
   gl_.Enable(GL_MULTISAMPLE);
   gl_.Enable(GL_DEPTH_TEST);
@@ -115,25 +130,101 @@ void Renderer::setUnchangingState() {
   gl_.ActiveTexture(GL_TEXTURE0);
 }
 
-std::optional<Diagnostic> Renderer::draw(const DrawList& list, const std::function<bool()>& giveUp) {
+std::optional<Diagnostic> Renderer::draw(const DrawList& list, const std::function<bool()>& giveUp,
+                                         FrameProbe* probe) {
   giveUp_ = giveUp ? &giveUp : nullptr;
+  probe_ = probe;
   drawEyes(list, 0, std::min<std::uint32_t>(list.eyeCount, 2));
   giveUp_ = nullptr;
+  probe_ = nullptr;
   return collectProblems();
 }
 
 void Renderer::drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t end) {
   GLsync drawn = nullptr;
   {
-    const auto mine = turn();
-    prepare(list);
-    for (std::uint32_t eye = first; eye < end; ++eye) drawEye(list.eyes[eye], eye);
+    const auto mine = [&] {
+      const SpanScope span(probe_, Span::ForTurn, list.ticket.signature.frame, list.wall);
+      return turn();
+    }();
+    beginSampling(list);
+    submitEyes(list, first, end);
     drawn = gl_.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl_.Flush();
   }
+  const SpanScope span(probe_, Span::Finish);
   while (gl_.ClientWaitSync(drawn, 0, kLongWait) == GL_TIMEOUT_EXPIRED) {
   }
   gl_.DeleteSync(drawn);
+}
+
+void Renderer::submitEyes(const DrawList& list, std::uint32_t first, std::uint32_t end) {
+  {
+    const SpanScope span(probe_, Span::Prepare);
+    piece(Span::Prepare, [&] { prepare(list); });
+  }
+  if (list.shadows.light >= 0) {
+    const SpanScope span(probe_, Span::ShadowMaps);
+    piece(Span::ShadowMaps, [&] { prepareShadows(list); });
+  }
+  prepareScene(list);
+  for (std::uint32_t eye = first; eye < end; ++eye) {
+    const SpanScope span(probe_, eye == 0 ? Span::LeftEye : Span::RightEye);
+    if (sample_ == DrawSample::Whole)
+      drawEyeAlone(list.eyes[eye], eye);
+    else
+      drawEye(list.eyes[eye], eye);
+  }
+}
+
+// Sampling.
+
+void Renderer::beginSampling(const DrawList& list) {
+  sample_ = probe_ ? probe_->drawSample(list.ticket.signature.frame, list.wall) : DrawSample::None;
+  if (!surfaces_) sample_ = DrawSample::None;  // nothing has been drawn yet: all is slower the first time
+  if (sample_ == DrawSample::None) return;
+  if (!sampler_) sampler_ = std::make_unique<DrawSampler>(gl_);
+  sampler_->beginFrame(*probe_, list.ticket.signature.frame, list.wall, [this] { drawNothing(); });
+}
+
+/// A pixel that is not written.
+void Renderer::drawNothing() {
+  buffers_.bind();
+  gl_.Enable(GL_SCISSOR_TEST);
+  gl_.Scissor(0, 0, 1, 1);
+  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  gl_.DepthMask(GL_FALSE);
+  gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, views_[0].name());
+  gl_.BindBufferBase(GL_UNIFORM_BUFFER, kSceneBinding, scene_.name());
+  drawSky();
+  gl_.DepthMask(GL_TRUE);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl_.Disable(GL_SCISSOR_TEST);
+}
+
+template <class Work>
+void Renderer::piece(Span what, const Work& work) {
+  if (sample_ == DrawSample::Some)
+    sampler_->piece(what, work);
+  else
+    work();
+}
+
+void Renderer::drawEyeAlone(const DrawEye& eye, std::uint32_t index) {
+  sampler_->beginEye(index, 0);
+  sampler_->piece(index == 0 ? Span::LeftEye : Span::RightEye, [&] { drawEye(eye, index); });
+}
+
+std::uint32_t Renderer::mostAtOnce() const {
+  return sample_ == DrawSample::Some ? DrawSampler::kInstancesAtOnce : kMostAtOnce;
+}
+
+/// As many as drawInstances() will be called for.
+std::size_t Renderer::batchesToSample() const {
+  std::size_t count = 0;
+  for (const auto batches : {batches_.opaque(), batches_.transparent()})
+    for (const InstanceBatch& b : batches) count += (b.count + mostAtOnce() - 1) / mostAtOnce();
+  return count;
 }
 
 void Renderer::stopIfAsked() const {
@@ -147,14 +238,18 @@ std::optional<Diagnostic> Renderer::draw(const DrawList& list, std::uint32_t eye
 }
 
 void Renderer::prepare(const DrawList& list) {
+  settleState();
   cache_.freeUnused();
-  batches_.build(list);
+  batches_.build(list, sample_ == DrawSample::Some);
   if (batches_.refused() > 0) report("an object is left out: its matrix is not finite");
   if (list.lights.size() > DrawList::kMaxLights)
     report("more than " + std::to_string(DrawList::kMaxLights) + " lights: the rest are left out");
   stream(gl_, GL_ARRAY_BUFFER, instances_, batches_.matrices());
   localLights_ = std::any_of(list.lights.begin(), list.lights.end(), isLocal);
-  prepareShadows(list);
+}
+
+void Renderer::prepareScene(const DrawList& list) {
+  shadowed_ = shadowed_ && list.shadows.light >= 0;
   const SceneBlock scene = fillScene(list.sky, list.lights, shadowed_ ? list.shadows.light : -1);
   stream(gl_, GL_UNIFORM_BUFFER, scene_, std::span(&scene, 1));
   chooseSurfaces(shadowed_, list.sky.hazeDistance > 0);
@@ -188,18 +283,19 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, views_[index].name());
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kSceneBinding, scene_.name());
 
+  if (sample_ == DrawSample::Some) sampler_->beginEye(index, batchesToSample());
   gl_.Disable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
-  buffers_.begin();
+  piece(Span::Sky, [&] { buffers_.begin(); });
   drawBatches(batches_.opaque(), Pass::Opaque);
   drawBatches(batches_.transparent(), Pass::OpaqueParts);
-  drawSky();
+  piece(Span::Sky, [&] { drawSky(); });
   gl_.Enable(GL_FRAMEBUFFER_SRGB);  // blending and averaging of samples act on linear light
   gl_.Enable(GL_BLEND);
   gl_.DepthMask(GL_FALSE);
   drawBatches(batches_.transparent(), Pass::Transparent);
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_BLEND);
-  buffers_.resolve(index);
+  piece(Span::Resolve, [&] { buffers_.resolve(index); });
   totals_[index].add(counts_);
 }
 
@@ -211,42 +307,44 @@ void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass) {
     if (pass == Pass::OpaqueParts && mesh->transparentParts == mesh->parts.size()) continue;
     gl_.BindVertexArray(mesh->vertexArray.name());
     gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
-    if (pass == Pass::Transparent) {
-      drawTransparent(*mesh, batch);
-      continue;
-    }
-    for (std::uint32_t done = 0; done < batch.count; done += kMostAtOnce) {
-      stopIfAsked();
-      pointAtInstances(gl_, instances_, batch.first + done);
-      for (const GlSubmesh& part : mesh->parts) {
-        if (pass == Pass::OpaqueParts && part.transparent) continue;
-        cull(false, !part.bothSides);
-        drawPart(*mesh, part, std::min(batch.count - done, kMostAtOnce), false);
-      }
-    }
+    const std::uint32_t most = pass == Pass::Transparent && !drawnTogether(*mesh) ? 1 : mostAtOnce();
+    for (std::uint32_t done = 0; done < batch.count; done += most)
+      drawInstances(*mesh, batch.first + done, std::min(batch.count - done, most), pass);
   }
 }
 
-void Renderer::drawTransparent(const GlMesh& mesh, const InstanceBatch& batch) {
-  // Instances of one part keep their order within a call; with several parts, or with inner sides to draw
-  // before the outer ones, each instance has to be finished before the next.
-  const auto simple = [](const GlSubmesh& part) { return !part.transparent || !part.bothSides; };
-  const bool together =
-      mesh.transparentParts == 1 && std::all_of(mesh.parts.begin(), mesh.parts.end(), simple);
-  const std::uint32_t most = together ? kMostAtOnce : 1;
-  for (std::uint32_t i = 0; i < batch.count; i += most) {
-    const std::uint32_t step = std::min(batch.count - i, most);
-    stopIfAsked();
-    pointAtInstances(gl_, instances_, batch.first + i);
-    for (const GlSubmesh& part : mesh.parts) {
-      if (!part.transparent) continue;
-      if (part.bothSides) {
-        cull(true, false);
-        drawPart(mesh, part, step, true);
-      }
-      cull(false, true);
-      drawPart(mesh, part, step, true);
+void Renderer::drawInstances(const GlMesh& mesh, std::uint32_t first, std::uint32_t count, Pass pass) {
+  stopIfAsked();
+  const auto draw = [&] {
+    pointAtInstances(gl_, instances_, first);
+    if (pass == Pass::Transparent)
+      drawTransparentParts(mesh, count);
+    else
+      drawOpaqueParts(mesh, count, pass);
+  };
+  if (sample_ == DrawSample::Some)
+    sampler_->batch(batches_.owners().subspan(first, count), draw);
+  else
+    draw();
+}
+
+void Renderer::drawOpaqueParts(const GlMesh& mesh, std::uint32_t count, Pass pass) {
+  for (const GlSubmesh& part : mesh.parts) {
+    if (pass == Pass::OpaqueParts && part.transparent) continue;
+    cull(false, !part.bothSides);
+    drawPart(mesh, part, count, false);
+  }
+}
+
+void Renderer::drawTransparentParts(const GlMesh& mesh, std::uint32_t count) {
+  for (const GlSubmesh& part : mesh.parts) {
+    if (!part.transparent) continue;
+    if (part.bothSides) {
+      cull(true, false);
+      drawPart(mesh, part, count, true);
     }
+    cull(false, true);
+    drawPart(mesh, part, count, true);
   }
 }
 

@@ -16,6 +16,7 @@
 /// Errors       returned once per kind, never thrown; what can be drawn is drawn.
 
 #include "pipeline/draw/draw_list.h"
+#include "pipeline/draw/draw_sampler.h"
 #include "pipeline/draw/eye_buffers.h"
 #include "pipeline/draw/gl_program.h"
 #include "pipeline/draw/instance_batches.h"
@@ -65,7 +66,8 @@ public:
   /// Draws every eye of the list and waits until that is done: time around it is what drawing costs. Returns
   /// a problem that had not been reported before, or nothing. `giveUp`, if there is one, is asked now and
   /// then; once it says true, RunStopped is thrown and the pictures are void.
-  std::optional<Diagnostic> draw(const DrawList& list, const std::function<bool()>& giveUp);
+  std::optional<Diagnostic> draw(const DrawList& list, const std::function<bool()>& giveUp,
+                                 FrameProbe* probe = nullptr);
   std::optional<Diagnostic> draw(const DrawList& list) { return draw(list, std::function<bool()>{}); }
   /// Draws one eye, 0 left or mono, 1 right.
   std::optional<Diagnostic> draw(const DrawList& list, std::uint32_t eye);
@@ -79,6 +81,7 @@ public:
   const DrawCounts& counts() const { return counts_; }
   /// By eye, 0 left or mono, 1 right. Shadow maps are not counted.
   const std::array<DrawTotals, 2>& totals() const { return totals_; }
+  void forgetTotals() { totals_ = {}; }
   std::size_t meshesHeld() const { return cache_.size(); }
 
 private:
@@ -96,14 +99,26 @@ private:
   static Result<Programs> buildPrograms(const GlTable& gl);
 
   void drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
+  void submitEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
+  void beginSampling(const DrawList& list);
+  void drawNothing();
+  std::size_t batchesToSample() const;
+  std::uint32_t mostAtOnce() const;
+  template <class Work>
+  void piece(Span what, const Work& work);
+  void drawEyeAlone(const DrawEye& eye, std::uint32_t index);
   void prepare(const DrawList& list);
+  void prepareScene(const DrawList& list);
   void prepareShadows(const DrawList& list);
   static Result<std::vector<GlProgram>> buildSurfaces(const GlTable& gl, bool shadowed, bool hazy);
   void chooseSurfaces(bool shadowed, bool hazy);
   void drawEye(const DrawEye& eye, std::uint32_t index);
   void setUnchangingState();
+  void settleState();
   void drawBatches(std::span<const InstanceBatch> batches, Pass pass);
-  void drawTransparent(const GlMesh& mesh, const InstanceBatch& batch);
+  void drawInstances(const GlMesh& mesh, std::uint32_t first, std::uint32_t count, Pass pass);
+  void drawOpaqueParts(const GlMesh& mesh, std::uint32_t count, Pass pass);
+  void drawTransparentParts(const GlMesh& mesh, std::uint32_t count);
   void drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended);
   void stopIfAsked() const;
   void drawSky();
@@ -130,6 +145,9 @@ private:
   std::unique_ptr<ShadowMaps> shadows_;               ///< from the first list with shadows on
   bool noShadows_ = false;                            ///< this OpenGL cannot
   const std::function<bool()>* giveUp_ = nullptr;     ///< while a list is drawn
+  FrameProbe* probe_ = nullptr;                       ///< likewise; null = nobody asks
+  std::unique_ptr<DrawSampler> sampler_;              ///< from the first frame on that is sampled
+  DrawSample sample_ = DrawSample::None;              ///< of the list that is drawn
   DrawCounts counts_;
   std::array<DrawTotals, 2> totals_{};
   std::set<std::string> reported_;

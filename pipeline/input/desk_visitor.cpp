@@ -12,6 +12,7 @@ const Vec3 kHandAtRest{0.22, 0.45, -0.4};  ///< from the head [m]
 constexpr double kReach = 0.9;             ///< of an arm, from the head [m]
 constexpr double kHandTime = 0.03;         ///< in which the hand does most of its way [s]
 constexpr double kHandSpeed = 14;          ///< at most [m/s]
+constexpr double kEaseBack = 0.5;          ///< a head that was frozen [s]
 constexpr double kStepSpeed = 1.2;         ///< [m/s]
 constexpr double kReturnSpeed = 5;         ///< [m/s]
 constexpr double kRoom = 20;               ///< how far from the rig's middle one may walk [m]
@@ -102,11 +103,34 @@ Pose DeskVisitor::head() const {
   return {p, (heading() * det::expRotation(Vec3(pitch_, 0, 0))).normalized()};
 }
 
+Pose DeskVisitor::headTold() const {
+  if (frozen_) return *frozen_;
+  return eased_ < 1 ? det::interpolate(easesFrom_, head(), eased_ * eased_ * (3 - 2 * eased_)) : head();
+}
+
+void DeskVisitor::freezeHead(bool frozen) {
+  const std::lock_guard lock(mutex_);
+  if (frozen == frozen_.has_value()) return;
+  if (frozen) {
+    frozen_ = headTold();
+  } else {
+    easesFrom_ = *frozen_, eased_ = 0;
+    frozen_.reset();
+  }
+}
+
+void DeskVisitor::restart() {
+  const std::lock_guard lock(mutex_);
+  sampled_ = -1, pressed_ = 0, eased_ = 1;
+  frozen_.reset(), told_.reset();
+}
+
 Vec3 DeskVisitor::handWanted() const {
   return head().p + heading() * wantedHand_;
 }
 
 void DeskVisitor::advance(double seconds) {
+  eased_ = std::min(1.0, eased_ + seconds / kEaseBack);
   feet_ += returning_ ? notFarther(-feet_, kReturnSpeed * seconds)
                       : Vec3(kStepSpeed * seconds * (heading() * step_));
   feet_ = feet_.cwiseMax(Vec3(-kRoom, -kRoom, kLowest - eyeHeight_)).cwiseMin(Vec3(kRoom, kRoom, 1));
@@ -119,13 +143,23 @@ void DeskVisitor::sampleAt(Nanoseconds showTime, InputSample& sample) {
   // A frame after a long halt is no time in which somebody could have walked.
   if (sampled_ >= 0 && showTime > sampled_) advance(std::min(toSeconds(showTime - sampled_), 0.25));
   sampled_ = showTime;
+  fill(showTime, sample);
+  pressed_ = 0;
+}
+
+void DeskVisitor::fill(Nanoseconds showTime, InputSample& sample) const {
   sample.time = showTime;
-  sample.trackers = {tracker("head", head(), showTime), tracker("wand", {hand_, head().q}, showTime)};
+  sample.trackers = {tracker("head", headTold(), showTime), tracker("wand", {hand_, head().q}, showTime)};
   TrackerSample& wand = sample.trackers[1];
   wand.buttons = buttons_ | padButtons_ | pressed_;
-  pressed_ = 0;
   for (std::size_t i = 0; i < axes_.size(); ++i)
     wand.axes[i] = static_cast<float>(std::clamp(axes_[i] + padAxes_[i], -1.0, 1.0));
+}
+
+bool DeskVisitor::sampleNow(InputSample& sample) {
+  const std::lock_guard lock(mutex_);
+  fill(std::max<Nanoseconds>(sampled_, 0), sample);
+  return true;
 }
 
 void DeskVisitor::sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) {

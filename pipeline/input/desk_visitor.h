@@ -48,12 +48,20 @@ public:
   void sampleAt(Nanoseconds showTime, InputSample& sample) override;
   /// As an input log with one record a frame says it: axes go evenly from what they were to what they are.
   void sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) override;
+  /// Looking about goes on while the show stands still; walking and the hand do not.
+  bool sampleNow(InputSample& sample) override;
+  /// Let go, the head eases back to where it has been turned meanwhile. The hand follows it unfrozen.
+  void freezeHead(bool frozen) override;
+  void restart() override;
 
 private:
   /// What moves at a speed of its own, carried to the sample's time.
   void advance(double seconds);
   Quat heading() const;
   Pose head() const;
+  /// The one that is told of: frozen, easing back, or as it is.
+  Pose headTold() const;
+  void fill(Nanoseconds showTime, InputSample& sample) const;
   Vec3 handWanted() const;
 
   std::mutex mutex_;
@@ -63,6 +71,9 @@ private:
   double yaw_ = 0, pitch_ = 0;  ///< to the left, up
   Vec3 wantedHand_;             ///< from the head, in the direction in which it looks
   Vec3 hand_;                   ///< on the rig
+  std::optional<Pose> frozen_;  ///< where the head stays
+  Pose easesFrom_;              ///< where it stayed
+  double eased_ = 1;            ///< how much of the way back it has come
   std::array<double, kTrackerAxes> axes_{}, padAxes_{};
   std::uint32_t buttons_ = 0, padButtons_ = 0;
   std::uint32_t pressed_ = 0;  ///< since the last sample: a press that is over already must be seen once

@@ -4,6 +4,7 @@
 #include <lo/lo_lowlevel.h>
 
 #include <array>
+#include <cstring>
 #include <exception>
 #include <thread>
 
@@ -12,13 +13,21 @@ namespace {
 
 constexpr int kLookForEnd = 50;  ///< how often the thread looks whether it is to end [ms]
 
+/// Arguments lie in the packet as they came, on multiples of four bytes.
+template <class T>
+double read(const lo_arg* a) {
+  T value;
+  std::memcpy(&value, static_cast<const void*>(a), sizeof value);
+  return static_cast<double>(value);
+}
+
 /// An argument as a number; nothing if it is none.
 std::optional<double> numberOf(char type, const lo_arg* a) {
   switch (type) {
-  case LO_INT32: return a->i;
-  case LO_INT64: return static_cast<double>(a->h);
-  case LO_FLOAT: return double{a->f};
-  case LO_DOUBLE: return a->d;
+  case LO_INT32: return read<std::int32_t>(a);
+  case LO_INT64: return read<std::int64_t>(a);
+  case LO_FLOAT: return read<float>(a);
+  case LO_DOUBLE: return read<double>(a);
   case LO_TRUE: return 1;
   case LO_FALSE: return 0;
   default: return {};

@@ -11,6 +11,7 @@ void OperatorDesk::beginGroup() {
   ++groups_;
   state_.waiting = waits_;
   state_.paused = state_.headFrozen = state_.nextGroup = false;
+  leaving_ = false;
   playback_.setPaused(state_.still());
 }
 
@@ -22,6 +23,7 @@ void OperatorDesk::beginFrame(std::uint64_t frame) {
 
 void OperatorDesk::take(std::uint64_t frame, const OperatorCommand& command) {
   if (!state_.obey(command)) return;
+  leaving_ = state_.nextGroup;
   if (command.action == OperatorAction::Step)
     playback_.step();
   else

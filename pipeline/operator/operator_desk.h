@@ -7,13 +7,14 @@
 /// what its tracker says; the others change pictures and sounds alone. All of that is in the input log of a
 /// live run, and a replay obeys it.
 ///
-/// Threads  queue() from any; everything else is App's while the show runs.
+/// Threads  queue() and leaving() from any; everything else is App's while the show runs.
 
 #include "engine/input/run_decisions.h"
 #include "pipeline/operator/operator_queue.h"
 #include "pipeline/operator/operator_state.h"
 #include "pipeline/playback.h"
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 
@@ -32,6 +33,8 @@ public:
   void beginGroup();
   /// Groups so far, this one included.
   std::uint64_t groups() const { return groups_; }
+  /// The next group was asked for: what is still being drawn need not be finished.
+  bool leaving() const { return leaving_; }
 
   /// The coming frame's commands, in their order: those that a log has for it, then those that have come.
   void beginFrame(std::uint64_t frame);
@@ -49,6 +52,7 @@ private:
   Playback playback_;
   RunOrders recorded_;
   bool waits_;
+  std::atomic<bool> leaving_ = false;
   std::uint64_t groups_ = 0;
 };
 

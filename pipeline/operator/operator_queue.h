@@ -10,6 +10,7 @@
 
 #include "engine/input/operator_command.h"
 
+#include <chrono>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -23,8 +24,14 @@ public:
   bool post(const OperatorCommand& command) {
     const std::lock_guard lock(mutex_);
     if (waiting_.size() == kMost) return false;
+    if (command.action == OperatorAction::NextGroup) nextGroupAsked_ = std::chrono::steady_clock::now();
     waiting_.push_back(command);
     return true;
+  }
+  /// When the next group was asked for last.
+  std::chrono::steady_clock::time_point nextGroupAsked() const {
+    const std::lock_guard lock(mutex_);
+    return nextGroupAsked_;
   }
   /// All that have come since the last call, in their order.
   std::vector<OperatorCommand> take() {
@@ -33,8 +40,9 @@ public:
   }
 
 private:
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::vector<OperatorCommand> waiting_;
+  std::chrono::steady_clock::time_point nextGroupAsked_{};
 };
 
 }  // namespace stadion

@@ -1,5 +1,6 @@
 #include "pipeline/output/sound_device.h"
 
+#include "pipeline/output/sound_libraries.h"
 #include "pipeline/target/shared_library.h"
 
 #include <AL/al.h>
@@ -126,6 +127,7 @@ private:
 }  // namespace
 
 Result<std::unique_ptr<SoundDevice>> openSoundDevice() {
+  quietAlsa();
   const auto library = SharedLibrary::open("libopenal.so.1", "libopenal1");
   if (!library) return library.error();
   using Made = Result<std::unique_ptr<SoundDevice>>;

@@ -11,75 +11,94 @@ namespace {
 constexpr std::size_t kNodesWithFrames = 200;
 constexpr std::uint64_t kFirstCounted = 2;
 
-const char* nameOf(Stage stage) {
+const char* nameOfStage(Span stage) {
   switch (stage) {
-  case Stage::App: return "app";
-  case Stage::Cull: return "cull";
-  case Stage::Draw: return "draw";
+  case Span::App: return "app";
+  case Span::Cull: return "cull";
+  case Span::Draw: return "draw";
   default: return "swap";
   }
 }
 
-bool isPlantedIn(const std::optional<PlantedDelay>& planted, Stage stage, std::uint32_t wall) {
+bool isPlantedIn(const std::optional<PlantedDelay>& planted, Span stage, std::uint32_t wall) {
   if (!planted || planted->wall != wall) return false;
-  return (stage == Stage::Cull && planted->where == PlantedDelay::Where::Cull) ||
-         (stage == Stage::Draw && planted->where == PlantedDelay::Where::Draw);
+  return (stage == Span::Cull && planted->where == PlantedDelay::Where::Cull) ||
+         (stage == Span::Draw && planted->where == PlantedDelay::Where::Draw);
+}
+
+bool isPlantedIn(const std::optional<PlantedDelay>& planted, Span phase, NodeRef node) {
+  return planted && planted->where == PlantedDelay::Where::Simulate && phase == Span::Simulate &&
+         planted->node == node;
 }
 
 }  // namespace
 
-void SpanTimes::stageBegan(Stage stage, std::uint64_t frame, std::uint32_t wall) {
-  if (stage == Stage::App && options_.turns) options_.turns->take();
-  if (stage == Stage::App && frame == kFirstCounted && options_.countInstructions) {
+void SpanTimes::began(Span what, std::uint64_t frame, std::uint32_t wall) {
+  if (!isStage(what)) return;  // a wait
+  if (what == Span::App && options_.turns) options_.turns->take();
+  if (what == Span::App && frame == kFirstCounted && options_.countInstructions) {
     beginCountingInstructions();
     counting_ = true;
   }
-  const Key key{stage, wall, {}};
+  const Key key{what, wall == kNoWall ? 0 : wall, {}};
   const std::lock_guard lock(mutex_);
-  began(key);
+  open_[std::this_thread::get_id()] = {key, frame, {}};
+  begin(key);
   boundary(nullptr);
   stage_ = &costs_[key];
 }
 
-void SpanTimes::stageEnded(Stage stage, std::uint64_t frame, std::uint32_t wall) {
-  if (isPlantedIn(options_.planted, stage, wall)) burn(options_.planted->iterations);
-  {
-    const std::lock_guard lock(mutex_);
-    Cost& cost = ended({stage, wall, {}});
-    boundary(&cost);
-    stage_ = nullptr;
-    cost.frames.emplace_back(frame, cost.now);
-    cost.total += cost.now, cost.now = 0;
-    if (stage == Stage::App) closeFrame(frame);
-  }
-  if (stage == Stage::Swap && options_.turns) options_.turns->give();
-}
-
-void SpanTimes::nodePhaseBegan(NodeRef node, NodePhase) {
+void SpanTimes::began(Span what, NodeRef node) {
+  if (!isOfNode(what) || !node.valid()) return;
   const std::lock_guard lock(mutex_);
   boundary(stage_);
-  began({Stage::App, 0, node});
+  open_[std::this_thread::get_id()].node = node;
+  begin({Span::App, 0, node});
 }
 
-void SpanTimes::nodePhaseEnded(NodeRef node, NodePhase phase) {
-  const auto& planted = options_.planted;
-  if (planted && planted->where == PlantedDelay::Where::Simulate && phase == NodePhase::Simulate &&
-      planted->node == node)
-    burn(planted->iterations);
+void SpanTimes::ended(Span what) {
+  if (!isStage(what) && !isOfNode(what)) return;
+  Open open;
+  {
+    const std::lock_guard lock(mutex_);
+    open = open_[std::this_thread::get_id()];
+  }
+  if (isStage(what)) {
+    if (isPlantedIn(options_.planted, what, open.stage.wall)) burn(options_.planted->iterations);
+    stageEnded(open);
+    if (what == Span::Swap && options_.turns) options_.turns->give();
+  } else if (open.node.valid()) {
+    if (isPlantedIn(options_.planted, what, open.node)) burn(options_.planted->iterations);
+    nodeEnded(open.node);
+  }
+}
+
+void SpanTimes::stageEnded(const Open& open) {
   const std::lock_guard lock(mutex_);
-  const std::uint64_t before = costs_[{Stage::App, 0, node}].now;
-  Cost& cost = ended({Stage::App, 0, node});
+  Cost& cost = end(open.stage);
+  boundary(&cost);
+  stage_ = nullptr;
+  cost.frames.emplace_back(open.frame, cost.now);
+  cost.total += cost.now, cost.now = 0;
+  if (open.stage.stage == Span::App) closeFrame(open.frame);
+}
+
+void SpanTimes::nodeEnded(NodeRef node) {
+  const std::lock_guard lock(mutex_);
+  open_[std::this_thread::get_id()].node = {};
+  const std::uint64_t before = costs_[{Span::App, 0, node}].now;
+  Cost& cost = end({Span::App, 0, node});
   boundary(&cost);
   if (before == 0) touched_.push_back(&cost);
 }
 
-void SpanTimes::began(const Key& key) {
+void SpanTimes::begin(const Key& key) {
   const auto [at, isNew] = costs_.try_emplace(key);
   if (isNew) at->second.row = costs_.size() - 1;
   at->second.began = threadNanoseconds();
 }
 
-SpanTimes::Cost& SpanTimes::ended(const Key& key) {
+SpanTimes::Cost& SpanTimes::end(const Key& key) {
   Cost& cost = costs_[key];
   cost.now += std::max<std::uint64_t>(1, threadNanoseconds() - cost.began);
   return cost;
@@ -112,8 +131,8 @@ std::vector<SpanRow> SpanTimes::rows(const std::vector<std::string>& walls,
   std::vector<SpanRow> all(costs_.size());
   for (const auto& [key, cost] : costs_) {
     SpanRow& row = all[cost.row];
-    row.stage = nameOf(key.stage);
-    const bool ofWall = key.stage == Stage::Cull || key.stage == Stage::Draw;
+    row.stage = nameOfStage(key.stage);
+    const bool ofWall = key.stage == Span::Cull || key.stage == Span::Draw;
     if (ofWall && key.wall < walls.size()) row.wall = walls[key.wall];
     if (key.node.valid()) nameNode(key.node, row);
     row.count = cost.frames.size();

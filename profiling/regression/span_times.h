@@ -16,6 +16,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <thread>
 
 namespace stadion::regression {
 
@@ -29,10 +30,9 @@ class SpanTimes final : public FrameProbe {
 public:
   explicit SpanTimes(SpanTimesOptions options) : options_(std::move(options)) {}
 
-  void stageBegan(Stage, std::uint64_t frame, std::uint32_t wall) override;
-  void stageEnded(Stage, std::uint64_t frame, std::uint32_t wall) override;
-  void nodePhaseBegan(NodeRef, NodePhase) override;
-  void nodePhaseEnded(NodeRef, NodePhase) override;
+  void began(Span what, std::uint64_t frame, std::uint32_t wall) override;
+  void began(Span what, NodeRef node) override;
+  void ended(Span what) override;
 
   /// `nameNode` fills in path, file and line. Frames are told of stages and of the dearest nodes.
   std::vector<SpanRow> rows(const std::vector<std::string>& walls,
@@ -40,7 +40,7 @@ public:
 
 private:
   struct Key {
-    Stage stage = Stage::App;
+    Span stage = Span::App;
     std::uint32_t wall = 0;
     NodeRef node;
     auto operator<=>(const Key&) const = default;
@@ -50,14 +50,23 @@ private:
     std::uint64_t began = 0, now = 0, total = 0;  ///< [ns]; `now`: of this frame
     std::vector<std::pair<std::uint64_t, std::uint64_t>> frames;
   };
+  /// What a thread is at.
+  struct Open {
+    Key stage;
+    std::uint64_t frame = 0;
+    NodeRef node;
+  };
 
-  void began(const Key& key);
-  Cost& ended(const Key& key);
+  void stageEnded(const Open& open);
+  void nodeEnded(NodeRef node);
+  void begin(const Key& key);
+  Cost& end(const Key& key);
   void closeFrame(std::uint64_t frame);
   void boundary(const Cost* cost);
 
   SpanTimesOptions options_;
-  std::mutex mutex_;  ///< of what follows; nodes may compute side by side
+  std::mutex mutex_;  ///< of what follows
+  std::map<std::thread::id, Open> open_;
   std::map<Key, Cost> costs_;
   std::vector<Cost*> touched_;  ///< nodes, in this frame
   Cost* stage_ = nullptr;       ///< that is under way, where one thread does all

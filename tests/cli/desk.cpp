@@ -1,9 +1,12 @@
 #include "tests/cli/desk.h"
 
+#include <arpa/inet.h>
 #include <csignal>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -103,6 +106,17 @@ bool Display::photograph(const std::string& file, int screen) const {
   ProgramRun run{{"import", "-window", "root", "-depth", "8", file}};
   run.environment = {"DISPLAY=" + name_ + "." + std::to_string(screen)};
   return runProgram(run).status == 0;
+}
+
+std::uint16_t freePort() {
+  const int s = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in a{};
+  a.sin_family = AF_INET;
+  socklen_t size = sizeof a;
+  bind(s, reinterpret_cast<const sockaddr*>(&a), sizeof a);
+  getsockname(s, reinterpret_cast<sockaddr*>(&a), &size);
+  close(s);
+  return ntohs(a.sin_port);
 }
 
 ProgramRun onDisplay(const Display& display, std::vector<std::string> arguments) {

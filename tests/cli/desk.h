@@ -4,6 +4,7 @@
 
 #include "tests/cli/program.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -53,6 +54,9 @@ private:
   std::unique_ptr<RunningProgram> server_;
   std::string name_;
 };
+
+/// A UDP port that nobody listens to.
+std::uint16_t freePort();
 
 /// `stadion` with these arguments, on that display.
 ProgramRun onDisplay(const Display& display, std::vector<std::string> arguments);

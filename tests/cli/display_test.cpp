@@ -120,6 +120,29 @@ TEST_F(ProgramDisplay, AShowIsMirroredAndTurnedPixelByPixelOnTwoScreens) {
   expectChanges();
 }
 
+TEST_F(ProgramDisplay, TheNextGroupIsAKeyInAWindowAndTheShowBeginsAgain) {
+  const std::string walls =
+      folder_.write("two.walls", wallFile(display_->name(), fmt::format("{} {}", kWidth, kHeight), ""));
+  const std::string show = folder_.write("ball.evs", "object( file=football.3ds, position=\"0, 3, 1.5\" )\n");
+  const std::string record = folder_.path() / "visit.input";
+  RunningProgram program(onDisplay(*display_, {"run", show, "--asset-root", assetFolder(), "--walls", walls,
+                                               "--display", "--no-sound", "--record-input", record}));
+  ASSERT_TRUE(program.says("the walls are shown"));
+  display_->hands({"mousemove", "40", "30", "key", "n"});
+  ASSERT_TRUE(program.says("group 2 begins: reset in "));
+  display_->hands({"key", "n"});
+  ASSERT_TRUE(program.says("group 3 begins: reset in "));
+  const std::string seen = folder_.path() / "seen.png";
+  ASSERT_TRUE(display_->photograph(seen, 0));
+  const auto picture = readPng(seen);
+  ASSERT_TRUE(picture);
+  EXPECT_GT(coloursIn(cut(picture.value(), 30, 20, kWidth, kHeight)), 4u);
+  display_->hands({"key", "Escape"});
+  EXPECT_EQ(program.status(), 0) << program.err();
+  for (const char* log : {"visit.input", "visit-2.input", "visit-3.input"})
+    EXPECT_FALSE(fileContent(folder_.path() / log).empty()) << log;
+}
+
 TEST_F(ProgramDisplay, BrightnessAndGammaActPerChannel) {
   const auto plain = shown(""), dim = shown("brightness 0.5 1 1"), bright = shown("gamma 1 1 2");
   ASSERT_TRUE(plain && dim && bright);

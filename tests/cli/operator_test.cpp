@@ -1,9 +1,8 @@
 /// A live run and somebody who commands it, over the network and from a terminal.
 
 #include "pipeline/output/picture.h"
-#include "tests/cli/program.h"
+#include "tests/cli/desk.h"
 
-#include <arpa/inet.h>
 #include <atomic>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,7 +11,6 @@
 #include <lo/lo.h>
 #include <nlohmann/json.hpp>
 #include <pty.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <thread>
@@ -33,18 +31,6 @@ dynamics( collider=floor, collidee=ball )
 wandtrigger( sphere="0, 0, 0, 100", eventmessage="button1, push, enable" )
 sound( file=thud.wav, loop=on )
 )";
-
-/// A UDP port that nobody listens to.
-std::uint16_t freePort() {
-  const int s = socket(AF_INET, SOCK_DGRAM, 0);
-  sockaddr_in a{};
-  a.sin_family = AF_INET;
-  socklen_t size = sizeof a;
-  bind(s, reinterpret_cast<const sockaddr*>(&a), sizeof a);
-  getsockname(s, reinterpret_cast<sockaddr*>(&a), &size);
-  close(s);
-  return ntohs(a.sin_port);
-}
 
 /// A show that runs beside the test.
 class LiveShow {
@@ -149,6 +135,18 @@ TEST(ProgramOperator, WhoWaitsStandsAtTheFirstFrameUntilTheStart) {
   LiveShow started({"--wait"});
   for (int i = 0; i < 300; ++i) started.send("/stadion/start"), wait(10);
   EXPECT_GT(started.finish().at("last_frame"), 0) << started.err;
+}
+
+// Contexts, programs and meshes are those of the groups before, whose drawings were given up.
+TEST(ProgramOperator, TheNextGroupSeesTheSamePictures) {
+  LiveShow first({"--wait"});
+  const json seen = first.finish();
+  LiveShow second({"--wait"});
+  for (int i = 0; i < 200; ++i) second.send("/stadion/next-group"), wait(10);
+  const json seenAgain = second.finish();
+  ASSERT_GT(seenAgain.at("groups"), 1) << second.err;
+  EXPECT_EQ(seenAgain.at("image_hashes").size(), 2u);
+  EXPECT_EQ(seenAgain.at("image_hashes"), seen.at("image_hashes"));
 }
 
 TEST(ProgramOperator, OrdersOfALogAreObeyedInTheirFrame) {

@@ -24,7 +24,7 @@ std::uint64_t hashOf(const DrawList& list) {
   for (const auto* items : {&list.opaque, &list.transparent})
     for (const DrawItem& item : *items) {
       for (const float m : item.model) h.add(static_cast<double>(m));
-      h.add(item.instance);
+      h.add(item.owner);
     }
   return h.value();
 }
@@ -57,8 +57,8 @@ Drawn drawnWith(Mode mode, std::size_t memories) {
   const ShowParts own = player->parts(StereoLayout::Pair);
   // The same show, published into slots of our choice. (It has no static objects, whose chunk lies in its
   // own.)
-  NotingStages stages(
-      ShowParts{own.scene, state, own.meshes, own.input, own.walls, nullptr, nullptr, true, {}, nullptr});
+  NotingStages stages(ShowParts{
+      own.scene, state, own.meshes, own.input, own.walls, nullptr, nullptr, nullptr, true, {}, nullptr});
   FrameLoopOptions o;
   o.mode = mode, o.walls = kWalls, o.frames = kFrames;
   const std::atomic<bool> never = false;

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <lo/lo.h>
+#include <optional>
 #include <sstream>
 
 namespace stadion {
@@ -88,7 +90,8 @@ TEST(ProgramView, WithoutADisplaySaysWhatToDo) {
 
 TEST(ProgramView, HelpTellsEveryKey) {
   const std::string help = stadionProgram({"view", "--help"}).out;
-  for (const char* key : {"F1", "F2", "F5", "F12", "W S A D", "space", "[ ]", "Esc", "wheel", "gamepad"})
+  for (const char* key : {"F1", "F2", "F5", "F12", "W S A D", "space", "[ ]", "Esc", "wheel", "gamepad",
+                          "next group", "freeze the head", "--osc", "--no-sound"})
     EXPECT_NE(help.find(key), help.npos) << key;
 }
 
@@ -233,6 +236,87 @@ TEST(ProgramView, KeysWalkAndASavedScriptKeepsTheVisitorsPlace) {
   EXPECT_NE(imageHash(view.shot(1, "screen")), imageHash(view.shot(2, "screen"))) << "what was added is seen";
   const std::string told = view.end();
   EXPECT_NEAR(numberAfter(told, at), walked, 1e-3);
+}
+
+/// Sends a command of the operator without a figure, or with one.
+void order(std::uint16_t port, const char* path, std::optional<double> figure = {}) {
+  const lo_address to = lo_address_new("127.0.0.1", std::to_string(port).c_str());
+  figure ? lo_send(to, path, "d", *figure) : lo_send(to, path, "");
+  lo_address_free(to);
+}
+
+std::size_t blackPixels(const Picture& p) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + 3 < p.rgba.size(); i += 4)
+    count += p.rgba[i] + p.rgba[i + 1] + p.rgba[i + 2] == 0 ? 1 : 0;
+  return count;
+}
+
+TEST(ProgramView, TheOperatorsCommandsComeByKeysAndOverTheNetwork) {
+  REQUIRE_DISPLAY(display);
+  const std::uint16_t port = freePort();
+  Viewing view(*display, testShow("desk.evs"),
+               {"--walls", "desktop", "--stereo", "anaglyph", "--osc", std::to_string(port)});
+  ASSERT_TRUE(view.playing());
+  ASSERT_TRUE(view.pressed("b", "operator: black on"));
+  ASSERT_TRUE(view.pressed("period", "one frame, to "));  // the black ones have been seen
+  ASSERT_TRUE(view.pressed("F12", "screenshot:"));
+  order(port, "/stadion/black", 0);
+  ASSERT_TRUE(view.program().says("operator: black off"));
+  ASSERT_TRUE(view.pressed("period", "one frame, to ", 2));
+  ASSERT_TRUE(view.pressed("F12", "screenshot:", 2));
+  ASSERT_TRUE(view.pressed("x", "operator: swap-eyes on"));
+  ASSERT_TRUE(view.pressed("period", "one frame, to ", 3));
+  ASSERT_TRUE(view.pressed("F12", "screenshot:", 3));
+  ASSERT_TRUE(view.pressed("braceright", "operator: eye-separation 0.0660 m"));
+  order(port, "/stadion/pause", 0);
+  ASSERT_TRUE(view.program().says("operator: going on at "));
+  order(port, "/stadion/volume", 0.5);
+  ASSERT_TRUE(view.program().says("operator: volume 50 %"));
+  ASSERT_TRUE(view.pressed("f", "operator: freeze-head on ("));
+  view.end();
+  const Picture black = view.shot(1, "screen-left");
+  EXPECT_EQ(blackPixels(black), std::size_t{black.width} * black.height);
+  EXPECT_LT(blackPixels(view.shot(2, "screen-left")), 10u);
+  EXPECT_EQ(imageHash(view.shot(3, "screen-left")) == imageHash(view.shot(2, "screen-left")), false);
+  EXPECT_NE(fileContent(view.log()).find(" black 1"), std::string::npos) << "it is in the record";
+}
+
+TEST(ProgramView, TheNextGroupFindsTheShowAtItsStartAndHasARecordOfItsOwn) {
+  REQUIRE_DISPLAY(display);
+  Viewing view(*display, testShow("desk.evs"));
+  ASSERT_TRUE(view.playing());
+  view.hands({"keydown", "w", "sleep", "1.5", "keyup", "w"});
+  ASSERT_TRUE(view.pressed("n", "group 2 begins: reset in "));
+  ASSERT_TRUE(view.program().says("playing ", 2));
+  ASSERT_TRUE(view.pressed("space", "paused at"));
+  ASSERT_TRUE(view.pressed("period", "one frame, to "));
+  const std::string told = view.end();
+  EXPECT_NEAR(numberAfter(told, "the rig stands at 0.000 "), 0, 1e-3) << told;
+  const std::string second = (view.folder() / "desk-2.input").string();
+  for (const std::string& log : {view.log(), second}) {
+    const ProgramResult again = stadionProgram(
+        {"hash", testShow("desk.evs"), "--asset-root", assetFolder(), "--walls", "desktop", "--input", log});
+    EXPECT_EQ(again.status, 0) << again.err;
+    EXPECT_EQ(again.out.ends_with(hashIn(told) + "\n"), log == second) << again.out << told;
+  }
+}
+
+TEST(ProgramView, ANextGroupWhoseScriptHasErrorsWaitsForItToBeMended) {
+  REQUIRE_DISPLAY(display);
+  const TemporaryFolder scripts;
+  scripts.write("desk_corner.evs", fileContent(testShow("desk_corner.evs")));
+  const std::string text = fileContent(testShow("desk.evs"));
+  const std::string show = scripts.write("desk.evs", text);
+  Viewing view(*display, show);
+  ASSERT_TRUE(view.playing());
+  scripts.write("desk.evs", text + "object( positon=\"0, 1, 1\" )\n");
+  ASSERT_TRUE(view.program().says("the script has errors; the show goes on as it was"));
+  ASSERT_TRUE(view.pressed("n", "the next group's show begins once it is saved without them"));
+  scripts.write("desk.evs", text);
+  ASSERT_TRUE(view.program().says("reloaded "));
+  ASSERT_TRUE(view.program().says("playing ", 2));
+  view.end();
 }
 
 TEST(ProgramView, ASubSceneThatIsSavedIsReadAgainToo) {

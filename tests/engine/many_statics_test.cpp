@@ -24,7 +24,7 @@ TEST(ManyStatics, APromotedObjectKeepsItsNameHoweverManyThereAre) {
   ShowFixture show;
   const MeshId mesh = show.meshes.add(unitMesh());
   std::vector<InstanceRecord> records(
-      kAll, makeInstance(Affine::Identity(), *show.meshes.find(mesh), mesh, true, 0));
+      kAll, makeInstance(Affine::Identity(), *show.meshes.find(mesh), mesh, true, NodeRef{}));
   show.loader.files["show"] = [&](Load& load) { addStatics(load, kAll, records, 5); };
   show.scene.open("show");
   // Walking the table of names for each would be a thousand million steps.
@@ -41,7 +41,7 @@ TEST(ManyStatics, FilesBeyondTheNumberOfChunksAreShownObjectByObject) {
   ShowFixture show;
   const MeshId mesh = show.meshes.add(unitMesh());
   const std::vector<InstanceRecord> records(
-      2, makeInstance(Affine::Identity(), *show.meshes.find(mesh), mesh, true, 0));
+      2, makeInstance(Affine::Identity(), *show.meshes.find(mesh), mesh, true, NodeRef{}));
   ChunkId next = 1;
   show.loader.files["part"] = [&](Load& load) { addStatics(load, 2, records, next++); };
   show.loader.files["show"] = [](Load& load) {

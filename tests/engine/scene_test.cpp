@@ -187,7 +187,7 @@ TEST(Scene, AStaticObjectBecomesANodeWhenItIsAddressed) {
   const MeshId mesh = show.meshes.add(unitMesh());
   Affine X = Affine::Identity();
   X.translation() = Vec3(1, 2, 3);
-  const std::vector<InstanceRecord> records{makeInstance(X, *show.meshes.find(mesh), mesh, true, 0)};
+  const std::vector<InstanceRecord> records{makeInstance(X, *show.meshes.find(mesh), mesh, true, NodeRef{})};
   show.loader.files["show"] = [&](Load& load) {
     load.nodes.resize(1);
     load.chunk = 5;

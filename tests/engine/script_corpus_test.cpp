@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -150,11 +150,11 @@ TEST(ScriptCorpus, DamagedScriptsAreAnsweredWithinASecond) {
     Mutator mutator(seed * 1'000'003 + static_cast<std::uint64_t>(i));
     const std::string& base = i % 2 == 0 ? texts[0] : texts[static_cast<std::size_t>(i) % texts.size()];
     const std::string text = mutator.mutate(base, texts);
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();  // of the processor: others may be at work, too
     const Diagnostics findings = findingsOf("damaged.evs", text);
     for (const Diagnostic& d : findings.all()) EXPECT_FALSE(format(d).empty());
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    EXPECT_LT(took.count(), 1.0) << "mutation " << i;
+    const double took = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    EXPECT_LT(took, 1.0) << "mutation " << i;
     if (findings.hasErrors()) ++refused;
   }
   EXPECT_GT(refused, count / 2);

@@ -72,7 +72,7 @@ public:
 protected:
   void onEnter(Scene& scene) override {
     PlacedNode::onEnter(scene);
-    if (mesh_ != kNoMesh) instance_ = scene.addInstance(placement(), mesh_, true, self().position);
+    if (mesh_ != kNoMesh) instance_ = scene.addInstance(placement(), mesh_, true, self());
   }
   void onLeave(Scene& scene) override {
     if (mesh_ != kNoMesh) scene.removeInstance(instance_);

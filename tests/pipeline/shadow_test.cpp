@@ -1,4 +1,5 @@
 #include "engine/asset/mesh_checks.h"
+#include "engine/run_stopped.h"
 #include "pipeline/cull/shadow_cull.h"
 #include "pipeline/state/shadow_places.h"
 #include "tests/pipeline/renderer_scene.h"
@@ -40,7 +41,7 @@ struct Yard {
   void add(std::unique_ptr<Mesh> mesh, const Affine& X, bool moves = false) {
     finish(*mesh);  // its bounds are needed here
     const MeshId id = meshes.add(std::move(mesh));
-    things.push_back(makeInstance(X, *meshes.find(id), id, true, 0));
+    things.push_back(makeInstance(X, *meshes.find(id), id, true, NodeRef{}));
     if (moves) things.back().flags |= kMoves;
   }
   void addGround(double half = 50) {
@@ -149,7 +150,7 @@ TEST(Shadows, WhatIsInTheMapsDoesNotDependOnWhatWasDrawnBefore) {
   const std::size_t mover = yard.things.size() - 1;
   const MeshId mesh = yard.things[mover].mesh;
   const auto go = [&](double x) {
-    yard.things[mover] = makeInstance(at(x, 0, 2), *yard.meshes.find(mesh), mesh, true, 0);
+    yard.things[mover] = makeInstance(at(x, 0, 2), *yard.meshes.find(mesh), mesh, true, NodeRef{});
     yard.things[mover].flags |= kMoves;
   };
   std::vector<DrawList> lists;
@@ -258,6 +259,34 @@ TEST(Shadows, BothProvidersDrawThemAlike) {
   for (const GlProviderKind kind : {GlProviderKind::OsMesa, GlProviderKind::Egl})
     pictures.push_back(Stage(yard.meshes, kWidth, kHeight, kind).draw(list).rgba);
   EXPECT_EQ(pictures[0], pictures[1]);
+}
+
+/// Gives a drawing up at every point at which it asks, and draws the same again with the same renderer.
+void expectNothingLeftBehind(const MeshStore& meshes, const DrawList& list) {
+  const auto whole = Stage(meshes, kWidth, kHeight).draw(list);
+  Stage stage(meshes, kWidth, kHeight);
+  int givenUp = 0;
+  for (bool finished = false; !finished; ++givenUp) {
+    int left = givenUp;
+    finished = true;
+    try {
+      stage.renderer().draw(list, [&] { return left-- == 0; });
+    } catch (const RunStopped&) {
+      finished = false;
+    }
+    ASSERT_EQ(stage.draw(list), whole) << "given up at question " << givenUp;
+  }
+  EXPECT_GT(givenUp, 2);
+}
+
+TEST(Shadows, ADrawingThatWasGivenUpLeavesNothingBehind) {
+  Yard yard;
+  yard.addGround();
+  yard.addCrate(at(0, 0, 0.5));
+  yard.addCrate(at(2, 1, 0.5), true);
+  expectNothingLeftBehind(yard.meshes, yard.list());
+  MeshStore meshes;
+  expectNothingLeftBehind(meshes, test::richList(meshes, double{kWidth} / kHeight));
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+#pragma once
+/// What a live show leaves to the next one of the same script on the same walls, so that the next group need
+/// not wait for it: models that have been read, and contexts into which they have been uploaded.
+///
+/// Threads  one show's at a time. The provider of the contexts must outlive it.
+
+#include "pipeline/imported_meshes.h"
+#include "pipeline/wall_contexts.h"
+
+namespace stadion {
+
+struct KeptParts {
+  ImportedMeshes models;
+  WallContexts contexts;  ///< they use the models, and go first
+};
+
+}  // namespace stadion

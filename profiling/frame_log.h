@@ -1,0 +1,93 @@
+#pragma once
+/// Records what frames are spent on: a probe that writes each thread's spans into a buffer of its own,
+/// without locks, and a thread that collects them.
+///
+/// What recording takes is measured beforehand and taken off: the figures are those of a show that nobody
+/// watches.
+///
+/// Of drawing and of what nodes share, samples are taken, every kSampleEvery frames, so that recording costs
+/// little: the stages' times are exact, a node's share of Cull and Draw is that of the frames sampled.
+///
+/// Threads    the probe's functions on the threads that do the work; the readers' on one thread of the log's
+///            own, and on finish()'s once that has ended.
+/// Ownership  the readers must outlive it.
+
+#include "profiling/span_track.h"
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace stadion {
+
+/// A span's time that is to be shared among nodes.
+struct SharedSpan {
+  Span what = Span::Test;
+  std::uint64_t frame = 0;
+  std::uint32_t wall = kNoWall;
+  double ms = 0;
+  std::vector<NodeRef> among;
+};
+
+/// Whoever wants to know. Threads  one at a time.
+class SpanReader {
+public:
+  virtual ~SpanReader() = default;
+  /// `track` numbers the threads from 0, in the order in which they came.
+  virtual void take(std::size_t track, const SpanRecord& record) = 0;
+  virtual void take(const SharedSpan&) {}
+  virtual void take(const DrawnAlone&, const std::vector<NodeRef>&) {}
+};
+
+struct FrameLogOptions {
+  bool samples = true;  ///< shares and drawing too
+  std::uint64_t sampleEvery = 8;
+  std::uint64_t from = 4;  ///< frames before it are not recorded: what is touched for the first time is slow
+};
+
+class FrameLog final : public FrameProbe {
+public:
+  FrameLog(std::vector<SpanReader*> readers, FrameLogOptions options = {});
+  ~FrameLog() override;
+
+  void began(Span what, std::uint64_t frame, std::uint32_t wall) override;
+  void began(Span what, NodeRef node) override;
+  void ended(Span what) override;
+  bool wantsShares(std::uint64_t frame, std::uint32_t wall) const override;
+  void shared(Span what, std::uint64_t frame, std::uint32_t wall, std::span<const NodeRef> among) override;
+  DrawSample drawSample(std::uint64_t frame, std::uint32_t wall) const override;
+  std::size_t nextBatch(std::uint32_t wall, std::uint32_t eye, std::size_t batches) override;
+  void drewAlone(const DrawnAlone& drawn, std::span<const NodeRef> nodes) override;
+
+  /// Hands on what is left. After the last frame.
+  void finish();
+  const SpanOverhead& overhead() const { return overhead_; }
+  /// Records that were lost because collecting could not keep up.
+  std::uint64_t lost() const;
+
+private:
+  struct Alone {
+    DrawnAlone drawn;
+    std::vector<NodeRef> nodes;
+  };
+
+  SpanTrack& track();
+  void collect();
+
+  std::vector<SpanReader*> readers_;
+  FrameLogOptions options_;
+  SpanOverhead overhead_;
+  std::uint64_t number_;  ///< of this log, among all there were: what threads remember of one is no other's
+  std::atomic<std::uint64_t> appFrame_ = kNoFrame;
+  mutable std::mutex mutex_;
+  std::vector<std::unique_ptr<SpanTrack>> tracks_;
+  std::vector<SharedSpan> shared_;
+  std::vector<Alone> alone_;
+  std::vector<std::size_t> next_;  ///< batches, by wall and eye
+  std::atomic<bool> done_ = false;
+  std::thread collector_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,178 @@
+#include "profiling/show_figures.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace stadion {
+namespace {
+
+class Figures {
+public:
+  Figures(const ShowProfile& profile, const NodeNames& names, const std::vector<std::string>& walls)
+      : profile_(profile), names_(names),
+        frames_(std::max<double>(1, static_cast<double>(profile.frames()))) {
+    out_.frames = profile.frames();
+    out_.walls = walls;
+    for (const auto& [ref, node] : profile.nodes()) addNode(ref, node);
+    addVisitor();
+    addStages();
+    explain();
+    const double all = out_.explained[0].measured + out_.explained[1].measured + out_.explained[2].measured;
+    for (NodeRow& row : out_.nodes) row.share = all > 0 ? row.total / all : 0;
+    std::ranges::sort(out_.nodes, [](const NodeRow& a, const NodeRow& b) {
+      return a.total != b.total ? a.total > b.total : a.node < b.node;
+    });
+  }
+  ShowFigures take() { return std::move(out_); }
+
+private:
+  double perSample(double ms, std::uint32_t wall) const {
+    const std::uint64_t samples = profile_.sampled(wall);
+    return samples > 0 ? ms / static_cast<double>(samples) : 0;
+  }
+
+  double shareOf(std::uint64_t shares, Span what, std::uint32_t wall) const {
+    const std::uint64_t all = profile_.shares(what, wall);
+    return all > 0 ? sum(what, wall) * static_cast<double>(shares) / static_cast<double>(all) : 0;
+  }
+
+  void addNode(NodeRef ref, const NodeProfile& node) {
+    NodeRow row;
+    row.node = ref;
+    if (auto name = names_.find(ref)) row.name = std::move(*name);
+    row.receive = node.phases[0] / frames_, row.simulate = node.phases[1] / frames_;
+    row.dispatch = node.phases[2] / frames_, row.settle = node.settle / frames_;
+    row.publish = shareOf(node.published, Span::Publish, kNoWall);
+    row.app = row.receive + row.simulate + row.dispatch + row.settle + row.publish;
+    row.visitP95 = node.visit.percentile(95), row.visitMost = node.visit.most();
+    row.visits = static_cast<double>(node.visit.count()) / frames_;
+    row.walls.resize(out_.walls.size());
+    for (const auto& [wall, cost] : node.walls) {
+      if (wall >= row.walls.size()) continue;
+      NodeOnWall& on = row.walls[wall];
+      for (const auto& [what, shares] : cost.shares) on.cull += shareOf(shares, what, wall);
+      const auto seen = cost.shares.find(Span::Fill);
+      const double present =
+          seen == cost.shares.end() ? 0 : perSample(static_cast<double>(seen->second), wall);
+      for (std::size_t eye = 0; eye < 2; ++eye) {
+        if (cost.drawn[eye] > 0)
+          on.draw[eye] = present * cost.draw[eye] / static_cast<double>(cost.drawn[eye]);
+        row.draw += on.draw[eye];
+      }
+      row.cull += on.cull;
+    }
+    row.total = row.app + row.cull + row.draw;
+    out_.nodes.push_back(std::move(row));
+  }
+
+  /// Whom no node of the script stands for: what the trackers say, and the eyes in front of the walls.
+  void addVisitor() {
+    NodeRow row;
+    row.name.path = "visitor", row.name.kind = NodeKind::Rig;
+    row.receive = row.app = sum(Span::Input);
+    row.walls.resize(out_.walls.size());
+    for (std::uint32_t wall = 0; wall < row.walls.size(); ++wall)
+      row.cull += row.walls[wall].cull = sum(Span::Eyes, wall);
+    row.total = row.app + row.cull;
+    if (row.total > 0) out_.nodes.push_back(std::move(row));
+  }
+
+  std::string stageName(Span stage, std::uint32_t wall) const {
+    std::string name(nameOf(stage));
+    return wall < out_.walls.size() ? name + " " + out_.walls[wall] : name;
+  }
+
+  static Span stageOf(Span part) {
+    if (isStage(part)) return part;
+    if (part <= Span::Watching || part == Span::ForTick || part == Span::ForSlot) return Span::App;
+    if (part <= Span::Sort || part == Span::ForFrame || part == Span::ForList) return Span::Cull;
+    return Span::Draw;
+  }
+
+  void addStages() {
+    for (const auto& [who, total] : profile_.spans()) {
+      const auto& [what, wall] = who;
+      if (isOfNode(what) || what == Span::Settle) continue;
+      StageRow row;
+      row.name = stageName(stageOf(what), wall);
+      if (!isStage(what)) row.part = std::string(nameOf(what));
+      row.ms = (isStage(what) ? total.ms.sum() : total.own) / frames_;
+      row.p95 = total.ms.percentile(95), row.most = total.ms.most(), row.count = total.ms.count();
+      row.wait = isWait(what);
+      out_.stages.push_back(std::move(row));
+    }
+    for (const auto& [who, eye] : profile_.eyes()) {
+      const std::string name = stageName(Span::Draw, who.first) + (who.second == 0 ? " left" : " right");
+      const auto add = [&](const std::string& part, const CostSeries& ms, double times) {
+        out_.stages.push_back(
+            {name + ", alone", part, times * ms.mean(), ms.percentile(95), ms.most(), ms.count(), false});
+      };
+      add("", eye.whole, 1);
+      for (const auto& [part, ms] : eye.parts) add(std::string(nameOf(part)), ms, timesAFrame(part));
+      add("nothing", eye.empty, 1);
+    }
+  }
+
+  /// The sky is cleared, then drawn.
+  static double timesAFrame(Span part) { return part == Span::Sky ? 2 : 1; }
+
+  /// A frame's, of one wall or of all.
+  double sum(Span what, std::optional<std::uint32_t> wall = {}) const {
+    double ms = 0;
+    for (const auto& [who, total] : profile_.spans())
+      if (who.first == what && (!wall || who.second == *wall))
+        ms += isStage(what) ? total.ms.sum() : total.own;
+    return ms / frames_;
+  }
+
+  void explain() {
+    Explained& app = out_.explained[0];
+    app.stage = "app", app.measured = sum(Span::App);
+    double published = 0;
+    for (const NodeRow& row : out_.nodes) app.nodes += row.app, published += row.publish;
+    for (const Span s : {Span::Loading, Span::Mail, Span::Crew, Span::Sound, Span::Watching})
+      app.named += sum(s);
+    app.named += std::max(0.0, sum(Span::Publish) - published);
+
+    Explained& cull = out_.explained[1];
+    cull.stage = "cull", cull.measured = sum(Span::Cull);
+    for (const NodeRow& row : out_.nodes) cull.nodes += row.cull;
+    // What no node had a part in.
+    for (const Span s : {Span::Test, Span::Fill, Span::ShadowCasts, Span::Sort})
+      for (std::uint32_t wall = 0; wall < out_.walls.size(); ++wall)
+        if (profile_.shares(s, wall) == 0) cull.named += sum(s, wall);
+
+    Explained& draw = out_.explained[2];
+    draw.stage = "draw";
+    for (const NodeRow& row : out_.nodes) draw.nodes += row.draw;
+    for (const auto& [who, eye] : profile_.eyes()) {
+      draw.measured += eye.whole.mean();
+      for (const auto& [part, ms] : eye.parts)
+        if (part == Span::Sky || part == Span::Resolve) draw.named += timesAFrame(part) * ms.mean();
+    }
+  }
+
+  const ShowProfile& profile_;
+  const NodeNames& names_;
+  double frames_;
+  ShowFigures out_;
+};
+
+std::string drawMethod(bool software) {
+  if (!software) return "OpenGL timer queries, each batch alone";
+  const char* threads = std::getenv("LP_NUM_THREADS");
+  return std::string("processor time of the drawing thread and the rasteriser's, each batch alone, "
+                     "LP_NUM_THREADS=") +
+         (threads ? threads : "?");
+}
+
+}  // namespace
+
+ShowFigures figuresOf(const ShowProfile& profile, const NodeNames& names,
+                      const std::vector<std::string>& walls, bool software) {
+  ShowFigures figures = Figures(profile, names, walls).take();
+  figures.drawMethod = drawMethod(software);
+  return figures;
+}
+
+}  // namespace stadion

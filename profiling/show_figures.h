@@ -1,0 +1,69 @@
+#pragma once
+/// A show's frame budget, told: a row for each node and each stage, and how much of the frame they explain.
+///
+/// Units    milliseconds a frame, means over all frames recorded.
+/// Threads  plain values.
+
+#include "profiling/node_names.h"
+#include "profiling/show_profile.h"
+
+namespace stadion {
+
+struct NodeOnWall {
+  double cull = 0;
+  std::array<double, 2> draw{};  ///< left or only eye, right
+};
+
+struct NodeRow {
+  NodeRef node;
+  NodeName name;
+  double receive = 0, simulate = 0, dispatch = 0;
+  double settle = 0;                   ///< taking up what it changed
+  double publish = 0;                  ///< its records, into the slot
+  double app = 0;                      ///< the sum of these
+  double visitP95 = 0, visitMost = 0;  ///< of the frames in which App visited it
+  double visits = 0;                   ///< a frame
+  std::vector<NodeOnWall> walls;
+  double cull = 0, draw = 0;  ///< of all walls and eyes
+  double total = 0;
+  double share = 0;  ///< of all stages of all walls
+};
+
+/// What a stage took besides nodes, or in all.
+struct StageRow {
+  std::string name;  ///< "cull front"
+  std::string part;  ///< empty: the stage itself; else "eyes", "sky", "for turn"
+  double ms = 0, p95 = 0, most = 0;
+  std::uint64_t count = 0;
+  bool wait = false;
+};
+
+/// How much of a stage is explained.
+struct Explained {
+  std::string stage;    ///< app, cull, draw
+  double measured = 0;  ///< of all walls and eyes
+  double nodes = 0;
+  double named = 0;  ///< parts of the stage itself
+  double covered() const { return measured > 0 ? (nodes + named) / measured : 1; }
+};
+
+struct ShowFigures {
+  std::uint64_t frames = 0;
+  std::vector<std::string> walls;
+  std::vector<NodeRow> nodes;  ///< the dearest first
+  std::vector<StageRow> stages;
+  std::array<Explained, 3> explained;
+  std::string drawMethod;
+};
+
+ShowFigures figuresOf(const ShowProfile& profile, const NodeNames& names,
+                      const std::vector<std::string>& walls, bool software);
+
+/// The dearest nodes and the stages, for a terminal.
+std::string toText(const ShowFigures& figures, std::size_t mostNodes);
+/// One JSON object on one line: "frames", "nodes", "stages", "explained".
+std::string toJson(const ShowFigures& figures);
+/// A row a node, stage, wall and eye.
+std::string toCsv(const ShowFigures& figures);
+
+}  // namespace stadion

@@ -1,0 +1,95 @@
+#include "profiling/show_figures.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace stadion {
+namespace {
+
+std::string placeOf(const NodeName& name) {
+  if (name.file.empty()) return "";
+  const std::size_t slash = name.file.rfind('/');
+  const std::string file = slash == std::string::npos ? name.file : name.file.substr(slash + 1);
+  return fmt::format("{}:{}{}", file, name.line, name.unloaded ? " (unloaded)" : "");
+}
+
+nlohmann::json toJson(const NodeRow& row, const std::vector<std::string>& walls) {
+  nlohmann::json j{{"path", row.name.path},         {"file", row.name.file},
+                   {"line", row.name.line},         {"kind", nameOf(row.name.kind)},
+                   {"unloaded", row.name.unloaded}, {"budget_ms", row.name.budget},
+                   {"receive_ms", row.receive},     {"simulate_ms", row.simulate},
+                   {"dispatch_ms", row.dispatch},   {"settle_ms", row.settle},
+                   {"publish_ms", row.publish},     {"app_ms", row.app},
+                   {"cull_ms", row.cull},           {"draw_ms", row.draw},
+                   {"total_ms", row.total},         {"share", row.share},
+                   {"visits", row.visits},          {"visit_p95_ms", row.visitP95},
+                   {"visit_max_ms", row.visitMost}};
+  for (std::size_t w = 0; w < row.walls.size(); ++w)
+    j["walls"].push_back({{"wall", walls[w]},
+                          {"cull_ms", row.walls[w].cull},
+                          {"draw_left_ms", row.walls[w].draw[0]},
+                          {"draw_right_ms", row.walls[w].draw[1]}});
+  return j;
+}
+
+}  // namespace
+
+std::string toText(const ShowFigures& f, std::size_t mostNodes) {
+  std::string text =
+      "ms a frame, all walls and eyes\n    app  p95 visit    cull     draw    total  share  node\n";
+  for (std::size_t i = 0; i < std::min(mostNodes, f.nodes.size()); ++i) {
+    const NodeRow& r = f.nodes[i];
+    text += fmt::format("{:7.4f} {:10.4f} {:7.4f} {:8.3f} {:8.3f} {:5.1f}%  {}  {}\n", r.app, r.visitP95,
+                        r.cull, r.draw, r.total, 100 * r.share, r.name.path, placeOf(r.name));
+  }
+  text += "\n       ms      p95      max  stage\n";
+  for (const StageRow& s : f.stages)
+    text += fmt::format("{:9.4f} {:8.3f} {:8.3f}  {}{}{}\n", s.ms, s.p95, s.most, s.name,
+                        s.part.empty() ? "" : ": ", s.part);
+  text += "\nexplained   measured     nodes  the stage's own parts\n";
+  for (const Explained& e : f.explained)
+    text += fmt::format("{:5} {:5.1f}% {:9.4f} {:9.4f} {:9.4f}\n", e.stage, 100 * e.covered(), e.measured,
+                        e.nodes, e.named);
+  return f.explained[2].measured > 0 ? text + "draw: " + f.drawMethod + "\n" : text;
+}
+
+std::string toJson(const ShowFigures& f) {
+  nlohmann::json j{{"frames", f.frames}, {"walls", f.walls}, {"draw_method", f.drawMethod}};
+  j["nodes"] = nlohmann::json::array(), j["stages"] = nlohmann::json::array();
+  for (const NodeRow& row : f.nodes) j["nodes"].push_back(toJson(row, f.walls));
+  for (const StageRow& s : f.stages)
+    j["stages"].push_back({{"stage", s.name},
+                           {"part", s.part},
+                           {"ms", s.ms},
+                           {"p95_ms", s.p95},
+                           {"max_ms", s.most},
+                           {"count", s.count},
+                           {"wait", s.wait}});
+  for (const Explained& e : f.explained)
+    j["explained"].push_back({{"stage", e.stage},
+                              {"measured_ms", e.measured},
+                              {"nodes_ms", e.nodes},
+                              {"parts_ms", e.named},
+                              {"covered", e.covered()}});
+  return j.dump();
+}
+
+std::string toCsv(const ShowFigures& f) {
+  std::string csv = "path,file,line,kind,stage,wall,eye,ms\n";
+  for (const NodeRow& r : f.nodes) {
+    const auto add = [&](const char* stage, const std::string& wall, const char* eye, double ms) {
+      csv += fmt::format("{},{},{},{},{},{},{},{}\n", r.name.path, r.name.file, r.name.line,
+                         nameOf(r.name.kind), stage, wall, eye, ms);
+    };
+    add("app", "", "", r.app);
+    for (std::size_t w = 0; w < r.walls.size(); ++w) {
+      add("cull", f.walls[w], "", r.walls[w].cull);
+      add("draw", f.walls[w], "left", r.walls[w].draw[0]);
+      add("draw", f.walls[w], "right", r.walls[w].draw[1]);
+    }
+  }
+  return csv;
+}
+
+}  // namespace stadion

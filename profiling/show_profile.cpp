@@ -1,0 +1,66 @@
+#include "profiling/show_profile.h"
+
+namespace stadion {
+
+void ShowProfile::take(std::size_t, const SpanRecord& r) {
+  SpanTotal& total = spans_[{r.what, r.wall}];
+  total.ms.add(r.took);
+  total.own += r.own;
+  if (r.what == Span::App) ++frames_;
+  if (r.node.valid()) addPhase(r.node, r);
+}
+
+void ShowProfile::addPhase(NodeRef ref, const SpanRecord& r) {
+  NodeProfile& node = nodes_[ref];
+  const double ms = r.own;
+  if (isOfNode(r.what))
+    node.phases[static_cast<std::size_t>(r.what) - static_cast<std::size_t>(Span::Receive)] += ms;
+  else
+    node.settle += ms;
+  // The first phase of a later frame tells that the earlier one's are complete.
+  Visit& visit = visits_[ref];
+  if (visit.frame != r.frame) {
+    if (visit.frame != kNoFrame) node.visit.add(visit.ms);
+    visit = {r.frame, 0};
+  }
+  visit.ms += ms;
+}
+
+void ShowProfile::take(const SharedSpan& s) {
+  if (s.what == Span::Publish || s.what == Span::Fill) ++sampled_[s.wall];
+  shares_[{s.what, s.wall}] += s.among.size();
+  for (const NodeRef ref : s.among)
+    if (s.what == Span::Publish)
+      ++nodes_[ref].published;
+    else
+      ++nodes_[ref].walls[s.wall].shares[s.what];
+}
+
+void ShowProfile::take(const DrawnAlone& d, const std::vector<NodeRef>& nodes) {
+  EyeCost& eye = eyes_[{d.wall, d.eye}];
+  eye.empty.add(d.emptyMs);
+  if (d.what == Span::LeftEye || d.what == Span::RightEye)
+    eye.whole.add(d.ms);
+  else if (d.what != Span::Draw)
+    eye.parts[d.what].add(d.ms);
+  if (nodes.empty()) return;
+  eye.batches.add(d.ms);
+  const double each = d.ms / static_cast<double>(nodes.size());
+  for (const NodeRef ref : nodes) {
+    WallCost& wall = nodes_[ref].walls[d.wall];
+    wall.draw[d.eye] += each;
+    ++wall.drawn[d.eye];
+  }
+}
+
+std::uint64_t ShowProfile::shares(Span what, std::uint32_t wall) const {
+  const auto at = shares_.find({what, wall});
+  return at == shares_.end() ? 0 : at->second;
+}
+
+std::uint64_t ShowProfile::sampled(std::uint32_t wall) const {
+  const auto at = sampled_.find(wall);
+  return at == sampled_.end() ? 0 : at->second;
+}
+
+}  // namespace stadion

@@ -1,0 +1,85 @@
+#pragma once
+/// Adds up what a show's frames were spent on: by node, by stage, by wall and eye.
+///
+/// App       each node's phases are timed in every frame.
+/// Cull      tests, filling, sorting are timed for a whole wall; in the frames that are sampled each node
+/// gets
+///           its part: all alike that were tested, all alike that are seen, all alike that cast shadows. So
+///           does publishing, in App.
+/// Draw      in the frames that are sampled a few batches are drawn alone, each in its place, until all have
+///           been; instances of one batch (of one mesh, next to each other by distance) share alike. A node's
+///           cost in a frame is what it cost when drawn, by how often it was drawn. Nothing is normalised:
+///           how far the sum is from the eye drawn whole is told.
+///
+/// Units    milliseconds. Threads  SpanReader's.
+
+#include "profiling/cost_series.h"
+#include "profiling/frame_log.h"
+
+#include <map>
+
+namespace stadion {
+
+/// A node's cost on one wall, of both eyes.
+struct WallCost {
+  std::map<Span, std::uint64_t> shares;  ///< of tests, fillings and so on, in the frames sampled
+  std::array<double, 2> draw{};          ///< alone, in all, by eye
+  std::array<std::uint64_t, 2> drawn{};
+};
+
+struct NodeProfile {
+  std::array<double, 3> phases{};  ///< receive, simulate, dispatch, in all
+  double settle = 0;               ///< what it changed is taken up, in all
+  std::uint64_t published = 0;     ///< how often, in the frames sampled
+  CostSeries visit;                ///< all phases of a frame together, of the frames in which it was visited
+  std::map<std::uint32_t, WallCost> walls;
+};
+
+/// One kind of span, in all.
+struct SpanTotal {
+  CostSeries ms;
+  double own = 0;  ///< in none of its parts
+};
+
+/// What an eye's drawing consists of, alone.
+struct EyeCost {
+  CostSeries whole;                  ///< without what drawing nothing takes
+  std::map<Span, CostSeries> parts;  ///< sky, resolve: each time it was drawn
+  CostSeries batches;
+  CostSeries empty;  ///< what drawing nothing takes
+};
+
+class ShowProfile final : public SpanReader {
+public:
+  void take(std::size_t track, const SpanRecord& record) override;
+  void take(const SharedSpan& shared) override;
+  void take(const DrawnAlone& drawn, const std::vector<NodeRef>& nodes) override;
+
+  const std::map<NodeRef, NodeProfile>& nodes() const { return nodes_; }
+  /// By kind and wall (kNoWall: of no wall).
+  const std::map<std::pair<Span, std::uint32_t>, SpanTotal>& spans() const { return spans_; }
+  /// By wall and eye.
+  const std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost>& eyes() const { return eyes_; }
+  std::uint64_t frames() const { return frames_; }
+  /// Of all nodes together: how often they shared a span of that kind, in the frames sampled.
+  std::uint64_t shares(Span what, std::uint32_t wall) const;
+  /// Frames in which shares were told, by wall; kNoWall: of App.
+  std::uint64_t sampled(std::uint32_t wall) const;
+
+private:
+  void addPhase(NodeRef node, const SpanRecord& record);
+
+  struct Visit {
+    std::uint64_t frame = kNoFrame;
+    double ms = 0;
+  };
+  std::map<NodeRef, NodeProfile> nodes_;
+  std::map<NodeRef, Visit> visits_;  ///< that may not be over
+  std::map<std::pair<Span, std::uint32_t>, SpanTotal> spans_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost> eyes_;
+  std::map<std::uint32_t, std::uint64_t> sampled_;
+  std::map<std::pair<Span, std::uint32_t>, std::uint64_t> shares_;
+  std::uint64_t frames_ = 0;
+};
+
+}  // namespace stadion

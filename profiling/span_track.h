@@ -1,0 +1,112 @@
+#pragma once
+/// What one thread did: its spans, on their way from it to whoever collects them.
+///
+/// Threads  began() and ended() on the thread itself, take() on the collector's; they meet without a lock.
+
+#include "engine/frame_probe.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <vector>
+
+namespace stadion {
+
+using ProfileClock = std::chrono::steady_clock;
+
+/// What recording a span itself takes, as far as the span contains it, and outside of it [ns].
+struct SpanOverhead {
+  double inside = 0, outside = 0;
+};
+
+/// A span that is over. Within a thread spans end in the order of their ends: parts before what holds them.
+struct SpanRecord {
+  ProfileClock::time_point began, ended;  ///< as they were, recording included
+  std::uint64_t frame = kNoFrame;
+  std::uint32_t wall = kNoWall;
+  NodeRef node;
+  Span what = Span::App;
+  std::uint8_t depth = 0;  ///< 0 = in no other
+  double took = 0;         ///< [ms] without recording
+  double own = 0;          ///< [ms] of it in no part
+};
+
+class SpanTrack {
+public:
+  static constexpr std::size_t kCapacity = 1 << 16;
+  static constexpr std::size_t kDeepest = 12;
+
+  explicit SpanTrack(SpanOverhead overhead = {}) : overhead_(overhead), ring_(kCapacity) {}
+
+  /// What comes below it inherits the frame and the wall.
+  void began(Span what, std::uint64_t frame, std::uint32_t wall, NodeRef node) {
+    if (depth_ >= kDeepest) {
+      ++depth_;
+      return;
+    }
+    Open& open = open_[depth_++];
+    open.what = what, open.frame = frame, open.wall = wall, open.node = node;
+    open.within = 0, open.spans = 0;
+    open.began = ProfileClock::now();
+  }
+  void ended() {
+    const ProfileClock::time_point now = ProfileClock::now();
+    if (depth_ == 0 || --depth_ >= kDeepest) return;
+    const Open& open = open_[depth_];
+    const double recording = overhead_.inside + open.spans * (overhead_.inside + overhead_.outside);
+    const double took = std::max(0.0, nanoseconds(now - open.began) - recording);
+    if (depth_ > 0) open_[depth_ - 1].within += took, open_[depth_ - 1].spans += open.spans + 1;
+    last_[static_cast<std::size_t>(open.what)] = took;
+    const std::size_t head = head_.load(std::memory_order_relaxed);
+    if (head - tail_.load(std::memory_order_acquire) == kCapacity) {
+      lost_.fetch_add(1, std::memory_order_relaxed);
+      return;
+    }
+    SpanRecord& r = ring_[head % kCapacity];
+    r.began = open.began, r.ended = now, r.frame = open.frame, r.wall = open.wall, r.node = open.node;
+    r.what = open.what, r.depth = static_cast<std::uint8_t>(depth_);
+    r.took = 1e-6 * took, r.own = 1e-6 * std::max(0.0, took - open.within);
+    head_.store(head + 1, std::memory_order_release);
+  }
+  /// The frame and wall of the span that is under way.
+  std::uint64_t frame() const { return depth_ > 0 ? open_[std::min(depth_, kDeepest) - 1].frame : kNoFrame; }
+  std::uint32_t wall() const { return depth_ > 0 ? open_[std::min(depth_, kDeepest) - 1].wall : kNoWall; }
+  /// How long the last span of that kind took [ms].
+  double last(Span what) const { return 1e-6 * last_[static_cast<std::size_t>(what)]; }
+
+  /// The next record, if there is one.
+  bool take(SpanRecord& out) {
+    const std::size_t tail = tail_.load(std::memory_order_relaxed);
+    if (tail == head_.load(std::memory_order_acquire)) return false;
+    out = ring_[tail % kCapacity];
+    tail_.store(tail + 1, std::memory_order_release);
+    return true;
+  }
+  /// Records for which there was no room, because nobody collected.
+  std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
+
+private:
+  static double nanoseconds(ProfileClock::duration d) {
+    return std::chrono::duration<double, std::nano>(d).count();
+  }
+  struct Open {
+    Span what = Span::App;
+    std::uint64_t frame = kNoFrame;
+    std::uint32_t wall = kNoWall;
+    NodeRef node;
+    double within = 0;        ///< [ns] that its parts took
+    std::uint32_t spans = 0;  ///< in it, and in those
+    ProfileClock::time_point began;
+  };
+
+  std::array<Open, kDeepest> open_;
+  std::size_t depth_ = 0;
+  SpanOverhead overhead_;
+  std::array<double, kSpans> last_{};
+  std::vector<SpanRecord> ring_;
+  std::atomic<std::size_t> head_ = 0, tail_ = 0;
+  std::atomic<std::uint64_t> lost_ = 0;
+};
+
+}  // namespace stadion

@@ -1,0 +1,61 @@
+/// `stadion profile`: what the frames of the kick are spent on.
+
+#include "tests/cli/program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace stadion {
+namespace {
+
+ProgramResult profileKick(const std::vector<std::string>& options) {
+  std::vector<std::string> words = {
+      "profile", std::string(STADION_SOURCE_DIR "/scripts/kick.evs"), "--frames", "180", "--size", "96x72"};
+  words.insert(words.end(), options.begin(), options.end());
+  return stadionProgram(words);
+}
+
+TEST(ProgramProfile, EveryNodeThatWorksOrIsSeenHasARow) {
+  const ProgramResult r = profileKick({"--json", "--walls", "desktop"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto j = nlohmann::json::parse(r.out);
+  std::map<std::string, nlohmann::json> rows;
+  for (const auto& row : j["nodes"]) rows[row["path"]] = row;
+  ASSERT_TRUE(rows.contains("ball") && rows.contains("playfield") && rows.contains("sim_kick")) << r.out;
+  EXPECT_EQ(rows["ball"]["kind"], "dynobject");
+  EXPECT_EQ(rows["ball"]["line"], 27);
+  EXPECT_GT(rows["sim_kick"]["simulate_ms"], 0);
+  EXPECT_EQ(rows["sim_kick"]["draw_ms"], 0);
+  EXPECT_GT(rows["playfield"]["draw_ms"], 0);
+  EXPECT_EQ(rows["playfield"]["app_ms"], 0) << "what stands still costs App nothing";
+  for (const auto& e : j["explained"]) EXPECT_GT(e["covered"], 0.5) << e;
+}
+
+TEST(ProgramProfile, PicturesAndStatesAreThoseOfAPlainRun) {
+  const auto run = [](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"run",       std::string(STADION_SOURCE_DIR "/scripts/kick.evs"),
+                                      "--frames",  "40",
+                                      "--size",    "96x72",
+                                      "--walls",   "desktop",
+                                      "--json",    "--mode",
+                                      "sequential"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return nlohmann::json::parse(r.out);
+  };
+  const auto plain = run({}), profiled = run({"--profile"});
+  EXPECT_EQ(plain["state_hash"], profiled["state_hash"]);
+  EXPECT_EQ(plain["image_hashes"], profiled["image_hashes"]);
+}
+
+TEST(ProgramProfile, WithoutDrawingAppAndCullAreLeft) {
+  const ProgramResult r = profileKick({"--no-draw"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_NE(r.out.find("sim_kick"), std::string::npos);
+  EXPECT_EQ(r.out.find("alone"), std::string::npos) << r.out;
+  EXPECT_NE(profileKick({"--csv", "--no-draw"}).out.find("path,file,line"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stadion

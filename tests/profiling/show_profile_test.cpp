@@ -1,0 +1,130 @@
+/// Where a frame's time goes: spans of several threads, added up by node and stage.
+
+#include "profiling/show_figures.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace stadion {
+namespace {
+
+constexpr NodeRef kBall{1, 0}, kStone{1, 1};
+
+void burn(std::chrono::microseconds time) {
+  const auto end = ProfileClock::now() + time;
+  while (ProfileClock::now() < end) {
+  }
+}
+
+/// Spans made up by hand, as a reader gets them.
+SpanRecord record(Span what, std::uint64_t frame, std::uint32_t wall, NodeRef node, double ms) {
+  SpanRecord r;
+  r.frame = frame, r.wall = wall, r.node = node, r.what = what;
+  r.took = r.own = ms;
+  return r;
+}
+
+TEST(ThreadsFrameLog, SpansOfManyThreadsArriveWholeAndNested) {
+  struct Kept final : SpanReader {
+    std::map<std::size_t, std::vector<SpanRecord>> tracks;
+    using SpanReader::take;
+    void take(std::size_t track, const SpanRecord& r) override { tracks[track].push_back(r); }
+  } kept;
+  FrameLog log({&kept}, {.samples = false, .from = 0});
+  constexpr std::uint64_t kFrames = 2000;
+  std::vector<std::thread> walls;
+  for (std::uint32_t wall = 0; wall < 4; ++wall)
+    walls.emplace_back([&log, wall] {
+      for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
+        const SpanScope stage(&log, Span::Cull, frame, wall);
+        const SpanScope part(&log, Span::Test);
+      }
+    });
+  for (std::thread& t : walls) t.join();
+  log.finish();
+  EXPECT_EQ(log.lost(), 0U);
+  ASSERT_EQ(kept.tracks.size(), 4U);
+  for (const auto& [number, spans] : kept.tracks) {
+    ASSERT_EQ(spans.size(), 2 * kFrames);
+    for (std::size_t i = 0; i < spans.size(); i += 2) {
+      EXPECT_EQ(spans[i].what, Span::Test);
+      EXPECT_EQ(spans[i + 1].what, Span::Cull);
+      EXPECT_EQ(spans[i].frame, i / 2) << "a part knows its stage's frame";
+      EXPECT_EQ(spans[i].wall, spans[i + 1].wall);
+      EXPECT_GE(spans[i].began, spans[i + 1].began);
+      EXPECT_LE(spans[i].ended, spans[i + 1].ended);
+    }
+  }
+}
+
+TEST(FrameLog, WhatAStageDoesBesideItsPartsIsItsOwn) {
+  ShowProfile profile;
+  FrameLog log({&profile}, {.samples = false, .from = 0});
+  {
+    const SpanScope app(&log, Span::App, 0, kNoWall);
+    burn(std::chrono::microseconds(300));
+    const SpanScope node(&log, Span::Simulate, kBall);
+    burn(std::chrono::microseconds(700));
+  }
+  log.finish();
+  const SpanTotal& app = profile.spans().at({Span::App, kNoWall});
+  const double simulated = profile.nodes().at(kBall).phases[1];
+  EXPECT_GE(simulated, 0.7);
+  EXPECT_GE(app.own, 0.3);
+  EXPECT_NEAR(app.own + simulated, app.ms.sum(), 1e-3) << "every moment is somebody's, once";
+}
+
+TEST(ShowProfile, ASpanIsSharedAmongThoseItWasSpentOn) {
+  ShowProfile profile;
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
+  profile.take(0, record(Span::Cull, 8, 0, {}, 3));
+  profile.take(0, record(Span::Test, 8, 0, {}, 2));
+  profile.take(0, record(Span::Fill, 8, 0, {}, 1));
+  profile.take({Span::Test, 8, 0, 2, {kBall, kStone}});
+  profile.take({Span::Fill, 8, 0, 1, {kStone}});
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  ASSERT_EQ(f.nodes.size(), 2U);
+  EXPECT_EQ(f.nodes[0].node, kStone);
+  EXPECT_DOUBLE_EQ(f.nodes[0].cull, 2);
+  EXPECT_DOUBLE_EQ(f.nodes[1].walls[0].cull, 1);
+  EXPECT_DOUBLE_EQ(f.explained[1].covered(), 1);
+}
+
+TEST(ShowProfile, DrawingCountsByHowOftenANodeIsSeen) {
+  ShowProfile profile;
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
+  profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
+  profile.take({Span::Fill, 16, 0, 1, {kStone}});
+  profile.take({8, 0, 1, Span::Draw, 6, 0.1}, {kBall, kStone});  // three each, on the right eye
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  ASSERT_EQ(f.nodes.size(), 2U);
+  EXPECT_EQ(f.nodes[0].node, kStone);
+  EXPECT_DOUBLE_EQ(f.nodes[0].walls[0].draw[1], 3);
+  EXPECT_DOUBLE_EQ(f.nodes[1].walls[0].draw[1], 1.5) << "it was seen in half of the frames";
+  EXPECT_DOUBLE_EQ(f.nodes[0].walls[0].draw[0], 0);
+}
+
+TEST(ShowProfile, ItsTablesAgree) {
+  ShowProfile profile;
+  profile.take(0, record(Span::Simulate, 0, kNoWall, kBall, 0.25));
+  profile.take(0, record(Span::App, 0, kNoWall, {}, 1));
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  const auto json = nlohmann::json::parse(toJson(f));
+  EXPECT_DOUBLE_EQ(json["nodes"][0]["app_ms"], 0.25);
+  EXPECT_DOUBLE_EQ(json["explained"][0]["covered"], 0.25);
+  EXPECT_NE(toCsv(f).find(",app,,,0.25\n"), std::string::npos) << toCsv(f);
+  EXPECT_NE(toText(f, 10).find("0.2500"), std::string::npos) << toText(f, 10);
+}
+
+TEST(CostSeries, PercentilesAreExactToABin) {
+  CostSeries s;
+  for (int i = 1; i <= 1000; ++i) s.add(0.001 * i);
+  EXPECT_NEAR(s.mean(), 0.5005, 1e-9);
+  EXPECT_NEAR(s.percentile(50) / 0.5, 1, 0.09);
+  EXPECT_NEAR(s.percentile(95) / 0.95, 1, 0.09);
+  EXPECT_EQ(s.most(), 1);
+  EXPECT_EQ(CostSeries().percentile(95), 0);
+}
+
+}  // namespace
+}  // namespace stadion
