@@ -123,6 +123,23 @@ bool centreIsInside(const NodeRequest& r) {
   return false;
 }
 
+/// What has next to no inertia turns too fast for contact to be followed.
+bool inertiaIsEnough(const NodeRequest& r, const MassProperties& mass, const MassProperties& even) {
+  constexpr double kLeast = 0.01;
+  const Declaration& d = r.declaration;
+  const Vec3 least = kLeast * mass.mass / even.mass * even.inertia;
+  if (!d.has(Attr::Inertia) || (mass.inertia.array() >= least.array()).all()) return true;
+  Vec3 named = least;
+  std::sort(named.begin(), named.end());
+  r.findings.error(
+      d.where(Attr::Inertia),
+      fmt::format("the moments must be at least \"{:.3g}, {:.3g}, {:.3g}\" kg*m2, a hundredth of what "
+                  "{:.4g} kg have that fill the model evenly",
+                  named.x(), named.y(), named.z(), mass.mass),
+      d.excerpt(Attr::Inertia));
+  return false;
+}
+
 /// Half the sum of the moments is that of the matter about the centre, which none of it is farther from than
 /// the model's farthest point.
 void warnOfImpossibleInertia(const NodeRequest& r, const MassProperties& mass) {
@@ -159,6 +176,7 @@ Made makeDynObject(const NodeRequest& r, ShapeStore& shapes, const DynamicsVaria
   if (!centreIsInside(r)) return nullptr;
   const MassProperties mass = body.massOf(fitted);
   if (!mass.valid()) return fail("is too small or too large for a body");
+  if (!inertiaIsEnough(r, mass, fitted.filled.value())) return nullptr;
   auto flight = flightOf(r, mass, roots);
   if (!flight) {
     r.findings.add(flight.error());

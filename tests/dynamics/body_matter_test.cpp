@@ -3,6 +3,7 @@
 #include "dynamics/nodes/dynamics_factories.h"
 
 #include "dynamics/nodes/dyn_object_node.h"
+#include "engine/maths/functions.h"
 #include "engine/script/script.h"
 #include "tests/dynamics/show_nodes.h"
 
@@ -99,6 +100,16 @@ TEST(BodyMatter, MoreInertiaThanAnyBodyOfThatSizeHasIsToldAsAWarning) {
       << heavy.findings;
 }
 
+TEST(BodyMatter, TooLittleInertiaToBeFollowedInContactIsRefusedWithTheLeastThatIsNot) {
+  const Made thin = made(", inertia=\"1e-5, 1e-5, 1e-5\"");
+  EXPECT_EQ(thin.node, nullptr);
+  EXPECT_NE(
+      thin.findings.find("a.evs:1:49: error: the moments must be at least \"0.000125, 0.01, 0.0101\" kg*m2"),
+      std::string::npos)
+      << thin.findings;
+  EXPECT_NE(made(", inertia=\"0.00013, 0.0102, 0.0102\"").node, nullptr);
+}
+
 /// A ball that carries its weight low: put down askew, it comes to rest upright.
 TEST(BodyMatter, ABallWithALowCentreRightsItself) {
   World world;
@@ -110,9 +121,9 @@ TEST(BodyMatter, ABallWithALowCentreRightsItself) {
   attributes.mass = 1, attributes.centre = Vec3(0, 0, -0.05);
   ShapeChoice ball;
   ball.shape = BallShape{Vec3::Zero(), 0.1}, ball.kind = ShapeKind::Ball;
-  const FittedShape fit{Vec3::Ones(), ball, massOfSphere(Vec3::Zero(), 0.1, 1), 0};
+  const FittedShape fit{Vec3::Ones(), std::move(ball), massOfSphere(Vec3::Zero(), 0.1, 1), 0};
   BodyDef def;
-  def.shape = world.addShape(ball.shape);
+  def.shape = world.addShape(BallShape{Vec3::Zero(), 0.1});
   def.mass = attributes.massOf(fit);
   def.pose.p = Vec3(0, 0, 0.1), def.pose.q = det::expRotation(Vec3(1.2, 0, 0));
   def.surface.restitution = 0, def.surface.rolling = 0.05;
