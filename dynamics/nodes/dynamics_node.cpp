@@ -238,7 +238,7 @@ void DynamicsNode::letGo(const Part& part, Nanoseconds when, Scene& scene) {
   Velocity thrown{hand.v + hand.omega.cross(arm), hand.omega};
   if (source != ThrowSource::Hand) thrown.v += world_.woundUp(body);
   if (node && node->body().spin != 0 && part.fit)
-    thrown.omega += node->body().spin * (world_.pose(body).q * symmetryAxis(part.fit->filled.value()));
+    thrown.omega += node->body().spin * (world_.pose(body).q * symmetryAxis(node->body().massOf(*part.fit)));
   world_.releaseBody(body, thrown.v, thrown.omega);
   grips_.erase(grip);
 }

@@ -65,6 +65,18 @@ constexpr AttributeSpec kDynObjectRows[] = {
      .standard = "1",
      .range = {1e-6, 1000}},
     {.attr = Attr::Mass, .kind = Number, .help = "overrides density", .unit = "kg", .range = {1e-9, 1e9}},
+    {.attr = Attr::Centre,
+     .kind = Vector,
+     .help = "the centre of mass in the model's coordinates, inside the model; if not stated, as of matter "
+             "that fills it evenly",
+     .unit = "m",
+     .range = kPlace},
+    {.attr = Attr::Inertia,
+     .kind = Moments,
+     .help = "moments about the longest, the middle and the shortest principal axis through the centre of "
+             "mass; if not stated, as of matter that fills it evenly",
+     .unit = "kg*m2",
+     .range = {1e-15, 1e15}},
     {.attr = Attr::Friction,
      .kind = Number,
      .help = "Coulomb coefficient; a pair takes the root of the product",
