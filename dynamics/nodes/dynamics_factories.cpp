@@ -224,6 +224,7 @@ BodyAttributes bodyAttributesOf(const Declaration& d) {
   body.spin = d.number(Attr::Spin) * kDegree;
   if (d.has(Attr::Nose)) body.nose = d.vec3(Attr::Nose).normalized();
   if (const auto angle = d.optionalNumber(Attr::Sticks)) body.sticks = *angle * kDegree;
+  body.stickDepth = d.number(Attr::Depth);
   for (const NodeReference& hook : d.references(Attr::Hook)) body.hooks.push_back(std::string(hook.name));
   return body;
 }
