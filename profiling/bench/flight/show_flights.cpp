@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <memory>
+#include <optional>
 
 namespace stadion::bench {
 namespace {
@@ -87,8 +88,14 @@ public:
     scene_ = std::make_unique<Scene>(*loader_, meshes_);
     opened_ = scene_->open(script);
   }
-  bool opened() const { return opened_ && !findings_.hasErrors(); }
-  const Diagnostics& findings() const { return findings_; }
+  bool opened() const { return opened_; }
+  /// What is wrong with the script. Where a model is missing, a show goes on with a stand-in; a bench does
+  /// not.
+  std::optional<Diagnostic> fault() const {
+    for (const Diagnostic& d : findings_.all())
+      if (d.severity != Severity::Note) return d;
+    return std::nullopt;
+  }
   Scene& scene() { return *scene_; }
 
 private:
@@ -185,11 +192,8 @@ Result<std::vector<Trajectory>> ShowFlights::fly(const ShowRung& rung,
   std::ofstream(script) << scriptOf(rung, throws);
   std::ofstream(folder.path() / kTable) << textOf(exactTable(rung.thing));
   OpenedShow show(script, assets_);
-  if (!show.opened()) {
-    for (const Diagnostic& d : show.findings().all())
-      if (d.severity == Severity::Error) return d;
-    return inFile(script, "cannot be played");
-  }
+  if (const auto fault = show.fault()) return *fault;
+  if (!show.opened()) return inFile(script, "cannot be played");
   const auto motions = play(show.scene(), throws.size());
   std::vector<Trajectory> flights;
   for (std::size_t i = 0; i < throws.size(); ++i) {
