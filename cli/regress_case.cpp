@@ -1,6 +1,7 @@
 #include "cli/regress_case.h"
 
 #include "cli/regress_child.h"
+#include "cli/regress_hint.h"
 #include "cli/regress_rounds.h"
 #include "profiling/regression/instruction_comparison.h"
 
@@ -128,7 +129,9 @@ private:
       const MeasuredRounds m = measureRounds(case_, mode, {with_.program}, {o_.program}, measuring());
       if (failed(m.fault)) return;
       keepMilliseconds(m);
-      add(checksOf(compareRounds(m.rounds, tolerance), "the other build", tolerance, case_.rounds));
+      std::vector<StageShift> shifts = compareRounds(m.rounds, tolerance);
+      askWhichNode(shifts);
+      add(checksOf(shifts, "the other build", tolerance, case_.rounds));
       return;
     }
     const MeasuredRounds m = measureRounds(case_, mode, {o_.program}, measuring());
@@ -142,6 +145,19 @@ private:
     else
       add(checksOf(compareTimes(known()->times, times, typicalStages(m.rounds.front().now), tolerance),
                    "the baseline", tolerance, case_.rounds));
+  }
+
+  /// App's nodes are known from the rounds; those of Cull and Draw are asked for.
+  void askWhichNode(std::vector<StageShift>& shifts) {
+    std::optional<ProfileOfBoth> both;
+    for (StageShift& s : shifts) {
+      if (!s.slower || s.stage.starts_with("app")) continue;
+      if (!both) both.emplace(case_, with_.program, o_.program, std::chrono::seconds(o_.limit), stop_);
+      const std::size_t bar = s.stage.find('|'), next = s.stage.find('|', bar + 1);
+      const std::string node =
+          both->grewMost(s.stage.substr(0, bar), s.stage.substr(bar + 1, next - bar - 1));
+      if (!node.empty()) s.culprit += ", most of it in " + node + " by `stadion profile`";
+    }
   }
 
   void keepMilliseconds(const MeasuredRounds& m) {

@@ -52,7 +52,7 @@ std::vector<Trial> trialsOf(std::size_t planted, std::size_t same) {
       for (const char* kind : {"simulate", "cull", "draw"})
         trials.push_back({kind, i, std::string(kind) == "draw"});
     for (; sameDone < same * (i + 1) / rounds; ++sameDone)
-      trials.push_back({kNothing, sameDone, sameDone % 3 == 2});
+      trials.push_back({kNothing, sameDone, sameDone % 4 == 3});
   }
   return trials;
 }

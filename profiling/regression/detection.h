@@ -32,8 +32,7 @@ struct TrialResult {
   double seconds = 0;
 };
 
-/// `planted` of each kind, `same` comparisons of the same with itself, of which one in three is drawn, as of
-/// the planted ones.
+/// `planted` of each kind, `same` comparisons of the same with itself, of which one in four is drawn.
 std::vector<Trial> trialsOf(std::size_t planted, std::size_t same);
 
 /// What is to be planted in a trial, out of what a run without anything cost: `share` [1] of the typical

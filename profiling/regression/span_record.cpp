@@ -69,6 +69,39 @@ std::vector<SpanRow> stagesOfSummary(const std::string& summaryJson) try {
   return {};
 }
 
+std::vector<SpanRow> profileRows(const std::string& profileJson) {
+  const Json j = Json::parse(profileJson, nullptr, false);
+  std::vector<SpanRow> all;
+  const auto add = [&](SpanRow row, const char* stage, const std::string& wall, const char* eye, double ms) {
+    row.stage = stage, row.wall = wall, row.eye = eye, row.msMean = ms;
+    all.push_back(std::move(row));
+  };
+  const auto list = [](const Json& of, const char* field) {
+    return of.is_object() && of.contains(field) && of[field].is_array() ? of[field] : Json::array();
+  };
+  const Json nodes = list(j, "nodes"), stages = list(j, "stages");
+  for (const Json& node : nodes) {
+    SpanRow row;
+    row.path = text(node, "path"), row.file = text(node, "file");
+    row.line = static_cast<std::uint32_t>(number(node, "line"));
+    add(row, "app", "", "", number(node, "app_ms"));
+    const Json walls = list(node, "walls");
+    for (const Json& wall : walls) {
+      add(row, "cull", text(wall, "wall"), "", number(wall, "cull_ms"));
+      add(row, "draw", text(wall, "wall"), "left", number(wall, "draw_left_ms"));
+      add(row, "draw", text(wall, "wall"), "right", number(wall, "draw_right_ms"));
+    }
+  }
+  for (const Json& stage : stages) {
+    const std::string name = text(stage, "stage");
+    if (!text(stage, "part").empty()) continue;
+    const std::size_t blank = name.find(' ');
+    add({}, blank == name.npos ? name.c_str() : name.substr(0, blank).c_str(),
+        blank == name.npos ? "" : name.substr(blank + 1), "", number(stage, "ms"));
+  }
+  return all;
+}
+
 void giveInstructions(std::vector<SpanRow>& rows, const std::map<std::string, double>& byLabel) {
   std::size_t frames = 1;
   for (const SpanRow& r : rows)

@@ -42,6 +42,9 @@ std::string toJson(const std::vector<SpanRow>& rows);
 
 /// The stages of a run's summary, without frames: each costs its typical frame. For builds that tell no more.
 std::vector<SpanRow> stagesOfSummary(const std::string& summaryJson);
+/// Of what `stadion profile --json` prints: a row for each node in App, in Cull of each wall, in Draw of each
+/// wall and eye, and for each stage. Nothing if it is not that.
+std::vector<SpanRow> profileRows(const std::string& profileJson);
 /// Gives rows the instructions that were counted under "row N", a frame; of stages all that is in them.
 void giveInstructions(std::vector<SpanRow>& rows, const std::map<std::string, double>& byLabel);
 

@@ -267,7 +267,7 @@ private:
     if (value) current().*target = *value;
   }
   void frames() { number("the number of frames", 2, kMostFrames, &SuiteCase::frames); }
-  void rounds() { number("the number of rounds", 6, kMostRounds, &SuiteCase::rounds); }
+  void rounds() { number("the number of rounds", 10, kMostRounds, &SuiteCase::rounds); }
 
   Diagnostics& out_;
   LineReader in_;

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <csignal>
 #include <regex>
 
 namespace stadion {
@@ -109,6 +111,63 @@ TEST(ProgramRegress, ComparesWithAnotherBuild) {
   const ProgramResult r = regress({suite, "--against", stadionPath()});
   EXPECT_EQ(r.status, 0) << r.out << r.err;
   EXPECT_NE(r.out.find("equal to the other build"), std::string::npos) << r.out;
+}
+
+/// A "build" in which something costs more than in ours.
+std::string spoilt(const TemporaryFolder& folder, const std::string& planted) {
+  const std::string path =
+      folder.write("stadion", "#!/bin/sh\nfor word; do [ \"$word\" = --spans ] && set -- \"$@\" --plant " +
+                                  planted + "; done\nexec " + stadionPath() + " \"$@\"\n");
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  return path;
+}
+
+std::string crowdSuite(const TemporaryFolder& folder, const std::string& compare) {
+  return folder.write("crowd.suite",
+                      "stadion-suite 1\nsize 32x24\nstereo off\ncase crowd\n  show " STADION_SOURCE_DIR
+                      "/scripts/crowd.evs\n  walls " STADION_SOURCE_DIR
+                      "/scripts/suites/two.walls\n  input none\n  frames 40\n  rounds 10\n  compare " +
+                          compare + "\n");
+}
+
+// Not five percent but several times as much, so that the test does not depend on the machine.
+TEST(ProgramFullRegress, ANodeThatBecameDearerIsNamedByItsTime) {
+  const TemporaryFolder folder;
+  const ProgramResult r = regress({crowdSuite(folder, "times"), "--against", stadionPath(), "--stadion",
+                                   spoilt(folder, "simulate:lane_07=2000000")});
+  EXPECT_EQ(r.status, 1) << r.out << r.err;
+  EXPECT_TRUE(std::regex_search(r.out, std::regex("moved: lane_07 \\(.*crowd.evs:[0-9]+\\) in app")))
+      << r.out;
+}
+
+TEST(ProgramFullRegress, AWallWhoseCullingBecameDearerIsNamedByItsInstructions) {
+  if (runProgram({{"valgrind", "--version"}}).status != 0) GTEST_SKIP() << "there is no valgrind";
+  const TemporaryFolder folder;
+  const ProgramResult r = regress({crowdSuite(folder, "instructions"), "--instructions", "--against",
+                                   stadionPath(), "--stadion", spoilt(folder, "cull:west=20000")});
+  EXPECT_EQ(r.status, 1) << r.out << r.err;
+  EXPECT_NE(r.out.find("moved: cull of wall west"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("4 comparisons passed, 1 failed"), std::string::npos) << r.out;
+}
+
+TEST(ProgramRegress, AnInterruptedSuiteGoesOnWhereItWas) {
+  const TemporaryFolder folder;
+  std::string text =
+      "stadion-suite 1\nsize 16x12\nwalls desktop\ncompare state\nasset-root " + assetFolder() + "\n";
+  for (int i = 0; i < 40; ++i)
+    text += "case c" + std::to_string(i) + "\n  show " + testShow("bodies.evs") + "\n  frames 3\n";
+  const std::string suite = folder.write("many.suite", text), out = folder.path() / "out";
+  const ProgramResult stopped = runProgram(
+      {{stadionPath(), "regress", suite, "--out", out}, {}, {}, SIGINT, std::chrono::milliseconds(1500)});
+  ASSERT_EQ(stopped.status, 130) << stopped.out << stopped.err;
+  const std::string progress = fileContent(std::filesystem::path(out) / "progress.jsonl");
+  const ProgramResult r = regress({suite, "--out", out, "--resume", "--json"});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.err.find("begins anew") == std::string::npos, std::ranges::count(progress, '\n') > 1)
+      << progress;
+  EXPECT_EQ(Json::parse(r.out)["benchmarks"].size(), 40u);
+  EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(out) / "progress.jsonl"));
+  EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(out) / "report.html"));
 }
 
 TEST(ProgramRegress, WrongUseAndWrongSuitesAreToldWithTheFix) {

@@ -192,6 +192,22 @@ TEST(RegressionSpans, AreReadBackAsTheyWereWritten) {
     EXPECT_TRUE(spanRows(none).empty());
 }
 
+TEST(RegressionSpans, OfAProfileHaveNodesByStageWallAndEye) {
+  const auto rows = profileRows(R"({"frames": 9, "walls": ["front"],
+    "nodes": [{"path": "ball", "file": "show.evs", "line": 7, "app_ms": 0.5,
+               "walls": [{"wall": "front", "cull_ms": 0.25, "draw_left_ms": 1.5, "draw_right_ms": 2}]}],
+    "stages": [{"stage": "app", "part": "", "ms": 3}, {"stage": "cull front", "part": "", "ms": 4},
+               {"stage": "cull front", "part": "sort", "ms": 1}]})");
+  ASSERT_EQ(rows.size(), 6u);
+  EXPECT_EQ(rows[1].name(), "ball (show.evs:7) in cull of wall front");
+  EXPECT_EQ(rows[3].eye, "right");
+  EXPECT_EQ(rows[3].msMean, 2);
+  EXPECT_EQ(rows[5].name(), "cull of wall front");
+  EXPECT_TRUE(rows[5].isStage());
+  for (const char* none : {"", "[]", "{}", "{\"nodes\": 3, \"stages\": [7]}"})
+    EXPECT_LE(profileRows(none).size(), 1u);
+}
+
 constexpr const char* kCallgrind = R"(# callgrind format
 version: 1
 part: 1

@@ -119,7 +119,7 @@ TEST(RegressionSuite, ThatIsDamagedIsReadOrRefusedButNeverWithoutAReason) {
   for (const auto& entry : fs::directory_iterator(kCorpus))
     if (entry.path().extension() == ".suite") seeds.push_back(content(entry.path()));
   seeds.push_back(
-      "stadion-suite 1\nsize 9x9\ncase a\nshow a.evs\nmodes pipelined\ncompare times\nrounds 9\n");
+      "stadion-suite 1\nsize 9x9\ncase a\nshow a.evs\nmodes pipelined\ncompare times\nrounds 19\n");
   const test::Mutations asked = test::mutations(2000);
   std::mt19937_64 random(asked.seed);
   constexpr std::string_view kBytes = "\n\n #x0-1.,/casehowmdt\x80\xff\t";
