@@ -14,6 +14,12 @@ std::string metres(int centimetres) {
   return fmt::format("{}.{:02} m", centimetres / 100, centimetres % 100);
 }
 
+/// What sticks touches and ends at once, to rounding: the touch counts.
+Nanoseconds countsAt(const Impact& impact) {
+  constexpr Nanoseconds kAtOnce = 1000;
+  return impact.ended ? impact.when + kAtOnce : impact.when;
+}
+
 }  // namespace
 
 int MeasureNode::Result::centimetres() const {
@@ -71,9 +77,7 @@ std::optional<MeasureNode::Result> MeasureNode::ended(const Scene& scene, Nanose
     const bool ours = i.body == body_ || i.other == body_;
     const NodeRef touched = i.body == body_ ? i.other : i.body;
     if (!ours || i.when < started_ || (!i.ended && ground.valid() && touched != ground)) continue;
-    // What sticks touches and ends at once: the touch counts.
-    const bool sooner = !first || i.when < first->when || (i.when == first->when && first->ended && !i.ended);
-    if (sooner) first = &i;
+    if (!first || countsAt(i) < countsAt(*first)) first = &i;
   }
   const Nanoseconds latest = started_ + attributes_.duration;
   if (first && first->when <= latest)
