@@ -6,6 +6,7 @@
 #include <atomic>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fstream>
 #include <future>
 #include <gtest/gtest.h>
 #include <lo/lo.h>
@@ -124,6 +125,19 @@ TEST(ProgramOperator, EveryGroupsRecordReplaysToItsOwnState) {
   EXPECT_NE(fileContent(second).find("order 0 volume 0.5"), std::string::npos)
       << "what stands when a group begins is in its record";
   EXPECT_FALSE(lastHash(live.show(), record).empty());
+}
+
+TEST(ProgramOperator, ANextGroupWhoseScriptHasErrorsWaitsForItToBeMended) {
+  LiveShow live({});
+  const std::string text = fileContent(live.show());
+  std::ofstream(live.show()) << text << "object( positon=\"0, 1, 1\" )\n";
+  for (int i = 0; i < 100; ++i) live.send("/stadion/next-group"), wait(20);  // however long loading takes
+  std::ofstream(live.show()) << text;
+  for (int i = 0; i < 100; ++i) live.send("/stadion/next-group"), wait(20);
+  const json summary = live.finish();
+  ASSERT_TRUE(summary.is_object()) << live.err;
+  EXPECT_GT(summary.at("groups"), 1) << live.err;
+  EXPECT_NE(live.err.find("begins once it is saved without them"), std::string::npos) << live.err;
 }
 
 TEST(ProgramOperator, WhoWaitsStandsAtTheFirstFrameUntilTheStart) {
