@@ -27,7 +27,7 @@ struct Options {
   std::size_t planted = 20, same = 100;
   double share = 5;  ///< [%]
   std::string by = "instructions", record;
-  std::size_t rounds = 10;
+  std::size_t rounds = 12;
 };
 
 /// Frames of the show that every trial plays.
@@ -61,13 +61,11 @@ public:
 
   std::optional<TrialResult> run(const Trial& trial) {
     const auto start = std::chrono::steady_clock::now();
-    TrialResult result{trial.name(), trial.kind, {}, {}, false, 0};
+    TrialResult result{trial.name(), trial.kind, {}, {}, {}, false, 0};
     const auto planted = plantedIn(trial, plain_, o_.share / 100, nsPerIteration_);
     if (planted) result.planted = toText(*planted);
-    const auto alarms =
-        o_.by == "times" ? byTimes(result.planted) : byInstructions(result.planted, trial.drawn);
-    if (!alarms) return std::nullopt;
-    result.alarms = *alarms;
+    const bool done = o_.by == "times" ? byTimes(result) : byInstructions(result, trial.drawn);
+    if (!done) return std::nullopt;
     result.right = planted
                        ? !result.alarms.empty() &&
                              std::ranges::all_of(result.alarms,
@@ -85,26 +83,28 @@ private:
 
   MeasuringOptions measuring(std::size_t rounds) const { return {rounds, std::chrono::seconds(600), stop_}; }
 
-  std::optional<std::vector<std::string>> byTimes(const std::string& planted) {
+  bool byTimes(TrialResult& result) {
     const MeasuredRounds m =
-        measureRounds(case_, "sequential", {program_}, {program_, planted}, measuring(o_.rounds));
-    if (!m.fault.empty() || stop_) return complain(m.fault), std::nullopt;
-    std::vector<std::string> alarms;
-    for (const StageShift& s : compareRounds(m.rounds, case_.tolerances.times / 100))
-      if (s.slower) alarms.push_back(s.culprit);
-    return alarms;
+        measureRounds(case_, "sequential", {program_}, {program_, result.planted}, measuring(o_.rounds));
+    if (!m.fault.empty() || stop_) return complain(m.fault);
+    for (const StageShift& s : compareRounds(m.rounds, case_.tolerances.times / 100)) {
+      result.seen.push_back(fmt::format("{} {:+.2f} %, p = {:.2g}", s.name, 100 * s.shift, s.probability));
+      if (s.slower) result.alarms.push_back(s.culprit);
+    }
+    return true;
   }
 
-  std::optional<std::vector<std::string>> byInstructions(const std::string& planted, bool drawn) {
+  bool byInstructions(TrialResult& result, bool drawn) {
     const CountedInstructions before = countInstructions(case_, {program_}, drawn, measuring(1));
-    if (!before.fault.empty()) return complain(before.fault), std::nullopt;
-    const CountedInstructions now = countInstructions(case_, {program_, planted}, drawn, measuring(1));
-    if (!now.fault.empty()) return complain(now.fault), std::nullopt;
-    std::vector<std::string> alarms;
+    if (!before.fault.empty()) return complain(before.fault);
+    const CountedInstructions now = countInstructions(case_, {program_, result.planted}, drawn, measuring(1));
+    if (!now.fault.empty()) return complain(now.fault);
     for (const InstructionShift& s :
-         compareInstructions(before.rows, now.rows, case_.tolerances.instructions / 100))
-      if (s.more) alarms.push_back(s.culprit);
-    return alarms;
+         compareInstructions(before.rows, now.rows, case_.tolerances.instructions / 100)) {
+      result.seen.push_back(fmt::format("{} {:+.3f} % of {:.0f}", s.name, 100 * s.shift(), s.before));
+      if (s.more) result.alarms.push_back(s.culprit);
+    }
+    return true;
   }
 
   const Options& o_;

@@ -21,7 +21,7 @@ constexpr const char* kFooter =
   ./stadion regress my.suite --compare state,counts --junit results.xml                            # in CI
 
 Times are processor times of the typical frame, stage by stage. With --against the two builds play the same case in turns,
-frame by frame, in several rounds; a stage is slower if the ranks of the rounds say so (Wilcoxon, p <= 1 % over all
+frame by frame, in several rounds; a stage is slower if the ranks of the rounds say so (Wilcoxon, p <= 5 % over all
 stages of the case) and the difference exceeds the tolerance. With a baseline, times are divided by those of a
 calibration kernel run in the same minute, and compared by rank sums. A stage that is slower is told with the node in it
 that moved. --instructions counts instead: less than the tolerance apart on any machine, however busy.

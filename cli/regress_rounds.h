@@ -22,7 +22,7 @@ struct MeasuredRounds {
 
 /// How measurements are made.
 struct MeasuringOptions {
-  std::size_t rounds = 10;
+  std::size_t rounds = 12;
   std::chrono::seconds limit{600};
   const std::atomic<bool>& stop;
 };

@@ -179,9 +179,9 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   progress.finish();
   if (outcome.nextGroup && !outcome.failure && !stop) return {};
 
-  const int code = report(
-      {o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime(), recording},
-      s.output.get(), s.folder.get());
+  const int code =
+      report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime()},
+             s.output.get(), s.folder.get());
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;

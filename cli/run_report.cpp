@@ -98,22 +98,6 @@ void print(const RunOptions& o, const RunSummary& summary) {
 
 }  // namespace
 
-namespace {
-
-std::string nodeRows(const ShowProfile& profile, const Scene& scene) {
-  std::vector<regression::SpanRow> rows;
-  for (const auto& [ref, node] : profile.nodes()) {
-    if (node.visit.count() == 0) continue;
-    regression::SpanRow& row = rows.emplace_back();
-    nameNode(scene, ref, row);
-    row.stage = "app", row.count = node.visit.count();
-    row.msMean = node.visit.mean();
-  }
-  return regression::toJson(rows);
-}
-
-}  // namespace
-
 int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   Verdict verdict;
   verdict.add(run.outcome.failure);
@@ -127,8 +111,6 @@ int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   verdict.add(run.watch.finish());
   if (folder)
     for (const NodeTrace& t : run.watch.traces()) writeTable(t, *folder, summary, verdict);
-  if (run.recording && run.options.profile)
-    summary.nodes = nodeRows(run.recording->profile(), run.player.scene());
   if (verdict.failure()) summary.failure = verdict.failure()->message;
   if (folder) writeSummary(*folder, summary, verdict);
   print(run.options, summary);

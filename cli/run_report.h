@@ -18,8 +18,7 @@ struct FinishedRun {
   RunWatch& watch;
   double elapsed;  ///< [s]
   std::uint64_t groups = 1;
-  double uptime = 0;                   ///< of all groups [s]
-  ShowRecording* recording = nullptr;  ///< null: nobody asked
+  double uptime = 0;  ///< of all groups [s]
 };
 
 /// Completes every file and tells how it went. Returns the exit code. `output` and its folder: null without

@@ -1,7 +1,9 @@
 #include "cli/show_check.h"
 
 #include "cli/player.h"
+#include "dynamics/body_flight.h"
 #include "dynamics/nodes/collision_node.h"
+#include "dynamics/nodes/dyn_object_node.h"
 #include "dynamics/nodes/dynamics_factories.h"
 #include "engine/asset/sound_file.h"
 #include "engine/input/input_log.h"
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <map>
 #include <memory>
 #include <set>
@@ -122,7 +125,30 @@ private:
                            [&](const Declaration& d) { return importMesh(d, findings); },
                            meshes_,
                            [&](const Declaration& d) { return readSoundOf(d, findings); }};
-    buildLoad(input, findings);
+    if (const Built built = buildLoad(input, findings); built.load)
+      noteEvenMatter(*built.load, document, findings);
+  }
+
+  /// How a body flies hangs on where its matter is, which its model does not show.
+  static void noteEvenMatter(const Load& load, const Document& document, Diagnostics& findings) {
+    for (const Declaration d : document) {
+      if (d.kind() != NodeKind::DynObject || d.has(Attr::Centre) || d.has(Attr::Inertia)) continue;
+      const auto* node = dynamic_cast<const DynObjectNode*>(load.nodes[d.index()].get());
+      if (!node || !node->body().flight || !leansOnMatter(node->body().flight->model)) continue;
+      const MassProperties mass = node->body().massOf(*node->fit());
+      const Vec3 c = mass.centre.cwiseQuotient(node->fit()->scale);
+      Vec3 i = mass.inertia;
+      std::sort(i.begin(), i.end());
+      findings.note(d.where(Attr::Flight),
+                    fmt::format("\"{}\" flies as if matter filled its model evenly: centre=\"{:.4f}, {:.4f}, "
+                                "{:.4f}\", inertia=\"{:.4g}, {:.4g}, {:.4g}\"; state them if it is otherwise",
+                                d.name(), c.x(), c.y(), c.z(), i.x(), i.y(), i.z()));
+    }
+  }
+
+  /// The air turns it about its centre of mass.
+  static bool leansOnMatter(const FlightModel& model) {
+    return !std::holds_alternative<BallisticFlight>(model) && !std::holds_alternative<SportsBall>(model);
   }
 
   MeshId importMesh(const Declaration& d, Diagnostics& findings) {

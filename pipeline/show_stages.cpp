@@ -86,6 +86,7 @@ Failure ShowStages::openWall(std::size_t wall) {
   if (!parts_.provider) return {};
   const WallView& view = parts_.walls[wall];
   if (Failure f = contexts_.open(wall, *parts_.provider, parts_.meshes, view.width, view.height)) return f;
+  contexts_.renderer(wall).forgetTotals();
   if (wall == 0) glDescription_ = describeGl(contexts_.gl(wall));
   return {};
 }
@@ -99,7 +100,7 @@ Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
   if (Failure f = contexts_.enter(wall)) return f;
   drawn_[wall].eyes = 0;  // until it is finished there is no picture
   if (Failure f = toFailure(contexts_.renderer(wall).draw(list, parts_.giveUp, parts_.probe))) return f;
-  drawn_[wall] = {list.eyeCount, list.ticket.signature.frame, false};
+  drawn_[wall] = {list.eyeCount, list.ticket.signature.frame, false, contexts_.renderer(wall).totals()};
   const bool wanted = parts_.sink && parts_.sink->wants(list.ticket.signature);
   return wanted || list.ticket.last ? readPictures(wall) : std::nullopt;
 }
@@ -124,7 +125,6 @@ void ShowStages::closeWall(std::size_t wall) {
   const bool wanted = drawn_[wall].eyes > 0 && !drawn_[wall].read && !(parts_.desk && parts_.desk->leaving());
   const bool entered = contexts_.hasContext(wall) && !contexts_.enter(wall);
   if (entered && wanted) readPictures(wall);
-  if (entered) drawn_[wall].totals = contexts_.renderer(wall).takeTotals();
   if (parts_.contexts)
     contexts_.leave(wall);
   else

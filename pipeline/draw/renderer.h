@@ -32,7 +32,6 @@
 #include <set>
 #include <span>
 #include <string>
-#include <utility>
 
 namespace stadion {
 
@@ -80,8 +79,9 @@ public:
   std::uint32_t width() const { return width_; }    ///< [pixels]
   std::uint32_t height() const { return height_; }  ///< [pixels]
   const DrawCounts& counts() const { return counts_; }
-  /// What was drawn since the last call, by eye, 0 left or mono, 1 right. Shadow maps are not counted.
-  std::array<DrawTotals, 2> takeTotals() { return std::exchange(totals_, {}); }
+  /// By eye, 0 left or mono, 1 right. Shadow maps are not counted.
+  const std::array<DrawTotals, 2>& totals() const { return totals_; }
+  void forgetTotals() { totals_ = {}; }
   std::size_t meshesHeld() const { return cache_.size(); }
 
 private:

@@ -179,7 +179,6 @@ std::string toJson(const RunSummary& s) {
     if (h.metres) happening["metres"] = *h.metres;
     j["happened"].push_back(std::move(happening));
   }
-  if (!s.nodes.empty()) j["nodes"] = Json::parse(s.nodes);
   j["measured"] = Json::array();
   for (const MeasuredDistance& m : s.measured)
     j["measured"].push_back(Json{{"seconds", m.seconds}, {"node", m.node}, {"metres", m.metres}});

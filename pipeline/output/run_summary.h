@@ -97,7 +97,6 @@ struct RunSummary {
   std::vector<Happening> happened;         ///< the first ones, at most kMostHappenings
   std::vector<MeasuredDistance> measured;  ///< the first ones, at most kMostHappenings
   std::uint64_t happenedCount = 0;         ///< all of them
-  std::string nodes{};  ///< what each cost, rows as a JSON array; empty: nobody asked
 };
 
 /// Without the failure, which is told as an error, and without what happened.

@@ -103,8 +103,8 @@ double burnNanoseconds() {
 }
 
 std::string toJsonLine(const TrialResult& r) {
-  return Json{{"trial", r.trial},   {"kind", r.kind},   {"planted", r.planted},
-              {"alarms", r.alarms}, {"right", r.right}, {"seconds", r.seconds}}
+  return Json{{"trial", r.trial}, {"kind", r.kind},   {"planted", r.planted}, {"alarms", r.alarms},
+              {"seen", r.seen},   {"right", r.right}, {"seconds", r.seconds}}
              .dump(-1, ' ', false, Json::error_handler_t::replace) +
          "\n";
 }
@@ -115,8 +115,8 @@ std::vector<TrialResult> readTrials(const std::string& text) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     try {
       const Json j = Json::parse(text.substr(at, end - at));
-      all.push_back(
-          {j.at("trial"), j.at("kind"), j.at("planted"), j.at("alarms"), j.at("right"), j.at("seconds")});
+      all.push_back({j.at("trial"), j.at("kind"), j.at("planted"), j.at("alarms"), j.at("seen"),
+                     j.at("right"), j.at("seconds")});
     } catch (const Json::exception&) {
       // Half a line, of an experiment that was interrupted.
     }

@@ -27,6 +27,7 @@ struct TrialResult {
   std::string kind;
   std::string planted;              ///< "simulate:lane_07=5000"; empty: nothing
   std::vector<std::string> alarms;  ///< what was said to have moved
+  std::vector<std::string> seen;    ///< of each stage: "app +4.8 %, p = 0.002"
   bool right = false;               ///< found, the right place named, and nothing else; of nothing: no alarm
   double seconds = 0;
 };

@@ -38,7 +38,8 @@ std::vector<InstructionShift> compareInstructions(const std::map<std::string, do
     const auto at = before.find(name);
     if (at == before.end()) continue;
     InstructionShift s{name, at->second, count};
-    s.more = s.shift() > tolerance, s.fewer = s.shift() < -tolerance;
+    const bool judged = std::max(s.before, s.now) >= kFewest;
+    s.more = judged && s.shift() > tolerance, s.fewer = judged && s.shift() < -tolerance;
     if (s.more) s.culprit = name;
     shifts.push_back(std::move(s));
   }
@@ -58,11 +59,16 @@ std::vector<InstructionShift> compareInstructions(const std::vector<SpanRow>& be
 std::vector<Check> checksOf(const std::vector<InstructionShift>& shifts, const std::string& with,
                             double tolerance) {
   std::vector<Check> checks;
-  for (const InstructionShift& s : shifts)
-    checks.push_back({"instructions of " + s.name, s.more ? Outcome::Failed : Outcome::Passed,
-                      fmt::format("{:+.2f} % against {} ({:.0f} a frame), tolerance {:g} %{}",
-                                  100 * s.shift(), with, s.before, 100 * tolerance, s.fewer ? ": fewer" : ""),
-                      s.culprit});
+  for (const InstructionShift& s : shifts) {
+    Check c{"instructions of " + s.name, s.more ? Outcome::Failed : Outcome::Passed, {}, s.culprit};
+    c.said = fmt::format("{:+.2f} % against {} ({:.0f} a frame), tolerance {:g} %{}", 100 * s.shift(), with,
+                         s.before, 100 * tolerance, s.fewer ? ": fewer" : "");
+    if (std::max(s.before, s.now) < kFewest) {
+      c.outcome = Outcome::Skipped;
+      c.said = fmt::format("{:.0f} a frame are too few to be judged", s.now);
+    }
+    checks.push_back(std::move(c));
+  }
   return checks;
 }
 

@@ -13,6 +13,8 @@
 
 namespace stadion::regression {
 
+constexpr double kFewest = 20'000;  ///< instructions a frame: a stage that has fewer is not judged
+
 struct InstructionShift {
   std::string name;            ///< of the stage
   double before = 0, now = 0;  ///< a frame

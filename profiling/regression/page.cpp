@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -24,6 +25,15 @@ svg{width:100%;height:auto;display:block}svg text{font:10px system-ui,sans-serif
 details{margin:.6rem 0}summary{cursor:pointer;color:#33414f}
 </style></head><body>
 )";
+
+/// In five characters or so: 210.5k.
+std::string shortNumber(double v) {
+  const double size = std::abs(v);
+  if (size >= 1e9) return fmt::format("{:.4g}G", v / 1e9);
+  if (size >= 1e6) return fmt::format("{:.4g}M", v / 1e6);
+  if (size >= 1e4) return fmt::format("{:.4g}k", v / 1e3);
+  return fmt::format("{:.4g}", v);
+}
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -68,8 +78,8 @@ std::string plot(const std::vector<Point>& points) {
   for (const double v : {low + room, high - room}) {
     svg += fmt::format("<line x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#e3e8ee\"/>", kLeft,
                        kWidth - kRight, y(v), y(v));
-    svg +=
-        fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:.5g}</text>", kLeft - 5, y(v) + 3, v);
+    svg += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", kLeft - 5, y(v) + 3,
+                       shortNumber(v));
     if (high - low <= 2.1 * room && low + room == high - room) break;
   }
   svg += "<polyline fill=\"none\" stroke=\"#2f6fb0\" stroke-width=\"1.5\" points=\"";

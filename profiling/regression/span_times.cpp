@@ -11,16 +11,30 @@ namespace {
 constexpr std::size_t kNodesWithFrames = 200;
 constexpr std::uint64_t kFirstCounted = 2;
 
+const char* nameOfStage(Span stage) {
+  switch (stage) {
+  case Span::App: return "app";
+  case Span::Cull: return "cull";
+  case Span::Draw: return "draw";
+  default: return "swap";
+  }
+}
+
 bool isPlantedIn(const std::optional<PlantedDelay>& planted, Span stage, std::uint32_t wall) {
   if (!planted || planted->wall != wall) return false;
   return (stage == Span::Cull && planted->where == PlantedDelay::Where::Cull) ||
          (stage == Span::Draw && planted->where == PlantedDelay::Where::Draw);
 }
 
+bool isPlantedIn(const std::optional<PlantedDelay>& planted, Span phase, NodeRef node) {
+  return planted && planted->where == PlantedDelay::Where::Simulate && phase == Span::Simulate &&
+         planted->node == node;
+}
+
 }  // namespace
 
 void SpanTimes::began(Span what, std::uint64_t frame, std::uint32_t wall) {
-  if (!isStage(what)) return;
+  if (!isStage(what)) return;  // a wait
   if (what == Span::App && options_.turns) options_.turns->take();
   if (what == Span::App && frame == kFirstCounted && options_.countInstructions) {
     beginCountingInstructions();
@@ -28,59 +42,52 @@ void SpanTimes::began(Span what, std::uint64_t frame, std::uint32_t wall) {
   }
   const Key key{what, wall == kNoWall ? 0 : wall, {}};
   const std::lock_guard lock(mutex_);
-  open_[std::this_thread::get_id()].push_back({key, frame});
+  open_[std::this_thread::get_id()] = {key, frame, {}};
   begin(key);
   boundary(nullptr);
   stage_ = &costs_[key];
 }
 
 void SpanTimes::began(Span what, NodeRef node) {
-  if (!isOfNode(what)) return;
-  const Key key{Span::App, 0, node};
+  if (!isOfNode(what) || !node.valid()) return;
   const std::lock_guard lock(mutex_);
-  open_[std::this_thread::get_id()].push_back({key, 0});
   boundary(stage_);
-  begin(key);
+  open_[std::this_thread::get_id()].node = node;
+  begin({Span::App, 0, node});
 }
 
 void SpanTimes::ended(Span what) {
   if (!isStage(what) && !isOfNode(what)) return;
-  Open last;
+  Open open;
   {
     const std::lock_guard lock(mutex_);
-    std::vector<Open>& open = open_[std::this_thread::get_id()];
-    last = open.back();
-    open.pop_back();
+    open = open_[std::this_thread::get_id()];
   }
-  if (isStage(what))
-    stageEnded(last);
-  else
-    nodeEnded(last.key, what);
+  if (isStage(what)) {
+    if (isPlantedIn(options_.planted, what, open.stage.wall)) burn(options_.planted->iterations);
+    stageEnded(open);
+    if (what == Span::Swap && options_.turns) options_.turns->give();
+  } else if (open.node.valid()) {
+    if (isPlantedIn(options_.planted, what, open.node)) burn(options_.planted->iterations);
+    nodeEnded(open.node);
+  }
 }
 
-void SpanTimes::stageEnded(const Open& stage) {
-  const Key& key = stage.key;
-  if (isPlantedIn(options_.planted, key.stage, key.wall)) burn(options_.planted->iterations);
-  {
-    const std::lock_guard lock(mutex_);
-    Cost& cost = end(key);
-    boundary(&cost);
-    stage_ = nullptr;
-    cost.frames.emplace_back(stage.frame, cost.now);
-    cost.total += cost.now, cost.now = 0;
-    if (key.stage == Span::App) closeFrame(stage.frame);
-  }
-  if (key.stage == Span::Swap && options_.turns) options_.turns->give();
-}
-
-void SpanTimes::nodeEnded(const Key& key, Span phase) {
-  const auto& planted = options_.planted;
-  if (planted && planted->where == PlantedDelay::Where::Simulate && phase == Span::Simulate &&
-      planted->node == key.node)
-    burn(planted->iterations);
+void SpanTimes::stageEnded(const Open& open) {
   const std::lock_guard lock(mutex_);
-  const std::uint64_t before = costs_[key].now;
-  Cost& cost = end(key);
+  Cost& cost = end(open.stage);
+  boundary(&cost);
+  stage_ = nullptr;
+  cost.frames.emplace_back(open.frame, cost.now);
+  cost.total += cost.now, cost.now = 0;
+  if (open.stage.stage == Span::App) closeFrame(open.frame);
+}
+
+void SpanTimes::nodeEnded(NodeRef node) {
+  const std::lock_guard lock(mutex_);
+  open_[std::this_thread::get_id()].node = {};
+  const std::uint64_t before = costs_[{Span::App, 0, node}].now;
+  Cost& cost = end({Span::App, 0, node});
   boundary(&cost);
   if (before == 0) touched_.push_back(&cost);
 }
@@ -124,7 +131,7 @@ std::vector<SpanRow> SpanTimes::rows(const std::vector<std::string>& walls,
   std::vector<SpanRow> all(costs_.size());
   for (const auto& [key, cost] : costs_) {
     SpanRow& row = all[cost.row];
-    row.stage = std::string(nameOf(key.stage));
+    row.stage = nameOfStage(key.stage);
     const bool ofWall = key.stage == Span::Cull || key.stage == Span::Draw;
     if (ofWall && key.wall < walls.size()) row.wall = walls[key.wall];
     if (key.node.valid()) nameNode(key.node, row);

@@ -50,24 +50,24 @@ private:
     std::uint64_t began = 0, now = 0, total = 0;  ///< [ns]; `now`: of this frame
     std::vector<std::pair<std::uint64_t, std::uint64_t>> frames;
   };
-
-  /// A stage, or a node's phase, that is under way.
+  /// What a thread is at.
   struct Open {
-    Key key;
+    Key stage;
     std::uint64_t frame = 0;
+    NodeRef node;
   };
 
-  void stageEnded(const Open& stage);
-  void nodeEnded(const Key& key, Span phase);
+  void stageEnded(const Open& open);
+  void nodeEnded(NodeRef node);
   void begin(const Key& key);
   Cost& end(const Key& key);
   void closeFrame(std::uint64_t frame);
   void boundary(const Cost* cost);
 
   SpanTimesOptions options_;
-  std::mutex mutex_;  ///< of what follows; nodes may compute side by side
+  std::mutex mutex_;  ///< of what follows
+  std::map<std::thread::id, Open> open_;
   std::map<Key, Cost> costs_;
-  std::map<std::thread::id, std::vector<Open>> open_;
   std::vector<Cost*> touched_;  ///< nodes, in this frame
   Cost* stage_ = nullptr;       ///< that is under way, where one thread does all
   bool counting_ = false;

@@ -53,7 +53,7 @@ struct SuiteCase {
   std::uint64_t frames = 0;  ///< 0: to the end of the input log
   Metrics metrics;
   Tolerances tolerances;
-  std::uint64_t rounds = 10;  ///< of times, at least 6: fewer cannot tell a difference from chance
+  std::uint64_t rounds = 12;  ///< of times, at least 6: fewer cannot tell a difference from chance
 };
 
 struct Suite {

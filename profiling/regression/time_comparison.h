@@ -34,7 +34,7 @@ struct StageShift {
   std::string culprit{};  ///< if slower: the node in it that moved, or that none did
 };
 
-constexpr double kAlarm = 0.01;          ///< probability below which it is no chance
+constexpr double kAlarm = 0.05;          ///< probability below which it is no chance
 constexpr double kShortest = 10;         ///< [us]: what takes less is not judged by the clock
 constexpr std::size_t kFirstFrames = 5;  ///< left out: they build what the others use
 

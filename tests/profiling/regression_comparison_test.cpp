@@ -127,7 +127,7 @@ TEST(RegressionTimes, AStageThatBecameDearerIsNamedWithItsWall) {
 TEST(RegressionTimes, WhatIsTheSameRaisesNoAlarm) {
   int alarmed = 0;
   for (unsigned seed = 10; seed < 60; ++seed)
-    alarmed += !alarms(compareRounds(madeRounds(seed, 1, 1), 0.005)).empty();
+    alarmed += !alarms(compareRounds(madeRounds(seed, 1, 1), 0.01)).empty();
   EXPECT_LE(alarmed, 2);
 }
 
@@ -234,9 +234,9 @@ TEST(RegressionInstructions, OfOurOwnProgramAreSummedByLabelWithoutWhatIsCalled)
 TEST(RegressionInstructions, AStageHasThoseOfItsNodesAndTheOneThatGrewIsNamed) {
   MadeRun made(7);
   std::vector<SpanRow> before = made.rows(1, 1, 1), now = before;
-  giveInstructions(before, {{"row 0", 5800}, {"row 4", 2900}, {"row 5", 5800}});
-  giveInstructions(now, {{"row 0", 5800}, {"row 4", 3480}, {"row 5", 5800}});
-  EXPECT_DOUBLE_EQ(before[0].instructions, 14500.0 / 58) << "the first two frames are not counted";
+  giveInstructions(before, {{"row 0", 1160000}, {"row 4", 580000}, {"row 5", 1160000}});
+  giveInstructions(now, {{"row 0", 1160000}, {"row 4", 696000}, {"row 5", 1160000}});
+  EXPECT_DOUBLE_EQ(before[0].instructions, 2900000.0 / 58) << "the first two frames are not counted";
   const auto shifts = compareInstructions(before, now, 0.005);
   ASSERT_EQ(shifts.size(), 1u);
   EXPECT_TRUE(shifts[0].more);
@@ -340,7 +340,7 @@ TEST(RegressionDetection, TrialsComeInTurnsAndEachWallAndNodeHasItsTurn) {
 
 TEST(RegressionDetection, MissesItsLimitsWhenTwoAreNotFoundOrTwoAlarmsAreFalse) {
   std::vector<TrialResult> results;
-  for (const Trial& t : trialsOf(20, 100)) results.push_back({t.name(), t.kind, "", {}, true, 1});
+  for (const Trial& t : trialsOf(20, 100)) results.push_back({t.name(), t.kind, "", {}, {}, true, 1});
   bool met = false;
   detectionTable(results, 20, 100, met);
   EXPECT_TRUE(met);
