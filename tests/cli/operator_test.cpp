@@ -6,7 +6,6 @@
 #include <atomic>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fstream>
 #include <future>
 #include <gtest/gtest.h>
 #include <lo/lo.h>
@@ -128,16 +127,21 @@ TEST(ProgramOperator, EveryGroupsRecordReplaysToItsOwnState) {
 }
 
 TEST(ProgramOperator, ANextGroupWhoseScriptHasErrorsWaitsForItToBeMended) {
-  LiveShow live({});
-  const std::string text = fileContent(live.show());
-  std::ofstream(live.show()) << text << "object( positon=\"0, 1, 1\" )\n";
-  for (int i = 0; i < 100; ++i) live.send("/stadion/next-group"), wait(20);  // however long loading takes
-  std::ofstream(live.show()) << text;
-  for (int i = 0; i < 100; ++i) live.send("/stadion/next-group"), wait(20);
-  const json summary = live.finish();
-  ASSERT_TRUE(summary.is_object()) << live.err;
-  EXPECT_GT(summary.at("groups"), 1) << live.err;
-  EXPECT_NE(live.err.find("begins once it is saved without them"), std::string::npos) << live.err;
+  const TemporaryFolder folder;
+  const std::string show = folder.write("show.evs", kShow), port = std::to_string(freePort());
+  ProgramRun run{{stadionPath(), "run", show, "--asset-root", assetFolder(), "--walls", "desktop", "--size",
+                  "64x48", "--no-sound", "--osc", port}};
+  RunningProgram program(run);
+  const lo_address to = lo_address_new("127.0.0.1", port.c_str());
+  ASSERT_TRUE(program.says("operator: OSC on UDP port"));  // the first show is loaded
+  folder.write("show.evs", std::string(kShow) + "object( positon=\"0, 1, 1\" )\n");
+  lo_send(to, "/stadion/next-group", "");
+  EXPECT_TRUE(program.says("begins once it is saved without them"));
+  folder.write("show.evs", kShow);
+  EXPECT_TRUE(program.says("group 2 begins: "));
+  lo_send(to, "/stadion/end", "");
+  EXPECT_EQ(program.status(), 0) << program.err();
+  lo_address_free(to);
 }
 
 TEST(ProgramOperator, WhoWaitsStandsAtTheFirstFrameUntilTheStart) {
