@@ -9,6 +9,7 @@
 #include "cli/run_output.h"
 #include "cli/run_report.h"
 #include "cli/run_watch.h"
+#include "cli/script_watch.h"
 #include "cli/show_recording.h"
 #include "cli/span_recording.h"
 #include "cli/stop_signal.h"
@@ -22,7 +23,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <unistd.h>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -187,7 +190,24 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   return code;
 }
 
-/// Everything of the show is made anew, but for what was read from files.
+/// Waits until the script is saved again or the next group is asked for once more; false if the run is to
+/// end.
+bool waitForScript(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
+  constexpr std::chrono::milliseconds kLookEvery{250};
+  std::fprintf(stderr, "the script has errors; the next group's show begins once it is saved without them\n");
+  ScriptWatch files(o.show.script, o.show.assetRoots);
+  for (;;) {
+    if (stop || (s.displays && !s.displays->takeKeys(*s.desk))) return false;
+    for (const OperatorCommand& c : s.desk->queue().take()) {
+      if (c.action == OperatorAction::End) return false;
+      if (c.action == OperatorAction::NextGroup) return true;
+    }
+    if (files.changed()) return true;
+    std::this_thread::sleep_for(kLookEvery);
+  }
+}
+
+/// Everything of the show is made anew, but for what was read from files. False if there is no next group.
 bool nextGroup(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   s.desk->endGroup();
   Diagnostics findings;
@@ -195,10 +215,23 @@ bool nextGroup(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
   s.watch.reset();
   s.player.reset();
   s.desk->kept()->models.store().collect(~std::uint64_t{0});  // no frame shows it any more
-  s.player = Player::create(o.show, findings, tell, &stop, modelsOf(*s.desk));
-  const bool well = s.player && beginGroup(o, s, findings);
+  for (;;) {
+    s.player = Player::create(o.show, findings, tell, &stop, modelsOf(*s.desk));
+    tell(std::exchange(findings, {}));
+    if (s.player) break;
+    if (!waitForScript(o, stop, s)) return false;
+  }
+  const bool well = beginGroup(o, s, findings);
   tell(findings);
   return well;
+}
+
+/// There is no next group's show.
+int codeWithoutShow(bool stopped, const RunSetup& s) {
+  const auto lost = s.displays ? s.displays->lost() : std::nullopt;
+  if (!lost) return stopped ? kStopped + stopSignal() : kBadInput;
+  std::fprintf(stderr, "stadion: %s\n", lost->c_str());
+  return kInternalFault;
 }
 
 int runShow(RunOptions o) try {
@@ -220,7 +253,7 @@ int runShow(RunOptions o) try {
   }
   for (;;) {
     if (const auto code = play(o, stop, setup)) return *code;
-    if (!nextGroup(o, stop, setup)) return kBadInput;
+    if (!nextGroup(o, stop, setup)) return codeWithoutShow(stop, setup);
   }
 } catch (const RunStopped&) {
   std::fprintf(stderr, "stadion: stopped by %s before the show was loaded\n", stopSignalName());

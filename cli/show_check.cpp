@@ -7,6 +7,7 @@
 #include "dynamics/nodes/dynamics_factories.h"
 #include "engine/asset/sound_file.h"
 #include "engine/input/input_log.h"
+#include "engine/run_stopped.h"
 #include "engine/script/lint.h"
 #include "engine/script/script.h"
 
@@ -26,13 +27,16 @@ constexpr std::size_t kDeepestNesting = 16;
 /// Checks a file and the sub-scenes below it.
 class ShowChecker {
 public:
-  ShowChecker(const std::string& file, const std::vector<std::string>& roots, Diagnostics& findings)
-      : roots_(AssetRoots::ofScript(file)), findings_(findings) {
+  ShowChecker(const std::string& file, const std::vector<std::string>& roots, bool withAssets,
+              const std::atomic<bool>* giveUp, Diagnostics& findings)
+      : roots_(AssetRoots::ofScript(file)), withAssets_(withAssets), giveUp_(giveUp), findings_(findings) {
     AssetRoots forImporter = AssetRoots::ofScript(file);
     for (const std::string& r : roots)
       if (!roots_.add(r) || !forImporter.add(r))
         findings.error({}, "--asset-root: cannot open the folder " + r);
-    importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter));
+    ImportLimits limits;
+    limits.giveUp = giveUp;
+    importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);
     addEngineFactories(factories_);
     addDynamicsFactories(factories_, {}, &roots_);
     readLogBeside(file);
@@ -49,14 +53,14 @@ public:
     resolveNames(document, around, own);
     bool alone = enclosing.empty();
     for (const Declaration d : document) alone &= d.kind() != NodeKind::Scene;
-    if (!own.hasErrors()) {
+    if (!own.hasErrors() && withAssets_) {
       lint(document, alone, own);
       lintLatencies(document, fromSeconds(1 / ShowOptions{}.rate), own);
       lintTrackers(document, trackers_, log_, own);
       buildOnce(document, own);
     }
     findings_.append(own);
-    if (enclosing.size() >= kDeepestNesting) return;
+    if (enclosing.size() >= kDeepestNesting || (giveUp_ && *giveUp_)) return;
     enclosing.insert(enclosing.begin(), &document);
     for (const Declaration d : document) {
       // One whose file name was refused has been told already.
@@ -188,6 +192,8 @@ private:
   }
 
   AssetRoots roots_;
+  bool withAssets_;
+  const std::atomic<bool>* giveUp_;
   std::unique_ptr<Importer> importer_;
   NodeFactories factories_{};
   MeshStore meshes_;
@@ -199,13 +205,16 @@ private:
 };
 
 /// What stands for each object in collisions, and bodies that stick in something when the show begins.
-void lookAtCollisions(const std::string& file, const std::vector<std::string>& roots, Diagnostics& findings) {
+void lookAtCollisions(const std::string& file, const std::vector<std::string>& roots,
+                      const std::atomic<bool>* giveUp, Diagnostics& findings) {
   ShowOptions options;
   options.script = file;
   options.input = "none";
   options.assetRoots = roots;
   Diagnostics told;
-  auto player = options.settle(told) ? Player::create(options, told, [](const Diagnostics&) {}) : nullptr;
+  auto player = options.settle(told) ? Player::create(
+                                           options, told, [](const Diagnostics&) {}, giveUp)
+                                     : nullptr;
   if (!player) return;
   ChangeSet changes;
   player->scene().advance(signatureAt(0, player->rate()), {}, changes, nullptr);
@@ -246,10 +255,21 @@ void lookAtCollisions(const std::string& file, const std::vector<std::string>& r
 
 }  // namespace
 
-Diagnostics checkShow(const std::string& file, const std::vector<std::string>& assetRoots) {
+Diagnostics checkShow(const std::string& file, const std::vector<std::string>& assetRoots,
+                      const std::atomic<bool>* giveUp) {
   Diagnostics findings;
-  ShowChecker(file, assetRoots, findings).checkFile(SourceText::read(file), {});
-  if (!findings.hasErrors()) lookAtCollisions(file, assetRoots, findings);
+  ShowChecker(file, assetRoots, true, giveUp, findings).checkFile(SourceText::read(file), {});
+  if (!findings.hasErrors()) try {
+      lookAtCollisions(file, assetRoots, giveUp, findings);
+    } catch (const RunStopped&) {
+      // given up
+    }
+  return sorted(findings);
+}
+
+Diagnostics checkScripts(const std::string& file, const std::vector<std::string>& assetRoots) {
+  Diagnostics findings;
+  ShowChecker(file, assetRoots, false, nullptr, findings).checkFile(SourceText::read(file), {});
   return sorted(findings);
 }
 

@@ -321,6 +321,17 @@ TEST(ProgramView, ANextGroupWhoseScriptHasErrorsWaitsForItToBeMended) {
   view.end();
 }
 
+TEST(ProgramView, AServerThatEndsEndsTheShowWithItsRecordWritten) {
+  REQUIRE_DISPLAY(display);
+  Viewing view(*display, testShow("desk.evs"), {"--walls", "cave4", "--windows", "walls"});
+  ASSERT_TRUE(view.playing());
+  display->breakDown();
+  EXPECT_EQ(view.program().status(), 3) << view.program().err();
+  EXPECT_TRUE(view.program().says("stadion: the connection to the display is lost: "));
+  EXPECT_NE(view.program().out().find("state hash"), std::string::npos);
+  EXPECT_FALSE(fileContent(view.log()).empty());
+}
+
 TEST(ProgramView, ASubSceneThatIsSavedIsReadAgainToo) {
   REQUIRE_DISPLAY(display);
   const TemporaryFolder scripts;
