@@ -346,8 +346,9 @@ bool DynamicsNode::afterStep(FrameContext& frame) {
     const BodyState before = node->state();
     node->setState(state);
     tellTrouble(before, *node, frame);
+    // Its end is rounded up: what sticks has touched before, be it by less than a nanosecond.
     if (standsStill(state.mode) && (!standsStill(before.mode) || state.clock != before.clock))
-      frame.scene.noteImpact({node->self(), {}, state.p, state.clock, true});
+      frame.scene.noteImpact({node->self(), {}, state.p, state.clock + (state.clockRest > 0 ? 1 : 0), true});
     if (same)
       frame.scene.touch(node->self());
     else

@@ -202,6 +202,54 @@ TEST(Measure, AThrowThatComesToRestWithoutAnImpactThatCountsIsAFoulAtThatTime) {
   EXPECT_EQ(show.board->words(), "Visitor foul\nAthlete foul\na draw");
 }
 
+/// A ball that sticks in whatever it falls on.
+class Dart : public DynObjectNode {
+public:
+  Dart(NodeRef self, std::string name, const DynObjectNode& like, MeshId mesh, const Vec3& p)
+      : DynObjectNode(self, std::move(name), at(p), {mesh, true, "box"}, body(), like.fit()) {}
+
+private:
+  static PlaceAttributes at(const Vec3& p) {
+    PlaceAttributes place;
+    place.X_PN.translation() = p;
+    return place;
+  }
+  static BodyAttributes body() {
+    BodyAttributes b;
+    b.hooks = {"gravity"};
+    b.nose = -Vec3::UnitZ(), b.sticks = 1, b.stickDepth = 0.05;
+    return b;
+  }
+};
+
+TEST(Measure, WhatSticksHasTouchedBeforeItEndsWhateverTheNanosecond) {
+  for (int i = 0; i < 24; ++i) {
+    ShowFixture show;
+    auto tiny = cube(kRadius);
+    tiny->hash = 8;
+    const MeshId box = show.meshes.add(cube(100)), small = show.meshes.add(std::move(tiny));
+    MeasureNode* tape = nullptr;
+    show.loader.files["show"] = [&](Load& load) {
+      addNode<Field>(load, "gravity", Vec3(0, 0, -kG), true);
+      addNode<Block>(load, "floor", box, Vec3(0, 0, -100));
+      const Ball& like = addNode<Ball>(load, "ball", Vec3(5, 0, 9), std::vector<std::string>{});
+      addNode<Dart>(load, "dart", like, small, Vec3(0, 20, 1 + 0.0137 * i));
+      MeasureAttributes of;
+      of.body = "dart";
+      tape = &addNode<MeasureNode>(load, "tape", PlaceAttributes{}, of);
+      addNode<Sim>(load, "sim", std::vector<std::string>{"floor"}, std::vector<std::string>{"dart"});
+    };
+    show.scene.open("show");
+    show.frame();
+    show.loader.files.erase("show");  // it refers to what ends here
+    show.scene.command("tape", Verb::Start, {}, show.input.time);
+    for (int n = 0; n < 60; ++n) show.frame();
+    ASSERT_TRUE(tape->result()) << i;
+    EXPECT_FALSE(tape->result()->foul) << i;
+    EXPECT_NEAR(tape->result()->metres, 20, 1e-9) << i;
+  }
+}
+
 TEST(Measure, AThrowThatTouchesNothingForItsDurationIsAFoulThen) {
   Field2 show;
   show.first.z() = 1e5;
