@@ -375,6 +375,30 @@ TEST(ProgramView, TheFrameBudgetAndTheOverviewAreOnTheScreenshot) {
   EXPECT_TRUE(std::filesystem::exists(view.folder() / "shots" / "001-screen.png"));
 }
 
+TEST(ProgramView, OlympiaShowsItsBudgetAndIsReadAgainWhenSaved) {
+  REQUIRE_DISPLAY(display);
+  const TemporaryFolder scripts;
+  const std::filesystem::path from = std::filesystem::path(assetFolder()) / "../scripts";
+  std::filesystem::copy(from / "olympia", scripts.path() / "olympia",
+                        std::filesystem::copy_options::recursive);
+  const std::string text = fileContent(from / "olympia.evs");
+  Viewing view(*display, scripts.write("olympia.evs", text));
+  ASSERT_TRUE(view.playing());
+  ASSERT_TRUE(view.pressed("F12", "screenshot:"));
+  view.press("F2");
+  ASSERT_TRUE(view.pressed("F12", "screenshot:", 2));
+  scripts.write("olympia.evs",
+                text + "object( name=more, file=football.3ds, position=\"0, 3, 1.7\", scale=4 )\n");
+  ASSERT_TRUE(view.program().says("reloaded "));
+  ASSERT_TRUE(view.program().says("playing ", 2));
+  view.press("F2");
+  ASSERT_TRUE(view.pressed("F12", "screenshot:", 3));
+  view.end();
+  EXPECT_EQ(budgetLetters(view.shot(1)), 0u);
+  EXPECT_GT(budgetLetters(view.shot(2)), 300u);
+  EXPECT_NE(imageHash(view.shot(3)), imageHash(view.shot(1))) << "what was added is seen";
+}
+
 TEST(ProgramView, EachWallMayHaveItsWindowAndEyesAreMixed) {
   REQUIRE_DISPLAY(display);
   Viewing view(*display, testShow("desk.evs"),
