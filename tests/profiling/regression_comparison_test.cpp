@@ -250,9 +250,9 @@ TEST(RegressionInstructions, OfOurOwnProgramAreSummedByLabelWithoutWhatIsCalled)
 TEST(RegressionInstructions, AStageHasThoseOfItsNodesAndTheOneThatGrewIsNamed) {
   MadeRun made(7);
   std::vector<SpanRow> before = made.rows(1, 1, 1), now = before;
-  giveInstructions(before, {{"row 0", 5800}, {"row 4", 2900}, {"row 5", 5800}});
-  giveInstructions(now, {{"row 0", 5800}, {"row 4", 3480}, {"row 5", 5800}});
-  EXPECT_DOUBLE_EQ(before[0].instructions, 14500.0 / 58) << "the first two frames are not counted";
+  giveInstructions(before, {{"row 0", 5.8e6}, {"row 4", 2.9e6}, {"row 5", 5.8e6}});
+  giveInstructions(now, {{"row 0", 5.8e6}, {"row 4", 3.48e6}, {"row 5", 5.8e6}});
+  EXPECT_DOUBLE_EQ(before[0].instructions, 14.5e6 / 58) << "the first two frames are not counted";
   const auto shifts = compareInstructions(before, now, 0.005);
   ASSERT_EQ(shifts.size(), 1u);
   EXPECT_TRUE(shifts[0].more);
