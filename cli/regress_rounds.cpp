@@ -147,7 +147,8 @@ CountedInstructions countInstructions(const SuiteCase& c, const MeasuredProgram&
   shorter.frames = c.frames == 0 ? kCountedFrames : std::min(c.frames, kCountedFrames);
   std::vector<std::string> words = measuredWords(shorter, "sequential", program, folder.path("spans"), false);
   const auto at = std::ranges::find(words, program.path);
-  words.insert(at, {"valgrind", "--tool=callgrind", "--instr-atstart=no", "--combine-dumps=yes",
+  words.insert(at, {"valgrind", "--tool=callgrind", "--trace-children=yes",
+                    "--trace-children-skip=*/stadion-import", "--instr-atstart=no", "--combine-dumps=yes",
                     "--callgrind-out-file=" + folder.path("callgrind")});
   words.emplace_back("--count-instructions");
   if (!drawn) words.insert(words.end(), {"--gl", "none"});
