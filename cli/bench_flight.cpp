@@ -87,9 +87,15 @@ int benchFlight(const Options& o) {
     std::fprintf(stderr, "stadion: %s\n", format(references.error()).c_str());
     return kInternalFault;
   }
-  const bench::FlightReport report{
-      bench::measureLadder(references.value(), o.held), bench::measureIntegrators(references.value()),
-      bench::measureCosts(o.rounds), bench::measurePublished(), bench::measureHardCases()};
+  const auto show = bench::ShowFlights::ofOlympia(STADION_ROOT);
+  if (!show) {
+    std::fprintf(stderr, "stadion: %s\n", format(show.error()).c_str());
+    return kInternalFault;
+  }
+  const bench::FlightReport report{bench::measureLadder(references.value(), o.held, &show.value()),
+                                   bench::measureIntegrators(references.value()),
+                                   bench::measureCosts(o.rounds), bench::measurePublished(),
+                                   bench::measureHardCases()};
   std::printf("%s", bench::textOf(report).c_str());
   if (!o.json.empty() && !writeFile(o.json, bench::jsonOf(report))) return kBadInput;
   if (out && !writePictures(*out, picturesOf(report, references.value()))) return kBadInput;

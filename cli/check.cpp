@@ -3,27 +3,50 @@
 
 #include "engine/asset/check.h"
 #include "cli/commands.h"
+#include "cli/enclosing_show.h"
 #include "cli/exit_code.h"
 #include "cli/show_check.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <unistd.h>
 
 namespace stadion {
 namespace {
 
+/// Those in some of a show's files.
+Diagnostics inFiles(const std::set<std::filesystem::path>& files, const Diagnostics& findings) {
+  Diagnostics own;
+  std::error_code error;
+  for (const Diagnostic& d : findings.all())
+    if (d.where.file.empty() || files.contains(std::filesystem::weakly_canonical(d.where.file, error)))
+      own.add(d);
+  return own;
+}
+
+/// A script that a show loads is checked in it: its names and assets are that show's.
+Diagnostics findingsOf(const std::string& file, const std::optional<std::string>& around,
+                       const std::vector<std::string>& roots) {
+  if (!around) return checkShow(file, roots);
+  return inFiles(filesOf(file, *around, roots), checkShow(*around, roots));
+}
+
 int checkScripts(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
   bool wrong = false;
   for (const std::string& file : files) {
     const bool watched = isatty(2) == 1;
     if (watched) std::fprintf(stderr, "checking %s ...", file.c_str());
-    const Diagnostics findings = checkShow(file, roots);
+    const std::optional<std::string> around = showAround(file, roots);
+    const Diagnostics findings = findingsOf(file, around, roots);
     if (watched) std::fprintf(stderr, "\r\x1b[K");
     for (const Diagnostic& d : findings.all()) std::printf("%s\n", format(d).c_str());
     wrong |= findings.hasErrors();
-    if (!findings.hasErrors()) std::printf("%s: ok\n", file.c_str());
+    if (!findings.hasErrors())
+      std::printf("%s: ok%s\n", file.c_str(), around ? (", as a part of " + *around).c_str() : "");
+    else if (around)
+      std::printf("%s: checked as a part of %s\n", file.c_str(), around->c_str());
   }
   return wrong ? kBadInput : kOk;
 }
@@ -54,9 +77,12 @@ void addCheckCommand(CLI::App& app, int& code) {
   };
   auto o = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("check", "Look for mistakes in scripts and assets; draws nothing");
-  command->add_option("SHOW", o->scripts, "scripts to check, with the sub-scenes and assets they name");
+  command->add_option(
+      "SHOW", o->scripts,
+      "scripts to check, with the sub-scenes and assets they name; one that a show loads is checked in it");
   command->add_option("--assets", o->models, "try to import every model below this folder and count");
-  command->add_option("--asset-root", o->roots, "further folder to look for assets in");
+  command->add_option("--asset-root", o->roots, "further folder to look for assets in; may be repeated")
+      ->allow_extra_args(false);  // what follows the folder is a script
   command->callback([o, &code] {
     if (o->scripts.empty() && o->models.empty()) {
       std::fprintf(stderr, "check: name a script, or a folder with --assets DIR\n");

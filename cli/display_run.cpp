@@ -59,9 +59,7 @@ FrameLoopOutcome DisplayRun::play(FrameLoop& loop, LiveDesk& desk) {
     over = true;
   });
   while (!over) {
-    for (const Key key : displays_->poll())
-      if (const auto order = windowOrderOf(key)) desk.queue().post(*order);
-    if (!mailbox_.fetch(pictures, now)) {
+    if (!takeKeys(desk) || !mailbox_.fetch(pictures, now)) {
       std::this_thread::sleep_for(kNap);
       continue;
     }
@@ -71,6 +69,14 @@ FrameLoopOutcome DisplayRun::play(FrameLoop& loop, LiveDesk& desk) {
   }
   playing.join();
   return outcome;
+}
+
+bool DisplayRun::takeKeys(LiveDesk& desk) {
+  for (const Key key : displays_->poll())
+    if (const auto order = windowOrderOf(key)) desk.queue().post(*order);
+  const auto lost = displays_->lost();
+  if (lost) mailbox_.close(*lost);  // the next frame's pictures are refused, and all stages stop
+  return !lost;
 }
 
 }  // namespace stadion

@@ -26,6 +26,10 @@ public:
   /// Plays the loop to its end. Keys pressed in the windows are the operator's (docs/operator.md); Escape
   /// ends the run.
   FrameLoopOutcome play(FrameLoop& loop, LiveDesk& desk);
+  /// Keys pressed since the last call become commands. False if the display is gone: then the run fails.
+  bool takeKeys(LiveDesk& desk);
+  /// Why nothing can be shown any more; nothing while it can.
+  std::optional<std::string> lost() const { return displays_->lost(); }
 
 private:
   DisplayRun(const RunOptions& options, const WallFile& walls) : options_(options), walls_(walls) {}

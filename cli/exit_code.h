@@ -9,7 +9,7 @@ enum ExitCode : int {
   kOk = 0,
   kCheckFailed = 1,    ///< a check or comparison failed
   kBadInput = 2,       ///< bad usage, or a file of the user's is wrong
-  kInternalFault = 3,  ///< our fault
+  kInternalFault = 3,  ///< our fault, OpenGL's, or the display is gone
   kStopped = 128,      ///< plus the number of the signal that ended a run, as shells have it: 130, 143
 };
 

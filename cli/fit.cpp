@@ -67,15 +67,24 @@ FlightBody bodyOf(const MassProperties& mass, const FlightShape& shape) {
   return {mass.mass, i[axis], 0.5 * (i.sum() - i[axis])};
 }
 
+StatedMatter matterOf(const Options& o) {
+  StatedMatter m;
+  m.mass = o.mass;
+  if (!o.centre.empty()) m.centre = Vec3(o.centre[0], o.centre[1], o.centre[2]);
+  if (!o.inertia.empty()) m.moments = Vec2(o.inertia[0], o.inertia[1]);
+  return m;
+}
+
 Result<FitTask> taskOf(const Options& o) {
-  auto object = readFlownObject(o.object, o.roots, o.mass);
+  if (!o.inertia.empty() && o.inertia[0] > 2 * o.inertia[1])
+    return Result<FitTask>::failure(
+        "--inertia: no body has such moments: along its axis at most twice that across");
+  auto object = readFlownObject(o.object, o.roots, matterOf(o));
   if (!object) return object.error();
-  FlownObject& body = object.value();
-  if (!o.centre.empty()) body.mass.centre = Vec3(o.centre[0], o.centre[1], o.centre[2]);
+  const FlownObject& body = object.value();
   FitTask task;
   task.shape = measureShape(body.mesh, body.mass.centre, body.nose);
   task.body = bodyOf(body.mass, task.shape);
-  if (!o.inertia.empty()) task.body.along = o.inertia[0], task.body.across = o.inertia[1];
   task.air = {Vec3(0, 0, -o.gravity), Vec3(o.wind[0], o.wind[1], o.wind[2]), o.density};
   if (auto wrong = readFlights(o, task)) return *wrong;
   return task;
@@ -86,15 +95,29 @@ std::string nameOf(FlightKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
+/// What the command line says of the body, as a script says it: the fit holds for that.
+std::string matterText(const Options& o, const FlightShape& shape) {
+  const auto three = [](const char* name, const Vec3& v) {
+    return fmt::format("{}=\"{:.9g}, {:.9g}, {:.9g}\", ", name, v.x(), v.y(), v.z());
+  };
+  const StatedMatter m = matterOf(o);
+  std::string text;
+  if (m.mass) text += fmt::format("mass={:.9g}, ", *m.mass);
+  if (m.centre) text += three("centre", *m.centre);
+  if (m.moments) text += three("inertia", momentsOf(*m.moments, shape));
+  return text;
+}
+
 /// What a script says to have it.
 std::string attributesOf(const FittedRung& rung, const std::string& table) {
   std::string text = "flight=" + nameOf(rung.kind);
-  if (rung.kind == FlightKind::Bias) text += fmt::format(", bias=flow, biasrate={:.4g}", rung.bias.rate);
-  if (rung.kind == FlightKind::Table) text += fmt::format(", flighttable=\"{}\"", table);
+  if (rung.kind == FlightKind::Bias) text += fmt::format(", bias=flow, biasrate={:.9g}", rung.bias.rate);
+  if (rung.kind == FlightKind::Table)
+    text += fmt::format(", flighttable=\"{}\"", std::filesystem::path(table).filename().string());
   const std::vector<double> numbers = coefficientsOf(rung.model);
   if (numbers.empty()) return text;
   text += ", coefficients=\"";
-  for (std::size_t i = 0; i < numbers.size(); ++i) text += fmt::format("{}{:.6g}", i ? ", " : "", numbers[i]);
+  for (std::size_t i = 0; i < numbers.size(); ++i) text += fmt::format("{}{:.9g}", i ? ", " : "", numbers[i]);
   return text + "\"";
 }
 
@@ -141,10 +164,13 @@ int fit(const Options& o) {
   const std::string table = tableFileOf(o);
   if (chosen.kind == FlightKind::Table && !writeTable(chosen, shape.elongated() ? 0 : 2, table))
     return kBadInput;
-  std::printf("%s\n  %s\n",
+  std::printf("%s\n  %s%s\n",
               good != rungs.end() ? "The cheapest within the tolerance; in the dynobject write"
                                   : "None is within the tolerance; the nearest is",
-              attributesOf(chosen, table).c_str());
+              matterText(o, shape).c_str(), attributesOf(chosen, table).c_str());
+  if (chosen.kind == FlightKind::Table)
+    std::printf("The table is in %s; it belongs beside the script, or where its models lie.\n",
+                table.c_str());
   return good != rungs.end() ? kOk : kCheckFailed;
 }
 
@@ -178,7 +204,8 @@ void addFitCommand(CLI::App& app, int& code) {
   command->add_option("--gravity", o->gravity, "[m/s2] (9.80665)")->check(numberFrom(0, 1e3));
   command->add_option("--density", o->density, "of the air [kg/m3] (1.225)")->check(numberFrom(0, 1e4));
   command->add_option("--table", o->table, "where to write a table, if that is chosen (OBJECT-flight.csv)");
-  command->add_option("--asset-root", o->roots, "further folder to look for the model in");
+  command->add_option("--asset-root", o->roots, "further folder to look for the model in; may be repeated")
+      ->allow_extra_args(false);
   command->callback([o, &code] { code = fit(*o); });
 }
 

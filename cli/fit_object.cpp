@@ -1,5 +1,9 @@
 #include "cli/fit_object.h"
 
+#include "cli/enclosing_show.h"
+#include "dynamics/nodes/dynamics_factories.h"
+
+#include "dynamics/nodes/dyn_object_node.h"
 #include "engine/asset/import.h"
 #include "engine/script/choice.h"
 #include "engine/script/script.h"
@@ -12,35 +16,42 @@ namespace {
 
 using Read = Result<FlownObject>;
 
-/// What is asked of the importer, and of the mass.
+/// What is asked of the importer, and what the script says of the body.
 struct Wanted {
   std::string file;
   ImportOptions options;
+  Appearance appearance;
   Vec3 scale = Vec3::Ones();
-  double density = 1000;  ///< [kg/m3]
-  std::optional<double> mass;
-  std::optional<Vec3> nose;
+  BodyAttributes body;
   SourcePosition where;
 };
 
-Read imported(const Wanted& w, AssetRoots roots) {
+Read imported(const Wanted& w, const StatedMatter& stated, AssetRoots roots) {
   Importer importer(Importer::programBesideThis(), std::move(roots));
-  auto mesh = importer.load(w.file, w.options, w.where);
-  if (!mesh) return mesh.error();
-  FlownObject object{std::move(*mesh.value()), {}, w.nose};
-  for (auto& p : object.mesh.positions)
-    for (std::size_t i = 0; i < 3; ++i) p[i] *= static_cast<float>(w.scale[static_cast<Eigen::Index>(i)]);
-  const auto mass = massOfMesh(object.mesh, w.density);
-  if (!mass) {
-    Diagnostic wrong = mass.error();
-    wrong.where = w.where, wrong.message = w.file + " " + wrong.message + "; only a closed model has a mass";
+  const auto model = importer.load(w.file, w.options, w.where);
+  if (!model) return model.error();
+  const auto fail = [&](const std::string& why) {
+    Diagnostic wrong;
+    wrong.where = w.where, wrong.message = w.file + " " + why;
     return wrong;
-  }
-  object.mass = w.mass ? mass.value().withMass(*w.mass) : mass.value();
+  };
+  ShapeStore shapes;
+  const auto fit = shapes.fit(*model.value(), w.appearance, w.scale);
+  if (!fit) return fail(fit.error().message);
+  const Result<MassProperties>& filled = fit.value()->filled;
+  if (!filled) return fail(filled.error().message + "; only a closed model has a mass");
+  FlownObject object{scaled(*model.value(), w.scale.cast<float>()), {}, w.body.nose};
+  BodyAttributes body = w.body;
+  if (stated.mass) body.mass = stated.mass;
+  if (stated.centre) body.centre = stated.centre;
+  object.mass = body.massOf(*fit.value());
+  if (!stated.moments) return object;
+  body.inertia = momentsOf(*stated.moments, measureShape(object.mesh, object.mass.centre, object.nose));
+  object.mass = body.massOf(*fit.value());
   return object;
 }
 
-Read fromModel(const std::string& file, const std::vector<std::string>& further, std::optional<double> mass) {
+Read fromModel(const std::string& file, const std::vector<std::string>& further, const StatedMatter& stated) {
   const std::filesystem::path path(file);
   AssetRoots roots;
   if (!roots.add(path.has_parent_path() ? path.parent_path() : "."))
@@ -48,12 +59,12 @@ Read fromModel(const std::string& file, const std::vector<std::string>& further,
   for (const std::string& r : further)
     if (!roots.add(r)) return Read::failure("--asset-root: cannot open the folder " + r);
   Wanted w;
-  w.file = path.filename().string(), w.mass = mass;
-  return imported(w, std::move(roots));
+  w.file = path.filename().string();
+  return imported(w, stated, std::move(roots));
 }
 
 Read fromScript(const std::string& file, const std::string& name, const std::vector<std::string>& further,
-                std::optional<double> mass) {
+                const StatedMatter& stated) {
   auto source = SourceText::read(file);
   if (!source) return source.error();
   Diagnostics findings;
@@ -71,29 +82,34 @@ Read fromScript(const std::string& file, const std::string& name, const std::vec
     return wrong;
   }
   const Declaration& d = *found;
-  AssetRoots roots = AssetRoots::ofScript(file);
+  AssetRoots roots = AssetRoots::ofScript(showAround(file, further).value_or(file));
   for (const std::string& r : further)
     if (!roots.add(r)) return Read::failure("--asset-root: cannot open the folder " + r);
   Wanted w;
   w.file = std::string(d.text(Attr::File)), w.where = d.where(Attr::File);
   w.options.unit = d.optionalNumber(Attr::Unit);
   w.options.up = d.optionalChoice<UpAxis>(Attr::Up);
-  w.scale = d.vec3(Attr::Scale), w.density = 1000 * d.number(Attr::Density);
-  w.mass = mass ? mass : d.optionalNumber(Attr::Mass);
-  if (d.has(Attr::Nose)) w.nose = d.vec3(Attr::Nose).normalized();
-  return imported(w, std::move(roots));
+  w.appearance.shape = std::string(d.text(Attr::Shape)), w.appearance.tolerance = d.number(Attr::Tolerance);
+  w.scale = d.vec3(Attr::Scale);
+  w.body = bodyAttributesOf(d);
+  return imported(w, stated, std::move(roots));
 }
 
 }  // namespace
 
+Vec3 momentsOf(const Vec2& alongAndAcross, const FlightShape& shape) {
+  const auto [along, across] = std::pair(alongAndAcross.x(), alongAndAcross.y());
+  return shape.elongated() ? Vec3(along, across, across) : Vec3(across, across, along);
+}
+
 Read readFlownObject(const std::string& object, const std::vector<std::string>& roots,
-                     std::optional<double> massStated) {
+                     const StatedMatter& stated) {
   const std::size_t colon = object.rfind(':');
   if (colon != std::string::npos && colon > 4 && object.compare(colon - 4, 4, ".evs") == 0)
-    return fromScript(object.substr(0, colon), object.substr(colon + 1), roots, massStated);
+    return fromScript(object.substr(0, colon), object.substr(colon + 1), roots, stated);
   if (object.ends_with(".evs"))
     return Read::failure(object + " is a whole script: write " + object + ":NAME for one of its dynobjects");
-  return fromModel(object, roots, massStated);
+  return fromModel(object, roots, stated);
 }
 
 }  // namespace stadion

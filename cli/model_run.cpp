@@ -107,10 +107,11 @@ std::optional<PlayedShow> playWith(const ShowOptions& show, const BodyModel& mod
   };
   const auto player = Player::create(options, findings, report);
   if (!player) return {};
-  ShowRecording recording({.samples = false});
+  const auto recording = ShowRecording::create({.log = {.samples = false}}, findings);
+  if (!recording) return {};
   BodyWatch watch(player->scene(), model.body);
   ShowParts parts = player->parts(StereoLayout::Off);
-  parts.probe = &recording.probe();
+  parts.probe = &recording->probe();
   const ShowStages* running = nullptr;
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene&) {
     watch.look(now);
@@ -129,7 +130,7 @@ std::optional<PlayedShow> playWith(const ShowOptions& show, const BodyModel& mod
     return {};
   }
   PlayedShow played{outcome.framesSimulated, player->rate(), watch.take()};
-  for (const auto& [ref, cost] : recording.profile().nodes())
+  for (const auto& [ref, cost] : recording->profile().nodes())
     if (const Node* node = player->scene().find(ref); node && node->kind() == NodeKind::Dynamics)
       played.milliseconds[ref] = cost.phases[0] + cost.phases[1] + cost.phases[2];
   return played;

@@ -68,7 +68,8 @@ void ShowOptions::addLengthTo(CLI::App& command) {
       ->excludes(count);
   command.add_option("--input", input,
                      "input log to replay (default: SHOW's name with .input, if there is one), or none");
-  command.add_option("--asset-root", assetRoots, "further folder to look for assets in");
+  command.add_option("--asset-root", assetRoots, "further folder to look for assets in; may be repeated")
+      ->allow_extra_args(false);  // what follows the folder is the script
   command
       .add_option(
           "--app-threads", appThreads,

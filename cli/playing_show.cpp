@@ -29,8 +29,8 @@ std::map<std::string, bool> subScenes(const Scene& scene) {
 
 std::unique_ptr<PlayingShow> PlayingShow::open(const ShowSurroundings& around, Diagnostics& findings) {
   std::unique_ptr<PlayingShow> show(new PlayingShow(around));
-  show->player_ =
-      Player::create(around.options.show, findings, around.report, &show->stopping_, &around.kept->models);
+  show->player_ = Player::create(around.options.show, findings, around.report, show->around_.stopping.get(),
+                                 &around.kept->models);
   if (!show->player_) return nullptr;
   Player& player = *show->player_;
   if (around.visitor) player.takeInputFrom(*around.visitor);
@@ -67,7 +67,7 @@ ShowParts PlayingShow::parts() {
   parts.sink = &around_.sink;
   parts.contexts = &around_.kept->contexts;
   parts.probe = &budget_;
-  parts.giveUp = [this] { return stopping_.load(); };
+  parts.giveUp = [this] { return around_.stopping->load(); };
   parts.observer = [this](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     see(now, input, scene);
   };
@@ -82,7 +82,7 @@ void PlayingShow::start(const std::optional<ShowPlace>& place) {
   around_.desk.beginGroup(*player_, *watch_);
   around_.desk.addTo(show, options);
   stages_ = std::make_unique<ShowStages>(std::move(show));
-  loop_ = std::make_unique<FrameLoop>(*stages_, options, stopping_, &budget_);
+  loop_ = std::make_unique<FrameLoop>(*stages_, options, *around_.stopping, &budget_);
   thread_ = std::thread([this] {
     outcome_ = loop_->run();
     if (around_.ended) around_.ended();
@@ -90,7 +90,7 @@ void PlayingShow::start(const std::optional<ShowPlace>& place) {
 }
 
 void PlayingShow::stop() {
-  stopping_ = true;
+  *around_.stopping = true;
   if (thread_.joinable()) thread_.join();
 }
 

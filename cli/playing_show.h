@@ -41,11 +41,14 @@ struct ShowSurroundings {
   SheetPlace overviewSize;
   std::function<void(const Diagnostics&)> report;  ///< what is found later; any thread
   std::function<void()> ended;                     ///< the show has come to its end; on its own thread
+  /// Once true the show ends, or, while it is still being opened, is given up. One for each show.
+  std::shared_ptr<std::atomic<bool>> stopping = std::make_shared<std::atomic<bool>>(false);
 };
 
 class PlayingShow {
 public:
   /// Reads, checks and loads everything. Null if something of the user's is wrong; the findings say what.
+  /// Throws RunStopped if it is given up.
   static std::unique_ptr<PlayingShow> open(const ShowSurroundings& around, Diagnostics& findings);
   /// Stops playing, if it still does.
   ~PlayingShow();
@@ -86,7 +89,6 @@ private:
   std::unique_ptr<ShowStages> stages_;
   std::unique_ptr<FrameLoop> loop_;
   FrameLoopOutcome outcome_;
-  std::atomic<bool> stopping_ = false;
   std::atomic<std::uint64_t> dropped_ = 0, frames_ = 0;
   std::atomic<Nanoseconds> time_ = 0;
   std::optional<ShowPlace> from_;

@@ -6,6 +6,7 @@
 #include "cli/fidelity.h"
 #include "cli/number_option.h"
 #include "cli/profile_run.h"
+#include "profiling/black_box.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -20,8 +21,32 @@ struct Options {
   ProfileRunOptions run;
   std::size_t nodes = 25;
   double millimetres = 1;
+  std::string blackBox;
   bool fidelityAsked = false, json = false, csv = false, undrawn = false;
 };
+
+/// What a live run left behind.
+int showBlackBox(const std::string& file) {
+  const auto content = BlackBox::read(file);
+  if (!content) {
+    Diagnostics findings;
+    findings.add(content.error());
+    return tell(findings), kBadInput;
+  }
+  std::map<Cause, std::uint64_t> causes;
+  for (const FrameFacts& f : content.value().frames) {
+    ++causes[f.cause];
+    if (f.cause != Cause::None) std::printf("%s\n", toText(f, content.value().walls).c_str());
+  }
+  std::printf("%zu frames:", content.value().frames.size());
+  for (const auto& [cause, count] : causes)
+    std::printf(" %llu %s,", static_cast<unsigned long long>(count),
+                cause == Cause::None ? "in time" : std::string(nameOf(cause)).c_str());
+  std::printf(" the last one %llu\n",
+              static_cast<unsigned long long>(
+                  content.value().frames.empty() ? 0 : content.value().frames.back().frame));
+  return kOk;
+}
 
 int profileFrames(Options o) {
   ProfileRunOptions& options = o.run;
@@ -98,6 +123,9 @@ void addProfileCommand(CLI::App& app, int& code) {
   command->add_option("--gl", o->run.provider, "who draws: osmesa or egl")
       ->check(CLI::IsMember({"osmesa", "egl"}))
       ->capture_default_str();
+  command->add_option(
+      "--black-box", o->blackBox,
+      "say instead why frames were late: the file of the last frames that a live run left behind");
   command->add_flag("--no-draw", o->undrawn, "App and Cull alone");
   command->add_option("--nodes", o->nodes, "how many nodes are listed, the dearest first")
       ->check(wholeNumberFrom(0, 1000000))
@@ -109,7 +137,8 @@ void addProfileCommand(CLI::App& app, int& code) {
       ->check(numberFrom(1e-6, 1e6))
       ->capture_default_str();
   command->add_option("--body", o->fidelity.bodies,
-                      "only this body is played with other models; may be repeated");
+                      "only this body is played with other models; may be repeated")
+      ->allow_extra_args(false);
   command
       ->add_option(
           "--finest", o->fidelity.finest,
@@ -125,7 +154,15 @@ void addProfileCommand(CLI::App& app, int& code) {
       ->capture_default_str();
   command->add_flag("--json", o->json, "one JSON object");
   command->footer(kFooter);
-  command->callback([o, &code] { code = o->fidelityAsked ? profileModels(*o) : profileFrames(*o); });
+  command->get_option("SHOW")->required(false);
+  command->callback([o, &code] {
+    if (!o->blackBox.empty())
+      code = showBlackBox(o->blackBox);
+    else if (o->fidelity.show.script.empty())
+      throw CLI::RequiredError("SHOW");
+    else
+      code = o->fidelityAsked ? profileModels(*o) : profileFrames(*o);
+  });
 }
 
 }  // namespace stadion

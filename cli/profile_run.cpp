@@ -11,12 +11,6 @@ namespace {
 
 constexpr std::uint64_t kFramesWithoutInput = 600;
 
-std::vector<std::string> namesOf(const WallFile& walls) {
-  std::vector<std::string> names;
-  for (const WallEntry& w : walls.walls) names.push_back(w.wall.name);
-  return names;
-}
-
 }  // namespace
 
 std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnostics& findings) {
@@ -32,27 +26,28 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnos
   FrameLoopOptions loopOptions = player->loopOptions();
   if (loopOptions.frames == 0 && loopOptions.end == 0) loopOptions.frames = kFramesWithoutInput;
 
-  ShowRecording recording;
+  const auto recording = ShowRecording::create({}, findings);
+  if (!recording) return {};
   ProgressBar progress(loopOptions.frames);
   const ShowStages* running = nullptr;
   ShowParts parts = player->parts(options.layout);
   parts.provider = provider.get();
-  parts.probe = &recording.probe();
+  parts.probe = &recording->probe();
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
-    recording.see(scene);
+    recording->see(scene);
     player->collect(running->shownFrame());
     progress.update(now.frame + 1);
   };
   ShowStages stages(std::move(parts));
   running = &stages;
-  FrameLoop loop(stages, loopOptions, stop, &recording.probe());
+  FrameLoop loop(stages, loopOptions, stop, &recording->probe());
   const FrameLoopOutcome outcome = loop.run();
   progress.finish();
   if (outcome.failure) return findings.error({}, outcome.failure->message), std::nullopt;
-  if (recording.lost() > 0)
-    findings.warning({}, std::to_string(recording.lost()) + " spans were lost: they came faster than they "
-                                                            "could be collected");
-  return recording.figures(namesOf(player->walls()), options.provider != "egl");
+  if (recording->lost() > 0)
+    findings.warning({}, std::to_string(recording->lost()) + " spans were lost: they came faster than they "
+                                                             "could be collected");
+  return recording->figures(player->walls().names(), options.provider != "egl");
 }
 
 }  // namespace stadion

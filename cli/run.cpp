@@ -9,6 +9,7 @@
 #include "cli/run_output.h"
 #include "cli/run_report.h"
 #include "cli/run_watch.h"
+#include "cli/script_watch.h"
 #include "cli/show_recording.h"
 #include "cli/span_recording.h"
 #include "cli/stop_signal.h"
@@ -18,8 +19,13 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <thread>
+#include <unistd.h>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -34,10 +40,28 @@ struct RunSetup {
   std::unique_ptr<LiveDesk> desk;
   std::unique_ptr<Player> player;
   std::unique_ptr<RunWatch> watch;
-  std::unique_ptr<RunOutput> output;     ///< null without --out
-  std::unique_ptr<SpanRecording> spans;  ///< null without --spans
-  std::unique_ptr<DisplayRun> displays;  ///< null without --display
+  std::unique_ptr<RunOutput> output;         ///< null without --out
+  std::unique_ptr<SpanRecording> spans;      ///< null without --spans
+  std::unique_ptr<DisplayRun> displays;      ///< null without --display
+  std::unique_ptr<ShowRecording> recording;  ///< null if nobody asks
 };
+
+/// Where the last frames of a live run are kept if nobody says where.
+std::string standardBlackBox() {
+  const auto name = "stadion-" + std::to_string(getpid()) + ".frames";
+  return (std::filesystem::temp_directory_path() / name).string();
+}
+
+/// Late frames, in words, one in ten seconds.
+std::function<void(const std::string&)> tellSometimes() {
+  return [next = std::chrono::steady_clock::time_point{}](const std::string& text) mutable {
+    constexpr std::chrono::seconds kApart{10};
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next) return;
+    next = now + kApart;
+    std::fprintf(stderr, "late: %s\n", text.c_str());
+  };
+}
 
 template <class T>
 bool keep(Result<std::unique_ptr<T>> made, std::unique_ptr<T>& place, Diagnostics& findings) {
@@ -61,6 +85,23 @@ bool canDraw(GlProvider& provider, const ShowParts& parts, Diagnostics& findings
   return !why;
 }
 
+/// Who looks where frames go: of a live run always, so that late frames have a cause.
+bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
+  s.recording.reset();
+  const bool live = !o.everyFrameCounts(*s.player);
+  if (!o.profile && !live) return true;
+  RecordingOptions options;
+  options.profile = o.profile, options.log.samples = o.profile;
+  if (live) {
+    const FrameLoopOptions loop = o.loopOptions(*s.player);
+    options.keep =
+        BlackBoxOptions{o.blackBox.empty() ? standardBlackBox() : o.blackBox,
+                        loop.pace == Pace::Free ? 0 : loop.rate, s.player->walls().names(), tellSometimes()};
+  }
+  s.recording = ShowRecording::create(std::move(options), findings);
+  return s.recording != nullptr;
+}
+
 /// The show is there; who looks on while it is played comes with it.
 bool beginGroup(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   RunOptions recorded = o;
@@ -68,6 +109,7 @@ bool beginGroup(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   s.watch = RunWatch::create(recorded, *s.player, findings);
   if (!s.watch) return false;
   if (!o.everyFrameCounts(*s.player)) s.player->playLive();
+  if (!beginRecording(o, s, findings)) return false;
   s.desk->beginGroup(*s.player, *s.watch);
   return true;
 }
@@ -106,8 +148,7 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
 
 /// Plays the show to its end and reports on it, unless it is to begin again: then there is no exit code yet.
 std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
-  std::optional<ShowRecording> recording;
-  if (o.profile) recording.emplace();
+  ShowRecording* const recording = s.recording.get();
   ProgressBar progress(s.player->frames());
   const ShowStages* running = nullptr;
   FrameLoopOptions options = o.loopOptions(*s.player);
@@ -145,11 +186,28 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;
   }
-  if (recording) tellProfile(*recording, *s.player, o.provider != "egl");
+  if (recording) tellRecording(o, *recording, *s.player);
   return code;
 }
 
-/// Everything of the show is made anew, but for what was read from files.
+/// Waits until the script is saved again or the next group is asked for once more; false if the run is to
+/// end.
+bool waitForScript(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
+  constexpr std::chrono::milliseconds kLookEvery{250};
+  std::fprintf(stderr, "the script has errors; the next group's show begins once it is saved without them\n");
+  ScriptWatch files(o.show.script, o.show.assetRoots);
+  for (;;) {
+    if (stop || (s.displays && !s.displays->takeKeys(*s.desk))) return false;
+    for (const OperatorCommand& c : s.desk->queue().take()) {
+      if (c.action == OperatorAction::End) return false;
+      if (c.action == OperatorAction::NextGroup) return true;
+    }
+    if (files.changed()) return true;
+    std::this_thread::sleep_for(kLookEvery);
+  }
+}
+
+/// Everything of the show is made anew, but for what was read from files. False if there is no next group.
 bool nextGroup(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   s.desk->endGroup();
   Diagnostics findings;
@@ -157,10 +215,23 @@ bool nextGroup(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
   s.watch.reset();
   s.player.reset();
   s.desk->kept()->models.store().collect(~std::uint64_t{0});  // no frame shows it any more
-  s.player = Player::create(o.show, findings, tell, &stop, modelsOf(*s.desk));
-  const bool well = s.player && beginGroup(o, s, findings);
+  for (;;) {
+    s.player = Player::create(o.show, findings, tell, &stop, modelsOf(*s.desk));
+    tell(std::exchange(findings, {}));
+    if (s.player) break;
+    if (!waitForScript(o, stop, s)) return false;
+  }
+  const bool well = beginGroup(o, s, findings);
   tell(findings);
   return well;
+}
+
+/// There is no next group's show.
+int codeWithoutShow(bool stopped, const RunSetup& s) {
+  const auto lost = s.displays ? s.displays->lost() : std::nullopt;
+  if (!lost) return stopped ? kStopped + stopSignal() : kBadInput;
+  std::fprintf(stderr, "stadion: %s\n", lost->c_str());
+  return kInternalFault;
 }
 
 int runShow(RunOptions o) try {
@@ -182,7 +253,7 @@ int runShow(RunOptions o) try {
   }
   for (;;) {
     if (const auto code = play(o, stop, setup)) return *code;
-    if (!nextGroup(o, stop, setup)) return kBadInput;
+    if (!nextGroup(o, stop, setup)) return codeWithoutShow(stop, setup);
   }
 } catch (const RunStopped&) {
   std::fprintf(stderr, "stadion: stopped by %s before the show was loaded\n", stopSignalName());

@@ -47,11 +47,19 @@ void RunOptions::addTo(CLI::App& command) {
   command.add_flag("--video", video, "a video of all walls (needs ffmpeg)");
   command.add_flag("--profile", profile, "say which nodes cost the most; stadion profile says more");
   command
+      .add_option(
+          "--black-box", blackBox,
+          "where a live run keeps its last 600 frames while it plays (default: a temporary file); it stays "
+          "if one was late or the program died: stadion profile --black-box FILE")
+      ->check(aName, "FILE");
+  command
       .add_option("--gl", provider, "who draws: osmesa or egl (the same pixels), none: App and Cull alone")
       ->check(CLI::IsMember({"osmesa", "egl", "none"}))
       ->capture_default_str();
-  command.add_option("--trace", trace,
-                     "write where this node is in every frame to trace-NODE.csv in --out DIR");
+  command
+      .add_option("--trace", trace,
+                  "write where this node is in every frame to trace-NODE.csv in --out DIR; may be repeated")
+      ->allow_extra_args(false);
   trackers.addTo(command);
   spans.addTo(command);
   addOperatorTo(command);

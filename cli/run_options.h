@@ -16,8 +16,9 @@ struct RunOptions {
   std::string stereo = "pair", pace, recordInput, out, pictures = "last", provider = "osmesa";
   std::vector<std::string> trace;
   TrackerOptions trackers;
+  int oscPort = -1;      ///< where commands of the operator are listened for; -1: nowhere
+  std::string blackBox;  ///< where a live run keeps its last frames; empty: a temporary file
   SpanOptions spans;
-  int oscPort = -1;  ///< where commands of the operator are listened for; -1: nowhere
   bool wait = false;
   bool noSound = false;
   bool display = false;      ///< on the walls' outputs

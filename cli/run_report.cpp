@@ -1,11 +1,13 @@
 #include "cli/run_report.h"
 
 #include "cli/exit_code.h"
+#include "cli/span_recording.h"
 #include "cli/stop_signal.h"
 #include "engine/atomic_file.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <fmt/format.h>
 
 namespace stadion {
 namespace {
@@ -115,11 +117,19 @@ int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   return verdict.code(run.outcome.stopped);
 }
 
-void tellProfile(ShowRecording& recording, const Player& player, bool software) {
+void tellRecording(const RunOptions& o, ShowRecording& recording, const Player& player) {
   constexpr std::size_t kNodes = 10;
-  std::vector<std::string> walls;
-  for (const WallEntry& w : player.walls().walls) walls.push_back(w.wall.name);
-  std::fprintf(stderr, "\n%s", toText(recording.figures(walls, software), kNodes).c_str());
+  const bool software = o.provider != "egl";
+  if (o.profile)
+    std::fprintf(stderr, "\n%s", toText(recording.figures(player.walls().names(), software), kNodes).c_str());
+  recording.finish();
+  const BlackBox* box = recording.blackBox();
+  if (!box || box->late() == 0) return;
+  std::string causes;
+  for (const auto& [cause, count] : box->verdicts())
+    causes += fmt::format("{}{} {}", causes.empty() ? "" : ", ", count, nameOf(cause));
+  std::fprintf(stderr, "late frames: %s\nthe last %zu frames: stadion profile --black-box %s\n",
+               causes.c_str(), BlackBox::kFrames, box->file().c_str());
 }
 
 }  // namespace stadion

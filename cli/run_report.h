@@ -25,7 +25,7 @@ struct FinishedRun {
 /// --out.
 int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder);
 
-/// Which nodes cost the most, on stderr.
-void tellProfile(ShowRecording& recording, const Player& player, bool software);
+/// Which nodes cost the most, if it was asked for, and why frames were late, on stderr.
+void tellRecording(const RunOptions& options, ShowRecording& recording, const Player& player);
 
 }  // namespace stadion

@@ -1,15 +1,19 @@
 #include "cli/show_check.h"
 
 #include "cli/player.h"
+#include "dynamics/body_flight.h"
 #include "dynamics/nodes/collision_node.h"
+#include "dynamics/nodes/dyn_object_node.h"
 #include "dynamics/nodes/dynamics_factories.h"
 #include "engine/asset/sound_file.h"
 #include "engine/input/input_log.h"
+#include "engine/run_stopped.h"
 #include "engine/script/lint.h"
 #include "engine/script/script.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <map>
 #include <memory>
 #include <set>
@@ -23,13 +27,16 @@ constexpr std::size_t kDeepestNesting = 16;
 /// Checks a file and the sub-scenes below it.
 class ShowChecker {
 public:
-  ShowChecker(const std::string& file, const std::vector<std::string>& roots, Diagnostics& findings)
-      : roots_(AssetRoots::ofScript(file)), findings_(findings) {
+  ShowChecker(const std::string& file, const std::vector<std::string>& roots, bool withAssets,
+              const std::atomic<bool>* giveUp, Diagnostics& findings)
+      : roots_(AssetRoots::ofScript(file)), withAssets_(withAssets), giveUp_(giveUp), findings_(findings) {
     AssetRoots forImporter = AssetRoots::ofScript(file);
     for (const std::string& r : roots)
       if (!roots_.add(r) || !forImporter.add(r))
         findings.error({}, "--asset-root: cannot open the folder " + r);
-    importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter));
+    ImportLimits limits;
+    limits.giveUp = giveUp;
+    importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);
     addEngineFactories(factories_);
     addDynamicsFactories(factories_, {}, &roots_);
     readLogBeside(file);
@@ -46,14 +53,14 @@ public:
     resolveNames(document, around, own);
     bool alone = enclosing.empty();
     for (const Declaration d : document) alone &= d.kind() != NodeKind::Scene;
-    if (!own.hasErrors()) {
+    if (!own.hasErrors() && withAssets_) {
       lint(document, alone, own);
       lintLatencies(document, fromSeconds(1 / ShowOptions{}.rate), own);
       lintTrackers(document, trackers_, log_, own);
       buildOnce(document, own);
     }
     findings_.append(own);
-    if (enclosing.size() >= kDeepestNesting) return;
+    if (enclosing.size() >= kDeepestNesting || (giveUp_ && *giveUp_)) return;
     enclosing.insert(enclosing.begin(), &document);
     for (const Declaration d : document) {
       // One whose file name was refused has been told already.
@@ -118,7 +125,30 @@ private:
                            [&](const Declaration& d) { return importMesh(d, findings); },
                            meshes_,
                            [&](const Declaration& d) { return readSoundOf(d, findings); }};
-    buildLoad(input, findings);
+    if (const Built built = buildLoad(input, findings); built.load)
+      noteEvenMatter(*built.load, document, findings);
+  }
+
+  /// How a body flies hangs on where its matter is, which its model does not show.
+  static void noteEvenMatter(const Load& load, const Document& document, Diagnostics& findings) {
+    for (const Declaration d : document) {
+      if (d.kind() != NodeKind::DynObject || d.has(Attr::Centre) || d.has(Attr::Inertia)) continue;
+      const auto* node = dynamic_cast<const DynObjectNode*>(load.nodes[d.index()].get());
+      if (!node || !node->body().flight || !leansOnMatter(node->body().flight->model)) continue;
+      const MassProperties mass = node->body().massOf(*node->fit());
+      const Vec3 c = mass.centre.cwiseQuotient(node->fit()->scale);
+      Vec3 i = mass.inertia;
+      std::sort(i.begin(), i.end());
+      findings.note(d.where(Attr::Flight),
+                    fmt::format("\"{}\" flies as if matter filled its model evenly: centre=\"{:.4f}, {:.4f}, "
+                                "{:.4f}\", inertia=\"{:.4g}, {:.4g}, {:.4g}\"; state them if it is otherwise",
+                                d.name(), c.x(), c.y(), c.z(), i.x(), i.y(), i.z()));
+    }
+  }
+
+  /// The air turns it about its centre of mass.
+  static bool leansOnMatter(const FlightModel& model) {
+    return !std::holds_alternative<BallisticFlight>(model) && !std::holds_alternative<SportsBall>(model);
   }
 
   MeshId importMesh(const Declaration& d, Diagnostics& findings) {
@@ -162,6 +192,8 @@ private:
   }
 
   AssetRoots roots_;
+  bool withAssets_;
+  const std::atomic<bool>* giveUp_;
   std::unique_ptr<Importer> importer_;
   NodeFactories factories_{};
   MeshStore meshes_;
@@ -173,13 +205,16 @@ private:
 };
 
 /// What stands for each object in collisions, and bodies that stick in something when the show begins.
-void lookAtCollisions(const std::string& file, const std::vector<std::string>& roots, Diagnostics& findings) {
+void lookAtCollisions(const std::string& file, const std::vector<std::string>& roots,
+                      const std::atomic<bool>* giveUp, Diagnostics& findings) {
   ShowOptions options;
   options.script = file;
   options.input = "none";
   options.assetRoots = roots;
   Diagnostics told;
-  auto player = options.settle(told) ? Player::create(options, told, [](const Diagnostics&) {}) : nullptr;
+  auto player = options.settle(told) ? Player::create(
+                                           options, told, [](const Diagnostics&) {}, giveUp)
+                                     : nullptr;
   if (!player) return;
   ChangeSet changes;
   player->scene().advance(signatureAt(0, player->rate()), {}, changes, nullptr);
@@ -220,10 +255,21 @@ void lookAtCollisions(const std::string& file, const std::vector<std::string>& r
 
 }  // namespace
 
-Diagnostics checkShow(const std::string& file, const std::vector<std::string>& assetRoots) {
+Diagnostics checkShow(const std::string& file, const std::vector<std::string>& assetRoots,
+                      const std::atomic<bool>* giveUp) {
   Diagnostics findings;
-  ShowChecker(file, assetRoots, findings).checkFile(SourceText::read(file), {});
-  if (!findings.hasErrors()) lookAtCollisions(file, assetRoots, findings);
+  ShowChecker(file, assetRoots, true, giveUp, findings).checkFile(SourceText::read(file), {});
+  if (!findings.hasErrors()) try {
+      lookAtCollisions(file, assetRoots, giveUp, findings);
+    } catch (const RunStopped&) {
+      // given up
+    }
+  return sorted(findings);
+}
+
+Diagnostics checkScripts(const std::string& file, const std::vector<std::string>& assetRoots) {
+  Diagnostics findings;
+  ShowChecker(file, assetRoots, false, nullptr, findings).checkFile(SourceText::read(file), {});
   return sorted(findings);
 }
 

@@ -3,12 +3,18 @@
 
 #include "engine/diagnostic.h"
 
+#include <atomic>
 #include <string>
 #include <vector>
 
 namespace stadion {
 
 /// Findings in the order of the lines. Sub-scenes are checked with it. A missing asset is an error here.
-Diagnostics checkShow(const std::string& file, const std::vector<std::string>& assetRoots);
+/// Once `giveUp` (if it is given) is true, it ends soon, and what it says is worth nothing.
+Diagnostics checkShow(const std::string& file, const std::vector<std::string>& assetRoots,
+                      const std::atomic<bool>* giveUp = nullptr);
+
+/// The same of language and names alone: no asset is read, so it is quick.
+Diagnostics checkScripts(const std::string& file, const std::vector<std::string>& assetRoots);
 
 }  // namespace stadion

@@ -1,33 +1,60 @@
 #pragma once
-/// Everything that looks on where a show's frames go: the probe, who adds up, and the names.
+/// Everything that looks on where a show's frames go: the probe, who adds up, who judges, and the names.
 ///
 /// Threads  made before the run; see() on the App thread; figures() once the run is over.
 
-#include "profiling/frame_log.h"
+#include "profiling/black_box.h"
 #include "profiling/show_figures.h"
+
+#include <optional>
 
 namespace stadion {
 
+struct RecordingOptions {
+  bool profile = true;  ///< add up by node and stage
+  FrameLogOptions log{};
+  std::optional<BlackBoxOptions> keep{};  ///< the last frames, in a file
+};
+
 class ShowRecording {
 public:
-  explicit ShowRecording(FrameLogOptions options = {}) : log_({&profile_}, options) {}
+  /// Null, with the reason in the findings, if the last frames cannot be kept.
+  static std::unique_ptr<ShowRecording> create(RecordingOptions options, Diagnostics& findings) {
+    std::unique_ptr<ShowRecording> made(new ShowRecording);
+    std::vector<SpanReader*> readers;
+    if (options.profile) readers.push_back(&made->profile_);
+    if (options.keep) {
+      auto box = BlackBox::create(std::move(*options.keep), made->names_);
+      if (!box) return findings.add(box.error()), nullptr;
+      made->box_ = std::move(box.value());
+      readers.push_back(made->box_.get());
+    }
+    made->log_ = std::make_unique<FrameLog>(std::move(readers), options.log);
+    return made;
+  }
 
-  FrameProbe& probe() { return log_; }
+  FrameProbe& probe() { return *log_; }
   void see(const Scene& scene) { names_.see(scene); }
+  /// Nothing more will come.
+  void finish() { log_->finish(); }
   ShowFigures figures(const std::vector<std::string>& walls, bool software) {
-    log_.finish();
+    finish();
     return figuresOf(profile_, names_, walls, software);
   }
   const ShowProfile& profile() {
-    log_.finish();
+    finish();
     return profile_;
   }
-  std::uint64_t lost() const { return log_.lost(); }
+  const BlackBox* blackBox() const { return box_.get(); }
+  std::uint64_t lost() const { return log_->lost(); }
 
 private:
+  ShowRecording() = default;
+
   ShowProfile profile_;
   NodeNames names_;
-  FrameLog log_;
+  std::unique_ptr<BlackBox> box_;
+  std::unique_ptr<FrameLog> log_;
 };
 
 }  // namespace stadion

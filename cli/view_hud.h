@@ -21,7 +21,7 @@ struct HudFigures {
   double speed = 1;
   bool paused = false;
   FrameBudget budget;
-  std::uint64_t dropped = 0;
+  std::uint64_t dropped = 0;  ///< frames that were due, but have not been shown
 };
 
 class ViewHud {

@@ -3,6 +3,7 @@
 #include "cli/exit_code.h"
 #include "cli/show_check.h"
 #include "cli/stop_signal.h"
+#include "engine/run_stopped.h"
 #include "pipeline/output/run_summary.h"
 
 #include <cinttypes>
@@ -54,7 +55,9 @@ std::unique_ptr<ViewSession> ViewSession::open(ViewOptions options, Diagnostics&
 }
 
 ViewSession::~ViewSession() {
-  if (reload_ && reload_->thread.joinable()) reload_->thread.join();
+  if (!reload_) return;
+  *reload_->giveUp = true;
+  if (reload_->thread.joinable()) reload_->thread.join();
 }
 
 // A display that the graphics card drives is a sign that the card can draw the walls too.
@@ -98,6 +101,7 @@ int ViewSession::run(const std::atomic<bool>& stop) {
   hud_.say("H: help   Esc: quit");
   while (!quit_ && !stop) {
     takeEvents();
+    if (const auto lost = windows_->lost()) return displayLost(*lost);
     pollPad();
     watchFiles();
     takePictures();
@@ -113,6 +117,13 @@ int ViewSession::run(const std::atomic<bool>& stop) {
   }
   endShow();
   return stop ? kStopped + stopSignal() : code_;
+}
+
+int ViewSession::displayLost(const std::string& why) {
+  std::fprintf(stderr, "stadion: %s\n", why.c_str());
+  code_ = kInternalFault;
+  endShow();
+  return code_;
 }
 
 // What keys do
@@ -206,6 +217,7 @@ void ViewSession::pollPad() {
 // Until there is a first picture the show stands at its first frame.
 void ViewSession::begin(const std::optional<ShowPlace>& place) {
   ended_ = over_ = false, begins_ = true;
+  unseen_ = 0;
   steppedFrom_.reset();
   visitor_.restart();
   desk_->playback().hold(true);
@@ -213,9 +225,11 @@ void ViewSession::begin(const std::optional<ShowPlace>& place) {
 }
 
 void ViewSession::takePictures() {
+  const std::uint64_t before = shown_.frame;
   if (!mailbox_.fetch(pictures_, shown_)) return;
   windows_->take(pictures_);
   stale_ = true;
+  if (!begins_ && shown_.frame > before) unseen_ += shown_.frame - before - 1;
   if (!std::exchange(begins_, false)) return;
   say("playing " + options_.run.show.script);
   desk_->playback().hold(false);
@@ -268,13 +282,26 @@ void ViewSession::beginReload(const char* why) {
   if (const auto wrong = show_->watch().finish()) say(format(*wrong));
   options_.run.recordInput.clear();  // another script, another log
   reload_ = std::make_unique<Reload>();
-  reload_->thread = std::thread([this, &r = *reload_, around = surroundings(std::make_shared<KeptParts>())] {
-    Diagnostics found = checkShow(options_.run.show.script, options_.run.show.assetRoots);
-    for (const Diagnostic& d : found.all())
-      if (d.severity == Severity::Error) r.findings.add(d);
-    if (!r.findings.hasErrors()) r.show = PlayingShow::open(around, r.findings);
+  const ShowSurroundings around = surroundings(std::make_shared<KeptParts>());
+  reload_->giveUp = around.stopping;
+  reload_->thread = std::thread([&r = *reload_, around] {
+    try {
+      readAgain(r, around);
+    } catch (const RunStopped&) {
+      // given up
+    }
     r.done = true;
   });
+}
+
+// A slip of the keyboard is told at once, not when every asset has been read.
+void ViewSession::readAgain(Reload& reload, const ShowSurroundings& around) {
+  const ShowOptions& show = around.options.show;
+  Diagnostics found = checkScripts(show.script, show.assetRoots);
+  if (!found.hasErrors()) found = checkShow(show.script, show.assetRoots, reload.giveUp.get());
+  for (const Diagnostic& d : found.all())
+    if (d.severity == Severity::Error) reload.findings.add(d);
+  if (!reload.findings.hasErrors()) reload.show = PlayingShow::open(around, reload.findings);
 }
 
 void ViewSession::finishReload() {
@@ -330,7 +357,7 @@ HudFigures ViewSession::figures() const {
   f.show = std::filesystem::path(options_.run.show.script).filename().string();
   f.seconds = toSeconds(shown_.time), f.rate = options_.run.show.rate;
   f.speed = desk_->playback().speed(), f.paused = desk_->playback().paused();
-  f.budget = show_->budget(), f.dropped = show_->droppedTicks();
+  f.budget = show_->budget(), f.dropped = show_->droppedTicks() + unseen_;
   return f;
 }
 

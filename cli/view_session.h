@@ -40,7 +40,8 @@ private:
   struct Reload {
     std::thread thread;
     std::atomic<bool> done = false;
-    std::unique_ptr<PlayingShow> show;  ///< null if it has errors
+    std::shared_ptr<std::atomic<bool>> giveUp;  ///< somebody quits meanwhile
+    std::unique_ptr<PlayingShow> show;          ///< null if it has errors
     Diagnostics findings;
   };
 
@@ -59,6 +60,8 @@ private:
   void moveOverview();
   void pollPad();
 
+  int displayLost(const std::string& why);
+
   void takePictures();
   void begin(const std::optional<ShowPlace>& place);
   void afterTheEnd();
@@ -66,6 +69,7 @@ private:
   void putInPlace(std::unique_ptr<PlayingShow> show);
   void watchFiles();
   void beginReload(const char* why);
+  static void readAgain(Reload& reload, const ShowSurroundings& around);
   void finishReload();
   void endShow();
 
@@ -90,6 +94,7 @@ private:
   std::unique_ptr<Reload> reload_;
   std::vector<EyePictures> pictures_;  ///< shown
   TimeSignature shown_;
+  std::uint64_t unseen_ = 0;  ///< frames of this show that were played, but not shown
   Clock::time_point filesLookedAt_{}, hudDrawn_{}, padAsked_{};
   std::atomic<bool> ended_ = false;
   bool quit_ = false, stale_ = true;

@@ -27,6 +27,8 @@ public:
   /// Whether the display is drawn by the graphics card.
   bool accelerated();
   std::optional<GamepadState> gamepad() { return system_->gamepad(); }
+  /// Why nothing can be shown any more; nothing while it can.
+  std::optional<std::string> lost() const { return system_->lost(); }
 
   /// What happened since it was asked last, and in which window.
   std::vector<std::pair<std::size_t, WindowEvent>> takeEvents();

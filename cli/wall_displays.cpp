@@ -87,4 +87,10 @@ std::vector<Key> WallDisplays::poll() {
   return keys;
 }
 
+std::optional<std::string> WallDisplays::lost() const {
+  for (const auto& [screen, system] : systems_)
+    if (auto why = system->lost()) return why;
+  return {};
+}
+
 }  // namespace stadion

@@ -9,6 +9,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ public:
   /// Takes in what happened and returns the keys that were pressed. Escape also stands for a window that
   /// somebody closed.
   std::vector<Key> poll();
+  /// Why nothing can be shown any more; nothing while it can.
+  std::optional<std::string> lost() const;
 
 private:
   WallDisplays() = default;

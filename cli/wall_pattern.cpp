@@ -71,6 +71,10 @@ int showPattern(const WallFile& walls, const PatternOptions& options, const std:
     if (changed) std::fprintf(stderr, "the walls are shown\n");
     if (std::ranges::find(keys, Key::Escape) != keys.end()) return kOk;
     if (stop) return kStopped + stopSignal();
+    if (const auto lost = displays->lost()) {
+      std::fprintf(stderr, "stadion: %s\n", lost->c_str());
+      return kInternalFault;
+    }
     std::this_thread::sleep_for(kLookEvery);
   }
 }

@@ -39,9 +39,9 @@ Vec3 symmetryAxis(const MassProperties& mass) {
   return axis[largest] < 0 ? Vec3(-axis) : axis;
 }
 
-Stick stickAlong(const Vec3& nose, double angle, const Mesh& mesh) {
+Stick stickAlong(const Vec3& nose, double angle, double depth, const Mesh& mesh) {
   const Extent e = extentAlong(nose, mesh);
-  return {nose, e.front, kTipShare * (e.front - e.back), det::cos(angle)};
+  return {nose, e.front, kTipShare * (e.front - e.back), det::cos(angle), depth};
 }
 
 }  // namespace stadion

@@ -13,7 +13,7 @@ namespace stadion {
 /// component is positive. Z of a body that has no such axis.
 Vec3 symmetryAxis(const MassProperties& mass);
 
-/// How a body with this nose sticks, up to `angle` [rad] from straight on.
-Stick stickAlong(const Vec3& nose, double angle, const Mesh& mesh);
+/// How a body with this nose sticks, up to `angle` [rad] from straight on, `depth` [m] deep.
+Stick stickAlong(const Vec3& nose, double angle, double depth, const Mesh& mesh);
 
 }  // namespace stadion

@@ -168,8 +168,8 @@ bool triangleManifold(const Side& a, const Side& b, double tau, double margin,
   const TriangleTree *ta = trianglesOf(*a.shape, sheet), *tb = trianglesOf(*b.shape, sheet);
   if (!ta || !tb) return false;
   const Kinematics ka = a.at(tau), kb = b.at(tau);
-  meshesManifold(*ta, ka.pose, ka.p, *tb, kb.pose, kb.p, margin, points);
-  if (!points.empty()) return true;
+  const bool near = meshesManifold(*ta, ka.pose, ka.p, *tb, kb.pose, kb.p, margin, points);
+  if (!near || !points.empty()) return true;
   const Gap nearest = meshesGapWithin(*ta, ka.pose, *tb, kb.pose, margin);
   if (nearest.distance < margin) points.push_back({nearest, 99});
   return true;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 
 namespace stadion {
 namespace {
@@ -57,15 +59,31 @@ struct Edge {
 class Gather {
 public:
   Gather(const Body& a, const Body& b, double margin, std::vector<ManifoldPoint>& found)
-      : a_(a), b_(b), margin_(margin), sunkA_(limitOf(a, b)), sunkB_(limitOf(b, a)), found_(found) {}
+      : a_(a), b_(b), margin_(margin), sunkA_(limitOf(a, b)), sunkB_(limitOf(b, a)),
+        reach_(1e-6 + std::max({margin, sunkA_, sunkB_})), found_(found), known_(a.tree.corners().size()),
+        corners_(std::make_unique_for_overwrite<Vec3[]>(known_.size())) {}
 
-  void run() {
-    MeshPairs(a_.tree, b_.tree, a_.X)
-        .each([&] { return margin_; }, [&](std::uint32_t i, std::uint32_t j,
-                                           const Triangle& t) { meet(i, t, j, b_.tree.triangles()[j]); });
+  /// False if no triangles of the two are within the margin.
+  bool run() {
+    bool any = false;
+    const auto place = [&](std::uint32_t i) {
+      const auto& c = a_.tree.cornersOf(i);
+      return Corners{{cornerOfA(c[0]), cornerOfA(c[1]), cornerOfA(c[2])}};
+    };
+    const auto look = [&](std::uint32_t i, std::uint32_t j, const Corners& t) {
+      any = true;
+      meet(i, t.v, j, b_.tree.triangles()[j]);
+    };
+    MeshPairs(a_.tree, b_.tree, a_.X).each([&] { return margin_; }, place, look);
+    return any;
   }
 
 private:
+  /// All that is needed of most triangles.
+  struct Corners {
+    std::array<Vec3, 3> v;
+  };
+
   /// How far the other may be below a face of this one.
   static double limitOf(const Body& faces, const Body& other) {
     return faces.tree.closed() ? kSunk * std::min(faces.size, other.size) : kSheet * other.size;
@@ -74,21 +92,68 @@ private:
     return faces.tree.closed() || t.normal.dot(other - t.v[0]) >= 0 ? 1 : -1;
   }
 
-  void meet(std::uint32_t i, const Triangle& ta, std::uint32_t j, const Triangle& tb) {
-    const double sideA = sideOf(a_, ta, b_.middle), sideB = sideOf(b_, tb, a_.middle);
+  /// A corner of a in the search frame, found when it is first asked for.
+  const Vec3& cornerOfA(std::uint32_t c) {
+    if (!known_[c]) known_[c] = true, corners_[c] = a_.X * a_.tree.corners()[c];
+    return corners_[c];
+  }
+
+  /// `va`: the corners of triangle i of a. Most corners and edges of two triangles are far from each other:
+  /// boxes say so first, and the rest of triangle i is hardly ever wanted.
+  void meet(std::uint32_t i, const std::array<Vec3, 3>& va, std::uint32_t j, const Triangle& tb) {
+    const double sideB = sideOf(b_, tb, a_.middle);
+    const Aabb boxA = boxOf(va), nearA = widened(boxA), nearB = widened(boxOf(tb.v));
+    std::optional<Triangle> made;
+    const auto ta = [&]() -> const Triangle& {
+      if (!made) made = a_.tree.triangles()[i], made->v = va, made->normal = a_.X.q * made->normal;
+      return *made;
+    };
     for (std::size_t k = 0; k < 3; ++k) {
-      if (const std::uint32_t c = a_.tree.cornersOf(i)[k]; a_.tree.around(c).front() == i)
-        cornerOverFace(a_, c, ta.v[k], b_, tb, sideB * tb.normal, sunkB_, static_cast<std::int32_t>(j),
-                       false);
-      if (const std::uint32_t c = b_.tree.cornersOf(j)[k]; b_.tree.around(c).front() == j)
-        cornerOverFace(b_, c, tb.v[k], a_, ta, sideA * ta.normal, sunkA_, -1, true);
+      if (const std::uint32_t c = a_.tree.cornersOf(i)[k];
+          a_.tree.around(c).front() == i && contains(nearB, va[k]))
+        cornerOverFace(a_, c, va[k], b_, tb, sideB * tb.normal, sunkB_, static_cast<std::int32_t>(j), false);
+      if (const std::uint32_t c = b_.tree.cornersOf(j)[k];
+          b_.tree.around(c).front() == j && contains(nearA, tb.v[k]))
+        cornerOverFace(b_, c, tb.v[k], a_, ta(), sideOf(a_, ta(), b_.middle) * ta().normal, sunkA_, -1, true);
     }
+    std::array<Aabb, 3> around;  // the edges of b
+    std::array<bool, 3> counts;
+    for (std::size_t l = 0; l < 3; ++l) {
+      counts[l] = mayStickOut(tb, j, l, sideB);
+      if (counts[l]) around[l] = widened(boxOf(edge(tb, l))), counts[l] = around[l].overlaps(boxA);
+    }
+    if (counts[0] || counts[1] || counts[2]) meetEdges(i, ta(), j, tb, sideB, around, counts);
+  }
+
+  /// Of the edges of b those that count, with a box around each that is wide enough.
+  void meetEdges(std::uint32_t i, const Triangle& ta, std::uint32_t j, const Triangle& tb, double sideB,
+                 const std::array<Aabb, 3>& around, const std::array<bool, 3>& counts) {
+    const double sideA = sideOf(a_, ta, b_.middle);
     for (std::size_t k = 0; k < 3; ++k) {
+      if (!mayStickOut(ta, i, k, sideA)) continue;
+      const Aabb box = boxOf(edge(ta, k));
+      const auto isNear = [&](std::size_t l) { return counts[l] && around[l].overlaps(box); };
       Edge ea;
-      if (!edgeOf(a_, i, ta, k, sideA, ea)) continue;
+      if (!(isNear(0) || isNear(1) || isNear(2)) || !edgeOf(a_, ta, k, sideA, ea)) continue;
       for (std::size_t l = 0; l < 3; ++l)
-        if (Edge eb; edgeOf(b_, j, tb, l, sideB, eb)) edgesCross(i * 3 + k, ea, j * 3 + l, eb);
+        if (Edge eb; isNear(l) && edgeOf(b_, tb, l, sideB, eb)) edgesCross(i * 3 + k, ea, j * 3 + l, eb);
     }
+  }
+
+  static std::array<Vec3, 2> edge(const Triangle& t, std::size_t k) { return {t.v[k], t.v[(k + 1) % 3]}; }
+  template <std::size_t N>
+  static Aabb boxOf(const std::array<Vec3, N>& corners) {
+    Aabb box;
+    for (const Vec3& v : corners) box.include(v);
+    return box;
+  }
+  /// What lies over it, has sunk into it or crosses it is in here.
+  Aabb widened(Aabb box) const {
+    box.lo.array() -= reach_, box.hi.array() += reach_;
+    return box;
+  }
+  static bool contains(const Aabb& box, const Vec3& p) {
+    return (p.array() >= box.lo.array()).all() && (p.array() <= box.hi.array()).all();
   }
 
   void cornerOverFace(const Body& corners, std::uint32_t c, const Vec3& x, const Body& faces,
@@ -100,21 +165,24 @@ private:
       if (t.normal.cross(e).dot(x - t.v[m]) < -1e-9 * e.norm()) return;
     }
     const std::uint32_t key = (flipped ? 1u << 30 : 0u) + c;
-    for (const ManifoldPoint& p : found_)  // on a seam it is over both faces
-      if (p.key == key && p.gap.normal.dot(flipped ? Vec3(-n) : n) > 0.999) return;
+    for (std::size_t f = 0; f < keys_.size(); ++f)  // on a seam it is over both faces
+      if (keys_[f] == key && found_[f].gap.normal.dot(flipped ? Vec3(-n) : n) > 0.999) return;
     if (!corners.facesAgainst(c, n) || (height < 0 && !faces.nothingNearer(x, -height))) return;
     if (flipped)
-      found_.push_back({{height, x, -n, true, -1}, key, Carrier::B});
+      add({{height, x, -n, true, -1}, key, Carrier::B});
     else
-      found_.push_back({{height, x - height * n, n, true, triangle}, key, Carrier::A});
+      add({{height, x - height * n, n, true, triangle}, key, Carrier::A});
   }
 
-  /// False if the edge is none that sticks out, or another triangle's.
-  static bool edgeOf(const Body& body, std::uint32_t i, const Triangle& t, std::size_t k, double side,
-                     Edge& e) {
+  /// False of an edge that is another triangle's, and of most that stick out nowhere.
+  static bool mayStickOut(const Triangle& t, std::uint32_t i, std::size_t k, double side) {
     const std::int32_t next = t.next[k];
-    if (next >= 0 && static_cast<std::uint32_t>(next) < i) return false;
-    if (side > 0 && t.merged[k]) return false;
+    return !(next >= 0 && static_cast<std::uint32_t>(next) < i) && !(side > 0 && t.merged[k]);
+  }
+
+  /// False if the edge is none that sticks out.
+  static bool edgeOf(const Body& body, const Triangle& t, std::size_t k, double side, Edge& e) {
+    const std::int32_t next = t.next[k];
     e.p = t.v[k], e.d = t.v[(k + 1) % 3] - e.p;
     e.border = next < 0;
     e.out[0] = e.d.cross(t.normal).normalized();
@@ -147,12 +215,20 @@ private:
       if (n.dot(b.out[k]) < kWedge || n.dot(a.out[k]) > -kWedge) return;
     const Vec3 on = b.p + t * b.d;
     const auto key = static_cast<std::uint32_t>((i * 73856093u ^ j * 19349663u) | (1u << 31));
-    found_.push_back({{gap, on, n, false, -1}, key, Carrier::None});
+    add({{gap, on, n, false, -1}, key, Carrier::None});
+  }
+
+  void add(ManifoldPoint p) {
+    keys_.push_back(p.key);
+    found_.push_back(std::move(p));
   }
 
   const Body &a_, &b_;
-  double margin_, sunkA_, sunkB_;
+  double margin_, sunkA_, sunkB_, reach_;
   std::vector<ManifoldPoint>& found_;
+  std::vector<std::uint32_t> keys_;  ///< of found_, to be searched
+  std::vector<bool> known_;          ///< which corners of a have been placed
+  std::unique_ptr<Vec3[]> corners_;
 };
 
 /// Keeps the deepest point and the widest spread, the same ones while they differ only by rounding.
@@ -192,7 +268,7 @@ const TriangleTree* trianglesOf(const Shape& shape, TriangleTree& sheet) {
   return &sheet;
 }
 
-void meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA, const TriangleTree& b,
+bool meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA, const TriangleTree& b,
                     const Pose& X_WB, const Vec3& middleB, double margin,
                     std::vector<ManifoldPoint>& points) {
   const Pose X_BW = X_WB.inverse();
@@ -202,10 +278,11 @@ void meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA
   };
   const Body ba = bodyOf(a, X_BW * X_WA, middleA), bb = bodyOf(b, {}, middleB);
   std::vector<ManifoldPoint> found;
-  Gather(ba, bb, margin, found).run();
+  const bool near = Gather(ba, bb, margin, found).run();
   thin(found, std::min(ba.size, bb.size));
   for (ManifoldPoint& p : found) p.gap.point = X_WB * p.gap.point, p.gap.normal = X_WB.q * p.gap.normal;
   points.insert(points.end(), found.begin(), found.end());
+  return near;
 }
 
 }  // namespace stadion

@@ -16,8 +16,9 @@ namespace stadion {
 const TriangleTree* trianglesOf(const Shape& shape, TriangleTree& sheet);
 
 /// Appends points closer than `margin`, at most 8 of them, the deepest and the widest spread. `middleA` and
-/// `middleB` are the bodies' middles in World.
-void meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA, const TriangleTree& b,
+/// `middleB` are the bodies' middles in World. False if the meshes are farther apart than the margin; they
+/// may be nearer without such a point, too.
+bool meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA, const TriangleTree& b,
                     const Pose& X_WB, const Vec3& middleB, double margin, std::vector<ManifoldPoint>& points);
 
 }  // namespace stadion

@@ -25,7 +25,13 @@ public:
   /// `within()` metres, nearer parts first; f may shorten what `within` says as it learns. In a fixed order.
   template <class W, class F>
   void each(W within, F f) const {
-    if (!a_.empty() && !b_.empty()) follow(0, 0, within, f);
+    each(
+        within, [this](std::uint32_t i) { return moved(a_.triangles()[i], X_); }, f);
+  }
+  /// The same; `place(i)` is triangle i of a in the frame of b, or what of it f wants, with its corners `v`.
+  template <class W, class P, class F>
+  void each(W within, P place, F f) const {
+    if (!a_.empty() && !b_.empty()) follow(0, 0, within, place, f);
   }
 
 private:
@@ -41,10 +47,10 @@ private:
     return squaredGap(placed(a_.nodes()[i].box), b_.nodes()[j].box);
   }
 
-  template <class W, class F>
-  void follow(std::uint32_t i, std::uint32_t j, W& within, F& f) const {
+  template <class W, class P, class F>
+  void follow(std::uint32_t i, std::uint32_t j, W& within, P& place, F& f) const {
     const Node &m = a_.nodes()[i], &n = b_.nodes()[j];
-    if (m.count > 0 && n.count > 0) return leaves(m, n, within, f);
+    if (m.count > 0 && n.count > 0) return leaves(m, n, within, place, f);
     const bool splitA = n.count > 0 || (m.count == 0 && (m.box.hi - m.box.lo).squaredNorm() >
                                                             (n.box.hi - n.box.lo).squaredNorm());
     std::array<std::pair<std::uint32_t, std::uint32_t>, 2> next;
@@ -57,24 +63,24 @@ private:
     if (gap[1] < gap[0]) std::swap(gap[0], gap[1]), std::swap(next[0], next[1]);
     for (std::size_t k = 0; k < 2; ++k) {
       const double d = within();
-      if (gap[k] <= d * d) follow(next[k].first, next[k].second, within, f);
+      if (gap[k] <= d * d) follow(next[k].first, next[k].second, within, place, f);
     }
   }
 
-  template <class W, class F>
-  void leaves(const Node& m, const Node& n, W& within, F& f) const {
+  template <class W, class P, class F>
+  void leaves(const Node& m, const Node& n, W& within, P& place, F& f) const {
     for (std::uint32_t x = m.first; x < m.first + m.count; ++x) {
       const std::uint32_t i = a_.order()[x];
-      const Triangle t = moved(a_.triangles()[i], X_);
-      const Aabb box = boxOf(t);
+      const auto t = place(i);
+      const Aabb box = boxOf(t.v);
       if (const double d = within(); squaredGap(box, n.box) > d * d) continue;
       for (std::uint32_t y = n.first; y < n.first + n.count; ++y) {
         if (const double d = within(); squaredGap(box, b_.boxes()[y]) <= d * d) f(i, b_.order()[y], t);
       }
     }
   }
-  static Aabb boxOf(const Triangle& t) {
-    return {t.v[0].cwiseMin(t.v[1]).cwiseMin(t.v[2]), t.v[0].cwiseMax(t.v[1]).cwiseMax(t.v[2])};
+  static Aabb boxOf(const std::array<Vec3, 3>& v) {
+    return {v[0].cwiseMin(v[1]).cwiseMin(v[2]), v[0].cwiseMax(v[1]).cwiseMax(v[2])};
   }
 
   const TriangleTree &a_, &b_;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace stadion {
 namespace {
@@ -301,29 +302,44 @@ std::optional<Touch> ballTouch(const Side& ball, const Side& other, double from,
   return Touch{*tau, gap, false};
 }
 
-/// A mesh's corners against a plane, each on its own path.
+/// A mesh's corners against a plane, each on its own path. Those that can be down soonest come first, so that
+/// most need not be followed at all; of several that touch at the same time the first of the mesh counts.
 std::optional<Touch> cornersOnPlane(const Side& solid, const Side& plane, double from, double to,
                                     std::uint64_t& count) {
   const auto& s = std::get<PlaneShape>(*plane.shape);
   const Kinematics k0 = solid.at(from), p0 = plane.at(from);
   const double bound = relativeAcceleration(solid, plane, from, to, (k0.p - p0.p).norm());
-  std::optional<Touch> best;
-  double end = to;
   const double tolerance = touchTolerance(k0.p);
-  for (const Vec3& corner : std::get<MeshShape>(*solid.shape).tree.corners()) {
+  const std::vector<Vec3>& corners = std::get<MeshShape>(*solid.shape).tree.corners();
+  const auto height = [&](const Vec3& corner, const Kinematics& k, const Kinematics& p) {
+    const Pose X = p.pose * s.pose;
+    const Vec3 x = k.pose * corner, n = X.q * Vec3::UnitZ();
+    return Probe{n.dot(x - X.p), n.dot(k.velocityAt(x) - p.velocityAt(x))};
+  };
+  std::vector<std::pair<double, std::size_t>> soonest;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto time = soonestRoot(height(corners[i], k0, p0), from, bound, tolerance);
+    if (time && *time <= to) soonest.emplace_back(*time, i);
+  }
+  std::ranges::make_heap(soonest, std::greater{});
+  std::optional<Touch> best;
+  std::size_t first = 0;
+  double end = to;
+  while (!soonest.empty() && soonest.front().first <= end) {
+    std::ranges::pop_heap(soonest, std::greater{});
+    const std::size_t i = soonest.back().second;
+    soonest.pop_back();
+    const Vec3& corner = corners[i];
     const auto probe = [&](double tau) {
-      const Kinematics k = solid.at(tau), p = plane.at(tau);
-      const Pose X = p.pose * s.pose;
-      const Vec3 x = k.pose * corner, n = X.q * Vec3::UnitZ();
-      return Probe{n.dot(x - X.p), n.dot(k.velocityAt(x) - p.velocityAt(x))};
+      return tau == from ? height(corner, k0, p0) : height(corner, solid.at(tau), plane.at(tau));
     };
     const auto tau = firstRoot(probe, from, end, bound, tolerance, count);
-    if (!tau || (best && *tau >= best->tau)) continue;
+    if (!tau || (best && (*tau > best->tau || (*tau == best->tau && i > first)))) continue;
     const Pose X = plane.at(*tau).pose * s.pose;
     const Vec3 x = solid.at(*tau).pose * corner, l = X.inverse() * x;
     if (s.bounded() && (std::fabs(l.x()) > s.half.x() || std::fabs(l.y()) > s.half.y())) continue;
     best = Touch{*tau, {l.z(), x, X.q * Vec3::UnitZ(), true, -1}, false};
-    end = *tau;
+    first = i, end = *tau;
   }
   return best;
 }
@@ -432,7 +448,11 @@ Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinemat
   if (isPlane(a)) return {};
   if (!isConvex(*a.shape)) {
     const auto* mesh = std::get_if<MeshShape>(b.shape);
-    if (mesh) return meshesGap(std::get<MeshShape>(*a.shape), ka.pose, *mesh, kb.pose);
+    if (mesh) {
+      const auto& own = std::get<MeshShape>(*a.shape);
+      return within.limit < 1e300 ? meshesGapWithin(own.tree, ka.pose, mesh->tree, kb.pose, within.limit)
+                                  : meshesGap(own, ka.pose, *mesh, kb.pose);
+    }
     Gap best;  // a mesh over a plane, bounded or not
     for (const Vec3& corner : std::get<MeshShape>(*a.shape).tree.corners()) {
       const Vec3 x = ka.pose * corner;

@@ -22,7 +22,7 @@ bool usable(const Surface& s) {
 }
 bool usable(const std::optional<Stick>& s) {
   return !s || (std::fabs(s->nose.norm() - 1) < 1e-6 && std::isfinite(s->tip) && std::isfinite(s->reach) &&
-                std::isfinite(s->cosine));
+                std::isfinite(s->cosine) && std::isfinite(s->depth));
 }
 bool usable(const Pose& X) {
   return X.finite() && std::fabs(X.q.norm() - 1) < 1e-3 && X.p.cwiseAbs().maxCoeff() < 1e12;

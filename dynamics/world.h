@@ -55,6 +55,7 @@ struct Stick {
   double tip = 0;             ///< of the foremost point, along the nose [m]
   double reach = 0.01;        ///< points so far behind it still belong to the tip [m]
   double cosine = 0.5;        ///< of the greatest angle between the nose and straight into the surface
+  double depth = 0;           ///< so far it goes in, the way the tip comes [m]
 };
 
 struct BodyFlight;

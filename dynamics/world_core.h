@@ -206,7 +206,7 @@ public:
   void countImpact(RigidBody& b, double tau) const;
   void onTouch(const Touch& touch, Party a, Party b, double tau);
   bool sticksIn(const RigidBody& b, const Vec3& x, const Vec3& n, double closing, double tau) const;
-  void stick(RigidBody& b, Party in, double tau);
+  void stick(RigidBody& b, Party in, const Vec3& v, double tau);
   static bool carries(const RigidBody& ball, const Collider& c, const Gap& gap);
   bool supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, Support& out) const;
   void strikeInCrowd(RigidBody& b, const Mobile& m, double tau);

@@ -150,14 +150,15 @@ bool World::Core::sticksIn(const RigidBody& b, const Vec3& x, const Vec3& n, dou
          b.stick->nose.dot(X_WN.inverse() * x) >= b.stick->tip - b.stick->reach;
 }
 
-/// It stays as it is now, until what it sticks in goes or moves.
-void World::Core::stick(RigidBody& b, Party in, double tau) {
+/// It stays as it is when its tip, which comes at `v`, has gone in, until what it sticks in goes or moves. It
+/// stops within milliseconds: that time is left out.
+void World::Core::stick(RigidBody& b, Party in, const Vec3& v, double tau) {
   wakeOnto({true, b.id}, tau);
   b.support.on = {};
   b.touching = {in};
   memory.setTouching(ContactMemory::keyOf(in, {true, b.id}), true);
-  setArc(b, tau, Path::still(b.position(tau)), Spin::still(b.orientation(tau)),
-         std::numeric_limits<double>::infinity(), BodyMode::Stuck);
+  setArc(b, tau, Path::still(b.position(tau) + b.stick->depth * v.normalized()),
+         Spin::still(b.orientation(tau)), std::numeric_limits<double>::infinity(), BodyMode::Stuck);
 }
 
 void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
@@ -188,10 +189,11 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     return;
   }
   if (a.stick && c && !c->motion.moving && sticksIn(a, x, n, closing, tau)) {
+    const Vec3 way = ma.velocityAt(x);
     const double impulse = collide(ma, mb, x, n, 0, 0).dot(n);
     ContactMemory::Waiting* waiting =
         memory.impact(key, timeAt(tau), x, outwards, closing, impulse, frame, awaited);
-    stick(a, pb, tau);
+    stick(a, pb, way, tau);
     if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
     return;
   }

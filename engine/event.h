@@ -27,12 +27,16 @@ enum class Event : std::uint8_t {
   Won,
   Lost,
   Drawn,
+  Button1Up,
+  Button2Up,
+  Button3Up,
+  Button4Up,
 };
 
-inline constexpr std::array<std::string_view, 18> kEventNames = {
-    "enter",        "exit",     "button1",  "button2",  "button3",  "button4",
-    "timesup",      "loaded",   "unloaded", "finished", "onimpact", "onrelease",
-    "onquarantine", "measured", "foul",     "won",      "lost",     "drawn"};
+inline constexpr std::array<std::string_view, 22> kEventNames = {
+    "enter",    "exit",     "button1",   "button2",   "button3",      "button4",  "timesup", "loaded",
+    "unloaded", "finished", "onimpact",  "onrelease", "onquarantine", "measured", "foul",    "won",
+    "lost",     "drawn",    "button1up", "button2up", "button3up",    "button4up"};
 inline constexpr std::size_t kEventCount = kEventNames.size();
 
 constexpr std::string_view nameOf(Event event) {

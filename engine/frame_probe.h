@@ -48,6 +48,7 @@ enum class Span : std::uint8_t {
   Sort,
   // Of Draw.
   Prepare,     ///< batches and buffers
+  Upload,      ///< meshes on their first use, to the graphics
   ShadowMaps,  ///< casters, as the light sees them
   LeftEye,     ///< or the only one
   RightEye,

@@ -75,7 +75,8 @@ void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
   WallView& view = views_[wall];
   view.eyeSeparation = shown.eyeSeparation >= 0 ? shown.eyeSeparation : parts_.walls[wall].eyeSeparation;
-  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), list, parts_.probe);
+  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), stillCasters_, list,
+           parts_.probe);
   if (view.camera) return;  // somebody else's, not the visitor's
   if (shown.swapEyes && list.eyeCount == 2) std::swap(list.eyes[0], list.eyes[1]);
   if (shown.black) makeBlack(list);
@@ -122,7 +123,8 @@ void ShowStages::closeWall(std::size_t wall) {
   if (!parts_.provider) return;
   // After a failure, or a wait that was given up, nobody knew which frame would be the last.
   const bool wanted = drawn_[wall].eyes > 0 && !drawn_[wall].read && !(parts_.desk && parts_.desk->leaving());
-  if (contexts_.hasContext(wall) && !contexts_.enter(wall) && wanted) readPictures(wall);
+  const bool entered = contexts_.hasContext(wall) && !contexts_.enter(wall);
+  if (entered && wanted) readPictures(wall);
   if (parts_.contexts)
     contexts_.leave(wall);
   else

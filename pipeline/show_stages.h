@@ -86,7 +86,7 @@ private:
     std::uint32_t eyes = 0;
     std::uint64_t frame = 0;
     bool read = false;                   ///< the pictures have been read back
-    std::array<DrawTotals, 2> totals{};  ///< by eye, of all frames
+    std::array<DrawTotals, 2> totals{};  ///< by eye, of the whole show, when it has been closed
   };
 
   void tellPublished();
@@ -95,6 +95,7 @@ private:
 
   ShowParts parts_;
   ChangeSet changes_;
+  StillCasters stillCasters_;
   SoundScape heard_;
   WallContexts ownContexts_;
   WallContexts& contexts_;

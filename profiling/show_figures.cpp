@@ -127,12 +127,16 @@ private:
 
   void explain() {
     Explained& app = out_.explained[0];
-    app.stage = "app", app.measured = sum(Span::App);
+    // Where others help, App waits for them meanwhile.
+    app.stage = "app";
+    app.measured =
+        sum(Span::App) + profile_.helped() / frames_ - std::min(sum(Span::Crew), profile_.helped() / frames_);
     double published = 0;
     for (const NodeRow& row : out_.nodes) app.nodes += row.app, published += row.publish;
     for (const Span s : {Span::Loading, Span::Mail, Span::Crew, Span::Sound, Span::Watching})
       app.named += sum(s);
     app.named += std::max(0.0, sum(Span::Publish) - published);
+    app.named -= std::min(sum(Span::Crew), profile_.helped() / frames_);
 
     Explained& cull = out_.explained[1];
     cull.stage = "cull", cull.measured = sum(Span::Cull);

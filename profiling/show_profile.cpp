@@ -8,6 +8,7 @@ void ShowProfile::take(std::size_t, const SpanRecord& r) {
   total.own += r.own;
   if (r.what == Span::App) ++frames_;
   if (r.node.valid()) addPhase(r.node, r);
+  if (r.depth == 0 && isOfNode(r.what)) helped_ += r.took;
 }
 
 void ShowProfile::addPhase(NodeRef ref, const SpanRecord& r) {

@@ -61,6 +61,8 @@ public:
   /// By wall and eye.
   const std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost>& eyes() const { return eyes_; }
   std::uint64_t frames() const { return frames_; }
+  /// What nodes took on threads that help App, in all.
+  double helped() const { return helped_; }
   /// Of all nodes together: how often they shared a span of that kind, in the frames sampled.
   std::uint64_t shares(Span what, std::uint32_t wall) const;
   /// Frames in which shares were told, by wall; kNoWall: of App.
@@ -80,6 +82,7 @@ private:
   std::map<std::uint32_t, std::uint64_t> sampled_;
   std::map<std::pair<Span, std::uint32_t>, std::uint64_t> shares_;
   std::uint64_t frames_ = 0;
+  double helped_ = 0;
 };
 
 }  // namespace stadion

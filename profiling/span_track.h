@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <sys/resource.h>
 #include <vector>
 
 namespace stadion {
@@ -18,6 +19,26 @@ using ProfileClock = std::chrono::steady_clock;
 /// What recording a span itself takes, as far as the span contains it, and outside of it [ns].
 struct SpanOverhead {
   double inside = 0, outside = 0;
+};
+
+/// What the system says of a thread.
+struct ThreadUse {
+  double processor = 0;        ///< [ms]
+  std::uint64_t switches = 0;  ///< it lost its processor to others
+  std::uint64_t faults = 0;    ///< pages that had to be fetched
+
+  static ThreadUse now() {
+    rusage use{};
+    getrusage(RUSAGE_THREAD, &use);
+    const auto ms = [](const timeval& t) {
+      return 1e3 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_usec);
+    };
+    return {ms(use.ru_utime) + ms(use.ru_stime), static_cast<std::uint64_t>(use.ru_nivcsw),
+            static_cast<std::uint64_t>(use.ru_minflt + use.ru_majflt)};
+  }
+  ThreadUse since(const ThreadUse& then) const {
+    return {processor - then.processor, switches - then.switches, faults - then.faults};
+  }
 };
 
 /// A span that is over. Within a thread spans end in the order of their ends: parts before what holds them.
@@ -30,6 +51,7 @@ struct SpanRecord {
   std::uint8_t depth = 0;  ///< 0 = in no other
   double took = 0;         ///< [ms] without recording
   double own = 0;          ///< [ms] of it in no part
+  ThreadUse use;           ///< of stages
 };
 
 class SpanTrack {
@@ -48,6 +70,7 @@ public:
     Open& open = open_[depth_++];
     open.what = what, open.frame = frame, open.wall = wall, open.node = node;
     open.within = 0, open.spans = 0;
+    if (isStage(what)) open.use = ThreadUse::now();
     open.began = ProfileClock::now();
   }
   void ended() {
@@ -66,6 +89,7 @@ public:
     SpanRecord& r = ring_[head % kCapacity];
     r.began = open.began, r.ended = now, r.frame = open.frame, r.wall = open.wall, r.node = open.node;
     r.what = open.what, r.depth = static_cast<std::uint8_t>(depth_);
+    r.use = isStage(open.what) ? ThreadUse::now().since(open.use) : ThreadUse{};
     r.took = 1e-6 * took, r.own = 1e-6 * std::max(0.0, took - open.within);
     head_.store(head + 1, std::memory_order_release);
   }
@@ -98,6 +122,7 @@ private:
     double within = 0;        ///< [ns] that its parts took
     std::uint32_t spans = 0;  ///< in it, and in those
     ProfileClock::time_point began;
+    ThreadUse use;
   };
 
   std::array<Open, kDeepest> open_;

@@ -1,5 +1,5 @@
-/// stadion-assets: writes the show's own models and sounds into a folder, and the scripts of its athletes into
-/// another.
+/// stadion-assets: writes the show's own models and sounds into a folder, and the scripts of its athletes
+/// into another.
 ///
 /// The models in assets/ are made by this program and nothing else; a test compares them byte for byte. It
 /// uses only arithmetic that is the same on every machine.
@@ -72,6 +72,7 @@ int main(int argc, char** argv) {
       {"javelin_rack.glb", toGlb(javelinRack())},
       {"olympia_ground.glb", toGlb(groundPlane())},
       {"olympia_track.glb", toGlb(track())},
+      {"olympia_stonework.glb", toGlb(stonework())},
       {"olympia_banks.glb", toGlb(embankments())},
       {"olympia_land.glb", toGlb(countryside())},
       {"olympia_trees.glb", toGlb(trees())},

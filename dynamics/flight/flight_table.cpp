@@ -108,8 +108,10 @@ double angleAt(double place) {
   return place <= 1 ? theta : kPi - theta;
 }
 
+/// Of a row's angle.
 Diagnostic wrongAt(const NumberColumns& table, std::size_t row, std::string why) {
-  return {Severity::Error, {table.file, table.lines[row], 0}, std::move(why), {}};
+  const std::size_t angle = table.column("alpha_deg").value_or(0);
+  return {Severity::Error, {table.file, table.lines[row], table.places[row][angle]}, std::move(why), {}};
 }
 
 struct Settings {
@@ -118,7 +120,7 @@ struct Settings {
 };
 
 Diagnostic wrongSetting(const NumberColumns& t, const NumberColumns::Setting& s, const std::string& rule) {
-  return {Severity::Error, {t.file, s.line, 0}, rule + ", not \"" + s.value.substr(0, 40) + "\"", {}};
+  return {Severity::Error, {t.file, s.line, s.at}, rule + ", not \"" + s.value.substr(0, 40) + "\"", {}};
 }
 
 std::optional<Diagnostic> readSettings(const NumberColumns& table, Settings& settings) {

@@ -21,29 +21,34 @@ struct Cell {
   std::uint32_t at;
 };
 
-std::vector<Cell> cellsOf(std::string_view line) {
-  std::vector<Cell> cells;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    cells.push_back({trimmed(line.substr(begin, end - begin)), static_cast<std::uint32_t>(begin + 1)});
-    begin = end + 1;
-  }
-  return cells;
-}
-
 struct Reader {
   NumberColumns table;
   std::uint32_t line = 0;
+  const char* start = nullptr;  ///< of the line
   std::optional<Diagnostic> wrong;
 
+  std::uint32_t columnOf(std::string_view part) const {
+    return static_cast<std::uint32_t>(part.data() - start + 1);
+  }
+  std::vector<Cell> cellsOf(std::string_view text) const {
+    std::vector<Cell> cells;
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find(',', begin), text.size());
+      const std::string_view cell = trimmed(text.substr(begin, end - begin));
+      cells.push_back({cell, columnOf(cell)});
+      begin = end + 1;
+    }
+    return cells;
+  }
   void fail(std::uint32_t column, std::string why) {
     if (!wrong) wrong = Diagnostic{Severity::Error, {table.file, line, column}, std::move(why), {}};
   }
   void remark(std::string_view text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) return;
-    table.settings[std::string(trimmed(text.substr(0, equals)))] = {
-        std::string(trimmed(text.substr(equals + 1))), line};
+    const std::string_view value = trimmed(text.substr(equals + 1));
+    table.settings[std::string(trimmed(text.substr(0, equals)))] = {std::string(value), line,
+                                                                    columnOf(value)};
   }
   void names(std::string_view text) {
     for (const Cell& c : cellsOf(text)) {
@@ -56,19 +61,24 @@ struct Reader {
   void numbers(std::string_view text) {
     const std::vector<Cell> cells = cellsOf(text);
     if (cells.size() != table.names.size())
-      return fail(0, fmt::format("{} numbers where the first line names {} columns", cells.size(),
-                                 table.names.size()));
+      return fail(
+          cells[std::min(cells.size() - 1, table.names.size())].at,
+          fmt::format("{} numbers where the first line names {} columns", cells.size(), table.names.size()));
     std::vector<double> row;
+    std::vector<std::uint32_t> places;
     for (const Cell& c : cells) {
       const std::optional<double> x = numberIn(c.text);
       if (!x) return fail(c.at, fmt::format("\"{}\" is not a finite number", c.text.substr(0, 40)));
       row.push_back(*x);
+      places.push_back(c.at);
     }
     table.rows.push_back(std::move(row));
     table.lines.push_back(line);
+    table.places.push_back(std::move(places));
   }
   void add(std::string_view text) {
     ++line;
+    start = text.data();
     text = trimmed(text);
     if (text.empty()) return;
     if (text.front() == '#') return remark(text.substr(1));

@@ -17,12 +17,13 @@ namespace stadion {
 struct NumberColumns {
   struct Setting {
     std::string value;
-    std::uint32_t line = 0;
+    std::uint32_t line = 0, at = 0;  ///< line and column of the value
   };
   std::string file;
   std::vector<std::string> names;
-  std::vector<std::vector<double>> rows;  ///< each as long as `names`
-  std::vector<std::uint32_t> lines;       ///< where each row stands
+  std::vector<std::vector<double>> rows;           ///< each as long as `names`
+  std::vector<std::uint32_t> lines;                ///< where each row stands
+  std::vector<std::vector<std::uint32_t>> places;  ///< where in its line each number of a row begins, from 1
   std::map<std::string, Setting> settings;
 
   /// The column of that name, or nothing.

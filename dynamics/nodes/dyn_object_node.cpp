@@ -6,10 +6,24 @@
 #include <utility>
 
 namespace stadion {
+namespace {
+
+/// About the longest, the middle and the shortest axis: that is how the moments of even matter rise.
+void takeMoments(MassProperties& mass, const Vec3& moments) {
+  const Vec3 even = mass.inertia;
+  int order[3] = {0, 1, 2};
+  std::stable_sort(order, order + 3, [&even](int i, int j) { return even[i] < even[j]; });
+  for (int k = 0; k < 3; ++k) mass.inertia[order[k]] = moments[k];
+}
+
+}  // namespace
 
 MassProperties BodyAttributes::massOf(const FittedShape& fit) const {
   const MassProperties& filled = fit.filled.value();
-  return filled.withMass(mass.value_or(density * filled.mass));
+  MassProperties m = filled.withMass(mass.value_or(density * filled.mass));
+  if (centre) m.centre = centre->cwiseProduct(fit.scale);
+  if (inertia) takeMoments(m, *inertia);
+  return m;
 }
 
 void DynObjectNode::onEnter(Scene& scene) {

@@ -19,6 +19,9 @@ namespace stadion {
 struct BodyAttributes {
   double density = 1000;       ///< [kg/m3]
   std::optional<double> mass;  ///< instead of the density [kg]
+  /// Instead of the shape's filled with even matter: the centre of mass in the model's coordinates [m], and
+  /// the moments about the longest, the middle and the shortest principal axis through it [kg m2].
+  std::optional<Vec3> centre, inertia;
   Surface surface;
   double damping = 0;                   ///< [1/s]
   std::optional<double> dragArea;       ///< instead of the shape's [m2]
@@ -30,9 +33,10 @@ struct BodyAttributes {
   double spin = 0;               ///< about its axis of symmetry, added when a hand lets go [rad/s]
   std::optional<Vec3> nose;      ///< the way its tip points, in the model, unit
   std::optional<double> sticks;  ///< up to this angle from straight on [rad]
+  double stickDepth = 0;         ///< how far the tip goes in [m]
   bool simulated = true;         ///< false: no dynamics node takes it in, to see what a show costs without
 
-  /// Of a closed shape.
+  /// Of a closed shape. The centre that is stated grows with the model's scale; mass and moments do not.
   MassProperties massOf(const FittedShape& fit) const;
 };
 

@@ -5,7 +5,10 @@
 #include "dynamics/nodes/shape_store.h"
 #include "engine/script/choice.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <fmt/format.h>
 #include <memory>
 
 namespace stadion {
@@ -104,23 +107,54 @@ void warnIfLighterThanAir(const NodeRequest& r, const MassProperties& mass, doub
   r.findings.warning(r.declaration.where(attr), text, r.declaration.excerpt(attr));
 }
 
-BodyAttributes bodyOf(const Declaration& d) {
-  BodyAttributes body;
-  body.density = d.number(Attr::Density) * kWaterDensity;
-  body.mass = d.optionalNumber(Attr::Mass);
-  // Only what the script states counts for a pair: a standard value must not outvote the other side.
-  const auto stated = [&](Attr a) { return d.has(a) ? std::optional<double>(d.number(a)) : std::nullopt; };
-  body.surface = {stated(Attr::Friction), stated(Attr::Restitution), stated(Attr::Rolling)};
-  body.damping = d.number(Attr::Damping);
-  body.dragArea = d.optionalNumber(Attr::DragArea);
-  body.velocity = d.vec3(Attr::Velocity);
-  body.angularVelocity = d.vec3(Attr::AngularVelocity) * kDegree;
-  body.throwSource = d.choice<ThrowSource>(Attr::Throw);
-  body.spin = d.number(Attr::Spin) * kDegree;
-  if (d.has(Attr::Nose)) body.nose = d.vec3(Attr::Nose).normalized();
-  if (const auto angle = d.optionalNumber(Attr::Sticks)) body.sticks = *angle * kDegree;
-  for (const NodeReference& hook : d.references(Attr::Hook)) body.hooks.push_back(std::string(hook.name));
-  return body;
+/// A body's centre of mass is among its matter.
+bool centreIsInside(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  if (!d.has(Attr::Centre) || r.mesh->standIn) return true;
+  constexpr double kRounding = 1e-6;
+  const Aabb& box = r.mesh->bounds;
+  const Vec3 c = d.vec3(Attr::Centre), room = Vec3::Constant(kRounding * (box.hi - box.lo).norm());
+  if (((box.lo - room - c).array() <= 0).all() && ((c - box.hi - room).array() <= 0).all()) return true;
+  r.findings.error(d.where(Attr::Centre),
+                   fmt::format("the centre of mass lies outside of the model, which reaches from "
+                               "\"{:.4g}, {:.4g}, {:.4g}\" to \"{:.4g}, {:.4g}, {:.4g}\" m",
+                               box.lo.x(), box.lo.y(), box.lo.z(), box.hi.x(), box.hi.y(), box.hi.z()),
+                   d.excerpt(Attr::Centre));
+  return false;
+}
+
+/// What has next to no inertia turns too fast for contact to be followed.
+bool inertiaIsEnough(const NodeRequest& r, const MassProperties& mass, const MassProperties& even) {
+  constexpr double kLeast = 0.01;
+  const Declaration& d = r.declaration;
+  const Vec3 least = kLeast * mass.mass / even.mass * even.inertia;
+  if (!d.has(Attr::Inertia) || (mass.inertia.array() >= least.array()).all()) return true;
+  Vec3 named = least;
+  std::sort(named.begin(), named.end());
+  r.findings.error(
+      d.where(Attr::Inertia),
+      fmt::format("the moments must be at least \"{:.3g}, {:.3g}, {:.3g}\" kg*m2, a hundredth of what "
+                  "{:.4g} kg have that fill the model evenly",
+                  named.x(), named.y(), named.z(), mass.mass),
+      d.excerpt(Attr::Inertia));
+  return false;
+}
+
+/// Half the sum of the moments is that of the matter about the centre, which none of it is farther from than
+/// the model's farthest point.
+void warnOfImpossibleInertia(const NodeRequest& r, const MassProperties& mass) {
+  const Declaration& d = r.declaration;
+  if (!d.has(Attr::Inertia)) return;
+  const Vec3 scale = scaleOf(r.place.X_PN);
+  double farthest = 0;
+  for (const auto& p : r.mesh->positions)
+    farthest = std::max(farthest, (Vec3(p[0], p[1], p[2]).cwiseProduct(scale) - mass.centre).squaredNorm());
+  if (0.5 * mass.inertia.sum() <= 1.0001 * mass.mass * farthest) return;
+  r.findings.warning(d.where(Attr::Inertia),
+                     fmt::format("no body of {:.4g} kg within {:.4g} m of its centre of mass has so much "
+                                 "inertia; the greatest sum of the three moments is {:.4g} kg*m2",
+                                 mass.mass, std::sqrt(farthest), 2 * mass.mass * farthest),
+                     d.excerpt(Attr::Inertia));
 }
 
 Made makeDynObject(const NodeRequest& r, ShapeStore& shapes, const DynamicsVariation& variation,
@@ -131,7 +165,7 @@ Made makeDynObject(const NodeRequest& r, ShapeStore& shapes, const DynamicsVaria
     r.findings.error(d.where(Attr::File), model + why, d.excerpt(Attr::File));
     return nullptr;
   };
-  BodyAttributes body = bodyOf(d);
+  BodyAttributes body = bodyAttributesOf(d);
   Appearance appearance = r.appearance;
   if (variation.body) variation.body(r.self, appearance, body);
   auto fit = shapes.fit(*r.mesh, appearance, scaleOf(r.place.X_PN));
@@ -139,14 +173,18 @@ Made makeDynObject(const NodeRequest& r, ShapeStore& shapes, const DynamicsVaria
   const FittedShape& fitted = *fit.value();
   if (!fitted.filled) return fail(fitted.filled.error().message);
 
-  if (!body.massOf(fitted).valid()) return fail("is too small or too large for a body");
-  auto flight = flightOf(r, body.massOf(fitted), roots);
+  if (!centreIsInside(r)) return nullptr;
+  const MassProperties mass = body.massOf(fitted);
+  if (!mass.valid()) return fail("is too small or too large for a body");
+  if (!inertiaIsEnough(r, mass, fitted.filled.value())) return nullptr;
+  auto flight = flightOf(r, mass, roots);
   if (!flight) {
     r.findings.add(flight.error());
     return nullptr;
   }
   body.flight = std::move(flight.value());
-  warnIfLighterThanAir(r, body.massOf(fitted), fitted.filled.value().mass);
+  warnIfLighterThanAir(r, mass, fitted.filled.value().mass);
+  warnOfImpossibleInertia(r, mass);
   return std::make_unique<DynObjectNode>(r.self, r.name, r.place, std::move(appearance), std::move(body),
                                          std::move(fit.value()));
 }
@@ -168,6 +206,28 @@ CollisionAttributes collisionOf(const NodeRequest& r, ShapeStore& shapes) {
 }
 
 }  // namespace
+
+BodyAttributes bodyAttributesOf(const Declaration& d) {
+  BodyAttributes body;
+  body.density = d.number(Attr::Density) * kWaterDensity;
+  body.mass = d.optionalNumber(Attr::Mass);
+  if (d.has(Attr::Centre)) body.centre = d.vec3(Attr::Centre);
+  if (d.has(Attr::Inertia)) body.inertia = d.vec3(Attr::Inertia);
+  // Only what the script states counts for a pair: a standard value must not outvote the other side.
+  const auto stated = [&](Attr a) { return d.has(a) ? std::optional<double>(d.number(a)) : std::nullopt; };
+  body.surface = {stated(Attr::Friction), stated(Attr::Restitution), stated(Attr::Rolling)};
+  body.damping = d.number(Attr::Damping);
+  body.dragArea = d.optionalNumber(Attr::DragArea);
+  body.velocity = d.vec3(Attr::Velocity);
+  body.angularVelocity = d.vec3(Attr::AngularVelocity) * kDegree;
+  body.throwSource = d.choice<ThrowSource>(Attr::Throw);
+  body.spin = d.number(Attr::Spin) * kDegree;
+  if (d.has(Attr::Nose)) body.nose = d.vec3(Attr::Nose).normalized();
+  if (const auto angle = d.optionalNumber(Attr::Sticks)) body.sticks = *angle * kDegree;
+  body.stickDepth = d.number(Attr::Depth);
+  for (const NodeReference& hook : d.references(Attr::Hook)) body.hooks.push_back(std::string(hook.name));
+  return body;
+}
 
 void addDynamicsFactories(NodeFactories& factories, const DynamicsVariation& variation,
                           const AssetRoots* roots) {

@@ -18,6 +18,9 @@ struct DynamicsVariation {
   std::uint32_t fineness = 1;  ///< of all dynamics nodes, as in World::setFineness
 };
 
+/// What a dynobject's declaration says of its body; its flight, which depends on the model, is left open.
+BodyAttributes bodyAttributesOf(const Declaration& dynobject);
+
 /// `roots`: where tables of coefficients are looked for; null: nowhere. Borrowed.
 void addDynamicsFactories(NodeFactories& factories, const DynamicsVariation& variation = {},
                           const AssetRoots* roots = nullptr);

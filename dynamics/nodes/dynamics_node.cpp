@@ -53,7 +53,7 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   if (const Mesh* model = body.sticks ? scene.mesh(object.appearance().mesh) : nullptr) {
     const Mesh mesh = scaled(*model, part.fit->scale.cast<float>());
     const Vec3 nose = body.nose ? *body.nose : measureShape(mesh, def.mass.centre).q_NA * Vec3::UnitX();
-    def.stick = stickAlong(nose, *body.sticks, mesh);
+    def.stick = stickAlong(nose, *body.sticks, body.stickDepth, mesh);
   }
   part.id = world_.addBody(def);
   for (const NodeRef field : node->hooked())
@@ -238,7 +238,7 @@ void DynamicsNode::letGo(const Part& part, Nanoseconds when, Scene& scene) {
   Velocity thrown{hand.v + hand.omega.cross(arm), hand.omega};
   if (source != ThrowSource::Hand) thrown.v += world_.woundUp(body);
   if (node && node->body().spin != 0 && part.fit)
-    thrown.omega += node->body().spin * (world_.pose(body).q * symmetryAxis(part.fit->filled.value()));
+    thrown.omega += node->body().spin * (world_.pose(body).q * symmetryAxis(node->body().massOf(*part.fit)));
   world_.releaseBody(body, thrown.v, thrown.omega);
   grips_.erase(grip);
 }
@@ -346,6 +346,8 @@ bool DynamicsNode::afterStep(FrameContext& frame) {
     const BodyState before = node->state();
     node->setState(state);
     tellTrouble(before, *node, frame);
+    if (standsStill(state.mode) && (!standsStill(before.mode) || state.clock != before.clock))
+      frame.scene.noteImpact({node->self(), {}, state.p, state.clock, true});
     if (same)
       frame.scene.touch(node->self());
     else

@@ -77,7 +77,11 @@ Result<FlightModel> tableModel(const Declaration& d, const FlightShape& shape, c
   const auto text = readPlainFile(found.value().file.get(), found.value().path, kMostBytes);
   if (!text) return wrong(d, Attr::FlightTable, text.error().message);
   auto table = readFlightTable(text.value(), found.value().path, shape.elongated() ? 0 : 2);
-  if (!table) return table.error();
+  if (!table) {  // said where the script names the file, and where in the file
+    const Diagnostic& e = table.error();
+    return wrong(d, Attr::FlightTable,
+                 fmt::format("{}:{}:{}: {}", e.where.file, e.where.line, e.where.column, e.message));
+  }
   return FlightModel{std::move(table.value())};
 }
 

@@ -1,3 +1,4 @@
+#include "engine/display/output_reader.h"
 #include "engine/display/wall_lint.h"
 
 #include <fmt/format.h>
@@ -111,6 +112,8 @@ std::string floorPlan(const WallFile& walls, std::uint32_t columns) {
     const WallBasis b = basis(w);
     text += fmt::format(" {} {:<12} {:.2f} x {:.2f} m, {}, middle at {:.2f} {:.2f} {:.2f}\n", i + 1, w.name,
                         b.width, b.height, facing(w), w.centre().x(), w.centre().y(), w.centre().z());
+    if (const auto& output = walls.walls[i].output)
+      text += fmt::format("   shown on{}\n", formatOutput(*output));
   }
   return text;
 }

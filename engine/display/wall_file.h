@@ -56,6 +56,12 @@ struct WallFile {
   double metresPerUnit = 1;      ///< what lengths were multiplied by
   double eyeSeparation = 0.064;  ///< [m]
   DepthRange depth;
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const WallEntry& w : walls) all.push_back(w.wall.name);
+    return all;
+  }
 };
 
 /// Reads the text; nothing if it has errors. Says nothing about geometry: lintWalls (wall_lint.h) does.

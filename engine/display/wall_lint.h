@@ -19,7 +19,8 @@ inline const Vec3 kStandingEye{0, 0, 1.7};
 /// on another and that edges which nearly meet do meet.
 void lintWalls(const WallFile& walls, Diagnostics& out);
 
-/// The walls from above (+Y is up on the page), with the standing eye, a scale and a list of the walls.
+/// The walls from above (+Y is up on the page), with the standing eye, a scale and a list of the walls and
+/// their outputs, in the words of the file.
 std::string floorPlan(const WallFile& walls, std::uint32_t columns = 60);
 
 }  // namespace stadion

@@ -34,6 +34,7 @@ void MeasureNode::start(Nanoseconds when, Scene& scene) {
   started_ = when;
   body_ = scene.resolve(attributes_.body, self());
   if (body_.valid()) scene.watchImpacts(body_, self());
+  if (body_.valid()) scene.wakeAt(started_ + attributes_.duration, self());
 }
 
 void MeasureNode::stop(Scene& scene) {
@@ -54,20 +55,30 @@ void MeasureNode::receive(const Message& m, FrameContext& frame) {
 void MeasureNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
   if (!body_.valid()) return;
-  const NodeRef ground =
-      attributes_.ground.empty() ? NodeRef{} : frame.scene.resolve(attributes_.ground, self());
-  const Impact* first = nullptr;
-  for (const Impact& i : frame.scene.impacts()) {
-    const bool ours = i.body == body_ || i.other == body_;
-    const NodeRef touched = i.body == body_ ? i.other : i.body;
-    if (!ours || i.when < started_ || (ground.valid() && touched != ground)) continue;
-    if (!first || i.when < first->when) first = &i;
-  }
-  if (!first) return;
+  const auto result = ended(frame.scene, frame.now.time);
+  if (!result) return;
   stop(frame.scene);
-  result_ = resultOf(*first, frame.scene);
+  result_ = result;
   compared_ = attributes_.against.empty();
   result_->foul ? raise(Event::Foul, result_->when) : raise(Event::Measured, result_->when, result_->metres);
+}
+
+/// How the throw has ended, if it has by `now`.
+std::optional<MeasureNode::Result> MeasureNode::ended(const Scene& scene, Nanoseconds now) const {
+  const NodeRef ground = attributes_.ground.empty() ? NodeRef{} : scene.resolve(attributes_.ground, self());
+  const Impact* first = nullptr;
+  for (const Impact& i : scene.impacts()) {
+    const bool ours = i.body == body_ || i.other == body_;
+    const NodeRef touched = i.body == body_ ? i.other : i.body;
+    if (!ours || i.when < started_ || (!i.ended && ground.valid() && touched != ground)) continue;
+    // What sticks touches and ends at once: the touch counts.
+    const bool sooner = !first || i.when < first->when || (i.when == first->when && first->ended && !i.ended);
+    if (sooner) first = &i;
+  }
+  const Nanoseconds latest = started_ + attributes_.duration;
+  if (first && first->when <= latest)
+    return first->ended ? Result{0, true, first->when} : resultOf(*first, scene);
+  return latest <= now ? std::optional(Result{0, true, latest}) : std::nullopt;
 }
 
 MeasureNode::Result MeasureNode::resultOf(const Impact& impact, const Scene& scene) const {

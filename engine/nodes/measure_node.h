@@ -1,10 +1,13 @@
 #pragma once
-/// `measure`: the distance of a throw, taken where and when the body first touches something.
+/// `measure`: the distance of a throw, taken where and when the body first touches something. A throw that
+/// does not touch anything ends as a foul: when its body comes to rest or is taken out of the simulation, or
+/// after the node's duration. So whoever waits for a result gets one.
 ///
 /// Events    measured (with its figure), foul; won, lost or drawn against another measure, once both have a
 ///           result. They carry the exact time of the touch.
 /// Commands  start: from now on the body's next impact counts; reset: forgets the result; those of a placed
-/// node. Frames    the node's X axis is the line from which is thrown, +Y goes downfield. Its scale does not
+/// node.
+/// Frames    the node's X axis is the line from which is thrown, +Y goes downfield. Its scale does not
 /// count. Units     metres; results are compared and told in whole centimetres, rounded down, as in
 /// athletics. It waits for the impact without being visited: the simulation wakes it.
 
@@ -24,7 +27,8 @@ struct MeasureAttributes {
   std::string against;  ///< the measure to compare with; empty = none
   std::string label;    ///< what the result is called
   MeasureFrom from = MeasureFrom::Line;
-  double cosHalfSector = -1;  ///< a throw outside the sector about +Y is a foul; -1 = no sector
+  Nanoseconds duration = 60'000'000'000;  ///< a throw without an impact by then is a foul
+  double cosHalfSector = -1;              ///< a throw outside the sector about +Y is a foul; -1 = no sector
 };
 
 class MeasureNode : public PlacedNode {
@@ -60,6 +64,7 @@ protected:
 private:
   void start(Nanoseconds when, Scene& scene);
   void stop(Scene& scene);
+  std::optional<Result> ended(const Scene& scene, Nanoseconds now) const;
   Result resultOf(const Impact& impact, const Scene& scene) const;
   void compare(const MeasureNode& other, FrameContext& frame);
   std::string told() const;

@@ -83,8 +83,11 @@ std::uint32_t TriggerNode::heldBefore(const TrackerSample& t, Nanoseconds time,
 
 void TriggerNode::look(FrameContext& frame, Nanoseconds until) {
   const Course way = wayInRig(frame);
-  if (way.empty()) return;
   const TrackerSample* t = kind() == NodeKind::WandTrigger ? frame.input.find(tracker_) : nullptr;
+  if (way.empty()) {
+    if (looked_ && t) watchLost(*t, frame, until);
+    return;
+  }
   std::vector<Nanoseconds> stops{std::max(seen_, frame.start()), until};
   for (const PoseKnot& k : way) stops.push_back(k.time);
   if (t)
@@ -151,6 +154,7 @@ void TriggerNode::receive(const Message& m, FrameContext& frame) {
   const bool before = switch_.on();
   if (before) look(frame, at);  // what has happened up to the command still counts
   if (switch_.obey(m) && (!before || m.verb == Verb::Reset)) inside_ = looked_ = false, seen_ = at;
+  if (!switch_.on() || !looked_) pressed_ = 0;
 }
 
 void TriggerNode::simulate(FrameContext& frame) {
@@ -165,16 +169,31 @@ void TriggerNode::watchButtons(const TrackerSample& t, Nanoseconds time, bool at
     for (const ControlKnot& c : t.controls)
       if (c.time <= time) now = c.buttons;
   }
-  constexpr Event pressed[] = {Event::Button1, Event::Button2, Event::Button3, Event::Button4};
+  tellReleases(now, time);
+  constexpr Event press[] = {Event::Button1, Event::Button2, Event::Button3, Event::Button4};
   for (std::uint32_t b = 0; b < 4; ++b)
-    if (inside_ && (now & ~buttons_ & (1U << b))) raise(pressed[b], time);
+    if (inside_ && (now & ~buttons_ & (1U << b))) raise(press[b], time), pressed_ |= 1U << b;
   buttons_ = now;
+}
+
+void TriggerNode::tellReleases(std::uint32_t down, Nanoseconds time) {
+  constexpr Event release[] = {Event::Button1Up, Event::Button2Up, Event::Button3Up, Event::Button4Up};
+  for (std::uint32_t b = 0; b < 4; ++b)
+    if (pressed_ & ~down & (1U << b)) raise(release[b], time);
+  pressed_ &= down;
+}
+
+void TriggerNode::watchLost(const TrackerSample& t, const FrameContext& frame, Nanoseconds until) {
+  for (const ControlKnot& c : t.controls)
+    if (c.time > seen_ && c.time <= until) tellReleases(c.buttons, c.time);
+  if (until == frame.now.time) tellReleases(t.buttons, until);
 }
 
 void TriggerNode::hash(StateHash& h) const {
   PlacedNode::hash(h);
   switch_.hash(h);
-  h.add(inside_), h.add(looked_), h.add(seen_), h.add(last_), h.add(p_RV_), h.add(X_NR_), h.add(buttons_);
+  h.add(inside_), h.add(looked_), h.add(seen_), h.add(last_), h.add(p_RV_), h.add(X_NR_);
+  h.add(std::uint64_t{pressed_} << 32 | buttons_);
 }
 
 }  // namespace stadion

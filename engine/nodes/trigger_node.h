@@ -1,12 +1,13 @@
 #pragma once
 /// A region that notices visitors: `usertrigger` watches the head, `wandtrigger` the wand and its buttons.
 ///
-/// Events    enter, exit; wandtrigger also button1..button4, pressed inside. A visitor who is inside when the
-/// trigger first
-///           looks (or is enabled) enters it then. Each event carries the exact time of the crossing, also of
-///           one that is entered and left within a frame; a button that of its press. Between the corners of
-///           its way (frames, records of a log) the visitor moves straight; a device that was lost and found
-///           has jumped and crosses nothing in between.
+/// Events    enter, exit; wandtrigger also button1..button4, pressed inside, and button1up..button4up, when
+///           a button of whose press it told is let go, inside or not. A visitor who is inside when the
+///           trigger first looks (or is enabled) enters it then. Each event carries the exact time of the
+///           crossing, also of one that is entered and left within a frame; a button that of its press or
+///           release. Between the corners of its way (frames, records of a log) the visitor moves straight; a
+///           device that was lost and found has jumped and crosses nothing in between. One that is lost lets
+///           go of its buttons. A trigger that is disabled tells nothing more of the buttons that are down.
 /// Frames    the region is in the node's own coordinates and moves with its parent.
 /// Commands  enable, disable, toggle, reset, and those of a placed node.
 
@@ -61,6 +62,9 @@ private:
   /// The buttons that were down when it began to look.
   std::uint32_t heldBefore(const TrackerSample& t, Nanoseconds time, const FrameContext& frame) const;
   void watchButtons(const TrackerSample& t, Nanoseconds time, bool atEnd);
+  /// A device that is lost goes nowhere and presses nothing, but what it held down is let go.
+  void watchLost(const TrackerSample& t, const FrameContext& frame, Nanoseconds until);
+  void tellReleases(std::uint32_t down, Nanoseconds time);
 
   Region region_;
   std::string tracker_;  ///< "head" for a usertrigger
@@ -72,6 +76,7 @@ private:
   Vec3 p_RV_ = Vec3::Zero();  ///< and in the rig
   Affine X_NR_ = Affine::Identity();  ///< at the end of the frame before
   std::uint32_t buttons_ = 0;
+  std::uint32_t pressed_ = 0;  ///< of these, the ones of whose press it told
 };
 
 }  // namespace stadion

@@ -8,11 +8,13 @@
 
 namespace stadion {
 
-/// A pair of objects that was apart has touched.
+/// A pair of objects that was apart has touched; or, with `ended`, a body has come to rest, sticks or has
+/// been taken out of the simulation: it goes nowhere any more by itself.
 struct Impact {
-  NodeRef body, other;
+  NodeRef body, other;          ///< no other, if ended
   Vec3 point_W = Vec3::Zero();  ///< where [m]
   Nanoseconds when = 0;
+  bool ended = false;
 };
 
 }  // namespace stadion

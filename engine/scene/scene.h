@@ -98,7 +98,7 @@ public:
   /// When the load (or what brought it in) is unloaded, as far as it happens in this frame; else kNever.
   Nanoseconds endOf(std::uint32_t load) const;
   static constexpr Nanoseconds kNever = std::numeric_limits<Nanoseconds>::max();
-  /// Wakes `watcher` in the frame in which `body` touches something.
+  /// Wakes `watcher` in the frame in which `body` touches something or comes to its end.
   void watchImpacts(NodeRef body, NodeRef watcher) { impactWatchers_.insert({body, watcher}); }
   void unwatchImpacts(NodeRef body, NodeRef watcher);
   /// Whether anybody would look at impacts: else nobody needs to note them.

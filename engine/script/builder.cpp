@@ -30,7 +30,7 @@ Notification notificationOf(const EventMessage& m) {
   n.target = std::string(m.target.name);
   if (m.verb == Verb::Attach) n.arguments = {std::string(kAttachPartNames[static_cast<std::size_t>(m.part)])};
   if (!m.field.name.empty()) n.arguments.push_back(std::string(m.field.name));
-  if (m.verb == Verb::Say) n.arguments.push_back(withLineEnds(m.words));
+  if (m.verb == Verb::Say) n.arguments.push_back(unescaped(m.words));
   if (!m.tracker.empty()) n.arguments.push_back(std::string(m.tracker));
   return n;
 }

@@ -153,7 +153,7 @@ void Checker::takeNumbers(const AttributeSpec& spec, TextSpan value) {
   if (const auto failure = readNumbers(text(value), numbers, name, formOf(spec)))
     return report_.error(value.offset + static_cast<std::uint32_t>(failure->offset), failure->message);
   if (!countIsRight(spec.kind, numbers.count)) return reportCount(spec, value, numbers.count);
-  if (!numbersInRange(spec, value, numbers)) return;
+  if (!numbersInRange(spec, value, numbers) || !momentsArePossible(spec, value, numbers)) return;
   if (spec.kind == ValueKind::Scale && numbers.count == 1)
     numbers.value[1] = numbers.value[2] = numbers.value[0];
   const std::size_t stored = spec.kind == ValueKind::Scale ? 3
@@ -182,6 +182,22 @@ bool Checker::numbersInRange(const AttributeSpec& spec, TextSpan value, const Nu
   }
   if (spec.kind == ValueKind::Direction && allZero) {
     report_.error(value.offset, fmt::format("{} must not be zero", nameOf(spec.attr)));
+    return false;
+  }
+  return true;
+}
+
+/// Matter that is far from one axis is far from at least one of the others.
+bool Checker::momentsArePossible(const AttributeSpec& spec, TextSpan value, const NumberList& numbers) {
+  constexpr double kRounding = 1 + 1e-9;
+  if (spec.kind != ValueKind::Moments) return true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double one = numbers.value[i], next = numbers.value[(i + 1) % 3], last = numbers.value[(i + 2) % 3];
+    if (one <= (next + last) * kRounding) continue;
+    report_.error(value.offset + static_cast<std::uint32_t>(numbers.offset[i]),
+                  fmt::format("{}: no body has such moments: each is at most the sum of the other two, but "
+                              "{} is more than {} + {}",
+                              nameOf(spec.attr), one, next, last));
     return false;
   }
   return true;

@@ -34,6 +34,7 @@ private:
   void takeMessage(NodeKind kind, TextSpan value);
   void reportCount(const AttributeSpec& spec, TextSpan value, std::size_t count);
   bool numbersInRange(const AttributeSpec& spec, TextSpan value, const NumberList& numbers);
+  bool momentsArePossible(const AttributeSpec& spec, TextSpan value, const NumberList& numbers);
   void checkRequired(NodeKind kind, TextSpan type, const Seen& seen);
   void checkVolume(NodeKind kind, const RawDeclaration& raw, const Seen& seen);
   void checkKeyTimes(const RawDeclaration& raw, std::uint32_t node);

@@ -71,7 +71,7 @@ Made makeText(const NodeRequest& r) {
   if (d.has(Attr::Background)) setColour(d.vec3(Attr::Background), style.background.emplace());
   style.align = d.choice<TextAlign>(Attr::Align);
   style.lit = d.flag(Attr::Lit);
-  return std::make_unique<TextNode>(r.self, r.name, r.place, withLineEnds(d.text(Attr::Text)), style);
+  return std::make_unique<TextNode>(r.self, r.name, r.place, unescaped(d.text(Attr::Text)), style);
 }
 
 Made makeMeasure(const NodeRequest& r) {
@@ -85,6 +85,7 @@ Made makeMeasure(const NodeRequest& r) {
   a.text = named(Attr::Text), a.against = named(Attr::Against);
   a.label = std::string(d.text(Attr::Label));
   a.from = d.choice<MeasureFrom>(Attr::From);
+  a.duration = fromSeconds(d.number(Attr::Duration));
   if (const auto sector = d.optionalNumber(Attr::Sector)) a.cosHalfSector = det::cos(0.5 * *sector * kDegree);
   return std::make_unique<MeasureNode>(r.self, r.name, r.place, std::move(a));
 }

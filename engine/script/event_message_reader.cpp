@@ -22,6 +22,18 @@ std::vector<std::string> namesOf(std::span<const Event> events) {
   return words;
 }
 
+/// Up to the next comma, which "\," is not: that is one in words. `more`: there was one.
+Piece takeCommand(std::string_view& rest, std::size_t& offset, bool& more) {
+  std::size_t end = rest.find(',');
+  while (end != rest.npos && end > 0 && rest[end - 1] == '\\') end = rest.find(',', end + 1);
+  more = end != rest.npos;
+  std::string_view part = rest.substr(0, end);
+  rest.remove_prefix(more ? end + 1 : rest.size());
+  const Piece command = takeUntil('\0', part, offset);
+  offset += more;
+  return command;
+}
+
 Failure readEvent(const Piece& piece, NodeKind sender, ReadMessage& message) {
   const auto events = specOf(sender).events;
   if (events.empty()) return ValueError{piece.offset, fmt::format("{} posts no events", nameOf(sender))};
@@ -74,7 +86,7 @@ Failure readField(std::string_view& rest, std::size_t& offset, ReadMessage& mess
 }
 
 Failure readWords(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
-  message.words = takeUntil(',', rest, offset);  // the whole rest: commas end commands
+  message.words = takeUntil('\0', rest, offset);  // the whole rest
   if (message.words.text.size() <= kLongestWords) return std::nullopt;
   return ValueError{message.words.offset,
                     fmt::format("\"{}\" takes {} bytes at most, not {}", nameOf(message.verb), kLongestWords,
@@ -202,7 +214,8 @@ std::vector<ValueError> readEventMessage(std::string_view text, NodeKind sender,
   }
   if (auto fault = faultOfReference(message.target.text))
     note(ValueError{message.target.offset, fmt::format("\"{}\" {}", shortened(message.target.text), *fault)});
-  message.command = takeUntil(',', rest, offset);
+  bool more = false;
+  message.command = takeCommand(rest, offset, more);
   if (message.command.text.empty()) {
     note(missing(message.command.offset, "command"));
     return faults;
@@ -210,12 +223,14 @@ std::vector<ValueError> readEventMessage(std::string_view text, NodeKind sender,
   note(readCommand(message.command, message));
 
   unsigned seen = 0;
-  while (text[offset - 1] == ',') {
+  for (; more; more = text[offset - 1] == ',') {
     const Piece option = takeUntil(',', rest, offset);
-    if (auto failure = readOption(option, seen, message)) {  // an empty part is a failure, so this ends
-      note(std::move(failure));
-      break;
-    }
+    auto failure = readOption(option, seen, message);
+    if (!failure) continue;
+    if (faults.empty() && message.verb == Verb::Say)
+      failure->message += R"(; a comma in words is written "\,")";
+    note(std::move(failure));
+    break;  // an empty part is a failure, so this ends
   }
   return faults;
 }

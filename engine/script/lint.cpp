@@ -129,7 +129,7 @@ private:
   }
 
   void warnOfMissing(std::string_view words, std::uint32_t where) {
-    for (const char32_t c : missingFrom(withLineEnds(words)))
+    for (const char32_t c : missingFrom(unescaped(words)))
       report_.warning(where, fmt::format("the letters of the show have no U+{:04X}; a box stands for it",
                                          static_cast<std::uint32_t>(c)));
   }
@@ -264,16 +264,22 @@ void lint(const Document& document, bool alone, Diagnostics& findings) {
 }
 
 void lintLatencies(const Document& document, Nanoseconds step, Diagnostics& findings) {
-  Reporter report(document.source(), findings);
+  // Said of the first one alone: at a low rate it may be all of them.
+  const EventMessage* first = nullptr;
+  std::size_t count = 0;
   for (const Declaration node : document)
     for (const EventMessage& m : node.eventMessages()) {
       if (m.latency == 0 || m.delay + m.latency >= step) continue;
-      report.warning(
-          m.where, fmt::format("the latency of {:g} s is shorter than a frame ({:.4f} s at {:g} Hz), so that "
-                               "the command waits for the next frame; state {:.3f} or more",
-                               toSeconds(m.latency), toSeconds(step), 1 / toSeconds(step),
-                               std::ceil(1e3 * toSeconds(step - m.delay)) / 1e3));
+      if (count++ == 0) first = &m;
     }
+  if (!first) return;
+  const std::string others = count == 1 ? "" : fmt::format("; so are {} more in this file", count - 1);
+  Reporter(document.source(), findings)
+      .warning(first->where,
+               fmt::format("the latency of {:g} s is shorter than a frame ({:.4f} s at {:g} Hz), so that "
+                           "the command waits for the next frame; state {:.3f} or more{}",
+                           toSeconds(first->latency), toSeconds(step), 1 / toSeconds(step),
+                           std::ceil(1e3 * toSeconds(step - first->delay)) / 1e3, others));
 }
 
 void lintTrackers(const Document& document, const std::vector<std::string>& known, const std::string& log,

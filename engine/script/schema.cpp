@@ -95,6 +95,7 @@ std::string formOf(const AttributeSpec& spec) {
   case ValueKind::Vector:
   case ValueKind::Direction: return "three numbers \"x, y, z\"";
   case ValueKind::Colour: return "three numbers \"r, g, b\"";
+  case ValueKind::Moments: return "three numbers, about the longest, the middle and the shortest axis";
   case ValueKind::Scale: return "one number or three";
   case ValueKind::Sphere: return "four numbers \"x, y, z, radius\"";
   case ValueKind::Box: return "six numbers \"x, y, z, sx, sy, sz\"";

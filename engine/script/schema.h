@@ -27,6 +27,7 @@ enum class ValueKind : std::uint8_t {
   Vector,        ///< "x, y, z"
   Direction,     ///< "x, y, z", not all zero
   Colour,        ///< "r, g, b"
+  Moments,       ///< of inertia, about a body's three principal axes, from its longest to its shortest
   Scale,         ///< one number or three
   Sphere,        ///< "x, y, z, radius"
   Box,           ///< "x, y, z, sx, sy, sz": the centre and the full lengths of the edges

@@ -65,6 +65,18 @@ constexpr AttributeSpec kDynObjectRows[] = {
      .standard = "1",
      .range = {1e-6, 1000}},
     {.attr = Attr::Mass, .kind = Number, .help = "overrides density", .unit = "kg", .range = {1e-9, 1e9}},
+    {.attr = Attr::Centre,
+     .kind = Vector,
+     .help = "the centre of mass in the model's coordinates, inside the model; if not stated, as of matter "
+             "that fills it evenly",
+     .unit = "m",
+     .range = kPlace},
+    {.attr = Attr::Inertia,
+     .kind = Moments,
+     .help = "moments about the longest, the middle and the shortest principal axis through the centre of "
+             "mass; if not stated, as of matter that fills it evenly",
+     .unit = "kg*m2",
+     .range = {1e-15, 1e15}},
     {.attr = Attr::Friction,
      .kind = Number,
      .help = "Coulomb coefficient; a pair takes the root of the product",
@@ -132,6 +144,12 @@ constexpr AttributeSpec kDynObjectRows[] = {
              "without it, never",
      .unit = "degrees",
      .range = {0, 90, true}},
+    {.attr = Attr::Depth,
+     .kind = Number,
+     .help = "how far its tip goes in where it sticks, the way it comes",
+     .standard = "0.08",
+     .unit = "m",
+     .range = {0, 100}},
     {.attr = Attr::Flight,
      .kind = Choice,
      .help = "how air acts on it: as on a point with drag, not at all, by the paper's bias, as on a rod, a "
@@ -409,6 +427,12 @@ constexpr AttributeSpec kMeasureRows[] = {
              "lands behind the line is",
      .unit = "degrees",
      .range = {0, 180, true}},
+    {.attr = Attr::Duration,
+     .kind = Number,
+     .help = "a throw that has not touched anything so long after its start is a foul",
+     .standard = "60",
+     .unit = "s",
+     .range = {0, 1e6, true}},
     {.attr = Attr::Label, .kind = Words, .help = "what the result is called; the node's name if not stated"},
     {.attr = Attr::Text,
      .kind = Reference,
@@ -464,8 +488,9 @@ constexpr AttributeSpec kRigRows[] = {
 };
 
 constexpr Event kUserTriggerEvents[] = {Event::Enter, Event::Exit};
-constexpr Event kWandTriggerEvents[] = {Event::Enter,   Event::Exit,    Event::Button1,
-                                        Event::Button2, Event::Button3, Event::Button4};
+constexpr Event kWandTriggerEvents[] = {Event::Enter,     Event::Exit,     Event::Button1,   Event::Button2,
+                                        Event::Button3,   Event::Button4,  Event::Button1Up, Event::Button2Up,
+                                        Event::Button3Up, Event::Button4Up};
 constexpr Event kTimerEvents[] = {Event::TimesUp};
 constexpr Event kSceneEvents[] = {Event::Loaded, Event::Unloaded};
 constexpr Event kPathEvents[] = {Event::Finished};
@@ -550,7 +575,11 @@ constinit const std::array<CommandSpec, kVerbCount> kCommands = {{
      "the body flies on with the velocity it was held with"},
     {Verb::Load, ArgumentKind::None, {Scene}, "load", "the scene appears after its `ready` time"},
     {Verb::Unload, ArgumentKind::None, {Scene}, "unload", "the scene goes after its `ready` time"},
-    {Verb::Say, ArgumentKind::Words, {Text}, "say [WORDS]", "shows these words; \\n ends a line"},
+    {Verb::Say,
+     ArgumentKind::Words,
+     {Text},
+     "say [WORDS]",
+     "shows these words; \\n ends a line, \\, is a comma"},
     {Verb::Start, ArgumentKind::None, {Measure}, "start", "the body's next impact is measured"},
 }};
 
@@ -575,6 +604,10 @@ constinit const std::array<EventSpec, kEventCount> kEvents = {{
     {Event::Won, "both throws have a result, and this one is farther, by a centimetre at least"},
     {Event::Lost, "both throws have a result, and the other is farther"},
     {Event::Drawn, "both throws have a result, and neither is farther"},
+    {Event::Button1Up, "button 1, of whose press the trigger told, was let go, wherever the device is then"},
+    {Event::Button2Up, "button 2, of whose press the trigger told, was let go, wherever the device is then"},
+    {Event::Button3Up, "button 3, of whose press the trigger told, was let go, wherever the device is then"},
+    {Event::Button4Up, "button 4, of whose press the trigger told, was let go, wherever the device is then"},
 }};
 
 }  // namespace stadion::schema_table

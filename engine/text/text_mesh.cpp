@@ -179,12 +179,13 @@ std::unique_ptr<Mesh> textMesh(std::string_view utf8, const TextStyle& style) {
   return out.finish();
 }
 
-std::string withLineEnds(std::string_view text) {
+std::string unescaped(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool end = text[i] == '\\' && i + 1 < text.size() && text[i + 1] == 'n';
-    out += end ? '\n' : text[i];
-    i += end;
+    const char next = text[i] == '\\' && i + 1 < text.size() ? text[i + 1] : '\0';
+    const bool escape = next == 'n' || next == ',';
+    out += next == 'n' ? '\n' : escape ? next : text[i];
+    i += escape;
   }
   return out;
 }

@@ -33,7 +33,7 @@ constexpr std::size_t kLongestWords = 1000;  ///< [bytes]
 /// kLongestWords is left out.
 std::unique_ptr<Mesh> textMesh(std::string_view utf8, const TextStyle& style);
 
-/// With every "\n" turned into an end of line.
-std::string withLineEnds(std::string_view text);
+/// With every "\n" turned into an end of line, and every "\," into a comma.
+std::string unescaped(std::string_view text);
 
 }  // namespace stadion

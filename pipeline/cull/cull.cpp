@@ -109,8 +109,7 @@ void tellShares(const SlotView& state, const DrawList& list, FrameProbe& probe) 
   probe.shared(Span::Sort, frame, list.wall, owners);
   owners.clear();
   for (const DrawShadowRing& ring : list.shadows.rings)
-    for (const auto* casters : {&ring.still, &ring.moving})
-      for (const DrawItem& item : *casters) owners.push_back(item.owner);
+    for (const DrawItem& item : ring.moving) owners.push_back(item.owner);  // others are not looked for
   probe.shared(Span::ShadowCasts, frame, list.wall, owners);
 }
 
@@ -142,8 +141,8 @@ void setSky(const SkyRecord& sky, DrawList& out) {
 
 }  // namespace
 
-CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, DrawList& out,
-                    FrameProbe* probe) {
+CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, StillCasters& still,
+                    DrawList& out, FrameProbe* probe) {
   out.ticket.signature = *state.signature;
   out.wall = index;
   out.opaque.clear(), out.transparent.clear();
@@ -171,8 +170,9 @@ CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t i
   }
   {
     const SpanScope span(probe, Span::ShadowCasts);
-    ShadowCull shadows(state, out);
-    if (shadows.any()) forEachRecord(state, [&](const InstanceRecord& r) { shadows.consider(r); });
+    ShadowCull shadows(state, still, out);
+    if (shadows.any())
+      for (const InstanceRecord& r : state.instances) shadows.consider(r);
   }
   if (from) view.camera->addTo(out, *state.viewer);
   {

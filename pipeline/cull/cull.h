@@ -8,6 +8,7 @@
 #include "engine/display/frustum.h"
 #include "engine/frame_probe.h"
 #include "pipeline/cull/free_camera.h"
+#include "pipeline/cull/still_casters.h"
 #include "pipeline/draw/draw_list.h"
 #include "pipeline/state/scene_state.h"
 
@@ -27,8 +28,8 @@ struct CullCounts {
   std::uint64_t tested = 0, kept = 0;
 };
 
-/// Fills `out` for wall number `index`, reusing its memory.
-CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, DrawList& out,
-                    FrameProbe* probe = nullptr);
+/// Fills `out` for wall number `index`, reusing its memory. `still` is the same for all walls.
+CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, StillCasters& still,
+                    DrawList& out, FrameProbe* probe = nullptr);
 
 }  // namespace stadion

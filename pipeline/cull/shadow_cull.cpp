@@ -7,26 +7,9 @@
 namespace stadion {
 namespace {
 
-/// What is smaller than this part of a texel casts no shadow that could be seen.
-constexpr double kLeastCaster = 0.5;
-
 /// How far inside a ring, in texels of the next one, its own texels alone are looked up: the lookups there
 /// reach that far. Of the ring itself a fiftieth at the edge is left to the next one (shaders.cpp).
 constexpr double kLookup = 4, kUsed = 0.98;
-
-std::uint64_t stirred(std::uint64_t x) {  // the finaliser of MurmurHash3
-  x = (x ^ (x >> 33)) * 0xff51afd7ed558ccd;
-  x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53;
-  return x ^ (x >> 33);
-}
-
-std::uint64_t keyOf(const DrawItem& item) {
-  std::uint64_t key = item.mesh;
-  for (std::size_t k = 0; k < 12; k += 2)
-    key = stirred(key ^ (std::uint64_t{std::bit_cast<std::uint32_t>(item.model[k])} |
-                         std::uint64_t{std::bit_cast<std::uint32_t>(item.model[k + 1])} << 32));
-  return key;
-}
 
 /// Right, up and towards the light: any frame will do that depends on the direction alone.
 Mat3 axesTowards(const Vec3& light) {
@@ -39,10 +22,11 @@ Mat3 axesTowards(const Vec3& light) {
 
 }  // namespace
 
-ShadowCull::ShadowCull(const SlotView& state, DrawList& out) : shadows_(out.shadows), origin_(out.origin) {
+ShadowCull::ShadowCull(const SlotView& state, StillCasters& still, DrawList& out)
+    : shadows_(out.shadows), origin_(out.origin) {
   shadows_.light = -1;
-  const auto casts = [](const DrawLight& l) { return l.kind == DrawLight::Kind::Directional && l.shadows; };
-  const auto light = std::ranges::find_if(out.lights, casts);
+  const auto shades = [](const DrawLight& l) { return l.kind == DrawLight::Kind::Directional && l.shadows; };
+  const auto light = std::ranges::find_if(out.lights, shades);
   if (light == out.lights.end()) return;
   const auto index = static_cast<std::size_t>(light - out.lights.begin());
   const double* d = state.lights[index].direction;
@@ -57,6 +41,9 @@ ShadowCull::ShadowCull(const SlotView& state, DrawList& out) : shadows_(out.shad
   for (std::size_t ring = 0; ring < kShadowRings; ++ring) {
     const double* c = state.shadows->centre[ring];
     placeRing(ring, Vec3(c[0], c[1], c[2]));
+    const RingCasters casters = still.at(places_[ring], state);
+    shadows_.rings[ring].still = casters.items;
+    shadows_.rings[ring].stillKey += casters.key;
   }
 }
 
@@ -65,11 +52,10 @@ void ShadowCull::placeRing(std::size_t index, const Vec3& centre) {
   const double texel = 2 * kShadowReach[index] / kShadowTexels;
   Vec3 c_L = axes_ * centre;
   for (int k = 0; k < 2; ++k) c_L[k] = std::round(c_L[k] / texel) * texel;
-  centre_L_[index] = c_L;
-  centre_W_[index] = axes_.transpose() * c_L;
+  places_[index] = {index, axes_, c_L, axes_.transpose() * c_L};
   const Vec3 offset = axes_ * origin_ - c_L;
   for (std::size_t k = 0; k < 3; ++k) ring.offset[k] = static_cast<float>(offset[static_cast<int>(k)]);
-  ring.still.clear(), ring.moving.clear();
+  ring.moving.clear();
   ring.stillKey = 0;
   for (const double x : {c_L[0], c_L[1], c_L[2], axes_(2, 0), axes_(2, 1), axes_(2, 2)})
     ring.stillKey = stirred(ring.stillKey ^ std::bit_cast<std::uint64_t>(x));
@@ -79,39 +65,27 @@ void ShadowCull::placeRing(std::size_t index, const Vec3& centre) {
 
 /// Whether all that may see the shadow of this ball is looked up in that ring or in a finer one.
 bool ShadowCull::coveredBy(std::size_t ring, const Vec3& p_L, double radius) const {
-  const Vec3 p = p_L - centre_L_[ring];
+  const Vec3 p = p_L - places_[ring].centre_L;
   const double nextTexel = 2 * kShadowReach[ring + 1] / kShadowTexels;
   return std::max(std::abs(p.x()), std::abs(p.y())) + radius <
          kUsed * kShadowReach[ring] - kLookup * nextTexel;
 }
 
 void ShadowCull::cast(const InstanceRecord& r) {
-  constexpr std::uint32_t kCasts = InstanceRecord::kShown;
-  if (r.radius < 0 || (r.flags & (kCasts | InstanceRecord::kTransparent)) != kCasts) return;
+  if (!casts(r)) return;
   const double radius = double{r.radius};
   const Vec3 p_L = axes_ * Vec3(r.centre[0], r.centre[1], r.centre[2]);
-  const bool moves = (r.flags & kMoves) != 0;
   for (std::size_t index = 0; index < kShadowRings; ++index) {
     // What moves costs a drawing in each frame, so it is drawn only where it is looked up. What stands still
     // is drawn everywhere, so that the outer rings need not be drawn again when the inner ones follow the
     // head.
-    if (moves && index > 0 && coveredBy(index - 1, p_L, radius)) break;
+    if (index > 0 && coveredBy(index - 1, p_L, radius)) break;
     const double reach = kShadowReach[index];
-    const Vec3 p = p_L - centre_L_[index];
-    // Not the other way round: what is not finite is left out.
-    if (!(std::max(std::abs(p.x()), std::abs(p.y())) < reach + radius)) continue;
-    if (!(std::abs(p.z()) < kShadowDepth + radius)) continue;
-    if (radius < kLeastCaster * 2 * reach / kShadowTexels) continue;
-    DrawItem item;
-    for (int k = 0; k < 12; ++k) {
-      const double shift = k % 4 == 3 ? centre_W_[index][k / 4] : 0.0;
-      item.model[static_cast<std::size_t>(k)] = static_cast<float>(r.model[k] - shift);
-    }
-    item.mesh = r.mesh, item.owner = r.owner;
+    const Vec3 p = p_L - places_[index].centre_L;
+    if (!places_[index].isReachedBy(r, p)) continue;
     DrawShadowRing& ring = shadows_.rings[index];
-    (moves ? ring.movingKey : ring.stillKey) += keyOf(item);
-    (moves ? ring.moving : ring.still).push_back(item);
-    if (!moves) continue;
+    ring.moving.push_back(places_[index].itemOf(r));
+    ring.movingKey += keyOf(ring.moving.back());
     auto& area = ring.movingArea;
     for (std::size_t k = 0; k < 2; ++k) {
       const double at = p[static_cast<int>(k)];

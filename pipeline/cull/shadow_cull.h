@@ -3,24 +3,25 @@
 ///
 /// The rings are the same for all walls and both eyes (pipeline/state/shadow_places.h says where they are),
 /// and lie on a grid of their texels that is fixed in the world, so that shadows look the same everywhere.
-/// What has ever moved is kept apart from what has not, which need not be drawn again while nothing changes.
+/// What has ever moved is kept apart from what has not, which need not be looked for (still_casters.h) nor
+/// drawn again while nothing changes.
 ///
 /// Threads  pure but for the list; any thread that holds a lease on the view's slot.
 
-#include "pipeline/draw/draw_list.h"
-#include "pipeline/state/scene_state.h"
+#include "pipeline/cull/still_casters.h"
 
 namespace stadion {
 
 class ShadowCull {
 public:
-  /// Sets up the rings for the first light of the list that casts shadows, if there is one. Expects the
-  /// list's origin and lights to be set.
-  ShadowCull(const SlotView& state, DrawList& out);
+  /// Sets up the rings for the first light of the list that casts shadows, if there is one, with what stands
+  /// still. Expects the list's origin and lights to be set.
+  ShadowCull(const SlotView& state, StillCasters& still, DrawList& out);
 
   bool any() const { return shadows_.light >= 0; }
+  /// Adds what has ever moved; of others nothing is to be done.
   void consider(const InstanceRecord& r) {
-    if (any()) cast(r);
+    if (any() && (r.flags & kMoves) != 0) cast(r);
   }
 
 private:
@@ -30,8 +31,8 @@ private:
 
   DrawShadows& shadows_;
   Vec3 origin_;
-  Mat3 axes_ = Mat3::Identity();                        ///< rows: right, up, towards the light, in World
-  std::array<Vec3, kShadowRings> centre_W_, centre_L_;  ///< of the rings; in World, and along the axes
+  Mat3 axes_ = Mat3::Identity();  ///< rows: right, up, towards the light, in World
+  std::array<RingPlace, kShadowRings> places_;
 };
 
 }  // namespace stadion

@@ -13,6 +13,7 @@
 #include "pipeline/state/shadow_places.h"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace stadion {
@@ -50,7 +51,8 @@ constexpr double kShadowDepth = 600;           ///< of a ring, along the light, 
 /// A square across the light, and what casts shadows into it. Matrices are relative to the ring's middle.
 struct DrawShadowRing {
   std::array<float, 3> offset{};  ///< of the list's origin from the ring's middle, along the axes [m]
-  std::vector<DrawItem> still, moving;
+  std::shared_ptr<const std::vector<DrawItem>> still;  ///< the same for all walls; null = nothing
+  std::vector<DrawItem> moving;
   std::uint64_t stillKey = 0, movingKey = 0;  ///< follow from what casts and from where the ring is
   std::array<float, 4> movingArea{1, 1, -1,
                                   -1};  ///< what moves covers: from x, y to x, y; the ring is -1 .. 1

@@ -60,6 +60,7 @@ MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes)
 const GlMesh* MeshCache::find(MeshId id) {
   auto at = meshes_.find(id);
   if (at == meshes_.end()) {
+    const SpanScope span(probe_, Span::Upload);
     const Mesh* mesh = store_.find(id);
     if (!mesh) report("mesh " + std::to_string(id) + " is to be drawn but no longer there");
     at = meshes_.emplace(id, mesh ? Cached{mesh->hash, upload(*mesh)} : Cached{}).first;

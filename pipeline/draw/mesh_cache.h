@@ -6,6 +6,7 @@
 /// Errors     a mesh that is gone, damaged or does not fit into memory is reported once and draws nothing.
 
 #include "engine/asset/mesh_store.h"
+#include "engine/frame_probe.h"
 #include "engine/diagnostic.h"
 #include "pipeline/draw/gl_object.h"
 
@@ -45,6 +46,8 @@ public:
 
   /// The mesh, uploaded if this is its first use; nullptr if it cannot be drawn.
   const GlMesh* find(MeshId id);
+  /// Who is told of uploads from now on; null = nobody.
+  void tell(FrameProbe* probe) { probe_ = probe; }
   /// Frees the GL objects of meshes that the store has freed since the last call.
   void freeUnused();
 
@@ -69,6 +72,7 @@ private:
   std::uint64_t freedCount_ = 0;  ///< of the store, when it was last looked at
   GLint uniformAlignment_ = 256;
   bool anisotropy_ = false;
+  FrameProbe* probe_ = nullptr;
   std::optional<Diagnostic> problem_;
 };
 

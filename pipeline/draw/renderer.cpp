@@ -134,9 +134,11 @@ std::optional<Diagnostic> Renderer::draw(const DrawList& list, const std::functi
                                          FrameProbe* probe) {
   giveUp_ = giveUp ? &giveUp : nullptr;
   probe_ = probe;
+  cache_.tell(probe);
   drawEyes(list, 0, std::min<std::uint32_t>(list.eyeCount, 2));
   giveUp_ = nullptr;
   probe_ = nullptr;
+  cache_.tell(nullptr);
   return collectProblems();
 }
 

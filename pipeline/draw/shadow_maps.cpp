@@ -106,7 +106,7 @@ void ShadowMaps::updateRing(const DrawShadows& shadows, std::size_t index, MeshC
   if (anew) {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, intoStill_.name());
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
-    drawCasters(shadows, index, now.still, meshes, between);
+    if (now.still) drawCasters(shadows, index, *now.still, meshes, between);
   }
   restore(anew ? tile : around(held.moved, moved));
   gl_.BindFramebuffer(GL_FRAMEBUFFER, intoShown_.name());

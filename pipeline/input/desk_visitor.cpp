@@ -74,13 +74,13 @@ void DeskVisitor::setButton(std::uint32_t button, bool down) {
   const std::lock_guard lock(mutex_);
   const std::uint32_t bit = 1u << button;
   buttons_ = down ? buttons_ | bit : buttons_ & ~bit;
-  if (down) pressed_ |= bit;
+  (down ? pressed_ : letGo_) |= bit;
 }
 
 void DeskVisitor::setGamepad(const std::array<double, kTrackerAxes>& axes, std::uint32_t buttons) {
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < axes.size(); ++i) padAxes_[i] = std::clamp(orZero(axes[i]), -1.0, 1.0);
-  pressed_ |= buttons & ~padButtons_;
+  pressed_ |= buttons & ~padButtons_, letGo_ |= padButtons_ & ~buttons;
   padButtons_ = buttons;
 }
 
@@ -121,7 +121,7 @@ void DeskVisitor::freezeHead(bool frozen) {
 
 void DeskVisitor::restart() {
   const std::lock_guard lock(mutex_);
-  sampled_ = -1, pressed_ = 0, eased_ = 1;
+  sampled_ = -1, pressed_ = letGo_ = down_ = 0, eased_ = 1;
   frozen_.reset(), told_.reset();
 }
 
@@ -144,14 +144,14 @@ void DeskVisitor::sampleAt(Nanoseconds showTime, InputSample& sample) {
   if (sampled_ >= 0 && showTime > sampled_) advance(std::min(toSeconds(showTime - sampled_), 0.25));
   sampled_ = showTime;
   fill(showTime, sample);
-  pressed_ = 0;
+  pressed_ = pressedAnew(), letGo_ = 0, down_ = sample.trackers[1].buttons;
 }
 
 void DeskVisitor::fill(Nanoseconds showTime, InputSample& sample) const {
   sample.time = showTime;
   sample.trackers = {tracker("head", headTold(), showTime), tracker("wand", {hand_, head().q}, showTime)};
   TrackerSample& wand = sample.trackers[1];
-  wand.buttons = buttons_ | padButtons_ | pressed_;
+  wand.buttons = (buttons_ | padButtons_ | pressed_) & ~pressedAnew();
   for (std::size_t i = 0; i < axes_.size(); ++i)
     wand.axes[i] = static_cast<float>(std::clamp(axes_[i] + padAxes_[i], -1.0, 1.0));
 }

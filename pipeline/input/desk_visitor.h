@@ -77,6 +77,10 @@ private:
   std::array<double, kTrackerAxes> axes_{}, padAxes_{};
   std::uint32_t buttons_ = 0, padButtons_ = 0;
   std::uint32_t pressed_ = 0;  ///< since the last sample: a press that is over already must be seen once
+  std::uint32_t letGo_ = 0;    ///< and so must a release that is followed by another press
+  std::uint32_t down_ = 0;     ///< in the last sample
+  /// Let go and pressed again since then: up in this sample, down in the next.
+  std::uint32_t pressedAnew() const { return down_ & letGo_ & pressed_; }
   Nanoseconds sampled_ = -1;
   std::optional<ControlKnot> told_;  ///< what the wand's buttons and axes were in the last frame; App's own
 };

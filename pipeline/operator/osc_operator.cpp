@@ -1,6 +1,11 @@
 #include "pipeline/operator/osc_operator.h"
 
 #include "engine/text_line.h"
+#include "pipeline/operator/operator_state.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace stadion {
 namespace {
@@ -16,23 +21,66 @@ bool isSwitch(OperatorAction a) {
          a == OperatorAction::FreezeHead;
 }
 
+/// An address, taken apart.
+struct Address {
+  std::optional<OperatorAction> action;
+  bool relative = false;
+};
+
+Address addressOf(std::string_view path) {
+  if (!path.starts_with(kHead)) return {};
+  path.remove_prefix(kHead.size());
+  const bool relative = path.ends_with(kBy);
+  if (relative) path.remove_suffix(kBy.size());
+  const auto action = operatorActionNamed(path);
+  if (!action || (relative && !isFigure(*action))) return {};
+  return {action, relative};
+}
+
+/// As OperatorState obeys it.
+double mostOf(OperatorAction figure) {
+  return figure == OperatorAction::Volume ? 1 : OperatorState::kWidestEyes;
+}
+
+bool fits(double value, const Address& to) {
+  if (!std::isfinite(value)) return false;
+  return to.relative || !isFigure(*to.action) || (value >= 0 && value <= mostOf(*to.action));
+}
+
+std::string rangeOf(const Address& to) {
+  if (isSwitch(*to.action)) return "0 (off), 1 (on), or nothing";
+  if (!isFigure(*to.action)) return "nothing, or 1 and 0 as a button sends them";
+  const std::string unit = *to.action == OperatorAction::EyeSeparation ? " m" : "";
+  if (to.relative) return "a number" + unit + " that is added";
+  return fmt::format("a number from 0 to {:g}{}", mostOf(*to.action), unit);
+}
+
 }  // namespace
 
 std::optional<OperatorCommand> operatorCommandOf(const OscMessage& m) {
-  if (!m.numeric || !m.path.starts_with(kHead)) return {};
-  std::string_view word = m.path.substr(kHead.size());
-  const bool relative = word.ends_with(kBy);
-  if (relative) word.remove_suffix(kBy.size());
-  const auto action = operatorActionNamed(word);
-  if (!action || (relative && !isFigure(*action))) return {};
-  OperatorCommand command{*action, {}, relative};
-  if (m.numbers.size() > 1 || (m.numbers.empty() && isFigure(*action))) return {};
+  const Address to = addressOf(m.path);
+  if (!to.action || !m.numeric) return {};
+  OperatorCommand command{*to.action, {}, to.relative};
+  if (m.numbers.size() > 1 || (m.numbers.empty() && isFigure(*to.action))) return {};
   if (m.numbers.empty()) return command;
-  if (isFigure(*action) || isSwitch(*action))
+  if (!fits(m.numbers[0], to)) return {};
+  if (isFigure(*to.action) || isSwitch(*to.action))
     command.value = m.numbers[0];
   else if (m.numbers[0] == 0)
     return {};  // a button on a tablet sends 1 when it is pressed and 0 when it is let go
   return command;
+}
+
+std::string complaintAbout(const OscMessage& m) {
+  const Address to = addressOf(m.path);
+  if (!to.action)
+    return "OSC message " + quotedWord(m.path) +
+           " is no command (such as /stadion/pause, /stadion/volume 0.5)";
+  if (m.numeric && m.numbers.size() == 1 && m.numbers[0] == 0 && fits(0, to)) return {};
+  const std::string got = !m.numeric          ? "what is no number"
+                          : m.numbers.empty() ? "nothing"
+                                              : fmt::format("{:g}", fmt::join(m.numbers, " "));
+  return fmt::format("OSC message \"{}\" with {} is not taken: it takes {}", m.path, got, rangeOf(to));
 }
 
 Result<std::unique_ptr<OscOperator>> OscOperator::open(std::uint16_t port, OperatorQueue& queue, Tell tell) {
@@ -48,11 +96,9 @@ void OscOperator::take(const OscMessage& m) {
     queue_.post(*command);
     return;
   }
-  const bool released = m.numbers.size() == 1 && m.numbers[0] == 0 && m.path.starts_with(kHead) &&
-                        operatorActionNamed(m.path.substr(kHead.size()));
-  if (!released && told_.size() < kMostToldOf && told_.insert(std::string(m.path)).second)
-    tell_("OSC message " + quotedWord(m.path) +
-          " is no command (such as /stadion/pause, /stadion/volume 0.5)");
+  const std::string complaint = complaintAbout(m);
+  if (complaint.empty() || told_.size() == kMostToldOf || !told_.insert(complaint).second) return;
+  tell_(complaint);
 }
 
 }  // namespace stadion

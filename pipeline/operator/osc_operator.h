@@ -9,7 +9,8 @@
 /// Without a number, what is on goes off and the other way round.
 ///
 /// Threads  the server's own.
-/// Errors   what is no command is counted and told of once. Who can send to the port can command the show.
+/// Errors   what is no command, or has a figure that is none of its own, is not taken and told of once, with
+///          what it takes. Who can send to the port can command the show.
 
 #include "pipeline/input/osc_server.h"
 #include "pipeline/operator/operator_queue.h"
@@ -20,6 +21,8 @@ namespace stadion {
 
 /// The command that a message is, or nothing.
 std::optional<OperatorCommand> operatorCommandOf(const OscMessage& m);
+/// What is wrong with a message that is none, in one line; empty if nothing is: a tablet's button was let go.
+std::string complaintAbout(const OscMessage& m);
 
 class OscOperator {
 public:

@@ -18,10 +18,17 @@ public:
   bool wants(const TimeSignature&) const override { return true; }
   Failure take(const TimeSignature& now, const std::vector<EyePictures>& walls) override {
     const std::lock_guard lock(mutex_);
+    if (closed_) return closed_;
     walls_ = walls;
     time_ = now;
     fresh_ = true;
     return {};
+  }
+
+  /// Nobody can show anything any more: who draws on is told why.
+  void close(Reason why) {
+    const std::lock_guard lock(mutex_);
+    closed_ = std::move(why);
   }
 
   /// True, and the pictures in the place of `walls`, if there are newer ones than those fetched last.
@@ -39,6 +46,7 @@ private:
   std::vector<EyePictures> walls_;
   TimeSignature time_;
   bool fresh_ = false;
+  Failure closed_;
 };
 
 }  // namespace stadion

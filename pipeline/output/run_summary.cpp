@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -32,6 +34,13 @@ Json json(const Distribution& d) {
   return {{"count", d.count}, {"min", d.min}, {"mean", d.mean}, {"p50", d.p50},
           {"p95", d.p95},     {"p99", d.p99}, {"max", d.max}};
 }
+
+/// What a node tells more than once.
+struct Again {
+  std::size_t times = 0;
+  double last = 0;  ///< [s]
+  bool told = false;
+};
 
 std::string row(const std::string& stage, const std::string& wall, const Distribution& d) {
   return fmt::format("  {:<16} {:<12} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f}\n", stage, wall, d.p50, d.p95,
@@ -95,12 +104,21 @@ std::string toText(const RunSummary& s) {
 
 std::string happeningsText(const RunSummary& s) {
   if (s.happened.empty()) return {};
-  const std::size_t told = std::min(s.happened.size(), RunSummary::kHappeningsTold);
+  std::map<std::pair<std::string, std::string>, Again> again;
+  for (const Happening& h : s.happened)
+    if (!h.metres) ++again[{h.event, h.node}].times, again[{h.event, h.node}].last = h.seconds;
   std::string text = "\nwhat happened\n";
-  for (std::size_t i = 0; i < told; ++i) {
-    const Happening& h = s.happened[i];
-    text += fmt::format("{:9.4f} s  {:<10} {}{}\n", h.seconds, h.event, h.node,
-                        h.metres ? fmt::format("  {:.3f} m", *h.metres) : "");
+  std::size_t lines = 0, told = 0;
+  for (const Happening& h : s.happened) {
+    Again* alike = h.metres ? nullptr : &again[{h.event, h.node}];
+    if (alike && alike->times <= RunSummary::kMostAlike) alike = nullptr;
+    if (alike && alike->told) continue;
+    if (++lines > RunSummary::kHappeningsTold) break;
+    told += alike ? alike->times : 1;
+    text += fmt::format("{:9.4f} s  {:<10} {}{}{}\n", h.seconds, h.event, h.node,
+                        h.metres ? fmt::format("  {:.3f} m", *h.metres) : "",
+                        alike ? fmt::format("  {} times, until {:.4f} s", alike->times, alike->last) : "");
+    if (alike) alike->told = true;
   }
   if (s.happenedCount > told)
     text += fmt::format(

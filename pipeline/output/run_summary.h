@@ -67,7 +67,9 @@ struct MeasuredDistance {
 
 struct RunSummary {
   static constexpr std::size_t kMostHappenings = 20'000;  ///< kept; a show may run all day
-  static constexpr std::size_t kHappeningsTold = 200;     ///< in the text
+  static constexpr std::size_t kHappeningsTold = 200;     ///< lines in the text
+  /// What a node tells more often, such as the end of each pass of what loops, is counted in one line.
+  static constexpr std::size_t kMostAlike = 5;
 
   std::string show, walls, mode, stereo;
   std::uint32_t width = 0, height = 0;
@@ -99,7 +101,8 @@ struct RunSummary {
 
 /// Without the failure, which is told as an error, and without what happened.
 std::string toText(const RunSummary& summary);
-/// What happened, one a line, the first kHappeningsTold of them; empty if nothing did.
+/// What happened, one a line, the first kHappeningsTold of them; what comes again and again is counted where
+/// it was first. Empty if nothing happened.
 std::string happeningsText(const RunSummary& summary);
 /// One JSON object on one line. Hashes are strings of 16 hexadecimal digits.
 std::string toJson(const RunSummary& summary);

@@ -10,6 +10,8 @@ struct SceneState::Header {
   ViewerRecord viewer;
   SkyRecord sky;
   ShadowRecord shadows;
+  std::uint64_t stillVersion;
+  std::atomic<std::uint64_t> writes;
   std::uint32_t lightCount, chunkCount;
   std::uint64_t instanceCount;
   LightRecord lights[kMaxLights];
@@ -90,12 +92,15 @@ bool SceneState::movesBy(const ChangeSet::Instance& change) {
   if (known_.size() <= change.id) known_.resize(change.id + std::size_t{1}, Known::Absent);
   Known& known = known_[change.id];
   const bool there = change.record.radius >= 0;
+  const Known before = known;
   known = !there ? Known::Absent : known == Known::Absent ? Known::Still : Known::Moves;
+  if (before == Known::Still || known == Known::Still) ++stillVersion_;
   return known == Known::Moves;
 }
 
 void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
   Header& h = header(slot);
+  if (!changes.chunks.empty() || !changes.statics.empty()) ++stillVersion_;
   for (const ChangeSet::Instance& i : changes.instances) {
     ensure(slot, i.id + std::size_t{1});
     instances(slot)[i.id] = i.record;
@@ -118,6 +123,7 @@ void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
   h.sky = changes.sky;
   h.viewer = changes.viewer;
   h.shadows = shadowPlaces_.follow(changes.viewer.rig() * changes.viewer.head().p);
+  h.stillVersion = stillVersion_;
   h.signature = changes.signature;
 }
 
@@ -150,6 +156,7 @@ std::size_t SceneState::noted() const {
 
 std::size_t SceneState::publish(std::size_t slot, const ChangeSet& changes) {
   std::size_t copied = changes.instances.size();
+  header(slot).writes.fetch_add(1, std::memory_order_acq_rel);
   catchUp(slot, copied);
   apply(slot, changes);
   for (std::size_t other = 0; other < kSlots; ++other)
@@ -168,6 +175,8 @@ SlotView SceneState::view(std::size_t slot) const {
   v.chunks = {h.chunks, h.chunkCount};
   v.arena = &arena_;
   v.slot = slot;
+  v.stillVersion = h.stillVersion;
+  v.writes = &h.writes, v.written = h.writes.load(std::memory_order_acquire);
   return v;
 }
 

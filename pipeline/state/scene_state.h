@@ -13,6 +13,7 @@
 #include "pipeline/state/chunk_arena.h"
 #include "pipeline/state/shadow_places.h"
 
+#include <atomic>
 #include <map>
 #include <memory>
 
@@ -33,8 +34,14 @@ struct SlotView {
   std::span<const ChunkId> chunks;            ///< shown
   const ChunkArena* arena = nullptr;
   std::size_t slot = 0;
+  /// Changes whenever something comes or goes that has only ever stood still, in this slot or another.
+  std::uint64_t stillVersion = 0;
+  const std::atomic<std::uint64_t>* writes = nullptr;  ///< to the slot so far
+  std::uint64_t written = 0;                           ///< as many there had been when this view was made
 
   ChunkView chunk(ChunkId id) const { return arena->find(id, slot); }
+  /// Whether what was read so far is one frame's: false if the slot has been taken away meanwhile.
+  bool intact() const { return !writes || writes->load(std::memory_order_acquire) == written; }
 };
 
 class SceneState {
@@ -79,6 +86,7 @@ private:
   std::array<Missed, kSlots> missed_;
   enum class Known : std::uint8_t { Absent, Still, Moves };
   std::vector<Known> known_;  ///< by InstanceId; App's own
+  std::uint64_t stillVersion_ = 0;
   ShadowPlaces shadowPlaces_;
   std::size_t newest_ = 0;
   bool any_ = false;

@@ -3,6 +3,7 @@
 #include "pipeline/draw/problem.h"
 #include "pipeline/target/shared_library.h"
 #include "pipeline/target/window.h"
+#include "pipeline/target/x_connection.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -126,21 +127,29 @@ public:
     });
     glfw_.SetWindowCloseCallback(handle_, [](GLFWwindow* w) { note(w, at(WindowEvent::Kind::Close, 0, 0)); });
   }
-  ~GlfwWindow() override { glfw_.DestroyWindow(handle_); }
+  ~GlfwWindow() override {
+    if (!xConnectionLost()) glfw_.DestroyWindow(handle_);
+  }
 
+  // Where the connection is lost nothing may be asked of it any more; OpenGL draws into the void.
   std::optional<Diagnostic> makeCurrent() override {
+    if (const auto why = xConnectionLost()) return problem(*why);
     glfw_.GetError(nullptr);
     glfw_.MakeContextCurrent(handle_);
     const char* why = nullptr;
     if (glfw_.GetError(&why) == GLFW_NO_ERROR) return {};
     return problem(std::string("the window's context cannot be made current: ") + (why ? why : ""));
   }
-  void release() override { glfw_.MakeContextCurrent(nullptr); }
-  void swap() override { glfw_.SwapBuffers(handle_); }
+  void release() override {
+    if (!xConnectionLost()) glfw_.MakeContextCurrent(nullptr);
+  }
+  void swap() override {
+    if (!xConnectionLost()) glfw_.SwapBuffers(handle_);
+  }
   void waitForDisplay(bool wait) override { glfw_.SwapInterval(wait ? 1 : 0); }
   std::array<std::uint32_t, 2> size() const override {
     int width = 0, height = 0;
-    glfw_.GetFramebufferSize(handle_, &width, &height);
+    if (!xConnectionLost()) glfw_.GetFramebufferSize(handle_, &width, &height);
     return {static_cast<std::uint32_t>(std::max(width, 1)), static_cast<std::uint32_t>(std::max(height, 1))};
   }
   std::vector<WindowEvent> takeEvents() override { return std::exchange(events_, {}); }
@@ -166,7 +175,9 @@ private:
 class GlfwSystem final : public WindowSystem {
 public:
   explicit GlfwSystem(const Glfw& glfw) : glfw_(glfw) {}
-  ~GlfwSystem() override { glfw_.Terminate(); }
+  ~GlfwSystem() override {
+    if (!xConnectionLost()) glfw_.Terminate();
+  }
 
   Result<std::unique_ptr<Window>> create(const WindowPlan& plan) override {
     using Created = Result<std::unique_ptr<Window>>;
@@ -196,7 +207,10 @@ public:
                                      static_cast<std::uint32_t>(height), plan.quadBuffer));
   }
 
-  void poll() override { glfw_.PollEvents(); }
+  void poll() override {
+    if (!xConnectionLost()) glfw_.PollEvents();
+  }
+  std::optional<std::string> lost() const override { return xConnectionLost(); }
 
   std::optional<GamepadState> gamepad() override {
     GLFWgamepadstate raw;
@@ -324,7 +338,12 @@ Result<std::unique_ptr<WindowSystem>> WindowSystem::open(const std::string& scre
   if (!glfw) return glfw.error();
   ownerOf = glfw.value().GetWindowUserPointer;
   const EnvironmentValue display("DISPLAY", screen);
-  if (glfw.value().Init()) return std::unique_ptr<WindowSystem>(std::make_unique<GlfwSystem>(glfw.value()));
+  if (glfw.value().Init()) {
+    // Only a GLFW for X has it.
+    const auto connection = library.value().find<void*()>("glfwGetX11Display");
+    watchXConnection(connection ? connection() : nullptr);
+    return std::unique_ptr<WindowSystem>(std::make_unique<GlfwSystem>(glfw.value()));
+  }
   if (!screen.empty())
     return Opened::failure(
         fmt::format("the screen {} cannot be opened ({})", screen, lastError(glfw.value())));

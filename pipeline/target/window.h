@@ -4,7 +4,8 @@
 /// Units    pixels; (0, 0) is the upper left corner of a window's content.
 /// Threads  the system and its windows are made, asked for events and destroyed on the main thread, as window
 ///          systems want it. A window's context may be current on any one thread.
-/// Errors   where there is no display open() says so, and what to do.
+/// Errors   where there is no display open() says so, and what to do. A display that goes while windows are
+///          shown is told by lost(); all that is asked of them then does nothing.
 
 #include "pipeline/target/target.h"
 
@@ -111,6 +112,8 @@ public:
   virtual Result<std::unique_ptr<Window>> create(const WindowPlan& plan) = 0;
   /// Takes in what happened.
   virtual void poll() = 0;
+  /// Why its windows can no longer be shown; nothing while they can.
+  virtual std::optional<std::string> lost() const = 0;
   /// The first gamepad; nothing if there is none.
   virtual std::optional<GamepadState> gamepad() = 0;
   /// "HDMI-1 (1920 x 1080)", in the order in which they are numbered.

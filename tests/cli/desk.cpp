@@ -41,7 +41,14 @@ RunningProgram::RunningProgram(const ProgramRun& run)
     : child_(startProgram(run, folder_.path() / "out", folder_.path() / "err")) {}
 
 RunningProgram::~RunningProgram() {
-  if (runs()) ::kill(-child_, SIGKILL), ::waitpid(child_, nullptr, 0);
+  kill();
+}
+
+void RunningProgram::kill() {
+  if (!runs()) return;
+  ::kill(-child_, SIGKILL), ::waitpid(child_, nullptr, 0);
+  ended_ = true;
+  status_ = 128 + SIGKILL;
 }
 
 std::string RunningProgram::out() const {

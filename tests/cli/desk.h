@@ -27,6 +27,8 @@ public:
   /// Waits for anything else; false if it does not come in good time.
   bool waitUntil(const std::function<bool()>& condition) const;
   bool runs();
+  /// Ends it at once, as a power cut would.
+  void kill();
   /// Waits for its end and returns its exit status; -1 if it does not end in good time.
   int status();
 
@@ -46,6 +48,8 @@ public:
   const std::string& name() const { return name_; }  ///< ":99"
   /// `words` as xdotool understands them: {"key", "space"}.
   void hands(std::vector<std::string> words) const;
+  /// The server ends, and with it every connection.
+  void breakDown() { server_->kill(); }
   /// What there is to see on a screen, written to a PNG file.
   bool photograph(const std::string& file, int screen = 0) const;
 

@@ -143,6 +143,29 @@ TEST_F(ProgramDisplay, TheNextGroupIsAKeyInAWindowAndTheShowBeginsAgain) {
     EXPECT_FALSE(fileContent(folder_.path() / log).empty()) << log;
 }
 
+// Xlib's way is to end the process there and then.
+TEST_F(ProgramDisplay, AKilledWindowOrServerEndsTheRunAsItShould) {
+  const std::string walls =
+      folder_.write("two.walls", wallFile(display_->name(), fmt::format("{} {}", kWidth, kHeight), ""));
+  const std::string show = folder_.write("ball.evs", "object( file=football.3ds, position=\"0, 3, 1.5\" )\n");
+  const std::vector<std::string> ways[] = {{"windowkill"}, {"windowclose"}, {}};  // {}: the whole server
+  for (const std::vector<std::string>& way : ways) {
+    const std::string record = folder_.path() / fmt::format("visit{}.input", way.empty() ? "" : way[0]);
+    RunningProgram program(onDisplay(*display_, {"run", show, "--asset-root", assetFolder(), "--walls", walls,
+                                                 "--display", "--no-sound", "--record-input", record}));
+    ASSERT_TRUE(program.says("the walls are shown"));
+    if (way.empty())
+      display_->breakDown();
+    else
+      display_->hands({"search", "--name", "Stadion: one", way[0]});
+    EXPECT_EQ(program.status(), 3) << program.err();
+    EXPECT_NE(program.err().find("stadion: the connection to the display is lost: "), std::string::npos)
+        << program.err();
+    EXPECT_NE(program.out().find("state hash"), std::string::npos) << "the summary: " << program.out();
+    EXPECT_FALSE(fileContent(record).empty());
+  }
+}
+
 TEST_F(ProgramDisplay, BrightnessAndGammaActPerChannel) {
   const auto plain = shown(""), dim = shown("brightness 0.5 1 1"), bright = shown("gamma 1 1 2");
   ASSERT_TRUE(plain && dim && bright);

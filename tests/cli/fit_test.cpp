@@ -1,11 +1,16 @@
 /// `stadion fit` and `stadion bench flight` as a user meets them.
 
+#include "tests/cli/played_show.h"
+
 #include "dynamics/flight/flight_table.h"
+#include "dynamics/flight/trajectory.h"
+#include "dynamics/nodes/dyn_object_node.h"
 #include "tests/cli/program.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace stadion {
 namespace {
@@ -50,7 +55,7 @@ TEST(ProgramFit, WritesATableThatCanBeReadWhereNothingCheaperIsGoodEnough) {
                {"--wind", "-5", "0", "0", "--tolerance", "0.5", "--attitude", "0.05", "--table", table});
   const ProgramResult r = stadionProgram(words);
   EXPECT_EQ(r.status, 0) << r.out << r.err;
-  EXPECT_NE(r.out.find("flight=table, flighttable=\"" + table), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("flight=table, flighttable=\"air.csv\""), std::string::npos) << r.out;
   const auto read = readFlightTable(fileContent(table), table, 2);
   EXPECT_TRUE(read) << format(read.error());
 }
@@ -71,6 +76,106 @@ TEST(ProgramFit, ADynobjectOfAScriptIsMeantByItsName) {
   EXPECT_NE(stadionProgram(words).err.find("throw.evs:NAME"), std::string::npos);
 }
 
+std::string olympia(const std::string& part) {
+  return std::filesystem::path(assetFolder()).parent_path() / ("scripts/olympia/" + part);
+}
+
+TEST(ProgramFit, ADynobjectOfASceneIsReadWithTheShowsAssetsAndAsItStatesItself) {
+  for (const char* name : {"discus", "javelin"}) {
+    const std::string flight = name[0] == 'd' ? "disc_25_35_s40_a-10.csv" : "jav_30_34_a0.csv";
+    const ProgramResult r =
+        stadionProgram({"fit", olympia(fmt::format("game_{0}.evs:{0}", name)), "--reference",
+                        kFlights + flight, "--gravity", "9.81", "--density", "1.2"});
+    EXPECT_EQ(r.status, 0) << r.out << r.err;
+    EXPECT_NE(r.out.find("within the tolerance"), std::string::npos) << r.out;
+    EXPECT_EQ(r.out.find("inertia="), std::string::npos) << "the script says it already";
+  }
+}
+
+/// What a body did that a script lets fly as a recording began, on its way down to where that ends.
+RigidFlight landingOf(const std::string& script, double height) {
+  const auto player = openShow(script);
+  RigidFlight before, now;
+  for (std::uint64_t frame = 0; player && frame < 600; ++frame) {
+    ChangeSet changes;
+    Scene& scene = player->scene();
+    scene.advance(signatureAt(frame, 60), {}, changes, nullptr);
+    const auto* body = dynamic_cast<DynObjectNode*>(scene.find(scene.resolve("thing", {1, 0})));
+    if (!body) break;
+    before = now;
+    now.p = body->state().p, now.v = body->state().v;
+    if (frame == 0 || now.p.z() > height) continue;
+    now.p += (height - now.p.z()) / (before.p.z() - now.p.z()) * (before.p - now.p);
+    break;
+  }
+  return now;
+}
+
+struct FlownThing {
+  const char* model;
+  const char* flight;
+  std::vector<std::string> matter;
+};
+
+void expectThePromiseOf(const FlownThing& thing, const std::string& tolerance) {
+  const TemporaryFolder folder;
+  const std::string table = (folder.path() / "air.csv").string();
+  std::vector<std::string> words{"fit",         assetFolder() + "/" + thing.model,
+                                 "--gravity",   "9.81",
+                                 "--density",   "1.2",
+                                 "--table",     table,
+                                 "--tolerance", tolerance,
+                                 "--reference", kFlights + thing.flight};
+  words.insert(words.end(), thing.matter.begin(), thing.matter.end());
+  const ProgramResult fitted = stadionProgram(words);
+  ASSERT_EQ(fitted.status, 0) << fitted.out << fitted.err;
+  double promised = -1;
+  std::string line, attributes;
+  for (std::istringstream lines(fitted.out); std::getline(lines, line);) {
+    if (line.find("within the tolerance") != std::string::npos && promised < 0)
+      promised = std::stod(line.substr(line.find_first_of("0123456789")));
+    if (line.starts_with("  mass=")) attributes = line;
+  }
+  ASSERT_FALSE(attributes.empty()) << fitted.out;
+
+  const auto recorded = readTrajectory(fileContent(kFlights + thing.flight), thing.flight);
+  ASSERT_TRUE(recorded);
+  const RigidFlight start = recorded.value().front().at, end = recorded.value().back().at;
+  const auto three = [](const Vec3& v) { return fmt::format("\"{}, {}, {}\"", v.x(), v.y(), v.z()); };
+  constexpr double kDegree = 3.14159265358979324 / 180;
+  // The references are pitched about -y alone.
+  const Vec3 pitch(0, 2 * std::atan2(start.q.y(), start.q.w()) / kDegree, 0);
+  const std::string script = folder.write(
+      "throw.evs",
+      fmt::format(
+          "forcelinear( name=gravity, direction=\"0, 0, -9.81\", unit=m/s2 )\n"
+          "medium( name=air, density=0.0012 )\n"
+          "dynobject( name=thing, file={}, position={}, orientation={}, velocity={}, angularvelocity={},\n"
+          "hook=gravity, hook=air, {} )\ndynamics( collidee=thing )\n",
+          thing.model, three(start.p), three(pitch), three(start.v), three(start.q * start.w / kDegree),
+          attributes));
+  const Vec3 off = landingOf(script, end.p.z()).p - end.p;
+  const double range = (end.p - start.p).head<2>().norm();
+  EXPECT_NEAR(100 * off.head<2>().norm() / range, promised, 0.02) << attributes;
+}
+
+TEST(ProgramFit, AShowWithThePrintedLineFliesAsWellAsItPromises) {
+  const std::vector<std::string> javelin{"--mass",   "0.806", "--inertia", "1.5e-4", "0.42",
+                                         "--centre", "0",     "0",         "0"},
+      discus{"--mass", "2", "--inertia", "0.0131", "0.0073"};
+  expectThePromiseOf({"javelin.glb", "jav_30_34_a5.csv", javelin}, "0.2");
+  expectThePromiseOf({"discus.glb", "disc_25_35_s40_a-10.csv", discus}, "0.5");
+  expectThePromiseOf({"discus.glb", "disc_25_35_s40_a-10.csv", discus}, "0.003");  // by a table
+}
+
+TEST(ProgramFit, MomentsThatNoBodyHasAreRefused) {
+  const TemporaryFolder folder;
+  const ProgramResult r = stadionProgram({"fit", folder.write("discus.obj", discus()), "--inertia", "3", "1",
+                                          "--reference", kFlights + "disc_25_35_s40_a-10.csv"});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_NE(r.err.find("--inertia: no body has such moments"), std::string::npos) << r.err;
+}
+
 TEST(ProgramFit, BadInputIsSaidWithItsPlace) {
   const TemporaryFolder folder;
   const std::string object = folder.write("discus.obj", discus());
@@ -83,6 +188,22 @@ TEST(ProgramFit, BadInputIsSaidWithItsPlace) {
   EXPECT_EQ(stadionProgram({"fit", "missing.obj", "--reference", kFlights + "jav_30_34_a0.csv"}).status, 2);
   EXPECT_EQ(stadionProgram({"fit", object}).status, 2);
   EXPECT_EQ(stadionProgram({"fit", object, "--reference", flight, "--mass", "nan"}).status, 2);
+}
+
+TEST(ProgramCheck, WhatFliesAsIfMatterFilledItEvenlyIsToldWithTheNumbers) {
+  const TemporaryFolder folder;
+  const auto told = [&](const std::string& words) {
+    const std::string script = folder.write(
+        "throw.evs", "medium( name=air )\ndynobject( name=spear, file=javelin.glb, mass=0.8, hook=air" +
+                         words + " )\ndynamics( collidee=spear )\n");
+    return stadionProgram({"check", script, "--asset-root", assetFolder()}).out;
+  };
+  const std::string even = told(", flight=rod");
+  EXPECT_NE(even.find("\"spear\" flies as if matter filled its model evenly: centre=\"-0.15"),
+            std::string::npos)
+      << even;
+  for (const char* words : {"", ", flight=ball", ", flight=bias", ", flight=rod, centre=\"0, 0, 0\""})
+    EXPECT_EQ(told(words).find("evenly"), std::string::npos) << words;
 }
 
 TEST(ProgramBenchFlight, PrintsItsLimitsAndWritesNumbersAndPlots) {

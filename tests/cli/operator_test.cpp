@@ -126,6 +126,24 @@ TEST(ProgramOperator, EveryGroupsRecordReplaysToItsOwnState) {
   EXPECT_FALSE(lastHash(live.show(), record).empty());
 }
 
+TEST(ProgramOperator, ANextGroupWhoseScriptHasErrorsWaitsForItToBeMended) {
+  const TemporaryFolder folder;
+  const std::string show = folder.write("show.evs", kShow), port = std::to_string(freePort());
+  ProgramRun run{{stadionPath(), "run", show, "--asset-root", assetFolder(), "--walls", "desktop", "--size",
+                  "64x48", "--no-sound", "--osc", port}};
+  RunningProgram program(run);
+  const lo_address to = lo_address_new("127.0.0.1", port.c_str());
+  ASSERT_TRUE(program.says("operator: OSC on UDP port"));  // the first show is loaded
+  folder.write("show.evs", std::string(kShow) + "object( positon=\"0, 1, 1\" )\n");
+  lo_send(to, "/stadion/next-group", "");
+  EXPECT_TRUE(program.says("begins once it is saved without them"));
+  folder.write("show.evs", kShow);
+  EXPECT_TRUE(program.says("group 2 begins: "));
+  lo_send(to, "/stadion/end", "");
+  EXPECT_EQ(program.status(), 0) << program.err();
+  lo_address_free(to);
+}
+
 TEST(ProgramOperator, WhoWaitsStandsAtTheFirstFrameUntilTheStart) {
   LiveShow waiting({"--wait"});
   const json summary = waiting.finish();

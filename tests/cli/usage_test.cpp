@@ -212,7 +212,8 @@ TEST(ProgramUsage, WhatHappenedIsCountedWhenItIsTooMuchToTell) {
   const std::string show = folder.write("show.evs", "timer( name=tick, period=0.001, repeat=on )\n");
   const ProgramResult text = stadionProgram(shortRun(show, {}, "61"));
   ASSERT_EQ(text.status, 0) << text.err;
-  EXPECT_TRUE(has(text.out, "... and 800 more")) << text.out;
+  EXPECT_TRUE(has(text.out, "   0.0010 s  timesup    tick  1000 times, until 1.0000 s\n")) << text.out;
+  EXPECT_FALSE(has(text.out, " more;")) << text.out;
   const auto summary = nlohmann::json::parse(stadionProgram(shortRun(show, {"--json"}, "61")).out);
   EXPECT_EQ(summary.at("happened_count"), 1000);
   EXPECT_EQ(summary.at("happened").size(), 1000u);
@@ -279,6 +280,28 @@ TEST(ProgramUsage, AMissingModelIsAStandInInRunAndAnErrorInCheck) {
   EXPECT_EQ(check.status, 2);
   EXPECT_TRUE(has(check.out, "show.evs:1:")) << check.out;
   EXPECT_TRUE(has(check.out, "error")) << check.out;
+}
+
+TEST(ProgramUsage, OptionsThatMayBeRepeatedMayStandBeforeTheScript) {
+  const TemporaryFolder folder;
+  const std::string script = folder.write("show.evs", "object( name=a, file=football.3ds )\n");
+  for (const char* command : {"check", "run", "hash"}) {
+    std::vector<std::string> words{command,        "--asset-root", folder.path(),
+                                   "--asset-root", assetFolder(),  script};
+    if (words[0] != "check") words.insert(words.end(), {"--frames", "2", "--walls", "desktop"});
+    if (words[0] == "run")
+      words.insert(words.end(), {"--size", "32x24", "--pictures", "none", "--out", folder.path() / "out"});
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 0) << command << ": " << r.err << r.out;
+    EXPECT_FALSE(has(r.err + r.out, "stand-in")) << command;
+  }
+  const ProgramResult traced =
+      stadionProgram({"run", "--out", folder.path() / "out", "--trace", "a", script, "--asset-root",
+                      assetFolder(), "--frames", "2", "--size", "32x24", "--walls", "desktop"});
+  EXPECT_EQ(traced.status, 0) << traced.err;
+  const ProgramResult nowhere = stadionProgram({"check", "--asset-root", "/nowhere", script});
+  EXPECT_EQ(nowhere.status, 2);
+  EXPECT_TRUE(has(nowhere.out, "--asset-root: cannot open the folder /nowhere")) << nowhere.out;
 }
 
 TEST(ProgramUsage, JsonIsOneObjectOnStdoutAndNothingElse) {

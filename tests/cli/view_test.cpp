@@ -129,7 +129,7 @@ struct Throw {
   int walk;            ///< frames with the joypad held forward
   int right, down;     ///< how far the hand is dragged to it [pixels]
   int wait;            ///< frames until all is there
-  const char* letGo;   ///< X's number of the mouse button that lets it fly
+  const char* letGo;   ///< X's number of the mouse button that lets it fly; "": the one that took it, let go
   std::string thrown;  ///< what flies then
 };
 
@@ -173,9 +173,10 @@ TEST_P(ProgramViewThrow, FliesWithTheHandsSpeedAndTheRecordRepeatsIt) {
     view.hands({"mousemove_relative", "--", "2", "-12"});
     go(view, 1);
   }
-  view.hands({"mousedown", t.letGo, "mousemove_relative", "--", "2", "-12"});
+  const bool held = *t.letGo == '\0';
+  view.hands({held ? "mouseup" : "mousedown", held ? "1" : t.letGo, "mousemove_relative", "--", "2", "-12"});
   go(view, 1);
-  view.hands({"mouseup", t.letGo, "mouseup", "1"});
+  if (!held) view.hands({"mouseup", t.letGo, "mouseup", "1"});
   go(view, 40);
   const std::string told = view.end();
 
@@ -190,21 +191,22 @@ TEST_P(ProgramViewThrow, FliesWithTheHandsSpeedAndTheRecordRepeatsIt) {
   std::string file = t.thrown;
   std::ranges::replace(file, '/', '_');
   std::ifstream table(out + "/trace-" + file + ".csv");
-  bool held = false;
+  bool wasHeld = false;
   double fastest = 0;
   for (std::string line; std::getline(table, line);) {
-    held |= line.ends_with("held");
+    wasHeld |= line.ends_with("held");
     std::vector<double> v;
     std::istringstream fields(line);
     for (std::string f; std::getline(fields, f, ',');) v.push_back(std::strtod(f.c_str(), nullptr));
-    if (held && line.ends_with("flight") && v.size() > 10) fastest = std::max(fastest, v[10]);
+    if (wasHeld && line.ends_with("flight") && v.size() > 10) fastest = std::max(fastest, v[10]);
   }
-  EXPECT_TRUE(held) << told;
+  EXPECT_TRUE(wasHeld) << told;
   EXPECT_GT(fastest, 0.5) << "upwards [m/s]";
 }
 
 INSTANTIATE_TEST_SUITE_P(Shows, ProgramViewThrow,
                          testing::Values(Throw{"desk", testShow("desk.evs"), 0, 0, 0, 0, "3", "ball"},
+                                         Throw{"hold", testShow("hold.evs"), 0, 0, 0, 0, "", "ball"},
                                          Throw{"olympia", assetFolder() + "/../scripts/olympia.evs", 180, 80,
                                                100, 20, "2", "discus/discus"}),
                          [](const auto& each) { return std::string(each.param.name); });
@@ -317,6 +319,17 @@ TEST(ProgramView, ANextGroupWhoseScriptHasErrorsWaitsForItToBeMended) {
   ASSERT_TRUE(view.program().says("reloaded "));
   ASSERT_TRUE(view.program().says("playing ", 2));
   view.end();
+}
+
+TEST(ProgramView, AServerThatEndsEndsTheShowWithItsRecordWritten) {
+  REQUIRE_DISPLAY(display);
+  Viewing view(*display, testShow("desk.evs"), {"--walls", "cave4", "--windows", "walls"});
+  ASSERT_TRUE(view.playing());
+  display->breakDown();
+  EXPECT_EQ(view.program().status(), 3) << view.program().err();
+  EXPECT_TRUE(view.program().says("stadion: the connection to the display is lost: "));
+  EXPECT_NE(view.program().out().find("state hash"), std::string::npos);
+  EXPECT_FALSE(fileContent(view.log()).empty());
 }
 
 TEST(ProgramView, ASubSceneThatIsSavedIsReadAgainToo) {

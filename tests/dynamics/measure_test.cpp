@@ -188,6 +188,33 @@ TEST(Measure, ANewStartMeasuresAnewAndResetForgets) {
   EXPECT_NEAR(show.visitor->result()->metres, 43.017, 1e-9);
 }
 
+TEST(Measure, AThrowThatComesToRestWithoutAnImpactThatCountsIsAFoulAtThatTime) {
+  Field2 show;
+  show.ours.ground = "stone";
+  show.ours.against = "other-tape";
+  show.second = {0, -1, 2};
+  show.open();
+  show.start("tape"), show.start("other-tape");
+  show.play(8);
+  EXPECT_EQ(show.events(show.visitor), (std::vector<Event>{Event::Foul, Event::Drawn}));
+  ASSERT_TRUE(show.visitor->result() && show.athlete->result());
+  EXPECT_GT(show.visitor->result()->when, show.athlete->result()->when) << "after its last bounce";
+  EXPECT_EQ(show.board->words(), "Visitor foul\nAthlete foul\na draw");
+}
+
+TEST(Measure, AThrowThatTouchesNothingForItsDurationIsAFoulThen) {
+  Field2 show;
+  show.first.z() = 1e5;
+  show.ours.duration = fromSeconds(1.5);
+  show.open();
+  show.start("tape");
+  show.play(3);
+  ASSERT_EQ(show.told.size(), 1u);
+  EXPECT_EQ(show.told[0].event, Event::Foul);
+  EXPECT_EQ(show.told[0].when, show.visitor->result()->when);
+  EXPECT_NEAR(toSeconds(show.told[0].when), 1.5, 0.04) << "from its start on";
+}
+
 TEST(Measure, OnlyTheGroundCountsIfOneIsStated) {
   Field2 show;
   show.second = {1.05, 43.017, 1};  // the stone lies where the ball falls

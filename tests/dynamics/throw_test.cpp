@@ -201,11 +201,14 @@ TEST(Throw, TheAxisOfSymmetryIsTheOneWhoseMomentStandsAlone) {
 
 TEST(Throw, TheTipIsTheForemostPointAndATwentiethBehindIt) {
   const Mesh box = scenes::boxMesh({0.05, 1, 0.05});
-  const Stick s = stickAlong(-Vec3::UnitY(), 60 * kDegree, box);
+  const Stick s = stickAlong(-Vec3::UnitY(), 60 * kDegree, 0.08, box);
   EXPECT_NEAR(s.tip, 1, 1e-7);
   EXPECT_NEAR(s.reach, 0.1, 1e-7);
   EXPECT_NEAR(s.cosine, 0.5, 1e-12);
+  EXPECT_EQ(s.depth, 0.08);
 }
+
+constexpr double kDeep = 0.08;  // [m]
 
 /// A spear of 2 m comes down at 10 m/s, `tilt` degrees from upright, nose down.
 struct Spear {
@@ -228,7 +231,7 @@ struct Spear {
     d.mass = massOfBox({}, {1, 0.02, 0.02}, 1).withMass(0.8);
     d.pose = {{0, 0, 3}, det::expRotation({0, (noseDown ? 90 - tilt : tilt - 90) * kDegree, 0})};
     d.v = {0, 0, -speed};
-    d.stick = stickAlong(Vec3::UnitX(), 60 * kDegree, mesh);
+    d.stick = stickAlong(Vec3::UnitX(), 60 * kDegree, kDeep, mesh);
     id = w.addBody(d);
     w.hook(id, gravity, 0);
   }
@@ -241,7 +244,7 @@ TEST(Throw, ASpearSticksWhereItsTipComesFirstAndStraightEnough) {
       scenes::play(in.w, 0.5);
       EXPECT_EQ(in.w.mode(in.id), BodyMode::Stuck);
       const Pose X = in.w.pose(in.id);
-      EXPECT_NEAR((X * Vec3(1, 0, 0)).z(), 0, 0.03) << "its tip is on the ground";
+      EXPECT_NEAR((X * Vec3(1, 0, 0)).z(), -kDeep, 0.03) << "its tip is in the ground";
       EXPECT_NEAR((X.q * Vec3::UnitX()).z(), -det::cos(50 * kDegree), 1e-9);
       EXPECT_EQ(in.w.state(in.id).v, Vec3(Vec3::Zero()));
       EXPECT_FALSE(in.w.moving(in.id));
@@ -253,6 +256,30 @@ TEST(Throw, ASpearSticksWhereItsTipComesFirstAndStraightEnough) {
         EXPECT_GT((s->w.state(s->id).v).norm(), 0.1);
       }
     }
+}
+
+TEST(Throw, ATipGoesInTheWayItComesAndTheTouchStaysWhereItWas) {
+  const auto landed = [](double depth) {
+    Spear s(Spear::Ground::Plane, 40);
+    BodyDef d;
+    d.shape = s.w.addShape(BoxShape{{}, {1, 0.02, 0.02}});
+    d.mass = massOfBox({}, {1, 0.02, 0.02}, 1).withMass(0.8);
+    d.pose = {{0, 5, 3}, det::expRotation({0, 50 * kDegree, 0})};
+    d.v = {12, 0, -16};
+    d.stick = Stick{Vec3::UnitX(), 1, 0.1, 0.5, depth};
+    s.w.removeBody(s.id);
+    const BodyId id = s.w.addBody(d);  // nothing pulls at it: it goes straight
+    Vec3 touch = Vec3::Zero();
+    scenes::play(s.w, 0.5, 60, [&](double) {
+      for (const ContactEvent& e : s.w.events()) touch = e.point;
+    });
+    EXPECT_EQ(s.w.mode(id), BodyMode::Stuck);
+    return std::pair{s.w.pose(id).p, touch};
+  };
+  const auto [onIt, first] = landed(0);
+  const auto [in, second] = landed(0.25);
+  EXPECT_EQ(first, second) << "what is measured";
+  EXPECT_LT((in - onIt - 0.25 * Vec3(0.6, 0, -0.8)).norm(), 1e-12);
 }
 
 TEST(Throw, WhatIsPutDownGentlyDoesNotStick) {
@@ -304,6 +331,14 @@ TEST(Throw, WhatSticksStaysUntilItIsTakenOutOrItsGroundGoes) {
     s.w.moveCollider(s.ground, {{0, 0, -1}, Quat::Identity()});
     on(s.w, 0.5);
     EXPECT_NE(s.w.mode(s.id), BodyMode::Stuck) << "its ground has moved";
+  }
+  {
+    Spear s = stuck();
+    s.w.moveCollider(s.ground, {{0.01, 0, 0}, Quat::Identity()});
+    on(s.w, 3);
+    EXPECT_NE(s.w.mode(s.id), BodyMode::Stuck);
+    EXPECT_LT(s.w.state(s.id).v.norm(), 5) << "a tip in the ground is not shot out of it";
+    EXPECT_LT(s.w.pose(s.id).p.cwiseAbs().maxCoeff(), 4);
   }
 }
 

@@ -258,5 +258,20 @@ TEST(FloorPlan, ShowsTheWallsFromAbove) {
 )");
 }
 
+TEST(FloorPlan, TellsTheOutputsOfItsWalls) {
+  Diagnostics out;
+  const auto walls = parseWalls("wall one  lower-left -2 2 0.5  lower-right 1 2 0.5  upper-left -2 2 2.5\n"
+                                "wall two  lower-left 1 2 0.5  lower-right 1 -1 0.5  upper-left 1 2 2.5\n"
+                                "output two  monitor HDMI-1  rotate 90  flip-h\n",
+                                "a.walls", out);
+  ASSERT_TRUE(walls);
+  const std::string plan = floorPlan(*walls);
+  const std::size_t at = plan.find("   shown on"), end = plan.find('\n', at);
+  ASSERT_NE(at, plan.npos) << plan;
+  EXPECT_GT(at, plan.find(" 2 two")) << "beside its wall, and only there: " << plan;
+  for (const char* word : {"HDMI-1", "rotate 90", "flip-h"})
+    EXPECT_NE(plan.substr(at, end - at).find(word), plan.npos) << plan;
+}
+
 }  // namespace
 }  // namespace stadion

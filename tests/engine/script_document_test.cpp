@@ -1,5 +1,6 @@
 #include "engine/script/choice.h"
 #include "engine/script/script.h"
+#include "engine/text/text_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -77,6 +78,20 @@ TEST(ScriptDocument, RepeatedAttributesAccumulateInOrder) {
   EXPECT_EQ(hooks[0].declaration, 2U);
   EXPECT_EQ(hooks[1].declaration, 1U);
   EXPECT_EQ(hooks[2].name, "c");
+}
+
+TEST(ScriptDocument, WordsThatAreSaidMayHaveCommas) {
+  const Document d = right(R"(timer( period=1, eventmessage="timesup, t, say Well thrown\, visitor\, well!, 2, latency=0.1",
+                                     eventmessage="timesup, t, say one\,",
+                                     eventmessage="timesup, t, say \,, 3" ) text( name=t ))");
+  const auto messages = d[0].eventMessages();
+  ASSERT_EQ(messages.size(), 3U);
+  EXPECT_EQ(unescaped(messages[0].words), "Well thrown, visitor, well!");
+  EXPECT_EQ(messages[0].delay, 2'000'000'000);
+  EXPECT_EQ(messages[0].latency, 100'000'000);
+  EXPECT_EQ(unescaped(messages[1].words), "one,");
+  EXPECT_EQ(unescaped(messages[2].words), ",");
+  EXPECT_EQ(messages[2].delay, 3'000'000'000);
 }
 
 TEST(ScriptDocument, EventMessagesAreTyped) {

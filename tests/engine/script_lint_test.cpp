@@ -95,6 +95,10 @@ TEST(ScriptLint, ALatencyShorterThanAFrameIsTold) {
   EXPECT_EQ(warningsAt(30),
             "2: the latency of 0.02 s is shorter than a frame (0.0333 s at 30 Hz), so that the "
             "command waits for the next frame; state 0.034 or more\n");
+  EXPECT_EQ(warningsAt(20),
+            "2: the latency of 0.02 s is shorter than a frame (0.0500 s at 20 Hz), so that the "
+            "command waits for the next frame; state 0.050 or more; so are 1 more in this file\n")
+      << "once a file";
 }
 
 TEST(ScriptLint, ATrackerThatNoDeviceIsCalledIsNamed) {

@@ -64,6 +64,10 @@ TEST(Text, LinesAreAlignedAtTheirBeginningTheirMiddleOrTheirEnd) {
   EXPECT_NEAR(left.lo.z(), -kLineHeight / 100, 1e-6) << "the second line lies below the first";
 }
 
+TEST(Text, EscapesAreLineEndsAndCommasAndNothingElse) {
+  EXPECT_EQ(unescaped(R"(a\nb\, c\d\\, e, f\)"), "a\nb, c\\d\\, e, f\\");
+}
+
 TEST(Text, ThickLettersEncloseTheirVolume) {
   TextStyle style;
   style.depth = 0.1;

@@ -103,8 +103,9 @@ TEST(TriggerCrossing, ButtonsAreToldAtTheTimeOfTheirPressAlsoWhenReleasedWithinT
   input.key("wand", 0, {0, 0, 0}).key("wand", 0.501, {0, 0, 0}, Vec3::Zero(), false, 1);
   input.key("wand", 0.503, {0, 0, 0}).key("wand", 0.777, {0, 0, 0}, Vec3::Zero(), false, 2);
   for (const double rate : {10.0, 60.0, 240.0})
-    expectEvents(told(ball(1), input, rate, 1, "wand"),
-                 {{Event::Enter, 0}, {Event::Button1, 0.501}, {Event::Button2, 0.777}});
+    expectEvents(
+        told(ball(1), input, rate, 1, "wand"),
+        {{Event::Enter, 0}, {Event::Button1, 0.501}, {Event::Button1Up, 0.503}, {Event::Button2, 0.777}});
 }
 
 TEST(TriggerCrossing, AButtonCountsWhereTheDeviceIsWhenItIsPressed) {
@@ -113,7 +114,64 @@ TEST(TriggerCrossing, AButtonCountsWhereTheDeviceIsWhenItIsPressed) {
   input.key("wand", 0.4, {2, 0, 0}).key("wand", 0.45, {2, 0, 0}, Vec3::Zero(), false, 1);
   for (const double rate : {2.0, 60.0})
     expectEvents(told(ball(1), input, rate, 1, "wand"),
-                 {{Event::Enter, 0.1}, {Event::Button1, 0.2}, {Event::Exit, 0.3}});
+                 {{Event::Enter, 0.1}, {Event::Button1, 0.2}, {Event::Exit, 0.3}, {Event::Button1Up, 0.4}});
+}
+
+TEST(TriggerCrossing, AReleaseIsToldWhereverTheDeviceIsThenIfThePressWas) {
+  ScriptedInput input;  // button 1 pressed inside, 2 outside; both let go far away, then 2 inside
+  input.key("wand", 0, {0, 0, 0}).key("wand", 0.2, {0, 0, 0}, Vec3::Zero(), false, 1);
+  input.key("wand", 0.3, {2, 0, 0}, Vec3::Zero(), false, 3).key("wand", 0.4137, {5, 0, 0});
+  input.key("wand", 0.5, {2, 0, 0}, Vec3::Zero(), false, 2).key("wand", 0.6, {0, 0, 0});
+  for (const double rate : {2.0, 30.0, 60.0, 144.0, 1000.0})
+    expectEvents(told(ball(1), input, rate, 1, "wand"), {{Event::Enter, 0},
+                                                         {Event::Button1, 0.2},
+                                                         {Event::Exit, 0.25},
+                                                         {Event::Button1Up, 0.4137},
+                                                         {Event::Enter, 0.55}});
+}
+
+TEST(TriggerCrossing, ADeviceThatIsLostLetsGoOfItsButtonsAtThatTime) {
+  ScriptedInput input;
+  input.key("wand", 0, {0, 0, 0}).key("wand", 0.2, {0, 0, 0}, Vec3::Zero(), false, 1);
+  InputStamp lost;
+  lost.time = fromSeconds(0.3123), lost.valid = false;
+  ASSERT_TRUE(input.add("wand", lost));
+  input.key("wand", 0.7, {0, 0, 0});
+  for (const double rate : {2.0, 30.0, 60.0, 1000.0})
+    expectEvents(told(ball(1), input, rate, 1, "wand"),
+                 {{Event::Enter, 0}, {Event::Button1, 0.2}, {Event::Button1Up, 0.3123}});
+}
+
+TEST(TriggerCrossing, ATriggerThatWasDisabledMeanwhileTellsNoRelease) {
+  ScriptedInput input;
+  input.key("wand", 0, {0, 0, 0}).key("wand", 0.2, {0, 0, 0}, Vec3::Zero(), false, 1);
+  input.key("wand", 0.8, {0, 0, 0});
+  for (const double rate : {4.0, 60.0})
+    expectEvents(told(ball(1), input, rate, 1, "wand", {{Verb::Disable, 0.5}, {Verb::Enable, 0.6}}),
+                 {{Event::Enter, 0}, {Event::Button1, 0.2}, {Event::Enter, 0.6}});
+}
+
+TEST(TriggerCrossing, WhetherAReleaseWillBeToldIsPartOfTheState) {
+  // Pressed inside or before it came in: in the end all is the same, but for what the release will do.
+  const auto hashAfter = [](const Vec3& pressedAt) {
+    ShowFixture show;
+    show.loader.files["show"] = [](Load& load) {
+      addNode<WatchingNode>(load, "zone", NodeKind::WandTrigger, ball(1), "wand");
+    };
+    show.scene.open("show");
+    ScriptedInput input;
+    input.key("wand", 0, {0, 0, 0}).key("wand", 0.1, pressedAt);
+    input.key("wand", 0.2, pressedAt, Vec3::Zero(), false, 1)
+        .key("wand", 0.3, {0, 0, 0}, Vec3::Zero(), false, 1);
+    for (TimeSignature now = signatureAt(show.next, show.rate); now.time <= fromSeconds(0.5);
+         now = signatureAt(show.next, show.rate)) {
+      input.sampleFrame(now.time - now.step, now.time, show.input);
+      show.frame();
+    }
+    return show.scene.stateHash();
+  };
+  EXPECT_EQ(hashAfter({0.5, 0, 0}), hashAfter({0.25, 0, 0}));
+  EXPECT_NE(hashAfter({0.5, 0, 0}), hashAfter({2, 0, 0}));
 }
 
 TEST(TriggerCrossing, DisableEndsTheWatchAtItsTimeWithinTheFrame) {

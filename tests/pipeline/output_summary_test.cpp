@@ -1,9 +1,11 @@
 #include "pipeline/output/progress.h"
 #include "pipeline/output/run_summary.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fcntl.h>
 #include <limits>
@@ -155,6 +157,36 @@ TEST(Progress, DrawsOnATerminalAtMostTenTimesASecondAndWipesItselfAway) {
   EXPECT_LE(bars, 3);  // 1000 updates take far less than 0.3 s
   EXPECT_TRUE(text.ends_with("\r\x1b[K"));
   close(terminal), close(host);
+}
+
+std::size_t linesIn(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+}
+
+TEST(Happenings, WhatANodeTellsAgainAndAgainIsCountedWhereItWasFirst) {
+  RunSummary s;
+  for (int i = 1; i <= 6; ++i) s.happened.push_back({i * 1.0, "finished", "wind"});
+  for (int i = 1; i <= 5; ++i) s.happened.push_back({6.0 + i, "onimpact", "ball"});
+  for (int i = 1; i <= 9; ++i) s.happened.push_back({20.0 + i, "measured", "tape", i * 10.0});
+  s.happenedCount = s.happened.size();
+  const std::string text = happeningsText(s);
+  EXPECT_EQ(linesIn(text), 2u + 1 + 5 + 9) << text;
+  EXPECT_NE(text.find("   1.0000 s  finished   wind  6 times, until 6.0000 s\n"), text.npos) << text;
+  EXPECT_NE(text.find("  10.0000 s  onimpact   ball\n"), text.npos) << text;
+  EXPECT_NE(text.find("  29.0000 s  measured   tape  90.000 m\n"), text.npos) << text;
+  EXPECT_EQ(text.find("more;"), text.npos) << text;
+}
+
+TEST(Happenings, NoMoreThanAPageIsToldAndTheRestIsCounted) {
+  RunSummary s;
+  for (int i = 0; i < 300; ++i) s.happened.push_back({i * 0.1, "enter", fmt::format("zone {}", i)});
+  for (int i = 0; i < 50; ++i) s.happened.push_back({40.0 + i, "finished", "wind"});
+  s.happenedCount = 1000;
+  const std::string text = happeningsText(s);
+  EXPECT_EQ(linesIn(text), 2u + RunSummary::kHappeningsTold + 1) << text;
+  EXPECT_NE(text.find("... and 800 more; summary.json (--out DIR, or --json) has the first 350 of them"),
+            text.npos)
+      << text;
 }
 
 }  // namespace

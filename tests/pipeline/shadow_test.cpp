@@ -58,6 +58,7 @@ struct Yard {
     state.lights = lights;
     const ShadowRecord rings = places.follow(head);
     state.shadows = &rings;
+    state.instances = things;
     DrawList out;
     out.origin = head;
     out.eyeCount = 1;
@@ -66,7 +67,8 @@ struct Yard {
     for (std::size_t k = 0; k < 3; ++k) light.direction[k] = static_cast<float>(lights[0].direction[k]);
     light.shadows = lights[0].range > 0;
     out.lights = {light};
-    ShadowCull casters(state, out);
+    StillCasters still;
+    ShadowCull casters(state, still, out);
     for (const InstanceRecord& r : things) {
       casters.consider(r);
       DrawItem item;
@@ -206,7 +208,7 @@ TEST(Shadows, AShowWithoutThemCarriesNothingForThem) {
   const DrawList list = yard.list();
   EXPECT_EQ(list.shadows.light, -1);
   for (const DrawShadowRing& ring : list.shadows.rings)
-    EXPECT_TRUE(ring.still.empty() && ring.moving.empty());
+    EXPECT_TRUE(!ring.still && ring.moving.empty());
 }
 
 TEST(Shadows, GlassAndWhatIsHiddenCastNone) {
@@ -214,7 +216,7 @@ TEST(Shadows, GlassAndWhatIsHiddenCastNone) {
   yard.add(MeshMaker(matt(0.2f, 0.5f, 0.5f, 0.3f)).box({-1, -1, 1}, {1, 1, 2}).seal(), Affine::Identity());
   yard.addCrate(at(0, 0, 1));
   yard.things.back().flags &= ~InstanceRecord::kShown;
-  for (const DrawShadowRing& ring : yard.list().shadows.rings) EXPECT_TRUE(ring.still.empty());
+  for (const DrawShadowRing& ring : yard.list().shadows.rings) EXPECT_TRUE(ring.still->empty());
 }
 
 TEST(Shadows, WhatMovesIsDrawnOnlyIntoTheRingsWhereItIsLookedUp) {
@@ -226,7 +228,7 @@ TEST(Shadows, WhatMovesIsDrawnOnlyIntoTheRingsWhereItIsLookedUp) {
     std::string rings;
     const DrawList list = yard.list();
     for (const DrawShadowRing& ring : list.shadows.rings)
-      rings += std::to_string(ring.still.size() + ring.moving.size());
+      rings += std::to_string(ring.still->size() + ring.moving.size());
     return rings;
   };
   EXPECT_EQ(ringsOf(3, true), "1000");

@@ -4,6 +4,7 @@
 #include "profiling/bench/flight/flight_report.h"
 #include "profiling/bench/flight/trajectory_plot.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -53,10 +54,35 @@ TEST(FlightBench, RungeAndKuttaAt960HzReproduceEachSmoothOne) {
 }
 
 TEST(FlightBench, TheLadderHoldsOnFlightsItWasNotFittedTo) {
-  const Ladder ladder = measureLadder(references(), 30);
-  EXPECT_GE(ladder.checks.size(), 10U);
+  const auto show = ShowFlights::ofOlympia(STADION_SOURCE_DIR);
+  ASSERT_TRUE(show) << format(show.error());
+  const Ladder ladder = measureLadder(references(), 30, &show.value());
+  const auto inShows = [](const std::string& what) { return what.find("in a show") != std::string::npos; };
+  EXPECT_EQ(std::ranges::count_if(ladder.checks, inShows, &Check::what), 8 + 3);
   for (const Check& c : ladder.checks)
     EXPECT_TRUE(c.met()) << c.what << ": " << c.value << ", at most " << c.most;
+}
+
+TEST(FlightBench, AScriptFliesWhatTheModelByItselfFlies) {
+  const auto show = ShowFlights::ofOlympia(STADION_SOURCE_DIR);
+  ASSERT_TRUE(show) << format(show.error());
+  for (const Thing thing : {Thing::Javelin, Thing::Discus}) {
+    const std::vector<Throw> throws = heldOut(thing, 3);
+    const auto flown = show.value().fly(show.value().rungsOf(thing).front(), throws);
+    ASSERT_TRUE(flown) << format(flown.error());
+    const std::string shipped = thing == Thing::Javelin ? "rod" : "plate";
+    for (const Rung& rung : rungsOf(thing))
+      for (std::size_t i = 0; rung.name == shipped && i < throws.size(); ++i)
+        EXPECT_LT(errorsOf(flown.value()[i], rung.fly(throws[i]), factsOf(thing).axis).landing, 1e-3);
+  }
+}
+
+TEST(FlightBench, AScriptThatCannotBePlayedIsAMissedLimit) {
+  const auto show = ShowFlights::ofOlympia(STADION_SOURCE_DIR);
+  ASSERT_TRUE(show) << format(show.error());
+  const ShowRung wrong{Thing::Javelin, "wrong", "file=no_such.glb, mass=1"};
+  EXPECT_FALSE(show.value().fly(wrong, heldOut(Thing::Javelin, 1)));
+  EXPECT_FALSE(ShowFlights::ofOlympia("/nowhere"));
 }
 
 TEST(FlightBench, HardCasesAndPublishedThrowsHold) {

@@ -21,6 +21,7 @@ SpanRecord record(Span what, std::uint64_t frame, std::uint32_t wall, NodeRef no
   SpanRecord r;
   r.frame = frame, r.wall = wall, r.node = node, r.what = what;
   r.took = r.own = ms;
+  r.depth = isStage(what) ? 0 : 1;
   return r;
 }
 

@@ -201,7 +201,7 @@ std::string discusScript() {
 }
 
 std::string javelinScript() {
-  return script({"The javelin thrower: eight metres of run-up.", "fair",
+  return script({"The javelin thrower: four metres of run-up.", "fair",
                  "object( name=held, file=javelin.glb, parent=aim )", javelinThrow(), Role::Aimed});
 }
 

@@ -5,7 +5,8 @@
 namespace stadion::assets {
 namespace {
 
-constexpr Rgb kSkin{0.80, 0.58, 0.44}, kSkinDeep{0.64, 0.42, 0.31}, kLinen{0.93, 0.90, 0.83};
+constexpr Rgb kSkin{0.80, 0.58, 0.44}, kSkinDeep{0.64, 0.42, 0.31}, kLinen{0.92, 0.89, 0.81},
+    kBorder{0.56, 0.20, 0.15};
 constexpr double kStep = 0.021;  // of the surface [m]
 
 /// Tanned by the sun from above, oiled; redder where the skin is thick.
@@ -21,70 +22,100 @@ Parts ofSkin(const Clay& clay, double step) {
   return {part};
 }
 
+/// Pleats that hang from a belt or a shoulder, deeper the lower: from -1 to 1.
+double pleats(Point p, double count) {
+  return det::sin(count * det::atan2(p.x, p.y + 1e-9) + 1.5 * noise({3 * p.z, 4 * p.x, 0.5}));
+}
+
+/// Draws what lies near the level z onto it, so that a coloured edge there is straight.
+void level(Part& part, double z, double near) {
+  for (Vertex& v : part.vertices)
+    if (std::fabs(v.p.z - z) < near) v.p.z = z;
+}
+
+/// A piece of the short chiton: linen in pleats down to `hem`, where it is cut off, with a border of that
+/// colour.
+Part ofLinen(Clay clay, double count, double hem, double step, Rgb border) {
+  const auto deep = [=](Point p) { return smoothstep(hem + 0.22, hem, p.z); };
+  clay.relief([=](Point p) { return 0.0075 * deep(p) * pleats(p, count); });
+  Part part = clay.cast(step, [=](Point p, Point n) {
+    const double fold = mix(0.4 * (noise(30 * p) - 0.5), pleats(p, count), deep(p));
+    return mix(0.80, 1.0, 0.5 + 0.5 * fold) * mix(0.86, 1.0, smoothstep(-0.6, 0.2, n.z)) * kLinen;
+  });
+  part.finish = {"linen", "", 0.9, 0};
+  level(part, hem + step, 0.5 * step);
+  for (Vertex& v : part.vertices)
+    if (v.p.z < hem + 0.5 * step) v.p.z = hem, v.colour = border;
+  return part;
+}
+
 }  // namespace
 
 Parts pelvis() {
   Clay clay;
-  clay.ball({0, -0.005, 0.0}, {0.168, 0.114, 0.115}).ball({0, 0.02, 0.06}, {0.140, 0.096, 0.10}, 0.05);
-  clay.ball({0, -0.004, 0.11}, {0.142, 0.110, 0.06}, 0.05);
-  clay.balls({0.075, -0.065, -0.045}, {0.085, 0.078, 0.09}, 0.03)
-      .ball({0, 0.075, -0.075}, {0.055, 0.052, 0.07}, 0.04);
-  clay.rods({0.0, 0.10, 0.085}, {0.125, 0.02, 0.095}, 0.014, 0.014, 0.012)
-      .rods({0.125, 0.02, 0.095}, {0.0, -0.10, 0.09}, 0.014, 0.014, 0.012);
-  // The loincloth lies in folds that run together in front.
-  clay.relief([](Point p) {
-    const double folds = det::sin(70 * p.z + 40 * std::fabs(p.x));
-    return 0.0025 * folds * smoothstep(0.09, 0.05, p.z);
-  });
-  Part part = clay.cast(kStep, [](Point p, Point n) {
-    const double fold = det::sin(70 * p.z + 40 * std::fabs(p.x));
-    const double rim = 0.082 + 0.004 * det::sin(30 * p.x);
-    if (p.z > rim + 0.022) return skinAt(p, n);
-    return p.z > rim - 0.012 ? 0.93 * kLinen : mix(0.91, 1.0, 0.5 + 0.5 * fold) * kLinen;
-  });
-  part.finish = {"skin and linen", "", 0.75, 0};
-  return {part};
+  clay.ball({0, -0.005, 0.02}, {0.160, 0.118, 0.12}).ball({0, -0.004, 0.11}, {0.138, 0.106, 0.07}, 0.05);
+  clay.balls({0.07, -0.055, -0.045}, {0.09, 0.085, 0.09}, 0.05);
+  clay.rod({0, 0, -0.02}, {0, 0, -0.30}, 0.165, 0.195, 0.06);
+  Part skirt = ofLinen(clay, 22, -0.175, kStep, 0.92 * kLinen);
+  level(skirt, 0.075, 0.5 * kStep);
+  // Flatter from front to back than a rod, and a cord about the waist.
+  for (Vertex& v : skirt.vertices) {
+    const double flat = mix(1.0, 0.80, smoothstep(0.05, -0.06, v.p.z));
+    v.p.y *= flat;
+    if (v.p.z == 0.075) v.colour = kBorder;
+  }
+  return {skirt};
 }
 
 Parts chest() {
-  Clay clay;
-  clay.ball({0, -0.005, 0.20}, {0.150, 0.112, 0.20}).ball({0, 0, 0.02}, {0.126, 0.094, 0.15}, 0.08);
-  clay.balls({0.120, -0.035, 0.215}, {0.050, 0.066, 0.14}, 0.05);         // back of the flanks
-  clay.balls({0.160, -0.01, 0.335}, {0.064, 0.060, 0.058}, 0.05);         // shoulders
-  clay.rods({0, -0.035, 0.43}, {0.15, -0.02, 0.37}, 0.052, 0.036, 0.05);  // neck to shoulders
-  clay.rod({0, -0.015, 0.34}, {0, -0.005, 0.45}, 0.064, 0.056, 0.03);
-  clay.balls({0.080, 0.072, 0.268}, {0.086, 0.044, 0.062}, 0.022);  // breast
-  for (double z : {-0.05, 0.015, 0.08}) clay.balls({0.036, 0.077, z}, {0.036, 0.021, 0.036}, 0.022);
-  clay.balls({0.098, 0.02, -0.03}, {0.040, 0.062, 0.085}, 0.045);  // flanks
-  for (int i = 0; i < 3; ++i)
-    clay.balls({0.118 - 0.006 * i, 0.054, 0.17 - 0.04 * i}, {0.028, 0.03, 0.018}, 0.03);
-  clay.rods({0.034, -0.072, -0.08}, {0.04, -0.085, 0.24}, 0.032, 0.030, 0.045);  // along the spine
-  clay.balls({0.085, -0.078, 0.285}, {0.068, 0.036, 0.08}, 0.045);               // shoulder blades
-  clay.rods({0.02, 0.045, 0.405}, {0.16, 0.02, 0.385}, 0.013, 0.012, 0.035);     // collar bones
-  Part part = clay.cast(kStep, [](Point p, Point n) {
-    const double nipple = length(p - Point{p.x < 0 ? -0.092 : 0.092, 0.118, 0.245});
-    return mix(Rgb{0.55, 0.32, 0.24}, skinAt(p, n), smoothstep(0.01, 0.02, nipple));
+  Clay cloth;
+  cloth.ball({0, -0.005, 0.20}, {0.156, 0.118, 0.20}).ball({0, 0, -0.01}, {0.150, 0.118, 0.075}, 0.09);
+  cloth.balls({0.120, -0.03, 0.215}, {0.056, 0.070, 0.14}, 0.05);           // back of the flanks
+  cloth.balls({0.165, -0.01, 0.335}, {0.070, 0.068, 0.064}, 0.05);          // shoulders
+  cloth.rods({0, -0.032, 0.42}, {0.16, -0.02, 0.365}, 0.052, 0.042, 0.05);  // neck to shoulders
+  cloth.balls({0.080, 0.068, 0.268}, {0.088, 0.046, 0.066}, 0.04);          // breast
+  cloth.balls({0.085, -0.076, 0.285}, {0.070, 0.038, 0.085}, 0.05);         // shoulder blades
+  Clay clay = cloth;
+  clay.rod({0, -0.015, 0.34}, {0, -0.005, 0.45}, 0.062, 0.056, 0.03);
+  clay.rods({0.02, 0.047, 0.405}, {0.13, 0.03, 0.395}, 0.012, 0.010, 0.03);  // collar bones
+  // The cloth is pinned on both shoulders and falls over the belt.
+  const auto bare = [](Point p) { return p.z > 0.352 + 1.1 * std::max(std::fabs(p.x) - 0.06, 0.0); };
+  const auto hang = [](Point p) {
+    return det::sin(85 * (p.x * (1.15 - 1.2 * p.z)) + 2.5 * noise({5 * p.x, 0.5, 4 * p.z})) *
+           smoothstep(0.36, 0.1, p.z);
+  };
+  clay.relief([=](Point p) { return bare(p) ? 0.0 : 0.004 + 0.0045 * hang(p); });
+  Part part = clay.cast(0.018, [=](Point p, Point n) {
+    const double rim = 0.352 + 1.1 * std::max(std::fabs(p.x) - 0.06, 0.0) - p.z;
+    if (bare(p)) return mix(kBorder, skinAt(p, n), smoothstep(0, 0.012, -rim));
+    const Rgb linen =
+        mix(0.80, 1.0, 0.5 + 0.5 * hang(p)) * mix(0.74, 1.0, smoothstep(-0.6, 0.2, n.z)) * kLinen;
+    return mix(kBorder, linen, smoothstep(0.006, 0.028, rim));
   });
-  part.finish = {"skin", "", 0.55, 0};
+  part.finish = {"linen", "", 0.9, 0};
   return {part};
 }
 
 Parts upperArm() {
   Clay clay;
-  clay.ball({0.012, 0, -0.025}, {0.060, 0.066, 0.082}).ball({0.022, 0, -0.12}, {0.034, 0.04, 0.085}, 0.04);
-  clay.rod({0, 0, -0.02}, {0, 0, -0.28}, 0.046, 0.036, 0.04);
-  clay.ball({0, 0.026, -0.175}, {0.035, 0.033, 0.085}, 0.015)
-      .ball({0.004, -0.026, -0.16}, {0.037, 0.034, 0.10}, 0.015);
-  clay.ball({0, -0.003, -0.30}, {0.036, 0.037, 0.036}, 0.03);
-  return ofSkin(clay, 0.018);
+  clay.ball({0.004, 0, -0.015}, {0.050, 0.054, 0.058}).ball({0.014, 0, -0.11}, {0.036, 0.042, 0.085}, 0.05);
+  clay.rod({0, 0, -0.02}, {0, -0.003, -0.30}, 0.047, 0.037, 0.04);
+  clay.ball({0, 0.018, -0.175}, {0.035, 0.033, 0.085}, 0.03)
+      .ball({0.004, -0.020, -0.16}, {0.037, 0.034, 0.10}, 0.03);
+  Clay sleeve;
+  sleeve.ball({0, 0, -0.006}, {0.066, 0.067, 0.066})
+      .rod({0.002, 0, -0.02}, {0.008, 0, -0.20}, 0.062, 0.076, 0.05);
+  Parts parts = ofSkin(clay, 0.018);
+  parts.push_back(ofLinen(sleeve, 11, -0.130, 0.017, kBorder));
+  return parts;
 }
 
 Parts forearm() {
   Clay clay;
-  clay.ball({0, -0.003, 0}, {0.036, 0.037, 0.036}).rod({0, 0, -0.02}, {0, 0, -0.25}, 0.036, 0.023, 0.03);
-  clay.ball({0.018, 0.014, -0.075}, {0.027, 0.030, 0.09}, 0.015)
-      .ball({-0.015, -0.006, -0.085}, {0.027, 0.031, 0.085}, 0.015);
-  clay.ball({0, 0, -0.255}, {0.021, 0.029, 0.026}, 0.02);
+  clay.rod({0, -0.003, 0}, {0, 0, -0.255}, 0.037, 0.025);
+  clay.ball({0.014, 0.011, -0.085}, {0.027, 0.030, 0.09}, 0.03)
+      .ball({-0.012, -0.006, -0.095}, {0.027, 0.031, 0.085}, 0.03);
+  clay.ball({0, 0, -0.255}, {0.021, 0.028, 0.026}, 0.03);
   return ofSkin(clay, 0.016);
 }
 
@@ -102,36 +133,36 @@ Parts hand() {
   return ofSkin(clay, 0.0085);
 }
 
+// Where two parts meet, both end in the same ball, and the limbs run into it without a step.
+
 Parts thigh() {
   Clay clay;
-  clay.rod({0, 0, -0.05}, {0, 0, -0.42}, 0.080, 0.052)
-      .ball({-0.01, -0.015, -0.01}, {0.074, 0.082, 0.08}, 0.04);
-  clay.ball({0.012, 0.036, -0.20}, {0.058, 0.055, 0.20}, 0.02)
-      .ball({0.046, 0.012, -0.24}, {0.036, 0.048, 0.15}, 0.02);
-  clay.ball({-0.030, 0.028, -0.365}, {0.031, 0.034, 0.06}, 0.015)
-      .ball({-0.040, 0, -0.11}, {0.05, 0.062, 0.13}, 0.03);
-  clay.ball({-0.018, -0.036, -0.24}, {0.034, 0.045, 0.17}, 0.015)
-      .ball({0.024, -0.034, -0.24}, {0.034, 0.045, 0.17}, 0.015);
-  clay.ball({0, 0.003, -0.44}, {0.051, 0.053, 0.052}, 0.03);
-  return ofSkin(clay, kStep);
+  clay.rod({0, 0, -0.05}, {0, 0, -0.44}, 0.080, 0.051);
+  clay.ball({0.010, 0.026, -0.22}, {0.058, 0.055, 0.20}, 0.04)
+      .ball({0.036, 0.010, -0.24}, {0.040, 0.050, 0.15}, 0.04);
+  clay.ball({-0.014, -0.026, -0.24}, {0.038, 0.047, 0.17}, 0.04)
+      .ball({0.020, -0.024, -0.24}, {0.038, 0.047, 0.17}, 0.04);
+  Clay skirt;
+  skirt.ball({0.004, -0.004, -0.02}, {0.098, 0.100, 0.09})
+      .rod({0.004, 0, -0.04}, {0.012, 0.004, -0.34}, 0.094, 0.112, 0.05);
+  Parts parts = ofSkin(clay, kStep);
+  parts.push_back(ofLinen(skirt, 13, -0.265, 0.019, kBorder));
+  return parts;
 }
 
 Parts shin() {
   Clay clay;
-  clay.ball({0, 0, 0}, {0.050, 0.052, 0.052}).ball({0, 0.042, -0.002}, {0.028, 0.018, 0.032}, 0.02);
-  clay.rod({0, 0.010, -0.02}, {0, 0, -0.37}, 0.044, 0.029, 0.03);
-  clay.ball({-0.022, -0.036, -0.13}, {0.034, 0.042, 0.10}, 0.012)
-      .ball({0.026, -0.032, -0.12}, {0.032, 0.038, 0.095}, 0.012);
-  clay.ball({0.018, 0.02, -0.15}, {0.025, 0.026, 0.13}, 0.02)
-      .rod({0, -0.024, -0.22}, {0, -0.036, -0.38}, 0.022, 0.014, 0.03);
-  clay.ball({0, -0.004, -0.385}, {0.034, 0.038, 0.036}, 0.02)
-      .balls({0.031, -0.002, -0.385}, {0.012, 0.014, 0.015}, 0.012);
+  clay.rod({0, 0, 0}, {0, -0.002, -0.39}, 0.051, 0.034).ball({0, 0.030, 0.0}, {0.028, 0.026, 0.036}, 0.03);
+  clay.ball({-0.018, -0.026, -0.14}, {0.036, 0.042, 0.11}, 0.03)
+      .ball({0.020, -0.024, -0.13}, {0.034, 0.040, 0.105}, 0.03);
+  clay.rod({0, -0.02, -0.22}, {0, -0.022, -0.39}, 0.024, 0.020, 0.04);
+  clay.balls({0.026, -0.002, -0.388}, {0.012, 0.014, 0.015}, 0.02);
   return ofSkin(clay, 0.018);
 }
 
 Parts foot() {
   Clay clay;
-  clay.ball({0, -0.004, 0}, {0.034, 0.038, 0.036}).ball({0, -0.035, -0.044}, {0.032, 0.036, 0.036}, 0.03);
+  clay.ball({0, -0.004, 0}, {0.034, 0.037, 0.036}).ball({0, -0.030, -0.044}, {0.032, 0.036, 0.036}, 0.04);
   clay.rod({0, 0.0, -0.022}, {0, 0.115, -0.056}, 0.034, 0.024, 0.03)
       .ball({0.002, 0.12, -0.059}, {0.045, 0.045, 0.021}, 0.03);
   clay.rod({-0.026, 0.145, -0.064}, {-0.026, 0.185, -0.066}, 0.015, 0.013, 0.012);

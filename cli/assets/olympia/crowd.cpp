@@ -2,7 +2,8 @@
 #include "cli/assets/olympia/person.h"
 #include "cli/assets/olympia/stadium_shape.h"
 
-// They sit in loose rows on the slope, in clusters, and look at what goes on near the start.
+// They sit in loose rows on the slope, in clusters, and look at what goes on near the start, where they are
+// most. A few stand, most of them on the crest, in groups.
 
 namespace stadion::assets {
 namespace {
@@ -38,9 +39,11 @@ Parts crowd(double side, double low, double high) {
   for (const Point& seat : seats(side)) {
     const Point p = seat + Point{dice.between(-0.3, 0.3), dice.between(-0.3, 0.3), 0};
     const double cluster = roughNoise(0.11 * p + Point{31, 0, 0}, 2);
-    const double full = p.y < -11 ? 0.2 : mix(0.40, 0.18, smoothstep(10, 90, p.y));
-    const bool there = dice.even() < full * smoothstep(0.42, 0.64, cluster) + 0.015;
-    const Person person = somebody(dice, dice.even() < (outside(p) > 24 ? 0.8 : 0.12));
+    const double near = smoothstep(60, 5, p.y), up = outside(p);
+    const double full = p.y < -11 ? 0.26 : mix(0.18, 0.36, near) * smoothstep(kCrest + 2, kCrest - 6, up);
+    const bool there =
+        dice.even() < full * smoothstep(mix(0.42, 0.26, near), mix(0.64, 0.56, near), cluster) + 0.012;
+    const Person person = somebody(dice, dice.even() < (up > 22 && cluster > 0.5 ? 0.4 : 0.05));
     if (!there || taken(p) || p.y < low || p.y >= high) continue;
     const Point to{0, mix(22, std::max(p.y, -10.0), 0.45), 0};
     const double yaw = det::atan2(-(to.x - p.x), to.y - p.y) + 0.25 * (person.turn - 0.5);

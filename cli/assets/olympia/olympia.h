@@ -25,8 +25,10 @@ Parts javelinRack();
 /// A whitewashed board of 3.2 m on two posts, as decrees were painted on; its face looks along -Y.
 Parts whiteboard();
 
-/// The track with its sills, the water channel and its basins.
+/// The track with the marks on it, its sills, the water channel and its basins.
 Parts track();
+/// Sills and kerbs of the channel in plain form, for collisions.
+Parts stonework();
 /// The flat ground at z = 0 under track and embankments, for collisions: two triangles.
 Parts groundPlane();
 /// The grass embankments around the track.

@@ -106,32 +106,41 @@ Performance discusThrow() {
   };
 }
 
-// Eight metres of run-up with the javelin at the ear; in the last strides the arm goes back and the body
-// turns, the left foot is planted, and the arm comes over.
+// A run-up of four metres with the javelin at the ear, beside the visitor, who would not see a longer one; in
+// the last strides the arm goes back and the body turns, the left foot is planted, and the arm comes over.
 Performance javelinThrow() {
-  const Track way{{{0, {0, -8.0, 0.915}},    {0.45, {0, -8.0, 0.90}},  {0.85, {0, -7.62, 0.88}},
-                   {1.0, {0, -7.25, 0.91}},  {1.12, {0, -6.88, 0.87}}, {1.25, {0, -6.42, 0.91}},
-                   {1.38, {0, -5.92, 0.87}}, {1.51, {0, -5.40, 0.91}}, {1.63, {0, -4.90, 0.87}},
-                   {1.75, {0, -4.36, 0.91}}, {1.87, {0, -3.82, 0.87}}, {1.99, {0, -3.26, 0.91}},
-                   {2.11, {0, -2.72, 0.87}}, {2.22, {0, -2.24, 0.90}}, {2.33, {0, -1.78, 0.86}},
-                   {2.55, {0, -1.05, 0.83}}, {2.72, {0, -0.58, 0.84}}, {2.9, {0, -0.20, 0.90}},
-                   {3.15, {0, 0.12, 0.86}},  {3.6, {0, 0.33, 0.89}},   {4.4, {0, 0.38, 0.915}}}};
+  const Track way{{{0, {0, -3.75, 0.915}},
+                   {0.5, {0, -3.80, 0.905}},
+                   {1.0, {0, -3.83, 0.90}},
+                   {1.3, {0, -3.76, 0.89}},
+                   {1.5, {0, -3.62, 0.89}},
+                   {1.62, {0, -3.48, 0.88}},
+                   {1.75, {0, -3.28, 0.91}},
+                   {1.87, {0, -3.06, 0.88}},
+                   {1.99, {0, -2.79, 0.91}},
+                   {2.11, {0, -2.45, 0.87}},
+                   {2.22, {0, -2.11, 0.90}},
+                   {2.33, {0, -1.72, 0.86}},
+                   {2.55, {0, -1.05, 0.83}},
+                   {2.72, {0, -0.58, 0.84}},
+                   {2.9, {0, -0.20, 0.90}},
+                   {3.15, {0, 0.12, 0.86}},
+                   {3.6, {0, 0.33, 0.89}},
+                   {4.4, {0, 0.38, 0.915}}}};
   std::vector<Step> right, left;
-  left.push_back({0.5, 0.78, {-0.08, -7.62, 0}, 0, 0.14});
-  right.push_back(footfall(way, 1, 0.72, 1.12)), left.push_back(footfall(way, -1, 0.95, 1.38));
-  right.push_back(footfall(way, 1, 1.21, 1.63)), left.push_back(footfall(way, -1, 1.47, 1.87));
-  right.push_back(footfall(way, 1, 1.72, 2.11)), left.push_back(footfall(way, -1, 1.96, 2.33));
+  left.push_back({1.32, 1.60, {-0.08, -3.30, 0}, 0, 0.12});
+  right.push_back(footfall(way, 1, 1.62, 2.07)), left.push_back(footfall(way, -1, 1.92, 2.33));
   right.push_back({2.20, 2.48, {0.05, -0.98, 0}, -45, 0.16});  // crosses over
   left.push_back({2.42, 2.68, {-0.12, -0.10, 0}, 0, 0.10});    // is planted
   right.push_back({2.84, 3.14, {0.12, 0.40, 0}, 5, 0.16}),
       left.push_back({3.3, 3.62, {-0.12, 0.36, 0}, 8, 0.07});
   const auto swing = [](double side, double first) {  // the free arm of a runner
-    std::vector<Track::Key> keys{{0, side > 0 ? kRestRight : kRestLeft}, {0.5, {side * 0.27, 0.10, -0.10}}};
-    for (int i = 0; i < 6; ++i)
+    std::vector<Track::Key> keys{{0, side > 0 ? kRestRight : kRestLeft}, {1.2, {side * 0.27, 0.10, -0.10}}};
+    for (int i = 0; i < 3; ++i)
       keys.push_back({first + 0.25 * i, {side * 0.24, i % 2 == 0 ? 0.30 : -0.10, i % 2 == 0 ? 0.10 : -0.08}});
     return keys;
   };
-  std::vector<Track::Key> leftWrist = swing(-1, 0.87);
+  std::vector<Track::Key> leftWrist = swing(-1, 1.62);
   for (const Track::Key& key : {Track::Key{2.45, {-0.16, 0.50, 0.36}},
                                 {2.6, {-0.22, 0.48, 0.36}},
                                 {2.76, {-0.42, 0.24, 0.20}},
@@ -140,8 +149,8 @@ Performance javelinThrow() {
                                 {3.7, {-0.32, 0.02, -0.12}},
                                 {4.4, kRestLeft}})
     leftWrist.push_back(key);
-  std::vector<Track::Key> twist{{0, {0, 2, 0}}, {0.5, {0, 4, 0}}};
-  for (int i = 0; i < 5; ++i) twist.push_back({0.87 + 0.25 * i, {i % 2 == 0 ? -10.0 : 6.0, 5, 0}});
+  std::vector<Track::Key> twist{{0, {0, 2, 0}}, {0.9, {0, -3, 0}}, {1.3, {0, 4, 0}}};
+  for (int i = 0; i < 3; ++i) twist.push_back({1.62 + 0.25 * i, {i % 2 == 0 ? -10.0 : 6.0, 5, 0}});
   for (const Track::Key& key : {Track::Key{2.45, {-46, -8, 0}},
                                 {2.62, {-46, -12, 0}},
                                 {2.78, {-18, -10, -4}},
@@ -155,7 +164,8 @@ Performance javelinThrow() {
       .release = 2.9,
       .pelvis = way,
       .pelvisTurn = {{{0, {0, 0, 0}},
-                      {0.6, {0, 8, 0}},
+                      {0.9, {0, -2, 0}},
+                      {1.5, {0, 8, 0}},
                       {1.9, {0, 7, 0}},
                       {2.2, {-16, -2, 0}},
                       {2.5, {-40, -7, 0}},
@@ -193,8 +203,8 @@ Performance javelinThrow() {
                       {4.4, kElbowRight}}},
       .leftElbow = {{{0, kElbowLeft}, {2.45, {-0.8, -0.2, -0.6}}, {4.4, kElbowLeft}}},
       .rightTwist = {{{0, {-60, 0, 0}}, {2.9, {-60, 0, 0}}, {3.6, {0, 0, 0}}}},
-      .rightFoot = {{0.11, -8.03, 0}, -10, right},
-      .leftFoot = {{-0.11, -7.97, 0}, 6, left},
+      .rightFoot = {{0.11, -3.86, 0}, -10, right},
+      .leftFoot = {{-0.11, -3.66, 0}, 6, left},
       .aim =
           {{{0, {4, 0, 0}}, {1.9, {4, 0, 0}}, {2.45, {22, -4, 0}}, {2.66, {30, -3, 0}}, {2.9, {34, 0, 0}}}},
   };

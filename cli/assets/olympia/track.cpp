@@ -1,3 +1,4 @@
+#include "cli/assets/olympia/earth.h"
 #include "cli/assets/olympia/olympia.h"
 #include "cli/assets/olympia/stadium_shape.h"
 
@@ -8,13 +9,9 @@ constexpr double kSillHalf = 14.3, kSillDepth = 0.48, kSillTop = 0.025;  // [m]
 constexpr int kPlaces = 20;                                              // of runners on a sill
 constexpr double kBasinEvery = 24;                                       // [m]
 
-Rgb earthColour(const Vertex& v) {
-  const double large = roughNoise(0.12 * v.p, 3), small = roughNoise(1.1 * v.p, 2);
-  const Rgb light{0.96, 0.84, 0.63}, dark{0.80, 0.65, 0.44};
-  const double trodden = smoothstep(15, 9, std::fabs(v.p.x));
-  return mix(0.93, 1.04, small) *
-         mix(dark, light, std::clamp(0.25 * trodden + smoothstep(0.3, 0.7, large), 0.0, 1.0));
-}
+/// Across the channel: two kerbs and what is hollowed out between them.
+const std::vector<Turning> kKerbs{{0.02, -0.05}, {0.02, 0.10}, {0.15, 0.10}, {0.17, 0.0},
+                                  {0.43, 0.0},   {0.45, 0.10}, {0.60, 0.10}, {0.60, -0.05}};
 
 /// A row of blocks with two grooves for the runners' toes and sockets for the posts between them.
 Part sill(double y) {
@@ -51,14 +48,7 @@ struct Channel {
 /// Blocks hollowed out, all around the track, and basins to drink from.
 Channel channel() {
   Channel made;
-  made.stone = ring({{0.02, -0.05},
-                     {0.02, 0.10},
-                     {0.15, 0.10},
-                     {0.17, 0.0},
-                     {0.43, 0.0},
-                     {0.45, 0.10},
-                     {0.60, 0.10},
-                     {0.60, -0.05}});
+  made.stone = ring(kKerbs);
   made.water = ring({{0.16, 0.055}, {0.44, 0.055}});
   for (double y = kTrackLow + 11; y < kTrackHigh - 5; y += kBasinEvery) {
     for (double side : {-1.0, 1.0}) {
@@ -86,16 +76,23 @@ Rgb stoneColour(Point p) {
 }
 
 Parts track() {
-  Part earth = grid({-kTrackSide - 0.02, kTrackLow - 0.02}, {kTrackSide + 0.02, kTrackHigh + 0.02}, 14, 108);
-  earth.finish = {"earth", "earth.png", 1, 0};
-  paint(earth, earthColour);
-  for (Vertex& v : earth.vertices) v.uv = {v.p.x / 3, v.p.y / 3};
+  Parts parts = trackEarth();
   auto [stone, water] = channel();
   add(stone, sill(0)), add(stone, sill(kTrackLength));
   stone.finish = {"limestone", "stone.png", 0.9, 0};
   layPicture(stone, 2);
   water.finish = {"water", "", 0.12, 0};
-  return {earth, stone, water};
+  parts.push_back(stone), parts.push_back(water);
+  return parts;
+}
+
+Parts stonework() {
+  Part stone = ring(kKerbs);
+  for (const double y : {0.0, kTrackLength})
+    add(stone, box({-kSillHalf, y - kSillDepth / 2, -0.2}, {kSillHalf, y + kSillDepth / 2, kSillTop}));
+  stone.finish = {"limestone", "", 0.9, 0};
+  paint(stone, [](const Vertex& v) { return stoneColour(v.p); });
+  return {stone};
 }
 
 }  // namespace stadion::assets

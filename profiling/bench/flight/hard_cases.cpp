@@ -2,7 +2,7 @@
 
 #include "dynamics/flight/bias.h"
 #include "engine/maths/functions.h"
-#include "profiling/bench/flight/ladder.h"
+#include "profiling/bench/flight/exact_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ std::vector<std::pair<const ThingFacts*, FlightModel>> allModels() {
   for (const Thing thing : {Thing::Javelin, Thing::Discus, Thing::Ball}) {
     const ThingFacts& f = factsOf(thing);
     all.emplace_back(&f, f.shipped);
-    if (thing != Thing::Ball) all.emplace_back(&f, exactTable(thing));
+    if (thing != Thing::Ball) all.emplace_back(&f, tableOf(exactTable(thing)));
   }
   return all;
 }

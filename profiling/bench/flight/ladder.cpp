@@ -1,7 +1,7 @@
 #include "profiling/bench/flight/ladder.h"
 
 #include "dynamics/flight/bias.h"
-#include "dynamics/flight/flight_table.h"
+#include "profiling/bench/flight/exact_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,13 +82,20 @@ SetErrors errorsOn(const std::vector<Pair>& flights, const Rung& rung) {
   return summaryOf(all);
 }
 
-/// Turning across the axis costs this per area and length squared at one angle: the mean of both planes.
-double dampingAt(const AnyModel& model, const Vec3& u, const Vec3& k, const Vec3& side, double unit) {
-  constexpr double kTurn = 0.3;
-  double sum = 0;
-  for (const Vec3& n : {side, Vec3(k.cross(side))})
-    sum -= (model(u, kTurn * n).torque - model(u, -kTurn * n).torque).dot(n) / (2 * kTurn);
-  return 0.5 * sum / (0.5 * kDensity * unit * u.norm());
+/// The same of a script's; not a number if it cannot be played.
+SetErrors errorsOn(const std::vector<Pair>& flights, const ShowRung& rung, const ShowFlights& show,
+                   Checks& checks) {
+  std::vector<Throw> throws;
+  for (const Pair& p : flights) throws.push_back(p.release);
+  const auto flown = show.fly(rung, throws);
+  if (!flown) {
+    checks.push_back({rung.name + ": " + flown.error().message, NAN, 0, 0, ""});
+    return {NAN, NAN, NAN, NAN};
+  }
+  std::vector<FlightErrors> all;
+  for (std::size_t i = 0; i < flights.size(); ++i)
+    all.push_back(errorsOf(flown.value()[i], flights[i].exact, factsOf(rung.thing).axis));
+  return summaryOf(all);
 }
 
 /// The greatest difference of attitude between frame rates, on all samples of all flights [degrees].
@@ -116,35 +123,28 @@ void addChecks(Ladder& ladder) {
       if (attitude > 0) ladder.checks.push_back({what + "attitude", r.held.attitude, attitude, 0, "deg"});
     }
   };
-  limit(Thing::Javelin, "rod", 0.0045, 1.2);
-  limit(Thing::Discus, "plate", 0.0045, 1.2);
-  limit(Thing::Javelin, "rod from mesh", 0.05, 0);
-  limit(Thing::Discus, "plate from mesh", 0.05, 0);
-  limit(Thing::Javelin, "table", 0.0035, 0);
-  limit(Thing::Discus, "table", 0.001, 0);
+  for (const std::string where : {"", " in a show"}) {
+    limit(Thing::Javelin, "rod" + where, 0.0045, 1.2);
+    limit(Thing::Discus, "plate" + where, 0.0045, 1.2);
+    limit(Thing::Javelin, "rod from mesh" + where, 0.05, 0);
+    limit(Thing::Discus, "plate from mesh" + where, 0.05, 0);
+    limit(Thing::Javelin, "table" + where, 0.0035, 0);
+    limit(Thing::Discus, "table" + where, 0.001, 0);
+  }
+}
+
+/// How far the usual throw of a javelin goes by a script.
+void addJavelinThrows(const ShowFlights& show, Checks& checks) {
+  const Throw usual = thrown(Thing::Javelin, 30, 34, 0, 0, Vec3::Zero(), Vec3::Zero());
+  for (const ShowRung& rung : show.rungsOf(Thing::Javelin)) {
+    if (!rung.limited) continue;
+    const auto flown = show.fly(rung, {usual});
+    checks.push_back({"javelin at 30 m/s and 34 degrees, " + rung.name,
+                      flown ? flown.value().front().back().at.p.x() : NAN, 91, 85, "m"});
+  }
 }
 
 }  // namespace
-
-TableFlight exactTable(Thing thing) {
-  const ThingFacts& facts = factsOf(thing);
-  const bool rod = facts.axis == 0;
-  const double area = rod ? facts.shape.sideArea : facts.shape.topArea, length = rod ? 2.65 : 0.22;
-  std::vector<FlightTableRow> rows;
-  const Vec3 k = Vec3::Unit(facts.axis), side = Vec3::UnitY();
-  // Close rows where a javelin flies.
-  for (double degrees = 0; degrees <= (rod ? 180 : 90); degrees += rod ? (degrees < 20 ? 1 : 5) : 2.5) {
-    const double a = degrees * kDegree, speed = 30;
-    // The nose is above the velocity: air from below.
-    const Vec3 u(speed * std::cos(a), 0, -speed * std::sin(a));
-    const Wrench f = facts.exact(u, Vec3::Zero());
-    const Vec3 h = u / speed, up(std::sin(a), 0, std::cos(a));
-    const double q = 0.5 * kDensity * speed * speed * area;
-    rows.push_back({a, -f.force.dot(h) / q, f.force.dot(up) / q, -f.torque.y() / (q * length),
-                    dampingAt(facts.exact, u, k, side, area * length * length)});
-  }
-  return tableFrom(rows, area, length, facts.axis);
-}
 
 std::vector<Rung> rungsOf(Thing thing) {
   const ThingFacts& facts = factsOf(thing);
@@ -159,11 +159,11 @@ std::vector<Rung> rungsOf(Thing thing) {
   add(name, facts.shipped);
   rungs.push_back({thing, name + ", 60 Hz",
                    [model = facts.shipped](const Throw& t) { return flyDefault(t, model, 60); }});
-  if (thing != Thing::Ball) add("table", exactTable(thing));
+  if (thing != Thing::Ball) add("table", tableOf(exactTable(thing)));
   return rungs;
 }
 
-Ladder measureLadder(const std::vector<ReferenceFlight>& references, int held) {
+Ladder measureLadder(const std::vector<ReferenceFlight>& references, int held, const ShowFlights* show) {
   Ladder ladder;
   for (const Thing thing : {Thing::Javelin, Thing::Discus, Thing::Ball}) {
     std::vector<Pair> reference, others;
@@ -172,6 +172,9 @@ Ladder measureLadder(const std::vector<ReferenceFlight>& references, int held) {
     for (const Throw& t : heldOut(thing, held)) others.push_back({t, flyExactly(t)});
     for (const Rung& rung : rungsOf(thing))
       ladder.rungs.push_back({thing, rung.name, errorsOn(reference, rung), errorsOn(others, rung)});
+    for (const ShowRung& rung : show ? show->rungsOf(thing) : std::vector<ShowRung>{})
+      ladder.rungs.push_back({thing, rung.name, errorsOn(reference, rung, *show, ladder.checks),
+                              errorsOn(others, rung, *show, ladder.checks)});
     if (thing == Thing::Javelin) {
       others.resize(std::min<std::size_t>(others.size(), 20));
       ladder.checks.push_back(
@@ -181,6 +184,7 @@ Ladder measureLadder(const std::vector<ReferenceFlight>& references, int held) {
   ladder.checks.push_back(
       {"bias of a ball: rate", biasFor(factsOf(Thing::Ball).shape, BiasForm::Flow, 1).rate, 0, 0, "1/s"});
   addChecks(ladder);
+  if (show) addJavelinThrows(*show, ladder.checks);
   return ladder;
 }
 

@@ -3,6 +3,7 @@
 
 #include "profiling/bench/flight/checks.h"
 #include "profiling/bench/flight/objects.h"
+#include "profiling/bench/flight/show_flights.h"
 
 namespace stadion::bench {
 
@@ -30,9 +31,8 @@ struct Ladder {
   std::vector<RungResult> rungs;
   Checks checks;
 };
-Ladder measureLadder(const std::vector<ReferenceFlight>& references, int held);
-
-/// The coefficients of a thing's exact model every few degrees, as a table.
-TableFlight exactTable(Thing thing);
+/// `show`: what is thrown by scripts as well; null: nothing.
+Ladder measureLadder(const std::vector<ReferenceFlight>& references, int held,
+                     const ShowFlights* show = nullptr);
 
 }  // namespace stadion::bench

@@ -102,18 +102,18 @@ TEST(FlightTable, WhatIsWrongIsSaidWithItsPlace) {
             std::string::npos)
       << reasonFor(kHead + "0,0,0,0,0\n45,1,x,0,0\n90,1,0,0,0\n");
   EXPECT_NE(reasonFor(kHead + "0,0,0,0,0\n45,1,nan,0,0\n90,1,0,0,0\n").find("air.csv:6"), std::string::npos);
-  EXPECT_NE(reasonFor(kHead + "0,0,0,0,0\n45,1,0,0\n").find("air.csv:6: error: 4 numbers where"),
+  EXPECT_NE(reasonFor(kHead + "0,0,0,0,0\n45,1,0,0\n").find("air.csv:6:8: error: 4 numbers where"),
             std::string::npos);
   EXPECT_NE(reasonFor(kHead + "0,0,0,0,0\n50,1,0,0,0\n40,1,0,0,0\n90,1,0,0,0\n")
-                .find("air.csv:7: error: alpha_deg must rise"),
+                .find("air.csv:7:1: error: alpha_deg must rise"),
             std::string::npos);
   EXPECT_NE(reasonFor(kHead + "0,0,0,0,0\n40,1,0,0,0\n80,1,0,0,0\n")
-                .find("air.csv:7: error: the last row must be at 90"),
+                .find("air.csv:7:1: error: the last row must be at 90"),
             std::string::npos);
   EXPECT_NE(reasonFor("# area = -2\nalpha_deg,CD,CL,CM\n0,0,0,0\n")
-                .find("air.csv:1: error: area must be a positive number"),
+                .find("air.csv:1:10: error: area must be a positive number"),
             std::string::npos);
-  EXPECT_NE(reasonFor("# axis = y\nalpha_deg,CD,CL,CM\n0,0,0,0\n").find("air.csv:1: error: axis is x"),
+  EXPECT_NE(reasonFor("# axis = y\nalpha_deg,CD,CL,CM\n0,0,0,0\n").find("air.csv:1:10: error: axis is x"),
             std::string::npos);
   EXPECT_NE(reasonFor("alpha,CD,CL,CM\n0,0,0,0\n").find("the columns must be alpha_deg"), std::string::npos);
   EXPECT_NE(reasonFor("alpha_deg,CD,CD,CM\n").find("a second column \"CD\""), std::string::npos);

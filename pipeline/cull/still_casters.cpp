@@ -1,0 +1,87 @@
+#include "pipeline/cull/still_casters.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+/// What is smaller than this part of a texel casts no shadow that could be seen.
+constexpr double kLeastCaster = 0.5;
+
+RingCasters castersOf(const RingPlace& place, const SlotView& state) {
+  auto items = std::make_shared<std::vector<DrawItem>>();
+  RingCasters found;
+  const auto consider = [&](const InstanceRecord& r) {
+    if (!casts(r) || (r.flags & kMoves) != 0) return;
+    const Vec3 p_L = place.axes * Vec3(r.centre[0], r.centre[1], r.centre[2]);
+    if (!place.isReachedBy(r, p_L - place.centre_L)) return;
+    items->push_back(place.itemOf(r));
+    found.key += keyOf(items->back());
+  };
+  for (const ChunkId id : state.chunks) {
+    const ChunkView chunk = state.chunk(id);
+    for (std::size_t i = 0; i < chunk.records.size(); ++i)
+      if (!((chunk.hidden[i / 64] >> (i % 64)) & 1)) consider(chunk.records[i]);
+  }
+  for (const InstanceRecord& r : state.instances) consider(r);
+  found.items = std::move(items);
+  return found;
+}
+
+}  // namespace
+
+std::uint64_t stirred(std::uint64_t x) {  // the finaliser of MurmurHash3
+  x = (x ^ (x >> 33)) * 0xff51afd7ed558ccd;
+  x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53;
+  return x ^ (x >> 33);
+}
+
+bool casts(const InstanceRecord& r) {
+  return r.radius >= 0 &&
+         (r.flags & (InstanceRecord::kShown | InstanceRecord::kTransparent)) == InstanceRecord::kShown;
+}
+
+std::uint64_t keyOf(const DrawItem& item) {
+  std::uint64_t key = item.mesh;
+  for (std::size_t k = 0; k < 12; k += 2)
+    key = stirred(key ^ (std::uint64_t{std::bit_cast<std::uint32_t>(item.model[k])} |
+                         std::uint64_t{std::bit_cast<std::uint32_t>(item.model[k + 1])} << 32));
+  return key;
+}
+
+bool RingPlace::isReachedBy(const InstanceRecord& r, const Vec3& p) const {
+  const double radius = double{r.radius}, reach = kShadowReach[ring];
+  // Not the other way round: what is not finite is left out.
+  return std::max(std::abs(p.x()), std::abs(p.y())) < reach + radius &&
+         std::abs(p.z()) < kShadowDepth + radius && !(radius < kLeastCaster * 2 * reach / kShadowTexels);
+}
+
+DrawItem RingPlace::itemOf(const InstanceRecord& r) const {
+  DrawItem item;
+  for (int k = 0; k < 12; ++k) {
+    const double shift = k % 4 == 3 ? centre_W[k / 4] : 0.0;
+    item.model[static_cast<std::size_t>(k)] = static_cast<float>(r.model[k] - shift);
+  }
+  item.mesh = r.mesh, item.owner = r.owner;
+  return item;
+}
+
+RingCasters StillCasters::at(const RingPlace& place, const SlotView& state) {
+  const std::lock_guard lock(mutex_);
+  auto& kept = known_[place.ring];
+  const auto known = std::ranges::find_if(kept, [&](const Known& k) {
+    return k.casters.items && k.version == state.stillVersion && k.place == place;
+  });
+  if (known != kept.end()) return known->casters;
+  const RingCasters casters = castersOf(place, state);
+  // Of a slot that has been taken away meanwhile nobody else must hear.
+  if (state.intact()) {
+    std::ranges::rotate(kept, kept.end() - 1);
+    kept.front() = {place, state.stillVersion, casters};
+  }
+  return casters;
+}
+
+}  // namespace stadion

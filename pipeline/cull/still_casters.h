@@ -1,0 +1,66 @@
+#pragma once
+/// What stands still and casts shadows into a ring of the shadow maps.
+///
+/// Which things these are follows from where the ring is and from what stands still, so it is found once for
+/// all walls, and again only when the ring has followed the head or when something has come, gone or begun to
+/// move. A hundred thousand things that stand still cost nothing in the other frames.
+///
+/// Threads  any, at once; who asks for what nobody has asked for yet finds it, the others wait. What is
+/// handed
+///          out never changes.
+
+#include "pipeline/draw/draw_list.h"
+#include "pipeline/state/scene_state.h"
+
+#include <memory>
+#include <mutex>
+
+namespace stadion {
+
+/// A ring across the light.
+struct RingPlace {
+  std::size_t ring = 0;
+  Mat3 axes = Mat3::Identity();  ///< rows: right, up, towards the light, in World
+  Vec3 centre_L = Vec3::Zero();  ///< along the axes [m]
+  Vec3 centre_W = Vec3::Zero();  ///< the same in World [m]
+
+  bool operator==(const RingPlace& o) const {
+    return ring == o.ring && axes == o.axes && centre_L == o.centre_L;
+  }
+  /// Whether the thing casts a shadow into the ring that can be seen. `p`: its middle from the ring's, along
+  /// the axes.
+  bool isReachedBy(const InstanceRecord& r, const Vec3& p) const;
+  /// The thing as it is drawn into the ring.
+  DrawItem itemOf(const InstanceRecord& r) const;
+};
+
+/// Whether it casts shadows at all.
+bool casts(const InstanceRecord& r);
+/// A number far from those of others near by.
+std::uint64_t stirred(std::uint64_t x);
+/// A number that follows from what is drawn and where.
+std::uint64_t keyOf(const DrawItem& item);
+
+struct RingCasters {
+  std::shared_ptr<const std::vector<DrawItem>> items;
+  std::uint64_t key = 0;  ///< the sum of theirs
+};
+
+class StillCasters {
+public:
+  RingCasters at(const RingPlace& place, const SlotView& state);
+
+private:
+  struct Known {
+    RingPlace place;
+    std::uint64_t version = 0;
+    RingCasters casters;
+  };
+  /// Of each ring, the newest first: while walls are at different frames, two are asked for in turn.
+  static constexpr std::size_t kKept = 2;
+
+  std::mutex mutex_;
+  std::array<std::array<Known, kKept>, kShadowRings> known_;
+};
+
+}  // namespace stadion

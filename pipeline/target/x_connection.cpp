@@ -1,0 +1,59 @@
+#include "pipeline/target/x_connection.h"
+
+#include "pipeline/target/shared_library.h"
+
+#include <atomic>
+
+namespace stadion {
+namespace {
+
+// Xlib's own types, as its ABI has them: its headers need not be there.
+struct XDisplay;
+struct XErrorEvent {
+  int type;
+  XDisplay* display;
+  unsigned long resource, serial;
+  unsigned char error, request, minor;
+};
+using IoError = int (*)(XDisplay*);
+using IoErrorExit = void (*)(XDisplay*, void*);
+using Error = int (*)(XDisplay*, XErrorEvent*);
+
+constexpr unsigned char kBadWindow = 3, kBadDrawable = 9;
+
+std::atomic<const char*> lost = nullptr;
+
+void note(const char* why) {
+  const char* none = nullptr;
+  lost.compare_exchange_strong(none, why);
+}
+
+}  // namespace
+
+void watchXConnection(void* display) {
+  if (!display) return;
+  const auto xlib = SharedLibrary::open("libX11.so.6", "libx11-6");  // the one that GLFW has loaded
+  if (!xlib) return;
+  const auto onExit = xlib.value().find<void(XDisplay*, IoErrorExit, void*)>("XSetIOErrorExitHandler");
+  const auto onIoError = xlib.value().find<IoError(IoError)>("XSetIOErrorHandler");
+  const auto onError = xlib.value().find<Error(Error)>("XSetErrorHandler");
+  if (!onExit || !onIoError || !onError) return;
+  onIoError([](XDisplay*) { return 0; });  // instead of Xlib's own words: who asks why says them
+  onExit(
+      static_cast<XDisplay*>(display),
+      [](XDisplay*, void*) { note("the X server has ended, or somebody has killed a window of the show"); },
+      nullptr);
+  // Another program may destroy a window without ending the connection. What else is wrong does no harm.
+  onError([](XDisplay*, XErrorEvent* e) {
+    if (e->error == kBadWindow || e->error == kBadDrawable) note("a window of the show was destroyed");
+    return 0;
+  });
+}
+
+std::optional<std::string> xConnectionLost() {
+  const char* why = lost;
+  if (!why) return {};
+  return std::string("the connection to the display is lost: ") + why;
+}
+
+}  // namespace stadion

@@ -1,0 +1,164 @@
+#include "profiling/black_box.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+constexpr char kMagic[16] = "stadion frames1";
+constexpr std::size_t kMostOpen = 64;  ///< frames that nobody has shown yet; older ones never will be
+
+template <std::size_t N>
+void copyText(const std::string& from, char (&to)[N]) {
+  const std::size_t count = std::min(from.size(), N - 1);
+  std::memcpy(to, from.data(), count);
+  to[count] = 0;
+}
+
+Diagnostic problem(const std::string& file, const std::string& what) {
+  return {Severity::Error, {file, 0, 0}, what, {}};
+}
+
+}  // namespace
+
+/// What lies in the file.
+struct BlackBox::Ring {
+  char magic[16] = {};
+  std::uint32_t recordBytes = 0, capacity = 0, walls = 0, reserved = 0;
+  std::uint64_t written = 0;  ///< frames, ever
+  char names[FrameFacts::kMostWalls][32] = {};
+  FrameFacts frames[kFrames];
+};
+
+Result<std::unique_ptr<BlackBox>> BlackBox::create(BlackBoxOptions options, const NodeNames& names) {
+  const int file = ::open(options.file.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (file < 0)
+    return problem(options.file, std::string("the last frames cannot be kept: ") + std::strerror(errno));
+  // The space is taken now: a full disk must not kill the show later.
+  const int refused = posix_fallocate(file, 0, sizeof(Ring));
+  void* at =
+      refused == 0 ? mmap(nullptr, sizeof(Ring), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0) : MAP_FAILED;
+  ::close(file);
+  if (at == MAP_FAILED) {
+    ::unlink(options.file.c_str());
+    return problem(options.file, std::string("the last frames cannot be kept: ") +
+                                     std::strerror(refused != 0 ? refused : errno));
+  }
+  Ring* ring = new (at) Ring();
+  std::memcpy(ring->magic, kMagic, sizeof kMagic);
+  ring->recordBytes = sizeof(FrameFacts), ring->capacity = kFrames;
+  ring->walls = static_cast<std::uint32_t>(std::min(options.walls.size(), FrameFacts::kMostWalls));
+  for (std::size_t i = 0; i < ring->walls; ++i) copyText(options.walls[i], ring->names[i]);
+  return std::unique_ptr<BlackBox>(new BlackBox(std::move(options), names, ring));
+}
+
+BlackBox::~BlackBox() {
+  munmap(ring_, sizeof(Ring));
+  if (late() == 0) ::unlink(options_.file.c_str());
+}
+
+FrameFacts& BlackBox::frame(std::uint64_t number) {
+  const auto [at, isNew] = open_.try_emplace(number);
+  if (isNew) {
+    at->second.frame = number;
+    at->second.walls = ring_->walls;
+    at->second.budget = options_.rate > 0 ? static_cast<float>(1e3 / options_.rate) : 0;
+    if (open_.size() > kMostOpen) open_.erase(open_.begin());
+  }
+  return open_[number];
+}
+
+void BlackBox::take(std::size_t track, const SpanRecord& r) {
+  if (r.frame == kNoFrame) return;
+  StageFacts& under = pending_[track];
+  switch (r.what) {
+  case Span::ForTurn: under.turn += static_cast<float>(r.took); return;
+  case Span::Loading:
+  case Span::Upload: under.loading += static_cast<float>(r.took); return;
+  case Span::Swap: return shown(r);
+  case Span::App:
+  case Span::Cull:
+  case Span::Draw: break;
+  default:
+    if (isOfNode(r.what)) takeNode(frame(r.frame), r);
+    return;
+  }
+  StageFacts stage = std::exchange(under, {});
+  stage.ms = static_cast<float>(r.took) - stage.turn;
+  stage.processor = static_cast<float>(r.use.processor);
+  stage.switches = static_cast<std::uint32_t>(r.use.switches);
+  stage.faults = static_cast<std::uint32_t>(r.use.faults);
+  FrameFacts& facts = frame(r.frame);
+  if (r.what == Span::App)
+    facts.app = stage;
+  else if (r.wall < facts.walls)
+    (r.what == Span::Cull ? facts.cull : facts.draw)[r.wall] = stage;
+}
+
+void BlackBox::takeNode(FrameFacts& facts, const SpanRecord& r) {
+  if (r.took <= static_cast<double>(facts.nodeMs)) return;
+  facts.nodeMs = static_cast<float>(r.took);
+  facts.node[0] = r.node.load, facts.node[1] = r.node.position;
+}
+
+void BlackBox::shown(const SpanRecord& swap) {
+  FrameFacts facts = frame(swap.frame);
+  open_.erase(open_.begin(), open_.upper_bound(swap.frame));
+  if (lastShown_ != ProfileClock::time_point{})
+    facts.period = std::chrono::duration<float, std::milli>(swap.ended - lastShown_).count();
+  lastShown_ = swap.ended;
+  judge(facts);
+  if (const auto name = names_.find(facts.dearest()))
+    copyText(name->path + " " + name->file + ":" + std::to_string(name->line), facts.name);
+  ring_->frames[ring_->written % kFrames] = facts;
+  ++ring_->written;
+  if (facts.cause == Cause::None) return;
+  {
+    const std::lock_guard lock(mutex_);
+    ++verdicts_[facts.cause];
+  }
+  if (options_.tell) options_.tell(toText(facts, options_.walls));
+}
+
+std::map<Cause, std::uint64_t> BlackBox::verdicts() const {
+  const std::lock_guard lock(mutex_);
+  return verdicts_;
+}
+
+std::uint64_t BlackBox::late() const {
+  std::uint64_t late = 0;
+  for (const auto& [cause, count] : verdicts()) late += count;
+  return late;
+}
+
+Result<BlackBox::Content> BlackBox::read(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return problem(file, "cannot be read");
+  const auto ring = std::make_unique<Ring>();
+  in.read(reinterpret_cast<char*>(ring.get()), sizeof(Ring));
+  if (static_cast<std::size_t>(in.gcount()) != sizeof(Ring) ||
+      std::memcmp(ring->magic, kMagic, sizeof kMagic) != 0 || ring->recordBytes != sizeof(FrameFacts) ||
+      ring->capacity != kFrames || ring->walls > FrameFacts::kMostWalls)
+    return problem(file, "holds no frames that this version of stadion kept");
+  Content content;
+  for (std::size_t i = 0; i < ring->walls; ++i) {
+    ring->names[i][sizeof ring->names[i] - 1] = 0;
+    content.walls.push_back(ring->names[i]);
+  }
+  const std::uint64_t first = ring->written > kFrames ? ring->written - kFrames : 0;
+  for (std::uint64_t i = first; i < ring->written; ++i) {
+    FrameFacts facts = ring->frames[i % kFrames];
+    facts.name[sizeof facts.name - 1] = 0;
+    facts.walls = std::min(facts.walls, ring->walls);
+    facts.wall = std::min(facts.wall, std::max(1U, facts.walls) - 1);
+    content.frames.push_back(facts);
+  }
+  return content;
+}
+
+}  // namespace stadion

@@ -1,0 +1,67 @@
+#pragma once
+/// The last 600 frames of a run, kept in a file while it plays: whatever becomes of the program, they are
+/// there afterwards. Each late frame gets its cause.
+///
+/// Threads    SpanReader's; counts and latest() from any.
+/// Ownership  the file stays if a frame was late or the program died; else it is removed.
+
+#include "profiling/frame_facts.h"
+#include "profiling/frame_log.h"
+#include "profiling/node_names.h"
+
+#include "engine/diagnostic.h"
+
+#include <functional>
+#include <map>
+
+namespace stadion {
+
+struct BlackBoxOptions {
+  std::string file;
+  double rate = 60;                              ///< [1/s]; 0 = nobody waits for frames: none is late
+  std::vector<std::string> walls;                ///< names
+  std::function<void(const std::string&)> tell;  ///< a late frame, in words; on the log's thread
+};
+
+class BlackBox final : public SpanReader {
+public:
+  static constexpr std::size_t kFrames = 600;
+
+  /// Fails if the file cannot be made.
+  static Result<std::unique_ptr<BlackBox>> create(BlackBoxOptions options, const NodeNames& names);
+  ~BlackBox() override;
+
+  using SpanReader::take;
+  void take(std::size_t track, const SpanRecord& record) override;
+
+  /// Late frames by cause.
+  std::map<Cause, std::uint64_t> verdicts() const;
+  std::uint64_t late() const;
+  const std::string& file() const { return options_.file; }
+
+  /// What such a file holds, the oldest frame first; fails with what is wrong with it.
+  struct Content {
+    std::vector<std::string> walls;
+    std::vector<FrameFacts> frames;
+  };
+  static Result<Content> read(const std::string& file);
+
+private:
+  struct Ring;
+  BlackBox(BlackBoxOptions options, const NodeNames& names, Ring* ring)
+      : options_(std::move(options)), names_(names), ring_(ring) {}
+  FrameFacts& frame(std::uint64_t number);
+  void takeNode(FrameFacts& facts, const SpanRecord& record);
+  void shown(const SpanRecord& swap);
+
+  BlackBoxOptions options_;
+  const NodeNames& names_;
+  Ring* ring_;                                 ///< in the file
+  std::map<std::uint64_t, FrameFacts> open_;   ///< not shown yet
+  std::map<std::size_t, StageFacts> pending_;  ///< by track: of the stage that is under way
+  ProfileClock::time_point lastShown_{};
+  mutable std::mutex mutex_;
+  std::map<Cause, std::uint64_t> verdicts_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,67 @@
+#pragma once
+/// What is known of one frame when it has been shown, and whose fault it is if it came late.
+///
+/// Plain fixed-width records, so that they can lie in a file that outlives the program.
+///
+/// Units    milliseconds. Threads  plain values.
+
+#include "engine/frame_probe.h"
+
+#include <array>
+#include <string>
+#include <type_traits>
+
+namespace stadion {
+
+/// How one stage fared.
+struct StageFacts {
+  float ms = 0;                ///< as it was, without waiting for its turn
+  float processor = 0;         ///< of its own thread
+  float turn = 0;              ///< Draw: waited for other walls that use the rasteriser
+  float loading = 0;           ///< App: files; Draw: models and pictures on their way to the graphics
+  std::uint32_t switches = 0;  ///< how often the system gave its processor to others
+  std::uint32_t faults = 0;    ///< pages that had to be fetched
+};
+
+enum class Cause : std::uint32_t {
+  None,  ///< it was not late
+  App,
+  Cull,
+  Draw,
+  Turn,       ///< a wall's Draw had to wait for another's
+  Preempted,  ///< the system gave the stage's processor to others
+  PageFaults,
+  Loading,
+  Unknown,  ///< no stage took long
+};
+
+struct FrameFacts {
+  static constexpr std::size_t kMostWalls = 8;
+
+  std::uint64_t frame = kNoFrame;
+  float period = 0;  ///< since the frame before was shown
+  float budget = 0;  ///< what it may be
+  std::uint32_t walls = 0;
+  StageFacts app;
+  std::array<StageFacts, kMostWalls> cull{}, draw{};
+  std::uint32_t node[2] = {0, 0};  ///< the dearest in App: load, position
+  float nodeMs = 0;
+  Cause cause = Cause::None;
+  Span stage = Span::App;    ///< that of the cause
+  std::uint32_t wall = 0;    ///< likewise
+  std::uint32_t holder = 0;  ///< Cause::Turn: the wall that had the rasteriser
+  char name[112] = {};       ///< of the dearest node, with its file and line
+
+  NodeRef dearest() const { return {node[0], node[1]}; }
+};
+static_assert(std::is_trivially_copyable_v<FrameFacts>);
+
+/// Fills in the cause, from the other facts. A frame is late if its period is half as long again as it may
+/// be.
+void judge(FrameFacts& facts);
+
+/// "frame 812 came after 66.8 ms (16.7): Draw of wall floor took 41.2 ms". The names are the walls'.
+std::string toText(const FrameFacts& facts, std::span<const std::string> walls);
+std::string_view nameOf(Cause cause);
+
+}  // namespace stadion
