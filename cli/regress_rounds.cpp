@@ -148,7 +148,7 @@ CountedInstructions countInstructions(const SuiteCase& c, const MeasuredProgram&
   std::vector<std::string> words = measuredWords(shorter, "sequential", program, folder.path("spans"), false);
   const auto at = std::ranges::find(words, program.path);
   words.insert(at, {"valgrind", "--tool=callgrind", "--trace-children=yes",
-                    "--trace-children-skip=*stadion-import", "--instr-atstart=no", "--combine-dumps=yes",
+                    "--trace-children-skip=*/stadion-import", "--instr-atstart=no", "--combine-dumps=yes",
                     "--callgrind-out-file=" + folder.path("callgrind")});
   words.emplace_back("--count-instructions");
   if (!drawn) words.insert(words.end(), {"--gl", "none"});
