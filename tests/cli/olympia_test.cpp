@@ -15,7 +15,7 @@ std::string olympia() {
   return std::filesystem::path(assetFolder()).parent_path() / "scripts/olympia.evs";
 }
 
-TEST(Olympia, TheRecordedVisitEndsTheSameInBothModesAndReportsAllThrows) {
+TEST(ProgramOlympia, TheRecordedVisitEndsTheSameInBothModesAndReportsAllThrows) {
   const TemporaryFolder folder;
   const ProgramResult played =
       stadionProgram({"run", olympia(), "--walls", "cave4", "--size", "64x48", "--out", folder.path()});
@@ -72,7 +72,7 @@ key wand 30.3 0.52 0.44  1.68  turn 33 0 0  buttons 4
 key wand 36   0.52 0.44  1.68  turn 33 0 0
 )";
 
-TEST(Olympia, WhoDropsTheDiscusOnItsStandLosesTheTurnAndCanTakeItAgain) {
+TEST(ProgramOlympia, WhoDropsTheDiscusOnItsStandLosesTheTurnAndCanTakeItAgain) {
   const TemporaryFolder folder;
   const std::string log = folder.path() / "drop.input";
   std::ofstream(log) << kDrop;
@@ -88,13 +88,13 @@ TEST(Olympia, WhoDropsTheDiscusOnItsStandLosesTheTurnAndCanTakeItAgain) {
   EXPECT_GT(throws[1].at("metres"), 10);
 }
 
-TEST(Olympia, IsFoundRightByCheck) {
+TEST(ProgramOlympia, IsFoundRightByCheck) {
   const ProgramResult checked = stadionProgram({"check", olympia()});
   EXPECT_EQ(checked.status, 0) << checked.err;
   EXPECT_EQ(checked.err.find("warning"), checked.err.npos) << checked.err;
 }
 
-TEST(Olympia, APartOfTheShowIsCheckedInIt) {
+TEST(ProgramOlympia, APartOfTheShowIsCheckedInIt) {
   const auto part = [](const char* name) {
     return (std::filesystem::path(olympia()).parent_path() / "olympia" / name).string();
   };

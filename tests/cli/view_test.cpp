@@ -204,7 +204,7 @@ TEST_P(ProgramViewThrow, FliesWithTheHandsSpeedAndTheRecordRepeatsIt) {
   EXPECT_GT(fastest, 0.5) << "upwards [m/s]";
 }
 
-INSTANTIATE_TEST_SUITE_P(Shows, ProgramViewThrow,
+INSTANTIATE_TEST_SUITE_P(Program, ProgramViewThrow,
                          testing::Values(Throw{"desk", testShow("desk.evs"), 0, 0, 0, 0, "3", "ball"},
                                          Throw{"hold", testShow("hold.evs"), 0, 0, 0, 0, "", "ball"},
                                          Throw{"olympia", assetFolder() + "/../scripts/olympia.evs", 180, 80,
