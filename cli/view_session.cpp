@@ -1,9 +1,7 @@
 #include "cli/view_session.h"
 
 #include "cli/exit_code.h"
-#include "cli/show_check.h"
 #include "cli/stop_signal.h"
-#include "engine/run_stopped.h"
 #include "pipeline/output/run_summary.h"
 
 #include <cinttypes>
@@ -52,12 +50,6 @@ std::unique_ptr<ViewSession> ViewSession::open(ViewOptions options, Diagnostics&
   s.show_ = PlayingShow::open(s.surroundings(std::make_shared<KeptParts>()), findings);
   if (!s.show_ || !s.desk_->begin(s.show_->player(), findings)) return nullptr;
   return session;
-}
-
-ViewSession::~ViewSession() {
-  if (!reload_) return;
-  *reload_->giveUp = true;
-  if (reload_->thread.joinable()) reload_->thread.join();
 }
 
 // A display that the graphics card drives is a sign that the card can draw the walls too.
@@ -268,7 +260,7 @@ void ViewSession::nextGroup() {
 }
 
 void ViewSession::watchFiles() {
-  if (reload_ && reload_->done) finishReload();
+  if (reload_ && reload_->done()) finishReload();
   const auto now = Clock::now();
   if (reload_ || now - filesLookedAt_ < kFilesEvery) return;
   filesLookedAt_ = now;
@@ -281,40 +273,20 @@ void ViewSession::beginReload(const char* why) {
   files_.settle();
   if (const auto wrong = show_->watch().finish()) say(format(*wrong));
   options_.run.recordInput.clear();  // another script, another log
-  reload_ = std::make_unique<Reload>();
-  const ShowSurroundings around = surroundings(std::make_shared<KeptParts>());
-  reload_->giveUp = around.stopping;
-  reload_->thread = std::thread([&r = *reload_, around] {
-    try {
-      readAgain(r, around);
-    } catch (const RunStopped&) {
-      // given up
-    }
-    r.done = true;
-  });
-}
-
-// A slip of the keyboard is told at once, not when every asset has been read.
-void ViewSession::readAgain(Reload& reload, const ShowSurroundings& around) {
-  const ShowOptions& show = around.options.show;
-  Diagnostics found = checkScripts(show.script, show.assetRoots);
-  if (!found.hasErrors()) found = checkShow(show.script, show.assetRoots, reload.giveUp.get());
-  for (const Diagnostic& d : found.all())
-    if (d.severity == Severity::Error) reload.findings.add(d);
-  if (!reload.findings.hasErrors()) reload.show = PlayingShow::open(around, reload.findings);
+  reload_ = std::make_unique<ShowReload>(surroundings(std::make_shared<KeptParts>()));
 }
 
 void ViewSession::finishReload() {
-  reload_->thread.join();
-  const std::unique_ptr<Reload> r = std::move(reload_);
-  tell(r->findings);
-  hud_.setTrouble(linesOf(r->findings));
-  if (!r->show) return say("the script has errors; the show goes on as it was");
+  Diagnostics findings;
+  std::unique_ptr<PlayingShow> show = std::exchange(reload_, nullptr)->take(findings);
+  tell(findings);
+  hud_.setTrouble(linesOf(findings));
+  if (!show) return say("the script has errors; the show goes on as it was");
   show_->stop();
   desk_->silence();
   std::optional<ShowPlace> place;
   if (!over_) place = show_->place();
-  putInPlace(std::move(r->show));
+  putInPlace(std::move(show));
   begin(place);
   say(fmt::format("reloaded {}; the rig stands at {}", options_.run.show.script,
                   pointText(place ? place->X_WR.p : Vec3(Vec3::Zero()))));

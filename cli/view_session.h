@@ -10,6 +10,7 @@
 
 #include "cli/playing_show.h"
 #include "cli/script_watch.h"
+#include "cli/show_reload.h"
 #include "cli/view_controls.h"
 #include "cli/view_hud.h"
 #include "cli/view_options.h"
@@ -20,7 +21,6 @@
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <thread>
 #include <vector>
 
 namespace stadion {
@@ -29,21 +29,12 @@ class ViewSession {
 public:
   /// Opens display, windows and show. Null, with the reason in the findings, if one of them cannot be.
   static std::unique_ptr<ViewSession> open(ViewOptions options, Diagnostics& findings);
-  ~ViewSession();
 
   /// Until somebody quits, the show ends, or `stop` is set. Returns the exit code.
   int run(const std::atomic<bool>& stop);
 
 private:
   using Clock = std::chrono::steady_clock;
-  /// A show that has been read again.
-  struct Reload {
-    std::thread thread;
-    std::atomic<bool> done = false;
-    std::shared_ptr<std::atomic<bool>> giveUp;  ///< somebody quits meanwhile
-    std::unique_ptr<PlayingShow> show;          ///< null if it has errors
-    Diagnostics findings;
-  };
 
   explicit ViewSession(ViewOptions options)
       : options_(std::move(options)), files_(options_.run.show.script, options_.run.show.assetRoots) {}
@@ -69,7 +60,6 @@ private:
   void putInPlace(std::unique_ptr<PlayingShow> show);
   void watchFiles();
   void beginReload(const char* why);
-  static void readAgain(Reload& reload, const ShowSurroundings& around);
   void finishReload();
   void endShow();
 
@@ -91,7 +81,7 @@ private:
   OverviewPlace overview_;
   ScriptWatch files_;
   std::unique_ptr<PlayingShow> show_;
-  std::unique_ptr<Reload> reload_;
+  std::unique_ptr<ShowReload> reload_;
   std::vector<EyePictures> pictures_;  ///< shown
   TimeSignature shown_;
   std::uint64_t unseen_ = 0;  ///< frames of this show that were played, but not shown

@@ -73,7 +73,7 @@ DynamicsNode::Velocity DynamicsNode::startOf(const DynObjectNode& node, const Sc
 }
 
 void DynamicsNode::removeCollidee(Part& part, Scene& scene) {
-  std::erase_if(grips_, [&](const Grip& g) { return g.body == part.id; });
+  grips_.forget(part.id);
   partOf_.erase(part.id);
   world_.removeBody(part.id);
   world_.removeShape(part.shape);
@@ -174,7 +174,7 @@ void DynamicsNode::obey(const Order& order, FrameContext& frame) {
   const Part* part = at->second;
   switch (order.what.kind) {
   case Kind::Reset: {
-    std::erase_if(grips_, [&](const Grip& g) { return g.body == part->id; });
+    grips_.forget(part->id);
     const Velocity start = startOf(*node, frame.scene);
     world_.placeBody(part->id, poseOf(frame.scene.placements().world(part->placement)), start.v, start.omega);
     node->hold(frame.scene, frame.scene.placements().world(part->placement));
@@ -190,14 +190,8 @@ void DynamicsNode::grab(const Part& part, const std::string& tracker, Nanosecond
   auto way = frame.scene.trackerCourse(tracker, frame);
   if (!way || when < way->front().time) return;  // nobody knows where the hand is
   letGo(part, when, frame.scene);
-  if (!world_.holdBody(part.id)) return;
-  const Pose X_WT = poseOn(*way, when, Limit::After);
-  Grip& grip = grips_.emplace_back();
-  grip.body = part.id, grip.node = part.ref, grip.tracker = tracker,
-  grip.X_TN = X_WT.inverse() * world_.pose(part.id);
-  grip.hand.put(when, X_WT);
-  grip.course = std::move(*way);
-  carryFields(grip, frame.scene);
+  if (const Grip* grip = grips_.grab(part.id, part.ref, tracker, std::move(*way), when))
+    carryFields(*grip, frame.scene);
 }
 
 /// The world is told which fields the hand carries: those below what follows the same tracker, or below the
@@ -221,8 +215,8 @@ void DynamicsNode::carryFields(const Grip& grip, const Scene& scene) {
 
 void DynamicsNode::letGo(const Part& part, Nanoseconds when, Scene& scene) {
   const BodyId body = part.id;
-  const auto grip = std::find_if(grips_.begin(), grips_.end(), [&](const Grip& g) { return g.body == body; });
-  if (grip == grips_.end()) return;
+  const std::optional<Grip> grip = grips_.open(body);
+  if (!grip) return;
   // A hand of which nothing has been heard lately is taken to stand still, as its body does.
   const bool silent = grip->hand.way().back().time < when;
   HandMotion::Velocity hand = silent ? HandMotion::Velocity{} : grip->hand.velocity();
@@ -240,18 +234,13 @@ void DynamicsNode::letGo(const Part& part, Nanoseconds when, Scene& scene) {
   if (node && node->body().spin != 0 && part.fit)
     thrown.omega += node->body().spin * (world_.pose(body).q * symmetryAxis(node->body().massOf(*part.fit)));
   world_.releaseBody(body, thrown.v, thrown.omega);
-  grips_.erase(grip);
 }
 
 bool DynamicsNode::prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
   const bool asked = takeOrders(frame, cuts);
   const bool fields = followFields(frame, cuts);
-  for (Grip& grip : grips_) {
-    auto way = frame.scene.trackerCourse(grip.tracker, frame);
-    grip.course = way ? std::move(*way) : Course{};
-    addCuts(grip.course, cuts);
-    carryFields(grip, frame.scene);
-  }
+  grips_.follow(frame, cuts);
+  for (const Grip& grip : grips_.all()) carryFields(grip, frame.scene);
   return asked || fields || !grips_.empty();
 }
 
@@ -268,13 +257,7 @@ bool DynamicsNode::looksAt(const Node& mover, const Scene& scene) const {
 }
 
 void DynamicsNode::act(Nanoseconds time, FrameContext* frame) {
-  for (Grip& grip : grips_) {
-    if (!jumpsAt(grip.course, time)) continue;
-    const Pose X_WT = poseOn(grip.course, time, Limit::After);
-    world_.moveHeld(grip.body, X_WT * grip.X_TN, true);
-    grip.hand.put(time, X_WT);
-    grip.jumped = time;
-  }
+  grips_.jump(time);
   if (!frame) return;
   std::erase_if(fields_, [&](const Field& f) {
     if (f.leaveAt > time) return false;
@@ -289,12 +272,7 @@ void DynamicsNode::act(Nanoseconds time, FrameContext* frame) {
 }
 
 void DynamicsNode::move(Nanoseconds from, Nanoseconds to, bool jump) {
-  for (Grip& grip : grips_) {
-    if (grip.silentBefore(to) || from == to) continue;
-    const Pose X_WT = poseOn(grip.course, to, Limit::Before);
-    world_.moveHeld(grip.body, X_WT * grip.X_TN, jump);
-    grip.hand.go(to, X_WT);
-  }
+  grips_.move(from, to, jump);
   for (const Field& f : fields_) {
     if (!f.strength.empty())
       world_.setFieldStrength(f.id, axisOn(f.strength, jump ? to : from, jump ? Limit::Before : Limit::After),
@@ -311,11 +289,7 @@ void DynamicsNode::move(Nanoseconds from, Nanoseconds to, bool jump) {
 
 void DynamicsNode::hash(StateHash& h) const {
   CollisionNode::hash(h);
-  for (const Grip& g : grips_) {
-    h.add(g.body), h.add(std::string_view(g.tracker)), h.add(g.X_TN);
-    for (const PoseKnot& k : g.hand.way()) h.add(k.time), h.add(k.X);
-    h.add(world_.woundUp(g.body));
-  }
+  grips_.hash(h);
 }
 
 /// Of a body that has been taken out of the simulation in this frame.

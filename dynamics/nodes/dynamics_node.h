@@ -7,10 +7,10 @@
 /// their own; fields switch, hands grab and let go at exact times. A body that is let go goes on with the
 /// velocity of the hand (hand_motion.h) and with what the fields in the same hand have added up.
 
-#include "dynamics/hand_motion.h"
 #include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dyn_object_node.h"
 #include "dynamics/nodes/field_node.h"
+#include "dynamics/nodes/grips.h"
 
 #include <unordered_map>
 
@@ -48,19 +48,6 @@ private:
     Pose X_BF;            ///< where it is then, in the body's coordinates
     Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max();
   };
-  /// A body in the visitor's hand.
-  struct Grip {
-    BodyId body;
-    NodeRef node;
-    std::string tracker;
-    Pose X_TN;  ///< how it lies in the hand
-    HandMotion hand;
-    Course course;            ///< of the hand in this frame; empty while the tracker is silent
-    Nanoseconds jumped = -1;  ///< when the hand last jumped while it held the body [ns]
-    bool silentBefore(Nanoseconds t) const {
-      return course.empty() || (course.front().jump && t <= course.front().time);
-    }
-  };
   struct Velocity {
     Vec3 v = Vec3::Zero(), omega = Vec3::Zero();  ///< in World [m/s], [rad/s]
   };
@@ -84,7 +71,7 @@ private:
   std::vector<NodeRef> asking_;               ///< bodies of which something has been asked
   std::unordered_map<BodyId, Part*> partOf_;  ///< by its body
   std::vector<Field> fields_;
-  std::vector<Grip> grips_;
+  Grips grips_{world_};
   std::vector<Order> orders_;  ///< of this frame, in the order of time
   bool toldOfLimit_ = false;   ///< once is enough
 };

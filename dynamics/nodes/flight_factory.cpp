@@ -7,6 +7,7 @@
 #include "engine/script/choice.h"
 #include "engine/script/value.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace stadion {
@@ -37,6 +38,18 @@ std::string orderOf(FlightKind kind, std::string_view word) {
   return text;
 }
 
+/// What no body of this length has: many times the coefficients of a flat plate across the wind. Such forces
+/// would only make the flight stiff.
+std::optional<Diagnostic> tooMuch(const Declaration& d, const Coefficient& c, double value, double length) {
+  const std::string_view unit = c.unit;
+  const int power = unit == "m" ? 1 : unit == "m2" ? 2 : unit == "m3" ? 3 : unit == "m4" ? 4 : 0;
+  const double most = 4 * std::pow(length, power);
+  if (power == 0 || std::abs(value) <= most) return std::nullopt;
+  return wrong(
+      d, Attr::Coefficients,
+      fmt::format("{} is {} {}; a body of {:.3g} m has at most {:.3g}", c.name, value, c.unit, length, most));
+}
+
 /// With the numbers or the name that the script states.
 Result<FlightModel> statedModel(const Declaration& d, FlightKind kind, const FlightShape& shape) {
   const std::string text(d.text(Attr::Coefficients)), word(d.text(Attr::Flight));
@@ -56,6 +69,8 @@ Result<FlightModel> statedModel(const Declaration& d, FlightKind kind, const Fli
                    fmt::format("{} must be {}, not {}", order[i].name,
                                describe(NumberRange{order[i].least, order[i].most}, order[i].unit),
                                numbers.value[i]));
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (auto why = tooMuch(d, order[i], numbers.value[i], shape.length)) return *why;
   return *modelFrom(kind, {numbers.value.data(), numbers.count});
 }
 

@@ -81,6 +81,10 @@ TEST(FlightFactory, CoefficientsAreNumbersOrAName) {
   EXPECT_NE(
       made(", flight=rod, coefficients=\"1, 2\"").why.find("flight=rod takes 6 numbers: axial area [m2], "),
       std::string::npos);
+  EXPECT_NE(made(", flight=rod, coefficients=\"1, 1e3, 3, 4, 5, 6\"")
+                .why.find("cross area is 1000 m2; a body of 2.2 m has"),
+            std::string::npos)
+      << "stiff for nothing";
   EXPECT_NE(made(", flight=rod, coefficients=\"-1, 2, 3, 4, 5, 6\"").why.find("axial area must be from 0"),
             std::string::npos);
 }

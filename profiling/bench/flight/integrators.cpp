@@ -11,6 +11,8 @@ namespace stadion::bench {
 namespace {
 
 constexpr int kRates[] = {30, 60, 120, 240, 480, 960};
+constexpr double kRounding = 1e-13, kLost = 1e-2;  ///< errors that tell of the order lie between them
+constexpr std::size_t kTimed = 15;                 ///< flights, of which the median counts
 
 /// Explicit in everything but positions, gyroscopic torque and all: what a simple engine does.
 void eulerStep(RigidFlight& f, double h, const runge_kutta::Surroundings& s, const AnyModel& model) {
@@ -51,14 +53,14 @@ const Scheme kSchemes[] = {{"euler", byEuler}, {"default", byDefault}, {"rk4", b
 
 double medianCost(const Scheme& scheme, const Throw& t, int hz) {
   std::vector<double> ns;
-  for (int i = 0; i < 5; ++i) {
+  for (std::size_t i = 0; i < kTimed; ++i) {
     const auto start = std::chrono::steady_clock::now();
     const Trajectory flight = scheme.fly(t, hz);
     const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - start;
     ns.push_back(took.count() / std::max(1.0, flight.back().t * hz));
   }
-  std::nth_element(ns.begin(), ns.begin() + 2, ns.end());
-  return ns[2];
+  std::ranges::nth_element(ns, ns.begin() + kTimed / 2);
+  return ns[kTimed / 2];
 }
 
 IntegratorResult measure(Thing thing, const Scheme& scheme, int hz,
@@ -91,13 +93,14 @@ void addChecks(Integrators& all) {
 }  // namespace
 
 double Integrators::order(Thing thing, const std::string& scheme) const {
-  double order = std::numeric_limits<double>::quiet_NaN(), before = 0;
+  // The slope of the least-squares line through log(error) over log(rate).
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const IntegratorResult& r : results) {
-    if (r.thing != thing || r.scheme != scheme) continue;
-    if (before > 0 && r.landing > 1e-10 && std::isfinite(before)) order = std::log2(before / r.landing);
-    before = r.landing;
+    if (r.thing != thing || r.scheme != scheme || !(r.landing > kRounding && r.landing < kLost)) continue;
+    const double u = std::log(r.hz), v = std::log(r.landing);
+    n += 1, x += u, y += v, xx += u * u, xy += u * v;
   }
-  return order;
+  return n < 2 ? std::numeric_limits<double>::quiet_NaN() : (x * y - n * xy) / (n * xx - x * x);
 }
 
 std::vector<Measurement> Integrators::measurements(Thing thing) const {

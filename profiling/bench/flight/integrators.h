@@ -20,8 +20,8 @@ struct IntegratorResult {
 struct Integrators {
   std::vector<IntegratorResult> results;
   Checks checks;
-  /// How the error of landing falls when the rate doubles, as an exponent, from the finest rates whose errors
-  /// are clear of rounding; NaN if none are.
+  /// How the error of landing falls with the rate, as an exponent: the slope through the errors that are
+  /// clear of rounding and of flights that are lost; NaN of less than two.
   double order(Thing thing, const std::string& scheme) const;
   /// For `workPrecisionPlot`: steps a frame of 1/60 s, error of landing.
   std::vector<Measurement> measurements(Thing thing) const;

@@ -1,0 +1,41 @@
+#include "cli/show_reload.h"
+
+#include "cli/show_check.h"
+#include "engine/run_stopped.h"
+
+#include <utility>
+
+namespace stadion {
+
+ShowReload::ShowReload(ShowSurroundings around) : around_(std::move(around)) {
+  thread_ = std::thread([this] {
+    try {
+      read();
+    } catch (const RunStopped&) {
+      // given up
+    }
+    done_ = true;
+  });
+}
+
+ShowReload::~ShowReload() {
+  *around_.stopping = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+void ShowReload::read() {
+  const ShowOptions& show = around_.options.show;
+  Diagnostics found = checkScripts(show.script, show.assetRoots);
+  if (!found.hasErrors()) found = checkShow(show.script, show.assetRoots, around_.stopping.get());
+  for (const Diagnostic& d : found.all())
+    if (d.severity == Severity::Error) errors_.add(d);
+  if (!errors_.hasErrors()) show_ = PlayingShow::open(around_, errors_);
+}
+
+std::unique_ptr<PlayingShow> ShowReload::take(Diagnostics& findings) {
+  if (thread_.joinable()) thread_.join();
+  for (const Diagnostic& d : errors_.all()) findings.add(d);
+  return std::move(show_);
+}
+
+}  // namespace stadion

@@ -1,0 +1,39 @@
+#pragma once
+/// A show that is read again while the one before it plays on.
+///
+/// Its scripts are checked first, so that a slip of the keyboard is told at once, not when every asset has
+/// been read.
+///
+/// Threads  the caller's; the reading is done on a thread of its own, that is ended with this.
+
+#include "cli/playing_show.h"
+#include "engine/diagnostic.h"
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+namespace stadion {
+
+class ShowReload {
+public:
+  /// Begins to read the show that `around` names.
+  explicit ShowReload(ShowSurroundings around);
+  /// Gives up what has not been read.
+  ~ShowReload();
+
+  bool done() const { return done_; }
+  /// What was read; null if it has errors, which are in the findings. Expects done().
+  std::unique_ptr<PlayingShow> take(Diagnostics& findings);
+
+private:
+  void read();
+
+  ShowSurroundings around_;
+  std::unique_ptr<PlayingShow> show_;
+  Diagnostics errors_;
+  std::atomic<bool> done_ = false;
+  std::thread thread_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,66 @@
+#pragma once
+/// The bodies of one simulation that are in the visitor's hands: where the hands take them within a frame,
+/// and how fast a hand was when it let go.
+///
+/// A hand is a tracker. While nothing is heard of it, it stands still, and so does what it holds.
+///
+/// Units    s, m, rad; show times [ns]. Poses in World coordinates.
+/// Threads  its node's.
+
+#include "dynamics/hand_motion.h"
+#include "dynamics/world.h"
+#include "engine/maths/course.h"
+#include "engine/node.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+class StateHash;
+struct FrameContext;
+
+/// A body in a hand.
+struct Grip {
+  BodyId body;
+  NodeRef node;
+  std::string tracker;
+  Pose X_TN;  ///< how it lies in the hand
+  HandMotion hand;
+  Course course;            ///< of the hand in this frame; empty while the tracker is silent
+  Nanoseconds jumped = -1;  ///< when the hand last jumped while it held the body
+
+  bool silentBefore(Nanoseconds t) const {
+    return course.empty() || (course.front().jump && t <= course.front().time);
+  }
+};
+
+class Grips {
+public:
+  explicit Grips(World& world) : world_(world) {}
+  bool empty() const { return grips_.empty(); }
+
+  /// Closes the hand, that goes this way, around the body. Null if the body cannot be held.
+  const Grip* grab(BodyId body, NodeRef node, const std::string& tracker, Course way, Nanoseconds when);
+  /// Opens the hand and tells how it was. The body stays held in the world until its releaseBody(). Nothing
+  /// if no hand has it.
+  std::optional<Grip> open(BodyId body);
+  /// The body is gone, or was put elsewhere.
+  void forget(BodyId body);
+
+  /// What the hands do in this frame, and at which times something about it changes.
+  void follow(FrameContext& frame, std::vector<Nanoseconds>& cuts);
+  /// What jumps at `time` takes its body with it.
+  void jump(Nanoseconds time);
+  void move(Nanoseconds from, Nanoseconds to, bool jump);
+
+  const std::vector<Grip>& all() const { return grips_; }
+  void hash(StateHash& h) const;
+
+private:
+  World& world_;
+  std::vector<Grip> grips_;
+};
+
+}  // namespace stadion
