@@ -19,8 +19,9 @@ ShowReload::ShowReload(ShowSurroundings around) : around_(std::move(around)) {
 }
 
 ShowReload::~ShowReload() {
+  if (!thread_.joinable()) return;  // what was taken plays on
   *around_.stopping = true;
-  if (thread_.joinable()) thread_.join();
+  thread_.join();
 }
 
 void ShowReload::read() {

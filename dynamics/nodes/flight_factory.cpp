@@ -7,7 +7,6 @@
 #include "engine/script/choice.h"
 #include "engine/script/value.h"
 
-#include <cmath>
 #include <fmt/format.h>
 
 namespace stadion {
@@ -43,7 +42,8 @@ std::string orderOf(FlightKind kind, std::string_view word) {
 std::optional<Diagnostic> tooMuch(const Declaration& d, const Coefficient& c, double value, double length) {
   const std::string_view unit = c.unit;
   const int power = unit == "m" ? 1 : unit == "m2" ? 2 : unit == "m3" ? 3 : unit == "m4" ? 4 : 0;
-  const double most = 4 * std::pow(length, power);
+  double most = 4;
+  for (int i = 0; i < power; ++i) most *= length;
   if (power == 0 || std::abs(value) <= most) return std::nullopt;
   return wrong(
       d, Attr::Coefficients,
