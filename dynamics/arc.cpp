@@ -378,14 +378,36 @@ Vec3 Spin::angularVelocity(double t, const Quat& q) const {
   }
 }
 
+namespace {
+
+/// The greatest angular speed of a free body whose angular momentum is l in its principal axes now. Its
+/// square is linear in the l_i^2, which |l|^2 and the energy constrain, each linearly, too: the greatest is
+/// where one of them is zero, (a_i + a_j) 2T - a_i a_j |l|^2 with a the inverse moments.
+double freeSpeedBound(const Vec3& l, const Vec3& a) {
+  const double l2 = l.squaredNorm(), twiceT = a.dot(l.cwiseAbs2());
+  double most = a.cwiseProduct(l).squaredNorm();
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const double least = std::min(a[i], a[j]) * l2, greatest = std::max(a[i], a[j]) * l2,
+                 slack = 1e-12 * greatest;
+    if (twiceT < least - slack || twiceT > greatest + slack) continue;
+    most = std::max(most, (a[i] + a[j]) * twiceT - a[i] * a[j] * l2);
+  }
+  return (1 + 1e-9) * std::sqrt(most);
+}
+
+}  // namespace
+
 double Spin::speedBound(double t) const {
   switch (kind) {
   case Kind::Still: return 0;
   case Kind::Uniform: return omega.norm();
   case Kind::Driven: return omega.norm() + t * alpha.norm();
   case Kind::Steered: return series[6][0];
-  default: return L.norm() * inverse.maxCoeff();
+  case Kind::Symmetric: return angularVelocity(0, q0).norm();
+  case Kind::Taylor: return freeSpeedBound(q0.conjugate() * L, inverse);
   }
+  return 0;
 }
 
 }  // namespace stadion

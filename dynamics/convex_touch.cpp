@@ -8,7 +8,8 @@
 namespace stadion {
 namespace {
 
-constexpr int kMostLooks = 400;
+constexpr int kMostLooks = 400;  ///< by steps that are certain to pass nothing
+constexpr int kHurried = 1000;   ///< parts of the way in which it is gone on with after that
 constexpr int kPatience = 6;     ///< looks until planes that turn are tried
 constexpr double kEven = 1e-8;   ///< points that reach as far but for this touch together [m]
 constexpr double kRough = 1e-5;  ///< accuracy of distances on the way
@@ -226,20 +227,41 @@ bool contactPoint(const Mover& a, const Mover* b, const std::vector<ManifoldPoin
   return true;
 }
 
-/// Looks until the pair touches. `place(tau)` moves both, `measure(level)` gives their gap relative to the
-/// origin and, of a b that stands still, how far it reaches along the normal if that is known anyway.
+/// The time between `apart` and `sunk` at which the gap closes.
+template <class GapAt>
+double closingTime(double apart, double sunk, GapAt gapAt) {
+  for (int i = 0; i < 60 && apart < sunk; ++i) {
+    const double middle = 0.5 * (apart + sunk);
+    if (!(middle > apart && middle < sunk)) break;
+    (gapAt(middle) > 0 ? apart : sunk) = middle;
+  }
+  return sunk;
+}
+
+/// Looks until the pair touches. Should the certain steps be too short to come to an end, it goes on in even
+/// ones: what is sunk then has touched since the look before. `place(tau)` moves both, `measure(level)` gives
+/// their gap relative to the origin and, of a b that stands still, how far it reaches along the normal if
+/// that is known anyway.
 template <class Place, class Measure, class Patch>
 std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double from, double to,
                              double tolerance, std::uint64_t& count, Place place, Measure measure,
                              Patch patch) {
-  double tau = from;
+  double tau = from, apart = from;
   int stalls = 0;
   std::vector<ManifoldPoint> points;
-  for (int i = 0; i < kMostLooks; ++i) {
+  const auto look = [&](double at, std::optional<double>& level) {
     ++count;
-    place(tau);
+    place(at);
+    return measure(level);
+  };
+  for (int i = 0; i < kMostLooks + 2 * kHurried; ++i) {
     std::optional<double> level;
-    const ConvexGap g = measure(level);
+    ConvexGap g = look(tau, level);
+    if (i > kMostLooks && g.distance < -tolerance && apart < tau) {
+      tau = closingTime(apart, tau, [&](double at) { return look(at, level).distance; });
+      g = look(tau, level);
+    }
+    if (g.distance > 0) apart = tau;
     if (!std::isfinite(g.distance) || !g.normal.allFinite()) return {};
     const Lower f(a, level ? nullptr : b, g.normal, level.value_or(0), acceleration);
     double gap = g.distance;
@@ -262,6 +284,7 @@ std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double fro
     double step = safeTime(f, gap, left, outside);
     if (b && i >= kPatience && step < left) step = turningTime(a, *b, g, gap, acceleration, left, step);
     if (step >= left) return {};
+    if (i >= kMostLooks) step = std::max(step, std::min(left, (to - from) / kHurried));
     tau += std::max(step, gap > 0 ? 1e-16 : 1e-9);
     if (!(tau <= to)) return {};
   }

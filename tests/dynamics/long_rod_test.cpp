@@ -1,0 +1,79 @@
+/// Long thin solids that fall nearly flat: one end strikes and turns the body, and then the other end comes
+/// down, on whatever they fall and however they turn. About their length they could turn thousands of times
+/// as fast as across it, if they had the angular momentum for it.
+
+#include "tests/dynamics/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace stadion {
+namespace {
+
+using namespace scenes;
+
+struct Rod {
+  double length, thick;  ///< halves [m]
+  double spin;           ///< about its length [rad/s]
+};
+
+enum class Floor { HalfSpace, Sheet, Box, Mesh };
+
+void addFloor(World& w, Floor kind) {
+  const Surface surface{0.2, 0.6, 0};
+  PlaneShape sheet;
+  sheet.half = {50, 50};
+  switch (kind) {
+  case Floor::HalfSpace: w.addCollider({w.addShape(PlaneShape{}), {}, surface}); break;
+  case Floor::Sheet: w.addCollider({w.addShape(sheet), {}, surface}); break;
+  case Floor::Box:
+    w.addCollider({w.addShape(BoxShape{{{0, 0, -1}, Quat::Identity()}, {50, 50, 1}}), {}, surface});
+    break;
+  case Floor::Mesh:
+    w.addCollider({w.addShape(MeshShape(TriangleTree(gridMesh(-20, 20, -20, 20, 4, 4)))), {}, surface});
+    break;
+  }
+}
+
+/// How deep its lowest corner gets below the floor in two seconds [m].
+double deepest(Floor floor, const Rod& rod, const Quat& q, const Vec3& v) {
+  World w;
+  const FieldId g = addGravity(w);
+  addFloor(w, floor);
+  const Vec3 half(rod.length, rod.thick, 1.2 * rod.thick);
+  const BodyId b = addBox(w, g,
+                          {.half = half,
+                           .pose = {{0, 0, 1.5}, q},
+                           .v = v,
+                           .omega = rod.spin * (q * Vec3::UnitX()),
+                           .friction = 0.6});
+  double deep = 0;
+  play(w, 2, 60, [&](double) {
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 corner = half.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+      deep = std::max(deep, -(w.state(b).pose * corner).z());
+    }
+  });
+  return deep;
+}
+
+TEST(LongRod, BothEndsMeetEveryFloor) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (const Floor floor : {Floor::HalfSpace, Floor::Sheet, Floor::Box, Floor::Mesh})
+    for (const Rod& rod : {Rod{0.3, 0.015, 0}, Rod{1.32, 0.015, 0}, Rod{1.32, 0.015, 50}, Rod{1.3, 0.003, 0},
+                           Rod{1.32, 0.05, 5}, Rod{0.6, 0.2, 20}})
+      for (int trial = 0; trial < 5; ++trial) {
+        const double tilt = 0.1 * any(random), roll = any(random);
+        const Quat q =
+            Quat(Eigen::AngleAxisd(tilt, Vec3::UnitY())) * Quat(Eigen::AngleAxisd(roll, Vec3::UnitX()));
+        const Vec3 v(0, 5 * any(random), 0);
+        EXPECT_LT(deepest(floor, rod, q, v), 1e-3)
+            << "floor " << static_cast<int>(floor) << ", length " << 2 * rod.length << ", thick "
+            << 2 * rod.thick << ", spin " << rod.spin << ", tilt " << tilt << ", roll " << roll;
+      }
+}
+
+}  // namespace
+}  // namespace stadion
