@@ -6,13 +6,18 @@
 namespace stadion {
 namespace {
 
-constexpr double kTrace = 1e-9;   ///< regularisation, relative to the diagonal
-constexpr double kExact = 1e-13;  ///< residual at which the linear solution is done [m/s]
-constexpr double kRound = 1e-12;  ///< violations below this are rounding [m/s]
-constexpr int kMends = 24;        ///< of a choice at most ...
-constexpr int kTogether = 5;      ///< ... and those of all points at once; they may go round in circles
-constexpr double kNearly = 0.5;   ///< a direction that is off by less is improved by Newton's method [rad]
-constexpr double kAssembly = 30;  ///< multiplications for each coefficient, and for what is done with it
+constexpr double kTrace = 1e-9;    ///< regularisation, relative to the diagonal
+constexpr double kExact = 1e-13;   ///< residual at which the linear solution is done [m/s]
+constexpr double kRound = 1e-12;   ///< violations below this are rounding [m/s]
+constexpr int kMends = 24;         ///< of a choice at most ...
+constexpr int kTogether = 5;       ///< ... and those of all points at once; they may go round in circles
+constexpr double kNearly = 0.5;    ///< a direction that is off by less is improved by Newton's method [rad]
+constexpr double kUnsolved = 1e3;  ///< a residual as of points that contradict each other: they explode [m/s]
+constexpr double kAssembly = 30;   ///< multiplications for each coefficient, and for what is done with it
+
+bool isFinite(const Mobile& m) {
+  return m.v.allFinite() && m.omega.allFinite();
+}
 
 }  // namespace
 
@@ -118,6 +123,7 @@ double ContactChoice::solve() {
       r_[static_cast<Eigen::Index>(i)] =
           u.wanted - u.soft * size - axes_[i].velocity(m_[rows_[u.contact].a], m_[rows_[u.contact].b]);
     }
+    if (!r_.allFinite()) return 1e300;  // the greatest of them would pass over what is undefined
     const double worst = r_.cwiseAbs().maxCoeff();
     if (!(worst > kExact) || !(worst < 0.7 * before)) return worst;
     before = worst;
@@ -222,7 +228,8 @@ bool ContactChoice::attempt(double& work) {
       assemble();
       left = solve();
     }
-    if (mend(i >= kTogether)) return left < 1e-10;
+    if (!(left < kUnsolved)) return false;
+    if (mend(i >= kTogether)) return left < 1e-10 && std::ranges::all_of(m_, isFinite);
   }
   return false;
 }

@@ -75,5 +75,54 @@ TEST(LongRod, BothEndsMeetEveryFloor) {
       }
 }
 
+/// A shaft with many sides, thicker in the middle, with a disc-like collar.
+Mesh shaftMesh(int sectors) {
+  const std::pair<double, double> profile[] = {
+      {-1.3, 0.004}, {-0.1, 0.012}, {0, 0.015}, {0.15, 0.0145}, {1.3, 0.006}};
+  std::vector<Vec3> p;
+  std::vector<std::array<std::uint32_t, 3>> t;
+  for (const auto& [x, r] : profile)
+    for (int i = 0; i < sectors; ++i)
+      p.emplace_back(x, r * std::cos(2 * M_PI * i / sectors), r * std::sin(2 * M_PI * i / sectors));
+  const auto at = [&](int ring, int i) { return static_cast<std::uint32_t>(ring * sectors + i % sectors); };
+  for (int ring = 0; ring < 4; ++ring)
+    for (int i = 0; i < sectors; ++i) {
+      t.push_back({at(ring, i), at(ring, i + 1), at(ring + 1, i + 1)});
+      t.push_back({at(ring, i), at(ring + 1, i + 1), at(ring + 1, i)});
+    }
+  for (int i = 1; i + 1 < sectors; ++i) {
+    t.push_back({at(0, 0), at(0, i + 1), at(0, i)});
+    t.push_back({at(4, 0), at(4, i), at(4, i + 1)});
+  }
+  return meshOf(p, t);
+}
+
+// Many points in a row press a shaft that hardly resists being spun: they contradict each other, and an
+// answer of theirs once ran to infinity.
+TEST(LongRod, AShaftOfAMeshThatLiesInAirStaysFinite) {
+  const Mesh mesh = shaftMesh(16);
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int trial = 0; trial < 24; ++trial) {
+    World w;
+    const FieldId g = addGravity(w), air = w.addField({MediumField{}, {}, {}, 0});
+    w.addCollider({w.addShape(PlaneShape{}), {}, {0.2, 0.6, 0}});
+    BodyDef d;
+    d.shape = w.addShape(MeshShape(TriangleTree(mesh)));
+    d.pose = {{0, 0, 0.2 + 0.8 * std::fabs(any(random))},
+              Quat(Eigen::AngleAxisd(0.05 * any(random), Vec3::UnitY())) *
+                  Quat(Eigen::AngleAxisd(3 * any(random), Vec3::UnitX()))};
+    d.v = {20 * any(random), any(random), 0};
+    d.mass.mass = 0.806, d.mass.inertia = {1.5e-4, 0.42, 0.42};
+    d.surface = {0.6, 0.2, 0};
+    d.dragArea = 0.01;
+    const BodyId b = w.addBody(d);
+    w.hook(b, g, 0), w.hook(b, air, 0);
+    play(w, 5);
+    EXPECT_NE(w.mode(b), BodyMode::Quarantined) << "trial " << trial;
+    EXPECT_GT(w.state(b).p.z(), 0) << "trial " << trial;
+  }
+}
+
 }  // namespace
 }  // namespace stadion
