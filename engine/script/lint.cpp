@@ -265,12 +265,12 @@ void lint(const Document& document, bool alone, Diagnostics& findings) {
 
 void lintLatencies(const Document& document, Nanoseconds step, Diagnostics& findings) {
   // Said of the first one alone: at a low rate it may be all of them.
-  const EventMessage* first = nullptr;
+  std::optional<EventMessage> first;
   std::size_t count = 0;
   for (const Declaration node : document)
     for (const EventMessage& m : node.eventMessages()) {
       if (m.latency == 0 || m.delay + m.latency >= step) continue;
-      if (count++ == 0) first = &m;
+      if (count++ == 0) first = m;
     }
   if (!first) return;
   const std::string others = count == 1 ? "" : fmt::format("; so are {} more in this file", count - 1);

@@ -132,13 +132,14 @@ void Renderer::setUnchangingState() {
 
 std::optional<Diagnostic> Renderer::draw(const DrawList& list, const std::function<bool()>& giveUp,
                                          FrameProbe* probe) {
+  const struct Forget {  // also when it is given up
+    Renderer& r;
+    ~Forget() { r.giveUp_ = nullptr, r.probe_ = nullptr, r.cache_.tell(nullptr); }
+  } forget{*this};
   giveUp_ = giveUp ? &giveUp : nullptr;
   probe_ = probe;
   cache_.tell(probe);
   drawEyes(list, 0, std::min<std::uint32_t>(list.eyeCount, 2));
-  giveUp_ = nullptr;
-  probe_ = nullptr;
-  cache_.tell(nullptr);
   return collectProblems();
 }
 
