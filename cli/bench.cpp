@@ -3,6 +3,7 @@
 #include "cli/bench_detection.h"
 #include "cli/bench_dynamics.h"
 #include "cli/bench_flight.h"
+#include "cli/bench_plan.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "profiling/bench/overlap.h"
@@ -57,6 +58,7 @@ void addBenchCommand(CLI::App& app, int& code) {
   addBenchDynamics(*command, code);
   addBenchFlight(*command, code);
   addBenchDetection(*command, code);
+  addBenchPlan(*command, code);
 }
 
 }  // namespace stadion

@@ -14,6 +14,7 @@ void addHashCommand(CLI::App& app, int& code);
 void addWallsCommand(CLI::App& app, int& code);
 void addBenchCommand(CLI::App& app, int& code);
 void addFitCommand(CLI::App& app, int& code);
+void addPlanCommand(CLI::App& app, int& code);
 void addProfileCommand(CLI::App& app, int& code);
 void addRegressCommand(CLI::App& app, int& code);
 void addTestCommand(CLI::App& app, int& code);

@@ -35,6 +35,7 @@ int runProgram(int argc, char** argv) {
   addBenchCommand(app, code);
   addFitCommand(app, code);
   addProfileCommand(app, code);
+  addPlanCommand(app, code);
   addRegressCommand(app, code);
   addTestCommand(app, code);
   addViewCommand(app, code);

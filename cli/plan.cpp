@@ -1,0 +1,199 @@
+/// `stadion plan SHOW`: predicts frames a second and latency for other machines, walls and modes.
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/number_option.h"
+#include "cli/plan_run.h"
+#include "cli/stop_signal.h"
+#include "engine/atomic_file.h"
+#include "engine/plain_file.h"
+#include "profiling/plan/diagram.h"
+#include "profiling/plan/report.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+namespace stadion {
+namespace {
+
+constexpr std::size_t kMostWalls = 24;
+constexpr std::uint64_t kFramesMeasured = 60;
+
+struct Options {
+  PlanRunOptions run;
+  std::string walls = "cave4", mode = "all", stereo = "pair", pace = "free", provider = "osmesa", from, svg;
+  double cores = 0;  ///< 0 = as here
+  std::size_t machines = 1;
+  bool processes = false, json = false;
+};
+
+/// A number of walls, if that is what was said.
+std::optional<std::size_t> countIn(const std::string& text) {
+  std::size_t count = 0;
+  const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (wrong != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return count;
+}
+
+double coresHere() {
+  return std::max(1u, std::thread::hardware_concurrency());
+}
+
+double rasterThreadsHere() {
+  const char* threads = std::getenv("LP_NUM_THREADS");
+  return std::max(1.0, threads ? std::atof(threads) : coresHere());
+}
+
+std::optional<plan::ShowCosts> readFrom(const std::string& file, Diagnostics& findings) {
+  constexpr std::size_t kMostBytes = 64 << 20;
+  const Result<std::string> text = readPlainFile(file, kMostBytes);
+  if (!text) return findings.add(text.error()), std::nullopt;
+  Result<plan::ShowCosts> costs = plan::readCosts(text.value(), file);
+  if (!costs) return findings.add(costs.error()), std::nullopt;
+  return std::move(costs.value());
+}
+
+std::optional<plan::ShowCosts> measure(Options& o, Diagnostics& findings) {
+  ShowOptions& show = o.run.show;
+  const auto count = countIn(o.walls);
+  show.walls = count ? "cave6" : o.walls;
+  if (show.frames == 0 && show.seconds == 0) show.frames = kFramesMeasured;
+  if (show.frames == 0)
+    show.frames = static_cast<std::uint64_t>(std::ceil(show.seconds * show.rate)), show.seconds = 0;
+  if (!show.settle(findings)) return {};
+  const auto walls = loadWalls(show.walls, std::string(STADION_ROOT) + "/walls", findings);
+  if (!walls) return {};
+  auto provider = openGlProvider(o.provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa);
+  if (!provider) return findings.add(provider.error()), std::nullopt;
+  o.run.layout = *stereoLayout(o.stereo);
+  o.run.walls = std::min(count.value_or(walls->walls.size()), walls->walls.size());
+  MeasuredCosts measured;
+  if (!measureCosts(o.run, *provider.value(), measured, findings)) return {};
+
+  plan::ShowCosts costs;
+  costs.show = std::filesystem::path(show.script).filename().string();
+  costs.size = fmt::format("{}x{}", show.width, show.height);
+  costs.eyes = o.stereo == "off" ? 1 : 2;
+  costs.walls = walls->names();
+  costs.walls.resize(o.run.walls);
+  costs.cores = coresHere(), costs.rasterThreads = rasterThreadsHere();
+  costs.waitsInTurn = measured.waitsInTurn;
+  costs.frames = plan::typicalCosts(measured.runs);
+  plan::assumeUndisturbed(costs.frames);
+  if (costs.frames.empty())
+    return findings.error({}, "no frame could be measured: ask for more with --frames"), std::nullopt;
+  return costs;
+}
+
+plan::Question questionOf(const Options& o, const plan::ShowCosts& costs) {
+  plan::Question q;
+  q.sequential = o.mode != "pipelined", q.pipelined = o.mode != "sequential";
+  q.plan.pipelined = q.pipelined;
+  q.plan.walls = countIn(o.walls).value_or(costs.walls.size());
+  q.plan.machine = plan::machineWith(o.cores > 0 ? o.cores : costs.cores, costs);
+  q.plan.machines = o.machines;
+  q.plan.waitsInTurn = costs.waitsInTurn;
+  q.plan.rasterisers = o.processes ? q.plan.walls : 1;
+  q.plan.pacing = o.pace == "lock"    ? plan::Pacing::Lock
+                  : o.pace == "float" ? plan::Pacing::Float
+                                      : plan::Pacing::Free;
+  q.plan.newest = o.pace != "free", q.plan.rate = o.run.show.rate;
+  q.plan.frames = std::max<std::size_t>(costs.frames.size(), 24);
+  return q;
+}
+
+int planShow(Options o) {
+  Diagnostics findings;
+  const auto costs = o.from.empty() ? measure(o, findings) : readFrom(o.from, findings);
+  tell(findings);
+  if (!costs) return stopSignal() ? kStopped + stopSignal() : kBadInput;
+  const plan::Question question = questionOf(o, *costs);
+  std::printf("%s",
+              o.json ? (reportJson(*costs, question) + "\n").c_str() : reportText(*costs, question).c_str());
+  if (o.svg.empty()) return kOk;
+  const std::string title =
+      fmt::format("{}: {} walls, {}, {:g} cores", costs->show, question.plan.walls,
+                  question.plan.pipelined ? "pipelined" : "sequential", question.plan.machine.cores);
+  if (const auto wrong = writeFile(o.svg, diagramSvg(scheduleOf(costs->frames, question.plan), 4, title))) {
+    findings = {};
+    findings.add(*wrong);
+    return tell(findings), kBadInput;
+  }
+  return kOk;
+}
+
+constexpr const char* kFooter =
+    R"(The show is played here first, some frames of it, sequentially, and the processor time of App, of each wall's Cull and
+Draw is measured; of Draw, what its calls take and what the software rasteriser's threads take for them. Then the frame
+loop is played through without it, event by event: threads that share the processors alike, three slots of scene state, two
+draw lists a wall, walls that take turns with their calls, one rasteriser for all of them, a swap for all walls together.
+
+`--walls 4` means the first four walls of cave6; beyond six, those again. With a wall file all of its walls are measured. `what
+would change it` plays the same frames on other machines: the rasteriser then has a thread for each core (32 at most) and keeps
+the same part of them busy. A rasteriser for each wall is what walls as processes would have.
+
+  ./stadion plan scripts/kick.evs --walls 6
+  ./stadion plan scripts/olympia.evs --walls cave4 --cores 16 --svg plan.svg
+  ./stadion plan scripts/kick.evs --json > costs.json; ./stadion plan --from costs.json --cores 8 --pace lock --rate 60
+
+./stadion bench plan compares what is predicted with what comes.)";
+
+}  // namespace
+
+void addPlanCommand(CLI::App& app, int& code) {
+  auto o = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("plan", "Predict frames a second and latency for other machines, walls and modes");
+  ShowOptions& show = o->run.show;
+  CLI::Option* script = command->add_option("SHOW", show.script, "the script to measure (.evs)");
+  command->add_option("--from", o->from, "plan with the costs in this file instead, that --json wrote")
+      ->excludes(script);
+  command->add_option("--walls", o->walls, "a wall file or its name, or a number of walls")
+      ->check([](const std::string& text) -> std::string {
+        const auto count = countIn(text);
+        return !count || (*count >= 1 && *count <= kMostWalls)
+                   ? ""
+                   : "from 1 to " + std::to_string(kMostWalls) + " walls can be planned";
+      })
+      ->capture_default_str();
+  command->add_option("--cores", o->cores, "of the machine that is planned for (default: as here)")
+      ->check(numberFrom(1, 1024));
+  command->add_option("--machines", o->machines, "alike, that have the walls in turn")
+      ->check(wholeNumberFrom(1, 24))
+      ->capture_default_str();
+  command->add_flag("--processes", o->processes, "walls are processes, each with a rasteriser of its own");
+  command->add_option("--mode", o->mode, "pipelined, sequential, or all")
+      ->check(CLI::IsMember({"pipelined", "sequential", "all"}))
+      ->capture_default_str();
+  command
+      ->add_option("--pace", o->pace, "free: every frame, as fast as it goes; lock or float: live, at --rate")
+      ->check(CLI::IsMember({"free", "lock", "float"}))
+      ->capture_default_str();
+  command->add_option("--stereo", o->stereo, "pair, or off for one eye")
+      ->check(CLI::IsMember({"pair", "off"}))
+      ->capture_default_str();
+  command->add_option(
+      "--size", show.size,
+      "WIDTHxHEIGHT in pixels of one eye's picture (default: what the wall file says, else 800x600)");
+  show.addLengthTo(*command);
+  command->add_option("--gl", o->provider, "who draws: osmesa or egl")
+      ->check(CLI::IsMember({"osmesa", "egl"}))
+      ->capture_default_str();
+  command->add_option("--svg", o->svg, "write a timing diagram to this file");
+  command->add_flag("--json", o->json, "one JSON object, that --from reads");
+  command->footer(kFooter);
+  command->callback([o, &code] {
+    if (o->from.empty() && o->run.show.script.empty()) throw CLI::RequiredError("SHOW");
+    code = planShow(*o);
+  });
+}
+
+}  // namespace stadion

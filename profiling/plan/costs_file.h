@@ -1,0 +1,34 @@
+#pragma once
+/// What a show's frames cost, as a file: measured once, planned with anywhere.
+///
+///     {"format": "stadion-plan-costs 1", "show": "kick.evs", "size": "800x600", "eyes": 2,
+///      "walls": ["front", "left"], "cores": 2, "raster_threads": 2, "waits_in_turn": true,
+///      "frames": [{"app": 0.05, "app_helpers": 0, "swap": 0.002,
+///                  "walls": [{"cull": 0.01, "pictures": [[0.4, 10.5, 1.9], [0.4, 10.5, 1.9]]}]}]}
+///
+/// Costs are milliseconds of processor time; a picture is what its calls cost the drawing thread, what
+/// rasterising it costs the rasteriser's threads together, and how many of these work at a time.
+///
+/// Threads  plain values, any thread. Errors  a text that says what is wrong and where.
+
+#include "engine/diagnostic.h"
+#include "profiling/plan/schedule.h"
+
+namespace stadion::plan {
+
+struct ShowCosts {
+  std::string show, size;
+  std::size_t eyes = 2;
+  std::vector<std::string> walls;  ///< names
+  double cores = 1;                ///< of the machine where it was measured
+  double rasterThreads = 1;        ///< that the rasteriser had there
+  bool waitsInTurn = true;         ///< CostProbe
+  std::vector<FrameCost> frames;
+};
+
+/// One line.
+std::string toJson(const ShowCosts& costs);
+/// Also from a larger object that has it as "costs". `name` is told in errors.
+Result<ShowCosts> readCosts(const std::string& text, const std::string& name);
+
+}  // namespace stadion::plan

@@ -1,0 +1,17 @@
+#pragma once
+/// Timing diagrams, as IRIS Performer drew them: a row a thread, time to the right, a few frames from the
+/// middle of a schedule.
+///
+/// Threads  plain values.
+
+#include "profiling/plan/schedule.h"
+
+namespace stadion::plan {
+
+/// For a terminal. Work is the frame's last digit, waits are marks, which a last line explains.
+std::string diagramText(const Schedule& schedule, std::size_t frames, std::size_t columns = 100);
+
+/// One frame a colour, waits pale, swaps as lines; each bar has a tooltip.
+std::string diagramSvg(const Schedule& schedule, std::size_t frames, const std::string& title);
+
+}  // namespace stadion::plan
