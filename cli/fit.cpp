@@ -37,6 +37,19 @@ int refuse(const Diagnostic& why) {
   return kBadInput;
 }
 
+/// Why this is no flight from a hand to the ground; nullptr if it is one.
+const char* faultOf(const Trajectory& flight) {
+  constexpr std::size_t kFewestRows = 5;
+  const RigidFlight &first = flight.front().at, &last = flight.back().at;
+  if (flight.size() < kFewestRows) return "this flight has fewer than five rows: write more of what it did";
+  if ((last.p - first.p).head<2>().norm() < 0.1) return "this flight goes nowhere: it ends where it began";
+  constexpr double kRounding = 1e-3;  // [m]
+  if (last.v.z() >= 0 || last.p.z() > first.p.z() + kRounding)
+    return "the last row is no landing: the body rises there, or is higher than where it began; a flight is "
+           "recorded to the ground";
+  return nullptr;
+}
+
 /// As the script gives them to the world: flights of A about the centre of mass.
 std::optional<Diagnostic> readFlights(const Options& o, FitTask& task) {
   for (const std::string& file : o.references) {
@@ -44,12 +57,8 @@ std::optional<Diagnostic> readFlights(const Options& o, FitTask& task) {
     if (!text) return text.error();
     auto flight = readTrajectory(text.value(), file);
     if (!flight) return flight.error();
-    if ((flight.value().back().at.p - flight.value().front().at.p).head<2>().norm() < 0.1) {
-      Diagnostic wrong;
-      wrong.where.file = file;
-      wrong.message = "this flight goes nowhere: it ends where it began";
-      return wrong;
-    }
+    if (const char* const fault = faultOf(flight.value()))
+      return Diagnostic{Severity::Error, {file, 0, 0}, fault, {}};
     for (TrajectorySample& s : flight.value()) {
       s.at.q = s.at.q * task.shape.q_NA;
       s.at.w = task.shape.q_NA.conjugate() * s.at.w;
@@ -145,6 +154,33 @@ void printRungs(const std::vector<FittedRung>& rungs, bool round) {
                 r.good ? "within the tolerance" : "");
 }
 
+/// How fast the body turns about A's axis and across it, mean of all flights [rad/s].
+Vec2 turning(const FitTask& task) {
+  const int axis = task.shape.elongated() ? 0 : 2;
+  Vec2 sum = Vec2::Zero();
+  double rows = 0;
+  for (const Trajectory& flight : task.flights)
+    for (const TrajectorySample& s : flight) {
+      const double along = s.at.w[axis];
+      sum += Vec2(std::abs(along), (s.at.w - along * Vec3::Unit(axis)).norm());
+      ++rows;
+    }
+  return sum / rows;
+}
+
+/// Where nothing comes near, the flights may be those of another body.
+void tellOfAnotherBody(const FitTask& task, const char* form, double landing) {
+  constexpr double kFarOff = 0.05, kSpins = 5;  // [rad/s]
+  if (landing < kFarOff) return;
+  std::printf("All land %.0f %% off or more: are these flights of a %s body of %.4g kg, and in this air?\n",
+              100 * landing, form, task.body.mass);
+  const Vec2 turns = turning(task);
+  if (!task.shape.round() && turns.y() > std::max(kSpins, turns.x()))
+    std::printf("In them the body turns at %.0f rad/s across %s.\n", turns.y(),
+                task.shape.elongated() ? "its long axis, as a flat one may that spins"
+                                       : "the axis of its disc, as a long one may that spins");
+}
+
 int fit(const Options& o) {
   auto task = taskOf(o);
   if (!task) return refuse(task.error());
@@ -168,6 +204,7 @@ int fit(const Options& o) {
               good != rungs.end() ? "The cheapest within the tolerance; in the dynobject write"
                                   : "None is within the tolerance; the nearest is",
               matterText(o, shape).c_str(), attributesOf(chosen, table).c_str());
+  if (good == rungs.end()) tellOfAnotherBody(task.value(), form, chosen.errors.landing);
   if (chosen.kind == FlightKind::Table)
     std::printf("The table is in %s; it belongs beside the script, or where its models lie.\n",
                 table.c_str());

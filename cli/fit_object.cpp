@@ -5,11 +5,14 @@
 
 #include "dynamics/nodes/dyn_object_node.h"
 #include "engine/asset/import.h"
+#include "engine/script/builder.h"
 #include "engine/script/choice.h"
 #include "engine/script/script.h"
+#include "engine/script/script_texts.h"
 #include "engine/script/suggestion.h"
 
 #include <filesystem>
+#include <fmt/format.h>
 
 namespace stadion {
 namespace {
@@ -25,6 +28,42 @@ struct Wanted {
   BodyAttributes body;
   SourcePosition where;
 };
+
+/// What the script's own rules say of matter that the command line states: what they refuse, no show can
+/// have.
+std::optional<Diagnostic> refusedByScripts(const Wanted& w, const Mesh& mesh, const StatedMatter& stated,
+                                           const BodyAttributes& body, double mass) {
+  const auto three = [](const char* name, const std::optional<Vec3>& v) {
+    return v ? fmt::format(", {}=\"{:.17g}, {:.17g}, {:.17g}\"", name, v->x(), v->y(), v->z()) : "";
+  };
+  const char* const options[] = {"", "--mass", "--centre", "--inertia"};  // by line
+  const auto source =
+      SourceText::make("", "dynobject( name=body, file=body.obj\n" + fmt::format(", mass={:.17g}\n", mass) +
+                               three("centre", body.centre) + "\n" + three("inertia", body.inertia) + " )\n");
+  Diagnostics findings;
+  const Document document = parseScript(SourceText(source.value()), findings);
+  if (!findings.hasErrors()) {
+    NodeFactories factories{};
+    addDynamicsFactories(factories);
+    const std::function<NodeRef(const NodeReference&)> resolve;
+    const std::function<std::optional<PlacedModel>(const NodeReference&)> model;
+    PlaceAttributes place;
+    place.X_PN = Affine(Eigen::Scaling(w.scale));
+    factories[static_cast<std::size_t>(NodeKind::DynObject)](
+        {document[0], {}, "body", place, w.appearance, &mesh, resolve, model, findings});
+  }
+  for (const Diagnostic& d : findings.all()) {
+    if (d.severity != Severity::Error) continue;
+    const std::size_t line = std::min<std::size_t>(std::max(d.where.line, 1U), std::size(options)) - 1;
+    const bool ours = line == 1   ? stated.mass.has_value()
+                      : line == 2 ? stated.centre.has_value()
+                                  : line == 3 && stated.moments.has_value();
+    Diagnostic wrong;
+    wrong.message = (ours ? std::string(options[line]) : w.file) + ": " + d.message;
+    return wrong;
+  }
+  return std::nullopt;
+}
 
 Read imported(const Wanted& w, const StatedMatter& stated, AssetRoots roots) {
   Importer importer(Importer::programBesideThis(), std::move(roots));
@@ -45,9 +84,11 @@ Read imported(const Wanted& w, const StatedMatter& stated, AssetRoots roots) {
   if (stated.mass) body.mass = stated.mass;
   if (stated.centre) body.centre = stated.centre;
   object.mass = body.massOf(*fit.value());
-  if (!stated.moments) return object;
-  body.inertia = momentsOf(*stated.moments, measureShape(object.mesh, object.mass.centre, object.nose));
-  object.mass = body.massOf(*fit.value());
+  if (stated.moments) {
+    body.inertia = momentsOf(*stated.moments, measureShape(object.mesh, object.mass.centre, object.nose));
+    object.mass = body.massOf(*fit.value());
+  }
+  if (auto wrong = refusedByScripts(w, *model.value(), stated, body, object.mass.mass)) return *wrong;
   return object;
 }
 
@@ -63,6 +104,21 @@ Read fromModel(const std::string& file, const std::vector<std::string>& further,
   return imported(w, stated, std::move(roots));
 }
 
+/// The sub-scene of a show that has this dynobject, as the user would name it.
+std::optional<std::string> partWith(const std::string& name, const std::string& show,
+                                    const AssetRoots& roots) {
+  const auto texts = ScriptTexts::read(show, roots);
+  for (const std::string& part : texts->parts()) {
+    auto source = texts->part(part);
+    if (!source) continue;
+    Diagnostics ignored;
+    const std::string file = source.value().file();
+    const Document document = parseScript(std::move(source.value()), ignored);
+    if (const auto found = document.find(name); found && found->kind() == NodeKind::DynObject) return file;
+  }
+  return std::nullopt;
+}
+
 Read fromScript(const std::string& file, const std::string& name, const std::vector<std::string>& further,
                 const StatedMatter& stated) {
   auto source = SourceText::read(file);
@@ -74,17 +130,19 @@ Read fromScript(const std::string& file, const std::string& name, const std::vec
   std::vector<std::string> names;
   for (const Declaration d : document)
     if (d.kind() == NodeKind::DynObject) names.emplace_back(d.name());
-  const auto found = document.find(name);
-  if (!found || found->kind() != NodeKind::DynObject) {
-    Diagnostic wrong;
-    wrong.where.file = file;
-    wrong.message = "has no dynobject \"" + name + "\"" + didYouMean(name, names);
-    return wrong;
-  }
-  const Declaration& d = *found;
   AssetRoots roots = AssetRoots::ofScript(showAround(file, further).value_or(file));
   for (const std::string& r : further)
     if (!roots.add(r)) return Read::failure("--asset-root: cannot open the folder " + r);
+  const auto found = document.find(name);
+  if (!found || found->kind() != NodeKind::DynObject) {
+    const auto part = partWith(name, file, roots);
+    Diagnostic wrong;
+    wrong.where.file = file;
+    wrong.message = "has no dynobject \"" + name + "\"" +
+                    (part ? fmt::format("; {0} has: write {0}:{1}", *part, name) : didYouMean(name, names));
+    return wrong;
+  }
+  const Declaration& d = *found;
   Wanted w;
   w.file = std::string(d.text(Attr::File)), w.where = d.where(Attr::File);
   w.options.unit = d.optionalNumber(Attr::Unit);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <unistd.h>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -62,7 +63,7 @@ bool LiveDesk::begin(const Player& player, Diagnostics& findings) {
 
 void LiveDesk::beginGroup(Player& player, RunWatch& watch) {
   ready_ = Clock::now();
-  pictureAwaited_ = std::exchange(groupIsNew_, false);
+  if (std::exchange(groupIsNew_, false)) desk_->awaitPicture();
   if (trackers_) player.takeInputFrom(trackers_->trackers());
   visitorIsLive_ = player.inputIsLive();
   desk_->obey(player.decisions().orders);
@@ -90,13 +91,18 @@ void LiveDesk::writeDown(std::uint64_t frame, const OperatorCommand& command, Ru
 }
 
 void LiveDesk::pictureSeen() {
-  if (!pictureAwaited_.exchange(false)) return;
-  const auto asked = desk_->queue().nextGroupAsked();
+  if (!desk_->pictureSeen()) return;
   say_(fmt::format("group {} begins: reset in {:.2f} s, first picture after {:.2f} s; up {}", groups(),
-                   seconds(ready_ - asked), seconds(Clock::now() - asked), clockText(uptime())));
+                   seconds(ready_ - asked_), seconds(Clock::now() - asked_), clockText(uptime())));
 }
 
-void LiveDesk::endGroup() {
+void LiveDesk::endGroup(const RunWatch& watch) {
+  std::string told = fmt::format("group {} ends at {:.3f} s", groups(), toSeconds(watch.time()));
+  const char* before = ": ";
+  for (const MeasuredDistance& m : watch.measured())
+    told += fmt::format("{}{} {:.3f} m", std::exchange(before, ", "), m.node, m.metres);
+  say_(told);
+  asked_ = desk_->queue().nextGroupAsked();
   groupIsNew_ = true;
   desk_->beginGroup();
   if (trackers_) trackers_->trackers().restart();

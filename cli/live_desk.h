@@ -40,8 +40,9 @@ public:
   void pictureSeen();
   /// Where the record of the present group goes.
   std::string recordName() const;
-  /// The show is over; the next one is being made, for the next group.
-  void endGroup();
+  /// The show is over; the next one is being made, for the next group. Tells how long it was and which
+  /// distances were measured.
+  void endGroup(const RunWatch& watch);
   /// Nothing is heard until the next show.
   void silence();
 
@@ -65,9 +66,9 @@ private:
   bool live_;
   bool visitorIsLive_ = false;
   Clock::time_point opened_ = Clock::now();
-  Clock::time_point ready_{};  ///< the present group's show could begin
+  Clock::time_point asked_{};  ///< when the present group was asked for
+  Clock::time_point ready_{};  ///< its show could begin
   bool groupIsNew_ = false;
-  std::atomic<bool> pictureAwaited_ = false;
   KeptParts kept_;
   AssetRoots roots_;
   std::unique_ptr<TrackerDevice> trackers_;

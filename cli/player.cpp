@@ -78,6 +78,12 @@ void ShowOptions::addLengthTo(CLI::App& command) {
       ->check(wholeNumberFrom(1, 64));
 }
 
+AssetRoots ShowOptions::roots() const {
+  AssetRoots all = AssetRoots::ofScript(script);
+  for (const std::string& root : assetRoots) all.add(root);
+  return all;
+}
+
 bool ShowOptions::settle(Diagnostics& findings) {
   const auto sides = parseSize(size.empty() ? "800x600" : size);
   const auto fits = [](std::uint32_t side) { return side >= 1 && side <= 16384; };
@@ -160,7 +166,8 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   p.importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);
   p.loader_ = std::make_unique<Loader>(
       LoaderParts{*p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_, std::move(report), stop,
-                  fromSeconds(1 / p.rate_), p.trackers_, p.inputName_, kept});
+                  fromSeconds(1 / p.rate_), p.trackers_, p.inputName_, kept,
+                  options.texts ? options.texts : ScriptTexts::read(options.script, p.roots_)});
   p.loader_->obey(p.decisions_.loads);
   p.scene_ = std::make_unique<Scene>(*p.loader_, *p.meshes_, appThreadsOf(options));
   if (!p.scene_->open(options.script)) return nullptr;

@@ -9,6 +9,7 @@
 #include "engine/input/run_decisions.h"
 #include "engine/scene/scene.h"
 #include "engine/script/builder.h"
+#include "engine/script/script_texts.h"
 #include "pipeline/frame_loop.h"
 #include "pipeline/loader.h"
 #include "pipeline/output/stereo.h"
@@ -39,6 +40,8 @@ struct ShowOptions {
   std::vector<std::string> assetRoots;
   std::size_t appThreads = 0;   ///< 0 = as many as there are processors, 8 at most
   DynamicsVariation variation;  ///< of the script's models; no option
+  /// What is played; null: the scripts as they are on disk when the show is opened. No option.
+  std::shared_ptr<const ScriptTexts> texts;
 
   std::uint32_t width = 0, height = 0;  ///< from `size`
 
@@ -46,6 +49,8 @@ struct ShowOptions {
   void addTo(CLI::App& command);
   /// Only those that say what is played and how long: rate, length, input, assets.
   void addLengthTo(CLI::App& command);
+  /// Where the show's files may lie; --asset-root's as far as they are there.
+  AssetRoots roots() const;
   /// Completes what depends on other options. Says what is wrong.
   bool settle(Diagnostics& findings);
 };
@@ -61,7 +66,7 @@ public:
   /// Reads, checks and loads everything. Null if something of the user's is wrong; the findings say what.
   /// What is found while files are loaded, now and during the show, goes to `report`. Once `stop` is true,
   /// nobody waits for a file any more. Models that are `kept` from an earlier show are not imported again; it
-  /// must outlive the player.
+  /// must outlive the player. The scripts are those of that moment: sub-scenes that are loaded later, too.
   static std::unique_ptr<Player> create(const ShowOptions& options, Diagnostics& findings,
                                         std::function<void(const Diagnostics&)> report = tell,
                                         const std::atomic<bool>* stop = nullptr,

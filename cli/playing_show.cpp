@@ -29,13 +29,15 @@ std::map<std::string, bool> subScenes(const Scene& scene) {
 
 std::unique_ptr<PlayingShow> PlayingShow::open(const ShowSurroundings& around, Diagnostics& findings) {
   std::unique_ptr<PlayingShow> show(new PlayingShow(around));
-  show->player_ = Player::create(around.options.show, findings, around.report, show->around_.stopping.get(),
-                                 &around.kept->models);
+  ShowOptions played = around.options.show;
+  played.texts = around.texts;
+  show->player_ =
+      Player::create(played, findings, around.report, show->around_.stopping.get(), &around.kept->models);
   if (!show->player_) return nullptr;
   Player& player = *show->player_;
   if (around.visitor) player.takeInputFrom(*around.visitor);
   RunOptions recorded = around.options;
-  recorded.recordInput = around.desk.recordName();
+  recorded.recordInput = around.recorded ? around.desk.recordName() : "";
   show->watch_ = RunWatch::create(recorded, player, findings);
   if (!show->watch_) return nullptr;
   const SheetPlace& size = around.overviewSize;

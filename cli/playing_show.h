@@ -36,7 +36,10 @@ struct ShowSurroundings {
   LiveDesk& desk;
   /// From one show of a script to the next; shows that are there at the same time and play have one each.
   std::shared_ptr<KeptParts> kept;
-  InputDevice* visitor = nullptr;        ///< null: the input log plays
+  InputDevice* visitor = nullptr;  ///< null: the input log plays
+  /// What is played; null: the scripts as they are on disk when the show is opened.
+  std::shared_ptr<const ScriptTexts> texts;
+  bool recorded = true;                  ///< --record-input counts
   std::vector<SheetPlace> pictureSizes;  ///< by wall, where neither --size nor the wall file says
   SheetPlace overviewSize;
   std::function<void(const Diagnostics&)> report;  ///< what is found later; any thread

@@ -209,7 +209,7 @@ bool waitForScript(const RunOptions& o, const std::atomic<bool>& stop, RunSetup&
 
 /// Everything of the show is made anew, but for what was read from files. False if there is no next group.
 bool nextGroup(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
-  s.desk->endGroup();
+  s.desk->endGroup(*s.watch);
   Diagnostics findings;
   if (const auto wrong = s.watch->finish()) findings.add(*wrong);
   s.watch.reset();

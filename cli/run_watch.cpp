@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -80,7 +81,7 @@ void RunWatch::see(const TimeSignature& now, const InputSample& input, const Sce
 }
 
 std::optional<Diagnostic> RunWatch::finish() {
-  if (!recorder_) return {};
+  if (!recorder_ || std::exchange(finished_, true)) return {};
   // What had not come by the end must not come in a replay either.
   for (const std::uint32_t load : player_.overdueLoads()) recorder_->lateLoad(load, last_.time + 1);
   return recorder_->commit();

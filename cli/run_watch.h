@@ -27,11 +27,13 @@ public:
   void order(std::uint64_t frame, const OperatorCommand& order) {
     if (recorder_) recorder_->order(frame, order);
   }
-  /// Completes the records; says what could not be written.
+  /// Completes the records, once; says what could not be written. Not while see() may be called.
   std::optional<Diagnostic> finish();
 
   /// Show time of the last frame seen.
   Nanoseconds time() const { return last_.time; }
+  /// The distances that were measured.
+  const std::vector<MeasuredDistance>& measured() const { return measured_; }
   const std::vector<NodeTrace>& traces() const { return traces_; }
   /// Writes down what was seen in `frames` frames.
   void addTo(RunSummary& summary, std::uint64_t frames) const;
@@ -43,6 +45,7 @@ private:
 
   const Player& player_;
   std::unique_ptr<InputRecorder> recorder_;
+  bool finished_ = false;
   std::vector<NodeTrace> traces_;
   TimeSignature last_;
   std::uint64_t stateHash_ = 0, historyHash_ = 0, visited_ = 0, published_ = 0, delivered_ = 0, lost_ = 0;

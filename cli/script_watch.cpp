@@ -1,63 +1,68 @@
 #include "cli/script_watch.h"
 
 #include "engine/asset/roots.h"
-#include "engine/script/script.h"
+#include "engine/script/script_texts.h"
 
-#include <set>
+#include <algorithm>
 #include <utility>
 
 namespace stadion {
+namespace {
+
+AssetRoots rootsOf(const std::string& script, const std::vector<std::string>& further) {
+  AssetRoots roots = AssetRoots::ofScript(script);
+  for (const std::string& root : further) roots.add(root);
+  return roots;
+}
+
+}  // namespace
 
 ScriptWatch::ScriptWatch(std::string script, std::vector<std::string> assetRoots)
     : script_(std::move(script)), assetRoots_(std::move(assetRoots)) {
   settle();
 }
 
-// The script, its sub-scenes, theirs, and so on.
-void ScriptWatch::findFiles() {
-  AssetRoots roots = AssetRoots::ofScript(script_);
-  for (const std::string& root : assetRoots_) roots.add(root);
-  std::vector<std::string> open{script_};
-  std::set<std::string> seen;
-  while (!open.empty()) {
-    const std::string file = open.back();
-    open.pop_back();
-    if (!seen.insert(file).second) continue;
-    auto source = SourceText::read(file);
-    if (!source) continue;
-    Diagnostics ignored;
-    const Document document = parseScript(std::move(source.value()), ignored);
-    for (const Declaration d : document) {
-      if (d.kind() != NodeKind::Scene || d.text(Attr::File).empty()) continue;
-      if (const auto found = roots.open(std::string(d.text(Attr::File)))) open.push_back(found.value().path);
-    }
-  }
-  files_.assign(seen.begin(), seen.end());
-}
-
 ScriptWatch::Stamps ScriptWatch::look() const {
   Stamps stamps;
-  for (const std::string& file : files_) {
+  const auto note = [&](const std::string& name, const std::string& path) {
     std::error_code gone;
-    Stamp s;
-    s.time = std::filesystem::last_write_time(file, gone);
-    if (!gone) s.size = std::filesystem::file_size(file, gone);
-    if (!gone) stamps[file] = s;
-  }
+    Stamp s{path, std::filesystem::last_write_time(path, gone), 0};
+    if (!gone) s.size = std::filesystem::file_size(path, gone);
+    if (!gone) stamps.emplace(name, std::move(s));
+  };
+  note(script_, script_);
+  const AssetRoots roots = rootsOf(script_, assetRoots_);
+  for (const std::string& part : parts_)
+    if (const auto found = roots.open(part)) note(part, found.value().path);
   return stamps;
 }
 
-bool ScriptWatch::changed() {
+bool ScriptWatch::somethingIsGone() const {
+  return std::ranges::any_of(known_, [&](const auto& file) { return !seen_.contains(file.first); });
+}
+
+std::string ScriptWatch::whatChanged() const {
+  for (const auto& [name, stamp] : known_)
+    if (!seen_.contains(name)) return stamp.path + " is gone";
+  for (const auto& [name, stamp] : seen_) {
+    const auto before = known_.find(name);
+    if (before == known_.end() || !(before->second == stamp)) return stamp.path + " was saved";
+  }
+  return {};
+}
+
+std::optional<std::string> ScriptWatch::changed() {
   Stamps now = look();
-  const bool stays = now == seen_;
+  stayedFor_ = now == seen_ ? stayedFor_ + 1 : 0;
   seen_ = std::move(now);
-  // While a file is being replaced it may be missing for a moment.
-  return stays && seen_ != known_ && seen_.size() == files_.size();
+  if (seen_ == known_ || stayedFor_ < (somethingIsGone() ? kGoneFor : 1)) return {};
+  return whatChanged();
 }
 
 void ScriptWatch::settle() {
-  findFiles();
+  parts_ = ScriptTexts::read(script_, rootsOf(script_, assetRoots_))->parts();
   known_ = seen_ = look();
+  stayedFor_ = 0;
 }
 
 }  // namespace stadion

@@ -28,12 +28,14 @@ constexpr std::size_t kDeepestNesting = 16;
 class ShowChecker {
 public:
   ShowChecker(const std::string& file, const std::vector<std::string>& roots, bool withAssets,
-              const std::atomic<bool>* giveUp, Diagnostics& findings)
+              const std::atomic<bool>* giveUp, std::shared_ptr<const ScriptTexts> texts,
+              Diagnostics& findings)
       : roots_(AssetRoots::ofScript(file)), withAssets_(withAssets), giveUp_(giveUp), findings_(findings) {
     AssetRoots forImporter = AssetRoots::ofScript(file);
     for (const std::string& r : roots)
       if (!roots_.add(r) || !forImporter.add(r))
         findings.error({}, "--asset-root: cannot open the folder " + r);
+    texts_ = texts ? std::move(texts) : ScriptTexts::read(file, roots_);
     ImportLimits limits;
     limits.giveUp = giveUp;
     importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);
@@ -42,6 +44,9 @@ public:
     readLogBeside(file);
   }
 
+  void check() { checkFile(texts_->show(), {}); }
+
+private:
   void checkFile(Result<SourceText> source, std::vector<const Document*> enclosing) {
     if (!source) return findings_.add(source.error());
     Diagnostics own;
@@ -79,7 +84,6 @@ public:
     }
   }
 
-private:
   /// The devices that a run would hear of.
   void readLogBeside(const std::string& file) {
     const std::filesystem::path beside = std::filesystem::path(file).replace_extension(".input");
@@ -93,13 +97,11 @@ private:
   }
 
   Result<SourceText> readBelow(const Declaration& scene) const {
-    auto found = roots_.open(std::string(scene.text(Attr::File)));
-    if (!found) {
-      Diagnostic d = found.error();
-      d.where = scene.where(Attr::File), d.excerpt = scene.excerpt(Attr::File);
-      return d;
-    }
-    return SourceText::read(found.value().path);
+    auto source = texts_->part(std::string(scene.text(Attr::File)));
+    if (source || !source.error().where.file.empty()) return source;
+    Diagnostic d = source.error();
+    d.where = scene.where(Attr::File), d.excerpt = scene.excerpt(Attr::File);
+    return d;
   }
 
   /// Its names alone; its mistakes are found in its own turn.
@@ -192,6 +194,7 @@ private:
   }
 
   AssetRoots roots_;
+  std::shared_ptr<const ScriptTexts> texts_;
   bool withAssets_;
   const std::atomic<bool>* giveUp_;
   std::unique_ptr<Importer> importer_;
@@ -206,8 +209,10 @@ private:
 
 /// What stands for each object in collisions, and bodies that stick in something when the show begins.
 void lookAtCollisions(const std::string& file, const std::vector<std::string>& roots,
-                      const std::atomic<bool>* giveUp, Diagnostics& findings) {
+                      const std::atomic<bool>* giveUp, std::shared_ptr<const ScriptTexts> texts,
+                      Diagnostics& findings) {
   ShowOptions options;
+  options.texts = std::move(texts);
   options.script = file;
   options.input = "none";
   options.assetRoots = roots;
@@ -256,20 +261,21 @@ void lookAtCollisions(const std::string& file, const std::vector<std::string>& r
 }  // namespace
 
 Diagnostics checkShow(const std::string& file, const std::vector<std::string>& assetRoots,
-                      const std::atomic<bool>* giveUp) {
+                      const std::atomic<bool>* giveUp, std::shared_ptr<const ScriptTexts> texts) {
   Diagnostics findings;
-  ShowChecker(file, assetRoots, true, giveUp, findings).checkFile(SourceText::read(file), {});
+  ShowChecker(file, assetRoots, true, giveUp, texts, findings).check();
   if (!findings.hasErrors()) try {
-      lookAtCollisions(file, assetRoots, giveUp, findings);
+      lookAtCollisions(file, assetRoots, giveUp, texts, findings);
     } catch (const RunStopped&) {
       // given up
     }
   return sorted(findings);
 }
 
-Diagnostics checkScripts(const std::string& file, const std::vector<std::string>& assetRoots) {
+Diagnostics checkScripts(const std::string& file, const std::vector<std::string>& assetRoots,
+                         std::shared_ptr<const ScriptTexts> texts) {
   Diagnostics findings;
-  ShowChecker(file, assetRoots, false, nullptr, findings).checkFile(SourceText::read(file), {});
+  ShowChecker(file, assetRoots, false, nullptr, std::move(texts), findings).check();
   return sorted(findings);
 }
 

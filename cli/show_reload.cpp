@@ -26,8 +26,10 @@ ShowReload::~ShowReload() {
 
 void ShowReload::read() {
   const ShowOptions& show = around_.options.show;
-  Diagnostics found = checkScripts(show.script, show.assetRoots);
-  if (!found.hasErrors()) found = checkShow(show.script, show.assetRoots, around_.stopping.get());
+  around_.texts = ScriptTexts::read(show.script, show.roots());
+  Diagnostics found = checkScripts(show.script, show.assetRoots, around_.texts);
+  if (!found.hasErrors())
+    found = checkShow(show.script, show.assetRoots, around_.stopping.get(), around_.texts);
   for (const Diagnostic& d : found.all())
     if (d.severity == Severity::Error) errors_.add(d);
   if (!errors_.hasErrors()) show_ = PlayingShow::open(around_, errors_);

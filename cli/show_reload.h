@@ -1,8 +1,9 @@
 #pragma once
 /// A show that is read again while the one before it plays on.
 ///
-/// Its scripts are checked first, so that a slip of the keyboard is told at once, not when every asset has
-/// been read.
+/// Its scripts are read once and checked first, so that a slip of the keyboard is told at once, not when
+/// every asset has been read, and what plays then is what was checked. Nothing is recorded of it before it
+/// plays.
 ///
 /// Threads  the caller's; the reading is done on a thread of its own, that is ended with this.
 

@@ -244,8 +244,8 @@ void ViewSession::putInPlace(std::unique_ptr<PlayingShow> show) {
 
 // Everything of the show is made anew, but for what was read from files.
 void ViewSession::nextGroup() {
-  if (const auto wrong = show_->watch().finish()) say(format(*wrong));
-  desk_->endGroup();
+  finishRecord();
+  desk_->endGroup(show_->watch());
   Diagnostics findings;
   auto next = PlayingShow::open(surroundings(show_->kept()), findings);
   tell(findings);
@@ -264,16 +264,18 @@ void ViewSession::watchFiles() {
   const auto now = Clock::now();
   if (reload_ || now - filesLookedAt_ < kFilesEvery) return;
   filesLookedAt_ = now;
-  if (files_.changed()) beginReload("it was saved");
+  if (const auto why = files_.changed()) beginReload(*why);
 }
 
-void ViewSession::beginReload(const char* why) {
+// What plays is recorded until it ends. A show that begins in the middle of a visit is not, the show of a
+// group that waits for it is.
+void ViewSession::beginReload(const std::string& why) {
   if (reload_) return;
   say(fmt::format("reading {} again: {}", options_.run.show.script, why));
   files_.settle();
-  if (const auto wrong = show_->watch().finish()) say(format(*wrong));
-  options_.run.recordInput.clear();  // another script, another log
-  reload_ = std::make_unique<ShowReload>(surroundings(std::make_shared<KeptParts>()));
+  ShowSurroundings around = surroundings(std::make_shared<KeptParts>());
+  around.recorded = over_;
+  reload_ = std::make_unique<ShowReload>(std::move(around));
 }
 
 void ViewSession::finishReload() {
@@ -283,13 +285,25 @@ void ViewSession::finishReload() {
   hud_.setTrouble(linesOf(findings));
   if (!show) return say("the script has errors; the show goes on as it was");
   show_->stop();
+  finishRecord();
   desk_->silence();
   std::optional<ShowPlace> place;
-  if (!over_) place = show_->place();
+  if (!over_) {
+    place = show_->place();
+    options_.run.recordInput.clear();  // another script, another log
+  }
   putInPlace(std::move(show));
   begin(place);
   say(fmt::format("reloaded {}; the rig stands at {}", options_.run.show.script,
                   pointText(place ? place->X_WR.p : Vec3(Vec3::Zero()))));
+}
+
+/// Of a show that has stopped.
+void ViewSession::finishRecord() {
+  const auto wrong = show_->watch().finish();
+  if (!wrong) return;
+  say("stadion: " + format(*wrong));
+  if (code_ == kOk) code_ = kBadInput;
 }
 
 void ViewSession::endShow() {
@@ -298,10 +312,7 @@ void ViewSession::endShow() {
     std::fprintf(stderr, "stadion: %s\n", f->message.c_str());
     code_ = exitCodeOf(*f);
   }
-  if (const auto wrong = show_->watch().finish()) {
-    std::fprintf(stderr, "stadion: %s\n", format(*wrong).c_str());
-    if (code_ == kOk) code_ = kBadInput;
-  }
+  finishRecord();
   RunSummary summary;
   show_->watch().addTo(summary, show_->framesPlayed());
   std::printf("the rig stands at %s\n", pointText(show_->place().X_WR.p).c_str());

@@ -59,8 +59,9 @@ private:
   void nextGroup();
   void putInPlace(std::unique_ptr<PlayingShow> show);
   void watchFiles();
-  void beginReload(const char* why);
+  void beginReload(const std::string& why);
   void finishReload();
+  void finishRecord();
   void endShow();
 
   void tellOfStep();

@@ -1,7 +1,6 @@
 #include "pipeline/loader.h"
 
 #include "engine/asset/sound_file.h"
-#include "engine/plain_file.h"
 #include "engine/run_stopped.h"
 #include "engine/script/lint.h"
 #include "engine/script/script.h"
@@ -146,12 +145,11 @@ std::vector<std::uint32_t> Loader::around(std::uint32_t outer) const {
 
 // The show's own file is where the user says; every other one lies below the show's roots.
 Result<SourceText> Loader::read(const Job& job) const {
-  if (!job.owner.valid()) return SourceText::read(job.file);
-  auto found = parts_.roots.open(job.file);
-  if (!found) return askedForBy(job, found.error());
-  const auto bytes = readPlainFile(found.value().file.get(), found.value().path, SourceText::kMostBytes);
-  if (!bytes) return bytes.error();
-  return SourceText::make(found.value().path, bytes.value());
+  const ScriptTexts* texts = parts_.texts.get();
+  if (!job.owner.valid()) return texts ? texts->show() : SourceText::read(job.file);
+  auto source = texts ? texts->part(job.file) : ScriptTexts::readPart(job.file, parts_.roots);
+  if (!source && source.error().where.file.empty()) return askedForBy(job, source.error());
+  return source;
 }
 
 // Said where the scene node names its file.

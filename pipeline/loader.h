@@ -14,6 +14,7 @@
 #include "engine/asset/import.h"
 #include "engine/scene/load.h"
 #include "engine/script/builder.h"
+#include "engine/script/script_texts.h"
 #include "pipeline/imported_meshes.h"
 #include "pipeline/state/chunk_arena.h"
 
@@ -43,6 +44,8 @@ struct LoaderParts {
   std::vector<std::string> trackers{};  ///< devices of the input log, to warn of other names
   std::string log{};                    ///< the input log; empty: nobody knows which devices there will be
   ImportedMeshes* kept = nullptr;       ///< models that need not be imported again; null: none
+  /// The scripts as they are to be played; null: as their files are when they are loaded.
+  std::shared_ptr<const ScriptTexts> texts{};
 };
 
 class Loader final : public SceneLoader {

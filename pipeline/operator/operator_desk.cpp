@@ -22,6 +22,7 @@ void OperatorDesk::beginFrame(std::uint64_t frame) {
 }
 
 void OperatorDesk::take(std::uint64_t frame, const OperatorCommand& command) {
+  if (command.action == OperatorAction::NextGroup && (pictureAwaited_ || state_.nextGroup)) return;
   if (!state_.obey(command)) return;
   leaving_ = state_.nextGroup;
   if (command.action == OperatorAction::Step)

@@ -7,7 +7,7 @@
 /// what its tracker says; the others change pictures and sounds alone. All of that is in the input log of a
 /// live run, and a replay obeys it.
 ///
-/// Threads  queue() and leaving() from any; everything else is App's while the show runs.
+/// Threads  queue(), leaving() and pictureSeen() from any; everything else is App's while the show runs.
 
 #include "engine/input/run_decisions.h"
 #include "pipeline/operator/operator_queue.h"
@@ -33,6 +33,11 @@ public:
   void beginGroup();
   /// Groups so far, this one included.
   std::uint64_t groups() const { return groups_; }
+  /// Until the present group's first picture is seen, asking for the next one changes nothing: whoever
+  /// presses the key again in the meantime means this one.
+  void awaitPicture() { pictureAwaited_ = true; }
+  /// True for the first one.
+  bool pictureSeen() { return pictureAwaited_.exchange(false); }
   /// The next group was asked for: what is still being drawn need not be finished.
   bool leaving() const { return leaving_; }
 
@@ -52,7 +57,7 @@ private:
   Playback playback_;
   RunOrders recorded_;
   bool waits_;
-  std::atomic<bool> leaving_ = false;
+  std::atomic<bool> leaving_ = false, pictureAwaited_ = false;
   std::uint64_t groups_ = 0;
 };
 

@@ -190,6 +190,62 @@ TEST(ProgramFit, BadInputIsSaidWithItsPlace) {
   EXPECT_EQ(stadionProgram({"fit", object, "--reference", flight, "--mass", "nan"}).status, 2);
 }
 
+TEST(ProgramFit, MatterThatNoScriptMayStateIsRefusedHereToo) {
+  const std::string flight = kFlights + "jav_30_34_a0.csv", model = assetFolder() + "/javelin.glb";
+  struct Case {
+    std::vector<std::string> words;
+    const char* said;
+  };
+  for (const Case& c :
+       {Case{{"--centre", "100", "0", "0"}, "--centre: the centre of mass lies outside of the model"},
+        Case{{"--inertia", "1e-9", "0.42"}, "--inertia: the moments must be at least"}}) {
+    std::vector<std::string> words{"fit", model, "--mass", "0.806", "--reference", flight};
+    words.insert(words.end(), c.words.begin(), c.words.end());
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 2) << r.out;
+    EXPECT_NE(r.err.find(c.said), std::string::npos) << r.err;
+  }
+}
+
+/// The first rows of a recorded flight.
+std::string beginningOf(const std::string& flight, int rows) {
+  std::istringstream all(fileContent(kFlights + flight));
+  std::string text, line;
+  while (rows >= 0 && std::getline(all, line)) text += line + "\n", rows -= !line.starts_with('#');
+  return text;
+}
+
+TEST(ProgramFit, AFlightThatEndsInTheAirOrHasHardlyARowIsRefused) {
+  const TemporaryFolder folder;
+  const std::string object = folder.write("discus.obj", discus());
+  const auto said = [&](int rows) {
+    const std::string flight = folder.write("part.csv", beginningOf("disc_25_35_s40_a-10.csv", rows));
+    const ProgramResult r = stadionProgram({"fit", object, "--mass", "2", "--reference", flight});
+    EXPECT_EQ(r.status, 2) << r.out;
+    return r.err;
+  };
+  EXPECT_NE(said(20).find("part.csv: error: the last row is no landing"), std::string::npos) << said(20);
+  EXPECT_NE(said(50).find("the last row is no landing"), std::string::npos) << "it falls, but from above";
+  EXPECT_NE(said(4).find("fewer than five rows"), std::string::npos) << said(4);
+}
+
+TEST(ProgramFit, TheFlightOfAnotherBodyIsSuspected) {
+  const ProgramResult r = stadionProgram({"fit", assetFolder() + "/javelin.glb", "--mass", "0.806",
+                                          "--reference", kFlights + "disc_25_35_s40_a-10.csv"});
+  EXPECT_EQ(r.status, 1) << r.err;
+  EXPECT_NE(r.out.find("are these flights of a long body of 0.806 kg"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("across its long axis, as a flat one may that spins"), std::string::npos) << r.out;
+}
+
+TEST(ProgramFit, ADynobjectOfASubSceneIsNamedWithItsFile) {
+  const std::string show = olympia("../olympia.evs");
+  const ProgramResult r =
+      stadionProgram({"fit", show + ":javelin", "--reference", kFlights + "jav_30_34_a0.csv"});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_NE(r.err.find("has no dynobject \"javelin\"; "), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("olympia/game_javelin.evs:javelin"), std::string::npos) << r.err;
+}
+
 TEST(ProgramCheck, WhatFliesAsIfMatterFilledItEvenlyIsToldWithTheNumbers) {
   const TemporaryFolder folder;
   const auto told = [&](const std::string& words) {

@@ -304,6 +304,30 @@ TEST(ProgramView, TheNextGroupFindsTheShowAtItsStartAndHasARecordOfItsOwn) {
   }
 }
 
+TEST(ProgramView, AGroupsDistancesAreToldWhenItEnds) {
+  REQUIRE_DISPLAY(display);
+  const TemporaryFolder scripts;
+  Viewing view(*display, scripts.write("drop.evs", R"(forcelinear( name=gravity, direction="0, 0, -1" )
+object( name=floor, file=plane.3ds )
+dynobject( name=ours, file=football.3ds, position="-1, 4.37, 1", hook=gravity )
+dynobject( name=theirs, file=football.3ds, position="1, 4.12, 2", hook=gravity )
+dynamics( collider=floor, collidee=ours, collidee=theirs )
+measure( name=visitor, body=ours )
+measure( name=athlete, body=theirs )
+timer( period=0.1, repeat=off, eventmessage="timesup, visitor, start", eventmessage="timesup, athlete, start" )
+)"));
+  ASSERT_TRUE(view.playing());
+  double reached = 0;  // the balls take less than a second
+  for (int i = 1; i < 100 && !(reached > 1.5); ++i) {
+    ASSERT_TRUE(view.pressed("space", "paused at", i));
+    reached = numberAfter(view.program().err(), "paused at ");
+    ASSERT_TRUE(view.pressed("space", "going on at", i));
+  }
+  ASSERT_TRUE(view.pressed("n", "group 1 ends at "));
+  ASSERT_TRUE(view.program().says("visitor 4.370 m, athlete 4.120 m")) << view.program().err();
+  view.end();
+}
+
 TEST(ProgramView, ANextGroupWhoseScriptHasErrorsWaitsForItToBeMended) {
   REQUIRE_DISPLAY(display);
   const TemporaryFolder scripts;
@@ -319,6 +343,70 @@ TEST(ProgramView, ANextGroupWhoseScriptHasErrorsWaitsForItToBeMended) {
   ASSERT_TRUE(view.program().says("reloaded "));
   ASSERT_TRUE(view.program().says("playing ", 2));
   view.end();
+}
+
+/// Everything of it changes no state, but for what the script says.
+constexpr const char* kCountingShow =
+    "object( name=floor, file=plane.3ds )\n"
+    "dynobject( name=ball, file=football.3ds, position=\"0, 3, 9\", density=0.1 )\n"
+    "forcelinear( name=gravity, direction=\"0, 0, -1\" )\n"
+    "dynamics( collider=floor, collidee=ball )\n"
+    "scene( name=part, file=part.evs, initstate=off, ready=0 )\n"
+    "wandtrigger( sphere=\"0, 0, 0, 100\", eventmessage=\"button1, part, load\" )\n";
+
+TEST(ProgramView, ABrokenScriptThatIsSavedCostsNothingOfTheRecord) {
+  REQUIRE_DISPLAY(display);
+  const TemporaryFolder scripts;
+  scripts.write("part.evs", "timer( name=inside, period=1 )\n");
+  const std::string show = scripts.write("show.evs", kCountingShow);
+  Viewing view(*display, show);
+  ASSERT_TRUE(view.playing());
+  scripts.write("show.evs", std::string(kCountingShow) + "dynobj(");
+  ASSERT_TRUE(view.program().says("the script has errors; the show goes on as it was"));
+  ASSERT_TRUE(view.pressed("space", "paused at"));
+  ASSERT_TRUE(view.pressed("period", "one frame, to "));
+  const double reached = numberAfter(view.program().err(), "one frame, to ");
+  const std::string told = view.end();  // with exit code 0
+  EXPECT_EQ(view.program().err().find("cannot be written"), std::string::npos) << view.program().err();
+  scripts.write("show.evs", kCountingShow);
+  const ProgramResult again = stadionProgram(
+      {"hash", show, "--asset-root", assetFolder(), "--walls", "desktop", "--input", view.log()});
+  EXPECT_TRUE(again.out.ends_with(hashIn(told) + "\n")) << again.out << told << reached;
+}
+
+TEST(ProgramView, ARecordEndsOnceWhereAnotherScriptBegins) {
+  REQUIRE_DISPLAY(display);
+  const TemporaryFolder scripts;
+  scripts.write("part.evs", "timer( name=inside, period=1 )\n");
+  const std::string show = scripts.write("show.evs", kCountingShow);
+  Viewing view(*display, show);
+  ASSERT_TRUE(view.playing());
+  ASSERT_TRUE(view.pressed("F5", "reloaded "));
+  ASSERT_TRUE(view.program().says("playing ", 2));
+  scripts.write("show.evs", std::string(kCountingShow) + "dynobj(");
+  ASSERT_TRUE(view.program().says("the script has errors; the show goes on as it was"));
+  ASSERT_TRUE(view.pressed("n", "the next group's show begins once it is saved without them"));
+  view.end();
+  EXPECT_FALSE(fileContent(view.log()).empty());
+}
+
+TEST(ProgramView, TheOldShowPlaysWithTheSubScenesThatItWasCheckedWith) {
+  REQUIRE_DISPLAY(display);
+  const TemporaryFolder scripts;
+  const std::string part = scripts.write("part.evs", "timer( name=inside, period=1 )\n");
+  Viewing view(*display, scripts.write("show.evs", kCountingShow));
+  ASSERT_TRUE(view.playing());
+  scripts.write("part.evs", "object( file=nowhere_to_be_found.3ds )\n");
+  ASSERT_TRUE(view.program().says("the script has errors; the show goes on as it was"));
+  std::filesystem::remove(part);
+  ASSERT_TRUE(view.program().says("part.evs is gone"));
+  ASSERT_TRUE(view.program().says("the script has errors; the show goes on as it was", 2));
+  view.hands({"mousedown", "1", "sleep", "0.5", "mouseup", "1"});
+  ASSERT_TRUE(view.pressed("space", "paused at"));
+  ASSERT_TRUE(view.pressed("period", "one frame, to "));
+  const std::string told = view.end();
+  EXPECT_NE(told.find("loaded     part"), std::string::npos) << told << view.program().err();
+  EXPECT_EQ(view.program().err().find("stand-in"), std::string::npos) << view.program().err();
 }
 
 TEST(ProgramView, AServerThatEndsEndsTheShowWithItsRecordWritten) {

@@ -1,0 +1,44 @@
+#pragma once
+/// The texts of a show's scripts, as they were when they were read: the show's own file and every sub-scene
+/// below it.
+///
+///   const auto texts = ScriptTexts::read("scripts/olympia.evs", roots);
+///   texts->show();                          // Result<SourceText>
+///   texts->part("olympia/game_ball.evs");   // as a scene node names its file
+///
+/// Whoever checks and plays them plays what was checked, whatever becomes of the files meanwhile.
+///
+/// Errors   of a file that cannot be read are kept, and told when it is asked for.
+/// Threads  constant once made.
+
+#include "engine/script/source_text.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+class AssetRoots;
+
+class ScriptTexts {
+public:
+  static std::shared_ptr<const ScriptTexts> read(const std::string& script, const AssetRoots& roots);
+  /// One file that a scene node names, as it is on disk now. Errors say where it was looked for.
+  static Result<SourceText> readPart(const std::string& name, const AssetRoots& roots);
+
+  Result<SourceText> show() const { return show_; }
+  /// A part that no script had named then is an error.
+  Result<SourceText> part(const std::string& name) const;
+  /// The names of all parts.
+  std::vector<std::string> parts() const;
+
+private:
+  explicit ScriptTexts(Result<SourceText> show) : show_(std::move(show)) {}
+
+  Result<SourceText> show_;
+  std::map<std::string, Result<SourceText>> parts_;
+};
+
+}  // namespace stadion
