@@ -53,6 +53,8 @@ int profileFrames(Options o) {
   options.show = o.fidelity.show;
   options.layout = *stereoLayout(options.stereo);
   options.drawn = !o.undrawn;
+  options.fidelity = o.fidelity, options.fidelityAsked = o.fidelityAsked;
+  options.fidelity.tolerance = 1e-3 * o.millimetres;
   Diagnostics findings;
   const bool settled = options.show.settle(findings);
   const auto figures = settled ? profileShow(options, findings) : std::nullopt;
@@ -87,6 +89,13 @@ constexpr const char* kFooter =
 Cull by wall, shared among the nodes that it looked at; Draw by drawing a few batches alone in some frames, in their
 place in the frame, until every node has had its turn. `visitor` stands for the trackers and for the eyes in front of the walls.
 `explained` says how much of what the stages took is found with nodes, or with parts of the stages themselves.
+
+With --html FILE a page for a browser is written, one file: each thread in the frames around the longest, costs along the
+scene tree, histograms, walls and eyes, late frames with their causes, bodies' costs beside their errors. With --trace
+FILE every span is written, for ui.perfetto.dev; App, Cull and Draw of a frame are joined by arrows. docs/profiling.md
+teaches to read both.
+
+  ./stadion profile scripts/kick.evs --html kick.html --trace kick.json --trace-frames 100..160
 
 With --fidelity, every dynobject is listed with what stands for it: the shape that collides, the fields it is hooked to, how its
 flight is computed (in closed form; by a series of order 16, in one medium; by steps of order 5, under other fields),
@@ -130,14 +139,19 @@ void addProfileCommand(CLI::App& app, int& code) {
   command->add_option("--nodes", o->nodes, "how many nodes are listed, the dearest first")
       ->check(wholeNumberFrom(0, 1000000))
       ->capture_default_str();
+  command->add_option("--html", o->run.html,
+                      "write a page for a browser to FILE: frames, nodes, stages, walls, late frames; with "
+                      "--fidelity the bodies' errors too");
+  o->run.trace.addTo(*command, "--trace");
   command->add_flag("--csv", o->csv, "a row a node, stage, wall and eye");
   command->add_flag("--fidelity", o->fidelityAsked,
                     "each body's model, its error against the finest, and its cost");
   command->add_option("--tolerance", o->millimetres, "how far off a body may ever be [mm]")
       ->check(numberFrom(1e-6, 1e6))
       ->capture_default_str();
-  command->add_option("--body", o->fidelity.bodies,
-                      "only this body is played with other models; may be repeated")
+  command
+      ->add_option("--body", o->fidelity.bodies,
+                   "only this body is played with other models; may be repeated")
       ->allow_extra_args(false);
   command
       ->add_option(
@@ -161,7 +175,7 @@ void addProfileCommand(CLI::App& app, int& code) {
     else if (o->fidelity.show.script.empty())
       throw CLI::RequiredError("SHOW");
     else
-      code = o->fidelityAsked ? profileModels(*o) : profileFrames(*o);
+      code = o->fidelityAsked && o->run.html.empty() ? profileModels(*o) : profileFrames(*o);
   });
 }
 

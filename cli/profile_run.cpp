@@ -1,7 +1,9 @@
 #include "cli/profile_run.h"
 
+#include "cli/profile_report.h"
 #include "cli/show_recording.h"
 #include "cli/stop_signal.h"
+#include "engine/atomic_file.h"
 #include "pipeline/output/progress.h"
 
 #include <cstdio>
@@ -10,6 +12,16 @@ namespace stadion {
 namespace {
 
 constexpr std::uint64_t kFramesWithoutInput = 600;
+
+std::unique_ptr<ShowRecording> record(const ProfileRunOptions& options, const Player& player,
+                                      Diagnostics& findings) {
+  RecordingOptions recorded;
+  const std::vector<std::string> walls = player.walls().names();
+  recorded.trace = options.trace.settle(findings);
+  if (recorded.trace) recorded.trace->show = options.show.script, recorded.trace->walls = walls;
+  if (!options.html.empty()) recorded.report = RecordingOptions::Report{player.rate(), walls};
+  return findings.hasErrors() ? nullptr : ShowRecording::create(std::move(recorded), findings);
+}
 
 }  // namespace
 
@@ -26,8 +38,11 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnos
   FrameLoopOptions loopOptions = player->loopOptions();
   if (loopOptions.frames == 0 && loopOptions.end == 0) loopOptions.frames = kFramesWithoutInput;
 
-  const auto recording = ShowRecording::create({}, findings);
-  if (!recording) return {};
+  // Files are opened before anything is played.
+  std::optional<AtomicFile> html;
+  if (!options.html.empty() && html.emplace(options.html).error()) findings.add(*html->error());
+  const auto recording = record(options, *player, findings);
+  if (!recording || findings.hasErrors()) return {};
   ProgressBar progress(loopOptions.frames);
   const ShowStages* running = nullptr;
   ShowParts parts = player->parts(options.layout);
@@ -44,10 +59,19 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnos
   const FrameLoopOutcome outcome = loop.run();
   progress.finish();
   if (outcome.failure) return findings.error({}, outcome.failure->message), std::nullopt;
+  recording->finishTrace(findings);
+  if (findings.hasErrors()) return {};
   if (recording->lost() > 0)
     findings.warning({}, std::to_string(recording->lost()) + " spans were lost: they came faster than they "
                                                              "could be collected");
-  return recording->figures(player->walls().names(), options.provider != "egl");
+  ShowFigures figures = recording->figures(player->walls().names(), options.provider != "egl");
+  if (html) {
+    ReportData data = recording->report(reportHead(options, *player, stages.glDescription()), figures);
+    if (!stop) data.dynamics = dynamicsFigures(options, figures);
+    html->write(reportPage(data));
+    if (const auto why = html->commit()) return findings.add(*why), std::nullopt;
+  }
+  return figures;
 }
 
 }  // namespace stadion

@@ -1,7 +1,9 @@
 #pragma once
 /// Plays a show and says what its frames are spent on, node by node.
 
+#include "cli/fidelity.h"
 #include "cli/run_options.h"
+#include "cli/trace_options.h"
 #include "profiling/show_figures.h"
 
 #include <optional>
@@ -13,6 +15,10 @@ struct ProfileRunOptions {
   std::string stereo = "pair", provider = "osmesa";
   StereoLayout layout = StereoLayout::Pair;  ///< from `stereo`
   bool drawn = true;                         ///< false: App and Cull alone
+  TraceRequest trace;
+  std::string html;  ///< the report's file; empty: none
+  FidelityOptions fidelity;
+  bool fidelityAsked = false;  ///< for the report; else if it takes seconds only
 };
 
 /// Nothing, with the findings, if something of the user's is wrong.

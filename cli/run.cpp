@@ -89,8 +89,11 @@ bool canDraw(GlProvider& provider, const ShowParts& parts, Diagnostics& findings
 bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   s.recording.reset();
   const bool live = !o.everyFrameCounts(*s.player);
-  if (!o.profile && !live) return true;
   RecordingOptions options;
+  options.trace = o.events.settle(findings);
+  if (findings.hasErrors()) return false;
+  if (!o.profile && !options.trace && !live) return true;
+  if (options.trace) options.trace->show = o.show.script, options.trace->walls = s.player->walls().names();
   options.profile = o.profile, options.log.samples = o.profile;
   if (live) {
     const FrameLoopOptions loop = o.loopOptions(*s.player);
@@ -186,7 +189,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;
   }
-  if (recording) tellRecording(o, *recording, *s.player);
+  if (recording && !tellRecording(o, *recording, *s.player)) return code == kOk ? kBadInput : code;
   return code;
 }
 

@@ -60,6 +60,7 @@ void RunOptions::addTo(CLI::App& command) {
       .add_option("--trace", trace,
                   "write where this node is in every frame to trace-NODE.csv in --out DIR; may be repeated")
       ->allow_extra_args(false);
+  events.addTo(command, "--trace-events");
   trackers.addTo(command);
   spans.addTo(command);
   addOperatorTo(command);
@@ -94,8 +95,10 @@ bool RunOptions::settle(Diagnostics& findings) {
   if (!spans.file.empty() && !asksForEveryFrame())
     findings.error(
         {}, "--spans is for runs in which every frame counts: say --frames N, --seconds S or --input FILE");
-  if (profile && !spans.file.empty())
-    findings.error({}, "--profile and --spans both time the nodes; leave one of them out");
+  if ((profile || !events.file.empty()) && !spans.file.empty())
+    findings.error(
+        {}, "--profile and --trace-events time the nodes, as --spans does; leave the one or the other out");
+  events.settle(findings);
   if (display && !stereoGiven) layout = StereoLayout::Off;
   if (!trace.empty() && out.empty())
     findings.error({}, "--trace needs --out DIR to know where the table goes");

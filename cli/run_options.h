@@ -4,6 +4,7 @@
 #include "cli/player.h"
 #include "cli/run_output.h"
 #include "cli/span_options.h"
+#include "cli/trace_options.h"
 #include "cli/tracker_device.h"
 
 #include <string>
@@ -15,6 +16,7 @@ struct RunOptions {
   ShowOptions show;
   std::string stereo = "pair", pace, recordInput, out, pictures = "last", provider = "osmesa";
   std::vector<std::string> trace;
+  TraceRequest events;
   TrackerOptions trackers;
   int oscPort = -1;      ///< where commands of the operator are listened for; -1: nowhere
   std::string blackBox;  ///< where a live run keeps its last frames; empty: a temporary file

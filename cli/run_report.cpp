@@ -118,19 +118,23 @@ int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   return verdict.code(run.outcome.stopped);
 }
 
-void tellRecording(const RunOptions& o, ShowRecording& recording, const Player& player) {
+bool tellRecording(const RunOptions& o, ShowRecording& recording, const Player& player) {
   constexpr std::size_t kNodes = 10;
   const bool software = o.provider != "egl";
   if (o.profile)
     std::fprintf(stderr, "\n%s", toText(recording.figures(player.walls().names(), software), kNodes).c_str());
   recording.finish();
+  Diagnostics findings;
+  recording.finishTrace(findings);
+  tell(findings);
   const BlackBox* box = recording.blackBox();
-  if (!box || box->late() == 0) return;
+  if (!box || box->late() == 0) return !findings.hasErrors();
   std::string causes;
   for (const auto& [cause, count] : box->verdicts())
     causes += fmt::format("{}{} {}", causes.empty() ? "" : ", ", count, nameOf(cause));
   std::fprintf(stderr, "late frames: %s\nthe last %zu frames: stadion profile --black-box %s\n",
                causes.c_str(), BlackBox::kFrames, box->file().c_str());
+  return !findings.hasErrors();
 }
 
 }  // namespace stadion

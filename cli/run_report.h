@@ -25,7 +25,8 @@ struct FinishedRun {
 /// --out.
 int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder);
 
-/// Which nodes cost the most, if it was asked for, and why frames were late, on stderr.
-void tellRecording(const RunOptions& options, ShowRecording& recording, const Player& player);
+/// Which nodes cost the most, if it was asked for, and why frames were late, on stderr. False, and told, if
+/// the trace could not be written.
+bool tellRecording(const RunOptions& options, ShowRecording& recording, const Player& player);
 
 }  // namespace stadion

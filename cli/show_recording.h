@@ -4,7 +4,10 @@
 /// Threads  made before the run; see() on the App thread; figures() once the run is over.
 
 #include "profiling/black_box.h"
+#include "profiling/report/report_data.h"
+#include "profiling/report/report_recording.h"
 #include "profiling/show_figures.h"
+#include "profiling/trace/trace_file.h"
 
 #include <optional>
 
@@ -14,6 +17,13 @@ struct RecordingOptions {
   bool profile = true;  ///< add up by node and stage
   FrameLogOptions log{};
   std::optional<BlackBoxOptions> keep{};  ///< the last frames, in a file
+  std::optional<TraceOptions> trace{};    ///< every span, in a file
+  /// Frame after frame, for a report.
+  struct Report {
+    double rate = 60;
+    std::vector<std::string> walls;
+  };
+  std::optional<Report> report{};
 };
 
 class ShowRecording {
@@ -29,6 +39,16 @@ public:
       made->box_ = std::move(box.value());
       readers.push_back(made->box_.get());
     }
+    if (options.report) {
+      made->report_ = std::make_unique<ReportRecording>(options.report->rate, options.report->walls,
+                                                        options.log, made->names_);
+      readers.push_back(made->report_.get());
+    }
+    if (options.trace) {
+      made->trace_ = std::make_unique<TraceFile>(std::move(*options.trace), options.log, made->names_);
+      if (const auto& why = made->trace_->error()) return findings.add(*why), nullptr;
+      readers.push_back(made->trace_.get());
+    }
     made->log_ = std::make_unique<FrameLog>(std::move(readers), options.log);
     return made;
   }
@@ -37,6 +57,14 @@ public:
   void see(const Scene& scene) { names_.see(scene); }
   /// Nothing more will come.
   void finish() { log_->finish(); }
+  /// Completes the trace, if there is one.
+  void finishTrace(Diagnostics& findings) {
+    if (!trace_) return;
+    finish();
+    if (const auto why = trace_->finish()) findings.add(*why);
+    if (const std::string left = trace_->leftOut(); !left.empty())
+      findings.warning({}, "the trace leaves out " + left);
+  }
   ShowFigures figures(const std::vector<std::string>& walls, bool software) {
     finish();
     return figuresOf(profile_, names_, walls, software);
@@ -45,15 +73,37 @@ public:
     finish();
     return profile_;
   }
+  /// Expects that a report was asked for; `figures` must outlive what is returned.
+  ReportData report(ReportHead head, const ShowFigures& figures) {
+    finish();
+    head.frames = profile_.frames(), head.recording = recordingMs();
+    ReportData data{std::move(head), figures, names_, report_->series(), report_->kept(), {}, {}};
+    data.threads = report_->threads().threads();
+    for (const auto& [who, eye] : profile_.eyes())
+      data.eyes.push_back(
+          {who.first, who.second, eye.whole.mean(), eye.whole.percentile(95), eye.whole.count()});
+    return data;
+  }
   const BlackBox* blackBox() const { return box_.get(); }
   std::uint64_t lost() const { return log_->lost(); }
 
 private:
   ShowRecording() = default;
 
+  /// What recording takes of all threads, a frame.
+  double recordingMs() const {
+    double spans = 0;
+    for (const auto& [who, total] : profile_.spans()) spans += static_cast<double>(total.ms.count());
+    const SpanOverhead& each = log_->overhead();
+    return 1e-6 * spans * (each.inside + each.outside) /
+           static_cast<double>(std::max<std::uint64_t>(1, profile_.frames()));
+  }
+
   ShowProfile profile_;
   NodeNames names_;
   std::unique_ptr<BlackBox> box_;
+  std::unique_ptr<TraceFile> trace_;
+  std::unique_ptr<ReportRecording> report_;
   std::unique_ptr<FrameLog> log_;
 };
 

@@ -11,7 +11,6 @@ namespace stadion {
 namespace {
 
 constexpr char kMagic[16] = "stadion frames1";
-constexpr std::size_t kMostOpen = 64;  ///< frames that nobody has shown yet; older ones never will be
 
 template <std::size_t N>
 void copyText(const std::string& from, char (&to)[N]) {
@@ -62,59 +61,11 @@ BlackBox::~BlackBox() {
   if (late() == 0) ::unlink(options_.file.c_str());
 }
 
-FrameFacts& BlackBox::frame(std::uint64_t number) {
-  const auto [at, isNew] = open_.try_emplace(number);
-  if (isNew) {
-    at->second.frame = number;
-    at->second.walls = ring_->walls;
-    at->second.budget = options_.rate > 0 ? static_cast<float>(1e3 / options_.rate) : 0;
-    if (open_.size() > kMostOpen) open_.erase(open_.begin());
-  }
-  return open_[number];
-}
+BlackBox::BlackBox(BlackBoxOptions options, const NodeNames& names, Ring* ring)
+    : options_(std::move(options)), ring_(ring),
+      judge_(options_.rate, options_.walls.size(), names, [this](const FrameFacts& facts) { keep(facts); }) {}
 
-void BlackBox::take(std::size_t track, const SpanRecord& r) {
-  if (r.frame == kNoFrame) return;
-  StageFacts& under = pending_[track];
-  switch (r.what) {
-  case Span::ForTurn: under.turn += static_cast<float>(r.took); return;
-  case Span::Loading:
-  case Span::Upload: under.loading += static_cast<float>(r.took); return;
-  case Span::Swap: return shown(r);
-  case Span::App:
-  case Span::Cull:
-  case Span::Draw: break;
-  default:
-    if (isOfNode(r.what)) takeNode(frame(r.frame), r);
-    return;
-  }
-  StageFacts stage = std::exchange(under, {});
-  stage.ms = static_cast<float>(r.took) - stage.turn;
-  stage.processor = static_cast<float>(r.use.processor);
-  stage.switches = static_cast<std::uint32_t>(r.use.switches);
-  stage.faults = static_cast<std::uint32_t>(r.use.faults);
-  FrameFacts& facts = frame(r.frame);
-  if (r.what == Span::App)
-    facts.app = stage;
-  else if (r.wall < facts.walls)
-    (r.what == Span::Cull ? facts.cull : facts.draw)[r.wall] = stage;
-}
-
-void BlackBox::takeNode(FrameFacts& facts, const SpanRecord& r) {
-  if (r.took <= static_cast<double>(facts.nodeMs)) return;
-  facts.nodeMs = static_cast<float>(r.took);
-  facts.node[0] = r.node.load, facts.node[1] = r.node.position;
-}
-
-void BlackBox::shown(const SpanRecord& swap) {
-  FrameFacts facts = frame(swap.frame);
-  open_.erase(open_.begin(), open_.upper_bound(swap.frame));
-  if (lastShown_ != ProfileClock::time_point{})
-    facts.period = std::chrono::duration<float, std::milli>(swap.ended - lastShown_).count();
-  lastShown_ = swap.ended;
-  judge(facts);
-  if (const auto name = names_.find(facts.dearest()))
-    copyText(name->path + " " + name->file + ":" + std::to_string(name->line), facts.name);
+void BlackBox::keep(const FrameFacts& facts) {
   ring_->frames[ring_->written % kFrames] = facts;
   ++ring_->written;
   if (facts.cause == Cause::None) return;

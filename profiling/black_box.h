@@ -5,14 +5,9 @@
 /// Threads    SpanReader's; counts and latest() from any.
 /// Ownership  the file stays if a frame was late or the program died; else it is removed.
 
-#include "profiling/frame_facts.h"
-#include "profiling/frame_log.h"
-#include "profiling/node_names.h"
+#include "profiling/frame_judge.h"
 
 #include "engine/diagnostic.h"
-
-#include <functional>
-#include <map>
 
 namespace stadion {
 
@@ -32,7 +27,7 @@ public:
   ~BlackBox() override;
 
   using SpanReader::take;
-  void take(std::size_t track, const SpanRecord& record) override;
+  void take(std::size_t track, const SpanRecord& record) override { judge_.take(track, record); }
 
   /// Late frames by cause.
   std::map<Cause, std::uint64_t> verdicts() const;
@@ -48,18 +43,12 @@ public:
 
 private:
   struct Ring;
-  BlackBox(BlackBoxOptions options, const NodeNames& names, Ring* ring)
-      : options_(std::move(options)), names_(names), ring_(ring) {}
-  FrameFacts& frame(std::uint64_t number);
-  void takeNode(FrameFacts& facts, const SpanRecord& record);
-  void shown(const SpanRecord& swap);
+  BlackBox(BlackBoxOptions options, const NodeNames& names, Ring* ring);
+  void keep(const FrameFacts& facts);
 
   BlackBoxOptions options_;
-  const NodeNames& names_;
-  Ring* ring_;                                 ///< in the file
-  std::map<std::uint64_t, FrameFacts> open_;   ///< not shown yet
-  std::map<std::size_t, StageFacts> pending_;  ///< by track: of the stage that is under way
-  ProfileClock::time_point lastShown_{};
+  Ring* ring_;  ///< in the file
+  FrameJudge judge_;
   mutable std::mutex mutex_;
   std::map<Cause, std::uint64_t> verdicts_;
 };

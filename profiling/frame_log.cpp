@@ -88,12 +88,16 @@ void FrameLog::shared(Span what, std::uint64_t frame, std::uint32_t wall, std::s
   shared_.push_back(std::move(s));
 }
 
+DrawSample FrameLogOptions::drawSample(std::uint64_t frame) const {
+  if (!samples || frame < from) return DrawSample::None;
+  const std::uint64_t phase = frame % sampleEvery;
+  return phase == sampleEvery / 2       ? DrawSample::Whole
+         : phase == sampleEvery / 2 + 1 ? DrawSample::Some
+                                        : DrawSample::None;
+}
+
 DrawSample FrameLog::drawSample(std::uint64_t frame, std::uint32_t) const {
-  if (!options_.samples || frame < options_.from) return DrawSample::None;
-  const std::uint64_t phase = frame % options_.sampleEvery;
-  return phase == options_.sampleEvery / 2       ? DrawSample::Whole
-         : phase == options_.sampleEvery / 2 + 1 ? DrawSample::Some
-                                                 : DrawSample::None;
+  return options_.drawSample(frame);
 }
 
 std::size_t FrameLog::nextBatch(std::uint32_t wall, std::uint32_t eye, std::size_t batches) {

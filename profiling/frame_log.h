@@ -45,6 +45,9 @@ struct FrameLogOptions {
   bool samples = true;  ///< shares and drawing too
   std::uint64_t sampleEvery = 8;
   std::uint64_t from = 4;  ///< frames before it are not recorded: what is touched for the first time is slow
+
+  /// How drawing is sampled in this frame; drawing that is sampled takes longer.
+  DrawSample drawSample(std::uint64_t frame) const;
 };
 
 class FrameLog final : public FrameProbe {

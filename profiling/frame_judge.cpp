@@ -1,0 +1,75 @@
+#include "profiling/frame_judge.h"
+
+#include <cstring>
+
+namespace stadion {
+namespace {
+
+constexpr std::size_t kMostOpen = 64;  ///< frames that nobody has shown yet; older ones never will be
+
+template <std::size_t N>
+void copyText(const std::string& from, char (&to)[N]) {
+  const std::size_t count = std::min(from.size(), N - 1);
+  std::memcpy(to, from.data(), count);
+  to[count] = 0;
+}
+
+}  // namespace
+
+FrameFacts& FrameJudge::frame(std::uint64_t number) {
+  const auto [at, isNew] = open_.try_emplace(number);
+  if (isNew) {
+    at->second.frame = number;
+    at->second.walls = walls_;
+    at->second.budget = budget_;
+    if (open_.size() > kMostOpen) open_.erase(open_.begin());
+  }
+  return open_[number];
+}
+
+void FrameJudge::take(std::size_t track, const SpanRecord& r) {
+  if (r.frame == kNoFrame) return;
+  StageFacts& under = pending_[track];
+  switch (r.what) {
+  case Span::ForTurn: under.turn += static_cast<float>(r.took); return;
+  case Span::Loading:
+  case Span::Upload: under.loading += static_cast<float>(r.took); return;
+  case Span::Swap: return show(r);
+  case Span::App:
+  case Span::Cull:
+  case Span::Draw: break;
+  default:
+    if (isOfNode(r.what)) takeNode(frame(r.frame), r);
+    return;
+  }
+  StageFacts stage = std::exchange(under, {});
+  stage.ms = static_cast<float>(r.took) - stage.turn;
+  stage.processor = static_cast<float>(r.use.processor);
+  stage.switches = static_cast<std::uint32_t>(r.use.switches);
+  stage.faults = static_cast<std::uint32_t>(r.use.faults);
+  FrameFacts& facts = frame(r.frame);
+  if (r.what == Span::App)
+    facts.app = stage;
+  else if (r.wall < facts.walls)
+    (r.what == Span::Cull ? facts.cull : facts.draw)[r.wall] = stage;
+}
+
+void FrameJudge::takeNode(FrameFacts& facts, const SpanRecord& r) {
+  if (r.took <= static_cast<double>(facts.nodeMs)) return;
+  facts.nodeMs = static_cast<float>(r.took);
+  facts.node[0] = r.node.load, facts.node[1] = r.node.position;
+}
+
+void FrameJudge::show(const SpanRecord& swap) {
+  FrameFacts facts = frame(swap.frame);
+  open_.erase(open_.begin(), open_.upper_bound(swap.frame));
+  if (lastShown_ != ProfileClock::time_point{})
+    facts.period = std::chrono::duration<float, std::milli>(swap.ended - lastShown_).count();
+  lastShown_ = swap.ended;
+  judge(facts);
+  if (const auto name = names_.find(facts.dearest()))
+    copyText(name->path + " " + name->file + ":" + std::to_string(name->line), facts.name);
+  shown_(facts);
+}
+
+}  // namespace stadion

@@ -1,0 +1,269 @@
+#include "profiling/report/distribution.h"
+#include "profiling/report/node_table.h"
+#include "profiling/report/report_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+namespace stadion {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMostNodes = 1200;
+constexpr std::size_t kColumns = 1200;  ///< of the strip that shows the whole run
+
+/// Six digits are enough for a picture.
+json number(double v) {
+  if (!std::isfinite(v) || v == 0) return 0;
+  const double scale = std::pow(10, 5 - std::floor(std::log10(std::abs(v))));
+  return std::round(v * scale) / scale;
+}
+
+json number(std::optional<double> v) {
+  return v ? number(*v) : json();
+}
+
+std::string placeOf(const NodeName& name) {
+  return name.file.empty() ? "" : name.file + ":" + std::to_string(name.line);
+}
+
+class Builder {
+public:
+  explicit Builder(const ReportData& data) : data_(data), table_(data.figures, data.names, kMostNodes) {}
+
+  json build() {
+    json j;
+    j["head"] = head();
+    j["walls"] = data_.figures.walls;
+    j["spans"] = json::array();
+    for (std::size_t s = 0; s < kSpans; ++s) j["spans"].push_back(nameOf(static_cast<Span>(s)));
+    j["distributions"] = distributions();
+    j["strip"] = strip();
+    j["stretches"] = stretches();
+    for (const auto& thread : data_.threads) j["threads"].push_back(thread.name);
+    j["late"] = late();
+    j["causes"] = causes();
+    j["stages"] = stages();
+    j["eyes"] = json::array();
+    for (const EyeFigures& e : data_.eyes)
+      j["eyes"].push_back({{"wall", e.wall},
+                           {"eye", e.eye},
+                           {"ms", number(e.ms)},
+                           {"p95", number(e.p95)},
+                           {"count", e.count}});
+    j["dynamics"] = data_.dynamics ? dynamics(*data_.dynamics) : json();
+    j["nodes"] = nodes();  // last: the others may have added some
+    return j;
+  }
+
+private:
+  json head() const {
+    json h{{"show", data_.head.show},
+           {"rate", data_.head.rate},
+           {"frames", data_.head.frames},
+           {"recording", number(data_.head.recording)},
+           {"drawMethod", data_.figures.drawMethod}};
+    h["facts"] = json::array();
+    for (const auto& [what, how] : data_.head.facts) h["facts"].push_back({what, how});
+    return h;
+  }
+
+  /// Of frames that sampling did not disturb.
+  json distribution(const std::string& name, const char* stage,
+                    const std::function<float(const FrameRow&)>& of) const {
+    std::vector<float> values;
+    for (const FrameRow& row : data_.series.rows())
+      if (!row.sampled && of(row) > 0) values.push_back(of(row));
+    const Distribution d = distributionOf(std::move(values));
+    return {{"name", name},           {"stage", stage},
+            {"mean", number(d.mean)}, {"median", number(d.median)},
+            {"p95", number(d.p95)},   {"p99", number(d.p99)},
+            {"max", number(d.most)},  {"from", number(d.from)},
+            {"step", number(d.step)}, {"bins", d.bins},
+            {"count", d.count}};
+  }
+
+  json distributions() const {
+    json all = json::array();
+    all.push_back(distribution("frame to frame", "frame", [](const FrameRow& r) { return r.period; }));
+    all.push_back(distribution("App", "app", [](const FrameRow& r) { return r.app; }));
+    const std::size_t walls = std::min(data_.figures.walls.size(), FrameFacts::kMostWalls);
+    for (std::size_t w = 0; w < walls; ++w)
+      all.push_back(distribution("Cull " + data_.figures.walls[w], "cull",
+                                 [w](const FrameRow& r) { return r.cull[w]; }));
+    for (std::size_t w = 0; w < walls; ++w)
+      all.push_back(distribution("Draw " + data_.figures.walls[w], "draw",
+                                 [w](const FrameRow& r) { return r.draw[w]; }));
+    std::erase_if(all.get_ref<json::array_t&>(), [](const json& d) { return d["count"] == 0; });
+    return all;
+  }
+
+  /// The whole run; several frames share a column if there are too many, and the worst of them is shown.
+  json strip() const {
+    const auto& rows = data_.series.rows();
+    const std::size_t each = std::max<std::size_t>(1, (rows.size() + kColumns - 1) / kColumns);
+    json s{{"framesEach", each}, {"columns", json::array()}};
+    for (std::size_t i = 0; i < rows.size(); i += each) {
+      const FrameRow* worst = nullptr;
+      for (std::size_t k = i; k < std::min(i + each, rows.size()); ++k) {
+        const bool better = !worst || (worst->sampled && !rows[k].sampled) ||
+                            (worst->sampled == rows[k].sampled && rows[k].period > worst->period);
+        if (better) worst = &rows[k];
+      }
+      s["columns"].push_back({worst->frame, number(static_cast<double>(worst->period)),
+                              worst->sampled ? 1 : 0, worst->cause == Cause::None ? 0 : 1,
+                              number(static_cast<double>(worst->app)),
+                              number(static_cast<double>(std::ranges::max(worst->cull))),
+                              number(static_cast<double>(std::ranges::max(worst->draw)))});
+    }
+    return s;
+  }
+
+  json stretch(const Stretch& s, const std::string& key, const std::string& label) {
+    json frames = json::array();
+    std::int64_t origin = -1;
+    for (const auto& [frame, kept] : data_.kept.frames())
+      if (s.covers(frame))
+        for (const KeptSpan& span : kept.spans)
+          if (!isWait(span.what) && (origin < 0 || span.began < origin)) origin = span.began;
+    for (const auto& [frame, kept] : data_.kept.frames())
+      if (s.covers(frame)) frames.push_back(keptFrame(frame, kept, origin));
+    return {{"key", key}, {"label", label}, {"about", s.about}, {"frames", std::move(frames)}};
+  }
+
+  json keptFrame(std::uint64_t frame, const KeptFrame& kept, std::int64_t origin) {
+    const FrameFacts& f = kept.facts;
+    const bool late = f.cause != Cause::None && !kept.sampled;
+    json j{{"frame", frame},
+           {"period", number(static_cast<double>(f.period))},
+           {"late", late},
+           {"sampled", kept.sampled},
+           {"verdict", late ? toText(f, data_.figures.walls) : ""}};
+    json spans = json::array();
+    for (const KeptSpan& s : kept.spans) {
+      const auto track = std::ranges::find(data_.threads, s.track, &ThreadNames::Thread::track);
+      if (track == data_.threads.end()) continue;
+      const long node = s.node.valid() ? table_.find(s.node) : -1;
+      const auto us = [](std::int64_t ns) { return static_cast<double>(ns / 10) / 100; };
+      spans.push_back({track - data_.threads.begin(), static_cast<int>(s.what),
+                       s.wall == kNoWall ? -1 : static_cast<long>(s.wall), s.depth, node,
+                       us(s.began - origin), us(s.ended - s.began), number(static_cast<double>(s.ms))});
+    }
+    j["spans"] = std::move(spans);
+    return j;
+  }
+
+  json stretches() {
+    json all = json::array();
+    double median = 0;
+    for (const auto& d : distributions())
+      if (d["stage"] == "frame") median = d["median"];
+    for (const Stretch& s : data_.kept.worst()) {
+      const bool first = all.empty();
+      all.push_back(stretch(s, first ? "worst" : "worst" + std::to_string(all.size() + 1),
+                            first ? "around the longest frame" : "around the next longest"));
+    }
+    if (const Stretch* normal = data_.kept.normal(median))
+      all.push_back(stretch(*normal, "normal", "normal frames"));
+    return all;
+  }
+
+  json late() {
+    json all = json::array();
+    for (const FrameFacts& f : data_.series.late())
+      all.push_back(
+          {{"frame", f.frame},
+           {"period", number(static_cast<double>(f.period))},
+           {"cause", nameOf(f.cause)},
+           {"stage", nameOf(f.stage)},
+           {"wall",
+            f.stage == Span::App || f.wall >= data_.figures.walls.size() ? "" : data_.figures.walls[f.wall]},
+           {"text", toText(f, data_.figures.walls)},
+           {"node", f.nodeMs > 0 ? table_.find(f.dearest()) : -1},
+           {"nodeMs", number(static_cast<double>(f.nodeMs))}});
+    return all;
+  }
+
+  json causes() const {
+    json all = json::array();
+    for (const auto& [cause, count] : data_.series.causes())
+      all.push_back({cause == Cause::None ? "in time" : std::string(nameOf(cause)), count});
+    return all;
+  }
+
+  json stages() const {
+    json s{{"rows", json::array()}, {"explained", json::array()}};
+    for (const StageRow& r : data_.figures.stages)
+      s["rows"].push_back({{"name", r.name},
+                           {"part", r.part},
+                           {"ms", number(r.ms)},
+                           {"p95", number(r.p95)},
+                           {"max", number(r.most)},
+                           {"wait", r.wait}});
+    for (const Explained& e : data_.figures.explained)
+      s["explained"].push_back({{"stage", e.stage},
+                                {"measured", number(e.measured)},
+                                {"nodes", number(e.nodes)},
+                                {"named", number(e.named)}});
+    return s;
+  }
+
+  json nodes() const {
+    json all = json::array();
+    for (std::size_t i = 0; i < table_.nodes().size(); ++i) {
+      const TableNode& n = table_.nodes()[i];
+      json j{{"path", n.name.path}};
+      if (n.parent != i) j["parent"] = n.parent;
+      if (const std::string place = placeOf(n.name); !place.empty()) j["place"] = place;
+      if (n.restCount == 0) j["kind"] = nameOf(n.name.kind);
+      if (n.name.unloaded) j["unloaded"] = true;
+      if (n.name.budget > 0) j["budget"] = number(n.name.budget);
+      if (n.row || n.restCount > 0) addCosts(j, n.row ? *n.row : n.rest);
+      all.push_back(std::move(j));
+    }
+    return all;
+  }
+
+  static void addCosts(json& j, const NodeRow& r) {
+    j["phases"] = {number(r.receive), number(r.simulate), number(r.dispatch), number(r.settle),
+                   number(r.publish)};
+    j["app"] = number(r.app), j["cull"] = number(r.cull), j["draw"] = number(r.draw);
+    j["total"] = number(r.total), j["share"] = number(r.share);
+    j["visits"] = number(r.visits), j["p95"] = number(r.visitP95), j["max"] = number(r.visitMost);
+    if (r.cull + r.draw <= 0) return;
+    for (const NodeOnWall& w : r.walls)
+      j["walls"].push_back({number(w.cull), number(w.draw[0]), number(w.draw[1])});
+  }
+
+  static json dynamics(const DynamicsFigures& d) {
+    json j{{"tolerance", d.tolerance}, {"note", d.note}, {"bodies", json::array()}};
+    for (const BodyFigures& b : d.bodies)
+      j["bodies"].push_back({{"name", b.name},
+                             {"place", b.file + ":" + std::to_string(b.line)},
+                             {"shape", b.shape},
+                             {"share", number(b.share)},
+                             {"cost", number(b.cost)},
+                             {"error", number(b.error)},
+                             {"endError", number(b.endError)},
+                             {"beyond", number(b.beyond)},
+                             {"advice", b.advice},
+                             {"caution", b.caution},
+                             {"adviceCost", number(b.adviceCost)},
+                             {"adviceError", number(b.adviceError)}});
+    return j;
+  }
+
+  const ReportData& data_;
+  NodeTable table_;
+};
+
+}  // namespace
+
+std::string reportJson(const ReportData& data) {
+  return Builder(data).build().dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace stadion

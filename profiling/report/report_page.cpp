@@ -1,0 +1,52 @@
+#include "profiling/report/page_parts.h"
+#include "profiling/report/report_data.h"
+
+namespace stadion {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    out += c == '&'   ? "&amp;"
+           : c == '<' ? "&lt;"
+           : c == '>' ? "&gt;"
+           : c == '"' ? "&quot;"
+                      : std::string(1, c);
+  return out;
+}
+
+/// So that nothing in it ends the script element that holds it.
+std::string embedded(const std::string& json) {
+  std::string out;
+  out.reserve(json.size());
+  for (const char c : json)
+    if (c == '<')
+      out += "\\u003c";
+    else
+      out += c;
+  return out;
+}
+
+}  // namespace
+
+std::string reportPage(const ReportData& data) {
+  std::string page = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n";
+  // Nothing is ever fetched, whatever a name in the data holds.
+  page += "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+          "'unsafe-inline'; script-src 'unsafe-inline'\">\n"
+          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n";
+  page += "<title>" + escaped(data.head.show) + ": where its frames go</title>\n<style>";
+  page += report::kStyle;
+  page += "</style></head>\n<body>\n";
+  page += report::kBody;
+  page +=
+      "<script id=\"data\" type=\"application/json\">" + embedded(reportJson(data)) + "</script>\n<script>\n";
+  page += "\"use strict\";\n";
+  for (const char* script : {report::kBaseScript, report::kPlotScript, report::kTimelineScript,
+                             report::kFlameScript, report::kTableScript, report::kMainScript})
+    page += script;
+  page += "</script>\n</body></html>\n";
+  return page;
+}
+
+}  // namespace stadion

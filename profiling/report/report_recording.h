@@ -1,0 +1,43 @@
+#pragma once
+/// Records what a report tells beyond sums: frame after frame, and a few stretches in full.
+///
+/// Threads    SpanReader's.
+/// Ownership  borrows the names, which must outlive it.
+
+#include "profiling/frame_judge.h"
+#include "profiling/report/frame_series.h"
+#include "profiling/report/kept_frames.h"
+#include "profiling/thread_names.h"
+
+namespace stadion {
+
+class ReportRecording final : public SpanReader {
+public:
+  /// `rate` in frames a second, as the show is meant to be seen.
+  ReportRecording(double rate, const std::vector<std::string>& walls, FrameLogOptions log,
+                  const NodeNames& names)
+      : series_(log), kept_(log), threads_(walls),
+        judge_(rate, walls.size(), names, [this](const FrameFacts& facts) {
+          series_.add(facts);
+          kept_.shown(facts);
+        }) {}
+
+  using SpanReader::take;
+  void take(std::size_t track, const SpanRecord& record) override {
+    if (record.depth == 0) threads_.see(track, record);
+    kept_.take(track, record);
+    judge_.take(track, record);
+  }
+
+  const FrameSeries& series() const { return series_; }
+  const KeptFrames& kept() const { return kept_; }
+  const ThreadNames& threads() const { return threads_; }
+
+private:
+  FrameSeries series_;
+  KeptFrames kept_;
+  ThreadNames threads_;
+  FrameJudge judge_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,84 @@
+#pragma once
+/// Writes every span of a run into a file for a trace viewer (Perfetto, chrome://tracing), while it runs.
+///
+/// A thread of the run is a thread of the trace. Its slices nest strictly: stages hold their parts, which
+/// hold nodes; waits have a category of their own. Arrows lead from App to Cull to Draw of one frame, for
+/// each wall. A counter tells how long after the one before each frame was shown.
+///
+/// Memory     one stage's spans a thread, and the names of the nodes that were seen.
+/// Threads    SpanReader's; finish() after the log's.
+/// Ownership  borrows the names, which must outlive it. The file appears complete, with finish(), or not at
+///            all.
+
+#include "profiling/frame_log.h"
+#include "profiling/node_names.h"
+#include "profiling/thread_names.h"
+#include "profiling/trace/trace_events.h"
+
+#include "engine/atomic_file.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+struct TraceOptions {
+  std::string file;
+  std::uint64_t first = 0, last = kNoFrame;  ///< frames that are written
+  std::uint64_t mostBytes = 100'000'000;     ///< no frame is begun beyond; those that were begun are finished
+  std::string show;
+  std::vector<std::string> walls;  ///< names
+};
+
+class TraceFile final : public SpanReader {
+public:
+  /// `log`: which frames' drawing is sampled.
+  TraceFile(TraceOptions options, FrameLogOptions log, const NodeNames& names);
+
+  using SpanReader::take;
+  void take(std::size_t track, const SpanRecord& record) override;
+
+  /// Why there will be no file, such as a folder that is not there.
+  const std::optional<Diagnostic>& error() const { return file_.error(); }
+  /// Completes the file. Nothing if all went well, else why there is none.
+  std::optional<Diagnostic> finish();
+  /// "frames 412 to 599: ...", or empty. After finish().
+  std::string leftOut() const;
+
+private:
+  struct Track {
+    std::vector<SpanRecord> spans;   ///< that are in a stage which is under way
+    std::optional<SpanRecord> wait;  ///< for a frame that is not known yet
+  };
+  struct Name {
+    std::string text, args;  ///< as JSON
+  };
+
+  void write(std::size_t track, const SpanRecord& root);
+  void writeSpan(std::size_t track, const SpanRecord& record, std::uint64_t frame);
+  void writeFlow(std::size_t track, const SpanRecord& stage);
+  bool isFirst(Span stage, std::uint32_t wall, std::uint64_t frame);
+  const Name& nameOfNode(NodeRef node);
+  trace::Ticks ticks(ProfileClock::time_point t) const;
+  void flush();
+
+  TraceOptions options_;
+  FrameLogOptions log_;
+  const NodeNames& names_;
+  AtomicFile file_;
+  ProfileClock::time_point began_ = ProfileClock::now();
+  std::map<std::size_t, Track> tracks_;
+  ThreadNames threads_;
+  std::map<NodeRef, Name> nodes_;
+  Name unknown_;
+  std::map<std::pair<Span, std::uint32_t>, std::uint64_t> newest_;  ///< frame, by stage and wall
+  std::optional<trace::Ticks> lastShown_;
+  std::uint64_t newestFrame_ = 0;
+  std::uint64_t cutFrom_ = kNoFrame;  ///< left out for its size
+  std::uint64_t bytes_ = 0;
+  std::string text_;
+};
+
+}  // namespace stadion

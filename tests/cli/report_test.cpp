@@ -1,0 +1,157 @@
+/// `stadion profile --html` and `--trace`: the page in a real browser, the trace of a real run.
+
+#include "tests/cli/program.h"
+#include "tests/profiling/trace_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace stadion {
+namespace {
+
+namespace fs = std::filesystem;
+
+ProgramResult profile(const std::string& show, const std::vector<std::string>& options) {
+  std::vector<std::string> words = {"profile", show, "--frames", "90", "--size", "96x72", "--nodes", "0"};
+  words.insert(words.end(), options.begin(), options.end());
+  return stadionProgram(words);
+}
+const std::string kKick = STADION_SOURCE_DIR "/scripts/kick.evs";
+
+/// A page as a browser shows it.
+struct Shown {
+  std::string dom, complaints;
+};
+
+/// Chromium, without a window. What it says of the page's script is on its standard error.
+class ProgramReport : public testing::Test {
+protected:
+  void SetUp() override {
+    if (runProgram({{"chromium", "--version"}}).status != 0)
+      GTEST_SKIP() << "there is no chromium: apt-get install chromium";
+  }
+
+  ProgramResult browse(const fs::path& page, const std::string& chosen, const std::string& what,
+                       int width = 1400) const {
+    return runProgram({{"chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                        "--no-first-run", "--hide-scrollbars",
+                        "--user-data-dir=" + (folder_.path() / "browser").string(), "--enable-logging=stderr",
+                        "--virtual-time-budget=4000", "--window-size=" + std::to_string(width) + ",1000",
+                        what, "file://" + page.string() + (chosen.empty() ? "" : "#" + chosen)}});
+  }
+  Shown shown(const fs::path& page, const std::string& chosen = "") const {
+    const ProgramResult r = browse(page, chosen, "--dump-dom");
+    EXPECT_EQ(r.status, 0) << r.err;
+    Shown s{r.out, {}};
+    std::stringstream said(r.err);
+    for (std::string line; std::getline(said, line);)
+      if (line.find("CONSOLE") != std::string::npos) s.complaints += line + "\n";
+    return s;
+  }
+  static std::size_t count(const std::string& text, const std::string& what) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size()))
+      ++n;
+    return n;
+  }
+  /// What stands between the element with this id and the next section.
+  static std::string part(const std::string& dom, const std::string& id) {
+    const std::size_t from = dom.find("id=\"" + id + "\"");
+    EXPECT_NE(from, std::string::npos) << id;
+    return from == std::string::npos ? "" : dom.substr(from, dom.find("</section>", from) - from);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ProgramReport, ABrowserFillsItsTablesAndPlotsWithoutAComplaint) {
+  const fs::path page = folder_.path() / "kick.html";
+  const ProgramResult r = profile(kKick, {"--html", page.string()});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const Shown s = shown(page);
+  EXPECT_EQ(s.complaints, "");
+  EXPECT_NE(s.dom.find("data-drawn=\"yes\""), std::string::npos) << "the page's script ended early";
+  EXPECT_GE(count(part(s.dom, "strip"), "<rect"), 80U) << "a column a frame";
+  EXPECT_GE(count(part(s.dom, "timeline-plot"), "<rect"), 200U);
+  EXPECT_GE(count(part(s.dom, "flame-plot"), "<rect"), 4U);
+  EXPECT_EQ(count(part(s.dom, "histograms"), "<figure"), 10U) << "frame, App, and four walls' Cull and Draw";
+  EXPECT_GE(count(part(s.dom, "nodes-table"), "<tr"), 5U);
+  EXPECT_EQ(count(part(s.dom, "heat"), "scope=\"row\"") > 2, true) << "two eyes, and nodes";
+  EXPECT_NE(part(s.dom, "dynamics-table").find("ball"), std::string::npos) << "the ball's cost and error";
+  EXPECT_NE(part(s.dom, "late-say").find("frames that sampling did not disturb"), std::string::npos);
+  EXPECT_GE(count(part(s.dom, "stages-table"), "<tr"), 20U);
+  EXPECT_EQ(count(s.dom, "NaN") + count(s.dom, "undefined"), 0U);
+}
+
+TEST_F(ProgramReport, WhatIsChosenInTheAddressIsShown) {
+  const fs::path page = folder_.path() / "kick.html";
+  ASSERT_EQ(profile(kKick, {"--html", page.string(), "--walls", "desktop", "--no-draw"}).status, 0);
+  const Shown s = shown(page, "stage=app&view=one&sort=path");
+  EXPECT_EQ(s.complaints, "");
+  EXPECT_NE(part(s.dom, "nodes-table").find("aria-sort=\"ascending\""), std::string::npos);
+  EXPECT_NE(part(s.dom, "walls-say").find("Nothing was drawn"), std::string::npos);
+  EXPECT_NE(part(s.dom, "flame-plot").find("sim_kick"), std::string::npos);
+}
+
+TEST_F(ProgramReport, AScriptsNamesAreShownAsTheyAreWritten) {
+  const std::string name = "a<script>alert(1)<b onclick=x>&amp;.evs";
+  const std::string show =
+      folder_.write(name, "object( name=stone, file=\"football.3ds\", position=\"0, 4, 1\" )\n");
+  const fs::path page = folder_.path() / "hostile.html";
+  const ProgramResult r =
+      profile(show, {"--html", page.string(), "--walls", "desktop", "--asset-root", assetFolder()});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const Shown s = shown(page);
+  EXPECT_EQ(s.complaints, "");
+  EXPECT_NE(s.dom.find("a&lt;script&gt;alert(1)&lt;b onclick=x&gt;&amp;amp;.evs</h1>"), std::string::npos);
+  EXPECT_EQ(s.dom.find("<b onclick"), std::string::npos);
+}
+
+TEST_F(ProgramReport, ItsPictureIsNotBlank) {
+  const fs::path page = folder_.path() / "kick.html", picture = folder_.path() / "page.png";
+  ASSERT_EQ(profile(kKick, {"--html", page.string(), "--walls", "desktop"}).status, 0);
+  const ProgramResult r = browse(page, "", "--screenshot=" + picture.string(), 800);
+  ASSERT_TRUE(fs::exists(picture)) << r.err;
+  EXPECT_GT(fs::file_size(picture), 40'000U);
+}
+
+TEST(ProgramTrace, TheTraceOfARunIsTakenByAViewerWithoutAComplaint) {
+  const TemporaryFolder folder;
+  for (const std::string mode : {"pipelined", "sequential"}) {
+    const fs::path file = folder.path() / (mode + ".json");
+    const ProgramResult r =
+        profile(kKick, {"--trace", file.string(), "--mode", mode, "--trace-frames", "10..60"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    const TraceChecks seen(fileContent(file));
+    EXPECT_EQ(seen.complaints(), std::vector<std::string>()) << mode;
+    EXPECT_EQ(seen.flows(), 51U * 4);
+    EXPECT_EQ(*seen.frames().begin(), 10U);
+    EXPECT_EQ(*seen.frames().rbegin(), 60U);
+    EXPECT_TRUE(seen.names().contains("sim_kick") && seen.names().contains("left eye"));
+    EXPECT_EQ(seen.threadNames().contains("Cull floor"), mode == "pipelined");
+  }
+}
+
+TEST(ProgramTrace, ALiveRunIsTracedToo) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "live.json";
+  const ProgramResult r = stadionProgram({"run", kKick, "--frames", "40", "--size", "96x72", "--walls",
+                                          "desktop", "--trace-events", file.string()});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const TraceChecks seen(fileContent(file));
+  EXPECT_EQ(seen.complaints(), std::vector<std::string>());
+  EXPECT_EQ(seen.flows(), 36U);
+}
+
+TEST(ProgramTrace, WhatCannotBeWrittenIsSaidBeforeAnythingIsPlayed) {
+  const ProgramResult r = profile(kKick, {"--trace", "/nowhere/trace.json"});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_NE(r.err.find("/nowhere/trace.json"), std::string::npos) << r.err;
+  EXPECT_EQ(profile(kKick, {"--html", "/nowhere/page.html"}).status, 2);
+  EXPECT_EQ(profile(kKick, {"--trace", "x.json", "--trace-frames", "9..3"}).status, 2);
+  EXPECT_EQ(profile(kKick, {"--trace-frames", "3..9"}).status, 2);
+}
+
+}  // namespace
+}  // namespace stadion
