@@ -115,6 +115,10 @@ void BlackBox::shown(const SpanRecord& swap) {
   judge(facts);
   if (const auto name = names_.find(facts.dearest()))
     copyText(name->path + " " + name->file + ":" + std::to_string(name->line), facts.name);
+  if (const auto over = options_.overrun ? options_.overrun(facts.frame) : std::nullopt) {
+    copyText(over->name, facts.over);
+    facts.overMs = static_cast<float>(over->ms), facts.overBudget = static_cast<float>(over->budget);
+  }
   ring_->frames[ring_->written % kFrames] = facts;
   ++ring_->written;
   if (facts.cause == Cause::None) return;

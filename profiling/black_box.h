@@ -13,6 +13,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 
 namespace stadion {
 
@@ -21,6 +22,8 @@ struct BlackBoxOptions {
   double rate = 60;                              ///< [1/s]; 0 = nobody waits for frames: none is late
   std::vector<std::string> walls;                ///< names
   std::function<void(const std::string&)> tell;  ///< a late frame, in words; on the log's thread
+  /// Who overran its budget in a frame; null: nobody knows of budgets.
+  std::function<std::optional<Overrun>(std::uint64_t frame)> overrun{};
 };
 
 class BlackBox final : public SpanReader {

@@ -91,7 +91,7 @@ void FrameLog::shared(Span what, std::uint64_t frame, std::uint32_t wall, std::s
 DrawSample FrameLog::drawSample(std::uint64_t frame, std::uint32_t) const {
   if (!options_.samples || frame < options_.from) return DrawSample::None;
   const std::uint64_t phase = frame % options_.sampleEvery;
-  return phase == options_.sampleEvery / 2       ? DrawSample::Whole
+  return phase == options_.sampleEvery / 2       ? (options_.whole ? DrawSample::Whole : DrawSample::None)
          : phase == options_.sampleEvery / 2 + 1 ? DrawSample::Some
                                                  : DrawSample::None;
 }
@@ -128,6 +128,7 @@ void FrameLog::collect() {
     for (SpanReader* reader : readers_) reader->take(s);
   for (const Alone& a : alone)
     for (SpanReader* reader : readers_) reader->take(a.drawn, a.nodes);
+  for (SpanReader* reader : readers_) reader->caughtUp();
 }
 
 std::uint64_t FrameLog::lost() const {
