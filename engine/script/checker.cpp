@@ -80,10 +80,10 @@ std::string demand(const NumberRange& range, double x, std::string_view unit) {
 std::string faultOfConcession(NodeKind kind, std::string_view word) {
   const bool drawn = word == "lod" || word == "hide";
   if ((drawn ? placedKinds() : pacedKinds()).has(kind)) return {};
-  return fmt::format("nothing of a {} {}, so that it cannot give up \"{}\"; {}", nameOf(kind),
-                     drawn ? "is drawn" : "runs on its own from frame to frame", word,
-                     drawn ? fmt::format("\"{}\" is for what has a place in the world", word)
-                           : fmt::format("\"{}\" is for {}", word, describe(pacedKinds())));
+  if (drawn)
+    return fmt::format("\"{}\" is for what has a place in the world; {} has none", word, nameOf(kind));
+  return fmt::format("\"{}\" is for {}, which run on their own from frame to frame; {} does not", word,
+                     describe(pacedKinds()), nameOf(kind));
 }
 
 bool contains(const NumberRange& range, double x) {

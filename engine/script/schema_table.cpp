@@ -52,9 +52,8 @@ constexpr AttributeSpec kObjectTolerance{
 constexpr AttributeSpec kObjectLevels{
     .attr = Attr::Levels,
     .kind = Number,
-    .help =
-        "simplified levels made of the model when it is loaded, each with about half the triangles of the "
-        "one before; the coarsest one is drawn whose error would be less than a pixel",
+    .help = "simplified levels made of the model when it is loaded, at most so many; the coarsest "
+            "one is drawn whose error would be less than a pixel",
     .standard = "0",
     .range = {0, 8}};
 

@@ -31,6 +31,7 @@ double sumOf(const std::map<std::uint32_t, double>& byWall) {
 }  // namespace
 
 std::string nameOfLevel(const std::vector<Concession>& ladder, std::uint32_t level) {
+  if (level == 0) return "nothing";
   for (const Concession c : ladder) {
     if (level > levelsOf(c)) {
       level -= levelsOf(c);
@@ -59,7 +60,7 @@ void LoadGovernor::take(std::size_t, const SpanRecord& r) {
     break;
   case Span::Cull: times_[r.frame].cull[r.wall] = r.took; break;
   case Span::Draw: times_[r.frame].draw[r.wall] = r.took; break;
-  case Span::Swap: judgeFrame(r.frame); break;
+  case Span::Swap: shown_.push_back(r.frame); break;
   default: costs_.take(r);
   }
 }
@@ -74,12 +75,20 @@ void LoadGovernor::take(const DrawnAlone& drawn, const std::vector<NodeRef>& nod
   costs_.take(drawn, nodes);
 }
 
-// Nodes that computed on other threads than App's may be read a little later than App itself.
+// What was done on other threads for App, or for the swap, may be read a little later than these.
 void LoadGovernor::caughtUp() {
-  const std::lock_guard lock(mutex_);
-  for (const std::uint64_t frame : appEndedBefore_) judgeNodes(frame);
-  appEndedBefore_.swap(appEnded_);
-  appEnded_.clear();
+  std::vector<std::string> lines;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const std::uint64_t frame : appEndedBefore_) judgeNodes(frame);
+    for (const std::uint64_t frame : shownBefore_) judgeFrame(frame);
+    appEndedBefore_.swap(appEnded_), shownBefore_.swap(shown_);
+    appEnded_.clear(), shown_.clear();
+    lines.swap(lines_);
+  }
+  // Nobody waits for a terminal.
+  for (const std::string& line : lines)
+    if (options_.tell) options_.tell(line);
 }
 
 // Nodes.
@@ -101,12 +110,12 @@ void LoadGovernor::judgeNodes(std::uint64_t frame) {
 
 void LoadGovernor::noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost) {
   ++g.report.overruns, ++g.untold;
-  if (now_ - g.toldAt < kToldApart || !options_.tell) return;
+  if (now_ - g.toldAt < kToldApart) return;
   const std::string others =
       g.untold > 1 ? fmt::format("; {} frames since this was told last", g.untold) : std::string();
-  options_.tell(fmt::format("over budget: {} took {:.1f} ms of {:g} in frame {}, most of it {}{}",
-                            titleOf(g.of.node), cost.cost.total(), g.report.budget, frame, stageText(cost),
-                            others));
+  lines_.push_back(fmt::format("over budget: {} took {:.1f} ms of {:g} in frame {}, most of it {}{}",
+                               titleOf(g.of.node), cost.cost.total(), g.report.budget, frame, stageText(cost),
+                               others));
   g.toldAt = now_, g.untold = 0;
 }
 
@@ -228,15 +237,15 @@ FrameLoad LoadGovernor::decide(std::uint64_t frame) {
   return load;
 }
 
-void LoadGovernor::tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame) const {
-  if (!options_.tell) return;
-  const bool gives = g.applied > before;
+void LoadGovernor::tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame) {
   const std::vector<Concession>& ladder = g.of.terms.gives;
-  const std::string now = g.applied > 0 ? "; still given up: " + nameOfLevel(ladder, g.applied) : "";
-  options_.tell(gives ? fmt::format("from frame {} on {} gives up: {}", frame, titleOf(g.of.node),
-                                    nameOfLevel(ladder, g.applied))
-                      : fmt::format("from frame {} on {} has back: {}{}", frame, titleOf(g.of.node),
-                                    nameOfLevel(ladder, before), now));
+  const std::string title = titleOf(g.of.node);
+  if (g.applied > before)
+    lines_.push_back(
+        fmt::format("from frame {} on {} gives up: {}", frame, title, nameOfLevel(ladder, g.applied)));
+  else
+    lines_.push_back(fmt::format("from frame {} on {} has something back; still given up: {}", frame, title,
+                                 nameOfLevel(ladder, g.applied)));
 }
 
 // Reports.

@@ -28,7 +28,7 @@ struct GovernorOptions {
   bool acts = true;                ///< else it only tells
   std::vector<std::string> walls;  ///< names
   StressOptions stress;
-  std::function<void(const std::string&)> tell;  ///< a line; on the log's thread and App's
+  std::function<void(const std::string&)> tell;  ///< a line; on the log's thread
 };
 
 /// How a node kept its budget.
@@ -86,7 +86,7 @@ private:
   void judgeFrame(std::uint64_t frame);
   void spreadFrameLevel();
   void noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost);
-  void tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame) const;
+  void tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame);
   std::string stageText(const NodeCost& cost) const;
   std::string titleOf(NodeRef node) const;
 
@@ -102,7 +102,8 @@ private:
   std::uint64_t stressChanges_ = 0, stressFrom_ = 0;
   bool scalable_ = false;  ///< there is something that stress acts on
   std::map<std::uint64_t, StageTimes> times_;
-  std::vector<std::uint64_t> appEnded_, appEndedBefore_;
+  std::vector<std::uint64_t> appEnded_, appEndedBefore_, shown_, shownBefore_;
+  std::vector<std::string> lines_;  ///< to be told, by the log's thread
   std::uint64_t seen_ = ~std::uint64_t{0};
   std::map<NodeRef, BudgetReport> gone_;
   double now_ = 0;  ///< [s]
