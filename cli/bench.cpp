@@ -1,5 +1,6 @@
 /// `stadion bench NAME`: measurements with a limit each.
 
+#include "cli/bench_budgets.h"
 #include "cli/bench_detection.h"
 #include "cli/bench_dynamics.h"
 #include "cli/bench_flight.h"
@@ -59,6 +60,7 @@ void addBenchCommand(CLI::App& app, int& code) {
   addBenchFlight(*command, code);
   addBenchDetection(*command, code);
   addBenchPlan(*command, code);
+  addBenchBudgets(*command, code);
 }
 
 }  // namespace stadion

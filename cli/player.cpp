@@ -181,6 +181,7 @@ FrameLoopOptions Player::loopOptions() const {
   l.walls = walls_.walls.size();
   l.frames = frames_;
   l.frameTimes = decisions_.frames;
+  l.relief = decisions_.relief;
   if (frames_ == 0) l.end = end_;
   return l;
 }

@@ -85,6 +85,31 @@ bool canDraw(GlProvider& provider, const ShowParts& parts, Diagnostics& findings
   return !why;
 }
 
+/// Whether what is drawn has a budget: then samples of drawing are taken.
+bool hasDrawnBudgets(const Scene& scene) {
+  bool any = false;
+  scene.forEachLoad([&](const Load& load) {
+    for (const auto& [position, terms] : load.terms) {
+      const Node* node = load.nodes[position].get();
+      any |= !node || placedKinds().has(node->kind());
+    }
+  });
+  return any;
+}
+
+/// Of a live run overruns are told and acted upon; of another they are counted.
+GovernorOptions governorOf(const RunOptions& o, const Player& player, bool live) {
+  const FrameLoopOptions loop = o.loopOptions(player);
+  GovernorOptions g;
+  g.rate = loop.rate, g.paced = loop.pace != Pace::Free;
+  g.pipelined = loop.mode == Mode::Pipelined;
+  g.walls = player.walls().names();
+  g.stress = o.stress;
+  g.acts = live && o.loadControl;
+  if (live) g.tell = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
+  return g;
+}
+
 /// Who looks where frames go: of a live run always, so that late frames have a cause.
 bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   s.recording.reset();
@@ -94,7 +119,9 @@ bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   if (findings.hasErrors()) return false;
   if (!o.profile && !options.trace && !live) return true;
   if (options.trace) options.trace->show = o.show.script, options.trace->walls = s.player->walls().names();
-  options.profile = o.profile, options.log.samples = o.profile;
+  options.profile = o.profile, options.log.whole = o.profile;
+  options.log.samples = o.profile || hasDrawnBudgets(s.player->scene());
+  options.govern = governorOf(o, *s.player, live);
   if (live) {
     const FrameLoopOptions loop = o.loopOptions(*s.player);
     options.keep =
@@ -174,6 +201,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   s.desk->addTo(parts, options);
   ShowStages stages(std::move(parts));
   running = &stages;
+  if (recording && !s.player->obeysLog()) options.decider = recording->governor();
   FrameLoop loop(stages, options, stop, probe);
 
   const auto start = std::chrono::steady_clock::now();
@@ -182,9 +210,9 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   progress.finish();
   if (outcome.nextGroup && !outcome.failure && !stop) return {};
 
-  const int code =
-      report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime()},
-             s.output.get(), s.folder.get());
+  const int code = report(
+      {o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime(), recording},
+      s.output.get(), s.folder.get());
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;

@@ -61,6 +61,7 @@ void RunOptions::addTo(CLI::App& command) {
                   "write where this node is in every frame to trace-NODE.csv in --out DIR; may be repeated")
       ->allow_extra_args(false);
   events.addTo(command, "--trace-events");
+  addLoadTo(command);
   trackers.addTo(command);
   spans.addTo(command);
   addOperatorTo(command);
@@ -70,6 +71,33 @@ void RunOptions::addTo(CLI::App& command) {
                  "the\nexit code is 130 or 143. The second one ends it at once. A further run into the same "
                  "--out DIR removes "
                  "the files of\nthe run before, and no others.");
+}
+
+void RunOptions::addLoadTo(CLI::App& command) {
+  command
+      .add_option_function<std::string>(
+          "--load-control", [this](const std::string& word) { loadControl = word == "on"; },
+          "on: a live run gives up what its script says (onoverrun), and detail, while it takes too long; "
+          "off: "
+          "it only tells (docs/budgets.md)")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->default_str("on");
+  command.add_option("--stress-frac", stress.frac, "part of a frame that a wall's Cull and Draw may take")
+      ->check(numberFrom(0.01, 10))
+      ->capture_default_str();
+  command.add_option("--stress-low", stress.low, "load below which stress goes down")
+      ->check(numberFrom(0, 10))
+      ->capture_default_str();
+  command.add_option("--stress-high", stress.high, "load above which stress goes up")
+      ->check(numberFrom(0, 10))
+      ->capture_default_str();
+  command.add_option("--stress-scale", stress.scale, "how fast it does")
+      ->check(numberFrom(0, 10))
+      ->capture_default_str();
+  command
+      .add_option("--stress-max", stress.max, "how many times farther away things count at most; 1: never")
+      ->check(numberFrom(1, 16))
+      ->capture_default_str();
 }
 
 void RunOptions::addOperatorTo(CLI::App& command) {
@@ -103,6 +131,8 @@ bool RunOptions::settle(Diagnostics& findings) {
   if (!trace.empty() && out.empty())
     findings.error({}, "--trace needs --out DIR to know where the table goes");
   if (video && out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
+  if (stress.low > stress.high)
+    findings.error({}, "--stress-low must not be greater than --stress-high: between them stress stays");
   settleLive(findings);
   return show.settle(findings) && !findings.hasErrors();
 }

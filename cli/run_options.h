@@ -6,6 +6,7 @@
 #include "cli/span_options.h"
 #include "cli/trace_options.h"
 #include "cli/tracker_device.h"
+#include "profiling/load/stress_filter.h"
 
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct RunOptions {
   int oscPort = -1;      ///< where commands of the operator are listened for; -1: nowhere
   std::string blackBox;  ///< where a live run keeps its last frames; empty: a temporary file
   SpanOptions spans;
+  StressOptions stress;     ///< of the whole show
+  bool loadControl = true;  ///< a live run gives up what its script says, when it takes too long
   bool wait = false;
   bool noSound = false;
   bool display = false;      ///< on the walls' outputs
@@ -38,6 +41,7 @@ struct RunOptions {
   /// Completes what depends on other options. Says what is wrong.
   bool settle(Diagnostics& findings);
 
+  void addLoadTo(CLI::App& command);
   void settleLive(Diagnostics& findings);
   /// Whether the options ask for a run that does not go by the clock.
   bool asksForEveryFrame() const;

@@ -34,6 +34,17 @@ void addTimes(const FinishedRun& run, RunSummary& s) {
   }
 }
 
+void addBudgets(ShowRecording* recording, RunSummary& s) {
+  if (!recording) return;
+  recording->finish();
+  const LoadGovernor* governor = recording->governor();
+  if (!governor) return;
+  s.stressChanges = governor->stressChanges();
+  for (const BudgetReport& b : governor->reports())
+    s.budgets.push_back({b.name, b.file, b.line, b.budget, b.mean, b.worst, b.worstFrame, b.worstStage,
+                         b.overruns, b.changes, b.highest, b.now, b.levels});
+}
+
 RunSummary summarise(const FinishedRun& run) {
   const RunOptions& o = run.options;
   RunSummary s;
@@ -47,6 +58,7 @@ RunSummary summarise(const FinishedRun& run) {
   addTimes(run, s);
   const std::string drawn = run.stages.glDescription();
   s.remarks.push_back(drawn.empty() ? "nothing was drawn" : "drawn by " + drawn);
+  addBudgets(run.recording, s);
   if (run.outcome.stopped) s.stopped = stopSignalName();
   return s;
 }

@@ -18,7 +18,8 @@ struct FinishedRun {
   RunWatch& watch;
   double elapsed;  ///< [s]
   std::uint64_t groups = 1;
-  double uptime = 0;  ///< of all groups [s]
+  double uptime = 0;                   ///< of all groups [s]
+  ShowRecording* recording = nullptr;  ///< null: nobody looked where frames go
 };
 
 /// Completes every file and tells how it went. Returns the exit code. `output` and its folder: null without

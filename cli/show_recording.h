@@ -4,6 +4,7 @@
 /// Threads  made before the run; see() on the App thread; figures() once the run is over.
 
 #include "profiling/black_box.h"
+#include "profiling/load/load_governor.h"
 #include "profiling/report/report_data.h"
 #include "profiling/report/report_recording.h"
 #include "profiling/show_figures.h"
@@ -24,6 +25,7 @@ struct RecordingOptions {
     std::vector<std::string> walls;
   };
   std::optional<Report> report{};
+  std::optional<GovernorOptions> govern{};  ///< look at budgets
 };
 
 class ShowRecording {
@@ -33,7 +35,15 @@ public:
     std::unique_ptr<ShowRecording> made(new ShowRecording);
     std::vector<SpanReader*> readers;
     if (options.profile) readers.push_back(&made->profile_);
+    if (options.govern) {
+      made->governor_ = std::make_unique<LoadGovernor>(std::move(*options.govern), made->names_);
+      readers.push_back(made->governor_.get());
+    }
     if (options.keep) {
+      if (made->governor_)
+        options.keep->overrun = [governor = made->governor_.get()](std::uint64_t frame) {
+          return governor->overrunOf(frame);
+        };
       auto box = BlackBox::create(std::move(*options.keep), made->names_);
       if (!box) return findings.add(box.error()), nullptr;
       made->box_ = std::move(box.value());
@@ -54,7 +64,12 @@ public:
   }
 
   FrameProbe& probe() { return *log_; }
-  void see(const Scene& scene) { names_.see(scene); }
+  void see(const Scene& scene) {
+    names_.see(scene);
+    if (governor_) governor_->see(scene);
+  }
+  /// Who decides what is given up; null if nobody looks at budgets.
+  LoadGovernor* governor() { return governor_.get(); }
   /// Nothing more will come.
   void finish() { log_->finish(); }
   /// Completes the trace, if there is one.
@@ -101,6 +116,7 @@ private:
 
   ShowProfile profile_;
   NodeNames names_;
+  std::unique_ptr<LoadGovernor> governor_;
   std::unique_ptr<BlackBox> box_;
   std::unique_ptr<TraceFile> trace_;
   std::unique_ptr<ReportRecording> report_;

@@ -27,9 +27,11 @@ struct InputSample;
 
 /// What a node may look at during its cycle.
 struct FrameContext {
-  const TimeSignature& now;  ///< the frame advances the show from now.time - now.step to now.time
+  const TimeSignature& now;  ///< the frame advances the show from now.time - now.step to now.time; of
+                             ///< nodes that run more seldom the step is that since their last cycle
   const InputSample& input;  ///< trackers at now.time
   Scene& scene;
+  bool rested = false;  ///< it was kept from running up to this frame's start: its own time stood still
 
   Nanoseconds start() const { return now.time - now.step; }
   /// When a delivered message takes effect: at its due time, but not before this frame's start.

@@ -12,6 +12,7 @@ namespace stadion {
 enum class NodeKind : std::uint8_t {
   Group,
   Transform,
+  Lod,
   Object,
   DynObject,
   Light,
@@ -35,11 +36,11 @@ enum class NodeKind : std::uint8_t {
   Rig,
 };
 
-inline constexpr std::array<std::string_view, 23> kNodeKindNames = {
-    "group",       "transform",   "object",         "dynobject",  "light",       "sky",
-    "text",        "forcelinear", "forcespherical", "forcepoint", "forcevortex", "medium",
-    "usertrigger", "wandtrigger", "timer",          "scene",      "path",        "sound",
-    "collision",   "dynamics",    "measure",        "navigator",  "rig"};
+inline constexpr std::array<std::string_view, 24> kNodeKindNames = {
+    "group",  "transform",   "lod",         "object",         "dynobject",  "light",
+    "sky",    "text",        "forcelinear", "forcespherical", "forcepoint", "forcevortex",
+    "medium", "usertrigger", "wandtrigger", "timer",          "scene",      "path",
+    "sound",  "collision",   "dynamics",    "measure",        "navigator",  "rig"};
 inline constexpr std::size_t kNodeKindCount = kNodeKindNames.size();
 
 constexpr std::string_view nameOf(NodeKind kind) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Show time: integer nanoseconds, so that every replica agrees on it to the bit.
 
+#include <array>
 #include <cstdint>
 
 namespace stadion {
@@ -14,18 +15,46 @@ constexpr Nanoseconds fromSeconds(double s) {
   return static_cast<Nanoseconds>(s * 1e9 + (s >= 0 ? 0.5 : -0.5));
 }
 
+/// A clock has found that something takes too long: what is given up from a frame on (engine/load_control.h).
+struct LoadDecision {
+  std::uint32_t load = 0,
+                position = 0;  ///< the node, by load number and position in its file; 0, 0 = the show
+  std::uint32_t level = 0;     ///< of the node's ladder; of the show: stress, in quarters of an octave
+
+  bool operator==(const LoadDecision&) const = default;
+};
+constexpr std::uint32_t kStressLevelsAnOctave = 4;
+constexpr std::uint32_t kMostStress = 16;  ///< the highest level of stress: 16 times
+
+/// Those that take effect with one frame. More than so many wait for the next one.
+struct FrameLoad {
+  static constexpr std::size_t kMost = 4;
+  std::array<LoadDecision, kMost> decisions{};
+  std::uint32_t count = 0;
+
+  const LoadDecision* begin() const { return decisions.data(); }
+  const LoadDecision* end() const { return decisions.data() + count; }
+  /// False if there is no room.
+  bool add(const LoadDecision& d) {
+    if (count == kMost) return false;
+    decisions[count++] = d;
+    return true;
+  }
+};
+
 /// What every replica receives for a frame, besides the input sample. App advances the show from
 /// `time - step` to `time`.
 struct TimeSignature {
   std::uint64_t frame = 0;  ///< index, from 0
   Nanoseconds time = 0;     ///< end of this frame's step [ns]
   Nanoseconds step = 0;     ///< [ns]; 0 in frame 0, which shows the scene as it was loaded
+  FrameLoad load{};         ///< what is given up or taken back from this frame on
 };
 
 /// Frame n of a show at `rate` frames per second, without accumulated rounding.
 constexpr TimeSignature signatureAt(std::uint64_t frame, double rate) {
   const auto at = [rate](std::uint64_t n) { return fromSeconds(static_cast<double>(n) / rate); };
-  return {frame, at(frame), frame == 0 ? 0 : at(frame) - at(frame - 1)};
+  return {frame, at(frame), frame == 0 ? 0 : at(frame) - at(frame - 1), {}};
 }
 
 }  // namespace stadion

@@ -186,11 +186,20 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   if (speed == 0) return Turn{lastSignature_, true};
   // A single frame is one tick, however long the last one took.
   const bool single = options_.playback && options_.playback->paused();
-  const TimeSignature now = signatureAfter(single ? 1 : ticks, speed);
+  TimeSignature now = signatureAfter(single ? 1 : ticks, speed);
   if (options_.end > 0 && now.time > options_.end) return std::nullopt;
+  now.load = loadOf(now.frame);
   ++nextIndex_;
   lastSignature_ = now;
   return Turn{now};
+}
+
+// What a log has decided, and in a live run somebody who looks at the clock.
+FrameLoad FrameLoop::loadOf(std::uint64_t frame) {
+  FrameLoad load = options_.decider ? options_.decider->decide(frame) : FrameLoad{};
+  const auto [first, last] = options_.relief.equal_range(frame);
+  for (auto at = first; at != last; ++at) load.add(at->second);
+  return load;
 }
 
 // What the operator asked for takes effect now, in the whole of the coming frame. False: none is to come.

@@ -8,6 +8,7 @@
 
 #include "engine/frame_probe.h"
 #include "engine/input/run_decisions.h"
+#include "engine/load_control.h"
 #include "engine/time_signature.h"
 #include "pipeline/frame_times.h"
 #include "pipeline/operator/operator_desk.h"
@@ -37,8 +38,11 @@ struct FrameLoopOptions {
   Nanoseconds end = 0;       ///< no frame after this show time; 0 = until stopped
   /// Show times that a recorded run decided for some of its frames (see RunDecisions); they are obeyed.
   std::map<std::uint64_t, Nanoseconds> frameTimes{};
-  Playback* playback = nullptr;  ///< who may pause a live run or slow it down; null = nobody
-  OperatorDesk* desk = nullptr;  ///< whose commands are taken at the start of each frame; null = nobody's
+  /// What it decided because something took too long; it is obeyed.
+  LoadDecisions relief{};
+  LoadDecider* decider = nullptr;  ///< who decides that in a live run; null = nobody
+  Playback* playback = nullptr;    ///< who may pause a live run or slow it down; null = nobody
+  OperatorDesk* desk = nullptr;    ///< whose commands are taken at the start of each frame; null = nobody's
 };
 
 struct FrameLoopOutcome {
@@ -78,6 +82,7 @@ private:
   template <class Wait>
   auto waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait);
   bool takeCommands();
+  FrameLoad loadOf(std::uint64_t frame);
   TimeSignature signatureAfter(std::uint64_t ticks, double speed);
   bool noneFollows();
 

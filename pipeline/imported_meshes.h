@@ -26,6 +26,7 @@ public:
     std::int64_t changed = 0;  ///< [ns]
     double unit = 0;           ///< 0 = the file's own
     int up = -1;               ///< UpAxis; -1 = the file's own
+    std::uint32_t levels = 0;  ///< simplified ones that were asked for
 
     auto operator<=>(const Key&) const = default;
     /// Of an open file; nothing if it cannot be told.

@@ -1,5 +1,6 @@
 #include "pipeline/loader.h"
 
+#include "engine/asset/simplify.h"
 #include "engine/asset/sound_file.h"
 #include "engine/run_stopped.h"
 #include "engine/script/lint.h"
@@ -230,19 +231,21 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
 // A hundred thousand objects with the same file: one import, and one word about it.
 MeshId Loader::Imports::of(const Declaration& d, Loader& loader, Diagnostics& findings) {
   const auto up = d.optionalChoice<UpAxis>(Attr::Up);
-  const Key key(d.text(Attr::File), d.optionalNumber(Attr::Unit).value_or(0),
-                up ? static_cast<int>(*up) : -1);
+  const Key key(d.text(Attr::File), d.optionalNumber(Attr::Unit).value_or(0), up ? static_cast<int>(*up) : -1,
+                d.number(Attr::Levels));
   const auto [at, isNew] = known.try_emplace(key, kNoMesh);
   if (isNew) counted.push_back(at->second = loader.importMesh(d, findings));
   return at->second;
 }
 
 /// Under which key the model is kept from show to show, if any are.
-std::optional<ImportedMeshes::Key> Loader::keyOf(const std::string& file,
-                                                 const ImportOptions& options) const {
+std::optional<ImportedMeshes::Key> Loader::keyOf(const std::string& file, const ImportOptions& options,
+                                                 std::uint32_t levels) const {
   if (!parts_.kept) return {};
   const auto found = parts_.roots.open(file);
-  return found ? ImportedMeshes::Key::of(found.value().file.get(), options) : std::nullopt;
+  auto key = found ? ImportedMeshes::Key::of(found.value().file.get(), options) : std::nullopt;
+  if (key) key->levels = levels;
+  return key;
 }
 
 MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {
@@ -250,7 +253,8 @@ MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {
   options.unit = d.optionalNumber(Attr::Unit);
   options.up = d.optionalChoice<UpAxis>(Attr::Up);
   const std::string file(d.text(Attr::File));
-  const auto key = keyOf(file, options);
+  const auto levels = static_cast<std::uint32_t>(d.number(Attr::Levels));
+  const auto key = keyOf(file, options, levels);
   if (const MeshId known = key ? parts_.kept->find(*key) : kNoMesh; known != kNoMesh) return known;
   Diagnostics notes;
   if (stopped()) throw RunStopped();
@@ -258,6 +262,7 @@ MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {
   if (stopped()) throw RunStopped();
   findings.append(notes);
   if (mesh) {
+    if (levels > 0) addLevels(*mesh.value(), levels);
     const MeshId id = parts_.meshes.add(std::move(mesh.value()));
     if (key) parts_.kept->keep(*key, id);
     return id;

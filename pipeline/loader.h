@@ -96,7 +96,7 @@ private:
 
   /// The models of one load, each imported and counted once.
   struct Imports {
-    using Key = std::tuple<std::string, double, int>;  ///< file, unit, up axis
+    using Key = std::tuple<std::string, double, int, double>;  ///< file, unit, up axis, levels
     std::map<Key, MeshId> known;
     std::vector<MeshId> counted;
 
@@ -110,7 +110,8 @@ private:
   Diagnostic askedForBy(const Job& job, Diagnostic d) const;
   std::unique_ptr<Load> prepare(const Job& job);
   std::unique_ptr<Load> build(const Job& job, std::unique_ptr<Document> document, Diagnostics& findings);
-  std::optional<ImportedMeshes::Key> keyOf(const std::string& file, const ImportOptions& options) const;
+  std::optional<ImportedMeshes::Key> keyOf(const std::string& file, const ImportOptions& options,
+                                           std::uint32_t levels) const;
   MeshId importMesh(const Declaration& d, Diagnostics& findings);
   Nanoseconds soundLength(const Declaration& d, Diagnostics& findings);
   void destroy(std::unique_ptr<Load> load);

@@ -19,6 +19,8 @@ ShowStages::ShowStages(ShowParts parts)
     : parts_(std::move(parts)), contexts_(parts_.contexts ? *parts_.contexts : ownContexts_),
       drawn_(parts_.walls.size()), views_(parts_.walls), pictures_(parts_.walls.size()) {
   contexts_.resize(parts_.walls.size());
+  for (const WallView& view : parts_.walls)
+    if (!view.camera) wallPixels_.push_back({view.wall, view.width, view.height});
 }
 
 ShowStages::~ShowStages() = default;
@@ -75,8 +77,9 @@ void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
   WallView& view = views_[wall];
   view.eyeSeparation = shown.eyeSeparation >= 0 ? shown.eyeSeparation : parts_.walls[wall].eyeSeparation;
-  cullWall(parts_.state.view(slot), view, static_cast<std::uint32_t>(wall), stillCasters_, list,
-           parts_.probe);
+  const SlotView state = parts_.state.view(slot);
+  LevelChoice levels(*state.viewer, wallPixels_, parts_.meshes);
+  cullWall(state, view, static_cast<std::uint32_t>(wall), stillCasters_, list, parts_.probe, &levels);
   if (view.camera) return;  // somebody else's, not the visitor's
   if (shown.swapEyes && list.eyeCount == 2) std::swap(list.eyes[0], list.eyes[1]);
   if (shown.black) makeBlack(list);

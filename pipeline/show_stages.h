@@ -96,6 +96,7 @@ private:
   ShowParts parts_;
   ChangeSet changes_;
   StillCasters stillCasters_;
+  std::vector<WallPixels> wallPixels_;  ///< of the walls that show what the visitor sees
   SoundScape heard_;
   WallContexts ownContexts_;
   WallContexts& contexts_;

@@ -65,7 +65,11 @@ BlackBox::BlackBox(BlackBoxOptions options, const NodeNames& names, Ring* ring)
     : options_(std::move(options)), ring_(ring),
       judge_(options_.rate, options_.walls.size(), names, [this](const FrameFacts& facts) { keep(facts); }) {}
 
-void BlackBox::keep(const FrameFacts& facts) {
+void BlackBox::keep(FrameFacts facts) {
+  if (const auto over = options_.overrun ? options_.overrun(facts.frame) : std::nullopt) {
+    copyText(over->name, facts.over);
+    facts.overMs = static_cast<float>(over->ms), facts.overBudget = static_cast<float>(over->budget);
+  }
   ring_->frames[ring_->written % kFrames] = facts;
   ++ring_->written;
   if (facts.cause == Cause::None) return;

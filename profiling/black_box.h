@@ -9,6 +9,10 @@
 
 #include "engine/diagnostic.h"
 
+#include <functional>
+#include <map>
+#include <optional>
+
 namespace stadion {
 
 struct BlackBoxOptions {
@@ -16,6 +20,8 @@ struct BlackBoxOptions {
   double rate = 60;                              ///< [1/s]; 0 = nobody waits for frames: none is late
   std::vector<std::string> walls;                ///< names
   std::function<void(const std::string&)> tell;  ///< a late frame, in words; on the log's thread
+  /// Who overran its budget in a frame; null: nobody knows of budgets.
+  std::function<std::optional<Overrun>(std::uint64_t frame)> overrun{};
 };
 
 class BlackBox final : public SpanReader {
@@ -44,7 +50,7 @@ public:
 private:
   struct Ring;
   BlackBox(BlackBoxOptions options, const NodeNames& names, Ring* ring);
-  void keep(const FrameFacts& facts);
+  void keep(FrameFacts facts);
 
   BlackBoxOptions options_;
   Ring* ring_;  ///< in the file

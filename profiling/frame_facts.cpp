@@ -79,9 +79,11 @@ void judge(FrameFacts& f) {
   f.holder = dearestDraw(f);
 }
 
-std::string toText(const FrameFacts& f, std::span<const std::string> walls) {
-  std::string text = fmt::format("frame {} came after {:.1f} ms ({:.1f})", f.frame, f.period, f.budget);
-  if (f.cause == Cause::None) return text;
+namespace {
+
+/// ": Draw of wall floor took 41.2 ms".
+std::string causeText(const FrameFacts& f, std::span<const std::string> walls) {
+  std::string text;
   const std::string stage = stageText(f, walls);
   const StageFacts& s = f.stage == Span::App    ? f.app
                         : f.stage == Span::Cull ? f.cull[f.wall]
@@ -102,6 +104,16 @@ std::string toText(const FrameFacts& f, std::span<const std::string> walls) {
   }
   if (f.name[0] != 0 && f.nodeMs > 0 && f.stage == Span::App)
     text += fmt::format(", {:.1f} of them {}", f.nodeMs, f.name);
+  return text;
+}
+
+}  // namespace
+
+std::string toText(const FrameFacts& f, std::span<const std::string> walls) {
+  std::string text = fmt::format("frame {} came after {:.1f} ms ({:.1f})", f.frame, f.period, f.budget);
+  if (f.cause != Cause::None) text += causeText(f, walls);
+  if (f.over[0] != 0)
+    text += fmt::format("; over budget: {}, {:.1f} ms of {:g}", f.over, f.overMs, f.overBudget);
   return text;
 }
 

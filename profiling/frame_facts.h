@@ -35,6 +35,12 @@ enum class Cause : std::uint32_t {
   Unknown,  ///< no stage took long
 };
 
+/// A budget that was overrun in a frame.
+struct Overrun {
+  std::string name;  ///< with file and line
+  double ms = 0, budget = 0;
+};
+
 struct FrameFacts {
   static constexpr std::size_t kMostWalls = 8;
 
@@ -51,6 +57,8 @@ struct FrameFacts {
   std::uint32_t wall = 0;    ///< likewise
   std::uint32_t holder = 0;  ///< Cause::Turn: the wall that had the rasteriser
   char name[112] = {};       ///< of the dearest node, with its file and line
+  char over[112] = {};       ///< of the node that overran its budget most, if one did
+  float overMs = 0, overBudget = 0;
 
   NodeRef dearest() const { return {node[0], node[1]}; }
 };

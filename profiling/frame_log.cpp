@@ -91,7 +91,7 @@ void FrameLog::shared(Span what, std::uint64_t frame, std::uint32_t wall, std::s
 DrawSample FrameLogOptions::drawSample(std::uint64_t frame) const {
   if (!samples || frame < from) return DrawSample::None;
   const std::uint64_t phase = frame % sampleEvery;
-  return phase == sampleEvery / 2       ? DrawSample::Whole
+  return phase == sampleEvery / 2       ? (whole ? DrawSample::Whole : DrawSample::None)
          : phase == sampleEvery / 2 + 1 ? DrawSample::Some
                                         : DrawSample::None;
 }
@@ -132,6 +132,7 @@ void FrameLog::collect() {
     for (SpanReader* reader : readers_) reader->take(s);
   for (const Alone& a : alone)
     for (SpanReader* reader : readers_) reader->take(a.drawn, a.nodes);
+  for (SpanReader* reader : readers_) reader->caughtUp();
 }
 
 std::uint64_t FrameLog::lost() const {

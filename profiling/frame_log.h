@@ -39,10 +39,13 @@ public:
   virtual void take(std::size_t track, const SpanRecord& record) = 0;
   virtual void take(const SharedSpan&) {}
   virtual void take(const DrawnAlone&, const std::vector<NodeRef>&) {}
+  /// All that there is at the moment has been handed on.
+  virtual void caughtUp() {}
 };
 
 struct FrameLogOptions {
   bool samples = true;  ///< shares and drawing too
+  bool whole = true;    ///< of drawing: also what there is to be explained
   std::uint64_t sampleEvery = 8;
   std::uint64_t from = 4;  ///< frames before it are not recorded: what is touched for the first time is slow
 

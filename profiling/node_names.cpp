@@ -23,6 +23,7 @@ void NodeNames::add(const Scene& scene, const Load& load) {
     n.file = load.file, n.line = load.lines[i];
     if (load.nodes[i]) n.kind = load.nodes[i]->kind();
     n.parent = scene.parentOf({load.number, i});
+    if (const auto terms = load.terms.find(i); terms != load.terms.end()) n.budget = terms->second.budget;
     if (n.path.empty()) n.path = std::string(nameOf(n.kind)) + ":" + std::to_string(n.line);
   }
 }

@@ -238,7 +238,8 @@ void CollisionNode::step(FrameContext* frame) {
   const Nanoseconds begin = std::max(advancedTo_, span_.from);
   bool continues = false;
   const auto pass = [&](Nanoseconds from, Nanoseconds to) {
-    on_ ? world_.advance(from, to, continues) : world_.pause(from, to, continues);
+    const bool runs = on_ && !(span_.rested && to <= span_.from);
+    runs ? world_.advance(from, to, continues) : world_.pause(from, to, continues);
     continues = true;
   };
   if (advancedTo_ < begin) pass(advancedTo_, begin);
@@ -263,7 +264,7 @@ void CollisionNode::step(FrameContext* frame) {
 
 void CollisionNode::simulate(FrameContext& frame) {
   findParts(frame.scene);
-  span_ = {frame.start(), std::min(frame.now.time, frame.scene.endOf(self().load)), {}, false, false};
+  span_ = {frame.start(), std::min(frame.now.time, frame.scene.endOf(self().load)), {}, false, frame.rested, false};
   span_.outside = foresee(frame, span_.cuts);
   if (needsScene(frame.now.time)) step(&frame);
 }

@@ -145,6 +145,7 @@ private:
     Nanoseconds from = 0, to = 0;
     std::vector<Nanoseconds> cuts;
     bool outside = false;  ///< something has changed outside
+    bool rested = false;   ///< it was kept from running before `from`
     bool done = false;
   };
   Span span_;

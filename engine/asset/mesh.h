@@ -39,6 +39,13 @@ struct Submesh {
   std::uint32_t material = 0;    ///< into Mesh::materials
 };
 
+/// The same surface with fewer triangles, of the same vertices.
+struct MeshLevel {
+  std::vector<std::uint32_t> indices;
+  std::vector<Submesh> submeshes;  ///< of these indices; the materials are the mesh's
+  double error = 0;                ///< how far it is from the full surface where it is farthest [m]
+};
+
 struct Mesh {
   std::vector<std::array<float, 3>> positions;  ///< [m], +Z up
   std::vector<std::array<float, 3>> normals;    ///< unit; same length as positions
@@ -49,11 +56,12 @@ struct Mesh {
   std::vector<Submesh> submeshes;
   std::vector<Material> materials;  ///< never empty
   std::vector<Texture> textures;
-  Aabb bounds;             ///< [m]
-  Sphere sphere;           ///< [m] bounding sphere
-  std::uint64_t hash = 0;  ///< of the content: its identity
-  std::string name;        ///< the file it came from
-  bool standIn = false;    ///< drawn in place of an asset that could not be loaded
+  Aabb bounds;                    ///< [m]
+  Sphere sphere;                  ///< [m] bounding sphere
+  std::uint64_t hash = 0;         ///< of the content: its identity
+  std::string name;               ///< the file it came from
+  std::vector<MeshLevel> levels;  ///< each with fewer triangles and a greater error than the one before
+  bool standIn = false;           ///< drawn in place of an asset that could not be loaded
 };
 
 }  // namespace stadion

@@ -33,6 +33,12 @@
 ///     order N ACTION VALUE
 ///         from frame N on: black 0|1, swap-eyes 0|1, eye-separation METRES or volume 0..1
 ///
+///     relief N LOAD POSITION LEVEL
+///         from frame N on the node at that position of that load has to do without what the level of its
+///         ladder says (see load_control.h); 0 = without nothing
+///     stress N LEVEL
+///         from frame N on everything counts as 2^(LEVEL/4) times farther away, when levels are chosen
+///
 /// A tracker leaps where it would go faster than 15 m/s between two records less than 50 ms apart, and more
 /// than 15 m/s faster than both before and after: it was taken for another, or lost. Until the later record
 /// it stays where it was. (A fast swing comes and goes in several records, and is no leap.)
@@ -97,6 +103,7 @@ std::string inputLogHeading(double rate = 0);
 std::string formatFrameTime(std::uint64_t frame, Nanoseconds time);
 std::string formatLateLoad(std::uint32_t load, Nanoseconds time);
 std::string formatOrder(std::uint64_t frame, const OperatorCommand& order);
+std::string formatRelief(std::uint64_t frame, const LoadDecision& decision);
 
 /// Plays a log.
 class InputReplay final : public InputDevice {

@@ -79,8 +79,10 @@ private:
     if (version_ >= 2 && kind.text == "load")
       return decision(log_.decisions.loads, "the load's number", 1'000'000'000, false);
     if (version_ >= 2 && kind.text == "order") return order();
+    if (version_ >= 2 && kind.text == "relief") return relief();
+    if (version_ >= 2 && kind.text == "stress") return stress();
     std::vector<std::string> known{"pose", "key", "lost"};
-    if (version_ >= 2) known.insert(known.end(), {"rate", "frame", "load", "order"});
+    if (version_ >= 2) known.insert(known.end(), {"rate", "frame", "load", "order", "relief", "stress"});
     in_.error(kind.column, fmt::format("{} is not a kind of record{}", quotedWord(kind.text),
                                        didYouMean(kind.text, known)));
   }
@@ -127,6 +129,40 @@ private:
     if (!(*value >= 0 && *value <= 1))
       return in_.error(in_.words()[3].column, "the figure must be from 0 to 1");
     if (frame) log_.decisions.orders.insert({*frame, {*action, *value, false}});
+  }
+
+  void relief() {
+    const auto frame = wholeNumber(1, "the frame's number", 0, 1'000'000'000'000);
+    const auto load = frame ? wholeNumber(2, "the load's number", 1, 1'000'000'000) : std::nullopt;
+    const auto position = load ? wholeNumber(3, "the node's position", 0, 1'000'000'000) : std::nullopt;
+    const auto level = position ? wholeNumber(4, "the level", 0, 100) : std::nullopt;
+    if (!level || !nothingAfter(5)) return;
+    const auto number = [](std::uint64_t n) { return static_cast<std::uint32_t>(n); };
+    decide(*frame, {number(*load), number(*position), number(*level)});
+  }
+
+  void stress() {
+    const auto frame = wholeNumber(1, "the frame's number", 0, 1'000'000'000'000);
+    const auto level = frame ? wholeNumber(2, "the level", 0, kMostStress) : std::nullopt;
+    if (level && nothingAfter(3)) decide(*frame, {0, 0, static_cast<std::uint32_t>(*level)});
+  }
+
+  void decide(std::uint64_t frame, const LoadDecision& decision) {
+    LoadDecisions& known = log_.decisions.relief;
+    if (known.count(frame) == FrameLoad::kMost)
+      return in_.error(in_.words()[0].column,
+                       fmt::format("at most {} of these take effect in one frame", FrameLoad::kMost));
+    const auto [first, last] = known.equal_range(frame);
+    for (auto at = first; at != last; ++at)
+      if (at->second.load == decision.load && at->second.position == decision.position)
+        return in_.error(in_.words()[0].column, "of this frame and this node that is said already");
+    known.insert({frame, decision});
+  }
+
+  std::optional<std::uint64_t> wholeNumber(std::size_t index, std::string_view what, std::uint64_t least,
+                                           std::uint64_t most) {
+    const Word* w = word(index, what);
+    return w ? in_.count(*w, what, least, most) : std::nullopt;
   }
 
   const Word* word(std::size_t index, std::string_view what) {
@@ -342,6 +378,11 @@ std::string formatOrder(std::uint64_t frame, const OperatorCommand& order) {
   return fmt::format("order {} {} {}\n", frame, nameOf(order.action), order.value.value_or(0));
 }
 
+std::string formatRelief(std::uint64_t frame, const LoadDecision& d) {
+  if (d.load == 0) return fmt::format("stress {} {}\n", frame, d.level);
+  return fmt::format("relief {} {} {} {}\n", frame, d.load, d.position, d.level);
+}
+
 std::string formatRecord(const std::string& tracker, const InputStamp& stamp) {
   if (!stamp.valid) return fmt::format("lost {} {}\n", tracker, formatSeconds(stamp.time));
   const Vec3& p = stamp.X_RT.p;
@@ -364,6 +405,7 @@ std::string formatInputLog(const InputLog& log) {
   for (const auto& [frame, time] : decided.frames) text += formatFrameTime(frame, time);
   for (const auto& [load, time] : decided.loads) text += formatLateLoad(load, time);
   for (const auto& [frame, order] : decided.orders) text += formatOrder(frame, order);
+  for (const auto& [frame, decision] : decided.relief) text += formatRelief(frame, decision);
   for (const InputTrack& track : log.tracks)
     for (const InputStamp& stamp : track.stamps) text += formatRecord(track.name, stamp);
   return text;

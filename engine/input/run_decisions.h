@@ -19,14 +19,19 @@ namespace stadion {
 /// What the operator asked for, by the frame in which it took effect.
 using RunOrders = std::multimap<std::uint64_t, OperatorCommand>;
 
+/// What was given up because something took too long, by the frame from which on it was.
+using LoadDecisions = std::multimap<std::uint64_t, LoadDecision>;
+
 struct RunDecisions {
   double rate = 0;                              ///< frames a second of the recorded run; 0 = not said
   std::map<std::uint64_t, Nanoseconds> frames;  ///< frame number to its show time; the ones after it follow
   std::map<std::uint32_t, Nanoseconds> loads;   ///< load number to when it took effect, because it came late
 
   RunOrders orders;  ///< about pictures and sounds alone, with their figures
+  LoadDecisions relief;
 
-  bool empty() const { return frames.empty() && loads.empty() && orders.empty(); }
+  bool empty() const { return frames.empty() && loads.empty() && orders.empty() && relief.empty(); }
+
   Nanoseconds end() const { return frames.empty() ? 0 : frames.rbegin()->second; }
 };
 

@@ -51,8 +51,10 @@ Course Courses::within(PlacementId id, const Pose& before, Nanoseconds start, Na
   if (carried) {
     const Course& way = carrier->second;
     const bool itself = carrier->first == id;
-    const Pose X_CN0 = itself ? Pose{} : way.front().X.inverse() * before;
+    // Who has not looked for some frames knows nothing of the time before this one: it came straight.
+    const bool late = way.front().time > start;
     const Pose X_CN1 = itself ? Pose{} : way.back().X.inverse() * now;
+    const Pose X_CN0 = itself ? Pose{} : late ? X_CN1 : way.front().X.inverse() * before;
     const auto at = [&](Nanoseconds time, const Pose& X) {
       const double s = end > start ? static_cast<double>(time - start) / static_cast<double>(end - start) : 1;
       return itself ? X : X * det::interpolate(X_CN0, X_CN1, s);
@@ -64,7 +66,7 @@ Course Courses::within(PlacementId id, const Pose& before, Nanoseconds start, Na
         for (Nanoseconds t = (last->time / kChord + 1) * kChord; t < knot.time; t += kChord)
           course.push_back({t, at(t, poseOn(way, t, Limit::Before)), false});
       const Pose X = at(knot.time, knot.X);
-      if (last || !near(X, before)) course.push_back({knot.time, X, knot.jump || !last});
+      if (last || !near(X, before)) course.push_back({knot.time, X, knot.jump || (!last && !late)});
       last = &knot;
     }
     if (course.back().time >= end || near(course.back().X, now)) return course;

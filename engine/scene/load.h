@@ -5,10 +5,12 @@
 /// after it, destroyed on the loader thread. Dynamics knows the exact times.
 
 #include "engine/diagnostic.h"
+#include "engine/load_control.h"
 #include "engine/node.h"
 #include "engine/scene/records.h"
 
 #include <limits>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -44,6 +46,7 @@ struct Load {
   bool chunkShown = false;                       ///< the scene's own
   std::span<const InstanceRecord> chunkRecords;  ///< in published memory, immutable
   std::vector<StaticObject> statics;             ///< parallel to chunkRecords, ordered by position
+  std::map<std::uint32_t, NodeTerms> terms;      ///< position to what a node may cost, of those that say so
   std::vector<MeshId> meshes;                    ///< each counted once, released with the load
 
   NodeRef find(const std::string& name) const {

@@ -137,15 +137,18 @@ const Affine& Placements::world(PlacementId id) const {
   return entries_[id].X_WN;
 }
 
-void Placements::setShown(PlacementId id, bool shown) {
-  if (entries_[id].shownSelf == shown) return;
-  entries_[id].shownSelf = shown;
-  markBelow(id, false);
+void Placements::setShown(PlacementId id, bool shown, Hider hider) {
+  const auto bit = static_cast<std::uint8_t>(hider);
+  const std::uint8_t before = entries_[id].hiders;
+  const auto now = static_cast<std::uint8_t>(shown ? before & ~bit : before | bit);
+  if (before == now) return;
+  entries_[id].hiders = now;
+  if ((before == 0) != (now == 0)) markBelow(id, false);
 }
 
 bool Placements::shown(PlacementId id) const {
   for (; id != kWorldPlacement; id = entries_[id].parent)
-    if (!entries_[id].shownSelf) return false;
+    if (entries_[id].hiders != 0) return false;
   return true;
 }
 

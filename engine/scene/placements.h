@@ -21,6 +21,13 @@ using PlacementId = std::uint32_t;
 constexpr PlacementId kWorldPlacement = 0;  ///< World itself: the identity, never moves
 constexpr PlacementId kNoPlacement = ~PlacementId{0};
 
+/// Who hides something: it is shown while nobody does.
+enum class Hider : std::uint8_t {
+  Author = 1,  ///< the script, and its messages
+  Level = 2,   ///< an lod node above it draws another child
+  Relief = 4,  ///< it costs too much
+};
+
 /// What of a placement is held in World.
 enum class Held : std::uint8_t { Nothing, Position, Orientation, All };
 
@@ -47,7 +54,7 @@ public:
   PlacementId carrier(PlacementId id) const;
 
   /// Hides or shows this placement and everything below it.
-  void setShown(PlacementId id, bool shown);
+  void setShown(PlacementId id, bool shown, Hider hider = Hider::Author);
   bool shown(PlacementId id) const;  ///< itself and everything above it
 
   /// From now on takeMovedWatched() tells when this placement moves.
@@ -69,7 +76,7 @@ private:
     Held held = Held::Nothing;
     bool stale = false;    ///< X_WN must be recomputed
     bool changed = false;  ///< is in changed_
-    bool shownSelf = true;
+    std::uint8_t hiders = 0;
     bool live = false;
     bool watched = false, watchedBelow = false;
   };

@@ -4,7 +4,8 @@
 
 namespace stadion {
 
-InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, NodeRef owner) {
+InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, NodeRef owner,
+                            double lodFactor) {
   InstanceRecord r{};
   for (int row = 0; row < 3; ++row)
     for (int col = 0; col < 4; ++col) r.model[4 * row + col] = X_WN.matrix()(row, col);
@@ -25,6 +26,7 @@ InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, boo
                   [](const Material& m) { return m.transparent(); }))
     r.flags |= InstanceRecord::kTransparent;
   r.owner = owner;
+  r.lodFactor = mesh.levels.empty() ? 0.0f : static_cast<float>(lodFactor);
   return r;
 }
 

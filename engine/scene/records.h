@@ -28,13 +28,15 @@ struct InstanceRecord {
   float radius;      ///< [m]; < 0 = not there
   MeshId mesh;
   std::uint32_t flags;
-  NodeRef owner;  ///< for profiling
+  NodeRef owner;    ///< for profiling
+  float lodFactor;  ///< it counts as so many times farther away; 0 = its mesh has no simplified levels
 
   static constexpr std::uint32_t kShown = 1, kTransparent = 2;
 };
 static_assert(std::is_trivially_copyable_v<InstanceRecord> && sizeof(InstanceRecord) == 144);
 
-InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, NodeRef owner);
+InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, NodeRef owner,
+                            double lodFactor = 1);
 
 struct LightRecord {
   std::uint32_t kind = 0;                       ///< DrawLight::Kind
@@ -55,6 +57,7 @@ struct ViewerRecord {
   double rigPosition[3] = {0, 0, 0}, rigOrientation[4] = {0, 0, 0, 1};      ///< X_WR, quaternion x y z w
   double headPosition[3] = {0, 0, 1.7}, headOrientation[4] = {0, 0, 0, 1};  ///< X_RH
   Nanoseconds poseTime = 0;  ///< show time the head pose is for
+  double stress = 1;         ///< everything counts as so many times farther away, when levels are chosen
 
   Pose rig() const { return {Vec3(rigPosition), Quat(rigOrientation)}; }
   Pose head() const { return {Vec3(headPosition), Quat(headOrientation)}; }

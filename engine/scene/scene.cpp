@@ -27,11 +27,13 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
   events_.clear();
   now_ = now.time;
   frame_ = now.frame;
+  frameStart_ = now.time - now.step;
   courses_.clear();
   impacts_.clear();
   {
     const SpanScope span(probe, Span::Loading);
     applyLoads(now);
+    obey(now);
   }
   rigStart_ = rigPose();
   visit(now, input, probe);
@@ -62,6 +64,11 @@ void Scene::settleTouched(FrameProbe* probe) {
 std::vector<Message> Scene::callRound(const TimeSignature& now) {
   std::vector<Message> mail = messages_.takeDue(now.time);
   round_ = busy_;
+  if (!reliefs_.empty()) std::erase_if(round_, [&](const Visit& v) { return putOff(v.node, frameStart_); });
+  std::set<NodeRef> waiting;
+  waiting.swap(putOff_);
+  for (const NodeRef ref : waiting)
+    if (!putOff(ref, frameStart_)) wokenLate_.push_back(ref);  // its turn has come
   const auto call = [&](NodeRef ref) {
     Node* node = find(ref);
     if (node) round_.insert({node->rank(), ref});
@@ -103,16 +110,18 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
     mail = callRound(now);
     detached = detachedBy(mail, frame);
   }
-  std::vector<Node*> batch;
+  std::vector<Cycle> batch;
   const auto next = [&] {
     const SpanScope span(probe, Span::Mail);
     return takeBatch(mail, frame, probe, batch);
   };
   while (next()) {
     computeTogether(batch, probe);
-    for (Node* node : batch) {
+    for (const Cycle& cycle : batch) {
+      Node* node = cycle.node;
       current_ = Visit{node->rank(), node->self()};
-      node->conclude(frame, probe);
+      FrameContext own = cycle.context(frame);
+      node->conclude(own, probe);
       ++counters_.nodesVisited;
       const SpanScope span(probe, Span::Settle, node->self());
       setBusy(*node);
@@ -124,21 +133,21 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
   for (const Detached& d : detached) rejoinParent(d, frame);
 }
 
-void Scene::computeTogether(std::span<Node* const> batch, FrameProbe* probe) {
-  if (batch.size() == 1) return batch[0]->compute(probe);
+void Scene::computeTogether(std::span<const Cycle> batch, FrameProbe* probe) {
+  if (batch.size() == 1) return batch[0].node->compute(probe);
   const SpanScope span(probe, Span::Crew);
-  crew_.run(batch.size(), [&](std::size_t i) { batch[i]->compute(probe); });
+  crew_.run(batch.size(), [&](std::size_t i) { batch[i].node->compute(probe); });
 }
 
 /// The next nodes of this round that do not look at each other's results, each of them begun. False: no more.
 bool Scene::takeBatch(const std::vector<Message>& mail, FrameContext& frame, FrameProbe* probe,
-                      std::vector<Node*>& batch) {
+                      std::vector<Cycle>& batch) {
   batch.clear();
   while (!round_.empty()) {
     const Visit next = *round_.begin();
     Node* node = find(next.node);
     const bool waits =
-        node && std::ranges::any_of(batch, [&](const Node* n) { return node->awaits(*n, *this); });
+        node && std::ranges::any_of(batch, [&](const Cycle& b) { return node->awaits(*b.node, *this); });
     if (waits) break;
     round_.erase(round_.begin());
     if (!node) continue;
@@ -146,8 +155,9 @@ bool Scene::takeBatch(const std::vector<Message>& mail, FrameContext& frame, Fra
     const auto [first, last] =
         std::equal_range(mail.begin(), mail.end(), Message{0, {}, 0, next.node, {}, {}, {}, {}, {}},
                          [](const Message& a, const Message& b) { return a.target < b.target; });
-    node->begin({first, last}, frame, probe);
-    batch.push_back(node);
+    batch.push_back(cycleOf(*node, frame.now));
+    FrameContext own = batch.back().context(frame);
+    node->begin({first, last}, own, probe);
   }
   return !batch.empty();
 }
@@ -201,7 +211,8 @@ void Scene::wakeWatchers() {
     const auto [first, last] = watchers_.equal_range(p);
     // A node that moves what it watches does not wake itself.
     for (auto at = first; at != last; ++at)
-      if (!current_ || current_->node != at->second) wakeNow(at->second);
+      if ((!current_ || current_->node != at->second) && !putOff(at->second, frameStart_))
+        wakeNow(at->second);
   }
 }
 
@@ -369,6 +380,7 @@ std::uint64_t Scene::stateHash() const {
   h.add(pending);
   for (const Wake& w : wakes_) h.add(w.at), h.add(w.node);
   for (const Change& c : pendingLoads_) h.add(c.at), h.add(c.number), h.add(c.load);
+  hashRelief(h);
   return h.value();
 }
 

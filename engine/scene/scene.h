@@ -8,6 +8,7 @@
 
 #include "engine/crew.h"
 #include "engine/input/input_sample.h"
+#include "engine/load_control.h"
 #include "engine/node.h"
 #include "engine/scene/courses.h"
 #include "engine/scene/impact.h"
@@ -127,6 +128,11 @@ public:
   void setSound(std::size_t handle, bool on, const SoundRecord& sound);
   void removeSound(std::size_t handle);
 
+  /// What the node has to do without at the moment, because it or something above it costs too much.
+  Relief reliefOf(NodeRef node) const;
+  /// So many times farther away everything counts at the moment, when levels of detail are chosen.
+  double stress() const { return stressOf(stressLevel_); }
+
   /// Show time at the end of this frame; while a load enters, the exact time at which it does.
   Nanoseconds now() const { return now_; }
 
@@ -205,6 +211,13 @@ private:
     PlacementId parent;
     Pose X_WP;  ///< at the frame's start
   };
+  /// A node's cycle that is under way.
+  struct Cycle {
+    Node* node;
+    TimeSignature now;
+    bool rested;
+    FrameContext context(const FrameContext& frame) const { return {now, frame.input, frame.scene, rested}; }
+  };
   struct Visit {
     Rank rank;
     NodeRef node;
@@ -219,11 +232,21 @@ private:
   void visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe);
   std::vector<Message> callRound(const TimeSignature& now);
   void settleTouched(FrameProbe* probe);
-  void computeTogether(std::span<Node* const> batch, FrameProbe* probe);
+  void computeTogether(std::span<const Cycle> batch, FrameProbe* probe);
   std::vector<Detached> detachedBy(const std::vector<Message>& mail, const FrameContext& frame);
   void rejoinParent(const Detached& d, const FrameContext& frame);
   bool takeBatch(const std::vector<Message>& mail, FrameContext& frame, FrameProbe* probe,
-                 std::vector<Node*>& batch);
+                 std::vector<Cycle>& batch);
+  // Load (scene_relief.cpp).
+  void obey(const TimeSignature& now);
+  void obey(const LoadDecision& decision);
+  void spreadRelief();
+  void relieve(NodeRef node, const Relief& before, const Relief& now);
+  const NodeTerms* termsOf(NodeRef node) const;
+  bool isPutOff(NodeRef node) const;
+  bool putOff(NodeRef node, Nanoseconds frameStart);
+  Cycle cycleOf(Node& node, const TimeSignature& now);
+  void hashRelief(StateHash& h) const;
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
   void publishInstance(InstanceId id, ChangeSet& changes);
   void publishLights(const InputSample& input, ChangeSet& changes);
@@ -255,6 +278,16 @@ private:
   std::set<Visit> round_;  ///< still to be visited in this frame
   std::optional<Visit> current_;
   std::vector<NodeRef> wokenLate_;
+  std::map<NodeRef, std::uint32_t> reliefLevels_;  ///< of those that have to do without something
+  std::map<NodeRef, Relief> reliefs_;              ///< of them and all below them
+  std::uint64_t reliefLoads_ = 0;                  ///< loadsVersion_ when these were found
+  std::uint32_t stressLevel_ = 0;
+  std::set<NodeRef> putOff_;  ///< would have been visited, but for their pace
+  struct Paced {
+    Nanoseconds since;  ///< when its last cycle ended
+    bool rests;
+  };
+  std::map<NodeRef, Paced> paced_;  ///< those that have missed a frame
   std::multimap<PlacementId, NodeRef> watchers_;
   std::uint64_t loadsVersion_ = 0, loadsTold_ = 0;
   std::set<NodeRef> loadWatchers_;
@@ -287,6 +320,7 @@ private:
   std::multimap<NodeRef, NodeRef> impactWatchers_;  ///< by the body that is watched
   std::vector<Impact> impacts_;
   Nanoseconds now_ = 0;
+  Nanoseconds frameStart_ = 0;
   std::uint64_t frame_ = 0;
 };
 

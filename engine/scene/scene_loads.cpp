@@ -187,6 +187,9 @@ void Scene::remove(std::uint32_t number, std::uint64_t frame) {
   std::unique_ptr<Load> gone = std::move(at->second);
   loads_.erase(at);
   std::erase_if(wakes_, [&](const Wake& w) { return w.node.load == number; });
+  std::erase_if(reliefLevels_, [&](const auto& r) { return r.first.load == number; });
+  std::erase_if(putOff_, [&](NodeRef ref) { return ref.load == number; });
+  std::erase_if(paced_, [&](const auto& p) { return p.first.load == number; });
   ++loadsVersion_;
   loader_.dispose(std::move(gone), frame);
 }

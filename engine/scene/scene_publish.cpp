@@ -146,6 +146,7 @@ void Scene::publish(const TimeSignature& now, const InputSample& input, ChangeSe
   changes.sky = skies_.empty() ? SkyRecord{} : skies_.back().record;
   changes.viewer.set(rigPose(), headInRig(input));
   changes.viewer.poseTime = input.time;
+  changes.viewer.stress = stress();
 }
 
 void Scene::publishInstance(InstanceId id, ChangeSet& changes) {
@@ -156,7 +157,7 @@ void Scene::publishInstance(InstanceId id, ChangeSet& changes) {
   const Mesh* mesh = i.live ? meshes_.find(i.mesh) : nullptr;
   if (mesh)
     change.record = makeInstance(placements_.world(i.placement), *mesh, i.mesh,
-                                 i.drawn && placements_.shown(i.placement), i.owner);
+                                 i.drawn && placements_.shown(i.placement), i.owner, reliefOf(i.owner).lod);
   changes.instances.push_back(change);
 }
 
@@ -267,7 +268,8 @@ std::optional<Pose> Scene::trackerInWorld(const std::string& tracker, const Inpu
 std::optional<Course> Scene::trackerCourse(const std::string& tracker, const FrameContext& frame) const {
   const TrackerSample* t = frame.input.find(tracker);
   if (!t || !t->valid) return std::nullopt;
-  const Nanoseconds start = frame.start(), end = frame.now.time;
+  // Who has not looked for some frames: where it was before this one nobody remembers.
+  const Nanoseconds start = frameStart_, end = frame.now.time;
   const Pose X_WR = rigPose();
   const bool rides = X_WR.p != rigStart_.p || X_WR.q.coeffs() != rigStart_.q.coeffs();
   Course way;

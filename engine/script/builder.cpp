@@ -53,6 +53,13 @@ public:
     return true;
   }
   std::uint32_t parent(std::uint32_t i) const { return parent_[i]; }
+  /// Those that say that they stand below it, in the order of the file.
+  std::vector<std::uint32_t> childrenOf(std::uint32_t node) const {
+    std::vector<std::uint32_t> children;
+    for (std::uint32_t i = 0; i < parent_.size(); ++i)
+      if (parent_[i] == node && lodLevelKinds().has(document_[i].kind())) children.push_back(i);
+    return children;
+  }
 
   /// Parents before children, otherwise as in the file.
   std::vector<std::uint32_t> enterOrder() const {
@@ -96,7 +103,7 @@ private:
   bool mayMove(std::uint32_t i) const {
     const NodeKind kind = document_[i].kind();
     return mentioned_[i] || kind == NodeKind::DynObject || kind == NodeKind::Rig || kind == NodeKind::Path ||
-           kind == NodeKind::Scene;
+           kind == NodeKind::Scene || kind == NodeKind::Lod;
   }
 
   const Document& document_;
@@ -120,6 +127,7 @@ public:
     load.lines.reserve(input_.document.size());
     for (const Declaration d : input_.document) {
       load.lines.push_back(d.line());
+      addTerms(d);
       const std::string* name = nullptr;
       if (!d.name().empty()) name = &load.names.emplace(std::string(d.name()), d.index()).first->first;
       if (layout_.isStatic(d.index()))
@@ -163,6 +171,23 @@ private:
     return d.kind() == NodeKind::Sound ? input_.sounds(d) : 0;
   }
 
+  std::vector<NodeRef> childrenOf(const Declaration& d) const {
+    std::vector<NodeRef> children;
+    if (d.kind() == NodeKind::Lod)
+      for (const std::uint32_t child : layout_.childrenOf(d.index()))
+        children.push_back({input_.number, child});
+    return children;
+  }
+
+  void addTerms(const Declaration& d) {
+    if (!d.has(Attr::Budget) && !d.has(Attr::OnOverrun)) return;
+    NodeTerms terms;
+    terms.budget = d.optionalNumber(Attr::Budget).value_or(0);
+    terms.gives = d.choices<Concession>(Attr::OnOverrun);
+    terms.priority = d.number(Attr::Priority);
+    built_.load->terms[d.index()] = std::move(terms);
+  }
+
   Affine worldPlaceOf(const Declaration& d) const {
     Affine X = placeOf(d).X_PN;
     for (std::uint32_t up = layout_.parent(d.index()); up != Layout::kNone; up = layout_.parent(up))
@@ -199,7 +224,8 @@ private:
                               resolve_,
                               model_,
                               findings_,
-                              soundLengthOf(d)};
+                              soundLengthOf(d),
+                              childrenOf(d)};
     const NodeFactory& make = input_.factories[static_cast<std::size_t>(d.kind())];
     std::unique_ptr<Node> node = make(request);
     if (!node) return;

@@ -36,7 +36,8 @@ struct NodeRequest {
   /// Of objects in the same file.
   const std::function<std::optional<PlacedModel>(const NodeReference&)>& model;
   Diagnostics& findings;
-  Nanoseconds soundLength = 0;  ///< of sounds [ns]
+  Nanoseconds soundLength = 0;      ///< of sounds [ns]
+  std::vector<NodeRef> children{};  ///< of lod nodes: what it chooses from, in the order of the script
 };
 
 /// Makes a node, or says in the findings why it cannot.

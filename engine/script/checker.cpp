@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,7 @@ bool countIsRight(ValueKind kind, std::size_t count) {
   case ValueKind::Sphere: return count == 4;
   case ValueKind::Box: return count == 6;
   case ValueKind::Key: return count == 4 || count == 7;
+  case ValueKind::Distances: return count >= 1;
   default: return count == 3;
   }
 }
@@ -74,6 +76,16 @@ std::string demand(const NumberRange& range, double x, std::string_view unit) {
                         : describe(NumberRange{range.least, kNone, range.above}, unit);
 }
 
+/// Why a node of this kind cannot give that up; empty if it can.
+std::string faultOfConcession(NodeKind kind, std::string_view word) {
+  const bool drawn = word == "lod" || word == "hide";
+  if ((drawn ? placedKinds() : pacedKinds()).has(kind)) return {};
+  if (drawn)
+    return fmt::format("\"{}\" is for what has a place in the world; {} has none", word, nameOf(kind));
+  return fmt::format("\"{}\" is for {}, which run on their own from frame to frame; {} does not", word,
+                     describe(pacedKinds()), nameOf(kind));
+}
+
 bool contains(const NumberRange& range, double x) {
   return (range.above ? x > range.least : x >= range.least) && x <= range.most;
 }
@@ -95,6 +107,9 @@ void Checker::take(const RawDeclaration& raw) {
   checkVolume(*kind, raw, seen);
   if (*kind == NodeKind::Path) checkKeyTimes(raw, node);
   if (*kind == NodeKind::DynObject) checkFlight(raw, node);
+  if (seen[static_cast<std::size_t>(Attr::Priority)] && !seen[static_cast<std::size_t>(Attr::OnOverrun)])
+    report_.error(raw.type.offset, "priority says who gives something up first, and this node gives up "
+                                   "nothing: say onoverrun, or leave priority out");
 }
 
 void Checker::takeUnknown(const RawDeclaration& raw) {
@@ -136,6 +151,7 @@ void Checker::takeValue(NodeKind kind, const AttributeSpec& spec, TextSpan value
   switch (spec.kind) {
   case ValueKind::Flag: return takeFlag(spec, value);
   case ValueKind::Choice: return takeChoice(spec, value);
+  case ValueKind::Choices: return takeChoices(kind, spec, value);
   case ValueKind::NewName:
   case ValueKind::Tracker:
   case ValueKind::Reference: return takeWord(spec, value);
@@ -154,6 +170,10 @@ void Checker::takeNumbers(const AttributeSpec& spec, TextSpan value) {
     return report_.error(value.offset + static_cast<std::uint32_t>(failure->offset), failure->message);
   if (!countIsRight(spec.kind, numbers.count)) return reportCount(spec, value, numbers.count);
   if (!numbersInRange(spec, value, numbers) || !momentsArePossible(spec, value, numbers)) return;
+  if (spec.kind == ValueKind::Distances) return takeDistances(spec, value, numbers);
+  if (spec.attr == Attr::Levels && numbers.value[0] != std::floor(numbers.value[0]))
+    return report_.error(value.offset,
+                         fmt::format("levels must be a whole number, not {}", numbers.value[0]));
   if (spec.kind == ValueKind::Scale && numbers.count == 1)
     numbers.value[1] = numbers.value[2] = numbers.value[0];
   const std::size_t stored = spec.kind == ValueKind::Scale ? 3
@@ -217,6 +237,43 @@ void Checker::takeChoice(const AttributeSpec& spec, TextSpan value) {
                             static_cast<std::uint32_t>(found - spec.choices.begin()));
   report_.error(value.offset, fmt::format("{} must be {}, not \"{}\"", nameOf(spec.attr), formOf(spec),
                                           shortened(text(value))));
+}
+
+/// Words between commas or blanks.
+void Checker::takeChoices(NodeKind kind, const AttributeSpec& spec, TextSpan value) {
+  constexpr std::string_view kBetween = ", \t\r\n";
+  const std::string_view all = text(value);
+  std::vector<std::string_view> words;
+  for (std::size_t at = all.find_first_not_of(kBetween); at < all.size();
+       at = all.find_first_not_of(kBetween, at)) {
+    const std::string_view word = all.substr(at, all.find_first_of(kBetween, at) - at);
+    const auto where = value.offset + static_cast<std::uint32_t>(at);
+    const std::vector<std::string> known(spec.choices.begin(), spec.choices.end());
+    if (std::ranges::find(spec.choices, word) == spec.choices.end())
+      return report_.error(where, fmt::format("{} must be {}, not \"{}\"{}", nameOf(spec.attr), formOf(spec),
+                                              shortened(word), didYouMean(word, known)));
+    if (std::ranges::find(words, word) != words.end())
+      return report_.error(where, fmt::format("{}: \"{}\" is given twice", nameOf(spec.attr), word));
+    if (const std::string why = faultOfConcession(kind, word); !why.empty())
+      return report_.error(where, fmt::format("{}: {}", nameOf(spec.attr), why));
+    words.push_back(word);
+    at += word.size();
+  }
+  if (words.empty())
+    return report_.error(value.offset,
+                         fmt::format("{} must be {}, not empty", nameOf(spec.attr), formOf(spec)));
+  writer_.addText(spec.attr, spec.kind, value);
+}
+
+void Checker::takeDistances(const AttributeSpec& spec, TextSpan value, const NumberList& numbers) {
+  for (std::size_t i = 1; i < numbers.count; ++i)
+    if (!(numbers.value[i] > numbers.value[i - 1]))
+      return report_.error(value.offset + static_cast<std::uint32_t>(numbers.offset[i]),
+                           fmt::format("{} must grow, but {} follows {}", nameOf(spec.attr), numbers.value[i],
+                                       numbers.value[i - 1]));
+  std::array<double, 8> stored{static_cast<double>(numbers.count)};
+  std::copy_n(numbers.value.begin(), numbers.count, stored.begin() + 1);
+  writer_.addNumbers(spec.attr, spec.kind, value.offset, std::span(stored).first(numbers.count + 1));
 }
 
 void Checker::takeWord(const AttributeSpec& spec, TextSpan value) {

@@ -26,6 +26,8 @@ private:
   void takeNumbers(const AttributeSpec& spec, TextSpan value);
   void takeFlag(const AttributeSpec& spec, TextSpan value);
   void takeChoice(const AttributeSpec& spec, TextSpan value);
+  void takeChoices(NodeKind kind, const AttributeSpec& spec, TextSpan value);
+  void takeDistances(const AttributeSpec& spec, TextSpan value, const NumberList& numbers);
   void takeWord(const AttributeSpec& spec, TextSpan value);
   void takeWords(const AttributeSpec& spec, TextSpan value);
   void takeCoefficients(const AttributeSpec& spec, TextSpan value);

@@ -96,6 +96,29 @@ std::optional<std::size_t> Declaration::choiceIndex(Attr attr) const {
   return static_cast<std::size_t>(found - spec->choices.begin());
 }
 
+std::vector<std::size_t> Declaration::choiceIndices(Attr attr) const {
+  const AttributeSpec* spec = specOf(kind(), attr);
+  std::vector<std::size_t> indices;
+  if (spec == nullptr) return indices;
+  std::string words(text(attr));
+  std::replace_if(
+      words.begin(), words.end(), [](char c) { return c == ',' || c == '\r' || c == '\n'; }, ' ');
+  std::string_view rest = words;
+  std::size_t offset = 0;
+  for (Piece word = takeWord(rest, offset); !word.text.empty(); word = takeWord(rest, offset)) {
+    const auto found = std::find(spec->choices.begin(), spec->choices.end(), word.text);
+    indices.push_back(static_cast<std::size_t>(found - spec->choices.begin()));
+  }
+  return indices;
+}
+
+std::vector<double> Declaration::distances(Attr attr) const {
+  const auto* value = document_->find(index_, attr);
+  if (value == nullptr) return {};
+  const double* numbers = &document_->numbers_[value->data];
+  return {numbers + 1, numbers + 1 + static_cast<std::size_t>(numbers[0])};
+}
+
 std::string_view Declaration::text(Attr attr) const {
   if (attr == Attr::Name) return name();
   const AttributeSpec* spec = specOf(kind(), attr);

@@ -77,6 +77,14 @@ public:
     const auto index = choiceIndex(attr);
     return index ? std::optional<E>(static_cast<E>(*index)) : std::nullopt;
   }
+  /// Of Choices: the words, as an enumeration.
+  template <class E>
+  std::vector<E> choices(Attr attr) const {
+    std::vector<E> list;
+    for (const std::size_t index : choiceIndices(attr)) list.push_back(static_cast<E>(index));
+    return list;
+  }
+  std::vector<double> distances(Attr attr) const;  ///< empty if not stated
   std::optional<stadion::Sphere> sphere(Attr attr) const;
   std::optional<BoxValue> box(Attr attr) const;
 
@@ -88,6 +96,7 @@ public:
 private:
   friend class Document;
   std::optional<std::size_t> choiceIndex(Attr attr) const;
+  std::vector<std::size_t> choiceIndices(Attr attr) const;
 
   const Document* document_;
   std::uint32_t index_;

@@ -1,5 +1,6 @@
 #include "engine/maths/functions.h"
 #include "engine/nodes/light_node.h"
+#include "engine/nodes/lod_node.h"
 #include "engine/nodes/measure_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/rig_node.h"
@@ -31,6 +32,11 @@ void setColour(const Vec3& srgb, Linear& linear, double factor = 1) {
 
 Made makePlaced(const NodeRequest& r) {
   return std::make_unique<PlacedNode>(r.declaration.kind(), r.self, r.name, r.place);
+}
+
+Made makeLod(const NodeRequest& r) {
+  return std::make_unique<LodNode>(r.self, r.name, r.place, r.children,
+                                   r.declaration.distances(Attr::Ranges));
 }
 
 Made makeObject(const NodeRequest& r) {
@@ -160,6 +166,7 @@ Made makeRig(const NodeRequest& r) {
 void addEngineFactories(NodeFactories& factories) {
   const auto set = [&](NodeKind kind, NodeFactory make) { factories[static_cast<std::size_t>(kind)] = make; };
   set(NodeKind::Group, makePlaced), set(NodeKind::Transform, makePlaced);
+  set(NodeKind::Lod, makeLod);
   set(NodeKind::Object, makeObject);
   set(NodeKind::Light, makeLight), set(NodeKind::Sky, makeSky);
   set(NodeKind::Text, makeText), set(NodeKind::Measure, makeMeasure);

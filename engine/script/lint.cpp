@@ -27,6 +27,7 @@ struct Use {
   bool simulated = false;   // collidee of a dynamics node
   bool switchedOn = false;  // target of enable or toggle
   bool isParent = false;
+  std::size_t levels = 0;  // children that an lod node chooses from
 };
 
 class Linter {
@@ -53,7 +54,8 @@ private:
       for (const NodeReference& body : node.references(Attr::Collidee))
         if (Use* use = useOf(body)) use->simulated = true;
     if (node.has(Attr::Parent))
-      if (Use* use = useOf(*node.reference(Attr::Parent))) use->isParent = true;
+      if (Use* use = useOf(*node.reference(Attr::Parent)))
+        use->isParent = true, use->levels += lodLevelKinds().has(node.kind());
     for (const EventMessage& message : node.eventMessages()) {
       noteMessage(message);
       warnOfMissing(message.words, message.command);
@@ -74,6 +76,7 @@ private:
 
   void look(const Declaration& node) {
     switch (node.kind()) {
+    case NodeKind::Lod: return lookAtLod(node);
     case NodeKind::Object: return lookAtModel(node);
     case NodeKind::DynObject: return lookAtBody(node);
     case NodeKind::Light: return lookAtLight(node);
@@ -93,6 +96,18 @@ private:
     case NodeKind::Dynamics: return lookAtContacts(node);
     default: return;
     }
+  }
+
+  void lookAtLod(const Declaration& node) {
+    const std::size_t ranges = node.distances(Attr::Ranges).size(), levels = uses_[node.index()].levels;
+    if (levels < ranges)
+      warn(node, Attr::Ranges,
+           fmt::format("{} has {} ranges for {} of its children: beyond them nothing is drawn", called(node),
+                       ranges, levels));
+    if (levels > ranges + 1)
+      warn(node, Attr::Ranges,
+           fmt::format("{} has {} children for {} ranges; those after the {}th are never drawn", called(node),
+                       levels, ranges, ranges + 1));
   }
 
   void lookAtModel(const Declaration& node) {

@@ -13,6 +13,15 @@ KindSet fieldKinds() {
   return schema_table::kFieldKinds;
 }
 
+KindSet pacedKinds() {
+  return schema_table::kPacedKinds;
+}
+
+KindSet lodLevelKinds() {
+  using enum NodeKind;
+  return {Group, Transform, Lod, Object, DynObject, Text, Path, Scene};
+}
+
 std::span<const AttributeSpec> commonAttributes() {
   return schema_table::kCommon;
 }
@@ -102,6 +111,10 @@ std::string formOf(const AttributeSpec& spec) {
   case ValueKind::Key: return "seven numbers \"t, x, y, z, rx, ry, rz\", or the first four";
   case ValueKind::Flag: return "on or off";
   case ValueKind::Choice: return joinWithOr({spec.choices.begin(), spec.choices.end()});
+  case ValueKind::Choices:
+    return fmt::format("one or more of {}, in the order that counts",
+                       joinWithOr({spec.choices.begin(), spec.choices.end()}));
+  case ValueKind::Distances: return "up to seven numbers \"a, b, ...\", growing";
   case ValueKind::NewName: return "one word";
   case ValueKind::Tracker: return "the name of a tracker";
   case ValueKind::Reference: return "the name of a node";

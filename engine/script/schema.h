@@ -34,6 +34,8 @@ enum class ValueKind : std::uint8_t {
   Key,           ///< "t, x, y, z, rx, ry, rz" or "t, x, y, z": a time, a position, an orientation
   Flag,          ///< on, off, true, false, 1, 0
   Choice,        ///< one word of a few
+  Choices,       ///< some words of a few, each once, in the order that counts
+  Distances,     ///< up to seven numbers, each greater than the one before
   NewName,       ///< the name that this node gets
   Tracker,       ///< the name of a tracker
   Reference,     ///< the name of another node
@@ -60,7 +62,7 @@ struct AttributeSpec {
   bool required = false;                        ///< must be stated
   bool repeatable = false;                      ///< may be stated several times, which accumulates
   KindSet targets = {};                         ///< Reference: the kinds of node it may name
-  std::span<const std::string_view> choices{};  ///< Choice: the words
+  std::span<const std::string_view> choices{};  ///< Choice, Choices: the words
 };
 
 struct NodeSpec {
@@ -98,6 +100,10 @@ struct EventSpec {
 KindSet placedKinds();
 /// The kinds that may be hooked to a body.
 KindSet fieldKinds();
+/// Those whose cycle may run more seldom, and those that may have such below them.
+KindSet pacedKinds();
+/// Those that an lod node chooses from.
+KindSet lodLevelKinds();
 
 std::span<const AttributeSpec> commonAttributes();  ///< of every kind
 std::span<const AttributeSpec> placedAttributes();  ///< of every placed kind, beside the common ones

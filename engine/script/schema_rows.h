@@ -21,13 +21,18 @@ inline constexpr NumberRange kTurn{-36000, 36000};
 inline constexpr NumberRange kForce{-kFar, kFar};
 
 inline constexpr KindSet kFields{ForceLinear, ForceSpherical, ForcePoint, ForceVortex, Medium};
-inline constexpr KindSet kMovable = KindSet{Group, Transform, Object,      DynObject,   Light, Text,
-                                            Path,  Sound,     UserTrigger, WandTrigger, Scene, Measure} |
-                                    kFields;
-inline constexpr KindSet kParents{Group, Transform, Object, DynObject, Path, Scene, Rig};
+inline constexpr KindSet kMovable =
+    KindSet{Group, Transform, Lod,         Object,      DynObject, Light,  Text,
+            Path,  Sound,     UserTrigger, WandTrigger, Scene,     Measure} |
+    kFields;
+inline constexpr KindSet kParents{Group, Transform, Lod, Object, DynObject, Path, Scene, Rig};
 inline constexpr KindSet kSolid{Object, DynObject};
 inline constexpr KindSet kSwitched =
     KindSet{UserTrigger, WandTrigger, Timer, Light, Path, Sound, Navigator, Dynamics, Collision} | kFields;
+
+/// Those whose cycle may run more seldom, and those that have such below them.
+inline constexpr KindSet kPaced{Scene, Collision, Dynamics};
+inline constexpr std::string_view kConcessions[] = {"lod", "half", "rest", "hide"};
 
 inline constexpr AttributeSpec kCommonRows[] = {
     {.attr = Attr::Name, .kind = NewName, .help = "how other nodes call this one; unique in its file"},
@@ -35,6 +40,23 @@ inline constexpr AttributeSpec kCommonRows[] = {
      .kind = ValueKind::EventMessage,
      .help = "what to tell another node when an event happens here",
      .repeatable = true},
+    {.attr = Attr::Budget,
+     .kind = Number,
+     .help = "what it, with all below it, may cost in a frame: App, and Cull and Draw of all walls; more is "
+             "told",
+     .unit = "ms",
+     .range = {0, 10000, true}},
+    {.attr = Attr::OnOverrun,
+     .kind = Choices,
+     .help = "what a live show may take from it, in this order, while it costs more than its budget: lod "
+             "(detail), half (runs in every second frame, then every fourth), rest (stands still), hide (is "
+             "not drawn)",
+     .choices = kConcessions},
+    {.attr = Attr::Priority,
+     .kind = Number,
+     .help = "when the whole frame takes too long, who has the lowest gives up first",
+     .standard = "1",
+     .range = {0, 1000}},
 };
 
 inline constexpr AttributeSpec kPlacedRows[] = {

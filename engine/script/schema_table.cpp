@@ -49,8 +49,16 @@ constexpr AttributeSpec kObjectTolerance{
     .standard = "0.02",
     .range = kUnitInterval};
 
-constexpr AttributeSpec kObjectRows[] = {kObjectFile, kObjectDraw,  kObjectUnit,
-                                         kObjectUp,   kObjectShape, kObjectTolerance};
+constexpr AttributeSpec kObjectLevels{
+    .attr = Attr::Levels,
+    .kind = Number,
+    .help = "simplified levels made of the model when it is loaded, at most so many; the coarsest "
+            "one is drawn whose error would be less than a pixel",
+    .standard = "0",
+    .range = {0, 8}};
+
+constexpr AttributeSpec kObjectRows[] = {kObjectFile,  kObjectDraw,      kObjectUnit,  kObjectUp,
+                                         kObjectShape, kObjectTolerance, kObjectLevels};
 
 constexpr AttributeSpec kDynObjectRows[] = {
     kObjectFile,
@@ -59,6 +67,7 @@ constexpr AttributeSpec kDynObjectRows[] = {
     kObjectUp,
     kObjectShape,
     kObjectTolerance,
+    kObjectLevels,
     {.attr = Attr::Density,
      .kind = Number,
      .help = "relative to water; with the mesh's volume it gives the mass",
@@ -178,6 +187,16 @@ constexpr AttributeSpec kDynObjectRows[] = {
      .help = "of flight=bias: its axes from the surface's area, or from random vertices as in the paper; "
              "area if not stated",
      .choices = kAxesFrom},
+};
+
+constexpr AttributeSpec kLodRows[] = {
+    {.attr = Attr::Ranges,
+     .kind = Distances,
+     .help = "how far away its first child is drawn, then its second, ...; beyond the last one the next "
+             "child, if there is one more, or nothing. From the visitor's head to the node's place",
+     .unit = "m",
+     .range = kLength,
+     .required = true},
 };
 
 constexpr AttributeSpec kLightRows[] = {
@@ -505,10 +524,12 @@ constinit const std::span<const AttributeSpec> kCommon = kCommonRows;
 constinit const std::span<const AttributeSpec> kPlaced = kPlacedRows;
 constinit const KindSet kPlacedKinds = kMovable;
 constinit const KindSet kFieldKinds = kFields;
+constinit const KindSet kPacedKinds = kPaced;
 
 constinit const std::array<NodeSpec, kNodeKindCount> kNodes = {{
     {Group, "gathers nodes under one name and place", {}, {}, true},
     {Transform, "places its children; made to be moved by messages and paths", {}, {}, true},
+    {NodeKind::Lod, "draws one of its children, by how far away it is", kLodRows, {}, true},
     {Object, "a model from a file, drawn and solid but not moved by dynamics", kObjectRows, {}, true},
     {DynObject, "a body: a model with mass that a dynamics node moves", kDynObjectRows, kBodyEvents, true},
     {Light, "lights the scene", kLightRows, {}, true},

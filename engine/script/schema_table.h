@@ -14,5 +14,6 @@ extern const std::array<CommandSpec, kVerbCount> kCommands;  // in the order of 
 extern const std::array<EventSpec, kEventCount> kEvents;     // in the order of Event
 extern const KindSet kPlacedKinds;
 extern const KindSet kFieldKinds;
+extern const KindSet kPacedKinds;
 
 }  // namespace stadion::schema_table

@@ -79,14 +79,19 @@ DrawItem itemOf(const InstanceRecord& r, const DrawList& list) {
   return item;
 }
 
-void fill(DrawList& out) {
-  for (const InstanceRecord* r : out.seen)
-    (r->flags & InstanceRecord::kTransparent ? out.transparent : out.opaque).push_back(itemOf(*r, out));
+void fill(DrawList& out, LevelChoice* levels) {
+  for (const InstanceRecord* r : out.seen) {
+    auto& items = r->flags & InstanceRecord::kTransparent ? out.transparent : out.opaque;
+    items.push_back(itemOf(*r, out));
+    if (levels) items.back().level = levels->levelOf(*r);
+  }
 }
 
 /// The order must not depend on where records lie, only on what they are.
 void sort(DrawList& out) {
-  const auto key = [](const DrawItem& d) { return std::tuple(d.mesh, d.distance, d.owner, d.model); };
+  const auto key = [](const DrawItem& d) {
+    return std::tuple(d.mesh, d.level, d.distance, d.owner, d.model);
+  };
   std::sort(out.opaque.begin(), out.opaque.end(),
             [&](const DrawItem& a, const DrawItem& b) { return key(a) < key(b); });
   std::sort(out.transparent.begin(), out.transparent.end(), [](const DrawItem& a, const DrawItem& b) {
@@ -142,7 +147,7 @@ void setSky(const SkyRecord& sky, DrawList& out) {
 }  // namespace
 
 CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, StillCasters& still,
-                    DrawList& out, FrameProbe* probe) {
+                    DrawList& out, FrameProbe* probe, LevelChoice* levels) {
   out.ticket.signature = *state.signature;
   out.wall = index;
   out.opaque.clear(), out.transparent.clear();
@@ -166,7 +171,7 @@ CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t i
   }
   {
     const SpanScope span(probe, Span::Fill);
-    fill(out);
+    fill(out, levels);
   }
   {
     const SpanScope span(probe, Span::ShadowCasts);

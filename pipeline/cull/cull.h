@@ -8,6 +8,7 @@
 #include "engine/display/frustum.h"
 #include "engine/frame_probe.h"
 #include "pipeline/cull/free_camera.h"
+#include "pipeline/cull/level_choice.h"
 #include "pipeline/cull/still_casters.h"
 #include "pipeline/draw/draw_list.h"
 #include "pipeline/state/scene_state.h"
@@ -28,8 +29,9 @@ struct CullCounts {
   std::uint64_t tested = 0, kept = 0;
 };
 
-/// Fills `out` for wall number `index`, reusing its memory. `still` is the same for all walls.
+/// Fills `out` for wall number `index`, reusing its memory. `still` is the same for all walls. Without
+/// `levels` meshes are drawn in full.
 CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, StillCasters& still,
-                    DrawList& out, FrameProbe* probe = nullptr);
+                    DrawList& out, FrameProbe* probe = nullptr, LevelChoice* levels = nullptr);
 
 }  // namespace stadion

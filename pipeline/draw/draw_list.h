@@ -22,8 +22,9 @@ namespace stadion {
 struct DrawItem {
   std::array<float, 12> model;  ///< (3 x 4), row major: mesh coordinates to World axes relative to origin
   MeshId mesh = kNoMesh;
-  NodeRef owner;       ///< who it is, for profiling
-  float distance = 0;  ///< of its centre from the viewer [m]
+  NodeRef owner;            ///< who it is, for profiling
+  float distance = 0;       ///< of its centre from the viewer [m]
+  std::uint32_t level = 0;  ///< 0 = all of the mesh; else Mesh::levels[level - 1]
 };
 
 struct DrawLight {
@@ -81,7 +82,7 @@ struct DrawList {
   DrawSky sky;
   std::vector<DrawLight> lights;  ///< at most kMaxLights
   DrawShadows shadows;
-  std::vector<DrawItem> opaque;       ///< sorted by mesh, then near to far
+  std::vector<DrawItem> opaque;       ///< sorted by mesh and level, then near to far
   std::vector<DrawItem> transparent;  ///< items with any transparent material, far to near
 
   /// Cull's own, while it holds the lease on the slot: what is seen, in the slot's order.

@@ -19,6 +19,10 @@ Handedness handednessOf(const InstanceMatrix& m) {
   return determinant < 0 ? Handedness::Mirrored : Handedness::Kept;
 }
 
+bool alike(const DrawItem& a, const DrawItem& b) {
+  return a.mesh == b.mesh && a.level == b.level;
+}
+
 }  // namespace
 
 void InstanceBatches::add(const DrawItem& item) {
@@ -32,7 +36,7 @@ void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
   for (const DrawItem& item : run)
     if (handednessOf(item.model) == wanted) add(item);
   const auto count = static_cast<std::uint32_t>(matrices_.size()) - first;
-  if (count > 0) opaque_.push_back({run.front().mesh, first, count, mirrored});
+  if (count > 0) opaque_.push_back({run.front().mesh, run.front().level, first, count, mirrored});
 }
 
 void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent,
@@ -45,7 +49,7 @@ void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const Dr
 
   for (std::size_t begin = 0; begin < opaque.size();) {
     std::size_t end = begin + 1;
-    while (end < opaque.size() && opaque[end].mesh == opaque[begin].mesh) ++end;
+    while (end < opaque.size() && alike(opaque[end], opaque[begin])) ++end;
     const std::span run = opaque.subspan(begin, end - begin);
     addRun(run, false);
     addRun(run, true);
@@ -57,8 +61,9 @@ void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const Dr
     if (hand == Handedness::NotFinite) continue;
     const bool mirrored = hand == Handedness::Mirrored;
     if (transparent_.empty() || transparent_.back().mesh != item.mesh ||
-        transparent_.back().mirrored != mirrored)
-      transparent_.push_back({item.mesh, static_cast<std::uint32_t>(matrices_.size()), 0, mirrored});
+        transparent_.back().level != item.level || transparent_.back().mirrored != mirrored)
+      transparent_.push_back(
+          {item.mesh, item.level, static_cast<std::uint32_t>(matrices_.size()), 0, mirrored});
     add(item);
     ++transparent_.back().count;
   }

@@ -11,9 +11,10 @@
 
 namespace stadion {
 
-/// Instances of one mesh, next to each other in the instance array.
+/// Instances of one mesh and level, next to each other in the instance array.
 struct InstanceBatch {
   MeshId mesh = kNoMesh;
+  std::uint32_t level = 0;
   std::uint32_t first = 0, count = 0;
   bool mirrored = false;  ///< the model matrices turn left into right: front faces run clockwise
 };
@@ -26,7 +27,7 @@ public:
   void build(const DrawList& list, bool withOwners = false) {
     build(list.opaque, list.transparent, withOwners);
   }
-  /// Expects opaque items of one mesh next to each other.
+  /// Expects opaque items of one mesh and level next to each other.
   void build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent,
              bool withOwners = false);
 

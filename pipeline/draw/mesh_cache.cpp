@@ -88,7 +88,7 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
     report("\"" + mesh.name + "\" cannot be drawn: " + fault);
     return {};
   }
-  GlMesh out{GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, 0};
+  GlMesh out{GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, {}, 0};
   uploadVertices(mesh, out);
   out.textures.reserve(mesh.textures.size());
   for (const Texture& texture : mesh.textures) out.textures.push_back(uploadTexture(texture));
@@ -107,9 +107,7 @@ void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
   gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
                  GL_STATIC_DRAW);
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, out.indices.name());
-  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
-                 static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)), mesh.indices.data(),
-                 GL_STATIC_DRAW);
+  uploadIndices(mesh);
   const auto attribute = [&](GLuint at, GLint size, GLenum type, GLboolean normalised, std::size_t from) {
     gl_.EnableVertexAttribArray(at);
     gl_.VertexAttribPointer(at, size, type, normalised, sizeof(Vertex), offset(from));
@@ -124,6 +122,21 @@ void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
   }
 }
 
+/// Of all levels, one after the other.
+void MeshCache::uploadIndices(const Mesh& mesh) {
+  if (mesh.levels.empty()) {
+    gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                   static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)), mesh.indices.data(),
+                   GL_STATIC_DRAW);
+    return;
+  }
+  std::vector<std::uint32_t> all = mesh.indices;
+  for (const MeshLevel& level : mesh.levels)
+    all.insert(all.end(), level.indices.begin(), level.indices.end());
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all.size() * sizeof(std::uint32_t)),
+                 all.data(), GL_STATIC_DRAW);
+}
+
 void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
   const auto alignment = static_cast<std::size_t>(std::max(uniformAlignment_, 1));
   const std::size_t stride = (sizeof(MaterialBlock) + alignment - 1) / alignment * alignment;
@@ -136,14 +149,25 @@ void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
   gl_.BufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(blocks.size()), blocks.data(), GL_STATIC_DRAW);
 
   const bool open = !encloses(mesh);
-  for (const Submesh& part : mesh.submeshes) {
+  const auto partOf = [&](const Submesh& part, std::size_t firstIndex) {
     const Material& material = mesh.materials[part.material];
     const bool textured = material.texture >= 0 && !mesh.uvs.empty();
-    out.parts.push_back({static_cast<GLsizei>(part.indexCount), part.firstIndex * sizeof(std::uint32_t),
-                         static_cast<GLintptr>(part.material * stride),
-                         textured ? out.textures[static_cast<std::size_t>(material.texture)].name() : 0,
-                         material.transparent(), material.doubleSided || open});
-    out.transparentParts += material.transparent();
+    return GlSubmesh{static_cast<GLsizei>(part.indexCount),
+                     (firstIndex + part.firstIndex) * sizeof(std::uint32_t),
+                     static_cast<GLintptr>(part.material * stride),
+                     textured ? out.textures[static_cast<std::size_t>(material.texture)].name() : 0,
+                     material.transparent(),
+                     material.doubleSided || open};
+  };
+  for (const Submesh& part : mesh.submeshes) {
+    out.parts.push_back(partOf(part, 0));
+    out.transparentParts += mesh.materials[part.material].transparent();
+  }
+  std::size_t first = mesh.indices.size();
+  for (const MeshLevel& level : mesh.levels) {
+    std::vector<GlSubmesh>& parts = out.levels.emplace_back();
+    for (const Submesh& part : level.submeshes) parts.push_back(partOf(part, first));
+    first += level.indices.size();
   }
 }
 

@@ -6,10 +6,11 @@
 /// Errors     a mesh that is gone, damaged or does not fit into memory is reported once and draws nothing.
 
 #include "engine/asset/mesh_store.h"
-#include "engine/frame_probe.h"
 #include "engine/diagnostic.h"
+#include "engine/frame_probe.h"
 #include "pipeline/draw/gl_object.h"
 
+#include <algorithm>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -30,8 +31,14 @@ struct GlMesh {
   GlVertexArray vertexArray;
   GlBuffer vertices, indices, materials;
   std::vector<GlTexture> textures;
-  std::vector<GlSubmesh> parts;
+  std::vector<GlSubmesh> parts;                ///< of the full surface
+  std::vector<std::vector<GlSubmesh>> levels;  ///< of the simplified ones
   std::size_t transparentParts = 0;
+
+  /// What is drawn of it at a level; the coarsest there is, if there are not so many.
+  const std::vector<GlSubmesh>& partsAt(std::uint32_t level) const {
+    return level == 0 || levels.empty() ? parts : levels[std::min<std::size_t>(level, levels.size()) - 1];
+  }
 };
 
 /// Where vertex arrays find what; the shaders use the same numbers.
@@ -58,6 +65,7 @@ public:
 private:
   std::optional<GlMesh> upload(const Mesh& mesh);
   void uploadVertices(const Mesh& mesh, GlMesh& out);
+  void uploadIndices(const Mesh& mesh);
   void uploadMaterials(const Mesh& mesh, GlMesh& out);
   GlTexture uploadTexture(const Texture& texture);
   void report(std::string what);

@@ -312,11 +312,12 @@ void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass) {
     gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
     const std::uint32_t most = pass == Pass::Transparent && !drawnTogether(*mesh) ? 1 : mostAtOnce();
     for (std::uint32_t done = 0; done < batch.count; done += most)
-      drawInstances(*mesh, batch.first + done, std::min(batch.count - done, most), pass);
+      drawInstances({mesh, mesh->partsAt(batch.level)}, batch.first + done,
+                    std::min(batch.count - done, most), pass);
   }
 }
 
-void Renderer::drawInstances(const GlMesh& mesh, std::uint32_t first, std::uint32_t count, Pass pass) {
+void Renderer::drawInstances(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass) {
   stopIfAsked();
   const auto draw = [&] {
     pointAtInstances(gl_, instances_, first);
@@ -331,23 +332,23 @@ void Renderer::drawInstances(const GlMesh& mesh, std::uint32_t first, std::uint3
     draw();
 }
 
-void Renderer::drawOpaqueParts(const GlMesh& mesh, std::uint32_t count, Pass pass) {
+void Renderer::drawOpaqueParts(const MeshParts& mesh, std::uint32_t count, Pass pass) {
   for (const GlSubmesh& part : mesh.parts) {
     if (pass == Pass::OpaqueParts && part.transparent) continue;
     cull(false, !part.bothSides);
-    drawPart(mesh, part, count, false);
+    drawPart(*mesh.gl, part, count, false);
   }
 }
 
-void Renderer::drawTransparentParts(const GlMesh& mesh, std::uint32_t count) {
+void Renderer::drawTransparentParts(const MeshParts& mesh, std::uint32_t count) {
   for (const GlSubmesh& part : mesh.parts) {
     if (!part.transparent) continue;
     if (part.bothSides) {
       cull(true, false);
-      drawPart(mesh, part, count, true);
+      drawPart(*mesh.gl, part, count, true);
     }
     cull(false, true);
-    drawPart(mesh, part, count, true);
+    drawPart(*mesh.gl, part, count, true);
   }
 }
 

@@ -98,6 +98,12 @@ private:
   std::unique_lock<std::mutex> turn() const;
   static Result<Programs> buildPrograms(const GlTable& gl);
 
+  /// A mesh at the level at which it is drawn.
+  struct MeshParts {
+    const GlMesh* gl;
+    const std::vector<GlSubmesh>& parts;
+  };
+
   void drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
   void submitEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
   void beginSampling(const DrawList& list);
@@ -116,9 +122,9 @@ private:
   void setUnchangingState();
   void settleState();
   void drawBatches(std::span<const InstanceBatch> batches, Pass pass);
-  void drawInstances(const GlMesh& mesh, std::uint32_t first, std::uint32_t count, Pass pass);
-  void drawOpaqueParts(const GlMesh& mesh, std::uint32_t count, Pass pass);
-  void drawTransparentParts(const GlMesh& mesh, std::uint32_t count);
+  void drawInstances(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass);
+  void drawOpaqueParts(const MeshParts& mesh, std::uint32_t count, Pass pass);
+  void drawTransparentParts(const MeshParts& mesh, std::uint32_t count);
   void drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended);
   void stopIfAsked() const;
   void drawSky();

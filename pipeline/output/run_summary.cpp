@@ -70,6 +70,40 @@ Distribution distributionOf(std::vector<double> values) {
           values.back()};
 }
 
+namespace {
+
+std::string textOf(const BudgetKept& b) {
+  std::string text = fmt::format("  {} {}:{}: ", b.node, b.file, b.line);
+  if (b.budget > 0)
+    text += fmt::format("budget {:g} ms, mean {:.3f}, over in {} frames, ", b.budget, b.mean, b.overruns);
+  else
+    text += fmt::format("mean {:.3f} ms, ", b.mean);
+  text += fmt::format("worst {:.3f} in frame {}{}", b.worst, b.worstFrame,
+                      b.worstStage.empty() ? "" : " (" + b.worstStage + ")");
+  if (b.changes > 0)
+    text += fmt::format("; gave up {} of {} levels at most, {} now, {} changes", b.highest, b.levels, b.now,
+                        b.changes);
+  return text + "\n";
+}
+
+Json json(const BudgetKept& b) {
+  return Json{{"node", b.node},
+              {"file", b.file},
+              {"line", b.line},
+              {"budget_ms", b.budget},
+              {"mean_ms", b.mean},
+              {"worst_ms", b.worst},
+              {"worst_frame", b.worstFrame},
+              {"worst_stage", b.worstStage},
+              {"overruns", b.overruns},
+              {"changes", b.changes},
+              {"highest_level", b.highest},
+              {"level", b.now},
+              {"levels", b.levels}};
+}
+
+}  // namespace
+
 std::string toText(const RunSummary& s) {
   // How fast frames go by that nobody draws says nothing.
   const bool all = s.framesDrawn == s.frames;
@@ -96,6 +130,7 @@ std::string toText(const RunSummary& s) {
   for (const auto& [name, value] : s.counters) text += fmt::format("  {}: {}\n", name, value);
   for (const MeasuredDistance& m : s.measured)
     text += fmt::format("  measured {:.3f} m: {} at {:.3f} s\n", m.metres, m.node, m.seconds);
+  for (const BudgetKept& b : s.budgets) text += textOf(b);
   for (const std::string& file : s.files) text += fmt::format("  wrote {}\n", file);
   for (const std::string& remark : s.remarks) text += fmt::format("  note: {}\n", remark);
   if (!s.stopped.empty()) text += fmt::format("  stopped by {} after frame {}\n", s.stopped, s.lastFrame);
@@ -155,6 +190,10 @@ std::string toJson(const RunSummary& s) {
   j["last_frame"] = s.lastFrame;
   j["state_hash"] = s.stateHash ? Json(hex(*s.stateHash)) : Json();
   j["history_hash"] = s.historyHash ? Json(hex(*s.historyHash)) : Json();
+  if (!s.budgets.empty()) {
+    j["stress_changes"] = s.stressChanges;
+    for (const BudgetKept& b : s.budgets) j["budgets"].push_back(json(b));
+  }
   j["drawn"] = Json::array();
   for (const DrawnCounts& d : s.drawn)
     j["drawn"].push_back(Json{{"wall", d.wall},

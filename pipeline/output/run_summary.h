@@ -65,6 +65,18 @@ struct MeasuredDistance {
   double metres = 0;
 };
 
+/// How a node kept its budget.
+struct BudgetKept {
+  std::string node, file;  ///< its path, the script
+  std::uint32_t line = 0;
+  double budget = 0;           ///< [ms]; 0 = it has none, but gives something up for the frame's sake
+  double mean = 0, worst = 0;  ///< [ms]
+  std::uint64_t worstFrame = 0;
+  std::string worstStage;                   ///< where most of that was spent
+  std::uint64_t overruns = 0, changes = 0;  ///< frames; times that something was given up or taken back
+  std::uint32_t highest = 0, now = 0, levels = 0;  ///< of its ladder
+};
+
 struct RunSummary {
   static constexpr std::size_t kMostHappenings = 20'000;  ///< kept; a show may run all day
   static constexpr std::size_t kHappeningsTold = 200;     ///< lines in the text
@@ -97,6 +109,8 @@ struct RunSummary {
   std::vector<Happening> happened;         ///< the first ones, at most kMostHappenings
   std::vector<MeasuredDistance> measured;  ///< the first ones, at most kMostHappenings
   std::uint64_t happenedCount = 0;         ///< all of them
+  std::vector<BudgetKept> budgets;         ///< of nodes that have one or give something up
+  std::uint64_t stressChanges = 0;         ///< of the whole show
 };
 
 /// Without the failure, which is told as an error, and without what happened.

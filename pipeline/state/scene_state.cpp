@@ -87,12 +87,28 @@ void SceneState::catchUp(std::size_t slot, std::size_t& copied) {
   missed.statics.clear();
 }
 
-/// Notes that the instance is published, and says whether it was there before.
-bool SceneState::movesBy(const ChangeSet::Instance& change) {
+namespace {
+
+/// Whether the two stand at the same place and are of the same form.
+bool standAlike(const InstanceRecord& a, const InstanceRecord& b) {
+  return a.mesh == b.mesh && a.radius == b.radius && std::equal(a.model, a.model + 12, b.model);
+}
+
+}  // namespace
+
+/// Notes that the instance is published, and says whether it was there before, and elsewhere. `old`: its
+/// record so far.
+bool SceneState::movesBy(const ChangeSet::Instance& change, const InstanceRecord& old) {
   if (known_.size() <= change.id) known_.resize(change.id + std::size_t{1}, Known::Absent);
   Known& known = known_[change.id];
   const bool there = change.record.radius >= 0;
   const Known before = known;
+  // Shown, hidden, or told in less detail: it still stands where it stood.
+  if (before == Known::Still && there && standAlike(change.record, old)) {
+    constexpr std::uint32_t kSeen = InstanceRecord::kShown | InstanceRecord::kTransparent;
+    if ((change.record.flags & kSeen) != (old.flags & kSeen)) ++stillVersion_;
+    return false;
+  }
   known = !there ? Known::Absent : known == Known::Absent ? Known::Still : Known::Moves;
   if (before == Known::Still || known == Known::Still) ++stillVersion_;
   return known == Known::Moves;
@@ -103,8 +119,10 @@ void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
   if (!changes.chunks.empty() || !changes.statics.empty()) ++stillVersion_;
   for (const ChangeSet::Instance& i : changes.instances) {
     ensure(slot, i.id + std::size_t{1});
-    instances(slot)[i.id] = i.record;
-    if (movesBy(i)) instances(slot)[i.id].flags |= kMoves;
+    InstanceRecord& record = instances(slot)[i.id];
+    const bool moves = movesBy(i, record);
+    record = i.record;
+    if (moves) record.flags |= kMoves;
   }
   for (const ChangeSet::StaticItem& s : changes.statics)
     if (const ChunkView there = arena_.find(s.chunk, slot); !there.records.empty())

@@ -76,7 +76,7 @@ private:
   Header& header(std::size_t slot) const;
   InstanceRecord* instances(std::size_t slot) const;
   void ensure(std::size_t slot, std::size_t instanceCount);
-  bool movesBy(const ChangeSet::Instance& change);
+  bool movesBy(const ChangeSet::Instance& change, const InstanceRecord& old);
   void catchUp(std::size_t slot, std::size_t& copied);
   void apply(std::size_t slot, const ChangeSet& changes);
   void miss(std::size_t slot, const ChangeSet& changes);

@@ -1,0 +1,306 @@
+#include "engine/asset/simplify.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <span>
+
+namespace stadion {
+namespace {
+
+/// A level is worth its memory if it has at most this part of the triangles of the one before.
+constexpr double kWorthwhile = 0.75;
+constexpr double kFinest = 1.0 / (1 << 18), kCoarsest = 0.2;  ///< errors that are tried, of its size
+constexpr double kStep = 4;
+constexpr std::size_t kFewTriangles = 32;  ///< what has no more is drawn as it is
+
+Vec3 at(const Mesh& mesh, std::uint32_t vertex) {
+  const auto& p = mesh.positions[vertex];
+  return {double{p[0]}, double{p[1]}, double{p[2]}};
+}
+
+/// The nearest point of a triangle, by the regions of its corners and edges (Ericson, Real-Time Collision
+/// Detection, 5.1.5).
+double squaredDistance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return ap.squaredNorm();
+  const Vec3 bp = p - b;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return bp.squaredNorm();
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return (ap - d1 / (d1 - d3) * ab).squaredNorm();
+  const Vec3 cp = p - c;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return cp.squaredNorm();
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ap - d2 / (d2 - d6) * ac).squaredNorm();
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+    return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).squaredNorm();
+  const double sum = va + vb + vc;
+  if (!(sum > 0)) return ap.squaredNorm();
+  return (ap - vb / sum * ab - vc / sum * ac).squaredNorm();
+}
+
+/// The triangles of a surface, halved again and again by the middles of their boxes, to find the nearest.
+class NearestTriangle {
+public:
+  NearestTriangle(const Mesh& mesh, std::span<const std::uint32_t> indices) {
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+      triangles_.push_back({at(mesh, indices[i]), at(mesh, indices[i + 1]), at(mesh, indices[i + 2])});
+    if (!triangles_.empty()) build(0, triangles_.size());
+  }
+
+  /// How far it is from the point [m], or anything up to `enough` if it is no farther than that.
+  double distance(const Vec3& p, double enough) const {
+    double best = std::numeric_limits<double>::infinity();
+    std::array<std::uint32_t, 2 * kDeepest> open;
+    std::size_t waiting = 0;
+    open[waiting++] = 0;
+    while (waiting > 0 && best > enough * enough) {
+      const Part& part = parts_[open[--waiting]];
+      if (part.box.squaredExteriorDistance(p) >= best) continue;
+      if (part.left == 0) {
+        for (std::uint32_t i = part.first; i < part.first + part.count; ++i)
+          best = std::min(best, squaredDistance(p, triangles_[i][0], triangles_[i][1], triangles_[i][2]));
+        continue;
+      }
+      const bool leftFirst = parts_[part.left].box.squaredExteriorDistance(p) <
+                             parts_[part.right].box.squaredExteriorDistance(p);
+      open[waiting++] = leftFirst ? part.right : part.left;
+      open[waiting++] = leftFirst ? part.left : part.right;
+    }
+    return std::sqrt(best);
+  }
+
+private:
+  using Triangle = std::array<Vec3, 3>;
+  struct Part {
+    Eigen::AlignedBox3d box;
+    std::uint32_t first = 0, count = 0, left = 0, right = 0;
+  };
+  static constexpr std::size_t kMostInPart = 8;
+  static constexpr std::size_t kDeepest = 40;  ///< halvings of as many triangles as memory holds
+
+  std::uint32_t build(std::size_t first, std::size_t count) {
+    const auto self = static_cast<std::uint32_t>(parts_.size());
+    Part part;
+    part.first = static_cast<std::uint32_t>(first), part.count = static_cast<std::uint32_t>(count);
+    for (std::size_t i = first; i < first + count; ++i)
+      for (const Vec3& corner : triangles_[i]) part.box.extend(corner);
+    parts_.push_back(part);
+    if (count <= kMostInPart) return self;
+    Eigen::Index axis = 0;
+    part.box.sizes().maxCoeff(&axis);
+    const auto begin = triangles_.begin() + static_cast<std::ptrdiff_t>(first);
+    const std::size_t half = count / 2;
+    const auto middle = [axis](const Triangle& t) { return t[0][axis] + t[1][axis] + t[2][axis]; };
+    std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(half),
+                     begin + static_cast<std::ptrdiff_t>(count),
+                     [&](const Triangle& x, const Triangle& y) { return middle(x) < middle(y); });
+    const std::uint32_t left = build(first, half), right = build(first + half, count - half);
+    parts_[self].left = left, parts_[self].right = right;
+    return self;
+  }
+
+  std::vector<Triangle> triangles_;
+  std::vector<Part> parts_;
+};
+
+/// From the corners and the middle of each triangle, and the middles of its edges.
+double farthestFrom(const Mesh& mesh, std::span<const std::uint32_t> from, const NearestTriangle& to) {
+  double farthest = 0;
+  for (std::size_t i = 0; i + 2 < from.size(); i += 3) {
+    const Vec3 a = at(mesh, from[i]), b = at(mesh, from[i + 1]), c = at(mesh, from[i + 2]);
+    const Vec3 samples[] = {a, b, c, (a + b) / 2, (b + c) / 2, (c + a) / 2, (a + b + c) / 3};
+    for (const Vec3& p : samples) farthest = std::max(farthest, to.distance(p, farthest));
+  }
+  return farthest;
+}
+
+/// Triangles of one material that hang together, by the places of their corners.
+struct Piece {
+  std::size_t submesh = 0;
+  std::vector<std::uint32_t> indices;  ///< of the full surface
+};
+
+/// By vertex: one that is at the same place, the same for all of them.
+std::vector<std::uint32_t> placesOf(const Mesh& mesh) {
+  std::vector<std::uint32_t> number(mesh.positions.size()), first(mesh.positions.size(), ~0U);
+  const meshopt_Stream positions{mesh.positions.data(), sizeof mesh.positions[0], sizeof mesh.positions[0]};
+  meshopt_generateVertexRemapMulti(number.data(), mesh.indices.data(), mesh.indices.size(),
+                                   mesh.positions.size(), &positions, 1);
+  std::vector<std::uint32_t> place(mesh.positions.size(), 0);
+  for (const std::uint32_t v : mesh.indices) {
+    if (first[number[v]] == ~0U) first[number[v]] = v;
+    place[v] = first[number[v]];
+  }
+  return place;
+}
+
+/// Who belongs together: each to its representative.
+class Groups {
+public:
+  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t of(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
+
+private:
+  std::vector<std::uint32_t> parent_;
+};
+
+std::vector<Piece> piecesOf(const Mesh& mesh, const std::vector<std::uint32_t>& place) {
+  Groups groups(mesh.positions.size());
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+    for (const std::size_t k : {i + 1, i + 2}) groups.join(place[mesh.indices[i]], place[mesh.indices[k]]);
+  std::vector<Piece> pieces;
+  std::map<std::pair<std::size_t, std::uint32_t>, std::size_t> known;
+  for (std::size_t part = 0; part < mesh.submeshes.size(); ++part) {
+    const Submesh& submesh = mesh.submeshes[part];
+    for (std::size_t i = submesh.firstIndex; i < submesh.firstIndex + std::size_t{submesh.indexCount};
+         i += 3) {
+      const auto [at, isNew] = known.try_emplace({part, groups.of(place[mesh.indices[i]])}, pieces.size());
+      if (isNew) pieces.push_back({part, {}});
+      for (const std::size_t k : {i, i + 1, i + 2}) pieces[at->second].indices.push_back(mesh.indices[k]);
+    }
+  }
+  return pieces;
+}
+
+/// Which of a piece's vertices are at a place.
+using AtPlace = std::multimap<std::uint32_t, std::uint32_t>;
+
+/// Of the vertices at the corner's place, the one whose normal is nearest to the triangle's.
+std::uint32_t vertexFor(const Mesh& mesh, const AtPlace& vertices, std::uint32_t place, const Vec3& normal) {
+  const auto [first, last] = vertices.equal_range(place);
+  std::uint32_t best = first->second;
+  double most = -2;
+  for (auto v = first; v != last; ++v) {
+    const auto& n = mesh.normals[v->second];
+    const double along = normal.dot(Vec3(double{n[0]}, double{n[1]}, double{n[2]}));
+    if (along > most) most = along, best = v->second;
+  }
+  return best;
+}
+
+/// Where pictures lie on the surface their edges must stay; else edges of normals and colours may go as any
+/// other, and each triangle takes the vertices that suit it best.
+class Collapse {
+public:
+  Collapse(const Mesh& mesh, const std::vector<std::uint32_t>& places, const Piece& piece)
+      : mesh_(mesh), welded_(mesh.uvs.empty()) {
+    for (const std::uint32_t v : piece.indices) {
+      const std::uint32_t corner = welded_ ? places[v] : v;
+      corners_.push_back(corner);
+      if (welded_) atPlace_.insert({corner, v});
+    }
+    vertices_ = corners_;
+    std::ranges::sort(vertices_);
+    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    for (const std::uint32_t v : vertices_) positions_.push_back(mesh.positions[v]);
+    for (std::uint32_t& c : corners_)
+      c = static_cast<std::uint32_t>(std::ranges::lower_bound(vertices_, c) - vertices_.begin());
+    scale_ = meshopt_simplifyScale(positions_.data()->data(), positions_.size(), sizeof positions_[0]);
+  }
+
+  /// As few triangles as an error of `target` [m] allows, by meshoptimizer's own measure.
+  std::vector<std::uint32_t> to(double target) const {
+    if (!(scale_ > 0)) return {};
+    std::vector<std::uint32_t> fewer(corners_.size());
+    fewer.resize(meshopt_simplify(fewer.data(), corners_.data(), corners_.size(), positions_.data()->data(),
+                                  positions_.size(), sizeof positions_[0], 0,
+                                  static_cast<float>(target / double{scale_}), 0, nullptr));
+    for (std::uint32_t& v : fewer) v = vertices_[v];
+    for (std::size_t i = 0; welded_ && i + 2 < fewer.size(); i += 3) {
+      const Vec3 a = at(mesh_, fewer[i]), b = at(mesh_, fewer[i + 1]), c = at(mesh_, fewer[i + 2]);
+      const Vec3 normal = (b - a).cross(c - a).stableNormalized();
+      for (std::size_t k = i; k < i + 3; ++k) fewer[k] = vertexFor(mesh_, atPlace_, fewer[k], normal);
+    }
+    return fewer;
+  }
+
+private:
+  const Mesh& mesh_;
+  bool welded_;
+  AtPlace atPlace_;
+  std::vector<std::uint32_t> corners_, vertices_;  ///< corners: by place in `vertices_`
+  std::vector<std::array<float, 3>> positions_;
+  float scale_ = 0;
+};
+
+/// The piece with fewer triangles, nowhere farther off than `error` [m]; the piece itself if that cannot be.
+/// meshoptimizer's measure is a mean: where it is not strict enough, less is asked of it.
+std::vector<std::uint32_t> simplified(const Mesh& mesh, const Piece& piece, const Collapse& collapse,
+                                      double error, double& found) {
+  for (const double strict : {1.0, 0.25, 0.0625}) {
+    std::vector<std::uint32_t> fewer = collapse.to(strict * error);
+    if (fewer.empty()) continue;
+    if (fewer.size() == piece.indices.size()) break;
+    const double off = surfaceDistance(mesh, piece.indices, fewer);
+    if (off > error) continue;
+    found = std::max(found, off);
+    return fewer;
+  }
+  return piece.indices;
+}
+
+/// All pieces, each as simple as the error allows.
+MeshLevel levelOf(const Mesh& mesh, const std::vector<Piece>& pieces, const std::vector<Collapse>& collapses,
+                  double error) {
+  std::vector<std::vector<std::uint32_t>> parts(mesh.submeshes.size());
+  MeshLevel level;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Piece& piece = pieces[i];
+    const std::vector<std::uint32_t> fewer = simplified(mesh, piece, collapses[i], error, level.error);
+    parts[piece.submesh].insert(parts[piece.submesh].end(), fewer.begin(), fewer.end());
+  }
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const auto first = static_cast<std::uint32_t>(level.indices.size());
+    level.indices.insert(level.indices.end(), parts[part].begin(), parts[part].end());
+    level.submeshes.push_back(
+        {first, static_cast<std::uint32_t>(parts[part].size()), mesh.submeshes[part].material});
+  }
+  return level;
+}
+
+}  // namespace
+
+double surfaceDistance(const Mesh& mesh, const std::vector<std::uint32_t>& a,
+                       const std::vector<std::uint32_t>& b) {
+  if (a.empty() || b.empty()) return a.empty() == b.empty() ? 0 : std::numeric_limits<double>::infinity();
+  const NearestTriangle ofA(mesh, a), ofB(mesh, b);
+  return std::max(farthestFrom(mesh, a, ofB), farthestFrom(mesh, b, ofA));
+}
+
+void addLevels(Mesh& mesh, std::size_t count) {
+  mesh.levels.clear();
+  std::size_t before = mesh.indices.size();
+  std::vector<Piece> pieces;
+  std::vector<Collapse> collapses;
+  if (count > 0 && before > 3 * kFewTriangles) {
+    const std::vector<std::uint32_t> places = placesOf(mesh);
+    pieces = piecesOf(mesh, places);
+    for (const Piece& piece : pieces) collapses.emplace_back(mesh, places, piece);
+  }
+  const double size = 2 * mesh.sphere.radius;
+  for (double error = size * kFinest; mesh.levels.size() < count && error < size * kCoarsest;
+       error *= kStep) {
+    if (pieces.empty() || before <= 3 * kFewTriangles) break;
+    MeshLevel level = levelOf(mesh, pieces, collapses, error);
+    if (static_cast<double>(level.indices.size()) > kWorthwhile * static_cast<double>(before)) continue;
+    before = level.indices.size();
+    mesh.levels.push_back(std::move(level));
+  }
+  constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15;  // 2^64 by the golden ratio
+  mesh.hash ^= kOdd * (mesh.levels.size() + 1);
+}
+
+}  // namespace stadion

@@ -1,0 +1,80 @@
+#include "pipeline/cull/level_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr double kNearest = 0.05;  ///< of a head to a wall [m]: nobody looks through it
+
+/// The smallest factor by which the matrix shortens anything: what is left of its determinant.
+double leastScale(const Mat3& m, double most) {
+  const double volume = std::abs(m.determinant());
+  const bool uniform = std::abs(volume - most * most * most) <= 1e-4 * most * most * most;
+  return uniform ? most : volume / (most * most);
+}
+
+}  // namespace
+
+LevelChoice::LevelChoice(const ViewerRecord& viewer, std::span<const WallPixels> walls,
+                         const MeshStore& meshes)
+    : stress_(viewer.stress), meshes_(meshes) {
+  const Pose X_WR = viewer.rig(), X_RH = viewer.head();
+  head_ = X_WR * X_RH.p;
+  for (const WallPixels& w : walls) {
+    const WallBasis b = basis(w.wall);
+    const double distance = std::max(std::abs(b.normal.dot(X_RH.p - w.wall.lowerLeft)), kNearest);
+    const double pitch = std::min(b.width / w.width, b.height / w.height);
+    Seen seen{X_WR.q * Vec3(-b.normal), distance / pitch, 0};
+    for (const Vec3& corner : {w.wall.lowerLeft, w.wall.lowerRight, w.wall.upperLeft, w.wall.upperRight()})
+      seen.mostAngle =
+          std::max(seen.mostAngle, std::acos(std::clamp(distance / (corner - X_RH.p).norm(), 0.0, 1.0)));
+    walls_.push_back(seen);
+  }
+}
+
+const Mesh* LevelChoice::mesh(MeshId id) {
+  const auto [at, isNew] = known_.try_emplace(id, nullptr);
+  if (isNew) at->second = meshes_.find(id);
+  return at->second;
+}
+
+/// Of a radian, where a ball is seen; 0 if no wall shows it.
+double LevelChoice::pixelsOf(const Vec3& centre, double radius) const {
+  const double distance = centre.norm();
+  double most = 0;
+  for (const Seen& wall : walls_) {
+    double angle = wall.mostAngle;
+    if (distance > radius) {
+      const double middle = std::acos(std::clamp(wall.towards.dot(centre) / distance, -1.0, 1.0));
+      const double half = std::asin(radius / distance);
+      if (middle - half > wall.mostAngle) continue;
+      angle = std::min(middle + half, wall.mostAngle);
+    }
+    const double c = std::cos(angle);
+    most = std::max(most, wall.pixels / (c * c));
+  }
+  return most;
+}
+
+std::uint32_t LevelChoice::levelOf(const InstanceRecord& r) {
+  if (r.lodFactor == 0 || walls_.empty()) return 0;
+  const Mesh* m = mesh(r.mesh);
+  if (!m || m->levels.empty() || !(m->sphere.radius > 0)) return 0;
+  Affine X_WN;
+  for (int row = 0; row < 3; ++row)
+    for (int col = 0; col < 4; ++col) X_WN.matrix()(row, col) = r.model[4 * row + col];
+  const double most = double{r.radius} / m->sphere.radius, least = leastScale(X_WN.linear(), most);
+  if (!(least > 0)) return 0;
+  const Vec3 head_N = X_WN.inverse() * head_;
+  const Vec3 nearest = head_N.cwiseMax(m->bounds.lo).cwiseMin(m->bounds.hi);
+  const double distance = (head_N - nearest).norm() * least * stress_ * double{r.lodFactor};
+  const double pixels =
+      pixelsOf(Vec3(r.centre[0], r.centre[1], r.centre[2]) - head_, double{r.radius}) * most;
+  std::uint32_t level = 0;
+  while (level < m->levels.size() && m->levels[level].error * pixels <= kMostPixels * distance) ++level;
+  return level;
+}
+
+}  // namespace stadion

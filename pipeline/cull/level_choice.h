@@ -1,0 +1,59 @@
+#pragma once
+/// Which simplified level of a mesh is drawn: the coarsest one whose error would be seen by nobody.
+///
+/// A level is off the full surface by at most e [m]. Seen from a distance d at an angle theta from a wall's
+/// normal, that is at most
+///
+///     e / d x D / (p cos^2 theta)   pixels
+///
+/// where D is the head's distance from the wall and p the size of its pixels [m]. The level may be off by one
+/// pixel. d is measured to the nearest point of the mesh's box, theta is the greatest at which any part of
+/// the object can be seen on that wall, and of all walls the strictest counts: so the choice is the same on
+/// all walls and for both eyes. Under stress, and where an object has to do with less detail, it counts as
+/// farther away.
+///
+/// Threads  one wall's Cull; the meshes must outlive it.
+
+#include "engine/asset/mesh_store.h"
+#include "engine/display/wall.h"
+#include "engine/scene/records.h"
+
+#include <map>
+#include <span>
+#include <vector>
+
+namespace stadion {
+
+/// A wall of the show, as far as it matters to levels.
+struct WallPixels {
+  Wall wall;
+  std::uint32_t width = 0, height = 0;  ///< of one eye's picture [pixels]
+};
+
+class LevelChoice {
+public:
+  static constexpr double kMostPixels = 1;
+
+  LevelChoice(const ViewerRecord& viewer, std::span<const WallPixels> walls, const MeshStore& meshes);
+
+  /// 0 = the full surface; else it is Mesh::levels[that - 1].
+  std::uint32_t levelOf(const InstanceRecord& record);
+
+private:
+  struct Seen {
+    Vec3 towards;          ///< the wall's foot below the head, from the head; in World, unit
+    double pixels = 0;     ///< D / p, of one radian in the wall's middle
+    double mostAngle = 0;  ///< of a corner of the wall
+  };
+
+  const Mesh* mesh(MeshId id);
+  double pixelsOf(const Vec3& centre, double radius) const;
+
+  Vec3 head_;
+  double stress_ = 1;
+  std::vector<Seen> walls_;
+  const MeshStore& meshes_;
+  std::map<MeshId, const Mesh*> known_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,271 @@
+#include "profiling/load/load_governor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace stadion {
+namespace {
+
+constexpr double kToldApart = 10;              ///< [s], of one node's overruns
+constexpr std::uint64_t kFramesUnderWay = 64;  ///< those that nobody has shown by then never will be
+constexpr double kLevelSaves = 0.9;  ///< what one level of one node is expected to leave of the frame
+
+ReliefPolicy policyOf(const NodeTerms& terms, double rate) {
+  return {{terms.budget > 0 ? terms.budget : HUGE_VAL, static_cast<std::uint64_t>(std::ceil(rate))},
+          savingsOf(terms.gives)};
+}
+
+double mostOf(const std::map<std::uint32_t, double>& byWall) {
+  double most = 0;
+  for (const auto& [wall, ms] : byWall) most = std::max(most, ms);
+  return most;
+}
+
+double sumOf(const std::map<std::uint32_t, double>& byWall) {
+  double sum = 0;
+  for (const auto& [wall, ms] : byWall) sum += ms;
+  return sum;
+}
+
+}  // namespace
+
+std::string nameOfLevel(const std::vector<Concession>& ladder, std::uint32_t level) {
+  if (level == 0) return "nothing";
+  for (const Concession c : ladder) {
+    if (level > levelsOf(c)) {
+      level -= levelsOf(c);
+      continue;
+    }
+    const std::string word(kConcessionNames[static_cast<std::size_t>(c)]);
+    if (c == Concession::Lod) return fmt::format("{} ({:.3g} times)", word, std::pow(kLodLevel, level));
+    if (c == Concession::Half) return fmt::format("{} (one frame of {})", word, 1U << level);
+    return word;
+  }
+  return "nothing";
+}
+
+LoadGovernor::LoadGovernor(GovernorOptions options, const NodeNames& names)
+    : options_(std::move(options)), names_(names), stress_(options_.stress) {}
+
+// What it is told of.
+
+void LoadGovernor::take(std::size_t, const SpanRecord& r) {
+  if (r.frame == kNoFrame) return;
+  const std::lock_guard lock(mutex_);
+  switch (r.what) {
+  case Span::App:
+    times_[r.frame].app = r.took;
+    appEnded_.push_back(r.frame);
+    break;
+  case Span::Cull: times_[r.frame].cull[r.wall] = r.took; break;
+  case Span::Draw: times_[r.frame].draw[r.wall] = r.took; break;
+  case Span::Swap: shown_.push_back(r.frame); break;
+  default: costs_.take(r);
+  }
+}
+
+void LoadGovernor::take(const SharedSpan& shared) {
+  const std::lock_guard lock(mutex_);
+  costs_.take(shared);
+}
+
+void LoadGovernor::take(const DrawnAlone& drawn, const std::vector<NodeRef>& nodes) {
+  const std::lock_guard lock(mutex_);
+  costs_.take(drawn, nodes);
+}
+
+// What was done on other threads for App, or for the swap, may be read a little later than these.
+void LoadGovernor::caughtUp() {
+  std::vector<std::string> lines;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const std::uint64_t frame : appEndedBefore_) judgeNodes(frame);
+    for (const std::uint64_t frame : shownBefore_) judgeFrame(frame);
+    appEndedBefore_.swap(appEnded_), shownBefore_.swap(shown_);
+    appEnded_.clear(), shown_.clear();
+    lines.swap(lines_);
+  }
+  // Nobody waits for a terminal.
+  for (const std::string& line : lines)
+    if (options_.tell) options_.tell(line);
+}
+
+// Nodes.
+
+void LoadGovernor::judgeNodes(std::uint64_t frame) {
+  now_ = static_cast<double>(frame) / options_.rate;
+  const std::vector<NodeCost> costs = costs_.of(frame);
+  for (std::size_t i = 0; i < governed_.size() && i < costs.size(); ++i) {
+    Governed& g = governed_[i];
+    BudgetReport& r = g.report;
+    const double ms = costs[i].cost.total();
+    ++r.frames, g.sum += ms, r.mean = g.sum / static_cast<double>(r.frames);
+    if (ms > r.worst) r.worst = ms, r.worstFrame = frame, r.worstStage = stageText(costs[i]);
+    if (r.budget > 0 && ms > r.budget) noteOverrun(g, frame, costs[i]);
+    if (options_.acts && r.levels > 0 && r.budget > 0) g.policy.take(frame, costs[i].cost);
+  }
+  if (frame >= kFramesUnderWay) costs_.forget(frame - kFramesUnderWay);
+}
+
+void LoadGovernor::noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost) {
+  ++g.report.overruns, ++g.untold;
+  if (now_ - g.toldAt < kToldApart) return;
+  const std::string others =
+      g.untold > 1 ? fmt::format("; {} frames since this was told last", g.untold) : std::string();
+  lines_.push_back(fmt::format("over budget: {} took {:.1f} ms of {:g} in frame {}, most of it {}{}",
+                               titleOf(g.of.node), cost.cost.total(), g.report.budget, frame, stageText(cost),
+                               others));
+  g.toldAt = now_, g.untold = 0;
+}
+
+std::string LoadGovernor::stageText(const NodeCost& cost) const {
+  std::string stage(nameOf(cost.dearest));
+  stage[0] = static_cast<char>(stage[0] - 'a' + 'A');
+  return cost.wall < options_.walls.size() ? stage + " of wall " + options_.walls[cost.wall] : stage;
+}
+
+std::string LoadGovernor::titleOf(NodeRef node) const {
+  const auto name = names_.find(node);
+  return name ? fmt::format("\"{}\" {}:{}", name->path, name->file, name->line) : "a node that has gone";
+}
+
+std::optional<Overrun> LoadGovernor::overrunOf(std::uint64_t frame) const {
+  const std::lock_guard lock(mutex_);
+  const std::vector<NodeCost> costs = costs_.of(frame);
+  std::optional<Overrun> worst;
+  for (std::size_t i = 0; i < governed_.size() && i < costs.size(); ++i) {
+    const double ms = costs[i].cost.total(), budget = governed_[i].report.budget;
+    if (budget > 0 && ms > budget && (!worst || ms - budget > worst->ms - worst->budget))
+      worst = Overrun{titleOf(governed_[i].of.node), ms, budget};
+  }
+  return worst;
+}
+
+// The whole frame.
+
+void LoadGovernor::judgeFrame(std::uint64_t frame) {
+  const auto at = times_.find(frame);
+  if (at == times_.end()) return;
+  const StageTimes t = at->second;
+  times_.erase(times_.begin(), times_.upper_bound(frame >= kFramesUnderWay ? frame - kFramesUnderWay : 0));
+  if (!options_.paced || !options_.acts) return;
+  const double period = 1e3 / options_.rate;
+  const double drawn =
+      options_.pipelined ? std::max(mostOf(t.cull), mostOf(t.draw)) : sumOf(t.cull) + sumOf(t.draw);
+  if (scalable_ && frame >= stressFrom_) stress_.take((options_.pipelined ? drawn : t.app + drawn) / period);
+  if (!frame_ || (scalable_ && !stress_.exhausted() && frame_->wanted() == 0)) return;
+  frame_->take(frame, {options_.pipelined ? std::max(t.app, drawn) : t.app + drawn, 0});
+  spreadFrameLevel();
+}
+
+/// The frame's level, on the ladders of the nodes, the lowest priority first.
+void LoadGovernor::spreadFrameLevel() {
+  std::uint32_t left = frame_->wanted();
+  for (const std::size_t i : byPriority_) {
+    governed_[i].forFrame = std::min(left, governed_[i].report.levels);
+    left -= governed_[i].forFrame;
+  }
+}
+
+// App.
+
+void LoadGovernor::see(const Scene& scene) {
+  if (seen_ == scene.loadsVersion()) return;
+  seen_ = scene.loadsVersion();
+  auto [nodes, above] = governedNodes(scene);
+  const bool scalable = hasLevels(scene);
+  const std::lock_guard lock(mutex_);
+  scalable_ = scalable;
+  std::vector<Governed> known;
+  known.swap(governed_);
+  for (const GovernedNode& n : nodes) {
+    const auto before = std::ranges::find_if(known, [&](const Governed& g) { return g.of.node == n.node; });
+    if (before != known.end()) {
+      governed_.push_back(std::move(*before));
+      known.erase(before);
+      continue;
+    }
+    Governed g{n, policyOf(n.terms, options_.rate), 0, 0, {}};
+    g.report.budget = n.terms.budget, g.report.levels = levelsOf(n.terms.gives);
+    if (const auto name = names_.find(n.node))
+      g.report.name = name->path, g.report.file = name->file, g.report.line = name->line;
+    governed_.push_back(std::move(g));
+  }
+  for (const Governed& g : known) gone_[g.of.node] = g.report;
+  byPriority_.clear();
+  std::uint32_t levels = 0;
+  for (std::size_t i = 0; i < governed_.size(); ++i)
+    if (governed_[i].report.levels > 0) byPriority_.push_back(i), levels += governed_[i].report.levels;
+  std::ranges::stable_sort(byPriority_, {}, [&](std::size_t i) { return governed_[i].of.terms.priority; });
+  frame_.reset();
+  if (levels > 0) {
+    std::vector<LevelSavings> savings;
+    for (std::uint32_t l = 0; l <= levels; ++l) savings.push_back({std::pow(kLevelSaves, l), 1, 1});
+    frame_.emplace(
+        ReliefPolicy::Options{1e3 / options_.rate, static_cast<std::uint64_t>(std::ceil(options_.rate))},
+        std::move(savings));
+    spreadFrameLevel();
+  }
+  costs_.govern(std::move(nodes), std::move(above));
+}
+
+FrameLoad LoadGovernor::decide(std::uint64_t frame) {
+  FrameLoad load;
+  const std::lock_guard lock(mutex_);
+  if (!options_.acts) return load;
+  if (stress_.level() != stressApplied_ && load.add({0, 0, stress_.level()})) {
+    stressApplied_ = stress_.level(), stressFrom_ = frame;
+    ++stressChanges_;
+  }
+  bool all = true;
+  for (Governed& g : governed_) {
+    const std::uint32_t wanted = g.wanted(), before = g.applied;
+    if (wanted != before) {
+      if (!load.add({g.of.node.load, g.of.node.position, wanted})) {
+        all = false;
+        continue;
+      }
+      g.applied = wanted;
+      BudgetReport& r = g.report;
+      ++r.changes, r.highest = std::max(r.highest, wanted), r.now = wanted;
+      tellChange(g, before, frame);
+    }
+    g.policy.applied(frame);
+  }
+  if (frame_ && all) frame_->applied(frame);
+  return load;
+}
+
+void LoadGovernor::tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame) {
+  const std::vector<Concession>& ladder = g.of.terms.gives;
+  const std::string title = titleOf(g.of.node);
+  if (g.applied > before)
+    lines_.push_back(
+        fmt::format("from frame {} on {} gives up: {}", frame, title, nameOfLevel(ladder, g.applied)));
+  else
+    lines_.push_back(fmt::format("from frame {} on {} has something back; still given up: {}", frame, title,
+                                 nameOfLevel(ladder, g.applied)));
+}
+
+// Reports.
+
+std::vector<BudgetReport> LoadGovernor::reports() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<BudgetReport> all;
+  for (const auto& [node, report] : gone_) all.push_back(report);
+  for (const Governed& g : governed_) all.push_back(g.report);
+  return all;
+}
+
+double LoadGovernor::stress() const {
+  const std::lock_guard lock(mutex_);
+  return stress_.stress();
+}
+
+std::uint64_t LoadGovernor::stressChanges() const {
+  const std::lock_guard lock(mutex_);
+  return stressChanges_;
+}
+
+}  // namespace stadion

@@ -1,0 +1,115 @@
+#pragma once
+/// Looks at what a live show's nodes and frames cost, tells overruns, and decides who gives up what.
+///
+/// Each node with a budget has a ladder of its own (relief_policy.h). The whole show has two means: stress
+/// (stress_filter.h), and, once stress can do no more, the ladders of all nodes one after the other, the
+/// lowest priority first: what is given up for the frame's sake and for the node's own, the greater counts.
+///
+/// Decisions are made on the log's thread and taken by App at the start of its next frame.
+///
+/// Threads  SpanReader's on the log's thread; decide() and see() on App's; reports from any.
+
+#include "engine/load_control.h"
+#include "profiling/frame_facts.h"
+#include "profiling/load/node_costs.h"
+#include "profiling/load/stress_filter.h"
+#include "profiling/node_names.h"
+
+#include <functional>
+#include <mutex>
+#include <string>
+
+namespace stadion {
+
+struct GovernorOptions {
+  double rate = 60;                ///< [1/s]
+  bool paced = true;               ///< frames come by the clock: what takes longer than one is late
+  bool pipelined = true;           ///< else the stages' times add up
+  bool acts = true;                ///< else it only tells
+  std::vector<std::string> walls;  ///< names
+  StressOptions stress;
+  std::function<void(const std::string&)> tell;  ///< a line; on the log's thread
+};
+
+/// How a node kept its budget.
+struct BudgetReport {
+  std::string name, file;
+  std::uint32_t line = 0;
+  double budget = 0;  ///< [ms]; 0 = none
+  std::uint64_t frames = 0, overruns = 0;
+  double mean = 0, worst = 0;  ///< [ms]
+  std::uint64_t worstFrame = 0;
+  std::string worstStage;                          ///< "App", "Draw of wall front"
+  std::uint64_t changes = 0;                       ///< times that something was given up or taken back
+  std::uint32_t highest = 0, now = 0, levels = 0;  ///< of its ladder
+};
+
+class LoadGovernor final : public SpanReader, public LoadDecider {
+public:
+  LoadGovernor(GovernorOptions options, const NodeNames& names);
+
+  // Of the log's thread.
+  void take(std::size_t track, const SpanRecord& record) override;
+  void take(const SharedSpan& shared) override;
+  void take(const DrawnAlone& drawn, const std::vector<NodeRef>& nodes) override;
+  void caughtUp() override;
+  /// The worst overrun of a frame that is not over for long.
+  std::optional<Overrun> overrunOf(std::uint64_t frame) const;
+
+  // Of App's thread.
+  void see(const Scene& scene);
+  FrameLoad decide(std::uint64_t frame) override;
+
+  std::vector<BudgetReport> reports() const;
+  double stress() const;
+  std::uint64_t stressChanges() const;
+
+private:
+  struct Governed {
+    GovernedNode of;
+    ReliefPolicy policy;
+    std::uint32_t forFrame = 0;  ///< the level that the whole frame asks of it
+    std::uint32_t applied = 0;
+    BudgetReport report;
+    double sum = 0;
+    double toldAt = -1e9;      ///< [s]
+    std::uint64_t untold = 0;  ///< overruns since then
+    std::uint32_t wanted() const { return std::max(policy.wanted(), forFrame); }
+  };
+  /// What a frame's stages took [ms].
+  struct StageTimes {
+    double app = 0;
+    std::map<std::uint32_t, double> cull, draw;  ///< by wall
+  };
+
+  void judgeNodes(std::uint64_t frame);
+  void judgeFrame(std::uint64_t frame);
+  void spreadFrameLevel();
+  void noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost);
+  void tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame);
+  std::string stageText(const NodeCost& cost) const;
+  std::string titleOf(NodeRef node) const;
+
+  GovernorOptions options_;
+  const NodeNames& names_;
+  mutable std::mutex mutex_;
+  NodeCosts costs_;
+  std::vector<Governed> governed_;
+  std::vector<std::size_t> byPriority_;  ///< of those that can give up something, the lowest first
+  std::optional<ReliefPolicy> frame_;    ///< of all their ladders, one after the other
+  StressFilter stress_;
+  std::uint32_t stressApplied_ = 0;
+  std::uint64_t stressChanges_ = 0, stressFrom_ = 0;
+  bool scalable_ = false;  ///< there is something that stress acts on
+  std::map<std::uint64_t, StageTimes> times_;
+  std::vector<std::uint64_t> appEnded_, appEndedBefore_, shown_, shownBefore_;
+  std::vector<std::string> lines_;  ///< to be told, by the log's thread
+  std::uint64_t seen_ = ~std::uint64_t{0};
+  std::map<NodeRef, BudgetReport> gone_;
+  double now_ = 0;  ///< [s]
+};
+
+/// "half (every 4th frame)", "lod (1.5 times)": what the level gives up beyond the one below it.
+std::string nameOfLevel(const std::vector<Concession>& ladder, std::uint32_t level);
+
+}  // namespace stadion

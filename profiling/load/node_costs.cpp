@@ -1,0 +1,112 @@
+#include "profiling/load/node_costs.h"
+
+#include "engine/nodes/object_node.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace stadion {
+namespace {
+
+/// A sample that is older says nothing any more: the node is out of sight, or drawn otherwise [frames].
+constexpr std::uint64_t kOld = 600;
+
+}  // namespace
+
+std::pair<std::vector<GovernedNode>, std::map<NodeRef, std::vector<std::size_t>>>
+governedNodes(const Scene& scene) {
+  std::vector<GovernedNode> nodes;
+  std::map<NodeRef, std::size_t> places;
+  scene.forEachLoad([&](const Load& load) {
+    for (const auto& [position, terms] : load.terms) {
+      places[{load.number, position}] = nodes.size();
+      nodes.push_back({{load.number, position}, terms});
+    }
+  });
+  std::map<NodeRef, std::vector<std::size_t>> above;
+  if (nodes.empty()) return {nodes, above};
+  scene.forEachLoad([&](const Load& load) {
+    for (std::uint32_t i = 0; i < load.nodes.size(); ++i)
+      for (NodeRef at{load.number, i}; at.valid(); at = scene.parentOf(at))
+        if (const auto place = places.find(at); place != places.end())
+          above[{load.number, i}].push_back(place->second);
+  });
+  return {std::move(nodes), std::move(above)};
+}
+
+bool hasLevels(const Scene& scene) {
+  bool any = false;
+  const auto look = [&](const Node* node) {
+    if (!node) return;
+    const auto* object = dynamic_cast<const ObjectNode*>(node);
+    const Mesh* mesh = object ? scene.mesh(object->appearance().mesh) : nullptr;
+    any |= node->kind() == NodeKind::Lod || (mesh && !mesh->levels.empty());
+  };
+  scene.forEachLoad([&](const Load& load) {
+    for (const auto& node : load.nodes) look(node.get());
+    for (const InstanceRecord& r : load.chunkRecords) any |= r.lodFactor > 0;
+  });
+  return any;
+}
+
+void NodeCosts::govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::vector<std::size_t>> above) {
+  nodes_ = std::move(nodes), above_ = std::move(above);
+  app_.clear(), samples_.clear();
+}
+
+void NodeCosts::take(const SpanRecord& r) {
+  const bool counts = r.node.valid() && (isOfNode(r.what) || r.what == Span::Settle);
+  const auto at = counts ? above_.find(r.node) : above_.end();
+  if (at == above_.end()) return;
+  std::vector<double>& frame = app_[r.frame];
+  frame.resize(nodes_.size());
+  for (const std::size_t governed : at->second) frame[governed] += r.took;
+}
+
+void NodeCosts::sample(Span what, std::uint64_t frame, std::uint32_t wall, std::uint32_t eye, double ms,
+                       const std::vector<NodeRef>& among) {
+  if (among.empty() || above_.empty()) return;
+  std::map<SampleKey, double> sums;
+  const double share = ms / static_cast<double>(among.size());
+  for (const NodeRef node : among)
+    if (const auto at = above_.find(node); at != above_.end())
+      for (const std::size_t governed : at->second) sums[{governed, node, wall, eye, what}] += share;
+  for (const auto& [key, sum] : sums) samples_[key] = {sum, frame};
+}
+
+void NodeCosts::take(const SharedSpan& s) {
+  if (s.wall != kNoWall) sample(s.what, s.frame, s.wall, 0, s.ms, s.among);
+}
+
+void NodeCosts::take(const DrawnAlone& d, const std::vector<NodeRef>& nodes) {
+  if (d.what == Span::Draw)
+    sample(Span::Draw, d.frame, d.wall, d.eye, std::max(0.0, d.ms - d.emptyMs), nodes);
+}
+
+std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
+  std::vector<NodeCost> costs(nodes_.size());
+  const auto app = app_.find(frame);
+  for (std::size_t i = 0; i < costs.size() && app != app_.end(); ++i) costs[i].cost.app = app->second[i];
+  std::map<std::tuple<std::size_t, bool, std::uint32_t>, double> stages;  // governed, Draw, wall
+  for (const auto& [key, s] : samples_) {
+    if (s.frame + kOld < frame || s.frame > frame) continue;
+    costs[key.governed].cost.drawn += s.ms;
+    stages[{key.governed, key.what == Span::Draw, key.wall}] += s.ms;
+  }
+  std::vector<double> most(costs.size());
+  for (std::size_t i = 0; i < costs.size(); ++i) most[i] = costs[i].cost.app;
+  for (const auto& [stage, ms] : stages) {
+    const auto& [governed, isDraw, wall] = stage;
+    if (ms <= most[governed]) continue;
+    most[governed] = ms;
+    costs[governed].dearest = isDraw ? Span::Draw : Span::Cull, costs[governed].wall = wall;
+  }
+  return costs;
+}
+
+void NodeCosts::forget(std::uint64_t upToFrame) {
+  app_.erase(app_.begin(), app_.upper_bound(upToFrame));
+  std::erase_if(samples_, [&](const auto& s) { return s.second.frame + kOld < upToFrame; });
+}
+
+}  // namespace stadion

@@ -1,0 +1,76 @@
+#pragma once
+/// What nodes with terms cost, frame by frame: all that is spent on them and on what stands below them.
+///
+/// App is known of each frame. Cull and Draw are known from samples (FrameLog: who shared in culling, which
+/// batches were drawn alone); between two samples the last one counts.
+///
+/// Units    milliseconds. Threads  the log's thread, but see(), which is App's; names and terms are locked by
+///          the owner.
+
+#include "engine/scene/scene.h"
+#include "profiling/frame_log.h"
+#include "profiling/load/relief_policy.h"
+
+#include <map>
+#include <unordered_map>
+
+namespace stadion {
+
+/// A node that has a budget or something to give up.
+struct GovernedNode {
+  NodeRef node;
+  NodeTerms terms;
+};
+
+/// What one of them cost in one frame.
+struct NodeCost {
+  LoadCost cost;
+  Span dearest = Span::App;      ///< the stage in which it cost most
+  std::uint32_t wall = kNoWall;  ///< of that stage
+};
+
+class NodeCosts {
+public:
+  /// Whose costs are kept from now on. `above`: of each node that stands below some of them, these, by their
+  /// places in the list.
+  void govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::vector<std::size_t>> above);
+  const std::vector<GovernedNode>& governed() const { return nodes_; }
+
+  void take(const SpanRecord& record);
+  void take(const SharedSpan& shared);
+  void take(const DrawnAlone& drawn, const std::vector<NodeRef>& nodes);
+
+  /// What the governed nodes cost in that frame, as far as it is known now.
+  std::vector<NodeCost> of(std::uint64_t frame) const;
+  void forget(std::uint64_t upToFrame);
+
+private:
+  /// Of one wall and one eye's drawing, or of one part of culling.
+  struct Sample {
+    double ms = 0;
+    std::uint64_t frame = 0;
+  };
+  struct SampleKey {
+    std::size_t governed;
+    NodeRef node;
+    std::uint32_t wall, eye;
+    Span what;
+    auto operator<=>(const SampleKey&) const = default;
+  };
+  void sample(Span what, std::uint64_t frame, std::uint32_t wall, std::uint32_t eye, double ms,
+              const std::vector<NodeRef>& among);
+
+  std::vector<GovernedNode> nodes_;
+  std::map<NodeRef, std::vector<std::size_t>> above_;
+  std::map<std::uint64_t, std::vector<double>> app_;  ///< by frame, then governed node [ms]
+  std::map<SampleKey, Sample> samples_;
+};
+
+/// Whether the show has anything that stress acts on.
+bool hasLevels(const Scene& scene);
+
+/// The governed nodes of the loads that are there, and who stands below them.
+std::pair<std::vector<GovernedNode>, std::map<NodeRef, std::vector<std::size_t>>>
+governedNodes(const Scene& scene);
+
+}  // namespace stadion

@@ -1,0 +1,43 @@
+#pragma once
+/// Stress of the whole show, as in IRIS Performer: while drawing takes too large a part of the frame, levels
+/// of detail are chosen as if everything were farther away.
+///
+///     load = time x rate / frac
+///     stress += scale x load   if load > high,  at most max
+///     stress -= scale x load   if load < low,   at least 1
+///
+/// The greatest load of all walls counts, so that a thing has one level everywhere. What is published is the
+/// nearest quarter of an octave; it changes only when the stress has gone well beyond the middle between two.
+///
+/// Units    load: parts of a frame. Threads  plain values.
+
+#include <cstdint>
+
+namespace stadion {
+
+struct StressOptions {
+  double frac = 1;     ///< of a frame that drawing may take
+  double low = 0.7;    ///< load below which stress goes down
+  double high = 0.95;  ///< load above which it goes up
+  double scale = 0.1;  ///< how fast
+  double max = 4;      ///< 1 = there is no stress
+};
+
+class StressFilter {
+public:
+  explicit StressFilter(const StressOptions& options) : options_(options) {}
+
+  /// `time`: of the slowest wall's stages in one frame, in parts of a frame. Returns the level of stress.
+  std::uint32_t take(double time);
+  double stress() const { return stress_; }
+  std::uint32_t level() const { return level_; }
+  /// It cannot do more.
+  bool exhausted() const { return stress_ >= options_.max; }
+
+private:
+  StressOptions options_;
+  double stress_ = 1;
+  std::uint32_t level_ = 0;
+};
+
+}  // namespace stadion
