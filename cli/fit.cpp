@@ -57,8 +57,11 @@ std::optional<Diagnostic> readFlights(const Options& o, FitTask& task) {
     if (!text) return text.error();
     auto flight = readTrajectory(text.value(), file);
     if (!flight) return flight.error();
-    if (const char* const fault = faultOf(flight.value()))
-      return Diagnostic{Severity::Error, {file, 0, 0}, fault, {}};
+    if (const char* const fault = faultOf(flight.value())) {
+      Diagnostic wrong;
+      wrong.where.file = file, wrong.message = fault;
+      return wrong;
+    }
     for (TrajectorySample& s : flight.value()) {
       s.at.q = s.at.q * task.shape.q_NA;
       s.at.w = task.shape.q_NA.conjugate() * s.at.w;

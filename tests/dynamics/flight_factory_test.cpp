@@ -127,7 +127,7 @@ TEST(FlightFactory, AModelForPlainlyAnotherFormIsWarnedOf) {
   EXPECT_EQ(made(", flight=rod").why, "");
   EXPECT_TRUE(
       made(", flight=plate")
-          .why.starts_with("a.evs:1:43: warning: flight=plate is for flat bodies; \"a\" is long (2.2 x "))
+          .why.starts_with("a.evs:1:39: warning: flight=plate is for flat bodies; \"a\" is long (2.2 x "))
       << made(", flight=plate").why;
   EXPECT_EQ(made(", flight=plate", ballMesh(0.1, 24, 48)).why, "") << "neither long nor flat";
   const auto folder = std::filesystem::temp_directory_path() / "stadion_flight_factory_axis";
