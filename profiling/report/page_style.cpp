@@ -50,6 +50,7 @@ th,td{padding:.24rem .6rem;border-bottom:1px solid var(--line);text-align:left;v
 th{color:var(--quiet);font-weight:600;white-space:nowrap}
 tbody th{color:var(--ink);font-weight:500;white-space:normal;overflow-wrap:anywhere;min-width:9rem}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+td.row{white-space:nowrap}
 td.words{min-width:21rem}
 td.place{color:var(--quiet);white-space:nowrap}
 th button{border:0;background:none;padding:0;color:inherit;font-weight:600}
