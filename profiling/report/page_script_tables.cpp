@@ -91,7 +91,7 @@ function drawDynamics() {
   if (!d || d.bodies.length === 0) return byId("dynamics").remove();
   byId("dynamics-say").textContent = "Bodies that dynamics nodes move. Share is the body's part of its dynamics node's time, by the arcs it begins. Cost is what the node takes with the body more than without it; error is how far the body ever is from where its finest model puts it. " +
     `Cheaper models that stay within ${metres(d.tolerance)} are named. ` + d.note;
-  const worst = Math.max(...d.bodies.map(b => b.error || 0), 1e-12), dearest = Math.max(...d.bodies.map(b => b.share), 1e-12);
+  const worst = Math.max(...d.bodies.map(b => b.error || 0), d.tolerance), dearest = Math.max(...d.bodies.map(b => b.share), 1e-12);
   put("dynamics-table", table(null, [
     {name: "body", cell: b => b.name || "a body", title: b => b.place}, {name: "script", kind: "place", cell: b => shortPlace(b.place)}, {name: "collides as", cell: b => b.shape},
     {name: "share a frame", n: true, cell: b => msText(b.share), style: b => heat(b.share, dearest, "app")},
