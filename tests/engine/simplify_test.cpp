@@ -132,6 +132,18 @@ TEST(Simplify, WhatCannotBeSimplifiedWithinTheErrorStaysAsItIs) {
     EXPECT_EQ(std::ranges::count_if(level.indices, [&](std::uint32_t v) { return v >= first; }), 36);
 }
 
+TEST(Simplify, WhatIsPaintedOnASurfaceStaysThere) {
+  Mesh plain = ball(48), striped = ball(48);
+  for (std::size_t v = 0; v < striped.positions.size(); ++v) {
+    const bool white = v / 96 == 24;  // one ring of vertices
+    plain.colours.push_back({90, 90, 90, 255});
+    striped.colours.push_back({std::uint8_t(white ? 255 : 90), 90, 90, 255});
+  }
+  addLevels(plain, 4), addLevels(striped, 4);
+  EXPECT_GE(plain.levels.size(), 3U);
+  EXPECT_TRUE(striped.levels.empty());
+}
+
 TEST(Simplify, WhatHasFewTrianglesStaysAsItIs) {
   Mesh m = ball(2);
   addLevels(m, 4);
