@@ -27,10 +27,11 @@ Suspect longest(const FrameFacts& f) {
   return worst;
 }
 
-std::uint32_t dearestDraw(const FrameFacts& f) {
-  std::uint32_t dearest = 0;
-  for (std::uint32_t wall = 1; wall < f.walls; ++wall)
-    if (f.draw[wall].ms > f.draw[dearest].ms) dearest = wall;
+/// Of the walls but one.
+std::uint32_t dearestDraw(const FrameFacts& f, std::uint32_t except) {
+  std::uint32_t dearest = except == 0 && f.walls > 1 ? 1 : 0;
+  for (std::uint32_t wall = dearest + 1; wall < f.walls; ++wall)
+    if (wall != except && f.draw[wall].ms > f.draw[dearest].ms) dearest = wall;
   return dearest;
 }
 
@@ -76,7 +77,7 @@ void judge(FrameFacts& f) {
   const Suspect s = longest(f);
   f.stage = s.stage, f.wall = s.wall;
   f.cause = causeOf(s, f.budget);
-  f.holder = dearestDraw(f);
+  f.holder = dearestDraw(f, f.wall);
 }
 
 namespace {

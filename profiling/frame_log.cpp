@@ -1,5 +1,6 @@
 #include "profiling/frame_log.h"
 
+#include <optional>
 #include <utility>
 
 namespace stadion {
@@ -114,6 +115,22 @@ void FrameLog::drewAlone(const DrawnAlone& drawn, std::span<const NodeRef> nodes
   alone_.push_back({drawn, {nodes.begin(), nodes.end()}});
 }
 
+namespace {
+
+/// The track whose next record ended first: readers learn of all threads' frames side by side, however much
+/// has come together.
+std::optional<std::size_t> firstEnded(const std::vector<SpanTrack*>& tracks) {
+  std::optional<std::size_t> first;
+  ProfileClock::time_point ended;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const SpanRecord* next = tracks[i]->next();
+    if (next && (!first || next->ended < ended)) first = i, ended = next->ended;
+  }
+  return first;
+}
+
+}  // namespace
+
 void FrameLog::collect() {
   std::vector<SpanTrack*> tracks;
   std::vector<SharedSpan> shared;
@@ -124,10 +141,9 @@ void FrameLog::collect() {
     shared.swap(shared_), alone.swap(alone_);
   }
   SpanRecord record;
-  for (std::size_t i = 0; i < tracks.size(); ++i)
-    while (tracks[i]->take(record))
-      if (record.frame >= options_.from)
-        for (SpanReader* reader : readers_) reader->take(i, record);
+  while (const auto first = firstEnded(tracks))
+    if (tracks[*first]->take(record) && record.frame >= options_.from)
+      for (SpanReader* reader : readers_) reader->take(*first, record);
   for (const SharedSpan& s : shared)
     for (SpanReader* reader : readers_) reader->take(s);
   for (const Alone& a : alone)

@@ -35,7 +35,8 @@ struct SharedSpan {
 class SpanReader {
 public:
   virtual ~SpanReader() = default;
-  /// `track` numbers the threads from 0, in the order in which they came.
+  /// `track` numbers the threads from 0, in the order in which they came. Spans of one thread come in the
+  /// order of their ends, those of different threads nearly so.
   virtual void take(std::size_t track, const SpanRecord& record) = 0;
   virtual void take(const SharedSpan&) {}
   virtual void take(const DrawnAlone&, const std::vector<NodeRef>&) {}

@@ -99,7 +99,12 @@ public:
   /// How long the last span of that kind took [ms].
   double last(Span what) const { return 1e-6 * last_[static_cast<std::size_t>(what)]; }
 
-  /// The next record, if there is one.
+  /// The next record, until it is taken; null if there is none.
+  const SpanRecord* next() const {
+    const std::size_t tail = tail_.load(std::memory_order_relaxed);
+    return tail == head_.load(std::memory_order_acquire) ? nullptr : &ring_[tail % kCapacity];
+  }
+  /// Takes it, if there is one.
   bool take(SpanRecord& out) {
     const std::size_t tail = tail_.load(std::memory_order_relaxed);
     if (tail == head_.load(std::memory_order_acquire)) return false;

@@ -1,5 +1,7 @@
 #include "engine/asset/simplify.h"
 
+#include "engine/asset/nearest_triangle.h"
+
 #include <meshoptimizer.h>
 
 #include <algorithm>
@@ -16,111 +18,62 @@ namespace {
 constexpr double kWorthwhile = 0.75;
 constexpr double kFinest = 1.0 / (1 << 18), kCoarsest = 0.2;  ///< errors that are tried, of its size
 constexpr double kStep = 4;
+constexpr double kColours = 12;            ///< of 255: by so much a colour may differ
+constexpr double kPicture = 1.0 / 128;     ///< of the picture: so far it may be shifted
 constexpr std::size_t kFewTriangles = 32;  ///< what has no more is drawn as it is
 
-Vec3 at(const Mesh& mesh, std::uint32_t vertex) {
-  const auto& p = mesh.positions[vertex];
-  return {double{p[0]}, double{p[1]}, double{p[2]}};
-}
+/// Points of a triangle that are looked at: its corners, the middles of its edges, its middle.
+const Vec3 kSamples[] = {
+    {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {1. / 3, 1. / 3, 1. / 3}};
 
-/// The nearest point of a triangle, by the regions of its corners and edges (Ericson, Real-Time Collision
-/// Detection, 5.1.5).
-double squaredDistance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return ap.squaredNorm();
-  const Vec3 bp = p - b;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return bp.squaredNorm();
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return (ap - d1 / (d1 - d3) * ab).squaredNorm();
-  const Vec3 cp = p - c;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return cp.squaredNorm();
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ap - d2 / (d2 - d6) * ac).squaredNorm();
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-    return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).squaredNorm();
-  const double sum = va + vb + vc;
-  if (!(sum > 0)) return ap.squaredNorm();
-  return (ap - vb / sum * ab - vc / sum * ac).squaredNorm();
-}
-
-/// The triangles of a surface, halved again and again by the middles of their boxes, to find the nearest.
-class NearestTriangle {
-public:
-  NearestTriangle(const Mesh& mesh, std::span<const std::uint32_t> indices) {
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-      triangles_.push_back({at(mesh, indices[i]), at(mesh, indices[i + 1]), at(mesh, indices[i + 2])});
-    if (!triangles_.empty()) build(0, triangles_.size());
-  }
-
-  /// How far it is from the point [m], or anything up to `enough` if it is no farther than that.
-  double distance(const Vec3& p, double enough) const {
-    double best = std::numeric_limits<double>::infinity();
-    std::array<std::uint32_t, 2 * kDeepest> open;
-    std::size_t waiting = 0;
-    open[waiting++] = 0;
-    while (waiting > 0 && best > enough * enough) {
-      const Part& part = parts_[open[--waiting]];
-      if (part.box.squaredExteriorDistance(p) >= best) continue;
-      if (part.left == 0) {
-        for (std::uint32_t i = part.first; i < part.first + part.count; ++i)
-          best = std::min(best, squaredDistance(p, triangles_[i][0], triangles_[i][1], triangles_[i][2]));
-        continue;
-      }
-      const bool leftFirst = parts_[part.left].box.squaredExteriorDistance(p) <
-                             parts_[part.right].box.squaredExteriorDistance(p);
-      open[waiting++] = leftFirst ? part.right : part.left;
-      open[waiting++] = leftFirst ? part.left : part.right;
-    }
-    return std::sqrt(best);
-  }
-
-private:
-  using Triangle = std::array<Vec3, 3>;
-  struct Part {
-    Eigen::AlignedBox3d box;
-    std::uint32_t first = 0, count = 0, left = 0, right = 0;
-  };
-  static constexpr std::size_t kMostInPart = 8;
-  static constexpr std::size_t kDeepest = 40;  ///< halvings of as many triangles as memory holds
-
-  std::uint32_t build(std::size_t first, std::size_t count) {
-    const auto self = static_cast<std::uint32_t>(parts_.size());
-    Part part;
-    part.first = static_cast<std::uint32_t>(first), part.count = static_cast<std::uint32_t>(count);
-    for (std::size_t i = first; i < first + count; ++i)
-      for (const Vec3& corner : triangles_[i]) part.box.extend(corner);
-    parts_.push_back(part);
-    if (count <= kMostInPart) return self;
-    Eigen::Index axis = 0;
-    part.box.sizes().maxCoeff(&axis);
-    const auto begin = triangles_.begin() + static_cast<std::ptrdiff_t>(first);
-    const std::size_t half = count / 2;
-    const auto middle = [axis](const Triangle& t) { return t[0][axis] + t[1][axis] + t[2][axis]; };
-    std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(half),
-                     begin + static_cast<std::ptrdiff_t>(count),
-                     [&](const Triangle& x, const Triangle& y) { return middle(x) < middle(y); });
-    const std::uint32_t left = build(first, half), right = build(first + half, count - half);
-    parts_[self].left = left, parts_[self].right = right;
-    return self;
-  }
-
-  std::vector<Triangle> triangles_;
-  std::vector<Part> parts_;
-};
-
-/// From the corners and the middle of each triangle, and the middles of its edges.
 double farthestFrom(const Mesh& mesh, std::span<const std::uint32_t> from, const NearestTriangle& to) {
   double farthest = 0;
   for (std::size_t i = 0; i + 2 < from.size(); i += 3) {
-    const Vec3 a = at(mesh, from[i]), b = at(mesh, from[i + 1]), c = at(mesh, from[i + 2]);
-    const Vec3 samples[] = {a, b, c, (a + b) / 2, (b + c) / 2, (c + a) / 2, (a + b + c) / 3};
-    for (const Vec3& p : samples) farthest = std::max(farthest, to.distance(p, farthest));
+    const Vec3 a = placeOf(mesh, from[i]), b = placeOf(mesh, from[i + 1]), c = placeOf(mesh, from[i + 2]);
+    for (const Vec3& w : kSamples)
+      farthest = std::max(farthest, to.nearest(w[0] * a + w[1] * b + w[2] * c, farthest).distance);
   }
   return farthest;
+}
+
+/// What is painted on a surface: colour, and the place in the picture.
+struct Paint {
+  Eigen::Vector4d colour = Eigen::Vector4d::Constant(255);
+  Eigen::Vector2d uv = Eigen::Vector2d::Zero();
+};
+
+Paint paintAt(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, const Vec3& weights) {
+  Paint paint;
+  if (!mesh.colours.empty()) paint.colour.setZero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double w = weights[static_cast<Eigen::Index>(k)];
+    if (!mesh.colours.empty()) {
+      const auto& c = mesh.colours[corners[k]];
+      paint.colour += w * Eigen::Vector4d(c[0], c[1], c[2], c[3]);
+    }
+    if (!mesh.uvs.empty()) {
+      const auto& uv = mesh.uvs[corners[k]];
+      paint.uv += w * Eigen::Vector2d(double{uv[0]}, double{uv[1]});
+    }
+  }
+  return paint;
+}
+
+/// Whether the simplified surface shows the same colours and the same part of the picture at the same places.
+bool paintedAlike(const Mesh& mesh, std::span<const std::uint32_t> full, const NearestTriangle& simplified) {
+  if (mesh.colours.empty() && mesh.uvs.empty()) return true;
+  for (std::size_t i = 0; i + 2 < full.size(); i += 3) {
+    const std::array<std::uint32_t, 3> corners{full[i], full[i + 1], full[i + 2]};
+    for (const Vec3& w : kSamples) {
+      const Vec3 p = w[0] * placeOf(mesh, corners[0]) + w[1] * placeOf(mesh, corners[1]) +
+                     w[2] * placeOf(mesh, corners[2]);
+      const auto there = simplified.nearest(p, 0);
+      const Paint wanted = paintAt(mesh, corners, w), found = paintAt(mesh, there.corners, there.weights);
+      if ((wanted.colour - found.colour).cwiseAbs().maxCoeff() > kColours) return false;
+      if ((wanted.uv - found.uv).cwiseAbs().maxCoeff() > kPicture) return false;
+    }
+  }
+  return true;
 }
 
 /// Triangles of one material that hang together, by the places of their corners.
@@ -220,7 +173,8 @@ public:
                                   static_cast<float>(target / double{scale_}), 0, nullptr));
     for (std::uint32_t& v : fewer) v = vertices_[v];
     for (std::size_t i = 0; welded_ && i + 2 < fewer.size(); i += 3) {
-      const Vec3 a = at(mesh_, fewer[i]), b = at(mesh_, fewer[i + 1]), c = at(mesh_, fewer[i + 2]);
+      const Vec3 a = placeOf(mesh_, fewer[i]), b = placeOf(mesh_, fewer[i + 1]),
+                 c = placeOf(mesh_, fewer[i + 2]);
       const Vec3 normal = (b - a).cross(c - a).stableNormalized();
       for (std::size_t k = i; k < i + 3; ++k) fewer[k] = vertexFor(mesh_, atPlace_, fewer[k], normal);
     }
@@ -245,7 +199,7 @@ std::vector<std::uint32_t> simplified(const Mesh& mesh, const Piece& piece, cons
     if (fewer.empty()) continue;
     if (fewer.size() == piece.indices.size()) break;
     const double off = surfaceDistance(mesh, piece.indices, fewer);
-    if (off > error) continue;
+    if (off > error || !paintedAlike(mesh, piece.indices, NearestTriangle(mesh, fewer))) continue;
     found = std::max(found, off);
     return fewer;
   }

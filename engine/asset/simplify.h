@@ -6,7 +6,7 @@
 /// meshoptimizer's choice (edges collapse in the order of their quadric error, which is a mean). How great
 /// the error is, is measured: from every vertex of the piece, and from points on its triangles, to what is
 /// left of it, and back again; the greatest of these distances counts. A piece that cannot be simplified
-/// within a level's error stays as it is.
+/// within a level's error stays as it is, and one whose colours or picture would change where it is seen.
 ///
 /// Threads  pure; the loader's, while the show runs.
 

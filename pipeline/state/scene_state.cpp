@@ -89,9 +89,11 @@ void SceneState::catchUp(std::size_t slot, std::size_t& copied) {
 
 namespace {
 
-/// Whether the two stand at the same place and are of the same form.
+/// Whether the two stand at the same place, are of the same form, and are both seen or both not.
 bool standAlike(const InstanceRecord& a, const InstanceRecord& b) {
-  return a.mesh == b.mesh && a.radius == b.radius && std::equal(a.model, a.model + 12, b.model);
+  constexpr std::uint32_t kSeen = InstanceRecord::kShown | InstanceRecord::kTransparent;
+  return (a.flags & kSeen) == (b.flags & kSeen) && a.mesh == b.mesh && a.radius == b.radius &&
+         std::equal(a.model, a.model + 12, b.model);
 }
 
 }  // namespace
@@ -103,12 +105,8 @@ bool SceneState::movesBy(const ChangeSet::Instance& change, const InstanceRecord
   Known& known = known_[change.id];
   const bool there = change.record.radius >= 0;
   const Known before = known;
-  // Shown, hidden, or told in less detail: it still stands where it stood.
-  if (before == Known::Still && there && standAlike(change.record, old)) {
-    constexpr std::uint32_t kSeen = InstanceRecord::kShown | InstanceRecord::kTransparent;
-    if ((change.record.flags & kSeen) != (old.flags & kSeen)) ++stillVersion_;
-    return false;
-  }
+  // What is only to be drawn in less detail still stands where it stood.
+  if (before == Known::Still && there && standAlike(change.record, old)) return false;
   known = !there ? Known::Absent : known == Known::Absent ? Known::Still : Known::Moves;
   if (before == Known::Still || known == Known::Still) ++stillVersion_;
   return known == Known::Moves;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kToldApart = 10;              ///< [s], of one node's overruns
 constexpr std::uint64_t kFramesUnderWay = 64;  ///< those that nobody has shown by then never will be
-constexpr double kLevelSaves = 0.9;  ///< what one level of one node is expected to leave of the frame
+constexpr double kLevelSaves = 0.5;  ///< what one level is expected to leave of the frame: one at a time
 
 ReliefPolicy policyOf(const NodeTerms& terms, double rate) {
   return {{terms.budget > 0 ? terms.budget : HUGE_VAL, static_cast<std::uint64_t>(std::ceil(rate))},

@@ -39,14 +39,15 @@ function ms(v) {
   if (size < 0.00005) return "<0.0001";
   return size >= 100 ? v.toFixed(0) : size >= 10 ? v.toFixed(1) : size >= 1 ? v.toFixed(2) : size >= 0.1 ? v.toFixed(3) : v.toFixed(4);
 }
-const msText = v => v === 0 ? "0 ms" : Math.abs(v) < 0.1 ? (1000 * v).toPrecision(3) + " \u00b5s" : ms(v) + " ms";
+const three = v => String(Number(v.toPrecision(3)));
+const msText = v => v === 0 ? "0 ms" : Math.abs(v) < 0.1 ? three(1000 * v) + " \u00b5s" : ms(v) + " ms";
 const percent = v => v === null || v === undefined ? "\u2013" : v >= 0.0995 ? (100 * v).toFixed(0) + " %" : (100 * v).toFixed(1) + " %";
 function metres(v) {
   if (v === null || v === undefined) return "\u2013";
   if (v === 0) return "0";
   const size = Math.abs(v);
-  return size < 1e-9 ? "<1 nm" : size < 1e-6 ? (1e9 * v).toPrecision(2) + " nm" : size < 1e-3 ? (1e6 * v).toPrecision(3) + " \u00b5m"
-    : size < 1 ? (1e3 * v).toPrecision(3) + " mm" : v.toPrecision(3) + " m";
+  return size < 1e-9 ? "<1 nm" : size < 1e-6 ? three(1e9 * v) + " nm" : size < 1e-3 ? three(1e6 * v) + " \u00b5m"
+    : size < 1 ? three(1e3 * v) + " mm" : three(v) + " m";
 }
 const shortPlace = place => place ? place.replace(/^.*\//, "") : "";
 const nodeText = n => n.path + (n.place ? "  " + n.place : "") + (n.unloaded ? " (unloaded)" : "");

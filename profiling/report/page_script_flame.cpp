@@ -74,7 +74,7 @@ function drawFlame() {
     rect.append(svg("title", {}, told.join("\n")));
     s.append(reads(rect, "flame-readout", told));
     const text = fitted(w > 190 ? `${b.label}  ${msText(b.total)}` : b.label, w - 10);
-    if (text) s.append(svg("text", {class: faded || !(isNode || b === tree) ? "" : "on", x: at + 5, y: y + 15, style: "pointer-events:none"}, text));
+    if (text) s.append(svg("text", {class: !faded && (b === tree || isNode && shade(b.label) > 0.78) ? "on" : "", x: at + 5, y: y + 15, style: "pointer-events:none"}, text));
   };
   above.forEach((b, i) => draw(b, 0, W, i * row, true));
   const lay = (b, at, w, y) => {

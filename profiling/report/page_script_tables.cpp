@@ -81,7 +81,7 @@ function drawLate() {
   const rows = [...data.late].sort((a, b) => b.period - a.period), shown = chosen.get("lates") ? rows : rows.slice(0, 12);
   put("late-table", table(null, [
     {name: "frame", cell: f => [el("a", {href: "#timeline", onclick: e => { e.preventDefault(); showFrame(f.frame); byId("timeline").scrollIntoView(); }}, String(f.frame))]},
-    {name: "after", n: true, cell: f => msText(f.period)}, {name: "cause", cell: f => f.cause}, {name: "stage", cell: f => NAMES[f.stage] ? NAMES[f.stage] + (f.wall ? " of wall " + f.wall : "") : f.stage},
+    {name: "after", n: true, cell: f => msText(f.period)}, {name: "cause", kind: "row", cell: f => f.cause}, {name: "stage", kind: "row", cell: f => NAMES[f.stage] ? NAMES[f.stage] + (f.wall ? " of wall " + f.wall : "") : f.stage},
     {name: "dearest node in App", cell: f => f.node >= 0 ? `${data.nodes[f.node].path}, ${msText(f.nodeMs)}` : "\u2013", title: f => f.node >= 0 ? data.nodes[f.node].place : null}, {name: "in words", kind: "words", cell: f => f.text}], shown),
     rows.length > 12 ? el("nav", {}, choice(chosen.get("lates") ? "fewer" : `all ${rows.length}`, false, {lates: chosen.get("lates") ? null : 1})) : "");
 }
@@ -91,14 +91,14 @@ function drawDynamics() {
   if (!d || d.bodies.length === 0) return byId("dynamics").remove();
   byId("dynamics-say").textContent = "Bodies that dynamics nodes move. Share is the body's part of its dynamics node's time, by the arcs it begins. Cost is what the node takes with the body more than without it; error is how far the body ever is from where its finest model puts it. " +
     `Cheaper models that stay within ${metres(d.tolerance)} are named. ` + d.note;
-  const worst = Math.max(...d.bodies.map(b => b.error || 0), 1e-12), dearest = Math.max(...d.bodies.map(b => b.share), 1e-12);
+  const worst = Math.max(...d.bodies.map(b => b.error || 0), d.tolerance), dearest = Math.max(...d.bodies.map(b => b.share), 1e-12);
   put("dynamics-table", table(null, [
     {name: "body", cell: b => b.name || "a body", title: b => b.place}, {name: "script", kind: "place", cell: b => shortPlace(b.place)}, {name: "collides as", cell: b => b.shape},
-    {name: "share, ms a frame", n: true, cell: b => ms(b.share), style: b => heat(b.share, dearest, "app")},
-    {name: "cost, ms a frame", n: true, cell: b => b.error === null ? "\u2013" : b.cost === null ? "below noise" : ms(b.cost)},
+    {name: "share a frame", n: true, cell: b => msText(b.share), style: b => heat(b.share, dearest, "app")},
+    {name: "cost a frame", n: true, cell: b => b.error === null ? "\u2013" : b.cost === null ? "below noise" : msText(b.cost)},
     {name: "error", n: true, cell: b => metres(b.error), style: b => b.error ? heat(b.error, worst, "draw") : null, title: b => b.beyond !== null ? `beyond ${metres(d.tolerance)} from ${plain(b.beyond)} s on` : null},
     {name: "at the end", n: true, cell: b => metres(b.endError)},
-    {name: "what would do", cell: b => b.advice ? [b.advice, b.adviceCost !== null ? ` (${ms(b.adviceCost)} ms, ${metres(b.adviceError)})` : ` (${metres(b.adviceError)})`] : b.error === null ? "\u2013" : "as it is"},
+    {name: "what would do", cell: b => b.advice ? [b.advice, b.adviceCost !== null ? ` (${msText(b.adviceCost)}, ${metres(b.adviceError)})` : ` (${metres(b.adviceError)})`] : b.error === null ? "\u2013" : "as it is"},
     {name: "", cell: b => b.caution ? [el("span", {class: "quiet"}, "caution: " + b.caution)] : ""}], d.bodies));
 }
 

@@ -20,10 +20,10 @@ const stageOfThread = name => name.startsWith("Cull") ? "cull" : name.startsWith
 /// The stretch and the frame that are chosen, and which frames are seen.
 function timelineView() {
   const stretch = data.stretches.find(s => s.key === chosen.get("stretch", "worst")) || data.stretches[0];
-  if (!stretch) return null;
+  if (!stretch || stretch.frames.length === 0) return null;
   const number = Number(chosen.get("frame", stretch.about));
   let at = stretch.frames.findIndex(f => f.frame === number);
-  if (at < 0) at = stretch.frames.findIndex(f => f.frame === stretch.about);
+  if (at < 0) at = Math.max(0, stretch.frames.findIndex(f => f.frame === stretch.about));
   const view = chosen.get("view", "some");
   const first = view === "all" ? 0 : view === "one" ? at : Math.max(0, at - kAround);
   const last = view === "all" ? stretch.frames.length - 1 : view === "one" ? at : Math.min(stretch.frames.length - 1, at + kAround);
@@ -89,7 +89,7 @@ function drawTimeline() {
       if (w < 0.25 || x(endOf(span)) < left) continue;
       const rect = svg("rect", {class: "click", x: at, y, width: Math.max(w - (w > 3 ? 0.6 : 0), 0.4), height: h, rx: w > 4 ? 2 : 0,
         fill: m.stage === "wait" ? "url(#waits)" : colour[m.stage], opacity: beside ? 0.16 : m.stage === "wait" ? 1 : isStage ? (parity ? 1 : 0.78) : m.node >= 0 ? 0.62 : 0.42,
-        stroke: isStage && f.late && !beside ? "var(--bad)" : null, "stroke-width": isStage && f.late ? 1.6 : null, onclick: () => chosen.set({stretch: v.stretch.key, frame: f.frame, view: v.view === "one" && !beside ? "some" : "one"})});
+        stroke: isStage && f.late && !beside && w > 6 ? "var(--bad)" : null, "stroke-width": isStage && f.late ? 1.6 : null, onclick: () => chosen.set({stretch: v.stretch.key, frame: f.frame, view: v.view === "one" && !beside ? "some" : "one"})});
       const node = m.node >= 0 ? data.nodes[m.node] : null;
       rect.append(svg("title", {}, `${m.label}${node ? ", " + m.phase : ""}: ${msText(span[7])}, frame ${f.frame}${node && node.place ? "\n" + node.place : ""}${f.verdict ? "\n" + f.verdict : ""}`));
       g.append(reads(rect, "timeline-readout", [m.label + (node ? ", " + m.phase : ""), msText(span[7]), `frame ${f.frame}`, data.threads[span[0]], node && node.place ? shortPlace(node.place) : "",

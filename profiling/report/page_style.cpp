@@ -50,6 +50,7 @@ th,td{padding:.24rem .6rem;border-bottom:1px solid var(--line);text-align:left;v
 th{color:var(--quiet);font-weight:600;white-space:nowrap}
 tbody th{color:var(--ink);font-weight:500;white-space:normal;overflow-wrap:anywhere;min-width:9rem}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+td.row{white-space:nowrap}
 td.words{min-width:21rem}
 td.place{color:var(--quiet);white-space:nowrap}
 th button{border:0;background:none;padding:0;color:inherit;font-weight:600}
@@ -62,7 +63,7 @@ a{color:inherit}
 .click{cursor:pointer}
 @media print{body{background:#fff;font-size:11px}main{max-width:none;padding:0}nav,.readout,input{display:none}
 section{border:0;padding:0;margin:0 0 1.2rem}section,figure,tr{break-inside:avoid}section.long{break-inside:auto}
-.wide{overflow:visible}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
+.wide{overflow:visible}table{font-size:9.5px}th,td{padding:.15rem .3rem}tbody th{min-width:0}td.words{min-width:0}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 )css";
 
 const char* const kBody = R"html(<main>

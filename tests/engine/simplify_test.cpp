@@ -132,6 +132,17 @@ TEST(Simplify, WhatCannotBeSimplifiedWithinTheErrorStaysAsItIs) {
     EXPECT_EQ(std::ranges::count_if(level.indices, [&](std::uint32_t v) { return v >= first; }), 36);
 }
 
+TEST(Simplify, WhatIsPaintedOnASurfaceStaysThere) {
+  Mesh plain = ball(48), speckled = ball(48);
+  for (std::size_t v = 0; v < speckled.positions.size(); ++v) {
+    plain.colours.push_back({90, 90, 90, 255});
+    speckled.colours.push_back({static_cast<std::uint8_t>(v % 2 == 0 ? 255 : 90), 90, 90, 255});
+  }
+  addLevels(plain, 4), addLevels(speckled, 4);
+  EXPECT_GE(plain.levels.size(), 3U);
+  EXPECT_TRUE(speckled.levels.empty());
+}
+
 TEST(Simplify, WhatHasFewTrianglesStaysAsItIs) {
   Mesh m = ball(2);
   addLevels(m, 4);

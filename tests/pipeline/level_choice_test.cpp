@@ -96,8 +96,8 @@ TEST(LevelChoice, WhoStandsInsideAThingSeesAllOfIt) {
 
 TEST(LevelChoice, ADeepBoxCountsFromItsNearestPoint) {
   const Room room(30);
-  EXPECT_EQ(room.levelOf(room.at(Vec3(0, 45, 1.7))), 0U);   // 15 m away, seen up to the corners
-  EXPECT_EQ(room.levelOf(room.at(Vec3(0, 100, 1.7))), 1U);  // 70 m
+  EXPECT_EQ(room.levelOf(room.at(Vec3(0, 45, 1.7))), 0U);  // 15 m away, seen up to 42 degrees aside
+  EXPECT_EQ(room.levelOf(room.at(Vec3(0, 60, 1.7))), 1U);  // 30 m
 }
 
 TEST(LevelChoice, WithoutLevelsOrWallsTheFullSurfaceIsDrawn) {

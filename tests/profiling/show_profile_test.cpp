@@ -58,6 +58,36 @@ TEST(ThreadsFrameLog, SpansOfManyThreadsArriveWholeAndNested) {
   }
 }
 
+TEST(ThreadsFrameLog, HoweverMuchHasComeTogetherThreadsAreToldSideBySide) {
+  struct Kept final : SpanReader {
+    std::vector<SpanRecord> all;
+    using SpanReader::take;
+    void take(std::size_t, const SpanRecord& r) override { all.push_back(r); }
+  } kept;
+  constexpr std::uint64_t kFrames = 5000;
+  {
+    FrameLog log({&kept}, {.samples = false, .from = 0});
+    std::atomic<std::uint64_t> published = 0;
+    std::thread wall([&] {
+      for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
+        while (published <= frame) std::this_thread::yield();
+        const SpanScope stage(&log, Span::Cull, frame, 0);
+      }
+    });
+    for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
+      { const SpanScope stage(&log, Span::App, frame, kNoWall); }
+      ++published;
+    }
+    wall.join();
+  }
+  std::uint64_t app = 0;
+  for (const SpanRecord& r : kept.all)
+    if (r.what == Span::App)
+      app = r.frame;
+    else
+      EXPECT_GE(app + 1, r.frame) << "App of a frame is over before its Cull is";
+}
+
 TEST(FrameLog, WhatAStageDoesBesideItsPartsIsItsOwn) {
   ShowProfile profile;
   FrameLog log({&profile}, {.samples = false, .from = 0});

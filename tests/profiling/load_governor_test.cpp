@@ -1,0 +1,156 @@
+/// Who is told of, and who gives up what, when spans say that nodes and frames take too long. The spans are
+/// made up: no clock is asked.
+
+#include "profiling/load/load_governor.h"
+
+#include "engine/nodes/lod_node.h"
+#include "tests/engine/show_fixture.h"
+
+#include <gtest/gtest.h>
+
+namespace stadion {
+namespace {
+
+using enum Concession;
+
+/// A show of some listening nodes with terms, whose costs a test makes up.
+struct Governed : ShowFixture {
+  NodeNames names;
+  std::vector<std::string> told;
+  std::unique_ptr<LoadGovernor> governor;
+  std::uint64_t at = 0;
+  std::map<NodeRef, std::uint32_t> levels;  ///< as they have been decided; of nobody: stress
+
+  explicit Governed(std::vector<NodeTerms> terms, bool scalable = false, GovernorOptions options = {}) {
+    loader.files["show"] = [=](Load& load) {
+      load.lines.assign(terms.size() + 1, 1);
+      for (std::size_t i = 0; i < terms.size(); ++i) {
+        addNode<ListeningNode>(load, "node" + std::to_string(i));
+        load.terms[static_cast<std::uint32_t>(i)] = terms[i];
+      }
+      if (scalable)
+        addNode<LodNode>(load, "tree", PlaceAttributes{}, std::vector<NodeRef>{}, std::vector<double>{5});
+    };
+    EXPECT_TRUE(scene.open("show"));
+    options.walls = {"front", "left"};
+    options.tell = [this](const std::string& line) { told.push_back(line); };
+    governor = std::make_unique<LoadGovernor>(options, names);
+    names.see(scene);
+    governor->see(scene);
+  }
+
+  static SpanRecord span(Span what, std::uint64_t frame, double ms, std::uint32_t wall = kNoWall,
+                         NodeRef node = {}) {
+    SpanRecord r;
+    r.what = what, r.frame = frame, r.wall = wall, r.node = node, r.took = ms;
+    return r;
+  }
+  /// One frame: what nodes take in App (if they are not at rest), and what the walls' Draw takes.
+  void frame(std::vector<double> nodes, std::vector<double> draws = {1, 1}) {
+    for (const LoadDecision& d : governor->decide(at)) levels[{d.load, d.position}] = d.level;
+    double app = 0.1;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const NodeRef ref{1, static_cast<std::uint32_t>(i)};
+      const Load* load = scene.load(1);
+      if (reliefAt(load->terms.at(ref.position).gives, levels[ref]).rests) continue;
+      governor->take(0, span(Span::Simulate, at, nodes[i], kNoWall, ref));
+      app += nodes[i];
+    }
+    governor->take(0, span(Span::App, at, app));
+    for (std::size_t w = 0; w < draws.size(); ++w)
+      governor->take(1 + w, span(Span::Draw, at, draws[w], static_cast<std::uint32_t>(w)));
+    governor->take(1, span(Span::Swap, at, 0.1));
+    governor->caughtUp();
+    ++at;
+  }
+  void frames(std::uint64_t count, std::vector<double> nodes, std::vector<double> draws = {1, 1}) {
+    for (; count > 0; --count) frame(nodes, draws);
+  }
+  std::uint32_t level(std::uint32_t node) { return levels[{1, node}]; }
+  std::uint32_t stress() { return levels[NodeRef{}]; }
+};
+
+TEST(LoadGovernor, AStallIsToldByNameWithinTwoFramesAndAnswered) {
+  Governed g({{0.8, {Half, Rest}, 1}});
+  g.frames(100, {0.2});
+  g.frames(2, {50});
+  ASSERT_FALSE(g.told.empty());
+  EXPECT_EQ(g.told[0], "over budget: \"node0\" show:1 took 50.0 ms of 0.8 in frame 100, most of it App");
+  EXPECT_EQ(g.governor->overrunOf(101)->ms, 50);
+  g.frames(4, {50});
+  EXPECT_EQ(g.level(0), 3U);
+}
+
+TEST(LoadGovernor, OverrunsAreToldOnceInTenSecondsAndCounted) {
+  Governed g({{1, {}, 1}});
+  g.frames(600, {1.4});
+  EXPECT_EQ(g.told.size(), 1U);
+  g.frames(60, {1.4});
+  ASSERT_EQ(g.told.size(), 2U);
+  EXPECT_NE(g.told[1].find("600 frames since"), std::string::npos) << g.told[1];
+  EXPECT_GE(g.governor->reports().at(0).overruns, 650U);
+}
+
+TEST(LoadGovernor, WhoDoesNotActOnlyTells) {
+  GovernorOptions options;
+  options.acts = false;
+  Governed g({{0.8, {Half, Rest}, 1}}, true, options);
+  g.frames(300, {50}, {40, 40});
+  EXPECT_FALSE(g.told.empty());
+  EXPECT_EQ(g.level(0), 0U);
+  EXPECT_EQ(g.stress(), 0U);
+}
+
+TEST(LoadGovernor, TheSlowestWallPutsTheWholeShowUnderStress) {
+  Governed g({}, true);
+  g.frames(60, {}, {5, 5});
+  EXPECT_EQ(g.stress(), 0U);
+  g.frames(60, {}, {5, 20});
+  EXPECT_EQ(g.stress(), 8U);  // four times, the most
+  g.frames(300, {}, {5, 5});
+  EXPECT_EQ(g.stress(), 0U);
+}
+
+TEST(LoadGovernor, WithoutLevelsThereIsNoStress) {
+  Governed g({});
+  g.frames(200, {}, {30, 30});
+  EXPECT_EQ(g.stress(), 0U);
+}
+
+TEST(LoadGovernor, WhenTheFrameIsOverTheLowestPriorityGivesUpFirst) {
+  Governed g({{0, {Half, Rest}, 5}, {0, {Half, Rest}, 2}});
+  g.frames(100, {4, 4});
+  EXPECT_EQ(g.level(0), 0U);
+  g.frames(30, {12, 12});
+  EXPECT_EQ(g.level(1), 3U);  // then 12 ms are left, which fit
+  EXPECT_EQ(g.level(0), 0U);
+}
+
+TEST(LoadGovernor, StressComesBeforeConcessionsForTheFramesSake) {
+  Governed g({{0, {Half, Rest}, 1}}, true);
+  g.frames(3, {1}, {25, 25});
+  EXPECT_GT(g.stress(), 0U);
+  EXPECT_EQ(g.level(0), 0U);
+}
+
+TEST(LoadGovernor, NoMoreThanFourDecisionsTakeEffectInAFrame) {
+  Governed g(std::vector<NodeTerms>(6, {0.5, {Rest}, 1}));
+  g.frames(60, std::vector<double>(6, 0.1));
+  const std::vector<double> stall(6, 20);
+  std::size_t most = 0;
+  for (int i = 0; i < 12; ++i) {
+    const auto before = g.levels;
+    g.frame(stall);
+    std::size_t changed = 0;
+    for (const auto& [node, level] : g.levels) {
+      const auto was = before.find(node);
+      changed += level != (was == before.end() ? 0 : was->second);
+    }
+    most = std::max(most, changed);
+  }
+  EXPECT_EQ(most, 4U);
+  for (std::uint32_t i = 0; i < 6; ++i) EXPECT_EQ(g.level(i), 1U) << i;
+}
+
+}  // namespace
+}  // namespace stadion
