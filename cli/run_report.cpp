@@ -45,7 +45,8 @@ RunSummary summarise(const FinishedRun& run) {
   s.groups = run.groups, s.uptimeSeconds = run.uptime;
   run.watch.addTo(s, run.outcome.framesSimulated);
   addTimes(run, s);
-  s.remarks.push_back("drawn by " + run.stages.glDescription());
+  const std::string drawn = run.stages.glDescription();
+  s.remarks.push_back(drawn.empty() ? "nothing was drawn" : "drawn by " + drawn);
   if (run.outcome.stopped) s.stopped = stopSignalName();
   return s;
 }

@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kPi = 3.14159265358979324, kDegree = kPi / 180;
 
+/// A flat plate across the wind has less than half as much, per area.
+constexpr double kMostAir = 4;
+
 using Rows = std::vector<FlightTableRow>;
 
 /// The row at angle a on the other side of `about`: lift and perhaps the moment change sign.
@@ -123,13 +126,24 @@ Diagnostic wrongSetting(const NumberColumns& t, const NumberColumns::Setting& s,
   return {Severity::Error, {t.file, s.line, s.at}, rule + ", not \"" + s.value.substr(0, 40) + "\"", {}};
 }
 
-std::optional<Diagnostic> readSettings(const NumberColumns& table, Settings& settings) {
-  for (const auto& [name, number] : {std::pair{"area", &settings.area}, {"length", &settings.length}}) {
+/// What no body of this length has; the coefficients may also be areas themselves, per 1 m2.
+std::optional<Diagnostic> readSettings(const NumberColumns& table, double bodyLength, Settings& settings) {
+  struct Size {
+    const char *name, *unit;
+    double *number, most;
+  };
+  for (const auto& [name, unit, number, most] :
+       {Size{"area", "m2", &settings.area, kMostAir * bodyLength * bodyLength},
+        Size{"length", "m", &settings.length, kMostAir * bodyLength}}) {
     const auto found = table.settings.find(name);
     if (found == table.settings.end()) continue;
     const std::optional<double> x = numberIn(found->second.value);
     if (!x || !(*x > 0))
       return wrongSetting(table, found->second, std::string(name) + " must be a positive number");
+    if (*x > std::max(1.0, most))
+      return wrongSetting(table, found->second,
+                          fmt::format("{} must be at most {:.3g} {} for a body of {:.3g} m", name,
+                                      std::max(1.0, most), unit, bodyLength));
     *number = *x;
   }
   const auto found = table.settings.find("axis");
@@ -137,6 +151,40 @@ std::optional<Diagnostic> readSettings(const NumberColumns& table, Settings& set
   if (found->second.value != "x" && found->second.value != "z")
     return wrongSetting(table, found->second, "axis is x (long bodies) or z (flat ones)");
   settings.axis = found->second.value == "x" ? 0 : 2;
+  return std::nullopt;
+}
+
+/// More than a body of this length has of air, or what would drive it on: the first such cell.
+std::optional<Diagnostic> wrongAir(const NumberColumns& t, const Settings& s, double bodyLength) {
+  struct Column {
+    const char *name, *unit;
+    double least, times, most;  ///< as areas, volumes, ...
+  };
+  const double l = bodyLength, area = s.area;
+  const Column columns[] = {{"CD", "m2", 0, area, kMostAir * l * l},
+                            {"CL", "m2", -1, area, kMostAir * l * l},
+                            {"CA", "m2", -1, area, kMostAir * l * l},
+                            {"CN", "m2", -1, area, kMostAir * l * l},
+                            {"CM", "m3", -1, area * s.length, kMostAir * l * l * l},
+                            {"CQ", "m4", 0, area * s.length * s.length, kMostAir * l * l * l * l}};
+  for (std::size_t row = 0; row < t.rows.size(); ++row)
+    for (const Column& c : columns) {
+      const auto at = t.column(c.name);
+      if (!at) continue;
+      const double x = t.rows[row][*at];
+      const SourcePosition where{t.file, t.lines[row], t.places[row][*at]};
+      if (c.least == 0 && x < 0)
+        return Diagnostic{Severity::Error,
+                          where,
+                          fmt::format("{} must be 0 or more, not {:.6g}: it slows the body", c.name, x),
+                          {}};
+      if (std::abs(x) * c.times > c.most)
+        return Diagnostic{Severity::Error,
+                          where,
+                          fmt::format("{} of {:.6g} makes {:.3g} {}; a body of {:.3g} m has at most {:.3g}",
+                                      c.name, x, x * c.times, c.unit, bodyLength, c.most),
+                          {}};
+    }
   return std::nullopt;
 }
 
@@ -180,25 +228,31 @@ TableFlight tableFrom(const Rows& rows, double area, double length, int axis) {
   return table;
 }
 
-Result<TableFlight> readFlightTable(std::string_view text, const std::string& file, int otherwise) {
+Result<TableFlight> readFlightTable(std::string_view text, const std::string& file, int otherwise,
+                                    double bodyLength) {
   const auto read = readNumberColumns(text, file);
   if (!read) return read.error();
   const NumberColumns& t = read.value();
   Settings settings;
   settings.axis = otherwise;
-  if (const auto wrong = readSettings(t, settings)) return *wrong;
+  if (const auto wrong = readSettings(t, bodyLength, settings)) return *wrong;
   const auto alpha = t.column("alpha_deg"), moment = t.column("CM"), damping = t.column("CQ");
   const bool axial = t.column("CA") && t.column("CN");
   const auto first = t.column(axial ? "CA" : "CD"), second = t.column(axial ? "CN" : "CL");
   if (!alpha || !first || !second || !moment)
     return wrongAt(t, 0, "the columns must be alpha_deg, CD, CL (or CA, CN), CM and perhaps CQ");
+  if (const auto wrong = wrongAir(t, settings, bodyLength)) return *wrong;
   Rows rows;
-  for (const std::vector<double>& r : t.rows) {
+  for (std::size_t i = 0; i < t.rows.size(); ++i) {
+    const std::vector<double>& r = t.rows[i];
     FlightTableRow row{r[*alpha] * kDegree, r[*first], r[*second], r[*moment], damping ? r[*damping] : 0};
     if (axial) {
       const auto [s, c] = det::sincos(row.alpha);
       const double a = row.drag, n = row.lift;
       row.drag = a * c + n * s, row.lift = n * c - a * s;
+      if (row.drag < -1e-3 * (std::abs(a) + std::abs(n)))
+        return wrongAt(t, i,
+                       fmt::format("CA and CN make a drag of {:.3g}, which drives the body on", row.drag));
     }
     rows.push_back(row);
   }

@@ -20,8 +20,14 @@
 
 namespace stadion {
 
-/// `axis` is what a table means that does not say: 0 = x, 2 = z. Errors have file, line and column.
-Result<TableFlight> readFlightTable(std::string_view text, const std::string& file, int axis);
+/// No body is longer [m].
+constexpr double kLongestBody = 1000;
+
+/// `axis` is what a table means that does not say: 0 = x, 2 = z. No body of `bodyLength` [m] has coefficients
+/// times area of more than four times that length to the power of their unit. Errors have file, line and
+/// column.
+Result<TableFlight> readFlightTable(std::string_view text, const std::string& file, int axis,
+                                    double bodyLength = kLongestBody);
 
 /// One row of such a table, as numbers per area and length.
 struct FlightTableRow {

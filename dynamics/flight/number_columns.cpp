@@ -103,6 +103,8 @@ std::optional<std::size_t> NumberColumns::column(std::string_view name) const {
 }
 
 Result<NumberColumns> readNumberColumns(std::string_view text, const std::string& file) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // "CSV UTF-8" of spreadsheets
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   Reader reader;
   reader.table.file = file;
   while (!text.empty() && !reader.wrong) {
@@ -113,7 +115,7 @@ Result<NumberColumns> readNumberColumns(std::string_view text, const std::string
   if (reader.wrong) return *reader.wrong;
   if (reader.table.rows.empty()) {
     reader.line = std::max(reader.line, 1U);
-    reader.fail(0, "no rows of numbers");
+    reader.fail(1, "no rows of numbers");
     return *reader.wrong;
   }
   return reader.table;

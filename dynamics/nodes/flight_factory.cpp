@@ -91,13 +91,33 @@ Result<FlightModel> tableModel(const Declaration& d, const FlightShape& shape, c
   if (!found) return wrong(d, Attr::FlightTable, found.error().message);
   const auto text = readPlainFile(found.value().file.get(), found.value().path, kMostBytes);
   if (!text) return wrong(d, Attr::FlightTable, text.error().message);
-  auto table = readFlightTable(text.value(), found.value().path, shape.elongated() ? 0 : 2);
+  auto table = readFlightTable(text.value(), found.value().path, shape.elongated() ? 0 : 2, shape.length);
   if (!table) {  // said where the script names the file, and where in the file
     const Diagnostic& e = table.error();
     return wrong(d, Attr::FlightTable,
                  fmt::format("{}:{}:{}: {}", e.where.file, e.where.line, e.where.column, e.message));
   }
   return FlightModel{std::move(table.value())};
+}
+
+/// A model of rods on what is plainly a disc, and the other way round, flies like neither.
+void warnOfForeignModel(const NodeRequest& r, const FlightModel& model, const FlightShape& s) {
+  constexpr double kPlainly = 2;
+  const bool isLong = s.elongated() && s.length > kPlainly * s.width;
+  const bool isFlat = !s.elongated() && s.width > kPlainly * s.thickness;
+  const auto* table = std::get_if<TableFlight>(&model);
+  const bool forLong = std::holds_alternative<RodFlight>(model) || (table && table->axis == 0);
+  const bool forFlat = std::holds_alternative<PlateFlight>(model) || (table && table->axis == 2);
+  if (!(isLong && forFlat) && !(isFlat && forLong)) return;
+  const Declaration& d = r.declaration;
+  const Attr attr = table ? Attr::FlightTable : Attr::Flight;
+  const std::string what = table ? std::string("axis = ") + (forLong ? "x" : "z") + " in this table"
+                                 : fmt::format("flight={}", d.text(Attr::Flight));
+  r.findings.warning(d.where(attr),
+                     fmt::format("{} is for {} bodies; \"{}\" is {} ({:.3g} x {:.3g} x {:.3g} m)", what,
+                                 forLong ? "long" : "flat", r.name, isLong ? "long" : "flat", s.length,
+                                 s.width, s.thickness),
+                     d.excerpt(attr));
 }
 
 Bias biasOf(const Declaration& d, const FlightShape& shape) {
@@ -144,6 +164,7 @@ Result<std::shared_ptr<const BodyFlight>> flightOf(const NodeRequest& r, const M
   auto model = kind == FlightKind::Table ? tableModel(d, shape, roots) : modelOf(d, kind, shape);
   if (!model) return model.error();
   flight->model = std::move(model.value());
+  if (!r.mesh->standIn) warnOfForeignModel(r, flight->model, shape);
   return std::shared_ptr<const BodyFlight>(std::move(flight));
 }
 

@@ -278,6 +278,8 @@ void Checker::checkFlight(const RawDeclaration& raw, std::uint32_t node) {
     if (d.has(use.attr) && std::ranges::find(use.of, flight) == use.of.end())
       report(use.attr, fmt::format("{} is for flight={}, not for flight={}", nameOf(use.attr), use.words,
                                    d.text(Attr::Flight)));
+  if (d.has(Attr::Depth) && !d.has(Attr::Sticks))
+    report(Attr::Depth, "depth is how far in it sticks; it needs sticks: within which angle it does");
   if (flight == Table && !d.has(Attr::FlightTable))
     report(Attr::Flight, "flight=table needs a flighttable: the file of its coefficients");
   const double rate = d.optionalNumber(Attr::BiasRate).value_or(0);

@@ -44,7 +44,8 @@ double mostOf(OperatorAction figure) {
 
 bool fits(double value, const Address& to) {
   if (!std::isfinite(value)) return false;
-  return to.relative || !isFigure(*to.action) || (value >= 0 && value <= mostOf(*to.action));
+  if (!isFigure(*to.action)) return value == 0 || value == 1;
+  return to.relative || (value >= 0 && value <= mostOf(*to.action));
 }
 
 std::string rangeOf(const Address& to) {

@@ -35,7 +35,7 @@ Mesh spear() {
 }
 
 struct Made {
-  std::string why;  ///< empty if it could be made
+  std::string why;  ///< empty if it could be made and nothing is odd
   Flight flight;
 };
 
@@ -49,7 +49,7 @@ Made made(const std::string& words, const Mesh& mesh = spear(), const AssetRoots
   const NodeRequest request{document[0], {}, "a", {}, {}, &mesh, resolve, model, findings};
   auto flight = flightOf(request, massOfMesh(mesh, 100).value(), roots);
   if (!flight) return {format(flight.error()), nullptr};
-  return {"", flight.value()};
+  return {findings.all().empty() ? "" : format(findings.all().front()), flight.value()};
 }
 
 TEST(FlightFactory, WithoutAWordABodyIsAPoint) {
@@ -120,6 +120,26 @@ TEST(FlightFactory, ATableIsReadAndItsMistakesAreToldWithFileAndLine) {
   EXPECT_NE(bad.find("bad.csv:4:4: \"much\" is not a finite number"), std::string::npos) << bad;
   EXPECT_EQ(made(", flight=table, flighttable=none.csv", spear(), &roots).why.substr(0, 6), "a.evs:");
   EXPECT_EQ(made(", flight=table, flighttable=none.csv").why.substr(0, 6), "a.evs:");
+  std::filesystem::remove_all(folder);
+}
+
+TEST(FlightFactory, AModelForPlainlyAnotherFormIsWarnedOf) {
+  EXPECT_EQ(made(", flight=rod").why, "");
+  EXPECT_TRUE(
+      made(", flight=plate")
+          .why.starts_with("a.evs:1:39: warning: flight=plate is for flat bodies; \"a\" is long (2.2 x "))
+      << made(", flight=plate").why;
+  EXPECT_EQ(made(", flight=plate", ballMesh(0.1, 24, 48)).why, "") << "neither long nor flat";
+  const auto folder = std::filesystem::temp_directory_path() / "stadion_flight_factory_axis";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "z.csv")
+      << "# area = 0.01\n# length = 0.2\n# axis = z\nalpha_deg,CD,CL,CM\n0,0.1,0,0\n"
+         "45,0.5,0.6,0.1\n90,1,0,0\n";
+  AssetRoots roots;
+  ASSERT_TRUE(roots.add(folder));
+  EXPECT_NE(made(", flight=table, flighttable=z.csv", spear(), &roots)
+                .why.find("axis = z in this table is for flat bodies; \"a\" is long"),
+            std::string::npos);
   std::filesystem::remove_all(folder);
 }
 

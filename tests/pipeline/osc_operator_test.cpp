@@ -26,7 +26,10 @@ TEST(OscOperator, AFigureOutOfItsRangeIsNotTakenAndItsRangeIsSaid) {
              "\"/stadion/volume\" with -5 is not taken: it takes a number from 0 to 1"},
         Case{"/stadion/eye-separation", 1e30, "with 1e+30 is not taken: it takes a number from 0 to 1 m"},
         Case{"/stadion/volume/by", kNan, "it takes a number that is added"},
-        Case{"/stadion/pause", kNan, "it takes 0 (off), 1 (on), or nothing"}}) {
+        Case{"/stadion/pause", kNan, "it takes 0 (off), 1 (on), or nothing"},
+        Case{"/stadion/pause", 7, "with 7 is not taken: it takes 0 (off), 1 (on), or nothing"},
+        Case{"/stadion/black", 0.5, "with 0.5 is not taken: it takes 0 (off), 1 (on), or nothing"},
+        Case{"/stadion/step", 2, "it takes nothing, or 1 and 0 as a button sends them"}}) {
     const double numbers[] = {c.figure};
     EXPECT_FALSE(operatorCommandOf(message(c.path, numbers))) << c.path;
     EXPECT_NE(complaintAbout(message(c.path, numbers)).find(c.said), std::string::npos)

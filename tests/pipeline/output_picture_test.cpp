@@ -204,6 +204,18 @@ TEST(Lettering, DrawsALetterAndStopsAtTheEdge) {
   letter(p, 100, 100, "W", {255, 255, 255});    // wholly outside
 }
 
+// A path that is read from a picture must be the path.
+TEST(Lettering, SmallLettersAreNoCapitals) {
+  for (char c = 'a'; c <= 'z'; ++c) {
+    Picture small(6, 8, 0), capital(6, 8, 0), unknown(6, 8, 0);
+    letter(small, 0, 0, std::string(1, c), {255, 255, 255});
+    letter(capital, 0, 0, std::string(1, static_cast<char>(c - 'a' + 'A')), {255, 255, 255});
+    letter(unknown, 0, 0, "?", {255, 255, 255});
+    EXPECT_NE(imageHash(small), imageHash(capital)) << c;
+    EXPECT_NE(imageHash(small), imageHash(unknown)) << c;
+  }
+}
+
 TEST(ContactSheet, ShowsAWallInItsOwnProportions) {
   const Picture picture(800, 600);
   // 800 x 600 pixels on a square wall, on one that is twice as wide as it is high, on one as its pixels say.
