@@ -36,16 +36,16 @@ struct ShowSurroundings {
   LiveDesk& desk;
   /// From one show of a script to the next; shows that are there at the same time and play have one each.
   std::shared_ptr<KeptParts> kept;
-  InputDevice* visitor = nullptr;  ///< null: the input log plays
-  /// What is played; null: the scripts as they are on disk when the show is opened.
-  std::shared_ptr<const ScriptTexts> texts;
-  bool recorded = true;                  ///< --record-input counts
+  InputDevice* visitor = nullptr;        ///< null: the input log plays
   std::vector<SheetPlace> pictureSizes;  ///< by wall, where neither --size nor the wall file says
   SheetPlace overviewSize;
   std::function<void(const Diagnostics&)> report;  ///< what is found later; any thread
   std::function<void()> ended;                     ///< the show has come to its end; on its own thread
   /// Once true the show ends, or, while it is still being opened, is given up. One for each show.
   std::shared_ptr<std::atomic<bool>> stopping = std::make_shared<std::atomic<bool>>(false);
+  /// What is played; null: the scripts as they are on disk when the show is opened.
+  std::shared_ptr<const ScriptTexts> texts{};
+  bool recorded = true;  ///< --record-input counts
 };
 
 class PlayingShow {
