@@ -73,8 +73,6 @@ ShowSurroundings ViewSession::surroundings(std::shared_ptr<KeptParts> kept) {
           *desk_,
           std::move(kept),
           live ? &visitor_ : nullptr,
-          nullptr,
-          true,
           windows_->pictureSizes(),
           {0, 0, options_.width, options_.height},
           [this](const Diagnostics& found) {
