@@ -170,6 +170,7 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
                   options.texts ? options.texts : ScriptTexts::read(options.script, p.roots_)});
   p.loader_->obey(p.decisions_.loads);
   p.scene_ = std::make_unique<Scene>(*p.loader_, *p.meshes_, appThreadsOf(options));
+  p.options_.texts.reset();  // the loader keeps what is still to be loaded
   if (!p.scene_->open(options.script)) return nullptr;
   return player;
 }

@@ -145,9 +145,13 @@ std::vector<std::uint32_t> Loader::around(std::uint32_t outer) const {
 }
 
 // The show's own file is where the user says; every other one lies below the show's roots.
-Result<SourceText> Loader::read(const Job& job) const {
+Result<SourceText> Loader::read(const Job& job) {
   const ScriptTexts* texts = parts_.texts.get();
-  if (!job.owner.valid()) return texts ? texts->show() : SourceText::read(job.file);
+  if (!job.owner.valid()) {
+    Result<SourceText> show = texts ? texts->show() : SourceText::read(job.file);
+    if (texts) parts_.texts = texts->withoutShow();
+    return show;
+  }
   auto source = texts ? texts->part(job.file) : ScriptTexts::readPart(job.file, parts_.roots);
   if (!source && source.error().where.file.empty()) return askedForBy(job, source.error());
   return source;

@@ -106,7 +106,7 @@ private:
   void work();
   Prepared prepareSafely(const Job& job);
   bool stopped() const { return parts_.stop && *parts_.stop; }
-  Result<SourceText> read(const Job& job) const;
+  Result<SourceText> read(const Job& job);
   Diagnostic askedForBy(const Job& job, Diagnostic d) const;
   std::unique_ptr<Load> prepare(const Job& job);
   std::unique_ptr<Load> build(const Job& job, std::unique_ptr<Document> document, Diagnostics& findings);

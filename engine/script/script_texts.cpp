@@ -47,6 +47,13 @@ Result<SourceText> ScriptTexts::part(const std::string& name) const {
   return Result<SourceText>::failure("no script of the show named " + name + " when the show was read");
 }
 
+std::shared_ptr<const ScriptTexts> ScriptTexts::withoutShow() const {
+  std::shared_ptr<ScriptTexts> rest(
+      new ScriptTexts(Result<SourceText>::failure("the show's own script has been read already")));
+  rest->parts_ = parts_;
+  return rest;
+}
+
 std::vector<std::string> ScriptTexts::parts() const {
   std::vector<std::string> names;
   for (const auto& [name, text] : parts_) names.push_back(name);

@@ -31,6 +31,8 @@ public:
   Result<SourceText> show() const { return show_; }
   /// A part that no script had named then is an error.
   Result<SourceText> part(const std::string& name) const;
+  /// The same without the show's own file, which is read once: a big one need not be kept.
+  std::shared_ptr<const ScriptTexts> withoutShow() const;
   /// The names of all parts.
   std::vector<std::string> parts() const;
 
