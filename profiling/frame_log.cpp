@@ -1,45 +1,65 @@
 #include "profiling/frame_log.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace stadion {
 namespace {
 
 constexpr std::chrono::milliseconds kNap{2};
+/// Spans of nodes: beyond the first figure a frame is light, and the second is what is recorded on average.
+constexpr std::uint64_t kManyNodeSpans = 2000, kNodeSpansAFrame = 200;
+/// Nodes among which a span is shared: of more, it is asked for more rarely.
+constexpr std::uint64_t kManyShares = 500;
+constexpr std::chrono::microseconds kDear{250};
+
+/// There are as many of them as there are nodes that are visited.
+constexpr bool isOfVisit(Span what) {
+  return isOfNode(what) || what == Span::Settle || what == Span::Mail;
+}
 
 std::uint64_t nextNumber() {
   static std::atomic<std::uint64_t> last = 0;
   return ++last;
 }
 
-/// Of many spans in one another, in this thread now.
-SpanOverhead measureOverhead() {
-  constexpr int kSpansMeasured = 2000;
-  SpanTrack track;
-  double inside = 0, own = 0;
-  // The second time nothing is touched for the first time any more.
-  for (int round = 0; round < 2; ++round) {
-    track.began(Span::App, 0, kNoWall, {});
-    for (int i = 0; i < kSpansMeasured; ++i) track.began(Span::Simulate, 0, kNoWall, {}), track.ended();
-    track.ended();
-    SpanRecord r;
-    for (inside = 0; track.take(r);) (r.what == Span::App ? own : inside) += r.own;
-    if (round == 0) own = 0;
-  }
-  constexpr double kNanosecondsEach = 1e6 / kSpansMeasured;
-  return {inside * kNanosecondsEach, own * kNanosecondsEach};
-}
-
 }  // namespace
 
 FrameLog::FrameLog(std::vector<SpanReader*> readers, FrameLogOptions options)
-    : readers_(std::move(readers)), options_(options), overhead_(measureOverhead()), number_(nextNumber()),
-      collector_([this] {
-        while (!done_) {
-          collect();
-          std::this_thread::sleep_for(kNap);
-        }
-      }) {}
+    : readers_(std::move(readers)), options_(options), number_(nextNumber()) {
+  measureOverhead();
+  collector_ = std::thread([this] {
+    while (!done_) {
+      collect();
+      std::this_thread::sleep_for(kNap);
+    }
+  });
+}
+
+/// Of many spans in one another, in this thread now: of as many as there is room for, so that each record is
+/// written where none has been for a while, as in a show.
+void FrameLog::measureOverhead() {
+  constexpr int kSpansMeasured = SpanTrack::kCapacity - 2;
+  FrameProbe& probe = *this;
+  double inside = 0, own = 0;
+  // The second time nothing is touched for the first time any more.
+  for (int round = 0; round < 2; ++round) {
+    probe.began(Span::App, 0, kNoWall);
+    for (int i = 0; i < kSpansMeasured; ++i) {
+      const SpanScope span(&probe, Span::Simulate, NodeRef{1, 0});
+    }
+    probe.ended(Span::App);
+    inside = own = 0;
+    for (SpanRecord r; track().take(r);) (r.what == Span::App ? own : inside) += r.own;
+    track().takeCount();
+  }
+  constexpr double kNanosecondsEach = 1e6 / kSpansMeasured;
+  overhead_ = {inside * kNanosecondsEach, own * kNanosecondsEach};
+  // Whoever comes to this thread later gets a track that knows it.
+  tracks_.clear();
+  number_ = nextNumber();
+  appFrame_ = kNoFrame, nextWhole_ = 0;
+}
 
 FrameLog::~FrameLog() {
   finish();
@@ -63,28 +83,56 @@ SpanTrack& FrameLog::track() {
 }
 
 void FrameLog::began(Span what, std::uint64_t frame, std::uint32_t wall) {
-  if (what == Span::App) appFrame_.store(frame, std::memory_order_relaxed);
-  track().began(what, frame, wall, {});
+  SpanTrack& t = track();
+  if (what == Span::App) beginApp(t, frame);
+  t.began(what, frame, wall, {});
+}
+
+/// As many spans as in the frame before are expected.
+void FrameLog::beginApp(SpanTrack& t, std::uint64_t frame) {
+  appFrame_.store(frame, std::memory_order_relaxed);
+  const std::uint64_t spans = t.takeCount();
+  const bool light = spans > kManyNodeSpans && (frame < nextWhole_ || frame < options_.from);
+  if (!light) nextWhole_ = frame + 1 + spans / kNodeSpansAFrame;
+  light_.store(light, std::memory_order_relaxed);
+  t.setWhole(!light);
 }
 
 // What runs on no stage's thread, runs for App.
 void FrameLog::began(Span what, NodeRef node) {
   SpanTrack& t = track();
+  if (isOfVisit(what)) {
+    t.count();
+    if (light_.load(std::memory_order_relaxed)) {
+      if (what == Span::Simulate) t.beganLightly(node);
+      return;
+    }
+  }
   const std::uint64_t frame = t.frame();
   t.began(what, frame != kNoFrame ? frame : appFrame_.load(std::memory_order_relaxed), t.wall(), node);
 }
 
-void FrameLog::ended(Span) {
-  track().ended();
+void FrameLog::ended(Span what) {
+  SpanTrack& t = track();
+  if (!isOfVisit(what) || !light_.load(std::memory_order_relaxed))
+    t.ended();
+  else if (what == Span::Simulate)
+    t.endedLightly(what, appFrame_.load(std::memory_order_relaxed), kDear);
 }
 
-bool FrameLog::wantsShares(std::uint64_t frame, std::uint32_t) const {
-  return options_.samples && frame >= options_.from && frame % options_.sampleEvery == 0;
+bool FrameLog::wantsShares(std::uint64_t frame, std::uint32_t wall) const {
+  if (!options_.samples || frame < options_.from || frame % options_.sampleEvery != 0) return false;
+  const std::lock_guard lock(mutex_);
+  const auto next = nextShares_.find(wall);
+  return next == nextShares_.end() || frame >= next->second;
 }
 
 void FrameLog::shared(Span what, std::uint64_t frame, std::uint32_t wall, std::span<const NodeRef> among) {
+  track().disturb();
   SharedSpan s{what, frame, wall, track().last(what), {among.begin(), among.end()}};
   const std::lock_guard lock(mutex_);
+  std::uint64_t& next = nextShares_[wall];
+  next = std::max(next, frame + 1 + options_.sampleEvery * (among.size() / kManyShares));
   shared_.push_back(std::move(s));
 }
 
@@ -106,6 +154,7 @@ std::size_t FrameLog::nextBatch(std::uint32_t wall, std::uint32_t eye, std::size
 }
 
 void FrameLog::drewAlone(const DrawnAlone& drawn, std::span<const NodeRef> nodes) {
+  track().disturb();
   const std::lock_guard lock(mutex_);
   alone_.push_back({drawn, {nodes.begin(), nodes.end()}});
 }

@@ -8,6 +8,9 @@
 /// Of drawing and of what nodes share, samples are taken, every kSampleEvery frames, so that recording costs
 /// little: the stages' times are exact, a node's share of Cull and Draw is that of the frames sampled.
 ///
+/// Where App visits very many nodes, so are its frames: in most of them a node's visit is only recorded if it
+/// took kDear, and what is in none of these is told of the frames that are recorded as a whole (SpanRecord).
+///
 /// Threads    the probe's functions on the threads that do the work; the readers' on one thread of the log's
 ///            own, and on finish()'s once that has ended.
 /// Ownership  the readers must outlive it.
@@ -15,6 +18,7 @@
 #include "profiling/span_track.h"
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -73,7 +77,9 @@ private:
     std::vector<NodeRef> nodes;
   };
 
+  void measureOverhead();
   SpanTrack& track();
+  void beginApp(SpanTrack& track, std::uint64_t frame);
   void collect();
 
   std::vector<SpanReader*> readers_;
@@ -81,11 +87,14 @@ private:
   SpanOverhead overhead_;
   std::uint64_t number_;  ///< of this log, among all there were: what threads remember of one is no other's
   std::atomic<std::uint64_t> appFrame_ = kNoFrame;
+  std::atomic<bool> light_ = false;  ///< App's frame is not recorded as a whole
+  std::uint64_t nextWhole_ = 0;      ///< App's own
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<SpanTrack>> tracks_;
   std::vector<SharedSpan> shared_;
   std::vector<Alone> alone_;
-  std::vector<std::size_t> next_;  ///< batches, by wall and eye
+  std::vector<std::size_t> next_;                      ///< batches, by wall and eye
+  std::map<std::uint32_t, std::uint64_t> nextShares_;  ///< frames, by wall
   std::atomic<bool> done_ = false;
   std::thread collector_;
 };
