@@ -7,8 +7,9 @@ namespace stadion {
 namespace {
 
 constexpr std::chrono::milliseconds kNap{2};
-/// Spans of nodes: beyond the first figure a frame is light, and the second is what is recorded on average.
-constexpr std::uint64_t kManyNodeSpans = 2000, kNodeSpansAFrame = 200;
+/// Spans of nodes that simulate, of which a visit has one or two beside four others: beyond the first figure
+/// a frame is light, and the second is what is recorded on average.
+constexpr std::uint64_t kManyNodeSpans = 600, kNodeSpansAFrame = 60;
 /// Nodes among which a span is shared: of more, it is asked for more rarely.
 constexpr std::uint64_t kManyShares = 500;
 constexpr std::chrono::microseconds kDear{250};
@@ -41,6 +42,8 @@ FrameLog::FrameLog(std::vector<SpanReader*> readers, FrameLogOptions options)
 void FrameLog::measureOverhead() {
   constexpr int kSpansMeasured = SpanTrack::kCapacity - 2;
   FrameProbe& probe = *this;
+  const auto began = ProfileClock::now();
+  const std::uint64_t beganTicks = TickClock::now();
   double inside = 0, own = 0;
   // The second time nothing is touched for the first time any more.
   for (int round = 0; round < 2; ++round) {
@@ -53,6 +56,10 @@ void FrameLog::measureOverhead() {
     for (SpanRecord r; track().take(r);) (r.what == Span::App ? own : inside) += r.own;
     track().takeCount();
   }
+  const double ns = std::chrono::duration<double, std::nano>(ProfileClock::now() - began).count();
+  nanosecondsATick_ = ns / static_cast<double>(std::max<std::uint64_t>(1, TickClock::now() - beganTicks));
+  dearTicks_ =
+      static_cast<std::uint64_t>(std::chrono::duration<double, std::nano>(kDear).count() / nanosecondsATick_);
   constexpr double kNanosecondsEach = 1e6 / kSpansMeasured;
   overhead_ = {inside * kNanosecondsEach, own * kNanosecondsEach};
   // Whoever comes to this thread later gets a track that knows it.
@@ -100,24 +107,21 @@ void FrameLog::beginApp(SpanTrack& t, std::uint64_t frame) {
 
 // What runs on no stage's thread, runs for App.
 void FrameLog::began(Span what, NodeRef node) {
-  SpanTrack& t = track();
-  if (isOfVisit(what)) {
-    t.count();
-    if (light_.load(std::memory_order_relaxed)) {
-      if (what == Span::Simulate) t.beganLightly(node);
-      return;
-    }
+  if (isOfVisit(what) && light_.load(std::memory_order_relaxed)) {
+    if (what == Span::Simulate) track().beganLightly(node);
+    return;
   }
+  SpanTrack& t = track();
+  if (what == Span::Simulate) t.count();
   const std::uint64_t frame = t.frame();
   t.began(what, frame != kNoFrame ? frame : appFrame_.load(std::memory_order_relaxed), t.wall(), node);
 }
 
 void FrameLog::ended(Span what) {
-  SpanTrack& t = track();
   if (!isOfVisit(what) || !light_.load(std::memory_order_relaxed))
-    t.ended();
+    track().ended();
   else if (what == Span::Simulate)
-    t.endedLightly(what, appFrame_.load(std::memory_order_relaxed), kDear);
+    track().endedLightly(what, appFrame_.load(std::memory_order_relaxed), dearTicks_, nanosecondsATick_);
 }
 
 bool FrameLog::wantsShares(std::uint64_t frame, std::uint32_t wall) const {

@@ -89,6 +89,8 @@ private:
   std::atomic<std::uint64_t> appFrame_ = kNoFrame;
   std::atomic<bool> light_ = false;  ///< App's frame is not recorded as a whole
   std::uint64_t nextWhole_ = 0;      ///< App's own
+  std::uint64_t dearTicks_ = 0;      ///< kDear
+  double nanosecondsATick_ = 1;
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<SpanTrack>> tracks_;
   std::vector<SharedSpan> shared_;

@@ -5,6 +5,7 @@
 
 #include "engine/frame_probe.h"
 #include "profiling/allocations.h"
+#include "profiling/tick_clock.h"
 
 #include <algorithm>
 #include <array>
@@ -105,19 +106,23 @@ public:
 
   /// Instead of began() and ended(): a span of a node that is recorded only if it took `least`. It has no
   /// parts, and stays part of what holds it.
-  void beganLightly(NodeRef node) { light_ = {node, ProfileClock::now()}; }
-  void endedLightly(Span what, std::uint64_t frame, ProfileClock::duration least) {
+  void beganLightly(NodeRef node) { light_ = {node, TickClock::now()}; }
+  void endedLightly(Span what, std::uint64_t frame, std::uint64_t leastTicks, double nanosecondsATick) {
+    const std::uint64_t ticks = TickClock::now() - light_.began;
+    ++counted_;
+    if (ticks < leastTicks) return;
     const ProfileClock::time_point now = ProfileClock::now();
-    if (now - light_.began < least) return;
+    const auto took = std::chrono::duration_cast<ProfileClock::duration>(
+        std::chrono::duration<double, std::nano>(static_cast<double>(ticks) * nanosecondsATick));
     SpanRecord* r = nextRecord();
     if (!r) return;
     *r = {};
-    r->began = light_.began, r->ended = now, r->frame = frame, r->node = light_.node, r->what = what;
+    r->began = now - took, r->ended = now, r->frame = frame, r->node = light_.node, r->what = what;
     r->depth = static_cast<std::uint8_t>(depth_), r->whole = false;
-    r->took = r->own = 1e-6 * nanoseconds(now - light_.began);
+    r->took = r->own = 1e-6 * nanoseconds(took);
     push();
   }
-  /// A node's span that is not recorded is counted.
+  /// Simulate spans are counted: how many nodes are visited.
   void count() { ++counted_; }
   std::uint64_t takeCount() { return std::exchange(counted_, 0); }
 
@@ -164,7 +169,7 @@ private:
 
   struct Light {
     NodeRef node;
-    ProfileClock::time_point began;
+    std::uint64_t began = 0;  ///< [ticks]
   };
 
   std::array<Open, kDeepest> open_;
