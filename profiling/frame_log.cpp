@@ -7,11 +7,13 @@ namespace stadion {
 namespace {
 
 constexpr std::chrono::milliseconds kNap{2};
-/// Spans of nodes that simulate, of which a visit has one or two beside four others: beyond the first figure
-/// a frame is light, and the second is what is recorded on average.
-constexpr std::uint64_t kManyNodeSpans = 600, kNodeSpansAFrame = 60;
+/// Visits of nodes, of some six spans each: beyond the first figure a frame is light, and the second is what
+/// is recorded on average.
+constexpr std::uint64_t kManyVisits = 300, kVisitsAFrame = 30;
 /// Nodes among which a span is shared: of more, it is asked for more rarely.
 constexpr std::uint64_t kManyShares = 500;
+/// There the eyes are sampled so many times more rarely, in large parts.
+constexpr std::uint64_t kCrowdedEvery = 4;
 constexpr std::chrono::microseconds kDear{250};
 
 /// There are as many of them as there are nodes that are visited.
@@ -95,33 +97,50 @@ void FrameLog::began(Span what, std::uint64_t frame, std::uint32_t wall) {
   t.began(what, frame, wall, {});
 }
 
-/// As many spans as in the frame before are expected.
+/// As many visits as in the frame before are expected.
 void FrameLog::beginApp(SpanTrack& t, std::uint64_t frame) {
   appFrame_.store(frame, std::memory_order_relaxed);
-  const std::uint64_t spans = t.takeCount();
-  const bool light = spans > kManyNodeSpans && (frame < nextWhole_ || frame < options_.from);
-  if (!light) nextWhole_ = frame + 1 + spans / kNodeSpansAFrame;
+  const std::uint64_t visits = t.takeCount();
+  const bool light = visits > kManyVisits && (frame < nextWhole_ || frame < options_.from);
+  if (!light) nextWhole_ = frame + 1 + visits / kVisitsAFrame;
   light_.store(light, std::memory_order_relaxed);
   t.setWhole(!light);
+  t.beginLightly();
 }
 
 // What runs on no stage's thread, runs for App.
 void FrameLog::began(Span what, NodeRef node) {
   if (isOfVisit(what) && light_.load(std::memory_order_relaxed)) {
-    if (what == Span::Simulate) track().beganLightly(node);
+    beganInVisit(what, node);
     return;
   }
   SpanTrack& t = track();
-  if (what == Span::Simulate) t.count();
+  if (what == Span::Settle) t.count();
   const std::uint64_t frame = t.frame();
   t.began(what, frame != kNoFrame ? frame : appFrame_.load(std::memory_order_relaxed), t.wall(), node);
 }
 
+// A visit lasts from the one before to the node's Settle; on threads that help App, as long as it simulates.
+void FrameLog::beganInVisit(Span what, NodeRef node) {
+  if (what != Span::Settle && what != Span::Simulate) return;
+  SpanTrack& t = track();
+  if (what == Span::Simulate && t.depth() > 0) return;
+  if (what == Span::Simulate) t.beginLightly();
+  t.nameLightly(node);
+}
+
 void FrameLog::ended(Span what) {
-  if (!isOfVisit(what) || !light_.load(std::memory_order_relaxed))
-    track().ended();
-  else if (what == Span::Simulate)
-    track().endedLightly(what, appFrame_.load(std::memory_order_relaxed), dearTicks_, nanosecondsATick_);
+  const bool light = light_.load(std::memory_order_relaxed);
+  if (!light || !isOfVisit(what)) {
+    SpanTrack& t = track();
+    t.ended();
+    if (light) t.beginLightly();
+    return;
+  }
+  if (what != Span::Settle && what != Span::Simulate) return;
+  SpanTrack& t = track();
+  if (what == Span::Settle || t.depth() == 0)
+    t.endLightly(appFrame_.load(std::memory_order_relaxed), dearTicks_, nanosecondsATick_);
 }
 
 bool FrameLog::wantsShares(std::uint64_t frame, std::uint32_t wall) const {
@@ -135,14 +154,20 @@ void FrameLog::shared(Span what, std::uint64_t frame, std::uint32_t wall, std::s
   track().disturb();
   SharedSpan s{what, frame, wall, track().last(what), {among.begin(), among.end()}};
   const std::lock_guard lock(mutex_);
+  if (what == Span::Fill && among.size() > kManyShares) crowded_.insert(wall);
   std::uint64_t& next = nextShares_[wall];
   next = std::max(next, frame + 1 + options_.sampleEvery * (among.size() / kManyShares));
   shared_.push_back(std::move(s));
 }
 
-DrawSample FrameLog::drawSample(std::uint64_t frame, std::uint32_t) const {
+DrawSample FrameLog::drawSample(std::uint64_t frame, std::uint32_t wall) const {
   if (!options_.samples || frame < options_.from) return DrawSample::None;
-  const std::uint64_t phase = frame % options_.sampleEvery;
+  std::uint64_t every = options_.sampleEvery;
+  {
+    const std::lock_guard lock(mutex_);
+    if (crowded_.contains(wall)) every *= kCrowdedEvery;
+  }
+  const std::uint64_t phase = frame % every;
   return phase == options_.sampleEvery / 2       ? DrawSample::Whole
          : phase == options_.sampleEvery / 2 + 1 ? DrawSample::Some
                                                  : DrawSample::None;

@@ -21,6 +21,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -47,7 +48,7 @@ public:
 
 struct FrameLogOptions {
   bool samples = true;  ///< shares and drawing too
-  std::uint64_t sampleEvery = 8;
+  std::uint64_t sampleEvery = 16;
   std::uint64_t from = 4;  ///< frames before it are not recorded: what is touched for the first time is slow
 };
 
@@ -80,6 +81,7 @@ private:
   void measureOverhead();
   SpanTrack& track();
   void beginApp(SpanTrack& track, std::uint64_t frame);
+  void beganInVisit(Span what, NodeRef node);
   void collect();
 
   std::vector<SpanReader*> readers_;
@@ -97,6 +99,7 @@ private:
   std::vector<Alone> alone_;
   std::vector<std::size_t> next_;                      ///< batches, by wall and eye
   std::map<std::uint32_t, std::uint64_t> nextShares_;  ///< frames, by wall
+  std::set<std::uint32_t> crowded_;                    ///< walls of very many nodes
   std::atomic<bool> done_ = false;
   std::thread collector_;
 };

@@ -104,11 +104,12 @@ public:
   /// Whether the records that follow are of a frame that is recorded as a whole.
   void setWhole(bool whole) { whole_ = whole; }
 
-  /// Instead of began() and ended(): a span of a node that is recorded only if it took `least`. It has no
-  /// parts, and stays part of what holds it.
-  void beganLightly(NodeRef node) { light_ = {node, TickClock::now()}; }
-  void endedLightly(Span what, std::uint64_t frame, std::uint64_t leastTicks, double nanosecondsATick) {
-    const std::uint64_t ticks = TickClock::now() - light_.began;
+  /// Instead of the spans of a visit: what follows is a node's, until endLightly(). It is recorded only if it
+  /// took `leastTicks`; it has no parts, and stays part of what holds it. The next one begins at once.
+  void beginLightly() { light_.began = TickClock::now(); }
+  void nameLightly(NodeRef node) { light_.node = node; }
+  void endLightly(std::uint64_t frame, std::uint64_t leastTicks, double nanosecondsATick) {
+    const std::uint64_t tick = TickClock::now(), ticks = tick - std::exchange(light_.began, tick);
     ++counted_;
     if (ticks < leastTicks) return;
     const ProfileClock::time_point now = ProfileClock::now();
@@ -117,15 +118,16 @@ public:
     SpanRecord* r = nextRecord();
     if (!r) return;
     *r = {};
-    r->began = now - took, r->ended = now, r->frame = frame, r->node = light_.node, r->what = what;
+    r->began = now - took, r->ended = now, r->frame = frame, r->node = light_.node, r->what = Span::Simulate;
     r->depth = static_cast<std::uint8_t>(depth_), r->whole = false;
     r->took = r->own = 1e-6 * nanoseconds(took);
     push();
   }
-  /// Simulate spans are counted: how many nodes are visited.
+  /// Visits are counted.
   void count() { ++counted_; }
   std::uint64_t takeCount() { return std::exchange(counted_, 0); }
 
+  std::size_t depth() const { return depth_; }
   /// The frame and wall of the span that is under way.
   std::uint64_t frame() const { return depth_ > 0 ? open_[std::min(depth_, kDeepest) - 1].frame : kNoFrame; }
   std::uint32_t wall() const { return depth_ > 0 ? open_[std::min(depth_, kDeepest) - 1].wall : kNoWall; }

@@ -110,8 +110,11 @@ void visitNodes(FrameLog& log, std::uint32_t nodes, std::uint64_t frames, std::u
         if (i == slow) burn(std::chrono::microseconds(20));
         const SpanScope receive(&log, Span::Receive, NodeRef{1, i});
       }
-      const SpanScope simulate(&log, Span::Simulate, NodeRef{1, i});
-      if (i == slow) burn(std::chrono::microseconds(400));
+      {
+        const SpanScope simulate(&log, Span::Simulate, NodeRef{1, i});
+        if (i == slow) burn(std::chrono::microseconds(400));
+      }
+      const SpanScope settle(&log, Span::Settle, NodeRef{1, i});
     }
   }
 }
