@@ -5,6 +5,7 @@
 #include "cli/bench_dynamics.h"
 #include "cli/bench_flight.h"
 #include "cli/bench_plan.h"
+#include "cli/bench_recording.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "profiling/bench/overlap.h"
@@ -61,6 +62,8 @@ void addBenchCommand(CLI::App& app, int& code) {
   addBenchDetection(*command, code);
   addBenchPlan(*command, code);
   addBenchBudgets(*command, code);
+  addBenchAttribution(*command, code);
+  addBenchRecording(*command, code);
 }
 
 }  // namespace stadion

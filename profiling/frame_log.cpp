@@ -1,5 +1,6 @@
 #include "profiling/frame_log.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -7,40 +8,68 @@ namespace stadion {
 namespace {
 
 constexpr std::chrono::milliseconds kNap{2};
+/// Visits of nodes, of some six spans each: beyond the first figure a frame is light, and the second is what
+/// is recorded on average.
+constexpr std::uint64_t kManyVisits = 300, kVisitsAFrame = 30;
+/// Nodes among which a span is shared: of more, it is asked for more rarely.
+constexpr std::uint64_t kManyShares = 500;
+/// There the eyes are sampled so many times more rarely, in large parts.
+constexpr std::uint64_t kCrowdedEvery = 4;
+constexpr std::chrono::microseconds kDear{250};
+
+/// There are as many of them as there are nodes that are visited.
+constexpr bool isOfVisit(Span what) {
+  return isOfNode(what) || what == Span::Settle || what == Span::Mail;
+}
 
 std::uint64_t nextNumber() {
   static std::atomic<std::uint64_t> last = 0;
   return ++last;
 }
 
-/// Of many spans in one another, in this thread now.
-SpanOverhead measureOverhead() {
-  constexpr int kSpansMeasured = 2000;
-  SpanTrack track;
-  double inside = 0, own = 0;
-  // The second time nothing is touched for the first time any more.
-  for (int round = 0; round < 2; ++round) {
-    track.began(Span::App, 0, kNoWall, {});
-    for (int i = 0; i < kSpansMeasured; ++i) track.began(Span::Simulate, 0, kNoWall, {}), track.ended();
-    track.ended();
-    SpanRecord r;
-    for (inside = 0; track.take(r);) (r.what == Span::App ? own : inside) += r.own;
-    if (round == 0) own = 0;
-  }
-  constexpr double kNanosecondsEach = 1e6 / kSpansMeasured;
-  return {inside * kNanosecondsEach, own * kNanosecondsEach};
-}
-
 }  // namespace
 
 FrameLog::FrameLog(std::vector<SpanReader*> readers, FrameLogOptions options)
-    : readers_(std::move(readers)), options_(options), overhead_(measureOverhead()), number_(nextNumber()),
-      collector_([this] {
-        while (!done_) {
-          collect();
-          std::this_thread::sleep_for(kNap);
-        }
-      }) {}
+    : readers_(std::move(readers)), options_(options), number_(nextNumber()) {
+  measureOverhead();
+  collector_ = std::thread([this] {
+    while (!done_) {
+      collect();
+      std::this_thread::sleep_for(kNap);
+    }
+  });
+}
+
+/// Of many spans in one another, in this thread now: of as many as there is room for, so that each record is
+/// written where none has been for a while, as in a show.
+void FrameLog::measureOverhead() {
+  constexpr int kSpansMeasured = SpanTrack::kCapacity - 2;
+  FrameProbe& probe = *this;
+  const auto began = ProfileClock::now();
+  const std::uint64_t beganTicks = TickClock::now();
+  double inside = 0, own = 0;
+  // The second time nothing is touched for the first time any more.
+  for (int round = 0; round < 2; ++round) {
+    probe.began(Span::App, 0, kNoWall);
+    for (int i = 0; i < kSpansMeasured; ++i) {
+      const SpanScope span(&probe, Span::Simulate, NodeRef{1, 0});
+    }
+    probe.ended(Span::App);
+    inside = own = 0;
+    for (SpanRecord r; track().take(r);) (r.what == Span::App ? own : inside) += r.own;
+    track().takeCount();
+  }
+  const double ns = std::chrono::duration<double, std::nano>(ProfileClock::now() - began).count();
+  nanosecondsATick_ = ns / static_cast<double>(std::max<std::uint64_t>(1, TickClock::now() - beganTicks));
+  dearTicks_ =
+      static_cast<std::uint64_t>(std::chrono::duration<double, std::nano>(kDear).count() / nanosecondsATick_);
+  constexpr double kNanosecondsEach = 1e6 / kSpansMeasured;
+  overhead_ = {inside * kNanosecondsEach, own * kNanosecondsEach};
+  // Whoever comes to this thread later gets a track that knows it.
+  tracks_.clear();
+  number_ = nextNumber();
+  appFrame_ = kNoFrame, nextWhole_ = 0;
+}
 
 FrameLog::~FrameLog() {
   finish();
@@ -64,41 +93,89 @@ SpanTrack& FrameLog::track() {
 }
 
 void FrameLog::began(Span what, std::uint64_t frame, std::uint32_t wall) {
-  if (what == Span::App) appFrame_.store(frame, std::memory_order_relaxed);
-  track().began(what, frame, wall, {});
+  SpanTrack& t = track();
+  if (what == Span::App) beginApp(t, frame);
+  t.began(what, frame, wall, {});
+}
+
+/// As many visits as in the frame before are expected.
+void FrameLog::beginApp(SpanTrack& t, std::uint64_t frame) {
+  appFrame_.store(frame, std::memory_order_relaxed);
+  const std::uint64_t visits = t.takeCount();
+  const bool light = visits > kManyVisits && (frame < nextWhole_ || frame < options_.from);
+  if (!light) nextWhole_ = frame + 1 + visits / kVisitsAFrame;
+  light_.store(light, std::memory_order_relaxed);
+  t.setWhole(!light);
+  t.beginLightly();
 }
 
 // What runs on no stage's thread, runs for App.
 void FrameLog::began(Span what, NodeRef node) {
+  if (isOfVisit(what) && light_.load(std::memory_order_relaxed)) {
+    beganInVisit(what, node);
+    return;
+  }
   SpanTrack& t = track();
+  if (what == Span::Settle) t.count();
   const std::uint64_t frame = t.frame();
   t.began(what, frame != kNoFrame ? frame : appFrame_.load(std::memory_order_relaxed), t.wall(), node);
 }
 
-void FrameLog::ended(Span) {
-  track().ended();
+// A visit lasts from the one before to the node's Settle; on threads that help App, as long as it simulates.
+void FrameLog::beganInVisit(Span what, NodeRef node) {
+  if (what != Span::Settle && what != Span::Simulate) return;
+  SpanTrack& t = track();
+  if (what == Span::Simulate && t.depth() > 0) return;
+  if (what == Span::Simulate) t.beginLightly();
+  t.nameLightly(node);
 }
 
-bool FrameLog::wantsShares(std::uint64_t frame, std::uint32_t) const {
-  return options_.samples && frame >= options_.from && frame % options_.sampleEvery == 0;
+void FrameLog::ended(Span what) {
+  const bool light = light_.load(std::memory_order_relaxed);
+  if (!light || !isOfVisit(what)) {
+    SpanTrack& t = track();
+    t.ended();
+    if (light) t.beginLightly();
+    return;
+  }
+  if (what != Span::Settle && what != Span::Simulate) return;
+  SpanTrack& t = track();
+  if (what == Span::Settle || t.depth() == 0)
+    t.endLightly(appFrame_.load(std::memory_order_relaxed), dearTicks_, nanosecondsATick_);
+}
+
+bool FrameLog::wantsShares(std::uint64_t frame, std::uint32_t wall) const {
+  if (!options_.samples || frame < options_.from || frame % options_.sampleEvery != 0) return false;
+  const std::lock_guard lock(mutex_);
+  const auto next = nextShares_.find(wall);
+  return next == nextShares_.end() || frame >= next->second;
 }
 
 void FrameLog::shared(Span what, std::uint64_t frame, std::uint32_t wall, std::span<const NodeRef> among) {
+  track().disturb();
   SharedSpan s{what, frame, wall, track().last(what), {among.begin(), among.end()}};
   const std::lock_guard lock(mutex_);
+  if (what == Span::Fill && among.size() > kManyShares) crowded_.insert(wall);
+  std::uint64_t& next = nextShares_[wall];
+  next = std::max(next, frame + 1 + options_.sampleEvery * (among.size() / kManyShares));
   shared_.push_back(std::move(s));
 }
 
-DrawSample FrameLogOptions::drawSample(std::uint64_t frame) const {
+DrawSample FrameLogOptions::drawSample(std::uint64_t frame, std::uint64_t every) const {
   if (!samples || frame < from) return DrawSample::None;
-  const std::uint64_t phase = frame % sampleEvery;
+  const std::uint64_t phase = frame % every;
   return phase == sampleEvery / 2       ? (whole ? DrawSample::Whole : DrawSample::None)
          : phase == sampleEvery / 2 + 1 ? DrawSample::Some
                                         : DrawSample::None;
 }
 
-DrawSample FrameLog::drawSample(std::uint64_t frame, std::uint32_t) const {
-  return options_.drawSample(frame);
+DrawSample FrameLog::drawSample(std::uint64_t frame, std::uint32_t wall) const {
+  std::uint64_t every = options_.sampleEvery;
+  if (options_.samples) {
+    const std::lock_guard lock(mutex_);
+    if (crowded_.contains(wall)) every *= kCrowdedEvery;
+  }
+  return options_.drawSample(frame, every);
 }
 
 std::size_t FrameLog::nextBatch(std::uint32_t wall, std::uint32_t eye, std::size_t batches) {
@@ -111,6 +188,7 @@ std::size_t FrameLog::nextBatch(std::uint32_t wall, std::uint32_t eye, std::size
 }
 
 void FrameLog::drewAlone(const DrawnAlone& drawn, std::span<const NodeRef> nodes) {
+  track().disturb();
   const std::lock_guard lock(mutex_);
   alone_.push_back({drawn, {nodes.begin(), nodes.end()}});
 }

@@ -8,6 +8,9 @@
 /// Of drawing and of what nodes share, samples are taken, every kSampleEvery frames, so that recording costs
 /// little: the stages' times are exact, a node's share of Cull and Draw is that of the frames sampled.
 ///
+/// Where App visits very many nodes, so are its frames: in most of them a node's visit is only recorded if it
+/// took kDear, and what is in none of these is told of the frames that are recorded as a whole (SpanRecord).
+///
 /// Threads    the probe's functions on the threads that do the work; the readers' on one thread of the log's
 ///            own, and on finish()'s once that has ended.
 /// Ownership  the readers must outlive it.
@@ -15,8 +18,10 @@
 #include "profiling/span_track.h"
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -47,11 +52,12 @@ public:
 struct FrameLogOptions {
   bool samples = true;  ///< shares and drawing too
   bool whole = true;    ///< of drawing: also what there is to be explained
-  std::uint64_t sampleEvery = 8;
+  std::uint64_t sampleEvery = 16;
   std::uint64_t from = 4;  ///< frames before it are not recorded: what is touched for the first time is slow
 
-  /// How drawing is sampled in this frame; drawing that is sampled takes longer.
-  DrawSample drawSample(std::uint64_t frame) const;
+  /// How drawing is sampled in this frame, if it is in one of `every`; drawing that is sampled takes longer.
+  DrawSample drawSample(std::uint64_t frame, std::uint64_t every) const;
+  DrawSample drawSample(std::uint64_t frame) const { return drawSample(frame, sampleEvery); }
 };
 
 class FrameLog final : public FrameProbe {
@@ -80,7 +86,10 @@ private:
     std::vector<NodeRef> nodes;
   };
 
+  void measureOverhead();
   SpanTrack& track();
+  void beginApp(SpanTrack& track, std::uint64_t frame);
+  void beganInVisit(Span what, NodeRef node);
   void collect();
 
   std::vector<SpanReader*> readers_;
@@ -88,11 +97,17 @@ private:
   SpanOverhead overhead_;
   std::uint64_t number_;  ///< of this log, among all there were: what threads remember of one is no other's
   std::atomic<std::uint64_t> appFrame_ = kNoFrame;
+  std::atomic<bool> light_ = false;  ///< App's frame is not recorded as a whole
+  std::uint64_t nextWhole_ = 0;      ///< App's own
+  std::uint64_t dearTicks_ = 0;      ///< kDear
+  double nanosecondsATick_ = 1;
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<SpanTrack>> tracks_;
   std::vector<SharedSpan> shared_;
   std::vector<Alone> alone_;
-  std::vector<std::size_t> next_;  ///< batches, by wall and eye
+  std::vector<std::size_t> next_;                      ///< batches, by wall and eye
+  std::map<std::uint32_t, std::uint64_t> nextShares_;  ///< frames, by wall
+  std::set<std::uint32_t> crowded_;                    ///< walls of very many nodes
   std::atomic<bool> done_ = false;
   std::thread collector_;
 };

@@ -9,8 +9,8 @@ namespace {
 class Figures {
 public:
   Figures(const ShowProfile& profile, const NodeNames& names, const std::vector<std::string>& walls)
-      : profile_(profile), names_(names),
-        frames_(std::max<double>(1, static_cast<double>(profile.frames()))) {
+      : profile_(profile), names_(names), frames_(std::max<double>(1, static_cast<double>(profile.frames()))),
+        wholeFrames_(std::max<double>(1, static_cast<double>(profile.wholeFrames()))) {
     out_.frames = profile.frames();
     out_.walls = walls;
     for (const auto& [ref, node] : profile.nodes()) addNode(ref, node);
@@ -40,12 +40,14 @@ private:
     NodeRow row;
     row.node = ref;
     if (auto name = names_.find(ref)) row.name = std::move(*name);
-    row.receive = node.phases[0] / frames_, row.simulate = node.phases[1] / frames_;
-    row.dispatch = node.phases[2] / frames_, row.settle = node.settle / frames_;
+    row.receive = node.phases[0] / wholeFrames_, row.simulate = node.phases[1] / wholeFrames_;
+    row.dispatch = node.phases[2] / wholeFrames_, row.settle = node.settle / wholeFrames_;
     row.publish = shareOf(node.published, Span::Publish, kNoWall);
     row.app = row.receive + row.simulate + row.dispatch + row.settle + row.publish;
     row.visitP95 = node.visit.percentile(95), row.visitMost = node.visit.most();
-    row.visits = static_cast<double>(node.visit.count()) / frames_;
+    row.visits = static_cast<double>(node.visit.count()) / wholeFrames_;
+    row.allocations = static_cast<double>(node.allocations.count) / wholeFrames_;
+    row.bytes = static_cast<double>(node.allocations.bytes) / wholeFrames_;
     row.walls.resize(out_.walls.size());
     for (const auto& [wall, cost] : node.walls) {
       if (wall >= row.walls.size()) continue;
@@ -96,16 +98,19 @@ private:
       StageRow row;
       row.name = stageName(stageOf(what), wall);
       if (!isStage(what)) row.part = std::string(nameOf(what));
-      row.ms = (isStage(what) ? total.ms.sum() : total.own) / frames_;
+      row.ms = (isStage(what) ? total.ms.sum() : total.own) / framesOf(what);
       row.p95 = total.ms.percentile(95), row.most = total.ms.most(), row.count = total.ms.count();
       row.wait = isWait(what);
+      const double times = std::max(1.0, static_cast<double>(total.counted));
+      row.allocations = static_cast<double>(total.allocations.count) / times;
+      row.bytes = static_cast<double>(total.allocations.bytes) / times;
       out_.stages.push_back(std::move(row));
     }
     for (const auto& [who, eye] : profile_.eyes()) {
       const std::string name = stageName(Span::Draw, who.first) + (who.second == 0 ? " left" : " right");
       const auto add = [&](const std::string& part, const CostSeries& ms, double times) {
         out_.stages.push_back(
-            {name + ", alone", part, times * ms.mean(), ms.percentile(95), ms.most(), ms.count(), false});
+            {name + ", alone", part, times * ms.mean(), ms.percentile(95), ms.most(), ms.count()});
       };
       add("", eye.whole, 1);
       for (const auto& [part, ms] : eye.parts) add(std::string(nameOf(part)), ms, timesAFrame(part));
@@ -122,21 +127,26 @@ private:
     for (const auto& [who, total] : profile_.spans())
       if (who.first == what && (!wall || who.second == *wall))
         ms += isStage(what) ? total.ms.sum() : total.own;
-    return ms / frames_;
+    return ms / framesOf(what);
+  }
+
+  /// In which that was recorded.
+  double framesOf(Span what) const {
+    return what > Span::Swap && what <= Span::Watching ? wholeFrames_ : frames_;
   }
 
   void explain() {
     Explained& app = out_.explained[0];
     // Where others help, App waits for them meanwhile.
     app.stage = "app";
-    app.measured =
-        sum(Span::App) + profile_.helped() / frames_ - std::min(sum(Span::Crew), profile_.helped() / frames_);
+    app.measured = (profile_.wholeApp() + profile_.helped()) / wholeFrames_ -
+                   std::min(sum(Span::Crew), profile_.helped() / wholeFrames_);
     double published = 0;
     for (const NodeRow& row : out_.nodes) app.nodes += row.app, published += row.publish;
     for (const Span s : {Span::Loading, Span::Mail, Span::Crew, Span::Sound, Span::Watching})
       app.named += sum(s);
     app.named += std::max(0.0, sum(Span::Publish) - published);
-    app.named -= std::min(sum(Span::Crew), profile_.helped() / frames_);
+    app.named -= std::min(sum(Span::Crew), profile_.helped() / wholeFrames_);
 
     Explained& cull = out_.explained[1];
     cull.stage = "cull", cull.measured = sum(Span::Cull);
@@ -158,7 +168,7 @@ private:
 
   const ShowProfile& profile_;
   const NodeNames& names_;
-  double frames_;
+  double frames_, wholeFrames_;
   ShowFigures out_;
 };
 

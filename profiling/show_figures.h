@@ -23,6 +23,7 @@ struct NodeRow {
   double app = 0;                      ///< the sum of these
   double visitP95 = 0, visitMost = 0;  ///< of the frames in which App visited it
   double visits = 0;                   ///< a frame
+  double allocations = 0, bytes = 0;   ///< of memory, by App for it, a frame
   std::vector<NodeOnWall> walls;
   double cull = 0, draw = 0;  ///< of all walls and eyes
   double total = 0;
@@ -36,6 +37,7 @@ struct StageRow {
   double ms = 0, p95 = 0, most = 0;
   std::uint64_t count = 0;
   bool wait = false;
+  double allocations = 0, bytes = 0;  ///< of memory, each time
 };
 
 /// How much of a stage is explained.

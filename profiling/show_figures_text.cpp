@@ -15,15 +15,26 @@ std::string placeOf(const NodeName& name) {
 }
 
 nlohmann::json toJson(const NodeRow& row, const std::vector<std::string>& walls) {
-  nlohmann::json j{{"path", row.name.path},         {"file", row.name.file},
-                   {"line", row.name.line},         {"kind", nameOf(row.name.kind)},
-                   {"unloaded", row.name.unloaded}, {"budget_ms", row.name.budget},
-                   {"receive_ms", row.receive},     {"simulate_ms", row.simulate},
-                   {"dispatch_ms", row.dispatch},   {"settle_ms", row.settle},
-                   {"publish_ms", row.publish},     {"app_ms", row.app},
-                   {"cull_ms", row.cull},           {"draw_ms", row.draw},
-                   {"total_ms", row.total},         {"share", row.share},
-                   {"visits", row.visits},          {"visit_p95_ms", row.visitP95},
+  nlohmann::json j{{"path", row.name.path},
+                   {"file", row.name.file},
+                   {"line", row.name.line},
+                   {"kind", nameOf(row.name.kind)},
+                   {"unloaded", row.name.unloaded},
+                   {"budget_ms", row.name.budget},
+                   {"receive_ms", row.receive},
+                   {"simulate_ms", row.simulate},
+                   {"dispatch_ms", row.dispatch},
+                   {"settle_ms", row.settle},
+                   {"publish_ms", row.publish},
+                   {"app_ms", row.app},
+                   {"cull_ms", row.cull},
+                   {"draw_ms", row.draw},
+                   {"total_ms", row.total},
+                   {"share", row.share},
+                   {"allocations", row.allocations},
+                   {"allocated_bytes", row.bytes},
+                   {"visits", row.visits},
+                   {"visit_p95_ms", row.visitP95},
                    {"visit_max_ms", row.visitMost}};
   for (std::size_t w = 0; w < row.walls.size(); ++w)
     j["walls"].push_back({{"wall", walls[w]},
@@ -43,10 +54,10 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
     text += fmt::format("{:7.4f} {:10.4f} {:7.4f} {:8.3f} {:8.3f} {:5.1f}%  {}  {}\n", r.app, r.visitP95,
                         r.cull, r.draw, r.total, 100 * r.share, r.name.path, placeOf(r.name));
   }
-  text += "\n       ms      p95      max  stage\n";
+  text += "\n       ms      p95      max  allocs  stage\n";
   for (const StageRow& s : f.stages)
-    text += fmt::format("{:9.4f} {:8.3f} {:8.3f}  {}{}{}\n", s.ms, s.p95, s.most, s.name,
-                        s.part.empty() ? "" : ": ", s.part);
+    text += fmt::format("{:9.4f} {:8.3f} {:8.3f} {:7.1f}  {}{}{}\n", s.ms, s.p95, s.most, s.allocations,
+                        s.name, s.part.empty() ? "" : ": ", s.part);
   text += "\nexplained   measured     nodes  the stage's own parts\n";
   for (const Explained& e : f.explained)
     text += fmt::format("{:5} {:5.1f}% {:9.4f} {:9.4f} {:9.4f}\n", e.stage, 100 * e.covered(), e.measured,
@@ -65,6 +76,8 @@ std::string toJson(const ShowFigures& f) {
                            {"p95_ms", s.p95},
                            {"max_ms", s.most},
                            {"count", s.count},
+                           {"allocations", s.allocations},
+                           {"allocated_bytes", s.bytes},
                            {"wait", s.wait}});
   for (const Explained& e : f.explained)
     j["explained"].push_back({{"stage", e.stage},

@@ -2,18 +2,36 @@
 
 namespace stadion {
 
-void ShowProfile::take(std::size_t, const SpanRecord& r) {
+void ShowProfile::take(std::size_t track, const SpanRecord& r) {
+  const bool partOfApp = r.what > Span::Swap && r.what <= Span::Watching;
+  if (partOfApp && !r.whole) return;
+  if (r.what == Span::Receive) called_[track].push_back(r.node);
+  if (r.what == Span::Mail && shareMail(track, r)) return;
   SpanTotal& total = spans_[{r.what, r.wall}];
   total.ms.add(r.took);
   total.own += r.own;
-  if (r.what == Span::App) ++frames_;
+  if (!r.disturbed) total.allocations += r.allocations, ++total.counted;
+  if (r.what == Span::App) {
+    ++frames_;
+    if (r.whole) ++wholeFrames_, wholeApp_ += r.took;
+  }
   if (r.node.valid()) addPhase(r.node, r);
   if (r.depth == 0 && isOfNode(r.what)) helped_ += r.took;
+}
+
+/// Nodes that received within it are those for whom it was.
+bool ShowProfile::shareMail(std::size_t track, const SpanRecord& r) {
+  std::vector<NodeRef>& called = called_[track];
+  for (const NodeRef ref : called) nodes_[ref].settle += r.own / static_cast<double>(called.size());
+  const bool any = !called.empty();
+  called.clear();
+  return any;
 }
 
 void ShowProfile::addPhase(NodeRef ref, const SpanRecord& r) {
   NodeProfile& node = nodes_[ref];
   const double ms = r.own;
+  node.allocations += r.allocations;
   if (isOfNode(r.what))
     node.phases[static_cast<std::size_t>(r.what) - static_cast<std::size_t>(Span::Receive)] += ms;
   else

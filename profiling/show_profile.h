@@ -29,7 +29,8 @@ struct WallCost {
 
 struct NodeProfile {
   std::array<double, 3> phases{};  ///< receive, simulate, dispatch, in all
-  double settle = 0;               ///< what it changed is taken up, in all
+  Allocations allocations;         ///< in all
+  double settle = 0;               ///< whose turn it is, with which messages; what it changed is taken up
   std::uint64_t published = 0;     ///< how often, in the frames sampled
   CostSeries visit;                ///< all phases of a frame together, of the frames in which it was visited
   std::map<std::uint32_t, WallCost> walls;
@@ -39,6 +40,8 @@ struct NodeProfile {
 struct SpanTotal {
   CostSeries ms;
   double own = 0;  ///< in none of its parts
+  Allocations allocations;
+  std::uint64_t counted = 0;  ///< spans whose allocations these are: those that the probe did not disturb
 };
 
 /// What an eye's drawing consists of, alone.
@@ -61,6 +64,10 @@ public:
   /// By wall and eye.
   const std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost>& eyes() const { return eyes_; }
   std::uint64_t frames() const { return frames_; }
+  /// Frames in which every node's spans were recorded: what App's parts and its nodes took is of these.
+  std::uint64_t wholeFrames() const { return wholeFrames_; }
+  /// What App took in them, in all [ms].
+  double wholeApp() const { return wholeApp_; }
   /// What nodes took on threads that help App, in all.
   double helped() const { return helped_; }
   /// Of all nodes together: how often they shared a span of that kind, in the frames sampled.
@@ -70,18 +77,21 @@ public:
 
 private:
   void addPhase(NodeRef node, const SpanRecord& record);
+  bool shareMail(std::size_t track, const SpanRecord& record);
 
   struct Visit {
     std::uint64_t frame = kNoFrame;
     double ms = 0;
   };
   std::map<NodeRef, NodeProfile> nodes_;
-  std::map<NodeRef, Visit> visits_;  ///< that may not be over
+  std::map<NodeRef, Visit> visits_;                     ///< that may not be over
+  std::map<std::size_t, std::vector<NodeRef>> called_;  ///< by thread: since its last Span::Mail
   std::map<std::pair<Span, std::uint32_t>, SpanTotal> spans_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost> eyes_;
   std::map<std::uint32_t, std::uint64_t> sampled_;
   std::map<std::pair<Span, std::uint32_t>, std::uint64_t> shares_;
-  std::uint64_t frames_ = 0;
+  std::uint64_t frames_ = 0, wholeFrames_ = 0;
+  double wholeApp_ = 0;
   double helped_ = 0;
 };
 

@@ -4,12 +4,15 @@
 /// Threads  began() and ended() on the thread itself, take() on the collector's; they meet without a lock.
 
 #include "engine/frame_probe.h"
+#include "profiling/allocations.h"
+#include "profiling/tick_clock.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <sys/resource.h>
+#include <utility>
 #include <vector>
 
 namespace stadion {
@@ -48,10 +51,13 @@ struct SpanRecord {
   std::uint32_t wall = kNoWall;
   NodeRef node;
   Span what = Span::App;
-  std::uint8_t depth = 0;  ///< 0 = in no other
-  double took = 0;         ///< [ms] without recording
-  double own = 0;          ///< [ms] of it in no part
-  ThreadUse use;           ///< of stages
+  std::uint8_t depth = 0;   ///< 0 = in no other
+  bool whole = true;        ///< of a frame in which every node's spans are recorded (FrameLog)
+  double took = 0;          ///< [ms] without recording
+  double own = 0;           ///< [ms] of it in no part
+  ThreadUse use;            ///< of stages
+  Allocations allocations;  ///< parts included
+  bool disturbed = false;   ///< some of these were the probe's own
 };
 
 class SpanTrack {
@@ -71,6 +77,7 @@ public:
     open.what = what, open.frame = frame, open.wall = wall, open.node = node;
     open.within = 0, open.spans = 0;
     if (isStage(what)) open.use = ThreadUse::now();
+    open.allocations = allocationsSoFar();
     open.began = ProfileClock::now();
   }
   void ended() {
@@ -81,18 +88,46 @@ public:
     const double took = std::max(0.0, nanoseconds(now - open.began) - recording);
     if (depth_ > 0) open_[depth_ - 1].within += took, open_[depth_ - 1].spans += open.spans + 1;
     last_[static_cast<std::size_t>(open.what)] = took;
-    const std::size_t head = head_.load(std::memory_order_relaxed);
-    if (head - tail_.load(std::memory_order_acquire) == kCapacity) {
-      lost_.fetch_add(1, std::memory_order_relaxed);
-      return;
-    }
-    SpanRecord& r = ring_[head % kCapacity];
+    SpanRecord* next = nextRecord();
+    if (!next) return;
+    SpanRecord& r = *next;
     r.began = open.began, r.ended = now, r.frame = open.frame, r.wall = open.wall, r.node = open.node;
-    r.what = open.what, r.depth = static_cast<std::uint8_t>(depth_);
+    r.what = open.what, r.depth = static_cast<std::uint8_t>(depth_), r.whole = whole_;
+    r.allocations = allocationsSoFar() - open.allocations, r.disturbed = disturbed_;
+    disturbed_ = disturbed_ && depth_ > 0;
     r.use = isStage(open.what) ? ThreadUse::now().since(open.use) : ThreadUse{};
     r.took = 1e-6 * took, r.own = 1e-6 * std::max(0.0, took - open.within);
-    head_.store(head + 1, std::memory_order_release);
+    push();
   }
+  /// What is under way allocates for the probe's sake.
+  void disturb() { disturbed_ = depth_ > 0; }
+  /// Whether the records that follow are of a frame that is recorded as a whole.
+  void setWhole(bool whole) { whole_ = whole; }
+
+  /// Instead of the spans of a visit: what follows is a node's, until endLightly(). It is recorded only if it
+  /// took `leastTicks`; it has no parts, and stays part of what holds it. The next one begins at once.
+  void beginLightly() { light_.began = TickClock::now(); }
+  void nameLightly(NodeRef node) { light_.node = node; }
+  void endLightly(std::uint64_t frame, std::uint64_t leastTicks, double nanosecondsATick) {
+    const std::uint64_t tick = TickClock::now(), ticks = tick - std::exchange(light_.began, tick);
+    ++counted_;
+    if (ticks < leastTicks) return;
+    const ProfileClock::time_point now = ProfileClock::now();
+    const auto took = std::chrono::duration_cast<ProfileClock::duration>(
+        std::chrono::duration<double, std::nano>(static_cast<double>(ticks) * nanosecondsATick));
+    SpanRecord* r = nextRecord();
+    if (!r) return;
+    *r = {};
+    r->began = now - took, r->ended = now, r->frame = frame, r->node = light_.node, r->what = Span::Simulate;
+    r->depth = static_cast<std::uint8_t>(depth_), r->whole = false;
+    r->took = r->own = 1e-6 * nanoseconds(took);
+    push();
+  }
+  /// Visits are counted.
+  void count() { ++counted_; }
+  std::uint64_t takeCount() { return std::exchange(counted_, 0); }
+
+  std::size_t depth() const { return depth_; }
   /// The frame and wall of the span that is under way.
   std::uint64_t frame() const { return depth_ > 0 ? open_[std::min(depth_, kDeepest) - 1].frame : kNoFrame; }
   std::uint32_t wall() const { return depth_ > 0 ? open_[std::min(depth_, kDeepest) - 1].wall : kNoWall; }
@@ -116,6 +151,14 @@ public:
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
 private:
+  /// Null, and counted, if nobody has collected.
+  SpanRecord* nextRecord() {
+    const std::size_t head = head_.load(std::memory_order_relaxed);
+    if (head - tail_.load(std::memory_order_acquire) < kCapacity) return &ring_[head % kCapacity];
+    lost_.fetch_add(1, std::memory_order_relaxed);
+    return nullptr;
+  }
+  void push() { head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
   static double nanoseconds(ProfileClock::duration d) {
     return std::chrono::duration<double, std::nano>(d).count();
   }
@@ -128,9 +171,18 @@ private:
     std::uint32_t spans = 0;  ///< in it, and in those
     ProfileClock::time_point began;
     ThreadUse use;
+    Allocations allocations;
+  };
+
+  struct Light {
+    NodeRef node;
+    std::uint64_t began = 0;  ///< [ticks]
   };
 
   std::array<Open, kDeepest> open_;
+  Light light_;
+  bool whole_ = true, disturbed_ = false;
+  std::uint64_t counted_ = 0;
   std::size_t depth_ = 0;
   SpanOverhead overhead_;
   std::array<double, kSpans> last_{};

@@ -12,7 +12,9 @@ namespace stadion {
 
 class DrawSampler {
 public:
-  static constexpr std::uint32_t kInstancesAtOnce = 64;  ///< more of a mesh are several batches
+  /// More of a mesh are several batches. What is drawn alone must be much more than nothing, which is taken
+  /// off it: where there is very much to draw, so many parts of it.
+  static constexpr std::uint32_t kInstancesAtOnce = 64, kPartsOfAFrame = 8;
 
   explicit DrawSampler(const GlTable& gl) : clock_(gl) {}
 

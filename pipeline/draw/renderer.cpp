@@ -219,7 +219,9 @@ void Renderer::drawEyeAlone(const DrawEye& eye, std::uint32_t index) {
 }
 
 std::uint32_t Renderer::mostAtOnce() const {
-  return sample_ == DrawSample::Some ? DrawSampler::kInstancesAtOnce : kMostAtOnce;
+  if (sample_ != DrawSample::Some) return kMostAtOnce;
+  const auto instances = static_cast<std::uint32_t>(batches_.matrices().size());
+  return std::clamp(instances / DrawSampler::kPartsOfAFrame, DrawSampler::kInstancesAtOnce, kMostAtOnce);
 }
 
 /// As many as drawInstances() will be called for.

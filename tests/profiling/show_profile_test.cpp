@@ -3,7 +3,9 @@
 #include "profiling/show_figures.h"
 
 #include <gtest/gtest.h>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace stadion {
 namespace {
@@ -100,9 +102,88 @@ TEST(FrameLog, WhatAStageDoesBesideItsPartsIsItsOwn) {
   log.finish();
   const SpanTotal& app = profile.spans().at({Span::App, kNoWall});
   const double simulated = profile.nodes().at(kBall).phases[1];
-  EXPECT_GE(simulated, 0.7);
+  EXPECT_GE(simulated, 0.699);
   EXPECT_GE(app.own, 0.3);
   EXPECT_NEAR(app.own + simulated, app.ms.sum(), 1e-3) << "every moment is somebody's, once";
+}
+
+TEST(FrameLog, TellsWhatAStageAllocates) {
+  if (!countsAllocations()) GTEST_SKIP() << "sanitizers allocate themselves";
+  struct Kept final : SpanReader {
+    std::vector<SpanRecord> spans;
+    using SpanReader::take;
+    void take(std::size_t, const SpanRecord& r) override { spans.push_back(r); }
+  } kept;
+  FrameLog log({&kept}, {.samples = false, .from = 0});
+  std::vector<std::unique_ptr<char[]>> memory;
+  memory.reserve(8);
+  {
+    const SpanScope app(&log, Span::App, 0, kNoWall);
+    memory.push_back(std::make_unique<char[]>(100));
+    const SpanScope node(&log, Span::Simulate, kBall);
+    for (int i = 0; i < 3; ++i) memory.push_back(std::make_unique<char[]>(1000));
+  }
+  log.finish();
+  ASSERT_EQ(kept.spans.size(), 2U);
+  EXPECT_EQ(kept.spans[0].allocations.count, 3U);
+  EXPECT_EQ(kept.spans[0].allocations.bytes, 3000U);
+  EXPECT_EQ(kept.spans[1].allocations.count, 4U) << "the node's are App's too";
+}
+
+/// Frames in which so many nodes are visited.
+void visitNodes(FrameLog& log, std::uint32_t nodes, std::uint64_t frames, std::uint32_t slow) {
+  for (std::uint64_t frame = 0; frame < frames; ++frame) {
+    const SpanScope app(&log, Span::App, frame, kNoWall);
+    for (std::uint32_t i = 0; i < nodes; ++i) {
+      {
+        const SpanScope mail(&log, Span::Mail);
+        if (i == slow) burn(std::chrono::microseconds(20));
+        const SpanScope receive(&log, Span::Receive, NodeRef{1, i});
+      }
+      {
+        const SpanScope simulate(&log, Span::Simulate, NodeRef{1, i});
+        if (i == slow) burn(std::chrono::microseconds(400));
+      }
+      const SpanScope settle(&log, Span::Settle, NodeRef{1, i});
+    }
+  }
+}
+
+TEST(FrameLog, OfVeryManyNodesOnlySomeFramesAreRecordedAsAWhole) {
+  ShowProfile profile;
+  FrameLog log({&profile}, {.samples = false, .from = 0});
+  visitNodes(log, 1000, 40, 7);
+  log.finish();
+  EXPECT_EQ(log.lost(), 0U);
+  EXPECT_EQ(profile.frames(), 40U) << "stages are timed in every frame";
+  EXPECT_GE(profile.wholeFrames(), 2U);
+  EXPECT_LE(profile.wholeFrames(), 6U);
+  ASSERT_EQ(profile.nodes().size(), 1000U);
+  const double each = profile.nodes().at({1, 7}).phases[1] / static_cast<double>(profile.wholeFrames());
+  EXPECT_GE(each, 0.4);
+}
+
+TEST(FrameLog, ANodeThatTakesLongIsToldInEveryFrame) {
+  struct Kept final : SpanReader {
+    std::set<std::uint64_t> frames;
+    using SpanReader::take;
+    void take(std::size_t, const SpanRecord& r) override {
+      if (r.node == NodeRef{1, 7} && r.took >= 0.35) frames.insert(r.frame);
+    }
+  } kept;
+  FrameLog log({&kept}, {.samples = false, .from = 0});
+  visitNodes(log, 1000, 20, 7);
+  log.finish();
+  EXPECT_EQ(kept.frames.size(), 20U);
+}
+
+TEST(FrameLog, OfFewNodesEveryFrameIsRecordedAsAWhole) {
+  ShowProfile profile;
+  FrameLog log({&profile}, {.samples = false, .from = 0});
+  visitNodes(log, 20, 50, 3);
+  log.finish();
+  EXPECT_EQ(profile.wholeFrames(), 50U);
+  EXPECT_GE(profile.nodes().at({1, 3}).settle, 50 * 0.019) << "that it is its turn is the node's";
 }
 
 TEST(ShowProfile, ASpanIsSharedAmongThoseItWasSpentOn) {

@@ -1,0 +1,129 @@
+#include "cli/bench_recording.h"
+#include "cli/exit_code.h"
+#include "cli/number_option.h"
+#include "cli/profile_run.h"
+#include "cli/stop_signal.h"
+#include "cli/temporary_folder.h"
+#include "engine/atomic_file.h"
+#include "profiling/bench/grid_show.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace stadion {
+namespace {
+
+struct Options {
+  std::uint64_t frames = 320;
+  bool json = false;
+};
+
+struct Show {
+  std::string name, script, walls, size;
+  double drawOnNodes = 0;  ///< at least; 0: no limit
+};
+
+/// A figure with its limit.
+struct Line {
+  std::string what;
+  double share, limit;
+  bool atLeast;
+  bool met() const { return atLeast ? share >= limit : share <= limit; }
+};
+
+std::vector<Line> linesOf(const ShowFigures& f, const Show& show) {
+  const auto& [app, cull, draw] = f.explained;
+  const double measured = app.measured + cull.measured + draw.measured;
+  // What is drawn alone is scaled to what the eyes took whole; how far it was off before is a line of its
+  // own.
+  double found = draw.measured;
+  for (const Explained* e : {&app, &cull}) found += std::min(e->measured, e->nodes + e->named);
+  const double alone = draw.nodes + draw.named;
+  const double both = app.measured + cull.measured;
+  std::vector<Line> lines = {
+      {"App + Cull + Draw on named nodes or parts of stages", found / measured, 0.98, true},
+      {"App on named nodes or parts", app.covered(), 0, true},
+      {"Cull on named nodes or parts", cull.covered(), 0, true},
+      {"parts of the stages themselves, of App + Cull", both > 0 ? (app.named + cull.named) / both : 0, 0.1,
+       false},
+      {"off: the sum of what was drawn alone, before scaling, from the eyes drawn whole",
+       std::abs(draw.covered() - 1), 0.15, false}};
+  lines.push_back({"Draw on nodes", alone > 0 ? draw.nodes / alone : 0, show.drawOnNodes, true});
+  return lines;
+}
+
+bool tellFigures(const ShowFigures& f, const Show& show, bool json) {
+  bool met = true;
+  if (!json)
+    std::printf("%s, %s, %s: App %.3f ms, Cull %.3f ms, Draw %.1f ms a frame; %llu frames\n",
+                show.name.c_str(), show.walls.c_str(), show.size.c_str(), f.explained[0].measured,
+                f.explained[1].measured, f.explained[2].measured, static_cast<unsigned long long>(f.frames));
+  for (const Line& line : linesOf(f, show)) {
+    met = met && line.met();
+    const bool limited = line.limit > 0;
+    if (json)
+      std::printf("%s\n", nlohmann::json{{"bench", "attribution"},
+                                         {"show", show.name},
+                                         {"figure", line.what},
+                                         {"share", line.share},
+                                         {"limit", line.limit},
+                                         {"ok", line.met()}}
+                              .dump()
+                              .c_str());
+    else
+      std::printf("  %6.1f %%  %s%s\n", 100 * line.share, line.what.c_str(),
+                  limited ? fmt::format("  (at {} {:g} %)  {}", line.atLeast ? "least" : "most",
+                                        100 * line.limit, line.met() ? "ok" : "MISSED")
+                                .c_str()
+                          : "");
+  }
+  return met;
+}
+
+int benchAttribution(const Options& o) {
+  const TemporaryFolder folder;
+  Diagnostics findings;
+  if (const auto wrong = writeFile(folder.path("grid.evs"), gridScript())) {
+    findings.add(*wrong);
+    return tell(findings), kBadInput;
+  }
+  const std::string scripts = STADION_ROOT "/scripts/";
+  const Show shows[] = {{"kick", scripts + "kick.evs", "desktop", "400x300", 0},
+                        {"olympia", scripts + "olympia.evs", "desktop", "400x300", 0},
+                        {"grid of 10 000 nodes", folder.path("grid.evs"), "desktop", "160x120", 0.85}};
+  bool met = true;
+  for (const Show& show : shows) {
+    ProfileRunOptions options;
+    options.show.script = show.script, options.show.walls = show.walls, options.show.size = show.size;
+    options.show.mode = "sequential";  // so that nothing else of the process is at work meanwhile
+    options.show.frames = o.frames, options.show.assetRoots = {scripts};
+    if (!options.show.settle(findings)) return tell(findings), kBadInput;
+    const auto figures = profileShow(options, findings);
+    tell(findings);
+    if (!figures) return stopSignal() ? kStopped + stopSignal() : kBadInput;
+    met = tellFigures(*figures, show, o.json) && met;
+  }
+  if (!o.json) std::printf("draw: processor time, each batch alone\n%s\n", met ? "ok" : "FAILED");
+  return met ? kOk : kCheckFailed;
+}
+
+}  // namespace
+
+void addBenchAttribution(CLI::App& bench, int& code) {
+  auto o = std::make_shared<Options>();
+  CLI::App* command = bench.add_subcommand(
+      "attribution",
+      "How much of the frames of kick, Olympia and a grid of 10 000 nodes is found with nodes?");
+  command->add_option("--frames", o->frames, "of each show")
+      ->check(wholeNumberFrom(24, 100000))
+      ->capture_default_str();
+  command->add_flag("--json", o->json, "one JSON object a line");
+  command->callback([o, &code] { code = benchAttribution(*o); });
+}
+
+}  // namespace stadion
