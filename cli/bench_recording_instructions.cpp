@@ -9,8 +9,8 @@
 namespace stadion {
 namespace {
 
-/// Between them lies a whole number of rounds of samples (FrameLog).
-constexpr int kFewer = 9, kMore = 25;
+/// Between them lies one round of the samples that FrameLog takes of a large wall.
+constexpr int kFewer = 9, kMore = 73;
 constexpr std::chrono::minutes kLimit{30};
 
 /// All instructions of a run; with `wrong`, if there are none.

@@ -137,9 +137,11 @@ private:
 
   void explain() {
     Explained& app = out_.explained[0];
-    // Where others help, App waits for them meanwhile.
+    // Where others help, App waits for them meanwhile. Recording every node disturbs: where there are frames
+    // in which that is not done, what App takes in those counts.
     app.stage = "app";
-    app.measured = (profile_.wholeApp() + profile_.helped()) / wholeFrames_ -
+    app.measured = std::min(profile_.wholeApp() / wholeFrames_, sum(Span::App)) +
+                   profile_.helped() / wholeFrames_ -
                    std::min(sum(Span::Crew), profile_.helped() / wholeFrames_);
     double published = 0;
     for (const NodeRow& row : out_.nodes) app.nodes += row.app, published += row.publish;
