@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 ProgramResult profile(const std::string& show, const std::vector<std::string>& options) {
-  std::vector<std::string> words = {"profile", show, "--frames", "90", "--size", "96x72", "--nodes", "0"};
+  std::vector<std::string> words = {"profile", show, "--frames", "48", "--size", "96x72", "--nodes", "0"};
   words.insert(words.end(), options.begin(), options.end());
   return stadionProgram(words);
 }
@@ -72,7 +72,7 @@ TEST_F(ProgramReport, ABrowserFillsItsTablesAndPlotsWithoutAComplaint) {
   const Shown s = shown(page);
   EXPECT_EQ(s.complaints, "");
   EXPECT_NE(s.dom.find("data-drawn=\"yes\""), std::string::npos) << "the page's script ended early";
-  EXPECT_GE(count(part(s.dom, "strip"), "<rect"), 80U) << "a column a frame";
+  EXPECT_GE(count(part(s.dom, "strip"), "<rect"), 40U) << "a column a frame";
   EXPECT_GE(count(part(s.dom, "timeline-plot"), "<rect"), 200U);
   EXPECT_GE(count(part(s.dom, "flame-plot"), "<rect"), 4U);
   EXPECT_EQ(count(part(s.dom, "histograms"), "<figure"), 10U) << "frame, App, and four walls' Cull and Draw";
@@ -122,13 +122,13 @@ TEST(ProgramTrace, TheTraceOfARunIsTakenByAViewerWithoutAComplaint) {
   for (const std::string mode : {"pipelined", "sequential"}) {
     const fs::path file = folder.path() / (mode + ".json");
     const ProgramResult r =
-        profile(kKick, {"--trace", file.string(), "--mode", mode, "--trace-frames", "10..60"});
+        profile(kKick, {"--trace", file.string(), "--mode", mode, "--trace-frames", "10..40"});
     ASSERT_EQ(r.status, 0) << r.err;
     const TraceChecks seen(fileContent(file));
     EXPECT_EQ(seen.complaints(), std::vector<std::string>()) << mode;
-    EXPECT_EQ(seen.flows(), 51U * 4);
+    EXPECT_EQ(seen.flows(), 31U * 4);
     EXPECT_EQ(*seen.frames().begin(), 10U);
-    EXPECT_EQ(*seen.frames().rbegin(), 60U);
+    EXPECT_EQ(*seen.frames().rbegin(), 40U);
     EXPECT_TRUE(seen.names().contains("dummy_leg") && seen.names().contains("left eye"));
     EXPECT_EQ(seen.threadNames().contains("Cull floor"), mode == "pipelined");
   }
