@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 ProgramResult profile(const std::string& show, const std::vector<std::string>& options) {
-  std::vector<std::string> words = {"profile", show, "--frames", "48", "--size", "96x72", "--nodes", "0"};
+  std::vector<std::string> words = {"profile", show, "--frames", "90", "--size", "96x72", "--nodes", "0"};
   words.insert(words.end(), options.begin(), options.end());
   return stadionProgram(words);
 }
@@ -72,7 +72,7 @@ TEST_F(ProgramReport, ABrowserFillsItsTablesAndPlotsWithoutAComplaint) {
   const Shown s = shown(page);
   EXPECT_EQ(s.complaints, "");
   EXPECT_NE(s.dom.find("data-drawn=\"yes\""), std::string::npos) << "the page's script ended early";
-  EXPECT_GE(count(part(s.dom, "strip"), "<rect"), 40U) << "a column a frame";
+  EXPECT_GE(count(part(s.dom, "strip"), "<rect"), 80U) << "a column a frame";
   EXPECT_GE(count(part(s.dom, "timeline-plot"), "<rect"), 200U);
   EXPECT_GE(count(part(s.dom, "flame-plot"), "<rect"), 4U);
   EXPECT_EQ(count(part(s.dom, "histograms"), "<figure"), 10U) << "frame, App, and four walls' Cull and Draw";
