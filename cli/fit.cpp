@@ -171,15 +171,15 @@ Vec2 turning(const FitTask& task) {
   return sum / rows;
 }
 
-/// Where nothing comes near, the flights may be those of another body.
+/// Where nothing comes near, or the spin is not the body's, the flights may be those of another one.
 void tellOfAnotherBody(const FitTask& task, const char* form, double landing) {
   constexpr double kFarOff = 0.05, kSpins = 5;  // [rad/s]
-  if (landing < kFarOff) return;
-  std::printf("All land %.0f %% off or more: are these flights of a %s body of %.4g kg, and in this air?\n",
-              100 * landing, form, task.body.mass);
+  if (landing > kFarOff)
+    std::printf("All land %.0f %% off or more: are these flights of a %s body of %.4g kg, and in this air?\n",
+                100 * landing, form, task.body.mass);
   const Vec2 turns = turning(task);
   if (!task.shape.round() && turns.y() > std::max(kSpins, turns.x()))
-    std::printf("In them the body turns at %.0f rad/s across %s.\n", turns.y(),
+    std::printf("Are these its flights? In them it turns at %.0f rad/s across %s.\n", turns.y(),
                 task.shape.elongated() ? "its long axis, as a flat one may that spins"
                                        : "the axis of its disc, as a long one may that spins");
 }
@@ -207,7 +207,7 @@ int fit(const Options& o) {
               good != rungs.end() ? "The cheapest within the tolerance; in the dynobject write"
                                   : "None is within the tolerance; the nearest is",
               matterText(o, shape).c_str(), attributesOf(chosen, table).c_str());
-  if (good == rungs.end()) tellOfAnotherBody(task.value(), form, chosen.errors.landing);
+  tellOfAnotherBody(task.value(), form, chosen.errors.landing);
   if (chosen.kind == FlightKind::Table)
     std::printf("The table is in %s; it belongs beside the script, or where its models lie.\n",
                 table.c_str());

@@ -23,7 +23,7 @@ TEST(ShowTexts, ASubSceneIsLoadedAsItWasWhenTheShowWasOpenedWhateverBecomesOfIts
     ASSERT_TRUE(player);
     *later ? static_cast<void>(folder.write("part.evs", later)) : static_cast<void>(fs::remove(part));
     bool loaded = false;
-    ShowParts parts = player->parts(StereoLayout::Off);
+    ShowParts parts = player->parts(StereoLayout::Pair);
     parts.observer = [&](const TimeSignature&, const InputSample&, const Scene& scene) {
       for (const EventRecord& e : scene.events()) loaded |= e.event == Event::Loaded;
     };
