@@ -17,12 +17,11 @@ double leastScale(const Mat3& m, double most) {
 
 }  // namespace
 
-LevelChoice::LevelChoice(const ViewerRecord& viewer, std::span<const WallPixels> walls,
-                         const MeshStore& meshes)
-    : stress_(viewer.stress), meshes_(meshes) {
-  const Pose X_WR = viewer.rig(), X_RH = viewer.head();
+// Most shows have no levels: what only they need is made when the first one is met.
+void LevelChoice::lookAtWalls() {
+  const Pose X_WR = viewer_.rig(), X_RH = viewer_.head();
   head_ = X_WR * X_RH.p;
-  for (const WallPixels& w : walls) {
+  for (const WallPixels& w : wallPixels_) {
     const WallBasis b = basis(w.wall);
     const double distance = std::max(std::abs(b.normal.dot(X_RH.p - w.wall.lowerLeft)), kNearest);
     const double pitch = std::min(b.width / w.width, b.height / w.height);
@@ -59,9 +58,10 @@ double LevelChoice::pixelsOf(const Vec3& centre, double radius) const {
 }
 
 std::uint32_t LevelChoice::levelOf(const InstanceRecord& r) {
-  if (r.lodFactor == 0 || walls_.empty()) return 0;
+  if (r.lodFactor == 0 || wallPixels_.empty()) return 0;
   const Mesh* m = mesh(r.mesh);
   if (!m || m->levels.empty() || !(m->sphere.radius > 0)) return 0;
+  if (walls_.empty()) lookAtWalls();
   Affine X_WN;
   for (int row = 0; row < 3; ++row)
     for (int col = 0; col < 4; ++col) X_WN.matrix()(row, col) = r.model[4 * row + col];
@@ -69,7 +69,7 @@ std::uint32_t LevelChoice::levelOf(const InstanceRecord& r) {
   if (!(least > 0)) return 0;
   const Vec3 head_N = X_WN.inverse() * head_;
   const Vec3 nearest = head_N.cwiseMax(m->bounds.lo).cwiseMin(m->bounds.hi);
-  const double distance = (head_N - nearest).norm() * least * stress_ * double{r.lodFactor};
+  const double distance = (head_N - nearest).norm() * least * viewer_.stress * double{r.lodFactor};
   const double pixels =
       pixelsOf(Vec3(r.centre[0], r.centre[1], r.centre[2]) - head_, double{r.radius}) * most;
   std::uint32_t level = 0;

@@ -34,7 +34,9 @@ class LevelChoice {
 public:
   static constexpr double kMostPixels = 1;
 
-  LevelChoice(const ViewerRecord& viewer, std::span<const WallPixels> walls, const MeshStore& meshes);
+  /// Borrows all three.
+  LevelChoice(const ViewerRecord& viewer, std::span<const WallPixels> walls, const MeshStore& meshes)
+      : viewer_(viewer), wallPixels_(walls), meshes_(meshes) {}
 
   /// 0 = the full surface; else it is Mesh::levels[that - 1].
   std::uint32_t levelOf(const InstanceRecord& record);
@@ -49,9 +51,12 @@ private:
   const Mesh* mesh(MeshId id);
   double pixelsOf(const Vec3& centre, double radius) const;
 
-  Vec3 head_;
-  double stress_ = 1;
-  std::vector<Seen> walls_;
+  void lookAtWalls();
+
+  const ViewerRecord& viewer_;
+  std::span<const WallPixels> wallPixels_;
+  Vec3 head_ = Vec3::Zero();
+  std::vector<Seen> walls_;  ///< once there is a level to choose
   const MeshStore& meshes_;
   std::map<MeshId, const Mesh*> known_;
 };
