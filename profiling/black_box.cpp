@@ -12,13 +12,6 @@ namespace {
 
 constexpr char kMagic[16] = "stadion frames1";
 
-template <std::size_t N>
-void copyText(const std::string& from, char (&to)[N]) {
-  const std::size_t count = std::min(from.size(), N - 1);
-  std::memcpy(to, from.data(), count);
-  to[count] = 0;
-}
-
 Diagnostic problem(const std::string& file, const std::string& what) {
   return {Severity::Error, {file, 0, 0}, what, {}};
 }

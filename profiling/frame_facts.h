@@ -72,4 +72,10 @@ void judge(FrameFacts& facts);
 std::string toText(const FrameFacts& facts, std::span<const std::string> walls);
 std::string_view nameOf(Cause cause);
 
+/// Into a field of a record, cut off where that ends.
+template <std::size_t N>
+void copyText(const std::string& from, char (&to)[N]) {
+  to[from.copy(to, N - 1)] = 0;
+}
+
 }  // namespace stadion

@@ -7,13 +7,6 @@ namespace {
 
 constexpr std::size_t kMostOpen = 64;  ///< frames that nobody has shown yet; older ones never will be
 
-template <std::size_t N>
-void copyText(const std::string& from, char (&to)[N]) {
-  const std::size_t count = std::min(from.size(), N - 1);
-  std::memcpy(to, from.data(), count);
-  to[count] = 0;
-}
-
 }  // namespace
 
 FrameFacts& FrameJudge::frame(std::uint64_t number) {

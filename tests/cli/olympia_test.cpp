@@ -89,8 +89,8 @@ TEST(ProgramOlympia, AllGoAsFarAtOtherFrameRatesAndWhenFramesAreLate) {
   EXPECT_EQ(distances(late, ""), usual);
 }
 
-/// A visitor who lets the discus go over its stand, where it lies already, then takes it again and throws it.
-constexpr const char* kDrop = R"(stadion-input 1
+/// A visitor who walks up to the discus and takes it.
+constexpr const char* kTake = R"(stadion-input 1
 key head 0    0    0     1.70
 key wand 0    0.28 0.30  1.10
 key wand 4    0.28 0.30  1.10
@@ -100,6 +100,10 @@ key wand 7.3  0.28 0.30  1.10
 key wand 9.4  0.60 0.55  0.98
 key wand 9.6  0.60 0.55  0.98  buttons 1
 key wand 9.8  0.60 0.55  0.98
+)";
+
+/// He lets it go over its stand, where it lies already, then takes it again and throws it.
+constexpr const char* kDrop = R"(
 key wand 9.9  0.60 0.55  0.98  buttons 4
 key wand 10   0.60 0.55  0.98
 key wand 27.6 0.60 0.55  0.98  buttons 1
@@ -114,7 +118,7 @@ key wand 36   0.52 0.44  1.68  turn 33 0 0
 TEST(ProgramOlympia, WhoDropsTheDiscusOnItsStandLosesTheTurnAndCanTakeItAgain) {
   const TemporaryFolder folder;
   const std::string log = folder.path() / "drop.input";
-  std::ofstream(log) << kDrop;
+  std::ofstream(log) << kTake << kDrop;
   const ProgramResult played =
       stadionProgram({"run", olympia(), "--input", log, "--walls", "desktop", "--size", "32x24", "--seconds",
                       "36", "--out", folder.path() / "out"});
@@ -132,18 +136,9 @@ TEST(ProgramOlympia, WhoDropsTheDiscusOnItsStandLosesTheTurnAndCanTakeItAgain) {
 TEST(ProgramOlympia, WhoStepsForwardWithTheDiscusCanThrowItAndWalkOn) {
   const TemporaryFolder folder;
   const std::string log = folder.path() / "step.input";
-  std::ofstream(log) << R"(stadion-input 1
-key head 0     0    0    1.70
+  std::ofstream(log) << kTake << R"(
 key head 10    0    0    1.70
 key head 12    0    1.3  1.70
-key wand 0     0.28 0.30 1.10
-key wand 4     0.28 0.30 1.10
-key wand 4.3   0.28 0.30 1.10  axes 0 1
-key wand 7     0.28 0.30 1.10  axes 0 1
-key wand 7.3   0.28 0.30 1.10
-key wand 9.4   0.60 0.55 0.98
-key wand 9.6   0.60 0.55 0.98  buttons 1
-key wand 9.8   0.60 0.55 0.98
 key wand 13    0.60 1.40 1.30
 key wand 14    0.60 1.40 1.30
 key wand 14.1  0.60 2.00 1.60  buttons 4
