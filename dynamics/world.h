@@ -237,6 +237,7 @@ public:
   /// Work done by the last advance, for cost reports.
   struct Counters {
     std::uint64_t arcs = 0, impacts = 0, contactSteps = 0, pairTests = 0;
+    std::uint64_t contacts = 0;   ///< points, in all steps in contact
     std::uint64_t distances = 0;  ///< asked for on the way to a touch, by what has no closed form
     std::uint64_t tired = 0;      ///< impacts of bodies that have bounced too often in too short a time
     std::uint64_t limited = 0;    ///< frames cut short because their events would not end: never expected

@@ -305,6 +305,7 @@ void World::Core::tick(double tau) {
     for (std::size_t i = 0; i < set.size(); ++i) findContacts(*set[i], tau, found, set);
     if (!wakeTouched(found, tau)) break;
   }
+  counters.contacts += found.size();
   std::ranges::sort(set, {}, &RigidBody::id);
   std::ranges::stable_sort(found, {}, [](const Found& f) { return std::pair(f.a, f.b); });
   for (std::size_t i = 0; i < set.size(); ++i) set[i]->slot = static_cast<std::uint32_t>(i);

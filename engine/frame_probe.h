@@ -78,6 +78,37 @@ constexpr bool isWait(Span s) {
 }
 std::string_view nameOf(Span span);
 
+/// The stage that a span belongs to.
+constexpr Span stageOf(Span s) {
+  if (isStage(s)) return s;
+  if (s <= Span::Watching || s == Span::ForTick || s == Span::ForSlot) return Span::App;
+  if (s <= Span::Sort || s == Span::ForFrame || s == Span::ForList) return Span::Cull;
+  return Span::Draw;
+}
+
+/// What is counted of a frame: work, not time, so that the same show counts the same on every machine.
+enum class Count : std::uint8_t {
+  // Of App.
+  Visits,     ///< nodes that had something to do
+  Messages,   ///< delivered
+  Published,  ///< records, into the slot
+  // Of a dynamics node.
+  Impacts,
+  Contacts,  ///< points at which bodies lay on something, in all steps of the frame
+  Substeps,  ///< flights from one event to the next, and steps in contact
+  // Of Cull, on a wall.
+  Tested,   ///< spheres, against what can be seen
+  Seen,     ///< of these, by one eye or both
+  Casters,  ///< of shadows, that move
+  // Of Draw, for an eye.
+  Calls,
+  Instances,
+  Triangles,
+  Pixels,
+};
+constexpr std::size_t kCounts = static_cast<std::size_t>(Count::Pixels) + 1;
+std::string_view nameOf(Count count);
+
 /// Of each eye that is sampled.
 constexpr std::size_t kBatchesAFrame = 8;
 
@@ -111,11 +142,13 @@ public:
   /// Anything within a stage; of a node if that is valid.
   virtual void began(Span what, NodeRef node) = 0;
   virtual void ended(Span what) = 0;
+  /// So much of it within the span that is under way on this thread; by a node, if that is valid.
+  virtual void counted(Count, std::uint64_t, NodeRef = {}) {}
 
   /// Whether `shared` is wanted for this frame of that wall.
   virtual bool wantsShares(std::uint64_t, std::uint32_t) const { return false; }
   /// The last span `what` of this frame and wall was spent on these nodes, on all alike; who is named twice
-  /// cost twice.
+  /// cost twice. A node that is not valid stands for the visitor.
   virtual void shared(Span, std::uint64_t, std::uint32_t, std::span<const NodeRef>) {}
 
   virtual DrawSample drawSample(std::uint64_t, std::uint32_t) const { return DrawSample::None; }

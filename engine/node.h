@@ -32,6 +32,7 @@ struct FrameContext {
   const InputSample& input;  ///< trackers at now.time
   Scene& scene;
   bool rested = false;  ///< it was kept from running up to this frame's start: its own time stood still
+  FrameProbe* probe = nullptr;  ///< who counts, if anybody does
 
   Nanoseconds start() const { return now.time - now.step; }
   /// When a delivered message takes effect: at its due time, but not before this frame's start.

@@ -26,8 +26,9 @@ class StageSpan {
 public:
   StageSpan(DurationSeries& series, FrameProbe* probe, Span stage, std::uint64_t frame,
             std::uint32_t wall = kNoWall)
-      : series_(series), scope_(probe, stage, frame, wall) {}
+      : series_(series), scope_(std::in_place, probe, stage, frame, wall) {}
   ~StageSpan() {
+    scope_.reset();
     if (!counts_) return;
     try {
       series_.add(millisecondsSince(start_));
@@ -42,7 +43,7 @@ public:
 
 private:
   DurationSeries& series_;
-  SpanScope scope_;
+  std::optional<SpanScope> scope_;
   bool counts_ = true;
   Clock::time_point start_ = Clock::now();
 };

@@ -7,6 +7,12 @@ Failure toFailure(const std::optional<Diagnostic>& d) {
   return d ? Failure(Reason(*d)) : std::nullopt;
 }
 
+void tellCounts(const FrameCounters& counters, FrameProbe& probe) {
+  probe.counted(Count::Visits, counters.nodesVisited);
+  probe.counted(Count::Messages, counters.messagesDelivered);
+  probe.counted(Count::Published, counters.changesPublished);
+}
+
 /// Nothing is drawn, in front of a sky without light and without a sun.
 void makeBlack(DrawList& list) {
   list.opaque.clear(), list.transparent.clear(), list.lights.clear();
@@ -33,6 +39,7 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
     parts_.input.sampleFrame(now.time - now.step, now.time, input);
   }
   parts_.scene.advance(now, input, changes_, parts_.probe);
+  if (parts_.probe) tellCounts(parts_.scene.counters(), *parts_.probe);
   {
     const SpanScope span(parts_.probe, Span::Publish);
     parts_.state.publish(slot, changes_);
@@ -48,10 +55,10 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   parts_.observer(now, input, parts_.scene);
 }
 
-/// For whom publishing was.
+/// For whom publishing was: the visitor's place goes with every frame.
 void ShowStages::tellPublished() {
   if (!parts_.probe || !parts_.probe->wantsShares(changes_.signature.frame, kNoWall)) return;
-  std::vector<NodeRef> owners;
+  std::vector<NodeRef> owners{NodeRef{}};
   for (const ChangeSet::Instance& i : changes_.instances)
     if (i.record.radius >= 0) owners.push_back(i.record.owner);
   parts_.probe->shared(Span::Publish, changes_.signature.frame, kNoWall, owners);
@@ -76,8 +83,11 @@ void ShowStages::still(std::size_t slot) {
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
   WallView& view = views_[wall];
-  view.eyeSeparation = shown.eyeSeparation >= 0 ? shown.eyeSeparation : parts_.walls[wall].eyeSeparation;
-  const SlotView state = parts_.state.view(slot);
+  const SlotView state = [&] {
+    const SpanScope span(parts_.probe, Span::Eyes);
+    view.eyeSeparation = shown.eyeSeparation >= 0 ? shown.eyeSeparation : parts_.walls[wall].eyeSeparation;
+    return parts_.state.view(slot);
+  }();
   LevelChoice levels(*state.viewer, wallPixels_, parts_.meshes);
   cullWall(state, view, static_cast<std::uint32_t>(wall), stillCasters_, list, parts_.probe, &levels);
   if (view.camera) return;  // somebody else's, not the visitor's

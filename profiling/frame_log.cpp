@@ -56,7 +56,7 @@ void FrameLog::measureOverhead() {
     }
     probe.ended(Span::App);
     inside = own = 0;
-    for (SpanRecord r; track().take(r);) (r.what == Span::App ? own : inside) += r.own;
+    for (SpanRecord r; track().spans().take(r);) (r.what == Span::App ? own : inside) += r.own;
     track().takeCount();
   }
   const double ns = std::chrono::duration<double, std::nano>(ProfileClock::now() - began).count();
@@ -144,6 +144,10 @@ void FrameLog::ended(Span what) {
     t.endLightly(appFrame_.load(std::memory_order_relaxed), dearTicks_, nanosecondsATick_);
 }
 
+void FrameLog::counted(Count what, std::uint64_t amount, NodeRef node) {
+  track().counted(what, amount, node);
+}
+
 bool FrameLog::wantsShares(std::uint64_t frame, std::uint32_t wall) const {
   if (!options_.samples || frame < options_.from || frame % options_.sampleEvery != 0) return false;
   const std::lock_guard lock(mutex_);
@@ -201,7 +205,7 @@ std::optional<std::size_t> firstEnded(const std::vector<SpanTrack*>& tracks) {
   std::optional<std::size_t> first;
   ProfileClock::time_point ended;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const SpanRecord* next = tracks[i]->next();
+    const SpanRecord* next = tracks[i]->spans().next();
     if (next && (!first || next->ended < ended)) first = i, ended = next->ended;
   }
   return first;
@@ -220,8 +224,12 @@ void FrameLog::collect() {
   }
   SpanRecord record;
   while (const auto first = firstEnded(tracks))
-    if (tracks[*first]->take(record) && record.frame >= options_.from)
+    if (tracks[*first]->spans().take(record) && record.frame >= options_.from)
       for (SpanReader* reader : readers_) reader->take(*first, record);
+  for (SpanTrack* t : tracks)
+    for (CountRecord c; t->counts().take(c);)
+      if (c.frame >= options_.from)
+        for (SpanReader* reader : readers_) reader->take(c);
   for (const SharedSpan& s : shared)
     for (SpanReader* reader : readers_) reader->take(s);
   for (const Alone& a : alone)
@@ -232,7 +240,7 @@ void FrameLog::collect() {
 std::uint64_t FrameLog::lost() const {
   const std::lock_guard lock(mutex_);
   std::uint64_t lost = 0;
-  for (const auto& t : tracks_) lost += t->lost();
+  for (const auto& t : tracks_) lost += t->spans().lost() + t->counts().lost();
   return lost;
 }
 

@@ -43,6 +43,7 @@ public:
   /// `track` numbers the threads from 0, in the order in which they came. Spans of one thread come in the
   /// order of their ends, those of different threads nearly so.
   virtual void take(std::size_t track, const SpanRecord& record) = 0;
+  virtual void take(const CountRecord&) {}
   virtual void take(const SharedSpan&) {}
   virtual void take(const DrawnAlone&, const std::vector<NodeRef>&) {}
   /// All that there is at the moment has been handed on.
@@ -68,6 +69,7 @@ public:
   void began(Span what, std::uint64_t frame, std::uint32_t wall) override;
   void began(Span what, NodeRef node) override;
   void ended(Span what) override;
+  void counted(Count what, std::uint64_t amount, NodeRef node) override;
   bool wantsShares(std::uint64_t frame, std::uint32_t wall) const override;
   void shared(Span what, std::uint64_t frame, std::uint32_t wall, std::span<const NodeRef> among) override;
   DrawSample drawSample(std::uint64_t frame, std::uint32_t wall) const override;

@@ -13,9 +13,11 @@ public:
         wholeFrames_(std::max<double>(1, static_cast<double>(profile.wholeFrames()))) {
     out_.frames = profile.frames();
     out_.walls = walls;
-    for (const auto& [ref, node] : profile.nodes()) addNode(ref, node);
+    for (const auto& [ref, node] : profile.nodes())
+      if (ref.valid()) addNode(ref, node);
     addVisitor();
     addStages();
+    addCounts();
     explain();
     const double all = out_.explained[0].measured + out_.explained[1].measured + out_.explained[2].measured;
     for (NodeRow& row : out_.nodes) row.share = all > 0 ? row.total / all : 0;
@@ -71,7 +73,11 @@ private:
   void addVisitor() {
     NodeRow row;
     row.name.path = "visitor", row.name.kind = NodeKind::Rig;
-    row.receive = row.app = sum(Span::Input);
+    row.receive = sum(Span::Input);
+    const auto published = profile_.nodes().find(NodeRef{});
+    if (published != profile_.nodes().end())
+      row.publish = shareOf(published->second.published, Span::Publish, kNoWall);
+    row.app = row.receive + row.publish;
     row.walls.resize(out_.walls.size());
     for (std::uint32_t wall = 0; wall < row.walls.size(); ++wall)
       row.cull += row.walls[wall].cull = sum(Span::Eyes, wall);
@@ -82,13 +88,6 @@ private:
   std::string stageName(Span stage, std::uint32_t wall) const {
     std::string name(nameOf(stage));
     return wall < out_.walls.size() ? name + " " + out_.walls[wall] : name;
-  }
-
-  static Span stageOf(Span part) {
-    if (isStage(part)) return part;
-    if (part <= Span::Watching || part == Span::ForTick || part == Span::ForSlot) return Span::App;
-    if (part <= Span::Sort || part == Span::ForFrame || part == Span::ForList) return Span::Cull;
-    return Span::Draw;
   }
 
   void addStages() {
@@ -115,6 +114,22 @@ private:
       add("", eye.whole, 1);
       for (const auto& [part, ms] : eye.parts) add(std::string(nameOf(part)), ms, timesAFrame(part));
       add("nothing", eye.empty, 1);
+    }
+  }
+
+  void addCounts() {
+    for (const auto& [who, amount] : profile_.counts()) {
+      CountRow row;
+      row.of = stageName(stageOf(who.of), who.wall);
+      if (who.of == Span::LeftEye || who.of == Span::RightEye)
+        row.of += who.of == Span::LeftEye ? " left" : " right";
+      if (who.node.valid()) {
+        const auto name = names_.find(who.node);
+        row.of = name ? name->path : "a node";
+      }
+      row.what = std::string(nameOf(who.what));
+      row.mean = amount.sum() / frames_, row.most = amount.most();
+      out_.counts.push_back(std::move(row));
     }
   }
 

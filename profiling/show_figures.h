@@ -40,6 +40,13 @@ struct StageRow {
   double allocations = 0, bytes = 0;  ///< of memory, each time
 };
 
+/// Work that is counted, a frame.
+struct CountRow {
+  std::string of;    ///< "app", "cull front", "draw front left", or a node's path
+  std::string what;  ///< "triangles"
+  double mean = 0, most = 0;
+};
+
 /// How much of a stage is explained.
 struct Explained {
   std::string stage;    ///< app, cull, draw
@@ -54,6 +61,7 @@ struct ShowFigures {
   std::vector<std::string> walls;
   std::vector<NodeRow> nodes;  ///< the dearest first
   std::vector<StageRow> stages;
+  std::vector<CountRow> counts;
   std::array<Explained, 3> explained;
   std::string drawMethod;
 };
@@ -63,9 +71,9 @@ ShowFigures figuresOf(const ShowProfile& profile, const NodeNames& names,
 
 /// The dearest nodes and the stages, for a terminal.
 std::string toText(const ShowFigures& figures, std::size_t mostNodes);
-/// One JSON object on one line: "frames", "nodes", "stages", "explained".
+/// One JSON object on one line: "frames", "nodes", "stages", "counts", "explained".
 std::string toJson(const ShowFigures& figures);
-/// A row a node, stage, wall and eye.
+/// A row a node, stage, wall and eye, of times.
 std::string toCsv(const ShowFigures& figures);
 
 }  // namespace stadion

@@ -47,17 +47,24 @@ nlohmann::json toJson(const NodeRow& row, const std::vector<std::string>& walls)
 }  // namespace
 
 std::string toText(const ShowFigures& f, std::size_t mostNodes) {
-  std::string text =
-      "ms a frame, all walls and eyes\n    app  p95 visit    cull     draw    total  share  node\n";
+  const bool budgets = std::ranges::any_of(f.nodes, [](const NodeRow& r) { return r.name.budget > 0; });
+  std::string text = fmt::format(
+      "ms a frame, all walls and eyes\n    app  p95 visit    cull     draw    total  share{}  node\n",
+      budgets ? "   budget" : "");
   for (std::size_t i = 0; i < std::min(mostNodes, f.nodes.size()); ++i) {
     const NodeRow& r = f.nodes[i];
-    text += fmt::format("{:7.4f} {:10.4f} {:7.4f} {:8.3f} {:8.3f} {:5.1f}%  {}  {}\n", r.app, r.visitP95,
-                        r.cull, r.draw, r.total, 100 * r.share, r.name.path, placeOf(r.name));
+    const std::string budget =
+        r.name.budget > 0 ? fmt::format("{:9.3f}", r.name.budget) : std::string(budgets ? 9 : 0, ' ');
+    text += fmt::format("{:7.4f} {:10.4f} {:7.4f} {:8.3f} {:8.3f} {:5.1f}%{}  {}  {}\n", r.app, r.visitP95,
+                        r.cull, r.draw, r.total, 100 * r.share, budget, r.name.path, placeOf(r.name));
   }
   text += "\n       ms      p95      max  allocs  stage\n";
   for (const StageRow& s : f.stages)
     text += fmt::format("{:9.4f} {:8.3f} {:8.3f} {:7.1f}  {}{}{}\n", s.ms, s.p95, s.most, s.allocations,
                         s.name, s.part.empty() ? "" : ": ", s.part);
+  text += "\n      mean        max  counted a frame\n";
+  for (const CountRow& c : f.counts)
+    text += fmt::format("{:10.1f} {:10.0f}  {}: {}\n", c.mean, c.most, c.of, c.what);
   text += "\nexplained   measured     nodes  the stage's own parts\n";
   for (const Explained& e : f.explained)
     text += fmt::format("{:5} {:5.1f}% {:9.4f} {:9.4f} {:9.4f}\n", e.stage, 100 * e.covered(), e.measured,
@@ -79,6 +86,9 @@ std::string toJson(const ShowFigures& f) {
                            {"allocations", s.allocations},
                            {"allocated_bytes", s.bytes},
                            {"wait", s.wait}});
+  j["counts"] = nlohmann::json::array();
+  for (const CountRow& c : f.counts)
+    j["counts"].push_back({{"of", c.of}, {"what", c.what}, {"mean", c.mean}, {"max", c.most}});
   for (const Explained& e : f.explained)
     j["explained"].push_back({{"stage", e.stage},
                               {"measured_ms", e.measured},

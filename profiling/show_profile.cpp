@@ -5,8 +5,13 @@ namespace stadion {
 void ShowProfile::take(std::size_t track, const SpanRecord& r) {
   const bool partOfApp = r.what > Span::Swap && r.what <= Span::Watching;
   if (partOfApp && !r.whole) return;
-  if (r.what == Span::Receive) called_[track].push_back(r.node);
-  if (r.what == Span::Mail && shareMail(track, r)) return;
+  if (r.what == Span::Receive) called_[track].push_back(r.node), visited_.push_back(r.node);
+  if (r.what == Span::Mail) return takeMail(track, r);
+  if (r.what == Span::App) shareRounds();
+  add(r);
+}
+
+void ShowProfile::add(const SpanRecord& r) {
   SpanTotal& total = spans_[{r.what, r.wall}];
   total.ms.add(r.took);
   total.own += r.own;
@@ -20,12 +25,20 @@ void ShowProfile::take(std::size_t track, const SpanRecord& r) {
 }
 
 /// Nodes that received within it are those for whom it was.
-bool ShowProfile::shareMail(std::size_t track, const SpanRecord& r) {
+void ShowProfile::takeMail(std::size_t track, const SpanRecord& r) {
   std::vector<NodeRef>& called = called_[track];
   for (const NodeRef ref : called) nodes_[ref].settle += r.own / static_cast<double>(called.size());
-  const bool any = !called.empty();
+  if (called.empty()) rounds_.push_back(r);
   called.clear();
-  return any;
+}
+
+/// Who is to be visited in a frame was found out for all that were.
+void ShowProfile::shareRounds() {
+  for (const SpanRecord& r : rounds_) {
+    for (const NodeRef ref : visited_) nodes_[ref].settle += r.own / static_cast<double>(visited_.size());
+    if (visited_.empty()) add(r);
+  }
+  rounds_.clear(), visited_.clear();
 }
 
 void ShowProfile::addPhase(NodeRef ref, const SpanRecord& r) {
@@ -43,6 +56,11 @@ void ShowProfile::addPhase(NodeRef ref, const SpanRecord& r) {
     visit = {r.frame, 0};
   }
   visit.ms += ms;
+}
+
+void ShowProfile::take(const CountRecord& c) {
+  const bool ofEye = c.within == Span::LeftEye || c.within == Span::RightEye;
+  counts_[{ofEye ? c.within : stageOf(c.within), c.wall, c.node, c.what}].add(static_cast<double>(c.amount));
 }
 
 void ShowProfile::take(const SharedSpan& s) {

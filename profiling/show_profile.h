@@ -52,9 +52,19 @@ struct EyeCost {
   CostSeries empty;  ///< what drawing nothing takes
 };
 
+/// Whose work is counted: a stage's, an eye's, or a node's.
+struct Counted {
+  Span of = Span::App;  ///< the stage; LeftEye, RightEye: of Draw
+  std::uint32_t wall = kNoWall;
+  NodeRef node;
+  Count what = Count::Visits;
+  auto operator<=>(const Counted&) const = default;
+};
+
 class ShowProfile final : public SpanReader {
 public:
   void take(std::size_t track, const SpanRecord& record) override;
+  void take(const CountRecord& count) override;
   void take(const SharedSpan& shared) override;
   void take(const DrawnAlone& drawn, const std::vector<NodeRef>& nodes) override;
 
@@ -63,6 +73,8 @@ public:
   const std::map<std::pair<Span, std::uint32_t>, SpanTotal>& spans() const { return spans_; }
   /// By wall and eye.
   const std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost>& eyes() const { return eyes_; }
+  /// Each time it was counted.
+  const std::map<Counted, CostSeries>& counts() const { return counts_; }
   std::uint64_t frames() const { return frames_; }
   /// Frames in which every node's spans were recorded: what App's parts and its nodes took is of these.
   std::uint64_t wholeFrames() const { return wholeFrames_; }
@@ -77,7 +89,9 @@ public:
 
 private:
   void addPhase(NodeRef node, const SpanRecord& record);
-  bool shareMail(std::size_t track, const SpanRecord& record);
+  void add(const SpanRecord& record);
+  void takeMail(std::size_t track, const SpanRecord& record);
+  void shareRounds();
 
   struct Visit {
     std::uint64_t frame = kNoFrame;
@@ -86,10 +100,13 @@ private:
   std::map<NodeRef, NodeProfile> nodes_;
   std::map<NodeRef, Visit> visits_;                     ///< that may not be over
   std::map<std::size_t, std::vector<NodeRef>> called_;  ///< by thread: since its last Span::Mail
+  std::vector<NodeRef> visited_;                        ///< in the frame that App is at
+  std::vector<SpanRecord> rounds_;                      ///< in it, the spans of Mail in which nobody received
   std::map<std::pair<Span, std::uint32_t>, SpanTotal> spans_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost> eyes_;
   std::map<std::uint32_t, std::uint64_t> sampled_;
   std::map<std::pair<Span, std::uint32_t>, std::uint64_t> shares_;
+  std::map<Counted, CostSeries> counts_;
   std::uint64_t frames_ = 0, wholeFrames_ = 0;
   double wholeApp_ = 0;
   double helped_ = 0;

@@ -5,15 +5,14 @@
 
 #include "engine/frame_probe.h"
 #include "profiling/allocations.h"
+#include "profiling/record_ring.h"
 #include "profiling/tick_clock.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <sys/resource.h>
 #include <utility>
-#include <vector>
 
 namespace stadion {
 
@@ -44,6 +43,17 @@ struct ThreadUse {
   }
 };
 
+/// So much of it, within a span that is under way.
+struct CountRecord {
+  Count what = Count::Visits;
+  std::uint64_t amount = 0;
+  Span within = Span::App;
+  std::uint64_t frame = kNoFrame;
+  std::uint32_t wall = kNoWall;
+  NodeRef node;                   ///< whose work it is, if it is a node's
+  ProfileClock::time_point when;  ///< that span's begin
+};
+
 /// A span that is over. Within a thread spans end in the order of their ends: parts before what holds them.
 struct SpanRecord {
   ProfileClock::time_point began, ended;  ///< as they were, recording included
@@ -62,10 +72,10 @@ struct SpanRecord {
 
 class SpanTrack {
 public:
-  static constexpr std::size_t kCapacity = 1 << 16;
+  static constexpr std::size_t kCapacity = 1 << 16, kCountCapacity = 1 << 12;
   static constexpr std::size_t kDeepest = 12;
 
-  explicit SpanTrack(SpanOverhead overhead = {}) : overhead_(overhead), ring_(kCapacity) {}
+  explicit SpanTrack(SpanOverhead overhead = {}) : overhead_(overhead) {}
 
   /// What comes below it inherits the frame and the wall.
   void began(Span what, std::uint64_t frame, std::uint32_t wall, NodeRef node) {
@@ -88,7 +98,7 @@ public:
     const double took = std::max(0.0, nanoseconds(now - open.began) - recording);
     if (depth_ > 0) open_[depth_ - 1].within += took, open_[depth_ - 1].spans += open.spans + 1;
     last_[static_cast<std::size_t>(open.what)] = took;
-    SpanRecord* next = nextRecord();
+    SpanRecord* next = spans_.claim();
     if (!next) return;
     SpanRecord& r = *next;
     r.began = open.began, r.ended = now, r.frame = open.frame, r.wall = open.wall, r.node = open.node;
@@ -97,7 +107,7 @@ public:
     disturbed_ = disturbed_ && depth_ > 0;
     r.use = isStage(open.what) ? ThreadUse::now().since(open.use) : ThreadUse{};
     r.took = 1e-6 * took, r.own = 1e-6 * std::max(0.0, took - open.within);
-    push();
+    spans_.push();
   }
   /// What is under way allocates for the probe's sake.
   void disturb() { disturbed_ = depth_ > 0; }
@@ -115,13 +125,22 @@ public:
     const ProfileClock::time_point now = ProfileClock::now();
     const auto took = std::chrono::duration_cast<ProfileClock::duration>(
         std::chrono::duration<double, std::nano>(static_cast<double>(ticks) * nanosecondsATick));
-    SpanRecord* r = nextRecord();
+    SpanRecord* r = spans_.claim();
     if (!r) return;
     *r = {};
     r->began = now - took, r->ended = now, r->frame = frame, r->node = light_.node, r->what = Span::Simulate;
     r->depth = static_cast<std::uint8_t>(depth_), r->whole = false;
     r->took = r->own = 1e-6 * nanoseconds(took);
-    push();
+    spans_.push();
+  }
+  /// Within the span that is under way.
+  void counted(Count what, std::uint64_t amount, NodeRef node) {
+    if (depth_ == 0) return;
+    const Open& open = open_[std::min(depth_, kDeepest) - 1];
+    if (CountRecord* r = counts_.claim()) {
+      *r = {what, amount, open.what, open.frame, open.wall, node, open.began};
+      counts_.push();
+    }
   }
   /// Visits are counted.
   void count() { ++counted_; }
@@ -134,31 +153,12 @@ public:
   /// How long the last span of that kind took [ms].
   double last(Span what) const { return 1e-6 * last_[static_cast<std::size_t>(what)]; }
 
-  /// The next record, until it is taken; null if there is none.
-  const SpanRecord* next() const {
-    const std::size_t tail = tail_.load(std::memory_order_relaxed);
-    return tail == head_.load(std::memory_order_acquire) ? nullptr : &ring_[tail % kCapacity];
-  }
-  /// Takes it, if there is one.
-  bool take(SpanRecord& out) {
-    const std::size_t tail = tail_.load(std::memory_order_relaxed);
-    if (tail == head_.load(std::memory_order_acquire)) return false;
-    out = ring_[tail % kCapacity];
-    tail_.store(tail + 1, std::memory_order_release);
-    return true;
-  }
-  /// Records for which there was no room, because nobody collected.
-  std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
+  RecordRing<SpanRecord>& spans() { return spans_; }
+  RecordRing<CountRecord>& counts() { return counts_; }
+  const RecordRing<SpanRecord>& spans() const { return spans_; }
+  const RecordRing<CountRecord>& counts() const { return counts_; }
 
 private:
-  /// Null, and counted, if nobody has collected.
-  SpanRecord* nextRecord() {
-    const std::size_t head = head_.load(std::memory_order_relaxed);
-    if (head - tail_.load(std::memory_order_acquire) < kCapacity) return &ring_[head % kCapacity];
-    lost_.fetch_add(1, std::memory_order_relaxed);
-    return nullptr;
-  }
-  void push() { head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
   static double nanoseconds(ProfileClock::duration d) {
     return std::chrono::duration<double, std::nano>(d).count();
   }
@@ -186,9 +186,8 @@ private:
   std::size_t depth_ = 0;
   SpanOverhead overhead_;
   std::array<double, kSpans> last_{};
-  std::vector<SpanRecord> ring_;
-  std::atomic<std::size_t> head_ = 0, tail_ = 0;
-  std::atomic<std::uint64_t> lost_ = 0;
+  RecordRing<SpanRecord> spans_{kCapacity};
+  RecordRing<CountRecord> counts_{kCountCapacity};
 };
 
 }  // namespace stadion

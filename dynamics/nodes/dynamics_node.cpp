@@ -303,8 +303,16 @@ void DynamicsNode::tellTrouble(const BodyState& before, DynObjectNode& node, Fra
   node.tell(Event::OnQuarantine, now.clock, frame);
 }
 
+void DynamicsNode::tellCounts(FrameProbe& probe) const {
+  const World::Counters& c = world_.counters();
+  probe.counted(Count::Impacts, c.impacts, self());
+  probe.counted(Count::Contacts, c.contacts, self());
+  probe.counted(Count::Substeps, c.arcs + c.contactSteps, self());
+}
+
 bool DynamicsNode::afterStep(FrameContext& frame) {
   bool any = false;
+  if (frame.probe) tellCounts(*frame.probe);
   if (world_.counters().limited > 0 && !std::exchange(toldOfLimit_, true))
     frame.scene.warn(*this, fmt::format("cut the frame at {:.3f} s short: its contacts came without end",
                                         toSeconds(frame.now.time)));

@@ -36,6 +36,8 @@ protected:
   bool afterStep(FrameContext& frame) override;
 
 private:
+  void tellCounts(FrameProbe& probe) const;
+
   /// A force field that one of the bodies is or was hooked to.
   struct Field {
     NodeRef ref;

@@ -23,28 +23,28 @@ bool Scene::open(const std::string& file) {
 
 void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSet& changes,
                     FrameProbe* probe) {
-  counters_ = {};
-  events_.clear();
-  now_ = now.time;
-  frame_ = now.frame;
-  frameStart_ = now.time - now.step;
-  courses_.clear();
-  impacts_.clear();
   {
     const SpanScope span(probe, Span::Loading);
+    counters_ = {};
+    events_.clear();
+    now_ = now.time;
+    frame_ = now.frame;
+    frameStart_ = now.time - now.step;
+    courses_.clear();
+    impacts_.clear();
     applyLoads(now);
     obey(now);
+    rigStart_ = rigPose();
   }
-  rigStart_ = rigPose();
   visit(now, input, probe);
   {
     const SpanScope span(probe, Span::Loading);
     applyUnloads(now);
+    lastInput_ = input;
   }
-  lastInput_ = input;
   settleTouched(probe);
-  std::ranges::stable_sort(events_, {}, &EventRecord::when);
   const SpanScope span(probe, Span::Publish);
+  std::ranges::stable_sort(events_, {}, &EventRecord::when);
   publish(now, input, changes);
 }
 
@@ -102,7 +102,7 @@ std::vector<Message> Scene::callRound(const TimeSignature& now) {
 }
 
 void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe) {
-  FrameContext frame{now, input, *this};
+  FrameContext frame{now, input, *this, false, probe};
   std::vector<Message> mail;
   std::vector<Detached> detached;
   {

@@ -216,7 +216,9 @@ private:
     Node* node;
     TimeSignature now;
     bool rested;
-    FrameContext context(const FrameContext& frame) const { return {now, frame.input, frame.scene, rested}; }
+    FrameContext context(const FrameContext& frame) const {
+      return {now, frame.input, frame.scene, rested, frame.probe};
+    }
   };
   struct Visit {
     Rank rank;

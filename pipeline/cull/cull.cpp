@@ -118,6 +118,15 @@ void tellShares(const SlotView& state, const DrawList& list, FrameProbe& probe) 
   probe.shared(Span::ShadowCasts, frame, list.wall, owners);
 }
 
+/// Within the stage itself.
+void tellCounts(const CullCounts& counts, const DrawList& list, FrameProbe& probe) {
+  std::size_t casters = 0;
+  for (const DrawShadowRing& ring : list.shadows.rings) casters += ring.moving.size();
+  probe.counted(Count::Tested, counts.tested);
+  probe.counted(Count::Seen, counts.kept);
+  probe.counted(Count::Casters, casters);
+}
+
 void setLights(const SlotView& state, DrawList& out) {
   out.lights.clear();
   for (const LightRecord& l : state.lights) {
@@ -184,6 +193,7 @@ CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t i
     const SpanScope span(probe, Span::Sort);
     sort(out);
   }
+  if (probe) tellCounts(counts, out, *probe);
   if (probe && probe->wantsShares(state.signature->frame, index)) tellShares(state, out, *probe);
   return counts;
 }

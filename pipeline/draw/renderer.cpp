@@ -177,7 +177,16 @@ void Renderer::submitEyes(const DrawList& list, std::uint32_t first, std::uint32
       drawEyeAlone(list.eyes[eye], eye);
     else
       drawEye(list.eyes[eye], eye);
+    if (probe_) tellCounts();
   }
+}
+
+/// Of the last eye.
+void Renderer::tellCounts() const {
+  probe_->counted(Count::Calls, counts_.calls);
+  probe_->counted(Count::Instances, counts_.instances);
+  probe_->counted(Count::Triangles, counts_.triangles);
+  probe_->counted(Count::Pixels, std::uint64_t{width_} * height_);
 }
 
 // Sampling.

@@ -106,6 +106,7 @@ private:
 
   void drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
   void submitEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
+  void tellCounts() const;
   void beginSampling(const DrawList& list);
   void drawNothing();
   std::size_t batchesToSample() const;

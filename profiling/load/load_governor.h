@@ -49,6 +49,7 @@ public:
   LoadGovernor(GovernorOptions options, const NodeNames& names);
 
   // Of the log's thread.
+  using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
   void take(const SharedSpan& shared) override;
   void take(const DrawnAlone& drawn, const std::vector<NodeRef>& nodes) override;

@@ -108,6 +108,10 @@ function drawStages() {
     {name: "explained", n: true, cell: x => percent((x.nodes + x.named) / x.measured)}], e, {kind: "heat"}));
   put("stages-table", el("h3", {}, "By part"), table(null, [{name: "stage", cell: r => r.name}, {name: "part", cell: r => r.part ? r.part : [el("b", {}, "all of it")]}, {name: "mean a frame", n: true, cell: r => ms(r.ms)},
     {name: "p95", n: true, cell: r => ms(r.p95), help: "each time"}, {name: "max", n: true, cell: r => ms(r.max), help: "each time"}, {name: "", cell: r => r.wait ? [el("span", {class: "quiet"}, "waiting")] : ""}], data.stages.rows));
+  const counts = data.stages.counts, kinds = [...new Set(counts.map(c => c.what))], whose = [...new Set(counts.map(c => c.of))];
+  const count = (of, what) => counts.find(c => c.of === of && c.what === what), whole = v => v.toLocaleString("en", {maximumFractionDigits: v < 100 ? 1 : 0});
+  put("counts-table", el("h3", {}, "Counted a frame"), table(null, [{name: "", cell: of => of}, ...kinds.filter(k => counts.some(c => c.what === k && c.max > 0)).map(what => ({name: what, n: true,
+    cell: of => count(of, what) ? whole(count(of, what).mean) : "", title: of => count(of, what) ? `at most ${whole(count(of, what).max)}` : null}))], whose));
 }
 )js";
 

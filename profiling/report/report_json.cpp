@@ -203,6 +203,10 @@ private:
                            {"p95", number(r.p95)},
                            {"max", number(r.most)},
                            {"wait", r.wait}});
+    s["counts"] = json::array();
+    for (const CountRow& c : data_.figures.counts)
+      s["counts"].push_back(
+          {{"of", c.of}, {"what", c.what}, {"mean", number(c.mean)}, {"max", number(c.most)}});
     for (const Explained& e : data_.figures.explained)
       s["explained"].push_back({{"stage", e.stage},
                                 {"measured", number(e.measured)},

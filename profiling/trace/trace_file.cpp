@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -38,8 +39,21 @@ void TraceFile::take(std::size_t number, const SpanRecord& r) {
   threads_.see(number, r);
   if (r.what == Span::App) newestFrame_ = std::max(newestFrame_, r.frame);
   if (cutFrom_ == kNoFrame && bytes_ + text_.size() > options_.mostBytes) cutFrom_ = newestFrame_ + 1;
-  if (r.frame >= options_.first && r.frame <= options_.last && r.frame < cutFrom_) write(number, r);
+  if (isAsked(r.frame)) write(number, r);
   track.spans.clear(), track.wait.reset();
+}
+
+/// A counter keeps its value until it is told another.
+void TraceFile::take(const CountRecord& c) {
+  if (!isAsked(c.frame)) return;
+  std::string name(nameOf(c.what));
+  if (c.node.valid()) name += " of " + nameOfNode(c.node).path;
+  if (c.wall < options_.walls.size()) name += ", " + options_.walls[c.wall];
+  if (c.within == Span::LeftEye || c.within == Span::RightEye)
+    name += c.within == Span::LeftEye ? " left" : " right";
+  const auto [at, isNew] = lastCounts_.try_emplace(name, c.amount);
+  if (!isNew && std::exchange(at->second, c.amount) == c.amount) return;
+  trace::addCounter(text_, name, "count", ticks(c.when), static_cast<double>(c.amount));
 }
 
 /// A stage with all that it holds. Viewers take the first of two slices that begin together for the outer
@@ -115,13 +129,15 @@ const TraceFile::Name& TraceFile::nameOfNode(NodeRef node) {
   if (at != nodes_.end()) return at->second;
   const auto name = names_.find(node);
   if (!name) {
-    unknown_ = {trace::jsonText(fmt::format("node {} of file {}", node.position, node.load)), ""};
+    const std::string plain = fmt::format("node {} of file {}", node.position, node.load);
+    unknown_ = {trace::jsonText(plain), "", plain};
     return unknown_;
   }
   const std::string place = fmt::format("{}:{}", name->file, name->line);
   return nodes_[node] = {trace::jsonText(name->path),
                          fmt::format(",\"kind\":{},\"script\":{}", trace::jsonText(nameOf(name->kind)),
-                                     trace::jsonText(place))};
+                                     trace::jsonText(place)),
+                         name->path};
 }
 
 trace::Ticks TraceFile::ticks(ProfileClock::time_point t) const {

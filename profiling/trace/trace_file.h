@@ -39,6 +39,7 @@ public:
 
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
+  void take(const CountRecord& count) override;
 
   /// Why there will be no file, such as a folder that is not there.
   const std::optional<Diagnostic>& error() const { return file_.error(); }
@@ -54,8 +55,12 @@ private:
   };
   struct Name {
     std::string text, args;  ///< as JSON
+    std::string path;
   };
 
+  bool isAsked(std::uint64_t frame) const {
+    return frame >= options_.first && frame <= options_.last && frame < cutFrom_;
+  }
   void write(std::size_t track, const SpanRecord& root);
   void writeSpan(std::size_t track, const SpanRecord& record, std::uint64_t frame);
   void writeFlow(std::size_t track, const SpanRecord& stage);
@@ -74,6 +79,7 @@ private:
   std::map<NodeRef, Name> nodes_;
   Name unknown_;
   std::map<std::pair<Span, std::uint32_t>, std::uint64_t> newest_;  ///< frame, by stage and wall
+  std::map<std::string, std::uint64_t> lastCounts_;                 ///< by name: "triangles, front left"
   std::optional<trace::Ticks> lastShown_;
   std::uint64_t newestFrame_ = 0;
   std::uint64_t cutFrom_ = kNoFrame;  ///< left out for its size

@@ -31,6 +31,27 @@ TEST(ProgramProfile, EveryNodeThatWorksOrIsSeenHasARow) {
   for (const auto& e : j["explained"]) EXPECT_GT(e["covered"], 0.5) << e;
 }
 
+TEST(ProgramProfile, ItCountsWhatAPlainRunCounts) {
+  const ProgramResult r = profileKick({"--json", "--walls", "desktop"});
+  const ProgramResult run =
+      stadionProgram({"run", std::string(STADION_SOURCE_DIR "/scripts/kick.evs"), "--frames", "180", "--size",
+                      "96x72", "--walls", "desktop", "--json"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto j = nlohmann::json::parse(r.out), plain = nlohmann::json::parse(run.out);
+  std::map<std::pair<std::string, std::string>, nlohmann::json> counts;
+  for (const auto& c : j["counts"]) counts[{c["of"], c["what"]}] = c;
+  const std::string wall = j["walls"][0];
+  EXPECT_EQ((counts[{"draw " + wall + " left", "pixels"}]["mean"]), 96 * 72);
+  EXPECT_GT((counts[{"draw " + wall + " left", "triangles"}]["mean"]), 0) << r.out;
+  EXPECT_GE((counts[{"cull " + wall, "tested"}]["mean"]), (counts[{"cull " + wall, "seen"}]["mean"]));
+  EXPECT_GT((counts[{"sim_kick", "substeps"}]["mean"]), 0);
+  EXPECT_GT((counts[{"sim_kick", "impacts"}]["max"]), 0) << "the foot and the ball";
+  // The first frames are not recorded.
+  EXPECT_NEAR((counts[{"app", "nodes visited"}]["mean"].get<double>()),
+              (plain["counters"]["nodes visited per frame"].get<double>()), 0.3);
+}
+
 TEST(ProgramProfile, PicturesAndStatesAreThoseOfAPlainRun) {
   const auto run = [](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"run",       std::string(STADION_SOURCE_DIR "/scripts/kick.evs"),

@@ -107,6 +107,27 @@ TEST(FrameLog, WhatAStageDoesBesideItsPartsIsItsOwn) {
   EXPECT_NEAR(app.own + simulated, app.ms.sum(), 1e-3) << "every moment is somebody's, once";
 }
 
+TEST(FrameLog, WorkIsCountedOfTheStageEyeOrNodeThatDidIt) {
+  ShowProfile profile;
+  FrameLog log({&profile}, {.samples = false, .from = 2});
+  for (std::uint64_t frame = 0; frame < 4; ++frame) {
+    FrameProbe& probe = log;
+    const SpanScope stage(&log, Span::Draw, frame, 1);
+    probe.counted(Count::Instances, 10 + frame, {});
+    const SpanScope eye(&log, Span::RightEye);
+    probe.counted(Count::Triangles, 100 * frame, {});
+    probe.counted(Count::Contacts, 1, kBall);
+  }
+  log.finish();
+  const auto counted = [&](Span of, Count what, NodeRef node = {}) {
+    return profile.counts().at({of, 1, node, what});
+  };
+  EXPECT_EQ(profile.counts().size(), 3U);
+  EXPECT_EQ(counted(Span::Draw, Count::Instances).sum(), 12 + 13) << "of frames that are recorded";
+  EXPECT_EQ(counted(Span::RightEye, Count::Triangles).sum(), 200 + 300);
+  EXPECT_EQ(counted(Span::RightEye, Count::Contacts, kBall).count(), 2U);
+}
+
 TEST(FrameLog, TellsWhatAStageAllocates) {
   if (!countsAllocations()) GTEST_SKIP() << "sanitizers allocate themselves";
   struct Kept final : SpanReader {

@@ -104,6 +104,29 @@ TEST_F(TraceTest, WhatASpanOfOneThreadHoldsStaysInItOnTheViewersGrid) {
   EXPECT_EQ(seen.slices(), 1996U * 11);
 }
 
+TEST_F(TraceTest, ACounterIsWrittenWhenItChanges) {
+  TraceOptions some = options();
+  some.last = 8;
+  TraceFile trace(some, {}, names_);
+  for (const auto& [frame, amount] : {std::pair{4, 70}, {5, 70}, {6, 80}, {7, 70}, {9, 90}}) {
+    addFrame(trace, static_cast<std::uint64_t>(frame));
+    trace.take({Count::Triangles,
+                static_cast<std::uint64_t>(amount),
+                Span::LeftEye,
+                static_cast<std::uint64_t>(frame),
+                1,
+                {},
+                start_ + std::chrono::milliseconds(frame)});
+  }
+  ASSERT_FALSE(trace.finish());
+  const TraceChecks seen(written());
+  EXPECT_EQ(seen.complaints(), std::vector<std::string>());
+  std::vector<double> told;
+  for (const auto& e : seen.json()["traceEvents"])
+    if (e["name"] == "triangles, left left") told.push_back(e["args"]["count"]);
+  EXPECT_EQ(told, (std::vector<double>{70, 80, 70}));
+}
+
 TEST_F(TraceTest, AFrameThatComesAgainHasOneArrow) {
   TraceFile trace(options(), {}, names_);
   addFrame(trace, 4);
