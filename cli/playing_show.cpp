@@ -43,7 +43,7 @@ std::unique_ptr<PlayingShow> PlayingShow::open(const ShowSurroundings& around, D
   const SheetPlace& size = around.overviewSize;
   show->overview_ = std::make_unique<Overview>(player.meshes(), player.walls(),
                                                static_cast<double>(size.width) / size.height);
-  if (!player.obeysLog()) player.playLive();
+  if (!around.options.repeats(player)) player.playLive();
   return show;
 }
 

@@ -138,7 +138,7 @@ bool beginGroup(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   recorded.recordInput = s.desk->recordName();
   s.watch = RunWatch::create(recorded, *s.player, findings);
   if (!s.watch) return false;
-  if (!o.everyFrameCounts(*s.player)) s.player->playLive();
+  if (!o.repeats(*s.player)) s.player->playLive();
   if (!beginRecording(o, s, findings)) return false;
   s.desk->beginGroup(*s.player, *s.watch);
   return true;

@@ -161,11 +161,17 @@ bool RunOptions::everyFrameCounts(const Player& player) const {
   return asksForEveryFrame() || player.obeysLog();
 }
 
+bool RunOptions::repeats(const Player& player) const {
+  return everyFrameCounts(player) || (player.inputFound() && !player.inputIsLive());
+}
+
 FrameLoopOptions RunOptions::loopOptions(const Player& player) const {
   FrameLoopOptions l = player.loopOptions();
   l.delivery = everyFrameCounts(player) ? Delivery::Every : Delivery::Latest;
+  const bool newest = l.delivery == Delivery::Latest;
+  l.everyTick = newest && repeats(player);
   // A live show that drops frames ends with its log's last moment, not with its last frame's number.
-  if (l.delivery == Delivery::Latest && player.end() > 0) l.frames = 0, l.end = player.end();
+  if (newest && !l.everyTick && player.end() > 0) l.frames = 0, l.end = player.end();
   if (display || live) l.pace = pace == "float" ? Pace::Float : Pace::Lock;
   if (display || live) return l;
   const bool free = pace.empty() ? (show.frames != 0 || show.seconds > 0 || !out.empty()) : pace == "free";

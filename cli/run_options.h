@@ -48,6 +48,8 @@ struct RunOptions {
   /// Every frame counts where somebody looks at the result later, and where a log says when each one was;
   /// else the newest one does.
   bool everyFrameCounts(const Player& player) const;
+  /// Whether the show is the same at every run: every frame counts, or nobody but a log decides what happens.
+  bool repeats(const Player& player) const;
   FrameLoopOptions loopOptions(const Player& player) const;
 };
 

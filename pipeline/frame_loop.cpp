@@ -64,7 +64,8 @@ struct FrameLoop::StageThreads {
 FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std::atomic<bool>& stopRequested,
                      FrameProbe* probe)
     : stages_(stages), options_(options), stopRequested_(stopRequested), probe_(probe),
-      pacer_(options.pace, options.rate), times_(options.walls), clock_(options.rate, options.frameTimes) {}
+      pacer_(options.pace, options.rate, options.everyTick), times_(options.walls),
+      clock_(options.rate, options.frameTimes) {}
 
 FrameLoopOutcome FrameLoop::run() {
   if (options_.mode == Mode::Sequential)
@@ -256,6 +257,15 @@ bool FrameLoop::fail(const char* what, std::size_t wall, std::uint64_t frame, co
   }
 }
 
+/// Whether a frame that nobody would see in time is not drawn; of those that follow each other one a second
+/// is.
+bool FrameLoop::passesOver(const FrameTicket& ticket) {
+  const bool late =
+      options_.everyTick && options_.mode == Mode::Sequential && !ticket.last && pacer_.behind();
+  passedOver_ = late && static_cast<double>(passedOver_) < options_.rate ? passedOver_ + 1 : 0;
+  return passedOver_ > 0;
+}
+
 std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slot) {
   const TimeSignature& now = turn.signature;
   FrameTicket ticket{now, Clock::now()};
@@ -274,7 +284,7 @@ std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slo
   }
   ++outcome_.framesSimulated;
   ticket.last = ended_ = noneFollows();
-  ticket.drawn = stages_.wantsDrawn(ticket);
+  ticket.drawn = stages_.wantsDrawn(ticket) && !passesOver(ticket);
   return ticket;
 }
 

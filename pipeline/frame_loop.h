@@ -33,6 +33,9 @@ struct FrameLoopOptions {
   Pace pace = Pace::Free;
   Delivery delivery = Delivery::Every;
   double rate = 60;  ///< [1/s]
+  /// Whoever is late leaves out no tick, but simulates frame after frame until it has caught up: the show is
+  /// the same however fast the machine is. One that is not pipelined does not draw meanwhile.
+  bool everyTick = false;
   std::size_t walls = 1;
   std::uint64_t frames = 0;  ///< 0 = until stopped
   Nanoseconds end = 0;       ///< no frame after this show time; 0 = until stopped
@@ -86,6 +89,7 @@ private:
   TimeSignature signatureAfter(std::uint64_t ticks, double speed);
   bool noneFollows();
 
+  bool passesOver(const FrameTicket& ticket);
   std::optional<FrameTicket> appStage(const Turn& turn, std::size_t slot);
   bool cullStage(std::size_t wall, std::size_t slot, const FrameTicket& ticket, DrawList& list);
   bool openStage(std::size_t wall);
@@ -106,6 +110,7 @@ private:
   FrameTimes times_;
   FrameLoopOutcome outcome_;
   std::uint64_t nextIndex_ = 0;
+  std::uint64_t passedOver_ = 0;  ///< frames in a row that were late and not drawn
   FrameClock clock_;
   TimeSignature lastSignature_;
   bool ending_ = false;  ///< App was told to end after this frame

@@ -4,8 +4,8 @@
 
 namespace stadion {
 
-Pacer::Pacer(Pace pace, double rate)
-    : pace_(pace),
+Pacer::Pacer(Pace pace, double rate, bool everyTick)
+    : pace_(pace), everyTick_(everyTick),
       period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate))) {}
 
 std::uint64_t Pacer::wait() {
@@ -17,6 +17,11 @@ std::uint64_t Pacer::wait() {
     return 1;
   }
   std::uint64_t ticks = 1;
+  if (now > next_ && everyTick_) {
+    ++missed_;
+    next_ = (pace_ == Pace::Float ? now : next_) + period_;
+    return 1;
+  }
   if (now > next_) {
     const auto late = static_cast<std::uint64_t>((now - next_) / period_);
     missed_ += late + (pace_ == Pace::Lock ? 1 : 0);

@@ -17,11 +17,15 @@ enum class Pace {
 
 class Pacer {
 public:
-  Pacer(Pace pace, double rate);
+  /// With `everyTick` none is left out: what is late begins at once, until it has caught up (Float: the ticks
+  /// wait).
+  Pacer(Pace pace, double rate, bool everyTick = false);
 
   /// Waits until the next frame may begin. Returns how many ticks have passed since the previous one: 1 when
   /// all is well.
   std::uint64_t wait();
+  /// Whether the next frame is late already.
+  bool behind() const { return pace_ != Pace::Free && started_ && Clock::now() > next_; }
   /// Ticks that passed without a frame beginning.
   std::uint64_t missed() const { return missed_; }
 
@@ -29,6 +33,7 @@ private:
   using Clock = std::chrono::steady_clock;
 
   Pace pace_;
+  bool everyTick_;
   Clock::duration period_;
   Clock::time_point next_;
   bool started_ = false;

@@ -109,6 +109,7 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
     const SpanScope span(probe, Span::Mail);
     mail = callRound(now);
     detached = detachedBy(mail, frame);
+    startsInFrame_ = std::ranges::any_of(mail, [](const Message& m) { return m.verb == Verb::Start; });
   }
   std::vector<Cycle> batch;
   const auto next = [&] {
@@ -241,7 +242,7 @@ void Scene::noteImpact(const Impact& impact) {
     for (auto w = first; w != last; ++w) wakeNow(w->second);
     anybody |= first != last;
   }
-  if (anybody) impacts_.push_back(impact);
+  if (anybody || startsInFrame_) impacts_.push_back(impact);
 }
 
 // Messages.

@@ -102,8 +102,8 @@ public:
   /// Wakes `watcher` in the frame in which `body` touches something or comes to its end.
   void watchImpacts(NodeRef body, NodeRef watcher) { impactWatchers_.insert({body, watcher}); }
   void unwatchImpacts(NodeRef body, NodeRef watcher);
-  /// Whether anybody would look at impacts: else nobody needs to note them.
-  bool impactsWanted() const { return !impactWatchers_.empty(); }
+  /// Whether anybody would look at impacts, or may begin to in this frame: else nobody needs to note them.
+  bool impactsWanted() const { return !impactWatchers_.empty() || startsInFrame_; }
   void noteImpact(const Impact& impact);
   const std::vector<Impact>& impacts() const { return impacts_; }  ///< of this frame, as they were noted
   /// Changes whenever a load comes or goes: names may resolve differently.
@@ -320,6 +320,7 @@ private:
   FrameCounters counters_;
   std::vector<EventRecord> events_;
   std::multimap<NodeRef, NodeRef> impactWatchers_;  ///< by the body that is watched
+  bool startsInFrame_ = false;                      ///< somebody was told to start
   std::vector<Impact> impacts_;
   Nanoseconds now_ = 0;
   Nanoseconds frameStart_ = 0;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -87,6 +88,61 @@ TEST(ProgramOlympia, AllGoAsFarAtOtherFrameRatesAndWhenFramesAreLate) {
   }
   std::ofstream(late) << log;
   EXPECT_EQ(distances(late, ""), usual);
+}
+
+// His legs carry the hand along once they are free again, which must not be before it lets go.
+TEST(ProgramOlympia, WhoPushesTheJoypadForwardAllTheWhileThrowsAsFarAtAnyRate) {
+  const TemporaryFolder folder;
+  const std::string log = folder.path() / "push.input";
+  std::ofstream(log) << R"(stadion-input 1
+key head 0 0 6 1.7
+key head 20 0 6 1.7
+key wand 0     0   6    1.1
+key wand 2     0   6    1.1
+key wand 3     0.6 6.7  1
+key wand 3.2   0.6 6.7  1    buttons 1
+key wand 3.4   0.6 6.7  1
+key wand 4     0.4 5.2  1.1
+key wand 4.1   0.4 5.66 1.22 turn 25 0 0 buttons 2 axes 0 1
+key wand 4.275 0.4 6.4  1.6  turn 34 0 0 buttons 2 axes 0 1
+key wand 4.28  0.4 6.42 1.62 turn 34 0 0 buttons 4 axes 0 1
+key wand 4.4   0.4 6.8  1.9  turn 40 0 0 buttons 4 axes 0 1
+key wand 5     0   6    1
+)";
+  const std::vector<std::string> usual = distances(log, "60");
+  ASSERT_EQ(usual.size(), 2u);
+  EXPECT_EQ(distances(log, "30"), usual);
+  EXPECT_EQ(distances(log, "240"), usual);
+}
+
+// In real time as long as the machine is fast enough: what is late is simulated all the same, and loads are
+// waited for.
+TEST(ProgramOlympia, AsItComesFromTheClockTheVisitIsTheRecordedOne) {
+  const TemporaryFolder folder;
+  const std::string log = folder.path() / "short.input";
+  std::ofstream(log)
+      << "stadion-input 1\nkey head 0 0 0 1.7\nkey head 2.5 0 0 1.7\n"
+         "key wand 0 0.28 0.3 1.1\nkey wand 1 0.28 0.3 1.1 axes 0 1\nkey wand 2.5 0.28 0.3 1.1 axes 0 1\n";
+  // The log lies beside the script that is played: nobody asks for every frame.
+  const std::string scripts = STADION_SOURCE_DIR "/scripts";
+  const std::string script = folder.path() / "visit.evs";
+  std::filesystem::copy(scripts + "/olympia.evs", script);
+  std::filesystem::rename(log, folder.path() / "visit.input");
+  const auto hashOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {
+        "run", script, "--json", "--asset-root", scripts, "--asset-root", STADION_SOURCE_DIR "/assets"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult played = stadionProgram(words);
+    EXPECT_EQ(played.status, 0) << played.err;
+    const auto j = nlohmann::json::parse(played.out);
+    EXPECT_EQ(j["last_frame"], 150) << played.out;
+    return j["state_hash"];
+  };
+  const auto usual = hashOf({"--gl", "none", "--pace", "free"});
+  EXPECT_EQ(hashOf({"--gl", "none"}), usual);
+  EXPECT_EQ(hashOf({"--gl", "none", "--mode", "sequential"}), usual);
+  EXPECT_EQ(hashOf({"--gl", "osmesa", "--size", "400x300", "--walls", "cave4", "--mode", "sequential"}),
+            usual);
 }
 
 /// A visitor who walks up to the discus and takes it.

@@ -202,6 +202,19 @@ TEST(Measure, AThrowThatComesToRestWithoutAnImpactThatCountsIsAFoulAtThatTime) {
   EXPECT_EQ(show.board->words(), "Visitor foul\nAthlete foul\na draw");
 }
 
+TEST(Measure, WhatTouchesInTheVeryFrameOfTheStartCounts) {
+  for (const double rate : {30.0, 240.0}) {
+    Field2 show;
+    show.rate = rate;
+    show.open();
+    const double lands = std::sqrt(2 * (2 - kRadius) / kG);
+    show.scene.command("tape", Verb::Start, {}, fromSeconds(lands - 0.002));
+    show.play(2);
+    ASSERT_TRUE(show.visitor->result()) << rate;
+    EXPECT_NEAR(toSeconds(show.visitor->result()->when), lands, 1e-8) << rate << ": not the next bounce";
+  }
+}
+
 /// A ball that sticks in whatever it falls on.
 class Dart : public DynObjectNode {
 public:

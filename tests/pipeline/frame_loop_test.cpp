@@ -410,6 +410,40 @@ TEST(FrameLoop, LockedPaceKeepsToTheTicks) {
   EXPECT_GE(pacer.missed(), 2u);
 }
 
+TEST(FrameLoop, WhereEveryTickCountsWhatIsLateIsCaughtUpWith) {
+  Pacer pacer(Pace::Lock, 200, true);
+  pacer.wait();
+  const auto start = std::chrono::steady_clock::now();
+  std::this_thread::sleep_for(std::chrono::milliseconds(22));
+  EXPECT_TRUE(pacer.behind());
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(pacer.wait(), 1u);
+  EXPECT_FALSE(pacer.behind());
+  const double ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_GE(ms, 39.9) << "eight ticks";
+  EXPECT_GE(pacer.missed(), 4u);
+}
+
+TEST(FrameLoop, ALateSequentialShowSimulatesEveryTickAndDrawsWhatItCan) {
+  struct Slow final : CountingStages {
+    using CountingStages::CountingStages;
+    std::uint64_t drawn = 0;
+    Failure draw(std::size_t wall, const DrawList& list) override {
+      ++drawn;
+      std::this_thread::sleep_for(std::chrono::milliseconds(25));
+      return CountingStages::draw(wall, list);
+    }
+  } stages(1, 1);
+  FrameLoopOptions o;
+  o.mode = Mode::Sequential, o.pace = Pace::Lock, o.delivery = Delivery::Latest, o.rate = 200, o.frames = 60;
+  o.everyTick = true;
+  const auto outcome = runFrames(stages, o);
+  EXPECT_FALSE(outcome.failure);
+  EXPECT_EQ(outcome.framesSimulated, 60u);
+  EXPECT_GE(stages.drawn, 2u) << "the first and the last, at least";
+  EXPECT_LT(stages.drawn, 40u);
+}
+
 TEST(FrameLoop, SignaturesDoNotAccumulateRounding) {
   EXPECT_EQ(signatureAt(60ull * 3600 * 24, 60).time, 86400ll * 1000000000);
   EXPECT_EQ(signatureAt(0, 60).step, 0);

@@ -71,7 +71,7 @@ IntegratorResult measure(Thing thing, const Scheme& scheme, int hz,
     const double n = static_cast<double>(flights.size());
     r.landing += e.landing * e.landing / n, r.attitude += e.attitude / n;
     // A flight that is lost altogether is no number.
-    r.worst = e.landing <= r.worst ? r.worst : e.landing;
+    r.worst = std::isnan(e.landing) || e.landing > r.worst ? e.landing : r.worst;
   }
   r.landing = std::sqrt(r.landing);
   r.ns = medianCost(scheme, flights.front().release, hz);
