@@ -40,31 +40,34 @@ FrameLog::FrameLog(std::vector<SpanReader*> readers, FrameLogOptions options)
   });
 }
 
-/// Of many spans in one another, in this thread now: of as many as there is room for, so that each record is
-/// written where none has been for a while, as in a show.
+/// Of many spans in one another, in this thread now. The median of some rounds counts: this thread may lose
+/// its processor in the midst of one.
 void FrameLog::measureOverhead() {
-  constexpr int kSpansMeasured = SpanTrack::kCapacity - 2;
+  constexpr int kRounds = 63, kSpansARound = 1000;
   FrameProbe& probe = *this;
   const auto began = ProfileClock::now();
   const std::uint64_t beganTicks = TickClock::now();
-  double inside = 0, own = 0;
-  // The second time nothing is touched for the first time any more.
-  for (int round = 0; round < 2; ++round) {
+  std::vector<double> inside, outside;
+  for (int round = 0; round < kRounds; ++round) {
     probe.began(Span::App, 0, kNoWall);
-    for (int i = 0; i < kSpansMeasured; ++i) {
+    for (int i = 0; i < kSpansARound; ++i) {
       const SpanScope span(&probe, Span::Simulate, NodeRef{1, 0});
     }
     probe.ended(Span::App);
-    inside = own = 0;
-    for (SpanRecord r; track().spans().take(r);) (r.what == Span::App ? own : inside) += r.own;
+    inside.push_back(0), outside.push_back(0);
+    for (SpanRecord r; track().spans().take(r);)
+      (r.what == Span::App ? outside : inside).back() += r.own * 1e6 / kSpansARound;
     track().takeCount();
   }
   const double ns = std::chrono::duration<double, std::nano>(ProfileClock::now() - began).count();
   nanosecondsATick_ = ns / static_cast<double>(std::max<std::uint64_t>(1, TickClock::now() - beganTicks));
   dearTicks_ =
       static_cast<std::uint64_t>(std::chrono::duration<double, std::nano>(kDear).count() / nanosecondsATick_);
-  constexpr double kNanosecondsEach = 1e6 / kSpansMeasured;
-  overhead_ = {inside * kNanosecondsEach, own * kNanosecondsEach};
+  const auto median = [](std::vector<double>& v) {
+    std::ranges::nth_element(v, v.begin() + kRounds / 2);
+    return v[kRounds / 2];
+  };
+  overhead_ = {median(inside), median(outside)};
   // Whoever comes to this thread later gets a track that knows it.
   tracks_.clear();
   number_ = nextNumber();

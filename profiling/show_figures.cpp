@@ -109,7 +109,7 @@ private:
       const std::string name = stageName(Span::Draw, who.first) + (who.second == 0 ? " left" : " right");
       const auto add = [&](const std::string& part, const CostSeries& ms, double times) {
         out_.stages.push_back(
-            {name + ", alone", part, times * ms.mean(), ms.percentile(95), ms.most(), ms.count()});
+            {name + ", alone", part, times * std::max(0.0, ms.mean()), ms.percentile(95), ms.most(), ms.count()});
       };
       add("", eye.whole, 1);
       for (const auto& [part, ms] : eye.parts) add(std::string(nameOf(part)), ms, timesAFrame(part));

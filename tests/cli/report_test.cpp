@@ -81,6 +81,7 @@ TEST_F(ProgramReport, ABrowserFillsItsTablesAndPlotsWithoutAComplaint) {
   EXPECT_NE(part(s.dom, "dynamics-table").find("ball"), std::string::npos) << "the ball's cost and error";
   EXPECT_NE(part(s.dom, "late-say").find("frames that sampling did not disturb"), std::string::npos);
   EXPECT_GE(count(part(s.dom, "stages-table"), "<tr"), 20U);
+  EXPECT_NE(part(s.dom, "counts-table").find("triangles"), std::string::npos);
   const std::string seen = s.dom.substr(0, s.dom.find("<script"));
   EXPECT_EQ(count(seen, "NaN") + count(seen, "undefined") + count(seen, ">null"), 0U);
 }
