@@ -1,5 +1,7 @@
 #include "cli/playing_show.h"
 
+#include "cli/live_load.h"
+
 #include <cmath>
 
 namespace stadion {
@@ -44,6 +46,13 @@ std::unique_ptr<PlayingShow> PlayingShow::open(const ShowSurroundings& around, D
   show->overview_ = std::make_unique<Overview>(player.meshes(), player.walls(),
                                                static_cast<double>(size.width) / size.height);
   if (!around.options.repeats(player)) player.playLive();
+  std::vector<std::string> walls = player.walls().names();
+  walls.push_back("overview");
+  RecordingOptions recording;
+  recording.profile = false, recording.also = &show->budget_;
+  recording.log.whole = false, recording.log.samples = hasDrawnBudgets(player.scene());
+  recording.govern = governorOf(around.options, player, std::move(walls));
+  show->recording_ = ShowRecording::create(std::move(recording), findings);
   return show;
 }
 
@@ -68,7 +77,7 @@ ShowParts PlayingShow::parts() {
   parts.provider = &around_.provider;
   parts.sink = &around_.sink;
   parts.contexts = &around_.kept->contexts;
-  parts.probe = &budget_;
+  parts.probe = &recording_->probe();
   parts.giveUp = [this] { return around_.stopping->load(); };
   parts.observer = [this](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     see(now, input, scene);
@@ -83,8 +92,9 @@ void PlayingShow::start(const std::optional<ShowPlace>& place) {
   ShowParts show = parts();
   around_.desk.beginGroup(*player_, *watch_);
   around_.desk.addTo(show, options);
+  if (!player_->obeysLog()) options.decider = recording_->governor();
   stages_ = std::make_unique<ShowStages>(std::move(show));
-  loop_ = std::make_unique<FrameLoop>(*stages_, options, *around_.stopping, &budget_);
+  loop_ = std::make_unique<FrameLoop>(*stages_, options, *around_.stopping, &recording_->probe());
   thread_ = std::thread([this] {
     outcome_ = loop_->run();
     if (around_.ended) around_.ended();
@@ -104,6 +114,7 @@ ShowPlace PlayingShow::place() const {
 // On the App thread, after each App stage.
 void PlayingShow::see(const TimeSignature& now, const InputSample& input, const Scene& scene) {
   watch_->see(now, input, scene);
+  recording_->see(scene);
   overview_->see(input);
   player_->collect(stages_->shownFrame());
   if (now.frame == 0 && from_) takeUp(*from_);

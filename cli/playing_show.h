@@ -9,6 +9,7 @@
 #include "cli/overview.h"
 #include "cli/run_options.h"
 #include "cli/run_watch.h"
+#include "cli/show_recording.h"
 #include "engine/display/unfolding.h"
 #include "pipeline/playback.h"
 #include "profiling/live_budget.h"
@@ -67,6 +68,8 @@ public:
   RunWatch& watch() { return *watch_; }
   ShowPlace place() const;
   FrameBudget budget() const { return budget_.now(); }
+  /// How nodes with a budget keep it.
+  std::vector<BudgetReport> budgets() const { return recording_->governor()->reports(); }
   std::uint64_t droppedTicks() const { return dropped_; }
   std::uint64_t framesPlayed() const { return frames_; }
   /// Show time of the newest frame; what is shown comes a little later.
@@ -89,6 +92,7 @@ private:
   std::unique_ptr<RunWatch> watch_;
   std::unique_ptr<Overview> overview_;
   LiveBudget budget_;
+  std::unique_ptr<ShowRecording> recording_;
   std::unique_ptr<ShowStages> stages_;
   std::unique_ptr<FrameLoop> loop_;
   FrameLoopOutcome outcome_;

@@ -4,6 +4,7 @@
 #include "cli/display_run.h"
 #include "cli/exit_code.h"
 #include "cli/live_desk.h"
+#include "cli/live_load.h"
 #include "cli/output_folder.h"
 #include "cli/run_options.h"
 #include "cli/run_output.h"
@@ -85,31 +86,6 @@ bool canDraw(GlProvider& provider, const ShowParts& parts, Diagnostics& findings
   return !why;
 }
 
-/// Whether what is drawn has a budget: then samples of drawing are taken.
-bool hasDrawnBudgets(const Scene& scene) {
-  bool any = false;
-  scene.forEachLoad([&](const Load& load) {
-    for (const auto& [position, terms] : load.terms) {
-      const Node* node = load.nodes[position].get();
-      any |= !node || placedKinds().has(node->kind());
-    }
-  });
-  return any;
-}
-
-/// Of a live run overruns are told and acted upon; of another they are counted.
-GovernorOptions governorOf(const RunOptions& o, const Player& player, bool live) {
-  const FrameLoopOptions loop = o.loopOptions(player);
-  GovernorOptions g;
-  g.rate = loop.rate, g.paced = loop.pace != Pace::Free;
-  g.pipelined = loop.mode == Mode::Pipelined;
-  g.walls = player.walls().names();
-  g.stress = o.stress;
-  g.acts = live && o.loadControl;
-  if (live) g.tell = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
-  return g;
-}
-
 /// Who looks where frames go: of a live run always, so that late frames have a cause.
 bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   s.recording.reset();
@@ -121,7 +97,7 @@ bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   if (options.trace) options.trace->show = o.show.script, options.trace->walls = s.player->walls().names();
   options.profile = o.profile, options.log.whole = o.profile;
   options.log.samples = o.profile || hasDrawnBudgets(s.player->scene());
-  options.govern = governorOf(o, *s.player, live);
+  options.govern = governorOf(o, *s.player, s.player->walls().names());
   if (live) {
     const FrameLoopOptions loop = o.loopOptions(*s.player);
     options.keep =

@@ -26,6 +26,7 @@ struct RecordingOptions {
   };
   std::optional<Report> report{};
   std::optional<GovernorOptions> govern{};  ///< look at budgets
+  SpanReader* also = nullptr;               ///< who looks on as well, and outlives the recording
 };
 
 class ShowRecording {
@@ -35,6 +36,7 @@ public:
     std::unique_ptr<ShowRecording> made(new ShowRecording);
     std::vector<SpanReader*> readers;
     if (options.profile) readers.push_back(&made->profile_);
+    if (options.also) readers.push_back(options.also);
     if (options.govern) {
       made->governor_ = std::make_unique<LoadGovernor>(std::move(*options.govern), made->names_);
       readers.push_back(made->governor_.get());

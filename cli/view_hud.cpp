@@ -41,13 +41,15 @@ std::vector<PanelLine> ViewHud::budgetLines(const HudFigures& f) const {
   std::string state = fmt::format("{}  {:.2f} s", f.show, f.seconds);
   if (f.speed != 1) state += fmt::format("  speed 1/{:.0f}", 1 / f.speed);
   if (f.paused) state += "  paused";
-  return {{state, f.paused || f.speed != 1 ? kTight : kPlain},
-          bar("App", f.budget.appMs, frameMs),
-          bar("Cull", f.budget.cullMs, frameMs),
-          bar("Draw", f.budget.drawMs, frameMs),
-          {fmt::format("{:.1f} of {:.0f} frames/s  {:.2f} ms each  {} dropped", f.budget.framesPerSecond,
-                       f.rate, frameMs, f.dropped),
-           kPlain}};
+  std::vector<PanelLine> lines{{state, f.paused || f.speed != 1 ? kTight : kPlain},
+                               bar("App", f.budget.appMs, frameMs),
+                               bar("Cull", f.budget.cullMs, frameMs),
+                               bar("Draw", f.budget.drawMs, frameMs),
+                               {fmt::format("{:.1f} of {:.0f} frames/s  {:.2f} ms each  {} dropped",
+                                            f.budget.framesPerSecond, f.rate, frameMs, f.dropped),
+                                kPlain}};
+  for (const std::string& line : f.given) lines.push_back({line, kTight});
+  return lines;
 }
 
 std::vector<PanelLine> ViewHud::helpLines() const {

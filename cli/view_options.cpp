@@ -52,6 +52,7 @@ void ViewOptions::addTo(CLI::App& command) {
       "write what head, wand and joypad did to this input log; run and hash --input FILE come to "
       "the same state. The log ends where the script is read again");
   run.addOperatorTo(command);
+  run.addLoadTo(command);
   command
       .add_option(
           "--gl", provider,

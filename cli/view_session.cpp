@@ -14,6 +14,7 @@
 namespace stadion {
 namespace {
 
+constexpr std::size_t kMostGiven = 4;  ///< lines of what nodes give up
 constexpr std::chrono::milliseconds kHudEvery{250}, kFilesEvery{250};
 constexpr std::chrono::milliseconds kNap{2};  ///< while there is nothing new to show
 constexpr double kTurnPerPixel = 0.006;       ///< of the overview [rad]
@@ -341,6 +342,9 @@ HudFigures ViewSession::figures() const {
   f.seconds = toSeconds(shown_.time), f.rate = options_.run.show.rate;
   f.speed = desk_->playback().speed(), f.paused = desk_->playback().paused();
   f.budget = show_->budget(), f.dropped = show_->droppedTicks() + unseen_;
+  for (const BudgetReport& b : show_->budgets())
+    if (b.now > 0 && f.given.size() < kMostGiven)
+      f.given.push_back(fmt::format("{} gives up {} of {}: {:.2f} ms", b.name, b.now, b.levels, b.mean));
   return f;
 }
 

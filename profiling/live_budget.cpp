@@ -8,7 +8,7 @@ namespace {
 constexpr double kNewest = 0.1;
 constexpr std::chrono::seconds kStill{1};  ///< after so long without a swap there is no rate
 
-double millisecondsBetween(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
+double millisecondsBetween(ProfileClock::time_point a, ProfileClock::time_point b) {
   return std::chrono::duration<double, std::milli>(b - a).count();
 }
 
@@ -19,22 +19,13 @@ void LiveBudget::Mean::add(double value) {
   any = true;
 }
 
-void LiveBudget::began(Span what, std::uint64_t, std::uint32_t wall) {
-  if (!isStage(what)) return;
+void LiveBudget::take(std::size_t, const SpanRecord& r) {
+  if (!isStage(r.what)) return;
   const std::lock_guard lock(mutex_);
-  walls_[{std::this_thread::get_id(), what}] = wall;
-  means_[{what, wall}].began = Clock::now();
-}
-
-void LiveBudget::ended(Span what) {
-  if (!isStage(what)) return;
-  const std::lock_guard lock(mutex_);
-  const auto now = Clock::now();
-  Mean& mean = means_[{what, walls_[{std::this_thread::get_id(), what}]}];
-  mean.add(millisecondsBetween(mean.began, now));
-  if (what != Span::Swap) return;
-  if (period_.began != Clock::time_point{}) period_.add(millisecondsBetween(period_.began, now));
-  period_.began = now;
+  means_[{r.what, r.wall}].add(r.took);
+  if (r.what != Span::Swap) return;
+  if (swapped_ != ProfileClock::time_point{}) period_.add(millisecondsBetween(swapped_, r.ended));
+  swapped_ = r.ended;
 }
 
 double LiveBudget::slowest(Span stage) const {
@@ -46,7 +37,7 @@ double LiveBudget::slowest(Span stage) const {
 
 FrameBudget LiveBudget::now() const {
   const std::lock_guard lock(mutex_);
-  const bool alive = Clock::now() - period_.began < kStill && period_.ms > 0;
+  const bool alive = ProfileClock::now() - swapped_ < kStill && period_.ms > 0;
   return {slowest(Span::App), slowest(Span::Cull), slowest(Span::Draw), alive ? 1000 / period_.ms : 0};
 }
 

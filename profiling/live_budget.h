@@ -3,14 +3,13 @@
 ///
 /// Each value is the mean of the last second or so: new durations count a tenth.
 ///
-/// Threads  told on the threads that do the work, read from any.
+/// Threads  SpanReader's; read from any.
 
-#include "engine/frame_probe.h"
+#include "profiling/frame_log.h"
 
 #include <chrono>
 #include <map>
 #include <mutex>
-#include <thread>
 #include <utility>
 
 namespace stadion {
@@ -21,18 +20,15 @@ struct FrameBudget {
   double framesPerSecond = 0;
 };
 
-class LiveBudget final : public FrameProbe {
+class LiveBudget final : public SpanReader {
 public:
-  void began(Span what, std::uint64_t frame, std::uint32_t wall) override;
-  void began(Span, NodeRef) override {}
-  void ended(Span what) override;
+  using SpanReader::take;
+  void take(std::size_t track, const SpanRecord& record) override;
 
   FrameBudget now() const;
 
 private:
-  using Clock = std::chrono::steady_clock;
   struct Mean {
-    Clock::time_point began{};
     double ms = 0;
     bool any = false;
     void add(double value);
@@ -41,9 +37,9 @@ private:
   double slowest(Span stage) const;
 
   mutable std::mutex mutex_;
-  std::map<std::pair<Span, std::uint32_t>, Mean> means_;             ///< by stage and wall
-  std::map<std::pair<std::thread::id, Span>, std::uint32_t> walls_;  ///< whose stage a thread is in
-  Mean period_;                                                      ///< from swap to swap
+  std::map<std::pair<Span, std::uint32_t>, Mean> means_;  ///< by stage and wall
+  Mean period_;                                           ///< from swap to swap
+  ProfileClock::time_point swapped_{};
 };
 
 }  // namespace stadion

@@ -463,6 +463,29 @@ TEST(ProgramView, TheFrameBudgetAndTheOverviewAreOnTheScreenshot) {
   EXPECT_TRUE(std::filesystem::exists(view.folder() / "shots" / "001-screen.png"));
 }
 
+TEST(ProgramView, WhatTakesTooLongGivesUpAndTheRecordObeys) {
+  REQUIRE_DISPLAY(display);
+  const TemporaryFolder folder;
+  const std::string script = folder.path() / "dear.evs";
+  std::ofstream(script)
+      << "forcelinear( name=gravity, direction=\"0, 0, -1\" )\n"
+         "object( name=ground, file=plane.3ds )\n"
+         "dynobject( name=ball, file=football.3ds, position=\"0, 3, 2\", restitution=1, hook=gravity )\n"
+         "dynamics( name=game, collider=ground, collidee=ball, budget=0.001, onoverrun=\"half\" )\n";
+  Viewing view(*display, script, {"--walls", "desktop", "--hud"});
+  ASSERT_TRUE(view.playing());
+  ASSERT_TRUE(view.program().says("game"));
+  view.program().waitUntil([&] { return view.program().err().find("half") != std::string::npos; });
+  ASSERT_TRUE(view.pressed("F12", "screenshot:"));
+  const std::string hash = hashIn(view.end());
+  const std::string log = fileContent(view.log());
+  EXPECT_NE(log.find("\nrelief "), log.npos) << log;
+  const ProgramResult replay = stadionProgram({"run", script, "--asset-root", assetFolder(), "--input",
+                                               view.log(), "--gl", "none", "--walls", "desktop", "--json"});
+  EXPECT_EQ(replay.status, 0) << replay.err;
+  EXPECT_NE(replay.out.find(hash), replay.out.npos) << replay.out;
+}
+
 TEST(ProgramView, OlympiaShowsItsBudgetAndIsReadAgainWhenSaved) {
   REQUIRE_DISPLAY(display);
   const TemporaryFolder scripts;

@@ -1,0 +1,31 @@
+#include "cli/live_load.h"
+
+#include <cstdio>
+
+namespace stadion {
+
+bool hasDrawnBudgets(const Scene& scene) {
+  bool any = false;
+  scene.forEachLoad([&](const Load& load) {
+    for (const auto& [position, terms] : load.terms) {
+      const Node* node = load.nodes[position].get();
+      any |= !node || placedKinds().has(node->kind());
+    }
+  });
+  return any;
+}
+
+GovernorOptions governorOf(const RunOptions& o, const Player& player, std::vector<std::string> walls) {
+  const bool live = !o.everyFrameCounts(player);
+  const FrameLoopOptions loop = o.loopOptions(player);
+  GovernorOptions g;
+  g.rate = loop.rate, g.paced = loop.pace != Pace::Free;
+  g.pipelined = loop.mode == Mode::Pipelined;
+  g.walls = std::move(walls);
+  g.stress = o.stress;
+  g.acts = live && o.loadControl;
+  if (live) g.tell = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
+  return g;
+}
+
+}  // namespace stadion
