@@ -120,6 +120,13 @@ struct alignas(64) RigidMotion {
   Spin spin;
 };
 
+/// The way out of a collider that a hand has put the body into (way_out.h).
+struct WayOut {
+  ColliderId of = 0;
+  Vec3 normal = Vec3::UnitZ();  ///< unit, in the collider's frame
+  double side = 1;              ///< 1: out of the front of its faces, -1: out of their back
+};
+
 struct RigidBody : RigidMotion {
   ShapeId shapeId = 0;
   const Shape* shape = nullptr;
@@ -152,10 +159,13 @@ struct RigidBody : RigidMotion {
   Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< how far since it is quiet, or is looked at [m], [rad]
   std::uint32_t slot = 0;                           ///< scratch of the contact solver
   GuidedMotion held;
-  std::vector<FieldId> carried;  ///< Held: fields in the same hand
-  Vec3 wound = Vec3::Zero();     ///< Held: the velocity that their pushes have added up to, in N [m/s]
-  Instant woundTo;               ///< Held: until when
-  std::uint32_t impacts = 0;     ///< in the short time `impactSpan`
+  std::vector<FieldId> carried;   ///< Held: fields in the same hand
+  Vec3 wound = Vec3::Zero();      ///< Held: the velocity that their pushes have added up to, in N [m/s]
+  Instant woundTo;                ///< Held: until when
+  Vec3 freePlace = Vec3::Zero();  ///< Held: where the middle of its bound was when it last was in nothing
+  bool letGo = false;             ///< a hand has let go of it in this moment
+  std::vector<WayOut> waysOut;    ///< Contact: of what it was let go in, until it is out
+  std::uint32_t impacts = 0;      ///< in the short time `impactSpan`
   Nanoseconds impactSpan = -1;
   double quiet = 0;  ///< Contact: how long it has hardly moved [s]
   Calm calm;         ///< Contact, islands

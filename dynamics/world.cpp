@@ -294,7 +294,7 @@ bool World::placeBody(BodyId id, const Pose& X_WN, const Vec3& v, const Vec3& om
   b->pose = unit(X_WN);
   b->trouble.clear();
   b->fresh = true;
-  b->touching.clear();
+  b->touching.clear(), b->waysOut.clear();
   const Pose X_WC = b->pose * b->X_NC;
   core_->memory.forget({true, id});
   core_->startFlight(*b, core_->now, X_WC.p, v, X_WC.q,
@@ -319,9 +319,10 @@ bool World::holdBody(BodyId id) {
   if (!b || b->mode == BodyMode::Quarantined) return false;
   core_->freeze(*b, core_->now);
   b->support.on = {};
-  b->touching.clear();
+  b->touching.clear(), b->waysOut.clear();
   core_->wakeOnto({true, id}, core_->now);
   b->mode = BodyMode::Held;
+  b->freePlace = b->pose * b->bound.centre;
   if (std::ranges::find(core_->held, b) == core_->held.end()) core_->held.push_back(b);
   b->held.set(b->pose, b->pose, core_->now, 0);
   b->carried.clear();
@@ -348,6 +349,7 @@ bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
   if (teleport) {
     b->pose = unit(end);
     b->held.set(b->pose, b->pose, core_->now, 0);
+    b->freePlace = b->pose * b->bound.centre;
     b->fresh = true;
     core_->wakeOnto({true, id}, core_->now);
   }
@@ -359,8 +361,9 @@ bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
 
 bool World::releaseBody(BodyId id, const Vec3& v, const Vec3& omega) {
   RigidBody* b = core_->body(id);
-  if (!b || b->mode != BodyMode::Held) return false;
-  return placeBody(id, b->pose, v, omega);
+  if (!b || b->mode != BodyMode::Held || !placeBody(id, b->pose, v, omega)) return false;
+  b->letGo = true;
+  return true;
 }
 
 bool World::advance(Nanoseconds t0, Nanoseconds t1, bool continues) {

@@ -190,8 +190,8 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
   box.lo.array() -= b.bound.radius + margin, box.hi.array() += b.bound.radius + margin;
   const std::size_t first = found.size();
   std::vector<ManifoldPoint> points;
-  const auto against = [&](const Side& other) {
-    manifold(self, other, tau, margin, points);
+  const auto against = [&](const Side& other, const Side& form) {
+    manifold(self, form, tau, margin, points);
     for (const ManifoldPoint& p : points) {
       Found f;
       f.a = self.party, f.b = other.party;
@@ -202,8 +202,16 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
       found.push_back(f);
     }
   };
+  forgetWaysOut(b, tau);
+  for (const WayOut& w : b.waysOut) {
+    const Shape plane = *barrier(self, Side::of(*collider(w.of)), tau, w);
+    Collider form;
+    form.shape = &plane;
+    against(Side::of(*collider(w.of)), Side::of(form));
+  }
   nearColliders.eachNear(box, [&](const Collider& c) {
-    if (mayTouch(self, Side::of(c))) against(Side::of(c));
+    const Side other = Side::of(c);
+    if (mayTouch(self, other) && !comesOutOf(b, c.id)) against(other, other);
   });
   eachBodyNear(box, tau, [&](RigidBody& o) {
     if (&o == &b || !o.enabled) return;
@@ -217,7 +225,7 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
     } else if (!o.crowd && !standsStill(o.mode) && o.mode != BodyMode::Held) {
       return;  // a flier: its touch is an event
     }
-    against(other);
+    against(other, other);
   });
   chooseWayOut(b, first, found);
 }

@@ -2,8 +2,8 @@
 /// The inside of World, shared by its source files: world.cpp (interface), world_frame.cpp (one frame),
 /// world_foresight.cpp (what will touch), world_arcs.cpp (new arcs), world_impact.cpp (touches),
 /// world_air.cpp (flight in air), world_release.cpp (who has parted),
-/// world_contact.cpp (lasting contact: who with whom), world_island.cpp (one island), world_crowd.cpp
-/// and world_crowd_contacts.cpp (heaps).
+/// world_way_out.cpp (out of what a hand has put a body into), world_contact.cpp (lasting contact: who with
+/// whom), world_island.cpp (one island), world_crowd.cpp and world_crowd_contacts.cpp (heaps).
 ///
 /// Time     runs in windows of 128 ms to 1 s on a grid of show time. tau is seconds since the window's start.
 /// What will happen is foreseen to the window's end, once for each arc; a frame only lets happen what is due
@@ -18,6 +18,7 @@
 #include "dynamics/manifold.h"
 #include "dynamics/rigid_body.h"
 #include "dynamics/touch.h"
+#include "dynamics/way_out.h"
 #include "dynamics/world.h"
 
 #include <algorithm>
@@ -219,6 +220,12 @@ public:
   void awaitRelease(ContactMemory::Waiting& w, const Side& a, const Side& b, double distance,
                     double tau) const;
   Nanoseconds soonest(const Side& a, const Side& b, double distance, double tau) const;
+
+  // --- out of what a hand has put a body into (world_way_out.cpp)
+  void noteFreePlaces();
+  void findWaysOut(RigidBody& b);
+  void forgetWaysOut(RigidBody& b, double tau) const;
+  static bool comesOutOf(const RigidBody& b, ColliderId id);
 
   // --- lasting contact (world_contact.cpp)
   Nanoseconds tickGrid = 2'000'000;              ///< the solver's steps end on multiples of this show time

@@ -268,8 +268,15 @@ void World::Core::settleFresh(const std::vector<Party>& arrived) {
     });
   }
   for (const Settler& s : settlers) s.body->fresh = false;
-  for (const Settler& s : settlers)
-    if (!s.touching.empty()) settle(*s.body, s.touching);
+  for (const Settler& s : settlers) {
+    findWaysOut(*s.body);
+    for (const WayOut& w : s.body->waysOut)
+      memory.setTouching(ContactMemory::keyOf({false, w.of}, {true, s.body->id}), true);
+    if (!s.body->waysOut.empty())
+      enterContact(*s.body, frameFrom);
+    else if (!s.touching.empty())
+      settle(*s.body, s.touching);
+  }
 }
 
 /// A body that appeared touching these: what it does next.
@@ -385,7 +392,7 @@ void World::Core::windUp(double tau) {
 }
 
 void World::Core::endFrame() {
-  if (!held.empty()) windUp(now);
+  if (!held.empty()) windUp(now), noteFreePlaces();
   if (!memory.waiting().empty())
     for (RigidBody* b : active) catchUp(*b, now);
   partCarried();
