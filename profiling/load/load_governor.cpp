@@ -113,7 +113,7 @@ void LoadGovernor::noteOverrun(Governed& g, std::uint64_t frame, const NodeCost&
   if (now_ - g.toldAt < kToldApart) return;
   const std::string others =
       g.untold > 1 ? fmt::format("; {} frames since this was told last", g.untold) : std::string();
-  lines_.push_back(fmt::format("over budget: {} took {:.1f} ms of {:g} in frame {}, most of it {}{}",
+  lines_.push_back(fmt::format("over budget: {} took {:.3g} ms of {:g} in frame {}, most of it {}{}",
                                titleOf(g.of.node), cost.cost.total(), g.report.budget, frame, stageText(cost),
                                others));
   g.toldAt = now_, g.untold = 0;
