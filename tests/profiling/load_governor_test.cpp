@@ -75,7 +75,7 @@ TEST(LoadGovernor, AStallIsToldByNameWithinTwoFramesAndAnswered) {
   g.frames(100, {0.2});
   g.frames(2, {50});
   ASSERT_FALSE(g.told.empty());
-  EXPECT_EQ(g.told[0], "over budget: \"node0\" show:1 took 50.0 ms of 0.8 in frame 100, most of it App");
+  EXPECT_EQ(g.told[0], "over budget: \"node0\" show:1 took 50 ms of 0.8 in frame 100, most of it App");
   EXPECT_EQ(g.governor->overrunOf(101)->ms, 50);
   g.frames(4, {50});
   EXPECT_EQ(g.level(0), 3U);
