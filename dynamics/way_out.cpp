@@ -18,6 +18,32 @@ bool isMesh(const Shape& s) {
   return std::holds_alternative<MeshShape>(s);
 }
 
+/// The faces of what is bounded by planes, built into `made` if it is no mesh; null for all that is round.
+const TriangleTree* facesOf(const Shape& shape, TriangleTree& made) {
+  std::vector<std::array<Vec3, 3>> faces;
+  if (const auto* box = std::get_if<BoxShape>(&shape)) {
+    for (int k = 0; k < 3; ++k)
+      for (const double side : {-1.0, 1.0}) {
+        const auto corner = [&](double u, double v) {
+          Vec3 x;
+          x[k] = side, x[(k + 1) % 3] = u, x[(k + 2) % 3] = side * v;
+          return box->pose * box->half.cwiseProduct(x);
+        };
+        const std::array<Vec3, 4> c{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+        faces.push_back({c[0], c[1], c[2]}), faces.push_back({c[0], c[2], c[3]});
+      }
+  } else if (const auto* hull = std::get_if<ConvexShape>(&shape)) {
+    for (const ConvexShape::Face& f : hull->faces)
+      for (std::uint32_t k = 2; k < f.count; ++k)
+        faces.push_back({hull->points[hull->loops[f.first]], hull->points[hull->loops[f.first + k - 1]],
+                         hull->points[hull->loops[f.first + k]]});
+  } else {
+    return trianglesOf(shape, made);
+  }
+  made = TriangleTree(faces);
+  return &made;
+}
+
 /// Where the straight way from p to q meets the triangle, as a share of it; negative if it does not.
 double meets(const Triangle& t, const Vec3& p, const Vec3& q) {
   const double hp = t.normal.dot(p - t.v[0]), hq = t.normal.dot(q - t.v[0]);
@@ -88,8 +114,11 @@ std::optional<WayOut> mostAlong(const Inside& body, const TriangleTree& tree, co
 }  // namespace
 
 bool wentInto(const Side& thing, double tau, const Vec3& from, const Vec3& to) {
+  Aabb way;
+  way.include(from), way.include(to);
+  if (!boundingBox(*thing.shape, thing.at(tau).pose).overlaps(way)) return false;
   TriangleTree sheet;
-  const TriangleTree* tree = trianglesOf(*thing.shape, sheet);
+  const TriangleTree* tree = facesOf(*thing.shape, sheet);
   if (!tree) return false;
   const Pose X = thing.at(tau).pose.inverse();
   const std::int32_t first = firstOnWay(*tree, X * from, X * to);
@@ -105,7 +134,7 @@ bool overlaps(const Side& body, const Side& thing, double tau) {
 
 std::optional<WayOut> wayOutOf(const Side& body, const Side& thing, double tau, const Vec3& free) {
   TriangleTree sheet;
-  const TriangleTree* tree = trianglesOf(*thing.shape, sheet);
+  const TriangleTree* tree = facesOf(*thing.shape, sheet);
   if (!tree) return {};
   const Inside inside(body, thing, tau);
   const Vec3 from = thing.at(tau).pose.inverse() * free, back = from - inside.middle;
@@ -126,7 +155,7 @@ std::optional<WayOut> wayOutOf(const Side& body, const Side& thing, double tau, 
 
 std::optional<PlaneShape> barrier(const Side& body, const Side& thing, double tau, const WayOut& way) {
   TriangleTree sheet;
-  const TriangleTree* tree = trianglesOf(*thing.shape, sheet);
+  const TriangleTree* tree = facesOf(*thing.shape, sheet);
   if (!tree) return {};
   const Inside inside(body, thing, tau);
   const Vec3& n = way.normal;

@@ -1,5 +1,6 @@
 #pragma once
-/// Which way a body gets out of a mesh or a bounded plane that a hand has put it into. Internal to dynamics/.
+/// Which way a body gets out of a mesh, a bounded plane, a box or a hull that a hand has put it into.
+/// Internal to dynamics/.
 ///
 /// Method   what a body overlaps deeply has no shortest way out that could be trusted: a sheet has no inside,
 ///          and a thin pole is nearer to a triangle's edge than to the surface. So the way is that back to
@@ -24,7 +25,7 @@ bool wentInto(const Side& thing, double tau, const Vec3& from, const Vec3& to);
 bool overlaps(const Side& body, const Side& thing, double tau);
 
 /// Nothing if the body, whose middle was at `free` when it last touched nothing, is not inside of the thing,
-/// or if that is no mesh and no bounded plane.
+/// or if that is round or has no bounds.
 std::optional<WayOut> wayOutOf(const Side& body, const Side& thing, double tau, const Vec3& free);
 
 /// The plane, at rest in World, that the thing counts as; nothing if the body is out.

@@ -305,6 +305,7 @@ public:
   double stepOf(const Island& island, double tau, double h) const;
   static void boundStep(Island& island, double h);
   void resistRolling(Island& island) const;
+  void holdRims(Island& island, const std::vector<Mobile>& solved) const;
   void conclude(Island& island, double tau, double h);
   void concludeFreely(RigidBody& b, const Mobile& start, double tau);
   void noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end, double tau, double h) const;

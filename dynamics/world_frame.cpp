@@ -193,11 +193,12 @@ void World::Core::beginFrame() {
   foreseeMarked(frameFrom);
 }
 
-/// Bodies that feel a field which is not what it was, or which moves, are to begin new arcs.
+/// Bodies that feel a field which is not what it was, or which moves, are to begin new arcs. One that is off
+/// stirs them when it is switched on.
 void World::Core::followFields() {
   std::vector<FieldId> different;
   for (FieldEntry& f : fields) {
-    if (f.changed || f.field.changing()) different.push_back(f.id);
+    if (f.on && (f.changed || f.field.changing())) different.push_back(f.id);
     f.changed = f.field.changing();  // once it stops, the next frame differs again
   }
   if (different.empty()) return;

@@ -17,6 +17,8 @@ constexpr double kGliding = 1e-9;          ///< quiet time of one whose slow mot
 constexpr double kCreep = 1e-4;            ///< mean speeds below this are none [m/s]
 constexpr double kCalm = 1e-5;             ///< mean accelerations below this are balance, per pull [m/s2]
 constexpr double kRolls = 0.01;            ///< slip of what rolls, relative to how it turns
+constexpr double kHeld = 0.05;             ///< of its spin, what rolls no more may have left
+constexpr double kNearlyStill = 5e-3;      ///< faster than this nothing is held by rolling resistance [m/s]
 constexpr double kStill = 1e-9;            ///< slower than this is not at all [m/s]
 constexpr double kBalanced = 1e-7;         ///< accelerations below this are rounding [m/s2]
 constexpr double kProbe = 1e-4;            ///< step in which accelerations are measured [s]
@@ -335,7 +337,11 @@ void World::Core::resistRolling(Island& s) const {
     const bool ball = s.set[i]->isBall(), round = f.carrier == side;
     const double radius = ball ? s.set[i]->radius() : round ? f.rounding.radius : 0;
     Mobile& m = s.end[i];
-    const Vec3 about = ball ? m.omega : Vec3(m.omega - f.gap.normal * f.gap.normal.dot(m.omega));
+    Vec3 about = ball ? m.omega : Vec3(m.omega - f.gap.normal * f.gap.normal.dot(m.omega));
+    if (!f.rounding.axis.isZero(0) && round) {  // a rim rolls along itself; it tips over freely
+      const Vec3 along = f.rounding.axis - f.gap.normal * f.gap.normal.dot(f.rounding.axis);
+      about = along * (along.dot(about) / std::max(along.squaredNorm(), 1e-300));
+    }
     const double w = about.norm();
     if (!(radius > 0) || !(w > 0)) return;
     const Vec3 axis = about / w, turn = m.inverseInertia * axis;  // per unit of angular impulse
@@ -343,7 +349,8 @@ void World::Core::resistRolling(Island& s) const {
     const double most = f.surface.rolling * radius * f.contact.impulse[0];
     // What rolls turns about the point that it rolls on, and is taken its way with its spin.
     const Vec3 arm = m.p - f.gap.point;
-    const bool rolls = m.velocityAt(f.gap.point).norm() < kRolls * w * radius;
+    const Vec3 u = m.velocityAt(f.gap.point), slip = u - f.gap.normal * f.gap.normal.dot(u);
+    const bool rolls = slip.norm() < kRolls * w * radius;
     const double carried = rolls ? (arm - axis * axis.dot(arm)).squaredNorm() / m.inverseMass : 0;
     const Vec3 change = std::min(most / (inertia + carried), w) * inertia * turn;
     m.omega -= change;
@@ -353,6 +360,39 @@ void World::Core::resistRolling(Island& s) const {
     if (f.contact.impulse[0] <= 0 || f.surface.rolling <= 0) continue;
     resist(f.contact.a, f, Carrier::A), resist(f.contact.b, f, Carrier::B);
   }
+}
+
+/// What lies on its rims, and is kept from rocking on them by rolling resistance, is solved for once more
+/// without that freedom: what the contacts asked for belonged to the spin that has been taken from it.
+void World::Core::holdRims(Island& s, const std::vector<Mobile>& solved) const {
+  std::vector<Mobile> mobiles = s.free;
+  bool any = false;
+  for (std::size_t i = 0; i < s.set.size(); ++i) {
+    const Mobile& m = s.end[i];
+    if (m.v.norm() + m.omega.norm() * s.set[i]->reach > kNearlyStill) continue;
+    Mat3 free = Mat3::Identity();  // the axes that it may still turn about
+    bool stopped = true;
+    for (const Found& f : s.found) {
+      const SolverContact& c = f.contact;
+      if (f.carrier != (c.a == i ? Carrier::A : Carrier::B) || (c.a != i && c.b != i) || c.impulse[0] <= 0 ||
+          f.surface.rolling <= 0 || f.rounding.axis.isZero(0))
+        continue;
+      const Vec3 r = (f.rounding.axis - f.gap.normal * f.gap.normal.dot(f.rounding.axis)).normalized();
+      stopped = stopped && std::fabs(r.dot(m.omega)) <= kHeld * std::fabs(r.dot(solved[i].omega)) + kStill;
+      if (const Vec3 more = free * r; more.norm() > kHeld)
+        free -= more.normalized() * more.normalized().transpose();
+    }
+    if (!stopped || free.isIdentity()) continue;
+    any = true;
+    mobiles[i].inverseInertia = free * mobiles[i].inverseInertia * free;
+    mobiles[i].omega = free * mobiles[i].omega;
+  }
+  if (!any) return;
+  std::vector<SolverContact> contacts;
+  for (const Found& f : s.found) contacts.push_back(f.contact);
+  solveIsland(s, mobiles, contacts, Effort::Moving);
+  for (std::size_t i = 0; i < s.set.size(); ++i) s.end[i].v = mobiles[i].v, s.end[i].omega = mobiles[i].omega;
+  for (std::size_t i = 0; i < contacts.size(); ++i) s.found[i].contact = contacts[i];
 }
 
 /// Nothing is near any more: it flies.
@@ -518,7 +558,9 @@ void World::Core::advanceIsland(Island& s, double tau, double h) {
     const bool holds = solveStep(s, tau, h, Effort::Moving);
     for (RigidBody* b : s.set) b->restless = !holds;
     boundStep(s, h);
+    const std::vector<Mobile> solved = s.end;
     resistRolling(s);
+    if (!s.carried) holdRims(s, solved);
   }
   const bool wedged = staysWedged(s);
   for (RigidBody* b : s.set) b->wedged = wedged;

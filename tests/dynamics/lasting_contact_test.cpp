@@ -235,6 +235,29 @@ TEST(LastingContact, ABallPutInsideAMeshComesOutWithoutAJumpAndRests) {
   }
 }
 
+TEST(LastingContact, AFieldThatIsOffKeepsNobodyAwakeHoweverItMoves) {
+  World w;
+  addFloor(w, 0.5);
+  const BodyId box = addBox(
+      w, addGravity(w),
+      {.half = {0.3, 0.2, 0.1}, .pose = {{0, 0, 0.3}, det::fromEuler(0.4, 0.7, 0.2)}, .friction = 0.5});
+  ForceField push;
+  push.law = LinearField{{5, 0, 0}, LinearField::Unit::Acceleration};
+  const FieldId hand = w.addField(push);
+  w.hook(box, hand, 0);
+  for (std::uint64_t n = 1; n <= 300; ++n) {
+    const TimeSignature s = signatureAt(n, 60);
+    const auto at = [](double t) { return Pose{{t, 0, 0}, det::fromEuler(0, 0, t)}; };
+    if (n == 240) {
+      EXPECT_TRUE(w.state(box).asleep());
+      w.switchField(hand, true, s.time - s.step);
+    }
+    w.moveField(hand, at(toSeconds(s.time - s.step)), at(toSeconds(s.time)));
+    w.advance(s.time - s.step, s.time);
+  }
+  EXPECT_FALSE(w.state(box).asleep()) << "on, it pushes";
+}
+
 TEST(LastingContact, TheFrameRateChangesNothing) {
   const auto result = [](double rate) {
     Heap heap(40);

@@ -186,6 +186,37 @@ TEST(LetGo, WhatWasHeldBelowASheetFallsFromThere) {
       }
 }
 
+TEST(LetGo, InsideOfAStandItComesOutOnTop) {
+  for (const bool hull : {false, true})
+    for (const double z : {0.9, 0.5, 0.1})
+      for (const auto make : {disc, solid<Solid::Box>}) {
+        World w;
+        addGround(w, Ground::Sheet);
+        const Vec3 half(0.24, 0.24, 0.475);
+        std::vector<Vec3> corners;
+        for (int i = 0; i < 8; ++i)
+          corners.push_back(half.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+        const ShapeId shape = hull ? w.addShape(*convexHull(corners)) : w.addShape(BoxShape{{}, half});
+        w.addCollider({shape, {{0, 0, half.z()}, Quat::Identity()}, {0.5, 0.2, 0.05}});
+        BodyDef d = make(w);
+        d.pose.p = {0.03, 0.02, 2};
+        const BodyId b = addSolid(w, addGravity(w), d);
+        w.advance(0, 0);
+        w.holdBody(b);
+        Watch watch(w, {b});
+        for (std::uint64_t n = 1; n < 900; ++n) {
+          const TimeSignature s = signatureAt(n, 60);
+          if (n <= 60) w.moveHeld(b, {{0.03, 0.02, 2 + (z - 2) * toSeconds(s.time)}, Quat::Identity()});
+          if (n == 61) w.releaseBody(b, Vec3::Zero(), Vec3::Zero());
+          w.advance(s.time - s.step, s.time);
+          if (n > 60) watch.look();
+        }
+        EXPECT_LE(watch.fastest, 0.5) << hull << z;
+        EXPECT_GE(w.state(b).p.z(), 0.95) << hull << z;
+        EXPECT_TRUE(watch.asleep()) << hull << z;
+      }
+}
+
 TEST(LetGo, ThrownUpWithItsTailInTheGroundItFlies) {
   for (const Ground ground : kGrounds)
     for (const double v : {5., 15.}) {
