@@ -1,6 +1,7 @@
 #include "dynamics/world.h"
 
 #include "dynamics/world_core.h"
+#include "engine/state_hash.h"
 
 #include <algorithm>
 #include <cmath>
@@ -462,6 +463,18 @@ const std::vector<ContactEvent>& World::events() const {
 
 std::uint64_t World::pairsDigest() const {
   return core_->memory.digest();
+}
+
+std::uint64_t World::waysDigest() const {
+  StateHash h;
+  for (const RigidBody* b : core_->held)
+    if (b->mode == BodyMode::Held) h.add(std::uint64_t{b->id}), h.add(b->freePlace);
+  for (const BodyId id : core_->comingOut) {
+    const RigidBody* b = core_->body(id);
+    for (const WayOut& w : b ? b->waysOut : std::vector<WayOut>{})
+      h.add(std::uint64_t{id}), h.add(std::uint64_t{w.of}), h.add(w.normal), h.add(w.side);
+  }
+  return h.value();
 }
 
 double World::separation(Party a, Party b) const {

@@ -230,6 +230,8 @@ public:
   const std::vector<ContactEvent>& events() const;
   /// Of all pairs that touch, or whose release has yet to be told: part of the simulated state.
   std::uint64_t pairsDigest() const;
+  /// Of where held bodies were free last, and of the ways out that others are on: part of the simulated state.
+  std::uint64_t waysDigest() const;
 
   /// Distance between the surfaces of two parties now [m], negative or 0 when they touch.
   double separation(Party a, Party b) const;

@@ -81,7 +81,8 @@ public:
   IdTable<Collider> colliders;
   IdTable<FieldEntry> fields;
   std::set<std::pair<Party, Party>> ignored;
-  std::deque<Command> commands;  ///< in the order of (when, order)
+  std::vector<BodyId> comingOut;  ///< bodies with ways out, in the order in which they were let go
+  std::deque<Command> commands;   ///< in the order of (when, order)
   ContactMemory memory;
   Nanoseconds t0 = 0, t1 = 0;     ///< the ends of the present part of a frame, the last one between frames
   Nanoseconds origin = 0;         ///< start of the window

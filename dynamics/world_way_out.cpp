@@ -38,6 +38,8 @@ void World::Core::findWaysOut(RigidBody& b) {
     if (!c.enabled || !mayTouch(self, thing)) return;
     if (const auto way = wayOutOf(self, thing, tau, b.freePlace)) b.waysOut.push_back(*way);
   });
+  std::erase_if(comingOut, [&](BodyId id) { return id == b.id || !body(id) || body(id)->waysOut.empty(); });
+  if (!b.waysOut.empty()) comingOut.push_back(b.id);
 }
 
 /// Of the things that a body was let go in, those that it is out of.

@@ -290,6 +290,7 @@ void DynamicsNode::move(Nanoseconds from, Nanoseconds to, bool jump) {
 void DynamicsNode::hash(StateHash& h) const {
   CollisionNode::hash(h);
   grips_.hash(h);
+  h.add(world_.waysDigest());
 }
 
 /// Of a body that has been taken out of the simulation in this frame.
