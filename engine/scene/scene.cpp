@@ -17,29 +17,29 @@ Scene::~Scene() {
 
 bool Scene::open(const std::string& file) {
   const std::uint32_t number = requestLoad(file, {}, 0);
-  applyLoads({});
+  applyLoads({}, nullptr);
   return loads_.contains(number);
 }
 
 void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSet& changes,
                     FrameProbe* probe) {
+  counters_ = {};
+  events_.clear();
+  now_ = now.time;
+  frame_ = now.frame;
+  frameStart_ = now.time - now.step;
+  courses_.clear();
+  impacts_.clear();
+  applyLoads(now, probe);
+  obey(now);
   {
-    const SpanScope span(probe, Span::Loading);
-    counters_ = {};
-    events_.clear();
-    now_ = now.time;
-    frame_ = now.frame;
-    frameStart_ = now.time - now.step;
-    courses_.clear();
-    impacts_.clear();
-    applyLoads(now);
-    obey(now);
+    const SpanScope span(probe, Span::Input);
     rigStart_ = rigPose();
   }
   visit(now, input, probe);
+  applyUnloads(now, probe);
   {
-    const SpanScope span(probe, Span::Loading);
-    applyUnloads(now);
+    const SpanScope span(probe, Span::Input);
     lastInput_ = input;
   }
   settleTouched(probe);

@@ -226,9 +226,9 @@ private:
     auto operator<=>(const Visit&) const = default;
   };
 
-  void applyLoads(const TimeSignature& now);
+  void applyLoads(const TimeSignature& now, FrameProbe* probe);
   void foreseeUnloads(Nanoseconds now);
-  void applyUnloads(const TimeSignature& now);
+  void applyUnloads(const TimeSignature& now, FrameProbe* probe);
   void install(std::unique_ptr<Load> load, Nanoseconds at);
   void remove(std::uint32_t number, std::uint64_t frame);
   void visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe);

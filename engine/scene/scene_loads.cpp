@@ -80,7 +80,9 @@ bool Scene::awaits(std::uint32_t number) const {
                      [&](const Change& c) { return c.load && c.number == number; });
 }
 
-void Scene::applyLoads(const TimeSignature& now) {
+void Scene::applyLoads(const TimeSignature& now, FrameProbe* probe) {
+  if (pendingLoads_.empty()) return;
+  const SpanScope span(probe, Span::Loading);
   foreseeUnloads(now.time);
   // Installing a load may ask for more of them (sub-scenes that are there from the start).
   for (std::size_t i = 0; i < pendingLoads_.size();) {
@@ -107,7 +109,9 @@ void Scene::foreseeUnloads(Nanoseconds now) {
   }
 }
 
-void Scene::applyUnloads(const TimeSignature& now) {
+void Scene::applyUnloads(const TimeSignature& now, FrameProbe* probe) {
+  if (pendingLoads_.empty()) return;
+  const SpanScope span(probe, Span::Loading);
   for (std::size_t i = 0; i < pendingLoads_.size();) {
     const Change change = pendingLoads_[i];
     if (change.load || change.at > now.time || awaits(change.number)) {  // what comes late cannot go before

@@ -170,6 +170,7 @@ std::vector<std::size_t> Scene::lightsThatShine() const {
 
 LightRecord Scene::lightInWorld(const Light& light) const {
   LightRecord r = light.local;
+  r.owner = light.node;
   const Affine& X_WN = placements_.world(light.placement);
   const Vec3 p = X_WN * Vec3(r.position[0], r.position[1], r.position[2]);
   const Vec3 d = (X_WN.linear() * Vec3(r.direction[0], r.direction[1], r.direction[2])).stableNormalized();

@@ -113,8 +113,13 @@ void tellShares(const SlotView& state, const DrawList& list, FrameProbe& probe) 
   probe.shared(Span::Fill, frame, list.wall, owners);
   probe.shared(Span::Sort, frame, list.wall, owners);
   owners.clear();
+  // The light finds its rings and what stands still in them, kept from frame to frame; what moves is looked
+  // for.
+  if (const std::int32_t light = list.shadows.light; light >= 0)
+    if (const NodeRef owner = state.lights[static_cast<std::size_t>(light)].owner; owner.valid())
+      owners.push_back(owner);
   for (const DrawShadowRing& ring : list.shadows.rings)
-    for (const DrawItem& item : ring.moving) owners.push_back(item.owner);  // others are not looked for
+    for (const DrawItem& item : ring.moving) owners.push_back(item.owner);
   probe.shared(Span::ShadowCasts, frame, list.wall, owners);
 }
 

@@ -70,6 +70,19 @@ TEST(ProgramProfile, PicturesAndStatesAreThoseOfAPlainRun) {
   EXPECT_EQ(plain["image_hashes"], profiled["image_hashes"]);
 }
 
+TEST(ProgramProfile, TheShadowsRingsAreTheLights) {
+  const TemporaryFolder folder;
+  const std::string show = folder.write(
+      "shade.evs", "light( name=sun, direction=\"0.3, 0.2, -1\" )\nobject( file=crude_foot.obj )\n");
+  const ProgramResult r = stadionProgram({"profile", show, "--asset-root", assetFolder(), "--no-draw",
+                                          "--frames", "64", "--walls", "desktop", "--json"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  double ms = 0;
+  for (const auto& row : nlohmann::json::parse(r.out)["nodes"])
+    if (row["path"] == "sun") ms = row["cull_ms"];
+  EXPECT_GT(ms, 0) << r.out;
+}
+
 TEST(ProgramProfile, WithoutDrawingAppAndCullAreLeft) {
   const ProgramResult r = profileKick({"--no-draw"});
   ASSERT_EQ(r.status, 0) << r.err;
