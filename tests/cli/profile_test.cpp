@@ -77,8 +77,9 @@ TEST(ProgramProfile, TheShadowsRingsAreTheLights) {
   const ProgramResult r = stadionProgram({"profile", show, "--asset-root", assetFolder(), "--no-draw",
                                           "--frames", "64", "--walls", "desktop", "--json"});
   ASSERT_EQ(r.status, 0) << r.err;
+  const auto figures = nlohmann::json::parse(r.out);
   double ms = 0;
-  for (const auto& row : nlohmann::json::parse(r.out)["nodes"])
+  for (const auto& row : figures["nodes"])
     if (row["path"] == "sun") ms = row["cull_ms"];
   EXPECT_GT(ms, 0) << r.out;
 }
