@@ -1,5 +1,6 @@
 #include "cli/playing_show.h"
 
+#include "cli/last_frames.h"
 #include "cli/live_load.h"
 
 #include <cmath>
@@ -46,14 +47,26 @@ std::unique_ptr<PlayingShow> PlayingShow::open(const ShowSurroundings& around, D
   show->overview_ = std::make_unique<Overview>(player.meshes(), player.walls(),
                                                static_cast<double>(size.width) / size.height);
   if (!around.options.repeats(player)) player.playLive();
-  std::vector<std::string> walls = player.walls().names();
-  walls.push_back("overview");
-  RecordingOptions recording;
-  recording.profile = false, recording.also = &show->budget_;
-  recording.log.whole = false, recording.log.samples = hasDrawnBudgets(player.scene());
-  recording.govern = governorOf(around.options, player, std::move(walls));
-  show->recording_ = ShowRecording::create(std::move(recording), findings);
   return show;
+}
+
+/// The show before this one has ended: its last frames may be replaced by these.
+void PlayingShow::beginRecording() {
+  std::vector<std::string> walls = player_->walls().names();
+  walls.push_back("overview");
+  const auto create = [&](bool keep, Diagnostics& findings) {
+    RecordingOptions options;
+    options.profile = false, options.also = &budget_;
+    options.log.whole = false, options.log.samples = hasDrawnBudgets(player_->scene());
+    options.govern = governorOf(around_.options, *player_, walls);
+    if (keep) options.keep = lastFramesOf(around_.options, *player_, walls);
+    return ShowRecording::create(std::move(options), findings);
+  };
+  Diagnostics findings;
+  recording_ = create(true, findings);
+  if (recording_) return;
+  around_.report(findings);
+  recording_ = create(false, findings);
 }
 
 PlayingShow::~PlayingShow() {
@@ -87,6 +100,7 @@ ShowParts PlayingShow::parts() {
 
 void PlayingShow::start(const std::optional<ShowPlace>& place) {
   from_ = place;
+  beginRecording();
   FrameLoopOptions options = around_.options.loopOptions(*player_);
   options.walls += 1;  // the overview
   ShowParts show = parts();
@@ -104,6 +118,12 @@ void PlayingShow::start(const std::optional<ShowPlace>& place) {
 void PlayingShow::stop() {
   *around_.stopping = true;
   if (thread_.joinable()) thread_.join();
+  if (recording_) recording_->finish();
+}
+
+std::string PlayingShow::lateFrames() const {
+  const BlackBox* box = recording_ ? recording_->blackBox() : nullptr;
+  return box ? lateFramesText(*box) : "";
 }
 
 ShowPlace PlayingShow::place() const {

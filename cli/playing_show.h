@@ -70,6 +70,8 @@ public:
   FrameBudget budget() const { return budget_.now(); }
   /// How nodes with a budget keep it.
   std::vector<BudgetReport> budgets() const { return recording_->governor()->reports(); }
+  /// How many frames were late, why, and where the last ones are kept; empty if none was. After stop().
+  std::string lateFrames() const;
   std::uint64_t droppedTicks() const { return dropped_; }
   std::uint64_t framesPlayed() const { return frames_; }
   /// Show time of the newest frame; what is shown comes a little later.
@@ -86,6 +88,7 @@ private:
   void see(const TimeSignature& now, const InputSample& input, const Scene& scene);
   void takeUp(const ShowPlace& place);
   void notePlace(const Scene& scene);
+  void beginRecording();
 
   ShowSurroundings around_;
   std::unique_ptr<Player> player_;

@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/display_run.h"
 #include "cli/exit_code.h"
+#include "cli/last_frames.h"
 #include "cli/live_desk.h"
 #include "cli/live_load.h"
 #include "cli/output_folder.h"
@@ -20,12 +21,10 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <thread>
-#include <unistd.h>
 #include <utility>
 
 namespace stadion {
@@ -46,12 +45,6 @@ struct RunSetup {
   std::unique_ptr<DisplayRun> displays;      ///< null without --display
   std::unique_ptr<ShowRecording> recording;  ///< null if nobody asks
 };
-
-/// Where the last frames of a live run are kept if nobody says where.
-std::string standardBlackBox() {
-  const auto name = "stadion-" + std::to_string(getpid()) + ".frames";
-  return (std::filesystem::temp_directory_path() / name).string();
-}
 
 /// Late frames, in words, one in ten seconds.
 std::function<void(const std::string&)> tellSometimes() {
@@ -99,10 +92,8 @@ bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   options.log.samples = o.profile || hasDrawnBudgets(s.player->scene());
   options.govern = governorOf(o, *s.player, s.player->walls().names());
   if (live) {
-    const FrameLoopOptions loop = o.loopOptions(*s.player);
-    options.keep =
-        BlackBoxOptions{o.blackBox.empty() ? standardBlackBox() : o.blackBox,
-                        loop.pace == Pace::Free ? 0 : loop.rate, s.player->walls().names(), tellSometimes()};
+    options.keep = lastFramesOf(o, *s.player, s.player->walls().names());
+    options.keep->tell = tellSometimes();
   }
   s.recording = ShowRecording::create(std::move(options), findings);
   return s.recording != nullptr;

@@ -46,12 +46,7 @@ void RunOptions::addTo(CLI::App& command) {
   command.add_flag("--sheets", sheets, "a contact sheet of all walls beside each frame's pictures");
   command.add_flag("--video", video, "a video of all walls (needs ffmpeg)");
   command.add_flag("--profile", profile, "say which nodes cost the most; stadion profile says more");
-  command
-      .add_option(
-          "--black-box", blackBox,
-          "where a live run keeps its last 600 frames while it plays (default: a temporary file); it stays "
-          "if one was late or the program died: stadion profile --black-box FILE")
-      ->check(aName, "FILE");
+  addBlackBoxTo(command);
   command
       .add_option("--gl", provider, "who draws: osmesa or egl (the same pixels), none: App and Cull alone")
       ->check(CLI::IsMember({"osmesa", "egl", "none"}))
@@ -98,6 +93,15 @@ void RunOptions::addLoadTo(CLI::App& command) {
       .add_option("--stress-max", stress.max, "how many times farther away things count at most; 1: never")
       ->check(numberFrom(1, 16))
       ->capture_default_str();
+}
+
+void RunOptions::addBlackBoxTo(CLI::App& command) {
+  command
+      .add_option(
+          "--black-box", blackBox,
+          "where a live run keeps its last 600 frames while it plays (default: a temporary file); it stays "
+          "if one was late or the program died: stadion profile --black-box FILE")
+      ->check(aName, "FILE");
 }
 
 void RunOptions::addOperatorTo(CLI::App& command) {

@@ -42,6 +42,7 @@ struct RunOptions {
   bool settle(Diagnostics& findings);
 
   void addLoadTo(CLI::App& command);
+  void addBlackBoxTo(CLI::App& command);
   void settleLive(Diagnostics& findings);
   /// Whether the options ask for a run that does not go by the clock.
   bool asksForEveryFrame() const;

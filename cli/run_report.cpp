@@ -1,6 +1,7 @@
 #include "cli/run_report.h"
 
 #include "cli/exit_code.h"
+#include "cli/last_frames.h"
 #include "cli/span_recording.h"
 #include "cli/stop_signal.h"
 #include "engine/atomic_file.h"
@@ -139,13 +140,7 @@ bool tellRecording(const RunOptions& o, ShowRecording& recording, const Player& 
   Diagnostics findings;
   recording.finishTrace(findings);
   tell(findings);
-  const BlackBox* box = recording.blackBox();
-  if (!box || box->late() == 0) return !findings.hasErrors();
-  std::string causes;
-  for (const auto& [cause, count] : box->verdicts())
-    causes += fmt::format("{}{} {}", causes.empty() ? "" : ", ", count, nameOf(cause));
-  std::fprintf(stderr, "late frames: %s\nthe last %zu frames: stadion profile --black-box %s\n",
-               causes.c_str(), BlackBox::kFrames, box->file().c_str());
+  if (const BlackBox* box = recording.blackBox()) std::fputs(lateFramesText(*box).c_str(), stderr);
   return !findings.hasErrors();
 }
 

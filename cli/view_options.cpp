@@ -53,6 +53,7 @@ void ViewOptions::addTo(CLI::App& command) {
       "the same state. The log ends where the script is read again");
   run.addOperatorTo(command);
   run.addLoadTo(command);
+  run.addBlackBoxTo(command);
   command
       .add_option(
           "--gl", provider,

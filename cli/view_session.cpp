@@ -320,6 +320,7 @@ void ViewSession::endShow() {
   std::printf("played %.3f s in %" PRIu64 " frames, %" PRIu64 " ticks dropped; state hash %016" PRIx64 "\n%s",
               summary.seconds, show_->framesPlayed(), show_->droppedTicks(), summary.stateHash.value_or(0),
               happeningsText(summary).c_str());
+  std::fputs(show_->lateFrames().c_str(), stderr);
 }
 
 // What is shown

@@ -486,6 +486,23 @@ TEST(ProgramView, WhatTakesTooLongGivesUpAndTheRecordObeys) {
   EXPECT_NE(replay.out.find(hash), replay.out.npos) << replay.out;
 }
 
+TEST(ProgramView, WhyFramesWereLateIsKept) {
+  REQUIRE_DISPLAY(display);
+  const TemporaryFolder folder;
+  const std::string box = folder.path() / "last.frames";
+  Viewing viewing(*display, STADION_SOURCE_DIR "/scripts/kick.evs",
+                  {"--walls", "desktop", "--rate", "1000", "--black-box", box});
+  ASSERT_TRUE(viewing.playing()) << viewing.program().err();
+  ASSERT_TRUE(viewing.pressed("F5", "reloaded"));  // the show after it keeps its frames in the same place
+  ASSERT_TRUE(viewing.program().says("playing ", 2));
+  const auto told = [&] { return stadionProgram({"profile", "--black-box", box}); };
+  viewing.program().waitUntil([&] { return told().out.find("Draw of") != std::string::npos; });
+  viewing.end();
+  EXPECT_NE(viewing.program().err().find("profile --black-box " + box), std::string::npos)
+      << viewing.program().err();
+  EXPECT_EQ(told().status, 0) << told().err;
+}
+
 TEST(ProgramView, OlympiaShowsItsBudgetAndIsReadAgainWhenSaved) {
   REQUIRE_DISPLAY(display);
   const TemporaryFolder scripts;
