@@ -6,6 +6,7 @@
 #include "cli/bench_flight.h"
 #include "cli/bench_plan.h"
 #include "cli/bench_recording.h"
+#include "cli/bench_walls.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "profiling/bench/overlap.h"
@@ -64,6 +65,7 @@ void addBenchCommand(CLI::App& app, int& code) {
   addBenchBudgets(*command, code);
   addBenchAttribution(*command, code);
   addBenchRecording(*command, code);
+  addBenchWalls(*command, code);
 }
 
 }  // namespace stadion

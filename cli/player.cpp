@@ -53,6 +53,13 @@ void ShowOptions::addTo(CLI::App& command) {
   command.add_option(
       "--size", size,
       "WIDTHxHEIGHT in pixels of one eye's picture (default: what the wall file says, else 800x600)");
+  command
+      .add_option(
+          "--look", look,
+          "full, or plain: light at the corners of triangles, one sample a pixel, no shadows, as OpenGL "
+          "drew without shaders; several times as fast in software")
+      ->check(CLI::IsMember({"full", "plain"}))
+      ->capture_default_str();
   addLengthTo(command);
 }
 
@@ -190,6 +197,7 @@ FrameLoopOptions Player::loopOptions() const {
 ShowParts Player::parts(StereoLayout stereo) {
   ShowParts parts{*scene_, state_, *meshes_, live_ ? *live_ : *input_, {}, nullptr, nullptr, nullptr,
                   true,    {},     nullptr};
+  if (options_.look == "plain") parts.quality = RenderQuality::plain();
   for (const WallEntry& entry : walls_.walls) {
     WallView view;
     view.wall = entry.wall;

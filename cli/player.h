@@ -31,6 +31,7 @@ struct ShowOptions {
   std::string script;
   std::string walls = "cave4";
   std::string mode = "pipelined";
+  std::string look = "full";
   std::string size;  ///< empty = as the wall file says, else 800x600
   double rate = 60;
   bool rateGiven = false;    ///< else a recorded run's own rate counts more

@@ -98,7 +98,9 @@ void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
 Failure ShowStages::openWall(std::size_t wall) {
   if (!parts_.provider) return {};
   const WallView& view = parts_.walls[wall];
-  if (Failure f = contexts_.open(wall, *parts_.provider, parts_.meshes, view.width, view.height)) return f;
+  if (Failure f =
+          contexts_.open(wall, *parts_.provider, parts_.meshes, view.width, view.height, parts_.quality))
+    return f;
   contexts_.renderer(wall).forgetTotals();
   if (wall == 0) glDescription_ = describeGl(contexts_.gl(wall));
   return {};

@@ -56,6 +56,7 @@ struct ShowParts {
   std::function<void()> shown{};       ///< all walls have shown a frame; on the Draw thread that swaps
   SoundPlayer* sounds = nullptr;       ///< null: nobody listens
   const OperatorDesk* desk = nullptr;  ///< null: nobody commands
+  RenderQuality quality{};
 };
 
 class ShowStages final : public Stages {

@@ -16,18 +16,20 @@ void WallContexts::resize(std::size_t walls) {
 }
 
 Failure WallContexts::open(std::size_t wall, GlProvider& provider, const MeshStore& meshes,
-                           std::uint32_t width, std::uint32_t height) {
+                           std::uint32_t width, std::uint32_t height, RenderQuality quality) {
   Context& c = *contexts_[wall];
   if (c.target) {
     if (Failure f = enter(wall)) return f;
-    if (c.renderer && c.renderer->width() == width && c.renderer->height() == height) return {};
+    if (c.renderer && c.renderer->width() == width && c.renderer->height() == height &&
+        c.renderer->quality() == quality)
+      return {};
     close(wall);
   }
   auto target = provider.create(width, height);
   if (!target) return Reason(target.error());
   c.target = std::move(target.value());
   if (Failure f = enter(wall)) return f;
-  auto renderer = Renderer::create(c.target->gl(), c.target->turns(), meshes, width, height);
+  auto renderer = Renderer::create(c.target->gl(), c.target->turns(), meshes, width, height, quality);
   if (!renderer) return Reason(renderer.error());
   c.renderer = std::move(renderer.value());
   return {};

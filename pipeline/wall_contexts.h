@@ -31,7 +31,7 @@ public:
 
   /// Enters the wall's context, which is made if there is none of that size.
   Failure open(std::size_t wall, GlProvider& provider, const MeshStore& meshes, std::uint32_t width,
-               std::uint32_t height);
+               std::uint32_t height, RenderQuality quality = {});
   /// Leaves whatever else is current on this thread.
   Failure enter(std::size_t wall);
   void leave(std::size_t wall);

@@ -51,8 +51,9 @@ struct Mesh {
   std::vector<std::array<float, 3>> normals;    ///< unit; same length as positions
   std::vector<std::array<float, 2>>
       uvs;  ///< (0,0) top left of the picture, u right, v down; same length, or empty
-  std::vector<std::array<std::uint8_t, 4>> colours;  ///< linear RGBA per vertex, same length, or empty
-  std::vector<std::uint32_t> indices;                ///< triangles, counter-clockwise seen from outside
+  std::vector<std::array<std::uint8_t, 4>>
+      colours;                         ///< per vertex: colour in sRGB, alpha linear; same length, or empty
+  std::vector<std::uint32_t> indices;  ///< triangles, counter-clockwise seen from outside
   std::vector<Submesh> submeshes;
   std::vector<Material> materials;  ///< never empty
   std::vector<Texture> textures;

@@ -8,7 +8,7 @@ namespace stadion {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4d445453;  // "STDM"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kLongestName = 1024;
 
 struct Head {

@@ -1,4 +1,5 @@
 #include "engine/maths/functions.h"
+#include "engine/maths/srgb.h"
 #include "engine/nodes/light_node.h"
 #include "engine/nodes/lod_node.h"
 #include "engine/nodes/measure_node.h"
@@ -24,10 +25,7 @@ using Made = std::unique_ptr<Node>;
 /// A colour as scripts write it (sRGB, 0 to 1) in linear light.
 template <class Linear>
 void setColour(const Vec3& srgb, Linear& linear, double factor = 1) {
-  for (unsigned i = 0; i < 3; ++i) {
-    const double c = srgb[i] <= 0.04045 ? srgb[i] / 12.92 : det::pow((srgb[i] + 0.055) / 1.055, 2.4);
-    linear[i] = static_cast<float>(c * factor);
-  }
+  for (unsigned i = 0; i < 3; ++i) linear[i] = static_cast<float>(linearFromSrgb(srgb[i]) * factor);
 }
 
 Made makePlaced(const NodeRequest& r) {

@@ -14,29 +14,33 @@ void attach(const GlTable& gl, GLuint framebuffer, GLenum attachment, GLuint ren
 
 }  // namespace
 
-EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height, std::uint32_t samples)
-    : gl_(gl), width_(width), height_(height), colour_(gl), depth_(gl),
+EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height, RenderQuality quality)
+    : gl_(gl), width_(width), height_(height), sampled_(quality.samples > 1), colour_(gl), depth_(gl),
       drawn_(gl), pictures_{GlRenderbuffer(gl), GlRenderbuffer(gl)}, resolved_{GlFramebuffer(gl),
                                                                                GlFramebuffer(gl)} {
   GLint most = 0;
   gl_.GetIntegerv(GL_MAX_SAMPLES, &most);
-  const GLint drawn = samples > 1 ? std::min(static_cast<GLint>(std::min(samples, 64u)), most) : 0;
+  const GLint drawn = sampled_ ? std::min(static_cast<GLint>(std::min(quality.samples, 64u)), most) : 0;
   const auto storage = [&](const GlRenderbuffer& buffer, GLint count, GLenum format) {
     gl_.BindRenderbuffer(GL_RENDERBUFFER, buffer.name());
     gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, count, format, this->width(), this->height());
   };
-  storage(colour_, drawn, GL_SRGB8_ALPHA8);
+  const GLenum colours = quality.look == Look::Full ? GL_SRGB8_ALPHA8 : GL_RGBA8;
   storage(depth_, drawn, GL_DEPTH_COMPONENT24);
+  for (std::size_t eye = 0; eye < pictures_.size(); ++eye) {
+    storage(pictures_[eye], 0, colours);
+    attach(gl_, resolved_[eye].name(), GL_COLOR_ATTACHMENT0, pictures_[eye].name());
+    if (!sampled_) attach(gl_, resolved_[eye].name(), GL_DEPTH_ATTACHMENT, depth_.name());
+  }
+  if (!sampled_) return;
+  storage(colour_, drawn, colours);
   attach(gl_, drawn_.name(), GL_COLOR_ATTACHMENT0, colour_.name());
   attach(gl_, drawn_.name(), GL_DEPTH_ATTACHMENT, depth_.name());
-  for (std::size_t eye = 0; eye < pictures_.size(); ++eye) {
-    storage(pictures_[eye], 0, GL_SRGB8_ALPHA8);
-    attach(gl_, resolved_[eye].name(), GL_COLOR_ATTACHMENT0, pictures_[eye].name());
-  }
 }
 
 std::optional<Diagnostic> EyeBuffers::check() {
   for (const GLuint framebuffer : {drawn_.name(), resolved_[0].name(), resolved_[1].name()}) {
+    if (framebuffer == drawn_.name() && !sampled_) continue;
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
       return problem("this OpenGL cannot draw into a multisampled sRGB buffer");
@@ -46,17 +50,18 @@ std::optional<Diagnostic> EyeBuffers::check() {
   return {};
 }
 
-void EyeBuffers::bind() {
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
+void EyeBuffers::bind(std::uint32_t eye) {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_ ? drawn_.name() : resolved_[eye].name());
   gl_.Viewport(0, 0, width(), height());
 }
 
-void EyeBuffers::begin() {
-  bind();
+void EyeBuffers::begin(std::uint32_t eye) {
+  bind(eye);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 void EyeBuffers::resolve(std::uint32_t eye) {
+  if (!sampled_) return;
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.name());
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_[eye].name());
   gl_.BlitFramebuffer(0, 0, width(), height(), 0, 0, width(), height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);

@@ -1,11 +1,12 @@
 #pragma once
 /// Where one wall's pictures arise: one multisampled buffer, drawn into by one eye after the other, and a
-/// resolved picture per eye.
+/// resolved picture per eye. With one sample a pixel the pictures are drawn into themselves.
 ///
 /// Ownership  owns the GL objects. Threads: the thread on which the context is current.
 
 #include "engine/diagnostic.h"
 #include "pipeline/draw/gl_object.h"
+#include "pipeline/draw/look.h"
 
 #include <array>
 #include <cstdint>
@@ -17,15 +18,15 @@ namespace stadion {
 class EyeBuffers {
 public:
   /// As many samples a pixel as asked for, or as the context offers.
-  EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height, std::uint32_t samples);
+  EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height, RenderQuality quality);
 
   /// Why the buffers cannot be used, or nothing. Once, after construction.
   std::optional<Diagnostic> check();
-  /// Directs drawing into the multisampled buffer.
-  void bind();
-  /// Directs drawing into it and clears it.
-  void begin();
-  /// Averages the samples into the picture of `eye`.
+  /// Directs drawing of `eye` to where it is drawn.
+  void bind(std::uint32_t eye);
+  /// The same, and clears that.
+  void begin(std::uint32_t eye);
+  /// Completes the picture of `eye`: averages its samples.
   void resolve(std::uint32_t eye);
   /// 8-bit RGBA (height x width x 4), rows from the top, colour in sRGB. Waits for the drawing to end.
   void read(std::uint32_t eye, std::span<std::uint8_t> rgba);
@@ -36,6 +37,7 @@ private:
 
   const GlTable& gl_;
   std::uint32_t width_, height_;
+  bool sampled_;  ///< more than once a pixel
   GlRenderbuffer colour_, depth_;
   GlFramebuffer drawn_;
   std::array<GlRenderbuffer, 2> pictures_;

@@ -1,5 +1,6 @@
 #include "pipeline/draw/mesh_cache.h"
 
+#include "engine/maths/srgb.h"
 #include "pipeline/draw/problem.h"
 #include "pipeline/draw/surface_check.h"
 #include "pipeline/draw/uniform_blocks.h"
@@ -15,7 +16,7 @@ namespace {
 struct Vertex {
   std::array<float, 3> position, normal;
   std::array<float, 2> uv;
-  std::array<std::uint8_t, 4> colour;
+  std::array<std::uint16_t, 4> colour;
 };
 
 constexpr float kAnisotropy = 8;  // on the processor it makes textured scenes 2 to 3 times as slow
@@ -24,14 +25,28 @@ float finite(float x) {
   return std::isfinite(x) ? x : 0.0f;
 }
 
-std::vector<Vertex> interleave(const Mesh& mesh) {
+/// Of all bytes, in sixteen bits.
+std::array<std::uint16_t, 256> colourTable(Look look) {
+  std::array<std::uint16_t, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double c = static_cast<double>(i) / 255;
+    table[i] = static_cast<std::uint16_t>(std::lround(65535 * (look == Look::Full ? linearFromSrgb(c) : c)));
+  }
+  return table;
+}
+
+std::vector<Vertex> interleave(const Mesh& mesh, Look look) {
+  const std::array<std::uint16_t, 256> colours = colourTable(look);
   std::vector<Vertex> vertices(mesh.positions.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     Vertex& v = vertices[i];
     std::transform(mesh.positions[i].begin(), mesh.positions[i].end(), v.position.begin(), finite);
     std::transform(mesh.normals[i].begin(), mesh.normals[i].end(), v.normal.begin(), finite);
     v.uv = mesh.uvs.empty() ? std::array<float, 2>{0, 0} : mesh.uvs[i];
-    v.colour = mesh.colours.empty() ? std::array<std::uint8_t, 4>{255, 255, 255, 255} : mesh.colours[i];
+    v.colour = {65535, 65535, 65535, 65535};
+    if (mesh.colours.empty()) continue;
+    const auto& c = mesh.colours[i];
+    v.colour = {colours[c[0]], colours[c[1]], colours[c[2]], static_cast<std::uint16_t>(257 * c[3])};
   }
   return vertices;
 }
@@ -50,8 +65,8 @@ void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_
                            offset(first * kMatrix + row * kRow));
 }
 
-MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes)
-    : gl_(gl), store_(meshes),
+MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes, Look look)
+    : gl_(gl), store_(meshes), look_(look),
       anisotropy_(!isSoftware(gl) && (hasGlExtension(gl, "GL_EXT_texture_filter_anisotropic") ||
                                       hasGlExtension(gl, "GL_ARB_texture_filter_anisotropic"))) {
   gl_.GetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &uniformAlignment_);
@@ -101,7 +116,7 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
 }
 
 void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
-  const std::vector<Vertex> vertices = interleave(mesh);
+  const std::vector<Vertex> vertices = interleave(mesh, look_);
   gl_.BindVertexArray(out.vertexArray.name());
   gl_.BindBuffer(GL_ARRAY_BUFFER, out.vertices.name());
   gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
@@ -115,7 +130,7 @@ void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
   attribute(kPosition, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
   attribute(kNormal, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal));
   attribute(kUv, 2, GL_FLOAT, GL_FALSE, offsetof(Vertex, uv));
-  attribute(kColour, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Vertex, colour));
+  attribute(kColour, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(Vertex, colour));
   for (const GLuint row : {kModelX, kModelY, kModelZ}) {  // the renderer points them at its instances
     gl_.EnableVertexAttribArray(row);
     gl_.VertexAttribDivisor(row, 1);
@@ -142,7 +157,7 @@ void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
   const std::size_t stride = (sizeof(MaterialBlock) + alignment - 1) / alignment * alignment;
   std::vector<std::byte> blocks(stride * mesh.materials.size());
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
-    const MaterialBlock block = fillMaterial(mesh.materials[i]);
+    const MaterialBlock block = fillMaterial(mesh.materials[i], look_);
     std::memcpy(blocks.data() + i * stride, &block, sizeof block);
   }
   gl_.BindBuffer(GL_UNIFORM_BUFFER, out.materials.name());
@@ -175,8 +190,9 @@ GlTexture MeshCache::uploadTexture(const Texture& texture) {
   GlTexture out(gl_);
   gl_.BindTexture(GL_TEXTURE_2D, out.name());
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, static_cast<GLsizei>(texture.width),
-                 static_cast<GLsizei>(texture.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, texture.rgba.data());
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, look_ == Look::Full ? GL_SRGB8_ALPHA8 : GL_RGBA8,
+                 static_cast<GLsizei>(texture.width), static_cast<GLsizei>(texture.height), 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, texture.rgba.data());
   gl_.GenerateMipmap(GL_TEXTURE_2D);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);

@@ -9,6 +9,7 @@
 #include "engine/diagnostic.h"
 #include "engine/frame_probe.h"
 #include "pipeline/draw/gl_object.h"
+#include "pipeline/draw/look.h"
 
 #include <algorithm>
 #include <optional>
@@ -49,7 +50,7 @@ void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_
 
 class MeshCache {
 public:
-  MeshCache(const GlTable& gl, const MeshStore& meshes);
+  MeshCache(const GlTable& gl, const MeshStore& meshes, Look look);
 
   /// The mesh, uploaded if this is its first use; nullptr if it cannot be drawn.
   const GlMesh* find(MeshId id);
@@ -72,6 +73,7 @@ private:
 
   const GlTable& gl_;
   const MeshStore& store_;
+  Look look_;  ///< colours are uploaded as it reckons with them
   struct Cached {
     std::uint64_t hash = 0;    ///< of the content; an id may be given again
     std::optional<GlMesh> gl;  ///< empty: known not to be drawable

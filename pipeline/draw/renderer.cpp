@@ -11,8 +11,6 @@
 namespace stadion {
 namespace {
 
-/// Instances a call: in software one call of a hundred thousand takes many seconds, in which nobody can stop.
-constexpr std::uint32_t kMostAtOnce = 1024;
 constexpr GLuint64 kLongWait = 1'000'000'000;  // [ns]
 constexpr int kMostErrorsRead = 16;            // a lost context may report errors for ever
 
@@ -53,7 +51,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const GlTable& gl, std::mutex
   std::optional<Diagnostic> why;
   {
     const std::lock_guard turn(turns);
-    auto programs = buildPrograms(gl);
+    auto programs = buildPrograms(gl, quality.look);
     if (!programs) return programs.error();
     renderer.reset(new Renderer(gl, turns, meshes, width, height, quality, std::move(programs.value())));
     why = renderer->buffers_.check();
@@ -64,8 +62,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const GlTable& gl, std::mutex
 
 Renderer::Renderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes, std::uint32_t width,
                    std::uint32_t height, RenderQuality quality, Programs programs)
-    : gl_(gl), turns_(turns), takesTurns_(isSoftware(gl)), width_(width), height_(height),
-      programs_(std::move(programs)), buffers_(gl, width, height, quality.samples), cache_(gl, meshes),
+    : gl_(gl), turns_(turns), takesTurns_(isSoftware(gl)), width_(width), height_(height), quality_(quality),
+      programs_(std::move(programs)), buffers_(gl, width, height, quality), cache_(gl, meshes, quality.look),
       instances_(gl), scene_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl) {
   setUnchangingState();
 }
@@ -78,21 +76,22 @@ std::unique_lock<std::mutex> Renderer::turn() const {
   return takesTurns_ ? std::unique_lock(turns_) : std::unique_lock<std::mutex>();
 }
 
-Result<Renderer::Programs> Renderer::buildPrograms(const GlTable& gl) {
+Result<Renderer::Programs> Renderer::buildPrograms(const GlTable& gl, Look look) {
   Programs programs;
-  auto surfaces = buildSurfaces(gl, false, false);
+  auto surfaces = buildSurfaces(gl, look, false, false);
   if (!surfaces) return surfaces.error();
   programs.surface[0] = std::move(surfaces.value());
-  auto sky = GlProgram::build(gl, skyVertexShader(), skyFragmentShader());
+  auto sky = GlProgram::build(gl, skyVertexShader(), skyFragmentShader(look));
   if (!sky) return sky.error();
   programs.sky.push_back(std::move(sky.value()));
   return programs;
 }
 
-Result<std::vector<GlProgram>> Renderer::buildSurfaces(const GlTable& gl, bool shadowed, bool hazy) {
+Result<std::vector<GlProgram>> Renderer::buildSurfaces(const GlTable& gl, Look look, bool shadowed,
+                                                       bool hazy) {
   std::vector<GlProgram> programs;
   for (std::size_t i = 0; i < 8; ++i) {
-    const SurfaceTraits traits{(i & 1) != 0, (i & 2) != 0, shadowed, hazy, (i & 4) != 0};
+    const SurfaceTraits traits{(i & 1) != 0, (i & 2) != 0, shadowed, hazy, (i & 4) != 0, look};
     auto built = GlProgram::build(gl, surfaceVertexShader(traits), surfaceFragmentShader(traits));
     if (!built) return built.error();
     assert(surfaceIndex(traits) == i);
@@ -104,7 +103,7 @@ Result<std::vector<GlProgram>> Renderer::buildSurfaces(const GlTable& gl, bool s
 void Renderer::chooseSurfaces(bool shadowed, bool hazy) {
   std::vector<GlProgram>& set = programs_.surface[std::size_t{shadowed} | std::size_t{hazy} << 1];
   if (set.empty()) {
-    auto built = buildSurfaces(gl_, shadowed, hazy);
+    auto built = buildSurfaces(gl_, quality_.look, shadowed, hazy);
     if (built)
       set = std::move(built.value());
     else
@@ -166,7 +165,7 @@ void Renderer::submitEyes(const DrawList& list, std::uint32_t first, std::uint32
     const SpanScope span(probe_, Span::Prepare);
     piece(Span::Prepare, [&] { prepare(list); });
   }
-  if (list.shadows.light >= 0) {
+  if (list.shadows.light >= 0 && quality_.look == Look::Full) {
     const SpanScope span(probe_, Span::ShadowMaps);
     piece(Span::ShadowMaps, [&] { prepareShadows(list); });
   }
@@ -201,7 +200,7 @@ void Renderer::beginSampling(const DrawList& list) {
 
 /// A pixel that is not written.
 void Renderer::drawNothing() {
-  buffers_.bind();
+  buffers_.bind(0);
   gl_.Enable(GL_SCISSOR_TEST);
   gl_.Scissor(0, 0, 1, 1);
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
@@ -228,9 +227,10 @@ void Renderer::drawEyeAlone(const DrawEye& eye, std::uint32_t index) {
 }
 
 std::uint32_t Renderer::mostAtOnce() const {
-  if (sample_ != DrawSample::Some) return kMostAtOnce;
+  if (sample_ != DrawSample::Some) return quality_.mostAtOnce;
   const auto instances = static_cast<std::uint32_t>(batches_.matrices().size());
-  return std::clamp(instances / DrawSampler::kPartsOfAFrame, DrawSampler::kInstancesAtOnce, kMostAtOnce);
+  return std::min(quality_.mostAtOnce,
+                  std::max(instances / DrawSampler::kPartsOfAFrame, DrawSampler::kInstancesAtOnce));
 }
 
 /// As many as drawInstances() will be called for.
@@ -264,7 +264,10 @@ void Renderer::prepare(const DrawList& list) {
 
 void Renderer::prepareScene(const DrawList& list) {
   shadowed_ = shadowed_ && list.shadows.light >= 0;
-  const SceneBlock scene = fillScene(list.sky, list.lights, shadowed_ ? list.shadows.light : -1);
+  const SceneBlock scene =
+      fillScene(list.sky, list.lights, quality_.look, shadowed_ ? list.shadows.light : -1);
+  skyIsFlat_ = quality_.look == Look::Plain && scene.zenith == scene.horizon && scene.zenith == scene.ground;
+  if (skyIsFlat_) gl_.ClearColor(scene.zenith[0], scene.zenith[1], scene.zenith[2], 1);
   stream(gl_, GL_UNIFORM_BUFFER, scene_, std::span(&scene, 1));
   chooseSurfaces(shadowed_, list.sky.hazeDistance > 0);
 }
@@ -299,11 +302,12 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
 
   if (sample_ == DrawSample::Some) sampler_->beginEye(index, batchesToSample());
   gl_.Disable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
-  piece(Span::Sky, [&] { buffers_.begin(); });
+  piece(Span::Sky, [&] { buffers_.begin(index); });
   drawBatches(batches_.opaque(), Pass::Opaque);
   drawBatches(batches_.transparent(), Pass::OpaqueParts);
-  piece(Span::Sky, [&] { drawSky(); });
-  gl_.Enable(GL_FRAMEBUFFER_SRGB);  // blending and averaging of samples act on linear light
+  piece(Span::Sky, [&] { drawBackground(); });
+  // Blending and averaging of samples act on linear light.
+  if (quality_.look == Look::Full) gl_.Enable(GL_FRAMEBUFFER_SRGB);
   gl_.Enable(GL_BLEND);
   gl_.DepthMask(GL_FALSE);
   drawBatches(batches_.transparent(), Pass::Transparent);
@@ -364,7 +368,7 @@ void Renderer::drawTransparentParts(const MeshParts& mesh, std::uint32_t count) 
 }
 
 void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended) {
-  use((*surfaces_)[surfaceIndex({part.texture != 0, localLights_, false, false, blended})]);
+  use((*surfaces_)[surfaceIndex({part.texture != 0, localLights_, false, false, blended, quality_.look})]);
   if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
   gl_.BindBufferRange(GL_UNIFORM_BUFFER, kMaterialBinding, mesh.materials.name(), part.materialOffset,
                       sizeof(MaterialBlock));
@@ -373,6 +377,10 @@ void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t
   ++counts_.calls;
   counts_.instances += instances;
   counts_.triangles += std::uint64_t{instances} * static_cast<std::uint64_t>(part.indexCount / 3);
+}
+
+void Renderer::drawBackground() {
+  if (!skyIsFlat_) drawSky();
 }
 
 void Renderer::drawSky() {

@@ -20,6 +20,7 @@
 #include "pipeline/draw/eye_buffers.h"
 #include "pipeline/draw/gl_program.h"
 #include "pipeline/draw/instance_batches.h"
+#include "pipeline/draw/look.h"
 #include "pipeline/draw/mesh_cache.h"
 #include "pipeline/draw/shaders.h"
 #include "pipeline/draw/shadow_maps.h"
@@ -50,11 +51,6 @@ struct DrawTotals {
   }
 };
 
-/// How much drawing may cost.
-struct RenderQuality {
-  std::uint32_t samples = 4;  ///< per pixel; 1 = hard edges at about a third of the cost in software
-};
-
 class Renderer {
 public:
   /// Pictures of width x height pixels; fails if the size or the context does not serve.
@@ -78,6 +74,7 @@ public:
 
   std::uint32_t width() const { return width_; }    ///< [pixels]
   std::uint32_t height() const { return height_; }  ///< [pixels]
+  RenderQuality quality() const { return quality_; }
   const DrawCounts& counts() const { return counts_; }
   /// By eye, 0 left or mono, 1 right. Shadow maps are not counted.
   const std::array<DrawTotals, 2>& totals() const { return totals_; }
@@ -96,7 +93,7 @@ private:
   Renderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes, std::uint32_t width,
            std::uint32_t height, RenderQuality quality, Programs programs);
   std::unique_lock<std::mutex> turn() const;
-  static Result<Programs> buildPrograms(const GlTable& gl);
+  static Result<Programs> buildPrograms(const GlTable& gl, Look look);
 
   /// A mesh at the level at which it is drawn.
   struct MeshParts {
@@ -117,7 +114,7 @@ private:
   void prepare(const DrawList& list);
   void prepareScene(const DrawList& list);
   void prepareShadows(const DrawList& list);
-  static Result<std::vector<GlProgram>> buildSurfaces(const GlTable& gl, bool shadowed, bool hazy);
+  static Result<std::vector<GlProgram>> buildSurfaces(const GlTable& gl, Look look, bool shadowed, bool hazy);
   void chooseSurfaces(bool shadowed, bool hazy);
   void drawEye(const DrawEye& eye, std::uint32_t index);
   void setUnchangingState();
@@ -128,6 +125,7 @@ private:
   void drawTransparentParts(const MeshParts& mesh, std::uint32_t count);
   void drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended);
   void stopIfAsked() const;
+  void drawBackground();
   void drawSky();
   void cull(bool front, bool back);
   void use(const GlProgram& program);
@@ -139,6 +137,7 @@ private:
   std::unique_lock<std::mutex> lastTurn_;  ///< held while the members below are destroyed
   bool takesTurns_ = false;
   std::uint32_t width_, height_;
+  RenderQuality quality_;
   Programs programs_;
   EyeBuffers buffers_;
   MeshCache cache_;
@@ -148,6 +147,7 @@ private:
   GlVertexArray nothing_;  // the sky's triangle has no vertex data
   GLuint usedProgram_ = 0;
   bool localLights_ = false, shadowed_ = false;
+  bool skyIsFlat_ = false;                            ///< one colour: cleared, not drawn
   const std::vector<GlProgram>* surfaces_ = nullptr;  ///< of the list that is drawn
   std::unique_ptr<ShadowMaps> shadows_;               ///< from the first list with shadows on
   bool noShadows_ = false;                            ///< this OpenGL cannot

@@ -221,6 +221,109 @@ void main() {
 }
 )";
 
+constexpr const char* kPlainVertex = R"(
+layout(std140) uniform Material {
+  vec4 baseColour;
+  vec4 emissive;
+  vec4 finish;
+};
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 colour;
+layout(location = 4) in vec4 modelX;  // the model matrix, by rows
+layout(location = 5) in vec4 modelY;
+layout(location = 6) in vec4 modelZ;
+
+out vec4 shade;
+#ifdef TEXTURED
+out vec2 texel;
+#endif
+#ifdef HAZY
+out float clearness;
+#endif
+
+void main() {
+  vec4 p = vec4(position, 1.0);
+  vec3 placed = vec3(dot(modelX, p), dot(modelY, p), dot(modelZ, p));
+  vec3 cofactorX = cross(modelY.xyz, modelZ.xyz);
+  vec3 cofactorY = cross(modelZ.xyz, modelX.xyz);
+  vec3 cofactorZ = cross(modelX.xyz, modelY.xyz);
+  float side = dot(modelX.xyz, cofactorX) < 0.0 ? -1.0 : 1.0;
+  vec3 n = side * vec3(dot(cofactorX, normal), dot(cofactorY, normal), dot(cofactorZ, normal));
+  n *= inversesqrt(max(dot(n, n), 1e-30));
+  vec3 light = ambient.rgb;
+  for (int i = 0; i < lightCount.x; ++i) {
+    vec3 l = lights[i].direction.xyz;
+    float strength = 1.0;
+#ifdef LOCAL_LIGHTS
+    if (lights[i].direction.w > 0.5) {
+      vec3 to = lights[i].position.xyz - placed;
+      float squared = max(dot(to, to), 1e-12);
+      to *= inversesqrt(squared);
+      float fading = max(1.0 - squared * lights[i].position.w, 0.0);
+      strength = fading * fading;
+      if (lights[i].direction.w > 1.5) {
+        float inside = clamp((dot(to, l) - lights[i].cone.x) * lights[i].cone.y, 0.0, 1.0);
+        strength *= inside * inside * (3.0 - 2.0 * inside);
+      }
+      l = to;
+    }
+#endif
+    light += lights[i].colour.rgb * (strength * max(dot(n, l), 0.0));
+  }
+  shade = vec4(min(emissive.rgb + baseColour.rgb * colour.rgb * light, 1.0), baseColour.a * colour.a);
+#ifdef TEXTURED
+  texel = uv;
+#endif
+#ifdef HAZY
+  clearness = exp2(-1.442695 * distance(eye.xyz, placed) * ambient.w);
+#endif
+  gl_Position = viewProjection * vec4(placed, 1.0);
+}
+)";
+
+constexpr const char* kPlainFragment = R"(
+in vec4 shade;
+#ifdef TEXTURED
+in vec2 texel;
+uniform sampler2D baseTexture;
+#endif
+#ifdef HAZY
+in float clearness;
+#endif
+
+out vec4 shown;
+
+void main() {
+  vec4 c = shade;
+#ifdef TEXTURED
+  c *= texture(baseTexture, texel);
+#endif
+#ifdef HAZY
+  c.rgb = mix(horizon.rgb, c.rgb, clearness);
+#endif
+#ifdef BLENDED
+  shown = vec4(c.rgb, clamp(c.a, 0.0, 1.0));
+#else
+  shown = vec4(c.rgb, 1.0);
+#endif
+}
+)";
+
+constexpr const char* kPlainSkyFragment = R"(
+in vec3 ray;
+out vec4 shown;
+
+void main() {
+  vec3 d = normalize(ray);
+  float low = (1.0 - max(d.z, 0.0)) * (1.0 - max(d.z, 0.0));
+  vec3 above = mix(zenith.rgb, horizon.rgb, low * low);
+  shown = vec4(d.z >= 0.0 ? above : mix(horizon.rgb, ground.rgb, exp2(0.03 / min(d.z, -1e-4))), 1.0);
+}
+)";
+
 constexpr const char* kShadowVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 4) in vec4 modelX;
@@ -273,11 +376,13 @@ std::string definitions(const SurfaceTraits& traits) {
 }  // namespace
 
 std::string surfaceVertexShader(const SurfaceTraits& traits) {
-  return kVersion + definitions(traits) + kBlocks + kSurfaceVertex;
+  return kVersion + definitions(traits) + kBlocks +
+         (traits.look == Look::Plain ? kPlainVertex : kSurfaceVertex);
 }
 
 std::string surfaceFragmentShader(const SurfaceTraits& traits) {
-  return kVersion + definitions(traits) + kBlocks + kSurfaceFragment;
+  return kVersion + definitions(traits) + kBlocks +
+         (traits.look == Look::Plain ? kPlainFragment : kSurfaceFragment);
 }
 
 std::string shadowVertexShader() {
@@ -292,8 +397,8 @@ std::string skyVertexShader() {
   return std::string(kVersion) + kBlocks + kSkyVertex;
 }
 
-std::string skyFragmentShader() {
-  return std::string(kVersion) + kBlocks + kSkyFragment;
+std::string skyFragmentShader(Look look) {
+  return std::string(kVersion) + kBlocks + (look == Look::Plain ? kPlainSkyFragment : kSkyFragment);
 }
 
 }  // namespace stadion

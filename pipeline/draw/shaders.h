@@ -15,6 +15,11 @@
 /// Shadows      of one directional light: four lookups of two by two texels in the ring of the shadow maps
 ///              that is finest there (shadow_maps.h). Beyond the last ring everything is lit.
 
+///
+/// The plain look (look.h) has shaders of its own: light at the vertices, in colours as they are stored.
+
+#include "pipeline/draw/look.h"
+
 #include <string>
 
 namespace stadion {
@@ -27,6 +32,7 @@ struct SurfaceTraits {
   bool shadowed = false;     ///< a light casts shadows
   bool hazy = false;         ///< there is haze
   bool blended = false;      ///< writes linear light, for blending in a buffer that encodes sRGB itself
+  Look look = Look::Full;
 };
 
 std::string surfaceVertexShader(const SurfaceTraits& traits);
@@ -35,6 +41,6 @@ std::string surfaceFragmentShader(const SurfaceTraits& traits);
 std::string shadowVertexShader();
 std::string shadowFragmentShader();
 std::string skyVertexShader();
-std::string skyFragmentShader();
+std::string skyFragmentShader(Look look);
 
 }  // namespace stadion

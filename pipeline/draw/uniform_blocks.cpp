@@ -1,5 +1,7 @@
 #include "pipeline/draw/uniform_blocks.h"
 
+#include "engine/maths/srgb.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,17 +19,26 @@ Float4 widen(const std::array<float, 3>& v, float w) {
   return {finite(v[0]), finite(v[1]), finite(v[2]), finite(w)};
 }
 
+/// As the look reckons with it.
+Float4 colour(const std::array<float, 3>& linear, float w, Look look) {
+  Float4 out = widen(linear, w);
+  if (look == Look::Plain)
+    for (std::size_t i = 0; i < 3; ++i)
+      out[i] = static_cast<float>(srgbFromLinear(std::max(0.0, double{out[i]})));
+  return out;
+}
+
 Float4 reversed(const std::array<float, 3>& v, float w) {
   const float length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   if (!(length > 0) || !std::isfinite(length)) return {0, 0, 1, w};
   return {-v[0] / length, -v[1] / length, -v[2] / length, w};
 }
 
-LightBlock fillLight(const DrawLight& light) {
+LightBlock fillLight(const DrawLight& light, Look look) {
   LightBlock out;
   out.position = widen(light.position, light.range > 0 ? 1 / (light.range * light.range) : 0);
   out.direction = reversed(light.direction, static_cast<float>(light.kind));
-  out.colour = widen(light.colour, 0);
+  out.colour = colour(light.colour, 0, look);
   out.cone = {finite(light.cosOuter), 1 / std::max(light.cosInner - light.cosOuter, kLeastConeWidth), 0, 0};
   return out;
 }
@@ -71,23 +82,24 @@ bool fillView(const DrawEye& eye, ViewBlock& out) {
   return true;
 }
 
-SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights, std::int32_t shadowed) {
+SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights, Look look,
+                     std::int32_t shadowed) {
   SceneBlock out{};
-  out.zenith = widen(sky.zenith, 0);
-  out.horizon = widen(sky.horizon, 0);
-  out.ground = widen(sky.ground, 0);
-  out.ambient = widen(sky.ambient, sky.hazeDistance > 0 ? 1 / sky.hazeDistance : 0);
+  out.zenith = colour(sky.zenith, 0, look);
+  out.horizon = colour(sky.horizon, 0, look);
+  out.ground = colour(sky.ground, 0, look);
+  out.ambient = colour(sky.ambient, sky.hazeDistance > 0 ? 1 / sky.hazeDistance : 0, look);
   placeSun(lights, out);
   const std::size_t count = std::min(lights.size(), DrawList::kMaxLights);
   out.lightCount = {static_cast<std::int32_t>(count), shadowed, 0, 0};
-  for (std::size_t i = 0; i < count; ++i) out.lights[i] = fillLight(lights[i]);
+  for (std::size_t i = 0; i < count; ++i) out.lights[i] = fillLight(lights[i], look);
   return out;
 }
 
-MaterialBlock fillMaterial(const Material& material) {
+MaterialBlock fillMaterial(const Material& material, Look look) {
   const auto& c = material.baseColour;
-  return {{finite(c[0]), finite(c[1]), finite(c[2]), finite(c[3])},
-          widen(material.emissive, std::clamp(finite(material.roughness), kLeastRoughness, 1.0f)),
+  return {colour({c[0], c[1], c[2]}, c[3], look),
+          colour(material.emissive, std::clamp(finite(material.roughness), kLeastRoughness, 1.0f), look),
           {std::clamp(finite(material.metallic), 0.0f, 1.0f), 0, 0, 0}};
 }
 

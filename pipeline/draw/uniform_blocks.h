@@ -6,6 +6,7 @@
 
 #include "engine/asset/mesh.h"
 #include "pipeline/draw/draw_list.h"
+#include "pipeline/draw/look.h"
 
 #include <array>
 #include <cstdint>
@@ -63,7 +64,9 @@ constexpr int kShadowUnit = 1;  ///< the texture unit of the shadow maps
 
 /// False if the eye's matrices are not finite or cannot be inverted: nothing can be drawn then.
 bool fillView(const DrawEye& eye, ViewBlock& out);
-SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights, std::int32_t shadowed = -1);
-MaterialBlock fillMaterial(const Material& material);
+/// In the plain look all colours are in sRGB, as they are stored, instead of linear.
+SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights, Look look,
+                     std::int32_t shadowed = -1);
+MaterialBlock fillMaterial(const Material& material, Look look);
 
 }  // namespace stadion

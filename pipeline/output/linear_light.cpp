@@ -1,5 +1,7 @@
 #include "pipeline/output/linear_light.h"
 
+#include "engine/maths/srgb.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,13 +9,11 @@
 namespace stadion {
 namespace {
 
-/// IEC 61966-2-1.
 std::array<std::uint32_t, 256> makeTable() {
   std::array<std::uint32_t, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
     const double c = static_cast<double>(i) / 255;
-    const double light = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-    table[i] = static_cast<std::uint32_t>(std::lround(light * kFullLight));
+    table[i] = static_cast<std::uint32_t>(std::lround(linearFromSrgb(c) * kFullLight));
   }
   return table;
 }

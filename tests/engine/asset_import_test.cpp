@@ -83,7 +83,8 @@ TEST(AssetImport, MaterialsColoursAndTexturesArrive) {
     EXPECT_EQ(picture.rgba, pixels) << "rows from the top";
     EXPECT_NEAR(mesh.uvs.at(0)[0], 0.25, 1e-6);
     EXPECT_NEAR(mesh.uvs.at(0)[1], 0.75, 1e-6) << "v counts from the top";
-    EXPECT_EQ(mesh.colours.at(0), (std::array<std::uint8_t, 4>{255, 128, 0, 255}));
+    EXPECT_EQ(mesh.colours.at(0), (std::array<std::uint8_t, 4>{255, 188, 0, 255}))
+        << "linear 0.5 is sRGB 0.737";
   }
   auto obj = importer.load("arms.obj");
   ASSERT_TRUE(obj);

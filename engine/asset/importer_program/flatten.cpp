@@ -2,6 +2,7 @@
 #include "engine/asset/importer_program/materials.h"
 
 #include "engine/asset/mesh_checks.h"
+#include "engine/maths/srgb.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +23,13 @@ Affine toAffine(const aiMatrix4x4& m) {
   return X;
 }
 
-std::uint8_t colourByte(float c, bool linear) {
+std::uint8_t byteOf(float c) {
   const float value = std::isfinite(c) ? std::clamp(c, 0.0f, 1.0f) : 1.0f;
-  return static_cast<std::uint8_t>(std::lround((linear ? value : linearFromSrgb(value)) * 255.0f));
+  return static_cast<std::uint8_t>(std::lround(value * 255.0f));
+}
+
+std::uint8_t colourByte(float c, bool linear) {
+  return byteOf(linear && c > 0 ? static_cast<float>(srgbFromLinear(double{c})) : c);
 }
 
 std::array<float, 3> turnedNormal(const aiVector3D& n, const Mat3& cofactors) {
@@ -93,7 +98,7 @@ private:
       if (colours) {
         const aiColor4D& c = mesh.mColors[0][i];
         v.colour = {colourByte(c.r, options_.linearColours), colourByte(c.g, options_.linearColours),
-                    colourByte(c.b, options_.linearColours), colourByte(c.a, true)};
+                    colourByte(c.b, options_.linearColours), byteOf(c.a)};
       }
       flat.vertices.push_back(v);
     }

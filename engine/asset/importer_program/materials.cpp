@@ -2,7 +2,7 @@
 
 #include "engine/asset/importer_program/jail.h"
 #include "engine/asset/importer_program/picture.h"
-#include "engine/maths/functions.h"
+#include "engine/maths/srgb.h"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
@@ -124,7 +124,7 @@ std::optional<std::string> texturePath(const aiMaterial& from) {
 void readColours(const aiMaterial& from, const FormatInfo& format, Material& to) {
   const auto channel = [&](float c) {
     const float value = bounded(c, 0, 1, 0);
-    return format.linearColours ? value : linearFromSrgb(value);
+    return format.linearColours ? value : static_cast<float>(linearFromSrgb(double{value}));
   };
   aiColor4D colour(1, 1, 1, 1);
   bool known = format.linearColours && from.Get(AI_MATKEY_BASE_COLOR, colour) == aiReturn_SUCCESS;
@@ -167,10 +167,6 @@ Material readMaterial(const aiMaterial& from, const FormatInfo& format, Pictures
 }
 
 }  // namespace
-
-float linearFromSrgb(float c) {
-  return c <= 0.04045f ? c / 12.92f : static_cast<float>(det::pow((c + 0.055) / 1.055, 2.4));
-}
 
 void readMaterials(const aiScene& scene, const FormatInfo& format, const PictureSource& pictures, Mesh& mesh,
                    std::vector<std::string>& notes) {

@@ -24,7 +24,4 @@ struct PictureSource {
 void readMaterials(const aiScene& scene, const FormatInfo& format, const PictureSource& pictures, Mesh& mesh,
                    std::vector<std::string>& notes);
 
-/// From sRGB to linear, both 0 .. 1.
-float linearFromSrgb(float c);
-
 }  // namespace stadion::importer

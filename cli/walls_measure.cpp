@@ -1,0 +1,178 @@
+#include "cli/walls_measure.h"
+
+#include "cli/player.h"
+#include "pipeline/output/run_summary.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <sys/resource.h>
+
+namespace stadion {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds(Clock::duration d) {
+  return std::chrono::duration<double>(d).count();
+}
+
+/// Of all threads of this process [s].
+double processorSeconds() {
+  rusage u{};
+  getrusage(RUSAGE_SELF, &u);
+  const auto of = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return of(u.ru_utime) + of(u.ru_stime);
+}
+
+/// When frames were complete on all walls.
+struct Completed {
+  std::uint64_t frames = 0;
+  Clock::time_point begin{}, end{};
+  double processorBegin = 0, processorEnd = 0;
+
+  void add(const WallsSetting& s) {
+    if (++frames == s.warm) begin = Clock::now(), processorBegin = processorSeconds();
+    if (frames == s.warm + s.frames) end = Clock::now(), processorEnd = processorSeconds();
+  }
+};
+
+/// Takes the pictures of the frame that follows the last one that is measured.
+class LastPictures final : public PictureSink {
+public:
+  LastPictures(const WallsSetting& setting, std::vector<std::string> walls)
+      : setting_(setting), walls_(std::move(walls)) {}
+
+  bool wants(const TimeSignature& now) const override {
+    return !setting_.pictures.empty() && now.frame == setting_.warm + setting_.frames;
+  }
+  Failure take(const TimeSignature&, const std::vector<EyePictures>& walls) override {
+    for (std::size_t wall = 0; wall < walls.size(); ++wall)
+      for (std::size_t eye = 0; eye < walls[wall].eyes.size(); ++eye)
+        if (!write(setting_.pictures + "_" + walls_[wall] + (eye == 0 ? "_L.ppm" : "_R.ppm"),
+                   walls[wall].eyes[eye]))
+          return Reason("cannot write " + setting_.pictures + "_" + walls_[wall]);
+    return {};
+  }
+
+private:
+  static bool write(const std::string& file, const Picture& p) {
+    std::ofstream out(file, std::ios::binary);
+    out << "P6\n" << p.width << ' ' << p.height << "\n255\n";
+    for (std::size_t i = 0; i < p.rgba.size(); i += 4)
+      out.write(reinterpret_cast<const char*>(&p.rgba[i]), 3);
+    return static_cast<bool>(out.flush());
+  }
+
+  const WallsSetting& setting_;
+  std::vector<std::string> walls_;
+};
+
+/// Without the frames before those that are measured.
+std::vector<double> measured(const DurationSeries& series, const WallsSetting& s) {
+  const std::vector<double>& all = series.values();
+  const std::size_t first = std::min<std::size_t>(s.warm, all.size());
+  const std::size_t last = std::min<std::size_t>(s.warm + s.frames, all.size());
+  return {all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
+double sumOfMedians(const std::vector<DurationSeries>& walls, const WallsSetting& s) {
+  double sum = 0;
+  for (const DurationSeries& w : walls) sum += percentile(measured(w, s), 50);
+  return sum;
+}
+
+}  // namespace
+
+Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& folder) {
+  ShowOptions show;
+  show.script = folder + "/show.evs", show.walls = folder + "/room.walls",
+  show.input = folder + "/show.input";
+  show.mode = s.mode, show.look = "plain";
+  show.size = std::to_string(s.width) + "x" + std::to_string(s.height);
+  show.frames = s.warm + s.frames + 1;
+  Diagnostics findings;
+  const auto wrong = [&](const std::string& what) {
+    tell(findings);
+    return Diagnostic{Severity::Error, {folder, 0, 0}, what, {}};
+  };
+  if (!show.settle(findings)) return wrong("bad settings");
+  auto provider = openGlProvider(s.gl == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa);
+  if (!provider) return provider.error();
+  const auto player = Player::create(show, findings);
+  if (!player) return wrong("the show cannot be played");
+  LastPictures pictures(s, player->walls().names());
+  Completed completed;
+  ShowParts parts = player->parts(StereoLayout::Pair);
+  parts.provider = provider.value().get();
+  parts.sink = &pictures;
+  parts.quality.mostAtOnce = s.kind == "OPEN" ? parts.quality.mostAtOnce : 1;
+  parts.shown = [&] { completed.add(s); };
+  ShowStages stages(std::move(parts));
+  const std::atomic<bool> never = false;
+  FrameLoop loop(stages, player->loopOptions(), never);
+  const FrameLoopOutcome outcome = loop.run();
+  if (outcome.failure) return wrong(outcome.failure->message);
+
+  const FrameTimes& times = loop.times();
+  const double took = seconds(completed.end - completed.begin);
+  const double processor = completed.processorEnd - completed.processorBegin;
+  const auto frames = static_cast<double>(s.frames), views = 2 * static_cast<double>(s.walls);
+  const std::vector<double> period = measured(times.period, s);
+  std::vector<double> latency;
+  for (std::size_t i = 0; i < s.frames; ++i) {
+    double worst = 0;
+    for (const DurationSeries& wall : times.latency)
+      if (s.warm + i < wall.values().size()) worst = std::max(worst, wall.values()[s.warm + i]);
+    latency.push_back(worst);
+  }
+  nlohmann::json counts = nlohmann::json::array();
+  double draws = 0, triangles = 0;
+  for (std::size_t wall = 0; wall < s.walls; ++wall)
+    for (const DrawTotals& eye : stages.drawn(wall)) {
+      const double n = std::max(1.0, static_cast<double>(eye.frames));
+      counts.push_back(std::llround(static_cast<double>(eye.calls) / n));
+      draws += static_cast<double>(eye.calls) / n, triangles += static_cast<double>(eye.triangles) / n;
+    }
+  const double cull = sumOfMedians(times.cull, s), draw = sumOfMedians(times.draw, s);
+  const char* lp = std::getenv("LP_NUM_THREADS");
+  return nlohmann::json{{"engine", "stadion"},
+                        {"class", s.kind},
+                        {"backend", s.gl},
+                        {"renderer", stages.glDescription()},
+                        {"scene", s.scene},
+                        {"flat", s.flat ? 1 : 0},
+                        {"walls", s.walls},
+                        {"eyes", 2},
+                        {"width", s.width},
+                        {"height", s.height},
+                        {"mode", s.mode},
+                        {"wall_workers", "thread"},
+                        {"lp_threads", lp ? lp : "default"},
+                        {"frames", s.frames},
+                        {"fps", frames / took},
+                        {"frame_ms_median", percentile(period, 50)},
+                        {"frame_ms_p95", percentile(period, 95)},
+                        {"frame_ms_p99", percentile(period, 99)},
+                        {"frame_ms_max", percentile(period, 100)},
+                        {"latency_ms_median", percentile(latency, 50)},
+                        {"latency_ms_p95", percentile(latency, 95)},
+                        {"latency_ms_p99", percentile(latency, 99)},
+                        {"app_ms", percentile(measured(times.app, s), 50)},
+                        {"cull_ms_per_view", cull / views},
+                        {"draw_ms_per_view", draw / views},
+                        {"cull_ms_sum", cull},
+                        {"draw_ms_sum", draw},
+                        {"cpu_cores", processor / took},
+                        {"cpu_ms_per_frame", 1e3 * processor / frames},
+                        {"incomplete", outcome.framesShown == show.frames ? 0 : 1},
+                        {"draws_per_frame", draws},
+                        {"tris_per_frame", triangles},
+                        {"draws_per_view", counts}};
+}
+
+}  // namespace stadion
