@@ -10,7 +10,7 @@
 namespace stadion {
 namespace {
 
-constexpr char kMagic[16] = "stadion frames1";
+constexpr char kMagic[16] = "stadion frames2";
 
 Diagnostic problem(const std::string& file, const std::string& what) {
   return {Severity::Error, {file, 0, 0}, what, {}};

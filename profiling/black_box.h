@@ -34,6 +34,7 @@ public:
 
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override { judge_.take(track, record); }
+  void take(const CountRecord& count) override { judge_.take(count); }
 
   /// Late frames by cause.
   std::map<Cause, std::uint64_t> verdicts() const;

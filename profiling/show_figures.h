@@ -11,6 +11,8 @@ namespace stadion {
 
 struct NodeOnWall {
   double cull = 0;
+  /// In the proportion of what each took drawn alone; they sum to what the eye took as a whole, less its
+  /// parts.
   std::array<double, 2> draw{};  ///< left or only eye, right
 };
 
@@ -53,6 +55,7 @@ struct Explained {
   double measured = 0;  ///< of all walls and eyes
   double nodes = 0;
   double named = 0;  ///< parts of the stage itself
+  /// Draw: of what was drawn alone, before the nodes' rows were scaled to the eyes drawn whole.
   double covered() const { return measured > 0 ? (nodes + named) / measured : 1; }
 };
 

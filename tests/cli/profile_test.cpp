@@ -70,6 +70,23 @@ TEST(ProgramProfile, PicturesAndStatesAreThoseOfAPlainRun) {
   EXPECT_EQ(plain["image_hashes"], profiled["image_hashes"]);
 }
 
+TEST(ProgramProfile, OfTwoThingsOfOneModelTheLargeOneIsTheDearOne) {
+  const TemporaryFolder folder;
+  const std::string show =
+      folder.write("two.evs", "light( direction=\"-1, 2, -3\" )\n"
+                              "object( name=huge, file=football.3ds, scale=10, position=\"0, 3, "
+                              "1.7\" )\n"
+                              "object( name=tiny, file=football.3ds, position=\"0, 60, 8\" )\n");
+  const ProgramResult r = stadionProgram({"profile", show, "--asset-root", assetFolder(), "--frames", "96",
+                                          "--walls", "desktop", "--size", "400x300", "--json"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto figures = nlohmann::json::parse(r.out);
+  std::map<std::string, double> draw;
+  for (const auto& row : figures["nodes"]) draw[row["path"]] = row["draw_ms"].get<double>();
+  EXPECT_GT(draw["tiny"], 0);
+  EXPECT_GT(draw["huge"], 2 * draw["tiny"]) << r.out;
+}
+
 TEST(ProgramProfile, TheShadowsRingsAreTheLights) {
   const TemporaryFolder folder;
   const std::string show = folder.write(

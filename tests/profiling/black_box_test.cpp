@@ -70,6 +70,28 @@ TEST(FrameVerdict, WhatTheStageWaitedForIsTheCause) {
   EXPECT_EQ(causeOf(facts(60)), Cause::Unknown) << "no stage took long";
 }
 
+TEST(FrameVerdict, ADrawWithoutProcessorsIsPreempted) {
+  FrameFacts f = facts(60);
+  f.draw[1].ms = 50, f.draw[1].delayed = 35;
+  judge(f);
+  EXPECT_EQ(f.cause, Cause::Preempted);
+  const std::vector<std::string> walls{"front", "floor"};
+  EXPECT_EQ(toText(f, walls),
+            "frame 7 came after 60.0 ms (16.7): Draw of wall floor took 50.0 ms, 35.0 of them "
+            "without a processor, which others had");
+  f.draw[1].delayed = 5;
+  EXPECT_EQ(causeOf(f), Cause::Draw);
+}
+
+TEST(FrameVerdict, OfALateDrawWhoHasMostToDrawIsNamed) {
+  FrameFacts f = facts(60);
+  f.draw[1].ms = 50;
+  copyText("playfield kick.evs:32", f.drawn);
+  judge(f);
+  const std::vector<std::string> walls{"front", "floor"};
+  EXPECT_NE(toText(f, walls).find("; most there is to draw of playfield kick.evs:32"), std::string::npos);
+}
+
 class Played {
 public:
   explicit Played(const std::string& file) {

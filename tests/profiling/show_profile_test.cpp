@@ -228,13 +228,49 @@ TEST(ShowProfile, DrawingCountsByHowOftenANodeIsSeen) {
   profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
   profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
   profile.take({Span::Fill, 16, 0, 1, {kStone}});
-  profile.take({8, 0, 1, Span::Draw, 6, 0.1}, {kBall, kStone});  // three each, on the right eye
+  profile.take({8, 0, 1, Span::Draw, 6, 0.1}, {{kBall, 0.5f}, {kStone, 0.5f}});  // on the right eye
   const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
   ASSERT_EQ(f.nodes.size(), 2U);
   EXPECT_EQ(f.nodes[0].node, kStone);
   EXPECT_DOUBLE_EQ(f.nodes[0].walls[0].draw[1], 3);
   EXPECT_DOUBLE_EQ(f.nodes[1].walls[0].draw[1], 1.5) << "it was seen in half of the frames";
   EXPECT_DOUBLE_EQ(f.nodes[0].walls[0].draw[0], 0);
+}
+
+TEST(ShowProfile, WhatIsDrawnTogetherIsSharedByHowMuchThereIsToDraw) {
+  ShowProfile profile;
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
+  profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
+  profile.take({8, 0, 0, Span::Draw, 8, 0.1}, {{kBall, 0.75f}, {kStone, 0.25f}});
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  EXPECT_DOUBLE_EQ(f.nodes[0].walls[0].draw[0], 6);
+  EXPECT_DOUBLE_EQ(f.nodes[1].walls[0].draw[0], 2);
+}
+
+TEST(ShowProfile, NodesRowsSumToTheEyeDrawnWhole) {
+  ShowProfile profile;
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
+  profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
+  profile.take({8, 0, 0, Span::Draw, 6, 0.1}, {{kBall, 1}});
+  profile.take({8, 0, 0, Span::Draw, 2, 0.1}, {{kStone, 1}});
+  profile.take({8, 0, 0, Span::Resolve, 1, 0.1}, {});
+  profile.take({24, 0, 0, Span::LeftEye, 11, 0.1}, {});
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  EXPECT_DOUBLE_EQ(f.nodes[0].draw, 7.5);
+  EXPECT_DOUBLE_EQ(f.nodes[1].draw, 2.5);
+  EXPECT_NEAR(f.explained[2].covered(), 9.0 / 11, 1e-12) << "as it was drawn alone";
+}
+
+TEST(ShowProfile, AppIsWhatItTakesWhileNotEveryNodeIsRecorded) {
+  ShowProfile profile;
+  SpanRecord light = record(Span::App, 9, kNoWall, {}, 3);
+  light.whole = false;
+  profile.take(0, record(Span::Simulate, 8, kNoWall, kBall, 2));
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 4));
+  profile.take(0, light);
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  EXPECT_DOUBLE_EQ(f.explained[0].measured, 3);
+  EXPECT_DOUBLE_EQ(f.nodes[0].app, 1.5) << "half of it, as in the frame that was recorded";
 }
 
 TEST(ShowProfile, ItsTablesAgree) {
