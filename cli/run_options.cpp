@@ -1,6 +1,7 @@
 #include "cli/run_options.h"
 
 #include "cli/number_option.h"
+#include "cli/output_names.h"
 
 #include <CLI/CLI.hpp>
 
@@ -137,8 +138,17 @@ bool RunOptions::settle(Diagnostics& findings) {
   if (video && out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
   if (stress.low > stress.high)
     findings.error({}, "--stress-low must not be greater than --stress-high: between them stress stays");
+  settleFiles(findings);
   settleLive(findings);
   return show.settle(findings) && !findings.hasErrors();
+}
+
+/// No two outputs are one file.
+void RunOptions::settleFiles(Diagnostics& findings) const {
+  const NamedFile files[] = {{"the show", show.script, false}, {"--record-input", recordInput},
+                             {"--trace-events", events.file},  {"--spans", spans.file},
+                             {"--black-box", blackBox},        {"--input", show.input, false}};
+  refuseSameFiles(files, findings);
 }
 
 /// What needs somebody who is there.

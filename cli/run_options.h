@@ -43,6 +43,7 @@ struct RunOptions {
 
   void addLoadTo(CLI::App& command);
   void addBlackBoxTo(CLI::App& command);
+  void settleFiles(Diagnostics& findings) const;
   void settleLive(Diagnostics& findings);
   /// Whether the options ask for a run that does not go by the clock.
   bool asksForEveryFrame() const;

@@ -6,6 +6,9 @@
 namespace stadion {
 namespace {
 
+/// Walls of so many nodes are sampled more seldom (frame_log.cpp).
+constexpr std::uint64_t kCrowd = 500, kCrowdedEvery = 4;
+
 class Figures {
 public:
   Figures(const ShowProfile& profile, const NodeNames& names, const std::vector<std::string>& walls)
@@ -23,6 +26,7 @@ public:
     addCounts();
     explain();
     const double all = out_.explained[0].measured + out_.explained[1].measured + out_.explained[2].measured;
+    out_.framesNeeded = framesNeeded();
     for (NodeRow& row : out_.nodes) row.share = all > 0 ? row.total / all : 0;
     std::ranges::sort(out_.nodes, [](const NodeRow& a, const NodeRow& b) {
       return a.total != b.total ? a.total > b.total : a.node < b.node;
@@ -78,8 +82,50 @@ private:
       }
       row.cull += on.cull;
     }
+    markMeasured(row, node);
     row.total = row.app + row.cull + row.draw;
     out_.nodes.push_back(std::move(row));
+  }
+
+  /// Drawn where it was seen, or seen nowhere when somebody looked; else nobody knows what it costs.
+  void markMeasured(NodeRow& row, const NodeProfile& node) {
+    for (std::uint32_t wall = 0; wall < row.walls.size(); ++wall) {
+      NodeOnWall& on = row.walls[wall];
+      const auto cost = node.walls.find(wall);
+      const bool seen = cost != node.walls.end() && cost->second.shares.contains(Span::Fill);
+      on.cullMeasured = profile_.sampled(wall) > 0;
+      row.cullMeasured = row.cullMeasured && on.cullMeasured;
+      for (std::uint32_t eye = 0; eye < 2; ++eye) {
+        const bool drawn = profile_.eyes().contains({wall, eye});
+        on.drawMeasured[eye] = on.cullMeasured && drawn && (!seen || cost->second.drawn[eye] > 0);
+        if (drawn || eye == 0) row.drawMeasured = row.drawMeasured && on.drawMeasured[eye];
+        if (!seen || !drawn) continue;
+        ++seen_[{wall, eye}];
+        if (on.drawMeasured[eye]) ++sampled_[{wall, eye}];
+      }
+    }
+  }
+
+  /// An estimate: as many nodes are drawn alone each time as until now. Nothing is missed for want of frames
+  /// if nothing is drawn.
+  std::uint64_t framesNeeded() const {
+    const bool draws =
+        std::ranges::any_of(profile_.spans(), [](const auto& s) { return s.first.first == Span::Draw; });
+    if (std::ranges::all_of(out_.nodes,
+                            [&](const NodeRow& r) { return r.cullMeasured && (r.drawMeasured || !draws); }))
+      return 0;
+    const FrameLogOptions log;
+    const std::uint64_t played = profile_.frames() + log.from;
+    std::uint64_t most = 4 * log.sampleEvery;
+    for (const auto& [eye, seen] : seen_) {
+      const auto at = sampled_.find(eye);
+      if (at == sampled_.end() || at->second == seen) continue;
+      const std::uint64_t every = log.sampleEvery * (seen > kCrowd ? kCrowdedEvery : 1);
+      const double rounds = static_cast<double>(1 + played / every), margin = 1.25;
+      const double all = rounds * static_cast<double>(seen) / static_cast<double>(at->second);
+      most = std::max(most, every * (1 + static_cast<std::uint64_t>(margin * all)));
+    }
+    return std::max(most, played + log.sampleEvery);
   }
 
   /// Whom no node of the script stands for: what the trackers say, and the eyes in front of the walls.
@@ -208,7 +254,12 @@ private:
       const auto& [wall, side] = who;
       if (eye.whole.count() == 0 || wall >= out_.walls.size()) continue;
       double alone = 0;
-      for (const NodeRow& row : out_.nodes) alone += row.walls[wall].draw[side];
+      bool all = true;
+      for (const NodeRow& row : out_.nodes) {
+        alone += row.walls[wall].draw[side];
+        all = all && row.walls[wall].drawMeasured[side];
+      }
+      if (!all) continue;  // whoever had no turn must not be counted with the others
       const double factor = alone > 0 ? std::max(0.0, eye.whole.mean() - partsOf(eye)) / alone : 1;
       for (NodeRow& row : out_.nodes) row.walls[wall].draw[side] *= factor;
     }
@@ -222,6 +273,8 @@ private:
   const ShowProfile& profile_;
   const NodeNames& names_;
   double frames_, wholeFrames_, appScale_ = 1;
+  /// Nodes, by wall and eye: seen there, and of these drawn alone.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> seen_, sampled_;
   ShowFigures out_;
 };
 

@@ -14,6 +14,9 @@ struct NodeOnWall {
   /// In the proportion of what each took drawn alone; they sum to what the eye took as a whole, less its
   /// parts.
   std::array<double, 2> draw{};  ///< left or only eye, right
+  /// False: 0 means that no sample was taken, not that it costs nothing.
+  bool cullMeasured = true;
+  std::array<bool, 2> drawMeasured{true, true};
 };
 
 struct NodeRow {
@@ -28,7 +31,9 @@ struct NodeRow {
   double allocations = 0, bytes = 0;   ///< of memory, by App for it, a frame
   std::vector<NodeOnWall> walls;
   double cull = 0, draw = 0;  ///< of all walls and eyes
-  double total = 0;
+  /// False: some wall that it is on has not been sampled yet; what is there is of the others.
+  bool cullMeasured = true, drawMeasured = true;
+  double total = 0;  ///< of what was measured
   double share = 0;  ///< of all stages of all walls
 };
 
@@ -67,6 +72,7 @@ struct ShowFigures {
   std::vector<CountRow> counts;
   std::array<Explained, 3> explained;
   std::string drawMethod;
+  std::uint64_t framesNeeded = 0;  ///< about so many would measure every node; 0: these did
 };
 
 ShowFigures figuresOf(const ShowProfile& profile, const NodeNames& names,

@@ -1,7 +1,9 @@
 /// Where a frame's time goes: spans of several threads, added up by node and stage.
 
+#include "profiling/csv_field.h"
 #include "profiling/show_figures.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -271,6 +273,53 @@ TEST(ShowProfile, AppIsWhatItTakesWhileNotEveryNodeIsRecorded) {
   const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
   EXPECT_DOUBLE_EQ(f.explained[0].measured, 3);
   EXPECT_DOUBLE_EQ(f.nodes[0].app, 1.5) << "half of it, as in the frame that was recorded";
+}
+
+TEST(ShowProfile, WhatWasNotSampledIsNotNothing) {
+  ShowProfile profile;
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
+  profile.take(0, record(Span::Draw, 8, 0, {}, 5));
+  profile.take({Span::Test, 8, 0, 1, {kBall, kStone, {1, 2}}});
+  profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
+  profile.take({8, 0, 0, Span::Draw, 3, 0.1}, {{kBall, 1}});  // the stone had no turn, a third is not seen
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front", "floor"}, true);
+  std::map<NodeRef, const NodeRow*> rows;
+  for (const NodeRow& row : f.nodes) rows[row.node] = &row;
+  EXPECT_TRUE(rows.at(kBall)->walls[0].drawMeasured[0]);
+  EXPECT_FALSE(rows.at(kStone)->walls[0].drawMeasured[0]);
+  EXPECT_TRUE((rows.at({1, 2})->walls[0].drawMeasured[0])) << "what is not seen costs nothing to draw";
+  EXPECT_FALSE(rows.at(kBall)->walls[1].cullMeasured) << "nobody looked at that wall";
+  EXPECT_FALSE(rows.at(kBall)->drawMeasured);
+  EXPECT_GT(f.framesNeeded, 1U);
+
+  const auto json = nlohmann::json::parse(toJson(f));
+  for (const auto& node : json["nodes"]) {
+    EXPECT_EQ(node["draw_complete"], false);
+    EXPECT_TRUE(node["walls"][1]["cull_ms"].is_null());
+  }
+  EXPECT_TRUE(std::ranges::any_of(json["nodes"], [](const auto& n) { return n["draw_ms"] == 3; }));
+  EXPECT_TRUE(std::ranges::any_of(json["nodes"], [](const auto& n) { return n["draw_ms"].is_null(); }));
+  const std::string text = toText(f, 10), csv = toCsv(f);
+  EXPECT_NE(text.find(">3.000"), std::string::npos) << text;
+  EXPECT_NE(text.find("3 of 3 nodes had no turn in 1 frames"), std::string::npos) << text;
+  EXPECT_NE(csv.find(",draw,front,left,3\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",draw,front,left,\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",draw,front,left,0\n"), std::string::npos) << csv;
+  EXPECT_NE(toText(ShowFigures(), 5).find("no frame was recorded"), std::string::npos);
+}
+
+TEST(ShowProfile, AFieldOfItsTableIsQuotedWhereItMustBe) {
+  EXPECT_EQ(csvField("stands/north"), "stands/north");
+  EXPECT_EQ(csvField("a,b"), "\"a,b\"");
+  EXPECT_EQ(csvField("say \"hi\"\n"), "\"say \"\"hi\"\"\n\"");
+  ShowProfile profile;
+  profile.take(0, record(Span::Simulate, 0, kNoWall, kBall, 0.25));
+  profile.take(0, record(Span::App, 0, kNoWall, {}, 1));
+  ShowFigures f = figuresOf(profile, NodeNames(), {"front, left"}, true);
+  f.nodes[0].name.path = "a,b", f.nodes[0].name.file = "x \"y\".evs";
+  const std::string csv = toCsv(f);
+  EXPECT_NE(csv.find("\"a,b\",\"x \"\"y\"\".evs\",0,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",\"front, left\",left,"), std::string::npos) << csv;
 }
 
 TEST(ShowProfile, ItsTablesAgree) {
