@@ -21,7 +21,7 @@ SpanRow rowOf(const Json& j) {
   row.wall = text(j, "wall"), row.eye = text(j, "eye");
   row.line = static_cast<std::uint32_t>(number(j, "line"));
   row.msMean = number(j, "ms_mean"), row.count = static_cast<std::size_t>(number(j, "count"));
-  row.instructions = number(j, "instructions");
+  row.instructions = number(j, "instructions"), row.plantedUs = number(j, "planted_us");
   if (!j.contains("frame_us") || !j["frame_us"].is_object()) return row;
   for (const auto& [frame, us] : j["frame_us"].items())
     if (us.is_number()) row.frames[std::strtoull(frame.c_str(), nullptr, 10)] = us.get<double>();
@@ -129,6 +129,7 @@ std::string toJson(const std::vector<SpanRow>& rows) {
            {"ms_mean", r.msMean},
            {"count", r.count}};
     if (r.instructions > 0) j["instructions"] = r.instructions;
+    if (r.plantedUs > 0) j["planted_us"] = r.plantedUs;
     for (const auto& [frame, us] : r.frames) j["frame_us"][std::to_string(frame)] = us;
     all.push_back(std::move(j));
   }

@@ -26,6 +26,7 @@ struct SpanRow {
   std::size_t count = 0;                   ///< of such frames
   std::map<std::uint64_t, double> frames;  ///< cost [us] by frame; empty if it was not told
   double instructions = 0;                 ///< a frame; 0 if nobody counted
+  double plantedUs = 0;  ///< of a stage: how much of the typical frame was planted on purpose [us]
 
   bool isStage() const { return path.empty() && line == 0; }
   /// The same in another run has the same.

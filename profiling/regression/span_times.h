@@ -34,6 +34,9 @@ public:
   void began(Span what, NodeRef node) override;
   void ended(Span what) override;
 
+  /// What was planted, frame by frame [ns]: at most once in each.
+  const std::vector<std::uint64_t>& planted() const { return planted_; }
+
   /// `nameNode` fills in path, file and line. Frames are told of stages and of the dearest nodes.
   std::vector<SpanRow> rows(const std::vector<std::string>& walls,
                             const std::function<void(NodeRef, SpanRow&)>& nameNode) const;
@@ -57,6 +60,8 @@ private:
     NodeRef node;
   };
 
+  void plantIn(std::uint64_t frame);
+  bool isPlanted(const Key& stage) const;
   void stageEnded(const Open& open);
   void nodeEnded(NodeRef node);
   void begin(const Key& key);
@@ -71,6 +76,8 @@ private:
   std::vector<Cost*> touched_;  ///< nodes, in this frame
   Cost* stage_ = nullptr;       ///< that is under way, where one thread does all
   bool counting_ = false;
+  std::uint64_t appFrame_ = kNoFrame, plantedFrame_ = kNoFrame;
+  std::vector<std::uint64_t> planted_;
 };
 
 }  // namespace stadion::regression

@@ -9,6 +9,7 @@
 #include "profiling/regression/page.h"
 #include "profiling/regression/progress.h"
 #include "profiling/regression/reports.h"
+#include "profiling/regression/span_times.h"
 #include "profiling/regression/time_comparison.h"
 
 #include <gtest/gtest.h>
@@ -337,16 +338,19 @@ TEST(RegressionDetection, TrialsComeInTurnsAndEachWallAndNodeHasItsTurn) {
   EXPECT_EQ(std::ranges::count(trials, std::string("nothing"), &Trial::kind), 100);
   MadeRun made(8);
   const auto rows = made.rows(1, 1, 1);
-  const auto first = plantedIn({"simulate", 0}, rows, 0.05, 2),
-             second = plantedIn({"simulate", 1}, rows, 0.05, 2);
+  // Instructions, of which App has more for its time than Draw.
+  const StagePrices prices{{{"app", 900'000}, {"draw of wall front", 40'000}}, 4};
+  const auto first = plantedIn({"simulate", 0}, rows, prices, 0.05),
+             second = plantedIn({"simulate", 1}, rows, prices, 0.05);
   ASSERT_TRUE(first && second);
   EXPECT_NE(first->name, second->name);
-  EXPECT_NEAR(static_cast<double>(first->iterations), 0.05 * 200'000 / 2, 1500)
-      << "5 % of App's typical frame";
-  EXPECT_FALSE(plantedIn({"nothing", 0}, rows, 0.05, 2));
+  EXPECT_EQ(first->iterations, 900'000u * 5 / 100 / 4) << "5 % of what decides";
+  EXPECT_EQ(plantedIn({"draw", 3}, rows, prices, 0.05)->iterations, 500u);
+  EXPECT_EQ(stageOf(*first), "app");
+  EXPECT_FALSE(plantedIn({"nothing", 0}, rows, prices, 0.05));
   EXPECT_TRUE(isNamedBy(*first, first->name + " (show.evs:7) in app"));
   EXPECT_FALSE(isNamedBy(*first, second->name + " (show.evs:7) in app"));
-  const auto read = PlantedDelay::parse(toText(*plantedIn({"draw", 3}, rows, 0.05, 2)));
+  const auto read = PlantedDelay::parse(toText(*plantedIn({"draw", 3}, rows, prices, 0.05)));
   ASSERT_TRUE(read);
   EXPECT_TRUE(isNamedBy(*read, "draw of wall front"));
   for (const char* wrong :
@@ -356,7 +360,11 @@ TEST(RegressionDetection, TrialsComeInTurnsAndEachWallAndNodeHasItsTurn) {
 
 TEST(RegressionDetection, MissesItsLimitsWhenTwoAreNotFoundOrTwoAlarmsAreFalse) {
   std::vector<TrialResult> results;
-  for (const Trial& t : trialsOf(20, 100)) results.push_back({t.name(), t.kind, "", {}, {}, true, 1});
+  for (const Trial& t : trialsOf(20, 100)) {
+    const bool same = t.kind == "nothing";
+    results.push_back(
+        {t.name(), t.kind, same ? "" : "cull:front=9", {}, {}, true, 1, "times", 5, same ? 0 : 5.2});
+  }
   bool met = false;
   detectionTable(results, 20, 100, met);
   EXPECT_TRUE(met);
@@ -371,6 +379,34 @@ TEST(RegressionDetection, MissesItsLimitsWhenTwoAreNotFoundOrTwoAlarmsAreFalse) 
   EXPECT_FALSE(spoil("cull", 2));
   EXPECT_TRUE(spoil("nothing", 1));
   EXPECT_FALSE(spoil("nothing", 2));
+
+  results.front().lengthened = 21;
+  EXPECT_NE(detectionTable(results, 20, 100, met).find("not valid, 21.00 % were planted"), std::string::npos);
+  EXPECT_FALSE(met) << "what is found was not what was to be found";
+  const auto read = readTrials(toJsonLine(results.front()));
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_FALSE(read[0].valid());
+}
+
+TEST(RegressionDetection, PlantsOnceAFrameThoughANodeSimulatesInTwoParts) {
+  PlantedDelay planted;
+  planted.where = PlantedDelay::Where::Simulate, planted.node = {1, 0}, planted.iterations = 10;
+  SpanTimes times({planted});
+  for (std::uint64_t frame = 0; frame < 3; ++frame) {
+    times.began(Span::App, frame, kNoWall);
+    for (const NodeRef node : {NodeRef{1, 0}, NodeRef{1, 1}})
+      for (int part = 0; part < 2; ++part) {
+        times.began(Span::Simulate, node);
+        times.ended(Span::Simulate);
+      }
+    times.ended(Span::App);
+  }
+  EXPECT_EQ(times.planted().size(), 3u);
+  const auto rows =
+      times.rows({}, [](NodeRef node, SpanRow& row) { row.path = std::to_string(node.position); });
+  const auto read = spanRows(toJson(rows));
+  for (const SpanRow& r : read)
+    EXPECT_EQ(r.plantedUs > 0, r.isStage()) << "App is what it lengthens: " << r.name();
 }
 
 }  // namespace
