@@ -167,7 +167,7 @@ private:
     if (!before.fault.empty() || !now.fault.empty())
       return complain(before.fault.empty() ? now.fault : before.fault);
     for (const InstructionShift& s :
-         compareInstructions(before.rows, now.rows, case_.tolerances.instructions / 100)) {
+         compareInstructions(instructionCounts(before.rows), now.rows, case_.tolerances.instructions / 100)) {
       result.seen.push_back(fmt::format("{} {:+.3f} % of {:.0f}", s.name, 100 * s.shift(), s.before));
       if (s.more) result.alarms.push_back(s.culprit);
       if (s.name == stage) result.lengthened = 100 * s.shift();

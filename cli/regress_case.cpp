@@ -4,6 +4,7 @@
 #include "cli/regress_hint.h"
 #include "cli/regress_rounds.h"
 #include "profiling/regression/instruction_comparison.h"
+#include "profiling/regression/rank_test.h"
 
 #include <fmt/format.h>
 
@@ -140,11 +141,23 @@ private:
     StageTimesByName times;
     for (const auto& [stage, ms] : result_.milliseconds)
       for (std::size_t i = 0; i < ms.size(); ++i) times[stage].push_back(ms[i] / m.calibrationMs[i]);
-    if (update_)
-      (*update_)[result_.name].times = times;
-    else
-      add(checksOf(compareTimes(known()->times, times, typicalStages(m.rounds.front().now), tolerance),
-                   "the baseline", tolerance, case_.rounds));
+    const NodeCosts nodes = nodeTimes(m.rounds, m.calibrationMs);
+    if (update_) {
+      BaselineCase& kept = (*update_)[result_.name];
+      kept.times = times;
+      std::map<std::string, double> typical;
+      for (const auto& [stage, all] : times) typical[stage] = median(all);
+      kept.nodeTimes = dearOf(nodes, typical);
+    } else {
+      const std::vector<SpanRow>& rows = m.rounds.front().now;
+      auto shifts = compareTimes(known()->times, times, typicalStages(rows), tolerance);
+      for (StageShift& s : shifts) {
+        if (!s.slower) continue;
+        const double before = median(known()->times.at(s.name));
+        s.culprit = culpritSince(s.name, before, s.shift * before, known()->nodeTimes, nodes, rows);
+      }
+      add(checksOf(shifts, "the baseline", tolerance, case_.rounds));
+    }
   }
 
   /// App's nodes are known from the rounds; those of Cull and Draw are asked for.
@@ -179,14 +192,17 @@ private:
     result_.instructions = stageInstructions(now.rows);
     const double tolerance = case_.tolerances.instructions / 100;
     if (update_) {
-      (*update_)[result_.name].instructions = result_.instructions;
+      BaselineCase& kept = (*update_)[result_.name];
+      kept.instructions = result_.instructions;
+      kept.nodeInstructions = dearOf(nodeInstructions(now.rows), result_.instructions);
     } else if (with_.program.empty()) {
-      add(checksOf(compareInstructions(known()->instructions, result_.instructions, tolerance),
-                   "the baseline", tolerance));
+      const InstructionCounts before{known()->instructions, known()->nodeInstructions};
+      add(checksOf(compareInstructions(before, now.rows, tolerance), "the baseline", tolerance));
     } else {
       const CountedInstructions before = countInstructions(case_, {with_.program}, true, measuring());
       if (!failed(before.fault))
-        add(checksOf(compareInstructions(before.rows, now.rows, tolerance), "the other build", tolerance));
+        add(checksOf(compareInstructions(instructionCounts(before.rows), now.rows, tolerance),
+                     "the other build", tolerance));
     }
   }
 

@@ -34,9 +34,12 @@ Json orNull(const std::string& value) {
 
 }  // namespace
 
+std::string SpanRow::node() const {
+  return path.empty() ? file.substr(file.rfind('/') + 1) + ":" + std::to_string(line) : path;
+}
+
 std::string SpanRow::name() const {
-  const std::string in =
-      stage + (wall.empty() ? "" : " of wall " + wall) + (eye.empty() ? "" : ", " + eye + " eye");
+  const std::string in = stageName() + (eye.empty() ? "" : ", " + eye + " eye");
   if (isStage()) return in;
   const std::string where = line > 0 ? file + ":" + std::to_string(line) : file;
   if (path.empty()) return where + " in " + in;

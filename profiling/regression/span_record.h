@@ -33,6 +33,10 @@ struct SpanRow {
   std::string key() const {
     return stage + "|" + wall + "|" + eye + "|" + path + "|" + file + ":" + std::to_string(line);
   }
+  /// Its node, whatever folder the show is in: "sim_kick", or "kick.evs:12" if it has no name.
+  std::string node() const;
+  /// How the stage that it belongs to is named: "app", "cull of wall front".
+  std::string stageName() const { return stage + (wall.empty() ? "" : " of wall " + wall); }
   /// "sim_kick (scripts/kick.evs:12) in app", "cull of wall front".
   std::string name() const;
 };

@@ -150,6 +150,28 @@ TEST(ProgramFullRegress, AWallWhoseCullingBecameDearerIsNamedByItsInstructions) 
   EXPECT_NE(r.out.find("4 comparisons passed, 1 failed"), std::string::npos) << r.out;
 }
 
+TEST(ProgramFullRegress, AgainstABaselineTheNodeThatMovedIsNamedToo) {
+  if (runProgram({{"valgrind", "--version"}}).status != 0) GTEST_SKIP() << "there is no valgrind";
+  const TemporaryFolder folder;
+  const std::string suite = crowdSuite(folder, "instructions");
+  ASSERT_EQ(regress({suite, "--instructions", "--update"}).status, 0);
+  const ProgramResult r =
+      regress({suite, "--instructions", "--stadion", spoilt(folder, "simulate:lane_07=20000")});
+  EXPECT_EQ(r.status, 1) << r.out << r.err;
+  EXPECT_TRUE(std::regex_search(r.out, std::regex("moved: lane_07 \\(.*crowd.evs:[0-9]+\\) in app")))
+      << r.out;
+}
+
+TEST(ProgramFullRegress, AgainstABaselinesTimesTheNodeThatMovedIsNamedToo) {
+  const TemporaryFolder folder;
+  const std::string suite = crowdSuite(folder, "times");
+  ASSERT_EQ(regress({suite, "--update"}).status, 0);
+  const ProgramResult r = regress({suite, "--stadion", spoilt(folder, "simulate:lane_07=2000000")});
+  EXPECT_EQ(r.status, 1) << r.out << r.err;
+  EXPECT_TRUE(std::regex_search(r.out, std::regex("moved: lane_07 \\(.*crowd.evs:[0-9]+\\) in app")))
+      << r.out;
+}
+
 TEST(ProgramRegress, AnInterruptedSuiteGoesOnWhereItWas) {
   const TemporaryFolder folder;
   std::string text =

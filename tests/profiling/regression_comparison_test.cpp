@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <random>
 
 namespace stadion::regression {
@@ -254,13 +255,35 @@ TEST(RegressionInstructions, AStageHasThoseOfItsNodesAndTheOneThatGrewIsNamed) {
   giveInstructions(before, {{"row 0", 1160000}, {"row 4", 580000}, {"row 5", 1160000}});
   giveInstructions(now, {{"row 0", 1160000}, {"row 4", 696000}, {"row 5", 1160000}});
   EXPECT_DOUBLE_EQ(before[0].instructions, 2900000.0 / 58) << "the first two frames are not counted";
-  const auto shifts = compareInstructions(before, now, 0.005);
+  const auto shifts = compareInstructions(instructionCounts(before), now, 0.005);
   ASSERT_EQ(shifts.size(), 1u);
   EXPECT_TRUE(shifts[0].more);
   EXPECT_NEAR(shifts[0].shift(), 0.04, 1e-9);
   EXPECT_EQ(shifts[0].culprit, "ball (show.evs:7) in app");
-  EXPECT_FALSE(compareInstructions(before, now, 0.05)[0].more);
-  EXPECT_TRUE(compareInstructions(now, before, 0.005)[0].fewer);
+  EXPECT_FALSE(compareInstructions(instructionCounts(before), now, 0.05)[0].more);
+  EXPECT_TRUE(compareInstructions(instructionCounts(now), before, 0.005)[0].fewer);
+}
+
+TEST(RegressionInstructions, ABaselineKeepsEnoughToNameTheNodeThatMoved) {
+  MadeRun made(7);
+  std::vector<SpanRow> before = made.rows(1, 1, 1), now = before;
+  giveInstructions(before, {{"row 0", 1160000}, {"row 4", 580000}, {"row 5", 1160000}});
+  giveInstructions(now, {{"row 0", 1160000}, {"row 4", 696000}, {"row 5", 1160000}});
+  for (SpanRow& r : now)
+    if (!r.isStage()) r.file = "/somewhere/else/" + r.file;
+  BaselineCase kept;
+  kept.instructions = stageInstructions(before);
+  kept.nodeInstructions = dearOf(nodeInstructions(before), kept.instructions);
+  const std::string file = testing::TempDir() + "made.baseline.json";
+  std::ofstream(file) << toJson({{"made/sequential", kept}});
+  const auto read = readBaseline(file);
+  ASSERT_TRUE(read) << read.error().message;
+  const BaselineCase& of = read.value().at("made/sequential");
+  const auto shifts = compareInstructions({of.instructions, of.nodeInstructions}, now, 0.005);
+  ASSERT_EQ(shifts.size(), 1u);
+  EXPECT_EQ(shifts[0].culprit, "ball (/somewhere/else/show.evs:7) in app");
+  EXPECT_EQ(compareInstructions({of.instructions, {}}, now, 0.005)[0].culprit, "app")
+      << "of an older baseline the stage is known";
 }
 
 SuiteResult madeResult() {
