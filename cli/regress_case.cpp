@@ -13,6 +13,8 @@ namespace {
 
 using namespace regression;
 
+constexpr const char* kCountWork = "--count-work";
+
 struct Played {
   std::optional<RunFacts> facts{};
   std::string fault{};
@@ -48,8 +50,13 @@ public:
 
 private:
   Played run(const std::string& program, const std::string& mode) {
-    const ChildResult child =
-        runChild(playWords(program, case_, mode), std::chrono::seconds(o_.limit), stop_);
+    std::vector<std::string> words = playWords(program, case_, mode);
+    words.emplace_back(kCountWork);
+    ChildResult child = runChild(words, std::chrono::seconds(o_.limit), stop_);
+    if (child.status == 2 && child.err.find(kCountWork) != std::string::npos) {  // an older build
+      words.pop_back();
+      child = runChild(words, std::chrono::seconds(o_.limit), stop_);
+    }
     if (!child.fault.empty()) return {{}, child.fault, child.status == 2};
     auto facts = factsOf(child.out);
     if (!facts) return {{}, "it did not print a summary as JSON"};

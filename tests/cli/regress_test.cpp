@@ -210,6 +210,41 @@ TEST(ProgramRegress, WrongUseAndWrongSuitesAreToldWithTheFix) {
           "");
 }
 
+TEST(ProgramRegress, WhereNothingWasComparedItIsNotGreen) {
+  const TemporaryFolder folder;
+  const std::string suite = smallSuite(folder);
+  const auto refused = [](const ProgramResult& r, const std::string& why) {
+    EXPECT_EQ(r.status, 2) << r.out << r.err;
+    EXPECT_NE(r.err.find(why), std::string::npos) << r.err;
+  };
+  refused(regress({suite, "--baseline", "nowhere.json"}),
+          "there is no file nowhere.json; --update writes it");
+  refused(regress({suite}), "nothing was compared\nthere is no baseline");
+  refused(regress({suite, "--compare", "times"}),
+          "no case compares times; say so in its \"compare\" statement");
+  const std::string counted = folder.write("counted.suite", fileContent(suite) + "  compare instructions\n");
+  ASSERT_EQ(regress({counted, "--update"}).status, 0);
+  refused(regress({counted}), "nothing was compared; the table says why");
+}
+
+TEST(ProgramRegress, EverythingThatIsCountedIsCompared) {
+  const TemporaryFolder folder;
+  const std::string suite = smallSuite(folder);
+  ASSERT_EQ(regress({suite, "--update"}).status, 0);
+  const std::string file = folder.path() / "small.baseline.json";
+  Json baseline = Json::parse(fileContent(file));
+  Json& counts = baseline["cases"]["bodies/sequential"]["counts"];
+  EXPECT_EQ(counts["pixels screen left"], std::to_string(12 * 32 * 24) + ".0") << counts;
+  for (const char* name :
+       {"tested screen", "seen screen", "casters screen", "impacts", "contacts", "substeps"})
+    EXPECT_TRUE(counts.contains(name)) << name << counts;
+  counts["substeps"] = "1.0";
+  folder.write("small.baseline.json", baseline.dump());
+  const ProgramResult r = regress({suite});
+  EXPECT_EQ(r.status, 1) << r.out << r.err;
+  EXPECT_TRUE(std::regex_search(r.out, std::regex("substeps: [0-9.]+, was 1.0"))) << r.out;
+}
+
 TEST(ProgramRegress, AProgramThatFailsIsAFaultNotADifference) {
   const TemporaryFolder folder;
   const ProgramResult r = regress({smallSuite(folder), "--stadion", "/bin/false"});
