@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <sys/resource.h>
+
 namespace stadion {
 namespace {
 
@@ -21,6 +23,16 @@ struct Played {
   bool refused = false;  ///< for a mistake of the user's
 };
 
+/// Processor time of programs that were played and have ended [s].
+double childrensSeconds() {
+  rusage used{};
+  getrusage(RUSAGE_CHILDREN, &used);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
 class CasePlay {
 public:
   CasePlay(const SuiteCase& c, const RegressOptions& o, const RegressReference& with, Baseline* update,
@@ -29,6 +41,7 @@ public:
 
   CaseResult play(const std::string& mode, const Played* first, const std::string& firstMode) {
     const auto start = std::chrono::steady_clock::now();
+    const double processor = childrensSeconds();
     result_ = {};
     result_.name = case_.name + "/" + mode;
     progress_(result_.name);
@@ -43,6 +56,7 @@ public:
       // The mode does not change what is done.
       if (case_.metrics.instructions && !first && result_.fault.empty()) takeInstructions();
     }
+    result_.processorSeconds = childrensSeconds() - processor;
     result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(result_);
   }
@@ -181,8 +195,11 @@ private:
   }
 
   void keepMilliseconds(const MeasuredRounds& m) {
-    for (const Round& r : m.rounds)
+    for (const Round& r : m.rounds) {
       for (const auto& [stage, us] : typicalStages(r.now)) result_.milliseconds[stage].push_back(us / 1000);
+      for (const SpanRow& row : r.now)
+        if (row.elapsedUs > 0) result_.elapsedMs[row.name()].push_back(row.elapsedUs / 1000);
+    }
   }
 
   void takeInstructions() {

@@ -37,6 +37,7 @@ std::vector<Check> checksOf(const std::vector<InstructionShift>& shifts, const s
   std::vector<Check> checks;
   for (const InstructionShift& s : shifts) {
     Check c{"instructions of " + s.name, s.more ? Outcome::Failed : Outcome::Passed, {}, s.culprit};
+    if (s.more) c.figures = {s.name + " [instructions]"};
     c.said = fmt::format("{:+.2f} % against {} ({:.0f} a frame), tolerance {:g} %{}", 100 * s.shift(), with,
                          s.before, 100 * tolerance, s.fewer ? ": fewer" : "");
     if (std::max(s.before, s.now) < kFewest) {

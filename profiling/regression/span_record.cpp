@@ -22,6 +22,7 @@ SpanRow rowOf(const Json& j) {
   row.line = static_cast<std::uint32_t>(number(j, "line"));
   row.msMean = number(j, "ms_mean"), row.count = static_cast<std::size_t>(number(j, "count"));
   row.instructions = number(j, "instructions"), row.plantedUs = number(j, "planted_us");
+  row.elapsedUs = number(j, "elapsed_us");
   if (!j.contains("frame_us") || !j["frame_us"].is_object()) return row;
   for (const auto& [frame, us] : j["frame_us"].items())
     if (us.is_number()) row.frames[std::strtoull(frame.c_str(), nullptr, 10)] = us.get<double>();
@@ -132,6 +133,7 @@ std::string toJson(const std::vector<SpanRow>& rows) {
            {"ms_mean", r.msMean},
            {"count", r.count}};
     if (r.instructions > 0) j["instructions"] = r.instructions;
+    if (r.elapsedUs > 0) j["elapsed_us"] = r.elapsedUs;
     if (r.plantedUs > 0) j["planted_us"] = r.plantedUs;
     for (const auto& [frame, us] : r.frames) j["frame_us"][std::to_string(frame)] = us;
     all.push_back(std::move(j));

@@ -25,6 +25,7 @@ struct SpanRow {
   double msMean = 0;                       ///< a frame in which it had something to do
   std::size_t count = 0;                   ///< of such frames
   std::map<std::uint64_t, double> frames;  ///< cost [us] by frame; empty if it was not told
+  double elapsedUs = 0;                    ///< of a stage: the typical frame, by the clock on the wall [us]
   double instructions = 0;                 ///< a frame; 0 if nobody counted
   double plantedUs = 0;  ///< of a stage: how much of the typical frame was planted on purpose [us]
 

@@ -106,6 +106,8 @@ void SpanTimes::stageEnded(const Open& open) {
   boundary(&cost);
   stage_ = nullptr;
   cost.frames.emplace_back(open.frame, cost.now);
+  cost.elapsedUs.push_back(
+      std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - cost.beganAt).count());
   cost.total += cost.now, cost.now = 0;
   if (open.stage.stage == Span::App) closeFrame(open.frame);
 }
@@ -122,6 +124,7 @@ void SpanTimes::nodeEnded(NodeRef node) {
 void SpanTimes::begin(const Key& key) {
   const auto [at, isNew] = costs_.try_emplace(key);
   if (isNew) at->second.row = costs_.size() - 1;
+  if (!key.node.valid()) at->second.beganAt = std::chrono::steady_clock::now();
   at->second.began = threadNanoseconds();
 }
 
@@ -163,6 +166,7 @@ std::vector<SpanRow> SpanTimes::rows(const std::vector<std::string>& walls,
     if (ofWall && key.wall < walls.size()) row.wall = walls[key.wall];
     if (key.node.valid()) nameNode(key.node, row);
     row.count = cost.frames.size();
+    if (!cost.elapsedUs.empty()) row.elapsedUs = median(cost.elapsedUs);
     if (isPlanted(key)) row.plantedUs = 1e-3 * median({planted_.begin(), planted_.end()});
     if (row.count > 0) row.msMean = 1e-6 * static_cast<double>(cost.total) / static_cast<double>(row.count);
     if (key.node.valid() && cost.total < dear) continue;

@@ -13,6 +13,7 @@
 #include "profiling/regression/span_record.h"
 #include "profiling/regression/turns.h"
 
+#include <chrono>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -52,6 +53,8 @@ private:
     std::size_t row = 0;
     std::uint64_t began = 0, now = 0, total = 0;  ///< [ns]; `now`: of this frame
     std::vector<std::pair<std::uint64_t, std::uint64_t>> frames;
+    std::chrono::steady_clock::time_point beganAt{};  ///< by the clock on the wall
+    std::vector<double> elapsedUs;                    ///< of a stage, frame by frame
   };
   /// What a thread is at.
   struct Open {

@@ -169,6 +169,7 @@ std::vector<Check> checksOf(const std::vector<StageShift>& shifts, const std::st
   std::vector<Check> checks;
   for (const StageShift& s : shifts) {
     Check c{"times of " + s.name, s.slower ? Outcome::Failed : Outcome::Passed, {}, s.culprit};
+    if (s.slower) c.figures = {s.name + " [ms]"};
     if (s.beforeUs < kShortest) {
       c.outcome = Outcome::Skipped;
       c.said =

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <fcntl.h>
 #include <regex>
+#include <sys/file.h>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -97,7 +100,9 @@ TEST(ProgramRegress, ReportsForMachinesAreWhatTheyClaimToBe) {
   const Json& b = j["benchmarks"][0];
   EXPECT_EQ(b["name"], "bodies/sequential");
   EXPECT_EQ(b["time_unit"], "ms");
-  EXPECT_TRUE(b["real_time"].is_number() && b["cpu_time"].is_number());
+  ASSERT_TRUE(b["real_time"].is_number() && b["cpu_time"].is_number());
+  EXPECT_NE(b["real_time"], b["cpu_time"]) << "one is of the clock, the other of the processor";
+  EXPECT_GT(b["cpu_time"], 0);
   EXPECT_TRUE(b["triangles screen left"].is_number());
   EXPECT_TRUE(b["state hash"].is_string());
   const std::string xml = fileContent(junit);
@@ -208,6 +213,20 @@ TEST(ProgramRegress, WrongUseAndWrongSuitesAreToldWithTheFix) {
   refused(regress({folder.write("e.suite", "stadion-suite 1\ncase a\n  show e.evs\n  frames 9\n" +
                                                (folder.write("e.evs", "nonsense("), std::string()))}),
           "");
+}
+
+TEST(ProgramRegress, AFolderThatAnotherOneWritesIsLeftAlone) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path() / "out";
+  std::filesystem::create_directories(out);
+  const int other = ::open(out.c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  const ProgramResult r = regress({smallSuite(folder, "  modes sequential pipelined\n"), "--out", out});
+  EXPECT_EQ(r.status, 2) << r.out;
+  EXPECT_NE(r.err.find("another regress is writing there"), std::string::npos) << r.err;
+  EXPECT_TRUE(std::filesystem::is_empty(out));
+  close(other);
+  EXPECT_EQ(regress({smallSuite(folder, "  modes sequential pipelined\n"), "--out", out}).status, 0);
 }
 
 TEST(ProgramRegress, WhereNothingWasComparedItIsNotGreen) {

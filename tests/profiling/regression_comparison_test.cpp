@@ -290,10 +290,11 @@ SuiteResult madeResult() {
   SuiteResult result{"a&b.suite", "/bin/stadion", "the baseline", "2026-11-22T11:40:00Z", {}};
   CaseResult c;
   c.name = "kick/sequential", c.seconds = 1.5;
-  c.checks = {{"state", Outcome::Passed, "2 equal"},
-              {"counts", Outcome::Failed, "triangles <front>: 7, was \"8\"", "ball in app"},
-              {"times", Outcome::Skipped, "nothing"}};
-  c.milliseconds["app"] = {1, 3, 2};
+  c.checks = {
+      {"state", Outcome::Passed, "2 equal"},
+      {"counts", Outcome::Failed, "triangles <front>: 7, was \"8\"", "ball in app", {"triangles <front>"}},
+      {"times", Outcome::Skipped, "nothing"}};
+  c.milliseconds["app"] = {1, 3, 2}, c.elapsedMs["app"] = {2, 6, 4}, c.processorSeconds = 1.25;
   c.facts = {{"state hash", "00000000000000aa"}, {"frames", "60"}};
   result.cases.push_back(c);
   CaseResult lost;
@@ -308,7 +309,10 @@ TEST(RegressionReports, ForMachinesHaveEveryCheckAndAreWellFormed) {
   const auto median = std::ranges::find_if(
       j["benchmarks"], [](const auto& b) { return b["name"] == "kick/sequential/app_median"; });
   ASSERT_NE(median, j["benchmarks"].end());
-  EXPECT_EQ((*median)["real_time"], 2);
+  EXPECT_EQ((*median)["real_time"], 4);
+  EXPECT_EQ((*median)["cpu_time"], 2);
+  EXPECT_EQ(j["benchmarks"][0]["real_time"], 1500);
+  EXPECT_EQ(j["benchmarks"][0]["cpu_time"], 1250);
   EXPECT_EQ((*median)["aggregate_name"], "median");
 
   const std::string xml = junitOf(madeResult());
@@ -330,6 +334,41 @@ TEST(RegressionReports, ForPeopleSayWhatMovedAndHowMuchFailed) {
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos) << "nothing is fetched";
   EXPECT_EQ(page.find("<front>"), std::string::npos) << "text is escaped";
+}
+
+/// Of the circles of a page's plots: how many are red, and how far apart the highest and the lowest are.
+std::pair<std::size_t, double> circlesOf(const std::string& page) {
+  std::size_t red = 0;
+  double low = 1e9, high = -1e9;
+  for (std::size_t at = 0; (at = page.find("<circle", at)) != page.npos; ++at) {
+    const double y = std::stod(page.substr(page.find("cy=\"", at) + 4));
+    low = std::min(low, y), high = std::max(high, y);
+    red += page.substr(at, page.find('>', at) - at).find("#b3261e") != std::string::npos;
+  }
+  return {red, high - low};
+}
+
+TEST(RegressionReports, PlotsAreFlatWhereNothingMovedAndRedWhereThatFigureFailed) {
+  SuiteResult result = madeResult();
+  result.cases.pop_back();
+  CaseResult& c = result.cases.front();
+  c.facts = {{"frames", "60"}};
+  std::vector<HistoryEntry> history;
+  for (const double ms : {10.0, 10.01, 9.99, 10.0}) {
+    c.milliseconds["app"] = {ms};
+    history.push_back(historyEntryOf(result));
+  }
+  const auto [red, height] = circlesOf(pageOf(result, history));
+  EXPECT_EQ(red, 0u) << "the case failed, but for triangles";
+  EXPECT_LT(height, 5) << "a tenth of a percent is no zigzag";
+
+  c.milliseconds["app"] = {12};
+  c.checks =
+      checksOf({{"app|||", "app", 10'000, 0.2, 0.01, true, false, "ball in app"}}, "the baseline", 0.03, 12);
+  history.push_back(readHistory(toJsonLine(historyEntryOf(result)))[0]);
+  const auto [redNow, heightNow] = circlesOf(pageOf(result, history));
+  EXPECT_EQ(redNow, 1u);
+  EXPECT_GT(heightNow, 60);
 }
 
 TEST(RegressionFiles, HistoryAndProgressSurviveAHalfWrittenLine) {
