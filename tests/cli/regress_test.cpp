@@ -180,8 +180,9 @@ TEST(ProgramFullRegress, AgainstABaselinesTimesTheNodeThatMovedIsNamedToo) {
 TEST(ProgramRegress, AnInterruptedSuiteGoesOnWhereItWas) {
   const TemporaryFolder folder;
   std::string text =
-      "stadion-suite 1\nsize 16x12\nwalls desktop\ncompare state\nasset-root " + assetFolder() + "\n";
-  for (int i = 0; i < 40; ++i)
+      "stadion-suite 1\nsize 16x12\nwalls desktop\ncompare state\nmodes sequential pipelined\nasset-root " +
+      assetFolder() + "\n";
+  for (int i = 0; i < 20; ++i)
     text += "case c" + std::to_string(i) + "\n  show " + testShow("bodies.evs") + "\n  frames 3\n";
   const std::string suite = folder.write("many.suite", text), out = folder.path() / "out";
   const ProgramResult stopped = runProgram(
