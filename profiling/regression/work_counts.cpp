@@ -24,7 +24,7 @@ void WorkCounts::began(Span what, NodeRef) {
 }
 
 void WorkCounts::counted(Count what, std::uint64_t amount, NodeRef) {
-  if (isInEverySummary(what)) return;
+  if (isInEverySummary(what) || what == Count::Largest) return;  // the last is an estimate
   const std::lock_guard lock(mutex_);
   const Place& at = places_[std::this_thread::get_id()];
   totals_[{what, at.wall, at.eye}] += amount;
