@@ -26,7 +26,7 @@ public:
     addCounts();
     explain();
     const double all = out_.explained[0].measured + out_.explained[1].measured + out_.explained[2].measured;
-    out_.framesNeeded = framesNeeded();
+    out_.framesNeeded = framesNeeded(), out_.wholeFrames = profile.wholeFrames();
     for (NodeRow& row : out_.nodes) row.share = all > 0 ? row.total / all : 0;
     std::ranges::sort(out_.nodes, [](const NodeRow& a, const NodeRow& b) {
       return a.total != b.total ? a.total > b.total : a.node < b.node;
@@ -110,7 +110,7 @@ private:
   /// if nothing is drawn.
   std::uint64_t framesNeeded() const {
     const bool draws =
-        std::ranges::any_of(profile_.spans(), [](const auto& s) { return s.first.first == Span::Draw; });
+        std::ranges::any_of(profile_.spans(), [](const auto& s) { return s.first.first == Span::LeftEye; });
     if (std::ranges::all_of(out_.nodes,
                             [&](const NodeRow& r) { return r.cullMeasured && (r.drawMeasured || !draws); }))
       return 0;

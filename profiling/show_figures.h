@@ -72,6 +72,7 @@ struct ShowFigures {
   std::vector<CountRow> counts;
   std::array<Explained, 3> explained;
   std::string drawMethod;
+  std::uint64_t wholeFrames = 0;   ///< of `frames`: those that App by node is of
   std::uint64_t framesNeeded = 0;  ///< about so many would measure every node; 0: these did
 };
 

@@ -87,6 +87,10 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
                         100 * r.share, budget, r.name.path, placeOf(r.name));
   }
   text += unmeasuredText(f);
+  if (f.wholeFrames < f.frames)
+    text += fmt::format(
+        "App by node is of {} of the {} frames: where it visits so many, the others are recorded in part\n",
+        f.wholeFrames, f.frames);
   text += "\n       ms      p95      max  allocs  stage\n";
   for (const StageRow& s : f.stages)
     text += fmt::format("{:9.4f} {:8.3f} {:8.3f} {:7.1f}  {}{}{}\n", s.ms, s.p95, s.most, s.allocations,
@@ -103,7 +107,7 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
 
 std::string toJson(const ShowFigures& f) {
   nlohmann::json j{{"frames", f.frames}, {"walls", f.walls}, {"draw_method", f.drawMethod}};
-  j["frames_needed"] = f.framesNeeded;
+  j["frames_needed"] = f.framesNeeded, j["whole_frames"] = f.wholeFrames;
   j["nodes"] = nlohmann::json::array(), j["stages"] = nlohmann::json::array();
   for (const NodeRow& row : f.nodes) j["nodes"].push_back(toJson(row, f.walls));
   for (const StageRow& s : f.stages)

@@ -47,8 +47,9 @@ function drawNodes() {
     value: chosen.get("find", ""), oninput: e => chosen.set({find: e.target.value || null})});
   put("nodes-nav", field, ...steps.map(n => choice(n === all.length ? `all ${n}` : n === 30 ? "the first 30" : String(n), n === Math.min(rows, all.length), {rows: n === 30 ? null : n})));
   const missed = data.nodes.filter(n => n.costs && (n.cull === null || n.draw === null || n.inPart)).length, needed = data.head.framesNeeded;
-  byId("nodes-unmeasured").textContent = missed === 0 ? "" : needed === 0 ? "Draw was not measured: nothing was drawn." :
-    `${missed} nodes had no turn in ${data.head.frames} frames, at least not on every wall; some ${needed} frames would do (--frames ${needed}).`;
+  const parted = data.head.whole < data.head.profiled ? `App by node is of ${data.head.whole} of the ${data.head.profiled} frames: where it visits so many nodes, the others are recorded in part. ` : "";
+  byId("nodes-unmeasured").textContent = parted + (missed === 0 ? "" : needed === 0 ? "Draw was not measured: nothing was drawn." :
+    `${missed} nodes had no turn in ${data.head.frames} frames, at least not on every wall; some ${needed} frames would do (--frames ${needed}).`);
   if (document.activeElement === document.body && words) field.focus();
 }
 

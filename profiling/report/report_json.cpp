@@ -69,7 +69,9 @@ private:
            {"frames", data_.head.frames},
            {"recording", number(data_.head.recording)},
            {"drawMethod", data_.figures.drawMethod},
-           {"framesNeeded", data_.figures.framesNeeded}};
+           {"framesNeeded", data_.figures.framesNeeded},
+           {"profiled", data_.figures.frames},
+           {"whole", data_.figures.wholeFrames}};
     h["facts"] = json::array();
     for (const auto& [what, how] : data_.head.facts) h["facts"].push_back({what, how});
     return h;

@@ -107,6 +107,7 @@ TEST(ProgramProfile, WithoutDrawingAppAndCullAreLeft) {
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_NE(r.out.find("sim_kick"), std::string::npos);
   EXPECT_EQ(r.out.find("alone"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("- not measured: nothing was drawn"), std::string::npos) << r.out;
   EXPECT_NE(profileKick({"--csv", "--no-draw"}).out.find("path,file,line"), std::string::npos);
 }
 

@@ -278,7 +278,7 @@ TEST(ShowProfile, AppIsWhatItTakesWhileNotEveryNodeIsRecorded) {
 TEST(ShowProfile, WhatWasNotSampledIsNotNothing) {
   ShowProfile profile;
   profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
-  profile.take(0, record(Span::Draw, 8, 0, {}, 5));
+  profile.take(0, record(Span::LeftEye, 8, 0, {}, 5));
   profile.take({Span::Test, 8, 0, 1, {kBall, kStone, {1, 2}}});
   profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
   profile.take({8, 0, 0, Span::Draw, 3, 0.1}, {{kBall, 1}});  // the stone had no turn, a third is not seen
@@ -330,6 +330,11 @@ TEST(ShowProfile, ItsTablesAgree) {
   const auto json = nlohmann::json::parse(toJson(f));
   EXPECT_DOUBLE_EQ(json["nodes"][0]["app_ms"], 0.25);
   EXPECT_DOUBLE_EQ(json["explained"][0]["covered"], 0.25);
+  EXPECT_EQ(json["whole_frames"], 1);
+  EXPECT_EQ(toText(f, 10).find("App by node"), std::string::npos);
+  ShowFigures parted = f;
+  parted.frames = 200;
+  EXPECT_NE(toText(parted, 10).find("App by node is of 1 of the 200 frames"), std::string::npos);
   EXPECT_NE(toCsv(f).find(",app,,,0.25\n"), std::string::npos) << toCsv(f);
   EXPECT_NE(toText(f, 10).find("0.2500"), std::string::npos) << toText(f, 10);
 }
