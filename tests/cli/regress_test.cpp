@@ -27,8 +27,10 @@ std::string smallSuite(const TemporaryFolder& folder, const std::string& more = 
 }
 
 ProgramResult regress(std::vector<std::string> words) {
-  words.insert(words.begin(), "regress");
-  return stadionProgram(words);
+  words.insert(words.begin(), {stadionPath(), "regress"});
+  ProgramRun run{std::move(words)};
+  run.limit = std::chrono::seconds(600);  // callgrind on a busy machine
+  return runProgram(run);
 }
 
 TEST(ProgramRegress, TheShippedSuiteHasTheHashesAndCountsOfItsBaseline) {
