@@ -7,16 +7,17 @@
 #include "engine/plain_file.h"
 #include "profiling/regression/detection.h"
 #include "profiling/regression/instruction_comparison.h"
+#include "profiling/regression/rank_test.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <memory>
 
 namespace stadion {
@@ -33,8 +34,10 @@ struct Options {
 
 /// Frames of the show that every trial plays.
 constexpr std::uint64_t kFrames = 60;
-/// As a suite does with its baseline: what nothing is planted in is counted once for so many trials.
-constexpr std::size_t kTrialsABaseline = 10;
+/// So much is planted to learn what an iteration of it costs.
+constexpr std::uint64_t kTriedIterations = 20'000;
+/// How often a trial is made before it counts as not valid: what a stage costs may have changed.
+constexpr int kMostAttempts = 3;
 
 SuiteCase crowd(std::size_t rounds) {
   SuiteCase c;
@@ -44,36 +47,55 @@ SuiteCase crowd(std::size_t rounds) {
   return c;
 }
 
+/// How much longer what was planted has made the stage, in the typical round [1].
+double lengthenedBy(const std::vector<Round>& rounds, const std::string& stage) {
+  std::vector<double> all;
+  for (const Round& r : rounds)
+    for (const SpanRow& row : r.now)
+      if (row.isStage() && row.name() == stage) {
+        const double us = typicalStages({row})[stage];
+        all.push_back(row.plantedUs / (us - row.plantedUs));
+      }
+  return all.empty() ? 0 : median(all);
+}
+
 class Experiment {
 public:
   Experiment(const Options& o, const std::atomic<bool>& stop)
       : o_(o), stop_(stop), case_(crowd(o.rounds)),
         program_(std::filesystem::canonical("/proc/self/exe").string()) {}
 
-  /// What stages and nodes cost when nothing is planted. False, with the reason told, if that cannot be found
-  /// out.
+  /// What stages cost when nothing is planted, and what an iteration does. False, with the reason told, if
+  /// that cannot be found out.
   bool calibrate() {
-    const MeasuredRounds m = measureRounds(case_, "sequential", {program_}, measuring(1));
-    if (!m.fault.empty()) return complain(m.fault);
-    plain_ = m.rounds.front().now;
-    nsPerIteration_ = burnNanoseconds();
-    for (const auto& [stage, us] : typicalStages(plain_))
-      std::fprintf(stderr, "%s: %.1f us a frame\n", stage.c_str(), us);
-    return true;
+    const PlantedDelay tried{PlantedDelay::Where::Cull, "west", {}, 0, kTriedIterations};
+    const bool done = o_.by == "times" ? calibrateTimes(tried) : calibrateInstructions(tried);
+    if (!done) return false;
+    const char* unit = o_.by == "times" ? "us" : "instructions";
+    for (const auto& [stage, cost] : prices_.stages)
+      std::fprintf(stderr, "%s: %.1f %s a frame\n", stage.c_str(), cost, unit);
+    std::fprintf(stderr, "an iteration of what is planted: %.5f %s\n", prices_.iteration, unit);
+    return prices_.iteration > 0;
   }
 
   std::optional<TrialResult> run(const Trial& trial) {
     const auto start = std::chrono::steady_clock::now();
-    TrialResult result{trial.name(), trial.kind, {}, {}, {}, false, 0};
-    const auto planted = plantedIn(trial, plain_, o_.share / 100, nsPerIteration_);
-    if (planted) result.planted = toText(*planted);
-    const bool done = o_.by == "times" ? byTimes(result) : byInstructions(result, trial.drawn);
-    if (!done) return std::nullopt;
-    result.right = planted
-                       ? !result.alarms.empty() &&
-                             std::ranges::all_of(result.alarms,
-                                                 [&](const std::string& a) { return isNamedBy(*planted, a); })
-                       : result.alarms.empty();
+    double share = o_.share / 100;
+    TrialResult result;
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+      result = {trial.name(), trial.kind, {}, {}, {}, false, 0, o_.by, o_.share, 0};
+      const auto planted = plantedIn(trial, plain_, prices_, share);
+      if (planted) result.planted = toText(*planted);
+      const std::string stage = planted ? stageOf(*planted) : std::string();
+      if (!(o_.by == "times" ? byTimes(result, stage) : byInstructions(result, stage))) return std::nullopt;
+      result.right = planted ? !result.alarms.empty() && std::ranges::all_of(result.alarms,
+                                                                             [&](const std::string& a) {
+                                                                               return isNamedBy(*planted, a);
+                                                                             })
+                             : result.alarms.empty();
+      if (result.valid()) break;
+      share *= o_.share / std::max(0.1, result.lengthened);
+    }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
   }
@@ -86,7 +108,48 @@ private:
 
   MeasuringOptions measuring(std::size_t rounds) const { return {rounds, std::chrono::seconds(600), stop_}; }
 
-  bool byTimes(TrialResult& result) {
+  bool calibrateTimes(const PlantedDelay& tried) {
+    const MeasuredRounds m =
+        measureRounds(case_, "sequential", {program_}, {program_, toText(tried)}, measuring(3));
+    if (!m.fault.empty() || stop_) return complain(m.fault);
+    takePrices(m.rounds);
+    std::vector<double> us;
+    for (const Round& r : m.rounds)
+      for (const SpanRow& row : r.now)
+        if (row.plantedUs > 0) us.push_back(row.plantedUs);
+    prices_.iteration = us.empty() ? 0 : median(us) / static_cast<double>(kTriedIterations);
+    return true;
+  }
+
+  /// Of the program in which nothing is planted.
+  void takePrices(const std::vector<Round>& rounds) {
+    std::map<std::string, std::vector<double>> all;
+    for (const Round& r : rounds)
+      for (const auto& [stage, us] : typicalStages(r.before)) all[stage].push_back(us);
+    for (auto& [stage, us] : all) prices_.stages[stage] = median(us);
+    plain_ = rounds.front().before;
+  }
+
+  bool calibrateInstructions(const PlantedDelay& tried) {
+    const auto [plain, planted] = countBoth(toText(tried));
+    if (!plain.fault.empty() || !planted.fault.empty() || stop_)
+      return complain(plain.fault.empty() ? planted.fault : plain.fault);
+    plain_ = plain.rows, prices_.stages = stageInstructions(plain.rows);
+    const std::string stage = stageOf(tried);
+    prices_.iteration = (stageInstructions(planted.rows)[stage] - prices_.stages[stage]) /
+                        static_cast<double>(kTriedIterations);
+    return true;
+  }
+
+  /// Both are played anew, side by side: nothing of it is read from a clock.
+  std::pair<CountedInstructions, CountedInstructions> countBoth(const std::string& planted) const {
+    auto before = std::async(std::launch::async,
+                             [&] { return countInstructions(case_, {program_}, true, measuring(1)); });
+    CountedInstructions now = countInstructions(case_, {program_, planted}, true, measuring(1));
+    return {before.get(), std::move(now)};
+  }
+
+  bool byTimes(TrialResult& result, const std::string& stage) {
     const MeasuredRounds m =
         measureRounds(case_, "sequential", {program_}, {program_, result.planted}, measuring(o_.rounds));
     if (!m.fault.empty() || stop_) return complain(m.fault);
@@ -94,20 +157,20 @@ private:
       result.seen.push_back(fmt::format("{} {:+.2f} %, p = {:.2g}", s.name, 100 * s.shift, s.probability));
       if (s.slower) result.alarms.push_back(s.culprit);
     }
+    result.lengthened = stage.empty() ? 0 : 100 * lengthenedBy(m.rounds, stage);
+    takePrices(m.rounds);  // the machine may have become busier
     return true;
   }
 
-  bool byInstructions(TrialResult& result, bool drawn) {
-    Before& before = before_[drawn];
-    if (before.trials++ % kTrialsABaseline == 0)
-      before.counted = countInstructions(case_, {program_}, drawn, measuring(1));
-    if (!before.counted.fault.empty()) return complain(before.counted.fault);
-    const CountedInstructions now = countInstructions(case_, {program_, result.planted}, drawn, measuring(1));
-    if (!now.fault.empty()) return complain(now.fault);
+  bool byInstructions(TrialResult& result, const std::string& stage) {
+    const auto [before, now] = countBoth(result.planted);
+    if (!before.fault.empty() || !now.fault.empty())
+      return complain(before.fault.empty() ? now.fault : before.fault);
     for (const InstructionShift& s :
-         compareInstructions(before.counted.rows, now.rows, case_.tolerances.instructions / 100)) {
+         compareInstructions(instructionCounts(before.rows), now.rows, case_.tolerances.instructions / 100)) {
       result.seen.push_back(fmt::format("{} {:+.3f} % of {:.0f}", s.name, 100 * s.shift(), s.before));
       if (s.more) result.alarms.push_back(s.culprit);
+      if (s.name == stage) result.lengthened = 100 * s.shift();
     }
     return true;
   }
@@ -117,26 +180,33 @@ private:
   SuiteCase case_;
   std::string program_;
   std::vector<SpanRow> plain_;
-  struct Before {
-    CountedInstructions counted;
-    std::size_t trials = 0;
-  };
-  std::array<Before, 2> before_;  ///< not drawn, drawn
-  double nsPerIteration_ = 1;
+  StagePrices prices_;
 };
 
-/// Results of trials that were done before, in the same file.
-std::vector<TrialResult> doneBefore(const std::string& record) {
+/// Results of trials that were done before, in the same file: of the same experiment, and valid.
+std::vector<TrialResult> doneBefore(const Options& o) {
+  const std::string& record = o.record;
   constexpr std::size_t kMostBytes = 16 << 20;
   std::error_code none;
   if (record.empty() || !std::filesystem::exists(record, none)) return {};
   const Result<std::string> text = readPlainFile(record, kMostBytes);
-  return text ? readTrials(text.value()) : std::vector<TrialResult>();
+  std::vector<TrialResult> done = text ? readTrials(text.value()) : std::vector<TrialResult>();
+  std::erase_if(done, [&](const TrialResult& r) { return r.by != o.by || r.share != o.share || !r.valid(); });
+  return done;
+}
+
+std::string lineOf(const TrialResult& r) {
+  return fmt::format("{:<14} {:<26} {:>7} {:<9} {:>5.1f} s  {}\n", r.trial, r.planted,
+                     r.planted.empty() ? "" : fmt::format("{:.2f} %", r.lengthened),
+                     !r.valid() ? "not valid"
+                     : r.right  ? "right"
+                                : "WRONG",
+                     r.seconds, fmt::join(r.alarms, "; "));
 }
 
 int benchDetection(const Options& o) {
   const std::atomic<bool>& stop = catchStopSignals();
-  std::vector<TrialResult> results = doneBefore(o.record);
+  std::vector<TrialResult> results = doneBefore(o);
   if (!results.empty())
     std::fprintf(stderr, "%zu trials are in %s already\n", results.size(), o.record.c_str());
   Experiment experiment(o, stop);
@@ -148,9 +218,7 @@ int benchDetection(const Options& o) {
     const auto result = experiment.run(trial);
     if (stop) break;
     if (!result) return kInternalFault;
-    std::fprintf(stderr, "%-14s %-28s %-5s %5.1f s  %s\n", result->trial.c_str(), result->planted.c_str(),
-                 result->right ? "right" : "WRONG", result->seconds,
-                 fmt::format("{}", fmt::join(result->alarms, "; ")).c_str());
+    std::fprintf(stderr, "%s", lineOf(*result).c_str());
     record << toJsonLine(*result) << std::flush;
     results.push_back(*result);
   }

@@ -1,5 +1,6 @@
 #include "cli/last_frames.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,9 +8,19 @@
 namespace stadion {
 namespace {
 
+/// One that is not there yet. If there is no folder for it, making the file fails and says so.
 std::string temporaryFile() {
-  const auto name = "stadion-" + std::to_string(getpid()) + ".frames";
-  return (std::filesystem::temp_directory_path() / name).string();
+  std::error_code none;
+  std::filesystem::path folder = std::filesystem::temp_directory_path(none);
+  if (none) {
+    const char* named = std::getenv("TMPDIR");
+    folder = named ? named : "/tmp";
+  }
+  const std::string stem = "stadion-" + std::to_string(getpid());
+  std::filesystem::path file = folder / (stem + ".frames");
+  for (int n = 2; std::filesystem::exists(std::filesystem::symlink_status(file, none)); ++n)
+    file = folder / fmt::format("{}-{}.frames", stem, n);
+  return file.string();
 }
 
 }  // namespace
@@ -17,10 +28,19 @@ std::string temporaryFile() {
 BlackBoxOptions lastFramesOf(const RunOptions& o, const Player& player, std::vector<std::string> walls) {
   const FrameLoopOptions loop = o.loopOptions(player);
   BlackBoxOptions box;
-  box.file = o.blackBox.empty() ? temporaryFile() : o.blackBox;
+  box.wanted = !o.blackBox.empty();
+  box.file = box.wanted ? o.blackBox : temporaryFile();
   box.rate = loop.pace == Pace::Free ? 0 : loop.rate;
   box.walls = std::move(walls);
   return box;
+}
+
+bool lastFramesCanBeKept(const RunOptions& o, Diagnostics& findings) {
+  if (o.blackBox.empty()) return true;
+  const NodeNames none;
+  const auto tried = BlackBox::create({.file = o.blackBox}, none);
+  if (!tried) findings.add(tried.error());
+  return static_cast<bool>(tried);
 }
 
 std::string lateFramesText(const BlackBox& box) {

@@ -54,19 +54,15 @@ std::unique_ptr<PlayingShow> PlayingShow::open(const ShowSurroundings& around, D
 void PlayingShow::beginRecording() {
   std::vector<std::string> walls = player_->walls().names();
   walls.push_back("overview");
-  const auto create = [&](bool keep, Diagnostics& findings) {
-    RecordingOptions options;
-    options.profile = false, options.also = &budget_;
-    options.log.whole = false, options.log.samples = hasDrawnBudgets(player_->scene());
-    options.govern = governorOf(around_.options, *player_, walls);
-    if (keep) options.keep = lastFramesOf(around_.options, *player_, walls);
-    return ShowRecording::create(std::move(options), findings);
-  };
+  RecordingOptions options;
+  options.profile = false, options.also = &budget_;
+  options.log.whole = false, options.log.samples = hasDrawnBudgets(player_->scene());
+  options.govern = governorOf(around_.options, *player_, walls);
+  options.keep = lastFramesOf(around_.options, *player_, walls);
+  options.keep->wanted = false;  // whether it can be was found out before anything was played
   Diagnostics findings;
-  recording_ = create(true, findings);
-  if (recording_) return;
+  recording_ = ShowRecording::create(std::move(options), findings);
   around_.report(findings);
-  recording_ = create(false, findings);
 }
 
 PlayingShow::~PlayingShow() {

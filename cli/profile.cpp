@@ -5,6 +5,7 @@
 #include "cli/exit_code.h"
 #include "cli/fidelity.h"
 #include "cli/number_option.h"
+#include "cli/output_names.h"
 #include "cli/profile_run.h"
 #include "profiling/black_box.h"
 
@@ -56,7 +57,12 @@ int profileFrames(Options o) {
   options.fidelity = o.fidelity, options.fidelityAsked = o.fidelityAsked;
   options.fidelity.tolerance = 1e-3 * o.millimetres;
   Diagnostics findings;
-  const bool settled = options.show.settle(findings);
+  const NamedFile files[] = {{"the show", options.show.script, false},
+                             {"--html", options.html},
+                             {"--trace", options.trace.file},
+                             {"--input", options.show.input, false}};
+  refuseSameFiles(files, findings);
+  const bool settled = options.show.settle(findings) && !findings.hasErrors();
   const auto figures = settled ? profileShow(options, findings) : std::nullopt;
   tell(findings);
   if (!figures) return kBadInput;
@@ -85,10 +91,11 @@ int profileModels(Options o) {
 }
 
 constexpr const char* kFooter =
-    R"(The show is played as in run, and each node's share of the frame is told: App is timed in every frame, by node;
+    R"(The show is played as in run, and each node's share of the frame is told: App is timed by node, when it visits it (where it visits hundreds, in some frames only);
 Cull by wall, shared among the nodes that it looked at; Draw by drawing a few batches alone in some frames, in their
 place in the frame, until every node has had its turn. `visitor` stands for the trackers and for the eyes in front of the walls.
 `explained` says how much of what the stages took is found with nodes, or with parts of the stages themselves.
+The first four frames are not recorded. `-` (JSON: null, CSV: empty) is what was not measured, for want of frames.
 
 With --html FILE a page for a browser is written, one file: each thread in the frames around the longest, costs along the
 scene tree, histograms, walls and eyes, late frames with their causes, bodies' costs beside their errors. With --trace

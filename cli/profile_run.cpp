@@ -13,6 +13,15 @@ namespace {
 
 constexpr std::uint64_t kFramesWithoutInput = 600;
 
+constexpr std::uint64_t kUnrecorded = FrameLogOptions{}.from;
+
+std::string tooShort(const std::string& played) {
+  return played + ", and none was recorded: the first " + std::to_string(kUnrecorded) +
+         " are not, for what is touched for the first time is slow; play at least " +
+         std::to_string(kUnrecorded + 1) + ", better some hundreds: --frames " +
+         std::to_string(kFramesWithoutInput);
+}
+
 std::unique_ptr<ShowRecording> record(const ProfileRunOptions& options, const Player& player,
                                       Diagnostics& findings) {
   RecordingOptions recorded;
@@ -37,6 +46,10 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnos
   if (!player) return {};
   FrameLoopOptions loopOptions = player->loopOptions();
   if (loopOptions.frames == 0 && loopOptions.end == 0) loopOptions.frames = kFramesWithoutInput;
+
+  if (loopOptions.frames > 0 && loopOptions.frames <= kUnrecorded)
+    return findings.error({}, tooShort("too few frames: " + std::to_string(loopOptions.frames))),
+           std::nullopt;
 
   // Files are opened before anything is played.
   std::optional<AtomicFile> html;
@@ -65,6 +78,7 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnos
     findings.warning({}, std::to_string(recording->lost()) + " spans were lost: they came faster than they "
                                                              "could be collected");
   ShowFigures figures = recording->figures(player->walls().names(), options.provider != "egl");
+  if (figures.frames == 0) return findings.error({}, tooShort("the show ended too early")), std::nullopt;
   if (html) {
     ReportData data = recording->report(reportHead(options, *player, stages.glDescription()), figures);
     if (!stop) data.dynamics = dynamicsFigures(options, figures);

@@ -34,7 +34,12 @@ std::string nowUtc() {
 bool findReference(const RegressOptions& o, RegressReference& with, Diagnostics& findings) {
   with.program = o.against, with.baselineFile = o.baseline;
   std::error_code none;
-  if (!o.against.empty() || o.update || !std::filesystem::exists(o.baseline, none)) return true;
+  if (!o.against.empty() || o.update) return true;
+  if (!std::filesystem::exists(o.baseline, none)) {
+    if (o.baselineGiven)
+      findings.error({}, "--baseline: there is no file " + o.baseline + "; --update writes it");
+    return !o.baselineGiven;
+  }
   auto read = regression::readBaseline(o.baseline);
   if (!read) return findings.add(read.error()), false;
   with.baseline = std::move(read.value());
@@ -59,10 +64,15 @@ bool write(const std::string& file, const std::string& content) {
   return !wrong;
 }
 
+/// Green is only what was compared.
+bool comparedNothing(const regression::SuiteResult& result) {
+  return result.count(regression::Outcome::Passed) + result.count(regression::Outcome::Failed) == 0;
+}
+
 /// The exit code of what was found; `written`: all files could be.
-int codeOf(const regression::SuiteResult& result, bool written) {
+int codeOf(const regression::SuiteResult& result, bool update, bool written) {
   if (result.faults() > 0) return result.refused() ? kBadInput : kInternalFault;
-  if (!written) return kBadInput;
+  if (!written || (!update && comparedNothing(result))) return kBadInput;
   return result.count(regression::Outcome::Failed) > 0 ? kCheckFailed : kOk;
 }
 
@@ -115,10 +125,13 @@ int regress(RegressOptions o) {
   if (!o.junit.empty()) written = write(o.junit, regression::junitOf(result)) && written;
   const std::string text = o.json ? regression::benchmarkJsonOf(result) + "\n" : regression::tableOf(result);
   std::printf("%s", text.c_str());
+  if (!o.update && result.faults() == 0 && comparedNothing(result))
+    std::fprintf(stderr, "stadion: error: nothing was compared%s\n",
+                 with.baseline || !o.against.empty() ? "; the table says why" : "");
   if (!o.update && o.against.empty() && !with.baseline)
     std::fprintf(stderr, "there is no baseline %s: --update writes it, --against BUILD does without\n",
                  o.baseline.c_str());
-  return codeOf(result, written);
+  return codeOf(result, o.update, written);
 }
 
 }  // namespace

@@ -4,19 +4,34 @@
 #include "cli/regress_hint.h"
 #include "cli/regress_rounds.h"
 #include "profiling/regression/instruction_comparison.h"
+#include "profiling/regression/rank_test.h"
 
 #include <fmt/format.h>
+
+#include <sys/resource.h>
 
 namespace stadion {
 namespace {
 
 using namespace regression;
 
+constexpr const char* kCountWork = "--count-work";
+
 struct Played {
   std::optional<RunFacts> facts{};
   std::string fault{};
   bool refused = false;  ///< for a mistake of the user's
 };
+
+/// Processor time of programs that were played and have ended [s].
+double childrensSeconds() {
+  rusage used{};
+  getrusage(RUSAGE_CHILDREN, &used);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
 
 class CasePlay {
 public:
@@ -26,6 +41,7 @@ public:
 
   CaseResult play(const std::string& mode, const Played* first, const std::string& firstMode) {
     const auto start = std::chrono::steady_clock::now();
+    const double processor = childrensSeconds();
     result_ = {};
     result_.name = case_.name + "/" + mode;
     progress_(result_.name);
@@ -40,6 +56,7 @@ public:
       // The mode does not change what is done.
       if (case_.metrics.instructions && !first && result_.fault.empty()) takeInstructions();
     }
+    result_.processorSeconds = childrensSeconds() - processor;
     result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(result_);
   }
@@ -47,8 +64,13 @@ public:
 
 private:
   Played run(const std::string& program, const std::string& mode) {
-    const ChildResult child =
-        runChild(playWords(program, case_, mode), std::chrono::seconds(o_.limit), stop_);
+    std::vector<std::string> words = playWords(program, case_, mode);
+    words.emplace_back(kCountWork);
+    ChildResult child = runChild(words, std::chrono::seconds(o_.limit), stop_);
+    if (child.status == 2 && child.err.find(kCountWork) != std::string::npos) {  // an older build
+      words.pop_back();
+      child = runChild(words, std::chrono::seconds(o_.limit), stop_);
+    }
     if (!child.fault.empty()) return {{}, child.fault, child.status == 2};
     auto facts = factsOf(child.out);
     if (!facts) return {{}, "it did not print a summary as JSON"};
@@ -140,11 +162,23 @@ private:
     StageTimesByName times;
     for (const auto& [stage, ms] : result_.milliseconds)
       for (std::size_t i = 0; i < ms.size(); ++i) times[stage].push_back(ms[i] / m.calibrationMs[i]);
-    if (update_)
-      (*update_)[result_.name].times = times;
-    else
-      add(checksOf(compareTimes(known()->times, times, typicalStages(m.rounds.front().now), tolerance),
-                   "the baseline", tolerance, case_.rounds));
+    const NodeCosts nodes = nodeTimes(m.rounds, m.calibrationMs);
+    if (update_) {
+      BaselineCase& kept = (*update_)[result_.name];
+      kept.times = times;
+      std::map<std::string, double> typical;
+      for (const auto& [stage, all] : times) typical[stage] = median(all);
+      kept.nodeTimes = dearOf(nodes, typical);
+    } else {
+      const std::vector<SpanRow>& rows = m.rounds.front().now;
+      auto shifts = compareTimes(known()->times, times, typicalStages(rows), tolerance);
+      for (StageShift& s : shifts) {
+        if (!s.slower) continue;
+        const double before = median(known()->times.at(s.name));
+        s.culprit = culpritSince(s.name, before, s.shift * before, known()->nodeTimes, nodes, rows);
+      }
+      add(checksOf(shifts, "the baseline", tolerance, case_.rounds));
+    }
   }
 
   /// App's nodes are known from the rounds; those of Cull and Draw are asked for.
@@ -161,8 +195,11 @@ private:
   }
 
   void keepMilliseconds(const MeasuredRounds& m) {
-    for (const Round& r : m.rounds)
+    for (const Round& r : m.rounds) {
       for (const auto& [stage, us] : typicalStages(r.now)) result_.milliseconds[stage].push_back(us / 1000);
+      for (const SpanRow& row : r.now)
+        if (row.elapsedUs > 0) result_.elapsedMs[row.name()].push_back(row.elapsedUs / 1000);
+    }
   }
 
   void takeInstructions() {
@@ -179,14 +216,17 @@ private:
     result_.instructions = stageInstructions(now.rows);
     const double tolerance = case_.tolerances.instructions / 100;
     if (update_) {
-      (*update_)[result_.name].instructions = result_.instructions;
+      BaselineCase& kept = (*update_)[result_.name];
+      kept.instructions = result_.instructions;
+      kept.nodeInstructions = dearOf(nodeInstructions(now.rows), result_.instructions);
     } else if (with_.program.empty()) {
-      add(checksOf(compareInstructions(known()->instructions, result_.instructions, tolerance),
-                   "the baseline", tolerance));
+      const InstructionCounts before{known()->instructions, known()->nodeInstructions};
+      add(checksOf(compareInstructions(before, now.rows, tolerance), "the baseline", tolerance));
     } else {
       const CountedInstructions before = countInstructions(case_, {with_.program}, true, measuring());
       if (!failed(before.fault))
-        add(checksOf(compareInstructions(before.rows, now.rows, tolerance), "the other build", tolerance));
+        add(checksOf(compareInstructions(instructionCounts(before.rows), now.rows, tolerance),
+                     "the other build", tolerance));
     }
   }
 

@@ -10,8 +10,10 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <sys/file.h>
 
 namespace stadion {
 namespace {
@@ -53,6 +55,7 @@ bool RegressFolder::open(const RegressOptions& o, const std::string& suiteText) 
   std::filesystem::create_directories(folder_, why);
   if (why)
     return std::fprintf(stderr, "stadion: --out %s: %s\n", folder_.c_str(), why.message().c_str()), false;
+  if (!lock()) return false;
   const std::string identity = identityOf(o, suiteText);
   if (o.resume) done_ = regression::readProgress(textOf(folder_ + "/" + kProgress), identity);
   if (o.resume && done_.empty()) std::fprintf(stderr, "nothing to resume: the suite begins anew\n");
@@ -60,6 +63,17 @@ bool RegressFolder::open(const RegressOptions& o, const std::string& suiteText) 
   for (const auto& [name, results] : done_)
     if (!note(name, results)) return false;
   return true;
+}
+
+bool RegressFolder::lock() {
+  lock_ = Descriptor(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (flock(lock_.get(), LOCK_EX | LOCK_NB) == 0) return true;
+  std::fprintf(
+      stderr,
+      "stadion: --out %s: another regress is writing there; wait until it has ended, or name another "
+      "folder\n",
+      folder_.c_str());
+  return false;
 }
 
 bool RegressFolder::note(const std::string& caseName, const std::vector<regression::CaseResult>& results) {

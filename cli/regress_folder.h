@@ -5,6 +5,7 @@
 /// Errors   what cannot be written is told at once, on stderr.
 
 #include "cli/regress_options.h"
+#include "pipeline/output/child_process.h"
 #include "profiling/regression/progress.h"
 
 #include <string>
@@ -27,7 +28,10 @@ private:
   bool append(const std::string& name, const std::string& text);
   bool write(const std::string& name, const std::string& text);
 
+  bool lock();
+
   std::string folder_;
+  Descriptor lock_;  ///< the folder, ours alone while it is open
   regression::DoneCases done_;
 };
 

@@ -4,6 +4,8 @@
 #include "engine/script/suggestion.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -30,8 +32,8 @@ State hashes, image hashes and counts (nodes visited, messages, draw calls, tria
 be equal. Images are compared only where the same renderer on the same processor drew them. All modes of a case have to
 give the same state and images, whether there is a baseline or not.
 
-Exit codes: 0 all is equal, 1 a comparison failed, 2 bad usage or a suite or show with mistakes, 3 a program that was
-played crashed or hung.)";
+Exit codes: 0 all is equal, 1 a comparison failed, 2 bad usage, a suite or show with mistakes, or nothing that could be
+compared, 3 a program that was played crashed or hung.)";
 
 /// The program itself, however it was called.
 std::string ownPath() {
@@ -91,6 +93,7 @@ bool RegressOptions::settle(Diagnostics& findings) {
                    "one of them out");
   if (resume && (out.empty() || update))
     findings.error({}, "--resume needs the --out DIR of the run that was interrupted, and no --update");
+  baselineGiven = !baseline.empty();
   if (baseline.empty()) baseline = regression::baselineBeside(suite);
   return !findings.hasErrors();
 }
@@ -114,6 +117,11 @@ bool RegressOptions::choose(regression::Suite& suiteRead, Diagnostics& findings)
     m.instructions &= wanted("instructions"), m.times &= wanted("times");
     if (rounds > 0) c.rounds = rounds;
   }
+  // A case that compares nothing of what was asked for is not played.
+  std::erase_if(suiteRead.cases, [](const regression::SuiteCase& c) { return c.metrics.none(); });
+  if (suiteRead.cases.empty() && !findings.hasErrors())
+    findings.error({suite, 0, 0}, "no case compares " + fmt::format("{}", fmt::join(compare, " or ")) +
+                                      "; say so in its \"compare\" statement, or leave --compare out");
   return !findings.hasErrors();
 }
 

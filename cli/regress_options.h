@@ -23,8 +23,9 @@ struct RegressOptions {
   std::string against, baseline;  ///< another program; a file
   std::string junit, out;
   std::vector<std::string> cases, compare;
-  std::size_t rounds = 0;   ///< 0: as the suite says
-  std::size_t limit = 600;  ///< [s] for a child
+  bool baselineGiven = false;  ///< by --baseline: then it has to be there
+  std::size_t rounds = 0;      ///< 0: as the suite says
+  std::size_t limit = 600;     ///< [s] for a child
   bool update = false, instructions = false, json = false, resume = false;
 
   /// Expects that this object stays where it is until the command line has been read.

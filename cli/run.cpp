@@ -17,6 +17,7 @@
 #include "cli/stop_signal.h"
 #include "engine/run_stopped.h"
 #include "pipeline/output/progress.h"
+#include "profiling/regression/work_counts.h"
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -44,6 +45,7 @@ struct RunSetup {
   std::unique_ptr<SpanRecording> spans;      ///< null without --spans
   std::unique_ptr<DisplayRun> displays;      ///< null without --display
   std::unique_ptr<ShowRecording> recording;  ///< null if nobody asks
+  regression::WorkCounts work;               ///< with --count-work
 };
 
 /// Late frames, in words, one in ten seconds.
@@ -155,7 +157,10 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   if (s.displays) parts.sink = &s.displays->sink(), s.displays->fitPictures(parts.walls);
   parts.drawUnseen = !s.output;
   if (s.desk->kept()) parts.contexts = &s.desk->kept()->contexts;
-  FrameProbe* const probe = s.spans ? s.spans->probe() : recording ? &recording->probe() : nullptr;
+  FrameProbe* const probe = s.spans       ? s.spans->probe()
+                            : o.countWork ? &s.work
+                            : recording   ? &recording->probe()
+                                          : nullptr;
   parts.probe = probe;
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
@@ -177,9 +182,9 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   progress.finish();
   if (outcome.nextGroup && !outcome.failure && !stop) return {};
 
-  const int code = report(
-      {o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime(), recording},
-      s.output.get(), s.folder.get());
+  const int code = report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(),
+                           s.desk->uptime(), recording, s.work.totals(s.player->walls().names())},
+                          s.output.get(), s.folder.get());
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;

@@ -1,6 +1,7 @@
 #include "cli/run_options.h"
 
 #include "cli/number_option.h"
+#include "cli/output_names.h"
 
 #include <CLI/CLI.hpp>
 
@@ -59,6 +60,9 @@ void RunOptions::addTo(CLI::App& command) {
   addLoadTo(command);
   trackers.addTo(command);
   spans.addTo(command);
+  command.add_flag(
+      "--count-work", countWork,
+      "count pixels, spheres tested and seen, contacts and so on of all frames, for the summary");
   addOperatorTo(command);
   command.add_flag("--json", json, "the summary as one JSON object on stdout");
   command.footer("SIGINT (Ctrl-C) and SIGTERM end the run after the frames under way; all that was asked for "
@@ -127,6 +131,13 @@ bool RunOptions::settle(Diagnostics& findings) {
   if (!spans.file.empty() && !asksForEveryFrame())
     findings.error(
         {}, "--spans is for runs in which every frame counts: say --frames N, --seconds S or --input FILE");
+  if (countWork && !asksForEveryFrame())
+    findings.error({}, "--count-work is for runs in which every frame counts: say --frames N, --seconds S or "
+                       "--input FILE");
+  if (countWork && (profile || !events.file.empty() || !spans.file.empty()))
+    findings.error(
+        {}, "--profile, --trace-events and --spans time what --count-work counts; leave the one or the "
+            "other out");
   if ((profile || !events.file.empty()) && !spans.file.empty())
     findings.error(
         {}, "--profile and --trace-events time the nodes, as --spans does; leave the one or the other out");
@@ -137,8 +148,17 @@ bool RunOptions::settle(Diagnostics& findings) {
   if (video && out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
   if (stress.low > stress.high)
     findings.error({}, "--stress-low must not be greater than --stress-high: between them stress stays");
+  settleFiles(findings);
   settleLive(findings);
   return show.settle(findings) && !findings.hasErrors();
+}
+
+/// No two outputs are one file.
+void RunOptions::settleFiles(Diagnostics& findings) const {
+  const NamedFile files[] = {{"the show", show.script, false}, {"--record-input", recordInput},
+                             {"--trace-events", events.file},  {"--spans", spans.file},
+                             {"--black-box", blackBox},        {"--input", show.input, false}};
+  refuseSameFiles(files, findings);
 }
 
 /// What needs somebody who is there.

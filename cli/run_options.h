@@ -22,6 +22,7 @@ struct RunOptions {
   int oscPort = -1;      ///< where commands of the operator are listened for; -1: nowhere
   std::string blackBox;  ///< where a live run keeps its last frames; empty: a temporary file
   SpanOptions spans;
+  bool countWork = false;
   StressOptions stress;     ///< of the whole show
   bool loadControl = true;  ///< a live run gives up what its script says, when it takes too long
   bool wait = false;
@@ -43,6 +44,7 @@ struct RunOptions {
 
   void addLoadTo(CLI::App& command);
   void addBlackBoxTo(CLI::App& command);
+  void settleFiles(Diagnostics& findings) const;
   void settleLive(Diagnostics& findings);
   /// Whether the options ask for a run that does not go by the clock.
   bool asksForEveryFrame() const;

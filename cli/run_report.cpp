@@ -56,6 +56,7 @@ RunSummary summarise(const FinishedRun& run) {
   s.elapsedSeconds = run.elapsed;
   s.groups = run.groups, s.uptimeSeconds = run.uptime;
   run.watch.addTo(s, run.outcome.framesSimulated);
+  s.counters.insert(run.work.begin(), run.work.end());
   addTimes(run, s);
   const std::string drawn = run.stages.glDescription();
   s.remarks.push_back(drawn.empty() ? "nothing was drawn" : "drawn by " + drawn);

@@ -6,6 +6,9 @@
 #include "cli/show_recording.h"
 #include "pipeline/output/run_summary.h"
 
+#include <map>
+#include <string>
+
 namespace stadion {
 
 /// A run that is over.
@@ -18,8 +21,9 @@ struct FinishedRun {
   RunWatch& watch;
   double elapsed;  ///< [s]
   std::uint64_t groups = 1;
-  double uptime = 0;                   ///< of all groups [s]
-  ShowRecording* recording = nullptr;  ///< null: nobody looked where frames go
+  double uptime = 0;                     ///< of all groups [s]
+  ShowRecording* recording = nullptr;    ///< null: nobody looked where frames go
+  std::map<std::string, double> work{};  ///< what was counted, if it was asked for
 };
 
 /// Completes every file and tells how it went. Returns the exit code. `output` and its folder: null without

@@ -31,7 +31,8 @@ struct RecordingOptions {
 
 class ShowRecording {
 public:
-  /// Null, with the reason in the findings, if the last frames cannot be kept.
+  /// Null, with the reason in the findings, if a trace or the last frames cannot be kept; last frames that
+  /// nobody asked for are done without.
   static std::unique_ptr<ShowRecording> create(RecordingOptions options, Diagnostics& findings) {
     std::unique_ptr<ShowRecording> made(new ShowRecording);
     std::vector<SpanReader*> readers;
@@ -46,10 +47,11 @@ public:
         options.keep->overrun = [governor = made->governor_.get()](std::uint64_t frame) {
           return governor->overrunOf(frame);
         };
+      const bool wanted = options.keep->wanted;
       auto box = BlackBox::create(std::move(*options.keep), made->names_);
-      if (!box) return findings.add(box.error()), nullptr;
-      made->box_ = std::move(box.value());
-      readers.push_back(made->box_.get());
+      if (!box && wanted) return findings.add(box.error()), nullptr;
+      if (!box) findings.warning(box.error().where, box.error().message + kBlackBoxElsewhere);
+      if (box) made->box_ = std::move(box.value()), readers.push_back(made->box_.get());
     }
     if (options.report) {
       made->report_ = std::make_unique<ReportRecording>(options.report->rate, options.report->walls,
@@ -105,6 +107,8 @@ public:
   std::uint64_t lost() const { return log_->lost(); }
 
 private:
+  static constexpr const char* kBlackBoxElsewhere =
+      "; the show is played without; --black-box FILE says where they could be, if frames come late";
   ShowRecording() = default;
 
   /// What recording takes of all threads, a frame.

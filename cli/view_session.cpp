@@ -1,6 +1,7 @@
 #include "cli/view_session.h"
 
 #include "cli/exit_code.h"
+#include "cli/last_frames.h"
 #include "cli/stop_signal.h"
 #include "pipeline/output/run_summary.h"
 
@@ -40,6 +41,7 @@ std::string pointText(const Vec3& p) {
 std::unique_ptr<ViewSession> ViewSession::open(ViewOptions options, Diagnostics& findings) {
   std::unique_ptr<ViewSession> session(new ViewSession(std::move(options)));
   ViewSession& s = *session;
+  if (!lastFramesCanBeKept(s.options_.run, findings)) return nullptr;
   auto walls = loadWalls(s.options_.run.show.walls, std::string(STADION_ROOT) + "/walls", findings);
   if (!walls) return nullptr;
   s.walls_ = std::move(*walls);

@@ -17,7 +17,7 @@ std::string_view nameOf(Span span) {
 std::string_view nameOf(Count count) {
   static constexpr std::array<std::string_view, kCounts> kNames{
       "nodes visited", "messages", "published", "impacts",   "contacts",  "substeps", "tested",
-      "seen",          "casters",  "calls",     "instances", "triangles", "pixels"};
+      "seen",          "casters",  "calls",     "instances", "triangles", "pixels",   "largest"};
   return kNames[static_cast<std::size_t>(count)];
 }
 

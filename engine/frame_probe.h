@@ -105,8 +105,10 @@ enum class Count : std::uint8_t {
   Instances,
   Triangles,
   Pixels,
+  // Of Draw, for a wall.
+  Largest,  ///< of the node that has the most to draw: pixels it may cover and eight for each triangle
 };
-constexpr std::size_t kCounts = static_cast<std::size_t>(Count::Pixels) + 1;
+constexpr std::size_t kCounts = static_cast<std::size_t>(Count::Largest) + 1;
 std::string_view nameOf(Count count);
 
 /// Of each eye that is sampled.
@@ -133,6 +135,12 @@ struct DrawnAlone {
   double emptyMs = 0;  ///< what drawing nothing takes
 };
 
+/// A node's part of what several cost together; the parts sum to 1.
+struct NodeShare {
+  NodeRef node;
+  float part = 1;
+};
+
 class FrameProbe {
 public:
   virtual ~FrameProbe() = default;
@@ -155,7 +163,7 @@ public:
   /// Which of `batches` batches of nodes is drawn alone next; those that follow it may be, too.
   virtual std::size_t nextBatch(std::uint32_t, std::uint32_t, std::size_t) { return 0; }
   /// What was drawn alone, and for which nodes, if for any.
-  virtual void drewAlone(const DrawnAlone&, std::span<const NodeRef>) {}
+  virtual void drewAlone(const DrawnAlone&, std::span<const NodeShare>) {}
 };
 
 /// A span as a scope. Without a probe it does nothing.

@@ -1,19 +1,70 @@
 #include "profiling/black_box.h"
 
+#include "engine/plain_file.h"
+
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fcntl.h>
-#include <fstream>
+#include <sys/file.h>
 #include <sys/mman.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 namespace stadion {
 namespace {
 
-constexpr char kMagic[16] = "stadion frames1";
+constexpr char kMagic[16] = "stadion frames2";
 
 Diagnostic problem(const std::string& file, const std::string& what) {
   return {Severity::Error, {file, 0, 0}, what, {}};
+}
+
+Diagnostic cannotKeep(const std::string& file, int why) {
+  return problem(file, std::string("the last frames cannot be kept here: ") + std::strerror(why));
+}
+
+constexpr const char* kFix = "; name a file that is not there yet, or one that such frames were kept in";
+
+/// Whether the name still stands for the file that was opened.
+bool isStill(const std::string& name, int file) {
+  struct stat named {
+  }, opened{};
+  return ::lstat(name.c_str(), &named) == 0 && ::fstat(file, &opened) == 0 && named.st_ino == opened.st_ino &&
+         named.st_dev == opened.st_dev;
+}
+
+/// Whether it may be written over: nothing is in it, or frames of an earlier run.
+bool mayBeReplaced(int file, off_t bytes) {
+  char magic[sizeof kMagic] = {};
+  return bytes == 0 || (::pread(file, magic, sizeof magic, 0) == static_cast<ssize_t>(sizeof magic) &&
+                        std::memcmp(magic, kMagic, sizeof magic) == 0);
+}
+
+/// Ends within its field, and does nothing to a terminal.
+template <std::size_t N>
+bool isText(const char (&field)[N]) {
+  const char* end = static_cast<const char*>(std::memchr(field, 0, N));
+  return end && std::all_of(field, end, [](char c) {
+           const auto byte = static_cast<unsigned char>(c);
+           return byte >= 0x20 && byte != 0x7f;
+         });
+}
+
+bool isSound(const StageFacts& s) {
+  return std::isfinite(s.ms) && std::isfinite(s.processor) && std::isfinite(s.turn) &&
+         std::isfinite(s.loading);
+}
+
+/// Whether every field holds what a frame's may.
+bool isSound(const FrameFacts& f, std::uint32_t walls) {
+  const bool place = f.walls <= walls && f.wall < std::max(1U, f.walls) && f.holder < std::max(1U, f.walls) &&
+                     (f.stage == Span::App || f.stage == Span::Cull || f.stage == Span::Draw);
+  const bool figures = std::isfinite(f.period) && std::isfinite(f.budget) && std::isfinite(f.nodeMs) &&
+                       std::isfinite(f.overMs) && std::isfinite(f.overBudget);
+  const auto sound = [](const StageFacts& s) { return isSound(s); };
+  return place && figures && f.cause <= Cause::Unknown && isText(f.name) && isText(f.over) &&
+         isSound(f.app) && std::ranges::all_of(f.cull, sound) && std::ranges::all_of(f.draw, sound);
 }
 
 }  // namespace
@@ -27,35 +78,69 @@ struct BlackBox::Ring {
   FrameFacts frames[kFrames];
 };
 
-Result<std::unique_ptr<BlackBox>> BlackBox::create(BlackBoxOptions options, const NodeNames& names) {
-  const int file = ::open(options.file.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (file < 0)
-    return problem(options.file, std::string("the last frames cannot be kept: ") + std::strerror(errno));
-  // The space is taken now: a full disk must not kill the show later.
-  const int refused = posix_fallocate(file, 0, sizeof(Ring));
-  void* at =
-      refused == 0 ? mmap(nullptr, sizeof(Ring), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0) : MAP_FAILED;
-  ::close(file);
-  if (at == MAP_FAILED) {
-    ::unlink(options.file.c_str());
-    return problem(options.file, std::string("the last frames cannot be kept: ") +
-                                     std::strerror(refused != 0 ? refused : errno));
+/// A file that is ours to write, with room for everything.
+struct BlackBox::Place {
+  FileDescriptor file;
+  bool made = false;
+  Ring* ring = nullptr;
+};
+
+Result<BlackBox::Place> BlackBox::open(const std::string& name) {
+  constexpr int kHow = O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+  Place place;
+  place.file = FileDescriptor(::open(name.c_str(), kHow | O_CREAT | O_EXCL, 0600));
+  place.made = static_cast<bool>(place.file);
+  if (!place.made) {
+    if (errno != EEXIST) return cannotKeep(name, errno);
+    struct stat about {};
+    if (::lstat(name.c_str(), &about) == 0 && !S_ISREG(about.st_mode))
+      return problem(name, std::string("the last frames cannot be kept here: it is no plain file") + kFix);
+    place.file = FileDescriptor(::open(name.c_str(), kHow));
+    if (!place.file) return cannotKeep(name, errno);
   }
-  Ring* ring = new (at) Ring();
+  const int file = place.file.get();
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0 || !isStill(name, file))
+    return problem(name, "another run keeps its last frames here; name another file");
+  struct stat about {};
+  if (::fstat(file, &about) != 0 || !S_ISREG(about.st_mode) || !mayBeReplaced(file, about.st_size))
+    return problem(name, "the last frames would be written over something else that is in this file" +
+                             std::string(kFix));
+  // The space is taken now: a full disk must not kill the show later.
+  int refused = posix_fallocate(file, 0, sizeof(Ring));
+  void* at = MAP_FAILED;
+  if (refused == 0) {
+    at = mmap(nullptr, sizeof(Ring), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    if (at == MAP_FAILED) refused = errno;
+  }
+  const bool cut = refused == 0 && ::ftruncate(file, sizeof(Ring)) == 0;
+  if (refused == 0 && !cut) refused = errno;
+  if (refused != 0) {
+    if (at != MAP_FAILED) munmap(at, sizeof(Ring));
+    if (place.made) ::unlink(name.c_str());
+    return cannotKeep(name, refused);
+  }
+  place.ring = new (at) Ring();
+  return place;
+}
+
+Result<std::unique_ptr<BlackBox>> BlackBox::create(BlackBoxOptions options, const NodeNames& names) {
+  auto place = open(options.file);
+  if (!place) return place.error();
+  Ring* ring = place.value().ring;
   std::memcpy(ring->magic, kMagic, sizeof kMagic);
   ring->recordBytes = sizeof(FrameFacts), ring->capacity = kFrames;
   ring->walls = static_cast<std::uint32_t>(std::min(options.walls.size(), FrameFacts::kMostWalls));
   for (std::size_t i = 0; i < ring->walls; ++i) copyText(options.walls[i], ring->names[i]);
-  return std::unique_ptr<BlackBox>(new BlackBox(std::move(options), names, ring));
+  return std::unique_ptr<BlackBox>(new BlackBox(std::move(options), names, std::move(place.value())));
 }
 
 BlackBox::~BlackBox() {
   munmap(ring_, sizeof(Ring));
-  if (late() == 0) ::unlink(options_.file.c_str());
+  if (late() == 0 && made_ && isStill(options_.file, file_.get())) ::unlink(options_.file.c_str());
 }
 
-BlackBox::BlackBox(BlackBoxOptions options, const NodeNames& names, Ring* ring)
-    : options_(std::move(options)), ring_(ring),
+BlackBox::BlackBox(BlackBoxOptions options, const NodeNames& names, Place place)
+    : options_(std::move(options)), file_(std::move(place.file)), made_(place.made), ring_(place.ring),
       judge_(options_.rate, options_.walls.size(), names, [this](const FrameFacts& facts) { keep(facts); }) {}
 
 void BlackBox::keep(FrameFacts facts) {
@@ -85,27 +170,32 @@ std::uint64_t BlackBox::late() const {
 }
 
 Result<BlackBox::Content> BlackBox::read(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return problem(file, "cannot be read");
+  const auto bytes = readPlainFile(file, sizeof(Ring));
+  if (!bytes) return bytes.error();
   const auto ring = std::make_unique<Ring>();
-  in.read(reinterpret_cast<char*>(ring.get()), sizeof(Ring));
-  if (static_cast<std::size_t>(in.gcount()) != sizeof(Ring) ||
-      std::memcmp(ring->magic, kMagic, sizeof kMagic) != 0 || ring->recordBytes != sizeof(FrameFacts) ||
-      ring->capacity != kFrames || ring->walls > FrameFacts::kMostWalls)
-    return problem(file, "holds no frames that this version of stadion kept");
+  const bool ours =
+      bytes.value().size() >= sizeof kMagic && std::memcmp(bytes.value().data(), kMagic, sizeof kMagic) == 0;
+  if (ours && bytes.value().size() == sizeof(Ring))
+    std::memcpy(ring.get(), bytes.value().data(), sizeof(Ring));
+  if (ring->recordBytes != sizeof(FrameFacts) || ring->capacity != kFrames)
+    return problem(file, "holds no frames that this version of stadion kept; run and view write such a file "
+                         "while they play live");
+  const auto damaged = [&] { return problem(file, "is damaged: what it holds cannot be frames of a show"); };
+  if (ring->walls > FrameFacts::kMostWalls) return damaged();
   Content content;
   for (std::size_t i = 0; i < ring->walls; ++i) {
-    ring->names[i][sizeof ring->names[i] - 1] = 0;
+    if (!isText(ring->names[i])) return damaged();
     content.walls.push_back(ring->names[i]);
   }
-  const std::uint64_t first = ring->written > kFrames ? ring->written - kFrames : 0;
-  for (std::uint64_t i = first; i < ring->written; ++i) {
-    FrameFacts facts = ring->frames[i % kFrames];
-    facts.name[sizeof facts.name - 1] = 0;
-    facts.walls = std::min(facts.walls, ring->walls);
-    facts.wall = std::min(facts.wall, std::max(1U, facts.walls) - 1);
+  const std::uint64_t count = std::min<std::uint64_t>(ring->written, kFrames);
+  for (std::uint64_t i = ring->written - count; i != ring->written; ++i) {
+    const FrameFacts& facts = ring->frames[i % kFrames];
+    if (!isSound(facts, ring->walls)) return damaged();
     content.frames.push_back(facts);
   }
+  // A program that died may have begun to write over the oldest one.
+  if (count > 1 && content.frames[0].frame >= content.frames[1].frame)
+    content.frames.erase(content.frames.begin());
   return content;
 }
 

@@ -3,10 +3,13 @@
 /// there afterwards. Each late frame gets its cause.
 ///
 /// Threads    SpanReader's; counts and latest() from any.
-/// Ownership  the file stays if a frame was late or the program died; else it is removed.
+/// Ownership  the file stays if a frame was late or the program died; else it is removed if this one made it.
+///            It is locked meanwhile: another run cannot keep its frames there. A file that is neither empty
+///            nor such a file is never touched.
 
 #include "profiling/frame_judge.h"
 
+#include "engine/asset/file_descriptor.h"
 #include "engine/diagnostic.h"
 
 #include <functional>
@@ -16,31 +19,33 @@
 namespace stadion {
 
 struct BlackBoxOptions {
-  std::string file;
-  double rate = 60;                              ///< [1/s]; 0 = nobody waits for frames: none is late
-  std::vector<std::string> walls;                ///< names
-  std::function<void(const std::string&)> tell;  ///< a late frame, in words; on the log's thread
+  std::string file{};
+  double rate = 60;                                ///< [1/s]; 0 = nobody waits for frames: none is late
+  std::vector<std::string> walls{};                ///< names
+  std::function<void(const std::string&)> tell{};  ///< a late frame, in words; on the log's thread
   /// Who overran its budget in a frame; null: nobody knows of budgets.
   std::function<std::optional<Overrun>(std::uint64_t frame)> overrun{};
+  bool wanted = true;  ///< somebody asked for it: a show does not go without
 };
 
 class BlackBox final : public SpanReader {
 public:
   static constexpr std::size_t kFrames = 600;
 
-  /// Fails if the file cannot be made.
+  /// Fails, and leaves the file as it is, if frames cannot be kept there.
   static Result<std::unique_ptr<BlackBox>> create(BlackBoxOptions options, const NodeNames& names);
   ~BlackBox() override;
 
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override { judge_.take(track, record); }
+  void take(const CountRecord& count) override { judge_.take(count); }
 
   /// Late frames by cause.
   std::map<Cause, std::uint64_t> verdicts() const;
   std::uint64_t late() const;
   const std::string& file() const { return options_.file; }
 
-  /// What such a file holds, the oldest frame first; fails with what is wrong with it.
+  /// What such a file holds, the oldest frame first; fails with what is wrong with it, also if it is damaged.
   struct Content {
     std::vector<std::string> walls;
     std::vector<FrameFacts> frames;
@@ -49,11 +54,15 @@ public:
 
 private:
   struct Ring;
-  BlackBox(BlackBoxOptions options, const NodeNames& names, Ring* ring);
+  struct Place;
+  static Result<Place> open(const std::string& file);
+  BlackBox(BlackBoxOptions options, const NodeNames& names, Place place);
   void keep(FrameFacts facts);
 
   BlackBoxOptions options_;
-  Ring* ring_;  ///< in the file
+  FileDescriptor file_;  ///< holds the lock
+  bool made_;            ///< the file was not there before
+  Ring* ring_;           ///< in the file
   FrameJudge judge_;
   mutable std::mutex mutex_;
   std::map<Cause, std::uint64_t> verdicts_;

@@ -42,7 +42,9 @@ Cause causeOf(const Suspect& s, float budget) {
   if (stage.loading > 0.5f * excess) return Cause::Loading;
   if (stage.turn > stage.ms) return Cause::Turn;
   // Draw waits for the rasteriser's threads: its own processor time says nothing.
-  const float lost = s.stage == Span::Draw ? 0 : stage.ms - stage.processor;
+  const bool draws = s.stage == Span::Draw;
+  if (draws && stage.delayed > 0.5f * excess) return Cause::Preempted;
+  const float lost = draws ? 0 : stage.ms - stage.processor;
   if (lost > 0.5f * excess && stage.faults > kManyFaults) return Cause::PageFaults;
   if (lost > 0.5f * excess && stage.switches > 0) return Cause::Preempted;
   return s.stage == Span::App ? Cause::App : s.stage == Span::Cull ? Cause::Cull : Cause::Draw;
@@ -91,10 +93,15 @@ std::string causeText(const FrameFacts& f, std::span<const std::string> walls) {
                                                 : f.draw[f.wall];
   switch (f.cause) {
   case Cause::Turn:
-    text += fmt::format(": {} waited {:.1f} ms for wall {}", stage, s.turn,
+    text += fmt::format(": {} waited {:.1f} ms for other walls, most of it for {}", stage, s.turn,
                         f.holder < walls.size() ? walls[f.holder] : "?");
     break;
   case Cause::Preempted:
+    if (f.stage == Span::Draw) {
+      text += fmt::format(": {} took {:.1f} ms, {:.1f} of them without a processor, which others had", stage,
+                          s.ms, s.delayed);
+      break;
+    }
     text += fmt::format(": {} lost its processor to others {} times, {:.1f} of {:.1f} ms", stage, s.switches,
                         s.ms - s.processor, s.ms);
     break;
@@ -105,6 +112,8 @@ std::string causeText(const FrameFacts& f, std::span<const std::string> walls) {
   }
   if (f.name[0] != 0 && f.nodeMs > 0 && f.stage == Span::App)
     text += fmt::format(", {:.1f} of them {}", f.nodeMs, f.name);
+  if (f.drawn[0] != 0 && f.stage == Span::Draw && f.cause == Cause::Draw)
+    text += fmt::format("; most there is to draw of {}", f.drawn);
   return text;
 }
 

@@ -21,6 +21,9 @@ struct StageFacts {
   float loading = 0;           ///< App: files; Draw: models and pictures on their way to the graphics
   std::uint32_t switches = 0;  ///< how often the system gave its processor to others
   std::uint32_t faults = 0;    ///< pages that had to be fetched
+  /// Draw: so long its thread, or the rasteriser's thread that had to wait most, could have run but got no
+  /// processor.
+  float delayed = 0;
 };
 
 enum class Cause : std::uint32_t {
@@ -56,7 +59,8 @@ struct FrameFacts {
   Span stage = Span::App;    ///< that of the cause
   std::uint32_t wall = 0;    ///< likewise
   std::uint32_t holder = 0;  ///< Cause::Turn: the wall that had the rasteriser
-  char name[112] = {};       ///< of the dearest node, with its file and line
+  char name[112] = {};       ///< of the dearest node in App, with its file and line
+  char drawn[112] = {};      ///< Draw: of the node that has most to draw there
   char over[112] = {};       ///< of the node that overran its budget most, if one did
   float overMs = 0, overBudget = 0;
 

@@ -40,6 +40,7 @@ void FrameJudge::take(std::size_t track, const SpanRecord& r) {
   stage.processor = static_cast<float>(r.use.processor);
   stage.switches = static_cast<std::uint32_t>(r.use.switches);
   stage.faults = static_cast<std::uint32_t>(r.use.faults);
+  stage.delayed = static_cast<float>(r.use.delayed);
   FrameFacts& facts = frame(r.frame);
   if (r.what == Span::App)
     facts.app = stage;
@@ -53,6 +54,16 @@ void FrameJudge::takeNode(FrameFacts& facts, const SpanRecord& r) {
   facts.node[0] = r.node.load, facts.node[1] = r.node.position;
 }
 
+void FrameJudge::take(const CountRecord& c) {
+  if (c.what == Count::Largest) largest_[c.wall] = c.node;
+}
+
+/// Empty if nobody knows it.
+std::string FrameJudge::title(NodeRef node) const {
+  const auto name = node.valid() ? names_.find(node) : std::nullopt;
+  return name ? name->path + " " + name->file + ":" + std::to_string(name->line) : "";
+}
+
 void FrameJudge::show(const SpanRecord& swap) {
   FrameFacts facts = frame(swap.frame);
   open_.erase(open_.begin(), open_.upper_bound(swap.frame));
@@ -60,8 +71,9 @@ void FrameJudge::show(const SpanRecord& swap) {
     facts.period = std::chrono::duration<float, std::milli>(swap.ended - lastShown_).count();
   lastShown_ = swap.ended;
   judge(facts);
-  if (const auto name = names_.find(facts.dearest()))
-    copyText(name->path + " " + name->file + ":" + std::to_string(name->line), facts.name);
+  copyText(title(facts.dearest()), facts.name);
+  if (const auto at = largest_.find(facts.wall); facts.stage == Span::Draw && at != largest_.end())
+    copyText(title(at->second), facts.drawn);
   shown_(facts);
 }
 

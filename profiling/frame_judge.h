@@ -25,9 +25,11 @@ public:
 
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
+  void take(const CountRecord& count) override;
 
 private:
   FrameFacts& frame(std::uint64_t number);
+  std::string title(NodeRef node) const;
   static void takeNode(FrameFacts& facts, const SpanRecord& record);
   void show(const SpanRecord& swap);
 
@@ -37,6 +39,7 @@ private:
   Shown shown_;
   std::map<std::uint64_t, FrameFacts> open_;   ///< not shown yet
   std::map<std::size_t, StageFacts> pending_;  ///< by track: of the stage that is under way
+  std::map<std::uint32_t, NodeRef> largest_;   ///< by wall: who has most to draw, as far as is known
   ProfileClock::time_point lastShown_{};
 };
 

@@ -194,7 +194,7 @@ std::size_t FrameLog::nextBatch(std::uint32_t wall, std::uint32_t eye, std::size
   return now;
 }
 
-void FrameLog::drewAlone(const DrawnAlone& drawn, std::span<const NodeRef> nodes) {
+void FrameLog::drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nodes) {
   track().disturb();
   const std::lock_guard lock(mutex_);
   alone_.push_back({drawn, {nodes.begin(), nodes.end()}});

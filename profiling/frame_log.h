@@ -45,7 +45,7 @@ public:
   virtual void take(std::size_t track, const SpanRecord& record) = 0;
   virtual void take(const CountRecord&) {}
   virtual void take(const SharedSpan&) {}
-  virtual void take(const DrawnAlone&, const std::vector<NodeRef>&) {}
+  virtual void take(const DrawnAlone&, const std::vector<NodeShare>&) {}
   /// All that there is at the moment has been handed on.
   virtual void caughtUp() {}
 };
@@ -74,7 +74,7 @@ public:
   void shared(Span what, std::uint64_t frame, std::uint32_t wall, std::span<const NodeRef> among) override;
   DrawSample drawSample(std::uint64_t frame, std::uint32_t wall) const override;
   std::size_t nextBatch(std::uint32_t wall, std::uint32_t eye, std::size_t batches) override;
-  void drewAlone(const DrawnAlone& drawn, std::span<const NodeRef> nodes) override;
+  void drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nodes) override;
 
   /// Hands on what is left. After the last frame.
   void finish();
@@ -85,7 +85,7 @@ public:
 private:
   struct Alone {
     DrawnAlone drawn;
-    std::vector<NodeRef> nodes;
+    std::vector<NodeShare> nodes;
   };
 
   void measureOverhead();

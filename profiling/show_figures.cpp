@@ -6,20 +6,27 @@
 namespace stadion {
 namespace {
 
+/// Walls of so many nodes are sampled more seldom (frame_log.cpp).
+constexpr std::uint64_t kCrowd = 500, kCrowdedEvery = 4;
+
 class Figures {
 public:
   Figures(const ShowProfile& profile, const NodeNames& names, const std::vector<std::string>& walls)
       : profile_(profile), names_(names), frames_(std::max<double>(1, static_cast<double>(profile.frames()))),
         wholeFrames_(std::max<double>(1, static_cast<double>(profile.wholeFrames()))) {
+    appScale_ = appScale();
     out_.frames = profile.frames();
     out_.walls = walls;
     for (const auto& [ref, node] : profile.nodes())
       if (ref.valid()) addNode(ref, node);
     addVisitor();
+    explainDraw();
+    scaleDraw();
     addStages();
     addCounts();
     explain();
     const double all = out_.explained[0].measured + out_.explained[1].measured + out_.explained[2].measured;
+    out_.framesNeeded = framesNeeded(), out_.wholeFrames = profile.wholeFrames();
     for (NodeRow& row : out_.nodes) row.share = all > 0 ? row.total / all : 0;
     std::ranges::sort(out_.nodes, [](const NodeRow& a, const NodeRow& b) {
       return a.total != b.total ? a.total > b.total : a.node < b.node;
@@ -28,6 +35,15 @@ public:
   ShowFigures take() { return std::move(out_); }
 
 private:
+  /// Recording every node takes time, and memory from the caches: App is longer in the frames in which that
+  /// is done. Nodes' times are from these; what they take in the others is in proportion.
+  double appScale() const {
+    const double others = frames_ - wholeFrames_, whole = profile_.wholeApp() / wholeFrames_;
+    const auto app = profile_.spans().find({Span::App, kNoWall});
+    if (others < 1 || whole <= 0 || app == profile_.spans().end()) return 1;
+    return std::clamp((app->second.ms.sum() - profile_.wholeApp()) / others / whole, 0.0, 1.0);
+  }
+
   double perSample(double ms, std::uint32_t wall) const {
     const std::uint64_t samples = profile_.sampled(wall);
     return samples > 0 ? ms / static_cast<double>(samples) : 0;
@@ -42,8 +58,9 @@ private:
     NodeRow row;
     row.node = ref;
     if (auto name = names_.find(ref)) row.name = std::move(*name);
-    row.receive = node.phases[0] / wholeFrames_, row.simulate = node.phases[1] / wholeFrames_;
-    row.dispatch = node.phases[2] / wholeFrames_, row.settle = node.settle / wholeFrames_;
+    const double each = appScale_ / wholeFrames_;
+    row.receive = each * node.phases[0], row.simulate = each * node.phases[1];
+    row.dispatch = each * node.phases[2], row.settle = each * node.settle;
     row.publish = shareOf(node.published, Span::Publish, kNoWall);
     row.app = row.receive + row.simulate + row.dispatch + row.settle + row.publish;
     row.visitP95 = node.visit.percentile(95), row.visitMost = node.visit.most();
@@ -65,8 +82,50 @@ private:
       }
       row.cull += on.cull;
     }
+    markMeasured(row, node);
     row.total = row.app + row.cull + row.draw;
     out_.nodes.push_back(std::move(row));
+  }
+
+  /// Drawn where it was seen, or seen nowhere when somebody looked; else nobody knows what it costs.
+  void markMeasured(NodeRow& row, const NodeProfile& node) {
+    for (std::uint32_t wall = 0; wall < row.walls.size(); ++wall) {
+      NodeOnWall& on = row.walls[wall];
+      const auto cost = node.walls.find(wall);
+      const bool seen = cost != node.walls.end() && cost->second.shares.contains(Span::Fill);
+      on.cullMeasured = profile_.sampled(wall) > 0;
+      row.cullMeasured = row.cullMeasured && on.cullMeasured;
+      for (std::uint32_t eye = 0; eye < 2; ++eye) {
+        const bool drawn = profile_.eyes().contains({wall, eye});
+        on.drawMeasured[eye] = on.cullMeasured && drawn && (!seen || cost->second.drawn[eye] > 0);
+        if (drawn || eye == 0) row.drawMeasured = row.drawMeasured && on.drawMeasured[eye];
+        if (!seen || !drawn) continue;
+        ++seen_[{wall, eye}];
+        if (on.drawMeasured[eye]) ++sampled_[{wall, eye}];
+      }
+    }
+  }
+
+  /// An estimate: as many nodes are drawn alone each time as until now. Nothing is missed for want of frames
+  /// if nothing is drawn.
+  std::uint64_t framesNeeded() const {
+    const bool draws =
+        std::ranges::any_of(profile_.spans(), [](const auto& s) { return s.first.first == Span::LeftEye; });
+    if (std::ranges::all_of(out_.nodes,
+                            [&](const NodeRow& r) { return r.cullMeasured && (r.drawMeasured || !draws); }))
+      return 0;
+    const FrameLogOptions log;
+    const std::uint64_t played = profile_.frames() + log.from;
+    std::uint64_t most = 4 * log.sampleEvery;
+    for (const auto& [eye, seen] : seen_) {
+      const auto at = sampled_.find(eye);
+      if (at == sampled_.end() || at->second == seen) continue;
+      const std::uint64_t every = log.sampleEvery * (seen > kCrowd ? kCrowdedEvery : 1);
+      const double rounds = static_cast<double>(1 + played / every), margin = 1.25;
+      const double all = rounds * static_cast<double>(seen) / static_cast<double>(at->second);
+      most = std::max(most, every * (1 + static_cast<std::uint64_t>(margin * all)));
+    }
+    return std::max(most, played + log.sampleEvery);
   }
 
   /// Whom no node of the script stands for: what the trackers say, and the eyes in front of the walls.
@@ -108,8 +167,8 @@ private:
     for (const auto& [who, eye] : profile_.eyes()) {
       const std::string name = stageName(Span::Draw, who.first) + (who.second == 0 ? " left" : " right");
       const auto add = [&](const std::string& part, const CostSeries& ms, double times) {
-        out_.stages.push_back(
-            {name + ", alone", part, times * std::max(0.0, ms.mean()), ms.percentile(95), ms.most(), ms.count()});
+        out_.stages.push_back({name + ", alone", part, times * std::max(0.0, ms.mean()), ms.percentile(95),
+                               ms.most(), ms.count()});
       };
       add("", eye.whole, 1);
       for (const auto& [part, ms] : eye.parts) add(std::string(nameOf(part)), ms, timesAFrame(part));
@@ -142,28 +201,27 @@ private:
     for (const auto& [who, total] : profile_.spans())
       if (who.first == what && (!wall || who.second == *wall))
         ms += isStage(what) ? total.ms.sum() : total.own;
-    return ms / framesOf(what);
+    return ms * (isPartOfApp(what) ? appScale_ : 1) / framesOf(what);
   }
 
+  static bool isPartOfApp(Span what) { return what > Span::Swap && what <= Span::Watching; }
+
   /// In which that was recorded.
-  double framesOf(Span what) const {
-    return what > Span::Swap && what <= Span::Watching ? wholeFrames_ : frames_;
-  }
+  double framesOf(Span what) const { return isPartOfApp(what) ? wholeFrames_ : frames_; }
 
   void explain() {
     Explained& app = out_.explained[0];
-    // Where others help, App waits for them meanwhile. Recording every node disturbs: where there are frames
-    // in which that is not done, what App takes in those counts.
+    // Where others help, App waits for them meanwhile.
     app.stage = "app";
-    app.measured = std::min(profile_.wholeApp() / wholeFrames_, sum(Span::App)) +
-                   profile_.helped() / wholeFrames_ -
-                   std::min(sum(Span::Crew), profile_.helped() / wholeFrames_);
+    const double helped = appScale_ * profile_.helped() / wholeFrames_;
+    app.measured =
+        appScale_ * profile_.wholeApp() / wholeFrames_ + helped - std::min(sum(Span::Crew), helped);
     double published = 0;
     for (const NodeRow& row : out_.nodes) app.nodes += row.app, published += row.publish;
     for (const Span s : {Span::Loading, Span::Mail, Span::Crew, Span::Sound, Span::Watching})
       app.named += sum(s);
     app.named += std::max(0.0, sum(Span::Publish) - published);
-    app.named -= std::min(sum(Span::Crew), profile_.helped() / wholeFrames_);
+    app.named -= std::min(sum(Span::Crew), helped);
 
     Explained& cull = out_.explained[1];
     cull.stage = "cull", cull.measured = sum(Span::Cull);
@@ -172,20 +230,51 @@ private:
     for (const Span s : {Span::Test, Span::Fill, Span::ShadowCasts, Span::Sort})
       for (std::uint32_t wall = 0; wall < out_.walls.size(); ++wall)
         if (profile_.shares(s, wall) == 0) cull.named += sum(s, wall);
+  }
 
+  /// As it was drawn alone.
+  void explainDraw() {
     Explained& draw = out_.explained[2];
     draw.stage = "draw";
     for (const NodeRow& row : out_.nodes) draw.nodes += row.draw;
+    for (const auto& [who, eye] : profile_.eyes())
+      draw.measured += eye.whole.mean(), draw.named += partsOf(eye);
+  }
+  static double partsOf(const EyeCost& eye) {
+    double sum = 0;
+    for (const auto& [part, ms] : eye.parts)
+      if (part == Span::Sky || part == Span::Resolve) sum += timesAFrame(part) * ms.mean();
+    return sum;
+  }
+
+  /// What was drawn alone is shared in the proportion of that, so that its sum is what the eye took as a
+  /// whole.
+  void scaleDraw() {
     for (const auto& [who, eye] : profile_.eyes()) {
-      draw.measured += eye.whole.mean();
-      for (const auto& [part, ms] : eye.parts)
-        if (part == Span::Sky || part == Span::Resolve) draw.named += timesAFrame(part) * ms.mean();
+      const auto& [wall, side] = who;
+      if (eye.whole.count() == 0 || wall >= out_.walls.size()) continue;
+      double alone = 0;
+      bool all = true;
+      for (const NodeRow& row : out_.nodes) {
+        alone += row.walls[wall].draw[side];
+        all = all && row.walls[wall].drawMeasured[side];
+      }
+      if (!all) continue;  // whoever had no turn must not be counted with the others
+      const double factor = alone > 0 ? std::max(0.0, eye.whole.mean() - partsOf(eye)) / alone : 1;
+      for (NodeRow& row : out_.nodes) row.walls[wall].draw[side] *= factor;
+    }
+    for (NodeRow& row : out_.nodes) {
+      row.draw = 0;
+      for (const NodeOnWall& on : row.walls) row.draw += on.draw[0] + on.draw[1];
+      row.total = row.app + row.cull + row.draw;
     }
   }
 
   const ShowProfile& profile_;
   const NodeNames& names_;
-  double frames_, wholeFrames_;
+  double frames_, wholeFrames_, appScale_ = 1;
+  /// Nodes, by wall and eye: seen there, and of these drawn alone.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> seen_, sampled_;
   ShowFigures out_;
 };
 

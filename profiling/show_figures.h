@@ -11,7 +11,12 @@ namespace stadion {
 
 struct NodeOnWall {
   double cull = 0;
+  /// In the proportion of what each took drawn alone; they sum to what the eye took as a whole, less its
+  /// parts.
   std::array<double, 2> draw{};  ///< left or only eye, right
+  /// False: 0 means that no sample was taken, not that it costs nothing.
+  bool cullMeasured = true;
+  std::array<bool, 2> drawMeasured{true, true};
 };
 
 struct NodeRow {
@@ -26,7 +31,9 @@ struct NodeRow {
   double allocations = 0, bytes = 0;   ///< of memory, by App for it, a frame
   std::vector<NodeOnWall> walls;
   double cull = 0, draw = 0;  ///< of all walls and eyes
-  double total = 0;
+  /// False: some wall that it is on has not been sampled yet; what is there is of the others.
+  bool cullMeasured = true, drawMeasured = true;
+  double total = 0;  ///< of what was measured
   double share = 0;  ///< of all stages of all walls
 };
 
@@ -53,6 +60,7 @@ struct Explained {
   double measured = 0;  ///< of all walls and eyes
   double nodes = 0;
   double named = 0;  ///< parts of the stage itself
+  /// Draw: of what was drawn alone, before the nodes' rows were scaled to the eyes drawn whole.
   double covered() const { return measured > 0 ? (nodes + named) / measured : 1; }
 };
 
@@ -64,6 +72,8 @@ struct ShowFigures {
   std::vector<CountRow> counts;
   std::array<Explained, 3> explained;
   std::string drawMethod;
+  std::uint64_t wholeFrames = 0;   ///< of `frames`: those that App by node is of
+  std::uint64_t framesNeeded = 0;  ///< about so many would measure every node; 0: these did
 };
 
 ShowFigures figuresOf(const ShowProfile& profile, const NodeNames& names,

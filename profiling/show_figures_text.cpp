@@ -1,3 +1,4 @@
+#include "profiling/csv_field.h"
 #include "profiling/show_figures.h"
 
 #include <algorithm>
@@ -14,6 +15,28 @@ std::string placeOf(const NodeName& name) {
   return fmt::format("{}:{}{}", file, name.line, name.unloaded ? " (unloaded)" : "");
 }
 
+/// Null: not measured.
+nlohmann::json measured(double ms, bool known) {
+  return known || ms > 0 ? nlohmann::json(ms) : nlohmann::json();
+}
+
+/// "-": not measured; a part that was is told.
+std::string cell(double ms, bool known, int width, int digits) {
+  if (!known && ms <= 0) return fmt::format("{:>{}}", "-", width);
+  return fmt::format("{:>{}}", fmt::format("{}{:.{}f}", known ? "" : ">", ms, digits), width);
+}
+
+std::string unmeasuredText(const ShowFigures& f) {
+  const auto of = [](const NodeRow& r) { return !r.cullMeasured || !r.drawMeasured; };
+  const auto count = std::ranges::count_if(f.nodes, of);
+  if (count == 0) return "";
+  if (f.framesNeeded == 0) return "- not measured: nothing was drawn\n";
+  return fmt::format(
+      "- not measured, > on some walls only: {} of {} nodes had no turn in {} frames; some {} would do "
+      "(--frames {})\n",
+      count, f.nodes.size(), f.frames, f.framesNeeded, f.framesNeeded);
+}
+
 nlohmann::json toJson(const NodeRow& row, const std::vector<std::string>& walls) {
   nlohmann::json j{{"path", row.name.path},
                    {"file", row.name.file},
@@ -27,8 +50,9 @@ nlohmann::json toJson(const NodeRow& row, const std::vector<std::string>& walls)
                    {"settle_ms", row.settle},
                    {"publish_ms", row.publish},
                    {"app_ms", row.app},
-                   {"cull_ms", row.cull},
-                   {"draw_ms", row.draw},
+                   {"cull_ms", measured(row.cull, row.cullMeasured)},
+                   {"draw_ms", measured(row.draw, row.drawMeasured)},
+                   {"draw_complete", row.drawMeasured},
                    {"total_ms", row.total},
                    {"share", row.share},
                    {"allocations", row.allocations},
@@ -38,15 +62,18 @@ nlohmann::json toJson(const NodeRow& row, const std::vector<std::string>& walls)
                    {"visit_max_ms", row.visitMost}};
   for (std::size_t w = 0; w < row.walls.size(); ++w)
     j["walls"].push_back({{"wall", walls[w]},
-                          {"cull_ms", row.walls[w].cull},
-                          {"draw_left_ms", row.walls[w].draw[0]},
-                          {"draw_right_ms", row.walls[w].draw[1]}});
+                          {"cull_ms", measured(row.walls[w].cull, row.walls[w].cullMeasured)},
+                          {"draw_left_ms", measured(row.walls[w].draw[0], row.walls[w].drawMeasured[0])},
+                          {"draw_right_ms", measured(row.walls[w].draw[1], row.walls[w].drawMeasured[1])}});
   return j;
 }
 
 }  // namespace
 
 std::string toText(const ShowFigures& f, std::size_t mostNodes) {
+  if (f.frames == 0)
+    return fmt::format("no frame was recorded: the first {} are not; play some hundreds\n",
+                       FrameLogOptions{}.from);
   const bool budgets = std::ranges::any_of(f.nodes, [](const NodeRow& r) { return r.name.budget > 0; });
   std::string text = fmt::format(
       "ms a frame, all walls and eyes\n    app  p95 visit    cull     draw    total  share{}  node\n",
@@ -55,9 +82,15 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
     const NodeRow& r = f.nodes[i];
     const std::string budget =
         r.name.budget > 0 ? fmt::format("{:9.3f}", r.name.budget) : std::string(budgets ? 9 : 0, ' ');
-    text += fmt::format("{:7.4f} {:10.4f} {:7.4f} {:8.3f} {:8.3f} {:5.1f}%{}  {}  {}\n", r.app, r.visitP95,
-                        r.cull, r.draw, r.total, 100 * r.share, budget, r.name.path, placeOf(r.name));
+    text += fmt::format("{:7.4f} {:10.4f} {} {} {:8.3f} {:5.1f}%{}  {}  {}\n", r.app, r.visitP95,
+                        cell(r.cull, r.cullMeasured, 7, 4), cell(r.draw, r.drawMeasured, 8, 3), r.total,
+                        100 * r.share, budget, r.name.path, placeOf(r.name));
   }
+  text += unmeasuredText(f);
+  if (f.wholeFrames < f.frames)
+    text += fmt::format(
+        "App by node is of {} of the {} frames: where it visits so many, the others are recorded in part\n",
+        f.wholeFrames, f.frames);
   text += "\n       ms      p95      max  allocs  stage\n";
   for (const StageRow& s : f.stages)
     text += fmt::format("{:9.4f} {:8.3f} {:8.3f} {:7.1f}  {}{}{}\n", s.ms, s.p95, s.most, s.allocations,
@@ -74,6 +107,7 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
 
 std::string toJson(const ShowFigures& f) {
   nlohmann::json j{{"frames", f.frames}, {"walls", f.walls}, {"draw_method", f.drawMethod}};
+  j["frames_needed"] = f.framesNeeded, j["whole_frames"] = f.wholeFrames;
   j["nodes"] = nlohmann::json::array(), j["stages"] = nlohmann::json::array();
   for (const NodeRow& row : f.nodes) j["nodes"].push_back(toJson(row, f.walls));
   for (const StageRow& s : f.stages)
@@ -101,15 +135,17 @@ std::string toJson(const ShowFigures& f) {
 std::string toCsv(const ShowFigures& f) {
   std::string csv = "path,file,line,kind,stage,wall,eye,ms\n";
   for (const NodeRow& r : f.nodes) {
-    const auto add = [&](const char* stage, const std::string& wall, const char* eye, double ms) {
-      csv += fmt::format("{},{},{},{},{},{},{},{}\n", r.name.path, r.name.file, r.name.line,
-                         nameOf(r.name.kind), stage, wall, eye, ms);
+    const auto add = [&](const char* stage, const std::string& wall, const char* eye, double ms, bool known) {
+      csv +=
+          fmt::format("{},{},{},{},{},{},{},{}\n", csvField(r.name.path), csvField(r.name.file), r.name.line,
+                      nameOf(r.name.kind), stage, csvField(wall), eye, known ? fmt::to_string(ms) : "");
     };
-    add("app", "", "", r.app);
+    add("app", "", "", r.app, true);
     for (std::size_t w = 0; w < r.walls.size(); ++w) {
-      add("cull", f.walls[w], "", r.walls[w].cull);
-      add("draw", f.walls[w], "left", r.walls[w].draw[0]);
-      add("draw", f.walls[w], "right", r.walls[w].draw[1]);
+      const NodeOnWall& on = r.walls[w];
+      add("cull", f.walls[w], "", on.cull, on.cullMeasured);
+      add("draw", f.walls[w], "left", on.draw[0], on.drawMeasured[0]);
+      add("draw", f.walls[w], "right", on.draw[1], on.drawMeasured[1]);
     }
   }
   return csv;

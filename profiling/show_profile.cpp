@@ -59,6 +59,7 @@ void ShowProfile::addPhase(NodeRef ref, const SpanRecord& r) {
 }
 
 void ShowProfile::take(const CountRecord& c) {
+  if (c.what == Count::Largest) return;  // an estimate, for late frames
   const bool ofEye = c.within == Span::LeftEye || c.within == Span::RightEye;
   counts_[{ofEye ? c.within : stageOf(c.within), c.wall, c.node, c.what}].add(static_cast<double>(c.amount));
 }
@@ -73,7 +74,7 @@ void ShowProfile::take(const SharedSpan& s) {
       ++nodes_[ref].walls[s.wall].shares[s.what];
 }
 
-void ShowProfile::take(const DrawnAlone& d, const std::vector<NodeRef>& nodes) {
+void ShowProfile::take(const DrawnAlone& d, const std::vector<NodeShare>& nodes) {
   EyeCost& eye = eyes_[{d.wall, d.eye}];
   eye.empty.add(d.emptyMs);
   if (d.what == Span::LeftEye || d.what == Span::RightEye)
@@ -82,10 +83,9 @@ void ShowProfile::take(const DrawnAlone& d, const std::vector<NodeRef>& nodes) {
     eye.parts[d.what].add(d.ms);
   if (nodes.empty()) return;
   eye.batches.add(d.ms);
-  const double each = d.ms / static_cast<double>(nodes.size());
-  for (const NodeRef ref : nodes) {
-    WallCost& wall = nodes_[ref].walls[d.wall];
-    wall.draw[d.eye] += each;
+  for (const auto& [node, part] : nodes) {
+    WallCost& wall = nodes_[node].walls[d.wall];
+    wall.draw[d.eye] += d.ms * double{part};
     ++wall.drawn[d.eye];
   }
 }

@@ -66,7 +66,7 @@ public:
   void take(std::size_t track, const SpanRecord& record) override;
   void take(const CountRecord& count) override;
   void take(const SharedSpan& shared) override;
-  void take(const DrawnAlone& drawn, const std::vector<NodeRef>& nodes) override;
+  void take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes) override;
 
   const std::map<NodeRef, NodeProfile>& nodes() const { return nodes_; }
   /// By kind and wall (kNoWall: of no wall).

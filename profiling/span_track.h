@@ -6,6 +6,7 @@
 #include "engine/frame_probe.h"
 #include "profiling/allocations.h"
 #include "profiling/record_ring.h"
+#include "profiling/run_delay.h"
 #include "profiling/tick_clock.h"
 
 #include <algorithm>
@@ -28,6 +29,7 @@ struct ThreadUse {
   double processor = 0;        ///< [ms]
   std::uint64_t switches = 0;  ///< it lost its processor to others
   std::uint64_t faults = 0;    ///< pages that had to be fetched
+  double delayed = 0;          ///< [ms] of a Draw: without a processor, though something was to be done
 
   static ThreadUse now() {
     rusage use{};
@@ -36,10 +38,10 @@ struct ThreadUse {
       return 1e3 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_usec);
     };
     return {ms(use.ru_utime) + ms(use.ru_stime), static_cast<std::uint64_t>(use.ru_nivcsw),
-            static_cast<std::uint64_t>(use.ru_minflt + use.ru_majflt)};
+            static_cast<std::uint64_t>(use.ru_minflt + use.ru_majflt), 0};
   }
   ThreadUse since(const ThreadUse& then) const {
-    return {processor - then.processor, switches - then.switches, faults - then.faults};
+    return {processor - then.processor, switches - then.switches, faults - then.faults, 0};
   }
 };
 
@@ -87,6 +89,7 @@ public:
     open.what = what, open.frame = frame, open.wall = wall, open.node = node;
     open.within = 0, open.spans = 0;
     if (isStage(what)) open.use = ThreadUse::now();
+    if (what == Span::Draw) beforeDraw_ = delay_.ofDrawing();
     open.allocations = allocationsSoFar();
     open.began = ProfileClock::now();
   }
@@ -106,6 +109,7 @@ public:
     r.allocations = allocationsSoFar() - open.allocations, r.disturbed = disturbed_;
     disturbed_ = disturbed_ && depth_ > 0;
     r.use = isStage(open.what) ? ThreadUse::now().since(open.use) : ThreadUse{};
+    if (open.what == Span::Draw) r.use.delayed = mostDelayed(beforeDraw_, delay_.ofDrawing());
     r.took = 1e-6 * took, r.own = 1e-6 * std::max(0.0, took - open.within);
     spans_.push();
   }
@@ -181,6 +185,8 @@ private:
 
   std::array<Open, kDeepest> open_;
   Light light_;
+  RunDelay delay_;
+  std::vector<double> beforeDraw_;  ///< what it said
   bool whole_ = true, disturbed_ = false;
   std::uint64_t counted_ = 0;
   std::size_t depth_ = 0;

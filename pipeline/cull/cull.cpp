@@ -67,7 +67,24 @@ CullCounts findSeen(const SlotView& state, const ConvexVolume& volume, DrawList&
   return counts;
 }
 
-DrawItem itemOf(const InstanceRecord& r, const DrawList& list) {
+/// How large things are seen on a wall.
+struct PixelScale {
+  float ofSteradian = 0, most = 0;  ///< pixels: of a steradian in the picture's middle, of the picture
+
+  PixelScale(const DrawList& list, const WallView& view) {
+    const auto width = static_cast<float>(view.width), height = static_cast<float>(view.height);
+    const Mat4& p = list.eyes[0].projection;
+    ofSteradian = 0.25f * static_cast<float>(p(0, 0) * p(1, 1)) * width * height;
+    most = width * height;
+  }
+  float of(float radius, float distance) const {
+    constexpr float kPi = 3.14159265f;
+    return distance > radius ? std::min(most, kPi * ofSteradian * radius * radius / (distance * distance))
+                             : most;
+  }
+};
+
+DrawItem itemOf(const InstanceRecord& r, const DrawList& list, const PixelScale& scale) {
   DrawItem item;
   for (int k = 0; k < 12; ++k) {
     const double shift = k % 4 == 3 ? list.origin[k / 4] : 0.0;
@@ -76,13 +93,14 @@ DrawItem itemOf(const InstanceRecord& r, const DrawList& list) {
   item.mesh = r.mesh;
   item.owner = r.owner;
   item.distance = static_cast<float>(centreOf(r, list).norm());
+  item.pixels = scale.of(r.radius, item.distance);
   return item;
 }
 
-void fill(DrawList& out, LevelChoice* levels) {
+void fill(DrawList& out, const PixelScale& scale, LevelChoice* levels) {
   for (const InstanceRecord* r : out.seen) {
     auto& items = r->flags & InstanceRecord::kTransparent ? out.transparent : out.opaque;
-    items.push_back(itemOf(*r, out));
+    items.push_back(itemOf(*r, out, scale));
     if (levels) items.back().level = levels->levelOf(*r);
   }
 }
@@ -185,7 +203,7 @@ CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t i
   }
   {
     const SpanScope span(probe, Span::Fill);
-    fill(out, levels);
+    fill(out, PixelScale(out, view), levels);
   }
   {
     const SpanScope span(probe, Span::ShadowCasts);

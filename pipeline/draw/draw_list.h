@@ -24,6 +24,7 @@ struct DrawItem {
   MeshId mesh = kNoMesh;
   NodeRef owner;            ///< who it is, for profiling
   float distance = 0;       ///< of its centre from the viewer [m]
+  float pixels = 0;         ///< that its bounding sphere may cover in one eye's picture, for profiling
   std::uint32_t level = 0;  ///< 0 = all of the mesh; else Mesh::levels[level - 1]
 };
 

@@ -13,8 +13,8 @@ namespace stadion {
 class DrawSampler {
 public:
   /// More of a mesh are several batches. What is drawn alone must be much more than nothing, which is taken
-  /// off it: where there is very much to draw, so many parts of it.
-  static constexpr std::uint32_t kInstancesAtOnce = 64, kPartsOfAFrame = 8;
+  /// off it: about so large a part of what there is to draw.
+  static constexpr float kPartsOfAFrame = 8;
 
   explicit DrawSampler(const GlTable& gl) : clock_(gl) {}
 
@@ -37,18 +37,19 @@ public:
   void piece(Span what, const Work& work) {
     time(what, {}, work);
   }
-  template <class Work>
-  void batch(std::span<const NodeRef> nodes, const Work& work) {
+  /// `shares` is asked for whose it is, if it is timed.
+  template <class Shares, class Work>
+  void batch(const Shares& shares, const Work& work) {
     const std::size_t at = batch_++;
     if (at >= first_ && at < first_ + kBatchesAFrame)
-      time(Span::Draw, nodes, work);
+      time(Span::Draw, shares(), work);
     else
       work();
   }
 
 private:
   template <class Work>
-  void time(Span what, std::span<const NodeRef> nodes, const Work& work) {
+  void time(Span what, std::span<const NodeShare> nodes, const Work& work) {
     clock_.begin();
     work();
     DrawnAlone drawn = now_;

@@ -27,7 +27,7 @@ bool alike(const DrawItem& a, const DrawItem& b) {
 
 void InstanceBatches::add(const DrawItem& item) {
   matrices_.push_back(item.model);
-  if (withOwners_) owners_.push_back(item.owner);
+  if (withOwners_) owners_.push_back(item.owner), pixels_.push_back(item.pixels);
 }
 
 void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
@@ -43,7 +43,7 @@ void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const Dr
                             bool withOwners) {
   withOwners_ = withOwners;
   matrices_.clear();
-  owners_.clear();
+  owners_.clear(), pixels_.clear();
   opaque_.clear();
   transparent_.clear();
 

@@ -32,8 +32,9 @@ public:
              bool withOwners = false);
 
   std::span<const InstanceMatrix> matrices() const { return matrices_; }
-  /// Whose they are; empty unless they were asked for.
+  /// Whose they are, and how many pixels each may cover; empty unless they were asked for.
   std::span<const NodeRef> owners() const { return owners_; }
+  std::span<const float> pixels() const { return pixels_; }
   std::span<const InstanceBatch> opaque() const { return opaque_; }
   /// In the list's order; neighbours of the same mesh share a batch.
   std::span<const InstanceBatch> transparent() const { return transparent_; }
@@ -46,6 +47,7 @@ private:
   bool withOwners_ = false;
   std::vector<InstanceMatrix> matrices_;
   std::vector<NodeRef> owners_;
+  std::vector<float> pixels_;
   std::vector<InstanceBatch> opaque_, transparent_;
   std::size_t refused_ = 0;
 };

@@ -72,6 +72,13 @@ Renderer::~Renderer() {
   lastTurn_ = turn();
 }
 
+Renderer::MeshParts Renderer::partsOf(const GlMesh& mesh, std::uint32_t level) {
+  const std::vector<GlSubmesh>& parts = mesh.partsAt(level);
+  std::uint32_t triangles = 0;
+  for (const GlSubmesh& part : parts) triangles += static_cast<std::uint32_t>(part.indexCount) / 3;
+  return {&mesh, parts, triangles};
+}
+
 std::unique_lock<std::mutex> Renderer::turn() const {
   return takesTurns_ ? std::unique_lock(turns_) : std::unique_lock<std::mutex>();
 }
@@ -226,18 +233,55 @@ void Renderer::drawEyeAlone(const DrawEye& eye, std::uint32_t index) {
   sampler_->piece(index == 0 ? Span::LeftEye : Span::RightEye, [&] { drawEye(eye, index); });
 }
 
-std::uint32_t Renderer::mostAtOnce() const {
-  if (sample_ != DrawSample::Some) return quality_.mostAtOnce;
-  const auto instances = static_cast<std::uint32_t>(batches_.matrices().size());
-  return std::min(quality_.mostAtOnce,
-                  std::max(instances / DrawSampler::kPartsOfAFrame, DrawSampler::kInstancesAtOnce));
+/// How much there is to draw of one instance: an estimate, for profiling.
+float Renderer::workOf(std::size_t instance, const MeshParts& mesh) const {
+  constexpr float kOfTriangle = 8;  // as much as so many pixels, on the processor
+  return batches_.pixels()[instance] + kOfTriangle * static_cast<float>(mesh.triangles);
+}
+
+/// Calls `f` with each batch of which anything is drawn in any pass, and its mesh.
+template <class F>
+void Renderer::forEachBatch(const F& f) {
+  for (const auto batches : {batches_.opaque(), batches_.transparent()})
+    for (const InstanceBatch& b : batches)
+      if (const GlMesh* mesh = cache_.find(b.mesh)) f(b, partsOf(*mesh, b.level));
+}
+
+/// How much there is to draw, and of whom the most.
+void Renderer::weigh() {
+  NodeRef whose;
+  float most = 0;
+  work_ = 0;
+  forEachBatch([&](const InstanceBatch& b, const MeshParts& mesh) {
+    for (std::size_t i = b.first; i < b.first + b.count; ++i) {
+      const float work = workOf(i, mesh);
+      work_ += work;
+      if (work > most) most = work, whose = batches_.owners()[i];
+    }
+  });
+  if (most > 0) probe_->counted(Count::Largest, static_cast<std::uint64_t>(most), whose);
+}
+
+/// How many instances of the batch, from one of them on, are drawn by one call. Where pieces are drawn alone,
+/// the pieces are alike in size: what is large is a piece of its own.
+std::uint32_t Renderer::togetherFrom(const InstanceBatch& b, std::uint32_t done,
+                                     const MeshParts& mesh) const {
+  const std::uint32_t left = std::min(b.count - done, quality_.mostAtOnce);
+  if (sample_ != DrawSample::Some) return left;
+  const float piece = work_ / DrawSampler::kPartsOfAFrame;
+  float sum = workOf(b.first + done, mesh);
+  std::uint32_t count = 1;
+  while (count < left && sum + workOf(b.first + done + count, mesh) <= piece)
+    sum += workOf(b.first + done + count++, mesh);
+  return count;
 }
 
 /// As many as drawInstances() will be called for.
-std::size_t Renderer::batchesToSample() const {
+std::size_t Renderer::batchesToSample() {
   std::size_t count = 0;
-  for (const auto batches : {batches_.opaque(), batches_.transparent()})
-    for (const InstanceBatch& b : batches) count += (b.count + mostAtOnce() - 1) / mostAtOnce();
+  forEachBatch([&](const InstanceBatch& b, const MeshParts& mesh) {
+    for (std::uint32_t done = 0; done < b.count; ++count) done += togetherFrom(b, done, mesh);
+  });
   return count;
 }
 
@@ -254,12 +298,13 @@ std::optional<Diagnostic> Renderer::draw(const DrawList& list, std::uint32_t eye
 void Renderer::prepare(const DrawList& list) {
   settleState();
   cache_.freeUnused();
-  batches_.build(list, sample_ == DrawSample::Some);
+  batches_.build(list, probe_ != nullptr);
   if (batches_.refused() > 0) report("an object is left out: its matrix is not finite");
   if (list.lights.size() > DrawList::kMaxLights)
     report("more than " + std::to_string(DrawList::kMaxLights) + " lights: the rest are left out");
   stream(gl_, GL_ARRAY_BUFFER, instances_, batches_.matrices());
   localLights_ = std::any_of(list.lights.begin(), list.lights.end(), isLocal);
+  if (probe_) weigh();
 }
 
 void Renderer::prepareScene(const DrawList& list) {
@@ -325,10 +370,12 @@ void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass) {
     if (pass == Pass::OpaqueParts && mesh->transparentParts == mesh->parts.size()) continue;
     gl_.BindVertexArray(mesh->vertexArray.name());
     gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
-    const std::uint32_t most = pass == Pass::Transparent && !drawnTogether(*mesh) ? 1 : mostAtOnce();
-    for (std::uint32_t done = 0; done < batch.count; done += most)
-      drawInstances({mesh, mesh->partsAt(batch.level)}, batch.first + done,
-                    std::min(batch.count - done, most), pass);
+    const bool oneByOne = pass == Pass::Transparent && !drawnTogether(*mesh);
+    const MeshParts parts = partsOf(*mesh, batch.level);
+    for (std::uint32_t done = 0, count = 0; done < batch.count; done += count) {
+      count = oneByOne ? 1 : togetherFrom(batch, done, parts);
+      drawInstances(parts, batch.first + done, count, pass);
+    }
   }
 }
 
@@ -342,9 +389,22 @@ void Renderer::drawInstances(const MeshParts& mesh, std::uint32_t first, std::ui
       drawOpaqueParts(mesh, count, pass);
   };
   if (sample_ == DrawSample::Some)
-    sampler_->batch(batches_.owners().subspan(first, count), draw);
+    sampler_->batch([&] { return sharesOf(mesh, first, count); }, draw);
   else
     draw();
+}
+
+/// Who has which part in drawing these.
+std::span<const NodeShare> Renderer::sharesOf(const MeshParts& mesh, std::uint32_t first,
+                                              std::uint32_t count) {
+  shares_.clear();
+  float sum = 0;
+  for (std::size_t i = first; i < first + count; ++i) {
+    shares_.push_back({batches_.owners()[i], workOf(i, mesh)});
+    sum += shares_.back().part;
+  }
+  for (NodeShare& share : shares_) share.part = sum > 0 ? share.part / sum : 1.0f / static_cast<float>(count);
+  return shares_;
 }
 
 void Renderer::drawOpaqueParts(const MeshParts& mesh, std::uint32_t count, Pass pass) {

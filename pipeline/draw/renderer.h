@@ -99,15 +99,22 @@ private:
   struct MeshParts {
     const GlMesh* gl;
     const std::vector<GlSubmesh>& parts;
+    std::uint32_t triangles;
   };
+  static MeshParts partsOf(const GlMesh& mesh, std::uint32_t level);
 
   void drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
   void submitEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
   void tellCounts() const;
   void beginSampling(const DrawList& list);
   void drawNothing();
-  std::size_t batchesToSample() const;
-  std::uint32_t mostAtOnce() const;
+  float workOf(std::size_t instance, const MeshParts& mesh) const;
+  template <class F>
+  void forEachBatch(const F& f);
+  void weigh();
+  std::uint32_t togetherFrom(const InstanceBatch& batch, std::uint32_t done, const MeshParts& mesh) const;
+  std::size_t batchesToSample();
+  std::span<const NodeShare> sharesOf(const MeshParts& mesh, std::uint32_t first, std::uint32_t count);
   template <class Work>
   void piece(Span what, const Work& work);
   void drawEyeAlone(const DrawEye& eye, std::uint32_t index);
@@ -155,6 +162,8 @@ private:
   FrameProbe* probe_ = nullptr;                       ///< likewise; null = nobody asks
   std::unique_ptr<DrawSampler> sampler_;              ///< from the first frame on that is sampled
   DrawSample sample_ = DrawSample::None;              ///< of the list that is drawn
+  float work_ = 0;                                    ///< all there is to draw, while somebody asks
+  std::vector<NodeShare> shares_;                     ///< of what is drawn alone
   DrawCounts counts_;
   std::array<DrawTotals, 2> totals_{};
   std::set<std::string> reported_;

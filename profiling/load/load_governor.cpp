@@ -70,7 +70,7 @@ void LoadGovernor::take(const SharedSpan& shared) {
   costs_.take(shared);
 }
 
-void LoadGovernor::take(const DrawnAlone& drawn, const std::vector<NodeRef>& nodes) {
+void LoadGovernor::take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes) {
   const std::lock_guard lock(mutex_);
   costs_.take(drawn, nodes);
 }
@@ -103,7 +103,8 @@ void LoadGovernor::judgeNodes(std::uint64_t frame) {
     ++r.frames, g.sum += ms, r.mean = g.sum / static_cast<double>(r.frames);
     if (ms > r.worst) r.worst = ms, r.worstFrame = frame, r.worstStage = stageText(costs[i]);
     if (r.budget > 0 && ms > r.budget) noteOverrun(g, frame, costs[i]);
-    if (options_.acts && r.levels > 0 && r.budget > 0) g.policy.take(frame, costs[i].cost);
+    const bool acts = options_.acts && r.levels > 0 && r.budget > 0 && costs[i].known;
+    if (acts) g.policy.take(frame, costs[i].cost);
   }
   if (frame >= kFramesUnderWay) costs_.forget(frame - kFramesUnderWay);
 }
@@ -219,7 +220,8 @@ FrameLoad LoadGovernor::decide(std::uint64_t frame) {
     ++stressChanges_;
   }
   bool all = true;
-  for (Governed& g : governed_) {
+  for (std::size_t i = 0; i < governed_.size(); ++i) {
+    Governed& g = governed_[i];
     const std::uint32_t wanted = g.wanted(), before = g.applied;
     if (wanted != before) {
       if (!load.add({g.of.node.load, g.of.node.position, wanted})) {
@@ -227,6 +229,8 @@ FrameLoad LoadGovernor::decide(std::uint64_t frame) {
         continue;
       }
       g.applied = wanted;
+      const Relief was = reliefAt(g.of.terms.gives, before), is = reliefAt(g.of.terms.gives, wanted);
+      if (was.hidden != is.hidden || was.lod != is.lod) costs_.drawnOtherwise(i, frame, is.hidden);
       BudgetReport& r = g.report;
       ++r.changes, r.highest = std::max(r.highest, wanted), r.now = wanted;
       tellChange(g, before, frame);

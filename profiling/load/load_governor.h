@@ -52,7 +52,7 @@ public:
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
   void take(const SharedSpan& shared) override;
-  void take(const DrawnAlone& drawn, const std::vector<NodeRef>& nodes) override;
+  void take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes) override;
   void caughtUp() override;
   /// The worst overrun of a frame that is not over for long.
   std::optional<Overrun> overrunOf(std::uint64_t frame) const;

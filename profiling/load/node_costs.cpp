@@ -10,6 +10,8 @@ namespace {
 
 /// A sample that is older says nothing any more: the node is out of sight, or drawn otherwise [frames].
 constexpr std::uint64_t kOld = 600;
+/// So long is waited for a sample of what is drawn otherwise; without one it is out of sight [frames].
+constexpr std::uint64_t kAwaited = 128;
 
 }  // namespace
 
@@ -52,6 +54,11 @@ bool hasLevels(const Scene& scene) {
 void NodeCosts::govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::vector<std::size_t>> above) {
   nodes_ = std::move(nodes), above_ = std::move(above);
   app_.clear(), samples_.clear();
+  drawn_.assign(nodes_.size(), {});
+}
+
+void NodeCosts::drawnOtherwise(std::size_t governed, std::uint64_t frame, bool hidden) {
+  if (governed < drawn_.size()) drawn_[governed] = {frame, hidden};
 }
 
 void NodeCosts::take(const SpanRecord& r) {
@@ -64,21 +71,25 @@ void NodeCosts::take(const SpanRecord& r) {
 }
 
 void NodeCosts::sample(Span what, std::uint64_t frame, std::uint32_t wall, std::uint32_t eye, double ms,
-                       const std::vector<NodeRef>& among) {
-  if (among.empty() || above_.empty()) return;
-  std::map<SampleKey, double> sums;
-  const double share = ms / static_cast<double>(among.size());
-  for (const NodeRef node : among)
+                       std::span<const NodeShare> among) {
+  if (above_.empty()) return;
+  for (const auto& [node, part] : among)
     if (const auto at = above_.find(node); at != above_.end())
-      for (const std::size_t governed : at->second) sums[{governed, node, wall, eye, what}] += share;
-  for (const auto& [key, sum] : sums) samples_[key] = {sum, frame};
+      for (const std::size_t governed : at->second) {
+        Sample& s = samples_[{governed, node, wall, eye, what}];
+        // What is drawn in several pieces of a frame costs their sum.
+        s = {(s.frame == frame ? s.ms : 0) + ms * double{part}, frame};
+      }
 }
 
 void NodeCosts::take(const SharedSpan& s) {
-  if (s.wall != kNoWall) sample(s.what, s.frame, s.wall, 0, s.ms, s.among);
+  if (s.wall == kNoWall || s.among.empty()) return;
+  std::vector<NodeShare> alike;
+  for (const NodeRef node : s.among) alike.push_back({node, 1.0f / static_cast<float>(s.among.size())});
+  sample(s.what, s.frame, s.wall, 0, s.ms, alike);
 }
 
-void NodeCosts::take(const DrawnAlone& d, const std::vector<NodeRef>& nodes) {
+void NodeCosts::take(const DrawnAlone& d, const std::vector<NodeShare>& nodes) {
   if (d.what == Span::Draw)
     sample(Span::Draw, d.frame, d.wall, d.eye, std::max(0.0, d.ms - d.emptyMs), nodes);
 }
@@ -88,11 +99,17 @@ std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
   const auto app = app_.find(frame);
   for (std::size_t i = 0; i < costs.size() && app != app_.end(); ++i) costs[i].cost.app = app->second[i];
   std::map<std::tuple<std::size_t, bool, std::uint32_t>, double> stages;  // governed, Draw, wall
+  std::vector<bool> sampled(costs.size());
   for (const auto& [key, s] : samples_) {
-    if (s.frame + kOld < frame || s.frame > frame) continue;
+    const Drawn& drawn = drawn_[key.governed];
+    if (s.frame + kOld < frame || s.frame > frame || drawn.hidden || s.frame < drawn.since) continue;
+    sampled[key.governed] = sampled[key.governed] || key.what == Span::Draw;
     costs[key.governed].cost.drawn += s.ms;
     stages[{key.governed, key.what == Span::Draw, key.wall}] += s.ms;
   }
+  for (std::size_t i = 0; i < costs.size(); ++i)
+    costs[i].known =
+        drawn_[i].since == 0 || drawn_[i].hidden || sampled[i] || frame > drawn_[i].since + kAwaited;
   std::vector<double> most(costs.size());
   for (std::size_t i = 0; i < costs.size(); ++i) most[i] = costs[i].cost.app;
   for (const auto& [stage, ms] : stages) {

@@ -25,6 +25,8 @@ struct GovernedNode {
 /// What one of them cost in one frame.
 struct NodeCost {
   LoadCost cost;
+  /// Whether what is drawn of it has been looked at since it was drawn otherwise than before.
+  bool known = true;
   Span dearest = Span::App;      ///< the stage in which it cost most
   std::uint32_t wall = kNoWall;  ///< of that stage
 };
@@ -38,7 +40,10 @@ public:
 
   void take(const SpanRecord& record);
   void take(const SharedSpan& shared);
-  void take(const DrawnAlone& drawn, const std::vector<NodeRef>& nodes);
+  void take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes);
+
+  /// From that frame on a governed node is drawn otherwise, or not at all: what was known of it is void.
+  void drawnOtherwise(std::size_t governed, std::uint64_t frame, bool hidden);
 
   /// What the governed nodes cost in that frame, as far as it is known now.
   std::vector<NodeCost> of(std::uint64_t frame) const;
@@ -58,12 +63,18 @@ private:
     auto operator<=>(const SampleKey&) const = default;
   };
   void sample(Span what, std::uint64_t frame, std::uint32_t wall, std::uint32_t eye, double ms,
-              const std::vector<NodeRef>& among);
+              std::span<const NodeShare> among);
+  /// How a governed node has been drawn, and since when.
+  struct Drawn {
+    std::uint64_t since = 0;
+    bool hidden = false;
+  };
 
   std::vector<GovernedNode> nodes_;
   std::map<NodeRef, std::vector<std::size_t>> above_;
   std::map<std::uint64_t, std::vector<double>> app_;  ///< by frame, then governed node [ms]
   std::map<SampleKey, Sample> samples_;
+  std::vector<Drawn> drawn_;  ///< by governed node
 };
 
 /// Whether the show has anything that stress acts on.

@@ -13,6 +13,7 @@ constexpr double kMostCounted = 2;        ///< of the budget, of one frame in th
 constexpr double kSteadyOver = 1.05;      ///< of the budget, smoothed
 constexpr std::size_t kSteadyAfter = 32;  ///< frames, before the smoothed cost says anything
 constexpr std::size_t kSettled = 30;      ///< frames, after which the smoothed cost is that of the level
+constexpr double kSays = 0.05;            ///< of what it was: less is left of it by chance, and tells nothing
 constexpr double kRoom = 0.8;             ///< of the budget, for a dearer level
 constexpr double kCalm = 1.0;             ///< of the budget: a frame that costs more is no calm one
 constexpr std::uint32_t kMostFailures = 6;
@@ -20,7 +21,7 @@ constexpr std::uint32_t kKnownBetter = 3;  ///< tries spared where a level is kn
 constexpr std::uint64_t kTrial = 4;  ///< times the patience: so long a level that was taken back is on trial
 
 // What concessions usually save; what they really save is known once they have been made.
-constexpr double kLodSaves = 0.75, kHidden = 0.05;
+constexpr double kLodSaves = 0.75;
 
 }  // namespace
 
@@ -31,7 +32,7 @@ std::vector<LevelSavings> savingsOf(const std::vector<Concession>& ladder) {
     LevelSavings s;
     s.cycle = r.rests ? 1 : 1U << r.pace;
     s.app = r.rests ? 0 : 1.0 / s.cycle;
-    s.drawn = r.hidden ? kHidden : std::pow(kLodSaves, std::log(r.lod) / std::log(kLodLevel));
+    s.drawn = r.hidden ? 0 : std::pow(kLodSaves, std::log(r.lod) / std::log(kLodLevel));
     levels.push_back(s);
   }
   return levels;
@@ -114,7 +115,7 @@ void ReliefPolicy::giveUp(std::uint64_t frame) {
 /// have come back already, that time is over.
 double ReliefPolicy::expectedBack() const {
   const auto &before = known_[level_ - 1], &settled = settled_[level_];
-  if (troubled_ && before && settled && *settled > 0) return mean_.total() * *before / *settled;
+  if (troubled_ && before && settled && *settled > kSays * *before) return mean_.total() * *before / *settled;
   return expectedAt(level_ - 1);
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/diagnostic.h"
 #include "profiling/regression/facts.h"
+#include "profiling/regression/node_costs.h"
 
 #include <map>
 #include <string>
@@ -19,6 +20,7 @@ struct BaselineCase {
   RunFacts facts;
   std::map<std::string, std::vector<double>> times;  ///< by stage, round by round
   std::map<std::string, double> instructions;        ///< by stage
+  NodeCosts nodeTimes, nodeInstructions;             ///< so that the node that moved can be named
 };
 
 using Baseline = std::map<std::string, BaselineCase>;  ///< by CASE/MODE

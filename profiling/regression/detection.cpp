@@ -1,7 +1,5 @@
 #include "profiling/regression/detection.h"
 
-#include "profiling/regression/time_comparison.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -35,12 +33,6 @@ std::vector<const SpanRow*> stages(const std::vector<SpanRow>& rows, const std::
   return all;
 }
 
-std::uint64_t iterations(const SpanRow& stage, double share, double nsPerIteration) {
-  const auto typical = typicalStages({stage});
-  const double us = typical.empty() ? 0 : typical.begin()->second;
-  return static_cast<std::uint64_t>(std::max(1.0, 1000 * us * share / nsPerIteration));
-}
-
 }  // namespace
 
 std::vector<Trial> trialsOf(std::size_t planted, std::size_t same) {
@@ -49,32 +41,37 @@ std::vector<Trial> trialsOf(std::size_t planted, std::size_t same) {
   std::size_t sameDone = 0;
   for (std::size_t i = 0; i < rounds; ++i) {
     if (i < planted)
-      for (const char* kind : {"simulate", "cull", "draw"})
-        trials.push_back({kind, i, std::string(kind) == "draw"});
-    for (; sameDone < same * (i + 1) / rounds; ++sameDone)
-      trials.push_back({kNothing, sameDone, sameDone % 4 == 3});
+      for (const char* kind : {"simulate", "cull", "draw"}) trials.push_back({kind, i});
+    for (; sameDone < same * (i + 1) / rounds; ++sameDone) trials.push_back({kNothing, sameDone});
   }
   return trials;
 }
 
 // Every one of the nodes has its turn before one has a second.
-std::optional<PlantedDelay> plantedIn(const Trial& trial, const std::vector<SpanRow>& rows, double share,
-                                      double nsPerIteration) {
+std::optional<PlantedDelay> plantedIn(const Trial& trial, const std::vector<SpanRow>& rows,
+                                      const StagePrices& prices, double share) {
   PlantedDelay planted;
   if (trial.kind == "simulate") {
-    const auto nodes = candidates(rows), app = stages(rows, "app");
-    if (nodes.empty() || app.empty()) return std::nullopt;
-    const SpanRow& node = *nodes[trial.number * 7 % nodes.size()];
-    planted.where = PlantedDelay::Where::Simulate, planted.name = node.path;
-    planted.iterations = iterations(*app.front(), share, nsPerIteration);
-    return planted;
+    const auto nodes = candidates(rows);
+    if (nodes.empty()) return std::nullopt;
+    planted.where = PlantedDelay::Where::Simulate,
+    planted.name = nodes[trial.number * 7 % nodes.size()]->path;
+  } else {
+    const auto walls = stages(rows, trial.kind);
+    if (walls.empty()) return std::nullopt;
+    planted.where = trial.kind == "cull" ? PlantedDelay::Where::Cull : PlantedDelay::Where::Draw;
+    planted.name = walls[trial.number % walls.size()]->wall;
   }
-  const auto walls = stages(rows, trial.kind);
-  if (walls.empty()) return std::nullopt;
-  const SpanRow& wall = *walls[trial.number % walls.size()];
-  planted.where = trial.kind == "cull" ? PlantedDelay::Where::Cull : PlantedDelay::Where::Draw;
-  planted.name = wall.wall, planted.iterations = iterations(wall, share, nsPerIteration);
+  const auto price = prices.stages.find(stageOf(planted));
+  if (price == prices.stages.end() || prices.iteration <= 0) return std::nullopt;
+  planted.iterations =
+      static_cast<std::uint64_t>(std::max(1.0, std::round(price->second * share / prices.iteration)));
   return planted;
+}
+
+std::string stageOf(const PlantedDelay& planted) {
+  if (planted.where == PlantedDelay::Where::Simulate) return "app";
+  return (planted.where == PlantedDelay::Where::Cull ? "cull of wall " : "draw of wall ") + planted.name;
 }
 
 std::string toText(const PlantedDelay& planted) {
@@ -87,24 +84,14 @@ std::string toText(const PlantedDelay& planted) {
 bool isNamedBy(const PlantedDelay& planted, const std::string& alarm) {
   if (planted.where == PlantedDelay::Where::Simulate)
     return alarm.starts_with(planted.name + " (") && alarm.ends_with(" in app");
-  return alarm ==
-         (planted.where == PlantedDelay::Where::Cull ? "cull" : "draw") + (" of wall " + planted.name);
-}
-
-double burnNanoseconds() {
-  constexpr std::uint64_t kIterations = 2'000'000;
-  std::uint64_t least = ~std::uint64_t{0};
-  for (int i = 0; i < 9; ++i) {
-    const std::uint64_t start = threadNanoseconds();
-    burn(kIterations);
-    least = std::min(least, threadNanoseconds() - start);
-  }
-  return static_cast<double>(least) / kIterations;
+  return alarm == stageOf(planted);
 }
 
 std::string toJsonLine(const TrialResult& r) {
-  return Json{{"trial", r.trial}, {"kind", r.kind},   {"planted", r.planted}, {"alarms", r.alarms},
-              {"seen", r.seen},   {"right", r.right}, {"seconds", r.seconds}}
+  return Json{{"trial", r.trial},    {"kind", r.kind},       {"by", r.by},
+              {"share", r.share},    {"planted", r.planted}, {"lengthened", r.lengthened},
+              {"alarms", r.alarms},  {"seen", r.seen},       {"right", r.right},
+              {"seconds", r.seconds}}
              .dump(-1, ' ', false, Json::error_handler_t::replace) +
          "\n";
 }
@@ -116,7 +103,7 @@ std::vector<TrialResult> readTrials(const std::string& text) {
     try {
       const Json j = Json::parse(text.substr(at, end - at));
       all.push_back({j.at("trial"), j.at("kind"), j.at("planted"), j.at("alarms"), j.at("seen"),
-                     j.at("right"), j.at("seconds")});
+                     j.at("right"), j.at("seconds"), j.at("by"), j.at("share"), j.at("lengthened")});
     } catch (const Json::exception&) {
       // Half a line, of an experiment that was interrupted.
     }
@@ -129,26 +116,34 @@ std::string detectionTable(const std::vector<TrialResult>& results, std::size_t 
                            bool& met) {
   met = true;
   double seconds = 0;
-  std::string text = "planted in     trials  found, right place named   limit\n";
+  std::string text = "planted in     trials  really planted      valid  found, right place named   limit\n";
   const auto count = [&](const std::string& kind, bool right) {
     return static_cast<std::size_t>(std::ranges::count_if(
-        results, [&](const TrialResult& r) { return r.kind == kind && (!right || r.right); }));
+        results, [&](const TrialResult& r) { return r.kind == kind && r.valid() && (!right || r.right); }));
   };
   const std::size_t least = planted - planted / 20;
   for (const char* kind : {"simulate", "cull", "draw"}) {
     if (planted == 0) break;
-    const std::size_t right = count(kind, true);
-    met = met && right >= least;
-    text += fmt::format("{:<12} {:>8}  {:>23}   at least {:>3}  {}\n", kind, count(kind, false), right, least,
-                        right >= least ? "ok" : "MISSED");
+    const std::size_t valid = count(kind, false), right = count(kind, true);
+    const bool ok = valid >= planted && right >= least;
+    met = met && ok;
+    std::vector<double> share;
+    for (const TrialResult& r : results)
+      if (r.kind == kind) share.push_back(r.lengthened);
+    const auto [low, high] =
+        share.empty() ? std::pair(0.0, 0.0) : std::pair(std::ranges::min(share), std::ranges::max(share));
+    text += fmt::format("{:<12} {:>8}  {:>5.2f} to {:>5.2f} % {:>7}  {:>24}   at least {:>3}  {}\n", kind,
+                        share.size(), low, high, valid, right, least, ok ? "ok" : "MISSED");
   }
   const std::size_t alarms = count(kNothing, false) - count(kNothing, true), most = same / 100;
   met = met && alarms <= most && count(kNothing, false) >= same;
-  text += fmt::format("{:<12} {:>8}  {:>10} false alarms   at most {:>4}  {}\n", kNothing,
-                      count(kNothing, false), alarms, most, alarms <= most ? "ok" : "MISSED");
+  text += fmt::format("{:<12} {:>8}  {:>16} {:>7}  {:>11} false alarms   at most {:>4}  {}\n", kNothing,
+                      count(kNothing, false), "-", "-", alarms, most, alarms <= most ? "ok" : "MISSED");
   for (const TrialResult& r : results) {
     seconds += r.seconds;
-    if (!r.right)
+    if (!r.valid())
+      text += fmt::format("  {}: not valid, {:.2f} % were planted\n", r.trial, r.lengthened);
+    else if (!r.right)
       text += fmt::format("  {}: planted {}, moved: {}\n", r.trial, r.planted.empty() ? kNothing : r.planted,
                           r.alarms.empty() ? kNothing : fmt::format("{}", fmt::join(r.alarms, "; ")));
   }

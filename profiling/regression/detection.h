@@ -18,7 +18,6 @@ namespace stadion::regression {
 struct Trial {
   std::string kind;        ///< simulate, cull, draw: planted there; "nothing": a comparison with itself
   std::size_t number = 0;  ///< of its kind, from 0
-  bool drawn = false;      ///< whether the comparison is about Draw as well
   std::string name() const { return kind + " " + std::to_string(number + 1); }
 };
 
@@ -30,22 +29,33 @@ struct TrialResult {
   std::vector<std::string> seen;    ///< of each stage: "app +4.8 %, p = 0.002"
   bool right = false;               ///< found, the right place named, and nothing else; of nothing: no alarm
   double seconds = 0;
+  std::string by;         ///< what decided: instructions, times
+  double share = 0;       ///< what was to be planted, of its stage [%]
+  double lengthened = 0;  ///< what really was; 0 where nothing is [%]
+
+  /// Whether what was planted is what was to be planted, but for a fifth: 4 to 6 % for 5 %.
+  bool valid() const { return planted.empty() || (lengthened >= 0.8 * share && lengthened <= 1.2 * share); }
 };
 
-/// `planted` of each kind, `same` comparisons of the same with itself, of which one in four is drawn.
+/// `planted` of each kind, `same` comparisons of the same with itself. All are played alike.
 std::vector<Trial> trialsOf(std::size_t planted, std::size_t same);
 
-/// What is to be planted in a trial, out of what a run without anything cost: `share` [1] of the typical
-/// frame of App, or of Cull or Draw of one wall. `nsPerIteration`: of burn(). Nothing if the rows have no
-/// such stage.
-std::optional<PlantedDelay> plantedIn(const Trial& trial, const std::vector<SpanRow>& rows, double share,
-                                      double nsPerIteration);
+/// What a frame of each stage costs, by the stage's name, and what an iteration of burn() does: in the unit
+/// that decides, us or instructions.
+struct StagePrices {
+  std::map<std::string, double> stages;
+  double iteration = 1;
+};
+
+/// What is to be planted in a trial, out of the rows of a run without anything: `share` [1] of a frame of
+/// App, or of Cull or Draw of one wall. Nothing if the rows or prices have no such stage.
+std::optional<PlantedDelay> plantedIn(const Trial& trial, const std::vector<SpanRow>& rows,
+                                      const StagePrices& prices, double share);
+/// The stage that it lengthens: "app", "cull of wall west".
+std::string stageOf(const PlantedDelay& planted);
 std::string toText(const PlantedDelay& planted);
 /// How "moved" is told of it.
 bool isNamedBy(const PlantedDelay& planted, const std::string& alarm);
-
-/// Processor time of an iteration of burn() [ns].
-double burnNanoseconds();
 
 std::string toJsonLine(const TrialResult& result);
 std::vector<TrialResult> readTrials(const std::string& text);

@@ -9,29 +9,37 @@ namespace {
 constexpr std::size_t kMostTold = 6;
 
 /// "triangles front left: 120, was 118", for each fact that differs.
-std::vector<std::string> differences(const NamedFacts& found, const NamedFacts& expected) {
+std::vector<std::string> differences(const NamedFacts& found, const NamedFacts& expected,
+                                     std::vector<std::string>& names) {
   std::vector<std::string> all;
   for (const auto& [name, value] : expected) {
     const auto now = found.find(name);
+    if (now == found.end() || now->second != value) names.push_back(name);
     if (now == found.end())
       all.push_back(fmt::format("{}: missing, was {}", name, value));
     else if (now->second != value)
       all.push_back(fmt::format("{}: {}, was {}", name, now->second, value));
   }
   for (const auto& [name, value] : found)
-    if (!expected.contains(name)) all.push_back(fmt::format("{}: {}, was not there", name, value));
+    if (!expected.contains(name)) {
+      names.push_back(name);
+      all.push_back(fmt::format("{}: {}, was not there", name, value));
+    }
   return all;
 }
 
 Check compared(const std::string& metric, const NamedFacts& found, const NamedFacts& expected,
                const std::string& with) {
-  std::vector<std::string> wrong = differences(found, expected);
+  std::vector<std::string> names, wrong = differences(found, expected, names);
   if (wrong.empty()) return {metric, Outcome::Passed, fmt::format("{} equal to {}", found.size(), with)};
   const std::size_t more = wrong.size() > kMostTold ? wrong.size() - kMostTold : 0;
   wrong.resize(wrong.size() - more);
-  return {metric, Outcome::Failed,
+  return {metric,
+          Outcome::Failed,
           fmt::format("not as in {}: {}{}", with, fmt::join(wrong, "; "),
-                      more > 0 ? fmt::format("; and {} more", more) : "")};
+                      more > 0 ? fmt::format("; and {} more", more) : ""),
+          {},
+          std::move(names)};
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ HistoryEntry entryOf(const Json& j) {
   for (const auto& [name, c] : j.at("cases").items()) {
     HistoryEntry::Case& kept = entry.cases[name];
     kept.failed = c.at("failed").get<bool>();
+    if (c.contains("failed_figures")) c.at("failed_figures").get_to(kept.failedFigures);
     for (const auto& [figure, value] : c.at("figures").items())
       if (value.is_number()) kept.figures[figure] = value.get<double>();
   }
@@ -39,6 +40,7 @@ HistoryEntry historyEntryOf(const SuiteResult& result) {
   for (const CaseResult& c : result.cases) {
     HistoryEntry::Case& kept = entry.cases[c.name];
     kept.failed = c.failed() || !c.fault.empty();
+    for (const Check& k : c.checks) kept.failedFigures.insert(k.figures.begin(), k.figures.end());
     for (const auto& [stage, rounds] : c.milliseconds) kept.figures[stage + " [ms]"] = median(rounds);
     for (const auto& [stage, count] : c.instructions) kept.figures[stage + " [instructions]"] = count;
     addCounts(c, kept);
@@ -49,7 +51,8 @@ HistoryEntry historyEntryOf(const SuiteResult& result) {
 std::string toJsonLine(const HistoryEntry& entry) {
   Json j{{"when", entry.when}, {"program", entry.program}, {"cases", Json::object()}};
   for (const auto& [name, c] : entry.cases)
-    j["cases"][name] = Json{{"failed", c.failed}, {"figures", c.figures}};
+    j["cases"][name] =
+        Json{{"failed", c.failed}, {"failed_figures", c.failedFigures}, {"figures", c.figures}};
   return j.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -7,6 +7,7 @@
 #include "profiling/regression/result.h"
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace stadion::regression {
 struct HistoryEntry {
   struct Case {
     bool failed = false;
+    std::set<std::string> failedFigures{};  ///< those that were not as they should be
     std::map<std::string, double> figures;  ///< "app [ms]", "triangles front left" ...
   };
   std::string when, program;

@@ -4,6 +4,7 @@
 ///
 /// Threads  free functions, any thread.
 
+#include "profiling/regression/node_costs.h"
 #include "profiling/regression/result.h"
 #include "profiling/regression/span_record.h"
 
@@ -27,11 +28,16 @@ struct InstructionShift {
 /// The stages' instructions a frame, by name.
 std::map<std::string, double> stageInstructions(const std::vector<SpanRow>& rows);
 
+/// What there was before: of stages by name, and of their nodes, as far as they are known.
+struct InstructionCounts {
+  std::map<std::string, double> stages;
+  NodeCosts nodes;
+};
+InstructionCounts instructionCounts(const std::vector<SpanRow>& rows);
+
 /// `tolerance`: [1].
-std::vector<InstructionShift> compareInstructions(const std::vector<SpanRow>& before,
+std::vector<InstructionShift> compareInstructions(const InstructionCounts& before,
                                                   const std::vector<SpanRow>& now, double tolerance);
-std::vector<InstructionShift> compareInstructions(const std::map<std::string, double>& before,
-                                                  const std::map<std::string, double>& now, double tolerance);
 std::vector<Check> checksOf(const std::vector<InstructionShift>& shifts, const std::string& with,
                             double tolerance);
 

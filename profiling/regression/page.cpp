@@ -62,12 +62,17 @@ struct Point {
   const HistoryEntry* entry;
 };
 
+/// A plot shows at least so much of its middle value [1]: what is within a tolerance looks flat.
+constexpr double kLeastSpan = 0.06;
+
 /// Points from left to right, the oldest first, on an axis from the least to the greatest value.
 std::string plot(const std::vector<Point>& points) {
   constexpr double kWidth = 340, kHeight = 110, kLeft = 60, kRight = 12, kTop = 10, kBottom = 20;
   double low = points.front().value, high = low;
   for (const Point& p : points) low = std::min(low, p.value), high = std::max(high, p.value);
-  const double room = high > low ? 0.08 * (high - low) : std::max(1e-9, 0.05 * std::abs(high));
+  const double middle = (low + high) / 2, least = middle == 0 ? 1 : kLeastSpan * std::abs(middle);
+  if (high - low < least) low = middle - least / 2, high = middle + least / 2;
+  const double room = 0.08 * (high - low);
   low -= room, high += room;
   const double step =
       points.size() > 1 ? (kWidth - kLeft - kRight) / static_cast<double>(points.size() - 1) : 0;
@@ -80,7 +85,6 @@ std::string plot(const std::vector<Point>& points) {
                        kWidth - kRight, y(v), y(v));
     svg += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", kLeft - 5, y(v) + 3,
                        shortNumber(v));
-    if (high - low <= 2.1 * room && low + room == high - room) break;
   }
   svg += "<polyline fill=\"none\" stroke=\"#2f6fb0\" stroke-width=\"1.5\" points=\"";
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -115,7 +119,7 @@ std::string historyOf(const std::string& name, const std::vector<HistoryEntry>& 
     for (const HistoryEntry& e : history)
       if (const auto c = e.cases.find(name); c != e.cases.end())
         if (const auto v = c->second.figures.find(figure); v != c->second.figures.end())
-          points.push_back({v->second, c->second.failed, &e});
+          points.push_back({v->second, c->second.failedFigures.contains(figure), &e});
     (figure.ends_with("]") ? costs : counts) += figureOf(figure, points);
   }
   std::string text;
@@ -144,7 +148,7 @@ std::string pageOf(const SuiteResult& result, const std::vector<HistoryEntry>& h
   }
   page += "</tbody></table>\n<h2>History</h2><p class=\"said\">The oldest of " +
           std::to_string(history.size()) +
-          " runs is on the left; red are runs in which the case failed.</p>\n";
+          " runs is on the left; red is a figure that was not as it should be.</p>\n";
   for (const CaseResult& c : result.cases)
     page += "<h2>" + escaped(c.name) + "</h2>\n" + historyOf(c.name, history);
   return page + "</body></html>\n";

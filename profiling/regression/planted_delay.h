@@ -18,7 +18,7 @@ struct PlantedDelay {
   std::string name;              ///< of the node, or the wall
   NodeRef node{};                ///< Simulate: which one that is
   std::uint32_t wall = 0;        ///< Cull, Draw: likewise
-  std::uint64_t iterations = 0;  ///< of burn(), each time
+  std::uint64_t iterations = 0;  ///< of burn(), once a frame
 
   /// "simulate:NODE=ITERATIONS", "cull:WALL=ITERATIONS", "draw:WALL=ITERATIONS"
   static std::optional<PlantedDelay> parse(const std::string& text);

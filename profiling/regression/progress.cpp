@@ -10,13 +10,20 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json jsonOf(const CaseResult& r) {
-  Json j{{"name", r.name},   {"seconds", r.seconds},           {"milliseconds", r.milliseconds},
-         {"facts", r.facts}, {"instructions", r.instructions}, {"checks", Json::array()}};
+  Json j{{"name", r.name},
+         {"seconds", r.seconds},
+         {"milliseconds", r.milliseconds},
+         {"facts", r.facts},
+         {"instructions", r.instructions},
+         {"processor_seconds", r.processorSeconds},
+         {"elapsed_ms", r.elapsedMs},
+         {"checks", Json::array()}};
   for (const Check& c : r.checks)
     j["checks"].push_back(Json{{"metric", c.metric},
                                {"outcome", static_cast<int>(c.outcome)},
                                {"said", c.said},
-                               {"culprit", c.culprit}});
+                               {"culprit", c.culprit},
+                               {"figures", c.figures}});
   return j;
 }
 
@@ -25,9 +32,10 @@ CaseResult resultOf(const Json& j) {
   j.at("name").get_to(r.name), j.at("seconds").get_to(r.seconds);
   j.at("milliseconds").get_to(r.milliseconds), j.at("facts").get_to(r.facts);
   j.at("instructions").get_to(r.instructions);
+  j.at("processor_seconds").get_to(r.processorSeconds), j.at("elapsed_ms").get_to(r.elapsedMs);
   for (const Json& c : j.at("checks"))
     r.checks.push_back({c.at("metric"), static_cast<Outcome>(std::clamp(c.at("outcome").get<int>(), 0, 2)),
-                        c.at("said"), c.at("culprit")});
+                        c.at("said"), c.at("culprit"), c.at("figures")});
   return r;
 }
 

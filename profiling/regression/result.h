@@ -18,8 +18,9 @@ enum class Outcome {
 struct Check {
   std::string metric;  ///< "state", "counts", "times of draw front" ...
   Outcome outcome = Outcome::Passed;
-  std::string said;       ///< what was found, in a sentence
-  std::string culprit{};  ///< the node and stage that moved, if a figure did
+  std::string said;                    ///< what was found, in a sentence
+  std::string culprit{};               ///< the node and stage that moved, if a figure did
+  std::vector<std::string> figures{};  ///< if it failed: which ("app [ms]", "triangles front left")
 };
 
 struct CaseResult {
@@ -27,10 +28,12 @@ struct CaseResult {
   std::vector<Check> checks;
   std::string fault{};   ///< why it could not be played; then there are no checks
   bool refused = false;  ///< the fault is the user's: a show with mistakes
-  std::map<std::string, std::vector<double>> milliseconds{};  ///< by stage, round by round
+  std::map<std::string, std::vector<double>> milliseconds{};  ///< processor time by stage, round by round
   std::map<std::string, double> instructions{};               ///< by stage, a frame
   std::map<std::string, std::string> facts{};                 ///< hashes and counts
   double seconds = 0;                                         ///< that it took
+  double processorSeconds = 0;                                ///< of the programs that were played
+  std::map<std::string, std::vector<double>> elapsedMs{};     ///< as `milliseconds`, by the clock on the wall
 
   bool failed() const;
 };

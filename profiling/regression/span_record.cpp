@@ -21,7 +21,8 @@ SpanRow rowOf(const Json& j) {
   row.wall = text(j, "wall"), row.eye = text(j, "eye");
   row.line = static_cast<std::uint32_t>(number(j, "line"));
   row.msMean = number(j, "ms_mean"), row.count = static_cast<std::size_t>(number(j, "count"));
-  row.instructions = number(j, "instructions");
+  row.instructions = number(j, "instructions"), row.plantedUs = number(j, "planted_us");
+  row.elapsedUs = number(j, "elapsed_us");
   if (!j.contains("frame_us") || !j["frame_us"].is_object()) return row;
   for (const auto& [frame, us] : j["frame_us"].items())
     if (us.is_number()) row.frames[std::strtoull(frame.c_str(), nullptr, 10)] = us.get<double>();
@@ -34,9 +35,12 @@ Json orNull(const std::string& value) {
 
 }  // namespace
 
+std::string SpanRow::node() const {
+  return path.empty() ? file.substr(file.rfind('/') + 1) + ":" + std::to_string(line) : path;
+}
+
 std::string SpanRow::name() const {
-  const std::string in =
-      stage + (wall.empty() ? "" : " of wall " + wall) + (eye.empty() ? "" : ", " + eye + " eye");
+  const std::string in = stageName() + (eye.empty() ? "" : ", " + eye + " eye");
   if (isStage()) return in;
   const std::string where = line > 0 ? file + ":" + std::to_string(line) : file;
   if (path.empty()) return where + " in " + in;
@@ -129,6 +133,8 @@ std::string toJson(const std::vector<SpanRow>& rows) {
            {"ms_mean", r.msMean},
            {"count", r.count}};
     if (r.instructions > 0) j["instructions"] = r.instructions;
+    if (r.elapsedUs > 0) j["elapsed_us"] = r.elapsedUs;
+    if (r.plantedUs > 0) j["planted_us"] = r.plantedUs;
     for (const auto& [frame, us] : r.frames) j["frame_us"][std::to_string(frame)] = us;
     all.push_back(std::move(j));
   }

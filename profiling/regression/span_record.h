@@ -25,13 +25,19 @@ struct SpanRow {
   double msMean = 0;                       ///< a frame in which it had something to do
   std::size_t count = 0;                   ///< of such frames
   std::map<std::uint64_t, double> frames;  ///< cost [us] by frame; empty if it was not told
+  double elapsedUs = 0;                    ///< of a stage: the typical frame, by the clock on the wall [us]
   double instructions = 0;                 ///< a frame; 0 if nobody counted
+  double plantedUs = 0;  ///< of a stage: how much of the typical frame was planted on purpose [us]
 
   bool isStage() const { return path.empty() && line == 0; }
   /// The same in another run has the same.
   std::string key() const {
     return stage + "|" + wall + "|" + eye + "|" + path + "|" + file + ":" + std::to_string(line);
   }
+  /// Its node, whatever folder the show is in: "sim_kick", or "kick.evs:12" if it has no name.
+  std::string node() const;
+  /// How the stage that it belongs to is named: "app", "cull of wall front".
+  std::string stageName() const { return stage + (wall.empty() ? "" : " of wall " + wall); }
   /// "sim_kick (scripts/kick.evs:12) in app", "cull of wall front".
   std::string name() const;
 };

@@ -1,8 +1,10 @@
 #include "profiling/regression/span_times.h"
 
 #include "profiling/regression/callgrind_request.h"
+#include "profiling/regression/rank_test.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 
 namespace stadion::regression {
@@ -43,6 +45,7 @@ void SpanTimes::began(Span what, std::uint64_t frame, std::uint32_t wall) {
   const Key key{what, wall == kNoWall ? 0 : wall, {}};
   const std::lock_guard lock(mutex_);
   open_[std::this_thread::get_id()] = {key, frame, {}};
+  if (what == Span::App) appFrame_ = frame;
   begin(key);
   boundary(nullptr);
   stage_ = &costs_[key];
@@ -59,18 +62,42 @@ void SpanTimes::began(Span what, NodeRef node) {
 void SpanTimes::ended(Span what) {
   if (!isStage(what) && !isOfNode(what)) return;
   Open open;
+  std::uint64_t appFrame = 0;
   {
     const std::lock_guard lock(mutex_);
-    open = open_[std::this_thread::get_id()];
+    open = open_[std::this_thread::get_id()], appFrame = appFrame_;
   }
   if (isStage(what)) {
-    if (isPlantedIn(options_.planted, what, open.stage.wall)) burn(options_.planted->iterations);
+    if (isPlantedIn(options_.planted, what, open.stage.wall)) plantIn(open.frame);
     stageEnded(open);
     if (what == Span::Swap && options_.turns) options_.turns->give();
   } else if (open.node.valid()) {
-    if (isPlantedIn(options_.planted, what, open.node)) burn(options_.planted->iterations);
+    if (isPlantedIn(options_.planted, what, open.node)) plantIn(appFrame);
     nodeEnded(open.node);
   }
+}
+
+// A node's cycle may simulate in two parts: once is enough. The clock on the wall costs next to nothing to
+// read, so that what is planted is what burn() takes.
+void SpanTimes::plantIn(std::uint64_t frame) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (plantedFrame_ == frame) return;
+    plantedFrame_ = frame;
+  }
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  burn(options_.planted->iterations);
+  const auto took = Clock::now() - start;
+  const std::lock_guard lock(mutex_);
+  planted_.push_back(static_cast<std::uint64_t>(std::chrono::nanoseconds(took).count()));
+}
+
+/// Whether what is planted lengthens this stage.
+bool SpanTimes::isPlanted(const Key& key) const {
+  if (key.node.valid() || planted_.empty()) return false;
+  return isPlantedIn(options_.planted, key.stage, key.wall) ||
+         (key.stage == Span::App && options_.planted->where == PlantedDelay::Where::Simulate);
 }
 
 void SpanTimes::stageEnded(const Open& open) {
@@ -79,6 +106,8 @@ void SpanTimes::stageEnded(const Open& open) {
   boundary(&cost);
   stage_ = nullptr;
   cost.frames.emplace_back(open.frame, cost.now);
+  cost.elapsedUs.push_back(
+      std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - cost.beganAt).count());
   cost.total += cost.now, cost.now = 0;
   if (open.stage.stage == Span::App) closeFrame(open.frame);
 }
@@ -95,6 +124,7 @@ void SpanTimes::nodeEnded(NodeRef node) {
 void SpanTimes::begin(const Key& key) {
   const auto [at, isNew] = costs_.try_emplace(key);
   if (isNew) at->second.row = costs_.size() - 1;
+  if (!key.node.valid()) at->second.beganAt = std::chrono::steady_clock::now();
   at->second.began = threadNanoseconds();
 }
 
@@ -136,6 +166,8 @@ std::vector<SpanRow> SpanTimes::rows(const std::vector<std::string>& walls,
     if (ofWall && key.wall < walls.size()) row.wall = walls[key.wall];
     if (key.node.valid()) nameNode(key.node, row);
     row.count = cost.frames.size();
+    if (!cost.elapsedUs.empty()) row.elapsedUs = median(cost.elapsedUs);
+    if (isPlanted(key)) row.plantedUs = 1e-3 * median({planted_.begin(), planted_.end()});
     if (row.count > 0) row.msMean = 1e-6 * static_cast<double>(cost.total) / static_cast<double>(row.count);
     if (key.node.valid() && cost.total < dear) continue;
     for (const auto& [frame, ns] : cost.frames) row.frames[frame] = 1e-3 * static_cast<double>(ns);

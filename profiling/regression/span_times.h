@@ -13,6 +13,7 @@
 #include "profiling/regression/span_record.h"
 #include "profiling/regression/turns.h"
 
+#include <chrono>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -34,6 +35,9 @@ public:
   void began(Span what, NodeRef node) override;
   void ended(Span what) override;
 
+  /// What was planted, frame by frame [ns]: at most once in each.
+  const std::vector<std::uint64_t>& planted() const { return planted_; }
+
   /// `nameNode` fills in path, file and line. Frames are told of stages and of the dearest nodes.
   std::vector<SpanRow> rows(const std::vector<std::string>& walls,
                             const std::function<void(NodeRef, SpanRow&)>& nameNode) const;
@@ -49,6 +53,8 @@ private:
     std::size_t row = 0;
     std::uint64_t began = 0, now = 0, total = 0;  ///< [ns]; `now`: of this frame
     std::vector<std::pair<std::uint64_t, std::uint64_t>> frames;
+    std::chrono::steady_clock::time_point beganAt{};  ///< by the clock on the wall
+    std::vector<double> elapsedUs;                    ///< of a stage, frame by frame
   };
   /// What a thread is at.
   struct Open {
@@ -57,6 +63,8 @@ private:
     NodeRef node;
   };
 
+  void plantIn(std::uint64_t frame);
+  bool isPlanted(const Key& stage) const;
   void stageEnded(const Open& open);
   void nodeEnded(NodeRef node);
   void begin(const Key& key);
@@ -71,6 +79,8 @@ private:
   std::vector<Cost*> touched_;  ///< nodes, in this frame
   Cost* stage_ = nullptr;       ///< that is under way, where one thread does all
   bool counting_ = false;
+  std::uint64_t appFrame_ = kNoFrame, plantedFrame_ = kNoFrame;
+  std::vector<std::uint64_t> planted_;
 };
 
 }  // namespace stadion::regression

@@ -33,6 +33,8 @@ struct Metrics {
   bool counts = true;         ///< of nodes, messages, draw calls and so on, exactly
   bool instructions = false;  ///< by callgrind, without the rasteriser's
   bool times = false;         ///< of stages, by rank test
+
+  bool none() const { return !state && !images && !counts && !instructions && !times; }
 };
 
 struct Tolerances {

@@ -142,11 +142,34 @@ std::vector<StageShift> compareTimes(const StageTimesByName& baseline, const Sta
   return shifts;
 }
 
+NodeCosts nodeTimes(const std::vector<Round>& rounds, const std::vector<double>& calibrationMs) {
+  std::map<std::string, std::size_t> frames;
+  std::map<std::string, std::map<std::string, std::vector<double>>> all;
+  for (std::size_t i = 0; i < rounds.size(); ++i) {
+    for (const SpanRow& r : rounds[i].now)
+      if (r.isStage()) frames[r.stageName()] = r.frames.size();
+    for (const SpanRow& r : rounds[i].now) {
+      if (r.isStage() || r.frames.empty()) continue;
+      std::vector<double> us;
+      for (const auto& [frame, value] : r.frames)
+        if (frame >= kFirstFrames) us.push_back(value);
+      const double share = static_cast<double>(r.frames.size()) /
+                           static_cast<double>(std::max<std::size_t>(1, frames[r.stageName()]));
+      all[r.stageName()][r.node()].push_back(1e-3 * median(us) * share / calibrationMs[i]);
+    }
+  }
+  NodeCosts costs;
+  for (const auto& [stage, nodes] : all)
+    for (const auto& [node, each] : nodes) costs[stage][node] = median(each);
+  return costs;
+}
+
 std::vector<Check> checksOf(const std::vector<StageShift>& shifts, const std::string& with, double tolerance,
                             std::size_t rounds) {
   std::vector<Check> checks;
   for (const StageShift& s : shifts) {
     Check c{"times of " + s.name, s.slower ? Outcome::Failed : Outcome::Passed, {}, s.culprit};
+    if (s.slower) c.figures = {s.name + " [ms]"};
     if (s.beforeUs < kShortest) {
       c.outcome = Outcome::Skipped;
       c.said =

@@ -10,6 +10,7 @@
 /// Units    ratios: 0.05 is 5 % slower.
 /// Threads  free functions, any thread.
 
+#include "profiling/regression/node_costs.h"
 #include "profiling/regression/result.h"
 #include "profiling/regression/span_record.h"
 
@@ -46,6 +47,9 @@ using StageTimesByName = std::map<std::string, std::vector<double>>;
 /// frames now.
 std::vector<StageShift> compareTimes(const StageTimesByName& baseline, const StageTimesByName& now,
                                      const std::map<std::string, double>& us, double tolerance);
+
+/// What the nodes of rounds of one build cost in the typical frame, in multiples of the calibration kernel's.
+NodeCosts nodeTimes(const std::vector<Round>& rounds, const std::vector<double>& calibrationMs);
 
 /// A check for each.
 std::vector<Check> checksOf(const std::vector<StageShift>& shifts, const std::string& with, double tolerance,

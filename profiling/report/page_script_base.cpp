@@ -4,6 +4,18 @@ namespace stadion::report {
 
 const char* const kBaseScript = R"js(
 const data = JSON.parse(document.getElementById("data").textContent);
+/// Nodes as the tables want them: what is left out in the data is put in again.
+function readNodes() {
+  for (const n of data.nodes) {
+    if (n.place) n.place = data.files[n.place[0]] + ":" + n.place[1];
+    if (n.kind !== undefined) n.kind = data.kinds[n.kind];
+    if (!n.costs) continue;
+    [n.app, n.cull, n.draw] = n.costs;
+    [n.visits, n.p95, n.max] = n.visits || [0, 0, 0];
+    n.total = n.app + n.cull + n.draw, n.share = n.share || 0;
+  }
+}
+readNodes();
 const byId = id => document.getElementById(id);
 const kSvg = "http://www.w3.org/2000/svg";
 const STAGES = ["app", "cull", "draw"];
@@ -40,7 +52,7 @@ function ms(v) {
   return size >= 100 ? v.toFixed(0) : size >= 10 ? v.toFixed(1) : size >= 1 ? v.toFixed(2) : size >= 0.1 ? v.toFixed(3) : v.toFixed(4);
 }
 const three = v => String(Number(v.toPrecision(3)));
-const msText = v => v === 0 ? "0 ms" : Math.abs(v) < 0.1 ? three(1000 * v) + " \u00b5s" : ms(v) + " ms";
+const msText = v => v === null ? "not measured" : v === 0 ? "0 ms" : Math.abs(v) < 0.1 ? three(1000 * v) + " \u00b5s" : ms(v) + " ms";
 const percent = v => v === null || v === undefined ? "\u2013" : v >= 0.0995 ? (100 * v).toFixed(0) + " %" : (100 * v).toFixed(1) + " %";
 function metres(v) {
   if (v === null || v === undefined) return "\u2013";

@@ -17,6 +17,8 @@ function table(caption, columns, rows, heads) {
 }
 const heat = (v, most, stage) => v > 0 ? `background:color-mix(in srgb, ${colour[stage]} ${Math.round(62 * Math.sqrt(v / most))}%, transparent)` : "";
 
+/// Null is no 0: in so few frames it had no turn.
+const priced = (v, inPart) => v === null ? [el("span", {class: "quiet", title: "not measured: it had no turn in these frames"}, "not measured")] : inPart ? [el("span", {title: "on some walls only: on the others it had no turn"}, "> " + ms(v))] : [ms(v)];
 const nodeColumns = [
   {key: "path", name: "node", cell: n => [el("a", {href: "#flame", onclick: e => { e.preventDefault(); chosen.set({node: data.nodes.indexOf(n)}); byId("flame").scrollIntoView(); }}, n.path)], title: n => nodeText(n), by: n => n.path},
   {key: "place", name: "script", kind: "place", cell: n => shortPlace(n.place) + (n.unloaded ? " (unloaded)" : ""), title: n => n.place, by: n => n.place || ""},
@@ -24,8 +26,8 @@ const nodeColumns = [
   {key: "budget", name: "budget", n: true, cell: n => ms(n.budget), by: n => n.budget || 0, help: "what its script allows it [ms]"},
   {key: "app", name: "App", n: true, cell: n => ms(n.app), by: n => n.app, help: "all phases, mean of all frames [ms]"},
   {key: "p95", name: "p95 visit", n: true, cell: n => n.visits > 0 ? ms(n.p95) : "\u2013", by: n => n.visits > 0 ? n.p95 : 0, help: "App, of the frames in which it was visited [ms]"},
-  {key: "cull", name: "Cull", n: true, cell: n => ms(n.cull), by: n => n.cull, help: "its share, all walls [ms]"},
-  {key: "draw", name: "Draw", n: true, cell: n => ms(n.draw), by: n => n.draw, help: "drawn alone, all walls and eyes [ms]"},
+  {key: "cull", name: "Cull", n: true, cell: n => priced(n.cull), by: n => n.cull || 0, help: "its share, all walls [ms]"},
+  {key: "draw", name: "Draw", n: true, cell: n => priced(n.draw, n.inPart), by: n => n.draw || 0, help: "drawn alone, all walls and eyes [ms]"},
   {key: "total", name: "total", n: true, cell: n => ms(n.total), by: n => n.total, help: "App, Cull and Draw [ms]"},
   {key: "share", name: "share", n: true, kind: "bar", cell: n => [percent(n.share), el("i", {style: `width:${Math.min(100, 100 * n.share)}%`})], by: n => n.share, help: "of all stages of all walls"},
 ];
@@ -34,14 +36,20 @@ function drawNodes() {
   const by = nodeColumns.find(c => c.key === chosen.get("sort")) || nodeColumns.find(c => c.key === "total");
   const down = chosen.get("order", by.n ? "down" : "up") === "down", words = (chosen.get("find", "") || "").toLowerCase();
   const all = data.nodes.filter(n => n.total !== undefined && (words === "" || nodeText(n).toLowerCase().includes(words)));
-  all.sort((a, b) => { const x = by.by(a), y = by.by(b); return (x < y ? -1 : x > y ? 1 : 0) * (down ? -1 : 1); });
-  const shown = chosen.get("all") ? all : all.slice(0, 30);
+  const rest = n => n.kind ? 0 : 1;  // what was too many comes after all others
+  all.sort((a, b) => { if (rest(a) !== rest(b)) return rest(a) - rest(b); const x = by.by(a), y = by.by(b); return (x < y ? -1 : x > y ? 1 : 0) * (down ? -1 : 1); });
+  const rows = Math.max(1, Number(chosen.get("rows", 30)) || 30), shown = all.slice(0, rows);
+  const steps = [30, 300, 3000].filter(n => n < all.length).concat(all.length > 30 ? [all.length] : []);
   const head = c => el("th", {scope: "col", class: c.n ? "n" : null, title: c.help || null, "aria-sort": c === by ? (down ? "descending" : "ascending") : null},
     el("button", {type: "button", onclick: () => chosen.set({sort: c.key, order: c === by ? (down ? "up" : "down") : null})}, c.name));
   put("nodes-table", table(null, nodeColumns, shown, {head}));
   const field = byId("find") || el("input", {id: "find", type: "search", placeholder: "path, file or kind", "aria-label": "find nodes",
     value: chosen.get("find", ""), oninput: e => chosen.set({find: e.target.value || null})});
-  put("nodes-nav", field, all.length > 30 ? choice(chosen.get("all") ? "the dearest 30" : `all ${all.length}`, false, {all: chosen.get("all") ? null : 1}) : "");
+  put("nodes-nav", field, ...steps.map(n => choice(n === all.length ? `all ${n}` : n === 30 ? "the first 30" : String(n), n === Math.min(rows, all.length), {rows: n === 30 ? null : n})));
+  const missed = data.nodes.filter(n => n.costs && (n.cull === null || n.draw === null || n.inPart)).length, needed = data.head.framesNeeded;
+  const parted = data.head.whole < data.head.profiled ? `App by node is of ${data.head.whole} of the ${data.head.profiled} frames: where it visits so many nodes, the others are recorded in part. ` : "";
+  byId("nodes-unmeasured").textContent = parted + (missed === 0 ? "" : needed === 0 ? "Draw was not measured: nothing was drawn." :
+    `${missed} nodes had no turn in ${data.head.frames} frames, at least not on every wall; some ${needed} frames would do (--frames ${needed}).`);
   if (document.activeElement === document.body && words) field.focus();
 }
 
@@ -60,9 +68,9 @@ function drawHeat() {
     {name: "all walls", n: true, cell: eye => ms(total(eye))}], eyes, {kind: "heat"}));
   const seen = data.nodes.filter(n => n.walls && n.draw > 0).sort((a, b) => b.draw - a.draw).slice(0, 15);
   if (seen.length === 0) return;
-  const onWall = (n, w) => n.walls[w] ? n.walls[w][1] + n.walls[w][2] : 0, top = Math.max(...seen.flatMap(n => n.walls.map((_, w) => onWall(n, w))));
+  const onWall = (n, w) => n.walls[w] ? n.walls[w][1] + n.walls[w][2] : 0, known = (n, w) => n.walls[w] && (n.walls[w][1] !== null || n.walls[w][2] !== null), top = Math.max(...seen.flatMap(n => n.walls.map((_, w) => onWall(n, w))));
   put("node-heat", el("h3", {}, "The dearest to draw, by wall"), table("Both eyes together, milliseconds a frame", [{name: "node", cell: n => n.path, title: nodeText},
-    ...data.walls.map((name, w) => ({name, n: true, cell: n => onWall(n, w) === 0 ? "0" : ms(onWall(n, w)), style: n => heat(onWall(n, w), top, "draw"),
+    ...data.walls.map((name, w) => ({name, n: true, cell: n => known(n, w) ? ms(onWall(n, w)) : priced(null), style: n => heat(onWall(n, w), top, "draw"),
       title: n => n.walls[w] ? `left ${msText(n.walls[w][1])}, right ${msText(n.walls[w][2])}, Cull ${msText(n.walls[w][0])}` : null})),
     {name: "all walls", n: true, cell: n => ms(n.draw)}], seen, {kind: "heat"}));
 }

@@ -12,22 +12,24 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostNodes = 1200;
+/// Nodes take about 100 bytes each; of the dearest it is told what they cost on each wall.
+constexpr std::size_t kMostNodes = 12'000, kMostOnWalls = 1200;
 constexpr std::size_t kColumns = 1200;  ///< of the strip that shows the whole run
 
-/// Six digits are enough for a picture.
-json number(double v) {
+/// Six digits are enough for a picture, four for one of very many nodes.
+json number(double v, int digits = 6) {
   if (!std::isfinite(v) || v == 0) return 0;
-  const double scale = std::pow(10, 5 - std::floor(std::log10(std::abs(v))));
+  const double scale = std::pow(10, digits - 1 - std::floor(std::log10(std::abs(v))));
   return std::round(v * scale) / scale;
+}
+
+/// Null: not measured.
+json measured(double v, bool known, int digits) {
+  return known || v > 0 ? number(v, digits) : json();
 }
 
 json number(std::optional<double> v) {
   return v ? number(*v) : json();
-}
-
-std::string placeOf(const NodeName& name) {
-  return name.file.empty() ? "" : name.file + ":" + std::to_string(name.line);
 }
 
 class Builder {
@@ -56,6 +58,7 @@ public:
                            {"count", e.count}});
     j["dynamics"] = data_.dynamics ? dynamics(*data_.dynamics) : json();
     j["nodes"] = nodes();  // last: the others may have added some
+    j["files"] = files_, j["kinds"] = kinds_;
     return j;
   }
 
@@ -65,7 +68,10 @@ private:
            {"rate", data_.head.rate},
            {"frames", data_.head.frames},
            {"recording", number(data_.head.recording)},
-           {"drawMethod", data_.figures.drawMethod}};
+           {"drawMethod", data_.figures.drawMethod},
+           {"framesNeeded", data_.figures.framesNeeded},
+           {"profiled", data_.figures.frames},
+           {"whole", data_.figures.wholeFrames}};
     h["facts"] = json::array();
     for (const auto& [what, how] : data_.head.facts) h["facts"].push_back({what, how});
     return h;
@@ -215,31 +221,45 @@ private:
     return s;
   }
 
-  json nodes() const {
+  /// What is 0 or as for most nodes is left out; the page's script puts it back (readNodes).
+  json nodes() {
     json all = json::array();
+    std::size_t priced = 0;
     for (std::size_t i = 0; i < table_.nodes().size(); ++i) {
       const TableNode& n = table_.nodes()[i];
       json j{{"path", n.name.path}};
       if (n.parent != i) j["parent"] = n.parent;
-      if (const std::string place = placeOf(n.name); !place.empty()) j["place"] = place;
-      if (n.restCount == 0) j["kind"] = nameOf(n.name.kind);
+      if (!n.name.file.empty()) j["place"] = {placeIn(files_, n.name.file), n.name.line};
+      if (n.restCount == 0) j["kind"] = placeIn(kinds_, std::string(nameOf(n.name.kind)));
       if (n.name.unloaded) j["unloaded"] = true;
       if (n.name.budget > 0) j["budget"] = number(n.name.budget);
-      if (n.row || n.restCount > 0) addCosts(j, n.row ? *n.row : n.rest);
+      if (n.row || n.restCount > 0) addCosts(j, n.row ? *n.row : n.rest, ++priced <= kMostOnWalls);
       all.push_back(std::move(j));
     }
     return all;
   }
 
-  static void addCosts(json& j, const NodeRow& r) {
-    j["phases"] = {number(r.receive), number(r.simulate), number(r.dispatch), number(r.settle),
-                   number(r.publish)};
-    j["app"] = number(r.app), j["cull"] = number(r.cull), j["draw"] = number(r.draw);
-    j["total"] = number(r.total), j["share"] = number(r.share);
-    j["visits"] = number(r.visits), j["p95"] = number(r.visitP95), j["max"] = number(r.visitMost);
-    if (r.cull + r.draw <= 0) return;
+  static std::size_t placeIn(std::vector<std::string>& list, const std::string& text) {
+    const auto at = std::ranges::find(list, text);
+    if (at == list.end()) return list.push_back(text), list.size() - 1;
+    return static_cast<std::size_t>(at - list.begin());
+  }
+
+  static void addCosts(json& j, const NodeRow& r, bool onWalls) {
+    const int digits = onWalls ? 6 : 4;
+    j["costs"] = {number(r.app, digits), measured(r.cull, r.cullMeasured, digits),
+                  measured(r.draw, r.drawMeasured, digits)};
+    if (!r.drawMeasured && r.draw > 0) j["inPart"] = true;
+    if (r.share > 0) j["share"] = number(r.share, digits);
+    if (r.visits > 0)
+      j["visits"] = {number(r.visits, digits), number(r.visitP95, digits), number(r.visitMost, digits)};
+    if (r.app > 0)
+      for (const double ms : {r.receive, r.simulate, r.dispatch, r.settle, r.publish})
+        j["phases"].push_back(number(ms, digits));
+    if (r.cull + r.draw <= 0 || !onWalls) return;
     for (const NodeOnWall& w : r.walls)
-      j["walls"].push_back({number(w.cull), number(w.draw[0]), number(w.draw[1])});
+      j["walls"].push_back({measured(w.cull, w.cullMeasured, 6), measured(w.draw[0], w.drawMeasured[0], 6),
+                            measured(w.draw[1], w.drawMeasured[1], 6)});
   }
 
   static json dynamics(const DynamicsFigures& d) {
@@ -262,6 +282,7 @@ private:
 
   const ReportData& data_;
   NodeTable table_;
+  std::vector<std::string> files_, kinds_;
 };
 
 }  // namespace

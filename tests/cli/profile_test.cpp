@@ -2,6 +2,7 @@
 
 #include "tests/cli/program.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -70,6 +71,23 @@ TEST(ProgramProfile, PicturesAndStatesAreThoseOfAPlainRun) {
   EXPECT_EQ(plain["image_hashes"], profiled["image_hashes"]);
 }
 
+TEST(ProgramProfile, OfTwoThingsOfOneModelTheLargeOneIsTheDearOne) {
+  const TemporaryFolder folder;
+  const std::string show =
+      folder.write("two.evs", "light( direction=\"-1, 2, -3\" )\n"
+                              "object( name=huge, file=football.3ds, scale=10, position=\"0, 3, "
+                              "1.7\" )\n"
+                              "object( name=tiny, file=football.3ds, position=\"0, 60, 8\" )\n");
+  const ProgramResult r = stadionProgram({"profile", show, "--asset-root", assetFolder(), "--frames", "96",
+                                          "--walls", "desktop", "--size", "400x300", "--json"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto figures = nlohmann::json::parse(r.out);
+  std::map<std::string, double> draw;
+  for (const auto& row : figures["nodes"]) draw[row["path"]] = row["draw_ms"].get<double>();
+  EXPECT_GT(draw["tiny"], 0);
+  EXPECT_GT(draw["huge"], 2 * draw["tiny"]) << r.out;
+}
+
 TEST(ProgramProfile, TheShadowsRingsAreTheLights) {
   const TemporaryFolder folder;
   const std::string show = folder.write(
@@ -89,7 +107,55 @@ TEST(ProgramProfile, WithoutDrawingAppAndCullAreLeft) {
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_NE(r.out.find("sim_kick"), std::string::npos);
   EXPECT_EQ(r.out.find("alone"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("- not measured: nothing was drawn"), std::string::npos) << r.out;
   EXPECT_NE(profileKick({"--csv", "--no-draw"}).out.find("path,file,line"), std::string::npos);
+}
+
+TEST(ProgramProfile, WhatHadNoTurnInSoFewFramesIsToldAsSuch) {
+  const auto profiled = [](const std::string& frames) {
+    const ProgramResult r = stadionProgram({"profile", STADION_SOURCE_DIR "/scripts/olympia.evs", "--walls",
+                                            "desktop", "--size", "64x48", "--frames", frames, "--json"});
+    EXPECT_EQ(r.status, 0) << r.err;
+    return nlohmann::json::parse(r.out);
+  };
+  const auto unmeasured = [](const nlohmann::json& j) {
+    return std::ranges::count_if(j["nodes"], [](const auto& n) { return n["draw_complete"] == false; });
+  };
+  const auto few = profiled("24");
+  EXPECT_GT(unmeasured(few), 0) << few.dump();
+  const auto needed = few["frames_needed"].get<std::uint64_t>();
+  EXPECT_GT(needed, 24U);
+  EXPECT_LE(needed, 5000U);
+  const auto many = profiled(std::to_string(needed));
+  EXPECT_LT(2 * unmeasured(many), unmeasured(few)) << "about so many would do: " << needed;
+}
+
+TEST(ProgramProfile, ARunOfWhichNothingIsRecordedIsRefused) {
+  for (const char* frames : {"1", "4"}) {
+    const ProgramResult r =
+        stadionProgram({"profile", STADION_SOURCE_DIR "/scripts/kick.evs", "--no-draw", "--frames", frames});
+    EXPECT_EQ(r.status, 2) << r.out;
+    EXPECT_NE(r.err.find("play at least 5"), std::string::npos) << r.err;
+  }
+}
+
+TEST(ProgramProfile, TwoOutputsAreNotOneFile) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "out", show = STADION_SOURCE_DIR "/scripts/kick.evs";
+  const std::string same = (folder.path() / "." / "out").string();
+  for (const auto& words : std::vector<std::vector<std::string>>{
+           {"profile", show, "--trace", file, "--html", same},
+           {"run", show, "--black-box", file, "--record-input", same},
+           {"run", show, "--frames", "5", "--trace-events", file, "--record-input", same}}) {
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 2) << r.err;
+    EXPECT_NE(r.err.find("name the same file"), std::string::npos) << r.err;
+    EXPECT_FALSE(std::filesystem::exists(file));
+  }
+  const std::string mine = folder.write("mine.evs", "rig( name=stand )\n");
+  const ProgramResult r = stadionProgram({"profile", mine, "--frames", "9", "--no-draw", "--html", mine});
+  EXPECT_EQ(r.status, 2) << r.err;
+  EXPECT_EQ(fileContent(mine), "rig( name=stand )\n") << "a show is not written over";
 }
 
 }  // namespace

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <fcntl.h>
 #include <regex>
+#include <sys/file.h>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -24,8 +27,10 @@ std::string smallSuite(const TemporaryFolder& folder, const std::string& more = 
 }
 
 ProgramResult regress(std::vector<std::string> words) {
-  words.insert(words.begin(), "regress");
-  return stadionProgram(words);
+  words.insert(words.begin(), {stadionPath(), "regress"});
+  ProgramRun run{std::move(words)};
+  run.limit = std::chrono::seconds(600);  // callgrind on a busy machine
+  return runProgram(run);
 }
 
 TEST(ProgramRegress, TheShippedSuiteHasTheHashesAndCountsOfItsBaseline) {
@@ -97,7 +102,9 @@ TEST(ProgramRegress, ReportsForMachinesAreWhatTheyClaimToBe) {
   const Json& b = j["benchmarks"][0];
   EXPECT_EQ(b["name"], "bodies/sequential");
   EXPECT_EQ(b["time_unit"], "ms");
-  EXPECT_TRUE(b["real_time"].is_number() && b["cpu_time"].is_number());
+  ASSERT_TRUE(b["real_time"].is_number() && b["cpu_time"].is_number());
+  EXPECT_NE(b["real_time"], b["cpu_time"]) << "one is of the clock, the other of the processor";
+  EXPECT_GT(b["cpu_time"], 0);
   EXPECT_TRUE(b["triangles screen left"].is_number());
   EXPECT_TRUE(b["state hash"].is_string());
   const std::string xml = fileContent(junit);
@@ -150,11 +157,34 @@ TEST(ProgramFullRegress, AWallWhoseCullingBecameDearerIsNamedByItsInstructions) 
   EXPECT_NE(r.out.find("4 comparisons passed, 1 failed"), std::string::npos) << r.out;
 }
 
+TEST(ProgramFullRegress, AgainstABaselineTheNodeThatMovedIsNamedToo) {
+  if (runProgram({{"valgrind", "--version"}}).status != 0) GTEST_SKIP() << "there is no valgrind";
+  const TemporaryFolder folder;
+  const std::string suite = crowdSuite(folder, "instructions");
+  ASSERT_EQ(regress({suite, "--instructions", "--update"}).status, 0);
+  const ProgramResult r =
+      regress({suite, "--instructions", "--stadion", spoilt(folder, "simulate:lane_07=20000")});
+  EXPECT_EQ(r.status, 1) << r.out << r.err;
+  EXPECT_TRUE(std::regex_search(r.out, std::regex("moved: lane_07 \\(.*crowd.evs:[0-9]+\\) in app")))
+      << r.out;
+}
+
+TEST(ProgramFullRegress, AgainstABaselinesTimesTheNodeThatMovedIsNamedToo) {
+  const TemporaryFolder folder;
+  const std::string suite = crowdSuite(folder, "times");
+  ASSERT_EQ(regress({suite, "--update"}).status, 0);
+  const ProgramResult r = regress({suite, "--stadion", spoilt(folder, "simulate:lane_07=2000000")});
+  EXPECT_EQ(r.status, 1) << r.out << r.err;
+  EXPECT_TRUE(std::regex_search(r.out, std::regex("moved: lane_07 \\(.*crowd.evs:[0-9]+\\) in app")))
+      << r.out;
+}
+
 TEST(ProgramRegress, AnInterruptedSuiteGoesOnWhereItWas) {
   const TemporaryFolder folder;
   std::string text =
-      "stadion-suite 1\nsize 16x12\nwalls desktop\ncompare state\nasset-root " + assetFolder() + "\n";
-  for (int i = 0; i < 40; ++i)
+      "stadion-suite 1\nsize 16x12\nwalls desktop\ncompare state\nmodes sequential pipelined\nasset-root " +
+      assetFolder() + "\n";
+  for (int i = 0; i < 20; ++i)
     text += "case c" + std::to_string(i) + "\n  show " + testShow("bodies.evs") + "\n  frames 3\n";
   const std::string suite = folder.write("many.suite", text), out = folder.path() / "out";
   const ProgramResult stopped = runProgram(
@@ -186,6 +216,55 @@ TEST(ProgramRegress, WrongUseAndWrongSuitesAreToldWithTheFix) {
   refused(regress({folder.write("e.suite", "stadion-suite 1\ncase a\n  show e.evs\n  frames 9\n" +
                                                (folder.write("e.evs", "nonsense("), std::string()))}),
           "");
+}
+
+TEST(ProgramRegress, AFolderThatAnotherOneWritesIsLeftAlone) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path() / "out";
+  std::filesystem::create_directories(out);
+  const int other = ::open(out.c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  const ProgramResult r = regress({smallSuite(folder, "  modes sequential pipelined\n"), "--out", out});
+  EXPECT_EQ(r.status, 2) << r.out;
+  EXPECT_NE(r.err.find("another regress is writing there"), std::string::npos) << r.err;
+  EXPECT_TRUE(std::filesystem::is_empty(out));
+  close(other);
+  EXPECT_EQ(regress({smallSuite(folder, "  modes sequential pipelined\n"), "--out", out}).status, 0);
+}
+
+TEST(ProgramRegress, WhereNothingWasComparedItIsNotGreen) {
+  const TemporaryFolder folder;
+  const std::string suite = smallSuite(folder);
+  const auto refused = [](const ProgramResult& r, const std::string& why) {
+    EXPECT_EQ(r.status, 2) << r.out << r.err;
+    EXPECT_NE(r.err.find(why), std::string::npos) << r.err;
+  };
+  refused(regress({suite, "--baseline", "nowhere.json"}),
+          "there is no file nowhere.json; --update writes it");
+  refused(regress({suite}), "nothing was compared\nthere is no baseline");
+  refused(regress({suite, "--compare", "times"}),
+          "no case compares times; say so in its \"compare\" statement");
+  const std::string counted = folder.write("counted.suite", fileContent(suite) + "  compare instructions\n");
+  ASSERT_EQ(regress({counted, "--update"}).status, 0);
+  refused(regress({counted}), "nothing was compared; the table says why");
+}
+
+TEST(ProgramRegress, EverythingThatIsCountedIsCompared) {
+  const TemporaryFolder folder;
+  const std::string suite = smallSuite(folder);
+  ASSERT_EQ(regress({suite, "--update"}).status, 0);
+  const std::string file = folder.path() / "small.baseline.json";
+  Json baseline = Json::parse(fileContent(file));
+  Json& counts = baseline["cases"]["bodies/sequential"]["counts"];
+  EXPECT_EQ(counts["pixels screen left"], std::to_string(12 * 32 * 24) + ".0") << counts;
+  for (const char* name :
+       {"tested screen", "seen screen", "casters screen", "impacts", "contacts", "substeps"})
+    EXPECT_TRUE(counts.contains(name)) << name << counts;
+  counts["substeps"] = "1.0";
+  folder.write("small.baseline.json", baseline.dump());
+  const ProgramResult r = regress({suite});
+  EXPECT_EQ(r.status, 1) << r.out << r.err;
+  EXPECT_TRUE(std::regex_search(r.out, std::regex("substeps: [0-9.]+, was 1.0"))) << r.out;
 }
 
 TEST(ProgramRegress, AProgramThatFailsIsAFaultNotADifference) {

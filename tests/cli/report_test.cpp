@@ -110,6 +110,29 @@ TEST_F(ProgramReport, AScriptsNamesAreShownAsTheyAreWritten) {
   EXPECT_EQ(s.dom.find("<b onclick"), std::string::npos);
 }
 
+// Two thousand that stand alike, one on its own.
+TEST_F(ProgramReport, VeryManyNodesAreGatheredAndAllInTheTable) {
+  std::string script = "object( name=ball, file=football.3ds, position=\"0, 3, 1\" )\n";
+  for (int i = 0; i < 2000; ++i)
+    script += "object( name=pillar_" + std::to_string(i) +
+              ", file=suites/pillar.obj, scale=0.4, position=\"" + std::to_string(i % 50 - 25) + ", " +
+              std::to_string(2 + i / 50) + ", 0\" )\n";
+  const fs::path page = folder_.path() / "many.html";
+  const ProgramResult r = profile(folder_.write("many.evs", script),
+                                  {"--html", page.string(), "--walls", "desktop", "--asset-root",
+                                   STADION_SOURCE_DIR "/scripts", "--asset-root", assetFolder()});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_LT(fs::file_size(page), 3'000'000U);
+  const Shown s = shown(page, "stage=cull&rows=2001");
+  EXPECT_EQ(s.complaints, "");
+  const std::string flame = part(s.dom, "flame-plot");
+  EXPECT_NE(flame.find("\u00d7 pillar_\u2026"), std::string::npos) << "what is alike is one box";
+  EXPECT_NE(flame.find("1 to 100 of pillar_\u2026"), std::string::npos);
+  EXPECT_GE(count(part(s.dom, "nodes-table"), "<tr"), 2000U);
+  const Shown zoomed = shown(page, "stage=cull&node=w:object pillar_:0");
+  EXPECT_GE(count(part(zoomed.dom, "flame-plot"), "<rect"), 90U) << "a hundred of them, each to be seen";
+}
+
 TEST_F(ProgramReport, ItsPictureIsNotBlank) {
   const fs::path page = folder_.path() / "kick.html", picture = folder_.path() / "page.png";
   ASSERT_EQ(profile(kKick, {"--html", page.string(), "--walls", "desktop"}).status, 0);

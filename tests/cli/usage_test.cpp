@@ -353,11 +353,11 @@ TEST(ProgramUsage, NothingButAnInputLogIsReplacedByAnInputLog) {
   };
   ProgramResult r = record(show, "none");
   EXPECT_EQ(r.status, 2);
-  EXPECT_TRUE(has(r.err, "is there and is no input log")) << r.err;
+  EXPECT_TRUE(has(r.err, "name the same file")) << r.err;
   EXPECT_EQ(fileContent(show), "group( name=a )\n");
   r = record(log, log);
   EXPECT_EQ(r.status, 2);
-  EXPECT_TRUE(has(r.err, "is the input log being played")) << r.err;
+  EXPECT_TRUE(has(r.err, "name the same file")) << r.err;
   EXPECT_EQ(record(log, "none").status, 0);
   EXPECT_FALSE(has(fileContent(log), "1.7"));
 }

@@ -1,6 +1,7 @@
 /// Discs that are braked as they roll: they fall over freely, and lie still where they have come to rest.
 
 #include "engine/maths/functions.h"
+#include "tests/dynamics/sampled.h"
 #include "tests/dynamics/watch.h"
 
 #include <gtest/gtest.h>
@@ -34,6 +35,7 @@ TEST(RestingDisc, ThrownOntoBanksItComesToRest) {
   for (const double rolling : {0.02, 0.1, 0.35, 0.5}) {
     Chance chance(7);
     for (int n = 0; n < 6; ++n) {
+      if (!isPlayed(n)) continue;
       World w;
       w.addCollider({w.addShape(MeshShape(TriangleTree(banks()))), {}, {0.5, 0.2, 0.05}});
       BodyDef d = disc(w, rolling);

@@ -2,9 +2,11 @@
 
 #include "profiling/black_box.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace stadion {
@@ -68,6 +70,28 @@ TEST(FrameVerdict, WhatTheStageWaitedForIsTheCause) {
   EXPECT_EQ(f.wall, 0U);
   EXPECT_EQ(f.holder, 1U);
   EXPECT_EQ(causeOf(facts(60)), Cause::Unknown) << "no stage took long";
+}
+
+TEST(FrameVerdict, ADrawWithoutProcessorsIsPreempted) {
+  FrameFacts f = facts(60);
+  f.draw[1].ms = 50, f.draw[1].delayed = 35;
+  judge(f);
+  EXPECT_EQ(f.cause, Cause::Preempted);
+  const std::vector<std::string> walls{"front", "floor"};
+  EXPECT_EQ(toText(f, walls),
+            "frame 7 came after 60.0 ms (16.7): Draw of wall floor took 50.0 ms, 35.0 of them "
+            "without a processor, which others had");
+  f.draw[1].delayed = 5;
+  EXPECT_EQ(causeOf(f), Cause::Draw);
+}
+
+TEST(FrameVerdict, OfALateDrawWhoHasMostToDrawIsNamed) {
+  FrameFacts f = facts(60);
+  f.draw[1].ms = 50;
+  copyText("playfield kick.evs:32", f.drawn);
+  judge(f);
+  const std::vector<std::string> walls{"front", "floor"};
+  EXPECT_NE(toText(f, walls).find("; most there is to draw of playfield kick.evs:32"), std::string::npos);
 }
 
 class Played {
@@ -144,6 +168,106 @@ TEST(BlackBox, WhatIsNoneIsRefused) {
   EXPECT_NE(wrong.error().message.find("holds no frames"), std::string::npos);
   NodeNames names;
   EXPECT_FALSE(BlackBox::create({(folder.path / "not/there").string(), 60, {}, {}}, names));
+}
+
+std::string contentOf(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(BlackBox, WhatIsSomethingElseIsLeftAsItIs) {
+  const Folder folder;
+  const NodeNames names;
+  std::ofstream(folder.file()) << "the only copy of a thesis";
+  const auto refused = BlackBox::create({folder.file(), 60, {"front"}, {}}, names);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("name a file that is not there yet"), std::string::npos);
+  EXPECT_EQ(contentOf(folder.file()), "the only copy of a thesis");
+
+  const std::string pipe = (folder.path / "pipe").string(), link = (folder.path / "link").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink(folder.file(), link);
+  for (const std::string& other : {pipe, link, folder.path.string()}) {
+    const auto wrong = BlackBox::create({other, 60, {"front"}, {}}, names);
+    ASSERT_FALSE(wrong) << other;
+    EXPECT_NE(wrong.error().message.find("no plain file"), std::string::npos) << wrong.error().message;
+    EXPECT_TRUE(fs::exists(fs::symlink_status(other))) << other;
+  }
+  EXPECT_EQ(contentOf(folder.file()), "the only copy of a thesis");
+  EXPECT_FALSE(BlackBox::read(pipe)) << "and nobody waits for it";
+}
+
+TEST(BlackBox, OnlyWhatItMadeGoesWithIt) {
+  const Folder folder;
+  const NodeNames names;
+  std::ofstream(folder.file()).flush();
+  ASSERT_TRUE(BlackBox::create({folder.file(), 60, {"front"}, {}}, names)) << "an empty file will do";
+  EXPECT_TRUE(BlackBox::read(folder.file())) << "no frame was late, but it was there before";
+  ASSERT_TRUE(BlackBox::create({folder.file(), 60, {"floor"}, {}}, names)) << "and so will an earlier run's";
+  EXPECT_EQ(BlackBox::read(folder.file()).value().walls, std::vector<std::string>{"floor"});
+
+  const std::string made = (folder.path / "made").string();
+  {
+    const auto box = BlackBox::create({made, 60, {}, {}}, names);
+    ASSERT_TRUE(box);
+    fs::rename(made, folder.path / "moved");
+    std::ofstream(made) << "somebody else's";
+  }
+  EXPECT_EQ(contentOf(made), "somebody else's");
+}
+
+TEST(BlackBox, TwoRunsDoNotShareAFile) {
+  const Folder folder;
+  const NodeNames names;
+  auto first = BlackBox::create({folder.file(), 60, {"front"}, {}}, names);
+  ASSERT_TRUE(first);
+  const auto second = BlackBox::create({folder.file(), 60, {"floor"}, {}}, names);
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().message.find("another run"), std::string::npos) << second.error().message;
+  EXPECT_EQ(BlackBox::read(folder.file()).value().walls, std::vector<std::string>{"front"});
+  first.value().reset();
+  EXPECT_TRUE(BlackBox::create({folder.file(), 60, {"floor"}, {}}, names));
+}
+
+TEST(BlackBox, ADamagedOneIsRefusedOrRead) {
+  const Folder folder;
+  {
+    Played show(folder.file());
+    ASSERT_TRUE(show.box);
+    for (std::uint64_t n = 0; n < 3; ++n) show.frame(n, std::chrono::milliseconds(n == 1 ? 40 : 0));
+    show.log->finish();
+  }
+  const std::string sound = contentOf(folder.file());
+  ASSERT_TRUE(BlackBox::read(folder.file()));
+  const std::string damaged = (folder.path / "damaged").string();
+  std::size_t refused = 0;
+  // The header, the names of walls and the first frames: there is nothing in the others.
+  constexpr int kFlips[] = {0xff, 0x80, 0x01};
+  for (std::size_t at = 0; at < 4096; at += at < 320 ? 1 : 3)
+    for (const int flip : at < 320 ? std::vector<int>(kFlips, kFlips + 3) : std::vector{kFlips[at / 3 % 3]}) {
+      std::string bytes = sound;
+      bytes[at] = static_cast<char>(bytes[at] ^ flip);
+      std::ofstream(damaged, std::ios::binary)
+          .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+      const auto content = BlackBox::read(damaged);
+      if (!content) {
+        ++refused;
+        EXPECT_FALSE(content.error().message.empty());
+        continue;
+      }
+      ASSERT_LE(content.value().frames.size(), BlackBox::kFrames);
+      for (const FrameFacts& f : content.value().frames) {
+        const std::string text = toText(f, content.value().walls);
+        EXPECT_LT(text.size(), 700U) << "byte " << at;
+        EXPECT_EQ(std::ranges::count_if(text, [](char c) { return c >= 0 && c < 0x20; }), 0) << "byte " << at;
+        EXPECT_EQ(text.find("nan"), std::string::npos) << "byte " << at;
+      }
+    }
+  EXPECT_GT(refused, 100U);
+  for (const std::size_t length : {std::size_t{0}, std::size_t{15}, std::size_t{17}, sound.size() - 1}) {
+    std::ofstream(damaged, std::ios::binary).write(sound.data(), static_cast<std::streamsize>(length));
+    EXPECT_FALSE(BlackBox::read(damaged)) << length;
+  }
 }
 
 }  // namespace

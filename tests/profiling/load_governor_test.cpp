@@ -91,6 +91,48 @@ TEST(LoadGovernor, OverrunsAreToldOnceInTenSecondsAndCounted) {
   EXPECT_GE(g.governor->reports().at(0).overruns, 650U);
 }
 
+/// A node whose drawing is looked at in every 16th frame, unless it is hidden.
+struct Drawn : Governed {
+  Drawn(double budget, std::vector<Concession> gives) : Governed({{budget, std::move(gives), 1}}) {}
+
+  void draw(std::uint64_t count, double ms) {
+    for (; count > 0; --count) {
+      const bool hidden = reliefAt(scene.load(1)->terms.at(0).gives, level(0)).hidden;
+      if (at % 16 == 9 && !hidden) {
+        const DrawnAlone alone{at, 0, 0, Span::Draw, ms, 0};
+        governor->take(alone, {{NodeRef{1, 0}, 1}});
+      }
+      frame({hidden ? 1e-4 * static_cast<double>(1 + at % 3) : 0});  // being hidden is some work, too
+    }
+  }
+};
+
+TEST(LoadGovernor, WhatIsHiddenCostsNothing) {
+  Drawn g(1, {Hide});
+  g.draw(120, 3);
+  EXPECT_EQ(g.level(0), 1U);
+  const std::uint64_t before = g.governor->reports().at(0).overruns;
+  g.draw(40, 3);
+  EXPECT_EQ(g.governor->reports().at(0).overruns, before);
+}
+
+TEST(LoadGovernor, WhatWasHiddenIsShownAgainWithinSecondsOnceItIsCheap) {
+  Drawn g(1, {Hide});
+  g.draw(120, 3);
+  ASSERT_EQ(g.level(0), 1U);
+  g.draw(300, 0.3);
+  EXPECT_EQ(g.level(0), 0U);
+}
+
+TEST(LoadGovernor, WhatIsDearWheneverItIsShownIsTriedLessAndLessOften) {
+  Drawn g(1, {Hide});
+  g.draw(6000, 3);
+  const std::uint64_t early = g.governor->reports().at(0).changes;
+  g.draw(6000, 3);
+  EXPECT_LT(g.governor->reports().at(0).changes - early, 8U);
+  EXPECT_LT(early, 24U);
+}
+
 TEST(LoadGovernor, WhoDoesNotActOnlyTells) {
   GovernorOptions options;
   options.acts = false;

@@ -26,8 +26,7 @@ TEST(ProgramRecordingOff, TheFloorsThatAreRecordedCallNothingOfARecordingByName)
     ASSERT_GT(symbols.size(), 1000U) << floor;
     for (const char* name : {"FrameProbe::", "SpanScope", "FrameLog", "SpanTrack", "allocationsSoFar"})
       EXPECT_EQ(symbols.find(name), std::string::npos)
-          << floor << " calls "
-          << symbols.substr(symbols.rfind('\n', symbols.find(name)) + 1, 200);
+          << floor << " calls " << symbols.substr(symbols.rfind('\n', symbols.find(name)) + 1, 200);
   }
 }
 

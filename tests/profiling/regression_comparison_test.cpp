@@ -9,6 +9,7 @@
 #include "profiling/regression/page.h"
 #include "profiling/regression/progress.h"
 #include "profiling/regression/reports.h"
+#include "profiling/regression/span_times.h"
 #include "profiling/regression/time_comparison.h"
 
 #include <gtest/gtest.h>
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <random>
 
 namespace stadion::regression {
@@ -253,23 +255,46 @@ TEST(RegressionInstructions, AStageHasThoseOfItsNodesAndTheOneThatGrewIsNamed) {
   giveInstructions(before, {{"row 0", 1160000}, {"row 4", 580000}, {"row 5", 1160000}});
   giveInstructions(now, {{"row 0", 1160000}, {"row 4", 696000}, {"row 5", 1160000}});
   EXPECT_DOUBLE_EQ(before[0].instructions, 2900000.0 / 58) << "the first two frames are not counted";
-  const auto shifts = compareInstructions(before, now, 0.005);
+  const auto shifts = compareInstructions(instructionCounts(before), now, 0.005);
   ASSERT_EQ(shifts.size(), 1u);
   EXPECT_TRUE(shifts[0].more);
   EXPECT_NEAR(shifts[0].shift(), 0.04, 1e-9);
   EXPECT_EQ(shifts[0].culprit, "ball (show.evs:7) in app");
-  EXPECT_FALSE(compareInstructions(before, now, 0.05)[0].more);
-  EXPECT_TRUE(compareInstructions(now, before, 0.005)[0].fewer);
+  EXPECT_FALSE(compareInstructions(instructionCounts(before), now, 0.05)[0].more);
+  EXPECT_TRUE(compareInstructions(instructionCounts(now), before, 0.005)[0].fewer);
+}
+
+TEST(RegressionInstructions, ABaselineKeepsEnoughToNameTheNodeThatMoved) {
+  MadeRun made(7);
+  std::vector<SpanRow> before = made.rows(1, 1, 1), now = before;
+  giveInstructions(before, {{"row 0", 1160000}, {"row 4", 580000}, {"row 5", 1160000}});
+  giveInstructions(now, {{"row 0", 1160000}, {"row 4", 696000}, {"row 5", 1160000}});
+  for (SpanRow& r : now)
+    if (!r.isStage()) r.file = "/somewhere/else/" + r.file;
+  BaselineCase kept;
+  kept.instructions = stageInstructions(before);
+  kept.nodeInstructions = dearOf(nodeInstructions(before), kept.instructions);
+  const std::string file = testing::TempDir() + "made.baseline.json";
+  std::ofstream(file) << toJson({{"made/sequential", kept}});
+  const auto read = readBaseline(file);
+  ASSERT_TRUE(read) << read.error().message;
+  const BaselineCase& of = read.value().at("made/sequential");
+  const auto shifts = compareInstructions({of.instructions, of.nodeInstructions}, now, 0.005);
+  ASSERT_EQ(shifts.size(), 1u);
+  EXPECT_EQ(shifts[0].culprit, "ball (/somewhere/else/show.evs:7) in app");
+  EXPECT_EQ(compareInstructions({of.instructions, {}}, now, 0.005)[0].culprit, "app")
+      << "of an older baseline the stage is known";
 }
 
 SuiteResult madeResult() {
   SuiteResult result{"a&b.suite", "/bin/stadion", "the baseline", "2026-11-22T11:40:00Z", {}};
   CaseResult c;
   c.name = "kick/sequential", c.seconds = 1.5;
-  c.checks = {{"state", Outcome::Passed, "2 equal"},
-              {"counts", Outcome::Failed, "triangles <front>: 7, was \"8\"", "ball in app"},
-              {"times", Outcome::Skipped, "nothing"}};
-  c.milliseconds["app"] = {1, 3, 2};
+  c.checks = {
+      {"state", Outcome::Passed, "2 equal"},
+      {"counts", Outcome::Failed, "triangles <front>: 7, was \"8\"", "ball in app", {"triangles <front>"}},
+      {"times", Outcome::Skipped, "nothing"}};
+  c.milliseconds["app"] = {1, 3, 2}, c.elapsedMs["app"] = {2, 6, 4}, c.processorSeconds = 1.25;
   c.facts = {{"state hash", "00000000000000aa"}, {"frames", "60"}};
   result.cases.push_back(c);
   CaseResult lost;
@@ -284,7 +309,10 @@ TEST(RegressionReports, ForMachinesHaveEveryCheckAndAreWellFormed) {
   const auto median = std::ranges::find_if(
       j["benchmarks"], [](const auto& b) { return b["name"] == "kick/sequential/app_median"; });
   ASSERT_NE(median, j["benchmarks"].end());
-  EXPECT_EQ((*median)["real_time"], 2);
+  EXPECT_EQ((*median)["real_time"], 4);
+  EXPECT_EQ((*median)["cpu_time"], 2);
+  EXPECT_EQ(j["benchmarks"][0]["real_time"], 1500);
+  EXPECT_EQ(j["benchmarks"][0]["cpu_time"], 1250);
   EXPECT_EQ((*median)["aggregate_name"], "median");
 
   const std::string xml = junitOf(madeResult());
@@ -306,6 +334,41 @@ TEST(RegressionReports, ForPeopleSayWhatMovedAndHowMuchFailed) {
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos) << "nothing is fetched";
   EXPECT_EQ(page.find("<front>"), std::string::npos) << "text is escaped";
+}
+
+/// Of the circles of a page's plots: how many are red, and how far apart the highest and the lowest are.
+std::pair<std::size_t, double> circlesOf(const std::string& page) {
+  std::size_t red = 0;
+  double low = 1e9, high = -1e9;
+  for (std::size_t at = 0; (at = page.find("<circle", at)) != page.npos; ++at) {
+    const double y = std::stod(page.substr(page.find("cy=\"", at) + 4));
+    low = std::min(low, y), high = std::max(high, y);
+    red += page.substr(at, page.find('>', at) - at).find("#b3261e") != std::string::npos;
+  }
+  return {red, high - low};
+}
+
+TEST(RegressionReports, PlotsAreFlatWhereNothingMovedAndRedWhereThatFigureFailed) {
+  SuiteResult result = madeResult();
+  result.cases.pop_back();
+  CaseResult& c = result.cases.front();
+  c.facts = {{"frames", "60"}};
+  std::vector<HistoryEntry> history;
+  for (const double ms : {10.0, 10.01, 9.99, 10.0}) {
+    c.milliseconds["app"] = {ms};
+    history.push_back(historyEntryOf(result));
+  }
+  const auto [red, height] = circlesOf(pageOf(result, history));
+  EXPECT_EQ(red, 0u) << "the case failed, but for triangles";
+  EXPECT_LT(height, 5) << "a tenth of a percent is no zigzag";
+
+  c.milliseconds["app"] = {12};
+  c.checks =
+      checksOf({{"app|||", "app", 10'000, 0.2, 0.01, true, false, "ball in app"}}, "the baseline", 0.03, 12);
+  history.push_back(readHistory(toJsonLine(historyEntryOf(result)))[0]);
+  const auto [redNow, heightNow] = circlesOf(pageOf(result, history));
+  EXPECT_EQ(redNow, 1u);
+  EXPECT_GT(heightNow, 60);
 }
 
 TEST(RegressionFiles, HistoryAndProgressSurviveAHalfWrittenLine) {
@@ -337,16 +400,19 @@ TEST(RegressionDetection, TrialsComeInTurnsAndEachWallAndNodeHasItsTurn) {
   EXPECT_EQ(std::ranges::count(trials, std::string("nothing"), &Trial::kind), 100);
   MadeRun made(8);
   const auto rows = made.rows(1, 1, 1);
-  const auto first = plantedIn({"simulate", 0}, rows, 0.05, 2),
-             second = plantedIn({"simulate", 1}, rows, 0.05, 2);
+  // Instructions, of which App has more for its time than Draw.
+  const StagePrices prices{{{"app", 900'000}, {"draw of wall front", 40'000}}, 4};
+  const auto first = plantedIn({"simulate", 0}, rows, prices, 0.05),
+             second = plantedIn({"simulate", 1}, rows, prices, 0.05);
   ASSERT_TRUE(first && second);
   EXPECT_NE(first->name, second->name);
-  EXPECT_NEAR(static_cast<double>(first->iterations), 0.05 * 200'000 / 2, 1500)
-      << "5 % of App's typical frame";
-  EXPECT_FALSE(plantedIn({"nothing", 0}, rows, 0.05, 2));
+  EXPECT_EQ(first->iterations, 900'000u * 5 / 100 / 4) << "5 % of what decides";
+  EXPECT_EQ(plantedIn({"draw", 3}, rows, prices, 0.05)->iterations, 500u);
+  EXPECT_EQ(stageOf(*first), "app");
+  EXPECT_FALSE(plantedIn({"nothing", 0}, rows, prices, 0.05));
   EXPECT_TRUE(isNamedBy(*first, first->name + " (show.evs:7) in app"));
   EXPECT_FALSE(isNamedBy(*first, second->name + " (show.evs:7) in app"));
-  const auto read = PlantedDelay::parse(toText(*plantedIn({"draw", 3}, rows, 0.05, 2)));
+  const auto read = PlantedDelay::parse(toText(*plantedIn({"draw", 3}, rows, prices, 0.05)));
   ASSERT_TRUE(read);
   EXPECT_TRUE(isNamedBy(*read, "draw of wall front"));
   for (const char* wrong :
@@ -356,7 +422,11 @@ TEST(RegressionDetection, TrialsComeInTurnsAndEachWallAndNodeHasItsTurn) {
 
 TEST(RegressionDetection, MissesItsLimitsWhenTwoAreNotFoundOrTwoAlarmsAreFalse) {
   std::vector<TrialResult> results;
-  for (const Trial& t : trialsOf(20, 100)) results.push_back({t.name(), t.kind, "", {}, {}, true, 1});
+  for (const Trial& t : trialsOf(20, 100)) {
+    const bool same = t.kind == "nothing";
+    results.push_back(
+        {t.name(), t.kind, same ? "" : "cull:front=9", {}, {}, true, 1, "times", 5, same ? 0 : 5.2});
+  }
   bool met = false;
   detectionTable(results, 20, 100, met);
   EXPECT_TRUE(met);
@@ -371,6 +441,34 @@ TEST(RegressionDetection, MissesItsLimitsWhenTwoAreNotFoundOrTwoAlarmsAreFalse) 
   EXPECT_FALSE(spoil("cull", 2));
   EXPECT_TRUE(spoil("nothing", 1));
   EXPECT_FALSE(spoil("nothing", 2));
+
+  results.front().lengthened = 21;
+  EXPECT_NE(detectionTable(results, 20, 100, met).find("not valid, 21.00 % were planted"), std::string::npos);
+  EXPECT_FALSE(met) << "what is found was not what was to be found";
+  const auto read = readTrials(toJsonLine(results.front()));
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_FALSE(read[0].valid());
+}
+
+TEST(RegressionDetection, PlantsOnceAFrameThoughANodeSimulatesInTwoParts) {
+  PlantedDelay planted;
+  planted.where = PlantedDelay::Where::Simulate, planted.node = {1, 0}, planted.iterations = 10;
+  SpanTimes times({planted});
+  for (std::uint64_t frame = 0; frame < 3; ++frame) {
+    times.began(Span::App, frame, kNoWall);
+    for (const NodeRef node : {NodeRef{1, 0}, NodeRef{1, 1}})
+      for (int part = 0; part < 2; ++part) {
+        times.began(Span::Simulate, node);
+        times.ended(Span::Simulate);
+      }
+    times.ended(Span::App);
+  }
+  EXPECT_EQ(times.planted().size(), 3u);
+  const auto rows =
+      times.rows({}, [](NodeRef node, SpanRow& row) { row.path = std::to_string(node.position); });
+  const auto read = spanRows(toJson(rows));
+  for (const SpanRow& r : read)
+    EXPECT_EQ(r.plantedUs > 0, r.isStage()) << "App is what it lengthens: " << r.name();
 }
 
 }  // namespace

@@ -178,6 +178,30 @@ TEST(ReportPage, WhatScriptsNameThemselvesNeverBecomesMarkup) {
   EXPECT_EQ(json["nodes"][0]["path"].get<std::string>().substr(0, 9), "</script>");
 }
 
+TEST(ReportPage, TenThousandNodesAreAllThereAndNoHeavyPage) {
+  MadeUpRun run;
+  for (std::uint64_t n = 0; n < 60; ++n) run.frame(n);
+  ShowFigures figures = figuresOf(run.profile, run.names, {"front", "left", "right", "floor"}, true);
+  for (std::uint32_t i = 0; i < 10'000; ++i) {
+    NodeRow row;
+    row.node = {2, i}, row.name.path = "pillar_" + std::to_string(i), row.name.line = i;
+    row.name.file = "a/folder/with/a/rather/long/name/grid.evs";
+    row.cull = 0.00012345678 * (1 + i), row.draw = 0.0034567891 * (1 + i), row.total = row.cull + row.draw;
+    row.walls.resize(4, {row.cull / 4, {row.draw / 8, row.draw / 8}});
+    row.drawMeasured = i != 7, row.draw = i == 7 ? 0 : row.draw;
+    figures.nodes.push_back(row);
+  }
+  const ReportData data{
+      {"grid.evs", 60, 60, 0.1, {}},     figures, run.names, run.recording.series(), run.recording.kept(),
+      run.recording.threads().threads(), {},      {}};
+  const auto json = nlohmann::json::parse(reportJson(data));
+  EXPECT_EQ(json["nodes"].size(), figures.nodes.size());
+  EXPECT_LT(reportPage(data).size(), 3'000'000U);
+  std::size_t unmeasured = 0;
+  for (const auto& node : json["nodes"]) unmeasured += node["costs"][2].is_null() ? 1 : 0;
+  EXPECT_GE(unmeasured, 1U) << "what had no turn is not 0";
+}
+
 TEST(ReportPage, ItNeedsNothingBesideItself) {
   MadeUpRun run;
   for (std::uint64_t n = 0; n < 60; ++n) run.frame(n);

@@ -1,7 +1,9 @@
 /// Where a frame's time goes: spans of several threads, added up by node and stage.
 
+#include "profiling/csv_field.h"
 #include "profiling/show_figures.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -228,13 +230,96 @@ TEST(ShowProfile, DrawingCountsByHowOftenANodeIsSeen) {
   profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
   profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
   profile.take({Span::Fill, 16, 0, 1, {kStone}});
-  profile.take({8, 0, 1, Span::Draw, 6, 0.1}, {kBall, kStone});  // three each, on the right eye
+  profile.take({8, 0, 1, Span::Draw, 6, 0.1}, {{kBall, 0.5f}, {kStone, 0.5f}});  // on the right eye
   const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
   ASSERT_EQ(f.nodes.size(), 2U);
   EXPECT_EQ(f.nodes[0].node, kStone);
   EXPECT_DOUBLE_EQ(f.nodes[0].walls[0].draw[1], 3);
   EXPECT_DOUBLE_EQ(f.nodes[1].walls[0].draw[1], 1.5) << "it was seen in half of the frames";
   EXPECT_DOUBLE_EQ(f.nodes[0].walls[0].draw[0], 0);
+}
+
+TEST(ShowProfile, WhatIsDrawnTogetherIsSharedByHowMuchThereIsToDraw) {
+  ShowProfile profile;
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
+  profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
+  profile.take({8, 0, 0, Span::Draw, 8, 0.1}, {{kBall, 0.75f}, {kStone, 0.25f}});
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  EXPECT_DOUBLE_EQ(f.nodes[0].walls[0].draw[0], 6);
+  EXPECT_DOUBLE_EQ(f.nodes[1].walls[0].draw[0], 2);
+}
+
+TEST(ShowProfile, NodesRowsSumToTheEyeDrawnWhole) {
+  ShowProfile profile;
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
+  profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
+  profile.take({8, 0, 0, Span::Draw, 6, 0.1}, {{kBall, 1}});
+  profile.take({8, 0, 0, Span::Draw, 2, 0.1}, {{kStone, 1}});
+  profile.take({8, 0, 0, Span::Resolve, 1, 0.1}, {});
+  profile.take({24, 0, 0, Span::LeftEye, 11, 0.1}, {});
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  EXPECT_DOUBLE_EQ(f.nodes[0].draw, 7.5);
+  EXPECT_DOUBLE_EQ(f.nodes[1].draw, 2.5);
+  EXPECT_NEAR(f.explained[2].covered(), 9.0 / 11, 1e-12) << "as it was drawn alone";
+}
+
+TEST(ShowProfile, AppIsWhatItTakesWhileNotEveryNodeIsRecorded) {
+  ShowProfile profile;
+  SpanRecord light = record(Span::App, 9, kNoWall, {}, 3);
+  light.whole = false;
+  profile.take(0, record(Span::Simulate, 8, kNoWall, kBall, 2));
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 4));
+  profile.take(0, light);
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  EXPECT_DOUBLE_EQ(f.explained[0].measured, 3);
+  EXPECT_DOUBLE_EQ(f.nodes[0].app, 1.5) << "half of it, as in the frame that was recorded";
+}
+
+TEST(ShowProfile, WhatWasNotSampledIsNotNothing) {
+  ShowProfile profile;
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
+  profile.take(0, record(Span::LeftEye, 8, 0, {}, 5));
+  profile.take({Span::Test, 8, 0, 1, {kBall, kStone, {1, 2}}});
+  profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
+  profile.take({8, 0, 0, Span::Draw, 3, 0.1}, {{kBall, 1}});  // the stone had no turn, a third is not seen
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front", "floor"}, true);
+  std::map<NodeRef, const NodeRow*> rows;
+  for (const NodeRow& row : f.nodes) rows[row.node] = &row;
+  EXPECT_TRUE(rows.at(kBall)->walls[0].drawMeasured[0]);
+  EXPECT_FALSE(rows.at(kStone)->walls[0].drawMeasured[0]);
+  EXPECT_TRUE((rows.at({1, 2})->walls[0].drawMeasured[0])) << "what is not seen costs nothing to draw";
+  EXPECT_FALSE(rows.at(kBall)->walls[1].cullMeasured) << "nobody looked at that wall";
+  EXPECT_FALSE(rows.at(kBall)->drawMeasured);
+  EXPECT_GT(f.framesNeeded, 1U);
+
+  const auto json = nlohmann::json::parse(toJson(f));
+  for (const auto& node : json["nodes"]) {
+    EXPECT_EQ(node["draw_complete"], false);
+    EXPECT_TRUE(node["walls"][1]["cull_ms"].is_null());
+  }
+  EXPECT_TRUE(std::ranges::any_of(json["nodes"], [](const auto& n) { return n["draw_ms"] == 3; }));
+  EXPECT_TRUE(std::ranges::any_of(json["nodes"], [](const auto& n) { return n["draw_ms"].is_null(); }));
+  const std::string text = toText(f, 10), csv = toCsv(f);
+  EXPECT_NE(text.find(">3.000"), std::string::npos) << text;
+  EXPECT_NE(text.find("3 of 3 nodes had no turn in 1 frames"), std::string::npos) << text;
+  EXPECT_NE(csv.find(",draw,front,left,3\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",draw,front,left,\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",draw,front,left,0\n"), std::string::npos) << csv;
+  EXPECT_NE(toText(ShowFigures(), 5).find("no frame was recorded"), std::string::npos);
+}
+
+TEST(ShowProfile, AFieldOfItsTableIsQuotedWhereItMustBe) {
+  EXPECT_EQ(csvField("stands/north"), "stands/north");
+  EXPECT_EQ(csvField("a,b"), "\"a,b\"");
+  EXPECT_EQ(csvField("say \"hi\"\n"), "\"say \"\"hi\"\"\n\"");
+  ShowProfile profile;
+  profile.take(0, record(Span::Simulate, 0, kNoWall, kBall, 0.25));
+  profile.take(0, record(Span::App, 0, kNoWall, {}, 1));
+  ShowFigures f = figuresOf(profile, NodeNames(), {"front, left"}, true);
+  f.nodes[0].name.path = "a,b", f.nodes[0].name.file = "x \"y\".evs";
+  const std::string csv = toCsv(f);
+  EXPECT_NE(csv.find("\"a,b\",\"x \"\"y\"\".evs\",0,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",\"front, left\",left,"), std::string::npos) << csv;
 }
 
 TEST(ShowProfile, ItsTablesAgree) {
@@ -245,6 +330,11 @@ TEST(ShowProfile, ItsTablesAgree) {
   const auto json = nlohmann::json::parse(toJson(f));
   EXPECT_DOUBLE_EQ(json["nodes"][0]["app_ms"], 0.25);
   EXPECT_DOUBLE_EQ(json["explained"][0]["covered"], 0.25);
+  EXPECT_EQ(json["whole_frames"], 1);
+  EXPECT_EQ(toText(f, 10).find("App by node"), std::string::npos);
+  ShowFigures parted = f;
+  parted.frames = 200;
+  EXPECT_NE(toText(parted, 10).find("App by node is of 1 of the 200 frames"), std::string::npos);
   EXPECT_NE(toCsv(f).find(",app,,,0.25\n"), std::string::npos) << toCsv(f);
   EXPECT_NE(toText(f, 10).find("0.2500"), std::string::npos) << toText(f, 10);
 }

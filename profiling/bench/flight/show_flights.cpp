@@ -31,7 +31,8 @@ constexpr const char* kTable = "t.csv";  // beside the script
 class ScratchFolder {
 public:
   ScratchFolder() {
-    std::string form = (fs::temp_directory_path() / "stadion-flights-XXXXXX").string();
+    std::error_code none;  // without a folder writing the script fails and says so
+    std::string form = (fs::temp_directory_path(none) / "stadion-flights-XXXXXX").string();
     if (const char* made = mkdtemp(form.data())) path_ = made;
   }
   ~ScratchFolder() {

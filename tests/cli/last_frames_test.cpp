@@ -1,0 +1,77 @@
+/// A live run keeps its last frames in a file, and harms nobody's by it.
+
+#include "tests/cli/program.h"
+
+#include <csignal>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+namespace stadion {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> live(const std::vector<std::string>& more) {
+  std::vector<std::string> words = {stadionPath(), "run",       STADION_SOURCE_DIR "/scripts/kick.evs",
+                                    "--walls",     "desktop",   "--gl",
+                                    "none",        "--no-sound"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+ProgramResult played(const std::vector<std::string>& more, const std::vector<std::string>& environment = {}) {
+  ProgramRun run;
+  run.words = live(more), run.environment = environment;
+  run.signal = SIGINT, run.signalAfter = std::chrono::milliseconds(1500);
+  return runProgram(run);
+}
+
+TEST(ProgramLastFrames, AFileOfSomethingElseIsNotTouched) {
+  const TemporaryFolder folder;
+  const std::string thesis = folder.write("thesis.txt", "the only copy");
+  const ProgramResult r = played({"--black-box", thesis});
+  EXPECT_EQ(r.status, 2) << r.err;
+  EXPECT_NE(r.err.find("name a file that is not there yet"), std::string::npos) << r.err;
+  EXPECT_EQ(fileContent(thesis), "the only copy");
+  const std::string pipe = folder.path() / "pipe";  // no device: a fault would take it from everybody
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const ProgramResult refused = played({"--black-box", pipe});
+  EXPECT_EQ(refused.status, 2) << refused.err;
+  EXPECT_NE(refused.err.find("no plain file"), std::string::npos) << refused.err;
+  EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST(ProgramLastFrames, WithoutATemporaryFolderTheShowIsPlayedWithout) {
+  const TemporaryFolder folder;
+  const std::string none = "TMPDIR=" + (folder.path() / "not there").string();
+  const ProgramResult r = played({}, {none});
+  EXPECT_EQ(r.status, 130) << r.err;
+  EXPECT_NE(r.err.find("the show is played without"), std::string::npos) << r.err;
+  EXPECT_NE(r.out.find("frames"), std::string::npos) << r.out;
+  const ProgramResult asked = played({"--black-box", (folder.path() / "not there" / "box").string()}, {none});
+  EXPECT_EQ(asked.status, 2) << asked.err;
+}
+
+TEST(ProgramLastFrames, WhatIsDamagedIsSaidToBe) {
+  const TemporaryFolder folder;
+  const std::string box = folder.path() / "box";
+  // A thousand frames a second: some are late.
+  const ProgramResult r = played({"--black-box", box, "--rate", "1000"});
+  ASSERT_EQ(r.status, 130) << r.err;
+  std::string bytes = fileContent(box);
+  if (bytes.empty()) GTEST_SKIP() << "no frame was late";
+  const auto told = [&](const std::string& content) {
+    return stadionProgram({"profile", "--black-box", folder.write("damaged", content)});
+  };
+  EXPECT_EQ(told(bytes).status, 0);
+  for (std::size_t at = 16; at < 1500; at += 37) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(~damaged[at]);
+    const ProgramResult wrong = told(damaged);
+    EXPECT_TRUE(wrong.status == 0 || wrong.status == 2) << at << ": " << wrong.err;
+    EXPECT_EQ(wrong.status == 2, wrong.err.find("error") != std::string::npos) << at << ": " << wrong.err;
+  }
+}
+
+}  // namespace
+}  // namespace stadion
