@@ -2,7 +2,7 @@
 /// How long threads could have run, but got no processor: what Linux's scheduler says.
 ///
 /// Units    milliseconds, since the thread began.
-/// Threads  one thread at a time; own() is of the calling one.
+/// Threads  all calls from one thread: it is the one whose delay comes first.
 /// Errors   where the system does not say, nothing ever waits.
 
 #include <cstdint>

@@ -1,15 +1,16 @@
 #pragma once
 /// Adds up what a show's frames were spent on: by node, by stage, by wall and eye.
 ///
-/// App       each node's phases are timed in every frame.
+/// App       each node's phases are timed in the frames that are recorded as a whole: all, unless App visits
+///           very many nodes (FrameLog).
 /// Cull      tests, filling, sorting are timed for a whole wall; in the frames that are sampled each node
 /// gets
 ///           its part: all alike that were tested, all alike that are seen, all alike that cast shadows. So
 ///           does publishing, in App.
 /// Draw      in the frames that are sampled a few batches are drawn alone, each in its place, until all have
-///           been; instances of one batch (of one mesh, next to each other by distance) share alike. A node's
-///           cost in a frame is what it cost when drawn, by how often it was drawn. Nothing is normalised:
-///           how far the sum is from the eye drawn whole is told.
+///           been; instances of one batch share by the pixels they may cover and their triangles. A node's
+///           cost in a frame is what it cost when drawn, by how often it was drawn. Nothing is normalised
+///           here: ShowFigures scales the rows, and tells how far the sum was from the eye drawn whole.
 ///
 /// Units    milliseconds. Threads  SpanReader's.
 
