@@ -1,6 +1,7 @@
 #include "cli/walls_rounds.h"
 
 #include "cli/temporary_folder.h"
+#include "engine/atomic_file.h"
 
 #include <algorithm>
 #include <chrono>
@@ -37,17 +38,15 @@ public:
     if (how_.record.empty()) return std::nullopt;
     auto rows = bench::readRows(how_.record);
     if (!rows) return rows.error();
+    std::string whole;  // without half a line at the end
     for (nlohmann::json& row : rows.value()) {
       ++kept_[row["case"]];
+      whole += row.dump() + "\n";
       if (how_.row) how_.row(row);
       outcome_.results.add(std::move(row));
     }
+    if (auto wrong = writeFile(how_.record, whole)) return wrong;
     file_.open(how_.record, std::ios::app);
-    if (!file_) {
-      Diagnostic d;
-      d.where.file = how_.record, d.message = "cannot be written";
-      return d;
-    }
     return std::nullopt;
   }
 

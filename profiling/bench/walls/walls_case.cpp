@@ -42,7 +42,7 @@ WallsCase floorCase(const std::string& scene, const std::string& kind, const std
 WallsCase oneWall(WallsCase of) {
   of.walls = 1;
   of.lp = "0";
-  if (of.engine == "stadion") of.mode = "sequential", of.workers = "thread";
+  if (of.engine == "stadion") of.mode = "sequential";
   return of;
 }
 

@@ -66,7 +66,7 @@ Result<std::vector<nlohmann::json>> readRows(const std::string& file) {
       continue;
     }
     // A run that was killed while it wrote leaves half a line at the end.
-    if (row.is_discarded() && in.eof()) break;
+    if (row.is_discarded() && in.eof() && line.starts_with('{')) break;
     Diagnostic d;
     d.where.file = file, d.where.line = static_cast<std::uint32_t>(number);
     d.message = "is no row of stadion bench walls; give another --record FILE";

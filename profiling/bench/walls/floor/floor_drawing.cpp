@@ -1,7 +1,6 @@
 #include "profiling/bench/walls/floor/floor_drawing.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
+#include "profiling/bench/walls/floor/gl.h"
 
 #include <algorithm>
 #include <cstddef>

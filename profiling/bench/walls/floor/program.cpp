@@ -3,11 +3,9 @@
 /// thread that draws.
 
 #include "profiling/bench/walls/floor/floor_drawing.h"
+#include "profiling/bench/walls/floor/gl.h"
 #include "profiling/bench/walls/floor/headless_context.h"
 #include "profiling/bench/walls/picture_difference.h"
-
-#include <GL/gl.h>
-#include <GL/glext.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
