@@ -28,6 +28,7 @@ struct Options {
   std::vector<std::string> scenes{"a", "b", "c"};
   std::size_t rounds = 5;
   double minutes = 14;
+  std::string workers;  ///< empty: thread for one case, process for the table
   bool scaling = false, json = false;
   std::string out, record;
 };
@@ -94,7 +95,8 @@ int benchTable(const Options& o) {
     out->clear();
   }
   sayWho(programs);
-  const bench::WallsChoice choice{o.scenes, !programs.osg.empty(), !programs.floor.empty(), {}};
+  const bench::WallsChoice choice{o.scenes, !programs.osg.empty(), !programs.floor.empty(),
+                                  o.workers.empty() ? "process" : o.workers};
   WallsRounds how{o.rounds, o.minutes, o.record, !o.scaling, o.scenes, {}};
   if (o.json)
     how.row = [](const nlohmann::json& row) { std::printf("%s\n", row.dump().c_str()), std::fflush(stdout); };
@@ -111,6 +113,7 @@ int benchWalls(const Options& o) {
   if (!o.measureOne) return benchTable(o);
   WallsSetting one = o.one;
   one.flat = o.layout == "flat";
+  if (!o.workers.empty()) one.workers = o.workers;
   return measureOne(std::move(one), o.control);
 }
 
@@ -163,6 +166,8 @@ void addBenchWalls(CLI::App& bench, int& code) {
       bench.add_subcommand("walls", "A room of stereo walls beside OpenSceneGraph and bare OpenGL");
   addTableTo(*command, *o);
   addOneTo(*command, *o);
+  command->add_option("--wall-workers", o->workers, "thread or process: who draws Stadion's walls")
+      ->check(CLI::IsMember({"thread", "process"}));
   command->callback([o, &code] { code = benchWalls(*o); });
 }
 

@@ -116,6 +116,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   parts.sink = &pictures;
   parts.quality.mostAtOnce = s.kind == "OPEN" ? parts.quality.mostAtOnce : 1;
   parts.shown = [&] { completed.add(s); };
+  if (s.workers == "process") parts.workers = WallWorkers{s.gl == "egl"};
   ShowStages stages(std::move(parts));
   const std::atomic<bool> never = false;
   FrameLoopOptions options = player->loopOptions();
@@ -158,7 +159,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
                         {"width", s.width},
                         {"height", s.height},
                         {"mode", s.mode},
-                        {"wall_workers", "thread"},
+                        {"wall_workers", s.workers},
                         {"lp_threads", lp ? lp : "default"},
                         {"pace", s.pace},
                         {"frames", s.frames},

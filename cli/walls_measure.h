@@ -15,6 +15,7 @@ struct WallsSetting {
   std::string scene = "a";      ///< a, b or c (profiling/bench/walls/wall_scene.h)
   std::string kind = "STRICT";  ///< STRICT: a draw call a node; OPEN: anything that keeps the picture
   std::string mode = "pipelined";
+  std::string workers = "thread";  ///< or process
   std::string gl = "osmesa";
   std::string pace = "free";          ///< or lock: frames begin on ticks of 1/60 s
   std::size_t nodes = 0, moving = 0;  ///< for curves; 0: as the scene has them

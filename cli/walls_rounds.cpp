@@ -40,8 +40,9 @@ public:
     if (!rows) return rows.error();
     std::string whole;  // without half a line at the end
     for (nlohmann::json& row : rows.value()) {
-      ++kept_[row["case"]];
       whole += row.dump() + "\n";
+      if (!isOfThisRun(row)) continue;
+      ++kept_[row["case"]];
       if (how_.row) how_.row(row);
       outcome_.results.add(std::move(row));
     }
@@ -64,7 +65,7 @@ public:
   void play() {
     double round = 0;
     for (const bench::WallsCase& c : cases_) round += guessedSeconds(c) / 60;
-    std::fprintf(stderr, "%zu cases, %zu rounds: about %.0f minutes\n", cases_.size(), how_.rounds,
+    std::fprintf(stderr, "rounds: %zu, of %zu cases; minutes: about %.0f\n", how_.rounds, cases_.size(),
                  std::min(how_.minutes, static_cast<double>(how_.rounds) * round));
     const Clock::time_point begin = Clock::now();
     for (std::size_t n = 1; n <= how_.rounds; ++n) {
@@ -87,6 +88,13 @@ public:
   WallsOutcome take() { return std::move(outcome_); }
 
 private:
+  /// Whether the walls were drawn by whom they are drawn by now.
+  bool isOfThisRun(const nlohmann::json& row) const {
+    return std::ranges::none_of(cases_, [&](const bench::WallsCase& c) {
+      return nameOf(c) == row["case"] && !c.workers.empty() && row.value("wall_workers", "") != c.workers;
+    });
+  }
+
   /// Every second one the other way round, so that nobody always comes after the same neighbour.
   bool playOne(std::size_t n) {
     std::vector<const bench::WallsCase*> order;

@@ -77,7 +77,8 @@ std::vector<WallsCase> tableCases(const WallsChoice& choice) {
   const auto add = [&](WallsCase c) {
     if (c.engine == "osg" && !choice.osg) return;
     if (c.engine == "floor" && !choice.floor) return;
-    if (c.engine == "stadion" && c.workers.empty()) c.workers = choice.workers;
+    // One thread is to do everything where stages are compared, and where the floor is.
+    if (c.engine == "stadion") c.workers = c.mode == "sequential" ? "thread" : choice.workers;
     all.push_back(std::move(c));
   };
   for (const std::string& s : choice.scenes) {
