@@ -56,6 +56,7 @@ void addBenchWalls(CLI::App& bench, int& code) {
   command->add_option("--mode", o->one.mode, "pipelined or sequential")
       ->check(CLI::IsMember({"pipelined", "sequential"}));
   command->add_option("--gl", o->one.gl, "osmesa or egl")->check(CLI::IsMember({"osmesa", "egl"}));
+  command->add_option("--latency", o->one.latency, "frames under way at most")->check(wholeNumberFrom(1, 4));
   command->add_option("--wall-workers", o->one.workers, "thread or process")
       ->check(CLI::IsMember({"thread", "process"}));
   command->add_option("--layout", o->layout, "flat, or grid: nodes in cells with a group each")

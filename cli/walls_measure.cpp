@@ -115,7 +115,9 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   if (s.workers == "process") parts.workers = WallWorkers{s.gl == "egl"};
   ShowStages stages(std::move(parts));
   const std::atomic<bool> never = false;
-  FrameLoop loop(stages, player->loopOptions(), never);
+  FrameLoopOptions options = player->loopOptions();
+  options.latency = s.latency;
+  FrameLoop loop(stages, options, never);
   const FrameLoopOutcome outcome = loop.run();
   if (outcome.failure) return wrong(outcome.failure->message);
 
@@ -153,6 +155,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
                         {"height", s.height},
                         {"mode", s.mode},
                         {"wall_workers", s.workers},
+                        {"frames_under_way", s.latency},
                         {"lp_threads", lp ? lp : "default"},
                         {"frames", s.frames},
                         {"fps", frames / took},
