@@ -52,7 +52,12 @@ ChunkId ChunkArena::add(std::span<const InstanceRecord> records) {
   std::byte* at = segment_.data() + x.offset;
   if (!records.empty()) std::memcpy(at, records.data(), records.size_bytes());
   std::memset(at + records.size_bytes(), 0, x.bytes - records.size_bytes());
-  buildStillBounds(records, at + boundsAt(x.count));
+  try {
+    buildStillBounds(records, at + boundsAt(x.count));
+  } catch (...) {
+    free(id);
+    throw;
+  }
   return id;
 }
 

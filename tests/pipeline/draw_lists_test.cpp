@@ -3,6 +3,8 @@
 #include "tests/pipeline/cull_room.h"
 
 #include <gtest/gtest.h>
+#include <map>
+#include <set>
 
 namespace stadion {
 namespace {
@@ -119,6 +121,49 @@ TEST(DrawLists, AShowWithoutShadowsLooksForNoCasters) {
   EXPECT_EQ(list.shadows.light, 0);
   WallCull({room}, 0).fill(state, -1, list);
   EXPECT_EQ(list.shadows.light, -1);
+}
+
+/// Notes what it is told.
+class Probe final : public FrameProbe {
+public:
+  void began(Span, std::uint64_t, std::uint32_t) override {}
+  void began(Span what, NodeRef) override { spans.push_back(what); }
+  void ended(Span) override {}
+  void counted(Count what, std::uint64_t amount, NodeRef) override { counts[what] = amount; }
+  bool wantsShares(std::uint64_t, std::uint32_t) const override { return true; }
+  void shared(Span what, std::uint64_t, std::uint32_t, std::span<const NodeRef> nodes) override {
+    shares[what] = {nodes.begin(), nodes.end()};
+  }
+
+  std::vector<Span> spans;
+  std::map<Count, std::uint64_t> counts;
+  std::map<Span, std::multiset<NodeRef>> shares;
+};
+
+TEST(DrawLists, TellWhatWasTestedAndForWhom) {
+  Random random(14);
+  Frames f;
+  ChangeSet c;
+  std::vector<InstanceRecord> records;
+  for (std::uint32_t i = 0; i < 5000; ++i) records.push_back(thing(random.within(100), 0.2, 1, {1, i}));
+  c.chunks = {{f.state.arena().add(records), true}};
+  for (std::uint32_t i = 0; i < 3; ++i) c.instances.push_back({i, thing({0, 5.0 + i, 0}, 0.1, 1, {2, i})});
+  const SlotView state = f.publish(c);
+  const std::vector<WallView> views = boxRoom(1.5, {0.1, 40});
+  RoomCull room(views);
+  for (const std::uint32_t wall : {0U, 4U}) {  // the first that comes searches for all
+    Probe probe;
+    DrawList list;
+    WallCull({.room = room, .probe = &probe}, wall).fill(state, -1, list);
+    EXPECT_EQ(probe.spans, (std::vector<Span>{Span::Test, Span::Eyes, Span::Fill, Span::Sort}));
+    EXPECT_EQ(probe.counts[Count::Seen], list.opaque.size());
+    EXPECT_GT(probe.counts[Count::Tested], list.opaque.size());
+    EXPECT_LT(probe.counts[Count::Tested], records.size() / 2) << "most are in boxes that are not seen";
+    const auto &tested = probe.shares[Span::Test], &seen = probe.shares[Span::Fill];
+    EXPECT_EQ(seen.size(), list.opaque.size());
+    EXPECT_TRUE(std::ranges::includes(tested, seen));
+    EXPECT_LT(tested.size(), records.size() / 2);
+  }
 }
 
 }  // namespace

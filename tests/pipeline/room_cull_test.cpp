@@ -55,6 +55,10 @@ TEST(RoomCull, FindsWhatLookingAtEveryRecordFinds) {
     ChangeSet c;
     for (const std::uint32_t count : {0U, 1U, 7U, 8U, 9U, 65U, 700U, 3000U})
       c.chunks.push_back({f.state.arena().add(things(random, count, rig, spread)), true});
+    // Measured from far away, single precision is off by centimetres.
+    std::vector<InstanceRecord> apart = things(random, 1000, rig, spread);
+    for (const InstanceRecord& r : things(random, 1100, rig + Vec3(1e6, 1e6, 0), spread)) apart.push_back(r);
+    c.chunks.push_back({f.state.arena().add(apart), true});
     for (const InstanceRecord& r : things(random, 500, rig, spread))
       c.instances.push_back({static_cast<InstanceId>(c.instances.size()), r});
     const SlotView state = f.publish(c);
