@@ -2,8 +2,8 @@
 /// The bounds of what stands still: built once, neighbours in the tree being neighbours in the world.
 ///
 /// Groups are found by halving at the median, along the axis on which the centres are spread most, or by size
-/// where some are large for the room they are spread over: so a few huge things do not spoil the boxes of many
-/// small ones. (Median splits on the widest axis: Friedman, Bentley and Finkel 1977.)
+/// where some are large for the room they are spread over: so a few huge things do not spoil the boxes of
+/// many small ones. (Median splits on the widest axis: Friedman, Bentley and Finkel 1977.)
 ///
 /// Memory   24 bytes a record, in one piece without pointers.
 /// Threads  plain functions; what is built never changes.
