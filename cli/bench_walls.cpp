@@ -143,6 +143,8 @@ void addOneTo(CLI::App& command, Options& o) {
   add("--mode", one.mode, "pipelined or sequential")->check(CLI::IsMember({"pipelined", "sequential"}));
   add("--pace", one.pace, "free, or lock: frames begin on ticks of 1/60 s")
       ->check(CLI::IsMember({"free", "lock"}));
+  add("--latency", one.latency, "frames under way at most between pose and picture; 1: the youngest")
+      ->check(wholeNumberFrom(1, 4));
   add("--gl", one.gl, "osmesa or egl")->check(CLI::IsMember({"osmesa", "egl"}));
   add("--layout", o.layout, "flat, or grid: nodes in cells with a group each")
       ->check(CLI::IsMember({"flat", "grid"}));

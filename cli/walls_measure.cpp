@@ -120,6 +120,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   ShowStages stages(std::move(parts));
   const std::atomic<bool> never = false;
   FrameLoopOptions options = player->loopOptions();
+  options.latency = s.latency;
   options.pace = s.pace == "lock" ? Pace::Lock : Pace::Free;
   FrameLoop loop(stages, options, never);
   const FrameLoopOutcome outcome = loop.run();
@@ -160,6 +161,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
                         {"height", s.height},
                         {"mode", s.mode},
                         {"wall_workers", s.workers},
+                        {"frames_under_way", s.latency},
                         {"lp_threads", lp ? lp : "default"},
                         {"pace", s.pace},
                         {"frames", s.frames},

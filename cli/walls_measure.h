@@ -15,6 +15,7 @@ struct WallsSetting {
   std::string scene = "a";      ///< a, b or c (profiling/bench/walls/wall_scene.h)
   std::string kind = "STRICT";  ///< STRICT: a draw call a node; OPEN: anything that keeps the picture
   std::string mode = "pipelined";
+  std::size_t latency = 1;         ///< frames under way at most (FrameLoopOptions)
   std::string workers = "thread";  ///< or process
   std::string gl = "osmesa";
   std::string pace = "free";          ///< or lock: frames begin on ticks of 1/60 s
