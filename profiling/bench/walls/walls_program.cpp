@@ -92,7 +92,7 @@ nlohmann::json completed(const WallsCase& c, nlohmann::json row) {
   }
   row["engine"] = c.engine;
   if (c.engine == "control") return row;
-  row["class"] = c.kind;
+  row["class"] = c.kind, row["scene"] = c.scene;
   row["walls"] = c.walls, row["width"] = c.width, row["height"] = c.height;
   row["flat"] = c.flat ? 1 : 0;
   if (c.nodes) row["nodes"] = c.nodes, row["moving"] = c.moving, row["far"] = c.far;
