@@ -10,6 +10,9 @@
 namespace stadion::bench {
 namespace {
 
+/// Scripts are no larger than 64 MiB.
+constexpr std::size_t kNodesInAFile = 100'000;
+
 /// Positions in whole nanometres, so that where the surface closes it does so exactly: what is open would be
 /// drawn from both sides.
 std::string objText(const WallMesh& mesh) {
@@ -67,7 +70,8 @@ std::string movingNode(const WallNode& rest, std::size_t i, std::size_t frames) 
   return text + fmt::format(" )\nobject( file=mesh_{}.obj, parent=way_{} )\n", rest.mesh, i);
 }
 
-std::string showText(const WallScene& scene, bool grouped, std::size_t frames) {
+/// All but the nodes.
+std::string showText(std::size_t frames) {
   const Vec3 light = raised(0.3, 1, 0.5);
   std::string text = fmt::format("light( direction=\"{}\", colour=\"0.75, 0.75, 0.75\", shadows=off )\n"
                                  "sky( zenith=\"0.1, 0.12, 0.2\", horizon=\"0.1, 0.12, 0.2\", ground=\"0.1, "
@@ -77,12 +81,21 @@ std::string showText(const WallScene& scene, bool grouped, std::size_t frames) {
   for (std::size_t frame = 0; frame <= frames; ++frame)
     text += fmt::format(",\n  key=\"{}\"", keyOfPlatform(static_cast<double>(frame) / kWallSceneRate));
   text += " )\n";
+  return text;
+}
+
+/// The nodes from `first` on, so many as a file holds.
+std::string nodesText(const WallScene& scene, const std::vector<WallNode>& nodes, std::size_t first,
+                      bool grouped, std::size_t frames) {
   const std::size_t cells = scene.tiny() ? 32 : 20;
+  const auto cellOf = [&](double x) {
+    return std::min(cells - 1, static_cast<std::size_t>((x + 100) / 200 * static_cast<double>(cells)));
+  };
+  std::string text;
   if (grouped)
     for (std::size_t cell = 0; cell < cells * cells; ++cell)
       text += fmt::format("group( name=cell_{} )\n", cell);
-  const std::vector<WallNode> nodes = wallNodes(scene);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
+  for (std::size_t i = first; i < std::min(first + kNodesInAFile, nodes.size()); ++i) {
     const WallNode& node = nodes[i];
     if (scene.moves(i)) {
       text += movingNode(node, i, frames);
@@ -90,9 +103,6 @@ std::string showText(const WallScene& scene, bool grouped, std::size_t frames) {
     }
     text += fmt::format("object( file=mesh_{}.obj, position=\"{}\", orientation=\"0, 0, {:.17g}\"", node.mesh,
                         number(node.position), degrees(node.heading));
-    const auto cellOf = [&](double x) {
-      return std::min(cells - 1, static_cast<std::size_t>((x + 100) / 200 * static_cast<double>(cells)));
-    };
     if (grouped)
       text += fmt::format(", parent=cell_{}", cellOf(-node.position.y()) * cells + cellOf(node.position.x()));
     text += " )\n";
@@ -101,6 +111,7 @@ std::string showText(const WallScene& scene, bool grouped, std::size_t frames) {
 }
 
 }  // namespace
+
 std::string writeWallScene(const std::string& folder, const WallScene& scene, std::size_t walls, bool grouped,
                            std::size_t frames) {
   std::string wrong;
@@ -115,7 +126,19 @@ std::string writeWallScene(const std::string& folder, const WallScene& scene, st
   for (std::size_t frame = 0; frame <= frames; ++frame)
     input += headRecord(static_cast<double>(frame) / kWallSceneRate);
   write("show.input", input);
-  write("show.evs", showText(scene, grouped, frames));
+  const std::vector<WallNode> nodes = wallNodes(scene);
+  std::string show = showText(frames);
+  for (std::size_t first = 0; first < nodes.size(); first += kNodesInAFile) {
+    const std::string part = nodesText(scene, nodes, first, grouped, frames);
+    if (nodes.size() <= kNodesInAFile) {
+      show += part;
+      break;
+    }
+    const std::string name = fmt::format("part_{}.evs", first / kNodesInAFile);
+    write(name, part);
+    show += fmt::format("scene( file={} )\n", name);
+  }
+  write("show.evs", show);
   return wrong;
 }
 
