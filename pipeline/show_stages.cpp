@@ -32,7 +32,7 @@ ShowStages::ShowStages(ShowParts parts)
 ShowStages::~ShowStages() = default;
 
 void ShowStages::app(const TimeSignature& now, std::size_t slot) {
-  InputSample input;
+  InputSample& input = input_;
   {
     const SpanScope span(parts_.probe, Span::Input);
     if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);

@@ -45,7 +45,8 @@ bool PathNode::bends() const {
 
 /// What it moves; null if that is not there or moves itself.
 PlacedNode* PathNode::target(Scene& scene) {
-  auto* placed = dynamic_cast<PlacedNode*>(target_.valid() ? scene.find(target_) : this);
+  Node* node = target_.valid() ? scene.find(target_) : this;
+  PlacedNode* placed = node ? node->placed() : nullptr;
   return placed && !placed->moved() ? placed : nullptr;
 }
 

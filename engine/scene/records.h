@@ -38,6 +38,9 @@ static_assert(std::is_trivially_copyable_v<InstanceRecord> && sizeof(InstanceRec
 InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, NodeRef owner,
                             double lodFactor = 1);
 
+/// Where the instance is: its matrix, and the sphere around it. Leaves the rest of the record as it is.
+void placeInstance(InstanceRecord& record, const Affine& X_WN, const Sphere& sphere_N);
+
 struct LightRecord {
   std::uint32_t kind = 0;                       ///< DrawLight::Kind
   float colour[3] = {1, 1, 1};                  ///< linear, intensity included

@@ -44,10 +44,10 @@ InstanceId Scene::addInstance(PlacementId placement, MeshId mesh, bool drawn, No
     freeInstances_.pop_back();
   }
   Instance& i = instances_[id];
-  i.placement = placement, i.mesh = mesh, i.owner = owner, i.drawn = drawn, i.live = true;
-  if (instancesAt_.size() <= placement) instancesAt_.resize(placement + 1);
-  instancesAt_[placement].push_back(id);
-  markInstance(id);
+  i.placement = placement, i.owner = owner, i.drawn = drawn, i.live = true;
+  if (instancesAt_.size() <= placement) instancesAt_.resize(placement + std::size_t{1}, kNoInstance);
+  i.next = std::exchange(instancesAt_[placement], id);
+  setMesh(id, mesh);
   return id;
 }
 
@@ -58,14 +58,19 @@ void Scene::setDrawn(InstanceId id, bool drawn) {
 
 void Scene::removeInstance(InstanceId id) {
   Instance& i = instances_[id];
-  std::erase(instancesAt_[i.placement], id);
+  InstanceId* at = &instancesAt_[i.placement];
+  while (*at != id) at = &instances_[*at].next;
+  *at = i.next;
   i.live = false;
   markInstance(id);
   freeInstances_.push_back(id);
 }
 
 void Scene::setMesh(InstanceId id, MeshId mesh) {
-  instances_[id].mesh = mesh;
+  Instance& i = instances_[id];
+  i.mesh = mesh;
+  i.form = mesh == kNoMesh ? nullptr : meshes_.find(mesh);
+  i.transparent = i.form && i.form->transparent();
   markInstance(id);
 }
 
@@ -78,6 +83,11 @@ void Scene::markInstance(InstanceId id) {
   if (instances_[id].changed) return;
   instances_[id].changed = true;
   changedInstances_.push_back(id);
+}
+
+void Scene::markInstancesAt(PlacementId placement) {
+  if (placement >= instancesAt_.size()) return;
+  for (InstanceId id = instancesAt_[placement]; id != kNoInstance; id = instances_[id].next) markInstance(id);
 }
 
 std::size_t Scene::addLight(PlacementId placement, const LightRecord& local, NodeRef node) {
@@ -135,8 +145,7 @@ void Scene::publish(const TimeSignature& now, const InputSample& input, ChangeSe
   changes.chunks.swap(chunkChanges_);
   changes.statics.swap(staticChanges_);
   for (const PlacementId p : placements_.takeChanged()) {
-    if (p < instancesAt_.size())
-      for (const InstanceId id : instancesAt_[p]) markInstance(id);
+    markInstancesAt(p);
     lightsChanged_ |= p < lightsAt_.size() && lightsAt_[p] > 0;
   }
   for (const InstanceId id : changedInstances_) publishInstance(id, changes);
@@ -152,13 +161,16 @@ void Scene::publish(const TimeSignature& now, const InputSample& input, ChangeSe
 void Scene::publishInstance(InstanceId id, ChangeSet& changes) {
   Instance& i = instances_[id];
   i.changed = false;
-  ChangeSet::Instance change{id, {}};
-  change.record.radius = -1;
-  const Mesh* mesh = i.live ? meshes_.find(i.mesh) : nullptr;
-  if (mesh)
-    change.record = makeInstance(placements_.world(i.placement), *mesh, i.mesh,
-                                 i.drawn && placements_.shown(i.placement), i.owner, reliefOf(i.owner).lod);
-  changes.instances.push_back(change);
+  ChangeSet::Instance& change = changes.instances.emplace_back();
+  change.id = id;
+  InstanceRecord& r = change.record;
+  r.radius = -1;
+  if (!i.live || !i.form) return;
+  placeInstance(r, placements_.world(i.placement), i.form->sphere);
+  r.mesh = i.mesh, r.owner = i.owner;
+  r.flags = (i.drawn && placements_.shown(i.placement) ? InstanceRecord::kShown : 0) |
+            (i.transparent ? InstanceRecord::kTransparent : 0);
+  r.lodFactor = i.form->levels.empty() ? 0 : static_cast<float>(reliefOf(i.owner).lod);
 }
 
 std::vector<std::size_t> Scene::lightsThatShine() const {
@@ -266,14 +278,15 @@ std::optional<Pose> Scene::trackerInWorld(const std::string& tracker, const Inpu
   return rigPose() * t->X_RT;
 }
 
-std::optional<Course> Scene::trackerCourse(const std::string& tracker, const FrameContext& frame) const {
+const Course* Scene::trackerCourse(const std::string& tracker, const FrameContext& frame) {
   const TrackerSample* t = frame.input.find(tracker);
-  if (!t || !t->valid) return std::nullopt;
+  if (!t || !t->valid) return nullptr;
   // Who has not looked for some frames: where it was before this one nobody remembers.
   const Nanoseconds start = frameStart_, end = frame.now.time;
   const Pose X_WR = rigPose();
   const bool rides = X_WR.p != rigStart_.p || X_WR.q.coeffs() != rigStart_.q.coeffs();
-  Course way;
+  Course& way = trackerWay_;
+  way.clear();
   const auto add = [&](Nanoseconds time, const Pose& X_RT, bool jump) {
     const double s = static_cast<double>(time - start) / static_cast<double>(end - start);
     const Pose X_WT = (rides && time < end ? det::interpolate(rigStart_, X_WR, s) : X_WR) * X_RT;
@@ -288,7 +301,7 @@ std::optional<Course> Scene::trackerCourse(const std::string& tracker, const Fra
     if (k.X.finite() && k.time >= (way.empty() ? start : way.back().time) && k.time <= end)
       add(k.time, k.X, k.jump);
   if (way.empty() || way.back().time < end) add(end, t->X_RT, false);
-  return way;
+  return &way;
 }
 
 Pose Scene::headInRig(const InputSample& input) const {

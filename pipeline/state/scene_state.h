@@ -68,24 +68,28 @@ private:
   struct Slot;
   /// What a slot has missed since it was last written. App's own.
   struct Missed {
-    std::vector<InstanceId> instances;
-    std::vector<bool> listed;
+    std::vector<InstanceId> instances;                      ///< each once: marks_ says which are in it
     std::map<ChunkId, std::vector<std::uint32_t>> statics;  ///< who left which chunk, while it is shown
   };
 
   Header& header(std::size_t slot) const;
   InstanceRecord* instances(std::size_t slot) const;
   void ensure(std::size_t slot, std::size_t instanceCount);
-  bool movesBy(const ChangeSet::Instance& change, const InstanceRecord& old);
-  void catchUp(std::size_t slot, std::size_t& copied);
+  bool movesBy(const ChangeSet::Instance& change);
+  void makeRoom(std::size_t slot, const ChangeSet& changes);
+  std::size_t catchUp(std::size_t slot, const ChangeSet& changes);
   void apply(std::size_t slot, const ChangeSet& changes);
   void miss(std::size_t slot, const ChangeSet& changes);
 
   ChunkArena arena_;
   std::vector<std::unique_ptr<SharedSegment>> memory_;
   std::array<Missed, kSlots> missed_;
-  enum class Known : std::uint8_t { Absent, Still, Moves };
-  std::vector<Known> known_;  ///< by InstanceId; App's own
+  /// Of an instance, App's own: what is known of it, and which slots have missed it.
+  struct Marks {
+    enum class Known : std::uint8_t { Absent, Still, Moves } known = Known::Absent;
+    std::uint8_t missedBy = 0;  ///< one bit a slot
+  };
+  std::vector<Marks> marks_;  ///< by InstanceId
   std::uint64_t stillVersion_ = 0;
   ShadowPlaces shadowPlaces_;
   std::size_t newest_ = 0;

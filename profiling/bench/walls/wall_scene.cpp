@@ -135,14 +135,27 @@ std::string roomText(const WallScene& scene, std::size_t walls) {
   return text;
 }
 
-std::string movingNode(const WallNode& rest, std::size_t i, std::size_t frames) {
-  std::string text = fmt::format("path( name=way_{}", i);
-  for (std::size_t frame = 0; frame <= frames; ++frame) {
-    const double t = static_cast<double>(frame) / kWallSceneRate;
-    const WallNode at = movedNode(rest, i, t);
-    text += fmt::format(", key=\"{:.9f}, {}, 0, 0, {:.17g}\"", t, number(at.position), degrees(at.heading));
+/// What movedNode says, of every node that moves.
+std::string movingNodes(const WallScene& scene) {
+  std::string targets;
+  std::size_t first = scene.nodes(), second = 0;
+  for (std::size_t i = 0; i < scene.nodes(); ++i) {
+    if (!scene.moves(i)) continue;
+    targets += fmt::format(",\n  target=n_{}", i);
+    if (first == scene.nodes())
+      first = i;
+    else if (second == 0)
+      second = i;
   }
-  return text + fmt::format(" )\nobject( file=mesh_{}.obj, parent=way_{} )\n", rest.mesh, i);
+  if (targets.empty()) return {};
+  // -cos(a) is sin(a - 90 degrees).
+  const auto at = static_cast<double>(first), step = static_cast<double>(second - first);
+  const Vec3 phase(degrees(at), degrees(at) - 90, degrees(0.37 * at));
+  const Vec3 phaseStep = Vec3(degrees(step), degrees(step), degrees(0.37 * step));
+  return fmt::format("sway( amplitude=\"2, 2, 0.5\", frequency=\"{}\", phase=\"{}\", phasestep=\"{}\", "
+                     "angularvelocity=\"0, 0, {:.17g}\"{} )\n",
+                     number(Vec3(1.1, 1.1, 1.9) / (2 * kPi)), number(phase), number(phaseStep), degrees(0.8),
+                     targets);
 }
 
 std::string showText(const WallScene& scene, bool grouped, std::size_t frames) {
@@ -162,20 +175,18 @@ std::string showText(const WallScene& scene, bool grouped, std::size_t frames) {
   const std::vector<WallNode> nodes = wallNodes(scene);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const WallNode& node = nodes[i];
-    if (scene.moves(i)) {
-      text += movingNode(node, i, frames);
-      continue;
-    }
+    const bool moves = scene.moves(i);
     text += fmt::format("object( file=mesh_{}.obj, position=\"{}\", orientation=\"0, 0, {:.17g}\"", node.mesh,
                         number(node.position), degrees(node.heading));
+    if (moves) text += fmt::format(", name=n_{}", i);
     const auto cellOf = [&](double x) {
       return std::min(cells - 1, static_cast<std::size_t>((x + 100) / 200 * static_cast<double>(cells)));
     };
-    if (grouped)
+    if (grouped && !moves)
       text += fmt::format(", parent=cell_{}", cellOf(-node.position.y()) * cells + cellOf(node.position.x()));
     text += " )\n";
   }
-  return text;
+  return text + movingNodes(scene);
 }
 
 }  // namespace
