@@ -1,6 +1,7 @@
 #include "engine/nodes/sway_node.h"
 
 #include "engine/maths/functions.h"
+#include "engine/prefetch.h"
 #include "engine/scene/scene.h"
 
 namespace stadion {
@@ -53,7 +54,11 @@ void SwayNode::put(const Swing& swing, const Moment& m, Affine& X_PN) {
 void SwayNode::putTargets(Scene& scene) {
   settleTargets(scene);
   const Moment m = momentAt(elapsed_);
-  scene.placements().setLocals(placements_, [&](std::size_t i, Affine& X_PN) { put(swings_[i], m, X_PN); });
+  const Swing* swings = swings_.data();
+  scene.placements().setLocals(placements_, [&](std::size_t i, Affine& X_PN) {
+    prefetch(swings + i + Placements::kAhead);
+    put(swings[i], m, X_PN);
+  });
   putAt_ = since_;
 }
 
@@ -70,6 +75,7 @@ void SwayNode::trace(Nanoseconds to, FrameContext& frame) {
   if (to <= since_) return;
   // In its first frame nobody may have had the time to say that he looks.
   const Placements& placements = frame.scene.placements();
+  if (putAt_ && !placements.anyWatched()) return;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     if ((!putAt_ || placements.watchedBelow(placements_[i])) && !nodes_[i]->moved()) traceOne(i, to, frame);
 }

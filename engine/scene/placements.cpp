@@ -102,7 +102,7 @@ Affine Placements::local(PlacementId id) const {
 }
 
 void Placements::watch(PlacementId id) {
-  entries_[id].watched = true;
+  entries_[id].watched = anyWatched_ = true;
   for (; id != kNoPlacement && !entries_[id].watchedBelow; id = entries_[id].parent)
     entries_[id].watchedBelow = true;
 }
@@ -158,8 +158,10 @@ const std::vector<PlacementId>& Placements::takeMovedWatched() {
 const std::vector<PlacementId>& Placements::takeChanged() {
   changedTold_.clear();
   changedTold_.swap(changed_);
-  for (const PlacementId id : changedTold_) entries_[id].changed = false;
-  std::erase_if(changedTold_, [&](PlacementId id) { return !entries_[id].live; });
+  std::erase_if(changedTold_, [&](PlacementId id) {
+    entries_[id].changed = false;
+    return !entries_[id].live;
+  });
   return changedTold_;
 }
 

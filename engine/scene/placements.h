@@ -11,6 +11,7 @@
 /// Errors   a non-finite matrix is refused: the setter returns false and keeps the old one.
 
 #include "engine/maths/maths.h"
+#include "engine/prefetch.h"
 
 #include <cstdint>
 #include <span>
@@ -46,6 +47,7 @@ public:
   /// claimed. Expects finite matrices.
   template <class Put>
   void setLocals(std::span<const PlacementId> ids, const Put& put);
+  static constexpr std::size_t kAhead = 8;  ///< so many placements before its turn memory is asked for
   bool setWorld(PlacementId id, const Affine& X_WN);  ///< the same, so that it is at X_WN now
   /// Holds it, or the part of it that is named, at X_WN until it is put below its parent again.
   bool hold(PlacementId id, const Affine& X_WN, Held part = Held::All);
@@ -66,6 +68,7 @@ public:
 
   /// From now on takeMovedWatched() tells when this placement moves.
   void watch(PlacementId id);
+  bool anyWatched() const { return anyWatched_; }  ///< any placement, ever
   /// Whether this placement or one below it has ever been watched.
   bool watchedBelow(PlacementId id) const { return entries_[id].watchedBelow; }
   /// Those that have moved since the last call. Valid until the next one.
@@ -103,6 +106,7 @@ private:
   std::vector<Affine> X_PN_;          ///< by placement
   mutable std::vector<Affine> X_WN_;  ///< by placement; unused while it stands in World
   std::vector<Affine> X_WH_;          ///< by placement: where it is held
+  bool anyWatched_ = false;
   std::vector<PlacementId> free_;
   std::vector<PlacementId> changed_, movedWatched_;
   std::vector<PlacementId> changedTold_, movedTold_;
@@ -113,6 +117,10 @@ template <class Put>
 void Placements::setLocals(std::span<const PlacementId> ids, const Put& put) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const PlacementId id = ids[i];
+    if (i + kAhead < ids.size()) {
+      prefetch(&entries_[ids[i + kAhead]]);
+      prefetch(&X_PN_[ids[i + kAhead]]);
+    }
     Entry& e = entries_[id];
     if (e.claimed) continue;
     put(i, X_PN_[id]);

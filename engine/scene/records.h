@@ -9,6 +9,7 @@
 #include "engine/time_signature.h"
 
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -84,8 +85,17 @@ struct ChangeSet {
     bool hidden;
   };
 
+  /// Takes changed instances a block at a time, while they are in the processor's cache.
+  class Sink {
+  public:
+    virtual ~Sink() = default;
+    virtual void take(std::span<const Instance> block) = 0;
+  };
+  static constexpr std::size_t kBlock = 64;
+
   TimeSignature signature;
-  std::vector<Instance> instances;
+  Sink* sink = nullptr;             ///< where instances go; null: they stay here
+  std::vector<Instance> instances;  ///< those that the sink has not taken
   std::vector<Chunk> chunks;
   std::vector<StaticItem> statics;
   bool lightsChanged = false;
@@ -93,7 +103,7 @@ struct ChangeSet {
   SkyRecord sky;
   ViewerRecord viewer;
 
-  void clear();
+  void clear();  ///< all but the sink
 };
 
 }  // namespace stadion

@@ -252,11 +252,13 @@ private:
   Cycle cycleOf(Node& node, const TimeSignature& now);
   void hashRelief(StateHash& h) const;
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
-  void publishInstance(InstanceId id, ChangeSet& changes);
+  void publishInstance(const Instance& i, InstanceId id, ChangeSet& changes);
+  void handOn(ChangeSet& changes);
   void publishLights(const InputSample& input, ChangeSet& changes);
-  std::vector<std::size_t> lightsThatShine() const;
+  void findLightsThatShine();
+  void chooseLights(const Vec3& head_W);
   LightRecord lightInWorld(const Light& light) const;
-  void tellOfTooManyLights(const std::vector<std::size_t>& wanted, const std::vector<std::size_t>& chosen);
+  void tellOfTooManyLights();
   /// Follows the rest of a path, "arena/ball", from a scene node to what is loaded now.
   NodeRef resolveInside(NodeRef from, std::string_view path) const;
   /// A message with its names looked up as seen from `from`, as far as the first part.
@@ -310,7 +312,10 @@ private:
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightsAt_;  ///< how many, by placement
   bool lightsChanged_ = true;
+  std::vector<std::size_t> wanted_;   ///< that would shine
+  std::vector<std::size_t> chosen_;   ///< of these, at most kMostLights
   std::vector<std::size_t> shining_;  ///< those published last, while more than kMostLights would shine
+  std::vector<std::pair<double, std::size_t>> brightest_;
   bool toldOfLights_ = false;
   std::vector<SoundSpot> sounds_;
   std::vector<Sky> skies_;  ///< the last one is seen

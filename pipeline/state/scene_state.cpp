@@ -1,5 +1,7 @@
 #include "pipeline/state/scene_state.h"
 
+#include "engine/prefetch.h"
+
 #include <algorithm>
 #include <cassert>
 
@@ -64,20 +66,16 @@ void SceneState::ensure(std::size_t slot, std::size_t instanceCount) {
   h.instanceCount = instanceCount;
 }
 
-void SceneState::makeRoom(std::size_t slot, const ChangeSet& changes) {
-  std::size_t count = marks_.size();
-  for (const ChangeSet::Instance& i : changes.instances) count = std::max(count, i.id + std::size_t{1});
-  marks_.resize(count);
-  ensure(slot, count);
+void SceneState::makeRoom(std::size_t slot, std::size_t instanceCount) {
+  if (marks_.size() < instanceCount) marks_.resize(instanceCount);
+  ensure(slot, marks_.size());
 }
 
-/// From the newest slot, but for what is written anyway. Returns how many records were copied.
-std::size_t SceneState::catchUp(std::size_t slot, const ChangeSet& changes) {
+/// From the newest slot, but for what has been written already. Returns how many records were copied.
+std::size_t SceneState::catchUp(std::size_t slot) {
   Missed& missed = missed_[slot];
   const auto bit = static_cast<std::uint8_t>(1U << slot);
   std::size_t copied = 0;
-  for (const ChangeSet::Instance& i : changes.instances)
-    marks_[i.id].missedBy = static_cast<std::uint8_t>(marks_[i.id].missedBy & ~bit);
   InstanceRecord* here = instances(slot);
   const InstanceRecord* there = instances(newest_);
   for (const InstanceId id : missed.instances) {
@@ -135,12 +133,6 @@ bool SceneState::movesBy(const ChangeSet::Instance& change) {
 void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
   Header& h = header(slot);
   if (!changes.chunks.empty() || !changes.statics.empty()) ++stillVersion_;
-  InstanceRecord* records = instances(slot);
-  for (const ChangeSet::Instance& i : changes.instances) {
-    const bool moves = movesBy(i);
-    records[i.id] = i.record;
-    if (moves) records[i.id].flags |= kMoves;
-  }
   for (const ChangeSet::StaticItem& s : changes.statics)
     if (const ChunkView there = arena_.find(s.chunk, slot); !there.records.empty())
       setBit(there.hidden, s.index, s.hidden);
@@ -164,13 +156,6 @@ void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
 
 void SceneState::miss(std::size_t slot, const ChangeSet& changes) {
   Missed& missed = missed_[slot];
-  const auto bit = static_cast<std::uint8_t>(1U << slot);
-  for (const ChangeSet::Instance& i : changes.instances) {
-    std::uint8_t& by = marks_[i.id].missedBy;
-    if ((by & bit) != 0) continue;
-    by = static_cast<std::uint8_t>(by | bit);
-    missed.instances.push_back(i.id);
-  }
   for (const ChangeSet::StaticItem& s : changes.statics) {
     std::vector<std::uint32_t>& indices = missed.statics[s.chunk];
     // An object leaves its chunk once; should it be told twice, once is enough.
@@ -191,15 +176,50 @@ std::size_t SceneState::noted() const {
 }
 
 std::size_t SceneState::publish(std::size_t slot, const ChangeSet& changes) {
+  begin(slot);
+  return finish(changes);
+}
+
+void SceneState::begin(std::size_t slot) {
+  writing_ = slot, taken_ = 0;
   header(slot).writes.fetch_add(1, std::memory_order_acq_rel);
-  makeRoom(slot, changes);
-  const std::size_t copied = changes.instances.size() + catchUp(slot, changes);
+}
+
+void SceneState::take(std::span<const ChangeSet::Instance> block) {
+  constexpr auto kAll = static_cast<std::uint8_t>((1U << kSlots) - 1);
+  const auto others = static_cast<std::uint8_t>(kAll & ~(1U << writing_));
+  std::size_t end = 0;
+  for (const ChangeSet::Instance& i : block) end = std::max(end, i.id + std::size_t{1});
+  makeRoom(writing_, end);
+  InstanceRecord* records = instances(writing_);
+  constexpr std::size_t kAhead = 8;
+  for (std::size_t k = 0; k < std::min(kAhead, block.size()); ++k) prefetch(&records[block[k].id]);
+  for (std::size_t k = 0; k < block.size(); ++k) {
+    if (k + kAhead < block.size()) prefetch(&records[block[k + kAhead].id]);
+    const ChangeSet::Instance& i = block[k];
+    const bool moves = movesBy(i);
+    records[i.id] = i.record;
+    if (moves) records[i.id].flags |= kMoves;
+    // This slot has it, the others have missed it from now on.
+    std::uint8_t& missedBy = marks_[i.id].missedBy;
+    const unsigned already = missedBy;
+    missedBy = others;
+    for (std::size_t slot = 0; slot < kSlots; ++slot)
+      if ((others & ~already & (1U << slot)) != 0) missed_[slot].instances.push_back(i.id);
+  }
+  taken_ += block.size();
+}
+
+std::size_t SceneState::finish(const ChangeSet& changes) {
+  take(changes.instances);
+  const std::size_t slot = writing_;
+  const std::size_t copied = catchUp(slot);
   apply(slot, changes);
   for (std::size_t other = 0; other < kSlots; ++other)
     if (other != slot) miss(other, changes);
   newest_ = slot;
   any_ = true;
-  return copied;
+  return taken_ + copied;
 }
 
 SlotView SceneState::view(std::size_t slot) const {

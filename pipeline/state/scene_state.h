@@ -7,7 +7,8 @@
 ///
 /// All of it lies in shared memory in plain fixed-width records without pointers.
 ///
-/// Threads  publish() by App alone, into a slot that nobody reads; view() by whoever holds a lease on the
+/// Threads  publish() and its parts by App alone, into a slot that nobody reads; view() by whoever holds a
+/// lease on the
 ///          slot (FrameSlots decides who may do what when).
 
 #include "pipeline/state/chunk_arena.h"
@@ -44,20 +45,24 @@ struct SlotView {
   bool intact() const { return !writes || writes->load(std::memory_order_acquire) == written; }
 };
 
-class SceneState {
+class SceneState final : public ChangeSet::Sink {
 public:
   static constexpr std::size_t kMaxLights = kMostLights, kMaxChunks = kMostChunks;
 
   /// `memories` is how many slots really have memory of their own. Anything below kSlots is a broken
   /// pipeline, which tests use to show that they would notice.
   explicit SceneState(std::size_t memories = kSlots);
-  ~SceneState();
+  ~SceneState() override;
 
   ChunkArena& arena() { return arena_; }
 
   /// Writes frame `changes.signature.frame` into `slot`. Returns the number of records copied, catching up
   /// included. Expects at most kMaxLights lights and kMaxChunks chunks (the scene sees to it).
   std::size_t publish(std::size_t slot, const ChangeSet& changes);
+  /// The same in parts: begin(), take() any number of instances, each once, then finish() with the rest.
+  void begin(std::size_t slot);
+  void take(std::span<const ChangeSet::Instance> block) override;
+  std::size_t finish(const ChangeSet& changes);
   SlotView view(std::size_t slot) const;
   /// How many changes are noted for slots that have not been written since: at most one a moved instance and
   /// one an object that has left a chunk that is shown, for each slot, however long the show runs.
@@ -76,8 +81,8 @@ private:
   InstanceRecord* instances(std::size_t slot) const;
   void ensure(std::size_t slot, std::size_t instanceCount);
   bool movesBy(const ChangeSet::Instance& change);
-  void makeRoom(std::size_t slot, const ChangeSet& changes);
-  std::size_t catchUp(std::size_t slot, const ChangeSet& changes);
+  void makeRoom(std::size_t slot, std::size_t instanceCount);
+  std::size_t catchUp(std::size_t slot);
   void apply(std::size_t slot, const ChangeSet& changes);
   void miss(std::size_t slot, const ChangeSet& changes);
 
@@ -94,6 +99,8 @@ private:
   ShadowPlaces shadowPlaces_;
   std::size_t newest_ = 0;
   bool any_ = false;
+  std::size_t writing_ = 0;  ///< the slot that was begun
+  std::size_t taken_ = 0;    ///< instances since then
 };
 
 }  // namespace stadion
