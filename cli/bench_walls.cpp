@@ -56,6 +56,8 @@ void addBenchWalls(CLI::App& bench, int& code) {
   command->add_option("--mode", o->one.mode, "pipelined or sequential")
       ->check(CLI::IsMember({"pipelined", "sequential"}));
   command->add_option("--gl", o->one.gl, "osmesa or egl")->check(CLI::IsMember({"osmesa", "egl"}));
+  command->add_option("--wall-workers", o->one.workers, "thread or process")
+      ->check(CLI::IsMember({"thread", "process"}));
   command->add_option("--layout", o->layout, "flat, or grid: nodes in cells with a group each")
       ->check(CLI::IsMember({"flat", "grid"}));
   command->add_option("--walls", o->one.walls, "1 to 6")->check(wholeNumberFrom(1, 6));

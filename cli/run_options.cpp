@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
+
 namespace stadion {
 namespace {
 
@@ -51,6 +53,13 @@ void RunOptions::addTo(CLI::App& command) {
   command
       .add_option("--gl", provider, "who draws: osmesa or egl (the same pixels), none: App and Cull alone")
       ->check(CLI::IsMember({"osmesa", "egl", "none"}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--wall-workers", wallWorkers,
+          "who draws the walls: a thread each in this program, a process each (several processors are "
+          "used better when software draws, and a driver that crashes takes one wall only), or auto")
+      ->check(CLI::IsMember({"thread", "process", "auto"}))
       ->capture_default_str();
   command
       .add_option("--trace", trace,
@@ -141,6 +150,11 @@ bool RunOptions::settle(Diagnostics& findings) {
   if ((profile || !events.file.empty()) && !spans.file.empty())
     findings.error(
         {}, "--profile and --trace-events time the nodes, as --spans does; leave the one or the other out");
+  if (wallWorkers == "process" && (profile || !events.file.empty() || !spans.file.empty() || countWork))
+    findings.error({}, "--profile, --trace-events, --spans and --count-work look into the drawing, which "
+                       "--wall-workers process gives to others: say --wall-workers thread");
+  if (wallWorkers == "process" && display)
+    findings.error({}, "--display draws into windows of this program: say --wall-workers thread");
   events.settle(findings);
   if (display && !stereoGiven) layout = StereoLayout::Off;
   if (!trace.empty() && out.empty())
@@ -187,6 +201,16 @@ bool RunOptions::everyFrameCounts(const Player& player) const {
 
 bool RunOptions::repeats(const Player& player) const {
   return everyFrameCounts(player) || (player.inputFound() && !player.inputIsLive());
+}
+
+std::optional<WallWorkers> RunOptions::workers(const Player& player) const {
+  if (wallWorkers != "process") return {};
+  WallWorkers w;
+  w.egl = provider == "egl";
+  w.everyFrame = everyFrameCounts(player);
+  w.rate = player.rate();
+  w.tell = [](const std::string& what) { std::fprintf(stderr, "stadion: %s\n", what.c_str()); };
+  return w;
 }
 
 FrameLoopOptions RunOptions::loopOptions(const Player& player) const {

@@ -8,6 +8,7 @@
 #include "cli/tracker_device.h"
 #include "profiling/load/stress_filter.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,9 @@ struct RunOptions {
   std::string blackBox;  ///< where a live run keeps its last frames; empty: a temporary file
   SpanOptions spans;
   bool countWork = false;
-  StressOptions stress;     ///< of the whole show
-  bool loadControl = true;  ///< a live run gives up what its script says, when it takes too long
+  StressOptions stress;              ///< of the whole show
+  bool loadControl = true;           ///< a live run gives up what its script says, when it takes too long
+  std::string wallWorkers = "auto";  ///< who draws the walls: thread, process or auto
   bool wait = false;
   bool noSound = false;
   bool display = false;      ///< on the walls' outputs
@@ -54,6 +56,8 @@ struct RunOptions {
   /// Whether the show is the same at every run: every frame counts, or nobody but a log decides what happens.
   bool repeats(const Player& player) const;
   FrameLoopOptions loopOptions(const Player& player) const;
+  /// The processes that draw the walls; nothing if this one does.
+  std::optional<WallWorkers> workers(const Player& player) const;
 };
 
 }  // namespace stadion

@@ -112,6 +112,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   parts.sink = &pictures;
   parts.quality.mostAtOnce = s.kind == "OPEN" ? parts.quality.mostAtOnce : 1;
   parts.shown = [&] { completed.add(s); };
+  if (s.workers == "process") parts.workers = WallWorkers{s.gl == "egl"};
   ShowStages stages(std::move(parts));
   const std::atomic<bool> never = false;
   FrameLoop loop(stages, player->loopOptions(), never);
@@ -151,7 +152,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
                         {"width", s.width},
                         {"height", s.height},
                         {"mode", s.mode},
-                        {"wall_workers", "thread"},
+                        {"wall_workers", s.workers},
                         {"lp_threads", lp ? lp : "default"},
                         {"frames", s.frames},
                         {"fps", frames / took},

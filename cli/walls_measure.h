@@ -14,6 +14,7 @@ struct WallsSetting {
   std::string scene = "a";      ///< a, b or c (profiling/bench/walls/wall_scene.h)
   std::string kind = "STRICT";  ///< STRICT: a draw call a node; OPEN: anything that keeps the picture
   std::string mode = "pipelined";
+  std::string workers = "thread";  ///< or process
   std::string gl = "osmesa";
   std::size_t walls = 4;
   bool flat = true;

@@ -1,10 +1,25 @@
 #include "pipeline/show_stages.h"
 
+#include "pipeline/drawing_here.h"
+#include "pipeline/worker/drawing_in_workers.h"
+
 namespace stadion {
 namespace {
 
-Failure toFailure(const std::optional<Diagnostic>& d) {
-  return d ? Failure(Reason(*d)) : std::nullopt;
+std::unique_ptr<WallDrawing> drawingOf(const ShowParts& parts) {
+  if (!parts.provider) return {};
+  std::vector<PictureSize> sizes;
+  for (const WallView& view : parts.walls) sizes.push_back({view.width, view.height});
+  if (!parts.workers)
+    return std::make_unique<DrawingHere>(DrawingHereParts{*parts.provider, parts.meshes, std::move(sizes),
+                                                          parts.quality, parts.contexts, parts.giveUp,
+                                                          parts.probe});
+  std::vector<std::string> names;
+  for (const WallView& view : parts.walls) names.push_back(view.wall.name);
+  const WallWorkers& w = *parts.workers;
+  return std::make_unique<DrawingInWorkers>(
+      DrawingInWorkersParts{parts.meshes, std::move(sizes), std::move(names), parts.quality, w.egl,
+                            w.rasteriserThreads, w.everyFrame, w.rate, parts.giveUp, w.tell});
 }
 
 void tellCounts(const FrameCounters& counters, FrameProbe& probe) {
@@ -22,9 +37,8 @@ void makeBlack(DrawList& list) {
 }  // namespace
 
 ShowStages::ShowStages(ShowParts parts)
-    : parts_(std::move(parts)), contexts_(parts_.contexts ? *parts_.contexts : ownContexts_),
-      drawn_(parts_.walls.size()), views_(parts_.walls), pictures_(parts_.walls.size()) {
-  contexts_.resize(parts_.walls.size());
+    : parts_(std::move(parts)), drawing_(drawingOf(parts_)), drawn_(parts_.walls.size()),
+      views_(parts_.walls), pictures_(parts_.walls.size()) {
   for (const WallView& view : parts_.walls)
     if (!view.camera) wallPixels_.push_back({view.wall, view.width, view.height});
 }
@@ -99,13 +113,9 @@ void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
 }
 
 Failure ShowStages::openWall(std::size_t wall) {
-  if (!parts_.provider) return {};
-  const WallView& view = parts_.walls[wall];
-  if (Failure f =
-          contexts_.open(wall, *parts_.provider, parts_.meshes, view.width, view.height, parts_.quality))
-    return f;
-  contexts_.renderer(wall).forgetTotals();
-  if (wall == 0) glDescription_ = describeGl(contexts_.gl(wall));
+  if (!drawing_) return {};
+  if (Failure f = drawing_->open(wall)) return f;
+  if (wall == 0) glDescription_ = drawing_->glDescription(wall);
   return {};
 }
 
@@ -114,11 +124,15 @@ bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {
 }
 
 Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
-  if (!parts_.provider) return {};
-  if (Failure f = contexts_.enter(wall)) return f;
-  drawn_[wall].eyes = 0;  // until it is finished there is no picture
-  if (Failure f = toFailure(contexts_.renderer(wall).draw(list, parts_.giveUp, parts_.probe))) return f;
-  drawn_[wall] = {list.eyeCount, list.ticket.signature.frame, false, contexts_.renderer(wall).totals()};
+  if (!drawing_) return {};
+  Drawn& drawn = drawn_[wall];
+  drawn.eyes = 0;  // until it is finished there is no picture
+  if (DrawOutcome outcome = drawing_->draw(wall, list); outcome.failure || !outcome.drawn) {
+    if (!outcome.failure) ++drawn.late;
+    return std::move(outcome.failure);
+  }
+  drawn.eyes = list.eyeCount, drawn.frame = list.ticket.signature.frame, drawn.read = false;
+  drawn.totals = drawing_->totals(wall);
   const bool wanted = parts_.sink && parts_.sink->wants(list.ticket.signature);
   return wanted || list.ticket.last ? readPictures(wall) : std::nullopt;
 }
@@ -131,22 +145,18 @@ Failure ShowStages::readPictures(std::size_t wall) {
   for (std::uint32_t eye = 0; eye < drawn.eyes; ++eye) {
     Picture& p = pictures_[wall].eyes[eye];
     p = Picture(parts_.walls[wall].width, parts_.walls[wall].height);
-    if (Failure f = toFailure(contexts_.renderer(wall).read(eye, p.rgba))) return f;
+    if (Failure f = drawing_->read(wall, eye, p.rgba)) return f;
   }
   drawn.read = true;
   return {};
 }
 
 void ShowStages::closeWall(std::size_t wall) {
-  if (!parts_.provider) return;
+  if (!drawing_) return;
   // After a failure, or a wait that was given up, nobody knew which frame would be the last.
   const bool wanted = drawn_[wall].eyes > 0 && !drawn_[wall].read && !(parts_.desk && parts_.desk->leaving());
-  const bool entered = contexts_.hasContext(wall) && !contexts_.enter(wall);
-  if (entered && wanted) readPictures(wall);
-  if (parts_.contexts)
-    contexts_.leave(wall);
-  else
-    contexts_.close(wall);
+  if (wanted) readPictures(wall);
+  drawing_->close(wall);
 }
 
 Failure ShowStages::swap(const TimeSignature& now) {

@@ -12,6 +12,7 @@
 #include "pipeline/state/scene_state.h"
 #include "pipeline/target/target.h"
 #include "pipeline/wall_contexts.h"
+#include "pipeline/wall_drawing.h"
 
 #include <atomic>
 #include <functional>
@@ -39,6 +40,15 @@ public:
 /// Sees the scene after each App stage, on the App thread.
 using AppObserver = std::function<void(const TimeSignature&, const InputSample&, const Scene&)>;
 
+/// Walls that are drawn by a process each (worker/drawing_in_workers.h).
+struct WallWorkers {
+  bool egl = false;                     ///< else OSMesa
+  std::uint32_t rasteriserThreads = 0;  ///< of each process
+  bool everyFrame = true;               ///< else the newest counts, and nobody waits for a wall that is late
+  double rate = 60;                     ///< [1/s]
+  std::function<void(const std::string&)> tell{};  ///< what became of a process; on Draw threads
+};
+
 struct ShowParts {
   Scene& scene;
   SceneState& state;
@@ -57,6 +67,7 @@ struct ShowParts {
   SoundPlayer* sounds = nullptr;       ///< null: nobody listens
   const OperatorDesk* desk = nullptr;  ///< null: nobody commands
   RenderQuality quality{};
+  std::optional<WallWorkers> workers{};  ///< nothing: this process draws
 };
 
 class ShowStages final : public Stages {
@@ -78,6 +89,8 @@ public:
   /// Of wall `wall`, by eye: what it was drawn with in all. For when the run is over.
   const std::array<DrawTotals, 2>& drawn(std::size_t wall) const { return drawn_[wall].totals; }
   std::string glDescription() const { return glDescription_; }
+  /// How many frames the wall was not drawn in time for. For when the run is over.
+  std::uint64_t late(std::size_t wall) const { return drawn_[wall].late; }
   /// The newest frame that all walls have shown. Any thread.
   std::uint64_t shownFrame() const { return shownFrame_; }
 
@@ -88,6 +101,7 @@ private:
     std::uint64_t frame = 0;
     bool read = false;                   ///< the pictures have been read back
     std::array<DrawTotals, 2> totals{};  ///< by eye, of the whole show, when it has been closed
+    std::uint64_t late = 0;              ///< frames it was not drawn in time for
   };
 
   void tellPublished();
@@ -100,10 +114,9 @@ private:
   StillCasters stillCasters_;
   std::vector<WallPixels> wallPixels_;  ///< of the walls that show what the visitor sees
   SoundScape heard_;
-  WallContexts ownContexts_;
-  WallContexts& contexts_;
-  std::vector<Drawn> drawn_;     ///< by wall
-  std::vector<WallView> views_;  ///< by wall, as the operator has it; each its Cull's own
+  std::unique_ptr<WallDrawing> drawing_;  ///< null draws nothing
+  std::vector<Drawn> drawn_;              ///< by wall
+  std::vector<WallView> views_;           ///< by wall, as the operator has it; each its Cull's own
   std::vector<EyePictures> pictures_;
   std::atomic<std::uint64_t> shownFrame_ = 0;
   std::string glDescription_;

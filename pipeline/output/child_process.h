@@ -43,6 +43,7 @@ public:
   /// Finds argv[0] along PATH and runs it with default signal handling. Nothing if it runs, else an errno.
   std::optional<int> start(const std::vector<std::string>& argv, const Streams& streams);
   bool running() const { return pid_ > 0; }
+  pid_t pid() const { return pid_; }  ///< -1 if there is none
 
   /// The exit status (128 + signal if it was killed) once it has ended; nothing if it still runs after the
   /// wait.

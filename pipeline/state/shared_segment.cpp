@@ -19,6 +19,17 @@ SharedSegment::SharedSegment(const char* name, std::size_t reserveBytes) : reser
   data_ = static_cast<std::byte*>(at);
 }
 
+SharedSegment::SharedSegment(int descriptor, std::size_t reserveBytes, Access access)
+    : reserve_(reserveBytes), descriptor_(descriptor) {
+  const int rights = access == Access::Write ? PROT_READ | PROT_WRITE : PROT_READ;
+  void* at = mmap(nullptr, reserve_, rights, MAP_SHARED | MAP_NORESERVE, descriptor_, 0);
+  if (at == MAP_FAILED) {
+    close(descriptor_);
+    throw std::bad_alloc();
+  }
+  data_ = static_cast<std::byte*>(at);
+}
+
 SharedSegment::~SharedSegment() {
   munmap(data_, reserve_);
   close(descriptor_);

@@ -14,6 +14,10 @@ class SharedSegment {
 public:
   /// Throws std::bad_alloc if the system refuses (address space or file limit).
   SharedSegment(const char* name, std::size_t reserveBytes);
+  /// The segment of another process, whose descriptor it takes; only that process lets it grow. What lies
+  /// beyond its end must not be touched.
+  enum class Access { Read, Write };
+  SharedSegment(int descriptor, std::size_t reserveBytes, Access access);
   ~SharedSegment();
   SharedSegment(const SharedSegment&) = delete;
   SharedSegment& operator=(const SharedSegment&) = delete;

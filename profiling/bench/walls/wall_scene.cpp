@@ -80,10 +80,12 @@ WallMesh tetrahedron(std::uint32_t number) {
   return mesh;
 }
 
+/// Positions in whole nanometres, so that where the surface closes it does so exactly: what is open would be
+/// drawn from both sides.
 std::string objText(const WallMesh& mesh) {
   std::string text = "mtllib paint.mtl\n";
   for (const WallVertex& v : mesh.vertices)
-    text += fmt::format("v {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\nvn {:.9g} {:.9g} {:.9g}\n",
+    text += fmt::format("v {:.9f} {:.9f} {:.9f} {:.9g} {:.9g} {:.9g}\nvn {:.9g} {:.9g} {:.9g}\n",
                         v.position[0], v.position[1], v.position[2], v.colour[0] / 255.0, v.colour[1] / 255.0,
                         v.colour[2] / 255.0, v.normal[0], v.normal[1], v.normal[2]);
   text += "usemtl paint\n";

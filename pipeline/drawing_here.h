@@ -1,0 +1,45 @@
+#pragma once
+/// Draws the walls in this process, each on its own thread and in its own context.
+
+#include "engine/asset/mesh_store.h"
+#include "pipeline/wall_contexts.h"
+#include "pipeline/wall_drawing.h"
+
+#include <functional>
+#include <vector>
+
+namespace stadion {
+
+/// Of one eye's picture [pixels].
+struct PictureSize {
+  std::uint32_t width = 0, height = 0;
+};
+
+struct DrawingHereParts {
+  GlProvider& provider;
+  const MeshStore& meshes;
+  std::vector<PictureSize> walls;
+  RenderQuality quality{};
+  WallContexts* contexts = nullptr;  ///< that outlive it; null: it makes its own
+  std::function<bool()> giveUp{};    ///< see Renderer::draw
+  FrameProbe* probe = nullptr;
+};
+
+class DrawingHere final : public WallDrawing {
+public:
+  explicit DrawingHere(DrawingHereParts parts);
+
+  Failure open(std::size_t wall) override;
+  DrawOutcome draw(std::size_t wall, const DrawList& list) override;
+  Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) override;
+  void close(std::size_t wall) override;
+  std::array<DrawTotals, 2> totals(std::size_t wall) const override;
+  std::string glDescription(std::size_t wall) const override;
+
+private:
+  DrawingHereParts parts_;
+  WallContexts ownContexts_;
+  WallContexts& contexts_;
+};
+
+}  // namespace stadion

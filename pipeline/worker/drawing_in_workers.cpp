@@ -1,0 +1,235 @@
+#include "pipeline/worker/drawing_in_workers.h"
+
+#include "engine/run_stopped.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+namespace stadion {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+using State = worker::WallWorker::State;
+
+constexpr int kMostStarts = 3;            // for one frame, or to open
+constexpr milliseconds kLookEvery{50};    // at who gives up
+constexpr milliseconds kHangs{5000};      // without using the processor, where every frame counts
+constexpr milliseconds kHangsLive{1000};  // where others must not wait
+constexpr milliseconds kForEver{24 * 3600 * 1000};
+constexpr std::size_t kUsual = 32;  // frames by which it is known what drawing takes
+
+}  // namespace
+
+struct DrawingInWorkers::Wall {
+  Wall(std::size_t index_, std::string name_, worker::WorkerSetting setting, const MeshStore& meshes,
+       worker::MeshParcels& parcels)
+      : index(index_), name(std::move(name_)), process(std::move(setting), meshes, parcels) {}
+
+  std::size_t index;
+  std::string name;
+  worker::WallWorker process;
+  std::string description;
+  std::array<DrawTotals, 2> before{}, totals{};  ///< of the processes before this one; in all
+  std::atomic<int> pid = 0;
+
+  // By which it is known whether it hangs.
+  double processor = -1;      ///< [s]
+  Clock::time_point since{};  ///< when it had used that much, at first
+
+  // Where the newest frame counts.
+  std::vector<double> took;  ///< [ms] the last frames, oldest first
+  bool waitedFor = true;     ///< false: the other walls go on without it until it answers
+  Clock::time_point lost{};  ///< when they began to
+
+  void note(double ms) {
+    if (took.size() == kUsual) took.erase(took.begin());
+    took.push_back(ms);
+  }
+};
+
+DrawingInWorkers::DrawingInWorkers(DrawingInWorkersParts parts)
+    : parts_(std::move(parts)), parcels_(parts_.meshes) {
+  for (std::size_t i = 0; i < parts_.walls.size(); ++i) {
+    const worker::WorkerSetting setting{parts_.program,         parts_.egl,     parts_.walls[i].width,
+                                        parts_.walls[i].height, parts_.quality, parts_.rasteriserThreads};
+    walls_.push_back(std::make_unique<Wall>(i, parts_.names[i], setting, parts_.meshes, parcels_));
+    walls_.back()->took.reserve(kUsual);
+  }
+}
+
+DrawingInWorkers::~DrawingInWorkers() = default;
+
+void DrawingInWorkers::tell(const Wall& wall, const std::string& what) const {
+  if (parts_.tell) parts_.tell("wall " + wall.name + ": " + what);
+}
+
+Failure DrawingInWorkers::start(Wall& wall) {
+  for (std::size_t eye = 0; eye < wall.before.size(); ++eye) wall.before[eye] = wall.totals[eye];
+  wall.processor = -1;
+  if (const auto why = wall.process.start())
+    return Reason("wall " + wall.name + ": no process draws it: " + *why);
+  wall.pid = wall.process.pid();
+  return {};
+}
+
+Failure DrawingInWorkers::restart(Wall& wall, const std::string& why) {
+  tell(wall, "the process that draws it " + why + "; another one is started");
+  wall.pid = 0;
+  return start(wall);
+}
+
+/// Waits until the process is idle; false if it is gone, or busy still.
+bool DrawingInWorkers::await(Wall& wall, milliseconds atMost) {
+  const auto deadline = Clock::now() + atMost;
+  for (;;) {
+    if (wall.process.state() == State::Idle) return true;
+    const auto left = std::chrono::ceil<milliseconds>(deadline - Clock::now());
+    if (wall.process.hear(std::clamp(left, milliseconds(0), kLookEvery))) return true;
+    if (wall.process.state() == State::Down || left <= milliseconds(0)) return false;
+    if (parts_.giveUp && parts_.giveUp()) throw RunStopped();
+    if (hangs(wall, kHangs)) return false;
+  }
+}
+
+/// Whether it has not used the processor for so long, while it had something to do.
+bool DrawingInWorkers::hangs(Wall& wall, milliseconds still) {
+  const double processor = wall.process.processorSeconds();
+  const auto now = Clock::now();
+  if (processor != wall.processor) wall.processor = processor, wall.since = now;
+  return now - wall.since > still;
+}
+
+/// What the process said, as far as it concerns the run.
+Failure DrawingInWorkers::answered(Wall& wall) {
+  const worker::AnswerHead& answer = wall.process.answer();
+  wall.processor = -1;
+  if (answer.failed) return Reason("wall " + wall.name + ": " + wall.process.text());
+  if (answer.to == worker::Order::Open) wall.description = wall.process.text();
+  if (answer.to == worker::Order::Draw)
+    for (std::size_t eye = 0; eye < wall.totals.size(); ++eye) {
+      wall.totals[eye] = answer.totals[eye];
+      wall.totals[eye].add(wall.before[eye]);
+    }
+  return {};
+}
+
+Failure DrawingInWorkers::open(std::size_t index) {
+  Wall& wall = *walls_[index];
+  wall.before = wall.totals = {};
+  std::string why;
+  for (int starts = 0; starts < kMostStarts; ++starts) {
+    if (Failure f = start(wall)) return f;
+    if (await(wall, kForEver)) return answered(wall);
+    why = wall.process.state() == State::Down ? wall.process.end() : "hung";
+  }
+  return Reason("wall " + wall.name + ": the process that is to draw it " + why + " before it was ready, " +
+                std::to_string(kMostStarts) + " times");
+}
+
+DrawOutcome DrawingInWorkers::draw(std::size_t index, const DrawList& list) {
+  Wall& wall = *walls_[index];
+  if (parts_.everyFrame) return {drawEvery(wall, list)};
+  return drawNewest(wall, list);
+}
+
+Failure DrawingInWorkers::drawEvery(Wall& wall, const DrawList& list) {
+  std::string why;
+  for (int starts = 0;; ++starts) {
+    if (wall.process.state() == State::Down || starts > 0) {
+      if (starts == kMostStarts)
+        return Reason("wall " + wall.name + ", frame " + std::to_string(list.ticket.signature.frame) +
+                      ": the process that draws it " + why + ", " + std::to_string(kMostStarts) + " times");
+      if (Failure f = restart(wall, why.empty() ? wall.process.end() : why)) return f;
+    }
+    if (wall.process.state() == State::Opening && await(wall, kForEver))
+      if (Failure f = answered(wall)) return f;
+    if (wall.process.state() == State::Idle) {
+      wall.process.draw(list);
+      if (await(wall, kForEver)) return answered(wall);
+    }
+    why = wall.process.state() == State::Down ? wall.process.end() : "hung";
+  }
+}
+
+/// Never waits longer than the walls beside may wait.
+DrawOutcome DrawingInWorkers::drawNewest(Wall& wall, const DrawList& list) {
+  const auto late = [&]() -> DrawOutcome {
+    if (wall.waitedFor) wall.lost = Clock::now();
+    wall.waitedFor = false;
+    return {{}, false};
+  };
+  if (wall.process.state() == State::Opening || wall.process.state() == State::Busy) {
+    if (wall.process.hear(milliseconds(0))) {
+      if (Failure f = answered(wall)) return {std::move(f)};
+    } else if (wall.process.state() != State::Down) {
+      if (!hangs(wall, wall.process.state() == State::Opening ? kHangs : kHangsLive)) return late();
+      if (Failure f = restart(wall, "hung")) return {std::move(f)};
+      return late();
+    }
+  }
+  if (wall.process.state() == State::Down) {
+    if (Failure f = restart(wall, wall.process.end())) return {std::move(f)};
+    return late();
+  }
+  const auto began = Clock::now();
+  wall.process.draw(list);
+  const double period = 1000 / parts_.rate;
+  const bool usual = wall.took.size() >= 3;
+  const double longest = usual ? *std::max_element(wall.took.begin(), wall.took.end()) : 0;
+  const auto patience = !usual ? kForEver : milliseconds(static_cast<int>(longest + 0.5 * period) + 1);
+  if (!await(wall, patience)) {
+    if (wall.process.state() != State::Down) return late();
+    if (Failure f = restart(wall, wall.process.end())) return {std::move(f)};
+    return late();
+  }
+  if (Failure f = answered(wall)) return {std::move(f)};
+  const auto now = Clock::now();
+  wall.note(std::chrono::duration<double, std::milli>(now - began).count());
+  if (!wall.waitedFor) {
+    const double seconds = std::chrono::duration<double>(now - wall.lost).count();
+    tell(wall, "draws again, after " + std::to_string(std::lround(1000 * seconds)) + " ms");
+  }
+  wall.waitedFor = true;
+  return {};
+}
+
+Failure DrawingInWorkers::read(std::size_t index, std::uint32_t eye, std::span<std::uint8_t> rgba) {
+  Wall& wall = *walls_[index];
+  if (wall.process.state() == State::Idle) {
+    if (eye == 0) {
+      wall.process.readPictures();
+      if (await(wall, kForEver))
+        if (Failure f = answered(wall)) return f;
+    }
+    const auto picture = wall.process.picture(eye);
+    if (wall.process.state() == State::Idle && picture.size() == rgba.size()) {
+      std::memcpy(rgba.data(), picture.data(), rgba.size());
+      return {};
+    }
+  }
+  return Reason("wall " + wall.name + ": its picture is lost: the process that draws it " +
+                (wall.process.state() == State::Down ? wall.process.end() : std::string("hung")));
+}
+
+void DrawingInWorkers::close(std::size_t index) {
+  walls_[index]->pid = 0;
+  walls_[index]->process.stop();
+}
+
+std::array<DrawTotals, 2> DrawingInWorkers::totals(std::size_t wall) const {
+  return walls_[wall]->totals;
+}
+
+std::string DrawingInWorkers::glDescription(std::size_t wall) const {
+  return walls_[wall]->description;
+}
+
+int DrawingInWorkers::pid(std::size_t wall) const {
+  return walls_[wall]->pid;
+}
+
+}  // namespace stadion
