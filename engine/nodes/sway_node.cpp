@@ -54,10 +54,9 @@ void SwayNode::put(const Swing& swing, const Moment& m, Affine& X_PN) {
 void SwayNode::putTargets(Scene& scene) {
   settleTargets(scene);
   const Moment m = momentAt(elapsed_);
-  const Swing* swings = swings_.data();
   scene.placements().setLocals(placements_, [&](std::size_t i, Affine& X_PN) {
-    prefetch(swings + i + Placements::kAhead);
-    put(swings[i], m, X_PN);
+    if (i + Placements::kAhead < swings_.size()) prefetch(&swings_[i + Placements::kAhead]);
+    put(swings_[i], m, X_PN);
   });
   putAt_ = since_;
 }

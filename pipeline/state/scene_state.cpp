@@ -192,11 +192,9 @@ void SceneState::take(std::span<const ChangeSet::Instance> block) {
   for (const ChangeSet::Instance& i : block) end = std::max(end, i.id + std::size_t{1});
   makeRoom(writing_, end);
   InstanceRecord* records = instances(writing_);
-  constexpr std::size_t kAhead = 8;
-  for (std::size_t k = 0; k < std::min(kAhead, block.size()); ++k) prefetch(&records[block[k].id]);
-  for (std::size_t k = 0; k < block.size(); ++k) {
-    if (k + kAhead < block.size()) prefetch(&records[block[k + kAhead].id]);
-    const ChangeSet::Instance& i = block[k];
+  for (const ChangeSet::Instance& i : block) {
+    // What moves together has mostly come together: the next block is likely to be the neighbour.
+    if (i.id + block.size() < marks_.size()) prefetch(&records[i.id + block.size()]);
     const bool moves = movesBy(i);
     records[i.id] = i.record;
     if (moves) records[i.id].flags |= kMoves;
