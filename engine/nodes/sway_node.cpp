@@ -9,12 +9,20 @@ namespace {
 
 constexpr double kTurn = 2 * 3.14159265358979323846;
 
+/// Turned about +Z alone, and as wide as deep.
+Mat3 uprightAxes(double along, double across, double up) {
+  Mat3 axes;
+  axes << along, -across, 0, across, along, 0, 0, 0, up;
+  return axes;
+}
+
 }  // namespace
 
 // Targets stand in its own file or in one around it: they stay as long as it does.
 void SwayNode::settleTargets(Scene& scene) {
   if (settled_) return;
   settled_ = true;
+  bool upright = sway_.angularVelocity.head<2>().isZero(0);
   std::vector<NodeRef> targets = sway_.targets;
   if (targets.empty()) targets.push_back(self());
   for (std::size_t k = 0; k < targets.size(); ++k) {
@@ -24,7 +32,11 @@ void SwayNode::settleTargets(Scene& scene) {
     placed->letMove(scene);
     const Affine& X_PN = placed->attributes().X_PN;
     Swing swing;
-    swing.rest = X_PN.translation(), swing.axes = X_PN.linear();
+    const Mat3 axes = X_PN.linear();
+    swing.rest = X_PN.translation();
+    swing.along = axes(0, 0), swing.across = axes(1, 0), swing.up = axes(2, 2);
+    upright = upright && axes == uprightAxes(swing.along, swing.across, swing.up);
+    axes_.push_back(axes);
     for (int i = 0; i < 3; ++i) {
       const det::SinCos phase = det::sincos(sway_.phase[i] + static_cast<double>(k) * sway_.phaseStep[i]);
       swing.ofSin[i] = sway_.amplitude[i] * phase.cos, swing.ofCos[i] = sway_.amplitude[i] * phase.sin;
@@ -33,6 +45,7 @@ void SwayNode::settleTargets(Scene& scene) {
     placements_.push_back(placed->placement());
     swings_.push_back(swing);
   }
+  if (upright) axes_ = {};
 }
 
 SwayNode::Moment SwayNode::momentAt(Nanoseconds elapsed) const {
@@ -46,8 +59,15 @@ SwayNode::Moment SwayNode::momentAt(Nanoseconds elapsed) const {
   return m;
 }
 
-void SwayNode::put(const Swing& swing, const Moment& m, Affine& X_PN) {
-  X_PN.linear().noalias() = m.turn * swing.axes;
+void SwayNode::put(std::size_t i, const Moment& m, Affine& X_PN) const {
+  const Swing& swing = swings_[i];
+  if (axes_.empty()) {
+    const double c = m.turn(0, 0), s = m.turn(1, 0);
+    X_PN.linear() =
+        uprightAxes(c * swing.along - s * swing.across, s * swing.along + c * swing.across, swing.up);
+  } else {
+    X_PN.linear().noalias() = m.turn * axes_[i];
+  }
   X_PN.translation() = swing.rest + (m.sin.cwiseProduct(swing.ofSin) + m.cos.cwiseProduct(swing.ofCos));
 }
 
@@ -56,7 +76,7 @@ void SwayNode::putTargets(Scene& scene) {
   const Moment m = momentAt(elapsed_);
   scene.placements().setLocals(placements_, [&](std::size_t i, Affine& X_PN) {
     if (i + Placements::kAhead < swings_.size()) prefetch(&swings_[i + Placements::kAhead]);
-    put(swings_[i], m, X_PN);
+    put(i, m, X_PN);
   });
   putAt_ = since_;
 }
@@ -84,7 +104,7 @@ void SwayNode::traceOne(std::size_t i, Nanoseconds to, FrameContext& frame) cons
   const PlacementId id = placements_[i], up = placements.parent(id);
   const auto at = [&](Nanoseconds time) {
     Affine X_PN;
-    put(swings_[i], momentAt(elapsed_ + (time - since_)), X_PN);
+    put(i, momentAt(elapsed_ + (time - since_)), X_PN);
     return poseOf(withScale(frame.scene.courses().at(up, time, placements), placements.world(up)) * X_PN);
   };
   const Pose begin = at(since_);

@@ -53,9 +53,9 @@ protected:
 private:
   /// One target: everything that does not change with time.
   struct Swing {
-    Vec3 rest;          ///< [m]
-    Vec3 ofSin, ofCos;  ///< what of it goes with the sine of the common angle, and with its cosine [m]
-    Mat3 axes;          ///< rotation and scale at rest
+    Vec3 rest;                 ///< [m]
+    Vec3 ofSin, ofCos;         ///< what of it goes with the sine of the common angle, and with its cosine [m]
+    double along, across, up;  ///< of what stands upright, its axes at rest: uprightAxes()
   };
   /// What the targets have in common at a time.
   struct Moment {
@@ -65,7 +65,7 @@ private:
 
   void settleTargets(Scene& scene);
   Moment momentAt(Nanoseconds elapsed) const;
-  static void put(const Swing& swing, const Moment& m, Affine& X_PN);
+  void put(std::size_t i, const Moment& m, Affine& X_PN) const;
   void advanceTo(Nanoseconds time, FrameContext& frame);
   void putTargets(Scene& scene);
   void leaveTargets(Scene& scene);
@@ -84,6 +84,7 @@ private:
   std::vector<PlacedNode*> nodes_;
   std::vector<PlacementId> placements_;
   std::vector<Swing> swings_;
+  std::vector<Mat3> axes_;  ///< rotation and scale at rest; empty while all stand upright and turn about +Z
 };
 
 }  // namespace stadion

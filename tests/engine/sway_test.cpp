@@ -76,6 +76,26 @@ TEST(Sway, MovesEachTargetAlongItsOwnSinusoidAndTurnsItKeepingItsScale) {
   }
 }
 
+TEST(Sway, TurnsWhatLiesAslantAboutAnyAxis) {
+  ShowFixture show;
+  PlacedNode* boat = nullptr;
+  PlaceAttributes place;
+  place.X_PN.linear() = Eigen::AngleAxisd(0.4, Vec3::UnitX()).toRotationMatrix() * Vec3(1, 2, 3).asDiagonal();
+  const Vec3 omega(0.3, -0.2, 0.5);
+  show.loader.files["show"] = [&](Load& load) {
+    boat = &addNode<MovingNode>(load, "boat", place, false);
+    SwayAttributes a;
+    a.targets = {{load.number, 0}}, a.angularVelocity = omega;
+    addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
+  };
+  show.scene.open("show");
+  while (show.input.time < fromSeconds(2)) show.frame();
+  const Mat3 turned =
+      Eigen::AngleAxisd(2 * omega.norm(), omega.normalized()).toRotationMatrix() * place.X_PN.linear();
+  const Affine& X = show.scene.placements().world(boat->placement());
+  EXPECT_LT((X.linear() - turned).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 TEST(Sway, IsTheSameToTheBitAtEveryFrameRate) {
   SwayShow slow(10), fast(240);
   slow.until(3), fast.until(3);
