@@ -127,6 +127,7 @@ void LiveDesk::addTo(ShowParts& parts, FrameLoopOptions& loop) {
   parts.sounds = sounds_.get();
   parts.desk = loop.desk = desk_.get();
   loop.playback = &desk_->playback();
+  desk_->startWith(loop.latency);
   parts.giveUp = [desk = desk_.get(), before = std::move(parts.giveUp)] {
     return desk->leaving() || (before && before());
   };
@@ -155,6 +156,7 @@ void LiveDesk::tell(const OperatorCommand& command, Nanoseconds showTime) const 
     break;
   case OperatorAction::EyeSeparation: what += fmt::format(" {:.4f} m", s.eyeSeparation()); break;
   case OperatorAction::Volume: what += fmt::format(" {:.0f} %", 100 * s.volume); break;
+  case OperatorAction::Latency: what += fmt::format(" {:.0f}", s.latency); break;
   default: break;
   }
   say_(fmt::format("operator: {} ({})", what, clockText(uptime())));

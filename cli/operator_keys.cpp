@@ -20,7 +20,7 @@ struct Binding {
 };
 
 using enum OperatorAction;
-const std::array<Binding, 15> kKeys{{{'\n', {Start}},
+const std::array<Binding, 17> kKeys{{{'\n', {Start}},
                                      {'\r', {Start}},
                                      {' ', {Pause}},
                                      {'p', {Pause}},
@@ -34,6 +34,8 @@ const std::array<Binding, 15> kKeys{{{'\n', {Start}},
                                      {'-', {Volume, -0.05, true}},
                                      {'+', {Volume, 0.05, true}},
                                      {'=', {Volume, 0.05, true}},
+                                     {'k', {Latency, -1, true}},
+                                     {'l', {Latency, 1, true}},
                                      {'q', {End}}}};
 
 }  // namespace
@@ -54,7 +56,8 @@ std::optional<OperatorCommand> operatorCommandOf(Key key) {
 
 std::string operatorKeysHelp() {
   return "keys: Enter start, space pause, . one frame, b black, n next group, x swap eyes, "
-         "[ ] eyes closer or wider, f freeze head,\n      - + volume, q end, h these lines";
+         "[ ] eyes closer or wider, f freeze head,\n      - + volume, k l fewer or more frames under way, q "
+         "end, h these lines";
 }
 
 std::unique_ptr<OperatorKeys> OperatorKeys::open(int file, OperatorQueue& queue) {

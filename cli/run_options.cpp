@@ -119,6 +119,12 @@ void RunOptions::addBlackBoxTo(CLI::App& command) {
 
 void RunOptions::addOperatorTo(CLI::App& command) {
   command
+      .add_option(
+          "--latency", latency,
+          "frames under way at most between pose and picture, 1 to 4: fewer show what is younger, more let "
+          "the stages overlap (default: as many as the stages hold); the operator may change it")
+      ->check(wholeNumberFrom(1, 4));
+  command
       .add_option("--osc", oscPort, "listen for the operator's commands on this UDP port (docs/operator.md)")
       ->check(wholeNumberFrom(0, 65535));
   command.add_flag("--wait", wait, "stand at the first frame until the operator says start");
@@ -215,6 +221,7 @@ std::optional<WallWorkers> RunOptions::workers(const Player& player) const {
 
 FrameLoopOptions RunOptions::loopOptions(const Player& player) const {
   FrameLoopOptions l = player.loopOptions();
+  l.latency = latency;
   l.delivery = everyFrameCounts(player) ? Delivery::Every : Delivery::Latest;
   const bool newest = l.delivery == Delivery::Latest;
   l.everyTick = newest && repeats(player);

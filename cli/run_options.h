@@ -26,6 +26,7 @@ struct RunOptions {
   bool countWork = false;
   StressOptions stress;              ///< of the whole show
   bool loadControl = true;           ///< a live run gives up what its script says, when it takes too long
+  std::size_t latency = 0;           ///< frames under way at most; 0: as many as there is room for
   std::string wallWorkers = "auto";  ///< who draws the walls: thread, process or auto
   bool wait = false;
   bool noSound = false;

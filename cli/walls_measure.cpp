@@ -2,13 +2,16 @@
 
 #include "cli/player.h"
 #include "pipeline/output/run_summary.h"
+#include "pipeline/pacer.h"
+#include "profiling/bench/walls/picture_difference.h"
+#include "profiling/processor_time.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <sys/resource.h>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -19,14 +22,12 @@ double seconds(Clock::duration d) {
   return std::chrono::duration<double>(d).count();
 }
 
-/// Of all threads of this process [s].
-double processorSeconds() {
-  rusage u{};
-  getrusage(RUSAGE_SELF, &u);
-  const auto of = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return of(u.ru_utime) + of(u.ru_stime);
+/// What this process holds in memory now [MB].
+double memoryMb() {
+  std::ifstream in("/proc/self/statm");
+  double all = 0, resident = 0;
+  in >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
 /// When frames were complete on all walls.
@@ -61,11 +62,10 @@ public:
 
 private:
   static bool write(const std::string& file, const Picture& p) {
-    std::ofstream out(file, std::ios::binary);
-    out << "P6\n" << p.width << ' ' << p.height << "\n255\n";
-    for (std::size_t i = 0; i < p.rgba.size(); i += 4)
-      out.write(reinterpret_cast<const char*>(&p.rgba[i]), 3);
-    return static_cast<bool>(out.flush());
+    bench::RgbPicture rgb{p.width, p.height, {}};
+    for (std::size_t i = 0; i < p.rgba.size(); ++i)
+      if (i % 4 != 3) rgb.rgb.push_back(p.rgba[i]);
+    return bench::writePpm(file, rgb);
   }
 
   const WallsSetting& setting_;
@@ -80,10 +80,14 @@ std::vector<double> measured(const DurationSeries& series, const WallsSetting& s
   return {all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
-double sumOfMedians(const std::vector<DurationSeries>& walls, const WallsSetting& s) {
-  double sum = 0;
-  for (const DurationSeries& w : walls) sum += percentile(measured(w, s), 50);
-  return sum;
+/// What frames took on all walls together: one wall may do what is for all.
+double medianOfSums(const std::vector<DurationSeries>& walls, const WallsSetting& s) {
+  std::vector<double> sums(s.frames, 0);
+  for (const DurationSeries& wall : walls) {
+    const std::vector<double> of = measured(wall, s);
+    for (std::size_t i = 0; i < std::min(of.size(), sums.size()); ++i) sums[i] += of[i];
+  }
+  return percentile(sums, 50);
 }
 
 }  // namespace
@@ -115,10 +119,14 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   if (s.workers == "process") parts.workers = WallWorkers{s.gl == "egl"};
   ShowStages stages(std::move(parts));
   const std::atomic<bool> never = false;
-  FrameLoop loop(stages, player->loopOptions(), never);
+  FrameLoopOptions options = player->loopOptions();
+  options.latency = s.latency;
+  options.pace = s.pace == "lock" ? Pace::Lock : Pace::Free;
+  FrameLoop loop(stages, options, never);
   const FrameLoopOutcome outcome = loop.run();
   if (outcome.failure) return wrong(outcome.failure->message);
 
+  const double memory = memoryMb();
   const FrameTimes& times = loop.times();
   const double took = seconds(completed.end - completed.begin);
   const double processor = completed.processorEnd - completed.processorBegin;
@@ -139,7 +147,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
       counts.push_back(std::llround(static_cast<double>(eye.calls) / n));
       draws += static_cast<double>(eye.calls) / n, triangles += static_cast<double>(eye.triangles) / n;
     }
-  const double cull = sumOfMedians(times.cull, s), draw = sumOfMedians(times.draw, s);
+  const double cull = medianOfSums(times.cull, s), draw = medianOfSums(times.draw, s);
   const char* lp = std::getenv("LP_NUM_THREADS");
   return nlohmann::json{{"engine", "stadion"},
                         {"class", s.kind},
@@ -153,7 +161,9 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
                         {"height", s.height},
                         {"mode", s.mode},
                         {"wall_workers", s.workers},
+                        {"frames_under_way", s.latency},
                         {"lp_threads", lp ? lp : "default"},
+                        {"pace", s.pace},
                         {"frames", s.frames},
                         {"fps", frames / took},
                         {"frame_ms_median", percentile(period, 50)},
@@ -170,10 +180,34 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
                         {"draw_ms_sum", draw},
                         {"cpu_cores", processor / took},
                         {"cpu_ms_per_frame", 1e3 * processor / frames},
+                        {"memory_mb", memory},
                         {"incomplete", outcome.framesShown == show.frames ? 0 : 1},
                         {"draws_per_frame", draws},
                         {"tris_per_frame", triangles},
                         {"draws_per_view", counts}};
+}
+
+nlohmann::json measureTicks(std::uint64_t frames) {
+  Pacer pacer(Pace::Lock, bench::kWallSceneRate);
+  pacer.wait();
+  std::vector<double> periods;
+  Clock::time_point before = Clock::now();
+  for (std::uint64_t i = 0; i < frames; ++i) {
+    pacer.wait();
+    const Clock::time_point now = Clock::now();
+    periods.push_back(1e3 * seconds(now - before));
+    before = now;
+  }
+  return nlohmann::json{{"engine", "control"},
+                        {"frames", frames},
+                        {"frame_ms_median", percentile(periods, 50)},
+                        {"frame_ms_p95", percentile(periods, 95)},
+                        {"frame_ms_p99", percentile(periods, 99)},
+                        {"frame_ms_max", percentile(periods, 100)}};
+}
+
+bench::WallScene sceneOf(const WallsSetting& s) {
+  return {s.scene.front(), s.nodes, s.moving, s.far};
 }
 
 }  // namespace stadion

@@ -2,6 +2,7 @@
 /// One setting of `stadion bench walls`, measured in this process.
 
 #include "engine/diagnostic.h"
+#include "profiling/bench/walls/wall_scene.h"
 
 #include <nlohmann/json.hpp>
 
@@ -14,8 +15,12 @@ struct WallsSetting {
   std::string scene = "a";      ///< a, b or c (profiling/bench/walls/wall_scene.h)
   std::string kind = "STRICT";  ///< STRICT: a draw call a node; OPEN: anything that keeps the picture
   std::string mode = "pipelined";
+  std::size_t latency = 1;         ///< frames under way at most (FrameLoopOptions)
   std::string workers = "thread";  ///< or process
   std::string gl = "osmesa";
+  std::string pace = "free";          ///< or lock: frames begin on ticks of 1/60 s
+  std::size_t nodes = 0, moving = 0;  ///< for curves; 0: as the scene has them
+  double far = 0;                     ///< [m]; 0: as the scene has it
   std::size_t walls = 4;
   bool flat = true;
   std::uint32_t width = 800, height = 600;
@@ -23,8 +28,13 @@ struct WallsSetting {
   std::string pictures;  ///< beginning of the names of PPM files of the frame after the last; empty: none
 };
 
+bench::WallScene sceneOf(const WallsSetting& setting);
+
 /// The show lies in `folder` (writeWallScene) and is long enough. The object has the fields that osg_walls
 /// prints; times in milliseconds.
 Result<nlohmann::json> measureWalls(const WallsSetting& setting, const std::string& folder);
+
+/// How even the ticks of this machine are: a loop that only waits for each of `frames`.
+nlohmann::json measureTicks(std::uint64_t frames);
 
 }  // namespace stadion

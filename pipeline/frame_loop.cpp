@@ -113,6 +113,7 @@ void FrameLoop::runPipelined() {
   StageThreads threads;
   threads.app = [&] {
     while (const auto turn = nextTurn()) {
+      slots.limitUnderWay(framesUnderWay());
       const auto slot = waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return slots.beginWrite(); });
       if (!slot) return;
       const auto ticket = appStage(*turn, *slot);
@@ -138,7 +139,11 @@ void FrameLoop::runPipelined() {
       if (!list->abandoned && !drawStage(wall, *list)) return;
       const FrameTicket ticket = list->ticket;
       bool shown = true;
-      const auto arrive = [&] { return barrier.arrive([&] { shown = swapStage(ticket); }); };
+      const auto show = [&] {
+        shown = swapStage(ticket);
+        slots.shown();
+      };
+      const auto arrive = [&] { return barrier.arrive(show); };
       if (!waited(Span::ForWalls, ticket.signature.frame, wall, arrive) || !shown) return;
       queues[wall].giveEmpty(list);
     }
@@ -212,6 +217,11 @@ bool FrameLoop::takeCommands() {
   outcome_.nextGroup = state.nextGroup;
   ending_ = ending_ || state.end;
   return !state.nextGroup;
+}
+
+std::size_t FrameLoop::framesUnderWay() const {
+  const bool commanded = options_.desk && options_.desk->state().latency > 0;
+  return commanded ? static_cast<std::size_t>(options_.desk->state().latency) : options_.latency;
 }
 
 // Where every frame counts, time goes by frames; where the newest counts, by the clock's ticks.

@@ -37,6 +37,8 @@ struct FrameLoopOptions {
   /// the same however fast the machine is. One that is not pipelined does not draw meanwhile.
   bool everyTick = false;
   std::size_t walls = 1;
+  /// Frames under way at most, in pipelined mode (FrameSlots::limitUnderWay); the operator may change it.
+  std::size_t latency = 0;
   std::uint64_t frames = 0;  ///< 0 = until stopped
   Nanoseconds end = 0;       ///< no frame after this show time; 0 = until stopped
   /// Show times that a recorded run decided for some of its frames (see RunDecisions); they are obeyed.
@@ -85,6 +87,7 @@ private:
   template <class Wait>
   auto waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait);
   bool takeCommands();
+  std::size_t framesUnderWay() const;
   FrameLoad loadOf(std::uint64_t frame);
   TimeSignature signatureAfter(std::uint64_t ticks, double speed);
   bool noneFollows();

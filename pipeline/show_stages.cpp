@@ -37,10 +37,13 @@ void makeBlack(DrawList& list) {
 }  // namespace
 
 ShowStages::ShowStages(ShowParts parts)
-    : parts_(std::move(parts)), drawing_(drawingOf(parts_)), drawn_(parts_.walls.size()),
-      views_(parts_.walls), pictures_(parts_.walls.size()) {
+    : parts_(std::move(parts)), room_(parts_.walls), drawing_(drawingOf(parts_)), drawn_(parts_.walls.size()),
+      pictures_(parts_.walls.size()) {
   for (const WallView& view : parts_.walls)
     if (!view.camera) wallPixels_.push_back({view.wall, view.width, view.height});
+  const bool shadows = parts_.quality.look == Look::Full;
+  const CullParts cull{room_, shadows ? &stillCasters_ : nullptr, wallPixels_, &parts_.meshes, parts_.probe};
+  for (std::uint32_t wall = 0; wall < parts_.walls.size(); ++wall) culls_.emplace_back(cull, wall);
 }
 
 ShowStages::~ShowStages() = default;
@@ -99,15 +102,8 @@ void ShowStages::still(std::size_t slot) {
 
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
-  WallView& view = views_[wall];
-  const SlotView state = [&] {
-    const SpanScope span(parts_.probe, Span::Eyes);
-    view.eyeSeparation = shown.eyeSeparation >= 0 ? shown.eyeSeparation : parts_.walls[wall].eyeSeparation;
-    return parts_.state.view(slot);
-  }();
-  LevelChoice levels(*state.viewer, wallPixels_, parts_.meshes);
-  cullWall(state, view, static_cast<std::uint32_t>(wall), stillCasters_, list, parts_.probe, &levels);
-  if (view.camera) return;  // somebody else's, not the visitor's
+  culls_[wall].fill(parts_.state.view(slot), shown.eyeSeparation, list);
+  if (parts_.walls[wall].camera) return;  // somebody else's, not the visitor's
   if (shown.swapEyes && list.eyeCount == 2) std::swap(list.eyes[0], list.eyes[1]);
   if (shown.black) makeBlack(list);
 }

@@ -113,10 +113,11 @@ private:
   ChangeSet changes_;
   StillCasters stillCasters_;
   std::vector<WallPixels> wallPixels_;  ///< of the walls that show what the visitor sees
+  RoomCull room_;
+  std::vector<WallCull> culls_;  ///< by wall, each its Cull's own
   SoundScape heard_;
   std::unique_ptr<WallDrawing> drawing_;  ///< null draws nothing
   std::vector<Drawn> drawn_;              ///< by wall
-  std::vector<WallView> views_;           ///< by wall, as the operator has it; each its Cull's own
   std::vector<EyePictures> pictures_;
   std::atomic<std::uint64_t> shownFrame_ = 0;
   std::string glDescription_;

@@ -22,13 +22,14 @@ enum class OperatorAction : std::uint8_t {
   EyeSeparation,  ///< between the eyes [m]
   FreezeHead,     ///< on: the head stays where it is, whatever its tracker says
   Volume,         ///< of all sounds, from 0 to 1
+  Latency,        ///< frames that are under way at most between pose and picture: 1 to 4
   End,            ///< the run ends after this frame
 };
 
 /// As addresses (/stadion/next-group) and in texts.
-inline constexpr std::array<std::string_view, 10> kOperatorActionNames = {
-    "start",     "pause",          "step",        "black",  "next-group",
-    "swap-eyes", "eye-separation", "freeze-head", "volume", "end"};
+inline constexpr std::array<std::string_view, 11> kOperatorActionNames = {
+    "start",          "pause",       "step",   "black",   "next-group", "swap-eyes",
+    "eye-separation", "freeze-head", "volume", "latency", "end"};
 
 constexpr std::string_view nameOf(OperatorAction action) {
   return kOperatorActionNames[static_cast<std::size_t>(action)];
@@ -48,7 +49,7 @@ constexpr bool isOfPresentation(OperatorAction action) {
 
 struct OperatorCommand {
   OperatorAction action{};
-  /// 1 on, 0 off, nothing: the other of what it is; of eye separation and volume the figure itself.
+  /// 1 on, 0 off, nothing: the other of what it is; of eye separation, volume and latency the figure itself.
   std::optional<double> value{};
   bool relative = false;  ///< the value is added to what is
 

@@ -3,69 +3,9 @@
 #include "pipeline/cull/shadow_cull.h"
 
 #include <algorithm>
-#include <cmath>
-#include <tuple>
 
 namespace stadion {
 namespace {
-
-/// What a camera that is nobody's eye can see (World axes relative to the list's origin).
-ConvexVolume setCamera(const ViewerRecord& viewer, const CameraView& from, const DepthRange& depth,
-                       DrawList& out) {
-  const Pose X_WR = viewer.rig();
-  out.origin = X_WR * from.eye;
-  out.eyeCount = 1;
-  const EyeFrustum frustum = eyeFrustum(from.screen, from.eye, depth);
-  out.eyes[0].projection = projectionMatrix(frustum);
-  out.eyes[0].view = viewMatrix(frustum, X_WR, out.origin);
-  return unionFrustum(from.screen, {&from.eye, 1}, depth).transformed(X_WR, out.origin);
-}
-
-/// The cameras of the wall's eyes, and what they can see together (World axes relative to the list's origin).
-ConvexVolume setEyes(const ViewerRecord& viewer, const WallView& view, DrawList& out) {
-  const Pose X_WR = viewer.rig(), X_RH = viewer.head();
-  out.origin = X_WR * X_RH.p;
-  out.eyeCount = view.stereo ? 2 : 1;
-  std::array<Vec3, 2> eyes;
-  for (std::uint32_t e = 0; e < out.eyeCount; ++e) {
-    eyes[e] = eyePosition(X_RH, kEyes[e], view.stereo ? view.eyeSeparation : 0);
-    const EyeFrustum frustum = eyeFrustum(view.wall, eyes[e], view.depth);
-    out.eyes[e].projection = projectionMatrix(frustum);
-    out.eyes[e].view = viewMatrix(frustum, X_WR, out.origin);
-  }
-  return unionFrustum(view.wall, {eyes.data(), out.eyeCount}, view.depth).transformed(X_WR, out.origin);
-}
-
-/// What is in the slot, one record after the other.
-template <class F>
-void forEachRecord(const SlotView& state, const F& f) {
-  for (const ChunkId id : state.chunks) {
-    const ChunkView chunk = state.chunk(id);
-    for (std::size_t i = 0; i < chunk.records.size(); ++i)
-      if (!((chunk.hidden[i / 64] >> (i % 64)) & 1)) f(chunk.records[i]);
-  }
-  for (const InstanceRecord& r : state.instances) f(r);
-}
-
-bool isShown(const InstanceRecord& r) {
-  return r.radius >= 0 && (r.flags & InstanceRecord::kShown) != 0;
-}
-
-Vec3 centreOf(const InstanceRecord& r, const DrawList& list) {
-  return Vec3(r.centre[0], r.centre[1], r.centre[2]) - list.origin;
-}
-
-CullCounts findSeen(const SlotView& state, const ConvexVolume& volume, DrawList& out) {
-  CullCounts counts;
-  out.seen.clear();
-  forEachRecord(state, [&](const InstanceRecord& r) {
-    if (!isShown(r)) return;
-    ++counts.tested;
-    if (volume.mayTouch(Sphere{centreOf(r, out), r.radius})) out.seen.push_back(&r);
-  });
-  counts.kept = out.seen.size();
-  return counts;
-}
 
 /// How large things are seen on a wall.
 struct PixelScale {
@@ -84,70 +24,25 @@ struct PixelScale {
   }
 };
 
-DrawItem itemOf(const InstanceRecord& r, const DrawList& list, const PixelScale& scale) {
+DrawItem itemOf(const InstanceRecord& r, const Vec3& origin, const PixelScale& scale) {
   DrawItem item;
-  for (int k = 0; k < 12; ++k) {
-    const double shift = k % 4 == 3 ? list.origin[k / 4] : 0.0;
-    item.model[static_cast<std::size_t>(k)] = static_cast<float>(r.model[k] - shift);
+  for (int row = 0; row < 3; ++row) {
+    for (int k = 4 * row; k < 4 * row + 3; ++k)
+      item.model[static_cast<std::size_t>(k)] = static_cast<float>(r.model[k]);
+    item.model[static_cast<std::size_t>(4 * row + 3)] =
+        static_cast<float>(r.model[4 * row + 3] - origin[row]);
   }
   item.mesh = r.mesh;
   item.owner = r.owner;
-  item.distance = static_cast<float>(centreOf(r, list).norm());
+  item.distance = static_cast<float>((Vec3(r.centre[0], r.centre[1], r.centre[2]) - origin).norm());
   item.pixels = scale.of(r.radius, item.distance);
   return item;
 }
 
-void fill(DrawList& out, const PixelScale& scale, LevelChoice* levels) {
-  for (const InstanceRecord* r : out.seen) {
-    auto& items = r->flags & InstanceRecord::kTransparent ? out.transparent : out.opaque;
-    items.push_back(itemOf(*r, out, scale));
-    if (levels) items.back().level = levels->levelOf(*r);
-  }
-}
-
-/// The order must not depend on where records lie, only on what they are.
-void sort(DrawList& out) {
-  const auto key = [](const DrawItem& d) {
-    return std::tuple(d.mesh, d.level, d.distance, d.owner, d.model);
-  };
-  std::sort(out.opaque.begin(), out.opaque.end(),
-            [&](const DrawItem& a, const DrawItem& b) { return key(a) < key(b); });
-  std::sort(out.transparent.begin(), out.transparent.end(), [](const DrawItem& a, const DrawItem& b) {
-    return std::tuple(-a.distance, a.mesh, a.owner, a.model) <
-           std::tuple(-b.distance, b.mesh, b.owner, b.model);
-  });
-}
-
-/// Who the tests and the filling were for.
-void tellShares(const SlotView& state, const DrawList& list, FrameProbe& probe) {
-  const std::uint64_t frame = state.signature->frame;
-  std::vector<NodeRef> owners;
-  forEachRecord(state, [&](const InstanceRecord& r) {
-    if (isShown(r)) owners.push_back(r.owner);
-  });
-  probe.shared(Span::Test, frame, list.wall, owners);
-  owners.clear();
-  for (const InstanceRecord* r : list.seen) owners.push_back(r->owner);
-  probe.shared(Span::Fill, frame, list.wall, owners);
-  probe.shared(Span::Sort, frame, list.wall, owners);
-  owners.clear();
-  // The light finds its rings and what stands still in them, kept from frame to frame; what moves is looked
-  // for.
-  if (const std::int32_t light = list.shadows.light; light >= 0)
-    if (const NodeRef owner = state.lights[static_cast<std::size_t>(light)].owner; owner.valid())
-      owners.push_back(owner);
-  for (const DrawShadowRing& ring : list.shadows.rings)
-    for (const DrawItem& item : ring.moving) owners.push_back(item.owner);
-  probe.shared(Span::ShadowCasts, frame, list.wall, owners);
-}
-
-/// Within the stage itself.
-void tellCounts(const CullCounts& counts, const DrawList& list, FrameProbe& probe) {
-  std::size_t casters = 0;
-  for (const DrawShadowRing& ring : list.shadows.rings) casters += ring.moving.size();
-  probe.counted(Count::Tested, counts.tested);
-  probe.counted(Count::Seen, counts.kept);
-  probe.counted(Count::Casters, casters);
+/// A record lies anywhere among many: it is asked for while others are worked on.
+void fetch(const InstanceRecord* r) {
+  const auto* at = reinterpret_cast<const char*>(r);
+  for (std::size_t line = 0; line < sizeof *r; line += 64) __builtin_prefetch(at + line);
 }
 
 void setLights(const SlotView& state, DrawList& out) {
@@ -176,49 +71,109 @@ void setSky(const SkyRecord& sky, DrawList& out) {
   out.sky.hazeDistance = sky.haze;
 }
 
+/// The light finds its rings and what stands still in them, kept from frame to frame; what moves is looked
+/// for.
+void addOwners(const SlotView& state, const DrawShadows& shadows, std::vector<NodeRef>& owners) {
+  if (shadows.light >= 0)
+    if (const NodeRef owner = state.lights[static_cast<std::size_t>(shadows.light)].owner; owner.valid())
+      owners.push_back(owner);
+  for (const DrawShadowRing& ring : shadows.rings)
+    for (const DrawItem& item : ring.moving) owners.push_back(item.owner);
+}
+
 }  // namespace
 
-CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, StillCasters& still,
-                    DrawList& out, FrameProbe* probe, LevelChoice* levels) {
+WallCull::WallCull(const CullParts& parts, std::uint32_t wall) : parts_(parts), wall_(wall) {
+  if (parts.meshes) levels_.emplace(parts.pixels, *parts.meshes);
+}
+
+void WallCull::fill(const SlotView& state, double eyeSeparation, DrawList& out) {
+  FrameProbe* probe = parts_.probe;
   out.ticket.signature = *state.signature;
-  out.wall = index;
+  out.wall = wall_;
   out.opaque.clear(), out.transparent.clear();
-  const auto from = view.camera ? view.camera->view() : std::nullopt;
-  if (view.camera && !from) {
-    out.eyeCount = 0, out.shadows.light = -1;
-    return {};
-  }
-  const ConvexVolume volume = [&] {
-    const SpanScope span(probe, Span::Eyes);
-    const ConvexVolume visible =
-        from ? setCamera(*state.viewer, *from, view.depth, out) : setEyes(*state.viewer, view, out);
-    setLights(state, out);
-    setSky(*state.sky, out);
-    return visible;
-  }();
-  CullCounts counts;
-  {
+  out.shadows.light = -1;
+  const RoomCull::Seen room = [&] {
     const SpanScope span(probe, Span::Test);
-    counts = findSeen(state, volume, out);
+    return parts_.room.seen(state, eyeSeparation);
+  }();
+  const WallSeen& seen = room.on(wall_);
+  if (!seen.looks) {
+    out.eyeCount = 0;
+    return;
+  }
+  {
+    const SpanScope span(probe, Span::Eyes);
+    lookThrough(state, seen, eyeSeparation, out);
   }
   {
     const SpanScope span(probe, Span::Fill);
-    fill(out, PixelScale(out, view), levels);
+    if (levels_) levels_->look(*state.viewer);
+    addItems(seen, out);
   }
-  {
+  if (parts_.still) {
     const SpanScope span(probe, Span::ShadowCasts);
-    ShadowCull shadows(state, still, out);
-    if (shadows.any())
-      for (const InstanceRecord& r : state.instances) shadows.consider(r);
+    addCasters(state, out);
   }
-  if (from) view.camera->addTo(out, *state.viewer);
+  if (seen.from) parts_.room.view(wall_).camera->addTo(out, *state.viewer);
   {
     const SpanScope span(probe, Span::Sort);
-    sort(out);
+    order_.sort(out);
   }
-  if (probe) tellCounts(counts, out, *probe);
-  if (probe && probe->wantsShares(state.signature->frame, index)) tellShares(state, out, *probe);
-  return counts;
+  if (probe) tell(state, seen, eyeSeparation, out);
+}
+
+void WallCull::lookThrough(const SlotView& state, const WallSeen& seen, double eyeSeparation,
+                           DrawList& out) const {
+  eyesOf(*state.viewer, parts_.room.view(wall_), eyeSeparation, seen.from ? &*seen.from : nullptr).setUp(out);
+  setLights(state, out);
+  setSky(*state.sky, out);
+}
+
+void WallCull::addItems(const WallSeen& seen, DrawList& out) {
+  const PixelScale scale(out, parts_.room.view(wall_));
+  constexpr std::size_t kAhead = 8;
+  const std::span<const InstanceRecord* const> records = seen.records;
+  for (std::size_t i = 0; i < std::min(kAhead, records.size()); ++i) fetch(records[i]);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (i + kAhead < records.size()) fetch(records[i + kAhead]);
+    const InstanceRecord& r = *records[i];
+    auto& items = r.flags & InstanceRecord::kTransparent ? out.transparent : out.opaque;
+    items.push_back(itemOf(r, out.origin, scale));
+    if (r.lodFactor != 0 && levels_) items.back().level = levels_->levelOf(r);
+  }
+}
+
+void WallCull::addCasters(const SlotView& state, DrawList& out) const {
+  ShadowCull shadows(state, *parts_.still, out);
+  if (!shadows.any()) return;
+  for (const InstanceRecord& r : state.instances) shadows.consider(r);
+}
+
+/// What was counted, and for whom the work was.
+void WallCull::tell(const SlotView& state, const WallSeen& seen, double eyeSeparation,
+                    const DrawList& out) const {
+  FrameProbe& probe = *parts_.probe;
+  std::size_t casters = 0;
+  if (out.shadows.light >= 0)
+    for (const DrawShadowRing& ring : out.shadows.rings) casters += ring.moving.size();
+  probe.counted(Count::Tested, seen.tested);
+  probe.counted(Count::Seen, seen.records.size());
+  probe.counted(Count::Casters, casters);
+
+  const std::uint64_t frame = state.signature->frame;
+  if (!probe.wantsShares(frame, wall_)) return;
+  std::vector<NodeRef> owners;
+  parts_.room.reached(state, eyeSeparation, wall_, owners);
+  probe.shared(Span::Test, frame, wall_, owners);
+  owners.clear();
+  for (const InstanceRecord* r : seen.records) owners.push_back(r->owner);
+  probe.shared(Span::Fill, frame, wall_, owners);
+  probe.shared(Span::Sort, frame, wall_, owners);
+  if (!parts_.still) return;
+  owners.clear();
+  addOwners(state, out.shadows, owners);
+  probe.shared(Span::ShadowCasts, frame, wall_, owners);
 }
 
 }  // namespace stadion

@@ -1,37 +1,46 @@
 #pragma once
-/// From a frame's scene state to a wall's draw list.
+/// From what a wall may see of a frame (room_cull.h) to its draw list.
 ///
-/// One pass serves both eyes: an instance is kept if its bounding sphere may touch what any of them can see.
-///
-/// Threads  pure but for `out`; any thread that holds a lease on the view's slot.
+/// Threads  one at a time for each wall: any thread that holds a lease on the view's slot.
 
-#include "engine/display/frustum.h"
 #include "engine/frame_probe.h"
-#include "pipeline/cull/free_camera.h"
+#include "pipeline/cull/draw_order.h"
 #include "pipeline/cull/level_choice.h"
+#include "pipeline/cull/room_cull.h"
 #include "pipeline/cull/still_casters.h"
 #include "pipeline/draw/draw_list.h"
 #include "pipeline/state/scene_state.h"
 
 namespace stadion {
 
-/// A wall as it is shown.
-struct WallView {
-  Wall wall;
-  DepthRange depth;
-  double eyeSeparation = 0.064;             ///< [m]
-  bool stereo = true;                       ///< false: one eye, in the middle
-  std::uint32_t width = 800, height = 600;  ///< of one eye's picture [pixels]
-  const FreeCamera* camera = nullptr;       ///< it looks, not the visitor; `wall` does not count then
+/// What the walls of a show share; borrowed.
+struct CullParts {
+  RoomCull& room;
+  StillCasters* still = nullptr;         ///< null: no shadows are drawn
+  std::span<const WallPixels> pixels{};  ///< of the walls that show what the visitor sees
+  const MeshStore* meshes = nullptr;     ///< null: meshes are drawn in full
+  FrameProbe* probe = nullptr;
 };
 
-struct CullCounts {
-  std::uint64_t tested = 0, kept = 0;
-};
+/// Fills a wall's draw lists, frame by frame, and keeps what memory that takes.
+class WallCull {
+public:
+  /// Of wall number `wall` of the room.
+  WallCull(const CullParts& parts, std::uint32_t wall);
 
-/// Fills `out` for wall number `index`, reusing its memory. `still` is the same for all walls. Without
-/// `levels` meshes are drawn in full.
-CullCounts cullWall(const SlotView& state, const WallView& view, std::uint32_t index, StillCasters& still,
-                    DrawList& out, FrameProbe* probe = nullptr, LevelChoice* levels = nullptr);
+  /// Negative `eyeSeparation`: as the wall has it.
+  void fill(const SlotView& state, double eyeSeparation, DrawList& out);
+
+private:
+  void lookThrough(const SlotView& state, const WallSeen& seen, double eyeSeparation, DrawList& out) const;
+  void addItems(const WallSeen& seen, DrawList& out);
+  void addCasters(const SlotView& state, DrawList& out) const;
+  void tell(const SlotView& state, const WallSeen& seen, double eyeSeparation, const DrawList& out) const;
+
+  CullParts parts_;
+  std::uint32_t wall_;
+  std::optional<LevelChoice> levels_;
+  DrawOrder order_;
+};
 
 }  // namespace stadion

@@ -17,9 +17,14 @@ double leastScale(const Mat3& m, double most) {
 
 }  // namespace
 
+void LevelChoice::look(const ViewerRecord& viewer) {
+  viewer_ = &viewer;
+  walls_.clear(), known_.clear();
+}
+
 // Most shows have no levels: what only they need is made when the first one is met.
 void LevelChoice::lookAtWalls() {
-  const Pose X_WR = viewer_.rig(), X_RH = viewer_.head();
+  const Pose X_WR = viewer_->rig(), X_RH = viewer_->head();
   head_ = X_WR * X_RH.p;
   for (const WallPixels& w : wallPixels_) {
     const WallBasis b = basis(w.wall);
@@ -34,9 +39,9 @@ void LevelChoice::lookAtWalls() {
 }
 
 const Mesh* LevelChoice::mesh(MeshId id) {
-  const auto [at, isNew] = known_.try_emplace(id, nullptr);
-  if (isNew) at->second = meshes_.find(id);
-  return at->second;
+  const auto at = std::ranges::lower_bound(known_, id, {}, &std::pair<MeshId, const Mesh*>::first);
+  if (at != known_.end() && at->first == id) return at->second;
+  return known_.insert(at, {id, meshes_.find(id)})->second;
 }
 
 /// Of a radian, where a ball is seen; 0 if no wall shows it.
@@ -69,7 +74,7 @@ std::uint32_t LevelChoice::levelOf(const InstanceRecord& r) {
   if (!(least > 0)) return 0;
   const Vec3 head_N = X_WN.inverse() * head_;
   const Vec3 nearest = head_N.cwiseMax(m->bounds.lo).cwiseMin(m->bounds.hi);
-  const double distance = (head_N - nearest).norm() * least * viewer_.stress * double{r.lodFactor};
+  const double distance = (head_N - nearest).norm() * least * viewer_->stress * double{r.lodFactor};
   const double pixels =
       pixelsOf(Vec3(r.centre[0], r.centre[1], r.centre[2]) - head_, double{r.radius}) * most;
   std::uint32_t level = 0;

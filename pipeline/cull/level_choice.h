@@ -12,14 +12,14 @@
 /// all walls and for both eyes. Under stress, and where an object has to do with less detail, it counts as
 /// farther away.
 ///
-/// Threads  one wall's Cull; the meshes must outlive it.
+/// Threads  one wall's Cull; the walls and the meshes must outlive it, and the viewer the frame.
 
 #include "engine/asset/mesh_store.h"
 #include "engine/display/wall.h"
 #include "engine/scene/records.h"
 
-#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace stadion {
@@ -34,11 +34,13 @@ class LevelChoice {
 public:
   static constexpr double kMostPixels = 1;
 
-  /// Borrows all three.
-  LevelChoice(const ViewerRecord& viewer, std::span<const WallPixels> walls, const MeshStore& meshes)
-      : viewer_(viewer), wallPixels_(walls), meshes_(meshes) {}
+  /// Borrows both.
+  LevelChoice(std::span<const WallPixels> walls, const MeshStore& meshes)
+      : wallPixels_(walls), meshes_(meshes) {}
 
-  /// 0 = the full surface; else it is Mesh::levels[that - 1].
+  /// From here, in the frame that follows.
+  void look(const ViewerRecord& viewer);
+  /// 0 = the full surface; else it is Mesh::levels[that - 1]. Expects that look() has been called.
   std::uint32_t levelOf(const InstanceRecord& record);
 
 private:
@@ -53,12 +55,12 @@ private:
 
   void lookAtWalls();
 
-  const ViewerRecord& viewer_;
+  const ViewerRecord* viewer_ = nullptr;
   std::span<const WallPixels> wallPixels_;
   Vec3 head_ = Vec3::Zero();
   std::vector<Seen> walls_;  ///< once there is a level to choose
   const MeshStore& meshes_;
-  std::map<MeshId, const Mesh*> known_;
+  std::vector<std::pair<MeshId, const Mesh*>> known_;  ///< of this frame, by id
 };
 
 }  // namespace stadion

@@ -1,5 +1,7 @@
 #include "pipeline/cull/still_casters.h"
 
+#include "pipeline/cull/bounds_search.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,6 +11,17 @@ namespace {
 
 /// What is smaller than this part of a texel casts no shadow that could be seen.
 constexpr double kLeastCaster = 0.5;
+
+/// What a ring reaches, as far as it does not depend on the thing.
+SearchVolume volumeOf(const RingPlace& place) {
+  SearchVolume ring;
+  ring.origin = place.centre_W;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0})
+      ring.volume.planes[ring.volume.count++] = {sign * place.axes.row(axis).transpose(),
+                                                 axis < 2 ? kShadowReach[place.ring] : kShadowDepth};
+  return ring;
+}
 
 RingCasters castersOf(const RingPlace& place, const SlotView& state) {
   auto items = std::make_shared<std::vector<DrawItem>>();
@@ -20,10 +33,17 @@ RingCasters castersOf(const RingPlace& place, const SlotView& state) {
     items->push_back(place.itemOf(r));
     found.key += keyOf(items->back());
   };
+  const std::array<SearchVolume, 1> ring{volumeOf(place)};
+  BoundsSearch search;
+  std::vector<std::uint32_t> near;
   for (const ChunkId id : state.chunks) {
     const ChunkView chunk = state.chunk(id);
-    for (std::size_t i = 0; i < chunk.records.size(); ++i)
-      if (!((chunk.hidden[i / 64] >> (i % 64)) & 1)) consider(chunk.records[i]);
+    near.clear();
+    for (const TreeSphere& sphere : search.find(chunk.bounds, ring))
+      near.push_back(chunk.bounds.indexOf(sphere.place));
+    std::ranges::sort(near);
+    for (const std::uint32_t i : near)
+      if (i < chunk.records.size() && !((chunk.hidden[i / 64] >> (i % 64)) & 1)) consider(chunk.records[i]);
   }
   for (const InstanceRecord& r : state.instances) consider(r);
   found.items = std::move(items);

@@ -86,9 +86,6 @@ struct DrawList {
   std::vector<DrawItem> opaque;       ///< sorted by mesh and level, then near to far
   std::vector<DrawItem> transparent;  ///< items with any transparent material, far to near
 
-  /// Cull's own, while it holds the lease on the slot: what is seen, in the slot's order.
-  std::vector<const InstanceRecord*> seen;
-
   static constexpr std::size_t kMaxLights = 16;
 };
 

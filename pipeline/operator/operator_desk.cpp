@@ -7,6 +7,10 @@ OperatorDesk::OperatorDesk(bool waits, double wallsEyeSeparation) : waits_(waits
   beginGroup();
 }
 
+void OperatorDesk::startWith(std::size_t latency) {
+  if (latency > 0) state_.runLatency = static_cast<double>(latency);
+}
+
 void OperatorDesk::beginGroup() {
   ++groups_;
   state_.waiting = waits_;

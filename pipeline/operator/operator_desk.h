@@ -29,6 +29,8 @@ public:
   const OperatorState& state() const { return state_; }
   Playback& playback() { return playback_; }
 
+  /// The run was started with so many frames under way at most; 0: as many as there is room for.
+  void startWith(std::size_t latency);
   /// A show begins from the start: it plays, or waits. Black walls, eyes and volume stay as they are.
   void beginGroup();
   /// Groups so far, this one included.

@@ -19,6 +19,14 @@ bool set(double& what, double now, double most, const OperatorCommand& command) 
   return true;
 }
 
+bool setWhole(double& what, double now, double least, double most, const OperatorCommand& command) {
+  if (!command.value || *command.value != std::floor(*command.value)) return false;
+  const double wanted = command.relative ? now + *command.value : *command.value;
+  if (!command.relative && (wanted < least || wanted > most)) return false;
+  what = std::clamp(wanted, least, most);
+  return true;
+}
+
 }  // namespace
 
 bool OperatorState::obey(const OperatorCommand& command) {
@@ -33,6 +41,10 @@ bool OperatorState::obey(const OperatorCommand& command) {
   case OperatorAction::EyeSeparation: return set(shown.eyeSeparation, eyeSeparation(), kWidestEyes, command);
   case OperatorAction::FreezeHead: turn(headFrozen, command); return true;
   case OperatorAction::Volume: return set(volume, volume, 1, command);
+  case OperatorAction::Latency: {
+    const double now = latency > 0 ? latency : runLatency;
+    return setWhole(latency, now, 1, kMostLatency, command);
+  }
   case OperatorAction::End: end = true; return true;
   }
   return false;

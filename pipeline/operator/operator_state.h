@@ -12,12 +12,15 @@
 namespace stadion {
 
 struct OperatorState {
-  static constexpr double kWidestEyes = 1;  ///< [m]
+  static constexpr double kWidestEyes = 1;   ///< [m]
+  static constexpr double kMostLatency = 4;  ///< [frames]
 
   bool waiting = false;  ///< for Start
   bool paused = false;
   bool headFrozen = false;
-  double volume = 1;  ///< from 0 to 1
+  double volume = 1;                 ///< from 0 to 1
+  double latency = 0;                ///< frames under way at most, a whole number; 0: as the run was started
+  double runLatency = kMostLatency;  ///< with which it was started
   Presentation shown;
   double wallsEyeSeparation = 0.064;  ///< what the wall file says [m]
   bool nextGroup = false, end = false;

@@ -14,7 +14,7 @@ constexpr std::string_view kHead = "/stadion/", kBy = "/by";
 constexpr std::size_t kMostToldOf = 20;
 
 bool isFigure(OperatorAction a) {
-  return a == OperatorAction::EyeSeparation || a == OperatorAction::Volume;
+  return a == OperatorAction::EyeSeparation || a == OperatorAction::Volume || a == OperatorAction::Latency;
 }
 bool isSwitch(OperatorAction a) {
   return a == OperatorAction::Pause || a == OperatorAction::Black || a == OperatorAction::SwapEyes ||
@@ -39,21 +39,32 @@ Address addressOf(std::string_view path) {
 
 /// As OperatorState obeys it.
 double mostOf(OperatorAction figure) {
+  if (figure == OperatorAction::Latency) return OperatorState::kMostLatency;
   return figure == OperatorAction::Volume ? 1 : OperatorState::kWidestEyes;
+}
+
+double leastOf(OperatorAction figure) {
+  return figure == OperatorAction::Latency ? 1 : 0;
+}
+
+bool countsWhole(OperatorAction figure) {
+  return figure == OperatorAction::Latency;
 }
 
 bool fits(double value, const Address& to) {
   if (!std::isfinite(value)) return false;
   if (!isFigure(*to.action)) return value == 0 || value == 1;
-  return to.relative || (value >= 0 && value <= mostOf(*to.action));
+  if (countsWhole(*to.action) && value != std::floor(value)) return false;
+  return to.relative || (value >= leastOf(*to.action) && value <= mostOf(*to.action));
 }
 
 std::string rangeOf(const Address& to) {
   if (isSwitch(*to.action)) return "0 (off), 1 (on), or nothing";
   if (!isFigure(*to.action)) return "nothing, or 1 and 0 as a button sends them";
   const std::string unit = *to.action == OperatorAction::EyeSeparation ? " m" : "";
-  if (to.relative) return "a number" + unit + " that is added";
-  return fmt::format("a number from 0 to {:g}{}", mostOf(*to.action), unit);
+  const std::string number = countsWhole(*to.action) ? "a whole number" : "a number";
+  if (to.relative) return number + unit + " that is added";
+  return fmt::format("{} from {:g} to {:g}{}", number, leastOf(*to.action), mostOf(*to.action), unit);
 }
 
 }  // namespace

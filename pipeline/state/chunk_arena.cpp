@@ -1,5 +1,7 @@
 #include "pipeline/state/chunk_arena.h"
 
+#include "pipeline/state/still_bounds.h"
+
 #include <cstring>
 
 namespace stadion {
@@ -11,10 +13,15 @@ std::size_t hiddenWords(std::size_t count) {
   return (count + 63) / 64;
 }
 
-std::size_t bytesFor(std::size_t count) {
+/// Where in a chunk its bounds lie, behind the records and the bits of all slots.
+std::size_t boundsAt(std::size_t count) {
   const std::size_t bytes =
       count * sizeof(InstanceRecord) + kSlots * hiddenWords(count) * sizeof(std::uint64_t);
-  return (bytes + kPage - 1) / kPage * kPage;
+  return (bytes + 63) / 64 * 64;
+}
+
+std::size_t bytesFor(std::size_t count) {
+  return (boundsAt(count) + stillBoundsBytes(count) + kPage - 1) / kPage * kPage;
 }
 
 }  // namespace
@@ -40,17 +47,30 @@ std::size_t ChunkArena::allocate(std::size_t bytes) {
 }
 
 ChunkId ChunkArena::add(std::span<const InstanceRecord> records) {
-  const std::lock_guard lock(mutex_);
-  Extent x;
-  x.count = records.size();
-  x.bytes = bytesFor(x.count);
-  x.offset = allocate(x.bytes);
+  ChunkId id = kNoChunk;
+  const Extent x = reserve(records.size(), id);
   std::byte* at = segment_.data() + x.offset;
   if (!records.empty()) std::memcpy(at, records.data(), records.size_bytes());
   std::memset(at + records.size_bytes(), 0, x.bytes - records.size_bytes());
-  const ChunkId id = next_++;
-  chunks_[id] = x;
+  try {
+    buildStillBounds(records, at + boundsAt(x.count));
+  } catch (...) {
+    free(id);
+    throw;
+  }
   return id;
+}
+
+/// Nobody asks for it before add() has returned.
+ChunkArena::Extent ChunkArena::reserve(std::size_t count, ChunkId& id) {
+  const std::lock_guard lock(mutex_);
+  Extent x;
+  x.count = count;
+  x.bytes = bytesFor(count);
+  x.offset = allocate(x.bytes);
+  id = next_++;
+  chunks_[id] = x;
+  return x;
 }
 
 void ChunkArena::free(ChunkId id) {
@@ -81,7 +101,9 @@ ChunkView ChunkArena::find(ChunkId id, std::size_t slot) const {
   std::byte* base = segment_.data() + x.offset;
   const std::size_t words = hiddenWords(x.count);
   auto* hidden = reinterpret_cast<std::uint64_t*>(base + x.count * sizeof(InstanceRecord)) + slot * words;
-  return {{reinterpret_cast<const InstanceRecord*>(base), x.count}, {hidden, words}};
+  return {{reinterpret_cast<const InstanceRecord*>(base), x.count},
+          {hidden, words},
+          stillBounds(base + boundsAt(x.count), x.count)};
 }
 
 std::size_t ChunkArena::bytesInUse() const {

@@ -1,11 +1,13 @@
 #pragma once
-/// Static instances, stored once: one immutable chunk per loaded file, in shared memory.
+/// Static instances, stored once: one immutable chunk per loaded file, in shared memory, with the hierarchy
+/// of its bounds (still_bounds.h).
 ///
 /// Frames    records are in World.
 /// Threads   add() and free() from any thread (the loader's); find() from any thread while the chunk lives.
 /// Lifetime  whoever frees a chunk has made sure that no slot still shows it.
 
 #include "engine/scene/records.h"
+#include "pipeline/state/bounds_tree.h"
 #include "pipeline/state/shared_segment.h"
 
 #include <array>
@@ -21,12 +23,14 @@ constexpr std::size_t kSlots = 3;
 struct ChunkView {
   std::span<const InstanceRecord> records;
   std::span<std::uint64_t> hidden;  ///< one bit per record, of the slot asked for: it has left the chunk
+  BoundsTree bounds;                ///< of all that are shown, whether they have left or not
 };
 
 class ChunkArena {
 public:
   ChunkArena();
 
+  /// Builds the hierarchy, too; others may use the arena meanwhile.
   ChunkId add(std::span<const InstanceRecord> records);
   void free(ChunkId id);
   ChunkView find(ChunkId id, std::size_t slot) const;
@@ -38,6 +42,7 @@ private:
     std::size_t offset = 0, bytes = 0, count = 0;
   };
 
+  Extent reserve(std::size_t count, ChunkId& id);
   std::size_t allocate(std::size_t bytes);
 
   mutable std::mutex mutex_;

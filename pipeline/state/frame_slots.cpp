@@ -26,7 +26,8 @@ std::optional<std::size_t> FrameSlots::beginWrite() {
   std::unique_lock lock(mutex_);
   for (;;) {
     if (stopped_) return std::nullopt;
-    if (const auto slot = writable()) {
+    const bool may = delivery_ == Delivery::Latest || mayBegin(writes_);
+    if (const auto slot = may ? writable() : std::nullopt) {
       slots_[*slot].state = State::Writing;
       return slot;
     }
@@ -66,7 +67,9 @@ std::optional<Lease> FrameSlots::lease(std::size_t wall) {
       if (--at->unread == 0) selections_.erase(at);
       return lease;
     }
-    if (const auto slot = choose()) {
+    const auto next = choose();
+    const bool may = delivery_ == Delivery::Every || mayBegin(nextSerial_);
+    if (const auto slot = may ? next : std::nullopt) {
       Slot& s = slots_[*slot];
       s.state = State::Leased;
       s.readers = cursor_.size();
@@ -79,7 +82,7 @@ std::optional<Lease> FrameSlots::lease(std::size_t wall) {
       changed_.notify_all();
       continue;
     }
-    if (finished_) return std::nullopt;
+    if (finished_ && !next) return std::nullopt;
     changed_.wait(lock);
   }
 }
@@ -91,6 +94,18 @@ bool FrameSlots::release(const Lease& lease) {
   if (--s.readers == 0) s.state = State::Free;
   changed_.notify_all();
   return true;
+}
+
+void FrameSlots::limitUnderWay(std::size_t frames) {
+  const std::lock_guard lock(mutex_);
+  mostUnderWay_ = frames;
+  changed_.notify_all();
+}
+
+void FrameSlots::shown() {
+  const std::lock_guard lock(mutex_);
+  ++shown_;
+  changed_.notify_all();
 }
 
 void FrameSlots::finish() {

@@ -45,6 +45,13 @@ public:
   /// void.
   bool release(const Lease& lease);
 
+  /// So many frames at most are under way between App, or where only the newest is shown between its choice,
+  /// and the swap: the fewer, the younger is what is seen, and the less the stages overlap. 0 = as many as
+  /// there is room for. It may change at any time.
+  void limitUnderWay(std::size_t frames);
+  /// A frame has been shown on all walls.
+  void shown();
+
   /// No further frame will be written; the readers finish what there is.
   void finish();
   /// Everybody stops waiting, at once.
@@ -71,13 +78,15 @@ private:
 
   std::optional<std::size_t> writable();
   std::optional<std::size_t> choose() const;
+  bool mayBegin(std::uint64_t begun) const { return mostUnderWay_ == 0 || begun < shown_ + mostUnderWay_; }
 
   std::mutex mutex_;
   std::condition_variable changed_;
   std::array<Slot, kSlots> slots_;
   std::vector<std::uint64_t> cursor_;  ///< per wall: the serial it wants next
   std::deque<Selection> selections_;
-  std::uint64_t nextSerial_ = 0, writes_ = 0;
+  std::uint64_t nextSerial_ = 0, writes_ = 0, shown_ = 0;
+  std::size_t mostUnderWay_ = 0;
   Delivery delivery_;
   std::chrono::milliseconds deadline_;
   bool finished_ = false, stopped_ = false;

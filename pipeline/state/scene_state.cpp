@@ -23,10 +23,13 @@ struct SceneState::Header {
 namespace {
 
 constexpr std::size_t kReserve = std::size_t{1} << 32;
+/// Room for the stamps of all instances that the reserve can hold; what is not used takes no memory.
+constexpr std::size_t kStamps = std::size_t{1} << 19;
+static_assert(kStamps * kInstancesAStamp * sizeof(InstanceRecord) >= kReserve);
 
-std::size_t roundUp(std::size_t bytes) {
-  return (bytes + 63) / 64 * 64;
-}
+/// Behind the header.
+constexpr std::size_t kStampsAt = std::size_t{1} << 16;
+constexpr std::size_t kInstancesAt = kStampsAt + kStamps * sizeof(std::uint32_t);
 
 void setBit(std::span<std::uint64_t> words, std::uint32_t index, bool on) {
   const std::uint64_t bit = std::uint64_t{1} << (index % 64);
@@ -40,9 +43,10 @@ bool bitOf(std::span<const std::uint64_t> words, std::uint32_t index) {
 }  // namespace
 
 SceneState::SceneState(std::size_t memories) {
+  static_assert(sizeof(Header) <= kStampsAt);
   for (std::size_t i = 0; i < memories; ++i) {
     memory_.push_back(std::make_unique<SharedSegment>("stadion-slot", kReserve));
-    memory_.back()->growTo(roundUp(sizeof(Header)));
+    memory_.back()->growTo(kInstancesAt);
     new (memory_.back()->data()) Header{};
   }
 }
@@ -53,16 +57,29 @@ SceneState::Header& SceneState::header(std::size_t slot) const {
   return *reinterpret_cast<Header*>(memory_[slot % memory_.size()]->data());
 }
 
+std::atomic<std::uint32_t>* SceneState::stamps(std::size_t slot) const {
+  return reinterpret_cast<std::atomic<std::uint32_t>*>(memory_[slot % memory_.size()]->data() + kStampsAt);
+}
+
 InstanceRecord* SceneState::instances(std::size_t slot) const {
-  return reinterpret_cast<InstanceRecord*>(memory_[slot % memory_.size()]->data() + roundUp(sizeof(Header)));
+  return reinterpret_cast<InstanceRecord*>(memory_[slot % memory_.size()]->data() + kInstancesAt);
+}
+
+/// After the record: who reads the stamp first finds that record, or will see another stamp.
+void SceneState::stamp(std::size_t slot, InstanceId id) const {
+  const auto now = static_cast<std::uint32_t>(header(slot).writes.load(std::memory_order_relaxed));
+  stamps(slot)[id / kInstancesAStamp].store(now, std::memory_order_release);
 }
 
 void SceneState::ensure(std::size_t slot, std::size_t instanceCount) {
   Header& h = header(slot);
   if (instanceCount <= h.instanceCount) return;
-  memory_[slot % memory_.size()]->growTo(roundUp(sizeof(Header)) + instanceCount * sizeof(InstanceRecord));
+  memory_[slot % memory_.size()]->growTo(kInstancesAt + instanceCount * sizeof(InstanceRecord));
   InstanceRecord* at = instances(slot);
   for (std::size_t i = h.instanceCount; i < instanceCount; ++i) at[i].radius = -1;
+  for (std::size_t i = h.instanceCount; i < instanceCount; i += kInstancesAStamp)
+    stamp(slot, static_cast<InstanceId>(i));
+  if (instanceCount > 0) stamp(slot, static_cast<InstanceId>(instanceCount - 1));
   h.instanceCount = instanceCount;
 }
 
@@ -83,6 +100,7 @@ std::size_t SceneState::catchUp(std::size_t slot) {
     marks_[id].missedBy = static_cast<std::uint8_t>(marks_[id].missedBy & ~bit);
     if (slot == newest_) continue;
     here[id] = there[id];
+    stamp(slot, id);
     ++copied;
   }
   if (any_ && slot != newest_) {
@@ -198,6 +216,8 @@ void SceneState::take(std::span<const ChangeSet::Instance> block) {
     const bool moves = movesBy(i);
     records[i.id] = i.record;
     if (moves) records[i.id].flags |= kMoves;
+    if (&i == &block.back() || (&i + 1)->id / kInstancesAStamp != i.id / kInstancesAStamp)
+      stamp(writing_, i.id);
     // This slot has it, the others have missed it from now on.
     std::uint8_t& missedBy = marks_[i.id].missedBy;
     const unsigned already = missedBy;
@@ -213,6 +233,7 @@ std::size_t SceneState::finish(const ChangeSet& changes) {
   const std::size_t slot = writing_;
   const std::size_t copied = catchUp(slot);
   apply(slot, changes);
+  header(slot).writes.fetch_add(1, std::memory_order_acq_rel);
   for (std::size_t other = 0; other < kSlots; ++other)
     if (other != slot) miss(other, changes);
   newest_ = slot;
@@ -223,14 +244,15 @@ std::size_t SceneState::finish(const ChangeSet& changes) {
 SlotView SceneState::view(std::size_t slot) const {
   const Header& h = header(slot);
   SlotView v;
+  v.writes = &h.writes, v.written = h.writes.load(std::memory_order_acquire);
   v.signature = &h.signature, v.viewer = &h.viewer, v.sky = &h.sky, v.shadows = &h.shadows;
   v.lights = {h.lights, h.lightCount};
   v.instances = {instances(slot), h.instanceCount};
+  v.stamps = {stamps(slot), (h.instanceCount + kInstancesAStamp - 1) / kInstancesAStamp};
   v.chunks = {h.chunks, h.chunkCount};
   v.arena = &arena_;
   v.slot = slot;
   v.stillVersion = h.stillVersion;
-  v.writes = &h.writes, v.written = h.writes.load(std::memory_order_acquire);
   return v;
 }
 

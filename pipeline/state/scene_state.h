@@ -24,6 +24,9 @@ namespace stadion {
 /// stood still is kept in the shadow maps.
 constexpr std::uint32_t kMoves = 1U << 31;
 
+/// So many instances, by id, that follow each other are told together to have changed.
+constexpr std::size_t kInstancesAStamp = 64;
+
 /// One frame's state, read-only. Valid while the lease on its slot is held.
 struct SlotView {
   const TimeSignature* signature = nullptr;
@@ -32,17 +35,22 @@ struct SlotView {
   const ShadowRecord* shadows = nullptr;
   std::span<const LightRecord> lights;
   std::span<const InstanceRecord> instances;  ///< by InstanceId; radius < 0 = not there
-  std::span<const ChunkId> chunks;            ///< shown
+  /// One of kInstancesAStamp: another one whenever one of them is not what it was in this slot.
+  std::span<const std::atomic<std::uint32_t>> stamps;
+  std::span<const ChunkId> chunks;  ///< shown
   const ChunkArena* arena = nullptr;
   std::size_t slot = 0;
   /// Changes whenever something comes or goes that has only ever stood still, in this slot or another.
   std::uint64_t stillVersion = 0;
-  const std::atomic<std::uint64_t>* writes = nullptr;  ///< to the slot so far
-  std::uint64_t written = 0;                           ///< as many there had been when this view was made
+  /// Counts the beginnings and the ends of writing to the slot.
+  const std::atomic<std::uint64_t>* writes = nullptr;
+  std::uint64_t written = 0;  ///< when this view was made
 
   ChunkView chunk(ChunkId id) const { return arena->find(id, slot); }
   /// Whether what was read so far is one frame's: false if the slot has been taken away meanwhile.
-  bool intact() const { return !writes || writes->load(std::memory_order_acquire) == written; }
+  bool intact() const {
+    return !writes || (written % 2 == 0 && writes->load(std::memory_order_acquire) == written);
+  }
 };
 
 class SceneState final : public ChangeSet::Sink {
@@ -79,6 +87,8 @@ private:
 
   Header& header(std::size_t slot) const;
   InstanceRecord* instances(std::size_t slot) const;
+  std::atomic<std::uint32_t>* stamps(std::size_t slot) const;
+  void stamp(std::size_t slot, InstanceId id) const;
   void ensure(std::size_t slot, std::size_t instanceCount);
   bool movesBy(const ChangeSet::Instance& change);
   void makeRoom(std::size_t slot, std::size_t instanceCount);

@@ -1,6 +1,8 @@
 #include "pipeline/state/frame_slots.h"
 
 #include <gtest/gtest.h>
+
+#include <atomic>
 #include <thread>
 
 namespace stadion {
@@ -52,6 +54,44 @@ TEST(FrameSlots, AHangingReaderLosesItsSlotAfterTheDeadline) {
   ASSERT_TRUE(slot);
   slots.endWrite(*slot, frameOf(3));
   EXPECT_FALSE(slots.release(held[0]));
+}
+
+TEST(FrameSlots, AppWaitsWhileAsManyFramesAreUnderWayAsAreAllowed) {
+  FrameSlots slots(1, Delivery::Every);
+  slots.limitUnderWay(1);
+  slots.endWrite(*slots.beginWrite(), frameOf(0));
+  std::atomic<bool> began = false;
+  std::thread app([&] { began = slots.beginWrite().has_value(); });
+  EXPECT_TRUE(slots.release(*slots.lease(0)));
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_FALSE(began);  // a slot is free, but frame 0 is not seen yet
+  slots.shown();
+  app.join();
+  EXPECT_TRUE(began);
+}
+
+TEST(FrameSlots, WhereTheNewestCountsItIsChosenWhenTheOneBeforeIsSeen) {
+  FrameSlots slots(1, Delivery::Latest);
+  slots.limitUnderWay(1);
+  slots.endWrite(*slots.beginWrite(), frameOf(0));
+  EXPECT_TRUE(slots.release(*slots.lease(0)));
+  slots.endWrite(*slots.beginWrite(), frameOf(1));
+  std::thread swap([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    for (std::uint64_t frame = 2; frame < 6; ++frame) slots.endWrite(*slots.beginWrite(), frameOf(frame));
+    slots.shown();
+  });
+  EXPECT_EQ(slots.lease(0)->ticket.signature.frame, 5u);
+  swap.join();
+}
+
+TEST(FrameSlots, ALimitThatIsLiftedLetsAppGoOn) {
+  FrameSlots slots(1, Delivery::Every);
+  slots.limitUnderWay(1);
+  slots.endWrite(*slots.beginWrite(), frameOf(0));
+  std::thread app([&] { EXPECT_TRUE(slots.beginWrite()); });
+  slots.limitUnderWay(0);
+  app.join();
 }
 
 TEST(FrameSlots, FinishLetsReadersEmptyTheSlotsAndThenEnds) {

@@ -41,7 +41,9 @@ struct Room {
     return makeInstance(X, *meshes.find(id), id, true, {1, 0}, lodFactor);
   }
   std::uint32_t levelOf(const InstanceRecord& r) const {
-    return LevelChoice(viewer, walls, meshes).levelOf(r);
+    LevelChoice levels(walls, meshes);
+    levels.look(viewer);
+    return levels.levelOf(r);
   }
 };
 

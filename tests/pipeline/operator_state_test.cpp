@@ -78,5 +78,20 @@ TEST(ThreadsOperatorQueue, CommandsOfOneThreadArriveInTheirOrderAndNoneIsLost) {
   poster.join();
 }
 
+TEST(OperatorState, LatencyIsAWholeNumberOfFramesFromOneToFour) {
+  OperatorState s;
+  EXPECT_TRUE(s.obey({OperatorAction::Latency, 2}));
+  EXPECT_EQ(s.latency, 2);
+  for (const double wrong : {0.0, 5.0, 1.5, -1.0})
+    EXPECT_FALSE(s.obey({OperatorAction::Latency, wrong})) << wrong;
+  EXPECT_EQ(s.latency, 2);
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(s.obey({OperatorAction::Latency, -1, true}));
+  EXPECT_EQ(s.latency, 1);
+  OperatorState started;
+  started.runLatency = 3;
+  EXPECT_TRUE(started.obey({OperatorAction::Latency, -1, true}));
+  EXPECT_EQ(started.latency, 2);
+}
+
 }  // namespace
 }  // namespace stadion

@@ -1,8 +1,8 @@
 #pragma once
-/// The scenes, the room and the visitor of `stadion bench walls`, as files that a show is made of.
+/// The scenes of `stadion bench walls`: what stands where, and its meshes.
 ///
 /// They are those of the OpenSceneGraph program beside (osg/osg_walls.cpp), which is +Y up: its (x, y, z) is
-/// (x, -z, y) here. Everything follows from the scene's letter, so that both programs draw the same pixels.
+/// (x, -z, y) here. Everything follows from the scene's letter, so that all programs draw the same pixels.
 ///
 /// a   10 000 lumpy spheres of 100 triangles, standing still; seen as far as 75 m
 /// b   the same, every fifth moving
@@ -13,6 +13,8 @@
 
 #include "engine/maths/maths.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,10 +23,17 @@ namespace stadion::bench {
 
 struct WallScene {
   char letter = 'a';
+  // For curves over the number of nodes; 0: as the letter says.
+  std::size_t count = 0, moving = 0;
+  double reach = 0;  ///< [m]
+
   bool tiny() const { return letter == 'c'; }
-  std::size_t nodes() const { return tiny() ? 100'000 : 10'000; }
-  double far() const { return tiny() ? 25 : 75; }  ///< [m]
-  bool moves(std::size_t node) const { return letter == 'b' && node % 5 == 0; }
+  std::size_t nodes() const { return count ? count : tiny() ? 100'000 : 10'000; }
+  double far() const { return reach > 0 ? reach : tiny() ? 25 : 75; }  ///< [m]
+  bool moves(std::size_t node) const {
+    if (moving) return node % std::max<std::size_t>(1, nodes() / moving) == 0;
+    return letter == 'b' && node % 5 == 0;
+  }
 };
 
 /// Where a node is, and which of the meshes it is.
@@ -41,6 +50,10 @@ constexpr double kWallSceneRate = 60;  ///< frames a second of show time
 std::vector<WallNode> wallNodes(const WallScene& scene);
 /// Where a moving one is at time t.
 WallNode movedNode(const WallNode& rest, std::size_t number, double t);
+/// From +Y up to +Z up.
+inline Vec3 raised(double x, double y, double z) {
+  return {x, -z, y};
+}
 
 /// Corners as the meshes have them, +Y up as model files are.
 struct WallVertex {
@@ -50,13 +63,8 @@ struct WallVertex {
 struct WallMesh {
   std::vector<WallVertex> vertices;
   std::vector<std::uint32_t> indices;
+  double radius() const;  ///< of the sphere about the origin that holds it [m]
 };
 WallMesh wallMesh(const WallScene& scene, std::uint32_t number);
-
-/// Writes show.evs, show.input, room.walls and the models to the folder. `grouped`: nodes stand in square
-/// cells, each with a group of its own. The visitor's way is known for `frames` frames. Returns why it could
-/// not.
-std::string writeWallScene(const std::string& folder, const WallScene& scene, std::size_t walls, bool grouped,
-                           std::size_t frames);
 
 }  // namespace stadion::bench

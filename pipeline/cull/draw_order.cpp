@@ -1,0 +1,70 @@
+#include "pipeline/cull/draw_order.h"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+#include <utility>
+
+namespace stadion {
+namespace {
+
+/// Grows with the distance, which is not negative.
+std::uint32_t bitsOf(float distance) {
+  return std::bit_cast<std::uint32_t>(distance);
+}
+
+std::uint64_t joined(std::uint32_t high, std::uint32_t low) {
+  return std::uint64_t{high} << 32 | low;
+}
+
+}  // namespace
+
+void DrawOrder::sort(DrawList& list) {
+  keys_.clear();
+  for (const DrawItem& d : list.opaque)
+    keys_.push_back({joined(d.mesh, d.level), bitsOf(d.distance), static_cast<std::uint32_t>(keys_.size())});
+  arrange(list.opaque);
+  keys_.clear();
+  for (const DrawItem& d : list.transparent)
+    keys_.push_back({joined(~bitsOf(d.distance), d.mesh), 0, static_cast<std::uint32_t>(keys_.size())});
+  arrange(list.transparent);
+}
+
+void DrawOrder::arrange(std::vector<DrawItem>& items) {
+  sortKeys();
+  sortAlike(items);
+  moved_.clear();
+  for (const Key& key : keys_) moved_.push_back(items[key.item]);
+  items.swap(moved_);
+}
+
+void DrawOrder::sortKeys() {
+  constexpr std::size_t kFew = 64;
+  if (keys_.size() < kFew) return std::sort(keys_.begin(), keys_.end());
+  for (auto& count : counts_) count.fill(0);
+  for (const Key& key : keys_)
+    for (std::size_t k = 0; k < kBytes; ++k) ++counts_[k][key.byte(k)];
+  spare_.resize(keys_.size());
+  for (std::size_t k = 0; k < kBytes; ++k) {
+    auto& count = counts_[k];
+    if (count[keys_[0].byte(k)] == keys_.size()) continue;
+    std::uint32_t before = 0;
+    for (std::uint32_t& c : count) before += std::exchange(c, before);
+    for (const Key& key : keys_) spare_[count[key.byte(k)]++] = key;
+    keys_.swap(spare_);
+  }
+}
+
+void DrawOrder::sortAlike(const std::vector<DrawItem>& items) {
+  const auto rest = [&items](const Key& key) {
+    const DrawItem& d = items[key.item];
+    return std::tie(d.owner, d.model);
+  };
+  for (auto first = keys_.begin(); first != keys_.end();) {
+    const auto end = std::find_if(first, keys_.end(), [&](const Key& key) { return *first < key; });
+    if (end - first > 1) std::sort(first, end, [&](const Key& a, const Key& b) { return rest(a) < rest(b); });
+    first = end;
+  }
+}
+
+}  // namespace stadion

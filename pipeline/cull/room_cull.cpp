@@ -1,0 +1,128 @@
+#include "pipeline/cull/room_cull.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+namespace stadion {
+
+/// What was found of one frame.
+struct RoomCull::Found {
+  std::size_t slot = 0;
+  std::uint64_t written = kNever;  ///< which of the slot's frames; kNever: none that anybody else may see
+  std::atomic<std::uint32_t> holders = 0;
+  std::vector<WallSeen> walls;
+
+  static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+};
+
+RoomCull::Seen::~Seen() {
+  if (found_) found_->holders.fetch_sub(1, std::memory_order_release);
+}
+
+const WallSeen& RoomCull::Seen::on(std::size_t wall) const {
+  return found_->walls[wall];
+}
+
+RoomCull::RoomCull(std::vector<WallView> views, const BoundsKernels& kernels)
+    : views_(std::move(views)), search_(kernels) {
+  assert(views_.size() <= BoundsSearch::kMostVolumes);
+}
+
+RoomCull::~RoomCull() = default;
+
+RoomCull::Seen RoomCull::seen(const SlotView& state, double eyeSeparation) {
+  const std::lock_guard lock(mutex_);
+  const auto known = std::ranges::find_if(
+      found_, [&](const auto& f) { return f->slot == state.slot && f->written == state.written; });
+  const bool first = known == found_.end();
+  Found& found = first ? take(state) : **known;
+  found.holders.fetch_add(1, std::memory_order_relaxed);
+  Seen seen(&found);
+  if (first) {
+    lookFor(state, eyeSeparation, found);
+    if (state.intact())
+      found.written = state.written;
+    else
+      moving_[state.slot].forget();
+  }
+  return seen;
+}
+
+/// Room for a new frame: that of an earlier one of the slot, which is over unless somebody was late.
+RoomCull::Found& RoomCull::take(const SlotView& state) {
+  const auto over = [&](const auto& f) {
+    return f->slot == state.slot && f->holders.load(std::memory_order_acquire) == 0;
+  };
+  const auto at = std::ranges::find_if(found_, over);
+  Found& found = at != found_.end() ? **at : *found_.emplace_back(std::make_unique<Found>());
+  found.slot = state.slot, found.written = Found::kNever;
+  return found;
+}
+
+/// `each(tree, record)`: the instances first; record(index) is null for what is not there.
+template <class Each>
+void RoomCull::eachTree(const SlotView& state, const Each& each) {
+  each(moving_[state.slot].update(state),
+       [&](std::uint32_t id) { return id < state.instances.size() ? &state.instances[id] : nullptr; });
+  for (const ChunkId id : state.chunks) {
+    const ChunkView chunk = state.chunk(id);
+    each(chunk.bounds, [&](std::uint32_t i) -> const InstanceRecord* {
+      const bool there = i < chunk.records.size() && !((chunk.hidden[i / 64] >> (i % 64)) & 1);
+      return there ? &chunk.records[i] : nullptr;
+    });
+  }
+}
+
+void RoomCull::lookFor(const SlotView& state, double eyeSeparation, Found& found) {
+  volumes_.clear(), wallsOf_.clear();
+  found.walls.resize(views_.size());
+  for (std::uint32_t wall = 0; wall < views_.size(); ++wall) {
+    const WallView& view = views_[wall];
+    WallSeen& seen = found.walls[wall];
+    seen.tested = 0, seen.records.clear();
+    seen.from = view.camera ? view.camera->view() : std::nullopt;
+    seen.looks = !view.camera || seen.from;
+    if (!seen.looks) continue;
+    const WallEyes eyes = eyesOf(*state.viewer, view, eyeSeparation, seen.from ? &*seen.from : nullptr);
+    volumes_.push_back({eyes.volume(), eyes.origin});
+    wallsOf_.push_back(wall);
+  }
+  eachTree(state, [&](const BoundsTree& tree, const auto& recordAt) {
+    for (const TreeSphere& sphere : search_.find(tree, volumes_))
+      if (const InstanceRecord* r = recordAt(tree.indexOf(sphere.place))) keep(sphere, *r, found);
+    for (std::size_t v = 0; v < volumes_.size(); ++v) found.walls[wallsOf_[v]].tested += search_.tested()[v];
+  });
+}
+
+/// On the walls that surely show it, and on those of which the records themselves must say.
+void RoomCull::keep(const TreeSphere& sphere, const InstanceRecord& r, Found& found) const {
+  for (unsigned bits = sphere.seen | sphere.unsure; bits != 0; bits &= bits - 1) {
+    const auto v = static_cast<std::size_t>(std::countr_zero(bits));
+    if (!((sphere.seen >> v) & 1)) {
+      const Vec3 centre = Vec3(r.centre[0], r.centre[1], r.centre[2]) - volumes_[v].origin;
+      if (!volumes_[v].volume.mayTouch(Sphere{centre, r.radius})) continue;
+    }
+    found.walls[wallsOf_[v]].records.push_back(&r);
+  }
+}
+
+void RoomCull::reached(const SlotView& state, double eyeSeparation, std::size_t wall,
+                       std::vector<NodeRef>& owners) {
+  const Seen held = seen(state, eyeSeparation);
+  if (!held.on(wall).looks) return;
+  const std::optional<CameraView>& from = held.on(wall).from;
+  const std::lock_guard lock(mutex_);
+  const WallEyes eyes = eyesOf(*state.viewer, views_[wall], eyeSeparation, from ? &*from : nullptr);
+  const std::array<SearchVolume, 1> volume{{{eyes.volume(), eyes.origin}}};
+  eachTree(state, [&](const BoundsTree& tree, const auto& recordAt) {
+    search_.find(tree, volume);
+    for (const TreeGroup& group : search_.reached())
+      for (std::uint32_t place = BoundsLayout::kWide * group.group;
+           place < std::min(tree.count, BoundsLayout::kWide * (group.group + 1)); ++place)
+        if (const InstanceRecord* r = recordAt(tree.indexOf(place)); r && isShown(*r))
+          owners.push_back(r->owner);
+  });
+}
+
+}  // namespace stadion

@@ -1,0 +1,35 @@
+#pragma once
+/// How far two programs' pictures of the same frame are apart.
+///
+/// Threads  plain functions.
+
+#include "engine/diagnostic.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stadion::bench {
+
+struct RgbPicture {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;  ///< top row first
+};
+
+/// A binary PPM file with 8 bits a channel.
+Result<RgbPicture> readPpm(const std::string& file);
+/// Whether it could be written.
+bool writePpm(const std::string& file, const RgbPicture& picture);
+
+struct PictureDifference {
+  double beyond = 0;  ///< share of pixels of which a channel differs by more than `most`
+  int worst = 0;      ///< of all channels, of 255
+};
+/// Expects pictures of one size.
+PictureDifference difference(const RgbPicture& a, const RgbPicture& b, int most = 2);
+
+/// Of the pictures PREFIX_WALL_EYE.ppm of the first walls, both eyes: the worst share and the worst channel.
+Result<PictureDifference> worstDifference(const std::string& prefix, const std::string& other,
+                                          std::size_t walls);
+
+}  // namespace stadion::bench

@@ -1,0 +1,31 @@
+# What draws beside Stadion in `stadion bench walls`: stadion-walls-floor, stadion-walls-osg.
+add_custom_target(walls_programs)
+find_path(EGL_INCLUDE EGL/egl.h)
+find_library(EGL_LIBRARY EGL)
+find_library(GL_LIBRARY GL)
+
+# Bare OpenGL, where its headers are.
+if(EGL_INCLUDE AND EGL_LIBRARY AND GL_LIBRARY)
+  file(GLOB floor_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/floor/*.cpp)
+  add_executable(stadion-walls-floor ${floor_sources})
+  target_compile_definitions(stadion-walls-floor PRIVATE EGL_NO_X11 GL_GLEXT_PROTOTYPES)
+  target_link_libraries(stadion-walls-floor PRIVATE stadion_walls_bench CLI11::CLI11 ${EGL_LIBRARY} ${GL_LIBRARY})
+  add_dependencies(walls_programs stadion-walls-floor)
+endif()
+
+if(STADION_PEERS)
+  find_path(OSG_INCLUDE osgViewer/Viewer)
+  set(osg_libraries)
+  foreach(name osgViewer osgUtil osgDB osgGA osg OpenThreads)
+    find_library(OSG_LIBRARY_${name} ${name})
+    list(APPEND osg_libraries ${OSG_LIBRARY_${name}})
+  endforeach()
+  if(OSG_INCLUDE AND OSG_LIBRARY_osgViewer AND EGL_LIBRARY AND GL_LIBRARY)
+    # The file as it came: none of our options for warnings.
+    add_executable(stadion-walls-osg ${CMAKE_CURRENT_LIST_DIR}/osg/osg_walls.cpp)
+    target_compile_definitions(stadion-walls-osg PRIVATE WITH_EGL WITH_GLX)
+    target_include_directories(stadion-walls-osg SYSTEM PRIVATE ${OSG_INCLUDE})
+    target_link_libraries(stadion-walls-osg PRIVATE ${osg_libraries} ${EGL_LIBRARY} ${GL_LIBRARY} Threads::Threads)
+    add_dependencies(walls_programs stadion-walls-osg)
+  endif()
+endif()

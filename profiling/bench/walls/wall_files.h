@@ -1,0 +1,16 @@
+#pragma once
+/// A scene of `stadion bench walls` as the files of a show.
+///
+/// Threads  plain functions.
+
+#include "profiling/bench/walls/wall_scene.h"
+
+namespace stadion::bench {
+
+/// Writes show.evs, show.input, room.walls and the models to the folder. `grouped`: nodes stand in square
+/// cells, each with a group of its own. The visitor's way is known for `frames` frames. Returns why it could
+/// not.
+std::string writeWallScene(const std::string& folder, const WallScene& scene, std::size_t walls, bool grouped,
+                           std::size_t frames);
+
+}  // namespace stadion::bench

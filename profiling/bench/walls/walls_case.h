@@ -1,0 +1,58 @@
+#pragma once
+/// One setting of one program in the table of `stadion bench walls`.
+///
+/// Class    STRICT  a draw for each visible node, nothing merged or left out
+///          OPEN    anything, if 99.9 % of all pixels are within 2 of 255
+///          SUBMIT  STRICT at 32 x 24 pixels: what is left where rasterising is not the limit
+/// Units    metres; pixels.
+/// Threads  plain values and functions.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stadion::bench {
+
+struct WallsCase {
+  std::string engine = "stadion";  ///< stadion, osg, floor; control: a loop that only waits for its ticks
+  std::string kind = "STRICT";
+  std::string scene = "a";
+  bool flat = false;          ///< else nodes stand in cells with a group each
+  std::string mode;           ///< stadion: pipelined, sequential; osg: DPC, CTPC, ST; floor: its way
+  std::string lp{};           ///< LP_NUM_THREADS; empty: the program chooses
+  std::string pace = "free";  ///< stadion's
+  std::string workers{};      ///< stadion's --wall-workers; empty: it chooses
+  std::size_t walls = 4;
+  std::uint32_t width = 800, height = 600;
+  std::uint64_t warm = 3, frames = 12;
+  std::size_t nodes = 0, moving = 0;  ///< 0: the scene's own
+  double far = 0;                     ///< [m]; 0: the scene's own
+};
+
+/// The cases that are compared with each other.
+WallsCase ourCase(const std::string& scene, bool flat, const std::string& kind,
+                  const std::string& mode = "pipelined");
+WallsCase osgCase(const std::string& scene, bool flat, const std::string& kind, const std::string& mode);
+WallsCase floorCase(const std::string& scene, const std::string& kind, const std::string& way = "uniform");
+/// Both eyes on the front wall, by one thread: what drawing a view costs in processor time.
+WallsCase oneWall(WallsCase of);
+/// Frames begin on ticks.
+WallsCase lockedCase();
+WallsCase controlCase();
+
+/// Cases with the same name may be put together. "stadion c flat STRICT pipelined"
+std::string nameOf(const WallsCase& c);
+
+/// What a round of the table plays, in order; those that are compared stand beside each other.
+struct WallsChoice {
+  std::vector<std::string> scenes{"a", "b", "c"};
+  bool osg = true, floor = true;  ///< whether they are there
+  std::string workers{};          ///< for all of Stadion's
+};
+std::vector<WallsCase> tableCases(const WallsChoice& choice);
+/// Numbers of nodes from a thousand to a million, numbers of walls from one to six.
+std::vector<WallsCase> scalingCases(const WallsChoice& choice);
+std::vector<std::size_t> scalingNodes();
+WallsCase scalingCase(std::size_t nodes, const std::string& engine);
+
+}  // namespace stadion::bench

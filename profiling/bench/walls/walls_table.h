@@ -1,0 +1,15 @@
+#pragma once
+/// The table of `stadion bench walls` for people.
+///
+/// Threads  plain functions.
+
+#include "profiling/bench/walls/walls_results.h"
+
+namespace stadion::bench {
+
+/// A line for each case: medians over the rounds, and what they are to OpenSceneGraph's best.
+std::string tableOf(const WallsResults& results);
+/// How far the pictures are apart, a line for each comparison.
+std::string picturesOf(const WallsResults& results);
+
+}  // namespace stadion::bench

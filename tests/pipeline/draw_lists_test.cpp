@@ -1,0 +1,170 @@
+/// Draw lists are those of the simplest Cull, item by item.
+
+#include "tests/pipeline/cull_room.h"
+
+#include <gtest/gtest.h>
+#include <map>
+#include <set>
+
+namespace stadion {
+namespace {
+
+using test::boxRoom;
+using test::Frames;
+using test::Random;
+using test::thing;
+
+std::vector<InstanceRecord> crowd(Random& random, std::uint32_t count) {
+  std::vector<InstanceRecord> records;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    records.push_back(thing(random.within(30), 0.3, 1 + 1000003 * random.below(9), {1, random.below(50)}));
+    if (random.below(10) == 0) records.back().flags |= InstanceRecord::kTransparent;
+    if (random.below(10) == 0) {  // at the same distance as the one before
+      const InstanceRecord& other = records[random.below(i + 1)];
+      std::copy_n(other.centre, 3, records.back().centre);
+    }
+  }
+  return records;
+}
+
+/// The same as WallCull::fill, as it is written down.
+DrawList simplyFilled(const SlotView& state, const WallView& view) {
+  DrawList list;
+  eyesOf(*state.viewer, view, -1).setUp(list);
+  for (const InstanceRecord* r : test::simplySeen(state, view)) {
+    DrawItem item;
+    for (int k = 0; k < 12; ++k)
+      item.model[static_cast<std::size_t>(k)] =
+          static_cast<float>(r->model[k] - (k % 4 == 3 ? list.origin[k / 4] : 0.0));
+    item.mesh = r->mesh, item.owner = r->owner;
+    item.distance = static_cast<float>((Vec3(r->centre[0], r->centre[1], r->centre[2]) - list.origin).norm());
+    (r->flags & InstanceRecord::kTransparent ? list.transparent : list.opaque).push_back(item);
+  }
+  test::simplySort(list);
+  return list;
+}
+
+void expectAlike(std::vector<DrawItem> a, const std::vector<DrawItem>& b) {
+  for (DrawItem& item : a) item.pixels = 0;
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_TRUE(test::alike(a[i], b[i])) << "item " << i;
+}
+
+TEST(DrawLists, AreThoseOfTheSimplestCullWhereverRecordsLie) {
+  Random random(6);
+  const std::vector<WallView> views = boxRoom(1.5, {0.1, 40});
+  for (int round = 0; round < 20; ++round) {
+    Frames f;
+    f.viewer.set({random.within(10), random.turned()}, test::headIn(1.5, random));
+    const std::vector<InstanceRecord> all = crowd(random, round < 3 ? 60 : 2000);
+    ChangeSet still, moving;
+    still.chunks = {{f.state.arena().add(all), true}};
+    for (const InstanceRecord& r : all)
+      moving.instances.push_back({static_cast<InstanceId>(moving.instances.size()), r});
+    Frames other;
+    other.viewer = f.viewer;
+    const SlotView a = f.publish(still), b = other.publish(moving);
+    RoomCull roomA(views), roomB(views);
+    for (std::uint32_t wall = 0; wall < views.size(); ++wall) {
+      DrawList fromChunk, fromInstances;
+      WallCull({roomA}, wall).fill(a, -1, fromChunk);
+      WallCull({roomB}, wall).fill(b, -1, fromInstances);
+      const DrawList simple = simplyFilled(a, views[wall]);
+      for (const DrawList& list : {fromChunk, fromInstances}) {
+        ASSERT_NO_FATAL_FAILURE(expectAlike(list.opaque, simple.opaque));
+        ASSERT_NO_FATAL_FAILURE(expectAlike(list.transparent, simple.transparent));
+        EXPECT_EQ(list.origin, simple.origin);
+        EXPECT_EQ(list.eyes[1].view, simple.eyes[1].view);
+      }
+    }
+  }
+}
+
+TEST(DrawLists, AreSortedByWhatThingsAre) {
+  Random random(7);
+  for (const std::uint32_t count : {0U, 1U, 2U, 63U, 64U, 65U, 5000U}) {
+    DrawList list;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      DrawItem item;
+      item.mesh = random.below(3) ? random.below(5) : random.below(~0U);
+      item.level = random.below(3);
+      item.distance = random.below(4) ? static_cast<float>(random.sizeFrom(1e-6, 1e9)) : 0;
+      item.owner = {random.below(3), random.below(3)};
+      item.model.fill(0);
+      item.model[random.below(12)] = static_cast<float>(random.from(-1, 1));
+      list.opaque.push_back(item), list.transparent.push_back(item);
+    }
+    DrawList simple = list;
+    test::simplySort(simple);
+    DrawOrder().sort(list);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      ASSERT_TRUE(test::alike(list.opaque[i], simple.opaque[i])) << i << " of " << count;
+      const DrawItem &a = list.transparent[i], &b = simple.transparent[i];
+      ASSERT_EQ(std::tie(a.distance, a.mesh, a.owner, a.model),
+                std::tie(b.distance, b.mesh, b.owner, b.model));
+    }
+  }
+}
+
+TEST(DrawLists, AShowWithoutShadowsLooksForNoCasters) {
+  Frames f;
+  ChangeSet c;
+  c.lightsChanged = true, c.lights.resize(1);
+  c.lights[0].range = 1;  // casts shadows
+  c.instances = {{0, thing({0, 5, 0}, 1)}};
+  const SlotView state = f.publish(c);
+  const std::vector<WallView> views = boxRoom(1.5, {0.1, 40});
+  RoomCull room(views);
+  StillCasters still;
+  DrawList list;
+  WallCull({room, &still}, 0).fill(state, -1, list);
+  EXPECT_EQ(list.shadows.light, 0);
+  WallCull({room}, 0).fill(state, -1, list);
+  EXPECT_EQ(list.shadows.light, -1);
+}
+
+/// Notes what it is told.
+class Probe final : public FrameProbe {
+public:
+  void began(Span, std::uint64_t, std::uint32_t) override {}
+  void began(Span what, NodeRef) override { spans.push_back(what); }
+  void ended(Span) override {}
+  void counted(Count what, std::uint64_t amount, NodeRef) override { counts[what] = amount; }
+  bool wantsShares(std::uint64_t, std::uint32_t) const override { return true; }
+  void shared(Span what, std::uint64_t, std::uint32_t, std::span<const NodeRef> nodes) override {
+    shares[what] = {nodes.begin(), nodes.end()};
+  }
+
+  std::vector<Span> spans;
+  std::map<Count, std::uint64_t> counts;
+  std::map<Span, std::multiset<NodeRef>> shares;
+};
+
+TEST(DrawLists, TellWhatWasTestedAndForWhom) {
+  Random random(14);
+  Frames f;
+  ChangeSet c;
+  std::vector<InstanceRecord> records;
+  for (std::uint32_t i = 0; i < 5000; ++i) records.push_back(thing(random.within(100), 0.2, 1, {1, i}));
+  c.chunks = {{f.state.arena().add(records), true}};
+  for (std::uint32_t i = 0; i < 3; ++i) c.instances.push_back({i, thing({0, 5.0 + i, 0}, 0.1, 1, {2, i})});
+  const SlotView state = f.publish(c);
+  const std::vector<WallView> views = boxRoom(1.5, {0.1, 40});
+  RoomCull room(views);
+  for (const std::uint32_t wall : {0U, 4U}) {  // the first that comes searches for all
+    Probe probe;
+    DrawList list;
+    WallCull({.room = room, .probe = &probe}, wall).fill(state, -1, list);
+    EXPECT_EQ(probe.spans, (std::vector<Span>{Span::Test, Span::Eyes, Span::Fill, Span::Sort}));
+    EXPECT_EQ(probe.counts[Count::Seen], list.opaque.size());
+    EXPECT_GT(probe.counts[Count::Tested], list.opaque.size());
+    EXPECT_LT(probe.counts[Count::Tested], records.size() / 2) << "most are in boxes that are not seen";
+    const auto &tested = probe.shares[Span::Test], &seen = probe.shares[Span::Fill];
+    EXPECT_EQ(seen.size(), list.opaque.size());
+    EXPECT_TRUE(std::ranges::includes(tested, seen));
+    EXPECT_LT(tested.size(), records.size() / 2);
+  }
+}
+
+}  // namespace
+}  // namespace stadion
