@@ -73,8 +73,8 @@ std::string movingNodes(const WallScene& scene) {
   const Vec3 phaseStep(degrees(step), degrees(step), degrees(0.37 * step));
   return fmt::format("sway( amplitude=\"2, 2, 0.5\", frequency=\"{}\", phase=\"{}\", phasestep=\"{}\", "
                      "angularvelocity=\"0, 0, {:.17g}\"{} )\n",
-                     number(Vec3(1.1, 1.1, 1.9) / (2 * std::numbers::pi)), number(phase), number(phaseStep), degrees(0.8),
-                     targets);
+                     number(Vec3(1.1, 1.1, 1.9) / (2 * std::numbers::pi)), number(phase), number(phaseStep),
+                     degrees(0.8), targets);
 }
 
 std::string showText(const WallScene& scene, bool grouped, std::size_t frames) {
