@@ -22,6 +22,7 @@
 
 namespace stadion {
 
+class PlacedNode;
 class Scene;
 struct InputSample;
 
@@ -62,6 +63,15 @@ public:
   NodeKind kind() const { return kind_; }
   NodeRef self() const { return self_; }
   const std::string& name() const { return name_; }
+  /// The node, if it has a place in the world; else nullptr.
+  virtual PlacedNode* placed() { return nullptr; }
+  /// What the scene notes of a node that is in it. The scene's own.
+  struct Standing {
+    std::uint64_t hash = 0;  ///< its part of the state hash
+    bool busy = false;
+    bool touched = false;  ///< its state has changed since then
+  };
+  Standing& standing() { return standing_; }
   void addNotification(Notification n) { notifications_.push_back(std::move(n)); }
 
   /// Takes its place in the scene: names resolve, placements and instances are made. Once, when its load is
@@ -116,6 +126,7 @@ private:
 
   NodeKind kind_;
   NodeRef self_;
+  Standing standing_;
   std::string name_;
   std::vector<Notification> notifications_;
   std::vector<Raised> raised_;

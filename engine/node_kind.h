@@ -28,6 +28,7 @@ enum class NodeKind : std::uint8_t {
   Timer,
   Scene,
   Path,
+  Sway,
   Sound,
   Collision,
   Dynamics,
@@ -36,11 +37,12 @@ enum class NodeKind : std::uint8_t {
   Rig,
 };
 
-inline constexpr std::array<std::string_view, 24> kNodeKindNames = {
-    "group",  "transform",   "lod",         "object",         "dynobject",  "light",
-    "sky",    "text",        "forcelinear", "forcespherical", "forcepoint", "forcevortex",
-    "medium", "usertrigger", "wandtrigger", "timer",          "scene",      "path",
-    "sound",  "collision",   "dynamics",    "measure",        "navigator",  "rig"};
+inline constexpr std::array<std::string_view, 25> kNodeKindNames = {
+    "group",      "transform",   "lod",     "object",      "dynobject",
+    "light",      "sky",         "text",    "forcelinear", "forcespherical",
+    "forcepoint", "forcevortex", "medium",  "usertrigger", "wandtrigger",
+    "timer",      "scene",       "path",    "sway",        "sound",
+    "collision",  "dynamics",    "measure", "navigator",   "rig"};
 inline constexpr std::size_t kNodeKindCount = kNodeKindNames.size();
 
 constexpr std::string_view nameOf(NodeKind kind) {

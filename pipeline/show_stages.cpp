@@ -49,20 +49,24 @@ ShowStages::ShowStages(ShowParts parts)
 ShowStages::~ShowStages() = default;
 
 void ShowStages::app(const TimeSignature& now, std::size_t slot) {
-  InputSample input;
+  InputSample& input = input_;
   {
     const SpanScope span(parts_.probe, Span::Input);
     if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
     parts_.input.sampleFrame(now.time - now.step, now.time, input);
   }
+  // What is published goes into the slot as it is found, unless somebody wants to see it as a whole.
+  const bool whole = parts_.probe && parts_.probe->wantsShares(now.frame, kNoWall);
+  changes_.sink = whole ? nullptr : &parts_.state;
+  parts_.state.begin(slot);
   parts_.scene.advance(now, input, changes_, parts_.probe);
   if (parts_.probe) tellCounts(parts_.scene.counters(), *parts_.probe);
   {
     const SpanScope span(parts_.probe, Span::Publish);
-    parts_.state.publish(slot, changes_);
+    parts_.state.finish(changes_);
     parts_.meshes.collect(shownFrame_);
   }
-  tellPublished();
+  if (whole) tellPublished();
   if (parts_.sounds) {
     const SpanScope span(parts_.probe, Span::Sound);
     hear(input, false);
@@ -74,7 +78,6 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
 
 /// For whom publishing was: the visitor's place goes with every frame.
 void ShowStages::tellPublished() {
-  if (!parts_.probe || !parts_.probe->wantsShares(changes_.signature.frame, kNoWall)) return;
   std::vector<NodeRef> owners{NodeRef{}};
   for (const ChangeSet::Instance& i : changes_.instances)
     if (i.record.radius >= 0) owners.push_back(i.record.owner);

@@ -109,6 +109,7 @@ private:
   Failure readPictures(std::size_t wall);
 
   ShowParts parts_;
+  InputSample input_;  ///< of App's frame
   ChangeSet changes_;
   StillCasters stillCasters_;
   std::vector<WallPixels> wallPixels_;  ///< of the walls that show what the visitor sees

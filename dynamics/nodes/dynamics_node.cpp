@@ -60,6 +60,7 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
     if (const FieldId id = fieldFor(field, scene)) world_.hook(part.id, id, 0);  // from its beginning
   node->takeRequests();
   node->setSimulation({self(), part.id, &asking_});
+  scene.placements().claim(part.placement, true);
   partOf_[part.id] = &part;
   node->setState(world_.state(part.id));
   node->hold(scene, scene.placements().world(part.placement));
@@ -80,6 +81,7 @@ void DynamicsNode::removeCollidee(Part& part, Scene& scene) {
   DynObjectNode* node = bodyAt(part.ref, scene);
   if (!node) return;
   node->setSimulation({});
+  scene.placements().claim(part.placement, node->moved());
   node->place(scene, scene.placements().world(part.placement));
 }
 
@@ -187,10 +189,11 @@ void DynamicsNode::obey(const Order& order, FrameContext& frame) {
 }
 
 void DynamicsNode::grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame) {
-  auto way = frame.scene.trackerCourse(tracker, frame);
-  if (!way || when < way->front().time) return;  // nobody knows where the hand is
+  const Course* hand = frame.scene.trackerCourse(tracker, frame);
+  if (!hand || when < hand->front().time) return;  // nobody knows where the hand is
+  Course way = *hand;
   letGo(part, when, frame.scene);
-  if (const Grip* grip = grips_.grab(part.id, part.ref, tracker, std::move(*way), when))
+  if (const Grip* grip = grips_.grab(part.id, part.ref, tracker, std::move(way), when))
     carryFields(*grip, frame.scene);
 }
 
@@ -333,7 +336,7 @@ bool DynamicsNode::afterStep(FrameContext& frame) {
     if (standsStill(state.mode) && (!standsStill(before.mode) || state.clock != before.clock))
       frame.scene.noteImpact({node->self(), {}, state.p, state.clock + (state.clockRest > 0 ? 1 : 0), true});
     if (same)
-      frame.scene.touch(node->self());
+      frame.scene.touch(*node);
     else
       node->hold(frame.scene, withScale(state.pose, frame.scene.placements().world(part.placement)));
   }

@@ -32,8 +32,8 @@ void Grips::forget(BodyId body) {
 
 void Grips::follow(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
   for (Grip& grip : grips_) {
-    auto way = frame.scene.trackerCourse(grip.tracker, frame);
-    grip.course = way ? std::move(*way) : Course{};
+    const Course* way = frame.scene.trackerCourse(grip.tracker, frame);
+    grip.course = way ? *way : Course{};
     for (const PoseKnot& k : grip.course) cuts.push_back(k.time);
   }
 }

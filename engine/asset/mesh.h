@@ -63,6 +63,13 @@ struct Mesh {
   std::string name;               ///< the file it came from
   std::vector<MeshLevel> levels;  ///< each with fewer triangles and a greater error than the one before
   bool standIn = false;           ///< drawn in place of an asset that could not be loaded
+
+  /// Whether something of it is seen through.
+  bool transparent() const {
+    for (const Material& m : materials)
+      if (m.transparent()) return true;
+    return false;
+  }
 };
 
 }  // namespace stadion

@@ -66,7 +66,6 @@ void blend(const InputStamp& a, const InputStamp& b, Nanoseconds time, bool leap
 }
 
 void sampleTrack(const InputTrack& track, Nanoseconds time, TrackerSample& sample) {
-  sample.name = track.name;
   sample.stamp = time;
   sample.knots.clear(), sample.controls.clear();
   const auto after = std::ranges::upper_bound(track.stamps, time, {}, &InputStamp::time);
@@ -168,7 +167,10 @@ Nanoseconds InputLog::end() const {
 void InputLog::sampleAt(Nanoseconds showTime, InputSample& sample) const {
   sample.time = showTime;
   sample.trackers.resize(tracks.size());
-  for (std::size_t i = 0; i < tracks.size(); ++i) sampleTrack(tracks[i], showTime, sample.trackers[i]);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    sample.trackers[i].name = tracks[i].name;
+    sampleTrack(tracks[i], showTime, sample.trackers[i]);
+  }
 }
 
 void InputLog::sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) const {

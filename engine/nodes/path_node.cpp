@@ -45,7 +45,8 @@ bool PathNode::bends() const {
 
 /// What it moves; null if that is not there or moves itself.
 PlacedNode* PathNode::target(Scene& scene) {
-  auto* placed = dynamic_cast<PlacedNode*>(target_.valid() ? scene.find(target_) : this);
+  Node* node = target_.valid() ? scene.find(target_) : this;
+  PlacedNode* placed = node ? node->placed() : nullptr;
   return placed && !placed->moved() ? placed : nullptr;
 }
 
@@ -66,7 +67,8 @@ void PathNode::trace(Nanoseconds to, FrameContext& frame) {
       frame.scene.courses().of(id, {frame.start(), goesOn ? begin : poseOf(placements.world(id)), false});
   if (!goesOn) way.push_back({since_, begin, true});
   // Where it may turn: on the grid, at keys, and where a pass ends.
-  std::vector<Nanoseconds> passed;  // since since_
+  std::vector<Nanoseconds>& passed = passed_;
+  passed.clear();
   const Nanoseconds span = loop_ ? to - since_ : std::min(to - since_, length() - elapsed_);
   if (bends_)
     for (Nanoseconds t = (since_ / kChord + 1) * kChord - since_; t < span; t += kChord) passed.push_back(t);

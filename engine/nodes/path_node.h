@@ -62,6 +62,7 @@ private:
   Nanoseconds elapsed_ = 0;
   Nanoseconds since_ = 0;             ///< show time up to which elapsed_ counts
   std::optional<Nanoseconds> putAt_;  ///< when it last put its target somewhere
+  std::vector<Nanoseconds> passed_;   ///< trace()'s own: where its way turns, since since_
 };
 
 }  // namespace stadion

@@ -17,10 +17,19 @@ void PlacedNode::onLeave(Scene& scene) {
 }
 
 void PlacedNode::aboutToChange(Scene& scene) {
-  scene.touch(self());
+  scene.touch(*this);
+  letMove(scene);
+}
+
+void PlacedNode::letMove(Scene& scene) {
   if (!carriesStatics_) return;
   carriesStatics_ = false;
   scene.promoteBelow(self());
+}
+
+void PlacedNode::stay(Scene& scene) {
+  X_PN_ = scene.placements().local(placement_);
+  scene.touch(*this);
 }
 
 bool PlacedNode::place(Scene& scene, const Affine& X_WN) {
@@ -40,8 +49,7 @@ bool PlacedNode::hold(Scene& scene, const Affine& X_WN, Held part) {
 void PlacedNode::rejoin(Scene& scene, const Affine& X_WP) {
   if (attached() || scene.placements().held(placement_) == Held::Nothing) return;
   scene.placements().rejoin(placement_, X_WP);
-  scene.touch(self());
-  X_PN_ = scene.placements().local(placement_);
+  stay(scene);
 }
 
 void PlacedNode::becomeHome(Scene& scene, const Affine& X_WN) {
@@ -50,18 +58,27 @@ void PlacedNode::becomeHome(Scene& scene, const Affine& X_WN) {
 
 void PlacedNode::resetPlace(Scene& scene) {
   aboutToChange(scene);
-  follow_ = Held::Nothing;
+  setFollowing(Held::Nothing, scene);
   X_PN_ = attributes_.X_PN;
   scene.placements().setLocal(placement_, X_PN_);
   shown_ = attributes_.shown;
   scene.placements().setShown(placement_, shown_);
 }
 
+/// While a tracker has it, nobody else moves it.
+void PlacedNode::setFollowing(Held part, Scene& scene) {
+  follow_ = part;
+  scene.placements().claim(placement_, moved());
+}
+
 void PlacedNode::follow(const Message& m, FrameContext& frame) {
   const Nanoseconds when = frame.effective(m);
   if (attached()) trace(when, frame);
-  const std::string what = m.arguments.empty() ? "all" : m.arguments[0];
-  follow_ = what == "position" ? Held::Position : what == "orientation" ? Held::Orientation : Held::All;
+  const std::string_view what = m.arguments.empty() ? "all" : std::string_view(m.arguments[0]);
+  setFollowing(what == "position"      ? Held::Position
+               : what == "orientation" ? Held::Orientation
+                                       : Held::All,
+               frame.scene);
   tracker_ = m.arguments.size() > 1 ? m.arguments[1] : "";
   if (tracker_.empty()) tracker_ = frame.input.find("foot") ? "foot" : "wand";
   traced_ = when;
@@ -71,7 +88,7 @@ void PlacedNode::follow(const Message& m, FrameContext& frame) {
 void PlacedNode::stopFollowing(Nanoseconds when, FrameContext& frame) {
   if (attached() && trace(when, frame))
     hold(frame.scene, placedAt(course(frame).back().X, frame.scene), follow_);
-  follow_ = Held::Nothing;
+  setFollowing(Held::Nothing, frame.scene);
 }
 
 void PlacedNode::resetAt(Nanoseconds when, FrameContext& frame) {
@@ -103,7 +120,7 @@ Affine PlacedNode::placedAt(const Pose& X_WN, const Scene& scene) const {
 
 /// Continues its course along the tracker's up to `to`. False if the tracker is silent.
 bool PlacedNode::trace(Nanoseconds to, FrameContext& frame) {
-  const std::optional<Course> tracker = frame.scene.trackerCourse(tracker_, frame);
+  const Course* tracker = frame.scene.trackerCourse(tracker_, frame);
   if (!tracker) return false;
   Course& way = course(frame);
   const Pose own = way.back().X;

@@ -26,6 +26,7 @@ public:
   PlacedNode(NodeKind kind, NodeRef self, std::string name, PlaceAttributes place)
       : Node(kind, self, std::move(name)), attributes_(std::move(place)) {}
 
+  PlacedNode* placed() final { return this; }
   PlacementId placement() const { return placement_; }
   const PlaceAttributes& attributes() const { return attributes_; }
   /// Makes X_WN the place that reset brings it back to, and goes there.
@@ -34,6 +35,11 @@ public:
   bool place(Scene& scene, const Affine& X_WN);
   /// Places the node in World by a direct call (dynamics nodes), whatever its parent does from now on.
   bool hold(Scene& scene, const Affine& X_WN, Held part = Held::All);
+  /// Another node moves its placement from now on, frame by frame, without telling it: it is no part of its
+  /// state where that is.
+  void letMove(Scene& scene);
+  /// It stays where its placement is: that is its own state again.
+  void stay(Scene& scene);
   /// It has been detached in this frame, when its parent was at X_WP: goes along with it from now on.
   void rejoin(Scene& scene, const Affine& X_WP);
   bool attached() const { return follow_ != Held::Nothing; }
@@ -57,6 +63,7 @@ protected:
 
 private:
   void aboutToChange(Scene& scene);
+  void setFollowing(Held part, Scene& scene);
   void follow(const Message& m, FrameContext& frame);
   void stopFollowing(Nanoseconds when, FrameContext& frame);
   void resetAt(Nanoseconds when, FrameContext& frame);

@@ -43,8 +43,9 @@ double Region::crossing(const Vec3& a, const Vec3& b) const {
   return part ? std::clamp(contains(a) ? part->out : part->in, 0.0, 1.0) : 1.0;
 }
 
-Course TriggerNode::wayInRig(const FrameContext& frame) const {
-  Course way;
+const Course& TriggerNode::wayInRig(const FrameContext& frame) {
+  Course& way = way_;
+  way.clear();
   const TrackerSample* t = frame.input.find(tracker_);
   if (looked_) {
     way.push_back({seen_, {p_RV_, Quat::Identity()}, false});
@@ -82,13 +83,14 @@ std::uint32_t TriggerNode::heldBefore(const TrackerSample& t, Nanoseconds time,
 }
 
 void TriggerNode::look(FrameContext& frame, Nanoseconds until) {
-  const Course way = wayInRig(frame);
+  const Course& way = wayInRig(frame);
   const TrackerSample* t = kind() == NodeKind::WandTrigger ? frame.input.find(tracker_) : nullptr;
   if (way.empty()) {
     if (looked_ && t) watchLost(*t, frame, until);
     return;
   }
-  std::vector<Nanoseconds> stops{std::max(seen_, frame.start()), until};
+  std::vector<Nanoseconds>& stops = stops_;
+  stops.assign({std::max(seen_, frame.start()), until});
   for (const PoseKnot& k : way) stops.push_back(k.time);
   if (t)
     for (const ControlKnot& c : t->controls) stops.push_back(c.time);

@@ -55,7 +55,7 @@ protected:
 private:
   /// Where the visitor was since the last look and is at the frame's end, in the rig; empty if nobody is
   /// there.
-  Course wayInRig(const FrameContext& frame) const;
+  const Course& wayInRig(const FrameContext& frame);
   /// Follows the visitor up to `until`, which lies in this frame.
   void look(FrameContext& frame, Nanoseconds until);
   void goTo(const Vec3& p, bool jumped, Nanoseconds time);
@@ -76,7 +76,9 @@ private:
   Vec3 p_RV_ = Vec3::Zero();  ///< and in the rig
   Affine X_NR_ = Affine::Identity();  ///< at the end of the frame before
   std::uint32_t buttons_ = 0;
-  std::uint32_t pressed_ = 0;  ///< of these, the ones of whose press it told
+  std::uint32_t pressed_ = 0;       ///< of these, the ones of whose press it told
+  Course way_;                      ///< wayInRig()'s answer
+  std::vector<Nanoseconds> stops_;  ///< look()'s own
 };
 
 }  // namespace stadion

@@ -19,38 +19,53 @@ bool near(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-const std::pair<const PlacementId, Course>* Courses::above(PlacementId id,
-                                                           const Placements& placements) const {
-  if (courses_.empty()) return nullptr;
+void Courses::clear() {
+  for (std::uint32_t i = 0; i < used_; ++i) at_[pool_[i].id] = 0;
+  used_ = 0;
+}
+
+Course& Courses::of(PlacementId id, const PoseKnot& first) {
+  if (at_.size() <= id) at_.resize(id + std::size_t{1});
+  if (at_[id] != 0) return pool_[at_[id] - 1].course;
+  if (used_ == pool_.size()) pool_.emplace_back();
+  Known& known = pool_[used_];
+  at_[id] = ++used_;
+  known.id = id;
+  known.course.assign(1, first);
+  return known.course;
+}
+
+const Courses::Known* Courses::above(PlacementId id, const Placements& placements) const {
+  if (used_ == 0) return nullptr;
   for (; id != kNoPlacement; id = placements.carrier(id))
-    if (const auto at = courses_.find(id); at != courses_.end()) return &*at;
+    if (id < at_.size() && at_[id] != 0) return &pool_[at_[id] - 1];
   return nullptr;
 }
 
 Pose Courses::at(PlacementId id, Nanoseconds time, const Placements& placements) const {
   const Pose now = poseOf(placements.world(id));
-  const auto* carrier = above(id, placements);
+  const Known* carrier = above(id, placements);
   if (!carrier) return now;
-  const Course& way = carrier->second;
+  const Course& way = carrier->course;
   return poseOn(way, time, Limit::After) * (way.back().X.inverse() * now);
 }
 
 Pose Courses::startOf(PlacementId id, const Placements& placements) const {
   const Pose now = poseOf(placements.world(id));
-  const auto* carrier = above(id, placements);
-  return carrier ? carrier->second.front().X * (carrier->second.back().X.inverse() * now) : now;
+  const Known* carrier = above(id, placements);
+  return carrier ? carrier->course.front().X * (carrier->course.back().X.inverse() * now) : now;
 }
 
 Course Courses::within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
                        const Placements& placements) const {
   const Pose now = poseOf(placements.world(id));
-  const auto* carrier = above(id, placements);
-  const bool carried = carrier && moves(carrier->second);
+  const Known* carrier = above(id, placements);
+  const bool carried = carrier && moves(carrier->course);
   if (!carried && same(before, now)) return {};
   Course course{{start, before, false}};
   if (carried) {
-    const Course& way = carrier->second;
-    const bool itself = carrier->first == id;
+    const Course& way = carrier->course;
+    const bool itself = carrier->id == id;
     // Who has not looked for some frames knows nothing of the time before this one: it came straight.
     const bool late = way.front().time > start;
     const Pose X_CN1 = itself ? Pose{} : way.back().X.inverse() * now;

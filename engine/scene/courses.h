@@ -8,19 +8,17 @@
 #include "engine/maths/course.h"
 #include "engine/scene/placements.h"
 
-#include <map>
+#include <cstdint>
+#include <deque>
+#include <vector>
 
 namespace stadion {
 
 class Courses {
 public:
-  void clear() { courses_.clear(); }
-  /// The placement's course in this frame; a new one begins with `first`.
-  Course& of(PlacementId id, const PoseKnot& first) {
-    const auto [at, fresh] = courses_.try_emplace(id);
-    if (fresh) at->second.push_back(first);
-    return at->second;
-  }
+  void clear();
+  /// The placement's course in this frame; a new one begins with `first`. Stays where it is until clear().
+  Course& of(PlacementId id, const PoseKnot& first);
   /// The course of the placement from `start`, where it was at `before`, to `end`: its own or that of the
   /// nearest above it, on which its place changes evenly; else straight. Empty if it stays.
   Course within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
@@ -31,9 +29,15 @@ public:
   Pose startOf(PlacementId id, const Placements& placements) const;
 
 private:
-  const std::pair<const PlacementId, Course>* above(PlacementId id, const Placements& placements) const;
+  struct Known {
+    PlacementId id = kNoPlacement;
+    Course course;
+  };
+  const Known* above(PlacementId id, const Placements& placements) const;
 
-  std::map<PlacementId, Course> courses_;
+  std::deque<Known> pool_;  ///< their memory is used again from frame to frame
+  std::uint32_t used_ = 0;
+  std::vector<std::uint32_t> at_;  ///< by placement: which of the pool, from 1; 0 = none
 };
 
 }  // namespace stadion

@@ -9,22 +9,23 @@
 #include "engine/node.h"
 #include "engine/scene/records.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace stadion {
 
 /// A plain object that nothing in its file moves: it has no node, only a record in the load's static chunk.
+/// There may be a million of them, so what most have not lies elsewhere.
 struct StaticObject {
   std::uint32_t position = 0;  ///< in its file
-  std::uint32_t line = 0;
   NodeRef parent;
-  const std::string* name = nullptr;  ///< its key in Load::names; null = it has none
 };
 
 struct Load {
@@ -46,9 +47,17 @@ struct Load {
   bool chunkShown = false;                       ///< the scene's own
   std::span<const InstanceRecord> chunkRecords;  ///< in published memory, immutable
   std::vector<StaticObject> statics;             ///< parallel to chunkRecords, ordered by position
-  std::map<std::uint32_t, NodeTerms> terms;      ///< position to what a node may cost, of those that say so
-  std::vector<MeshId> meshes;                    ///< each counted once, released with the load
+  std::vector<std::pair<std::uint32_t, const std::string*>>
+      staticNames;                           ///< position to key in `names`, of those that have one, in order
+  std::map<std::uint32_t, NodeTerms> terms;  ///< position to what a node may cost, of those that say so
+  std::vector<MeshId> meshes;                ///< each counted once, released with the load
 
+  /// Of a static object.
+  std::string nameOf(const StaticObject& object) const {
+    const auto at = std::ranges::lower_bound(staticNames, object.position, {},
+                                             &std::pair<std::uint32_t, const std::string*>::first);
+    return at != staticNames.end() && at->first == object.position ? *at->second : std::string();
+  }
   NodeRef find(const std::string& name) const {
     const auto at = names.find(name);
     return at == names.end() ? NodeRef{} : NodeRef{number, at->second};

@@ -6,9 +6,9 @@ namespace stadion {
 
 Placements::Placements() {
   Entry world;
-  world.X_PN.setIdentity(), world.X_WN.setIdentity();
   world.live = true;
   entries_.push_back(world);
+  for (auto* matrices : {&X_PN_, &X_WN_, &X_WH_}) matrices->push_back(Affine::Identity());
 }
 
 PlacementId Placements::add(PlacementId parent, const Affine& X_PN) {
@@ -16,6 +16,7 @@ PlacementId Placements::add(PlacementId parent, const Affine& X_PN) {
   if (free_.empty()) {
     id = static_cast<PlacementId>(entries_.size());
     entries_.emplace_back();
+    for (auto* matrices : {&X_PN_, &X_WN_, &X_WH_}) matrices->push_back(Affine::Identity());
   } else {
     id = free_.back();
     free_.pop_back();
@@ -24,7 +25,7 @@ PlacementId Placements::add(PlacementId parent, const Affine& X_PN) {
     entries_[id].changed = listed;
   }
   Entry& e = entries_[id];
-  e.X_PN = X_PN;
+  X_PN_[id] = X_PN;
   e.parent = parent;
   e.live = true;
   Entry& p = entries_[parent];
@@ -54,10 +55,7 @@ void Placements::markBelow(PlacementId top, bool moved) {
     Entry& e = entries_[id];
     e.stale |= moved;
     if (moved && e.watched) movedWatched_.push_back(id);
-    if (!e.changed) {
-      e.changed = true;
-      changed_.push_back(id);
-    }
+    mark(id, e);
     if (e.firstChild != kNoPlacement) {
       id = e.firstChild;
       continue;
@@ -70,7 +68,7 @@ void Placements::markBelow(PlacementId top, bool moved) {
 
 bool Placements::setLocal(PlacementId id, const Affine& X_PN) {
   if (!X_PN.matrix().allFinite()) return false;
-  entries_[id].X_PN = X_PN;
+  X_PN_[id] = X_PN;
   entries_[id].held = Held::Nothing;
   markBelow(id, true);
   return true;
@@ -86,25 +84,25 @@ bool Placements::setWorld(PlacementId id, const Affine& X_WN) {
 
 bool Placements::hold(PlacementId id, const Affine& X_WN, Held part) {
   if (!X_WN.matrix().allFinite()) return false;
-  entries_[id].X_WH = X_WN;
+  X_WH_[id] = X_WN;
   entries_[id].held = part;
   markBelow(id, true);
   return true;
 }
 
 void Placements::rejoin(PlacementId id, const Affine& X_WP) {
-  const Affine X_PN = X_WP.inverse() * carried(entries_[id], X_WP);
+  const Affine X_PN = X_WP.inverse() * carriedBy(id, X_WP);
   setLocal(id, X_PN);
 }
 
 Affine Placements::local(PlacementId id) const {
   const Entry& e = entries_[id];
-  if (e.held == Held::Nothing) return e.X_PN;
+  if (e.held == Held::Nothing) return X_PN_[id];
   return e.parent == kWorldPlacement ? world(id) : Affine(world(e.parent).inverse() * world(id));
 }
 
 void Placements::watch(PlacementId id) {
-  entries_[id].watched = true;
+  entries_[id].watched = anyWatched_ = true;
   for (; id != kNoPlacement && !entries_[id].watchedBelow; id = entries_[id].parent)
     entries_[id].watchedBelow = true;
 }
@@ -114,27 +112,26 @@ PlacementId Placements::carrier(PlacementId id) const {
 }
 
 /// Where it is while its parent is at X_WP.
-Affine Placements::carried(const Entry& e, const Affine& X_WP) {
-  Affine X = e.parent == kWorldPlacement ? e.X_PN : X_WP * e.X_PN;
-  if (e.held == Held::All || e.held == Held::Position) X.translation() = e.X_WH.translation();
-  if (e.held == Held::All || e.held == Held::Orientation) X.linear() = e.X_WH.linear();
+Affine Placements::carriedBy(PlacementId id, const Affine& X_WP) const {
+  const Entry& e = entries_[id];
+  Affine X = e.parent == kWorldPlacement ? X_PN_[id] : X_WP * X_PN_[id];
+  if (e.held == Held::All || e.held == Held::Position) X.translation() = X_WH_[id].translation();
+  if (e.held == Held::All || e.held == Held::Orientation) X.linear() = X_WH_[id].linear();
   return X;
 }
 
 const Affine& Placements::world(PlacementId id) const {
-  if (!entries_[id].stale) return entries_[id].X_WN;
-  std::vector<PlacementId> chain;
-  PlacementId at = id;
-  while (entries_[at].stale) {
-    chain.push_back(at);
-    at = entries_[at].parent;
-  }
-  for (auto i = chain.rbegin(); i != chain.rend(); ++i) {
-    Entry& e = entries_[*i];
-    e.X_WN = carried(e, entries_[e.parent].X_WN);
+  if (standsInWorld(entries_[id])) return X_PN_[id];
+  if (!entries_[id].stale) return X_WN_[id];
+  chain_.clear();
+  for (PlacementId at = id; entries_[at].stale && !standsInWorld(entries_[at]); at = entries_[at].parent)
+    chain_.push_back(at);
+  for (auto at = chain_.rbegin(); at != chain_.rend(); ++at) {
+    Entry& e = entries_[*at];
+    X_WN_[*at] = carriedBy(*at, standsInWorld(entries_[e.parent]) ? X_PN_[e.parent] : X_WN_[e.parent]);
     e.stale = false;
   }
-  return entries_[id].X_WN;
+  return X_WN_[id];
 }
 
 void Placements::setShown(PlacementId id, bool shown, Hider hider) {
@@ -152,21 +149,20 @@ bool Placements::shown(PlacementId id) const {
   return true;
 }
 
-std::vector<PlacementId> Placements::takeMovedWatched() {
-  std::vector<PlacementId> moved;
-  moved.swap(movedWatched_);
-  return moved;
+const std::vector<PlacementId>& Placements::takeMovedWatched() {
+  movedTold_.clear();
+  movedTold_.swap(movedWatched_);
+  return movedTold_;
 }
 
-std::vector<PlacementId> Placements::takeChanged() {
-  std::vector<PlacementId> changed;
-  changed.reserve(changed_.size());
-  for (const PlacementId id : changed_) {
+const std::vector<PlacementId>& Placements::takeChanged() {
+  changedTold_.clear();
+  changedTold_.swap(changed_);
+  std::erase_if(changedTold_, [&](PlacementId id) {
     entries_[id].changed = false;
-    if (entries_[id].live) changed.push_back(id);
-  }
-  changed_.clear();
-  return changed;
+    return !entries_[id].live;
+  });
+  return changedTold_;
 }
 
 }  // namespace stadion

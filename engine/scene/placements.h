@@ -11,8 +11,10 @@
 /// Errors   a non-finite matrix is refused: the setter returns false and keeps the old one.
 
 #include "engine/maths/maths.h"
+#include "engine/prefetch.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace stadion {
@@ -41,11 +43,18 @@ public:
 
   /// Puts it there below its parent, which carries it from now on.
   bool setLocal(PlacementId id, const Affine& X_PN);
+  /// The same for many that one node moves: put(i, X_PN) says where ids[i] is now. Leaves out what is
+  /// claimed. Expects finite matrices.
+  template <class Put>
+  void setLocals(std::span<const PlacementId> ids, const Put& put);
+  static constexpr std::size_t kAhead = 8;  ///< so many placements before its turn memory is asked for
   bool setWorld(PlacementId id, const Affine& X_WN);  ///< the same, so that it is at X_WN now
   /// Holds it, or the part of it that is named, at X_WN until it is put below its parent again.
   bool hold(PlacementId id, const Affine& X_WN, Held part = Held::All);
   /// Puts what is held below its parent again, which was at X_WP when it was let go.
   void rejoin(PlacementId id, const Affine& X_WP);
+  /// A tracker or the dynamics moves it: setLocals() leaves it alone.
+  void claim(PlacementId id, bool claimed) { entries_[id].claimed = claimed; }
   Held held(PlacementId id) const { return entries_[id].held; }
   const Affine& world(PlacementId id) const;
   Affine local(PlacementId id) const;  ///< where it is relative to its parent now
@@ -59,34 +68,70 @@ public:
 
   /// From now on takeMovedWatched() tells when this placement moves.
   void watch(PlacementId id);
+  bool anyWatched() const { return anyWatched_; }  ///< any placement, ever
   /// Whether this placement or one below it has ever been watched.
   bool watchedBelow(PlacementId id) const { return entries_[id].watchedBelow; }
-  std::vector<PlacementId> takeMovedWatched();
+  /// Those that have moved since the last call. Valid until the next one.
+  const std::vector<PlacementId>& takeMovedWatched();
 
-  /// Every placement whose World matrix or visibility may have changed since the last call, each once. Clears
-  /// the list.
-  std::vector<PlacementId> takeChanged();
+  /// Every placement whose World matrix or visibility may have changed since the last call, each once. Valid
+  /// until the next one.
+  const std::vector<PlacementId>& takeChanged();
 
 private:
+  /// Kept apart from the matrices: who looks for one thing in many placements reads little.
   struct Entry {
-    Affine X_PN = Affine::Identity(), X_WN = Affine::Identity();
-    Affine X_WH = Affine::Identity();  ///< where it is held
     PlacementId parent = kNoPlacement, firstChild = kNoPlacement, nextSibling = kNoPlacement,
                 previousSibling = kNoPlacement;
     Held held = Held::Nothing;
-    bool stale = false;    ///< X_WN must be recomputed
+    bool stale = false;    ///< its World matrix must be recomputed
     bool changed = false;  ///< is in changed_
     std::uint8_t hiders = 0;
     bool live = false;
     bool watched = false, watchedBelow = false;
+    bool claimed = false;
   };
 
-  static Affine carried(const Entry& e, const Affine& X_WP);
+  /// Whether its World matrix is the local one.
+  static bool standsInWorld(const Entry& e) { return e.parent == kWorldPlacement && e.held == Held::Nothing; }
+  Affine carriedBy(PlacementId id, const Affine& X_WP) const;
   void markBelow(PlacementId id, bool moved);
+  void mark(PlacementId id, Entry& e) {
+    if (e.changed) return;
+    e.changed = true;
+    changed_.push_back(id);
+  }
 
   mutable std::vector<Entry> entries_;
+  std::vector<Affine> X_PN_;          ///< by placement
+  mutable std::vector<Affine> X_WN_;  ///< by placement; unused while it stands in World
+  std::vector<Affine> X_WH_;          ///< by placement: where it is held
+  bool anyWatched_ = false;
   std::vector<PlacementId> free_;
   std::vector<PlacementId> changed_, movedWatched_;
+  std::vector<PlacementId> changedTold_, movedTold_;
+  mutable std::vector<PlacementId> chain_;  ///< world()'s own
 };
+
+template <class Put>
+void Placements::setLocals(std::span<const PlacementId> ids, const Put& put) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const PlacementId id = ids[i];
+    if (i + kAhead < ids.size()) {
+      prefetch(&entries_[ids[i + kAhead]]);
+      prefetch(&X_PN_[ids[i + kAhead]]);
+    }
+    Entry& e = entries_[id];
+    if (e.claimed) continue;
+    put(i, X_PN_[id]);
+    e.held = Held::Nothing;
+    if (e.firstChild != kNoPlacement || e.watched) {
+      markBelow(id, true);
+      continue;
+    }
+    e.stale = true;
+    mark(id, e);
+  }
+}
 
 }  // namespace stadion

@@ -9,6 +9,7 @@
 #include "engine/time_signature.h"
 
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -37,6 +38,9 @@ static_assert(std::is_trivially_copyable_v<InstanceRecord> && sizeof(InstanceRec
 
 InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, NodeRef owner,
                             double lodFactor = 1);
+
+/// Where the instance is: its matrix, and the sphere around it. Leaves the rest of the record as it is.
+void placeInstance(InstanceRecord& record, const Affine& X_WN, const Sphere& sphere_N);
 
 struct LightRecord {
   std::uint32_t kind = 0;                       ///< DrawLight::Kind
@@ -81,8 +85,17 @@ struct ChangeSet {
     bool hidden;
   };
 
+  /// Takes changed instances a block at a time, while they are in the processor's cache.
+  class Sink {
+  public:
+    virtual ~Sink() = default;
+    virtual void take(std::span<const Instance> block) = 0;
+  };
+  static constexpr std::size_t kBlock = 64;
+
   TimeSignature signature;
-  std::vector<Instance> instances;
+  Sink* sink = nullptr;             ///< where instances go; null: they stay here
+  std::vector<Instance> instances;  ///< those that the sink has not taken
   std::vector<Chunk> chunks;
   std::vector<StaticItem> statics;
   bool lightsChanged = false;
@@ -90,7 +103,7 @@ struct ChangeSet {
   SkyRecord sky;
   ViewerRecord viewer;
 
-  void clear();
+  void clear();  ///< all but the sink
 };
 
 }  // namespace stadion

@@ -49,10 +49,10 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
 }
 
 void Scene::settleTouched(FrameProbe* probe) {
-  for (const NodeRef ref : touched_) {
-    const SpanScope span(probe, Span::Settle, ref);
-    const auto at = loads_.find(ref.load);
-    if (at != loads_.end() && at->second->nodes[ref.position]) rehash(*at->second->nodes[ref.position]);
+  for (Node* node : touched_) {
+    if (!node->standing().touched) continue;  // its own cycle came after it
+    const SpanScope span(probe, Span::Settle, node->self());
+    rehash(*node);
   }
   touched_.clear();
 }
@@ -63,17 +63,12 @@ void Scene::settleTouched(FrameProbe* probe) {
 /// after their turn. Returns the mail, by target.
 std::vector<Message> Scene::callRound(const TimeSignature& now) {
   std::vector<Message> mail = messages_.takeDue(now.time);
-  round_ = busy_;
-  if (!reliefs_.empty()) std::erase_if(round_, [&](const Visit& v) { return putOff(v.node, frameStart_); });
+  agenda_.begin();
+  if (!reliefs_.empty()) agenda_.leaveOut([&](NodeRef ref) { return putOff(ref, frameStart_); });
   std::set<NodeRef> waiting;
   waiting.swap(putOff_);
   for (const NodeRef ref : waiting)
     if (!putOff(ref, frameStart_)) wokenLate_.push_back(ref);  // its turn has come
-  const auto call = [&](NodeRef ref) {
-    Node* node = find(ref);
-    if (node) round_.insert({node->rank(), ref});
-    return node != nullptr;
-  };
   for (Message& m : mail) {
     m.target = resolveInside(m.target, m.targetInside);
     m.node = resolveInside(m.node, m.nodeInside);
@@ -84,21 +79,30 @@ std::vector<Message> Scene::callRound(const TimeSignature& now) {
     counters_.messagesLost += late;
     return late;
   });
-  for (const Message& m : mail) call(m.target) ? ++counters_.messagesDelivered : ++counters_.messagesLost;
+  for (const Message& m : mail)
+    callToRound(m.target) ? ++counters_.messagesDelivered : ++counters_.messagesLost;
   while (!wakes_.empty() && wakes_.begin()->at <= now.time) {
-    call(wakes_.begin()->node);
+    callToRound(wakes_.begin()->node);
     wakes_.erase(wakes_.begin());
   }
-  std::vector<NodeRef> woken;
-  woken.swap(wokenLate_);
-  for (const NodeRef ref : woken) call(ref);
+  wokenBefore_.swap(wokenLate_);
+  for (const NodeRef ref : wokenBefore_) callToRound(ref);
+  wokenBefore_.clear();
   if (loadsTold_ != loadsVersion_)
-    for (const NodeRef ref : loadWatchers_) call(ref);
+    for (const NodeRef ref : loadWatchers_) callToRound(ref);
   loadsTold_ = loadsVersion_;
+  agenda_.sort();
   wakeWatchers();
-  std::stable_sort(mail.begin(), mail.end(),
-                   [](const Message& a, const Message& b) { return a.target < b.target; });
+  if (mail.size() > 1)
+    std::stable_sort(mail.begin(), mail.end(),
+                     [](const Message& a, const Message& b) { return a.target < b.target; });
   return mail;
+}
+
+bool Scene::callToRound(NodeRef ref) {
+  Node* node = find(ref);
+  if (node) agenda_.call(*node);
+  return node != nullptr;
 }
 
 void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe) {
@@ -111,14 +115,13 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
     detached = detachedBy(mail, frame);
     startsInFrame_ = std::ranges::any_of(mail, [](const Message& m) { return m.verb == Verb::Start; });
   }
-  std::vector<Cycle> batch;
   const auto next = [&] {
     const SpanScope span(probe, Span::Mail);
-    return takeBatch(mail, frame, probe, batch);
+    return takeBatch(mail, frame, probe);
   };
   while (next()) {
-    computeTogether(batch, probe);
-    for (const Cycle& cycle : batch) {
+    computeTogether(batch_, probe);
+    for (const Cycle& cycle : batch_) {
       Node* node = cycle.node;
       current_ = Visit{node->rank(), node->self()};
       FrameContext own = cycle.context(frame);
@@ -141,26 +144,19 @@ void Scene::computeTogether(std::span<const Cycle> batch, FrameProbe* probe) {
 }
 
 /// The next nodes of this round that do not look at each other's results, each of them begun. False: no more.
-bool Scene::takeBatch(const std::vector<Message>& mail, FrameContext& frame, FrameProbe* probe,
-                      std::vector<Cycle>& batch) {
-  batch.clear();
-  while (!round_.empty()) {
-    const Visit next = *round_.begin();
-    Node* node = find(next.node);
-    const bool waits =
-        node && std::ranges::any_of(batch, [&](const Cycle& b) { return node->awaits(*b.node, *this); });
-    if (waits) break;
-    round_.erase(round_.begin());
-    if (!node) continue;
-    current_ = next;
-    const auto [first, last] =
-        std::equal_range(mail.begin(), mail.end(), Message{0, {}, 0, next.node, {}, {}, {}, {}, {}},
-                         [](const Message& a, const Message& b) { return a.target < b.target; });
-    batch.push_back(cycleOf(*node, frame.now));
-    FrameContext own = batch.back().context(frame);
-    node->begin({first, last}, own, probe);
+bool Scene::takeBatch(const std::vector<Message>& mail, FrameContext& frame, FrameProbe* probe) {
+  batch_.clear();
+  while (const Agenda::Entry* next = agenda_.next()) {
+    Node& node = *next->node;
+    if (std::ranges::any_of(batch_, [&](const Cycle& b) { return node.awaits(*b.node, *this); })) break;
+    current_ = next->visit;
+    agenda_.take();
+    const auto [first, last] = std::ranges::equal_range(mail, node.self(), {}, &Message::target);
+    batch_.push_back(cycleOf(node, frame.now));
+    FrameContext own = batch_.back().context(frame);
+    node.begin({first, last}, own, probe);
   }
-  return !batch.empty();
+  return !batch_.empty();
 }
 
 std::vector<Scene::Detached> Scene::detachedBy(const std::vector<Message>& mail, const FrameContext& frame) {
@@ -184,11 +180,11 @@ void Scene::rejoinParent(const Detached& d, const FrameContext& frame) {
 }
 
 void Scene::wakeNow(NodeRef ref) {
-  const Node* node = find(ref);
+  Node* node = find(ref);
   if (!node) return;
   const Visit v{node->rank(), ref};
   if (current_ && *current_ < v)
-    round_.insert(v);
+    agenda_.callNow(*node);
   else if (!current_ || *current_ != v)
     wokenLate_.push_back(ref);
 }
@@ -218,11 +214,7 @@ void Scene::wakeWatchers() {
 }
 
 void Scene::setBusy(Node& node) {
-  const Visit v{node.rank(), node.self()};
-  if (node.busy())
-    busy_.insert(v);
-  else
-    busy_.erase(v);
+  agenda_.setBusy(node, node.busy());
 }
 
 void Scene::wakeAt(Nanoseconds when, NodeRef node) {
@@ -345,7 +337,8 @@ PlacementId Scene::placementFor(NodeRef parent, NodeRef child) {
     if (!own || !own->owner.valid()) return kWorldPlacement;
     parent = own->owner;
   }
-  const auto* placed = dynamic_cast<const PlacedNode*>(find(parent));
+  Node* above = find(parent);
+  const PlacedNode* placed = above ? above->placed() : nullptr;
   return placed && placed->placement() != kNoPlacement ? placed->placement() : kWorldPlacement;
 }
 
@@ -357,12 +350,11 @@ std::uint64_t Scene::nodeHash(const Node& node) const {
   return h.value();
 }
 
-void Scene::rehash(const Node& node) {
+void Scene::rehash(Node& node) {
   // A sum over all nodes can be kept up by the change of one; each term knows its node's identity.
-  std::uint64_t& known = hashes_[node.self()];
   const std::uint64_t now = nodeHash(node);
-  hashSum_ += now - known;
-  known = now;
+  hashSum_ += now - std::exchange(node.standing().hash, now);
+  node.standing().touched = false;
 }
 
 std::uint64_t Scene::stateHash() const {

@@ -10,6 +10,7 @@
 #include "engine/input/input_sample.h"
 #include "engine/load_control.h"
 #include "engine/node.h"
+#include "engine/scene/agenda.h"
 #include "engine/scene/courses.h"
 #include "engine/scene/impact.h"
 #include "engine/scene/load.h"
@@ -26,6 +27,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace stadion {
@@ -77,7 +79,10 @@ public:
   /// Turns every static object below `ref` into a node of its own, so that it can move.
   void promoteBelow(NodeRef ref);
   /// Says that a node's state changed outside its own cycle (direct calls).
-  void touch(NodeRef ref) { touched_.push_back(ref); }
+  void touch(Node& node) {
+    if (std::exchange(node.standing().touched, true)) return;
+    touched_.push_back(&node);
+  }
   PlacementId placementFor(NodeRef parent, NodeRef child);
 
   void post(const Node& sender, const Notification& n, Nanoseconds when);
@@ -142,8 +147,8 @@ public:
   void moveRig(const Pose& X_WR);
   std::optional<Pose> trackerInWorld(const std::string& tracker, const InputSample& input) const;
   /// Where the tracker has been in World since it was known in this frame, from the frame's start if it was
-  /// known before, to the frame's end. Nothing if it is not valid at the end.
-  std::optional<Course> trackerCourse(const std::string& tracker, const FrameContext& frame) const;
+  /// known before, to the frame's end. Null if it is not valid at the end. Holds until the next call.
+  const Course* trackerCourse(const std::string& tracker, const FrameContext& frame);
   /// How placements have moved inside this frame.
   Courses& courses() { return courses_; }
   Pose headInRig(const InputSample& input) const;
@@ -169,11 +174,14 @@ public:
 
 private:
   struct Instance {
+    const Mesh* form = nullptr;  ///< what `mesh` names; null = nothing
     PlacementId placement = kNoPlacement;
     MeshId mesh = kNoMesh;
     NodeRef owner;
-    bool drawn = true, live = false, changed = false;
+    InstanceId next = kNoInstance;  ///< at the same placement
+    bool drawn = true, live = false, changed = false, transparent = false;
   };
+  static constexpr InstanceId kNoInstance = ~InstanceId{0};
   struct Light {
     PlacementId placement = kNoPlacement;
     LightRecord local;
@@ -220,12 +228,6 @@ private:
       return {now, frame.input, frame.scene, rested, frame.probe};
     }
   };
-  struct Visit {
-    Rank rank;
-    NodeRef node;
-    auto operator<=>(const Visit&) const = default;
-  };
-
   void applyLoads(const TimeSignature& now, FrameProbe* probe);
   void foreseeUnloads(Nanoseconds now);
   void applyUnloads(const TimeSignature& now, FrameProbe* probe);
@@ -233,12 +235,12 @@ private:
   void remove(std::uint32_t number, std::uint64_t frame);
   void visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe);
   std::vector<Message> callRound(const TimeSignature& now);
+  bool callToRound(NodeRef ref);
   void settleTouched(FrameProbe* probe);
   void computeTogether(std::span<const Cycle> batch, FrameProbe* probe);
   std::vector<Detached> detachedBy(const std::vector<Message>& mail, const FrameContext& frame);
   void rejoinParent(const Detached& d, const FrameContext& frame);
-  bool takeBatch(const std::vector<Message>& mail, FrameContext& frame, FrameProbe* probe,
-                 std::vector<Cycle>& batch);
+  bool takeBatch(const std::vector<Message>& mail, FrameContext& frame, FrameProbe* probe);
   // Load (scene_relief.cpp).
   void obey(const TimeSignature& now);
   void obey(const LoadDecision& decision);
@@ -250,15 +252,18 @@ private:
   Cycle cycleOf(Node& node, const TimeSignature& now);
   void hashRelief(StateHash& h) const;
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
-  void publishInstance(InstanceId id, ChangeSet& changes);
+  void publishInstance(const Instance& i, InstanceId id, ChangeSet& changes);
+  void handOn(ChangeSet& changes);
   void publishLights(const InputSample& input, ChangeSet& changes);
-  std::vector<std::size_t> lightsThatShine() const;
+  void findLightsThatShine();
+  void chooseLights(const Vec3& head_W);
   LightRecord lightInWorld(const Light& light) const;
-  void tellOfTooManyLights(const std::vector<std::size_t>& wanted, const std::vector<std::size_t>& chosen);
+  void tellOfTooManyLights();
   /// Follows the rest of a path, "arena/ball", from a scene node to what is loaded now.
   NodeRef resolveInside(NodeRef from, std::string_view path) const;
   /// A message with its names looked up as seen from `from`, as far as the first part.
   Message addressed(const std::string& target, NodeRef from, std::vector<std::string> arguments) const;
+  void markInstancesAt(PlacementId placement);
   Node* promote(Load& load, std::size_t index, const Affine& moved = Affine::Identity());
   bool isBelow(NodeRef ref, NodeRef ancestor) const;
   void enterNode(Node& node);
@@ -266,7 +271,7 @@ private:
   void setBusy(Node& node);
   void wakeWatchers();
   void markInstance(InstanceId id);
-  void rehash(const Node& node);
+  void rehash(Node& node);
   std::uint64_t nodeHash(const Node& node) const;
 
   SceneLoader& loader_;
@@ -276,10 +281,10 @@ private:
   std::uint32_t nextLoad_ = 1;
   std::vector<Change> pendingLoads_;
   MessageQueue messages_;
-  std::set<Visit> busy_;
-  std::set<Visit> round_;  ///< still to be visited in this frame
+  Agenda agenda_;
+  std::vector<Cycle> batch_;
   std::optional<Visit> current_;
-  std::vector<NodeRef> wokenLate_;
+  std::vector<NodeRef> wokenLate_, wokenBefore_;
   std::map<NodeRef, std::uint32_t> reliefLevels_;  ///< of those that have to do without something
   std::map<NodeRef, Relief> reliefs_;              ///< of them and all below them
   std::uint64_t reliefLoads_ = 0;                  ///< loadsVersion_ when these were found
@@ -294,20 +299,23 @@ private:
   std::uint64_t loadsVersion_ = 0, loadsTold_ = 0;
   std::set<NodeRef> loadWatchers_;
   Courses courses_;
+  Course trackerWay_;      ///< trackerCourse()'s answer
   InputSample lastInput_;  ///< of the frame before
   Pose rigStart_;          ///< X_WR at this frame's start
   std::set<Wake> wakes_;
-  std::map<NodeRef, std::uint64_t> hashes_;
   std::uint64_t hashSum_ = 0;
-  std::vector<NodeRef> touched_;
+  std::vector<Node*> touched_;
 
   std::vector<Instance> instances_;
   std::vector<InstanceId> freeInstances_, changedInstances_;
-  std::vector<std::vector<InstanceId>> instancesAt_;  ///< by placement
+  std::vector<InstanceId> instancesAt_;  ///< by placement: the first of them
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightsAt_;  ///< how many, by placement
   bool lightsChanged_ = true;
+  std::vector<std::size_t> wanted_;   ///< that would shine
+  std::vector<std::size_t> chosen_;   ///< of these, at most kMostLights
   std::vector<std::size_t> shining_;  ///< those published last, while more than kMostLights would shine
+  std::vector<std::pair<double, std::size_t>> brightest_;
   bool toldOfLights_ = false;
   std::vector<SoundSpot> sounds_;
   std::vector<Sky> skies_;  ///< the last one is seen

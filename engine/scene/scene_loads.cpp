@@ -44,8 +44,7 @@ Node* Scene::promote(Load& load, std::size_t index, const Affine& moved) {
   Appearance appearance;
   appearance.mesh = record.mesh;
   appearance.drawn = (record.flags & InstanceRecord::kShown) != 0;
-  std::string name = object.name ? *object.name : std::string();
-  auto node = std::make_unique<ObjectNode>(NodeKind::Object, self, std::move(name), place, appearance);
+  auto node = std::make_unique<ObjectNode>(NodeKind::Object, self, load.nameOf(object), place, appearance);
   ObjectNode& added = *node;
   load.nodes[object.position] = std::move(node);
   load.enterOrder.push_back(object.position);
@@ -167,11 +166,8 @@ void Scene::enterNode(Node& node) {
 
 void Scene::leaveNode(Node& node) {
   node.leave(*this);
-  busy_.erase({node.rank(), node.self()});
-  if (const auto h = hashes_.find(node.self()); h != hashes_.end()) {
-    hashSum_ -= h->second;
-    hashes_.erase(h);
-  }
+  agenda_.setBusy(node, false);
+  hashSum_ -= std::exchange(node.standing().hash, 0);
 }
 
 void Scene::remove(std::uint32_t number, std::uint64_t frame) {
@@ -186,6 +182,8 @@ void Scene::remove(std::uint32_t number, std::uint64_t frame) {
 
   Load& load = *at->second;
   for (auto p = load.enterOrder.rbegin(); p != load.enterOrder.rend(); ++p) leaveNode(*load.nodes[*p]);
+  agenda_.settle();
+  std::erase_if(touched_, [&](const Node* node) { return node->self().load == number; });
   if (load.chunkShown) chunkChanges_.push_back({load.chunk, false}), --chunksShown_;
   std::erase_if(staticChanges_, [&](const ChangeSet::StaticItem& s) { return s.chunk == load.chunk; });
   std::unique_ptr<Load> gone = std::move(at->second);

@@ -44,10 +44,10 @@ InstanceId Scene::addInstance(PlacementId placement, MeshId mesh, bool drawn, No
     freeInstances_.pop_back();
   }
   Instance& i = instances_[id];
-  i.placement = placement, i.mesh = mesh, i.owner = owner, i.drawn = drawn, i.live = true;
-  if (instancesAt_.size() <= placement) instancesAt_.resize(placement + 1);
-  instancesAt_[placement].push_back(id);
-  markInstance(id);
+  i.placement = placement, i.owner = owner, i.drawn = drawn, i.live = true;
+  if (instancesAt_.size() <= placement) instancesAt_.resize(placement + std::size_t{1}, kNoInstance);
+  i.next = std::exchange(instancesAt_[placement], id);
+  setMesh(id, mesh);
   return id;
 }
 
@@ -58,14 +58,19 @@ void Scene::setDrawn(InstanceId id, bool drawn) {
 
 void Scene::removeInstance(InstanceId id) {
   Instance& i = instances_[id];
-  std::erase(instancesAt_[i.placement], id);
+  InstanceId* at = &instancesAt_[i.placement];
+  while (*at != id) at = &instances_[*at].next;
+  *at = i.next;
   i.live = false;
   markInstance(id);
   freeInstances_.push_back(id);
 }
 
 void Scene::setMesh(InstanceId id, MeshId mesh) {
-  instances_[id].mesh = mesh;
+  Instance& i = instances_[id];
+  i.mesh = mesh;
+  i.form = mesh == kNoMesh ? nullptr : meshes_.find(mesh);
+  i.transparent = i.form && i.form->transparent();
   markInstance(id);
 }
 
@@ -78,6 +83,11 @@ void Scene::markInstance(InstanceId id) {
   if (instances_[id].changed) return;
   instances_[id].changed = true;
   changedInstances_.push_back(id);
+}
+
+void Scene::markInstancesAt(PlacementId placement) {
+  if (placement >= instancesAt_.size()) return;
+  for (InstanceId id = instancesAt_[placement]; id != kNoInstance; id = instances_[id].next) markInstance(id);
 }
 
 std::size_t Scene::addLight(PlacementId placement, const LightRecord& local, NodeRef node) {
@@ -134,14 +144,19 @@ void Scene::publish(const TimeSignature& now, const InputSample& input, ChangeSe
   changes.signature = now;
   changes.chunks.swap(chunkChanges_);
   changes.statics.swap(staticChanges_);
+  // What moved and nothing else needs no mark. The rest is marked, so that it goes once.
   for (const PlacementId p : placements_.takeChanged()) {
     if (p < instancesAt_.size())
-      for (const InstanceId id : instancesAt_[p]) markInstance(id);
+      for (InstanceId id = instancesAt_[p]; id != kNoInstance; id = instances_[id].next)
+        if (!instances_[id].changed) publishInstance(instances_[id], id, changes);
     lightsChanged_ |= p < lightsAt_.size() && lightsAt_[p] > 0;
   }
-  for (const InstanceId id : changedInstances_) publishInstance(id, changes);
+  for (const InstanceId id : changedInstances_) {
+    instances_[id].changed = false;
+    publishInstance(instances_[id], id, changes);
+  }
   changedInstances_.clear();
-  counters_.changesPublished = changes.instances.size();
+  handOn(changes);
   if (lightsChanged_ || !shining_.empty()) publishLights(input, changes);
   changes.sky = skies_.empty() ? SkyRecord{} : skies_.back().record;
   changes.viewer.set(rigPose(), headInRig(input));
@@ -149,23 +164,48 @@ void Scene::publish(const TimeSignature& now, const InputSample& input, ChangeSe
   changes.viewer.stress = stress();
 }
 
-void Scene::publishInstance(InstanceId id, ChangeSet& changes) {
-  Instance& i = instances_[id];
-  i.changed = false;
-  ChangeSet::Instance change{id, {}};
-  change.record.radius = -1;
-  const Mesh* mesh = i.live ? meshes_.find(i.mesh) : nullptr;
-  if (mesh)
-    change.record = makeInstance(placements_.world(i.placement), *mesh, i.mesh,
-                                 i.drawn && placements_.shown(i.placement), i.owner, reliefOf(i.owner).lod);
-  changes.instances.push_back(change);
+void Scene::publishInstance(const Instance& i, InstanceId id, ChangeSet& changes) {
+  ChangeSet::Instance& change = changes.instances.emplace_back();
+  ++counters_.changesPublished;
+  change.id = id;
+  InstanceRecord& r = change.record;
+  r.radius = -1;
+  if (i.live && i.form) {
+    placeInstance(r, placements_.world(i.placement), i.form->sphere);
+    r.mesh = i.mesh, r.owner = i.owner;
+    r.flags = (i.drawn && placements_.shown(i.placement) ? InstanceRecord::kShown : 0) |
+              (i.transparent ? InstanceRecord::kTransparent : 0);
+    r.lodFactor = i.form->levels.empty() ? 0 : static_cast<float>(reliefOf(i.owner).lod);
+  }
+  if (changes.instances.size() >= ChangeSet::kBlock) handOn(changes);
 }
 
-std::vector<std::size_t> Scene::lightsThatShine() const {
-  std::vector<std::size_t> handles;
+void Scene::handOn(ChangeSet& changes) {
+  if (!changes.sink || changes.instances.empty()) return;
+  changes.sink->take(changes.instances);
+  changes.instances.clear();
+}
+
+void Scene::findLightsThatShine() {
+  wanted_.clear();
   for (std::size_t i = 0; i < lights_.size(); ++i)
-    if (lights_[i].live && lights_[i].on && placements_.shown(lights_[i].placement)) handles.push_back(i);
-  return handles;
+    if (lights_[i].live && lights_[i].on && placements_.shown(lights_[i].placement)) wanted_.push_back(i);
+}
+
+/// Those that are brightest where the visitor is; among equals the one that came first.
+void Scene::chooseLights(const Vec3& head_W) {
+  chosen_ = wanted_;
+  if (wanted_.size() <= kMostLights) return;
+  brightest_.clear();
+  for (const std::size_t h : wanted_)
+    brightest_.emplace_back(-brightnessAt(head_W, lightInWorld(lights_[h])), h);
+  std::sort(brightest_.begin(), brightest_.end(), [this](const auto& a, const auto& b) {
+    return std::tie(a.first, lights_[a.second].node) < std::tie(b.first, lights_[b.second].node);
+  });
+  chosen_.clear();
+  for (std::size_t i = 0; i < kMostLights; ++i) chosen_.push_back(brightest_[i].second);
+  std::sort(chosen_.begin(), chosen_.end());
+  tellOfTooManyLights();
 }
 
 LightRecord Scene::lightInWorld(const Light& light) const {
@@ -179,43 +219,29 @@ LightRecord Scene::lightInWorld(const Light& light) const {
 }
 
 void Scene::publishLights(const InputSample& input, ChangeSet& changes) {
-  std::vector<std::size_t> handles = lightsThatShine();
-  const bool tooMany = handles.size() > kMostLights;
-  if (tooMany) {
-    // Those that are brightest where the visitor is; among equals the one that came first.
-    const Vec3 head_W = rigPose() * headInRig(input).p;
-    std::vector<std::pair<double, std::size_t>> order;
-    for (const std::size_t h : handles)
-      order.emplace_back(-brightnessAt(head_W, lightInWorld(lights_[h])), h);
-    std::sort(order.begin(), order.end(), [this](const auto& a, const auto& b) {
-      return std::tie(a.first, lights_[a.second].node) < std::tie(b.first, lights_[b.second].node);
-    });
-    std::vector<std::size_t> chosen;
-    for (std::size_t i = 0; i < kMostLights; ++i) chosen.push_back(order[i].second);
-    std::sort(chosen.begin(), chosen.end());
-    tellOfTooManyLights(handles, chosen);
-    handles = std::move(chosen);
-  }
-  const bool same = tooMany && handles == shining_;
-  shining_ = tooMany ? handles : std::vector<std::size_t>{};
+  findLightsThatShine();
+  chooseLights(rigPose() * headInRig(input).p);
+  const bool tooMany = wanted_.size() > kMostLights;
+  const bool same = tooMany && chosen_ == shining_;
+  shining_.clear();
+  if (tooMany) shining_ = chosen_;
   if (same && !lightsChanged_) return;
   lightsChanged_ = false;
   changes.lightsChanged = true;
   const bool anyLight = std::any_of(lights_.begin(), lights_.end(), [](const Light& l) { return l.live; });
   if (!anyLight) changes.lights.push_back(afternoonSun());
-  for (const std::size_t h : handles) changes.lights.push_back(lightInWorld(lights_[h]));
+  for (const std::size_t h : chosen_) changes.lights.push_back(lightInWorld(lights_[h]));
 }
 
-void Scene::tellOfTooManyLights(const std::vector<std::size_t>& wanted,
-                                const std::vector<std::size_t>& chosen) {
+void Scene::tellOfTooManyLights() {
   if (toldOfLights_) return;
   toldOfLights_ = true;
   constexpr std::size_t kMostNames = 5;
   SourcePosition where;
   std::string names;
   std::size_t dark = 0;
-  for (const std::size_t h : wanted) {
-    if (std::binary_search(chosen.begin(), chosen.end(), h)) continue;
+  for (const std::size_t h : wanted_) {
+    if (std::binary_search(chosen_.begin(), chosen_.end(), h)) continue;
     const NodeRef node = lights_[h].node;
     const Load* from = load(node.load);
     const std::uint32_t line =
@@ -229,7 +255,7 @@ void Scene::tellOfTooManyLights(const std::vector<std::size_t>& wanted,
   if (dark > kMostNames) names += " and " + std::to_string(dark - kMostNames) + " more";
   loader_.report({Severity::Warning,
                   where,
-                  std::to_string(wanted.size()) + " lights are on, of which the " +
+                  std::to_string(wanted_.size()) + " lights are on, of which the " +
                       std::to_string(kMostLights) +
                       " brightest where the visitor is shine; dark at the moment: " + names,
                   {}});
@@ -266,14 +292,15 @@ std::optional<Pose> Scene::trackerInWorld(const std::string& tracker, const Inpu
   return rigPose() * t->X_RT;
 }
 
-std::optional<Course> Scene::trackerCourse(const std::string& tracker, const FrameContext& frame) const {
+const Course* Scene::trackerCourse(const std::string& tracker, const FrameContext& frame) {
   const TrackerSample* t = frame.input.find(tracker);
-  if (!t || !t->valid) return std::nullopt;
+  if (!t || !t->valid) return nullptr;
   // Who has not looked for some frames: where it was before this one nobody remembers.
   const Nanoseconds start = frameStart_, end = frame.now.time;
   const Pose X_WR = rigPose();
   const bool rides = X_WR.p != rigStart_.p || X_WR.q.coeffs() != rigStart_.q.coeffs();
-  Course way;
+  Course& way = trackerWay_;
+  way.clear();
   const auto add = [&](Nanoseconds time, const Pose& X_RT, bool jump) {
     const double s = static_cast<double>(time - start) / static_cast<double>(end - start);
     const Pose X_WT = (rides && time < end ? det::interpolate(rigStart_, X_WR, s) : X_WR) * X_RT;
@@ -288,7 +315,7 @@ std::optional<Course> Scene::trackerCourse(const std::string& tracker, const Fra
     if (k.X.finite() && k.time >= (way.empty() ? start : way.back().time) && k.time <= end)
       add(k.time, k.X, k.jump);
   if (way.empty() || way.back().time < end) add(end, t->X_RT, false);
-  return way;
+  return &way;
 }
 
 Pose Scene::headInRig(const InputSample& input) const {

@@ -80,8 +80,7 @@ void Scene::relieve(NodeRef ref, const Relief& before, const Relief& now) {
   const auto* placed = l ? dynamic_cast<const PlacedNode*>(l->nodes[ref.position].get()) : nullptr;
   if (!placed || placed->placement() == kNoPlacement) return;
   if (before.hidden != now.hidden) placements_.setShown(placed->placement(), !now.hidden, Hider::Relief);
-  if (before.lod != now.lod && placed->placement() < instancesAt_.size())
-    for (const InstanceId id : instancesAt_[placed->placement()]) markInstance(id);
+  if (before.lod != now.lod) markInstancesAt(placed->placement());
 }
 
 /// Whether its cycle does not run in this frame. Those that share a pace take turns.

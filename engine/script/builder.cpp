@@ -103,7 +103,7 @@ private:
   bool mayMove(std::uint32_t i) const {
     const NodeKind kind = document_[i].kind();
     return mentioned_[i] || kind == NodeKind::DynObject || kind == NodeKind::Rig || kind == NodeKind::Path ||
-           kind == NodeKind::Scene || kind == NodeKind::Lod;
+           kind == NodeKind::Sway || kind == NodeKind::Scene || kind == NodeKind::Lod;
   }
 
   const Document& document_;
@@ -125,6 +125,9 @@ public:
     load.X_WO = input_.X_WO;
     load.nodes.resize(input_.document.size());
     load.lines.reserve(input_.document.size());
+    std::size_t statics = 0;
+    for (std::uint32_t i = 0; i < input_.document.size(); ++i) statics += layout_.isStatic(i);
+    load.statics.reserve(statics), built_.staticRecords.reserve(statics);
     for (const Declaration d : input_.document) {
       load.lines.push_back(d.line());
       addTerms(d);
@@ -206,7 +209,8 @@ private:
   void addStatic(const Declaration& d, const std::string* name) {
     const Affine X = worldPlaceOf(d);
     const Appearance a = appearanceOf(d);
-    built_.load->statics.push_back({d.index(), d.line(), parentOf(d), name});
+    built_.load->statics.push_back({d.index(), parentOf(d)});
+    if (name) built_.load->staticNames.emplace_back(d.index(), name);
     built_.staticRecords.push_back(
         makeInstance(X, *input_.store.find(a.mesh), a.mesh, a.drawn, {input_.number, d.index()}));
   }

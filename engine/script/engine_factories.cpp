@@ -7,6 +7,7 @@
 #include "engine/nodes/rig_node.h"
 #include "engine/nodes/scene_node.h"
 #include "engine/nodes/sound_node.h"
+#include "engine/nodes/sway_node.h"
 #include "engine/nodes/text_node.h"
 #include "engine/nodes/timer_node.h"
 #include "engine/nodes/trigger_node.h"
@@ -134,6 +135,17 @@ Made makePath(const NodeRequest& r) {
                                     d.flag(Attr::InitState));
 }
 
+Made makeSway(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  SwayAttributes a;
+  for (const NodeReference& target : d.references(Attr::Target))
+    if (const NodeRef node = r.resolve(target); node.valid()) a.targets.push_back(node);
+  a.amplitude = d.vec3(Attr::Amplitude), a.frequency = d.vec3(Attr::Frequency);
+  a.phase = d.vec3(Attr::Phase) * kDegree, a.phaseStep = d.vec3(Attr::PhaseStep) * kDegree;
+  a.angularVelocity = d.vec3(Attr::AngularVelocity) * kDegree;
+  return std::make_unique<SwayNode>(r.self, r.name, r.place, std::move(a), d.flag(Attr::InitState));
+}
+
 Made makeSound(const NodeRequest& r) {
   const Declaration& d = r.declaration;
   SoundNode::Attributes a;
@@ -172,6 +184,7 @@ void addEngineFactories(NodeFactories& factories) {
   set(NodeKind::Timer, makeTimer);
   set(NodeKind::Scene, makeScene);
   set(NodeKind::Path, makePath);
+  set(NodeKind::Sway, makeSway);
   set(NodeKind::Sound, makeSound);
   set(NodeKind::Navigator, makeNavigator), set(NodeKind::Rig, makeRig);
 }

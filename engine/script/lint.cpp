@@ -91,6 +91,7 @@ private:
     case NodeKind::Timer: return lookAtSender(node);
     case NodeKind::Scene: return lookAtScene(node);
     case NodeKind::Path: return lookAtPath(node);
+    case NodeKind::Sway: return lookAtSway(node);
     case NodeKind::Sound: return lookAtSound(node);
     case NodeKind::Collision:
     case NodeKind::Dynamics: return lookAtContacts(node);
@@ -193,19 +194,36 @@ private:
            "this scene is not loaded at the start, and without a name it never can be");
   }
 
-  void lookAtPath(const Declaration& node) {
+  void lookAtTargets(const Declaration& node) {
     if (!node.has(Attr::Target) && (node.name().empty() || (alone_ && !uses_[node.index()].isParent)))
       warn(node, Attr::Name,
            fmt::format("{} moves nothing: it has no target, and no node has it as parent", called(node)));
-    if (const auto target = node.has(Attr::Target) ? node.reference(Attr::Target) : std::nullopt) {
-      const Use* use = useOf(*target);
+    for (const NodeReference& target : referencesIf(node, Attr::Target)) {
+      const Use* use = useOf(target);
       if (use && use->simulated)
-        report_.warning(
-            target->where,
-            fmt::format("\"{}\" is moved by a dynamics node, never by this path; make it an object",
-                        target->name));
+        report_.warning(target.where,
+                        fmt::format("\"{}\" is moved by a dynamics node, never by this {}; make it an object",
+                                    target.name, nameOf(node.kind())));
     }
+  }
+
+  void lookAtPath(const Declaration& node) {
+    lookAtTargets(node);
     lookAtTurns(node);
+    warnNeverOn(node);
+  }
+
+  void lookAtSway(const Declaration& node) {
+    lookAtTargets(node);
+    warnRepeated(node, Attr::Target);
+    const Vec3 amplitude = node.vec3(Attr::Amplitude), frequency = node.vec3(Attr::Frequency);
+    if (amplitude.isZero(0) && node.vec3(Attr::AngularVelocity).isZero(0))
+      warn(node, Attr::Amplitude,
+           fmt::format("{} moves nothing: its amplitude and angularvelocity are 0", called(node)));
+    for (int i = 0; i < 3; ++i)
+      if (amplitude[i] != 0 && frequency[i] == 0)
+        warn(node, Attr::Frequency,
+             fmt::format("along {} it does not go to and fro: its frequency there is 0", "xyz"[i]));
     warnNeverOn(node);
   }
 

@@ -19,7 +19,7 @@ KindSet pacedKinds() {
 
 KindSet lodLevelKinds() {
   using enum NodeKind;
-  return {Group, Transform, Lod, Object, DynObject, Text, Path, Scene};
+  return {Group, Transform, Lod, Object, DynObject, Text, Path, Sway, Scene};
 }
 
 std::span<const AttributeSpec> commonAttributes() {

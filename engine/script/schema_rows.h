@@ -22,13 +22,14 @@ inline constexpr NumberRange kForce{-kFar, kFar};
 
 inline constexpr KindSet kFields{ForceLinear, ForceSpherical, ForcePoint, ForceVortex, Medium};
 inline constexpr KindSet kMovable =
-    KindSet{Group, Transform, Lod,         Object,      DynObject, Light,  Text,
-            Path,  Sound,     UserTrigger, WandTrigger, Scene,     Measure} |
+    KindSet{Group, Transform, Lod,   Object,      DynObject,   Light, Text,
+            Path,  Sway,      Sound, UserTrigger, WandTrigger, Scene, Measure} |
     kFields;
-inline constexpr KindSet kParents{Group, Transform, Lod, Object, DynObject, Path, Scene, Rig};
+inline constexpr KindSet kParents{Group, Transform, Lod, Object, DynObject, Path, Sway, Scene, Rig};
 inline constexpr KindSet kSolid{Object, DynObject};
 inline constexpr KindSet kSwitched =
-    KindSet{UserTrigger, WandTrigger, Timer, Light, Path, Sound, Navigator, Dynamics, Collision} | kFields;
+    KindSet{UserTrigger, WandTrigger, Timer, Light, Path, Sway, Sound, Navigator, Dynamics, Collision} |
+    kFields;
 
 /// Those whose cycle may run more seldom, and those that have such below them.
 inline constexpr KindSet kPaced{Scene, Collision, Dynamics};

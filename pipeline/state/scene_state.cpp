@@ -1,5 +1,7 @@
 #include "pipeline/state/scene_state.h"
 
+#include "engine/prefetch.h"
+
 #include <algorithm>
 #include <cassert>
 
@@ -81,30 +83,42 @@ void SceneState::ensure(std::size_t slot, std::size_t instanceCount) {
   h.instanceCount = instanceCount;
 }
 
-void SceneState::catchUp(std::size_t slot, std::size_t& copied) {
+void SceneState::makeRoom(std::size_t slot, std::size_t instanceCount) {
+  if (marks_.size() < instanceCount) marks_.resize(instanceCount);
+  ensure(slot, marks_.size());
+}
+
+/// From the newest slot, but for what has been written already. Returns how many records were copied.
+std::size_t SceneState::catchUp(std::size_t slot) {
   Missed& missed = missed_[slot];
+  const auto bit = static_cast<std::uint8_t>(1U << slot);
+  std::size_t copied = 0;
+  InstanceRecord* here = instances(slot);
+  const InstanceRecord* there = instances(newest_);
+  for (const InstanceId id : missed.instances) {
+    if ((marks_[id].missedBy & bit) == 0) continue;
+    marks_[id].missedBy = static_cast<std::uint8_t>(marks_[id].missedBy & ~bit);
+    if (slot == newest_) continue;
+    here[id] = there[id];
+    stamp(slot, id);
+    ++copied;
+  }
   if (any_ && slot != newest_) {
     Header& to = header(slot);
     const Header& from = header(newest_);
-    ensure(slot, from.instanceCount);
-    for (const InstanceId id : missed.instances) {
-      instances(slot)[id] = instances(newest_)[id];
-      stamp(slot, id);
-    }
-    copied += missed.instances.size();
     for (const auto& [chunk, indices] : missed.statics) {
-      const ChunkView there = arena_.find(chunk, newest_), here = arena_.find(chunk, slot);
-      if (there.records.empty()) continue;
-      for (const std::uint32_t index : indices) setBit(here.hidden, index, bitOf(there.hidden, index));
+      const ChunkView was = arena_.find(chunk, newest_), is = arena_.find(chunk, slot);
+      if (was.records.empty()) continue;
+      for (const std::uint32_t index : indices) setBit(is.hidden, index, bitOf(was.hidden, index));
     }
     to.lightCount = from.lightCount;
     std::copy_n(from.lights, from.lightCount, to.lights);
     to.chunkCount = from.chunkCount;
     std::copy_n(from.chunks, from.chunkCount, to.chunks);
   }
-  for (const InstanceId id : missed.instances) missed.listed[id] = false;
   missed.instances.clear();
   missed.statics.clear();
+  return copied;
 }
 
 namespace {
@@ -118,15 +132,17 @@ bool standAlike(const InstanceRecord& a, const InstanceRecord& b) {
 
 }  // namespace
 
-/// Notes that the instance is published, and says whether it was there before, and elsewhere. `old`: its
-/// record so far.
-bool SceneState::movesBy(const ChangeSet::Instance& change, const InstanceRecord& old) {
-  if (known_.size() <= change.id) known_.resize(change.id + std::size_t{1}, Known::Absent);
-  Known& known = known_[change.id];
+/// Notes that the instance is published, and says whether it was there before, and elsewhere. The newest slot
+/// has its record so far.
+bool SceneState::movesBy(const ChangeSet::Instance& change) {
+  using Known = Marks::Known;
+  Known& known = marks_[change.id].known;
   const bool there = change.record.radius >= 0;
   const Known before = known;
+  if (before == Known::Moves && there) return true;
   // What is only to be drawn in less detail still stands where it stood.
-  if (before == Known::Still && there && standAlike(change.record, old)) return false;
+  if (before == Known::Still && there && standAlike(change.record, instances(newest_)[change.id]))
+    return false;
   known = !there ? Known::Absent : known == Known::Absent ? Known::Still : Known::Moves;
   if (before == Known::Still || known == Known::Still) ++stillVersion_;
   return known == Known::Moves;
@@ -135,14 +151,6 @@ bool SceneState::movesBy(const ChangeSet::Instance& change, const InstanceRecord
 void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
   Header& h = header(slot);
   if (!changes.chunks.empty() || !changes.statics.empty()) ++stillVersion_;
-  for (const ChangeSet::Instance& i : changes.instances) {
-    ensure(slot, i.id + std::size_t{1});
-    InstanceRecord& record = instances(slot)[i.id];
-    const bool moves = movesBy(i, record);
-    record = i.record;
-    if (moves) record.flags |= kMoves;
-    stamp(slot, i.id);
-  }
   for (const ChangeSet::StaticItem& s : changes.statics)
     if (const ChunkView there = arena_.find(s.chunk, slot); !there.records.empty())
       setBit(there.hidden, s.index, s.hidden);
@@ -166,12 +174,6 @@ void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
 
 void SceneState::miss(std::size_t slot, const ChangeSet& changes) {
   Missed& missed = missed_[slot];
-  for (const ChangeSet::Instance& i : changes.instances) {
-    if (missed.listed.size() <= i.id) missed.listed.resize(i.id + std::size_t{1});
-    if (missed.listed[i.id]) continue;
-    missed.listed[i.id] = true;
-    missed.instances.push_back(i.id);
-  }
   for (const ChangeSet::StaticItem& s : changes.statics) {
     std::vector<std::uint32_t>& indices = missed.statics[s.chunk];
     // An object leaves its chunk once; should it be told twice, once is enough.
@@ -192,16 +194,51 @@ std::size_t SceneState::noted() const {
 }
 
 std::size_t SceneState::publish(std::size_t slot, const ChangeSet& changes) {
-  std::size_t copied = changes.instances.size();
+  begin(slot);
+  return finish(changes);
+}
+
+void SceneState::begin(std::size_t slot) {
+  writing_ = slot, taken_ = 0;
   header(slot).writes.fetch_add(1, std::memory_order_acq_rel);
-  catchUp(slot, copied);
+}
+
+void SceneState::take(std::span<const ChangeSet::Instance> block) {
+  constexpr auto kAll = static_cast<std::uint8_t>((1U << kSlots) - 1);
+  const auto others = static_cast<std::uint8_t>(kAll & ~(1U << writing_));
+  std::size_t end = 0;
+  for (const ChangeSet::Instance& i : block) end = std::max(end, i.id + std::size_t{1});
+  makeRoom(writing_, end);
+  InstanceRecord* records = instances(writing_);
+  for (const ChangeSet::Instance& i : block) {
+    // What moves together has mostly come together: the next block is likely to be the neighbour.
+    if (i.id + block.size() < marks_.size()) prefetch(&records[i.id + block.size()]);
+    const bool moves = movesBy(i);
+    records[i.id] = i.record;
+    if (moves) records[i.id].flags |= kMoves;
+    if (&i == &block.back() || (&i + 1)->id / kInstancesAStamp != i.id / kInstancesAStamp)
+      stamp(writing_, i.id);
+    // This slot has it, the others have missed it from now on.
+    std::uint8_t& missedBy = marks_[i.id].missedBy;
+    const unsigned already = missedBy;
+    missedBy = others;
+    for (std::size_t slot = 0; slot < kSlots; ++slot)
+      if ((others & ~already & (1U << slot)) != 0) missed_[slot].instances.push_back(i.id);
+  }
+  taken_ += block.size();
+}
+
+std::size_t SceneState::finish(const ChangeSet& changes) {
+  take(changes.instances);
+  const std::size_t slot = writing_;
+  const std::size_t copied = catchUp(slot);
   apply(slot, changes);
   header(slot).writes.fetch_add(1, std::memory_order_acq_rel);
   for (std::size_t other = 0; other < kSlots; ++other)
     if (other != slot) miss(other, changes);
   newest_ = slot;
   any_ = true;
-  return copied;
+  return taken_ + copied;
 }
 
 SlotView SceneState::view(std::size_t slot) const {

@@ -7,7 +7,8 @@
 ///
 /// All of it lies in shared memory in plain fixed-width records without pointers.
 ///
-/// Threads  publish() by App alone, into a slot that nobody reads; view() by whoever holds a lease on the
+/// Threads  publish() and its parts by App alone, into a slot that nobody reads; view() by whoever holds a
+/// lease on the
 ///          slot (FrameSlots decides who may do what when).
 
 #include "pipeline/state/chunk_arena.h"
@@ -52,20 +53,24 @@ struct SlotView {
   }
 };
 
-class SceneState {
+class SceneState final : public ChangeSet::Sink {
 public:
   static constexpr std::size_t kMaxLights = kMostLights, kMaxChunks = kMostChunks;
 
   /// `memories` is how many slots really have memory of their own. Anything below kSlots is a broken
   /// pipeline, which tests use to show that they would notice.
   explicit SceneState(std::size_t memories = kSlots);
-  ~SceneState();
+  ~SceneState() override;
 
   ChunkArena& arena() { return arena_; }
 
   /// Writes frame `changes.signature.frame` into `slot`. Returns the number of records copied, catching up
   /// included. Expects at most kMaxLights lights and kMaxChunks chunks (the scene sees to it).
   std::size_t publish(std::size_t slot, const ChangeSet& changes);
+  /// The same in parts: begin(), take() any number of instances, each once, then finish() with the rest.
+  void begin(std::size_t slot);
+  void take(std::span<const ChangeSet::Instance> block) override;
+  std::size_t finish(const ChangeSet& changes);
   SlotView view(std::size_t slot) const;
   /// How many changes are noted for slots that have not been written since: at most one a moved instance and
   /// one an object that has left a chunk that is shown, for each slot, however long the show runs.
@@ -76,8 +81,7 @@ private:
   struct Slot;
   /// What a slot has missed since it was last written. App's own.
   struct Missed {
-    std::vector<InstanceId> instances;
-    std::vector<bool> listed;
+    std::vector<InstanceId> instances;                      ///< each once: marks_ says which are in it
     std::map<ChunkId, std::vector<std::uint32_t>> statics;  ///< who left which chunk, while it is shown
   };
 
@@ -86,20 +90,27 @@ private:
   std::atomic<std::uint32_t>* stamps(std::size_t slot) const;
   void stamp(std::size_t slot, InstanceId id) const;
   void ensure(std::size_t slot, std::size_t instanceCount);
-  bool movesBy(const ChangeSet::Instance& change, const InstanceRecord& old);
-  void catchUp(std::size_t slot, std::size_t& copied);
+  bool movesBy(const ChangeSet::Instance& change);
+  void makeRoom(std::size_t slot, std::size_t instanceCount);
+  std::size_t catchUp(std::size_t slot);
   void apply(std::size_t slot, const ChangeSet& changes);
   void miss(std::size_t slot, const ChangeSet& changes);
 
   ChunkArena arena_;
   std::vector<std::unique_ptr<SharedSegment>> memory_;
   std::array<Missed, kSlots> missed_;
-  enum class Known : std::uint8_t { Absent, Still, Moves };
-  std::vector<Known> known_;  ///< by InstanceId; App's own
+  /// Of an instance, App's own: what is known of it, and which slots have missed it.
+  struct Marks {
+    enum class Known : std::uint8_t { Absent, Still, Moves } known = Known::Absent;
+    std::uint8_t missedBy = 0;  ///< one bit a slot
+  };
+  std::vector<Marks> marks_;  ///< by InstanceId
   std::uint64_t stillVersion_ = 0;
   ShadowPlaces shadowPlaces_;
   std::size_t newest_ = 0;
   bool any_ = false;
+  std::size_t writing_ = 0;  ///< the slot that was begun
+  std::size_t taken_ = 0;    ///< instances since then
 };
 
 }  // namespace stadion

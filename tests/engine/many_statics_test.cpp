@@ -15,7 +15,8 @@ void addStatics(Load& load, std::uint32_t count, const std::vector<InstanceRecor
   load.chunkRecords = records;
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto at = load.names.emplace("stone" + std::to_string(i), i).first;
-    load.statics.push_back({i, i, {}, &at->first});
+    load.statics.push_back({i, {}});
+    load.staticNames.emplace_back(i, &at->first);
   }
 }
 

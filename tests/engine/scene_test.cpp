@@ -15,7 +15,7 @@ TEST(Scene, VisitsOnlyTheNodesThatHaveSomethingToDo) {
     load.nodes.resize(100000);
     load.chunk = 1;
     load.chunkRecords = records;
-    for (std::uint32_t i = 0; i < 100000; ++i) load.statics.push_back({i, i, {}});
+    for (std::uint32_t i = 0; i < 100000; ++i) load.statics.push_back({i, {}});
     for (int i = 0; i < 10; ++i) addNode<MovingNode>(load, "", PlaceAttributes{}, true, mesh);
     for (int i = 0; i < 500; ++i) addNode<MovingNode>(load, "", PlaceAttributes{}, false, mesh);
   };
@@ -192,7 +192,7 @@ TEST(Scene, AStaticObjectBecomesANodeWhenItIsAddressed) {
     load.nodes.resize(1);
     load.chunk = 5;
     load.chunkRecords = records;
-    load.statics = {{0, 1, {}}};
+    load.statics = {{0, {}}};
     load.names["stone"] = 0;
   };
   show.scene.open("show");

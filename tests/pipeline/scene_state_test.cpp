@@ -47,7 +47,15 @@ TEST(SceneState, EverySlotHoldsWhatASingleCopyWouldHold) {
       c.instances.push_back(instance(id, frame));
     }
     const std::size_t slot = random() % kSlots;
-    state.publish(slot, c);
+    if (frame % 2 == 0) {
+      state.publish(slot, c);
+    } else {  // the same, some of it before the rest
+      const std::size_t before = random() % (c.instances.size() + 1);
+      state.begin(slot);
+      state.take(std::span(c.instances).first(before));
+      c.instances.erase(c.instances.begin(), c.instances.begin() + static_cast<std::ptrdiff_t>(before));
+      state.finish(c);
+    }
     const SlotView v = state.view(slot);
     for (InstanceId id = 0; id < v.instances.size(); ++id) {
       ASSERT_EQ(v.instances[id].radius > 0, there[id]);

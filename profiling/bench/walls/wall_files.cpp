@@ -60,14 +60,24 @@ std::string roomText(const WallScene& scene, std::size_t walls) {
   return text;
 }
 
-std::string movingNode(const WallNode& rest, std::size_t i, std::size_t frames) {
-  std::string text = fmt::format("path( name=way_{}", i);
-  for (std::size_t frame = 0; frame <= frames; ++frame) {
-    const double t = static_cast<double>(frame) / kWallSceneRate;
-    const WallNode at = movedNode(rest, i, t);
-    text += fmt::format(", key=\"{:.9f}, {}, 0, 0, {:.17g}\"", t, number(at.position), degrees(at.heading));
+/// What movedNode says, of every node from `first` to `end` that moves.
+std::string movingNodes(const WallScene& scene, std::size_t first, std::size_t end) {
+  std::string targets;
+  std::vector<double> numbers;
+  for (std::size_t i = first; i < end; ++i) {
+    if (!scene.moves(i)) continue;
+    targets += fmt::format(",\n  target=n_{}", i);
+    numbers.push_back(static_cast<double>(i));
   }
-  return text + fmt::format(" )\nobject( file=mesh_{}.obj, parent=way_{} )\n", rest.mesh, i);
+  if (targets.empty()) return {};
+  // -cos(a) is sin(a - 90 degrees). Numbers rise by the same step.
+  const double at = numbers.front(), step = numbers.size() > 1 ? numbers[1] - numbers[0] : 0;
+  const Vec3 phase(degrees(at), degrees(at) - 90, degrees(0.37 * at));
+  const Vec3 phaseStep(degrees(step), degrees(step), degrees(0.37 * step));
+  return fmt::format("sway( amplitude=\"2, 2, 0.5\", frequency=\"{}\", phase=\"{}\", phasestep=\"{}\", "
+                     "angularvelocity=\"0, 0, {:.17g}\"{} )\n",
+                     number(Vec3(1.1, 1.1, 1.9) / (2 * std::numbers::pi)), number(phase), number(phaseStep),
+                     degrees(0.8), targets);
 }
 
 /// All but the nodes.
@@ -86,7 +96,7 @@ std::string showText(std::size_t frames) {
 
 /// The nodes from `first` on, so many as a file holds.
 std::string nodesText(const WallScene& scene, const std::vector<WallNode>& nodes, std::size_t first,
-                      bool grouped, std::size_t frames) {
+                      bool grouped) {
   const std::size_t cells = scene.tiny() ? 32 : 20;
   const auto cellOf = [&](double x) {
     return std::min(cells - 1, static_cast<std::size_t>((x + 100) / 200 * static_cast<double>(cells)));
@@ -95,19 +105,17 @@ std::string nodesText(const WallScene& scene, const std::vector<WallNode>& nodes
   if (grouped)
     for (std::size_t cell = 0; cell < cells * cells; ++cell)
       text += fmt::format("group( name=cell_{} )\n", cell);
-  for (std::size_t i = first; i < std::min(first + kNodesInAFile, nodes.size()); ++i) {
+  const std::size_t end = std::min(first + kNodesInAFile, nodes.size());
+  for (std::size_t i = first; i < end; ++i) {
     const WallNode& node = nodes[i];
-    if (scene.moves(i)) {
-      text += movingNode(node, i, frames);
-      continue;
-    }
     text += fmt::format("object( file=mesh_{}.obj, position=\"{}\", orientation=\"0, 0, {:.17g}\"", node.mesh,
                         number(node.position), degrees(node.heading));
-    if (grouped)
+    if (scene.moves(i)) text += fmt::format(", name=n_{}", i);
+    if (grouped && !scene.moves(i))
       text += fmt::format(", parent=cell_{}", cellOf(-node.position.y()) * cells + cellOf(node.position.x()));
     text += " )\n";
   }
-  return text;
+  return text + movingNodes(scene, first, end);
 }
 
 }  // namespace
@@ -129,7 +137,7 @@ std::string writeWallScene(const std::string& folder, const WallScene& scene, st
   const std::vector<WallNode> nodes = wallNodes(scene);
   std::string show = showText(frames);
   for (std::size_t first = 0; first < nodes.size(); first += kNodesInAFile) {
-    const std::string part = nodesText(scene, nodes, first, grouped, frames);
+    const std::string part = nodesText(scene, nodes, first, grouped);
     if (nodes.size() <= kNodesInAFile) {
       show += part;
       break;

@@ -1,0 +1,90 @@
+#pragma once
+/// `sway`: moves its targets to and fro, each along a sinusoid about where the script has put it, and turns
+/// them evenly: boats, banners, a shoal.
+///
+/// Target k, from 0, is displaced along each axis by amplitude x sin(2 pi frequency t + phase + k phasestep)
+/// and turned about itself by angularvelocity x t. t is the time for which the node has been on: nothing is
+/// integrated, so that the way does not depend on the frame rate.
+///
+/// All targets are moved together: what the sinusoids have in common is computed once a frame, and a target
+/// costs a few multiplications (sin(a + b) = sin a cos b + cos a sin b). Where a target is follows from this
+/// node's state; it is no part of the target's own until it is left there.
+///
+/// Commands  enable (goes on where it stopped), disable (the targets stay where they are at the command's
+///           time), toggle, reset (back to t = 0), and those of a placed node when it moves what stands below
+///           it.
+/// Times     who looks at what it moves is told its way inside the frame, by chords of 2 ms on a grid of show
+///           time.
+/// Frames    displacement and angular velocity are in the coordinates of the target's parent.
+
+#include "engine/nodes/placed_node.h"
+#include "engine/nodes/switched.h"
+
+#include <optional>
+#include <vector>
+
+namespace stadion {
+
+struct SwayAttributes {
+  std::vector<NodeRef> targets;         ///< in the order of the script; empty = itself
+  Vec3 amplitude = Vec3::Zero();        ///< [m]
+  Vec3 frequency = Vec3::Zero();        ///< [Hz]
+  Vec3 phase = Vec3::Zero();            ///< of the first target [rad]
+  Vec3 phaseStep = Vec3::Zero();        ///< from target to target [rad]
+  Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s]
+};
+
+class SwayNode : public PlacedNode {
+public:
+  SwayNode(NodeRef self, std::string name, PlaceAttributes place, SwayAttributes sway, bool on)
+      : PlacedNode(NodeKind::Sway, self, std::move(name), std::move(place)), sway_(std::move(sway)),
+        switch_(on) {}
+
+  Rank rank() const override { return Rank::Motion; }
+  bool busy() const override { return switch_.on() || PlacedNode::busy(); }
+  void hash(StateHash& h) const override;
+
+protected:
+  void onEnter(Scene& scene) override;
+  void onLeave(Scene& scene) override;
+  void receive(const Message& m, FrameContext& frame) override;
+  void simulate(FrameContext& frame) override;
+
+private:
+  /// One target: everything that does not change with time.
+  struct Swing {
+    Vec3 rest;                 ///< [m]
+    Vec3 ofSin, ofCos;         ///< what of it goes with the sine of the common angle, and with its cosine [m]
+    double along, across, up;  ///< of what stands upright, its axes at rest: uprightAxes()
+  };
+  /// What the targets have in common at a time.
+  struct Moment {
+    Vec3 sin, cos;
+    Mat3 turn;
+  };
+
+  void settleTargets(Scene& scene);
+  Moment momentAt(Nanoseconds elapsed) const;
+  void put(std::size_t i, const Moment& m, Affine& X_PN) const;
+  void advanceTo(Nanoseconds time, FrameContext& frame);
+  void putTargets(Scene& scene);
+  void leaveTargets(Scene& scene);
+  void trace(Nanoseconds to, FrameContext& frame);
+  void traceOne(std::size_t i, Nanoseconds to, FrameContext& frame) const;
+  void jump(Nanoseconds when, FrameContext& frame);
+
+  SwayAttributes sway_;
+  Switched switch_;
+  Nanoseconds elapsed_ = 0;
+  Nanoseconds since_ = 0;             ///< show time up to which elapsed_ counts
+  std::optional<Nanoseconds> putAt_;  ///< when it last put its targets somewhere
+
+  // Parallel, by target; found in its first cycle, when all of them are there.
+  bool settled_ = false;
+  std::vector<PlacedNode*> nodes_;
+  std::vector<PlacementId> placements_;
+  std::vector<Swing> swings_;
+  std::vector<Mat3> axes_;  ///< rotation and scale at rest; empty while all stand upright and turn about +Z
+};
+
+}  // namespace stadion

@@ -1,0 +1,74 @@
+#include "engine/scene/agenda.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace stadion {
+namespace {
+
+Agenda::Entry entryOf(Node& node) {
+  return {{node.rank(), node.self()}, &node};
+}
+
+void sortOut(std::vector<Agenda::Entry>& entries) {
+  std::ranges::sort(entries);
+  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+}
+
+}  // namespace
+
+void Agenda::setBusy(Node& node, bool busy) {
+  if (node.standing().busy == busy) return;
+  node.standing().busy = busy;
+  if (busy)
+    joining_.push_back(entryOf(node));
+  else
+    left_ = true;
+}
+
+void Agenda::settle() {
+  if (!joining_.empty()) {
+    busy_.insert(busy_.end(), joining_.begin(), joining_.end());
+    joining_.clear();
+    sortOut(busy_);
+  }
+  if (left_) std::erase_if(busy_, [](const Entry& e) { return !e.node->standing().busy; });
+  left_ = false;
+}
+
+void Agenda::begin() {
+  settle();
+  round_ = busy_;
+  at_ = 0;
+  later_.clear();
+}
+
+void Agenda::call(Node& node) {
+  round_.push_back(entryOf(node));
+}
+
+void Agenda::sort() {
+  if (std::ranges::adjacent_find(round_, std::greater_equal<>()) != round_.end()) sortOut(round_);
+}
+
+void Agenda::callNow(Node& node) {
+  later_.push_back(entryOf(node));
+  std::ranges::push_heap(later_, std::greater<>());
+}
+
+const Agenda::Entry* Agenda::next() const {
+  const Entry* first = at_ < round_.size() ? &round_[at_] : nullptr;
+  if (!later_.empty() && (!first || later_.front() < *first)) first = &later_.front();
+  return first;
+}
+
+void Agenda::take() {
+  const Entry taken = *next();
+  if (at_ < round_.size() && round_[at_] == taken) ++at_;
+  while (!later_.empty() && later_.front() == taken) {
+    std::ranges::pop_heap(later_, std::greater<>());
+    later_.pop_back();
+  }
+}
+
+}  // namespace stadion
