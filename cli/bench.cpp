@@ -6,6 +6,7 @@
 #include "cli/bench_flight.h"
 #include "cli/bench_plan.h"
 #include "cli/bench_recording.h"
+#include "cli/bench_scale.h"
 #include "cli/bench_walls.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
@@ -66,6 +67,7 @@ void addBenchCommand(CLI::App& app, int& code) {
   addBenchAttribution(*command, code);
   addBenchRecording(*command, code);
   addBenchWalls(*command, code);
+  addBenchScale(*command, code);
 }
 
 }  // namespace stadion

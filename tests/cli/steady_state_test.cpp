@@ -1,0 +1,94 @@
+/// While nothing comes or goes App asks for no memory: what it needs from frame to frame it has already.
+
+#include "profiling/allocations.h"
+#include "tests/cli/played_show.h"
+#include "tests/cli/program.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace stadion {
+namespace {
+
+/// How often App allocates in 60 frames, after some in which its buffers grew. The visitor's devices are as
+/// the log says.
+std::uint64_t allocationsOfApp(const std::string& script, const std::string& log = {},
+                               std::uint64_t warm = 120) {
+  const TemporaryFolder folder;
+  ShowOptions options;
+  options.script = script, options.walls = "cave4", options.size = "64x48";
+  options.input = log.empty() ? "none" : folder.write("visitor.input", "stadion-input 1\n" + log);
+  options.assetRoots = {assetFolder()};
+  Diagnostics findings;
+  const auto player = options.settle(findings) ? Player::create(options, findings) : nullptr;
+  tell(findings);
+  if (!player) return ADD_FAILURE() << "the show cannot be played", 0;
+  ShowStages stages(player->parts(StereoLayout::Pair));
+  Allocations before;
+  for (std::uint64_t frame = 0; frame < warm + 60; ++frame) {
+    if (frame == warm) before = allocationsSoFar();
+    stages.app(signatureAt(frame, 60), frame % kSlots);
+    player->collect(frame);
+  }
+  return (allocationsSoFar() - before).count;
+}
+
+std::string showOf(const TemporaryFolder& folder, const std::string& text) {
+  return folder.write("show.evs", text);
+}
+
+constexpr const char* kStill =
+    "pose head 0 0 -3 1.7 1 0 0 0\npose foot 0 0 -2 0.2 1 0 0 0\npose wand 0 0.3 -2 1.2 1 0 0 0\n";
+
+class ProgramSteadyState : public ::testing::Test {
+protected:
+  void SetUp() override {
+    if (!countsAllocations()) GTEST_SKIP() << "this build does not count";
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ProgramSteadyState, OfWhatStandsStill) {
+  std::string text;
+  for (int i = 0; i < 500; ++i)
+    text += fmt::format("object( file=football.3ds, position=\"{}, 9, 0\" )\n", i);
+  EXPECT_EQ(allocationsOfApp(showOf(folder_, text)), 0u);
+}
+
+TEST_F(ProgramSteadyState, OfWhatPathsAndSwaysMove) {
+  std::string text = "rig( name=room )\npath( target=room, loop=on, key=\"0, 0,0,0, 0,0,0\", "
+                     "key=\"1, 5,0,0, 0,0,90\", key=\"2, 0,0,0, 0,0,0\" )\n",
+              targets;
+  for (int i = 0; i < 500; ++i) {
+    text += fmt::format("object( name=b{0}, file=football.3ds, position=\"{0}, 9, 0\" )\n", i);
+    if (i % 2 == 0)
+      targets += fmt::format(", target=b{}", i);
+    else
+      text += fmt::format("path( target=b{0}, loop=on, smooth=on, key=\"0, {0},0,1\", key=\"1, {0},5,1\", "
+                          "key=\"2, {0},0,1, 0,0,90\" )\n",
+                          i);
+  }
+  text +=
+      fmt::format("sway( amplitude=\"1, 0, 1\", phasestep=10, angularvelocity=\"0, 0, 5\"{} )\n", targets);
+  EXPECT_EQ(allocationsOfApp(showOf(folder_, text), kStill), 0u);
+}
+
+TEST_F(ProgramSteadyState, OfThePapersShowWhileNobodyKicks) {
+  EXPECT_EQ(allocationsOfApp(std::string(STADION_SOURCE_DIR) + "/scripts/kick.evs", kStill, 400), 0u);
+}
+
+TEST_F(ProgramSteadyState, OfTriggersLevelsLightsAndWhatFollowsADevice) {
+  const std::string text =
+      "object( name=bat, file=crude_foot.obj )\n"
+      "timer( period=0.1, eventmessage=\"timesup, bat, attach all wand\" )\n"
+      "usertrigger( sphere=\"0, 0, 0, 1\", eventmessage=\"enter, bat, hide\" )\n"
+      "wandtrigger( box=\"0, 0, 0, 1, 1, 1\", eventmessage=\"enter, bat, hide\" )\n"
+      "lod( name=statue, ranges=\"15, 60\", position=\"0, 30, 0\" )\n"
+      "object( parent=statue, file=football.3ds )\nobject( parent=statue, file=football.3ds, scale=2 )\n"
+      "path( name=lift, loop=on, key=\"0, 0,0,0\", key=\"1, 0,0,3\", key=\"2, 0,0,0\" )\n"
+      "light( type=point, parent=lift, position=\"0, 4, 3\", colour=\"1, 0.8, 0.6\" )\n";
+  EXPECT_EQ(allocationsOfApp(showOf(folder_, text), kStill), 0u);
+}
+
+}  // namespace
+}  // namespace stadion
