@@ -23,6 +23,7 @@ struct RunOptions {
   std::string blackBox;  ///< where a live run keeps its last frames; empty: a temporary file
   SpanOptions spans;
   bool countWork = false;
+  bool unrecorded = false;  ///< for `stadion bench recording` alone
   StressOptions stress;     ///< of the whole show
   bool loadControl = true;  ///< a live run gives up what its script says, when it takes too long
   bool wait = false;

@@ -349,5 +349,18 @@ TEST(CostSeries, PercentilesAreExactToABin) {
   EXPECT_EQ(CostSeries().percentile(95), 0);
 }
 
+TEST(FrameLog, DrawingIsSampledFromWhenSomebodyAsksForIt) {
+  FrameLog log({}, {.samples = false, .whole = false, .from = 0});
+  EXPECT_EQ(log.drawSample(9, 0), DrawSample::None);
+  EXPECT_FALSE(log.wantsShares(16, 0));
+  log.setSamples(true);
+  EXPECT_EQ(log.drawSample(9, 0), DrawSample::Some);
+  EXPECT_EQ(log.drawSample(8, 0), DrawSample::None) << "nobody asked for whole eyes";
+  EXPECT_TRUE(log.wantsShares(16, 0));
+  FrameLog shares({}, {.samples = false, .shares = true, .from = 0});
+  EXPECT_TRUE(shares.wantsShares(16, 0));
+  EXPECT_EQ(shares.drawSample(9, 0), DrawSample::None);
+}
+
 }  // namespace
 }  // namespace stadion
