@@ -147,7 +147,7 @@ void SpanTimes::boundary(const Cost* cost) {
   if (!counting_) return;
   if (options_.instructions) {
     const std::uint64_t now = options_.instructions();
-    if (cost) executed_[cost->row] += static_cast<double>(now - counted_);
+    if (cost && now > counted_) executed_[cost->row] += static_cast<double>(now - counted_);
     counted_ = options_.instructions();  // what was done here is nobody's
     return;
   }
