@@ -190,7 +190,8 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;
   }
-  if (recording && !tellRecording(o, *recording, *s.player)) return code == kOk ? kBadInput : code;
+  if (recording && !tellRecording(o, *recording, *s.player, stages.glDescription()))
+    return code == kOk ? kBadInput : code;
   return code;
 }
 

@@ -110,7 +110,7 @@ void NodeCosts::take(const SharedSpan& s) {
 
 void NodeCosts::take(const DrawnAlone& d, const std::vector<NodeShare>& nodes) {
   if (d.what == Span::Draw)
-    sample(Span::Draw, d.frame, d.wall, d.eye, std::max(0.0, d.ms - d.emptyMs), nodes);
+    sample(Span::Draw, d.frame, d.wall, d.eye, d.ms, nodes);
 }
 
 std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
@@ -124,9 +124,10 @@ std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
     const Drawn& drawn = drawn_[key.governed];
     if (s.frame + kOld < frame || s.frame > frame || drawn.hidden || s.frame < drawn.since) continue;
     sampled[key.governed] = sampled[key.governed] || key.what == Span::Draw;
-    costs[key.governed].cost.drawn += s.ms;
-    costs[key.governed].sure.drawn += std::min(s.ms, s.before);
-    stages[{key.governed, key.what == Span::Draw, key.wall}] += s.ms;
+    const double ms = std::max(0.0, s.ms);  // of next to nothing, a clock may say less than nothing
+    costs[key.governed].cost.drawn += ms;
+    costs[key.governed].sure.drawn += std::min(ms, std::max(0.0, s.before));
+    stages[{key.governed, key.what == Span::Draw, key.wall}] += ms;
   }
   for (std::size_t i = 0; i < costs.size(); ++i)
     costs[i].known =

@@ -130,6 +130,17 @@ struct Drawn : Governed {
   }
 };
 
+TEST(LoadGovernor, WhatDrawingNothingTakesIsTakenOffOnce) {
+  Governed g({{1, {}, 1}});
+  for (int i = 0; i < 100; ++i) {
+    for (int piece = 0; g.at % 16 == 9 && piece < 8; ++piece)
+      g.governor->take(DrawnAlone{g.at, 0, 0, Span::Draw, 0.2, 0.15}, {{NodeRef{1, 0}, 1}});
+    g.frame({0});
+  }
+  EXPECT_NEAR(g.governor->reports().at(0).worst, 1.6, 1e-9) << "DrawnAlone::ms is without it";
+  EXPECT_GT(g.governor->reports().at(0).overruns, 80U);
+}
+
 TEST(LoadGovernor, WhatIsHiddenCostsNothing) {
   Drawn g(1, {Hide});
   g.draw(120, 3);
