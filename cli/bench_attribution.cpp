@@ -46,7 +46,8 @@ std::vector<Line> linesOf(const ShowFigures& f, const Show& show) {
   const double alone = draw.nodes + draw.named;
   const double both = app.measured + cull.measured;
   std::vector<Line> lines = {
-      {"App + Cull + Draw on named nodes or parts of stages", scaled / measured, 0.98, true},
+      {"App + Cull + Draw on named nodes or parts of stages; Draw is scaled to the eyes drawn whole",
+       scaled / measured, 0.98, true},
       {"the same before what was drawn alone is scaled", found / measured, 0, true},
       {"App on named nodes or parts", app.covered(), 0, true},
       {"Cull on named nodes or parts", cull.covered(), 0, true},

@@ -2,6 +2,7 @@
 
 #include "cli/bench_recording_instructions.h"
 #include "cli/exit_code.h"
+#include "cli/last_frames.h"
 #include "cli/number_option.h"
 #include "cli/player.h"
 #include "cli/show_recording.h"
@@ -81,7 +82,9 @@ public:
     std::unique_ptr<TurningShow> made(new TurningShow(turns, who));
     made->player_ = Player::create(options, findings, tell);
     if (!made->player_) return nullptr;
-    if (recorded) made->recording_ = ShowRecording::create({}, findings);
+    RecordingOptions everything;
+    everything.keep = temporaryLastFrames(made->player_->walls().names());
+    if (recorded) made->recording_ = ShowRecording::create(std::move(everything), findings);
     ShowParts parts = made->player_->parts(StereoLayout::Pair);
     parts.provider = &provider;
     parts.probe = made->probe();
@@ -171,8 +174,9 @@ std::optional<double> moreInstructions(const ShowOptions& show, const TemporaryF
                                  "--size",  show.size,   "--mode",       "sequential",
                                  "--input", "none",      "--asset-root", show.assetRoots.front(),
                                  "--json"};
+  words.push_back("--unrecorded");
   const FrameInstructions without = instructionsAFrame(words, folder.path(""), stop);
-  words.push_back("--profile");
+  words.back() = "--profile";
   const FrameInstructions with =
       without.fault.empty() ? instructionsAFrame(words, folder.path(""), stop) : without;
   if (!with.fault.empty()) return findings.error({}, with.fault), std::nullopt;

@@ -25,13 +25,21 @@ std::string temporaryFile() {
 
 }  // namespace
 
+BlackBoxOptions temporaryLastFrames(std::vector<std::string> walls) {
+  BlackBoxOptions box;
+  box.file = temporaryFile(), box.rate = 0, box.wanted = false;
+  box.walls = std::move(walls);
+  return box;
+}
+
 BlackBoxOptions lastFramesOf(const RunOptions& o, const Player& player, std::vector<std::string> walls) {
   const FrameLoopOptions loop = o.loopOptions(player);
-  BlackBoxOptions box;
+  BlackBoxOptions box = temporaryLastFrames({});
   box.wanted = !o.blackBox.empty();
-  box.file = box.wanted ? o.blackBox : temporaryFile();
+  if (box.wanted) box.file = o.blackBox;
   box.rate = loop.pace == Pace::Free ? 0 : loop.rate;
   box.walls = std::move(walls);
+  box.sequential = loop.mode == Mode::Sequential;
   return box;
 }
 
@@ -44,12 +52,14 @@ bool lastFramesCanBeKept(const RunOptions& o, Diagnostics& findings) {
 }
 
 std::string lateFramesText(const BlackBox& box) {
-  if (box.late() == 0) return "";
+  if (!box.stays()) return "";
+  const std::string where =
+      fmt::format("the last {} frames: stadion profile --black-box {}\n", BlackBox::kFrames, box.file());
+  if (box.late() == 0) return where;
   std::string causes;
   for (const auto& [cause, count] : box.verdicts())
     causes += fmt::format("{}{} {}", causes.empty() ? "" : ", ", count, nameOf(cause));
-  return fmt::format("late frames: {}\nthe last {} frames: stadion profile --black-box {}\n", causes,
-                     BlackBox::kFrames, box.file());
+  return fmt::format("late frames: {}\n{}", causes, where);
 }
 
 }  // namespace stadion

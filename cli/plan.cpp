@@ -26,6 +26,7 @@ namespace {
 
 constexpr std::size_t kMostWalls = 24;
 constexpr std::uint64_t kFramesMeasured = 60;
+constexpr double kQuiet = 0.5;  ///< threads of others for each core
 
 struct Options {
   PlanRunOptions run;
@@ -75,6 +76,7 @@ std::optional<plan::ShowCosts> measure(Options& o, Diagnostics& findings) {
   if (!provider) return findings.add(provider.error()), std::nullopt;
   o.run.layout = *stereoLayout(o.stereo);
   o.run.walls = std::min(count.value_or(walls->walls.size()), walls->walls.size());
+  const double load = loadNow();
   MeasuredCosts measured;
   if (!measureCosts(o.run, *provider.value(), measured, findings)) return {};
 
@@ -86,10 +88,15 @@ std::optional<plan::ShowCosts> measure(Options& o, Diagnostics& findings) {
   costs.walls.resize(o.run.walls);
   costs.cores = coresHere(), costs.rasterThreads = rasterThreadsHere();
   costs.waitsInTurn = measured.waitsInTurn;
-  costs.frames = plan::typicalCosts(measured.runs);
-  plan::assumeUndisturbed(costs.frames);
+  costs.frames = plan::plannedCosts(measured.runs);
   if (costs.frames.empty())
     return findings.error({}, "no frame could be measured: ask for more with --frames"), std::nullopt;
+  if (load > kQuiet * coresHere() || plan::wasStarved(costs.frames))
+    findings.warning({},
+                     fmt::format("others were at work on this machine (load {:.1f} before, {:g} cores): what "
+                                 "is said of threads, and so what is predicted, may be far off; measure "
+                                 "again when it is quiet",
+                                 load, coresHere()));
   return costs;
 }
 

@@ -3,6 +3,7 @@
 #include "cli/stop_signal.h"
 
 #include <algorithm>
+#include <fstream>
 
 namespace stadion {
 namespace {
@@ -48,6 +49,12 @@ bool play(const PlanRunOptions& options, Mode mode, GlProvider& provider, FrameP
 }
 
 }  // namespace
+
+double loadNow() {
+  double load = 0;
+  std::ifstream("/proc/loadavg") >> load;
+  return load;
+}
 
 bool measureCosts(const PlanRunOptions& options, GlProvider& provider, MeasuredCosts& costs,
                   Diagnostics& findings) {

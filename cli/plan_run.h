@@ -30,6 +30,9 @@ struct PlayedTimes {
 /// Frames that are played before those that are looked at: programs are compiled and meshes uploaded in them.
 constexpr std::uint64_t kFramesBefore = 6;
 
+/// Threads of the whole machine that were ready, on average over the last minute.
+double loadNow();
+
 /// Adds a run. False, with the findings, if something of the user's is wrong.
 bool measureCosts(const PlanRunOptions& options, GlProvider& provider, MeasuredCosts& costs,
                   Diagnostics& findings);

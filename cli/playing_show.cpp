@@ -57,6 +57,7 @@ void PlayingShow::beginRecording() {
   RecordingOptions options;
   options.profile = false, options.also = &budget_;
   options.log.whole = false, options.log.samples = hasDrawnBudgets(player_->scene());
+  options.log.shares = true;
   options.govern = governorOf(around_.options, *player_, walls);
   options.keep = lastFramesOf(around_.options, *player_, walls);
   options.keep->wanted = false;  // whether it can be was found out before anything was played

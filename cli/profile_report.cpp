@@ -33,7 +33,7 @@ std::string wallsText(const ProfileRunOptions& o, const Player& player) {
 std::string rasteriserText(const ProfileRunOptions& o, const std::string& gl) {
   if (!o.drawn || gl.empty()) return "nobody: App and Cull alone";
   const char* threads = std::getenv("LP_NUM_THREADS");
-  return o.provider == "egl" ? gl : gl + ", LP_NUM_THREADS=" + (threads ? threads : "?");
+  return !drawnBySoftware(gl) ? gl : gl + ", LP_NUM_THREADS=" + (threads ? threads : "?");
 }
 
 BodyFigures figuresOf(const BodyFidelity& b) {

@@ -1,5 +1,6 @@
 #include "cli/profile_run.h"
 
+#include "cli/last_frames.h"
 #include "cli/profile_report.h"
 #include "cli/show_recording.h"
 #include "cli/stop_signal.h"
@@ -28,6 +29,7 @@ std::unique_ptr<ShowRecording> record(const ProfileRunOptions& options, const Pl
   const std::vector<std::string> walls = player.walls().names();
   recorded.trace = options.trace.settle(findings);
   if (recorded.trace) recorded.trace->show = options.show.script, recorded.trace->walls = walls;
+  recorded.keep = temporaryLastFrames(walls);
   if (!options.html.empty()) recorded.report = RecordingOptions::Report{player.rate(), walls};
   return findings.hasErrors() ? nullptr : ShowRecording::create(std::move(recorded), findings);
 }
@@ -71,13 +73,14 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnos
   FrameLoop loop(stages, loopOptions, stop, &recording->probe());
   const FrameLoopOutcome outcome = loop.run();
   progress.finish();
+  if (outcome.failure) recording->keepLastFrames();
   if (outcome.failure) return findings.error({}, outcome.failure->message), std::nullopt;
   recording->finishTrace(findings);
   if (findings.hasErrors()) return {};
   if (recording->lost() > 0)
     findings.warning({}, std::to_string(recording->lost()) + " spans were lost: they came faster than they "
                                                              "could be collected");
-  ShowFigures figures = recording->figures(player->walls().names(), options.provider != "egl");
+  ShowFigures figures = recording->figures(player->walls().names(), drawnBySoftware(stages.glDescription()));
   if (figures.frames == 0) return findings.error({}, tooShort("the show ended too early")), std::nullopt;
   if (html) {
     ReportData data = recording->report(reportHead(options, *player, stages.glDescription()), figures);

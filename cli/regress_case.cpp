@@ -4,6 +4,7 @@
 #include "cli/regress_hint.h"
 #include "cli/regress_rounds.h"
 #include "profiling/regression/instruction_comparison.h"
+#include "profiling/regression/instruction_counter.h"
 #include "profiling/regression/rank_test.h"
 
 #include <fmt/format.h>
@@ -202,31 +203,46 @@ private:
     }
   }
 
+  /// Who counts, if anybody: what the baseline was counted by; else hardware if there is any, and callgrind
+  /// on request. The checks say why nobody does.
+  std::optional<CountedBy> whoCounts() {
+    const std::string why = whyNotByHardware();
+    const bool kept = known() && !known()->instructions.empty();
+    const bool byHardware = kept ? known()->countedBy == nameOf(CountedBy::Hardware) : why.empty();
+    if (byHardware && why.empty()) return CountedBy::Hardware;
+    if (!byHardware && o_.instructions) return CountedBy::Callgrind;
+    result_.checks.push_back(
+        {"instructions", Outcome::Skipped,
+         byHardware ? "the baseline's were counted by hardware counters: " + why
+         : why.empty()
+             ? "the baseline's were counted by callgrind: --instructions does so again (half a minute a case)"
+             : fmt::format("counted on request: --instructions (callgrind, half a minute a case); {}", why)});
+    return std::nullopt;
+  }
+
   void takeInstructions() {
-    if (!o_.instructions) {
-      result_.checks.push_back({"instructions", Outcome::Skipped,
-                                "counted on request: --instructions (callgrind, half a minute a case)"});
-      return;
-    }
     const bool needed = !with_.program.empty() || update_ || (known() && !known()->instructions.empty());
+    const auto by = whoCounts();
+    if (!by) return;
     if (!needed) return nothingFor("instructions");
-    progress_(result_.name + ": instructions");
-    const CountedInstructions now = countInstructions(case_, {o_.program}, true, measuring());
+    progress_(fmt::format("{}: instructions, by {}", result_.name, nameOf(*by)));
+    const CountedInstructions now = countInstructions(case_, {o_.program}, true, measuring(), *by);
     if (failed(now.fault)) return;
     result_.instructions = stageInstructions(now.rows);
     const double tolerance = case_.tolerances.instructions / 100;
+    const std::string how = fmt::format(", by {}", nameOf(*by));
     if (update_) {
       BaselineCase& kept = (*update_)[result_.name];
-      kept.instructions = result_.instructions;
+      kept.instructions = result_.instructions, kept.countedBy = nameOf(*by);
       kept.nodeInstructions = dearOf(nodeInstructions(now.rows), result_.instructions);
     } else if (with_.program.empty()) {
       const InstructionCounts before{known()->instructions, known()->nodeInstructions};
-      add(checksOf(compareInstructions(before, now.rows, tolerance), "the baseline", tolerance));
+      add(checksOf(compareInstructions(before, now.rows, tolerance), "the baseline" + how, tolerance));
     } else {
-      const CountedInstructions before = countInstructions(case_, {with_.program}, true, measuring());
+      const CountedInstructions before = countInstructions(case_, {with_.program}, true, measuring(), *by);
       if (!failed(before.fault))
         add(checksOf(compareInstructions(instructionCounts(before.rows), now.rows, tolerance),
-                     "the other build", tolerance));
+                     "the other build" + how, tolerance));
     }
   }
 

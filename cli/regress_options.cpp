@@ -68,7 +68,8 @@ void RegressOptions::addTo(CLI::App& command) {
       ->check(CLI::IsMember({"state", "images", "counts", "instructions", "times"}));
   command.add_flag(
       "--instructions", instructions,
-      "count instructions where the suite compares them (under callgrind: half a minute a case)");
+      "count instructions where the suite compares them also where the processor has no counter of them that "
+      "can be read: under callgrind, half a minute a case");
   command.add_option("--rounds", rounds, "of times, instead of the suite's number")
       ->check(wholeNumberFrom(10, 80));
   command.add_option("--limit", limit, "seconds that a program may take to play a case once")

@@ -5,6 +5,7 @@
 #include "engine/plain_file.h"
 #include "profiling/regression/calibration.h"
 #include "profiling/regression/callgrind_record.h"
+#include "profiling/regression/instruction_comparison.h"
 
 #include <fmt/format.h>
 
@@ -140,11 +141,36 @@ MeasuredRounds measureRounds(const SuiteCase& c, const std::string& mode, const 
   return measured;
 }
 
+std::string_view nameOf(CountedBy by) {
+  return by == CountedBy::Hardware ? "hardware counters" : "callgrind";
+}
+
+namespace {
+
+/// The rasteriser's threads are not counted: it works in its own.
+CountedInstructions countByHardware(const SuiteCase& c, const MeasuredProgram& program,
+                                    const std::string& file, bool drawn, const MeasuringOptions& options) {
+  std::vector<std::string> words = measuredWords(c, "sequential", program, file, false);
+  words.erase(words.begin(), std::ranges::find(words, program.path));
+  words.emplace_back("--count-by-hardware");
+  if (!drawn) words.insert(words.end(), {"--gl", "none"});
+  const ChildResult child = runChild(words, options.limit, options.stop);
+  CountedInstructions counted{{}, child.fault};
+  if (counted.fault.empty()) counted.rows = spanRows(textOf(file));
+  if (counted.fault.empty() && stageInstructions(counted.rows).empty())
+    counted.fault = "the hardware counter has counted nothing";
+  return counted;
+}
+
+}  // namespace
+
 CountedInstructions countInstructions(const SuiteCase& c, const MeasuredProgram& program, bool drawn,
-                                      const MeasuringOptions& options) {
+                                      const MeasuringOptions& options, CountedBy by) {
   const TemporaryFolder folder;
   SuiteCase shorter = c;
   shorter.frames = c.frames == 0 ? kCountedFrames : std::min(c.frames, kCountedFrames);
+  if (by == CountedBy::Hardware)
+    return countByHardware(shorter, program, folder.path("spans"), drawn, options);
   std::vector<std::string> words = measuredWords(shorter, "sequential", program, folder.path("spans"), false);
   const auto at = std::ranges::find(words, program.path);
   words.insert(at, {"valgrind", "--tool=callgrind", "--trace-children=yes",

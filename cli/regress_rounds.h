@@ -1,5 +1,6 @@
 #pragma once
-/// What a case costs: by the clock, in rounds, and in instructions, under callgrind.
+/// What a case costs: by the clock, in rounds, and in instructions, by the processor's counter or
+/// under callgrind.
 ///
 /// Errors   a sentence in `fault`; then the rest is void.
 
@@ -37,13 +38,19 @@ MeasuredRounds measureRounds(const regression::SuiteCase& c, const std::string& 
                              const MeasuredProgram& now, const MeasuringOptions& options);
 
 struct CountedInstructions {
-  std::vector<regression::SpanRow> rows;  ///< `instructions` a frame, of our own program
+  std::vector<regression::SpanRow> rows;  ///< `instructions` a frame
   std::string fault{};
 };
 
+/// Who counts instructions: the processor, all of the thread that plays, at hardly any cost; or callgrind,
+/// those of our own program, slowly. Their counts cannot be compared with each other.
+enum class CountedBy { Hardware, Callgrind };
+std::string_view nameOf(CountedBy by);
+
 /// Of at most kCountedFrames frames of the case, drawn or not.
 CountedInstructions countInstructions(const regression::SuiteCase& c, const MeasuredProgram& program,
-                                      bool drawn, const MeasuringOptions& options);
+                                      bool drawn, const MeasuringOptions& options,
+                                      CountedBy by = CountedBy::Callgrind);
 constexpr std::uint64_t kCountedFrames = 12;
 
 }  // namespace stadion

@@ -44,7 +44,7 @@ struct RunSetup {
   std::unique_ptr<RunOutput> output;         ///< null without --out
   std::unique_ptr<SpanRecording> spans;      ///< null without --spans
   std::unique_ptr<DisplayRun> displays;      ///< null without --display
-  std::unique_ptr<ShowRecording> recording;  ///< null if nobody asks
+  std::unique_ptr<ShowRecording> recording;  ///< null if somebody else measures
   regression::WorkCounts work;               ///< with --count-work
 };
 
@@ -81,22 +81,22 @@ bool canDraw(GlProvider& provider, const ShowParts& parts, Diagnostics& findings
   return !why;
 }
 
-/// Who looks where frames go: of a live run always, so that late frames have a cause.
+/// Who looks where frames go: always, so that late frames have a cause, and a program that dies leaves what
+/// its last frames were spent on; but nobody beside who measures for a comparison.
 bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   s.recording.reset();
   const bool live = !o.everyFrameCounts(*s.player);
   RecordingOptions options;
   options.trace = o.events.settle(findings);
   if (findings.hasErrors()) return false;
-  if (!o.profile && !options.trace && !live) return true;
+  if (s.spans || o.countWork || o.unrecorded) return true;
   if (options.trace) options.trace->show = o.show.script, options.trace->walls = s.player->walls().names();
-  options.profile = o.profile, options.log.whole = o.profile;
-  options.log.samples = o.profile || hasDrawnBudgets(s.player->scene());
-  options.govern = governorOf(o, *s.player, s.player->walls().names());
-  if (live) {
-    options.keep = lastFramesOf(o, *s.player, s.player->walls().names());
-    options.keep->tell = tellSometimes();
-  }
+  options.profile = o.profile, options.log.whole = o.profile, options.log.shares = true;
+  const bool governed = live || o.profile || options.trace;
+  options.log.samples = o.profile || (governed && hasDrawnBudgets(s.player->scene()));
+  if (governed) options.govern = governorOf(o, *s.player, s.player->walls().names());
+  options.keep = lastFramesOf(o, *s.player, s.player->walls().names());
+  options.keep->tell = tellSometimes();
   s.recording = ShowRecording::create(std::move(options), findings);
   return s.recording != nullptr;
 }
@@ -182,6 +182,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
   if (outcome.nextGroup && !outcome.failure && !stop) return {};
+  if (recording && outcome.failure) recording->keepLastFrames();
 
   const int code = report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(),
                            s.desk->uptime(), recording, s.work.totals(s.player->walls().names())},
@@ -190,7 +191,8 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;
   }
-  if (recording && !tellRecording(o, *recording, *s.player)) return code == kOk ? kBadInput : code;
+  if (recording && !tellRecording(o, *recording, *s.player, stages.glDescription()))
+    return code == kOk ? kBadInput : code;
   return code;
 }
 

@@ -72,6 +72,7 @@ void RunOptions::addTo(CLI::App& command) {
   command.add_flag(
       "--count-work", countWork,
       "count pixels, spheres tested and seen, contacts and so on of all frames, for the summary");
+  command.add_flag("--unrecorded", unrecorded)->group("");  // for `stadion bench recording` alone
   addOperatorTo(command);
   command.add_flag("--json", json, "the summary as one JSON object on stdout");
   command.footer("SIGINT (Ctrl-C) and SIGTERM end the run after the frames under way; all that was asked for "
@@ -112,8 +113,8 @@ void RunOptions::addBlackBoxTo(CLI::App& command) {
   command
       .add_option(
           "--black-box", blackBox,
-          "where a live run keeps its last 600 frames while it plays (default: a temporary file); it stays "
-          "if one was late or the program died: stadion profile --black-box FILE")
+          "where a run keeps its last 600 frames while it plays (default: a temporary file); it stays if one "
+          "was late, the run failed or the program died: stadion profile --black-box FILE")
       ->check(aName, "FILE");
 }
 

@@ -24,6 +24,7 @@ struct RunOptions {
   std::string blackBox;  ///< where a live run keeps its last frames; empty: a temporary file
   SpanOptions spans;
   bool countWork = false;
+  bool unrecorded = false;           ///< for `stadion bench recording` alone
   StressOptions stress;              ///< of the whole show
   bool loadControl = true;           ///< a live run gives up what its script says, when it takes too long
   std::size_t latency = 0;           ///< frames under way at most; 0: as many as there is room for

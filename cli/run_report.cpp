@@ -132,11 +132,12 @@ int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder) {
   return verdict.code(run.outcome.stopped);
 }
 
-bool tellRecording(const RunOptions& o, ShowRecording& recording, const Player& player) {
+bool tellRecording(const RunOptions& o, ShowRecording& recording, const Player& player,
+                   const std::string& gl) {
   constexpr std::size_t kNodes = 10;
-  const bool software = o.provider != "egl";
   if (o.profile)
-    std::fprintf(stderr, "\n%s", toText(recording.figures(player.walls().names(), software), kNodes).c_str());
+    std::fprintf(stderr, "\n%s",
+                 toText(recording.figures(player.walls().names(), drawnBySoftware(gl)), kNodes).c_str());
   recording.finish();
   Diagnostics findings;
   recording.finishTrace(findings);

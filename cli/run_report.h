@@ -31,7 +31,8 @@ struct FinishedRun {
 int report(const FinishedRun& run, RunOutput* output, OutputFolder* folder);
 
 /// Which nodes cost the most, if it was asked for, and why frames were late, on stderr. False, and told, if
-/// the trace could not be written.
-bool tellRecording(const RunOptions& options, ShowRecording& recording, const Player& player);
+/// the trace could not be written. `gl`: who drew, as describeGl() says it.
+bool tellRecording(const RunOptions& options, ShowRecording& recording, const Player& player,
+                   const std::string& gl);
 
 }  // namespace stadion

@@ -3,6 +3,8 @@
 ///
 /// Threads  made before the run; see() on the App thread; figures() once the run is over.
 
+#include "cli/crash_report.h"
+#include "cli/live_load.h"
 #include "profiling/black_box.h"
 #include "profiling/load/load_governor.h"
 #include "profiling/report/report_data.h"
@@ -11,6 +13,7 @@
 #include "profiling/trace/trace_file.h"
 
 #include <optional>
+#include <utility>
 
 namespace stadion {
 
@@ -51,7 +54,10 @@ public:
       auto box = BlackBox::create(std::move(*options.keep), made->names_);
       if (!box && wanted) return findings.add(box.error()), nullptr;
       if (!box) findings.warning(box.error().where, box.error().message + kBlackBoxElsewhere);
-      if (box) made->box_ = std::move(box.value()), readers.push_back(made->box_.get());
+      if (box) {
+        made->box_ = std::move(box.value()), readers.push_back(made->box_.get());
+        made->told_.emplace(made->box_->file());
+      }
     }
     if (options.report) {
       made->report_ = std::make_unique<ReportRecording>(options.report->rate, options.report->walls,
@@ -63,6 +69,7 @@ public:
       if (const auto& why = made->trace_->error()) return findings.add(*why), nullptr;
       readers.push_back(made->trace_.get());
     }
+    made->sampled_ = options.profile;
     made->log_ = std::make_unique<FrameLog>(std::move(readers), options.log);
     return made;
   }
@@ -70,7 +77,11 @@ public:
   FrameProbe& probe() { return *log_; }
   void see(const Scene& scene) {
     names_.see(scene);
-    if (governor_) governor_->see(scene);
+    if (!governor_) return;
+    governor_->see(scene);
+    // A budget on something that is drawn may come with any file.
+    if (std::exchange(seen_, scene.loadsVersion()) != scene.loadsVersion())
+      log_->setSamples(sampled_ || hasDrawnBudgets(scene));
   }
   /// Who decides what is given up; null if nobody looks at budgets.
   LoadGovernor* governor() { return governor_.get(); }
@@ -104,6 +115,10 @@ public:
     return data;
   }
   const BlackBox* blackBox() const { return box_.get(); }
+  /// The run has failed: what the last frames say is kept.
+  void keepLastFrames() {
+    if (box_) box_->stay();
+  }
   std::uint64_t lost() const { return log_->lost(); }
 
 private:
@@ -120,10 +135,13 @@ private:
            static_cast<double>(std::max<std::uint64_t>(1, profile_.frames()));
   }
 
+  bool sampled_ = false;  ///< drawing, whoever has a budget
+  std::uint64_t seen_ = ~std::uint64_t{0};
   ShowProfile profile_;
   NodeNames names_;
   std::unique_ptr<LoadGovernor> governor_;
   std::unique_ptr<BlackBox> box_;
+  std::optional<ToldInCrash> told_;  ///< its file
   std::unique_ptr<TraceFile> trace_;
   std::unique_ptr<ReportRecording> report_;
   std::unique_ptr<FrameLog> log_;

@@ -10,10 +10,11 @@ class App;
 namespace stadion {
 
 struct SpanOptions {
-  std::string file;     ///< where the record goes; empty: nowhere
-  std::string planted;  ///< see PlantedDelay::parse
-  bool turns = false;   ///< frames are taken in turns with another run, over the standard input
-  bool instructions = false;
+  std::string file;           ///< where the record goes; empty: nowhere
+  std::string planted;        ///< see PlantedDelay::parse
+  bool turns = false;         ///< frames are taken in turns with another run, over the standard input
+  bool instructions = false;  ///< callgrind counts them
+  bool hardware = false;      ///< the processor's counter does
 
   void addTo(CLI::App& command);
 };

@@ -25,6 +25,7 @@ void SpanOptions::addTo(CLI::App& command) {
   command.add_option("--plant", planted)->group("");
   command.add_flag("--turns", turns)->group("");
   command.add_flag("--count-instructions", instructions)->group("");
+  command.add_flag("--count-by-hardware", hardware)->group("");
 }
 
 std::unique_ptr<SpanRecording> SpanRecording::create(const SpanOptions& options, Player& player,
@@ -36,10 +37,20 @@ std::unique_ptr<SpanRecording> SpanRecording::create(const SpanOptions& options,
   std::unique_ptr<SpanRecording> made(new SpanRecording(options, player));
   regression::SpanTimesOptions times;
   if (options.turns) times.turns = &made->turns_;
-  times.countInstructions = options.instructions;
+  times.countInstructions = options.instructions || options.hardware;
+  if (options.hardware && !made->count(times, findings)) return nullptr;
   if (!options.planted.empty() && !made->plant(times, findings)) return nullptr;
   made->times_.emplace(std::move(times));
   return made;
+}
+
+/// In sequential mode one thread does everything, and that is this one.
+bool SpanRecording::count(regression::SpanTimesOptions& times, Diagnostics& findings) {
+  std::string why;
+  counter_ = regression::InstructionCounter::open(why);
+  if (!counter_) return findings.error({}, "--count-by-hardware: " + why), false;
+  times.instructions = [this] { return counter_->now(); };
+  return true;
 }
 
 bool SpanRecording::plant(regression::SpanTimesOptions& times, Diagnostics& findings) {

@@ -5,6 +5,7 @@
 
 #include "cli/player.h"
 #include "cli/span_options.h"
+#include "profiling/regression/instruction_counter.h"
 #include "profiling/regression/span_times.h"
 
 #include <memory>
@@ -24,11 +25,13 @@ public:
 
 private:
   SpanRecording(const SpanOptions& options, Player& player) : options_(options), player_(player) {}
+  bool count(regression::SpanTimesOptions& times, Diagnostics& findings);
   bool plant(regression::SpanTimesOptions& times, Diagnostics& findings);
 
   const SpanOptions& options_;
   Player& player_;
   regression::Turns turns_{0};
+  std::optional<regression::InstructionCounter> counter_;
   std::optional<regression::SpanTimes> times_;
 };
 

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <exception>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/mman.h>
@@ -14,7 +15,7 @@
 namespace stadion {
 namespace {
 
-constexpr char kMagic[16] = "stadion frames2";
+constexpr char kMagic[16] = "stadion frames3";
 
 Diagnostic problem(const std::string& file, const std::string& what) {
   return {Severity::Error, {file, 0, 0}, what, {}};
@@ -53,18 +54,19 @@ bool isText(const char (&field)[N]) {
 
 bool isSound(const StageFacts& s) {
   return std::isfinite(s.ms) && std::isfinite(s.processor) && std::isfinite(s.turn) &&
-         std::isfinite(s.loading);
+         std::isfinite(s.loading) && std::isfinite(s.delayed) && std::isfinite(s.late);
 }
 
 /// Whether every field holds what a frame's may.
 bool isSound(const FrameFacts& f, std::uint32_t walls) {
   const bool place = f.walls <= walls && f.wall < std::max(1U, f.walls) && f.holder < std::max(1U, f.walls) &&
-                     (f.stage == Span::App || f.stage == Span::Cull || f.stage == Span::Draw);
+                     (isStage(f.stage));
   const bool figures = std::isfinite(f.period) && std::isfinite(f.budget) && std::isfinite(f.nodeMs) &&
                        std::isfinite(f.overMs) && std::isfinite(f.overBudget);
   const auto sound = [](const StageFacts& s) { return isSound(s); };
-  return place && figures && f.cause <= Cause::Unknown && isText(f.name) && isText(f.over) &&
-         isSound(f.app) && std::ranges::all_of(f.cull, sound) && std::ranges::all_of(f.draw, sound);
+  return place && figures && f.cause <= Cause::Unknown && isText(f.name) && isText(f.most) &&
+         isText(f.over) && isSound(f.app) && isSound(f.swap) && std::ranges::all_of(f.cull, sound) &&
+         std::ranges::all_of(f.draw, sound);
 }
 
 }  // namespace
@@ -136,12 +138,15 @@ Result<std::unique_ptr<BlackBox>> BlackBox::create(BlackBoxOptions options, cons
 
 BlackBox::~BlackBox() {
   munmap(ring_, sizeof(Ring));
-  if (late() == 0 && made_ && isStill(options_.file, file_.get())) ::unlink(options_.file.c_str());
+  const bool dying = std::uncaught_exceptions() > 0;
+  if (!stays() && !dying && made_ && isStill(options_.file, file_.get())) ::unlink(options_.file.c_str());
 }
 
 BlackBox::BlackBox(BlackBoxOptions options, const NodeNames& names, Place place)
     : options_(std::move(options)), file_(std::move(place.file)), made_(place.made), ring_(place.ring),
-      judge_(options_.rate, options_.walls.size(), names, [this](const FrameFacts& facts) { keep(facts); }) {}
+      judge_(
+          options_.rate, options_.walls.size(), names, [this](const FrameFacts& facts) { keep(facts); },
+          options_.sequential) {}
 
 void BlackBox::keep(FrameFacts facts) {
   if (const auto over = options_.overrun ? options_.overrun(facts.frame) : std::nullopt) {

@@ -3,7 +3,8 @@
 /// there afterwards. Each late frame gets its cause.
 ///
 /// Threads    SpanReader's; counts and latest() from any.
-/// Ownership  the file stays if a frame was late or the program died; else it is removed if this one made it.
+/// Ownership  the file stays if a frame was late, the program died, or it was to stay(); else it is removed
+/// if this one made it.
 ///            It is locked meanwhile: another run cannot keep its frames there. A file that is neither empty
 ///            nor such a file is never touched.
 
@@ -12,6 +13,7 @@
 #include "engine/asset/file_descriptor.h"
 #include "engine/diagnostic.h"
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <optional>
@@ -25,7 +27,8 @@ struct BlackBoxOptions {
   std::function<void(const std::string&)> tell{};  ///< a late frame, in words; on the log's thread
   /// Who overran its budget in a frame; null: nobody knows of budgets.
   std::function<std::optional<Overrun>(std::uint64_t frame)> overrun{};
-  bool wanted = true;  ///< somebody asked for it: a show does not go without
+  bool sequential = false;  ///< the stages' times add up
+  bool wanted = true;       ///< somebody asked for it: a show does not go without
 };
 
 class BlackBox final : public SpanReader {
@@ -39,10 +42,14 @@ public:
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override { judge_.take(track, record); }
   void take(const CountRecord& count) override { judge_.take(count); }
+  void take(const SharedSpan& shared) override { judge_.take(shared); }
 
   /// Late frames by cause.
   std::map<Cause, std::uint64_t> verdicts() const;
   std::uint64_t late() const;
+  /// The run has failed: the file is kept, late frames or none.
+  void stay() { stays_ = true; }
+  bool stays() const { return stays_ || late() > 0; }
   const std::string& file() const { return options_.file; }
 
   /// What such a file holds, the oldest frame first; fails with what is wrong with it, also if it is damaged.
@@ -64,6 +71,7 @@ private:
   bool made_;            ///< the file was not there before
   Ring* ring_;           ///< in the file
   FrameJudge judge_;
+  std::atomic<bool> stays_ = false;
   mutable std::mutex mutex_;
   std::map<Cause, std::uint64_t> verdicts_;
 };

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace stadion {
 namespace {
@@ -13,18 +16,33 @@ struct Suspect {
   const StageFacts* facts;
   Span stage;
   std::uint32_t wall;
-  float all() const { return facts->ms + facts->turn; }
+  float all() const { return facts->ms + facts->turn + facts->late; }
 };
 
-/// The stage that took longest, its turn included.
-Suspect longest(const FrameFacts& f) {
-  Suspect worst{&f.app, Span::App, 0};
+/// All stages whose time says something.
+std::vector<Suspect> suspectsOf(const FrameFacts& f) {
+  std::vector<Suspect> all{{&f.app, Span::App, 0}};
   for (std::uint32_t wall = 0; wall < f.walls; ++wall) {
-    const Suspect cull{&f.cull[wall], Span::Cull, wall}, draw{&f.draw[wall], Span::Draw, wall};
-    for (const Suspect& s : {cull, draw})
-      if (s.all() > worst.all()) worst = s;
+    all.push_back({&f.cull[wall], Span::Cull, wall});
+    if (f.sampled == 0) all.push_back({&f.draw[wall], Span::Draw, wall});
   }
-  return worst;
+  all.push_back({&f.swap, Span::Swap, 0});
+  return all;
+}
+
+float sumOf(const std::vector<Suspect>& stages) {
+  float sum = 0;
+  for (const Suspect& s : stages) sum += s.all();
+  return sum;
+}
+
+/// The stage that took longest, its turn included. One after the other, all walls of a stage count together.
+Suspect longest(const FrameFacts& f, const std::vector<Suspect>& stages) {
+  std::map<Span, float> together;
+  for (const Suspect& s : stages) together[s.stage] += s.all();
+  return *std::ranges::max_element(stages, {}, [&](const Suspect& s) {
+    return std::pair(f.sequential != 0 ? together[s.stage] : 0, s.all());
+  });
 }
 
 /// Of the walls but one.
@@ -37,23 +55,32 @@ std::uint32_t dearestDraw(const FrameFacts& f, std::uint32_t except) {
 
 Cause causeOf(const Suspect& s, float budget) {
   const StageFacts& stage = *s.facts;
-  if (s.all() < 0.5f * budget) return Cause::Unknown;
   const float excess = std::max(s.all() - 0.5f * budget, 0.1f * s.all());
   if (stage.loading > 0.5f * excess) return Cause::Loading;
-  if (stage.turn > stage.ms) return Cause::Turn;
+  if (stage.turn > stage.ms + stage.late) return Cause::Turn;
+  if (stage.delayed + stage.late > 0.5f * excess) return Cause::Preempted;
   // Draw waits for the rasteriser's threads: its own processor time says nothing.
-  const bool draws = s.stage == Span::Draw;
-  if (draws && stage.delayed > 0.5f * excess) return Cause::Preempted;
-  const float lost = draws ? 0 : stage.ms - stage.processor;
+  const float lost = s.stage == Span::Draw ? 0 : stage.ms - stage.processor - stage.delayed;
   if (lost > 0.5f * excess && stage.faults > kManyFaults) return Cause::PageFaults;
-  if (lost > 0.5f * excess && stage.switches > 0) return Cause::Preempted;
-  return s.stage == Span::App ? Cause::App : s.stage == Span::Cull ? Cause::Cull : Cause::Draw;
+  return s.stage == Span::App    ? Cause::App
+         : s.stage == Span::Cull ? Cause::Cull
+         : s.stage == Span::Draw ? Cause::Draw
+                                 : Cause::Unknown;
+}
+
+const StageFacts& factsOf(const FrameFacts& f) {
+  return f.stage == Span::App    ? f.app
+         : f.stage == Span::Cull ? f.cull[f.wall]
+         : f.stage == Span::Draw ? f.draw[f.wall]
+                                 : f.swap;
 }
 
 std::string stageText(const FrameFacts& f, std::span<const std::string> walls) {
   std::string stage(nameOf(f.stage));
   stage[0] = static_cast<char>(stage[0] - 'a' + 'A');
-  return f.stage == Span::App || f.wall >= walls.size() ? stage : stage + " of wall " + walls[f.wall];
+  return (f.stage != Span::Cull && f.stage != Span::Draw) || f.wall >= walls.size()
+             ? stage
+             : stage + " of wall " + walls[f.wall];
 }
 
 }  // namespace
@@ -76,10 +103,13 @@ std::string_view nameOf(Cause cause) {
 void judge(FrameFacts& f) {
   f.cause = Cause::None;
   if (f.budget <= 0 || f.period <= kLate * f.budget) return;
-  const Suspect s = longest(f);
+  const std::vector<Suspect> stages = suspectsOf(f);
+  const Suspect s = longest(f, stages);
   f.stage = s.stage, f.wall = s.wall;
-  f.cause = causeOf(s, f.budget);
   f.holder = dearestDraw(f, f.wall);
+  // Each may be short, and all together long.
+  const bool tookLong = std::max(s.all(), sumOf(stages)) >= 0.5f * f.budget;
+  f.cause = tookLong ? causeOf(s, f.budget) : f.sampled != 0 ? Cause::None : Cause::Unknown;
 }
 
 namespace {
@@ -88,32 +118,34 @@ namespace {
 std::string causeText(const FrameFacts& f, std::span<const std::string> walls) {
   std::string text;
   const std::string stage = stageText(f, walls);
-  const StageFacts& s = f.stage == Span::App    ? f.app
-                        : f.stage == Span::Cull ? f.cull[f.wall]
-                                                : f.draw[f.wall];
+  const StageFacts& s = factsOf(f);
+  const float all = sumOf(suspectsOf(f));
+  // It did not take long by itself.
+  const std::string together = s.ms + s.turn + s.late < 0.5f * f.budget || f.sequential != 0
+                                   ? fmt::format(", which with the other stages came to {:.1f} ms", all)
+                                   : "";
   switch (f.cause) {
   case Cause::Turn:
     text += fmt::format(": {} waited {:.1f} ms for other walls, most of it for {}", stage, s.turn,
                         f.holder < walls.size() ? walls[f.holder] : "?");
     break;
   case Cause::Preempted:
-    if (f.stage == Span::Draw) {
+    if (s.late > s.delayed)
+      text += fmt::format(": {} began {:.1f} ms late without a processor, which others had", stage, s.late);
+    else
       text += fmt::format(": {} took {:.1f} ms, {:.1f} of them without a processor, which others had", stage,
                           s.ms, s.delayed);
-      break;
-    }
-    text += fmt::format(": {} lost its processor to others {} times, {:.1f} of {:.1f} ms", stage, s.switches,
-                        s.ms - s.processor, s.ms);
     break;
   case Cause::PageFaults: text += fmt::format(": {} waited for {} pages of memory", stage, s.faults); break;
   case Cause::Loading: text += fmt::format(": {} took {:.1f} ms to load", stage, s.loading); break;
   case Cause::Unknown: text += ": no stage took long"; break;
-  default: text += fmt::format(": {} took {:.1f} ms", stage, s.ms);
+  default: text += fmt::format(": {} took {:.1f} ms{}", stage, s.ms, together);
   }
   if (f.name[0] != 0 && f.nodeMs > 0 && f.stage == Span::App)
-    text += fmt::format(", {:.1f} of them {}", f.nodeMs, f.name);
-  if (f.drawn[0] != 0 && f.stage == Span::Draw && f.cause == Cause::Draw)
-    text += fmt::format("; most there is to draw of {}", f.drawn);
+    text += fmt::format("; dearest {}, {:.1f} ms", f.name, f.nodeMs);
+  const bool over = f.cause == Cause::Cull || f.cause == Cause::Draw;
+  if (f.most[0] != 0 && over)
+    text += fmt::format("; most there is to {} of {}", f.cause == Cause::Cull ? "cull" : "draw", f.most);
   return text;
 }
 

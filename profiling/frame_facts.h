@@ -21,9 +21,10 @@ struct StageFacts {
   float loading = 0;           ///< App: files; Draw: models and pictures on their way to the graphics
   std::uint32_t switches = 0;  ///< how often the system gave its processor to others
   std::uint32_t faults = 0;    ///< pages that had to be fetched
-  /// Draw: so long its thread, or the rasteriser's thread that had to wait most, could have run but got no
-  /// processor.
+  /// So long its thread could have run but got no processor; Draw: or the rasteriser's thread that had to
+  /// wait most.
   float delayed = 0;
+  float late = 0;  ///< likewise before it began, since the stage before on its thread
 };
 
 enum class Cause : std::uint32_t {
@@ -32,10 +33,10 @@ enum class Cause : std::uint32_t {
   Cull,
   Draw,
   Turn,       ///< a wall's Draw had to wait for another's
-  Preempted,  ///< the system gave the stage's processor to others
+  Preempted,  ///< the stage's threads got no processor: the system gave it to others
   PageFaults,
   Loading,
-  Unknown,  ///< no stage took long
+  Unknown,  ///< nothing of all that took long
 };
 
 /// A budget that was overrun in a frame.
@@ -51,7 +52,9 @@ struct FrameFacts {
   float period = 0;  ///< since the frame before was shown
   float budget = 0;  ///< what it may be
   std::uint32_t walls = 0;
-  StageFacts app;
+  std::uint32_t sequential = 0;  ///< the stages followed each other: their times add up
+  std::uint32_t sampled = 0;     ///< its drawing, or that of the frame before, took longer to be looked at
+  StageFacts app, swap;
   std::array<StageFacts, kMostWalls> cull{}, draw{};
   std::uint32_t node[2] = {0, 0};  ///< the dearest in App: load, position
   float nodeMs = 0;
@@ -60,7 +63,7 @@ struct FrameFacts {
   std::uint32_t wall = 0;    ///< likewise
   std::uint32_t holder = 0;  ///< Cause::Turn: the wall that had the rasteriser
   char name[112] = {};       ///< of the dearest node in App, with its file and line
-  char drawn[112] = {};      ///< Draw: of the node that has most to draw there
+  char most[112] = {};       ///< Cull and Draw: of the node that has most to cull or to draw there
   char over[112] = {};       ///< of the node that overran its budget most, if one did
   float overMs = 0, overBudget = 0;
 
@@ -69,7 +72,7 @@ struct FrameFacts {
 static_assert(std::is_trivially_copyable_v<FrameFacts>);
 
 /// Fills in the cause, from the other facts. A frame is late if its period is half as long again as it may
-/// be.
+/// be. One whose drawing was sampled may be late for that: it is, if something but drawing took long.
 void judge(FrameFacts& facts);
 
 /// "frame 812 came after 66.8 ms (16.7): Draw of wall floor took 41.2 ms". The names are the walls'.

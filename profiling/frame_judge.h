@@ -17,29 +17,38 @@ class FrameJudge final : public SpanReader {
 public:
   using Shown = std::function<void(const FrameFacts&)>;
   /// `rate` in frames a second: 0 = nobody waits for frames, none is late. `shown` learns of each frame, in
-  /// the order in which they were shown.
-  FrameJudge(double rate, std::size_t walls, const NodeNames& names, Shown shown)
+  /// the order in which they were shown. `sequential`: the stages' times add up.
+  FrameJudge(double rate, std::size_t walls, const NodeNames& names, Shown shown, bool sequential = false)
       : budget_(rate > 0 ? static_cast<float>(1e3 / rate) : 0),
         walls_(static_cast<std::uint32_t>(std::min(walls, FrameFacts::kMostWalls))), names_(names),
-        shown_(std::move(shown)) {}
+        shown_(std::move(shown)), sequential_(sequential) {}
 
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
   void take(const CountRecord& count) override;
+  void take(const SharedSpan& shared) override;
 
 private:
   FrameFacts& frame(std::uint64_t number);
   std::string title(NodeRef node) const;
+  NodeRef dearestCulled(std::uint32_t wall) const;
   static void takeNode(FrameFacts& facts, const SpanRecord& record);
-  void show(const SpanRecord& swap);
+  void show(const SpanRecord& swap, const StageFacts& stage);
 
   float budget_;  ///< [ms]
   std::uint32_t walls_;
   const NodeNames& names_;
   Shown shown_;
+  bool sequential_;
+  std::uint64_t sampledUntil_ = 0;             ///< frames before it show what sampling drawing took
   std::map<std::uint64_t, FrameFacts> open_;   ///< not shown yet
   std::map<std::size_t, StageFacts> pending_;  ///< by track: of the stage that is under way
   std::map<std::uint32_t, NodeRef> largest_;   ///< by wall: who has most to draw, as far as is known
+  struct Culled {
+    double ms = 0;
+    NodeRef node;
+  };
+  std::map<std::pair<std::uint32_t, Span>, Culled> culled_;  ///< likewise, to cull: by wall and part of Cull
   ProfileClock::time_point lastShown_{};
 };
 

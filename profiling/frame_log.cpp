@@ -30,7 +30,7 @@ std::uint64_t nextNumber() {
 }  // namespace
 
 FrameLog::FrameLog(std::vector<SpanReader*> readers, FrameLogOptions options)
-    : readers_(std::move(readers)), options_(options), number_(nextNumber()) {
+    : readers_(std::move(readers)), options_(options), number_(nextNumber()), samples_(options.samples) {
   measureOverhead();
   collector_ = std::thread([this] {
     while (!done_) {
@@ -152,7 +152,8 @@ void FrameLog::counted(Count what, std::uint64_t amount, NodeRef node) {
 }
 
 bool FrameLog::wantsShares(std::uint64_t frame, std::uint32_t wall) const {
-  if (!options_.samples || frame < options_.from || frame % options_.sampleEvery != 0) return false;
+  if (!(samples_ || options_.shares) || frame < options_.from || frame % options_.sampleEvery != 0)
+    return false;
   const std::lock_guard lock(mutex_);
   const auto next = nextShares_.find(wall);
   return next == nextShares_.end() || frame >= next->second;
@@ -177,12 +178,15 @@ DrawSample FrameLogOptions::drawSample(std::uint64_t frame, std::uint64_t every)
 }
 
 DrawSample FrameLog::drawSample(std::uint64_t frame, std::uint32_t wall) const {
+  if (!samples_) return DrawSample::None;
   std::uint64_t every = options_.sampleEvery;
-  if (options_.samples) {
+  {
     const std::lock_guard lock(mutex_);
     if (crowded_.contains(wall)) every *= kCrowdedEvery;
   }
-  return options_.drawSample(frame, every);
+  FrameLogOptions options = options_;
+  options.samples = true;
+  return options.drawSample(frame, every);
 }
 
 std::size_t FrameLog::nextBatch(std::uint32_t wall, std::uint32_t eye, std::size_t batches) {

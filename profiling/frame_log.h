@@ -51,7 +51,8 @@ public:
 };
 
 struct FrameLogOptions {
-  bool samples = true;  ///< shares and drawing too
+  bool samples = true;  ///< shares and drawing too; drawing: as setSamples() says
+  bool shares = false;  ///< shares without it, too
   bool whole = true;    ///< of drawing: also what there is to be explained
   std::uint64_t sampleEvery = 16;
   std::uint64_t from = 4;  ///< frames before it are not recorded: what is touched for the first time is slow
@@ -75,6 +76,9 @@ public:
   DrawSample drawSample(std::uint64_t frame, std::uint32_t wall) const override;
   std::size_t nextBatch(std::uint32_t wall, std::uint32_t eye, std::size_t batches) override;
   void drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nodes) override;
+
+  /// Whether drawing is sampled from now on. Any thread.
+  void setSamples(bool on) { samples_ = on; }
 
   /// Hands on what is left. After the last frame.
   void finish();
@@ -110,6 +114,7 @@ private:
   std::vector<std::size_t> next_;                      ///< batches, by wall and eye
   std::map<std::uint32_t, std::uint64_t> nextShares_;  ///< frames, by wall
   std::set<std::uint32_t> crowded_;                    ///< walls of very many nodes
+  std::atomic<bool> samples_;
   std::atomic<bool> done_ = false;
   std::thread collector_;
 };

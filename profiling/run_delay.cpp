@@ -45,8 +45,17 @@ void RunDelay::findRasteriser() {
   }
 }
 
-const std::vector<double>& RunDelay::ofDrawing() {
+int RunDelay::ownFile() {
   if (files_.empty()) files_.push_back(open("/proc/thread-self/schedstat", O_RDONLY | O_CLOEXEC));
+  return files_.front();
+}
+
+double RunDelay::own() {
+  return delayIn(ownFile());
+}
+
+const std::vector<double>& RunDelay::ofDrawing() {
+  ownFile();
   if (looked_++ % kLookAgain == 0) findRasteriser();
   delays_.clear();
   for (const int file : files_) delays_.push_back(delayIn(file));

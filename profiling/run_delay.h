@@ -20,9 +20,12 @@ public:
   /// Of the calling thread first, then of each thread of the software rasteriser, as far as they are known;
   /// valid until the next call.
   const std::vector<double>& ofDrawing();
+  /// Of the calling thread.
+  double own();
 
 private:
   void findRasteriser();
+  int ownFile();
 
   std::vector<int> files_;  ///< the calling thread's, then the rasteriser's
   std::vector<double> delays_;

@@ -76,7 +76,7 @@ private:
       const double present =
           seen == cost.shares.end() ? 0 : perSample(static_cast<double>(seen->second), wall);
       for (std::size_t eye = 0; eye < 2; ++eye) {
-        if (cost.drawn[eye] > 0)
+        if (cost.draw[eye] > 0)
           on.draw[eye] = present * cost.draw[eye] / static_cast<double>(cost.drawn[eye]);
         row.draw += on.draw[eye];
       }
@@ -98,6 +98,7 @@ private:
       for (std::uint32_t eye = 0; eye < 2; ++eye) {
         const bool drawn = profile_.eyes().contains({wall, eye});
         on.drawMeasured[eye] = on.cullMeasured && drawn && (!seen || cost->second.drawn[eye] > 0);
+        if (seen && cost->second.drawn[eye] > 0 && cost->second.draw[eye] <= 0) row.drawTooLittle = true;
         if (drawn || eye == 0) row.drawMeasured = row.drawMeasured && on.drawMeasured[eye];
         if (!seen || !drawn) continue;
         ++seen_[{wall, eye}];
@@ -166,13 +167,13 @@ private:
     }
     for (const auto& [who, eye] : profile_.eyes()) {
       const std::string name = stageName(Span::Draw, who.first) + (who.second == 0 ? " left" : " right");
-      const auto add = [&](const std::string& part, const CostSeries& ms, double times) {
-        out_.stages.push_back({name + ", alone", part, times * std::max(0.0, ms.mean()), ms.percentile(95),
-                               ms.most(), ms.count()});
+      const auto add = [&](const std::string& part, const CostSeries& ms) {
+        out_.stages.push_back(
+            {name + ", alone", part, std::max(0.0, ms.mean()), ms.percentile(95), ms.most(), ms.count()});
       };
-      add("", eye.whole, 1);
-      for (const auto& [part, ms] : eye.parts) add(std::string(nameOf(part)), ms, timesAFrame(part));
-      add("nothing", eye.empty, 1);
+      add("", eye.whole);
+      for (const auto& [part, ms] : eye.parts) add(std::string(nameOf(part)), ms);
+      add("nothing", eye.empty);
     }
   }
 
@@ -191,9 +192,6 @@ private:
       out_.counts.push_back(std::move(row));
     }
   }
-
-  /// The sky is cleared, then drawn.
-  static double timesAFrame(Span part) { return part == Span::Sky ? 2 : 1; }
 
   /// A frame's, of one wall or of all.
   double sum(Span what, std::optional<std::uint32_t> wall = {}) const {
@@ -243,12 +241,12 @@ private:
   static double partsOf(const EyeCost& eye) {
     double sum = 0;
     for (const auto& [part, ms] : eye.parts)
-      if (part == Span::Sky || part == Span::Resolve) sum += timesAFrame(part) * ms.mean();
+      if (part == Span::Sky || part == Span::Resolve) sum += ms.mean();
     return sum;
   }
 
-  /// What was drawn alone is shared in the proportion of that, so that its sum is what the eye took as a
-  /// whole.
+  /// What was drawn alone, nodes and parts of the stage, is scaled by one factor, so that its sum is what the
+  /// eye took as a whole.
   void scaleDraw() {
     for (const auto& [who, eye] : profile_.eyes()) {
       const auto& [wall, side] = who;
@@ -260,7 +258,8 @@ private:
         all = all && row.walls[wall].drawMeasured[side];
       }
       if (!all) continue;  // whoever had no turn must not be counted with the others
-      const double factor = alone > 0 ? std::max(0.0, eye.whole.mean() - partsOf(eye)) / alone : 1;
+      alone += partsOf(eye);
+      const double factor = alone > 0 && eye.whole.mean() > 0 ? eye.whole.mean() / alone : 1;
       for (NodeRow& row : out_.nodes) row.walls[wall].draw[side] *= factor;
     }
     for (NodeRow& row : out_.nodes) {
@@ -287,6 +286,10 @@ std::string drawMethod(bool software) {
 }
 
 }  // namespace
+
+bool drawnBySoftware(std::string_view gl) {
+  return gl.find("llvmpipe") != std::string_view::npos || gl.find("softpipe") != std::string_view::npos;
+}
 
 ShowFigures figuresOf(const ShowProfile& profile, const NodeNames& names,
                       const std::vector<std::string>& walls, bool software) {

@@ -11,8 +11,8 @@ namespace stadion {
 
 struct NodeOnWall {
   double cull = 0;
-  /// In the proportion of what each took drawn alone; they sum to what the eye took as a whole, less its
-  /// parts.
+  /// In the proportion of what each took drawn alone; with the eye's parts they sum to what it took as a
+  /// whole.
   std::array<double, 2> draw{};  ///< left or only eye, right
   /// False: 0 means that no sample was taken, not that it costs nothing.
   bool cullMeasured = true;
@@ -33,6 +33,10 @@ struct NodeRow {
   double cull = 0, draw = 0;  ///< of all walls and eyes
   /// False: some wall that it is on has not been sampled yet; what is there is of the others.
   bool cullMeasured = true, drawMeasured = true;
+  /// Somewhere it was drawn alone, and the clock could not tell that from drawing nothing: its 0 is less than
+  /// can be measured.
+  bool drawTooLittle = false;
+  bool drawKnown() const { return drawMeasured && !(drawTooLittle && draw <= 0); }
   double total = 0;  ///< of what was measured
   double share = 0;  ///< of all stages of all walls
 };
@@ -76,6 +80,11 @@ struct ShowFigures {
   std::uint64_t framesNeeded = 0;  ///< about so many would measure every node; 0: these did
 };
 
+/// Whether that OpenGL draws on the processor, where drawing is measured as processor time: by its name, as a
+/// run tells it. Mesa's EGL may, too.
+bool drawnBySoftware(std::string_view gl);
+
+/// `software`: what drawing was measured with.
 ShowFigures figuresOf(const ShowProfile& profile, const NodeNames& names,
                       const std::vector<std::string>& walls, bool software);
 

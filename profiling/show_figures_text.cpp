@@ -20,10 +20,22 @@ nlohmann::json measured(double ms, bool known) {
   return known || ms > 0 ? nlohmann::json(ms) : nlohmann::json();
 }
 
-/// "-": not measured; a part that was is told.
+/// "-": not measured, or never; a part that was is told.
 std::string cell(double ms, bool known, int width, int digits) {
   if (!known && ms <= 0) return fmt::format("{:>{}}", "-", width);
   return fmt::format("{:>{}}", fmt::format("{}{:.{}f}", known ? "" : ">", ms, digits), width);
+}
+
+/// As cell(); "~": less than can be measured.
+std::string drawCell(const NodeRow& r) {
+  const bool tooLittle = r.drawMeasured && !r.drawKnown();
+  return tooLittle ? fmt::format("{:>8}", "~") : cell(r.draw, r.drawMeasured, 8, 3);
+}
+
+std::string tooLittleText(const ShowFigures& f) {
+  const auto count =
+      std::ranges::count_if(f.nodes, [](const NodeRow& r) { return r.drawMeasured && !r.drawKnown(); });
+  return count == 0 ? "" : fmt::format("~ {} nodes: too little to be told from drawing nothing\n", count);
 }
 
 std::string unmeasuredText(const ShowFigures& f) {
@@ -51,7 +63,8 @@ nlohmann::json toJson(const NodeRow& row, const std::vector<std::string>& walls)
                    {"publish_ms", row.publish},
                    {"app_ms", row.app},
                    {"cull_ms", measured(row.cull, row.cullMeasured)},
-                   {"draw_ms", measured(row.draw, row.drawMeasured)},
+                   {"draw_ms", measured(row.draw, row.drawKnown())},
+                   {"draw_too_little", row.drawTooLittle},
                    {"draw_complete", row.drawMeasured},
                    {"total_ms", row.total},
                    {"share", row.share},
@@ -82,11 +95,11 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
     const NodeRow& r = f.nodes[i];
     const std::string budget =
         r.name.budget > 0 ? fmt::format("{:9.3f}", r.name.budget) : std::string(budgets ? 9 : 0, ' ');
-    text += fmt::format("{:7.4f} {:10.4f} {} {} {:8.3f} {:5.1f}%{}  {}  {}\n", r.app, r.visitP95,
-                        cell(r.cull, r.cullMeasured, 7, 4), cell(r.draw, r.drawMeasured, 8, 3), r.total,
-                        100 * r.share, budget, r.name.path, placeOf(r.name));
+    text += fmt::format("{:7.4f} {} {} {} {:8.3f} {:5.1f}%{}  {}  {}\n", r.app,
+                        cell(r.visitP95, r.visits > 0, 10, 4), cell(r.cull, r.cullMeasured, 7, 4),
+                        drawCell(r), r.total, 100 * r.share, budget, r.name.path, placeOf(r.name));
   }
-  text += unmeasuredText(f);
+  text += unmeasuredText(f) + tooLittleText(f);
   if (f.wholeFrames < f.frames)
     text += fmt::format(
         "App by node is of {} of the {} frames: where it visits so many, the others are recorded in part\n",

@@ -29,7 +29,9 @@ struct ThreadUse {
   double processor = 0;        ///< [ms]
   std::uint64_t switches = 0;  ///< it lost its processor to others
   std::uint64_t faults = 0;    ///< pages that had to be fetched
-  double delayed = 0;          ///< [ms] of a Draw: without a processor, though something was to be done
+  double delayed = 0;  ///< [ms] without a processor, though something was to be done; of a Draw also the
+                       ///< rasteriser's threads
+  double late = 0;     ///< [ms] likewise, between the stage before on this thread and this one
 
   static ThreadUse now() {
     rusage use{};
@@ -38,10 +40,10 @@ struct ThreadUse {
       return 1e3 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_usec);
     };
     return {ms(use.ru_utime) + ms(use.ru_stime), static_cast<std::uint64_t>(use.ru_nivcsw),
-            static_cast<std::uint64_t>(use.ru_minflt + use.ru_majflt), 0};
+            static_cast<std::uint64_t>(use.ru_minflt + use.ru_majflt), 0, 0};
   }
   ThreadUse since(const ThreadUse& then) const {
-    return {processor - then.processor, switches - then.switches, faults - then.faults, 0};
+    return {processor - then.processor, switches - then.switches, faults - then.faults, 0, 0};
   }
 };
 
@@ -88,8 +90,7 @@ public:
     Open& open = open_[depth_++];
     open.what = what, open.frame = frame, open.wall = wall, open.node = node;
     open.within = 0, open.spans = 0;
-    if (isStage(what)) open.use = ThreadUse::now();
-    if (what == Span::Draw) beforeDraw_ = delay_.ofDrawing();
+    if (isStage(what)) open.use = ThreadUse::now(), delayed(open);
     open.allocations = allocationsSoFar();
     open.began = ProfileClock::now();
   }
@@ -109,7 +110,7 @@ public:
     r.allocations = allocationsSoFar() - open.allocations, r.disturbed = disturbed_;
     disturbed_ = disturbed_ && depth_ > 0;
     r.use = isStage(open.what) ? ThreadUse::now().since(open.use) : ThreadUse{};
-    if (open.what == Span::Draw) r.use.delayed = mostDelayed(beforeDraw_, delay_.ofDrawing());
+    if (isStage(open.what)) delayed(open, r.use);
     r.took = 1e-6 * took, r.own = 1e-6 * std::max(0.0, took - open.within);
     spans_.push();
   }
@@ -163,9 +164,6 @@ public:
   const RecordRing<CountRecord>& counts() const { return counts_; }
 
 private:
-  static double nanoseconds(ProfileClock::duration d) {
-    return std::chrono::duration<double, std::nano>(d).count();
-  }
   struct Open {
     Span what = Span::App;
     std::uint64_t frame = kNoFrame;
@@ -177,6 +175,22 @@ private:
     ThreadUse use;
     Allocations allocations;
   };
+  /// Where the system's account of the thread's delays stands, as a stage begins and as it ends.
+  void delayed(Open& open) {
+    if (open.what == Span::Draw) beforeDraw_ = delay_.ofDrawing();
+    const double now = open.what == Span::Draw ? beforeDraw_.front() : delay_.own();
+    open.use.late = stageEnded_ < 0 ? 0 : now - stageEnded_;
+    open.use.delayed = now;
+  }
+  void delayed(const Open& open, ThreadUse& use) {
+    const std::vector<double>* all = open.what == Span::Draw ? &delay_.ofDrawing() : nullptr;
+    stageEnded_ = all ? all->front() : delay_.own();
+    use.delayed = all ? mostDelayed(beforeDraw_, *all) : stageEnded_ - open.use.delayed;
+    use.late = open.use.late;
+  }
+  static double nanoseconds(ProfileClock::duration d) {
+    return std::chrono::duration<double, std::nano>(d).count();
+  }
 
   struct Light {
     NodeRef node;
@@ -186,6 +200,7 @@ private:
   std::array<Open, kDeepest> open_;
   Light light_;
   RunDelay delay_;
+  double stageEnded_ = -1;          ///< its delay when the last stage ended [ms]; -1 = there was none
   std::vector<double> beforeDraw_;  ///< what it said
   bool whole_ = true, disturbed_ = false;
   std::uint64_t counted_ = 0;

@@ -8,11 +8,13 @@
 #include "engine/frame_probe.h"
 #include "pipeline/draw/lone_clock.h"
 
+#include <map>
+
 namespace stadion {
 
 class DrawSampler {
 public:
-  /// More of a mesh are several batches. What is drawn alone must be much more than nothing, which is taken
+  /// More of a mesh are several pieces. What is drawn alone must be much more than nothing, which is taken
   /// off it: about so large a part of what there is to draw.
   static constexpr float kPartsOfAFrame = 8;
 
@@ -28,40 +30,61 @@ public:
     drawNothing();
     now_.emptyMs = clock_.end();
   }
-  /// An eye whose nodes are drawn in so many batches, of which a few are timed.
-  void beginEye(std::uint32_t eye, std::size_t batches) {
+  /// An eye whose nodes are drawn in pieces, of which a few are timed. A piece is some instances next to each
+  /// other; `starts` has the first of each, ascending.
+  void beginEye(std::uint32_t eye, std::span<const std::uint32_t> starts) {
     now_.eye = eye;
-    batch_ = 0, first_ = batches > 0 ? probe_->nextBatch(now_.wall, eye, batches) : 0;
+    timed_.clear();
+    from_ = end_ = 0;
+    if (starts.empty()) return;
+    const std::size_t at = probe_->nextBatch(now_.wall, eye, starts.size()), end = at + kBatchesAFrame;
+    from_ = starts[at], end_ = end < starts.size() ? starts[end] : ~std::uint32_t{0};
   }
   template <class Work>
   void piece(Span what, const Work& work) {
-    time(what, {}, work);
+    tell(what, timed(work), {});
   }
+  /// The piece that begins with that instance, in one pass; a piece that is drawn in several took their sum.
   /// `shares` is asked for whose it is, if it is timed.
   template <class Shares, class Work>
-  void batch(const Shares& shares, const Work& work) {
-    const std::size_t at = batch_++;
-    if (at >= first_ && at < first_ + kBatchesAFrame)
-      time(Span::Draw, shares(), work);
-    else
-      work();
+  void nodes(std::uint32_t first, const Shares& shares, const Work& work) {
+    if (first < from_ || first >= end_) return work();
+    Timed& t = timed_[first];
+    if (t.shares.empty()) {
+      const auto now = shares();
+      t.shares.assign(now.begin(), now.end());
+    }
+    t.ms += timed(work);
+  }
+  /// All passes are over.
+  void endEye() {
+    for (const auto& [first, t] : timed_) tell(Span::Draw, t.ms, t.shares);
   }
 
 private:
+  struct Timed {
+    double ms = 0;
+    std::vector<NodeShare> shares;
+  };
+
+  /// Without what drawing nothing takes [ms].
   template <class Work>
-  void time(Span what, std::span<const NodeShare> nodes, const Work& work) {
+  double timed(const Work& work) {
     clock_.begin();
     work();
+    return clock_.end() - now_.emptyMs;
+  }
+  void tell(Span what, double ms, std::span<const NodeShare> nodes) {
     DrawnAlone drawn = now_;
-    drawn.what = what;
-    drawn.ms = clock_.end() - now_.emptyMs;
+    drawn.what = what, drawn.ms = ms;
     probe_->drewAlone(drawn, nodes);
   }
 
   LoneClock clock_;
   FrameProbe* probe_ = nullptr;
   DrawnAlone now_;
-  std::size_t batch_ = 0, first_ = 0;
+  std::uint32_t from_ = 0, end_ = 0;      ///< instances whose pieces are timed
+  std::map<std::uint32_t, Timed> timed_;  ///< by their first instance
 };
 
 }  // namespace stadion

@@ -229,7 +229,7 @@ void Renderer::piece(Span what, const Work& work) {
 }
 
 void Renderer::drawEyeAlone(const DrawEye& eye, std::uint32_t index) {
-  sampler_->beginEye(index, 0);
+  sampler_->beginEye(index, {});
   sampler_->piece(index == 0 ? Span::LeftEye : Span::RightEye, [&] { drawEye(eye, index); });
 }
 
@@ -276,13 +276,14 @@ std::uint32_t Renderer::togetherFrom(const InstanceBatch& b, std::uint32_t done,
   return count;
 }
 
-/// As many as drawInstances() will be called for.
-std::size_t Renderer::batchesToSample() {
-  std::size_t count = 0;
+/// As drawBatches() will draw them, in one pass or in two.
+std::span<const std::uint32_t> Renderer::piecesToSample() {
+  pieces_.clear();
   forEachBatch([&](const InstanceBatch& b, const MeshParts& mesh) {
-    for (std::uint32_t done = 0; done < b.count; ++count) done += togetherFrom(b, done, mesh);
+    for (std::uint32_t done = 0; done < b.count; done += togetherFrom(b, done, mesh))
+      pieces_.push_back(b.first + done);
   });
-  return count;
+  return pieces_;
 }
 
 void Renderer::stopIfAsked() const {
@@ -345,9 +346,11 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, views_[index].name());
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kSceneBinding, scene_.name());
 
-  if (sample_ == DrawSample::Some) sampler_->beginEye(index, batchesToSample());
+  if (sample_ == DrawSample::Some) sampler_->beginEye(index, piecesToSample());
   gl_.Disable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
-  piece(Span::Sky, [&] { buffers_.begin(index); });
+  // Alone, clearing is writing the whole picture to memory. In an eye drawn whole that is done once, with
+  // what comes next: it is a part of what the sky takes alone.
+  buffers_.begin(index);
   drawBatches(batches_.opaque(), Pass::Opaque);
   drawBatches(batches_.transparent(), Pass::OpaqueParts);
   piece(Span::Sky, [&] { drawBackground(); });
@@ -359,6 +362,7 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_BLEND);
   piece(Span::Resolve, [&] { buffers_.resolve(index); });
+  if (sample_ == DrawSample::Some) sampler_->endEye();
   totals_[index].add(counts_);
 }
 
@@ -370,26 +374,30 @@ void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass) {
     if (pass == Pass::OpaqueParts && mesh->transparentParts == mesh->parts.size()) continue;
     gl_.BindVertexArray(mesh->vertexArray.name());
     gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
-    const bool oneByOne = pass == Pass::Transparent && !drawnTogether(*mesh);
     const MeshParts parts = partsOf(*mesh, batch.level);
     for (std::uint32_t done = 0, count = 0; done < batch.count; done += count) {
-      count = oneByOne ? 1 : togetherFrom(batch, done, parts);
+      count = togetherFrom(batch, done, parts);
       drawInstances(parts, batch.first + done, count, pass);
     }
   }
 }
 
 void Renderer::drawInstances(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass) {
-  stopIfAsked();
+  const bool oneByOne = pass == Pass::Transparent && !drawnTogether(*mesh.gl);
+  const std::uint32_t step = oneByOne ? 1 : count;
   const auto draw = [&] {
-    pointAtInstances(gl_, instances_, first);
-    if (pass == Pass::Transparent)
-      drawTransparentParts(mesh, count);
-    else
-      drawOpaqueParts(mesh, count, pass);
+    for (std::uint32_t i = first; i < first + count; i += step) {
+      stopIfAsked();
+      pointAtInstances(gl_, instances_, i);
+      if (pass == Pass::Transparent)
+        drawTransparentParts(mesh, step);
+      else
+        drawOpaqueParts(mesh, step, pass);
+    }
   };
   if (sample_ == DrawSample::Some)
-    sampler_->batch([&] { return sharesOf(mesh, first, count); }, draw);
+    sampler_->nodes(
+        first, [&] { return sharesOf(mesh, first, count); }, draw);
   else
     draw();
 }

@@ -114,7 +114,7 @@ private:
   void forEachBatch(const F& f);
   void weigh();
   std::uint32_t togetherFrom(const InstanceBatch& batch, std::uint32_t done, const MeshParts& mesh) const;
-  std::size_t batchesToSample();
+  std::span<const std::uint32_t> piecesToSample();
   std::span<const NodeShare> sharesOf(const MeshParts& mesh, std::uint32_t first, std::uint32_t count);
   template <class Work>
   void piece(Span what, const Work& work);
@@ -165,6 +165,7 @@ private:
   DrawSample sample_ = DrawSample::None;              ///< of the list that is drawn
   float work_ = 0;                                    ///< all there is to draw, while somebody asks
   std::vector<NodeShare> shares_;                     ///< of what is drawn alone
+  std::vector<std::uint32_t> pieces_;                 ///< likewise: the first instance of each
   DrawCounts counts_;
   std::array<DrawTotals, 2> totals_{};
   std::set<std::string> reported_;

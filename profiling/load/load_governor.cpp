@@ -59,7 +59,10 @@ void LoadGovernor::take(std::size_t, const SpanRecord& r) {
     appEnded_.push_back(r.frame);
     break;
   case Span::Cull: times_[r.frame].cull[r.wall] = r.took; break;
-  case Span::Draw: times_[r.frame].draw[r.wall] = r.took; break;
+  case Span::Draw:
+    times_[r.frame].draw[r.wall] = r.took;
+    times_[r.frame].sampled |= r.disturbed;
+    break;
   case Span::Swap: shown_.push_back(r.frame); break;
   default: costs_.take(r);
   }
@@ -102,9 +105,9 @@ void LoadGovernor::judgeNodes(std::uint64_t frame) {
     const double ms = costs[i].cost.total();
     ++r.frames, g.sum += ms, r.mean = g.sum / static_cast<double>(r.frames);
     if (ms > r.worst) r.worst = ms, r.worstFrame = frame, r.worstStage = stageText(costs[i]);
-    if (r.budget > 0 && ms > r.budget) noteOverrun(g, frame, costs[i]);
+    if (r.budget > 0 && costs[i].sure.total() > r.budget) noteOverrun(g, frame, costs[i]);
     const bool acts = options_.acts && r.levels > 0 && r.budget > 0 && costs[i].known;
-    if (acts) g.policy.take(frame, costs[i].cost);
+    if (acts) g.policy.take(frame, costs[i].sure);
   }
   if (frame >= kFramesUnderWay) costs_.forget(frame - kFramesUnderWay);
 }
@@ -115,7 +118,7 @@ void LoadGovernor::noteOverrun(Governed& g, std::uint64_t frame, const NodeCost&
   const std::string others =
       g.untold > 1 ? fmt::format("; {} frames since this was told last", g.untold) : std::string();
   lines_.push_back(fmt::format("over budget: {} took {:.3g} ms of {:g} in frame {}, most of it {}{}",
-                               titleOf(g.of.node), cost.cost.total(), g.report.budget, frame, stageText(cost),
+                               titleOf(g.of.node), cost.sure.total(), g.report.budget, frame, stageText(cost),
                                others));
   g.toldAt = now_, g.untold = 0;
 }
@@ -136,7 +139,7 @@ std::optional<Overrun> LoadGovernor::overrunOf(std::uint64_t frame) const {
   const std::vector<NodeCost> costs = costs_.of(frame);
   std::optional<Overrun> worst;
   for (std::size_t i = 0; i < governed_.size() && i < costs.size(); ++i) {
-    const double ms = costs[i].cost.total(), budget = governed_[i].report.budget;
+    const double ms = costs[i].sure.total(), budget = governed_[i].report.budget;
     if (budget > 0 && ms > budget && (!worst || ms - budget > worst->ms - worst->budget))
       worst = Overrun{titleOf(governed_[i].of.node), ms, budget};
   }
@@ -150,7 +153,9 @@ void LoadGovernor::judgeFrame(std::uint64_t frame) {
   if (at == times_.end()) return;
   const StageTimes t = at->second;
   times_.erase(times_.begin(), times_.upper_bound(frame >= kFramesUnderWay ? frame - kFramesUnderWay : 0));
-  if (!options_.paced || !options_.acts) return;
+  // What looking at drawing took is nobody's load; it holds up the next frame, too.
+  if (t.sampled) sampledUntil_ = frame + 2;
+  if (!options_.paced || !options_.acts || frame < sampledUntil_) return;
   const double period = 1e3 / options_.rate;
   const double drawn =
       options_.pipelined ? std::max(mostOf(t.cull), mostOf(t.draw)) : sumOf(t.cull) + sumOf(t.draw);
@@ -195,20 +200,40 @@ void LoadGovernor::see(const Scene& scene) {
   }
   for (const Governed& g : known) gone_[g.of.node] = g.report;
   byPriority_.clear();
-  std::uint32_t levels = 0;
   for (std::size_t i = 0; i < governed_.size(); ++i)
-    if (governed_[i].report.levels > 0) byPriority_.push_back(i), levels += governed_[i].report.levels;
+    if (governed_[i].report.levels > 0) byPriority_.push_back(i);
   std::ranges::stable_sort(byPriority_, {}, [&](std::size_t i) { return governed_[i].of.terms.priority; });
-  frame_.reset();
-  if (levels > 0) {
-    std::vector<LevelSavings> savings;
-    for (std::uint32_t l = 0; l <= levels; ++l) savings.push_back({std::pow(kLevelSaves, l), 1, 1});
+  layFrameLadder();
+  costs_.govern(std::move(nodes), std::move(above));
+}
+
+/// Of the nodes that are there now. What was given up stays given up, as far as those are still there who
+/// gave it up.
+void LoadGovernor::layFrameLadder() {
+  FrameLadder ladder;
+  std::map<std::pair<NodeRef, std::uint32_t>, std::uint32_t> levelOf;
+  for (const std::size_t i : byPriority_)
+    for (std::uint32_t l = 1; l <= governed_[i].report.levels; ++l) {
+      ladder.push_back({governed_[i].of.node, l});
+      levelOf[ladder.back()] = static_cast<std::uint32_t>(ladder.size());
+    }
+  std::vector<std::uint32_t> becomes{0};
+  for (const auto& step : ladder_) {
+    const auto at = levelOf.find(step);
+    becomes.push_back(at == levelOf.end() ? becomes.back() : std::max(becomes.back(), at->second));
+  }
+  ladder_ = std::move(ladder);
+  if (ladder_.empty()) return frame_.reset();
+  std::vector<LevelSavings> savings;
+  for (std::size_t l = 0; l <= ladder_.size(); ++l)
+    savings.push_back({std::pow(kLevelSaves, static_cast<double>(l)), 1, 1});
+  if (frame_)
+    frame_->relay(std::move(savings), becomes);
+  else
     frame_.emplace(
         ReliefPolicy::Options{1e3 / options_.rate, static_cast<std::uint64_t>(std::ceil(options_.rate))},
         std::move(savings));
-    spreadFrameLevel();
-  }
-  costs_.govern(std::move(nodes), std::move(above));
+  spreadFrameLevel();
 }
 
 FrameLoad LoadGovernor::decide(std::uint64_t frame) {

@@ -81,11 +81,14 @@ private:
   struct StageTimes {
     double app = 0;
     std::map<std::uint32_t, double> cull, draw;  ///< by wall
+    bool sampled = false;                        ///< its drawing took longer, for it was looked at
   };
 
   void judgeNodes(std::uint64_t frame);
   void judgeFrame(std::uint64_t frame);
   void spreadFrameLevel();
+  using FrameLadder = std::vector<std::pair<NodeRef, std::uint32_t>>;
+  void layFrameLadder();
   void noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost);
   void tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame);
   std::string stageText(const NodeCost& cost) const;
@@ -98,6 +101,8 @@ private:
   std::vector<Governed> governed_;
   std::vector<std::size_t> byPriority_;  ///< of those that can give up something, the lowest first
   std::optional<ReliefPolicy> frame_;    ///< of all their ladders, one after the other
+  FrameLadder ladder_;                   ///< its levels, from 1 on: whose, and which of its own
+  std::uint64_t sampledUntil_ = 0;       ///< frames before it show what looking at drawing took
   StressFilter stress_;
   std::uint32_t stressApplied_ = 0;
   std::uint64_t stressChanges_ = 0, stressFrom_ = 0;

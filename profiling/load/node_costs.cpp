@@ -3,6 +3,7 @@
 #include "engine/nodes/object_node.h"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 namespace stadion {
@@ -52,9 +53,26 @@ bool hasLevels(const Scene& scene) {
 }
 
 void NodeCosts::govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::vector<std::size_t>> above) {
+  // What is known of those that stay, under their new places.
+  std::vector<std::optional<std::size_t>> place(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const auto at = std::ranges::find(nodes, nodes_[i].node, &GovernedNode::node);
+    if (at != nodes.end()) place[i] = static_cast<std::size_t>(at - nodes.begin());
+  }
+  std::map<SampleKey, Sample> samples;
+  for (const auto& [key, sample] : samples_)
+    if (const auto to = place[key.governed]) samples[{*to, key.node, key.wall, key.eye, key.what}] = sample;
+  std::vector<Drawn> drawn(nodes.size());
+  for (std::size_t i = 0; i < drawn_.size(); ++i)
+    if (place[i]) drawn[*place[i]] = drawn_[i];
+  for (auto& [frame, costs] : app_) {
+    std::vector<double> moved(nodes.size());
+    for (std::size_t i = 0; i < costs.size(); ++i)
+      if (place[i]) moved[*place[i]] = costs[i];
+    costs = std::move(moved);
+  }
+  samples_ = std::move(samples), drawn_ = std::move(drawn);
   nodes_ = std::move(nodes), above_ = std::move(above);
-  app_.clear(), samples_.clear();
-  drawn_.assign(nodes_.size(), {});
 }
 
 void NodeCosts::drawnOtherwise(std::size_t governed, std::uint64_t frame, bool hidden) {
@@ -78,7 +96,8 @@ void NodeCosts::sample(Span what, std::uint64_t frame, std::uint32_t wall, std::
       for (const std::size_t governed : at->second) {
         Sample& s = samples_[{governed, node, wall, eye, what}];
         // What is drawn in several pieces of a frame costs their sum.
-        s = {(s.frame == frame ? s.ms : 0) + ms * double{part}, frame};
+        if (s.frame != frame) s = {0, s.frame + kOld < frame ? 0 : s.ms, frame};
+        s.ms += ms * double{part};
       }
 }
 
@@ -91,21 +110,24 @@ void NodeCosts::take(const SharedSpan& s) {
 
 void NodeCosts::take(const DrawnAlone& d, const std::vector<NodeShare>& nodes) {
   if (d.what == Span::Draw)
-    sample(Span::Draw, d.frame, d.wall, d.eye, std::max(0.0, d.ms - d.emptyMs), nodes);
+    sample(Span::Draw, d.frame, d.wall, d.eye, d.ms, nodes);
 }
 
 std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
   std::vector<NodeCost> costs(nodes_.size());
   const auto app = app_.find(frame);
-  for (std::size_t i = 0; i < costs.size() && app != app_.end(); ++i) costs[i].cost.app = app->second[i];
+  for (std::size_t i = 0; i < costs.size() && app != app_.end(); ++i)
+    costs[i].cost.app = costs[i].sure.app = app->second[i];
   std::map<std::tuple<std::size_t, bool, std::uint32_t>, double> stages;  // governed, Draw, wall
   std::vector<bool> sampled(costs.size());
   for (const auto& [key, s] : samples_) {
     const Drawn& drawn = drawn_[key.governed];
     if (s.frame + kOld < frame || s.frame > frame || drawn.hidden || s.frame < drawn.since) continue;
     sampled[key.governed] = sampled[key.governed] || key.what == Span::Draw;
-    costs[key.governed].cost.drawn += s.ms;
-    stages[{key.governed, key.what == Span::Draw, key.wall}] += s.ms;
+    const double ms = std::max(0.0, s.ms);  // of next to nothing, a clock may say less than nothing
+    costs[key.governed].cost.drawn += ms;
+    costs[key.governed].sure.drawn += std::min(ms, std::max(0.0, s.before));
+    stages[{key.governed, key.what == Span::Draw, key.wall}] += ms;
   }
   for (std::size_t i = 0; i < costs.size(); ++i)
     costs[i].known =

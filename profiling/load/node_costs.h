@@ -2,7 +2,8 @@
 /// What nodes with terms cost, frame by frame: all that is spent on them and on what stands below them.
 ///
 /// App is known of each frame. Cull and Draw are known from samples (FrameLog: who shared in culling, which
-/// batches were drawn alone); between two samples the last one counts.
+/// batches were drawn alone); between two samples the last one counts. A sample may be disturbed: what is to
+/// be acted on is the lesser of the last two.
 ///
 /// Units    milliseconds. Threads  the log's thread, but see(), which is App's; names and terms are locked by
 ///          the owner.
@@ -25,6 +26,7 @@ struct GovernedNode {
 /// What one of them cost in one frame.
 struct NodeCost {
   LoadCost cost;
+  LoadCost sure;  ///< as far as two samples in a row say so
   /// Whether what is drawn of it has been looked at since it was drawn otherwise than before.
   bool known = true;
   Span dearest = Span::App;      ///< the stage in which it cost most
@@ -52,7 +54,7 @@ public:
 private:
   /// Of one wall and one eye's drawing, or of one part of culling.
   struct Sample {
-    double ms = 0;
+    double ms = 0, before = 0;  ///< before: in the sample before; 0 = there was none
     std::uint64_t frame = 0;
   };
   struct SampleKey {

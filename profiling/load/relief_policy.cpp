@@ -54,6 +54,14 @@ void ReliefPolicy::applied(std::uint64_t frame) {
   strikes_.fill(0);
 }
 
+void ReliefPolicy::relay(std::vector<LevelSavings> levels, const std::vector<std::uint32_t>& becomes) {
+  std::vector<std::optional<double>> known(levels.size()), settled(levels.size());
+  for (std::size_t l = 0; l < becomes.size(); ++l)
+    known.at(becomes[l]) = known_[l], settled.at(becomes[l]) = settled_[l];
+  levels_ = std::move(levels), known_ = std::move(known), settled_ = std::move(settled);
+  level_ = becomes.at(level_), wanted_ = becomes.at(wanted_);
+}
+
 void ReliefPolicy::note(const LoadCost& cost) {
   window_[seen_ % kWindow] = cost;
   // Of those that run now and then, the frames in between belong to it.

@@ -50,6 +50,9 @@ public:
   std::uint32_t take(std::uint64_t frame, const LoadCost& cost);
   /// The level that was wanted takes effect with this frame.
   void applied(std::uint64_t frame);
+  /// The ladder has changed: `becomes` says of each level of the old one, from 0 on, which level of the new
+  /// one gives up the same. All that is known stays known.
+  void relay(std::vector<LevelSavings> levels, const std::vector<std::uint32_t>& becomes);
 
   std::uint32_t wanted() const { return wanted_; }
   std::uint32_t level() const { return level_; }

@@ -134,4 +134,20 @@ std::vector<FrameCost> typicalCosts(const std::vector<std::map<std::uint64_t, Fr
   return typical;
 }
 
+std::vector<FrameCost> plannedCosts(const std::vector<std::map<std::uint64_t, FrameCost>>& runs) {
+  std::vector<FrameCost> frames = typicalCosts(runs);
+  assumeUndisturbed(frames);
+  return frames;
+}
+
+bool wasStarved(const std::vector<FrameCost>& frames) {
+  constexpr double kWorth = 1, kStarved = 0.5;
+  std::vector<double> atOnce;
+  for (const FrameCost& frame : frames)
+    for (const WallCost& wall : frame.walls)
+      for (const PictureCost& picture : wall.pictures)
+        if (picture.raster >= kWorth) atOnce.push_back(picture.atOnce);
+  return !atOnce.empty() && middleOf(atOnce) < kStarved;
+}
+
 }  // namespace stadion::plan

@@ -60,4 +60,11 @@ std::vector<FrameCost> typicalCosts(const std::vector<std::map<std::uint64_t, Fr
 /// for machines on which nobody else works.
 void assumeUndisturbed(std::vector<FrameCost>& frames);
 
+/// What is planned with: the typical costs of these runs, undisturbed.
+std::vector<FrameCost> plannedCosts(const std::vector<std::map<std::uint64_t, FrameCost>>& runs);
+
+/// Whether others had the processors while it was measured: the rasteriser's threads, with a millisecond or
+/// more to do, had less than half a processor together.
+bool wasStarved(const std::vector<FrameCost>& frames);
+
 }  // namespace stadion::plan

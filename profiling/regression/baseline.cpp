@@ -22,6 +22,7 @@ BaselineCase caseOf(const Json& j) {
   j.at("counts").get_to(c.facts.counts);
   if (j.contains("times")) j.at("times").get_to(c.times);
   if (j.contains("instructions")) j.at("instructions").get_to(c.instructions);
+  c.countedBy = j.value("counted_by", c.countedBy);
   if (j.contains("node_times")) j.at("node_times").get_to(c.nodeTimes);
   if (j.contains("node_instructions")) j.at("node_instructions").get_to(c.nodeInstructions);
   return c;
@@ -33,7 +34,7 @@ Json jsonOf(const BaselineCase& c) {
          {"images", c.facts.images},
          {"counts", c.facts.counts}};
   if (!c.times.empty()) j["times"] = c.times;
-  if (!c.instructions.empty()) j["instructions"] = c.instructions;
+  if (!c.instructions.empty()) j["instructions"] = c.instructions, j["counted_by"] = c.countedBy;
   if (!c.nodeTimes.empty()) j["node_times"] = c.nodeTimes;
   if (!c.nodeInstructions.empty()) j["node_instructions"] = c.nodeInstructions;
   return j;

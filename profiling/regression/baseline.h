@@ -20,6 +20,7 @@ struct BaselineCase {
   RunFacts facts;
   std::map<std::string, std::vector<double>> times;  ///< by stage, round by round
   std::map<std::string, double> instructions;        ///< by stage
+  std::string countedBy = "callgrind";               ///< the instructions
   NodeCosts nodeTimes, nodeInstructions;             ///< so that the node that moved can be named
 };
 

@@ -39,7 +39,7 @@ void SpanTimes::began(Span what, std::uint64_t frame, std::uint32_t wall) {
   if (!isStage(what)) return;  // a wait
   if (what == Span::App && options_.turns) options_.turns->take();
   if (what == Span::App && frame == kFirstCounted && options_.countInstructions) {
-    beginCountingInstructions();
+    if (!options_.instructions) beginCountingInstructions();
     counting_ = true;
   }
   const Key key{what, wall == kNoWall ? 0 : wall, {}};
@@ -145,6 +145,12 @@ void SpanTimes::closeFrame(std::uint64_t frame) {
 // Whatever was executed since the boundary before belongs to this row, or to nobody.
 void SpanTimes::boundary(const Cost* cost) {
   if (!counting_) return;
+  if (options_.instructions) {
+    const std::uint64_t now = options_.instructions();
+    if (cost && now > counted_) executed_[cost->row] += static_cast<double>(now - counted_);
+    counted_ = options_.instructions();  // what was done here is nobody's
+    return;
+  }
   char label[32];
   std::snprintf(label, sizeof label, "row %zu", cost ? cost->row : costs_.size() + 1'000'000);
   dumpInstructionsAs(label);
@@ -172,6 +178,9 @@ std::vector<SpanRow> SpanTimes::rows(const std::vector<std::string>& walls,
     if (key.node.valid() && cost.total < dear) continue;
     for (const auto& [frame, ns] : cost.frames) row.frames[frame] = 1e-3 * static_cast<double>(ns);
   }
+  std::map<std::string, double> byLabel;
+  for (const auto& [row, count] : executed_) byLabel["row " + std::to_string(row)] = count;
+  if (!byLabel.empty()) giveInstructions(all, byLabel);
   return all;
 }
 

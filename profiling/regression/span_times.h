@@ -3,7 +3,7 @@
 /// the thread that did it, so that waiting and being interrupted do not count.
 ///
 /// Under callgrind, and if asked to, the instructions between any two of its calls are written down under
-/// "row N", N being the index in rows().
+/// "row N", N being the index in rows(). With a counter of instructions they are in rows() themselves.
 ///
 /// Threads  told on the threads that do the work; read when the run is over.
 /// Errors   none.
@@ -25,6 +25,8 @@ struct SpanTimesOptions {
   std::optional<PlantedDelay> planted{};
   Turns* turns = nullptr;          ///< null: frames wait for nobody
   bool countInstructions = false;  ///< from the third frame on; the first ones build what the others use
+  /// What the calling thread has executed so far; null: they are left to callgrind.
+  std::function<std::uint64_t()> instructions{};
 };
 
 class SpanTimes final : public FrameProbe {
@@ -79,6 +81,8 @@ private:
   std::vector<Cost*> touched_;  ///< nodes, in this frame
   Cost* stage_ = nullptr;       ///< that is under way, where one thread does all
   bool counting_ = false;
+  std::uint64_t counted_ = 0;                 ///< at the last boundary
+  std::map<std::size_t, double> executed_{};  ///< by row
   std::uint64_t appFrame_ = kNoFrame, plantedFrame_ = kNoFrame;
   std::vector<std::uint64_t> planted_;
 };

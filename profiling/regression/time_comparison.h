@@ -4,7 +4,7 @@
 ///
 /// Every frame of a round is a pair: both builds do the same work in it. A round says by how much the typical
 /// frame differs (the median of the ratios over its frames); the rounds are judged by their ranks. A stage
-/// has become slower if the probability of that by chance, corrected for the number of stages, is at most 1
+/// has become slower if the probability of that by chance, corrected for the number of stages, is at most 5
 /// %, and the typical round differs by more than the tolerance.
 ///
 /// Units    ratios: 0.05 is 5 % slower.

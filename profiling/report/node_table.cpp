@@ -9,6 +9,7 @@ void add(NodeRow& to, const NodeRow& row) {
       to.draw += row.draw;
   to.cullMeasured = to.cullMeasured && row.cullMeasured,
   to.drawMeasured = to.drawMeasured && row.drawMeasured;
+  to.drawTooLittle = to.drawTooLittle || row.drawTooLittle;
   to.total += row.total, to.share += row.share, to.visits += row.visits;
   to.walls.resize(row.walls.size());
   for (std::size_t w = 0; w < row.walls.size(); ++w) {

@@ -248,7 +248,7 @@ private:
   static void addCosts(json& j, const NodeRow& r, bool onWalls) {
     const int digits = onWalls ? 6 : 4;
     j["costs"] = {number(r.app, digits), measured(r.cull, r.cullMeasured, digits),
-                  measured(r.draw, r.drawMeasured, digits)};
+                  measured(r.draw, r.drawKnown(), digits)};
     if (!r.drawMeasured && r.draw > 0) j["inPart"] = true;
     if (r.share > 0) j["share"] = number(r.share, digits);
     if (r.visits > 0)

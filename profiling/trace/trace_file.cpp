@@ -90,7 +90,7 @@ void TraceFile::writeSpan(std::size_t number, const SpanRecord& r, std::uint64_t
     name = trace::jsonText(plain);
   }
   if (isStage(r.what)) args += fmt::format(",\"processor ms\":{:.3f}", r.use.processor);
-  if (r.what == Span::Draw && log_.drawSample(frame) != DrawSample::None)
+  if (r.what == Span::Draw && (r.disturbed || log_.drawSample(frame) != DrawSample::None))
     args += log_.drawSample(frame) == DrawSample::Whole ? R"(,"sampled":"each eye was drawn alone")"
                                                         : R"(,"sampled":"some batches were drawn alone")";
   trace::addSlice(text_, {name, categoryOf(r.what), number + 1, ticks(r.began), ticks(r.ended), args});

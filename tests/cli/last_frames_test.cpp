@@ -1,9 +1,10 @@
-/// A live run keeps its last frames in a file, and harms nobody's by it.
+/// A run keeps its last frames in a file, and harms nobody's by it.
 
 #include "tests/cli/program.h"
 
 #include <csignal>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 namespace stadion {
@@ -71,6 +72,53 @@ TEST(ProgramLastFrames, WhatIsDamagedIsSaidToBe) {
     EXPECT_TRUE(wrong.status == 0 || wrong.status == 2) << at << ": " << wrong.err;
     EXPECT_EQ(wrong.status == 2, wrong.err.find("error") != std::string::npos) << at << ": " << wrong.err;
   }
+}
+
+TEST(ProgramLastFrames, ARunThatCrashesTellsWhereItsLastFramesAreWhoeverWaitedForThem) {
+  const TemporaryFolder folder;
+  ProgramRun run;
+  run.words = live({"--frames", "10000000", "--input", "none"});
+  run.environment = {"TMPDIR=" + folder.path().string()};
+  run.signal = SIGSEGV, run.signalAfter = std::chrono::milliseconds(3000);
+  const ProgramResult r = runProgram(run);
+  EXPECT_EQ(r.status, 128 + SIGSEGV) << r.err;
+  const std::string command = "stadion profile --black-box ";
+  const std::size_t at = r.err.find(command + folder.path().string());
+  ASSERT_NE(at, std::string::npos) << r.err;
+  const std::size_t from = at + command.size();
+  const std::string file = r.err.substr(from, r.err.find('\n', from) - from);
+  const ProgramResult told = stadionProgram({"profile", "--black-box", file});
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_NE(told.out.find("600"), std::string::npos) << told.out;
+}
+
+TEST(ProgramLastFrames, ARunInWhichEveryFrameCountsLeavesNothingIfItEndsWell) {
+  const TemporaryFolder folder;
+  ProgramRun run;
+  run.words = live({"--frames", "30", "--input", "none"});
+  run.environment = {"TMPDIR=" + folder.path().string()};
+  const ProgramResult r = runProgram(run);
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(ProgramLastFrames, WhatIsDrawnOfAFileThatComesLaterKeepsItsBudgetToo) {
+  const TemporaryFolder folder;
+  folder.write("stone.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 2\nf 1 2 3\nf 1 3 4\n");
+  folder.write("arena.evs", "object( name=stone, file=stone.obj, budget=0.0001, position=\"0, 4, 0\" )\n");
+  const std::string show =
+      folder.write("late.evs", "rig( name=stand, position=\"0, -4, 0\" )\n"
+                               "light( name=sun, direction=\"-0.4, 0.5, -0.8\", shadows=off )\n"
+                               "scene( name=arena, file=arena.evs, initstate=off )\n"
+                               "timer( period=0.5, eventmessage=\"timesup, arena, load\" )\n");
+  ProgramRun run;
+  run.words = {stadionPath(), "run", show, "--walls", "desktop", "--size", "32x24", "--no-sound", "--json"};
+  run.signal = SIGINT, run.signalAfter = std::chrono::seconds(6);
+  const ProgramResult r = runProgram(run);
+  ASSERT_EQ(r.status, 130) << r.err;
+  const auto summary = nlohmann::json::parse(r.out);
+  ASSERT_EQ(summary.at("budgets").size(), 1U) << r.out;
+  EXPECT_GT(summary["budgets"][0].at("mean_ms").get<double>(), 0) << r.out;
 }
 
 }  // namespace

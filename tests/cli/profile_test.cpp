@@ -32,6 +32,20 @@ TEST(ProgramProfile, EveryNodeThatWorksOrIsSeenHasARow) {
   for (const auto& e : j["explained"]) EXPECT_GT(e["covered"], 0.5) << e;
 }
 
+TEST(ProgramProfile, ItSaysWhatDrawingWasMeasuredWithWhateverTheProvider) {
+  for (const char* provider : {"osmesa", "egl"}) {
+    const ProgramResult r =
+        stadionProgram({"profile", STADION_SOURCE_DIR "/scripts/kick.evs", "--frames", "20", "--size",
+                        "32x24", "--walls", "desktop", "--json", "--gl", provider});
+    ASSERT_EQ(r.status, 0) << r.err;
+    const auto run = stadionProgram({"run", STADION_SOURCE_DIR "/scripts/kick.evs", "--frames", "1", "--size",
+                                     "32x24", "--walls", "desktop", "--json", "--gl", provider});
+    const bool software = run.out.find("llvmpipe") != std::string::npos;
+    const std::string method = nlohmann::json::parse(r.out)["draw_method"];
+    EXPECT_EQ(method.find("processor time") == 0, software) << provider << ": " << method;
+  }
+}
+
 TEST(ProgramProfile, ItCountsWhatAPlainRunCounts) {
   const ProgramResult r = profileKick({"--json", "--walls", "desktop"});
   const ProgramResult run =

@@ -7,6 +7,7 @@
 
 #include <limits>
 #include <malloc.h>
+#include <map>
 #include <set>
 #include <thread>
 
@@ -101,6 +102,69 @@ TEST(PictureRenderer, InstancesLookLikeSingleMeshes) {
   for (std::size_t i = 0; i < list.opaque.size(); i += 2) list.opaque[i].mesh = other;
   EXPECT_EQ(stage.draw(list), together);
   EXPECT_EQ(stage.renderer().counts().calls, 10u);
+}
+
+/// Wants pieces of every frame drawn alone, one eye's after the other as far as they go.
+struct Sampling final : FrameProbe {
+  std::vector<DrawnAlone> pieces;
+  std::map<NodeRef, int> told;
+  std::size_t asked = 0, next = 0;
+
+  void began(Span, std::uint64_t, std::uint32_t) override {}
+  void began(Span, NodeRef) override {}
+  void ended(Span) override {}
+  DrawSample drawSample(std::uint64_t, std::uint32_t) const override { return DrawSample::Some; }
+  std::size_t nextBatch(std::uint32_t, std::uint32_t, std::size_t batches) override {
+    asked = batches;
+    const std::size_t now = next;
+    next = now + kBatchesAFrame < batches ? now + kBatchesAFrame : 0;
+    return now;
+  }
+  void drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nodes) override {
+    if (drawn.what != Span::Draw) return;
+    pieces.push_back(drawn);
+    for (const NodeShare& share : nodes) ++told[share.node];
+  }
+};
+
+/// Lamps of an opaque foot and a shade of glass, side by side.
+DrawList lamps(MeshStore& meshes, std::uint32_t count) {
+  auto lamp = MeshMaker(matt(0.5f, 0.4f, 0.3f))
+                  .box(Vec3(-0.1, -0.1, -0.5), Vec3(0.1, 0.1, 0.5))
+                  .box(Vec3(-0.2, -0.2, 0), Vec3(0.2, 0.2, 0.4))
+                  .seal();
+  const auto half = static_cast<std::uint32_t>(lamp->indices.size() / 2);
+  lamp->materials.push_back(matt(0.2f, 0.8f, 0.3f, 0.5f));
+  lamp->submeshes = {{0, half, 0}, {half, half, 1}};
+  const MeshId id = meshes.add(std::move(lamp));
+  DrawList list = test::plainList();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Affine X = Affine::Identity();
+    X.translation() = Vec3(1.6 * (i + 0.5) / count - 0.8, 0, 0);
+    list.transparent.push_back(place(id, X));
+    list.transparent.back().owner = {1, i};
+    list.transparent.back().pixels = 20;
+  }
+  return list;
+}
+
+TEST(PictureRenderer, WhatIsDrawnInTwoPassesIsOnePieceThatHasItsTurn) {
+  constexpr std::uint32_t kLamps = 100;
+  MeshStore meshes;
+  const DrawList list = lamps(meshes, kLamps);
+  Stage stage(meshes, 96, 72);
+  const test::Picture plain = stage.draw(list);
+  Sampling probe;
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) do {
+      ASSERT_FALSE(stage.renderer().draw(list, std::function<bool()>{}, &probe));
+    } while (probe.next != 0);
+  EXPECT_EQ(probe.pieces.size(), kRounds * probe.asked) << "each piece is told once a round";
+  ASSERT_EQ(probe.told.size(), kLamps) << "everybody has a turn";
+  for (const auto& [node, times] : probe.told) EXPECT_EQ(times, kRounds) << node.position;
+  test::Picture sampled = plain;
+  ASSERT_FALSE(stage.renderer().read(0, sampled.rgba));
+  EXPECT_EQ(sampled, plain);
 }
 
 TEST(PictureRenderer, ServesOddSizes) {

@@ -58,9 +58,9 @@ TEST(FrameVerdict, TheStageThatTookLongIsNamedWithItsWall) {
 
 TEST(FrameVerdict, WhatTheStageWaitedForIsTheCause) {
   FrameFacts f = facts(60);
-  f.app.ms = 50, f.app.switches = 3;
+  f.app.ms = 50, f.app.delayed = 45;
   EXPECT_EQ(causeOf(f), Cause::Preempted);
-  f.app.faults = 4000;
+  f.app.delayed = 0, f.app.faults = 4000;
   EXPECT_EQ(causeOf(f), Cause::PageFaults);
   f.app.loading = 45;
   EXPECT_EQ(causeOf(f), Cause::Loading);
@@ -69,7 +69,9 @@ TEST(FrameVerdict, WhatTheStageWaitedForIsTheCause) {
   EXPECT_EQ(f.cause, Cause::Turn);
   EXPECT_EQ(f.wall, 0U);
   EXPECT_EQ(f.holder, 1U);
-  EXPECT_EQ(causeOf(facts(60)), Cause::Unknown) << "no stage took long";
+  FrameFacts idle = facts(60);
+  for (StageFacts& s : idle.draw) s.ms = 1;
+  EXPECT_EQ(causeOf(idle), Cause::Unknown) << "no stage took long";
 }
 
 TEST(FrameVerdict, ADrawWithoutProcessorsIsPreempted) {
@@ -88,10 +90,95 @@ TEST(FrameVerdict, ADrawWithoutProcessorsIsPreempted) {
 TEST(FrameVerdict, OfALateDrawWhoHasMostToDrawIsNamed) {
   FrameFacts f = facts(60);
   f.draw[1].ms = 50;
-  copyText("playfield kick.evs:32", f.drawn);
+  copyText("playfield kick.evs:32", f.most);
   judge(f);
   const std::vector<std::string> walls{"front", "floor"};
   EXPECT_NE(toText(f, walls).find("; most there is to draw of playfield kick.evs:32"), std::string::npos);
+}
+
+TEST(FrameVerdict, OfALateCullWhoHasMostToCullIsNamed) {
+  FrameFacts f = facts(60);
+  f.cull[0].ms = f.cull[0].processor = 40;
+  copyText("village kick.evs:32", f.most);
+  judge(f);
+  const std::vector<std::string> walls{"front", "floor"};
+  EXPECT_EQ(toText(f, walls),
+            "frame 7 came after 60.0 ms (16.7): Cull of wall front took 40.0 ms; most there "
+            "is to cull of village kick.evs:32");
+}
+
+TEST(FrameVerdict, AppThatWaitsForAHelperIsOverAndNotPreempted) {
+  FrameFacts f = facts(60);
+  f.app.ms = 55, f.app.processor = 5, f.app.switches = 1, f.nodeMs = 50;
+  copyText("game kick.evs:5", f.name);
+  judge(f);
+  EXPECT_EQ(f.cause, Cause::App);
+  EXPECT_EQ(toText(f, {}),
+            "frame 7 came after 60.0 ms (16.7): App took 55.0 ms; dearest game kick.evs:5, 50.0 ms");
+}
+
+TEST(FrameVerdict, WhoBeginsLateForWantOfAProcessorIsPreempted) {
+  FrameFacts f = facts(60);
+  for (StageFacts& s : f.draw) s.ms = 1;
+  f.app.late = 40;
+  judge(f);
+  EXPECT_EQ(f.cause, Cause::Preempted);
+  EXPECT_EQ(toText(f, {}), "frame 7 came after 60.0 ms (16.7): App began 40.0 ms late without a processor, "
+                           "which others had");
+  f.app.late = 0, f.swap.late = 40;
+  EXPECT_EQ(causeOf(f), Cause::Preempted);
+}
+
+TEST(FrameVerdict, StagesThatFollowEachOtherCountTogether) {
+  FrameFacts f = facts(33.3f);
+  f.walls = 4, f.sequential = 1;
+  f.app.ms = f.app.processor = 6;
+  for (std::uint32_t w = 0; w < 4; ++w) f.draw[w].ms = 5.5f;
+  f.draw[2].ms = 5.6f;
+  judge(f);
+  EXPECT_EQ(f.cause, Cause::Draw);
+  EXPECT_EQ(f.wall, 2U);
+  const std::vector<std::string> walls{"front", "left", "right", "floor"};
+  EXPECT_EQ(toText(f, walls),
+            "frame 7 came after 33.3 ms (16.7): Draw of wall right took 5.6 ms, which with the "
+            "other stages came to 32.1 ms");
+  f.sequential = 0;
+  for (StageFacts& s : f.draw) s.ms = 7;
+  EXPECT_EQ(causeOf(f), Cause::Draw) << "they may share the processors";
+}
+
+TEST(FrameVerdict, AFrameIsNotLateForThatItsDrawingWasSampled) {
+  FrameFacts f = facts(60);
+  f.sampled = 1;
+  f.draw[1].ms = 50;
+  EXPECT_EQ(causeOf(f), Cause::None);
+  f.app.ms = f.app.processor = 40;
+  EXPECT_EQ(causeOf(f), Cause::App);
+}
+
+/// What a judge makes of spans that are made up.
+struct Judged {
+  NodeNames names;
+  std::vector<FrameFacts> shown;
+  FrameJudge judge{60, 1, names, [this](const FrameFacts& f) { shown.push_back(f); }};
+  ProfileClock::time_point now{};
+
+  void frame(std::uint64_t n, double draw, bool sampled = false) {
+    SpanRecord r;
+    r.frame = n, r.wall = 0, r.what = Span::Draw, r.took = draw, r.disturbed = sampled;
+    judge.take(1, r);
+    now += std::chrono::milliseconds(n == 0 ? 1000 : static_cast<int>(draw));
+    r.what = Span::Swap, r.wall = kNoWall, r.took = 0.1, r.ended = now, r.disturbed = false;
+    judge.take(1, r);
+  }
+};
+
+TEST(FrameVerdict, OfASampledFrameAndTheNextDrawingIsNotTheCause) {
+  Judged j;
+  j.frame(0, 10), j.frame(1, 50, true), j.frame(2, 50), j.frame(3, 50);
+  EXPECT_EQ(j.shown[1].cause, Cause::None);
+  EXPECT_EQ(j.shown[2].cause, Cause::None);
+  EXPECT_EQ(j.shown[3].cause, Cause::Draw);
 }
 
 class Played {

@@ -4,6 +4,7 @@
 #include "profiling/load/load_governor.h"
 
 #include "engine/nodes/lod_node.h"
+#include "engine/nodes/scene_node.h"
 #include "tests/engine/show_fixture.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +20,8 @@ struct Governed : ShowFixture {
   std::vector<std::string> told;
   std::unique_ptr<LoadGovernor> governor;
   std::uint64_t at = 0;
+  bool sampled = false;                     ///< the coming frame's drawing is looked at
+  std::optional<NodeTerms> guest;           ///< of the node in the annex
   std::map<NodeRef, std::uint32_t> levels;  ///< as they have been decided; of nobody: stress
 
   explicit Governed(std::vector<NodeTerms> terms, bool scalable = false, GovernorOptions options = {}) {
@@ -28,8 +31,15 @@ struct Governed : ShowFixture {
         addNode<ListeningNode>(load, "node" + std::to_string(i));
         load.terms[static_cast<std::uint32_t>(i)] = terms[i];
       }
+      load.lines.push_back(1);
+      addNode<SceneNode>(load, "annex", PlaceAttributes{}, "annex", Nanoseconds{0}, false);
       if (scalable)
         addNode<LodNode>(load, "tree", PlaceAttributes{}, std::vector<NodeRef>{}, std::vector<double>{5});
+    };
+    loader.files["annex"] = [this](Load& load) {
+      load.lines.assign(2, 1);
+      addNode<ListeningNode>(load, "guest");
+      if (guest) load.terms[0] = *guest;
     };
     EXPECT_TRUE(scene.open("show"));
     options.walls = {"front", "left"};
@@ -57,11 +67,24 @@ struct Governed : ShowFixture {
       app += nodes[i];
     }
     governor->take(0, span(Span::App, at, app));
-    for (std::size_t w = 0; w < draws.size(); ++w)
-      governor->take(1 + w, span(Span::Draw, at, draws[w], static_cast<std::uint32_t>(w)));
+    for (std::size_t w = 0; w < draws.size(); ++w) drew(w, draws[w]);
     governor->take(1, span(Span::Swap, at, 0.1));
     governor->caughtUp();
     ++at;
+  }
+  void drew(std::size_t wall, double ms) {
+    SpanRecord r = span(Span::Draw, at, ms, static_cast<std::uint32_t>(wall));
+    r.disturbed = sampled;
+    governor->take(1 + wall, r);
+  }
+  /// The annex comes or goes.
+  void annex(Verb verb) {
+    const std::uint64_t before = scene.loadsVersion();
+    scene.command("annex", verb, {}, 0);
+    for (int i = 0; i < 200 && scene.loadsVersion() == before; ++i) ShowFixture::frame();
+    ASSERT_NE(scene.loadsVersion(), before);
+    names.see(scene);
+    governor->see(scene);
   }
   void frames(std::uint64_t count, std::vector<double> nodes, std::vector<double> draws = {1, 1}) {
     for (; count > 0; --count) frame(nodes, draws);
@@ -106,6 +129,18 @@ struct Drawn : Governed {
     }
   }
 };
+
+TEST(LoadGovernor, WhatDrawingNothingTakesIsTakenOffOnce) {
+  Governed g({{1, {}, 1}});
+  for (int i = 0; i < 100; ++i) {
+    for (int piece = 0; g.at % 16 == 9 && piece < 8; ++piece)
+      g.governor->take(DrawnAlone{g.at, 0, 0, Span::Draw, 0.2, 0.15}, {{NodeRef{1, 0}, 1}});
+    g.frame({0});
+  }
+  EXPECT_NEAR(g.governor->reports().at(0).worst, 1.6, 1e-9) << "DrawnAlone::ms is without it";
+  // The first sample alone says nothing yet.
+  EXPECT_GT(g.governor->reports().at(0).overruns, 60U);
+}
 
 TEST(LoadGovernor, WhatIsHiddenCostsNothing) {
   Drawn g(1, {Hide});
@@ -173,6 +208,74 @@ TEST(LoadGovernor, StressComesBeforeConcessionsForTheFramesSake) {
   g.frames(3, {1}, {25, 25});
   EXPECT_GT(g.stress(), 0U);
   EXPECT_EQ(g.level(0), 0U);
+}
+
+TEST(LoadGovernor, WhatIsGivenUpForTheFrameStaysSoWhateverComesOrGoes) {
+  Governed g({{0, {Half, Rest}, 5}, {0, {Half, Rest}, 2}});
+  g.frames(100, {4, 4});
+  g.frames(30, {12, 12});
+  ASSERT_EQ(g.level(1), 3U);
+  g.annex(Verb::Load);
+  g.frames(20, {12, 12});
+  EXPECT_EQ(g.level(1), 3U);
+  EXPECT_EQ(g.level(0), 0U);
+  g.annex(Verb::Unload);
+  g.frames(20, {12, 12});
+  EXPECT_EQ(g.level(1), 3U);
+  EXPECT_EQ(g.level(0), 0U);
+}
+
+TEST(LoadGovernor, WhoComesWithALowerPriorityGivesUpBeforeThoseThatHaveAlready) {
+  Governed g({{0, {Half, Rest}, 5}, {0, {Half, Rest}, 2}});
+  g.guest = NodeTerms{0, {Rest}, 1};
+  g.frames(100, {4, 4});
+  g.frames(30, {12, 12});
+  ASSERT_EQ(g.level(1), 3U);
+  g.annex(Verb::Load);
+  g.frames(3, {12, 12});
+  EXPECT_EQ((g.levels[NodeRef{2, 0}]), 1U);
+  EXPECT_EQ(g.level(1), 3U);
+  EXPECT_EQ(g.level(0), 0U);
+}
+
+TEST(LoadGovernor, WhatIsHiddenForItsBudgetStaysHiddenWhenSomethingElseComes) {
+  Drawn g(1, {Hide});
+  g.draw(120, 3);
+  ASSERT_EQ(g.level(0), 1U);
+  g.annex(Verb::Load);
+  const std::uint64_t before = g.governor->reports().at(0).overruns;
+  g.draw(16, 3);
+  EXPECT_EQ(g.level(0), 1U);
+  EXPECT_EQ(g.governor->reports().at(0).overruns, before);
+}
+
+TEST(LoadGovernor, OneDearSampleOfDrawingIsNoOverrunAndTakesNothing) {
+  Drawn g(1, {Hide});
+  g.draw(200, 0.2);
+  g.draw(16, 4);
+  g.draw(200, 0.2);
+  EXPECT_EQ(g.level(0), 0U);
+  EXPECT_EQ(g.governor->reports().at(0).overruns, 0U);
+  EXPECT_EQ(g.governor->reports().at(0).changes, 0U);
+}
+
+TEST(LoadGovernor, TwoDearSamplesOfDrawingAreEnough) {
+  Drawn g(1, {Hide});
+  g.draw(200, 0.2);
+  g.draw(36, 4);
+  EXPECT_EQ(g.level(0), 1U);
+  EXPECT_GT(g.governor->reports().at(0).overruns, 0U);
+}
+
+TEST(LoadGovernor, WhatLookingAtDrawingTakesPutsNothingUnderStress) {
+  Governed g({}, true);
+  const double period = 1000.0 / 60;
+  for (int i = 0; i < 3000; ++i) {
+    const int phase = i % 16;
+    g.sampled = phase == 8 || phase == 9;
+    g.frame({}, {(g.sampled || phase == 10 ? 1.3 : 0.85) * period, 1});
+  }
+  EXPECT_EQ(g.governor->stress(), 1);
 }
 
 TEST(LoadGovernor, NoMoreThanFourDecisionsTakeEffectInAFrame) {

@@ -6,6 +6,7 @@
 #include "profiling/regression/detection.h"
 #include "profiling/regression/exact_comparison.h"
 #include "profiling/regression/instruction_comparison.h"
+#include "profiling/regression/instruction_counter.h"
 #include "profiling/regression/page.h"
 #include "profiling/regression/progress.h"
 #include "profiling/regression/reports.h"
@@ -284,6 +285,51 @@ TEST(RegressionInstructions, ABaselineKeepsEnoughToNameTheNodeThatMoved) {
   EXPECT_EQ(shifts[0].culprit, "ball (/somewhere/else/show.evs:7) in app");
   EXPECT_EQ(compareInstructions({of.instructions, {}}, now, 0.005)[0].culprit, "app")
       << "of an older baseline the stage is known";
+}
+
+TEST(RegressionInstructions, TheProcessorsCounterGivesEachNodeItsOwnFromTheThirdFrameOn) {
+  std::uint64_t executed = 0;
+  SpanTimesOptions options;
+  options.countInstructions = true;
+  options.instructions = [&] { return executed; };
+  SpanTimes times(std::move(options));
+  for (std::uint64_t frame = 0; frame < 12; ++frame) {
+    times.began(Span::App, frame, kNoWall);
+    executed += 1000;
+    times.began(Span::Simulate, NodeRef{1, 4});
+    executed += 50'000;
+    times.ended(Span::Simulate);
+    executed += 200;
+    times.ended(Span::App);
+    executed += 7777;  // between the stages
+    times.began(Span::Cull, frame, 0);
+    executed += 30'000;
+    times.ended(Span::Cull);
+  }
+  const auto rows = times.rows({"front"}, [](NodeRef, SpanRow& row) { row.path = "ball", row.line = 7; });
+  const auto counts = instructionCounts(spanRows(toJson(rows)));
+  EXPECT_EQ(counts.stages, (std::map<std::string, double>{{"app", 51'200}, {"cull of wall front", 30'000}}));
+  EXPECT_EQ(counts.nodes.at("app").at("ball"), 50'000);
+}
+
+TEST(RegressionInstructions, WhoCannotCountByHardwareIsToldWhy) {
+  EXPECT_NE(whyNotByHardware(ENOENT).find("no hardware counters"), std::string::npos);
+  EXPECT_NE(whyNotByHardware(EACCES).find("perf_event_paranoid"), std::string::npos);
+  std::string why;
+  const auto counter = InstructionCounter::open(why);
+  EXPECT_EQ(counter.has_value(), why.empty());
+  if (!counter) return;
+  const std::uint64_t before = counter->now();
+  burn(100'000);
+  EXPECT_GT(counter->now(), before + 100'000);
+}
+
+TEST(RegressionInstructions, ABaselineSaysWhoCountedThem) {
+  BaselineCase kept;
+  kept.instructions["app"] = 1, kept.countedBy = "hardware counters";
+  const std::string file = testing::TempDir() + "counted.baseline.json";
+  std::ofstream(file) << toJson({{"made/sequential", kept}});
+  EXPECT_EQ(readBaseline(file).value().at("made/sequential").countedBy, "hardware counters");
 }
 
 SuiteResult madeResult() {

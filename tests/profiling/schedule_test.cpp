@@ -1,4 +1,5 @@
 // What the planned pipeline does, against schedules that can be told by hand.
+#include "profiling/plan/cost_probe.h"
 #include "profiling/plan/costs_file.h"
 #include "profiling/plan/diagram.h"
 #include "profiling/plan/forecast.h"
@@ -208,6 +209,27 @@ TEST(PlanCosts, SayWhatIsWrongWithAFile) {
   EXPECT_NE(messageOf(toJson(costs)).find("not as many walls"), std::string::npos);
   costs.frames.clear();
   EXPECT_NE(messageOf(toJson(costs)).find("no frames"), std::string::npos);
+}
+
+TEST(PlanCosts, WhereTheRasterisersThreadsGotNoProcessorThatIsSaid) {
+  plan::FrameCost frame;
+  frame.walls.push_back({0.1, {{0.4, 10, 1.9}}});
+  EXPECT_FALSE(plan::wasStarved({frame}));
+  frame.walls[0].pictures[0].atOnce = 0.06;
+  EXPECT_TRUE(plan::wasStarved({frame, frame}));
+  frame.walls[0].pictures[0].raster = 0.1;
+  EXPECT_FALSE(plan::wasStarved({frame})) << "so little says nothing";
+}
+
+TEST(PlanCosts, WhatIsPlannedWithIsUndisturbed) {
+  std::map<std::uint64_t, plan::FrameCost> run;
+  for (std::uint64_t n = 0; n < 20; ++n) {
+    plan::FrameCost frame;
+    frame.walls.push_back({0.1, {{0.4, 10, n < 15 ? 0.7 : 1.9}}});
+    run[n] = frame;
+  }
+  for (const plan::FrameCost& frame : plan::plannedCosts({run}))
+    EXPECT_EQ(frame.walls[0].pictures[0].atOnce, 1.9);
 }
 
 }  // namespace

@@ -249,7 +249,7 @@ TEST(ShowProfile, WhatIsDrawnTogetherIsSharedByHowMuchThereIsToDraw) {
   EXPECT_DOUBLE_EQ(f.nodes[1].walls[0].draw[0], 2);
 }
 
-TEST(ShowProfile, NodesRowsSumToTheEyeDrawnWhole) {
+TEST(ShowProfile, NodesAndPartsAreScaledAlikeToTheEyeDrawnWhole) {
   ShowProfile profile;
   profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
   profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
@@ -258,9 +258,29 @@ TEST(ShowProfile, NodesRowsSumToTheEyeDrawnWhole) {
   profile.take({8, 0, 0, Span::Resolve, 1, 0.1}, {});
   profile.take({24, 0, 0, Span::LeftEye, 11, 0.1}, {});
   const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
-  EXPECT_DOUBLE_EQ(f.nodes[0].draw, 7.5);
-  EXPECT_DOUBLE_EQ(f.nodes[1].draw, 2.5);
+  EXPECT_DOUBLE_EQ(f.nodes[0].draw, 6 * 11.0 / 9);
+  EXPECT_DOUBLE_EQ(f.nodes[1].draw, 2 * 11.0 / 9);
   EXPECT_NEAR(f.explained[2].covered(), 9.0 / 11, 1e-12) << "as it was drawn alone";
+}
+
+TEST(ShowProfile, WhatWasDrawnIsNotNothingHoweverMuchTheSkyTook) {
+  ShowProfile profile;
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
+  profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
+  profile.take({8, 0, 0, Span::Draw, 0.5, 0.1}, {{kBall, 1}});
+  profile.take({8, 0, 0, Span::Draw, -0.01, 0.1}, {{kStone, 1}});  // the clock cannot tell it from nothing
+  profile.take({8, 0, 0, Span::Sky, 9, 0.1}, {});
+  profile.take({8, 0, 0, Span::Resolve, 2, 0.1}, {});
+  profile.take({24, 0, 0, Span::LeftEye, 10, 0.1}, {});
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  EXPECT_EQ(f.nodes[0].node, kBall);
+  EXPECT_NEAR(f.nodes[0].draw, 0.5 * 10 / 11.5, 1e-12);
+  EXPECT_FALSE(f.nodes[1].drawKnown());
+  EXPECT_EQ(f.framesNeeded, 0U) << "both had their turn";
+  EXPECT_TRUE(nlohmann::json::parse(toJson(f))["nodes"][1]["draw_ms"].is_null());
+  EXPECT_NE(toText(f, 10).find("~ 1 nodes: too little"), std::string::npos) << toText(f, 10);
+  EXPECT_NE(toText(f, 10).find(" 0.0000          - "), std::string::npos) << "who is not visited has no p95";
+  EXPECT_NEAR(f.explained[2].covered(), 1.15, 1e-12) << "the sky is drawn once";
 }
 
 TEST(ShowProfile, AppIsWhatItTakesWhileNotEveryNodeIsRecorded) {
@@ -347,6 +367,19 @@ TEST(CostSeries, PercentilesAreExactToABin) {
   EXPECT_NEAR(s.percentile(95) / 0.95, 1, 0.09);
   EXPECT_EQ(s.most(), 1);
   EXPECT_EQ(CostSeries().percentile(95), 0);
+}
+
+TEST(FrameLog, DrawingIsSampledFromWhenSomebodyAsksForIt) {
+  FrameLog log({}, {.samples = false, .whole = false, .from = 0});
+  EXPECT_EQ(log.drawSample(9, 0), DrawSample::None);
+  EXPECT_FALSE(log.wantsShares(16, 0));
+  log.setSamples(true);
+  EXPECT_EQ(log.drawSample(9, 0), DrawSample::Some);
+  EXPECT_EQ(log.drawSample(8, 0), DrawSample::None) << "nobody asked for whole eyes";
+  EXPECT_TRUE(log.wantsShares(16, 0));
+  FrameLog shares({}, {.samples = false, .shares = true, .from = 0});
+  EXPECT_TRUE(shares.wantsShares(16, 0));
+  EXPECT_EQ(shares.drawSample(9, 0), DrawSample::None);
 }
 
 }  // namespace
