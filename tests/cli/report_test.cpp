@@ -115,8 +115,8 @@ TEST_F(ProgramReport, VeryManyNodesAreGatheredAndAllInTheTable) {
   std::string script = "object( name=ball, file=football.3ds, position=\"0, 3, 1\" )\n";
   for (int i = 0; i < 2000; ++i)
     script += "object( name=pillar_" + std::to_string(i) +
-              ", file=suites/pillar.obj, scale=0.4, position=\"" + std::to_string(i % 50 - 25) + ", " +
-              std::to_string(2 + i / 50) + ", 0\" )\n";
+              ", file=suites/pillar.obj, scale=0.4, position=\"" + std::to_string(0.1 * (i % 50 - 25)) +
+              ", " + std::to_string(8 + i / 50) + ", 0\" )\n";
   const fs::path page = folder_.path() / "many.html";
   const ProgramResult r = profile(folder_.write("many.evs", script),
                                   {"--html", page.string(), "--walls", "desktop", "--asset-root",

@@ -1,4 +1,5 @@
-/// While nothing comes or goes App asks for no memory: what it needs from frame to frame it has already.
+/// While nothing comes, goes or happens App asks for no memory: what it needs from frame to frame it has
+/// already. (What happens, a path's end for example, may be told with a message, which is memory.)
 
 #include "profiling/allocations.h"
 #include "tests/cli/played_show.h"
@@ -57,15 +58,15 @@ TEST_F(ProgramSteadyState, OfWhatStandsStill) {
 
 TEST_F(ProgramSteadyState, OfWhatPathsAndSwaysMove) {
   std::string text = "rig( name=room )\npath( target=room, loop=on, key=\"0, 0,0,0, 0,0,0\", "
-                     "key=\"1, 5,0,0, 0,0,90\", key=\"2, 0,0,0, 0,0,0\" )\n",
+                     "key=\"9, 5,0,0, 0,0,90\", key=\"18, 0,0,0, 0,0,0\" )\n",
               targets;
   for (int i = 0; i < 500; ++i) {
     text += fmt::format("object( name=b{0}, file=football.3ds, position=\"{0}, 9, 0\" )\n", i);
     if (i % 2 == 0)
       targets += fmt::format(", target=b{}", i);
     else
-      text += fmt::format("path( target=b{0}, loop=on, smooth=on, key=\"0, {0},0,1\", key=\"1, {0},5,1\", "
-                          "key=\"2, {0},0,1, 0,0,90\" )\n",
+      text += fmt::format("path( target=b{0}, loop=on, smooth=on, key=\"0, {0},0,1\", key=\"9, {0},5,1\", "
+                          "key=\"18, {0},0,1, 0,0,90\" )\n",
                           i);
   }
   text +=
@@ -85,7 +86,7 @@ TEST_F(ProgramSteadyState, OfTriggersLevelsLightsAndWhatFollowsADevice) {
       "wandtrigger( box=\"0, 0, 0, 1, 1, 1\", eventmessage=\"enter, bat, hide\" )\n"
       "lod( name=statue, ranges=\"15, 60\", position=\"0, 30, 0\" )\n"
       "object( parent=statue, file=football.3ds )\nobject( parent=statue, file=football.3ds, scale=2 )\n"
-      "path( name=lift, loop=on, key=\"0, 0,0,0\", key=\"1, 0,0,3\", key=\"2, 0,0,0\" )\n"
+      "path( name=lift, loop=on, key=\"0, 0,0,0\", key=\"9, 0,0,3\", key=\"18, 0,0,0\" )\n"
       "light( type=point, parent=lift, position=\"0, 4, 3\", colour=\"1, 0.8, 0.6\" )\n";
   EXPECT_EQ(allocationsOfApp(showOf(folder_, text), kStill), 0u);
 }

@@ -1,4 +1,5 @@
 // Pictures of scenes simple enough to know every pixel.
+#include "engine/maths/srgb.h"
 #include "tests/pipeline/renderer_scene.h"
 
 #include <gtest/gtest.h>
@@ -118,7 +119,8 @@ TEST(PicturePixels, VertexColoursMultiplyTheMaterial) {
   auto mesh = sheet(matt(0.5f, 0.5f, 0.5f), -2, 2, -2, 2);
   mesh->colours.assign(4, {255, 51, 0, 255});
   list.opaque = {place(meshes.add(std::move(mesh)))};
-  EXPECT_TRUE(shows(Stage(meshes, kSide, kSide).draw(list).at(5, 5), test::sRgb(0.5), test::sRgb(0.1), 0));
+  const double green = 0.5 * linearFromSrgb(51 / 255.0);
+  EXPECT_TRUE(shows(Stage(meshes, kSide, kSide).draw(list).at(5, 5), test::sRgb(0.5), test::sRgb(green), 0));
 }
 
 TEST(PicturePixels, TransparentThingsBlendOverWhatIsBehindInTheListsOrder) {

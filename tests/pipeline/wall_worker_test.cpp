@@ -2,7 +2,7 @@
 // wall whose process dies or hangs.
 #include "pipeline/worker/drawing_in_workers.h"
 #include "pipeline/worker/list_bytes.h"
-#include "renderer_scene.h"
+#include "tests/pipeline/renderer_scene.h"
 
 #include <gtest/gtest.h>
 
