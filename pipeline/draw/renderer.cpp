@@ -337,6 +337,7 @@ void Renderer::prepareShadows(const DrawList& list) {
 void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
   counts_ = {};
   usedProgram_ = 0;
+  boundMaterial_ = {};
   ViewBlock view;
   if (!fillView(eye, view)) {
     report("an eye's matrices are not finite or have no inverse: its picture is not drawn");
@@ -438,13 +439,19 @@ void Renderer::drawTransparentParts(const MeshParts& mesh, std::uint32_t count) 
 void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended) {
   use((*surfaces_)[surfaceIndex({part.texture != 0, localLights_, false, false, blended, quality_.look})]);
   if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
-  gl_.BindBufferRange(GL_UNIFORM_BUFFER, kMaterialBinding, mesh.materials.name(), part.materialOffset,
-                      sizeof(MaterialBlock));
+  bindMaterial(mesh.materials.name(), part.materialOffset);
   gl_.DrawElementsInstanced(GL_TRIANGLES, part.indexCount, GL_UNSIGNED_INT, offset(part.indexOffset),
                             static_cast<GLsizei>(instances));
   ++counts_.calls;
   counts_.instances += instances;
   counts_.triangles += std::uint64_t{instances} * static_cast<std::uint64_t>(part.indexCount / 3);
+}
+
+/// Binding what is bound already costs a software rasteriser as much as drawing some triangles.
+void Renderer::bindMaterial(GLuint buffer, GLintptr at) {
+  if (boundMaterial_ == std::pair(buffer, at)) return;
+  boundMaterial_ = {buffer, at};
+  gl_.BindBufferRange(GL_UNIFORM_BUFFER, kMaterialBinding, buffer, at, sizeof(MaterialBlock));
 }
 
 void Renderer::drawBackground() {

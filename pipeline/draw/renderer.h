@@ -33,6 +33,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace stadion {
 
@@ -137,6 +138,7 @@ private:
   void drawSky();
   void cull(bool front, bool back);
   void use(const GlProgram& program);
+  void bindMaterial(GLuint buffer, GLintptr at);
   std::optional<Diagnostic> collectProblems();
   void report(std::string what);
 
@@ -154,6 +156,7 @@ private:
   std::array<GlBuffer, 2> views_;
   GlVertexArray nothing_;  // the sky's triangle has no vertex data
   GLuint usedProgram_ = 0;
+  std::pair<GLuint, GLintptr> boundMaterial_{};  ///< buffer, place in it [bytes]; in this eye
   bool localLights_ = false, shadowed_ = false;
   bool skyIsFlat_ = false;                            ///< one colour: cleared, not drawn
   const std::vector<GlProgram>* surfaces_ = nullptr;  ///< of the list that is drawn
