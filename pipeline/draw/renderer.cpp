@@ -85,7 +85,9 @@ std::unique_lock<std::mutex> Renderer::turn() const {
 
 Result<Renderer::Programs> Renderer::buildPrograms(const GlTable& gl, Look look) {
   Programs programs;
-  auto surfaces = buildSurfaces(gl, look, false, false);
+  SurfaceTraits common;
+  common.look = look;
+  auto surfaces = buildSurfaces(gl, common);
   if (!surfaces) return surfaces.error();
   programs.surface[0] = std::move(surfaces.value());
   auto sky = GlProgram::build(gl, skyVertexShader(), skyFragmentShader(look));
@@ -94,11 +96,11 @@ Result<Renderer::Programs> Renderer::buildPrograms(const GlTable& gl, Look look)
   return programs;
 }
 
-Result<std::vector<GlProgram>> Renderer::buildSurfaces(const GlTable& gl, Look look, bool shadowed,
-                                                       bool hazy) {
+Result<std::vector<GlProgram>> Renderer::buildSurfaces(const GlTable& gl, const SurfaceTraits& common) {
   std::vector<GlProgram> programs;
   for (std::size_t i = 0; i < 8; ++i) {
-    const SurfaceTraits traits{(i & 1) != 0, (i & 2) != 0, shadowed, hazy, (i & 4) != 0, look};
+    SurfaceTraits traits = common;
+    traits.textured = (i & 1) != 0, traits.localLights = (i & 2) != 0, traits.blended = (i & 4) != 0;
     auto built = GlProgram::build(gl, surfaceVertexShader(traits), surfaceFragmentShader(traits));
     if (!built) return built.error();
     assert(surfaceIndex(traits) == i);
@@ -107,10 +109,16 @@ Result<std::vector<GlProgram>> Renderer::buildSurfaces(const GlTable& gl, Look l
   return programs;
 }
 
-void Renderer::chooseSurfaces(bool shadowed, bool hazy) {
-  std::vector<GlProgram>& set = programs_.surface[std::size_t{shadowed} | std::size_t{hazy} << 1];
+void Renderer::chooseSurfaces(bool shadowed, bool hazy, std::size_t lights) {
+  const bool counted = quality_.look == Look::Plain && lights <= kMostCounted;
+  SurfaceTraits common;
+  common.shadowed = shadowed, common.hazy = hazy, common.look = quality_.look;
+  common.lights = counted ? static_cast<int>(lights) : -1;
+  const auto which = static_cast<std::size_t>(common.lights + 1);
+  std::vector<GlProgram>& set =
+      programs_.surface[std::size_t{shadowed} | std::size_t{hazy} << 1 | which << 2];
   if (set.empty()) {
-    auto built = buildSurfaces(gl_, quality_.look, shadowed, hazy);
+    auto built = buildSurfaces(gl_, common);
     if (built)
       set = std::move(built.value());
     else
@@ -315,7 +323,7 @@ void Renderer::prepareScene(const DrawList& list) {
   skyIsFlat_ = quality_.look == Look::Plain && scene.zenith == scene.horizon && scene.zenith == scene.ground;
   if (skyIsFlat_) gl_.ClearColor(scene.zenith[0], scene.zenith[1], scene.zenith[2], 1);
   stream(gl_, GL_UNIFORM_BUFFER, scene_, std::span(&scene, 1));
-  chooseSurfaces(shadowed_, list.sky.hazeDistance > 0);
+  chooseSurfaces(shadowed_, list.sky.hazeDistance > 0, std::min(list.lights.size(), DrawList::kMaxLights));
 }
 
 void Renderer::prepareShadows(const DrawList& list) {
@@ -437,7 +445,8 @@ void Renderer::drawTransparentParts(const MeshParts& mesh, std::uint32_t count) 
 }
 
 void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended) {
-  use((*surfaces_)[surfaceIndex({part.texture != 0, localLights_, false, false, blended, quality_.look})]);
+  use((
+      *surfaces_)[surfaceIndex({part.texture != 0, localLights_, false, false, blended, quality_.look, -1})]);
   if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
   bindMaterial(mesh.materials.name(), part.materialOffset);
   gl_.DrawElementsInstanced(GL_TRIANGLES, part.indexCount, GL_UNSIGNED_INT, offset(part.indexOffset),

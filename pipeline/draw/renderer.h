@@ -84,10 +84,11 @@ public:
   std::size_t meshesHeld() const { return cache_.size(); }
 
 private:
+  static constexpr std::size_t kMostCounted = 4;  ///< lights for which there are programs of their own
   struct Programs {
     /// By surfaceIndex() of those that differ in the mesh and the light. One set for air without haze and
     /// shadows, which is there from the start; the others, each at its first use.
-    std::array<std::vector<GlProgram>, 4> surface;
+    std::array<std::vector<GlProgram>, 4 * (kMostCounted + 2)> surface;
     std::vector<GlProgram> sky;  ///< one
   };
   enum class Pass { Opaque, OpaqueParts, Transparent };
@@ -123,8 +124,8 @@ private:
   void prepare(const DrawList& list);
   void prepareScene(const DrawList& list);
   void prepareShadows(const DrawList& list);
-  static Result<std::vector<GlProgram>> buildSurfaces(const GlTable& gl, Look look, bool shadowed, bool hazy);
-  void chooseSurfaces(bool shadowed, bool hazy);
+  static Result<std::vector<GlProgram>> buildSurfaces(const GlTable& gl, const SurfaceTraits& common);
+  void chooseSurfaces(bool shadowed, bool hazy, std::size_t lights);
   void drawEye(const DrawEye& eye, std::uint32_t index);
   void setUnchangingState();
   void settleState();

@@ -177,7 +177,7 @@ void main() {
 #ifdef SHADOWED
   float arriving = lightArriving(n);  // not in the loop: its lines are run whatever the branches say
 #endif
-  for (int i = 0; i < lightCount.x; ++i) {
+  for (int i = 0; i < LIGHTS; ++i) {
     vec3 l = lights[i].direction.xyz;
     float strength = 1.0;
 #ifdef LOCAL_LIGHTS
@@ -254,7 +254,7 @@ void main() {
   vec3 n = side * vec3(dot(cofactorX, normal), dot(cofactorY, normal), dot(cofactorZ, normal));
   n *= inversesqrt(max(dot(n, n), 1e-30));
   vec3 light = ambient.rgb;
-  for (int i = 0; i < lightCount.x; ++i) {
+  for (int i = 0; i < LIGHTS; ++i) {
     vec3 l = lights[i].direction.xyz;
     float strength = 1.0;
 #ifdef LOCAL_LIGHTS
@@ -370,6 +370,8 @@ std::string definitions(const SurfaceTraits& traits) {
   if (traits.hazy) text += "#define HAZY\n";
   if (traits.localLights) text += "#define LOCAL_LIGHTS\n";
   if (traits.blended) text += "#define BLENDED\n";
+  text += "#define LIGHTS " +
+          (traits.lights < 0 ? std::string("lightCount.x") : std::to_string(traits.lights)) + "\n";
   return text;
 }
 

@@ -33,6 +33,9 @@ struct SurfaceTraits {
   bool hazy = false;         ///< there is haze
   bool blended = false;      ///< writes linear light, for blending in a buffer that encodes sRGB itself
   Look look = Look::Full;
+  /// How many lights there are; negative: any number, looked up for every vertex or pixel, which a software
+  /// rasteriser does lane by lane.
+  int lights = -1;
 };
 
 std::string surfaceVertexShader(const SurfaceTraits& traits);
