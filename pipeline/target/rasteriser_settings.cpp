@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <malloc.h>
 #include <string>
 #include <thread>
 
@@ -14,6 +15,13 @@ namespace {
 constexpr const char* kVectorWidth = "LP_NATIVE_VECTOR_WIDTH";
 constexpr const char* kThreads = "LP_NUM_THREADS";
 constexpr unsigned kMostThreads = 32;  // Mesa takes no more
+
+/// The C library takes as many bytes as an int counts, and for the second 32 MiB at most.
+void keepFreedMemory() {
+  constexpr int kKeptAtMost = 1 << 28, kOwnPagesFrom = 1 << 25;  // [bytes]
+  mallopt(M_TRIM_THRESHOLD, kKeptAtMost);
+  mallopt(M_MMAP_THRESHOLD, kOwnPagesFrom);
+}
 
 }  // namespace
 
@@ -29,6 +37,7 @@ std::optional<Diagnostic> pinRasteriser() {
   const unsigned cores = std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
   setenv(kVectorWidth, "256", kKeepChoice);
   setenv(kThreads, std::to_string(cores).c_str(), kKeepChoice);
+  keepFreedMemory();
   return checkRasteriser();
 }
 
