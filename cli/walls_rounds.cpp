@@ -54,7 +54,7 @@ public:
   void comparePictures() {
     if (programs_.osg.empty()) return;
     for (const std::string& scene : how_.scenes)
-      for (const char* kind : {"STRICT", "OPEN"}) {
+      for (const char* kind : {"STRICT", "OPEN", "SUBMIT"}) {
         if (outcome_.results.count("pictures " + scene + " " + kind)) continue;
         std::fprintf(stderr, "pictures of %s, %s\n", scene.c_str(), kind);
         const TemporaryFolder folder;

@@ -4,6 +4,7 @@
 #include "pipeline/list_queue.h"
 #include "pipeline/swap_barrier.h"
 
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <new>
@@ -113,7 +114,7 @@ void FrameLoop::runPipelined() {
   StageThreads threads;
   threads.app = [&] {
     while (const auto turn = nextTurn()) {
-      slots.limitUnderWay(framesUnderWay());
+      slots.limitUnderWay(framesUnderWay(), lastWalls());
       const auto slot = waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return slots.beginWrite(); });
       if (!slot) return;
       const auto ticket = appStage(*turn, *slot);
@@ -137,6 +138,7 @@ void FrameLoop::runPipelined() {
     const auto next = [&] { return queues[wall].takeFilled(); };
     while (DrawList* list = waited(Span::ForDraw, kNoFrame, wall, next)) {
       if (!list->abandoned && !drawStage(wall, *list)) return;
+      slots.drawn();
       const FrameTicket ticket = list->ticket;
       bool shown = true;
       const auto show = [&] {
@@ -222,6 +224,13 @@ bool FrameLoop::takeCommands() {
 std::size_t FrameLoop::framesUnderWay() const {
   const bool commanded = options_.desk && options_.desk->state().latency > 0;
   return commanded ? static_cast<std::size_t>(options_.desk->state().latency) : options_.latency;
+}
+
+// With so few walls left at a frame, processors are idle. Where there are many of them, half of the walls is
+// enough: what begins early is old when it is shown.
+std::size_t FrameLoop::lastWalls() const {
+  const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
+  return std::min(options_.walls / 2, processors - 1);
 }
 
 // Where every frame counts, time goes by frames; where the newest counts, by the clock's ticks.

@@ -88,6 +88,7 @@ private:
   auto waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait);
   bool takeCommands();
   std::size_t framesUnderWay() const;
+  std::size_t lastWalls() const;
   FrameLoad loadOf(std::uint64_t frame);
   TimeSignature signatureAfter(std::uint64_t ticks, double speed);
   bool noneFollows();

@@ -42,7 +42,9 @@ ShowStages::ShowStages(ShowParts parts)
   for (const WallView& view : parts_.walls)
     if (!view.camera) wallPixels_.push_back({view.wall, view.width, view.height});
   const bool shadows = parts_.quality.look == Look::Full;
-  const CullParts cull{room_, shadows ? &stillCasters_ : nullptr, wallPixels_, &parts_.meshes, parts_.probe};
+  const bool oneSample = parts_.quality.samples == 1 && parts_.quality.leavesOutTiny;
+  const CullParts cull{
+      room_, shadows ? &stillCasters_ : nullptr, wallPixels_, &parts_.meshes, parts_.probe, oneSample};
   for (std::uint32_t wall = 0; wall < parts_.walls.size(); ++wall) culls_.emplace_back(cull, wall);
 }
 
@@ -102,10 +104,10 @@ void ShowStages::still(std::size_t slot) {
 
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
-  culls_[wall].fill(parts_.state.view(slot), shown.eyeSeparation, list);
-  if (parts_.walls[wall].camera) return;  // somebody else's, not the visitor's
-  if (shown.swapEyes && list.eyeCount == 2) std::swap(list.eyes[0], list.eyes[1]);
-  if (shown.black) makeBlack(list);
+  const bool visitors = !parts_.walls[wall].camera;  // else it is somebody else's who looks on
+  const EyeOrder order = visitors && shown.swapEyes ? EyeOrder::Swapped : EyeOrder::LeftRight;
+  culls_[wall].fill(parts_.state.view(slot), shown.eyeSeparation, list, order);
+  if (visitors && shown.black) makeBlack(list);
 }
 
 Failure ShowStages::openWall(std::size_t wall) {

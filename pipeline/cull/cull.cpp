@@ -1,8 +1,10 @@
 #include "pipeline/cull/cull.h"
 
+#include "pipeline/cull/eye_test.h"
 #include "pipeline/cull/shadow_cull.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace stadion {
 namespace {
@@ -24,7 +26,13 @@ struct PixelScale {
   }
 };
 
-DrawItem itemOf(const InstanceRecord& r, const Vec3& origin, const PixelScale& scale) {
+std::array<float, 3> centreOf(const InstanceRecord& r, const Vec3& origin) {
+  return {static_cast<float>(r.centre[0] - origin[0]), static_cast<float>(r.centre[1] - origin[1]),
+          static_cast<float>(r.centre[2] - origin[2])};
+}
+
+DrawItem itemOf(const InstanceRecord& r, const Vec3& origin, const std::array<float, 3>& centre,
+                std::uint32_t eyes, const PixelScale& scale) {
   DrawItem item;
   for (int row = 0; row < 3; ++row) {
     for (int k = 4 * row; k < 4 * row + 3; ++k)
@@ -34,7 +42,8 @@ DrawItem itemOf(const InstanceRecord& r, const Vec3& origin, const PixelScale& s
   }
   item.mesh = r.mesh;
   item.owner = r.owner;
-  item.distance = static_cast<float>((Vec3(r.centre[0], r.centre[1], r.centre[2]) - origin).norm());
+  item.eyes = eyes;
+  item.distance = std::sqrt(centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2]);
   item.pixels = scale.of(r.radius, item.distance);
   return item;
 }
@@ -87,7 +96,7 @@ WallCull::WallCull(const CullParts& parts, std::uint32_t wall) : parts_(parts), 
   if (parts.meshes) levels_.emplace(parts.pixels, *parts.meshes);
 }
 
-void WallCull::fill(const SlotView& state, double eyeSeparation, DrawList& out) {
+void WallCull::fill(const SlotView& state, double eyeSeparation, DrawList& out, EyeOrder order) {
   FrameProbe* probe = parts_.probe;
   out.ticket.signature = *state.signature;
   out.wall = wall_;
@@ -105,6 +114,7 @@ void WallCull::fill(const SlotView& state, double eyeSeparation, DrawList& out) 
   {
     const SpanScope span(probe, Span::Eyes);
     lookThrough(state, seen, eyeSeparation, out);
+    if (order == EyeOrder::Swapped && out.eyeCount == 2) std::swap(out.eyes[0], out.eyes[1]);
   }
   {
     const SpanScope span(probe, Span::Fill);
@@ -132,14 +142,18 @@ void WallCull::lookThrough(const SlotView& state, const WallSeen& seen, double e
 
 void WallCull::addItems(const WallSeen& seen, DrawList& out) {
   const PixelScale scale(out, parts_.room.view(wall_));
+  const EyeTest eyes(out, parts_.oneSample, parts_.room.view(wall_).width, parts_.room.view(wall_).height);
   constexpr std::size_t kAhead = 8;
   const std::span<const InstanceRecord* const> records = seen.records;
   for (std::size_t i = 0; i < std::min(kAhead, records.size()); ++i) fetch(records[i]);
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (i + kAhead < records.size()) fetch(records[i + kAhead]);
     const InstanceRecord& r = *records[i];
+    const auto centre = centreOf(r, out.origin);
+    const std::uint32_t seenBy = eyes.eyesThatSee(centre, r.radius);
+    if (seenBy == 0) continue;
     auto& items = r.flags & InstanceRecord::kTransparent ? out.transparent : out.opaque;
-    items.push_back(itemOf(r, out.origin, scale));
+    items.push_back(itemOf(r, out.origin, centre, seenBy, scale));
     if (r.lodFactor != 0 && levels_) items.back().level = levels_->levelOf(r);
   }
 }
@@ -158,7 +172,7 @@ void WallCull::tell(const SlotView& state, const WallSeen& seen, double eyeSepar
   if (out.shadows.light >= 0)
     for (const DrawShadowRing& ring : out.shadows.rings) casters += ring.moving.size();
   probe.counted(Count::Tested, seen.tested);
-  probe.counted(Count::Seen, seen.records.size());
+  probe.counted(Count::Seen, out.opaque.size() + out.transparent.size());
   probe.counted(Count::Casters, casters);
 
   const std::uint64_t frame = state.signature->frame;
@@ -167,7 +181,8 @@ void WallCull::tell(const SlotView& state, const WallSeen& seen, double eyeSepar
   parts_.room.reached(state, eyeSeparation, wall_, owners);
   probe.shared(Span::Test, frame, wall_, owners);
   owners.clear();
-  for (const InstanceRecord* r : seen.records) owners.push_back(r->owner);
+  for (const auto* items : {&out.opaque, &out.transparent})
+    for (const DrawItem& item : *items) owners.push_back(item.owner);
   probe.shared(Span::Fill, frame, wall_, owners);
   probe.shared(Span::Sort, frame, wall_, owners);
   if (!parts_.still) return;

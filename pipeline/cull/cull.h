@@ -20,7 +20,10 @@ struct CullParts {
   std::span<const WallPixels> pixels{};  ///< of the walls that show what the visitor sees
   const MeshStore* meshes = nullptr;     ///< null: meshes are drawn in full
   FrameProbe* probe = nullptr;
+  bool oneSample = false;  ///< of each pixel: what lies between their middles is left out
 };
+
+enum class EyeOrder { LeftRight, Swapped };
 
 /// Fills a wall's draw lists, frame by frame, and keeps what memory that takes.
 class WallCull {
@@ -29,7 +32,7 @@ public:
   WallCull(const CullParts& parts, std::uint32_t wall);
 
   /// Negative `eyeSeparation`: as the wall has it.
-  void fill(const SlotView& state, double eyeSeparation, DrawList& out);
+  void fill(const SlotView& state, double eyeSeparation, DrawList& out, EyeOrder order = EyeOrder::LeftRight);
 
 private:
   void lookThrough(const SlotView& state, const WallSeen& seen, double eyeSeparation, DrawList& out) const;

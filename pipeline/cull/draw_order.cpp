@@ -13,6 +13,11 @@ std::uint32_t bitsOf(float distance) {
   return std::bit_cast<std::uint32_t>(distance);
 }
 
+/// What one eye sees lies together: before what both see, or after it.
+std::uint32_t rankOf(std::uint32_t eyes) {
+  return eyes == DrawItem::kLeftEye ? 0 : eyes == DrawItem::kRightEye ? 2 : 1;
+}
+
 std::uint64_t joined(std::uint32_t high, std::uint32_t low) {
   return std::uint64_t{high} << 32 | low;
 }
@@ -22,7 +27,8 @@ std::uint64_t joined(std::uint32_t high, std::uint32_t low) {
 void DrawOrder::sort(DrawList& list) {
   keys_.clear();
   for (const DrawItem& d : list.opaque)
-    keys_.push_back({joined(d.mesh, d.level), bitsOf(d.distance), static_cast<std::uint32_t>(keys_.size())});
+    keys_.push_back({joined(d.mesh, d.level << 2 | rankOf(d.eyes)), bitsOf(d.distance),
+                     static_cast<std::uint32_t>(keys_.size())});
   arrange(list.opaque);
   keys_.clear();
   for (const DrawItem& d : list.transparent)

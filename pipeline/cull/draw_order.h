@@ -1,7 +1,7 @@
 #pragma once
 /// Sorts draw lists by what things are, so that their order does not depend on where records lie: opaque ones
-/// by mesh and level, then near to far; transparent ones far to near. Who is equal in that goes by owner,
-/// then by place.
+/// by mesh, level and the eyes that see them, then near to far; transparent ones far to near. Who is equal in
+/// that goes by owner, then by place.
 ///
 /// Numbers are sorted, byte by byte from the lowest (radix sort; bytes that are the same in all are passed
 /// over), and each item is moved once.

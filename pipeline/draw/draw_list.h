@@ -22,10 +22,13 @@ namespace stadion {
 struct DrawItem {
   std::array<float, 12> model;  ///< (3 x 4), row major: mesh coordinates to World axes relative to origin
   MeshId mesh = kNoMesh;
-  NodeRef owner;            ///< who it is, for profiling
-  float distance = 0;       ///< of its centre from the viewer [m]
-  float pixels = 0;         ///< that its bounding sphere may cover in one eye's picture, for profiling
-  std::uint32_t level = 0;  ///< 0 = all of the mesh; else Mesh::levels[level - 1]
+  NodeRef owner;                   ///< who it is, for profiling
+  float distance = 0;              ///< of its centre from the viewer [m]
+  float pixels = 0;                ///< that its bounding sphere may cover in one eye's picture, for profiling
+  std::uint32_t level = 0;         ///< 0 = all of the mesh; else Mesh::levels[level - 1]
+  std::uint32_t eyes = kBothEyes;  ///< that may see it: bit 0 the left or only eye, bit 1 the right one
+
+  static constexpr std::uint32_t kLeftEye = 1, kRightEye = 2, kBothEyes = 3;
 };
 
 struct DrawLight {
@@ -83,7 +86,9 @@ struct DrawList {
   DrawSky sky;
   std::vector<DrawLight> lights;  ///< at most kMaxLights
   DrawShadows shadows;
-  std::vector<DrawItem> opaque;       ///< sorted by mesh and level, then near to far
+  /// Sorted by mesh and level, then those that only the left eye sees, both eyes, only the right one; then
+  /// near to far.
+  std::vector<DrawItem> opaque;
   std::vector<DrawItem> transparent;  ///< items with any transparent material, far to near
 
   static constexpr std::size_t kMaxLights = 16;

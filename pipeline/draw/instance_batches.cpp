@@ -33,10 +33,15 @@ void InstanceBatches::add(const DrawItem& item) {
 void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
   const auto first = static_cast<std::uint32_t>(matrices_.size());
   const Handedness wanted = mirrored ? Handedness::Mirrored : Handedness::Kept;
-  for (const DrawItem& item : run)
-    if (handednessOf(item.model) == wanted) add(item);
-  const auto count = static_cast<std::uint32_t>(matrices_.size()) - first;
-  if (count > 0) opaque_.push_back({run.front().mesh, run.front().level, first, count, mirrored});
+  InstanceBatch batch{run.front().mesh, run.front().level, first, 0, mirrored, 0, 0};
+  for (const DrawItem& item : run) {
+    if (handednessOf(item.model) != wanted) continue;
+    add(item);
+    ++batch.count;
+    batch.leftOnly += item.eyes == DrawItem::kLeftEye;
+    batch.rightOnly += item.eyes == DrawItem::kRightEye;
+  }
+  if (batch.count > 0) opaque_.push_back(batch);
 }
 
 void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent,
@@ -63,7 +68,7 @@ void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const Dr
     if (transparent_.empty() || transparent_.back().mesh != item.mesh ||
         transparent_.back().level != item.level || transparent_.back().mirrored != mirrored)
       transparent_.push_back(
-          {item.mesh, item.level, static_cast<std::uint32_t>(matrices_.size()), 0, mirrored});
+          {item.mesh, item.level, static_cast<std::uint32_t>(matrices_.size()), 0, mirrored, 0, 0});
     add(item);
     ++transparent_.back().count;
   }

@@ -11,12 +11,22 @@
 
 namespace stadion {
 
-/// Instances of one mesh and level, next to each other in the instance array.
+/// Instances of one mesh and level, next to each other in the instance array: those that only the left eye
+/// sees come first, those that only the right one sees last.
 struct InstanceBatch {
   MeshId mesh = kNoMesh;
   std::uint32_t level = 0;
   std::uint32_t first = 0, count = 0;
   bool mirrored = false;  ///< the model matrices turn left into right: front faces run clockwise
+  std::uint32_t leftOnly = 0, rightOnly = 0;
+
+  /// What eye 0, left or mono, or 1, right, draws of it.
+  InstanceBatch seenBy(std::uint32_t eye) const {
+    InstanceBatch seen = *this;
+    if (eye == 1) seen.first += leftOnly;
+    seen.count -= eye == 1 ? leftOnly : rightOnly;
+    return seen;
+  }
 };
 
 using InstanceMatrix = std::array<float, 12>;  ///< (3 x 4), row major, as in DrawItem
@@ -27,7 +37,7 @@ public:
   void build(const DrawList& list, bool withOwners = false) {
     build(list.opaque, list.transparent, withOwners);
   }
-  /// Expects opaque items of one mesh and level next to each other.
+  /// Expects opaque items of one mesh and level next to each other, those for one eye as in a batch.
   void build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent,
              bool withOwners = false);
 

@@ -285,9 +285,10 @@ std::uint32_t Renderer::togetherFrom(const InstanceBatch& b, std::uint32_t done,
 }
 
 /// As drawBatches() will draw them, in one pass or in two.
-std::span<const std::uint32_t> Renderer::piecesToSample() {
+std::span<const std::uint32_t> Renderer::piecesToSample(std::uint32_t eye) {
   pieces_.clear();
-  forEachBatch([&](const InstanceBatch& b, const MeshParts& mesh) {
+  forEachBatch([&](const InstanceBatch& batch, const MeshParts& mesh) {
+    const InstanceBatch b = batch.seenBy(eye);
     for (std::uint32_t done = 0; done < b.count; done += togetherFrom(b, done, mesh))
       pieces_.push_back(b.first + done);
   });
@@ -355,19 +356,19 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, views_[index].name());
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kSceneBinding, scene_.name());
 
-  if (sample_ == DrawSample::Some) sampler_->beginEye(index, piecesToSample());
+  if (sample_ == DrawSample::Some) sampler_->beginEye(index, piecesToSample(index));
   gl_.Disable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
   // Alone, clearing is writing the whole picture to memory. In an eye drawn whole that is done once, with
   // what comes next: it is a part of what the sky takes alone.
   buffers_.begin(index);
-  drawBatches(batches_.opaque(), Pass::Opaque);
-  drawBatches(batches_.transparent(), Pass::OpaqueParts);
+  drawBatches(batches_.opaque(), Pass::Opaque, index);
+  drawBatches(batches_.transparent(), Pass::OpaqueParts, index);
   piece(Span::Sky, [&] { drawBackground(); });
   // Blending and averaging of samples act on linear light.
   if (quality_.look == Look::Full) gl_.Enable(GL_FRAMEBUFFER_SRGB);
   gl_.Enable(GL_BLEND);
   gl_.DepthMask(GL_FALSE);
-  drawBatches(batches_.transparent(), Pass::Transparent);
+  drawBatches(batches_.transparent(), Pass::Transparent, index);
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_BLEND);
   piece(Span::Resolve, [&] { buffers_.resolve(index); });
@@ -375,9 +376,10 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
   totals_[index].add(counts_);
 }
 
-void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass) {
-  for (const InstanceBatch& batch : batches) {
-    const GlMesh* mesh = cache_.find(batch.mesh);
+void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass, std::uint32_t eye) {
+  for (const InstanceBatch& ofBoth : batches) {
+    const InstanceBatch batch = ofBoth.seenBy(eye);
+    const GlMesh* mesh = batch.count > 0 ? cache_.find(batch.mesh) : nullptr;
     if (!mesh) continue;
     if (pass == Pass::Transparent && mesh->transparentParts == 0) continue;
     if (pass == Pass::OpaqueParts && mesh->transparentParts == mesh->parts.size()) continue;

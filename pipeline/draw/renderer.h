@@ -116,7 +116,7 @@ private:
   void forEachBatch(const F& f);
   void weigh();
   std::uint32_t togetherFrom(const InstanceBatch& batch, std::uint32_t done, const MeshParts& mesh) const;
-  std::span<const std::uint32_t> piecesToSample();
+  std::span<const std::uint32_t> piecesToSample(std::uint32_t eye);
   std::span<const NodeShare> sharesOf(const MeshParts& mesh, std::uint32_t first, std::uint32_t count);
   template <class Work>
   void piece(Span what, const Work& work);
@@ -129,7 +129,7 @@ private:
   void drawEye(const DrawEye& eye, std::uint32_t index);
   void setUnchangingState();
   void settleState();
-  void drawBatches(std::span<const InstanceBatch> batches, Pass pass);
+  void drawBatches(std::span<const InstanceBatch> batches, Pass pass, std::uint32_t eye);
   void drawInstances(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass);
   void drawOpaqueParts(const MeshParts& mesh, std::uint32_t count, Pass pass);
   void drawTransparentParts(const MeshParts& mesh, std::uint32_t count);

@@ -22,6 +22,11 @@ std::optional<std::size_t> FrameSlots::writable() {
   return std::nullopt;
 }
 
+bool FrameSlots::mayBegin(std::uint64_t begun) const {
+  const bool ending = drawn_ > 0 && drawn_ + last_ >= cursor_.size();
+  return mostUnderWay_ == 0 || begun < shown_ + mostUnderWay_ + (ending ? 1 : 0);
+}
+
 std::optional<std::size_t> FrameSlots::beginWrite() {
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -96,15 +101,22 @@ bool FrameSlots::release(const Lease& lease) {
   return true;
 }
 
-void FrameSlots::limitUnderWay(std::size_t frames) {
+void FrameSlots::limitUnderWay(std::size_t frames, std::size_t last) {
   const std::lock_guard lock(mutex_);
-  mostUnderWay_ = frames;
+  mostUnderWay_ = frames, last_ = last;
+  changed_.notify_all();
+}
+
+void FrameSlots::drawn() {
+  const std::lock_guard lock(mutex_);
+  ++drawn_;
   changed_.notify_all();
 }
 
 void FrameSlots::shown() {
   const std::lock_guard lock(mutex_);
   ++shown_;
+  drawn_ = 0;
   changed_.notify_all();
 }
 

@@ -47,8 +47,11 @@ public:
 
   /// So many frames at most are under way between App, or where only the newest is shown between its choice,
   /// and the swap: the fewer, the younger is what is seen, and the less the stages overlap. 0 = as many as
-  /// there is room for. It may change at any time.
-  void limitUnderWay(std::size_t frames);
+  /// there is room for. It may change at any time. One more may begin once only `last` walls still draw the
+  /// oldest: processors have nothing else to do.
+  void limitUnderWay(std::size_t frames, std::size_t last = 0);
+  /// A wall has drawn its frame, and waits for the others.
+  void drawn();
   /// A frame has been shown on all walls.
   void shown();
 
@@ -78,7 +81,7 @@ private:
 
   std::optional<std::size_t> writable();
   std::optional<std::size_t> choose() const;
-  bool mayBegin(std::uint64_t begun) const { return mostUnderWay_ == 0 || begun < shown_ + mostUnderWay_; }
+  bool mayBegin(std::uint64_t begun) const;
 
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -86,7 +89,8 @@ private:
   std::vector<std::uint64_t> cursor_;  ///< per wall: the serial it wants next
   std::deque<Selection> selections_;
   std::uint64_t nextSerial_ = 0, writes_ = 0, shown_ = 0;
-  std::size_t mostUnderWay_ = 0;
+  std::size_t mostUnderWay_ = 0, last_ = 0;
+  std::size_t drawn_ = 0;  ///< walls that have drawn the oldest frame under way
   Delivery delivery_;
   std::chrono::milliseconds deadline_;
   bool finished_ = false, stopped_ = false;

@@ -2,8 +2,10 @@
 /// Random rooms and things for the tests of Cull, and the simplest Cull there is, to compare with.
 
 #include "pipeline/cull/cull.h"
+#include "pipeline/cull/eye_test.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <tuple>
 
@@ -90,8 +92,9 @@ inline std::vector<const InstanceRecord*> simplySeen(const SlotView& state, cons
 /// What goes into the order of a list, compared as it is written down.
 inline void simplySort(DrawList& list) {
   std::sort(list.opaque.begin(), list.opaque.end(), [](const DrawItem& a, const DrawItem& b) {
-    return std::tie(a.mesh, a.level, a.distance, a.owner, a.model) <
-           std::tie(b.mesh, b.level, b.distance, b.owner, b.model);
+    const auto rank = [](const DrawItem& d) { return d.eyes == 1 ? 0 : d.eyes == 2 ? 2 : 1; };
+    return std::tuple(a.mesh, a.level, rank(a), a.distance, a.owner, a.model) <
+           std::tuple(b.mesh, b.level, rank(b), b.distance, b.owner, b.model);
   });
   std::sort(list.transparent.begin(), list.transparent.end(), [](const DrawItem& a, const DrawItem& b) {
     return std::tuple(-a.distance, a.mesh, a.owner, a.model) <
@@ -99,9 +102,32 @@ inline void simplySort(DrawList& list) {
   });
 }
 
+/// The same as WallCull::fill, as it is written down.
+inline DrawList simplyFilled(const SlotView& state, const WallView& view) {
+  DrawList list;
+  eyesOf(*state.viewer, view, -1).setUp(list);
+  const EyeTest sees(list, false, view.width, view.height);
+  for (const InstanceRecord* r : simplySeen(state, view)) {
+    DrawItem item;
+    for (int k = 0; k < 12; ++k)
+      item.model[static_cast<std::size_t>(k)] =
+          static_cast<float>(r->model[k] - (k % 4 == 3 ? list.origin[k / 4] : 0.0));
+    item.mesh = r->mesh, item.owner = r->owner;
+    std::array<float, 3> at;
+    for (std::size_t k = 0; k < 3; ++k)
+      at[k] = static_cast<float>(r->centre[k] - list.origin[static_cast<int>(k)]);
+    item.distance = std::sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
+    item.eyes = sees.eyesThatSee(at, r->radius);
+    if (item.eyes == 0) continue;
+    (r->flags & InstanceRecord::kTransparent ? list.transparent : list.opaque).push_back(item);
+  }
+  simplySort(list);
+  return list;
+}
+
 inline bool alike(const DrawItem& a, const DrawItem& b) {
-  return std::tie(a.model, a.mesh, a.owner, a.distance, a.pixels, a.level) ==
-         std::tie(b.model, b.mesh, b.owner, b.distance, b.pixels, b.level);
+  return std::tie(a.model, a.mesh, a.owner, a.distance, a.pixels, a.level, a.eyes) ==
+         std::tie(b.model, b.mesh, b.owner, b.distance, b.pixels, b.level, b.eyes);
 }
 
 /// Plays changes into the slots in turn, as a show does.

@@ -27,23 +27,6 @@ std::vector<InstanceRecord> crowd(Random& random, std::uint32_t count) {
   return records;
 }
 
-/// The same as WallCull::fill, as it is written down.
-DrawList simplyFilled(const SlotView& state, const WallView& view) {
-  DrawList list;
-  eyesOf(*state.viewer, view, -1).setUp(list);
-  for (const InstanceRecord* r : test::simplySeen(state, view)) {
-    DrawItem item;
-    for (int k = 0; k < 12; ++k)
-      item.model[static_cast<std::size_t>(k)] =
-          static_cast<float>(r->model[k] - (k % 4 == 3 ? list.origin[k / 4] : 0.0));
-    item.mesh = r->mesh, item.owner = r->owner;
-    item.distance = static_cast<float>((Vec3(r->centre[0], r->centre[1], r->centre[2]) - list.origin).norm());
-    (r->flags & InstanceRecord::kTransparent ? list.transparent : list.opaque).push_back(item);
-  }
-  test::simplySort(list);
-  return list;
-}
-
 void expectAlike(std::vector<DrawItem> a, const std::vector<DrawItem>& b) {
   for (DrawItem& item : a) item.pixels = 0;
   ASSERT_EQ(a.size(), b.size());
@@ -69,7 +52,7 @@ TEST(DrawLists, AreThoseOfTheSimplestCullWhereverRecordsLie) {
       DrawList fromChunk, fromInstances;
       WallCull({roomA}, wall).fill(a, -1, fromChunk);
       WallCull({roomB}, wall).fill(b, -1, fromInstances);
-      const DrawList simple = simplyFilled(a, views[wall]);
+      const DrawList simple = test::simplyFilled(a, views[wall]);
       for (const DrawList& list : {fromChunk, fromInstances}) {
         ASSERT_NO_FATAL_FAILURE(expectAlike(list.opaque, simple.opaque));
         ASSERT_NO_FATAL_FAILURE(expectAlike(list.transparent, simple.transparent));
@@ -88,6 +71,7 @@ TEST(DrawLists, AreSortedByWhatThingsAre) {
       DrawItem item;
       item.mesh = random.below(3) ? random.below(5) : random.below(~0U);
       item.level = random.below(3);
+      item.eyes = 1 + random.below(3);
       item.distance = random.below(4) ? static_cast<float>(random.sizeFrom(1e-6, 1e9)) : 0;
       item.owner = {random.below(3), random.below(3)};
       item.model.fill(0);

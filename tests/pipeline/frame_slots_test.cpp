@@ -70,6 +70,20 @@ TEST(FrameSlots, AppWaitsWhileAsManyFramesAreUnderWayAsAreAllowed) {
   EXPECT_TRUE(began);
 }
 
+TEST(FrameSlots, OneMoreBeginsWhenOnlyTheLastWallsStillDraw) {
+  FrameSlots slots(3, Delivery::Every);
+  slots.limitUnderWay(1, 1);
+  slots.endWrite(*slots.beginWrite(), frameOf(0));
+  std::atomic<bool> began = false;
+  std::thread app([&] { began = slots.beginWrite().has_value(); });
+  slots.drawn();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_FALSE(began);  // two walls draw
+  slots.drawn();
+  app.join();
+  EXPECT_TRUE(began);
+}
+
 TEST(FrameSlots, WhereTheNewestCountsItIsChosenWhenTheOneBeforeIsSeen) {
   FrameSlots slots(1, Delivery::Latest);
   slots.limitUnderWay(1);

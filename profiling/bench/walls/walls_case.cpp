@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace stadion::bench {
 namespace {
@@ -16,7 +17,7 @@ WallsCase caseOf(const std::string& engine, const std::string& scene, bool flat,
                  const std::string& mode) {
   WallsCase c;
   c.engine = engine, c.scene = scene, c.flat = flat, c.kind = kind, c.mode = mode;
-  if (kind == "SUBMIT") c.width = 32, c.height = 24;
+  if (kind == "SUBMIT") c = small(std::move(c));
   c.frames = framesOf(scene, kind);
   return c;
 }
@@ -37,6 +38,11 @@ WallsCase floorCase(const std::string& scene, const std::string& kind, const std
   WallsCase c = caseOf("floor", scene, true, kind, way);
   c.lp = "0";
   return c;
+}
+
+WallsCase small(WallsCase of) {
+  of.width = 32, of.height = 24;
+  return of;
 }
 
 WallsCase oneWall(WallsCase of) {
@@ -65,6 +71,7 @@ std::string nameOf(const WallsCase& c) {
   if (c.scene == "c" && c.engine != "floor" && !c.nodes) name += c.flat ? " flat" : " grid";
   if (!c.kind.empty()) name += " " + c.kind;
   if (!c.mode.empty()) name += " " + c.mode;
+  if (c.kind != "SUBMIT" && c.width != 800) name += fmt::format(" {}x{}", c.width, c.height);
   if (c.pace != "free" && c.engine == "stadion") name += " " + c.pace;
   if (c.walls != 4 && c.walls) name += fmt::format(", {} wall{}", c.walls, c.walls == 1 ? "" : "s");
   if (c.nodes) name += fmt::format(", {} nodes", c.nodes);
@@ -91,7 +98,7 @@ std::vector<WallsCase> tableCases(const WallsChoice& choice) {
       if (s != "a") add(ourCase(s, flat, "STRICT", "sequential"));
       if (tiny && flat) continue;
       add(osgCase(s, flat, "SUBMIT", "DPC")), add(ourCase(s, flat, "SUBMIT"));
-      add(osgCase(s, flat, "SUBMIT", "CTPC"));
+      add(osgCase(s, flat, "SUBMIT", "CTPC")), add(small(ourCase(s, flat, "STRICT")));
       add(floorCase(s, "STRICT")), add(floorCase(s, "SUBMIT"));
       add(oneWall(ourCase(s, flat, "STRICT"))), add(oneWall(floorCase(s, "STRICT")));
     }

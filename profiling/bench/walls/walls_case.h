@@ -3,7 +3,7 @@
 ///
 /// Class    STRICT  a draw for each visible node, nothing merged or left out
 ///          OPEN    anything, if 99.9 % of all pixels are within 2 of 255
-///          SUBMIT  STRICT at 32 x 24 pixels: what is left where rasterising is not the limit
+///          SUBMIT  as OPEN at 32 x 24 pixels: what is left where rasterising is not the limit
 /// Units    metres; pixels.
 /// Threads  plain values and functions.
 
@@ -34,6 +34,8 @@ WallsCase ourCase(const std::string& scene, bool flat, const std::string& kind,
                   const std::string& mode = "pipelined");
 WallsCase osgCase(const std::string& scene, bool flat, const std::string& kind, const std::string& mode);
 WallsCase floorCase(const std::string& scene, const std::string& kind, const std::string& way = "uniform");
+/// At the size of SUBMIT.
+WallsCase small(WallsCase of);
 /// Both eyes on the front wall, by one thread: what drawing a view costs in processor time.
 WallsCase oneWall(WallsCase of);
 /// Frames begin on ticks.

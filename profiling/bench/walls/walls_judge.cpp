@@ -90,7 +90,7 @@ void judgePace(const WallsResults& results, std::vector<WallsFinding>& findings)
 
 void judgePictures(const WallsResults& results, const std::string& scene,
                    std::vector<WallsFinding>& findings) {
-  for (const char* kind : {"STRICT", "OPEN"}) {
+  for (const char* kind : {"STRICT", "OPEN", "SUBMIT"}) {
     const auto beyond = results.median("pictures " + scene + " " + kind, "beyond_share");
     findings.push_back(found(scene + " " + kind + ": pixels within 2/255 of OpenSceneGraph's, worst view",
                              beyond ? std::optional(1 - *beyond) : std::nullopt, kSamePixels, true,
