@@ -114,7 +114,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   ShowParts parts = player->parts(StereoLayout::Pair);
   parts.provider = provider.value().get();
   parts.sink = &pictures;
-  if (s.kind == "STRICT") parts.quality.mostAtOnce = 1, parts.quality.leavesOutTiny = false;
+  if (s.kind == "STRICT") parts.quality.mostAtOnce = 1, parts.quality.leavesOutUnseen = false;
   parts.shown = [&] { completed.add(s); };
   if (s.workers == "process") parts.workers = WallWorkers{s.gl == "egl"};
   ShowStages stages(std::move(parts));

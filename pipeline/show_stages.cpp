@@ -1,7 +1,7 @@
 #include "pipeline/show_stages.h"
 
 #include "pipeline/drawing_here.h"
-#include "pipeline/worker/drawing_in_workers.h"
+#include "pipeline/worker/eyes_in_workers.h"
 
 namespace stadion {
 namespace {
@@ -17,9 +17,13 @@ std::unique_ptr<WallDrawing> drawingOf(const ShowParts& parts) {
   std::vector<std::string> names;
   for (const WallView& view : parts.walls) names.push_back(view.wall.name);
   const WallWorkers& w = *parts.workers;
-  return std::make_unique<DrawingInWorkers>(
-      DrawingInWorkersParts{parts.meshes, std::move(sizes), std::move(names), parts.quality, w.egl,
-                            w.rasteriserThreads, w.everyFrame, w.rate, parts.giveUp, w.tell});
+  DrawingInWorkersParts workers{
+      parts.meshes,        std::move(sizes), std::move(names), parts.quality, w.egl,
+      w.rasteriserThreads, w.everyFrame,     w.rate,           parts.giveUp,  w.tell};
+  if (parts.quality.look != Look::Plain) return std::make_unique<DrawingInWorkers>(std::move(workers));
+  std::vector<std::uint32_t> eyes;
+  for (const WallView& view : parts.walls) eyes.push_back(view.stereo && !view.camera ? 2 : 1);
+  return std::make_unique<EyesInWorkers>(std::move(workers), eyes);
 }
 
 void tellCounts(const FrameCounters& counters, FrameProbe& probe) {
@@ -42,7 +46,7 @@ ShowStages::ShowStages(ShowParts parts)
   for (const WallView& view : parts_.walls)
     if (!view.camera) wallPixels_.push_back({view.wall, view.width, view.height});
   const bool shadows = parts_.quality.look == Look::Full;
-  const bool oneSample = parts_.quality.samples == 1 && parts_.quality.leavesOutTiny;
+  const bool oneSample = parts_.quality.samples == 1 && parts_.quality.leavesOutUnseen;
   const CullParts cull{
       room_, shadows ? &stillCasters_ : nullptr, wallPixels_, &parts_.meshes, parts_.probe, oneSample};
   for (std::uint32_t wall = 0; wall < parts_.walls.size(); ++wall) culls_.emplace_back(cull, wall);

@@ -26,7 +26,7 @@ EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t hei
     gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, count, format, this->width(), this->height());
   };
   const GLenum colours = quality.look == Look::Full ? GL_SRGB8_ALPHA8 : GL_RGBA8;
-  storage(depth_, drawn, GL_DEPTH_COMPONENT24);
+  storage(depth_, drawn, sampled_ ? GL_DEPTH_COMPONENT24 : GL_DEPTH_COMPONENT32F);  // which is read faster
   for (std::size_t eye = 0; eye < pictures_.size(); ++eye) {
     storage(pictures_[eye], 0, colours);
     attach(gl_, resolved_[eye].name(), GL_COLOR_ATTACHMENT0, pictures_[eye].name());
@@ -65,6 +65,12 @@ void EyeBuffers::resolve(std::uint32_t eye) {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.name());
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_[eye].name());
   gl_.BlitFramebuffer(0, 0, width(), height(), 0, 0, width(), height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void EyeBuffers::readDepths(std::uint32_t eye, std::span<float> depths) {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_[eye].name());
+  gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
+  gl_.ReadPixels(0, 0, width(), height(), GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
 }
 
 void EyeBuffers::read(std::uint32_t eye, std::span<std::uint8_t> rgba) {

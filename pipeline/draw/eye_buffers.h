@@ -31,6 +31,10 @@ public:
   /// 8-bit RGBA (height x width x 4), rows from the top, colour in sRGB. Waits for the drawing to end.
   void read(std::uint32_t eye, std::span<std::uint8_t> rgba);
 
+  /// How far what has been drawn of `eye` is, 0 .. 1 (height x width), rows from the bottom; with one sample
+  /// a pixel. Waits for the drawing to end.
+  void readDepths(std::uint32_t eye, std::span<float> depths);
+
 private:
   GLsizei width() const { return static_cast<GLsizei>(width_); }
   GLsizei height() const { return static_cast<GLsizei>(height_); }

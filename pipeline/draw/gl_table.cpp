@@ -12,6 +12,9 @@ Result<GlTable> loadGlTable(GlResolver resolve) {
   if (!table.name && !missing) missing = "gl" #name;
   STADION_GL_FUNCTIONS(STADION_GL_LOAD)
 #undef STADION_GL_LOAD
+#define STADION_GL_LOAD(type, name) table.name = reinterpret_cast<type>(resolve("gl" #name));
+  STADION_GL_MORE_FUNCTIONS(STADION_GL_LOAD)
+#undef STADION_GL_LOAD
   if (missing) return Result<GlTable>::failure(std::string("this OpenGL has no function ") + missing);
   return table;
 }

@@ -2,7 +2,7 @@
 /// The OpenGL functions that Stadion calls, as pointers that one provider handed out.
 ///
 /// No GL library is linked: several implementations live in one process, and each fills a table of its own.
-/// The set is OpenGL 3.3 core. To call one more, add its line here.
+/// The set is OpenGL 3.3 core, and a little more where there is more. To call one more, add its line here.
 ///
 /// Ownership  plain pointers into a library that stays loaded until the process ends.
 /// Threads    immutable once loaded; a call acts on the context that is current on the calling thread.
@@ -103,9 +103,14 @@ namespace stadion {
   X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                                       \
   X(PFNGLVIEWPORTPROC, Viewport)
 
+/// What newer versions have; null where it is missing. Whether a context has it, its extension says.
+#define STADION_GL_MORE_FUNCTIONS(X)                                                                         \
+  X(PFNGLDRAWELEMENTSINSTANCEDBASEINSTANCEPROC, DrawElementsInstancedBaseInstance)
+
 struct GlTable {
 #define STADION_GL_MEMBER(type, name) type name = nullptr;
   STADION_GL_FUNCTIONS(STADION_GL_MEMBER)
+  STADION_GL_MORE_FUNCTIONS(STADION_GL_MEMBER)
 #undef STADION_GL_MEMBER
 };
 

@@ -26,7 +26,7 @@ bool alike(const DrawItem& a, const DrawItem& b) {
 }  // namespace
 
 void InstanceBatches::add(const DrawItem& item) {
-  matrices_.push_back(item.model);
+  matrices_.push_back(item.model), distances_.push_back(item.distance);
   if (withOwners_) owners_.push_back(item.owner), pixels_.push_back(item.pixels);
 }
 
@@ -47,7 +47,7 @@ void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
 void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent,
                             bool withOwners) {
   withOwners_ = withOwners;
-  matrices_.clear();
+  matrices_.clear(), distances_.clear();
   owners_.clear(), pixels_.clear();
   opaque_.clear();
   transparent_.clear();

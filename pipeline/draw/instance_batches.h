@@ -42,6 +42,8 @@ public:
              bool withOwners = false);
 
   std::span<const InstanceMatrix> matrices() const { return matrices_; }
+  /// From the viewer [m].
+  std::span<const float> distances() const { return distances_; }
   /// Whose they are, and how many pixels each may cover; empty unless they were asked for.
   std::span<const NodeRef> owners() const { return owners_; }
   std::span<const float> pixels() const { return pixels_; }
@@ -56,6 +58,7 @@ private:
 
   bool withOwners_ = false;
   std::vector<InstanceMatrix> matrices_;
+  std::vector<float> distances_;
   std::vector<NodeRef> owners_;
   std::vector<float> pixels_;
   std::vector<InstanceBatch> opaque_, transparent_;

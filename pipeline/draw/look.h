@@ -21,9 +21,10 @@ struct RenderQuality {
   /// Instances a draw call: in software one call of a hundred thousand takes many seconds, in which nobody
   /// can stop. 1 = each thing by a call of its own.
   std::uint32_t mostAtOnce = 1024;
-  /// What covers no pixel's middle is not drawn where one sample a pixel is taken: nothing would be seen of
-  /// it. False: everything is drawn that is in view, for comparisons.
-  bool leavesOutTiny = true;
+  /// Where one sample a pixel is taken, things that cover no pixel's middle are not drawn; in software,
+  /// neither are triangles that cover none or are turned away (triangle_sieve.h). Nothing would be seen of
+  /// them. False: all that is in view goes to OpenGL, for comparisons.
+  bool leavesOutUnseen = true;
 
   static constexpr RenderQuality plain() { return {Look::Plain, 1, 1024, true}; }
   bool operator==(const RenderQuality&) const = default;

@@ -65,8 +65,8 @@ void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_
                            offset(first * kMatrix + row * kRow));
 }
 
-MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes, Look look)
-    : gl_(gl), store_(meshes), look_(look),
+MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, bool sieved)
+    : gl_(gl), store_(meshes), look_(look), sieved_(sieved),
       anisotropy_(!isSoftware(gl) && (hasGlExtension(gl, "GL_EXT_texture_filter_anisotropic") ||
                                       hasGlExtension(gl, "GL_ARB_texture_filter_anisotropic"))) {
   gl_.GetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &uniformAlignment_);
@@ -103,7 +103,7 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
     report("\"" + mesh.name + "\" cannot be drawn: " + fault);
     return {};
   }
-  GlMesh out{GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, {}, 0};
+  GlMesh out{GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, {}, 0, {}};
   uploadVertices(mesh, out);
   out.textures.reserve(mesh.textures.size());
   for (const Texture& texture : mesh.textures) out.textures.push_back(uploadTexture(texture));
@@ -122,7 +122,7 @@ void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
   gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
                  GL_STATIC_DRAW);
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, out.indices.name());
-  uploadIndices(mesh);
+  uploadIndices(mesh, out);
   const auto attribute = [&](GLuint at, GLint size, GLenum type, GLboolean normalised, std::size_t from) {
     gl_.EnableVertexAttribArray(at);
     gl_.VertexAttribPointer(at, size, type, normalised, sizeof(Vertex), offset(from));
@@ -138,18 +138,17 @@ void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
 }
 
 /// Of all levels, one after the other.
-void MeshCache::uploadIndices(const Mesh& mesh) {
-  if (mesh.levels.empty()) {
-    gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
-                   static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)), mesh.indices.data(),
-                   GL_STATIC_DRAW);
-    return;
+void MeshCache::uploadIndices(const Mesh& mesh, GlMesh& out) {
+  std::vector<std::uint32_t> ofLevels;
+  if (!mesh.levels.empty()) {
+    ofLevels = mesh.indices;
+    for (const MeshLevel& level : mesh.levels)
+      ofLevels.insert(ofLevels.end(), level.indices.begin(), level.indices.end());
   }
-  std::vector<std::uint32_t> all = mesh.indices;
-  for (const MeshLevel& level : mesh.levels)
-    all.insert(all.end(), level.indices.begin(), level.indices.end());
-  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all.size() * sizeof(std::uint32_t)),
-                 all.data(), GL_STATIC_DRAW);
+  const std::span<const std::uint32_t> all = mesh.levels.empty() ? std::span(mesh.indices) : ofLevels;
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all.size_bytes()), all.data(),
+                 GL_STATIC_DRAW);
+  if (sieved_) out.sieve.emplace(mesh, all);
 }
 
 void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {

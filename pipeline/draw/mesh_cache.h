@@ -10,6 +10,7 @@
 #include "engine/frame_probe.h"
 #include "pipeline/draw/gl_object.h"
 #include "pipeline/draw/look.h"
+#include "pipeline/draw/triangle_sieve.h"
 
 #include <algorithm>
 #include <optional>
@@ -35,6 +36,7 @@ struct GlMesh {
   std::vector<GlSubmesh> parts;                ///< of the full surface
   std::vector<std::vector<GlSubmesh>> levels;  ///< of the simplified ones
   std::size_t transparentParts = 0;
+  std::optional<SieveMesh> sieve;  ///< all levels, as in `indices`; where triangles are sieved
 
   /// What is drawn of it at a level; the coarsest there is, if there are not so many.
   const std::vector<GlSubmesh>& partsAt(std::uint32_t level) const {
@@ -50,7 +52,8 @@ void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_
 
 class MeshCache {
 public:
-  MeshCache(const GlTable& gl, const MeshStore& meshes, Look look);
+  /// `sieved`: meshes are kept for TriangleSieve, too.
+  MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, bool sieved = false);
 
   /// The mesh, uploaded if this is its first use; nullptr if it cannot be drawn.
   const GlMesh* find(MeshId id);
@@ -66,7 +69,7 @@ public:
 private:
   std::optional<GlMesh> upload(const Mesh& mesh);
   void uploadVertices(const Mesh& mesh, GlMesh& out);
-  void uploadIndices(const Mesh& mesh);
+  void uploadIndices(const Mesh& mesh, GlMesh& out);
   void uploadMaterials(const Mesh& mesh, GlMesh& out);
   GlTexture uploadTexture(const Texture& texture);
   void report(std::string what);
@@ -74,6 +77,7 @@ private:
   const GlTable& gl_;
   const MeshStore& store_;
   Look look_;  ///< colours are uploaded as it reckons with them
+  bool sieved_;
   struct Cached {
     std::uint64_t hash = 0;    ///< of the content; an id may be given again
     std::optional<GlMesh> gl;  ///< empty: known not to be drawable

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <utility>
 
 namespace stadion {
@@ -32,6 +33,11 @@ std::size_t surfaceIndex(const SurfaceTraits& traits) {
 bool drawnTogether(const GlMesh& mesh) {
   const auto simple = [](const GlSubmesh& part) { return !part.transparent || !part.bothSides; };
   return mesh.transparentParts == 1 && std::all_of(mesh.parts.begin(), mesh.parts.end(), simple);
+}
+
+/// Where a processor rasterises with one sample a pixel, most triangles of distant things are in vain.
+bool isSieved(const GlTable& gl, const RenderQuality& quality) {
+  return quality.samples == 1 && quality.leavesOutUnseen && isSoftware(gl);
 }
 
 /// New storage each time, so that no frame waits for one that still reads the old.
@@ -62,9 +68,13 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const GlTable& gl, std::mutex
 
 Renderer::Renderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes, std::uint32_t width,
                    std::uint32_t height, RenderQuality quality, Programs programs)
-    : gl_(gl), turns_(turns), takesTurns_(isSoftware(gl)), width_(width), height_(height), quality_(quality),
-      programs_(std::move(programs)), buffers_(gl, width, height, quality), cache_(gl, meshes, quality.look),
-      instances_(gl), scene_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl) {
+    : gl_(gl), turns_(turns), takesTurns_(isSoftware(gl)),
+      basesInstances_(gl.DrawElementsInstancedBaseInstance && hasGlExtension(gl, "GL_ARB_base_instance")),
+      width_(width), height_(height), quality_(quality), programs_(std::move(programs)),
+      buffers_(gl, width, height, quality),
+      cache_(gl, meshes, quality.look, isSieved(gl, quality) && basesInstances_), instances_(gl), scene_(gl),
+      indices_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl) {
+  if (isSieved(gl, quality) && basesInstances_) sieve_.emplace(width, height);
   setUnchangingState();
 }
 
@@ -356,12 +366,13 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, views_[index].name());
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kSceneBinding, scene_.name());
 
+  if (sieve_) sieve_->look(eye);
   if (sample_ == DrawSample::Some) sampler_->beginEye(index, piecesToSample(index));
   gl_.Disable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
   // Alone, clearing is writing the whole picture to memory. In an eye drawn whole that is done once, with
   // what comes next: it is a part of what the sky takes alone.
   buffers_.begin(index);
-  drawBatches(batches_.opaque(), Pass::Opaque, index);
+  drawOpaque(index);
   drawBatches(batches_.transparent(), Pass::OpaqueParts, index);
   piece(Span::Sky, [&] { drawBackground(); });
   // Blending and averaging of samples act on linear light.
@@ -376,6 +387,41 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
   totals_[index].add(counts_);
 }
 
+/// What is near, all else after it: of that, what is hidden then can be left out.
+void Renderer::drawOpaque(std::uint32_t eye) {
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  const std::optional<float> near = nearQuarter(eye);
+  drawnFrom_ = {0, near.value_or(kFar)};
+  drawBatches(batches_.opaque(), Pass::Opaque, eye);
+  if (!near) return;
+  depths_.resize(std::size_t{width_} * height_);
+  buffers_.readDepths(eye, depths_);
+  sieve_->hideBehind(depths_);
+  drawnFrom_ = {*near, kFar};
+  drawBatches(batches_.opaque(), Pass::Opaque, eye);
+}
+
+/// How far the nearest quarter of what the eye sees reaches [m]; nothing if it does not pay to look what that
+/// hides, or if all must be drawn by meshes that are not sieved.
+std::optional<float> Renderer::nearQuarter(std::uint32_t eye) {
+  constexpr std::uint64_t kPixels = 16;  // of which to read the depths costs as much as a triangle
+  if (!sieve_ || sample_ == DrawSample::Some) return {};
+  distances_.clear();
+  std::uint64_t triangles = 0;
+  for (const InstanceBatch& batch : batches_.opaque()) {
+    const InstanceBatch b = batch.seenBy(eye);
+    const GlMesh* mesh = cache_.find(b.mesh);
+    if (!mesh || !mesh->sieve) continue;
+    const auto of = batches_.distances().subspan(b.first, b.count);
+    distances_.insert(distances_.end(), of.begin(), of.end());
+    triangles += std::uint64_t{b.count} * partsOf(*mesh, b.level).triangles;
+  }
+  if (distances_.size() < 16 || triangles * kPixels < std::uint64_t{width_} * height_) return {};
+  const auto quarter = distances_.begin() + static_cast<std::ptrdiff_t>(distances_.size() / 4);
+  std::nth_element(distances_.begin(), quarter, distances_.end());
+  return *quarter;
+}
+
 void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass, std::uint32_t eye) {
   for (const InstanceBatch& ofBoth : batches) {
     const InstanceBatch batch = ofBoth.seenBy(eye);
@@ -385,6 +431,8 @@ void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass, st
     if (pass == Pass::OpaqueParts && mesh->transparentParts == mesh->parts.size()) continue;
     gl_.BindVertexArray(mesh->vertexArray.name());
     gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
+    mirrored_ = batch.mirrored;
+    if (basesInstances_) pointAtInstances(gl_, instances_, 0);
     const MeshParts parts = partsOf(*mesh, batch.level);
     for (std::uint32_t done = 0, count = 0; done < batch.count; done += count) {
       count = togetherFrom(batch, done, parts);
@@ -397,13 +445,14 @@ void Renderer::drawInstances(const MeshParts& mesh, std::uint32_t first, std::ui
   const bool oneByOne = pass == Pass::Transparent && !drawnTogether(*mesh.gl);
   const std::uint32_t step = oneByOne ? 1 : count;
   const auto draw = [&] {
+    if (pass == Pass::Opaque && mesh.gl->sieve) return drawSieved(mesh, first, count);
     for (std::uint32_t i = first; i < first + count; i += step) {
       stopIfAsked();
-      pointAtInstances(gl_, instances_, i);
+      if (!basesInstances_) pointAtInstances(gl_, instances_, i);
       if (pass == Pass::Transparent)
-        drawTransparentParts(mesh, step);
+        drawTransparentParts(mesh, i, step);
       else
-        drawOpaqueParts(mesh, step, pass);
+        drawOpaqueParts(mesh, i, step, pass);
     }
   };
   if (sample_ == DrawSample::Some)
@@ -426,36 +475,81 @@ std::span<const NodeShare> Renderer::sharesOf(const MeshParts& mesh, std::uint32
   return shares_;
 }
 
-void Renderer::drawOpaqueParts(const MeshParts& mesh, std::uint32_t count, Pass pass) {
+/// Each instance with the triangles that this eye may see of it.
+void Renderer::drawSieved(const MeshParts& mesh, std::uint32_t first, std::uint32_t count) {
+  using Facing = TriangleSieve::Facing;
+  stopIfAsked();
+  sieve_->clear();
+  sieved_.assign(count * mesh.parts.size(), {});
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const float distance = batches_.distances()[first + i];
+    if (distance < drawnFrom_[0] || distance >= drawnFrom_[1]) continue;
+    sieve_->place(*mesh.gl->sieve, batches_.matrices()[first + i]);
+    for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
+      const GlSubmesh& part = mesh.parts[p];
+      const Facing seen = part.bothSides ? Facing::Both
+                          : mirrored_    ? Facing::Clockwise
+                                         : Facing::CounterClockwise;
+      constexpr std::size_t kTriangle = 3 * sizeof(std::uint32_t);
+      sieved_[p * count + i] = sieve_->keep(static_cast<std::uint32_t>(part.indexOffset / kTriangle),
+                                            static_cast<std::uint32_t>(part.indexCount) / 3, seen);
+    }
+  }
+  if (sieve_->kept().empty()) return;
+  stream(gl_, GL_ELEMENT_ARRAY_BUFFER, indices_, sieve_->kept());
+  for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
+    cull(false, !mesh.parts[p].bothSides);
+    beginPart(*mesh.gl, mesh.parts[p], false);
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (const TriangleSieve::Range r = sieved_[p * count + i]; r.count > 0)
+        drawIndices(r.first * sizeof(std::uint32_t), static_cast<GLsizei>(r.count), first + i, 1);
+  }
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.gl->indices.name());  // which its vertex array remembers
+}
+
+void Renderer::drawOpaqueParts(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass) {
   for (const GlSubmesh& part : mesh.parts) {
     if (pass == Pass::OpaqueParts && part.transparent) continue;
     cull(false, !part.bothSides);
-    drawPart(*mesh.gl, part, count, false);
+    drawPart(*mesh.gl, part, first, count, false);
   }
 }
 
-void Renderer::drawTransparentParts(const MeshParts& mesh, std::uint32_t count) {
+void Renderer::drawTransparentParts(const MeshParts& mesh, std::uint32_t first, std::uint32_t count) {
   for (const GlSubmesh& part : mesh.parts) {
     if (!part.transparent) continue;
     if (part.bothSides) {
       cull(true, false);
-      drawPart(*mesh.gl, part, count, true);
+      drawPart(*mesh.gl, part, first, count, true);
     }
     cull(false, true);
-    drawPart(*mesh.gl, part, count, true);
+    drawPart(*mesh.gl, part, first, count, true);
   }
 }
 
-void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended) {
+void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t first,
+                        std::uint32_t instances, bool blended) {
+  beginPart(mesh, part, blended);
+  drawIndices(part.indexOffset, part.indexCount, first, instances);
+}
+
+void Renderer::beginPart(const GlMesh& mesh, const GlSubmesh& part, bool blended) {
   use((
       *surfaces_)[surfaceIndex({part.texture != 0, localLights_, false, false, blended, quality_.look, -1})]);
   if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
   bindMaterial(mesh.materials.name(), part.materialOffset);
-  gl_.DrawElementsInstanced(GL_TRIANGLES, part.indexCount, GL_UNSIGNED_INT, offset(part.indexOffset),
-                            static_cast<GLsizei>(instances));
+}
+
+/// `from`: in the bound index buffer [bytes].
+void Renderer::drawIndices(std::uintptr_t from, GLsizei count, std::uint32_t first, std::uint32_t instances) {
+  const auto times = static_cast<GLsizei>(instances);
+  if (basesInstances_)
+    gl_.DrawElementsInstancedBaseInstance(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset(from), times, first);
+  else
+    gl_.DrawElementsInstanced(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset(from), times);
   ++counts_.calls;
   counts_.instances += instances;
-  counts_.triangles += std::uint64_t{instances} * static_cast<std::uint64_t>(part.indexCount / 3);
+  counts_.triangles += std::uint64_t{instances} * static_cast<std::uint64_t>(count / 3);
 }
 
 /// Binding what is bound already costs a software rasteriser as much as drawing some triangles.

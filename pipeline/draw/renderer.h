@@ -131,9 +131,15 @@ private:
   void settleState();
   void drawBatches(std::span<const InstanceBatch> batches, Pass pass, std::uint32_t eye);
   void drawInstances(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass);
-  void drawOpaqueParts(const MeshParts& mesh, std::uint32_t count, Pass pass);
-  void drawTransparentParts(const MeshParts& mesh, std::uint32_t count);
-  void drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t instances, bool blended);
+  void drawSieved(const MeshParts& mesh, std::uint32_t first, std::uint32_t count);
+  void drawOpaque(std::uint32_t eye);
+  std::optional<float> nearQuarter(std::uint32_t eye);
+  void drawOpaqueParts(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass);
+  void drawTransparentParts(const MeshParts& mesh, std::uint32_t first, std::uint32_t count);
+  void drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t first, std::uint32_t instances,
+                bool blended);
+  void beginPart(const GlMesh& mesh, const GlSubmesh& part, bool blended);
+  void drawIndices(std::uintptr_t from, GLsizei count, std::uint32_t first, std::uint32_t instances);
   void stopIfAsked() const;
   void drawBackground();
   void drawSky();
@@ -147,13 +153,19 @@ private:
   std::mutex& turns_;
   std::unique_lock<std::mutex> lastTurn_;  ///< held while the members below are destroyed
   bool takesTurns_ = false;
+  bool basesInstances_;  ///< a draw call may begin at any instance
   std::uint32_t width_, height_;
   RenderQuality quality_;
   Programs programs_;
   EyeBuffers buffers_;
   MeshCache cache_;
   InstanceBatches batches_;
-  GlBuffer instances_, scene_;
+  std::optional<TriangleSieve> sieve_;        ///< where it pays
+  std::vector<TriangleSieve::Range> sieved_;  ///< by part and instance, while they are drawn
+  std::array<float, 2> drawnFrom_{};          ///< what is sieved is this far, at least and less than [m]
+  std::vector<float> depths_, distances_;
+  bool mirrored_ = false;  ///< the batch that is drawn
+  GlBuffer instances_, scene_, indices_;
   std::array<GlBuffer, 2> views_;
   GlVertexArray nothing_;  // the sky's triangle has no vertex data
   GLuint usedProgram_ = 0;

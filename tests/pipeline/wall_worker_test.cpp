@@ -1,6 +1,6 @@
 // Walls drawn by processes of their own: what travels, that the pixels are the same, and what becomes of a
 // wall whose process dies or hangs.
-#include "pipeline/worker/drawing_in_workers.h"
+#include "pipeline/worker/eyes_in_workers.h"
 #include "pipeline/worker/list_bytes.h"
 #include "tests/pipeline/renderer_scene.h"
 
@@ -191,6 +191,41 @@ TEST(ProgramWallWorkers, DrawTheSamePictures) {
   EXPECT_NE(pictureOf(drawing, 0, 0), pictureOf(drawing, 0, 1));
   EXPECT_EQ(drawing.totals(0)[0].frames, 1u);
   EXPECT_NE(drawing.glDescription(0).find("llvmpipe"), std::string::npos);
+}
+
+TEST(ProgramWallWorkers, AProcessForEachEyeDrawsTheSamePictures) {
+  MeshStore meshes;
+  DrawList list = stereoList(meshes);
+  list.opaque.front().eyes = DrawItem::kLeftEye, list.opaque.back().eyes = DrawItem::kRightEye;
+  DrawList mono = list;
+  mono.eyeCount = 1;
+  EyesInWorkers drawing(partsFor(meshes, 2), {2, 1});
+  for (std::size_t wall = 0; wall < 2; ++wall) {
+    const Failure failure = drawing.open(wall);
+    ASSERT_FALSE(failure) << failure->message;
+  }
+  for (int frame = 0; frame < 3; ++frame) {
+    for (std::size_t wall = 0; wall < 2; ++wall) {
+      const DrawOutcome outcome = drawing.draw(wall, wall == 0 ? list : mono);
+      ASSERT_FALSE(outcome.failure) << outcome.failure->message;
+    }
+    for (std::uint32_t eye = 0; eye < 2; ++eye)
+      EXPECT_EQ(pictureOf(drawing, 0, eye), drawnHere(meshes, list, eye));
+    EXPECT_EQ(pictureOf(drawing, 1), drawnHere(meshes, list));
+  }
+  EXPECT_EQ(drawing.totals(0)[1].frames, 3u);
+  EXPECT_EQ(drawing.totals(1)[1].frames, 0u);
+  drawing.close(0), drawing.close(1);
+}
+
+TEST(ProgramWallWorkers, AnEyeWhoseProcessHasNoProgramFailsTheWall) {
+  MeshStore meshes;
+  auto parts = partsFor(meshes);
+  parts.program = "/nowhere/stadion-wall";
+  EyesInWorkers drawing(std::move(parts), {2});
+  const Failure failure = drawing.open(0);
+  ASSERT_TRUE(failure);
+  EXPECT_NE(failure->message.find("left eye"), std::string::npos) << failure->message;
 }
 
 TEST(ProgramWallWorkers, ForgetMeshesThatAreGoneAndDrawOthersInTheirPlace) {

@@ -1,0 +1,35 @@
+#pragma once
+/// Draws each eye of each wall in a process of its own, both at once: on many processors a wall is there in
+/// half the time, and on few of them none is idle while the dearest wall is finished. Shadow maps, which both
+/// eyes share, would be drawn twice: it is for the plain look.
+///
+/// Threads  one of its own for each wall with two eyes.
+
+#include "pipeline/worker/drawing_in_workers.h"
+
+#include <memory>
+#include <vector>
+
+namespace stadion {
+
+class EyesInWorkers final : public WallDrawing {
+public:
+  /// `eyes`: how many each wall has, 1 or 2.
+  EyesInWorkers(DrawingInWorkersParts parts, const std::vector<std::uint32_t>& eyes);
+  ~EyesInWorkers() override;
+
+  Failure open(std::size_t wall) override;
+  DrawOutcome draw(std::size_t wall, const DrawList& list) override;
+  Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) override;
+  void close(std::size_t wall) override;
+  std::array<DrawTotals, 2> totals(std::size_t wall) const override;
+  std::string glDescription(std::size_t wall) const override;
+
+private:
+  struct Wall;
+
+  std::vector<std::unique_ptr<Wall>> walls_;
+  std::unique_ptr<DrawingInWorkers> eyes_;  ///< each as a wall with one eye
+};
+
+}  // namespace stadion
