@@ -2,14 +2,21 @@
 
 #include "engine/run_stopped.h"
 
+#include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace stadion {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kWorthAPlace = 0.004;  // [s]; who is faster is done before others are in its way
 
 void takeSeen(const std::vector<DrawItem>& from, std::uint32_t eye, std::vector<DrawItem>& to) {
   to.clear();
@@ -86,6 +93,8 @@ struct EyesInWorkers::Wall {
   std::size_t first = 0;  ///< the left or only eye's number among all eyes; the right one's is the next
   std::uint32_t eyes = 1;
   std::array<DrawList, 2> lists;
+  std::array<double, 2> took{};   ///< the last frame [s]
+  std::array<bool, 2> bound{};    ///< to one processor
   std::unique_ptr<Beside> right;  ///< draws the right eye
 
   /// Does it for both eyes at once, and waits.
@@ -105,7 +114,9 @@ struct EyesInWorkers::Wall {
   }
 };
 
-EyesInWorkers::EyesInWorkers(DrawingInWorkersParts parts, const std::vector<std::uint32_t>& eyes) {
+EyesInWorkers::EyesInWorkers(DrawingInWorkersParts parts, const std::vector<std::uint32_t>& eyes)
+    : processors_(worker::ownProcessors()), places_(processors_),
+      bindsProcesses_(parts.rasteriserThreads == 0) {
   DrawingInWorkersParts each = parts;
   each.walls.clear(), each.names.clear();
   for (std::size_t i = 0; i < parts.walls.size(); ++i) {
@@ -131,12 +142,26 @@ Failure EyesInWorkers::open(std::size_t wall) {
   return failures[0] ? std::move(failures[0]) : std::move(failures[1]);
 }
 
+DrawOutcome EyesInWorkers::drawEye(Wall& wall, std::uint32_t eye) {
+  const bool placed = bindsProcesses_ && wall.took[eye] > kWorthAPlace;
+  std::optional<worker::ProcessorPlaces::Place> place;
+  if (placed) place.emplace(places_, wall.took[eye]);
+  const int own = placed ? place->processor() : 0;
+  if (placed || wall.bound[eye])
+    worker::bindProcess(eyes_->pid(wall.first + eye), placed ? std::span(&own, 1) : std::span(processors_));
+  wall.bound[eye] = placed;
+  const auto began = Clock::now();
+  DrawOutcome outcome = eyes_->draw(wall.first + eye, wall.lists[eye]);
+  wall.took[eye] = std::chrono::duration<double>(Clock::now() - began).count();
+  return outcome;
+}
+
 DrawOutcome EyesInWorkers::draw(std::size_t wall, const DrawList& list) {
   Wall& w = *walls_[wall];
   std::array<DrawOutcome, 2> outcomes;
   w.both([&](std::uint32_t eye) {
     takeEye(list, eye, w.lists[eye]);
-    outcomes[eye] = eyes_->draw(w.first + eye, w.lists[eye]);
+    outcomes[eye] = drawEye(w, eye);
   });
   DrawOutcome& left = outcomes[0];
   if (!left.failure) left.failure = std::move(outcomes[1].failure);

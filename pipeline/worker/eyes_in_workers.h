@@ -6,6 +6,7 @@
 /// Threads  one of its own for each wall with two eyes.
 
 #include "pipeline/worker/drawing_in_workers.h"
+#include "pipeline/worker/processor_places.h"
 
 #include <memory>
 #include <vector>
@@ -28,6 +29,11 @@ public:
 private:
   struct Wall;
 
+  DrawOutcome drawEye(Wall& wall, std::uint32_t eye);
+
+  const std::vector<int> processors_;
+  worker::ProcessorPlaces places_;
+  bool bindsProcesses_;  ///< each draws on one processor at a time; else it has threads for more
   std::vector<std::unique_ptr<Wall>> walls_;
   std::unique_ptr<DrawingInWorkers> eyes_;  ///< each as a wall with one eye
 };
