@@ -208,10 +208,10 @@ void SceneState::begin(std::size_t slot) {
 void SceneState::take(std::span<const ChangeSet::Instance> block) {
   constexpr auto kAll = static_cast<std::uint8_t>((1U << kSlots) - 1);
   const auto others = static_cast<std::uint8_t>(kAll & ~(1U << writing_));
-  if (block.empty()) return;
   std::size_t end = 0;
   for (const ChangeSet::Instance& i : block) end = std::max(end, i.id + std::size_t{1});
   makeRoom(writing_, end);
+  if (block.empty()) return;
   InstanceRecord* records = instances(writing_);
   InstanceId last = block.front().id;
   for (const ChangeSet::Instance& i : block) {
