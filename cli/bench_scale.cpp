@@ -4,6 +4,7 @@
 #include "cli/number_option.h"
 #include "cli/player.h"
 #include "cli/temporary_folder.h"
+#include "engine/prefetch.h"
 #include "pipeline/output/run_summary.h"
 #include "profiling/allocations.h"
 #include "profiling/bench/city_show.h"
@@ -13,6 +14,7 @@
 #include <malloc.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -29,6 +31,7 @@ constexpr std::uint64_t kWarm = 20;
 struct Options {
   bench::CityShow city;
   std::uint64_t frames = 200;
+  bool cold = false;  ///< what App and Cull need has left the processor's caches
   bool json = false;
 };
 
@@ -58,15 +61,30 @@ double peakBytes() {
   return 0;
 }
 
+/// Goes through more memory than a core's caches hold, as drawing does.
+class Elsewhere {
+public:
+  explicit Elsewhere(bool goes) : lines_(goes ? kBytes / kCacheLine : 0) {}
+  void visit() {
+    for (std::array<char, kCacheLine>& line : lines_) ++line[0];
+  }
+
+private:
+  static constexpr std::size_t kBytes = std::size_t{32} << 20;
+  std::vector<std::array<char, kCacheLine>> lines_;
+};
+
 /// App and Cull in turns, as in a sequential run; nothing is drawn.
 void playFrames(Player& player, const Options& o, Figures& f) {
   ShowParts parts = player.parts(StereoLayout::Pair);
   const std::size_t walls = parts.walls.size();
   ShowStages stages(std::move(parts));
   std::vector<DrawList> lists(walls);
+  Elsewhere elsewhere(o.cold);
   f.app.reserve(o.frames), f.cull.reserve(o.frames);
   for (std::uint64_t frame = 0; frame < kWarm + o.frames; ++frame) {
     const TimeSignature now = signatureAt(frame, player.rate());
+    elsewhere.visit();
     const Allocations before = allocationsSoFar();
     const Clock::time_point app = Clock::now();
     stages.app(now, frame % kSlots);
@@ -113,6 +131,7 @@ int benchScale(const Options& o) {
     std::printf("%s\n", nlohmann::json{{"bench", "scale"},
                                        {"still", o.city.still},
                                        {"moving", o.city.moving},
+                                       {"cold", o.cold},
                                        {"app_ms", app},
                                        {"app_ms_p99", percentile(f->app, 99)},
                                        {"app_limit_ms", kMostAppMs},
@@ -148,6 +167,7 @@ void addBenchScale(CLI::App& bench, int& code) {
       ->check(wholeNumberFrom(1, 10'000'000));
   command->add_option("--moving", o->city.moving, "nodes that move")->check(wholeNumberFrom(0, 100'000));
   command->add_option("--frames", o->frames, "frames that are measured")->check(wholeNumberFrom(1, 100'000));
+  command->add_flag("--cold", o->cold, "before each frame other memory is read and written, as by drawing");
   command->add_flag("--json", o->json, "one JSON object");
   command->callback([o, &code] { code = benchScale(*o); });
 }

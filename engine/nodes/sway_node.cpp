@@ -4,6 +4,8 @@
 #include "engine/prefetch.h"
 #include "engine/scene/scene.h"
 
+#include <algorithm>
+
 namespace stadion {
 namespace {
 
@@ -22,30 +24,50 @@ Mat3 uprightAxes(double along, double across, double up) {
 void SwayNode::settleTargets(Scene& scene) {
   if (settled_) return;
   settled_ = true;
-  bool upright = sway_.angularVelocity.head<2>().isZero(0);
-  std::vector<NodeRef> targets = sway_.targets;
-  if (targets.empty()) targets.push_back(self());
-  for (std::size_t k = 0; k < targets.size(); ++k) {
-    Node* node = scene.find(targets[k]);
-    PlacedNode* placed = node ? node->placed() : nullptr;
-    if (!placed) continue;
+  if (sway_.targets.empty()) sway_.targets.push_back(self());
+  const std::size_t count = sway_.targets.size();
+  nodes_.resize(count), placements_.resize(count, kNoPlacement), swings_.resize(count);
+  axes_.resize(count, Mat3::Identity());
+  for (std::size_t k = 0; k < count; ++k) settleTarget(k, scene);
+  const auto standsUpright = [&](const Swing& s) {
+    return axes_[static_cast<std::size_t>(&s - swings_.data())] == uprightAxes(s.along, s.across, s.up);
+  };
+  if (sway_.angularVelocity.head<2>().isZero(0) && std::ranges::all_of(swings_, standsUpright)) axes_ = {};
+  settlePhases();
+  fleet_ = scene.placements().addFleet(*this, placements_);
+}
+
+void SwayNode::settleTarget(std::size_t k, Scene& scene) {
+  Node* node = scene.find(sway_.targets[k]);
+  PlacedNode* placed = node ? node->placed() : nullptr;
+  nodes_[k] = placed;
+  if (placed) {
     placed->letMove(scene);
-    const Affine& X_PN = placed->attributes().X_PN;
-    Swing swing;
-    const Mat3 axes = X_PN.linear();
-    swing.rest = X_PN.translation();
-    swing.along = axes(0, 0), swing.across = axes(1, 0), swing.up = axes(2, 2);
-    upright = upright && axes == uprightAxes(swing.along, swing.across, swing.up);
-    axes_.push_back(axes);
-    for (int i = 0; i < 3; ++i) {
-      const det::SinCos phase = det::sincos(sway_.phase[i] + static_cast<double>(k) * sway_.phaseStep[i]);
-      swing.ofSin[i] = sway_.amplitude[i] * phase.cos, swing.ofCos[i] = sway_.amplitude[i] * phase.sin;
-    }
-    nodes_.push_back(placed);
-    placements_.push_back(placed->placement());
-    swings_.push_back(swing);
+    placements_[k] = placed->placement();
+    axes_[k] = placed->attributes().X_PN.linear();
+    swings_[k].place = placed->attributes().X_PN.translation();
   }
-  if (upright) axes_ = {};
+  swings_[k].along = axes_[k](0, 0), swings_[k].across = axes_[k](1, 0), swings_[k].up = axes_[k](2, 2);
+  Affine X_PN = Affine::Identity();
+  X_PN.linear() = axes_[k];
+  swings_[k].widens = sphereScale(X_PN);
+}
+
+void SwayNode::settlePhases() {
+  const auto anglesAt = [](const Vec3& angle) {
+    Angles a;
+    for (int i = 0; i < 3; ++i) {
+      const det::SinCos at = det::sincos(angle[i]);
+      a.sin[i] = at.sin, a.cos[i] = at.cos;
+    }
+    return a;
+  };
+  for (std::size_t k = 0; k < nodes_.size(); k += kBlock)
+    blocks_.push_back(anglesAt(sway_.phase + static_cast<double>(k) * sway_.phaseStep));
+  for (std::size_t k = 0; k < std::min(kBlock, nodes_.size()); ++k) {
+    const Angles step = anglesAt(static_cast<double>(k) * sway_.phaseStep);
+    steps_.push_back({sway_.amplitude.cwiseProduct(step.sin), sway_.amplitude.cwiseProduct(step.cos)});
+  }
 }
 
 SwayNode::Moment SwayNode::momentAt(Nanoseconds elapsed) const {
@@ -53,31 +75,52 @@ SwayNode::Moment SwayNode::momentAt(Nanoseconds elapsed) const {
   Moment m;
   for (int i = 0; i < 3; ++i) {
     const det::SinCos angle = det::sincos(kTurn * sway_.frequency[i] * t);
-    m.sin[i] = angle.sin, m.cos[i] = angle.cos;
+    m.first.sin[i] = angle.sin, m.first.cos[i] = angle.cos;
   }
   m.turn = det::expRotation(sway_.angularVelocity * t).toRotationMatrix();
   return m;
 }
 
-void SwayNode::put(std::size_t i, const Moment& m, Affine& X_PN) const {
-  const Swing& swing = swings_[i];
-  if (axes_.empty()) {
-    const double c = m.turn(0, 0), s = m.turn(1, 0);
-    X_PN.linear() =
-        uprightAxes(c * swing.along - s * swing.across, s * swing.along + c * swing.across, swing.up);
-  } else {
-    X_PN.linear().noalias() = m.turn * axes_[i];
+void SwayNode::putMembers(std::size_t first, std::span<MemberPlace> places) const {
+  putAll(moment_, first, places);
+}
+
+void SwayNode::putAll(const Moment& m, std::size_t first, std::span<MemberPlace> places) const {
+  const Vec3 &sin = m.first.sin, &cos = m.first.cos;
+  for (std::size_t k = first, end = first + places.size(); k < end;) {
+    const Angles& phase = blocks_[k / kBlock];
+    const Angles block{sin.cwiseProduct(phase.cos) + cos.cwiseProduct(phase.sin),
+                       cos.cwiseProduct(phase.cos) - sin.cwiseProduct(phase.sin)};
+    for (const std::size_t last = std::min(end, (k / kBlock + 1) * kBlock); k < last; ++k) {
+      if (k + kBlock < swings_.size()) prefetch(&swings_[k + kBlock]);
+      put(k, m.turn, block, places[k - first]);
+    }
   }
-  X_PN.translation() = swing.rest + (m.sin.cwiseProduct(swing.ofSin) + m.cos.cwiseProduct(swing.ofCos));
+}
+
+inline void SwayNode::put(std::size_t k, const Mat3& turn, const Angles& block, MemberPlace& place) const {
+  const Swing& swing = swings_[k];
+  const Angles& step = steps_[k % kBlock];
+  std::array<double, 12>& m = place.rows;
+  if (axes_.empty()) {
+    const double c = turn(0, 0), s = turn(1, 0);
+    const double along = c * swing.along - s * swing.across, across = s * swing.along + c * swing.across;
+    m[0] = along, m[1] = -across, m[2] = 0;
+    m[4] = across, m[5] = along, m[6] = 0;
+    m[8] = 0, m[9] = 0, m[10] = swing.up;
+  } else {
+    const Mat3 axes = turn * axes_[k];
+    for (int i = 0; i < 9; ++i) m[static_cast<std::size_t>(4 * (i / 3) + i % 3)] = axes(i / 3, i % 3);
+  }
+  const Vec3 at = swing.place + (block.sin.cwiseProduct(step.cos) + block.cos.cwiseProduct(step.sin));
+  m[3] = at.x(), m[7] = at.y(), m[11] = at.z();
+  place.widens = swing.widens;
 }
 
 void SwayNode::putTargets(Scene& scene) {
   settleTargets(scene);
-  const Moment m = momentAt(elapsed_);
-  scene.placements().setLocals(placements_, [&](std::size_t i, Affine& X_PN) {
-    if (i + Placements::kAhead < swings_.size()) prefetch(&swings_[i + Placements::kAhead]);
-    put(i, m, X_PN);
-  });
+  moment_ = momentAt(elapsed_);
+  scene.placements().moveFleet(fleet_);
   putAt_ = since_;
 }
 
@@ -85,7 +128,7 @@ void SwayNode::putTargets(Scene& scene) {
 void SwayNode::leaveTargets(Scene& scene) {
   putTargets(scene);
   for (PlacedNode* node : nodes_)
-    if (!node->moved()) node->stay(scene);
+    if (node && !node->moved()) node->stay(scene);
 }
 
 /// Tells those who look at what it moves how that goes from since_ on.
@@ -95,16 +138,18 @@ void SwayNode::trace(Nanoseconds to, FrameContext& frame) {
   // In its first frame nobody may have had the time to say that he looks.
   const Placements& placements = frame.scene.placements();
   if (putAt_ && !placements.anyWatched()) return;
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if ((!putAt_ || placements.watchedBelow(placements_[i])) && !nodes_[i]->moved()) traceOne(i, to, frame);
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    if (nodes_[k] && !nodes_[k]->moved() && (!putAt_ || placements.watchedBelow(placements_[k])))
+      traceOne(k, to, frame);
 }
 
-void SwayNode::traceOne(std::size_t i, Nanoseconds to, FrameContext& frame) const {
+void SwayNode::traceOne(std::size_t k, Nanoseconds to, FrameContext& frame) const {
   const Placements& placements = frame.scene.placements();
-  const PlacementId id = placements_[i], up = placements.parent(id);
+  const PlacementId id = placements_[k], up = placements.parent(id);
   const auto at = [&](Nanoseconds time) {
-    Affine X_PN;
-    put(i, momentAt(elapsed_ + (time - since_)), X_PN);
+    MemberPlace place;
+    putAll(momentAt(elapsed_ + (time - since_)), k, {&place, 1});
+    const Affine X_PN = place.affine();
     return poseOf(withScale(frame.scene.courses().at(up, time, placements), placements.world(up)) * X_PN);
   };
   const Pose begin = at(since_);
@@ -121,13 +166,13 @@ void SwayNode::traceOne(std::size_t i, Nanoseconds to, FrameContext& frame) cons
 void SwayNode::jump(Nanoseconds when, FrameContext& frame) {
   settleTargets(frame.scene);
   const Placements& placements = frame.scene.placements();
-  const auto pose = [&](std::size_t i) { return poseOf(placements.world(placements_[i])); };
+  const auto pose = [&](std::size_t k) { return poseOf(placements.world(placements_[k])); };
   std::vector<std::pair<std::size_t, Course*>> watched;
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (placements.watchedBelow(placements_[i]) && !nodes_[i]->moved())
-      watched.emplace_back(i, &frame.scene.courses().of(placements_[i], {frame.start(), pose(i), false}));
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    if (nodes_[k] && !nodes_[k]->moved() && placements.watchedBelow(placements_[k]))
+      watched.emplace_back(k, &frame.scene.courses().of(placements_[k], {frame.start(), pose(k), false}));
   leaveTargets(frame.scene);
-  for (const auto& [i, way] : watched) way->push_back({when, pose(i), true});
+  for (const auto& [k, way] : watched) way->push_back({when, pose(k), true});
 }
 
 void SwayNode::onEnter(Scene& scene) {
@@ -137,8 +182,9 @@ void SwayNode::onEnter(Scene& scene) {
 
 /// Targets of files around its own stay behind.
 void SwayNode::onLeave(Scene& scene) {
+  if (fleet_ != kNoFleet) scene.placements().removeFleet(fleet_);
   for (PlacedNode* node : nodes_)
-    if (node->self().load != self().load && !node->moved()) node->stay(scene);
+    if (node && node->self().load != self().load && !node->moved()) node->stay(scene);
   PlacedNode::onLeave(scene);
 }
 

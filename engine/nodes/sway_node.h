@@ -6,9 +6,10 @@
 /// and turned about itself by angularvelocity x t. t is the time for which the node has been on: nothing is
 /// integrated, so that the way does not depend on the frame rate.
 ///
-/// All targets are moved together: what the sinusoids have in common is computed once a frame, and a target
-/// costs a few multiplications (sin(a + b) = sin a cos b + cos a sin b). Where a target is follows from this
-/// node's state; it is no part of the target's own until it is left there.
+/// All targets are moved together, as a fleet (Placements): what the sinusoids have in common is computed
+/// once a frame and once for 64 targets that follow each other, and a target costs a few multiplications
+/// (sin(a + b) = sin a cos b + cos a sin b). Where a target is follows from this node's state; it is no part
+/// of the target's own until it is left there.
 ///
 /// Commands  enable (goes on where it stopped), disable (the targets stay where they are at the command's
 ///           time), toggle, reset (back to t = 0), and those of a placed node when it moves what stands below
@@ -21,6 +22,7 @@
 #include "engine/nodes/switched.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace stadion {
@@ -34,7 +36,7 @@ struct SwayAttributes {
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s]
 };
 
-class SwayNode : public PlacedNode {
+class SwayNode : public PlacedNode, private FleetRule {
 public:
   SwayNode(NodeRef self, std::string name, PlaceAttributes place, SwayAttributes sway, bool on)
       : PlacedNode(NodeKind::Sway, self, std::move(name), std::move(place)), sway_(std::move(sway)),
@@ -51,26 +53,35 @@ protected:
   void simulate(FrameContext& frame) override;
 
 private:
-  /// One target: everything that does not change with time.
+  static constexpr std::size_t kBlock = 64;  ///< targets that follow each other
+
+  /// One target at rest.
   struct Swing {
-    Vec3 rest;                 ///< [m]
-    Vec3 ofSin, ofCos;         ///< what of it goes with the sine of the common angle, and with its cosine [m]
-    double along, across, up;  ///< of what stands upright, its axes at rest: uprightAxes()
+    Vec3 place;                ///< [m]
+    double along, across, up;  ///< of what stands upright, its axes: uprightAxes()
+    double widens;             ///< sphereScale()
+  };
+  struct Angles {
+    Vec3 sin, cos;
   };
   /// What the targets have in common at a time.
   struct Moment {
-    Vec3 sin, cos;
+    Angles first;  ///< of target 0, without its phase
     Mat3 turn;
   };
 
+  void putMembers(std::size_t first, std::span<MemberPlace> places) const override;
   void settleTargets(Scene& scene);
+  void settleTarget(std::size_t k, Scene& scene);
+  void settlePhases();
   Moment momentAt(Nanoseconds elapsed) const;
-  void put(std::size_t i, const Moment& m, Affine& X_PN) const;
+  void putAll(const Moment& m, std::size_t first, std::span<MemberPlace> places) const;
+  void put(std::size_t k, const Mat3& turn, const Angles& block, MemberPlace& place) const;
   void advanceTo(Nanoseconds time, FrameContext& frame);
   void putTargets(Scene& scene);
   void leaveTargets(Scene& scene);
   void trace(Nanoseconds to, FrameContext& frame);
-  void traceOne(std::size_t i, Nanoseconds to, FrameContext& frame) const;
+  void traceOne(std::size_t k, Nanoseconds to, FrameContext& frame) const;
   void jump(Nanoseconds when, FrameContext& frame);
 
   SwayAttributes sway_;
@@ -79,12 +90,17 @@ private:
   Nanoseconds since_ = 0;             ///< show time up to which elapsed_ counts
   std::optional<Nanoseconds> putAt_;  ///< when it last put its targets somewhere
 
-  // Parallel, by target; found in its first cycle, when all of them are there.
+  Moment moment_{};  ///< of that time
+
+  // By target; found in its first cycle, when all of them are there.
   bool settled_ = false;
-  std::vector<PlacedNode*> nodes_;
+  FleetId fleet_ = kNoFleet;
+  std::vector<PlacedNode*> nodes_;  ///< null: has no place
   std::vector<PlacementId> placements_;
   std::vector<Swing> swings_;
   std::vector<Mat3> axes_;  ///< rotation and scale at rest; empty while all stand upright and turn about +Z
+  std::vector<Angles> blocks_;  ///< the phase of the first of each kBlock
+  std::vector<Angles> steps_;   ///< how far the phase of the others is from that: amplitude x (sin, cos)
 };
 
 }  // namespace stadion

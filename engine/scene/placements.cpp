@@ -1,5 +1,6 @@
 #include "engine/scene/placements.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace stadion {
@@ -24,6 +25,7 @@ PlacementId Placements::add(PlacementId parent, const Affine& X_PN) {
     entries_[id] = Entry{};
     entries_[id].changed = listed;
   }
+  stray(parent);
   Entry& e = entries_[id];
   X_PN_[id] = X_PN;
   e.parent = parent;
@@ -39,6 +41,9 @@ PlacementId Placements::add(PlacementId parent, const Affine& X_PN) {
 void Placements::remove(PlacementId id) {
   Entry& e = entries_[id];
   assert(e.live && e.firstChild == kNoPlacement);
+  if (e.fleet != kNoFleet) fleets_[e.fleet].members[e.member] = kNoPlacement;
+  if (e.astray)
+    for (Fleet& fleet : fleets_) std::erase_if(fleet.strays, [id](const auto& s) { return s.second == id; });
   if (e.previousSibling != kNoPlacement)
     entries_[e.previousSibling].nextSibling = e.nextSibling;
   else
@@ -68,6 +73,7 @@ void Placements::markBelow(PlacementId top, bool moved) {
 
 bool Placements::setLocal(PlacementId id, const Affine& X_PN) {
   if (!X_PN.matrix().allFinite()) return false;
+  stray(id);
   X_PN_[id] = X_PN;
   entries_[id].held = Held::Nothing;
   markBelow(id, true);
@@ -84,6 +90,7 @@ bool Placements::setWorld(PlacementId id, const Affine& X_WN) {
 
 bool Placements::hold(PlacementId id, const Affine& X_WN, Held part) {
   if (!X_WN.matrix().allFinite()) return false;
+  stray(id);
   X_WH_[id] = X_WN;
   entries_[id].held = part;
   markBelow(id, true);
@@ -96,12 +103,19 @@ void Placements::rejoin(PlacementId id, const Affine& X_WP) {
 }
 
 Affine Placements::local(PlacementId id) const {
+  settle(id);
   const Entry& e = entries_[id];
   if (e.held == Held::Nothing) return X_PN_[id];
   return e.parent == kWorldPlacement ? world(id) : Affine(world(e.parent).inverse() * world(id));
 }
 
+void Placements::claim(PlacementId id, bool claimed) {
+  if (claimed) stray(id);
+  entries_[id].claimed = claimed;
+}
+
 void Placements::watch(PlacementId id) {
+  stray(id);
   entries_[id].watched = anyWatched_ = true;
   for (; id != kNoPlacement && !entries_[id].watchedBelow; id = entries_[id].parent)
     entries_[id].watchedBelow = true;
@@ -121,7 +135,7 @@ Affine Placements::carriedBy(PlacementId id, const Affine& X_WP) const {
 }
 
 const Affine& Placements::world(PlacementId id) const {
-  if (standsInWorld(entries_[id])) return X_PN_[id];
+  if (standsInWorld(entries_[id])) return settle(id), X_PN_[id];
   if (!entries_[id].stale) return X_WN_[id];
   chain_.clear();
   for (PlacementId at = id; entries_[at].stale && !standsInWorld(entries_[at]); at = entries_[at].parent)
@@ -139,6 +153,7 @@ void Placements::setShown(PlacementId id, bool shown, Hider hider) {
   const std::uint8_t before = entries_[id].hiders;
   const auto now = static_cast<std::uint8_t>(shown ? before & ~bit : before | bit);
   if (before == now) return;
+  stray(id);
   entries_[id].hiders = now;
   if ((before == 0) != (now == 0)) markBelow(id, false);
 }
@@ -147,6 +162,99 @@ bool Placements::shown(PlacementId id) const {
   for (; id != kWorldPlacement; id = entries_[id].parent)
     if (entries_[id].hiders != 0) return false;
   return true;
+}
+
+// Fleets.
+
+FleetId Placements::addFleet(const FleetRule& rule, std::span<const PlacementId> members) {
+  FleetId id;
+  if (freeFleets_.empty()) {
+    id = static_cast<FleetId>(fleets_.size());
+    fleets_.emplace_back();
+  } else {
+    id = freeFleets_.back();
+    freeFleets_.pop_back();
+  }
+  fleets_[id].rule = &rule;
+  fleets_[id].members.assign(members.size(), kNoPlacement);
+  for (std::uint32_t k = 0; k < members.size(); ++k)
+    if (members[k] != kNoPlacement) join(members[k], id, k);
+  return id;
+}
+
+void Placements::join(PlacementId id, FleetId fleet, std::uint32_t member) {
+  stray(id);  // who is in two fleets is a stray of both
+  Entry& e = entries_[id];
+  const bool plain = standsInWorld(e) && e.firstChild == kNoPlacement && e.hiders == 0 && !e.watched &&
+                     !e.claimed && !e.astray;
+  if (!plain) {
+    e.astray = true;
+    fleets_[fleet].strays.emplace_back(member, id);
+    return;
+  }
+  fleets_[fleet].members[member] = id;
+  e.fleet = fleet, e.member = member, e.move = 0;
+}
+
+void Placements::removeFleet(FleetId id) {
+  for (const PlacementId member : fleets_[id].members)
+    if (member != kNoPlacement) leaveFleet(member);
+  fleets_[id] = Fleet{};
+  freeFleets_.push_back(id);
+}
+
+/// Writes its local matrix, if its fleet has moved since.
+void Placements::settle(PlacementId id) const {
+  Entry& e = entries_[id];
+  if (e.fleet == kNoFleet) return;
+  const Fleet& fleet = fleets_[e.fleet];
+  if (std::exchange(e.move, fleet.moves) != fleet.moves) X_PN_[id] = memberOf(fleet, e.member);
+}
+
+Affine Placements::memberOf(const Fleet& fleet, std::uint32_t member) const {
+  MemberPlace place;
+  fleet.rule->putMembers(member, {&place, 1});
+  return place.affine();
+}
+
+/// It stays where it is.
+void Placements::leaveFleet(PlacementId id) {
+  settle(id);
+  Entry& e = entries_[id];
+  Fleet& fleet = fleets_[std::exchange(e.fleet, kNoFleet)];
+  fleet.members[e.member] = kNoPlacement;
+  if (fleet.moved) mark(id, e);
+}
+
+/// Somebody else has to do with it: it does not go with its fleet any more, but is moved by it still.
+void Placements::stray(PlacementId id) {
+  Entry& e = entries_[id];
+  if (e.fleet == kNoFleet) return;
+  fleets_[e.fleet].strays.emplace_back(e.member, id);
+  leaveFleet(id);
+  e.astray = true;
+}
+
+void Placements::moveFleet(FleetId id) {
+  Fleet& fleet = fleets_[id];
+  ++fleet.moves;
+  fleet.moved = true;
+  putStrays(fleet);
+}
+
+void Placements::putStrays(const Fleet& fleet) {
+  for (const auto& [number, id] : fleet.strays) {
+    Entry& e = entries_[id];
+    if (e.claimed) continue;
+    X_PN_[id] = memberOf(fleet, number);
+    e.held = Held::Nothing;
+    if (e.firstChild != kNoPlacement || e.watched) {
+      markBelow(id, true);
+      continue;
+    }
+    e.stale = true;
+    mark(id, e);
+  }
 }
 
 const std::vector<PlacementId>& Placements::takeMovedWatched() {
@@ -159,8 +267,9 @@ const std::vector<PlacementId>& Placements::takeChanged() {
   changedTold_.clear();
   changedTold_.swap(changed_);
   std::erase_if(changedTold_, [&](PlacementId id) {
+    const Entry& e = entries_[id];
     entries_[id].changed = false;
-    return !entries_[id].live;
+    return !e.live || (e.fleet != kNoFleet && fleets_[e.fleet].moved);
   });
   return changedTold_;
 }

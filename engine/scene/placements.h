@@ -6,15 +6,21 @@
 /// so that it does not matter which of the two moves first. Nothing is recomputed unless it or something
 /// above it moved. World matrices may be asked for at any time in App and are always up to date.
 ///
+/// What one node moves by a rule is a fleet: of thousands that move in every frame nothing is written down
+/// but where they are published. Members that somebody watches, holds, hides or puts elsewhere, or that carry
+/// others, are strays: they are moved one by one.
+///
 /// Frames   X_PN maps Node to Parent coordinates, X_WN Node to World.
 /// Threads  App only; other stages see published instance records.
 /// Errors   a non-finite matrix is refused: the setter returns false and keeps the old one.
 
 #include "engine/maths/maths.h"
-#include "engine/prefetch.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace stadion {
@@ -33,6 +39,34 @@ enum class Hider : std::uint8_t {
 /// What of a placement is held in World.
 enum class Held : std::uint8_t { Nothing, Position, Orientation, All };
 
+/// Where a member of a fleet is.
+struct MemberPlace {
+  std::array<double, 12> rows;  ///< X_PN (3 x 4), row after row; finite
+  double widens;                ///< sphereScale() of it (records.h), which does not change from move to move
+
+  Affine affine() const {
+    Affine X_PN;
+    X_PN.matrix() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(rows.data());
+    return X_PN;
+  }
+};
+
+/// Says where the members of a fleet are.
+class FleetRule {
+public:
+  /// Of member `first` and those after it, since moveFleet() was called.
+  virtual void putMembers(std::size_t first, std::span<MemberPlace> places) const = 0;
+
+protected:
+  FleetRule() = default;
+  FleetRule(const FleetRule&) = default;
+  FleetRule& operator=(const FleetRule&) = default;
+  ~FleetRule() = default;
+};
+
+using FleetId = std::uint32_t;
+constexpr FleetId kNoFleet = ~FleetId{0};
+
 class Placements {
 public:
   Placements();
@@ -43,18 +77,23 @@ public:
 
   /// Puts it there below its parent, which carries it from now on.
   bool setLocal(PlacementId id, const Affine& X_PN);
-  /// The same for many that one node moves: put(i, X_PN) says where ids[i] is now. Leaves out what is
-  /// claimed. Expects finite matrices.
-  template <class Put>
-  void setLocals(std::span<const PlacementId> ids, const Put& put);
-  static constexpr std::size_t kAhead = 8;  ///< so many placements before its turn memory is asked for
+  /// Makes a fleet of them, which stay where they are until it moves. `rule` lives until removeFleet().
+  FleetId addFleet(const FleetRule& rule, std::span<const PlacementId> members);
+  /// They stay where they are.
+  void removeFleet(FleetId fleet);
+  /// All members but those that are claimed are elsewhere now.
+  void moveFleet(FleetId fleet);
+  /// visit(ids, places) for those that have moved in their fleets since the last call, a block at a time;
+  /// kNoPlacement stands for members that are strays. They are shown, and stand in World.
+  template <class Visit>
+  void takeMovedFleets(const Visit& visit);
   bool setWorld(PlacementId id, const Affine& X_WN);  ///< the same, so that it is at X_WN now
   /// Holds it, or the part of it that is named, at X_WN until it is put below its parent again.
   bool hold(PlacementId id, const Affine& X_WN, Held part = Held::All);
   /// Puts what is held below its parent again, which was at X_WP when it was let go.
   void rejoin(PlacementId id, const Affine& X_WP);
-  /// A tracker or the dynamics moves it: setLocals() leaves it alone.
-  void claim(PlacementId id, bool claimed) { entries_[id].claimed = claimed; }
+  /// A tracker or the dynamics moves it: its fleet leaves it alone.
+  void claim(PlacementId id, bool claimed);
   Held held(PlacementId id) const { return entries_[id].held; }
   const Affine& world(PlacementId id) const;
   Affine local(PlacementId id) const;  ///< where it is relative to its parent now
@@ -74,8 +113,8 @@ public:
   /// Those that have moved since the last call. Valid until the next one.
   const std::vector<PlacementId>& takeMovedWatched();
 
-  /// Every placement whose World matrix or visibility may have changed since the last call, each once. Valid
-  /// until the next one.
+  /// Every other placement whose World matrix or visibility may have changed since the last call, each once.
+  /// Valid until the next one.
   const std::vector<PlacementId>& takeChanged();
 
 private:
@@ -90,12 +129,30 @@ private:
     bool live = false;
     bool watched = false, watchedBelow = false;
     bool claimed = false;
+    bool astray = false;       ///< a stray of some fleet
+    FleetId fleet = kNoFleet;  ///< it goes with it
+    std::uint32_t member = 0;
+    std::uint32_t move = 0;  ///< the fleet's move after which its local matrix was written
   };
+  struct Fleet {
+    const FleetRule* rule = nullptr;                            ///< null: has been removed
+    std::vector<PlacementId> members;                           ///< kNoPlacement: a stray, or gone
+    std::vector<std::pair<std::uint32_t, PlacementId>> strays;  ///< by number
+    std::uint32_t moves = 0;
+    bool moved = false;  ///< since takeMovedFleets()
+  };
+  static constexpr std::size_t kFleetBlock = 64;
 
   /// Whether its World matrix is the local one.
   static bool standsInWorld(const Entry& e) { return e.parent == kWorldPlacement && e.held == Held::Nothing; }
   Affine carriedBy(PlacementId id, const Affine& X_WP) const;
   void markBelow(PlacementId id, bool moved);
+  void settle(PlacementId id) const;
+  Affine memberOf(const Fleet& fleet, std::uint32_t member) const;
+  void join(PlacementId id, FleetId fleet, std::uint32_t member);
+  void leaveFleet(PlacementId id);
+  void stray(PlacementId id);
+  void putStrays(const Fleet& fleet);
   void mark(PlacementId id, Entry& e) {
     if (e.changed) return;
     e.changed = true;
@@ -103,34 +160,30 @@ private:
   }
 
   mutable std::vector<Entry> entries_;
-  std::vector<Affine> X_PN_;          ///< by placement
+  mutable std::vector<Affine> X_PN_;  ///< by placement
   mutable std::vector<Affine> X_WN_;  ///< by placement; unused while it stands in World
   std::vector<Affine> X_WH_;          ///< by placement: where it is held
   bool anyWatched_ = false;
   std::vector<PlacementId> free_;
   std::vector<PlacementId> changed_, movedWatched_;
   std::vector<PlacementId> changedTold_, movedTold_;
-  mutable std::vector<PlacementId> chain_;  ///< world()'s own
+  std::vector<Fleet> fleets_;
+  std::vector<FleetId> freeFleets_;
+  std::array<MemberPlace, kFleetBlock> block_;  ///< takeMovedFleets()'s own
+  mutable std::vector<PlacementId> chain_;      ///< world()'s own
 };
 
-template <class Put>
-void Placements::setLocals(std::span<const PlacementId> ids, const Put& put) {
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const PlacementId id = ids[i];
-    if (i + kAhead < ids.size()) {
-      prefetch(&entries_[ids[i + kAhead]]);
-      prefetch(&X_PN_[ids[i + kAhead]]);
+template <class Visit>
+void Placements::takeMovedFleets(const Visit& visit) {
+  for (Fleet& fleet : fleets_) {
+    if (!std::exchange(fleet.moved, false)) continue;
+    const std::span<const PlacementId> members(fleet.members);
+    for (std::size_t first = 0; first < members.size(); first += kFleetBlock) {
+      const std::size_t count = std::min(kFleetBlock, members.size() - first);
+      const std::span<MemberPlace> places(block_.data(), count);
+      fleet.rule->putMembers(first, places);
+      visit(members.subspan(first, count), std::span<const MemberPlace>(places));
     }
-    Entry& e = entries_[id];
-    if (e.claimed) continue;
-    put(i, X_PN_[id]);
-    e.held = Held::Nothing;
-    if (e.firstChild != kNoPlacement || e.watched) {
-      markBelow(id, true);
-      continue;
-    }
-    e.stale = true;
-    mark(id, e);
   }
 }
 

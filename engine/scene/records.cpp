@@ -5,22 +5,27 @@
 
 namespace stadion {
 
-void placeInstance(InstanceRecord& r, const Affine& X_WN, const Sphere& sphere_N) {
+double sphereScale(const Affine& X_WN) {
   const auto& X = X_WN.matrix();
-  for (int row = 0; row < 3; ++row)
-    for (int col = 0; col < 4; ++col) r.model[4 * row + col] = X(row, col);
-  const Vec3 centre = X_WN * sphere_N.centre;
-  for (int i = 0; i < 3; ++i) r.centre[i] = centre[i];
-  // The sphere grows by at most the Frobenius norm of the linear part, and exactly by the scale when that is
-  // uniform: when the columns are as long as each other and at right angles.
+  // It grows by at most the Frobenius norm of the linear part, and exactly by the scale when that is uniform:
+  // when the columns are as long as each other and at right angles.
   const auto dot = [&X](int a, int b) { return X(0, a) * X(0, b) + X(1, a) * X(1, b) + X(2, a) * X(2, b); };
   const double xx = dot(0, 0), yy = dot(1, 1), zz = dot(2, 2), xy = dot(0, 1), yz = dot(1, 2), zx = dot(2, 0);
   const double most = std::max({xx, yy, zz});
   const double odd = (xx - most) * (xx - most) + (yy - most) * (yy - most) + (zz - most) * (zz - most) +
                      2 * (xy * xy + yz * yz + zx * zx);
   const double squared = odd < 1e-18 * most * most ? most : xx + yy + zz;
+  return std::sqrt(squared);
+}
+
+void placeInstance(InstanceRecord& r, const Affine& X_WN, const Sphere& sphere_N) {
+  const auto& X = X_WN.matrix();
+  for (int row = 0; row < 3; ++row)
+    for (int col = 0; col < 4; ++col) r.model[4 * row + col] = X(row, col);
+  const Vec3 centre = X_WN * sphere_N.centre;
+  for (int i = 0; i < 3; ++i) r.centre[i] = centre[i];
   // Rounding to float must not shrink the sphere.
-  r.radius = static_cast<float>(sphere_N.radius * std::sqrt(squared) * (1 + 1e-6));
+  r.radius = static_cast<float>(sphere_N.radius * sphereScale(X_WN) * (1 + 1e-6));
 }
 
 InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, NodeRef owner,

@@ -8,6 +8,8 @@
 #include "engine/message.h"
 #include "engine/time_signature.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <type_traits>
@@ -41,6 +43,18 @@ InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, boo
 
 /// Where the instance is: its matrix, and the sphere around it. Leaves the rest of the record as it is.
 void placeInstance(InstanceRecord& record, const Affine& X_WN, const Sphere& sphere_N);
+/// The same of a matrix's rows, when its sphereScale() is known.
+inline void placeInstance(InstanceRecord& r, const std::array<double, 12>& m, double scale,
+                          const Sphere& sphere_N) {
+  std::copy(m.begin(), m.end(), r.model);
+  const double x = sphere_N.centre.x(), y = sphere_N.centre.y(), z = sphere_N.centre.z();
+  for (std::size_t row = 0; row < 3; ++row)
+    r.centre[row] = m[4 * row] * x + m[4 * row + 1] * y + (m[4 * row + 2] * z + m[4 * row + 3]);
+  // Rounding to float must not shrink the sphere.
+  r.radius = static_cast<float>(sphere_N.radius * scale * (1 + 1e-6));
+}
+/// How many times as wide as a sphere in N one in World must be to hold it.
+double sphereScale(const Affine& X_WN);
 
 struct LightRecord {
   std::uint32_t kind = 0;                       ///< DrawLight::Kind
@@ -74,6 +88,8 @@ struct ChangeSet {
   struct Instance {
     InstanceId id;
     InstanceRecord record;
+    Instance() {}  // whoever adds one fills it in
+    Instance(InstanceId i, const InstanceRecord& r) : id(i), record(r) {}
   };
   struct Chunk {
     ChunkId id;

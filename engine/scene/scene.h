@@ -179,7 +179,8 @@ private:
     MeshId mesh = kNoMesh;
     NodeRef owner;
     InstanceId next = kNoInstance;  ///< at the same placement
-    bool drawn = true, live = false, changed = false, transparent = false;
+    bool drawn : 1 = true, live : 1 = false, changed : 1 = false;
+    bool transparent : 1 = false, leveled : 1 = false;  ///< its form is, has simplified levels
   };
   static constexpr InstanceId kNoInstance = ~InstanceId{0};
   struct Light {
@@ -252,7 +253,14 @@ private:
   Cycle cycleOf(Node& node, const TimeSignature& now);
   void hashRelief(StateHash& h) const;
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
-  void publishInstance(const Instance& i, InstanceId id, ChangeSet& changes);
+  bool hasInstances(PlacementId p) const { return p < instancesAt_.size() && instancesAt_[p] != kNoInstance; }
+  bool hasLights(PlacementId p) const { return p < lightsAt_.size() && lightsAt_[p] > 0; }
+  void publishAt(PlacementId p, const Affine& X_WN, bool shown, ChangeSet& changes);
+  void publishInstance(const Instance& i, InstanceId id, const Affine& X_WN, bool shown, ChangeSet& changes);
+  void publishFleet(std::span<const PlacementId> ids, std::span<const MemberPlace> places,
+                    ChangeSet& changes);
+  void describe(const Instance& i, bool shown, InstanceRecord& r) const;
+  InstanceRecord& nextRecord(InstanceId id, ChangeSet& changes);
   void handOn(ChangeSet& changes);
   void publishLights(const InputSample& input, ChangeSet& changes);
   void findLightsThatShine();

@@ -71,6 +71,7 @@ void Scene::setMesh(InstanceId id, MeshId mesh) {
   i.mesh = mesh;
   i.form = mesh == kNoMesh ? nullptr : meshes_.find(mesh);
   i.transparent = i.form && i.form->transparent();
+  i.leveled = i.form && !i.form->levels.empty();
   markInstance(id);
 }
 
@@ -146,14 +147,17 @@ void Scene::publish(const TimeSignature& now, const InputSample& input, ChangeSe
   changes.statics.swap(staticChanges_);
   // What moved and nothing else needs no mark. The rest is marked, so that it goes once.
   for (const PlacementId p : placements_.takeChanged()) {
-    if (p < instancesAt_.size())
-      for (InstanceId id = instancesAt_[p]; id != kNoInstance; id = instances_[id].next)
-        if (!instances_[id].changed) publishInstance(instances_[id], id, changes);
-    lightsChanged_ |= p < lightsAt_.size() && lightsAt_[p] > 0;
+    if (hasInstances(p)) publishAt(p, placements_.world(p), placements_.shown(p), changes);
+    lightsChanged_ |= hasLights(p);
   }
+  placements_.takeMovedFleets([&](std::span<const PlacementId> ids, std::span<const MemberPlace> places) {
+    publishFleet(ids, places, changes);
+  });
   for (const InstanceId id : changedInstances_) {
+    const Instance& i = instances_[id];
     instances_[id].changed = false;
-    publishInstance(instances_[id], id, changes);
+    const PlacementId p = i.live ? i.placement : kWorldPlacement;
+    publishInstance(i, id, placements_.world(p), placements_.shown(p), changes);
   }
   changedInstances_.clear();
   handOn(changes);
@@ -164,20 +168,55 @@ void Scene::publish(const TimeSignature& now, const InputSample& input, ChangeSe
   changes.viewer.stress = stress();
 }
 
-void Scene::publishInstance(const Instance& i, InstanceId id, ChangeSet& changes) {
-  ChangeSet::Instance& change = changes.instances.emplace_back();
-  ++counters_.changesPublished;
-  change.id = id;
-  InstanceRecord& r = change.record;
-  r.radius = -1;
-  if (i.live && i.form) {
-    placeInstance(r, placements_.world(i.placement), i.form->sphere);
-    r.mesh = i.mesh, r.owner = i.owner;
-    r.flags = (i.drawn && placements_.shown(i.placement) ? InstanceRecord::kShown : 0) |
-              (i.transparent ? InstanceRecord::kTransparent : 0);
-    r.lodFactor = i.form->levels.empty() ? 0 : static_cast<float>(reliefOf(i.owner).lod);
-  }
+/// All but where it is.
+inline void Scene::describe(const Instance& i, bool shown, InstanceRecord& r) const {
+  r.mesh = i.mesh, r.owner = i.owner;
+  r.flags =
+      (i.drawn && shown ? InstanceRecord::kShown : 0) | (i.transparent ? InstanceRecord::kTransparent : 0);
+  r.lodFactor = i.leveled ? static_cast<float>(reliefOf(i.owner).lod) : 0;
+}
+
+/// Hands on those before it, when there are enough.
+inline InstanceRecord& Scene::nextRecord(InstanceId id, ChangeSet& changes) {
   if (changes.instances.size() >= ChangeSet::kBlock) handOn(changes);
+  ++counters_.changesPublished;
+  ChangeSet::Instance& change = changes.instances.emplace_back();
+  change.id = id;
+  return change.record;
+}
+
+/// Those that stand there and are not marked.
+void Scene::publishAt(PlacementId p, const Affine& X_WN, bool shown, ChangeSet& changes) {
+  for (InstanceId id = instancesAt_[p]; id != kNoInstance; id = instances_[id].next)
+    if (!instances_[id].changed) publishInstance(instances_[id], id, X_WN, shown, changes);
+}
+
+void Scene::publishFleet(std::span<const PlacementId> ids, std::span<const MemberPlace> places,
+                         ChangeSet& changes) {
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const PlacementId p = ids[k];
+    lightsChanged_ |= hasLights(p);
+    if (p >= instancesAt_.size()) continue;  // kNoPlacement, too
+    for (InstanceId id = instancesAt_[p]; id != kNoInstance; id = instances_[id].next) {
+      const Instance& i = instances_[id];
+      if (i.changed || !i.form) continue;
+      InstanceRecord& r = nextRecord(id, changes);
+      placeInstance(r, places[k].rows, places[k].widens, i.form->sphere);
+      describe(i, true, r);
+    }
+  }
+}
+
+void Scene::publishInstance(const Instance& i, InstanceId id, const Affine& X_WN, bool shown,
+                            ChangeSet& changes) {
+  InstanceRecord& r = nextRecord(id, changes);
+  if (!i.live || !i.form) {
+    r = InstanceRecord{};
+    r.radius = -1;
+    return;
+  }
+  placeInstance(r, X_WN, i.form->sphere);
+  describe(i, shown, r);
 }
 
 void Scene::handOn(ChangeSet& changes) {

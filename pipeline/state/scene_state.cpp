@@ -200,7 +200,9 @@ std::size_t SceneState::publish(std::size_t slot, const ChangeSet& changes) {
 
 void SceneState::begin(std::size_t slot) {
   writing_ = slot, taken_ = 0;
-  header(slot).writes.fetch_add(1, std::memory_order_acq_rel);
+  // Odd while it is written, also after a frame that was begun and given up.
+  std::atomic<std::uint64_t>& writes = header(slot).writes;
+  writes.fetch_add(writes.load(std::memory_order_relaxed) % 2 == 0 ? 1 : 2, std::memory_order_acq_rel);
 }
 
 void SceneState::take(std::span<const ChangeSet::Instance> block) {
@@ -209,22 +211,27 @@ void SceneState::take(std::span<const ChangeSet::Instance> block) {
   std::size_t end = 0;
   for (const ChangeSet::Instance& i : block) end = std::max(end, i.id + std::size_t{1});
   makeRoom(writing_, end);
+  if (block.empty()) return;
   InstanceRecord* records = instances(writing_);
+  InstanceId last = block.front().id;
   for (const ChangeSet::Instance& i : block) {
     // What moves together has mostly come together: the next block is likely to be the neighbour.
     if (i.id + block.size() < marks_.size()) prefetch(&records[i.id + block.size()]);
-    const bool moves = movesBy(i);
-    records[i.id] = i.record;
-    if (moves) records[i.id].flags |= kMoves;
-    if (&i == &block.back() || (&i + 1)->id / kInstancesAStamp != i.id / kInstancesAStamp)
-      stamp(writing_, i.id);
+    if (i.id / kInstancesAStamp != last / kInstancesAStamp) stamp(writing_, last);
+    last = i.id;
+    Marks& marks = marks_[i.id];
+    const bool goesOn = marks.known == Marks::Known::Moves && i.record.radius >= 0;
+    const bool moves = goesOn || movesBy(i);
+    InstanceRecord& record = records[i.id];
+    record = i.record;
+    if (moves) record.flags |= kMoves;
     // This slot has it, the others have missed it from now on.
-    std::uint8_t& missedBy = marks_[i.id].missedBy;
-    const unsigned already = missedBy;
-    missedBy = others;
-    for (std::size_t slot = 0; slot < kSlots; ++slot)
-      if ((others & ~already & (1U << slot)) != 0) missed_[slot].instances.push_back(i.id);
+    const auto missed = static_cast<std::uint8_t>(others & ~marks.missedBy);
+    marks.missedBy = others;
+    for (std::size_t slot = 0; missed >> slot != 0; ++slot)
+      if ((missed >> slot) & 1) missed_[slot].instances.push_back(i.id);
   }
+  stamp(writing_, last);
   taken_ += block.size();
 }
 

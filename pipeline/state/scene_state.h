@@ -42,7 +42,7 @@ struct SlotView {
   std::size_t slot = 0;
   /// Changes whenever something comes or goes that has only ever stood still, in this slot or another.
   std::uint64_t stillVersion = 0;
-  /// Counts the beginnings and the ends of writing to the slot.
+  /// Counts the beginnings and the ends of writing to the slot: odd from App's start until it has published.
   const std::atomic<std::uint64_t>* writes = nullptr;
   std::uint64_t written = 0;  ///< when this view was made
 

@@ -43,7 +43,7 @@ TEST(ProgramBenchWalls, StrictDrawsEachVisibleNodeByItself) {
 
 TEST(ProgramBenchWalls, TheNumberOfNodesCanBeChosen) {
   const ProgramResult r =
-      stadionProgram(one({"--scene", "c", "--nodes", "2000", "--moving", "10", "--far", "75"}));
+      stadionProgram(one({"--scene", "c", "--nodes", "2000", "--moving", "2", "--far", "75"}));
   ASSERT_EQ(r.status, 0) << r.err;
   const auto row = nlohmann::json::parse(r.out);
   EXPECT_LT(row["draws_per_view"][0].get<int>(), 1000);

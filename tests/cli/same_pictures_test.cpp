@@ -1,6 +1,7 @@
 /// Overlapping the stages changes nothing that anybody can see: the same pictures, byte for byte, and the
 /// same state in every frame, whatever the number of walls.
 
+#include "profiling/bench/walls/wall_files.h"
 #include "tests/cli/program.h"
 
 #include <algorithm>
@@ -96,6 +97,40 @@ TEST(ProgramSameState, EveryFrameHasOneHashWhateverTheModeAndTheWalls) {
   for (const char* walls : {"desktop", "cave4", "cave6"})
     for (const char* mode : {"sequential", "pipelined"})
       EXPECT_EQ(hashesOf(mode, walls), expected) << mode << walls;
+}
+
+/// In every mode and with every kind of workers: the hash of each frame, and that of a run's last frame.
+void expectSameState(const std::vector<std::string>& show) {
+  const auto with = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), show.begin(), show.end());
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.out;
+  };
+  const std::string all = with({"hash"}, {"--mode", "sequential"});
+  EXPECT_EQ(with({"hash"}, {"--mode", "pipelined"}), all);
+  const std::string last = all.substr(all.size() - 17, 16);
+  const std::vector<std::vector<std::string>> ways{{"--mode", "sequential"},
+                                                   {"--mode", "pipelined", "--wall-workers", "thread"},
+                                                   {"--mode", "pipelined", "--wall-workers", "process"}};
+  for (const auto& way : ways) {
+    const auto summary = nlohmann::json::parse(with({"run", "--json", "--size", "32x24"}, way));
+    EXPECT_EQ(summary.at("state_hash"), last) << way.back();
+  }
+}
+
+TEST(ProgramSameState, OfACrowdOfPathsAndBallsInEveryMode) {
+  expectSameState(
+      {std::string(STADION_SOURCE_DIR) + "/scripts/crowd.evs", "--walls", "cave4", "--frames", frames()});
+}
+
+TEST(ProgramSameState, OfHundredsThatSwayInEveryMode) {
+  const TemporaryFolder folder;
+  bench::WallScene scene{'b', 1000};
+  ASSERT_EQ(bench::writeWallScene(folder.path().string(), scene, 4, true, 62), "");
+  expectSameState({folder.path().string() + "/show.evs", "--walls", folder.path().string() + "/room.walls",
+                   "--input", folder.path().string() + "/show.input", "--frames", "60"});
 }
 
 TEST(ProgramSameState, RunAndHashAgreeOnTheLastFrame) {

@@ -4,7 +4,10 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 #include <numbers>
+#include <random>
+#include <set>
 
 namespace stadion {
 namespace {
@@ -32,11 +35,11 @@ struct SwayShow : ShowFixture {
   std::vector<PlacedNode*> boats;
   SwayNode* sway = nullptr;
 
-  explicit SwayShow(double framesPerSecond = 60, SwayAttributes a = swell()) {
+  explicit SwayShow(double framesPerSecond = 60, SwayAttributes a = swell(), std::uint32_t count = kBoats) {
     rate = framesPerSecond;
     const MeshId mesh = meshes.add(unitMesh());
-    loader.files["show"] = [this, a, mesh](Load& load) mutable {
-      for (std::uint32_t i = 0; i < kBoats; ++i) {
+    loader.files["show"] = [this, a, mesh, count](Load& load) mutable {
+      for (std::uint32_t i = 0; i < count; ++i) {
         a.targets.push_back({load.number, i});
         boats.push_back(
             &addNode<MovingNode>(load, "boat" + std::to_string(i), at(10 * i, 1, 2, 1 + i), false, mesh));
@@ -63,7 +66,7 @@ Affine expected(std::size_t boat, double t) {
 }
 
 void expectAt(SwayShow& show, double t) {
-  for (std::size_t boat = 0; boat < SwayShow::kBoats; ++boat)
+  for (std::size_t boat = 0; boat < show.boats.size(); ++boat)
     EXPECT_LT((show.placeOf(boat).matrix() - expected(boat, t).matrix()).cwiseAbs().maxCoeff(), 1e-12)
         << "boat " << boat << " at " << t;
 }
@@ -71,6 +74,14 @@ void expectAt(SwayShow& show, double t) {
 TEST(Sway, MovesEachTargetAlongItsOwnSinusoidAndTurnsItKeepingItsScale) {
   SwayShow show;
   for (const double t : {0.0, 0.5, 7.0, 60.0}) {
+    show.until(t);
+    expectAt(show, t);
+  }
+}
+
+TEST(Sway, MovesHundredsAsItMovesThree) {
+  SwayShow show(60, swell(), 200);
+  for (const double t : {0.5, 7.0}) {
     show.until(t);
     expectAt(show, t);
   }
@@ -173,6 +184,134 @@ TEST(Sway, WithoutTargetsItMovesWhatStandsBelowIt) {
   Vec3 p = Vec3(0, 0, 1) + Eigen::AngleAxisd(0.8, Vec3::UnitZ()) * Vec3(3, 0, 0);
   for (int i = 0; i < 3; ++i) p[i] += a.amplitude[i] * std::sin(2 * kPi * a.frequency[i] + a.phase[i]);
   EXPECT_LT((show.scene.placements().world(below->placement()).translation() - p).norm(), 1e-12);
+}
+
+/// What has been published of each boat.
+struct Published {
+  std::map<NodeRef, InstanceRecord> records;
+
+  /// Takes up the last frame's changes, and compares with where the boats are.
+  void follow(SwayShow& show) {
+    std::set<InstanceId> told;
+    for (const ChangeSet::Instance& i : show.changes.instances) {
+      EXPECT_TRUE(told.insert(i.id).second) << "told twice";
+      records[i.record.owner] = i.record;
+    }
+    for (std::size_t k = 0; k < show.boats.size(); ++k) {
+      const InstanceRecord& r = records[show.boats[k]->self()];
+      const Affine& X = show.placeOf(k);
+      for (int at = 0; at < 12; ++at)
+        ASSERT_EQ(r.model[at], X(at / 4, at % 4)) << "boat " << k << ", frame " << show.next;
+      ASSERT_EQ((r.flags & InstanceRecord::kShown) != 0,
+                show.scene.placements().shown(show.boats[k]->placement()))
+          << "boat " << k << ", frame " << show.next;
+    }
+  }
+};
+
+TEST(Sway, EachIsPublishedOnceWhereItIsWhateverBecomesOfIt) {
+  SwayShow show(60, swell(), 150);
+  show.tracker("wand", {5, 5, 5});
+  Published published;
+  std::mt19937 random(5);
+  const std::vector<std::pair<Verb, std::vector<std::string>>> commands{
+      {Verb::Hide, {}},   {Verb::Show, {}},  {Verb::Attach, {"all", "wand"}},
+      {Verb::Detach, {}}, {Verb::Reset, {}}, {Verb::Attach, {"position", "wand"}}};
+  for (int frame = 0; frame < 200; ++frame) {
+    show.tracker("wand", Vec3(5, 5, 0.01 * frame));
+    const auto& [verb, arguments] = commands[random() % commands.size()];
+    const std::string target = random() % 20 == 0 ? "sway" : "boat" + std::to_string(random() % 150);
+    if (target != "sway")
+      show.scene.command(target, verb, arguments, show.input.time);
+    else
+      show.scene.command(target, frame % 2 ? Verb::Toggle : Verb::Reset, {}, show.input.time);
+    show.frame();
+    published.follow(show);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Sway, WhoeverItCarriesGoesAlongAlsoWhenHeComesLater) {
+  SwayShow show;
+  show.until(0.5);
+  PlacedNode* rider = nullptr;
+  show.loader.files["rider"] = [&](Load& load) {
+    PlaceAttributes above = at(0, 0, 1);
+    above.parent = show.boats[1]->self();
+    rider = &addNode<MovingNode>(load, "rider", above, false);
+  };
+  show.scene.requestLoad("rider", {}, fromSeconds(0.6));
+  show.until(2);
+  ASSERT_TRUE(rider);
+  EXPECT_LT((show.scene.placements().world(rider->placement()).translation() - expected(1, 2) * Vec3(0, 0, 1))
+                .norm(),
+            1e-12);
+}
+
+TEST(Sway, WhatItMovedStaysWhereItIsWhenItIsUnloaded) {
+  ShowFixture show;
+  PlacedNode* boat = nullptr;
+  const MeshId mesh = show.meshes.add(unitMesh());
+  show.loader.files["show"] = [&](Load& load) {
+    boat = &addNode<MovingNode>(load, "boat", at(0, 1, 2), false, mesh);
+  };
+  show.loader.files["swell"] = [&](Load& load) {
+    SwayAttributes a = swell();
+    a.targets = {boat->self()};
+    addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
+  };
+  show.scene.open("show");
+  const std::uint32_t swellLoad = show.scene.requestLoad("swell", {}, 0);
+  show.scene.requestUnload(swellLoad, fromSeconds(1));
+  while (show.input.time < fromSeconds(1)) show.frame();
+  const Affine left = show.scene.placements().world(boat->placement());
+  EXPECT_GT((left.translation() - Vec3(0, 1, 2)).norm(), 0.1);
+  ASSERT_EQ(show.changes.instances.size(), 1u) << "its last way is seen";
+  EXPECT_EQ(show.changes.instances[0].record.model[3], left(0, 3));
+  show.frames(3);
+  EXPECT_TRUE(show.changes.instances.empty());
+  EXPECT_EQ(show.scene.placements().world(boat->placement()).matrix(), left.matrix());
+}
+
+TEST(Sway, WhatAnotherMovesAsItBeginsIsPublishedOnce) {
+  ShowFixture show;
+  PlacedNode* boat = nullptr;
+  const MeshId mesh = show.meshes.add(unitMesh());
+  show.loader.files["show"] = [&](Load& load) {
+    boat = &addNode<MovingNode>(load, "boat", at(0, 1, 2), false, mesh);
+  };
+  show.loader.files["swell"] = [&](Load& load) {
+    SwayAttributes a = swell();
+    a.targets = {boat->self()};
+    addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
+  };
+  show.scene.open("show");
+  show.frames(3);
+  show.scene.requestLoad("swell", {}, show.input.time);
+  show.scene.command("boat", Verb::Reset, {}, show.input.time);
+  show.frame();
+  EXPECT_EQ(show.changes.instances.size(), 1u);
+  EXPECT_EQ(show.changes.instances[0].record.model[3],
+            show.scene.placements().world(boat->placement())(0, 3));
+}
+
+TEST(Sway, OfTwoThatMoveTheSameTheLaterOneCounts) {
+  ShowFixture show;
+  PlacedNode* boat = nullptr;
+  SwayAttributes other = swell();
+  other.amplitude = {0, 0, 3};
+  show.loader.files["show"] = [&](Load& load) {
+    boat = &addNode<MovingNode>(load, "boat", at(0, 1, 2), false);
+    SwayAttributes a = swell();
+    a.targets = other.targets = {boat->self()};
+    addNode<SwayNode>(load, "first", PlaceAttributes{}, a, true);
+    addNode<SwayNode>(load, "second", PlaceAttributes{}, other, true);
+  };
+  show.scene.open("show");
+  while (show.input.time < fromSeconds(1)) show.frame();
+  const Vec3 p = show.scene.placements().world(boat->placement()).translation();
+  EXPECT_EQ(p.head<2>(), Vec2(0, 1));
+  EXPECT_NEAR(p.z(), 2 + 3 * std::sin(2 * kPi * 0.5 + 2), 1e-12);
 }
 
 /// Looks where boat 1 was inside each frame.

@@ -66,6 +66,28 @@ TEST(SceneState, EverySlotHoldsWhatASingleCopyWouldHold) {
   }
 }
 
+TEST(SceneState, WhoReadsWhileASlotIsWrittenFindsOutAlsoAfterAFrameThatWasGivenUp) {
+  SceneState state;
+  ChangeSet c;
+  c.instances = {instance(0, 1)};
+  state.publish(0, c);
+  const SlotView before = state.view(0);
+  EXPECT_TRUE(before.intact());
+  state.begin(0);  // and is given up
+  EXPECT_FALSE(before.intact());
+  EXPECT_FALSE(state.view(0).intact());
+  state.begin(0);
+  state.take(c.instances);
+  EXPECT_FALSE(before.intact());
+  EXPECT_FALSE(state.view(0).intact());
+  const std::uint32_t stamp = before.stamps[0];
+  state.finish(ChangeSet{});
+  EXPECT_FALSE(before.intact());
+  EXPECT_TRUE(state.view(0).intact());
+  state.publish(0, c);
+  EXPECT_NE(state.view(0).stamps[0], stamp);
+}
+
 TEST(SceneState, PublishingCostsWhatChangedNotWhatExists) {
   SceneState state;
   ChangeSet all;

@@ -33,6 +33,11 @@ double degrees(double radians) {
   return radians * 180 / std::numbers::pi;
 }
 
+/// Of an angle that may have gone round any number of times: less than one turn.
+double phaseOf(double radians) {
+  return degrees(std::remainder(radians, 2 * std::numbers::pi));
+}
+
 std::string number(const Vec3& p) {
   return fmt::format("{:.17g}, {:.17g}, {:.17g}", p.x(), p.y(), p.z());
 }
@@ -72,8 +77,8 @@ std::string movingNodes(const WallScene& scene, std::size_t first, std::size_t e
   if (targets.empty()) return {};
   // -cos(a) is sin(a - 90 degrees). Numbers rise by the same step.
   const double at = numbers.front(), step = numbers.size() > 1 ? numbers[1] - numbers[0] : 0;
-  const Vec3 phase(degrees(at), degrees(at) - 90, degrees(0.37 * at));
-  const Vec3 phaseStep(degrees(step), degrees(step), degrees(0.37 * step));
+  const Vec3 phase(phaseOf(at), phaseOf(at) - 90, phaseOf(0.37 * at));
+  const Vec3 phaseStep(phaseOf(step), phaseOf(step), phaseOf(0.37 * step));
   return fmt::format("sway( amplitude=\"2, 2, 0.5\", frequency=\"{}\", phase=\"{}\", phasestep=\"{}\", "
                      "angularvelocity=\"0, 0, {:.17g}\"{} )\n",
                      number(Vec3(1.1, 1.1, 1.9) / (2 * std::numbers::pi)), number(phase), number(phaseStep),
