@@ -66,7 +66,7 @@ TEST(Topology, OfThisMachineHasAProcessorToRunOn) {
   for (const ProcessorSet& part : t.parts(3)) {
     EXPECT_FALSE(part.empty());
     for (std::size_t i = 0; i < ProcessorSet::kMost; ++i)
-      if (part.contains(i)) EXPECT_TRUE(mine.contains(i)) << i;
+      EXPECT_TRUE(!part.contains(i) || mine.contains(i)) << i;
   }
 }
 
