@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t kWarm = 4, kLeast = 4;  // frames
+constexpr std::uint64_t kWarm = 2, kLeast = 3;  // frames
 constexpr std::uint64_t kMost = 1'000'000;
 
 /// Ends the run when it has been looked at for long enough.

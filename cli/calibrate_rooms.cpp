@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <set>
@@ -21,10 +22,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kLimit{60};  ///< for one setting
-constexpr double kOverhead = 0.8;           ///< of a process that begins to draw [s], about
-constexpr double kRounds = 3;               ///< for which there is to be time
-constexpr std::uint32_t kLargest = 16384;   ///< [pixels]
+constexpr double kLeastLimit = 5;          ///< for one setting [s]
+constexpr double kOverhead = 0.8;          ///< of a process that begins to draw [s], about
+constexpr double kRounds = 3;              ///< for which there is to be time
+constexpr std::uint32_t kLargest = 16384;  ///< [pixels]
 
 double secondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -48,14 +49,14 @@ std::optional<Figures> figuresOf(const std::string& text) {
 }
 
 std::optional<Figures> measure(const RoomToMeasure& room, const DrawSetting& setting, double window,
-                               const std::string& folder) {
+                               const std::string& folder, std::chrono::seconds limit) {
   bench::ProgramCall call;
   call.words = {std::filesystem::canonical("/proc/self/exe"), "calibrate", "--one", wordOf(setting)};
   for (const std::string& word :
        {std::string("--folder"), folder, std::string("--walls"), room.walls, std::string("--size"), room.size,
         std::string("--look"), room.room.look, std::string("--window"), fmt::format("{}", window)})
     call.words.push_back(word);
-  call.limit = kLimit;
+  call.limit = limit;
   return figuresOf(bench::outputOf(call));
 }
 
@@ -109,26 +110,29 @@ Result<RoomFound> measureRoom(const RoomToMeasure& wanted, const std::string& fo
   const double window =
       std::clamp(wanted.seconds / (kRounds * static_cast<double>(settings.size())) - kOverhead, 0.3, 5.0);
   RoomFound found{wanted.room, {}};
+  const auto limit = std::chrono::seconds(std::lround(std::max(kLeastLimit, wanted.seconds / kRounds)));
   const Clock::time_point begin = Clock::now();
   double longest = 0;
-  while (trials.any() && !stop && (!trials.allTried() || secondsSince(begin) + longest < wanted.seconds)) {
+  while (trials.any() && !stop && (!trials.anyMeasured() || secondsSince(begin) + longest < wanted.seconds)) {
     const DrawSetting setting = trials.next();
     const Clock::time_point start = Clock::now();
     std::fprintf(stderr, "%3.0f s  %s, %s: ", secondsSince(begin), wanted.walls.c_str(),
                  textOf(setting, wanted.room.walls).c_str());
-    const auto figures = measure(wanted, setting, window, folder);
+    const auto figures = measure(wanted, setting, window, folder, limit);
     longest = std::max(longest, secondsSince(start));
     if (stop) std::fprintf(stderr, "stopped\n");
     if (stop) break;
-    std::fprintf(stderr, "%s\n",
-                 figures ? fmt::format("{:.2f} frames/s", figures->framesPerSecond).c_str() : "FAILED");
     if (!figures) {
+      std::fprintf(stderr, "left out: nothing came of it within %ld s\n", static_cast<long>(limit.count()));
       trials.failed();
       continue;
     }
+    std::fprintf(stderr, "%.2f frames/s\n", figures->framesPerSecond);
     trials.measured(figures->framesPerSecond, figures->cpuMs);
     found.rasteriser = figures->rasteriser;
   }
+  if (!trials.allTried() && !stop)
+    std::fprintf(stderr, "not everything could be tried in that time; --seconds gives more\n");
   found.room.settings = trials.results();
   if (found.room.settings.empty() && !stop)
     return Result<RoomFound>::failure(wanted.walls + ": nothing could be measured");

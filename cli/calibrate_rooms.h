@@ -35,8 +35,8 @@ struct RoomFound {
 /// Rooms of more walls have more of the time.
 std::vector<RoomToMeasure> roomsToMeasure(const RoomsWanted& wanted, Diagnostics& findings);
 
-/// Each setting is tried once, even if that takes longer. The show lies in `folder`. Ends early once `stop`
-/// is true.
+/// Takes not much longer than its seconds, even if not everything could be tried. The show lies in `folder`.
+/// Ends early once `stop` is true.
 Result<RoomFound> measureRoom(const RoomToMeasure& room, const std::string& folder,
                               const std::atomic<bool>& stop);
 

@@ -64,11 +64,10 @@ std::vector<DrawSetting> settingsToTry(std::uint32_t processors, std::size_t wal
   const auto share =
       std::max<std::uint32_t>(1, all / static_cast<std::uint32_t>(std::max<std::size_t>(1, walls)));
   std::vector<DrawSetting> settings;
-  for (const bool processes : {false, true})
-    for (const std::uint32_t threads : {0u, processes ? share : (all + 1) / 2, all}) {
-      const DrawSetting setting{processes, threads, false};
-      if (std::ranges::find(settings, setting) == settings.end()) settings.push_back(setting);
-    }
+  for (const DrawSetting& s :
+       {DrawSetting{false, all}, DrawSetting{true, 0}, DrawSetting{true, share}, DrawSetting{true, all},
+        DrawSetting{false, (all + 1) / 2}, DrawSetting{false, 0}})
+    if (std::ranges::find(settings, s) == settings.end()) settings.push_back(s);
   return settings;
 }
 

@@ -58,7 +58,7 @@ const MeasuredSetting* best(const MeasuredRoom& room, const DrawWishes& wishes =
 const MeasuredRoom* roomFor(const MachineCalibration& machine, std::size_t walls, const std::string& look);
 
 /// The settings that are worth trying for so many walls on so many processors, none of them pinned: threads
-/// and processes, with rasteriser threads from none to one for each processor.
+/// and processes, with rasteriser threads from none to one for each processor; the likeliest ones first.
 std::vector<DrawSetting> settingsToTry(std::uint32_t processors, std::size_t walls);
 
 }  // namespace stadion

@@ -23,8 +23,10 @@ public:
 
   /// False once nothing is left: each has failed.
   bool any() const { return !round_.empty(); }
-  /// Whether each has been measured once, and what is not out twice or pinned as well.
-  bool allTried() const { return rounds_ >= 2; }
+  /// Whether each has been tried once: from then on what comes makes the choice surer.
+  bool allTried() const { return rounds_ >= 1; }
+  /// Whether there are figures.
+  bool anyMeasured() const { return !results().empty(); }
   /// To be measured next. Expects any().
   const DrawSetting& next() const { return tried_[round_.front()].setting; }
   /// What came of it.
