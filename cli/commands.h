@@ -1,13 +1,17 @@
 #pragma once
 /// The subcommands. Each adds itself to the program and, when it has run, leaves its exit status in `code`.
 
+#include <optional>
+
 namespace CLI {
 class App;
 }
 
 namespace stadion {
 
-void addRunCommand(CLI::App& app, int& code);
+/// `rasteriserThreads`: if the environment gave them.
+void addRunCommand(CLI::App& app, int& code, std::optional<unsigned> rasteriserThreads);
+void addCalibrateCommand(CLI::App& app, int& code);
 void addCheckCommand(CLI::App& app, int& code);
 void addNodesCommand(CLI::App& app, int& code);
 void addHashCommand(CLI::App& app, int& code);
@@ -18,7 +22,7 @@ void addPlanCommand(CLI::App& app, int& code);
 void addProfileCommand(CLI::App& app, int& code);
 void addRegressCommand(CLI::App& app, int& code);
 void addTestCommand(CLI::App& app, int& code);
-void addViewCommand(CLI::App& app, int& code);
+void addViewCommand(CLI::App& app, int& code, std::optional<unsigned> rasteriserThreads);
 void addTrackerCommand(CLI::App& app, int& code);
 
 }  // namespace stadion

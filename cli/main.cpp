@@ -18,7 +18,7 @@
 namespace stadion {
 namespace {
 
-int runProgram(int argc, char** argv) {
+int runProgram(int argc, char** argv, std::optional<unsigned> rasteriserThreads) {
   CLI::App app("Stadion plays immersive shows written in the EVS world description language on stereo walls.",
                "stadion");
   app.footer("Exit codes: 0 ok, 1 a check or comparison failed, 2 bad usage or bad input, 3 internal fault,\n"
@@ -27,7 +27,7 @@ int runProgram(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "stadion 0.1.0");
   int code = kOk;
-  addRunCommand(app, code);
+  addRunCommand(app, code, rasteriserThreads);
   addCheckCommand(app, code);
   addNodesCommand(app, code);
   addHashCommand(app, code);
@@ -38,8 +38,9 @@ int runProgram(int argc, char** argv) {
   addPlanCommand(app, code);
   addRegressCommand(app, code);
   addTestCommand(app, code);
-  addViewCommand(app, code);
+  addViewCommand(app, code, rasteriserThreads);
   addTrackerCommand(app, code);
+  addCalibrateCommand(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RequiredError& e) {
@@ -62,6 +63,7 @@ int runProgram(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   stadion::reportCrashes();
+  const auto rasteriserThreads = stadion::rasteriserThreadsGiven();
   if (const auto wrong = stadion::pinRasteriser()) {
     std::fprintf(stderr, "stadion: %s\n", wrong->message.c_str());
     return stadion::kBadInput;
@@ -70,7 +72,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file that may not grow is a full disk: an error with a name, not the end
   try {
-    const int code = stadion::runProgram(argc, argv);
+    const int code = stadion::runProgram(argc, argv, rasteriserThreads);
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
     std::fprintf(stderr, "stadion: the standard output cannot be written: %s\n", std::strerror(errno));
     return code == stadion::kOk ? stadion::kBadInput : code;

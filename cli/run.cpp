@@ -16,7 +16,9 @@
 #include "cli/span_recording.h"
 #include "cli/stop_signal.h"
 #include "engine/run_stopped.h"
+#include "pipeline/machine/topology.h"
 #include "pipeline/output/progress.h"
+#include "pipeline/target/rasteriser_settings.h"
 #include "profiling/regression/work_counts.h"
 
 #include <CLI/CLI.hpp>
@@ -38,6 +40,7 @@ constexpr std::chrono::seconds kDrawAfterStop{5};
 struct RunSetup {
   std::unique_ptr<OutputFolder> folder;  ///< null without --out
   std::unique_ptr<GlProvider> provider;
+  std::optional<DrawingPlan> drawing;  ///< nothing with --gl none
   std::unique_ptr<LiveDesk> desk;
   std::unique_ptr<Player> player;
   std::unique_ptr<RunWatch> watch;
@@ -81,6 +84,32 @@ bool canDraw(GlProvider& provider, const ShowParts& parts, Diagnostics& findings
   return !why;
 }
 
+/// Before the first context: the rasteriser asks once how many threads it has.
+void planDrawing(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
+  Diagnostics toldLater;
+  const auto walls = loadWalls(o.show.walls, std::string(STADION_ROOT) + "/walls", toldLater);
+  if (!s.provider || !walls) return;
+  s.drawing.emplace(o.drawingNeeds(walls->walls.size()), knownMachine(findings));
+  setRasteriserThreads(s.drawing->rasteriserThreadsHere());
+}
+
+/// Whether processors make the provider's pictures.
+bool software(GlProvider& provider) {
+  const auto target = provider.create(1, 1);
+  if (!target || target.value()->makeCurrent()) return true;
+  const std::string who = describeGl(target.value()->gl());
+  target.value()->release();
+  return drawnBySoftware(who);
+}
+
+/// What is only known once the show is there.
+void reconsiderDrawing(const RunOptions& o, RunSetup& s) {
+  if (!s.drawing || !s.drawing->setting().processes || o.wallWorkers != "auto") return;
+  if (o.provider == "egl" && !software(*s.provider)) s.drawing->drawHere("a graphics card draws");
+  if (!o.everyFrameCounts(*s.player) && hasDrawnBudgets(s.player->scene()))
+    s.drawing->drawHere("budgets of what is drawn are measured where it is drawn");
+}
+
 /// Who looks where frames go: always, so that late frames have a cause, and a program that dies leaves what
 /// its last frames were spent on; but nobody beside who measures for a comparison.
 bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
@@ -122,11 +151,13 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
   if (!o.out.empty() && !keep(OutputFolder::open(o.out), s.folder, findings)) return false;
   const GlProviderKind kind = o.provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa;
   if (o.provider != "none" && !keep(openGlProvider(kind), s.provider, findings)) return false;
+  planDrawing(o, s, findings);
   s.desk = LiveDesk::open(o, findings);
   if (!s.desk) return false;
   s.player = Player::create(o.show, findings, tell, &stop, modelsOf(*s.desk));
   if (!s.player) return false;
   if (s.provider && !canDraw(*s.provider, s.player->parts(o.layout), findings)) return false;
+  reconsiderDrawing(o, s);
   s.spans = SpanRecording::create(o.spans, *s.player, findings);
   if (findings.hasErrors()) return false;
   if (!s.desk->begin(*s.player, findings)) return false;
@@ -156,7 +187,9 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   parts.sink = s.output.get();
   if (s.displays) parts.sink = &s.displays->sink(), s.displays->fitPictures(parts.walls);
   parts.drawUnseen = !s.output;
-  parts.workers = o.workers(*s.player);
+  if (s.drawing) parts.workers = o.workers(*s.player, s.drawing->setting());
+  if (s.drawing && s.drawing->setting().pinned)
+    parts.processors = Topology::ofThisMachine().parts(parts.walls.size());
   if (s.desk->kept()) parts.contexts = &s.desk->kept()->contexts;
   FrameProbe* const probe = s.spans       ? s.spans->probe()
                             : o.countWork ? &s.work
@@ -184,9 +217,10 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   if (outcome.nextGroup && !outcome.failure && !stop) return {};
   if (recording && outcome.failure) recording->keepLastFrames();
 
-  const int code = report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(),
-                           s.desk->uptime(), recording, s.work.totals(s.player->walls().names())},
-                          s.output.get(), s.folder.get());
+  const int code =
+      report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime(),
+              recording, s.work.totals(s.player->walls().names()), s.drawing ? &*s.drawing : nullptr},
+             s.output.get(), s.folder.get());
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;
@@ -268,8 +302,9 @@ int runShow(RunOptions o) try {
 
 }  // namespace
 
-void addRunCommand(CLI::App& app, int& code) {
+void addRunCommand(CLI::App& app, int& code, std::optional<unsigned> rasteriserThreads) {
   auto o = std::make_shared<RunOptions>();
+  o->rasteriserThreads = rasteriserThreads;
   CLI::App* command = app.add_subcommand("run", "Play a show: simulate, cull and draw it on all walls");
   o->addTo(*command);
   command->callback([o, &code] { code = runShow(*o); });

@@ -58,8 +58,15 @@ void RunOptions::addTo(CLI::App& command) {
       .add_option(
           "--wall-workers", wallWorkers,
           "who draws the walls: a thread each in this program, a process each (several processors are "
-          "used better when software draws, and a driver that crashes takes one wall only), or auto")
+          "used better when software draws, and a driver that crashes takes one wall only), or auto: what "
+          "stadion calibrate found to be faster on this machine, without it threads")
       ->check(CLI::IsMember({"thread", "process", "auto"}))
+      ->capture_default_str();
+  command
+      .add_option("--pin", pin,
+                  "on: each wall is drawn on processors of its own, near to each other; off: wherever the "
+                  "system likes; auto: as stadion calibrate found to be faster, without it off")
+      ->check(CLI::IsMember({"on", "off", "auto"}))
       ->capture_default_str();
   command
       .add_option("--trace", trace,
@@ -162,6 +169,10 @@ bool RunOptions::settle(Diagnostics& findings) {
                        "--wall-workers process gives to others: say --wall-workers thread");
   if (wallWorkers == "process" && display)
     findings.error({}, "--display draws into windows of this program: say --wall-workers thread");
+  if (pin == "on" && (display || (show.mode == "sequential" && wallWorkers != "process")))
+    findings.error({},
+                   "--pin on is for walls that are drawn beside each other: leave out --display, and --mode "
+                   "sequential without --wall-workers process");
   events.settle(findings);
   if (display && !stereoGiven) layout = StereoLayout::Off;
   if (!trace.empty() && out.empty())
@@ -210,9 +221,25 @@ bool RunOptions::repeats(const Player& player) const {
   return everyFrameCounts(player) || (player.inputFound() && !player.inputIsLive());
 }
 
-std::optional<WallWorkers> RunOptions::workers(const Player& player) const {
-  if (wallWorkers != "process") return {};
+DrawingNeeds RunOptions::drawingNeeds(std::size_t walls) const {
+  DrawingNeeds needs;
+  needs.walls = walls, needs.look = show.look;
+  needs.wishes.rasteriserThreads = rasteriserThreads;
+  if (wallWorkers != "auto") needs.wishes.processes = wallWorkers == "process";
+  const bool inTurn = display || (show.mode == "sequential" && wallWorkers != "process");
+  if (pin != "auto" || inTurn) needs.wishes.pinned = pin == "on";
+  if (wallWorkers != "auto") return needs;
+  if (display) needs.here = "--display draws into windows of this program";
+  if (show.mode == "sequential") needs.here = "--mode sequential does everything in one thread";
+  if (profile || !events.file.empty() || !spans.file.empty() || countWork || unrecorded)
+    needs.here = "what is measured looks into the drawing";
+  return needs;
+}
+
+std::optional<WallWorkers> RunOptions::workers(const Player& player, const DrawSetting& setting) const {
+  if (!setting.processes) return {};
   WallWorkers w;
+  w.rasteriserThreads = setting.rasteriserThreads;
   w.egl = provider == "egl";
   w.everyFrame = everyFrameCounts(player);
   w.rate = player.rate();

@@ -1,6 +1,7 @@
 #pragma once
 /// What `stadion run` can be asked for.
 
+#include "cli/drawing_plan.h"
 #include "cli/player.h"
 #include "cli/run_output.h"
 #include "cli/span_options.h"
@@ -29,6 +30,9 @@ struct RunOptions {
   bool loadControl = true;           ///< a live run gives up what its script says, when it takes too long
   std::size_t latency = 0;           ///< frames under way at most; 0: as many as there is room for
   std::string wallWorkers = "auto";  ///< who draws the walls: thread, process or auto
+  std::string pin = "auto";          ///< each wall on processors of its own: on, off or auto
+  /// How many threads the environment gives the rasteriser, if it says so; no option.
+  std::optional<unsigned> rasteriserThreads{};
   bool wait = false;
   bool noSound = false;
   bool display = false;      ///< on the walls' outputs
@@ -58,8 +62,10 @@ struct RunOptions {
   /// Whether the show is the same at every run: every frame counts, or nobody but a log decides what happens.
   bool repeats(const Player& player) const;
   FrameLoopOptions loopOptions(const Player& player) const;
+  /// What decides who draws so many walls. After settle().
+  DrawingNeeds drawingNeeds(std::size_t walls) const;
   /// The processes that draw the walls; nothing if this one does.
-  std::optional<WallWorkers> workers(const Player& player) const;
+  std::optional<WallWorkers> workers(const Player& player, const DrawSetting& setting) const;
 };
 
 }  // namespace stadion

@@ -58,6 +58,11 @@ RunSummary summarise(const FinishedRun& run) {
   run.watch.addTo(s, run.outcome.framesSimulated);
   s.counters.insert(run.work.begin(), run.work.end());
   addTimes(run, s);
+  if (run.drawing) {
+    const DrawSetting& how = run.drawing->setting();
+    s.howDrawn = {how.processes ? "process" : "thread", how.rasteriserThreads, how.pinned, run.drawing->why(),
+                  textOf(how, run.player.walls().walls.size())};
+  }
   const std::string drawn = run.stages.glDescription();
   s.remarks.push_back(drawn.empty() ? "nothing was drawn" : "drawn by " + drawn);
   addBudgets(run.recording, s);

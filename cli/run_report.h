@@ -24,6 +24,7 @@ struct FinishedRun {
   double uptime = 0;                     ///< of all groups [s]
   ShowRecording* recording = nullptr;    ///< null: nobody looked where frames go
   std::map<std::string, double> work{};  ///< what was counted, if it was asked for
+  const DrawingPlan* drawing = nullptr;  ///< null: nothing was drawn
 };
 
 /// Completes every file and tells how it went. Returns the exit code. `output` and its folder: null without

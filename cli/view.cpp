@@ -27,8 +27,9 @@ int viewShow(ViewOptions options) try {
 
 }  // namespace
 
-void addViewCommand(CLI::App& app, int& code) {
+void addViewCommand(CLI::App& app, int& code, std::optional<unsigned> rasteriserThreads) {
   auto o = std::make_shared<ViewOptions>();
+  o->run.rasteriserThreads = rasteriserThreads;
   CLI::App* command =
       app.add_subcommand("view", "Play a show in windows, with keyboard and mouse for a visitor");
   o->addTo(*command);

@@ -4,6 +4,7 @@
 #include "cli/last_frames.h"
 #include "cli/stop_signal.h"
 #include "pipeline/output/run_summary.h"
+#include "pipeline/target/rasteriser_settings.h"
 
 #include <cinttypes>
 #include <cstdio>
@@ -57,6 +58,9 @@ std::unique_ptr<ViewSession> ViewSession::open(ViewOptions options, Diagnostics&
 
 // A display that the graphics card drives is a sign that the card can draw the walls too.
 bool ViewSession::openDrawing(Diagnostics& findings) {
+  DrawingNeeds needs = options_.run.drawingNeeds(walls_.walls.size());
+  needs.wishes.processes = false;
+  setRasteriserThreads(DrawingPlan(needs, knownMachine(findings)).rasteriserThreadsHere());
   const bool chosen = options_.provider != "auto";
   const bool card = chosen ? options_.provider == "egl" : windows_->accelerated();
   auto provider = openGlProvider(card ? GlProviderKind::Egl : GlProviderKind::OsMesa);

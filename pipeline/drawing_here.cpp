@@ -20,6 +20,8 @@ Failure DrawingHere::open(std::size_t wall) {
           contexts_.open(wall, parts_.provider, parts_.meshes, size.width, size.height, parts_.quality))
     return f;
   contexts_.renderer(wall).forgetTotals();
+  // Not before: with the first context the rasteriser starts threads, which are bound as this one is.
+  if (wall < parts_.processors.size()) parts_.processors[wall].bindThisThread();
   return {};
 }
 

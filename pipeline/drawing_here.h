@@ -2,6 +2,7 @@
 /// Draws the walls in this process, each on its own thread and in its own context.
 
 #include "engine/asset/mesh_store.h"
+#include "pipeline/machine/processor_set.h"
 #include "pipeline/wall_contexts.h"
 #include "pipeline/wall_drawing.h"
 
@@ -23,6 +24,7 @@ struct DrawingHereParts {
   WallContexts* contexts = nullptr;  ///< that outlive it; null: it makes its own
   std::function<bool()> giveUp{};    ///< see Renderer::draw
   FrameProbe* probe = nullptr;
+  std::vector<ProcessorSet> processors{};  ///< by wall: those that its Draw thread may use; none: all of them
 };
 
 class DrawingHere final : public WallDrawing {

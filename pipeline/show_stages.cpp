@@ -13,13 +13,14 @@ std::unique_ptr<WallDrawing> drawingOf(const ShowParts& parts) {
   if (!parts.workers)
     return std::make_unique<DrawingHere>(DrawingHereParts{*parts.provider, parts.meshes, std::move(sizes),
                                                           parts.quality, parts.contexts, parts.giveUp,
-                                                          parts.probe});
+                                                          parts.probe, parts.processors});
   std::vector<std::string> names;
   for (const WallView& view : parts.walls) names.push_back(view.wall.name);
   const WallWorkers& w = *parts.workers;
   DrawingInWorkersParts workers{
-      parts.meshes,        std::move(sizes), std::move(names), parts.quality, w.egl,
-      w.rasteriserThreads, w.everyFrame,     w.rate,           parts.giveUp,  w.tell};
+      parts.meshes,          std::move(sizes), std::move(names), parts.quality, w.egl,
+      w.rasteriserThreads,   w.everyFrame,     w.rate,           parts.giveUp,  w.tell,
+      worker::wallProgram(), parts.processors};
   if (parts.quality.look != Look::Plain) return std::make_unique<DrawingInWorkers>(std::move(workers));
   std::vector<std::uint32_t> eyes;
   for (const WallView& view : parts.walls) eyes.push_back(view.stereo && !view.camera ? 2 : 1);

@@ -5,6 +5,7 @@
 #include "engine/scene/scene.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/draw/renderer.h"
+#include "pipeline/machine/processor_set.h"
 #include "pipeline/operator/operator_desk.h"
 #include "pipeline/output/picture.h"
 #include "pipeline/output/sound_player.h"
@@ -68,6 +69,8 @@ struct ShowParts {
   const OperatorDesk* desk = nullptr;  ///< null: nobody commands
   RenderQuality quality{};
   std::optional<WallWorkers> workers{};  ///< nothing: this process draws
+  /// By wall: where it is drawn; none: anywhere. Expects a thread or a process for each wall.
+  std::vector<ProcessorSet> processors{};
 };
 
 class ShowStages final : public Stages {

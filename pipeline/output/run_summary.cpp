@@ -116,6 +116,8 @@ std::string toText(const RunSummary& s) {
   if (s.groups > 1) text += fmt::format("  the last of {} groups in {:.0f} s\n", s.groups, s.uptimeSeconds);
   text += fmt::format("  walls {}, stereo {}, {} x {} pixels, {}, {} Hz\n", s.walls, s.stereo, s.width,
                       s.height, s.mode, s.rate);
+  if (!s.howDrawn.workers.empty())
+    text += fmt::format("  drawn by {}: {}\n", s.howDrawn.text, s.howDrawn.why);
   if (s.frameMs.count + s.stages.size() + s.latency.size() > 0)
     text += fmt::format("  {:<16} {:<12} {:>9} {:>9} {:>9} {:>9}\n", "milliseconds", "wall", "p50", "p95",
                         "p99", "max");
@@ -177,6 +179,11 @@ std::string toJson(const RunSummary& s) {
   j["elapsed_seconds"] = s.elapsedSeconds;
   j["groups"] = s.groups;
   j["uptime_seconds"] = s.uptimeSeconds;
+  if (!s.howDrawn.workers.empty())
+    j["how_drawn"] = Json{{"wall_workers", s.howDrawn.workers},
+                          {"rasteriser_threads", s.howDrawn.rasteriserThreads},
+                          {"pinned", s.howDrawn.pinned},
+                          {"why", s.howDrawn.why}};
   j["late_frames"] = s.lateFrames;
   j["frame_ms"] = json(s.frameMs);
   j["stages"] = Json::array();

@@ -77,6 +77,14 @@ struct BudgetKept {
   std::uint32_t highest = 0, now = 0, levels = 0;  ///< of its ladder
 };
 
+/// Who drew the walls, and why they did.
+struct HowDrawn {
+  std::string workers;  ///< thread or process; empty: nothing was drawn
+  std::uint32_t rasteriserThreads = 0;
+  bool pinned = false;
+  std::string why, text;  ///< `text`: the same in words
+};
+
 struct RunSummary {
   static constexpr std::size_t kMostHappenings = 20'000;  ///< kept; a show may run all day
   static constexpr std::size_t kHappeningsTold = 200;     ///< lines in the text
@@ -92,6 +100,7 @@ struct RunSummary {
   double elapsedSeconds = 0;      ///< of the clock on the wall
   std::uint64_t groups = 1;       ///< of visitors; the other figures are of the last one
   double uptimeSeconds = 0;       ///< of all groups, and between them
+  HowDrawn howDrawn{};
   std::uint64_t lateFrames = 0;
   Distribution frameMs;  ///< from one frame shown to the next
   std::vector<StageTimes> stages;

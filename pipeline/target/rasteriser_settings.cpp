@@ -25,6 +25,17 @@ void keepFreedMemory() {
 
 }  // namespace
 
+std::optional<unsigned> rasteriserThreadsGiven() {
+  const char* threads = std::getenv(kThreads);
+  if (!threads || !*threads) return {};
+  return static_cast<unsigned>(std::clamp(std::atoi(threads), 0, static_cast<int>(kMostThreads)));
+}
+
+void setRasteriserThreads(unsigned threads) {
+  constexpr int kReplace = 1;
+  setenv(kThreads, std::to_string(threads).c_str(), kReplace);
+}
+
 std::optional<Diagnostic> checkRasteriser() {
   const char* width = std::getenv(kVectorWidth);
   if (!width || std::strcmp(width, "128") == 0 || std::strcmp(width, "256") == 0) return {};
@@ -36,7 +47,7 @@ std::optional<Diagnostic> pinRasteriser() {
   constexpr int kKeepChoice = 0;
   const unsigned cores = std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
   setenv(kVectorWidth, "256", kKeepChoice);
-  setenv(kThreads, std::to_string(cores).c_str(), kKeepChoice);
+  if (!rasteriserThreadsGiven()) setRasteriserThreads(cores);
   keepFreedMemory();
   return checkRasteriser();
 }

@@ -17,6 +17,14 @@ namespace stadion {
 /// Errors   says so when the environment asks for a setting with which the rasteriser crashes.
 std::optional<Diagnostic> pinRasteriser();
 
+/// How many threads the rasteriser has, if the environment says it. To be asked before pinRasteriser(), which
+/// says it there itself.
+std::optional<unsigned> rasteriserThreadsGiven();
+
+/// So many threads, whatever the environment says. Before the first context is made, and like pinRasteriser()
+/// while no other thread looks at the environment.
+void setRasteriserThreads(unsigned threads);
+
 /// The check alone: changes nothing. Providers call it before they load Mesa.
 std::optional<Diagnostic> checkRasteriser();
 

@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <link.h>
 #include <string>
 #include <sys/mman.h>
@@ -11,6 +12,47 @@
 #include <sys/stat.h>
 
 namespace stadion {
+namespace {
+
+/// Whose stamp is looked for, and what was found.
+struct Stamp {
+  ElfW(Addr) place;
+  std::string text{};
+};
+
+/// A segment of notes: each a head, a name and a content, both of which fill words of four bytes.
+std::string stampIn(const char* at, const char* end) {
+  const auto whole = [](std::size_t bytes) { return (bytes + 3) & ~std::size_t{3}; };
+  while (at + sizeof(ElfW(Nhdr)) <= end) {
+    ElfW(Nhdr) note;
+    std::memcpy(&note, at, sizeof note);
+    const char* name = at + sizeof note;
+    const char* content = name + whole(note.n_namesz);
+    at = content + whole(note.n_descsz);
+    if (at > end || note.n_type != NT_GNU_BUILD_ID ||
+        std::string_view(name, note.n_namesz) != std::string_view("GNU", 4))
+      continue;
+    std::string text;
+    for (const char* byte = content; byte != content + note.n_descsz; ++byte)
+      text += fmt::format("{:02x}", static_cast<unsigned char>(*byte));
+    return text;
+  }
+  return {};
+}
+
+int lookForStamp(dl_phdr_info* library, std::size_t, void* stamp) {
+  Stamp& wanted = *static_cast<Stamp*>(stamp);
+  if (library->dlpi_addr != wanted.place) return 0;
+  for (int i = 0; i < library->dlpi_phnum && wanted.text.empty(); ++i) {
+    const ElfW(Phdr)& segment = library->dlpi_phdr[i];
+    if (segment.p_type != PT_NOTE) continue;
+    const char* begin = reinterpret_cast<const char*>(library->dlpi_addr + segment.p_vaddr);
+    wanted.text = stampIn(begin, begin + segment.p_memsz);
+  }
+  return 1;
+}
+
+}  // namespace
 
 Result<SharedLibrary> SharedLibrary::open(const char* file, const char* package) {
   if (void* handle = dlopen(file, RTLD_NOW | RTLD_LOCAL)) return SharedLibrary(handle);
@@ -42,6 +84,14 @@ Result<SharedLibrary> SharedLibrary::openCopy(const char* file, const char* pack
   const std::string path = "/proc/self/fd/" + std::to_string(copy);
   if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return SharedLibrary(handle);
   return why(dlerror());
+}
+
+std::string SharedLibrary::buildId() const {
+  const link_map* place = nullptr;
+  if (dlinfo(handle_, RTLD_DI_LINKMAP, &place) != 0 || !place) return {};
+  Stamp stamp{place->l_addr};
+  dl_iterate_phdr(lookForStamp, &stamp);
+  return stamp.text;
 }
 
 }  // namespace stadion

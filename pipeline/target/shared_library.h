@@ -7,6 +7,7 @@
 #include "engine/diagnostic.h"
 
 #include <dlfcn.h>
+#include <string>
 
 namespace stadion {
 
@@ -22,6 +23,10 @@ public:
   Function* find(const char* name) const {
     return reinterpret_cast<Function*>(dlsym(handle_, name));
   }
+
+  /// What its linker stamped it with, in hexadecimal digits: another build has another one. Empty if it was
+  /// not stamped.
+  std::string buildId() const;
 
 private:
   explicit SharedLibrary(void* handle) : handle_(handle) {}

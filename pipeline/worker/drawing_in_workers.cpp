@@ -54,8 +54,13 @@ struct DrawingInWorkers::Wall {
 DrawingInWorkers::DrawingInWorkers(DrawingInWorkersParts parts)
     : parts_(std::move(parts)), parcels_(parts_.meshes) {
   for (std::size_t i = 0; i < parts_.walls.size(); ++i) {
-    const worker::WorkerSetting setting{parts_.program,         parts_.egl,     parts_.walls[i].width,
-                                        parts_.walls[i].height, parts_.quality, parts_.rasteriserThreads};
+    const worker::WorkerSetting setting{parts_.program,
+                                        parts_.egl,
+                                        parts_.walls[i].width,
+                                        parts_.walls[i].height,
+                                        parts_.quality,
+                                        parts_.rasteriserThreads,
+                                        i < parts_.processors.size() ? parts_.processors[i] : ProcessorSet{}};
     walls_.push_back(std::make_unique<Wall>(i, parts_.names[i], setting, parts_.meshes, parcels_));
     walls_.back()->took.reserve(kUsual);
   }

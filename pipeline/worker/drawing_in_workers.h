@@ -32,6 +32,7 @@ struct DrawingInWorkersParts {
   std::function<bool()> giveUp{};                  ///< once true, drawing ends with RunStopped
   std::function<void(const std::string&)> tell{};  ///< what became of a process; on its wall's Draw thread
   std::filesystem::path program = worker::wallProgram();
+  std::vector<ProcessorSet> processors{};  ///< by wall: those that its process may use; none: all of them
 };
 
 class DrawingInWorkers final : public WallDrawing {

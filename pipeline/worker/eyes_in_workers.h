@@ -31,7 +31,7 @@ private:
 
   DrawOutcome drawEye(Wall& wall, std::uint32_t eye);
 
-  const std::vector<int> processors_;
+  const ProcessorSet processors_;
   worker::ProcessorPlaces places_;
   bool bindsProcesses_;  ///< each draws on one processor at a time; else it has threads for more
   std::vector<std::unique_ptr<Wall>> walls_;

@@ -1,32 +1,19 @@
 #include "pipeline/worker/processor_places.h"
 
 #include <algorithm>
-#include <sched.h>
 
 namespace stadion::worker {
 
-std::vector<int> ownProcessors() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  std::vector<int> processors;
-  if (::sched_getaffinity(0, sizeof set, &set) == 0)
-    for (int i = 0; i < CPU_SETSIZE; ++i)
-      if (CPU_ISSET(i, &set)) processors.push_back(i);
-  if (processors.empty()) processors.push_back(0);
-  return processors;
+ProcessorPlaces::ProcessorPlaces(const ProcessorSet& processors) {
+  for (std::size_t i = 0; i < ProcessorSet::kMost; ++i)
+    if (processors.contains(i)) free_.push_back(i);
+  if (free_.empty()) free_.push_back(0);
 }
 
-void bindProcess(int pid, std::span<const int> processors) {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  for (const int p : processors) CPU_SET(p, &set);
-  if (pid > 0) ::sched_setaffinity(pid, sizeof set, &set);
-}
-
-int ProcessorPlaces::take(double cost) {
+std::size_t ProcessorPlaces::take(double cost) {
   std::unique_lock lock(mutex_);
   if (!free_.empty()) {
-    const int processor = free_.back();
+    const std::size_t processor = free_.back();
     free_.pop_back();
     return processor;
   }
@@ -36,7 +23,7 @@ int ProcessorPlaces::take(double cost) {
   return *me.processor;
 }
 
-void ProcessorPlaces::giveBack(int processor) {
+void ProcessorPlaces::giveBack(std::size_t processor) {
   const std::lock_guard lock(mutex_);
   const auto next = std::ranges::max_element(waiting_, {}, &Waiting::cost);
   if (next == waiting_.end()) {

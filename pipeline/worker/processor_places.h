@@ -5,23 +5,19 @@
 ///
 /// Threads  any.
 
+#include "pipeline/machine/processor_set.h"
+
 #include <condition_variable>
 #include <cstddef>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace stadion::worker {
 
-/// The processors that this process may use, by their numbers.
-std::vector<int> ownProcessors();
-/// Has the first thread of a process run on these only, if the system lets it.
-void bindProcess(int pid, std::span<const int> processors);
-
 class ProcessorPlaces {
 public:
-  explicit ProcessorPlaces(std::vector<int> processors) : free_(std::move(processors)) {}
+  explicit ProcessorPlaces(const ProcessorSet& processors);
 
   /// Holds a processor until it goes.
   class Place {
@@ -32,25 +28,25 @@ public:
     Place(const Place&) = delete;
     Place& operator=(const Place&) = delete;
 
-    int processor() const { return processor_; }
+    std::size_t processor() const { return processor_; }
 
   private:
     ProcessorPlaces& of_;
-    int processor_;
+    std::size_t processor_;
   };
 
 private:
   struct Waiting {
     double cost;
-    std::optional<int> processor{};
+    std::optional<std::size_t> processor{};
   };
 
-  int take(double cost);
-  void giveBack(int processor);
+  std::size_t take(double cost);
+  void giveBack(std::size_t processor);
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<int> free_;
+  std::vector<std::size_t> free_;
   std::vector<Waiting*> waiting_;
 };
 

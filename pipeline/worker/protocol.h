@@ -9,6 +9,7 @@
 
 #include "pipeline/draw/look.h"
 #include "pipeline/draw/renderer.h"
+#include "pipeline/machine/processor_set.h"
 
 #include <array>
 #include <cstddef>
@@ -17,7 +18,7 @@
 namespace stadion::worker {
 
 constexpr std::uint32_t kMagic = 0x57445453;  // "STDW"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kLongestText = 4096;
 
 // Address space, not memory.
@@ -38,6 +39,7 @@ struct OrderHead {
   std::uint32_t egl = 0;                ///< 1: through EGL, else OSMesa
   std::uint32_t rasteriserThreads = 0;  ///< 0: it rasterises on the thread that draws
   RenderQuality quality{};
+  ProcessorSet processors{};  ///< that it may use; empty: all
   // Of Draw.
   std::uint64_t listBytes = 0;
 };

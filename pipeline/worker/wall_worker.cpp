@@ -55,6 +55,7 @@ std::optional<std::string> WallWorker::start() {
   OrderHead head;
   head.width = setting_.width, head.height = setting_.height, head.egl = setting_.egl;
   head.rasteriserThreads = setting_.rasteriserThreads, head.quality = setting_.quality;
+  head.processors = setting_.processors;
   const std::array<int, 3> segments{list_.descriptor(), parcels_.descriptor(), pictures_.descriptor()};
   order(head, segments);
   return {};

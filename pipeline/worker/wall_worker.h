@@ -7,6 +7,7 @@
 ///            begins anew. No signal reaches the show.
 /// Threads    one at a time.
 
+#include "pipeline/machine/processor_set.h"
 #include "pipeline/output/child_process.h"
 #include "pipeline/worker/list_bytes.h"
 #include "pipeline/worker/mesh_parcels.h"
@@ -29,6 +30,7 @@ struct WorkerSetting {
   std::uint32_t width = 0, height = 0;  ///< of one eye's picture [pixels]
   RenderQuality quality{};
   std::uint32_t rasteriserThreads = 0;  ///< 0: it rasterises on the thread that draws
+  ProcessorSet processors{};            ///< that it may use; empty: all
 };
 
 /// `stadion-wall` beside the program that is running.

@@ -118,6 +118,7 @@ TEST(Layering, EachForeignLibraryHasItsRoom) {
   EXPECT_EQ(whoIncludes("GLFW/"), Files{"pipeline/target/glfw_windows.cpp"});
   EXPECT_EQ(whoIncludes("meshoptimizer"), Files{"engine/asset/simplify.cpp"});
   EXPECT_EQ(whoIncludes("sndfile"), Files{"engine/asset/sound_file.cpp"});
+  EXPECT_EQ(whoIncludes("hwloc"), Files{"pipeline/machine/topology.cpp"});
   EXPECT_EQ(whoIncludes("lo/"), Files{"pipeline/input/osc_server.cpp"});
   EXPECT_EQ(whoIncludes("vrpn"), Files{"pipeline/input/vrpn_trackers.cpp"});
   EXPECT_EQ(whoIncludes("AL/"), Files{"pipeline/output/sound_device.cpp"});

@@ -153,6 +153,21 @@ TEST(TargetRasteriser, KeepsWhatTheUserChose) {
   EXPECT_STREQ(std::getenv("LP_NUM_THREADS"), "0");
 }
 
+TEST(TargetRasteriser, KnowsWhetherTheUserChoseItsThreads) {
+  const Environment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
+  EXPECT_FALSE(rasteriserThreadsGiven());
+  setenv("LP_NUM_THREADS", "", 1);
+  EXPECT_FALSE(rasteriserThreadsGiven());
+  EXPECT_FALSE(pinRasteriser());
+  EXPECT_GE(std::atoi(std::getenv("LP_NUM_THREADS")), 1);
+  setenv("LP_NUM_THREADS", "0", 1);
+  EXPECT_EQ(rasteriserThreadsGiven(), 0u);
+  setenv("LP_NUM_THREADS", "999", 1);
+  EXPECT_EQ(rasteriserThreadsGiven(), 32u);  // Mesa takes no more
+  setRasteriserThreads(3);
+  EXPECT_STREQ(std::getenv("LP_NUM_THREADS"), "3");
+}
+
 TEST(TargetRasteriser, RefusesAVectorWidthWithWhichMesaCrashes) {
   const Environment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
   setenv("LP_NATIVE_VECTOR_WIDTH", "512", 1);

@@ -85,7 +85,8 @@ std::optional<std::string> Worker::open(const OrderHead& order, const std::array
   bytes_ = std::make_unique<SharedSegment>(segments[0], kListReserve, Access::Read);
   parcels_ = std::make_unique<SharedSegment>(segments[1], kMeshReserve, Access::Read);
   pictures_ = std::make_unique<SharedSegment>(segments[2], kPictureReserve, Access::Write);
-  setenv("LP_NUM_THREADS", std::to_string(order.rasteriserThreads).c_str(), 1);
+  if (!order.processors.empty()) order.processors.bindThisThread();  // the rasteriser's will start from here
+  setRasteriserThreads(order.rasteriserThreads);
   if (const auto why = pinRasteriser()) return why->message;
   auto provider = openGlProvider(order.egl ? GlProviderKind::Egl : GlProviderKind::OsMesa);
   if (!provider) return provider.error().message;

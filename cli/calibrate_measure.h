@@ -1,0 +1,28 @@
+#pragma once
+/// One setting of `stadion calibrate`, measured in this process: Mesa reads how many threads it has once.
+///
+/// Threads  plain function, on the main thread.
+
+#include "engine/diagnostic.h"
+#include "pipeline/machine/calibration.h"
+
+#include <string>
+
+namespace stadion {
+
+struct CalibrationRun {
+  DrawSetting setting{};
+  std::string folder;  ///< in which the show lies (writeCalibrationShow)
+  std::string walls = "cave4", size = "800x600", look = "full";
+  double seconds = 1;  ///< that are measured, after the frames in which programs are compiled
+};
+
+struct CalibrationFigures {
+  double framesPerSecond = 0;
+  double cpuMs = 0;        ///< a frame, of this process and those that draw for it
+  std::string rasteriser;  ///< as it describes itself
+};
+
+Result<CalibrationFigures> measureSetting(const CalibrationRun& run);
+
+}  // namespace stadion

@@ -1,0 +1,56 @@
+#pragma once
+/// How a run draws its walls in software, and why: what is asked for, else what `stadion calibrate` found to
+/// be fastest on this machine, else a rule (unmeasuredSetting).
+///
+/// Threads  to be settled before the first OpenGL context is made.
+
+#include "pipeline/machine/calibration.h"
+
+#include <optional>
+#include <string>
+
+namespace stadion {
+
+class Diagnostics;
+
+/// What is known of the machine that the program runs on.
+struct KnownMachine {
+  std::uint32_t processors = 1;
+  std::optional<MachineCalibration> measured{};  ///< nothing: it has not been calibrated
+};
+
+/// Reads the calibration. A file that is damaged, or about other machines, is told as a warning and counts
+/// for nothing.
+KnownMachine knownMachine(Diagnostics& findings);
+
+struct DrawingNeeds {
+  DrawWishes wishes{};
+  std::string here{};  ///< why this program must draw itself; empty: others may
+  std::size_t walls = 1;
+  std::string look = "full";
+};
+
+class DrawingPlan {
+public:
+  DrawingPlan(const DrawingNeeds& needs, const KnownMachine& machine);
+
+  const DrawSetting& setting() const { return chosen_.setting; }
+  /// "calibrated 2026-11-23 05:01 UTC: 17.2 frames/s with 4 walls, 12.3 by threads"
+  const std::string& why() const { return chosen_.why; }
+  /// Those of this program's rasteriser, whoever draws the walls.
+  std::uint32_t rasteriserThreadsHere() const { return here_.setting.rasteriserThreads; }
+
+  /// This program must draw after all.
+  void drawHere(const std::string& why);
+
+private:
+  struct Choice {
+    DrawSetting setting;
+    std::string why;
+  };
+  static Choice choose(const DrawingNeeds& needs, const KnownMachine& machine);
+
+  Choice chosen_, here_;
+};
+
+}  // namespace stadion

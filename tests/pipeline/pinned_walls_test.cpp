@@ -1,0 +1,97 @@
+// Walls that are drawn on processors of their own.
+#include "pipeline/drawing_here.h"
+#include "pipeline/worker/drawing_in_workers.h"
+#include "tests/pipeline/renderer_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sched.h>
+#include <thread>
+
+namespace stadion {
+namespace {
+
+constexpr std::uint32_t kWidth = 48, kHeight = 36;
+
+ProcessorSet processorsOf(pid_t process) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  EXPECT_EQ(sched_getaffinity(process, sizeof set, &set), 0);
+  ProcessorSet found;
+  for (std::size_t i = 0; i < ProcessorSet::kMost; ++i)
+    if (CPU_ISSET(i, &set)) found.add(i);
+  return found;
+}
+
+/// Of those that this test may use, the first.
+ProcessorSet oneProcessor() {
+  const ProcessorSet mine = processorsOfThisThread();
+  ProcessorSet one;
+  for (std::size_t i = 0; one.empty() && i < ProcessorSet::kMost; ++i)
+    if (mine.contains(i)) one.add(i);
+  return one;
+}
+
+/// The threads of a process.
+std::vector<pid_t> threadsOf(pid_t process) {
+  std::vector<pid_t> threads;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task"))
+    threads.push_back(std::stoi(entry.path().filename()));
+  return threads;
+}
+
+/// Mesa sees to it that the thread of its cache of programs is bound nowhere.
+bool ofTheCache(pid_t process, pid_t thread) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/task/" + std::to_string(thread) + "/comm");
+  std::string name;
+  std::getline(file, name);
+  return name.find("disk$") != std::string::npos;
+}
+
+TEST(PinnedWalls, ProcessesRunWhereTheyAreToldToWithAllTheirThreads) {
+  MeshStore meshes;
+  const DrawList list = test::richList(meshes, double{kWidth} / kHeight);
+  DrawingInWorkersParts parts{.meshes = meshes, .walls = {}, .names = {}};
+  parts.walls = {{kWidth, kHeight}, {kWidth, kHeight}};
+  parts.names = {"bound", "free"};
+  parts.rasteriserThreads = 2;
+  parts.program = std::filesystem::path(STADION_BINARY_DIR) / "bin" / "stadion-wall";
+  parts.processors = {oneProcessor()};
+  DrawingInWorkers drawing(std::move(parts));
+  for (const std::size_t wall : {0, 1}) {
+    const Failure opened = drawing.open(wall);
+    ASSERT_FALSE(opened) << opened->message;
+    EXPECT_FALSE(drawing.draw(wall, list).failure);
+  }
+  std::size_t bound = 0;
+  for (const pid_t thread : threadsOf(drawing.pid(0))) {
+    if (ofTheCache(drawing.pid(0), thread)) continue;
+    EXPECT_EQ(processorsOf(thread), oneProcessor());
+    ++bound;
+  }
+  EXPECT_GE(bound, 3u);  // the rasteriser's two as well
+  EXPECT_EQ(processorsOf(drawing.pid(1)), processorsOfThisThread());
+  drawing.close(0), drawing.close(1);
+}
+
+TEST(PinnedWalls, OnlyTheThreadThatDrawsAWallIsBoundNotTheRasterisersThatAllWallsShare) {
+  const ProcessorSet before = processorsOfThisThread();
+  MeshStore meshes;
+  const DrawList list = test::richList(meshes, double{kWidth} / kHeight);
+  DrawingHereParts parts{*test::provider(GlProviderKind::OsMesa), meshes, {{kWidth, kHeight}}};
+  parts.processors = {oneProcessor()};
+  DrawingHere drawing(std::move(parts));
+  std::thread([&] {
+    const Failure opened = drawing.open(0);
+    ASSERT_FALSE(opened) << opened->message;
+    EXPECT_EQ(processorsOfThisThread(), oneProcessor());
+    EXPECT_FALSE(drawing.draw(0, list).failure);
+    drawing.close(0);
+  }).join();
+  for (const pid_t thread : threadsOf(getpid())) EXPECT_EQ(processorsOf(thread), before) << thread;
+}
+
+}  // namespace
+}  // namespace stadion
