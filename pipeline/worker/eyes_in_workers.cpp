@@ -115,15 +115,16 @@ struct EyesInWorkers::Wall {
 };
 
 EyesInWorkers::EyesInWorkers(DrawingInWorkersParts parts, const std::vector<std::uint32_t>& eyes)
-    : processors_(worker::ownProcessors()), places_(processors_),
-      bindsProcesses_(parts.rasteriserThreads == 0) {
+    : processors_(processorsOfThisThread()), places_(processors_),
+      bindsProcesses_(parts.rasteriserThreads == 0 && parts.processors.empty()) {
   DrawingInWorkersParts each = parts;
-  each.walls.clear(), each.names.clear();
+  each.walls.clear(), each.names.clear(), each.processors.clear();
   for (std::size_t i = 0; i < parts.walls.size(); ++i) {
     auto wall = std::make_unique<Wall>();
     wall->first = each.walls.size(), wall->eyes = eyes[i];
     for (std::uint32_t eye = 0; eye < wall->eyes; ++eye) {
       each.walls.push_back(parts.walls[i]);
+      if (i < parts.processors.size()) each.processors.push_back(parts.processors[i]);
       each.names.push_back(wall->eyes == 1 ? parts.names[i]
                                            : parts.names[i] + (eye == 0 ? ", left eye" : ", right eye"));
     }
@@ -146,9 +147,10 @@ DrawOutcome EyesInWorkers::drawEye(Wall& wall, std::uint32_t eye) {
   const bool placed = bindsProcesses_ && wall.took[eye] > kWorthAPlace;
   std::optional<worker::ProcessorPlaces::Place> place;
   if (placed) place.emplace(places_, wall.took[eye]);
-  const int own = placed ? place->processor() : 0;
-  if (placed || wall.bound[eye])
-    worker::bindProcess(eyes_->pid(wall.first + eye), placed ? std::span(&own, 1) : std::span(processors_));
+  ProcessorSet own;
+  if (placed) own.add(place->processor());
+  const int pid = eyes_->pid(wall.first + eye);
+  if ((placed || wall.bound[eye]) && pid > 0) (placed ? own : processors_).bindThread(pid);
   wall.bound[eye] = placed;
   const auto began = Clock::now();
   DrawOutcome outcome = eyes_->draw(wall.first + eye, wall.lists[eye]);

@@ -33,7 +33,7 @@ private:
 
   const ProcessorSet processors_;
   worker::ProcessorPlaces places_;
-  bool bindsProcesses_;  ///< each draws on one processor at a time; else it has threads for more
+  bool bindsProcesses_;  ///< to one at a time; else they have threads for more, or processors of their own
   std::vector<std::unique_ptr<Wall>> walls_;
   std::unique_ptr<DrawingInWorkers> eyes_;  ///< each as a wall with one eye
 };
