@@ -157,6 +157,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   if (s.displays) parts.sink = &s.displays->sink(), s.displays->fitPictures(parts.walls);
   parts.drawUnseen = !s.output;
   parts.workers = o.workers(*s.player);
+  parts.head = o.headFor(parts.walls);
   if (s.desk->kept()) parts.contexts = &s.desk->kept()->contexts;
   FrameProbe* const probe = s.spans       ? s.spans->probe()
                             : o.countWork ? &s.work

@@ -125,7 +125,8 @@ void WallCull::fill(const SlotView& state, double eyeSeparation, DrawList& out) 
 
 void WallCull::lookThrough(const SlotView& state, const WallSeen& seen, double eyeSeparation,
                            DrawList& out) const {
-  eyesOf(*state.viewer, parts_.room.view(wall_), eyeSeparation, seen.from ? &*seen.from : nullptr).setUp(out);
+  out.viewer = *state.viewer;
+  eyesOf(out.viewer, parts_.room.view(wall_), eyeSeparation, seen.from ? &*seen.from : nullptr).setUp(out);
   setLights(state, out);
   setSky(*state.sky, out);
 }

@@ -17,7 +17,7 @@
 namespace stadion::worker {
 
 constexpr std::uint32_t kMagic = 0x57445453;  // "STDW"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kLongestText = 4096;
 
 // Address space, not memory.
@@ -26,7 +26,7 @@ constexpr std::size_t kListReserve = std::size_t{1} << 32, kMeshReserve = std::s
 
 enum class Order : std::uint32_t {
   Open,  ///< with the segments' descriptors: list, meshes, pictures
-  Draw,  ///< what lies in the list's segment
+  Draw,  ///< what lies in the list's segment; with `read`, the pictures into theirs as well
   Read,  ///< the pictures drawn last, into the pictures' segment: left, right
 };
 
@@ -39,6 +39,7 @@ struct OrderHead {
   std::uint32_t rasteriserThreads = 0;  ///< 0: it rasterises on the thread that draws
   RenderQuality quality{};
   // Of Draw.
+  std::uint32_t read = 0;  ///< 1: one answer when the pictures are there, so that no death falls in between
   std::uint64_t listBytes = 0;
 };
 
