@@ -5,6 +5,7 @@
 #include "cli/bench_dynamics.h"
 #include "cli/bench_flight.h"
 #include "cli/bench_plan.h"
+#include "cli/bench_prediction.h"
 #include "cli/bench_recording.h"
 #include "cli/bench_scale.h"
 #include "cli/bench_walls.h"
@@ -65,6 +66,7 @@ void addBenchCommand(CLI::App& app, int& code) {
   addBenchPlan(*command, code);
   addBenchBudgets(*command, code);
   addBenchAttribution(*command, code);
+  addBenchPrediction(*command, code);
   addBenchRecording(*command, code);
   addBenchWalls(*command, code);
   addBenchScale(*command, code);

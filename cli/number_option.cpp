@@ -37,6 +37,11 @@ CLI::Validator wholeNumberFrom(std::uint64_t least, std::uint64_t most) {
   return validator<std::uint64_t>(least, most, "whole number");
 }
 
+std::optional<double> parseNumber(const std::string& text) {
+  const auto value = parse<double>(text.data(), text.data() + text.size());
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
 std::optional<std::pair<std::uint32_t, std::uint32_t>> parseSize(const std::string& text) {
   const std::size_t by = text.find('x');
   if (by == std::string::npos) return std::nullopt;

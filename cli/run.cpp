@@ -190,6 +190,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   if (s.drawing) parts.workers = o.workers(*s.player, s.drawing->setting());
   if (s.drawing && s.drawing->setting().pinned)
     parts.processors = Topology::ofThisMachine().parts(parts.walls.size());
+  parts.head = o.headFor(parts.walls);
   if (s.desk->kept()) parts.contexts = &s.desk->kept()->contexts;
   FrameProbe* const probe = s.spans       ? s.spans->probe()
                             : o.countWork ? &s.work

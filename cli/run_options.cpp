@@ -75,6 +75,7 @@ void RunOptions::addTo(CLI::App& command) {
   events.addTo(command, "--trace-events");
   addLoadTo(command);
   trackers.addTo(command);
+  addHeadTo(command);
   spans.addTo(command);
   command.add_flag(
       "--count-work", countWork,
@@ -113,6 +114,31 @@ void RunOptions::addLoadTo(CLI::App& command) {
   command
       .add_option("--stress-max", stress.max, "how many times farther away things count at most; 1: never")
       ->check(numberFrom(1, 16))
+      ->capture_default_str();
+}
+
+void RunOptions::addHeadTo(CLI::App& command) {
+  command.add_flag("--late-latch", lateLatch,
+                   "draw each frame from where the live tracker says the head is just then, not from where "
+                   "it was when the frame began");
+  command
+      .add_option_function<std::vector<double>>(
+          "--latch-reach",
+          [this](const std::vector<double>& v) {
+            latchReach = {v[0], v[1]};
+          },
+          "how far the head may go meanwhile [m] and turn [rad]: Cull looks for what is seen from there, and "
+          "a head that goes farther is drawn from this edge, and counted")
+      ->expected(2)
+      ->type_name("M RAD")
+      ->check(numberFrom(0, 3))
+      ->default_str("0.05 0.25");
+  command
+      .add_option(
+          "--predict", predict,
+          "carry the live tracker's head on to when its picture is seen: so many milliseconds, at "
+          "most 100, or auto: as frames take to their swap. Records have the head as it was carried on")
+      ->type_name("MS|auto|off")
       ->capture_default_str();
 }
 
@@ -182,6 +208,7 @@ bool RunOptions::settle(Diagnostics& findings) {
     findings.error({}, "--stress-low must not be greater than --stress-high: between them stress stays");
   settleFiles(findings);
   settleLive(findings);
+  settleHead(findings);
   return show.settle(findings) && !findings.hasErrors();
 }
 
@@ -205,6 +232,36 @@ void RunOptions::settleLive(Diagnostics& findings) {
   if (!trackers.rig.empty() && trackers.device.empty())
     findings.error({}, "--rig says where trackers are, and there are none: --tracker osc:PORT");
   if (!trackers.device.empty()) show.input = "none";  // not the log beside the show
+}
+
+/// What lets pictures depend on the moment at which they are drawn needs a head that goes on meanwhile.
+void RunOptions::settleHead(Diagnostics& findings) {
+  const auto milliseconds = parseNumber(predict);
+  if (predict == "auto")
+    ahead = HeadTiming::kToSwap;
+  else if (milliseconds && *milliseconds >= 0 && *milliseconds <= 100)
+    ahead = fromSeconds(1e-3 * *milliseconds);
+  else if (predict != "off")
+    findings.error({}, "--predict: \"" + predict + "\" is not off, auto or milliseconds from 0 to 100");
+  const auto needsTracker = [&](bool asked, const char* option) {
+    if (asked && asksForEveryFrame())
+      findings.error({}, std::string(option) + " is for live runs, whose pictures are never the same twice: "
+                                               "leave out --frames, --seconds, --out and --input FILE");
+    else if (asked && trackers.device.empty())
+      findings.error({},
+                     std::string(option) + " needs a head that a live tracker tells of: --tracker osc:PORT");
+  };
+  needsTracker(lateLatch, "--late-latch");
+  needsTracker(predict != "off", "--predict");
+}
+
+HeadTiming RunOptions::headFor(std::vector<WallView>& walls) const {
+  HeadTiming head;
+  head.predict = ahead;
+  if (!lateLatch) return head;
+  head.latch = latchReach;
+  for (WallView& view : walls) view.reach = latchReach;
+  return head;
 }
 
 bool RunOptions::asksForEveryFrame() const {

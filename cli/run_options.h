@@ -29,6 +29,9 @@ struct RunOptions {
   StressOptions stress;              ///< of the whole show
   bool loadControl = true;           ///< a live run gives up what its script says, when it takes too long
   std::size_t latency = 0;           ///< frames under way at most; 0: as many as there is room for
+  bool lateLatch = false;            ///< Draw takes the newest head
+  HeadReach latchReach{0.05, 0.25};  ///< as far as it lies within
+  std::string predict = "off";       ///< how far ahead the head is told: off, auto, or milliseconds
   std::string wallWorkers = "auto";  ///< who draws the walls: thread, process or auto
   std::string pin = "auto";          ///< each wall on processors of its own: on, off or auto
   /// How many threads the environment gives the rasteriser, if it says so; no option.
@@ -42,6 +45,7 @@ struct RunOptions {
 
   StereoLayout layout = StereoLayout::Pair;  ///< from `stereo`
   PictureChoice pictureChoice;               ///< from `pictures`
+  std::optional<Nanoseconds> ahead;          ///< from `predict`, as HeadTiming has it
 
   /// Expects that this object stays where it is until the command line has been read.
   void addTo(CLI::App& command);
@@ -50,10 +54,12 @@ struct RunOptions {
   /// Completes what depends on other options. Says what is wrong.
   bool settle(Diagnostics& findings);
 
+  void addHeadTo(CLI::App& command);
   void addLoadTo(CLI::App& command);
   void addBlackBoxTo(CLI::App& command);
   void settleFiles(Diagnostics& findings) const;
   void settleLive(Diagnostics& findings);
+  void settleHead(Diagnostics& findings);
   /// Whether the options ask for a run that does not go by the clock.
   bool asksForEveryFrame() const;
   /// Every frame counts where somebody looks at the result later, and where a log says when each one was;
@@ -64,6 +70,8 @@ struct RunOptions {
   FrameLoopOptions loopOptions(const Player& player) const;
   /// What decides who draws so many walls. After settle().
   DrawingNeeds drawingNeeds(std::size_t walls) const;
+  /// What is done for the head's pose to be young. The walls are culled for it.
+  HeadTiming headFor(std::vector<WallView>& walls) const;
   /// The processes that draw the walls; nothing if this one does.
   std::optional<WallWorkers> workers(const Player& player, const DrawSetting& setting) const;
 };

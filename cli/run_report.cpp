@@ -24,6 +24,8 @@ void addTimes(const FinishedRun& run, RunSummary& s) {
     s.stages.push_back({"cull", name, distributionOf(t.cull[w].values()), clock});
     s.stages.push_back({"draw", name, distributionOf(t.draw[w].values()), finish});
     s.latency.push_back({name, distributionOf(t.latency[w].values())});
+    if (const WallLateness& late = run.stages.late(w); late.frames > 0)
+      s.lateWalls.push_back({name, late.frames, late.inARow});
     const std::vector<Picture>& eyes = run.stages.lastPictures()[w].eyes;
     const std::array<DrawTotals, 2>& drawn = run.stages.drawn(w);
     for (std::size_t e = 0; e < drawn.size(); ++e)
@@ -52,7 +54,10 @@ RunSummary summarise(const FinishedRun& run) {
   s.show = o.show.script, s.walls = o.show.walls, s.mode = o.show.mode, s.stereo = o.stereo;
   s.width = o.show.width, s.height = o.show.height, s.rate = run.player.rate();
   s.frames = run.outcome.framesShown, s.framesDrawn = run.outcome.framesDrawn;
-  s.lateFrames = run.outcome.missedTicks;
+  s.lateFrames = run.outcome.missedTicks, s.mostPassedOver = run.outcome.mostPassedOver;
+  if (const LatchCounts* c = run.stages.latched())
+    s.latched = LateLatched{c->latched, c->beyond, c->farthest, c->widest};
+  if (o.ahead) s.aimedAt = 1e3 * toSeconds(run.stages.aimedAt());
   s.elapsedSeconds = run.elapsed;
   s.groups = run.groups, s.uptimeSeconds = run.uptime;
   run.watch.addTo(s, run.outcome.framesSimulated);

@@ -25,7 +25,7 @@ Failure DrawingHere::open(std::size_t wall) {
   return {};
 }
 
-DrawOutcome DrawingHere::draw(std::size_t wall, const DrawList& list) {
+DrawOutcome DrawingHere::draw(std::size_t wall, const DrawList& list, bool) {
   if (Failure f = contexts_.enter(wall)) return {std::move(f)};
   return {toFailure(contexts_.renderer(wall).draw(list, parts_.giveUp, parts_.probe))};
 }

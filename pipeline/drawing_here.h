@@ -32,7 +32,7 @@ public:
   explicit DrawingHere(DrawingHereParts parts);
 
   Failure open(std::size_t wall) override;
-  DrawOutcome draw(std::size_t wall, const DrawList& list) override;
+  DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) override;
   Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) override;
   void close(std::size_t wall) override;
   std::array<DrawTotals, 2> totals(std::size_t wall) const override;

@@ -5,6 +5,7 @@
 #include "pipeline/swap_barrier.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <functional>
 #include <new>
@@ -294,6 +295,7 @@ std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slo
       return std::nullopt;
     if (stopRequested_) stopped_ = true;
     ticket.last = ended_ = stopped_ || ending_;
+    ticket.posed = stages_.headMeasured().value_or(ticket.began);
     return ticket;
   }
   {
@@ -302,6 +304,7 @@ std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slo
       return std::nullopt;
   }
   ++outcome_.framesSimulated;
+  ticket.posed = stages_.headMeasured().value_or(ticket.began);
   ticket.last = ended_ = noneFollows();
   ticket.drawn = stages_.wantsDrawn(ticket) && !passesOver(ticket);
   return ticket;
@@ -327,11 +330,15 @@ void FrameLoop::closeStage(std::size_t wall) {
   guard("closing", wall, kNoFrame, [&]() -> Failure { return stages_.closeWall(wall), Failure(); });
 }
 
-bool FrameLoop::drawStage(std::size_t wall, const DrawList& list) {
+bool FrameLoop::drawStage(std::size_t wall, DrawList& list) {
   if (!list.ticket.drawn) return true;
   const std::uint64_t frame = list.ticket.signature.frame;
   StageSpan span(times_.draw[wall], probe_, Span::Draw, frame, numberOf(wall));
-  if (guard("Draw", wall, frame, [&] { return stages_.draw(wall, list); })) return true;
+  const auto draw = [&] {
+    stages_.latch(wall, list);
+    return stages_.draw(wall, list);
+  };
+  if (guard("Draw", wall, frame, draw)) return true;
   span.leaveOut();
   broken_ = true;  // given up, if it has not failed: the other walls would wait for this one
   return false;
@@ -344,6 +351,7 @@ bool FrameLoop::swapStage(const FrameTicket& ticket) {
     if (!guard("Swap", kAllWalls, now.frame, [&] { return stages_.swap(now); })) return false;
   }
   ++outcome_.framesShown;
+  notePassedOver(now);
   if (ticket.drawn) noteShown(ticket);
   lastDrawn_ = ticket.drawn;
   return true;
@@ -357,7 +365,19 @@ void FrameLoop::noteShown(const FrameTicket& ticket) {
   ++outcome_.framesDrawn;
   if (lastDrawn_) times_.period.add(since(lastSwap_));
   lastSwap_ = shown;
-  for (DurationSeries& latency : times_.latency) latency.add(since(ticket.began));
+  for (std::size_t wall = 0; wall < times_.latency.size(); ++wall)
+    times_.latency[wall].add(since(stages_.posed(wall).value_or(ticket.posed)));
+}
+
+/// From the second one shown on: the first one takes as long as a driver needs to be ready.
+void FrameLoop::notePassedOver(const TimeSignature& now) {
+  if (outcome_.framesShown == 1) return;
+  if (lastShown_) {
+    const auto ticks = std::llround(toSeconds(now.time - *lastShown_) * options_.rate);
+    outcome_.mostPassedOver =
+        std::max(outcome_.mostPassedOver, static_cast<std::uint64_t>(std::max(ticks, 1LL) - 1));
+  }
+  lastShown_ = now.time;
 }
 
 bool FrameLoop::fail(Reason why) {

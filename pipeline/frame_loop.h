@@ -54,8 +54,9 @@ struct FrameLoopOutcome {
   std::uint64_t framesSimulated = 0, framesShown = 0;
   std::uint64_t framesDrawn = 0;  ///< of those shown
   std::uint64_t missedTicks = 0;
-  bool stopped = false;    ///< by request, before all frames were done
-  bool nextGroup = false;  ///< the operator asked for the show to begin again
+  std::uint64_t mostPassedOver = 0;  ///< ticks in a row between two frames shown, but for the first
+  bool stopped = false;              ///< by request, before all frames were done
+  bool nextGroup = false;            ///< the operator asked for the show to begin again
   Failure failure;
 };
 
@@ -97,9 +98,10 @@ private:
   std::optional<FrameTicket> appStage(const Turn& turn, std::size_t slot);
   bool cullStage(std::size_t wall, std::size_t slot, const FrameTicket& ticket, DrawList& list);
   bool openStage(std::size_t wall);
-  bool drawStage(std::size_t wall, const DrawList& list);
+  bool drawStage(std::size_t wall, DrawList& list);
   bool swapStage(const FrameTicket& ticket);
   void noteShown(const FrameTicket& ticket);
+  void notePassedOver(const TimeSignature& now);
   void closeStage(std::size_t wall);
   template <class Work>
   bool guard(const char* what, std::size_t wall, std::uint64_t frame, const Work& work);
@@ -125,6 +127,7 @@ private:
   // Of the frame shown last; whoever swaps has them.
   std::chrono::steady_clock::time_point lastSwap_{};
   bool lastDrawn_ = false;
+  std::optional<Nanoseconds> lastShown_;  ///< its show time
 };
 
 }  // namespace stadion

@@ -16,6 +16,9 @@ struct FrameTicket {
   bool drawn = true;  ///< false: nobody looks at it, so it is neither culled nor drawn
   Presentation shown{};
   bool last = false;  ///< no frame follows it
+  /// When the head's pose was measured that its pictures are drawn with; where nobody knows, when it was
+  /// sampled.
+  std::chrono::steady_clock::time_point posed{};
 };
 
 }  // namespace stadion

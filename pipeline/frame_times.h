@@ -37,8 +37,8 @@ struct FrameTimes {
   std::vector<DurationSeries> cull, draw;  ///< by wall
   DurationSeries swap;                     ///< showing: outputs of a frame handed on
   DurationSeries period;                   ///< from swap to swap
-  std::vector<DurationSeries>
-      latency;  ///< from the start of App, which samples the pose, to the swap; by wall
+  /// By wall: from the measurement of the head's pose that its picture was drawn with to the swap.
+  std::vector<DurationSeries> latency;
 };
 
 }  // namespace stadion

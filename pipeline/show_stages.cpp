@@ -44,6 +44,7 @@ void makeBlack(DrawList& list) {
 ShowStages::ShowStages(ShowParts parts)
     : parts_(std::move(parts)), room_(parts_.walls), drawing_(drawingOf(parts_)), drawn_(parts_.walls.size()),
       pictures_(parts_.walls.size()) {
+  if (parts_.head.latch) latch_.emplace(parts_.input, *parts_.head.latch);
   for (const WallView& view : parts_.walls)
     if (!view.camera) wallPixels_.push_back({view.wall, view.width, view.height});
   const bool shadows = parts_.quality.look == Look::Full;
@@ -60,7 +61,9 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   {
     const SpanScope span(parts_.probe, Span::Input);
     if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
+    if (parts_.head.predict) parts_.input.aimHead(aimedAt());
     parts_.input.sampleFrame(now.time - now.step, now.time, input);
+    noteMeasured(input);
   }
   // What is published goes into the slot as it is found, unless somebody wants to see it as a whole.
   const bool whole = parts_.probe && parts_.probe->wantsShares(now.frame, kNoWall);
@@ -91,6 +94,26 @@ void ShowStages::tellPublished() {
   parts_.probe->shared(Span::Publish, changes_.signature.frame, kNoWall, owners);
 }
 
+void ShowStages::noteMeasured(const InputSample& input) {
+  const TrackerSample* head = input.find("head");
+  measured_.reset();
+  if (head && head->valid && head->measured > 0) measured_.emplace(std::chrono::nanoseconds(head->measured));
+}
+
+Nanoseconds ShowStages::aimedAt() const {
+  const auto predict = parts_.head.predict;
+  return !predict ? 0 : *predict == HeadTiming::kToSwap ? swaps_.expected() : *predict;
+}
+
+std::optional<std::chrono::steady_clock::time_point> ShowStages::posed(std::size_t wall) const {
+  return drawn_[wall].posed;
+}
+
+void ShowStages::latch(std::size_t wall, DrawList& list) {
+  if (latch_)
+    latch_->latch(parts_.walls[wall], list.ticket.began + std::chrono::nanoseconds(aimedAt()), list);
+}
+
 void ShowStages::hear(const InputSample& input, bool still) {
   if (!parts_.sounds) return;
   parts_.scene.listen(input, heard_);
@@ -101,8 +124,10 @@ void ShowStages::hear(const InputSample& input, bool still) {
 void ShowStages::still(std::size_t slot) {
   changes_.clear();
   if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
+  if (parts_.head.predict) parts_.input.aimHead(aimedAt());
   InputSample now;
   if (parts_.input.sampleNow(now)) changes_.viewer.set(parts_.scene.rigPose(), parts_.scene.headInRig(now));
+  noteMeasured(now);
   hear(parts_.scene.lastInput(), true);
   parts_.state.publish(slot, changes_);
 }
@@ -130,14 +155,17 @@ Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
   if (!drawing_) return {};
   Drawn& drawn = drawn_[wall];
   drawn.eyes = 0;  // until it is finished there is no picture
-  if (DrawOutcome outcome = drawing_->draw(wall, list); outcome.failure || !outcome.drawn) {
-    if (!outcome.failure) ++drawn.late;
+  began_ = list.ticket.began;
+  const bool wanted = list.ticket.last || (parts_.sink && parts_.sink->wants(list.ticket.signature));
+  if (DrawOutcome outcome = drawing_->draw(wall, list, wanted); outcome.failure || !outcome.drawn) {
+    if (!outcome.failure)
+      drawn.late.inARow = std::max(drawn.late.inARow, ++drawn.lateNow), ++drawn.late.frames;
     return std::move(outcome.failure);
   }
+  drawn.lateNow = 0, drawn.posed = list.ticket.posed;
   drawn.eyes = list.eyeCount, drawn.frame = list.ticket.signature.frame, drawn.read = false;
   drawn.totals = drawing_->totals(wall);
-  const bool wanted = parts_.sink && parts_.sink->wants(list.ticket.signature);
-  return wanted || list.ticket.last ? readPictures(wall) : std::nullopt;
+  return wanted ? readPictures(wall) : std::nullopt;
 }
 
 Failure ShowStages::readPictures(std::size_t wall) {
@@ -164,6 +192,8 @@ void ShowStages::closeWall(std::size_t wall) {
 
 Failure ShowStages::swap(const TimeSignature& now) {
   shownFrame_ = now.frame;
+  if (const auto began = began_.exchange({}); began.time_since_epoch().count() != 0)
+    swaps_.note(std::chrono::steady_clock::now() - began);
   if (parts_.shown) parts_.shown();
   if (parts_.sink && parts_.sink->wants(now)) return parts_.sink->take(now, pictures_);
   return {};

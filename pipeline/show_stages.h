@@ -5,6 +5,9 @@
 #include "engine/scene/scene.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/draw/renderer.h"
+#include "pipeline/latency/head_latch.h"
+#include "pipeline/latency/head_timing.h"
+#include "pipeline/latency/swap_forecast.h"
 #include "pipeline/machine/processor_set.h"
 #include "pipeline/operator/operator_desk.h"
 #include "pipeline/output/picture.h"
@@ -71,6 +74,12 @@ struct ShowParts {
   std::optional<WallWorkers> workers{};  ///< nothing: this process draws
   /// By wall: where it is drawn; none: anywhere. Expects a thread or a process for each wall.
   std::vector<ProcessorSet> processors{};
+  HeadTiming head{};                     ///< the walls' views must have its reach, too
+};
+
+/// How often a wall kept an older picture, because it was not drawn in time.
+struct WallLateness {
+  std::uint64_t frames = 0, inARow = 0;  ///< in all, and at most one after the other
 };
 
 class ShowStages final : public Stages {
@@ -82,6 +91,9 @@ public:
   void still(std::size_t slot) override;
   bool wantsDrawn(const FrameTicket& ticket) const override;
   void cull(std::size_t wall, std::size_t slot, DrawList& list) override;
+  std::optional<std::chrono::steady_clock::time_point> headMeasured() const override { return measured_; }
+  std::optional<std::chrono::steady_clock::time_point> posed(std::size_t wall) const override;
+  void latch(std::size_t wall, DrawList& list) override;
   Failure openWall(std::size_t wall) override;
   Failure draw(std::size_t wall, const DrawList& list) override;
   void closeWall(std::size_t wall) override;
@@ -92,8 +104,12 @@ public:
   /// Of wall `wall`, by eye: what it was drawn with in all. For when the run is over.
   const std::array<DrawTotals, 2>& drawn(std::size_t wall) const { return drawn_[wall].totals; }
   std::string glDescription() const { return glDescription_; }
-  /// How many frames the wall was not drawn in time for. For when the run is over.
-  std::uint64_t late(std::size_t wall) const { return drawn_[wall].late; }
+  /// For when the run is over.
+  const WallLateness& late(std::size_t wall) const { return drawn_[wall].late; }
+  /// What late latch did; null if there was none. For when the run is over.
+  const LatchCounts* latched() const { return latch_ ? &latch_->counts() : nullptr; }
+  /// What prediction is aimed at now: so long after a frame's start [ns]. Any thread.
+  Nanoseconds aimedAt() const;
   /// The newest frame that all walls have shown. Any thread.
   std::uint64_t shownFrame() const { return shownFrame_; }
 
@@ -104,11 +120,14 @@ private:
     std::uint64_t frame = 0;
     bool read = false;                   ///< the pictures have been read back
     std::array<DrawTotals, 2> totals{};  ///< by eye, of the whole show, when it has been closed
-    std::uint64_t late = 0;              ///< frames it was not drawn in time for
+    std::optional<std::chrono::steady_clock::time_point> posed{};  ///< the head's pose was measured then
+    WallLateness late{};
+    std::uint64_t lateNow = 0;  ///< frames in a row, up to this one
   };
 
   void tellPublished();
   void hear(const InputSample& input, bool still);
+  void noteMeasured(const InputSample& input);
   Failure readPictures(std::size_t wall);
 
   ShowParts parts_;
@@ -122,6 +141,10 @@ private:
   std::unique_ptr<WallDrawing> drawing_;  ///< null draws nothing
   std::vector<Drawn> drawn_;              ///< by wall
   std::vector<EyePictures> pictures_;
+  std::optional<HeadLatch> latch_;
+  SwapForecast swaps_;
+  std::optional<std::chrono::steady_clock::time_point> measured_;  ///< of App's frame
+  std::atomic<std::chrono::steady_clock::time_point> began_{};     ///< the frame that is drawn now
   std::atomic<std::uint64_t> shownFrame_ = 0;
   std::string glDescription_;
 };

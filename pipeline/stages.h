@@ -3,8 +3,8 @@
 ///
 /// The loop decides who runs them and when; the stages do not know whether they are overlapped.
 ///
-/// Threads  app() and wantsDrawn() on the App thread; cull(w) on wall w's Cull thread; openWall, draw and
-///          closeWall(w) on wall w's Draw thread; swap() on the Draw thread that arrives last, while the
+/// Threads  app() and wantsDrawn() on the App thread; cull(w) on wall w's Cull thread; openWall, latch, draw
+///          and closeWall(w) on wall w's Draw thread; swap() on the Draw thread that arrives last, while the
 ///          others wait. In sequential mode all on one thread.
 /// Errors   a stage that cannot go on returns a reason; the loop stops every thread and hands the reason on.
 ///          What a stage throws (it should not: memory may run out) becomes such a reason, with the stage's
@@ -15,6 +15,7 @@
 #include "pipeline/draw/draw_list.h"
 #include "pipeline/frame_ticket.h"
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -55,6 +56,18 @@ public:
   virtual bool wantsDrawn(const FrameTicket&) const { return true; }
   /// Fills `list` with what wall `wall` shows of the frame in `slot`, for both eyes.
   virtual void cull(std::size_t wall, std::size_t slot, DrawList& list) = 0;
+
+  /// When the head's pose was measured that app() or still() has just taken; nothing: nobody knows, and the
+  /// start of the frame counts. On the App thread.
+  virtual std::optional<std::chrono::steady_clock::time_point> headMeasured() const { return {}; }
+  /// The same of the picture that the wall shows, asked while all are swapped; nothing: that of the frame.
+  virtual std::optional<std::chrono::steady_clock::time_point> posed(std::size_t wall) const {
+    (void)wall;
+    return {};
+  }
+
+  /// Just before draw(): a newer head may take the place of the list's.
+  virtual void latch(std::size_t wall, DrawList& list) { (void)wall, (void)list; }
 
   virtual Failure openWall(std::size_t wall) = 0;
   virtual Failure draw(std::size_t wall, const DrawList& list) = 0;

@@ -26,8 +26,9 @@ public:
   virtual ~WallDrawing() = default;
 
   virtual Failure open(std::size_t wall) = 0;
-  /// Draws all eyes of the list, and waits until that is done. May throw RunStopped.
-  virtual DrawOutcome draw(std::size_t wall, const DrawList& list) = 0;
+  /// Draws all eyes of the list, and waits until that is done. `read`: read() will be called for all of them,
+  /// and the list is not there any more then. May throw RunStopped.
+  virtual DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) = 0;
   /// The eye's picture of the list that was drawn last (see Renderer::read).
   virtual Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) = 0;
   virtual void close(std::size_t wall) = 0;

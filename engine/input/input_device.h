@@ -2,13 +2,20 @@
 /// Where input comes from: a recorded log, a script, live trackers.
 ///
 /// Threads  App calls sampleFrame(), once a frame and with increasing time; a live device fills its samples
-/// on a
-///          thread of its own and answers from what has arrived.
+///          on a thread of its own and answers from what has arrived.
 /// Errors   a device that has nothing yet answers with trackers that are not valid; it never waits.
 
 #include "engine/input/input_sample.h"
 
+#include <optional>
+
 namespace stadion {
+
+/// A head, and what it is known by.
+struct HeadNow {
+  Pose X_RH;
+  Nanoseconds measured = 0;  ///< as TrackerSample has it
+};
 
 class InputDevice {
 public:
@@ -35,6 +42,15 @@ public:
     (void)sample;
     return false;
   }
+  /// The head as it will be so long from now [ns], by what its tracker has said until now: for pictures that
+  /// are about to be drawn. On any thread, also while App samples. Nothing: a frame's sample is all there is.
+  virtual std::optional<HeadNow> headSoon(Nanoseconds ahead) {
+    (void)ahead;
+    return {};
+  }
+  /// From the next sample on the head is told as it will be so much later [ns], when its picture is seen (see
+  /// forecast.h). Before a frame.
+  virtual void aimHead(Nanoseconds ahead) { (void)ahead; }
   /// The head stays where it is, or is let go. Before a frame.
   virtual void freezeHead(bool frozen) { (void)frozen; }
   /// The show begins again: its times count from 0. Before the first frame.

@@ -44,6 +44,10 @@ struct TrackerSample {
   /// frame's end. Two of the same time are a jump of the axes. Empty if the device does not know: then
   /// buttons were pressed at the frame's end and axes were all the while as they are.
   std::vector<ControlKnot> controls;
+  /// When the newest measurement in it was made, by the clock of the machine that plays [ns]; 0: nobody
+  /// knows, as in a replay. It tells how old a picture is. Nothing of the show depends on it, and samples are
+  /// equal without it.
+  Nanoseconds measured = 0;
 
   bool operator==(const TrackerSample& o) const {
     return name == o.name && X_RT.p == o.X_RT.p && X_RT.q.coeffs() == o.X_RT.q.coeffs() &&

@@ -1,5 +1,6 @@
 #include "engine/input/tracker_feed.h"
 
+#include "engine/input/forecast.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -30,6 +31,12 @@ Vec3 speedTo(const InputTrack& track, std::size_t i) {
   if (i == 0) return Vec3::Zero();
   const InputStamp &a = track.stamps[i - 1], &b = track.stamps[i];
   return a.valid && b.valid ? Vec3((b.X_RT.p - a.X_RT.p) / toSeconds(b.time - a.time)) : Vec3::Zero();
+}
+
+/// By how much the filter (one_euro_filter.h) lags behind what goes evenly: a low pass by 1 / (2 pi cutoff).
+double lagAt(const RigFile& rig, double speed) {
+  constexpr double kTwoPi = 2 * 3.14159265358979323846;
+  return rig.cutoff > 0 ? 1 / (kTwoPi * (rig.cutoff + rig.beta * speed)) : 0;
 }
 
 /// Whether the way from the last stamp to X at `time` may be taken for a leap when the log is read.
@@ -105,6 +112,18 @@ void TrackerFeed::freeze(std::string_view name, Nanoseconds clock, bool frozen) 
   }
 }
 
+void TrackerFeed::aim(std::string_view name, Nanoseconds ahead) {
+  for (Channel& c : channels_)
+    if (c.tracker->name == name) c.ahead = std::max<Nanoseconds>(ahead, 0);
+}
+
+std::optional<HeadNow> TrackerFeed::soon(std::string_view name, Nanoseconds clock, Nanoseconds ahead) const {
+  for (const Channel& c : channels_)
+    if (c.tracker->name == name)
+      if (const auto X = poseAt(c, clock, ahead)) return HeadNow{*X, measuredBy(c, clock)};
+  return {};
+}
+
 void TrackerFeed::change(Channel& c, Nanoseconds clock) {
   ++counts_.taken;
   if (c.changes.size() == kMostChanges) c.changes.pop_back();
@@ -131,17 +150,20 @@ bool TrackerFeed::axis(std::string_view name, Nanoseconds clock, std::int64_t in
 }
 
 /// A measurement is some milliseconds old when its frame ends: it goes on as it went.
-Pose TrackerFeed::carriedOn(const Channel& c, Nanoseconds clock) const {
+Pose TrackerFeed::carriedOn(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const {
   const double t = std::clamp(toSeconds(clock - c.last), 0.0, rig_.predict);
-  return {c.X_RT.p + t * c.filter.velocity(),
-          (det::expRotation(t * c.filter.rotation()) * c.X_RT.q).normalized()};
+  const Pose X{c.X_RT.p + t * c.filter.velocity(),
+               (det::expRotation(t * c.filter.rotation()) * c.X_RT.q).normalized()};
+  if (ahead <= 0) return X;
+  const Vec3 &v = c.filter.velocity(), &w = c.filter.rotation();
+  return forecast(X, v, w, toSeconds(ahead), {lagAt(rig_, v.norm()), lagAt(rig_, w.norm())});
 }
 
-std::optional<Pose> TrackerFeed::poseAt(const Channel& c, Nanoseconds clock) const {
+std::optional<Pose> TrackerFeed::poseAt(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const {
   if (c.frozen) return c.frozen;
   if (!c.ever) return {};
   const double age = toSeconds(clock - c.last);
-  Pose X = carriedOn(c, clock);
+  Pose X = carriedOn(c, clock, ahead);
   if (!c.tracker->safe) return age <= rig_.hold ? std::optional(X) : std::nullopt;
   if (age > rig_.hold + rig_.ease) return {};
   const auto along = [&](const Pose& a, const Pose& b, double s) {
@@ -201,6 +223,8 @@ void TrackerFeed::sampleFrame(Nanoseconds clock, Nanoseconds start, Nanoseconds 
   }
   lastClock_ = clock;
   log_.sampleFrame(start, end, sample);
+  for (std::size_t i = 0; i < channels_.size(); ++i)
+    sample.trackers[i].measured = measuredBy(channels_[i], clock);
 }
 
 void TrackerFeed::sampleNow(Nanoseconds clock, InputSample& sample) const {
@@ -209,7 +233,7 @@ void TrackerFeed::sampleNow(Nanoseconds clock, InputSample& sample) const {
     const Channel& c = channels_[i];
     TrackerSample& t = sample.trackers[i] = {};
     const auto X = poseAt(c, clock);
-    t.name = c.tracker->name, t.valid = X.has_value();
+    t.name = c.tracker->name, t.valid = X.has_value(), t.measured = measuredBy(c, clock);
     if (X) t.X_RT = *X;
     if (heard(c, clock)) t.buttons = c.buttons, t.axes = c.axes;
   }

@@ -15,6 +15,7 @@
 ///          between two frames is spread over the frame's show time in proportion.
 /// Threads  one at a time (pipeline/input/live_trackers.h lets several use it).
 
+#include "engine/input/input_device.h"
 #include "engine/input/input_log.h"
 #include "engine/input/one_euro_filter.h"
 #include "engine/input/rig_file.h"
@@ -42,6 +43,11 @@ public:
   bool pose(std::string_view tracker, Nanoseconds clock, const Pose& X_SD);
   bool button(std::string_view tracker, Nanoseconds clock, std::int64_t index, bool down);
   bool axis(std::string_view tracker, Nanoseconds clock, std::int64_t index, double value);
+
+  /// From now on the tracker is told as it will be so much later than asked for [ns] (forecast.h).
+  void aim(std::string_view tracker, Nanoseconds ahead);
+  /// Where it will be so long after `clock`, whatever it is aimed at; nothing while it is lost.
+  std::optional<HeadNow> soon(std::string_view tracker, Nanoseconds clock, Nanoseconds ahead) const;
 
   /// The tracker stays where it is, whatever it says, or is let go and eases back.
   void freeze(std::string_view tracker, Nanoseconds clock, bool frozen);
@@ -80,9 +86,10 @@ private:
     const RigTracker* tracker;
     OneEuroFilter filter;
     bool ever = false;
-    Nanoseconds last = 0;  ///< measurement [ns]
-    Pose X_SD, X_RT;       ///< as it came; smoothed
-    double period = 0;     ///< between measurements, smoothed [s]
+    Nanoseconds last = 0;   ///< measurement [ns]
+    Nanoseconds ahead = 0;  ///< what it is aimed at [ns]
+    Pose X_SD, X_RT;        ///< as it came; smoothed
+    double period = 0;      ///< between measurements, smoothed [s]
     std::optional<Pose> frozen{};
     Pose from;  ///< where it was when it was heard of again
     Nanoseconds found = 0;
@@ -94,8 +101,11 @@ private:
   Channel* channel(std::string_view name);
   bool refuse() { return ++counts_.refused, false; }
   bool heard(const Channel& c, Nanoseconds clock) const;
-  std::optional<Pose> poseAt(const Channel& c, Nanoseconds clock) const;
-  Pose carriedOn(const Channel& c, Nanoseconds clock) const;
+  /// When, for whom it is told to at `clock`; 0 if it is long since.
+  Nanoseconds measuredBy(const Channel& c, Nanoseconds clock) const { return heard(c, clock) ? c.last : 0; }
+  std::optional<Pose> poseAt(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const;
+  std::optional<Pose> poseAt(const Channel& c, Nanoseconds clock) const { return poseAt(c, clock, c.ahead); }
+  Pose carriedOn(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const;
   void change(Channel& c, Nanoseconds clock);
   void addStamps(Channel& c, InputTrack& track, Nanoseconds clock, Nanoseconds start, Nanoseconds end);
 

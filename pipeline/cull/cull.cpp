@@ -135,14 +135,17 @@ void WallCull::fill(const SlotView& state, double eyeSeparation, DrawList& out, 
 
 void WallCull::lookThrough(const SlotView& state, const WallSeen& seen, double eyeSeparation,
                            DrawList& out) const {
-  eyesOf(*state.viewer, parts_.room.view(wall_), eyeSeparation, seen.from ? &*seen.from : nullptr).setUp(out);
+  out.viewer = *state.viewer;
+  eyesOf(out.viewer, parts_.room.view(wall_), eyeSeparation, seen.from ? &*seen.from : nullptr).setUp(out);
   setLights(state, out);
   setSky(*state.sky, out);
 }
 
 void WallCull::addItems(const WallSeen& seen, DrawList& out) {
-  const PixelScale scale(out, parts_.room.view(wall_));
-  const EyeTest eyes(out, parts_.oneSample, parts_.room.view(wall_).width, parts_.room.view(wall_).height);
+  const WallView& view = parts_.room.view(wall_);
+  const bool eyesMove = view.reach.metres > 0 || view.reach.radians > 0;  // before they draw
+  const PixelScale scale(out, view);
+  const EyeTest eyes(out, parts_.oneSample, view.width, view.height);
   constexpr std::size_t kAhead = 8;
   const std::span<const InstanceRecord* const> records = seen.records;
   for (std::size_t i = 0; i < std::min(kAhead, records.size()); ++i) fetch(records[i]);
@@ -150,7 +153,7 @@ void WallCull::addItems(const WallSeen& seen, DrawList& out) {
     if (i + kAhead < records.size()) fetch(records[i + kAhead]);
     const InstanceRecord& r = *records[i];
     const auto centre = centreOf(r, out.origin);
-    const std::uint32_t seenBy = eyes.eyesThatSee(centre, r.radius);
+    const std::uint32_t seenBy = eyesMove ? DrawItem::kBothEyes : eyes.eyesThatSee(centre, r.radius);
     if (seenBy == 0) continue;
     auto& items = r.flags & InstanceRecord::kTransparent ? out.transparent : out.opaque;
     items.push_back(itemOf(r, out.origin, centre, seenBy, scale));

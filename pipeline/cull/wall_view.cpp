@@ -3,7 +3,7 @@
 namespace stadion {
 
 ConvexVolume WallEyes::volume() const {
-  return unionFrustum(*wall, {eyes.data(), count}, depth).transformed(X_WR, origin);
+  return unionFrustum(*wall, {eyes.data(), count}, depth, margin).transformed(X_WR, origin);
 }
 
 void WallEyes::setUp(DrawList& list) const {
@@ -33,6 +33,7 @@ WallEyes eyesOf(const ViewerRecord& viewer, const WallView& view, double eyeSepa
   for (std::uint32_t e = 0; e < seen.count; ++e)
     seen.eyes[e] = eyePosition(X_RH, kEyes[e], view.stereo ? separation : 0);
   seen.origin = seen.X_WR * X_RH.p;
+  seen.margin = view.reach.ofEyes(view.stereo ? separation : 0);
   return seen;
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/display/frustum.h"
 #include "pipeline/cull/free_camera.h"
+#include "pipeline/cull/head_reach.h"
 
 #include <array>
 #include <cstdint>
@@ -19,6 +20,7 @@ struct WallView {
   bool stereo = true;                       ///< false: one eye, in the middle
   std::uint32_t width = 800, height = 600;  ///< of one eye's picture [pixels]
   const FreeCamera* camera = nullptr;       ///< it looks, not the visitor; `wall` does not count then
+  HeadReach reach{};                        ///< how far the visitor's head may go after Cull
 };
 
 /// The eyes that look through a wall in a frame.
@@ -29,8 +31,9 @@ struct WallEyes {
   std::uint32_t count = 0;                               ///< 1: in the middle
   Pose X_WR;
   Vec3 origin = Vec3::Zero();  ///< where the head is, in World [m]
+  double margin = 0;           ///< how far each eye may go [m]
 
-  /// What they can see together, relative to the origin.
+  /// What they can see together, wherever they go, relative to the origin.
   ConvexVolume volume() const;
   void setUp(DrawList& list) const;
 };

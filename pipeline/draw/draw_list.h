@@ -83,6 +83,7 @@ struct DrawList {
   Vec3 origin = Vec3::Zero();   ///< in World [m]
   std::array<DrawEye, 2> eyes;  ///< left, right
   std::uint32_t eyeCount = 2;   ///< 1 = mono: eyes[0] only
+  ViewerRecord viewer;          ///< whose eyes they are
   DrawSky sky;
   std::vector<DrawLight> lights;  ///< at most kMaxLights
   DrawShadows shadows;

@@ -65,6 +65,16 @@ bool LiveTrackers::sampleNow(InputSample& sample) {
   return true;
 }
 
+std::optional<HeadNow> LiveTrackers::headSoon(Nanoseconds ahead) {
+  const std::lock_guard lock(mutex_);
+  return feed_.soon("head", clock_(), ahead);
+}
+
+void LiveTrackers::aimHead(Nanoseconds ahead) {
+  const std::lock_guard lock(mutex_);
+  feed_.aim("head", ahead);
+}
+
 void LiveTrackers::freezeHead(bool frozen) {
   const std::lock_guard lock(mutex_);
   feed_.freeze("head", clock_(), frozen);

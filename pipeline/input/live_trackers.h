@@ -1,7 +1,8 @@
 #pragma once
 /// Trackers of a live show: a feed that devices fill on threads of their own and App reads.
 ///
-/// Threads  post functions from any thread; the InputDevice part is App's. Nobody waits longer than a few
+/// Threads  post functions and headSoon() from any thread; the rest of the InputDevice is App's. Nobody waits
+/// longer than a few
 ///          microseconds for the others.
 
 #include "engine/input/input_device.h"
@@ -36,6 +37,8 @@ public:
   }
   void sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) override;
   bool sampleNow(InputSample& sample) override;
+  std::optional<HeadNow> headSoon(Nanoseconds ahead) override;
+  void aimHead(Nanoseconds ahead) override;
   void freezeHead(bool frozen) override;
   void restart() override;
 

@@ -13,6 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
 void keepFinite(std::vector<double>& values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
 }
@@ -104,6 +106,22 @@ Json json(const BudgetKept& b) {
 
 }  // namespace
 
+namespace {
+
+/// What was done for the head's pose to be young.
+std::string headText(const RunSummary& s) {
+  std::string text;
+  if (s.latched)
+    text += fmt::format(
+        "  late latch: {} frames from a newer head, up to {:.1f} mm and {:.2f} degrees away; {} beyond "
+        "the reach\n",
+        s.latched->frames, 1e3 * s.latched->farthest, s.latched->widest * kDegrees, s.latched->beyond);
+  if (s.aimedAt) text += fmt::format("  the head was told {:.1f} ms ahead, at the end\n", *s.aimedAt);
+  return text;
+}
+
+}  // namespace
+
 std::string toText(const RunSummary& s) {
   // How fast frames go by that nobody draws says nothing.
   const bool all = s.framesDrawn == s.frames;
@@ -126,6 +144,10 @@ std::string toText(const RunSummary& s) {
     if (t.ms.count > 0) text += row(t.stage, t.wall, t.ms);
   for (const WallLatency& l : s.latency)
     if (l.ms.count > 0) text += row("motion to image", l.wall, l.ms);
+  text += headText(s);
+  for (const WallLate& w : s.lateWalls)
+    text += fmt::format("  wall {} was not drawn in time for {} frames, {} in a row at most\n", w.wall,
+                        w.frames, w.inARow);
   if (s.stateHash) text += fmt::format("  state hash of frame {}: {}\n", s.lastFrame, hex(*s.stateHash));
   for (const ImageHash& h : s.imageHashes)
     text += fmt::format("  image hash of frame {}: {} {} {}\n", s.lastFrame, hex(h.hash), h.wall, h.eye);
@@ -194,6 +216,16 @@ std::string toJson(const RunSummary& s) {
   }
   j["motion_to_image_ms"] = Json::object();
   for (const WallLatency& l : s.latency) j["motion_to_image_ms"][l.wall] = json(l.ms);
+  j["most_passed_over"] = s.mostPassedOver;
+  j["late_walls"] = Json::object();
+  for (const WallLate& w : s.lateWalls)
+    j["late_walls"][w.wall] = Json{{"frames", w.frames}, {"in_a_row", w.inARow}};
+  if (s.latched)
+    j["late_latch"] = Json{{"frames", s.latched->frames},
+                           {"beyond_reach", s.latched->beyond},
+                           {"farthest_m", s.latched->farthest},
+                           {"widest_rad", s.latched->widest}};
+  if (s.aimedAt) j["predicted_ms"] = *s.aimedAt;
   j["last_frame"] = s.lastFrame;
   j["state_hash"] = s.stateHash ? Json(hex(*s.stateHash)) : Json();
   j["history_hash"] = s.historyHash ? Json(hex(*s.historyHash)) : Json();

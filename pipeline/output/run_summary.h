@@ -39,6 +39,18 @@ struct WallLatency {
   Distribution ms;  ///< from the head's pose to the picture on the wall
 };
 
+/// A wall that kept an older picture now and then, because it was not drawn in time.
+struct WallLate {
+  std::string wall;
+  std::uint64_t frames = 0, inARow = 0;  ///< in all, and at most one after the other
+};
+
+/// What late latch did (latency/head_latch.h).
+struct LateLatched {
+  std::uint64_t frames = 0, beyond = 0;  ///< drawn from a newer head; of these, from the edge of the reach
+  double farthest = 0, widest = 0;       ///< that it went and turned between App and Draw [m], [rad]
+};
+
 struct ImageHash {
   std::string wall;
   std::string eye;  ///< left, right
@@ -104,8 +116,12 @@ struct RunSummary {
   std::uint64_t lateFrames = 0;
   Distribution frameMs;  ///< from one frame shown to the next
   std::vector<StageTimes> stages;
+  std::uint64_t mostPassedOver = 0;  ///< ticks in a row that no wall showed a frame of
   std::vector<WallLatency> latency;  ///< motion to image
-  std::uint64_t lastFrame = 0;       ///< the hashes are of this one
+  std::vector<WallLate> lateWalls;   ///< those that were late at all
+  std::optional<LateLatched> latched;
+  std::optional<double> aimedAt;  ///< prediction, at the end: how long after a frame's start [ms]
+  std::uint64_t lastFrame = 0;    ///< the hashes are of this one
   std::optional<std::uint64_t> stateHash;
   std::optional<std::uint64_t> historyHash;  ///< over the state hashes of all frames
   std::vector<ImageHash> imageHashes;

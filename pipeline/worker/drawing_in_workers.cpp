@@ -1,6 +1,7 @@
 #include "pipeline/worker/drawing_in_workers.h"
 
 #include "engine/run_stopped.h"
+#include "pipeline/worker/restarts.h"
 
 #include <algorithm>
 #include <atomic>
@@ -15,12 +16,13 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 using State = worker::WallWorker::State;
 
-constexpr int kMostStarts = 3;            // for one frame, or to open
+constexpr int kMostStarts = 3;            // for one frame after the first, or to open
 constexpr milliseconds kLookEvery{50};    // at who gives up
 constexpr milliseconds kHangs{5000};      // without using the processor, where every frame counts
 constexpr milliseconds kHangsLive{1000};  // where others must not wait
 constexpr milliseconds kForEver{24 * 3600 * 1000};
-constexpr std::size_t kUsual = 32;  // frames by which it is known what drawing takes
+constexpr std::size_t kKnown = 3,
+                      kUsual = 32;  // frames, at least and at most, by which it is known what drawing takes
 
 }  // namespace
 
@@ -35,6 +37,7 @@ struct DrawingInWorkers::Wall {
   std::string description;
   std::array<DrawTotals, 2> before{}, totals{};  ///< of the processes before this one; in all
   std::atomic<int> pid = 0;
+  worker::Restarts restarts;
 
   // By which it is known whether it hangs.
   double processor = -1;      ///< [s]
@@ -81,10 +84,21 @@ Failure DrawingInWorkers::start(Wall& wall) {
   return {};
 }
 
-Failure DrawingInWorkers::restart(Wall& wall, const std::string& why) {
-  tell(wall, "the process that draws it " + why + "; another one is started");
+/// It is gone, or is to go. What is told: the first death, that there are more, and no more than that.
+void DrawingInWorkers::died(Wall& wall, const std::string& how) {
+  wall.process.stop();
   wall.pid = 0;
-  return start(wall);
+  using worker::Restarts;
+  switch (wall.restarts.died(Clock::now())) {
+  case Restarts::Death::First:
+    tell(wall, "the process that draws it " + how + "; another one is started");
+    break;
+  case Restarts::Death::Second:
+    tell(wall, "the process that draws it " + how + " again; further ones are started" +
+                   (parts_.everyFrame ? "" : " after growing pauses") + ", and not told of");
+    break;
+  case Restarts::Death::Further: break;
+  }
 }
 
 /// Waits until the process is idle; false if it is gone, or busy still.
@@ -135,89 +149,112 @@ Failure DrawingInWorkers::open(std::size_t index) {
                 std::to_string(kMostStarts) + " times");
 }
 
-DrawOutcome DrawingInWorkers::draw(std::size_t index, const DrawList& list) {
+DrawOutcome DrawingInWorkers::draw(std::size_t index, const DrawList& list, bool read) {
   Wall& wall = *walls_[index];
-  if (parts_.everyFrame) return {drawEvery(wall, list)};
-  return drawNewest(wall, list);
+  if (parts_.everyFrame) return {drawEvery(wall, list, read)};
+  return drawNewest(wall, list, read);
 }
 
-Failure DrawingInWorkers::drawEvery(Wall& wall, const DrawList& list) {
-  std::string why;
-  for (int starts = 0;; ++starts) {
-    if (wall.process.state() == State::Down || starts > 0) {
-      if (starts == kMostStarts)
-        return Reason("wall " + wall.name + ", frame " + std::to_string(list.ticket.signature.frame) +
-                      ": the process that draws it " + why + ", " + std::to_string(kMostStarts) + " times");
-      if (Failure f = restart(wall, why.empty() ? wall.process.end() : why)) return f;
+/// What it uses of the processor counts from now on: it may have had nothing to do for long.
+void DrawingInWorkers::begin(Wall& wall, const DrawList& list, bool read) {
+  wall.processor = -1;
+  wall.process.draw(list, read);
+}
+
+Failure DrawingInWorkers::drawEvery(Wall& wall, const DrawList& list, bool read) {
+  std::string how;
+  for (int processes = 0; processes <= kMostStarts; ++processes) {
+    if (wall.process.state() == State::Down) {
+      if (how.empty()) died(wall, wall.process.end());  // between two frames
+      if (Failure f = start(wall)) return f;
     }
     if (wall.process.state() == State::Opening && await(wall, kForEver))
       if (Failure f = answered(wall)) return f;
     if (wall.process.state() == State::Idle) {
-      wall.process.draw(list);
-      if (await(wall, kForEver)) return answered(wall);
+      begin(wall, list, read);
+      if (await(wall, kForEver)) {
+        wall.restarts.drew();
+        return answered(wall);
+      }
     }
-    why = wall.process.state() == State::Down ? wall.process.end() : "hung";
+    how = wall.process.state() == State::Down ? wall.process.end() : "hung";
+    died(wall, how);
   }
+  return Reason("wall " + wall.name + ", frame " + std::to_string(list.ticket.signature.frame) + ": " +
+                std::to_string(1 + kMostStarts) + " processes died of it; the last one " + how);
+}
+
+/// Sees what has become of a process without waiting: one that is gone or hangs is replaced when it is time.
+Failure DrawingInWorkers::lookAfter(Wall& wall) {
+  const State was = wall.process.state();
+  if (was == State::Opening || was == State::Busy) {
+    if (wall.process.hear(milliseconds(0))) {
+      if (was == State::Busy) return answered(wall);
+      if (wall.process.answer().failed)
+        died(wall, "could not begin (" + wall.process.text() + ")");
+      else
+        answered(wall);
+    } else if (wall.process.state() == State::Down) {
+      died(wall, wall.process.end());
+    } else if (hangs(wall, was == State::Opening ? kHangs : kHangsLive)) {
+      died(wall, "hung");
+    }
+  }
+  if (wall.process.state() == State::Down && wall.restarts.due(Clock::now()))
+    if (const Failure f = start(wall)) died(wall, "could not be started (" + f->message + ")");
+  return {};
+}
+
+/// How long the walls beside may have to wait.
+milliseconds DrawingInWorkers::patience(const Wall& wall) const {
+  if (wall.took.size() < kKnown) return kForEver;
+  const double longest = *std::max_element(wall.took.begin(), wall.took.end());
+  return milliseconds(static_cast<int>(longest + 500 / parts_.rate) + 1);
 }
 
 /// Never waits longer than the walls beside may wait.
-DrawOutcome DrawingInWorkers::drawNewest(Wall& wall, const DrawList& list) {
+DrawOutcome DrawingInWorkers::drawNewest(Wall& wall, const DrawList& list, bool read) {
   const auto late = [&]() -> DrawOutcome {
     if (wall.waitedFor) wall.lost = Clock::now();
     wall.waitedFor = false;
     return {{}, false};
   };
-  if (wall.process.state() == State::Opening || wall.process.state() == State::Busy) {
-    if (wall.process.hear(milliseconds(0))) {
-      if (Failure f = answered(wall)) return {std::move(f)};
-    } else if (wall.process.state() != State::Down) {
-      if (!hangs(wall, wall.process.state() == State::Opening ? kHangs : kHangsLive)) return late();
-      if (Failure f = restart(wall, "hung")) return {std::move(f)};
-      return late();
-    }
-  }
-  if (wall.process.state() == State::Down) {
-    if (Failure f = restart(wall, wall.process.end())) return {std::move(f)};
-    return late();
-  }
+  if (Failure f = lookAfter(wall)) return {std::move(f)};
+  if (wall.process.state() != State::Idle) return late();
   const auto began = Clock::now();
-  wall.process.draw(list);
-  const double period = 1000 / parts_.rate;
-  const bool usual = wall.took.size() >= 3;
-  const double longest = usual ? *std::max_element(wall.took.begin(), wall.took.end()) : 0;
-  const auto patience = !usual ? kForEver : milliseconds(static_cast<int>(longest + 0.5 * period) + 1);
-  if (!await(wall, patience)) {
-    if (wall.process.state() != State::Down) return late();
-    if (Failure f = restart(wall, wall.process.end())) return {std::move(f)};
+  begin(wall, list, read);
+  if (!await(wall, patience(wall))) {
+    if (wall.process.state() == State::Down) died(wall, wall.process.end()), lookAfter(wall);
     return late();
   }
   if (Failure f = answered(wall)) return {std::move(f)};
-  const auto now = Clock::now();
-  wall.note(std::chrono::duration<double, std::milli>(now - began).count());
-  if (!wall.waitedFor) {
-    const double seconds = std::chrono::duration<double>(now - wall.lost).count();
-    tell(wall, "draws again, after " + std::to_string(std::lround(1000 * seconds)) + " ms");
-  }
-  wall.waitedFor = true;
+  drew(wall, std::chrono::duration<double, std::milli>(Clock::now() - began).count());
   return {};
+}
+
+void DrawingInWorkers::drew(Wall& wall, double ms) {
+  wall.note(ms);
+  wall.waitedFor = true;
+  const std::size_t deaths = wall.restarts.deaths();
+  if (!wall.restarts.drew()) return;
+  const double seconds = std::chrono::duration<double>(Clock::now() - wall.lost).count();
+  tell(wall, deaths == 1 ? "draws again, after " + std::to_string(std::lround(1000 * seconds)) + " ms"
+                         : "draws again, after " + std::to_string(deaths) + " processes that died");
 }
 
 Failure DrawingInWorkers::read(std::size_t index, std::uint32_t eye, std::span<std::uint8_t> rgba) {
   Wall& wall = *walls_[index];
-  if (wall.process.state() == State::Idle) {
-    if (eye == 0) {
-      wall.process.readPictures();
-      if (await(wall, kForEver))
-        if (Failure f = answered(wall)) return f;
-    }
-    const auto picture = wall.process.picture(eye);
-    if (wall.process.state() == State::Idle && picture.size() == rgba.size()) {
-      std::memcpy(rgba.data(), picture.data(), rgba.size());
-      return {};
-    }
+  if (!wall.process.holdsPictures() && wall.process.state() == State::Idle) {
+    wall.process.readPictures();
+    if (await(wall, kForEver))
+      if (Failure f = answered(wall)) return f;
   }
-  return Reason("wall " + wall.name + ": its picture is lost: the process that draws it " +
-                (wall.process.state() == State::Down ? wall.process.end() : std::string("hung")));
+  const auto picture = wall.process.picture(eye);
+  if (!wall.process.holdsPictures() || picture.size() != rgba.size())
+    return Reason("wall " + wall.name + ": its picture is lost: the process that draws it " +
+                  (wall.process.state() == State::Down ? wall.process.end() : std::string("hung")));
+  std::memcpy(rgba.data(), picture.data(), rgba.size());
+  return {};
 }
 
 void DrawingInWorkers::close(std::size_t index) {

@@ -5,9 +5,11 @@
 /// that crashes or hangs takes its own wall with it only: the process is replaced, and the wall keeps its
 /// last picture until the new one has drawn.
 ///
-/// Where every frame counts, a frame is drawn again by the new process, and nothing is lost. Where the newest
-/// counts, the other walls wait for one that is late no longer than half a frame beyond what it usually
-/// takes; from then on it shows what it has until it answers.
+/// Where every frame counts, a frame is drawn again by the new process until its pictures are there, and
+/// nothing is lost; one that kills three in a row ends the run. Where the newest counts, the other walls wait
+/// for one that is late no longer than half a frame beyond what it usually takes; from then on it shows what
+/// it has until it answers, and processes that die one after the other are started after growing pauses
+/// (restarts.h).
 
 #include "engine/asset/mesh_store.h"
 #include "pipeline/drawing_here.h"
@@ -41,7 +43,7 @@ public:
   ~DrawingInWorkers() override;
 
   Failure open(std::size_t wall) override;
-  DrawOutcome draw(std::size_t wall, const DrawList& list) override;
+  DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) override;
   Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) override;
   void close(std::size_t wall) override;
   std::array<DrawTotals, 2> totals(std::size_t wall) const override;
@@ -54,12 +56,16 @@ private:
   struct Wall;
   using Milliseconds = std::chrono::milliseconds;
 
-  Failure drawEvery(Wall& wall, const DrawList& list);
-  DrawOutcome drawNewest(Wall& wall, const DrawList& list);
+  Failure drawEvery(Wall& wall, const DrawList& list, bool read);
+  DrawOutcome drawNewest(Wall& wall, const DrawList& list, bool read);
+  Failure lookAfter(Wall& wall);
+  static void begin(Wall& wall, const DrawList& list, bool read);
+  Milliseconds patience(const Wall& wall) const;
+  void drew(Wall& wall, double milliseconds);
   bool await(Wall& wall, Milliseconds atMost);
   bool hangs(Wall& wall, Milliseconds still);
   Failure start(Wall& wall);
-  Failure restart(Wall& wall, const std::string& why);
+  void died(Wall& wall, const std::string& how);
   Failure answered(Wall& wall);
   void tell(const Wall& wall, const std::string& what) const;
 

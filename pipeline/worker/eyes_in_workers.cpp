@@ -30,7 +30,7 @@ void takeSeen(const std::vector<DrawItem>& from, std::uint32_t eye, std::vector<
 /// What one eye draws of the list.
 void takeEye(const DrawList& from, std::uint32_t eye, DrawList& to) {
   to.ticket = from.ticket, to.wall = from.wall;
-  to.origin = from.origin;
+  to.origin = from.origin, to.viewer = from.viewer;
   to.eyes[0] = from.eyes[eye], to.eyeCount = std::min(from.eyeCount, 1u);
   to.sky = from.sky, to.lights = from.lights, to.shadows = from.shadows;
   takeSeen(from.opaque, eye, to.opaque), takeSeen(from.transparent, eye, to.transparent);
@@ -143,7 +143,7 @@ Failure EyesInWorkers::open(std::size_t wall) {
   return failures[0] ? std::move(failures[0]) : std::move(failures[1]);
 }
 
-DrawOutcome EyesInWorkers::drawEye(Wall& wall, std::uint32_t eye) {
+DrawOutcome EyesInWorkers::drawEye(Wall& wall, std::uint32_t eye, bool read) {
   const bool placed = bindsProcesses_ && wall.took[eye] > kWorthAPlace;
   std::optional<worker::ProcessorPlaces::Place> place;
   if (placed) place.emplace(places_, wall.took[eye]);
@@ -153,17 +153,17 @@ DrawOutcome EyesInWorkers::drawEye(Wall& wall, std::uint32_t eye) {
   if ((placed || wall.bound[eye]) && pid > 0) (placed ? own : processors_).bindThread(pid);
   wall.bound[eye] = placed;
   const auto began = Clock::now();
-  DrawOutcome outcome = eyes_->draw(wall.first + eye, wall.lists[eye]);
+  DrawOutcome outcome = eyes_->draw(wall.first + eye, wall.lists[eye], read);
   wall.took[eye] = std::chrono::duration<double>(Clock::now() - began).count();
   return outcome;
 }
 
-DrawOutcome EyesInWorkers::draw(std::size_t wall, const DrawList& list) {
+DrawOutcome EyesInWorkers::draw(std::size_t wall, const DrawList& list, bool read) {
   Wall& w = *walls_[wall];
   std::array<DrawOutcome, 2> outcomes;
   w.both([&](std::uint32_t eye) {
     takeEye(list, eye, w.lists[eye]);
-    outcomes[eye] = drawEye(w, eye);
+    outcomes[eye] = drawEye(w, eye, read);
   });
   DrawOutcome& left = outcomes[0];
   if (!left.failure) left.failure = std::move(outcomes[1].failure);

@@ -20,7 +20,7 @@ public:
   ~EyesInWorkers() override;
 
   Failure open(std::size_t wall) override;
-  DrawOutcome draw(std::size_t wall, const DrawList& list) override;
+  DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) override;
   Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) override;
   void close(std::size_t wall) override;
   std::array<DrawTotals, 2> totals(std::size_t wall) const override;
@@ -29,7 +29,7 @@ public:
 private:
   struct Wall;
 
-  DrawOutcome drawEye(Wall& wall, std::uint32_t eye);
+  DrawOutcome drawEye(Wall& wall, std::uint32_t eye, bool read);
 
   const ProcessorSet processors_;
   worker::ProcessorPlaces places_;

@@ -27,7 +27,7 @@ constexpr std::size_t kListReserve = std::size_t{1} << 32, kMeshReserve = std::s
 
 enum class Order : std::uint32_t {
   Open,  ///< with the segments' descriptors: list, meshes, pictures
-  Draw,  ///< what lies in the list's segment
+  Draw,  ///< what lies in the list's segment; with `read`, the pictures into theirs as well
   Read,  ///< the pictures drawn last, into the pictures' segment: left, right
 };
 
@@ -41,6 +41,7 @@ struct OrderHead {
   RenderQuality quality{};
   ProcessorSet processors{};  ///< that it may use; empty: all
   // Of Draw.
+  std::uint32_t read = 0;  ///< 1: one answer when the pictures are there, so that no death falls in between
   std::uint64_t listBytes = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <sys/socket.h>
 #include <sys/uio.h>
 #include <unistd.h>
+#include <utility>
 
 namespace stadion::worker {
 namespace {
@@ -45,7 +46,7 @@ std::optional<std::string> WallWorker::start() {
   Descriptor ours(ends[0]);
   const Descriptor theirs(ends[1]);
   const ChildProcess::Streams streams{theirs.get(), -1, STDERR_FILENO};
-  if (const auto error = process_.start({setting_.program.string()}, streams)) {
+  if (const auto error = process_->start({setting_.program.string()}, streams)) {
     state_ = State::Down;
     return setting_.program.string() + ": " + std::strerror(*error);
   }
@@ -63,9 +64,10 @@ std::optional<std::string> WallWorker::start() {
 
 void WallWorker::stop() {
   socket_.close();
-  if (process_.running()) {
-    process_.kill();
-    process_.wait(std::chrono::milliseconds(5000));
+  std::erase_if(dying_, [](const auto& p) { return p->wait(std::chrono::milliseconds(0)).has_value(); });
+  if (process_->running()) {
+    process_->kill();
+    dying_.push_back(std::exchange(process_, std::make_unique<ChildProcess>()));
   }
   for (const auto& [id, sent] : sent_) parcels_.giveBack(sent.place);
   sent_.clear();
@@ -91,10 +93,11 @@ void WallWorker::order(const OrderHead& head, std::span<const int> descriptors) 
   }
 }
 
-void WallWorker::draw(const DrawList& list) {
+void WallWorker::draw(const DrawList& list, bool read) {
   const ListNews news = newsFor(list);
   OrderHead head;
-  head.order = Order::Draw;
+  head.order = Order::Draw, head.read = read;
+  reads_ = read, holdsPictures_ = false;
   head.listBytes = write(list, news, known_, list_);
   state_ = State::Busy;
   order(head);
@@ -103,6 +106,7 @@ void WallWorker::draw(const DrawList& list) {
 void WallWorker::readPictures() {
   OrderHead head;
   head.order = Order::Read;
+  reads_ = true, holdsPictures_ = false;
   state_ = State::Busy;
   order(head);
 }
@@ -159,20 +163,24 @@ bool WallWorker::hear(std::chrono::milliseconds atMost) {
   char bytes[sizeof(AnswerHead) + kLongestText];
   const ssize_t got = ::recv(socket_.get(), bytes, sizeof bytes, MSG_DONTWAIT);
   if (got < 0 && (errno == EINTR || errno == EAGAIN)) return false;
+  if (got <= 0) {  // it is ending; of what, is known when it has
+    if (const auto status = process_->wait(atMost)) isGone(sentenceOf(*status));
+    return false;
+  }
   AnswerHead head;
   const bool whole = got >= static_cast<ssize_t>(sizeof head);
   if (whole) std::memcpy(&head, bytes, sizeof head);
   if (!whole || head.magic != kMagic || head.textBytes != static_cast<std::size_t>(got) - sizeof head)
-    return isGone(), false;
+    return isGone("said what makes no sense"), false;
   answer_ = head;
+  holdsPictures_ = reads_ && !head.failed && head.to != Order::Open;
   text_.assign(bytes + sizeof head, head.textBytes);
   state_ = State::Idle;
   return true;
 }
 
-void WallWorker::isGone() {
-  const auto status = process_.wait(std::chrono::milliseconds(200));
-  end_ = status ? sentenceOf(*status) : "said what makes no sense";
+void WallWorker::isGone(const std::string& how) {
+  end_ = how;
   stop();
 }
 

@@ -3,8 +3,7 @@
 ///
 /// Ownership  owns the process and the segments it shares with it; borrows the parcels.
 /// Errors     whatever the process does (dies, hangs, sends nonsense), the calls return and say so; the next
-/// start()
-///            begins anew. No signal reaches the show.
+///            start() begins anew. No signal reaches the show.
 /// Threads    one at a time.
 
 #include "pipeline/machine/processor_set.h"
@@ -17,10 +16,12 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 namespace stadion::worker {
 
@@ -53,11 +54,12 @@ public:
 
   /// Starts the process and has it open its context, without waiting. Returns why it could not, or nothing.
   std::optional<std::string> start();
-  /// Kills it, if it runs.
+  /// Kills it, if it runs, without waiting for its end.
   void stop();
 
   // For an idle one:
-  void draw(const DrawList& list);
+  /// `read`: and then the pictures.
+  void draw(const DrawList& list, bool read);
   void readPictures();
 
   /// Hears what it has to say, at most so long. True when it has become idle; read the answer then. When it
@@ -68,11 +70,13 @@ public:
   const std::string& text() const { return text_; }  ///< of the answer
   const std::string& end() const { return end_; }    ///< "was killed by signal 9 (Killed)"
   std::span<const std::byte> picture(std::uint32_t eye) const;
+  /// Whether picture() is that of the list that was drawn last, also when the process is gone.
+  bool holdsPictures() const { return holdsPictures_; }
 
   /// Processor time that the process has used [s]; negative if that cannot be known. It stands still while
   /// the process hangs or is stopped.
   double processorSeconds() const;
-  int pid() const { return process_.pid(); }
+  int pid() const { return process_->pid(); }
   int started() const { return started_; }
 
 private:
@@ -85,12 +89,13 @@ private:
   ListNews newsFor(const DrawList& list);
   void add(MeshId id, ListNews& news);
   void forgetFreed(ListNews& news);
-  void isGone();
+  void isGone(const std::string& how);
 
   WorkerSetting setting_;
   const MeshStore& meshes_;
   MeshParcels& parcels_;
-  ChildProcess process_;
+  std::unique_ptr<ChildProcess> process_ = std::make_unique<ChildProcess>();
+  std::vector<std::unique_ptr<ChildProcess>> dying_;  ///< killed; nobody waits until they are gone
   Descriptor socket_;
   SharedSegment list_, pictures_;
   State state_ = State::Down;
@@ -100,6 +105,7 @@ private:
   AnswerHead answer_{};
   std::string text_, end_;
   int started_ = 0;
+  bool reads_ = false, holdsPictures_ = false;  ///< what it is at gives pictures; they are there
 };
 
 }  // namespace stadion::worker

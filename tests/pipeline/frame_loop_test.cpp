@@ -89,6 +89,42 @@ TEST(ThreadsFrameLoop, LatestDeliveryNeverGoesBackAndNeverTearsAFrame) {
   EXPECT_FALSE(stages.torn);
 }
 
+/// Whose head was measured long before the frame began, and whose second wall shows an older picture still.
+class OldHeads final : public CountingStages {
+public:
+  OldHeads() : CountingStages(2, kSlots) {}
+  std::optional<std::chrono::steady_clock::time_point> headMeasured() const override {
+    return std::chrono::steady_clock::now() - std::chrono::hours(1);
+  }
+  std::optional<std::chrono::steady_clock::time_point> posed(std::size_t wall) const override {
+    if (wall == 0) return {};
+    return std::chrono::steady_clock::now() - std::chrono::hours(5);
+  }
+};
+
+TEST(ThreadsFrameLoop, MotionToImageIsCountedFromTheMeasurementOfThePoseThatEachWallShows) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    OldHeads stages;
+    FrameLoopOptions o;
+    o.mode = mode, o.walls = 2, o.frames = 10;
+    const std::atomic<bool> stop = false;
+    FrameLoop loop(stages, o, stop);
+    loop.run();
+    constexpr double kHour = 3600e3;
+    for (const double ms : loop.times().latency[0].values()) EXPECT_NEAR(ms, kHour, 0.5 * kHour);
+    for (const double ms : loop.times().latency[1].values()) EXPECT_NEAR(ms, 5 * kHour, 0.5 * kHour);
+    EXPECT_EQ(loop.times().latency[1].count(), 10u);
+  }
+}
+
+TEST(FrameLoop, TicksThatNobodySawAreCountedAtMostInARow) {
+  CountingStages stages(1, kSlots);
+  FrameLoopOptions o;
+  o.mode = Mode::Sequential, o.frames = 6, o.rate = 50;
+  o.frameTimes = {{2, 100'000'000}, {4, 160'000'000}};  // ticks 1, 5, 6, 8
+  EXPECT_EQ(runFrames(stages, o).mostPassedOver, 3u);
+}
+
 TEST(ThreadsFrameLoop, AWallThatFailsStopsTheRunWithItsReason) {
   CountingStages stages(4, kSlots);
   stages.failAt = 20;

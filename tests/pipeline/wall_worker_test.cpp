@@ -8,7 +8,9 @@
 
 #include <csignal>
 #include <filesystem>
+#include <set>
 #include <thread>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -181,7 +183,7 @@ TEST(ProgramWallWorkers, DrawTheSamePictures) {
   for (std::size_t wall = 0; wall < 2; ++wall) {
     const Failure failure = drawing.open(wall);
     ASSERT_FALSE(failure) << failure->message;
-    const DrawOutcome outcome = drawing.draw(wall, list);
+    const DrawOutcome outcome = drawing.draw(wall, list, false);
     ASSERT_FALSE(outcome.failure) << outcome.failure->message;
     EXPECT_TRUE(outcome.drawn);
   }
@@ -206,7 +208,7 @@ TEST(ProgramWallWorkers, AProcessForEachEyeDrawsTheSamePictures) {
   }
   for (int frame = 0; frame < 3; ++frame) {
     for (std::size_t wall = 0; wall < 2; ++wall) {
-      const DrawOutcome outcome = drawing.draw(wall, wall == 0 ? list : mono);
+      const DrawOutcome outcome = drawing.draw(wall, wall == 0 ? list : mono, true);
       ASSERT_FALSE(outcome.failure) << outcome.failure->message;
     }
     for (std::uint32_t eye = 0; eye < 2; ++eye)
@@ -240,7 +242,7 @@ TEST(ProgramWallWorkers, ForgetMeshesThatAreGoneAndDrawOthersInTheirPlace) {
         meshes.add(test::MeshMaker(test::matt(red, 0.5f, 0)).box({-1, -1, -1}, {1, 1, 1}).seal());
     list.ticket.signature.frame = frame;
     list.opaque = {test::place(id)};
-    const DrawOutcome outcome = drawing.draw(0, list);
+    const DrawOutcome outcome = drawing.draw(0, list, false);
     ASSERT_FALSE(outcome.failure) << outcome.failure->message;
     pictures.push_back(pictureOf(drawing, 0));
     EXPECT_EQ(pictures.back(), drawnHere(meshes, list));
@@ -260,7 +262,7 @@ TEST(ProgramWallWorkers, AFrameWhoseProcessIsKilledIsDrawnAgain) {
   DrawingInWorkers drawing(std::move(parts));
   ASSERT_FALSE(drawing.open(0));
   for (int frame = 0; frame < 3; ++frame) {
-    ASSERT_FALSE(drawing.draw(0, list).failure);
+    ASSERT_FALSE(drawing.draw(0, list, false).failure);
     EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, list));
     if (frame < 2) kill(drawing.pid(0), SIGKILL);
   }
@@ -270,13 +272,97 @@ TEST(ProgramWallWorkers, AFrameWhoseProcessIsKilledIsDrawnAgain) {
   EXPECT_EQ(drawing.totals(0)[1].frames, 3u);
 }
 
+TEST(ProgramWallWorkers, AProcessThatDiesBeforeItsPictureIsTakenLosesNothing) {
+  MeshStore meshes;
+  const DrawList list = stereoList(meshes);
+  DrawingInWorkers drawing(partsFor(meshes));
+  ASSERT_FALSE(drawing.open(0));
+  for (int frame = 0; frame < 3; ++frame) {
+    ASSERT_FALSE(drawing.draw(0, list, true).failure);
+    kill(drawing.pid(0), SIGKILL);
+    for (const std::uint32_t eye : {0u, 1u})
+      EXPECT_EQ(pictureOf(drawing, 0, eye), drawnHere(meshes, list, eye)) << frame;
+  }
+}
+
+/// A program whose file can be exchanged while others start it.
+class Exchangeable {
+public:
+  Exchangeable() { become(program()); }
+  ~Exchangeable() { std::filesystem::remove(link_); }
+  void become(const std::filesystem::path& program) {
+    std::filesystem::remove(link_);
+    std::filesystem::create_symlink(program, link_);
+  }
+  const std::filesystem::path& path() const { return link_; }
+
+private:
+  std::filesystem::path link_ =
+      std::filesystem::temp_directory_path() / ("stadion-wall-" + std::to_string(::getpid()));
+};
+
+TEST(ProgramWallWorkers, ProcessesThatDieOneAfterTheOtherAreToldOfTwiceAndEndNoLiveRun) {
+  MeshStore meshes;
+  const DrawList list = stereoList(meshes);
+  Exchangeable program;
+  auto parts = partsFor(meshes);
+  parts.everyFrame = false, parts.program = program.path();
+  std::vector<std::string> told;
+  parts.tell = [&](const std::string& what) { told.push_back(what); };
+  DrawingInWorkers drawing(std::move(parts));
+  ASSERT_FALSE(drawing.open(0));
+  for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list, false).drawn);
+  program.become("/bin/true");
+  kill(drawing.pid(0), SIGKILL);
+  std::set<int> processes;
+  while (processes.size() < 5) {  // at once, then after 0.25 s, 0.5 s, 1 s
+    ASSERT_FALSE(drawing.draw(0, list, false).failure);
+    if (const int pid = drawing.pid(0)) processes.insert(pid);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_EQ(told.size(), 2u) << told.back();
+  EXPECT_NE(told[0].find("was killed by signal 9"), std::string::npos) << told[0];
+  EXPECT_NE(told[1].find("ended with exit code 0 again"), std::string::npos) << told[1];
+
+  std::filesystem::remove(program.path());  // cannot even be started
+  while (drawing.pid(0) != 0) drawing.draw(0, list, false);
+  program.become(stadion::program());
+  bool drawn = false;
+  const auto end = Clock::now() + std::chrono::seconds(60);
+  while (!drawn && Clock::now() < end) {
+    const DrawOutcome outcome = drawing.draw(0, list, false);
+    ASSERT_FALSE(outcome.failure) << outcome.failure->message;
+    drawn = outcome.drawn;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_TRUE(drawn);
+  EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, list));
+}
+
+TEST(ProgramWallWorkers, AFrameThatKillsEveryProcessEndsTheRunWithItsNumberAndTheWall) {
+  MeshStore meshes;
+  DrawList list = stereoList(meshes);
+  list.ticket.signature.frame = 77;
+  Exchangeable program;
+  auto parts = partsFor(meshes);
+  parts.program = program.path();
+  DrawingInWorkers drawing(std::move(parts));
+  ASSERT_FALSE(drawing.open(0));
+  program.become("/bin/false");
+  kill(drawing.pid(0), SIGKILL);
+  const DrawOutcome outcome = drawing.draw(0, list, true);
+  ASSERT_TRUE(outcome.failure);
+  EXPECT_EQ(outcome.failure->message,
+            "wall w1, frame 77: 4 processes died of it; the last one ended with exit code 1");
+}
+
 /// Draws until the wall's picture is new again; how long that took.
 double secondsUntilDrawn(DrawingInWorkers& drawing, const DrawList& list, double& longestCall) {
   const auto began = Clock::now();
   longestCall = 0;
   for (;;) {
     const auto call = Clock::now();
-    const DrawOutcome outcome = drawing.draw(0, list);
+    const DrawOutcome outcome = drawing.draw(0, list, false);
     const auto now = Clock::now();
     EXPECT_FALSE(outcome.failure);
     longestCall = std::max(longestCall, std::chrono::duration<double>(now - call).count());
@@ -293,7 +379,7 @@ TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNobodyWaitsForAProcessThatIsGo
   parts.everyFrame = false;
   DrawingInWorkers drawing(std::move(parts));
   ASSERT_FALSE(drawing.open(0));
-  for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list).drawn);
+  for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list, false).drawn);
   for (const int signal : {SIGKILL, SIGSTOP}) {
     const int before = drawing.pid(0);
     kill(before, signal);

@@ -35,6 +35,11 @@ void answer(Order to, const std::string& text, bool failed, const std::array<Dra
   }
 }
 
+void answer(Order to, const std::optional<Diagnostic>& problem,
+            const std::array<DrawTotals, 2>& totals = {}) {
+  answer(to, problem ? problem->message : std::string(), problem.has_value(), totals);
+}
+
 /// The next order, with the descriptors that came along. False when the show is gone.
 bool hear(OrderHead& head, std::array<int, 3>& descriptors) {
   iovec part{&head, sizeof head};
@@ -56,12 +61,13 @@ public:
   /// Why there is none, or nothing.
   std::optional<std::string> open(const OrderHead& order, const std::array<int, 3>& segments);
   void draw(const OrderHead& order);
-  void read();
+  void read() { answer(Order::Read, readPictures()); }
   std::string description() const { return describeGl(target_->gl()); }
 
 private:
   using Access = SharedSegment::Access;
 
+  std::optional<Diagnostic> readPictures();
   void takeNews();
   void rename(std::vector<DrawItem>& items) const;
   void renameStill();
@@ -139,17 +145,17 @@ void Worker::draw(const OrderHead& order) {
   rename(list_.opaque), rename(list_.transparent);
   for (DrawShadowRing& ring : list_.shadows.rings) rename(ring.moving);
   renameStill();
-  const auto problem = renderer_->draw(list_);
-  answer(Order::Draw, problem ? problem->message : "", problem.has_value(), renderer_->totals());
+  auto problem = renderer_->draw(list_);
+  if (!problem && order.read) problem = readPictures();
+  answer(Order::Draw, problem, renderer_->totals());
 }
 
-void Worker::read() {
+std::optional<Diagnostic> Worker::readPictures() {
   for (std::uint32_t eye = 0; eye < list_.eyeCount; ++eye) {
     auto* at = reinterpret_cast<std::uint8_t*>(pictures_->data() + eye * pictureBytes_);
-    if (const auto problem = renderer_->read(eye, {at, pictureBytes_}))
-      return answer(Order::Read, problem->message, true);
+    if (auto problem = renderer_->read(eye, {at, pictureBytes_})) return problem;
   }
-  answer(Order::Read, "", false);
+  return {};
 }
 
 int work() {

@@ -1,0 +1,60 @@
+#pragma once
+/// Late latch: just before a frame is drawn, the head's newest pose takes the place of the one that App
+/// sampled one or two frames earlier.
+///
+/// It is taken once a frame, by the wall that comes first, so that all walls and both eyes show the room from
+/// the same head and no edge between walls is seen. What was culled stays: Cull has looked for what may be
+/// seen from anywhere within the reach (WallView::reach), and a head that has gone farther is drawn from its
+/// edge, and counted. Lights, shadows and the order of what is transparent are those of App's pose.
+///
+/// Pictures then depend on when they were drawn.
+///
+/// Frames   R is the rig; it stays where App has put it.
+/// Threads  latch() on any wall's Draw thread, all walls at the same frame; the counts when they are over.
+
+#include "engine/input/input_device.h"
+#include "pipeline/cull/wall_view.h"
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+
+namespace stadion {
+
+/// What became of the frames that were drawn.
+struct LatchCounts {
+  std::uint64_t latched = 0;  ///< had a newer pose
+  std::uint64_t beyond = 0;   ///< of these, went beyond the reach
+  double farthest = 0;        ///< [m]
+  double widest = 0;          ///< [rad]
+};
+
+class HeadLatch {
+public:
+  using TimePoint = std::chrono::steady_clock::time_point;
+
+  /// Borrows the device, which must say headSoon().
+  HeadLatch(InputDevice& input, const HeadReach& reach) : input_(input), reach_(reach) {}
+
+  /// Looks at the list's wall from the newest head there is, carried on to `seen`, the time at which pictures
+  /// are expected to be (in the past: to now). The list stays as it is if nobody knows more of the head.
+  void latch(const WallView& view, TimePoint seen, DrawList& list);
+
+  const LatchCounts& counts() const { return counts_; }
+
+private:
+  struct Taken {
+    TimePoint frame{};  ///< when it began: no two frames have that in common
+    std::optional<Pose> X_RH;
+    TimePoint measured{};
+  };
+  Taken take(const DrawList& list, TimePoint seen);
+
+  InputDevice& input_;
+  const HeadReach reach_;
+  std::mutex mutex_;
+  Taken taken_;
+  LatchCounts counts_;
+};
+
+}  // namespace stadion

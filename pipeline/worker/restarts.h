@@ -1,0 +1,39 @@
+#pragma once
+/// When a process that died is started again, and what is told of it.
+///
+/// The first time at once. One that dies again before it has drawn kSteady frames is started after pauses
+/// that double, so that a wall that cannot be drawn costs its neighbours nothing, and is not told of each
+/// time.
+///
+/// Threads  one at a time.
+
+#include <chrono>
+#include <cstddef>
+
+namespace stadion::worker {
+
+class Restarts {
+public:
+  using Clock = std::chrono::steady_clock;
+  using Milliseconds = std::chrono::milliseconds;
+
+  static constexpr std::size_t kSteady = 300;  ///< frames
+  static constexpr Milliseconds kShortest{250}, kLongest{30'000};
+
+  enum class Death { First, Second, Further };
+  /// It has died, or could not be started.
+  Death died(Clock::time_point now);
+  /// Whether the next one may be started.
+  bool due(Clock::time_point now) const { return now >= next_; }
+  /// It has drawn a frame. True when the wall can be said to be back.
+  bool drew();
+  /// Deaths in a row.
+  std::size_t deaths() const { return deaths_; }
+
+private:
+  std::size_t drawn_ = 0;   ///< since it was started
+  std::size_t deaths_ = 0;  ///< in a row
+  Clock::time_point next_{};
+};
+
+}  // namespace stadion::worker

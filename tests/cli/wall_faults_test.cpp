@@ -1,0 +1,125 @@
+/// Walls drawn by processes, in a whole live run: one that is killed or stopped is back within three seconds,
+/// and the other walls miss no more than one frame. Counted in frames, of ten a second, not in seconds.
+
+#include "tests/cli/desk.h"
+
+#include <csignal>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <lo/lo.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kThreeSeconds = 30;  // frames
+
+std::vector<std::string> statOf(const fs::path& process) {
+  const std::string text = fileContent(process / "stat");
+  const auto name = text.rfind(')');
+  if (name == text.npos) return {};
+  std::istringstream in(text.substr(name + 2));
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+/// The walls' processes of the run whose command line has this word, and the clock ticks that they have used.
+std::map<pid_t, long> wallsOf(const std::string& word) {
+  std::map<pid_t, long> walls;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != name.npos) continue;
+    if (fileContent(entry.path() / "comm") != "stadion-wall\n") continue;
+    const std::vector<std::string> stat = statOf(entry.path());  // from the third field on
+    if (stat.size() < 13 || stat[0] == "Z") continue;
+    if (fileContent(fs::path("/proc") / stat[1] / "cmdline").find(word) == std::string::npos) continue;
+    walls[std::stoi(name)] = std::stol(stat[11]) + std::stol(stat[12]);
+  }
+  return walls;
+}
+
+/// Four walls are there, and for two seconds all of them have drawn what they draw every day: a little.
+bool inFullSwing(const std::string& word) {
+  const auto second = [] { std::this_thread::sleep_for(std::chrono::seconds(1)); };
+  auto before = wallsOf(word);
+  for (int i = 0; i < 2; ++i) {
+    second();
+    const auto now = wallsOf(word);
+    if (before.size() != 4 || now.size() != 4) return false;
+    for (const auto& [pid, ticks] : now)
+      if (!before.contains(pid) || ticks == before[pid] || ticks - before[pid] > sysconf(_SC_CLK_TCK) / 2)
+        return false;
+    before = now;
+  }
+  return true;
+}
+
+class LiveWalls {
+public:
+  LiveWalls() : program_(run()), to_(lo_address_new("127.0.0.1", port_.c_str())) {}
+  ~LiveWalls() { lo_address_free(to_); }
+
+  bool inFullSwing() const {
+    return program_.waitUntil([&] { return stadion::inFullSwing(folder_.path()); });
+  }
+  pid_t anyWall() const { return wallsOf(folder_.path()).begin()->first; }
+  json finish() {
+    while (program_.runs()) {
+      lo_send(to_, "/stadion/end", "");
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    EXPECT_EQ(program_.status(), 0) << program_.err();
+    return json::parse(program_.out(), nullptr, false);
+  }
+  std::string err() const { return program_.err(); }
+
+private:
+  ProgramRun run() {
+    const std::string show = folder_.write("show.evs", "object( name=floor, file=plane.3ds )\n"
+                                                       "object( file=football.3ds, position=\"0, 3, 1\" )\n");
+    return {{stadionPath(), "run", show, "--asset-root", assetFolder(), "--walls", "cave4", "--size",
+             "160x120", "--rate", "10", "--wall-workers", "process", "--json", "--no-sound", "--osc", port_}};
+  }
+
+  TemporaryFolder folder_;
+  std::string port_ = std::to_string(freePort());
+  RunningProgram program_;
+  lo_address to_;
+};
+
+TEST(ProgramWallFaults,
+     AWallWhoseProcessIsKilledOrStoppedIsBackInThreeSecondsAndTheOthersMissNoMoreThanAFrame) {
+  LiveWalls live;
+  std::vector<pid_t> lost;
+  for (const int signal : {SIGKILL, SIGSTOP}) {
+    ASSERT_TRUE(live.inFullSwing());
+    lost.push_back(live.anyWall());
+    ::kill(lost.back(), signal);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+  ASSERT_TRUE(live.inFullSwing());
+  const json summary = live.finish();
+  ASSERT_TRUE(summary.is_object()) << live.err();
+  const json& late = summary.at("late_walls");
+  std::uint64_t hit = 0;
+  for (const auto& [wall, figures] : late.items()) {
+    const auto inARow = figures.at("in_a_row").get<std::uint64_t>();
+    EXPECT_LE(inARow, kThreeSeconds) << wall << "\n" << live.err();
+    hit += inARow > 1;
+  }
+  EXPECT_GE(hit, 1u) << late << live.err();
+  EXPECT_LE(hit, 2u) << late << live.err();
+  EXPECT_LE(summary.at("most_passed_over").get<std::uint64_t>(), 1u) << summary << live.err();
+  EXPECT_NE(live.err().find("was killed by signal 9"), std::string::npos) << live.err();
+  EXPECT_NE(live.err().find("hung; another one is started"), std::string::npos) << live.err();
+  EXPECT_NE(live.err().find("draws again, after"), std::string::npos) << live.err();
+}
+
+}  // namespace
+}  // namespace stadion
