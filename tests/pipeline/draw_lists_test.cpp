@@ -63,6 +63,26 @@ TEST(DrawLists, AreThoseOfTheSimplestCullWhereverRecordsLie) {
   }
 }
 
+TEST(DrawLists, WhereEyesMayGoBeforeTheyDrawBothDrawAll) {
+  Random random(16);
+  std::vector<WallView> views = boxRoom(1.5, {0.1, 40});
+  views[0].eyeSeparation = 0.5;
+  Frames f;
+  ChangeSet c;
+  c.chunks = {{f.state.arena().add(crowd(random, 2000)), true}};
+  const SlotView state = f.publish(c);
+  const auto forOneEye = [&](const HeadReach& reach) {
+    views[0].reach = reach;
+    RoomCull room(views);
+    DrawList list;
+    WallCull({.room = room, .oneSample = true}, 0).fill(state, -1, list);
+    return std::ranges::count_if(list.opaque,
+                                 [](const DrawItem& d) { return d.eyes != DrawItem::kBothEyes; });
+  };
+  EXPECT_GT(forOneEye({}), 0);
+  EXPECT_EQ(forOneEye({0.05, 0.25}), 0);
+}
+
 TEST(DrawLists, AreSortedByWhatThingsAre) {
   Random random(7);
   for (const std::uint32_t count : {0U, 1U, 2U, 63U, 64U, 65U, 5000U}) {
