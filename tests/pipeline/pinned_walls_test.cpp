@@ -63,7 +63,7 @@ TEST(PinnedWalls, ProcessesRunWhereTheyAreToldToWithAllTheirThreads) {
   for (const std::size_t wall : {0, 1}) {
     const Failure opened = drawing.open(wall);
     ASSERT_FALSE(opened) << opened->message;
-    EXPECT_FALSE(drawing.draw(wall, list).failure);
+    EXPECT_FALSE(drawing.draw(wall, list, true).failure);
   }
   std::size_t bound = 0;
   for (const pid_t thread : threadsOf(drawing.pid(0))) {
@@ -87,7 +87,7 @@ TEST(PinnedWalls, OnlyTheThreadThatDrawsAWallIsBoundNotTheRasterisersThatAllWall
     const Failure opened = drawing.open(0);
     ASSERT_FALSE(opened) << opened->message;
     EXPECT_EQ(processorsOfThisThread(), oneProcessor());
-    EXPECT_FALSE(drawing.draw(0, list).failure);
+    EXPECT_FALSE(drawing.draw(0, list, true).failure);
     drawing.close(0);
   }).join();
   for (const pid_t thread : threadsOf(getpid())) EXPECT_EQ(processorsOf(thread), before) << thread;
