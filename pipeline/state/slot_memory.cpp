@@ -13,8 +13,8 @@ constexpr std::size_t kLargePage = std::size_t{1} << 21;
 
 SlotMemory::SlotMemory(std::size_t reserveBytes)
     : mappedBytes_(reserveBytes + kLargePage), reserve_(reserveBytes) {
-  mapped_ = mmap(nullptr, mappedBytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE,
-                 -1, 0);
+  mapped_ =
+      mmap(nullptr, mappedBytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (mapped_ == MAP_FAILED) throw std::bad_alloc();
   void* at = mapped_;
   std::size_t room = mappedBytes_;
