@@ -8,9 +8,9 @@
 #include "engine/message.h"
 #include "engine/time_signature.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -46,7 +46,7 @@ void placeInstance(InstanceRecord& record, const Affine& X_WN, const Sphere& sph
 /// The same of a matrix's rows, when its sphereScale() is known.
 inline void placeInstance(InstanceRecord& r, const std::array<double, 12>& m, double scale,
                           const Sphere& sphere_N) {
-  std::copy(m.begin(), m.end(), r.model);
+  std::memcpy(r.model, m.data(), sizeof r.model);
   const double x = sphere_N.centre.x(), y = sphere_N.centre.y(), z = sphere_N.centre.z();
   for (std::size_t row = 0; row < 3; ++row)
     r.centre[row] = m[4 * row] * x + m[4 * row + 1] * y + (m[4 * row + 2] * z + m[4 * row + 3]);

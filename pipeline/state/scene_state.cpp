@@ -45,7 +45,7 @@ bool bitOf(std::span<const std::uint64_t> words, std::uint32_t index) {
 SceneState::SceneState(std::size_t memories) {
   static_assert(sizeof(Header) <= kStampsAt);
   for (std::size_t i = 0; i < memories; ++i) {
-    memory_.push_back(std::make_unique<SharedSegment>("stadion-slot", kReserve));
+    memory_.push_back(std::make_unique<SlotMemory>(kReserve));
     memory_.back()->growTo(kInstancesAt);
     new (memory_.back()->data()) Header{};
   }

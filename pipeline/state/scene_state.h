@@ -5,7 +5,7 @@
 /// sky and viewer. Publishing costs what changed since the slot was last written, not what exists: the slot
 /// first copies what it missed from the newest one, then takes this frame's changes.
 ///
-/// All of it lies in shared memory in plain fixed-width records without pointers.
+/// All of it is plain fixed-width records without pointers.
 ///
 /// Threads  publish() and its parts by App alone, into a slot that nobody reads; view() by whoever holds a
 /// lease on the
@@ -13,6 +13,7 @@
 
 #include "pipeline/state/chunk_arena.h"
 #include "pipeline/state/shadow_places.h"
+#include "pipeline/state/slot_memory.h"
 
 #include <atomic>
 #include <map>
@@ -97,7 +98,7 @@ private:
   void miss(std::size_t slot, const ChangeSet& changes);
 
   ChunkArena arena_;
-  std::vector<std::unique_ptr<SharedSegment>> memory_;
+  std::vector<std::unique_ptr<SlotMemory>> memory_;
   std::array<Missed, kSlots> missed_;
   /// Of an instance, App's own: what is known of it, and which slots have missed it.
   struct Marks {
