@@ -129,7 +129,7 @@ int calibrate(const Options& o) {
     const auto found = measureRoom(room, folder.path(""), stop);
     if (stop)
       return std::fprintf(stderr, "stadion: stopped; nothing is remembered\n"), kStopped + stopSignal();
-    if (!found) return complain(found.error(), kInternalFault);
+    if (!found) return complain(found.error(), kCheckFailed);
     measured.rooms.push_back(found.value().room);
     measured.machine.rasteriser = found.value().rasteriser;
   }

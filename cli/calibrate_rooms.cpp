@@ -135,7 +135,8 @@ Result<RoomFound> measureRoom(const RoomToMeasure& wanted, const std::string& fo
     std::fprintf(stderr, "not everything could be tried in that time; --seconds gives more\n");
   found.room.settings = trials.results();
   if (found.room.settings.empty() && !stop)
-    return Result<RoomFound>::failure(wanted.walls + ": nothing could be measured");
+    return Result<RoomFound>::failure(wanted.walls +
+                                      ": nothing could be measured in that time; --seconds gives more");
   return found;
 }
 

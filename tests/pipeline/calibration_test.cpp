@@ -205,12 +205,12 @@ private:
 TEST(CalibrationFile, LiesInTheUsersConfigurationFolder) {
   const Environment restored({"STADION_CALIBRATION", "XDG_CONFIG_HOME", "HOME"});
   EXPECT_EQ(calibrationFile(), "");
-  setenv("HOME", "/home/ada", 1);
-  EXPECT_EQ(calibrationFile(), "/home/ada/.config/stadion/calibration.json");
-  setenv("XDG_CONFIG_HOME", "/etc/ada", 1);
-  EXPECT_EQ(calibrationFile(), "/etc/ada/stadion/calibration.json");
+  setenv("HOME", "/somewhere/ada", 1);
+  EXPECT_EQ(calibrationFile(), "/somewhere/ada/.config/stadion/calibration.json");
+  setenv("XDG_CONFIG_HOME", "/elsewhere/ada", 1);
+  EXPECT_EQ(calibrationFile(), "/elsewhere/ada/stadion/calibration.json");
   setenv("XDG_CONFIG_HOME", "relative", 1);  // the specification says: to be ignored
-  EXPECT_EQ(calibrationFile(), "/home/ada/.config/stadion/calibration.json");
+  EXPECT_EQ(calibrationFile(), "/somewhere/ada/.config/stadion/calibration.json");
   setenv("STADION_CALIBRATION", "here.json", 1);
   EXPECT_EQ(calibrationFile(), "here.json");
   setenv("STADION_CALIBRATION", "none", 1);
