@@ -93,7 +93,7 @@ private:
   lo_address to_;
 };
 
-TEST(ProgramWallFaults,
+TEST(ProgramAloneWallFaults,
      AWallWhoseProcessIsKilledOrStoppedIsBackInThreeSecondsAndTheOthersMissNoMoreThanAFrame) {
   LiveWalls live;
   std::vector<pid_t> lost;
