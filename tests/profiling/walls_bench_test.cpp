@@ -119,6 +119,14 @@ TEST(WallsBench, PicturesMayDifferInOnePixelOfAThousand) {
   EXPECT_NE(picturesOf(r).find("0.1100 %"), std::string::npos) << picturesOf(r);
 }
 
+TEST(WallsBench, OfASmallPictureOnePixelMayDiffer) {
+  for (const double pixels : {1.0, 2.0}) {
+    WallsResults r;
+    r.add({{"case", "pictures a SUBMIT"}, {"beyond_share", pixels / (32 * 24)}, {"worst", 45}});
+    EXPECT_EQ(finding(judgeTable(r, {"a"}), "a SUBMIT: pixels").kind, pixels > 1 ? Kind::Missed : Kind::Met);
+  }
+}
+
 TEST(WallsBench, AMillionNodesAreJudgedByWhatTheyCostMoreThanAHundredThousand) {
   WallsResults r;
   r.add(row(scalingCase(100'000, "stadion"), {{"memory_mb", 100}}));
