@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/number_option.h"
+#include "cli/output_names.h"
 #include "cli/plan_run.h"
 #include "cli/stop_signal.h"
 #include "engine/atomic_file.h"
@@ -119,6 +120,10 @@ plan::Question questionOf(const Options& o, const plan::ShowCosts& costs) {
 
 int planShow(Options o) {
   Diagnostics findings;
+  const NamedFile files[] = {
+      {"the show", o.run.show.script, false}, {"--from", o.from, false}, {"--svg", o.svg}};
+  refuseSameFiles(files, findings);
+  if (findings.hasErrors()) return tell(findings), kBadInput;
   const auto costs = o.from.empty() ? measure(o, findings) : readFrom(o.from, findings);
   tell(findings);
   if (!costs) return stopSignal() ? kStopped + stopSignal() : kBadInput;

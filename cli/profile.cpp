@@ -7,12 +7,13 @@
 #include "cli/number_option.h"
 #include "cli/output_names.h"
 #include "cli/profile_run.h"
+#include "cli/stop_signal.h"
 #include "profiling/black_box.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 #include <algorithm>
 #include <cstdio>
+#include <fmt/format.h>
 #include <memory>
 #include <unistd.h>
 
@@ -86,7 +87,7 @@ int profileFrames(Options o) {
   std::printf("%s", o.json  ? (toJson(*figures) + "\n").c_str()
                     : o.csv ? toCsv(*figures).c_str()
                             : toText(*figures, o.nodes).c_str());
-  return kOk;
+  return stopSignal() ? kStopped + stopSignal() : kOk;  // the figures are those of what was played
 }
 
 int profileModels(Options o) {

@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/output_names.h"
 #include "cli/player.h"
 #include "cli/regress_case.h"
 #include "cli/regress_folder.h"
@@ -81,8 +82,12 @@ int regress(RegressOptions o) {
   Diagnostics findings;
   RegressReference with;
   std::optional<regression::Suite> suite;
-  const bool ready = o.settle(findings) && (suite = regression::loadSuite(o.suite, findings)) &&
-                     o.choose(*suite, findings) && findReference(o, with, findings);
+  const NamedFile files[] = {
+      {"the suite", o.suite, false}, {"--baseline", o.baseline, o.update}, {"--junit", o.junit}};
+  refuseSameFiles(files, findings);
+  const bool ready = !findings.hasErrors() && o.settle(findings) &&
+                     (suite = regression::loadSuite(o.suite, findings)) && o.choose(*suite, findings) &&
+                     findReference(o, with, findings);
   tell(findings);
   if (!ready) return kBadInput;
 

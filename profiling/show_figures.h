@@ -65,7 +65,10 @@ struct Explained {
   double nodes = 0;
   double named = 0;  ///< parts of the stage itself
   /// Draw: of what was drawn alone, before the nodes' rows were scaled to the eyes drawn whole.
-  double covered() const { return measured > 0 ? (nodes + named) / measured : 1; }
+  /// 0 where things were found, but what was measured cannot be; 1 where there was nothing.
+  double covered() const {
+    return measured > 0 ? (nodes + named) / measured : nodes + named != 0 || measured < 0 ? 0 : 1;
+  }
 };
 
 struct ShowFigures {

@@ -219,7 +219,11 @@ void Renderer::beginSampling(const DrawList& list) {
   sample_ = probe_ ? probe_->drawSample(list.ticket.signature.frame, list.wall) : DrawSample::None;
   if (!surfaces_) sample_ = DrawSample::None;  // nothing has been drawn yet: all is slower the first time
   if (sample_ == DrawSample::None) return;
-  if (!sampler_) sampler_ = std::make_unique<DrawSampler>(gl_);
+  if (!sampler_) {
+    sampler_ = std::make_unique<DrawSampler>(gl_);
+    drawNothing();  // the first time the driver compiles: that would be taken off all that is timed
+    gl_.Finish();
+  }
   sampler_->beginFrame(*probe_, list.ticket.signature.frame, list.wall, [this] { drawNothing(); });
 }
 

@@ -362,6 +362,19 @@ TEST(ProgramUsage, NothingButAnInputLogIsReplacedByAnInputLog) {
   EXPECT_FALSE(has(fileContent(log), "1.7"));
 }
 
+TEST(ProgramUsage, WhatIsReadIsNotWrittenOver) {
+  const TemporaryFolder folder;
+  const std::string show = folder.write("a.evs", "group( name=a )\n"),
+                    suite = folder.write("a.suite", "case( name=a, show=a.evs )\n");
+  for (const ProgramResult& r : {stadionProgram({"plan", show, "--svg", show}),
+                                 stadionProgram({"regress", suite, "--junit", suite})}) {
+    EXPECT_EQ(r.status, 2) << r.err;
+    EXPECT_TRUE(has(r.err, "name the same file")) << r.err;
+  }
+  EXPECT_EQ(fileContent(show), "group( name=a )\n");
+  EXPECT_EQ(fileContent(suite), "case( name=a, show=a.evs )\n");
+}
+
 TEST(ProgramUsage, AnEmptyWordIsNoFolder) {
   const ProgramResult r = stadionProgram(shortRun(testShow("moving.evs"), {"--out", ""}));
   EXPECT_EQ(r.status, 2);
