@@ -85,7 +85,7 @@ p95 is of the frames in which App visited the node. A dash means that there is n
 <section id="late" class="long"><h2>Late frames</h2><p class="say" id="late-say"></p><div id="causes"></div><div class="wide" id="late-table"></div></section>
 <section id="dynamics" class="long"><h2>Dynamics: cost and error</h2><p class="say" id="dynamics-say"></p><div class="wide" id="dynamics-table"></div></section>
 <section id="stages" class="long"><h2>Stages, and how much of them is explained</h2><p class="say">What the stages take beside nodes, in milliseconds a frame. Waits are no work.
-Explained is what was found with nodes or with parts of the stage itself; nothing was scaled to make it fit.</p>
+Explained is what was found with nodes or with parts of the stage itself; what is drawn is scaled to what whole eyes take.</p>
 <div class="wide" id="explained-table"></div><div class="wide" id="stages-table"></div><div class="wide" id="counts-table"></div></section>
 </main>
 )html";
