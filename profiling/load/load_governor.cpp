@@ -8,6 +8,7 @@ namespace stadion {
 namespace {
 
 constexpr double kToldApart = 10;              ///< [s], of one node's overruns
+constexpr double kMuchWorse = 3;               ///< times what was told last: that is told at once
 constexpr std::uint64_t kFramesUnderWay = 64;  ///< those that nobody has shown by then never will be
 constexpr double kLevelSaves = 0.5;  ///< what one level is expected to leave of the frame: one at a time
 
@@ -114,13 +115,14 @@ void LoadGovernor::judgeNodes(std::uint64_t frame) {
 
 void LoadGovernor::noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost) {
   ++g.report.overruns, ++g.untold;
-  if (now_ - g.toldAt < kToldApart) return;
+  const bool muchWorse = cost.sure.total() > kMuchWorse * g.toldMs;
+  if (now_ - g.toldAt < kToldApart && !muchWorse) return;
   const std::string others =
       g.untold > 1 ? fmt::format("; {} frames since this was told last", g.untold) : std::string();
   lines_.push_back(fmt::format("over budget: {} took {:.3g} ms of {:g} in frame {}, most of it {}{}",
                                titleOf(g.of.node), cost.sure.total(), g.report.budget, frame, stageText(cost),
                                others));
-  g.toldAt = now_, g.untold = 0;
+  g.toldAt = now_, g.toldMs = cost.sure.total(), g.untold = 0;
 }
 
 std::string LoadGovernor::stageText(const NodeCost& cost) const {

@@ -74,6 +74,7 @@ private:
     BudgetReport report;
     double sum = 0;
     double toldAt = -1e9;      ///< [s]
+    double toldMs = 0;         ///< what it took then
     std::uint64_t untold = 0;  ///< overruns since then
     std::uint32_t wanted() const { return std::max(policy.wanted(), forFrame); }
   };

@@ -114,6 +114,18 @@ TEST(LoadGovernor, OverrunsAreToldOnceInTenSecondsAndCounted) {
   EXPECT_GE(g.governor->reports().at(0).overruns, 650U);
 }
 
+TEST(LoadGovernor, AStallIsToldThoughASmallOverrunWasToldJustBefore) {
+  Governed g({{0.8, {}, 1}});
+  g.frames(100, {0.9});
+  ASSERT_EQ(g.told.size(), 1U);
+  g.frame({50});
+  g.frames(3, {0.2});
+  ASSERT_EQ(g.told.size(), 2U);
+  EXPECT_NE(g.told[1].find("took 50 ms of 0.8 in frame 100"), std::string::npos) << g.told[1];
+  g.frames(60, {20});
+  EXPECT_EQ(g.told.size(), 2U) << "it is known to be bad";
+}
+
 /// A node whose drawing is looked at in every 16th frame, unless it is hidden.
 struct Drawn : Governed {
   Drawn(double budget, std::vector<Concession> gives) : Governed({{budget, std::move(gives), 1}}) {}
