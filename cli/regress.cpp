@@ -60,6 +60,15 @@ std::string textOf(const std::string& file) {
   return text ? text.value() : std::string();
 }
 
+/// What the results follow from: the suite, what it names, and what it is compared with. (Files that shows
+/// name are not looked into.)
+std::string whatIsPlayed(const RegressOptions& o, const regression::Suite& suite) {
+  std::string all = textOf(o.suite) + '\0' + (o.update ? std::string() : textOf(o.baseline));
+  for (const regression::SuiteCase& c : suite.cases)
+    for (const std::string& file : {c.show, c.walls, c.input}) all += '\0' + textOf(file);
+  return all;
+}
+
 bool write(const std::string& file, const std::string& content) {
   const auto wrong = writeFile(file, content);
   if (wrong) std::fprintf(stderr, "stadion: %s: %s\n", file.c_str(), wrong->message.c_str());
@@ -92,7 +101,7 @@ int regress(RegressOptions o) {
   if (!ready) return kBadInput;
 
   RegressFolder folder;
-  if (!o.out.empty() && !folder.open(o, textOf(o.suite))) return kBadInput;
+  if (!o.out.empty() && !folder.open(o, whatIsPlayed(o, *suite))) return kBadInput;
   const std::atomic<bool>& stop = catchStopSignals();
   regression::Baseline updated = o.update ? keptCases(o) : regression::Baseline();
   regression::SuiteResult result{o.suite,

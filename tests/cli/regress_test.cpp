@@ -200,6 +200,22 @@ TEST(ProgramRegress, AnInterruptedSuiteGoesOnWhereItWas) {
   EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(out) / "report.html"));
 }
 
+TEST(ProgramRegress, AnInterruptedSuiteBeginsAnewWhenAShowHasChangedMeanwhile) {
+  const TemporaryFolder folder;
+  const std::string show = folder.write("show.evs", "group( name=a )\n");
+  std::string text =
+      "stadion-suite 1\nsize 16x12\nwalls desktop\ncompare state\nmodes sequential pipelined\n";
+  for (int i = 0; i < 40; ++i) text += "case c" + std::to_string(i) + "\n  show show.evs\n  frames 3\n";
+  const std::string suite = folder.write("many.suite", text), out = folder.path() / "out";
+  const ProgramResult stopped = runProgram(
+      {{stadionPath(), "regress", suite, "--out", out}, {}, {}, SIGINT, std::chrono::milliseconds(1500)});
+  ASSERT_EQ(stopped.status, 130) << stopped.out << stopped.err;
+  folder.write("show.evs", "group( name=b )\n");
+  const ProgramResult r = regress({suite, "--out", out, "--resume"});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_NE(r.err.find("begins anew"), std::string::npos) << r.err;
+}
+
 TEST(ProgramRegress, WrongUseAndWrongSuitesAreToldWithTheFix) {
   const TemporaryFolder folder;
   const std::string suite = smallSuite(folder);
