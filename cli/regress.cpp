@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <memory>
 #include <unistd.h>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -32,26 +33,31 @@ std::string nowUtc() {
   return text;
 }
 
-/// What to compare with, as the options say; false if it should be there and is not.
+/// What to compare with, or to update, as the options say; false if it should be there and is not.
 bool findReference(const RegressOptions& o, RegressReference& with, Diagnostics& findings) {
   with.program = o.against, with.baselineFile = o.baseline;
   std::error_code none;
-  if (!o.against.empty() || o.update) return true;
+  if (!o.against.empty()) return true;
   if (!std::filesystem::exists(o.baseline, none)) {
-    if (o.baselineGiven)
+    if (o.baselineGiven && !o.update)
       findings.error({}, "--baseline: there is no file " + o.baseline + "; --update writes it");
-    return !o.baselineGiven;
+    return !findings.hasErrors();
   }
+  if (o.update && std::filesystem::is_empty(o.baseline, none)) return true;
   auto read = regression::readBaseline(o.baseline);
   if (!read) return findings.add(read.error()), false;
   with.baseline = std::move(read.value());
   return true;
 }
 
-/// Of a baseline that is there, the cases that are not played now are kept.
-regression::Baseline keptCases(const RegressOptions& o) {
-  auto before = regression::readBaseline(o.baseline);
-  return before && !o.cases.empty() ? before.value() : regression::Baseline();
+/// Cases of the baseline that the suite has no more, after a renaming for instance.
+void tellGone(const std::vector<std::string>& gone, const RegressOptions& o) {
+  Diagnostics findings;
+  for (const std::string& name : gone)
+    findings.note({o.baseline, 0, 0},
+                  o.update ? name + " is removed: the suite has no such case"
+                           : "has a case " + name + ", which the suite has not; --update removes it");
+  tell(findings);
 }
 
 std::string textOf(const std::string& file) {
@@ -95,15 +101,20 @@ int regress(RegressOptions o) {
       {"the suite", o.suite, false}, {"--baseline", o.baseline, o.update}, {"--junit", o.junit}};
   refuseSameFiles(files, findings);
   const bool ready = !findings.hasErrors() && o.settle(findings) &&
-                     (suite = regression::loadSuite(o.suite, findings)) && o.choose(*suite, findings) &&
-                     findReference(o, with, findings);
+                     (suite = regression::loadSuite(o.suite, findings)) && findReference(o, with, findings);
+  std::vector<std::string> gone;
+  if (ready && with.baseline) gone = regression::othersThan(*suite, *with.baseline);
+  const bool chosen = ready && o.choose(*suite, findings);
   tell(findings);
-  if (!ready) return kBadInput;
+  if (!chosen) return kBadInput;
+  if (!o.update) tellGone(gone, o);
 
   RegressFolder folder;
   if (!o.out.empty() && !folder.open(o, whatIsPlayed(o, *suite))) return kBadInput;
   const std::atomic<bool>& stop = catchStopSignals();
-  regression::Baseline updated = o.update ? keptCases(o) : regression::Baseline();
+  regression::Baseline updated;
+  if (o.update && with.baseline) updated = std::move(*std::exchange(with.baseline, std::nullopt));
+  for (const std::string& name : gone) updated.erase(name);
   regression::SuiteResult result{o.suite,
                                  o.program,
                                  !o.against.empty() ? o.against
@@ -122,7 +133,7 @@ int regress(RegressOptions o) {
                              : playCase(c, o, with, o.update ? &updated : nullptr, stop, progress);
     if (stop) break;
     if (!o.out.empty() && done == folder.done().end() && !folder.note(c.name, results)) return kBadInput;
-    result.cases.insert(result.cases.end(), results.begin(), results.end());
+    for (const regression::CaseResult& r : results) result.add(r);
   }
   progress("");
   if (stop) {
@@ -134,8 +145,11 @@ int regress(RegressOptions o) {
   bool written = o.out.empty() || folder.finish(result);
   if (!o.out.empty() && written) std::fprintf(stderr, "wrote %s/report.html\n", o.out.c_str());
   if (o.update && result.faults() == 0) {
-    written = write(o.baseline, regression::toJson(updated));
-    if (written) std::fprintf(stderr, "wrote %s\n", o.baseline.c_str());
+    const bool well = write(o.baseline, regression::toJson(updated));
+    if (well) tellGone(gone, o), std::fprintf(stderr, "wrote %s\n", o.baseline.c_str());
+    written = written && well;
+  } else if (o.update) {
+    std::fprintf(stderr, "%s stays as it was: not all cases could be played\n", o.baseline.c_str());
   }
   if (!o.junit.empty()) written = write(o.junit, regression::junitOf(result)) && written;
   const std::string text = o.json ? regression::benchmarkJsonOf(result) + "\n" : regression::tableOf(result);

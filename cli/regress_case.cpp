@@ -22,6 +22,7 @@ struct Played {
   std::optional<RunFacts> facts{};
   std::string fault{};
   bool refused = false;  ///< for a mistake of the user's
+  std::vector<std::string> warnings{};
 };
 
 /// Processor time of programs that were played and have ended [s].
@@ -49,10 +50,10 @@ public:
     last_ = run(o_.program, mode);
     result_.fault = last_.fault, result_.refused = last_.refused;
     if (last_.facts) {
-      result_.facts = allOf(*last_.facts);
+      result_.facts = allOf(*last_.facts), result_.warnings = last_.warnings;
       compareExactly(mode);
       if (first && first->facts) compareModes(*first->facts, firstMode);
-      if (update_) (*update_)[result_.name].facts = *last_.facts;
+      if (update_) takeUp(*last_.facts, o_.asked(), case_, result_.name, *update_);
       if (case_.metrics.times && result_.fault.empty()) takeTimes(mode);
       // The mode does not change what is done.
       if (case_.metrics.instructions && !first && result_.fault.empty()) takeInstructions();
@@ -76,7 +77,7 @@ private:
     auto facts = factsOf(child.out);
     if (!facts) return {{}, "it did not print a summary as JSON"};
     facts->renderer += " on " + processorName();
-    return {std::move(facts), {}};
+    return {std::move(facts), {}, false, warningsIn(child.err)};
   }
 
   void add(std::vector<Check> checks) {

@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <sys/socket.h>
 #include <sys/stat.h>
 
@@ -18,11 +20,24 @@ std::string everythingIn(const Descriptor& file) {
   return fstat(file.get(), &info) == 0 ? contentOf(file, static_cast<std::size_t>(info.st_size)) : "";
 }
 
-/// Of what a program said before it failed: the last line.
-std::string lastLine(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  const std::size_t at = text.rfind('\n');
-  return at == text.npos ? text : text.substr(at + 1);
+bool isFinding(const std::string& line, const char* severity) {
+  const std::string word = std::string(severity) + ": ";
+  return line.starts_with(word) || line.find(": " + word) != line.npos;
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+/// Of what a program said before it failed: the first error, else the last line.
+std::string reasonIn(const std::string& said) {
+  const std::vector<std::string> lines = linesOf(said);
+  const auto error = std::ranges::find_if(lines, [](const auto& l) { return isFinding(l, "error"); });
+  return error != lines.end() ? *error : lines.empty() ? "" : lines.back();
 }
 
 /// The log that plays beside a show when nothing else is asked for.
@@ -50,7 +65,7 @@ struct Running {
     if (!status) return false;
     result.status = *status, result.out = everythingIn(out), result.err = everythingIn(err);
     if (*status == 0) return true;
-    const std::string said = lastLine(result.err);
+    const std::string said = reasonIn(result.err);
     result.fault = *status > 128
                        ? fmt::format("signal {} ended it{}{}", *status - 128, said.empty() ? "" : ": ", said)
                        : fmt::format("exit status {}: {}", *status, said);
@@ -102,6 +117,15 @@ std::pair<ChildResult, ChildResult> runInTurns(const std::vector<std::string>& f
     a.giveUpIf(stop, deadline, limit), b.giveUpIf(stop, deadline, limit);
   }
   return {std::move(a.result), std::move(b.result)};
+}
+
+std::vector<std::string> warningsIn(const std::string& said) {
+  std::vector<std::string> warnings;
+  for (const std::string& line : linesOf(said))
+    if ((isFinding(line, "warning") || isFinding(line, "error")) &&
+        std::ranges::find(warnings, line) == warnings.end())
+      warnings.push_back(line);
+  return warnings;
 }
 
 std::vector<std::string> playWords(const std::string& program, const regression::SuiteCase& c,

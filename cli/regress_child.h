@@ -29,6 +29,9 @@ std::pair<ChildResult, ChildResult> runInTurns(const std::vector<std::string>& f
                                                const std::vector<std::string>& second,
                                                std::chrono::seconds limit, const std::atomic<bool>& stop);
 
+/// Of what a program said that did what was asked: what it found wrong nonetheless, each once.
+std::vector<std::string> warningsIn(const std::string& said);
+
 /// `PROGRAM run SHOW ... --json`, as the case has it.
 std::vector<std::string> playWords(const std::string& program, const regression::SuiteCase& c,
                                    const std::string& mode);

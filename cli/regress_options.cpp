@@ -59,7 +59,9 @@ void RegressOptions::addTo(CLI::App& command) {
   command.add_option(
       "--baseline", baseline,
       "the file to compare with, or to write; SUITE.baseline.json beside the suite if not given");
-  command.add_flag("--update", update, "write the baseline, instead of comparing with it");
+  command.add_flag("--update", update,
+                   "write the baseline, instead of comparing with it; what --case and --compare leave out "
+                   "stays in it as it was");
   command.add_option("--case", cases, "only these cases");
   command
       .add_option("--compare", compare,
@@ -99,6 +101,13 @@ bool RegressOptions::settle(Diagnostics& findings) {
   return !findings.hasErrors();
 }
 
+regression::Metrics RegressOptions::asked() const {
+  const auto wanted = [&](const char* metric) {
+    return compare.empty() || std::ranges::find(compare, metric) != compare.end();
+  };
+  return {wanted("state"), wanted("images"), wanted("counts"), wanted("instructions"), wanted("times")};
+}
+
 bool RegressOptions::choose(regression::Suite& suiteRead, Diagnostics& findings) const {
   std::vector<std::string> known;
   for (const regression::SuiteCase& c : suiteRead.cases) known.push_back(c.name);
@@ -109,13 +118,11 @@ bool RegressOptions::choose(regression::Suite& suiteRead, Diagnostics& findings)
     std::erase_if(suiteRead.cases, [&](const regression::SuiteCase& c) {
       return std::ranges::find(cases, c.name) == cases.end();
     });
-  const auto wanted = [&](const char* metric) {
-    return compare.empty() || std::ranges::find(compare, metric) != compare.end();
-  };
+  const regression::Metrics wanted = asked();
   for (regression::SuiteCase& c : suiteRead.cases) {
     regression::Metrics& m = c.metrics;
-    m.state &= wanted("state"), m.images &= wanted("images"), m.counts &= wanted("counts");
-    m.instructions &= wanted("instructions"), m.times &= wanted("times");
+    m.state &= wanted.state, m.images &= wanted.images, m.counts &= wanted.counts;
+    m.instructions &= wanted.instructions, m.times &= wanted.times;
     if (rounds > 0) c.rounds = rounds;
   }
   // A case that compares nothing of what was asked for is not played.

@@ -32,6 +32,8 @@ struct RegressOptions {
   void addTo(CLI::App& command);
   /// Completes what depends on other options. Says what is wrong.
   bool settle(Diagnostics& findings);
+  /// What --compare leaves of what a suite may compare.
+  regression::Metrics asked() const;
   /// Leaves what was asked for in the suite. Says which names it does not have.
   bool choose(regression::Suite& suite, Diagnostics& findings) const;
 };

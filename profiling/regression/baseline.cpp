@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <set>
 
 namespace stadion::regression {
 namespace {
@@ -41,7 +42,8 @@ Json jsonOf(const BaselineCase& c) {
 }
 
 Diagnostic refused(const std::string& path, const std::string& why) {
-  return {Severity::Error, {path, 0, 0}, "is no baseline: " + why + "; --update writes one", {}};
+  return {
+      Severity::Error, {path, 0, 0}, "is no baseline: " + why + "; remove it, and --update writes one", {}};
 }
 
 }  // namespace
@@ -63,6 +65,27 @@ std::string toJson(const Baseline& baseline) {
   Json j{{"format", kFormat}, {"cases", Json::object()}};
   for (const auto& [name, c] : baseline) j["cases"][name] = jsonOf(c);
   return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void takeUp(const RunFacts& found, const Metrics& asked, const SuiteCase& played, const std::string& name,
+            Baseline& baseline) {
+  const auto [at, isNew] = baseline.try_emplace(name);
+  BaselineCase& c = at->second;
+  if (isNew || asked.state) c.facts.state = found.state;
+  if (isNew || asked.images) c.facts.images = found.images, c.facts.renderer = found.renderer;
+  if (isNew || asked.counts) c.facts.counts = found.counts;
+  if (asked.times && !played.metrics.times) c.times.clear(), c.nodeTimes.clear();
+  if (asked.instructions && !played.metrics.instructions) c.instructions.clear(), c.nodeInstructions.clear();
+}
+
+std::vector<std::string> othersThan(const Suite& suite, const Baseline& baseline) {
+  std::set<std::string> known;
+  for (const SuiteCase& c : suite.cases)
+    for (const std::string& mode : c.modes) known.insert(c.name + "/" + mode);
+  std::vector<std::string> others;
+  for (const auto& [name, c] : baseline)
+    if (!known.contains(name)) others.push_back(name);
+  return others;
 }
 
 std::string baselineBeside(const std::string& suiteFile) {

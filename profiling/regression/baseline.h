@@ -9,6 +9,7 @@
 #include "engine/diagnostic.h"
 #include "profiling/regression/facts.h"
 #include "profiling/regression/node_costs.h"
+#include "profiling/regression/suite.h"
 
 #include <map>
 #include <string>
@@ -28,6 +29,13 @@ using Baseline = std::map<std::string, BaselineCase>;  ///< by CASE/MODE
 
 Result<Baseline> readBaseline(const std::string& path);
 std::string toJson(const Baseline& baseline);
+
+/// Takes up what a run of the case found. Of a case that is known already, metrics that are not `asked` for
+/// stay as they were; times and instructions go if they are, and the case compares them no more.
+void takeUp(const RunFacts& found, const Metrics& asked, const SuiteCase& played, const std::string& name,
+            Baseline& baseline);
+/// The names CASE/MODE that the suite has not.
+std::vector<std::string> othersThan(const Suite& suite, const Baseline& baseline);
 
 /// SUITE.suite -> SUITE.baseline.json
 std::string baselineBeside(const std::string& suiteFile);

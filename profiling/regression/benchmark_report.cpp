@@ -67,7 +67,10 @@ Json checkOf(const CaseResult& c, const Check& k) {
 }  // namespace
 
 std::string benchmarkJsonOf(const SuiteResult& result) {
-  Json j{{"context", contextOf(result)}, {"benchmarks", Json::array()}, {"checks", Json::array()}};
+  Json j{{"context", contextOf(result)},
+         {"benchmarks", Json::array()},
+         {"checks", Json::array()},
+         {"warnings", Json::array()}};
   for (const CaseResult& c : result.cases) {
     Json whole = entry(c.name, 1, 1000 * c.seconds, 1000 * c.processorSeconds);
     if (!c.fault.empty()) whole["error_occurred"] = true, whole["error_message"] = c.fault;
@@ -86,6 +89,7 @@ std::string benchmarkJsonOf(const SuiteResult& result) {
                elapsed == c.elapsedMs.end() ? std::vector<double>() : elapsed->second, j["benchmarks"]);
     }
     for (const Check& k : c.checks) j["checks"].push_back(checkOf(c, k));
+    for (const std::string& said : c.warnings) j["warnings"].push_back({{"case", c.name}, {"said", said}});
     if (!c.fault.empty()) j["checks"].push_back(checkOf(c, {"play", Outcome::Failed, c.fault}));
   }
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -51,6 +51,9 @@ std::string testSuite(const std::string& suite, const CaseResult& c) {
   if (!c.fault.empty())
     text += testCase(suite, c, "play", fmt::format("<error message=\"{}\"/>", escaped(c.fault)));
   for (const Check& k : c.checks) text += testCase(suite, c, k.metric, insideOf(k));
+  std::string warnings;
+  for (const std::string& warning : c.warnings) warnings += escaped(warning) + "\n";
+  if (!warnings.empty()) text += "    <system-err>" + warnings + "</system-err>\n";
   return text + "  </testsuite>\n";
 }
 

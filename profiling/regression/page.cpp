@@ -129,6 +129,14 @@ std::string historyOf(const std::string& name, const std::vector<HistoryEntry>& 
   return text;
 }
 
+std::string warningsOf(const SuiteResult& result) {
+  if (result.warnings() == 0) return {};
+  std::string text = "<h2>Warnings of shows</h2><ul>\n";
+  for (const CaseResult& c : result.cases)
+    for (const std::string& warning : c.warnings) text += "<li>" + escaped(warning) + "</li>\n";
+  return text + "</ul>\n";
+}
+
 }  // namespace
 
 std::string pageOf(const SuiteResult& result, const std::vector<HistoryEntry>& history) {
@@ -146,7 +154,7 @@ std::string pageOf(const SuiteResult& result, const std::vector<HistoryEntry>& h
     if (!c.fault.empty()) page += row(c, {"play", Outcome::Failed, c.fault});
     for (const Check& k : c.checks) page += row(c, k);
   }
-  page += "</tbody></table>\n<h2>History</h2><p class=\"said\">The oldest of " +
+  page += "</tbody></table>\n" + warningsOf(result) + "<h2>History</h2><p class=\"said\">The oldest of " +
           std::to_string(history.size()) +
           " runs is on the left; red is a figure that was not as it should be.</p>\n";
   for (const CaseResult& c : result.cases)

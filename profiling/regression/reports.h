@@ -16,7 +16,8 @@ std::string tableOf(const SuiteResult& result);
 std::string junitOf(const SuiteResult& result);
 
 /// Google Benchmark's layout: "context", and "benchmarks" with an entry for each round of each stage and its
-/// median; hashes and counts are further fields of an entry named after the case. Checks are in "checks".
+/// median; hashes and counts are further fields of an entry named after the case. Checks are in "checks",
+/// what shows warned of in "warnings".
 std::string benchmarkJsonOf(const SuiteResult& result);
 
 }  // namespace stadion::regression

@@ -8,6 +8,20 @@ bool CaseResult::failed() const {
   return std::ranges::any_of(checks, [](const Check& c) { return c.outcome == Outcome::Failed; });
 }
 
+void SuiteResult::add(CaseResult result) {
+  for (const CaseResult& earlier : cases)
+    std::erase_if(result.warnings, [&](const std::string& said) {
+      return std::ranges::find(earlier.warnings, said) != earlier.warnings.end();
+    });
+  cases.push_back(std::move(result));
+}
+
+std::size_t SuiteResult::warnings() const {
+  std::size_t n = 0;
+  for (const CaseResult& c : cases) n += c.warnings.size();
+  return n;
+}
+
 std::size_t SuiteResult::count(Outcome outcome) const {
   std::size_t n = 0;
   for (const CaseResult& c : cases)

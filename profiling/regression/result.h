@@ -34,6 +34,7 @@ struct CaseResult {
   double seconds = 0;                                         ///< that it took
   double processorSeconds = 0;                                ///< of the programs that were played
   std::map<std::string, std::vector<double>> elapsedMs{};     ///< as `milliseconds`, by the clock on the wall
+  std::vector<std::string> warnings{};  ///< of the show, as it said them: "FILE:LINE:COLUMN: warning: ..."
 
   bool failed() const;
 };
@@ -45,7 +46,10 @@ struct SuiteResult {
   std::string when;     ///< UTC, ISO 8601
   std::vector<CaseResult> cases;
 
+  /// One more case; what earlier ones have warned of in the same words is not said again.
+  void add(CaseResult result);
   std::size_t count(Outcome outcome) const;
+  std::size_t warnings() const;
   std::size_t faults() const;  ///< cases that could not be played
   bool refused() const;        ///< all of these for mistakes of the user's
 };

@@ -33,11 +33,14 @@ std::string tableOf(const SuiteResult& result) {
     if (!c.fault.empty()) text += row(c.name, {"play", Outcome::Failed, c.fault}, nameWidth, metricWidth);
     for (const Check& k : c.checks) text += row(c.name, k, nameWidth, metricWidth);
   }
+  for (const CaseResult& c : result.cases)
+    for (const std::string& warning : c.warnings) text += warning + "\n";
   text +=
       fmt::format("{} cases in {:.1f} s: {} comparisons passed, {} failed, {} had nothing to compare with",
                   result.cases.size(), seconds, result.count(Outcome::Passed), result.count(Outcome::Failed),
                   result.count(Outcome::Skipped));
   if (result.faults() > 0) text += fmt::format("; {} cases could not be played", result.faults());
+  if (result.warnings() > 0) text += fmt::format("; {} warnings of shows", result.warnings());
   return text + "\n";
 }
 

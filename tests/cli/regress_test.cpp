@@ -73,6 +73,99 @@ TEST(ProgramRegress, NamesWhatIsNotAsInTheBaseline) {
   EXPECT_EQ(regress({suite, "--compare", "images"}).status, 0) << "what differs was not asked for";
 }
 
+/// Two cases, one of them in both modes.
+std::string pairSuite(const TemporaryFolder& folder, const std::string& second = "b") {
+  const std::string show = "\n  show " + testShow("bodies.evs") + "\n  frames 5\n";
+  return folder.write("pair.suite", "stadion-suite 1\nsize 32x24\nwalls desktop\nasset-root " +
+                                        assetFolder() + "\ncase a" + show +
+                                        "  modes sequential pipelined\ncase " + second + show);
+}
+
+TEST(ProgramRegress, WhatAnUpdateDoesNotCompareStaysInTheBaselineAsItWas) {
+  const TemporaryFolder folder;
+  const std::string suite = pairSuite(folder);
+  ASSERT_EQ(regress({suite, "--update"}).status, 0);
+  const std::string file = folder.path() / "pair.baseline.json";
+  const Json whole = Json::parse(fileContent(file));
+  Json spoilt = whole;
+  for (Json& c : spoilt["cases"]) c["counts"]["frames"] = "7", c["state"]["state hash"] = "0";
+  spoilt["cases"]["b/sequential"]["times"]["app"] = {1, 2, 3};
+  folder.write("pair.baseline.json", spoilt.dump());
+  ASSERT_EQ(regress({suite, "--update", "--compare", "state", "--case", "a"}).status, 0);
+  Json expected = spoilt;
+  for (const char* name : {"a/sequential", "a/pipelined"})
+    expected["cases"][name]["state"] = whole["cases"][name]["state"];
+  EXPECT_EQ(Json::parse(fileContent(file)), expected);
+  ASSERT_EQ(regress({suite, "--update"}).status, 0);
+  EXPECT_EQ(Json::parse(fileContent(file)), whole)
+      << "times that the suite does not compare are gone as well";
+}
+
+TEST(ProgramRegress, CasesThatTheSuiteNoLongerHasAreToldAndRemoved) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(regress({pairSuite(folder), "--update"}).status, 0);
+  const std::string suite = pairSuite(folder, "renamed"), file = folder.path() / "pair.baseline.json";
+  const ProgramResult compared = regress({suite});
+  EXPECT_EQ(compared.status, 1) << compared.out;
+  EXPECT_NE(compared.err.find("has a case b/sequential, which the suite has not; --update removes it"),
+            std::string::npos)
+      << compared.err;
+  const ProgramResult updated = regress({suite, "--update", "--case", "a"});
+  EXPECT_EQ(updated.status, 0) << updated.err;
+  EXPECT_NE(updated.err.find("b/sequential is removed: the suite has no such case"), std::string::npos)
+      << updated.err;
+  const Json cases = Json::parse(fileContent(file))["cases"];
+  EXPECT_FALSE(cases.contains("b/sequential"));
+  EXPECT_EQ(cases.size(), 2u) << cases;
+  ASSERT_EQ(regress({suite, "--update", "--compare", "state"}).status, 0);
+  EXPECT_EQ(regress({suite}).status, 0) << "of a new case everything is kept";
+}
+
+TEST(ProgramRegress, AnUpdateWritesOverNothingThatIsNoBaseline) {
+  const TemporaryFolder folder;
+  const std::string thesis = folder.write("thesis.txt", "the only copy");
+  const ProgramResult r = regress({smallSuite(folder), "--baseline", thesis, "--update"});
+  EXPECT_EQ(r.status, 2) << r.out << r.err;
+  EXPECT_NE(r.err.find("is no baseline"), std::string::npos) << r.err;
+  EXPECT_EQ(fileContent(thesis), "the only copy");
+}
+
+TEST(ProgramRegress, WhatAShowWarnsOfIsToldOnceAndFailsNothing) {
+  const TemporaryFolder folder;
+  folder.write("w.evs", "rig( position=\"0, -4, 0\" )\nobject( name=a, file=gone.obj )\n");
+  const std::string suite = folder.write("w.suite", "stadion-suite 1\nsize 16x12\nwalls desktop\nframes 3\n"
+                                                    "modes sequential pipelined\ncase one\n  show w.evs\n"
+                                                    "case two\n  show w.evs\n");
+  ASSERT_EQ(regress({suite, "--update"}).status, 0);
+  const std::string junit = folder.path() / "r.xml", out = folder.path() / "out";
+  const std::regex warning("w\\.evs:2:[0-9]+: warning: [^\n]*gone\\.obj");
+  const auto times = [&](const std::string& text) {
+    return std::distance(std::sregex_iterator(text.begin(), text.end(), warning), std::sregex_iterator());
+  };
+  const ProgramResult table = regress({suite, "--junit", junit, "--out", out});
+  EXPECT_EQ(table.status, 0) << table.out << table.err;
+  EXPECT_EQ(times(table.out), 1) << table.out;
+  EXPECT_NE(table.out.find("1 warnings of shows"), std::string::npos) << table.out;
+  const std::string xml = fileContent(junit), page = fileContent(std::filesystem::path(out) / "report.html");
+  EXPECT_EQ(times(xml), 1) << xml;
+  EXPECT_NE(xml.find("<system-err>"), std::string::npos) << xml;
+  EXPECT_EQ(times(page), 1);
+  const Json j = Json::parse(regress({suite, "--json"}).out);
+  ASSERT_EQ(j["warnings"].size(), 1u) << j["warnings"];
+  EXPECT_EQ(j["warnings"][0]["case"], "one/sequential");
+  EXPECT_EQ(times(j["warnings"][0]["said"]), 1);
+}
+
+TEST(ProgramRegress, AShowWithMistakesIsToldByItsMistakeNotByTheCaretBelowIt) {
+  const TemporaryFolder folder;
+  folder.write("wrong.evs", "object( nmae=a )\n");
+  const ProgramResult r =
+      regress({folder.write("wrong.suite", "stadion-suite 1\ncase a\n  show wrong.evs\n  frames 3\n")});
+  EXPECT_EQ(r.status, 2) << r.out;
+  EXPECT_TRUE(std::regex_search(r.out, std::regex("exit status 2: .*wrong\\.evs:1:[0-9]+: error: ")))
+      << r.out;
+}
+
 TEST(ProgramRegress, AShowThatChangedIsFoundAgainstItsOldBaseline) {
   const TemporaryFolder folder;
   const auto suiteOf = [&](const std::string& height) {
