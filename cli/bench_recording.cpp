@@ -83,7 +83,7 @@ public:
     made->player_ = Player::create(options, findings, tell);
     if (!made->player_) return nullptr;
     RecordingOptions everything;
-    everything.keep = temporaryLastFrames(made->player_->walls().names());
+    everything.keep = unaskedLastFrames(made->player_->walls().names());
     if (recorded) made->recording_ = ShowRecording::create(std::move(everything), findings);
     ShowParts parts = made->player_->parts(StereoLayout::Pair);
     parts.provider = &provider;

@@ -1,44 +1,26 @@
 #include "cli/last_frames.h"
 
-#include <cstdlib>
-#include <filesystem>
+#include "profiling/black_box_folder.h"
+
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace stadion {
-namespace {
 
-/// One that is not there yet. If there is no folder for it, making the file fails and says so.
-std::string temporaryFile() {
-  std::error_code none;
-  std::filesystem::path folder = std::filesystem::temp_directory_path(none);
-  if (none) {
-    const char* named = std::getenv("TMPDIR");
-    folder = named ? named : "/tmp";
-  }
-  const std::string stem = "stadion-" + std::to_string(getpid());
-  std::filesystem::path file = folder / (stem + ".frames");
-  for (int n = 2; std::filesystem::exists(std::filesystem::symlink_status(file, none)); ++n)
-    file = folder / fmt::format("{}-{}.frames", stem, n);
-  return file.string();
-}
-
-}  // namespace
-
-BlackBoxOptions temporaryLastFrames(std::vector<std::string> walls) {
+BlackBoxOptions unaskedLastFrames(std::vector<std::string> walls) {
   BlackBoxOptions box;
-  box.file = temporaryFile(), box.rate = 0, box.wanted = false;
+  box.file = BlackBoxFolder::ofThisUser().newFile(), box.rate = 0, box.wanted = false;
   box.walls = std::move(walls);
   return box;
 }
 
 BlackBoxOptions lastFramesOf(const RunOptions& o, const Player& player, std::vector<std::string> walls) {
   const FrameLoopOptions loop = o.loopOptions(player);
-  BlackBoxOptions box = temporaryLastFrames({});
-  box.wanted = !o.blackBox.empty();
-  if (box.wanted) box.file = o.blackBox;
+  BlackBoxOptions box;
+  if (o.blackBox.empty())
+    box = unaskedLastFrames(std::move(walls));
+  else
+    box.file = o.blackBox, box.walls = std::move(walls);
   box.rate = loop.pace == Pace::Free ? 0 : loop.rate;
-  box.walls = std::move(walls);
   box.sequential = loop.mode == Mode::Sequential;
   return box;
 }

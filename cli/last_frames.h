@@ -7,9 +7,10 @@
 
 namespace stadion {
 
-/// In a temporary file, of frames that nobody waits for.
-BlackBoxOptions temporaryLastFrames(std::vector<std::string> walls);
-/// `walls` are the names of all that are drawn. Where the options name no file it is a temporary one.
+/// In a file of the user's folder for them (BlackBoxFolder), of frames that nobody waits for.
+BlackBoxOptions unaskedLastFrames(std::vector<std::string> walls);
+/// `walls` are the names of all that are drawn. Where the options name no file it is one of
+/// that folder.
 BlackBoxOptions lastFramesOf(const RunOptions& options, const Player& player, std::vector<std::string> walls);
 
 /// Whether the file that the options name, if they do, can be such a file; the findings say why not.

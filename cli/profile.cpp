@@ -9,6 +9,7 @@
 #include "cli/profile_run.h"
 #include "cli/stop_signal.h"
 #include "profiling/black_box.h"
+#include "profiling/black_box_folder.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -25,11 +26,10 @@ struct Options {
   ProfileRunOptions run;
   std::size_t nodes = 25;
   double millimetres = 1;
-  std::string blackBox;
+  CLI::Option* blackBox = nullptr;
   bool fidelityAsked = false, json = false, csv = false, undrawn = false;
 };
 
-/// What a live run left behind.
 /// "frame 812: 16.7 ms after the one before; App 1.1, Cull 0.3, Draw 9.8 ms, of the slowest walls".
 std::string stagesText(const FrameFacts& f) {
   float cull = 0, draw = 0;
@@ -41,7 +41,28 @@ std::string stagesText(const FrameFacts& f) {
       f.frame, f.period, f.app.ms, cull, draw, f.name[0] != 0 ? "; dearest in App: " : "", f.name);
 }
 
-int showBlackBox(const std::string& file) {
+/// The file of the run that began last; empty if there is none. Says which it is.
+std::string newestBlackBox() {
+  const BlackBoxFolder folder = BlackBoxFolder::ofThisUser();
+  const auto files = folder.files();
+  if (files.empty()) {
+    std::fprintf(stderr,
+                 "stadion: no run has left its last frames in %s; they stay if a frame was late, the run "
+                 "failed or the program died\n",
+                 folder.path().c_str());
+    return {};
+  }
+  const std::string newest = files.front();
+  const bool written = BlackBox::isWritten(newest);
+  std::fprintf(stderr, "%s: the newest of %zu there%s%s\n", newest.c_str(), files.size(),
+               written ? ", of a run that is under way" : "",
+               written && files.size() > 1 ? ("; the one before: " + files[1].string()).c_str() : "");
+  return newest;
+}
+
+/// What a run left behind; an empty name: the newest one.
+int showBlackBox(std::string file) {
+  if (file.empty() && (file = newestBlackBox()).empty()) return kBadInput;
   const auto content = BlackBox::read(file);
   if (!content) {
     Diagnostics findings;
@@ -157,9 +178,13 @@ void addProfileCommand(CLI::App& app, int& code) {
   command->add_option("--gl", o->run.provider, "who draws: osmesa or egl")
       ->check(CLI::IsMember({"osmesa", "egl"}))
       ->capture_default_str();
-  command->add_option(
-      "--black-box", o->blackBox,
-      "say instead why frames were late: the file of the last frames that a live run left behind");
+  o->blackBox =
+      command
+          ->add_option("--black-box",
+                       "say instead why frames were late: FILE has the last frames of a run; without it, "
+                       "the newest in ~/.local/state/stadion/last-frames (or $XDG_STATE_HOME)")
+          ->type_name("[FILE]")
+          ->expected(0, 1);
   command->add_flag("--no-draw", o->undrawn, "App and Cull alone");
   command->add_option("--nodes", o->nodes, "how many nodes are listed, the dearest first")
       ->check(wholeNumberFrom(0, 1000000))
@@ -195,8 +220,8 @@ void addProfileCommand(CLI::App& app, int& code) {
   command->footer(kFooter);
   command->get_option("SHOW")->required(false);
   command->callback([o, &code] {
-    if (!o->blackBox.empty())
-      code = showBlackBox(o->blackBox);
+    if (o->blackBox->count() > 0)
+      code = showBlackBox(o->blackBox->empty() ? "" : o->blackBox->as<std::string>());
     else if (o->fidelity.show.script.empty())
       throw CLI::RequiredError("SHOW");
     else

@@ -29,7 +29,7 @@ std::unique_ptr<ShowRecording> record(const ProfileRunOptions& options, const Pl
   const std::vector<std::string> walls = player.walls().names();
   recorded.trace = options.trace.settle(findings);
   if (recorded.trace) recorded.trace->show = options.show.script, recorded.trace->walls = walls;
-  recorded.keep = temporaryLastFrames(walls);
+  recorded.keep = unaskedLastFrames(walls);
   if (!options.html.empty()) recorded.report = RecordingOptions::Report{player.rate(), walls};
   return findings.hasErrors() ? nullptr : ShowRecording::create(std::move(recorded), findings);
 }

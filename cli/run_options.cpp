@@ -146,8 +146,10 @@ void RunOptions::addBlackBoxTo(CLI::App& command) {
   command
       .add_option(
           "--black-box", blackBox,
-          "where a run keeps its last 600 frames while it plays (default: a temporary file); it stays if one "
-          "was late, the run failed or the program died: stadion profile --black-box FILE")
+          "where a run keeps its last 600 frames while it plays (default: a file in "
+          "~/.local/state/stadion/last-frames, of which the newest 16 stay); it stays if one was late, the "
+          "run "
+          "failed or the program died, however it died: stadion profile --black-box tells of the newest")
       ->check(aName, "FILE");
 }
 

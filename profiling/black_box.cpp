@@ -8,6 +8,7 @@
 #include <cstring>
 #include <exception>
 #include <fcntl.h>
+#include <string_view>
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -16,6 +17,7 @@ namespace stadion {
 namespace {
 
 constexpr char kMagic[16] = "stadion frames3";
+constexpr std::string_view kAnyVersion = "stadion frames";
 
 Diagnostic problem(const std::string& file, const std::string& what) {
   return {Severity::Error, {file, 0, 0}, what, {}};
@@ -35,11 +37,16 @@ bool isStill(const std::string& name, int file) {
          named.st_dev == opened.st_dev;
 }
 
+/// Whether it begins so.
+bool begins(int file, std::string_view with) {
+  char magic[sizeof kMagic] = {};
+  return ::pread(file, magic, sizeof magic, 0) == static_cast<ssize_t>(sizeof magic) &&
+         std::string_view(magic, with.size()) == with;
+}
+
 /// Whether it may be written over: nothing is in it, or frames of an earlier run.
 bool mayBeReplaced(int file, off_t bytes) {
-  char magic[sizeof kMagic] = {};
-  return bytes == 0 || (::pread(file, magic, sizeof magic, 0) == static_cast<ssize_t>(sizeof magic) &&
-                        std::memcmp(magic, kMagic, sizeof magic) == 0);
+  return bytes == 0 || begins(file, {kMagic, sizeof kMagic});
 }
 
 /// Ends within its field, and does nothing to a terminal.
@@ -202,6 +209,18 @@ Result<BlackBox::Content> BlackBox::read(const std::string& file) {
   if (count > 1 && content.frames[0].frame >= content.frames[1].frame)
     content.frames.erase(content.frames.begin());
   return content;
+}
+
+bool BlackBox::isWritten(const std::string& name) {
+  const FileDescriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  return file && ::flock(file.get(), LOCK_SH | LOCK_NB) != 0;
+}
+
+void BlackBox::remove(const std::string& name) {
+  const FileDescriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  if (file && begins(file.get(), kAnyVersion) && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0 &&
+      isStill(name, file.get()))
+    ::unlink(name.c_str());
 }
 
 }  // namespace stadion

@@ -58,6 +58,10 @@ public:
     std::vector<FrameFacts> frames;
   };
   static Result<Content> read(const std::string& file);
+  /// Whether a run keeps its frames there at the moment.
+  static bool isWritten(const std::string& file);
+  /// Removes such a file, of whatever version; none that a run writes, and nothing else.
+  static void remove(const std::string& file);
 
 private:
   struct Ring;

@@ -3,6 +3,7 @@
 #include "tests/cli/program.h"
 
 #include <csignal>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
@@ -42,14 +43,18 @@ TEST(ProgramLastFrames, AFileOfSomethingElseIsNotTouched) {
   EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
-TEST(ProgramLastFrames, WithoutATemporaryFolderTheShowIsPlayedWithout) {
+/// Nothing can be made there.
+const std::string kNoState = "XDG_STATE_HOME=/dev/null";
+
+TEST(ProgramLastFrames, WithoutAFolderForThemTheShowIsPlayedWithout) {
   const TemporaryFolder folder;
   const std::string none = "TMPDIR=" + (folder.path() / "not there").string();
-  const ProgramResult r = played({}, {none});
+  const ProgramResult r = played({}, {none, kNoState});
   EXPECT_EQ(r.status, 130) << r.err;
   EXPECT_NE(r.err.find("the show is played without"), std::string::npos) << r.err;
   EXPECT_NE(r.out.find("frames"), std::string::npos) << r.out;
-  const ProgramResult asked = played({"--black-box", (folder.path() / "not there" / "box").string()}, {none});
+  const ProgramResult asked =
+      played({"--black-box", (folder.path() / "not there" / "box").string()}, {none, kNoState});
   EXPECT_EQ(asked.status, 2) << asked.err;
 }
 
@@ -78,7 +83,7 @@ TEST(ProgramLastFrames, ARunThatCrashesTellsWhereItsLastFramesAreWhoeverWaitedFo
   const TemporaryFolder folder;
   ProgramRun run;
   run.words = live({"--frames", "10000000", "--input", "none"});
-  run.environment = {"TMPDIR=" + folder.path().string()};
+  run.environment = {kNoState, "TMPDIR=" + folder.path().string()};
   run.signal = SIGSEGV, run.signalAfter = std::chrono::milliseconds(3000);
   const ProgramResult r = runProgram(run);
   EXPECT_EQ(r.status, 128 + SIGSEGV) << r.err;
@@ -96,10 +101,34 @@ TEST(ProgramLastFrames, ARunInWhichEveryFrameCountsLeavesNothingIfItEndsWell) {
   const TemporaryFolder folder;
   ProgramRun run;
   run.words = live({"--frames", "30", "--input", "none"});
-  run.environment = {"TMPDIR=" + folder.path().string()};
+  run.environment = {"XDG_STATE_HOME=" + folder.path().string()};
   const ProgramResult r = runProgram(run);
   EXPECT_EQ(r.status, 0) << r.err;
-  EXPECT_TRUE(fs::is_empty(folder.path()));
+  EXPECT_TRUE(fs::is_empty(folder.path() / "stadion/last-frames"));
+}
+
+TEST(ProgramLastFrames, AKilledRunsAreFoundWithoutTheirNameAndOldOnesGo) {
+  const TemporaryFolder folder;
+  const std::string state = "XDG_STATE_HOME=" + folder.path().string();
+  const fs::path boxes = folder.path() / "stadion/last-frames";
+  const auto told = [&] { return runProgram({{stadionPath(), "profile", "--black-box"}, {state}}); };
+  const ProgramResult none = told();
+  EXPECT_EQ(none.status, 2) << none.out;
+  EXPECT_NE(none.err.find("no run has left its last frames in " + boxes.string()), std::string::npos)
+      << none.err;
+  for (int n = 10; n < 30; ++n)
+    std::ofstream(boxes / ("2001-01-01T00-00-" + std::to_string(n) + ".frames")) << "stadion frames0 of old";
+  ProgramRun run;
+  run.words = live({}), run.environment = {state};
+  run.signal = SIGKILL, run.signalAfter = std::chrono::milliseconds(2000);
+  ASSERT_EQ(runProgram(run).status, 128 + SIGKILL);
+  EXPECT_EQ(std::distance(fs::directory_iterator(boxes), fs::directory_iterator()), 16);
+  EXPECT_FALSE(fs::exists(boxes / "2001-01-01T00-00-14.frames"));
+  EXPECT_TRUE(fs::exists(boxes / "2001-01-01T00-00-15.frames"));
+  const ProgramResult r = told();
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_NE(r.err.find("the newest of 16 there"), std::string::npos) << r.err;
+  EXPECT_NE(r.out.find(" frames: "), std::string::npos) << r.out;
 }
 
 TEST(ProgramLastFrames, WhatIsDrawnOfAFileThatComesLaterKeepsItsBudgetToo) {

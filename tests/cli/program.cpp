@@ -32,6 +32,8 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
   const int none = ::open("/dev/null", O_RDONLY);
   if (none < 0 || ::dup2(none, 0) < 0) ::_exit(126);
   ::putenv(const_cast<char*>("STADION_CALIBRATION=none"));  // whoever builds here may have calibrated
+  // Its own last frames stay, too.
+  ::putenv(const_cast<char*>("XDG_STATE_HOME=" STADION_BINARY_DIR "/tests/state"));
   for (const std::string& e : run.environment) ::putenv(const_cast<char*>(e.c_str()));
   if (!run.folder.empty() && ::chdir(run.folder.c_str()) != 0) ::_exit(126);
   ::execvp(words[0], words.data());

@@ -1,6 +1,7 @@
 /// Late frames have a cause, and the last ones are kept whatever happens.
 
 #include "profiling/black_box.h"
+#include "profiling/black_box_folder.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -314,6 +315,33 @@ TEST(BlackBox, TwoRunsDoNotShareAFile) {
   EXPECT_EQ(BlackBox::read(folder.file()).value().walls, std::vector<std::string>{"front"});
   first.value().reset();
   EXPECT_TRUE(BlackBox::create({folder.file(), 60, {"floor"}, {}}, names));
+}
+
+std::size_t filesIn(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(BlackBoxFolder, TheNewestStayAndNobodysElse) {
+  const Folder folder;
+  const NodeNames names;
+  const BlackBoxFolder boxes(folder.path);
+  const std::string under = (folder.path / "1999-a-run-that-goes-on.frames").string();
+  const auto live = BlackBox::create({under, 60, {}, {}}, names);
+  ASSERT_TRUE(live);
+  std::ofstream(folder.path / "1998-thesis.frames") << "the only copy";
+  std::ofstream(folder.path / "notes.txt") << "stadion frames3 and so on";
+  for (std::size_t n = 0; n < BlackBoxFolder::kMost + 4; ++n) {
+    const std::string file = boxes.newFile();
+    EXPECT_FALSE(fs::exists(file));
+    const auto box = BlackBox::create({file, 60, {}, {}}, names);
+    ASSERT_TRUE(box);
+    EXPECT_EQ(boxes.files().front(), file) << "the newest";
+    box.value()->stay();
+  }
+  EXPECT_EQ(filesIn(folder.path), BlackBoxFolder::kMost + 3);
+  EXPECT_TRUE(BlackBox::isWritten(under));
+  EXPECT_FALSE(BlackBox::isWritten(boxes.files().front()));
+  EXPECT_EQ(contentOf(folder.path / "1998-thesis.frames"), "the only copy");
 }
 
 TEST(BlackBox, ADamagedOneIsRefusedOrRead) {
