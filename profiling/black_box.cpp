@@ -16,7 +16,7 @@
 namespace stadion {
 namespace {
 
-constexpr char kMagic[16] = "stadion frames3";
+constexpr char kMagic[16] = "stadion frames4";
 constexpr std::string_view kAnyVersion = "stadion frames";
 
 Diagnostic problem(const std::string& file, const std::string& what) {
@@ -61,7 +61,7 @@ bool isText(const char (&field)[N]) {
 
 bool isSound(const StageFacts& s) {
   return std::isfinite(s.ms) && std::isfinite(s.processor) && std::isfinite(s.turn) &&
-         std::isfinite(s.loading) && std::isfinite(s.delayed) && std::isfinite(s.late);
+         std::isfinite(s.loading) && std::isfinite(s.delayed) && std::isfinite(s.late) && std::isfinite(s.at);
 }
 
 /// Whether every field holds what a frame's may.
@@ -69,7 +69,8 @@ bool isSound(const FrameFacts& f, std::uint32_t walls) {
   const bool place = f.walls <= walls && f.wall < std::max(1U, f.walls) && f.holder < std::max(1U, f.walls) &&
                      (isStage(f.stage));
   const bool figures = std::isfinite(f.period) && std::isfinite(f.budget) && std::isfinite(f.nodeMs) &&
-                       std::isfinite(f.overMs) && std::isfinite(f.overBudget);
+                       std::isfinite(f.overMs) && std::isfinite(f.overBudget) && std::isfinite(f.tick) &&
+                       std::isfinite(f.slot) && std::isfinite(f.sinceApp) && std::isfinite(f.waited);
   const auto sound = [](const StageFacts& s) { return isSound(s); };
   return place && figures && f.cause <= Cause::Unknown && isText(f.name) && isText(f.most) &&
          isText(f.over) && isSound(f.app) && isSound(f.swap) && std::ranges::all_of(f.cull, sound) &&

@@ -65,7 +65,42 @@ Cause causeOf(const Suspect& s, float budget) {
   return s.stage == Span::App    ? Cause::App
          : s.stage == Span::Cull ? Cause::Cull
          : s.stage == Span::Draw ? Cause::Draw
-                                 : Cause::Unknown;
+                                 : Cause::Swap;
+}
+
+/// By how much a stage began later than it could have.
+struct Wait {
+  Span stage;
+  std::uint32_t wall;
+  float ms;
+};
+
+float ended(const StageFacts& s) {
+  return s.at + s.ms + s.turn;
+}
+
+/// Of App, later than a frame after App before it; of what comes next, on the wall that was drawn last, after
+/// the stage before, and after the frame before was shown.
+std::array<Wait, 4> waitsOf(const FrameFacts& f) {
+  std::uint32_t last = 0;
+  for (std::uint32_t wall = 1; wall < f.walls; ++wall)
+    if (ended(f.draw[wall]) > ended(f.draw[last])) last = wall;
+  const auto between = [](const StageFacts& before, const StageFacts& after) {
+    return after.at - std::max(0.0f, ended(before));
+  };
+  const bool overlap = f.sequential == 0;
+  return {{{Span::App, 0, f.sinceApp - f.budget},
+           {Span::Cull, last, overlap ? between(f.app, f.cull[last]) : 0},
+           {Span::Draw, last, overlap ? between(f.cull[last], f.draw[last]) : 0},
+           {Span::Swap, 0, between(f.draw[last], f.swap)}}};
+}
+
+/// Of a frame whose stages were short. No wait for a tick lasts longer than a frame, unless its end was slept
+/// through.
+Cause causeOf(const Wait& wait, const FrameFacts& f) {
+  if (wait.ms < 0.25f * (f.period - f.budget)) return Cause::Unknown;
+  const bool follows = wait.stage == Span::App && f.tick < 1.1f * f.budget;
+  return follows ? Cause::Follows : Cause::Woken;
 }
 
 const StageFacts& factsOf(const FrameFacts& f) {
@@ -95,6 +130,9 @@ std::string_view nameOf(Cause cause) {
   case Cause::Preempted: return "pre-empted";
   case Cause::PageFaults: return "page faults";
   case Cause::Loading: return "loading";
+  case Cause::Swap: return "Swap over";
+  case Cause::Follows: return "follows a late frame";
+  case Cause::Woken: return "woken late";
   case Cause::Unknown: break;
   }
   return "unknown";
@@ -109,15 +147,23 @@ void judge(FrameFacts& f) {
   f.holder = dearestDraw(f, f.wall);
   // Each may be short, and all together long.
   const bool tookLong = std::max(s.all(), sumOf(stages)) >= 0.5f * f.budget;
-  f.cause = tookLong ? causeOf(s, f.budget) : f.sampled != 0 ? Cause::None : Cause::Unknown;
+  if (tookLong) {
+    f.cause = causeOf(s, f.budget);
+  } else if (f.sampled == 0) {
+    const auto waits = waitsOf(f);
+    const Wait& wait = *std::ranges::max_element(waits, {}, &Wait::ms);
+    f.stage = wait.stage, f.wall = wait.wall, f.waited = wait.ms;
+    f.cause = causeOf(wait, f);
+  }
 }
 
 namespace {
 
 /// ": Draw of wall floor took 41.2 ms".
 std::string causeText(const FrameFacts& f, std::span<const std::string> walls) {
-  std::string text;
-  const std::string stage = stageText(f, walls);
+  std::string text, stage = stageText(f, walls);
+  if (f.stage == Span::App && f.appFrame < f.frame)
+    stage += fmt::format(" of frame {}, not shown,", f.appFrame);
   const StageFacts& s = factsOf(f);
   const float all = sumOf(suspectsOf(f));
   // It did not take long by itself.
@@ -138,7 +184,24 @@ std::string causeText(const FrameFacts& f, std::span<const std::string> walls) {
     break;
   case Cause::PageFaults: text += fmt::format(": {} waited for {} pages of memory", stage, s.faults); break;
   case Cause::Loading: text += fmt::format(": {} took {:.1f} ms to load", stage, s.loading); break;
-  case Cause::Unknown: text += ": no stage took long"; break;
+  case Cause::Swap: text += fmt::format(": showing it took {:.1f} ms", s.ms); break;
+  case Cause::Follows:
+    text += f.slot > 0.5f * f.waited
+                ? fmt::format(": App waited {:.1f} ms for earlier frames to be drawn", f.slot)
+                : fmt::format(": App had missed its tick for the frame before, and began {:.1f} ms late",
+                              f.waited);
+    break;
+  case Cause::Woken:
+    text += f.stage == Span::App
+                ? fmt::format(": the system woke App {:.1f} ms after its tick", f.waited)
+                : fmt::format(": {} was woken {:.1f} ms after what it waited for was done", stage, f.waited);
+    break;
+  case Cause::Unknown:
+    text +=
+        fmt::format(": no stage took long, all together {:.1f} ms; App began {:.1f} ms after App before it, "
+                    "and {:.1f} ms after the frame before was shown",
+                    all, f.sinceApp, f.app.at);
+    break;
   default: text += fmt::format(": {} took {:.1f} ms{}", stage, s.ms, together);
   }
   if (f.name[0] != 0 && f.nodeMs > 0 && f.stage == Span::App)

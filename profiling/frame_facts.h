@@ -25,6 +25,7 @@ struct StageFacts {
   /// wait most.
   float delayed = 0;
   float late = 0;  ///< likewise before it began, since the stage before on its thread
+  float at = 0;    ///< when it began, after the frame before was shown; less than 0: before that
 };
 
 enum class Cause : std::uint32_t {
@@ -36,6 +37,9 @@ enum class Cause : std::uint32_t {
   Preempted,  ///< the stage's threads got no processor: the system gave it to others
   PageFaults,
   Loading,
+  Swap,     ///< showing took long
+  Follows,  ///< App could not begin for frames before it: it had missed its tick, or no slot was free
+  Woken,    ///< a thread that waited for its turn was woken late, though it was not kept from a processor
   Unknown,  ///< nothing of all that took long
 };
 
@@ -54,6 +58,11 @@ struct FrameFacts {
   std::uint32_t walls = 0;
   std::uint32_t sequential = 0;  ///< the stages followed each other: their times add up
   std::uint32_t sampled = 0;     ///< its drawing, or that of the frame before, took longer to be looked at
+  float tick = 0, slot = 0;      ///< App waited so long for its tick, for a slot
+  float sinceApp = 0;            ///< from the begin of App before it to this one's
+  float waited = 0;              ///< Follows, Woken: by so much the stage of the cause began late
+  /// Whose App this is: not its own, if one that was passed over since the last one shown held App up more.
+  std::uint64_t appFrame = kNoFrame;
   StageFacts app, swap;
   std::array<StageFacts, kMostWalls> cull{}, draw{};
   std::uint32_t node[2] = {0, 0};  ///< the dearest in App: load, position

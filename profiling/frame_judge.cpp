@@ -8,6 +8,10 @@ namespace {
 
 constexpr std::size_t kMostOpen = 64;  ///< frames that nobody has shown yet; older ones never will be
 
+float milliseconds(ProfileClock::duration d) {
+  return std::chrono::duration<float, std::milli>(d).count();
+}
+
 /// `under`: what was going on within it.
 StageFacts factsOf(const SpanRecord& r, StageFacts stage) {
   stage.ms = static_cast<float>(r.took) - stage.turn;
@@ -21,41 +25,53 @@ StageFacts factsOf(const SpanRecord& r, StageFacts stage) {
 
 }  // namespace
 
-FrameFacts& FrameJudge::frame(std::uint64_t number) {
+FrameJudge::Open& FrameJudge::frame(std::uint64_t number) {
   const auto [at, isNew] = open_.try_emplace(number);
   if (isNew) {
-    at->second.frame = number;
-    at->second.walls = walls_;
-    at->second.budget = budget_;
-    at->second.sequential = sequential_;
+    FrameFacts& facts = at->second.facts;
+    facts.frame = facts.appFrame = number;
+    facts.walls = walls_;
+    facts.budget = budget_;
+    facts.sequential = sequential_;
     if (open_.size() > kMostOpen) open_.erase(open_.begin());
   }
   return open_[number];
 }
 
 void FrameJudge::take(std::size_t track, const SpanRecord& r) {
+  Pending& pending = pending_[track];
+  if (r.what == Span::ForSlot) pending.slot += static_cast<float>(r.took);
   if (r.frame == kNoFrame) return;
-  StageFacts& under = pending_[track];
   switch (r.what) {
-  case Span::ForTurn: under.turn += static_cast<float>(r.took); return;
+  case Span::ForTick: pending.tick += static_cast<float>(r.took); return;
+  case Span::ForTurn: pending.under.turn += static_cast<float>(r.took); return;
   case Span::Loading:
-  case Span::Upload: under.loading += static_cast<float>(r.took); return;
+  case Span::Upload: pending.under.loading += static_cast<float>(r.took); return;
   case Span::Swap: return show(r, factsOf(r, {}));
   case Span::App:
   case Span::Cull:
   case Span::Draw: break;
   default:
-    if (isOfNode(r.what)) takeNode(frame(r.frame), r);
+    if (isOfNode(r.what)) takeNode(frame(r.frame).facts, r);
     return;
   }
-  const StageFacts stage = factsOf(r, std::exchange(under, {}));
-  FrameFacts& facts = frame(r.frame);
+  const StageFacts stage = factsOf(r, std::exchange(pending.under, {}));
+  Open& open = frame(r.frame);
   if (r.what == Span::App)
-    facts.app = stage;
-  else if (r.wall < facts.walls)
-    (r.what == Span::Cull ? facts.cull : facts.draw)[r.wall] = stage;
+    takeApp(open, r, stage, std::exchange(pending, {}));
+  else if (r.wall < open.facts.walls) {
+    (r.what == Span::Cull ? open.facts.cull : open.facts.draw)[r.wall] = stage;
+    (r.what == Span::Cull ? open.cull : open.draw)[r.wall] = r.began;
+  }
   // It holds up the next frame, too.
   if (r.what == Span::Draw && r.disturbed) sampledUntil_ = std::max(sampledUntil_, r.frame + 2);
+}
+
+void FrameJudge::takeApp(Open& open, const SpanRecord& r, const StageFacts& stage, const Pending& before) {
+  open.facts.app = stage, open.app = r.began;
+  open.facts.tick = before.tick, open.facts.slot = before.slot;
+  if (lastApp_ != ProfileClock::time_point{}) open.facts.sinceApp = milliseconds(r.began - lastApp_);
+  lastApp_ = r.began;
 }
 
 void FrameJudge::takeNode(FrameFacts& facts, const SpanRecord& r) {
@@ -93,12 +109,39 @@ std::string FrameJudge::title(NodeRef node) const {
   return name ? name->path + " " + name->file + ":" + std::to_string(name->line) : "";
 }
 
+/// App caught up after one of the frames that will never be shown: what held up that one held up this one.
+void FrameJudge::takePassedOver(Open& open) const {
+  const auto held = [](const FrameFacts& f) { return f.app.ms + f.app.late + f.tick + f.slot; };
+  for (const auto& [number, passed] : open_) {
+    if (number >= open.facts.frame) return;
+    const FrameFacts& f = passed.facts;
+    if (held(f) <= held(open.facts)) continue;
+    open.app = passed.app, open.facts.appFrame = number;
+    open.facts.app = f.app, open.facts.tick = f.tick, open.facts.slot = f.slot;
+    open.facts.sinceApp = f.sinceApp;
+    open.facts.nodeMs = f.nodeMs, std::ranges::copy(f.node, open.facts.node);
+  }
+}
+
+/// Its stages in time, after the frame before was shown.
+void FrameJudge::place(Open& open, const SpanRecord& swap) {
+  const auto placed = [&](StageFacts& stage, ProfileClock::time_point began) {
+    if (began != ProfileClock::time_point{}) stage.at = milliseconds(began - lastShown_);
+  };
+  FrameFacts& f = open.facts;
+  placed(f.app, open.app), placed(f.swap, swap.began);
+  for (std::uint32_t wall = 0; wall < f.walls; ++wall)
+    placed(f.cull[wall], open.cull[wall]), placed(f.draw[wall], open.draw[wall]);
+}
+
 void FrameJudge::show(const SpanRecord& swap, const StageFacts& stage) {
-  FrameFacts facts = frame(swap.frame);
-  facts.swap = stage, facts.sampled = swap.frame < sampledUntil_;
+  Open& open = frame(swap.frame);
+  open.facts.swap = stage, open.facts.sampled = swap.frame < sampledUntil_;
+  takePassedOver(open);
+  if (lastShown_ != ProfileClock::time_point{}) place(open, swap);
+  FrameFacts facts = open.facts;
   open_.erase(open_.begin(), open_.upper_bound(swap.frame));
-  if (lastShown_ != ProfileClock::time_point{})
-    facts.period = std::chrono::duration<float, std::milli>(swap.ended - lastShown_).count();
+  if (lastShown_ != ProfileClock::time_point{}) facts.period = milliseconds(swap.ended - lastShown_);
   lastShown_ = swap.ended;
   judge(facts);
   copyText(title(facts.dearest()), facts.name);

@@ -29,7 +29,21 @@ public:
   void take(const SharedSpan& shared) override;
 
 private:
-  FrameFacts& frame(std::uint64_t number);
+  /// A frame that has not been shown yet.
+  struct Open {
+    FrameFacts facts;
+    ProfileClock::time_point app;  ///< when these began
+    std::array<ProfileClock::time_point, FrameFacts::kMostWalls> cull{}, draw{};
+  };
+  /// What went on in a thread since its last stage.
+  struct Pending {
+    StageFacts under;  ///< within the stage that is under way
+    float tick = 0, slot = 0;
+  };
+  Open& frame(std::uint64_t number);
+  void takePassedOver(Open& open) const;
+  void takeApp(Open& open, const SpanRecord& record, const StageFacts& stage, const Pending& before);
+  void place(Open& open, const SpanRecord& swap);
   std::string title(NodeRef node) const;
   NodeRef dearestCulled(std::uint32_t wall) const;
   static void takeNode(FrameFacts& facts, const SpanRecord& record);
@@ -40,10 +54,11 @@ private:
   const NodeNames& names_;
   Shown shown_;
   bool sequential_;
-  std::uint64_t sampledUntil_ = 0;             ///< frames before it show what sampling drawing took
-  std::map<std::uint64_t, FrameFacts> open_;   ///< not shown yet
-  std::map<std::size_t, StageFacts> pending_;  ///< by track: of the stage that is under way
-  std::map<std::uint32_t, NodeRef> largest_;   ///< by wall: who has most to draw, as far as is known
+  std::uint64_t sampledUntil_ = 0;  ///< frames before it show what sampling drawing took
+  std::map<std::uint64_t, Open> open_;
+  std::map<std::size_t, Pending> pending_;    ///< by track
+  ProfileClock::time_point lastApp_{};        ///< when it began
+  std::map<std::uint32_t, NodeRef> largest_;  ///< by wall: who has most to draw, as far as is known
   struct Culled {
     double ms = 0;
     NodeRef node;

@@ -75,6 +75,50 @@ TEST(FrameVerdict, WhatTheStageWaitedForIsTheCause) {
   EXPECT_EQ(causeOf(idle), Cause::Unknown) << "no stage took long";
 }
 
+/// 60 ms after the one before, though its stages, one after the other, took 4 ms.
+FrameFacts shortStages() {
+  FrameFacts f = facts(60);
+  f.sinceApp = f.budget, f.tick = 10, f.appFrame = f.frame;
+  f.app.at = 56, f.swap.at = 60;
+  for (StageFacts& s : f.cull) s.at = 58;
+  for (StageFacts& s : f.draw) s.at = 59, s.ms = 1;
+  return f;
+}
+
+std::string verdictOn(FrameFacts f) {
+  judge(f);
+  const std::string_view begin = "frame 7 came after 60.0 ms (16.7): ";
+  const std::vector<std::string> walls{"front", "floor"};
+  return std::string(nameOf(f.cause)) + ": " + toText(f, walls).substr(begin.size());
+}
+
+TEST(FrameVerdict, OfShortStagesTheOneThatBeganLateIsTheCause) {
+  FrameFacts f = shortStages();
+  f.sinceApp = 50;
+  EXPECT_EQ(verdictOn(f),
+            "follows a late frame: App had missed its tick for the frame before, and began 33.3 ms late");
+  f.slot = 30;
+  EXPECT_EQ(verdictOn(f), "follows a late frame: App waited 30.0 ms for earlier frames to be drawn");
+  f.slot = 0, f.tick = 50;
+  EXPECT_EQ(verdictOn(f), "woken late: the system woke App 33.3 ms after its tick");
+  f = shortStages(), f.app.at = 15;
+  EXPECT_EQ(verdictOn(f),
+            "woken late: Cull of wall front was woken 41.0 ms after what it waited for was done");
+  f.cull[0].at = f.cull[1].at = 17;
+  EXPECT_EQ(verdictOn(f),
+            "woken late: Draw of wall front was woken 41.0 ms after what it waited for was done");
+  f.draw[0].at = 18, f.draw[1].at = 19;
+  EXPECT_EQ(verdictOn(f), "woken late: Swap was woken 40.0 ms after what it waited for was done");
+  f.swap.ms = 50;
+  EXPECT_EQ(verdictOn(f), "Swap over: showing it took 50.0 ms");
+}
+
+TEST(FrameVerdict, WhatIsUnknownIsToldWithItsFigures) {
+  EXPECT_EQ(verdictOn(shortStages()),
+            "unknown: no stage took long, all together 6.0 ms; App began 16.7 ms after "
+            "App before it, and 56.0 ms after the frame before was shown");
+}
+
 TEST(FrameVerdict, ADrawWithoutProcessorsIsPreempted) {
   FrameFacts f = facts(60);
   f.draw[1].ms = 50, f.draw[1].delayed = 35;
@@ -180,6 +224,25 @@ TEST(FrameVerdict, OfASampledFrameAndTheNextDrawingIsNotTheCause) {
   EXPECT_EQ(j.shown[1].cause, Cause::None);
   EXPECT_EQ(j.shown[2].cause, Cause::None);
   EXPECT_EQ(j.shown[3].cause, Cause::Draw);
+}
+
+TEST(FrameVerdict, WhatHeldUpAppInAFrameThatWasPassedOverHeldUpTheNextOneShown) {
+  Judged j;
+  j.frame(0, 10);
+  SpanRecord app;
+  app.what = Span::App, app.took = 0.1;
+  for (app.frame = 1; app.frame < 4; ++app.frame) {
+    app.began = j.now + std::chrono::milliseconds(40), app.use.late = app.frame == 1 ? 40 : 0;
+    j.judge.take(0, app);
+  }
+  j.now += std::chrono::milliseconds(40);
+  j.frame(3, 1);
+  ASSERT_EQ(j.shown.size(), 2U);
+  EXPECT_EQ(j.shown[1].cause, Cause::Preempted);
+  const std::vector<std::string> walls{"front"};
+  EXPECT_EQ(toText(j.shown[1], walls),
+            "frame 3 came after 41.0 ms (16.7): App of frame 1, not shown, began 40.0 ms "
+            "late without a processor, which others had");
 }
 
 class Played {
