@@ -10,6 +10,7 @@ namespace stadion {
 namespace {
 
 constexpr float kLate = 1.5f;               ///< of the budget
+constexpr float kTold = 0.05f;              ///< [ms] a dearest node is told of from here on
 constexpr std::uint32_t kManyFaults = 500;  ///< pages; some 2 MB
 
 struct Suspect {
@@ -204,7 +205,7 @@ std::string causeText(const FrameFacts& f, std::span<const std::string> walls) {
     break;
   default: text += fmt::format(": {} took {:.1f} ms{}", stage, s.ms, together);
   }
-  if (f.name[0] != 0 && f.nodeMs > 0 && f.stage == Span::App)
+  if (f.name[0] != 0 && f.nodeMs >= kTold && f.stage == Span::App)
     text += fmt::format("; dearest {}, {:.1f} ms", f.name, f.nodeMs);
   const bool over = f.cause == Cause::Cull || f.cause == Cause::Draw;
   if (f.most[0] != 0 && over)

@@ -160,6 +160,8 @@ TEST(FrameVerdict, AppThatWaitsForAHelperIsOverAndNotPreempted) {
   EXPECT_EQ(f.cause, Cause::App);
   EXPECT_EQ(toText(f, {}),
             "frame 7 came after 60.0 ms (16.7): App took 55.0 ms; dearest game kick.evs:5, 50.0 ms");
+  f.nodeMs = 0.01f;
+  EXPECT_EQ(toText(f, {}), "frame 7 came after 60.0 ms (16.7): App took 55.0 ms") << "it is not its fault";
 }
 
 TEST(FrameVerdict, WhoBeginsLateForWantOfAProcessorIsPreempted) {
