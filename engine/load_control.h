@@ -23,8 +23,8 @@ namespace stadion {
 /// What can be given up.
 enum class Concession : std::uint8_t {
   Lod,   ///< detail: distances count more for it and what is below it
-  Half,  ///< its cycle runs in every second frame, then in every fourth, with the steps added up
-  Rest,  ///< its cycle does not run; bodies stand still. Messages still reach it
+  Half,  ///< its cycle runs in every second frame, then in every fourth, and makes up for the others
+  Rest,  ///< its cycle does not run; what it moves stands still. Messages still reach it
   Hide,  ///< it and what is below it is not drawn
 };
 inline constexpr std::array<std::string_view, 4> kConcessionNames{"lod", "half", "rest", "hide"};

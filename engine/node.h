@@ -65,11 +65,16 @@ public:
   const std::string& name() const { return name_; }
   /// The node, if it has a place in the world; else nullptr.
   virtual PlacedNode* placed() { return nullptr; }
+  /// What it has missed since its last cycle: nothing, frames that it makes up for, or time as well.
+  enum class Missed : std::uint8_t { Nothing, Frames, Time };
   /// What the scene notes of a node that is in it. The scene's own.
   struct Standing {
     std::uint64_t hash = 0;  ///< its part of the state hash
     bool busy = false;
-    bool touched = false;  ///< its state has changed since then
+    bool touched = false;   ///< its state has changed since then
+    bool rests = false;     ///< it does not run, to save time (load_control.h), or
+    std::uint8_t pace = 0;  ///< only in one of 2^pace frames
+    Missed missed{};
   };
   Standing& standing() { return standing_; }
   void addNotification(Notification n) { notifications_.push_back(std::move(n)); }

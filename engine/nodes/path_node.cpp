@@ -65,6 +65,14 @@ void PathNode::trace(Nanoseconds to, FrameContext& frame) {
   const bool goesOn = putAt_ == since_;
   Course& way =
       frame.scene.courses().of(id, {frame.start(), goesOn ? begin : poseOf(placements.world(id)), false});
+  const Nanoseconds pass = std::max<Nanoseconds>(length(), 1);
+  // What it has missed it makes up for, without the turns; where it began again it is put.
+  if (since_ < frame.start()) {
+    const Nanoseconds end = elapsed_ + (to - since_);
+    const bool again = loop_ && end >= pass;
+    way.push_back({to, at(to, toSeconds(loop_ ? end % pass : end)), again || to == frame.start()});
+    return;
+  }
   if (!goesOn) way.push_back({since_, begin, true});
   // Where it may turn: on the grid, at keys, and where a pass ends.
   std::vector<Nanoseconds>& passed = passed_;
@@ -72,7 +80,6 @@ void PathNode::trace(Nanoseconds to, FrameContext& frame) {
   const Nanoseconds span = loop_ ? to - since_ : std::min(to - since_, length() - elapsed_);
   if (bends_)
     for (Nanoseconds t = (since_ / kChord + 1) * kChord - since_; t < span; t += kChord) passed.push_back(t);
-  const Nanoseconds pass = std::max<Nanoseconds>(length(), 1);
   for (Nanoseconds base = -elapsed_; base < span; base += pass) {
     auto key =
         std::ranges::upper_bound(keys_, -base, {}, [](const Keyframe& k) { return fromSeconds(k.time); });
@@ -118,7 +125,14 @@ void PathNode::onEnter(Scene& scene) {
   since_ = scene.now();
 }
 
+void PathNode::restUntil(Nanoseconds time) {
+  if (since_ >= time) return;
+  if (putAt_ == since_) putAt_ = time;
+  since_ = time;
+}
+
 void PathNode::advanceTo(Nanoseconds time, FrameContext& frame) {
+  if (frame.rested) restUntil(frame.start());
   if (switch_.on()) {
     trace(time, frame);
     elapsed_ += time - since_;

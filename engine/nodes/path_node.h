@@ -9,8 +9,9 @@
 ///           stays where it is at the command's time), toggle, reset (back to the first key), and those of a
 ///           placed node when it moves what stands below it.
 /// Times     who looks at what it moves is told its way inside the frame: straight ways exactly, bends and
-/// turns
-///           by chords of 2 ms on a grid of show time.
+///           turns by chords of 2 ms on a grid of show time.
+/// Load      kept from running, it goes on where it stopped. In one of several frames, it is then where its
+///           own time has it; who looks sees it go straight there within that frame.
 /// Frames    keys are in the coordinates of the target's parent, or of its own parent.
 
 #include "engine/nodes/placed_node.h"
@@ -47,6 +48,8 @@ protected:
 
 private:
   Nanoseconds length() const { return fromSeconds(keys_.back().time); }
+  /// What has passed up to `time` does not count.
+  void restUntil(Nanoseconds time);
   /// Lets what has passed up to `time` count: passes end, the path may.
   void advanceTo(Nanoseconds time, FrameContext& frame);
   void putTarget(Scene& scene);

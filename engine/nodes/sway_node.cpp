@@ -156,6 +156,8 @@ void SwayNode::traceOne(std::size_t k, Nanoseconds to, FrameContext& frame) cons
   const bool goesOn = putAt_ == since_;
   Course& way =
       frame.scene.courses().of(id, {frame.start(), goesOn ? begin : poseOf(placements.world(id)), false});
+  // What they have missed they make up for, without the turns.
+  if (since_ < frame.start()) return way.push_back({to, at(to), to == frame.start()});
   if (!goesOn) way.push_back({since_, begin, true});
   for (Nanoseconds time = (since_ / kChord + 1) * kChord; time < to; time += kChord)
     way.push_back({time, at(time), false});
@@ -188,7 +190,15 @@ void SwayNode::onLeave(Scene& scene) {
   PlacedNode::onLeave(scene);
 }
 
+/// What has passed up to `time` does not count.
+void SwayNode::restUntil(Nanoseconds time) {
+  if (since_ >= time) return;
+  if (putAt_ == since_) putAt_ = time;
+  since_ = time;
+}
+
 void SwayNode::advanceTo(Nanoseconds time, FrameContext& frame) {
+  if (frame.rested) restUntil(frame.start());
   if (switch_.on()) {
     trace(time, frame);
     elapsed_ += time - since_;

@@ -16,6 +16,8 @@
 ///           it.
 /// Times     who looks at what it moves is told its way inside the frame, by chords of 2 ms on a grid of show
 ///           time.
+/// Load      kept from running, it goes on where it stopped. In one of several frames, its targets are then
+///           where its own time has them; who looks sees them go straight there within that frame.
 /// Frames    displacement and angular velocity are in the coordinates of the target's parent.
 
 #include "engine/nodes/placed_node.h"
@@ -77,6 +79,7 @@ private:
   Moment momentAt(Nanoseconds elapsed) const;
   void putAll(const Moment& m, std::size_t first, std::span<MemberPlace> places) const;
   void put(std::size_t k, const Mat3& turn, const Angles& block, MemberPlace& place) const;
+  void restUntil(Nanoseconds time);
   void advanceTo(Nanoseconds time, FrameContext& frame);
   void putTargets(Scene& scene);
   void leaveTargets(Scene& scene);

@@ -39,7 +39,7 @@ public:
   /// Takes out of the round, before it is under way, whom `leave` names.
   template <class Leave>
   void leaveOut(const Leave& leave) {
-    std::erase_if(round_, [&](const Entry& e) { return leave(e.visit.node); });
+    std::erase_if(round_, [&](const Entry& e) { return leave(*e.node); });
   }
   /// Before the round is under way; then sort() once.
   void call(Node& node);

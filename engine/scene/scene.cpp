@@ -64,11 +64,13 @@ void Scene::settleTouched(FrameProbe* probe) {
 std::vector<Message> Scene::callRound(const TimeSignature& now) {
   std::vector<Message> mail = messages_.takeDue(now.time);
   agenda_.begin();
-  if (!reliefs_.empty()) agenda_.leaveOut([&](NodeRef ref) { return putOff(ref, frameStart_); });
-  std::set<NodeRef> waiting;
-  waiting.swap(putOff_);
-  for (const NodeRef ref : waiting)
-    if (!putOff(ref, frameStart_)) wokenLate_.push_back(ref);  // its turn has come
+  if (!reliefs_.empty()) agenda_.leaveOut([&](Node& node) { return putOff(node); });
+  std::erase_if(putOff_, [&](NodeRef ref) {
+    Node* node = find(ref);
+    if (node && putOff(*node)) return false;
+    wokenLate_.push_back(ref);  // its turn has come
+    return true;
+  });
   for (Message& m : mail) {
     m.target = resolveInside(m.target, m.targetInside);
     m.node = resolveInside(m.node, m.nodeInside);
@@ -207,9 +209,15 @@ void Scene::wakeWatchers() {
   for (const PlacementId p : placements_.takeMovedWatched()) {
     const auto [first, last] = watchers_.equal_range(p);
     // A node that moves what it watches does not wake itself.
-    for (auto at = first; at != last; ++at)
-      if ((!current_ || current_->node != at->second) && !putOff(at->second, frameStart_))
-        wakeNow(at->second);
+    for (auto at = first; at != last; ++at) {
+      const NodeRef ref = at->second;
+      if (current_ && current_->node == ref) continue;
+      Node* node = reliefs_.empty() ? nullptr : find(ref);
+      if (node && putOff(*node))
+        putOff_.insert(ref);
+      else
+        wakeNow(ref);
+    }
   }
 }
 

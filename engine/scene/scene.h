@@ -248,8 +248,8 @@ private:
   void spreadRelief();
   void relieve(NodeRef node, const Relief& before, const Relief& now);
   const NodeTerms* termsOf(NodeRef node) const;
-  bool isPutOff(NodeRef node) const;
-  bool putOff(NodeRef node, Nanoseconds frameStart);
+  bool isPutOff(Node& node) const;
+  bool putOff(Node& node);
   Cycle cycleOf(Node& node, const TimeSignature& now);
   void hashRelief(StateHash& h) const;
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
@@ -297,12 +297,12 @@ private:
   std::map<NodeRef, Relief> reliefs_;              ///< of them and all below them
   std::uint64_t reliefLoads_ = 0;                  ///< loadsVersion_ when these were found
   std::uint32_t stressLevel_ = 0;
-  std::set<NodeRef> putOff_;  ///< would have been visited, but for their pace
+  std::set<NodeRef> putOff_;  ///< were woken, and wait for their turn
   struct Paced {
     Nanoseconds since;  ///< when its last cycle ended
     bool rests;
   };
-  std::map<NodeRef, Paced> paced_;  ///< those that have missed a frame
+  std::map<NodeRef, Paced> paced_;  ///< those that must be told what they have missed
   std::multimap<PlacementId, NodeRef> watchers_;
   std::uint64_t loadsVersion_ = 0, loadsTold_ = 0;
   std::set<NodeRef> loadWatchers_;

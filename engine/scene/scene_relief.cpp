@@ -5,14 +5,26 @@
 #include "engine/scene/scene.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace stadion {
 namespace {
 
-/// Those that run on from where they stopped, however long ago that was. What others do in a frame costs
-/// little, or somebody looks at it in every frame.
-bool hasPace(NodeKind kind) {
+/// Those that go on from where they stopped step by step: what they have missed is one longer step.
+bool takesSteps(NodeKind kind) {
   return kind == NodeKind::Dynamics || kind == NodeKind::Collision;
+}
+
+/// Those, and what moves things as the time says. What others do in a frame costs little, or somebody looks
+/// at it in every frame.
+bool hasPace(NodeKind kind) {
+  return takesSteps(kind) || kind == NodeKind::Path || kind == NodeKind::Sway;
+}
+
+/// In which of four frames a node has its turn, when it runs in one of so many: spread evenly, also over
+/// every second or third position in a file (the golden ratio).
+std::uint64_t turnOf(std::uint32_t position) {
+  return (position * 0x9E3779B9U) >> 30;
 }
 
 }  // namespace
@@ -77,35 +89,42 @@ void Scene::spreadRelief() {
 
 void Scene::relieve(NodeRef ref, const Relief& before, const Relief& now) {
   const Load* l = load(ref.load);
-  const auto* placed = l ? dynamic_cast<const PlacedNode*>(l->nodes[ref.position].get()) : nullptr;
+  Node* node = l ? l->nodes[ref.position].get() : nullptr;
+  if (!node) return;
+  if (hasPace(node->kind())) node->standing().rests = now.rests, node->standing().pace = now.pace;
+  const PlacedNode* placed = node->placed();
   if (!placed || placed->placement() == kNoPlacement) return;
   if (before.hidden != now.hidden) placements_.setShown(placed->placement(), !now.hidden, Hider::Relief);
   if (before.lod != now.lod) markInstancesAt(placed->placement());
 }
 
-/// Whether its cycle does not run in this frame. Those that share a pace take turns.
-bool Scene::isPutOff(NodeRef ref) const {
-  const auto at = reliefs_.find(ref);
-  if (at == reliefs_.end() || (!at->second.rests && at->second.pace == 0)) return false;
-  const Load* l = load(ref.load);
-  if (!l || !l->nodes[ref.position] || !hasPace(l->nodes[ref.position]->kind())) return false;
-  return at->second.rests || (frame_ + ref.position) % (std::uint64_t{1} << at->second.pace) != 0;
+/// Whether its cycle does not run in this frame. Those that share a pace take turns; what is in somebody's
+/// hand goes along with it.
+bool Scene::isPutOff(Node& node) const {
+  const Node::Standing& s = node.standing();
+  if (!s.rests && s.pace == 0) return false;
+  if (const PlacedNode* placed = node.placed(); placed && placed->attached()) return false;
+  return s.rests || (frame_ + turnOf(node.self().position)) % (std::uint64_t{1} << s.pace) != 0;
 }
 
-/// The same; if so, it is noted for when its turn has come.
-bool Scene::putOff(NodeRef ref, Nanoseconds frameStart) {
-  if (reliefs_.empty() || !isPutOff(ref)) return false;
-  putOff_.insert(ref);
-  Paced& paced = paced_.try_emplace(ref, Paced{frameStart, false}).first->second;
-  paced.rests |= reliefs_.at(ref).rests;
+/// The same; if so, what it misses is noted, once. What goes by the time needs to know only of time that does
+/// not count.
+bool Scene::putOff(Node& node) {
+  if (!isPutOff(node)) return false;
+  Node::Standing& s = node.standing();
+  const Node::Missed missed = s.rests ? Node::Missed::Time : Node::Missed::Frames;
+  if (missed <= s.missed || !(s.rests || takesSteps(node.kind()))) return true;
+  s.missed = missed;
+  paced_.try_emplace(node.self(), Paced{frameStart_, false}).first->second.rests = s.rests;
   return true;
 }
 
 Scene::Cycle Scene::cycleOf(Node& node, const TimeSignature& now) {
   Cycle cycle{&node, now, false};
+  const Node::Missed missed = std::exchange(node.standing().missed, Node::Missed::Nothing);
+  if (missed == Node::Missed::Nothing) return cycle;
   const auto at = paced_.find(node.self());
-  if (at == paced_.end()) return cycle;
-  cycle.rested = at->second.rests;
+  cycle.rested = missed == Node::Missed::Time;
   if (!cycle.rested) cycle.now.step = now.time - at->second.since;
   paced_.erase(at);
   return cycle;

@@ -32,7 +32,7 @@ inline constexpr KindSet kSwitched =
     kFields;
 
 /// Those whose cycle may run more seldom, and those that have such below them.
-inline constexpr KindSet kPaced{Scene, Collision, Dynamics};
+inline constexpr KindSet kPaced{Scene, Path, Sway, Collision, Dynamics};
 inline constexpr std::string_view kConcessions[] = {"lod", "half", "rest", "hide"};
 
 inline constexpr AttributeSpec kCommonRows[] = {

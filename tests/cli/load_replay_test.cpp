@@ -19,7 +19,7 @@ forcelinear( name=gravity, direction="0, 0, -1" )
 object( name=ground, file=plane.3ds )
 dynobject( name=ball, file=football.3ds, position="0, 3, 2", restitution=1, hook=gravity, levels=2 )
 dynamics( name=game, collider=ground, collidee=ball, budget=0.8, onoverrun="half, rest" )
-path( target=arm, key="0, 4,6,1, 0,0,0", key="1, 4,6,1, 0,0,180", key="2, 4,6,1, 0,0,360", loop=on )
+path( name=carousel, onoverrun="half, rest", target=arm, key="0, 4,6,1, 0,0,0", key="1, 4,6,1, 0,0,180", key="2, 4,6,1, 0,0,360", loop=on )
 group( name=arm )
 object( name=bat, file=football.3ds, parent=arm, position="1, 0, 0" )
 dynobject( name=target, file=football.3ds, position="5, 6.5, 3", restitution=0.8, hook=gravity )
@@ -55,9 +55,13 @@ std::string playLive(const std::string& show, const std::string& log, Mode mode,
                     {32, {1, at("tree"), 4}},
                     {33, {0, 0, 5}},
                     {70, {1, at("game"), 2}},
+                    {40, {1, at("carousel"), 1}},
+                    {60, {1, at("carousel"), 3}},
+                    {75, {1, at("carousel"), 2}},
                     {90, {1, at("game"), 0}},
                     {90, {1, at("bats"), 0}},
                     {100, {1, at("bats"), 3}},
+                    {110, {1, at("carousel"), 0}},
                     {120, {1, at("bats"), 1}}});
   InputRecorder recorder(log, player->rate());
   std::string hashes;

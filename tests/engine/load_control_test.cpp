@@ -4,9 +4,13 @@
 #include "engine/input/input_log.h"
 #include "engine/input/input_recorder.h"
 #include "engine/nodes/lod_node.h"
+#include "engine/nodes/path_node.h"
+#include "engine/nodes/scene_node.h"
+#include "engine/nodes/sway_node.h"
 #include "engine/plain_file.h"
 #include "tests/engine/show_fixture.h"
 
+#include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -186,6 +190,191 @@ TEST(LoadControl, TheSameDecisionsGiveTheSameHashAndOthersDoNot) {
   EXPECT_NE(hashes(5, 1), hashes(6, 1));
   EXPECT_NE(hashes(5, 1), hashes(5, 2));
   EXPECT_EQ(hashes(5, 1)[4], hashes(6, 1)[4]);
+}
+
+/// Looks at where a placement goes, in every frame in which it moves.
+class LookingNode : public Node {
+public:
+  LookingNode(NodeRef self, std::string name, const PlacedNode& at)
+      : Node(NodeKind::Group, self, std::move(name)), at_(at) {}
+  Rank rank() const override { return Rank::Outcome; }
+  Course way;  ///< in the last of them
+
+protected:
+  void onEnter(Scene& scene) override {
+    scene.watch(at_.placement(), self());
+    before_ = poseOf(scene.placements().world(at_.placement()));
+  }
+  void simulate(FrameContext& frame) override {
+    const Placements& placements = frame.scene.placements();
+    way = frame.scene.courses().within(at_.placement(), before_, frame.start(), frame.now.time, placements);
+    before_ = poseOf(placements.world(at_.placement()));
+  }
+
+private:
+  const PlacedNode& at_;
+  Pose before_;
+};
+
+/// A scene, whose file holds a path that runs along x at 1 m/s and begins again after two metres, a sway
+/// along y, and who looks at the path.
+struct StandsFixture : ShowFixture {
+  static constexpr NodeRef kScene{1, 0}, kPath{2, 0};
+  static constexpr std::uint32_t kHalf = 1, kQuarter = 2, kRest = 3;
+  PathNode* path = nullptr;
+  SwayNode* sway = nullptr;
+  LookingNode* looking = nullptr;
+
+  StandsFixture() {
+    loader.files["show"] = [](Load& load) {
+      addNode<SceneNode>(load, "stands", PlaceAttributes{}, "stands", Nanoseconds{0}, true);
+      load.terms[kScene.position] = {1, {Concession::Half, Concession::Rest}, 1};
+    };
+    loader.files["stands"] = [this](Load& load) {
+      const std::vector<Keyframe> keys{{0, {Vec3::Zero(), Quat::Identity()}},
+                                       {2, {Vec3(2, 0, 0), Quat::Identity()}}};
+      path = &addNode<PathNode>(load, "path", PlaceAttributes{}, NodeRef{}, keys, true, false, true);
+      SwayAttributes swell;
+      swell.amplitude = Vec3(0, 1, 0), swell.frequency = Vec3(0, 0.25, 0);
+      sway = &addNode<SwayNode>(load, "sway", PlaceAttributes{}, swell, true);
+      looking = &addNode<LookingNode>(load, "looking", *path);
+      load.terms[kPath.position] = {1, {Concession::Half, Concession::Rest}, 1};
+    };
+    EXPECT_TRUE(scene.open("show"));
+    frames(4);
+  }
+  void decide(NodeRef node, std::uint32_t level) {
+    TimeSignature now = signatureAt(next++, rate);
+    EXPECT_TRUE(now.load.add({node.load, node.position, level}));
+    input.time = now.time;
+    scene.advance(now, input, changes, nullptr);
+  }
+  double now() const { return toSeconds(scene.now()); }
+  double x() const { return scene.placements().world(path->placement()).translation().x(); }
+  double y() const { return scene.placements().world(sway->placement()).translation().y(); }
+};
+
+double swellAt(double t) {
+  return std::sin(0.5 * 3.14159265358979323846 * t);
+}
+
+TEST(LoadControl, WhatMovesByTheTimeInASceneAtHalfPaceIsInEverySecondFrameWhereItsTimeHasIt) {
+  StandsFixture f;
+  f.decide(StandsFixture::kScene, StandsFixture::kHalf);
+  int pathRan = 0, swayRan = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double x = f.x(), y = f.y();
+    f.frame();
+    pathRan += f.x() != x, swayRan += f.y() != y;
+    EXPECT_NEAR(f.x(), f.x() != x ? std::fmod(f.now(), 2) : x, 1e-9);
+    EXPECT_NEAR(f.y(), f.y() != y ? swellAt(f.now()) : y, 1e-9);
+  }
+  EXPECT_EQ(pathRan, 150);
+  EXPECT_NEAR(swayRan, 150, 2) << "twice it turns within two frames";
+}
+
+TEST(LoadControl, WhatMovesByTheTimeStandsStillInASceneThatRestsAndGoesOnFromThere) {
+  StandsFixture f;
+  f.frames(60);
+  const double x = f.x(), t = f.now();
+  f.decide(StandsFixture::kScene, StandsFixture::kRest);
+  for (int i = 0; i < 40; ++i) {
+    f.frame();
+    EXPECT_EQ(f.scene.counters().nodesVisited, 0U);
+    EXPECT_EQ(f.x(), x);
+    EXPECT_NEAR(f.y(), swellAt(t), 1e-9);
+  }
+  f.decide(StandsFixture::kScene, 0);
+  EXPECT_NEAR(f.x(), x + 1 / f.rate, 1e-8);
+  EXPECT_NEAR(f.y(), swellAt(t + 1 / f.rate), 1e-8);
+  ASSERT_EQ(f.looking->way.size(), 2U);
+  EXPECT_FALSE(f.looking->way[1].jump);
+  f.frames(30);
+  EXPECT_NEAR(f.x(), x + 31 / f.rate, 1e-8);
+}
+
+TEST(LoadControl, APathGivesUpItsPaceByItself) {
+  StandsFixture f;
+  f.decide(StandsFixture::kPath, StandsFixture::kRest);
+  const double x = f.x();
+  f.frames(20);
+  EXPECT_EQ(f.x(), x);
+  EXPECT_NEAR(f.y(), swellAt(f.now()), 1e-9) << "its neighbour goes on";
+}
+
+TEST(LoadControl, WhatAPathHasMissedIsAWayThroughTheFrameInWhichItRuns) {
+  StandsFixture f;
+  f.decide(StandsFixture::kScene, StandsFixture::kQuarter);
+  bool beganAgain = false;
+  for (int i = 0; i < 300; ++i) {
+    const double before = f.x();
+    const Nanoseconds start = f.scene.now();
+    f.frame();
+    if (f.x() == before) continue;
+    const Course& way = f.looking->way;
+    ASSERT_EQ(way.size(), 2U);
+    EXPECT_EQ(way[0].time, start);
+    EXPECT_NEAR(way[0].X.p.x(), before, 1e-9);
+    EXPECT_EQ(way[1].time, f.scene.now());
+    EXPECT_NEAR(way[1].X.p.x(), f.x(), 1e-9);
+    EXPECT_EQ(way[1].jump, f.x() < before);
+    beganAgain |= way[1].jump;
+  }
+  EXPECT_TRUE(beganAgain);
+}
+
+TEST(LoadControl, ThoseThatRunNowAndThenTakeTurnsWhereverTheyStandInTheirFile) {
+  constexpr std::uint32_t kPaths = 200;
+  for (const std::uint32_t apart : {1U, 2U, 3U, 4U}) {
+    ShowFixture f;
+    f.loader.files["show"] = [](Load& load) {
+      addNode<SceneNode>(load, "stands", PlaceAttributes{}, "stands", Nanoseconds{0}, true);
+      load.terms[0] = {1, {Concession::Half, Concession::Rest}, 1};
+    };
+    f.loader.files["stands"] = [&](Load& load) {
+      for (std::uint32_t i = 0; i < apart * kPaths; ++i) {
+        if (i % apart != 0) {
+          addNode<ListeningNode>(load, "");
+          continue;
+        }
+        const std::vector<Keyframe> keys{{0, {}}, {9, {Vec3(2, 0, 0), Quat::Identity()}}};
+        addNode<PathNode>(load, "", PlaceAttributes{}, NodeRef{}, keys, true, false, true);
+      }
+    };
+    ASSERT_TRUE(f.scene.open("show"));
+    f.frames(4);
+    TimeSignature now = signatureAt(f.next++, f.rate);
+    ASSERT_TRUE(now.load.add({1, 0, 2}));
+    f.scene.advance(now, f.input, f.changes, nullptr);
+    for (int i = 0; i < 8; ++i) {
+      f.frame();
+      EXPECT_NEAR(static_cast<double>(f.scene.counters().nodesVisited), kPaths / 4.0, kPaths / 20.0) << apart;
+    }
+  }
+}
+
+TEST(LoadControl, WhatIsInAHandGoesAlongThoughItsSceneRests) {
+  StandsFixture f;
+  f.tracker("wand", Vec3(5, 0, 0));
+  f.scene.command("stands/path", Verb::Attach, {"all", "wand"}, 0);
+  f.frames(2);
+  f.decide(StandsFixture::kScene, StandsFixture::kRest);
+  f.tracker("wand", Vec3(6, 0, 0));
+  f.frame();
+  EXPECT_NEAR(f.x(), 6, 1e-9);
+}
+
+TEST(LoadControl, ThatAPathHasRestedSinceItsLastTurnIsPartOfTheState) {
+  using Decisions = std::map<std::uint64_t, std::uint32_t>;
+  const auto hash = [](const Decisions& decisions) {
+    StandsFixture f;
+    while (f.next <= 10)
+      decisions.contains(f.next) ? f.decide(StandsFixture::kPath, decisions.at(f.next)) : f.frame();
+    return f.scene.stateHash();
+  };
+  const auto quarter = StandsFixture::kQuarter, rest = StandsFixture::kRest;
+  EXPECT_EQ(hash({{9, rest}, {10, quarter}}), hash({{9, rest}, {10, quarter}}));
+  EXPECT_NE(hash({{9, rest}, {10, quarter}}), hash({{9, quarter}})) << "frame 9 does not count";
 }
 
 TEST(LodNode, DrawsTheChildForTheDistanceAndComesBackATenthNearer) {
