@@ -7,10 +7,7 @@ namespace stadion {
 bool hasDrawnBudgets(const Scene& scene) {
   bool any = false;
   scene.forEachLoad([&](const Load& load) {
-    for (const auto& [position, terms] : load.terms) {
-      const Node* node = load.nodes[position].get();
-      any |= !node || placedKinds().has(node->kind());
-    }
+    for (const auto& [position, terms] : load.terms) any |= mayBeDrawn(load.nodes[position].get());
   });
   return any;
 }

@@ -43,6 +43,7 @@ public:
   DrawSample drawSample(std::uint64_t frame, std::uint32_t wall) const override {
     return inner_.drawSample(frame, wall);
   }
+  bool wantsAlone(std::span<const NodeRef> owners) const override { return inner_.wantsAlone(owners); }
   std::size_t nextBatch(std::uint32_t wall, std::uint32_t eye, std::size_t batches) override {
     return inner_.nextBatch(wall, eye, batches);
   }

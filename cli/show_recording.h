@@ -78,10 +78,10 @@ public:
   void see(const Scene& scene) {
     names_.see(scene);
     if (!governor_) return;
-    governor_->see(scene);
+    if (!governor_->see(scene)) return;
+    log_->watch(governor_->accounts());
     // A budget on something that is drawn may come with any file.
-    if (std::exchange(seen_, scene.loadsVersion()) != scene.loadsVersion())
-      log_->setSamples(sampled_ || hasDrawnBudgets(scene));
+    log_->setSamples(sampled_ || hasDrawnBudgets(scene));
   }
   /// Who decides what is given up; null if nobody looks at budgets.
   LoadGovernor* governor() { return governor_.get(); }
@@ -136,7 +136,6 @@ private:
   }
 
   bool sampled_ = false;  ///< drawing, whoever has a budget
-  std::uint64_t seen_ = ~std::uint64_t{0};
   ShowProfile profile_;
   NodeNames names_;
   std::unique_ptr<LoadGovernor> governor_;

@@ -133,6 +133,8 @@ struct DrawnAlone {
       Span::LeftEye;   ///< the eye: everything of it; Draw: nodes; Sky, Resolve, ShadowMaps, Prepare: these
   double ms = 0;       ///< without what drawing nothing takes
   double emptyMs = 0;  ///< what drawing nothing takes
+  /// After so many frames it has its turn again, if there is as much to draw; filled in by who gives turns.
+  std::uint64_t round = 0;
 };
 
 /// A node's part of what several cost together; the parts sum to 1.
@@ -160,7 +162,9 @@ public:
   virtual void shared(Span, std::uint64_t, std::uint32_t, std::span<const NodeRef>) {}
 
   virtual DrawSample drawSample(std::uint64_t, std::uint32_t) const { return DrawSample::None; }
-  /// Which of `batches` batches of nodes is drawn alone next; those that follow it may be, too.
+  /// Whether a batch of these nodes is to have a turn of being drawn alone.
+  virtual bool wantsAlone(std::span<const NodeRef>) const { return true; }
+  /// Which of `batches` batches that are to have one is drawn alone next; those that follow it may be, too.
   virtual std::size_t nextBatch(std::uint32_t, std::uint32_t, std::size_t) { return 0; }
   /// What was drawn alone, and for which nodes, if for any.
   virtual void drewAlone(const DrawnAlone&, std::span<const NodeShare>) {}

@@ -68,10 +68,42 @@ void FrameLog::measureOverhead() {
     return v[kRounds / 2];
   };
   overhead_ = {median(inside), median(outside)};
+  measureLightOverhead();
   // Whoever comes to this thread later gets a track that knows it.
   tracks_.clear();
   number_ = nextNumber();
   appFrame_ = kNoFrame, nextWhole_ = 0;
+}
+
+/// Of visits in which nothing is done, in a frame that is not recorded as a whole.
+void FrameLog::measureLightOverhead() {
+  constexpr int kRounds = 63, kVisits = 1000;
+  const NodeRef node{1, 0};
+  const auto accounts = std::make_shared<NodeAccounts>(std::vector{node});
+  accounts->add(node, 0);
+  watch(accounts);
+  track().began(Span::App, 0, kNoWall, {});
+  light_ = true;
+  std::array<std::uint64_t, kRounds> ticks{};
+  for (std::uint64_t& round : ticks) {
+    track().beginLightly();
+    for (int i = 0; i < kVisits; ++i) {
+      {
+        const SpanScope mail(this, Span::Mail);
+        const SpanScope receive(this, Span::Receive, node);
+        const SpanScope simulate(this, Span::Simulate, node);
+      }
+      { const SpanScope simulate(this, Span::Simulate, node); }
+      { const SpanScope dispatch(this, Span::Dispatch, node); }
+      const SpanScope settle(this, Span::Settle, node);
+    }
+    round = std::exchange(shortTicks_[0], 0) / kVisits;
+  }
+  light_ = false;
+  track().ended();
+  std::ranges::nth_element(ticks, ticks.begin() + kRounds / 2);
+  lightTicks_ = ticks[kRounds / 2];
+  watch(nullptr);
 }
 
 FrameLog::~FrameLog() {
@@ -108,6 +140,7 @@ void FrameLog::beginApp(SpanTrack& t, std::uint64_t frame) {
   const bool light = visits > kManyVisits && (frame < nextWhole_ || frame < options_.from);
   if (!light) nextWhole_ = frame + 1 + visits / kVisitsAFrame;
   light_.store(light, std::memory_order_relaxed);
+  called_ = false;
   t.setWhole(!light);
   t.beginLightly();
 }
@@ -120,31 +153,61 @@ void FrameLog::began(Span what, NodeRef node) {
   }
   SpanTrack& t = track();
   if (what == Span::Settle) t.count();
+  if (what == Span::Crew) crew_.store(true, std::memory_order_relaxed);
   const std::uint64_t frame = t.frame();
   t.began(what, frame != kNoFrame ? frame : appFrame_.load(std::memory_order_relaxed), t.wall(), node);
 }
 
-// A visit lasts from the one before to the node's Settle; on threads that help App, as long as it simulates.
+// A visit lasts from the one before to the node's Settle; of those that simulate side by side that is told
+// apart.
 void FrameLog::beganInVisit(Span what, NodeRef node) {
-  if (what != Span::Settle && what != Span::Simulate) return;
+  const bool aside = what == Span::Simulate && crew_.load(std::memory_order_relaxed);
+  if (what != Span::Settle && !aside) return;
   SpanTrack& t = track();
-  if (what == Span::Simulate && t.depth() > 0) return;
-  if (what == Span::Simulate) t.beginLightly();
+  if (aside) t.beginLightly();
   t.nameLightly(node);
 }
 
 void FrameLog::ended(Span what) {
   const bool light = light_.load(std::memory_order_relaxed);
-  if (!light || !isOfVisit(what)) {
-    SpanTrack& t = track();
-    t.ended();
-    if (light) t.beginLightly();
+  if (light && isOfVisit(what)) {
+    const bool aside = what == Span::Simulate && crew_.load(std::memory_order_relaxed);
+    if (what == Span::Settle || aside) endedVisit();
+    // Whom to visit has been found out, for all.
+    if (what == Span::Mail && !std::exchange(called_, true)) track().beginLightly();
     return;
   }
-  if (what != Span::Settle && what != Span::Simulate) return;
+  if (what == Span::Crew) crew_.store(false, std::memory_order_relaxed);
   SpanTrack& t = track();
-  if (what == Span::Settle || t.depth() == 0)
-    t.endLightly(appFrame_.load(std::memory_order_relaxed), dearTicks_, nanosecondsATick_);
+  if (light && what == Span::App) tellShortVisits();
+  t.ended();
+  if (light) t.beginLightly();
+}
+
+void FrameLog::endedVisit() {
+  SpanTrack& t = track();
+  const NodeAccounts::Account account = accounts_ ? accounts_->of(t.namedLightly()) : NodeAccounts::kNone;
+  // Only App itself adds up.
+  const bool helps = t.depth() == 0 && account != NodeAccounts::kNone;
+  const std::uint64_t ticks =
+      t.endLightly(appFrame_.load(std::memory_order_relaxed), helps ? 0 : dearTicks_, nanosecondsATick_);
+  if (account != NodeAccounts::kNone && ticks > lightTicks_) shortTicks_[account] += ticks - lightTicks_;
+}
+
+void FrameLog::watch(std::shared_ptr<const NodeAccounts> accounts) {
+  tellShortVisits();
+  shortTicks_.assign(accounts ? accounts->holders().size() : 0, 0);
+  const std::lock_guard lock(mutex_);
+  accounts_ = std::move(accounts);
+}
+
+void FrameLog::tellShortVisits() {
+  for (std::size_t i = 0; i < shortTicks_.size(); ++i)
+    if (ShortVisits* s = shortTicks_[i] > 0 ? shortVisits_.claim() : nullptr) {
+      const double ns = static_cast<double>(std::exchange(shortTicks_[i], 0)) * nanosecondsATick_;
+      *s = {appFrame_.load(std::memory_order_relaxed), accounts_->holders()[i], 1e-6 * ns};
+      shortVisits_.push();
+    }
 }
 
 void FrameLog::counted(Count what, std::uint64_t amount, NodeRef node) {
@@ -161,11 +224,12 @@ bool FrameLog::wantsShares(std::uint64_t frame, std::uint32_t wall) const {
 
 void FrameLog::shared(Span what, std::uint64_t frame, std::uint32_t wall, std::span<const NodeRef> among) {
   track().disturb();
-  SharedSpan s{what, frame, wall, track().last(what), {among.begin(), among.end()}};
+  SharedSpan s{what, frame, wall, track().last(what), {among.begin(), among.end()}, 0};
   const std::lock_guard lock(mutex_);
   if (what == Span::Fill && among.size() > kManyShares) crowded_.insert(wall);
   std::uint64_t& next = nextShares_[wall];
   next = std::max(next, frame + 1 + options_.sampleEvery * (among.size() / kManyShares));
+  s.round = next - 1 - frame + options_.sampleEvery;
   shared_.push_back(std::move(s));
 }
 
@@ -179,29 +243,40 @@ DrawSample FrameLogOptions::drawSample(std::uint64_t frame, std::uint64_t every)
 
 DrawSample FrameLog::drawSample(std::uint64_t frame, std::uint32_t wall) const {
   if (!samples_) return DrawSample::None;
-  std::uint64_t every = options_.sampleEvery;
-  {
-    const std::lock_guard lock(mutex_);
-    if (crowded_.contains(wall)) every *= kCrowdedEvery;
-  }
   FrameLogOptions options = options_;
   options.samples = true;
-  return options.drawSample(frame, every);
+  const std::lock_guard lock(mutex_);
+  return options.drawSample(frame, sampleEvery(wall));
+}
+
+std::uint64_t FrameLog::sampleEvery(std::uint32_t wall) const {
+  return options_.sampleEvery * (crowded_.contains(wall) ? kCrowdedEvery : 1);
+}
+
+bool FrameLog::wantsAlone(std::span<const NodeRef> owners) const {
+  const std::lock_guard lock(mutex_);
+  return options_.whole || !accounts_ || std::ranges::any_of(owners, [&](NodeRef owner) {
+           return accounts_->of(owner) != NodeAccounts::kNone;
+         });
 }
 
 std::size_t FrameLog::nextBatch(std::uint32_t wall, std::uint32_t eye, std::size_t batches) {
   const std::lock_guard lock(mutex_);
   const std::size_t at = 2 * std::size_t{wall} + eye;
-  if (next_.size() <= at) next_.resize(at + 1);
-  const std::size_t now = next_[at] % batches;
-  next_[at] = now + kBatchesAFrame < batches ? now + kBatchesAFrame : 0;
+  if (turns_.size() <= at) turns_.resize(at + 1);
+  Turn& turn = turns_[at];
+  const std::size_t now = turn.next % batches;
+  turn.next = now + kBatchesAFrame < batches ? now + kBatchesAFrame : 0;
+  turn.round = sampleEvery(wall) * ((batches + kBatchesAFrame - 1) / kBatchesAFrame);
   return now;
 }
 
 void FrameLog::drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nodes) {
   track().disturb();
+  const std::size_t at = 2 * std::size_t{drawn.wall} + drawn.eye;
   const std::lock_guard lock(mutex_);
   alone_.push_back({drawn, {nodes.begin(), nodes.end()}});
+  if (at < turns_.size()) alone_.back().drawn.round = turns_[at].round;
 }
 
 namespace {
@@ -237,6 +312,9 @@ void FrameLog::collect() {
     for (CountRecord c; t->counts().take(c);)
       if (c.frame >= options_.from)
         for (SpanReader* reader : readers_) reader->take(c);
+  for (ShortVisits s; shortVisits_.take(s);)
+    if (s.frame >= options_.from)
+      for (SpanReader* reader : readers_) reader->take(s);
   for (const SharedSpan& s : shared)
     for (SpanReader* reader : readers_) reader->take(s);
   for (const Alone& a : alone)
@@ -246,7 +324,7 @@ void FrameLog::collect() {
 
 std::uint64_t FrameLog::lost() const {
   const std::lock_guard lock(mutex_);
-  std::uint64_t lost = 0;
+  std::uint64_t lost = shortVisits_.lost();
   for (const auto& t : tracks_) lost += t->spans().lost() + t->counts().lost();
   return lost;
 }

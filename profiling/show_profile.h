@@ -64,6 +64,7 @@ struct Counted {
 
 class ShowProfile final : public SpanReader {
 public:
+  using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
   void take(const CountRecord& count) override;
   void take(const SharedSpan& shared) override;

@@ -120,23 +120,26 @@ public:
   void setWhole(bool whole) { whole_ = whole; }
 
   /// Instead of the spans of a visit: what follows is a node's, until endLightly(). It is recorded only if it
-  /// took `leastTicks`; it has no parts, and stays part of what holds it. The next one begins at once.
+  /// took `leastTicks`, else returned; it has no parts, and stays part of what holds it. The next one begins
+  /// at once.
   void beginLightly() { light_.began = TickClock::now(); }
   void nameLightly(NodeRef node) { light_.node = node; }
-  void endLightly(std::uint64_t frame, std::uint64_t leastTicks, double nanosecondsATick) {
+  NodeRef namedLightly() const { return light_.node; }
+  std::uint64_t endLightly(std::uint64_t frame, std::uint64_t leastTicks, double nanosecondsATick) {
     const std::uint64_t tick = TickClock::now(), ticks = tick - std::exchange(light_.began, tick);
     ++counted_;
-    if (ticks < leastTicks) return;
+    if (ticks < leastTicks) return ticks;
     const ProfileClock::time_point now = ProfileClock::now();
     const auto took = std::chrono::duration_cast<ProfileClock::duration>(
         std::chrono::duration<double, std::nano>(static_cast<double>(ticks) * nanosecondsATick));
     SpanRecord* r = spans_.claim();
-    if (!r) return;
+    if (!r) return 0;
     *r = {};
     r->began = now - took, r->ended = now, r->frame = frame, r->node = light_.node, r->what = Span::Simulate;
     r->depth = static_cast<std::uint8_t>(depth_), r->whole = false;
     r->took = r->own = 1e-6 * nanoseconds(took);
     spans_.push();
+    return 0;
   }
   /// Within the span that is under way.
   void counted(Count what, std::uint64_t amount, NodeRef node) {

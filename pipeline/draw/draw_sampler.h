@@ -8,6 +8,7 @@
 #include "engine/frame_probe.h"
 #include "pipeline/draw/lone_clock.h"
 
+#include <algorithm>
 #include <map>
 
 namespace stadion {
@@ -25,20 +26,20 @@ public:
   void beginFrame(FrameProbe& probe, std::uint64_t frame, std::uint32_t wall,
                   const DrawNothing& drawNothing) {
     probe_ = &probe;
-    now_ = {frame, wall, 0, Span::Draw, 0, 0};
+    now_ = {frame, wall, 0, Span::Draw, 0, 0, 0};
     clock_.begin();
     drawNothing();
     now_.emptyMs = clock_.end();
   }
   /// An eye whose nodes are drawn in pieces, of which a few are timed. A piece is some instances next to each
-  /// other; `starts` has the first of each, ascending.
+  /// other; `starts` has the first of each that is to have a turn, ascending, and stays until endEye().
   void beginEye(std::uint32_t eye, std::span<const std::uint32_t> starts) {
     now_.eye = eye;
     timed_.clear();
-    from_ = end_ = 0;
+    turn_ = {};
     if (starts.empty()) return;
-    const std::size_t at = probe_->nextBatch(now_.wall, eye, starts.size()), end = at + kBatchesAFrame;
-    from_ = starts[at], end_ = end < starts.size() ? starts[end] : ~std::uint32_t{0};
+    const std::size_t at = probe_->nextBatch(now_.wall, eye, starts.size());
+    turn_ = starts.subspan(at, std::min(kBatchesAFrame, starts.size() - at));
   }
   template <class Work>
   void piece(Span what, const Work& work) {
@@ -48,7 +49,7 @@ public:
   /// `shares` is asked for whose it is, if it is timed.
   template <class Shares, class Work>
   void nodes(std::uint32_t first, const Shares& shares, const Work& work) {
-    if (first < from_ || first >= end_) return work();
+    if (!std::ranges::binary_search(turn_, first)) return work();
     Timed& t = timed_[first];
     if (t.shares.empty()) {
       const auto now = shares();
@@ -83,7 +84,7 @@ private:
   LoneClock clock_;
   FrameProbe* probe_ = nullptr;
   DrawnAlone now_;
-  std::uint32_t from_ = 0, end_ = 0;      ///< instances whose pieces are timed
+  std::span<const std::uint32_t> turn_;   ///< the first instances of the pieces that are timed
   std::map<std::uint32_t, Timed> timed_;  ///< by their first instance
 };
 

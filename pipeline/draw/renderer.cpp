@@ -303,8 +303,11 @@ std::span<const std::uint32_t> Renderer::piecesToSample(std::uint32_t eye) {
   pieces_.clear();
   forEachBatch([&](const InstanceBatch& batch, const MeshParts& mesh) {
     const InstanceBatch b = batch.seenBy(eye);
-    for (std::uint32_t done = 0; done < b.count; done += togetherFrom(b, done, mesh))
-      pieces_.push_back(b.first + done);
+    for (std::uint32_t done = 0, count = 0; done < b.count; done += count) {
+      count = togetherFrom(b, done, mesh);
+      const auto owners = batches_.owners().subspan(b.first + done, count);
+      if (probe_->wantsAlone(owners)) pieces_.push_back(b.first + done);
+    }
   });
   return pieces_;
 }

@@ -69,6 +69,11 @@ void LoadGovernor::take(std::size_t, const SpanRecord& r) {
   }
 }
 
+void LoadGovernor::take(const ShortVisits& visits) {
+  const std::lock_guard lock(mutex_);
+  costs_.take(visits);
+}
+
 void LoadGovernor::take(const SharedSpan& shared) {
   const std::lock_guard lock(mutex_);
   costs_.take(shared);
@@ -178,8 +183,8 @@ void LoadGovernor::spreadFrameLevel() {
 
 // App.
 
-void LoadGovernor::see(const Scene& scene) {
-  if (seen_ == scene.loadsVersion()) return;
+bool LoadGovernor::see(const Scene& scene) {
+  if (seen_ == scene.loadsVersion()) return false;
   seen_ = scene.loadsVersion();
   auto [nodes, above] = governedNodes(scene);
   const bool scalable = hasLevels(scene);
@@ -196,6 +201,7 @@ void LoadGovernor::see(const Scene& scene) {
     }
     Governed g{n, policyOf(n.terms, options_.rate), 0, 0, {}};
     g.report.budget = n.terms.budget, g.report.levels = levelsOf(n.terms.gives);
+    g.report.drawCounted = !(n.drawn && options_.drawnElsewhere);
     if (const auto name = names_.find(n.node))
       g.report.name = name->path, g.report.file = name->file, g.report.line = name->line;
     governed_.push_back(std::move(g));
@@ -206,7 +212,26 @@ void LoadGovernor::see(const Scene& scene) {
     if (governed_[i].report.levels > 0) byPriority_.push_back(i);
   std::ranges::stable_sort(byPriority_, {}, [&](std::size_t i) { return governed_[i].of.terms.priority; });
   layFrameLadder();
+  tellUncounted();
+  std::vector<NodeRef> holders;
+  for (const GovernedNode& n : nodes) holders.push_back(n.node);
+  const auto accounts = holders.empty() ? nullptr : std::make_shared<NodeAccounts>(std::move(holders));
+  for (const auto& [node, governed] : above)
+    accounts->add(node, static_cast<NodeAccounts::Account>(governed.front()));
+  accounts_ = accounts;
   costs_.govern(std::move(nodes), std::move(above));
+  return true;
+}
+
+/// Once: that budgets are thought to be kept although nobody knows.
+void LoadGovernor::tellUncounted() {
+  const auto g = std::ranges::find_if(
+      governed_, [](const Governed& of) { return of.report.budget > 0 && !of.report.drawCounted; });
+  if (g == governed_.end() || std::exchange(toldUncounted_, true)) return;
+  lines_.push_back(
+      fmt::format("the budget of {} counts App and Cull only, as all budgets do while processes draw "
+                  "the walls: what drawing takes is known with --wall-workers thread",
+                  titleOf(g->of.node)));
 }
 
 /// Of the nodes that are there now. What was given up stays given up, as far as those are still there who

@@ -16,6 +16,7 @@
 #include "profiling/node_names.h"
 
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 
@@ -26,6 +27,7 @@ struct GovernorOptions {
   bool paced = true;               ///< frames come by the clock: what takes longer than one is late
   bool pipelined = true;           ///< else the stages' times add up
   bool acts = true;                ///< else it only tells
+  bool drawnElsewhere = false;     ///< other processes draw: what that takes is not known by node
   std::vector<std::string> walls;  ///< names
   StressOptions stress;
   std::function<void(const std::string&)> tell;  ///< a line; on the log's thread
@@ -40,6 +42,7 @@ struct BudgetReport {
   double mean = 0, worst = 0;  ///< [ms]
   std::uint64_t worstFrame = 0;
   std::string worstStage;                          ///< "App", "Draw of wall front"
+  bool drawCounted = true;                         ///< else what drawing it took is not in these
   std::uint64_t changes = 0;                       ///< times that something was given up or taken back
   std::uint32_t highest = 0, now = 0, levels = 0;  ///< of its ladder
 };
@@ -51,6 +54,7 @@ public:
   // Of the log's thread.
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
+  void take(const ShortVisits& visits) override;
   void take(const SharedSpan& shared) override;
   void take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes) override;
   void caughtUp() override;
@@ -58,7 +62,10 @@ public:
   std::optional<Overrun> overrunOf(std::uint64_t frame) const;
 
   // Of App's thread.
-  void see(const Scene& scene);
+  /// Whether it watches others than before.
+  bool see(const Scene& scene);
+  /// Whom, and on whose account their costs go; null: nobody.
+  std::shared_ptr<const NodeAccounts> accounts() const { return accounts_; }
   FrameLoad decide(std::uint64_t frame) override;
 
   std::vector<BudgetReport> reports() const;
@@ -90,6 +97,7 @@ private:
   void spreadFrameLevel();
   using FrameLadder = std::vector<std::pair<NodeRef, std::uint32_t>>;
   void layFrameLadder();
+  void tellUncounted();
   void noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost);
   void tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame);
   std::string stageText(const NodeCost& cost) const;
@@ -112,6 +120,8 @@ private:
   std::vector<std::uint64_t> appEnded_, appEndedBefore_, shown_, shownBefore_;
   std::vector<std::string> lines_;  ///< to be told, by the log's thread
   std::uint64_t seen_ = ~std::uint64_t{0};
+  std::shared_ptr<const NodeAccounts> accounts_;
+  bool toldUncounted_ = false;
   std::map<NodeRef, BudgetReport> gone_;
   double now_ = 0;  ///< [s]
 };

@@ -1,6 +1,7 @@
 #include "profiling/load/node_costs.h"
 
 #include "engine/nodes/object_node.h"
+#include "engine/script/schema.h"
 
 #include <algorithm>
 #include <optional>
@@ -9,12 +10,17 @@
 namespace stadion {
 namespace {
 
-/// A sample that is older says nothing any more: the node is out of sight, or drawn otherwise [frames].
+/// A sample that is older, and no new one has come though its turn has, says nothing any more: the node is
+/// out of sight, or drawn otherwise [frames].
 constexpr std::uint64_t kOld = 600;
 /// So long is waited for a sample of what is drawn otherwise; without one it is out of sight [frames].
 constexpr std::uint64_t kAwaited = 128;
 
 }  // namespace
+
+bool mayBeDrawn(const Node* node) {
+  return !node || placedKinds().has(node->kind());
+}
 
 std::pair<std::vector<GovernedNode>, std::map<NodeRef, std::vector<std::size_t>>>
 governedNodes(const Scene& scene) {
@@ -23,7 +29,7 @@ governedNodes(const Scene& scene) {
   scene.forEachLoad([&](const Load& load) {
     for (const auto& [position, terms] : load.terms) {
       places[{load.number, position}] = nodes.size();
-      nodes.push_back({{load.number, position}, terms});
+      nodes.push_back({{load.number, position}, terms, mayBeDrawn(load.nodes[position].get())});
     }
   });
   std::map<NodeRef, std::vector<std::size_t>> above;
@@ -76,28 +82,35 @@ void NodeCosts::govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::v
 }
 
 void NodeCosts::drawnOtherwise(std::size_t governed, std::uint64_t frame, bool hidden) {
-  if (governed < drawn_.size()) drawn_[governed] = {frame, hidden};
+  if (governed < drawn_.size()) drawn_[governed].since = frame, drawn_[governed].hidden = hidden;
 }
 
 void NodeCosts::take(const SpanRecord& r) {
-  const bool counts = r.node.valid() && (isOfNode(r.what) || r.what == Span::Settle);
-  const auto at = counts ? above_.find(r.node) : above_.end();
-  if (at == above_.end()) return;
-  std::vector<double>& frame = app_[r.frame];
-  frame.resize(nodes_.size());
-  for (const std::size_t governed : at->second) frame[governed] += r.took;
+  if (r.node.valid() && (isOfNode(r.what) || r.what == Span::Settle)) spend(r.frame, r.node, r.took);
 }
 
-void NodeCosts::sample(Span what, std::uint64_t frame, std::uint32_t wall, std::uint32_t eye, double ms,
-                       std::span<const NodeShare> among) {
-  if (above_.empty()) return;
+void NodeCosts::take(const ShortVisits& v) {
+  spend(v.frame, v.holder, v.ms);
+}
+
+void NodeCosts::spend(std::uint64_t frame, NodeRef node, double ms) {
+  const auto at = above_.find(node);
+  if (at == above_.end()) return;
+  std::vector<double>& costs = app_[frame];
+  costs.resize(nodes_.size());
+  for (const std::size_t governed : at->second) costs[governed] += ms;
+}
+
+void NodeCosts::sample(const DrawnAlone& s, std::span<const NodeShare> among) {
   for (const auto& [node, part] : among)
     if (const auto at = above_.find(node); at != above_.end())
       for (const std::size_t governed : at->second) {
-        Sample& s = samples_[{governed, node, wall, eye, what}];
+        Sample& known = samples_[{governed, node, s.wall, s.eye, s.what}];
         // What is drawn in several pieces of a frame costs their sum.
-        if (s.frame != frame) s = {0, s.frame + kOld < frame ? 0 : s.ms, frame};
-        s.ms += ms * double{part};
+        if (known.frame != s.frame) known = {0, known.until < s.frame ? 0 : known.ms, s.frame, 0};
+        known.ms += s.ms * double{part};
+        known.until = s.frame + std::max(kOld, 2 * s.round);
+        if (s.what == Span::Draw) drawn_[governed].round = std::max(drawn_[governed].round, s.round);
       }
 }
 
@@ -105,12 +118,11 @@ void NodeCosts::take(const SharedSpan& s) {
   if (s.wall == kNoWall || s.among.empty()) return;
   std::vector<NodeShare> alike;
   for (const NodeRef node : s.among) alike.push_back({node, 1.0f / static_cast<float>(s.among.size())});
-  sample(s.what, s.frame, s.wall, 0, s.ms, alike);
+  sample({s.frame, s.wall, 0, s.what, s.ms, 0, s.round}, alike);
 }
 
 void NodeCosts::take(const DrawnAlone& d, const std::vector<NodeShare>& nodes) {
-  if (d.what == Span::Draw)
-    sample(Span::Draw, d.frame, d.wall, d.eye, d.ms, nodes);
+  if (d.what == Span::Draw) sample(d, nodes);
 }
 
 std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
@@ -122,7 +134,7 @@ std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
   std::vector<bool> sampled(costs.size());
   for (const auto& [key, s] : samples_) {
     const Drawn& drawn = drawn_[key.governed];
-    if (s.frame + kOld < frame || s.frame > frame || drawn.hidden || s.frame < drawn.since) continue;
+    if (s.until < frame || s.frame > frame || drawn.hidden || s.frame < drawn.since) continue;
     sampled[key.governed] = sampled[key.governed] || key.what == Span::Draw;
     const double ms = std::max(0.0, s.ms);  // of next to nothing, a clock may say less than nothing
     costs[key.governed].cost.drawn += ms;
@@ -130,8 +142,8 @@ std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
     stages[{key.governed, key.what == Span::Draw, key.wall}] += ms;
   }
   for (std::size_t i = 0; i < costs.size(); ++i)
-    costs[i].known =
-        drawn_[i].since == 0 || drawn_[i].hidden || sampled[i] || frame > drawn_[i].since + kAwaited;
+    costs[i].known = drawn_[i].since == 0 || drawn_[i].hidden || sampled[i] ||
+                     frame > drawn_[i].since + std::max(kAwaited, 2 * drawn_[i].round);
   std::vector<double> most(costs.size());
   for (std::size_t i = 0; i < costs.size(); ++i) most[i] = costs[i].cost.app;
   for (const auto& [stage, ms] : stages) {
@@ -145,7 +157,7 @@ std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
 
 void NodeCosts::forget(std::uint64_t upToFrame) {
   app_.erase(app_.begin(), app_.upper_bound(upToFrame));
-  std::erase_if(samples_, [&](const auto& s) { return s.second.frame + kOld < upToFrame; });
+  std::erase_if(samples_, [&](const auto& s) { return s.second.until < upToFrame; });
 }
 
 }  // namespace stadion

@@ -2,8 +2,8 @@
 /// What nodes with terms cost, frame by frame: all that is spent on them and on what stands below them.
 ///
 /// App is known of each frame. Cull and Draw are known from samples (FrameLog: who shared in culling, which
-/// batches were drawn alone); between two samples the last one counts. A sample may be disturbed: what is to
-/// be acted on is the lesser of the last two.
+/// batches were drawn alone); between two samples the last one counts, until another has not come for two
+/// rounds of sampling. A sample may be disturbed: what is to be acted on is the lesser of the last two.
 ///
 /// Units    milliseconds. Threads  the log's thread, but see(), which is App's; names and terms are locked by
 ///          the owner.
@@ -21,6 +21,7 @@ namespace stadion {
 struct GovernedNode {
   NodeRef node;
   NodeTerms terms;
+  bool drawn = false;  ///< it has a place in the world: something of it, or below it, may be drawn
 };
 
 /// What one of them cost in one frame.
@@ -41,6 +42,7 @@ public:
   const std::vector<GovernedNode>& governed() const { return nodes_; }
 
   void take(const SpanRecord& record);
+  void take(const ShortVisits& visits);
   void take(const SharedSpan& shared);
   void take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes);
 
@@ -56,6 +58,7 @@ private:
   struct Sample {
     double ms = 0, before = 0;  ///< before: in the sample before; 0 = there was none
     std::uint64_t frame = 0;
+    std::uint64_t until = 0;  ///< frame after which it says nothing any more
   };
   struct SampleKey {
     std::size_t governed;
@@ -64,12 +67,13 @@ private:
     Span what;
     auto operator<=>(const SampleKey&) const = default;
   };
-  void sample(Span what, std::uint64_t frame, std::uint32_t wall, std::uint32_t eye, double ms,
-              std::span<const NodeShare> among);
+  void spend(std::uint64_t frame, NodeRef node, double ms);
+  void sample(const DrawnAlone& taken, std::span<const NodeShare> among);
   /// How a governed node has been drawn, and since when.
   struct Drawn {
     std::uint64_t since = 0;
     bool hidden = false;
+    std::uint64_t round = 0;  ///< so long a sample of its drawing may take to come [frames]
   };
 
   std::vector<GovernedNode> nodes_;
@@ -82,7 +86,10 @@ private:
 /// Whether the show has anything that stress acts on.
 bool hasLevels(const Scene& scene);
 
-/// The governed nodes of the loads that are there, and who stands below them.
+/// Whether something of the node, or below it, may be drawn. Null: a static object.
+bool mayBeDrawn(const Node* node);
+
+/// The governed nodes of the loads that are there, and of each node those at or above it, the nearest first.
 std::pair<std::vector<GovernedNode>, std::map<NodeRef, std::vector<std::size_t>>>
 governedNodes(const Scene& scene);
 

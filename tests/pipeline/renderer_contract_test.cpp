@@ -109,11 +109,15 @@ struct Sampling final : FrameProbe {
   std::vector<DrawnAlone> pieces;
   std::map<NodeRef, int> told;
   std::size_t asked = 0, next = 0;
+  std::set<NodeRef> wanted;  ///< empty: all
 
   void began(Span, std::uint64_t, std::uint32_t) override {}
   void began(Span, NodeRef) override {}
   void ended(Span) override {}
   DrawSample drawSample(std::uint64_t, std::uint32_t) const override { return DrawSample::Some; }
+  bool wantsAlone(std::span<const NodeRef> owners) const override {
+    return wanted.empty() || std::ranges::any_of(owners, [&](NodeRef n) { return wanted.contains(n); });
+  }
   std::size_t nextBatch(std::uint32_t, std::uint32_t, std::size_t batches) override {
     asked = batches;
     const std::size_t now = next;
@@ -165,6 +169,22 @@ TEST(PictureRenderer, WhatIsDrawnInTwoPassesIsOnePieceThatHasItsTurn) {
   test::Picture sampled = plain;
   ASSERT_FALSE(stage.renderer().read(0, sampled.rgba));
   EXPECT_EQ(sampled, plain);
+}
+
+TEST(PictureRenderer, WhatIsNotWantedAloneTakesNobodysTurn) {
+  constexpr std::uint32_t kLamps = 100;
+  MeshStore meshes;
+  const DrawList list = lamps(meshes, kLamps);
+  Stage stage(meshes, 96, 72);
+  stage.draw(list);
+  Sampling all, some;
+  ASSERT_FALSE(stage.renderer().draw(list, std::function<bool()>{}, &all));
+  some.wanted = {{1, 3}, {1, 90}};
+  ASSERT_FALSE(stage.renderer().draw(list, std::function<bool()>{}, &some));
+  EXPECT_GT(all.asked, kBatchesAFrame);
+  EXPECT_EQ(some.asked, 2U);
+  EXPECT_EQ(some.pieces.size(), 2U) << "not what lies between them";
+  EXPECT_TRUE(some.told.contains({1, 3}) && some.told.contains({1, 90}));
 }
 
 TEST(PictureRenderer, ServesOddSizes) {

@@ -154,6 +154,48 @@ TEST(LoadGovernor, WhatDrawingNothingTakesIsTakenOffOnce) {
   EXPECT_GT(g.governor->reports().at(0).overruns, 60U);
 }
 
+TEST(LoadGovernor, WhatComesToItsTurnSeldomCountsUntilItsNextButOne) {
+  Governed g({{1, {}, 1}});
+  constexpr std::uint64_t kRound = 1000;
+  for (std::uint64_t i = 0; i < 3 * kRound; ++i) {
+    const NodeShare whole{NodeRef{1, 0}, 1};
+    if (g.at % kRound == 9) g.governor->take(DrawnAlone{g.at, 0, 0, Span::Draw, 3, 0.1, kRound}, {whole});
+    g.frame({0});
+  }
+  EXPECT_NEAR(static_cast<double>(g.governor->reports().at(0).overruns), 2 * kRound, 20);
+  g.frames(2 * kRound, {0});
+  EXPECT_EQ(g.governor->overrunOf(g.at), std::nullopt) << "it has not come again: it is out of sight";
+}
+
+TEST(LoadGovernor, ShortVisitsCountForAllThatTheHolderStandsBelow) {
+  Governed g({{1, {Rest}, 1}});
+  ASSERT_TRUE(g.governor->accounts());
+  EXPECT_EQ(g.governor->accounts()->holders().at(g.governor->accounts()->of({1, 0})), (NodeRef{1, 0}));
+  EXPECT_EQ(g.governor->accounts()->of({1, 1}), NodeAccounts::kNone);
+  for (int i = 0; i < 10; ++i) {
+    g.governor->take(ShortVisits{g.at, {1, 0}, 5});
+    g.frame({0});
+  }
+  EXPECT_EQ(g.level(0), 1U);
+  EXPECT_NEAR(g.governor->reports().at(0).worst, 5, 1e-9);
+}
+
+TEST(LoadGovernor, ThatDrawingIsDoneElsewhereIsToldOnceAndOfEachBudget) {
+  GovernorOptions options;
+  options.drawnElsewhere = true;
+  Governed g({{1, {}, 1}, {2, {}, 1}}, false, options);
+  g.frames(10, {0, 0});
+  g.annex(Verb::Load);
+  g.frames(10, {0, 0});
+  ASSERT_EQ(g.told.size(), 1U);
+  EXPECT_EQ(g.told[0].find("the budget of \"node0\" show:1 counts App and Cull only"), 0U) << g.told[0];
+  for (const BudgetReport& r : g.governor->reports()) EXPECT_FALSE(r.drawCounted) << r.name;
+  Governed here({{1, {}, 1}});
+  here.frames(10, {0});
+  EXPECT_TRUE(here.told.empty());
+  EXPECT_TRUE(here.governor->reports().at(0).drawCounted);
+}
+
 TEST(LoadGovernor, WhatIsHiddenCostsNothing) {
   Drawn g(1, {Hide});
   g.draw(120, 3);

@@ -200,6 +200,69 @@ TEST(FrameLog, ANodeThatTakesLongIsToldInEveryFrame) {
   EXPECT_EQ(kept.frames.size(), 20U);
 }
 
+TEST(FrameLog, OfNodesThatAreWatchedTheShortVisitsAreAddedUpByAccount) {
+  struct Kept final : SpanReader {
+    std::map<std::uint64_t, double> visits, others;  ///< by frame [ms]
+    using SpanReader::take;
+    void take(std::size_t, const SpanRecord& r) override {
+      if (r.node.valid() && r.node.position < 100) visits[r.frame] += r.own;
+    }
+    void take(const ShortVisits& v) override {
+      (v.holder == NodeRef{1, 0} ? visits : others)[v.frame] += v.ms;
+    }
+  } kept;
+  FrameLog log({&kept}, {.samples = false, .from = 0});
+  const auto accounts = std::make_shared<NodeAccounts>(std::vector{NodeRef{1, 0}, NodeRef{1, 500}});
+  for (std::uint32_t i = 0; i < 100; ++i) accounts->add({1, i}, 0);
+  for (std::uint32_t i = 500; i < 600; ++i) accounts->add({1, i}, 1);
+  log.watch(accounts);
+  for (std::uint64_t frame = 0; frame < 40; ++frame) {
+    const SpanScope app(&log, Span::App, frame, kNoWall);
+    {
+      const SpanScope round(&log, Span::Mail);
+      burn(std::chrono::microseconds(2500));  // whom to visit: nobody's
+    }
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+      {
+        const SpanScope simulate(&log, Span::Simulate, NodeRef{1, i});
+        if (i < 100) burn(std::chrono::microseconds(10));
+      }
+      const SpanScope settle(&log, Span::Settle, NodeRef{1, i});
+    }
+  }
+  log.finish();
+  ASSERT_EQ(kept.visits.size(), 40U) << "in every frame, however it was recorded";
+  double least = 1e9;
+  for (const auto& [frame, ms] : kept.visits) {
+    EXPECT_GE(ms, 0.9) << frame;
+    least = std::min(least, ms);
+  }
+  EXPECT_LT(least, 2.5) << "nothing of what is done for all";
+  log.watch(nullptr);
+}
+
+TEST(FrameLog, WhatNodesSimulateSideBySideIsEachOnesOwnOnAppsThreadToo) {
+  struct Kept final : SpanReader {
+    std::set<std::uint64_t> frames;
+    using SpanReader::take;
+    void take(std::size_t, const SpanRecord& r) override {
+      if (r.node == NodeRef{1, 7} && r.took >= 0.35) frames.insert(r.frame);
+    }
+  } kept;
+  FrameLog log({&kept}, {.samples = false, .from = 0});
+  for (std::uint64_t frame = 0; frame < 20; ++frame) {
+    const SpanScope app(&log, Span::App, frame, kNoWall);
+    {
+      const SpanScope crew(&log, Span::Crew);
+      const SpanScope simulate(&log, Span::Simulate, NodeRef{1, 7});
+      burn(std::chrono::microseconds(400));
+    }
+    for (std::uint32_t i = 0; i < 1000; ++i) const SpanScope settle(&log, Span::Settle, NodeRef{1, i});
+  }
+  log.finish();
+  EXPECT_EQ(kept.frames.size(), 20U);
+}
+
 TEST(FrameLog, OfFewNodesEveryFrameIsRecordedAsAWhole) {
   ShowProfile profile;
   FrameLog log({&profile}, {.samples = false, .from = 0});
@@ -367,6 +430,37 @@ TEST(CostSeries, PercentilesAreExactToABin) {
   EXPECT_NEAR(s.percentile(95) / 0.95, 1, 0.09);
   EXPECT_EQ(s.most(), 1);
   EXPECT_EQ(CostSeries().percentile(95), 0);
+}
+
+TEST(FrameLog, OnlyWhatIsWatchedIsDrawnAloneUnlessAllIsToBeExplained) {
+  const auto accounts = std::make_shared<NodeAccounts>(std::vector{kBall});
+  accounts->add(kBall, 0);
+  const std::vector<NodeRef> both{kStone, kBall}, other{kStone, {3, 0}};
+  FrameLog budgets({}, {.whole = false, .from = 0});
+  budgets.watch(accounts);
+  EXPECT_TRUE(budgets.wantsAlone(both));
+  EXPECT_FALSE(budgets.wantsAlone(other));
+  FrameLog profile({}, {.from = 0});
+  profile.watch(accounts);
+  EXPECT_TRUE(profile.wantsAlone(other));
+}
+
+TEST(FrameLog, WhatIsDrawnAloneSaysWhenItsTurnComesAgain) {
+  struct Kept final : SpanReader {
+    std::vector<DrawnAlone> drawn;
+    using SpanReader::take;
+    void take(std::size_t, const SpanRecord&) override {}
+    void take(const DrawnAlone& d, const std::vector<NodeShare>&) override { drawn.push_back(d); }
+  } kept;
+  FrameLog log({&kept}, {.from = 0});
+  { const SpanScope draw(&log, Span::Draw, 9, 1); }
+  EXPECT_EQ(log.nextBatch(1, 0, 801), 0U);
+  EXPECT_EQ(log.nextBatch(1, 0, 801), kBatchesAFrame);
+  const NodeShare whole{kBall, 1};
+  log.drewAlone({9, 1, 0, Span::Draw, 1, 0}, {&whole, 1});
+  log.finish();
+  ASSERT_EQ(kept.drawn.size(), 1U);
+  EXPECT_EQ(kept.drawn[0].round, 101U * 16);
 }
 
 TEST(FrameLog, DrawingIsSampledFromWhenSomebodyAsksForIt) {
