@@ -123,7 +123,10 @@ bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   options.profile = o.profile, options.log.whole = o.profile, options.log.shares = true;
   const bool governed = live || o.profile || options.trace;
   options.log.samples = o.profile || (governed && hasDrawnBudgets(s.player->scene()));
-  if (governed) options.govern = governorOf(o, *s.player, s.player->walls().names());
+  if (governed) {
+    options.govern = governorOf(o, *s.player, s.player->walls().names());
+    options.govern->drawnElsewhere = s.drawing && s.drawing->setting().processes;
+  }
   options.keep = lastFramesOf(o, *s.player, s.player->walls().names());
   options.keep->tell = tellSometimes();
   s.recording = ShowRecording::create(std::move(options), findings);

@@ -45,7 +45,7 @@ void addBudgets(ShowRecording* recording, RunSummary& s) {
   s.stressChanges = governor->stressChanges();
   for (const BudgetReport& b : governor->reports())
     s.budgets.push_back({b.name, b.file, b.line, b.budget, b.mean, b.worst, b.worstFrame, b.worstStage,
-                         b.overruns, b.changes, b.highest, b.now, b.levels});
+                         b.overruns, b.changes, b.highest, b.now, b.levels, b.drawCounted});
 }
 
 RunSummary summarise(const FinishedRun& run) {

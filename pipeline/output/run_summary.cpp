@@ -82,6 +82,7 @@ std::string textOf(const BudgetKept& b) {
     text += fmt::format("mean {:.3f} ms, ", b.mean);
   text += fmt::format("worst {:.3f} in frame {}{}", b.worst, b.worstFrame,
                       b.worstStage.empty() ? "" : " (" + b.worstStage + ")");
+  if (!b.drawCounted) text += ", without Draw, which --wall-workers thread counts";
   if (b.changes > 0)
     text += fmt::format("; gave up {} of {} levels at most, {} now, {} changes", b.highest, b.levels, b.now,
                         b.changes);
@@ -101,7 +102,8 @@ Json json(const BudgetKept& b) {
               {"changes", b.changes},
               {"highest_level", b.highest},
               {"level", b.now},
-              {"levels", b.levels}};
+              {"levels", b.levels},
+              {"draw_counted", b.drawCounted}};
 }
 
 }  // namespace

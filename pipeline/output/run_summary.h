@@ -87,6 +87,7 @@ struct BudgetKept {
   std::string worstStage;                   ///< where most of that was spent
   std::uint64_t overruns = 0, changes = 0;  ///< frames; times that something was given up or taken back
   std::uint32_t highest = 0, now = 0, levels = 0;  ///< of its ladder
+  bool drawCounted = true;                         ///< else what drawing it took is in none of these
 };
 
 /// Who drew the walls, and why they did.

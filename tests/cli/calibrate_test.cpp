@@ -99,6 +99,22 @@ TEST(ProgramCalibrate, PicturesAndHashesDoNotDependOnIt) {
   }
 }
 
+TEST(ProgramCalibrate, ForABudgetOnWhatIsDrawnThreadsDrawALiveShow) {
+  const Home home;
+  home.remember({true, 0, false});
+  const TemporaryFolder folder;
+  folder.write("show.input", "stadion-input 1\nkey head 0  0 0 1.7\nkey head 0.5  0 0 1.7\n");
+  const auto play = [&](const std::string& show) {
+    return summaryOf(
+        home.start({"run", folder.write("show.evs", show), "--asset-root", assetFolder(), "--walls", "cave4",
+                    "--size", "64x48", "--json", "--no-sound"}))["how_drawn"];
+  };
+  EXPECT_EQ(play("object( file=football.3ds )\n")["wall_workers"], "process");
+  const json how = play("object( file=football.3ds, budget=1 )\n");
+  EXPECT_EQ(how["wall_workers"], "thread");
+  EXPECT_TRUE(has(how["why"], "budgets of what is drawn")) << how;
+}
+
 TEST(ProgramCalibrate, WhatIsAskedForCountsMore) {
   const Home home;
   home.remember({true, 0, true});

@@ -131,6 +131,21 @@ TEST(ProgramLastFrames, AKilledRunsAreFoundWithoutTheirNameAndOldOnesGo) {
   EXPECT_NE(r.out.find(" frames: "), std::string::npos) << r.out;
 }
 
+TEST(ProgramLastFrames, ThatBudgetsDoNotKnowWhatProcessesDrawIsTold) {
+  const TemporaryFolder folder;
+  const std::string show = folder.write("show.evs", "object( name=ball, file=football.3ds, budget=1 )\n");
+  ProgramRun run;
+  run.words = {stadionPath(), "run",   show,         "--asset-root", assetFolder(),    "--walls", "desktop",
+               "--size",      "32x24", "--no-sound", "--json",       "--wall-workers", "process"};
+  run.signal = SIGINT, run.signalAfter = std::chrono::seconds(3);
+  const ProgramResult r = runProgram(run);
+  ASSERT_EQ(r.status, 130) << r.err;
+  const std::string told = "the budget of \"ball\" " + show + ":1 counts App and Cull only";
+  EXPECT_EQ(r.err.find(told), r.err.rfind(told)) << r.err;
+  EXPECT_NE(r.err.find(told), std::string::npos) << r.err;
+  EXPECT_EQ(nlohmann::json::parse(r.out).at("budgets").at(0).at("draw_counted"), false) << r.out;
+}
+
 TEST(ProgramLastFrames, WhatIsDrawnOfAFileThatComesLaterKeepsItsBudgetToo) {
   const TemporaryFolder folder;
   folder.write("stone.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 2\nf 1 2 3\nf 1 3 4\n");
