@@ -140,6 +140,11 @@ void addOneTo(CLI::App& command, Options& o) {
   };
   add("--scene", one.scene, "a, b or c")->check(CLI::IsMember({"a", "b", "c"}));
   add("--class", one.kind, "STRICT, OPEN or SUBMIT")->check(CLI::IsMember({"STRICT", "OPEN", "SUBMIT"}));
+  add("--without", one.without,
+      "OPEN, SUBMIT without a trick: unseen (nothing goes to OpenGL that no pixel would show), small (small "
+      "things are "
+      "drawn without OpenGL)")
+      ->check(CLI::IsMember({"unseen", "small"}));
   add("--mode", one.mode, "pipelined or sequential")->check(CLI::IsMember({"pipelined", "sequential"}));
   add("--pace", one.pace, "free, or lock: frames begin on ticks of 1/60 s")
       ->check(CLI::IsMember({"free", "lock"}));

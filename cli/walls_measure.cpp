@@ -115,6 +115,8 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   parts.provider = provider.value().get();
   parts.sink = &pictures;
   if (s.kind == "STRICT") parts.quality.mostAtOnce = 1, parts.quality.leavesOutUnseen = false;
+  if (s.without == "unseen") parts.quality.leavesOutUnseen = false;
+  if (s.without == "small") parts.quality.drawsSmallThings = false;
   parts.shown = [&] { completed.add(s); };
   if (s.workers == "process") parts.workers = WallWorkers{s.gl == "egl"};
   ShowStages stages(std::move(parts));
@@ -151,6 +153,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   const char* lp = std::getenv("LP_NUM_THREADS");
   return nlohmann::json{{"engine", "stadion"},
                         {"class", s.kind},
+                        {"without", s.without},
                         {"backend", s.gl},
                         {"renderer", stages.glDescription()},
                         {"scene", s.scene},

@@ -17,6 +17,7 @@ struct WallsSetting {
   std::string mode = "pipelined";
   std::size_t latency = 1;         ///< frames under way at most (FrameLoopOptions)
   std::string workers = "thread";  ///< or process
+  std::string without;             ///< OPEN, SUBMIT: without this trick, "unseen" or "small"; empty: with all
   std::string gl = "osmesa";
   std::string pace = "free";          ///< or lock: frames begin on ticks of 1/60 s
   std::size_t nodes = 0, moving = 0;  ///< for curves; 0: as the scene has them

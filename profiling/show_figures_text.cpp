@@ -2,6 +2,7 @@
 #include "profiling/show_figures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -36,6 +37,16 @@ std::string tooLittleText(const ShowFigures& f) {
   const auto count =
       std::ranges::count_if(f.nodes, [](const NodeRow& r) { return r.drawMeasured && !r.drawKnown(); });
   return count == 0 ? "" : fmt::format("~ {} nodes: too little to be told from drawing nothing\n", count);
+}
+
+/// Where the pieces do not add up to the whole, which each of them cost is not known as well as it looks.
+std::string apartText(const Explained& draw) {
+  constexpr double kMuch = 0.15;
+  if (std::abs(draw.covered() - 1) <= kMuch) return {};
+  return fmt::format(
+      "draw: what was drawn alone came to {:.0f} % of the eyes drawn whole, and was scaled to them: a "
+      "node's draw time may be as far off\n",
+      100 * draw.covered());
 }
 
 std::string unmeasuredText(const ShowFigures& f) {
@@ -115,7 +126,8 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
   for (const Explained& e : f.explained)
     text += fmt::format("{:5} {:5.1f}% {:9.4f} {:9.4f} {:9.4f}\n", e.stage, 100 * e.covered(), e.measured,
                         e.nodes, e.named);
-  return f.explained[2].measured > 0 ? text + "draw: " + f.drawMethod + "\n" : text;
+  if (f.explained[2].measured <= 0) return text;
+  return text + "draw: " + f.drawMethod + "\n" + (f.framesNeeded == 0 ? apartText(f.explained[2]) : "");
 }
 
 std::string toJson(const ShowFigures& f) {

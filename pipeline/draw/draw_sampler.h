@@ -9,7 +9,9 @@
 #include "pipeline/draw/lone_clock.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <vector>
 
 namespace stadion {
 
@@ -18,6 +20,9 @@ public:
   /// More of a mesh are several pieces. What is drawn alone must be much more than nothing, which is taken
   /// off it: about so large a part of what there is to draw.
   static constexpr float kPartsOfAFrame = 8;
+  /// What is drawn one after the other makes one piece while it is no more than so large a part. So there are
+  /// twice as many pieces at most, however many meshes: all have had their turn within 600 frames.
+  static constexpr float kMostJoined = 32;
 
   explicit DrawSampler(const GlTable& gl) : clock_(gl) {}
 
@@ -27,47 +32,78 @@ public:
                   const DrawNothing& drawNothing) {
     probe_ = &probe;
     now_ = {frame, wall, 0, Span::Draw, 0, 0, 0};
-    clock_.begin();
-    drawNothing();
-    now_.emptyMs = clock_.end();
+    for (int i = 0; i < kEmpties; ++i) {
+      clock_.begin();
+      drawNothing();
+      empties_[emptiesTaken_++ % empties_.size()] = clock_.end();
+    }
+    now_.emptyMs = usualEmpty();
   }
-  /// An eye whose nodes are drawn in pieces, of which a few are timed. A piece is some instances next to each
-  /// other; `starts` has the first of each that is to have a turn, ascending, and stays until endEye().
-  void beginEye(std::uint32_t eye, std::span<const std::uint32_t> starts) {
+  /// An eye whose nodes are drawn in pieces, of which a few are timed. A piece is some instances that are
+  /// drawn one after the other; `starts` has the first of each, ascending, `wanted` the numbers of those that
+  /// are to have a turn, ascending. Both must stay until endEye().
+  void beginEye(std::uint32_t eye, std::span<const std::uint32_t> starts,
+                std::span<const std::size_t> wanted) {
     now_.eye = eye;
-    timed_.clear();
-    turn_ = {};
-    if (starts.empty()) return;
-    const std::size_t at = probe_->nextBatch(now_.wall, eye, starts.size());
-    turn_ = starts.subspan(at, std::min(kBatchesAFrame, starts.size() - at));
+    timed_.clear(), parts_.clear();
+    starts_ = starts, turn_ = {}, open_ = kNone;
+    if (wanted.empty()) return;
+    const std::size_t at = probe_->nextBatch(now_.wall, eye, wanted.size());
+    turn_ = wanted.subspan(at, std::min(kBatchesAFrame, wanted.size() - at));
+    timed_.resize(turn_.size());
   }
   template <class Work>
   void piece(Span what, const Work& work) {
     tell(what, timed(work), {});
   }
-  /// The piece that begins with that instance, in one pass; a piece that is drawn in several took their sum.
-  /// `shares` is asked for whose it is, if it is timed.
-  template <class Shares, class Work>
-  void nodes(std::uint32_t first, const Shares& shares, const Work& work) {
-    if (!std::ranges::binary_search(turn_, first)) return work();
-    Timed& t = timed_[first];
-    if (t.shares.empty()) {
-      const auto now = shares();
-      t.shares.assign(now.begin(), now.end());
-    }
-    t.ms += timed(work);
+  /// A part of an eye that is no node's: with others of the kind, their sum.
+  template <class Work>
+  void part(Span what, const Work& work) {
+    parts_[what] += timed(work);
   }
-  /// All passes are over.
-  void endEye() {
-    for (const auto& [first, t] : timed_) tell(Span::Draw, t.ms, t.shares);
+  enum class By { OpenGl, Us };
+  /// In this pass, instances from this one on are drawn next. A piece that is drawn in several passes took
+  /// their sum.
+  void next(std::uint32_t first, By by = By::OpenGl) {
+    const auto after = std::ranges::upper_bound(starts_, first);
+    const std::size_t piece = static_cast<std::size_t>(after - starts_.begin()) - 1;
+    const auto at = std::ranges::lower_bound(turn_, piece);
+    const bool timed = at != turn_.end() && *at == piece;
+    const std::size_t now = timed ? static_cast<std::size_t>(at - turn_.begin()) : kNone;
+    if (now == open_) return;
+    endPass();
+    if (!timed) return;
+    open_ = now, less_ = by == By::OpenGl ? now_.emptyMs : 0;
+    clock_.begin();
+  }
+  void endPass() {
+    if (open_ == kNone) return;
+    timed_[open_] += clock_.end() - less_;
+    open_ = kNone;
+  }
+  /// All passes are over. `shares` is asked whose the pieces are that were timed: (first instance, end).
+  template <class Shares>
+  void endEye(const Shares& shares) {
+    for (const auto& [what, ms] : parts_) tell(what, ms, {});
+    for (std::size_t i = 0; i < turn_.size(); ++i) {
+      const std::size_t end = turn_[i] + 1;
+      tell(Span::Draw, timed_[i],
+           shares(starts_[turn_[i]], end < starts_.size() ? starts_[end] : ~std::uint32_t{0}));
+    }
   }
 
 private:
-  struct Timed {
-    double ms = 0;
-    std::vector<NodeShare> shares;
-  };
+  static constexpr std::size_t kNone = ~std::size_t{0};
+  static constexpr int kEmpties = 3;  ///< a frame
 
+  /// One is disturbed easily, and is taken off everything: the median of the last frames'.
+  double usualEmpty() {
+    std::array<double, 33> sorted = empties_;
+    const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(emptiesTaken_, sorted.size()));
+    const auto middle = sorted.begin() + (end - sorted.begin()) / 2;
+    std::nth_element(sorted.begin(), middle, end);
+    return *middle;
+  }
   /// Without what drawing nothing takes [ms].
   template <class Work>
   double timed(const Work& work) {
@@ -84,8 +120,14 @@ private:
   LoneClock clock_;
   FrameProbe* probe_ = nullptr;
   DrawnAlone now_;
-  std::span<const std::uint32_t> turn_;   ///< the first instances of the pieces that are timed
-  std::map<std::uint32_t, Timed> timed_;  ///< by their first instance
+  std::array<double, 33> empties_{};  ///< what drawing nothing took [ms]
+  std::size_t emptiesTaken_ = 0;
+  std::span<const std::uint32_t> starts_;
+  std::span<const std::size_t> turn_;  ///< the pieces that are timed
+  std::size_t open_ = kNone;           ///< of these, the one that is drawn
+  double less_ = 0;                    ///< what comes off it
+  std::vector<double> timed_;          ///< by piece of the turn [ms]
+  std::map<Span, double> parts_;
 };
 
 }  // namespace stadion

@@ -7,35 +7,51 @@
 namespace stadion {
 namespace {
 
-void attach(const GlTable& gl, GLuint framebuffer, GLenum attachment, GLuint renderbuffer) {
-  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, renderbuffer);
+void attach(const GlTable& gl, const GlFramebuffer& framebuffer, GLenum attachment,
+            const GlTexture& texture) {
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.name(), 0);
+}
+void attach(const GlTable& gl, const GlFramebuffer& framebuffer, GLenum attachment,
+            const GlRenderbuffer& buffer) {
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer.name());
 }
 
 }  // namespace
 
 EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height, RenderQuality quality)
-    : gl_(gl), width_(width), height_(height), sampled_(quality.samples > 1), colour_(gl), depth_(gl),
-      drawn_(gl), pictures_{GlRenderbuffer(gl), GlRenderbuffer(gl)}, resolved_{GlFramebuffer(gl),
-                                                                               GlFramebuffer(gl)} {
+    : gl_(gl), width_(width), height_(height), sampled_(quality.samples > 1), colour_(gl), sampledDepth_(gl),
+      drawn_(gl),
+      depth_(gl), pictures_{GlTexture(gl), GlTexture(gl)}, resolved_{GlFramebuffer(gl), GlFramebuffer(gl)} {
+  const GLenum colours = quality.look == Look::Full ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+  const auto picture = [&](const GlTexture& texture, GLenum stored, GLenum format, GLenum type) {
+    gl_.BindTexture(GL_TEXTURE_2D, texture.name());
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(stored), this->width(), this->height(), 0, format,
+                   type, nullptr);
+  };
+  // 32 bits of depth are read and written faster.
+  if (!sampled_) picture(depth_, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
+  for (std::size_t eye = 0; eye < pictures_.size(); ++eye) {
+    picture(pictures_[eye], colours, GL_RGBA, GL_UNSIGNED_BYTE);
+    attach(gl_, resolved_[eye], GL_COLOR_ATTACHMENT0, pictures_[eye]);
+    if (!sampled_) attach(gl_, resolved_[eye], GL_DEPTH_ATTACHMENT, depth_);
+  }
+  gl_.BindTexture(GL_TEXTURE_2D, 0);
+  if (!sampled_) return;
   GLint most = 0;
   gl_.GetIntegerv(GL_MAX_SAMPLES, &most);
-  const GLint drawn = sampled_ ? std::min(static_cast<GLint>(std::min(quality.samples, 64u)), most) : 0;
-  const auto storage = [&](const GlRenderbuffer& buffer, GLint count, GLenum format) {
+  const auto storage = [&](const GlRenderbuffer& buffer, GLenum format) {
     gl_.BindRenderbuffer(GL_RENDERBUFFER, buffer.name());
-    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, count, format, this->width(), this->height());
+    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER,
+                                       std::min(static_cast<GLint>(std::min(quality.samples, 64u)), most),
+                                       format, this->width(), this->height());
   };
-  const GLenum colours = quality.look == Look::Full ? GL_SRGB8_ALPHA8 : GL_RGBA8;
-  storage(depth_, drawn, sampled_ ? GL_DEPTH_COMPONENT24 : GL_DEPTH_COMPONENT32F);  // which is read faster
-  for (std::size_t eye = 0; eye < pictures_.size(); ++eye) {
-    storage(pictures_[eye], 0, colours);
-    attach(gl_, resolved_[eye].name(), GL_COLOR_ATTACHMENT0, pictures_[eye].name());
-    if (!sampled_) attach(gl_, resolved_[eye].name(), GL_DEPTH_ATTACHMENT, depth_.name());
-  }
-  if (!sampled_) return;
-  storage(colour_, drawn, colours);
-  attach(gl_, drawn_.name(), GL_COLOR_ATTACHMENT0, colour_.name());
-  attach(gl_, drawn_.name(), GL_DEPTH_ATTACHMENT, depth_.name());
+  storage(sampledDepth_, GL_DEPTH_COMPONENT24);
+  storage(colour_, colours);
+  attach(gl_, drawn_, GL_COLOR_ATTACHMENT0, colour_);
+  attach(gl_, drawn_, GL_DEPTH_ATTACHMENT, sampledDepth_);
 }
 
 std::optional<Diagnostic> EyeBuffers::check() {
@@ -58,6 +74,17 @@ void EyeBuffers::bind(std::uint32_t eye) {
 void EyeBuffers::begin(std::uint32_t eye) {
   bind(eye);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void EyeBuffers::begin(std::uint32_t eye, std::span<const std::uint32_t> colours,
+                       std::span<const float> depths) {
+  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  gl_.BindTexture(GL_TEXTURE_2D, pictures_[eye].name());
+  gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width(), height(), GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
+  gl_.BindTexture(GL_TEXTURE_2D, depth_.name());
+  gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width(), height(), GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  gl_.BindTexture(GL_TEXTURE_2D, 0);
+  bind(eye);
 }
 
 void EyeBuffers::resolve(std::uint32_t eye) {

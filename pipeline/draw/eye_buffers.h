@@ -1,6 +1,7 @@
 #pragma once
 /// Where one wall's pictures arise: one multisampled buffer, drawn into by one eye after the other, and a
-/// resolved picture per eye. With one sample a pixel the pictures are drawn into themselves.
+/// resolved picture per eye. With one sample a pixel the pictures are drawn into themselves, and drawing may
+/// go on with what has been drawn elsewhere.
 ///
 /// Ownership  owns the GL objects. Threads: the thread on which the context is current.
 
@@ -26,6 +27,9 @@ public:
   void bind(std::uint32_t eye);
   /// The same, and clears that.
   void begin(std::uint32_t eye);
+  /// The same, and puts there what has been drawn elsewhere, with one sample a pixel: RGBA, 8 bits each, and
+  /// depths, 0 .. 1 (height x width), rows from the bottom.
+  void begin(std::uint32_t eye, std::span<const std::uint32_t> colours, std::span<const float> depths);
   /// Completes the picture of `eye`: averages its samples.
   void resolve(std::uint32_t eye);
   /// 8-bit RGBA (height x width x 4), rows from the top, colour in sRGB. Waits for the drawing to end.
@@ -41,10 +45,11 @@ private:
 
   const GlTable& gl_;
   std::uint32_t width_, height_;
-  bool sampled_;  ///< more than once a pixel
-  GlRenderbuffer colour_, depth_;
+  bool sampled_;                          ///< more than once a pixel
+  GlRenderbuffer colour_, sampledDepth_;  ///< where more than one sample a pixel is taken
   GlFramebuffer drawn_;
-  std::array<GlRenderbuffer, 2> pictures_;
+  GlTexture depth_;  ///< where one is
+  std::array<GlTexture, 2> pictures_;
   std::array<GlFramebuffer, 2> resolved_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "pipeline/draw/gl_table.h"
 
+#include <span>
 #include <utility>
 
 namespace stadion {
@@ -36,5 +37,13 @@ using GlTexture = GlObject<&GlTable::GenTextures, &GlTable::DeleteTextures>;
 using GlVertexArray = GlObject<&GlTable::GenVertexArrays, &GlTable::DeleteVertexArrays>;
 using GlFramebuffer = GlObject<&GlTable::GenFramebuffers, &GlTable::DeleteFramebuffers>;
 using GlRenderbuffer = GlObject<&GlTable::GenRenderbuffers, &GlTable::DeleteRenderbuffers>;
+
+/// Fills a buffer for one frame, and leaves it bound. New storage each time, so that no frame waits for one
+/// that still reads the old.
+template <class T>
+void stream(const GlTable& gl, GLenum target, const GlBuffer& buffer, std::span<const T> data) {
+  gl.BindBuffer(target, buffer.name());
+  gl.BufferData(target, static_cast<GLsizeiptr>(data.size_bytes()), data.data(), GL_STREAM_DRAW);
+}
 
 }  // namespace stadion

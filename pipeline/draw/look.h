@@ -25,8 +25,10 @@ struct RenderQuality {
   /// neither are triangles that cover none or are turned away (triangle_sieve.h). Nothing would be seen of
   /// them. False: all that is in view goes to OpenGL, for comparisons.
   bool leavesOutUnseen = true;
+  /// There, in the plain look, small things are drawn without OpenGL (small_things.h).
+  bool drawsSmallThings = true;
 
-  static constexpr RenderQuality plain() { return {Look::Plain, 1, 1024, true}; }
+  static constexpr RenderQuality plain() { return {Look::Plain, 1, 1024, true, true}; }
   bool operator==(const RenderQuality&) const = default;
 };
 

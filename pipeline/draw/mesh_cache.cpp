@@ -103,7 +103,7 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
     report("\"" + mesh.name + "\" cannot be drawn: " + fault);
     return {};
   }
-  GlMesh out{GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, {}, 0, {}};
+  GlMesh out{GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, {}, 0, {}, {}};
   uploadVertices(mesh, out);
   out.textures.reserve(mesh.textures.size());
   for (const Texture& texture : mesh.textures) out.textures.push_back(uploadTexture(texture));
@@ -163,26 +163,34 @@ void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
   gl_.BufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(blocks.size()), blocks.data(), GL_STATIC_DRAW);
 
   const bool open = !encloses(mesh);
-  const auto partOf = [&](const Submesh& part, std::size_t firstIndex) {
+  const auto partOf = [&](const Submesh& part, std::span<const std::uint32_t> indices, std::size_t before) {
     const Material& material = mesh.materials[part.material];
     const bool textured = material.texture >= 0 && !mesh.uvs.empty();
+    const auto own = indices.subspan(part.firstIndex, part.indexCount);
+    const auto [least, most] = std::ranges::minmax_element(own);
+    const std::uint32_t first = own.empty() ? 0 : *least, end = own.empty() ? 0 : *most + 1;
     return GlSubmesh{static_cast<GLsizei>(part.indexCount),
-                     (firstIndex + part.firstIndex) * sizeof(std::uint32_t),
+                     (before + part.firstIndex) * sizeof(std::uint32_t),
                      static_cast<GLintptr>(part.material * stride),
                      textured ? out.textures[static_cast<std::size_t>(material.texture)].name() : 0,
                      material.transparent(),
-                     material.doubleSided || open};
+                     material.doubleSided || open,
+                     static_cast<std::uint32_t>(part.material),
+                     first,
+                     end};
   };
   for (const Submesh& part : mesh.submeshes) {
-    out.parts.push_back(partOf(part, 0));
+    out.parts.push_back(partOf(part, mesh.indices, 0));
     out.transparentParts += mesh.materials[part.material].transparent();
   }
   std::size_t first = mesh.indices.size();
   for (const MeshLevel& level : mesh.levels) {
     std::vector<GlSubmesh>& parts = out.levels.emplace_back();
-    for (const Submesh& part : level.submeshes) parts.push_back(partOf(part, first));
+    for (const Submesh& part : level.submeshes) parts.push_back(partOf(part, level.indices, first));
     first += level.indices.size();
   }
+  const auto isPlain = [](const GlSubmesh& part) { return part.texture == 0 && !part.transparent; };
+  if (sieved_ && look_ == Look::Plain && std::ranges::all_of(out.parts, isPlain)) out.shading.emplace(mesh);
 }
 
 GlTexture MeshCache::uploadTexture(const Texture& texture) {

@@ -10,7 +10,7 @@
 #include "engine/frame_probe.h"
 #include "pipeline/draw/gl_object.h"
 #include "pipeline/draw/look.h"
-#include "pipeline/draw/triangle_sieve.h"
+#include "pipeline/draw/small_things.h"
 
 #include <algorithm>
 #include <optional>
@@ -26,7 +26,9 @@ struct GlSubmesh {
   GLintptr materialOffset;     ///< [bytes] into GlMesh::materials
   GLuint texture;              ///< 0 = none
   bool transparent;
-  bool bothSides;  ///< not culled: double-sided, or the mesh is open
+  bool bothSides;                        ///< not culled: double-sided, or the mesh is open
+  std::uint32_t material;                ///< of the mesh's
+  std::uint32_t firstVertex, endVertex;  ///< it has none but these
 };
 
 struct GlMesh {
@@ -36,7 +38,8 @@ struct GlMesh {
   std::vector<GlSubmesh> parts;                ///< of the full surface
   std::vector<std::vector<GlSubmesh>> levels;  ///< of the simplified ones
   std::size_t transparentParts = 0;
-  std::optional<SieveMesh> sieve;  ///< all levels, as in `indices`; where triangles are sieved
+  std::optional<SieveMesh> sieve;      ///< all levels, as in `indices`; where triangles are sieved
+  std::optional<MeshShading> shading;  ///< there, if it has neither pictures nor anything to see through
 
   /// What is drawn of it at a level; the coarsest there is, if there are not so many.
   const std::vector<GlSubmesh>& partsAt(std::uint32_t level) const {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <utility>
 
 namespace stadion {
@@ -15,36 +14,13 @@ namespace {
 constexpr GLuint64 kLongWait = 1'000'000'000;  // [ns]
 constexpr int kMostErrorsRead = 16;            // a lost context may report errors for ever
 
-const void* offset(std::size_t bytes) {
-  return reinterpret_cast<const void*>(bytes);
-}
-
 bool isLocal(const DrawLight& light) {
   return light.kind != DrawLight::Kind::Directional;
-}
-
-std::size_t surfaceIndex(const SurfaceTraits& traits) {
-  return std::size_t{traits.textured} | std::size_t{traits.localLights} << 1 |
-         std::size_t{traits.blended} << 2;
-}
-
-/// Instances of one part keep their order within a call; with several parts, or with inner sides to draw
-/// before the outer ones, each instance has to be finished before the next.
-bool drawnTogether(const GlMesh& mesh) {
-  const auto simple = [](const GlSubmesh& part) { return !part.transparent || !part.bothSides; };
-  return mesh.transparentParts == 1 && std::all_of(mesh.parts.begin(), mesh.parts.end(), simple);
 }
 
 /// Where a processor rasterises with one sample a pixel, most triangles of distant things are in vain.
 bool isSieved(const GlTable& gl, const RenderQuality& quality) {
   return quality.samples == 1 && quality.leavesOutUnseen && isSoftware(gl);
-}
-
-/// New storage each time, so that no frame waits for one that still reads the old.
-template <class T>
-void stream(const GlTable& gl, GLenum target, const GlBuffer& buffer, std::span<const T> data) {
-  gl.BindBuffer(target, buffer.name());
-  gl.BufferData(target, static_cast<GLsizeiptr>(data.size_bytes()), data.data(), GL_STREAM_DRAW);
 }
 
 }  // namespace
@@ -75,6 +51,7 @@ Renderer::Renderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes
       cache_(gl, meshes, quality.look, isSieved(gl, quality) && basesInstances_), instances_(gl), scene_(gl),
       indices_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl) {
   if (isSieved(gl, quality) && basesInstances_) sieve_.emplace(width, height);
+  if (sieve_ && quality.look == Look::Plain && quality.drawsSmallThings) small_.emplace(width, height);
   setUnchangingState();
 }
 
@@ -113,7 +90,7 @@ Result<std::vector<GlProgram>> Renderer::buildSurfaces(const GlTable& gl, const 
     traits.textured = (i & 1) != 0, traits.localLights = (i & 2) != 0, traits.blended = (i & 4) != 0;
     auto built = GlProgram::build(gl, surfaceVertexShader(traits), surfaceFragmentShader(traits));
     if (!built) return built.error();
-    assert(surfaceIndex(traits) == i);
+    assert(traits.index() == i);
     programs.push_back(std::move(built.value()));
   }
   return programs;
@@ -170,12 +147,12 @@ std::optional<Diagnostic> Renderer::draw(const DrawList& list, const std::functi
 void Renderer::drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t end) {
   GLsync drawn = nullptr;
   {
-    const auto mine = [&] {
+    Turn mine = [&] {
       const SpanScope span(probe_, Span::ForTurn, list.ticket.signature.frame, list.wall);
       return turn();
     }();
     beginSampling(list);
-    submitEyes(list, first, end);
+    submitEyes(list, first, end, mine);
     drawn = gl_.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl_.Flush();
   }
@@ -185,22 +162,28 @@ void Renderer::drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t
   gl_.DeleteSync(drawn);
 }
 
-void Renderer::submitEyes(const DrawList& list, std::uint32_t first, std::uint32_t end) {
+void Renderer::submitEyes(const DrawList& list, std::uint32_t first, std::uint32_t end, Turn& turn) {
   {
     const SpanScope span(probe_, Span::Prepare);
-    piece(Span::Prepare, [&] { prepare(list); });
+    if (sample_ == DrawSample::Some)
+      sampler_->piece(Span::Prepare, [&] { prepare(list); });
+    else
+      prepare(list);
   }
   if (list.shadows.light >= 0 && quality_.look == Look::Full) {
     const SpanScope span(probe_, Span::ShadowMaps);
-    piece(Span::ShadowMaps, [&] { prepareShadows(list); });
+    if (sample_ == DrawSample::Some)
+      sampler_->piece(Span::ShadowMaps, [&] { prepareShadows(list); });
+    else
+      prepareShadows(list);
   }
   prepareScene(list);
   for (std::uint32_t eye = first; eye < end; ++eye) {
     const SpanScope span(probe_, eye == 0 ? Span::LeftEye : Span::RightEye);
     if (sample_ == DrawSample::Whole)
-      drawEyeAlone(list.eyes[eye], eye);
+      drawEyeAlone(list.eyes[eye], eye, turn);
     else
-      drawEye(list.eyes[eye], eye);
+      drawEye(list.eyes[eye], eye, turn);
     if (probe_) tellCounts();
   }
 }
@@ -211,105 +194,6 @@ void Renderer::tellCounts() const {
   probe_->counted(Count::Instances, counts_.instances);
   probe_->counted(Count::Triangles, counts_.triangles);
   probe_->counted(Count::Pixels, std::uint64_t{width_} * height_);
-}
-
-// Sampling.
-
-void Renderer::beginSampling(const DrawList& list) {
-  sample_ = probe_ ? probe_->drawSample(list.ticket.signature.frame, list.wall) : DrawSample::None;
-  if (!surfaces_) sample_ = DrawSample::None;  // nothing has been drawn yet: all is slower the first time
-  if (sample_ == DrawSample::None) return;
-  if (!sampler_) {
-    sampler_ = std::make_unique<DrawSampler>(gl_);
-    drawNothing();  // the first time the driver compiles: that would be taken off all that is timed
-    gl_.Finish();
-  }
-  sampler_->beginFrame(*probe_, list.ticket.signature.frame, list.wall, [this] { drawNothing(); });
-}
-
-/// A pixel that is not written.
-void Renderer::drawNothing() {
-  buffers_.bind(0);
-  gl_.Enable(GL_SCISSOR_TEST);
-  gl_.Scissor(0, 0, 1, 1);
-  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  gl_.DepthMask(GL_FALSE);
-  gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, views_[0].name());
-  gl_.BindBufferBase(GL_UNIFORM_BUFFER, kSceneBinding, scene_.name());
-  drawSky();
-  gl_.DepthMask(GL_TRUE);
-  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  gl_.Disable(GL_SCISSOR_TEST);
-}
-
-template <class Work>
-void Renderer::piece(Span what, const Work& work) {
-  if (sample_ == DrawSample::Some)
-    sampler_->piece(what, work);
-  else
-    work();
-}
-
-void Renderer::drawEyeAlone(const DrawEye& eye, std::uint32_t index) {
-  sampler_->beginEye(index, {});
-  sampler_->piece(index == 0 ? Span::LeftEye : Span::RightEye, [&] { drawEye(eye, index); });
-}
-
-/// How much there is to draw of one instance: an estimate, for profiling.
-float Renderer::workOf(std::size_t instance, const MeshParts& mesh) const {
-  constexpr float kOfTriangle = 8;  // as much as so many pixels, on the processor
-  return batches_.pixels()[instance] + kOfTriangle * static_cast<float>(mesh.triangles);
-}
-
-/// Calls `f` with each batch of which anything is drawn in any pass, and its mesh.
-template <class F>
-void Renderer::forEachBatch(const F& f) {
-  for (const auto batches : {batches_.opaque(), batches_.transparent()})
-    for (const InstanceBatch& b : batches)
-      if (const GlMesh* mesh = cache_.find(b.mesh)) f(b, partsOf(*mesh, b.level));
-}
-
-/// How much there is to draw, and of whom the most.
-void Renderer::weigh() {
-  NodeRef whose;
-  float most = 0;
-  work_ = 0;
-  forEachBatch([&](const InstanceBatch& b, const MeshParts& mesh) {
-    for (std::size_t i = b.first; i < b.first + b.count; ++i) {
-      const float work = workOf(i, mesh);
-      work_ += work;
-      if (work > most) most = work, whose = batches_.owners()[i];
-    }
-  });
-  if (most > 0) probe_->counted(Count::Largest, static_cast<std::uint64_t>(most), whose);
-}
-
-/// How many instances of the batch, from one of them on, are drawn by one call. Where pieces are drawn alone,
-/// the pieces are alike in size: what is large is a piece of its own.
-std::uint32_t Renderer::togetherFrom(const InstanceBatch& b, std::uint32_t done,
-                                     const MeshParts& mesh) const {
-  const std::uint32_t left = std::min(b.count - done, quality_.mostAtOnce);
-  if (sample_ != DrawSample::Some) return left;
-  const float piece = work_ / DrawSampler::kPartsOfAFrame;
-  float sum = workOf(b.first + done, mesh);
-  std::uint32_t count = 1;
-  while (count < left && sum + workOf(b.first + done + count, mesh) <= piece)
-    sum += workOf(b.first + done + count++, mesh);
-  return count;
-}
-
-/// As drawBatches() will draw them, in one pass or in two.
-std::span<const std::uint32_t> Renderer::piecesToSample(std::uint32_t eye) {
-  pieces_.clear();
-  forEachBatch([&](const InstanceBatch& batch, const MeshParts& mesh) {
-    const InstanceBatch b = batch.seenBy(eye);
-    for (std::uint32_t done = 0, count = 0; done < b.count; done += count) {
-      count = togetherFrom(b, done, mesh);
-      const auto owners = batches_.owners().subspan(b.first + done, count);
-      if (probe_->wantsAlone(owners)) pieces_.push_back(b.first + done);
-    }
-  });
-  return pieces_;
 }
 
 void Renderer::stopIfAsked() const {
@@ -336,11 +220,10 @@ void Renderer::prepare(const DrawList& list) {
 
 void Renderer::prepareScene(const DrawList& list) {
   shadowed_ = shadowed_ && list.shadows.light >= 0;
-  const SceneBlock scene =
-      fillScene(list.sky, list.lights, quality_.look, shadowed_ ? list.shadows.light : -1);
-  skyIsFlat_ = quality_.look == Look::Plain && scene.zenith == scene.horizon && scene.zenith == scene.ground;
-  if (skyIsFlat_) gl_.ClearColor(scene.zenith[0], scene.zenith[1], scene.zenith[2], 1);
-  stream(gl_, GL_UNIFORM_BUFFER, scene_, std::span(&scene, 1));
+  lit_ = fillScene(list.sky, list.lights, quality_.look, shadowed_ ? list.shadows.light : -1);
+  skyIsFlat_ = quality_.look == Look::Plain && lit_.zenith == lit_.horizon && lit_.zenith == lit_.ground;
+  if (skyIsFlat_) gl_.ClearColor(lit_.zenith[0], lit_.zenith[1], lit_.zenith[2], 1);
+  stream(gl_, GL_UNIFORM_BUFFER, scene_, std::span<const SceneBlock>(&lit_, 1));
   chooseSurfaces(shadowed_, list.sky.hazeDistance > 0, std::min(list.lights.size(), DrawList::kMaxLights));
 }
 
@@ -360,7 +243,7 @@ void Renderer::prepareShadows(const DrawList& list) {
   shadows_->bind();
 }
 
-void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
+void Renderer::drawEye(const DrawEye& eye, std::uint32_t index, Turn& turn) {
   counts_ = {};
   usedProgram_ = 0;
   boundMaterial_ = {};
@@ -369,19 +252,23 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
     report("an eye's matrices are not finite or have no inverse: its picture is not drawn");
     return;
   }
+  if (sample_ == DrawSample::Some) findPieces(index), sampler_->beginEye(index, pieces_, wanted_);
+  const bool begun = drawSmallThings(eye, index, turn);
   stream(gl_, GL_UNIFORM_BUFFER, views_[index], std::span<const ViewBlock>(&view, 1));
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, views_[index].name());
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kSceneBinding, scene_.name());
 
   if (sieve_) sieve_->look(eye);
-  if (sample_ == DrawSample::Some) sampler_->beginEye(index, piecesToSample(index));
   gl_.Disable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
   // Alone, clearing is writing the whole picture to memory. In an eye drawn whole that is done once, with
   // what comes next: it is a part of what the sky takes alone.
-  buffers_.begin(index);
+  if (begun)
+    part(Span::Sky, [&] { buffers_.begin(index, small_->colours(), small_->depths()); });
+  else
+    buffers_.begin(index);
   drawOpaque(index);
   drawBatches(batches_.transparent(), Pass::OpaqueParts, index);
-  piece(Span::Sky, [&] { drawBackground(); });
+  part(Span::Sky, [&] { drawBackground(); });
   // Blending and averaging of samples act on linear light.
   if (quality_.look == Look::Full) gl_.Enable(GL_FRAMEBUFFER_SRGB);
   gl_.Enable(GL_BLEND);
@@ -389,181 +276,10 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index) {
   drawBatches(batches_.transparent(), Pass::Transparent, index);
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_BLEND);
-  piece(Span::Resolve, [&] { buffers_.resolve(index); });
-  if (sample_ == DrawSample::Some) sampler_->endEye();
-  totals_[index].add(counts_);
-}
-
-/// What is near, all else after it: of that, what is hidden then can be left out.
-void Renderer::drawOpaque(std::uint32_t eye) {
-  constexpr float kFar = std::numeric_limits<float>::infinity();
-  const std::optional<float> near = nearQuarter(eye);
-  drawnFrom_ = {0, near.value_or(kFar)};
-  drawBatches(batches_.opaque(), Pass::Opaque, eye);
-  if (!near) return;
-  depths_.resize(std::size_t{width_} * height_);
-  buffers_.readDepths(eye, depths_);
-  sieve_->hideBehind(depths_);
-  drawnFrom_ = {*near, kFar};
-  drawBatches(batches_.opaque(), Pass::Opaque, eye);
-}
-
-/// How far the nearest quarter of what the eye sees reaches [m]; nothing if it does not pay to look what that
-/// hides, or if all must be drawn by meshes that are not sieved.
-std::optional<float> Renderer::nearQuarter(std::uint32_t eye) {
-  constexpr std::uint64_t kPixels = 16;  // of which to read the depths costs as much as a triangle
-  if (!sieve_ || sample_ == DrawSample::Some) return {};
-  distances_.clear();
-  std::uint64_t triangles = 0;
-  for (const InstanceBatch& batch : batches_.opaque()) {
-    const InstanceBatch b = batch.seenBy(eye);
-    const GlMesh* mesh = cache_.find(b.mesh);
-    if (!mesh || !mesh->sieve) continue;
-    const auto of = batches_.distances().subspan(b.first, b.count);
-    distances_.insert(distances_.end(), of.begin(), of.end());
-    triangles += std::uint64_t{b.count} * partsOf(*mesh, b.level).triangles;
-  }
-  if (distances_.size() < 16 || triangles * kPixels < std::uint64_t{width_} * height_) return {};
-  const auto quarter = distances_.begin() + static_cast<std::ptrdiff_t>(distances_.size() / 4);
-  std::nth_element(distances_.begin(), quarter, distances_.end());
-  return *quarter;
-}
-
-void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass, std::uint32_t eye) {
-  for (const InstanceBatch& ofBoth : batches) {
-    const InstanceBatch batch = ofBoth.seenBy(eye);
-    const GlMesh* mesh = batch.count > 0 ? cache_.find(batch.mesh) : nullptr;
-    if (!mesh) continue;
-    if (pass == Pass::Transparent && mesh->transparentParts == 0) continue;
-    if (pass == Pass::OpaqueParts && mesh->transparentParts == mesh->parts.size()) continue;
-    gl_.BindVertexArray(mesh->vertexArray.name());
-    gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
-    mirrored_ = batch.mirrored;
-    if (basesInstances_) pointAtInstances(gl_, instances_, 0);
-    const MeshParts parts = partsOf(*mesh, batch.level);
-    for (std::uint32_t done = 0, count = 0; done < batch.count; done += count) {
-      count = togetherFrom(batch, done, parts);
-      drawInstances(parts, batch.first + done, count, pass);
-    }
-  }
-}
-
-void Renderer::drawInstances(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass) {
-  const bool oneByOne = pass == Pass::Transparent && !drawnTogether(*mesh.gl);
-  const std::uint32_t step = oneByOne ? 1 : count;
-  const auto draw = [&] {
-    if (pass == Pass::Opaque && mesh.gl->sieve) return drawSieved(mesh, first, count);
-    for (std::uint32_t i = first; i < first + count; i += step) {
-      stopIfAsked();
-      if (!basesInstances_) pointAtInstances(gl_, instances_, i);
-      if (pass == Pass::Transparent)
-        drawTransparentParts(mesh, i, step);
-      else
-        drawOpaqueParts(mesh, i, step, pass);
-    }
-  };
+  part(Span::Resolve, [&] { buffers_.resolve(index); });
   if (sample_ == DrawSample::Some)
-    sampler_->nodes(
-        first, [&] { return sharesOf(mesh, first, count); }, draw);
-  else
-    draw();
-}
-
-/// Who has which part in drawing these.
-std::span<const NodeShare> Renderer::sharesOf(const MeshParts& mesh, std::uint32_t first,
-                                              std::uint32_t count) {
-  shares_.clear();
-  float sum = 0;
-  for (std::size_t i = first; i < first + count; ++i) {
-    shares_.push_back({batches_.owners()[i], workOf(i, mesh)});
-    sum += shares_.back().part;
-  }
-  for (NodeShare& share : shares_) share.part = sum > 0 ? share.part / sum : 1.0f / static_cast<float>(count);
-  return shares_;
-}
-
-/// Each instance with the triangles that this eye may see of it.
-void Renderer::drawSieved(const MeshParts& mesh, std::uint32_t first, std::uint32_t count) {
-  using Facing = TriangleSieve::Facing;
-  stopIfAsked();
-  sieve_->clear();
-  sieved_.assign(count * mesh.parts.size(), {});
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const float distance = batches_.distances()[first + i];
-    if (distance < drawnFrom_[0] || distance >= drawnFrom_[1]) continue;
-    sieve_->place(*mesh.gl->sieve, batches_.matrices()[first + i]);
-    for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
-      const GlSubmesh& part = mesh.parts[p];
-      const Facing seen = part.bothSides ? Facing::Both
-                          : mirrored_    ? Facing::Clockwise
-                                         : Facing::CounterClockwise;
-      constexpr std::size_t kTriangle = 3 * sizeof(std::uint32_t);
-      sieved_[p * count + i] = sieve_->keep(static_cast<std::uint32_t>(part.indexOffset / kTriangle),
-                                            static_cast<std::uint32_t>(part.indexCount) / 3, seen);
-    }
-  }
-  if (sieve_->kept().empty()) return;
-  stream(gl_, GL_ELEMENT_ARRAY_BUFFER, indices_, sieve_->kept());
-  for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
-    cull(false, !mesh.parts[p].bothSides);
-    beginPart(*mesh.gl, mesh.parts[p], false);
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (const TriangleSieve::Range r = sieved_[p * count + i]; r.count > 0)
-        drawIndices(r.first * sizeof(std::uint32_t), static_cast<GLsizei>(r.count), first + i, 1);
-  }
-  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.gl->indices.name());  // which its vertex array remembers
-}
-
-void Renderer::drawOpaqueParts(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass) {
-  for (const GlSubmesh& part : mesh.parts) {
-    if (pass == Pass::OpaqueParts && part.transparent) continue;
-    cull(false, !part.bothSides);
-    drawPart(*mesh.gl, part, first, count, false);
-  }
-}
-
-void Renderer::drawTransparentParts(const MeshParts& mesh, std::uint32_t first, std::uint32_t count) {
-  for (const GlSubmesh& part : mesh.parts) {
-    if (!part.transparent) continue;
-    if (part.bothSides) {
-      cull(true, false);
-      drawPart(*mesh.gl, part, first, count, true);
-    }
-    cull(false, true);
-    drawPart(*mesh.gl, part, first, count, true);
-  }
-}
-
-void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t first,
-                        std::uint32_t instances, bool blended) {
-  beginPart(mesh, part, blended);
-  drawIndices(part.indexOffset, part.indexCount, first, instances);
-}
-
-void Renderer::beginPart(const GlMesh& mesh, const GlSubmesh& part, bool blended) {
-  use((
-      *surfaces_)[surfaceIndex({part.texture != 0, localLights_, false, false, blended, quality_.look, -1})]);
-  if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
-  bindMaterial(mesh.materials.name(), part.materialOffset);
-}
-
-/// `from`: in the bound index buffer [bytes].
-void Renderer::drawIndices(std::uintptr_t from, GLsizei count, std::uint32_t first, std::uint32_t instances) {
-  const auto times = static_cast<GLsizei>(instances);
-  if (basesInstances_)
-    gl_.DrawElementsInstancedBaseInstance(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset(from), times, first);
-  else
-    gl_.DrawElementsInstanced(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset(from), times);
-  ++counts_.calls;
-  counts_.instances += instances;
-  counts_.triangles += std::uint64_t{instances} * static_cast<std::uint64_t>(count / 3);
-}
-
-/// Binding what is bound already costs a software rasteriser as much as drawing some triangles.
-void Renderer::bindMaterial(GLuint buffer, GLintptr at) {
-  if (boundMaterial_ == std::pair(buffer, at)) return;
-  boundMaterial_ = {buffer, at};
-  gl_.BindBufferRange(GL_UNIFORM_BUFFER, kMaterialBinding, buffer, at, sizeof(MaterialBlock));
+    sampler_->endEye([&](std::uint32_t first, std::uint32_t end) { return sharesOf(index, first, end); });
+  totals_[index].add(counts_);
 }
 
 void Renderer::drawBackground() {

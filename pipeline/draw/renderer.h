@@ -106,8 +106,9 @@ private:
   };
   static MeshParts partsOf(const GlMesh& mesh, std::uint32_t level);
 
+  using Turn = std::unique_lock<std::mutex>;
   void drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
-  void submitEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
+  void submitEyes(const DrawList& list, std::uint32_t first, std::uint32_t end, Turn& turn);
   void tellCounts() const;
   void beginSampling(const DrawList& list);
   void drawNothing();
@@ -116,17 +117,25 @@ private:
   void forEachBatch(const F& f);
   void weigh();
   std::uint32_t togetherFrom(const InstanceBatch& batch, std::uint32_t done, const MeshParts& mesh) const;
-  std::span<const std::uint32_t> piecesToSample(std::uint32_t eye);
-  std::span<const NodeShare> sharesOf(const MeshParts& mesh, std::uint32_t first, std::uint32_t count);
+  void findPieces(std::uint32_t eye);
+  std::span<const NodeShare> sharesOf(std::uint32_t eye, std::uint32_t first, std::uint32_t end);
   template <class Work>
-  void piece(Span what, const Work& work);
-  void drawEyeAlone(const DrawEye& eye, std::uint32_t index);
+  void part(Span what, const Work& work) {
+    if (sample_ == DrawSample::Some)
+      sampler_->part(what, work);
+    else
+      work();
+  }
+  void drawEyeAlone(const DrawEye& eye, std::uint32_t index, Turn& turn);
   void prepare(const DrawList& list);
   void prepareScene(const DrawList& list);
   void prepareShadows(const DrawList& list);
   static Result<std::vector<GlProgram>> buildSurfaces(const GlTable& gl, const SurfaceTraits& common);
   void chooseSurfaces(bool shadowed, bool hazy, std::size_t lights);
-  void drawEye(const DrawEye& eye, std::uint32_t index);
+  void drawEye(const DrawEye& eye, std::uint32_t index, Turn& turn);
+  bool drawSmallThings(const DrawEye& eye, std::uint32_t index, Turn& turn);
+  void drawSmallThings(std::uint32_t eye);
+  bool drawSmallThing(const MeshParts& mesh, const InstanceBatch& batch, std::uint32_t instance);
   void setUnchangingState();
   void settleState();
   void drawBatches(std::span<const InstanceBatch> batches, Pass pass, std::uint32_t eye);
@@ -164,13 +173,16 @@ private:
   std::vector<TriangleSieve::Range> sieved_;  ///< by part and instance, while they are drawn
   std::array<float, 2> drawnFrom_{};          ///< what is sieved is this far, at least and less than [m]
   std::vector<float> depths_, distances_;
-  bool mirrored_ = false;  ///< the batch that is drawn
+  std::optional<SmallThings> small_;  ///< likewise
+  std::vector<bool> isDrawn_;         ///< by instance: as a small thing, for this eye
+  bool mirrored_ = false;             ///< the batch that is drawn
   GlBuffer instances_, scene_, indices_;
   std::array<GlBuffer, 2> views_;
   GlVertexArray nothing_;  // the sky's triangle has no vertex data
   GLuint usedProgram_ = 0;
   std::pair<GLuint, GLintptr> boundMaterial_{};  ///< buffer, place in it [bytes]; in this eye
   bool localLights_ = false, shadowed_ = false;
+  SceneBlock lit_{};                                  ///< of the list that is drawn
   bool skyIsFlat_ = false;                            ///< one colour: cleared, not drawn
   const std::vector<GlProgram>* surfaces_ = nullptr;  ///< of the list that is drawn
   std::unique_ptr<ShadowMaps> shadows_;               ///< from the first list with shadows on
@@ -182,6 +194,7 @@ private:
   float work_ = 0;                                    ///< all there is to draw, while somebody asks
   std::vector<NodeShare> shares_;                     ///< of what is drawn alone
   std::vector<std::uint32_t> pieces_;                 ///< likewise: the first instance of each
+  std::vector<std::size_t> wanted_;                   ///< of these, those that are to have a turn
   DrawCounts counts_;
   std::array<DrawTotals, 2> totals_{};
   std::set<std::string> reported_;

@@ -36,6 +36,11 @@ struct SurfaceTraits {
   /// How many lights there are; negative: any number, looked up for every vertex or pixel, which a software
   /// rasteriser does lane by lane.
   int lights = -1;
+
+  /// Among the eight that differ in the mesh, in local lights, and in what they write.
+  std::size_t index() const {
+    return std::size_t{textured} | std::size_t{localLights} << 1 | std::size_t{blended} << 2;
+  }
 };
 
 std::string surfaceVertexShader(const SurfaceTraits& traits);

@@ -32,12 +32,6 @@ void makeMap(const GlTable& gl, const GlTexture& texture, const GlFramebuffer& f
   gl.ReadBuffer(GL_NONE);
 }
 
-template <class T>
-void stream(const GlTable& gl, GLenum target, const GlBuffer& buffer, const T* data, std::size_t count) {
-  gl.BindBuffer(target, buffer.name());
-  gl.BufferData(target, static_cast<GLsizeiptr>(count * sizeof(T)), data, GL_STREAM_DRAW);
-}
-
 }  // namespace
 
 Result<std::unique_ptr<ShadowMaps>> ShadowMaps::create(const GlTable& gl) {
@@ -133,13 +127,13 @@ void ShadowMaps::drawCasters(const DrawShadows& shadows, std::size_t index, std:
     view.viewProjection[4 * k + 2] = -shadows.axes[6 + k] / depth;
   }
   view.viewProjection[15] = 1;
-  stream(gl_, GL_UNIFORM_BUFFER, view_, &view, 1);
+  stream(gl_, GL_UNIFORM_BUFFER, view_, std::span<const ViewBlock>(&view, 1));
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, view_.name());
 
   sorted_.assign(casters.begin(), casters.end());
   std::ranges::sort(sorted_, {}, &DrawItem::mesh);
   batches_.build(sorted_, {});
-  stream(gl_, GL_ARRAY_BUFFER, instances_, batches_.matrices().data(), batches_.matrices().size());
+  stream(gl_, GL_ARRAY_BUFFER, instances_, batches_.matrices());
   for (const InstanceBatch& batch : batches_.opaque()) {
     const GlMesh* mesh = meshes.find(batch.mesh);
     if (!mesh) continue;
@@ -176,7 +170,7 @@ void ShadowMaps::fillBlock(const DrawShadows& shadows) {
                     0.5f - 0.5f * offset[2] / depth, scale};
     out.lift[i] = kWithin * 2 * reach / kTile;
   }
-  stream(gl_, GL_UNIFORM_BUFFER, block_, &out, 1);
+  stream(gl_, GL_UNIFORM_BUFFER, block_, std::span<const ShadowBlock>(&out, 1));
 }
 
 void ShadowMaps::bind() const {

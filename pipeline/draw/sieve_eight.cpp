@@ -7,8 +7,8 @@ namespace stadion {
 namespace {
 
 bool project(const float* x, const float* y, const float* z, unsigned count, const PictureMatrix& matrix,
-             float* px, float* py, float* nearness) {
-  return Sieve<ByEight>::project(x, y, z, count, matrix, px, py, nearness);
+             float* px, float* py, float* nearness, PictureBounds& bounds) {
+  return Sieve<ByEight>::project(x, y, z, count, matrix, px, py, nearness, bounds);
 }
 unsigned keep(const int* a, const int* b, const int* c, unsigned count, const float* px, const float* py,
               const float* nearness, float facing, const SeenSquares& seen, unsigned* out) {

@@ -1,57 +1,35 @@
 #pragma once
 /// The functions of sieve_kernels.h, as many at a time as F has lanes. Internal to pipeline/draw/.
 ///
-/// Linkage  internal; includes nothing but sieve_kernels.h.
+/// Linkage  internal; includes nothing but these two.
 
+#include "pipeline/draw/lanes.h"
 #include "pipeline/draw/sieve_kernels.h"
 
 namespace stadion {
 namespace {
 
-struct ByFour {
-  typedef float Floats __attribute__((vector_size(16)));
-  typedef int Ints __attribute__((vector_size(16)));
-  static constexpr unsigned kLanes = 4;
-
-  [[gnu::always_inline]] static inline unsigned bits(const Ints& mask) {
-    return static_cast<unsigned>(__builtin_ia32_movmskps(Floats(mask)));
-  }
-};
-
-#ifdef __AVX2__
-struct ByEight {
-  typedef float Floats __attribute__((vector_size(32)));
-  typedef int Ints __attribute__((vector_size(32)));
-  static constexpr unsigned kLanes = 8;
-
-  [[gnu::always_inline]] static inline unsigned bits(const Ints& mask) {
-    return static_cast<unsigned>(__builtin_ia32_movmskps256(Floats(mask)));
-  }
-};
-#endif
-
 template <class By>
-struct Sieve {
+struct Sieve : Lanes<By> {
   using F = typename By::Floats;
   using I = typename By::Ints;
+  using Lanes<By>::load;
+  using Lanes<By>::store;
+  using Lanes<By>::picked;
+  using Lanes<By>::least;
+  using Lanes<By>::most;
 
-  [[gnu::always_inline]] static inline F load(const float* from) {
-    F f;
-    __builtin_memcpy(&f, from, sizeof f);
-    return f;
+  [[gnu::always_inline]] static inline float leastOf(const F& f) {
+    float found = f[0];
+    for (unsigned lane = 1; lane < By::kLanes; ++lane) found = f[lane] < found ? f[lane] : found;
+    return found;
   }
-  [[gnu::always_inline]] static inline F picked(const float* from, const int* which) {
-    F f;
-    for (unsigned lane = 0; lane < By::kLanes; ++lane) f[lane] = from[which[lane]];
-    return f;
-  }
-  [[gnu::always_inline]] static inline F least(const F& a, const F& b) { return a < b ? a : b; }
-  [[gnu::always_inline]] static inline F most(const F& a, const F& b) { return a > b ? a : b; }
 
   [[gnu::always_inline]] static inline bool project(const float* x, const float* y, const float* z,
                                                     unsigned count, const PictureMatrix& m, float* px,
-                                                    float* py, float* nearness) {
+                                                    float* py, float* nearness, PictureBounds& bounds) {
     I told = ~I{};
+    F left = F{} + kFarthest, low = left, right = -left, high = right, nearest{};
     for (unsigned i = 0; i < count; i += By::kLanes) {
       const F vx = load(x + i), vy = load(y + i), vz = load(z + i);
       const F w = m.w[0] * vx + (m.w[1] * vy + (m.w[2] * vz + m.w[3])), scale = 1.0f / w;
@@ -59,10 +37,11 @@ struct Sieve {
       const F atY = (m.y[0] * vx + (m.y[1] * vy + (m.y[2] * vz + m.y[3]))) * scale;
       told &=
           (w > kNearest) & (atX > -kFarthest) & (atX < kFarthest) & (atY > -kFarthest) & (atY < kFarthest);
-      __builtin_memcpy(px + i, &atX, sizeof atX);
-      __builtin_memcpy(py + i, &atY, sizeof atY);
-      __builtin_memcpy(nearness + i, &scale, sizeof scale);
+      left = least(left, atX), right = most(right, atX), low = least(low, atY), high = most(high, atY);
+      nearest = most(nearest, scale);
+      store(px + i, atX), store(py + i, atY), store(nearness + i, scale);
     }
+    bounds = {leastOf(left), -leastOf(-right), leastOf(low), -leastOf(-high), -leastOf(-nearest)};
     return By::bits(told) == (1u << By::kLanes) - 1;
   }
 

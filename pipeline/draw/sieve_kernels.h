@@ -35,11 +35,16 @@ struct NearnessOfDepth {
   float scale, offset;
 };
 
+/// Within which vertices lie [pixels], and how near the nearest is [1/m].
+struct PictureBounds {
+  float left, right, low, high, nearest;
+};
+
 struct SieveKernels {
   /// Writes where `count` vertices, a multiple of eight, lie in the picture, and how near. False if that
   /// cannot be told of all.
   bool (*project)(const float* x, const float* y, const float* z, unsigned count, const PictureMatrix& matrix,
-                  float* px, float* py, float* nearness);
+                  float* px, float* py, float* nearness, PictureBounds& bounds);
   /// Writes the corners of those of `count` triangles that may make pixels, and returns how many corners.
   /// `facing`: 1 = counter-clockwise ones are seen, -1 = clockwise ones, 0 = both. Seven triangles behind the
   /// last one are read.

@@ -83,7 +83,7 @@ void TriangleSieve::place(const SieveMesh& mesh, const InstanceMatrix& model) {
   if (px_.size() < mesh.x.size())
     for (auto* values : {&px_, &py_, &nearness_}) values->resize(mesh.x.size());
   told_ = kernels_.project(mesh.x.data(), mesh.y.data(), mesh.z.data(), static_cast<unsigned>(mesh.x.size()),
-                           m, px_.data(), py_.data(), nearness_.data());
+                           m, px_.data(), py_.data(), nearness_.data(), bounds_);
 }
 
 TriangleSieve::Range TriangleSieve::keep(std::uint32_t first, std::uint32_t count, Facing facing) {

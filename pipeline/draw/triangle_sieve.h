@@ -53,6 +53,13 @@ public:
   Range keep(std::uint32_t first, std::uint32_t count, Facing facing);
   std::span<const std::uint32_t> kept() const { return {kept_.data(), used_}; }
 
+  /// Where the vertices of what was placed lie in the picture, as the kernels have it; null if that cannot be
+  /// told of all.
+  const PictureBounds* bounds() const { return told_ ? &bounds_ : nullptr; }
+  const float* x() const { return px_.data(); }
+  const float* y() const { return py_.data(); }
+  const float* nearness() const { return nearness_.data(); }
+
 private:
   const SieveKernels& kernels_;
   double halfWidth_, halfHeight_, oddX_, oddY_;
@@ -64,6 +71,7 @@ private:
   const SieveMesh* mesh_ = nullptr;
   bool told_ = false;  ///< where all of its vertices lie
   std::vector<float> px_, py_, nearness_;
+  PictureBounds bounds_{};
   std::vector<std::uint32_t> kept_;
   std::size_t used_ = 0;
 };

@@ -108,6 +108,8 @@ TEST(PictureRenderer, InstancesLookLikeSingleMeshes) {
 struct Sampling final : FrameProbe {
   std::vector<DrawnAlone> pieces;
   std::map<NodeRef, int> told;
+  std::set<NodeRef> alone;  ///< drawn with nobody else
+  double parts = 0;         ///< of all pieces
   std::size_t asked = 0, next = 0;
   std::set<NodeRef> wanted;  ///< empty: all
 
@@ -127,7 +129,8 @@ struct Sampling final : FrameProbe {
   void drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nodes) override {
     if (drawn.what != Span::Draw) return;
     pieces.push_back(drawn);
-    for (const NodeShare& share : nodes) ++told[share.node];
+    for (const NodeShare& share : nodes) ++told[share.node], parts += double{share.part};
+    if (nodes.size() == 1) alone.insert(nodes[0].node);
   }
 };
 
@@ -185,6 +188,33 @@ TEST(PictureRenderer, WhatIsNotWantedAloneTakesNobodysTurn) {
   EXPECT_EQ(some.asked, 2U);
   EXPECT_EQ(some.pieces.size(), 2U) << "not what lies between them";
   EXPECT_TRUE(some.told.contains({1, 3}) && some.told.contains({1, 90}));
+}
+
+TEST(PictureRenderer, SmallThingsOfManyMeshesAreDrawnAloneTogether) {
+  constexpr std::uint32_t kThings = 400;
+  MeshStore meshes;
+  DrawList list = test::plainList();
+  for (std::uint32_t i = 0; i < kThings; ++i) {
+    Affine X = Affine::Identity();
+    X.translation() = Vec3(1.6 * (i % 20) / 20.0 - 0.8, 0, 1.6 * (i / 20) / 20.0 - 0.8);
+    X.linear() *= i == 0 ? 0.2 : 0.05;
+    list.opaque.push_back(place(meshes.add(ball()), X));
+    list.opaque.back().owner = {1, i};
+    list.opaque.back().pixels = i == 0 ? 1e6f : 10;
+  }
+  Stage stage(meshes, 96, 72);
+  const test::Picture plain = stage.draw(list);
+  Sampling probe;
+  do ASSERT_FALSE(stage.renderer().draw(list, std::function<bool()>{}, &probe));
+  while (probe.next != 0);
+  EXPECT_LE(probe.asked, 1 + 2 * static_cast<std::size_t>(DrawSampler::kMostJoined));
+  EXPECT_EQ(probe.told.size(), kThings) << "everybody has a turn";
+  for (const auto& [node, times] : probe.told) EXPECT_EQ(times, 1) << node.position;
+  EXPECT_NEAR(probe.parts, static_cast<double>(probe.pieces.size()), 1e-3) << "the parts of each sum to 1";
+  EXPECT_EQ(probe.alone, (std::set<NodeRef>{{1, 0}})) << "what is large is a piece by itself";
+  test::Picture sampled = plain;
+  ASSERT_FALSE(stage.renderer().read(0, sampled.rgba));
+  EXPECT_EQ(sampled, plain);
 }
 
 TEST(PictureRenderer, ServesOddSizes) {

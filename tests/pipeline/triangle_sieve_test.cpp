@@ -147,7 +147,7 @@ void expectSame(const MeshStore& meshes, const DrawList& list, std::uint32_t wid
     auto target = provider->create(width, height);
     ASSERT_TRUE(target && !target.value()->makeCurrent());
     RenderQuality quality = RenderQuality::plain();
-    quality.leavesOutUnseen = sieved;
+    quality.leavesOutUnseen = sieved, quality.drawsSmallThings = false;
     auto renderer =
         Renderer::create(target.value()->gl(), target.value()->turns(), meshes, width, height, quality);
     ASSERT_TRUE(renderer);

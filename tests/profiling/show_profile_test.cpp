@@ -324,6 +324,7 @@ TEST(ShowProfile, NodesAndPartsAreScaledAlikeToTheEyeDrawnWhole) {
   EXPECT_DOUBLE_EQ(f.nodes[0].draw, 6 * 11.0 / 9);
   EXPECT_DOUBLE_EQ(f.nodes[1].draw, 2 * 11.0 / 9);
   EXPECT_NEAR(f.explained[2].covered(), 9.0 / 11, 1e-12) << "as it was drawn alone";
+  EXPECT_NE(toText(f, 10).find("came to 82 % of the eyes drawn whole"), std::string::npos) << toText(f, 10);
 }
 
 TEST(ShowProfile, WhatWasDrawnIsNotNothingHoweverMuchTheSkyTook) {

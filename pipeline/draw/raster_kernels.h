@@ -1,0 +1,63 @@
+#pragma once
+/// Small triangles into a picture, several at a time, as OpenGL draws them (3.3 core, 3.6.1). Internal to
+/// pipeline/draw/.
+///
+/// Corners lie on a grid of 1/256 pixel; a pixel is drawn if its middle is inside; of middles on an edge
+/// those of left and lower edges are. Depths are linear in the picture, colours in space.
+///
+/// Includes  nothing: the file that is compiled for AVX2 uses this, too, and must share no function.
+
+namespace stadion {
+
+/// Greater ones are not small: the sums below would not hold their edges [pixels].
+constexpr float kMostSmall = 62;
+
+/// Vertices with their normals, in mesh coordinates, and their colours, 0 .. 1. Room for a multiple of eight.
+struct VerticesToShade {
+  const float *nx, *ny, *nz, *r, *g, *b;
+};
+
+/// As uniform_blocks.h has it, for the plain look.
+struct ShadingLight {
+  float direction[3];  ///< towards the light, unit
+  float colour[3];
+};
+struct Shading {
+  float normals[9];  ///< (3 x 3), row major: from normals in the mesh to normals in World, of any length
+  float base[3], emissive[3];  ///< of the material
+  float ambient[3];
+  const ShadingLight* lights;
+  unsigned lightCount;
+};
+
+/// Where vertices lie in the picture [pixels from its middle, which is rounded down], how near, 1 / w [1/m],
+/// and how bright.
+struct PictureVertices {
+  const float *x, *y, *nearness;
+  float *r, *g, *b;
+};
+
+/// The picture, rows from the bottom (height x width).
+struct RasterTarget {
+  unsigned* colours;  ///< red in the lowest byte
+  float* depths;      ///< 0 .. 1; what is nearer than what is there is drawn
+  int width, height;
+  float depthScale, depthOffset;  ///< depth = scale x nearness + offset
+};
+
+struct RasterKernels {
+  /// Fills in how bright vertices [first, end) are.
+  void (*shade)(const VerticesToShade& vertices, unsigned first, unsigned end, const Shading& by,
+                const PictureVertices& out);
+  /// Draws triangles, three corners each. `facing`: 1 = counter-clockwise ones are seen, -1 = clockwise ones,
+  /// 0 = both. Which of two that lie at the same depth is seen does not depend on their order.
+  void (*draw)(const unsigned* corners, unsigned triangles, const PictureVertices& vertices, float facing,
+               const RasterTarget& to);
+};
+
+/// Four at a time, on every machine.
+extern const RasterKernels kRasterByFour;
+/// Eight, where there is AVX2. Both do the same to the bit.
+extern const RasterKernels kRasterByEight;
+
+}  // namespace stadion

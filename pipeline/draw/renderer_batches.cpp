@@ -1,0 +1,234 @@
+// What of a list is drawn in which order, by which calls.
+
+#include "pipeline/draw/renderer.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace stadion {
+namespace {
+
+const void* offset(std::size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);
+}
+
+/// Instances of one part keep their order within a call; with several parts, or with inner sides to draw
+/// before the outer ones, each instance has to be finished before the next.
+bool drawnTogether(const GlMesh& mesh) {
+  const auto simple = [](const GlSubmesh& part) { return !part.transparent || !part.bothSides; };
+  return mesh.transparentParts == 1 && std::all_of(mesh.parts.begin(), mesh.parts.end(), simple);
+}
+
+}  // namespace
+
+/// Before everything else, into the empty picture. True if OpenGL is to go on with that. Nobody else has to
+/// wait meanwhile, unless it is timed.
+bool Renderer::drawSmallThings(const DrawEye& eye, std::uint32_t index, Turn& turn) {
+  constexpr std::uint64_t kPixels = 64;  // to hand them over costs as much as a triangle in OpenGL
+  isDrawn_.assign(batches_.matrices().size(), false);
+  if (!small_ || !SmallThings::serves(eye, lit_)) return false;
+  std::uint64_t triangles = 0;
+  for (const InstanceBatch& b : batches_.opaque())  // uploads what is new while it is our turn
+    if (const GlMesh* mesh = cache_.find(b.mesh); mesh && mesh->shading)
+      triangles += std::uint64_t{b.seenBy(index).count} * partsOf(*mesh, b.level).triangles;
+  if (triangles * kPixels < std::uint64_t{width_} * height_) return false;
+  std::array<float, 3> background{0, 0, 0};
+  if (skyIsFlat_) std::copy_n(lit_.zenith.begin(), 3, background.begin());
+  const bool away = turn.owns_lock() && sample_ == DrawSample::None;
+  if (away) turn.unlock();
+  part(Span::Sky, [&] { small_->begin(eye, lit_, background); });
+  drawSmallThings(index);
+  if (!away) return true;
+  const SpanScope span(probe_, Span::ForTurn);
+  turn.lock();
+  return true;
+}
+
+void Renderer::drawSmallThings(std::uint32_t eye) {
+  for (const InstanceBatch& ofBoth : batches_.opaque()) {
+    const InstanceBatch b = ofBoth.seenBy(eye);
+    const GlMesh* mesh = b.count > 0 ? cache_.find(b.mesh) : nullptr;
+    if (!mesh || !mesh->shading) continue;
+    const MeshParts parts = partsOf(*mesh, b.level);
+    for (std::uint32_t i = b.first; i < b.first + b.count; ++i) {
+      if (sample_ == DrawSample::Some) sampler_->next(i, DrawSampler::By::Us);
+      stopIfAsked();
+      isDrawn_[i] = drawSmallThing(parts, b, i);
+    }
+  }
+  if (sample_ == DrawSample::Some) sampler_->endPass();
+}
+
+bool Renderer::drawSmallThing(const MeshParts& mesh, const InstanceBatch& batch, std::uint32_t instance) {
+  using Facing = TriangleSieve::Facing;
+  if (!small_->place(*mesh.gl->sieve, *mesh.gl->shading, batches_.matrices()[instance])) return false;
+  for (const GlSubmesh& part : mesh.parts) {
+    const Facing seen = part.bothSides   ? Facing::Both
+                        : batch.mirrored ? Facing::Clockwise
+                                         : Facing::CounterClockwise;
+    constexpr std::size_t kTriangle = 3 * sizeof(std::uint32_t);
+    counts_.triangles +=
+        small_->draw(static_cast<std::uint32_t>(part.indexOffset / kTriangle),
+                     static_cast<std::uint32_t>(part.indexCount) / 3, seen,
+                     mesh.gl->shading->materials[part.material], part.firstVertex, part.endVertex);
+    ++counts_.instances;
+  }
+  return true;
+}
+
+/// What is near, all else after it: of that, what is hidden then can be left out.
+void Renderer::drawOpaque(std::uint32_t eye) {
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  const std::optional<float> near = nearQuarter(eye);
+  drawnFrom_ = {0, near.value_or(kFar)};
+  drawBatches(batches_.opaque(), Pass::Opaque, eye);
+  if (!near) return;
+  depths_.resize(std::size_t{width_} * height_);
+  buffers_.readDepths(eye, depths_);
+  sieve_->hideBehind(depths_);
+  drawnFrom_ = {*near, kFar};
+  drawBatches(batches_.opaque(), Pass::Opaque, eye);
+}
+
+/// How far the nearest quarter of what the eye sees reaches [m]; nothing if it does not pay to look what that
+/// hides, or if all must be drawn by meshes that are not sieved.
+std::optional<float> Renderer::nearQuarter(std::uint32_t eye) {
+  constexpr std::uint64_t kPixels = 16;  // of which to read the depths costs as much as a triangle
+  if (!sieve_ || sample_ == DrawSample::Some) return {};
+  distances_.clear();
+  std::uint64_t triangles = 0;
+  for (const InstanceBatch& batch : batches_.opaque()) {
+    const InstanceBatch b = batch.seenBy(eye);
+    const GlMesh* mesh = cache_.find(b.mesh);
+    if (!mesh || !mesh->sieve) continue;
+    for (std::uint32_t i = b.first; i < b.first + b.count; ++i)
+      if (!isDrawn_[i])
+        distances_.push_back(batches_.distances()[i]), triangles += partsOf(*mesh, b.level).triangles;
+  }
+  if (distances_.size() < 16 || triangles * kPixels < std::uint64_t{width_} * height_) return {};
+  const auto quarter = distances_.begin() + static_cast<std::ptrdiff_t>(distances_.size() / 4);
+  std::nth_element(distances_.begin(), quarter, distances_.end());
+  return *quarter;
+}
+
+void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass, std::uint32_t eye) {
+  for (const InstanceBatch& ofBoth : batches) {
+    const InstanceBatch batch = ofBoth.seenBy(eye);
+    const GlMesh* mesh = batch.count > 0 ? cache_.find(batch.mesh) : nullptr;
+    if (!mesh) continue;
+    if (pass == Pass::Transparent && mesh->transparentParts == 0) continue;
+    if (pass == Pass::OpaqueParts && mesh->transparentParts == mesh->parts.size()) continue;
+    gl_.BindVertexArray(mesh->vertexArray.name());
+    gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
+    mirrored_ = batch.mirrored;
+    if (basesInstances_) pointAtInstances(gl_, instances_, 0);
+    const MeshParts parts = partsOf(*mesh, batch.level);
+    for (std::uint32_t done = 0, count = 0; done < batch.count; done += count) {
+      count = togetherFrom(batch, done, parts);
+      drawInstances(parts, batch.first + done, count, pass);
+    }
+  }
+  if (sample_ == DrawSample::Some) sampler_->endPass();
+}
+
+void Renderer::drawInstances(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass) {
+  const bool oneByOne = pass == Pass::Transparent && !drawnTogether(*mesh.gl);
+  const std::uint32_t step = oneByOne ? 1 : count;
+  if (sample_ == DrawSample::Some) sampler_->next(first);
+  if (pass == Pass::Opaque && mesh.gl->sieve) return drawSieved(mesh, first, count);
+  for (std::uint32_t i = first; i < first + count; i += step) {
+    stopIfAsked();
+    if (!basesInstances_) pointAtInstances(gl_, instances_, i);
+    if (pass == Pass::Transparent)
+      drawTransparentParts(mesh, i, step);
+    else
+      drawOpaqueParts(mesh, i, step, pass);
+  }
+}
+
+/// Each instance with the triangles that this eye may see of it.
+void Renderer::drawSieved(const MeshParts& mesh, std::uint32_t first, std::uint32_t count) {
+  using Facing = TriangleSieve::Facing;
+  stopIfAsked();
+  sieve_->clear();
+  sieved_.assign(count * mesh.parts.size(), {});
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const float distance = batches_.distances()[first + i];
+    if (isDrawn_[first + i] || distance < drawnFrom_[0] || distance >= drawnFrom_[1]) continue;
+    sieve_->place(*mesh.gl->sieve, batches_.matrices()[first + i]);
+    for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
+      const GlSubmesh& part = mesh.parts[p];
+      const Facing seen = part.bothSides ? Facing::Both
+                          : mirrored_    ? Facing::Clockwise
+                                         : Facing::CounterClockwise;
+      constexpr std::size_t kTriangle = 3 * sizeof(std::uint32_t);
+      sieved_[p * count + i] = sieve_->keep(static_cast<std::uint32_t>(part.indexOffset / kTriangle),
+                                            static_cast<std::uint32_t>(part.indexCount) / 3, seen);
+    }
+  }
+  if (sieve_->kept().empty()) return;
+  stream(gl_, GL_ELEMENT_ARRAY_BUFFER, indices_, sieve_->kept());
+  for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
+    cull(false, !mesh.parts[p].bothSides);
+    beginPart(*mesh.gl, mesh.parts[p], false);
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (const TriangleSieve::Range r = sieved_[p * count + i]; r.count > 0)
+        drawIndices(r.first * sizeof(std::uint32_t), static_cast<GLsizei>(r.count), first + i, 1);
+  }
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.gl->indices.name());  // which its vertex array remembers
+}
+
+void Renderer::drawOpaqueParts(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass) {
+  for (const GlSubmesh& part : mesh.parts) {
+    if (pass == Pass::OpaqueParts && part.transparent) continue;
+    cull(false, !part.bothSides);
+    drawPart(*mesh.gl, part, first, count, false);
+  }
+}
+
+void Renderer::drawTransparentParts(const MeshParts& mesh, std::uint32_t first, std::uint32_t count) {
+  for (const GlSubmesh& part : mesh.parts) {
+    if (!part.transparent) continue;
+    if (part.bothSides) {
+      cull(true, false);
+      drawPart(*mesh.gl, part, first, count, true);
+    }
+    cull(false, true);
+    drawPart(*mesh.gl, part, first, count, true);
+  }
+}
+
+void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t first,
+                        std::uint32_t instances, bool blended) {
+  beginPart(mesh, part, blended);
+  drawIndices(part.indexOffset, part.indexCount, first, instances);
+}
+
+void Renderer::beginPart(const GlMesh& mesh, const GlSubmesh& part, bool blended) {
+  SurfaceTraits traits;
+  traits.textured = part.texture != 0, traits.localLights = localLights_, traits.blended = blended;
+  use((*surfaces_)[traits.index()]);
+  if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
+  bindMaterial(mesh.materials.name(), part.materialOffset);
+}
+
+/// `from`: in the bound index buffer [bytes].
+void Renderer::drawIndices(std::uintptr_t from, GLsizei count, std::uint32_t first, std::uint32_t instances) {
+  const auto times = static_cast<GLsizei>(instances);
+  if (basesInstances_)
+    gl_.DrawElementsInstancedBaseInstance(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset(from), times, first);
+  else
+    gl_.DrawElementsInstanced(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset(from), times);
+  ++counts_.calls;
+  counts_.instances += instances;
+  counts_.triangles += std::uint64_t{instances} * static_cast<std::uint64_t>(count / 3);
+}
+
+/// Binding what is bound already costs a software rasteriser as much as drawing some triangles.
+void Renderer::bindMaterial(GLuint buffer, GLintptr at) {
+  if (boundMaterial_ == std::pair(buffer, at)) return;
+  boundMaterial_ = {buffer, at};
+  gl_.BindBufferRange(GL_UNIFORM_BUFFER, kMaterialBinding, buffer, at, sizeof(MaterialBlock));
+}
+
+}  // namespace stadion
