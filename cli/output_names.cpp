@@ -23,9 +23,10 @@ void refuseSameFiles(std::span<const NamedFile> files, Diagnostics& findings) {
     for (std::size_t k = 0; k < i; ++k) {
       const NamedFile &one = files[k], &other = files[i];
       if (one.file.empty() || other.file.empty() || (!one.written && !other.written)) continue;
-      if (isSame(one.file, other.file))
-        findings.error({}, one.option + " and " + other.option + " name the same file, " + other.file +
-                               ", and only one of them would be left; name another");
+      if (!isSame(one.file, other.file)) continue;
+      findings.error({}, one.option + " and " + other.option + " name the same file, " + other.file +
+                             ", and only one of them would be left; name another");
+      break;
     }
 }
 

@@ -3,8 +3,8 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/number_option.h"
-#include "cli/output_names.h"
 #include "cli/plan_run.h"
+#include "cli/show_files.h"
 #include "cli/stop_signal.h"
 #include "engine/atomic_file.h"
 #include "engine/plain_file.h"
@@ -32,7 +32,8 @@ constexpr double kQuiet = 0.5;  ///< threads of others for each core
 struct Options {
   PlanRunOptions run;
   std::string walls = "cave4", mode = "all", stereo = "pair", pace = "free", provider = "osmesa", from, svg;
-  double cores = 0;  ///< 0 = as here
+  std::optional<std::size_t> count;  ///< of walls to plan, if known before the costs are
+  double cores = 0;                  ///< 0 = as here
   std::size_t machines = 1;
   bool processes = false, json = false;
 };
@@ -65,8 +66,6 @@ std::optional<plan::ShowCosts> readFrom(const std::string& file, Diagnostics& fi
 
 std::optional<plan::ShowCosts> measure(Options& o, Diagnostics& findings) {
   ShowOptions& show = o.run.show;
-  const auto count = countIn(o.walls);
-  show.walls = count ? "cave6" : o.walls;
   if (show.frames == 0 && show.seconds == 0) show.frames = kFramesMeasured;
   if (show.frames == 0)
     show.frames = static_cast<std::uint64_t>(std::ceil(show.seconds * show.rate)), show.seconds = 0;
@@ -76,7 +75,7 @@ std::optional<plan::ShowCosts> measure(Options& o, Diagnostics& findings) {
   auto provider = openGlProvider(o.provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa);
   if (!provider) return findings.add(provider.error()), std::nullopt;
   o.run.layout = *stereoLayout(o.stereo);
-  o.run.walls = std::min(count.value_or(walls->walls.size()), walls->walls.size());
+  o.run.walls = std::min(o.count.value_or(walls->walls.size()), walls->walls.size());
   const double load = loadNow();
   MeasuredCosts measured;
   if (!measureCosts(o.run, *provider.value(), measured, findings)) return {};
@@ -105,7 +104,7 @@ plan::Question questionOf(const Options& o, const plan::ShowCosts& costs) {
   plan::Question q;
   q.sequential = o.mode != "pipelined", q.pipelined = o.mode != "sequential";
   q.plan.pipelined = q.pipelined;
-  q.plan.walls = countIn(o.walls).value_or(costs.walls.size());
+  q.plan.walls = o.count.value_or(costs.walls.size());
   q.plan.machine = plan::machineWith(o.cores > 0 ? o.cores : costs.cores, costs);
   q.plan.machines = o.machines;
   q.plan.waitsInTurn = costs.waitsInTurn;
@@ -118,11 +117,28 @@ plan::Question questionOf(const Options& o, const plan::ShowCosts& costs) {
   return q;
 }
 
-int planShow(Options o) {
+/// What was measured elsewhere is planned for as many walls as a room has: by number alone.
+void countWallsOf(Options& o, Diagnostics& findings) {
+  if (const auto walls = loadWalls(o.run.show.walls, std::string(STADION_ROOT) + "/walls", findings))
+    o.count = walls->walls.size();
+}
+
+void refuseMeasuring(const CLI::App& command, Diagnostics& findings) {
+  for (const char* option :
+       {"--size", "--stereo", "--frames", "--seconds", "--input", "--asset-root", "--app-threads", "--gl"})
+    if (command.count(option) > 0)
+      findings.error({}, std::string(option) + " is for measuring; --from has measured costs");
+}
+
+int planShow(Options o, const CLI::App& command) {
   Diagnostics findings;
-  const NamedFile files[] = {
-      {"the show", o.run.show.script, false}, {"--from", o.from, false}, {"--svg", o.svg}};
+  o.count = countIn(o.walls);
+  o.run.show.walls = o.count ? "cave6" : o.walls;
+  std::vector<NamedFile> files = filesOf(o.run.show);
+  files.insert(files.end(), {{"--from", o.from, false}, {"--svg", o.svg}});
   refuseSameFiles(files, findings);
+  if (!o.from.empty()) refuseMeasuring(command, findings);
+  if (!o.from.empty() && !o.count && command.count("--walls") > 0) countWallsOf(o, findings);
   if (findings.hasErrors()) return tell(findings), kBadInput;
   const auto costs = o.from.empty() ? measure(o, findings) : readFrom(o.from, findings);
   tell(findings);
@@ -148,7 +164,8 @@ Draw is measured; of Draw, what its calls take and what the software rasteriser'
 loop is played through without it, event by event: threads that share the processors alike, three slots of scene state, two
 draw lists a wall, walls that take turns with their calls, one rasteriser for all of them, a swap for all walls together.
 
-`--walls 4` means the first four walls of cave6; beyond six, those again. With a wall file all of its walls are measured. `what
+`--walls 4` means the first four walls of cave6; beyond six, those again. With a wall file all of its walls are measured; beside
+--from it says how many are planned for. `what
 would change it` plays the same frames on other machines: the rasteriser then has a thread for each core (32 at most) and keeps
 the same part of them busy. A rasteriser for each wall is what walls as processes would have.
 
@@ -171,7 +188,8 @@ void addPlanCommand(CLI::App& app, int& code) {
   command->add_option("--walls", o->walls, "a wall file or its name, or a number of walls")
       ->check([](const std::string& text) -> std::string {
         const auto count = countIn(text);
-        return !count || (*count >= 1 && *count <= kMostWalls)
+        const bool isName = !count && !text.empty() && !parseNumber(text);
+        return isName || (count && *count >= 1 && *count <= kMostWalls)
                    ? ""
                    : "from 1 to " + std::to_string(kMostWalls) + " walls can be planned";
       })
@@ -202,9 +220,9 @@ void addPlanCommand(CLI::App& app, int& code) {
   command->add_option("--svg", o->svg, "write a timing diagram to this file");
   command->add_flag("--json", o->json, "one JSON object, that --from reads");
   command->footer(kFooter);
-  command->callback([o, &code] {
+  command->callback([o, command, &code] {
     if (o->from.empty() && o->run.show.script.empty()) throw CLI::RequiredError("SHOW");
-    code = planShow(*o);
+    code = planShow(*o, *command);
   });
 }
 

@@ -1,6 +1,7 @@
 #include "cli/player.h"
 
 #include "cli/number_option.h"
+#include "cli/show_files.h"
 #include "engine/input/input_log.h"
 
 #include <CLI/CLI.hpp>
@@ -26,11 +27,6 @@ public:
 
 /// No run lasts longer: some 31 years of show time [s].
 constexpr double kLongest = 1e9;
-
-bool existsBeside(const std::filesystem::path& file) {
-  std::error_code unknown;
-  return std::filesystem::exists(file, unknown);
-}
 
 std::size_t appThreadsOf(const ShowOptions& o) {
   return o.appThreads > 0 ? o.appThreads : std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
@@ -106,14 +102,9 @@ Player::Player() = default;
 Player::~Player() = default;
 
 bool Player::openInput(Diagnostics& findings) {
-  inputName_ = options_.input;
-  if (inputName_.empty()) {
-    const auto beside = std::filesystem::path(options_.script).replace_extension(".input");
-    inputName_ = existsBeside(beside) ? beside.string() : "none";
-  }
+  inputName_ = inputLogOf(options_.script, options_.input);
   rate_ = options_.rate;
-  if (inputName_ == "none") {
-    inputName_.clear();
+  if (inputName_.empty()) {
     input_ = std::make_unique<NoInput>();
     return true;
   }

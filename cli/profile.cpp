@@ -5,8 +5,8 @@
 #include "cli/exit_code.h"
 #include "cli/fidelity.h"
 #include "cli/number_option.h"
-#include "cli/output_names.h"
 #include "cli/profile_run.h"
+#include "cli/show_files.h"
 #include "cli/stop_signal.h"
 #include "profiling/black_box.h"
 #include "profiling/black_box_folder.h"
@@ -88,6 +88,18 @@ int showBlackBox(std::string file) {
   return kOk;
 }
 
+/// Says which options are beside --black-box that it could not obey.
+bool isAlone(const CLI::Option& blackBox, CLI::App& command) {
+  Diagnostics findings;
+  for (const CLI::Option* other : command.get_options())
+    if (other != &blackBox && other->count() > 0)
+      findings.error({},
+                     other->get_name() +
+                         " is for a show that is played now; --black-box tells of a run that was, in words");
+  tell(findings);
+  return !findings.hasErrors();
+}
+
 int profileFrames(Options o) {
   ProfileRunOptions& options = o.run;
   options.show = o.fidelity.show;
@@ -96,10 +108,8 @@ int profileFrames(Options o) {
   options.fidelity = o.fidelity, options.fidelityAsked = o.fidelityAsked;
   options.fidelity.tolerance = 1e-3 * o.millimetres;
   Diagnostics findings;
-  const NamedFile files[] = {{"the show", options.show.script, false},
-                             {"--html", options.html},
-                             {"--trace", options.trace.file},
-                             {"--input", options.show.input, false}};
+  std::vector<NamedFile> files = filesOf(options.show);
+  files.insert(files.end(), {{"--html", options.html}, {"--trace", options.trace.file}});
   refuseSameFiles(files, findings);
   const bool settled = options.show.settle(findings) && !findings.hasErrors();
   const auto figures = settled ? profileShow(options, findings) : std::nullopt;
@@ -219,9 +229,11 @@ void addProfileCommand(CLI::App& app, int& code) {
   command->add_flag("--json", o->json, "one JSON object");
   command->footer(kFooter);
   command->get_option("SHOW")->required(false);
-  command->callback([o, &code] {
+  command->callback([o, command, &code] {
     if (o->blackBox->count() > 0)
-      code = showBlackBox(o->blackBox->empty() ? "" : o->blackBox->as<std::string>());
+      code = !isAlone(*o->blackBox, *command)
+                 ? kBadInput
+                 : showBlackBox(o->blackBox->empty() ? "" : o->blackBox->as<std::string>());
     else if (o->fidelity.show.script.empty())
       throw CLI::RequiredError("SHOW");
     else

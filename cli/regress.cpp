@@ -2,10 +2,10 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/output_names.h"
 #include "cli/player.h"
 #include "cli/regress_case.h"
 #include "cli/regress_folder.h"
+#include "cli/show_files.h"
 #include "cli/stop_signal.h"
 #include "engine/atomic_file.h"
 #include "engine/plain_file.h"
@@ -86,22 +86,42 @@ bool comparedNothing(const regression::SuiteResult& result) {
   return result.count(regression::Outcome::Passed) + result.count(regression::Outcome::Failed) == 0;
 }
 
-/// The exit code of what was found; `written`: all files could be.
-int codeOf(const regression::SuiteResult& result, bool update, bool written) {
+/// The exit code of what was found; `written`: all files could be. Modes that agree with each other are not
+/// green where there is nothing else to compare them with.
+int codeOf(const regression::SuiteResult& result, bool update, bool written, bool hasReference) {
   if (result.faults() > 0) return result.refused() ? kBadInput : kInternalFault;
   if (!written || (!update && comparedNothing(result))) return kBadInput;
-  return result.count(regression::Outcome::Failed) > 0 ? kCheckFailed : kOk;
+  if (result.count(regression::Outcome::Failed) > 0) return kCheckFailed;
+  return update || hasReference ? kOk : kBadInput;
+}
+
+/// Nothing that is played or compared with may be written over.
+void refuseOverwriting(const RegressOptions& o, const std::vector<regression::SuiteCase>& cases,
+                       Diagnostics& findings) {
+  std::vector<NamedFile> files{
+      {"the suite", o.suite, false}, {"--stadion", o.program, false}, {"--against", o.against, false}};
+  for (const regression::SuiteCase& c : cases) {
+    files.push_back({"the show of case " + c.name, c.show, false});
+    files.push_back({"the walls of case " + c.name, wallFileOf(c.walls), false});
+    files.push_back({"the input log of case " + c.name, inputLogOf(c.show, c.input), false});
+  }
+  files.push_back({o.baselineGiven ? "--baseline" : "the suite's baseline", o.baseline, o.update});
+  files.push_back({"--junit", o.junit});
+  if (!o.out.empty())
+    for (const char* name : {"report.html", "results.json", "history.jsonl", "progress.jsonl"})
+      files.push_back({std::string("--out's ") + name, o.out + "/" + name});
+  refuseSameFiles(files, findings);
 }
 
 int regress(RegressOptions o) {
   Diagnostics findings;
   RegressReference with;
   std::optional<regression::Suite> suite;
-  const NamedFile files[] = {
-      {"the suite", o.suite, false}, {"--baseline", o.baseline, o.update}, {"--junit", o.junit}};
-  refuseSameFiles(files, findings);
-  const bool ready = !findings.hasErrors() && o.settle(findings) &&
-                     (suite = regression::loadSuite(o.suite, findings)) && findReference(o, with, findings);
+  if (o.settle(findings)) {
+    suite = regression::loadSuite(o.suite, findings);
+    refuseOverwriting(o, suite ? suite->cases : std::vector<regression::SuiteCase>(), findings);
+  }
+  const bool ready = !findings.hasErrors() && suite && findReference(o, with, findings);
   std::vector<std::string> gone;
   if (ready && with.baseline) gone = regression::othersThan(*suite, *with.baseline);
   const bool chosen = ready && o.choose(*suite, findings);
@@ -154,13 +174,15 @@ int regress(RegressOptions o) {
   if (!o.junit.empty()) written = write(o.junit, regression::junitOf(result)) && written;
   const std::string text = o.json ? regression::benchmarkJsonOf(result) + "\n" : regression::tableOf(result);
   std::printf("%s", text.c_str());
+  const bool hasReference = with.baseline || !o.against.empty();
   if (!o.update && result.faults() == 0 && comparedNothing(result))
     std::fprintf(stderr, "stadion: error: nothing was compared%s\n",
-                 with.baseline || !o.against.empty() ? "; the table says why" : "");
-  if (!o.update && o.against.empty() && !with.baseline)
-    std::fprintf(stderr, "there is no baseline %s: --update writes it, --against BUILD does without\n",
-                 o.baseline.c_str());
-  return codeOf(result, o.update, written);
+                 hasReference ? "; the table says why" : "");
+  if (!o.update && !hasReference)
+    std::fprintf(
+        stderr, "stadion: error: there is no baseline %s: --update writes it, --against BUILD does without\n",
+        o.baseline.c_str());
+  return codeOf(result, o.update, written, hasReference);
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ State hashes, image hashes and counts (nodes visited, messages, draw calls, tria
 be equal. Images are compared only where the same renderer on the same processor drew them. All modes of a case have to
 give the same state and images, whether there is a baseline or not.
 
-Exit codes: 0 all is equal, 1 a comparison failed, 2 bad usage, a suite or show with mistakes, or nothing that could be
-compared, 3 a program that was played crashed or hung.)";
+Exit codes: 0 all is equal, 1 a comparison failed, 2 bad usage, a suite or show with mistakes, no baseline (and no
+--against), or nothing that could be compared, 3 a program that was played crashed or hung.)";
 
 /// The program itself, however it was called.
 std::string ownPath() {

@@ -1,7 +1,7 @@
 #include "cli/run_options.h"
 
 #include "cli/number_option.h"
-#include "cli/output_names.h"
+#include "cli/show_files.h"
 
 #include <CLI/CLI.hpp>
 
@@ -208,17 +208,22 @@ bool RunOptions::settle(Diagnostics& findings) {
   if (video && out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
   if (stress.low > stress.high)
     findings.error({}, "--stress-low must not be greater than --stress-high: between them stress stays");
-  settleFiles(findings);
   settleLive(findings);
+  settleFiles(findings);
   settleHead(findings);
   return show.settle(findings) && !findings.hasErrors();
 }
 
-/// No two outputs are one file.
+/// No output is another one, or what the show is played from.
 void RunOptions::settleFiles(Diagnostics& findings) const {
-  const NamedFile files[] = {{"the show", show.script, false}, {"--record-input", recordInput},
-                             {"--trace-events", events.file},  {"--spans", spans.file},
-                             {"--black-box", blackBox},        {"--input", show.input, false}};
+  std::vector<NamedFile> files = filesOf(show);
+  files.insert(files.end(), {{"--record-input", recordInput},
+                             {"--trace-events", events.file},
+                             {"--spans", spans.file},
+                             {"--black-box", blackBox}});
+  if (!out.empty())
+    for (const char* name : {"summary.json", "contact-sheet.png", "video.mp4"})
+      files.push_back({std::string("--out's ") + name, out + "/" + name});
   refuseSameFiles(files, findings);
 }
 

@@ -83,6 +83,7 @@ bool ViewOptions::settle(Diagnostics& findings) {
                    fmt::format("--window: \"{}\" is not WIDTHxHEIGHT in pixels from 64x64 to 16384x16384, "
                                "such as 1200x800",
                                window));
+  if (run.show.input.empty()) run.show.input = "none";  // who looks on is the visitor, not the log beside it
   run.settleFiles(findings);
   return run.show.settle(findings) && !findings.hasErrors();
 }

@@ -72,8 +72,7 @@ bool ViewSession::openDrawing(Diagnostics& findings) {
 
 ShowSurroundings ViewSession::surroundings(std::shared_ptr<KeptParts> kept) {
   RunOptions& run = options_.run;
-  const bool live = run.show.input.empty() || run.show.input == "none";
-  if (run.show.input.empty()) run.show.input = "none";  // once: a show that is being read looks at it
+  const bool live = run.show.input == "none";
   return {run,
           *provider_,
           mailbox_,

@@ -3,6 +3,7 @@
 #include "tests/cli/program.h"
 
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace stadion {
@@ -44,6 +45,41 @@ TEST(ProgramPlan, SaysWhatIsWrong) {
   const ProgramResult wrong = stadionProgram({"plan", "--from", folder.write("costs.json", "{}")});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_NE(wrong.err.find("has no \"format\""), std::string::npos) << wrong.err;
+}
+
+TEST(ProgramPlan, BesideMeasuredCostsWallsAreObeyedAndWhatMeasuresIsRefused) {
+  const TemporaryFolder folder;
+  const ProgramResult measured =
+      stadionProgram({"plan", kKick, "--walls", "2", "--frames", "6", "--size", "32x24", "--json"});
+  ASSERT_EQ(measured.status, 0) << measured.err;
+  const std::string costs = folder.write("costs.json", measured.out);
+  const auto planned = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"plan", "--from", costs});
+    return stadionProgram(std::move(more));
+  };
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& why) {
+    const ProgramResult r = planned(more);
+    EXPECT_EQ(r.status, 2) << r.out;
+    EXPECT_NE(r.err.find(why), std::string::npos) << r.err;
+  };
+  EXPECT_NE(planned({}).out.find("2 walls,"), std::string::npos) << "as measured";
+  for (const char* six : {"6", "cave6", STADION_SOURCE_DIR "/walls/cave6.walls"}) {
+    const ProgramResult r = planned({"--walls", six});
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_NE(r.out.find("6 walls,"), std::string::npos) << six << r.out;
+  }
+  for (const char* number : {"-3", "0", "2.5", "", "99999999999999999999999"})
+    refused({"--walls", number}, "from 1 to 24 walls");
+  refused({"--walls", "nonsense"}, "there are no walls named");
+  for (const auto& [option, value] : std::map<std::string, std::string>{{"--size", "64x48"},
+                                                                        {"--stereo", "off"},
+                                                                        {"--frames", "9"},
+                                                                        {"--seconds", "1"},
+                                                                        {"--gl", "egl"},
+                                                                        {"--input", "none"},
+                                                                        {"--asset-root", "."},
+                                                                        {"--app-threads", "2"}})
+    refused({option, value}, option + " is for measuring; --from has measured costs");
 }
 
 }  // namespace

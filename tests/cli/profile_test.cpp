@@ -153,6 +153,28 @@ TEST(ProgramProfile, ARunOfWhichNothingIsRecordedIsRefused) {
   }
 }
 
+TEST(ProgramProfile, WhatCannotBeToldOfARunThatWasIsRefusedBesideItsLastFrames) {
+  const TemporaryFolder folder;
+  const std::string box = folder.path() / "box", file = folder.path() / "out";
+  ASSERT_EQ(stadionProgram({"run", STADION_SOURCE_DIR "/scripts/kick.evs", "--frames", "9", "--gl", "none",
+                            "--black-box", box})
+                .status,
+            0);
+  for (const auto& beside : std::vector<std::vector<std::string>>{
+           {"--json"}, {"--csv"}, {"--html", file}, {"--trace", file}, {"--fidelity"}, {"--frames", "9"}})
+    for (const bool named : {true, false}) {
+      std::vector<std::string> words = {"profile"};
+      words.insert(words.end(), beside.begin(), beside.end());
+      words.push_back("--black-box");
+      if (named) words.push_back(box);
+      const ProgramResult r = stadionProgram(words);
+      EXPECT_EQ(r.status, 2) << r.out;
+      EXPECT_EQ(r.out, "");
+      EXPECT_NE(r.err.find(beside[0] + " is for a show that is played now"), std::string::npos) << r.err;
+      EXPECT_FALSE(std::filesystem::exists(file));
+    }
+}
+
 TEST(ProgramProfile, TwoOutputsAreNotOneFile) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "out", show = STADION_SOURCE_DIR "/scripts/kick.evs";

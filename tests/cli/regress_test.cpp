@@ -44,8 +44,9 @@ TEST(ProgramRegress, WritesABaselineAndThenAgreesWithIt) {
   const TemporaryFolder folder;
   const std::string suite = smallSuite(folder, "  modes sequential pipelined\n");
   const ProgramResult without = regress({suite});
-  EXPECT_EQ(without.status, 0) << "the modes agree" << without.out << without.err;
-  EXPECT_NE(without.err.find("--update"), std::string::npos) << without.err;
+  EXPECT_EQ(without.status, 2) << "the modes agree, but with what was before?" << without.out << without.err;
+  EXPECT_NE(without.err.find("error: there is no baseline"), std::string::npos) << without.err;
+  EXPECT_NE(without.err.find("--update writes it"), std::string::npos) << without.err;
   EXPECT_NE(without.out.find("state as sequential"), std::string::npos) << without.out;
 
   EXPECT_EQ(regress({suite, "--update"}).status, 0);
@@ -285,7 +286,7 @@ TEST(ProgramRegress, AnInterruptedSuiteGoesOnWhereItWas) {
   ASSERT_EQ(stopped.status, 130) << stopped.out << stopped.err;
   const std::string progress = fileContent(std::filesystem::path(out) / "progress.jsonl");
   const ProgramResult r = regress({suite, "--out", out, "--resume", "--json"});
-  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.status, 2) << "there is no baseline" << r.err;
   EXPECT_EQ(r.err.find("begins anew") == std::string::npos, std::ranges::count(progress, '\n') > 1)
       << progress;
   EXPECT_EQ(Json::parse(r.out)["benchmarks"].size(), 40u);
@@ -305,7 +306,7 @@ TEST(ProgramRegress, AnInterruptedSuiteBeginsAnewWhenAShowHasChangedMeanwhile) {
   ASSERT_EQ(stopped.status, 130) << stopped.out << stopped.err;
   folder.write("show.evs", "group( name=b )\n");
   const ProgramResult r = regress({suite, "--out", out, "--resume"});
-  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.status, 2) << "there is no baseline" << r.err;
   EXPECT_NE(r.err.find("begins anew"), std::string::npos) << r.err;
 }
 
@@ -338,7 +339,7 @@ TEST(ProgramRegress, AFolderThatAnotherOneWritesIsLeftAlone) {
   EXPECT_NE(r.err.find("another regress is writing there"), std::string::npos) << r.err;
   EXPECT_TRUE(std::filesystem::is_empty(out));
   close(other);
-  EXPECT_EQ(regress({smallSuite(folder, "  modes sequential pipelined\n"), "--out", out}).status, 0);
+  EXPECT_EQ(regress({smallSuite(folder), "--out", out, "--update"}).status, 0);
 }
 
 TEST(ProgramRegress, WhereNothingWasComparedItIsNotGreen) {
@@ -350,7 +351,7 @@ TEST(ProgramRegress, WhereNothingWasComparedItIsNotGreen) {
   };
   refused(regress({suite, "--baseline", "nowhere.json"}),
           "there is no file nowhere.json; --update writes it");
-  refused(regress({suite}), "nothing was compared\nthere is no baseline");
+  refused(regress({suite}), "nothing was compared\nstadion: error: there is no baseline");
   refused(regress({suite, "--compare", "times"}),
           "no case compares times; say so in its \"compare\" statement");
   const std::string counted = folder.write("counted.suite", fileContent(suite) + "  compare instructions\n");

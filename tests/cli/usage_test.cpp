@@ -5,6 +5,7 @@
 #include <csignal>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
@@ -373,6 +374,44 @@ TEST(ProgramUsage, WhatIsReadIsNotWrittenOver) {
   }
   EXPECT_EQ(fileContent(show), "group( name=a )\n");
   EXPECT_EQ(fileContent(suite), "case( name=a, show=a.evs )\n");
+}
+
+TEST(ProgramUsage, WhatIsReadWithoutBeingNamedIsNotWrittenOver) {
+  const TemporaryFolder folder;
+  const auto at = [&](const std::string& name) { return (folder.path() / name).string(); };
+  const std::string walls = fileContent(STADION_SOURCE_DIR "/walls/desktop.walls"),
+                    log = fileContent(STADION_SOURCE_DIR "/scripts/kick.input");
+  const std::map<std::string, std::string> files = {
+      {"a.evs", "group( name=a )\n"},
+      {"a.input", log},
+      {"my.walls", walls},
+      {"a.suite", "stadion-suite 1\ncase one\n  show a.evs\n  walls my.walls\n  frames 3\n"},
+      {"a.baseline.json", "{}\n"}};
+  for (const auto& [name, content] : files) folder.write(name, content);
+  std::filesystem::create_symlink("a.input", at("linked"));
+  const std::string show = at("a.evs"), suite = at("a.suite");
+  std::vector<std::vector<std::string>> all;
+  for (const std::string output : {"a.input", "./my.walls", "linked", "a.evs"}) {
+    for (const char* option : {"--html", "--trace"})
+      all.push_back(
+          {"profile", show, "--frames", "9", "--no-draw", "--walls", at("my.walls"), option, at(output)});
+    for (const char* option : {"--trace-events", "--black-box", "--record-input", "--spans"})
+      all.push_back(
+          {"run", show, "--frames", "9", "--gl", "none", "--walls", at("my.walls"), option, at(output)});
+    all.push_back({"plan", show, "--walls", at("my.walls"), "--frames", "3", "--svg", at(output)});
+    all.push_back({"regress", suite, "--junit", at(output)});
+  }
+  all.push_back({"regress", suite, "--junit", at("a.baseline.json")});
+  all.push_back({"regress", suite, "--against", stadionPath(), "--junit", at("a.baseline.json")});
+  all.push_back({"regress", suite, "--update", "--baseline", at("o/results.json"), "--out", at("o")});
+  all.push_back({"run", show, "--frames", "9", "--walls", "desktop", "--out", at("o"), "--trace-events",
+                 at("o/summary.json")});
+  for (const auto& words : all) {
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 2) << words.at(0) << r.out;
+    EXPECT_TRUE(has(r.err, "name the same file")) << words.at(0) << " " << words.back() << "\n" << r.err;
+  }
+  for (const auto& [name, content] : files) EXPECT_EQ(fileContent(at(name)), content) << name;
 }
 
 TEST(ProgramUsage, AnEmptyWordIsNoFolder) {
