@@ -70,6 +70,8 @@ public:
   FrameBudget budget() const { return budget_.now(); }
   /// How nodes with a budget keep it.
   std::vector<BudgetReport> budgets() const { return recording_->governor()->reports(); }
+  /// Everything counts as so many times farther away.
+  double stress() const { return recording_->governor()->stress().value_or(StressReport{}).now; }
   /// How many frames were late, why, and where the last ones are kept; empty if none was. After stop().
   std::string lateFrames() const;
   std::uint64_t droppedTicks() const { return dropped_; }

@@ -42,7 +42,8 @@ void addBudgets(ShowRecording* recording, RunSummary& s) {
   recording->finish();
   const LoadGovernor* governor = recording->governor();
   if (!governor) return;
-  s.stressChanges = governor->stressChanges();
+  if (const auto stress = governor->stress())
+    s.stress = StressFelt{stress->highest, stress->now, stress->changes};
   for (const BudgetReport& b : governor->reports())
     s.budgets.push_back({b.name, b.file, b.line, b.budget, b.mean, b.worst, b.worstFrame, b.worstStage,
                          b.overruns, b.changes, b.highest, b.now, b.levels, b.drawCounted});

@@ -348,6 +348,8 @@ HudFigures ViewSession::figures() const {
   f.seconds = toSeconds(shown_.time), f.rate = options_.run.show.rate;
   f.speed = desk_->playback().speed(), f.paused = desk_->playback().paused();
   f.budget = show_->budget(), f.dropped = show_->droppedTicks() + unseen_;
+  if (const double stress = show_->stress(); stress > 1)
+    f.given.push_back(fmt::format("everything counts as {:.3g} times farther away", stress));
   for (const BudgetReport& b : show_->budgets())
     if (b.now > 0 && f.given.size() < kMostGiven)
       f.given.push_back(fmt::format("{} gives up {} of {}: {:.2f} ms", b.name, b.now, b.levels, b.mean));

@@ -128,6 +128,8 @@ public:
   void removeLight(std::size_t handle);
   void addSky(NodeRef node, const SkyRecord& sky) { skies_.push_back({node, sky}); }
   void removeSky(NodeRef node);
+  /// Whose sky is seen; invalid: nobody's.
+  NodeRef sky() const { return skies_.empty() ? NodeRef{} : skies_.back().node; }
 
   std::size_t addSound(PlacementId placement);
   void setSound(std::size_t handle, bool on, const SoundRecord& sound);

@@ -157,6 +157,10 @@ std::string toText(const RunSummary& s) {
   for (const MeasuredDistance& m : s.measured)
     text += fmt::format("  measured {:.3f} m: {} at {:.3f} s\n", m.metres, m.node, m.seconds);
   for (const BudgetKept& b : s.budgets) text += textOf(b);
+  if (s.stress && s.stress->changes > 0)
+    text += fmt::format(
+        "  stress: everything counted as up to {:.3g} times farther away, {:.3g} at the end, {} changes\n",
+        s.stress->highest, s.stress->atEnd, s.stress->changes);
   for (const std::string& file : s.files) text += fmt::format("  wrote {}\n", file);
   for (const std::string& remark : s.remarks) text += fmt::format("  note: {}\n", remark);
   if (!s.stopped.empty()) text += fmt::format("  stopped by {} after frame {}\n", s.stopped, s.lastFrame);
@@ -231,10 +235,10 @@ std::string toJson(const RunSummary& s) {
   j["last_frame"] = s.lastFrame;
   j["state_hash"] = s.stateHash ? Json(hex(*s.stateHash)) : Json();
   j["history_hash"] = s.historyHash ? Json(hex(*s.historyHash)) : Json();
-  if (!s.budgets.empty()) {
-    j["stress_changes"] = s.stressChanges;
-    for (const BudgetKept& b : s.budgets) j["budgets"].push_back(json(b));
-  }
+  if (s.stress)
+    j["stress"] =
+        Json{{"highest", s.stress->highest}, {"at_end", s.stress->atEnd}, {"changes", s.stress->changes}};
+  for (const BudgetKept& b : s.budgets) j["budgets"].push_back(json(b));
   j["drawn"] = Json::array();
   for (const DrawnCounts& d : s.drawn)
     j["drawn"].push_back(Json{{"wall", d.wall},

@@ -90,6 +90,12 @@ struct BudgetKept {
   bool drawCounted = true;                         ///< else what drawing it took is in none of these
 };
 
+/// What stress a live show was under: everything counted as so many times farther away.
+struct StressFelt {
+  double highest = 1, atEnd = 1;
+  std::uint64_t changes = 0;
+};
+
 /// Who drew the walls, and why they did.
 struct HowDrawn {
   std::string workers;  ///< thread or process; empty: nothing was drawn
@@ -136,7 +142,7 @@ struct RunSummary {
   std::vector<MeasuredDistance> measured;  ///< the first ones, at most kMostHappenings
   std::uint64_t happenedCount = 0;         ///< all of them
   std::vector<BudgetKept> budgets;         ///< of nodes that have one or give something up
-  std::uint64_t stressChanges = 0;         ///< of the whole show
+  std::optional<StressFelt> stress;        ///< of the whole show; nothing = nobody decided about it
 };
 
 /// Without the failure, which is told as an error, and without what happened.

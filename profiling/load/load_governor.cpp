@@ -206,7 +206,7 @@ bool LoadGovernor::see(const Scene& scene) {
       g.report.name = name->path, g.report.file = name->file, g.report.line = name->line;
     governed_.push_back(std::move(g));
   }
-  for (const Governed& g : known) gone_[g.of.node] = g.report;
+  for (Governed& g : known) g.report.now = 0, addTo(gone_, g.report);
   byPriority_.clear();
   for (std::size_t i = 0; i < governed_.size(); ++i)
     if (governed_[i].report.levels > 0) byPriority_.push_back(i);
@@ -219,7 +219,7 @@ bool LoadGovernor::see(const Scene& scene) {
   for (const auto& [node, governed] : above)
     accounts->add(node, static_cast<NodeAccounts::Account>(governed.front()));
   accounts_ = accounts;
-  costs_.govern(std::move(nodes), std::move(above));
+  costs_.govern(std::move(nodes), std::move(above), scene.sky());
   return true;
 }
 
@@ -267,10 +267,7 @@ FrameLoad LoadGovernor::decide(std::uint64_t frame) {
   FrameLoad load;
   const std::lock_guard lock(mutex_);
   if (!options_.acts) return load;
-  if (stress_.level() != stressApplied_ && load.add({0, 0, stress_.level()})) {
-    stressApplied_ = stress_.level(), stressFrom_ = frame;
-    ++stressChanges_;
-  }
+  if (stress_.level() != stressApplied_ && load.add({0, 0, stress_.level()})) applyStress(frame);
   bool all = true;
   for (std::size_t i = 0; i < governed_.size(); ++i) {
     Governed& g = governed_[i];
@@ -293,6 +290,22 @@ FrameLoad LoadGovernor::decide(std::uint64_t frame) {
   return load;
 }
 
+/// When it begins, and when it can do no more, is told: of each as of a node's overruns.
+void LoadGovernor::applyStress(std::uint64_t frame) {
+  const std::uint32_t before = std::exchange(stressApplied_, stress_.level());
+  stressFrom_ = frame, ++stressChanges_;
+  highestStress_ = std::max(highestStress_, stressApplied_);
+  const bool most = stressApplied_ == stress_.most();
+  if (stressApplied_ == 0 || (before > 0 && !most)) return;
+  const double at = static_cast<double>(frame) / options_.rate;
+  double& toldAt = most ? toldMostStressAt_ : toldStressAt_;
+  if (at - toldAt < kToldApart) return;
+  toldAt = at;
+  lines_.push_back(
+      fmt::format("under stress: from frame {} on everything counts as {:.3g} times farther away{}", frame,
+                  stressOf(stressApplied_), most ? ", the most it may" : ""));
+}
+
 void LoadGovernor::tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame) {
   const std::vector<Concession>& ladder = g.of.terms.gives;
   const std::string title = titleOf(g.of.node);
@@ -306,22 +319,33 @@ void LoadGovernor::tellChange(const Governed& g, std::uint32_t before, std::uint
 
 // Reports.
 
+void LoadGovernor::addTo(Reports& all, const BudgetReport& r) {
+  const auto [at, first] = all.try_emplace({r.file, r.line, r.name}, r);
+  if (first) return;
+  BudgetReport sum = r;
+  const BudgetReport& before = at->second;
+  sum.frames += before.frames, sum.overruns += before.overruns, sum.changes += before.changes;
+  if (sum.frames > 0)
+    sum.mean += (before.mean - r.mean) * static_cast<double>(before.frames) / static_cast<double>(sum.frames);
+  if (before.worst > r.worst)
+    sum.worst = before.worst, sum.worstFrame = before.worstFrame, sum.worstStage = before.worstStage;
+  sum.highest = std::max(sum.highest, before.highest), sum.now = std::max(sum.now, before.now);
+  at->second = std::move(sum);
+}
+
 std::vector<BudgetReport> LoadGovernor::reports() const {
   const std::lock_guard lock(mutex_);
-  std::vector<BudgetReport> all;
-  for (const auto& [node, report] : gone_) all.push_back(report);
-  for (const Governed& g : governed_) all.push_back(g.report);
-  return all;
+  Reports all = gone_;
+  for (const Governed& g : governed_) addTo(all, g.report);
+  std::vector<BudgetReport> reports;
+  for (auto& [written, report] : all) reports.push_back(std::move(report));
+  return reports;
 }
 
-double LoadGovernor::stress() const {
+std::optional<StressReport> LoadGovernor::stress() const {
+  if (!options_.acts) return {};
   const std::lock_guard lock(mutex_);
-  return stress_.stress();
-}
-
-std::uint64_t LoadGovernor::stressChanges() const {
-  const std::lock_guard lock(mutex_);
-  return stressChanges_;
+  return StressReport{stressOf(highestStress_), stressOf(stressApplied_), stressChanges_};
 }
 
 }  // namespace stadion

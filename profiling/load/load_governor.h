@@ -19,6 +19,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <tuple>
 
 namespace stadion {
 
@@ -33,7 +34,7 @@ struct GovernorOptions {
   std::function<void(const std::string&)> tell;  ///< a line; on the log's thread
 };
 
-/// How a node kept its budget.
+/// How a node kept its budget, each time that its file was there.
 struct BudgetReport {
   std::string name, file;
   std::uint32_t line = 0;
@@ -45,6 +46,12 @@ struct BudgetReport {
   bool drawCounted = true;                         ///< else what drawing it took is not in these
   std::uint64_t changes = 0;                       ///< times that something was given up or taken back
   std::uint32_t highest = 0, now = 0, levels = 0;  ///< of its ladder
+};
+
+/// What stress there was: everything counts as so many times farther away when levels of detail are chosen.
+struct StressReport {
+  double highest = 1, now = 1;
+  std::uint64_t changes = 0;
 };
 
 class LoadGovernor final : public SpanReader, public LoadDecider {
@@ -68,9 +75,10 @@ public:
   std::shared_ptr<const NodeAccounts> accounts() const { return accounts_; }
   FrameLoad decide(std::uint64_t frame) override;
 
+  /// By file and line.
   std::vector<BudgetReport> reports() const;
-  double stress() const;
-  std::uint64_t stressChanges() const;
+  /// Nothing if it only tells.
+  std::optional<StressReport> stress() const;
 
 private:
   struct Governed {
@@ -92,6 +100,9 @@ private:
     bool sampled = false;                        ///< its drawing took longer, for it was looked at
   };
 
+  /// By file, line and path: what comes and goes all day is one node.
+  using Reports = std::map<std::tuple<std::string, std::uint32_t, std::string>, BudgetReport>;
+  static void addTo(Reports& all, const BudgetReport& report);
   void judgeNodes(std::uint64_t frame);
   void judgeFrame(std::uint64_t frame);
   void spreadFrameLevel();
@@ -99,6 +110,7 @@ private:
   void layFrameLadder();
   void tellUncounted();
   void noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost);
+  void applyStress(std::uint64_t frame);
   void tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame);
   std::string stageText(const NodeCost& cost) const;
   std::string titleOf(NodeRef node) const;
@@ -113,16 +125,17 @@ private:
   FrameLadder ladder_;                   ///< its levels, from 1 on: whose, and which of its own
   std::uint64_t sampledUntil_ = 0;       ///< frames before it show what looking at drawing took
   StressFilter stress_;
-  std::uint32_t stressApplied_ = 0;
+  std::uint32_t stressApplied_ = 0, highestStress_ = 0;
   std::uint64_t stressChanges_ = 0, stressFrom_ = 0;
-  bool scalable_ = false;  ///< there is something that stress acts on
+  double toldStressAt_ = -1e9, toldMostStressAt_ = -1e9;  ///< [s], that there is some, and the most
+  bool scalable_ = false;                                 ///< there is something that stress acts on
   std::map<std::uint64_t, StageTimes> times_;
   std::vector<std::uint64_t> appEnded_, appEndedBefore_, shown_, shownBefore_;
   std::vector<std::string> lines_;  ///< to be told, by the log's thread
   std::uint64_t seen_ = ~std::uint64_t{0};
   std::shared_ptr<const NodeAccounts> accounts_;
   bool toldUncounted_ = false;
-  std::map<NodeRef, BudgetReport> gone_;
+  Reports gone_;
   double now_ = 0;  ///< [s]
 };
 

@@ -19,7 +19,7 @@ constexpr std::uint64_t kAwaited = 128;
 }  // namespace
 
 bool mayBeDrawn(const Node* node) {
-  return !node || placedKinds().has(node->kind());
+  return !node || placedKinds().has(node->kind()) || node->kind() == NodeKind::Sky;
 }
 
 std::pair<std::vector<GovernedNode>, std::map<NodeRef, std::vector<std::size_t>>>
@@ -58,7 +58,8 @@ bool hasLevels(const Scene& scene) {
   return any;
 }
 
-void NodeCosts::govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::vector<std::size_t>> above) {
+void NodeCosts::govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::vector<std::size_t>> above,
+                       NodeRef sky) {
   // What is known of those that stay, under their new places.
   std::vector<std::optional<std::size_t>> place(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -66,8 +67,10 @@ void NodeCosts::govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::v
     if (at != nodes.end()) place[i] = static_cast<std::size_t>(at - nodes.begin());
   }
   std::map<SampleKey, Sample> samples;
-  for (const auto& [key, sample] : samples_)
+  for (const auto& [key, sample] : samples_) {
+    if (key.what == Span::Sky && key.node != sky) continue;  // another one is seen now
     if (const auto to = place[key.governed]) samples[{*to, key.node, key.wall, key.eye, key.what}] = sample;
+  }
   std::vector<Drawn> drawn(nodes.size());
   for (std::size_t i = 0; i < drawn_.size(); ++i)
     if (place[i]) drawn[*place[i]] = drawn_[i];
@@ -78,7 +81,7 @@ void NodeCosts::govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::v
     costs = std::move(moved);
   }
   samples_ = std::move(samples), drawn_ = std::move(drawn);
-  nodes_ = std::move(nodes), above_ = std::move(above);
+  nodes_ = std::move(nodes), above_ = std::move(above), sky_ = sky;
 }
 
 void NodeCosts::drawnOtherwise(std::size_t governed, std::uint64_t frame, bool hidden) {
@@ -122,7 +125,9 @@ void NodeCosts::take(const SharedSpan& s) {
 }
 
 void NodeCosts::take(const DrawnAlone& d, const std::vector<NodeShare>& nodes) {
-  if (d.what == Span::Draw) sample(d, nodes);
+  if (d.what == Span::Draw) return sample(d, nodes);
+  const NodeShare whole{sky_, 1};
+  if (d.what == Span::Sky && sky_.valid()) sample(d, {&whole, 1});
 }
 
 std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
@@ -134,12 +139,14 @@ std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
   std::vector<bool> sampled(costs.size());
   for (const auto& [key, s] : samples_) {
     const Drawn& drawn = drawn_[key.governed];
-    if (s.until < frame || s.frame > frame || drawn.hidden || s.frame < drawn.since) continue;
+    const bool isSky = key.what == Span::Sky;  // it is seen whoever is hidden
+    if (s.until < frame || s.frame > frame) continue;
+    if (!isSky && (drawn.hidden || s.frame < drawn.since)) continue;
     sampled[key.governed] = sampled[key.governed] || key.what == Span::Draw;
     const double ms = std::max(0.0, s.ms);  // of next to nothing, a clock may say less than nothing
     costs[key.governed].cost.drawn += ms;
     costs[key.governed].sure.drawn += std::min(ms, std::max(0.0, s.before));
-    stages[{key.governed, key.what == Span::Draw, key.wall}] += ms;
+    stages[{key.governed, isSky || key.what == Span::Draw, key.wall}] += ms;
   }
   for (std::size_t i = 0; i < costs.size(); ++i)
     costs[i].known = drawn_[i].since == 0 || drawn_[i].hidden || sampled[i] ||

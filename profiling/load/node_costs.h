@@ -21,7 +21,7 @@ namespace stadion {
 struct GovernedNode {
   NodeRef node;
   NodeTerms terms;
-  bool drawn = false;  ///< it has a place in the world: something of it, or below it, may be drawn
+  bool drawn = false;  ///< something of it, or below it, may be drawn
 };
 
 /// What one of them cost in one frame.
@@ -37,8 +37,9 @@ struct NodeCost {
 class NodeCosts {
 public:
   /// Whose costs are kept from now on. `above`: of each node that stands below some of them, these, by their
-  /// places in the list.
-  void govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::vector<std::size_t>> above);
+  /// places in the list. `sky`: who is drawn where nothing else is.
+  void govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::vector<std::size_t>> above,
+              NodeRef sky);
   const std::vector<GovernedNode>& governed() const { return nodes_; }
 
   void take(const SpanRecord& record);
@@ -78,6 +79,7 @@ private:
 
   std::vector<GovernedNode> nodes_;
   std::map<NodeRef, std::vector<std::size_t>> above_;
+  NodeRef sky_;
   std::map<std::uint64_t, std::vector<double>> app_;  ///< by frame, then governed node [ms]
   std::map<SampleKey, Sample> samples_;
   std::vector<Drawn> drawn_;  ///< by governed node

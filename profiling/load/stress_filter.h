@@ -31,6 +31,8 @@ public:
   std::uint32_t take(double time);
   double stress() const { return stress_; }
   std::uint32_t level() const { return level_; }
+  /// The highest level that its options allow.
+  std::uint32_t most() const;
   /// It cannot do more.
   bool exhausted() const { return stress_ >= options_.max; }
 

@@ -103,6 +103,22 @@ TEST(RunSummary, MakesGoodJsonOfBadNumbersAndNames) {
   EXPECT_TRUE(j["state_hash"].is_null());
 }
 
+TEST(RunSummary, TellsOfStressWhetherThereAreBudgetsOrNot) {
+  RunSummary s = example();
+  EXPECT_FALSE(nlohmann::json::parse(toJson(s)).contains("stress")) << "nobody decided";
+  s.stress = StressFelt{};
+  EXPECT_EQ(nlohmann::json::parse(toJson(s))["stress"]["highest"], 1);
+  EXPECT_EQ(toText(s).find("farther away"), std::string::npos);
+  s.stress = StressFelt{4, 2, 12};
+  const auto stress = nlohmann::json::parse(toJson(s))["stress"];
+  EXPECT_EQ(stress["highest"], 4);
+  EXPECT_EQ(stress["at_end"], 2);
+  EXPECT_EQ(stress["changes"], 12);
+  EXPECT_NE(toText(s).find("everything counted as up to 4 times farther away, 2 at the end, 12 changes"),
+            std::string::npos)
+      << toText(s);
+}
+
 TEST(RunSummary, TellsPeopleTheSame) {
   const std::string text = toText(example());
   for (const char* part :

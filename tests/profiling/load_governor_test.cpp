@@ -3,6 +3,7 @@
 
 #include "profiling/load/load_governor.h"
 
+#include "engine/nodes/light_node.h"
 #include "engine/nodes/lod_node.h"
 #include "engine/nodes/scene_node.h"
 #include "tests/engine/show_fixture.h"
@@ -22,6 +23,7 @@ struct Governed : ShowFixture {
   std::uint64_t at = 0;
   bool sampled = false;                     ///< the coming frame's drawing is looked at
   std::optional<NodeTerms> guest;           ///< of the node in the annex
+  std::optional<NodeTerms> dusk;            ///< of the annex' sky
   std::map<NodeRef, std::uint32_t> levels;  ///< as they have been decided; of nobody: stress
 
   explicit Governed(std::vector<NodeTerms> terms, bool scalable = false, GovernorOptions options = {}) {
@@ -40,6 +42,9 @@ struct Governed : ShowFixture {
       load.lines.assign(2, 1);
       addNode<ListeningNode>(load, "guest");
       if (guest) load.terms[0] = *guest;
+      if (!dusk) return;
+      addNode<SkyNode>(load, "dusk", SkyRecord{});
+      load.terms[1] = *dusk;
     };
     EXPECT_TRUE(scene.open("show"));
     options.walls = {"front", "left"};
@@ -230,6 +235,7 @@ TEST(LoadGovernor, WhoDoesNotActOnlyTells) {
   EXPECT_FALSE(g.told.empty());
   EXPECT_EQ(g.level(0), 0U);
   EXPECT_EQ(g.stress(), 0U);
+  EXPECT_FALSE(g.governor->stress());
 }
 
 TEST(LoadGovernor, TheSlowestWallPutsTheWholeShowUnderStress) {
@@ -240,6 +246,84 @@ TEST(LoadGovernor, TheSlowestWallPutsTheWholeShowUnderStress) {
   EXPECT_EQ(g.stress(), 8U);  // four times, the most
   g.frames(300, {}, {5, 5});
   EXPECT_EQ(g.stress(), 0U);
+}
+
+TEST(LoadGovernor, StressIsToldWhenItBeginsAndWhenItCanDoNoMoreOnceInTenSeconds) {
+  Governed g({}, true);
+  g.frames(60, {}, {5, 20});
+  ASSERT_EQ(g.told.size(), 2U);
+  EXPECT_EQ(g.told[0], "under stress: from frame 2 on everything counts as 1.19 times farther away");
+  EXPECT_NE(g.told[1].find("counts as 4 times farther away, the most it may"), std::string::npos)
+      << g.told[1];
+  EXPECT_EQ(g.governor->stress()->now, 4);
+  EXPECT_EQ(g.governor->stress()->changes, 8U);
+  g.frames(150, {}, {5, 5});
+  g.frames(60, {}, {5, 20});
+  EXPECT_EQ(g.told.size(), 2U);
+  g.frames(400, {}, {5, 5});
+  EXPECT_EQ(g.governor->stress()->now, 1);
+  EXPECT_EQ(g.governor->stress()->highest, 4);
+  g.frames(60, {}, {5, 20});
+  EXPECT_EQ(g.told.size(), 4U);
+}
+
+TEST(LoadGovernor, WhatComesAndGoesAllDayIsReportedOnce) {
+  Governed g({{1, {}, 1}});
+  g.guest = NodeTerms{1, {Rest}, 1};
+  std::uint32_t file = 1;  // loads are numbered as they come
+  for (int visit = 0; visit < 20; ++visit) {
+    g.annex(Verb::Load), ++file;
+    for (int i = 0; i < 30; ++i) {
+      g.governor->take(0, Governed::span(Span::Simulate, g.at, 1.0 + visit % 4, kNoWall, {file, 0}));
+      g.frame({0});
+    }
+    g.annex(Verb::Unload);
+  }
+  const std::vector<BudgetReport> reports = g.governor->reports();
+  ASSERT_EQ(reports.size(), 2U);
+  const BudgetReport& guest = reports[0].name == "annex/guest" ? reports[0] : reports[1];
+  // A frame is judged with the next one: a visit's last one no more, but the one before it (of the first
+  // there is none), in which the guest cost nothing.
+  EXPECT_EQ(guest.frames, 20U * 30U - 1);
+  EXPECT_EQ(guest.overruns, 15U * 29U);
+  EXPECT_NEAR(guest.mean, 2.5 * 20 * 29 / (20 * 30 - 1), 1e-9);
+  EXPECT_EQ(guest.worst, 4);
+  EXPECT_GT(guest.changes, 10U);
+  EXPECT_EQ(guest.highest, 1U);
+  EXPECT_EQ(guest.now, 0U) << "it is not there";
+}
+
+TEST(LoadGovernor, TheSkyThatIsSeenTakesWhatTheBackgroundDoes) {
+  Governed g({});
+  g.dusk = NodeTerms{0.5, {}, 1};
+  g.annex(Verb::Load);
+  for (int i = 0; i < 100; ++i) {
+    if (g.at % 16 == 9) g.governor->take(DrawnAlone{g.at, 0, 0, Span::Sky, 2, 0}, {});
+    g.frame({});
+  }
+  const BudgetReport sky = g.governor->reports().at(0);
+  EXPECT_EQ(sky.name, "annex/dusk");
+  EXPECT_EQ(sky.worst, 2);
+  EXPECT_EQ(sky.worstStage, "Draw of wall front");
+  EXPECT_GT(sky.overruns, 60U);
+  EXPECT_TRUE(mayBeDrawn(g.scene.find({2, 1}))) << "else nobody looks";
+}
+
+TEST(NodeCosts, ASkyIsSeenWhoeverIsHiddenUntilAnotherOneIs) {
+  const NodeRef scene{1, 0}, dusk{2, 0}, dawn{3, 0};
+  const std::vector<GovernedNode> nodes{{scene, {1, {Hide}, 1}, true}, {dusk, {1, {}, 1}, true}};
+  const std::map<NodeRef, std::vector<std::size_t>> above{{scene, {0}}, {dusk, {1, 0}}};
+  NodeCosts costs;
+  costs.govern(nodes, above, dusk);
+  const DrawnAlone background{10, 0, 0, Span::Sky, 2, 0};
+  costs.take(background, {});
+  costs.drawnOtherwise(0, 12, true);
+  EXPECT_EQ(costs.of(20)[0].cost.drawn, 2);
+  EXPECT_EQ(costs.of(20)[1].cost.drawn, 2);
+  costs.govern(nodes, above, dawn);
+  costs.take(background, {});
+  EXPECT_EQ(costs.of(20)[0].cost.drawn, 0);
+  EXPECT_EQ(costs.of(20)[1].cost.drawn, 0);
 }
 
 TEST(LoadGovernor, WithoutLevelsThereIsNoStress) {
@@ -329,7 +413,7 @@ TEST(LoadGovernor, WhatLookingAtDrawingTakesPutsNothingUnderStress) {
     g.sampled = phase == 8 || phase == 9;
     g.frame({}, {(g.sampled || phase == 10 ? 1.3 : 0.85) * period, 1});
   }
-  EXPECT_EQ(g.governor->stress(), 1);
+  EXPECT_EQ(g.governor->stress()->highest, 1);
 }
 
 TEST(LoadGovernor, NoMoreThanFourDecisionsTakeEffectInAFrame) {
