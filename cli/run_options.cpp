@@ -118,9 +118,10 @@ void RunOptions::addLoadTo(CLI::App& command) {
 }
 
 void RunOptions::addHeadTo(CLI::App& command) {
-  command.add_flag("--late-latch", lateLatch,
-                   "draw each frame from where the live tracker says the head is just then, not from where "
-                   "it was when the frame began");
+  CLI::Option* latch =
+      command.add_flag("--late-latch", lateLatch,
+                       "draw each frame from where the live tracker says the head is just then, not from "
+                       "where it was when the frame began");
   command
       .add_option_function<std::vector<double>>(
           "--latch-reach",
@@ -132,6 +133,7 @@ void RunOptions::addHeadTo(CLI::App& command) {
       ->expected(2)
       ->type_name("M RAD")
       ->check(numberFrom(0, 3))
+      ->needs(latch)
       ->default_str("0.05 0.25");
   command
       .add_option(

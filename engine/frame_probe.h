@@ -158,7 +158,7 @@ public:
   /// Whether `shared` is wanted for this frame of that wall.
   virtual bool wantsShares(std::uint64_t, std::uint32_t) const { return false; }
   /// The last span `what` of this frame and wall was spent on these nodes, on all alike; who is named twice
-  /// cost twice. A node that is not valid stands for the visitor.
+  /// cost twice. A node that is not valid stands for the visitor. LeftEye, RightEye: whom that eye will draw.
   virtual void shared(Span, std::uint64_t, std::uint32_t, std::span<const NodeRef>) {}
 
   virtual DrawSample drawSample(std::uint64_t, std::uint32_t) const { return DrawSample::None; }

@@ -8,6 +8,8 @@ namespace {
 
 /// Walls of so many nodes are sampled more seldom (frame_log.cpp).
 constexpr std::uint64_t kCrowd = 500, kCrowdedEvery = 4;
+/// More than so many times what nodes took alone is not theirs.
+constexpr double kMostScaled = 1.5;
 
 class Figures {
 public:
@@ -54,6 +56,13 @@ private:
     return all > 0 ? sum(what, wall) * static_cast<double>(shares) / static_cast<double>(all) : 0;
   }
 
+  /// In how many of the frames sampled that eye saw it; where nobody told the eyes apart, both saw all.
+  std::uint64_t seenBy(std::size_t eye, std::uint32_t wall, const WallCost& cost) const {
+    const bool apart = profile_.shares(Span::LeftEye, wall) + profile_.shares(Span::RightEye, wall) > 0;
+    const auto at = cost.shares.find(!apart ? Span::Fill : eye == 0 ? Span::LeftEye : Span::RightEye);
+    return at == cost.shares.end() ? 0 : at->second;
+  }
+
   void addNode(NodeRef ref, const NodeProfile& node) {
     NodeRow row;
     row.node = ref;
@@ -71,11 +80,10 @@ private:
     for (const auto& [wall, cost] : node.walls) {
       if (wall >= row.walls.size()) continue;
       NodeOnWall& on = row.walls[wall];
-      for (const auto& [what, shares] : cost.shares) on.cull += shareOf(shares, what, wall);
-      const auto seen = cost.shares.find(Span::Fill);
-      const double present =
-          seen == cost.shares.end() ? 0 : perSample(static_cast<double>(seen->second), wall);
+      for (const auto& [what, shares] : cost.shares)
+        if (stageOf(what) == Span::Cull) on.cull += shareOf(shares, what, wall);
       for (std::size_t eye = 0; eye < 2; ++eye) {
+        const double present = perSample(static_cast<double>(seenBy(eye, wall, cost)), wall);
         if (cost.draw[eye] > 0)
           on.draw[eye] = present * cost.draw[eye] / static_cast<double>(cost.drawn[eye]);
         row.draw += on.draw[eye];
@@ -92,10 +100,10 @@ private:
     for (std::uint32_t wall = 0; wall < row.walls.size(); ++wall) {
       NodeOnWall& on = row.walls[wall];
       const auto cost = node.walls.find(wall);
-      const bool seen = cost != node.walls.end() && cost->second.shares.contains(Span::Fill);
       on.cullMeasured = profile_.sampled(wall) > 0;
       row.cullMeasured = row.cullMeasured && on.cullMeasured;
       for (std::uint32_t eye = 0; eye < 2; ++eye) {
+        const bool seen = cost != node.walls.end() && seenBy(eye, wall, cost->second) > 0;
         const bool drawn = profile_.eyes().contains({wall, eye});
         on.drawMeasured[eye] = on.cullMeasured && drawn && (!seen || cost->second.drawn[eye] > 0);
         if (seen && cost->second.drawn[eye] > 0 && cost->second.draw[eye] <= 0) row.drawTooLittle = true;
@@ -236,17 +244,17 @@ private:
     draw.stage = "draw";
     for (const NodeRow& row : out_.nodes) draw.nodes += row.draw;
     for (const auto& [who, eye] : profile_.eyes())
-      draw.measured += eye.whole.mean(), draw.named += partsOf(eye);
+      draw.measured += std::max(0.0, eye.whole.mean()), draw.named += partsOf(eye);
   }
   static double partsOf(const EyeCost& eye) {
     double sum = 0;
     for (const auto& [part, ms] : eye.parts)
-      if (part == Span::Sky || part == Span::Resolve) sum += ms.mean();
+      if (part == Span::Sky || part == Span::Resolve) sum += std::max(0.0, ms.mean());
     return sum;
   }
 
   /// What was drawn alone, nodes and parts of the stage, is scaled by one factor, so that its sum is what the
-  /// eye took as a whole.
+  /// eye took as a whole. In a tiny picture that is mostly what drawing next to nothing takes, and no node's.
   void scaleDraw() {
     for (const auto& [who, eye] : profile_.eyes()) {
       const auto& [wall, side] = who;
@@ -259,7 +267,8 @@ private:
       }
       if (!all) continue;  // whoever had no turn must not be counted with the others
       alone += partsOf(eye);
-      const double factor = alone > 0 && eye.whole.mean() > 0 ? eye.whole.mean() / alone : 1;
+      const double factor =
+          alone > 0 && eye.whole.mean() > 0 ? std::min(kMostScaled, eye.whole.mean() / alone) : 1;
       for (NodeRow& row : out_.nodes) row.walls[wall].draw[side] *= factor;
     }
     for (NodeRow& row : out_.nodes) {

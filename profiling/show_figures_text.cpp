@@ -44,8 +44,8 @@ std::string apartText(const Explained& draw) {
   constexpr double kMuch = 0.15;
   if (std::abs(draw.covered() - 1) <= kMuch) return {};
   return fmt::format(
-      "draw: what was drawn alone came to {:.0f} % of the eyes drawn whole, and was scaled to them: a "
-      "node's draw time may be as far off\n",
+      "draw: what was drawn alone came to {:.0f} % of the eyes drawn whole: a node's draw time may be as "
+      "far off\n",
       100 * draw.covered());
 }
 
@@ -124,7 +124,8 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
     text += fmt::format("{:10.1f} {:10.0f}  {}: {}\n", c.mean, c.most, c.of, c.what);
   text += "\nexplained   measured     nodes  the stage's own parts\n";
   for (const Explained& e : f.explained)
-    text += fmt::format("{:5} {:5.1f}% {:9.4f} {:9.4f} {:9.4f}\n", e.stage, 100 * e.covered(), e.measured,
+    text += fmt::format("{:5} {} {:9.4f} {:9.4f} {:9.4f}\n", e.stage,
+                        e.measured > 0 ? fmt::format("{:5.1f}%", 100 * e.covered()) : "     -", e.measured,
                         e.nodes, e.named);
   if (f.explained[2].measured <= 0) return text;
   return text + "draw: " + f.drawMethod + "\n" + (f.framesNeeded == 0 ? apartText(f.explained[2]) : "");

@@ -188,6 +188,14 @@ void WallCull::tell(const SlotView& state, const WallSeen& seen, double eyeSepar
     for (const DrawItem& item : *items) owners.push_back(item.owner);
   probe.shared(Span::Fill, frame, wall_, owners);
   probe.shared(Span::Sort, frame, wall_, owners);
+  for (const auto& [eye, mask] :
+       {std::pair(Span::LeftEye, DrawItem::kLeftEye), {Span::RightEye, DrawItem::kRightEye}}) {
+    owners.clear();
+    for (const auto* items : {&out.opaque, &out.transparent})
+      for (const DrawItem& item : *items)
+        if (item.eyes & mask) owners.push_back(item.owner);
+    probe.shared(eye, frame, wall_, owners);
+  }
   if (!parts_.still) return;
   owners.clear();
   addOwners(state, out.shadows, owners);

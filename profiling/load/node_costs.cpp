@@ -118,7 +118,7 @@ void NodeCosts::sample(const DrawnAlone& s, std::span<const NodeShare> among) {
 }
 
 void NodeCosts::take(const SharedSpan& s) {
-  if (s.wall == kNoWall || s.among.empty()) return;
+  if (stageOf(s.what) != Span::Cull || s.wall == kNoWall || s.among.empty()) return;
   std::vector<NodeShare> alike;
   for (const NodeRef node : s.among) alike.push_back({node, 1.0f / static_cast<float>(s.among.size())});
   sample({s.frame, s.wall, 0, s.what, s.ms, 0, s.round}, alike);

@@ -1,6 +1,7 @@
 /// Overlapping the stages changes nothing that anybody can see: the same pictures, byte for byte, and the
 /// same state in every frame, whatever the number of walls.
 
+#include "profiling/bench/grid_show.h"
 #include "profiling/bench/walls/wall_files.h"
 #include "tests/cli/program.h"
 
@@ -34,6 +35,14 @@ std::vector<std::string> playing(const std::string& mode, const std::string& wal
           frames()};
 }
 
+/// By name.
+std::map<std::string, std::string> pictureFilesIn(const std::string& folder) {
+  std::map<std::string, std::string> pictures;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".png") pictures[entry.path().filename()] = fileContent(entry.path());
+  return pictures;
+}
+
 /// Plays the show and returns every picture file by name.
 std::map<std::string, std::string> picturesOf(const std::string& mode, const std::string& walls) {
   const TemporaryFolder folder;
@@ -43,10 +52,7 @@ std::map<std::string, std::string> picturesOf(const std::string& mode, const std
   words.push_back(folder.path());
   const ProgramResult r = stadionProgram(words);
   EXPECT_EQ(r.status, 0) << r.err;
-  std::map<std::string, std::string> pictures;
-  for (const auto& entry : fs::directory_iterator(folder.path()))
-    if (entry.path().extension() == ".png") pictures[entry.path().filename()] = fileContent(entry.path());
-  return pictures;
+  return pictureFilesIn(folder.path());
 }
 
 std::string hashesOf(const std::string& mode, const std::string& walls) {
@@ -118,6 +124,56 @@ void expectSameState(const std::vector<std::string>& show) {
     const auto summary = nlohmann::json::parse(with({"run", "--json", "--size", "32x24"}, way));
     EXPECT_EQ(summary.at("state_hash"), last) << way.back();
   }
+}
+
+/// In every mode and with every kind of workers: the same files, byte for byte.
+void expectSamePicturesInEveryMode(const std::vector<std::string>& show) {
+  const std::vector<std::vector<std::string>> ways{{"--mode", "sequential"},
+                                                   {"--mode", "pipelined", "--wall-workers", "thread"},
+                                                   {"--mode", "pipelined", "--wall-workers", "process"}};
+  std::map<std::string, std::string> expected;
+  for (const auto& way : ways) {
+    const TemporaryFolder folder;
+    std::vector<std::string> words{"run", "--json", "--pictures", "2", "--out", folder.path()};
+    words.insert(words.end(), show.begin(), show.end());
+    words.insert(words.end(), way.begin(), way.end());
+    const ProgramResult r = stadionProgram(words);
+    ASSERT_EQ(r.status, 0) << r.err;
+    const auto pictures = pictureFilesIn(folder.path());
+    if (expected.empty()) expected = pictures;
+    EXPECT_GT(pictures.size(), 8U);
+    EXPECT_EQ(differences(expected, pictures), "") << show[0] << " " << way.back();
+  }
+}
+
+TEST(ProgramSamePictures, OfTheBenchsScenesInEveryMode) {
+  for (const char name : {'a', 'b', 'c'}) {
+    const TemporaryFolder folder;
+    bench::WallScene scene;
+    scene.letter = name;
+    ASSERT_EQ(bench::writeWallScene(folder.path().string(), scene, 4, true, 12), "");
+    const std::string at = folder.path().string();
+    expectSamePicturesInEveryMode({at + "/show.evs", "--walls", at + "/room.walls", "--input",
+                                   at + "/show.input", "--frames", "10", "--look", "plain", "--size",
+                                   "200x150"});
+  }
+}
+
+TEST(ProgramSamePictures, OfTheShowsInEveryMode) {
+  const std::string scripts = std::string(STADION_SOURCE_DIR) + "/scripts/";
+  for (const char* look : {"full", "plain"}) {
+    expectSamePicturesInEveryMode({scripts + "kick.evs", "--frames", "5", "--look", look, "--size", "64x48"});
+    expectSamePicturesInEveryMode(
+        {scripts + "olympia.evs", "--frames", "3", "--look", look, "--size", "64x48"});
+  }
+}
+
+TEST(ProgramSamePictures, OfAGridOfTenThousandInEveryMode) {
+  const TemporaryFolder folder;
+  const std::string script = folder.write("grid.evs", gridScript());
+  for (const char* look : {"full", "plain"})
+    expectSamePicturesInEveryMode({script, "--asset-root", std::string(STADION_SOURCE_DIR) + "/scripts",
+                                   "--frames", "4", "--look", look, "--size", "64x48"});
 }
 
 TEST(ProgramSameState, OfACrowdOfPathsAndBallsInEveryMode) {

@@ -34,6 +34,41 @@ std::uint64_t allocationsOfApp(const std::string& script, const std::string& log
   return (allocationsSoFar() - before).count;
 }
 
+/// How often Draw does, on all walls, when it has seen the show for a while. What Mesa asks for itself, of C,
+/// is not counted.
+std::uint64_t allocationsOfDraw(const std::string& script, const std::string& look) {
+  constexpr std::uint64_t kWarm = 60, kFrames = 20;
+  ShowOptions options;
+  options.script = script, options.walls = "desktop", options.size = "64x48", options.look = look;
+  options.input = "none", options.assetRoots = {assetFolder()};
+  Diagnostics findings;
+  const auto player = options.settle(findings) ? Player::create(options, findings) : nullptr;
+  tell(findings);
+  auto provider = openGlProvider(GlProviderKind::OsMesa);
+  if (!player || !provider) return ADD_FAILURE() << "the show cannot be played", 0;
+  ShowParts parts = player->parts(StereoLayout::Pair);
+  parts.provider = provider.value().get();
+  ShowStages stages(std::move(parts));
+  const std::size_t walls = player->walls().names().size();
+  std::vector<DrawList> lists(2 * walls);
+  Allocations asked;
+  for (std::size_t wall = 0; wall < walls; ++wall) EXPECT_FALSE(stages.openWall(wall));
+  for (std::uint64_t frame = 0; frame < kWarm + kFrames; ++frame) {
+    stages.app(signatureAt(frame, 60), frame % kSlots);
+    for (std::size_t wall = 0; wall < walls; ++wall) {
+      DrawList& list = lists[2 * wall + frame % 2];
+      stages.cull(wall, frame % kSlots, list);
+      const Allocations before = allocationsSoFar();
+      EXPECT_FALSE(stages.draw(wall, list));
+      if (frame >= kWarm) asked += allocationsSoFar() - before;
+    }
+    EXPECT_FALSE(stages.swap(signatureAt(frame, 60)));
+    player->collect(frame);
+  }
+  for (std::size_t wall = 0; wall < walls; ++wall) stages.closeWall(wall);
+  return asked.count;
+}
+
 std::string showOf(const TemporaryFolder& folder, const std::string& text) {
   return folder.write("show.evs", text);
 }
@@ -72,6 +107,21 @@ TEST_F(ProgramSteadyState, OfWhatPathsAndSwaysMove) {
   text +=
       fmt::format("sway( amplitude=\"1, 0, 1\", phasestep=10, angularvelocity=\"0, 0, 5\"{} )\n", targets);
   EXPECT_EQ(allocationsOfApp(showOf(folder_, text), kStill), 0u);
+}
+
+TEST_F(ProgramSteadyState, DrawOfThingsOfEveryKindInBothLooks) {
+  std::string text = "light( direction=\"-1, 2, -3\" )\n"
+                     "text( text=\"olympia\", position=\"0, 5, 1\" )\nrig( name=room )\n"
+                     "path( target=room, loop=on, key=\"0, 0,0,0, 0,0,0\", key=\"1, 0,1,0, 0,0,20\", "
+                     "key=\"2, 0,0,0, 0,0,0\" )\n";
+  for (int i = 0; i < 100; ++i)
+    text += fmt::format("object( file={}, position=\"{}, {}, {}\" )\n", i % 3 ? "football.3ds" : "plane.3ds",
+                        i % 20 - 10, 3 + i / 20, i % 3);
+  const std::string lamps = "light( type=point, position=\"0, 4, 3\", range=9 )\n";
+  for (const char* look : {"full", "plain"}) {
+    EXPECT_EQ(allocationsOfDraw(showOf(folder_, text), look), 0u) << look;
+    EXPECT_EQ(allocationsOfDraw(showOf(folder_, text + lamps), look), 0u) << look << ", lamps";
+  }
 }
 
 TEST_F(ProgramSteadyState, OfThePapersShowWhileNobodyKicks) {

@@ -5,6 +5,7 @@
 #include "tests/pipeline/renderer_scene.h"
 
 #include <gtest/gtest.h>
+#include <thread>
 
 namespace stadion {
 namespace {
@@ -257,6 +258,37 @@ TEST(PictureSmallThings, PicturesAreThoseThatOpenGlDrawsButForRounding) {
   EXPECT_LT(found.others, found.pixels / 1000) << "by more than rounding";
   RecordProperty("rounded", static_cast<int>(found.rounded));
   RecordProperty("others", static_cast<int>(found.others));
+}
+
+/// Each gives its turn at the rasteriser away while it draws small things.
+TEST(ThreadsSmallThings, WallsThatDrawThemSideBySideAllDrawTheSame) {
+  constexpr std::size_t kWalls = 3;
+  Random random(48);
+  MeshStore meshes;
+  DrawList list = manyThings(meshes, random, 1.5);
+  list.eyes[1] = list.eyes[0];
+  list.eyeCount = 2;
+  std::array<std::vector<std::vector<std::uint8_t>>, kWalls> pictures;
+  const auto play = [&](std::size_t wall) {
+    auto target = test::provider(GlProviderKind::OsMesa)->create(90, 60);
+    if (!target || target.value()->makeCurrent()) return;
+    auto renderer = Renderer::create(target.value()->gl(), target.value()->turns(), meshes, 90, 60,
+                                     RenderQuality::plain());
+    for (int i = 0; renderer && i < 6; ++i) {
+      std::vector<std::uint8_t> picture(90 * 60 * 4);
+      if (renderer.value()->draw(list) || renderer.value()->read(i % 2, picture)) break;
+      pictures[wall].push_back(std::move(picture));
+    }
+    if (renderer) renderer.value().reset();
+  };
+  {
+    std::array<std::jthread, kWalls> threads;
+    for (std::size_t wall = 0; wall < kWalls; ++wall) threads[wall] = std::jthread(play, wall);
+  }
+  for (const auto& of : pictures) {
+    ASSERT_EQ(of.size(), 6U);
+    for (const auto& picture : of) EXPECT_EQ(picture, pictures[0][0]);
+  }
 }
 
 TEST(PictureSmallThings, LampsAndHazeAreLeftToOpenGl) {

@@ -302,6 +302,37 @@ TEST(ShowProfile, DrawingCountsByHowOftenANodeIsSeen) {
   EXPECT_DOUBLE_EQ(f.nodes[0].walls[0].draw[0], 0);
 }
 
+TEST(ShowProfile, WhatOneEyeDoesNotSeeIsMeasuredAndNothing) {
+  ShowProfile profile;
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
+  profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
+  profile.take({Span::LeftEye, 8, 0, 7, {kBall, kStone}});  // the 7 ms are not theirs
+  profile.take({Span::RightEye, 8, 0, 7, {kBall}});
+  profile.take({8, 0, 0, Span::Draw, 8, 0.1}, {{kBall, 0.5f}, {kStone, 0.5f}});
+  profile.take({8, 0, 1, Span::Draw, 3, 0.1}, {{kBall, 1}});
+  profile.take({24, 0, 0, Span::LeftEye, 9, 0.1}, {});
+  profile.take({24, 0, 1, Span::RightEye, 4, 0.1}, {});
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  EXPECT_EQ(f.framesNeeded, 0U) << "nobody waits for a turn";
+  EXPECT_TRUE(f.nodes[0].drawMeasured && f.nodes[1].drawMeasured);
+  EXPECT_EQ(f.nodes[1].node, kStone);
+  EXPECT_DOUBLE_EQ(f.nodes[1].walls[0].draw[1], 0);
+  EXPECT_DOUBLE_EQ(f.nodes[0].walls[0].draw[1], 4) << "scaled to its eye";
+  EXPECT_LT(f.nodes[1].cull, 1);
+}
+
+TEST(ShowProfile, WhatDrawingNextToNothingTakesIsNoNodes) {
+  ShowProfile profile;
+  profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
+  profile.take({Span::Fill, 8, 0, 1, {kBall}});
+  profile.take({8, 0, 0, Span::Draw, 0.1, 0.1}, {{kBall, 1}});
+  profile.take({8, 0, 0, Span::Sky, -0.2, 0.1}, {});
+  profile.take({24, 0, 0, Span::LeftEye, 4, 0.1}, {});
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  EXPECT_DOUBLE_EQ(f.nodes[0].draw, 0.1 * 1.5);
+  EXPECT_DOUBLE_EQ(f.explained[2].named, 0);
+}
+
 TEST(ShowProfile, WhatIsDrawnTogetherIsSharedByHowMuchThereIsToDraw) {
   ShowProfile profile;
   profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
