@@ -4,7 +4,6 @@
 #include "cli/exit_code.h"
 #include "cli/number_option.h"
 #include "cli/plan_run.h"
-#include "cli/show_files.h"
 #include "cli/stop_signal.h"
 #include "engine/atomic_file.h"
 #include "engine/plain_file.h"
@@ -84,6 +83,7 @@ std::optional<plan::ShowCosts> measure(Options& o, Diagnostics& findings) {
   costs.show = std::filesystem::path(show.script).filename().string();
   costs.size = fmt::format("{}x{}", show.width, show.height);
   costs.eyes = o.stereo == "off" ? 1 : 2;
+  costs.look = show.look;
   costs.walls = walls->names();
   costs.walls.resize(o.run.walls);
   costs.cores = coresHere(), costs.rasterThreads = rasterThreadsHere();
@@ -124,8 +124,8 @@ void countWallsOf(Options& o, Diagnostics& findings) {
 }
 
 void refuseMeasuring(const CLI::App& command, Diagnostics& findings) {
-  for (const char* option :
-       {"--size", "--stereo", "--frames", "--seconds", "--input", "--asset-root", "--app-threads", "--gl"})
+  for (const char* option : {"--size", "--stereo", "--look", "--frames", "--seconds", "--input",
+                             "--asset-root", "--app-threads", "--gl"})
     if (command.count(option) > 0)
       findings.error({}, std::string(option) + " is for measuring; --from has measured costs");
 }
@@ -213,6 +213,7 @@ void addPlanCommand(CLI::App& app, int& code) {
   command->add_option(
       "--size", show.size,
       "WIDTHxHEIGHT in pixels of one eye's picture (default: what the wall file says, else 800x600)");
+  show.addLookTo(*command);
   show.addLengthTo(*command);
   command->add_option("--gl", o->provider, "who draws: osmesa or egl")
       ->check(CLI::IsMember({"osmesa", "egl"}))

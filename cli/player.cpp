@@ -49,6 +49,11 @@ void ShowOptions::addTo(CLI::App& command) {
   command.add_option(
       "--size", size,
       "WIDTHxHEIGHT in pixels of one eye's picture (default: what the wall file says, else 800x600)");
+  addLookTo(command);
+  addLengthTo(command);
+}
+
+void ShowOptions::addLookTo(CLI::App& command) {
   command
       .add_option(
           "--look", look,
@@ -56,7 +61,6 @@ void ShowOptions::addTo(CLI::App& command) {
           "drew without shaders; several times as fast in software")
       ->check(CLI::IsMember({"full", "plain"}))
       ->capture_default_str();
-  addLengthTo(command);
 }
 
 void ShowOptions::addLengthTo(CLI::App& command) {

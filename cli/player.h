@@ -48,6 +48,7 @@ struct ShowOptions {
 
   /// Expects that this object stays where it is until the command line has been read.
   void addTo(CLI::App& command);
+  void addLookTo(CLI::App& command);
   /// Only those that say what is played and how long: rate, length, input, assets.
   void addLengthTo(CLI::App& command);
   /// Where the show's files may lie; --asset-root's as far as they are there.

@@ -45,7 +45,7 @@ public:
     const auto start = std::chrono::steady_clock::now();
     const double processor = childrensSeconds();
     result_ = {};
-    result_.name = case_.name + "/" + mode;
+    result_.name = playedName(case_, mode);
     progress_(result_.name);
     last_ = run(o_.program, mode);
     result_.fault = last_.fault, result_.refused = last_.refused;
@@ -91,11 +91,19 @@ private:
     if (with_.baseline && at != with_.baseline->end())
       add(compareFacts(*last_.facts, {&at->second.facts, "the baseline"}, case_.metrics));
     else if (with_.baseline)
-      result_.checks.push_back(
-          {"baseline", Outcome::Failed,
-           fmt::format("{} knows no case {}; --update adds it", with_.baselineFile, result_.name)});
+      result_.checks.push_back({"baseline", Outcome::Failed, notInTheBaseline(mode)});
     else
       add(compareFacts(*last_.facts, {nullptr, "a suite without a baseline"}, case_.metrics));
+  }
+
+  std::string notInTheBaseline(const std::string& mode) const {
+    SuiteCase other = case_;
+    other.look = case_.look == "full" ? "plain" : "full";
+    if (const std::string name = playedName(other, mode); with_.baseline->contains(name))
+      return fmt::format(
+          "{} knows the case in the look {} alone ({}), which cannot be compared; --update adds {}",
+          with_.baselineFile, other.look, name, result_.name);
+    return fmt::format("{} knows no case {}; --update adds it", with_.baselineFile, result_.name);
   }
 
   void compareBuilds(const std::string& mode) {

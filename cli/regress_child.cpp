@@ -135,6 +135,7 @@ std::vector<std::string> playWords(const std::string& program, const regression:
   const auto add = [&](const char* option, const std::string& value) {
     words.insert(words.end(), {option, value});
   };
+  if (c.look != "full") add("--look", c.look);  // unasked it is full, also of builds that know no other
   if (!c.size.empty()) add("--size", c.size);
   if (c.rate > 0) add("--rate", fmt::format("{}", c.rate));
   if (c.frames > 0) add("--frames", std::to_string(c.frames));

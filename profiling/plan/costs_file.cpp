@@ -58,6 +58,9 @@ ShowCosts costsOf(const Json& whole) {
   if (member(j, "format") != kFormat) throw Wrong{fmt::format("its format is not \"{}\"", kFormat)};
   ShowCosts costs;
   costs.show = member(j, "show").get<std::string>(), costs.size = member(j, "size").get<std::string>();
+  costs.look = j.value("look", costs.look);
+  if (costs.look != "full" && costs.look != "plain")
+    throw Wrong{fmt::format("\"look\" is \"{}\", neither full nor plain", costs.look)};
   costs.eyes = static_cast<std::size_t>(number(member(j, "eyes"), "eyes", 1, 2));
   costs.walls = member(j, "walls").get<std::vector<std::string>>();
   costs.cores = number(member(j, "cores"), "cores", 1, 4096);
@@ -79,6 +82,7 @@ std::string toJson(const ShowCosts& costs) {
   Json j{{"format", kFormat},
          {"show", costs.show},
          {"size", costs.size},
+         {"look", costs.look},
          {"eyes", costs.eyes},
          {"walls", costs.walls},
          {"cores", costs.cores},

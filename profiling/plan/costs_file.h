@@ -1,8 +1,8 @@
 #pragma once
 /// What a show's frames cost, as a file: measured once, planned with anywhere.
 ///
-///     {"format": "stadion-plan-costs 1", "show": "kick.evs", "size": "800x600", "eyes": 2,
-///      "walls": ["front", "left"], "cores": 2, "raster_threads": 2, "waits_in_turn": true,
+///     {"format": "stadion-plan-costs 1", "show": "kick.evs", "size": "800x600", "look": "full",
+///      "eyes": 2, "walls": ["front", "left"], "cores": 2, "raster_threads": 2, "waits_in_turn": true,
 ///      "frames": [{"app": 0.05, "app_helpers": 0, "swap": 0.002,
 ///                  "walls": [{"cull": 0.01, "pictures": [[0.4, 10.5, 1.9], [0.4, 10.5, 1.9]]}]}]}
 ///
@@ -18,6 +18,7 @@ namespace stadion::plan {
 
 struct ShowCosts {
   std::string show, size;
+  std::string look = "full";  ///< or "plain"; files that do not say were measured in the full one
   std::size_t eyes = 2;
   std::vector<std::string> walls;  ///< names
   double cores = 1;                ///< of the machine where it was measured

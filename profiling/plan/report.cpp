@@ -54,10 +54,11 @@ FrameCost meanOf(const ShowCosts& costs) {
 std::string costsText(const ShowCosts& costs) {
   const FrameCost mean = meanOf(costs);
   std::string text = fmt::format(
-      "{}, {} a picture, {} a wall: {} frames measured on {:g} cores, {:g} threads of the rasteriser\n\n"
+      "{}, {} a picture, {} a wall, {} look: {} frames measured on {:g} cores, {:g} threads of the "
+      "rasteriser\n\n"
       "ms of processor time a frame: App {:.3f}{}, swap {:.3f}\n"
       "    cull   draw: calls  rasterising  threads at a time  wall\n",
-      costs.show, costs.size, costs.eyes == 2 ? "two" : "one", costs.frames.size(), costs.cores,
+      costs.show, costs.size, costs.eyes == 2 ? "two" : "one", costs.look, costs.frames.size(), costs.cores,
       costs.rasterThreads, mean.app,
       mean.appHelpers > 0.01 ? fmt::format(" and {:.3f} of its helpers", mean.appHelpers) : "", mean.swap);
   for (std::size_t w = 0; w < costs.walls.size(); ++w) {

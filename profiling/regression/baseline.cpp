@@ -81,7 +81,7 @@ void takeUp(const RunFacts& found, const Metrics& asked, const SuiteCase& played
 std::vector<std::string> othersThan(const Suite& suite, const Baseline& baseline) {
   std::set<std::string> known;
   for (const SuiteCase& c : suite.cases)
-    for (const std::string& mode : c.modes) known.insert(c.name + "/" + mode);
+    for (const std::string& mode : c.modes) known.insert(playedName(c, mode));
   std::vector<std::string> others;
   for (const auto& [name, c] : baseline)
     if (!known.contains(name)) others.push_back(name);

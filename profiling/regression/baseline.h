@@ -25,7 +25,7 @@ struct BaselineCase {
   NodeCosts nodeTimes, nodeInstructions;             ///< so that the node that moved can be named
 };
 
-using Baseline = std::map<std::string, BaselineCase>;  ///< by CASE/MODE
+using Baseline = std::map<std::string, BaselineCase>;  ///< by playedName
 
 Result<Baseline> readBaseline(const std::string& path);
 std::string toJson(const Baseline& baseline);
@@ -34,7 +34,7 @@ std::string toJson(const Baseline& baseline);
 /// stay as they were; times and instructions go if they are, and the case compares them no more.
 void takeUp(const RunFacts& found, const Metrics& asked, const SuiteCase& played, const std::string& name,
             Baseline& baseline);
-/// The names CASE/MODE that the suite has not.
+/// Cases that the suite has not, or not so, by playedName.
 std::vector<std::string> othersThan(const Suite& suite, const Baseline& baseline);
 
 /// SUITE.suite -> SUITE.baseline.json

@@ -57,13 +57,13 @@ private:
 
   static std::span<const Statement> statements() {
     static constexpr Statement kStatements[] = {
-        {"case", &Parser::beginCase, false, true},      {"show", &Parser::show, true, false},
-        {"walls", &Parser::walls, false, false},        {"modes", &Parser::modes, false, false},
-        {"input", &Parser::input, true, false},         {"stereo", &Parser::stereo, false, false},
-        {"size", &Parser::size, false, false},          {"rate", &Parser::rate, false, false},
-        {"frames", &Parser::frames, false, false},      {"compare", &Parser::compare, false, false},
-        {"tolerance", &Parser::tolerance, false, true}, {"rounds", &Parser::rounds, false, false},
-        {"asset-root", &Parser::assetRoot, false, true}};
+        {"case", &Parser::beginCase, false, true},   {"show", &Parser::show, true, false},
+        {"walls", &Parser::walls, false, false},     {"modes", &Parser::modes, false, false},
+        {"input", &Parser::input, true, false},      {"stereo", &Parser::stereo, false, false},
+        {"look", &Parser::look, false, false},       {"size", &Parser::size, false, false},
+        {"rate", &Parser::rate, false, false},       {"frames", &Parser::frames, false, false},
+        {"compare", &Parser::compare, false, false}, {"tolerance", &Parser::tolerance, false, true},
+        {"rounds", &Parser::rounds, false, false},   {"asset-root", &Parser::assetRoot, false, true}};
     return kStatements;
   }
 
@@ -208,7 +208,16 @@ private:
 
   void stereo() {
     static const std::vector<std::string> kKnown{"pair", "off"};
-    eachOf(kKnown, "pair or off", [&](std::size_t i) { current().stereo = kKnown[i]; });
+    oneOf(kKnown, "pair or off", &SuiteCase::stereo);
+  }
+
+  void look() {
+    static const std::vector<std::string> kKnown{"full", "plain"};
+    oneOf(kKnown, "full or plain", &SuiteCase::look);
+  }
+
+  void oneOf(const std::vector<std::string>& known, std::string_view what, std::string SuiteCase::*target) {
+    eachOf(known, what, [&](std::size_t i) { current().*target = known[i]; });
     nothingAfter(2);
   }
 
@@ -283,6 +292,10 @@ private:
 };
 
 }  // namespace
+
+std::string playedName(const SuiteCase& played, const std::string& mode) {
+  return played.name + "/" + mode + (played.look == "full" ? "" : "/" + played.look);
+}
 
 std::optional<Suite> parseSuite(std::string_view text, const std::string& file, Diagnostics& out) {
   return Parser(text, file, out, false).run();

@@ -48,7 +48,8 @@ struct SuiteCase {
   std::string walls = "cave4";  ///< name or path
   std::string input;            ///< path, "none", or empty: the log beside the show
   std::string stereo = "pair";
-  std::string size;  ///< "WxH"; empty: as the wall file says
+  std::string look = "full";  ///< or "plain"
+  std::string size;           ///< "WxH"; empty: as the wall file says
   std::vector<std::string> modes{"sequential"};
   std::vector<std::string> assetRoots;
   double rate = 0;           ///< [1/s]; 0: the show's
@@ -57,6 +58,10 @@ struct SuiteCase {
   Tolerances tolerances;
   std::uint64_t rounds = 12;  ///< of times, at least 10: fewer cannot tell a difference from chance
 };
+
+/// What a case is called once it has been played, in baselines, histories and reports: CASE/MODE, and
+/// CASE/MODE/plain in the plain look. Whoever draws something else, at another cost, is another one.
+std::string playedName(const SuiteCase& played, const std::string& mode);
 
 struct Suite {
   static constexpr std::size_t kMostCases = 1000;

@@ -47,6 +47,31 @@ TEST(ProgramPlan, SaysWhatIsWrong) {
   EXPECT_NE(wrong.err.find("has no \"format\""), std::string::npos) << wrong.err;
 }
 
+TEST(ProgramPlan, MeasuresTheLookThatIsAskedForAndSaysWhichItWas) {
+  const TemporaryFolder folder;
+  const auto measured = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"plan", kKick,    "--walls", "1",     "--frames",
+                                   "6",    "--size", "32x24",   "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.out;
+  };
+  const auto told = [&](const std::string& costs) {
+    return stadionProgram({"plan", "--from", folder.write("costs.json", costs)});
+  };
+  const std::string plain = measured({"--look", "plain"});
+  EXPECT_EQ(nlohmann::json::parse(plain).at("costs").at("look"), "plain");
+  EXPECT_NE(told(plain).out.find("plain look"), std::string::npos);
+
+  auto full = nlohmann::json::parse(measured({})).at("costs");
+  EXPECT_EQ(full.at("look"), "full");
+  full.erase("look");
+  EXPECT_NE(told(full.dump()).out.find("full look"), std::string::npos) << "as older files were measured";
+  full["look"] = "plian";
+  EXPECT_NE(told(full.dump()).err.find("\"look\" is \"plian\", neither full nor plain"), std::string::npos);
+}
+
 TEST(ProgramPlan, BesideMeasuredCostsWallsAreObeyedAndWhatMeasuresIsRefused) {
   const TemporaryFolder folder;
   const ProgramResult measured =
@@ -73,6 +98,7 @@ TEST(ProgramPlan, BesideMeasuredCostsWallsAreObeyedAndWhatMeasuresIsRefused) {
   refused({"--walls", "nonsense"}, "there are no walls named");
   for (const auto& [option, value] : std::map<std::string, std::string>{{"--size", "64x48"},
                                                                         {"--stereo", "off"},
+                                                                        {"--look", "plain"},
                                                                         {"--frames", "9"},
                                                                         {"--seconds", "1"},
                                                                         {"--gl", "egl"},

@@ -74,6 +74,31 @@ TEST(ProgramRegress, NamesWhatIsNotAsInTheBaseline) {
   EXPECT_EQ(regress({suite, "--compare", "images"}).status, 0) << "what differs was not asked for";
 }
 
+/// The figures of one look say nothing of the other.
+TEST(ProgramRegress, ABaselineOfAnotherLookIsNotComparedWith) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "small.baseline.json";
+  ASSERT_EQ(regress({smallSuite(folder), "--update"}).status, 0);
+  const Json full = Json::parse(fileContent(file))["cases"]["bodies/sequential"];
+
+  const std::string suite = smallSuite(folder, "  look plain\n");
+  const ProgramResult r = regress({suite});
+  EXPECT_EQ(r.status, 1) << r.out;
+  EXPECT_NE(r.out.find("knows the case in the look full alone (bodies/sequential)"), std::string::npos)
+      << r.out;
+  EXPECT_NE(r.out.find("--update adds bodies/sequential/plain"), std::string::npos) << r.out;
+  EXPECT_EQ(r.out.find("equal to"), std::string::npos) << r.out;
+
+  ASSERT_EQ(regress({suite, "--update", "--compare", "images"}).status, 0);
+  EXPECT_EQ(regress({suite}).status, 0);
+  const Json cases = Json::parse(fileContent(file))["cases"];
+  ASSERT_TRUE(cases.contains("bodies/sequential/plain")) << cases;
+  EXPECT_EQ(cases.size(), 1u) << "what the suite has no more is gone";
+  const Json& plain = cases["bodies/sequential/plain"];
+  EXPECT_EQ(plain["state"], full["state"]);
+  EXPECT_NE(plain["images"], full["images"]) << "it was drawn in the plain look";
+}
+
 /// Two cases, one of them in both modes.
 std::string pairSuite(const TemporaryFolder& folder, const std::string& second = "b") {
   const std::string show = "\n  show " + testShow("bodies.evs") + "\n  frames 5\n";

@@ -53,6 +53,7 @@ case walk
   show walk.evs
   walls small.walls
   stereo off
+  look plain
   size 32x24
   input none
   tolerance instructions 0.1
@@ -79,11 +80,22 @@ case walk
   EXPECT_EQ(walk.input, "none");
   EXPECT_EQ(walk.size, "32x24");
   EXPECT_EQ(walk.stereo, "off");
+  EXPECT_EQ(walk.look, "plain");
+  EXPECT_EQ(kick.look, "full");
   EXPECT_EQ(walk.modes, std::vector<std::string>{"sequential"});
   EXPECT_EQ(walk.tolerances.instructions, 0.1);
   EXPECT_EQ(walk.tolerances.times, 4.5);
   EXPECT_TRUE(walk.metrics.state && walk.metrics.images && walk.metrics.counts);
   EXPECT_EQ(walk.assetRoots, std::vector<std::string>{"models"});
+}
+
+TEST(RegressionSuite, CasesOfAnotherLookHaveAnotherName) {
+  Diagnostics out;
+  const auto suite =
+      parsed("stadion-suite 1\nlook plain\ncase a\nshow a.evs\ncase b\nshow a.evs\nlook full\n", out);
+  ASSERT_TRUE(suite) << listing(out);
+  EXPECT_EQ(playedName(suite->cases[0], "pipelined"), "a/pipelined/plain") << "of every case";
+  EXPECT_EQ(playedName(suite->cases[1], "pipelined"), "b/pipelined");
 }
 
 TEST(RegressionSuite, WithMistakesIsToldWhereAndWhatToDo) {
