@@ -6,6 +6,8 @@
 #include "cli/exit_code.h"
 #include "cli/fit_object.h"
 #include "cli/number_option.h"
+#include "cli/output_names.h"
+#include "cli/player.h"
 #include "engine/plain_file.h"
 
 #include <CLI/CLI.hpp>
@@ -184,7 +186,21 @@ void tellOfAnotherBody(const FitTask& task, const char* form, double landing) {
                                        : "the axis of its disc, as a long one may that spins");
 }
 
+/// The table is no recorded flight and nothing that the body is read from.
+bool keepsWhatIsRead(const Options& o) {
+  const std::size_t colon = o.object.rfind(".evs:");
+  std::vector<NamedFile> files{
+      {"OBJECT", colon != std::string::npos ? o.object.substr(0, colon + 4) : o.object, false}};
+  for (const std::string& flight : o.references) files.push_back({"--reference", flight, false});
+  files.push_back({"--table", tableFileOf(o)});
+  Diagnostics findings;
+  refuseSameFiles(files, findings);
+  tell(findings);
+  return !findings.hasErrors();
+}
+
 int fit(const Options& o) {
+  if (!keepsWhatIsRead(o)) return kBadInput;
   auto task = taskOf(o);
   if (!task) return refuse(task.error());
   const FlightShape& shape = task.value().shape;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <sys/file.h>
@@ -25,6 +26,27 @@ constexpr std::size_t kMostBytes = std::size_t{256} << 20;
 bool isPlainName(const std::string& name) {
   return !name.empty() && name != "." && name != ".." && name.find('/') == name.npos &&
          name.find('\n') == name.npos;
+}
+
+std::vector<std::string> namesIn(const std::string& list) {
+  std::vector<std::string> names;
+  std::istringstream lines(list);
+  std::string line;
+  std::getline(lines, line);  // the heading
+  while (std::getline(lines, line))
+    if (isPlainName(line)) names.push_back(line);
+  return names;
+}
+
+/// "front-left-000012.png", "trace-ball.csv"
+bool isNameOfRuns(std::string_view name) {
+  if (name.starts_with("trace-") && name.ends_with(".csv")) return true;
+  constexpr std::size_t kDigits = 6;
+  if (!name.ends_with(".png")) return false;
+  name.remove_suffix(4);
+  const std::size_t dash = name.rfind('-');
+  return dash != name.npos && name.size() - dash > kDigits &&
+         name.find_first_not_of("0123456789", dash + 1) == name.npos;
 }
 
 bool append(int file, std::string_view text) {
@@ -58,12 +80,19 @@ Opened OutputFolder::open(const std::string& path) {
     return Opened::failure("--out: " + path + "/" + kList +
                            " is not a list of files that a run has written; move it away");
   std::unique_ptr<OutputFolder> opened(new OutputFolder(path, std::move(folder), std::move(list)));
-  std::istringstream lines(text.value());
-  std::string line;
-  std::getline(lines, line);
-  while (std::getline(lines, line))
-    if (isPlainName(line)) opened->earlier_.push_back(line);
+  opened->earlier_ = namesIn(text.value());
   return opened;
+}
+
+std::vector<std::string> OutputFolder::namesOfRuns(const std::string& path) {
+  std::set<std::string> names{"summary.json", "contact-sheet.png", "video.mp4"};
+  if (const auto list = readPlainFile(path + "/" + kList, kMostBytes);
+      list && list.value().starts_with(kHeading))
+    for (std::string& name : namesIn(list.value())) names.insert(std::move(name));
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(path, none))
+    if (const std::string name = entry.path().filename(); isNameOfRuns(name)) names.insert(name);
+  return {names.begin(), names.end()};
 }
 
 std::size_t OutputFolder::clear() {

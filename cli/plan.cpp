@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/number_option.h"
+#include "cli/overwriting.h"
 #include "cli/plan_run.h"
 #include "cli/stop_signal.h"
 #include "engine/atomic_file.h"
@@ -82,8 +83,8 @@ std::optional<plan::ShowCosts> measure(Options& o, Diagnostics& findings) {
   plan::ShowCosts costs;
   costs.show = std::filesystem::path(show.script).filename().string();
   costs.size = fmt::format("{}x{}", show.width, show.height);
-  costs.eyes = o.stereo == "off" ? 1 : 2;
   costs.look = show.look;
+  costs.eyes = o.stereo == "off" ? 1 : 2;
   costs.walls = walls->names();
   costs.walls.resize(o.run.walls);
   costs.cores = coresHere(), costs.rasterThreads = rasterThreadsHere();
@@ -134,9 +135,8 @@ int planShow(Options o, const CLI::App& command) {
   Diagnostics findings;
   o.count = countIn(o.walls);
   o.run.show.walls = o.count ? "cave6" : o.walls;
-  std::vector<NamedFile> files = filesOf(o.run.show);
-  files.insert(files.end(), {{"--from", o.from, false}, {"--svg", o.svg}});
-  refuseSameFiles(files, findings);
+  const std::vector<NamedFile> files{{"--from", o.from, false}, {"--svg", o.svg}};
+  refuseOverwriting({&o.run.show, 1}, files, findings);
   if (!o.from.empty()) refuseMeasuring(command, findings);
   if (!o.from.empty() && !o.count && command.count("--walls") > 0) countWallsOf(o, findings);
   if (findings.hasErrors()) return tell(findings), kBadInput;

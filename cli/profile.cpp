@@ -5,6 +5,7 @@
 #include "cli/exit_code.h"
 #include "cli/fidelity.h"
 #include "cli/number_option.h"
+#include "cli/overwriting.h"
 #include "cli/profile_run.h"
 #include "cli/show_files.h"
 #include "cli/stop_signal.h"
@@ -108,9 +109,8 @@ int profileFrames(Options o) {
   options.fidelity = o.fidelity, options.fidelityAsked = o.fidelityAsked;
   options.fidelity.tolerance = 1e-3 * o.millimetres;
   Diagnostics findings;
-  std::vector<NamedFile> files = filesOf(options.show);
-  files.insert(files.end(), {{"--html", options.html}, {"--trace", options.trace.file}});
-  refuseSameFiles(files, findings);
+  const std::vector<NamedFile> files{{"--html", options.html}, {"--trace", options.trace.file}};
+  refuseOverwriting({&options.show, 1}, files, findings);
   const bool settled = options.show.settle(findings) && !findings.hasErrors();
   const auto figures = settled ? profileShow(options, findings) : std::nullopt;
   tell(findings);

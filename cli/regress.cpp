@@ -2,10 +2,10 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/overwriting.h"
 #include "cli/player.h"
 #include "cli/regress_case.h"
 #include "cli/regress_folder.h"
-#include "cli/show_files.h"
 #include "cli/stop_signal.h"
 #include "engine/atomic_file.h"
 #include "engine/plain_file.h"
@@ -100,17 +100,17 @@ void refuseOverwriting(const RegressOptions& o, const std::vector<regression::Su
                        Diagnostics& findings) {
   std::vector<NamedFile> files{
       {"the suite", o.suite, false}, {"--stadion", o.program, false}, {"--against", o.against, false}};
+  std::vector<ShowOptions> shows;
   for (const regression::SuiteCase& c : cases) {
-    files.push_back({"the show of case " + c.name, c.show, false});
-    files.push_back({"the walls of case " + c.name, wallFileOf(c.walls), false});
-    files.push_back({"the input log of case " + c.name, inputLogOf(c.show, c.input), false});
+    ShowOptions& show = shows.emplace_back();
+    show.script = c.show, show.walls = c.walls, show.input = c.input, show.assetRoots = c.assetRoots;
   }
   files.push_back({o.baselineGiven ? "--baseline" : "the suite's baseline", o.baseline, o.update});
   files.push_back({"--junit", o.junit});
   if (!o.out.empty())
     for (const char* name : {"report.html", "results.json", "history.jsonl", "progress.jsonl"})
       files.push_back({std::string("--out's ") + name, o.out + "/" + name});
-  refuseSameFiles(files, findings);
+  refuseOverwriting(shows, files, findings);
 }
 
 int regress(RegressOptions o) {

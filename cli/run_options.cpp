@@ -1,7 +1,8 @@
 #include "cli/run_options.h"
 
 #include "cli/number_option.h"
-#include "cli/show_files.h"
+#include "cli/output_folder.h"
+#include "cli/overwriting.h"
 
 #include <CLI/CLI.hpp>
 
@@ -218,15 +219,15 @@ bool RunOptions::settle(Diagnostics& findings) {
 
 /// No output is another one, or what the show is played from.
 void RunOptions::settleFiles(Diagnostics& findings) const {
-  std::vector<NamedFile> files = filesOf(show);
-  files.insert(files.end(), {{"--record-input", recordInput},
-                             {"--trace-events", events.file},
-                             {"--spans", spans.file},
-                             {"--black-box", blackBox}});
+  std::vector<NamedFile> files{{"--rig", trackers.rig, false},
+                               {"--record-input", recordInput},
+                               {"--trace-events", events.file},
+                               {"--spans", spans.file},
+                               {"--black-box", blackBox}};
   if (!out.empty())
-    for (const char* name : {"summary.json", "contact-sheet.png", "video.mp4"})
-      files.push_back({std::string("--out's ") + name, out + "/" + name});
-  refuseSameFiles(files, findings);
+    for (const std::string& name : OutputFolder::namesOfRuns(out))
+      files.push_back({"--out's " + name, out + "/" + name});
+  refuseOverwriting({&show, 1}, files, findings);
 }
 
 /// What needs somebody who is there.

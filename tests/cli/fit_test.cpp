@@ -37,6 +37,19 @@ std::vector<std::string> fitWords(const std::string& object, const std::string& 
           "--gravity", "9.81", "--density", "1.2", "--reference", kFlights + flight};
 }
 
+TEST(ProgramFit, WritesItsTableOverNothingThatItReads) {
+  const TemporaryFolder folder;
+  const std::string object = folder.write("discus.obj", discus()),
+                    flight = folder.write("flight.csv", fileContent(kFlights + "disc_25_35_s40_a-10.csv"));
+  for (const std::string& read : {object, flight}) {
+    const std::string before = fileContent(read);
+    const ProgramResult r = stadionProgram({"fit", object, "--reference", flight, "--table", read});
+    EXPECT_EQ(r.status, 2) << r.out;
+    EXPECT_NE(r.err.find("and --table name the same file"), std::string::npos) << r.err;
+    EXPECT_EQ(fileContent(read), before);
+  }
+}
+
 TEST(ProgramFit, FindsAPlateForADiscusAndSaysWhatToWrite) {
   const TemporaryFolder folder;
   auto words = fitWords(folder.write("discus.obj", discus()), "disc_25_35_s40_a-10.csv");

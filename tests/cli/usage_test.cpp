@@ -414,6 +414,61 @@ TEST(ProgramUsage, WhatIsReadWithoutBeingNamedIsNotWrittenOver) {
   for (const auto& [name, content] : files) EXPECT_EQ(fileContent(at(name)), content) << name;
 }
 
+/// A show with a sub-scene that names a model, which names materials, which name a picture; and a sound.
+std::map<std::string, std::string> filesWithFilesInThem() {
+  return {{"show/main.evs", "rig( name=stand )\nscene( name=part, file=parts/part.evs )\n"},
+          {"show/parts/part.evs", "object( name=a, file=ball/ball.obj )\nsound( name=s, file=hiss.wav )\n"},
+          {"assets/ball/ball.obj", "mtllib ball.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+          {"assets/ball/ball.mtl", "newmtl m\nmap_Kd skins/leather.png\n"},
+          {"assets/ball/skins/leather.png", "a picture"},
+          {"assets/ball/skins/leather.pn", "nobody's"},
+          {"assets/hiss.wav", "a sound"},
+          {"show/main.suite", "stadion-suite 1\ncase one\n  show main.evs\n  frames 3\n"},
+          {"show/out/walls-left-000012.png", "nobody's"}};
+}
+
+TEST(ProgramUsage, WhatSubScenesAndModelsReadIsNotWrittenOver) {
+  const TemporaryFolder folder;
+  const auto at = [&](const std::string& name) { return (folder.path() / name).string(); };
+  const std::map<std::string, std::string> files = filesWithFilesInThem();
+  for (const auto& [name, content] : files) folder.write(name, content);
+  std::filesystem::create_symlink("ball/ball.obj", at("assets/linked"));
+  const std::string show = at("show/main.evs");
+  const std::map<std::string, std::string> read = {
+      {"show/parts/part.evs", "main.evs:2:24 and "}, {"assets/ball/ball.obj", "part.evs:1:22 and "},
+      {"assets/linked", "part.evs:1:22 and "},       {"assets/hiss.wav", "part.evs:2:21 and "},
+      {"assets/ball/ball.mtl", "ball.obj and "},     {"assets/ball/skins/leather.png", "ball.obj and "}};
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& why) {
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 2) << words.back() << r.out;
+    EXPECT_TRUE(has(r.err, why) && has(r.err, "name the same file")) << words.back() << "\n" << r.err;
+  };
+  for (const auto& [name, why] : read) {
+    for (const char* option : {"--html", "--trace"})
+      refused({"profile", show, "--frames", "9", "--no-draw", option, at(name)}, why + option);
+    for (const char* option : {"--trace-events", "--black-box", "--record-input", "--spans"})
+      refused({"run", show, "--frames", "9", "--gl", "none", option, at(name)}, why + option);
+    refused({"plan", show, "--frames", "3", "--svg", at(name)}, why + "--svg");
+    refused({"regress", at("show/main.suite"), "--junit", at(name)}, why + "--junit");
+  }
+  for (const auto& [name, content] : files) EXPECT_EQ(fileContent(at(name)), content) << name;
+  const ProgramResult beside = stadionProgram({"profile", show, "--frames", "9", "--no-draw", "--walls",
+                                               "desktop", "--html", at("assets/ball/skins/leather.pn")});
+  EXPECT_EQ(beside.status, 0) << "nobody reads that one\n" << beside.err;
+}
+
+TEST(ProgramUsage, PicturesThatAShowReadsAreNotWrittenOverByThoseOfARun) {
+  const TemporaryFolder folder;
+  const std::string picture = folder.write("skins/screen-left-000002.png", "a picture");
+  folder.write("a.mtl", "newmtl m\nmap_Kd skins/screen-left-000002.png\n");
+  folder.write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string show = folder.write("a.evs", "rig( name=r )\nobject( name=a, file=a.obj )\n");
+  const ProgramResult r = stadionProgram(shortRun(show, {"--out", folder.path() / "skins"}));
+  EXPECT_EQ(r.status, 2) << r.out;
+  EXPECT_TRUE(has(r.err, "a.obj and --out's screen-left-000002.png name the same file")) << r.err;
+  EXPECT_EQ(fileContent(picture), "a picture");
+}
+
 TEST(ProgramUsage, AnEmptyWordIsNoFolder) {
   const ProgramResult r = stadionProgram(shortRun(testShow("moving.evs"), {"--out", ""}));
   EXPECT_EQ(r.status, 2);
