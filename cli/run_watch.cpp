@@ -1,5 +1,6 @@
 #include "cli/run_watch.h"
 
+#include "engine/load_control.h"
 #include "engine/state_hash.h"
 
 #include <algorithm>
@@ -76,6 +77,7 @@ void RunWatch::see(const TimeSignature& now, const InputSample& input, const Sce
   visited_ += c.nodesVisited, published_ += c.changesPublished;
   delivered_ += c.messagesDelivered, lost_ += c.messagesLost;
   for (const EventRecord& e : scene.events()) note(e, scene);
+  for (const LoadDecision& d : now.load) note(d, scene);
   if (recorder_) recorder_->frame(now), recorder_->record(input);
   for (NodeTrace& t : traces_) t.record(now, scene);
 }
@@ -96,6 +98,24 @@ void RunWatch::note(const EventRecord& event, const Scene& scene) {
     measured_.push_back({toSeconds(event.when), nameIn(scene, event.node), *event.figure});
 }
 
+void RunWatch::note(const LoadDecision& d, const Scene& scene) {
+  const NodeRef node{d.load, d.position};
+  Obeyed& o = givenUp_[node];
+  if (o.changes++ == 0 && d.load != 0) o.node = nameIn(scene, node);
+  o.highest = std::max(o.highest, d.level), o.now = d.level;
+}
+
+/// What a live run decides, its governor tells, with what it cost.
+void RunWatch::addObeyed(RunSummary& s) const {
+  if (!player_.obeysLog()) return;
+  s.stress.emplace();
+  for (const auto& [node, o] : givenUp_)
+    if (node.load == 0)
+      s.stress = StressFelt{stressOf(o.highest), stressOf(o.now), o.changes};
+    else
+      s.obeyed.push_back(o);
+}
+
 void RunWatch::addTo(RunSummary& s, std::uint64_t frames) const {
   s.seconds = toSeconds(last_.time);
   s.lastFrame = last_.frame;
@@ -109,6 +129,7 @@ void RunWatch::addTo(RunSummary& s, std::uint64_t frames) const {
   s.happened = happened_;
   s.measured = measured_;
   s.happenedCount = happenedCount_;
+  addObeyed(s);
 }
 
 }  // namespace stadion

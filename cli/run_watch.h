@@ -9,6 +9,7 @@
 #include "engine/input/input_recorder.h"
 #include "pipeline/output/run_summary.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -42,6 +43,8 @@ private:
   explicit RunWatch(const Player& player) : player_(player) {}
   void recordInput(const RunOptions& options, Player& player, Diagnostics& findings);
   void note(const EventRecord& event, const Scene& scene);
+  void note(const LoadDecision& decision, const Scene& scene);
+  void addObeyed(RunSummary& summary) const;
 
   const Player& player_;
   std::unique_ptr<InputRecorder> recorder_;
@@ -52,6 +55,7 @@ private:
   std::vector<Happening> happened_;
   std::vector<MeasuredDistance> measured_;
   std::uint64_t happenedCount_ = 0;
+  std::map<NodeRef, Obeyed> givenUp_;  ///< {}: by the whole show, its stress
 };
 
 }  // namespace stadion

@@ -157,6 +157,9 @@ std::string toText(const RunSummary& s) {
   for (const MeasuredDistance& m : s.measured)
     text += fmt::format("  measured {:.3f} m: {} at {:.3f} s\n", m.metres, m.node, m.seconds);
   for (const BudgetKept& b : s.budgets) text += textOf(b);
+  for (const Obeyed& o : s.obeyed)
+    text += fmt::format("  obeyed the log: {} gave up {} levels at most, {} at the end, {} changes\n", o.node,
+                        o.highest, o.now, o.changes);
   if (s.stress && s.stress->changes > 0)
     text += fmt::format(
         "  stress: everything counted as up to {:.3g} times farther away, {:.3g} at the end, {} changes\n",
@@ -239,6 +242,9 @@ std::string toJson(const RunSummary& s) {
     j["stress"] =
         Json{{"highest", s.stress->highest}, {"at_end", s.stress->atEnd}, {"changes", s.stress->changes}};
   for (const BudgetKept& b : s.budgets) j["budgets"].push_back(json(b));
+  for (const Obeyed& o : s.obeyed)
+    j["obeyed"].push_back(
+        Json{{"node", o.node}, {"changes", o.changes}, {"highest_level", o.highest}, {"level", o.now}});
   j["drawn"] = Json::array();
   for (const DrawnCounts& d : s.drawn)
     j["drawn"].push_back(Json{{"wall", d.wall},

@@ -90,7 +90,14 @@ struct BudgetKept {
   bool drawCounted = true;                         ///< else what drawing it took is in none of these
 };
 
-/// What stress a live show was under: everything counted as so many times farther away.
+/// What a node of a replayed run gave up because the log says so.
+struct Obeyed {
+  std::string node;
+  std::uint64_t changes = 0;           ///< times that something was given up or taken back
+  std::uint32_t highest = 0, now = 0;  ///< of its ladder
+};
+
+/// What stress a show was under: everything counted as so many times farther away.
 struct StressFelt {
   double highest = 1, atEnd = 1;
   std::uint64_t changes = 0;
@@ -142,6 +149,7 @@ struct RunSummary {
   std::vector<MeasuredDistance> measured;  ///< the first ones, at most kMostHappenings
   std::uint64_t happenedCount = 0;         ///< all of them
   std::vector<BudgetKept> budgets;         ///< of nodes that have one or give something up
+  std::vector<Obeyed> obeyed;              ///< of a replay: what its log has nodes give up
   std::optional<StressFelt> stress;        ///< of the whole show; nothing = nobody decided about it
 };
 

@@ -2,11 +2,13 @@
 /// way, frame by frame, in every mode.
 
 #include "engine/input/input_recorder.h"
+#include "engine/load_control.h"
 #include "tests/cli/played_show.h"
 #include "tests/cli/program.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 namespace stadion {
@@ -101,6 +103,32 @@ TEST(ProgramLoadReplay, ARunThatGaveUpThingsReplaysToTheSameHashesInEveryMode) {
       EXPECT_EQ(r.out, live) << text;
     }
   }
+}
+
+TEST(ProgramLoadReplay, TheSummaryTellsWhatWasObeyed) {
+  const TemporaryFolder folder;
+  const std::string show = folder.write("show.evs", kShow);
+  const std::string log = folder.write("a.input", "stadion-input 2\nrate 60\nframe 30 0.5\nrelief 5 1 3 3\n"
+                                                  "stress 6 5\nstress 9 2\nrelief 8 1 3 1\n");
+  const auto replayed = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"run",         show,      "--input", log,    "--asset-root",
+                                   assetFolder(), "--walls", "desktop", "--gl", "none"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.out;
+  };
+  const auto summary = nlohmann::json::parse(replayed({"--json"}));
+  const nlohmann::json stress{{"highest", stressOf(5)}, {"at_end", stressOf(2)}, {"changes", 2}};
+  EXPECT_EQ(summary.value("stress", nlohmann::json()), stress);
+  const nlohmann::json obeyed{{"node", "game"}, {"changes", 2}, {"highest_level", 3}, {"level", 1}};
+  EXPECT_EQ(summary.value("obeyed", nlohmann::json()), nlohmann::json{obeyed});
+  const std::string text = replayed({});
+  EXPECT_NE(text.find("stress: everything counted as up to 2.38 times farther away"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("obeyed the log: game gave up 3 levels at most, 1 at the end, 2 changes"),
+            std::string::npos)
+      << text;
 }
 
 TEST(ProgramLoadReplay, WithoutTheDecisionsItIsAnotherRun) {
