@@ -7,7 +7,6 @@
 #include "cli/number_option.h"
 #include "cli/overwriting.h"
 #include "cli/profile_run.h"
-#include "cli/show_files.h"
 #include "cli/stop_signal.h"
 #include "profiling/black_box.h"
 #include "profiling/black_box_folder.h"
@@ -121,6 +120,18 @@ int profileFrames(Options o) {
   return stopSignal() ? kStopped + stopSignal() : kOk;  // the figures are those of what was played
 }
 
+/// Nothing is recorded when models are compared, unless a page tells of both.
+bool asksForRecord(const CLI::App& command) {
+  Diagnostics findings;
+  for (const char* option : {"--csv", "--trace", "--trace-frames", "--trace-limit", "--nodes"})
+    if (command.count(option) > 0)
+      findings.error({}, std::string(option) +
+                             " tells of frames, which --fidelity does not record: leave one "
+                             "of them out, or add --html FILE, which has both");
+  tell(findings);
+  return findings.hasErrors();
+}
+
 int profileModels(Options o) {
   FidelityOptions& options = o.fidelity;
   options.tolerance = 1e-3 * o.millimetres;
@@ -203,7 +214,7 @@ void addProfileCommand(CLI::App& app, int& code) {
                       "write a page for a browser to FILE: frames, nodes, stages, walls, late frames; with "
                       "--fidelity the bodies' errors too");
   o->run.trace.addTo(*command, "--trace");
-  command->add_flag("--csv", o->csv, "a row a node, stage, wall and eye");
+  CLI::Option* csv = command->add_flag("--csv", o->csv, "a row a node, stage, wall and eye");
   command->add_flag("--fidelity", o->fidelityAsked,
                     "each body's model, its error against the finest, and its cost");
   command->add_option("--tolerance", o->millimetres, "how far off a body may ever be [mm]")
@@ -226,7 +237,7 @@ void addProfileCommand(CLI::App& app, int& code) {
                    "how often each model but the finest is played; the least time counts")
       ->check(wholeNumberFrom(1, 99))
       ->capture_default_str();
-  command->add_flag("--json", o->json, "one JSON object");
+  command->add_flag("--json", o->json, "one JSON object")->excludes(csv);
   command->footer(kFooter);
   command->get_option("SHOW")->required(false);
   command->callback([o, command, &code] {
@@ -236,8 +247,10 @@ void addProfileCommand(CLI::App& app, int& code) {
                  : showBlackBox(o->blackBox->empty() ? "" : o->blackBox->as<std::string>());
     else if (o->fidelity.show.script.empty())
       throw CLI::RequiredError("SHOW");
+    else if (!o->fidelityAsked || !o->run.html.empty())
+      code = profileFrames(*o);
     else
-      code = o->fidelityAsked && o->run.html.empty() ? profileModels(*o) : profileFrames(*o);
+      code = asksForRecord(*command) ? kBadInput : profileModels(*o);
   });
 }
 

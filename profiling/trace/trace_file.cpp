@@ -37,7 +37,8 @@ void TraceFile::take(std::size_t number, const SpanRecord& r) {
     return;
   }
   threads_.see(number, r);
-  if (r.what == Span::App) newestFrame_ = std::max(newestFrame_, r.frame);
+  if (r.what == Span::App)
+    oldestFrame_ = std::min(oldestFrame_, r.frame), newestFrame_ = std::max(newestFrame_, r.frame);
   if (cutFrom_ == kNoFrame && bytes_ + text_.size() > options_.mostBytes) cutFrom_ = newestFrame_ + 1;
   if (isAsked(r.frame)) write(number, r);
   track.spans.clear(), track.wait.reset();
@@ -152,9 +153,24 @@ void TraceFile::flush() {
 }
 
 std::string TraceFile::leftOut() const {
-  if (cutFrom_ == kNoFrame || newestFrame_ < cutFrom_ || cutFrom_ > options_.last) return {};
-  return fmt::format("frames from {} on: the trace would be larger than {:g} MB", cutFrom_,
-                     1e-6 * static_cast<double>(options_.mostBytes));
+  std::string left;
+  const auto add = [&](const std::string& what) { left += (left.empty() ? "" : "; ") + what; };
+  const auto frames = [](std::uint64_t from, std::uint64_t to) {
+    return from == to ? fmt::format("frame {}", from) : fmt::format("frames {} to {}", from, to);
+  };
+  const auto [first, last] = std::pair(options_.first, options_.last);
+  const bool anyRecorded = oldestFrame_ != kNoFrame, someAsked = last != kNoFrame;
+  if (someAsked && !anyRecorded) add(frames(first, last) + ": no frame was recorded");
+  if (someAsked && anyRecorded && first < oldestFrame_)
+    add(fmt::format("{}: recording began with frame {}", frames(first, std::min(last, oldestFrame_ - 1)),
+                    oldestFrame_));
+  if (cutFrom_ != kNoFrame && newestFrame_ >= cutFrom_ && cutFrom_ <= last)
+    add(fmt::format("frames from {} on: the trace would be larger than {:g} MB", cutFrom_,
+                    1e-6 * static_cast<double>(options_.mostBytes)));
+  if (someAsked && anyRecorded && last > newestFrame_)
+    add(fmt::format("{}: the run ended with frame {}", frames(std::max(first, newestFrame_ + 1), last),
+                    newestFrame_));
+  return left;
 }
 
 std::optional<Diagnostic> TraceFile::finish() {

@@ -45,7 +45,8 @@ public:
   const std::optional<Diagnostic>& error() const { return file_.error(); }
   /// Completes the file. Nothing if all went well, else why there is none.
   std::optional<Diagnostic> finish();
-  /// "frames 412 to 599: ...", or empty. After finish().
+  /// What was asked for and is not in it: "frames 412 to 599: the run ended with frame 411", or empty. After
+  /// finish().
   std::string leftOut() const;
 
 private:
@@ -81,8 +82,8 @@ private:
   std::map<std::pair<Span, std::uint32_t>, std::uint64_t> newest_;  ///< frame, by stage and wall
   std::map<std::string, std::uint64_t> lastCounts_;                 ///< by name: "triangles, front left"
   std::optional<trace::Ticks> lastShown_;
-  std::uint64_t newestFrame_ = 0;
-  std::uint64_t cutFrom_ = kNoFrame;  ///< left out for its size
+  std::uint64_t oldestFrame_ = kNoFrame, newestFrame_ = 0;  ///< that App told of
+  std::uint64_t cutFrom_ = kNoFrame;                        ///< left out for its size
   std::uint64_t bytes_ = 0;
   std::string text_;
 };

@@ -175,6 +175,21 @@ TEST(ProgramProfile, WhatCannotBeToldOfARunThatWasIsRefusedBesideItsLastFrames) 
     }
 }
 
+TEST(ProgramProfile, WhatWouldNotBeObeyedIsRefused) {
+  const std::string show = STADION_SOURCE_DIR "/scripts/kick.evs";
+  for (const auto& [words, why] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"--json", "--csv"}, "--csv excludes --json"},
+           {{"--fidelity", "--csv"}, "--csv tells of frames"},
+           {{"--fidelity", "--trace", "x.json"}, "--trace tells of frames"}}) {
+    std::vector<std::string> all{"profile", show, "--frames", "9", "--no-draw"};
+    all.insert(all.end(), words.begin(), words.end());
+    const ProgramResult r = stadionProgram(all);
+    EXPECT_EQ(r.status, 2) << r.out;
+    EXPECT_EQ(r.out, "");
+    EXPECT_NE(r.err.find(why), std::string::npos) << r.err;
+  }
+}
+
 TEST(ProgramProfile, TwoOutputsAreNotOneFile) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "out", show = STADION_SOURCE_DIR "/scripts/kick.evs";

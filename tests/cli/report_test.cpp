@@ -169,6 +169,19 @@ TEST(ProgramTrace, ALiveRunIsTracedToo) {
   EXPECT_EQ(seen.flows(), 36U);
 }
 
+TEST(ProgramTrace, FramesAfterTheRunsEndAreSaidToBeMissing) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "trace.json";
+  for (const auto& [command, option] : {std::pair{"profile", "--trace"}, {"run", "--trace-events"}}) {
+    const ProgramResult r = stadionProgram({command, kKick, "--frames", "20", "--size", "32x24", "--walls",
+                                            "desktop", option, file, "--trace-frames", "100..160"});
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_NE(r.err.find("warning: the trace leaves out frames 100 to 160: the run ended with frame 19"),
+              std::string::npos)
+        << r.err;
+  }
+}
+
 TEST(ProgramTrace, WhatCannotBeWrittenIsSaidBeforeAnythingIsPlayed) {
   const ProgramResult r = profile(kKick, {"--trace", "/nowhere/trace.json"});
   EXPECT_EQ(r.status, 2);

@@ -152,6 +152,25 @@ TEST_F(TraceTest, OnlyTheFramesThatAreAskedForAreInIt) {
   EXPECT_EQ(trace.leftOut(), "") << "nothing was left out that was asked for";
 }
 
+TEST_F(TraceTest, FramesThatNeverCameAreSaidToBeMissing) {
+  const auto leftOut = [&](std::uint64_t first, std::uint64_t last, std::uint64_t frames = 20) {
+    TraceOptions o = options();
+    o.first = first, o.last = last;
+    TraceFile trace(o, {}, names_);
+    for (std::uint64_t frame = 4; frame < frames; ++frame) addFrame(trace, frame);
+    EXPECT_FALSE(trace.finish());
+    EXPECT_EQ(TraceChecks(written()).json()["otherData"].value("left out", ""), trace.leftOut());
+    return trace.leftOut();
+  };
+  EXPECT_EQ(leftOut(10, 19), "");
+  EXPECT_EQ(leftOut(10, 20), "frame 20: the run ended with frame 19");
+  EXPECT_EQ(leftOut(100, 160), "frames 100 to 160: the run ended with frame 19");
+  EXPECT_EQ(leftOut(2, 3), "frames 2 to 3: recording began with frame 4");
+  EXPECT_EQ(leftOut(3, 30),
+            "frame 3: recording began with frame 4; frames 20 to 30: the run ended with frame 19");
+  EXPECT_EQ(leftOut(3, 30, 4), "frames 3 to 30: no frame was recorded");
+}
+
 TEST_F(TraceTest, BeyondItsSizeItLeavesOutWholeFramesAndSaysSo) {
   TraceOptions o = options();
   o.mostBytes = 20'000;
