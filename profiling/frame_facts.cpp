@@ -158,6 +158,10 @@ void judge(FrameFacts& f) {
   }
 }
 
+bool nodeExplains(const FrameFacts& f) {
+  return f.cause == Cause::App && f.nodeMs >= kTold;
+}
+
 namespace {
 
 /// ": Draw of wall floor took 41.2 ms".
@@ -205,8 +209,7 @@ std::string causeText(const FrameFacts& f, std::span<const std::string> walls) {
     break;
   default: text += fmt::format(": {} took {:.1f} ms{}", stage, s.ms, together);
   }
-  if (f.name[0] != 0 && f.nodeMs >= kTold && f.stage == Span::App)
-    text += fmt::format("; dearest {}, {:.1f} ms", f.name, f.nodeMs);
+  if (f.name[0] != 0 && nodeExplains(f)) text += fmt::format("; dearest {}, {:.1f} ms", f.name, f.nodeMs);
   const bool over = f.cause == Cause::Cull || f.cause == Cause::Draw;
   if (f.most[0] != 0 && over)
     text += fmt::format("; most there is to {} of {}", f.cause == Cause::Cull ? "cull" : "draw", f.most);

@@ -84,6 +84,10 @@ static_assert(std::is_trivially_copyable_v<FrameFacts>);
 /// be. One whose drawing was sampled may be late for that: it is, if something but drawing took long.
 void judge(FrameFacts& facts);
 
+/// Whether the dearest node in App is why it was late: only of App that took long by itself. What had no
+/// processor, waited or fetched memory is dear wherever that befell it.
+bool nodeExplains(const FrameFacts& facts);
+
 /// "frame 812 came after 66.8 ms (16.7): Draw of wall floor took 41.2 ms". The names are the walls'.
 std::string toText(const FrameFacts& facts, std::span<const std::string> walls);
 std::string_view nameOf(Cause cause);

@@ -90,7 +90,7 @@ function drawLate() {
   put("late-table", table(null, [
     {name: "frame", cell: f => [el("a", {href: "#timeline", onclick: e => { e.preventDefault(); showFrame(f.frame); byId("timeline").scrollIntoView(); }}, String(f.frame))]},
     {name: "after", n: true, cell: f => msText(f.period)}, {name: "cause", kind: "row", cell: f => f.cause}, {name: "stage", kind: "row", cell: f => NAMES[f.stage] ? NAMES[f.stage] + (f.wall ? " of wall " + f.wall : "") : f.stage},
-    {name: "dearest node in App", cell: f => f.node >= 0 ? `${data.nodes[f.node].path}, ${msText(f.nodeMs)}` : "\u2013", title: f => f.node >= 0 ? data.nodes[f.node].place : null}, {name: "in words", kind: "words", cell: f => f.text}], shown),
+    {name: "dearest node of App that was over", cell: f => f.node >= 0 ? `${data.nodes[f.node].path}, ${msText(f.nodeMs)}` : "\u2013", title: f => f.node >= 0 ? data.nodes[f.node].place : null}, {name: "in words", kind: "words", cell: f => f.text}], shown),
     rows.length > 12 ? el("nav", {}, choice(chosen.get("lates") ? "fewer" : `all ${rows.length}`, false, {lates: chosen.get("lates") ? null : 1})) : "");
 }
 

@@ -188,7 +188,7 @@ private:
            {"wall",
             f.stage == Span::App || f.wall >= data_.figures.walls.size() ? "" : data_.figures.walls[f.wall]},
            {"text", toText(f, data_.figures.walls)},
-           {"node", f.nodeMs > 0 ? table_.find(f.dearest()) : -1},
+           {"node", nodeExplains(f) ? table_.find(f.dearest()) : -1},
            {"nodeMs", number(static_cast<double>(f.nodeMs))}});
     return all;
   }

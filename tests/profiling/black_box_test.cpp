@@ -164,6 +164,27 @@ TEST(FrameVerdict, AppThatWaitsForAHelperIsOverAndNotPreempted) {
   EXPECT_EQ(toText(f, {}), "frame 7 came after 60.0 ms (16.7): App took 55.0 ms") << "it is not its fault";
 }
 
+/// Whatever was under way when others got the processor took long by the clock.
+TEST(FrameVerdict, ANodeIsNamedOnlyWhereAppTookLongByItself) {
+  FrameFacts f = facts(60);
+  f.app.ms = f.app.processor = 55, f.nodeMs = 50;
+  copyText("game kick.evs:5", f.name);
+  judge(f);
+  EXPECT_EQ(f.cause, Cause::App);
+  EXPECT_TRUE(nodeExplains(f));
+  FrameFacts preempted = f, loading = f, faults = f, draw = f;
+  preempted.app.processor = 5, preempted.app.delayed = 50;
+  loading.app.loading = 50;
+  faults.app.processor = 5, faults.app.faults = 900;
+  draw.draw[1].ms = 70;
+  for (FrameFacts* other : {&preempted, &loading, &faults, &draw}) {
+    judge(*other);
+    EXPECT_NE(other->cause, Cause::App);
+    EXPECT_FALSE(nodeExplains(*other)) << nameOf(other->cause);
+    EXPECT_EQ(toText(*other, {}).find("game"), std::string::npos) << toText(*other, {});
+  }
+}
+
 TEST(FrameVerdict, WhoBeginsLateForWantOfAProcessorIsPreempted) {
   FrameFacts f = facts(60);
   for (StageFacts& s : f.draw) s.ms = 1;

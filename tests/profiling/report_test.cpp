@@ -4,6 +4,7 @@
 #include "profiling/report/node_table.h"
 #include "profiling/report/report_data.h"
 #include "profiling/report/report_recording.h"
+#include "tests/engine/show_fixture.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,7 @@ struct MadeUpRun {
   ShowProfile profile;
   ReportRecording recording;
   ProfileClock::time_point now = ProfileClock::now();
+  double delayed = 0;  ///< [ms] of App, without a processor
 
   explicit MadeUpRun(FrameLogOptions log = {.samples = false, .from = 0})
       : recording(60, {"front"}, log, names) {}
@@ -31,6 +33,7 @@ struct MadeUpRun {
     r.began = now + microseconds(from), r.ended = now + microseconds(to);
     r.took = r.own = 1e-3 * (to - from);
     r.use.processor = r.took;
+    if (what == Span::App) r.use.delayed = delayed;
     recording.take(track, r), profile.take(track, r);
   }
   /// `late` [ms] more in App than the 4 that it takes.
@@ -176,6 +179,32 @@ TEST(ReportPage, WhatScriptsNameThemselvesNeverBecomesMarkup) {
   EXPECT_EQ(count("</script"), 2U);
   const auto json = nlohmann::json::parse(reportJson(data));
   EXPECT_EQ(json["nodes"][0]["path"].get<std::string>().substr(0, 9), "</script>");
+}
+
+TEST(ReportPage, ANodeStandsBesideALateFrameOnlyWhereItExplainsIt) {
+  MadeUpRun run;
+  ShowFixture show;
+  show.loader.files["show"] = [](Load& load) {
+    load.lines.assign(60, 1);
+    for (int i = 0; i < 60; ++i) addNode<ListeningNode>(load, "node" + std::to_string(i));
+  };
+  ASSERT_TRUE(show.scene.open("show"));
+  run.names.see(show.scene);
+  for (std::uint64_t n = 0; n < 100; ++n) {
+    run.delayed = n == 80 ? 40 : 0;
+    run.frame(n, n == 70 || n == 80 ? 50 : 0);
+  }
+  const ShowFigures figures = figuresOf(run.profile, run.names, {"front"}, true);
+  const ReportData data{
+      {"show.evs", 60, 100, 0.1, {}},    figures, run.names, run.recording.series(), run.recording.kept(),
+      run.recording.threads().threads(), {},      {}};
+  const auto late = nlohmann::json::parse(reportJson(data))["late"];
+  ASSERT_EQ(late.size(), 2U) << late;
+  for (const auto& frame : late) {
+    const bool byItself = frame["frame"] == 70;
+    EXPECT_EQ(frame["cause"], byItself ? "App over" : "pre-empted");
+    EXPECT_EQ(frame["node"] != -1, byItself) << frame;
+  }
 }
 
 TEST(ReportPage, TenThousandNodesAreAllThereAndNoHeavyPage) {
