@@ -136,8 +136,8 @@ private:
   }
 
   bool sampled_ = false;  ///< drawing, whoever has a budget
-  ShowProfile profile_;
   NodeNames names_;
+  ShowProfile profile_{&names_};
   std::unique_ptr<LoadGovernor> governor_;
   std::unique_ptr<BlackBox> box_;
   std::optional<ToldInCrash> told_;  ///< its file

@@ -22,6 +22,10 @@ public:
     most_ = std::max(most_, ms);
     bins_[binOf(ms)] += static_cast<std::uint32_t>(times);
   }
+  void add(const CostSeries& other) {
+    sum_ += other.sum_, count_ += other.count_, most_ = std::max(most_, other.most_);
+    for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += other.bins_[i];
+  }
   double sum() const { return sum_; }
   double most() const { return most_; }
   std::uint64_t count() const { return count_; }

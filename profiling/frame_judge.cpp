@@ -45,6 +45,7 @@ void FrameJudge::take(std::size_t track, const SpanRecord& r) {
   switch (r.what) {
   case Span::ForTick: pending.tick += static_cast<float>(r.took); return;
   case Span::ForTurn: pending.under.turn += static_cast<float>(r.took); return;
+  case Span::ForDraw: pending.rest += static_cast<float>(r.took); return;  // that is Cull's time
   case Span::Loading:
   case Span::Upload: pending.under.loading += static_cast<float>(r.took); return;
   case Span::Swap: return show(r, factsOf(r, {}));
@@ -55,7 +56,8 @@ void FrameJudge::take(std::size_t track, const SpanRecord& r) {
     if (isOfNode(r.what)) takeNode(frame(r.frame).facts, r);
     return;
   }
-  const StageFacts stage = factsOf(r, std::exchange(pending.under, {}));
+  StageFacts stage = factsOf(r, std::exchange(pending.under, {}));
+  stage.ms -= std::exchange(pending.rest, 0);
   Open& open = frame(r.frame);
   if (r.what == Span::App)
     takeApp(open, r, stage, std::exchange(pending, {}));

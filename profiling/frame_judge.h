@@ -39,6 +39,7 @@ private:
   struct Pending {
     StageFacts under;  ///< within the stage that is under way
     float tick = 0, slot = 0;
+    float rest = 0;  ///< Draw, which had begun, waited for the rest of its list
   };
   Open& frame(std::uint64_t number);
   void takePassedOver(Open& open) const;

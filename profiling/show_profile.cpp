@@ -1,6 +1,59 @@
 #include "profiling/show_profile.h"
 
 namespace stadion {
+namespace {
+
+/// What is known of so many loads is asked for again.
+constexpr std::size_t kMostLoads = 256;
+
+}  // namespace
+
+void WallCost::add(const WallCost& other) {
+  for (const auto& [what, count] : other.shares) shares[what] += count;
+  for (std::size_t eye = 0; eye < 2; ++eye) draw[eye] += other.draw[eye], drawn[eye] += other.drawn[eye];
+}
+
+void NodeProfile::add(const NodeProfile& other) {
+  for (std::size_t i = 0; i < phases.size(); ++i) phases[i] += other.phases[i];
+  allocations += other.allocations, settle += other.settle, published += other.published;
+  visit.add(other.visit);
+  for (const auto& [wall, cost] : other.walls) walls[wall].add(cost);
+}
+
+NodeRef ShowProfile::firstOf(NodeRef node) {
+  if (!names_ || !node.valid()) return node;
+  if (const auto at = firstLoads_.find(node.load); at != firstLoads_.end())
+    return {at->second, node.position};
+  const auto first = names_->firstLoad(node.load);
+  if (!first) return node;  // it has just come, and will be named
+  if (firstLoads_.size() >= kMostLoads) firstLoads_.clear();
+  firstLoads_[node.load] = *first;
+  if (*first != node.load) adopt(node.load, *first);
+  return {*first, node.position};
+}
+
+/// What was told before the load was named.
+void ShowProfile::adopt(std::uint32_t load, std::uint32_t first) {
+  for (auto at = nodes_.lower_bound({load, 0}); at != nodes_.end() && at->first.load == load;
+       at = nodes_.erase(at))
+    nodes_[{first, at->first.position}].add(at->second);
+  for (auto at = visits_.lower_bound({load, 0}); at != visits_.end() && at->first.load == load;
+       at = visits_.erase(at)) {
+    Visit& visit = visits_[{first, at->first.position}];
+    if (visit.frame != kNoFrame) nodes_[{first, at->first.position}].visit.add(visit.ms);
+    visit = at->second;
+  }
+  for (auto at = counts_.begin(); at != counts_.end();) {
+    if (at->first.node.load != load) {
+      ++at;
+      continue;
+    }
+    Counted as = at->first;
+    as.node.load = first;
+    counts_[as].add(at->second);
+    at = counts_.erase(at);
+  }
+}
 
 void ShowProfile::take(std::size_t track, const SpanRecord& r) {
   const bool partOfApp = r.what > Span::Swap && r.what <= Span::Watching;
@@ -27,7 +80,7 @@ void ShowProfile::add(const SpanRecord& r) {
 /// Nodes that received within it are those for whom it was.
 void ShowProfile::takeMail(std::size_t track, const SpanRecord& r) {
   std::vector<NodeRef>& called = called_[track];
-  for (const NodeRef ref : called) nodes_[ref].settle += r.own / static_cast<double>(called.size());
+  for (const NodeRef ref : called) profileOf(ref).settle += r.own / static_cast<double>(called.size());
   if (called.empty()) rounds_.push_back(r);
   called.clear();
 }
@@ -35,13 +88,14 @@ void ShowProfile::takeMail(std::size_t track, const SpanRecord& r) {
 /// Who is to be visited in a frame was found out for all that were.
 void ShowProfile::shareRounds() {
   for (const SpanRecord& r : rounds_) {
-    for (const NodeRef ref : visited_) nodes_[ref].settle += r.own / static_cast<double>(visited_.size());
+    for (const NodeRef ref : visited_) profileOf(ref).settle += r.own / static_cast<double>(visited_.size());
     if (visited_.empty()) add(r);
   }
   rounds_.clear(), visited_.clear();
 }
 
-void ShowProfile::addPhase(NodeRef ref, const SpanRecord& r) {
+void ShowProfile::addPhase(NodeRef told, const SpanRecord& r) {
+  const NodeRef ref = firstOf(told);
   NodeProfile& node = nodes_[ref];
   const double ms = r.own;
   node.allocations += r.allocations;
@@ -61,7 +115,8 @@ void ShowProfile::addPhase(NodeRef ref, const SpanRecord& r) {
 void ShowProfile::take(const CountRecord& c) {
   if (c.what == Count::Largest) return;  // an estimate, for late frames
   const bool ofEye = c.within == Span::LeftEye || c.within == Span::RightEye;
-  counts_[{ofEye ? c.within : stageOf(c.within), c.wall, c.node, c.what}].add(static_cast<double>(c.amount));
+  counts_[{ofEye ? c.within : stageOf(c.within), c.wall, firstOf(c.node), c.what}].add(
+      static_cast<double>(c.amount));
 }
 
 void ShowProfile::take(const SharedSpan& s) {
@@ -69,9 +124,9 @@ void ShowProfile::take(const SharedSpan& s) {
   shares_[{s.what, s.wall}] += s.among.size();
   for (const NodeRef ref : s.among)
     if (s.what == Span::Publish)
-      ++nodes_[ref].published;
+      ++profileOf(ref).published;
     else
-      ++nodes_[ref].walls[s.wall].shares[s.what];
+      ++profileOf(ref).walls[s.wall].shares[s.what];
 }
 
 void ShowProfile::take(const DrawnAlone& d, const std::vector<NodeShare>& nodes) {
@@ -84,7 +139,7 @@ void ShowProfile::take(const DrawnAlone& d, const std::vector<NodeShare>& nodes)
   if (nodes.empty()) return;
   eye.batches.add(d.ms);
   for (const auto& [node, part] : nodes) {
-    WallCost& wall = nodes_[node].walls[d.wall];
+    WallCost& wall = profileOf(node).walls[d.wall];
     wall.draw[d.eye] += d.ms * double{part};
     ++wall.drawn[d.eye];
   }

@@ -12,12 +12,16 @@
 ///           cost in a frame is what it cost when drawn, by how often it was drawn. Nothing is normalised
 ///           here: ShowFigures scales the rows, and tells how far the sum was from the eye drawn whole.
 ///
-/// Units    milliseconds. Threads  SpanReader's.
+/// Nodes that go and come again with their file are the same nodes (NodeNames).
+///
+/// Units    milliseconds. Threads  SpanReader's; `names` may be asked meanwhile.
 
 #include "profiling/cost_series.h"
 #include "profiling/frame_log.h"
+#include "profiling/node_names.h"
 
 #include <map>
+#include <unordered_map>
 
 namespace stadion {
 
@@ -26,6 +30,7 @@ struct WallCost {
   std::map<Span, std::uint64_t> shares;  ///< of tests, fillings and so on, in the frames sampled
   std::array<double, 2> draw{};          ///< alone, in all, by eye
   std::array<std::uint64_t, 2> drawn{};
+  void add(const WallCost& other);
 };
 
 struct NodeProfile {
@@ -35,6 +40,7 @@ struct NodeProfile {
   std::uint64_t published = 0;     ///< how often, in the frames sampled
   CostSeries visit;                ///< all phases of a frame together, of the frames in which it was visited
   std::map<std::uint32_t, WallCost> walls;
+  void add(const NodeProfile& other);
 };
 
 /// One kind of span, in all.
@@ -64,6 +70,9 @@ struct Counted {
 
 class ShowProfile final : public SpanReader {
 public:
+  /// Without names, every load brings other nodes. They must outlive the profile.
+  explicit ShowProfile(const NodeNames* names = nullptr) : names_(names) {}
+
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
   void take(const CountRecord& count) override;
@@ -90,6 +99,9 @@ public:
   std::uint64_t sampled(std::uint32_t wall) const;
 
 private:
+  NodeProfile& profileOf(NodeRef node) { return nodes_[firstOf(node)]; }
+  NodeRef firstOf(NodeRef node);
+  void adopt(std::uint32_t load, std::uint32_t first);
   void addPhase(NodeRef node, const SpanRecord& record);
   void add(const SpanRecord& record);
   void takeMail(std::size_t track, const SpanRecord& record);
@@ -99,6 +111,8 @@ private:
     std::uint64_t frame = kNoFrame;
     double ms = 0;
   };
+  const NodeNames* names_;
+  std::unordered_map<std::uint32_t, std::uint32_t> firstLoads_;  ///< as `names_` said
   std::map<NodeRef, NodeProfile> nodes_;
   std::map<NodeRef, Visit> visits_;                     ///< that may not be over
   std::map<std::size_t, std::vector<NodeRef>> called_;  ///< by thread: since its last Span::Mail
