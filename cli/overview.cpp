@@ -120,18 +120,6 @@ Pose upright(const Pose& X) {
   return {X.p, det::expRotation(Vec3(0, 0, turn))};
 }
 
-void add(DrawList& list, MeshId mesh, const Pose& X_WN) {
-  const Affine X = toAffine(X_WN);
-  DrawItem item;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column)
-      item.model[static_cast<std::size_t>(4 * row + column)] =
-          static_cast<float>(X.matrix()(row, column) - (column == 3 ? list.origin[row] : 0.0));
-  item.mesh = mesh;
-  item.distance = static_cast<float>((X_WN.p - list.origin).norm());
-  list.opaque.push_back(item);
-}
-
 }  // namespace
 
 void OverviewPlace::turn(double right, double up) {
@@ -185,12 +173,15 @@ std::optional<CameraView> Overview::view() const {
   return from;
 }
 
-void Overview::addTo(DrawList& list, const ViewerRecord& viewer) const {
-  add(list, room_, viewer.rig());
-  add(list, head_, viewer.rig() * viewer.head());
-  add(list, body_, viewer.rig() * upright(viewer.head()));
+void Overview::addTo(std::vector<InstanceRecord>& records, const ViewerRecord& viewer) const {
+  const auto add = [&](MeshId mesh, const Pose& X_WN) {
+    records.push_back(makeInstance(toAffine(X_WN), *meshes_.find(mesh), mesh, true, NodeRef{}));
+  };
+  add(room_, viewer.rig());
+  add(head_, viewer.rig() * viewer.head());
+  add(body_, viewer.rig() * upright(viewer.head()));
   const std::lock_guard lock(mutex_);
-  if (X_RT_) add(list, wand_, viewer.rig() * *X_RT_);
+  if (X_RT_) add(wand_, viewer.rig() * *X_RT_);
 }
 
 }  // namespace stadion

@@ -34,7 +34,7 @@ public:
   void see(const InputSample& input);
 
   std::optional<CameraView> view() const override;
-  void addTo(DrawList& list, const ViewerRecord& viewer) const override;
+  void addTo(std::vector<InstanceRecord>& records, const ViewerRecord& viewer) const override;
 
 private:
   MeshStore& meshes_;

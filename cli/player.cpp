@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <thread>
 #include <tuple>
 
@@ -174,6 +175,8 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   p.scene_ = std::make_unique<Scene>(*p.loader_, *p.meshes_, appThreadsOf(options));
   p.options_.texts.reset();  // the loader keeps what is still to be loaded
   if (!p.scene_->open(options.script)) return nullptr;
+  // Reading a show of a million nodes takes more memory than holding it. Here nobody waits for that to go.
+  malloc_trim(0);
   return player;
 }
 

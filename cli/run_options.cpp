@@ -164,6 +164,13 @@ void RunOptions::addOperatorTo(CLI::App& command) {
           "the stages overlap (default: as many as the stages hold); the operator may change it")
       ->check(wholeNumberFrom(1, 4));
   command
+      .add_option("--cull-draw", cullDraw,
+                  "overlap: a wall's Draw begins with the first part of a frame's list while Cull fills the "
+                  "rest, so that fewer milliseconds lie between pose and picture; apart: it waits for all of "
+                  "it. The pictures are the same")
+      ->check(CLI::IsMember({"overlap", "apart"}))
+      ->capture_default_str();
+  command
       .add_option("--osc", oscPort, "listen for the operator's commands on this UDP port (docs/operator.md)")
       ->check(wholeNumberFrom(0, 65535));
   command.add_flag("--wait", wait, "stand at the first frame until the operator says start");
@@ -317,6 +324,7 @@ std::optional<WallWorkers> RunOptions::workers(const Player& player, const DrawS
 FrameLoopOptions RunOptions::loopOptions(const Player& player) const {
   FrameLoopOptions l = player.loopOptions();
   l.latency = latency;
+  l.drawBeginsEarly = cullDraw == "overlap";
   l.delivery = everyFrameCounts(player) ? Delivery::Every : Delivery::Latest;
   const bool newest = l.delivery == Delivery::Latest;
   l.everyTick = newest && repeats(player);

@@ -28,6 +28,7 @@ struct RunOptions {
   bool unrecorded = false;           ///< for `stadion bench recording` alone
   StressOptions stress;              ///< of the whole show
   bool loadControl = true;           ///< a live run gives up what its script says, when it takes too long
+  std::string cullDraw = "overlap";  ///< or "apart": Draw waits until its list is complete
   std::size_t latency = 0;           ///< frames under way at most; 0: as many as there is room for
   bool lateLatch = false;            ///< Draw takes the newest head
   HeadReach latchReach{0.05, 0.25};  ///< as far as it lies within

@@ -1,5 +1,7 @@
 #include "pipeline/drawing_here.h"
 
+#include "pipeline/draw/list_filling.h"
+
 namespace stadion {
 namespace {
 
@@ -27,7 +29,9 @@ Failure DrawingHere::open(std::size_t wall) {
 
 DrawOutcome DrawingHere::draw(std::size_t wall, const DrawList& list, bool) {
   if (Failure f = contexts_.enter(wall)) return {std::move(f)};
-  return {toFailure(contexts_.renderer(wall).draw(list, parts_.giveUp, parts_.probe))};
+  const auto problem = contexts_.renderer(wall).draw(list, parts_.giveUp, parts_.probe);
+  if (list.filling && list.filling->isVoid()) return {{}, false};
+  return {toFailure(problem)};
 }
 
 Failure DrawingHere::read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <new>
@@ -109,7 +110,8 @@ void FrameLoop::runSequential() {
 // together.
 void FrameLoop::runPipelined() {
   FrameSlots slots(options_.walls, options_.delivery);
-  std::vector<ListQueue> queues(options_.walls);
+  std::deque<ListQueue> queues;
+  while (queues.size() < options_.walls) queues.emplace_back(options_.drawBeginsEarly);
   SwapBarrier barrier(options_.walls);
 
   StageThreads threads;
@@ -129,16 +131,15 @@ void FrameLoop::runPipelined() {
       const std::uint64_t frame = lease->ticket.signature.frame;
       DrawList* list = waited(Span::ForList, frame, wall, [&] { return queues[wall].takeEmpty(); });
       if (!list || !cullStage(wall, lease->slot, lease->ticket, *list)) return;
-      list->abandoned = !slots.release(*lease);
-      queues[wall].giveFilled(list);
+      list->filling->finish(!slots.release(*lease));
     }
     queues[wall].finish();
   };
   threads.draw = [&](std::size_t wall) {
     if (!openStage(wall)) return;
-    const auto next = [&] { return queues[wall].takeFilled(); };
+    const auto next = [&] { return queues[wall].takeHanded(); };
     while (DrawList* list = waited(Span::ForDraw, kNoFrame, wall, next)) {
-      if (!list->abandoned && !drawStage(wall, *list)) return;
+      if (!list->filling->isVoid() && !drawStage(wall, *list)) return;
       slots.drawn();
       const FrameTicket ticket = list->ticket;
       bool shown = true;
@@ -318,7 +319,6 @@ bool FrameLoop::cullStage(std::size_t wall, std::size_t slot, const FrameTicket&
     const StageSpan span(times_.cull[wall], probe_, Span::Cull, frame, numberOf(wall));
     well = guard("Cull", wall, frame, [&]() -> Failure { return stages_.cull(wall, slot, list), Failure(); });
   }
-  list.ticket = ticket;
   return well;
 }
 

@@ -39,8 +39,9 @@ struct FrameLoopOptions {
   std::size_t walls = 1;
   /// Frames under way at most, in pipelined mode (FrameSlots::limitUnderWay); the operator may change it.
   std::size_t latency = 0;
-  std::uint64_t frames = 0;  ///< 0 = until stopped
-  Nanoseconds end = 0;       ///< no frame after this show time; 0 = until stopped
+  bool drawBeginsEarly = true;  ///< in pipelined mode: while Cull still fills the list (ListFilling)
+  std::uint64_t frames = 0;     ///< 0 = until stopped
+  Nanoseconds end = 0;          ///< no frame after this show time; 0 = until stopped
   /// Show times that a recorded run decided for some of its frames (see RunDecisions); they are obeyed.
   std::map<std::uint64_t, Nanoseconds> frameTimes{};
   /// What it decided because something took too long; it is obeyed.

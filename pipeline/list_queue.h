@@ -3,6 +3,7 @@
 /// is drawn.
 
 #include "pipeline/draw/draw_list.h"
+#include "pipeline/draw/list_filling.h"
 
 #include <array>
 #include <condition_variable>
@@ -13,13 +14,22 @@ namespace stadion {
 
 class ListQueue {
 public:
-  ListQueue() : empty_{&lists_[0], &lists_[1]} {}
+  /// `early`: Draw may have a list while it is filled (ListFilling); else when that has finished.
+  explicit ListQueue(bool early)
+      : fillings_{ListFilling([this] { give(handed_, &lists_[0]); }, early),
+                  ListFilling([this] { give(handed_, &lists_[1]); }, early)},
+        empty_{&lists_[0], &lists_[1]} {
+    for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i].filling = &fillings_[i];
+  }
 
-  /// For Cull: a list to fill; waits for one. Null after stop().
-  DrawList* takeEmpty() { return take(empty_); }
-  void giveFilled(DrawList* list) { give(filled_, list); }
+  /// For Cull: a list to fill; waits for one. Null after stop(). It goes to Draw by its ListFilling.
+  DrawList* takeEmpty() {
+    DrawList* list = take(empty_);
+    if (list) list->filling->restart();
+    return list;
+  }
   /// For Draw: the next list; waits for it. Null after stop(), or when finished and nothing is left.
-  DrawList* takeFilled() { return take(filled_); }
+  DrawList* takeHanded() { return take(handed_); }
   void giveEmpty(DrawList* list) { give(empty_, list); }
 
   void finish() {
@@ -27,16 +37,20 @@ public:
     finished_ = true;
     changed_.notify_all();
   }
+  /// Nobody waits any more. What is not complete is void.
   void stop() {
-    const std::lock_guard lock(mutex_);
-    stopped_ = true;
+    {
+      const std::lock_guard lock(mutex_);
+      stopped_ = true;
+    }
     changed_.notify_all();
+    for (ListFilling& filling : fillings_) filling.stop();
   }
 
 private:
   DrawList* take(std::deque<DrawList*>& from) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return !from.empty() || stopped_ || (finished_ && &from == &filled_); });
+    changed_.wait(lock, [&] { return !from.empty() || stopped_ || (finished_ && &from == &handed_); });
     if (stopped_ || from.empty()) return nullptr;
     DrawList* list = from.front();
     from.pop_front();
@@ -49,9 +63,10 @@ private:
   }
 
   std::array<DrawList, 2> lists_;
+  std::array<ListFilling, 2> fillings_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<DrawList*> empty_, filled_;
+  std::deque<DrawList*> empty_, handed_;
   bool finished_ = false, stopped_ = false;
 };
 

@@ -33,12 +33,6 @@ void tellCounts(const FrameCounters& counters, FrameProbe& probe) {
   probe.counted(Count::Published, counters.changesPublished);
 }
 
-/// Nothing is drawn, in front of a sky without light and without a sun.
-void makeBlack(DrawList& list) {
-  list.opaque.clear(), list.transparent.clear(), list.lights.clear();
-  list.sky = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0};
-}
-
 }  // namespace
 
 ShowStages::ShowStages(ShowParts parts)
@@ -135,9 +129,10 @@ void ShowStages::still(std::size_t slot) {
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
   const bool visitors = !parts_.walls[wall].camera;  // else it is somebody else's who looks on
-  const EyeOrder order = visitors && shown.swapEyes ? EyeOrder::Swapped : EyeOrder::LeftRight;
-  culls_[wall].fill(parts_.state.view(slot), shown.eyeSeparation, list, order);
-  if (visitors && shown.black) makeBlack(list);
+  const CullOptions options{.eyeSeparation = shown.eyeSeparation,
+                            .order = visitors && shown.swapEyes ? EyeOrder::Swapped : EyeOrder::LeftRight,
+                            .black = visitors && shown.black};
+  culls_[wall].fill(parts_.state.view(slot), options, list);
 }
 
 Failure ShowStages::openWall(std::size_t wall) {

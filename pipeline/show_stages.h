@@ -74,7 +74,7 @@ struct ShowParts {
   std::optional<WallWorkers> workers{};  ///< nothing: this process draws
   /// By wall: where it is drawn; none: anywhere. Expects a thread or a process for each wall.
   std::vector<ProcessorSet> processors{};
-  HeadTiming head{};                     ///< the walls' views must have its reach, too
+  HeadTiming head{};  ///< the walls' views must have its reach, too
 };
 
 /// How often a wall kept an older picture, because it was not drawn in time.

@@ -18,7 +18,8 @@ namespace stadion {
 /// How a wall's list was drawn.
 struct DrawOutcome {
   Failure failure{};
-  bool drawn = true;  ///< false: not in time, the wall shows the last picture it has; nothing else is wrong
+  /// False: not in time, or the list is void; the wall shows the last picture it has. Nothing else is wrong.
+  bool drawn = true;
 };
 
 class WallDrawing {
@@ -26,8 +27,8 @@ public:
   virtual ~WallDrawing() = default;
 
   virtual Failure open(std::size_t wall) = 0;
-  /// Draws all eyes of the list, and waits until that is done. `read`: read() will be called for all of them,
-  /// and the list is not there any more then. May throw RunStopped.
+  /// Draws all eyes of the list, which may still be filled, and waits until that is done. `read`: read() will
+  /// be called for all of them, and the list is not there any more then. May throw RunStopped.
   virtual DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) = 0;
   /// The eye's picture of the list that was drawn last (see Renderer::read).
   virtual Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) = 0;

@@ -2,6 +2,7 @@
 
 #include "pipeline/cull/eye_test.h"
 #include "pipeline/cull/shadow_cull.h"
+#include "pipeline/draw/list_filling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +32,8 @@ std::array<float, 3> centreOf(const InstanceRecord& r, const Vec3& origin) {
           static_cast<float>(r.centre[2] - origin[2])};
 }
 
-DrawItem itemOf(const InstanceRecord& r, const Vec3& origin, const std::array<float, 3>& centre,
-                std::uint32_t eyes, const PixelScale& scale) {
+DrawItem itemOf(const DrawnRecord& drawn, const Vec3& origin, const PixelScale& scale) {
+  const InstanceRecord& r = *drawn.record;
   DrawItem item;
   for (int row = 0; row < 3; ++row) {
     for (int k = 4 * row; k < 4 * row + 3; ++k)
@@ -40,15 +41,16 @@ DrawItem itemOf(const InstanceRecord& r, const Vec3& origin, const std::array<fl
     item.model[static_cast<std::size_t>(4 * row + 3)] =
         static_cast<float>(r.model[4 * row + 3] - origin[row]);
   }
-  item.mesh = r.mesh;
+  item.mesh = drawn.mesh;
   item.owner = r.owner;
-  item.eyes = eyes;
-  item.distance = std::sqrt(centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2]);
-  item.pixels = scale.of(r.radius, item.distance);
+  item.distance = drawn.distance;
+  item.pixels = scale.of(r.radius, drawn.distance);
+  item.level = drawn.level, item.eyes = drawn.eyes;
   return item;
 }
 
 /// A record lies anywhere among many: it is asked for while others are worked on.
+constexpr std::size_t kAhead = 8;
 void fetch(const InstanceRecord* r) {
   const auto* at = reinterpret_cast<const char*>(r);
   for (std::size_t line = 0; line < sizeof *r; line += 64) __builtin_prefetch(at + line);
@@ -69,6 +71,12 @@ void setLights(const SlotView& state, DrawList& out) {
     d.shadows = d.kind == DrawLight::Kind::Directional && l.range > 0;
     out.lights.push_back(d);
   }
+}
+
+/// In front of a sky without light and without a sun.
+void makeBlack(DrawList& out) {
+  out.lights.clear();
+  out.sky = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0};
 }
 
 void setSky(const SkyRecord& sky, DrawList& out) {
@@ -96,69 +104,97 @@ WallCull::WallCull(const CullParts& parts, std::uint32_t wall) : parts_(parts), 
   if (parts.meshes) levels_.emplace(parts.pixels, *parts.meshes);
 }
 
-void WallCull::fill(const SlotView& state, double eyeSeparation, DrawList& out, EyeOrder order) {
+void WallCull::fill(const SlotView& state, const CullOptions& options, DrawList& out) {
   FrameProbe* probe = parts_.probe;
-  out.ticket.signature = *state.signature;
   out.wall = wall_;
-  out.opaque.clear(), out.transparent.clear();
   out.shadows.light = -1;
+  opaque_.clear(), transparent_.clear(), added_.clear();
   const RoomCull::Seen room = [&] {
     const SpanScope span(probe, Span::Test);
-    return parts_.room.seen(state, eyeSeparation);
+    return parts_.room.seen(state, options.eyeSeparation);
   }();
   const WallSeen& seen = room.on(wall_);
   if (!seen.looks) {
+    out.opaque.clear(), out.transparent.clear();
     out.eyeCount = 0;
     return;
   }
   {
     const SpanScope span(probe, Span::Eyes);
-    lookThrough(state, seen, eyeSeparation, out);
-    if (order == EyeOrder::Swapped && out.eyeCount == 2) std::swap(out.eyes[0], out.eyes[1]);
+    lookThrough(state, seen, options, out);
   }
-  {
+  if (options.black) {
+    makeBlack(out);
+  } else {
     const SpanScope span(probe, Span::Fill);
-    if (levels_) levels_->look(*state.viewer);
-    addItems(seen, out);
+    choose(state, seen, out);
   }
-  if (parts_.still) {
+  if (parts_.still && !options.black) {
     const SpanScope span(probe, Span::ShadowCasts);
     addCasters(state, out);
   }
-  if (seen.from) parts_.room.view(wall_).camera->addTo(out, *state.viewer);
   {
     const SpanScope span(probe, Span::Sort);
-    order_.sort(out);
+    order_.sortOpaque(opaque_), order_.sortTransparent(transparent_);
   }
-  if (probe) tell(state, seen, eyeSeparation, out);
+  {
+    const SpanScope span(probe, Span::Fill);
+    write(out);
+  }
+  if (probe) tell(state, seen, options.eyeSeparation, out);
 }
 
-void WallCull::lookThrough(const SlotView& state, const WallSeen& seen, double eyeSeparation,
+void WallCull::lookThrough(const SlotView& state, const WallSeen& seen, const CullOptions& options,
                            DrawList& out) const {
   out.viewer = *state.viewer;
-  eyesOf(out.viewer, parts_.room.view(wall_), eyeSeparation, seen.from ? &*seen.from : nullptr).setUp(out);
+  eyesOf(out.viewer, parts_.room.view(wall_), options.eyeSeparation, seen.from ? &*seen.from : nullptr)
+      .setUp(out);
   setLights(state, out);
   setSky(*state.sky, out);
+  if (options.order == EyeOrder::Swapped && out.eyeCount == 2) std::swap(out.eyes[0], out.eyes[1]);
 }
 
-void WallCull::addItems(const WallSeen& seen, DrawList& out) {
+/// What is drawn of the records that may be seen, by which eyes, at which level.
+void WallCull::choose(const SlotView& state, const WallSeen& seen, const DrawList& out) {
+  if (levels_) levels_->look(*state.viewer);
   const WallView& view = parts_.room.view(wall_);
   const bool eyesMove = view.reach.metres > 0 || view.reach.radians > 0;  // before they draw
-  const PixelScale scale(out, view);
   const EyeTest eyes(out, parts_.oneSample, view.width, view.height);
-  constexpr std::size_t kAhead = 8;
+  const auto consider = [&](const InstanceRecord& r) {
+    const auto centre = centreOf(r, out.origin);
+    const std::uint32_t seenBy = eyesMove ? DrawItem::kBothEyes : eyes.eyesThatSee(centre, r.radius);
+    if (seenBy == 0) return;
+    const float distance = std::sqrt(centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2]);
+    auto& things = r.flags & InstanceRecord::kTransparent ? transparent_ : opaque_;
+    things.push_back({&r, r.mesh, distance, r.lodFactor != 0 && levels_ ? levels_->levelOf(r) : 0, seenBy});
+  };
   const std::span<const InstanceRecord* const> records = seen.records;
   for (std::size_t i = 0; i < std::min(kAhead, records.size()); ++i) fetch(records[i]);
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (i + kAhead < records.size()) fetch(records[i + kAhead]);
-    const InstanceRecord& r = *records[i];
-    const auto centre = centreOf(r, out.origin);
-    const std::uint32_t seenBy = eyesMove ? DrawItem::kBothEyes : eyes.eyesThatSee(centre, r.radius);
-    if (seenBy == 0) continue;
-    auto& items = r.flags & InstanceRecord::kTransparent ? out.transparent : out.opaque;
-    items.push_back(itemOf(r, out.origin, centre, seenBy, scale));
-    if (r.lodFactor != 0 && levels_) items.back().level = levels_->levelOf(r);
+    consider(*records[i]);
   }
+  if (seen.from) view.camera->addTo(added_, *state.viewer);
+  for (const InstanceRecord& r : added_) consider(r);
+}
+
+/// The items, in their order. Draw may begin with the first of them.
+void WallCull::write(DrawList& out) const {
+  const PixelScale scale(out, parts_.room.view(wall_));
+  const auto writeSome = [&](std::span<const DrawnRecord> things, DrawItem* items) {
+    for (std::size_t i = 0; i < things.size(); ++i) {
+      if (i + kAhead < things.size()) fetch(things[i + kAhead].record);
+      items[i] = itemOf(things[i], out.origin, scale);
+    }
+  };
+  out.opaque.resize(opaque_.size()), out.transparent.resize(transparent_.size());
+  if (out.filling) out.filling->begin();
+  for (std::size_t from = 0; from < opaque_.size(); from += DrawList::kPortion) {
+    const std::size_t count = std::min(DrawList::kPortion, opaque_.size() - from);
+    writeSome(std::span(opaque_).subspan(from, count), out.opaque.data() + from);
+    if (out.filling) out.filling->reach(from + count);
+  }
+  writeSome(transparent_, out.transparent.data());
 }
 
 void WallCull::addCasters(const SlotView& state, DrawList& out) const {

@@ -25,25 +25,35 @@ struct CullParts {
 
 enum class EyeOrder { LeftRight, Swapped };
 
+struct CullOptions {
+  double eyeSeparation = -1;  ///< [m]; negative: as the wall has it
+  EyeOrder order = EyeOrder::LeftRight;
+  bool black = false;  ///< nothing is drawn, and no light is there
+};
+
 /// Fills a wall's draw lists, frame by frame, and keeps what memory that takes.
 class WallCull {
 public:
   /// Of wall number `wall` of the room.
   WallCull(const CullParts& parts, std::uint32_t wall);
 
-  /// Negative `eyeSeparation`: as the wall has it.
-  void fill(const SlotView& state, double eyeSeparation, DrawList& out, EyeOrder order = EyeOrder::LeftRight);
+  /// But for its ticket. The items are filled last, and ListFilling is told, if there is one.
+  void fill(const SlotView& state, const CullOptions& options, DrawList& out);
 
 private:
-  void lookThrough(const SlotView& state, const WallSeen& seen, double eyeSeparation, DrawList& out) const;
-  void addItems(const WallSeen& seen, DrawList& out);
+  void lookThrough(const SlotView& state, const WallSeen& seen, const CullOptions& options,
+                   DrawList& out) const;
+  void choose(const SlotView& state, const WallSeen& seen, const DrawList& out);
   void addCasters(const SlotView& state, DrawList& out) const;
+  void write(DrawList& out) const;
   void tell(const SlotView& state, const WallSeen& seen, double eyeSeparation, const DrawList& out) const;
 
   CullParts parts_;
   std::uint32_t wall_;
   std::optional<LevelChoice> levels_;
   DrawOrder order_;
+  std::vector<DrawnRecord> opaque_, transparent_;
+  std::vector<InstanceRecord> added_;  ///< by the wall's camera
 };
 
 }  // namespace stadion

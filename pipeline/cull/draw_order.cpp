@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <tuple>
 #include <utility>
 
 namespace stadion {
@@ -24,24 +23,27 @@ std::uint64_t joined(std::uint32_t high, std::uint32_t low) {
 
 }  // namespace
 
-void DrawOrder::sort(DrawList& list) {
+void DrawOrder::sortOpaque(std::vector<DrawnRecord>& things) {
   keys_.clear();
-  for (const DrawItem& d : list.opaque)
+  for (const DrawnRecord& d : things)
     keys_.push_back({joined(d.mesh, d.level << 2 | rankOf(d.eyes)), bitsOf(d.distance),
                      static_cast<std::uint32_t>(keys_.size())});
-  arrange(list.opaque);
-  keys_.clear();
-  for (const DrawItem& d : list.transparent)
-    keys_.push_back({joined(~bitsOf(d.distance), d.mesh), 0, static_cast<std::uint32_t>(keys_.size())});
-  arrange(list.transparent);
+  arrange(things);
 }
 
-void DrawOrder::arrange(std::vector<DrawItem>& items) {
+void DrawOrder::sortTransparent(std::vector<DrawnRecord>& things) {
+  keys_.clear();
+  for (const DrawnRecord& d : things)
+    keys_.push_back({joined(~bitsOf(d.distance), d.mesh), 0, static_cast<std::uint32_t>(keys_.size())});
+  arrange(things);
+}
+
+void DrawOrder::arrange(std::vector<DrawnRecord>& things) {
   sortKeys();
-  sortAlike(items);
+  sortAlike(things);
   moved_.clear();
-  for (const Key& key : keys_) moved_.push_back(items[key.item]);
-  items.swap(moved_);
+  for (const Key& key : keys_) moved_.push_back(things[key.thing]);
+  things.swap(moved_);
 }
 
 void DrawOrder::sortKeys() {
@@ -61,14 +63,14 @@ void DrawOrder::sortKeys() {
   }
 }
 
-void DrawOrder::sortAlike(const std::vector<DrawItem>& items) {
-  const auto rest = [&items](const Key& key) {
-    const DrawItem& d = items[key.item];
-    return std::tie(d.owner, d.model);
+void DrawOrder::sortAlike(const std::vector<DrawnRecord>& things) {
+  const auto before = [&things](const Key& a, const Key& b) {
+    const InstanceRecord &x = *things[a.thing].record, &y = *things[b.thing].record;
+    return x.owner != y.owner ? x.owner < y.owner : std::ranges::lexicographical_compare(x.model, y.model);
   };
   for (auto first = keys_.begin(); first != keys_.end();) {
     const auto end = std::find_if(first, keys_.end(), [&](const Key& key) { return *first < key; });
-    if (end - first > 1) std::sort(first, end, [&](const Key& a, const Key& b) { return rest(a) < rest(b); });
+    if (end - first > 1) std::sort(first, end, before);
     first = end;
   }
 }

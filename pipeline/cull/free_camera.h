@@ -7,9 +7,9 @@
 
 #include "engine/display/wall.h"
 #include "engine/scene/records.h"
-#include "pipeline/draw/draw_list.h"
 
 #include <optional>
+#include <vector>
 
 namespace stadion {
 
@@ -25,8 +25,8 @@ public:
 
   /// Nothing while nobody looks through it.
   virtual std::optional<CameraView> view() const = 0;
-  /// Adds what only it sees. The list's origin is set.
-  virtual void addTo(DrawList& list, const ViewerRecord& viewer) const = 0;
+  /// Adds what only it sees.
+  virtual void addTo(std::vector<InstanceRecord>& records, const ViewerRecord& viewer) const = 0;
 };
 
 }  // namespace stadion

@@ -4,7 +4,7 @@
 /// Frames   item matrices and light positions are relative to `origin`, a World point near the viewer, so
 ///          that single precision suffices anywhere in the world; axes are World's.
 /// Ownership  plain values; a list may outlive the scene state it was made from. It refers to meshes by id.
-/// Threads  one stage at a time owns it.
+/// Threads  one stage at a time owns it; but Draw may begin while Cull fills the items (list_filling.h).
 
 #include "engine/asset/mesh_store.h"
 #include "engine/maths/maths.h"
@@ -17,6 +17,8 @@
 #include <vector>
 
 namespace stadion {
+
+class ListFilling;
 
 /// One mesh to draw.
 struct DrawItem {
@@ -79,11 +81,11 @@ struct DrawEye {
 struct DrawList {
   FrameTicket ticket;
   std::uint32_t wall = 0;
-  bool abandoned = false;       ///< made from a slot that was taken away meanwhile: not to be drawn
-  Vec3 origin = Vec3::Zero();   ///< in World [m]
-  std::array<DrawEye, 2> eyes;  ///< left, right
-  std::uint32_t eyeCount = 2;   ///< 1 = mono: eyes[0] only
-  ViewerRecord viewer;          ///< whose eyes they are
+  ListFilling* filling = nullptr;  ///< how far that has come; null = all is there
+  Vec3 origin = Vec3::Zero();      ///< in World [m]
+  std::array<DrawEye, 2> eyes;     ///< left, right
+  std::uint32_t eyeCount = 2;      ///< 1 = mono: eyes[0] only
+  ViewerRecord viewer;             ///< whose eyes they are
   DrawSky sky;
   std::vector<DrawLight> lights;  ///< at most kMaxLights
   DrawShadows shadows;
@@ -93,6 +95,7 @@ struct DrawList {
   std::vector<DrawItem> transparent;  ///< items with any transparent material, far to near
 
   static constexpr std::size_t kMaxLights = 16;
+  static constexpr std::size_t kPortion = 1024;  ///< Draw takes opaque items up by so many
 };
 
 }  // namespace stadion

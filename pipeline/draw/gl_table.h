@@ -27,6 +27,7 @@ namespace stadion {
   X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                                           \
   X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                                                               \
   X(PFNGLBUFFERDATAPROC, BufferData)                                                                         \
+  X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                                                   \
   X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                                 \
   X(PFNGLCLEARPROC, Clear)                                                                                   \
   X(PFNGLCLEARCOLORPROC, ClearColor)                                                                         \

@@ -44,24 +44,41 @@ void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
   if (batch.count > 0) opaque_.push_back(batch);
 }
 
-void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent,
-                            bool withOwners) {
+void InstanceBatches::begin(bool withOwners) {
   withOwners_ = withOwners;
   matrices_.clear(), distances_.clear();
   owners_.clear(), pixels_.clear();
   opaque_.clear();
   transparent_.clear();
+  taken_ = refused_ = 0;
+}
 
-  for (std::size_t begin = 0; begin < opaque.size();) {
+void InstanceBatches::addOpaque(std::span<const DrawItem> list, std::size_t end) {
+  constexpr std::size_t kPortion = DrawList::kPortion;
+  while (taken_ < end) {
+    const std::size_t count = std::min(kPortion, list.size() - taken_);
+    if (taken_ + count > end) return;
+    addPortion(list.subspan(taken_, count));
+    taken_ += count;
+  }
+}
+
+void InstanceBatches::addPortion(std::span<const DrawItem> items) {
+  const std::size_t before = matrices_.size();
+  for (std::size_t begin = 0; begin < items.size();) {
     std::size_t end = begin + 1;
-    while (end < opaque.size() && alike(opaque[end], opaque[begin])) ++end;
-    const std::span run = opaque.subspan(begin, end - begin);
+    while (end < items.size() && alike(items[end], items[begin])) ++end;
+    const std::span run = items.subspan(begin, end - begin);
     addRun(run, false);
     addRun(run, true);
     begin = end;
   }
+  refused_ += items.size() - (matrices_.size() - before);
+}
 
-  for (const DrawItem& item : transparent) {
+void InstanceBatches::addTransparent(std::span<const DrawItem> items) {
+  const std::size_t before = matrices_.size();
+  for (const DrawItem& item : items) {
     const Handedness hand = handednessOf(item.model);
     if (hand == Handedness::NotFinite) continue;
     const bool mirrored = hand == Handedness::Mirrored;
@@ -72,7 +89,7 @@ void InstanceBatches::build(std::span<const DrawItem> opaque, std::span<const Dr
     add(item);
     ++transparent_.back().count;
   }
-  refused_ = opaque.size() + transparent.size() - matrices_.size();
+  refused_ += items.size() - (matrices_.size() - before);
 }
 
 }  // namespace stadion

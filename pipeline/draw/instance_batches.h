@@ -33,13 +33,20 @@ using InstanceMatrix = std::array<float, 12>;  ///< (3 x 4), row major, as in Dr
 
 class InstanceBatches {
 public:
-  /// Items whose matrix is not finite are left out and counted.
-  void build(const DrawList& list, bool withOwners = false) {
-    build(list.opaque, list.transparent, withOwners);
+  /// Begins anew, with nothing.
+  void begin(bool withOwners = false);
+  /// Takes up opaque items of a list: those before `end`, by DrawList::kPortion (but for the last ones, if
+  /// `end` is the list's), that have not been. Expects those of one mesh and level next to each other, those
+  /// for one eye as in a batch. Items whose matrix is not finite are left out and counted.
+  void addOpaque(std::span<const DrawItem> list, std::size_t end);
+  /// Takes up the transparent items, after all opaque ones.
+  void addTransparent(std::span<const DrawItem> items);
+  void build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent) {
+    begin();
+    addOpaque(opaque, opaque.size()), addTransparent(transparent);
   }
-  /// Expects opaque items of one mesh and level next to each other, those for one eye as in a batch.
-  void build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent,
-             bool withOwners = false);
+  /// So many opaque items were taken up.
+  std::size_t taken() const { return taken_; }
 
   std::span<const InstanceMatrix> matrices() const { return matrices_; }
   /// From the viewer [m].
@@ -53,6 +60,7 @@ public:
   std::size_t refused() const { return refused_; }
 
 private:
+  void addPortion(std::span<const DrawItem> items);
   void addRun(std::span<const DrawItem> run, bool mirrored);
   void add(const DrawItem& item);
 
@@ -62,7 +70,7 @@ private:
   std::vector<NodeRef> owners_;
   std::vector<float> pixels_;
   std::vector<InstanceBatch> opaque_, transparent_;
-  std::size_t refused_ = 0;
+  std::size_t taken_ = 0, refused_ = 0;
 };
 
 }  // namespace stadion

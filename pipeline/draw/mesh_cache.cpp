@@ -83,6 +83,10 @@ const GlMesh* MeshCache::find(MeshId id) {
   return at->second.gl ? &*at->second.gl : nullptr;
 }
 
+bool MeshCache::holds(MeshId id) const {
+  return meshes_.contains(id);
+}
+
 void MeshCache::freeUnused() {
   const std::uint64_t freed = store_.freedCount();
   if (freed == freedCount_) return;

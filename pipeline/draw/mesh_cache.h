@@ -60,6 +60,8 @@ public:
 
   /// The mesh, uploaded if this is its first use; nullptr if it cannot be drawn.
   const GlMesh* find(MeshId id);
+  /// Whether find() has it already, and uploads nothing.
+  bool holds(MeshId id) const;
   /// Who is told of uploads from now on; null = nobody.
   void tell(FrameProbe* probe) { probe_ = probe; }
   /// Frees the GL objects of meshes that the store has freed since the last call.

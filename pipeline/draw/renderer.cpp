@@ -1,6 +1,7 @@
 #include "pipeline/draw/renderer.h"
 
 #include "engine/run_stopped.h"
+#include "pipeline/draw/list_filling.h"
 #include "pipeline/draw/picture_size.h"
 #include "pipeline/draw/problem.h"
 
@@ -186,6 +187,10 @@ void Renderer::submitEyes(const DrawList& list, std::uint32_t first, std::uint32
       drawEye(list.eyes[eye], eye, turn);
     if (probe_) tellCounts();
   }
+  while (takeMore()) {
+  }
+  if (batches_.refused() > 0) report("an object is left out: its matrix is not finite");
+  if (probe_ && sample_ == DrawSample::None) weigh();
 }
 
 /// Of the last eye.
@@ -209,13 +214,57 @@ std::optional<Diagnostic> Renderer::draw(const DrawList& list, std::uint32_t eye
 void Renderer::prepare(const DrawList& list) {
   settleState();
   cache_.freeUnused();
-  batches_.build(list, probe_ != nullptr);
-  if (batches_.refused() > 0) report("an object is left out: its matrix is not finite");
+  list_ = &list, complete_ = false, uploaded_ = 0;
+  batches_.begin(probe_ != nullptr);
   if (list.lights.size() > DrawList::kMaxLights)
     report("more than " + std::to_string(DrawList::kMaxLights) + " lights: the rest are left out");
-  stream(gl_, GL_ARRAY_BUFFER, instances_, batches_.matrices());
   localLights_ = std::any_of(list.lights.begin(), list.lights.end(), isLocal);
-  if (probe_) weigh();
+  takeMore();
+  if (sample_ == DrawSample::None) return;
+  while (takeMore()) {
+  }
+  weigh();
+}
+
+/// Takes up what there is of the list beyond what was taken, and waits until there is something; false: that
+/// was all.
+bool Renderer::takeMore() {
+  if (complete_) return false;
+  std::size_t there = ListFilling::kAll;
+  if (list_->filling) {
+    const SpanScope span(probe_, Span::ForDraw, list_->ticket.signature.frame, list_->wall);
+    there = list_->filling->await(batches_.taken());
+  }
+  complete_ = there == ListFilling::kAll;
+  if (complete_ && list_->filling && list_->filling->isVoid()) return false;  // nobody will see it
+  batches_.addOpaque(list_->opaque, std::min(there, list_->opaque.size()));
+  if (complete_) batches_.addTransparent(list_->transparent);
+  return true;
+}
+
+/// Whether there is such a batch, once the list is filled.
+bool Renderer::hasOpaque(std::size_t batch) {
+  while (batch >= batches_.opaque().size())
+    if (!takeMore()) return false;
+  return true;
+}
+
+void Renderer::uploadInstances() {
+  const std::span<const InstanceMatrix> all = batches_.matrices();
+  if (uploaded_ == all.size()) return;
+  if (complete_ && uploaded_ == 0) {
+    stream(gl_, GL_ARRAY_BUFFER, instances_, all);
+  } else {
+    const auto bytes = [](std::size_t instances) {
+      return static_cast<GLsizeiptr>(instances * sizeof(InstanceMatrix));
+    };
+    gl_.BindBuffer(GL_ARRAY_BUFFER, instances_.name());
+    const std::size_t most = list_->opaque.size() + list_->transparent.size();
+    if (uploaded_ == 0) gl_.BufferData(GL_ARRAY_BUFFER, bytes(most), nullptr, GL_STREAM_DRAW);
+    gl_.BufferSubData(GL_ARRAY_BUFFER, bytes(uploaded_), bytes(all.size() - uploaded_),
+                      all.data() + uploaded_);
+  }
+  uploaded_ = all.size();
 }
 
 void Renderer::prepareScene(const DrawList& list) {
@@ -267,13 +316,13 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index, Turn& turn) {
   else
     buffers_.begin(index);
   drawOpaque(index);
-  drawBatches(batches_.transparent(), Pass::OpaqueParts, index);
+  drawTransparentBatches(Pass::OpaqueParts, index);
   part(Span::Sky, [&] { drawBackground(); });
   // Blending and averaging of samples act on linear light.
   if (quality_.look == Look::Full) gl_.Enable(GL_FRAMEBUFFER_SRGB);
   gl_.Enable(GL_BLEND);
   gl_.DepthMask(GL_FALSE);
-  drawBatches(batches_.transparent(), Pass::Transparent, index);
+  drawTransparentBatches(Pass::Transparent, index);
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_BLEND);
   part(Span::Resolve, [&] { buffers_.resolve(index); });

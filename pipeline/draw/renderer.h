@@ -5,6 +5,8 @@
 /// where nothing was drawn, then transparent
 ///              things in the list's order, blended and without writing depth. 4 samples a pixel, light
 ///              computed in linear RGB, pictures in sRGB (shaders.h says how).
+/// Beginning    with what is there of a list that is still filled: the first eye's opaque things are drawn as
+///              they come, unless all must be known first (what is timed alone, what hides what).
 /// Same pixels  for the same list in every thread, context and provider of one Mesa version.
 /// Ownership    owns its GL objects; the table, the mutex and the mesh store must outlive it.
 ///              Meshes are uploaded at
@@ -128,17 +130,23 @@ private:
   }
   void drawEyeAlone(const DrawEye& eye, std::uint32_t index, Turn& turn);
   void prepare(const DrawList& list);
+  bool takeMore();
+  bool hasOpaque(std::size_t batch);
+  void uploadInstances();
   void prepareScene(const DrawList& list);
   void prepareShadows(const DrawList& list);
   static Result<std::vector<GlProgram>> buildSurfaces(const GlTable& gl, const SurfaceTraits& common);
   void chooseSurfaces(bool shadowed, bool hazy, std::size_t lights);
   void drawEye(const DrawEye& eye, std::uint32_t index, Turn& turn);
   bool drawSmallThings(const DrawEye& eye, std::uint32_t index, Turn& turn);
-  void drawSmallThings(std::uint32_t eye);
+  void drawSmallThings(std::uint32_t eye, Turn* away);
   bool drawSmallThing(const MeshParts& mesh, const InstanceBatch& batch, std::uint32_t instance);
   void setUnchangingState();
   void settleState();
-  void drawBatches(std::span<const InstanceBatch> batches, Pass pass, std::uint32_t eye);
+  bool isDrawn(std::uint32_t instance) const { return instance < isDrawn_.size() && isDrawn_[instance]; }
+  void drawOpaqueBatches(std::uint32_t eye);
+  void drawTransparentBatches(Pass pass, std::uint32_t eye);
+  void drawBatch(const InstanceBatch& ofBoth, Pass pass, std::uint32_t eye);
   void drawInstances(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass);
   void drawSieved(const MeshParts& mesh, std::uint32_t first, std::uint32_t count);
   void drawOpaque(std::uint32_t eye);
@@ -168,7 +176,10 @@ private:
   Programs programs_;
   EyeBuffers buffers_;
   MeshCache cache_;
-  InstanceBatches batches_;
+  const DrawList* list_ = nullptr;            ///< that is drawn
+  InstanceBatches batches_;                   ///< what was taken up of it
+  bool complete_ = false;                     ///< that is all
+  std::size_t uploaded_ = 0;                  ///< instances
   std::optional<TriangleSieve> sieve_;        ///< where it pays
   std::vector<TriangleSieve::Range> sieved_;  ///< by part and instance, while they are drawn
   std::array<float, 2> drawnFrom_{};          ///< what is sieved is this far, at least and less than [m]

@@ -25,29 +25,41 @@ bool drawnTogether(const GlMesh& mesh) {
 /// wait meanwhile, unless it is timed.
 bool Renderer::drawSmallThings(const DrawEye& eye, std::uint32_t index, Turn& turn) {
   constexpr std::uint64_t kPixels = 64;  // to hand them over costs as much as a triangle in OpenGL
-  isDrawn_.assign(batches_.matrices().size(), false);
+  isDrawn_.clear();
   if (!small_ || !SmallThings::serves(eye, lit_)) return false;
+  const std::uint64_t enough = (std::uint64_t{width_} * height_ + kPixels - 1) / kPixels;
   std::uint64_t triangles = 0;
-  for (const InstanceBatch& b : batches_.opaque())  // uploads what is new while it is our turn
+  for (std::size_t i = 0; triangles < enough && hasOpaque(i); ++i) {
+    const InstanceBatch b = batches_.opaque()[i].seenBy(index);
     if (const GlMesh* mesh = cache_.find(b.mesh); mesh && mesh->shading)
-      triangles += std::uint64_t{b.seenBy(index).count} * partsOf(*mesh, b.level).triangles;
-  if (triangles * kPixels < std::uint64_t{width_} * height_) return false;
+      triangles += std::uint64_t{b.count} * partsOf(*mesh, b.level).triangles;
+  }
+  if (triangles < enough) return false;
   std::array<float, 3> background{0, 0, 0};
   if (skyIsFlat_) std::copy_n(lit_.zenith.begin(), 3, background.begin());
   const bool away = turn.owns_lock() && sample_ == DrawSample::None;
   if (away) turn.unlock();
   part(Span::Sky, [&] { small_->begin(eye, lit_, background); });
-  drawSmallThings(index);
+  drawSmallThings(index, away ? &turn : nullptr);
   if (!away) return true;
   const SpanScope span(probe_, Span::ForTurn);
   turn.lock();
   return true;
 }
 
-void Renderer::drawSmallThings(std::uint32_t eye) {
-  for (const InstanceBatch& ofBoth : batches_.opaque()) {
-    const InstanceBatch b = ofBoth.seenBy(eye);
-    const GlMesh* mesh = b.count > 0 ? cache_.find(b.mesh) : nullptr;
+/// `away`: the turn that was given away; it is taken again for meshes that must be uploaded.
+void Renderer::drawSmallThings(std::uint32_t eye, Turn* away) {
+  const auto meshOf = [&](MeshId id) {
+    if (!away || cache_.holds(id)) return cache_.find(id);
+    away->lock();
+    const GlMesh* mesh = cache_.find(id);
+    away->unlock();
+    return mesh;
+  };
+  for (std::size_t batch = 0; hasOpaque(batch); ++batch) {
+    const InstanceBatch b = batches_.opaque()[batch].seenBy(eye);
+    isDrawn_.resize(batches_.matrices().size());
+    const GlMesh* mesh = b.count > 0 ? meshOf(b.mesh) : nullptr;
     if (!mesh || !mesh->shading) continue;
     const MeshParts parts = partsOf(*mesh, b.level);
     for (std::uint32_t i = b.first; i < b.first + b.count; ++i) {
@@ -56,6 +68,7 @@ void Renderer::drawSmallThings(std::uint32_t eye) {
       isDrawn_[i] = drawSmallThing(parts, b, i);
     }
   }
+  isDrawn_.resize(batches_.matrices().size());
   if (sample_ == DrawSample::Some) sampler_->endPass();
 }
 
@@ -81,13 +94,13 @@ void Renderer::drawOpaque(std::uint32_t eye) {
   constexpr float kFar = std::numeric_limits<float>::infinity();
   const std::optional<float> near = nearQuarter(eye);
   drawnFrom_ = {0, near.value_or(kFar)};
-  drawBatches(batches_.opaque(), Pass::Opaque, eye);
+  drawOpaqueBatches(eye);
   if (!near) return;
   depths_.resize(std::size_t{width_} * height_);
   buffers_.readDepths(eye, depths_);
   sieve_->hideBehind(depths_);
   drawnFrom_ = {*near, kFar};
-  drawBatches(batches_.opaque(), Pass::Opaque, eye);
+  drawOpaqueBatches(eye);
 }
 
 /// How far the nearest quarter of what the eye sees reaches [m]; nothing if it does not pay to look what that
@@ -97,12 +110,12 @@ std::optional<float> Renderer::nearQuarter(std::uint32_t eye) {
   if (!sieve_ || sample_ == DrawSample::Some) return {};
   distances_.clear();
   std::uint64_t triangles = 0;
-  for (const InstanceBatch& batch : batches_.opaque()) {
-    const InstanceBatch b = batch.seenBy(eye);
+  for (std::size_t batch = 0; hasOpaque(batch); ++batch) {
+    const InstanceBatch b = batches_.opaque()[batch].seenBy(eye);
     const GlMesh* mesh = cache_.find(b.mesh);
     if (!mesh || !mesh->sieve) continue;
     for (std::uint32_t i = b.first; i < b.first + b.count; ++i)
-      if (!isDrawn_[i])
+      if (!isDrawn(i))
         distances_.push_back(batches_.distances()[i]), triangles += partsOf(*mesh, b.level).triangles;
   }
   if (distances_.size() < 16 || triangles * kPixels < std::uint64_t{width_} * height_) return {};
@@ -111,24 +124,33 @@ std::optional<float> Renderer::nearQuarter(std::uint32_t eye) {
   return *quarter;
 }
 
-void Renderer::drawBatches(std::span<const InstanceBatch> batches, Pass pass, std::uint32_t eye) {
-  for (const InstanceBatch& ofBoth : batches) {
-    const InstanceBatch batch = ofBoth.seenBy(eye);
-    const GlMesh* mesh = batch.count > 0 ? cache_.find(batch.mesh) : nullptr;
-    if (!mesh) continue;
-    if (pass == Pass::Transparent && mesh->transparentParts == 0) continue;
-    if (pass == Pass::OpaqueParts && mesh->transparentParts == mesh->parts.size()) continue;
-    gl_.BindVertexArray(mesh->vertexArray.name());
-    gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
-    mirrored_ = batch.mirrored;
-    if (basesInstances_) pointAtInstances(gl_, instances_, 0);
-    const MeshParts parts = partsOf(*mesh, batch.level);
-    for (std::uint32_t done = 0, count = 0; done < batch.count; done += count) {
-      count = togetherFrom(batch, done, parts);
-      drawInstances(parts, batch.first + done, count, pass);
-    }
-  }
+void Renderer::drawOpaqueBatches(std::uint32_t eye) {
+  for (std::size_t i = 0; hasOpaque(i); ++i) drawBatch(batches_.opaque()[i], Pass::Opaque, eye);
   if (sample_ == DrawSample::Some) sampler_->endPass();
+}
+
+/// Expects that all opaque ones have been drawn.
+void Renderer::drawTransparentBatches(Pass pass, std::uint32_t eye) {
+  for (const InstanceBatch& batch : batches_.transparent()) drawBatch(batch, pass, eye);
+  if (sample_ == DrawSample::Some) sampler_->endPass();
+}
+
+void Renderer::drawBatch(const InstanceBatch& ofBoth, Pass pass, std::uint32_t eye) {
+  const InstanceBatch batch = ofBoth.seenBy(eye);
+  const GlMesh* mesh = batch.count > 0 ? cache_.find(batch.mesh) : nullptr;
+  if (!mesh) return;
+  if (pass == Pass::Transparent && mesh->transparentParts == 0) return;
+  if (pass == Pass::OpaqueParts && mesh->transparentParts == mesh->parts.size()) return;
+  uploadInstances();
+  gl_.BindVertexArray(mesh->vertexArray.name());
+  gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
+  mirrored_ = batch.mirrored;
+  if (basesInstances_) pointAtInstances(gl_, instances_, 0);
+  const MeshParts parts = partsOf(*mesh, batch.level);
+  for (std::uint32_t done = 0, count = 0; done < batch.count; done += count) {
+    count = togetherFrom(batch, done, parts);
+    drawInstances(parts, batch.first + done, count, pass);
+  }
 }
 
 void Renderer::drawInstances(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, Pass pass) {
@@ -154,7 +176,7 @@ void Renderer::drawSieved(const MeshParts& mesh, std::uint32_t first, std::uint3
   sieved_.assign(count * mesh.parts.size(), {});
   for (std::uint32_t i = 0; i < count; ++i) {
     const float distance = batches_.distances()[first + i];
-    if (isDrawn_[first + i] || distance < drawnFrom_[0] || distance >= drawnFrom_[1]) continue;
+    if (isDrawn(first + i) || distance < drawnFrom_[0] || distance >= drawnFrom_[1]) continue;
     sieve_->place(*mesh.gl->sieve, batches_.matrices()[first + i]);
     for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
       const GlSubmesh& part = mesh.parts[p];

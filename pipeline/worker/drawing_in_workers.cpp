@@ -1,6 +1,7 @@
 #include "pipeline/worker/drawing_in_workers.h"
 
 #include "engine/run_stopped.h"
+#include "pipeline/draw/list_filling.h"
 #include "pipeline/worker/restarts.h"
 
 #include <algorithm>
@@ -150,6 +151,7 @@ Failure DrawingInWorkers::open(std::size_t index) {
 }
 
 DrawOutcome DrawingInWorkers::draw(std::size_t index, const DrawList& list, bool read) {
+  if (list.filling && !list.filling->isWhole()) return {{}, false};
   Wall& wall = *walls_[index];
   if (parts_.everyFrame) return {drawEvery(wall, list, read)};
   return drawNewest(wall, list, read);

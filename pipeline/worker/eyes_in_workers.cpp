@@ -1,6 +1,7 @@
 #include "pipeline/worker/eyes_in_workers.h"
 
 #include "engine/run_stopped.h"
+#include "pipeline/draw/list_filling.h"
 
 #include <algorithm>
 #include <chrono>
@@ -159,6 +160,7 @@ DrawOutcome EyesInWorkers::drawEye(Wall& wall, std::uint32_t eye, bool read) {
 }
 
 DrawOutcome EyesInWorkers::draw(std::size_t wall, const DrawList& list, bool read) {
+  if (list.filling && !list.filling->isWhole()) return {{}, false};
   Wall& w = *walls_[wall];
   std::array<DrawOutcome, 2> outcomes;
   w.both([&](std::uint32_t eye) {

@@ -62,7 +62,7 @@ TEST(ProgramCullAllocations, InSteadyStateThereAreNone) {
       c = {};
       const Allocations before = allocationsSoFar();
       for (std::size_t wall = 0; wall < views.size(); ++wall)
-        culls[wall].fill(state, -1, lists[2 * wall + f.frame % 2]);
+        culls[wall].fill(state, {}, lists[2 * wall + f.frame % 2]);
       asked += allocationsSoFar() - before;
     }
     return asked.count;

@@ -50,8 +50,8 @@ TEST(DrawLists, AreThoseOfTheSimplestCullWhereverRecordsLie) {
     RoomCull roomA(views), roomB(views);
     for (std::uint32_t wall = 0; wall < views.size(); ++wall) {
       DrawList fromChunk, fromInstances;
-      WallCull({roomA}, wall).fill(a, -1, fromChunk);
-      WallCull({roomB}, wall).fill(b, -1, fromInstances);
+      WallCull({roomA}, wall).fill(a, {}, fromChunk);
+      WallCull({roomB}, wall).fill(b, {}, fromInstances);
       const DrawList simple = test::simplyFilled(a, views[wall]);
       for (const DrawList& list : {fromChunk, fromInstances}) {
         ASSERT_NO_FATAL_FAILURE(expectAlike(list.opaque, simple.opaque));
@@ -75,7 +75,7 @@ TEST(DrawLists, WhereEyesMayGoBeforeTheyDrawBothDrawAll) {
     views[0].reach = reach;
     RoomCull room(views);
     DrawList list;
-    WallCull({.room = room, .oneSample = true}, 0).fill(state, -1, list);
+    WallCull({.room = room, .oneSample = true}, 0).fill(state, {}, list);
     return std::ranges::count_if(list.opaque,
                                  [](const DrawItem& d) { return d.eyes != DrawItem::kBothEyes; });
   };
@@ -86,8 +86,10 @@ TEST(DrawLists, WhereEyesMayGoBeforeTheyDrawBothDrawAll) {
 TEST(DrawLists, AreSortedByWhatThingsAre) {
   Random random(7);
   for (const std::uint32_t count : {0U, 1U, 2U, 63U, 64U, 65U, 5000U}) {
-    DrawList list;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    std::vector<InstanceRecord> records(count);
+    std::vector<DrawnRecord> opaque, transparent;
+    DrawList simple;
+    for (InstanceRecord& r : records) {
       DrawItem item;
       item.mesh = random.below(3) ? random.below(5) : random.below(~0U);
       item.level = random.below(3);
@@ -96,16 +98,25 @@ TEST(DrawLists, AreSortedByWhatThingsAre) {
       item.owner = {random.below(3), random.below(3)};
       item.model.fill(0);
       item.model[random.below(12)] = static_cast<float>(random.from(-1, 1));
-      list.opaque.push_back(item), list.transparent.push_back(item);
+      std::ranges::copy(item.model, r.model);
+      r.owner = item.owner, r.mesh = item.mesh;
+      opaque.push_back({&r, item.mesh, item.distance, item.level, item.eyes});
+      simple.opaque.push_back(item), simple.transparent.push_back(item);
     }
-    DrawList simple = list;
+    transparent = opaque;
     test::simplySort(simple);
-    DrawOrder().sort(list);
+    DrawOrder order;
+    order.sortOpaque(opaque), order.sortTransparent(transparent);
+    const auto placeOf = [](const DrawnRecord& d) {
+      std::array<float, 12> model;
+      std::ranges::transform(d.record->model, model.begin(), [](double x) { return static_cast<float>(x); });
+      return std::tuple(d.distance, d.mesh, d.record->owner, model);
+    };
     for (std::uint32_t i = 0; i < count; ++i) {
-      ASSERT_TRUE(test::alike(list.opaque[i], simple.opaque[i])) << i << " of " << count;
-      const DrawItem &a = list.transparent[i], &b = simple.transparent[i];
-      ASSERT_EQ(std::tie(a.distance, a.mesh, a.owner, a.model),
-                std::tie(b.distance, b.mesh, b.owner, b.model));
+      const DrawItem &a = simple.opaque[i], &b = simple.transparent[i];
+      ASSERT_EQ(placeOf(opaque[i]), std::tuple(a.distance, a.mesh, a.owner, a.model)) << i << " of " << count;
+      ASSERT_EQ(std::tie(opaque[i].level, opaque[i].eyes), std::tie(a.level, a.eyes));
+      ASSERT_EQ(placeOf(transparent[i]), std::tuple(b.distance, b.mesh, b.owner, b.model));
     }
   }
 }
@@ -121,9 +132,9 @@ TEST(DrawLists, AShowWithoutShadowsLooksForNoCasters) {
   RoomCull room(views);
   StillCasters still;
   DrawList list;
-  WallCull({room, &still}, 0).fill(state, -1, list);
+  WallCull({room, &still}, 0).fill(state, {}, list);
   EXPECT_EQ(list.shadows.light, 0);
-  WallCull({room}, 0).fill(state, -1, list);
+  WallCull({room}, 0).fill(state, {}, list);
   EXPECT_EQ(list.shadows.light, -1);
 }
 
@@ -158,8 +169,8 @@ TEST(DrawLists, TellWhatWasTestedAndForWhom) {
   for (const std::uint32_t wall : {0U, 4U}) {  // the first that comes searches for all
     Probe probe;
     DrawList list;
-    WallCull({.room = room, .probe = &probe}, wall).fill(state, -1, list);
-    EXPECT_EQ(probe.spans, (std::vector<Span>{Span::Test, Span::Eyes, Span::Fill, Span::Sort}));
+    WallCull({.room = room, .probe = &probe}, wall).fill(state, {}, list);
+    EXPECT_EQ(probe.spans, (std::vector<Span>{Span::Test, Span::Eyes, Span::Fill, Span::Sort, Span::Fill}));
     EXPECT_EQ(probe.counts[Count::Seen], list.opaque.size());
     EXPECT_GT(probe.counts[Count::Tested], list.opaque.size());
     EXPECT_LT(probe.counts[Count::Tested], records.size() / 2) << "most are in boxes that are not seen";

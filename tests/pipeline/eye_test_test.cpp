@@ -145,9 +145,9 @@ TEST(PictureEyeTest, PicturesAreThoseOfEyesThatDrawEverything) {
   std::uint64_t drawn = 0, ofAll = 0;
   for (std::uint32_t wall = 0; wall < views.size(); ++wall) {
     DrawList list;
-    WallCull({.room = room, .oneSample = true}, wall).fill(state, -1, list, EyeOrder(wall % 2));
+    WallCull({.room = room, .oneSample = true}, wall).fill(state, {.order = EyeOrder(wall % 2)}, list);
     DrawList all;
-    WallCull({.room = room}, wall).fill(state, -1, all, EyeOrder(wall % 2));
+    WallCull({.room = room}, wall).fill(state, {.order = EyeOrder(wall % 2)}, all);
     for (DrawItem& item : all.opaque) item.eyes = DrawItem::kBothEyes;
     for (std::uint32_t eye = 0; eye < 2; ++eye) {
       std::vector<std::uint8_t> a(64 * 48 * 4), b(64 * 48 * 4);

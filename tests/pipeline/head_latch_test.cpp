@@ -154,7 +154,7 @@ TEST(HeadLatch, ExchangedEyesStayExchangedAndCamerasAreNobodysHead) {
   EXPECT_EQ(plain.eyes[1].view, exchanged.eyes[0].view);
   struct Nobody final : FreeCamera {
     std::optional<CameraView> view() const override { return {}; }
-    void addTo(DrawList&, const ViewerRecord&) const override {}
+    void addTo(std::vector<InstanceRecord>&, const ViewerRecord&) const override {}
   } nobody;
   view.camera = &nobody;
   DrawList outside = listFrom({}, view);

@@ -233,10 +233,8 @@ public:
     from.screen = test::wallOf(eye + Vec3(-1, 1, -1), eye + Vec3(1, 1, -1), eye + Vec3(-1, 1, 1));
     return from;
   }
-  void addTo(DrawList& list, const ViewerRecord&) const override {
-    DrawItem item;
-    item.mesh = 77;
-    list.opaque.push_back(item);
+  void addTo(std::vector<InstanceRecord>& records, const ViewerRecord&) const override {
+    records.push_back(thing(eye + Vec3(0, 2, 0), 0.1, 77));
   }
 
   bool on = true;
@@ -257,12 +255,13 @@ TEST(RoomCull, AFreeCameraIsOneMoreView) {
   c.instances = {{0, thing({100, 5, 0}, 1)}};
   camera.eye = Vec3(100, 0, 0);
   DrawList list;
-  cull.fill(f.publish(c), -1, list);
+  cull.fill(f.publish(c), {}, list);
   EXPECT_EQ(list.eyeCount, 1U);
-  EXPECT_EQ(list.opaque.size(), 2U) << "the thing, and what only the camera sees";
+  ASSERT_EQ(list.opaque.size(), 2U) << "the thing, and what only the camera sees";
+  EXPECT_EQ(list.opaque[1].mesh, 77U);
   EXPECT_EQ(camera.asked, 1) << "it may move meanwhile";
   camera.on = false;
-  cull.fill(f.publish({}), -1, list);
+  cull.fill(f.publish({}), {}, list);
   EXPECT_EQ(list.eyeCount, 0U);
   EXPECT_TRUE(list.opaque.empty());
 }

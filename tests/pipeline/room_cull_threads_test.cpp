@@ -33,7 +33,7 @@ TEST(ThreadsRoomCull, EachWallGetsEveryFramesListAndNobodyWaitsForAWallThatIsMis
         const SlotView view = state.view(lease->slot);
         // Some frames pass a wall by: its picture is not wanted, or it has been replaced.
         if ((lease->ticket.signature.frame + wall) % 5 != 0) {
-          cull.fill(view, -1, list);
+          cull.fill(view, {}, list);
           EXPECT_EQ(list.opaque.size(), test::simplyFilled(view, views[wall]).opaque.size());
         }
         EXPECT_TRUE(slots.release(*lease));

@@ -1,0 +1,95 @@
+#pragma once
+/// How far Cull has come with a list that Draw has begun, so that a frame's Draw need not wait for all of its
+/// Cull (Performer's CULLoDRAW). No frame is added between pose and picture; the picture is the same.
+///
+/// Order    Cull sets everything but the items, says begin(), and fills the items in the list's order: first
+///          the opaque ones, telling how far it has come, then the others; then it says finish(). Draw waits
+///          for what it comes to.
+/// Threads  restart, begin, reach, finish: the Cull thread that has the list; await, isVoid: the Draw thread
+///          that it was handed to; stop: any.
+
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <utility>
+
+namespace stadion {
+
+class ListFilling {
+public:
+  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+
+  /// `hand`: gives the list to Draw; called once for each list, by Cull. `early`: that is done when it
+  /// begins, else when it has finished.
+  ListFilling(std::function<void()> hand, bool early) : hand_(std::move(hand)), early_(early) {}
+
+  /// Nothing is there yet.
+  void restart() {
+    const std::lock_guard lock(mutex_);
+    handed_ = void_ = false, there_ = 0;
+  }
+  /// Everything but the items is there, and how many there will be.
+  void begin() {
+    if (early_) hand();
+  }
+  /// So many of the opaque items are there.
+  void reach(std::size_t items) {
+    if (handed_) set(items, false);
+  }
+  /// All is there. `isVoid`: it was made from a slot that was taken away meanwhile, or is not complete, and
+  /// must not be shown.
+  void finish(bool isVoid = false) {
+    set(kAll, isVoid);
+    hand();
+  }
+  /// So many opaque items are there: more than `beyond`; kAll = everything is.
+  std::size_t await(std::size_t beyond) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return there_ > beyond || stopped_; });
+    return stopped_ ? kAll : there_;
+  }
+  /// Waits until everything is there; false: it is void.
+  bool isWhole() {
+    await(kAll - 1);
+    return !isVoid();
+  }
+  /// Of what has finished, or was stopped.
+  bool isVoid() const {
+    const std::lock_guard lock(mutex_);
+    return void_ || (stopped_ && there_ != kAll);
+  }
+  /// Nobody will fill it any more, and nobody waits for that.
+  void stop() {
+    {
+      const std::lock_guard lock(mutex_);
+      stopped_ = true;
+    }
+    changed_.notify_all();
+  }
+
+private:
+  void hand() {
+    if (handed_) return;
+    handed_ = true;
+    hand_();
+  }
+  void set(std::size_t there, bool isVoid) {
+    {
+      const std::lock_guard lock(mutex_);
+      there_ = there, void_ = isVoid;
+    }
+    changed_.notify_all();
+  }
+
+  std::function<void()> hand_;
+  const bool early_;
+  bool handed_ = false;  ///< Cull's
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t there_ = 0;
+  bool void_ = false, stopped_ = false;
+};
+
+}  // namespace stadion
