@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <malloc.h>
 #include <unistd.h>
 
 namespace stadion {
@@ -28,6 +29,13 @@ double memoryMb() {
   double all = 0, resident = 0;
   in >> all >> resident;
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+/// What is in use of that, and of what walls' processes see, too [MB]: what the show holds, and OpenGL here.
+double heldMb(Player& player) {
+  const struct mallinfo2 heap = mallinfo2();
+  const std::size_t chunks = player.parts(StereoLayout::Pair).state.arena().bytesInUse();
+  return static_cast<double>(heap.uordblks + heap.hblkhd + chunks) / 1e6;
 }
 
 /// When frames were complete on all walls.
@@ -128,7 +136,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   const FrameLoopOutcome outcome = loop.run();
   if (outcome.failure) return wrong(outcome.failure->message);
 
-  const double memory = memoryMb();
+  const double memory = memoryMb(), held = heldMb(*player);
   const FrameTimes& times = loop.times();
   const double took = seconds(completed.end - completed.begin);
   const double processor = completed.processorEnd - completed.processorBegin;
@@ -184,6 +192,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
                         {"cpu_cores", processor / took},
                         {"cpu_ms_per_frame", 1e3 * processor / frames},
                         {"memory_mb", memory},
+                        {"held_mb", held},
                         {"incomplete", outcome.framesShown == show.frames ? 0 : 1},
                         {"draws_per_frame", draws},
                         {"tris_per_frame", triangles},

@@ -152,7 +152,8 @@ Result<SourceText> Loader::read(const Job& job) {
     if (texts) parts_.texts = texts->withoutShow();
     return show;
   }
-  auto source = texts ? texts->part(job.file) : ScriptTexts::readPart(job.file, parts_.roots);
+  auto source = texts ? texts->part(job.file, parts_.roots) : ScriptTexts::readPart(job.file, parts_.roots);
+  if (texts) parts_.texts = texts->without(job.file);
   if (!source && source.error().where.file.empty()) return askedForBy(job, source.error());
   return source;
 }

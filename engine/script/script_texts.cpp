@@ -3,9 +3,18 @@
 #include "engine/asset/roots.h"
 #include "engine/plain_file.h"
 #include "engine/script/script.h"
+#include "engine/state_hash.h"
 
 namespace stadion {
 namespace {
+
+constexpr std::size_t kLarge = std::size_t{1} << 20;  // [bytes]
+
+std::uint64_t hashOf(const SourceText& source) {
+  StateHash hash;
+  hash.add(source.text());
+  return hash.value();
+}
 
 /// The files of a script's scene nodes.
 std::vector<std::string> partsNamedIn(const Result<SourceText>& source) {
@@ -36,15 +45,39 @@ std::shared_ptr<const ScriptTexts> ScriptTexts::read(const std::string& script, 
     const std::string name = std::move(open.back());
     open.pop_back();
     if (texts->parts_.contains(name)) continue;
-    const auto at = texts->parts_.emplace(name, readPart(name, roots)).first;
-    for (std::string& inner : partsNamedIn(at->second)) open.push_back(std::move(inner));
+    const auto at =
+        texts->parts_.emplace(name, Part{std::make_shared<const Result<SourceText>>(readPart(name, roots))})
+            .first;
+    for (std::string& inner : partsNamedIn(*at->second.text)) open.push_back(std::move(inner));
   }
   return texts;
 }
 
 Result<SourceText> ScriptTexts::part(const std::string& name) const {
-  if (const auto known = parts_.find(name); known != parts_.end()) return known->second;
+  if (const auto known = parts_.find(name); known != parts_.end()) return *known->second.text;
   return Result<SourceText>::failure("no script of the show named " + name + " when the show was read");
+}
+
+Result<SourceText> ScriptTexts::part(const std::string& name, const AssetRoots& roots) const {
+  const auto known = parts_.find(name);
+  if (known == parts_.end() || !known->second.leftOut) return part(name);
+  auto again = readPart(name, roots);
+  if (again && hashOf(again.value()) != *known->second.leftOut)
+    return Result<SourceText>::failure(
+        name + " has changed since the show was read, so it is not loaded; put it back, or start "
+               "the show again");
+  return again;
+}
+
+std::shared_ptr<const ScriptTexts> ScriptTexts::without(const std::string& name) const {
+  std::shared_ptr<ScriptTexts> rest(new ScriptTexts(*this));
+  const auto at = rest->parts_.find(name);
+  if (at == rest->parts_.end()) return rest;
+  Part& part = at->second;
+  if (!*part.text || part.text->value().text().size() < kLarge) return rest;
+  part.leftOut = hashOf(part.text->value());
+  part.text = std::make_shared<const Result<SourceText>>(Result<SourceText>::failure(name + " is not kept"));
+  return rest;
 }
 
 std::shared_ptr<const ScriptTexts> ScriptTexts::withoutShow() const {

@@ -13,8 +13,10 @@
 
 #include "engine/script/source_text.h"
 
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,16 +33,25 @@ public:
   Result<SourceText> show() const { return show_; }
   /// A part that no script had named then is an error.
   Result<SourceText> part(const std::string& name) const;
+  /// The same, where the text of a large one was left out: it is read again, and must be what it was.
+  Result<SourceText> part(const std::string& name, const AssetRoots& roots) const;
   /// The same without the show's own file, which is read once: a big one need not be kept.
   std::shared_ptr<const ScriptTexts> withoutShow() const;
+  /// The same without the text of a part, if that is large.
+  std::shared_ptr<const ScriptTexts> without(const std::string& name) const;
   /// The names of all parts.
   std::vector<std::string> parts() const;
 
 private:
   explicit ScriptTexts(Result<SourceText> show) : show_(std::move(show)) {}
 
+  struct Part {
+    std::shared_ptr<const Result<SourceText>> text;  ///< shared by all that were made of one
+    std::optional<std::uint64_t> leftOut{};          ///< the hash of its text, which is not here
+  };
+
   Result<SourceText> show_;
-  std::map<std::string, Result<SourceText>> parts_;
+  std::map<std::string, Part> parts_;
 };
 
 }  // namespace stadion

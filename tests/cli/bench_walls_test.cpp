@@ -28,7 +28,7 @@ TEST(ProgramBenchWalls, EachSceneIsMeasuredInARowOfItsOwn) {
     EXPECT_EQ(row["width"], 32);
     EXPECT_EQ(row["incomplete"], 0);
     for (const char* field : {"fps", "frame_ms_median", "frame_ms_p99", "latency_ms_median", "cull_ms_sum",
-                              "draw_ms_sum", "cpu_cores", "cpu_ms_per_frame", "memory_mb", "draws_per_frame"})
+                              "draw_ms_sum", "cpu_cores", "cpu_ms_per_frame", "memory_mb", "held_mb", "draws_per_frame"})
       EXPECT_GT(row[field].get<double>(), 0) << field;
     EXPECT_EQ(row["draws_per_view"].size(), 2u);
   }

@@ -46,6 +46,25 @@ TEST(ShowTexts, ArePartsOfPartsToo) {
   EXPECT_NE(texts->part("missing.evs").error().message.find("missing.evs"), std::string::npos);
 }
 
+TEST(ShowTexts, OfLargePartsAreReadAgainAndMustBeWhatTheyWere) {
+  const TemporaryFolder folder;
+  const std::string large(std::size_t{1} << 20, '#'), name = "large.evs";
+  folder.write(name, "timer( name=b, period=1 )\n" + large);
+  folder.write("small.evs", "timer( name=b, period=1 )\n");
+  const std::string show = folder.write("show.evs", "scene( file=large.evs )\nscene( file=small.evs )\n");
+  const AssetRoots roots = AssetRoots::ofScript(show);
+  const auto rest = ScriptTexts::read(show, roots)->without(name)->without("small.evs");
+  EXPECT_TRUE(rest->part("small.evs"));
+  EXPECT_FALSE(rest->part(name)) << "it is not kept";
+  ASSERT_TRUE(rest->part(name, roots));
+  EXPECT_EQ(rest->part(name, roots).value().text().substr(26), large);
+  folder.write(name, "timer( name=b, period=2 )\n" + large);
+  folder.write("small.evs", "timer( name=b, period=2 )\n");
+  ASSERT_FALSE(rest->part(name, roots));
+  EXPECT_NE(rest->part(name, roots).error().message.find("has changed"), std::string::npos);
+  EXPECT_NE(rest->part("small.evs", roots).value().text().find("period=1"), std::string::npos);
+}
+
 /// How often it must be asked until it says something; 0: it says nothing in ten times.
 int asked(ScriptWatch& watch, std::string& said) {
   for (int n = 1; n <= 10; ++n)

@@ -151,10 +151,9 @@ std::vector<WallsFinding> judgeScaling(const WallsResults& results) {
   findings.push_back(found("1 000 000 nodes, 1 % seen: Cull for all walls [ms]",
                            results.median(million, "cull_ms_sum"), 2, false, why));
   std::optional<double> bytes;
-  const auto much = results.median(million, "memory_mb"), less = results.median(before, "memory_mb");
+  const auto much = results.median(million, "held_mb"), less = results.median(before, "held_mb");
   if (much && less) bytes = (*much - *less) * 1e6 / static_cast<double>(most - most / 10);
-  findings.push_back(
-      found("memory for each further static node, all of the process [bytes]", bytes, 200, false, why));
+  findings.push_back(found("memory that each further static node holds [bytes]", bytes, 200, false, why));
   return findings;
 }
 
