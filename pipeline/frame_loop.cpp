@@ -351,7 +351,7 @@ bool FrameLoop::swapStage(const FrameTicket& ticket) {
     if (!guard("Swap", kAllWalls, now.frame, [&] { return stages_.swap(now); })) return false;
   }
   ++outcome_.framesShown;
-  notePassedOver(now);
+  notePassedOver(ticket);
   if (ticket.drawn) noteShown(ticket);
   lastDrawn_ = ticket.drawn;
   return true;
@@ -369,9 +369,11 @@ void FrameLoop::noteShown(const FrameTicket& ticket) {
     times_.latency[wall].add(since(stages_.posed(wall).value_or(ticket.posed)));
 }
 
-/// From the second one shown on: the first one takes as long as a driver needs to be ready.
-void FrameLoop::notePassedOver(const TimeSignature& now) {
-  if (outcome_.framesShown == 1) return;
+/// The first frame takes as long as a driver needs to be ready, and what was begun meanwhile waits for it.
+void FrameLoop::notePassedOver(const FrameTicket& ticket) {
+  if (outcome_.framesShown == 1) ready_ = Clock::now();
+  if (ticket.began < ready_) return;
+  const TimeSignature& now = ticket.signature;
   if (lastShown_) {
     const auto ticks = std::llround(toSeconds(now.time - *lastShown_) * options_.rate);
     outcome_.mostPassedOver =

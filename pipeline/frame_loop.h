@@ -55,9 +55,10 @@ struct FrameLoopOutcome {
   std::uint64_t framesSimulated = 0, framesShown = 0;
   std::uint64_t framesDrawn = 0;  ///< of those shown
   std::uint64_t missedTicks = 0;
-  std::uint64_t mostPassedOver = 0;  ///< ticks in a row between two frames shown, but for the first
-  bool stopped = false;              ///< by request, before all frames were done
-  bool nextGroup = false;            ///< the operator asked for the show to begin again
+  /// Ticks in a row between two frames shown, of those that were begun after the first one was shown.
+  std::uint64_t mostPassedOver = 0;
+  bool stopped = false;    ///< by request, before all frames were done
+  bool nextGroup = false;  ///< the operator asked for the show to begin again
   Failure failure;
 };
 
@@ -102,7 +103,7 @@ private:
   bool drawStage(std::size_t wall, DrawList& list);
   bool swapStage(const FrameTicket& ticket);
   void noteShown(const FrameTicket& ticket);
-  void notePassedOver(const TimeSignature& now);
+  void notePassedOver(const FrameTicket& ticket);
   void closeStage(std::size_t wall);
   template <class Work>
   bool guard(const char* what, std::size_t wall, std::uint64_t frame, const Work& work);
@@ -125,6 +126,7 @@ private:
   std::atomic<bool> stopped_ = false;
   std::atomic<bool> broken_ = false;  ///< failed, or Draw gave up: all threads are to end at once
   std::mutex failureMutex_;
+  std::chrono::steady_clock::time_point ready_{};  ///< the first frame was shown
   // Of the frame shown last; whoever swaps has them.
   std::chrono::steady_clock::time_point lastSwap_{};
   bool lastDrawn_ = false;

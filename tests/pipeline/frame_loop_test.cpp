@@ -125,6 +125,31 @@ TEST(FrameLoop, TicksThatNobodySawAreCountedAtMostInARow) {
   EXPECT_EQ(runFrames(stages, o).mostPassedOver, 3u);
 }
 
+/// Whose first picture is not there before App has begun the third frame.
+class LongOpening final : public CountingStages {
+public:
+  LongOpening() : CountingStages(2, kSlots) {}
+  void app(const TimeSignature& now, std::size_t slot) override {
+    if (now.frame == 2) thirdHasBegun_ = true, thirdHasBegun_.notify_all();
+    CountingStages::app(now, slot);
+  }
+  Failure draw(std::size_t wall, const DrawList& list) override {
+    thirdHasBegun_.wait(false);
+    return CountingStages::draw(wall, list);
+  }
+
+private:
+  std::atomic<bool> thirdHasBegun_ = false;
+};
+
+TEST(ThreadsFrameLoop, TicksThatPassBeforeTheFirstPictureAreNotPassedOver) {
+  LongOpening stages;
+  FrameLoopOptions o;
+  o.walls = 2, o.frames = 12, o.rate = 50;
+  o.frameTimes = {{2, 400'000'000}};  // twenty ticks late
+  EXPECT_EQ(runFrames(stages, o).mostPassedOver, 0u);
+}
+
 TEST(ThreadsFrameLoop, AWallThatFailsStopsTheRunWithItsReason) {
   CountingStages stages(4, kSlots);
   stages.failAt = 20;
