@@ -2,6 +2,7 @@
 
 #include "engine/run_stopped.h"
 #include "pipeline/draw/list_filling.h"
+#include "pipeline/worker/patience.h"
 #include "pipeline/worker/restarts.h"
 
 #include <algorithm>
@@ -18,21 +19,19 @@ using std::chrono::milliseconds;
 using State = worker::WallWorker::State;
 
 constexpr int kMostStarts = 3;            // for one frame after the first, or to open
-constexpr milliseconds kLookEvery{50};    // at who gives up
+constexpr milliseconds kLookEvery{10};    // at who gives up, and whether it lives
 constexpr milliseconds kHangs{5000};      // without using the processor, where every frame counts
 constexpr milliseconds kHangsLive{1000};  // where others must not wait
+constexpr milliseconds kStopped{250};     // then, if somebody has stopped it
 constexpr milliseconds kForEver{24 * 3600 * 1000};
-constexpr std::size_t kKnown = 3,
-                      kUsual = 32;  // frames, at least and at most, by which it is known what drawing takes
 
 }  // namespace
 
 struct DrawingInWorkers::Wall {
-  Wall(std::size_t index_, std::string name_, worker::WorkerSetting setting, const MeshStore& meshes,
+  Wall(std::string name_, double rate, worker::WorkerSetting setting, const MeshStore& meshes,
        worker::MeshParcels& parcels)
-      : index(index_), name(std::move(name_)), process(std::move(setting), meshes, parcels) {}
+      : name(std::move(name_)), process(std::move(setting), meshes, parcels), patience(rate) {}
 
-  std::size_t index;
   std::string name;
   worker::WallWorker process;
   std::string description;
@@ -45,14 +44,11 @@ struct DrawingInWorkers::Wall {
   Clock::time_point since{};  ///< when it had used that much, at first
 
   // Where the newest frame counts.
-  std::vector<double> took;  ///< [ms] the last frames, oldest first
-  bool waitedFor = true;     ///< false: the other walls go on without it until it answers
-  Clock::time_point lost{};  ///< when they began to
-
-  void note(double ms) {
-    if (took.size() == kUsual) took.erase(took.begin());
-    took.push_back(ms);
-  }
+  worker::Patience patience;
+  Clock::time_point began{};  ///< its last list
+  bool warm = false;          ///< the process has drawn; what is first takes its compilers, too
+  bool waitedFor = true;      ///< false: the other walls go on without it until it answers
+  Clock::time_point lost{};   ///< when they began to
 };
 
 DrawingInWorkers::DrawingInWorkers(DrawingInWorkersParts parts)
@@ -65,8 +61,7 @@ DrawingInWorkers::DrawingInWorkers(DrawingInWorkersParts parts)
                                         parts_.quality,
                                         parts_.rasteriserThreads,
                                         i < parts_.processors.size() ? parts_.processors[i] : ProcessorSet{}};
-    walls_.push_back(std::make_unique<Wall>(i, parts_.names[i], setting, parts_.meshes, parcels_));
-    walls_.back()->took.reserve(kUsual);
+    walls_.push_back(std::make_unique<Wall>(parts_.names[i], parts_.rate, setting, parts_.meshes, parcels_));
   }
 }
 
@@ -79,6 +74,8 @@ void DrawingInWorkers::tell(const Wall& wall, const std::string& what) const {
 Failure DrawingInWorkers::start(Wall& wall) {
   for (std::size_t eye = 0; eye < wall.before.size(); ++eye) wall.before[eye] = wall.totals[eye];
   wall.processor = -1;
+  wall.since = Clock::now();
+  wall.warm = false;
   if (const auto why = wall.process.start())
     return Reason("wall " + wall.name + ": no process draws it: " + *why);
   wall.pid = wall.process.pid();
@@ -111,16 +108,19 @@ bool DrawingInWorkers::await(Wall& wall, milliseconds atMost) {
     if (wall.process.hear(std::clamp(left, milliseconds(0), kLookEvery))) return true;
     if (wall.process.state() == State::Down || left <= milliseconds(0)) return false;
     if (parts_.giveUp && parts_.giveUp()) throw RunStopped();
-    if (hangs(wall, kHangs)) return false;
+    if (hangs(wall)) return false;
   }
 }
 
-/// Whether it has not used the processor for so long, while it had something to do.
-bool DrawingInWorkers::hangs(Wall& wall, milliseconds still) {
-  const double processor = wall.process.processorSeconds();
+/// Whether it has not used the processor for long, while it had something to do and did not wait for one. One
+/// that opens its context may wait for a disk.
+bool DrawingInWorkers::hangs(Wall& wall) {
+  const worker::ProcessStatus& status = wall.process.status();
   const auto now = Clock::now();
-  if (processor != wall.processor) wall.processor = processor, wall.since = now;
-  return now - wall.since > still;
+  if (status.state == 'R' || status.processorSeconds != wall.processor)
+    wall.processor = status.processorSeconds, wall.since = now;
+  const bool live = !parts_.everyFrame && wall.process.state() != State::Opening;
+  return now - wall.since > (!live ? kHangs : status.state == 'T' ? kStopped : kHangsLive);
 }
 
 /// What the process said, as far as it concerns the run.
@@ -129,12 +129,18 @@ Failure DrawingInWorkers::answered(Wall& wall) {
   wall.processor = -1;
   if (answer.failed) return Reason("wall " + wall.name + ": " + wall.process.text());
   if (answer.to == worker::Order::Open) wall.description = wall.process.text();
-  if (answer.to == worker::Order::Draw)
-    for (std::size_t eye = 0; eye < wall.totals.size(); ++eye) {
-      wall.totals[eye] = answer.totals[eye];
-      wall.totals[eye].add(wall.before[eye]);
-    }
+  if (answer.to == worker::Order::Draw) hasDrawn(wall, answer.totals);
   return {};
+}
+
+/// In time or not.
+void DrawingInWorkers::hasDrawn(Wall& wall, const std::array<DrawTotals, 2>& totals) {
+  for (std::size_t eye = 0; eye < wall.totals.size(); ++eye) {
+    wall.totals[eye] = totals[eye];
+    wall.totals[eye].add(wall.before[eye]);
+  }
+  if (wall.warm) wall.patience.took(Clock::now() - wall.began);
+  wall.warm = true;
 }
 
 Failure DrawingInWorkers::open(std::size_t index) {
@@ -160,6 +166,7 @@ DrawOutcome DrawingInWorkers::draw(std::size_t index, const DrawList& list, bool
 /// What it uses of the processor counts from now on: it may have had nothing to do for long.
 void DrawingInWorkers::begin(Wall& wall, const DrawList& list, bool read) {
   wall.processor = -1;
+  wall.began = wall.since = Clock::now();
   wall.process.draw(list, read);
 }
 
@@ -198,7 +205,7 @@ Failure DrawingInWorkers::lookAfter(Wall& wall) {
         answered(wall);
     } else if (wall.process.state() == State::Down) {
       died(wall, wall.process.end());
-    } else if (hangs(wall, was == State::Opening ? kHangs : kHangsLive)) {
+    } else if (hangs(wall)) {
       died(wall, "hung");
     }
   }
@@ -207,11 +214,24 @@ Failure DrawingInWorkers::lookAfter(Wall& wall) {
   return {};
 }
 
-/// How long the walls beside may have to wait.
-milliseconds DrawingInWorkers::patience(const Wall& wall) const {
-  if (wall.took.size() < kKnown) return kForEver;
-  const double longest = *std::max_element(wall.took.begin(), wall.took.end());
-  return milliseconds(static_cast<int>(longest + 500 / parts_.rate) + 1);
+/// Waits as long as the walls beside may wait: not for one that somebody has stopped, and as long again for
+/// one that runs, or would if there was a processor.
+bool DrawingInWorkers::awaitInTime(Wall& wall) {
+  const milliseconds limit = patience(wall);
+  const auto began = Clock::now();
+  for (;;) {
+    if (await(wall, std::min(kLookEvery, limit))) return true;
+    const char state = wall.process.status().state;
+    if (wall.process.state() == State::Down || state == 'T' || hangs(wall)) return false;
+    if (Clock::now() - began >= (state == 'R' ? 2 * limit : limit)) return false;
+  }
+}
+
+/// How long the walls beside may have to wait: while a new process draws for the first time, not at all.
+milliseconds DrawingInWorkers::patience(const Wall& wall) {
+  if (!wall.warm && wall.restarts.deaths() > 0) return milliseconds(0);
+  const auto limit = wall.patience.limit();
+  return limit ? std::chrono::ceil<milliseconds>(*limit) : kForEver;
 }
 
 /// Never waits longer than the walls beside may wait.
@@ -223,19 +243,17 @@ DrawOutcome DrawingInWorkers::drawNewest(Wall& wall, const DrawList& list, bool 
   };
   if (Failure f = lookAfter(wall)) return {std::move(f)};
   if (wall.process.state() != State::Idle) return late();
-  const auto began = Clock::now();
   begin(wall, list, read);
-  if (!await(wall, patience(wall))) {
+  if (!awaitInTime(wall)) {
     if (wall.process.state() == State::Down) died(wall, wall.process.end()), lookAfter(wall);
     return late();
   }
   if (Failure f = answered(wall)) return {std::move(f)};
-  drew(wall, std::chrono::duration<double, std::milli>(Clock::now() - began).count());
+  drewInTime(wall);
   return {};
 }
 
-void DrawingInWorkers::drew(Wall& wall, double ms) {
-  wall.note(ms);
+void DrawingInWorkers::drewInTime(Wall& wall) {
   wall.waitedFor = true;
   const std::size_t deaths = wall.restarts.deaths();
   if (!wall.restarts.drew()) return;

@@ -7,9 +7,9 @@
 ///
 /// Where every frame counts, a frame is drawn again by the new process until its pictures are there, and
 /// nothing is lost; one that kills three in a row ends the run. Where the newest counts, the other walls wait
-/// for one that is late no longer than half a frame beyond what it usually takes; from then on it shows what
-/// it has until it answers, and processes that die one after the other are started after growing pauses
-/// (restarts.h).
+/// for one that is late only so long (patience.h), and for what a new process draws first not at all; from
+/// then on it shows what it has until it answers, and processes that die one after the other are started
+/// after growing pauses (restarts.h).
 
 #include "engine/asset/mesh_store.h"
 #include "pipeline/drawing_here.h"
@@ -60,10 +60,12 @@ private:
   DrawOutcome drawNewest(Wall& wall, const DrawList& list, bool read);
   Failure lookAfter(Wall& wall);
   static void begin(Wall& wall, const DrawList& list, bool read);
-  Milliseconds patience(const Wall& wall) const;
-  void drew(Wall& wall, double milliseconds);
+  static Milliseconds patience(const Wall& wall);
+  static void hasDrawn(Wall& wall, const std::array<DrawTotals, 2>& totals);
+  void drewInTime(Wall& wall);
   bool await(Wall& wall, Milliseconds atMost);
-  bool hangs(Wall& wall, Milliseconds still);
+  bool awaitInTime(Wall& wall);
+  bool hangs(Wall& wall);
   Failure start(Wall& wall);
   void died(Wall& wall, const std::string& how);
   Failure answered(Wall& wall);

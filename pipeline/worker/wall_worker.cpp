@@ -4,16 +4,33 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <poll.h>
 #include <sstream>
 #include <sys/socket.h>
 #include <sys/uio.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
 
 namespace stadion::worker {
 namespace {
 
+ProcessStatus statusOf(int pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  const auto name = text.rfind(')');  // the program's name may hold blanks
+  if (name == std::string::npos) return {};
+  std::istringstream in(text.substr(name + 2));
+  const std::vector<std::string> fields{std::istream_iterator<std::string>(in), {}};  // from the third on
+  constexpr std::size_t kState = 0, kUser = 11, kSystem = 12, kEnd = 49;
+  if (fields.size() <= kEnd) return {};
+  const double ticks = std::stod(fields[kUser]) + std::stod(fields[kSystem]);
+  return {ticks / static_cast<double>(sysconf(_SC_CLK_TCK)), fields[kState][0], std::stoi(fields[kEnd])};
+}
+
+/// As ChildProcess::wait() has it.
 std::string sentenceOf(int status) {
   constexpr int kSignalled = 128;
   if (status <= kSignalled) return "ended with exit code " + std::to_string(status);
@@ -159,7 +176,7 @@ bool WallWorker::hear(std::chrono::milliseconds atMost) {
   if (state_ == State::Down || state_ == State::Idle) return false;
   pollfd one{socket_.get(), POLLIN, 0};
   const int ready = ::poll(&one, 1, static_cast<int>(atMost.count()));
-  if (ready <= 0) return false;
+  if (ready <= 0) return look(), false;
   char bytes[sizeof(AnswerHead) + kLongestText];
   const ssize_t got = ::recv(socket_.get(), bytes, sizeof bytes, MSG_DONTWAIT);
   if (got < 0 && (errno == EINTR || errno == EAGAIN)) return false;
@@ -179,6 +196,13 @@ bool WallWorker::hear(std::chrono::milliseconds atMost) {
   return true;
 }
 
+/// Whether it lives: the thread that draws is dead long before the last one, where processors are busy.
+void WallWorker::look() {
+  status_ = statusOf(pid());
+  if (status_.state != 'Z') return;
+  isGone(sentenceOf(WIFSIGNALED(status_.end) ? 128 + WTERMSIG(status_.end) : WEXITSTATUS(status_.end)));
+}
+
 void WallWorker::isGone(const std::string& how) {
   end_ = how;
   stop();
@@ -186,20 +210,6 @@ void WallWorker::isGone(const std::string& how) {
 
 std::span<const std::byte> WallWorker::picture(std::uint32_t eye) const {
   return {pictures_.data() + eye * pictureBytes(setting_), pictureBytes(setting_)};
-}
-
-double WallWorker::processorSeconds() const {
-  std::ifstream file("/proc/" + std::to_string(pid()) + "/stat");
-  std::string text;
-  std::getline(file, text);
-  const auto name = text.rfind(')');  // the program's name may hold blanks
-  if (name == std::string::npos) return -1;
-  std::istringstream fields(text.substr(name + 2));
-  std::string field;
-  for (int i = 0; i < 11; ++i) fields >> field;  // to utime, the 14th
-  double user = 0, system = 0;
-  if (!(fields >> user >> system)) return -1;
-  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 }  // namespace stadion::worker

@@ -34,6 +34,13 @@ struct WorkerSetting {
   ProcessorSet processors{};            ///< that it may use; empty: all
 };
 
+/// What the system says of a process.
+struct ProcessStatus {
+  double processorSeconds = -1;  ///< used so far; negative: not known. It stands still while it hangs
+  char state = '?';  ///< as in /proc: R runs, or would if there was a processor; T stopped, Z dead
+  int end = 0;       ///< of a dead one, as waitpid() has it
+};
+
 /// `stadion-wall` beside the program that is running.
 std::filesystem::path wallProgram();
 
@@ -63,7 +70,8 @@ public:
   void readPictures();
 
   /// Hears what it has to say, at most so long. True when it has become idle; read the answer then. When it
-  /// is gone, its state is Down and end() says how it ended.
+  /// is gone, its state is Down and end() says how it ended: at once where its socket ends, else at the end
+  /// of the time. (A rasteriser's threads, of the lowest priority, may keep the socket open for seconds.)
   bool hear(std::chrono::milliseconds atMost);
 
   const AnswerHead& answer() const { return answer_; }
@@ -73,9 +81,8 @@ public:
   /// Whether picture() is that of the list that was drawn last, also when the process is gone.
   bool holdsPictures() const { return holdsPictures_; }
 
-  /// Processor time that the process has used [s]; negative if that cannot be known. It stands still while
-  /// the process hangs or is stopped.
-  double processorSeconds() const;
+  /// When it was heard last and had nothing to say.
+  const ProcessStatus& status() const { return status_; }
   int pid() const { return process_->pid(); }
   int started() const { return started_; }
 
@@ -89,6 +96,7 @@ private:
   ListNews newsFor(const DrawList& list);
   void add(MeshId id, ListNews& news);
   void forgetFreed(ListNews& news);
+  void look();
   void isGone(const std::string& how);
 
   WorkerSetting setting_;
@@ -102,6 +110,7 @@ private:
   StillKeys known_;
   std::unordered_map<MeshId, Sent> sent_;
   std::uint64_t freedCount_ = 0;  ///< of the store, when it was last looked at
+  ProcessStatus status_;
   AnswerHead answer_{};
   std::string text_, end_;
   int started_ = 0;

@@ -307,6 +307,7 @@ TEST(ProgramWallWorkers, ProcessesThatDieOneAfterTheOtherAreToldOfTwiceAndEndNoL
   Exchangeable program;
   auto parts = partsFor(meshes);
   parts.everyFrame = false, parts.program = program.path();
+  parts.rate = 0.1;  // who is waited for is in time
   std::vector<std::string> told;
   parts.tell = [&](const std::string& what) { told.push_back(what); };
   DrawingInWorkers drawing(std::move(parts));
@@ -376,7 +377,7 @@ TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNobodyWaitsForAProcessThatIsGo
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
   auto parts = partsFor(meshes);
-  parts.everyFrame = false;
+  parts.everyFrame = false, parts.rate = 1;
   DrawingInWorkers drawing(std::move(parts));
   ASSERT_FALSE(drawing.open(0));
   for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list, false).drawn);
@@ -391,6 +392,48 @@ TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNobodyWaitsForAProcessThatIsGo
     EXPECT_NE(drawing.pid(0), before);
     EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, list));
   }
+}
+
+TEST(ProgramWallWorkers, AProcessIsDeadWhenTheThreadThatDrawsIsThoughOthersLinger) {
+  MeshStore meshes;
+  auto parts = partsFor(meshes);
+  parts.program = program().parent_path() / "lingering-program";
+  DrawingInWorkers drawing(std::move(parts));
+  const Failure failure = drawing.open(0);
+  ASSERT_TRUE(failure);
+  EXPECT_NE(failure->message.find("ended with exit code 0 before it was ready"), std::string::npos)
+      << failure->message;
+}
+
+TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNobodyWaitsForWhatANewProcessDrawsFirst) {
+  MeshStore meshes;
+  const DrawList list = stereoList(meshes);
+  auto parts = partsFor(meshes);
+  parts.everyFrame = false, parts.rate = 0.01;  // who is waited for is in time
+  DrawingInWorkers drawing(std::move(parts));
+  ASSERT_FALSE(drawing.open(0));
+  for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list, false).drawn);
+  kill(drawing.pid(0), SIGKILL);
+  double longestCall = 0;
+  secondsUntilDrawn(drawing, list, longestCall);
+  EXPECT_EQ(drawing.totals(0)[0].frames, 8u + 2u) << "the first one was not waited for, the second one was";
+  EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, list));
+}
+
+TEST(ProgramWallWorkers, WhereTheNewestFrameCountsAViewThatTakesLongerFromNowOnIsSoonWaitedForAgain) {
+  MeshStore meshes;
+  const DrawList list = stereoList(meshes);
+  DrawList dear = list;
+  while (dear.opaque.size() < 500)
+    dear.opaque.insert(dear.opaque.end(), list.opaque.begin(), list.opaque.end());
+  auto parts = partsFor(meshes);
+  parts.everyFrame = false, parts.rate = 1000;
+  DrawingInWorkers drawing(std::move(parts));
+  ASSERT_FALSE(drawing.open(0));
+  double longestCall = 0;
+  for (int frame = 0; frame < 40; ++frame) ASSERT_LT(secondsUntilDrawn(drawing, list, longestCall), 30);
+  EXPECT_LT(secondsUntilDrawn(drawing, dear, longestCall), 30);
+  EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, dear));
 }
 
 TEST(ProgramWallWorkers, AProgramThatIsMissingOrEndsAtOnceIsAFailureThatNamesTheWall) {
