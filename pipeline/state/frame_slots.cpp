@@ -23,8 +23,12 @@ std::optional<std::size_t> FrameSlots::writable() {
 }
 
 bool FrameSlots::mayBegin(std::uint64_t begun) const {
-  const bool ending = drawn_ > 0 && drawn_ + last_ >= cursor_.size();
-  return mostUnderWay_ == 0 || begun < shown_ + mostUnderWay_ + (ending ? 1 : 0);
+  return mostUnderWay_ == 0 || begun < shown_ + mostUnderWay_ + (ending() ? 1 : 0);
+}
+
+/// Whether few enough walls still draw the oldest frame.
+bool FrameSlots::ending() const {
+  return drawn_ > 0 && drawn_ + last_ >= cursor_.size();
 }
 
 std::optional<std::size_t> FrameSlots::beginWrite() {
@@ -96,21 +100,24 @@ bool FrameSlots::release(const Lease& lease) {
   const std::lock_guard lock(mutex_);
   Slot& s = slots_[lease.slot];
   if (s.state != State::Leased || s.serial != lease.serial) return false;
-  if (--s.readers == 0) s.state = State::Free;
+  if (--s.readers > 0) return true;  // nobody waits for that
+  s.state = State::Free;
   changed_.notify_all();
   return true;
 }
 
 void FrameSlots::limitUnderWay(std::size_t frames, std::size_t last) {
   const std::lock_guard lock(mutex_);
+  if (mostUnderWay_ == frames && last_ == last) return;  // as in nearly every frame
   mostUnderWay_ = frames, last_ = last;
   changed_.notify_all();
 }
 
 void FrameSlots::drawn() {
   const std::lock_guard lock(mutex_);
+  const bool was = ending();
   ++drawn_;
-  changed_.notify_all();
+  if (mostUnderWay_ > 0 && ending() != was) changed_.notify_all();
 }
 
 void FrameSlots::shown() {

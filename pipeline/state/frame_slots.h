@@ -82,6 +82,7 @@ private:
   std::optional<std::size_t> writable();
   std::optional<std::size_t> choose() const;
   bool mayBegin(std::uint64_t begun) const;
+  bool ending() const;
 
   std::mutex mutex_;
   std::condition_variable changed_;
