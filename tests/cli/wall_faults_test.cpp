@@ -1,5 +1,6 @@
 /// Walls drawn by processes, in a whole live run: one that is killed or stopped is back within three seconds,
-/// and the other walls miss no more than one frame. Counted in frames, of ten a second, not in seconds.
+/// and the other walls miss no more than one frame. Counted in frames, of ten a second, not in seconds. Where
+/// others took the processors away from a run, which it tells, it says nothing, and another one is watched.
 
 #include "tests/cli/desk.h"
 
@@ -9,6 +10,7 @@
 #include <lo/lo.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <thread>
 #include <unistd.h>
@@ -68,7 +70,11 @@ public:
   bool inFullSwing() const {
     return program_.waitUntil([&] { return stadion::inFullSwing(folder_.path()); });
   }
-  pid_t anyWall() const { return wallsOf(folder_.path()).begin()->first; }
+  std::set<pid_t> walls() const {
+    std::set<pid_t> pids;
+    for (const auto& [pid, ticks] : wallsOf(folder_.path())) pids.insert(pid);
+    return pids;
+  }
   json finish() {
     while (program_.runs()) {
       lo_send(to_, "/stadion/end", "");
@@ -93,32 +99,52 @@ private:
   lo_address to_;
 };
 
-TEST(ProgramAloneWallFaults,
-     AWallWhoseProcessIsKilledOrStoppedIsBackInThreeSecondsAndTheOthersMissNoMoreThanAFrame) {
-  LiveWalls live;
-  std::vector<pid_t> lost;
-  for (const int signal : {SIGKILL, SIGSTOP}) {
-    ASSERT_TRUE(live.inFullSwing());
-    lost.push_back(live.anyWall());
-    ::kill(lost.back(), signal);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  }
-  ASSERT_TRUE(live.inFullSwing());
-  const json summary = live.finish();
-  ASSERT_TRUE(summary.is_object()) << live.err();
+/// What was wrong with a run in which one wall's process was killed and then another one stopped.
+struct Verdict {
+  std::string wrong;       ///< empty: nothing
+  bool preempted = false;  ///< others had the processors for a while
+};
+
+std::string wrongWith(const json& summary, const std::string& err) {
+  std::string wrong;
   const json& late = summary.at("late_walls");
-  std::uint64_t hit = 0;
+  std::size_t hit = 0;
   for (const auto& [wall, figures] : late.items()) {
     const auto inARow = figures.at("in_a_row").get<std::uint64_t>();
-    EXPECT_LE(inARow, kThreeSeconds) << wall << "\n" << live.err();
+    if (inARow > kThreeSeconds) wrong += wall + " was not back in three seconds; ";
     hit += inARow > 1;
   }
-  EXPECT_GE(hit, 1u) << late << live.err();
-  EXPECT_LE(hit, 2u) << late << live.err();
-  EXPECT_LE(summary.at("most_passed_over").get<std::uint64_t>(), 1u) << summary << live.err();
-  EXPECT_NE(live.err().find("was killed by signal 9"), std::string::npos) << live.err();
-  EXPECT_NE(live.err().find("hung; another one is started"), std::string::npos) << live.err();
-  EXPECT_NE(live.err().find("draws again, after"), std::string::npos) << live.err();
+  if (hit < 1 || hit > 2) wrong += std::to_string(hit) + " walls missed more than a frame; ";
+  const auto passedOver = summary.at("most_passed_over").get<std::uint64_t>();
+  if (passedOver > 1) wrong += std::to_string(passedOver) + " ticks in a row were passed over; ";
+  for (const char* said : {"was killed by signal 9", "hung; another one is started", "draws again, after"})
+    if (err.find(said) == err.npos) wrong += std::string("nobody said that it ") + said + "; ";
+  return wrong.empty() ? wrong : wrong + late.dump() + "\n" + err;
+}
+
+Verdict verdictOfARun() {
+  LiveWalls live;
+  if (!live.inFullSwing()) return {"it never was in full swing\n" + live.err()};
+  const std::set<pid_t> walls = live.walls();
+  const pid_t killed = *walls.begin(), stopped = *walls.rbegin();
+  ::kill(killed, SIGKILL);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  if (!live.inFullSwing()) return {"it was not in full swing again after a death\n" + live.err()};
+  ::kill(stopped, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  if (!live.inFullSwing()) return {"it was not in full swing again after a stop\n" + live.err()};
+  const json summary = live.finish();
+  if (!summary.is_object()) return {"it left no summary\n" + live.err()};
+  return {wrongWith(summary, live.err()), live.err().find("pre-empted") != std::string::npos};
+}
+
+TEST(ProgramAloneWallFaults,
+     AWallWhoseProcessIsKilledOrStoppedIsBackInThreeSecondsAndTheOthersMissNoMoreThanAFrame) {
+  constexpr int kMostRuns = 5;
+  Verdict verdict = verdictOfARun();
+  for (int runs = 1; runs < kMostRuns && !verdict.wrong.empty() && verdict.preempted; ++runs)
+    verdict = verdictOfARun();
+  EXPECT_EQ(verdict.wrong, "");
 }
 
 }  // namespace
