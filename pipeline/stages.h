@@ -70,6 +70,7 @@ public:
   virtual void latch(std::size_t wall, DrawList& list) { (void)wall, (void)list; }
 
   virtual Failure openWall(std::size_t wall) = 0;
+  /// Cull may still be filling the list (ListFilling).
   virtual Failure draw(std::size_t wall, const DrawList& list) = 0;
   virtual void closeWall(std::size_t wall) = 0;
 

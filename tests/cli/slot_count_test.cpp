@@ -5,6 +5,7 @@
 #include "tests/cli/program.h"
 
 #include "engine/state_hash.h"
+#include "pipeline/draw/list_filling.h"
 
 #include <gtest/gtest.h>
 #include <mutex>
@@ -38,6 +39,8 @@ public:
   void cull(std::size_t wall, std::size_t slot, DrawList& list) override { show_.cull(wall, slot, list); }
   Failure openWall(std::size_t) override { return {}; }
   Failure draw(std::size_t wall, const DrawList& list) override {
+    const bool whole = !list.filling || list.filling->isWhole();  // it may be filled still
+    EXPECT_TRUE(whole);
     drawn[wall].push_back(hashOf(list));
     return {};
   }

@@ -84,7 +84,7 @@ TEST(ThreadsListFilling, PicturesAreThoseOfTheWholeList) {
             filling.reach(end);
             std::this_thread::sleep_for(std::chrono::microseconds(random.below(800)));
           }
-          growing.transparent = whole.transparent;
+          std::ranges::copy(whole.transparent, growing.transparent.begin());
           filling.finish();
         });
         // The first round is the first time that meshes are drawn.
