@@ -5,6 +5,7 @@
 #include "cli/regress_rounds.h"
 #include "cli/stop_signal.h"
 #include "engine/plain_file.h"
+#include "engine/state_hash.h"
 #include "profiling/regression/detection.h"
 #include "profiling/regression/instruction_comparison.h"
 #include "profiling/regression/rank_test.h"
@@ -83,7 +84,7 @@ public:
     double share = o_.share / 100;
     TrialResult result;
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-      result = {trial.name(), trial.kind, {}, {}, {}, false, 0, o_.by, o_.share, 0};
+      result = {trial.name(), trial.kind, {}, {}, {}, false, 0, o_.by, o_.share, 0, {}};
       const auto planted = plantedIn(trial, plain_, prices_, share);
       if (planted) result.planted = toText(*planted);
       const std::string stage = planted ? stageOf(*planted) : std::string();
@@ -183,15 +184,25 @@ private:
   StagePrices prices_;
 };
 
-/// Results of trials that were done before, in the same file: of the same experiment, and valid.
-std::vector<TrialResult> doneBefore(const Options& o) {
+/// A hash of the program that runs: a trial of another build says nothing of this one.
+std::string thisProgram() {
+  const Result<std::string> bytes = readPlainFile("/proc/self/exe", std::size_t{1} << 30);
+  StateHash hash;
+  if (bytes) hash.add(std::string_view(bytes.value()));
+  return fmt::format("{:016x}", hash.value());
+}
+
+/// Results of trials that were done before, in the same file: of this build and experiment, and valid.
+std::vector<TrialResult> doneBefore(const Options& o, const std::string& program) {
   const std::string& record = o.record;
   constexpr std::size_t kMostBytes = 16 << 20;
   std::error_code none;
   if (record.empty() || !std::filesystem::exists(record, none)) return {};
   const Result<std::string> text = readPlainFile(record, kMostBytes);
   std::vector<TrialResult> done = text ? readTrials(text.value()) : std::vector<TrialResult>();
-  std::erase_if(done, [&](const TrialResult& r) { return r.by != o.by || r.share != o.share || !r.valid(); });
+  std::erase_if(done, [&](const TrialResult& r) {
+    return r.program != program || r.by != o.by || r.share != o.share || !r.valid();
+  });
   return done;
 }
 
@@ -206,7 +217,8 @@ std::string lineOf(const TrialResult& r) {
 
 int benchDetection(const Options& o) {
   const std::atomic<bool>& stop = catchStopSignals();
-  std::vector<TrialResult> results = doneBefore(o);
+  const std::string program = thisProgram();
+  std::vector<TrialResult> results = doneBefore(o, program);
   if (!results.empty())
     std::fprintf(stderr, "%zu trials are in %s already\n", results.size(), o.record.c_str());
   Experiment experiment(o, stop);
@@ -215,9 +227,10 @@ int benchDetection(const Options& o) {
   if (!o.record.empty()) record.open(o.record, std::ios::app);
   for (const Trial& trial : trialsOf(o.planted, o.same)) {
     if (std::ranges::find(results, trial.name(), &TrialResult::trial) != results.end()) continue;
-    const auto result = experiment.run(trial);
+    auto result = experiment.run(trial);
     if (stop) break;
     if (!result) return kInternalFault;
+    result->program = program;
     std::fprintf(stderr, "%s", lineOf(*result).c_str());
     record << toJsonLine(*result) << std::flush;
     results.push_back(*result);

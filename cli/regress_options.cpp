@@ -73,7 +73,7 @@ void RegressOptions::addTo(CLI::App& command) {
       "count instructions where the suite compares them also where the processor has no counter of them that "
       "can be read: under callgrind, half a minute a case");
   command.add_option("--rounds", rounds, "of times, instead of the suite's number")
-      ->check(wholeNumberFrom(10, 80));
+      ->check(wholeNumberFrom(12, 80));
   command.add_option("--limit", limit, "seconds that a program may take to play a case once")
       ->check(wholeNumberFrom(1, 100000))
       ->capture_default_str();

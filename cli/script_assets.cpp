@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -46,6 +47,20 @@ bool names(const std::string& content, const std::string& name) {
   return false;
 }
 
+/// As glTF writes names: "a%20b.png" is "a b.png".
+std::string withoutPercents(const std::string& content) {
+  std::string plain;
+  for (std::size_t i = 0; i < content.size(); ++i) {
+    unsigned char byte = 0;
+    const char* const hex = content.data() + i + 1;
+    const bool coded =
+        content[i] == '%' && i + 2 < content.size() && std::from_chars(hex, hex + 2, byte, 16).ptr == hex + 2;
+    plain += coded ? static_cast<char>(byte) : content[i];
+    i += coded ? 2 : 0;
+  }
+  return plain;
+}
+
 /// A model's content, and that of the materials beside it, which name pictures.
 std::string withMaterials(const fs::path& model) {
   std::string content = contentOf(model);
@@ -54,6 +69,7 @@ std::string withMaterials(const fs::path& model) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
     if (entry.path().extension() == ".mtl" && names(content, entry.path().filename().string()))
       content += '\n' + contentOf(entry.path());
+  if (content.find('%') != std::string::npos) content += '\n' + withoutPercents(content);
   return content;
 }
 

@@ -46,6 +46,7 @@ void FrameJudge::take(std::size_t track, const SpanRecord& r) {
   case Span::ForTick: pending.tick += static_cast<float>(r.took); return;
   case Span::ForTurn: pending.under.turn += static_cast<float>(r.took); return;
   case Span::ForDraw: pending.rest += static_cast<float>(r.took); return;  // that is Cull's time
+  case Span::ShadowMaps: pending.shadows += static_cast<float>(r.took); return;
   case Span::Loading:
   case Span::Upload: pending.under.loading += static_cast<float>(r.took); return;
   case Span::Swap: return show(r, factsOf(r, {}));
@@ -57,13 +58,15 @@ void FrameJudge::take(std::size_t track, const SpanRecord& r) {
     return;
   }
   StageFacts stage = factsOf(r, std::exchange(pending.under, {}));
-  stage.ms -= std::exchange(pending.rest, 0);
+  stage.ms -= std::exchange(pending.rest, 0.0f);
+  const bool shadows = std::exchange(pending.shadows, 0.0f) > 0.5f * stage.ms;
   Open& open = frame(r.frame);
   if (r.what == Span::App)
     takeApp(open, r, stage, std::exchange(pending, {}));
   else if (r.wall < open.facts.walls) {
     (r.what == Span::Cull ? open.facts.cull : open.facts.draw)[r.wall] = stage;
     (r.what == Span::Cull ? open.cull : open.draw)[r.wall] = r.began;
+    if (r.what == Span::Draw) open.shadows[r.wall] = shadows;
   }
   // It holds up the next frame, too.
   if (r.what == Span::Draw && r.disturbed) sampledUntil_ = std::max(sampledUntil_, r.frame + 2);
@@ -142,13 +145,14 @@ void FrameJudge::show(const SpanRecord& swap, const StageFacts& stage) {
   takePassedOver(open);
   if (lastShown_ != ProfileClock::time_point{}) place(open, swap);
   FrameFacts facts = open.facts;
+  const auto shadows = open.shadows;
   open_.erase(open_.begin(), open_.upper_bound(swap.frame));
   if (lastShown_ != ProfileClock::time_point{}) facts.period = milliseconds(swap.ended - lastShown_);
   lastShown_ = swap.ended;
   judge(facts);
   copyText(title(facts.dearest()), facts.name);
   if (const auto at = largest_.find(facts.wall); facts.stage == Span::Draw && at != largest_.end())
-    copyText(title(at->second), facts.most);
+    copyText(shadows[facts.wall] ? "the shadow maps" : title(at->second), facts.most);
   if (facts.stage == Span::Cull) copyText(title(dearestCulled(facts.wall)), facts.most);
   shown_(facts);
 }

@@ -34,12 +34,14 @@ private:
     FrameFacts facts;
     ProfileClock::time_point app;  ///< when these began
     std::array<ProfileClock::time_point, FrameFacts::kMostWalls> cull{}, draw{};
+    std::array<bool, FrameFacts::kMostWalls> shadows{};  ///< took most of the wall's Draw
   };
   /// What went on in a thread since its last stage.
   struct Pending {
     StageFacts under;  ///< within the stage that is under way
     float tick = 0, slot = 0;
-    float rest = 0;  ///< Draw, which had begun, waited for the rest of its list
+    float rest = 0;     ///< Draw, which had begun, waited for the rest of its list
+    float shadows = 0;  ///< Draw: their maps
   };
   Open& frame(std::uint64_t number);
   void takePassedOver(Open& open) const;

@@ -165,7 +165,7 @@ private:
       StageRow row;
       row.name = stageName(stageOf(what), wall);
       if (!isStage(what)) row.part = std::string(nameOf(what));
-      row.ms = (isStage(what) ? total.ms.sum() : total.own) / framesOf(what);
+      row.ms = isStage(what) ? total.ms.sum() / frames_ : total.own / framesOf(what, wall);
       row.p95 = total.ms.percentile(95), row.most = total.ms.most(), row.count = total.ms.count();
       row.wait = isWait(what);
       const double times = std::max(1.0, static_cast<double>(total.counted));
@@ -201,19 +201,25 @@ private:
     }
   }
 
-  /// A frame's, of one wall or of all.
+  /// A frame's, of one wall or of all; of the frames that parts are of.
   double sum(Span what, std::optional<std::uint32_t> wall = {}) const {
     double ms = 0;
     for (const auto& [who, total] : profile_.spans())
       if (who.first == what && (!wall || who.second == *wall))
-        ms += isStage(what) ? total.ms.sum() : total.own;
-    return ms * (isPartOfApp(what) ? appScale_ : 1) / framesOf(what);
+        ms += (isStage(what) ? total.kept : total.own) / framesOf(what, who.second);
+    return ms * (isPartOfApp(what) ? appScale_ : 1);
   }
 
   static bool isPartOfApp(Span what) { return what > Span::Swap && what <= Span::Watching; }
 
-  /// In which that was recorded.
-  double framesOf(Span what) const { return isPartOfApp(what) ? wholeFrames_ : frames_; }
+  /// In which that was recorded, and counts.
+  double framesOf(Span what, std::uint32_t wall) const {
+    const bool ofCull =
+        (what == Span::Cull || (what >= Span::Eyes && what <= Span::Sort)) && profile_.keptCulls(wall) > 0;
+    return isPartOfApp(what) ? wholeFrames_
+           : ofCull          ? static_cast<double>(profile_.keptCulls(wall))
+                             : frames_;
+  }
 
   void explain() {
     Explained& app = out_.explained[0];
@@ -236,6 +242,12 @@ private:
     for (const Span s : {Span::Test, Span::Fill, Span::ShadowCasts, Span::Sort})
       for (std::uint32_t wall = 0; wall < out_.walls.size(); ++wall)
         if (profile_.shares(s, wall) == 0) cull.named += sum(s, wall);
+
+    Explained& played = out_.drawPlayed;
+    played.stage = "draw", played.measured = sum(Span::Draw);
+    for (const Span s : {Span::Prepare, Span::Upload, Span::ShadowMaps, Span::LeftEye, Span::RightEye,
+                         Span::Finish, Span::Read, Span::ForTurn})
+      played.named += sum(s);
   }
 
   /// As it was drawn alone.

@@ -78,6 +78,8 @@ struct ShowFigures {
   std::vector<StageRow> stages;
   std::vector<CountRow> counts;
   std::array<Explained, 3> explained;
+  /// Draw again, by the clock, as it was played, and what of it lies within its parts: eyes and all else.
+  Explained drawPlayed;
   std::string drawMethod;
   std::uint64_t wholeFrames = 0;   ///< of `frames`: those that App by node is of
   std::uint64_t framesNeeded = 0;  ///< about so many would measure every node; 0: these did

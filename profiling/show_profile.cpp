@@ -55,7 +55,43 @@ void ShowProfile::adopt(std::uint32_t load, std::uint32_t first) {
   }
 }
 
+/// Whether the parts of this stage are counted in this frame.
+bool ShowProfile::keeps(const SpanRecord& r) {
+  constexpr double kMuch = 0.05;  // of the stage
+  if (r.what != Span::App && r.what != Span::Cull) return true;
+  Kept& kept = kept_[{r.what, r.wall}];
+  const bool leftOut = r.use.delayed > kMuch * r.took && kept.leftOut < kept.frames;
+  ++(leftOut ? kept.leftOut : kept.frames);
+  return !leftOut;
+}
+
+std::uint64_t ShowProfile::keptCulls(std::uint32_t wall) const {
+  const auto at = kept_.find({Span::Cull, wall});
+  return at == kept_.end() ? 0 : at->second.frames;
+}
+
 void ShowProfile::take(std::size_t track, const SpanRecord& r) {
+  std::vector<SpanRecord>& parts = parts_[track];
+  if (r.depth > 0) {
+    parts.push_back(r);
+    return;
+  }
+  const bool kept = keeps(r);
+  if (kept)
+    for (const SpanRecord& part : parts) takePart(track, part);
+  parts.clear();
+  if (kept || r.what != Span::App) {
+    takePart(track, r);
+    if (kept) spans_[{r.what, r.wall}].kept += r.took;
+    return;
+  }
+  // As one that was not recorded as a whole.
+  SpanRecord app = r;
+  app.whole = false;
+  takePart(track, app);
+}
+
+void ShowProfile::takePart(std::size_t track, const SpanRecord& r) {
   const bool partOfApp = r.what > Span::Swap && r.what <= Span::Watching;
   if (partOfApp && !r.whole) return;
   if (r.what == Span::Receive) called_[track].push_back(r.node), visited_.push_back(r.node);

@@ -12,6 +12,10 @@
 ///           cost in a frame is what it cost when drawn, by how often it was drawn. Nothing is normalised
 ///           here: ShowFigures scales the rows, and tells how far the sum was from the eye drawn whole.
 ///
+/// A frame in which App or a wall's Cull was kept from the processor by others says how long the stage took,
+/// but not who took it: whatever was under way has all of it. It counts for no node and no part of that
+/// stage, unless half of its frames are so.
+///
 /// Nodes that go and come again with their file are the same nodes (NodeNames).
 ///
 /// Units    milliseconds. Threads  SpanReader's; `names` may be asked meanwhile.
@@ -46,7 +50,8 @@ struct NodeProfile {
 /// One kind of span, in all.
 struct SpanTotal {
   CostSeries ms;
-  double own = 0;  ///< in none of its parts
+  double kept = 0;  ///< [ms] of a stage: in the frames that its parts are of
+  double own = 0;   ///< in none of its parts
   Allocations allocations;
   std::uint64_t counted = 0;  ///< spans whose allocations these are: those that the probe did not disturb
 };
@@ -87,6 +92,8 @@ public:
   /// Each time it was counted.
   const std::map<Counted, CostSeries>& counts() const { return counts_; }
   std::uint64_t frames() const { return frames_; }
+  /// Frames that the parts of that wall's Cull are of.
+  std::uint64_t keptCulls(std::uint32_t wall) const;
   /// Frames in which every node's spans were recorded: what App's parts and its nodes took is of these.
   std::uint64_t wholeFrames() const { return wholeFrames_; }
   /// What App took in them, in all [ms].
@@ -102,6 +109,8 @@ private:
   NodeProfile& profileOf(NodeRef node) { return nodes_[firstOf(node)]; }
   NodeRef firstOf(NodeRef node);
   void adopt(std::uint32_t load, std::uint32_t first);
+  bool keeps(const SpanRecord& stage);
+  void takePart(std::size_t track, const SpanRecord& record);
   void addPhase(NodeRef node, const SpanRecord& record);
   void add(const SpanRecord& record);
   void takeMail(std::size_t track, const SpanRecord& record);
@@ -114,10 +123,16 @@ private:
   const NodeNames* names_;
   std::unordered_map<std::uint32_t, std::uint32_t> firstLoads_;  ///< as `names_` said
   std::map<NodeRef, NodeProfile> nodes_;
-  std::map<NodeRef, Visit> visits_;                     ///< that may not be over
-  std::map<std::size_t, std::vector<NodeRef>> called_;  ///< by thread: since its last Span::Mail
-  std::vector<NodeRef> visited_;                        ///< in the frame that App is at
-  std::vector<SpanRecord> rounds_;                      ///< in it, the spans of Mail in which nobody received
+  /// By track: the parts of a stage that is not over.
+  std::map<std::size_t, std::vector<SpanRecord>> parts_;
+  struct Kept {
+    std::uint64_t frames = 0, leftOut = 0;
+  };
+  std::map<std::pair<Span, std::uint32_t>, Kept> kept_;  ///< App, Cull by wall
+  std::map<NodeRef, Visit> visits_;                      ///< that may not be over
+  std::map<std::size_t, std::vector<NodeRef>> called_;   ///< by thread: since its last Span::Mail
+  std::vector<NodeRef> visited_;                         ///< in the frame that App is at
+  std::vector<SpanRecord> rounds_;  ///< in it, the spans of Mail in which nobody received
   std::map<std::pair<Span, std::uint32_t>, SpanTotal> spans_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost> eyes_;
   std::map<std::uint32_t, std::uint64_t> sampled_;

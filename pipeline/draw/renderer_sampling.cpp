@@ -52,8 +52,9 @@ void Renderer::forEachBatch(const F& f) {
       if (const GlMesh* mesh = cache_.find(b.mesh)) f(b, partsOf(*mesh, b.level));
 }
 
-/// How much there is to draw, and of whom the most.
+/// How much there is to draw, and of whom the most, if that is much.
 void Renderer::weigh() {
+  constexpr float kMuch = 0.25f;  // of all
   NodeRef whose;
   float most = 0;
   work_ = 0;
@@ -64,6 +65,7 @@ void Renderer::weigh() {
       if (work > most) most = work, whose = batches_.owners()[i];
     }
   });
+  if (most < kMuch * work_) whose = {};
   if (most > 0) probe_->counted(Count::Largest, static_cast<std::uint64_t>(most), whose);
 }
 

@@ -124,11 +124,11 @@ std::string reportText(const ShowCosts& costs, const Question& q) {
   const Schedule schedule = scheduleOf(costs.frames, q.plan);
   const Forecast f = forecastOf(schedule, q.plan);
   std::string text = costsText(costs);
-  text +=
-      fmt::format("\n{}: {:.2f} ms a frame, {:.1f} frames a second, {:.1f} ms from the poses to the picture\n"
-                  "bottleneck: {}\nin use: {}\n\n{}",
-                  planText(q.plan), f.period, f.perSecond, f.latency, f.bottleneck, usesText(f),
-                  diagramText(schedule, kFramesInDiagram));
+  text += fmt::format("\n{}: {:.2f} ms a frame in the middle, {:.1f} frames a second on average, {:.1f} ms "
+                      "from the poses to the picture\n"
+                      "bottleneck: {}\nin use: {}\n\n{}",
+                      planText(q.plan), f.period, f.perSecond, f.latency, f.bottleneck, usesText(f),
+                      diagramText(schedule, kFramesInDiagram));
   text += "\nwalls  mode         ms a frame  frames/s  latency ms  bottleneck\n";
   for (const TableRow& row : tableOf(costs, q))
     text += fmt::format("{:5}  {:<10} {:12.2f} {:9.1f} {:11.1f}  {}\n", row.plan.walls, modeOf(row.plan),

@@ -88,10 +88,10 @@ bool isNamedBy(const PlantedDelay& planted, const std::string& alarm) {
 }
 
 std::string toJsonLine(const TrialResult& r) {
-  return Json{{"trial", r.trial},    {"kind", r.kind},       {"by", r.by},
-              {"share", r.share},    {"planted", r.planted}, {"lengthened", r.lengthened},
-              {"alarms", r.alarms},  {"seen", r.seen},       {"right", r.right},
-              {"seconds", r.seconds}}
+  return Json{{"trial", r.trial},     {"kind", r.kind},       {"by", r.by},
+              {"share", r.share},     {"planted", r.planted}, {"lengthened", r.lengthened},
+              {"alarms", r.alarms},   {"seen", r.seen},       {"right", r.right},
+              {"seconds", r.seconds}, {"program", r.program}}
              .dump(-1, ' ', false, Json::error_handler_t::replace) +
          "\n";
 }
@@ -103,7 +103,8 @@ std::vector<TrialResult> readTrials(const std::string& text) {
     try {
       const Json j = Json::parse(text.substr(at, end - at));
       all.push_back({j.at("trial"), j.at("kind"), j.at("planted"), j.at("alarms"), j.at("seen"),
-                     j.at("right"), j.at("seconds"), j.at("by"), j.at("share"), j.at("lengthened")});
+                     j.at("right"), j.at("seconds"), j.at("by"), j.at("share"), j.at("lengthened"),
+                     j.value("program", "")});
     } catch (const Json::exception&) {
       // Half a line, of an experiment that was interrupted.
     }

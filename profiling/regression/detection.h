@@ -32,6 +32,7 @@ struct TrialResult {
   std::string by;         ///< what decided: instructions, times
   double share = 0;       ///< what was to be planted, of its stage [%]
   double lengthened = 0;  ///< what really was; 0 where nothing is [%]
+  std::string program{};  ///< a hash of the build that was tried
 
   /// Whether what was planted is what was to be planted, but for a fifth: 4 to 6 % for 5 %.
   bool valid() const { return planted.empty() || (lengthened >= 0.8 * share && lengthened <= 1.2 * share); }

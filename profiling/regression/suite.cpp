@@ -276,7 +276,7 @@ private:
     if (value) current().*target = *value;
   }
   void frames() { number("the number of frames", 2, kMostFrames, &SuiteCase::frames); }
-  void rounds() { number("the number of rounds", 10, kMostRounds, &SuiteCase::rounds); }
+  void rounds() { number("the number of rounds", 12, kMostRounds, &SuiteCase::rounds); }
 
   Diagnostics& out_;
   LineReader in_;

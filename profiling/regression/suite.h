@@ -56,7 +56,7 @@ struct SuiteCase {
   std::uint64_t frames = 0;  ///< 0: to the end of the input log
   Metrics metrics;
   Tolerances tolerances;
-  std::uint64_t rounds = 12;  ///< of times, at least 10: fewer cannot tell a difference from chance
+  std::uint64_t rounds = 12;  ///< of times, at least 12: fewer cannot tell a difference from chance
 };
 
 /// What a case is called once it has been played, in baselines, histories and reports: CASE/MODE, and

@@ -252,7 +252,7 @@ std::string crowdSuite(const TemporaryFolder& folder, const std::string& compare
   return folder.write("crowd.suite",
                       "stadion-suite 1\nsize 32x24\nstereo off\ncase crowd\n  show " STADION_SOURCE_DIR
                       "/scripts/crowd.evs\n  walls " STADION_SOURCE_DIR
-                      "/scripts/suites/two.walls\n  input none\n  frames 40\n  rounds 10\n  compare " +
+                      "/scripts/suites/two.walls\n  input none\n  frames 40\n  rounds 12\n  compare " +
                           compare + "\n");
 }
 

@@ -457,6 +457,17 @@ TEST(ProgramUsage, WhatSubScenesAndModelsReadIsNotWrittenOver) {
   EXPECT_EQ(beside.status, 0) << "nobody reads that one\n" << beside.err;
 }
 
+TEST(ProgramUsage, PicturesWhoseNamesAModelWritesInPercentsAreNotWrittenOver) {
+  const TemporaryFolder folder;
+  const std::string picture = folder.write("leaf gold.png", "a picture");
+  folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "images": [{"uri": "leaf%20gold.png"}]})");
+  const std::string show = folder.write("a.evs", "rig( name=r )\nobject( name=a, file=a.gltf )\n");
+  const ProgramResult r = stadionProgram({"plan", show, "--frames", "3", "--svg", picture});
+  EXPECT_EQ(r.status, 2) << r.out;
+  EXPECT_TRUE(has(r.err, "a.gltf and --svg name the same file")) << r.err;
+  EXPECT_EQ(fileContent(picture), "a picture");
+}
+
 TEST(ProgramUsage, PicturesThatAShowReadsAreNotWrittenOverByThoseOfARun) {
   const TemporaryFolder folder;
   const std::string picture = folder.write("skins/screen-left-000002.png", "a picture");

@@ -101,7 +101,8 @@ TEST(ShowProfile, ANodeThatComesAgainIsAddedUpWithWhatItWas) {
   const auto works = [&](std::uint32_t load, std::uint64_t frame, double ms) {
     SpanRecord r;
     r.what = Span::Simulate, r.frame = frame, r.node = {load, 0}, r.took = r.own = ms, r.depth = 1;
-    r.whole = true;
+    profile.take(0, r);
+    r.what = Span::App, r.node = {}, r.depth = 0;
     profile.take(0, r);
   };
   show.annex(Verb::Load);

@@ -491,8 +491,10 @@ TEST(RegressionDetection, MissesItsLimitsWhenTwoAreNotFoundOrTwoAlarmsAreFalse) 
   results.front().lengthened = 21;
   EXPECT_NE(detectionTable(results, 20, 100, met).find("not valid, 21.00 % were planted"), std::string::npos);
   EXPECT_FALSE(met) << "what is found was not what was to be found";
+  results.front().program = "this";
   const auto read = readTrials(toJsonLine(results.front()));
   ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].program, "this");
   EXPECT_FALSE(read[0].valid());
 }
 

@@ -268,16 +268,18 @@ TEST(FrameLog, OfFewNodesEveryFrameIsRecordedAsAWhole) {
   FrameLog log({&profile}, {.samples = false, .from = 0});
   visitNodes(log, 20, 50, 3);
   log.finish();
-  EXPECT_EQ(profile.wholeFrames(), 50U);
-  EXPECT_GE(profile.nodes().at({1, 3}).settle, 50 * 0.019) << "that it is its turn is the node's";
+  // Where others have the processor meanwhile, frames are left out.
+  EXPECT_GE(profile.wholeFrames(), 25U);
+  EXPECT_GE(profile.nodes().at({1, 3}).settle, static_cast<double>(profile.wholeFrames()) * 0.019)
+      << "that it is its turn is the node's";
 }
 
 TEST(ShowProfile, ASpanIsSharedAmongThoseItWasSpentOn) {
   ShowProfile profile;
   profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
-  profile.take(0, record(Span::Cull, 8, 0, {}, 3));
   profile.take(0, record(Span::Test, 8, 0, {}, 2));
   profile.take(0, record(Span::Fill, 8, 0, {}, 1));
+  profile.take(0, record(Span::Cull, 8, 0, {}, 3));
   profile.take({Span::Test, 8, 0, 2, {kBall, kStone}});
   profile.take({Span::Fill, 8, 0, 1, {kStone}});
   const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
@@ -286,6 +288,44 @@ TEST(ShowProfile, ASpanIsSharedAmongThoseItWasSpentOn) {
   EXPECT_DOUBLE_EQ(f.nodes[0].cull, 2);
   EXPECT_DOUBLE_EQ(f.nodes[1].walls[0].cull, 1);
   EXPECT_DOUBLE_EQ(f.explained[1].covered(), 1);
+}
+
+TEST(ShowProfile, WhatOthersHadTheProcessorForIsNobodysTime) {
+  ShowProfile profile;
+  const auto frame = [&](std::uint64_t number, NodeRef node, double ms, double delayed) {
+    SpanRecord app = record(Span::App, number, kNoWall, {}, ms + 1),
+               cull = record(Span::Cull, number, 0, {}, ms);
+    app.use.delayed = cull.use.delayed = delayed;
+    profile.take(0, record(Span::Simulate, number, kNoWall, node, ms));
+    profile.take(0, app);
+    profile.take(1, record(Span::Test, number, 0, {}, ms));
+    profile.take(1, cull);
+  };
+  frame(1, kBall, 2, 0);
+  frame(2, kStone, 50, 48);
+  frame(3, kBall, 2, 0.01);
+  EXPECT_EQ(profile.frames(), 3U);
+  EXPECT_EQ(profile.wholeFrames(), 2U);
+  EXPECT_EQ(profile.keptCulls(0), 2U);
+  EXPECT_FALSE(profile.nodes().contains(kStone));
+  const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, true);
+  EXPECT_DOUBLE_EQ(f.explained[0].measured, 3);
+  EXPECT_DOUBLE_EQ(f.explained[0].nodes, 2);
+  EXPECT_DOUBLE_EQ(f.explained[1].measured, 2);
+  const auto stage = std::ranges::find(f.stages, "cull front", &StageRow::name);
+  ASSERT_NE(stage, f.stages.end());
+  EXPECT_DOUBLE_EQ(stage->ms, 18) << "the stage did take that long";
+}
+
+TEST(ShowProfile, WhereEveryFrameIsDisturbedHalfOfThemCount) {
+  ShowProfile profile;
+  for (std::uint64_t number = 0; number < 10; ++number) {
+    SpanRecord app = record(Span::App, number, kNoWall, {}, 5);
+    app.use.delayed = 4;
+    profile.take(0, record(Span::Simulate, number, kNoWall, kBall, 4));
+    profile.take(0, app);
+  }
+  EXPECT_EQ(profile.wholeFrames(), 5U);
 }
 
 TEST(ShowProfile, DrawingCountsByHowOftenANodeIsSeen) {
@@ -394,6 +434,7 @@ TEST(ShowProfile, WhatWasNotSampledIsNotNothing) {
   ShowProfile profile;
   profile.take(0, record(Span::App, 8, kNoWall, {}, 1));
   profile.take(0, record(Span::LeftEye, 8, 0, {}, 5));
+  profile.take(0, record(Span::Draw, 8, 0, {}, 5));
   profile.take({Span::Test, 8, 0, 1, {kBall, kStone, {1, 2}}});
   profile.take({Span::Fill, 8, 0, 1, {kBall, kStone}});
   profile.take({8, 0, 0, Span::Draw, 3, 0.1}, {{kBall, 1}});  // the stone had no turn, a third is not seen
