@@ -24,7 +24,7 @@ struct Options {
   std::vector<std::size_t> walls{1, 2, 4, 6};
   std::string size = "240x180";
   std::uint64_t frames = 24;
-  std::size_t rounds = 3;
+  std::size_t rounds = 5;
   double within = 15;  ///< [%]
   bool json = false;
 };
@@ -33,7 +33,13 @@ struct Options {
 struct Combination {
   std::size_t walls;
   Mode mode;
-  std::vector<double> measured, latencies;  ///< by round
+  struct Round {
+    double predicted, measured;                ///< period [ms]
+    double predictedLatency, measuredLatency;  ///< [ms]
+  };
+  std::vector<Round> rounds{};
+
+  double middleOfRounds(double Round::*what) const;
 };
 
 double middleOf(std::vector<double> values) {
@@ -41,6 +47,12 @@ double middleOf(std::vector<double> values) {
   std::ranges::sort(values);
   const std::size_t half = values.size() / 2;
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+double Combination::middleOfRounds(double Round::*what) const {
+  std::vector<double> values;
+  for (const Round& r : rounds) values.push_back(r.*what);
+  return middleOf(std::move(values));
 }
 
 class Validation {
@@ -56,51 +68,69 @@ public:
     std::vector<Combination> combinations;
     for (const std::size_t walls : o_.walls)
       for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
-        combinations.push_back({walls, mode, {}, {}});
-    MeasuredCosts costs;
+        combinations.push_back({walls, mode});
     const double before = loadNow();
-    // In turns, so that whatever else the machine does falls on what is measured and on what comes alike.
+    if (!lengthen(options, findings)) return false;
+    // In turns, and what is predicted from beside what is to come: machines are not as fast at all times.
     for (std::size_t round = 0; round < o_.rounds; ++round) {
-      options.walls = *std::ranges::max_element(o_.walls);
-      if (!measureCosts(options, provider_, costs, findings)) return false;
       for (Combination& c : combinations) {
+        const auto forecast = predict(options, c, findings);
+        if (!forecast) return false;
         options.walls = c.walls;
         const auto played = playTimes(options, c.mode, provider_, findings);
         if (!played) return false;
-        c.measured.push_back(played->period), c.latencies.push_back(played->latency);
+        c.rounds.push_back({forecast->period, played->period, forecast->latency, played->latency});
       }
       std::fprintf(stderr, "%s: round %zu of %zu\n", script.c_str(), round + 1, o_.rounds);
     }
-    tell(script, costs, combinations, met, before);
+    tell(script, options.show.frames, combinations, met, before);
     return true;
   }
 
 private:
-  void tell(const std::string& script, const MeasuredCosts& costs,
-            const std::vector<Combination>& combinations, bool& met, double loadBefore) const {
-    // What `stadion plan` would have said in each round.
-    std::vector<std::vector<plan::FrameCost>> rounds;
-    for (const auto& run : costs.runs) rounds.push_back(plan::plannedCosts({run}));
+  /// What `stadion plan` says now.
+  std::optional<plan::Forecast> predict(PlanRunOptions options, const Combination& c, Diagnostics& findings) {
+    options.walls = *std::ranges::max_element(o_.walls);
+    MeasuredCosts costs;
+    if (!measureCosts(options, provider_, costs, findings)) return {};
     plan::Plan p;
     p.machine.cores = std::max(1u, std::thread::hardware_concurrency());
     p.waitsInTurn = costs.waitsInTurn;
-    p.frames = o_.frames;
+    p.frames = options.show.frames;
+    p.walls = c.walls, p.pipelined = c.mode == Mode::Pipelined;
+    return plan::forecastOf(plan::scheduleOf(plan::plannedCosts(costs.runs), p), p);
+  }
+
+  /// Short runs say little: they last as many frames as are asked for, and a second.
+  bool lengthen(PlanRunOptions& options, Diagnostics& findings) {
+    constexpr double kShortest = 1000;  // [ms]
+    const Combination least{*std::ranges::min_element(o_.walls), Mode::Pipelined};
+    const auto forecast = predict(options, least, findings);
+    if (!forecast) return false;
+    const auto frames = static_cast<std::uint64_t>(kShortest / std::max(forecast->period, 0.1));
+    options.show.frames = std::max(options.show.frames, frames);
+    return true;
+  }
+
+  void tell(const std::string& script, std::uint64_t frames, const std::vector<Combination>& combinations,
+            bool& met, double loadBefore) const {
     if (!o_.json)
-      std::printf("%s, %s a wall and eye, %.0f cores, load %.1f to %.1f\n"
+      std::printf("%s, %s a wall and eye, %u cores, load %.1f to %.1f, %zu rounds of %llu frames\n"
                   "walls  mode        predicted  measured  error   latency  measured\n",
-                  script.c_str(), o_.size.c_str(), p.machine.cores, loadBefore, loadNow());
+                  script.c_str(), o_.size.c_str(), std::thread::hardware_concurrency(), loadBefore, loadNow(),
+                  o_.rounds, static_cast<unsigned long long>(frames));
     for (const Combination& c : combinations) {
-      p.walls = c.walls, p.pipelined = c.mode == Mode::Pipelined;
-      std::vector<double> periods, latencies;
-      for (const auto& frames : rounds) {
-        const plan::Forecast f = plan::forecastOf(plan::scheduleOf(frames, p), p);
-        periods.push_back(f.period), latencies.push_back(f.latency);
-      }
-      const double period = middleOf(periods), latency = middleOf(latencies);
-      const double measured = middleOf(c.measured), error = period / measured - 1;
+      using Round = Combination::Round;
+      const double period = c.middleOfRounds(&Round::predicted),
+                   measured = c.middleOfRounds(&Round::measured),
+                   latency = c.middleOfRounds(&Round::predictedLatency),
+                   measuredLatency = c.middleOfRounds(&Round::measuredLatency);
+      std::vector<double> errors;
+      for (const Round& r : c.rounds) errors.push_back(r.predicted / r.measured - 1);
+      const double error = middleOf(std::move(errors));
       const bool ok = std::abs(error) <= o_.within / 100;
       met = met && ok;
-      const char* mode = p.pipelined ? "pipelined" : "sequential";
+      const char* mode = c.mode == Mode::Pipelined ? "pipelined" : "sequential";
       if (o_.json)
         std::printf("%s\n", nlohmann::json{{"bench", "plan"},
                                            {"show", script},
@@ -110,13 +140,13 @@ private:
                                            {"measured_ms", measured},
                                            {"error", error},
                                            {"predicted_latency_ms", latency},
-                                           {"measured_latency_ms", middleOf(c.latencies)},
+                                           {"measured_latency_ms", measuredLatency},
                                            {"ok", ok}}
                                 .dump()
                                 .c_str());
       else
         std::printf("%5zu  %-10s %7.2f ms %6.2f ms %+5.1f %%  %6.2f ms %6.2f ms  %s\n", c.walls, mode, period,
-                    measured, 100 * error, latency, middleOf(c.latencies), ok ? "ok" : "MISSED");
+                    measured, 100 * error, latency, measuredLatency, ok ? "ok" : "MISSED");
     }
   }
 
@@ -154,10 +184,10 @@ void addBenchPlan(CLI::App& bench, int& code) {
       ->capture_default_str();
   command->add_option("--size", o->size, "WIDTHxHEIGHT in pixels of one eye's picture")
       ->capture_default_str();
-  command->add_option("--frames", o->frames, "of each run")
+  command->add_option("--frames", o->frames, "of each run at least; quick shows play a second")
       ->check(wholeNumberFrom(12, 100000))
       ->capture_default_str();
-  command->add_option("--rounds", o->rounds, "the middle one counts")
+  command->add_option("--rounds", o->rounds, "the middle one counts, of how far off each is")
       ->check(wholeNumberFrom(1, 99))
       ->capture_default_str();
   command->add_option("--within", o->within, "how far off the period may be [%]")

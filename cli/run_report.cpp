@@ -17,7 +17,8 @@ void addTimes(const FinishedRun& run, RunSummary& s) {
   const FrameTimes& t = run.loop.times();
   s.frameMs = distributionOf(t.period.values());
   const std::string clock = "steady clock around the stage",
-                    finish = "steady clock around draw + finish + read back";
+                    finish = std::string("steady clock around draw + finish + read back") +
+                             (run.options.cullDraw == "overlap" ? ", with its waits for Cull" : "");
   s.stages.push_back({"app", "", distributionOf(t.app.values()), clock});
   for (std::size_t w = 0; w < t.draw.size(); ++w) {
     const std::string& name = run.player.walls().walls[w].wall.name;

@@ -54,7 +54,7 @@ public:
       j["eyes"].push_back({{"wall", e.wall},
                            {"eye", e.eye},
                            {"ms", number(e.ms)},
-                           {"p95", number(e.p95)},
+                           {"p95", number(e.p95, 3)},
                            {"count", e.count}});
     j["dynamics"] = data_.dynamics ? dynamics(*data_.dynamics) : json();
     j["nodes"] = nodes();  // last: the others may have added some
@@ -206,7 +206,7 @@ private:
       s["rows"].push_back({{"name", r.name},
                            {"part", r.part},
                            {"ms", number(r.ms)},
-                           {"p95", number(r.p95)},
+                           {"p95", number(r.p95, 3)},
                            {"max", number(r.most)},
                            {"wait", r.wait}});
     s["counts"] = json::array();
