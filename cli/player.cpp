@@ -174,7 +174,12 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   p.loader_->obey(p.decisions_.loads);
   p.scene_ = std::make_unique<Scene>(*p.loader_, *p.meshes_, appThreadsOf(options));
   p.options_.texts.reset();  // the loader keeps what is still to be loaded
-  if (!p.scene_->open(options.script)) return nullptr;
+  if (options.state && !p.scene_->restore(*options.state)) {
+    findings.error({options.script, 0, 0}, "the state to go on from is not one of this show");
+    return nullptr;
+  }
+  p.options_.state.reset();
+  if (!options.state && !p.scene_->open(options.script)) return nullptr;
   // Reading a show of a million nodes takes more memory than holding it. Here nobody waits for that to go.
   malloc_trim(0);
   return player;

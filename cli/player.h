@@ -43,6 +43,8 @@ struct ShowOptions {
   DynamicsVariation variation;  ///< of the script's models; no option
   /// What is played; null: the scripts as they are on disk when the show is opened. No option.
   std::shared_ptr<const ScriptTexts> texts;
+  /// The state that the show goes on from (Scene::save()); null: it begins. No option.
+  std::shared_ptr<const std::vector<std::uint8_t>> state;
 
   std::uint32_t width = 0, height = 0;  ///< from `size`
 

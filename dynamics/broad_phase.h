@@ -97,6 +97,34 @@ public:
       if (e.item && e.box.overlaps(box)) f(*e.item);
   }
 
+  /// All of it, to be written down or put back; `find` says which item has an id.
+  template <class Fields, class Find>
+  void state(Fields& f, const Find& find) {
+    for (auto [name, entries] : {std::pair("sorted", &sorted_), std::pair("apart", &apart_)}) {
+      const std::size_t n = f.count(name, entries->size());
+      if (f.restores()) entries->assign(n, Entry{});
+      for (Entry& e : *entries) {
+        std::uint32_t id = e.item ? e.item->id : 0;
+        f("id", id), f("low", e.box.lo), f("high", e.box.hi);
+        if (!f.restores()) continue;
+        e.item = id ? find(id) : nullptr;
+        if (id && !e.item) return f.fail();
+      }
+    }
+    std::vector<std::uint64_t> strips(strips_.begin(), strips_.end());
+    f("low ends", low_), f("strips", strips), f("filed apart", filedApart_);
+    f("widest", widest_), f("widest across", widestAcross_);
+    f("edge", edge_), f("width", width_), f("along", along_), f("across", across_);
+    if (!f.restores()) return;
+    if (along_ < 0 || along_ > 2 || across_ < 0 || across_ > 2 || filedApart_ > apart_.size() ||
+        !(width_ > 0))
+      return f.fail();
+    strips_.assign(strips.begin(), strips.end());
+    const bool whole =
+        strips.empty() ? sorted_.empty() : strips.size() > 1 && strips.back() == sorted_.size();
+    if (!whole || !std::ranges::is_sorted(strips) || low_.size() != sorted_.size()) f.fail();
+  }
+
 private:
   static constexpr std::uint32_t kApart = 0x80000000;
   static std::uint32_t apartAt(std::size_t i) { return kApart + static_cast<std::uint32_t>(i); }

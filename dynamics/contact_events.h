@@ -39,6 +39,12 @@ public:
     const std::uint32_t *versionA = nullptr, *versionB = nullptr;  ///< what they are now
     std::int32_t triangle = -1;                                    ///< of a mesh, that was near
     bool sure = false;  ///< it will be as far off by then as it must be from what was near
+
+    template <class Self, class Fields>
+    static void fields(Self& w, Fields& f) {
+      f("pair", w.pair), f("frame", w.frame), f("look", w.look), f("versions", w.versions);
+      f("triangle", w.triangle), f("sure", w.sure);
+    }
   };
   /// Equal for equal memories, up to chance; costs nothing.
   std::uint64_t digest() const { return digest_; }
@@ -56,6 +62,28 @@ public:
   std::vector<ContactEvent>& events() { return events_; }
   const std::vector<ContactEvent>& events() const { return events_; }
 
+  /// All but the events, to be written down or put back. Of those that wait, what is told of versions is
+  /// asked for again: `versionOf(party)` points at it.
+  template <class Fields, class VersionOf>
+  void state(Fields& f, const VersionOf& versionOf) {
+    f("pairs", memory_), f("idle", idle_), f("digest", digest_);
+    f("waiting", waiting_);
+    for (Waiting& w : waiting_) {
+      bool foreseen = w.versionA != nullptr;
+      f("foreseen", foreseen);
+      if (!f.restores() || !foreseen) continue;
+      w.versionA = versionOf(w.pair.first), w.versionB = versionOf({true, w.pair.second});
+      if (!w.versionA || !w.versionB) return f.fail();
+    }
+    if (!f.restores()) return;
+    events_.clear(), others_.clear();
+    for (const auto& [pair, m] : memory_) {
+      others_.emplace(pair.second, pair.first);
+      if (m.waiting != kNowhere && (m.waiting >= waiting_.size() || waiting_[m.waiting].pair != pair))
+        return f.fail();
+    }
+  }
+
 private:
   static constexpr std::uint32_t kNowhere = 0xffffffff;
   struct Memory {
@@ -64,6 +92,11 @@ private:
     Nanoseconds impact = 0;            ///< when [ns]
     std::uint64_t share = 0;           ///< of the digest
     bool idle() const { return !touching && waiting == kNowhere; }
+
+    template <class Self, class Fields>
+    static void fields(Self& m, Fields& f) {
+      f("touching", m.touching), f("waiting", m.waiting), f("impact", m.impact), f("share", m.share);
+    }
   };
   /// What a pair adds to the digest.
   static std::uint64_t share(const Key& pair, const Memory& m);

@@ -34,6 +34,11 @@ public:
   const Pose& now() const { return way_.back().X; }
   const Course& way() const { return way_; }  ///< all that counts
 
+  template <class Self, class Fields>
+  static void fields(Self& h, Fields& f) {
+    f("way", h.way_);
+  }
+
 private:
   Course way_;
 };

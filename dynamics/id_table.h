@@ -62,6 +62,11 @@ public:
     std::erase_if(entries_, [](const Entry& e) { return !e.item; });
     gaps_ = 0;
   }
+  template <class F>
+  void eachId(const F& f) const {
+    for (const Entry& e : entries_)
+      if (e.item) f(e.id);
+  }
   std::size_t size() const { return entries_.size() - gaps_; }
   bool empty() const { return size() == 0; }
 

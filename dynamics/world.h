@@ -58,6 +58,7 @@ struct Stick {
   double depth = 0;           ///< so far it goes in, the way the tip comes [m]
 };
 
+class StateFields;
 struct BodyFlight;
 
 struct BodyDef {
@@ -124,6 +125,11 @@ struct Party {
   bool isBody = false;
   std::uint32_t id = 0;
   auto operator<=>(const Party&) const = default;
+
+  template <class Self, class Fields>
+  static void fields(Self& p, Fields& f) {
+    f("body", p.isBody), f("id", p.id);
+  }
 };
 
 struct ContactEvent {
@@ -226,11 +232,21 @@ public:
   /// Total energy of motion [J], for reports.
   double kineticEnergy(BodyId id) const;
 
+  /// All that its future depends on, between two frames, to be written down, compared or put back; but for
+  /// shapes and flights. Those are the models', and must be given back before anything else is asked.
+  void visit(StateFields& f);
+  /// False: there is no such shape, or body, that misses one.
+  bool giveBack(ShapeId id, std::shared_ptr<const Shape> shape);
+  bool giveBack(BodyId id, std::shared_ptr<const BodyFlight> flight);
+  /// Whether everything has been given back.
+  bool complete() const;
+
   /// What happened during the last frame, in the order of time.
   const std::vector<ContactEvent>& events() const;
   /// Of all pairs that touch, or whose release has yet to be told: part of the simulated state.
   std::uint64_t pairsDigest() const;
-  /// Of where held bodies were free last, and of the ways out that others are on: part of the simulated state.
+  /// Of where held bodies were free last, and of the ways out that others are on: part of the simulated
+  /// state.
   std::uint64_t waysDigest() const;
 
   /// Distance between the surfaces of two parties now [m], negative or 0 when they touch.

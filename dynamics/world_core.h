@@ -340,6 +340,12 @@ public:
   std::vector<BodyId> changed;   ///< who has been active in this frame
   std::vector<ColliderId> told;  ///< that came, moved or jumped, or did so in the last frame
 
+  // --- the state (world_state.cpp)
+  std::vector<BodyId> flightless;  ///< that were put back, and wait for their flights
+  void visit(StateFields& f);
+  void visitCommands(StateFields& f);
+  void visitQueue(StateFields& f);
+
 private:
   std::priority_queue<Event> queue_;
   std::vector<Touch> touches_;

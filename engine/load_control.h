@@ -47,6 +47,10 @@ struct Relief {
   bool hidden = false;
 
   bool operator==(const Relief&) const = default;
+  template <class Self, class Fields>
+  static void fields(Self& r, Fields& f) {
+    f("lod", r.lod), f("pace", r.pace), f("rests", r.rests), f("hidden", r.hidden);
+  }
   /// Below something that has to do without `above` already.
   Relief below(const Relief& above) const {
     return {lod * above.lod, pace > above.pace ? pace : above.pace, rests || above.rests,

@@ -36,6 +36,13 @@ struct Message {
   /// What of the names leads into sub-scenes. Which file a name's first part belongs to is settled when the
   /// message is posted; the way from there is found when it is delivered: sub-scenes come and go meanwhile.
   std::string targetInside{}, nodeInside{};
+
+  template <class Self, class Fields>
+  static void fields(Self& m, Fields& f) {
+    f("due", m.due), f("sender", m.sender), f("sequence", m.sequence), f("target", m.target);
+    f("verb", m.verb), f("arguments", m.arguments), f("node", m.node);
+    f("inside target", m.targetInside), f("inside node", m.nodeInside);
+  }
 };
 
 /// Holds messages until they are due. App only.
@@ -46,6 +53,11 @@ public:
   std::vector<Message> takeDue(Nanoseconds now);
   bool empty() const { return heap_.empty(); }
   const std::vector<Message>& pending() const { return heap_; }  ///< in no particular order
+
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f) {
+    f("messages", self.heap_), f("sequence", self.sequence_);
+  }
 
 private:
   std::vector<Message> heap_;  ///< earliest on top

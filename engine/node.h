@@ -24,6 +24,7 @@ namespace stadion {
 
 class PlacedNode;
 class Scene;
+class StateFields;
 struct InputSample;
 
 /// What a node may look at during its cycle.
@@ -105,6 +106,12 @@ public:
   virtual bool busy() const { return false; }
   /// Adds every field that the show's future depends on.
   virtual void hash(StateHash&) const {}
+  /// The same fields and what follows from them, to be written down, compared or put back. A node that is put
+  /// back has not entered, and does not: resume() is called instead.
+  virtual void state(StateFields&) {}
+  /// Its fields have been put back, and so has the scene: makes anew what is not written down. False: what
+  /// was written down does not fit what there is.
+  virtual bool resume(Scene&) { return true; }
 
 protected:
   /// Notes that something happened; the messages that tell of it go out when the node dispatches.

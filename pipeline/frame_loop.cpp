@@ -140,6 +140,7 @@ void FrameLoop::runPipelined() {
     const auto next = [&] { return queues[wall].takeHanded(); };
     while (DrawList* list = waited(Span::ForDraw, kNoFrame, wall, next)) {
       if (!list->filling->isVoid() && !drawStage(wall, *list)) return;
+      if (list->filling->isCutShort()) return;
       slots.drawn();
       const FrameTicket ticket = list->ticket;
       bool shown = true;

@@ -3,6 +3,7 @@
 #include "dynamics/broad_phase.h"
 #include "dynamics/nodes/dyn_object_node.h"
 #include "engine/scene/scene.h"
+#include "engine/state_fields.h"
 
 #include <algorithm>
 #include <utility>
@@ -15,6 +16,10 @@ Aabb boxAround(const Shape& shape, const Pose& X_WN) {
   const Sphere ball = boundingSphere(shape);
   const Vec3 centre = X_WN * ball.centre, reach = Vec3::Constant(std::min(ball.radius, 1e299));
   return {centre - reach, centre + reach};
+}
+
+std::shared_ptr<const Shape> shapeOf(const SharedFit& fit) {
+  return {fit, &fit->choice.shape};
 }
 
 }  // namespace
@@ -174,14 +179,18 @@ std::vector<CollisionNode::Participant> CollisionNode::participants() const {
 }
 
 SharedFit CollisionNode::fitOf(const ObjectNode& object, const Scene& scene) {
+  return fitAt(scaleOf(scene.placements().world(object.placement())), object, scene);
+}
+
+SharedFit CollisionNode::fitAt(const Vec3& scale, const ObjectNode& object, const Scene& scene) {
   const Mesh* mesh = scene.mesh(object.appearance().mesh);
   if (!mesh) return nullptr;
-  auto fit = shapes_->fit(*mesh, object.appearance(), scaleOf(scene.placements().world(object.placement())));
+  auto fit = shapes_->fit(*mesh, object.appearance(), scale);
   return fit ? std::move(fit.value()) : nullptr;
 }
 
 ShapeId CollisionNode::addShape(const SharedFit& fit) {
-  return fit ? world_.addShape(std::shared_ptr<const Shape>(fit, &fit->choice.shape)) : 0;
+  return fit ? world_.addShape(shapeOf(fit)) : 0;
 }
 
 ColliderDef CollisionNode::colliderOf(Part& part, const ObjectNode& object, const Scene& scene) {
@@ -264,7 +273,8 @@ void CollisionNode::step(FrameContext* frame) {
 
 void CollisionNode::simulate(FrameContext& frame) {
   findParts(frame.scene);
-  span_ = {frame.start(), std::min(frame.now.time, frame.scene.endOf(self().load)), {}, false, frame.rested, false};
+  span_ = {frame.start(), std::min(frame.now.time, frame.scene.endOf(self().load)), {}, false, frame.rested,
+           false};
   span_.outside = foresee(frame, span_.cuts);
   if (needsScene(frame.now.time)) step(&frame);
 }
@@ -356,8 +366,33 @@ bool CollisionNode::afterStep(FrameContext&) {
   return false;
 }
 
+void CollisionNode::state(StateFields& f) {
+  f("switch", switch_), f("on", on_), f("awake", awake_), f("loads", loadsSeen_), f("to", advancedTo_);
+  for (std::vector<Part>* parts : {&colliders_, &collidees_})
+    for (Part& part : *parts) f("part", part);
+  world_.visit(f);
+}
+
+bool CollisionNode::resumeParts(Scene& scene) {
+  comingOrGoing_.clear();
+  for (std::vector<Part>* parts : {&colliders_, &collidees_})
+    for (Part& part : *parts) {
+      if (part.next.valid() || part.leaveAt != Scene::kNever) comingOrGoing_.push_back(&part);
+      if (!part.refit) continue;
+      const auto* object = dynamic_cast<const ObjectNode*>(scene.find(part.ref));
+      if (!object) return false;
+      part.fit = refit(part, *object, scene);
+      if (!part.fit || !world_.giveBack(part.shape, shapeOf(part.fit))) return false;
+    }
+  return true;
+}
+
+bool CollisionNode::resume(Scene& scene) {
+  return resumeParts(scene) && world_.complete();
+}
+
 void CollisionNode::hash(StateHash& h) const {
-  switch_.hash(h);
+  h.add(switch_.on());
   h.add(world_.pairsDigest());
 }
 

@@ -37,6 +37,8 @@ public:
   Rank rank() const override { return Rank::Dynamics; }
   bool busy() const override { return switch_.on() && awake_; }
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  bool resume(Scene& scene) override;
   bool awaits(const Node& earlier, const Scene& scene) const override;
 
   /// What the last step did, for reports.
@@ -70,6 +72,14 @@ protected:
     /// When it goes, and what its name stands for from when on.
     Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max(), nextAt = 0;
     NodeRef next;
+    std::optional<Vec3> refit;  ///< of one that has been put back: at which scale its fit is to be found
+
+    template <class Self, class Fields>
+    static void fields(Self& p, Fields& f) {
+      if (!f.restores()) p.refit = p.fit ? std::optional(p.fit->scale) : std::nullopt;
+      f("ref", p.ref), f("id", p.id), f("fit", p.refit), f("shape", p.shape), f("placement", p.placement);
+      f("pose", p.pose), f("leaves", p.leaveAt), f("next at", p.nextAt), f("next", p.next);
+    }
   };
 
   void onEnter(Scene& scene) override;
@@ -100,6 +110,13 @@ protected:
 
   /// How the object collides where it is now; null if it has no usable triangle.
   SharedFit fitOf(const ObjectNode& object, const Scene& scene);
+  SharedFit fitAt(const Vec3& scale, const ObjectNode& object, const Scene& scene);
+  /// The same of a part that has been put back.
+  virtual SharedFit refit(const Part& part, const ObjectNode& object, const Scene& scene) {
+    return fitAt(*part.refit, object, scene);
+  }
+  /// Parts that were put back find their objects again; false: one of them is not there.
+  bool resumeParts(Scene& scene);
   /// Adds the shape to the world; 0 of null.
   ShapeId addShape(const SharedFit& fit);
 

@@ -81,12 +81,23 @@ void DynObjectNode::restoreHooks(Nanoseconds when, Scene& scene) {
     }
 }
 
+template <class Self, class Fields>
+void DynObjectNode::fields(Self& self, Fields& f) {
+  ObjectNode::fields(self, f);
+  f("hooked", self.hooked_);
+  auto& s = self.state_;
+  f("centre of mass", s.p), f("attitude", s.q), f("velocity", s.v), f("angular velocity", s.omega);
+  f("angular momentum", s.L), f("mode", s.mode), f("clock", s.clock), f("clock rest", s.clockRest);
+  f.kept("pose", s.pose), f.kept("flight", s.flight), f.kept("arcs", s.arcs);
+  f.kept("requests", self.requests_);
+}
+
 void DynObjectNode::hash(StateHash& h) const {
-  ObjectNode::hash(h);
-  for (const NodeRef field : hooked_) h.add(field);
-  h.add(state_.p), h.add(state_.q), h.add(state_.v), h.add(state_.omega), h.add(state_.L);
-  h.add(static_cast<std::uint32_t>(state_.mode));
-  h.add(state_.clock), h.add(state_.clockRest);
+  hashFields(*this, h);
+}
+
+void DynObjectNode::state(StateFields& f) {
+  fields(*this, f);
 }
 
 }  // namespace stadion

@@ -49,6 +49,11 @@ public:
     Kind kind = Kind::Reset;
     NodeRef field;        ///< Hook, Unhook
     std::string tracker;  ///< Grab
+
+    template <class Self, class Fields>
+    static void fields(Self& r, Fields& f) {
+      f("when", r.when), f("kind", r.kind), f("field", r.field), f("tracker", r.tracker);
+    }
   };
 
   DynObjectNode(NodeRef self, std::string name, PlaceAttributes place, Appearance appearance,
@@ -78,6 +83,9 @@ public:
 
   bool moved() const override { return simulation_.asking != nullptr || ObjectNode::moved(); }
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f);
 
 protected:
   void onEnter(Scene& scene) override;

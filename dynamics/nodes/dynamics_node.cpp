@@ -296,6 +296,31 @@ void DynamicsNode::hash(StateHash& h) const {
   h.add(world_.waysDigest());
 }
 
+void DynamicsNode::state(StateFields& f) {
+  CollisionNode::state(f);
+  grips_.state(f);
+  f("fields", fields_), f("asking", asking_), f("told of limit", toldOfLimit_);
+}
+
+SharedFit DynamicsNode::refit(const Part& part, const ObjectNode& object, const Scene& scene) {
+  SharedFit fit = CollisionNode::refit(part, object, scene);
+  const auto* node = dynamic_cast<const DynObjectNode*>(&object);
+  return node && part.id && (!fit || !fit->filled) ? node->fit() : fit;
+}
+
+bool DynamicsNode::resume(Scene& scene) {
+  if (!resumeParts(scene)) return false;
+  partOf_.clear();
+  for (Part& part : collidees_) {
+    DynObjectNode* node = part.id ? bodyAt(part.ref, scene) : nullptr;
+    if (!node) continue;
+    node->setSimulation({self(), part.id, &asking_});
+    partOf_[part.id] = &part;
+    if (node->body().flight && !world_.giveBack(part.id, node->body().flight)) return false;
+  }
+  return world_.complete();
+}
+
 /// Of a body that has been taken out of the simulation in this frame.
 void DynamicsNode::tellTrouble(const BodyState& before, DynObjectNode& node, FrameContext& frame) {
   const BodyState& now = node.state();

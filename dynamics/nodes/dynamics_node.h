@@ -23,6 +23,8 @@ public:
       : CollisionNode(NodeKind::Dynamics, self, std::move(name), std::move(attributes), std::move(shapes)) {}
 
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  bool resume(Scene& scene) override;
 
 protected:
   void onLeave(Scene& scene) override;
@@ -34,6 +36,7 @@ protected:
   bool looksAt(const Node& mover, const Scene& scene) const override;
   void move(Nanoseconds from, Nanoseconds to, bool jump) override;
   bool afterStep(FrameContext& frame) override;
+  SharedFit refit(const Part& part, const ObjectNode& object, const Scene& scene) override;
 
 private:
   void tellCounts(FrameProbe& probe) const;
@@ -49,6 +52,12 @@ private:
     BodyId carrier = 0;   ///< one of this node's bodies, if that carries it
     Pose X_BF;            ///< where it is then, in the body's coordinates
     Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max();
+
+    template <class Self, class Fields>
+    static void fields(Self& x, Fields& f) {
+      f("ref", x.ref), f("id", x.id), f("placement", x.placement), f("pose", x.pose);
+      f("strength", x.strength), f("carrier", x.carrier), f("X_BF", x.X_BF), f("leaves", x.leaveAt);
+    }
   };
   struct Velocity {
     Vec3 v = Vec3::Zero(), omega = Vec3::Zero();  ///< in World [m/s], [rad/s]

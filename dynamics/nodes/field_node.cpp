@@ -72,11 +72,21 @@ void FieldNode::simulate(FrameContext& frame) {
   if (switch_.on() && duration_ > 0 && since_ + duration_ <= frame.now.time) switch_.set(false);
 }
 
+template <class Self, class Fields>
+void FieldNode::fields(Self& self, Fields& f) {
+  PlacedNode::fields(self, f);
+  f("switch", self.switch_), f("since", self.since_);
+  if (!self.strength_.empty()) f.hashed(self.strength_.back().value);
+  f.kept("strength", self.strength_), f.kept("changes", self.changes_);
+  f.kept("changed in", self.changedIn_), f.kept("users", self.users_);
+}
+
 void FieldNode::hash(StateHash& h) const {
-  PlacedNode::hash(h);
-  switch_.hash(h);
-  h.add(since_);
-  if (!strength_.empty()) h.add(strength_.back().value);
+  hashFields(*this, h);
+}
+
+void FieldNode::state(StateFields& f) {
+  fields(*this, f);
 }
 
 }  // namespace stadion

@@ -35,8 +35,13 @@ class FieldNode : public PlacedNode {
 public:
   /// A switch at an exact time within a frame.
   struct Change {
-    Nanoseconds when;
-    bool on;
+    Nanoseconds when = 0;
+    bool on = false;
+
+    template <class Self, class Fields>
+    static void fields(Self& c, Fields& f) {
+      f("when", c.when), f("on", c.on);
+    }
   };
 
   FieldNode(NodeKind kind, NodeRef self, std::string name, PlaceAttributes place, FieldAttributes attributes)
@@ -62,6 +67,9 @@ public:
 
   bool busy() const override { return PlacedNode::busy() || (axis_ && switch_.on()); }
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f);
 
 protected:
   void onEnter(Scene& scene) override;

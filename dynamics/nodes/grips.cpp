@@ -1,7 +1,7 @@
 #include "dynamics/nodes/grips.h"
 
 #include "engine/scene/scene.h"
-#include "engine/state_hash.h"
+#include "engine/state_fields.h"
 
 #include <algorithm>
 
@@ -63,6 +63,10 @@ void Grips::hash(StateHash& h) const {
     for (const PoseKnot& k : g.hand.way()) h.add(k.time), h.add(k.X);
     h.add(world_.woundUp(g.body));
   }
+}
+
+void Grips::state(StateFields& f) {
+  f("grips", grips_);
 }
 
 }  // namespace stadion

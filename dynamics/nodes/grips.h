@@ -18,12 +18,13 @@
 
 namespace stadion {
 
+class StateFields;
 class StateHash;
 struct FrameContext;
 
 /// A body in a hand.
 struct Grip {
-  BodyId body;
+  BodyId body = 0;
   NodeRef node;
   std::string tracker;
   Pose X_TN;  ///< how it lies in the hand
@@ -31,6 +32,11 @@ struct Grip {
   Course course;            ///< of the hand in this frame; empty while the tracker is silent
   Nanoseconds jumped = -1;  ///< when the hand last jumped while it held the body
 
+  template <class Self, class Fields>
+  static void fields(Self& g, Fields& f) {  // the way in this frame is over
+    f("body", g.body), f("node", g.node), f("tracker", g.tracker), f("X_TN", g.X_TN), f("hand", g.hand);
+    f("jumped", g.jumped);
+  }
   bool silentBefore(Nanoseconds t) const {
     return course.empty() || (course.front().jump && t <= course.front().time);
   }
@@ -57,6 +63,7 @@ public:
 
   const std::vector<Grip>& all() const { return grips_; }
   void hash(StateHash& h) const;
+  void state(StateFields& f);
 
 private:
   World& world_;

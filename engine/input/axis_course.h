@@ -17,6 +17,11 @@ struct AxisKnot {
   double value = 0;
 
   bool operator==(const AxisKnot&) const = default;
+
+  template <class Self, class Fields>
+  static void fields(Self& k, Fields& f) {
+    f("time", k.time), f("value", k.value);
+  }
 };
 using AxisCourse = std::vector<AxisKnot>;
 

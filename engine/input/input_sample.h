@@ -27,6 +27,10 @@ struct ControlKnot {
   std::array<float, kTrackerAxes> axes{};
 
   bool operator==(const ControlKnot&) const = default;
+  template <class Self, class Fields>
+  static void fields(Self& k, Fields& f) {
+    f("time", k.time), f("buttons", k.buttons), f("axes", k.axes);
+  }
 };
 
 struct TrackerSample {
@@ -49,6 +53,11 @@ struct TrackerSample {
   /// equal without it.
   Nanoseconds measured = 0;
 
+  template <class Self, class Fields>
+  static void fields(Self& t, Fields& f) {
+    f("name", t.name), f("pose", t.X_RT), f("buttons", t.buttons), f("axes", t.axes);
+    f("stamp", t.stamp), f("valid", t.valid), f("knots", t.knots), f("controls", t.controls);
+  }
   bool operator==(const TrackerSample& o) const {
     return name == o.name && X_RT.p == o.X_RT.p && X_RT.q.coeffs() == o.X_RT.q.coeffs() &&
            buttons == o.buttons && axes == o.axes && stamp == o.stamp && valid == o.valid &&
@@ -60,6 +69,10 @@ struct InputSample {
   Nanoseconds time = 0;  ///< show time it holds for [ns]
   std::vector<TrackerSample> trackers;
 
+  template <class Self, class Fields>
+  static void fields(Self& s, Fields& f) {
+    f("time", s.time), f("trackers", s.trackers);
+  }
   /// The tracker of that name, or nullptr.
   const TrackerSample* find(std::string_view name) const {
     for (const TrackerSample& t : trackers)

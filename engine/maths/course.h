@@ -23,6 +23,10 @@ struct PoseKnot {
   Pose X;
   bool jump = false;  ///< it did not move here: until `time` it stays where it was, from then on it is here
 
+  template <class Self, class Fields>
+  static void fields(Self& k, Fields& f) {
+    f("time", k.time), f("pose", k.X), f("jump", k.jump);
+  }
   bool operator==(const PoseKnot& o) const {
     return time == o.time && X.p == o.X.p && X.q.coeffs() == o.X.q.coeffs() && jump == o.jump;
   }

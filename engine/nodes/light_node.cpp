@@ -10,6 +10,12 @@ void LightNode::onEnter(Scene& scene) {
   scene.setLight(handle_, light_, switch_.on());
 }
 
+bool LightNode::resume(Scene& scene) {
+  if (!scene.isLight(handle_, self())) return false;
+  scene.setLight(handle_, light_, switch_.on());
+  return true;
+}
+
 void LightNode::onLeave(Scene& scene) {
   scene.removeLight(handle_);
   PlacedNode::onLeave(scene);
@@ -22,6 +28,11 @@ void LightNode::receive(const Message& m, FrameContext& frame) {
 
 void SkyNode::onEnter(Scene& scene) {
   scene.addSky(self(), sky_);
+}
+
+bool SkyNode::resume(Scene& scene) {
+  scene.setSky(self(), sky_);
+  return true;
 }
 
 void SkyNode::onLeave(Scene& scene) {

@@ -15,10 +15,15 @@ public:
   LightNode(NodeRef self, std::string name, PlaceAttributes place, const LightRecord& light, bool on)
       : PlacedNode(NodeKind::Light, self, std::move(name), std::move(place)), light_(light), switch_(on) {}
 
-  void hash(StateHash& h) const override {
-    PlacedNode::hash(h);
-    switch_.hash(h);
+  void hash(StateHash& h) const override { hashFields(*this, h); }
+  void state(StateFields& f) override { fields(*this, f); }
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f) {
+    PlacedNode::fields(self, f);
+    f("switch", self.switch_);
+    f.kept("handle", self.handle_);
   }
+  bool resume(Scene& scene) override;
 
 protected:
   void onEnter(Scene& scene) override;
@@ -37,6 +42,8 @@ class SkyNode : public Node {
 public:
   SkyNode(NodeRef self, std::string name, const SkyRecord& sky)
       : Node(NodeKind::Sky, self, std::move(name)), sky_(sky) {}
+
+  bool resume(Scene& scene) override;
 
 protected:
   void onEnter(Scene& scene) override;

@@ -27,6 +27,11 @@ public:
   /// The child that is drawn; the number of children: none.
   std::size_t level() const { return level_; }
 
+  void state(StateFields& f) override {
+    PlacedNode::state(f);
+    f.kept("level", level_), f.kept("chosen", chosen_);
+  }
+
   /// The level at that distance [m] for one that is at `level` now.
   static std::size_t levelAt(double distance, std::size_t level, const std::vector<double>& ranges);
 

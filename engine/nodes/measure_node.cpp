@@ -131,11 +131,21 @@ void MeasureNode::write(const std::string& words, Nanoseconds when, Scene& scene
   scene.post(*this, {Event::Measured, attributes_.text, Verb::Say, {words}, 0}, when);
 }
 
+template <class Self, class Fields>
+void MeasureNode::fields(Self& self, Fields& f) {
+  PlacedNode::fields(self, f);
+  f("body", self.body_.load), f("body", self.body_.position), f("started", self.started_);
+  f.hashed(self.result_.has_value()), f("compared", self.compared_);
+  f("result", self.result_);
+  f.kept("written", self.written_);
+}
+
 void MeasureNode::hash(StateHash& h) const {
-  PlacedNode::hash(h);
-  h.add(body_.load), h.add(body_.position), h.add(started_);
-  h.add(result_.has_value()), h.add(compared_);
-  if (result_) h.add(result_->metres), h.add(result_->foul), h.add(result_->when);
+  hashFields(*this, h);
+}
+
+void MeasureNode::state(StateFields& f) {
+  fields(*this, f);
 }
 
 }  // namespace stadion

@@ -39,6 +39,11 @@ public:
     Nanoseconds when = 0;
     /// What is compared: a foul is less than any distance.
     int centimetres() const;
+
+    template <class Self, class Fields>
+    static void fields(Self& self, Fields& f) {
+      f("metres", self.metres), f("foul", self.foul), f("when", self.when);
+    }
   };
 
   MeasureNode(NodeRef self, std::string name, PlaceAttributes place, MeasureAttributes attributes)
@@ -50,6 +55,9 @@ public:
   Rank rank() const override { return Rank::Outcome; }
   bool busy() const override { return (result_ && !compared_) || PlacedNode::busy(); }
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f);
   /// Measures take their results side by side, and compare them afterwards.
   bool awaits(const Node& earlier, const Scene&) const override {
     return earlier.kind() != NodeKind::Measure;

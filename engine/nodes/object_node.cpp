@@ -9,6 +9,10 @@ void ObjectNode::onEnter(Scene& scene) {
   instance_ = scene.addInstance(placement(), appearance_.mesh, appearance_.drawn, self());
 }
 
+bool ObjectNode::resume(Scene& scene) {
+  return scene.owns(instance_, self());
+}
+
 void ObjectNode::onLeave(Scene& scene) {
   scene.removeInstance(instance_);
   PlacedNode::onLeave(scene);

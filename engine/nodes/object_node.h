@@ -21,6 +21,15 @@ public:
 
   const Appearance& appearance() const { return appearance_; }
 
+  void state(StateFields& f) override { fields(*this, f); }
+  template <class Self, class Fields>
+  static void fields(Self& whole, Fields& f) {
+    auto& self = partOf<ObjectNode>(whole);
+    PlacedNode::fields(self, f);
+    f.kept("instance", self.instance_);
+  }
+  bool resume(Scene& scene) override;
+
 protected:
   void onEnter(Scene& scene) override;
   void onLeave(Scene& scene) override;

@@ -172,10 +172,19 @@ void PathNode::simulate(FrameContext& frame) {
   putTarget(frame.scene);
 }
 
+template <class Self, class Fields>
+void PathNode::fields(Self& self, Fields& f) {
+  PlacedNode::fields(self, f);
+  f("switch", self.switch_), f("elapsed", self.elapsed_), f("since", self.since_);
+  f.kept("put", self.putAt_);
+}
+
 void PathNode::hash(StateHash& h) const {
-  PlacedNode::hash(h);
-  switch_.hash(h);
-  h.add(elapsed_), h.add(since_);
+  hashFields(*this, h);
+}
+
+void PathNode::state(StateFields& f) {
+  fields(*this, f);
 }
 
 }  // namespace stadion

@@ -37,6 +37,9 @@ public:
   Rank rank() const override { return Rank::Motion; }
   bool busy() const override { return switch_.on() || PlacedNode::busy(); }
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f);
 
   /// The pose `seconds` after the path's start.
   Pose poseAt(double seconds) const;

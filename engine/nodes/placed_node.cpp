@@ -164,10 +164,11 @@ void PlacedNode::simulate(FrameContext& frame) {
 }
 
 void PlacedNode::hash(StateHash& h) const {
-  h.add(X_PN_);
-  h.add(static_cast<std::uint32_t>(follow_));
-  h.add(std::string_view(tracker_));
-  h.add(shown_);
+  hashFields(*this, h);
+}
+
+void PlacedNode::state(StateFields& f) {
+  fields(*this, f);
 }
 
 }  // namespace stadion

@@ -11,6 +11,7 @@
 #include "engine/maths/course.h"
 #include "engine/node.h"
 #include "engine/scene/placements.h"
+#include "engine/state_fields.h"
 
 namespace stadion {
 
@@ -52,6 +53,15 @@ public:
   Rank rank() const override { return Rank::Attachment; }
   bool busy() const override { return attached(); }
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  template <class Self, class Fields>
+  static void fields(Self& whole, Fields& f) {
+    auto& self = partOf<PlacedNode>(whole);
+    f("place", self.X_PN_), f("follows", self.follow_), f("tracker", self.tracker_), f("shown", self.shown_);
+    f.kept("placement", self.placement_), f.kept("home", self.attributes_.X_PN);
+    f.kept("traced", self.traced_), f.kept("arrived", self.arrived_);
+    f.kept("carries", self.carriesStatics_);
+  }
 
 protected:
   void onEnter(Scene& scene) override;

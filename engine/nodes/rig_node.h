@@ -41,9 +41,13 @@ public:
 
   Rank rank() const override { return Rank::Input; }
   bool busy() const override { return switch_.on(); }
-  void hash(StateHash& h) const override {
-    switch_.hash(h);
-    h.add(ended_), h.add(q_RT_), h.add(p_RH_);
+  void hash(StateHash& h) const override { hashFields(*this, h); }
+  void state(StateFields& f) override { fields(*this, f); }
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f) {
+    f("switch", self.switch_), f("ended", self.ended_);
+    f("wand", self.q_RT_), f("head", self.p_RH_);
+    f.kept("since", self.since_);
   }
 
 protected:

@@ -59,10 +59,18 @@ void SceneNode::simulate(FrameContext& frame) {
   });
 }
 
+template <class Self, class Fields>
+void SceneNode::fields(Self& self, Fields& f) {
+  PlacedNode::fields(self, f);
+  f("load", self.number_), f("expected", self.expected_);
+}
+
 void SceneNode::hash(StateHash& h) const {
-  PlacedNode::hash(h);
-  h.add(number_);
-  for (const auto& [at, event] : expected_) h.add(at), h.add(static_cast<std::uint32_t>(event));
+  hashFields(*this, h);
+}
+
+void SceneNode::state(StateFields& f) {
+  fields(*this, f);
 }
 
 }  // namespace stadion

@@ -19,6 +19,9 @@ public:
         ready_(ready), initially_(initially) {}
 
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f);
 
 protected:
   void onEnter(Scene& scene) override;

@@ -31,6 +31,16 @@ void SoundNode::startAt(Nanoseconds when, Scene& scene) {
 
 void SoundNode::publish(Scene& scene) {
   heard_ = switch_.on();
+  tell(scene);
+}
+
+bool SoundNode::resume(Scene& scene) {
+  if (!scene.isSound(handle_, placement())) return false;
+  tell(scene);
+  return true;
+}
+
+void SoundNode::tell(Scene& scene) const {
   scene.setSound(handle_, heard_,
                  {self(), attributes_.file, Vec3::Zero(), attributes_.gain, attributes_.range,
                   attributes_.loop, since_});
@@ -59,10 +69,19 @@ void SoundNode::simulate(FrameContext& frame) {
   if (heard_ != switch_.on()) publish(frame.scene);
 }
 
+template <class Self, class Fields>
+void SoundNode::fields(Self& self, Fields& f) {
+  PlacedNode::fields(self, f);
+  f("switch", self.switch_), f("since", self.since_), f("due", self.due_);
+  f.kept("handle", self.handle_), f.kept("heard", self.heard_);
+}
+
 void SoundNode::hash(StateHash& h) const {
-  PlacedNode::hash(h);
-  switch_.hash(h);
-  h.add(since_), h.add(due_);
+  hashFields(*this, h);
+}
+
+void SoundNode::state(StateFields& f) {
+  fields(*this, f);
 }
 
 }  // namespace stadion

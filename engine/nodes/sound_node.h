@@ -27,6 +27,10 @@ public:
   SoundNode(NodeRef self, std::string name, PlaceAttributes place, Attributes a, bool on);
 
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f);
+  bool resume(Scene& scene) override;
 
 protected:
   void onEnter(Scene& scene) override;
@@ -41,6 +45,7 @@ private:
   /// Lets the passes that end up to `time` count.
   void endPasses(Nanoseconds time);
   void publish(Scene& scene);
+  void tell(Scene& scene) const;
 
   Attributes attributes_;
   Switched switch_;

@@ -24,6 +24,17 @@ Mat3 uprightAxes(double along, double across, double up) {
 void SwayNode::settleTargets(Scene& scene) {
   if (settled_) return;
   settled_ = true;
+  findTargets(scene);
+  fleet_ = scene.placements().addFleet(*this, placements_);
+}
+
+bool SwayNode::resume(Scene& scene) {
+  if (!settled_) return true;
+  findTargets(scene);
+  return scene.placements().resumeFleet(fleet_, *this, placements_.size());
+}
+
+void SwayNode::findTargets(Scene& scene) {
   if (sway_.targets.empty()) sway_.targets.push_back(self());
   const std::size_t count = sway_.targets.size();
   nodes_.resize(count), placements_.resize(count, kNoPlacement), swings_.resize(count);
@@ -34,7 +45,6 @@ void SwayNode::settleTargets(Scene& scene) {
   };
   if (sway_.angularVelocity.head<2>().isZero(0) && std::ranges::all_of(swings_, standsUpright)) axes_ = {};
   settlePhases();
-  fleet_ = scene.placements().addFleet(*this, placements_);
 }
 
 void SwayNode::settleTarget(std::size_t k, Scene& scene) {
@@ -225,10 +235,21 @@ void SwayNode::simulate(FrameContext& frame) {
   putTargets(frame.scene);
 }
 
+template <class Self, class Fields>
+void SwayNode::fields(Self& self, Fields& f) {
+  PlacedNode::fields(self, f);
+  f("switch", self.switch_), f("elapsed", self.elapsed_), f("since", self.since_);
+  f.kept("put", self.putAt_), f.kept("settled", self.settled_), f.kept("fleet", self.fleet_);
+  f.kept("sin", self.moment_.first.sin), f.kept("cos", self.moment_.first.cos);
+  f.kept("turn", self.moment_.turn);
+}
+
 void SwayNode::hash(StateHash& h) const {
-  PlacedNode::hash(h);
-  switch_.hash(h);
-  h.add(elapsed_), h.add(since_);
+  hashFields(*this, h);
+}
+
+void SwayNode::state(StateFields& f) {
+  fields(*this, f);
 }
 
 }  // namespace stadion

@@ -47,6 +47,10 @@ public:
   Rank rank() const override { return Rank::Motion; }
   bool busy() const override { return switch_.on() || PlacedNode::busy(); }
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f);
+  bool resume(Scene& scene) override;
 
 protected:
   void onEnter(Scene& scene) override;
@@ -74,6 +78,7 @@ private:
 
   void putMembers(std::size_t first, std::span<MemberPlace> places) const override;
   void settleTargets(Scene& scene);
+  void findTargets(Scene& scene);
   void settleTarget(std::size_t k, Scene& scene);
   void settlePhases();
   Moment momentAt(Nanoseconds elapsed) const;

@@ -4,7 +4,6 @@
 /// Commands  enable, disable, toggle, reset.
 
 #include "engine/message.h"
-#include "engine/state_hash.h"
 
 namespace stadion {
 
@@ -27,7 +26,10 @@ public:
     }
   }
 
-  void hash(StateHash& h) const { h.add(on_); }
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f) {
+    f("on", self.on_);
+  }
 
 private:
   bool initially_, on_;

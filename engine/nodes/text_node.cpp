@@ -30,6 +30,12 @@ void TextNode::say(std::string words, Scene& scene) {
   draw(scene);
 }
 
+bool TextNode::resume(Scene& scene) {
+  if (!scene.owns(instance_, self())) return false;
+  draw(scene);
+  return true;
+}
+
 void TextNode::draw(Scene& scene) {
   auto mesh = textMesh(words_, style_);
   const MeshId before = std::exchange(mesh_, mesh ? scene.addMesh(std::move(mesh)) : kNoMesh);
@@ -37,9 +43,19 @@ void TextNode::draw(Scene& scene) {
   scene.releaseMesh(before);
 }
 
+template <class Self, class Fields>
+void TextNode::fields(Self& self, Fields& f) {
+  PlacedNode::fields(self, f);
+  f("words", self.words_);
+  f.kept("instance", self.instance_);
+}
+
 void TextNode::hash(StateHash& h) const {
-  PlacedNode::hash(h);
-  h.add(std::string_view(words_));
+  hashFields(*this, h);
+}
+
+void TextNode::state(StateFields& f) {
+  fields(*this, f);
 }
 
 }  // namespace stadion

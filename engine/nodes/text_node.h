@@ -18,6 +18,10 @@ public:
 
   const std::string& words() const { return words_; }
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f);
+  bool resume(Scene& scene) override;
 
 protected:
   void onEnter(Scene& scene) override;

@@ -1,6 +1,7 @@
 #include "engine/nodes/timer_node.h"
 
 #include "engine/scene/scene.h"
+#include "engine/state_fields.h"
 
 namespace stadion {
 
@@ -28,9 +29,17 @@ void TimerNode::simulate(FrameContext& frame) {
   if (switch_.on()) frame.scene.wakeAt(due_, self());
 }
 
+template <class Self, class Fields>
+void TimerNode::fields(Self& self, Fields& f) {
+  f("switch", self.switch_), f("due", self.due_);
+}
+
 void TimerNode::hash(StateHash& h) const {
-  switch_.hash(h);
-  h.add(due_);
+  hashFields(*this, h);
+}
+
+void TimerNode::state(StateFields& f) {
+  fields(*this, f);
 }
 
 }  // namespace stadion

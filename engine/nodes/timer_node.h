@@ -17,6 +17,9 @@ public:
 
   Rank rank() const override { return Rank::Sensing; }
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f);
 
 protected:
   void onEnter(Scene& scene) override;

@@ -191,11 +191,21 @@ void TriggerNode::watchLost(const TrackerSample& t, const FrameContext& frame, N
   if (until == frame.now.time) tellReleases(t.buttons, until);
 }
 
+template <class Self, class Fields>
+void TriggerNode::fields(Self& self, Fields& f) {
+  PlacedNode::fields(self, f);
+  f("switch", self.switch_), f("inside", self.inside_), f("looked", self.looked_), f("seen", self.seen_);
+  f("visitor", self.last_), f("in rig", self.p_RV_), f("rig", self.X_NR_);
+  f.hashed(std::uint64_t{self.pressed_} << 32 | self.buttons_);
+  f.kept("pressed", self.pressed_), f.kept("buttons", self.buttons_);
+}
+
 void TriggerNode::hash(StateHash& h) const {
-  PlacedNode::hash(h);
-  switch_.hash(h);
-  h.add(inside_), h.add(looked_), h.add(seen_), h.add(last_), h.add(p_RV_), h.add(X_NR_);
-  h.add(std::uint64_t{pressed_} << 32 | buttons_);
+  hashFields(*this, h);
+}
+
+void TriggerNode::state(StateFields& f) {
+  fields(*this, f);
 }
 
 }  // namespace stadion

@@ -46,6 +46,9 @@ public:
   Rank rank() const override { return Rank::Sensing; }
   bool busy() const override { return switch_.on() || PlacedNode::busy(); }
   void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f);
 
 protected:
   void onEnter(Scene& scene) override;

@@ -1,5 +1,7 @@
 #include "engine/scene/placements.h"
 
+#include "engine/state_fields.h"
+
 #include <algorithm>
 #include <cassert>
 
@@ -272,6 +274,61 @@ const std::vector<PlacementId>& Placements::takeChanged() {
     return !e.live || (e.fleet != kNoFleet && fleets_[e.fleet].moved);
   });
   return changedTold_;
+}
+
+// The state. What follows from it by the same computation, matrices in World, is not written down.
+
+void Placements::state(StateFields& f) {
+  f("placements", entries_);
+  if (f.restores()) {
+    for (auto* matrices : {&X_PN_, &X_WN_, &X_WH_}) matrices->assign(entries_.size(), Affine::Identity());
+    if (!standsTogether()) return f.fail();
+  }
+  for (PlacementId id = 0; id < entries_.size(); ++id) {
+    Entry& e = entries_[id];
+    if (f.restores()) e.stale = id != kWorldPlacement, e.changed = false;
+    if (!e.live) continue;
+    f("local", X_PN_[id]);
+    if (e.held != Held::Nothing) f("held at", X_WH_[id]);
+  }
+  f("free", free_), f("moved", movedWatched_), f("watched", anyWatched_);
+  f("fleets", fleets_), f("free fleets", freeFleets_);
+  if (f.restores()) changed_.clear();
+  const auto unknown = [&](PlacementId id) { return id >= entries_.size(); };
+  if (std::ranges::any_of(free_, unknown) || std::ranges::any_of(movedWatched_, unknown)) f.fail();
+  for (const Fleet& fleet : fleets_)
+    if (std::ranges::any_of(fleet.members, [&](auto id) { return id != kNoPlacement && unknown(id); }) ||
+        std::ranges::any_of(fleet.strays, [&](const auto& s) { return unknown(s.second); }))
+      f.fail();
+}
+
+/// Whether everything that is there stands below World, once.
+bool Placements::standsTogether() const {
+  if (entries_.empty()) return false;
+  std::vector<char> seen(entries_.size(), 0);
+  std::vector<PlacementId> open{kWorldPlacement};
+  seen[kWorldPlacement] = 1;
+  while (!open.empty()) {
+    const PlacementId up = open.back();
+    open.pop_back();
+    PlacementId before = kNoPlacement;
+    for (PlacementId id = entries_[up].firstChild; id != kNoPlacement; id = entries_[id].nextSibling) {
+      if (id >= entries_.size() || std::exchange(seen[id], 1)) return false;
+      const Entry& e = entries_[id];
+      if (!e.live || e.parent != up || e.previousSibling != before) return false;
+      before = id;
+      open.push_back(id);
+    }
+  }
+  for (PlacementId id = 0; id < entries_.size(); ++id)
+    if (entries_[id].live != (seen[id] != 0)) return false;
+  return true;
+}
+
+bool Placements::resumeFleet(FleetId fleet, const FleetRule& rule, std::size_t members) {
+  if (fleet >= fleets_.size() || fleets_[fleet].members.size() != members) return false;
+  fleets_[fleet].rule = &rule;
+  return true;
 }
 
 }  // namespace stadion

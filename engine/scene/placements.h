@@ -25,6 +25,8 @@
 
 namespace stadion {
 
+class StateFields;
+
 using PlacementId = std::uint32_t;
 constexpr PlacementId kWorldPlacement = 0;  ///< World itself: the identity, never moves
 constexpr PlacementId kNoPlacement = ~PlacementId{0};
@@ -98,6 +100,7 @@ public:
   const Affine& world(PlacementId id) const;
   Affine local(PlacementId id) const;  ///< where it is relative to its parent now
   PlacementId parent(PlacementId id) const { return entries_[id].parent; }
+  bool has(PlacementId id) const { return id < entries_.size() && entries_[id].live; }
   /// What moves it when it does not move itself: its parent, or World if it is held there.
   PlacementId carrier(PlacementId id) const;
 
@@ -117,6 +120,11 @@ public:
   /// Valid until the next one.
   const std::vector<PlacementId>& takeChanged();
 
+  /// All of it, to be written down or put back. Rules are put back by resumeFleet(); until then nobody may
+  /// ask where their members are.
+  void state(StateFields& f);
+  bool resumeFleet(FleetId fleet, const FleetRule& rule, std::size_t members);
+
 private:
   /// Kept apart from the matrices: who looks for one thing in many placements reads little.
   struct Entry {
@@ -133,6 +141,15 @@ private:
     FleetId fleet = kNoFleet;  ///< it goes with it
     std::uint32_t member = 0;
     std::uint32_t move = 0;  ///< the fleet's move after which its local matrix was written
+
+    template <class Self, class Fields>
+    static void fields(Self& e, Fields& f) {
+      f("parent", e.parent), f("first child", e.firstChild);
+      f("next sibling", e.nextSibling), f("previous sibling", e.previousSibling);
+      f("held", e.held), f("hiders", e.hiders), f("live", e.live), f("claimed", e.claimed);
+      f("watched", e.watched), f("watched below", e.watchedBelow);
+      f("astray", e.astray), f("fleet", e.fleet), f("member", e.member), f("move", e.move);
+    }
   };
   struct Fleet {
     const FleetRule* rule = nullptr;                            ///< null: has been removed
@@ -140,6 +157,11 @@ private:
     std::vector<std::pair<std::uint32_t, PlacementId>> strays;  ///< by number
     std::uint32_t moves = 0;
     bool moved = false;  ///< since takeMovedFleets()
+
+    template <class Self, class Fields>
+    static void fields(Self& fleet, Fields& f) {
+      f("members", fleet.members), f("strays", fleet.strays), f("moves", fleet.moves);
+    }
   };
   static constexpr std::size_t kFleetBlock = 64;
 
@@ -147,6 +169,7 @@ private:
   static bool standsInWorld(const Entry& e) { return e.parent == kWorldPlacement && e.held == Held::Nothing; }
   Affine carriedBy(PlacementId id, const Affine& X_WP) const;
   void markBelow(PlacementId id, bool moved);
+  bool standsTogether() const;
   void settle(PlacementId id) const;
   Affine memberOf(const Fleet& fleet, std::uint32_t member) const;
   void join(PlacementId id, FleetId fleet, std::uint32_t member);

@@ -119,6 +119,16 @@ public:
   void removeInstance(InstanceId id);
   /// What the instance shows from now on; kNoMesh = nothing.
   void setMesh(InstanceId id, MeshId mesh);
+  /// Whether such an instance, light or sound is there: of what has been put back.
+  bool owns(InstanceId id, NodeRef owner) const {
+    return id < instances_.size() && instances_[id].live && instances_[id].owner == owner;
+  }
+  bool isLight(std::size_t handle, NodeRef node) const {
+    return handle < lights_.size() && lights_[handle].live && lights_[handle].node == node;
+  }
+  bool isSound(std::size_t handle, PlacementId placement) const {
+    return handle < sounds_.size() && sounds_[handle].live && sounds_[handle].placement == placement;
+  }
   /// A mesh that a node has made itself; to be given back with releaseMesh.
   MeshId addMesh(std::unique_ptr<const Mesh> mesh) { return meshes_.add(std::move(mesh)); }
   void releaseMesh(MeshId mesh);
@@ -127,6 +137,7 @@ public:
   void setLight(std::size_t handle, const LightRecord& local, bool on);
   void removeLight(std::size_t handle);
   void addSky(NodeRef node, const SkyRecord& sky) { skies_.push_back({node, sky}); }
+  void setSky(NodeRef node, const SkyRecord& sky);
   void removeSky(NodeRef node);
   /// Whose sky is seen; invalid: nobody's.
   NodeRef sky() const { return skies_.empty() ? NodeRef{} : skies_.back().node; }
@@ -166,6 +177,12 @@ public:
   // For whoever runs the show.
 
   std::uint64_t stateHash() const;
+  /// All that the show's future depends on, between two frames: whoever puts it back goes on to the same
+  /// hashes and the same pictures.
+  std::vector<std::uint8_t> save();
+  /// Puts back what save() wrote, in a scene in which nothing has been opened, of the same files. Waits until
+  /// they are loaded. False: this is no such state, or the files have changed; then the scene is of no use.
+  bool restore(std::span<const std::uint8_t> state);
   const FrameCounters& counters() const { return counters_; }
   const std::vector<EventRecord>& events() const { return events_; }  ///< of the last frame, by time
   std::size_t loadCount() const { return loads_.size(); }
@@ -183,6 +200,14 @@ private:
     InstanceId next = kNoInstance;  ///< at the same placement
     bool drawn : 1 = true, live : 1 = false, changed : 1 = false;
     bool transparent : 1 = false, leveled : 1 = false;  ///< its form is, has simplified levels
+
+    template <class Self, class Fields>
+    static void fields(Self& i, Fields& f) {
+      bool drawn = i.drawn, live = i.live;
+      f("placement", i.placement), f("mesh", i.mesh), f("owner", i.owner), f("next", i.next);
+      f("drawn", drawn), f("live", live);
+      if (f.restores()) i.drawn = drawn, i.live = live;
+    }
   };
   static constexpr InstanceId kNoInstance = ~InstanceId{0};
   struct Light {
@@ -190,30 +215,71 @@ private:
     LightRecord local;
     NodeRef node;
     bool on = true, live = false;
+
+    template <class Self, class Fields>
+    static void fields(Self& l, Fields& f) {  // what it is like its node says
+      f("placement", l.placement), f("node", l.node), f("on", l.on), f("live", l.live);
+    }
   };
   struct Sky {
     NodeRef node;
     SkyRecord record;
+
+    template <class Self, class Fields>
+    static void fields(Self& s, Fields& f) {
+      f("node", s.node);
+    }
   };
   struct SoundSpot {
     PlacementId placement = kNoPlacement;
     SoundRecord sound;
     bool on = false, live = false;
+
+    template <class Self, class Fields>
+    static void fields(Self& s, Fields& f) {
+      f("placement", s.placement), f("on", s.on), f("live", s.live);
+    }
   };
   struct Rig {
     NodeRef node;
-    PlacementId placement;
-    double eyeHeight;
+    PlacementId placement = kNoPlacement;
+    double eyeHeight = 0;
+
+    template <class Self, class Fields>
+    static void fields(Self& r, Fields& f) {
+      f("node", r.node), f("placement", r.placement), f("eye height", r.eyeHeight);
+    }
+  };
+  /// What a load was asked for with.
+  struct Asked {
+    std::string file;
+    NodeRef owner;
+    Affine X_WO = Affine::Identity();
+
+    template <class Self, class Fields>
+    static void fields(Self& a, Fields& f) {
+      f("file", a.file), f("owner", a.owner), f("place", a.X_WO);
+    }
   };
   struct Change {
-    Nanoseconds at;
-    std::uint32_t number;
-    bool load;
+    Nanoseconds at = 0;
+    std::uint32_t number = 0;
+    bool load = false;
+
+    template <class Self, class Fields>
+    static void fields(Self& c, Fields& f) {
+      f("at", c.at), f("number", c.number), f("load", c.load);
+    }
   };
   struct Wake {
-    Nanoseconds at;
+    Nanoseconds at = 0;
     NodeRef node;
     auto operator<=>(const Wake&) const = default;
+
+    template <class Self, class Fields>
+    static void fields(Self& w, Fields& f) {
+      f("at", w.at), f("node", w.node);
+    }
   };
   /// A node that leaves its tracker in this frame, to go along with its parent from where that is then.
   struct Detached {
@@ -254,6 +320,13 @@ private:
   bool putOff(Node& node);
   Cycle cycleOf(Node& node, const TimeSignature& now);
   void hashRelief(StateHash& h) const;
+  // The state (scene_state.cpp).
+  void visitLoads(StateFields& f);
+  void visitLoad(StateFields& f, std::uint32_t number);
+  void visitNodes(StateFields& f);
+  void visitRest(StateFields& f);
+  bool standsTogether() const;
+  bool resume();
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
   bool hasInstances(PlacementId p) const { return p < instancesAt_.size() && instancesAt_[p] != kNoInstance; }
   bool hasLights(PlacementId p) const { return p < lightsAt_.size() && lightsAt_[p] > 0; }
@@ -275,6 +348,7 @@ private:
   Message addressed(const std::string& target, NodeRef from, std::vector<std::string> arguments) const;
   void markInstancesAt(PlacementId placement);
   Node* promote(Load& load, std::size_t index, const Affine& moved = Affine::Identity());
+  Node& nodeInsteadOf(Load& load, std::size_t index);
   bool isBelow(NodeRef ref, NodeRef ancestor) const;
   void enterNode(Node& node);
   void leaveNode(Node& node);
@@ -290,6 +364,7 @@ private:
   std::map<std::uint32_t, std::unique_ptr<Load>> loads_;
   std::uint32_t nextLoad_ = 1;
   std::vector<Change> pendingLoads_;
+  std::map<std::uint32_t, Asked> asked_;  ///< by number: of those that are there or will come
   MessageQueue messages_;
   Agenda agenda_;
   std::vector<Cycle> batch_;
@@ -301,8 +376,13 @@ private:
   std::uint32_t stressLevel_ = 0;
   std::set<NodeRef> putOff_;  ///< were woken, and wait for their turn
   struct Paced {
-    Nanoseconds since;  ///< when its last cycle ended
-    bool rests;
+    Nanoseconds since = 0;  ///< when its last cycle ended
+    bool rests = false;
+
+    template <class Self, class Fields>
+    static void fields(Self& p, Fields& f) {
+      f("since", p.since), f("rests", p.rests);
+    }
   };
   std::map<NodeRef, Paced> paced_;  ///< those that must be told what they have missed
   std::multimap<PlacementId, NodeRef> watchers_;

@@ -35,7 +35,8 @@ void Scene::promoteBelow(NodeRef ref) {
     }
 }
 
-Node* Scene::promote(Load& load, std::size_t index, const Affine& moved) {
+/// Takes a static object out of its chunk.
+Node& Scene::nodeInsteadOf(Load& load, std::size_t index) {
   const StaticObject& object = load.statics[index];
   const InstanceRecord& record = load.chunkRecords[index];
   const NodeRef self{load.number, object.position};
@@ -44,23 +45,30 @@ Node* Scene::promote(Load& load, std::size_t index, const Affine& moved) {
   Appearance appearance;
   appearance.mesh = record.mesh;
   appearance.drawn = (record.flags & InstanceRecord::kShown) != 0;
-  auto node = std::make_unique<ObjectNode>(NodeKind::Object, self, load.nameOf(object), place, appearance);
-  ObjectNode& added = *node;
-  load.nodes[object.position] = std::move(node);
+  load.nodes[object.position] =
+      std::make_unique<ObjectNode>(NodeKind::Object, self, load.nameOf(object), place, appearance);
   load.enterOrder.push_back(object.position);
+  staticChanges_.push_back({load.chunk, static_cast<std::uint32_t>(index), true});
+  return *load.nodes[object.position];
+}
+
+Node* Scene::promote(Load& load, std::size_t index, const Affine& moved) {
+  const InstanceRecord& record = load.chunkRecords[index];
+  Node& added = nodeInsteadOf(load, index);
   enterNode(added);
   Affine X_WN;
   for (int row = 0; row < 3; ++row)
     for (int col = 0; col < 4; ++col) X_WN.matrix()(row, col) = record.model[4 * row + col];
-  added.becomeHome(*this, moved * X_WN);
-  staticChanges_.push_back({load.chunk, static_cast<std::uint32_t>(index), true});
+  added.placed()->becomeHome(*this, moved * X_WN);
   return &added;
 }
 
 std::uint32_t Scene::requestLoad(const std::string& file, NodeRef owner, Nanoseconds at) {
   const std::uint32_t number = nextLoad_++;
   const auto* placed = owner.valid() ? dynamic_cast<const PlacedNode*>(find(owner)) : nullptr;
-  loader_.request(number, file, owner, placed ? placements_.world(placed->placement()) : Affine::Identity());
+  const Asked& asked =
+      asked_[number] = {file, owner, placed ? placements_.world(placed->placement()) : Affine::Identity()};
+  loader_.request(number, asked.file, asked.owner, asked.X_WO);
   pendingLoads_.push_back({at, number, true});
   return number;
 }
@@ -93,6 +101,8 @@ void Scene::applyLoads(const TimeSignature& now, FrameProbe* probe) {
     pendingLoads_.erase(pendingLoads_.begin() + static_cast<std::ptrdiff_t>(i));
     if (auto load = loader_.take(change.number))
       install(std::move(load), std::max(change.at, now.time - now.step));
+    else
+      asked_.erase(change.number);
     i = 0;
   }
   foreseeUnloads(now.time);
@@ -132,6 +142,7 @@ Nanoseconds Scene::endOf(std::uint32_t number) const {
 void Scene::install(std::unique_ptr<Load> arrived, Nanoseconds at) {
   Load& load = *arrived;
   if (load.owner.valid() && (!find(load.owner) || endOf(load.owner.load) <= at)) {
+    asked_.erase(load.number);
     loader_.dispose(std::move(arrived), 0);  // its scene node has gone meanwhile
     return;
   }
@@ -192,6 +203,7 @@ void Scene::remove(std::uint32_t number, std::uint64_t frame) {
   std::erase_if(reliefLevels_, [&](const auto& r) { return r.first.load == number; });
   std::erase_if(putOff_, [&](NodeRef ref) { return ref.load == number; });
   std::erase_if(paced_, [&](const auto& p) { return p.first.load == number; });
+  asked_.erase(number);
   ++loadsVersion_;
   loader_.dispose(std::move(gone), frame);
 }

@@ -300,6 +300,11 @@ void Scene::tellOfTooManyLights() {
                   {}});
 }
 
+void Scene::setSky(NodeRef node, const SkyRecord& sky) {
+  for (Sky& s : skies_)
+    if (s.node == node) s.record = sky;
+}
+
 void Scene::removeSky(NodeRef node) {
   std::erase_if(skies_, [&](const Sky& s) { return s.node == node; });
 }

@@ -5,7 +5,8 @@
 /// Order    Cull sets everything but the items, says begin(), and fills the items in the list's order: first
 ///          the opaque ones, telling how far it has come, then the others; then it says finish(). Draw waits
 ///          for what it comes to.
-/// Threads  restart, begin, reach, finish: the Cull thread that has the list; await, isVoid: the Draw thread
+/// Threads  restart, begin, reach, finish: the Cull thread that has the list; await, isVoid, isCutShort: the
+/// Draw thread
 ///          that it was handed to; stop: any.
 
 #include <condition_variable>
@@ -59,6 +60,11 @@ public:
   bool isVoid() const {
     const std::lock_guard lock(mutex_);
     return void_ || (stopped_ && there_ != kAll);
+  }
+  /// Whether the run ended before it was filled: what was drawn of it is no picture.
+  bool isCutShort() const {
+    const std::lock_guard lock(mutex_);
+    return stopped_ && there_ != kAll;
   }
   /// Nobody will fill it any more, and nobody waits for that.
   void stop() {

@@ -1,0 +1,155 @@
+// The scene's state, written down and put back (engine/state_fields.h). What follows from it by the same
+// computation, such as what is published, is made anew.
+
+#include "engine/nodes/placed_node.h"
+#include "engine/scene/scene.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace stadion {
+namespace {
+
+/// Of what is written: older ones mean something else.
+constexpr std::uint32_t kVersion = 1;
+
+}  // namespace
+
+std::vector<std::uint8_t> Scene::save() {
+  SavedState out;
+  std::uint32_t version = kVersion;
+  out("version", version);
+  visitLoads(out);
+  placements_.state(out);
+  visitRest(out);
+  visitNodes(out);
+  return out.take();
+}
+
+bool Scene::restore(std::span<const std::uint8_t> state) {
+  RestoredState in(state);
+  std::uint32_t version = 0;
+  in("version", version);
+  if (version != kVersion) return false;
+  visitLoads(in);
+  if (!in.failed()) placements_.state(in);
+  if (!in.failed()) visitRest(in);
+  if (!in.failed()) visitNodes(in);
+  if (!in.complete() || !standsTogether()) return false;
+  return resume();
+}
+
+/// Which files are there, and which are asked for.
+void Scene::visitLoads(StateFields& f) {
+  f("next load", nextLoad_), f("asked for", asked_), f("pending", pendingLoads_);
+  std::vector<std::uint32_t> there;
+  for (const auto& [number, l] : loads_) there.push_back(number);
+  f("loads", there);
+  if (f.restores()) {
+    for (const auto& [number, asked] : asked_) loader_.request(number, asked.file, asked.owner, asked.X_WO);
+    for (const std::uint32_t number : there) {
+      auto load = asked_.contains(number) && !loads_.contains(number) ? loader_.take(number) : nullptr;
+      if (!load) return f.fail();
+      loads_[number] = std::move(load);
+    }
+  }
+  for (const std::uint32_t number : there)
+    if (!f.failed()) visitLoad(f, number);
+}
+
+void Scene::visitLoad(StateFields& f, std::uint32_t number) {
+  Load& l = *loads_.at(number);
+  f("since", l.since), f("until", l.until), f("chunk", l.chunkShown);
+  // Static objects that have become nodes, in the order in which they have.
+  std::vector<std::uint32_t> order = l.enterOrder;
+  f("order", order);
+  if (!f.restores()) return;
+  const bool longer = order.size() >= l.enterOrder.size() &&
+                      std::equal(l.enterOrder.begin(), l.enterOrder.end(), order.begin());
+  if (!longer) return f.fail();
+  for (std::size_t i = l.enterOrder.size(); i < order.size(); ++i) {
+    const auto s = std::ranges::lower_bound(l.statics, order[i], {}, &StaticObject::position);
+    if (s == l.statics.end() || s->position != order[i] || l.nodes[order[i]]) return f.fail();
+    nodeInsteadOf(l, static_cast<std::size_t>(s - l.statics.begin()));
+  }
+  if (l.chunkShown && l.chunk != kNoChunk) chunkChanges_.push_back({l.chunk, true});
+}
+
+/// All that belongs to no node.
+void Scene::visitRest(StateFields& f) {
+  f("now", now_), f("frame", frame_), f("frame start", frameStart_);
+  f("instances", instances_), f("free instances", freeInstances_), f("instances at", instancesAt_);
+  f("lights", lights_), f("lights at", lightsAt_), f("shining", shining_), f("told of lights", toldOfLights_);
+  f("sounds", sounds_), f("skies", skies_), f("rigs", rigs_), f("rig", freeRig_);
+  f("chunks shown", chunksShown_);
+  f("messages", messages_), f("wakes", wakes_), f("woken", wokenLate_);
+  f("relief levels", reliefLevels_), f("reliefs", reliefs_), f("relief loads", reliefLoads_);
+  f("stress", stressLevel_), f("put off", putOff_), f("paced", paced_);
+  f("watchers", watchers_), f("load watchers", loadWatchers_), f("impact watchers", impactWatchers_);
+  f("loads version", loadsVersion_), f("loads told", loadsTold_);
+  f("last input", lastInput_);
+}
+
+void Scene::visitNodes(StateFields& f) {
+  for (const auto& [number, l] : loads_)
+    for (const std::uint32_t position : l->enterOrder) {
+      Node& node = *l->nodes[position];
+      Node::Standing& s = node.standing();
+      f("rests", s.rests), f("pace", s.pace), f("missed", s.missed);
+      node.state(f);
+      if (f.failed()) return;
+    }
+}
+
+/// Whether whatever names a placement, an instance or a node's place in a list names one that is there.
+bool Scene::standsTogether() const {
+  const auto placement = [&](PlacementId id) { return placements_.has(id); };
+  for (const Instance& i : instances_)
+    if (i.live && (!placement(i.placement) || i.placement >= instancesAt_.size())) return false;
+  std::vector<char> seen(instances_.size(), 0);
+  for (InstanceId id : instancesAt_)
+    for (; id != kNoInstance; id = instances_[id].next)
+      if (id >= instances_.size() || !instances_[id].live || std::exchange(seen[id], 1)) return false;
+  for (InstanceId id = 0; id < instances_.size(); ++id)
+    if (instances_[id].live != (seen[id] != 0)) return false;
+  const auto free = [&](InstanceId id) { return id < instances_.size() && !instances_[id].live; };
+  if (!std::ranges::all_of(freeInstances_, free)) return false;
+  for (const Light& l : lights_)
+    if (l.live && (!placement(l.placement) || l.placement >= lightsAt_.size())) return false;
+  if (std::ranges::any_of(shining_, [&](std::size_t h) { return h >= lights_.size(); })) return false;
+  for (const SoundSpot& s : sounds_)
+    if (s.live && !placement(s.placement)) return false;
+  for (const Rig& r : rigs_)
+    if (!placement(r.placement)) return false;
+  for (const auto& [id, watcher] : watchers_)
+    if (!placement(id)) return false;
+  for (const auto& [number, l] : loads_)
+    for (const std::uint32_t position : l->enterOrder)
+      if (const PlacedNode* placed = l->nodes[position]->placed(); placed && !placement(placed->placement()))
+        return false;
+  return true;
+}
+
+/// What was put back takes effect: nodes know the scene again, everything is published anew.
+bool Scene::resume() {
+  for (InstanceId id = 0; id < instances_.size(); ++id) {
+    Instance& i = instances_[id];
+    if (!i.live) continue;
+    i.form = i.mesh == kNoMesh ? nullptr : meshes_.find(i.mesh);
+    i.transparent = i.form && i.form->transparent();
+    i.leveled = i.form && !i.form->levels.empty();
+    markInstance(id);
+  }
+  lightsChanged_ = true;
+  for (const auto& [number, l] : loads_)
+    for (const std::uint32_t position : l->enterOrder)
+      if (!l->nodes[position]->resume(*this)) return false;
+  for (const auto& [number, l] : loads_)
+    for (const std::uint32_t position : l->enterOrder) {
+      setBusy(*l->nodes[position]);
+      rehash(*l->nodes[position]);
+    }
+  return true;
+}
+
+}  // namespace stadion

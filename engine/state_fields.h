@@ -1,0 +1,320 @@
+#pragma once
+/// A state, field by field, in an order that is the same everywhere: to hash it, to write it down, to put it
+/// back, to say in which field two of them differ.
+///
+/// Whoever has a state says once what it consists of, for all four:
+///
+///     template <class Self, class Fields>
+///     static void fields(Self& self, Fields& f) {
+///       f("on", self.on_);
+///       f("due", self.due_);
+///       f.kept("handle", self.handle_);  // follows from the rest, in ways that matter: no part of the hash
+///     }
+///
+/// What is read from elsewhere may be damaged or meant for another script: reading it ends in failed(), and
+/// nothing is out of bounds. What was read by then is void.
+///
+/// Threads  one at a time.
+/// Bits     numbers by their bits, little end first, so that what is put back is the very same.
+
+#include "engine/maths/maths.h"
+#include "engine/message.h"
+#include "engine/state_hash.h"
+
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace stadion {
+
+/// Numbers and texts, by name. See SavedState, RestoredState and StateDifference for what becomes of them.
+class StateFields {
+public:
+  StateFields() = default;
+  virtual ~StateFields() = default;
+  StateFields(const StateFields&) = delete;
+  StateFields& operator=(const StateFields&) = delete;
+
+  template <class T>
+  void operator()(std::string_view name, T& value) {
+    name_ = name;
+    visit(value);
+  }
+  /// What is no part of the hash.
+  template <class T>
+  void kept(std::string_view name, T& value) {
+    (*this)(name, value);
+  }
+  /// What the hash counts in another form than it is kept in.
+  template <class T>
+  void hashed(const T&) {}
+  /// How many there are: elements that are visited one by one afterwards.
+  std::size_t count(std::string_view name, std::size_t present) {
+    name_ = name;
+    std::uint64_t n = present;
+    number(n, Form::Whole);
+    if (n > most()) fail();
+    return failed() ? 0 : static_cast<std::size_t>(n);
+  }
+
+  /// Whether fields are set by what was written.
+  virtual bool restores() const { return false; }
+  /// What is there is no such state.
+  virtual bool failed() const { return false; }
+  /// So says who knows better: a name that nobody has, a place that does not exist.
+  virtual void fail() {}
+
+protected:
+  /// How a number's 64 bits are to be read by people.
+  enum class Form : std::uint8_t { Whole, Signed, Real };
+  virtual void number(std::uint64_t& bits, Form form) = 0;
+  virtual void text(std::string& words) = 0;
+  /// Elements that a list may have at most: each takes a byte.
+  virtual std::uint64_t most() const { return ~std::uint64_t{0}; }
+
+  std::string_view name_;   ///< of the field that is visited
+  std::string_view outer_;  ///< of what it is a part of; empty = of the whole
+
+private:
+  template <class T>
+  void visit(T& value) {
+    using U = std::remove_const_t<T>;
+    if constexpr (std::is_const_v<T>)
+      visit(const_cast<U&>(value));  // what only writes and compares changes nothing
+    else if constexpr (std::is_same_v<U, double> || std::is_same_v<U, float>)
+      real(value);
+    else if constexpr (std::is_enum_v<U> || std::is_integral_v<U>)
+      whole(value);
+    else if constexpr (std::is_same_v<U, std::string>)
+      text(value);
+    else
+      visitAll(value);
+  }
+  template <class T>
+  void real(T& value) {
+    auto bits = std::bit_cast<std::uint64_t>(static_cast<double>(value));
+    number(bits, Form::Real);
+    value = static_cast<T>(std::bit_cast<double>(bits));
+  }
+  template <class T>
+  void whole(T& value) {
+    auto bits = static_cast<std::uint64_t>(value);
+    number(bits, std::is_signed_v<T> ? Form::Signed : Form::Whole);
+    if (!restores()) return;
+    if constexpr (std::is_same_v<T, bool>)
+      value = bits != 0;
+    else
+      value = static_cast<T>(bits);
+    if (static_cast<std::uint64_t>(value) != bits) fail();
+  }
+
+  void visitAll(Vec3& v) {
+    for (int i = 0; i < 3; ++i) visit(v[i]);
+  }
+  void visitAll(Eigen::Vector4d& v) {
+    for (int i = 0; i < 4; ++i) visit(v[i]);
+  }
+  void visitAll(Mat3& m) {
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) visit(m(r, c));
+  }
+  void visitAll(Quat& q) { visitAll(q.coeffs()); }
+  void visitAll(Pose& X) { visitAll(X.p), visitAll(X.q); }
+  void visitAll(Affine& X) {
+    for (int c = 0; c < 4; ++c)
+      for (int r = 0; r < 3; ++r) visit(X.matrix()(r, c));
+  }
+  void visitAll(NodeRef& r) { visit(r.load), visit(r.position); }
+  template <class A, class B>
+  void visitAll(std::pair<A, B>& p) {
+    visit(p.first), visit(p.second);
+  }
+  template <class T, std::size_t N>
+  void visitAll(std::array<T, N>& list) {
+    for (T& v : list) visit(v);
+  }
+  template <class T>
+  void visitAll(std::optional<T>& o) {
+    bool there = o.has_value();
+    visit(there);
+    if (restores()) there ? void(o.emplace()) : o.reset();
+    if (o) visit(*o);
+  }
+  template <class T>
+  void visitAll(std::vector<T>& list) {
+    const std::size_t n = count(name_, list.size());
+    if (restores()) list.clear();
+    for (std::size_t i = 0; i < n && !failed(); ++i) {
+      if (restores()) list.emplace_back();
+      if (i < list.size()) visit(list[i]);
+    }
+  }
+  template <class T>
+  void visitAll(std::deque<T>& d) {
+    std::vector<T> list(d.begin(), d.end());
+    visitAll(list);
+    if (restores()) d = {list.begin(), list.end()};
+  }
+  template <class T>
+  void visitAll(std::set<T>& s) {
+    std::vector<T> list(s.begin(), s.end());
+    visitAll(list);
+    if (restores()) s = {list.begin(), list.end()};
+  }
+  template <class K, class V>
+  void visitAll(std::map<K, V>& m) {
+    std::vector<std::pair<K, V>> list(m.begin(), m.end());
+    visitAll(list);
+    if (restores()) m = {list.begin(), list.end()};
+  }
+  template <class K, class V>
+  void visitAll(std::multimap<K, V>& m) {
+    std::vector<std::pair<K, V>> list(m.begin(), m.end());
+    visitAll(list);
+    if (restores()) m = {list.begin(), list.end()};
+  }
+  /// Whatever else says what it consists of, or of which a fieldsOf(value, f) beside it says that.
+  template <class T>
+  requires requires(T& v, StateFields& f) { T::fields(v, f); } || requires(T& v, StateFields& f) {
+    fieldsOf(v, f);
+  }
+  void visitAll(T& value) {
+    const std::string_view outer = std::exchange(outer_, name_);
+    if constexpr (requires { T::fields(value, *this); })
+      T::fields(value, *this);
+    else
+      fieldsOf(value, *this);
+    name_ = std::exchange(outer_, outer);
+  }
+};
+
+/// The same fields, added to a hash. Of lists the elements alone count, one by one (each()).
+class HashedFields {
+public:
+  explicit HashedFields(StateHash& hash) : hash_(hash) {}
+
+  template <class T>
+  void operator()(std::string_view, const T& value) {
+    if constexpr (std::is_enum_v<T>)
+      hash_.add(static_cast<std::uint32_t>(value));
+    else if constexpr (requires { T::fields(value, *this); })
+      T::fields(value, *this);
+    else if constexpr (requires { value.has_value(); }) {
+      if (value) (*this)({}, *value);
+    } else if constexpr (requires { value.first, value.second; })
+      (*this)({}, value.first), (*this)({}, value.second);
+    else if constexpr (requires { value.begin(); } && !std::is_same_v<T, std::string>)
+      for (const auto& element : value) (*this)({}, element);
+    else if constexpr (std::is_same_v<T, std::string>)
+      hash_.add(std::string_view(value));
+    else
+      hash_.add(value);
+  }
+  template <class T>
+  void kept(std::string_view, const T&) {}
+  template <class T>
+  void hashed(const T& value) {
+    (*this)({}, value);
+  }
+
+private:
+  StateHash& hash_;
+};
+
+/// Of something that derives from it, that part.
+template <class Base, class Whole>
+auto& partOf(Whole& whole) {
+  if constexpr (std::is_const_v<Whole>)
+    return static_cast<const Base&>(whole);
+  else
+    return static_cast<Base&>(whole);
+}
+
+/// Of anything that says what it consists of.
+template <class T>
+void hashFields(const T& whole, StateHash& hash) {
+  HashedFields f(hash);
+  T::fields(whole, f);
+}
+
+/// Written down.
+class SavedState final : public StateFields {
+public:
+  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  std::vector<std::uint8_t> take() { return std::exchange(bytes_, {}); }
+
+private:
+  void number(std::uint64_t& bits, Form form) override;
+  void text(std::string& words) override;
+
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// Reads what SavedState wrote. The bytes must outlive it.
+class StateBytes {
+public:
+  explicit StateBytes(std::span<const std::uint8_t> bytes) : left_(bytes) {}
+
+  std::uint64_t whole();
+  std::uint64_t real();
+  std::string text();
+  bool failed() const { return failed_; }
+  void fail() { failed_ = true, left_ = {}; }
+  std::size_t left() const { return left_.size(); }
+
+private:
+  std::span<const std::uint8_t> left_;
+  bool failed_ = false;
+};
+
+/// Put back.
+class RestoredState final : public StateFields {
+public:
+  explicit RestoredState(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  bool restores() const override { return true; }
+  bool failed() const override { return bytes_.failed(); }
+  void fail() override { bytes_.fail(); }
+  /// Whether nothing is left over.
+  bool complete() const { return !bytes_.failed() && bytes_.left() == 0; }
+
+private:
+  void number(std::uint64_t& bits, Form form) override;
+  void text(std::string& words) override;
+  std::uint64_t most() const override { return bytes_.left(); }
+
+  StateBytes bytes_;
+};
+
+/// Compared with what was written elsewhere: the first field that differs.
+class StateDifference final : public StateFields {
+public:
+  explicit StateDifference(std::span<const std::uint8_t> there) : there_(there) {}
+
+  struct Field {
+    std::string name;
+    std::string here, there;  ///< as people read them
+  };
+  const std::optional<Field>& first() const { return first_; }
+
+private:
+  void number(std::uint64_t& bits, Form form) override;
+  void text(std::string& words) override;
+  void found(std::string here, std::string there);
+
+  StateBytes there_;
+  std::optional<Field> first_;
+};
+
+}  // namespace stadion

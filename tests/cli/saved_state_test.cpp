@@ -1,0 +1,132 @@
+/// A show that is put back from what was written down of it goes on as if nothing had been: the same hashes,
+/// and the same to be drawn, frame by frame.
+
+#include "cli/player.h"
+#include "engine/state_fields.h"
+#include "pipeline/frame_loop.h"
+#include "tests/cli/program.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <map>
+
+namespace stadion {
+namespace {
+
+struct Script {
+  std::string file, input;
+  std::uint64_t frames;
+  double rate = 60;
+};
+
+std::unique_ptr<Player> open(const Script& script,
+                             std::shared_ptr<const std::vector<std::uint8_t>> state = {}) {
+  ShowOptions options;
+  options.script = script.file, options.walls = "desktop", options.size = "64x48";
+  options.input = script.input, options.assetRoots = {assetFolder()};
+  options.rate = script.rate, options.rateGiven = true, options.state = std::move(state);
+  options.appThreads = 1;
+  Diagnostics findings;
+  std::unique_ptr<Player> player;
+  if (options.settle(findings)) player = Player::create(options, findings);
+  tell(findings);
+  return player;
+}
+
+/// What is seen: every instance as it was published last, by what it shows and whose it is.
+struct Seen {
+  std::map<InstanceId, InstanceRecord> instances;
+
+  void take(const ChangeSet& changes) {
+    for (const ChangeSet::Instance& i : changes.instances) instances[i.id] = i.record;
+  }
+  /// Of what is there.
+  std::uint64_t hash() const {
+    StateHash h;
+    for (const auto& [id, r] : instances) {
+      if (r.radius < 0) continue;
+      h.add(id), h.add(r.owner), h.add(r.mesh), h.add(r.flags), h.add(double{r.radius}),
+          h.add(double{r.lodFactor});
+      for (const double m : r.model) h.add(m);
+    }
+    return h.value();
+  }
+};
+
+class Played {
+public:
+  Played(std::unique_ptr<Player> player, double rate)
+      : player_(std::move(player)), parts_(player_->parts(StereoLayout::Off)), rate_(rate) {}
+
+  void frame(std::uint64_t n) {
+    const TimeSignature now = signatureAt(n, rate_);
+    parts_.input.sampleFrame(now.time - now.step, now.time, input_);
+    player_->scene().advance(now, input_, changes_, nullptr);
+    player_->collect(n);
+    seen_.take(changes_);
+  }
+  Scene& scene() { return player_->scene(); }
+  std::uint64_t seen() const { return seen_.hash(); }
+  const Seen& all() const { return seen_; }
+
+private:
+  std::unique_ptr<Player> player_;
+  ShowParts parts_;
+  double rate_;
+  InputSample input_;
+  ChangeSet changes_;
+  Seen seen_;
+};
+
+class SavedState : public testing::TestWithParam<Script> {};
+
+TEST_P(SavedState, GoesOnAsIfNothingHadBeen) {
+  const Script& script = GetParam();
+  struct Copy {
+    std::uint64_t from;
+    std::unique_ptr<Played> played;
+  };
+  auto player = open(script);
+  ASSERT_TRUE(player);
+  Played played(std::move(player), script.rate);
+  std::vector<Copy> copies;
+  for (std::uint64_t n = 0; n < script.frames; ++n) {
+    played.frame(n);
+    for (Copy& copy : copies) {
+      copy.played->frame(n);
+      ASSERT_EQ(copy.played->scene().stateHash(), played.scene().stateHash())
+          << "in frame " << n << ", put back after frame " << copy.from;
+      ASSERT_EQ(copy.played->seen(), played.seen())
+          << "in frame " << n << ", put back after frame " << copy.from;
+    }
+    if (n % (script.frames / 6) != 5) continue;
+    const auto state = std::make_shared<const std::vector<std::uint8_t>>(played.scene().save());
+    auto copy = open(script, state);
+    ASSERT_TRUE(copy) << "after frame " << n;
+    EXPECT_EQ(copy->scene().stateHash(), played.scene().stateHash()) << "after frame " << n;
+    const std::vector<std::uint8_t> again = copy->scene().save();
+    EXPECT_EQ(again.size(), state->size()) << "after frame " << n;
+    EXPECT_TRUE(again == *state) << "written down again after frame " << n << " it is something else";
+    copies.push_back({n, std::make_unique<Played>(std::move(copy), script.rate)});
+  }
+  for (Copy& copy : copies)
+    EXPECT_TRUE(copy.played->scene().save() == played.scene().save()) << "put back after frame " << copy.from;
+}
+
+std::string ours(const std::string& name) {
+  return std::string(STADION_SOURCE_DIR) + "/scripts/" + name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shows, SavedState,
+                         testing::Values(Script{ours("kick.evs"), ours("kick.input"), 480},
+                                         Script{ours("olympia.evs"), ours("olympia.input"), 900},
+                                         Script{ours("crowd.evs"), "none", 240},
+                                         Script{testShow("bodies.evs"), "none", 240},
+                                         Script{testShow("moving.evs"), testShow("moving.input"), 240},
+                                         Script{testShow("joypad.evs"), testShow("joypad.input"), 240},
+                                         Script{testShow("desk.evs"), "none", 240},
+                                         Script{testShow("hold.evs"), "none", 240},
+                                         Script{testShow("stadium/stadium.evs"), "none", 240}));
+
+}  // namespace
+}  // namespace stadion
