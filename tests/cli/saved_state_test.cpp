@@ -99,7 +99,8 @@ TEST_P(SavedState, GoesOnAsIfNothingHadBeen) {
       ASSERT_EQ(copy.played->seen(), played.seen())
           << "in frame " << n << ", put back after frame " << copy.from;
     }
-    if (n % (script.frames / 6) != 5) continue;
+    if (n % (script.frames / 20) != 5) continue;
+    if (copies.size() > 5) copies.erase(copies.begin());
     const auto state = std::make_shared<const std::vector<std::uint8_t>>(played.scene().save());
     auto copy = open(script, state);
     ASSERT_TRUE(copy) << "after frame " << n;
@@ -117,16 +118,19 @@ std::string ours(const std::string& name) {
   return std::string(STADION_SOURCE_DIR) + "/scripts/" + name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Shows, SavedState,
-                         testing::Values(Script{ours("kick.evs"), ours("kick.input"), 480},
-                                         Script{ours("olympia.evs"), ours("olympia.input"), 900},
-                                         Script{ours("crowd.evs"), "none", 240},
-                                         Script{testShow("bodies.evs"), "none", 240},
-                                         Script{testShow("moving.evs"), testShow("moving.input"), 240},
-                                         Script{testShow("joypad.evs"), testShow("joypad.input"), 240},
-                                         Script{testShow("desk.evs"), "none", 240},
-                                         Script{testShow("hold.evs"), "none", 240},
-                                         Script{testShow("stadium/stadium.evs"), "none", 240}));
+INSTANTIATE_TEST_SUITE_P(
+    Shows, SavedState,
+    testing::Values(Script{ours("kick.evs"), ours("kick.input"), 480},
+                    Script{ours("olympia.evs"), ours("olympia.input"), 900},
+                    Script{ours("crowd.evs"), "none", 240}, Script{testShow("bodies.evs"), "none", 240},
+                    Script{testShow("moving.evs"), testShow("moving.input"), 240},
+                    Script{testShow("joypad.evs"), testShow("joypad.input"), 240},
+                    Script{testShow("desk.evs"), "none", 240}, Script{testShow("hold.evs"), "none", 240},
+                    Script{testShow("stadium/stadium.evs"), "none", 240}),
+    [](const testing::TestParamInfo<Script>& script) {
+      const std::string file = script.param.file.substr(script.param.file.rfind('/') + 1);
+      return file.substr(0, file.find('.'));
+    });
 
 }  // namespace
 }  // namespace stadion
