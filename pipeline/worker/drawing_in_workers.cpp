@@ -22,7 +22,7 @@ constexpr int kMostStarts = 3;            // for one frame after the first, or t
 constexpr milliseconds kLookEvery{10};    // at who gives up, and whether it lives
 constexpr milliseconds kHangs{5000};      // without using the processor, where every frame counts
 constexpr milliseconds kHangsLive{1000};  // where others must not wait
-constexpr milliseconds kStopped{250};     // then, if somebody has stopped it
+constexpr milliseconds kStopped{250};     // if somebody has stopped it
 constexpr milliseconds kForEver{24 * 3600 * 1000};
 
 }  // namespace
@@ -120,7 +120,7 @@ bool DrawingInWorkers::hangs(Wall& wall) {
   if (status.state == 'R' || status.processorSeconds != wall.processor)
     wall.processor = status.processorSeconds, wall.since = now;
   const bool live = !parts_.everyFrame && wall.process.state() != State::Opening;
-  return now - wall.since > (!live ? kHangs : status.state == 'T' ? kStopped : kHangsLive);
+  return now - wall.since > (status.state == 'T' ? kStopped : live ? kHangsLive : kHangs);
 }
 
 /// What the process said, as far as it concerns the run.

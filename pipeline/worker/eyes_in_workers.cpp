@@ -177,6 +177,10 @@ Failure EyesInWorkers::read(std::size_t wall, std::uint32_t eye, std::span<std::
   return eyes_->read(walls_[wall]->first + eye, 0, rgba);
 }
 
+int EyesInWorkers::pid(std::size_t wall, std::uint32_t eye) const {
+  return eyes_->pid(walls_[wall]->first + eye);
+}
+
 void EyesInWorkers::close(std::size_t wall) {
   const Wall& w = *walls_[wall];
   for (std::uint32_t eye = 0; eye < w.eyes; ++eye) eyes_->close(w.first + eye);

@@ -25,6 +25,8 @@ public:
   void close(std::size_t wall) override;
   std::array<DrawTotals, 2> totals(std::size_t wall) const override;
   std::string glDescription(std::size_t wall) const override;
+  /// Who draws that eye.
+  int pid(std::size_t wall, std::uint32_t eye) const;
 
 private:
   struct Wall;

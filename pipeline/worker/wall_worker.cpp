@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <fcntl.h>
 #include <poll.h>
-#include <sstream>
+#include <string_view>
 #include <sys/socket.h>
 #include <sys/uio.h>
 #include <sys/wait.h>
@@ -16,18 +17,33 @@
 namespace stadion::worker {
 namespace {
 
+/// Asked many times a second while a wall is drawn: it allocates nothing.
 ProcessStatus statusOf(int pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  std::string text;
-  std::getline(file, text);
-  const auto name = text.rfind(')');  // the program's name may hold blanks
-  if (name == std::string::npos) return {};
-  std::istringstream in(text.substr(name + 2));
-  const std::vector<std::string> fields{std::istream_iterator<std::string>(in), {}};  // from the third on
-  constexpr std::size_t kState = 0, kUser = 11, kSystem = 12, kEnd = 49;
-  if (fields.size() <= kEnd) return {};
-  const double ticks = std::stod(fields[kUser]) + std::stod(fields[kSystem]);
-  return {ticks / static_cast<double>(sysconf(_SC_CLK_TCK)), fields[kState][0], std::stoi(fields[kEnd])};
+  char text[1024];  // the longest line has some 400 characters
+  std::snprintf(text, sizeof text, "/proc/%d/stat", pid);
+  const Descriptor file(::open(text, O_RDONLY | O_CLOEXEC));
+  const ssize_t size = file ? ::read(file.get(), text, sizeof text) : 0;
+  std::string_view left(text, size > 0 ? static_cast<std::size_t>(size) : 0);
+  const auto name = left.rfind(')');  // the program's name may hold blanks
+  if (name == left.npos) return {};
+  left.remove_prefix(std::min(name + 2, left.size()));
+  constexpr int kState = 0, kUser = 11, kSystem = 12, kEnd = 49;  // the first of these is the third field
+  ProcessStatus status;
+  long ticks = 0, end = 0;
+  for (int field = 0; !left.empty(); ++field) {
+    const std::string_view word = left.substr(0, left.find_first_of(" \n"));
+    left.remove_prefix(std::min(word.size() + 1, left.size()));
+    long value = 0;
+    std::from_chars(word.data(), word.data() + word.size(), value);
+    if (field == kState && !word.empty()) status.state = word[0];
+    if (field == kUser || field == kSystem) ticks += value;
+    if (field == kEnd) end = value;
+    if (field < kEnd) continue;
+    status.processorSeconds = static_cast<double>(ticks) / static_cast<double>(sysconf(_SC_CLK_TCK));
+    status.end = static_cast<int>(end);
+    return status;
+  }
+  return {};
 }
 
 /// As ChildProcess::wait() has it.

@@ -220,6 +220,43 @@ TEST(ProgramWallWorkers, AProcessForEachEyeDrawsTheSamePictures) {
   drawing.close(0), drawing.close(1);
 }
 
+TEST(ProgramWallWorkers, NoWallIsDrawnOfWhichOneEyeIsMissing) {
+  MeshStore meshes;
+  const DrawList list = stereoList(meshes);
+  auto parts = partsFor(meshes);
+  parts.everyFrame = false, parts.rate = 1;
+  EyesInWorkers drawing(std::move(parts), {2});
+  ASSERT_FALSE(drawing.open(0));
+  for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list, false).drawn);
+  for (const std::uint32_t eye : {1u, 0u}) {
+    const int before = drawing.pid(0, eye), other = drawing.pid(0, 1 - eye);
+    kill(before, SIGSTOP);
+    const DrawOutcome outcome = drawing.draw(0, list, false);
+    EXPECT_FALSE(outcome.failure);
+    EXPECT_FALSE(outcome.drawn) << "without eye " << eye;
+    const auto began = Clock::now();
+    while (!drawing.draw(0, list, false).drawn && Clock::now() - began < std::chrono::seconds(60))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_NE(drawing.pid(0, eye), before);
+    EXPECT_EQ(drawing.pid(0, 1 - eye), other);
+    for (std::uint32_t e = 0; e < 2; ++e) EXPECT_EQ(pictureOf(drawing, 0, e), drawnHere(meshes, list, e));
+  }
+  drawing.close(0);
+}
+
+TEST(ProgramWallWorkers, AFrameWhoseProcessIsStoppedIsDrawnByAnother) {
+  MeshStore meshes;
+  const DrawList list = stereoList(meshes);
+  DrawingInWorkers drawing(partsFor(meshes));
+  ASSERT_FALSE(drawing.open(0));
+  ASSERT_TRUE(drawing.draw(0, list, false).drawn);
+  const int before = drawing.pid(0);
+  kill(before, SIGSTOP);
+  ASSERT_TRUE(drawing.draw(0, list, false).drawn);
+  EXPECT_NE(drawing.pid(0), before);
+  EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, list));
+}
+
 TEST(ProgramWallWorkers, AnEyeWhoseProcessHasNoProgramFailsTheWall) {
   MeshStore meshes;
   auto parts = partsFor(meshes);
