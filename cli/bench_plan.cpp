@@ -67,8 +67,7 @@ public:
     if (!options.show.settle(findings)) return false;
     std::vector<Combination> combinations;
     for (const std::size_t walls : o_.walls)
-      for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
-        combinations.push_back({walls, mode});
+      for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) combinations.push_back({walls, mode});
     const double before = loadNow();
     if (!lengthen(options, findings)) return false;
     // In turns, and what is predicted from beside what is to come: machines are not as fast at all times.
@@ -142,7 +141,7 @@ private:
                                            {"predicted_latency_ms", latency},
                                            {"measured_latency_ms", measuredLatency},
                                            {"ok", ok}}
-                                .dump()
+                                .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
                                 .c_str());
       else
         std::printf("%5zu  %-10s %7.2f ms %6.2f ms %+5.1f %%  %6.2f ms %6.2f ms  %s\n", c.walls, mode, period,

@@ -108,7 +108,7 @@ void refuseOverwriting(const RegressOptions& o, const std::vector<regression::Su
   files.push_back({o.baselineGiven ? "--baseline" : "the suite's baseline", o.baseline, o.update});
   files.push_back({"--junit", o.junit});
   if (!o.out.empty())
-    for (const char* name : {"report.html", "results.json", "history.jsonl", "progress.jsonl"})
+    for (const char* name : {"report.html", "results.json", "junit.xml", "history.jsonl", "progress.jsonl"})
       files.push_back({std::string("--out's ") + name, o.out + "/" + name});
   refuseOverwriting(shows, files, findings);
 }

@@ -152,6 +152,12 @@ private:
          fmt::format("there are no {} to compare with: --against BUILD, or --update", metric)});
   }
 
+  static std::map<std::string, double> typicalOf(const StageTimesByName& times) {
+    std::map<std::string, double> typical;
+    for (const auto& [stage, all] : times) typical[stage] = median(all);
+    return typical;
+  }
+
   void takeTimes(const std::string& mode) {
     const bool needed = !with_.program.empty() || update_ || (known() && !known()->times.empty());
     if (!needed) return nothingFor("times");
@@ -164,6 +170,8 @@ private:
       std::vector<StageShift> shifts = compareRounds(m.rounds, tolerance);
       askWhichNode(shifts);
       add(checksOf(shifts, "the other build", tolerance, case_.rounds));
+      const Round& first = m.rounds.front();
+      add(unmatchedStages(typicalStages(first.before), typicalStages(first.now), "the other build"));
       return;
     }
     const MeasuredRounds m = measureRounds(case_, mode, {o_.program}, measuring());
@@ -176,9 +184,7 @@ private:
     if (update_) {
       BaselineCase& kept = (*update_)[result_.name];
       kept.times = times;
-      std::map<std::string, double> typical;
-      for (const auto& [stage, all] : times) typical[stage] = median(all);
-      kept.nodeTimes = dearOf(nodes, typical);
+      kept.nodeTimes = dearOf(nodes, typicalOf(times));
     } else {
       const std::vector<SpanRow>& rows = m.rounds.front().now;
       auto shifts = compareTimes(known()->times, times, typicalStages(rows), tolerance);
@@ -188,6 +194,7 @@ private:
         s.culprit = culpritSince(s.name, before, s.shift * before, known()->nodeTimes, nodes, rows);
       }
       add(checksOf(shifts, "the baseline", tolerance, case_.rounds));
+      add(unmatchedStages(typicalOf(known()->times), typicalOf(times), "the baseline"));
     }
   }
 

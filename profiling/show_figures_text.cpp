@@ -155,7 +155,7 @@ std::string toJson(const ShowFigures& f) {
                               {"nodes_ms", e.nodes},
                               {"parts_ms", e.named},
                               {"covered", e.covered()}});
-  return j.dump();
+  return j.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string toCsv(const ShowFigures& f) {

@@ -164,6 +164,19 @@ NodeCosts nodeTimes(const std::vector<Round>& rounds, const std::vector<double>&
   return costs;
 }
 
+std::vector<Check> unmatchedStages(const std::map<std::string, double>& before,
+                                   const std::map<std::string, double>& now, const std::string& with) {
+  std::vector<Check> checks;
+  const auto tell = [&](const std::string& name, const std::string& said) {
+    checks.push_back({"times of " + name, Outcome::Failed, said, name});
+  };
+  for (const auto& [name, us] : now)
+    if (!before.contains(name)) tell(name, fmt::format("{} has no such stage", with));
+  for (const auto& [name, us] : before)
+    if (!now.contains(name)) tell(name, fmt::format("{} has it, this build does not", with));
+  return checks;
+}
+
 std::vector<Check> checksOf(const std::vector<StageShift>& shifts, const std::string& with, double tolerance,
                             std::size_t rounds) {
   std::vector<Check> checks;

@@ -51,6 +51,9 @@ std::vector<StageShift> compareTimes(const StageTimesByName& baseline, const Sta
 /// What the nodes of rounds of one build cost in the typical frame, in multiples of the calibration kernel's.
 NodeCosts nodeTimes(const std::vector<Round>& rounds, const std::vector<double>& calibrationMs);
 
+/// Stages that only one side has: nothing of them can be compared, and that is no pass.
+std::vector<Check> unmatchedStages(const std::map<std::string, double>& before,
+                                   const std::map<std::string, double>& now, const std::string& with);
 /// A check for each.
 std::vector<Check> checksOf(const std::vector<StageShift>& shifts, const std::string& with, double tolerance,
                             std::size_t rounds);

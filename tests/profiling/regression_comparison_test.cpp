@@ -72,6 +72,27 @@ TEST(RegressionFacts, ImagesOfAnotherRendererAreNotCompared) {
   EXPECT_EQ(checks[0].outcome, Outcome::Skipped);
 }
 
+TEST(RegressionFacts, ThatNeitherTellsAreNotCompared) {
+  RunFacts before = *factsOf(kSummary);
+  before.state.clear();
+  const RunFacts now = before;
+  const auto checks = compareFacts(now, {&before, "the other build"}, {});
+  ASSERT_EQ(checks.size(), 3u);
+  EXPECT_EQ(checks[0].outcome, Outcome::Skipped) << checks[0].said;
+  EXPECT_EQ(checks[1].outcome, Outcome::Passed);
+}
+
+TEST(RegressionTimes, AStageThatOnlyOneSideHasIsNoPass) {
+  const auto checks = unmatchedStages({{"app", 1}, {"draw of wall front", 9}},
+                                      {{"app", 1}, {"draw of nowhere", 9}}, "the baseline");
+  ASSERT_EQ(checks.size(), 2u);
+  EXPECT_EQ(checks[0].metric + ": " + checks[0].said,
+            "times of draw of nowhere: the baseline has no such stage");
+  EXPECT_EQ(checks[1].metric + ": " + checks[1].said,
+            "times of draw of wall front: the baseline has it, this build does not");
+  EXPECT_EQ(checks[1].outcome, Outcome::Failed);
+}
+
 /// Stages and nodes of a run whose frames are noisy, some of them spoilt.
 class MadeRun {
 public:
