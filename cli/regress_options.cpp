@@ -41,13 +41,16 @@ std::string ownPath() {
   return std::filesystem::canonical("/proc/self/exe", none).string();
 }
 
-void checkProgram(const std::string& path, const char* option, Diagnostics& findings) {
+/// It is this file, wherever programs are looked for.
+void checkProgram(std::string& path, const char* option, Diagnostics& findings) {
   std::error_code none;
   if (std::filesystem::is_directory(path, none))
     findings.error({}, std::string(option) + ": " + path + " is a folder; name the program in it, such as " +
                            path + "/build/release/bin/stadion");
   else if (!std::filesystem::exists(path, none))
     findings.error({}, std::string(option) + ": there is no program " + path);
+  else
+    path = std::filesystem::absolute(path, none).string();
 }
 
 }  // namespace
