@@ -37,22 +37,21 @@ struct Line {
 };
 
 std::vector<Line> linesOf(const ShowFigures& f, const Show& show) {
-  const auto& [app, cull, draw] = f.explained;
-  const double measured = app.measured + cull.measured + f.drawPlayed.measured;
-  double found = 0;
-  for (const Explained* e : {&app, &cull, &f.drawPlayed}) found += std::min(e->measured, e->nodes + e->named);
-  const double alone = draw.nodes + draw.named;
-  const double both = app.measured + cull.measured;
+  double measured = 0, found = 0;
+  for (const Explained* e : {&f.app, &f.cull, &f.draw})
+    measured += e->measured, found += std::min(e->measured, e->nodes + e->named);
+  const double alone = f.alone.nodes + f.alone.named;
+  const double both = f.app.measured + f.cull.measured;
   std::vector<Line> lines = {
       {"App + Cull + Draw, by the clock, on named nodes or parts of stages", found / measured, 0.98, true},
-      {"App on named nodes or parts", app.covered(), 0, true},
-      {"Cull on named nodes or parts", cull.covered(), 0, true},
-      {"Draw within its parts: eyes, which are the nodes', and all else", f.drawPlayed.covered(), 0, true},
-      {"parts of the stages themselves, of App + Cull", both > 0 ? (app.named + cull.named) / both : 0, 0.1,
-       false},
+      {"App on named nodes or parts", f.app.covered(), 0, true},
+      {"Cull on named nodes or parts", f.cull.covered(), 0, true},
+      {"Draw on named nodes or parts", f.draw.covered(), 0, true},
+      {"parts of the stages themselves, of App + Cull", both > 0 ? (f.app.named + f.cull.named) / both : 0,
+       0.1, false},
       {"off: the sum of what was drawn alone, before scaling, from the eyes drawn whole",
-       std::abs(draw.covered() - 1), 0.15, false}};
-  lines.push_back({"Draw on nodes", alone > 0 ? draw.nodes / alone : 0, show.drawOnNodes, true});
+       std::abs(f.alone.covered() - 1), 0.15, false}};
+  lines.push_back({"Draw on nodes", alone > 0 ? f.alone.nodes / alone : 0, show.drawOnNodes, true});
   return lines;
 }
 
@@ -60,8 +59,8 @@ bool tellFigures(const ShowFigures& f, const Show& show, bool json) {
   bool met = true;
   if (!json)
     std::printf("%s, %s, %s: App %.3f ms, Cull %.3f ms, Draw %.1f ms a frame; %llu frames\n",
-                show.name.c_str(), show.walls.c_str(), show.size.c_str(), f.explained[0].measured,
-                f.explained[1].measured, f.drawPlayed.measured, static_cast<unsigned long long>(f.frames));
+                show.name.c_str(), show.walls.c_str(), show.size.c_str(), f.app.measured, f.cull.measured,
+                f.draw.measured, static_cast<unsigned long long>(f.frames));
   for (const Line& line : linesOf(f, show)) {
     met = met && line.met();
     const bool limited = line.limit > 0;

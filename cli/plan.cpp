@@ -140,17 +140,21 @@ int planShow(Options o, const CLI::App& command) {
   if (!o.from.empty()) refuseMeasuring(command, findings);
   if (!o.from.empty() && !o.count && command.count("--walls") > 0) countWallsOf(o, findings);
   if (findings.hasErrors()) return tell(findings), kBadInput;
+  std::optional<AtomicFile> svg;  // opened before anything is measured
+  if (!o.svg.empty() && svg.emplace(o.svg).error()) findings.add(*svg->error());
+  if (findings.hasErrors()) return tell(findings), kBadInput;
   const auto costs = o.from.empty() ? measure(o, findings) : readFrom(o.from, findings);
   tell(findings);
   if (!costs) return stopSignal() ? kStopped + stopSignal() : kBadInput;
   const plan::Question question = questionOf(o, *costs);
   std::printf("%s",
               o.json ? (reportJson(*costs, question) + "\n").c_str() : reportText(*costs, question).c_str());
-  if (o.svg.empty()) return kOk;
+  if (!svg) return kOk;
   const std::string title =
       fmt::format("{}: {} walls, {}, {:g} cores", costs->show, question.plan.walls,
                   question.plan.pipelined ? "pipelined" : "sequential", question.plan.machine.cores);
-  if (const auto wrong = writeFile(o.svg, diagramSvg(scheduleOf(costs->frames, question.plan), 4, title))) {
+  svg->write(diagramSvg(scheduleOf(costs->frames, question.plan), 4, title));
+  if (const auto wrong = svg->commit()) {
     findings = {};
     findings.add(*wrong);
     return tell(findings), kBadInput;

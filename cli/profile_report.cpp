@@ -32,8 +32,7 @@ std::string wallsText(const ProfileRunOptions& o, const Player& player) {
 
 std::string rasteriserText(const ProfileRunOptions& o, const std::string& gl) {
   if (!o.drawn || gl.empty()) return "nobody: App and Cull alone";
-  const char* threads = std::getenv("LP_NUM_THREADS");
-  return !drawnBySoftware(gl) ? gl : gl + ", LP_NUM_THREADS=" + (threads ? threads : "?");
+  return !drawnBySoftware(gl) ? gl : gl + ", " + rasteriserThreadsText();
 }
 
 BodyFigures figuresOf(const BodyFidelity& b) {
@@ -95,7 +94,7 @@ std::optional<DynamicsFigures> dynamicsFigures(const ProfileRunOptions& o, const
     const auto all = measure(options);
     return all ? std::optional(figuresOf(*all)) : std::nullopt;
   }
-  if (figures.explained[0].measured * 1e-3 * static_cast<double>(figures.frames) > kSeconds) return {};
+  if (figures.app.measured * 1e-3 * static_cast<double>(figures.frames) > kSeconds) return {};
   const auto start = std::chrono::steady_clock::now();
   options.most = 0, options.rounds = 1;
   const auto listed = measure(options);

@@ -80,7 +80,8 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnos
   if (recording->lost() > 0)
     findings.warning({}, std::to_string(recording->lost()) + " spans were lost: they came faster than they "
                                                              "could be collected");
-  ShowFigures figures = recording->figures(player->walls().names(), drawnBySoftware(stages.glDescription()));
+  ShowFigures figures =
+      recording->figures(player->walls().names(), options.drawn ? stages.glDescription() : "");
   if (figures.frames == 0) return findings.error({}, tooShort("the show ended too early")), std::nullopt;
   if (html) {
     ReportData data = recording->report(reportHead(options, *player, stages.glDescription()), figures);

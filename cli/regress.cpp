@@ -61,7 +61,7 @@ void tellGone(const std::vector<std::string>& gone, const RegressOptions& o) {
 }
 
 std::string textOf(const std::string& file) {
-  constexpr std::size_t kMostBytes = 1 << 20;
+  constexpr std::size_t kMostBytes = std::size_t{1} << 30;
   const Result<std::string> text = readPlainFile(file, kMostBytes);
   return text ? text.value() : std::string();
 }
@@ -75,24 +75,30 @@ std::string whatIsPlayed(const RegressOptions& o, const regression::Suite& suite
   return all;
 }
 
-bool write(const std::string& file, const std::string& content) {
-  const auto wrong = writeFile(file, content);
-  if (wrong) std::fprintf(stderr, "stadion: %s: %s\n", file.c_str(), wrong->message.c_str());
-  return !wrong;
-}
+/// A file that is asked for; it is opened before anything is played.
+class Output {
+public:
+  Output(bool wanted, const std::string& path, Diagnostics& findings) {
+    if (wanted && file_.emplace(path).error()) findings.add(*file_->error());
+  }
+  bool write(const std::string& content) {
+    file_->write(content);
+    const auto wrong = file_->commit();
+    if (wrong) std::fprintf(stderr, "stadion: %s\n", format(*wrong).c_str());
+    return !wrong;
+  }
 
-/// Green is only what was compared.
-bool comparedNothing(const regression::SuiteResult& result) {
-  return result.count(regression::Outcome::Passed) + result.count(regression::Outcome::Failed) == 0;
-}
+private:
+  std::optional<AtomicFile> file_;
+};
 
-/// The exit code of what was found; `written`: all files could be. Modes that agree with each other are not
-/// green where there is nothing else to compare them with.
-int codeOf(const regression::SuiteResult& result, bool update, bool written, bool hasReference) {
+/// The exit code of what was found; `written`: all files could be. Green is only what was compared with what
+/// was before; that modes agree with each other is not enough.
+int codeOf(const regression::SuiteResult& result, bool update, bool written) {
   if (result.faults() > 0) return result.refused() ? kBadInput : kInternalFault;
-  if (!written || (!update && comparedNothing(result))) return kBadInput;
+  if (!written) return kBadInput;
   if (result.count(regression::Outcome::Failed) > 0) return kCheckFailed;
-  return update || hasReference ? kOk : kBadInput;
+  return update || result.compared() ? kOk : kBadInput;
 }
 
 /// Nothing that is played or compared with may be written over.
@@ -125,8 +131,10 @@ int regress(RegressOptions o) {
   std::vector<std::string> gone;
   if (ready && with.baseline) gone = regression::othersThan(*suite, *with.baseline);
   const bool chosen = ready && o.choose(*suite, findings);
+  Output baseline(chosen && o.update, o.baseline, findings),
+      junit(chosen && !o.junit.empty(), o.junit, findings);
   tell(findings);
-  if (!chosen) return kBadInput;
+  if (!chosen || findings.hasErrors()) return kBadInput;
   if (!o.update) tellGone(gone, o);
 
   RegressFolder folder;
@@ -165,24 +173,24 @@ int regress(RegressOptions o) {
   bool written = o.out.empty() || folder.finish(result);
   if (!o.out.empty() && written) std::fprintf(stderr, "wrote %s/report.html\n", o.out.c_str());
   if (o.update && result.faults() == 0) {
-    const bool well = write(o.baseline, regression::toJson(updated));
+    const bool well = baseline.write(regression::toJson(updated));
     if (well) tellGone(gone, o), std::fprintf(stderr, "wrote %s\n", o.baseline.c_str());
     written = written && well;
   } else if (o.update) {
     std::fprintf(stderr, "%s stays as it was: not all cases could be played\n", o.baseline.c_str());
   }
-  if (!o.junit.empty()) written = write(o.junit, regression::junitOf(result)) && written;
+  if (!o.junit.empty()) written = junit.write(regression::junitOf(result)) && written;
   const std::string text = o.json ? regression::benchmarkJsonOf(result) + "\n" : regression::tableOf(result);
   std::printf("%s", text.c_str());
   const bool hasReference = with.baseline || !o.against.empty();
-  if (!o.update && result.faults() == 0 && comparedNothing(result))
+  if (!o.update && result.faults() == 0 && !result.compared())
     std::fprintf(stderr, "stadion: error: nothing was compared%s\n",
                  hasReference ? "; the table says why" : "");
   if (!o.update && !hasReference)
     std::fprintf(
         stderr, "stadion: error: there is no baseline %s: --update writes it, --against BUILD does without\n",
         o.baseline.c_str());
-  return codeOf(result, o.update, written, hasReference);
+  return codeOf(result, o.update, written);
 }
 
 }  // namespace

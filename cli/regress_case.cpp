@@ -127,7 +127,7 @@ private:
     Metrics metrics = case_.metrics;
     metrics.counts = false;
     for (Check& c : compareFacts(*last_.facts, {&first, firstMode}, metrics)) {
-      c.metric += " as " + firstMode;
+      c.metric += " as " + firstMode, c.amongModes = true;
       result_.checks.push_back(std::move(c));
     }
   }

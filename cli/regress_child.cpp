@@ -53,8 +53,8 @@ struct Running {
   ChildProcess child;
   ChildResult result;
 
-  void start(const std::vector<std::string>& words, int in) {
-    if (const auto problem = child.start(words, {in, out.get(), err.get()}))
+  void start(const std::vector<std::string>& words, int in, const std::vector<std::string>& environment) {
+    if (const auto problem = child.start(words, {in, out.get(), err.get()}, environment))
       result.fault = fmt::format("{} cannot be started: {}", words.front(), std::strerror(*problem));
   }
 
@@ -85,9 +85,9 @@ struct Running {
 }  // namespace
 
 ChildResult runChild(const std::vector<std::string>& words, std::chrono::seconds limit,
-                     const std::atomic<bool>& stop) {
+                     const std::atomic<bool>& stop, const std::vector<std::string>& environment) {
   Running child;
-  child.start(words, -1);
+  child.start(words, -1, environment);
   const auto deadline = Clock::now() + limit;
   while (!child.ended(std::chrono::milliseconds(200))) child.giveUpIf(stop, deadline, limit);
   return std::move(child.result);
@@ -95,7 +95,8 @@ ChildResult runChild(const std::vector<std::string>& words, std::chrono::seconds
 
 std::pair<ChildResult, ChildResult> runInTurns(const std::vector<std::string>& first,
                                                const std::vector<std::string>& second,
-                                               std::chrono::seconds limit, const std::atomic<bool>& stop) {
+                                               std::chrono::seconds limit, const std::atomic<bool>& stop,
+                                               const std::vector<std::string>& environment) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
     ChildResult none;
@@ -106,8 +107,8 @@ std::pair<ChildResult, ChildResult> runInTurns(const std::vector<std::string>& f
   const char turn = 't';
   (void)!send(ofSecond.get(), &turn, 1, MSG_NOSIGNAL);  // what one end sends the other one reads
   Running a, b;
-  a.start(first, ofFirst.get());
-  b.start(second, ofSecond.get());
+  a.start(first, ofFirst.get(), environment);
+  b.start(second, ofSecond.get(), environment);
   ofFirst.close(), ofSecond.close();  // so that whoever is left learns when the other one has ended
   const auto deadline = Clock::now() + limit;
   for (;;) {

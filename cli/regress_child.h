@@ -21,13 +21,15 @@ struct ChildResult {
   std::string fault;     ///< why it did not do what was asked; empty: it did
 };
 
-/// Runs the words to the end; past the limit, or once `stop` is true, it is killed.
+/// Runs the words to the end, with our environment and `environment` ("NAME=value"); past the limit, or once
+/// `stop` is true, it is killed, and what it has started.
 ChildResult runChild(const std::vector<std::string>& words, std::chrono::seconds limit,
-                     const std::atomic<bool>& stop);
+                     const std::atomic<bool>& stop, const std::vector<std::string>& environment = {});
 /// Two at a time, whose standard inputs are the ends of a socket: they take turns, the first one first.
 std::pair<ChildResult, ChildResult> runInTurns(const std::vector<std::string>& first,
                                                const std::vector<std::string>& second,
-                                               std::chrono::seconds limit, const std::atomic<bool>& stop);
+                                               std::chrono::seconds limit, const std::atomic<bool>& stop,
+                                               const std::vector<std::string>& environment = {});
 
 /// Of what a program said that did what was asked: what it found wrong nonetheless, each once.
 std::vector<std::string> warningsIn(const std::string& said);

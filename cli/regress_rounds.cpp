@@ -24,8 +24,10 @@ std::string textOf(const std::string& file) {
 }
 
 /// The rasteriser works in the thread that draws: else nobody knows whose time it is.
-void drawAlone(std::vector<std::string>& words) {
-  words.insert(words.begin(), {"env", "LP_NUM_THREADS=0"});
+const std::vector<std::string> kDrawAlone{"LP_NUM_THREADS=0"};
+
+ChildResult runMeasured(const std::vector<std::string>& words, const MeasuringOptions& o) {
+  return runChild(words, o.limit, o.stop, kDrawAlone);
 }
 
 std::vector<std::string> measuredWords(const SuiteCase& c, const std::string& mode,
@@ -34,16 +36,13 @@ std::vector<std::string> measuredWords(const SuiteCase& c, const std::string& mo
   words.insert(words.end(), {"--spans", file, "--app-threads", "1"});
   if (turns) words.emplace_back("--turns");
   if (!program.planted.empty()) words.insert(words.end(), {"--plant", program.planted});
-  drawAlone(words);
   return words;
 }
 
 /// Builds that know nothing of --spans tell in their summary what the stages cost.
 std::vector<SpanRow> playedOld(const SuiteCase& c, const std::string& mode, const MeasuredProgram& program,
                                const MeasuringOptions& o, std::string& fault) {
-  std::vector<std::string> words = playWords(program.path, c, mode);
-  drawAlone(words);
-  const ChildResult child = runChild(words, o.limit, o.stop);
+  const ChildResult child = runMeasured(playWords(program.path, c, mode), o);
   fault = child.fault;
   return stagesOfSummary(child.out);
 }
@@ -67,7 +66,7 @@ public:
   /// False, with the reason in `fault`, if one of the two could not be played.
   bool play(Side& first, Side& second) {
     if (!old_ && turns_) {
-      const auto [a, b] = runInTurns(words(first), words(second), o_.limit, o_.stop);
+      const auto [a, b] = runInTurns(words(first), words(second), o_.limit, o_.stop, kDrawAlone);
       if (knowsNoSpans(a) || knowsNoSpans(b)) return old_ = true, play(first, second);
       return take(a, first) && take(b, second);
     }
@@ -79,8 +78,7 @@ public:
       side.rows = playedOld(case_, mode_, side.program, o_, fault);
       return fault.empty();
     }
-    const ChildResult child =
-        runChild(measuredWords(case_, mode_, side.program, side.file, false), o_.limit, o_.stop);
+    const ChildResult child = runMeasured(measuredWords(case_, mode_, side.program, side.file, false), o_);
     if (knowsNoSpans(child)) return old_ = true, play(side);
     return take(child, side);
   }
@@ -151,7 +149,6 @@ namespace {
 CountedInstructions countByHardware(const SuiteCase& c, const MeasuredProgram& program,
                                     const std::string& file, bool drawn, const MeasuringOptions& options) {
   std::vector<std::string> words = measuredWords(c, "sequential", program, file, false);
-  words.erase(words.begin(), std::ranges::find(words, program.path));
   words.emplace_back("--count-by-hardware");
   if (!drawn) words.insert(words.end(), {"--gl", "none"});
   const ChildResult child = runChild(words, options.limit, options.stop);
@@ -172,14 +169,13 @@ CountedInstructions countInstructions(const SuiteCase& c, const MeasuredProgram&
   if (by == CountedBy::Hardware)
     return countByHardware(shorter, program, folder.path("spans"), drawn, options);
   std::vector<std::string> words = measuredWords(shorter, "sequential", program, folder.path("spans"), false);
-  const auto at = std::ranges::find(words, program.path);
-  words.insert(at, {"valgrind", "--tool=callgrind", "--trace-children=yes",
-                    "--trace-children-skip=*/stadion-import", "--instr-atstart=no", "--combine-dumps=yes",
-                    "--callgrind-out-file=" + folder.path("callgrind")});
+  words.insert(words.begin(), {"valgrind", "--tool=callgrind", "--trace-children=yes",
+                               "--trace-children-skip=*/stadion-import", "--instr-atstart=no",
+                               "--combine-dumps=yes", "--callgrind-out-file=" + folder.path("callgrind")});
   words.emplace_back("--count-instructions");
   if (!drawn) words.insert(words.end(), {"--gl", "none"});
 
-  const ChildResult child = runChild(words, options.limit, options.stop);
+  const ChildResult child = runMeasured(words, options);
   CountedInstructions counted;
   counted.fault =
       child.status == 127 ? "there is no valgrind; install it: apt install valgrind" : child.fault;

@@ -92,30 +92,23 @@ void RunOptions::addTo(CLI::App& command) {
 }
 
 void RunOptions::addLoadTo(CLI::App& command) {
+  const auto asked = [this](const std::string&) { loadAsked = true; };
   command
       .add_option_function<std::string>(
           "--load-control", [this](const std::string& word) { loadControl = word == "on"; },
           "on: a live run gives up what its script says (onoverrun), and detail, while it takes too long; "
-          "off: "
-          "it only tells (docs/budgets.md)")
+          "off: it only tells (docs/budgets.md)")
       ->check(CLI::IsMember({"on", "off"}))
+      ->each(asked)
       ->default_str("on");
-  command.add_option("--stress-frac", stress.frac, "part of a frame that a wall's Cull and Draw may take")
-      ->check(numberFrom(0.01, 10))
-      ->capture_default_str();
-  command.add_option("--stress-low", stress.low, "load below which stress goes down")
-      ->check(numberFrom(0, 10))
-      ->capture_default_str();
-  command.add_option("--stress-high", stress.high, "load above which stress goes up")
-      ->check(numberFrom(0, 10))
-      ->capture_default_str();
-  command.add_option("--stress-scale", stress.scale, "how fast it does")
-      ->check(numberFrom(0, 10))
-      ->capture_default_str();
-  command
-      .add_option("--stress-max", stress.max, "how many times farther away things count at most; 1: never")
-      ->check(numberFrom(1, 16))
-      ->capture_default_str();
+  const auto add = [&](const char* option, double& figure, const char* help, double from, double to) {
+    command.add_option(option, figure, help)->check(numberFrom(from, to))->each(asked)->capture_default_str();
+  };
+  add("--stress-frac", stress.frac, "part of a frame that a wall's Cull and Draw may take", 0.01, 10);
+  add("--stress-low", stress.low, "load below which stress goes down", 0, 10);
+  add("--stress-high", stress.high, "load above which stress goes up", 0, 10);
+  add("--stress-scale", stress.scale, "how fast it does", 0, 10);
+  add("--stress-max", stress.max, "how many times farther away things count at most; 1: never", 1, 16);
 }
 
 void RunOptions::addHeadTo(CLI::App& command) {
@@ -246,6 +239,7 @@ void RunOptions::settleLive(Diagnostics& findings) {
   if (asksForEveryFrame() && oscPort >= 0) refuse("--osc");
   if (asksForEveryFrame() && wait) refuse("--wait");
   if (asksForEveryFrame() && !trackers.device.empty()) refuse("--tracker");
+  if (asksForEveryFrame() && loadAsked) refuse("--load-control (and --stress-...)");
   if (!trackers.rig.empty() && trackers.device.empty())
     findings.error({}, "--rig says where trackers are, and there are none: --tracker osc:PORT");
   if (!trackers.device.empty()) show.input = "none";  // not the log beside the show

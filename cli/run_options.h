@@ -27,6 +27,7 @@ struct RunOptions {
   bool countWork = false;
   bool unrecorded = false;           ///< for `stadion bench recording` alone
   StressOptions stress;              ///< of the whole show
+  bool loadAsked = false;            ///< any option of --load-control and stress was given
   bool loadControl = true;           ///< a live run gives up what its script says, when it takes too long
   std::string cullDraw = "overlap";  ///< or "apart": Draw waits until its list is complete
   std::size_t latency = 0;           ///< frames under way at most; 0: as many as there is room for

@@ -148,8 +148,7 @@ bool tellRecording(const RunOptions& o, ShowRecording& recording, const Player& 
                    const std::string& gl) {
   constexpr std::size_t kNodes = 10;
   if (o.profile)
-    std::fprintf(stderr, "\n%s",
-                 toText(recording.figures(player.walls().names(), drawnBySoftware(gl)), kNodes).c_str());
+    std::fprintf(stderr, "\n%s", toText(recording.figures(player.walls().names(), gl), kNodes).c_str());
   recording.finish();
   Diagnostics findings;
   recording.finishTrace(findings);

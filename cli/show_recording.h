@@ -95,9 +95,9 @@ public:
     if (const std::string left = trace_->leftOut(); !left.empty())
       findings.warning({}, "the trace leaves out " + left);
   }
-  ShowFigures figures(const std::vector<std::string>& walls, bool software) {
+  ShowFigures figures(const std::vector<std::string>& walls, std::string_view gl) {
     finish();
-    return figuresOf(profile_, names_, walls, software);
+    return figuresOf(profile_, names_, walls, gl);
   }
   const ShowProfile& profile() {
     finish();

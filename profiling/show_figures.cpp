@@ -1,6 +1,7 @@
 #include "profiling/show_figures.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 
 namespace stadion {
@@ -19,15 +20,16 @@ public:
     appScale_ = appScale();
     out_.frames = profile.frames();
     out_.walls = walls;
+    for (std::uint32_t wall = 0; wall < walls.size(); ++wall) out_.eyes.push_back(eyesOf(wall));
     for (const auto& [ref, node] : profile.nodes())
       if (ref.valid()) addNode(ref, node);
     addVisitor();
-    explainDraw();
+    explainAlone();
     scaleDraw();
     addStages();
     addCounts();
     explain();
-    const double all = out_.explained[0].measured + out_.explained[1].measured + out_.explained[2].measured;
+    const double all = out_.app.measured + out_.cull.measured + out_.alone.measured;
     out_.framesNeeded = framesNeeded(), out_.wholeFrames = profile.wholeFrames();
     for (NodeRow& row : out_.nodes) row.share = all > 0 ? row.total / all : 0;
     std::ranges::sort(out_.nodes, [](const NodeRow& a, const NodeRow& b) {
@@ -63,6 +65,14 @@ private:
     return at == cost.shares.end() ? 0 : at->second;
   }
 
+  std::size_t eyesOf(std::uint32_t wall) const {
+    const auto drawn = [&](std::uint32_t eye, Span what) {
+      return profile_.eyes().contains({wall, eye}) || profile_.shares(what, wall) > 0 ||
+             profile_.spans().contains({what, wall});
+    };
+    return drawn(1, Span::RightEye) ? 2 : drawn(0, Span::LeftEye) ? 1 : 0;
+  }
+
   void addNode(NodeRef ref, const NodeProfile& node) {
     NodeRow row;
     row.node = ref;
@@ -74,6 +84,8 @@ private:
     row.app = row.receive + row.simulate + row.dispatch + row.settle + row.publish;
     row.visitP95 = node.visit.percentile(95), row.visitMost = node.visit.most();
     row.visits = static_cast<double>(node.visit.count()) / wholeFrames_;
+    row.drawingP95 = node.drawing.percentile(95), row.drawingMost = node.drawing.most();
+    row.drawings = node.drawing.count();
     row.allocations = static_cast<double>(node.allocations.count) / wholeFrames_;
     row.bytes = static_cast<double>(node.allocations.bytes) / wholeFrames_;
     row.walls.resize(out_.walls.size());
@@ -153,17 +165,19 @@ private:
     if (row.total > 0) out_.nodes.push_back(std::move(row));
   }
 
-  std::string stageName(Span stage, std::uint32_t wall) const {
-    std::string name(nameOf(stage));
-    return wall < out_.walls.size() ? name + " " + out_.walls[wall] : name;
+  std::string wallName(std::uint32_t wall) const { return wall < out_.walls.size() ? out_.walls[wall] : ""; }
+
+  StageRow stageRow(Span stage, std::uint32_t wall) const {
+    StageRow row;
+    row.stage = std::string(nameOf(stage)), row.wall = wallName(wall);
+    return row;
   }
 
   void addStages() {
     for (const auto& [who, total] : profile_.spans()) {
       const auto& [what, wall] = who;
       if (isOfNode(what) || what == Span::Settle) continue;
-      StageRow row;
-      row.name = stageName(stageOf(what), wall);
+      StageRow row = stageRow(stageOf(what), wall);
       if (!isStage(what)) row.part = std::string(nameOf(what));
       row.ms = isStage(what) ? total.ms.sum() / frames_ : total.own / framesOf(what, wall);
       row.p95 = total.ms.percentile(95), row.most = total.ms.most(), row.count = total.ms.count();
@@ -174,10 +188,12 @@ private:
       out_.stages.push_back(std::move(row));
     }
     for (const auto& [who, eye] : profile_.eyes()) {
-      const std::string name = stageName(Span::Draw, who.first) + (who.second == 0 ? " left" : " right");
       const auto add = [&](const std::string& part, const CostSeries& ms) {
-        out_.stages.push_back(
-            {name + ", alone", part, std::max(0.0, ms.mean()), ms.percentile(95), ms.most(), ms.count()});
+        StageRow row = stageRow(Span::Draw, who.first);
+        row.eye = who.second == 0 ? "left" : "right", row.part = part, row.alone = true;
+        row.ms = std::max(0.0, ms.mean()), row.p95 = ms.percentile(95), row.most = ms.most();
+        row.count = ms.count();
+        out_.stages.push_back(std::move(row));
       };
       add("", eye.whole);
       for (const auto& [part, ms] : eye.parts) add(std::string(nameOf(part)), ms);
@@ -188,7 +204,7 @@ private:
   void addCounts() {
     for (const auto& [who, amount] : profile_.counts()) {
       CountRow row;
-      row.of = stageName(stageOf(who.of), who.wall);
+      row.of = stageRow(stageOf(who.of), who.wall).name();
       if (who.of == Span::LeftEye || who.of == Span::RightEye)
         row.of += who.of == Span::LeftEye ? " left" : " right";
       if (who.node.valid()) {
@@ -222,7 +238,7 @@ private:
   }
 
   void explain() {
-    Explained& app = out_.explained[0];
+    Explained& app = out_.app;
     // Where others help, App waits for them meanwhile.
     app.stage = "app";
     const double helped = appScale_ * profile_.helped() / wholeFrames_;
@@ -235,7 +251,7 @@ private:
     app.named += std::max(0.0, sum(Span::Publish) - published);
     app.named -= std::min(sum(Span::Crew), helped);
 
-    Explained& cull = out_.explained[1];
+    Explained& cull = out_.cull;
     cull.stage = "cull", cull.measured = sum(Span::Cull);
     for (const NodeRow& row : out_.nodes) cull.nodes += row.cull;
     // What no node had a part in.
@@ -243,20 +259,36 @@ private:
       for (std::uint32_t wall = 0; wall < out_.walls.size(); ++wall)
         if (profile_.shares(s, wall) == 0) cull.named += sum(s, wall);
 
-    Explained& played = out_.drawPlayed;
-    played.stage = "draw", played.measured = sum(Span::Draw);
-    for (const Span s : {Span::Prepare, Span::Upload, Span::ShadowMaps, Span::LeftEye, Span::RightEye,
-                         Span::Finish, Span::Read, Span::ForTurn})
-      played.named += sum(s);
+    Explained& draw = out_.draw;
+    draw.stage = "draw", draw.measured = sum(Span::Draw);
+    for (const Span s :
+         {Span::Prepare, Span::Upload, Span::ShadowMaps, Span::Finish, Span::Read, Span::ForTurn})
+      draw.named += sum(s);
+    for (const auto& [who, eye] : profile_.eyes()) {
+      if (eye.whole.mean() <= 0 || who.first >= out_.walls.size()) continue;
+      const auto factor = factors_.find(who);
+      const double nodes = nodesOf(who),
+                   parts = partsOf(eye) * (factor == factors_.end() ? 1 : factor->second);
+      const double whole = std::max(eye.whole.mean(), nodes + parts);
+      const double took = sum(who.second == 0 ? Span::LeftEye : Span::RightEye, who.first);
+      draw.nodes += took * nodes / whole, draw.named += took * parts / whole;
+    }
+  }
+
+  /// Drawn by that eye of a wall, all nodes together.
+  double nodesOf(std::pair<std::uint32_t, std::uint32_t> eye) const {
+    double ms = 0;
+    for (const NodeRow& row : out_.nodes) ms += row.walls[eye.first].draw[eye.second];
+    return ms;
   }
 
   /// As it was drawn alone.
-  void explainDraw() {
-    Explained& draw = out_.explained[2];
-    draw.stage = "draw";
-    for (const NodeRow& row : out_.nodes) draw.nodes += row.draw;
+  void explainAlone() {
+    Explained& alone = out_.alone;
+    alone.stage = "alone";
+    for (const NodeRow& row : out_.nodes) alone.nodes += row.draw;
     for (const auto& [who, eye] : profile_.eyes())
-      draw.measured += std::max(0.0, eye.whole.mean()), draw.named += partsOf(eye);
+      alone.measured += std::max(0.0, eye.whole.mean()), alone.named += partsOf(eye);
   }
   static double partsOf(const EyeCost& eye) {
     double sum = 0;
@@ -271,17 +303,14 @@ private:
     for (const auto& [who, eye] : profile_.eyes()) {
       const auto& [wall, side] = who;
       if (eye.whole.count() == 0 || wall >= out_.walls.size()) continue;
-      double alone = 0;
-      bool all = true;
-      for (const NodeRow& row : out_.nodes) {
-        alone += row.walls[wall].draw[side];
-        all = all && row.walls[wall].drawMeasured[side];
-      }
-      if (!all) continue;  // whoever had no turn must not be counted with the others
-      alone += partsOf(eye);
+      if (!std::ranges::all_of(out_.nodes,
+                               [&](const NodeRow& row) { return row.walls[wall].drawMeasured[side]; }))
+        continue;  // whoever had no turn must not be counted with the others
+      const double alone = nodesOf(who) + partsOf(eye);
       const double factor =
           alone > 0 && eye.whole.mean() > 0 ? std::min(kMostScaled, eye.whole.mean() / alone) : 1;
       for (NodeRow& row : out_.nodes) row.walls[wall].draw[side] *= factor;
+      factors_[who] = factor;
     }
     for (NodeRow& row : out_.nodes) {
       row.draw = 0;
@@ -295,15 +324,15 @@ private:
   double frames_, wholeFrames_, appScale_ = 1;
   /// Nodes, by wall and eye: seen there, and of these drawn alone.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> seen_, sampled_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> factors_;  ///< what was drawn alone is scaled by
   ShowFigures out_;
 };
 
-std::string drawMethod(bool software) {
-  if (!software) return "OpenGL timer queries, each batch alone";
-  const char* threads = std::getenv("LP_NUM_THREADS");
-  return std::string("processor time of the drawing thread and the rasteriser's, each batch alone, "
-                     "LP_NUM_THREADS=") +
-         (threads ? threads : "?");
+std::string drawMethod(std::string_view gl) {
+  if (gl.empty()) return {};
+  if (!drawnBySoftware(gl)) return "OpenGL timer queries, each batch alone";
+  return "processor time of the drawing thread and the rasteriser's, each batch alone, " +
+         rasteriserThreadsText();
 }
 
 }  // namespace
@@ -312,10 +341,28 @@ bool drawnBySoftware(std::string_view gl) {
   return gl.find("llvmpipe") != std::string_view::npos || gl.find("softpipe") != std::string_view::npos;
 }
 
+std::string rasteriserThreadsText() {
+  const char* threads = std::getenv("LP_NUM_THREADS");
+  if (!threads) return "LP_NUM_THREADS not set: a thread for each processor";
+  const std::string_view text(threads);
+  const bool isNumber = !text.empty() && text.size() < 5 && std::ranges::all_of(text, [](char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+  });
+  return "LP_NUM_THREADS=" + std::string(text) +
+         (isNumber ? "" : " (no number: a thread for each processor)");
+}
+
+std::string StageRow::name() const {
+  std::string text = stage;
+  for (const std::string* more : {&wall, &eye})
+    if (!more->empty()) text += " " + *more;
+  return alone ? text + ", alone" : text;
+}
+
 ShowFigures figuresOf(const ShowProfile& profile, const NodeNames& names,
-                      const std::vector<std::string>& walls, bool software) {
+                      const std::vector<std::string>& walls, std::string_view gl) {
   ShowFigures figures = Figures(profile, names, walls).take();
-  figures.drawMethod = drawMethod(software);
+  figures.drawMethod = drawMethod(gl);
   return figures;
 }
 

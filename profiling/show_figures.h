@@ -23,12 +23,14 @@ struct NodeRow {
   NodeRef node;
   NodeName name;
   double receive = 0, simulate = 0, dispatch = 0;
-  double settle = 0;                   ///< taking up what it changed
-  double publish = 0;                  ///< its records, into the slot
-  double app = 0;                      ///< the sum of these
-  double visitP95 = 0, visitMost = 0;  ///< of the frames in which App visited it
-  double visits = 0;                   ///< a frame
-  double allocations = 0, bytes = 0;   ///< of memory, by App for it, a frame
+  double settle = 0;                       ///< taking up what it changed
+  double publish = 0;                      ///< its records, into the slot
+  double app = 0;                          ///< the sum of these
+  double visitP95 = 0, visitMost = 0;      ///< of the frames in which App visited it
+  double visits = 0;                       ///< a frame
+  double drawingP95 = 0, drawingMost = 0;  ///< of what it took alone, on one wall for one eye
+  std::uint64_t drawings = 0;              ///< of these there were so many
+  double allocations = 0, bytes = 0;       ///< of memory, by App for it, a frame
   std::vector<NodeOnWall> walls;
   double cull = 0, draw = 0;  ///< of all walls and eyes
   /// False: some wall that it is on has not been sampled yet; what is there is of the others.
@@ -43,12 +45,15 @@ struct NodeRow {
 
 /// What a stage took besides nodes, or in all.
 struct StageRow {
-  std::string name;  ///< "cull front"
-  std::string part;  ///< empty: the stage itself; else "eyes", "sky", "for turn"
+  std::string stage, wall, eye;  ///< "draw", "front", "left"; empty: of no wall, of no eye
+  std::string part;              ///< empty: the stage itself, or the eye; else "eyes", "sky", "for turn"
+  bool alone = false;            ///< an eye drawn while nothing else was
   double ms = 0, p95 = 0, most = 0;
   std::uint64_t count = 0;
   bool wait = false;
   double allocations = 0, bytes = 0;  ///< of memory, each time
+  /// "cull front", "draw front left, alone".
+  std::string name() const;
 };
 
 /// Work that is counted, a frame.
@@ -60,11 +65,10 @@ struct CountRow {
 
 /// How much of a stage is explained.
 struct Explained {
-  std::string stage;    ///< app, cull, draw
+  std::string stage;    ///< app, cull, draw, alone
   double measured = 0;  ///< of all walls and eyes
   double nodes = 0;
   double named = 0;  ///< parts of the stage itself
-  /// Draw: of what was drawn alone, before the nodes' rows were scaled to the eyes drawn whole.
   /// 0 where things were found, but what was measured cannot be; 1 where there was nothing.
   double covered() const {
     return measured > 0 ? (nodes + named) / measured : nodes + named != 0 || measured < 0 ? 0 : 1;
@@ -74,30 +78,37 @@ struct Explained {
 struct ShowFigures {
   std::uint64_t frames = 0;
   std::vector<std::string> walls;
-  std::vector<NodeRow> nodes;  ///< the dearest first
+  std::vector<std::size_t> eyes;  ///< of each wall: 1, 2; 0 where nothing was drawn
+  std::vector<NodeRow> nodes;     ///< the dearest first
   std::vector<StageRow> stages;
   std::vector<CountRow> counts;
-  std::array<Explained, 3> explained;
-  /// Draw again, by the clock, as it was played, and what of it lies within its parts: eyes and all else.
-  Explained drawPlayed;
-  std::string drawMethod;
+  /// By the clock, as it was played. Of an eye's time nodes and parts have as much as they had, scaled, of
+  /// the eye drawn alone.
+  Explained app, cull, draw;
+  /// The eyes drawn alone, and what was drawn alone in them, before it was scaled to that.
+  Explained alone;
+  std::string drawMethod;          ///< empty: nothing was drawn
   std::uint64_t wholeFrames = 0;   ///< of `frames`: those that App by node is of
-  std::uint64_t framesNeeded = 0;  ///< about so many would measure every node; 0: these did
+  std::uint64_t framesNeeded = 0;  ///< about so many would measure every node; 0: these did, or none would
+  std::array<const Explained*, 4> explained() const { return {&app, &cull, &draw, &alone}; }
 };
 
 /// Whether that OpenGL draws on the processor, where drawing is measured as processor time: by its name, as a
 /// run tells it. Mesa's EGL may, too.
 bool drawnBySoftware(std::string_view gl);
 
-/// `software`: what drawing was measured with.
+/// "LP_NUM_THREADS=2", as llvmpipe found it: with how many threads it draws.
+std::string rasteriserThreadsText();
+
+/// `gl`: what drew, as a run tells it; empty: nothing was drawn.
 ShowFigures figuresOf(const ShowProfile& profile, const NodeNames& names,
-                      const std::vector<std::string>& walls, bool software);
+                      const std::vector<std::string>& walls, std::string_view gl);
 
 /// The dearest nodes and the stages, for a terminal.
 std::string toText(const ShowFigures& figures, std::size_t mostNodes);
 /// One JSON object on one line: "frames", "nodes", "stages", "counts", "explained".
 std::string toJson(const ShowFigures& figures);
-/// A row a node, stage, wall and eye, of times.
+/// Times: a row a node, stage, wall and eye; a row a stage, part, wall and eye.
 std::string toCsv(const ShowFigures& figures);
 
 }  // namespace stadion

@@ -40,24 +40,57 @@ std::string tooLittleText(const ShowFigures& f) {
 }
 
 /// Where the pieces do not add up to the whole, which each of them cost is not known as well as it looks.
-std::string apartText(const Explained& draw) {
+std::string apartText(const Explained& alone) {
   constexpr double kMuch = 0.15;
-  if (std::abs(draw.covered() - 1) <= kMuch) return {};
+  if (std::abs(alone.covered() - 1) <= kMuch) return {};
   return fmt::format(
       "draw: what was drawn alone came to {:.0f} % of the eyes drawn whole: a node's draw time may be as "
       "far off\n",
-      100 * draw.covered());
+      100 * alone.covered());
+}
+
+bool isUnmeasured(const NodeRow& r) {
+  return !r.cullMeasured || !r.drawMeasured;
 }
 
 std::string unmeasuredText(const ShowFigures& f) {
-  const auto of = [](const NodeRow& r) { return !r.cullMeasured || !r.drawMeasured; };
-  const auto count = std::ranges::count_if(f.nodes, of);
+  const auto count = std::ranges::count_if(f.nodes, isUnmeasured);
   if (count == 0) return "";
   if (f.framesNeeded == 0) return "- not measured: nothing was drawn\n";
   return fmt::format(
       "- not measured, > on some walls only: {} of {} nodes had no turn in {} frames; some {} would do "
       "(--frames {})\n",
       count, f.nodes.size(), f.frames, f.framesNeeded, f.framesNeeded);
+}
+
+/// A node's rows: its App and the parts of it, its Cull by wall, its Draw by wall and eye.
+void addRows(const NodeRow& r, const ShowFigures& f, std::string& csv) {
+  const std::string who = fmt::format("{},{},{},{}", csvField(r.name.path), csvField(r.name.file),
+                                      r.name.line, nameOf(r.name.kind));
+  const std::string budget = r.name.budget > 0 ? fmt::to_string(r.name.budget) : "";
+  const std::string method = csvField(f.drawMethod);
+  csv += fmt::format("{},app,,,,{},{},{},{},{},{},{},\n", who, r.app, r.visitP95, r.visitMost,
+                     std::llround(r.visits * static_cast<double>(f.wholeFrames)), r.allocations, r.share,
+                     budget);
+  for (const auto& [part, ms] : {std::pair{"receive", r.receive},
+                                 {"simulate", r.simulate},
+                                 {"dispatch", r.dispatch},
+                                 {"settle", r.settle},
+                                 {"publish", r.publish}})
+    csv += fmt::format("{},app,{},,,{},,,,,,,\n", who, part, ms);
+  const auto add = [&](const char* stage, const std::string& wall, const char* eye, double ms, bool known) {
+    csv += fmt::format("{},{},,{},{},{},,,,,,,{}\n", who, stage, csvField(wall), eye,
+                       known ? fmt::to_string(ms) : "", *eye != 0 ? method : "");
+  };
+  if (!f.drawMethod.empty())
+    csv += fmt::format("{},draw,,,,{},{},{},{},,,,{}\n", who, r.drawKnown() ? fmt::to_string(r.draw) : "",
+                       r.drawingP95, r.drawingMost, r.drawings, method);
+  for (std::size_t w = 0; w < r.walls.size(); ++w) {
+    const NodeOnWall& on = r.walls[w];
+    add("cull", f.walls[w], "", on.cull, on.cullMeasured);
+    for (std::size_t eye = 0; eye < f.eyes[w]; ++eye)
+      add("draw", f.walls[w], eye == 0 ? "left" : "right", on.draw[eye], on.drawMeasured[eye]);
+  }
 }
 
 nlohmann::json toJson(const NodeRow& row, const std::vector<std::string>& walls) {
@@ -83,7 +116,10 @@ nlohmann::json toJson(const NodeRow& row, const std::vector<std::string>& walls)
                    {"allocated_bytes", row.bytes},
                    {"visits", row.visits},
                    {"visit_p95_ms", row.visitP95},
-                   {"visit_max_ms", row.visitMost}};
+                   {"visit_max_ms", row.visitMost},
+                   {"drawings", row.drawings},
+                   {"drawing_p95_ms", measured(row.drawingP95, row.drawings > 0)},
+                   {"drawing_max_ms", measured(row.drawingMost, row.drawings > 0)}};
   for (std::size_t w = 0; w < row.walls.size(); ++w)
     j["walls"].push_back({{"wall", walls[w]},
                           {"cull_ms", measured(row.walls[w].cull, row.walls[w].cullMeasured)},
@@ -99,45 +135,54 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
     return fmt::format("no frame was recorded: the first {} are not; play some hundreds\n",
                        FrameLogOptions{}.from);
   const bool budgets = std::ranges::any_of(f.nodes, [](const NodeRow& r) { return r.name.budget > 0; });
-  std::string text = fmt::format(
-      "ms a frame, all walls and eyes\n    app  p95 visit    cull     draw    total  share{}  node\n",
-      budgets ? "   budget" : "");
+  std::string text =
+      fmt::format("ms a frame, all walls and eyes; p95: of a visit of App, of drawing it for one eye\n"
+                  "    app     p95    cull     draw      p95    total  share{}  node\n",
+                  budgets ? "   budget" : "");
   for (std::size_t i = 0; i < std::min(mostNodes, f.nodes.size()); ++i) {
     const NodeRow& r = f.nodes[i];
     const std::string budget =
-        r.name.budget > 0 ? fmt::format("{:9.3f}", r.name.budget) : std::string(budgets ? 9 : 0, ' ');
-    text += fmt::format("{:7.4f} {} {} {} {:8.3f} {:5.1f}%{}  {}  {}\n", r.app,
-                        cell(r.visitP95, r.visits > 0, 10, 4), cell(r.cull, r.cullMeasured, 7, 4),
-                        drawCell(r), r.total, 100 * r.share, budget, r.name.path, placeOf(r.name));
+        r.name.budget > 0 ? fmt::format("{:9.4g}", r.name.budget) : std::string(budgets ? 9 : 0, ' ');
+    text += fmt::format("{:7.4f} {} {} {} {} {:8.3f} {:5.1f}%{}  {}  {}\n", r.app,
+                        cell(r.visitP95, r.visits > 0, 7, 4), cell(r.cull, r.cullMeasured, 7, 4), drawCell(r),
+                        cell(r.drawingP95, r.drawings > 0, 8, 3), r.total, 100 * r.share, budget, r.name.path,
+                        placeOf(r.name));
   }
   text += unmeasuredText(f) + tooLittleText(f);
   if (f.wholeFrames < f.frames)
     text += fmt::format(
-        "App by node is of {} of the {} frames: where it visits so many, the others are recorded in part\n",
+        "App by node is of {} of the {} frames: in the others it had no processor for a while, or it visits "
+        "too many nodes to record them each time\n",
         f.wholeFrames, f.frames);
   text += "\n       ms      p95      max  allocs  stage\n";
   for (const StageRow& s : f.stages)
     text += fmt::format("{:9.4f} {:8.3f} {:8.3f} {:7.1f}  {}{}{}\n", s.ms, s.p95, s.most, s.allocations,
-                        s.name, s.part.empty() ? "" : ": ", s.part);
+                        s.name(), s.part.empty() ? "" : ": ", s.part);
   text += "\n      mean        max  counted a frame\n";
   for (const CountRow& c : f.counts)
     text += fmt::format("{:10.1f} {:10.0f}  {}: {}\n", c.mean, c.most, c.of, c.what);
   text += "\nexplained   measured     nodes  the stage's own parts\n";
-  for (const Explained& e : f.explained)
-    text += fmt::format("{:5} {} {:9.4f} {:9.4f} {:9.4f}\n", e.stage,
-                        e.measured > 0 ? fmt::format("{:5.1f}%", 100 * e.covered()) : "     -", e.measured,
-                        e.nodes, e.named);
-  if (f.explained[2].measured <= 0) return text;
-  return text + "draw: " + f.drawMethod + "\n" + (f.framesNeeded == 0 ? apartText(f.explained[2]) : "");
+  for (const Explained* e : f.explained())
+    if (!f.drawMethod.empty() || (e != &f.draw && e != &f.alone))
+      text +=
+          fmt::format("{:5} {} {:9.4f} {:9.4f} {:9.4f}{}\n", e->stage,
+                      e->measured > 0 ? fmt::format("{:5.1f}%", 100 * e->covered()) : "     -", e->measured,
+                      e->nodes, e->named, e == &f.alone ? "  each eye drawn alone, before scaling" : "");
+  if (f.alone.measured <= 0) return text;
+  return text + "draw: " + f.drawMethod + "\n" + (f.framesNeeded == 0 ? apartText(f.alone) : "");
 }
 
 std::string toJson(const ShowFigures& f) {
-  nlohmann::json j{{"frames", f.frames}, {"walls", f.walls}, {"draw_method", f.drawMethod}};
-  j["frames_needed"] = f.framesNeeded, j["whole_frames"] = f.wholeFrames;
+  nlohmann::json j{{"frames", f.frames}, {"walls", f.walls}};
+  j["draw_method"] = f.drawMethod.empty() ? nlohmann::json() : nlohmann::json(f.drawMethod);
+  // No number of frames measures what is never drawn.
+  const bool wouldDo = f.framesNeeded > 0 || std::ranges::none_of(f.nodes, isUnmeasured);
+  j["frames_needed"] = wouldDo ? nlohmann::json(f.framesNeeded) : nlohmann::json();
+  j["whole_frames"] = f.wholeFrames;
   j["nodes"] = nlohmann::json::array(), j["stages"] = nlohmann::json::array();
   for (const NodeRow& row : f.nodes) j["nodes"].push_back(toJson(row, f.walls));
   for (const StageRow& s : f.stages)
-    j["stages"].push_back({{"stage", s.name},
+    j["stages"].push_back({{"stage", s.name()},
                            {"part", s.part},
                            {"ms", s.ms},
                            {"p95_ms", s.p95},
@@ -149,31 +194,24 @@ std::string toJson(const ShowFigures& f) {
   j["counts"] = nlohmann::json::array();
   for (const CountRow& c : f.counts)
     j["counts"].push_back({{"of", c.of}, {"what", c.what}, {"mean", c.mean}, {"max", c.most}});
-  for (const Explained& e : f.explained)
-    j["explained"].push_back({{"stage", e.stage},
-                              {"measured_ms", e.measured},
-                              {"nodes_ms", e.nodes},
-                              {"parts_ms", e.named},
-                              {"covered", e.covered()}});
+  for (const Explained* e : f.explained())
+    j["explained"].push_back(
+        {{"stage", e->stage},
+         {"measured_ms", e->measured},
+         {"nodes_ms", e->nodes},
+         {"parts_ms", e->named},
+         {"covered", e->measured > 0 ? nlohmann::json(e->covered()) : nlohmann::json()}});
   return j.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string toCsv(const ShowFigures& f) {
-  std::string csv = "path,file,line,kind,stage,wall,eye,ms\n";
-  for (const NodeRow& r : f.nodes) {
-    const auto add = [&](const char* stage, const std::string& wall, const char* eye, double ms, bool known) {
-      csv +=
-          fmt::format("{},{},{},{},{},{},{},{}\n", csvField(r.name.path), csvField(r.name.file), r.name.line,
-                      nameOf(r.name.kind), stage, csvField(wall), eye, known ? fmt::to_string(ms) : "");
-    };
-    add("app", "", "", r.app, true);
-    for (std::size_t w = 0; w < r.walls.size(); ++w) {
-      const NodeOnWall& on = r.walls[w];
-      add("cull", f.walls[w], "", on.cull, on.cullMeasured);
-      add("draw", f.walls[w], "left", on.draw[0], on.drawMeasured[0]);
-      add("draw", f.walls[w], "right", on.draw[1], on.drawMeasured[1]);
-    }
-  }
+  std::string csv =
+      "path,file,line,kind,stage,part,wall,eye,ms,p95_ms,max_ms,count,allocations,share,budget_ms,method\n";
+  for (const NodeRow& r : f.nodes) addRows(r, f, csv);
+  for (const StageRow& s : f.stages)
+    csv += fmt::format(",,,{},{},{},{},{},{},{},{},{},{},,,{}\n", s.wait ? "wait" : "stage",
+                       csvField(s.stage), csvField(s.part), csvField(s.wall), s.eye, s.ms, s.p95, s.most,
+                       s.count, s.allocations, csvField(s.alone ? f.drawMethod : ""));
   return csv;
 }
 

@@ -16,7 +16,7 @@ void WallCost::add(const WallCost& other) {
 void NodeProfile::add(const NodeProfile& other) {
   for (std::size_t i = 0; i < phases.size(); ++i) phases[i] += other.phases[i];
   allocations += other.allocations, settle += other.settle, published += other.published;
-  visit.add(other.visit);
+  visit.add(other.visit), drawing.add(other.drawing);
   for (const auto& [wall, cost] : other.walls) walls[wall].add(cost);
 }
 
@@ -60,7 +60,7 @@ bool ShowProfile::keeps(const SpanRecord& r) {
   constexpr double kMuch = 0.05;  // of the stage
   if (r.what != Span::App && r.what != Span::Cull) return true;
   Kept& kept = kept_[{r.what, r.wall}];
-  const bool leftOut = r.use.delayed > kMuch * r.took && kept.leftOut < kept.frames;
+  const bool leftOut = r.use.delayed > kMuch * r.took && kept.leftOut <= kept.frames;
   ++(leftOut ? kept.leftOut : kept.frames);
   return !leftOut;
 }
@@ -178,6 +178,7 @@ void ShowProfile::take(const DrawnAlone& d, const std::vector<NodeShare>& nodes)
     WallCost& wall = profileOf(node).walls[d.wall];
     wall.draw[d.eye] += d.ms * double{part};
     ++wall.drawn[d.eye];
+    profileOf(node).drawing.add(std::max(0.0, d.ms * double{part}));
   }
 }
 

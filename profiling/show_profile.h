@@ -43,6 +43,7 @@ struct NodeProfile {
   double settle = 0;               ///< whose turn it is, with which messages; what it changed is taken up
   std::uint64_t published = 0;     ///< how often, in the frames sampled
   CostSeries visit;                ///< all phases of a frame together, of the frames in which it was visited
+  CostSeries drawing;              ///< each time it was drawn alone, on one wall for one eye
   std::map<std::uint32_t, WallCost> walls;
   void add(const NodeProfile& other);
 };

@@ -1,9 +1,11 @@
 #include "pipeline/output/child_process.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
 #include <spawn.h>
+#include <string_view>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <thread>
@@ -58,6 +60,26 @@ private:
   posix_spawnattr_t attributes_;
 };
 
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// Ours, with these words in place of those of the same names.
+std::vector<std::string> environmentWith(const std::vector<std::string>& words) {
+  std::vector<std::string> all = words;
+  for (char** at = environ; *at; ++at) {
+    const std::string_view ours(*at);
+    const auto sameName = [&](const std::string& word) {
+      return ours.starts_with(std::string_view(word).substr(0, word.find('=') + 1));
+    };
+    if (std::ranges::none_of(words, sameName)) all.emplace_back(ours);
+  }
+  return all;
+}
+
 }  // namespace
 
 Descriptor& Descriptor::operator=(Descriptor&& o) noexcept {
@@ -80,18 +102,17 @@ ChildProcess::~ChildProcess() {
   wait(std::chrono::milliseconds(5000));
 }
 
-std::optional<int> ChildProcess::start(const std::vector<std::string>& argv, const Streams& streams) {
+std::optional<int> ChildProcess::start(const std::vector<std::string>& argv, const Streams& streams,
+                                       const std::vector<std::string>& environment) {
   SpawnOrders orders;
   orders.connect(streams.in, 0);
   orders.connect(streams.out, 1);
   orders.connect(streams.err, 2);
   orders.resetSignals();
-  std::vector<std::string> words = argv;
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  const int problem =
-      posix_spawnp(&pid_, pointers[0], orders.actions(), orders.attributes(), pointers.data(), environ);
+  std::vector<std::string> words = argv, around = environmentWith(environment);
+  const std::vector<char*> arguments = pointersTo(words), variables = pointersTo(around);
+  const int problem = posix_spawnp(&pid_, arguments[0], orders.actions(), orders.attributes(),
+                                   arguments.data(), variables.data());
   if (problem == 0) return std::nullopt;
   pid_ = -1;
   return problem;
@@ -117,7 +138,7 @@ std::optional<int> ChildProcess::wait(std::chrono::milliseconds limit) {
 }
 
 void ChildProcess::kill() {
-  if (running()) ::kill(pid_, SIGKILL);
+  if (running()) ::kill(-pid_, SIGKILL);
 }
 
 Pipe makePipe() {

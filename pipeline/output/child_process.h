@@ -40,14 +40,18 @@ public:
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Finds argv[0] along PATH and runs it with default signal handling. Nothing if it runs, else an errno.
-  std::optional<int> start(const std::vector<std::string>& argv, const Streams& streams);
+  /// Finds argv[0] along PATH and runs it with default signal handling, in a process group of its own, with
+  /// our environment where `environment`, words like "NAME=value", says nothing else. Nothing if it runs,
+  /// else an errno.
+  std::optional<int> start(const std::vector<std::string>& argv, const Streams& streams,
+                           const std::vector<std::string>& environment = {});
   bool running() const { return pid_ > 0; }
   pid_t pid() const { return pid_; }  ///< -1 if there is none
 
   /// The exit status (128 + signal if it was killed) once it has ended; nothing if it still runs after the
   /// wait.
   std::optional<int> wait(std::chrono::milliseconds limit);
+  /// It and all of its process group: the programs that it has started, too.
   void kill();
 
 private:

@@ -53,6 +53,15 @@ FrameCost frameOf(const Json& j, std::size_t walls) {
   return frame;
 }
 
+bool costsNothing(const FrameCost& f) {
+  double sum = f.app + f.appHelpers;
+  for (const WallCost& w : f.walls) {
+    sum += w.cull;
+    for (const PictureCost& p : w.pictures) sum += p.calls + p.raster;
+  }
+  return sum <= 0;
+}
+
 ShowCosts costsOf(const Json& whole) {
   const Json& j = whole.is_object() && whole.contains("costs") ? whole.at("costs") : whole;
   if (member(j, "format") != kFormat) throw Wrong{fmt::format("its format is not \"{}\"", kFormat)};
@@ -69,6 +78,7 @@ ShowCosts costsOf(const Json& whole) {
   if (costs.walls.empty() || costs.walls.size() > kMostWalls) throw Wrong{"no walls, or too many"};
   for (const Json& f : member(j, "frames")) costs.frames.push_back(frameOf(f, costs.walls.size()));
   if (costs.frames.empty()) throw Wrong{"has no frames"};
+  if (std::ranges::all_of(costs.frames, costsNothing)) throw Wrong{"its frames cost nothing"};
   return costs;
 }
 

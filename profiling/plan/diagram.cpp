@@ -1,5 +1,7 @@
 #include "profiling/plan/diagram.h"
 
+#include "profiling/markup_text.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -65,17 +67,6 @@ std::size_t longestName(const Schedule& s) {
   return longest;
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '<'   ? "&lt;"
-           : c == '>' ? "&gt;"
-           : c == '&' ? "&amp;"
-           : c == '"' ? "&quot;"
-                      : std::string(1, c);
-  return out;
-}
-
 /// 1, 2 or 5 times a power of ten, so that there are about ten of them.
 double tickOf(double length) {
   const double raw = length / 10, power = std::pow(10, std::floor(std::log10(raw)));
@@ -127,12 +118,12 @@ std::string diagramSvg(const Schedule& s, std::size_t frames, const std::string&
                                 "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" "
                                 "height=\"100%\" fill=\"#ffffff\"/>\n"
                                 "<text x=\"{2}\" y=\"22\" font-size=\"14\" fill=\"#222222\">{3}</text>\n",
-                                kLeft + kWidth + 20, bottom + 66, 12, escaped(title));
+                                kLeft + kWidth + 20, bottom + 66, 12, markupText(title));
   for (std::size_t row = 0; row < s.rows.size(); ++row) {
     const double y = kTop + kRow * static_cast<double>(row);
     svg += fmt::format("<text x=\"{:.0f}\" y=\"{:.1f}\" text-anchor=\"end\" fill=\"#222222\">{}</text>\n"
                        "<line x1=\"{:.0f}\" y1=\"{:.1f}\" x2=\"{:.0f}\" y2=\"{:.1f}\" stroke=\"#e4e4e4\"/>\n",
-                       kLeft - 10, y + 14, escaped(s.rows[row]), kLeft, y + kRow - 3, kLeft + kWidth,
+                       kLeft - 10, y + 14, markupText(s.rows[row]), kLeft, y + kRow - 3, kLeft + kWidth,
                        y + kRow - 3);
   }
   for (const Bar* b : painted(s, part)) {

@@ -1,5 +1,7 @@
 #include "profiling/regression/page.h"
 
+#include "profiling/markup_text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,13 +37,6 @@ std::string shortNumber(double v) {
   return fmt::format("{:.4g}", v);
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return out;
-}
-
 std::string tile(std::size_t count, const char* what, const char* kind) {
   return fmt::format("<div class=\"tile {}\"><b>{}</b>{}</div>", count > 0 ? kind : "", count, what);
 }
@@ -51,9 +46,9 @@ std::string row(const CaseResult& c, const Check& k) {
                         : k.outcome == Outcome::Failed ? "failed"
                                                        : "skipped";
   return fmt::format("<tr><td>{}</td><td>{}</td><td class=\"o {}\">{}</td><td>{}{}</td></tr>\n",
-                     escaped(c.name), escaped(k.metric), outcome, outcome, escaped(k.said),
+                     markupText(c.name), markupText(k.metric), outcome, outcome, markupText(k.said),
                      k.culprit.empty() ? ""
-                                       : "<span class=\"moved\">moved: " + escaped(k.culprit) + "</span>");
+                                       : "<span class=\"moved\">moved: " + markupText(k.culprit) + "</span>");
 }
 
 struct Point {
@@ -94,7 +89,7 @@ std::string plot(const std::vector<Point>& points) {
     svg += fmt::format(
         "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"><title>{:.6g}, {}, {}</title></circle>",
         x(i), y(points[i].value), points[i].failed ? "#b3261e" : "#2f6fb0", points[i].value,
-        escaped(points[i].entry->when), escaped(points[i].entry->program));
+        markupText(points[i].entry->when), markupText(points[i].entry->program));
   svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>", kLeft, kHeight - 5,
                      points.front().entry->when.substr(0, 10));
   if (points.size() > 1)
@@ -104,7 +99,7 @@ std::string plot(const std::vector<Point>& points) {
 }
 
 std::string figureOf(const std::string& name, const std::vector<Point>& points) {
-  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", plot(points), escaped(name));
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", plot(points), markupText(name));
 }
 
 /// Times and instructions first; counts, which hardly ever change, folded away.
@@ -133,7 +128,7 @@ std::string warningsOf(const SuiteResult& result) {
   if (result.warnings() == 0) return {};
   std::string text = "<h2>Warnings of shows</h2><ul>\n";
   for (const CaseResult& c : result.cases)
-    for (const std::string& warning : c.warnings) text += "<li>" + escaped(warning) + "</li>\n";
+    for (const std::string& warning : c.warnings) text += "<li>" + markupText(warning) + "</li>\n";
   return text + "</ul>\n";
 }
 
@@ -141,9 +136,9 @@ std::string warningsOf(const SuiteResult& result) {
 
 std::string pageOf(const SuiteResult& result, const std::vector<HistoryEntry>& history) {
   std::string page = kHead;
-  page += fmt::format("<h1>{}</h1><p class=\"said\">{} &middot; {}{}</p>\n", escaped(result.suite),
-                      result.when, escaped(result.program),
-                      result.against.empty() ? "" : " against " + escaped(result.against));
+  page += fmt::format("<h1>{}</h1><p class=\"said\">{} &middot; {}{}</p>\n", markupText(result.suite),
+                      result.when, markupText(result.program),
+                      result.against.empty() ? "" : " against " + markupText(result.against));
   page += "<div class=\"tiles\">" + tile(result.count(Outcome::Passed), "passed", "good") +
           tile(result.count(Outcome::Failed), "failed", "bad") +
           tile(result.faults(), "could not be played", "bad") +
@@ -158,7 +153,7 @@ std::string pageOf(const SuiteResult& result, const std::vector<HistoryEntry>& h
           std::to_string(history.size()) +
           " runs is on the left; red is a figure that was not as it should be.</p>\n";
   for (const CaseResult& c : result.cases)
-    page += "<h2>" + escaped(c.name) + "</h2>\n" + historyOf(c.name, history);
+    page += "<h2>" + markupText(c.name) + "</h2>\n" + historyOf(c.name, history);
   return page + "</body></html>\n";
 }
 

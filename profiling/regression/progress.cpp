@@ -24,7 +24,8 @@ Json jsonOf(const CaseResult& r) {
                                {"outcome", static_cast<int>(c.outcome)},
                                {"said", c.said},
                                {"culprit", c.culprit},
-                               {"figures", c.figures}});
+                               {"figures", c.figures},
+                               {"among_modes", c.amongModes}});
   return j;
 }
 
@@ -37,7 +38,7 @@ CaseResult resultOf(const Json& j) {
   j.at("warnings").get_to(r.warnings);
   for (const Json& c : j.at("checks"))
     r.checks.push_back({c.at("metric"), static_cast<Outcome>(std::clamp(c.at("outcome").get<int>(), 0, 2)),
-                        c.at("said"), c.at("culprit"), c.at("figures")});
+                        c.at("said"), c.at("culprit"), c.at("figures"), c.value("among_modes", false)});
   return r;
 }
 

@@ -29,6 +29,13 @@ std::size_t SuiteResult::count(Outcome outcome) const {
   return n;
 }
 
+bool SuiteResult::compared() const {
+  return std::ranges::any_of(cases, [](const CaseResult& c) {
+    return std::ranges::any_of(c.checks,
+                               [](const Check& k) { return !k.amongModes && k.outcome != Outcome::Skipped; });
+  });
+}
+
 std::size_t SuiteResult::faults() const {
   return static_cast<std::size_t>(
       std::ranges::count_if(cases, [](const CaseResult& c) { return !c.fault.empty(); }));

@@ -21,6 +21,7 @@ struct Check {
   std::string said;                    ///< what was found, in a sentence
   std::string culprit{};               ///< the node and stage that moved, if a figure did
   std::vector<std::string> figures{};  ///< if it failed: which ("app [ms]", "triangles front left")
+  bool amongModes = false;             ///< modes of this run with each other, not with what was before
 };
 
 struct CaseResult {
@@ -49,6 +50,8 @@ struct SuiteResult {
   /// One more case; what earlier ones have warned of in the same words is not said again.
   void add(CaseResult result);
   std::size_t count(Outcome outcome) const;
+  /// Whether anything was compared with what was before.
+  bool compared() const;
   std::size_t warnings() const;
   std::size_t faults() const;  ///< cases that could not be played
   bool refused() const;        ///< all of these for mistakes of the user's

@@ -12,6 +12,7 @@ function readNodes() {
     if (!n.costs) continue;
     [n.app, n.cull, n.draw] = n.costs;
     [n.visits, n.p95, n.max] = n.visits || [0, 0, 0];
+    [n.drawings, n.drawingP95, n.drawingMax] = n.drawings || [0, 0, 0];
     n.total = n.app + n.cull + n.draw, n.share = n.share || 0;
   }
 }
@@ -19,7 +20,7 @@ readNodes();
 const byId = id => document.getElementById(id);
 const kSvg = "http://www.w3.org/2000/svg";
 const STAGES = ["app", "cull", "draw"];
-const NAMES = {app: "App", cull: "Cull", draw: "Draw", frame: "Frame"};
+const NAMES = {app: "App", cull: "Cull", draw: "Draw", frame: "Frame", alone: "each eye drawn alone, before scaling"};
 const budget = data.head.rate > 0 ? 1000 / data.head.rate : 0;
 const colour = {frame: "var(--frame)", app: "var(--app)", cull: "var(--cull)", draw: "var(--draw)", wait: "var(--wait)"};
 

@@ -6,6 +6,8 @@ const char* const kFlameScript = R"js(
 /// Parts of the stages themselves that are not shared among nodes.
 const kOwnParts = {app: ["loading", "mail", "sound", "watching"], cull: [], draw: ["sky", "resolve"]};
 
+/// Of Draw, eyes drawn alone: nodes are drawn alone, too.
+const explainedOf = stage => data.stages.explained.find(e => e.stage === (stage === "draw" ? "alone" : stage));
 /// A stage's time as a tree: the scene's nodes, the stage's own parts, what is not explained.
 function flameTree(stage) {
   // Below what holds it a node needs no path.
@@ -13,7 +15,7 @@ function flameTree(stage) {
   const boxes = data.nodes.map((n, i) => ({label: labelOf(n), node: n, index: i, own: n[stage] || 0, children: []}));
   const world = {label: "World", own: 0, children: [], say: "all nodes"};
   data.nodes.forEach((n, i) => (n.parent === undefined ? world : boxes[n.parent]).children.push(boxes[i]));
-  const explained = data.stages.explained.find(e => e.stage === stage) || {measured: 0, nodes: 0, named: 0};
+  const explained = explainedOf(stage) || {measured: 0, nodes: 0, named: 0};
   const parts = {label: "the stage's own parts", own: 0, children: [], say: "what is spent on no node"};
   let left = explained.named;
   for (const part of kOwnParts[stage]) {
@@ -84,7 +86,7 @@ function shade(label) {
 }
 
 function drawFlame() {
-  const measured = STAGES.filter(s => (data.stages.explained.find(e => e.stage === s) || {}).measured > 0);
+  const measured = STAGES.filter(s => (explainedOf(s) || {}).measured > 0);
   const stage = measured.includes(chosen.get("stage")) ? chosen.get("stage") : measured[measured.length - 1];
   if (!stage) return put("flame-plot", el("p", {class: "quiet"}, "Nothing was measured."));
   const tree = flameTree(stage), zoomed = chosen.get("node") === undefined ? null : findBox(tree, chosen.get("node"));

@@ -28,6 +28,7 @@ const nodeColumns = [
   {key: "p95", name: "p95 visit", n: true, cell: n => n.visits > 0 ? ms(n.p95) : "\u2013", by: n => n.visits > 0 ? n.p95 : 0, help: "App, of the frames in which it was visited [ms]"},
   {key: "cull", name: "Cull", n: true, cell: n => priced(n.cull), by: n => n.cull || 0, help: "its share, all walls [ms]"},
   {key: "draw", name: "Draw", n: true, cell: n => priced(n.draw, n.inPart), by: n => n.draw || 0, help: "drawn alone, all walls and eyes [ms]"},
+  {key: "drawing", name: "p95 drawing", n: true, cell: n => n.drawings > 0 ? ms(n.drawingP95) : "\u2013", by: n => n.drawingP95, title: n => n.drawings > 0 ? `${n.drawings} times, at most ${msText(n.drawingMax)}` : null, help: "each time it was drawn alone, on one wall for one eye [ms]"},
   {key: "total", name: "total", n: true, cell: n => ms(n.total), by: n => n.total, help: "App, Cull and Draw [ms]"},
   {key: "share", name: "share", n: true, kind: "bar", cell: n => [percent(n.share), el("i", {style: `width:${Math.min(100, 100 * n.share)}%`})], by: n => n.share, help: "of all stages of all walls"},
 ];
@@ -47,7 +48,7 @@ function drawNodes() {
     value: chosen.get("find", ""), oninput: e => chosen.set({find: e.target.value || null})});
   put("nodes-nav", field, ...steps.map(n => choice(n === all.length ? `all ${n}` : n === 30 ? "the first 30" : String(n), n === Math.min(rows, all.length), {rows: n === 30 ? null : n})));
   const missed = data.nodes.filter(n => n.costs && (n.cull === null || n.draw === null || n.inPart)).length, needed = data.head.framesNeeded;
-  const parted = data.head.whole < data.head.profiled ? `App by node is of ${data.head.whole} of the ${data.head.profiled} frames: where it visits so many nodes, the others are recorded in part. ` : "";
+  const parted = data.head.whole < data.head.profiled ? `App by node is of ${data.head.whole} of the ${data.head.profiled} frames: in the others it had no processor for a while, or it visits too many nodes to record them each time. ` : "";
   byId("nodes-unmeasured").textContent = parted + (missed === 0 ? "" : needed === 0 ? "Draw was not measured: nothing was drawn." :
     `${missed} nodes had no turn in ${data.head.frames} frames, at least not on every wall; some ${needed} frames would do (--frames ${needed}).`);
   if (document.activeElement === document.body && words) field.focus();

@@ -203,7 +203,7 @@ private:
   json stages() const {
     json s{{"rows", json::array()}, {"explained", json::array()}};
     for (const StageRow& r : data_.figures.stages)
-      s["rows"].push_back({{"name", r.name},
+      s["rows"].push_back({{"name", r.name()},
                            {"part", r.part},
                            {"ms", number(r.ms)},
                            {"p95", number(r.p95, 3)},
@@ -213,11 +213,11 @@ private:
     for (const CountRow& c : data_.figures.counts)
       s["counts"].push_back(
           {{"of", c.of}, {"what", c.what}, {"mean", number(c.mean)}, {"max", number(c.most)}});
-    for (const Explained& e : data_.figures.explained)
-      s["explained"].push_back({{"stage", e.stage},
-                                {"measured", number(e.measured)},
-                                {"nodes", number(e.nodes)},
-                                {"named", number(e.named)}});
+    for (const Explained* e : data_.figures.explained())
+      s["explained"].push_back({{"stage", e->stage},
+                                {"measured", number(e->measured)},
+                                {"nodes", number(e->nodes)},
+                                {"named", number(e->named)}});
     return s;
   }
 
@@ -253,6 +253,8 @@ private:
     if (r.share > 0) j["share"] = number(r.share, digits);
     if (r.visits > 0)
       j["visits"] = {number(r.visits, digits), number(r.visitP95, digits), number(r.visitMost, digits)};
+    if (r.drawings > 0)
+      j["drawings"] = {r.drawings, number(r.drawingP95, digits), number(r.drawingMost, digits)};
     if (r.app > 0)
       for (const double ms : {r.receive, r.simulate, r.dispatch, r.settle, r.publish})
         j["phases"].push_back(number(ms, digits));

@@ -1,19 +1,9 @@
+#include "profiling/markup_text.h"
 #include "profiling/report/page_parts.h"
 #include "profiling/report/report_data.h"
 
 namespace stadion {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '&'   ? "&amp;"
-           : c == '<' ? "&lt;"
-           : c == '>' ? "&gt;"
-           : c == '"' ? "&quot;"
-                      : std::string(1, c);
-  return out;
-}
 
 /// So that nothing in it ends the script element that holds it.
 std::string embedded(const std::string& json) {
@@ -35,7 +25,7 @@ std::string reportPage(const ReportData& data) {
   page += "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
           "'unsafe-inline'; script-src 'unsafe-inline'\">\n"
           "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n";
-  page += "<title>" + escaped(data.head.show) + ": where its frames go</title>\n<style>";
+  page += "<title>" + markupText(data.head.show) + ": where its frames go</title>\n<style>";
   page += report::kStyle;
   page += "</style></head>\n<body>\n";
   page += report::kBody;

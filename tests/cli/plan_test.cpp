@@ -45,6 +45,17 @@ TEST(ProgramPlan, SaysWhatIsWrong) {
   const ProgramResult wrong = stadionProgram({"plan", "--from", folder.write("costs.json", "{}")});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_NE(wrong.err.find("has no \"format\""), std::string::npos) << wrong.err;
+  const ProgramResult nowhere = stadionProgram({"plan", kKick, "--svg", "nowhere/plan.svg"});
+  EXPECT_EQ(nowhere.status, 2);
+  EXPECT_EQ(nowhere.out, "") << "before anything is measured";
+  EXPECT_NE(nowhere.err.find("nowhere/plan.svg"), std::string::npos) << nowhere.err;
+  const std::string free =
+      R"({"format": "stadion-plan-costs 1", "show": "free", "size": "1x1", "eyes": 1, "walls": ["a"], "cores": 1,
+          "raster_threads": 1, "waits_in_turn": false, "frames": [{"app": 0, "app_helpers": 0, "swap": 0,
+          "walls": [{"cull": 0, "pictures": [[0, 0, 1]]}]}]})";
+  const ProgramResult nothing = stadionProgram({"plan", "--from", folder.write("free.json", free)});
+  EXPECT_EQ(nothing.status, 2) << nothing.out;
+  EXPECT_NE(nothing.err.find("cost nothing"), std::string::npos) << nothing.err;
 }
 
 TEST(ProgramPlan, MeasuresTheLookThatIsAskedForAndSaysWhichItWas) {

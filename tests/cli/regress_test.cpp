@@ -384,6 +384,46 @@ TEST(ProgramRegress, WhereNothingWasComparedItIsNotGreen) {
   refused(regress({counted}), "nothing was compared; the table says why");
 }
 
+TEST(ProgramRegress, ModesThatAgreeAreNotGreenWhereTheBaselineSaysNothing) {
+  const TemporaryFolder folder;
+  const std::string suite = smallSuite(folder, "  modes sequential pipelined\n  compare state\n");
+  ASSERT_EQ(regress({suite, "--update"}).status, 0);
+  const std::string file = folder.path() / "small.baseline.json";
+  Json baseline = Json::parse(fileContent(file));
+  for (Json& c : baseline["cases"]) c["state"] = Json::object();
+  folder.write("small.baseline.json", baseline.dump());
+  const ProgramResult r = regress({suite});
+  EXPECT_NE(r.status, 0) << r.out << r.err;
+}
+
+/// As `env` would read it, it says what the environment is.
+TEST(ProgramRegress, AProgramsPathMayHoldAnEqualsSign) {
+  const TemporaryFolder folder;
+  const std::string build = folder.path() / "build=release";
+  std::filesystem::create_directory(build);
+  std::filesystem::create_symlink(stadionPath(), build + "/stadion");
+  const std::string suite = smallSuite(folder, "  compare times\n  rounds 12\n");
+  const ProgramResult r = regress({suite, "--stadion", build + "/stadion", "--update"});
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  EXPECT_TRUE(
+      Json::parse(fileContent(folder.path() / "small.baseline.json"))["cases"]["bodies/sequential"].contains(
+          "times"));
+}
+
+TEST(ProgramRegress, WhatCannotBeWrittenIsToldBeforeAnythingIsPlayed) {
+  const TemporaryFolder folder;
+  const std::string suite = smallSuite(folder);
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--junit", "nowhere/results.xml"},
+                                                {"--update", "--baseline", "nowhere/b.json"}}) {
+    std::vector<std::string> all{suite};
+    all.insert(all.end(), words.begin(), words.end());
+    const ProgramResult r = regress(all);
+    EXPECT_EQ(r.status, 2) << r.err;
+    EXPECT_NE(r.err.find("cannot be written"), std::string::npos) << r.err;
+    EXPECT_EQ(r.out, "");
+  }
+}
+
 TEST(ProgramRegress, EverythingThatIsCountedIsCompared) {
   const TemporaryFolder folder;
   const std::string suite = smallSuite(folder);

@@ -116,6 +116,17 @@ TEST(ProgramUsage, NumbersThatAreNoneAreRefusedAndWhatIsAllowedIsSaid) {
   }
 }
 
+TEST(ProgramUsage, WhereEveryFrameCountsNothingCanBeGivenUp) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--load-control", "on"}, {"--stress-max", "2"}}) {
+    std::vector<std::string> all{"run", testShow("bodies.evs"), "--seconds", "1"};
+    all.insert(all.end(), words.begin(), words.end());
+    const ProgramResult r = stadionProgram(all);
+    EXPECT_EQ(r.status, 2) << words[0];
+    EXPECT_TRUE(has(r.err, "is for live runs: leave out")) << r.err;
+  }
+}
+
 TEST(ProgramUsage, WhatIsNoPlainFileIsRefusedWithoutWaiting) {
   const TemporaryFolder folder;
   const std::string fifo = folder.path() / "fifo";

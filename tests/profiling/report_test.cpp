@@ -155,7 +155,7 @@ TEST(ReportPage, WhatScriptsNameThemselvesNeverBecomesMarkup) {
   MadeUpRun run;
   for (std::uint64_t n = 0; n < 60; ++n) run.frame(n);
   const std::string hostile = "</script><script>alert(1)</script><img src=x onerror=alert(2)>\xff\"'&\\";
-  ShowFigures figures = figuresOf(run.profile, run.names, {hostile}, true);
+  ShowFigures figures = figuresOf(run.profile, run.names, {hostile}, "Mesa, llvmpipe");
   for (NodeRow& row : figures.nodes) row.name.path = row.name.file = hostile;
   ReportData data{{hostile, 60, 60, 0.1, {{"walls", hostile}}},
                   figures,
@@ -194,7 +194,7 @@ TEST(ReportPage, ANodeStandsBesideALateFrameOnlyWhereItExplainsIt) {
     run.delayed = n == 80 ? 40 : 0;
     run.frame(n, n == 70 || n == 80 ? 50 : 0);
   }
-  const ShowFigures figures = figuresOf(run.profile, run.names, {"front"}, true);
+  const ShowFigures figures = figuresOf(run.profile, run.names, {"front"}, "Mesa, llvmpipe");
   const ReportData data{
       {"show.evs", 60, 100, 0.1, {}},    figures, run.names, run.recording.series(), run.recording.kept(),
       run.recording.threads().threads(), {},      {}};
@@ -210,7 +210,8 @@ TEST(ReportPage, ANodeStandsBesideALateFrameOnlyWhereItExplainsIt) {
 TEST(ReportPage, TenThousandNodesAreAllThereAndNoHeavyPage) {
   MadeUpRun run;
   for (std::uint64_t n = 0; n < 60; ++n) run.frame(n);
-  ShowFigures figures = figuresOf(run.profile, run.names, {"front", "left", "right", "floor"}, true);
+  ShowFigures figures =
+      figuresOf(run.profile, run.names, {"front", "left", "right", "floor"}, "Mesa, llvmpipe");
   for (std::uint32_t i = 0; i < 10'000; ++i) {
     NodeRow row;
     row.node = {2, i}, row.name.path = "pillar_" + std::to_string(i), row.name.line = i;
@@ -234,7 +235,7 @@ TEST(ReportPage, TenThousandNodesAreAllThereAndNoHeavyPage) {
 TEST(ReportPage, ItNeedsNothingBesideItself) {
   MadeUpRun run;
   for (std::uint64_t n = 0; n < 60; ++n) run.frame(n);
-  const ShowFigures figures = figuresOf(run.profile, run.names, {"front"}, true);
+  const ShowFigures figures = figuresOf(run.profile, run.names, {"front"}, "Mesa, llvmpipe");
   const ReportData data{
       {"show.evs", 60, 60, 0.1, {}},     figures, run.names, run.recording.series(), run.recording.kept(),
       run.recording.threads().threads(), {},      {}};
@@ -249,7 +250,7 @@ TEST(ReportPage, ItNeedsNothingBesideItself) {
 
 TEST(ReportPage, ARunWithoutFramesIsAPageToo) {
   const MadeUpRun run;
-  const ShowFigures figures = figuresOf(run.profile, run.names, {"front"}, true);
+  const ShowFigures figures = figuresOf(run.profile, run.names, {"front"}, "Mesa, llvmpipe");
   const ReportData data{{"show.evs", 60, 0, 0, {}}, figures, run.names, run.recording.series(),
                         run.recording.kept(),       {},      {},        {}};
   EXPECT_NO_THROW(nlohmann::json::parse(reportJson(data)));

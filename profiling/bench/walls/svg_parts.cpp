@@ -1,5 +1,7 @@
 #include "profiling/bench/walls/svg_parts.h"
 
+#include "profiling/markup_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -15,11 +17,8 @@ std::string svgPicture(double width, double height, const std::string& content) 
 }
 
 std::string svgText(double x, double y, const char* anchor, std::string_view what, const char* more) {
-  std::string escaped;
-  for (const char c : what)
-    escaped += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
   return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' {}>{}</text>\n", x, y, anchor, more,
-                     escaped);
+                     markupText(what));
 }
 
 std::string svgLine(double x1, double y1, double x2, double y2, const char* style) {
