@@ -14,6 +14,8 @@ namespace stadion {
 /// The last durations of one kind [ms], in no particular order. Bounded, so that a show may run all day.
 class DurationSeries {
 public:
+  /// Room for all of them at once: a frame allocates nothing. What is not used takes no memory.
+  DurationSeries() { values_.reserve(kCapacity); }
   void add(double ms) {
     if (values_.size() < kCapacity)
       values_.push_back(ms);

@@ -7,8 +7,8 @@
 
 #include <array>
 #include <condition_variable>
-#include <deque>
 #include <mutex>
+#include <vector>
 
 namespace stadion {
 
@@ -19,6 +19,7 @@ public:
       : fillings_{ListFilling([this] { give(handed_, &lists_[0]); }, early),
                   ListFilling([this] { give(handed_, &lists_[1]); }, early)},
         empty_{&lists_[0], &lists_[1]} {
+    handed_.reserve(lists_.size());
     for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i].filling = &fillings_[i];
   }
 
@@ -48,15 +49,15 @@ public:
   }
 
 private:
-  DrawList* take(std::deque<DrawList*>& from) {
+  DrawList* take(std::vector<DrawList*>& from) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return !from.empty() || stopped_ || (finished_ && &from == &handed_); });
     if (stopped_ || from.empty()) return nullptr;
     DrawList* list = from.front();
-    from.pop_front();
+    from.erase(from.begin());
     return list;
   }
-  void give(std::deque<DrawList*>& to, DrawList* list) {
+  void give(std::vector<DrawList*>& to, DrawList* list) {
     const std::lock_guard lock(mutex_);
     to.push_back(list);
     changed_.notify_all();
@@ -66,7 +67,7 @@ private:
   std::array<ListFilling, 2> fillings_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<DrawList*> empty_, handed_;
+  std::vector<DrawList*> empty_, handed_;  ///< the oldest first
   bool finished_ = false, stopped_ = false;
 };
 

@@ -2,17 +2,8 @@
 
 namespace stadion {
 
-bool SwapBarrier::arrive(const std::function<void()>& show) {
-  std::unique_lock lock(mutex_);
-  if (stopped_) return false;
+bool SwapBarrier::wait(std::unique_lock<std::mutex>& lock) {
   const std::uint64_t mine = round_;
-  if (++arrived_ == walls_) {
-    show();
-    arrived_ = 0;
-    ++round_;
-    changed_.notify_all();
-    return true;
-  }
   changed_.wait(lock, [&] { return round_ != mine || stopped_; });
   return round_ != mine;
 }

@@ -5,7 +5,6 @@
 
 #include <condition_variable>
 #include <cstddef>
-#include <functional>
 #include <mutex>
 
 namespace stadion {
@@ -16,10 +15,22 @@ public:
 
   /// Waits for the other walls. The last one to arrive runs `show`, then all go on. False when the run was
   /// stopped.
-  bool arrive(const std::function<void()>& show);
+  template <class Show>
+  bool arrive(const Show& show) {
+    std::unique_lock lock(mutex_);
+    if (stopped_) return false;
+    if (++arrived_ < walls_) return wait(lock);
+    show();
+    arrived_ = 0;
+    ++round_;
+    changed_.notify_all();
+    return true;
+  }
   void stop();
 
 private:
+  bool wait(std::unique_lock<std::mutex>& lock);
+
   std::mutex mutex_;
   std::condition_variable changed_;
   std::size_t walls_, arrived_ = 0;

@@ -1,5 +1,6 @@
 #include "profiling/allocations.h"
 
+#include <atomic>
 #include <cstdlib>
 #include <new>
 
@@ -13,11 +14,16 @@ namespace stadion {
 namespace {
 
 thread_local Allocations soFar;
+std::atomic<std::uint64_t> ofAll = 0;
 
 }  // namespace
 
 Allocations allocationsSoFar() {
   return soFar;
+}
+
+std::uint64_t allocationsOfAllThreads() {
+  return ofAll.load(std::memory_order_relaxed);
 }
 
 bool countsAllocations() {
@@ -31,6 +37,7 @@ namespace {
 template <class Take>
 void* allocate(std::size_t bytes, const Take& take) {
   ++soFar.count, soFar.bytes += bytes;
+  ofAll.fetch_add(1, std::memory_order_relaxed);
   for (;;) {
     if (void* memory = take()) return memory;
     const std::new_handler handler = std::get_new_handler();

@@ -3,9 +3,9 @@
 /// replaces by one that counts. What C libraries allocate is not counted.
 ///
 /// Off    in builds with sanitizers, which have an operator new of their own: always 0.
-/// Cost   two additions to the thread's own memory, whether or not anybody asks.
+/// Cost   two additions to the thread's own memory and one to the process's, whether or not anybody asks.
 ///
-/// Threads  each its own counts.
+/// Threads  each its own counts; that of all of them is for any thread.
 
 #include <cstdint>
 
@@ -23,6 +23,8 @@ struct Allocations {
 
 /// Of the calling thread.
 Allocations allocationsSoFar();
+/// How often any thread of this process asked.
+std::uint64_t allocationsOfAllThreads();
 /// Whether this build counts.
 bool countsAllocations();
 

@@ -44,7 +44,7 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
   }
   settleTouched(probe);
   const SpanScope span(probe, Span::Publish);
-  std::ranges::stable_sort(events_, {}, &EventRecord::when);
+  if (events_.size() > 1) std::ranges::stable_sort(events_, {}, &EventRecord::when);  // it takes memory
   publish(now, input, changes);
 }
 

@@ -13,7 +13,6 @@
 #include <array>
 #include <chrono>
 #include <condition_variable>
-#include <deque>
 #include <mutex>
 #include <optional>
 
@@ -88,7 +87,7 @@ private:
   std::condition_variable changed_;
   std::array<Slot, kSlots> slots_;
   std::vector<std::uint64_t> cursor_;  ///< per wall: the serial it wants next
-  std::deque<Selection> selections_;
+  std::vector<Selection> selections_;  ///< a few, the oldest first; a deque would allocate now and then
   std::uint64_t nextSerial_ = 0, writes_ = 0, shown_ = 0;
   std::size_t mostUnderWay_ = 0, last_ = 0;
   std::size_t drawn_ = 0;  ///< walls that have drawn the oldest frame under way

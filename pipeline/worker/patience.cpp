@@ -5,15 +5,15 @@
 namespace stadion::worker {
 
 void Patience::took(Milliseconds time) {
-  if (last_.size() == kLast) last_.erase(last_.begin());
-  last_.push_back(time);
+  last_[count_++ % kLast] = time;
 }
 
 std::optional<Patience::Milliseconds> Patience::limit() const {
-  if (last_.size() < kKnown) return {};
-  std::vector<Milliseconds> sorted = last_;
-  std::ranges::sort(sorted);
-  return 1.5 * std::max(frame_, sorted[(sorted.size() - 1) / 2]);
+  if (count_ < kKnown) return {};
+  const std::size_t known = std::min(count_, kLast);
+  std::array<Milliseconds, kLast> sorted = last_;
+  std::sort(sorted.begin(), sorted.begin() + known);
+  return 1.5 * std::max(frame_, sorted[(known - 1) / 2]);
 }
 
 }  // namespace stadion::worker

@@ -8,10 +8,10 @@
 ///
 /// Threads  one at a time.
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 namespace stadion::worker {
 
@@ -21,7 +21,7 @@ public:
 
   static constexpr std::size_t kKnown = 3, kLast = 5;  ///< times, at least and at most, by which it is known
 
-  explicit Patience(double rate) : frame_(1000 / rate) { last_.reserve(kLast); }
+  explicit Patience(double rate) : frame_(1000 / rate) {}
 
   /// It has taken so long, whether it was waited for or not.
   void took(Milliseconds time);
@@ -30,7 +30,8 @@ public:
 
 private:
   Milliseconds frame_;
-  std::vector<Milliseconds> last_;  ///< the oldest first
+  std::array<Milliseconds, kLast> last_{};  ///< in a ring
+  std::size_t count_ = 0;                   ///< in all
 };
 
 }  // namespace stadion::worker
