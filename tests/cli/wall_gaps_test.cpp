@@ -1,0 +1,139 @@
+/// Walls drawn by processes, on ticks of 1/60 s: when one is killed or stopped, the others go on. Judged by
+/// the time from swap to swap: the others never miss more than one frame. A run in which others had the
+/// processors says nothing; then another one is watched.
+
+#include "tests/cli/played_show.h"
+#include "tests/cli/program.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <gtest/gtest.h>
+#include <sstream>
+#include <thread>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr double kRate = 60;  // [1/s]
+/// Between swaps, in periods: who misses one frame leaves two, who misses two leaves three. Where nothing has
+/// happened to anybody there is one, and hardly two.
+constexpr double kMost = 2.5, kCalm = 1.8;
+constexpr std::uint64_t kThreeSeconds = 180;  // frames
+
+/// The processes that draw walls for this one.
+std::vector<pid_t> wallProcesses() {
+  std::vector<pid_t> pids;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    if (fileContent(entry.path() / "comm") != "stadion-wall\n") continue;
+    const std::string stat = fileContent(entry.path() / "stat");
+    std::istringstream after(stat.substr(std::min(stat.rfind(')') + 2, stat.size())));
+    char state = '?';
+    pid_t parent = 0;
+    if (after >> state >> parent && parent == ::getpid() && state != 'Z')
+      pids.push_back(std::stoi(entry.path().filename()));
+  }
+  std::ranges::sort(pids);
+  return pids;
+}
+
+struct Fault {
+  int signal = 0;
+  Clock::time_point at{};
+};
+
+/// When frames were swapped, and when what befell a process.
+struct Watched {
+  std::vector<Clock::time_point> swaps;
+  std::vector<Fault> faults;
+  std::uint64_t inARow = 0;  ///< frames in a row that a wall was late
+
+  /// The longest time from swap to swap within [from, to], in periods.
+  double longest(Clock::time_point from, Clock::time_point to) const {
+    double most = 0;
+    for (std::size_t i = 1; i < swaps.size(); ++i)
+      if (swaps[i] >= from && swaps[i - 1] <= to)
+        most = std::max(most, kRate * std::chrono::duration<double>(swaps[i] - swaps[i - 1]).count());
+    return most;
+  }
+};
+
+/// Plays the show until the processes that `signals` hit are back for a while.
+std::optional<Watched> watch(const std::string& look, const std::vector<int>& signals) {
+  const TemporaryFolder folder;
+  ShowOptions show;
+  show.script = folder.write("show.evs", "object( name=floor, file=plane.3ds )\n"
+                                         "object( file=football.3ds, position=\"0, 3, 1\" )\n");
+  show.walls = "cave4", show.size = "64x48", show.look = look, show.input = "none";
+  show.assetRoots = {assetFolder()};
+  Diagnostics findings;
+  const auto player = show.settle(findings) ? Player::create(show, findings) : nullptr;
+  tell(findings);
+  auto provider = openGlProvider(GlProviderKind::OsMesa);
+  if (!player || !provider) return {};
+  ShowParts parts = player->parts(StereoLayout::Pair);
+  parts.provider = provider.value().get();
+  parts.workers.emplace().everyFrame = false;
+  Watched watched;
+  watched.swaps.reserve(1 << 16);
+  std::atomic<std::size_t> shown = 0;
+  parts.shown = [&] { watched.swaps.push_back(Clock::now()), ++shown; };
+  ShowStages stages(std::move(parts));
+  FrameLoopOptions o = player->loopOptions();
+  o.frames = 0, o.end = 0, o.rate = kRate, o.pace = Pace::Lock, o.delivery = Delivery::Latest;
+  std::atomic<bool> enough = false;
+  FrameLoop loop(stages, o, enough);
+  std::thread fate([&] {
+    const auto sleepFor = [](int ms) { std::this_thread::sleep_for(milliseconds(ms)); };
+    while (shown < 60) sleepFor(20);
+    const std::size_t processes = wallProcesses().size();
+    for (const int signal : signals) {
+      sleepFor(3000);
+      const std::vector<pid_t> now = wallProcesses();
+      if (now.size() != processes) break;
+      watched.faults.push_back({signal, Clock::now()});
+      ::kill(now[now.size() / 2], signal);
+      sleepFor(1000);
+    }
+    sleepFor(3000);
+    enough = true;
+  });
+  const FrameLoopOutcome outcome = loop.run();
+  fate.join();
+  EXPECT_FALSE(outcome.failure) << outcome.failure->message;
+  for (std::size_t wall = 0; wall < o.walls; ++wall)
+    watched.inARow = std::max(watched.inARow, stages.late(wall).inARow);
+  return watched;
+}
+
+class ProgramAloneWallGaps : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ProgramAloneWallGaps, TheOtherWallsMissNoMoreThanAFrameWhenOneIsKilledOrStopped) {
+  constexpr int kMostRuns = 5;
+  for (int run = 0; run < kMostRuns; ++run) {
+    const auto watched = watch(GetParam(), {SIGKILL, SIGSTOP});
+    ASSERT_TRUE(watched) << "the show cannot be played";
+    const std::vector<Fault>& faults = watched->faults;
+    const bool calm = faults.size() == 2 && std::ranges::all_of(faults, [&](const Fault& f) {
+                        return watched->longest(f.at - milliseconds(2000), f.at) < kCalm;
+                      });
+    if (!calm) continue;
+    for (const Fault& f : faults)
+      EXPECT_LT(watched->longest(f.at, f.at + milliseconds(3000)), kMost) << "periods, signal " << f.signal;
+    EXPECT_GT(watched->inARow, 1u) << "it was hit";
+    EXPECT_LT(watched->inARow, kThreeSeconds);
+    return;
+  }
+  GTEST_SKIP() << "others have the processors";
+}
+
+INSTANTIATE_TEST_SUITE_P(ProgramAlone, ProgramAloneWallGaps, ::testing::Values("full", "plain"),
+                         [](const auto& look) { return std::string(look.param); });
+
+}  // namespace
+}  // namespace stadion
