@@ -5,6 +5,7 @@
 #include "cli/output_folder.h"
 #include "cli/temporary_folder.h"
 #include "cli/walls_measure.h"
+#include "cli/walls_record_head.h"
 #include "cli/walls_rounds.h"
 #include "engine/atomic_file.h"
 #include "profiling/bench/walls/wall_files.h"
@@ -95,9 +96,9 @@ int benchTable(const Options& o) {
     out->clear();
   }
   sayWho(programs);
-  const bench::WallsChoice choice{o.scenes, !programs.osg.empty(), !programs.floor.empty(),
-                                  o.workers.empty() ? "process" : o.workers};
-  WallsRounds how{o.rounds, o.minutes, o.record, !o.scaling, o.scenes, {}};
+  const std::string workers = o.workers.empty() ? "process" : o.workers;
+  const bench::WallsChoice choice{o.scenes, !programs.osg.empty(), !programs.floor.empty(), workers};
+  WallsRounds how{o.rounds, o.minutes, o.record, recordHead(programs, workers), !o.scaling, o.scenes};
   if (o.json)
     how.row = [](const nlohmann::json& row) { std::printf("%s\n", row.dump().c_str()), std::fflush(stdout); };
   const auto outcome = playRounds(o.scaling ? scalingCases(choice) : tableCases(choice), programs, how);
@@ -109,8 +110,42 @@ int benchTable(const Options& o) {
   return code;
 }
 
-int benchWalls(const Options& o) {
+int refuse(const std::string& why) {
+  return std::fprintf(stderr, "stadion: %s\n", why.c_str()), kBadInput;
+}
+
+/// What would be passed over in silence; empty: nothing.
+std::string ignoredIn(const CLI::App& command, const Options& o) {
+  const auto isGiven = [&](const std::string& name) { return command.count(name) > 0; };
+  const WallsSetting& one = o.one;
+  if (!o.measureOne) {
+    if (o.scaling && isGiven("--only"))
+      return "--scaling has scenes of its own: leave out --only, or --scaling for the table";
+    return {};
+  }
+  for (const char* name : {"--only", "--rounds", "--minutes", "--scaling", "--out", "--record"})
+    if (isGiven(name))
+      return std::string(name) + " is for the table, and --one measures one setting: leave one of them out";
+  if (o.control)
+    for (const CLI::Option* given : command.get_options())
+      if (given->count() > 0 && !given->check_lname("one") && !given->check_lname("control") &&
+          !given->check_lname("frames") && !given->check_lname("json"))
+        return "--control draws nothing, it only waits for ticks: leave out " + given->get_name();
+  if (one.kind == "STRICT" && !one.without.empty())
+    return "--without leaves out a trick, and STRICT has none: say --class OPEN or --class SUBMIT";
+  if (one.mode == "sequential" && isGiven("--latency"))
+    return "--latency is for frames that overlap, and --mode sequential has one under way: leave one of them "
+           "out";
+  if (const std::size_t nodes = sceneOf(one).nodes(); one.moving > nodes)
+    return "--moving " + std::to_string(one.moving) + " is more than the " + std::to_string(nodes) +
+           " nodes that there are: say --nodes " + std::to_string(one.moving) + ", or move fewer";
+  return {};
+}
+
+int benchWalls(const CLI::App& command, const Options& o) {
+  if (const std::string ignored = ignoredIn(command, o); !ignored.empty()) return refuse(ignored);
   if (!o.measureOne) return benchTable(o);
+  if (const std::string why = unwritable(o.one); !why.empty()) return refuse(why);
   WallsSetting one = o.one;
   one.flat = o.layout == "flat";
   if (!o.workers.empty()) one.workers = o.workers;
@@ -175,7 +210,7 @@ void addBenchWalls(CLI::App& bench, int& code) {
   addOneTo(*command, *o);
   command->add_option("--wall-workers", o->workers, "thread or process: who draws Stadion's walls")
       ->check(CLI::IsMember({"thread", "process"}));
-  command->callback([o, &code] { code = benchWalls(*o); });
+  command->callback([o, command, &code] { code = benchWalls(*command, *o); });
 }
 
 }  // namespace stadion

@@ -162,6 +162,7 @@ void RunOptions::addOperatorTo(CLI::App& command) {
                   "rest, so that fewer milliseconds lie between pose and picture; apart: it waits for all of "
                   "it. The pictures are the same")
       ->check(CLI::IsMember({"overlap", "apart"}))
+      ->each([this](const std::string&) { cullDrawGiven = true; })
       ->capture_default_str();
   command
       .add_option("--osc", oscPort, "listen for the operator's commands on this UDP port (docs/operator.md)")
@@ -200,6 +201,12 @@ bool RunOptions::settle(Diagnostics& findings) {
                        "--wall-workers process gives to others: say --wall-workers thread");
   if (wallWorkers == "process" && display)
     findings.error({}, "--display draws into windows of this program: say --wall-workers thread");
+  if (wallWorkers == "process" && provider == "none")
+    findings.error({}, "--gl none draws nothing that --wall-workers process could: leave one of them out");
+  if (show.mode == "sequential" && (latency != 0 || cullDrawGiven))
+    findings.error({}, std::string(latency != 0 ? "--latency" : "--cull-draw") +
+                           " says how stages overlap, which those of --mode sequential do not: leave one of "
+                           "them out");
   if (pin == "on" && (display || (show.mode == "sequential" && wallWorkers != "process")))
     findings.error({},
                    "--pin on is for walls that are drawn beside each other: leave out --display, and --mode "

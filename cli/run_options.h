@@ -30,6 +30,7 @@ struct RunOptions {
   bool loadAsked = false;            ///< any option of --load-control and stress was given
   bool loadControl = true;           ///< a live run gives up what its script says, when it takes too long
   std::string cullDraw = "overlap";  ///< or "apart": Draw waits until its list is complete
+  bool cullDrawGiven = false;        ///< else `cullDraw` is the standard
   std::size_t latency = 0;           ///< frames under way at most; 0: as many as there is room for
   bool lateLatch = false;            ///< Draw takes the newest head
   HeadReach latchReach{0.05, 0.25};  ///< as far as it lies within

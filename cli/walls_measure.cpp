@@ -4,12 +4,14 @@
 #include "pipeline/output/run_summary.h"
 #include "pipeline/pacer.h"
 #include "profiling/bench/walls/picture_difference.h"
+#include "profiling/bench/walls/wall_room.h"
 #include "profiling/processor_time.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <malloc.h>
 #include <unistd.h>
@@ -31,7 +33,8 @@ double memoryMb() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// What is in use of that, and of what walls' processes see, too [MB]: what the show holds, and OpenGL here.
+/// What the show holds [MB]: what this process has allocated, and the records of what stands still, which are
+/// mapped by themselves. Not counted are the slots of what moves. Walls are closed by then.
 double heldMb(Player& player) {
   const struct mallinfo2 heap = mallinfo2();
   const std::size_t chunks = player.parts(StereoLayout::Pair).state.arena().bytesInUse();
@@ -50,6 +53,18 @@ struct Completed {
   }
 };
 
+std::string pictureFile(const WallsSetting& s, const std::string& wall, std::size_t eye) {
+  return s.pictures + "_" + wall + (eye == 0 ? "_L.ppm" : "_R.ppm");
+}
+
+/// Frames, of those that are measured or not, of which a view was not drawn: at least so many.
+std::uint64_t incompleteFrames(const FrameLoopOutcome& outcome, const ShowStages& stages, std::size_t walls,
+                               std::uint64_t frames) {
+  std::uint64_t late = 0;  // several walls may be late in the same frame
+  for (std::size_t wall = 0; wall < walls; ++wall) late = std::max(late, stages.late(wall).frames);
+  return frames - std::min(frames, outcome.framesDrawn) + late;
+}
+
 /// Takes the pictures of the frame that follows the last one that is measured.
 class LastPictures final : public PictureSink {
 public:
@@ -62,9 +77,9 @@ public:
   Failure take(const TimeSignature&, const std::vector<EyePictures>& walls) override {
     for (std::size_t wall = 0; wall < walls.size(); ++wall)
       for (std::size_t eye = 0; eye < walls[wall].eyes.size(); ++eye)
-        if (!write(setting_.pictures + "_" + walls_[wall] + (eye == 0 ? "_L.ppm" : "_R.ppm"),
-                   walls[wall].eyes[eye]))
-          return Reason("cannot write " + setting_.pictures + "_" + walls_[wall]);
+        if (const std::string file = pictureFile(setting_, walls_[wall], eye);
+            !write(file, walls[wall].eyes[eye]))
+          return Reason("cannot write " + file);
     return {};
   }
 
@@ -99,6 +114,22 @@ double medianOfSums(const std::vector<DurationSeries>& walls, const WallsSetting
 }
 
 }  // namespace
+
+std::string unwritable(const WallsSetting& s) {
+  namespace fs = std::filesystem;
+  if (s.pictures.empty()) return {};
+  for (std::size_t wall = 0; wall < s.walls; ++wall)
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+      const std::string file = pictureFile(s, bench::roomWalls()[wall].name, eye);
+      std::error_code error;
+      const bool there = fs::exists(file, error);
+      const bool opens = static_cast<bool>(std::ofstream(file, std::ios::binary | std::ios::app));
+      if (opens && !there) fs::remove(file, error);
+      if (!opens)
+        return "--pictures: " + file + " cannot be written: its folder must be there, and yours to write to";
+    }
+  return {};
+}
 
 Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& folder) {
   ShowOptions show;
@@ -193,7 +224,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
                         {"cpu_ms_per_frame", 1e3 * processor / frames},
                         {"memory_mb", memory},
                         {"held_mb", held},
-                        {"incomplete", outcome.framesShown == show.frames ? 0 : 1},
+                        {"incomplete", incompleteFrames(outcome, stages, s.walls, show.frames)},
                         {"draws_per_frame", draws},
                         {"tris_per_frame", triangles},
                         {"draws_per_view", counts}};

@@ -31,6 +31,9 @@ struct WallsSetting {
 
 bench::WallScene sceneOf(const WallsSetting& setting);
 
+/// Why its pictures cannot be written, to be asked before anything is measured; empty: they can, or none are.
+std::string unwritable(const WallsSetting& setting);
+
 /// The show lies in `folder` (writeWallScene) and is long enough. The object has the fields that osg_walls
 /// prints; times in milliseconds.
 Result<nlohmann::json> measureWalls(const WallsSetting& setting, const std::string& folder);

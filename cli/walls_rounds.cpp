@@ -36,12 +36,11 @@ public:
 
   std::optional<Diagnostic> readRecord() {
     if (how_.record.empty()) return std::nullopt;
-    auto rows = bench::readRows(how_.record);
-    if (!rows) return rows.error();
-    std::string whole;  // without half a line at the end
-    for (nlohmann::json& row : rows.value()) {
+    auto record = bench::readRecord(how_.record, how_.head);
+    if (!record) return record.error();
+    std::string whole = lineOf(record.value().head) + "\n";  // without half a line at the end
+    for (nlohmann::json& row : record.value().rows) {
       whole += row.dump() + "\n";
-      if (!isOfThisRun(row)) continue;
       ++kept_[row["case"]];
       if (how_.row) how_.row(row);
       outcome_.results.add(std::move(row));
@@ -58,7 +57,7 @@ public:
         if (outcome_.results.count("pictures " + scene + " " + kind)) continue;
         std::fprintf(stderr, "pictures of %s, %s\n", scene.c_str(), kind);
         const TemporaryFolder folder;
-        take(bench::comparePictures(scene, kind, programs_, folder.path("")), 0);
+        take(bench::comparePictures({scene, kind, how_.head.workers}, programs_, folder.path("")), 0);
       }
   }
 
@@ -88,13 +87,6 @@ public:
   WallsOutcome take() { return std::move(outcome_); }
 
 private:
-  /// Whether the walls were drawn by whom they are drawn by now.
-  bool isOfThisRun(const nlohmann::json& row) const {
-    return std::ranges::none_of(cases_, [&](const bench::WallsCase& c) {
-      return nameOf(c) == row["case"] && !c.workers.empty() && row.value("wall_workers", "") != c.workers;
-    });
-  }
-
   /// Every second one the other way round, so that nobody always comes after the same neighbour.
   bool playOne(std::size_t n) {
     std::vector<const bench::WallsCase*> order;

@@ -27,8 +27,9 @@ TEST(ProgramBenchWalls, EachSceneIsMeasuredInARowOfItsOwn) {
     EXPECT_EQ(row["walls"], 1);
     EXPECT_EQ(row["width"], 32);
     EXPECT_EQ(row["incomplete"], 0);
-    for (const char* field : {"fps", "frame_ms_median", "frame_ms_p99", "latency_ms_median", "cull_ms_sum",
-                              "draw_ms_sum", "cpu_cores", "cpu_ms_per_frame", "memory_mb", "held_mb", "draws_per_frame"})
+    for (const char* field :
+         {"fps", "frame_ms_median", "frame_ms_p99", "latency_ms_median", "cull_ms_sum", "draw_ms_sum",
+          "cpu_cores", "cpu_ms_per_frame", "memory_mb", "held_mb", "draws_per_frame"})
       EXPECT_GT(row[field].get<double>(), 0) << field;
     EXPECT_EQ(row["draws_per_view"].size(), 2u);
   }
@@ -60,6 +61,15 @@ TEST(ProgramBenchWalls, PicturesAreThoseOfTheFrameAfterTheLast) {
   EXPECT_NE(left, fileContent(prefix + "_front_R.ppm"));
 }
 
+TEST(ProgramBenchWalls, PicturesThatCannotBeWrittenAreToldOfBeforeAnythingIsMeasured) {
+  const TemporaryFolder folder;
+  const std::string prefix = folder.path() / "not_there" / "p";
+  const ProgramResult r = stadionProgram(one({"--scene", "a", "--pictures", prefix}));
+  EXPECT_EQ(r.status, 2);
+  EXPECT_NE(r.err.find("p_front_L.ppm cannot be written: its folder must be there"), std::string::npos)
+      << r.err;
+}
+
 TEST(ProgramBenchWalls, TicksAreMeasuredWithoutAShow) {
   const ProgramResult r = stadionProgram({"bench", "walls", "--one", "--control", "--frames", "5"});
   ASSERT_EQ(r.status, 0) << r.err;
@@ -79,7 +89,20 @@ TEST(ProgramBenchWalls, WrongOptionsAreToldBeforeAnythingRuns) {
                                                     {"--one", "--class", "strict"},
                                                     {"--one", "--nodes", "0"},
                                                     {"--one", "--far", "0"},
-                                                    {"--control"}};
+                                                    {"--control"},
+                                                    {"--scaling", "--only", "a"},
+                                                    {"--one", "--only", "a"},
+                                                    {"--one", "--rounds", "2"},
+                                                    {"--one", "--minutes", "2"},
+                                                    {"--one", "--scaling"},
+                                                    {"--one", "--out", "/tmp"},
+                                                    {"--one", "--record", "rows"},
+                                                    {"--one", "--control", "--scene", "a"},
+                                                    {"--one", "--control", "--layout", "flat"},
+                                                    {"--one", "--without", "unseen"},
+                                                    {"--one", "--class", "STRICT", "--without", "small"},
+                                                    {"--one", "--mode", "sequential", "--latency", "2"},
+                                                    {"--one", "--nodes", "4", "--moving", "9"}};
   for (std::vector<std::string> words : wrong) {
     words.insert(words.begin(), {"bench", "walls"});
     const ProgramResult r = stadionProgram(words);

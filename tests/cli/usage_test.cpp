@@ -127,6 +127,19 @@ TEST(ProgramUsage, WhereEveryFrameCountsNothingCanBeGivenUp) {
   }
 }
 
+TEST(ProgramUsage, OptionsThatWouldMeanNothingBesideOthersAreRefused) {
+  const std::vector<std::vector<std::string>> wrong{{"--gl", "none", "--wall-workers", "process"},
+                                                    {"--mode", "sequential", "--latency", "2"},
+                                                    {"--mode", "sequential", "--cull-draw", "overlap"},
+                                                    {"--mode", "sequential", "--cull-draw", "apart"}};
+  for (const auto& words : wrong) {
+    const ProgramResult r = stadionProgram(shortRun(testShow("bodies.evs"), words));
+    EXPECT_EQ(r.status, 2) << words[2] << " " << r.err;
+    EXPECT_TRUE(has(r.err, words[2])) << r.err;
+    EXPECT_TRUE(has(r.err, "leave one of them out")) << r.err;
+  }
+}
+
 TEST(ProgramUsage, WhatIsNoPlainFileIsRefusedWithoutWaiting) {
   const TemporaryFolder folder;
   const std::string fifo = folder.path() / "fifo";

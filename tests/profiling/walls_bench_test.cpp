@@ -5,6 +5,7 @@
 #include "profiling/bench/walls/walls_judge.h"
 #include "profiling/bench/walls/walls_plot.h"
 #include "profiling/bench/walls/walls_program.h"
+#include "profiling/bench/walls/walls_record.h"
 #include "profiling/bench/walls/walls_table.h"
 
 #include <algorithm>
@@ -119,12 +120,41 @@ TEST(WallsBench, PicturesMayDifferInOnePixelOfAThousand) {
   EXPECT_NE(picturesOf(r).find("0.1100 %"), std::string::npos) << picturesOf(r);
 }
 
-TEST(WallsBench, OfASmallPictureOnePixelMayDiffer) {
-  for (const double pixels : {1.0, 2.0}) {
+TEST(WallsBench, OfPicturesThatHaveNoThousandPixelsThoseOfAllViewsCountTogether) {
+  constexpr double kOne = 1.0 / (32 * 24);
+  for (const double views : {6.0, 10.0}) {  // of twelve, that have one such pixel each
     WallsResults r;
-    r.add({{"case", "pictures a SUBMIT"}, {"beyond_share", pixels / (32 * 24)}, {"worst", 45}});
-    EXPECT_EQ(finding(judgeTable(r, {"a"}), "a SUBMIT: pixels").kind, pixels > 1 ? Kind::Missed : Kind::Met);
+    r.add({{"case", "pictures a SUBMIT"},
+           {"width", 32},
+           {"height", 24},
+           {"beyond_share", kOne},
+           {"beyond_share_frame", kOne * views / 12},
+           {"worst_view", "front_R"},
+           {"worst", 45}});
+    EXPECT_EQ(finding(judgeTable(r, {"a"}), "a SUBMIT: pixels within 2/255 of OpenSceneGraph's, all").kind,
+              views > 9 ? Kind::Missed : Kind::Met);
+    EXPECT_NE(picturesOf(r).find("1 of 768 (0.1302 %) of one view, front_R"), std::string::npos)
+        << picturesOf(r);
   }
+}
+
+TEST(WallsBench, PicturesAreComparedOfWhatIsMeasured) {
+  for (const char* workers : {"thread", "process"}) {
+    const auto words = wordsFor(ourPictures({"a", "SUBMIT", workers}), {"stadion", "", ""});
+    const auto at = std::ranges::find(words, "--wall-workers");
+    ASSERT_LT(at + 1, words.end());
+    EXPECT_EQ(*(at + 1), workers);
+  }
+}
+
+TEST(WallsBench, BothLayoutsOfSceneCAreComparedWhereRasterisingIsNotTheLimit) {
+  std::set<std::string> names;
+  for (const WallsCase& c : tableCases({})) names.insert(nameOf(c));
+  for (const bool flat : {true, false})
+    for (const WallsCase& c : {ourCase("c", flat, "SUBMIT"), osgCase("c", flat, "SUBMIT", "DPC"),
+                               osgCase("c", flat, "SUBMIT", "CTPC")})
+      EXPECT_TRUE(names.contains(nameOf(c))) << nameOf(c);
+  EXPECT_EQ(finding(judgeTable({}, {"c"}), "c flat SUBMIT: frames a second").limit, 3.5);
 }
 
 TEST(WallsBench, AMillionNodesAreJudgedByWhatTheyCostMoreThanAHundredThousand) {
@@ -165,21 +195,54 @@ TEST(WallsBench, WhatIsNotBuiltIsNotCalled) {
     EXPECT_TRUE(c.engine == "stadion" || c.engine == "control") << nameOf(c);
 }
 
-TEST(WallsBench, ARecordIsReadUpToALineThatWasCutOff) {
-  const std::string file = std::filesystem::temp_directory_path() / "stadion-walls-record-test";
-  std::ofstream(file) << R"({"case":"x","fps":1})"
-                      << "\n"
-                      << R"({"case":"x","fps":2})"
-                      << "\n{\"case\":\"x\",";
-  const auto rows = readRows(file);
-  ASSERT_TRUE(rows);
-  EXPECT_EQ(rows.value().size(), 2u);
-  std::ofstream(file) << "{\"case\":\"x\"}\nnonsense\n{\"case\":\"x\"}\n";
-  const auto wrong = readRows(file);
-  ASSERT_FALSE(wrong);
-  EXPECT_NE(format(wrong.error()).find(":2"), std::string::npos) << format(wrong.error());
-  std::filesystem::remove(file);
-  EXPECT_TRUE(readRows(file));  // nothing measured yet
+const RecordHead kNow{"b1", "a box", "process", 1'800'000'000};
+
+class WallsRecordFile : public ::testing::Test {
+protected:
+  ~WallsRecordFile() override { std::filesystem::remove(file_); }
+  /// What readRecord() says of this content; empty: nothing is wrong.
+  std::string wrong(const std::string& content, const RecordHead& now = kNow) {
+    std::ofstream(file_) << content;
+    const auto read = readRecord(file_, now);
+    if (read) rows_ = read.value().rows.size(), begun_ = read.value().head.begun;
+    return read ? std::string() : format(read.error());
+  }
+  const std::string file_ = std::filesystem::temp_directory_path() / "stadion-walls-record-test";
+  std::size_t rows_ = 0;
+  std::int64_t begun_ = 0;
+};
+
+TEST_F(WallsRecordFile, IsReadUpToALineThatWasCutOff) {
+  const std::string head = lineOf(kNow) + "\n";
+  const std::string rows = "{\"case\":\"x\",\"fps\":1}\n{\"case\":\"x\",\"fps\":2}\n";
+  EXPECT_EQ(wrong(head + rows + "{\"case\":\"x\","), "");
+  EXPECT_EQ(rows_, 2u);
+  EXPECT_NE(wrong(head + "{\"case\":\"x\"}\nnonsense\n{\"case\":\"x\"}\n").find(":3"), std::string::npos);
+  std::filesystem::remove(file_);
+  const auto nothing = readRecord(file_, kNow);
+  ASSERT_TRUE(nothing);
+  EXPECT_TRUE(nothing.value().rows.empty());
+  EXPECT_EQ(lineOf(nothing.value().head), lineOf(kNow));
+}
+
+TEST_F(WallsRecordFile, OfAnotherBuildMachineSettingOrDayIsNotGoneOnWith) {
+  const std::string rows = "\n{\"case\":\"x\",\"fps\":1}\n";
+  RecordHead then = kNow;
+  then.begun -= 3600;
+  EXPECT_EQ(wrong(lineOf(then) + rows), "");
+  EXPECT_EQ(begun_, then.begun) << "when it was begun is not forgotten";
+  const auto says = [&](RecordHead other, const std::string& what) {
+    const std::string said = wrong(lineOf(other) + rows);
+    EXPECT_NE(said.find(what), std::string::npos) << said;
+    EXPECT_NE(said.find("give another --record FILE"), std::string::npos) << said;
+    EXPECT_NE(said.find(":1"), std::string::npos) << said;
+  };
+  RecordHead other = kNow;
+  other.build = "b2", says(other, "another build");
+  other = kNow, other.machine = "a tower", says(other, "another machine (a tower; this one is a box)");
+  other = kNow, other.workers = "thread", says(other, "--wall-workers thread, not process");
+  other = kNow, other.begun -= 24 * 3600, says(other, "more than half a day");
+  EXPECT_NE(wrong(rows.substr(1)).find("is no record"), std::string::npos) << "of a build that wrote no head";
 }
 
 /// Every element is closed, in order.

@@ -45,24 +45,30 @@ PictureDifference difference(const RgbPicture& a, const RgbPicture& b, int most)
   return d;
 }
 
-Result<PictureDifference> worstDifference(const std::string& prefix, const std::string& other,
+Result<ViewsDifference> differenceOfViews(const std::string& prefix, const std::string& other,
                                           std::size_t walls) {
-  PictureDifference all;
+  ViewsDifference all;
+  double beyond = 0, pixels = 0;
   for (std::size_t wall = 0; wall < walls; ++wall)
-    for (const char* eye : {"_L.ppm", "_R.ppm"}) {
-      const std::string end = std::string("_") + roomWalls()[wall].name + eye;
+    for (const char* eye : {"_L", "_R"}) {
+      const std::string view = roomWalls()[wall].name + std::string(eye), end = "_" + view + ".ppm";
       const auto a = readPpm(prefix + end), b = readPpm(other + end);
       if (!a) return a.error();
       if (!b) return b.error();
-      if (a.value().width != b.value().width || a.value().height != b.value().height) {
+      const RgbPicture& p = a.value();
+      if (p.width != b.value().width || p.height != b.value().height) {
         Diagnostic wrong;
         wrong.where.file = other + end;
         wrong.message = "is of another size than " + prefix + end;
         return wrong;
       }
-      const PictureDifference d = difference(a.value(), b.value());
-      all.beyond = std::max(all.beyond, d.beyond), all.worst = std::max(all.worst, d.worst);
+      const PictureDifference d = difference(p, b.value());
+      const double size = static_cast<double>(p.width) * p.height;
+      beyond += d.beyond * size, pixels += size;
+      if (d.beyond > all.worstView) all.worstView = d.beyond, all.view = view;
+      all.worst = std::max(all.worst, d.worst);
     }
+  all.frame = pixels > 0 ? beyond / pixels : 0;
   return all;
 }
 

@@ -28,8 +28,15 @@ struct PictureDifference {
 /// Expects pictures of one size.
 PictureDifference difference(const RgbPicture& a, const RgbPicture& b, int most = 2);
 
-/// Of the pictures PREFIX_WALL_EYE.ppm of the first walls, both eyes: the worst share and the worst channel.
-Result<PictureDifference> worstDifference(const std::string& prefix, const std::string& other,
+/// Of the views of one frame.
+struct ViewsDifference {
+  double frame = 0;      ///< share of the pixels of all views
+  double worstView = 0;  ///< the greatest share of the pixels of one view
+  std::string view;      ///< which that is, "front_R"; empty: no view has any
+  int worst = 0;         ///< of all channels, of 255
+};
+/// Of the pictures PREFIX_WALL_EYE.ppm of the first walls, both eyes.
+Result<ViewsDifference> differenceOfViews(const std::string& prefix, const std::string& other,
                                           std::size_t walls);
 
 }  // namespace stadion::bench

@@ -96,9 +96,9 @@ std::vector<WallsCase> tableCases(const WallsChoice& choice) {
       if (!tiny) add(ourCase(s, flat, "OPEN"));
       add(osgCase(s, flat, "STRICT", "ST"));
       if (s != "a") add(ourCase(s, flat, "STRICT", "sequential"));
-      if (tiny && flat) continue;
       add(osgCase(s, flat, "SUBMIT", "DPC")), add(ourCase(s, flat, "SUBMIT"));
       add(osgCase(s, flat, "SUBMIT", "CTPC")), add(small(ourCase(s, flat, "STRICT")));
+      if (tiny && flat) continue;  // to the floor it is all the same
       add(floorCase(s, "STRICT")), add(floorCase(s, "SUBMIT"));
       add(oneWall(ourCase(s, flat, "STRICT"))), add(oneWall(floorCase(s, "STRICT")));
     }

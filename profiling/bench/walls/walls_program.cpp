@@ -105,31 +105,39 @@ Result<nlohmann::json> measure(const WallsCase& c, const WallsPrograms& programs
   return completed(c, std::move(row));
 }
 
-Result<nlohmann::json> comparePictures(const std::string& scene, const std::string& kind,
-                                       const WallsPrograms& programs, const std::string& folder) {
-  WallsCase ours = ourCase(scene, true, kind);
-  WallsCase theirs = osgCase(scene, true, kind == "SUBMIT" ? kind : "STRICT", "ST");
-  ours.walls = theirs.walls = 6;
-  ours.warm = theirs.warm = 2;
-  ours.frames = 3, theirs.frames = 4;  // OpenSceneGraph counts frames from 1: the frame is the same
+WallsCase ourPictures(const PicturesCase& c) {
+  WallsCase ours = ourCase(c.scene, true, c.kind);
+  ours.walls = 6, ours.warm = 2, ours.frames = 3, ours.workers = c.workers;
+  return ours;
+}
+
+Result<nlohmann::json> comparePictures(const PicturesCase& c, const WallsPrograms& programs,
+                                       const std::string& folder) {
+  const WallsCase ours = ourPictures(c);
+  WallsCase theirs = osgCase(c.scene, true, c.kind == "SUBMIT" ? c.kind : "STRICT", "ST");
+  theirs.walls = ours.walls, theirs.warm = ours.warm;
+  theirs.frames = ours.frames + 1;  // OpenSceneGraph counts frames from 1: the frame is the same
   const std::string our = folder + "/stadion", their = folder + "/osg";
-  const auto draw = [&](const WallsCase& c, const char* option, const std::string& prefix) {
-    std::vector<std::string> words = wordsFor(c, programs);
+  const auto draw = [&](const WallsCase& of, const char* option, const std::string& prefix) {
+    std::vector<std::string> words = wordsFor(of, programs);
     words.insert(words.end(), {option, prefix});
-    return !objectIn(outputOf({words, {environmentOf(c)}, kLimit})).is_null();
+    return !objectIn(outputOf({words, {environmentOf(of)}, kLimit})).is_null();
   };
-  if (!draw(ours, "--pictures", our)) return problem("Stadion drew no pictures of " + scene);
-  if (!draw(theirs, "--dump", their)) return problem("OpenSceneGraph drew no pictures of " + scene);
-  const auto apart = worstDifference(their, our, ours.walls);
+  if (!draw(ours, "--pictures", our)) return problem("Stadion drew no pictures of " + c.scene);
+  if (!draw(theirs, "--dump", their)) return problem("OpenSceneGraph drew no pictures of " + c.scene);
+  const auto apart = differenceOfViews(their, our, ours.walls);
   if (!apart) return apart.error();
-  return nlohmann::json{{"case", "pictures " + scene + " " + kind},
+  return nlohmann::json{{"case", "pictures " + c.scene + " " + c.kind},
                         {"engine", "pictures"},
-                        {"class", kind},
-                        {"scene", scene},
+                        {"class", c.kind},
+                        {"scene", c.scene},
                         {"walls", ours.walls},
+                        {"wall_workers", ours.workers},
                         {"width", ours.width},
                         {"height", ours.height},
-                        {"beyond_share", apart.value().beyond},
+                        {"beyond_share", apart.value().worstView},
+                        {"beyond_share_frame", apart.value().frame},
+                        {"worst_view", apart.value().view},
                         {"worst", apart.value().worst}};
 }
 

@@ -25,9 +25,14 @@ nlohmann::json completed(const WallsCase& c, nlohmann::json printed);
 
 Result<nlohmann::json> measure(const WallsCase& c, const WallsPrograms& programs);
 
-/// Draws frames of a scene with both programs, all six walls, and compares them. `folder` may be filled.
-/// `kind`: STRICT or OPEN.
-Result<nlohmann::json> comparePictures(const std::string& scene, const std::string& kind,
-                                       const WallsPrograms& programs, const std::string& folder);
+struct PicturesCase {
+  std::string scene, kind;  ///< as in WallsCase
+  std::string workers;      ///< who draws ours: as what is measured is drawn
+};
+/// Our words for a frame of all six walls; its pictures are still to be asked for.
+WallsCase ourPictures(const PicturesCase& c);
+/// Draws such a frame with both programs and compares them. `folder` may be filled.
+Result<nlohmann::json> comparePictures(const PicturesCase& c, const WallsPrograms& programs,
+                                       const std::string& folder);
 
 }  // namespace stadion::bench

@@ -1,7 +1,6 @@
 #include "profiling/bench/walls/walls_results.h"
 
 #include <algorithm>
-#include <fstream>
 
 namespace stadion::bench {
 namespace {
@@ -52,27 +51,6 @@ std::optional<double> WallsResults::medianRatio(const std::string& name, const s
     if (n && d && *d > 0) values.push_back(*n / *d);
   }
   return medianOf(std::move(values));
-}
-
-Result<std::vector<nlohmann::json>> readRows(const std::string& file) {
-  std::vector<nlohmann::json> rows;
-  std::ifstream in(file);
-  std::size_t number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    nlohmann::json row = nlohmann::json::parse(line, nullptr, false);
-    if (row.is_object() && row.contains("case") && row["case"].is_string()) {
-      rows.push_back(std::move(row));
-      continue;
-    }
-    // A run that was killed while it wrote leaves half a line at the end.
-    if (row.is_discarded() && in.eof() && line.starts_with('{')) break;
-    Diagnostic d;
-    d.where.file = file, d.where.line = static_cast<std::uint32_t>(number);
-    d.message = "is no row of stadion bench walls; give another --record FILE";
-    return d;
-  }
-  return rows;
 }
 
 }  // namespace stadion::bench

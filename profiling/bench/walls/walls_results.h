@@ -3,8 +3,6 @@
 ///
 /// Threads  plain values.
 
-#include "engine/diagnostic.h"
-
 #include <nlohmann/json.hpp>
 
 #include <map>
@@ -34,8 +32,5 @@ private:
   std::vector<std::string> names_;
   std::map<std::string, std::vector<nlohmann::json>> rows_;
 };
-
-/// What an earlier run wrote: an object a line, each a row. Empty if the file is not there.
-Result<std::vector<nlohmann::json>> readRows(const std::string& file);
 
 }  // namespace stadion::bench

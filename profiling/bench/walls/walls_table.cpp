@@ -50,13 +50,18 @@ std::string tableOf(const WallsResults& results) {
 
 std::string picturesOf(const WallsResults& results) {
   std::string text;
-  for (const std::string& name : results.names())
-    if (name.starts_with("pictures "))
-      text += fmt::format(
-          "{}: at most {:.4f} % of a view's pixels differ from OpenSceneGraph's by more than 2/255, "
-          "the worst by {:.0f}\n",
-          name, 100 * results.median(name, "beyond_share").value_or(1),
-          results.median(name, "worst").value_or(255));
+  for (const std::string& name : results.names()) {
+    if (!name.starts_with("pictures ")) continue;
+    const nlohmann::json& row = results.rowsOf(name).front();
+    const double pixels = row.value("width", 0.0) * row.value("height", 0.0);
+    const double worst = results.median(name, "beyond_share").value_or(1);
+    const std::string view = row.value("worst_view", "");
+    text += fmt::format("{}: {:.4f} % of all pixels differ from OpenSceneGraph's by more than 2/255, at most "
+                        "{:.0f} of {:.0f} ({:.4f} %) of one view{}; the worst by {:.0f}\n",
+                        name, 100 * results.median(name, "beyond_share_frame").value_or(1), worst * pixels,
+                        pixels, 100 * worst, view.empty() ? "" : ", " + view,
+                        results.median(name, "worst").value_or(255));
+  }
   return text;
 }
 

@@ -1,0 +1,11 @@
+#pragma once
+/// What a run of `stadion bench walls` here and now is of, for its record.
+
+#include "profiling/bench/walls/walls_program.h"
+#include "profiling/bench/walls/walls_record.h"
+
+namespace stadion {
+
+bench::RecordHead recordHead(const bench::WallsPrograms& programs, const std::string& workers);
+
+}  // namespace stadion
