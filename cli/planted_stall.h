@@ -40,7 +40,7 @@ public:
   void shared(Span what, std::uint64_t frame, std::uint32_t wall, std::span<const NodeRef> among) override {
     inner_.shared(what, frame, wall, among);
   }
-  DrawSample drawSample(std::uint64_t frame, std::uint32_t wall) const override {
+  DrawSample drawSample(std::uint64_t frame, std::uint32_t wall) override {
     return inner_.drawSample(frame, wall);
   }
   bool wantsAlone(std::span<const NodeRef> owners) const override { return inner_.wantsAlone(owners); }

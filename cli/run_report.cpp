@@ -47,7 +47,7 @@ void addBudgets(ShowRecording* recording, RunSummary& s) {
     s.stress = StressFelt{stress->highest, stress->now, stress->changes};
   for (const BudgetReport& b : governor->reports())
     s.budgets.push_back({b.name, b.file, b.line, b.budget, b.mean, b.worst, b.worstFrame, b.worstStage,
-                         b.overruns, b.changes, b.highest, b.now, b.levels, b.drawCounted});
+                         b.overruns, b.changes, b.highest, b.now, b.levels, b.drawCounted, b.drawMeasured});
 }
 
 RunSummary summarise(const FinishedRun& run) {
@@ -56,7 +56,10 @@ RunSummary summarise(const FinishedRun& run) {
   s.show = o.show.script, s.walls = o.show.walls, s.mode = o.show.mode, s.stereo = o.stereo;
   s.width = o.show.width, s.height = o.show.height, s.rate = run.player.rate();
   s.frames = run.outcome.framesShown, s.framesDrawn = run.outcome.framesDrawn;
-  s.lateFrames = run.outcome.missedTicks, s.mostPassedOver = run.outcome.mostPassedOver;
+  // Of a show of which the newest frame counts, those that App had no time for are among those not shown.
+  const bool byTicks = o.loopOptions(run.player).pace != Pace::Free;
+  s.lateFrames = byTicks ? std::max(run.outcome.missedTicks, run.outcome.ticksPassedOver) : 0;
+  s.mostPassedOver = run.outcome.mostPassedOver;
   if (const LatchCounts* c = run.stages.latched())
     s.latched = LateLatched{c->latched, c->beyond, c->farthest, c->widest};
   if (o.ahead) s.aimedAt = 1e3 * toSeconds(run.stages.aimedAt());

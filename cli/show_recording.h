@@ -60,12 +60,12 @@ public:
       }
     }
     if (options.report) {
-      made->report_ = std::make_unique<ReportRecording>(options.report->rate, options.report->walls,
-                                                        options.log, made->names_);
+      made->report_ =
+          std::make_unique<ReportRecording>(options.report->rate, options.report->walls, made->names_);
       readers.push_back(made->report_.get());
     }
     if (options.trace) {
-      made->trace_ = std::make_unique<TraceFile>(std::move(*options.trace), options.log, made->names_);
+      made->trace_ = std::make_unique<TraceFile>(std::move(*options.trace), made->names_);
       if (const auto& why = made->trace_->error()) return findings.add(*why), nullptr;
       readers.push_back(made->trace_.get());
     }

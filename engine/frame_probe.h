@@ -161,7 +161,8 @@ public:
   /// cost twice. A node that is not valid stands for the visitor. LeftEye, RightEye: whom that eye will draw.
   virtual void shared(Span, std::uint64_t, std::uint32_t, std::span<const NodeRef>) {}
 
-  virtual DrawSample drawSample(std::uint64_t, std::uint32_t) const { return DrawSample::None; }
+  /// How this frame of that wall is sampled, which is now being drawn. Asked once a frame.
+  virtual DrawSample drawSample(std::uint64_t, std::uint32_t) { return DrawSample::None; }
   /// Whether a batch of these nodes is to have a turn of being drawn alone.
   virtual bool wantsAlone(std::span<const NodeRef>) const { return true; }
   /// Which of `batches` batches that are to have one is drawn alone next; those that follow it may be, too.

@@ -377,8 +377,9 @@ void FrameLoop::notePassedOver(const FrameTicket& ticket) {
   const TimeSignature& now = ticket.signature;
   if (lastShown_) {
     const auto ticks = std::llround(toSeconds(now.time - *lastShown_) * options_.rate);
-    outcome_.mostPassedOver =
-        std::max(outcome_.mostPassedOver, static_cast<std::uint64_t>(std::max(ticks, 1LL) - 1));
+    const auto passed = static_cast<std::uint64_t>(std::max(ticks, 1LL) - 1);
+    outcome_.ticksPassedOver += passed;
+    outcome_.mostPassedOver = std::max(outcome_.mostPassedOver, passed);
   }
   lastShown_ = now.time;
 }

@@ -53,8 +53,9 @@ struct FrameLoopOptions {
 
 struct FrameLoopOutcome {
   std::uint64_t framesSimulated = 0, framesShown = 0;
-  std::uint64_t framesDrawn = 0;  ///< of those shown
-  std::uint64_t missedTicks = 0;
+  std::uint64_t framesDrawn = 0;      ///< of those shown
+  std::uint64_t missedTicks = 0;      ///< App's: it began no frame
+  std::uint64_t ticksPassedOver = 0;  ///< between frames shown, as below, in all
   /// Ticks in a row between two frames shown, of those that were begun after the first one was shown.
   std::uint64_t mostPassedOver = 0;
   bool stopped = false;    ///< by request, before all frames were done

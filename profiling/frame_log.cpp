@@ -22,6 +22,11 @@ constexpr bool isOfVisit(Span what) {
   return isOfNode(what) || what == Span::Settle || what == Span::Mail;
 }
 
+/// The first multiple of `every` that is not less.
+std::uint64_t nextMultiple(std::uint64_t frame, std::uint64_t every) {
+  return (frame + every - 1) / every * every;
+}
+
 std::uint64_t nextNumber() {
   static std::atomic<std::uint64_t> last = 0;
   return ++last;
@@ -215,11 +220,11 @@ void FrameLog::counted(Count what, std::uint64_t amount, NodeRef node) {
 }
 
 bool FrameLog::wantsShares(std::uint64_t frame, std::uint32_t wall) const {
-  if (!(samples_ || options_.shares) || frame < options_.from || frame % options_.sampleEvery != 0)
-    return false;
+  if (!(samples_ || options_.shares)) return false;
   const std::lock_guard lock(mutex_);
   const auto next = nextShares_.find(wall);
-  return next == nextShares_.end() || frame >= next->second;
+  return frame >=
+         (next == nextShares_.end() ? nextMultiple(options_.from, options_.sampleEvery) : next->second);
 }
 
 void FrameLog::shared(Span what, std::uint64_t frame, std::uint32_t wall, std::span<const NodeRef> among) {
@@ -227,26 +232,24 @@ void FrameLog::shared(Span what, std::uint64_t frame, std::uint32_t wall, std::s
   SharedSpan s{what, frame, wall, track().last(what), {among.begin(), among.end()}, 0};
   const std::lock_guard lock(mutex_);
   if (what == Span::Fill && among.size() > kManyShares) crowded_.insert(wall);
+  const std::uint64_t round = options_.sampleEvery * (1 + among.size() / kManyShares);
   std::uint64_t& next = nextShares_[wall];
-  next = std::max(next, frame + 1 + options_.sampleEvery * (among.size() / kManyShares));
-  s.round = next - 1 - frame + options_.sampleEvery;
+  next = std::max(next, nextMultiple(frame + 1 + round - options_.sampleEvery, options_.sampleEvery));
+  s.round = std::max(round, next - frame);
   shared_.push_back(std::move(s));
 }
 
-DrawSample FrameLogOptions::drawSample(std::uint64_t frame, std::uint64_t every) const {
-  if (!samples || frame < from) return DrawSample::None;
-  const std::uint64_t phase = frame % every;
-  return phase == sampleEvery / 2       ? (whole ? DrawSample::Whole : DrawSample::None)
-         : phase == sampleEvery / 2 + 1 ? DrawSample::Some
-                                        : DrawSample::None;
-}
-
-DrawSample FrameLog::drawSample(std::uint64_t frame, std::uint32_t wall) const {
-  if (!samples_) return DrawSample::None;
-  FrameLogOptions options = options_;
-  options.samples = true;
+/// Where frames are passed over, whichever is drawn next: a show that takes too long is looked at, too.
+DrawSample FrameLog::drawSample(std::uint64_t frame, std::uint32_t wall) {
+  if (!samples_ || frame < options_.from) return DrawSample::None;
+  const std::uint64_t first = options_.sampleEvery / 2 + (options_.whole ? 0 : 1);
   const std::lock_guard lock(mutex_);
-  return options.drawSample(frame, sampleEvery(wall));
+  Due& due = nextDrawn_.try_emplace(wall, Due{first, false}).first->second;
+  if (std::exchange(due.some, false)) return DrawSample::Some;
+  if (frame < due.frame) return DrawSample::None;
+  due.frame = first + nextMultiple(frame - first + 1, sampleEvery(wall));
+  due.some = options_.whole;
+  return options_.whole ? DrawSample::Whole : DrawSample::Some;
 }
 
 std::uint64_t FrameLog::sampleEvery(std::uint32_t wall) const {

@@ -5,8 +5,9 @@
 /// What recording takes is measured beforehand and taken off: the figures are those of a show that nobody
 /// watches.
 ///
-/// Of drawing and of what nodes share, samples are taken, every kSampleEvery frames, so that recording costs
-/// little: the stages' times are exact, a node's share of Cull and Draw is that of the frames sampled.
+/// Of drawing and of what nodes share, samples are taken, every `sampleEvery` frames, or in the next one that
+/// is drawn, so that recording costs little: the stages' times are exact, a node's share of Cull and Draw is
+/// that of the frames sampled.
 ///
 /// Where App visits very many nodes, so are its frames: in most of them a node's visit is only recorded if it
 /// took kDear, and what is in none of these is told of the frames that are recorded as a whole (SpanRecord).
@@ -68,10 +69,6 @@ struct FrameLogOptions {
   bool whole = true;    ///< of drawing: also what there is to be explained
   std::uint64_t sampleEvery = 16;
   std::uint64_t from = 4;  ///< frames before it are not recorded: what is touched for the first time is slow
-
-  /// How drawing is sampled in this frame, if it is in one of `every`; drawing that is sampled takes longer.
-  DrawSample drawSample(std::uint64_t frame, std::uint64_t every) const;
-  DrawSample drawSample(std::uint64_t frame) const { return drawSample(frame, sampleEvery); }
 };
 
 class FrameLog final : public FrameProbe {
@@ -85,7 +82,7 @@ public:
   void counted(Count what, std::uint64_t amount, NodeRef node) override;
   bool wantsShares(std::uint64_t frame, std::uint32_t wall) const override;
   void shared(Span what, std::uint64_t frame, std::uint32_t wall, std::span<const NodeRef> among) override;
-  DrawSample drawSample(std::uint64_t frame, std::uint32_t wall) const override;
+  DrawSample drawSample(std::uint64_t frame, std::uint32_t wall) override;
   bool wantsAlone(std::span<const NodeRef> owners) const override;
   std::size_t nextBatch(std::uint32_t wall, std::uint32_t eye, std::size_t batches) override;
   void drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nodes) override;
@@ -112,6 +109,12 @@ private:
   struct Turn {
     std::size_t next = 0;     ///< batch
     std::uint64_t round = 0;  ///< [frames]
+  };
+
+  /// When a wall's drawing is sampled.
+  struct Due {
+    std::uint64_t frame = 0;  ///< from this one on, in the next that is drawn
+    bool some = false;        ///< its eyes have been drawn alone, in the next one some batches are
   };
 
   void measureOverhead();
@@ -146,6 +149,7 @@ private:
   std::shared_ptr<const NodeAccounts> accounts_;
   std::vector<Turn> turns_;                            ///< by wall and eye
   std::map<std::uint32_t, std::uint64_t> nextShares_;  ///< frames, by wall
+  std::map<std::uint32_t, Due> nextDrawn_;             ///< by wall
   std::set<std::uint32_t> crowded_;                    ///< walls of very many nodes
   std::atomic<bool> samples_;
   std::atomic<bool> done_ = false;

@@ -69,7 +69,9 @@ void addRows(const NodeRow& r, const ShowFigures& f, std::string& csv) {
                                       r.name.line, nameOf(r.name.kind));
   const std::string budget = r.name.budget > 0 ? fmt::to_string(r.name.budget) : "";
   const std::string method = csvField(f.drawMethod);
-  csv += fmt::format("{},app,,,,{},{},{},{},{},{},{},\n", who, r.app, r.visitP95, r.visitMost,
+  const auto ifKnown = [](double ms, bool is) { return is ? fmt::to_string(ms) : ""; };
+  csv += fmt::format("{},app,,,,{},{},{},{},{},{},{},\n", who, r.app, ifKnown(r.visitP95, r.visits > 0),
+                     ifKnown(r.visitMost, r.visits > 0),
                      std::llround(r.visits * static_cast<double>(f.wholeFrames)), r.allocations, r.share,
                      budget);
   for (const auto& [part, ms] : {std::pair{"receive", r.receive},
@@ -83,8 +85,9 @@ void addRows(const NodeRow& r, const ShowFigures& f, std::string& csv) {
                        known ? fmt::to_string(ms) : "", *eye != 0 ? method : "");
   };
   if (!f.drawMethod.empty())
-    csv += fmt::format("{},draw,,,,{},{},{},{},,,,{}\n", who, r.drawKnown() ? fmt::to_string(r.draw) : "",
-                       r.drawingP95, r.drawingMost, r.drawings, method);
+    csv += fmt::format("{},draw,,,,{},{},{},{},,,,{}\n", who, ifKnown(r.draw, r.drawKnown()),
+                       ifKnown(r.drawingP95, r.drawings > 0), ifKnown(r.drawingMost, r.drawings > 0), r.drawings,
+                       method);
   for (std::size_t w = 0; w < r.walls.size(); ++w) {
     const NodeOnWall& on = r.walls[w];
     add("cull", f.walls[w], "", on.cull, on.cullMeasured);
@@ -115,8 +118,8 @@ nlohmann::json toJson(const NodeRow& row, const std::vector<std::string>& walls)
                    {"allocations", row.allocations},
                    {"allocated_bytes", row.bytes},
                    {"visits", row.visits},
-                   {"visit_p95_ms", row.visitP95},
-                   {"visit_max_ms", row.visitMost},
+                   {"visit_p95_ms", measured(row.visitP95, row.visits > 0)},
+                   {"visit_max_ms", measured(row.visitMost, row.visits > 0)},
                    {"drawings", row.drawings},
                    {"drawing_p95_ms", measured(row.drawingP95, row.drawings > 0)},
                    {"drawing_max_ms", measured(row.drawingMost, row.drawings > 0)}};
@@ -135,10 +138,10 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
     return fmt::format("no frame was recorded: the first {} are not; play some hundreds\n",
                        FrameLogOptions{}.from);
   const bool budgets = std::ranges::any_of(f.nodes, [](const NodeRow& r) { return r.name.budget > 0; });
-  std::string text =
-      fmt::format("ms a frame, all walls and eyes; p95: of a visit of App, of drawing it for one eye\n"
-                  "    app     p95    cull     draw      p95    total  share{}  node\n",
-                  budgets ? "   budget" : "");
+  std::string text = fmt::format("ms a frame, all walls and eyes; p95: of a visit of App (without "
+                                 "publishing), of drawing it for one eye\n"
+                                 "    app     p95    cull     draw      p95    total  share{}  node\n",
+                                 budgets ? "   budget" : "");
   for (std::size_t i = 0; i < std::min(mostNodes, f.nodes.size()); ++i) {
     const NodeRow& r = f.nodes[i];
     const std::string budget =

@@ -7,8 +7,9 @@
 namespace stadion {
 
 void Renderer::beginSampling(const DrawList& list) {
-  sample_ = probe_ ? probe_->drawSample(list.ticket.signature.frame, list.wall) : DrawSample::None;
-  if (!surfaces_) sample_ = DrawSample::None;  // nothing has been drawn yet: all is slower the first time
+  // Before anything has been drawn all is slower.
+  sample_ =
+      probe_ && surfaces_ ? probe_->drawSample(list.ticket.signature.frame, list.wall) : DrawSample::None;
   if (sample_ == DrawSample::None) return;
   if (!sampler_) {
     sampler_ = std::make_unique<DrawSampler>(gl_);

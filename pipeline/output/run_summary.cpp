@@ -76,12 +76,13 @@ namespace {
 
 std::string textOf(const BudgetKept& b) {
   std::string text = fmt::format("  {} {}:{}: ", b.node, b.file, b.line);
-  if (b.budget > 0)
-    text += fmt::format("budget {:g} ms, mean {:.3f}, over in {} frames, ", b.budget, b.mean, b.overruns);
+  if (b.budget > 0) text += fmt::format("budget {:g} ms, ", b.budget);
+  if (b.drawMeasured)
+    text += fmt::format("mean {:.3f}{}, {}worst {:.3f} in frame {}{}", b.mean, b.budget > 0 ? "" : " ms",
+                        b.budget > 0 ? fmt::format("over in {} frames, ", b.overruns) : "", b.worst,
+                        b.worstFrame, b.worstStage.empty() ? "" : " (" + b.worstStage + ")");
   else
-    text += fmt::format("mean {:.3f} ms, ", b.mean);
-  text += fmt::format("worst {:.3f} in frame {}{}", b.worst, b.worstFrame,
-                      b.worstStage.empty() ? "" : " (" + b.worstStage + ")");
+    text += "not measured: drawing it had no turn while it was seen";
   if (!b.drawCounted) text += ", without Draw, which --wall-workers thread counts";
   if (b.changes > 0)
     text += fmt::format("; gave up {} of {} levels at most, {} now, {} changes", b.highest, b.levels, b.now,
@@ -94,8 +95,8 @@ Json json(const BudgetKept& b) {
               {"file", b.file},
               {"line", b.line},
               {"budget_ms", b.budget},
-              {"mean_ms", b.mean},
-              {"worst_ms", b.worst},
+              {"mean_ms", b.drawMeasured ? Json(b.mean) : Json()},
+              {"worst_ms", b.drawMeasured ? Json(b.worst) : Json()},
               {"worst_frame", b.worstFrame},
               {"worst_stage", b.worstStage},
               {"overruns", b.overruns},
@@ -103,7 +104,8 @@ Json json(const BudgetKept& b) {
               {"highest_level", b.highest},
               {"level", b.now},
               {"levels", b.levels},
-              {"draw_counted", b.drawCounted}};
+              {"draw_counted", b.drawCounted},
+              {"draw_measured", b.drawMeasured}};
 }
 
 }  // namespace

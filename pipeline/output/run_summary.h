@@ -88,6 +88,7 @@ struct BudgetKept {
   std::uint64_t overruns = 0, changes = 0;  ///< frames; times that something was given up or taken back
   std::uint32_t highest = 0, now = 0, levels = 0;  ///< of its ladder
   bool drawCounted = true;                         ///< else what drawing it took is in none of these
+  bool drawMeasured = true;                        ///< else it was never looked at, and nothing is known
 };
 
 /// What a node of a replayed run gave up because the log says so.

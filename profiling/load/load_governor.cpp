@@ -47,7 +47,13 @@ std::string nameOfLevel(const std::vector<Concession>& ladder, std::uint32_t lev
 }
 
 LoadGovernor::LoadGovernor(GovernorOptions options, const NodeNames& names)
-    : options_(std::move(options)), names_(names), stress_(options_.stress) {}
+    : options_(std::move(options)), names_(names), stress_(options_.stress) {
+  // Where stages overlap, what makes one of them shorter does nothing for the other.
+  if (options_.pipelined)
+    frame_ = {{true, false, {}, {}}, {false, true, {}, {}}};
+  else
+    frame_ = {{true, true, {}, {}}};
+}
 
 // What it is told of.
 
@@ -109,8 +115,10 @@ void LoadGovernor::judgeNodes(std::uint64_t frame) {
     Governed& g = governed_[i];
     BudgetReport& r = g.report;
     const double ms = costs[i].cost.total();
-    ++r.frames, g.sum += ms, r.mean = g.sum / static_cast<double>(r.frames);
-    if (ms > r.worst) r.worst = ms, r.worstFrame = frame, r.worstStage = stageText(costs[i]);
+    r.drawMeasured = costs[i].drawKnown || !r.drawCounted;
+    if (r.drawMeasured) ++r.frames, g.sum += ms, r.mean = g.sum / static_cast<double>(r.frames);
+    if (r.drawMeasured && ms > r.worst)
+      r.worst = ms, r.worstFrame = frame, r.worstStage = stageText(costs[i]);
     if (r.budget > 0 && costs[i].sure.total() > r.budget) noteOverrun(g, frame, costs[i]);
     const bool acts = options_.acts && r.levels > 0 && r.budget > 0 && costs[i].known;
     if (acts) g.policy.take(frame, costs[i].sure);
@@ -167,17 +175,35 @@ void LoadGovernor::judgeFrame(std::uint64_t frame) {
   const double drawn =
       options_.pipelined ? std::max(mostOf(t.cull), mostOf(t.draw)) : sumOf(t.cull) + sumOf(t.draw);
   if (scalable_ && frame >= stressFrom_) stress_.take((options_.pipelined ? drawn : t.app + drawn) / period);
-  if (!frame_ || (scalable_ && !stress_.exhausted() && frame_->wanted() == 0)) return;
-  frame_->take(frame, {options_.pipelined ? std::max(t.app, drawn) : t.app + drawn, 0});
-  spreadFrameLevel();
+  for (FrameRelief& relief : frame_) {
+    if (!relief.policy) continue;
+    const bool stressFirst = relief.drawn && scalable_ && !stress_.exhausted();
+    if (stressFirst && relief.policy->wanted() == 0) continue;
+    relief.policy->take(frame, {(relief.app ? t.app : 0) + (relief.drawn ? drawn : 0), 0});
+  }
+  spreadFrameLevels();
 }
 
-/// The frame's level, on the ladders of the nodes, the lowest priority first.
-void LoadGovernor::spreadFrameLevel() {
-  std::uint32_t left = frame_->wanted();
-  for (const std::size_t i : byPriority_) {
-    governed_[i].forFrame = std::min(left, governed_[i].report.levels);
-    left -= governed_[i].forFrame;
+std::uint32_t LoadGovernor::FrameRelief::usefulOf(const std::vector<Concession>& gives) const {
+  std::uint32_t levels = 0, useful = 0;
+  for (const Concession c : gives) {
+    levels += levelsOf(c);
+    const bool ofApp = c == Concession::Half || c == Concession::Rest;
+    if (ofApp ? app : drawn) useful = levels;
+  }
+  return useful;
+}
+
+/// The frame's levels, on the ladders of the nodes, the lowest priority first.
+void LoadGovernor::spreadFrameLevels() {
+  for (Governed& g : governed_) g.forFrame = 0;
+  for (const FrameRelief& relief : frame_) {
+    std::uint32_t left = relief.policy ? relief.policy->wanted() : 0;
+    for (const std::size_t i : byPriority_) {
+      const std::uint32_t taken = std::min(left, relief.usefulOf(governed_[i].of.terms.gives));
+      governed_[i].forFrame = std::max(governed_[i].forFrame, taken);
+      left -= taken;
+    }
   }
 }
 
@@ -211,7 +237,8 @@ bool LoadGovernor::see(const Scene& scene) {
   for (std::size_t i = 0; i < governed_.size(); ++i)
     if (governed_[i].report.levels > 0) byPriority_.push_back(i);
   std::ranges::stable_sort(byPriority_, {}, [&](std::size_t i) { return governed_[i].of.terms.priority; });
-  layFrameLadder();
+  for (FrameRelief& relief : frame_) layFrameLadder(relief);
+  spreadFrameLevels();
   tellUncounted();
   std::vector<NodeRef> holders;
   for (const GovernedNode& n : nodes) holders.push_back(n.node);
@@ -236,31 +263,30 @@ void LoadGovernor::tellUncounted() {
 
 /// Of the nodes that are there now. What was given up stays given up, as far as those are still there who
 /// gave it up.
-void LoadGovernor::layFrameLadder() {
+void LoadGovernor::layFrameLadder(FrameRelief& relief) {
   FrameLadder ladder;
   std::map<std::pair<NodeRef, std::uint32_t>, std::uint32_t> levelOf;
   for (const std::size_t i : byPriority_)
-    for (std::uint32_t l = 1; l <= governed_[i].report.levels; ++l) {
+    for (std::uint32_t l = 1; l <= relief.usefulOf(governed_[i].of.terms.gives); ++l) {
       ladder.push_back({governed_[i].of.node, l});
       levelOf[ladder.back()] = static_cast<std::uint32_t>(ladder.size());
     }
   std::vector<std::uint32_t> becomes{0};
-  for (const auto& step : ladder_) {
+  for (const auto& step : relief.ladder) {
     const auto at = levelOf.find(step);
     becomes.push_back(at == levelOf.end() ? becomes.back() : std::max(becomes.back(), at->second));
   }
-  ladder_ = std::move(ladder);
-  if (ladder_.empty()) return frame_.reset();
+  relief.ladder = std::move(ladder);
+  if (relief.ladder.empty()) return relief.policy.reset();
   std::vector<LevelSavings> savings;
-  for (std::size_t l = 0; l <= ladder_.size(); ++l)
+  for (std::size_t l = 0; l <= relief.ladder.size(); ++l)
     savings.push_back({std::pow(kLevelSaves, static_cast<double>(l)), 1, 1});
-  if (frame_)
-    frame_->relay(std::move(savings), becomes);
+  if (relief.policy)
+    relief.policy->relay(std::move(savings), becomes);
   else
-    frame_.emplace(
+    relief.policy.emplace(
         ReliefPolicy::Options{1e3 / options_.rate, static_cast<std::uint64_t>(std::ceil(options_.rate))},
         std::move(savings));
-  spreadFrameLevel();
 }
 
 FrameLoad LoadGovernor::decide(std::uint64_t frame) {
@@ -286,7 +312,8 @@ FrameLoad LoadGovernor::decide(std::uint64_t frame) {
     }
     g.policy.applied(frame);
   }
-  if (frame_ && all) frame_->applied(frame);
+  for (FrameRelief& relief : frame_)
+    if (relief.policy && all) relief.policy->applied(frame);
   return load;
 }
 
@@ -329,6 +356,7 @@ void LoadGovernor::addTo(Reports& all, const BudgetReport& r) {
     sum.mean += (before.mean - r.mean) * static_cast<double>(before.frames) / static_cast<double>(sum.frames);
   if (before.worst > r.worst)
     sum.worst = before.worst, sum.worstFrame = before.worstFrame, sum.worstStage = before.worstStage;
+  sum.drawMeasured = r.drawMeasured || before.drawMeasured;
   sum.highest = std::max(sum.highest, before.highest), sum.now = std::max(sum.now, before.now);
   at->second = std::move(sum);
 }

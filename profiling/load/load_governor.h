@@ -42,9 +42,10 @@ struct BudgetReport {
   std::uint64_t frames = 0, overruns = 0;
   double mean = 0, worst = 0;  ///< [ms]
   std::uint64_t worstFrame = 0;
-  std::string worstStage;                          ///< "App", "Draw of wall front"
-  bool drawCounted = true;                         ///< else what drawing it took is not in these
-  std::uint64_t changes = 0;                       ///< times that something was given up or taken back
+  std::string worstStage;     ///< "App", "Draw of wall front"
+  bool drawCounted = true;    ///< else what drawing it took is not in these
+  bool drawMeasured = true;   ///< else it was never looked at: it was not seen, or hidden before its turn
+  std::uint64_t changes = 0;  ///< times that something was given up or taken back
   std::uint32_t highest = 0, now = 0, levels = 0;  ///< of its ladder
 };
 
@@ -105,9 +106,17 @@ private:
   static void addTo(Reports& all, const BudgetReport& report);
   void judgeNodes(std::uint64_t frame);
   void judgeFrame(std::uint64_t frame);
-  void spreadFrameLevel();
   using FrameLadder = std::vector<std::pair<NodeRef, std::uint32_t>>;
-  void layFrameLadder();
+  /// What all ladders give up together, one after the other, for the frame's sake.
+  struct FrameRelief {
+    bool app = false, drawn = false;     ///< what takes too long: App, or Cull and Draw
+    std::optional<ReliefPolicy> policy;  ///< nothing: there is nothing to give up
+    FrameLadder ladder;                  ///< its levels, from 1 on: whose, and which of its own
+    /// How many levels of a ladder make that shorter, with those that come before them.
+    std::uint32_t usefulOf(const std::vector<Concession>& gives) const;
+  };
+  void spreadFrameLevels();
+  void layFrameLadder(FrameRelief& relief);
   void tellUncounted();
   void noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost);
   void applyStress(std::uint64_t frame);
@@ -121,8 +130,7 @@ private:
   NodeCosts costs_;
   std::vector<Governed> governed_;
   std::vector<std::size_t> byPriority_;  ///< of those that can give up something, the lowest first
-  std::optional<ReliefPolicy> frame_;    ///< of all their ladders, one after the other
-  FrameLadder ladder_;                   ///< its levels, from 1 on: whose, and which of its own
+  std::vector<FrameRelief> frame_;       ///< pipelined: for App, for Cull and Draw; else one for all
   std::uint64_t sampledUntil_ = 0;       ///< frames before it show what looking at drawing took
   StressFilter stress_;
   std::uint32_t stressApplied_ = 0, highestStress_ = 0;

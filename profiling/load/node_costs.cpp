@@ -113,12 +113,16 @@ void NodeCosts::sample(const DrawnAlone& s, std::span<const NodeShare> among) {
         if (known.frame != s.frame) known = {0, known.until < s.frame ? 0 : known.ms, s.frame, 0};
         known.ms += s.ms * double{part};
         known.until = s.frame + std::max(kOld, 2 * s.round);
+        if (s.what == Span::Draw) drawn_[governed].sampled = true;
         if (s.what == Span::Draw) drawn_[governed].round = std::max(drawn_[governed].round, s.round);
       }
 }
 
 void NodeCosts::take(const SharedSpan& s) {
   if (stageOf(s.what) != Span::Cull || s.wall == kNoWall || s.among.empty()) return;
+  for (const NodeRef node : s.among)
+    if (const auto at = above_.find(node); s.what == Span::Fill && at != above_.end())
+      for (const std::size_t governed : at->second) drawn_[governed].seen = true;
   std::vector<NodeShare> alike;
   for (const NodeRef node : s.among) alike.push_back({node, 1.0f / static_cast<float>(s.among.size())});
   sample({s.frame, s.wall, 0, s.what, s.ms, 0, s.round}, alike);
@@ -148,9 +152,11 @@ std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
     costs[key.governed].sure.drawn += std::min(ms, std::max(0.0, s.before));
     stages[{key.governed, isSky || key.what == Span::Draw, key.wall}] += ms;
   }
-  for (std::size_t i = 0; i < costs.size(); ++i)
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    costs[i].drawKnown = !drawn_[i].seen || drawn_[i].sampled;
     costs[i].known = drawn_[i].since == 0 || drawn_[i].hidden || sampled[i] ||
                      frame > drawn_[i].since + std::max(kAwaited, 2 * drawn_[i].round);
+  }
   std::vector<double> most(costs.size());
   for (std::size_t i = 0; i < costs.size(); ++i) most[i] = costs[i].cost.app;
   for (const auto& [stage, ms] : stages) {

@@ -30,6 +30,7 @@ struct NodeCost {
   LoadCost sure;  ///< as far as two samples in a row say so
   /// Whether what is drawn of it has been looked at since it was drawn otherwise than before.
   bool known = true;
+  bool drawKnown = true;         ///< drawing it has been looked at, or nothing of it was ever seen
   Span dearest = Span::App;      ///< the stage in which it cost most
   std::uint32_t wall = kNoWall;  ///< of that stage
 };
@@ -74,6 +75,7 @@ private:
   struct Drawn {
     std::uint64_t since = 0;
     bool hidden = false;
+    bool seen = false, sampled = false;  ///< a wall has shown something of it; that has been drawn alone
     std::uint64_t round = 0;  ///< so long a sample of its drawing may take to come [frames]
   };
 

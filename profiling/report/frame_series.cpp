@@ -9,8 +9,7 @@ void FrameSeries::add(const FrameFacts& f) {
   row.frame = f.frame, row.period = f.period, row.app = f.app.ms;
   for (std::size_t wall = 0; wall < f.walls; ++wall)
     row.cull[wall] = f.cull[wall].ms, row.draw[wall] = f.draw[wall].ms;
-  row.sampled = log_.drawSample(f.frame) != DrawSample::None ||
-                (f.frame > 0 && log_.drawSample(f.frame - 1) != DrawSample::None);
+  row.sampled = f.sampled != 0;
   row.cause = f.cause;
   rows_.push_back(row);
   if (row.sampled || f.period <= 0) return;

@@ -29,7 +29,6 @@ class FrameSeries {
 public:
   static constexpr std::size_t kMostLate = 60;  ///< that are remembered with all their facts: the latest
 
-  explicit FrameSeries(FrameLogOptions log) : log_(log) {}
   void add(const FrameFacts& facts);
 
   const std::vector<FrameRow>& rows() const { return rows_; }
@@ -39,7 +38,6 @@ public:
   std::vector<FrameFacts> late() const;
 
 private:
-  FrameLogOptions log_;
   std::vector<FrameRow> rows_;
   std::map<Cause, std::uint64_t> causes_;
   std::multimap<float, FrameFacts> late_;  ///< by period

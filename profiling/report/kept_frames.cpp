@@ -57,15 +57,13 @@ void KeptFrames::add(std::uint64_t number, std::size_t track, const SpanRecord& 
 void KeptFrames::shown(const FrameFacts& facts) {
   KeptFrame& frame = frames_[facts.frame];
   frame.facts = facts;
-  frame.sampled = log_.drawSample(facts.frame) != DrawSample::None;
+  frame.sampled = facts.sampled != 0;
   consider(facts);
   forget();
 }
 
 void KeptFrames::consider(const FrameFacts& f) {
-  const bool disturbed = log_.drawSample(f.frame) != DrawSample::None ||
-                         (f.frame > 0 && log_.drawSample(f.frame - 1) != DrawSample::None);
-  if (f.period > 0 && !disturbed) {
+  if (f.period > 0 && f.sampled == 0) {
     // Of neighbours the worse one counts.
     const auto near = std::ranges::find_if(worst_, [&](const Stretch& s) { return s.covers(f.frame); });
     const Stretch now{f.frame, static_cast<double>(f.period)};

@@ -45,8 +45,6 @@ public:
   static constexpr std::uint64_t kBefore = 13, kAfter = 10;  ///< frames of a stretch, beside the middle one
   static constexpr std::size_t kRecent = 96, kNodesAFrame = 40, kWorst = 3, kCandidates = 12;
 
-  explicit KeptFrames(FrameLogOptions log) : log_(log) {}
-
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
   /// A frame has been shown.
@@ -67,7 +65,6 @@ private:
     std::vector<SpanRecord> parts;
     std::optional<SpanRecord> wait;  ///< for a frame that is not known yet
   };
-  FrameLogOptions log_;
   ProfileClock::time_point began_ = ProfileClock::now();
   std::map<std::size_t, Track> tracks_;
   std::map<std::uint64_t, KeptFrame> frames_;

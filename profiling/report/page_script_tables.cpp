@@ -25,7 +25,7 @@ const nodeColumns = [
   {key: "kind", name: "kind", cell: n => n.kind || "", by: n => n.kind || ""},
   {key: "budget", name: "budget", n: true, cell: n => ms(n.budget), by: n => n.budget || 0, help: "what its script allows it [ms]"},
   {key: "app", name: "App", n: true, cell: n => ms(n.app), by: n => n.app, help: "all phases, mean of all frames [ms]"},
-  {key: "p95", name: "p95 visit", n: true, cell: n => n.visits > 0 ? ms(n.p95) : "\u2013", by: n => n.visits > 0 ? n.p95 : 0, help: "App, of the frames in which it was visited [ms]"},
+  {key: "p95", name: "p95 visit", n: true, cell: n => n.visits > 0 ? ms(n.p95) : "\u2013", by: n => n.visits > 0 ? n.p95 : 0, help: "App without publishing, of the frames in which it was visited [ms]"},
   {key: "cull", name: "Cull", n: true, cell: n => priced(n.cull), by: n => n.cull || 0, help: "its share, all walls [ms]"},
   {key: "draw", name: "Draw", n: true, cell: n => priced(n.draw, n.inPart), by: n => n.draw || 0, help: "drawn alone, all walls and eyes [ms]"},
   {key: "drawing", name: "p95 drawing", n: true, cell: n => n.drawings > 0 ? ms(n.drawingP95) : "\u2013", by: n => n.drawingP95, title: n => n.drawings > 0 ? `${n.drawings} times, at most ${msText(n.drawingMax)}` : null, help: "each time it was drawn alone, on one wall for one eye [ms]"},

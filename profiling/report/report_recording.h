@@ -14,10 +14,8 @@ namespace stadion {
 class ReportRecording final : public SpanReader {
 public:
   /// `rate` in frames a second, as the show is meant to be seen.
-  ReportRecording(double rate, const std::vector<std::string>& walls, FrameLogOptions log,
-                  const NodeNames& names)
-      : series_(log), kept_(log), threads_(walls),
-        judge_(rate, walls.size(), names, [this](const FrameFacts& facts) {
+  ReportRecording(double rate, const std::vector<std::string>& walls, const NodeNames& names)
+      : threads_(walls), judge_(rate, walls.size(), names, [this](const FrameFacts& facts) {
           series_.add(facts);
           kept_.shown(facts);
         }) {}

@@ -19,8 +19,8 @@ std::string_view categoryOf(Span what) {
 
 }  // namespace
 
-TraceFile::TraceFile(TraceOptions options, FrameLogOptions log, const NodeNames& names)
-    : options_(std::move(options)), log_(log), names_(names), file_(options_.file), threads_(options_.walls) {
+TraceFile::TraceFile(TraceOptions options, const NodeNames& names)
+    : options_(std::move(options)), names_(names), file_(options_.file), threads_(options_.walls) {
   text_ = "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n";
   trace::addProcessName(text_, "stadion " + options_.show);
 }
@@ -91,9 +91,7 @@ void TraceFile::writeSpan(std::size_t number, const SpanRecord& r, std::uint64_t
     name = trace::jsonText(plain);
   }
   if (isStage(r.what)) args += fmt::format(",\"processor ms\":{:.3f}", r.use.processor);
-  if (r.what == Span::Draw && (r.disturbed || log_.drawSample(frame) != DrawSample::None))
-    args += log_.drawSample(frame) == DrawSample::Whole ? R"(,"sampled":"each eye was drawn alone")"
-                                                        : R"(,"sampled":"some batches were drawn alone")";
+  if (r.what == Span::Draw && r.disturbed) args += R"(,"sampled":"eyes or batches were drawn alone")";
   trace::addSlice(text_, {name, categoryOf(r.what), number + 1, ticks(r.began), ticks(r.ended), args});
 }
 

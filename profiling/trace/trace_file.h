@@ -34,8 +34,7 @@ struct TraceOptions {
 
 class TraceFile final : public SpanReader {
 public:
-  /// `log`: which frames' drawing is sampled.
-  TraceFile(TraceOptions options, FrameLogOptions log, const NodeNames& names);
+  TraceFile(TraceOptions options, const NodeNames& names);
 
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
@@ -71,7 +70,6 @@ private:
   void flush();
 
   TraceOptions options_;
-  FrameLogOptions log_;
   const NodeNames& names_;
   AtomicFile file_;
   ProfileClock::time_point began_ = ProfileClock::now();

@@ -116,7 +116,7 @@ struct Sampling final : FrameProbe {
   void began(Span, std::uint64_t, std::uint32_t) override {}
   void began(Span, NodeRef) override {}
   void ended(Span) override {}
-  DrawSample drawSample(std::uint64_t, std::uint32_t) const override { return DrawSample::Some; }
+  DrawSample drawSample(std::uint64_t, std::uint32_t) override { return DrawSample::Some; }
   bool wantsAlone(std::span<const NodeRef> owners) const override {
     return wanted.empty() || std::ranges::any_of(owners, [&](NodeRef n) { return wanted.contains(n); });
   }

@@ -341,6 +341,18 @@ TEST(LoadGovernor, WhenTheFrameIsOverTheLowestPriorityGivesUpFirst) {
   EXPECT_EQ(g.level(0), 0U);
 }
 
+TEST(LoadGovernor, WhatMakesAppShorterIsNotGivenUpForDrawNorTheOtherWayRound) {
+  const std::vector<NodeTerms> terms{{0, {Half, Rest}, 1}, {0, {Lod, Hide}, 5}};
+  Governed draws(terms);
+  draws.frames(60, {1}, {40, 40});
+  EXPECT_EQ(draws.level(0), 0U) << "its simulation is no load";
+  EXPECT_EQ(draws.level(1), 4U);
+  Governed simulates(terms);
+  simulates.frames(60, {40});
+  EXPECT_EQ(simulates.level(0), 3U);
+  EXPECT_EQ(simulates.level(1), 0U);
+}
+
 TEST(LoadGovernor, StressComesBeforeConcessionsForTheFramesSake) {
   Governed g({{0, {Half, Rest}, 1}}, true);
   g.frames(3, {1}, {25, 25});
@@ -395,6 +407,20 @@ TEST(LoadGovernor, OneDearSampleOfDrawingIsNoOverrunAndTakesNothing) {
   EXPECT_EQ(g.level(0), 0U);
   EXPECT_EQ(g.governor->reports().at(0).overruns, 0U);
   EXPECT_EQ(g.governor->reports().at(0).changes, 0U);
+}
+
+TEST(LoadGovernor, WhatWasNeverLookedAtIsNotSaidToCostNothing) {
+  Drawn g(1, {Hide});
+  g.frames(10, {});
+  EXPECT_TRUE(g.governor->reports().at(0).drawMeasured) << "it was not seen";
+  g.governor->take({Span::Fill, g.at, 0, 0.01, {NodeRef{1, 0}}});
+  const std::uint64_t before = g.governor->reports().at(0).frames;
+  g.frames(100, {});
+  EXPECT_FALSE(g.governor->reports().at(0).drawMeasured);
+  EXPECT_LE(g.governor->reports().at(0).frames, before + 1);
+  g.draw(64, 0.5);
+  EXPECT_TRUE(g.governor->reports().at(0).drawMeasured);
+  EXPECT_NEAR(g.governor->reports().at(0).mean, 0.5, 0.2);
 }
 
 TEST(LoadGovernor, TwoDearSamplesOfDrawingAreEnough) {

@@ -22,8 +22,9 @@ struct MadeUpRun {
   ProfileClock::time_point now = ProfileClock::now();
   double delayed = 0;  ///< [ms] of App, without a processor
 
-  explicit MadeUpRun(FrameLogOptions log = {.samples = false, .from = 0})
-      : recording(60, {"front"}, log, names) {}
+  std::uint64_t sampleEvery;  ///< drawing, in two of so many frames; 0: never
+
+  explicit MadeUpRun(std::uint64_t every = 0) : recording(60, {"front"}, names), sampleEvery(every) {}
 
   void span(std::size_t track, Span what, std::uint64_t frame, std::uint8_t depth, int from, int to,
             NodeRef node = {}, std::uint32_t wall = 0) {
@@ -34,6 +35,8 @@ struct MadeUpRun {
     r.took = r.own = 1e-3 * (to - from);
     r.use.processor = r.took;
     if (what == Span::App) r.use.delayed = delayed;
+    const std::uint64_t phase = sampleEvery > 0 ? frame % sampleEvery : ~std::uint64_t{0};
+    r.disturbed = what == Span::Draw && (phase == sampleEvery / 2 || phase == sampleEvery / 2 + 1);
     recording.take(track, r), profile.take(track, r);
   }
   /// `late` [ms] more in App than the 4 that it takes.
@@ -95,7 +98,7 @@ TEST(KeptFrames, ANormalStretchIsOneOfTypicalPeriod) {
 }
 
 TEST(FrameSeries, FramesThatSamplingDisturbedAreNotJudged) {
-  MadeUpRun run({.samples = true, .sampleEvery = 8, .from = 0});
+  MadeUpRun run(8);
   for (std::uint64_t n = 0; n < 800; ++n) run.frame(n, n % 8 == 4 ? 50 : 0);
   std::uint64_t judged = 0;
   for (const auto& [cause, count] : run.recording.series().causes()) {

@@ -606,6 +606,28 @@ TEST(FrameLog, WhatIsDrawnAloneSaysWhenItsTurnComesAgain) {
   EXPECT_EQ(kept.drawn[0].round, 101U * 16);
 }
 
+/// A live run that takes too long draws some of its frames; just then it must be known what is dear.
+TEST(FrameLog, WhereFramesArePassedOverTheNextOneThatIsDrawnIsSampled) {
+  FrameLog log({}, {.whole = true, .from = 4});
+  std::vector<std::pair<std::uint64_t, DrawSample>> sampled;
+  for (std::uint64_t frame = 0; frame < 80; frame += 5)
+    if (const DrawSample s = log.drawSample(frame, 0); s != DrawSample::None) sampled.emplace_back(frame, s);
+  const std::vector<std::pair<std::uint64_t, DrawSample>> wanted{
+      {10, DrawSample::Whole}, {15, DrawSample::Some},  {25, DrawSample::Whole},
+      {30, DrawSample::Some},  {40, DrawSample::Whole}, {45, DrawSample::Some},
+      {60, DrawSample::Whole}, {65, DrawSample::Some},  {75, DrawSample::Whole}};
+  EXPECT_EQ(sampled, wanted);
+  EXPECT_EQ(log.drawSample(75, 0), DrawSample::Some);
+  EXPECT_EQ(log.drawSample(75, 0), DrawSample::None) << "the operator has paused: the same frame again";
+
+  const NodeRef seen[] = {kBall};
+  EXPECT_FALSE(log.wantsShares(15, 0));
+  EXPECT_TRUE(log.wantsShares(21, 0));
+  log.shared(Span::Fill, 21, 0, seen);
+  EXPECT_FALSE(log.wantsShares(31, 0));
+  EXPECT_TRUE(log.wantsShares(33, 0));
+}
+
 TEST(FrameLog, DrawingIsSampledFromWhenSomebodyAsksForIt) {
   FrameLog log({}, {.samples = false, .whole = false, .from = 0});
   EXPECT_EQ(log.drawSample(9, 0), DrawSample::None);

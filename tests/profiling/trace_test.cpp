@@ -66,7 +66,7 @@ protected:
 };
 
 TEST_F(TraceTest, ItsSlicesNestAndItsArrowsLeadFromAppToCullToDraw) {
-  TraceFile trace(options(), {}, names_);
+  TraceFile trace(options(), names_);
   for (std::uint64_t frame = 4; frame < 24; ++frame) addFrame(trace, frame);
   ASSERT_FALSE(trace.finish());
   const TraceChecks seen(written());
@@ -79,7 +79,7 @@ TEST_F(TraceTest, ItsSlicesNestAndItsArrowsLeadFromAppToCullToDraw) {
 }
 
 TEST_F(TraceTest, WhatASpanOfOneThreadHoldsStaysInItOnTheViewersGrid) {
-  TraceFile trace(options(), {}, names_);
+  TraceFile trace(options(), names_);
   // Ends and beginnings that share a nanosecond, or lie one apart.
   std::uint64_t seed = 7;
   const auto random = [&](std::int64_t below) {
@@ -107,7 +107,7 @@ TEST_F(TraceTest, WhatASpanOfOneThreadHoldsStaysInItOnTheViewersGrid) {
 TEST_F(TraceTest, ACounterIsWrittenWhenItChanges) {
   TraceOptions some = options();
   some.last = 8;
-  TraceFile trace(some, {}, names_);
+  TraceFile trace(some, names_);
   for (const auto& [frame, amount] : {std::pair{4, 70}, {5, 70}, {6, 80}, {7, 70}, {9, 90}}) {
     addFrame(trace, static_cast<std::uint64_t>(frame));
     trace.take({Count::Triangles,
@@ -128,7 +128,7 @@ TEST_F(TraceTest, ACounterIsWrittenWhenItChanges) {
 }
 
 TEST_F(TraceTest, AFrameThatComesAgainHasOneArrow) {
-  TraceFile trace(options(), {}, names_);
+  TraceFile trace(options(), names_);
   addFrame(trace, 4);
   for (int again = 0; again < 3; ++again) {
     start_ += nanoseconds(100'000'000);
@@ -143,7 +143,7 @@ TEST_F(TraceTest, AFrameThatComesAgainHasOneArrow) {
 TEST_F(TraceTest, OnlyTheFramesThatAreAskedForAreInIt) {
   TraceOptions o = options();
   o.first = 10, o.last = 12;
-  TraceFile trace(o, {}, names_);
+  TraceFile trace(o, names_);
   for (std::uint64_t frame = 4; frame < 24; ++frame) addFrame(trace, frame);
   ASSERT_FALSE(trace.finish());
   const TraceChecks seen(written());
@@ -156,7 +156,7 @@ TEST_F(TraceTest, FramesThatNeverCameAreSaidToBeMissing) {
   const auto leftOut = [&](std::uint64_t first, std::uint64_t last, std::uint64_t frames = 20) {
     TraceOptions o = options();
     o.first = first, o.last = last;
-    TraceFile trace(o, {}, names_);
+    TraceFile trace(o, names_);
     for (std::uint64_t frame = 4; frame < frames; ++frame) addFrame(trace, frame);
     EXPECT_FALSE(trace.finish());
     EXPECT_EQ(TraceChecks(written()).json()["otherData"].value("left out", ""), trace.leftOut());
@@ -174,7 +174,7 @@ TEST_F(TraceTest, FramesThatNeverCameAreSaidToBeMissing) {
 TEST_F(TraceTest, BeyondItsSizeItLeavesOutWholeFramesAndSaysSo) {
   TraceOptions o = options();
   o.mostBytes = 20'000;
-  TraceFile trace(o, {}, names_);
+  TraceFile trace(o, names_);
   for (std::uint64_t frame = 4; frame < 400; ++frame) addFrame(trace, frame);
   ASSERT_FALSE(trace.finish());
   const TraceChecks seen(written());
@@ -185,7 +185,7 @@ TEST_F(TraceTest, BeyondItsSizeItLeavesOutWholeFramesAndSaysSo) {
 }
 
 TEST_F(TraceTest, PartsOfAStageThatWasLostGoWithIt) {
-  TraceFile trace(options(), {}, names_);
+  TraceFile trace(options(), names_);
   trace.take(0, span(Span::Mail, 4, kNoWall, 1, 100, 900));  // its App never came
   addFrame(trace, 5);
   ASSERT_FALSE(trace.finish());
@@ -197,7 +197,7 @@ TEST_F(TraceTest, PartsOfAStageThatWasLostGoWithIt) {
 TEST_F(TraceTest, WhereItCannotBeWrittenItSaysSo) {
   TraceOptions o = options();
   o.file = "/nowhere/at/all.json";
-  TraceFile trace(o, {}, names_);
+  TraceFile trace(o, names_);
   EXPECT_TRUE(trace.error());
   addFrame(trace, 4);
   EXPECT_TRUE(trace.finish());
@@ -208,7 +208,7 @@ TEST(ThreadsTrace, ARecordingOfManyThreadsIsTakenWithoutAComplaint) {
   TraceOptions o;
   o.file = file, o.walls = {"one", "two", "three"};
   NodeNames names;
-  TraceFile trace(o, {}, names);
+  TraceFile trace(o, names);
   FrameLog log({&trace}, {.samples = false, .from = 0});
   constexpr std::uint64_t kFrames = 300;
   std::atomic<std::uint64_t> published = 0;
