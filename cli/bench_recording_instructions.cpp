@@ -21,7 +21,7 @@ double instructionsOf(std::vector<std::string> words, int frames, const std::str
   words.insert(words.end(), {"--frames", std::to_string(frames)});
   const ChildResult child = runChild(words, kLimit, stop);
   if (!child.fault.empty()) {
-    wrong = child.status == 127 ? "there is no valgrind; install it: apt install valgrind" : child.fault;
+    wrong = child.missing ? kNoValgrind : child.fault;
     return 0;
   }
   constexpr std::size_t kMostBytes = 256 << 20;

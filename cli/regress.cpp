@@ -180,6 +180,7 @@ int regress(RegressOptions o) {
     std::fprintf(stderr, "%s stays as it was: not all cases could be played\n", o.baseline.c_str());
   }
   if (!o.junit.empty()) written = junit.write(regression::junitOf(result)) && written;
+  if (!o.out.empty() && written) folder.forgetProgress();
   const std::string text = o.json ? regression::benchmarkJsonOf(result) + "\n" : regression::tableOf(result);
   std::printf("%s", text.c_str());
   const bool hasReference = with.baseline || !o.against.empty();

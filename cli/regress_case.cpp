@@ -73,9 +73,9 @@ private:
       words.pop_back();
       child = runChild(words, std::chrono::seconds(o_.limit), stop_);
     }
-    if (!child.fault.empty()) return {{}, child.fault, child.status == 2};
+    if (!child.fault.empty()) return {{}, program + ": " + child.fault, child.status == 2};
     auto facts = factsOf(child.out);
-    if (!facts) return {{}, "it did not print a summary as JSON"};
+    if (!facts) return {{}, program + ": it did not print a summary as JSON"};
     facts->renderer += " on " + processorName();
     return {std::move(facts), {}, false, warningsIn(child.err)};
   }
@@ -109,8 +109,7 @@ private:
   void compareBuilds(const std::string& mode) {
     const Played other = run(with_.program, mode);
     if (!other.facts) {
-      result_.fault = fmt::format("{}: {}", with_.program, other.fault);
-      result_.refused = other.refused;
+      result_.fault = other.fault, result_.refused = other.refused;
       return;
     }
     // What an older build does not tell of cannot be compared.
@@ -141,8 +140,8 @@ private:
     return at == with_.baseline->end() ? nullptr : &at->second;
   }
 
-  bool failed(const std::string& fault) {
-    result_.fault = fault;
+  bool failed(const std::string& fault, bool refused = false) {
+    result_.fault = fault, result_.refused = refused;
     return !fault.empty();
   }
 
@@ -171,7 +170,7 @@ private:
       askWhichNode(shifts);
       add(checksOf(shifts, "the other build", tolerance, case_.rounds));
       const Round& first = m.rounds.front();
-      add(unmatchedStages(typicalStages(first.before), typicalStages(first.now), "the other build"));
+      add(unmatchedStages(typicalStages(first.before), typicalStages(first.now), "times", "the other build"));
       return;
     }
     const MeasuredRounds m = measureRounds(case_, mode, {o_.program}, measuring());
@@ -194,7 +193,7 @@ private:
         s.culprit = culpritSince(s.name, before, s.shift * before, known()->nodeTimes, nodes, rows);
       }
       add(checksOf(shifts, "the baseline", tolerance, case_.rounds));
-      add(unmatchedStages(typicalOf(known()->times), typicalOf(times), "the baseline"));
+      add(unmatchedStages(typicalOf(known()->times), typicalOf(times), "times", "the baseline"));
     }
   }
 
@@ -243,23 +242,27 @@ private:
     if (!needed) return nothingFor("instructions");
     progress_(fmt::format("{}: instructions, by {}", result_.name, nameOf(*by)));
     const CountedInstructions now = countInstructions(case_, {o_.program}, true, measuring(), *by);
-    if (failed(now.fault)) return;
+    if (failed(now.fault, now.refused)) return;
     result_.instructions = stageInstructions(now.rows);
-    const double tolerance = case_.tolerances.instructions / 100;
     const std::string how = fmt::format(", by {}", nameOf(*by));
     if (update_) {
       BaselineCase& kept = (*update_)[result_.name];
       kept.instructions = result_.instructions, kept.countedBy = nameOf(*by);
       kept.nodeInstructions = dearOf(nodeInstructions(now.rows), result_.instructions);
     } else if (with_.program.empty()) {
-      const InstructionCounts before{known()->instructions, known()->nodeInstructions};
-      add(checksOf(compareInstructions(before, now.rows, tolerance), "the baseline" + how, tolerance));
+      compareCounts({known()->instructions, known()->nodeInstructions}, now, "the baseline", how);
     } else {
       const CountedInstructions before = countInstructions(case_, {with_.program}, true, measuring(), *by);
-      if (!failed(before.fault))
-        add(checksOf(compareInstructions(instructionCounts(before.rows), now.rows, tolerance),
-                     "the other build" + how, tolerance));
+      if (!failed(before.fault, before.refused))
+        compareCounts(instructionCounts(before.rows), now, "the other build", how);
     }
+  }
+
+  void compareCounts(const InstructionCounts& before, const CountedInstructions& now, const std::string& with,
+                     const std::string& how) {
+    const double tolerance = case_.tolerances.instructions / 100;
+    add(checksOf(compareInstructions(before, now.rows, tolerance), with + how, tolerance));
+    add(unmatchedStages(before.stages, result_.instructions, "instructions", with));
   }
 
   const SuiteCase& case_;

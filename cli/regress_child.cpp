@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -54,8 +55,10 @@ struct Running {
   ChildResult result;
 
   void start(const std::vector<std::string>& words, int in, const std::vector<std::string>& environment) {
-    if (const auto problem = child.start(words, {in, out.get(), err.get()}, environment))
-      result.fault = fmt::format("{} cannot be started: {}", words.front(), std::strerror(*problem));
+    const auto problem = child.start(words, {in, out.get(), err.get()}, environment);
+    if (!problem) return;
+    result.fault = fmt::format("{} cannot be started: {}", words.front(), std::strerror(*problem));
+    result.missing = *problem == ENOENT;
   }
 
   /// Waits a little. Once it has ended, or was given up, the result is complete.

@@ -19,7 +19,11 @@ struct ChildResult {
   int status = -1;       ///< exit status; 128 + signal
   std::string out, err;  ///< what it said
   std::string fault;     ///< why it did not do what was asked; empty: it did
+  bool missing = false;  ///< there is no such program
 };
+
+/// What `fault` to tell of a child that valgrind was to run.
+constexpr const char* kNoValgrind = "there is no valgrind; install it: apt install valgrind";
 
 /// Runs the words to the end, with our environment and `environment` ("NAME=value"); past the limit, or once
 /// `stop` is true, it is killed, and what it has started.

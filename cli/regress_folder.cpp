@@ -1,6 +1,5 @@
 #include "cli/regress_folder.h"
 
-#include "engine/atomic_file.h"
 #include "engine/plain_file.h"
 #include "engine/state_hash.h"
 #include "profiling/regression/history.h"
@@ -14,16 +13,27 @@
 #include <filesystem>
 #include <fstream>
 #include <sys/file.h>
+#include <utility>
 
 namespace stadion {
 namespace {
 
 constexpr const char *kProgress = "progress.jsonl", *kHistory = "history.jsonl";
+constexpr const char *kPage = "report.html", *kResults = "results.json", *kJunit = "junit.xml";
 constexpr std::size_t kMostBytes = 256 << 20;
 
 std::string textOf(const std::string& file) {
   const Result<std::string> text = readPlainFile(file, kMostBytes);
   return text ? text.value() : std::string();
+}
+
+void complain(const std::string& path, const std::string& why) {
+  std::fprintf(stderr, "%s: error: %s\n", path.c_str(), why.c_str());
+}
+
+bool endsInHalfALine(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  return file.tellg() > 0 && file.seekg(-1, std::ios::end).get() != '\n';
 }
 
 /// A program that is built anew is another one.
@@ -55,9 +65,9 @@ bool RegressFolder::open(const RegressOptions& o, const std::string& suiteText) 
   std::filesystem::create_directories(folder_, why);
   if (why)
     return std::fprintf(stderr, "stadion: --out %s: %s\n", folder_.c_str(), why.message().c_str()), false;
-  if (!lock()) return false;
+  if (!lock() || !openOutputs()) return false;
   const std::string identity = identityOf(o, suiteText);
-  if (o.resume) done_ = regression::readProgress(textOf(folder_ + "/" + kProgress), identity);
+  if (o.resume) done_ = regression::readProgress(textOf(pathOf(kProgress)), identity);
   if (o.resume && done_.empty()) std::fprintf(stderr, "nothing to resume: the suite begins anew\n");
   if (!write(kProgress, regression::progressHeading(identity))) return false;
   for (const auto& [name, results] : done_)
@@ -76,33 +86,55 @@ bool RegressFolder::lock() {
   return false;
 }
 
+bool RegressFolder::openOutputs() {
+  bool well = true;
+  for (const char* name : {kPage, kResults, kJunit}) {
+    const auto [at, isNew] = outputs_.try_emplace(name, pathOf(name));
+    if (const auto& wrong = at->second.error()) complain(wrong->where.file, wrong->message), well = false;
+  }
+  return well && append(kHistory, "");
+}
+
 bool RegressFolder::note(const std::string& caseName, const std::vector<regression::CaseResult>& results) {
   return append(kProgress, regression::progressLine(caseName, results));
 }
 
 bool RegressFolder::finish(const regression::SuiteResult& result) {
-  const std::string line = regression::toJsonLine(regression::historyEntryOf(result));
-  if (!append(kHistory, line)) return false;
-  const auto history = regression::readHistory(textOf(folder_ + "/" + kHistory));
-  std::error_code none;
-  std::filesystem::remove(folder_ + "/" + kProgress, none);
-  return write("report.html", regression::pageOf(result, history)) &&
-         write("results.json", regression::benchmarkJsonOf(result) + "\n") &&
-         write("junit.xml", regression::junitOf(result));
+  auto history = regression::readHistory(textOf(pathOf(kHistory)));
+  history.push_back(regression::historyEntryOf(result));
+  const std::pair<const char*, std::string> all[] = {
+      {kPage, regression::pageOf(result, history)},
+      {kResults, regression::benchmarkJsonOf(result) + "\n"},
+      {kJunit, regression::junitOf(result)},
+  };
+  bool well = true;
+  for (const auto& [name, text] : all) {
+    AtomicFile& file = outputs_.at(name);
+    file.write(text);
+    if (const auto wrong = file.commit()) complain(wrong->where.file, wrong->message), well = false;
+  }
+  return well && append(kHistory, regression::toJsonLine(history.back()));
 }
 
+void RegressFolder::forgetProgress() {
+  std::error_code none;
+  std::filesystem::remove(pathOf(kProgress), none);
+}
+
+// What a run that was killed, or a full disk, has left of a line stays alone.
 bool RegressFolder::append(const std::string& name, const std::string& text) {
-  std::ofstream file(folder_ + "/" + name, std::ios::binary | std::ios::app);
-  file << text;
+  const std::string path = pathOf(name);
+  const bool half = !text.empty() && endsInHalfALine(path);
+  std::ofstream file(path, std::ios::binary | std::ios::app);
+  file << (half ? "\n" : "") << text;
   file.close();
-  if (!file) std::fprintf(stderr, "stadion: cannot write %s/%s\n", folder_.c_str(), name.c_str());
+  if (!file) complain(path, "cannot be written");
   return static_cast<bool>(file);
 }
 
 bool RegressFolder::write(const std::string& name, const std::string& text) {
-  const auto wrong = writeFile(folder_ + "/" + name, text);
-  if (wrong)
-    std::fprintf(stderr, "stadion: %s/%s: %s\n", folder_.c_str(), name.c_str(), wrong->message.c_str());
+  const auto wrong = writeFile(pathOf(name), text);
+  if (wrong) complain(wrong->where.file, wrong->message);
   return !wrong;
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace stadion {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 using namespace regression;
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr const char* kStoppedFault = "stopped";
 
 std::string textOf(const std::string& file) {
   const Result<std::string> text = readPlainFile(file, kMostBytes);
@@ -39,11 +41,15 @@ std::vector<std::string> measuredWords(const SuiteCase& c, const std::string& mo
   return words;
 }
 
+std::string faultOf(const MeasuredProgram& program, const ChildResult& child) {
+  return child.fault.empty() ? "" : program.path + ": " + child.fault;
+}
+
 /// Builds that know nothing of --spans tell in their summary what the stages cost.
 std::vector<SpanRow> playedOld(const SuiteCase& c, const std::string& mode, const MeasuredProgram& program,
                                const MeasuringOptions& o, std::string& fault) {
   const ChildResult child = runMeasured(playWords(program.path, c, mode), o);
-  fault = child.fault;
+  fault = faultOf(program, child);
   return stagesOfSummary(child.out);
 }
 
@@ -91,9 +97,9 @@ private:
   }
 
   bool take(const ChildResult& child, Side& side) {
-    fault = child.fault;
+    fault = faultOf(side.program, child);
     if (fault.empty()) side.rows = spanRows(textOf(side.file));
-    if (fault.empty() && side.rows.empty()) fault = "it did not write what it cost";
+    if (fault.empty() && side.rows.empty()) fault = side.program.path + ": it did not write what it cost";
     return fault.empty();
   }
 
@@ -118,6 +124,7 @@ MeasuredRounds measureRounds(const SuiteCase& c, const std::string& mode, const 
     }
     measured.rounds.push_back({std::move(a.rows), std::move(b.rows)});
   }
+  if (measured.rounds.size() < options.rounds) measured.fault = kStoppedFault;
   return measured;
 }
 
@@ -136,6 +143,7 @@ MeasuredRounds measureRounds(const SuiteCase& c, const std::string& mode, const 
     measured.calibrationMs.push_back((earlier + calibrationMs()) / 2);
     measured.rounds.push_back({{}, std::move(side.rows)});
   }
+  if (measured.rounds.size() < options.rounds) measured.fault = kStoppedFault;
   return measured;
 }
 
@@ -152,11 +160,22 @@ CountedInstructions countByHardware(const SuiteCase& c, const MeasuredProgram& p
   words.emplace_back("--count-by-hardware");
   if (!drawn) words.insert(words.end(), {"--gl", "none"});
   const ChildResult child = runChild(words, options.limit, options.stop);
-  CountedInstructions counted{{}, child.fault};
+  CountedInstructions counted{{}, faultOf(program, child)};
   if (counted.fault.empty()) counted.rows = spanRows(textOf(file));
   if (counted.fault.empty() && stageInstructions(counted.rows).empty())
-    counted.fault = "the hardware counter has counted nothing";
+    counted.fault = program.path + ": the hardware counter has counted nothing of it";
   return counted;
+}
+
+/// The file that ran under this command line: a script may have become another program, and links lead to it.
+std::string programIn(std::string_view command) {
+  for (std::size_t end = 0; end < command.size();) {  // its path may hold blanks
+    end = std::min(command.find(' ', end + 1), command.size());
+    std::error_code none;
+    const std::filesystem::path program = std::filesystem::canonical(command.substr(0, end), none);
+    if (!none && std::filesystem::is_regular_file(program, none)) return program.string();
+  }
+  return {};
 }
 
 }  // namespace
@@ -177,13 +196,16 @@ CountedInstructions countInstructions(const SuiteCase& c, const MeasuredProgram&
 
   const ChildResult child = runMeasured(words, options);
   CountedInstructions counted;
-  counted.fault =
-      child.status == 127 ? "there is no valgrind; install it: apt install valgrind" : child.fault;
+  if (child.missing) return {{}, kNoValgrind, true};
+  counted.fault = faultOf(program, child);
   if (!counted.fault.empty()) return counted;
   counted.rows = spanRows(textOf(folder.path("spans")));
-  const auto counts = instructionsByLabel(textOf(folder.path("callgrind")), "/stadion");
+  const std::string record = textOf(folder.path("callgrind"));
+  const auto counts = instructionsByLabel(record, programIn(commandOf(record)));
   giveInstructions(counted.rows, counts);
-  if (counts.empty()) counted.fault = "callgrind has counted nothing";
+  if (counts.empty())
+    counted.fault =
+        program.path + ": callgrind has counted nothing of it; a script has to `exec` the program";
   return counted;
 }
 

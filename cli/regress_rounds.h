@@ -16,7 +16,7 @@ struct MeasuredProgram {
 };
 
 struct MeasuredRounds {
-  std::vector<regression::Round> rounds;  ///< `before` is empty where one program was measured
+  std::vector<regression::Round> rounds;  ///< all that were asked for; `before` is empty of one program
   std::vector<double> calibrationMs;      ///< of each round
   std::string fault{};
 };
@@ -40,6 +40,7 @@ MeasuredRounds measureRounds(const regression::SuiteCase& c, const std::string& 
 struct CountedInstructions {
   std::vector<regression::SpanRow> rows;  ///< `instructions` a frame
   std::string fault{};
+  bool refused = false;  ///< the fault is the user's: valgrind is missing
 };
 
 /// Who counts instructions: the processor, all of the thread that plays, at hardly any cost; or callgrind,

@@ -1,11 +1,17 @@
 #include "profiling/regression/callgrind_record.h"
 
+#include <algorithm>
 #include <charconv>
 
 namespace stadion::regression {
 namespace {
 
 constexpr std::string_view kTrigger = "desc: Trigger: Client Request: ";
+
+std::string_view withoutBlanks(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  return text;
+}
 
 /// Reads the file line by line. Names may be shortened to a number, "ob=(3) /path/to/file" the first time and
 /// "ob=(3)" then.
@@ -36,11 +42,11 @@ private:
   static bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
   bool isOurs(std::string_view name) {
-    if (name.empty() || name[0] != '(') return name.ends_with(object_);
+    if (name.empty() || name[0] != '(') return name == object_;
     const std::size_t end = name.find(')');
     if (end == name.npos) return false;
     const std::string number(name.substr(0, end));
-    if (name.size() > end + 1) objects_[number] = name.ends_with(object_);
+    if (name.size() > end + 1) objects_[number] = withoutBlanks(name.substr(end + 1)) == object_;
     return objects_[number];
   }
 
@@ -60,6 +66,14 @@ private:
 };
 
 }  // namespace
+
+std::string_view commandOf(std::string_view callgrindFile) {
+  constexpr std::string_view kCommand = "\ncmd:";
+  const std::size_t at = callgrindFile.find(kCommand);
+  if (at == callgrindFile.npos) return {};
+  const std::string_view rest = callgrindFile.substr(at + kCommand.size());
+  return withoutBlanks(rest.substr(0, rest.find('\n')));
+}
 
 std::map<std::string, double> instructionsByLabel(std::string_view callgrindFile, std::string_view object) {
   Reader reader(object);

@@ -15,7 +15,11 @@
 
 namespace stadion::regression {
 
-/// Instructions by label, of functions whose object file's name ends with `object`.
+/// The command line of the program that was watched, its words with blanks between them; empty if none is
+/// said.
+std::string_view commandOf(std::string_view callgrindFile);
+
+/// Instructions by label, of the functions in the object file with this real path.
 std::map<std::string, double> instructionsByLabel(std::string_view callgrindFile, std::string_view object);
 
 }  // namespace stadion::regression

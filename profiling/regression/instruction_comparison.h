@@ -8,6 +8,7 @@
 #include "profiling/regression/result.h"
 #include "profiling/regression/span_record.h"
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -22,7 +23,8 @@ struct InstructionShift {
   bool more = false, fewer = false;
   std::string culprit{};  ///< if more: the node in the stage that moved, or that none did
 
-  double shift() const { return before > 0 ? now / before - 1 : 0; }
+  /// Infinite where there were none.
+  double shift() const { return now == before ? 0 : before > 0 ? now / before - 1 : HUGE_VAL; }
 };
 
 /// The stages' instructions a frame, by name.

@@ -47,6 +47,12 @@ double normalTails(double z) {
   return std::min(1.0, std::erfc(std::fabs(z) / std::sqrt(2.0)));
 }
 
+std::vector<double> growing(std::size_t count, double first) {
+  std::vector<double> values(count);
+  std::iota(values.begin(), values.end(), first);
+  return values;
+}
+
 /// Of the sum of the doubled ranks of `count` figures out of all.
 double approximateRankSum(const std::vector<std::uint32_t>& ranks, std::size_t count, double sum) {
   const double n = static_cast<double>(ranks.size()), m = static_cast<double>(count);
@@ -108,6 +114,14 @@ double rankSumTest(const std::vector<double>& a, const std::vector<double>& b) {
     for (std::size_t chosen = count; chosen > 0; --chosen)
       for (std::size_t s = rank; s <= total; ++s) weights[chosen][s] += weights[chosen - 1][s - rank];
   return bothTails(weights[count], sum);
+}
+
+double leastSignedRank(std::size_t differences) {
+  return signedRankTest(growing(differences, 1));
+}
+
+double leastRankSum(std::size_t a, std::size_t b) {
+  return rankSumTest(growing(a, 0), growing(b, static_cast<double>(a)));
 }
 
 double typicalShift(const std::vector<double>& differences) {

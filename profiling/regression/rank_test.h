@@ -8,6 +8,7 @@
 /// Threads  free functions, any thread.
 /// Errors   none; figures that are not finite are left out.
 
+#include <cstddef>
 #include <vector>
 
 namespace stadion::regression {
@@ -23,6 +24,10 @@ double signedRankTest(const std::vector<double>& differences);
 /// and Whitney, both sides). Exact up to 80 figures in all, beyond by the normal distribution. 1 where one is
 /// empty.
 double rankSumTest(const std::vector<double>& a, const std::vector<double>& b);
+
+/// The least that these tests can ever say of so many figures, however far apart.
+double leastSignedRank(std::size_t differences);
+double leastRankSum(std::size_t a, std::size_t b);
 
 /// By how much paired figures differ: the median of the means of all pairs of differences (Hodges and
 /// Lehmann).

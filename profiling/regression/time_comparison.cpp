@@ -111,9 +111,13 @@ std::vector<StageShift> compareRounds(const std::vector<Round>& rounds, double t
     stages.push_back(&row);
   }
   const std::vector<double> corrected = correctedForMany(probabilities);
+  const double stageCount = static_cast<double>(shifts.size());
   for (std::size_t i = 0; i < shifts.size(); ++i) {
     StageShift& s = shifts[i];
     s.probability = corrected[i];
+    if (s.beforeUs >= kShortest && leastSignedRank(rounds.size()) * stageCount > kAlarm)
+      s.unfit = fmt::format("{} rounds are too few to tell anything of {} stages; --rounds takes more",
+                            rounds.size(), shifts.size());
     const bool certain = s.probability <= kAlarm;
     s.slower = certain && s.shift > tolerance, s.faster = certain && s.shift < -tolerance;
     if (s.slower) s.culprit = culpritOf(*stages[i], rounds);
@@ -127,17 +131,29 @@ std::vector<StageShift> compareTimes(const StageTimesByName& baseline, const Sta
   std::vector<double> probabilities;
   for (const auto& [name, times] : now) {
     const auto before = baseline.find(name);
-    if (before == baseline.end() || median(before->second) <= 0) continue;
-    const double typical = us.contains(name) ? us.at(name) : 0;
-    shifts.push_back({name, name, typical, median(times) / median(before->second) - 1, 1});
-    probabilities.push_back(typical < kShortest ? 1 : rankSumTest(before->second, times));
+    if (before == baseline.end()) continue;
+    const double typical = us.contains(name) ? us.at(name) : 0, was = median(before->second);
+    StageShift& s = shifts.emplace_back(StageShift{name, name, typical});
+    if (was > 0)
+      s.shift = median(times) / was - 1;
+    else
+      s.unfit =
+          fmt::format("the baseline's times of it cannot be compared with: {}; --update measures them anew",
+                      before->second.empty() ? "there are none" : fmt::format("the middle one is {:g}", was));
+    probabilities.push_back(typical < kShortest || was <= 0 ? 1 : rankSumTest(before->second, times));
   }
   const std::vector<double> corrected = correctedForMany(probabilities);
+  const double stageCount = static_cast<double>(shifts.size());
   for (std::size_t i = 0; i < shifts.size(); ++i) {
-    shifts[i].probability = corrected[i];
-    shifts[i].slower = corrected[i] <= kAlarm && shifts[i].shift > tolerance;
-    shifts[i].faster = corrected[i] <= kAlarm && shifts[i].shift < -tolerance;
-    if (shifts[i].slower) shifts[i].culprit = shifts[i].name;
+    StageShift& s = shifts[i];
+    const std::size_t before = baseline.at(s.name).size(), rounds = now.at(s.name).size();
+    if (s.unfit.empty() && s.beforeUs >= kShortest && leastRankSum(before, rounds) * stageCount > kAlarm)
+      s.unfit = fmt::format("{} and {} rounds are too few to tell anything of {} stages; --update takes more",
+                            before, rounds, shifts.size());
+    s.probability = corrected[i];
+    s.slower = corrected[i] <= kAlarm && s.shift > tolerance;
+    s.faster = corrected[i] <= kAlarm && s.shift < -tolerance;
+    if (s.slower) s.culprit = s.name;
   }
   return shifts;
 }
@@ -165,10 +181,11 @@ NodeCosts nodeTimes(const std::vector<Round>& rounds, const std::vector<double>&
 }
 
 std::vector<Check> unmatchedStages(const std::map<std::string, double>& before,
-                                   const std::map<std::string, double>& now, const std::string& with) {
+                                   const std::map<std::string, double>& now, const std::string& metric,
+                                   const std::string& with) {
   std::vector<Check> checks;
   const auto tell = [&](const std::string& name, const std::string& said) {
-    checks.push_back({"times of " + name, Outcome::Failed, said, name});
+    checks.push_back({metric + " of " + name, Outcome::Failed, said, name});
   };
   for (const auto& [name, us] : now)
     if (!before.contains(name)) tell(name, fmt::format("{} has no such stage", with));
@@ -183,7 +200,9 @@ std::vector<Check> checksOf(const std::vector<StageShift>& shifts, const std::st
   for (const StageShift& s : shifts) {
     Check c{"times of " + s.name, s.slower ? Outcome::Failed : Outcome::Passed, {}, s.culprit};
     if (s.slower) c.figures = {s.name + " [ms]"};
-    if (s.beforeUs < kShortest) {
+    if (!s.unfit.empty()) {
+      c.outcome = Outcome::Failed, c.said = s.unfit;
+    } else if (s.beforeUs < kShortest) {
       c.outcome = Outcome::Skipped;
       c.said =
           fmt::format("{:.1f} us a frame is too short to be timed; instructions can be counted", s.beforeUs);

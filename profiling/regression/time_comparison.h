@@ -33,6 +33,7 @@ struct StageShift {
   double probability = 1;  ///< of as much by chance, corrected
   bool slower = false, faster = false;
   std::string culprit{};  ///< if slower: the node in it that moved, or that none did
+  std::string unfit{};    ///< why it cannot be compared; then the figures are void
 };
 
 constexpr double kAlarm = 0.05;          ///< probability below which it is no chance
@@ -43,18 +44,19 @@ constexpr std::size_t kFirstFrames = 5;  ///< left out: they build what the othe
 std::vector<StageShift> compareRounds(const std::vector<Round>& rounds, double tolerance);
 /// Times of rounds by stage, in multiples of the calibration kernel's.
 using StageTimesByName = std::map<std::string, std::vector<double>>;
-/// The same of rounds of one build now, and of those that a baseline has kept: not paired. `us`: the typical
-/// frames now.
+/// The same of rounds of one build now, and of those that a baseline has kept: not paired. Of every stage
+/// that both tell of. `us`: the typical frames now.
 std::vector<StageShift> compareTimes(const StageTimesByName& baseline, const StageTimesByName& now,
                                      const std::map<std::string, double>& us, double tolerance);
 
 /// What the nodes of rounds of one build cost in the typical frame, in multiples of the calibration kernel's.
 NodeCosts nodeTimes(const std::vector<Round>& rounds, const std::vector<double>& calibrationMs);
 
-/// Stages that only one side has: nothing of them can be compared, and that is no pass.
+/// Stages of whose `metric` ("times") only one side tells: nothing can be compared, and that is no pass.
 std::vector<Check> unmatchedStages(const std::map<std::string, double>& before,
-                                   const std::map<std::string, double>& now, const std::string& with);
-/// A check for each.
+                                   const std::map<std::string, double>& now, const std::string& metric,
+                                   const std::string& with);
+/// A check for each; what cannot be compared is no pass.
 std::vector<Check> checksOf(const std::vector<StageShift>& shifts, const std::string& with, double tolerance,
                             std::size_t rounds);
 

@@ -298,6 +298,128 @@ TEST(ProgramFullRegress, AgainstABaselinesTimesTheNodeThatMovedIsNamedToo) {
       << r.out;
 }
 
+TEST(ProgramFullRegress, AProgramMayHaveAnyNameWhereInstructionsAreCounted) {
+  if (runProgram({{"valgrind", "--version"}}).status != 0) GTEST_SKIP() << "there is no valgrind";
+  const TemporaryFolder folder;
+  const std::string other = folder.path() / "before the change", link = folder.path() / "now";
+  std::filesystem::copy_file(stadionPath(), other);
+  std::filesystem::create_symlink(stadionPath(), link);
+  const ProgramResult r =
+      regress({crowdSuite(folder, "instructions"), "--instructions", "--against", other, "--stadion", link});
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  EXPECT_NE(r.out.find("instructions of app"), std::string::npos) << r.out;
+}
+
+/// A baseline for smallSuite() that knows these of its case, too.
+void writeBaseline(const TemporaryFolder& folder, const Json& more) {
+  ASSERT_EQ(regress({smallSuite(folder), "--update"}).status, 0);
+  Json baseline = Json::parse(fileContent(folder.path() / "small.baseline.json"));
+  baseline["cases"]["bodies/sequential"].update(more);
+  folder.write("small.baseline.json", baseline.dump());
+}
+
+/// The program, after which something else is done.
+std::string thenDoes(const TemporaryFolder& folder, const std::string& what) {
+  const std::string path = folder.write("wrap.sh", "#!/bin/sh\n" + stadionPath() + " \"$@\"\nstatus=$?\n" +
+                                                       what + "\nexit $status\n");
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  return path;
+}
+
+TEST(ProgramRegress, StoppedJustWhenAProgramHasEndedItSaysSo) {
+  const TemporaryFolder folder;
+  writeBaseline(folder, {{"times", {{"app", {1, 2, 3}}}}});
+  const std::string suite = smallSuite(folder, "  compare state times\n"), mark = folder.path() / "once";
+  const std::string program = thenDoes(folder, "mkdir " + mark + " && kill -INT $PPID");
+  for (const bool builds : {false, true}) {
+    std::filesystem::remove(mark);
+    std::vector<std::string> words{suite, "--stadion", program};
+    if (builds) words.insert(words.end(), {"--against", stadionPath()});
+    const ProgramResult r = regress(words);
+    EXPECT_EQ(r.status, 130) << r.out << r.err;
+    EXPECT_NE(r.err.find("stopped by SIGINT"), std::string::npos) << r.err;
+  }
+}
+
+TEST(ProgramRegress, WithoutValgrindItSaysWhatToInstall) {
+  const TemporaryFolder folder;
+  writeBaseline(folder, {{"instructions", {{"app", 1e6}}}, {"counted_by", "callgrind"}});
+  const std::string suite = smallSuite(folder, "  compare instructions\n");
+  const ProgramResult r =
+      runProgram({{stadionPath(), "regress", suite, "--instructions"}, {"PATH=/nowhere"}});
+  EXPECT_EQ(r.status, 2) << r.out << r.err;
+  EXPECT_NE(r.out.find("there is no valgrind; install it: apt install valgrind"), std::string::npos) << r.out;
+  const ProgramResult bench =
+      runProgram({{stadionPath(), "bench", "recording", "--frames", "32", "--rounds", "1", "--size", "32x24"},
+                  {"PATH=/nowhere"}});
+  EXPECT_EQ(bench.status, 2);
+  EXPECT_NE(bench.err.find("there is no valgrind; install it"), std::string::npos) << bench.err;
+}
+
+TEST(ProgramRegress, TimesOfABaselineThatSayNothingAreNoPass) {
+  const TemporaryFolder folder;
+  writeBaseline(folder, {{"times", {{"app", {0, 0, 0}}, {"cull of wall screen", Json::array()}}}});
+  const ProgramResult r = regress({smallSuite(folder, "  compare state times\n")});
+  EXPECT_EQ(r.status, 1) << r.out << r.err;
+  EXPECT_NE(r.out.find("the baseline's times of it cannot be compared with"), std::string::npos) << r.out;
+}
+
+TEST(ProgramRegress, AfterHalfALineOfHistoryTheNextRunHasOneOfItsOwn) {
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder.path() / "out";
+  std::filesystem::create_directory(out);
+  const std::string half = "{\"when\": \"2024-";
+  folder.write("out/history.jsonl", half);
+  ASSERT_EQ(regress({smallSuite(folder), "--update", "--out", out}).status, 0);
+  const std::string history = fileContent(out / "history.jsonl");
+  ASSERT_TRUE(history.starts_with(half + "\n")) << history;
+  EXPECT_TRUE(Json::parse(history.substr(half.size())).contains("cases")) << history;
+}
+
+TEST(ProgramRegress, WhatCannotBeWrittenInTheFolderIsToldBeforeAnythingIsPlayed) {
+  for (const char* name : {"report.html", "results.json", "junit.xml", "history.jsonl"}) {
+    const TemporaryFolder folder;
+    const std::filesystem::path out = folder.path() / "out";
+    std::filesystem::create_directories(out / name);
+    folder.write("out/progress.jsonl", "of before\n");
+    const ProgramResult r = regress({smallSuite(folder), "--out", out});
+    EXPECT_EQ(r.status, 2) << r.err;
+    EXPECT_EQ(r.out, "");
+    EXPECT_NE(r.err.find(std::string(name) + ": error: cannot be written"), std::string::npos) << r.err;
+    EXPECT_EQ(fileContent(out / "progress.jsonl"), "of before\n");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out), {}), 2);
+  }
+}
+
+TEST(ProgramRegress, WhatWasPlayedIsKeptWhereItCouldNotBeWritten) {
+  const TemporaryFolder folder;
+  writeBaseline(folder, Json::object());
+  const std::filesystem::path out = folder.path() / "out";
+  const std::string page = out / "report.html";
+  const std::string program = thenDoes(folder, "mkdir " + page), suite = smallSuite(folder);
+  const ProgramResult r = regress({suite, "--stadion", program, "--out", out});
+  EXPECT_EQ(r.status, 2) << r.out << r.err;
+  EXPECT_NE(r.err.find("report.html: error: cannot be written"), std::string::npos) << r.err;
+  EXPECT_NE(fileContent(out / "junit.xml").find("<testsuites"), std::string::npos);
+  EXPECT_EQ(fileContent(out / "history.jsonl"), "");
+  std::filesystem::remove(page);
+  const ProgramResult again = regress({suite, "--stadion", program, "--out", out, "--resume"});
+  EXPECT_EQ(again.status, 0) << "without being played again" << again.out << again.err;
+  EXPECT_TRUE(std::filesystem::is_regular_file(page));
+  EXPECT_FALSE(std::filesystem::exists(out / "progress.jsonl"));
+}
+
+TEST(ProgramRegress, AnUpdateOfALinkedBaselineWritesTheFileThatItLeadsTo) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "kept");
+  std::filesystem::create_symlink("kept/small.json", folder.path() / "small.baseline.json");
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_EQ(regress({smallSuite(folder), "--update"}).status, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "small.baseline.json"));
+    EXPECT_TRUE(Json::parse(fileContent(folder.path() / "kept/small.json")).contains("cases"));
+  }
+}
+
 TEST(ProgramRegress, AnInterruptedSuiteGoesOnWhereItWas) {
   const TemporaryFolder folder;
   std::string text =
@@ -446,7 +568,7 @@ TEST(ProgramRegress, AProgramThatFailsIsAFaultNotADifference) {
   const TemporaryFolder folder;
   const ProgramResult r = regress({smallSuite(folder), "--stadion", "/bin/false"});
   EXPECT_EQ(r.status, 3) << r.out << r.err;
-  EXPECT_NE(r.out.find("exit status 1"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("/bin/false: exit status 1"), std::string::npos) << r.out;
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST(RegressionFacts, ThatNeitherTellsAreNotCompared) {
 
 TEST(RegressionTimes, AStageThatOnlyOneSideHasIsNoPass) {
   const auto checks = unmatchedStages({{"app", 1}, {"draw of wall front", 9}},
-                                      {{"app", 1}, {"draw of nowhere", 9}}, "the baseline");
+                                      {{"app", 1}, {"draw of nowhere", 9}}, "times", "the baseline");
   ASSERT_EQ(checks.size(), 2u);
   EXPECT_EQ(checks[0].metric + ": " + checks[0].said,
             "times of draw of nowhere: the baseline has no such stage");
@@ -193,6 +193,31 @@ TEST(RegressionTimes, OfABaselineAreComparedInMultiplesOfTheKernel) {
   EXPECT_GT(calibrationMs(), 0.1);
 }
 
+TEST(RegressionTimes, ThatCannotBeComparedAreNoPass) {
+  const std::vector<double> twelve{1, 1.1, 0.9, 1, 1.05, 0.95, 1.02, 0.98, 1, 1, 1.01, 0.99};
+  const StageTimesByName baseline{{"app", {0, 0, 0}}, {"cull", {}}, {"draw", {1}}, {"sky", twelve}};
+  const StageTimesByName now{{"app", twelve}, {"cull", twelve}, {"draw", twelve}, {"sky", twelve}};
+  const std::map<std::string, double> us{{"app", 100}, {"cull", 100}, {"draw", 100}, {"sky", 100}};
+  const auto checks = checksOf(compareTimes(baseline, now, us, 0.05), "the baseline", 0.05, 12);
+  ASSERT_EQ(checks.size(), 4u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(checks[i].outcome, Outcome::Failed) << checks[i].said;
+  EXPECT_EQ(checks[0].said,
+            "the baseline's times of it cannot be compared with: the middle one is 0; --update "
+            "measures them anew");
+  EXPECT_NE(checks[1].said.find("there are none"), std::string::npos) << checks[1].said;
+  EXPECT_NE(checks[2].said.find("1 and 12 rounds are too few"), std::string::npos) << checks[2].said;
+  EXPECT_EQ(checks[3].outcome, Outcome::Passed) << checks[3].said;
+}
+
+TEST(RegressionTimes, OfTooFewRoundsForSoManyStagesAreNoPass) {
+  std::vector<Round> rounds = madeRounds(8, 1, 1);
+  rounds.resize(5);
+  const auto checks = checksOf(compareRounds(rounds, 0.03), "the other build", 0.03, 5);
+  ASSERT_EQ(checks.size(), 3u);
+  EXPECT_EQ(checks[0].outcome, Outcome::Failed);
+  EXPECT_EQ(checks[0].said, "5 rounds are too few to tell anything of 3 stages; --rounds takes more");
+}
+
 TEST(RegressionTimes, OfOldBuildsAreThoseOfTheirSummaries) {
   const auto rows = stagesOfSummary(kSummary);
   ASSERT_EQ(rows.size(), 1u);
@@ -234,6 +259,7 @@ TEST(RegressionSpans, OfAProfileHaveNodesByStageWallAndEye) {
 
 constexpr const char* kCallgrind = R"(# callgrind format
 version: 1
+cmd:  /usr/bin/stadion run show.evs
 part: 1
 desc: Trigger: Client Request: row 0
 events: Ir
@@ -266,9 +292,12 @@ fn=(1)
 )";
 
 TEST(RegressionInstructions, OfOurOwnProgramAreSummedByLabelWithoutWhatIsCalled) {
-  const auto counts = instructionsByLabel(kCallgrind, "/stadion");
+  const auto counts = instructionsByLabel(kCallgrind, "/usr/bin/stadion");
   EXPECT_EQ(counts, (std::map<std::string, double>{{"row 0", 120}, {"row 1", 10}}));
-  EXPECT_TRUE(instructionsByLabel("", "/stadion").empty());
+  EXPECT_TRUE(instructionsByLabel(kCallgrind, "/bin/stadion").empty()) << "the whole path counts";
+  EXPECT_TRUE(instructionsByLabel("", "/usr/bin/stadion").empty());
+  EXPECT_EQ(commandOf(kCallgrind), "/usr/bin/stadion run show.evs");
+  EXPECT_EQ(commandOf(""), "");
 }
 
 TEST(RegressionInstructions, AStageHasThoseOfItsNodesAndTheOneThatGrewIsNamed) {
@@ -284,6 +313,14 @@ TEST(RegressionInstructions, AStageHasThoseOfItsNodesAndTheOneThatGrewIsNamed) {
   EXPECT_EQ(shifts[0].culprit, "ball (show.evs:7) in app");
   EXPECT_FALSE(compareInstructions(instructionCounts(before), now, 0.05)[0].more);
   EXPECT_TRUE(compareInstructions(instructionCounts(now), before, 0.005)[0].fewer);
+}
+
+TEST(RegressionInstructions, WhereThereWereNoneAreNoPass) {
+  SpanRow app;
+  app.stage = "app", app.instructions = 1e6;
+  const auto checks = checksOf(compareInstructions({{{"app", 0}}, {}}, {app}, 0.01), "the baseline", 0.01);
+  ASSERT_EQ(checks.size(), 1u);
+  EXPECT_EQ(checks[0].outcome, Outcome::Failed) << checks[0].said;
 }
 
 TEST(RegressionInstructions, ABaselineKeepsEnoughToNameTheNodeThatMoved) {
