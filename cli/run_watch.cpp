@@ -19,6 +19,12 @@ std::string nameIn(const Scene& scene, NodeRef node) {
   return name.empty() ? load->file + ":" + std::to_string(load->lines[node.position]) : name;
 }
 
+bool givesUp(const Scene& scene, NodeRef node) {
+  const Load* load = scene.load(node.load);
+  const auto at = load ? load->terms.find(node.position) : decltype(load->terms.end())();
+  return load && at != load->terms.end() && levelsOf(at->second.gives) > 0;
+}
+
 /// Whether something is there that must not be lost for a new input log.
 bool isAnotherFile(const std::string& path) {
   std::error_code none;
@@ -101,7 +107,8 @@ void RunWatch::note(const EventRecord& event, const Scene& scene) {
 void RunWatch::note(const LoadDecision& d, const Scene& scene) {
   const NodeRef node{d.load, d.position};
   Obeyed& o = givenUp_[node];
-  if (o.changes++ == 0 && d.load != 0) o.node = nameIn(scene, node);
+  if (o.node.empty() && givesUp(scene, node)) o.node = nameIn(scene, node);
+  ++o.changes;
   o.highest = std::max(o.highest, d.level), o.now = d.level;
 }
 
@@ -109,11 +116,17 @@ void RunWatch::note(const LoadDecision& d, const Scene& scene) {
 void RunWatch::addObeyed(RunSummary& s) const {
   if (!player_.obeysLog()) return;
   s.stress.emplace();
+  std::uint64_t aboutNothing = 0;
   for (const auto& [node, o] : givenUp_)
     if (node.load == 0)
       s.stress = StressFelt{stressOf(o.highest), stressOf(o.now), o.changes};
+    else if (o.node.empty())
+      aboutNothing += o.changes;
     else
       s.obeyed.push_back(o);
+  if (aboutNothing > 0)
+    s.remarks.push_back("decisions of the log about nodes that are not there or give nothing up: " +
+                        std::to_string(aboutNothing));
 }
 
 void RunWatch::addTo(RunSummary& s, std::uint64_t frames) const {

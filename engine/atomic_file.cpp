@@ -12,13 +12,33 @@
 namespace stadion {
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr int kMostLinks = 40;  ///< as many as the system follows
+
 /// A name that no other writer of this machine uses at the same time.
 std::string temporaryFor(const std::string& path) {
   static std::atomic<unsigned> counter{0};
-  const std::filesystem::path target(path);
+  const fs::path target(path);
   const std::string name = fmt::format(".{}.{}-{}.part", target.filename().string().substr(0, 200), getpid(),
                                        counter.fetch_add(1));
   return (target.parent_path() / name).string();
+}
+
+/// A link in /proc names a file that somebody has open: it cannot be replaced under him.
+bool isOpenFile(const fs::path& link) {
+  std::error_code none;
+  return fs::canonical(link.parent_path(), none).string().starts_with("/proc/");
+}
+
+/// What the links of the path lead to. Nothing if that is an open file.
+std::optional<std::string> targetOf(fs::path path) {
+  std::error_code none;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path, none); ++i) {
+    if (isOpenFile(path)) return std::nullopt;
+    path = path.parent_path() / fs::read_symlink(path, none);
+  }
+  return path.string();
 }
 
 }  // namespace
@@ -26,12 +46,15 @@ std::string temporaryFor(const std::string& path) {
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
   struct stat status {};
   const bool exists = stat(path_.c_str(), &status) == 0;
-  if (exists && S_ISDIR(status.st_mode)) {
-    fail("it is a folder");
+  const bool ring = !exists && errno == ELOOP;
+  if (ring || (exists && S_ISDIR(status.st_mode))) {
+    fail(ring ? std::strerror(ELOOP) : "it is a folder");
     return;
   }
-  const bool direct = exists && !S_ISREG(status.st_mode);
-  if (!direct) temporary_ = temporaryFor(path_);
+  const auto target = targetOf(path_);
+  const bool direct = !target || (exists && !S_ISREG(status.st_mode));
+  target_ = target.value_or(path_);
+  if (!direct) temporary_ = temporaryFor(target_);
   file_ = std::fopen((direct ? path_ : temporary_).c_str(), "wbe");
   if (!file_) {
     const int reason = errno;
@@ -64,7 +87,7 @@ std::optional<Diagnostic> AtomicFile::commit() {
     file_ = nullptr;
     if (closed != 0) fail(std::strerror(errno));
   }
-  if (!failed() && !temporary_.empty() && std::rename(temporary_.c_str(), path_.c_str()) != 0)
+  if (!failed() && !temporary_.empty() && std::rename(temporary_.c_str(), target_.c_str()) != 0)
     fail(std::strerror(errno));
   if (!failed()) temporary_.clear();
   discard();

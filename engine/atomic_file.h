@@ -2,8 +2,9 @@
 /// A file that appears complete or not at all.
 ///
 /// What is written goes to a hidden temporary file in the same folder; commit() puts it in the place of the
-/// target in one step. Whoever opens the target sees the old content or the new, never half of one. A target
-/// that exists and is no plain file (a device, a pipe) is written directly.
+/// target in one step. Whoever opens the target sees the old content or the new, never half of one. A
+/// symbolic link stays: the target is what it leads to, there or not yet. A target that exists and is no
+/// plain file (a device, a pipe), or that a link names as an open file (/dev/stdout), is written directly.
 ///
 /// Ownership  owns the temporary file; without commit() it is removed again.
 /// Threads    one thread at a time.
@@ -40,7 +41,8 @@ public:
 private:
   void discard();
 
-  std::string path_;
+  std::string path_;       ///< as it was named
+  std::string target_;     ///< what its links lead to
   std::string temporary_;  ///< empty: the target is written directly
   std::FILE* file_ = nullptr;
   std::optional<Diagnostic> error_;

@@ -23,16 +23,6 @@ bool continuesCharacter(char c) {
   return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
 }  // UTF-8
 
-std::string printable(std::string_view text, std::size_t limit) {
-  std::string shown;
-  std::size_t characters = 0;
-  for (const char c : text) {
-    if (!continuesCharacter(c) && ++characters > limit) return shown + "...";
-    shown += c == '\t' ? ' ' : isControl(c) ? '?' : c;
-  }
-  return shown;
-}
-
 void splitWords(std::string_view line, std::vector<Word>& words) {
   words.clear();
   std::uint32_t column = 1;
@@ -171,6 +161,16 @@ std::string formatSeconds(Nanoseconds ns) {
   while (text.back() == '0') text.pop_back();
   if (text.back() == '.') text.pop_back();
   return text;
+}
+
+std::string printable(std::string_view text, std::size_t limit) {
+  std::string shown;
+  std::size_t characters = 0;
+  for (const char c : text) {
+    if (!continuesCharacter(c) && ++characters > limit) return shown + "...";
+    shown += c == '\t' ? ' ' : isControl(c) ? '?' : c;
+  }
+  return shown;
 }
 
 std::string quotedWord(std::string_view word) {

@@ -67,6 +67,9 @@ private:
 /// "SECONDS.FRACTION" without trailing zeros; LineReader::seconds reads it back exactly. ns >= 0.
 std::string formatSeconds(Nanoseconds ns);
 
+/// At most `limit` characters of it, with control characters replaced: what came from a file is no command to
+/// a terminal.
+std::string printable(std::string_view text, std::size_t limit);
 /// `"word"`, shortened and with control characters replaced, for messages.
 std::string quotedWord(std::string_view word);
 

@@ -90,6 +90,18 @@ bool contains(const NumberRange& range, double x) {
   return (range.above ? x > range.least : x >= range.least) && x <= range.most;
 }
 
+/// Where a comma stands without a word before it, or after the last one; npos if nowhere.
+std::size_t strayComma(std::string_view list) {
+  std::size_t last = list.npos;
+  bool word = false;  // since the last comma
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i] == ',' && !word) return i;
+    if (list[i] == ',') last = i, word = false;
+    word = word || std::string_view(", \t\r\n").find(list[i]) == std::string_view::npos;
+  }
+  return word ? list.npos : last;
+}
+
 }  // namespace
 
 Checker::Checker(Document& document, Reporter& report)
@@ -262,6 +274,9 @@ void Checker::takeChoices(NodeKind kind, const AttributeSpec& spec, TextSpan val
   if (words.empty())
     return report_.error(value.offset,
                          fmt::format("{} must be {}, not empty", nameOf(spec.attr), formOf(spec)));
+  if (const std::size_t comma = strayComma(all); comma != all.npos)
+    return report_.error(value.offset + static_cast<std::uint32_t>(comma),
+                         fmt::format("{}: a word is missing beside this comma", nameOf(spec.attr)));
   writer_.addText(spec.attr, spec.kind, value);
 }
 

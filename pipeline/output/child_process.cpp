@@ -60,6 +60,13 @@ private:
   posix_spawnattr_t attributes_;
 };
 
+/// A copy of `fd` that connecting the standard streams does not overwrite; none if it is safe as it is.
+Descriptor aboveStandard(int& fd) {
+  Descriptor copy(fd >= 0 && fd <= 2 ? fcntl(fd, F_DUPFD_CLOEXEC, 3) : -1);
+  if (copy) fd = copy.get();
+  return copy;
+}
+
 std::vector<char*> pointersTo(std::vector<std::string>& words) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -104,10 +111,12 @@ ChildProcess::~ChildProcess() {
 
 std::optional<int> ChildProcess::start(const std::vector<std::string>& argv, const Streams& streams,
                                        const std::vector<std::string>& environment) {
+  Streams from = streams;
+  const Descriptor in = aboveStandard(from.in), out = aboveStandard(from.out), err = aboveStandard(from.err);
   SpawnOrders orders;
-  orders.connect(streams.in, 0);
-  orders.connect(streams.out, 1);
-  orders.connect(streams.err, 2);
+  orders.connect(from.in, 0);
+  orders.connect(from.out, 1);
+  orders.connect(from.err, 2);
   orders.resetSignals();
   std::vector<std::string> words = argv, around = environmentWith(environment);
   const std::vector<char*> arguments = pointersTo(words), variables = pointersTo(around);

@@ -54,7 +54,7 @@ FrameCost frameOf(const Json& j, std::size_t walls) {
 }
 
 bool costsNothing(const FrameCost& f) {
-  double sum = f.app + f.appHelpers;
+  double sum = f.app + f.appHelpers + f.swap;
   for (const WallCost& w : f.walls) {
     sum += w.cull;
     for (const PictureCost& p : w.pictures) sum += p.calls + p.raster;

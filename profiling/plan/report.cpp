@@ -1,5 +1,6 @@
 #include "profiling/plan/report.h"
 
+#include "engine/text_line.h"
 #include "profiling/plan/diagram.h"
 
 #include <algorithm>
@@ -51,6 +52,12 @@ FrameCost meanOf(const ShowCosts& costs) {
   return mean;
 }
 
+/// A costs file may come from anywhere: what it calls things is no command to a terminal.
+std::string shown(const std::string& name) {
+  constexpr std::size_t kMostCharacters = 100;
+  return printable(name, kMostCharacters);
+}
+
 std::string costsText(const ShowCosts& costs) {
   const FrameCost mean = meanOf(costs);
   std::string text = fmt::format(
@@ -58,14 +65,14 @@ std::string costsText(const ShowCosts& costs) {
       "rasteriser\n\n"
       "ms of processor time a frame: App {:.3f}{}, swap {:.3f}\n"
       "    cull   draw: calls  rasterising  threads at a time  wall\n",
-      costs.show, costs.size, costs.eyes == 2 ? "two" : "one", costs.look, costs.frames.size(), costs.cores,
-      costs.rasterThreads, mean.app,
+      shown(costs.show), shown(costs.size), costs.eyes == 2 ? "two" : "one", costs.look, costs.frames.size(),
+      costs.cores, costs.rasterThreads, mean.app,
       mean.appHelpers > 0.01 ? fmt::format(" and {:.3f} of its helpers", mean.appHelpers) : "", mean.swap);
   for (std::size_t w = 0; w < costs.walls.size(); ++w) {
     const WallCost& wall = mean.walls[w];
     const PictureCost picture = wall.pictures.empty() ? PictureCost{} : wall.pictures[0];
     text += fmt::format("{:8.3f} {:13.3f} {:12.3f} {:18.2f}  {}\n", wall.cull, picture.calls, picture.raster,
-                        picture.atOnce > 0 ? picture.raster / picture.atOnce : 1, costs.walls[w]);
+                        picture.atOnce > 0 ? picture.raster / picture.atOnce : 1, shown(costs.walls[w]));
   }
   return text;
 }

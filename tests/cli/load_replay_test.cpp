@@ -131,6 +131,21 @@ TEST(ProgramLoadReplay, TheSummaryTellsWhatWasObeyed) {
       << text;
 }
 
+TEST(ProgramLoadReplay, DecisionsAboutNothingAreTold) {
+  const TemporaryFolder folder;
+  const std::string show = folder.write("show.evs", kShow);
+  const std::string log = folder.write("a.input", "stadion-input 2\nrate 60\nframe 30 0.5\nrelief 5 1 3 3\n"
+                                                  "relief 6 7 5 1\nrelief 7 1 99 1\nrelief 8 1 99 0\n"
+                                                  "relief 9 1 0 1\n");
+  const ProgramResult r = stadionProgram(
+      {"run", show, "--input", log, "--asset-root", assetFolder(), "--walls", "desktop", "--gl", "none"});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_NE(r.out.find("note: decisions of the log about nodes that are not there or give nothing up: 4"),
+            std::string::npos)
+      << r.out;
+  EXPECT_EQ(r.out.find("obeyed the log: ?"), std::string::npos) << r.out;
+}
+
 TEST(ProgramLoadReplay, WithoutTheDecisionsItIsAnotherRun) {
   const TemporaryFolder folder;
   const std::string show = folder.write("show.evs", kShow), log = folder.path() / "live.input";

@@ -56,6 +56,16 @@ TEST(ProgramPlan, SaysWhatIsWrong) {
   const ProgramResult nothing = stadionProgram({"plan", "--from", folder.write("free.json", free)});
   EXPECT_EQ(nothing.status, 2) << nothing.out;
   EXPECT_NE(nothing.err.find("cost nothing"), std::string::npos) << nothing.err;
+
+  auto costs = nlohmann::json::parse(free);
+  costs["frames"][0]["swap"] = 2;
+  EXPECT_EQ(stadionProgram({"plan", "--from", folder.write("swap.json", costs.dump())}).status, 0)
+      << "what swaps costs something";
+  costs["show"] = costs["size"] = costs["walls"][0] = "\033[2Jgone";
+  const ProgramResult raw = stadionProgram({"plan", "--from", folder.write("raw.json", costs.dump())});
+  EXPECT_EQ(raw.status, 0) << raw.err;
+  EXPECT_EQ(raw.out.find('\033'), std::string::npos);
+  EXPECT_NE(raw.out.find("?[2Jgone"), std::string::npos) << raw.out;
 }
 
 TEST(ProgramPlan, MeasuresTheLookThatIsAskedForAndSaysWhichItWas) {

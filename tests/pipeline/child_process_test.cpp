@@ -3,6 +3,7 @@
 #include "pipeline/output/child_process.h"
 
 #include <csignal>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <thread>
 #include <unistd.h>
@@ -31,6 +32,25 @@ TEST(ChildProcess, ItsEnvironmentIsOursButForWhatIsSaid) {
   EXPECT_STREQ(getenv("STADION_TEST_CHANGED"), "ours");
   for (const char* name : {"STADION_TEST_KEPT", "STADION_TEST_CHANGED", "STADION_TEST_CHANGED_NOT"})
     unsetenv(name);
+}
+
+/// A program whose own standard streams are closed gets descriptors in their places.
+TEST(ChildProcess, ItsStreamsMayBeWhereTheStandardStreamsAre) {
+  const int kept[] = {fcntl(0, F_DUPFD_CLOEXEC, 3), fcntl(1, F_DUPFD_CLOEXEC, 3),
+                      fcntl(2, F_DUPFD_CLOEXEC, 3)};
+  const Descriptor in = makeMemoryFile(), out = makeMemoryFile(), err = makeMemoryFile();
+  const std::string said = "what it is told";
+  const bool told = pwrite(in.get(), said.data(), said.size(), 0) == std::ssize(said);
+  dup2(in.get(), 2), dup2(out.get(), 0), dup2(err.get(), 1);
+  ChildProcess child;
+  const auto problem = child.start({"sh", "-c", "cat; echo wrong >&2"}, {2, 0, 1});
+  const auto status = child.wait(milliseconds(10'000));
+  for (int i = 0; i < 3; ++i) kept[i] < 0 ? close(i) : dup2(kept[i], i);
+  for (const int fd : kept) close(fd);
+  ASSERT_TRUE(told && !problem);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(contentOf(out), said);
+  EXPECT_EQ(contentOf(err), "wrong\n");
 }
 
 TEST(ChildProcess, WhatItHasStartedIsKilledWithIt) {
