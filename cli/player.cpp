@@ -5,10 +5,12 @@
 #include "engine/input/input_log.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <iterator>
 #include <malloc.h>
 #include <thread>
 #include <tuple>
@@ -151,7 +153,7 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
 
   auto walls = loadWalls(options.walls, std::string(STADION_ROOT) + "/walls", findings);
   if (!walls) return nullptr;
-  p.walls_ = std::move(*walls);
+  p.takeWalls(std::move(*walls));
   if (!p.openInput(findings)) return nullptr;
   p.settleLength();
 
@@ -197,8 +199,24 @@ FrameLoopOptions Player::loopOptions() const {
   return l;
 }
 
-ShowParts Player::parts(StereoLayout stereo) {
-  ShowParts parts{*scene_, state_, *meshes_, live_ ? *live_ : *input_, {}, nullptr, nullptr, nullptr,
+void Player::takeWalls(WallFile room) {
+  walls_ = std::move(room);
+  if (options_.onlyWalls.empty()) return;
+  const auto isOurs = [&](const WallEntry& entry) {
+    return std::ranges::find(options_.onlyWalls, entry.wall.name) != options_.onlyWalls.end();
+  };
+  std::ranges::remove_copy_if(walls_.walls, std::back_inserter(others_), isOurs);
+  std::erase_if(walls_.walls, [&](const WallEntry& entry) { return !isOurs(entry); });
+}
+
+/// What the user says on the command line counts, else what the wall file says, else the standard size.
+PixelSize Player::pixelsOf(const WallEntry& entry) const {
+  const bool byFile = options_.size.empty() && entry.pixels.width > 0;
+  return byFile ? entry.pixels : PixelSize{options_.width, options_.height};
+}
+
+ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
+  ShowParts parts{*scene_, state_, *meshes_, instead ? *instead : input(), {}, nullptr, nullptr, nullptr,
                   true,    {},     nullptr};
   if (options_.look == "plain") parts.quality = RenderQuality::plain();
   for (const WallEntry& entry : walls_.walls) {
@@ -207,11 +225,13 @@ ShowParts Player::parts(StereoLayout stereo) {
     view.depth = walls_.depth;
     view.eyeSeparation = walls_.eyeSeparation;
     view.stereo = eyeCount(stereo) == 2;
-    // What the user says on the command line counts, else what the wall file says, else the standard size.
-    const bool byFile = options_.size.empty() && entry.pixels.width > 0;
-    view.width = byFile ? entry.pixels.width : options_.width;
-    view.height = byFile ? entry.pixels.height : options_.height;
+    const PixelSize pixels = pixelsOf(entry);
+    view.width = pixels.width, view.height = pixels.height;
     parts.walls.push_back(view);
+  }
+  for (const WallEntry& entry : others_) {
+    const PixelSize pixels = pixelsOf(entry);
+    parts.otherWalls.push_back({entry.wall, pixels.width, pixels.height});
   }
   return parts;
 }

@@ -39,6 +39,8 @@ struct ShowOptions {
   double seconds = 0;        ///< 0 = to the end of the input
   std::string input;         ///< empty = beside the script if there is one; "none"
   std::vector<std::string> assetRoots;
+  /// Those of the room that are drawn here; empty = all. No option.
+  std::vector<std::string> onlyWalls;
   std::size_t appThreads = 0;   ///< 0 = as many as there are processors, 8 at most
   DynamicsVariation variation;  ///< of the script's models; no option
   /// What is played; null: the scripts as they are on disk when the show is opened. No option.
@@ -101,8 +103,10 @@ public:
   MeshStore& meshes() { return *meshes_; }
   const std::string& inputName() const { return inputName_; }
 
-  /// The parts for a ShowStages; provider and sink are the caller's to add.
-  ShowParts parts(StereoLayout stereo);
+  /// The parts for a ShowStages; provider and sink are the caller's to add. `input`: instead of input().
+  ShowParts parts(StereoLayout stereo, InputDevice* input = nullptr);
+  /// Where the show's input comes from.
+  InputDevice& input() { return live_ ? *live_ : *input_; }
   /// From now on the input is what this device says, not the log's. Before the first frame.
   void takeInputFrom(InputDevice& device) { live_ = &device; }
   bool inputIsLive() const { return live_ != nullptr; }
@@ -113,6 +117,8 @@ private:
   Player();
   bool openInput(Diagnostics& findings);
   void settleLength();
+  void takeWalls(WallFile room);
+  PixelSize pixelsOf(const WallEntry& entry) const;
 
   NodeFactories factories_{};
   MeshStore ownMeshes_;
@@ -123,8 +129,9 @@ private:
   std::unique_ptr<Loader> loader_;
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<InputDevice> input_;
-  InputDevice* live_ = nullptr;  ///< counts more than input_
-  WallFile walls_;
+  InputDevice* live_ = nullptr;    ///< counts more than input_
+  WallFile walls_;                 ///< that are drawn here
+  std::vector<WallEntry> others_;  ///< the room's others
   ShowOptions options_;
   RunDecisions decisions_;
   double rate_ = 60;

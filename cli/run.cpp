@@ -1,5 +1,6 @@
 /// `stadion run SHOW`: plays a show.
 
+#include "cli/cluster_part.h"
 #include "cli/commands.h"
 #include "cli/display_run.h"
 #include "cli/exit_code.h"
@@ -43,6 +44,7 @@ struct RunSetup {
   std::optional<DrawingPlan> drawing;  ///< nothing with --gl none
   std::unique_ptr<LiveDesk> desk;
   std::unique_ptr<Player> player;
+  std::unique_ptr<ClusterPart> cluster;  ///< null without --cluster; it goes before the player
   std::unique_ptr<RunWatch> watch;
   std::unique_ptr<RunOutput> output;         ///< null without --out
   std::unique_ptr<SpanRecording> spans;      ///< null without --spans
@@ -139,7 +141,8 @@ bool beginGroup(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   recorded.recordInput = s.desk->recordName();
   s.watch = RunWatch::create(recorded, *s.player, findings);
   if (!s.watch) return false;
-  if (!o.repeats(*s.player)) s.player->playLive();
+  // All machines of a cluster have a file in the same frame, for which they wait.
+  if (!o.repeats(*s.player) && !s.cluster) s.player->playLive();
   if (!beginRecording(o, s, findings)) return false;
   s.desk->beginGroup(*s.player, *s.watch);
   return true;
@@ -149,15 +152,25 @@ ImportedMeshes* modelsOf(LiveDesk& desk) {
   return desk.kept() ? &desk.kept()->models : nullptr;
 }
 
+/// In a cluster as whoever leads has it. Null: something is wrong, or the run is to end.
+std::unique_ptr<Player> openShow(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s,
+                                 Diagnostics& findings) {
+  ShowOptions show = o.show;
+  if (s.cluster && !s.cluster->join(show, findings)) return nullptr;
+  return Player::create(show, findings, tell, &stop, modelsOf(*s.desk));
+}
+
 /// Opens everything before anything is played, so that whatever is wrong is found first.
-bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostics& findings) {
+bool setUp(RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostics& findings) {
+  s.cluster = ClusterPart::create(o, findings);
+  if (findings.hasErrors()) return false;
   if (!o.out.empty() && !keep(OutputFolder::open(o.out), s.folder, findings)) return false;
   const GlProviderKind kind = o.provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa;
   if (o.provider != "none" && !keep(openGlProvider(kind), s.provider, findings)) return false;
   planDrawing(o, s, findings);
   s.desk = LiveDesk::open(o, findings);
   if (!s.desk) return false;
-  s.player = Player::create(o.show, findings, tell, &stop, modelsOf(*s.desk));
+  s.player = openShow(o, stop, s, findings);
   if (!s.player) return false;
   if (s.provider && !canDraw(*s.provider, s.player->parts(o.layout), findings)) return false;
   reconsiderDrawing(o, s);
@@ -165,6 +178,7 @@ bool setUp(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diag
   if (findings.hasErrors()) return false;
   if (!s.desk->begin(*s.player, findings)) return false;
   if (!beginGroup(o, s, findings)) return false;
+  if (s.cluster && !s.cluster->begin(*s.player, findings)) return false;
   if (o.display && !(s.displays = DisplayRun::open(o, s.player->walls(), findings))) return false;
   if (!s.folder) return true;
   if (const std::size_t removed = s.folder->clear(); removed > 0)
@@ -185,7 +199,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   ProgressBar progress(s.player->frames());
   const ShowStages* running = nullptr;
   FrameLoopOptions options = o.loopOptions(*s.player);
-  ShowParts parts = s.player->parts(o.layout);
+  ShowParts parts = s.player->parts(o.layout, s.cluster ? s.cluster->inputOf(*s.player) : nullptr);
   parts.provider = s.provider.get();
   parts.sink = s.output.get();
   if (s.displays) parts.sink = &s.displays->sink(), s.displays->fitPictures(parts.walls);
@@ -203,6 +217,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     s.watch->see(now, input, scene);
+    if (s.cluster) s.cluster->simulated(now.frame, scene);
     if (recording) recording->see(scene);
     s.player->collect(running->shownFrame());
     progress.update(now.frame + 1);
@@ -212,19 +227,22 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   ShowStages stages(std::move(parts));
   running = &stages;
   if (recording && !s.player->obeysLog()) options.decider = recording->governor();
+  if (s.cluster) s.cluster->addTo(options);
   FrameLoop loop(stages, options, stop, probe);
 
   const auto start = std::chrono::steady_clock::now();
   const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, *s.desk) : loop.run();
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
-  if (outcome.nextGroup && !outcome.failure && !stop) return {};
+  if (s.cluster) s.cluster->finish();
+  const bool again = outcome.nextGroup || (s.cluster && s.cluster->isToJoinAgain());
+  if (again && !outcome.failure && !stop) return {};
   if (recording && outcome.failure) recording->keepLastFrames();
 
-  const int code =
-      report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime(),
-              recording, s.work.totals(s.player->walls().names()), s.drawing ? &*s.drawing : nullptr},
-             s.output.get(), s.folder.get());
+  const int code = report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(),
+                           s.desk->uptime(), recording, s.work.totals(s.player->walls().names()),
+                           s.drawing ? &*s.drawing : nullptr, s.cluster.get()},
+                          s.output.get(), s.folder.get());
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;
@@ -284,8 +302,11 @@ int runShow(RunOptions o) try {
   const std::atomic<bool>& stop = catchStopSignals();
   const bool ready = o.settle(findings) && setUp(o, stop, setup, findings);
   tell(findings);
+  if (!ready && setup.cluster && stop) return kStopped + stopSignal();
   if (!ready) return kBadInput;
-  if (setup.player->frames() == 0 && setup.player->end() == 0)
+  if (setup.cluster && !setup.cluster->leads())
+    ;  // how long it is, who leads knows
+  else if (setup.player->frames() == 0 && setup.player->end() == 0)
     std::fprintf(stderr, "no input log beside the show and no --frames: playing until Ctrl-C\n");
   else if (o.out.empty() && !o.display) {
     const Player& p = *setup.player;

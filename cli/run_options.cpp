@@ -74,6 +74,7 @@ void RunOptions::addTo(CLI::App& command) {
                   "write where this node is in every frame to trace-NODE.csv in --out DIR; may be repeated")
       ->allow_extra_args(false);
   events.addTo(command, "--trace-events");
+  addClusterTo(command);
   addLoadTo(command);
   trackers.addTo(command);
   addHeadTo(command);
@@ -109,6 +110,25 @@ void RunOptions::addLoadTo(CLI::App& command) {
   add("--stress-high", stress.high, "load above which stress goes up", 0, 10);
   add("--stress-scale", stress.scale, "how fast it does", 0, 10);
   add("--stress-max", stress.max, "how many times farther away things count at most; 1: never", 1, 16);
+}
+
+void RunOptions::addClusterTo(CLI::App& command) {
+  CLI::Option* file = command.add_option(
+      "--cluster", cluster,
+      "play the show on several machines together: a file that names them and their walls (docs/cluster.md)");
+  CLI::Option* name = command.add_option("--node", node, "which of the cluster's nodes this machine is");
+  file->check(aName, "FILE")->needs(name)->excludes(command.get_option("--walls"));
+  name->check(aName, "NAME")->needs(file);
+}
+
+/// What all machines do together each of them cannot decide alone.
+void RunOptions::settleCluster(Diagnostics& findings) {
+  if (cluster.empty()) return;
+  const auto refuse = [&](bool asked, const char* option, const char* why) {
+    if (asked) findings.error({}, std::string(option) + " is not for clusters: " + why);
+  };
+  refuse(lateLatch, "--late-latch", "all walls of a frame are drawn from the same head");
+  refuse(!spans.file.empty() || countWork, "--spans and --count-work", "measure on one machine");
 }
 
 void RunOptions::addHeadTo(CLI::App& command) {
@@ -219,6 +239,7 @@ bool RunOptions::settle(Diagnostics& findings) {
   if (stress.low > stress.high)
     findings.error({}, "--stress-low must not be greater than --stress-high: between them stress stays");
   settleLive(findings);
+  settleCluster(findings);
   settleFiles(findings);
   settleHead(findings);
   return show.settle(findings) && !findings.hasErrors();
@@ -316,7 +337,7 @@ std::optional<WallWorkers> RunOptions::workers(const Player& player, const DrawS
   WallWorkers w;
   w.rasteriserThreads = setting.rasteriserThreads;
   w.egl = provider == "egl";
-  w.everyFrame = everyFrameCounts(player);
+  w.everyFrame = everyFrameCounts(player) || !cluster.empty();
   w.rate = player.rate();
   w.tell = [](const std::string& what) { std::fprintf(stderr, "stadion: %s\n", what.c_str()); };
   return w;

@@ -26,6 +26,7 @@ struct RunOptions {
   SpanOptions spans;
   bool countWork = false;
   bool unrecorded = false;           ///< for `stadion bench recording` alone
+  std::string cluster, node;         ///< a cluster file, and which of its nodes this is
   StressOptions stress;              ///< of the whole show
   bool loadAsked = false;            ///< any option of --load-control and stress was given
   bool loadControl = true;           ///< a live run gives up what its script says, when it takes too long
@@ -57,10 +58,12 @@ struct RunOptions {
   /// Completes what depends on other options. Says what is wrong.
   bool settle(Diagnostics& findings);
 
+  void addClusterTo(CLI::App& command);
   void addHeadTo(CLI::App& command);
   void addLoadTo(CLI::App& command);
   void addBlackBoxTo(CLI::App& command);
   void settleFiles(Diagnostics& findings) const;
+  void settleCluster(Diagnostics& findings);
   void settleLive(Diagnostics& findings);
   void settleHead(Diagnostics& findings);
   /// Whether the options ask for a run that does not go by the clock.

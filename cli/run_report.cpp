@@ -76,6 +76,7 @@ RunSummary summarise(const FinishedRun& run) {
   const std::string drawn = run.stages.glDescription();
   s.remarks.push_back(drawn.empty() ? "nothing was drawn" : "drawn by " + drawn);
   addBudgets(run.recording, s);
+  if (run.cluster) s.cluster = run.cluster->summary();
   if (run.outcome.stopped) s.stopped = stopSignalName();
   return s;
 }

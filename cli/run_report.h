@@ -1,6 +1,7 @@
 #pragma once
 /// What `run` says and writes when the show is over.
 
+#include "cli/cluster_part.h"
 #include "cli/run_options.h"
 #include "cli/run_watch.h"
 #include "cli/show_recording.h"
@@ -25,6 +26,7 @@ struct FinishedRun {
   ShowRecording* recording = nullptr;    ///< null: nobody looked where frames go
   std::map<std::string, double> work{};  ///< what was counted, if it was asked for
   const DrawingPlan* drawing = nullptr;  ///< null: nothing was drawn
+  const ClusterPart* cluster = nullptr;  ///< null: one machine played it
 };
 
 /// Completes every file and tells how it went. Returns the exit code. `output` and its folder: null without

@@ -109,7 +109,8 @@ void FrameLoop::runSequential() {
 // The same stages, overlapped: App fills slots, Cull turns slots into lists, Draw draws lists, all walls swap
 // together.
 void FrameLoop::runPipelined() {
-  FrameSlots slots(options_.walls, options_.delivery);
+  // What all machines show together none of them may leave out.
+  FrameSlots slots(options_.walls, options_.orders ? Delivery::Every : options_.delivery);
   std::deque<ListQueue> queues;
   while (queues.size() < options_.walls) queues.emplace_back(options_.drawBeginsEarly);
   SwapBarrier barrier(options_.walls);
@@ -192,10 +193,11 @@ void FrameLoop::drawAndClose(const StageThreads& work, std::size_t wall) {
 std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   if (nextIndex_ == 0 && stopRequested_) stopped_ = ended_ = true;
   if (ended_ || broken_) return std::nullopt;
+  if (options_.orders && !options_.orders->leads()) return orderedTurn();
   const std::uint64_t ticks = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return pacer_.wait(); });
   if (!takeCommands()) return std::nullopt;
   const double speed = options_.playback && nextIndex_ > 0 ? options_.playback->takeFrame() : 1;
-  if (speed == 0) return Turn{lastSignature_, true};
+  if (speed == 0) return told({lastSignature_, {}, true});
   // A single frame is one tick, however long the last one took.
   const bool single = options_.playback && options_.playback->paused();
   TimeSignature now = signatureAfter(single ? 1 : ticks, speed);
@@ -203,7 +205,27 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   now.load = loadOf(now.frame);
   ++nextIndex_;
   lastSignature_ = now;
-  return Turn{now};
+  return told({now});
+}
+
+// What is to be shown, and whether it is the last; where this machine leads, all others hear of it.
+FrameLoop::Turn FrameLoop::told(Turn turn) {
+  if (options_.desk) turn.shown = options_.desk->state().shown;
+  if (!options_.orders) return turn;
+  turn.last = noneFollows();
+  options_.orders->issue(turn);
+  return turn;
+}
+
+// Another machine has decided.
+std::optional<FrameLoop::Turn> FrameLoop::orderedTurn() {
+  auto turn = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return options_.orders->next(); });
+  if (!turn) {
+    if (stopRequested_) stopped_ = true;
+    return std::nullopt;
+  }
+  nextIndex_ = turn->signature.frame + 1;
+  return turn;
 }
 
 // What a log has decided, and in a live run somebody who looks at the clock.
@@ -282,8 +304,8 @@ bool FrameLoop::fail(const char* what, std::size_t wall, std::uint64_t frame, co
 /// Whether a frame that nobody would see in time is not drawn; of those that follow each other one a second
 /// is.
 bool FrameLoop::passesOver(const FrameTicket& ticket) {
-  const bool late =
-      options_.everyTick && options_.mode == Mode::Sequential && !ticket.last && pacer_.behind();
+  const bool late = options_.everyTick && options_.mode == Mode::Sequential && !options_.orders &&
+                    !ticket.last && pacer_.behind();
   passedOver_ = late && static_cast<double>(passedOver_) < options_.rate ? passedOver_ + 1 : 0;
   return passedOver_ > 0;
 }
@@ -291,12 +313,13 @@ bool FrameLoop::passesOver(const FrameTicket& ticket) {
 std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slot) {
   const TimeSignature& now = turn.signature;
   FrameTicket ticket{now, Clock::now()};
-  if (options_.desk) ticket.shown = options_.desk->state().shown;
+  ticket.shown = turn.shown;
   if (turn.still) {
     if (!guard("App", kAllWalls, now.frame, [&]() -> Failure { return stages_.still(slot), Failure(); }))
       return std::nullopt;
     if (stopRequested_) stopped_ = true;
-    ticket.last = ended_ = stopped_ || ending_;
+    ticket.last = ended_ = options_.orders ? turn.last : stopped_ || ending_;
+    ticket.drawn = turn.drawn;
     ticket.posed = stages_.headMeasured().value_or(ticket.began);
     return ticket;
   }
@@ -307,8 +330,8 @@ std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slo
   }
   ++outcome_.framesSimulated;
   ticket.posed = stages_.headMeasured().value_or(ticket.began);
-  ticket.last = ended_ = noneFollows();
-  ticket.drawn = stages_.wantsDrawn(ticket) && !passesOver(ticket);
+  ticket.last = ended_ = options_.orders ? turn.last : noneFollows();
+  ticket.drawn = turn.drawn && stages_.wantsDrawn(ticket) && !passesOver(ticket);
   return ticket;
 }
 
@@ -347,6 +370,11 @@ bool FrameLoop::drawStage(std::size_t wall, DrawList& list) {
 
 bool FrameLoop::swapStage(const FrameTicket& ticket) {
   const TimeSignature& now = ticket.signature;
+  if (options_.orders && !options_.orders->mayShow(now)) {
+    if (stopRequested_) stopped_ = true;
+    broken_ = true;  // nobody waits for this frame any longer
+    return false;
+  }
   {
     const StageSpan span(times_.swap, probe_, Span::Swap, now.frame);
     if (!guard("Swap", kAllWalls, now.frame, [&] { return stages_.swap(now); })) return false;

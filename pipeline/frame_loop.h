@@ -10,6 +10,7 @@
 #include "engine/input/run_decisions.h"
 #include "engine/load_control.h"
 #include "engine/time_signature.h"
+#include "pipeline/frame_orders.h"
 #include "pipeline/frame_times.h"
 #include "pipeline/operator/operator_desk.h"
 #include "pipeline/pacer.h"
@@ -49,6 +50,8 @@ struct FrameLoopOptions {
   LoadDecider* decider = nullptr;  ///< who decides that in a live run; null = nobody
   Playback* playback = nullptr;    ///< who may pause a live run or slow it down; null = nobody
   OperatorDesk* desk = nullptr;    ///< whose commands are taken at the start of each frame; null = nobody's
+  /// The other machines that play this show, which then is shown frame by frame; null = there are none.
+  FrameOrders* orders = nullptr;
 };
 
 struct FrameLoopOutcome {
@@ -83,11 +86,10 @@ private:
   void runThreads(const StageThreads& work);
   void drawAndClose(const StageThreads& work, std::size_t wall);
   /// What App does next.
-  struct Turn {
-    TimeSignature signature;
-    bool still = false;  ///< the show is paused: its last frame once more
-  };
+  using Turn = FrameOrder;
   std::optional<Turn> nextTurn();
+  std::optional<Turn> orderedTurn();
+  Turn told(Turn turn);
   template <class Wait>
   auto waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait);
   bool takeCommands();

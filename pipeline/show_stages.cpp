@@ -3,6 +3,9 @@
 #include "pipeline/drawing_here.h"
 #include "pipeline/worker/eyes_in_workers.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace stadion {
 namespace {
 
@@ -41,6 +44,7 @@ ShowStages::ShowStages(ShowParts parts)
   if (parts_.head.latch) latch_.emplace(parts_.input, *parts_.head.latch);
   for (const WallView& view : parts_.walls)
     if (!view.camera) wallPixels_.push_back({view.wall, view.width, view.height});
+  std::ranges::copy(parts_.otherWalls, std::back_inserter(wallPixels_));
   const bool shadows = parts_.quality.look == Look::Full;
   const bool oneSample = parts_.quality.samples == 1 && parts_.quality.leavesOutUnseen;
   const CullParts cull{

@@ -72,6 +72,7 @@ struct ShowParts {
   const OperatorDesk* desk = nullptr;  ///< null: nobody commands
   RenderQuality quality{};
   std::optional<WallWorkers> workers{};  ///< nothing: this process draws
+  std::vector<WallPixels> otherWalls{};  ///< of the room, that other machines draw: levels are chosen for all
   /// By wall: where it is drawn; none: anywhere. Expects a thread or a process for each wall.
   std::vector<ProcessorSet> processors{};
   HeadTiming head{};  ///< the walls' views must have its reach, too

@@ -112,6 +112,22 @@ Json json(const BudgetKept& b) {
 
 namespace {
 
+std::string clusterText(const ClusterSummary& c) {
+  std::string text =
+      fmt::format("  cluster: {}, {} of {} nodes", c.node, c.leads ? "who leads" : "one", c.nodes);
+  if (c.leads)
+    text +=
+        fmt::format("; {:.0f} bytes a frame, {} at most; {} have come, {} were left out; {} scenes compared, "
+                    "{} differed",
+                    c.orderBytes, c.mostOrderBytes, c.joined, c.leftOut, c.compared, c.differed);
+  if (c.barrier.count > 0)
+    text += fmt::format(
+        "; the last of all to have drawn in {} frames, which it might show after {:.3f} ms (p50), "
+        "{:.3f} (p99)",
+        c.barrier.count, c.barrier.p50, c.barrier.p99);
+  return text + "\n";
+}
+
 /// What was done for the head's pose to be young.
 std::string headText(const RunSummary& s) {
   std::string text;
@@ -162,6 +178,7 @@ std::string toText(const RunSummary& s) {
   for (const Obeyed& o : s.obeyed)
     text += fmt::format("  obeyed the log: {} gave up {} levels at most, {} at the end, {} changes\n", o.node,
                         o.highest, o.now, o.changes);
+  if (s.cluster) text += clusterText(*s.cluster);
   if (s.stress && s.stress->changes > 0)
     text += fmt::format(
         "  stress: everything counted as up to {:.3g} times farther away, {:.3g} at the end, {} changes\n",
@@ -240,6 +257,20 @@ std::string toJson(const RunSummary& s) {
   j["last_frame"] = s.lastFrame;
   j["state_hash"] = s.stateHash ? Json(hex(*s.stateHash)) : Json();
   j["history_hash"] = s.historyHash ? Json(hex(*s.historyHash)) : Json();
+  if (const auto& c = s.cluster)
+    j["cluster"] = Json{{"node", c->node},
+                        {"nodes", c->nodes},
+                        {"leads", c->leads},
+                        {"orders", c->orders},
+                        {"order_bytes", c->orderBytes},
+                        {"most_order_bytes", c->mostOrderBytes},
+                        {"barriers", c->barrier.count},
+                        {"barrier_p50_ms", c->barrier.p50},
+                        {"barrier_p99_ms", c->barrier.p99},
+                        {"joined", c->joined},
+                        {"left_out", c->leftOut},
+                        {"compared", c->compared},
+                        {"differed", c->differed}};
   if (s.stress)
     j["stress"] =
         Json{{"highest", s.stress->highest}, {"at_end", s.stress->atEnd}, {"changes", s.stress->changes}};

@@ -64,6 +64,20 @@ struct DrawnCounts {
   std::uint64_t frames = 0, calls = 0, instances = 0, triangles = 0;
 };
 
+/// A machine's part in a cluster.
+struct ClusterSummary {
+  std::string node;
+  std::size_t nodes = 0;  ///< of the cluster
+  bool leads = false;
+  std::uint64_t orders = 0;  ///< frames that it has told of, or was told of
+  double orderBytes = 0;     ///< of each, on average; told by who leads
+  std::uint64_t mostOrderBytes = 0;
+  /// Of frames for which all others waited for it: from when it had drawn to when it might show that [ms].
+  Distribution barrier;
+  std::uint64_t joined = 0, leftOut = 0;     ///< told by who leads
+  std::uint64_t compared = 0, differed = 0;  ///< scenes
+};
+
 /// Something that happened in the show, such as an impact.
 struct Happening {
   double seconds = 0;  ///< show time [s]
@@ -152,6 +166,7 @@ struct RunSummary {
   std::vector<BudgetKept> budgets;         ///< of nodes that have one or give something up
   std::vector<Obeyed> obeyed;              ///< of a replay: what its log has nodes give up
   std::optional<StressFelt> stress;        ///< of the whole show; nothing = nobody decided about it
+  std::optional<ClusterSummary> cluster;
 };
 
 /// Without the failure, which is told as an error, and without what happened.

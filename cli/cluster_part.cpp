@@ -1,0 +1,125 @@
+#include "cli/cluster_part.h"
+
+#include "cli/player.h"
+#include "cli/show_files.h"
+#include "cli/stop_signal.h"
+#include "engine/plain_file.h"
+#include "engine/script/suggestion.h"
+#include "engine/state_hash.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace stadion {
+namespace {
+
+/// With others that have not come the show waits so long before it begins.
+constexpr std::chrono::seconds kPatience{30};
+/// After a stop signal the others' answers are waited for so long.
+constexpr std::chrono::seconds kGrace{2};
+
+bool nobodyWaits() {
+  return sinceStopSignal() > kGrace;
+}
+
+/// What all machines have to have alike. (Files that scripts name are found out by the scenes' hashes.)
+std::uint64_t hashOfFiles(const ShowOptions& show) {
+  StateHash hash;
+  for (const std::string& file : {show.script, inputLogOf(show.script, show.input)}) {
+    constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+    const Result<std::string> text = file.empty() ? std::string() : readPlainFile(file, kMostBytes);
+    hash.add(std::string_view(text ? text.value() : ""));
+  }
+  return hash.value();
+}
+
+}  // namespace
+
+std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& findings) {
+  if (o.cluster.empty()) return nullptr;
+  auto file = loadCluster(o.cluster, findings);
+  if (!file) return nullptr;
+  const auto node = file->find(o.node);
+  if (!node) {
+    findings.error({},
+                   fmt::format("--node: {} has no node \"{}\"{}", o.cluster, o.node,
+                               didYouMean(o.node, file->names(),
+                                          "; it has " + fmt::format("{}", fmt::join(file->names(), ", ")))));
+    return nullptr;
+  }
+  const auto walls = loadWalls(file->walls, std::string(STADION_ROOT) + "/walls", findings);
+  if (walls) checkWalls(*file, walls->names(), findings);
+  if (!walls || findings.hasErrors()) return nullptr;
+  o.show.walls = file->walls;
+  o.show.onlyWalls = file->nodes[*node].walls;
+  if (o.show.onlyWalls.empty()) {
+    o.show.onlyWalls = {walls->walls.front().wall.name};  // somebody has to take the frames
+    o.provider = "none";
+  }
+  std::unique_ptr<ClusterPart> part(new ClusterPart(std::move(*file), *node));
+  part->show_ = hashOfFiles(o.show);
+  return part;
+}
+
+void ClusterPart::tell(const std::string& what) const {
+  std::fprintf(stderr, "cluster, %s: %s\n", file_.nodes[node_].name.c_str(), what.c_str());
+}
+
+bool ClusterPart::join(ShowOptions& show, Diagnostics& findings) {
+  if (leads()) return true;
+  follower_.reset();
+  auto opened = cluster::Follower::open(
+      {file_, node_, show_, [this](const std::string& what) { tell(what); }, nobodyWaits});
+  if (!opened) return findings.add(opened.error()), false;
+  follower_ = std::move(opened.value());
+  const auto joining = follower_->join();
+  if (!joining) return false;
+  show.rate = joining->rate, show.rateGiven = true;
+  show.state = joining->state;
+  return true;
+}
+
+bool ClusterPart::begin(Player& player, Diagnostics& findings) {
+  if (!leads()) return true;
+  auto opened = cluster::Lead::open(
+      {file_, show_, player.rate(), kPatience, [this](const std::string& what) { tell(what); }, nobodyWaits});
+  if (!opened) return findings.add(opened.error()), false;
+  lead_ = std::move(opened.value());
+  lead_->saveWith([&player] { return player.scene().save(); });
+  lead_->begin();
+  return true;
+}
+
+void ClusterPart::addTo(FrameLoopOptions& loop) {
+  loop.orders = lead_ ? static_cast<FrameOrders*>(lead_.get()) : follower_.get();
+}
+
+InputDevice* ClusterPart::inputOf(Player& player) {
+  return lead_ ? &lead_->input(player.input()) : &follower_->input();
+}
+
+void ClusterPart::simulated(std::uint64_t frame, const Scene& scene) {
+  if (lead_ && lead_->compares(frame)) lead_->simulated(frame, scene.stateHash());
+  if (follower_ && follower_->compares(frame)) follower_->simulated(frame, scene.stateHash());
+}
+
+void ClusterPart::finish() {
+  if (lead_) lead_->finish();
+  if (follower_) follower_->finish();
+}
+
+ClusterSummary ClusterPart::summary() const {
+  const cluster::Tally& t = lead_ ? lead_->tally() : follower_->tally();
+  ClusterSummary s;
+  s.node = file_.nodes[node_].name, s.nodes = file_.nodes.size(), s.leads = leads();
+  s.orders = t.orders;
+  s.orderBytes = t.orders > 0 ? static_cast<double>(t.orderBytes) / static_cast<double>(t.orders) : 0;
+  s.mostOrderBytes = t.mostOrderBytes;
+  s.barrier = distributionOf(t.barrier.values());
+  s.joined = t.joined, s.leftOut = t.leftOut, s.compared = t.compared, s.differed = t.differed;
+  return s;
+}
+
+}  // namespace stadion

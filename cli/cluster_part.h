@@ -1,0 +1,53 @@
+#pragma once
+/// A machine's part in a cluster: `run --cluster FILE --node NAME`.
+///
+/// Threads  main, but for simulated(), which is App's.
+
+#include "cli/run_options.h"
+#include "pipeline/cluster/follower.h"
+#include "pipeline/cluster/lead.h"
+#include "pipeline/output/run_summary.h"
+
+#include <memory>
+#include <optional>
+
+namespace stadion {
+
+class Scene;
+
+class ClusterPart {
+public:
+  /// Reads the cluster file and completes the options by it: walls, and which of them are ours. Null without
+  /// --cluster, or if something is wrong; then the findings say what.
+  static std::unique_ptr<ClusterPart> create(RunOptions& options, Diagnostics& findings);
+
+  bool leads() const { return node_ == file_.lead; }
+  /// Who follows: waits for who leads, and completes what the show is opened with. False: it is not to be; if
+  /// the findings do not say why, nobody waits any longer.
+  bool join(ShowOptions& show, Diagnostics& findings);
+  /// The show has been opened. Who leads: opens the network, and waits for the others. False, with findings:
+  /// there is no network.
+  bool begin(Player& player, Diagnostics& findings);
+  /// The other machines' say in what is played. After begin().
+  void addTo(FrameLoopOptions& loop);
+  /// What the show's parts sample: the same on all machines. After begin().
+  InputDevice* inputOf(Player& player);
+  void simulated(std::uint64_t frame, const Scene& scene);
+  /// The run has ended for want of an order, and the show is to be joined again.
+  bool isToJoinAgain() const { return follower_ && follower_->isToJoinAgain(); }
+  /// What there is to tell is heard by all.
+  void finish();
+  ClusterSummary summary() const;
+
+private:
+  ClusterPart(ClusterFile file, std::size_t node) : file_(std::move(file)), node_(node) {}
+  void tell(const std::string& what) const;
+
+  ClusterFile file_;
+  std::size_t node_;
+  std::uint64_t show_ = 0;  ///< hash of the files that must be the same everywhere
+  std::unique_ptr<cluster::Lead> lead_;
+  std::unique_ptr<cluster::Follower> follower_;
+};
+
+}  // namespace stadion

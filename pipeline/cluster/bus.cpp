@@ -1,0 +1,154 @@
+#include "pipeline/cluster/bus.h"
+
+#include <dds/dds.h>
+#include <fmt/format.h>
+
+#include <arpa/inet.h>
+#include <cmath>
+#include <type_traits>
+
+namespace stadion::cluster {
+namespace {
+
+dds_duration_t durationOf(double seconds) {
+  return static_cast<dds_duration_t>(seconds * 1e9);
+}
+
+/// Cyclone's own configuration. A second without a sign of life is the network's business, the deadline ours.
+/// What was lost is asked for again at once: somebody waits for it.
+std::string configurationOf(const ClusterFile& o) {
+  in_addr address{};
+  const bool byAddress = inet_pton(AF_INET, o.interface.c_str(), &address) == 1;
+  const std::string interface = o.interface.empty()
+                                    ? "name=\"lo\""
+                                    : fmt::format("{}=\"{}\"", byAddress ? "address" : "name", o.interface);
+  // The loopback interface knows no multicast: whoever is there is looked for one by one.
+  const std::string found = o.interface.empty()
+                                ? "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>31</"
+                                  "MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
+                                : "";
+  return fmt::format(
+      "<Domain id=\"any\"><General><Interfaces><NetworkInterface {}/></Interfaces>"
+      "<AllowMulticast>{}</AllowMulticast></General>"
+      "<Discovery>{}<LeaseDuration>{}ms</LeaseDuration><SPDPInterval>250ms</SPDPInterval></Discovery>"
+      "<Internal><NackDelay>1ms</NackDelay><HeartbeatInterval min=\"2ms\" minsched=\"5ms\" max=\"1s\">5ms"
+      "</HeartbeatInterval><PreEmptiveAckDelay>5ms</PreEmptiveAckDelay></Internal></Domain>",
+      interface, o.interface.empty() ? "false" : "true", found,
+      static_cast<long>(std::ceil(1000 * std::max(1.0, 2 * o.deadline))));
+}
+
+struct Qos {
+  Qos() : qos(dds_create_qos()) {}
+  ~Qos() { dds_delete_qos(qos); }
+  Qos(const Qos&) = delete;
+  Qos& operator=(const Qos&) = delete;
+  dds_qos_t* qos;
+};
+
+std::string reasonOf(dds_return_t code) {
+  return dds_strretcode(-code);
+}
+
+void write(dds_entity_t writer, const void* sample) {
+  dds_write(writer, sample);  // see Errors
+}
+
+}  // namespace
+
+template <class T>
+void Bus::take(dds_entity_t reader, void* listener) {
+  auto& to = *static_cast<BusListener*>(listener);
+  constexpr std::size_t kAtOnce = 16;
+  std::array<void*, kAtOnce> samples{};  // null: the reader lends them
+  std::array<dds_sample_info_t, kAtOnce> infos{};
+  for (;;) {
+    const dds_return_t count = dds_take(reader, samples.data(), infos.data(), kAtOnce, kAtOnce);
+    if (count <= 0) return;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      const T& sample = *static_cast<const T*>(samples[i]);
+      if constexpr (std::is_same_v<T, Presence>)
+        if (infos[i].instance_state != DDS_IST_ALIVE) to.left(sample.node);
+      if (infos[i].valid_data) to.hear(sample);
+    }
+    dds_return_loan(reader, samples.data(), count);
+  }
+}
+
+template <class T>
+bool Bus::add(Channel channel, const dds_topic_descriptor_t& type, const std::string& name,
+              dds_listener_t* heard, dds_qos_t* qos) {
+  const dds_entity_t topic = dds_create_topic(participant_, &type, name.c_str(), nullptr, nullptr);
+  if (topic < 0) return false;
+  dds_lset_data_available(heard, &Bus::take<T>);
+  writers_[channel] = dds_create_writer(participant_, topic, qos, nullptr);
+  return writers_[channel] > 0 && dds_create_reader(participant_, topic, qos, heard) > 0;
+}
+
+Result<std::unique_ptr<Bus>> Bus::open(const ClusterFile& o, BusListener& listener) {
+  const auto wrong = [&](const std::string& why) {
+    return Diagnostic{Severity::Error, {}, "the cluster's network cannot be opened: " + why, {}};
+  };
+  std::unique_ptr<Bus> bus(new Bus);
+  bus->domain_ = dds_create_domain(o.domain, configurationOf(o).c_str());
+  if (bus->domain_ < 0) return wrong(reasonOf(bus->domain_));
+  bus->participant_ = dds_create_participant(o.domain, nullptr, nullptr);
+  if (bus->participant_ < 0)
+    return wrong((o.interface.empty() ? "" : "is there an interface " + o.interface + "? ") +
+                 reasonOf(bus->participant_));
+
+  Qos every, kept, present;
+  const char* partition = o.partition.c_str();
+  for (dds_qos_t* qos : {every.qos, kept.qos, present.qos}) {
+    dds_qset_partition(qos, 1, &partition);
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, durationOf(1));
+    dds_qset_ignorelocal(qos, DDS_IGNORELOCAL_PARTICIPANT);
+    dds_qset_history(qos, qos == every.qos ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST, 1);
+    if (qos != every.qos) dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+  }
+  dds_qset_liveliness(present.qos, DDS_LIVELINESS_AUTOMATIC, durationOf(o.deadline));
+  dds_listener_t* heard = dds_create_listener(&listener);
+  const bool well =
+      bus->add<Session>(kSession, stadion_wire_Session_desc, "stadion_session", heard, kept.qos) &&
+      bus->add<Presence>(kPresence, stadion_wire_Presence_desc, "stadion_presence", heard, present.qos) &&
+      bus->add<Order>(kOrder, stadion_wire_Order_desc, "stadion_order", heard, every.qos) &&
+      bus->add<Drawn>(kDrawn, stadion_wire_Drawn_desc, "stadion_drawn", heard, every.qos) &&
+      bus->add<Go>(kGo, stadion_wire_Go_desc, "stadion_go", heard, every.qos) &&
+      bus->add<SceneHash>(kSceneHash, stadion_wire_SceneHash_desc, "stadion_scene_hash", heard, every.qos) &&
+      bus->add<StatePart>(kStatePart, stadion_wire_StatePart_desc, "stadion_state_part", heard, every.qos);
+  dds_delete_listener(heard);
+  if (!well) return wrong("Cyclone DDS does not take a topic");
+  return bus;
+}
+
+Bus::~Bus() {
+  if (participant_ > 0) dds_delete(participant_);
+  if (domain_ > 0) dds_delete(domain_);
+}
+
+void Bus::tell(const Session& session) {
+  write(writers_[kSession], &session);
+}
+void Bus::tell(const Presence& presence) {
+  write(writers_[kPresence], &presence);
+}
+void Bus::tell(const Order& order) {
+  write(writers_[kOrder], &order);
+}
+void Bus::tell(const Drawn& drawn) {
+  write(writers_[kDrawn], &drawn);
+}
+void Bus::tell(const Go& go) {
+  write(writers_[kGo], &go);
+}
+void Bus::tell(const SceneHash& hash) {
+  write(writers_[kSceneHash], &hash);
+}
+void Bus::tell(const StatePart& part) {
+  write(writers_[kStatePart], &part);
+}
+
+void Bus::flush() {
+  for (const dds_entity_t writer : writers_) dds_wait_for_acks(writer, durationOf(1));
+}
+
+}  // namespace stadion::cluster

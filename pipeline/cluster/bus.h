@@ -1,0 +1,87 @@
+#pragma once
+/// The network between the machines of a cluster: Eclipse Cyclone DDS, with the topics of wire.idl.
+///
+/// Everything is delivered, in order, to everybody who is there; Session and Presence also to who comes
+/// later. What a machine says does not come back to it.
+///
+/// Ownership  owns the participant; the listener must outlive it.
+/// Threads    tell() from any. The listener is called on threads of the network's own, several at a time for
+///            several topics; it may tell() something, and should return soon.
+/// Errors     open() says why there is no network. What cannot be delivered for a second, because somebody no
+///            longer listens, is left to who watches whether they are there.
+
+#include "engine/diagnostic.h"
+#include "pipeline/cluster/cluster_file.h"
+#include "wire.h"  // made from wire.idl
+
+#include <array>
+#include <cstdint>
+#include <dds/dds.h>
+#include <memory>
+#include <string>
+
+namespace stadion::cluster {
+
+using Session = stadion_wire_Session;
+using Presence = stadion_wire_Presence;
+using Order = stadion_wire_Order;
+using Drawn = stadion_wire_Drawn;
+using Go = stadion_wire_Go;
+using SceneHash = stadion_wire_SceneHash;
+using StatePart = stadion_wire_StatePart;
+
+/// What a node is at (Presence).
+enum class Phase : std::uint8_t {
+  Waiting,  ///< for a session, or opening the show
+  Asking,   ///< the show is under way: it needs the scene's state
+  Ready,    ///< it has obeyed all orders that it knows of
+};
+
+class BusListener {
+public:
+  virtual ~BusListener() = default;
+  virtual void hear(const Session&) {}
+  virtual void hear(const Presence&) {}
+  virtual void hear(const Order&) {}
+  virtual void hear(const Drawn&) {}
+  virtual void hear(const Go&) {}
+  virtual void hear(const SceneHash&) {}
+  virtual void hear(const StatePart&) {}
+  /// Nobody has heard of that node for the deadline, or it said good-bye.
+  virtual void left(std::uint8_t node) { (void)node; }
+};
+
+class Bus {
+public:
+  /// Interface, domain, partition and deadline of the file count.
+  static Result<std::unique_ptr<Bus>> open(const ClusterFile& cluster, BusListener& listener);
+  ~Bus();
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+
+  void tell(const Session& session);
+  void tell(const Presence& presence);
+  void tell(const Order& order);
+  void tell(const Drawn& drawn);
+  void tell(const Go& go);
+  void tell(const SceneHash& hash);
+  /// May take long.
+  void tell(const StatePart& part);
+  /// Waits until everybody has heard everything, a second at most.
+  void flush();
+
+private:
+  enum Channel : std::size_t { kSession, kPresence, kOrder, kDrawn, kGo, kSceneHash, kStatePart, kChannels };
+
+  Bus() = default;
+  template <class T>
+  bool add(Channel channel, const dds_topic_descriptor_t& type, const std::string& name,
+           dds_listener_t* heard, dds_qos_t* qos);
+  template <class T>
+  static void take(dds_entity_t reader, void* listener);
+
+  dds_entity_t domain_ = 0, participant_ = 0;
+  std::array<dds_entity_t, kChannels> writers_{};
+};
+
+}  // namespace stadion::cluster

@@ -1,0 +1,65 @@
+#pragma once
+/// Cluster files: which machine shows which walls of one show, as text.
+///
+///     # Four machines, a wall each; the first one leads.
+///     walls cave4
+///     node front  front
+///     node left   left
+///     node right  right
+///     node floor  floor
+///
+/// One statement a line; `#` begins a comment.
+///     walls FILE|NAME          the room (cave4); a file is looked for beside this one
+///     node NAME [WALL...]      a machine and the walls that it shows, in the room's order; none: it shows
+///     nothing lead NAME                whose clock and trackers count (the first one) interface NAME|ADDRESS
+///     of the network between them (the loopback interface: all on one machine) domain N                 of
+///     DDS, 0 to 230 (0); clusters in one network need different ones, or partition NAME           different
+///     names (stadion) deadline SECONDS         a node silent for so long is left out, 0.1 to 60 (0.5)
+///     hash-every FRAMES        how often the scenes are compared, 1 to 1000 (30)
+/// Each wall of the room is shown by at most one node. A cluster has 1 to 24 nodes.
+///
+/// Threads  plain values, any thread.
+/// Errors   go to the Diagnostics with line, column and a fix where one is known; there may be several.
+
+#include "engine/diagnostic.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stadion {
+
+struct ClusterNode {
+  std::string name;
+  std::vector<std::string> walls;
+  std::uint32_t line = 0;  ///< in the file
+};
+
+struct ClusterFile {
+  static constexpr std::size_t kMostNodes = 24;
+
+  std::string file;  ///< as the user named it
+  std::string walls = "cave4";
+  std::vector<ClusterNode> nodes;
+  std::size_t lead = 0;   ///< index of a node
+  std::string interface;  ///< empty: loopback
+  std::uint32_t domain = 0;
+  std::string partition = "stadion";
+  double deadline = 0.5;  ///< [s]
+  std::uint64_t hashEvery = 30;
+
+  /// The index of that node.
+  std::optional<std::size_t> find(std::string_view name) const;
+  std::vector<std::string> names() const;
+};
+
+/// Reads the text; nothing if it has errors. Whether the room has such walls, checkWalls() says.
+std::optional<ClusterFile> parseCluster(std::string_view text, const std::string& file, Diagnostics& out);
+std::optional<ClusterFile> loadCluster(const std::string& file, Diagnostics& out);
+
+/// Says which nodes' walls are not among these, and warns of walls that nobody shows.
+void checkWalls(const ClusterFile& cluster, const std::vector<std::string>& walls, Diagnostics& out);
+
+}  // namespace stadion

@@ -1,0 +1,194 @@
+#include "pipeline/cluster/follower.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <random>
+
+namespace stadion::cluster {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kLook{100};   ///< how often a wait looks whether it is still wanted
+constexpr std::chrono::seconds kLong{2};          ///< who waits so long says what for
+constexpr std::uint64_t kMostState = 4ULL << 30;  ///< [byte]
+
+std::uint64_t anyNumber() {
+  std::random_device device;
+  return std::uint64_t{device()} << 32U | device() | 1U;
+}
+
+}  // namespace
+
+class Follower::OrderedInput final : public InputDevice {
+public:
+  explicit OrderedInput(const Follower& of) : of_(of) {}
+  void sampleAt(Nanoseconds, InputSample& sample) override { sample = of_.sample_; }
+  bool sampleNow(InputSample& sample) override {
+    if (of_.sampled_) sample = of_.sample_;
+    return of_.sampled_;
+  }
+
+private:
+  const Follower& of_;
+};
+
+Follower::Follower(FollowerOptions options)
+    : options_(std::move(options)), incarnation_(anyNumber()), input_(std::make_unique<OrderedInput>(*this)) {
+}
+
+Follower::~Follower() {
+  bus_.reset();  // nobody calls any more
+}
+
+Result<std::unique_ptr<Follower>> Follower::open(FollowerOptions options) {
+  std::unique_ptr<Follower> follower(new Follower(std::move(options)));
+  auto bus = Bus::open(follower->options_.cluster, *follower);
+  if (!bus) return bus.error();
+  follower->bus_ = std::move(bus.value());
+  const std::lock_guard lock(follower->mutex_);
+  follower->announce(Phase::Waiting);
+  return follower;
+}
+
+// With the mutex.
+void Follower::announce(Phase phase) {
+  told_ = phase;
+  bus_->tell(Presence{static_cast<std::uint8_t>(options_.node), incarnation_, joined_,
+                      static_cast<std::uint8_t>(phase), obeyed_});
+}
+
+/// False: nobody waits any longer.
+template <class Ready>
+bool Follower::await(std::unique_lock<std::mutex>& lock, const char* what, const Ready& ready) {
+  const auto begin = Clock::now();
+  bool told = false;
+  while (!ready()) {
+    if (options_.stop()) return false;
+    if (!told && Clock::now() - begin > kLong) {
+      told = true;
+      options_.tell(fmt::format("waiting for {}", what));
+    }
+    changed_.wait_for(lock, kLook);
+  }
+  return true;
+}
+
+std::optional<Joining> Follower::join() {
+  std::unique_lock lock(mutex_);
+  const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
+  if (!await(lock, (lead + ", who leads").c_str(), [&] { return session_.number != 0; })) return {};
+  if (session_.show != options_.show) {
+    options_.tell(
+        fmt::format("{} plays another script or input log; put the same files on all machines", lead));
+    return {};
+  }
+  joined_ = session_.number;
+  Joining joining{session_.rate, {}};
+  if (!session_.begun) return joining;
+  announce(Phase::Asking);
+  if (!await(lock, ("the scene's state from " + lead).c_str(), [&] { return complete_ || again_; }) || again_)
+    return {};
+  std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.serial <= obeyed_; });
+  joining.state = std::make_shared<const std::vector<std::uint8_t>>(std::move(state_));
+  return joining;
+}
+
+std::optional<FrameOrder> Follower::next() {
+  std::unique_lock lock(mutex_);
+  if (orders_.empty() && told_ != Phase::Ready) announce(Phase::Ready);
+  const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
+  if (!await(lock, (lead + ", who leads").c_str(), [&] { return !orders_.empty() || again_; })) return {};
+  if (again_) return {};
+  HeardOrder heard = std::move(orders_.front());
+  orders_.pop_front();
+  if (heard.numbers.serial != obeyed_ + 1) {
+    again_ = true;
+    return {};
+  }
+  obeyed_ = heard.numbers.serial;
+  heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
+  // Left out, for being late: whoever has caught up is taken back.
+  if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
+  shows_.emplace_back(obeyed_, heard.order.drawn);
+  sample_ = std::move(heard.input), sampled_ = heard.sampled;
+  ++tally_.orders;
+  return heard.order;
+}
+
+bool Follower::mayShow(const TimeSignature&) {
+  std::unique_lock lock(mutex_);
+  if (shows_.empty()) return false;
+  const auto [serial, member] = shows_.front();
+  shows_.pop_front();
+  shown_ = serial;
+  if (!member) return true;
+  bus_->tell(Drawn{static_cast<std::uint8_t>(options_.node), joined_, serial});
+  const auto drawn = Clock::now();
+  while (go_ < serial && !again_ && !options_.stop()) changed_.wait_for(lock, kLook);
+  if (go_ == serial && latest_ == options_.node)
+    tally_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
+  return go_ >= serial;
+}
+
+void Follower::simulated(std::uint64_t frame, std::uint64_t hash) {
+  const std::lock_guard lock(mutex_);
+  ++tally_.compared;
+  bus_->tell(SceneHash{static_cast<std::uint8_t>(options_.node), joined_, frame, hash});
+}
+
+bool Follower::isToJoinAgain() const {
+  const std::lock_guard lock(mutex_);
+  return again_;
+}
+
+void Follower::hear(const Session& session) {
+  {
+    const std::lock_guard lock(mutex_);
+    session_ = session;
+    if (joined_ != 0 && session.number != joined_) again_ = true;
+  }
+  changed_.notify_all();
+}
+
+void Follower::hear(const Order& order) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (joined_ != 0 && order.session != joined_) return;
+    orders_.push_back(readOrder(order));
+  }
+  changed_.notify_all();
+}
+
+void Follower::hear(const Go& go) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (go.session != joined_) return;
+    go_ = std::max(go_, go.serial), latest_ = go.latest;
+  }
+  changed_.notify_all();
+}
+
+void Follower::hear(const StatePart& part) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (part.to != incarnation_ || complete_ || part.size > kMostState) return;
+    const std::uint64_t length = part.bytes._length;
+    if (part.offset != received_ || length > part.size - part.offset) return;
+    if (part.offset == 0) state_.resize(part.size);
+    std::memcpy(state_.data() + part.offset, part.bytes._buffer, length);
+    received_ += length;
+    complete_ = received_ == part.size;
+    obeyed_ = part.serial;
+  }
+  changed_.notify_all();
+}
+
+void Follower::finish() {
+  bus_->flush();
+}
+
+}  // namespace stadion::cluster

@@ -1,0 +1,100 @@
+#pragma once
+/// A machine that plays what another one orders: the same show, frame by frame.
+///
+/// It opens the show from its own files; if that is under way already, it goes on from the leading machine's
+/// scene. Where an order is missing, or another machine leads now, it has to join again, with a follower of
+/// its own.
+///
+/// Threads  join(), next(), simulated() and sampling on the App thread (join() before there is one);
+///          mayShow() on the Draw thread that arrived last; the rest on the network's.
+
+#include "engine/input/input_device.h"
+#include "pipeline/cluster/bus.h"
+#include "pipeline/cluster/cluster_file.h"
+#include "pipeline/cluster/orders.h"
+#include "pipeline/cluster/tally.h"
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace stadion::cluster {
+
+struct FollowerOptions {
+  ClusterFile cluster;
+  std::size_t node = 0;
+  std::uint64_t show = 0;  ///< hash of its script and input
+  std::function<void(const std::string&)> tell;
+  std::function<bool()> stop;  ///< nobody waits any longer
+};
+
+/// How the show is to be opened.
+struct Joining {
+  double rate = 60;  ///< [1/s]
+  /// What the scene goes on from; null: the show begins.
+  std::shared_ptr<const std::vector<std::uint8_t>> state;
+};
+
+class Follower final : public FrameOrders, public BusListener {
+public:
+  static Result<std::unique_ptr<Follower>> open(FollowerOptions options);
+  ~Follower() override;
+
+  /// Waits for who leads, and for the scene's state if the show is under way. Nothing: nobody waits any
+  /// longer, or the shows differ; then it has been told.
+  std::optional<Joining> join();
+  /// What the leading machine has sampled for the frame that next() has given.
+  InputDevice& input() { return *input_; }
+  bool compares(std::uint64_t frame) const { return frame % options_.cluster.hashEvery == 0; }
+  void simulated(std::uint64_t frame, std::uint64_t hash);
+  /// Orders are missing: the run has ended, and the show is to be joined again.
+  bool isToJoinAgain() const;
+  const Tally& tally() const { return tally_; }
+  void finish();
+
+  bool leads() const override { return false; }
+  void issue(const FrameOrder&) override {}
+  std::optional<FrameOrder> next() override;
+  bool mayShow(const TimeSignature& now) override;
+
+  using BusListener::hear;
+  void hear(const Session& session) override;
+  void hear(const Order& order) override;
+  void hear(const Go& go) override;
+  void hear(const StatePart& part) override;
+
+private:
+  class OrderedInput;
+
+  explicit Follower(FollowerOptions options);
+  void announce(Phase phase);
+  template <class Ready>
+  bool await(std::unique_lock<std::mutex>& lock, const char* what, const Ready& ready);
+
+  FollowerOptions options_;
+  std::uint64_t incarnation_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  Session session_{};         ///< number 0: there is none
+  std::uint64_t joined_ = 0;  ///< the session that we play
+  std::deque<HeardOrder> orders_;
+  std::vector<std::uint8_t> state_;
+  std::uint64_t stateSize_ = 0, received_ = 0;
+  bool complete_ = false;
+  std::uint64_t obeyed_ = 0, go_ = 0, shown_ = 0;
+  std::uint8_t latest_ = 0;
+  Phase told_ = Phase::Waiting;
+  std::deque<std::pair<std::uint64_t, bool>>
+      shows_;  ///< orders obeyed and not shown yet: whether we draw them
+  bool again_ = false;
+  InputSample sample_;
+  bool sampled_ = false;
+  std::unique_ptr<InputDevice> input_;
+  Tally tally_;
+  std::unique_ptr<Bus> bus_;
+};
+
+}  // namespace stadion::cluster

@@ -1,0 +1,106 @@
+#include "pipeline/cluster/orders.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+namespace stadion::cluster {
+namespace {
+
+stadion_wire_Pose written(const Pose& X) {
+  return {{X.p.x(), X.p.y(), X.p.z()}, {X.q.x(), X.q.y(), X.q.z(), X.q.w()}};
+}
+
+Pose read(const stadion_wire_Pose& X) {
+  return {Vec3(X.p[0], X.p[1], X.p[2]), Quat(X.q[3], X.q[0], X.q[1], X.q[2])};
+}
+
+/// What the sequence borrows must stay where it is.
+template <class Sequence, class T>
+void lend(std::vector<T>& from, Sequence& to) {
+  to._buffer = from.data(), to._release = false;
+  to._length = to._maximum = static_cast<std::uint32_t>(from.size());
+}
+
+template <class Sequence>
+auto spanOf(const Sequence& s) {
+  return std::span(s._buffer, s._length);
+}
+
+stadion_wire_Tracker written(const TrackerSample& t) {
+  stadion_wire_Tracker w{};
+  t.name.copy(w.name, sizeof(w.name) - 1);
+  w.pose = written(t.X_RT), w.buttons = t.buttons, w.stamp = t.stamp, w.valid = t.valid;
+  std::ranges::copy(t.axes, w.axes);
+  return w;
+}
+
+TrackerSample read(const stadion_wire_Tracker& w) {
+  TrackerSample t;
+  t.name.assign(w.name, strnlen(w.name, sizeof(w.name)));
+  t.X_RT = read(w.pose), t.buttons = w.buttons, t.stamp = w.stamp, t.valid = w.valid;
+  std::ranges::copy(w.axes, t.axes.begin());
+  for (const stadion_wire_PoseKnot& k : spanOf(w.knots)) t.knots.push_back({k.time, read(k.pose), k.jump});
+  for (const stadion_wire_ControlKnot& k : spanOf(w.controls)) {
+    ControlKnot& knot = t.controls.emplace_back();
+    knot.time = k.time, knot.buttons = k.buttons;
+    std::ranges::copy(k.axes, knot.axes.begin());
+  }
+  return t;
+}
+
+}  // namespace
+
+const Order& WrittenOrder::write(const OrderNumbers& numbers, const FrameOrder& o, const InputSample* input) {
+  Order& w = order_;
+  w.session = numbers.session, w.serial = numbers.serial, w.members = numbers.members;
+  w.frame = o.signature.frame, w.time = o.signature.time, w.step = o.signature.step;
+  decisions_.clear(), trackers_.clear();
+  for (const LoadDecision& d : o.signature.load) decisions_.push_back({d.load, d.position, d.level});
+  lend(decisions_, w.decisions);
+  w.last = o.last, w.still = o.still;
+  w.black = o.shown.black, w.swap_eyes = o.shown.swapEyes, w.eye_separation = o.shown.eyeSeparation;
+  w.sampled = input != nullptr;
+  const std::size_t count = input ? input->trackers.size() : 0;
+  if (knots_.size() < count) knots_.resize(count), controls_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const TrackerSample& t = input->trackers[i];
+    stadion_wire_Tracker& tracker = trackers_.emplace_back(written(t));
+    knots_[i].clear(), controls_[i].clear();
+    for (const PoseKnot& k : t.knots) knots_[i].push_back({k.time, written(k.X), k.jump});
+    for (const ControlKnot& k : t.controls) {
+      stadion_wire_ControlKnot& knot = controls_[i].emplace_back();
+      knot.time = k.time, knot.buttons = k.buttons;
+      std::ranges::copy(k.axes, knot.axes);
+    }
+    lend(knots_[i], tracker.knots), lend(controls_[i], tracker.controls);
+  }
+  lend(trackers_, w.trackers);
+  return w;
+}
+
+std::size_t WrittenOrder::bytes() const {
+  // As XCDR1 lays it out, up to the padding.
+  std::size_t bytes = 72 + decisions_.size() * sizeof(stadion_wire_Decision);
+  for (const stadion_wire_Tracker& t : trackers_)
+    bytes += 4 + std::strlen(t.name) + 1 + sizeof(t.pose) + sizeof(t.axes) + 25 +
+             t.knots._length * sizeof(stadion_wire_PoseKnot) +
+             t.controls._length * sizeof(stadion_wire_ControlKnot);
+  return bytes;
+}
+
+HeardOrder readOrder(const Order& w) {
+  HeardOrder heard;
+  heard.numbers = {w.session, w.serial, w.members};
+  TimeSignature& now = heard.order.signature;
+  now.frame = w.frame, now.time = w.time, now.step = w.step;
+  for (const stadion_wire_Decision& d : spanOf(w.decisions)) now.load.add({d.load, d.position, d.level});
+  heard.order.shown = {w.black, w.swap_eyes, w.eye_separation};
+  heard.order.last = w.last, heard.order.still = w.still;
+  heard.sampled = w.sampled;
+  heard.input.time = w.time;
+  for (const stadion_wire_Tracker& t : spanOf(w.trackers)) heard.input.trackers.push_back(read(t));
+  return heard;
+}
+
+}  // namespace stadion::cluster

@@ -1,0 +1,20 @@
+#pragma once
+/// What a machine of a cluster has told and how long it has waited.
+///
+/// Threads  plain values.
+
+#include "pipeline/frame_times.h"
+
+#include <cstdint>
+
+namespace stadion::cluster {
+
+struct Tally {
+  std::uint64_t orders = 0, orderBytes = 0, mostOrderBytes = 0;
+  /// Of frames for which all others waited for this machine: from when it had drawn to when it may show that
+  /// [ms].
+  DurationSeries barrier;
+  std::uint64_t leftOut = 0, joined = 0, compared = 0, differed = 0;
+};
+
+}  // namespace stadion::cluster
