@@ -13,6 +13,7 @@ namespace stadion {
 void addRunCommand(CLI::App& app, int& code, std::optional<unsigned> rasteriserThreads);
 void addCalibrateCommand(CLI::App& app, int& code);
 void addCheckCommand(CLI::App& app, int& code);
+void addClusterCommand(CLI::App& app, int& code);
 void addNodesCommand(CLI::App& app, int& code);
 void addHashCommand(CLI::App& app, int& code);
 void addWallsCommand(CLI::App& app, int& code);

@@ -41,6 +41,7 @@ int runProgram(int argc, char** argv, std::optional<unsigned> rasteriserThreads)
   addViewCommand(app, code, rasteriserThreads);
   addTrackerCommand(app, code);
   addCalibrateCommand(app, code);
+  addClusterCommand(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RequiredError& e) {

@@ -218,7 +218,7 @@ void Lead::hear(const Drawn& d) {
 void Lead::left(std::uint8_t node) {
   const std::lock_guard lock(mutex_);
   if (node >= followers_.size() || node == options_.cluster.lead) return;
-  if (followers_[node].member)
+  if (followers_[node].member && !pending_.last)  // they go when the show is over
     leaveOut(node, fmt::format("has not been heard of for {:g} s", options_.cluster.deadline));
   followers_[node] = {};
 }
