@@ -5,7 +5,9 @@
 #include "cli/stop_signal.h"
 #include "engine/plain_file.h"
 #include "engine/script/suggestion.h"
+#include "engine/state_fields.h"
 #include "engine/state_hash.h"
+#include "profiling/node_names.h"
 
 #include <fmt/format.h>
 
@@ -60,6 +62,7 @@ std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& fin
   }
   std::unique_ptr<ClusterPart> part(new ClusterPart(std::move(*file), *node));
   part->show_ = hashOfFiles(o.show);
+  if (o.plantDifference > 0) part->planted_ = o.plantDifference;
   return part;
 }
 
@@ -82,7 +85,11 @@ bool ClusterPart::join(ShowOptions& show, Diagnostics& findings) {
 }
 
 bool ClusterPart::begin(Player& player, Diagnostics& findings) {
-  if (!leads()) return true;
+  player_ = &player;
+  if (!leads()) {
+    follower_->compareWith([this](const std::vector<std::uint8_t>& there) { return differenceTo(there); });
+    return true;
+  }
   auto opened = cluster::Lead::open(
       {file_, show_, player.rate(), kPatience, [this](const std::string& what) { tell(what); }, nobodyWaits});
   if (!opened) return findings.add(opened.error()), false;
@@ -90,6 +97,18 @@ bool ClusterPart::begin(Player& player, Diagnostics& findings) {
   lead_->saveWith([&player] { return player.scene().save(); });
   lead_->begin();
   return true;
+}
+
+std::optional<cluster::Follower::Differs>
+ClusterPart::differenceTo(const std::vector<std::uint8_t>& there) const {
+  const auto d = player_->scene().difference(there);
+  if (!d) return {};
+  NodeNames names;
+  names.see(player_->scene());
+  const auto name = names.find(d->node);
+  const std::string where =
+      name ? fmt::format("{} ({}:{})", name->path, name->file, name->line) : "the scene";
+  return cluster::Follower::Differs{where + ", " + d->field, d->here, d->there};
 }
 
 void ClusterPart::addTo(FrameLoopOptions& loop) {
@@ -103,6 +122,20 @@ InputDevice* ClusterPart::inputOf(Player& player) {
 void ClusterPart::simulated(std::uint64_t frame, const Scene& scene) {
   if (lead_ && lead_->compares(frame)) lead_->simulated(frame, scene.stateHash());
   if (follower_ && follower_->compares(frame)) follower_->simulated(frame, scene.stateHash());
+  if (planted_ == frame) plantDifference();
+}
+
+/// The last bit of a body's path, if there is one.
+void ClusterPart::plantDifference() {
+  class OneBit final : public StateFields {
+    void number(std::uint64_t& bits, Form form) override {
+      if (done_ || form != Form::Real || name_ != "c" || bits == 0) return;
+      bits ^= 1, done_ = true;
+    }
+    void text(std::string&) override {}
+    bool done_ = false;
+  } bit;
+  player_->scene().forEachNode([&](const Node& node) { const_cast<Node&>(node).state(bit); });
 }
 
 void ClusterPart::finish() {
@@ -118,6 +151,7 @@ ClusterSummary ClusterPart::summary() const {
   s.orderBytes = t.orders > 0 ? static_cast<double>(t.orderBytes) / static_cast<double>(t.orders) : 0;
   s.mostOrderBytes = t.mostOrderBytes;
   s.barrier = distributionOf(t.barrier.values());
+  s.stopped = t.stopped > 0;
   s.joined = t.joined, s.leftOut = t.leftOut, s.compared = t.compared, s.differed = t.differed;
   return s;
 }

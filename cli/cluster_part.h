@@ -10,6 +10,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace stadion {
 
@@ -43,8 +45,14 @@ private:
   ClusterPart(ClusterFile file, std::size_t node) : file_(std::move(file)), node_(node) {}
   void tell(const std::string& what) const;
 
+  std::optional<cluster::Follower::Differs> differenceTo(const std::vector<std::uint8_t>& there) const;
+  void plantDifference();
+
   ClusterFile file_;
   std::size_t node_;
+  std::optional<std::uint64_t>
+      planted_;  ///< the frame after which a bit is changed, to see whether that is found
+  Player* player_ = nullptr;
   std::uint64_t show_ = 0;  ///< hash of the files that must be the same everywhere
   std::unique_ptr<cluster::Lead> lead_;
   std::unique_ptr<cluster::Follower> follower_;

@@ -243,6 +243,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
                            s.desk->uptime(), recording, s.work.totals(s.player->walls().names()),
                            s.drawing ? &*s.drawing : nullptr, s.cluster.get()},
                           s.output.get(), s.folder.get());
+  if (code == kOk && s.cluster && s.cluster->summary().stopped) return kInternalFault;
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;

@@ -119,6 +119,7 @@ void RunOptions::addClusterTo(CLI::App& command) {
   CLI::Option* name = command.add_option("--node", node, "which of the cluster's nodes this machine is");
   file->check(aName, "FILE")->needs(name)->excludes(command.get_option("--walls"));
   name->check(aName, "NAME")->needs(file);
+  command.add_option("--plant-difference", plantDifference)->needs(file)->group("");  // for tests
 }
 
 /// What all machines do together each of them cannot decide alone.

@@ -25,19 +25,20 @@ struct RunOptions {
   std::string blackBox;  ///< where a live run keeps its last frames; empty: a temporary file
   SpanOptions spans;
   bool countWork = false;
-  bool unrecorded = false;           ///< for `stadion bench recording` alone
-  std::string cluster, node;         ///< a cluster file, and which of its nodes this is
-  StressOptions stress;              ///< of the whole show
-  bool loadAsked = false;            ///< any option of --load-control and stress was given
-  bool loadControl = true;           ///< a live run gives up what its script says, when it takes too long
-  std::string cullDraw = "overlap";  ///< or "apart": Draw waits until its list is complete
-  bool cullDrawGiven = false;        ///< else `cullDraw` is the standard
-  std::size_t latency = 0;           ///< frames under way at most; 0: as many as there is room for
-  bool lateLatch = false;            ///< Draw takes the newest head
-  HeadReach latchReach{0.05, 0.25};  ///< as far as it lies within
-  std::string predict = "off";       ///< how far ahead the head is told: off, auto, or milliseconds
-  std::string wallWorkers = "auto";  ///< who draws the walls: thread, process or auto
-  std::string pin = "auto";          ///< each wall on processors of its own: on, off or auto
+  bool unrecorded = false;            ///< for `stadion bench recording` alone
+  std::string cluster, node;          ///< a cluster file, and which of its nodes this is
+  std::uint64_t plantDifference = 0;  ///< for tests: a bit of the scene is changed after that frame
+  StressOptions stress;               ///< of the whole show
+  bool loadAsked = false;             ///< any option of --load-control and stress was given
+  bool loadControl = true;            ///< a live run gives up what its script says, when it takes too long
+  std::string cullDraw = "overlap";   ///< or "apart": Draw waits until its list is complete
+  bool cullDrawGiven = false;         ///< else `cullDraw` is the standard
+  std::size_t latency = 0;            ///< frames under way at most; 0: as many as there is room for
+  bool lateLatch = false;             ///< Draw takes the newest head
+  HeadReach latchReach{0.05, 0.25};   ///< as far as it lies within
+  std::string predict = "off";        ///< how far ahead the head is told: off, auto, or milliseconds
+  std::string wallWorkers = "auto";   ///< who draws the walls: thread, process or auto
+  std::string pin = "auto";           ///< each wall on processors of its own: on, off or auto
   /// How many threads the environment gives the rasteriser, if it says so; no option.
   std::optional<unsigned> rasteriserThreads{};
   bool wait = false;

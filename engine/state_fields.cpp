@@ -68,9 +68,10 @@ void RestoredState::text(std::string& words) {
 }
 
 void StateDifference::number(std::uint64_t& bits, Form form) {
-  if (first_) return;
+  if (apart_) return;
   const std::uint64_t there = form == Form::Real ? there_.real() : there_.whole();
   if (there == bits && !there_.failed()) return;
+  apart_ = form == Form::Count || there_.failed();
   const auto told = [form](std::uint64_t value) {
     if (form == Form::Real) return fmt::format("{:.17g}", std::bit_cast<double>(value));
     return form == Form::Signed ? fmt::format("{}", static_cast<std::int64_t>(value))
@@ -80,13 +81,14 @@ void StateDifference::number(std::uint64_t& bits, Form form) {
 }
 
 void StateDifference::text(std::string& words) {
-  if (first_) return;
+  if (apart_) return;
   const std::string there = there_.text();
   if (there == words && !there_.failed()) return;
   found("\"" + words + "\"", there_.failed() ? "nothing" : "\"" + there + "\"");
 }
 
 void StateDifference::found(std::string here, std::string there) {
+  if (first_) return;
   std::string name(outer_);
   if (!name.empty()) name += ".";
   first_ = Field{name + std::string(name_), std::move(here), std::move(there)};

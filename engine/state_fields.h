@@ -63,7 +63,7 @@ public:
   std::size_t count(std::string_view name, std::size_t present) {
     name_ = name;
     std::uint64_t n = present;
-    number(n, Form::Whole);
+    number(n, Form::Count);
     if (n > most()) fail();
     return failed() ? 0 : static_cast<std::size_t>(n);
   }
@@ -77,7 +77,7 @@ public:
 
 protected:
   /// How a number's 64 bits are to be read by people.
-  enum class Form : std::uint8_t { Whole, Signed, Real };
+  enum class Form : std::uint8_t { Whole, Signed, Real, Count };  ///< Count: what follows depends on it
   virtual void number(std::uint64_t& bits, Form form) = 0;
   virtual void text(std::string& words) = 0;
   /// Elements that a list may have at most: each takes a byte.
@@ -146,9 +146,10 @@ private:
   }
   template <class T>
   void visitAll(std::optional<T>& o) {
-    bool there = o.has_value();
-    visit(there);
-    if (restores()) there ? void(o.emplace()) : o.reset();
+    std::uint64_t there = o.has_value() ? 1 : 0;
+    number(there, Form::Count);
+    if (there > 1) fail();
+    if (restores()) there == 1 ? void(o.emplace()) : o.reset();
     if (o) visit(*o);
   }
   template <class T>
@@ -297,7 +298,8 @@ private:
   StateBytes bytes_;
 };
 
-/// Compared with what was written elsewhere: the first field that differs.
+/// Compared with what was written elsewhere: the first field that differs, and after next() another one.
+/// Where lists are not alike in length, what follows cannot be compared: there is no other one.
 class StateDifference final : public StateFields {
 public:
   explicit StateDifference(std::span<const std::uint8_t> there) : there_(there) {}
@@ -307,6 +309,8 @@ public:
     std::string here, there;  ///< as people read them
   };
   const std::optional<Field>& first() const { return first_; }
+  /// Looks for another one in what is visited from now on.
+  void next() { first_.reset(); }
 
 private:
   void number(std::uint64_t& bits, Form form) override;
@@ -315,6 +319,7 @@ private:
 
   StateBytes there_;
   std::optional<Field> first_;
+  bool apart_ = false;  ///< what follows cannot be compared
 };
 
 }  // namespace stadion

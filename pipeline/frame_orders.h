@@ -27,8 +27,9 @@ class FrameOrders {
 public:
   virtual ~FrameOrders() = default;
   virtual bool leads() const = 0;
-  /// Who leads: this is the next frame. Its input follows with the sample that App takes for it.
-  virtual void issue(const FrameOrder& order) = 0;
+  /// Who leads: this is the next frame; it may be made the last one. Its input follows with the sample that
+  /// App takes for it.
+  virtual void issue(FrameOrder& order) = 0;
   /// Who follows: waits for the next frame. Nothing: there is none.
   virtual std::optional<FrameOrder> next() = 0;
   /// All walls of this machine have drawn that frame (or it is not drawn): waits until all machines have.

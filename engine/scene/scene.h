@@ -183,6 +183,14 @@ public:
   /// Puts back what save() wrote, in a scene in which nothing has been opened, of the same files. Waits until
   /// they are loaded. False: this is no such state, or the files have changed; then the scene is of no use.
   bool restore(std::span<const std::uint8_t> state);
+  /// Where this scene differs from one that save() has written down elsewhere, after the same frame.
+  struct Difference {
+    NodeRef node;       ///< whose field it is; not valid: of the scene as a whole
+    std::string field;  ///< "velocity"
+    std::string here, there;
+  };
+  /// The first node's that differs, else what else does; nothing: they are alike.
+  std::optional<Difference> difference(std::span<const std::uint8_t> there);
   const FrameCounters& counters() const { return counters_; }
   const std::vector<EventRecord>& events() const { return events_; }  ///< of the last frame, by time
   std::size_t loadCount() const { return loads_.size(); }
@@ -324,6 +332,7 @@ private:
   void visitLoads(StateFields& f);
   void visitLoad(StateFields& f, std::uint32_t number);
   void visitNodes(StateFields& f);
+  void visitNode(StateFields& f, Node& node);
   void visitRest(StateFields& f);
   bool standsTogether() const;
   bool resume();

@@ -93,12 +93,37 @@ void Scene::visitRest(StateFields& f) {
 void Scene::visitNodes(StateFields& f) {
   for (const auto& [number, l] : loads_)
     for (const std::uint32_t position : l->enterOrder) {
-      Node& node = *l->nodes[position];
-      Node::Standing& s = node.standing();
-      f("rests", s.rests), f("pace", s.pace), f("missed", s.missed);
-      node.state(f);
+      visitNode(f, *l->nodes[position]);
       if (f.failed()) return;
     }
+}
+
+void Scene::visitNode(StateFields& f, Node& node) {
+  Node::Standing& s = node.standing();
+  f("rests", s.rests), f("pace", s.pace), f("missed", s.missed);
+  node.state(f);
+}
+
+// What is seen of a node, such as where it is, follows from the node: whoever asks wants to know which.
+std::optional<Scene::Difference> Scene::difference(std::span<const std::uint8_t> there) {
+  StateDifference d(there);
+  const auto found = [&](NodeRef node) -> std::optional<Difference> {
+    if (!d.first()) return {};
+    return Difference{node, d.first()->name, d.first()->here, d.first()->there};
+  };
+  std::uint32_t version = kVersion;
+  d("version", version);
+  visitLoads(d);
+  placements_.state(d);
+  visitRest(d);
+  const auto elsewhere = found({});
+  d.next();
+  for (const auto& [number, l] : loads_)
+    for (const std::uint32_t position : l->enterOrder) {
+      visitNode(d, *l->nodes[position]);
+      if (const auto ofNode = found({number, position})) return ofNode;
+    }
+  return elsewhere;
 }
 
 /// Whether whatever names a placement, an instance or a node's place in a list names one that is there.

@@ -114,6 +114,8 @@ Result<std::unique_ptr<Bus>> Bus::open(const ClusterFile& o, BusListener& listen
       bus->add<Drawn>(kDrawn, stadion_wire_Drawn_desc, "stadion_drawn", heard, every.qos) &&
       bus->add<Go>(kGo, stadion_wire_Go_desc, "stadion_go", heard, every.qos) &&
       bus->add<SceneHash>(kSceneHash, stadion_wire_SceneHash_desc, "stadion_scene_hash", heard, every.qos) &&
+      bus->add<Difference>(kDifference, stadion_wire_Difference_desc, "stadion_difference", heard,
+                           every.qos) &&
       bus->add<StatePart>(kStatePart, stadion_wire_StatePart_desc, "stadion_state_part", heard, every.qos);
   dds_delete_listener(heard);
   if (!well) return wrong("Cyclone DDS does not take a topic");
@@ -142,6 +144,9 @@ void Bus::tell(const Go& go) {
 }
 void Bus::tell(const SceneHash& hash) {
   write(writers_[kSceneHash], &hash);
+}
+void Bus::tell(const Difference& difference) {
+  write(writers_[kDifference], &difference);
 }
 void Bus::tell(const StatePart& part) {
   write(writers_[kStatePart], &part);

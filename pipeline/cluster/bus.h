@@ -28,6 +28,7 @@ using Order = stadion_wire_Order;
 using Drawn = stadion_wire_Drawn;
 using Go = stadion_wire_Go;
 using SceneHash = stadion_wire_SceneHash;
+using Difference = stadion_wire_Difference;
 using StatePart = stadion_wire_StatePart;
 
 /// What a node is at (Presence).
@@ -46,6 +47,7 @@ public:
   virtual void hear(const Drawn&) {}
   virtual void hear(const Go&) {}
   virtual void hear(const SceneHash&) {}
+  virtual void hear(const Difference&) {}
   virtual void hear(const StatePart&) {}
   /// Nobody has heard of that node for the deadline, or it said good-bye.
   virtual void left(std::uint8_t node) { (void)node; }
@@ -65,13 +67,24 @@ public:
   void tell(const Drawn& drawn);
   void tell(const Go& go);
   void tell(const SceneHash& hash);
+  void tell(const Difference& difference);
   /// May take long.
   void tell(const StatePart& part);
   /// Waits until everybody has heard everything, a second at most.
   void flush();
 
 private:
-  enum Channel : std::size_t { kSession, kPresence, kOrder, kDrawn, kGo, kSceneHash, kStatePart, kChannels };
+  enum Channel : std::size_t {
+    kSession,
+    kPresence,
+    kOrder,
+    kDrawn,
+    kGo,
+    kSceneHash,
+    kDifference,
+    kStatePart,
+    kChannels
+  };
 
   Bus() = default;
   template <class T>

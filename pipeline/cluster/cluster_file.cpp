@@ -45,7 +45,8 @@ private:
         {"domain", "a number", &Parser::domain},
         {"partition", "a name", &Parser::partition},
         {"deadline", "seconds", &Parser::deadline},
-        {"hash-every", "a number of frames", &Parser::hashEvery}};
+        {"hash-every", "a number of frames", &Parser::hashEvery},
+        {"on-difference", "resync or stop", &Parser::onDifference}};
     return kStatements;
   }
 
@@ -117,6 +118,12 @@ private:
   }
   void hashEvery(const Word& word) {
     if (const auto frames = in_.count(word, "the number of frames", 1, 1000)) cluster_.hashEvery = *frames;
+  }
+
+  void onDifference(const Word& word) {
+    if (word.text != "resync" && word.text != "stop")
+      return in_.error(word.column, quotedWord(word.text) + " is neither resync nor stop");
+    cluster_.stopOnDifference = word.text == "stop";
   }
 
   /// Once all nodes are known.

@@ -16,6 +16,7 @@
 ///     DDS, 0 to 230 (0); clusters in one network need different ones, or partition NAME           different
 ///     names (stadion) deadline SECONDS         a node silent for so long is left out, 0.1 to 60 (0.5)
 ///     hash-every FRAMES        how often the scenes are compared, 1 to 1000 (30)
+///     on-difference resync|stop   whose scene differs takes over that of who leads (resync), or all end
 /// Each wall of the room is shown by at most one node. A cluster has 1 to 24 nodes.
 ///
 /// Threads  plain values, any thread.
@@ -49,6 +50,7 @@ struct ClusterFile {
   std::string partition = "stadion";
   double deadline = 0.5;  ///< [s]
   std::uint64_t hashEvery = 30;
+  bool stopOnDifference = false;
 
   /// The index of that node.
   std::optional<std::size_t> find(std::string_view name) const;

@@ -92,8 +92,12 @@ std::optional<Joining> Follower::join() {
   announce(Phase::Asking);
   if (!await(lock, ("the scene's state from " + lead).c_str(), [&] { return complete_ || again_; }) || again_)
     return {};
-  std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.serial <= obeyed_; });
+  obeyed_ = stateSerial_;
+  std::erase_if(orders_, [&](const HeardOrder& o) {
+    return o.numbers.session != joined_ || o.numbers.serial <= obeyed_;
+  });
   joining.state = std::make_shared<const std::vector<std::uint8_t>>(std::move(state_));
+  complete_ = false, received_ = 0;
   return joining;
 }
 
@@ -109,7 +113,11 @@ std::optional<FrameOrder> Follower::next() {
     again_ = true;
     return {};
   }
-  obeyed_ = heard.numbers.serial;
+  if ((heard.numbers.explain >> options_.node & 1U) != 0 && explain(lock)) {
+    again_ = true;
+    return {};
+  }
+  obeyed_ = heard.numbers.serial, frame_ = heard.order.signature.frame;
   heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
   // Left out, for being late: whoever has caught up is taken back.
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
@@ -117,6 +125,25 @@ std::optional<FrameOrder> Follower::next() {
   sample_ = std::move(heard.input), sampled_ = heard.sampled;
   ++tally_.orders;
   return heard.order;
+}
+
+/// With the lock. True: the scene differs.
+bool Follower::explain(std::unique_lock<std::mutex>& lock) {
+  const auto has = [&] { return again_ || (complete_ && stateSerial_ == obeyed_); };
+  if (!await(lock, "the scene of who leads, to compare ours with it", has) || again_) return true;
+  const std::optional<Differs> differs = compare_ ? compare_(state_) : std::nullopt;
+  complete_ = false, received_ = 0;
+  Difference told{};
+  told.node = static_cast<std::uint8_t>(options_.node), told.session = joined_, told.frame = frame_;
+  told.found = differs.has_value();
+  Differs d = differs.value_or(Differs{});
+  told.where = d.where.data(), told.here = d.here.data(), told.there = d.there.data();
+  bus_->tell(told);
+  if (!differs) return false;
+  options_.tell(fmt::format("our scene differs from that of {} after frame {}: {} is {} here and {} there",
+                            options_.cluster.nodes[options_.cluster.lead].name, frame_, d.where, d.here,
+                            d.there));
+  return true;
 }
 
 bool Follower::mayShow(const TimeSignature&) {
@@ -177,12 +204,13 @@ void Follower::hear(const StatePart& part) {
     const std::lock_guard lock(mutex_);
     if (part.to != incarnation_ || complete_ || part.size > kMostState) return;
     const std::uint64_t length = part.bytes._length;
-    if (part.offset != received_ || length > part.size - part.offset) return;
+    if (part.offset != received_ || part.offset > part.size || length > part.size - part.offset) return;
     if (part.offset == 0) state_.resize(part.size);
+    if (state_.size() != part.size) return;
     std::memcpy(state_.data() + part.offset, part.bytes._buffer, length);
     received_ += length;
     complete_ = received_ == part.size;
-    obeyed_ = part.serial;
+    stateSerial_ = part.serial;
   }
   changed_.notify_all();
 }

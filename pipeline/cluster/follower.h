@@ -46,6 +46,13 @@ public:
   /// Waits for who leads, and for the scene's state if the show is under way. Nothing: nobody waits any
   /// longer, or the shows differ; then it has been told.
   std::optional<Joining> join();
+  /// Where the scene differs from one that was written down elsewhere: its place and field, here, there;
+  /// nothing: it does not. Called on the App thread, between two frames.
+  struct Differs {
+    std::string where, here, there;
+  };
+  using Compare = std::function<std::optional<Differs>(const std::vector<std::uint8_t>& there)>;
+  void compareWith(Compare compare) { compare_ = std::move(compare); }
   /// What the leading machine has sampled for the frame that next() has given.
   InputDevice& input() { return *input_; }
   bool compares(std::uint64_t frame) const { return frame % options_.cluster.hashEvery == 0; }
@@ -56,7 +63,7 @@ public:
   void finish();
 
   bool leads() const override { return false; }
-  void issue(const FrameOrder&) override {}
+  void issue(FrameOrder&) override {}
   std::optional<FrameOrder> next() override;
   bool mayShow(const TimeSignature& now) override;
 
@@ -71,6 +78,7 @@ private:
 
   explicit Follower(FollowerOptions options);
   void announce(Phase phase);
+  bool explain(std::unique_lock<std::mutex>& lock);
   template <class Ready>
   bool await(std::unique_lock<std::mutex>& lock, const char* what, const Ready& ready);
 
@@ -81,9 +89,12 @@ private:
   Session session_{};         ///< number 0: there is none
   std::uint64_t joined_ = 0;  ///< the session that we play
   std::deque<HeardOrder> orders_;
+  /// Of who leads, that is sent to us: after that order.
   std::vector<std::uint8_t> state_;
-  std::uint64_t stateSize_ = 0, received_ = 0;
+  std::uint64_t received_ = 0, stateSerial_ = 0;
   bool complete_ = false;
+  std::uint64_t frame_ = 0;  ///< obeyed last
+  Compare compare_;
   std::uint64_t obeyed_ = 0, go_ = 0, shown_ = 0;
   std::uint8_t latest_ = 0;
   Phase told_ = Phase::Waiting;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 namespace stadion::cluster {
 namespace {
@@ -95,9 +96,10 @@ void Lead::begin() {
 }
 
 // The order goes out with its input, which App takes next.
-void Lead::issue(const FrameOrder& order) {
+void Lead::issue(FrameOrder& order) {
   answerWhoAsks();
   const std::lock_guard lock(mutex_);
+  order.last = order.last || stop_;
   pending_ = order;
   awaitsInput_ = true;
 }
@@ -110,7 +112,8 @@ void Lead::send(const InputSample* input) {
   for (std::size_t i = 0; i < followers_.size(); ++i)
     if (followers_[i].member) members |= bit(i);
   rounds_.push_back({++serial_, members, false});
-  bus_->tell(written_.write({session_.number, serial_, members}, pending_, input));
+  bus_->tell(
+      written_.write({session_.number, serial_, members, std::exchange(explain_, 0)}, pending_, input));
   const std::uint64_t bytes = written_.bytes();
   ++tally_.orders, tally_.orderBytes += bytes;
   tally_.mostOrderBytes = std::max(tally_.mostOrderBytes, bytes);
@@ -123,8 +126,12 @@ void Lead::answerWhoAsks() {
   {
     const std::lock_guard lock(mutex_);
     serial = serial_;
-    for (Follower& f : followers_)
-      if (serial > 0 && f.asks) asking.push_back(f.incarnation), f.asks = false;
+    for (std::size_t i = 0; i < followers_.size() && serial > 0; ++i) {
+      Follower& f = followers_[i];
+      if (!std::exchange(f.asks, false)) continue;
+      asking.push_back(f.incarnation);
+      if (f.differs) explain_ |= bit(i);
+    }
   }
   if (asking.empty() || !save_) return;
   const std::vector<std::uint8_t> state = save_();
@@ -192,7 +199,7 @@ void Lead::hear(const Presence& p) {
   Follower& f = followers_[p.node];
   if (f.incarnation != p.incarnation) {
     if (f.member) leaveOut(p.node, "began anew");
-    f = {p.incarnation, Phase::Waiting, false, false};
+    f = {p.incarnation, Phase::Waiting, false, false, false};
   }
   f.phase = p.session == session_.number ? static_cast<Phase>(p.phase) : Phase::Waiting;
   f.asks = f.phase == Phase::Asking;
@@ -256,9 +263,24 @@ void Lead::compare(std::size_t node, std::uint64_t frame, std::uint64_t hash) {
   const auto ours = std::ranges::find(hashes_, frame, &std::pair<std::uint64_t, std::uint64_t>::first);
   ++tally_.compared;
   if (ours == hashes_.end() || ours->second == hash) return;
-  if (tally_.differed++ == 0 || tally_.differed % kHashesKept == 0)
-    options_.tell(fmt::format("{} has another scene than {} since frame {} at the latest ({:016x}, {:016x})",
-                              nameOf(node), nameOf(options_.cluster.lead), frame, hash, ours->second));
+  ++tally_.differed;
+  if (std::exchange(followers_[node].differs, true)) return;
+  followers_[node].asks = true;
+  options_.tell(
+      fmt::format("the scene of {} differs from ours since frame {} at the latest ({:016x}, {:016x})",
+                  nameOf(node), frame, hash, ours->second));
+}
+
+void Lead::hear(const Difference& d) {
+  const std::lock_guard lock(mutex_);
+  if (d.session != session_.number || d.node >= followers_.size()) return;
+  if (d.found)
+    options_.tell(fmt::format("the scene of {} differs from ours after frame {}: {} is {} there and {} here",
+                              nameOf(d.node), d.frame, d.where, d.here, d.there));
+  else
+    options_.tell(fmt::format("the scene of {} is like ours after frame {}", nameOf(d.node), d.frame));
+  stop_ = stop_ || (d.found && options_.cluster.stopOnDifference);
+  if (stop_) tally_.stopped = 1;
 }
 
 void Lead::finish() {

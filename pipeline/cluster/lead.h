@@ -51,7 +51,7 @@ public:
   void finish();
 
   bool leads() const override { return true; }
-  void issue(const FrameOrder& order) override;
+  void issue(FrameOrder& order) override;
   std::optional<FrameOrder> next() override { return {}; }
   bool mayShow(const TimeSignature& now) override;
 
@@ -59,6 +59,7 @@ public:
   void hear(const Presence& presence) override;
   void hear(const Drawn& drawn) override;
   void hear(const SceneHash& hash) override;
+  void hear(const Difference& difference) override;
   void left(std::uint8_t node) override;
 
 private:
@@ -69,6 +70,7 @@ private:
     std::uint64_t incarnation = 0;  ///< 0: it is not there
     Phase phase = Phase::Waiting;
     bool member = false, asks = false;
+    bool differs = false;  ///< its scene, and it has not joined again since
   };
   /// An order that not all have drawn.
   struct Round {
@@ -97,7 +99,9 @@ private:
   std::condition_variable changed_;
   std::vector<Follower> followers_;  ///< by node
   FrameOrder pending_;
-  bool awaitsInput_ = false;  ///< an order waits for its input
+  bool awaitsInput_ = false;   ///< an order waits for its input
+  std::uint32_t explain_ = 0;  ///< who is to say with it where its scene differs
+  bool stop_ = false;          ///< scenes differ, and that is to end the show
   std::uint64_t serial_ = 0, go_ = 0, shown_ = 0;
   std::deque<Round> rounds_;                                    ///< by serial
   std::uint8_t latest_ = 0;                                     ///< who has drawn last

@@ -53,7 +53,8 @@ TrackerSample read(const stadion_wire_Tracker& w) {
 
 const Order& WrittenOrder::write(const OrderNumbers& numbers, const FrameOrder& o, const InputSample* input) {
   Order& w = order_;
-  w.session = numbers.session, w.serial = numbers.serial, w.members = numbers.members;
+  w.session = numbers.session, w.serial = numbers.serial, w.members = numbers.members,
+  w.explain = numbers.explain;
   w.frame = o.signature.frame, w.time = o.signature.time, w.step = o.signature.step;
   decisions_.clear(), trackers_.clear();
   for (const LoadDecision& d : o.signature.load) decisions_.push_back({d.load, d.position, d.level});
@@ -91,7 +92,7 @@ std::size_t WrittenOrder::bytes() const {
 
 HeardOrder readOrder(const Order& w) {
   HeardOrder heard;
-  heard.numbers = {w.session, w.serial, w.members};
+  heard.numbers = {w.session, w.serial, w.members, w.explain};
   TimeSignature& now = heard.order.signature;
   now.frame = w.frame, now.time = w.time, now.step = w.step;
   for (const stadion_wire_Decision& d : spanOf(w.decisions)) now.load.add({d.load, d.position, d.level});

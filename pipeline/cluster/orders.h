@@ -16,6 +16,7 @@ namespace stadion::cluster {
 struct OrderNumbers {
   std::uint64_t session = 0, serial = 0;
   std::uint32_t members = 0;  ///< bit n: node n shows it
+  std::uint32_t explain = 0;  ///< bit n: node n is to say where its scene differs
 };
 
 /// An order that can be told; refilled, so that nothing is allocated once it is large enough.

@@ -14,7 +14,7 @@ struct Tally {
   /// Of frames for which all others waited for this machine: from when it had drawn to when it may show that
   /// [ms].
   DurationSeries barrier;
-  std::uint64_t leftOut = 0, joined = 0, compared = 0, differed = 0;
+  std::uint64_t leftOut = 0, joined = 0, compared = 0, differed = 0, stopped = 0;
 };
 
 }  // namespace stadion::cluster

@@ -270,7 +270,8 @@ std::string toJson(const RunSummary& s) {
                         {"joined", c->joined},
                         {"left_out", c->leftOut},
                         {"compared", c->compared},
-                        {"differed", c->differed}};
+                        {"differed", c->differed},
+                        {"stopped_for_difference", c->stopped}};
   if (s.stress)
     j["stress"] =
         Json{{"highest", s.stress->highest}, {"at_end", s.stress->atEnd}, {"changes", s.stress->changes}};

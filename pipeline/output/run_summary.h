@@ -76,6 +76,7 @@ struct ClusterSummary {
   Distribution barrier;
   std::uint64_t joined = 0, leftOut = 0;     ///< told by who leads
   std::uint64_t compared = 0, differed = 0;  ///< scenes
+  bool stopped = false;                      ///< because they differed
 };
 
 /// Something that happened in the show, such as an impact.

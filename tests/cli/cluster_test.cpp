@@ -127,6 +127,36 @@ TEST(ProgramCluster, AMachineThatDiesIsLeftOutAndComesBackWithTheSameScene) {
     EXPECT_EQ(summaryOf(out + "/" + node)["state_hash"], lead["state_hash"]) << node;
 }
 
+TEST(ProgramCluster, ABitThatDiffersIsNamedAndTheSceneTakenOver) {
+  const TemporaryFolder folder;
+  const std::string cluster =
+      folder.write("two.cluster", "walls cave4\nnode front front left right\nnode floor floor\n"
+                                  "hash-every 10\npartition d" +
+                                      std::to_string(getpid()) + "\n");
+  const std::vector<std::string> play{stadionPath(), "run",    kKick,   "--cluster",  cluster, "--size",
+                                      "32x24",       "--look", "plain", "--seconds",  "8",     "--rate",
+                                      "60",          "--pace", "lock",  "--pictures", "none"};
+  std::vector<std::string> lead = play, other = play;
+  lead.insert(lead.end(), {"--node", "front", "--out", folder.path() / "front"});
+  other.insert(other.end(),
+               {"--node", "floor", "--out", folder.path() / "floor", "--plant-difference", "100"});
+  const std::string toldThere = folder.path() / "there";
+  const pid_t there = startProgram({other}, folder.path() / "said", toldThere);
+  const ProgramResult here = runProgram({lead});
+  EXPECT_EQ(endOf(there), 0) << fileContent(toldThere);
+  EXPECT_EQ(here.status, 0) << here.err;
+  EXPECT_NE(here.err.find("the scene of floor differs from ours since frame 110 at the latest"),
+            std::string::npos)
+      << here.err;
+  for (const std::string& told : {here.err, fileContent(toldThere)}) {
+    EXPECT_NE(told.find("sim_kick ("), std::string::npos) << told;
+    EXPECT_NE(told.find(", path.c is "), std::string::npos) << told;
+  }
+  EXPECT_NE(here.err.find("floor plays with us"), std::string::npos) << here.err;
+  EXPECT_EQ(summaryOf(folder.path() / "floor")["state_hash"],
+            summaryOf(folder.path() / "front")["state_hash"]);
+}
+
 TEST(ProgramCluster, WhatIsWrongIsToldAtTheStart) {
   const TemporaryFolder folder;
   const std::string cluster = fourNodes(folder);

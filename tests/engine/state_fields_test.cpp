@@ -106,6 +106,31 @@ TEST(StateFields, TheFirstFieldThatDiffersIsNamed) {
   EXPECT_EQ(found->name + " " + found->here + " " + found->there, "time -7 8");
 }
 
+TEST(StateFields, AfterTheFirstDifferenceThereIsTheNextUnlessListsAreNotAlike) {
+  Whole here = example(), there = example();
+  there.time = 8, there.node.position = 77;
+  std::vector<std::uint8_t> written = saved(there);
+  StateDifference d(written);
+  d("on", here.on), d("time", here.time);
+  ASSERT_TRUE(d.first());
+  d.next();
+  d("count", here.count), d("colour", here.colour), d("place", here.place), d("pose", here.pose);
+  d("limit", here.limit), d("parts", here.parts);
+  EXPECT_FALSE(d.first()) << d.first()->name;
+  d("node", here.node);
+  ASSERT_TRUE(d.first());
+  EXPECT_EQ(d.first()->name, "node");
+
+  there.parts.pop_back();
+  written = saved(there);
+  StateDifference shorter(written);
+  Whole::fields(here, shorter);
+  ASSERT_TRUE(shorter.first());
+  shorter.next();
+  Whole::fields(here, shorter);
+  EXPECT_FALSE(shorter.first()) << "what follows cannot be compared";
+}
+
 TEST(StateFields, WhatIsCutShortOrHasTooMuchIsRefused) {
   Whole w = example();
   const std::vector<std::uint8_t> bytes = saved(w);
