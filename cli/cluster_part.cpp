@@ -90,6 +90,7 @@ bool ClusterPart::begin(Player& player, Diagnostics& findings) {
     follower_->compareWith([this](const std::vector<std::uint8_t>& there) { return differenceTo(there); });
     return true;
   }
+  lead_.reset();
   auto opened = cluster::Lead::open(
       {file_, show_, player.rate(), kPatience, [this](const std::string& what) { tell(what); }, nobodyWaits});
   if (!opened) return findings.add(opened.error()), false;

@@ -284,7 +284,20 @@ bool nextGroup(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
     if (s.player) break;
     if (!waitForScript(o, stop, s)) return false;
   }
-  const bool well = beginGroup(o, s, findings);
+  // Of a cluster's next group the others learn by a new session.
+  const bool well = beginGroup(o, s, findings) && (!s.cluster || s.cluster->begin(*s.player, findings));
+  tell(findings);
+  return well;
+}
+
+/// The show as the machine that leads has it now. False if it is not to be.
+bool joinAgain(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
+  Diagnostics findings;
+  if (const auto wrong = s.watch->finish()) findings.add(*wrong);
+  s.watch.reset();
+  s.player.reset();
+  s.player = openShow(o, stop, s, findings);
+  const bool well = s.player && beginGroup(o, s, findings) && s.cluster->begin(*s.player, findings);
   tell(findings);
   return well;
 }
@@ -319,6 +332,10 @@ int runShow(RunOptions o) try {
   }
   for (;;) {
     if (const auto code = play(o, stop, setup)) return *code;
+    if (setup.cluster && setup.cluster->isToJoinAgain()) {
+      if (!joinAgain(o, stop, setup)) return codeWithoutShow(stop, setup);
+      continue;
+    }
     if (!nextGroup(o, stop, setup)) return codeWithoutShow(stop, setup);
   }
 } catch (const RunStopped&) {
