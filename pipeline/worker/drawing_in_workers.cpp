@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 namespace stadion {
 namespace {
@@ -23,6 +24,11 @@ constexpr milliseconds kLookEvery{10};    // at who gives up, and whether it liv
 constexpr milliseconds kHangs{5000};      // without using the processor, where every frame counts
 constexpr milliseconds kHangsLive{1000};  // where others must not wait
 constexpr milliseconds kStopped{250};     // if somebody has stopped it
+// A driver that goes round in circles is busy, too: for one frame it may take so much longer than any before.
+constexpr int kTooLong = 20;                  // times
+constexpr milliseconds kSpins{60'000};        // and at least so long, where every frame counts
+constexpr milliseconds kSpinsLive{3000};      // where others must not wait
+constexpr milliseconds kSpinsFirst{600'000};  // while it is not known what a frame takes
 constexpr milliseconds kForEver{24 * 3600 * 1000};
 
 }  // namespace
@@ -43,12 +49,14 @@ struct DrawingInWorkers::Wall {
   double processor = -1;      ///< [s]
   Clock::time_point since{};  ///< when it had used that much, at first
 
+  Clock::time_point began{};              ///< it was given what it is at
+  std::optional<milliseconds> longest{};  ///< that a frame has taken, of any process
+
   // Where the newest frame counts.
   worker::Patience patience;
-  Clock::time_point began{};  ///< its last list
-  bool warm = false;          ///< the process has drawn; what is first takes its compilers, too
-  bool waitedFor = true;      ///< false: the other walls go on without it until it answers
-  Clock::time_point lost{};   ///< when they began to
+  bool warm = false;         ///< the process has drawn; what is first takes its compilers, too
+  bool waitedFor = true;     ///< false: the other walls go on without it until it answers
+  Clock::time_point lost{};  ///< when they began to
 };
 
 DrawingInWorkers::DrawingInWorkers(DrawingInWorkersParts parts)
@@ -74,7 +82,7 @@ void DrawingInWorkers::tell(const Wall& wall, const std::string& what) const {
 Failure DrawingInWorkers::start(Wall& wall) {
   for (std::size_t eye = 0; eye < wall.before.size(); ++eye) wall.before[eye] = wall.totals[eye];
   wall.processor = -1;
-  wall.since = Clock::now();
+  wall.began = wall.since = Clock::now();
   wall.warm = false;
   if (const auto why = wall.process.start())
     return Reason("wall " + wall.name + ": no process draws it: " + *why);
@@ -112,11 +120,19 @@ bool DrawingInWorkers::await(Wall& wall, milliseconds atMost) {
   }
 }
 
-/// Whether it has not used the processor for long, while it had something to do and did not wait for one. One
-/// that opens its context may wait for a disk.
+/// How long one frame may take it; one that has to begin may take as long as where every frame counts.
+milliseconds DrawingInWorkers::mostOf(const Wall& wall) const {
+  const bool live = !parts_.everyFrame && wall.process.state() != State::Opening && wall.warm;
+  if (!wall.longest) return kSpinsFirst;
+  return std::max(live ? kSpinsLive : kSpins, kTooLong * *wall.longest);
+}
+
+/// Whether it has not used the processor for long, while it had something to do and did not wait for one, or
+/// has used it for far too long. One that opens its context may wait for a disk.
 bool DrawingInWorkers::hangs(Wall& wall) {
   const worker::ProcessStatus& status = wall.process.status();
   const auto now = Clock::now();
+  if (now - wall.began > mostOf(wall)) return true;
   if (status.state == 'R' || status.processorSeconds != wall.processor)
     wall.processor = status.processorSeconds, wall.since = now;
   const bool live = !parts_.everyFrame && wall.process.state() != State::Opening;
@@ -139,7 +155,9 @@ void DrawingInWorkers::hasDrawn(Wall& wall, const std::array<DrawTotals, 2>& tot
     wall.totals[eye] = totals[eye];
     wall.totals[eye].add(wall.before[eye]);
   }
-  if (wall.warm) wall.patience.took(Clock::now() - wall.began);
+  const auto took = Clock::now() - wall.began;
+  if (wall.warm) wall.patience.took(took);
+  wall.longest = std::max(wall.longest.value_or(milliseconds(0)), std::chrono::ceil<milliseconds>(took));
   wall.warm = true;
 }
 

@@ -66,6 +66,7 @@ private:
   bool await(Wall& wall, Milliseconds atMost);
   bool awaitInTime(Wall& wall);
   bool hangs(Wall& wall);
+  std::chrono::milliseconds mostOf(const Wall& wall) const;
   Failure start(Wall& wall);
   void died(Wall& wall, const std::string& how);
   Failure answered(Wall& wall);

@@ -24,6 +24,10 @@ std::filesystem::path program() {
   return std::filesystem::path(STADION_BINARY_DIR) / "bin" / "stadion-wall";
 }
 
+std::filesystem::path spinningLibrary() {
+  return program().parent_path() / "libspinning-library.so";
+}
+
 DrawingInWorkersParts partsFor(const MeshStore& meshes, std::size_t walls = 1) {
   DrawingInWorkersParts parts{.meshes = meshes, .walls = {}, .names = {}};
   for (std::size_t i = 0; i < walls; ++i) {
@@ -429,6 +433,28 @@ TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNobodyWaitsForAProcessThatIsGo
     EXPECT_NE(drawing.pid(0), before);
     EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, list));
   }
+}
+
+/// Busy it is all the same.
+TEST(ProgramWallWorkers, AProcessThatGoesRoundInCirclesIsReplaced) {
+  if (!std::filesystem::exists(spinningLibrary())) GTEST_SKIP() << "sanitizers let nothing be preloaded";
+  MeshStore meshes;
+  const DrawList list = stereoList(meshes);
+  auto parts = partsFor(meshes);
+  parts.everyFrame = false, parts.rate = 1;
+  DrawingInWorkers drawing(std::move(parts));
+  setenv("LD_PRELOAD", spinningLibrary().c_str(), 1);
+  const Failure failure = drawing.open(0);
+  unsetenv("LD_PRELOAD");
+  ASSERT_FALSE(failure);
+  for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list, false).drawn);
+  const int before = drawing.pid(0);
+  kill(before, SIGUSR1);
+  double longestCall = 0;
+  EXPECT_LT(secondsUntilDrawn(drawing, list, longestCall), 40);
+  EXPECT_NE(drawing.pid(0), before);
+  EXPECT_NE(kill(before, 0), 0) << "it is gone";
+  EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, list));
 }
 
 TEST(ProgramWallWorkers, AProcessIsDeadWhenTheThreadThatDrawsIsThoughOthersLinger) {

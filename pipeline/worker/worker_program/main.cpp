@@ -9,13 +9,16 @@
 #include "pipeline/worker/protocol.h"
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/uio.h>
+#include <thread>
 #include <unistd.h>
 #include <unordered_map>
 
@@ -158,8 +161,21 @@ std::optional<Diagnostic> Worker::readPictures() {
   return {};
 }
 
+/// Whatever the driver is at when the show is gone, this process goes, too.
+void goWithTheShow() {
+  std::thread([] {
+    pollfd show{kSocket, POLLRDHUP, 0};
+    while (poll(&show, 1, -1) < 0 || (show.revents & (POLLRDHUP | POLLHUP | POLLERR)) == 0) {
+    }
+    constexpr std::chrono::seconds kToTidyUp{2};
+    std::this_thread::sleep_for(kToTidyUp);
+    _exit(1);
+  }).detach();
+}
+
 int work() {
   std::signal(SIGINT, SIG_IGN);  // Ctrl-C is for the show
+  goWithTheShow();
   Worker worker;
   OrderHead order;
   std::array<int, 3> segments{-1, -1, -1};
