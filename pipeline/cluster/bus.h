@@ -12,13 +12,13 @@
 
 #include "engine/diagnostic.h"
 #include "pipeline/cluster/cluster_file.h"
-#include "wire.h"  // made from wire.idl
 
 #include <array>
 #include <cstdint>
 #include <dds/dds.h>
 #include <memory>
 #include <string>
+#include <wire.h>  // made from wire.idl
 
 namespace stadion::cluster {
 

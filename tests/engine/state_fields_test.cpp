@@ -108,7 +108,7 @@ TEST(StateFields, TheFirstFieldThatDiffersIsNamed) {
 
 TEST(StateFields, AfterTheFirstDifferenceThereIsTheNextUnlessListsAreNotAlike) {
   Whole here = example(), there = example();
-  there.time = 8, there.node.position = 77;
+  there.time = 8, there.node.position = 78;
   std::vector<std::uint8_t> written = saved(there);
   StateDifference d(written);
   d("on", here.on), d("time", here.time);

@@ -59,6 +59,18 @@ bool hear(OrderHead& head, std::array<int, 3>& descriptors) {
   return got == static_cast<ssize_t>(sizeof head) && head.magic == kMagic && head.version == kVersion;
 }
 
+/// Whatever the driver is at when the show is gone, this process goes, too.
+void goWithTheShow() {
+  std::thread([] {
+    pollfd show{kSocket, POLLRDHUP, 0};
+    while (poll(&show, 1, -1) < 0 || (show.revents & (POLLRDHUP | POLLHUP | POLLERR)) == 0) {
+    }
+    constexpr std::chrono::seconds kToTidyUp{2};
+    std::this_thread::sleep_for(kToTidyUp);
+    _exit(1);
+  }).detach();
+}
+
 class Worker {
 public:
   /// Why there is none, or nothing.
@@ -94,7 +106,8 @@ std::optional<std::string> Worker::open(const OrderHead& order, const std::array
   bytes_ = std::make_unique<SharedSegment>(segments[0], kListReserve, Access::Read);
   parcels_ = std::make_unique<SharedSegment>(segments[1], kMeshReserve, Access::Read);
   pictures_ = std::make_unique<SharedSegment>(segments[2], kPictureReserve, Access::Write);
-  if (!order.processors.empty()) order.processors.bindThisThread();  // the rasteriser's will start from here
+  if (!order.processors.empty()) order.processors.bindThisThread();  // others will start from here
+  goWithTheShow();
   setRasteriserThreads(order.rasteriserThreads);
   if (const auto why = pinRasteriser()) return why->message;
   auto provider = openGlProvider(order.egl ? GlProviderKind::Egl : GlProviderKind::OsMesa);
@@ -161,21 +174,8 @@ std::optional<Diagnostic> Worker::readPictures() {
   return {};
 }
 
-/// Whatever the driver is at when the show is gone, this process goes, too.
-void goWithTheShow() {
-  std::thread([] {
-    pollfd show{kSocket, POLLRDHUP, 0};
-    while (poll(&show, 1, -1) < 0 || (show.revents & (POLLRDHUP | POLLHUP | POLLERR)) == 0) {
-    }
-    constexpr std::chrono::seconds kToTidyUp{2};
-    std::this_thread::sleep_for(kToTidyUp);
-    _exit(1);
-  }).detach();
-}
-
 int work() {
   std::signal(SIGINT, SIG_IGN);  // Ctrl-C is for the show
-  goWithTheShow();
   Worker worker;
   OrderHead order;
   std::array<int, 3> segments{-1, -1, -1};
