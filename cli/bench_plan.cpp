@@ -115,7 +115,7 @@ private:
             bool& met, double loadBefore) const {
     if (!o_.json)
       std::printf("%s, %s a wall and eye, %u cores, load %.1f to %.1f, %zu rounds of %llu frames\n"
-                  "walls  mode        predicted  measured  error   latency  measured\n",
+                  "walls  mode        predicted  measured  error (of rounds)       latency  measured\n",
                   script.c_str(), o_.size.c_str(), std::thread::hardware_concurrency(), loadBefore, loadNow(),
                   o_.rounds, static_cast<unsigned long long>(frames));
     for (const Combination& c : combinations) {
@@ -126,6 +126,7 @@ private:
                    measuredLatency = c.middleOfRounds(&Round::measuredLatency);
       std::vector<double> errors;
       for (const Round& r : c.rounds) errors.push_back(r.predicted / r.measured - 1);
+      const auto [least, most] = std::ranges::minmax(errors);
       const double error = middleOf(std::move(errors));
       const bool ok = std::abs(error) <= o_.within / 100;
       met = met && ok;
@@ -138,14 +139,17 @@ private:
                                            {"predicted_ms", period},
                                            {"measured_ms", measured},
                                            {"error", error},
+                                           {"error_least", least},
+                                           {"error_most", most},
                                            {"predicted_latency_ms", latency},
                                            {"measured_latency_ms", measuredLatency},
                                            {"ok", ok}}
                                 .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
                                 .c_str());
       else
-        std::printf("%5zu  %-10s %7.2f ms %6.2f ms %+5.1f %%  %6.2f ms %6.2f ms  %s\n", c.walls, mode, period,
-                    measured, 100 * error, latency, measuredLatency, ok ? "ok" : "MISSED");
+        std::printf("%5zu  %-10s %7.2f ms %6.2f ms %+5.1f %% (%+5.1f .. %+5.1f)  %6.2f ms %6.2f ms  %s\n",
+                    c.walls, mode, period, measured, 100 * error, 100 * least, 100 * most, latency,
+                    measuredLatency, ok ? "ok" : "MISSED");
     }
   }
 

@@ -22,12 +22,14 @@
 namespace stadion {
 namespace {
 
+constexpr std::size_t kFewRounds = 5;
+
 struct Options {
   WallsSetting one;
   bool measureOne = false, control = false;
   std::string layout = "flat";
   std::vector<std::string> scenes{"a", "b", "c"};
-  std::size_t rounds = 5;
+  std::size_t rounds = kFewRounds;
   double minutes = 14;
   std::string workers;  ///< empty: thread for one case, process for the table
   bool scaling = false, json = false;
@@ -81,7 +83,10 @@ int report(const WallsOutcome& outcome, const Options& o) {
   std::FILE* to = o.json ? stderr : stdout;
   std::fprintf(to, "%s\n%s\n%s", bench::tableOf(outcome.results).c_str(),
                bench::picturesOf(outcome.results).c_str(), bench::textOf(findings).c_str());
-  std::fprintf(to, "%zu round%s\n", outcome.rounds, outcome.rounds == 1 ? "" : "s");
+  std::fprintf(to, "%zu round%s%s\n", outcome.rounds, outcome.rounds == 1 ? "" : "s",
+               outcome.rounds < kFewRounds && !o.scaling
+                   ? ": so few say little; medians of five are what counts"
+                   : "");
   for (const std::string& failure : outcome.failures) std::fprintf(stderr, "stadion: %s\n", failure.c_str());
   return bench::noneMissed(findings) && outcome.failures.empty() ? kOk : kCheckFailed;
 }

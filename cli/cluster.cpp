@@ -57,9 +57,11 @@ std::deque<NodeProcess> processesOf(const Options& o, const ClusterFile& cluster
   return all;
 }
 
-/// Looks after them until all have ended.
+/// Looks after them until all have ended. Who dies begins again, until who leads has come to its end: then
+/// nobody is waited for any more.
 void watch(const Options& o, std::deque<NodeProcess>& nodes, std::size_t lead) {
   const std::atomic<bool>& stop = catchStopSignals();
+  const auto died = [](const NodeProcess& node) { return node.status && *node.status > 128; };
   bool told = false;
   for (bool running = true; running;) {
     running = false;
@@ -68,9 +70,8 @@ void watch(const Options& o, std::deque<NodeProcess>& nodes, std::size_t lead) {
       if (stop && !told) kill(node.child.pid(), SIGINT);
       node.status = node.child.wait(std::chrono::milliseconds(0));
       running = running || !node.status;
-      // Once who leads has ended, nobody comes any more.
-      const bool died = node.status && *node.status > 128;
-      if (!died || o.once || stop || nodes[lead].status) continue;
+      const bool over = nodes[lead].status && !died(nodes[lead]);
+      if (!died(node) || o.once || stop || over) continue;
       std::fprintf(stderr, "cluster: %s was ended by signal %d and begins again\n", node.name.c_str(),
                    *node.status - 128);
       running = node.start() || running;

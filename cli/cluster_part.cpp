@@ -62,6 +62,7 @@ std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& fin
   }
   std::unique_ptr<ClusterPart> part(new ClusterPart(std::move(*file), *node));
   part->show_ = hashOfFiles(o.show);
+  part->settings_ = "--look " + o.show.look;
   if (o.plantDifference > 0) part->planted_ = o.plantDifference;
   return part;
 }
@@ -70,18 +71,39 @@ void ClusterPart::tell(const std::string& what) const {
   std::fprintf(stderr, "cluster, %s: %s\n", file_.nodes[node_].name.c_str(), what.c_str());
 }
 
-bool ClusterPart::join(ShowOptions& show, Diagnostics& findings) {
-  if (leads()) return true;
-  follower_.reset();
-  auto opened = cluster::Follower::open(
-      {file_, node_, show_, [this](const std::string& what) { tell(what); }, nobodyWaits});
+bool ClusterPart::openLead(Diagnostics& findings) {
+  lead_.reset();
+  auto opened = cluster::Lead::open(
+      {file_, show_, settings_, kPatience, [this](const std::string& what) { tell(what); }, nobodyWaits});
   if (!opened) return findings.add(opened.error()), false;
-  follower_ = std::move(opened.value());
-  const auto joining = follower_->join();
-  if (!joining) return false;
-  show.rate = joining->rate, show.rateGiven = true;
-  show.state = joining->state;
+  lead_ = std::move(opened.value());
   return true;
+}
+
+bool ClusterPart::join(ShowOptions& show, Diagnostics& findings) {
+  if (!leads()) return follow(show, findings);
+  if (!openLead(findings)) return false;
+  const auto underWay = lead_->takeOver();
+  if (!underWay) return true;
+  show.state = underWay->state, after_ = underWay->last, goesOn_ = true;
+  return true;
+}
+
+bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
+  for (;;) {
+    follower_.reset();
+    auto opened = cluster::Follower::open(
+        {file_, node_, show_, settings_, [this](const std::string& what) { tell(what); }, nobodyWaits});
+    if (!opened) return findings.add(opened.error()), false;
+    follower_ = std::move(opened.value());
+    if (const auto joining = follower_->join()) {
+      show.rate = joining->rate, show.rateGiven = true;
+      show.state = joining->state;
+      goesOn_ = show.state != nullptr;
+      return true;
+    }
+    if (!follower_->isToJoinAgain() || nobodyWaits()) return false;
+  }
 }
 
 bool ClusterPart::begin(Player& player, Diagnostics& findings) {
@@ -90,13 +112,12 @@ bool ClusterPart::begin(Player& player, Diagnostics& findings) {
     follower_->compareWith([this](const std::vector<std::uint8_t>& there) { return differenceTo(there); });
     return true;
   }
-  lead_.reset();
-  auto opened = cluster::Lead::open(
-      {file_, show_, player.rate(), kPatience, [this](const std::string& what) { tell(what); }, nobodyWaits});
-  if (!opened) return findings.add(opened.error()), false;
-  lead_ = std::move(opened.value());
+  if (lead_->hasBegun()) {  // the next group's show
+    if (!openLead(findings)) return false;
+    after_.reset();
+  }
   lead_->saveWith([&player] { return player.scene().save(); });
-  lead_->begin();
+  lead_->begin(player.rate());
   return true;
 }
 
@@ -114,13 +135,16 @@ ClusterPart::differenceTo(const std::vector<std::uint8_t>& there) const {
 
 void ClusterPart::addTo(FrameLoopOptions& loop) {
   loop.orders = lead_ ? static_cast<FrameOrders*>(lead_.get()) : follower_.get();
+  loop.after = after_;
 }
 
 InputDevice* ClusterPart::inputOf(Player& player) {
   return lead_ ? &lead_->input(player.input()) : &follower_->input();
 }
 
-void ClusterPart::simulated(std::uint64_t frame, const Scene& scene) {
+void ClusterPart::simulated(const TimeSignature& now, const Scene& scene) {
+  const std::uint64_t frame = now.frame;
+  last_ = now;
   if (lead_ && lead_->compares(frame)) lead_->simulated(frame, scene.stateHash());
   if (follower_ && follower_->compares(frame)) follower_->simulated(frame, scene.stateHash());
   if (planted_ == frame) plantDifference();
@@ -141,6 +165,7 @@ void ClusterPart::plantDifference() {
 
 void ClusterPart::finish() {
   if (lead_) lead_->finish();
+  if (follower_ && follower_->isAskedForScene()) follower_->giveScene(last_, player_->scene().save());
   if (follower_) follower_->finish();
 }
 

@@ -24,26 +24,30 @@ public:
   static std::unique_ptr<ClusterPart> create(RunOptions& options, Diagnostics& findings);
 
   bool leads() const { return node_ == file_.lead; }
-  /// Who follows: waits for who leads, and completes what the show is opened with. False: it is not to be; if
-  /// the findings do not say why, nobody waits any longer.
+  /// Waits for the others as far as needed to know how the show begins, and completes what it is opened with:
+  /// who leads, where the others play already; who follows, for who leads. False: it is not to be; if the
+  /// findings do not say why, nobody waits any longer.
   bool join(ShowOptions& show, Diagnostics& findings);
-  /// The show has been opened. Who leads: opens the network, and waits for the others. False, with findings:
-  /// there is no network.
+  /// The show was under way when we came, or came back.
+  bool goesOn() const { return goesOn_; }
+  /// The show has been opened. Who leads waits for the others. False, with findings: there is no network.
   bool begin(Player& player, Diagnostics& findings);
   /// The other machines' say in what is played. After begin().
   void addTo(FrameLoopOptions& loop);
   /// What the show's parts sample: the same on all machines. After begin().
   InputDevice* inputOf(Player& player);
-  void simulated(std::uint64_t frame, const Scene& scene);
+  void simulated(const TimeSignature& now, const Scene& scene);
   /// The run has ended for want of an order, and the show is to be joined again.
   bool isToJoinAgain() const { return follower_ && follower_->isToJoinAgain(); }
-  /// What there is to tell is heard by all.
+  /// What there is to tell is heard by all; who leads anew gets our scene if it asks for it.
   void finish();
   ClusterSummary summary() const;
 
 private:
   ClusterPart(ClusterFile file, std::size_t node) : file_(std::move(file)), node_(node) {}
   void tell(const std::string& what) const;
+  bool openLead(Diagnostics& findings);
+  bool follow(ShowOptions& show, Diagnostics& findings);
 
   std::optional<cluster::Follower::Differs> differenceTo(const std::vector<std::uint8_t>& there) const;
   void plantDifference();
@@ -54,6 +58,10 @@ private:
       planted_;  ///< the frame after which a bit is changed, to see whether that is found
   Player* player_ = nullptr;
   std::uint64_t show_ = 0;  ///< hash of the files that must be the same everywhere
+  std::string settings_;    ///< what else should be
+  bool goesOn_ = false;
+  std::optional<TimeSignature> after_;  ///< the show goes on after that
+  TimeSignature last_;                  ///< simulated
   std::unique_ptr<cluster::Lead> lead_;
   std::unique_ptr<cluster::Follower> follower_;
 };

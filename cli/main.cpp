@@ -13,10 +13,20 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <fcntl.h>
 #include <new>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
+
+/// Who starts the program with one of them closed would have the next file that is opened take its place, and
+/// messages written into it. Opened the wrong way round, so that their use is an error still.
+void occupyStandardStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
 
 int runProgram(int argc, char** argv, std::optional<unsigned> rasteriserThreads) {
   CLI::App app("Stadion plays immersive shows written in the EVS world description language on stereo walls.",
@@ -63,6 +73,7 @@ int runProgram(int argc, char** argv, std::optional<unsigned> rasteriserThreads)
 }  // namespace stadion
 
 int main(int argc, char** argv) {
+  stadion::occupyStandardStreams();
   stadion::reportCrashes();
   const auto rasteriserThreads = stadion::rasteriserThreadsGiven();
   if (const auto wrong = stadion::pinRasteriser()) {

@@ -181,9 +181,11 @@ bool setUp(RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostic
   if (s.cluster && !s.cluster->begin(*s.player, findings)) return false;
   if (o.display && !(s.displays = DisplayRun::open(o, s.player->walls(), findings))) return false;
   if (!s.folder) return true;
-  if (const std::size_t removed = s.folder->clear(); removed > 0)
+  const bool goesOn = s.cluster && s.cluster->goesOn();  // what was written before belongs to the same show
+  if (const std::size_t removed = goesOn ? 0 : s.folder->clear(); removed > 0)
     std::fprintf(stderr, "removed %zu files of an earlier run from %s\n", removed, o.out.c_str());
-  RunOutputOptions out{*s.folder, o.pictureChoice, o.sheets, o.video, s.player->rate(), o.layout, {}, {}};
+  RunOutputOptions out{*s.folder, o.pictureChoice,  o.sheets, o.video, o.hashes,
+                       goesOn,    s.player->rate(), o.layout, {},      {}};
   for (const WallEntry& w : s.player->walls().walls) {
     out.wallNames.push_back(w.wall.name);
     const WallBasis shape = basis(w.wall);
@@ -217,7 +219,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     s.watch->see(now, input, scene);
-    if (s.cluster) s.cluster->simulated(now.frame, scene);
+    if (s.cluster) s.cluster->simulated(now, scene);
     if (recording) recording->see(scene);
     s.player->collect(running->shownFrame());
     progress.update(now.frame + 1);

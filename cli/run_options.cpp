@@ -48,6 +48,8 @@ void RunOptions::addTo(CLI::App& command) {
                   "of which frames pictures are written: last, all, none, or N for every Nth")
       ->capture_default_str();
   command.add_flag("--sheets", sheets, "a contact sheet of all walls beside each frame's pictures");
+  command.add_flag("--hashes", hashes,
+                   "each picture's hash, and when it was shown: picture-hashes.txt, swap-times.txt");
   command.add_flag("--video", video, "a video of all walls (needs ffmpeg)");
   command.add_flag("--profile", profile, "say which nodes cost the most; stadion profile says more");
   addBlackBoxTo(command);
@@ -236,6 +238,7 @@ bool RunOptions::settle(Diagnostics& findings) {
   if (display && !stereoGiven) layout = StereoLayout::Off;
   if (!trace.empty() && out.empty())
     findings.error({}, "--trace needs --out DIR to know where the table goes");
+  if (hashes && out.empty()) findings.error({}, "--hashes needs --out DIR to know where they go");
   if (video && out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
   if (stress.low > stress.high)
     findings.error({}, "--stress-low must not be greater than --stress-high: between them stress stays");

@@ -46,7 +46,7 @@ struct RunOptions {
   bool display = false;      ///< on the walls' outputs
   bool stereoGiven = false;  ///< else `stereo` is the standard
   bool live = false;         ///< by the clock, whatever else is asked for; no option
-  bool sheets = false, video = false, profile = false, json = false;
+  bool sheets = false, video = false, hashes = false, profile = false, json = false;
 
   StereoLayout layout = StereoLayout::Pair;  ///< from `stereo`
   PictureChoice pictureChoice;               ///< from `pictures`

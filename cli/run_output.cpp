@@ -25,7 +25,10 @@ std::optional<PictureChoice> PictureChoice::parse(const std::string& text) {
   return c;
 }
 
-RunOutput::RunOutput(RunOutputOptions options) : options_(std::move(options)), writer_([this] { work(); }) {}
+RunOutput::RunOutput(RunOutputOptions options) : options_(std::move(options)) {
+  if (options_.hashes) hashes_.emplace(options_.folder, options_.wallNames, options_.further);
+  writer_ = std::thread([this] { work(); });
+}
 
 RunOutput::~RunOutput() {
   {
@@ -47,14 +50,15 @@ bool RunOutput::wantsPictures(std::uint64_t frame) const {
 }
 
 bool RunOutput::wants(const TimeSignature& now) const {
-  return options_.video || wantsPictures(now.frame);
+  return options_.video || options_.hashes || wantsPictures(now.frame);
 }
 
 Failure RunOutput::take(const TimeSignature& now, const std::vector<EyePictures>& walls) {
+  const auto shown = std::chrono::steady_clock::now();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return jobs_.size() < kQueue || failed_; });
   if (failed_) return failure_;
-  jobs_.push_back({now.frame, walls, wantsPictures(now.frame)});
+  jobs_.push_back({now.frame, walls, wantsPictures(now.frame), shown});
   changed_.notify_all();
   return {};
 }
@@ -96,6 +100,9 @@ void RunOutput::fail(Reason why) {
 void RunOutput::write(const Job& job) {
   if (job.pictures) writePictures(job);
   if (options_.video) addToVideo(job);
+  if (!hashes_ || failed_) return;
+  if (const auto wrong = hashes_->add(job.frame, job.walls, job.shown))
+    fail(Reason(*wrong, FailureKind::Refusal));
 }
 
 void RunOutput::writePictures(const Job& job) {
@@ -167,7 +174,7 @@ void RunOutput::finish(const std::vector<EyePictures>& walls) {
     changed_.notify_all();
   }
   writer_.join();
-  guard([&] { writeLast({walls.empty() ? 0 : walls[0].frame, walls, true}); });
+  guard([&] { writeLast({walls.empty() ? 0 : walls[0].frame, walls, true, {}}); });
   if (!video_) return;
   auto report = video_->finish();
   if (report)

@@ -1,9 +1,10 @@
 #pragma once
-/// What `run` leaves behind: picture files, contact sheets, a video. Written by a thread of its own, so that
-/// Draw only hands pictures over; it waits when the writer falls far behind, because every picture asked for
-/// is written.
+/// What `run` leaves behind: picture files, contact sheets, a video, pictures' hashes. Written by a thread of
+/// its own, so that Draw only hands pictures over; it waits when the writer falls far behind, because every
+/// picture asked for is written.
 
 #include "cli/output_folder.h"
+#include "cli/picture_hashes.h"
 #include "pipeline/output/stereo.h"
 #include "pipeline/output/video.h"
 #include "pipeline/show_stages.h"
@@ -32,6 +33,8 @@ struct RunOutputOptions {
   PictureChoice pictures;
   bool sheets = false;  ///< a contact sheet beside each frame's pictures
   bool video = false;
+  bool hashes = false;   ///< of every picture
+  bool further = false;  ///< the run goes on with one that wrote into the folder
   double rate = 60;
   StereoLayout layout = StereoLayout::Pair;
   std::vector<std::string> wallNames;
@@ -61,6 +64,7 @@ private:
     std::uint64_t frame;
     std::vector<EyePictures> walls;
     bool pictures;
+    std::chrono::steady_clock::time_point shown{};
   };
 
   bool wantsPictures(std::uint64_t frame) const;
@@ -77,6 +81,7 @@ private:
 
   RunOutputOptions options_;
   std::unique_ptr<VideoWriter> video_;
+  std::optional<PictureHashes> hashes_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Job> jobs_;

@@ -68,7 +68,12 @@ FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std:
                      FrameProbe* probe)
     : stages_(stages), options_(options), stopRequested_(stopRequested), probe_(probe),
       pacer_(options.pace, options.rate, options.everyTick), times_(options.walls),
-      clock_(options.rate, options.frameTimes) {}
+      clock_(options.rate, options.frameTimes) {
+  if (!options.after) return;
+  clock_ = FrameClock(options.rate, *options.after, options.frameTimes);
+  lastSignature_ = *options.after, lastSignature_.load = {};
+  nextIndex_ = options.after->frame + 1;
+}
 
 FrameLoopOutcome FrameLoop::run() {
   if (options_.mode == Mode::Sequential)

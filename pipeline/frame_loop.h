@@ -43,6 +43,8 @@ struct FrameLoopOptions {
   bool drawBeginsEarly = true;  ///< in pipelined mode: while Cull still fills the list (ListFilling)
   std::uint64_t frames = 0;     ///< 0 = until stopped
   Nanoseconds end = 0;          ///< no frame after this show time; 0 = until stopped
+  /// The show goes on after this frame, from a scene that was put back; nothing = it begins.
+  std::optional<TimeSignature> after{};
   /// Show times that a recorded run decided for some of its frames (see RunDecisions); they are obeyed.
   std::map<std::uint64_t, Nanoseconds> frameTimes{};
   /// What it decided because something took too long; it is obeyed.

@@ -9,8 +9,9 @@ std::uint64_t tickAt(Nanoseconds time, double rate) {
 
 }  // namespace
 
-FrameClock::FrameClock(double rate, const TimeSignature& last)
-    : rate_(rate), frame_(last.frame + 1), tick_(tickAt(last.time, rate)), time_(last.time) {}
+FrameClock::FrameClock(double rate, const TimeSignature& last, std::map<std::uint64_t, Nanoseconds> decided)
+    : rate_(rate), decided_(std::move(decided)), frame_(last.frame + 1), tick_(tickAt(last.time, rate)),
+      time_(last.time) {}
 
 const Nanoseconds* FrameClock::decisionOfNext() const {
   const auto decided = decided_.find(frame_);

@@ -43,7 +43,7 @@ public:
   explicit FrameClock(double rate, std::map<std::uint64_t, Nanoseconds> decided = {})
       : rate_(rate), decided_(std::move(decided)) {}
   /// One whose last frame was `last`.
-  FrameClock(double rate, const TimeSignature& last);
+  FrameClock(double rate, const TimeSignature& last, std::map<std::uint64_t, Nanoseconds> decided = {});
 
   /// The next frame, `ticks` after the previous one; a decision made earlier counts more.
   TimeSignature next(std::uint64_t ticks = 1);

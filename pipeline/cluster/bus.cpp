@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <arpa/inet.h>
+#include <chrono>
 #include <cmath>
+#include <thread>
 #include <type_traits>
 
 namespace stadion::cluster {
@@ -150,6 +152,16 @@ void Bus::tell(const Difference& difference) {
 }
 void Bus::tell(const StatePart& part) {
   write(writers_[kStatePart], &part);
+}
+
+void Bus::waitForReaders() const {
+  const auto readers = [this](Channel channel) {
+    dds_publication_matched_status_t status{};
+    dds_get_publication_matched_status(writers_[channel], &status);
+    return status.current_count;
+  };
+  for (int i = 0; i < 100 && readers(kStatePart) < readers(kSession); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
 void Bus::flush() {

@@ -38,6 +38,9 @@ enum class Phase : std::uint8_t {
   Ready,    ///< it has obeyed all orders that it knows of
 };
 
+/// In place of a node's number (Session::giver).
+constexpr std::uint8_t kNobody = 255;
+
 class BusListener {
 public:
   virtual ~BusListener() = default;
@@ -72,6 +75,9 @@ public:
   void tell(const StatePart& part);
   /// Waits until everybody has heard everything, a second at most.
   void flush();
+  /// Waits until whoever hears anything of ours hears all of it, a second at most: who has just come is known
+  /// channel by channel, the scene's parts last.
+  void waitForReaders() const;
 
 private:
   enum Channel : std::size_t {

@@ -9,14 +9,17 @@
 ///     node floor  floor
 ///
 /// One statement a line; `#` begins a comment.
-///     walls FILE|NAME          the room (cave4); a file is looked for beside this one
-///     node NAME [WALL...]      a machine and the walls that it shows, in the room's order; none: it shows
-///     nothing lead NAME                whose clock and trackers count (the first one) interface NAME|ADDRESS
-///     of the network between them (the loopback interface: all on one machine) domain N                 of
-///     DDS, 0 to 230 (0); clusters in one network need different ones, or partition NAME           different
-///     names (stadion) deadline SECONDS         a node silent for so long is left out, 0.1 to 60 (0.5)
-///     hash-every FRAMES        how often the scenes are compared, 1 to 1000 (30)
+///
+///     walls FILE|NAME             the room (cave4); a file is looked for beside this one
+///     node NAME [WALL...]         a machine and the walls that it shows; none: it shows nothing
+///     lead NAME                   whose clock and trackers count (the first one)
+///     interface NAME|ADDRESS      of the network between them (the loopback interface: all on one machine)
+///     domain N                    of DDS, 0 to 230 (0); clusters in one network need different ones, or
+///     partition NAME              different names (stadion)
+///     deadline SECONDS            a node silent for so long is left out, 0.1 to 60 (0.5)
+///     hash-every FRAMES           how often the scenes are compared, 1 to 1000 (30)
 ///     on-difference resync|stop   whose scene differs takes over that of who leads (resync), or all end
+///
 /// Each wall of the room is shown by at most one node. A cluster has 1 to 24 nodes.
 ///
 /// Threads  plain values, any thread.

@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <random>
+#include <string_view>
+#include <utility>
 
 namespace stadion::cluster {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kLook{100};   ///< how often a wait looks whether it is still wanted
-constexpr std::chrono::seconds kLong{2};          ///< who waits so long says what for
-constexpr std::uint64_t kMostState = 4ULL << 30;  ///< [byte]
+constexpr std::chrono::milliseconds kLook{100};  ///< how often a wait looks whether it is still wanted
+constexpr std::chrono::seconds kLong{2};         ///< who waits so long says what for
 
 std::uint64_t anyNumber() {
   std::random_device device;
@@ -80,24 +80,34 @@ bool Follower::await(std::unique_lock<std::mutex>& lock, const char* what, const
 std::optional<Joining> Follower::join() {
   std::unique_lock lock(mutex_);
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
-  if (!await(lock, (lead + ", who leads").c_str(), [&] { return session_.number != 0; })) return {};
+  const auto known = [&] { return session_.number != 0 && session_.giver == kNobody; };
+  if (!await(lock, (lead + ", who leads").c_str(), known)) return {};
   if (session_.show != options_.show) {
     options_.tell(
         fmt::format("{} plays another script or input log; put the same files on all machines", lead));
     return {};
   }
+  if (const std::string_view theirs = session_.settings; theirs != options_.settings)
+    options_.tell(fmt::format("{} plays with {}, we with {}: the walls will not look alike", lead, theirs,
+                              options_.settings));
   joined_ = session_.number;
   Joining joining{session_.rate, {}};
-  if (!session_.begun) return joining;
+  if (!session_.begun && session_.resumes == 0) return joining;
   announce(Phase::Asking);
-  if (!await(lock, ("the scene's state from " + lead).c_str(), [&] { return complete_ || again_; }) || again_)
-    return {};
-  obeyed_ = stateSerial_;
+  std::uint64_t received = 0;
+  auto since = Clock::now();
+  const auto has = [&] {
+    if (std::exchange(received, incoming_.received()) != incoming_.received()) since = Clock::now();
+    if (Clock::now() - since > kLong) announce(Phase::Asking), since = Clock::now();
+    return incoming_.complete() || again_;
+  };
+  if (!await(lock, ("the scene's state from " + lead).c_str(), has) || again_) return {};
+  SceneParcel scene = incoming_.take();
+  obeyed_ = scene.serial;
   std::erase_if(orders_, [&](const HeardOrder& o) {
     return o.numbers.session != joined_ || o.numbers.serial <= obeyed_;
   });
-  joining.state = std::make_shared<const std::vector<std::uint8_t>>(std::move(state_));
-  complete_ = false, received_ = 0;
+  joining.state = std::make_shared<const std::vector<std::uint8_t>>(std::move(scene.bytes));
   return joining;
 }
 
@@ -129,10 +139,10 @@ std::optional<FrameOrder> Follower::next() {
 
 /// With the lock. True: the scene differs.
 bool Follower::explain(std::unique_lock<std::mutex>& lock) {
-  const auto has = [&] { return again_ || (complete_ && stateSerial_ == obeyed_); };
+  const auto has = [&] { return again_ || (incoming_.complete() && incoming_.serial() == obeyed_); };
   if (!await(lock, "the scene of who leads, to compare ours with it", has) || again_) return true;
-  const std::optional<Differs> differs = compare_ ? compare_(state_) : std::nullopt;
-  complete_ = false, received_ = 0;
+  const SceneParcel theirs = incoming_.take();
+  const std::optional<Differs> differs = compare_ ? compare_(theirs.bytes) : std::nullopt;
   Difference told{};
   told.node = static_cast<std::uint8_t>(options_.node), told.session = joined_, told.frame = frame_;
   told.found = differs.has_value();
@@ -176,7 +186,10 @@ void Follower::hear(const Session& session) {
   {
     const std::lock_guard lock(mutex_);
     session_ = session;
-    if (joined_ != 0 && session.number != joined_) again_ = true;
+    // While another one is asked for its scene, we keep ours.
+    const bool holds =
+        session.resumes == joined_ && session.giver != kNobody && session.giver != options_.node;
+    if (joined_ != 0 && session.number != joined_ && !holds) again_ = true;
   }
   changed_.notify_all();
 }
@@ -202,17 +215,22 @@ void Follower::hear(const Go& go) {
 void Follower::hear(const StatePart& part) {
   {
     const std::lock_guard lock(mutex_);
-    if (part.to != incarnation_ || complete_ || part.size > kMostState) return;
-    const std::uint64_t length = part.bytes._length;
-    if (part.offset != received_ || part.offset > part.size || length > part.size - part.offset) return;
-    if (part.offset == 0) state_.resize(part.size);
-    if (state_.size() != part.size) return;
-    std::memcpy(state_.data() + part.offset, part.bytes._buffer, length);
-    received_ += length;
-    complete_ = received_ == part.size;
-    stateSerial_ = part.serial;
+    if (part.to == incarnation_) incoming_.add(part);
   }
   changed_.notify_all();
+}
+
+bool Follower::isAskedForScene() const {
+  const std::lock_guard lock(mutex_);
+  return joined_ != 0 && session_.resumes == joined_ && session_.giver == options_.node;
+}
+
+void Follower::giveScene(const TimeSignature& last, std::vector<std::uint8_t> state) {
+  const std::uint64_t to = [&] {
+    const std::lock_guard lock(mutex_);
+    return session_.number;
+  }();
+  send(*bus_, {to, to, 0, last.frame, last.time, std::move(state)});
 }
 
 void Follower::finish() {

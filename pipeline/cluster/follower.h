@@ -2,8 +2,8 @@
 /// A machine that plays what another one orders: the same show, frame by frame.
 ///
 /// It opens the show from its own files; if that is under way already, it goes on from the leading machine's
-/// scene. Where an order is missing, or another machine leads now, it has to join again, with a follower of
-/// its own.
+/// scene. Where an order is missing, or another program leads now, it has to join again, with a follower of
+/// its own. Who leads anew may have lost the show: then one follower gives it its scene.
 ///
 /// Threads  join(), next(), simulated() and sampling on the App thread (join() before there is one);
 ///          mayShow() on the Draw thread that arrived last; the rest on the network's.
@@ -12,6 +12,7 @@
 #include "pipeline/cluster/bus.h"
 #include "pipeline/cluster/cluster_file.h"
 #include "pipeline/cluster/orders.h"
+#include "pipeline/cluster/scene_parcel.h"
 #include "pipeline/cluster/tally.h"
 
 #include <condition_variable>
@@ -27,6 +28,7 @@ struct FollowerOptions {
   ClusterFile cluster;
   std::size_t node = 0;
   std::uint64_t show = 0;  ///< hash of its script and input
+  std::string settings;    ///< that should be alike everywhere
   std::function<void(const std::string&)> tell;
   std::function<bool()> stop;  ///< nobody waits any longer
 };
@@ -59,6 +61,10 @@ public:
   void simulated(std::uint64_t frame, std::uint64_t hash);
   /// Orders are missing: the run has ended, and the show is to be joined again.
   bool isToJoinAgain() const;
+  /// Who leads anew asks for our scene, once the run has ended.
+  bool isAskedForScene() const;
+  /// `last`: what has been simulated last.
+  void giveScene(const TimeSignature& last, std::vector<std::uint8_t> state);
   const Tally& tally() const { return tally_; }
   void finish();
 
@@ -89,10 +95,7 @@ private:
   Session session_{};         ///< number 0: there is none
   std::uint64_t joined_ = 0;  ///< the session that we play
   std::deque<HeardOrder> orders_;
-  /// Of who leads, that is sent to us: after that order.
-  std::vector<std::uint8_t> state_;
-  std::uint64_t received_ = 0, stateSerial_ = 0;
-  bool complete_ = false;
+  IncomingScene incoming_;   ///< of who leads
   std::uint64_t frame_ = 0;  ///< obeyed last
   Compare compare_;
   std::uint64_t obeyed_ = 0, go_ = 0, shown_ = 0;

@@ -10,9 +10,12 @@
 namespace stadion::cluster {
 namespace {
 
-constexpr std::size_t kPart = 32 * 1024;  ///< of the state, at once [byte]
 constexpr std::size_t kHashesKept = 64;
-constexpr std::chrono::milliseconds kLook{100};  ///< how often a wait looks whether it is still wanted
+constexpr std::chrono::milliseconds kLook{100};     ///< how often a wait looks whether it is still wanted
+constexpr std::chrono::milliseconds kSearch{1500};  ///< for others: so long until they are heard of
+constexpr std::chrono::seconds kGiving{5};          ///< a node may take so long to send its scene
+constexpr std::chrono::seconds kReturn{5};          ///< a show that goes on waits so long for the others
+constexpr double kStuck = 10;  ///< deadlines: a node that lives but draws nothing is left out after so many
 
 std::uint64_t anyNumber() {
   std::random_device device;
@@ -51,7 +54,8 @@ private:
 };
 
 Lead::Lead(LeadOptions options) : options_(std::move(options)), followers_(options_.cluster.nodes.size()) {
-  session_.number = anyNumber(), session_.show = options_.show, session_.rate = options_.rate;
+  session_.number = anyNumber(), session_.show = options_.show, session_.giver = kNobody;
+  options_.settings.copy(session_.settings, sizeof(session_.settings) - 1);
 }
 
 Result<std::unique_ptr<Lead>> Lead::open(LeadOptions options) {
@@ -59,7 +63,6 @@ Result<std::unique_ptr<Lead>> Lead::open(LeadOptions options) {
   auto bus = Bus::open(lead->options_.cluster, *lead);
   if (!bus) return bus.error();
   lead->bus_ = std::move(bus.value());
-  lead->bus_->tell(lead->session_);
   lead->sender_ = std::thread([self = lead.get()] { self->sendParcels(); });
   return lead;
 }
@@ -79,18 +82,62 @@ InputDevice& Lead::input(InputDevice& inner) {
   return *input_;
 }
 
-void Lead::begin() {
+std::optional<ShowUnderWay> Lead::takeOver() {
   std::unique_lock lock(mutex_);
-  const auto until = Clock::now() + options_.patience;
-  const auto missing = [&] {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < followers_.size(); ++i)
-      if (i != options_.cluster.lead && followers_[i].phase != Phase::Ready) names.push_back(nameOf(i));
-    return names;
+  const auto wait = [&](Clock::time_point until, const auto& ready) {
+    while (!ready() && Clock::now() < until && !options_.stop()) changed_.wait_for(lock, kLook);
   };
-  while (!missing().empty() && Clock::now() < until && !options_.stop()) changed_.wait_for(lock, kLook);
+  const auto allAreThere = [&] {
+    return std::ranges::count(followers_, 0U, &Follower::incarnation) == 1;  // that is us
+  };
+  wait(Clock::now() + kSearch, allAreThere);
+  for (std::size_t node = 0; node < followers_.size(); ++node) {
+    const Follower& f = followers_[node];
+    if (f.plays == 0 || (session_.resumes != 0 && f.plays != session_.resumes)) continue;
+    session_.resumes = f.plays, session_.giver = static_cast<std::uint8_t>(node);
+    bus_->tell(session_);
+    wait(Clock::now() + kGiving, [&] { return incoming_.complete() || f.plays == 0; });
+    if (!incoming_.complete()) continue;
+    SceneParcel scene = incoming_.take();
+    session_.giver = kNobody;
+    pending_.signature.frame = scene.frame, pending_.signature.time = scene.time;
+    options_.tell(
+        fmt::format("the show goes on after frame {}, with the scene of {}", scene.frame, nameOf(node)));
+    return ShowUnderWay{pending_.signature,
+                        std::make_shared<const std::vector<std::uint8_t>>(std::move(scene.bytes))};
+  }
+  if (session_.resumes != 0) options_.tell("the others play, but none sends its scene: the show begins anew");
+  session_.resumes = 0, session_.giver = kNobody;
+  return {};
+}
+
+bool Lead::hasBegun() const {
+  const std::lock_guard lock(mutex_);
+  return session_.begun;
+}
+
+// With the mutex.
+std::vector<std::string> Lead::missing() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < followers_.size(); ++i)
+    if (i != options_.cluster.lead && followers_[i].phase != Phase::Ready) names.push_back(nameOf(i));
+  return names;
+}
+
+void Lead::begin(double rate) {
+  std::unique_lock lock(mutex_);
+  session_.rate = rate;
+  bus_->tell(session_);
+  const auto until = Clock::now() + (session_.resumes != 0 ? kReturn : options_.patience);
+  while (!missing().empty() && Clock::now() < until && !options_.stop()) {
+    lock.unlock();
+    answerWhoAsks();
+    lock.lock();
+    changed_.wait_for(lock, kLook);
+  }
   if (const auto names = missing(); !names.empty() && !options_.stop())
-    options_.tell(fmt::format("the show begins without {}", fmt::join(names, ", ")));
+    options_.tell(fmt::format("the show {} without {}", session_.resumes != 0 ? "goes on" : "begins",
+                              fmt::join(names, ", ")));
   session_.begun = true;
   bus_->tell(session_);
 }
@@ -111,7 +158,7 @@ void Lead::send(const InputSample* input) {
   std::uint32_t members = 0;
   for (std::size_t i = 0; i < followers_.size(); ++i)
     if (followers_[i].member) members |= bit(i);
-  rounds_.push_back({++serial_, members, false});
+  rounds_.push_back({++serial_, members, {}});
   bus_->tell(
       written_.write({session_.number, serial_, members, std::exchange(explain_, 0)}, pending_, input));
   const std::uint64_t bytes = written_.bytes();
@@ -122,11 +169,13 @@ void Lead::send(const InputSample* input) {
 // Between two frames: the scene is as it was after the order before.
 void Lead::answerWhoAsks() {
   std::vector<std::uint64_t> asking;
-  std::uint64_t serial = 0;
+  SceneParcel parcel;
   {
     const std::lock_guard lock(mutex_);
-    serial = serial_;
-    for (std::size_t i = 0; i < followers_.size() && serial > 0; ++i) {
+    parcel.session = session_.number, parcel.serial = serial_;
+    parcel.frame = pending_.signature.frame, parcel.time = pending_.signature.time;
+    const bool underWay = serial_ > 0 || session_.resumes != 0;
+    for (std::size_t i = 0; i < followers_.size() && underWay; ++i) {
       Follower& f = followers_[i];
       if (!std::exchange(f.asks, false)) continue;
       asking.push_back(f.incarnation);
@@ -134,10 +183,10 @@ void Lead::answerWhoAsks() {
     }
   }
   if (asking.empty() || !save_) return;
-  const std::vector<std::uint8_t> state = save_();
+  parcel.bytes = save_();
   {
     const std::lock_guard lock(mutex_);
-    for (const std::uint64_t to : asking) parcels_.push_back({to, serial, state});
+    for (const std::uint64_t to : asking) parcel.to = to, parcels_.push_back(parcel);
   }
   changed_.notify_all();
 }
@@ -149,19 +198,10 @@ void Lead::sendParcels() {
       changed_.wait(lock);
       continue;
     }
-    Parcel parcel = std::move(parcels_.front());
+    const SceneParcel parcel = std::move(parcels_.front());
     parcels_.pop_front();
     lock.unlock();
-    StatePart part{};
-    part.to = parcel.to, part.session = session_.number, part.serial = parcel.serial;
-    part.size = parcel.bytes.size();
-    do {
-      const std::size_t size = std::min(kPart, parcel.bytes.size() - part.offset);
-      part.bytes._buffer = parcel.bytes.data() + part.offset, part.bytes._release = false;
-      part.bytes._length = part.bytes._maximum = static_cast<std::uint32_t>(size);
-      bus_->tell(part);
-      part.offset += size;
-    } while (part.offset < parcel.bytes.size());
+    cluster::send(*bus_, parcel);
     lock.lock();
   }
 }
@@ -171,13 +211,27 @@ bool Lead::mayShow(const TimeSignature&) {
   const std::uint64_t serial = ++shown_;
   const auto at = std::ranges::find(rounds_, serial, &Round::serial);
   if (at == rounds_.end()) return false;
-  at->drawnHere = true;
-  const bool latest = at->awaited == 0;
   const auto drawn = Clock::now();
+  at->drawnHere = drawn;
+  const bool latest = at->awaited == 0;
   release();
-  while (go_ < serial && !options_.stop()) changed_.wait_for(lock, kLook);
+  while (go_ < serial && !options_.stop()) {
+    changed_.wait_for(lock, kLook);
+    leaveOutWhoIsStuck();
+  }
   if (latest) tally_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
   return go_ >= serial;
+}
+
+// With the mutex. Who lives and does not draw what all others have drawn would hold them for ever.
+void Lead::leaveOutWhoIsStuck() {
+  if (rounds_.empty() || !rounds_.front().drawnHere) return;
+  const double seconds = std::chrono::duration<double>(Clock::now() - *rounds_.front().drawnHere).count();
+  if (seconds < kStuck * options_.cluster.deadline) return;
+  const std::uint32_t awaited = rounds_.front().awaited;
+  for (std::size_t i = 0; i < followers_.size(); ++i)
+    if ((awaited & bit(i)) != 0 && followers_[i].member)
+      leaveOut(i, fmt::format("lives, but has drawn nothing for {:.1f} s", seconds));
 }
 
 // With the mutex: what all have drawn is shown.
@@ -199,8 +253,10 @@ void Lead::hear(const Presence& p) {
   Follower& f = followers_[p.node];
   if (f.incarnation != p.incarnation) {
     if (f.member) leaveOut(p.node, "began anew");
-    f = {p.incarnation, Phase::Waiting, false, false, false};
+    f = {};
+    f.incarnation = p.incarnation;
   }
+  f.plays = static_cast<Phase>(p.phase) == Phase::Ready ? p.session : 0;
   f.phase = p.session == session_.number ? static_cast<Phase>(p.phase) : Phase::Waiting;
   f.asks = f.phase == Phase::Asking;
   if (f.phase == Phase::Ready && !f.member) {
@@ -222,12 +278,21 @@ void Lead::hear(const Drawn& d) {
   release();
 }
 
+void Lead::hear(const StatePart& part) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (part.to == session_.number) incoming_.add(part);
+  }
+  changed_.notify_all();
+}
+
 void Lead::left(std::uint8_t node) {
   const std::lock_guard lock(mutex_);
   if (node >= followers_.size() || node == options_.cluster.lead) return;
   if (followers_[node].member && !pending_.last)  // they go when the show is over
     leaveOut(node, fmt::format("has not been heard of for {:g} s", options_.cluster.deadline));
   followers_[node] = {};
+  changed_.notify_all();
 }
 
 // With the mutex.

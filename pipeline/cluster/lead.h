@@ -3,22 +3,27 @@
 ///
 /// A frame is shown once all members have drawn it. Who is not heard of for the deadline is left out, and the
 /// others go on; who comes later gets the scene's state between two frames, and is a member again once it has
-/// caught up.
+/// caught up. If another program led before and has died, the others hold their picture, and the show goes on
+/// from the scene of one of them.
 ///
-/// Threads  begin(), issue(), simulated() and sampling on the App thread; mayShow() on the Draw thread that
+/// Threads  takeOver() and begin() before there is an App thread; issue(), simulated() and sampling on the
+/// App thread; mayShow() on the Draw thread that
 ///          arrived last; the rest on the network's.
 
 #include "engine/input/input_device.h"
 #include "pipeline/cluster/bus.h"
 #include "pipeline/cluster/cluster_file.h"
 #include "pipeline/cluster/orders.h"
+#include "pipeline/cluster/scene_parcel.h"
 #include "pipeline/cluster/tally.h"
 
 #include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace stadion::cluster {
@@ -26,10 +31,16 @@ namespace stadion::cluster {
 struct LeadOptions {
   ClusterFile cluster;
   std::uint64_t show = 0;           ///< hash of its script and input
-  double rate = 60;                 ///< [1/s]
+  std::string settings;             ///< that should be alike everywhere, 63 bytes at most
   std::chrono::seconds patience{};  ///< with nodes that have not come; then the show begins without them
   std::function<void(const std::string&)> tell;
   std::function<bool()> stop;  ///< nobody waits any longer
+};
+
+/// A show that the others play already.
+struct ShowUnderWay {
+  TimeSignature last;                                      ///< of the frame after which it goes on
+  std::shared_ptr<const std::vector<std::uint8_t>> state;  ///< of its scene
 };
 
 class Lead final : public FrameOrders, public BusListener {
@@ -37,8 +48,13 @@ public:
   static Result<std::unique_ptr<Lead>> open(LeadOptions options);
   ~Lead() override;
 
-  /// Waits until all nodes have opened the show, or patience is at its end.
-  void begin();
+  /// Looks for a show that the others play, since who led them has died, and has one of them send its scene.
+  /// Nothing: there is none, so the show begins. Takes two seconds at most where nodes are missing. Expects
+  /// that none of our own has begun.
+  std::optional<ShowUnderWay> takeOver();
+  /// Waits until all nodes have opened the show, or patience is at its end. `rate` in 1/s.
+  void begin(double rate);
+  bool hasBegun() const;
   /// What becomes of the show's input: each sample goes to all. `inner` must outlive it.
   InputDevice& input(InputDevice& inner);
   /// How the scene's state is written down, between two frames.
@@ -60,6 +76,7 @@ public:
   void hear(const Drawn& drawn) override;
   void hear(const SceneHash& hash) override;
   void hear(const Difference& difference) override;
+  void hear(const StatePart& part) override;
   void left(std::uint8_t node) override;
 
 private:
@@ -68,6 +85,7 @@ private:
 
   struct Follower {
     std::uint64_t incarnation = 0;  ///< 0: it is not there
+    std::uint64_t plays = 0;        ///< the session that it is ready to play on in; 0: none
     Phase phase = Phase::Waiting;
     bool member = false, asks = false;
     bool differs = false;  ///< its scene, and it has not joined again since
@@ -76,12 +94,7 @@ private:
   struct Round {
     std::uint64_t serial = 0;
     std::uint32_t awaited = 0;
-    bool drawnHere = false;
-  };
-  /// The scene's state on its way.
-  struct Parcel {
-    std::uint64_t to = 0, serial = 0;
-    std::vector<std::uint8_t> bytes;
+    std::optional<Clock::time_point> drawnHere{};
   };
 
   explicit Lead(LeadOptions options);
@@ -89,13 +102,15 @@ private:
   void answerWhoAsks();
   void sendParcels();
   void leaveOut(std::size_t node, const std::string& why);
+  void leaveOutWhoIsStuck();
+  std::vector<std::string> missing() const;
   void release();
   void compare(std::size_t node, std::uint64_t frame, std::uint64_t hash);
   const std::string& nameOf(std::size_t node) const { return options_.cluster.nodes[node].name; }
 
   LeadOptions options_;
   Session session_{};
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Follower> followers_;  ///< by node
   FrameOrder pending_;
@@ -107,7 +122,8 @@ private:
   std::uint8_t latest_ = 0;                                     ///< who has drawn last
   std::deque<std::pair<std::uint64_t, std::uint64_t>> hashes_;  ///< ours: frame, hash
   std::vector<SceneHash> early_;                                ///< of frames that we have not simulated yet
-  std::deque<Parcel> parcels_;
+  std::deque<SceneParcel> parcels_;
+  IncomingScene incoming_;  ///< of who gives us the show
   bool ending_ = false;
   std::function<std::vector<std::uint8_t>()> save_;
   std::unique_ptr<SampledInput> input_;

@@ -6,7 +6,8 @@
 /// last picture until the new one has drawn.
 ///
 /// Where every frame counts, a frame is drawn again by the new process until its pictures are there, and
-/// nothing is lost; one that kills three in a row ends the run. Where the newest counts, the other walls wait
+/// nothing is lost; when four in a row have died of it, whoever killed them, or before they were ready, the
+/// run ends. Where the newest counts, the other walls wait
 /// for one that is late only so long (patience.h), and for what a new process draws first not at all; from
 /// then on it shows what it has until it answers, and processes that die one after the other are started
 /// after growing pauses (restarts.h).

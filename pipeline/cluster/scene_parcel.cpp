@@ -1,0 +1,52 @@
+#include "pipeline/cluster/scene_parcel.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace stadion::cluster {
+namespace {
+
+constexpr std::size_t kPart = 32 * 1024;          ///< [byte]
+constexpr std::uint64_t kMostState = 4ULL << 30;  ///< [byte]
+
+}  // namespace
+
+void send(Bus& bus, const SceneParcel& parcel) {
+  bus.waitForReaders();
+  StatePart part{};
+  part.to = parcel.to, part.session = parcel.session, part.serial = parcel.serial;
+  part.frame = parcel.frame, part.time = parcel.time;
+  part.size = parcel.bytes.size();
+  do {
+    const std::size_t size = std::min(kPart, parcel.bytes.size() - part.offset);
+    // It is borrowed, and only read.
+    part.bytes._buffer = const_cast<std::uint8_t*>(parcel.bytes.data()) + part.offset;
+    part.bytes._release = false;
+    part.bytes._length = part.bytes._maximum = static_cast<std::uint32_t>(size);
+    bus.tell(part);
+    part.offset += size;
+  } while (part.offset < parcel.bytes.size());
+}
+
+void IncomingScene::add(const StatePart& part) {
+  const std::uint64_t length = part.bytes._length;
+  if (complete_ || part.size > kMostState) return;
+  if (part.offset == 0) {
+    parcel_ = {part.to, part.session, part.serial, part.frame, part.time, {}};
+    parcel_.bytes.resize(part.size);
+    received_ = 0;
+  }
+  if (part.serial != parcel_.serial || part.session != parcel_.session || part.size != parcel_.bytes.size())
+    return;
+  if (part.offset != received_ || length > part.size - part.offset) return;
+  std::copy_n(part.bytes._buffer, length, parcel_.bytes.data() + part.offset);
+  received_ += length;
+  complete_ = received_ == part.size;
+}
+
+SceneParcel IncomingScene::take() {
+  complete_ = false, received_ = 0;
+  return std::exchange(parcel_, {});
+}
+
+}  // namespace stadion::cluster

@@ -1,0 +1,42 @@
+#pragma once
+/// A scene's state on its way from one machine to another, in parts.
+///
+/// Threads  plain values; the caller locks.
+
+#include "engine/time_signature.h"
+#include "pipeline/cluster/bus.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace stadion::cluster {
+
+struct SceneParcel {
+  std::uint64_t to = 0;                   ///< an incarnation, or the session of who leads
+  std::uint64_t session = 0, serial = 0;  ///< it is the scene after that order
+  std::uint64_t frame = 0;                ///< simulated last
+  Nanoseconds time = 0;                   ///< of that
+  std::vector<std::uint8_t> bytes;        ///< Scene::save()
+};
+
+/// May take long: it is large.
+void send(Bus& bus, const SceneParcel& parcel);
+
+/// One that is received.
+class IncomingScene {
+public:
+  /// The next part; what does not follow the one before, or is of another scene, is passed over.
+  void add(const StatePart& part);
+  bool complete() const { return complete_; }
+  std::uint64_t received() const { return received_; }  ///< [byte]
+  /// Only what has come whole. Afterwards there is none.
+  SceneParcel take();
+  std::uint64_t serial() const { return parcel_.serial; }
+
+private:
+  SceneParcel parcel_;
+  std::uint64_t received_ = 0;
+  bool complete_ = false;
+};
+
+}  // namespace stadion::cluster
