@@ -1,32 +1,16 @@
 /// Several machines that play one show, here as processes over the loopback interface.
 
-#include "tests/cli/program.h"
+#include "tests/cli/played_cluster.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <csignal>
-#include <fcntl.h>
-#include <fstream>
 #include <regex>
-#include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
 namespace stadion {
 namespace {
-
-using Json = nlohmann::json;
-
-const std::string kKick = STADION_SOURCE_DIR "/scripts/kick.evs";
-
-/// Tests run side by side: each cluster has a partition of its own.
-std::string fourNodes(const TemporaryFolder& folder, const std::string& more = {}) {
-  return folder.write("four.cluster",
-                      "walls cave4\nnode front front\nnode left left\nnode right right\nnode floor floor\n"
-                      "partition p" +
-                          std::to_string(getpid()) + "\n" + more);
-}
 
 std::map<std::string, std::string> picturesIn(const std::filesystem::path& folder) {
   std::map<std::string, std::string> all;
@@ -34,10 +18,6 @@ std::map<std::string, std::string> picturesIn(const std::filesystem::path& folde
     if (entry.path().extension() == ".png" && entry.path().filename() != "contact-sheet.png")
       all[entry.path().filename()] = fileContent(entry.path());
   return all;
-}
-
-Json summaryOf(const std::filesystem::path& folder) {
-  return Json::parse(fileContent(folder / "summary.json"));
 }
 
 TEST(ProgramCluster, FourMachinesShowWhatOneShows) {
@@ -68,37 +48,6 @@ TEST(ProgramCluster, FourMachinesShowWhatOneShows) {
   EXPECT_EQ(lead["left_out"], 0) << r.err;
   EXPECT_GE(lead["compared"], 3);
   EXPECT_EQ(lead["differed"], 0);
-}
-
-/// The process that plays that node of that cluster.
-pid_t processOf(const std::string& clusterFile, const std::string& node) {
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    const std::string number = entry.path().filename();
-    if (number.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::ifstream in(entry.path() / "cmdline");
-    const std::string words((std::istreambuf_iterator<char>(in)), {});
-    const std::string run = std::string("run") + '\0', is = std::string("--node") + '\0' + node + '\0';
-    if (words.find(run) != words.npos && words.find(clusterFile) != words.npos &&
-        words.find(is) != words.npos)
-      return std::stoi(number);
-  }
-  return -1;
-}
-
-/// Waits until what is asked for is so, for a minute at most.
-template <class Asked>
-bool becomes(const Asked& asked) {
-  for (int i = 0; i < 3000; ++i) {
-    if (asked()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  return false;
-}
-
-int endOf(pid_t child) {
-  int status = -1;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 TEST(ProgramCluster, AMachineThatDiesIsLeftOutAndComesBackWithTheSameScene) {
@@ -160,6 +109,79 @@ TEST(ProgramCluster, ABitThatDiffersIsNamedAndTheSceneTakenOver) {
   EXPECT_NE(here.err.find("floor plays with us"), std::string::npos) << here.err;
   EXPECT_EQ(summaryOf(folder.path() / "floor")["state_hash"],
             summaryOf(folder.path() / "front")["state_hash"]);
+}
+
+/// A cluster of four at its ticks, whose nodes begin again when they die.
+class RunningCluster {
+public:
+  explicit RunningCluster(const std::string& seconds)
+      : file_(fourNodes(folder_, "deadline 0.3\n")),
+        program_(startProgram(
+            {{stadionPath(), "cluster", file_, kKick, "--out", folder_.path() / "out", "--size", "32x24",
+              "--look", "plain", "--seconds", seconds, "--pace", "lock", "--pictures", "none", "--hashes"}},
+            folder_.path() / "said", folder_.path() / "told")) {}
+
+  std::string told() const { return fileContent(folder_.path() / "told"); }
+  bool hasTold(const std::string& what, std::size_t times = 1) const {
+    std::size_t count = 0;
+    const std::string text = told();
+    for (std::size_t at = 0; (at = text.find(what, at)) != text.npos; at += what.size()) ++count;
+    return count >= times;
+  }
+  bool tells(const std::string& what, std::size_t times = 1) const {
+    return becomes([&] { return hasTold(what, times); });
+  }
+  /// Once it has shown a second of the show.
+  pid_t processOfRunning(const std::string& node) const {
+    becomes([&] { return swapTimesOf(out(node)).size() > 60; });
+    return processOf(file_, node);
+  }
+  std::filesystem::path out(const std::string& node) const { return folder_.path() / "out" / node; }
+  int end() const { return endOf(program_); }
+
+  /// What it has shown is what one machine shows, and all have the same scene at the end.
+  void expectWhatOneShows(const std::string& seconds) const {
+    const std::string one = folder_.path() / "one";
+    const ProgramResult r =
+        stadionProgram({"run", kKick, "--walls", "cave4", "--out", one, "--size", "32x24", "--look", "plain",
+                        "--seconds", seconds, "--pictures", "none", "--hashes"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    const std::set<std::string> wanted = hashesBelow(one);
+    for (const std::string& line : hashesBelow(folder_.path() / "out"))
+      EXPECT_TRUE(wanted.contains(line)) << line;
+    for (const char* node : kFourNodes)
+      EXPECT_EQ(summaryOf(out(node))["state_hash"], summaryOf(one)["state_hash"]) << node;
+  }
+
+private:
+  TemporaryFolder folder_;
+  std::string file_;
+  pid_t program_;
+};
+
+TEST(ProgramCluster, WhoLeadsMayDieAndTheShowGoesOn) {
+  const RunningCluster cluster("8");
+  ASSERT_EQ(kill(cluster.processOfRunning("front"), SIGKILL), 0);
+  EXPECT_TRUE(cluster.tells("the show goes on after frame")) << cluster.told();
+  EXPECT_EQ(cluster.end(), 0) << cluster.told();
+  EXPECT_FALSE(cluster.hasTold("goes on without")) << cluster.told();
+  cluster.expectWhatOneShows("8");
+  // The others held the last picture; none was shown again.
+  const auto shown = swapTimesOf(cluster.out("left"));
+  EXPECT_EQ(shown.begin()->first, 0U);
+  EXPECT_EQ(shown.rbegin()->first, 480U);
+}
+
+TEST(ProgramCluster, AMachineThatIsStoppedIsLeftOutAndComesBack) {
+  const RunningCluster cluster("9");
+  const pid_t left = cluster.processOfRunning("left");
+  ASSERT_EQ(kill(left, SIGSTOP), 0);
+  EXPECT_TRUE(cluster.tells("left has not been heard of for 0.3 s; the others go on")) << cluster.told();
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  ASSERT_EQ(kill(left, SIGCONT), 0);
+  EXPECT_TRUE(cluster.tells("left plays with us")) << cluster.told();
+  EXPECT_EQ(cluster.end(), 0) << cluster.told();
+  cluster.expectWhatOneShows("9");
 }
 
 TEST(ProgramCluster, WhatIsWrongIsToldAtTheStart) {
