@@ -54,6 +54,9 @@ bool RunOutput::wants(const TimeSignature& now) const {
 }
 
 Failure RunOutput::take(const TimeSignature& now, const std::vector<EyePictures>& walls) {
+  // A machine of a cluster that catches up draws nothing: what it has is older.
+  const auto isDrawn = [&](const EyePictures& wall) { return wall.frame == now.frame; };
+  if (std::ranges::none_of(walls, isDrawn)) return {};
   const auto shown = std::chrono::steady_clock::now();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return jobs_.size() < kQueue || failed_; });

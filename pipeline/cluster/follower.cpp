@@ -57,7 +57,7 @@ Result<std::unique_ptr<Follower>> Follower::open(FollowerOptions options) {
 // With the mutex.
 void Follower::announce(Phase phase) {
   told_ = phase;
-  bus_->tell(Presence{static_cast<std::uint8_t>(options_.node), incarnation_, joined_,
+  bus_->tell(Presence{static_cast<std::uint8_t>(options_.node), incarnation_, ++announced_, joined_,
                       static_cast<std::uint8_t>(phase), obeyed_});
 }
 

@@ -101,6 +101,7 @@ private:
   std::uint64_t obeyed_ = 0, go_ = 0, shown_ = 0;
   std::uint8_t latest_ = 0;
   Phase told_ = Phase::Waiting;
+  std::uint64_t announced_ = 0;  ///< how often
   std::deque<std::pair<std::uint64_t, bool>>
       shows_;  ///< orders obeyed and not shown yet: whether we draw them
   bool again_ = false;

@@ -53,7 +53,8 @@ private:
   Lead& lead_;
 };
 
-Lead::Lead(LeadOptions options) : options_(std::move(options)), followers_(options_.cluster.nodes.size()) {
+Lead::Lead(LeadOptions options)
+    : options_(std::move(options)), followers_(options_.cluster.nodes.size()), words_(followers_.size()) {
   session_.number = anyNumber(), session_.show = options_.show, session_.giver = kNobody;
   options_.settings.copy(session_.settings, sizeof(session_.settings) - 1);
 }
@@ -250,6 +251,9 @@ void Lead::release() {
 void Lead::hear(const Presence& p) {
   std::unique_lock lock(mutex_);
   if (p.node >= followers_.size() || p.node == options_.cluster.lead) return;
+  // Once found again, a node's last word is told again; it may be out of date.
+  const Word before = std::exchange(words_[p.node], {p.incarnation, p.count});
+  if (before.incarnation == p.incarnation && p.count <= before.count) return;
   Follower& f = followers_[p.node];
   if (f.incarnation != p.incarnation) {
     if (f.member) leaveOut(p.node, "began anew");

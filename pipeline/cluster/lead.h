@@ -90,6 +90,10 @@ private:
     bool member = false, asks = false;
     bool differs = false;  ///< its scene, and it has not joined again since
   };
+  /// What was heard last of a node, there or not.
+  struct Word {
+    std::uint64_t incarnation = 0, count = 0;
+  };
   /// An order that not all have drawn.
   struct Round {
     std::uint64_t serial = 0;
@@ -113,6 +117,7 @@ private:
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Follower> followers_;  ///< by node
+  std::vector<Word> words_;          ///< by node
   FrameOrder pending_;
   bool awaitsInput_ = false;   ///< an order waits for its input
   std::uint32_t explain_ = 0;  ///< who is to say with it where its scene differs

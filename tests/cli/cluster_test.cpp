@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
+#include <map>
 #include <regex>
 #include <thread>
 #include <unistd.h>
@@ -182,6 +184,55 @@ TEST(ProgramCluster, AMachineThatIsStoppedIsLeftOutAndComesBack) {
   EXPECT_TRUE(cluster.tells("left plays with us")) << cluster.told();
   EXPECT_EQ(cluster.end(), 0) << cluster.told();
   cluster.expectWhatOneShows("9");
+}
+
+/// Kills or stops one machine after the other, so many times; says how long the others waited, and how long
+/// it took to come back.
+void disturb(const RunningCluster& cluster, int times, int signal) {
+  std::map<std::string, std::size_t> returns;
+  std::vector<double> back;
+  using Clock = std::chrono::steady_clock;
+  using Milliseconds = std::chrono::duration<double, std::milli>;
+  for (int i = 0; i < times; ++i) {
+    const std::string node = kFourNodes[1 + i % 3];
+    std::this_thread::sleep_for(std::chrono::milliseconds(200 + 37 * (i % 7)));
+    const pid_t process = cluster.processOfRunning(node);
+    const auto begin = Clock::now();
+    ASSERT_EQ(kill(process, signal), 0) << node;
+    ++returns[node];
+    if (signal == SIGSTOP) {
+      ASSERT_TRUE(cluster.tells(node + " has not been heard of", returns[node])) << cluster.told();
+      kill(process, SIGCONT);
+    }
+    ASSERT_TRUE(cluster.tells(node + " plays with us", returns[node])) << cluster.told();
+    back.push_back(Milliseconds(Clock::now() - begin).count());
+  }
+  std::vector<double> gaps;
+  std::int64_t before = 0;
+  for (const auto& [frame, at] : swapTimesOf(cluster.out("front"))) {
+    if (before != 0) gaps.push_back(static_cast<double>(at - before) * 1e-6);
+    before = at;
+  }
+  std::ranges::sort(back), std::ranges::sort(gaps);
+  std::printf("%d times: the others held a picture for %.0f ms at most (deadline 300), the %zu gaps after "
+              "that %.1f at "
+              "most; back after %.0f ms, %.0f at most\n",
+              times, gaps.back(), gaps.size() - back.size(), gaps[gaps.size() - back.size() - 1],
+              back[back.size() / 2], back.back());
+}
+
+TEST(ProgramFullCluster, AHundredMachinesDie) {
+  const RunningCluster cluster("280");
+  disturb(cluster, 100, SIGKILL);
+  EXPECT_EQ(cluster.end(), 0) << cluster.told();
+  cluster.expectWhatOneShows("280");
+}
+
+TEST(ProgramFullCluster, AHundredMachinesAreStopped) {
+  const RunningCluster cluster("200");
+  disturb(cluster, 100, SIGSTOP);
+  EXPECT_EQ(cluster.end(), 0) << cluster.told();
+  cluster.expectWhatOneShows("200");
 }
 
 TEST(ProgramCluster, WhatIsWrongIsToldAtTheStart) {
