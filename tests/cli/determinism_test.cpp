@@ -1,0 +1,117 @@
+/// The same script and input give the same scene, whatever plays them.
+
+#include "tests/cli/program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <random>
+#include <sstream>
+
+namespace stadion {
+namespace {
+
+struct Show {
+  const char* name;  ///< of tests/corpus/hashes/NAME.txt
+  const char* script;
+};
+constexpr Show kShows[] = {{"kick", "scripts/kick.evs"},
+                           {"olympia", "scripts/olympia.evs"},
+                           {"crowd", "scripts/crowd.evs"},
+                           {"bodies", "tests/corpus/shows/bodies.evs"},
+                           {"moving", "tests/corpus/shows/moving.evs"}};
+
+std::string pathOf(const Show& show) {
+  return std::string(STADION_SOURCE_DIR "/") + show.script;
+}
+
+/// The environment in which the C library's mathematics uses neither FMA nor AVX2.
+const std::string kPlainMaths = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-AVX2_Usable,-FMA_Usable";
+
+ProgramResult play(std::vector<std::string> words, std::vector<std::string> environment = {}) {
+  words.insert(words.begin(), stadionPath());
+  ProgramRun run{std::move(words), std::move(environment)};
+  run.limit = std::chrono::minutes(9);
+  return runProgram(run);
+}
+
+/// What `stadion hash` says, each so manyth frame.
+std::string hashesOf(const Show& show, const std::string& frames, std::uint64_t each,
+                     std::vector<std::string> more = {}, std::vector<std::string> environment = {}) {
+  std::vector<std::string> words{"hash", pathOf(show), "--frames", frames};
+  words.insert(words.end(), more.begin(), more.end());
+  const ProgramResult r = play(std::move(words), std::move(environment));
+  EXPECT_EQ(r.status, 0) << show.name << "\n" << r.err;
+  std::istringstream in(r.out);
+  std::string chosen;
+  for (std::string line; std::getline(in, line);)
+    if (std::stoull(line) % each == 0) chosen += line + "\n";
+  return chosen;
+}
+
+// A change that is meant to move bodies elsewhere, or adds to a scene's state, changes these files:
+//   stadion hash SHOW --frames 1001 | awk '$1 % 100 == 0' > tests/corpus/hashes/NAME.txt
+TEST(ProgramDeterminism, ScenesAreThoseOfTheFilesThatAreKept) {
+  for (const Show& show : kShows)
+    EXPECT_EQ(hashesOf(show, "1001", 100),
+              fileContent(std::string(STADION_SOURCE_DIR "/tests/corpus/hashes/") + show.name + ".txt"))
+        << show.name;
+}
+
+TEST(ProgramDeterminism, ThreadsAndTheLibrarysVectorsChangeNothing) {
+  for (const Show& show : kShows) {
+    const std::string one = hashesOf(show, "600", 1, {"--app-threads", "1"});
+    EXPECT_EQ(hashesOf(show, "600", 1, {"--app-threads", "3"}), one) << show.name;
+    EXPECT_EQ(hashesOf(show, "600", 1, {}, {kPlainMaths}), one) << show.name;
+  }
+}
+
+/// The history of all states, as `run` tells it.
+std::string historyOf(const Show& show, const std::string& frames, const std::vector<std::string>& how,
+                      std::vector<std::string> environment) {
+  std::vector<std::string> words{"run",     pathOf(show), "--frames", frames,  "--size", "32x24",
+                                 "--walls", "powerwall",  "--look",   "plain", "--json"};
+  words.insert(words.end(), how.begin(), how.end());
+  const ProgramResult r = play(std::move(words), std::move(environment));
+  EXPECT_EQ(r.status, 0) << show.name << "\n" << r.err;
+  if (r.status != 0) return {};
+  return nlohmann::json::parse(r.out)["history_hash"].get<std::string>();
+}
+
+/// Each axis by itself, then some corners of all of them.
+void expectOneHistory(const std::string& frames, int corners) {
+  using Words = std::vector<std::string>;
+  const std::vector<Words> modes{
+      {"--mode", "pipelined"}, {"--mode", "sequential"}, {"--wall-workers", "process"}, {"--gl", "none"}};
+  const std::vector<Words> threads{{"--app-threads", "1"}, {"--app-threads", "2"}, {"--app-threads", "5"}};
+  const std::vector<Words> environments{{}, {kPlainMaths}, {"LP_NUM_THREADS=0"}};
+  std::mt19937 random(20260711);
+  const auto any = [&](const std::vector<Words>& of) { return of[random() % of.size()]; };
+  for (const Show& show : kShows) {
+    const std::string reference = historyOf(show, frames, modes[0], {});
+    ASSERT_FALSE(reference.empty());
+    for (const Words& mode : modes)
+      EXPECT_EQ(historyOf(show, frames, mode, {}), reference) << show.name << mode[1];
+    for (const Words& count : threads)
+      EXPECT_EQ(historyOf(show, frames, count, {}), reference) << show.name << count[1];
+    for (const Words& e : environments) EXPECT_EQ(historyOf(show, frames, {}, e), reference) << show.name;
+    for (int i = 0; i < corners; ++i) {
+      Words how = any(modes);
+      const Words count = any(threads);
+      how.insert(how.end(), count.begin(), count.end());
+      EXPECT_EQ(historyOf(show, frames, how, any(environments)), reference) << show.name << ", corner " << i;
+    }
+  }
+}
+
+TEST(ProgramDeterminism, EveryWayToPlayAShowHasTheSameHistory) {
+  expectOneHistory("120", 2);
+}
+
+TEST(ProgramFullDeterminism, TenThousandFramesHaveTheSameHistoryInEveryWay) {
+  expectOneHistory("10000", 10);
+}
+
+}  // namespace
+}  // namespace stadion
