@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
 namespace stadion {
 namespace {
@@ -60,7 +59,7 @@ std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& fin
     o.show.onlyWalls = {walls->walls.front().wall.name};  // somebody has to take the frames
     o.provider = "none";
   }
-  std::unique_ptr<ClusterPart> part(new ClusterPart(std::move(*file), *node));
+  std::unique_ptr<ClusterPart> part(new ClusterPart(std::move(*file), *node, o.say));
   part->show_ = hashOfFiles(o.show);
   part->settings_ = "--look " + o.show.look;
   if (o.plantDifference > 0) part->planted_ = o.plantDifference;
@@ -68,7 +67,7 @@ std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& fin
 }
 
 void ClusterPart::tell(const std::string& what) const {
-  std::fprintf(stderr, "cluster, %s: %s\n", file_.nodes[node_].name.c_str(), what.c_str());
+  say_(fmt::format("cluster, {}: {}", file_.nodes[node_].name, what));
 }
 
 bool ClusterPart::openLead(Diagnostics& findings) {

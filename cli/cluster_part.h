@@ -8,6 +8,7 @@
 #include "pipeline/cluster/lead.h"
 #include "pipeline/output/run_summary.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,7 +45,8 @@ public:
   ClusterSummary summary() const;
 
 private:
-  ClusterPart(ClusterFile file, std::size_t node) : file_(std::move(file)), node_(node) {}
+  ClusterPart(ClusterFile file, std::size_t node, std::function<void(const std::string&)> say)
+      : file_(std::move(file)), node_(node), say_(std::move(say)) {}
   void tell(const std::string& what) const;
   bool openLead(Diagnostics& findings);
   bool follow(ShowOptions& show, Diagnostics& findings);
@@ -54,6 +56,7 @@ private:
 
   ClusterFile file_;
   std::size_t node_;
+  std::function<void(const std::string&)> say_;
   std::optional<std::uint64_t>
       planted_;  ///< the frame after which a bit is changed, to see whether that is found
   Player* player_ = nullptr;

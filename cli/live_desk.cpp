@@ -70,6 +70,7 @@ void LiveDesk::beginGroup(Player& player, RunWatch& watch) {
   desk_->told = [this, &watch](std::uint64_t frame, const OperatorCommand& command) {
     tell(command, watch.time());
     if (isOfPresentation(command.action)) writeDown(frame, command, watch);
+    if (changed) changed(desk_->state());
   };
   // What stands already stands from the first frame on.
   const Presentation& shown = desk_->state().shown;

@@ -47,6 +47,9 @@ public:
   void silence();
 
   void addTo(ShowParts& parts, FrameLoopOptions& loop);
+  /// Learns what the operator has decided, whenever that has changed; on the App thread.
+  std::function<void(const OperatorState&)> changed;
+  const OperatorState& state() const { return desk_->state(); }
   /// Takes orders from elsewhere too, such as keys in a window.
   OperatorQueue& queue() { return desk_->queue(); }
   Playback& playback() { return desk_->playback(); }

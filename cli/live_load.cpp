@@ -1,7 +1,5 @@
 #include "cli/live_load.h"
 
-#include <cstdio>
-
 namespace stadion {
 
 bool hasDrawnBudgets(const Scene& scene) {
@@ -21,7 +19,7 @@ GovernorOptions governorOf(const RunOptions& o, const Player& player, std::vecto
   g.walls = std::move(walls);
   g.stress = o.stress;
   g.acts = live && o.loadControl;
-  if (live) g.tell = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
+  if (live) g.tell = o.say;
   return g;
 }
 

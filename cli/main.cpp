@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/crash_report.h"
 #include "cli/exit_code.h"
+#include "cli/version.h"
 #include "engine/script/suggestion.h"
 #include "pipeline/output/sound_libraries.h"
 #include "pipeline/target/rasteriser_settings.h"
@@ -35,7 +36,7 @@ int runProgram(int argc, char** argv, std::optional<unsigned> rasteriserThreads)
              "130 or 143 stopped by SIGINT or SIGTERM.\n"
              "Start with:  ./stadion run scripts/kick.evs --out pictures");
   app.require_subcommand(1);
-  app.set_version_flag("--version", "stadion 0.1.0");
+  app.set_version_flag("--version", std::string("stadion ") + kVersion);
   int code = kOk;
   addRunCommand(app, code, rasteriserThreads);
   addCheckCommand(app, code);

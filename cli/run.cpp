@@ -8,6 +8,7 @@
 #include "cli/live_desk.h"
 #include "cli/live_load.h"
 #include "cli/output_folder.h"
+#include "cli/run_journal.h"
 #include "cli/run_options.h"
 #include "cli/run_output.h"
 #include "cli/run_report.h"
@@ -16,6 +17,8 @@
 #include "cli/show_recording.h"
 #include "cli/span_recording.h"
 #include "cli/stop_signal.h"
+#include "cli/supervise.h"
+#include "cli/supervised_part.h"
 #include "engine/run_stopped.h"
 #include "pipeline/machine/topology.h"
 #include "pipeline/output/progress.h"
@@ -39,7 +42,9 @@ constexpr std::chrono::seconds kDrawAfterStop{5};
 
 /// What a run needs. Anything that is not there is the user's affair; the findings say why.
 struct RunSetup {
-  std::unique_ptr<OutputFolder> folder;  ///< null without --out
+  std::unique_ptr<RunJournal> journal;         ///< null without --journal
+  std::unique_ptr<SupervisedPart> supervised;  ///< null if nobody watches over this process
+  std::unique_ptr<OutputFolder> folder;        ///< null without --out
   std::unique_ptr<GlProvider> provider;
   std::optional<DrawingPlan> drawing;  ///< nothing with --gl none
   std::unique_ptr<LiveDesk> desk;
@@ -53,9 +58,18 @@ struct RunSetup {
   regression::WorkCounts work;               ///< with --count-work
 };
 
+/// Findings, on stderr and in the journal.
+std::function<void(const Diagnostics&)> reportOf(const RunSetup& s) {
+  return [journal = s.journal.get()](const Diagnostics& findings) {
+    tell(findings);
+    if (journal) journal->note(findings);
+  };
+}
+
 /// Late frames, in words, one in ten seconds.
-std::function<void(const std::string&)> tellSometimes() {
-  return [next = std::chrono::steady_clock::time_point{}](const std::string& text) mutable {
+std::function<void(const std::string&)> tellSometimes(RunJournal* journal) {
+  return [journal, next = std::chrono::steady_clock::time_point{}](const std::string& text) mutable {
+    if (journal) journal->late(text);
     constexpr std::chrono::seconds kApart{10};
     const auto now = std::chrono::steady_clock::now();
     if (now < next) return;
@@ -130,7 +144,7 @@ bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
     options.govern->drawnElsewhere = s.drawing && s.drawing->setting().processes;
   }
   options.keep = lastFramesOf(o, *s.player, s.player->walls().names());
-  options.keep->tell = tellSometimes();
+  options.keep->tell = tellSometimes(s.journal.get());
   s.recording = ShowRecording::create(std::move(options), findings);
   return s.recording != nullptr;
 }
@@ -157,18 +171,34 @@ std::unique_ptr<Player> openShow(const RunOptions& o, const std::atomic<bool>& s
                                  Diagnostics& findings) {
   ShowOptions show = o.show;
   if (s.cluster && !s.cluster->join(show, findings)) return nullptr;
-  return Player::create(show, findings, tell, &stop, modelsOf(*s.desk));
+  if (s.supervised && s.supervised->state()) {
+    show.state = s.supervised->state();
+    Diagnostics found;
+    if (auto player = Player::create(show, found, reportOf(s), &stop, modelsOf(*s.desk))) return player;
+    s.supervised->beginAgain();
+    show.state.reset();
+  }
+  return Player::create(show, findings, reportOf(s), &stop, modelsOf(*s.desk));
 }
 
 /// Opens everything before anything is played, so that whatever is wrong is found first.
 bool setUp(RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostics& findings) {
+  s.journal = RunJournal::open(o, findings);
+  if (findings.hasErrors()) return false;
+  if (s.journal)
+    o.say = [terminal = o.say, journal = s.journal.get()](const std::string& line) {
+      terminal(line);
+      journal->note(line);
+    };
+  s.supervised = SupervisedPart::create(o, findings);
+  if (findings.hasErrors()) return false;
   s.cluster = ClusterPart::create(o, findings);
   if (findings.hasErrors()) return false;
   if (!o.out.empty() && !keep(OutputFolder::open(o.out), s.folder, findings)) return false;
   const GlProviderKind kind = o.provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa;
   if (o.provider != "none" && !keep(openGlProvider(kind), s.provider, findings)) return false;
   planDrawing(o, s, findings);
-  s.desk = LiveDesk::open(o, findings);
+  s.desk = LiveDesk::open(o, findings, o.say);
   if (!s.desk) return false;
   s.player = openShow(o, stop, s, findings);
   if (!s.player) return false;
@@ -220,31 +250,41 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     s.watch->see(now, input, scene);
     if (s.cluster) s.cluster->simulated(now, scene);
+    if (s.journal) s.journal->see(now, input, scene);
+    if (s.supervised) s.supervised->simulated(now, s.player->scene(), *s.watch);
     if (recording) recording->see(scene);
     s.player->collect(running->shownFrame());
     progress.update(now.frame + 1);
   };
-  if (!s.displays) parts.shown = [&] { s.desk->pictureSeen(); };
+  parts.shown = [&] {
+    if (!s.displays) s.desk->pictureSeen();
+    if (s.supervised) s.supervised->shown();
+    if (s.journal && s.journal->shown()) s.journal->firstPicture(running->glDescription());
+  };
   s.desk->addTo(parts, options);
   ShowStages stages(std::move(parts));
   running = &stages;
   if (recording && !s.player->obeysLog()) options.decider = recording->governor();
   if (s.cluster) s.cluster->addTo(options);
+  if (s.supervised) s.supervised->goOn(options, *s.desk, *s.watch);
   FrameLoop loop(stages, options, stop, probe);
 
+  if (s.supervised) s.supervised->enter(SharedProgress::Phase::Playing);
   const auto start = std::chrono::steady_clock::now();
   const FrameLoopOutcome outcome = s.displays ? s.displays->play(loop, *s.desk) : loop.run();
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
+  if (s.supervised) s.supervised->enter(SharedProgress::Phase::Ending);
   if (s.cluster) s.cluster->finish();
   const bool again = outcome.nextGroup || (s.cluster && s.cluster->isToJoinAgain());
   if (again && !outcome.failure && !stop) return {};
   if (recording && outcome.failure) recording->keepLastFrames();
 
-  const int code = report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(),
-                           s.desk->uptime(), recording, s.work.totals(s.player->walls().names()),
-                           s.drawing ? &*s.drawing : nullptr, s.cluster.get()},
-                          s.output.get(), s.folder.get());
+  const int code =
+      report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime(),
+              recording, s.work.totals(s.player->walls().names()), s.drawing ? &*s.drawing : nullptr,
+              s.cluster.get(), s.supervised ? s.supervised->remark() : ""},
+             s.output.get(), s.folder.get());
   if (code == kOk && s.cluster && s.cluster->summary().stopped) return kInternalFault;
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
@@ -259,7 +299,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
 /// end.
 bool waitForScript(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   constexpr std::chrono::milliseconds kLookEvery{250};
-  std::fprintf(stderr, "the script has errors; the next group's show begins once it is saved without them\n");
+  o.say("the script has errors; the next group's show begins once it is saved without them");
   ScriptWatch files(o.show.script, o.show.assetRoots);
   for (;;) {
     if (stop || (s.displays && !s.displays->takeKeys(*s.desk))) return false;
@@ -268,6 +308,7 @@ bool waitForScript(const RunOptions& o, const std::atomic<bool>& stop, RunSetup&
       if (c.action == OperatorAction::NextGroup) return true;
     }
     if (files.changed()) return true;
+    if (s.supervised) s.supervised->shown();  // this is no hanging
     std::this_thread::sleep_for(kLookEvery);
   }
 }
@@ -275,14 +316,16 @@ bool waitForScript(const RunOptions& o, const std::atomic<bool>& stop, RunSetup&
 /// Everything of the show is made anew, but for what was read from files. False if there is no next group.
 bool nextGroup(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   s.desk->endGroup(*s.watch);
+  if (s.supervised) s.supervised->enter(SharedProgress::Phase::Opening), s.supervised->beginGroup();
+  if (s.journal) s.journal->beginGroup();
   Diagnostics findings;
   if (const auto wrong = s.watch->finish()) findings.add(*wrong);
   s.watch.reset();
   s.player.reset();
   s.desk->kept()->models.store().collect(~std::uint64_t{0});  // no frame shows it any more
   for (;;) {
-    s.player = Player::create(o.show, findings, tell, &stop, modelsOf(*s.desk));
-    tell(std::exchange(findings, {}));
+    s.player = Player::create(o.show, findings, reportOf(s), &stop, modelsOf(*s.desk));
+    reportOf(s)(std::exchange(findings, {}));
     if (s.player) break;
     if (!waitForScript(o, stop, s)) return false;
   }
@@ -312,12 +355,10 @@ int codeWithoutShow(bool stopped, const RunSetup& s) {
   return kInternalFault;
 }
 
-int runShow(RunOptions o) try {
-  Diagnostics findings;
-  RunSetup setup;
+int playShow(RunOptions& o, RunSetup& setup, Diagnostics findings) {
   const std::atomic<bool>& stop = catchStopSignals();
-  const bool ready = o.settle(findings) && setUp(o, stop, setup, findings);
-  tell(findings);
+  const bool ready = setUp(o, stop, setup, findings);
+  reportOf(setup)(findings);
   if (!ready && setup.cluster && stop) return kStopped + stopSignal();
   if (!ready) return kBadInput;
   if (setup.cluster && !setup.cluster->leads())
@@ -332,6 +373,7 @@ int runShow(RunOptions o) try {
         "playing %.1f s of %s unseen; --display and stadion view show it, --out DIR writes pictures\n",
         seconds, o.show.script.c_str());
   }
+  if (setup.journal) setup.journal->began(o, *setup.player);
   for (;;) {
     if (const auto code = play(o, stop, setup)) return *code;
     if (setup.cluster && setup.cluster->isToJoinAgain()) {
@@ -340,6 +382,16 @@ int runShow(RunOptions o) try {
     }
     if (!nextGroup(o, stop, setup)) return codeWithoutShow(stop, setup);
   }
+}
+
+int runShow(RunOptions o) try {
+  Diagnostics findings;
+  if (!o.settle(findings)) return tell(findings), kBadInput;
+  if (o.supervise) return tell(findings), superviseRun(o);
+  RunSetup setup;
+  const int code = playShow(o, setup, std::move(findings));
+  if (setup.journal) setup.journal->ended(code);
+  return code;
 } catch (const RunStopped&) {
   std::fprintf(stderr, "stadion: stopped by %s before the show was loaded\n", stopSignalName());
   return kStopped + stopSignal();

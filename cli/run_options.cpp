@@ -86,6 +86,7 @@ void RunOptions::addTo(CLI::App& command) {
       "count pixels, spheres tested and seen, contacts and so on of all frames, for the summary");
   command.add_flag("--unrecorded", unrecorded)->group("");  // for `stadion bench recording` alone
   addOperatorTo(command);
+  addSupervisionTo(command);
   command.add_flag("--json", json, "the summary as one JSON object on stdout");
   command.footer("SIGINT (Ctrl-C) and SIGTERM end the run after the frames under way; all that was asked for "
                  "is written, and "
@@ -172,6 +173,43 @@ void RunOptions::addBlackBoxTo(CLI::App& command) {
       ->check(aName, "FILE");
 }
 
+void RunOptions::addSupervisionTo(CLI::App& command) {
+  command.add_flag("--supervise", supervise,
+                   "another process plays the show, and is replaced when it dies or "
+                   "hangs: the next one goes on at the show "
+                   "time that would be now (docs/all-day.md)");
+  command.add_option("--hang-after", hangAfter, "it hangs when it shows no frame for so many seconds")
+      ->check(numberFrom(0.5, 3600))
+      ->capture_default_str();
+  command.add_option("--supervised", supervised)->group("");  // by --supervise alone
+  command
+      .add_option(
+          "--journal", journal,
+          "add a line to this file for all that happens to the run: how it began, files that came and "
+          "went, late frames, trackers, walls and players that died, how it ended")
+      ->check(aName, "FILE");
+}
+
+/// What belongs to one process, and goes with it.
+void RunOptions::settleSupervision(Diagnostics& findings) const {
+  const RunOptions standard;
+  if (!supervise && supervised < 0 && hangAfter != standard.hangAfter)
+    findings.error({}, "--hang-after says when a supervised player hangs: it needs --supervise");
+  if (!supervise) return;
+  const auto refuse = [&](bool asked, const char* option, const char* why) {
+    if (asked) findings.error({}, std::string(option) + " and --supervise: " + why);
+  };
+  refuse(!out.empty(), "--out",
+         "pictures of a run that can be repeated need nobody who goes on; leave one out");
+  refuse(!recordInput.empty(), "--record-input",
+         "a record that begins in the middle of a show cannot be played; leave one out");
+  refuse(!spans.file.empty() || countWork || profile || !events.file.empty(),
+         "--spans, --count-work, --profile and --trace-events",
+         "what is measured is one process's; leave one out");
+  refuse(!cluster.empty(), "--cluster",
+         "a node that dies joins the others again by itself; `stadion cluster` begins it anew");
+}
+
 void RunOptions::addOperatorTo(CLI::App& command) {
   command
       .add_option(
@@ -246,16 +284,15 @@ bool RunOptions::settle(Diagnostics& findings) {
   settleCluster(findings);
   settleFiles(findings);
   settleHead(findings);
+  settleSupervision(findings);
   return show.settle(findings) && !findings.hasErrors();
 }
 
 /// No output is another one, or what the show is played from.
 void RunOptions::settleFiles(Diagnostics& findings) const {
-  std::vector<NamedFile> files{{"--rig", trackers.rig, false},
-                               {"--record-input", recordInput},
-                               {"--trace-events", events.file},
-                               {"--spans", spans.file},
-                               {"--black-box", blackBox}};
+  std::vector<NamedFile> files{{"--rig", trackers.rig, false},  {"--record-input", recordInput},
+                               {"--trace-events", events.file}, {"--spans", spans.file},
+                               {"--black-box", blackBox},       {"--journal", journal}};
   if (!out.empty())
     for (const std::string& name : OutputFolder::namesOfRuns(out))
       files.push_back({"--out's " + name, out + "/" + name});
@@ -343,7 +380,7 @@ std::optional<WallWorkers> RunOptions::workers(const Player& player, const DrawS
   w.egl = provider == "egl";
   w.everyFrame = everyFrameCounts(player) || !cluster.empty();
   w.rate = player.rate();
-  w.tell = [](const std::string& what) { std::fprintf(stderr, "stadion: %s\n", what.c_str()); };
+  w.tell = [tell = say](const std::string& what) { tell("stadion: " + what); };
   return w;
 }
 

@@ -9,6 +9,8 @@
 #include "cli/tracker_device.h"
 #include "profiling/load/stress_filter.h"
 
+#include <cstdio>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +43,14 @@ struct RunOptions {
   std::string pin = "auto";           ///< each wall on processors of its own: on, off or auto
   /// How many threads the environment gives the rasteriser, if it says so; no option.
   std::optional<unsigned> rasteriserThreads{};
+  bool supervise = false;  ///< another process plays, and is replaced when it dies
+  double hangAfter = 10;   ///< or shows nothing for so long [s]
+  int supervised = -1;     ///< this is that process: a descriptor (SharedProgress); no option for users
+  std::string journal;     ///< to which what happens is written; empty: nowhere
+  /// Is given what there is to tell while the show plays, a line at a time, from any thread. No option.
+  std::function<void(const std::string&)> say = [](const std::string& line) {
+    std::fprintf(stderr, "%s\n", line.c_str());
+  };
   bool wait = false;
   bool noSound = false;
   bool display = false;      ///< on the walls' outputs
@@ -67,6 +77,8 @@ struct RunOptions {
   void settleCluster(Diagnostics& findings);
   void settleLive(Diagnostics& findings);
   void settleHead(Diagnostics& findings);
+  void addSupervisionTo(CLI::App& command);
+  void settleSupervision(Diagnostics& findings) const;
   /// Whether the options ask for a run that does not go by the clock.
   bool asksForEveryFrame() const;
   /// Every frame counts where somebody looks at the result later, and where a log says when each one was;

@@ -75,6 +75,7 @@ RunSummary summarise(const FinishedRun& run) {
   }
   const std::string drawn = run.stages.glDescription();
   s.remarks.push_back(drawn.empty() ? "nothing was drawn" : "drawn by " + drawn);
+  if (!run.remark.empty()) s.remarks.push_back(run.remark);
   addBudgets(run.recording, s);
   if (run.cluster) s.cluster = run.cluster->summary();
   if (run.outcome.stopped) s.stopped = stopSignalName();

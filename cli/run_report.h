@@ -27,6 +27,7 @@ struct FinishedRun {
   std::map<std::string, double> work{};  ///< what was counted, if it was asked for
   const DrawingPlan* drawing = nullptr;  ///< null: nothing was drawn
   const ClusterPart* cluster = nullptr;  ///< null: one machine played it
+  std::string remark{};                  ///< what else is to be known of it
 };
 
 /// Completes every file and tells how it went. Returns the exit code. `output` and its folder: null without

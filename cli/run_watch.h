@@ -31,6 +31,10 @@ public:
   /// Completes the records, once; says what could not be written. Not while see() may be called.
   std::optional<Diagnostic> finish();
 
+  /// The frames before the first one were another process's; `history` was what it had of them.
+  void goOnFrom(std::uint64_t history) { historyHash_ = history; }
+  /// Hash of the states of all frames up to now.
+  std::uint64_t history() const { return historyHash_; }
   /// Show time of the last frame seen.
   Nanoseconds time() const { return last_.time; }
   /// The distances that were measured.

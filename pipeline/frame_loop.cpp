@@ -69,6 +69,7 @@ FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std:
     : stages_(stages), options_(options), stopRequested_(stopRequested), probe_(probe),
       pacer_(options.pace, options.rate, options.everyTick), times_(options.walls),
       clock_(options.rate, options.frameTimes) {
+  pacer_.startLate(std::chrono::nanoseconds(options.late));
   if (!options.after) return;
   clock_ = FrameClock(options.rate, *options.after, options.frameTimes);
   lastSignature_ = *options.after, lastSignature_.load = {};
@@ -201,7 +202,7 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   if (options_.orders && !options_.orders->leads()) return orderedTurn();
   const std::uint64_t ticks = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return pacer_.wait(); });
   if (!takeCommands()) return std::nullopt;
-  const double speed = options_.playback && nextIndex_ > 0 ? options_.playback->takeFrame() : 1;
+  const double speed = options_.playback && begun_ ? options_.playback->takeFrame() : 1;
   if (speed == 0) return told({lastSignature_, {}, true});
   // A single frame is one tick, however long the last one took.
   const bool single = options_.playback && options_.playback->paused();
@@ -209,6 +210,7 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   if (options_.end > 0 && now.time > options_.end) return std::nullopt;
   now.load = loadOf(now.frame);
   ++nextIndex_;
+  begun_ = true;
   lastSignature_ = now;
   return told({now});
 }
@@ -309,8 +311,8 @@ bool FrameLoop::fail(const char* what, std::size_t wall, std::uint64_t frame, co
 /// Whether a frame that nobody would see in time is not drawn; of those that follow each other one a second
 /// is.
 bool FrameLoop::passesOver(const FrameTicket& ticket) {
-  const bool late = options_.everyTick && options_.mode == Mode::Sequential && !options_.orders &&
-                    !ticket.last && pacer_.behind();
+  const bool late = (options_.everyTick || pacer_.catchesUp()) && options_.mode == Mode::Sequential &&
+                    !options_.orders && !ticket.last && pacer_.behind();
   passedOver_ = late && static_cast<double>(passedOver_) < options_.rate ? passedOver_ + 1 : 0;
   return passedOver_ > 0;
 }

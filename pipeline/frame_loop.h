@@ -41,10 +41,12 @@ struct FrameLoopOptions {
   /// Frames under way at most, in pipelined mode (FrameSlots::limitUnderWay); the operator may change it.
   std::size_t latency = 0;
   bool drawBeginsEarly = true;  ///< in pipelined mode: while Cull still fills the list (ListFilling)
-  std::uint64_t frames = 0;     ///< 0 = until stopped
-  Nanoseconds end = 0;          ///< no frame after this show time; 0 = until stopped
-  /// The show goes on after this frame, from a scene that was put back; nothing = it begins.
+  /// The show goes on after this frame, which was that much earlier than the one to be shown now [ns]: it
+  /// catches up (Pacer::startLate). Nothing: it begins, late by as much.
   std::optional<TimeSignature> after{};
+  Nanoseconds late = 0;
+  std::uint64_t frames = 0;  ///< 0 = until stopped
+  Nanoseconds end = 0;       ///< no frame after this show time; 0 = until stopped
   /// Show times that a recorded run decided for some of its frames (see RunDecisions); they are obeyed.
   std::map<std::uint64_t, Nanoseconds> frameTimes{};
   /// What it decided because something took too long; it is obeyed.
@@ -126,6 +128,7 @@ private:
   std::uint64_t passedOver_ = 0;  ///< frames in a row that were late and not drawn
   FrameClock clock_;
   TimeSignature lastSignature_;
+  bool begun_ = false;   ///< a frame has been simulated: there is one to stand still at
   bool ending_ = false;  ///< App was told to end after this frame
   bool ended_ = false;   ///< App has begun its last frame
   std::atomic<bool> stopped_ = false;

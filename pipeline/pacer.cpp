@@ -13,7 +13,13 @@ std::uint64_t Pacer::wait() {
   const auto now = Clock::now();
   if (!started_) {
     started_ = true;
-    next_ = now + period_;
+    next_ = now + period_ - startsLate_;
+    catchUpUntil_ = now + startsLate_;
+    return 1;
+  }
+  if (now <= next_) catchUpUntil_ = {};
+  if (now < catchUpUntil_) {
+    next_ += period_;
     return 1;
   }
   std::uint64_t ticks = 1;

@@ -21,6 +21,14 @@ public:
   /// wait).
   Pacer(Pace pace, double rate, bool everyTick = false);
 
+  /// The first frame is that much late. It and those after it are simulated one by one until they have
+  /// caught up, for as long again at most; what is late still is then left out as ever. Before the first
+  /// wait(). Without effect where nobody waits for ticks.
+  void startLate(std::chrono::nanoseconds by) {
+    startsLate_ = std::chrono::duration_cast<Clock::duration>(by);
+  }
+  /// Whether that is going on.
+  bool catchesUp() const { return started_ && Clock::now() < catchUpUntil_; }
   /// Waits until the next frame may begin. Returns how many ticks have passed since the previous one: 1 when
   /// all is well.
   std::uint64_t wait();
@@ -36,6 +44,8 @@ private:
   bool everyTick_;
   Clock::duration period_;
   Clock::time_point next_;
+  Clock::duration startsLate_{};
+  Clock::time_point catchUpUntil_{};
   bool started_ = false;
   std::uint64_t missed_ = 0;
 };

@@ -39,17 +39,17 @@ public:
       posix_spawn_file_actions_adddup2(&actions_, from, to);
   }
 
-  /// We block and ignore signals in places; the child starts with none of that, and in a process group of its
-  /// own, so that Ctrl-C reaches us alone and we can let it finish the file.
-  void resetSignals() {
+  /// We block and ignore signals in places; the child starts with none of that.
+  void resetSignals(ChildProcess::Group group) {
     sigset_t none, all;
     sigemptyset(&none);
     sigfillset(&all);
     posix_spawnattr_setsigmask(&attributes_, &none);
     posix_spawnattr_setsigdefault(&attributes_, &all);
     posix_spawnattr_setpgroup(&attributes_, 0);
+    const int own = group == ChildProcess::Group::Own ? POSIX_SPAWN_SETPGROUP : 0;
     posix_spawnattr_setflags(&attributes_,
-                             POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+                             static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | own));
   }
 
   posix_spawn_file_actions_t* actions() { return &actions_; }
@@ -110,14 +110,15 @@ ChildProcess::~ChildProcess() {
 }
 
 std::optional<int> ChildProcess::start(const std::vector<std::string>& argv, const Streams& streams,
-                                       const std::vector<std::string>& environment) {
+                                       const std::vector<std::string>& environment, Group group) {
   Streams from = streams;
   const Descriptor in = aboveStandard(from.in), out = aboveStandard(from.out), err = aboveStandard(from.err);
   SpawnOrders orders;
   orders.connect(from.in, 0);
   orders.connect(from.out, 1);
   orders.connect(from.err, 2);
-  orders.resetSignals();
+  orders.resetSignals(group);
+  group_ = group;
   std::vector<std::string> words = argv, around = environmentWith(environment);
   const std::vector<char*> arguments = pointersTo(words), variables = pointersTo(around);
   const int problem = posix_spawnp(&pid_, arguments[0], orders.actions(), orders.attributes(),
@@ -147,7 +148,7 @@ std::optional<int> ChildProcess::wait(std::chrono::milliseconds limit) {
 }
 
 void ChildProcess::kill() {
-  if (running()) ::kill(-pid_, SIGKILL);
+  if (running()) ::kill(group_ == Group::Own ? -pid_ : pid_, SIGKILL);
 }
 
 Pipe makePipe() {

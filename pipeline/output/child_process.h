@@ -40,22 +40,27 @@ public:
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Finds argv[0] along PATH and runs it with default signal handling, in a process group of its own, with
-  /// our environment where `environment`, words like "NAME=value", says nothing else. Nothing if it runs,
-  /// else an errno.
+  /// Own: Ctrl-C reaches us alone, and we can let it finish what it is at. Ours: keys of the terminal, Ctrl-C
+  /// and Ctrl-Z among them, reach it as they reach us.
+  enum class Group { Own, Ours };
+
+  /// Finds argv[0] along PATH and runs it with default signal handling, in that process group, with our
+  /// environment where `environment`, words like "NAME=value", says nothing else. Nothing if it runs, else an
+  /// errno.
   std::optional<int> start(const std::vector<std::string>& argv, const Streams& streams,
-                           const std::vector<std::string>& environment = {});
+                           const std::vector<std::string>& environment = {}, Group group = Group::Own);
   bool running() const { return pid_ > 0; }
   pid_t pid() const { return pid_; }  ///< -1 if there is none
 
   /// The exit status (128 + signal if it was killed) once it has ended; nothing if it still runs after the
   /// wait.
   std::optional<int> wait(std::chrono::milliseconds limit);
-  /// It and all of its process group: the programs that it has started, too.
+  /// It and, if that is its own, all of its process group: the programs that it has started, too.
   void kill();
 
 private:
   pid_t pid_ = -1;
+  Group group_ = Group::Own;
 };
 
 /// A pipe: what is written to `write` comes out of `read`. Both invalid if the system has none to give.

@@ -1,0 +1,219 @@
+#include "cli/supervise.h"
+
+#include "cli/exit_code.h"
+#include "cli/stop_signal.h"
+#include "pipeline/output/child_process.h"
+#include "pipeline/output/journal.h"
+#include "pipeline/supervision/recovery.h"
+#include "pipeline/supervision/shared_progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <termios.h>
+#include <thread>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+using Phase = SharedProgress::Phase;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kLook{10};
+/// Opening a show, its drivers and devices, and writing its summary may take so many times longer than
+/// frames.
+constexpr int kLonger = 12;
+/// Who has not looked for so long was stopped itself (Ctrl-Z, a debugger, a machine that slept).
+constexpr Nanoseconds kAsleep = fromSeconds(1);
+
+/// The terminal as it was: a player that is killed leaves it as it had it.
+class Terminal {
+public:
+  Terminal() : there_(tcgetattr(STDIN_FILENO, &was_) == 0) {}
+  void giveBack() const {
+    if (there_ && tcgetpgrp(STDIN_FILENO) == getpgrp()) tcsetattr(STDIN_FILENO, TCSANOW, &was_);
+  }
+
+private:
+  termios was_{};
+  bool there_;
+};
+
+/// This command line, for a player.
+std::vector<std::string> playerWords(int descriptor) {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
+  std::erase(words, "--supervise");
+  words.front() = std::filesystem::canonical("/proc/self/exe").string();
+  const auto run = std::ranges::find(words, "run");
+  const std::vector<std::string> own{"--supervised", std::to_string(descriptor)};
+  words.insert(run == words.end() ? run : std::next(run), own.begin(), own.end());
+  return words;
+}
+
+class Supervisor {
+public:
+  Supervisor(const RunOptions& o, std::unique_ptr<SharedProgress> progress, std::unique_ptr<Journal> journal,
+             const std::atomic<bool>& stop)
+      : progress_(std::move(progress)), journal_(std::move(journal)), stop_(stop),
+        hangs_(fromSeconds(o.hangAfter)), words_(playerWords(progress_->descriptor())) {}
+
+  int play();
+
+private:
+  struct End {
+    int status = 0;  ///< exit status; 128 + signal
+    bool hung = false;
+    std::uint64_t shown = 0;  ///< frames
+  };
+  std::optional<End> playOnce();
+  bool hangs(Nanoseconds since) const;
+  bool isDeath(const End& end) const;
+  std::string howOf(const End& end) const;
+  void say(const std::string& line);
+  bool pause(milliseconds time) const;
+
+  std::unique_ptr<SharedProgress> progress_;
+  std::unique_ptr<Journal> journal_;
+  const std::atomic<bool>& stop_;
+  Nanoseconds hangs_;
+  std::vector<std::string> words_;
+  Terminal terminal_;
+  Recovery recovery_;
+  Nanoseconds gone_ = 0;  ///< when the player before this one showed its last frame
+};
+
+void Supervisor::say(const std::string& line) {
+  std::fprintf(stderr, "supervise: %s\n", line.c_str());
+  const SharedProgress::Moment at = progress_->newest();
+  if (journal_)
+    journal_->add("supervise: " + line,
+                  at.clock > 0 ? std::optional(Journal::Place{at.time, at.frame}) : std::nullopt);
+}
+
+/// False: the run is to end.
+bool Supervisor::pause(milliseconds time) const {
+  const auto end = std::chrono::steady_clock::now() + time;
+  while (!stop_ && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kLook);
+  return !stop_;
+}
+
+/// `since`: nothing counts that was before.
+bool Supervisor::hangs(Nanoseconds since) const {
+  const bool playing = progress_->phase() == Phase::Playing;
+  const Nanoseconds heard = std::max(since, progress_->lastShown());
+  return machineClock() - heard > (playing ? hangs_ : kLonger * hangs_);
+}
+
+std::optional<Supervisor::End> Supervisor::playOnce() {
+  ChildProcess player;
+  progress_->enter(Phase::Opening);
+  progress_->countStart();
+  if (const auto why = player.start(words_, {0, 1, 2}, {}, ChildProcess::Group::Ours)) {
+    say(fmt::format("the player cannot be started: {}", std::strerror(*why)));
+    return {};
+  }
+  const std::uint64_t before = progress_->framesShown();
+  Nanoseconds since = machineClock(), looked = since;
+  Phase phase = Phase::Opening;
+  bool forwarded = false;
+  End end;
+  for (;;) {
+    const auto status = player.wait(kLook);
+    if (status) {
+      end.status = *status;
+      break;
+    }
+    const Nanoseconds now = machineClock();
+    if (now - looked > kAsleep || progress_->phase() != phase) since = now, phase = progress_->phase();
+    looked = now;
+    if (gone_ > 0 && progress_->framesShown() > before) {
+      say(fmt::format("pictures again, after {:.2f} s without", toSeconds(progress_->lastShown() - gone_)));
+      gone_ = 0;
+    }
+    if (stop_ && !forwarded) kill(player.pid(), stopSignal());
+    forwarded = stop_;
+    if (!hangs(since)) continue;
+    end.hung = true;
+    player.kill();
+    player.wait(milliseconds(5000));
+    end.status = kStopped + SIGKILL;
+    break;
+  }
+  end.shown = progress_->framesShown() - before;
+  if (end.status > kStopped) terminal_.giveBack();
+  return end;
+}
+
+/// Whether another player is to go on. What the user asked for, and what is wrong with the show, is no
+/// reason; but a show that did play may be mended while a later player waits.
+bool Supervisor::isDeath(const End& end) const {
+  if (stop_ || end.status == kStopped + SIGINT || end.status == kStopped + SIGTERM) return false;
+  if (end.status == kBadInput) return progress_->starts() > 1;
+  return end.hung || end.status > kStopped || end.status == kInternalFault;
+}
+
+std::string Supervisor::howOf(const End& end) const {
+  if (end.hung)
+    return fmt::format("showed nothing for {:g} s and was killed",
+                       toSeconds(progress_->phase() == Phase::Playing ? hangs_ : kLonger * hangs_));
+  if (end.status > kStopped)
+    return fmt::format("was ended by signal {} ({})", end.status - kStopped,
+                       strsignal(end.status - kStopped));
+  return fmt::format("ended with exit code {}", end.status);
+}
+
+int Supervisor::play() {
+  for (;;) {
+    const auto end = playOnce();
+    if (!end) return kInternalFault;
+    if (!isDeath(*end)) return end->status;
+    if (gone_ == 0) gone_ = progress_->lastShown();
+    const SharedProgress::Moment last = progress_->newest();
+    const Recovery::Step step = recovery_.died(last.frame, end->shown);
+    const std::string died =
+        fmt::format("the player {} at frame {}, {:.3f} s", howOf(*end), last.frame, toSeconds(last.time));
+    if (step.way == Recovery::Way::GiveUp) {
+      say(fmt::format("{}, the {}th time in a row; the show is given up", died, recovery_.deaths()));
+      return end->status;
+    }
+    const bool again = step.way == Recovery::Way::BeginAgain;
+    say(fmt::format(
+        "{}; {}{}", died,
+        again ? fmt::format("the {}th time in a row: another one begins the show again", recovery_.deaths())
+              : "another one goes on",
+        step.pause.count() > 0 ? fmt::format(" after {} s", 1e-3 * static_cast<double>(step.pause.count()))
+                               : ""));
+    if (!pause(step.pause)) return kStopped + stopSignal();
+    if (again) progress_->forget();
+  }
+}
+
+}  // namespace
+
+int superviseRun(const RunOptions& o) {
+  const auto refuse = [](const std::string& why) {
+    std::fprintf(stderr, "stadion: %s\n", why.c_str());
+    return kBadInput;
+  };
+  auto progress = SharedProgress::create();
+  if (!progress) return refuse(progress.error().message);
+  std::unique_ptr<Journal> journal;
+  if (!o.journal.empty()) {
+    auto opened = Journal::open(o.journal);
+    if (!opened) return refuse("--journal: " + opened.error().message);
+    journal = std::move(opened.value());
+  }
+  Supervisor supervisor(o, std::move(progress.value()), std::move(journal), catchStopSignals());
+  return supervisor.play();
+}
+
+}  // namespace stadion

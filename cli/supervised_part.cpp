@@ -1,0 +1,98 @@
+#include "cli/supervised_part.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <sys/prctl.h>
+
+namespace stadion {
+namespace {
+
+/// How often the scene is kept, unless that takes more than a thousandth of the time.
+constexpr Nanoseconds kKeepEvery = fromSeconds(5), kKeepSeldom = fromSeconds(60);
+constexpr Nanoseconds kShare = 1000;
+
+}  // namespace
+
+SupervisedPart::SupervisedPart(std::unique_ptr<SharedProgress> progress,
+                               std::function<void(const std::string&)> say)
+    : progress_(std::move(progress)), say_(std::move(say)), desk_(progress_->operatorState()),
+      nextKept_(machineClock() + kKeepEvery) {
+  progress_->enter(SharedProgress::Phase::Opening);
+  from_ = progress_->kept();
+  if (!from_) return;
+  state_ = std::make_shared<const std::vector<std::uint8_t>>(progress_->scene());
+}
+
+std::unique_ptr<SupervisedPart> SupervisedPart::create(const RunOptions& o, Diagnostics& findings) {
+  if (o.supervised < 0) return nullptr;
+  auto progress = SharedProgress::attach(o.supervised);
+  if (!progress) {
+    findings.error({}, "--supervised is for players that `stadion run --supervise` starts");
+    return nullptr;
+  }
+  prctl(PR_SET_PDEATHSIG, SIGTERM);  // without who watches over it, it ends as if it had been asked to
+  return std::unique_ptr<SupervisedPart>(new SupervisedPart(std::move(progress), o.say));
+}
+
+void SupervisedPart::beginAgain() {
+  state_.reset(), from_.reset();
+  say_("the scene that was kept is not one of this show (its files have changed?): it begins again");
+}
+
+void SupervisedPart::goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watch) {
+  step_ = fromSeconds(1 / loop.rate);
+  desk.changed = [this](const OperatorState& state) { obeyed(state); };
+  if (std::exchange(wentOn_, true) || progress_->starts() < 2) return obeyed(desk.state());
+  state_.reset();
+  const bool waited = desk.state().waiting;
+  const auto order = [&](OperatorAction action, double value) { desk.queue().post({action, value, false}); };
+  if (waited && !desk_.waiting) desk.queue().post({OperatorAction::Start, {}, false});
+  if (desk_.paused) order(OperatorAction::Pause, 1);
+  if (desk_.shown.black) order(OperatorAction::Black, 1);
+  if (desk_.shown.swapEyes) order(OperatorAction::SwapEyes, 1);
+  if (desk_.shown.eyeSeparation >= 0) order(OperatorAction::EyeSeparation, desk_.shown.eyeSeparation);
+  if (desk_.volume != 1) order(OperatorAction::Volume, desk_.volume);
+  if (desk_.latency > 0) order(OperatorAction::Latency, desk_.latency);
+  const Nanoseconds at = from_ ? from_->time : 0;
+  loop.late = std::max<Nanoseconds>(0, progress_->timeNow() - at);
+  if (from_) {
+    loop.after = TimeSignature{from_->frame, from_->time, 0, {}};
+    watch.goOnFrom(from_->history);
+  }
+  const std::string from =
+      from_ ? fmt::format("goes on from frame {}, {:.3f} s", from_->frame, toSeconds(at)) : "begins again";
+  const bool paced = loop.pace != Pace::Free;
+  say_(fmt::format("the show {}{}", from,
+                   paced ? fmt::format(", and catches up to {:.3f} s", toSeconds(at + loop.late)) : ""));
+}
+
+void SupervisedPart::simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch) {
+  progress_->simulated(now);
+  if (machineClock() >= nextKept_) keep(now, scene, watch);
+}
+
+void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch& watch) {
+  const Nanoseconds begin = machineClock();
+  const bool kept = progress_->keep({now.frame, now.time, watch.history(), 0}, scene.save());
+  const Nanoseconds took = machineClock() - begin;
+  const Nanoseconds pause = std::clamp(kShare * took, kKeepEvery, kKeepSeldom);
+  nextKept_ = begin + pause;
+  if (told_ || (kept && took < step_)) return;
+  told_ = true;
+  say_(kept
+           ? fmt::format(
+                 "to keep the show's scene takes {:.1f} ms, more than a frame has; it is done every {:.0f} s",
+                 1e3 * toSeconds(took), toSeconds(pause))
+           : std::string(
+                 "there is no memory to keep the show's scene: if the player dies, the show begins again"));
+}
+
+std::string SupervisedPart::remark() const {
+  if (progress_->starts() < 2) return "";
+  return fmt::format("the player was replaced {} times; frames, times and what happened are of the last one",
+                     progress_->starts() - 1);
+}
+
+}  // namespace stadion

@@ -1,0 +1,55 @@
+#pragma once
+/// A player's part in `run --supervise`: it says how far it is, keeps the show's scene every few seconds
+/// where it outlives the player, and goes on from there if it is not the first one.
+///
+/// Threads  main, but for simulated(), which is App's, and shown(), which is the Draw thread's that swaps.
+
+#include "cli/live_desk.h"
+#include "cli/run_options.h"
+#include "cli/run_watch.h"
+#include "pipeline/supervision/shared_progress.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace stadion {
+
+class SupervisedPart {
+public:
+  /// Null if nobody watches over this process.
+  static std::unique_ptr<SupervisedPart> create(const RunOptions& options, Diagnostics& findings);
+
+  /// The state to go on from; null: the show begins.
+  std::shared_ptr<const std::vector<std::uint8_t>> state() const { return state_; }
+  /// It could not be put back: the show begins, where it would be now.
+  void beginAgain();
+  /// The first show of this process: where it goes on, what the operator had decided. Says so.
+  void goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watch);
+
+  void enter(SharedProgress::Phase phase) { progress_->enter(phase); }
+  /// The next group's show begins.
+  void beginGroup() { progress_->forget(); }
+  void obeyed(const OperatorState& state) { progress_->obeyed(state); }
+  void simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch);
+  void shown() { progress_->shown(); }
+
+  /// What there is to say of it in a summary; empty if this is the first player.
+  std::string remark() const;
+
+private:
+  SupervisedPart(std::unique_ptr<SharedProgress> progress, std::function<void(const std::string&)> say);
+  void keep(const TimeSignature& now, Scene& scene, const RunWatch& watch);
+
+  std::unique_ptr<SharedProgress> progress_;
+  std::function<void(const std::string&)> say_;
+  std::optional<SharedProgress::Kept> from_;
+  std::shared_ptr<const std::vector<std::uint8_t>> state_;
+  OperatorState desk_;
+  bool wentOn_ = false;
+  Nanoseconds nextKept_ = 0;  ///< machineClock()
+  Nanoseconds step_ = 0;      ///< the longest time that keeping may take unnoticed
+  bool told_ = false;
+};
+
+}  // namespace stadion

@@ -1,0 +1,100 @@
+#include "pipeline/output/journal.h"
+
+#include "pipeline/output/child_process.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+std::string dateAndTime() {
+  using namespace std::chrono;
+  const auto now = system_clock::now();
+  const std::time_t seconds = system_clock::to_time_t(now);
+  const auto milliseconds = duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
+  std::tm local{};
+  localtime_r(&seconds, &local);
+  std::array<char, 32> date{}, zone{};
+  std::strftime(date.data(), date.size(), "%Y-%m-%d %H:%M:%S", &local);
+  std::strftime(zone.data(), zone.size(), "%z", &local);
+  return fmt::format("{}.{:03} {}", date.data(), milliseconds, zone.data());
+}
+
+std::string oneLine(std::string_view text) {
+  std::string line(text);
+  while (line.ends_with('\n')) line.pop_back();
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
+  return line;
+}
+
+Descriptor openToAppend(const std::string& file) {
+  return Descriptor(
+      ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666));
+}
+
+/// FILE becomes FILE.1, and so on; the oldest one goes.
+void moveOn(const std::string& file) {
+  const auto older = [&](int n) { return n == 0 ? file : fmt::format("{}.{}", file, n); };
+  for (int n = Journal::kOlder; n > 0; --n) std::rename(older(n - 1).c_str(), older(n).c_str());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Journal>> Journal::open(std::string file, std::size_t limit) {
+  using Opened = Result<std::unique_ptr<Journal>>;
+  const Descriptor opened = openToAppend(file);
+  struct stat info {};
+  if (!opened || fstat(opened.get(), &info) != 0)
+    return Opened::failure(file + " cannot be written: " + std::strerror(errno));
+  if (!S_ISREG(info.st_mode))
+    return Opened::failure(file + " is no plain file, to which lines could be added");
+  return std::unique_ptr<Journal>(new Journal(std::move(file), limit));
+}
+
+void Journal::add(std::string_view what, std::optional<Place> at) {
+  const std::string place =
+      at ? fmt::format("t={:.3f} f={}", toSeconds(at->time), at->frame) : std::string("-");
+  const std::lock_guard lock(mutex_);
+  const std::string lost =
+      lost_ > 0 ? fmt::format("{}  -  {} lines before this one could not be written\n", dateAndTime(), lost_)
+                : "";
+  if (write(fmt::format("{}{}  {}  {}\n", lost, dateAndTime(), place, oneLine(what))))
+    lost_ = 0;
+  else
+    ++lost_;
+}
+
+// Whoever moves the file on holds the lock of the old one; who has opened that meanwhile looks again.
+bool Journal::write(std::string_view line) {
+  constexpr int kTries = 8;
+  for (int i = 0; i < kTries; ++i) {
+    const Descriptor file = openToAppend(file_);
+    if (!file || flock(file.get(), LOCK_EX) != 0) return false;
+    struct stat ours {
+    }, named{};
+    if (fstat(file.get(), &ours) != 0 || !S_ISREG(ours.st_mode)) return false;
+    if (stat(file_.c_str(), &named) != 0 || named.st_ino != ours.st_ino || named.st_dev != ours.st_dev)
+      continue;
+    if (ours.st_size > 0 && static_cast<std::size_t>(ours.st_size) + line.size() > limit_) {
+      moveOn(file_);
+      continue;
+    }
+    return ::write(file.get(), line.data(), line.size()) == static_cast<ssize_t>(line.size());
+  }
+  return false;
+}
+
+}  // namespace stadion

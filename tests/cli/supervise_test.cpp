@@ -1,0 +1,178 @@
+/// `stadion run --supervise`: players are killed and stopped, and the show goes on.
+
+#include "tests/cli/program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <fstream>
+#include <optional>
+#include <regex>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kKick = STADION_SOURCE_DIR "/scripts/kick.evs";
+
+/// A supervised run beside the test.
+class Supervised {
+public:
+  explicit Supervised(std::vector<std::string> more) {
+    std::vector<std::string> words{stadionPath(), "run",       kKick,    "--supervise",
+                                   "--json",      "--journal", journal()};
+    words.insert(words.end(), more.begin(), more.end());
+    pid_ = startProgram({words, {"ALSOFT_DRIVERS=null"}}, said(), told());
+  }
+  ~Supervised() {
+    if (pid_ <= 0) return;
+    kill(-pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  Supervised(const Supervised&) = delete;
+  Supervised& operator=(const Supervised&) = delete;
+
+  std::string journal() const { return folder_.path() / "run.log"; }
+  std::string told() const { return folder_.path() / "told"; }
+  std::string said() const { return folder_.path() / "said"; }
+  pid_t pid() const { return pid_; }
+
+  /// The process that plays at the moment; 0 = none.
+  pid_t player() const {
+    std::ifstream in("/proc/" + std::to_string(pid_) + "/task/" + std::to_string(pid_) + "/children");
+    pid_t child = 0;
+    in >> child;
+    return child;
+  }
+  bool hasTold(const std::string& what) const { return fileContent(told()).find(what) != std::string::npos; }
+  bool hasNoted(const std::string& what) const {
+    return fileContent(journal()).find(what) != std::string::npos;
+  }
+  int end() {
+    int status = -1;
+    waitpid(std::exchange(pid_, -1), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+private:
+  TemporaryFolder folder_;
+  pid_t pid_ = -1;
+};
+
+template <class Asked>
+bool becomes(const Asked& asked) {
+  for (int i = 0; i < 3000; ++i) {
+    if (asked()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
+}
+
+/// The number behind those words.
+std::optional<double> numberAfter(const std::string& text, const std::string& words) {
+  std::smatch found;
+  if (!std::regex_search(text, found, std::regex(words + "([0-9.]+[0-9])"))) return {};
+  return std::stod(found[1]);
+}
+
+TEST(ProgramSupervise, AShowGoesOnAfterItsPlayerWasKilledAndAfterItWasStopped) {
+  const std::vector<std::string> play{"--walls", "desktop", "--size", "32x24",     "--look",
+                                      "plain",   "--rate",  "60",     "--seconds", "13"};
+  std::vector<std::string> alone{"run", kKick, "--pace", "free", "--json"}, watched = play;
+  alone.insert(alone.end(), play.begin(), play.end());
+  const ProgramResult reference = stadionProgram(alone);
+  ASSERT_EQ(reference.status, 0) << reference.err;
+
+  watched.insert(watched.end(), {"--pace", "lock", "--hang-after", "1"});
+  Supervised run(watched);
+  ASSERT_TRUE(becomes([&] { return run.hasNoted("the first picture"); })) << fileContent(run.told());
+  std::this_thread::sleep_for(std::chrono::milliseconds(6500));  // the scene has been kept once
+  const pid_t first = run.player();
+  ASSERT_GT(first, 0);
+  ASSERT_EQ(kill(first, SIGKILL), 0);
+  ASSERT_TRUE(becomes([&] { return run.hasTold("pictures again"); })) << fileContent(run.told());
+  const pid_t second = run.player();
+  EXPECT_NE(second, first);
+  ASSERT_EQ(kill(second, SIGSTOP), 0);
+  EXPECT_TRUE(becomes([&] { return run.hasTold("showed nothing for 1 s and was killed"); }))
+      << fileContent(run.told());
+  ASSERT_EQ(run.end(), 0) << fileContent(run.told());
+
+  const std::string told = fileContent(run.told());
+  EXPECT_NE(told.find("the player was ended by signal 9 (Killed) at frame"), std::string::npos) << told;
+  const auto from = numberAfter(told, "goes on from frame [0-9]+, "),
+             to = numberAfter(told, "catches up to ");
+  ASSERT_TRUE(from && to) << told;
+  EXPECT_GE(*from, 4) << "the scene that was kept";
+  EXPECT_GE(*to, 6) << "where the show was when its player died, and the time since";
+  const Json wanted = Json::parse(reference.out), has = Json::parse(fileContent(run.said()));
+  for (const char* figure : {"state_hash", "history_hash", "last_frame"})
+    EXPECT_EQ(has[figure], wanted[figure]) << figure << '\n' << told;
+  EXPECT_EQ(has["image_hashes"], wanted["image_hashes"]);
+  EXPECT_FALSE(wanted["image_hashes"].empty());
+  EXPECT_NE(has["remarks"].dump().find("replaced 2 times"), std::string::npos) << has["remarks"];
+  for (const char* line :
+       {"started: stadion", "machine: ", "loaded ", "was ended by signal 9", "goes on from frame",
+        "pictures again", "showed nothing for 1 s", "ended with exit code 0"})
+    EXPECT_TRUE(run.hasNoted(line)) << line << '\n' << fileContent(run.journal());
+}
+
+TEST(ProgramSupervise, ALiveShowEndsWithWhoWatchesOverIt) {
+  Supervised run({"--walls", "desktop", "--size", "32x24", "--look", "plain", "--input", "none"});
+  ASSERT_TRUE(becomes([&] { return run.hasNoted("the first picture"); })) << fileContent(run.told());
+  const pid_t first = run.player();
+  // Before a scene was kept: the show begins again, where it would be now.
+  ASSERT_EQ(kill(first, SIGKILL), 0);
+  ASSERT_TRUE(becomes([&] { return run.hasTold("pictures again"); })) << fileContent(run.told());
+  EXPECT_TRUE(run.hasTold("begins again, and catches up to")) << fileContent(run.told());
+  const pid_t second = run.player();
+  ASSERT_EQ(kill(run.pid(), SIGTERM), 0);
+  EXPECT_EQ(run.end(), 128 + SIGTERM) << fileContent(run.told());
+  EXPECT_NE(kill(second, 0), 0) << "the player is gone, too";
+  EXPECT_EQ(Json::parse(fileContent(run.said()))["stopped"], "SIGTERM");
+}
+
+TEST(ProgramSupervise, APlayerDoesNotOutliveWhoWatchesOverIt) {
+  Supervised run({"--walls", "desktop", "--size", "32x24", "--look", "plain", "--input", "none"});
+  ASSERT_TRUE(becomes([&] { return run.hasNoted("the first picture"); })) << fileContent(run.told());
+  const pid_t player = run.player();
+  ASSERT_GT(player, 0);
+  ASSERT_EQ(kill(run.pid(), SIGKILL), 0);
+  EXPECT_EQ(run.end(), 128 + SIGKILL);
+  EXPECT_TRUE(becomes([&] { return run.hasNoted("ended with exit code 143"); }))
+      << fileContent(run.journal());
+}
+
+TEST(ProgramSupervise, WhatIsWrongWithTheShowIsNoReasonToTryAgain) {
+  const ProgramResult none = stadionProgram({"run", "/nowhere/show.evs", "--supervise", "--seconds", "1"});
+  EXPECT_EQ(none.status, 2) << none.err;
+  EXPECT_EQ(none.err.find("supervise: "), std::string::npos) << none.err;
+}
+
+TEST(ProgramSupervise, WhatBelongsToOneProcessIsRefused) {
+  const TemporaryFolder folder;
+  const auto refused = [&](std::vector<std::string> more, const std::string& why) {
+    std::vector<std::string> words{"run", kKick, "--supervise", "--seconds", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 2) << why;
+    EXPECT_NE(r.err.find(why), std::string::npos) << r.err;
+  };
+  refused({"--out", folder.path() / "out"}, "--out and --supervise");
+  refused({"--record-input", folder.path() / "visit.input"}, "--record-input and --supervise");
+  refused({"--profile"}, "what is measured is one process's");
+  const ProgramResult unwatched = stadionProgram({"run", kKick, "--hang-after", "2", "--seconds", "1"});
+  EXPECT_EQ(unwatched.status, 2);
+  EXPECT_NE(unwatched.err.find("needs --supervise"), std::string::npos) << unwatched.err;
+  const ProgramResult alone = stadionProgram({"run", kKick, "--supervised", "2", "--seconds", "1"});
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_NE(alone.err.find("is for players that"), std::string::npos) << alone.err;
+}
+
+}  // namespace
+}  // namespace stadion

@@ -1,0 +1,167 @@
+/// What a player and who watches over it share, and how a show goes on after a death.
+
+#include "pipeline/frame_loop.h"
+#include "pipeline/supervision/recovery.h"
+#include "pipeline/supervision/shared_progress.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+using Way = Recovery::Way;
+
+TEST(Recovery, FirstGoesOnAtOnceThenAfterGrowingPausesThenBeginsAgainThenGivesUp) {
+  Recovery recovery;
+  std::vector<Way> ways;
+  std::chrono::milliseconds before{-1};
+  for (std::size_t n = 1; n <= Recovery::kMost; ++n) {
+    const Recovery::Step step = recovery.died(1000, 20);
+    ways.push_back(step.way);
+    if (step.way == Way::GiveUp) break;
+    EXPECT_GT(step.pause, before) << n;
+    before = step.pause;
+    EXPECT_EQ(step.pause.count() == 0, n == 1);
+  }
+  const Way on = Way::GoOn, again = Way::BeginAgain;
+  EXPECT_EQ(ways, (std::vector{on, on, on, on, again, again, again, again, again, Way::GiveUp}));
+}
+
+TEST(Recovery, WhoGotBeyondThePlaceOfTheLastDeathDiesForTheFirstTime) {
+  Recovery recovery;
+  EXPECT_EQ(recovery.died(1000, 1000).way, Way::GoOn);
+  for (std::uint64_t frame = 1300; frame < 9000; frame += Recovery::kSteady) {
+    EXPECT_EQ(recovery.died(frame, 300).way, Way::GoOn);
+    EXPECT_EQ(recovery.deaths(), 1U) << frame;
+  }
+  // The show has begun again since, and been played for long.
+  recovery.died(20, Recovery::kLong);
+  EXPECT_EQ(recovery.deaths(), 1U);
+}
+
+TEST(Recovery, TheSamePlaceCountsHoweverLongAfterTheKeptSceneItLies) {
+  Recovery recovery;
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(recovery.died(5000, 400).way, Way::GoOn);
+  EXPECT_EQ(recovery.died(5000, 400).way, Way::BeginAgain);
+}
+
+std::vector<std::uint8_t> sceneOf(std::uint8_t value, std::size_t bytes) {
+  return std::vector<std::uint8_t>(bytes, value);
+}
+
+TEST(SharedProgress, WhatAProcessKeptIsThereAfterItWasKilled) {
+  auto made = SharedProgress::create();
+  ASSERT_TRUE(made) << made.error().message;
+  const SharedProgress& here = *made.value();
+  EXPECT_FALSE(here.kept());
+  EXPECT_EQ(here.newest().clock, 0);
+  const pid_t player = fork();
+  if (player == 0) {
+    const auto there = SharedProgress::attach(dup(here.descriptor()));
+    if (!there) _exit(1);
+    OperatorState desk;
+    desk.shown.black = true, desk.volume = 0.5;
+    there->obeyed(desk);
+    there->enter(SharedProgress::Phase::Playing);
+    for (std::uint8_t n = 1; n <= 5; ++n) {
+      there->simulated({n, n * 1000, 1000, {}});
+      there->shown();
+      there->keep({n, n * 1000, 77, 0}, sceneOf(n, 100'000 - 10'000 * n));
+    }
+    _exit(0);
+  }
+  int status = -1;
+  waitpid(player, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  ASSERT_TRUE(here.kept());
+  EXPECT_EQ(here.kept()->frame, 5U);
+  EXPECT_EQ(here.kept()->history, 77U);
+  EXPECT_EQ(here.scene(), sceneOf(5, 50'000));
+  EXPECT_EQ(here.newest().frame, 5U);
+  EXPECT_EQ(here.framesShown(), 5U);
+  EXPECT_EQ(here.phase(), SharedProgress::Phase::Playing);
+  EXPECT_TRUE(here.operatorState().shown.black);
+  EXPECT_EQ(here.operatorState().volume, 0.5);
+  EXPECT_GE(here.timeNow(), 5000) << "show time would have gone on";
+}
+
+TEST(SharedProgress, ASceneThatIsBeingWrittenIsNotTheNewest) {
+  auto made = SharedProgress::create();
+  ASSERT_TRUE(made);
+  SharedProgress& p = *made.value();
+  ASSERT_TRUE(p.keep({1, 0, 0, 0}, sceneOf(1, 5000)));
+  ASSERT_TRUE(p.keep({2, 0, 0, 0}, sceneOf(2, 5000)));
+  // As a writer does that dies before the end: the other place, half of it.
+  const std::vector<std::uint8_t> half = sceneOf(3, 2500);
+  ASSERT_EQ(pwrite(p.descriptor(), half.data(), half.size(), 4096 + (off_t{1} << 36)), 2500);
+  EXPECT_EQ(p.kept()->frame, 2U);
+  EXPECT_EQ(p.scene(), sceneOf(2, 5000));
+}
+
+TEST(SharedProgress, AShowThatBeginsHasNoSceneOfBefore) {
+  auto made = SharedProgress::create();
+  ASSERT_TRUE(made);
+  SharedProgress& p = *made.value();
+  p.simulated({9, 9, 1, {}});
+  ASSERT_TRUE(p.keep({9, 9, 0, 0}, sceneOf(1, 50)));
+  p.forget();
+  EXPECT_FALSE(p.kept());
+  EXPECT_TRUE(p.scene().empty());
+  EXPECT_EQ(p.timeNow(), 0);
+}
+
+TEST(SharedProgress, AShowThatStandsStillIsNotLate) {
+  auto made = SharedProgress::create();
+  ASSERT_TRUE(made);
+  SharedProgress& p = *made.value();
+  p.simulated({9, 9000, 1, {}});
+  OperatorState desk;
+  desk.paused = true;
+  p.obeyed(desk);
+  EXPECT_EQ(p.timeNow(), 9000);
+}
+
+TEST(SharedProgress, AnotherDescriptorIsRefused) {
+  EXPECT_EQ(SharedProgress::attach(-1), nullptr);
+  EXPECT_EQ(SharedProgress::attach(dup(2)), nullptr);
+  const Descriptor other = makeMemoryFile();
+  ASSERT_EQ(ftruncate(other.get(), 8192), 0);
+  EXPECT_EQ(SharedProgress::attach(dup(other.get())), nullptr);
+}
+
+/// Notes what it is to simulate.
+class NotedStages final : public Stages {
+public:
+  std::vector<TimeSignature> frames;
+
+  void app(const TimeSignature& now, std::size_t) override { frames.push_back(now); }
+  void cull(std::size_t, std::size_t, DrawList&) override {}
+  Failure openWall(std::size_t) override { return {}; }
+  void closeWall(std::size_t) override {}
+  Failure draw(std::size_t, const DrawList&) override { return {}; }
+  Failure swap(const TimeSignature&) override { return {}; }
+};
+
+TEST(LateStart, TheLoopGoesOnAfterTheFrameAndCatchesUpTickByTick) {
+  NotedStages stages;
+  FrameLoopOptions o;
+  o.mode = Mode::Sequential, o.pace = Pace::Lock, o.delivery = Delivery::Latest, o.rate = 60;
+  o.after = signatureAt(600, 60), o.late = fromSeconds(1);
+  o.frames = 601 + 70;
+  const std::atomic<bool> never = false;
+  const FrameLoopOutcome outcome = FrameLoop(stages, o, never).run();
+  EXPECT_FALSE(outcome.failure);
+  ASSERT_GE(stages.frames.size(), 60U);
+  for (std::size_t i = 0; i < 50; ++i) {
+    const TimeSignature want = signatureAt(601 + i, 60);
+    EXPECT_EQ(stages.frames[i].frame, want.frame);
+    EXPECT_EQ(stages.frames[i].time, want.time);
+    EXPECT_EQ(stages.frames[i].step, want.step);
+  }
+}
+
+}  // namespace
+}  // namespace stadion
