@@ -22,6 +22,7 @@ void addFitCommand(CLI::App& app, int& code);
 void addPlanCommand(CLI::App& app, int& code);
 void addProfileCommand(CLI::App& app, int& code);
 void addRegressCommand(CLI::App& app, int& code);
+void addSoakCommand(CLI::App& app, int& code);
 void addTestCommand(CLI::App& app, int& code);
 void addViewCommand(CLI::App& app, int& code, std::optional<unsigned> rasteriserThreads);
 void addTrackerCommand(CLI::App& app, int& code);

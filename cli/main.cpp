@@ -48,6 +48,7 @@ int runProgram(int argc, char** argv, std::optional<unsigned> rasteriserThreads)
   addProfileCommand(app, code);
   addPlanCommand(app, code);
   addRegressCommand(app, code);
+  addSoakCommand(app, code);
   addTestCommand(app, code);
   addViewCommand(app, code, rasteriserThreads);
   addTrackerCommand(app, code);

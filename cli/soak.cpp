@@ -1,0 +1,273 @@
+/// `stadion soak [SHOW...]`: plays shows for very many frames, and looks whether anything grows or changes.
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/kept_parts.h"
+#include "cli/number_option.h"
+#include "cli/run_watch.h"
+#include "cli/show_recording.h"
+#include "cli/soak_record.h"
+#include "cli/soak_visitor.h"
+#include "cli/stop_signal.h"
+#include "engine/run_stopped.h"
+#include "pipeline/machine/process_figures.h"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fstream>
+#include <memory>
+
+namespace stadion {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t kSampleEvery = 1000, kSampleAt = 50;  ///< frames: while nothing is being loaded
+constexpr std::uint64_t kCheckEvery = 500, kKillEvery = 700;  ///< frames
+constexpr double kMostSlope = 1024;                           ///< [byte] in 10 000 frames
+constexpr std::uint64_t kSlopeFrames = 10'000;
+
+struct Options {
+  std::vector<std::string> shows;
+  std::uint64_t frames = 1'000'000, visit = 20'000;
+  std::string record, look = "plain";
+};
+
+/// How a visit is played. The same happens in all of them.
+enum class Way { Pipelined, Sequential, Killed };
+
+class Soak {
+public:
+  Soak(const Options& o, SoakRecord& record, GlProvider& provider, const std::atomic<bool>& stop)
+      : options_(o), record_(record), provider_(provider), stop_(stop) {}
+
+  /// False, and told, if a show could not be played.
+  bool play();
+
+private:
+  bool visit(const std::string& show, Way way, std::uint64_t frames);
+  void see(const TimeSignature& now, const Scene& scene, const RunWatch& watch);
+  void tellProgress();
+
+  const Options& options_;
+  SoakRecord& record_;
+  GlProvider& provider_;
+  const std::atomic<bool>& stop_;
+  // Of the present visit.
+  std::string show_;
+  Way way_ = Way::Pipelined;
+  Nanoseconds before_ = 0;
+  std::uint64_t loadsVersion_ = 0;
+  Clock::time_point told_{}, measured_ = Clock::now();
+};
+
+/// The processes that draw walls of this one.
+std::vector<pid_t> wallProcesses() {
+  std::vector<pid_t> found;
+  std::error_code none;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", none)) {
+    std::ifstream children(task.path() / "children");
+    for (pid_t child = 0; children >> child;) {
+      std::string name;
+      std::ifstream("/proc/" + std::to_string(child) + "/comm") >> name;
+      if (name == "stadion-wall") found.push_back(child);
+    }
+  }
+  return found;
+}
+
+bool Soak::play() {
+  // Long ones, in which a show may grow, and between them short ones in all the other ways.
+  constexpr std::uint64_t kShort = 1000;
+  const SoakCounts& counts = record_.counts;
+  while (counts.frames < options_.frames && !stop_) {
+    const std::string& show = options_.shows[counts.visits / 3 % options_.shows.size()];
+    const Way way = static_cast<Way>(counts.visits % 3);
+    const std::uint64_t wanted = way == Way::Pipelined ? options_.visit : std::min(options_.visit, kShort);
+    if (!visit(show, way, std::min(wanted, options_.frames - counts.frames))) return false;
+  }
+  return true;
+}
+
+bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
+  show_ = show, way_ = way, before_ = 0, loadsVersion_ = 0;
+  RunOptions o;
+  o.show.script = show, o.show.walls = "desktop", o.show.size = "32x24", o.show.look = options_.look;
+  o.show.input = "none", o.show.frames = frames, o.stereo = "off";
+  o.show.mode = way == Way::Sequential ? "sequential" : "pipelined";
+  o.show.assetRoots = {std::string(STADION_ROOT) + "/assets"};
+  Diagnostics findings;
+  KeptParts kept;
+  const auto player =
+      o.settle(findings) ? Player::create(o.show, findings, tell, &stop_, &kept.models) : nullptr;
+  const auto watch = player ? RunWatch::create(o, *player, findings) : nullptr;
+  tell(findings);
+  if (!watch) return false;
+  RecordingOptions recording;
+  recording.profile = false, recording.log.shares = true;
+  const auto recorded = ShowRecording::create(std::move(recording), findings);
+  SoakVisitor visitor;
+  ShowParts parts = player->parts(StereoLayout::Off, &visitor);
+  parts.provider = &provider_;
+  if (way == Way::Killed)
+    parts.workers.emplace().everyFrame = true;
+  else
+    parts.contexts = &kept.contexts;
+  parts.probe = &recorded->probe();
+  const ShowStages* running = nullptr;
+  parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
+    watch->see(now, input, scene);
+    recorded->see(scene);
+    player->collect(running->shownFrame());
+    see(now, scene, *watch);
+  };
+  FrameLoopOutcome outcome;
+  {
+    ShowStages stages(std::move(parts));
+    running = &stages;
+    FrameLoop loop(stages, player->loopOptions(), stop_, &recorded->probe());
+    outcome = loop.run();
+  }
+  record_.counts.throws += visitor.throws(), record_.counts.refused += visitor.refused();
+  ++record_.counts.visits;
+  if (outcome.failure) std::fprintf(stderr, "stadion: %s\n", outcome.failure->message.c_str());
+  return !outcome.failure;
+} catch (const RunStopped&) {
+  return true;
+}
+
+void Soak::see(const TimeSignature& now, const Scene& scene, const RunWatch& watch) {
+  SoakCounts& c = record_.counts;
+  ++c.frames;
+  if (now.step != signatureAt(now.frame, 60).step || now.time != before_ + now.step) ++c.wrongSteps;
+  before_ = now.time;
+  c.changes += scene.loadsVersion() - loadsVersion_;
+  loadsVersion_ = scene.loadsVersion();
+  if (now.frame % kCheckEvery == 0 && !record_.agrees(show_, now.frame, watch.history())) {
+    ++c.wrongHashes;
+    std::fprintf(stderr, "%s: frame %ju has another history of states than before\n", show_.c_str(),
+                 static_cast<std::uintmax_t>(now.frame));
+  }
+  if (way_ == Way::Killed && now.frame % kKillEvery == kKillEvery / 2)
+    for (const pid_t wall : wallProcesses())
+      if (kill(wall, SIGKILL) == 0) ++c.killed;
+  if (way_ != Way::Pipelined || now.frame % kSampleEvery != kSampleAt) return;
+  const auto clock = Clock::now();
+  c.seconds += std::chrono::duration<double>(clock - measured_).count();
+  measured_ = clock;
+  const ProcessFigures p = processFigures();
+  record_.add({0, c.frames, p.residentBytes, p.heapBytes, p.handles, p.threads});
+  if (clock - told_ > std::chrono::seconds(10)) told_ = clock, tellProgress();
+}
+
+void Soak::tellProgress() {
+  const SoakCounts& c = record_.counts;
+  std::fprintf(stderr, "soak: %ju of %ju frames, %.0f a second, %.1f MiB\n",
+               static_cast<std::uintmax_t>(c.frames), static_cast<std::uintmax_t>(options_.frames),
+               static_cast<double>(c.frames) / std::max(c.seconds, 1e-3),
+               static_cast<double>(record_.samples().back().residentBytes) / (1 << 20));
+}
+
+class Verdicts {
+public:
+  void add(bool well, const std::string& what) {
+    std::printf("  %-6s %s\n", well ? "ok" : "FAILED", what.c_str());
+    well_ = well_ && well;
+  }
+  bool well() const { return well_; }
+
+private:
+  bool well_ = true;
+};
+
+/// Prints what came of it. False if a limit was missed.
+bool tellVerdicts(const Options& o, const SoakRecord& record) {
+  const SoakCounts& c = record.counts;
+  const std::uint64_t warmUp = std::min<std::uint64_t>(100'000, o.frames / 5);
+  const std::vector<SoakSample> samples = afterWarmUp(record.samples(), warmUp);
+  std::printf("soak of %s: %ju frames in %ju visits by %u processes, %.0f frames a second\n",
+              fmt::format("{}", fmt::join(o.shows, ", ")).c_str(), static_cast<std::uintmax_t>(c.frames),
+              static_cast<std::uintmax_t>(c.visits), record.processes(),
+              static_cast<double>(c.frames) / std::max(c.seconds, 1e-3));
+  std::printf(
+      "  %ju files loaded or unloaded, %ju throws, %ju measurements refused, %ju walls' processes killed\n",
+      static_cast<std::uintmax_t>(c.changes), static_cast<std::uintmax_t>(c.throws),
+      static_cast<std::uintmax_t>(c.refused), static_cast<std::uintmax_t>(c.killed));
+  Verdicts v;
+  v.add(c.wrongSteps == 0, fmt::format("time steps: {} of {} frames are not one tick after the one before",
+                                       c.wrongSteps, c.frames));
+  v.add(c.wrongHashes == 0,
+        fmt::format("states: {} of {} histories compared differ", c.wrongHashes, c.compared));
+  const auto slope = [&](std::uint64_t SoakSample::*figure) {
+    return slopeOf(samples, figure).value_or(0) * static_cast<double>(kSlopeFrames);
+  };
+  if (samples.size() < 10) {
+    std::printf("  -      %zu samples after the first %ju frames of a process: too few to say what grows\n",
+                samples.size(), static_cast<std::uintmax_t>(warmUp));
+    return v.well();
+  }
+  const double resident = slope(&SoakSample::residentBytes);
+  v.add(resident < kMostSlope,
+        fmt::format("memory: {:+.1f} bytes in 10 000 frames (RSS; less than {} is asked for), "
+                    "{:+.1f} of them asked for by the program; {} samples",
+                    resident, kMostSlope, slope(&SoakSample::heapBytes), samples.size()));
+  const auto handles = growthOf(samples, &SoakSample::handles),
+             threads = growthOf(samples, &SoakSample::threads);
+  v.add(handles <= 0, fmt::format("handles: {:+} of {}", handles, samples.back().handles));
+  v.add(threads <= 0, fmt::format("threads: {:+} of {}", threads, samples.back().threads));
+  return v.well();
+}
+
+int soak(Options o) {
+  Diagnostics findings;
+  const std::atomic<bool>& stop = catchStopSignals();
+  if (o.shows.empty()) o.shows = {std::string(STADION_ROOT) + "/scripts/soak/soak.evs"};
+  const std::string what =
+      fmt::format("{}, look {}, visits of {} frames", fmt::join(o.shows, ", "), o.look, o.visit);
+  const auto record = SoakRecord::open(o.record, what, findings);
+  tell(findings);
+  if (!record) return kBadInput;
+  auto provider = openGlProvider(GlProviderKind::OsMesa);
+  if (!provider)
+    return std::fprintf(stderr, "stadion: %s\n", provider.error().message.c_str()), kInternalFault;
+  Soak run(o, *record, *provider.value(), stop);
+  if (!run.play()) return kBadInput;
+  const bool well = tellVerdicts(o, *record);
+  if (record->counts.frames < o.frames) return kStopped + stopSignal();
+  return well ? kOk : kCheckFailed;
+}
+
+}  // namespace
+
+void addSoakCommand(CLI::App& app, int& code) {
+  auto o = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "soak",
+      "Play shows for very many frames, as fast as possible, and look whether anything grows or changes");
+  command->add_option("SHOW", o->shows,
+                      "scripts to play, in turns (default: one that loads, unloads and throws)");
+  command->add_option("--frames", o->frames, "how many in all")
+      ->check(wholeNumberFrom(1000, 1'000'000'000'000))
+      ->capture_default_str();
+  command->add_option("--visit", o->visit, "after so many frames a show begins anew")
+      ->check(wholeNumberFrom(100, 1'000'000'000))
+      ->capture_default_str();
+  command->add_option("--record", o->record,
+                      "a file that keeps what was found: a run with the same file goes on");
+  command->add_option("--look", o->look, "full or plain")
+      ->check(CLI::IsMember({"full", "plain"}))
+      ->capture_default_str();
+  command->footer(
+      "Fails (exit code 1) if memory grows by 1 KiB or more in 10 000 frames, if handles or threads become "
+      "more, if a "
+      "frame is not\none tick after the one before, or if the same frame of a show has another state "
+      "than before. docs/all-day.md");
+  command->callback([o, &code] { code = soak(*o); });
+}
+
+}  // namespace stadion

@@ -1,0 +1,64 @@
+#pragma once
+/// What a soak has found so far, in a file if one is named: a run with the same file goes on.
+///
+/// One JSON object a line, added and flushed as it comes, so that whatever ends the run loses a sample at
+/// most.
+///
+/// Threads  App's.
+/// Errors   in the findings: the file cannot be written, or is no record of the same soak.
+
+#include "engine/diagnostic.h"
+#include "profiling/soak/growth.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stadion {
+
+/// Counts of the whole soak.
+struct SoakCounts {
+  std::uint64_t frames = 0, visits = 0;
+  std::uint64_t changes = 0;      ///< files that were loaded or unloaded
+  std::uint64_t throws = 0;       ///< by the visitor
+  std::uint64_t refused = 0;      ///< measurements that cannot be
+  std::uint64_t killed = 0;       ///< walls' processes
+  std::uint64_t wrongSteps = 0;   ///< frames that were not one tick after the one before
+  std::uint64_t wrongHashes = 0;  ///< states that differ from what the same frame had before
+  std::uint64_t compared = 0;     ///< states that were compared
+  double seconds = 0;             ///< that it has taken
+};
+
+class SoakRecord {
+public:
+  /// `file`: empty = nowhere. `what` says what is played; a record of something else is refused.
+  static std::unique_ptr<SoakRecord> open(const std::string& file, const std::string& what,
+                                          Diagnostics& findings);
+  ~SoakRecord();
+  SoakRecord(const SoakRecord&) = delete;
+  SoakRecord& operator=(const SoakRecord&) = delete;
+
+  SoakCounts counts;
+  const std::vector<SoakSample>& samples() const { return samples_; }
+  std::uint32_t processes() const { return process_ + 1; }
+  /// With the counts as they are now.
+  void add(SoakSample sample);
+  /// Whether that frame of the show had this history of states before; the first time it is noted.
+  bool agrees(const std::string& show, std::uint64_t frame, std::uint64_t history);
+
+private:
+  SoakRecord() = default;
+  bool read(const std::string& text, const std::string& what);
+  void write(const std::string& line);
+
+  std::FILE* file_ = nullptr;
+  std::uint32_t process_ = 0;
+  std::vector<SoakSample> samples_;
+  std::map<std::pair<std::string, std::uint64_t>, std::uint64_t> histories_;
+};
+
+}  // namespace stadion
