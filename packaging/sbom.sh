@@ -1,0 +1,82 @@
+#!/bin/sh
+# sbom.sh BUILD: the software bill of materials of the programs in BUILD/bin, as SPDX 2.3 JSON on stdout.
+#
+# Packages are those of the libraries that the programs are linked with (ldd) and those that they load at run time,
+# as dpkg knows them on this machine. What Debian says of a package's licence is quoted, not concluded: a copyright file that
+# is machine-readable names licences of parts, which need not be what is linked.
+set -eu
+build=$1
+[ -x "$build/bin/stadion" ] || { echo "sbom: there is no program in $build/bin; build it first" >&2; exit 2; }
+programs="stadion stadion-import stadion-wall"
+# Loaded at run time, and libraries that are headers alone: no program names them.
+others="libosmesa6 libegl1 libegl-mesa0 libgl1-mesa-dri libglfw3 libopenal1 libeigen3-dev libcli11-dev nlohmann-json3-dev tao-pegtl-dev"
+
+text() { printf '%s' "$1" | tr -d '\000-\037' | sed 's/\\/\\\\/g; s/"/\\"/g'; }
+
+linked() { # the packages whose libraries the programs are linked with
+  libraries=$(for p in $programs; do ldd "$build/bin/$p"; done |
+    sed -n 's/.* => \(\/[^ ]*\) .*/\1/p; s/^[[:space:]]*\(\/[^ ]*\) (.*/\1/p' | sort -u)
+  # A package may have a library below /lib that is found below /usr/lib, and the other way round.
+  for library in $libraries; do
+    real=$(readlink -f "$library")
+    printf '%s\n' "$library" "$real" "/usr$library" "${real#/usr}"
+  done | sort -u | xargs dpkg-query -S 2>/dev/null | sed 's/:.*//' | sort -u
+}
+
+licences() { # what the machine-readable copyright file names
+  file=/usr/share/doc/$1/copyright
+  [ -r "$file" ] || return 0
+  grep -q '^Format: *http' "$file" || return 0
+  sed -n 's/^License: *\([^ ].*\)/\1/p' "$file" | sort -u | head -n 30 | tr '\n' ';' | sed 's/;$//; s/;/; /g'
+}
+
+version=$(sed -n 's/^project(Stadion VERSION \([0-9.]*\).*/\1/p' "$(dirname "$0")/../CMakeLists.txt")
+created=$(date -u ${SOURCE_DATE_EPOCH:+-d "@$SOURCE_DATE_EPOCH"} +%Y-%m-%dT%H:%M:%SZ)
+mark=$(cat "$build/bin/stadion" "$build/bin/stadion-import" "$build/bin/stadion-wall" | sha256sum | cut -c1-32)
+links=$(linked)
+loaded=$(for p in $others; do
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$p" 2>/dev/null)" = installed ] && echo "$p"
+done || true)
+
+cat <<HEAD
+{
+  "spdxVersion": "SPDX-2.3",
+  "dataLicense": "CC0-1.0",
+  "SPDXID": "SPDXRef-DOCUMENT",
+  "name": "stadion-$version",
+  "documentNamespace": "https://spdx.org/spdxdocs/stadion-$version-$mark",
+  "creationInfo": { "created": "$created", "creators": ["Tool: stadion-sbom-$version"] },
+  "packages": [
+    { "name": "stadion", "SPDXID": "SPDXRef-stadion", "versionInfo": "$version", "downloadLocation": "NOASSERTION",
+      "filesAnalyzed": false, "licenseConcluded": "NOASSERTION", "licenseDeclared": "NOASSERTION",
+      "copyrightText": "NOASSERTION" }
+HEAD
+form='${Package}|${Version}|${Architecture}|${source:Package}|${source:Version}|${Homepage}\n'
+printf '%s\n%s\n' "$links" "$loaded" | sort -u | xargs dpkg-query -W -f="$form" | sort -u |
+  while IFS='|' read -r p v architecture source sourceVersion home; do
+    quoted=$(licences "$p")
+    printf '    ,{ "name": "%s", "SPDXID": "SPDXRef-deb-%s", "versionInfo": "%s", "supplier": "Organization: Debian",\n' \
+      "$p" "$(printf '%s' "$p" | sed 's/[^A-Za-z0-9.-]/-/g')" "$(text "$v")"
+    printf '      "downloadLocation": "NOASSERTION", "filesAnalyzed": false, "licenseConcluded": "NOASSERTION",\n'
+    printf '      "licenseDeclared": "NOASSERTION", "copyrightText": "NOASSERTION",\n'
+    [ -z "$quoted" ] || printf '      "licenseComments": "Debian names for its parts: %s",\n' "$(text "$quoted")"
+    [ -z "$home" ] || printf '      "homepage": "%s",\n' "$(text "$home")"
+    printf '      "sourceInfo": "Debian source package %s %s",\n' "$(text "$source")" "$(text "$sourceVersion")"
+    printf '      "externalRefs": [{ "referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",\n'
+    printf '        "referenceLocator": "pkg:deb/debian/%s@%s?arch=%s" }] }\n' \
+      "$(printf '%s' "$p" | sed 's/+/%2B/g')" "$(printf '%s' "$v" | sed 's/+/%2B/g; s/:/%3A/g; s/~/~/g')" "$architecture"
+  done
+cat <<'MIDDLE'
+  ],
+  "relationships": [
+    { "spdxElementId": "SPDXRef-DOCUMENT", "relationshipType": "DESCRIBES", "relatedSpdxElement": "SPDXRef-stadion" }
+MIDDLE
+relate() { # kind, packages
+  for p in $2; do
+    printf '    ,{ "spdxElementId": "SPDXRef-stadion", "relationshipType": "%s", "relatedSpdxElement": "SPDXRef-deb-%s" }\n' \
+      "$1" "$(printf '%s' "$p" | sed 's/[^A-Za-z0-9.-]/-/g')"
+  done
+}
+relate DYNAMIC_LINK "$links"
+relate DEPENDS_ON "$loaded"
+printf '  ]\n}\n'

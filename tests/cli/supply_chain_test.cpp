@@ -1,0 +1,67 @@
+/// What the product consists of is listed, and the list is right.
+
+#include "tests/cli/program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace stadion {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kRoot = STADION_SOURCE_DIR;
+
+TEST(SupplyChain, EveryPackageThatTheLauncherInstallsIsListedWithItsLicence) {
+  const std::string launcher = fileContent(kRoot + "/stadion");
+  const std::size_t from = launcher.find("packages=\"") + 10;
+  std::string packages = launcher.substr(from, launcher.find('"', from) - from);
+  packages = std::regex_replace(packages, std::regex("\\\\"), " ");
+  std::set<std::string> listed;
+  std::istringstream table(fileContent(kRoot + "/docs/dependencies.md"));
+  for (std::string line; std::getline(table, line);) {
+    if (!line.starts_with("| ")) continue;
+    std::istringstream names(line.substr(2, line.find(" |") - 2));
+    for (std::string name; names >> name;)
+      listed.insert(name.ends_with(',') ? name.substr(0, name.size() - 1) : name);
+    EXPECT_EQ(std::ranges::count(line, '|'), 5) << line;
+  }
+  std::istringstream words(packages);
+  for (std::string package; words >> package;) EXPECT_TRUE(listed.contains(package)) << package;
+}
+
+TEST(ProgramSupplyChain, TheBillOfMaterialsIsWellFormedAndNamesWhatIsLinked) {
+  const ProgramResult r = runProgram({{kRoot + "/packaging/sbom.sh", STADION_BINARY_DIR}});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const Json bill = Json::parse(r.out, nullptr, false);
+  ASSERT_TRUE(bill.is_object()) << r.out;
+  EXPECT_EQ(bill["spdxVersion"], "SPDX-2.3");
+  EXPECT_EQ(bill["dataLicense"], "CC0-1.0");
+  EXPECT_EQ(bill["SPDXID"], "SPDXRef-DOCUMENT");
+  EXPECT_TRUE(std::regex_match(bill["creationInfo"]["created"].get<std::string>(),
+                               std::regex("\\d{4}-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ")));
+  std::set<std::string> ids{"SPDXRef-DOCUMENT"}, names;
+  for (const Json& p : bill["packages"]) {
+    const std::string id = p["SPDXID"];
+    EXPECT_TRUE(std::regex_match(id, std::regex("SPDXRef-[A-Za-z0-9.-]+"))) << id;
+    EXPECT_TRUE(ids.insert(id).second) << id << " twice";
+    EXPECT_FALSE(p["versionInfo"].get<std::string>().empty()) << id;
+    for (const char* field : {"downloadLocation", "licenseConcluded", "licenseDeclared", "copyrightText"})
+      EXPECT_TRUE(p.contains(field)) << id << field;
+    names.insert(p["name"].get<std::string>());
+  }
+  for (const Json& relation : bill["relationships"]) {
+    EXPECT_TRUE(ids.contains(relation["spdxElementId"].get<std::string>()));
+    EXPECT_TRUE(ids.contains(relation["relatedSpdxElement"].get<std::string>()));
+  }
+  for (const char* linked : {"libc6", "libfmt9", "libassimp5", "libfcl0.7", "libsndfile1", "libosmesa6"})
+    EXPECT_TRUE(names.contains(linked)) << linked;
+}
+
+}  // namespace
+}  // namespace stadion
