@@ -34,7 +34,7 @@ constexpr std::uint64_t kSlopeFrames = 10'000;
 
 struct Options {
   std::vector<std::string> shows;
-  std::uint64_t frames = 1'000'000, visit = 20'000;
+  std::uint64_t frames = 1'000'000, visit = 400'000;
   std::string record, look = "plain";
 };
 
