@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
+#include <map>
 #include <memory>
 
 namespace stadion {
@@ -58,6 +59,7 @@ private:
   SoakRecord& record_;
   GlProvider& provider_;
   const std::atomic<bool>& stop_;
+  std::map<std::string, KeptParts> kept_;  ///< by show, as from group to group
   // Of the present visit.
   std::string show_;
   Way way_ = Way::Pipelined;
@@ -102,7 +104,8 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
   o.show.mode = way == Way::Sequential ? "sequential" : "pipelined";
   o.show.assetRoots = {std::string(STADION_ROOT) + "/assets"};
   Diagnostics findings;
-  KeptParts kept;
+  KeptParts& kept = kept_[show];
+  kept.models.store().collect(~std::uint64_t{0});  // no frame shows it any more
   const auto player =
       o.settle(findings) ? Player::create(o.show, findings, tell, &stop_, &kept.models) : nullptr;
   const auto watch = player ? RunWatch::create(o, *player, findings) : nullptr;
