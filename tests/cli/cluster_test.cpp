@@ -124,11 +124,12 @@ public:
             folder_.path() / "said", folder_.path() / "told")) {}
 
   std::string told() const { return fileContent(folder_.path() / "told"); }
-  bool hasTold(const std::string& what, std::size_t times = 1) const {
+  bool hasTold(const std::string& what, std::size_t times = 1) const { return timesTold(what) >= times; }
+  std::size_t timesTold(const std::string& what) const {
     std::size_t count = 0;
     const std::string text = told();
     for (std::size_t at = 0; (at = text.find(what, at)) != text.npos; at += what.size()) ++count;
-    return count >= times;
+    return count;
   }
   bool tells(const std::string& what, std::size_t times = 1) const {
     return becomes([&] { return hasTold(what, times); });
@@ -189,7 +190,6 @@ TEST(ProgramCluster, AMachineThatIsStoppedIsLeftOutAndComesBack) {
 /// Kills or stops one machine after the other, so many times; says how long the others waited, and how long
 /// it took to come back.
 void disturb(const RunningCluster& cluster, int times, int signal) {
-  std::map<std::string, std::size_t> returns;
   std::vector<double> back;
   using Clock = std::chrono::steady_clock;
   using Milliseconds = std::chrono::duration<double, std::milli>;
@@ -197,14 +197,16 @@ void disturb(const RunningCluster& cluster, int times, int signal) {
     const std::string node = kFourNodes[1 + i % 3];
     std::this_thread::sleep_for(std::chrono::milliseconds(200 + 37 * (i % 7)));
     const pid_t process = cluster.processOfRunning(node);
-    const auto begin = Clock::now();
+    const std::string gone = node + " has not been heard of", here = node + " plays with us";
+    const std::size_t gones = cluster.timesTold(gone), heres = cluster.timesTold(here);
+    auto begin = Clock::now();
     ASSERT_EQ(kill(process, signal), 0) << node;
-    ++returns[node];
     if (signal == SIGSTOP) {
-      ASSERT_TRUE(cluster.tells(node + " has not been heard of", returns[node])) << cluster.told();
+      ASSERT_TRUE(cluster.tells(gone, gones + 1)) << cluster.told();
       kill(process, SIGCONT);
+      begin = Clock::now();
     }
-    ASSERT_TRUE(cluster.tells(node + " plays with us", returns[node])) << cluster.told();
+    ASSERT_TRUE(cluster.tells(here, heres + 1)) << cluster.told();
     back.push_back(Milliseconds(Clock::now() - begin).count());
   }
   std::vector<double> gaps;
