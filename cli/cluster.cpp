@@ -21,6 +21,8 @@ namespace stadion {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{20};
+/// Who has not ended so long after who leads has lost it at the end, and would wait for it for ever.
+constexpr std::chrono::seconds kAfterLead{10};
 constexpr std::size_t kMostSaid = 1 << 20;  ///< of a node's summary that is told [byte]
 
 struct Options {
@@ -62,7 +64,8 @@ std::deque<NodeProcess> processesOf(const Options& o, const ClusterFile& cluster
 void watch(const Options& o, std::deque<NodeProcess>& nodes, std::size_t lead) {
   const std::atomic<bool>& stop = catchStopSignals();
   const auto died = [](const NodeProcess& node) { return node.status && *node.status > 128; };
-  bool told = false;
+  bool told = false, overTold = false;
+  std::optional<std::chrono::steady_clock::time_point> ended;
   for (bool running = true; running;) {
     running = false;
     for (NodeProcess& node : nodes) {
@@ -77,6 +80,12 @@ void watch(const Options& o, std::deque<NodeProcess>& nodes, std::size_t lead) {
       running = node.start() || running;
     }
     told = stop;
+    if (!ended && nodes[lead].status && !died(nodes[lead])) ended = std::chrono::steady_clock::now();
+    if (ended && !overTold && std::chrono::steady_clock::now() - *ended > kAfterLead) {
+      overTold = true;
+      for (NodeProcess& node : nodes)
+        if (!node.status) kill(node.child.pid(), SIGINT);
+    }
     std::this_thread::sleep_for(kLook);
   }
 }
