@@ -33,13 +33,12 @@ void IncomingScene::add(const StatePart& part) {
   if (complete_ || part.size > kMostState) return;
   if (part.offset == 0) {
     parcel_ = {part.to, part.session, part.serial, part.frame, part.time, {}};
-    parcel_.bytes.resize(part.size);
-    received_ = 0;
+    size_ = part.size, received_ = 0;
   }
-  if (part.serial != parcel_.serial || part.session != parcel_.session || part.size != parcel_.bytes.size())
-    return;
+  if (part.serial != parcel_.serial || part.session != parcel_.session || part.size != size_) return;
   if (part.offset != received_ || length > part.size - part.offset) return;
-  std::copy_n(part.bytes._buffer, length, parcel_.bytes.data() + part.offset);
+  // As it comes: who says that much is to come need not be right.
+  parcel_.bytes.insert(parcel_.bytes.end(), part.bytes._buffer, part.bytes._buffer + length);
   received_ += length;
   complete_ = received_ == part.size;
 }

@@ -35,7 +35,7 @@ public:
 
 private:
   SceneParcel parcel_;
-  std::uint64_t received_ = 0;
+  std::uint64_t size_ = 0, received_ = 0;  ///< [byte]
   bool complete_ = false;
 };
 
