@@ -1,6 +1,7 @@
 #pragma once
 /// Clusters that are played on this machine, and what came of them.
 
+#include "tests/cli/becomes.h"
 #include "tests/cli/program.h"
 
 #include <nlohmann/json.hpp>
@@ -33,15 +34,5 @@ std::map<std::uint64_t, std::int64_t> swapTimesOf(const std::filesystem::path& f
 pid_t processOf(const std::string& clusterFile, const std::string& node);
 /// Its exit status, or 128 + signal.
 int endOf(pid_t child);
-
-/// Waits until what is asked for is so, for a minute at most.
-template <class Asked>
-bool becomes(const Asked& asked) {
-  for (int i = 0; i < 6000; ++i) {
-    if (asked()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
-}
 
 }  // namespace stadion

@@ -1,5 +1,6 @@
 /// `stadion run --supervise`: players are killed and stopped, and the show goes on.
 
+#include "tests/cli/becomes.h"
 #include "tests/cli/program.h"
 
 #include <gtest/gtest.h>
@@ -63,15 +64,6 @@ private:
   TemporaryFolder folder_;
   pid_t pid_ = -1;
 };
-
-template <class Asked>
-bool becomes(const Asked& asked) {
-  for (int i = 0; i < 3000; ++i) {
-    if (asked()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  return false;
-}
 
 /// The number behind those words.
 std::optional<double> numberAfter(const std::string& text, const std::string& words) {
