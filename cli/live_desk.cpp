@@ -126,6 +126,7 @@ std::string LiveDesk::recordName() const {
 
 void LiveDesk::addTo(ShowParts& parts, FrameLoopOptions& loop) {
   parts.sounds = sounds_.get();
+  parts.tell = say_;
   parts.desk = loop.desk = desk_.get();
   loop.playback = &desk_->playback();
   desk_->startWith(loop.latency);

@@ -77,15 +77,15 @@ int runProgram(int argc, char** argv, std::optional<unsigned> rasteriserThreads)
 int main(int argc, char** argv) {
   stadion::occupyStandardStreams();
   stadion::reportCrashes();
-  const auto rasteriserThreads = stadion::rasteriserThreadsGiven();
-  if (const auto wrong = stadion::pinRasteriser()) {
-    std::fprintf(stderr, "stadion: %s\n", wrong->message.c_str());
-    return stadion::kBadInput;
-  }
-  stadion::quietOpenAl();
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file that may not grow is a full disk: an error with a name, not the end
   try {
+    const auto rasteriserThreads = stadion::rasteriserThreadsGiven();
+    if (const auto wrong = stadion::pinRasteriser()) {
+      std::fprintf(stderr, "stadion: %s\n", wrong->message.c_str());
+      return stadion::kBadInput;
+    }
+    stadion::quietOpenAl();
     const int code = stadion::runProgram(argc, argv, rasteriserThreads);
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
     std::fprintf(stderr, "stadion: the standard output cannot be written: %s\n", std::strerror(errno));

@@ -91,7 +91,11 @@ void OperatorKeys::listen() {
       continue;
     }
     if (key == 'h' || key == '?') std::fprintf(stderr, "%s\n", operatorKeysHelp().c_str());
-    if (const auto command = operatorCommandOf(key)) queue_.post(*command);
+    try {
+      if (const auto command = operatorCommandOf(key)) queue_.post(*command);
+    } catch (const std::bad_alloc&) {
+      std::fprintf(stderr, "out of memory: the key was not taken\n");
+    }
   }
 }
 

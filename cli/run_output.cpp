@@ -87,10 +87,16 @@ template <class Work>
 void RunOutput::guard(const Work& work) {
   try {
     work();
-  } catch (const std::bad_alloc&) {
-    fail("writing pictures: out of memory");
   } catch (const std::exception& e) {
-    fail(std::string("writing pictures: ") + e.what());
+    failBy(e.what());
+  }
+}
+
+void RunOutput::failBy(const char* thrown) noexcept {
+  try {
+    fail(Reason(std::string("writing pictures: ") + thrown));
+  } catch (const std::bad_alloc&) {
+    fail(Reason("out of memory"));  // not even enough for a sentence
   }
 }
 

@@ -75,6 +75,7 @@ private:
   void addToVideo(const Job& job);
   void writeFile(const std::string& name, const Picture& picture);
   void fail(Reason why);
+  void failBy(const char* thrown) noexcept;
   template <class Work>
   void guard(const Work& work);
   Picture sheetOf(const Job& job, std::uint32_t cellWidth) const;

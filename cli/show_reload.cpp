@@ -6,6 +6,21 @@
 #include <utility>
 
 namespace stadion {
+namespace {
+
+std::string whyOf(const std::exception_ptr& thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    return "out of memory";
+  } catch (const std::exception& e) {
+    return e.what();
+  } catch (...) {
+    return "an unknown exception";
+  }
+}
+
+}  // namespace
 
 ShowReload::ShowReload(ShowSurroundings around) : around_(std::move(around)) {
   thread_ = std::thread([this] {
@@ -13,6 +28,8 @@ ShowReload::ShowReload(ShowSurroundings around) : around_(std::move(around)) {
       read();
     } catch (const RunStopped&) {
       // given up
+    } catch (...) {
+      thrown_ = std::current_exception();
     }
     done_ = true;
   });
@@ -37,6 +54,10 @@ void ShowReload::read() {
 
 std::unique_ptr<PlayingShow> ShowReload::take(Diagnostics& findings) {
   if (thread_.joinable()) thread_.join();
+  if (thrown_) {
+    show_.reset();
+    findings.error({around_.options.show.script, 0, 0}, "cannot be read again: " + whyOf(thrown_));
+  }
   for (const Diagnostic& d : errors_.all()) findings.add(d);
   return std::move(show_);
 }

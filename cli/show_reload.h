@@ -11,6 +11,7 @@
 #include "engine/diagnostic.h"
 
 #include <atomic>
+#include <exception>
 #include <memory>
 #include <thread>
 
@@ -33,6 +34,7 @@ private:
   ShowSurroundings around_;
   std::unique_ptr<PlayingShow> show_;
   Diagnostics errors_;
+  std::exception_ptr thrown_;
   std::atomic<bool> done_ = false;
   std::thread thread_;
 };

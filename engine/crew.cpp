@@ -1,6 +1,7 @@
 #include "engine/crew.h"
 
 #include <algorithm>
+#include <exception>
 
 namespace stadion {
 namespace {
@@ -12,8 +13,13 @@ constexpr std::chrono::nanoseconds kWaking{50'000};
 
 }  // namespace
 
+// With fewer threads than were wanted, or none, the same is done.
 Crew::Crew(std::size_t threads) {
-  for (std::size_t i = 1; i < threads; ++i) threads_.emplace_back([this] { help(); });
+  try {
+    for (std::size_t i = 1; i < threads; ++i) threads_.emplace_back([this] { help(); });
+  } catch (const std::exception&) {
+    // The system has no more of them, or no memory.
+  }
 }
 
 Crew::~Crew() {

@@ -5,6 +5,8 @@
 namespace stadion {
 namespace {
 
+constexpr int kMostContexts = 4;  ///< for one frame
+
 Failure toFailure(const std::optional<Diagnostic>& d) {
   return d ? Failure(Reason(*d)) : std::nullopt;
 }
@@ -28,10 +30,33 @@ Failure DrawingHere::open(std::size_t wall) {
 }
 
 DrawOutcome DrawingHere::draw(std::size_t wall, const DrawList& list, bool) {
-  if (Failure f = contexts_.enter(wall)) return {std::move(f)};
-  const auto problem = contexts_.renderer(wall).draw(list, parts_.giveUp, parts_.probe);
-  if (list.filling && list.filling->isVoid()) return {{}, false};
-  return {toFailure(problem)};
+  const auto about = [&](const std::string& what) {
+    return "wall " + nameOf(wall) + ", frame " + std::to_string(list.ticket.signature.frame) + ": " + what;
+  };
+  for (int contexts = 1; contexts <= kMostContexts; ++contexts) {
+    if (auto drawn = drawOnce(wall, list)) {
+      if (list.filling && list.filling->isVoid()) return {{}, false};
+      return {std::move(*drawn)};
+    }
+    if (parts_.tell) parts_.tell(about("its OpenGL context was lost; it is made anew"));
+    contexts_.close(wall);
+    if (Failure f = open(wall))
+      return {Reason(about("its OpenGL context was lost, and there is no other: " + f->message))};
+  }
+  return {Reason(about("its OpenGL context was lost again and again"))};
+}
+
+/// How it went; nothing: the context is lost.
+std::optional<Failure> DrawingHere::drawOnce(std::size_t wall, const DrawList& list) {
+  if (contexts_.enter(wall)) return {};
+  Renderer& renderer = contexts_.renderer(wall);
+  const auto problem = renderer.draw(list, parts_.giveUp, parts_.probe);
+  if (renderer.contextIsLost()) return {};
+  return toFailure(problem);
+}
+
+std::string DrawingHere::nameOf(std::size_t wall) const {
+  return wall < parts_.names.size() ? parts_.names[wall] : std::to_string(wall + 1);
 }
 
 Failure DrawingHere::read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) {

@@ -1,5 +1,6 @@
 #pragma once
-/// Draws the walls in this process, each on its own thread and in its own context.
+/// Draws the walls in this process, each on its own thread and in its own context. One that is lost (a
+/// graphics card was reset) is told and made anew, and the frame drawn with the new one.
 
 #include "engine/asset/mesh_store.h"
 #include "pipeline/machine/processor_set.h"
@@ -7,6 +8,8 @@
 #include "pipeline/wall_drawing.h"
 
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace stadion {
@@ -25,6 +28,8 @@ struct DrawingHereParts {
   std::function<bool()> giveUp{};    ///< see Renderer::draw
   FrameProbe* probe = nullptr;
   std::vector<ProcessorSet> processors{};  ///< by wall: those that its Draw thread may use; none: all of them
+  std::vector<std::string> names{};        ///< of the walls, for messages
+  std::function<void(const std::string&)> tell{};  ///< of a context that was lost; on Draw threads
 };
 
 class DrawingHere final : public WallDrawing {
@@ -39,6 +44,9 @@ public:
   std::string glDescription(std::size_t wall) const override;
 
 private:
+  std::optional<Failure> drawOnce(std::size_t wall, const DrawList& list);
+  std::string nameOf(std::size_t wall) const;
+
   DrawingHereParts parts_;
   WallContexts ownContexts_;
   WallContexts& contexts_;

@@ -77,13 +77,14 @@ FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std:
 }
 
 FrameLoopOutcome FrameLoop::run() {
-  if (options_.mode == Mode::Sequential)
-    runSequential();
-  else
-    runPipelined();
+  // Whoever waits for the outcome may stand at the bottom of a thread.
+  guard("the frame loop", kAllWalls, kNoFrame, [&]() -> Failure {
+    options_.mode == Mode::Sequential ? runSequential() : runPipelined();
+    return {};
+  });
   outcome_.missedTicks = pacer_.missed();
   outcome_.stopped = stopped_;
-  return outcome_;
+  return std::move(outcome_);  // to copy it may take memory
 }
 
 template <class Wait>
@@ -99,7 +100,8 @@ void FrameLoop::runSequential() {
   for (std::size_t wall = 0; well && wall < options_.walls; ++wall) well = openStage(wall);
 
   while (well) {
-    const auto turn = nextTurn();
+    std::optional<Turn> turn;
+    well = guard("App", kAllWalls, nextIndex_, [&]() -> Failure { return turn = nextTurn(), Failure(); });
     if (!turn) break;
     const auto ticket = appStage(*turn, 0);
     well = ticket.has_value();
@@ -191,7 +193,7 @@ void FrameLoop::runThreads(const StageThreads& work) {
 }
 
 void FrameLoop::drawAndClose(const StageThreads& work, std::size_t wall) {
-  work.draw(wall);
+  guard("Draw", wall, kNoFrame, [&]() -> Failure { return work.draw(wall), Failure(); });
   if (broken_) work.stopAll();
   closeStage(wall);
 }

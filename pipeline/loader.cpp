@@ -30,8 +30,10 @@ Loader::~Loader() {
 }
 
 void Loader::request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) {
+  std::map<std::uint32_t, Prepared> one;
+  one[number];
   const std::lock_guard lock(mutex_);
-  jobs_.push_back({number, file, owner, X_WO});
+  jobs_.push_back({number, file, owner, X_WO, one.extract(number)});
   changed_.notify_all();
 }
 
@@ -96,12 +98,13 @@ void Loader::work() {
     changed_.wait(lock, [&] { return ending_ || !jobs_.empty() || !garbage_.empty(); });
     if (ending_) return;
     if (!jobs_.empty()) {
-      const Job job = std::move(jobs_.front());
+      Job job = std::move(jobs_.front());
       jobs_.pop_front();
       lock.unlock();
       Prepared prepared = prepareSafely(job);
       lock.lock();
-      done_[job.number] = std::move(prepared);
+      job.place.mapped() = std::move(prepared);
+      done_.insert(std::move(job.place));
       changed_.notify_all();
     } else {
       auto load = std::move(garbage_.front());
@@ -122,7 +125,11 @@ void Loader::work() {
 // What happens here must not end the process, but the run: App throws it again and knows what to do.
 Loader::Prepared Loader::prepareSafely(const Job& job) {
   const auto because = [&](const char* why) {
-    return std::make_exception_ptr(std::runtime_error("loading " + job.file + ": " + why));
+    try {
+      return std::make_exception_ptr(std::runtime_error("loading " + job.file + ": " + why));
+    } catch (...) {
+      return std::current_exception();  // not even enough memory for a sentence
+    }
   };
   try {
     return {prepare(job), nullptr};

@@ -73,15 +73,17 @@ public:
   void shown(std::uint64_t frame);
 
 private:
+  struct Prepared {
+    std::unique_ptr<Load> load;
+    std::exception_ptr thrown;
+  };
   struct Job {
     std::uint32_t number;
     std::string file;
     NodeRef owner;
     Affine X_WO;
-  };
-  struct Prepared {
-    std::unique_ptr<Load> load;
-    std::exception_ptr thrown;
+    std::map<std::uint32_t, Prepared>::node_type
+        place;  ///< among done_: taken beforehand, while App can be told
   };
   struct Garbage {
     std::unique_ptr<Load> load;

@@ -13,12 +13,12 @@ std::unique_ptr<WallDrawing> drawingOf(const ShowParts& parts) {
   if (!parts.provider) return {};
   std::vector<PictureSize> sizes;
   for (const WallView& view : parts.walls) sizes.push_back({view.width, view.height});
-  if (!parts.workers)
-    return std::make_unique<DrawingHere>(DrawingHereParts{*parts.provider, parts.meshes, std::move(sizes),
-                                                          parts.quality, parts.contexts, parts.giveUp,
-                                                          parts.probe, parts.processors});
   std::vector<std::string> names;
   for (const WallView& view : parts.walls) names.push_back(view.wall.name);
+  if (!parts.workers)
+    return std::make_unique<DrawingHere>(
+        DrawingHereParts{*parts.provider, parts.meshes, std::move(sizes), parts.quality, parts.contexts,
+                         parts.giveUp, parts.probe, parts.processors, std::move(names), parts.tell});
   const WallWorkers& w = *parts.workers;
   DrawingInWorkersParts workers{
       parts.meshes,          std::move(sizes), std::move(names), parts.quality, w.egl,

@@ -76,6 +76,8 @@ struct ShowParts {
   /// By wall: where it is drawn; none: anywhere. Expects a thread or a process for each wall.
   std::vector<ProcessorSet> processors{};
   HeadTiming head{};  ///< the walls' views must have its reach, too
+  /// What became of a wall that this process draws; on Draw threads.
+  std::function<void(const std::string&)> tell{};
 };
 
 /// How often a wall kept an older picture, because it was not drawn in time.

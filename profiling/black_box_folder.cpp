@@ -1,5 +1,6 @@
 #include "profiling/black_box_folder.h"
 
+#include "engine/folder_names.h"
 #include "profiling/black_box.h"
 
 #include <fmt/chrono.h>
@@ -73,9 +74,8 @@ std::string BlackBoxFolder::newFile() const {
 
 std::vector<fs::path> BlackBoxFolder::files() const {
   std::vector<fs::path> all;
-  std::error_code wrong;
-  for (fs::directory_iterator at(path_, wrong); !wrong && at != fs::directory_iterator(); at.increment(wrong))
-    if (at->path().extension() == kEnding) all.push_back(at->path());
+  for (const std::string& name : namesIn(path_.string()))
+    if (name.ends_with(kEnding)) all.push_back(path_ / name);
   std::ranges::sort(all, std::ranges::greater());
   return all;
 }

@@ -39,7 +39,7 @@ FrameLog::FrameLog(std::vector<SpanReader*> readers, FrameLogOptions options)
   measureOverhead();
   collector_ = std::thread([this] {
     while (!done_) {
-      collect();
+      collectSafely();
       std::this_thread::sleep_for(kNap);
     }
   });
@@ -118,7 +118,16 @@ FrameLog::~FrameLog() {
 void FrameLog::finish() {
   done_ = true;
   if (collector_.joinable()) collector_.join();
-  collect();
+  collectSafely();
+}
+
+// Who only looks on ends nothing: without memory, something of what was recorded is missing, and counted.
+void FrameLog::collectSafely() noexcept {
+  try {
+    collect();
+  } catch (const std::bad_alloc&) {
+    ++notCollected_;
+  }
 }
 
 /// Each thread looks for its own once.
@@ -327,7 +336,7 @@ void FrameLog::collect() {
 
 std::uint64_t FrameLog::lost() const {
   const std::lock_guard lock(mutex_);
-  std::uint64_t lost = shortVisits_.lost();
+  std::uint64_t lost = shortVisits_.lost() + notCollected_;
   for (const auto& t : tracks_) lost += t->spans().lost() + t->counts().lost();
   return lost;
 }

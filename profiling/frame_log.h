@@ -126,6 +126,7 @@ private:
   void tellShortVisits();
   std::uint64_t sampleEvery(std::uint32_t wall) const;
   void collect();
+  void collectSafely() noexcept;
 
   std::vector<SpanReader*> readers_;
   FrameLogOptions options_;
@@ -152,6 +153,7 @@ private:
   std::map<std::uint32_t, Due> nextDrawn_;             ///< by wall
   std::set<std::uint32_t> crowded_;                    ///< walls of very many nodes
   std::atomic<bool> samples_;
+  std::atomic<std::uint64_t> notCollected_ = 0;  ///< times, for want of memory
   std::atomic<bool> done_ = false;
   std::thread collector_;
 };

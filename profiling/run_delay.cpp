@@ -1,9 +1,10 @@
 #include "profiling/run_delay.h"
 
+#include "engine/folder_names.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <fcntl.h>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <unistd.h>
@@ -36,12 +37,12 @@ void RunDelay::findRasteriser() {
   for (std::size_t i = 1; i < files_.size(); ++i)
     if (files_[i] >= 0) close(files_[i]);
   files_.resize(1);
-  std::error_code wrong;
-  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task", wrong)) {
-    std::ifstream in(thread.path() / "comm");
+  for (const std::string& number : namesIn("/proc/self/task")) {
+    const std::string thread = "/proc/self/task/" + number;
+    std::ifstream in(thread + "/comm");
     std::string name;
     if (std::getline(in, name) && name.starts_with("llvmpipe-"))
-      files_.push_back(open((thread.path() / "schedstat").c_str(), O_RDONLY | O_CLOEXEC));
+      files_.push_back(open((thread + "/schedstat").c_str(), O_RDONLY | O_CLOEXEC));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "engine/display/output_reader.h"
 #include "engine/display/wall_lint.h"
+#include "engine/folder_names.h"
 #include "engine/plain_file.h"
 #include "engine/text_line.h"
 
@@ -296,10 +297,10 @@ private:
 
 std::vector<std::string> shippedNames(const std::string& folder) {
   std::vector<std::string> names;
-  std::error_code problem;
-  for (std::filesystem::directory_iterator it(folder, problem), end; !problem && it != end;
-       it.increment(problem))
-    if (it->path().extension() == ".walls") names.push_back(it->path().stem().string());
+  for (const std::string& name : namesIn(folder)) {
+    const std::filesystem::path file(name);
+    if (file.extension() == ".walls") names.push_back(file.stem().string());
+  }
   std::ranges::sort(names);
   return names;
 }

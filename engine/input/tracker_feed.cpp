@@ -9,11 +9,12 @@
 namespace stadion {
 namespace {
 
-constexpr double kFarthest = 1000;                ///< from the tracking system's origin [m]
-constexpr std::size_t kMostChanges = 64;          ///< of one tracker in one frame
-constexpr std::size_t kStampsKept = 16;           ///< more than a frame adds and looks back
-constexpr Nanoseconds kLongestLeap = 50'000'000;  ///< [ns]; as input logs have it
-constexpr double kLeapSpeed = 15;                 ///< [m/s]
+constexpr double kFarthest = 1000;                         ///< from the tracking system's origin [m]
+constexpr std::size_t kMostChanges = 64;                   ///< of one tracker in one frame
+constexpr std::size_t kStampsKept = 16;                    ///< more than a frame adds and looks back
+constexpr Nanoseconds kLongestLeap = 50'000'000;           ///< [ns]; as input logs have it
+constexpr Nanoseconds kSilenceToldEvery = 10'000'000'000;  ///< of one tracker [ns]
+constexpr double kLeapSpeed = 15;                          ///< [m/s]
 
 double eased(double s) {
   s = std::clamp(s, 0.0, 1.0);
@@ -72,6 +73,22 @@ TrackerFeed::Channel* TrackerFeed::channel(std::string_view name) {
 
 bool TrackerFeed::heard(const Channel& c, Nanoseconds clock) const {
   return c.ever && toSeconds(clock - c.last) <= rig_.hold;
+}
+
+std::vector<TrackerFeed::Hearing> TrackerFeed::hearings(Nanoseconds clock) {
+  std::vector<Hearing> news;
+  for (Channel& c : channels_) {
+    const bool now = heard(c, clock);
+    const bool toldLately = c.toldSilent && clock - *c.toldSilent < kSilenceToldEvery;
+    if (!now && c.ever && !c.silentSince && !toldLately) {
+      c.silentSince = c.last, c.toldSilent = clock;
+      news.push_back({c.tracker->name, false, toSeconds(clock - c.last)});
+    } else if (now && c.silentSince) {
+      news.push_back({c.tracker->name, true, toSeconds(c.last - *c.silentSince)});
+      c.silentSince.reset();
+    }
+  }
+  return news;
 }
 
 bool TrackerFeed::pose(std::string_view name, Nanoseconds clock, const Pose& X_SD) {

@@ -59,6 +59,15 @@ public:
   /// Where everything is now, apart from the show's frames.
   void sampleNow(Nanoseconds clock, InputSample& sample) const;
 
+  /// A tracker that has fallen silent, or is heard of again.
+  struct Hearing {
+    std::string_view tracker;
+    bool heard = false;
+    double silent = 0;  ///< for so long [s]
+  };
+  /// What of that is new at `clock`. Of a tracker that comes and goes, once in ten seconds.
+  std::vector<Hearing> hearings(Nanoseconds clock);
+
   const FeedCounts& counts() const { return counts_; }
   const RigFile& rig() const { return rig_; }
 
@@ -95,7 +104,9 @@ private:
     Nanoseconds found = 0;
     std::uint32_t buttons = 0;
     std::array<float, kTrackerAxes> axes{};
-    std::vector<Change> changes;  ///< since the last frame
+    std::vector<Change> changes;               ///< since the last frame
+    std::optional<Nanoseconds> silentSince{};  ///< as it was told; nothing: it is heard, as far as was told
+    std::optional<Nanoseconds> toldSilent{};   ///< when that was the last time
   };
 
   Channel* channel(std::string_view name);

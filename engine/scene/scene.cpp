@@ -11,8 +11,19 @@ namespace stadion {
 Scene::Scene(SceneLoader& loader, MeshStore& meshes, std::size_t threads)
     : loader_(loader), meshes_(meshes), crew_(threads) {}
 
+// Nobody looks any more, so that no node takes leave: some may not even have been there, if a file broke off
+// while it was installed.
 Scene::~Scene() {
-  while (!loads_.empty()) remove(loads_.rbegin()->first, 0);
+  while (!loads_.empty()) {
+    const auto last = std::prev(loads_.end());
+    std::unique_ptr<Load> gone = std::move(last->second);
+    loads_.erase(last);
+    try {
+      loader_.dispose(std::move(gone), 0);
+    } catch (const std::bad_alloc&) {
+      // It goes here and now.
+    }
+  }
 }
 
 bool Scene::open(const std::string& file) {

@@ -43,6 +43,7 @@ const char* glErrorName(GLenum error) {
   case GL_INVALID_OPERATION: return "invalid operation";
   case GL_INVALID_FRAMEBUFFER_OPERATION: return "invalid framebuffer operation";
   case GL_OUT_OF_MEMORY: return "out of memory";
+  case GL_CONTEXT_LOST: return "that the context is lost";
   default: return "unknown error";
   }
 }

@@ -1,7 +1,8 @@
 #include "pipeline/draw/lone_clock.h"
 
+#include "engine/folder_names.h"
+
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -35,12 +36,11 @@ LoneClock::~LoneClock() {
 
 /// Mesa names its threads llvmpipe-0, llvmpipe-1 and so on; they are there once a context is.
 void LoneClock::findRasteriser() {
-  std::error_code wrong;
-  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task", wrong)) {
-    std::ifstream in(thread.path() / "comm");
+  for (const std::string& thread : namesIn("/proc/self/task")) {
+    std::ifstream in("/proc/self/task/" + thread + "/comm");
     std::string name;
     if (std::getline(in, name) && name.starts_with("llvmpipe-"))
-      rasteriser_.push_back(clockOf(std::atoi(thread.path().filename().c_str())));
+      rasteriser_.push_back(clockOf(std::atoi(thread.c_str())));
   }
 }
 

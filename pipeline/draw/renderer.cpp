@@ -377,6 +377,7 @@ std::optional<Diagnostic> Renderer::collectProblems() {
   for (int i = 0; i < kMostErrorsRead; ++i) {
     const GLenum error = gl_.GetError();
     if (error == GL_NO_ERROR) break;
+    contextIsLost_ = contextIsLost_ || error == GL_CONTEXT_LOST;
     report(std::string("OpenGL says ") + glErrorName(error));
   }
   return std::exchange(problem_, std::nullopt);

@@ -76,6 +76,9 @@ public:
   /// Expects room for exactly that. Returns a new problem, or nothing.
   std::optional<Diagnostic> read(std::uint32_t eye, std::span<std::uint8_t> rgba);
 
+  /// The driver has given up the context (the graphics card was reset, or is gone): nothing can be drawn with
+  /// it any more.
+  bool contextIsLost() const { return contextIsLost_; }
   std::uint32_t width() const { return width_; }    ///< [pixels]
   std::uint32_t height() const { return height_; }  ///< [pixels]
   RenderQuality quality() const { return quality_; }
@@ -210,6 +213,7 @@ private:
   std::array<DrawTotals, 2> totals_{};
   std::set<std::string> reported_;
   std::optional<Diagnostic> problem_;
+  bool contextIsLost_ = false;
 };
 
 }  // namespace stadion

@@ -57,6 +57,13 @@ void LiveTrackers::misunderstood(const std::string& what) {
 void LiveTrackers::sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) {
   const std::lock_guard lock(mutex_);
   feed_.sampleFrame(clock_(), start, end, sample);
+  tellHearings();
+}
+
+void LiveTrackers::tellHearings() {
+  for (const TrackerFeed::Hearing& h : feed_.hearings(clock_()))
+    tell_(h.heard ? fmt::format("tracker {} is heard of again, after {:.1f} s", h.tracker, h.silent)
+                  : fmt::format("tracker {} is silent", h.tracker));
 }
 
 bool LiveTrackers::sampleNow(InputSample& sample) {

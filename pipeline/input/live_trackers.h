@@ -22,7 +22,8 @@ class LiveTrackers final : public InputDevice {
 public:
   using Tell = std::function<void(const std::string&)>;
 
-  /// `tell` learns once of each unknown name and of the first thing refused. `clock` for tests.
+  /// `tell` learns once of each unknown name and of the first thing refused, and of trackers that fall silent
+  /// and are heard of again. `clock` for tests.
   LiveTrackers(const RigFile& rig, Tell tell, std::function<Nanoseconds()> clock = steadyNow);
 
   void pose(std::string_view tracker, Nanoseconds clock, const Pose& X_SD);
@@ -53,6 +54,7 @@ private:
   template <class Take>
   void take(std::string_view tracker, const Take& measurement);
   void tellOnce(const std::string& what);
+  void tellHearings();
 
   mutable std::mutex mutex_;
   TrackerFeed feed_;

@@ -68,7 +68,9 @@ void SoundPlayer::work() {
     try {
       follow(scape, mix);
     } catch (const std::exception&) {
-      // Out of memory: this frame's sounds are missing, the show is not.
+      // Out of memory: this frame's sounds are missing, the show is not. What was not begun is begun later.
+      std::erase_if(playing_, [](const auto& p) { return p.second.voice == 0; });
+      std::erase_if(samples_, [](const auto& s) { return s.second.samples.empty(); });
     }
     lock.lock();
     busy_ = false;

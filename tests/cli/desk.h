@@ -27,6 +27,8 @@ public:
   /// Waits for anything else; false if it does not come in good time.
   bool waitUntil(const std::function<bool()>& condition) const;
   bool runs();
+  /// Of the program, and of its process group.
+  pid_t pid() const { return child_; }
   /// Ends it at once, as a power cut would.
   void kill();
   /// Waits for its end and returns its exit status; -1 if it does not end in good time.

@@ -84,6 +84,28 @@ TEST(TrackerFeed, ASilentHeadHoldsThenEasesToItsSafePoseThenIsLost) {
   EXPECT_FALSE(room.frame().find("head")->valid);
 }
 
+TEST(TrackerFeed, ASilenceIsToldAndItsEndButNotOfWhoComesAndGoes) {
+  Room room;
+  const auto heardAt = [&](Nanoseconds time) {
+    std::string told;
+    for (const TrackerFeed::Hearing& h : room.feed.hearings(1'000'000'000 + time))
+      told += std::string(h.tracker) + (h.heard ? " heard " : " silent ") +
+              std::to_string(std::lround(10 * h.silent)) + ";";
+    return told;
+  };
+  EXPECT_EQ(heardAt(0), "");  // nobody has been heard of yet
+  room.head(10 * kMs, at(0, 0, 1.7));
+  EXPECT_EQ(heardAt(50 * kMs), "");
+  EXPECT_EQ(heardAt(1010 * kMs), "head silent 10;");
+  EXPECT_EQ(heardAt(1020 * kMs), "");
+  room.head(2010 * kMs, at(0, 0, 1.7));
+  EXPECT_EQ(heardAt(2020 * kMs), "head heard 20;");
+  EXPECT_EQ(heardAt(4000 * kMs), "");  // again, within ten seconds
+  room.head(12'000 * kMs, at(0, 0, 1.7));
+  EXPECT_EQ(heardAt(12'010 * kMs), "");
+  EXPECT_EQ(heardAt(13'000 * kMs), "head silent 10;");
+}
+
 TEST(TrackerFeed, HeardOfAgainTheHeadEasesBack) {
   Room room;
   for (int i = 0; i <= 200; ++i) room.head(i * 5 * kMs, at(1, 0, 1.2));

@@ -1,0 +1,317 @@
+/// Faults of the machine around the program, by a library that is preloaded into it (fault_library/): each
+/// has a defined outcome (docs/faults.md).
+
+#include "tests/cli/desk.h"
+
+#include <csignal>
+#include <fmt/format.h>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string faultLibrary() {
+  return STADION_BINARY_DIR "/bin/libfault-library.so";
+}
+
+/// A ball that bounces, and a sub-scene that comes meanwhile: files, messages, dynamics, a log of input.
+class ProgramFaults : public ::testing::Test {
+protected:
+  ProgramFaults() {
+    show_ = folder_.write("show.evs",
+                          "forcelinear( name=gravity, direction=\"0, 0, -1\" )\n"
+                          "object( name=floor, file=plane.3ds )\n"
+                          "dynobject( name=ball, file=football.3ds, position=\"0, 6, 3\", density=0.08,\n"
+                          "           restitution=0.7, hook=gravity )\n"
+                          "dynamics( collider=floor, collidee=ball )\n"
+                          "timer( period=0.1, eventmessage=\"timesup, more, load\" )\n"
+                          "scene( name=more, file=more.evs, ready=0.1, initstate=off )\n"
+                          "light( direction=\"-1, 2, -3\" )\n");
+    folder_.write("more.evs", "object( file=football.3ds, position=\"1, 5, 1\" )\n");
+    folder_.write("show.input", "stadion-input 1\nkey head 0  0 0 1.7\n"
+                                "key head 0.5  0 0.3 1.7  turn 20 0 0  smooth\n");
+    fs::create_directory(folder_.path() / "state");
+  }
+
+  void SetUp() override {
+    if (!fs::exists(faultLibrary())) GTEST_SKIP() << "sanitizers let nothing be preloaded";
+  }
+
+  std::string file(const std::string& name) const { return folder_.path() / name; }
+
+  ProgramRun run(const std::string& fault, std::vector<std::string> more = {}) const {
+    ProgramRun r{{stadionPath(), "run", show_, "--asset-root", assetFolder(), "--walls", "desktop", "--size",
+                  "32x24"}};
+    r.words.insert(r.words.end(), more.begin(), more.end());
+    r.environment = {"XDG_STATE_HOME=" + file("state"), "LP_NUM_THREADS=1"};
+    if (!fault.empty()) {
+      r.environment.push_back("LD_PRELOAD=" + faultLibrary());
+      r.environment.push_back("STADION_FAULT=" + fault);
+    }
+    r.limit = std::chrono::seconds(60);
+    return r;
+  }
+
+  /// What is left of a file that was not finished.
+  std::set<std::string> leftOver() const {
+    std::set<std::string> parts;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.path()))
+      if (entry.path().extension() == ".part") parts.insert(entry.path().filename());
+    return parts;
+  }
+
+  TemporaryFolder folder_;
+  std::string show_;
+};
+
+/// Of the last frame, as the text at the end says it.
+std::string hashOf(const ProgramResult& r) {
+  const std::size_t line = r.out.find("state hash of frame ");
+  return line == r.out.npos ? "" : r.out.substr(line, r.out.find('\n', line) - line);
+}
+
+std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+/// Runs in which there is no memory, once or from then on, somewhere.
+class ProgramFaultsWithoutMemory : public ProgramFaults {
+protected:
+  /// How often a program asks, by what it says at its end.
+  long askedBy(const ProgramRun& run) const {
+    const ProgramResult r = runProgram(run);
+    const std::size_t at = r.err.find("asked for memory: ");
+    return at == r.err.npos ? 0 : std::stol(r.err.substr(at + 18));
+  }
+
+  /// Ends with what it was, or goes on as if nothing had been; leaves nothing that is not whole.
+  void expectDefinedEnd(const ProgramRun& run, const std::string& what, const std::string& hash) const {
+    const std::string record = file("record.input");
+    fs::remove(record);
+    const ProgramResult r = runProgram(run);
+    EXPECT_TRUE(r.status == 0 || r.status == 2 || r.status == 3) << what << ": " << r.status << "\n" << r.err;
+    if (r.status == 0)
+      EXPECT_EQ(hashOf(r), hash) << what;
+    else
+      EXPECT_TRUE(has(r.err, "out of memory") || has(r.err, "bad_alloc")) << what << "\n" << r.err;
+    EXPECT_EQ(leftOver(), std::set<std::string>()) << what;
+    if (!fs::exists(record)) return;
+    const ProgramResult again = runProgram(this->run("", {"--gl", "none", "--input", record}));
+    EXPECT_EQ(again.status, 0) << what << ": the record is damaged\n" << again.err;
+  }
+
+  /// `runs` times, between the command line and the end.
+  void sweep(const std::vector<std::string>& words, const char* how, int runs) const {
+    const ProgramResult whole = runProgram(run("", words));
+    ASSERT_EQ(whole.status, 0) << whole.err;
+    const ProgramRun none{{stadionPath(), "run"}, run("new tell=1").environment};
+    const long begin = askedBy(none), end = askedBy(run("new tell=1", words));
+    ASSERT_GT(end, begin);
+    // Half of them before the first frame, where most of it is asked for; half among the last that ask.
+    const long late = end - std::min<long>(1500, (end - begin) / 2);
+    for (int i = 0; i < runs; ++i) {
+      const long from = i % 2 ? begin : late, to = i % 2 ? late : end;
+      const long at = from + 1 + (to - from) * (i / 2) / std::max(1, runs / 2);
+      const std::string fault = fmt::format(fmt::runtime(how), at);
+      expectDefinedEnd(run(fault, words), fault, hashOf(whole));
+      if (HasFailure()) return;
+    }
+  }
+
+  static int times(int few) { return fullRuns() ? 20 * few : few; }
+};
+
+TEST_F(ProgramFaultsWithoutMemory, OnceTheRunSaysSoOrGoesOn) {
+  sweep({"--gl", "none", "--mode", "sequential", "--record-input", file("record.input")}, "new nth={}",
+        times(40));
+}
+
+TEST_F(ProgramFaultsWithoutMemory, FromThenOnTheRunSaysSo) {
+  sweep({"--gl", "none", "--mode", "sequential", "--record-input", file("record.input")}, "new from={}",
+        times(30));
+}
+
+TEST_F(ProgramFaultsWithoutMemory, InThreadsItIsTheSame) {
+  sweep({"--gl", "none", "--record-input", file("record.input")}, "new nth={}", times(24));
+  sweep({"--gl", "none", "--record-input", file("record.input")}, "new from={}", times(16));
+}
+
+TEST_F(ProgramFaults, ReadsThatGiveAFewBytesAtATimeChangeNothing) {
+  const ProgramResult whole = runProgram(run("", {"--gl", "none"}));
+  for (const char* fault : {"read most=3", "read in=stadion-import most=3"}) {
+    const ProgramResult r = runProgram(run(fault, {"--gl", "none"}));
+    EXPECT_EQ(r.status, 0) << fault << r.err;
+    EXPECT_EQ(hashOf(r), hashOf(whole)) << fault;
+    EXPECT_EQ(r.err, whole.err) << fault;
+  }
+}
+
+TEST_F(ProgramFaults, AScriptThatTheDiskCannotReadIsNamed) {
+  const ProgramResult r = runProgram(run("read error=5 path=show.evs", {"--gl", "none"}));
+  EXPECT_EQ(r.status, 2);
+  EXPECT_TRUE(has(r.err, "show.evs: error: cannot be read: Input/output error")) << r.err;
+}
+
+TEST_F(ProgramFaults, APartThatTheDiskCannotReadStaysOutAndTheShowGoesOn) {
+  const ProgramResult r = runProgram(run("read error=5 path=more.evs", {"--gl", "none"}));
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_TRUE(has(r.err, "more.evs: error: cannot be read: Input/output error")) << r.err;
+}
+
+TEST_F(ProgramFaults, AModelThatTheDiskCannotReadHasAStandIn) {
+  const ProgramResult r =
+      runProgram(run("read in=stadion-import error=5 path=football.3ds", {"--gl", "none"}));
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_TRUE(has(r.err, "football.3ds")) << r.err;
+  EXPECT_TRUE(has(r.err, "a stand-in is shown in its place")) << r.err;
+}
+
+TEST_F(ProgramFaults, ADiskThatIsFullWhileInputIsRecordedCostsTheRecordAndNothingElse) {
+  const ProgramResult whole = runProgram(run("", {"--gl", "none"}));
+  const std::string record = folder_.write("record.input", "stadion-input 1\nkey head 0  0 0 1.7\n");
+  const std::string before = fileContent(record);
+  const ProgramResult r = runProgram(
+      run("write error=28 after=600 path=record.input", {"--gl", "none", "--record-input", record}));
+  EXPECT_EQ(r.status, 2) << r.err;
+  EXPECT_TRUE(has(r.err, "record.input: cannot be written: No space left on device")) << r.err;
+  EXPECT_EQ(hashOf(r), hashOf(whole));
+  EXPECT_EQ(fileContent(record), before);
+  EXPECT_EQ(leftOver(), std::set<std::string>());
+}
+
+TEST_F(ProgramFaults, ADiskThatIsFullOfPicturesEndsTheRunWithThoseThatAreWhole) {
+  const std::string out = file("out");
+  const ProgramResult r =
+      runProgram(run("write error=28 after=2000 path=.png", {"--out", out, "--pictures", "1"}));
+  EXPECT_EQ(r.status, 2) << r.err;
+  EXPECT_TRUE(has(r.err, ".png: cannot be written: No space left on device")) << r.err;
+  EXPECT_EQ(leftOver(), std::set<std::string>());
+  int pictures = 0;
+  for (const auto& entry : fs::directory_iterator(out))
+    if (entry.path().extension() == ".png") {
+      ++pictures;
+      EXPECT_TRUE(has(fileContent(entry.path()), "IEND")) << entry.path();
+    }
+  EXPECT_GT(pictures, 0);
+  EXPECT_TRUE(has(json::parse(fileContent(out + "/summary.json")).at("failure"), "No space left on device"));
+}
+
+TEST_F(ProgramFaults, AClockThatIsSetChangesNothing) {
+  const std::vector<std::string> words{"--gl", "none", "--pace", "lock", "--seconds", "1"};
+  const ProgramResult whole = runProgram(run("", words));
+  for (const char* fault : {"clock jump=36000 after=300", "clock jump=-36000 after=300"}) {
+    const ProgramResult r = runProgram(run(fault, words));
+    EXPECT_EQ(r.status, 0) << fault << r.err;
+    EXPECT_EQ(hashOf(r), hashOf(whole)) << fault;
+  }
+}
+
+/// The sockets of the program and of those that it has started, as they stand in /proc/net.
+std::string socketsOf(pid_t program) {
+  std::set<std::string> inodes;
+  for (const auto& process : fs::directory_iterator("/proc")) {
+    const std::string pid = process.path().filename();
+    if (pid.find_first_not_of("0123456789") != pid.npos || ::getpgid(std::stoi(pid)) != program) continue;
+    std::error_code gone;
+    for (const auto& f : fs::directory_iterator(process.path() / "fd", gone)) {
+      const std::string link = fs::read_symlink(f.path(), gone).string();
+      if (link.starts_with("socket:[")) inodes.insert(link.substr(8, link.size() - 9));
+    }
+  }
+  std::string found;
+  for (const char* table : {"tcp", "udp", "tcp6", "udp6", "raw", "packet"}) {
+    std::ifstream lines(std::string("/proc/net/") + table);
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream in(line);
+      const std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
+      for (const std::string& w : words)
+        if (inodes.contains(w)) found += std::string(table) + " " + words[1] + "\n";
+    }
+  }
+  return found;
+}
+
+class ProgramFaultsLive : public ProgramFaults {
+protected:
+  /// Nobody plays the visitor: it plays until it is told to end.
+  ProgramRun live(std::vector<std::string> more) const {
+    return run("", with({"--input", "none", "--gl", "none", "--pace", "lock", "--rate", "20"}, more));
+  }
+};
+
+TEST_F(ProgramFaultsLive, NothingListensToTheNetworkUnlessAsked) {
+  const ProgramRun quiet = live({"--record-input", file("r.input")});
+  const TemporaryFolder folder;
+  const auto socketsWhilePlaying = [&](const ProgramRun& run) {
+    const std::string out = folder.path() / "out", err = folder.path() / "err";
+    const pid_t child = startProgram(run, out, err);
+    while (!has(fileContent(err), "playing until Ctrl-C"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const std::string sockets = socketsOf(child);
+    ::kill(-child, SIGKILL), ::waitpid(child, nullptr, 0);
+    return sockets;
+  };
+  EXPECT_EQ(socketsWhilePlaying(quiet), "");
+  const std::string port = std::to_string(freePort());
+  EXPECT_TRUE(has(socketsWhilePlaying(live({"--osc", port})), "udp"));  // else nothing would be found at all
+}
+
+TEST_F(ProgramFaultsLive, AProgramThatStoodStillGoesOnByTheClock) {
+  RunningProgram program(live({"--json"}));
+  ASSERT_TRUE(program.says("playing until Ctrl-C"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const pid_t pid = program.pid();
+  ::kill(-pid, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  ::kill(-pid, SIGCONT);
+  EXPECT_TRUE(program.says("late: "));
+  ::kill(-pid, SIGINT);
+  EXPECT_EQ(program.status(), 130);
+  const json summary = json::parse(program.out(), nullptr, false);
+  ASSERT_TRUE(summary.is_object()) << program.out();
+  EXPECT_GE(summary.value("most_passed_over", 0), 20);  // of forty ticks that nobody could see
+  EXPECT_GT(summary.value("seconds", 0.0), 1.5);        // the show's time went on with the clock
+}
+
+/// Where a script may name a file, it names one that is not the show's.
+TEST_F(ProgramFaults, FilesOutsideOfTheShowsFoldersAreNotOpened) {
+  const TemporaryFolder outside;
+  const std::string secret = outside.write("secret.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  outside.write("secret.evs", "object( name=told )\n");
+  fs::create_symlink(outside.path(), folder_.path() / "way");
+  fs::create_symlink(secret, folder_.path() / "link.obj");
+  const std::string up = "../" + outside.path().filename().string();
+  for (const std::string& name :
+       {secret, up + "/secret.obj", std::string("way/secret.obj"), std::string("link.obj"),
+        std::string("/etc/passwd"), std::string("../../etc/passwd"), std::string("/dev/zero"),
+        std::string("/proc/self/environ")})
+    for (const std::string& line :
+         {fmt::format("object( file=\"{}\" )", name), fmt::format("sound( file=\"{}\", initstate=on )", name),
+          fmt::format("scene( file=\"{}\", initstate=on )", name)}) {
+      const std::string script = folder_.write("hostile.evs", line + "\n");
+      const ProgramResult r = stadionProgram({"check", script});
+      EXPECT_EQ(r.status, 2) << line << r.out;
+      EXPECT_TRUE(has(r.out, "is an absolute path") || has(r.out, "leads out of the")) << line << r.out;
+    }
+}
+
+}  // namespace
+}  // namespace stadion
