@@ -1,5 +1,7 @@
 #include "engine/asset/importer_process.h"
 
+#include "engine/asset/importer_answer.h"
+
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -17,7 +19,6 @@ namespace stadion {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-enum class Transfer { Done, Late, Broken };
 
 class Conversation {
 public:
@@ -70,17 +71,6 @@ public:
     return Transfer::Done;
   }
 
-  // Grows as the bytes come: a size that lies costs no memory.
-  Transfer read(std::vector<std::uint8_t>& bytes, std::uint64_t size) {
-    constexpr std::uint64_t kPiece = 4u << 20;
-    while (bytes.size() < size) {
-      const std::size_t have = bytes.size();
-      bytes.resize(have + std::min(kPiece, size - have));
-      if (const Transfer t = read(bytes.data() + have, bytes.size() - have); t != Transfer::Done) return t;
-    }
-    return Transfer::Done;
-  }
-
 private:
   Transfer wait(short events) {
     for (;;) {
@@ -123,15 +113,6 @@ struct SpawnSettings {
   SpawnSettings(const SpawnSettings&) = delete;
   SpawnSettings& operator=(const SpawnSettings&) = delete;
 };
-
-// The program may say anything: one line of printable text is what is passed on.
-std::string cleaned(std::string text) {
-  for (char& c : text) {
-    const auto u = static_cast<unsigned char>(c);
-    if (c != '\n' && (u < 0x20 || u == 0x7f)) c = '?';
-  }
-  return text;
-}
 
 }  // namespace
 
@@ -192,23 +173,16 @@ ImporterProcess::Answer ImporterProcess::ask(RequestHead head, int root, const s
     if (const std::string why = start(); !why.empty()) return {End::NotStarted, why, {}};
   Conversation talk(socket_.get(), Clock::now() + timeout, giveUp);
   head.pathBytes = static_cast<std::uint32_t>(path.size());
-  AnswerHead reply{};
-  Answer answer;
+  ImporterAnswer reply;
   Transfer t = talk.writeWith(root, head);
   if (t == Transfer::Done) t = talk.write(path.data(), path.size());
-  if (t == Transfer::Done) t = talk.read(&reply, sizeof reply);
+  if (t == Transfer::Done)
+    t = readAnswer([&](void* to, std::size_t size) { return talk.read(to, size); }, reply);
+  if (t == Transfer::Nonsense) return fault(End::Nonsense);
   if (t != Transfer::Done) return fault(t == Transfer::Late ? End::OutOfTime : End::Crashed);
-  if (reply.magic != kAnswerMagic || reply.version != kImportVersion || reply.textBytes > kLongestText ||
-      reply.meshBytes > kLongestAnswer)
-    return fault(End::Nonsense);
-  answer.text.resize(reply.textBytes);
-  t = talk.read(answer.text.data(), reply.textBytes);
-  if (t == Transfer::Done) t = talk.read(answer.mesh, reply.meshBytes);
-  if (t != Transfer::Done) return fault(t == Transfer::Late ? End::OutOfTime : End::Crashed);
-  answer.text = cleaned(std::move(answer.text));
   if (reply.status == ImportStatus::OutOfMemory) return fault(End::OutOfMemory);
-  answer.end = reply.status == ImportStatus::Loaded ? End::Loaded : End::Failed;
-  return answer;
+  return {reply.status == ImportStatus::Loaded ? End::Loaded : End::Failed, std::move(reply.text),
+          std::move(reply.mesh)};
 }
 
 }  // namespace stadion

@@ -22,7 +22,7 @@ Nanoseconds countsAt(const Impact& impact) {
 
 }  // namespace
 
-int MeasureNode::Result::centimetres() const {
+int MeasureResult::centimetres() const {
   constexpr double kFarthest = 1e7;   // [m]
   constexpr double kRounding = 1e-6;  // of a centimetre: 3 m are 300 cm however they were computed
   return foul ? -1 : static_cast<int>(std::floor(100 * std::min(metres, kFarthest) + kRounding));

@@ -31,20 +31,22 @@ struct MeasureAttributes {
   double cosHalfSector = -1;              ///< a throw outside the sector about +Y is a foul; -1 = no sector
 };
 
+struct MeasureResult {
+  double metres = 0;
+  bool foul = false;
+  Nanoseconds when = 0;
+  /// What is compared: a foul is less than any distance.
+  int centimetres() const;
+
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f) {
+    f("metres", self.metres), f("foul", self.foul), f("when", self.when);
+  }
+};
+
 class MeasureNode : public PlacedNode {
 public:
-  struct Result {
-    double metres = 0;
-    bool foul = false;
-    Nanoseconds when = 0;
-    /// What is compared: a foul is less than any distance.
-    int centimetres() const;
-
-    template <class Self, class Fields>
-    static void fields(Self& self, Fields& f) {
-      f("metres", self.metres), f("foul", self.foul), f("when", self.when);
-    }
-  };
+  using Result = MeasureResult;
 
   MeasureNode(NodeRef self, std::string name, PlaceAttributes place, MeasureAttributes attributes)
       : PlacedNode(NodeKind::Measure, self, std::move(name), std::move(place)),

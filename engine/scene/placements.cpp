@@ -210,6 +210,7 @@ void Placements::settle(PlacementId id) const {
   Entry& e = entries_[id];
   if (e.fleet == kNoFleet) return;
   const Fleet& fleet = fleets_[e.fleet];
+  if (!fleet.rule) return;  // put back, and nobody has claimed it
   if (std::exchange(e.move, fleet.moves) != fleet.moves) X_PN_[id] = memberOf(fleet, e.member);
 }
 
@@ -290,16 +291,38 @@ void Placements::state(StateFields& f) {
     if (!e.live) continue;
     f("local", X_PN_[id]);
     if (e.held != Held::Nothing) f("held at", X_WH_[id]);
+    if (f.restores() && !(X_PN_[id].matrix().allFinite() && X_WH_[id].matrix().allFinite())) f.fail();
   }
   f("free", free_), f("moved", movedWatched_), f("watched", anyWatched_);
   f("fleets", fleets_), f("free fleets", freeFleets_);
   if (f.restores()) changed_.clear();
-  const auto unknown = [&](PlacementId id) { return id >= entries_.size(); };
-  if (std::ranges::any_of(free_, unknown) || std::ranges::any_of(movedWatched_, unknown)) f.fail();
-  for (const Fleet& fleet : fleets_)
-    if (std::ranges::any_of(fleet.members, [&](auto id) { return id != kNoPlacement && unknown(id); }) ||
-        std::ranges::any_of(fleet.strays, [&](const auto& s) { return unknown(s.second); }))
-      f.fail();
+  if (!f.restores()) return;
+  // Whoever is free is free once, and whoever goes with a fleet is the member that the fleet takes it for.
+  const auto isThere = [&](PlacementId id) { return id < entries_.size() && entries_[id].live; };
+  const auto isFree = [&](PlacementId id) { return id < entries_.size() && !entries_[id].live; };
+  const auto twice = [](auto list) {
+    return std::ranges::sort(list), std::ranges::adjacent_find(list) != list.end();
+  };
+  if (!std::ranges::all_of(free_, isFree) || twice(free_)) f.fail();
+  if (std::ranges::any_of(movedWatched_, [&](PlacementId id) { return id >= entries_.size(); })) f.fail();
+  for (FleetId id = 0; id < fleets_.size(); ++id) {
+    const Fleet& fleet = fleets_[id];
+    for (std::uint32_t k = 0; k < fleet.members.size(); ++k)
+      if (const PlacementId member = fleet.members[k]; member != kNoPlacement)
+        if (!isThere(member) || entries_[member].fleet != id || entries_[member].member != k) f.fail();
+    for (const auto& [number, stray] : fleet.strays)
+      if (!isThere(stray) || number >= fleet.members.size()) f.fail();
+  }
+  for (PlacementId id = 0; id < entries_.size(); ++id) {
+    const Entry& e = entries_[id];
+    if (!e.live || e.fleet == kNoFleet) continue;
+    const bool known = e.fleet < fleets_.size() && e.member < fleets_[e.fleet].members.size();
+    if (!known || fleets_[e.fleet].members[e.member] != id) f.fail();
+  }
+  const auto noFleet = [&](FleetId id) {
+    return id < fleets_.size() && fleets_[id].members.empty() && fleets_[id].strays.empty();
+  };
+  if (!std::ranges::all_of(freeFleets_, noFleet) || twice(freeFleets_)) f.fail();
 }
 
 /// Whether everything that is there stands below World, once.

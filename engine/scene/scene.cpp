@@ -164,7 +164,8 @@ bool Scene::takeBatch(const std::vector<Message>& mail, FrameContext& frame, Fra
     if (std::ranges::any_of(batch_, [&](const Cycle& b) { return node.awaits(*b.node, *this); })) break;
     current_ = next->visit;
     agenda_.take();
-    const auto [first, last] = std::ranges::equal_range(mail, node.self(), {}, &Message::target);
+    const auto first = std::ranges::lower_bound(mail, node.self(), {}, &Message::target);
+    const auto last = std::ranges::upper_bound(mail, node.self(), {}, &Message::target);
     batch_.push_back(cycleOf(node, frame.now));
     FrameContext own = batch_.back().context(frame);
     node.begin({first, last}, own, probe);

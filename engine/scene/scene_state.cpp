@@ -5,6 +5,8 @@
 #include "engine/scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <utility>
 
 namespace stadion {
@@ -12,6 +14,7 @@ namespace {
 
 /// Of what is written: older ones mean something else.
 constexpr std::uint32_t kVersion = 1;
+constexpr Nanoseconds kLatest = 1'000'000'000'000'000'000;  ///< thirty years of a show [ns]
 
 }  // namespace
 
@@ -35,8 +38,10 @@ bool Scene::restore(std::span<const std::uint8_t> state) {
   if (!in.failed()) placements_.state(in);
   if (!in.failed()) visitRest(in);
   if (!in.failed()) visitNodes(in);
-  if (!in.complete() || !standsTogether()) return false;
-  return resume();
+  if (in.complete() && standsTogether() && resume()) return true;
+  // Nodes that have been put back only in part must not act any more, not even to leave.
+  for (auto& [number, load] : std::exchange(loads_, {})) loader_.dispose(std::move(load), 0);
+  return false;
 }
 
 /// Which files are there, and which are asked for.
@@ -46,6 +51,9 @@ void Scene::visitLoads(StateFields& f) {
   for (const auto& [number, l] : loads_) there.push_back(number);
   f("loads", there);
   if (f.restores()) {
+    // Who asks for a file has come with an earlier one.
+    for (const auto& [number, asked] : asked_)
+      if (asked.owner.load >= number || !asked.X_WO.matrix().allFinite()) return f.fail();
     for (const auto& [number, asked] : asked_) loader_.request(number, asked.file, asked.owner, asked.X_WO);
     for (const std::uint32_t number : there) {
       auto load = asked_.contains(number) && !loads_.contains(number) ? loader_.take(number) : nullptr;
@@ -101,6 +109,7 @@ void Scene::visitNodes(StateFields& f) {
 void Scene::visitNode(StateFields& f, Node& node) {
   Node::Standing& s = node.standing();
   f("rests", s.rests), f("pace", s.pace), f("missed", s.missed);
+  if (f.restores() && s.pace > levelsOf(Concession::Half)) return f.fail();
   node.state(f);
 }
 
@@ -128,6 +137,14 @@ std::optional<Scene::Difference> Scene::difference(std::span<const std::uint8_t>
 
 /// Whether whatever names a placement, an instance or a node's place in a list names one that is there.
 bool Scene::standsTogether() const {
+  if (now_ < 0 || now_ > kLatest || frameStart_ < 0 || frameStart_ > now_ || stressLevel_ > kMostStress)
+    return false;
+  for (const Message& m : messages_.pending())
+    if (static_cast<std::size_t>(m.verb) >= kVerbCount) return false;
+  for (const auto& [node, relief] : reliefs_)
+    if (relief.pace > levelsOf(Concession::Half) || !std::isfinite(relief.lod)) return false;
+  for (const TrackerSample& t : lastInput_.trackers)
+    if (!t.X_RT.finite() || !std::ranges::all_of(t.knots, &Pose::finite, &PoseKnot::X)) return false;
   const auto placement = [&](PlacementId id) { return placements_.has(id); };
   for (const Instance& i : instances_)
     if (i.live && (!placement(i.placement) || i.placement >= instancesAt_.size())) return false;
@@ -139,6 +156,7 @@ bool Scene::standsTogether() const {
     if (instances_[id].live != (seen[id] != 0)) return false;
   const auto free = [&](InstanceId id) { return id < instances_.size() && !instances_[id].live; };
   if (!std::ranges::all_of(freeInstances_, free)) return false;
+  if (std::set(freeInstances_.begin(), freeInstances_.end()).size() != freeInstances_.size()) return false;
   for (const Light& l : lights_)
     if (l.live && (!placement(l.placement) || l.placement >= lightsAt_.size())) return false;
   if (std::ranges::any_of(shining_, [&](std::size_t h) { return h >= lights_.size(); })) return false;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <exception>
 #include <thread>
+#include <vector>
 
 namespace stadion {
 namespace {
@@ -106,6 +107,11 @@ Result<std::unique_ptr<OscServer>> OscServer::open(std::uint16_t port, Handler h
   lo_server_enable_queue(socket->server, 0, 1);
   lo_server_add_method(socket->server, nullptr, nullptr, &Socket::receive, socket.get());
   return std::unique_ptr<OscServer>(new OscServer(std::move(socket)));
+}
+
+void OscServer::hear(std::span<const std::uint8_t> packet) {
+  std::vector<std::uint8_t> bytes(packet.begin(), packet.end());  // liblo turns numbers round in place
+  if (lo_server_dispatch_data(socket_->server, bytes.data(), bytes.size()) < 0) ++socket_->malformed;
 }
 
 std::uint16_t OscServer::port() const {

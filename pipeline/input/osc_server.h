@@ -38,6 +38,9 @@ public:
   OscServer(const OscServer&) = delete;
   OscServer& operator=(const OscServer&) = delete;
 
+  /// As if that packet had come over the network, but on the caller's thread.
+  void hear(std::span<const std::uint8_t> packet);
+
   std::uint16_t port() const;
   /// Packets that were no OSC messages.
   std::uint64_t malformed() const;

@@ -25,7 +25,7 @@ Nanoseconds SenderClock::ours(Nanoseconds sent, Nanoseconds arrived) {
 }
 
 Result<std::unique_ptr<OscTrackers>> OscTrackers::open(std::uint16_t port, LiveTrackers& trackers) {
-  std::unique_ptr<OscTrackers> made(new OscTrackers(trackers));
+  auto made = std::make_unique<OscTrackers>(trackers);
   auto server = OscServer::open(port, [t = made.get()](const OscMessage& m) { t->take(m); });
   if (!server) return server.error();
   made->server_ = std::move(server.value());

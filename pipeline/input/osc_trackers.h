@@ -29,16 +29,18 @@ private:
 
 class OscTrackers {
 public:
-  /// Fails if the port is taken. The trackers must outlive it.
+  /// Hears of nothing but what take() is given. The trackers must outlive it.
+  explicit OscTrackers(LiveTrackers& trackers) : trackers_(trackers) {}
+  /// One that listens. Fails if the port is taken.
   static Result<std::unique_ptr<OscTrackers>> open(std::uint16_t port, LiveTrackers& trackers);
 
+  /// Of one that listens.
   std::uint16_t port() const { return server_->port(); }
+  void take(const OscMessage& m);
   /// Messages that were no measurements, packets that were no messages.
-  std::uint64_t misunderstood() const { return misunderstood_ + server_->malformed(); }
+  std::uint64_t misunderstood() const { return misunderstood_ + (server_ ? server_->malformed() : 0); }
 
 private:
-  explicit OscTrackers(LiveTrackers& trackers) : trackers_(trackers) {}
-  void take(const OscMessage& m);
   bool understood(std::string_view tracker, std::string_view what, const OscMessage& m, Nanoseconds clock);
 
   LiveTrackers& trackers_;

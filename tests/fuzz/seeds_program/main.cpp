@@ -1,0 +1,128 @@
+/// `fuzz_seeds DIR`: inputs that no file of the product holds, in a folder for each target.
+
+#include "engine/asset/import.h"
+#include "engine/asset/importer_answer.h"
+#include "tests/fuzz/built_show.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <lo/lo.h>
+
+namespace stadion::fuzz {
+namespace {
+
+using Seed = std::vector<std::uint8_t>;
+
+class Folder {
+public:
+  explicit Folder(const std::filesystem::path& path) : path_(path) {
+    std::filesystem::create_directories(path_);
+  }
+  void add(const std::string& name, const Seed& seed) const {
+    std::ofstream(path_ / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(seed.data()), static_cast<std::streamsize>(seed.size()));
+  }
+
+private:
+  std::filesystem::path path_;
+};
+
+Seed serialised(const char* path, lo_message message) {
+  std::size_t size = 0;
+  auto* bytes = static_cast<std::uint8_t*>(lo_message_serialise(message, path, nullptr, &size));
+  Seed seed(bytes, bytes + size);
+  std::free(bytes);
+  return seed;
+}
+
+template <class... Floats>
+lo_message floats(Floats... x) {
+  lo_message m = lo_message_new();
+  (lo_message_add_float(m, static_cast<float>(x)), ...);
+  return m;
+}
+
+void writeOsc(const Folder& to) {
+  const auto add = [&](const char* name, const char* path, lo_message m) {
+    to.add(name, serialised(path, m));
+    lo_message_free(m);
+  };
+  add("pose", "/tracker/head/pose", floats(0.5, 1, 1.25, 0, 0, 0, 1));
+  lo_message button = lo_message_new();
+  lo_message_add_int32(button, 2), lo_message_add_true(button);
+  add("button", "/tracker/wand/button", button);
+  lo_message axis = lo_message_new();
+  lo_message_add_int64(axis, 1), lo_message_add_double(axis, -0.5);
+  add("axis", "/tracker/wand/axis", axis);
+  add("pause", "/stadion/pause", floats());
+  add("volume", "/stadion/volume", floats(0.5));
+  add("eyes", "/stadion/eye-separation/by", floats(-0.01));
+  lo_message words = lo_message_new();
+  lo_message_add_string(words, "on"), lo_message_add_nil(words), lo_message_add_char(words, 'x');
+  const std::uint8_t bytes[] = {1, 2, 3};
+  lo_blob blob = lo_blob_new(sizeof bytes, bytes);
+  lo_message_add_blob(words, blob);
+  lo_blob_free(blob);
+  add("words", "/stadion/black", words);
+  lo_bundle inner = lo_bundle_new({1, 0}), outer = lo_bundle_new({3'000'000'000U, 7});
+  lo_bundle_add_message(inner, "/tracker/head/pose", floats(0, 1, 1, 0, 0, 0, 1));
+  lo_bundle_add_bundle(outer, inner);
+  lo_bundle_add_message(outer, "/tracker/wand/pose", floats(1, 1, 1, 0, 0, 0, 1));
+  std::size_t size = 0;
+  auto* packed = static_cast<std::uint8_t*>(lo_bundle_serialise(outer, nullptr, &size));
+  to.add("bundle", Seed(packed, packed + size));
+  std::free(packed);
+  lo_bundle_free_recursive(outer);
+}
+
+void writeStates(const Folder& to) {
+  const Workshop workshop;
+  BuiltShow show(workshop);
+  show.open();
+  int count = 0;
+  for (const int frames : {1, 1, 30, 30, 120}) {
+    show.play(static_cast<std::uint64_t>(frames));
+    to.add("state_" + std::to_string(++count), show.scene().save());
+  }
+}
+
+Seed answered(ImportStatus status, const std::string& text, const Seed& mesh) {
+  AnswerHead head;
+  head.status = status, head.textBytes = static_cast<std::uint32_t>(text.size()),
+  head.meshBytes = mesh.size();
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(&head);
+  Seed seed(bytes, bytes + sizeof head);
+  seed.insert(seed.end(), text.begin(), text.end());
+  seed.insert(seed.end(), mesh.begin(), mesh.end());
+  return seed;
+}
+
+void writeMeshes(const Folder& to) {
+  Mesh plain = *standIn("box");
+  plain.textures.clear(), plain.materials[0].texture = -1;
+  Mesh coloured = plain;
+  coloured.uvs.clear(), coloured.colours.assign(coloured.positions.size(), {255, 0, 0, 255});
+  coloured.materials.push_back({});
+  coloured.submeshes = {{0, 18, 0}, {18, 18, 1}};
+  Mesh textured = plain;
+  textured.textures.push_back({2, 1, Seed(8, 255), "two pixels"}), textured.materials[0].texture = 0;
+  to.add("plain", answered(ImportStatus::Loaded, "", encode(plain)));
+  to.add("coloured",
+         answered(ImportStatus::Loaded, "a texture is missing\nanother one, too", encode(coloured)));
+  to.add("textured", answered(ImportStatus::Loaded, "", encode(textured)));
+  to.add("failed", answered(ImportStatus::Failed, "is cut short", {}));
+}
+
+}  // namespace
+}  // namespace stadion::fuzz
+
+int main(int argc, char** argv) {
+  using namespace stadion::fuzz;
+  if (argc != 2) return std::fprintf(stderr, "fuzz_seeds DIR\n"), 2;
+  const std::filesystem::path to = argv[1];
+  writeOsc(Folder(to / "osc"));
+  writeStates(Folder(to / "scene_state"));
+  writeMeshes(Folder(to / "imported_mesh"));
+}
