@@ -1,5 +1,7 @@
 #include "pipeline/cluster/follower.h"
 
+#include "engine/text_line.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,8 +15,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kLook{100};  ///< how often a wait looks whether it is still wanted
-constexpr std::chrono::seconds kLong{2};         ///< who waits so long says what for
+constexpr std::chrono::milliseconds kLook{100};     ///< how often a wait looks whether it is still wanted
+constexpr std::chrono::seconds kLong{2};            ///< who waits so long says what for
+constexpr double kLeastRate = 1, kMostRate = 1000;  ///< of shows [1/s]
+constexpr std::size_t kMostOrders = 1U << 16U;      ///< heard and not obeyed: minutes of them
+constexpr std::size_t kMostTold = 200;              ///< of what another machine says [characters]
 
 std::uint64_t anyNumber() {
   std::random_device device;
@@ -36,8 +41,8 @@ private:
   const Follower& of_;
 };
 
-Follower::Follower(FollowerOptions options)
-    : options_(std::move(options)), incarnation_(anyNumber()), input_(std::make_unique<OrderedInput>(*this)) {
+Follower::Follower(FollowerOptions options, std::uint64_t incarnation)
+    : options_(std::move(options)), incarnation_(incarnation), input_(std::make_unique<OrderedInput>(*this)) {
 }
 
 Follower::~Follower() {
@@ -45,12 +50,18 @@ Follower::~Follower() {
 }
 
 Result<std::unique_ptr<Follower>> Follower::open(FollowerOptions options) {
-  std::unique_ptr<Follower> follower(new Follower(std::move(options)));
+  std::unique_ptr<Follower> follower(new Follower(std::move(options), anyNumber()));
   auto bus = Bus::open(follower->options_.cluster, *follower);
   if (!bus) return bus.error();
   follower->bus_ = std::move(bus.value());
   const std::lock_guard lock(follower->mutex_);
   follower->announce(Phase::Waiting);
+  return follower;
+}
+
+std::unique_ptr<Follower> Follower::unconnected(FollowerOptions options, std::uint64_t incarnation) {
+  std::unique_ptr<Follower> follower(new Follower(std::move(options), incarnation));
+  follower->bus_ = Bus::none();
   return follower;
 }
 
@@ -88,8 +99,8 @@ std::optional<Joining> Follower::join() {
     return {};
   }
   if (const std::string_view theirs = session_.settings; theirs != options_.settings)
-    options_.tell(fmt::format("{} plays with {}, we with {}: the walls will not look alike", lead, theirs,
-                              options_.settings));
+    options_.tell(fmt::format("{} plays with {}, we with {}: the walls will not look alike", lead,
+                              printable(theirs, kMostTold), options_.settings));
   joined_ = session_.number;
   Joining joining{session_.rate, {}};
   if (!session_.begun && session_.resumes == 0) return joining;
@@ -185,6 +196,8 @@ bool Follower::isToJoinAgain() const {
 void Follower::hear(const Session& session) {
   {
     const std::lock_guard lock(mutex_);
+    // Whoever looks for a show that is under way does not know its rate yet.
+    if (session.giver == kNobody && !(session.rate >= kLeastRate && session.rate <= kMostRate)) return;
     session_ = session;
     // While another one is asked for its scene, we keep ours.
     const bool holds =
@@ -198,7 +211,8 @@ void Follower::hear(const Order& order) {
   {
     const std::lock_guard lock(mutex_);
     if (joined_ != 0 && order.session != joined_) return;
-    orders_.push_back(readOrder(order));
+    if (orders_.size() >= kMostOrders) return;  // then one is missing, as where it makes no sense
+    if (auto heard = readOrder(order)) orders_.push_back(std::move(*heard));
   }
   changed_.notify_all();
 }

@@ -43,6 +43,8 @@ struct Joining {
 class Follower final : public FrameOrders, public BusListener {
 public:
   static Result<std::unique_ptr<Follower>> open(FollowerOptions options);
+  /// One that hears only what hear() is given.
+  static std::unique_ptr<Follower> unconnected(FollowerOptions options, std::uint64_t incarnation);
   ~Follower() override;
 
   /// Waits for who leads, and for the scene's state if the show is under way. Nothing: nobody waits any
@@ -82,7 +84,7 @@ public:
 private:
   class OrderedInput;
 
-  explicit Follower(FollowerOptions options);
+  Follower(FollowerOptions options, std::uint64_t incarnation);
   void announce(Phase phase);
   bool explain(std::unique_lock<std::mutex>& lock);
   template <class Ready>

@@ -1,5 +1,7 @@
 #include "pipeline/cluster/lead.h"
 
+#include "engine/text_line.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,7 +12,8 @@
 namespace stadion::cluster {
 namespace {
 
-constexpr std::size_t kHashesKept = 64;
+constexpr std::size_t kHashesKept = 64, kMostEarly = kHashesKept * ClusterFile::kMostNodes;
+constexpr std::size_t kMostTold = 200;              ///< of what another machine says [characters]
 constexpr std::chrono::milliseconds kLook{100};     ///< how often a wait looks whether it is still wanted
 constexpr std::chrono::milliseconds kSearch{1500};  ///< for others: so long until they are heard of
 constexpr std::chrono::seconds kGiving{5};          ///< a node may take so long to send its scene
@@ -53,18 +56,24 @@ private:
   Lead& lead_;
 };
 
-Lead::Lead(LeadOptions options)
+Lead::Lead(LeadOptions options, std::uint64_t session)
     : options_(std::move(options)), followers_(options_.cluster.nodes.size()), words_(followers_.size()) {
-  session_.number = anyNumber(), session_.show = options_.show, session_.giver = kNobody;
+  session_.number = session, session_.show = options_.show, session_.giver = kNobody;
   options_.settings.copy(session_.settings, sizeof(session_.settings) - 1);
 }
 
 Result<std::unique_ptr<Lead>> Lead::open(LeadOptions options) {
-  std::unique_ptr<Lead> lead(new Lead(std::move(options)));
+  std::unique_ptr<Lead> lead(new Lead(std::move(options), anyNumber()));
   auto bus = Bus::open(lead->options_.cluster, *lead);
   if (!bus) return bus.error();
   lead->bus_ = std::move(bus.value());
   lead->sender_ = std::thread([self = lead.get()] { self->sendParcels(); });
+  return lead;
+}
+
+std::unique_ptr<Lead> Lead::unconnected(LeadOptions options, std::uint64_t session) {
+  std::unique_ptr<Lead> lead(new Lead(std::move(options), session));
+  lead->bus_ = Bus::none();
   return lead;
 }
 
@@ -100,6 +109,7 @@ std::optional<ShowUnderWay> Lead::takeOver() {
     wait(Clock::now() + kGiving, [&] { return incoming_.complete() || f.plays == 0; });
     if (!incoming_.complete()) continue;
     SceneParcel scene = incoming_.take();
+    if (!isTime(scene.time)) continue;
     session_.giver = kNobody;
     pending_.signature.frame = scene.frame, pending_.signature.time = scene.time;
     options_.tell(
@@ -323,7 +333,7 @@ void Lead::hear(const SceneHash& h) {
   const auto ours = std::ranges::find(hashes_, h.frame, &std::pair<std::uint64_t, std::uint64_t>::first);
   if (ours != hashes_.end())
     compare(h.node, h.frame, h.hash);
-  else if (hashes_.empty() || h.frame > hashes_.back().first)
+  else if (early_.size() < kMostEarly && (hashes_.empty() || h.frame > hashes_.back().first))
     early_.push_back(h);
 }
 
@@ -345,7 +355,8 @@ void Lead::hear(const Difference& d) {
   if (d.session != session_.number || d.node >= followers_.size()) return;
   if (d.found)
     options_.tell(fmt::format("the scene of {} differs from ours after frame {}: {} is {} there and {} here",
-                              nameOf(d.node), d.frame, d.where, d.here, d.there));
+                              nameOf(d.node), d.frame, printable(d.where, kMostTold),
+                              printable(d.here, kMostTold), printable(d.there, kMostTold)));
   else
     options_.tell(fmt::format("the scene of {} is like ours after frame {}", nameOf(d.node), d.frame));
   stop_ = stop_ || (d.found && options_.cluster.stopOnDifference);

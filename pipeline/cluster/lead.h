@@ -46,6 +46,8 @@ struct ShowUnderWay {
 class Lead final : public FrameOrders, public BusListener {
 public:
   static Result<std::unique_ptr<Lead>> open(LeadOptions options);
+  /// One that hears only what hear() is given, and sends no scene to anybody.
+  static std::unique_ptr<Lead> unconnected(LeadOptions options, std::uint64_t session);
   ~Lead() override;
 
   /// Looks for a show that the others play, since who led them has died, and has one of them send its scene.
@@ -101,7 +103,7 @@ private:
     std::optional<Clock::time_point> drawnHere{};
   };
 
-  explicit Lead(LeadOptions options);
+  Lead(LeadOptions options, std::uint64_t session);
   void send(const InputSample* input);
   void answerWhoAsks();
   void sendParcels();

@@ -1,6 +1,7 @@
 #include "pipeline/cluster/orders.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <span>
 
@@ -35,6 +36,44 @@ stadion_wire_Tracker written(const TrackerSample& t) {
   return w;
 }
 
+constexpr double kFarthest = 1e7;  ///< from the rig: ten times what input logs may say [m]
+constexpr double kWidestEyes = 1;  ///< [m]
+
+bool isPlace(const Pose& X) {
+  const double squared = X.q.squaredNorm();
+  return X.finite() && X.p.cwiseAbs().maxCoeff() <= kFarthest && squared > 0.25 && squared < 4;
+}
+
+template <std::size_t N>
+bool areAxes(const std::array<float, N>& axes) {
+  return std::ranges::all_of(axes, [](float a) { return a >= -1 && a <= 1; });
+}
+
+template <class Knot>
+bool followEachOther(const std::vector<Knot>& knots) {
+  return std::ranges::all_of(knots, isTime, &Knot::time) && std::ranges::is_sorted(knots, {}, &Knot::time);
+}
+
+bool makesSense(const TrackerSample& t) {
+  return isPlace(t.X_RT) && areAxes(t.axes) && isTime(t.stamp) && followEachOther(t.knots) &&
+         followEachOther(t.controls) && std::ranges::all_of(t.knots, isPlace, &PoseKnot::X) &&
+         std::ranges::all_of(t.controls, areAxes<kTrackerAxes>, &ControlKnot::axes);
+}
+
+bool makesSense(const HeardOrder& heard) {
+  const TimeSignature& now = heard.order.signature;
+  const Presentation& shown = heard.order.shown;
+  if (!isTime(now.time) || now.step < 0 || now.step > now.time) return false;
+  if (!(std::abs(shown.eyeSeparation) <= kWidestEyes)) return false;
+  std::vector<std::string_view> names;
+  for (const TrackerSample& t : heard.input.trackers) {
+    if (!makesSense(t)) return false;
+    names.push_back(t.name);
+  }
+  std::ranges::sort(names);
+  return std::ranges::adjacent_find(names) == names.end();
+}
+
 TrackerSample read(const stadion_wire_Tracker& w) {
   TrackerSample t;
   t.name.assign(w.name, strnlen(w.name, sizeof(w.name)));
@@ -50,6 +89,11 @@ TrackerSample read(const stadion_wire_Tracker& w) {
 }
 
 }  // namespace
+
+bool isTime(Nanoseconds time) {
+  constexpr Nanoseconds kLatest = 1'000'000'000'000'000'000;  ///< thirty years of a show [ns]
+  return time >= 0 && time <= kLatest;
+}
 
 const Order& WrittenOrder::write(const OrderNumbers& numbers, const FrameOrder& o, const InputSample* input) {
   Order& w = order_;
@@ -90,17 +134,19 @@ std::size_t WrittenOrder::bytes() const {
   return bytes;
 }
 
-HeardOrder readOrder(const Order& w) {
+std::optional<HeardOrder> readOrder(const Order& w) {
   HeardOrder heard;
   heard.numbers = {w.session, w.serial, w.members, w.explain};
   TimeSignature& now = heard.order.signature;
   now.frame = w.frame, now.time = w.time, now.step = w.step;
-  for (const stadion_wire_Decision& d : spanOf(w.decisions)) now.load.add({d.load, d.position, d.level});
+  for (const stadion_wire_Decision& d : spanOf(w.decisions))
+    if (!now.load.add({d.load, d.position, d.level})) return {};
   heard.order.shown = {w.black, w.swap_eyes, w.eye_separation};
   heard.order.last = w.last, heard.order.still = w.still;
   heard.sampled = w.sampled;
   heard.input.time = w.time;
   for (const stadion_wire_Tracker& t : spanOf(w.trackers)) heard.input.trackers.push_back(read(t));
+  if (!makesSense(heard)) return {};
   return heard;
 }
 

@@ -8,6 +8,7 @@
 #include "pipeline/frame_orders.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace stadion::cluster {
@@ -42,6 +43,10 @@ struct HeardOrder {
   bool sampled = false;
   InputSample input;  ///< `measured` is 0: it is another machine's clock
 };
-HeardOrder readOrder(const Order& order);
+/// Nothing, if it says what no machine that leads says: poses and axes that are no numbers or far out of
+/// range, times that do not follow each other, one tracker twice.
+std::optional<HeardOrder> readOrder(const Order& order);
+/// Whether a show can be there: not before its beginning, nor for thirty years.
+bool isTime(Nanoseconds time);
 
 }  // namespace stadion::cluster

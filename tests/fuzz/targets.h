@@ -22,6 +22,7 @@ void rig_file(Bytes bytes);       ///< a rig file, and measurements that go thro
 void cluster_file(Bytes bytes);   ///< a cluster file
 void suite(Bytes bytes);          ///< a suite file
 void osc(Bytes bytes);            ///< packets on the OSC ports of trackers and operator
+void cluster_wire(Bytes bytes);   ///< what the machines of a cluster hear from each other
 void scene_state(Bytes bytes);    ///< a scene's state, as who leads a cluster sends it
 void imported_mesh(Bytes bytes);  ///< what the importer program answers
 
@@ -37,6 +38,7 @@ inline constexpr Target kTargets[] = {{"script", script},
                                       {"cluster_file", cluster_file},
                                       {"suite", suite},
                                       {"osc", osc},
+                                      {"cluster_wire", cluster_wire},
                                       {"scene_state", scene_state},
                                       {"imported_mesh", imported_mesh}};
 

@@ -2,10 +2,11 @@
 
 #include "engine/asset/import.h"
 #include "engine/asset/importer_answer.h"
+#include "engine/input/scripted_input.h"
+#include "pipeline/cluster/orders.h"
 #include "tests/fuzz/built_show.h"
+#include "tests/fuzz/packets.h"
 
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <lo/lo.h>
@@ -77,6 +78,78 @@ void writeOsc(const Folder& to) {
   lo_bundle_free_recursive(outer);
 }
 
+/// Steps one after another, as cluster_wire takes them.
+class Conversation {
+public:
+  Conversation& operator()(Step step, const Seed& bytes = {}) {
+    seed_.push_back(static_cast<std::uint8_t>(step));
+    seed_.push_back(static_cast<std::uint8_t>(bytes.size())),
+        seed_.push_back(static_cast<std::uint8_t>(bytes.size() >> 8U));
+    seed_.insert(seed_.end(), bytes.begin(), bytes.end());
+    return *this;
+  }
+  template <class T>
+  Conversation& operator()(Step step, const dds_topic_descriptor_t& type, const T& value) {
+    return (*this)(step, written(type, value));
+  }
+  const Seed& seed() const { return seed_; }
+
+private:
+  Seed seed_;
+};
+
+Seed orderOf(std::uint64_t serial) {
+  ScriptedInput visitor;
+  visitor.key("head", 0, Vec3(0, 0, 1.7)).key("head", 1, Vec3(0, 1, 1.7), Vec3(10, 0, 0), true);
+  visitor.key("wand", 0, Vec3(0.3, 0.5, 1.3)).key("wand", 0.51, Vec3(0.4, 0.5, 1.3), Vec3::Zero(), false, 1);
+  FrameOrder order;
+  order.signature = signatureAt(30 + serial, 60);
+  order.signature.load.add({1, 4, 2});
+  InputSample input;
+  visitor.sampleFrame(order.signature.time - order.signature.step, order.signature.time, input);
+  cluster::WrittenOrder written_order;
+  return written(stadion_wire_Order_desc, written_order.write({1, serial, 7, 0}, order, &input));
+}
+
+void writeConversations(const Folder& to) {
+  using namespace cluster;
+  Session waiting{};
+  waiting.number = 1, waiting.show = 1, waiting.rate = 60, waiting.giver = kNobody;
+  Session begun = waiting;
+  begun.begun = true;
+  std::vector<std::uint8_t> state(40, 7);
+  StatePart part{};
+  part.to = 1, part.session = 1, part.serial = 1, part.size = 2 * state.size();
+  part.bytes._buffer = state.data(), part.bytes._length = part.bytes._maximum = 40;
+  StatePart rest = part;
+  rest.offset = 40;
+  to.add("from_the_beginning", Conversation()(Step::Session, stadion_wire_Session_desc, waiting)(Step::Join)(
+                                   Step::Order, orderOf(1))(Step::Order, orderOf(2))(Step::Next)(Step::Next)(
+                                   Step::Show)(Step::Go, stadion_wire_Go_desc, Go{1, 2, 1})
+                                   .seed());
+  to.add("joins_later", Conversation()(Step::Session, stadion_wire_Session_desc,
+                                       begun)(Step::StatePart, stadion_wire_StatePart_desc,
+                                              part)(Step::StatePart, stadion_wire_StatePart_desc,
+                                                    rest)(Step::Order, orderOf(2))(Step::Join)(Step::Next)
+                            .seed());
+  std::string where = "ball (show.evs:3), velocity", here = "1", there = "2";
+  Difference difference{};
+  difference.node = 1, difference.session = 1, difference.frame = 3, difference.found = true;
+  difference.where = where.data(), difference.here = here.data(), difference.there = there.data();
+  to.add("takes_over", Conversation()(Step::Presence, stadion_wire_Presence_desc, Presence{1, 9, 1, 5, 2, 0})(
+                           Step::StatePart, stadion_wire_StatePart_desc, part)(
+                           Step::StatePart, stadion_wire_StatePart_desc, rest)(Step::TakeOver)(Step::Begin)
+                           .seed());
+  to.add("leads",
+         Conversation()(Step::Presence, stadion_wire_Presence_desc, Presence{1, 9, 1, 1, 2, 0})(
+             Step::Presence, stadion_wire_Presence_desc, Presence{2, 8, 1, 1, 1, 0})(Step::Issue, {1})(
+             Step::Drawn, stadion_wire_Drawn_desc, Drawn{1, 1, 1})(Step::Show)(Step::Simulated, {3})(
+             Step::SceneHash, stadion_wire_SceneHash_desc, SceneHash{1, 1, 3, 4})(
+             Step::SceneHash, stadion_wire_SceneHash_desc, SceneHash{2, 1, 5, 4})(Step::Simulated, {5})(
+             Step::Difference, stadion_wire_Difference_desc, difference)(Step::Left, {2})
+             .seed());
+}
+
 void writeStates(const Folder& to) {
   const Workshop workshop;
   BuiltShow show(workshop);
@@ -123,6 +196,7 @@ int main(int argc, char** argv) {
   if (argc != 2) return std::fprintf(stderr, "fuzz_seeds DIR\n"), 2;
   const std::filesystem::path to = argv[1];
   writeOsc(Folder(to / "osc"));
+  writeConversations(Folder(to / "cluster_wire"));
   writeStates(Folder(to / "scene_state"));
   writeMeshes(Folder(to / "imported_mesh"));
 }

@@ -1,0 +1,133 @@
+/// What machines of a cluster make of what no machine of a cluster says.
+
+#include "pipeline/cluster/follower.h"
+#include "pipeline/cluster/lead.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace stadion::cluster {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+ClusterFile room() {
+  ClusterFile file;
+  for (const char* name : {"front", "left"}) file.nodes.push_back({name, {name}, 1});
+  return file;
+}
+
+InputSample visitor() {
+  InputSample input;
+  for (const char* name : {"head", "wand"}) {
+    TrackerSample& t = input.trackers.emplace_back();
+    t.name = name, t.X_RT.p = Vec3(0, 0, 1.7), t.stamp = 900'000'000;
+    t.knots = {{950'000'000, t.X_RT, false}, {960'000'000, t.X_RT, true}};
+    t.controls = {{950'000'000, 1, {}}};
+  }
+  return input;
+}
+
+/// Whether an order is obeyed after `damage` has been done to it.
+template <class Damage>
+bool isObeyed(const Damage& damage) {
+  FrameOrder order;
+  order.signature = signatureAt(60, 60);
+  InputSample input = visitor();
+  damage(order, input);
+  WrittenOrder written;
+  return readOrder(written.write({1, 1, 3, 0}, order, &input)).has_value();
+}
+
+TEST(ClusterHearing, AnOrderThatSaysWhatCannotBeIsNone) {
+  using Input = InputSample;
+  EXPECT_TRUE(isObeyed([](FrameOrder&, Input&) {}));
+  EXPECT_FALSE(isObeyed([](FrameOrder&, Input& i) { i.trackers[0].X_RT.p.x() = kNan; }));
+  EXPECT_FALSE(isObeyed([](FrameOrder&, Input& i) { i.trackers[1].X_RT.p.y() = 1e300; }));
+  EXPECT_FALSE(isObeyed([](FrameOrder&, Input& i) { i.trackers[0].X_RT.q.coeffs().setZero(); }));
+  EXPECT_FALSE(isObeyed([](FrameOrder&, Input& i) { i.trackers[0].knots[1].X.p.z() = kNan; }));
+  EXPECT_FALSE(isObeyed([](FrameOrder&, Input& i) { i.trackers[0].knots[0].time = 970'000'000; }));
+  EXPECT_FALSE(isObeyed([](FrameOrder&, Input& i) { i.trackers[0].controls[0].time = -1; }));
+  EXPECT_FALSE(isObeyed([](FrameOrder&, Input& i) { i.trackers[0].axes[7] = static_cast<float>(kNan); }));
+  EXPECT_FALSE(isObeyed([](FrameOrder&, Input& i) { i.trackers[1].name = "head"; }));
+  EXPECT_FALSE(isObeyed([](FrameOrder& o, Input&) { o.signature.time = -1; }));
+  EXPECT_FALSE(isObeyed([](FrameOrder& o, Input&) { o.signature.step = o.signature.time + 1; }));
+  EXPECT_FALSE(isObeyed([](FrameOrder& o, Input&) { o.shown.eyeSeparation = kNan; }));
+}
+
+std::unique_ptr<Follower> follower() {
+  return Follower::unconnected({room(), 1, 1, "", [](const std::string&) {}, [] { return true; }}, 7);
+}
+
+Session session(double rate, bool begun) {
+  Session s{};
+  s.number = 1, s.show = 1, s.rate = rate, s.begun = begun, s.giver = kNobody;
+  return s;
+}
+
+TEST(ClusterHearing, ASessionWithoutARateIsNotJoined) {
+  for (const double rate : {kNan, 0.0, -60.0, 1e9}) {
+    const auto f = follower();
+    f->hear(session(rate, false));
+    EXPECT_FALSE(f->join()) << rate;
+  }
+  const auto f = follower();
+  f->hear(session(60, false));
+  EXPECT_TRUE(f->join());
+}
+
+TEST(ClusterHearing, AfterAnOrderThatIsNoneOneIsMissing) {
+  const auto f = follower();
+  f->hear(session(60, false));
+  ASSERT_TRUE(f->join());
+  WrittenOrder written;
+  InputSample input = visitor();
+  FrameOrder order;
+  order.signature = signatureAt(60, 60);
+  f->hear(written.write({1, 1, 3, 0}, order, &input));
+  EXPECT_TRUE(f->next());
+  input.trackers[0].X_RT.p.x() = kNan;
+  f->hear(written.write({1, 2, 3, 0}, order, &input));
+  input = visitor();
+  f->hear(written.write({1, 3, 3, 0}, order, &input));
+  EXPECT_FALSE(f->next());
+  EXPECT_TRUE(f->isToJoinAgain());
+}
+
+TEST(ClusterHearing, AStateArrivesInParts) {
+  const auto f = follower();
+  f->hear(session(60, true));
+  std::vector<std::uint8_t> bytes(10, 3);
+  StatePart part{};
+  part.to = 7, part.session = 1, part.serial = 4, part.size = 2 * bytes.size();
+  part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
+  f->hear(part);
+  part.size = 25, part.offset = 10;
+  f->hear(part);  // of another size: not a part of it
+  part.size = 20, part.offset = 5;
+  f->hear(part);  // not the next one
+  part.offset = 10;
+  f->hear(part);
+  const auto joining = f->join();
+  ASSERT_TRUE(joining);
+  EXPECT_EQ(*joining->state, std::vector<std::uint8_t>(20, 3));
+}
+
+TEST(ClusterHearing, WhatAnotherMachineSaysIsNoCommandToATerminal) {
+  std::string told;
+  const auto lead = Lead::unconnected({room(), 1, "", std::chrono::seconds(0),
+                                       [&](const std::string& what) { told = what; }, [] { return true; }},
+                                      1);
+  std::string where = "ball\x1b[2J", longText(5000, 'x'), there = "1";
+  Difference d{};
+  d.node = 1, d.session = 1, d.frame = 3, d.found = true;
+  d.where = where.data(), d.here = longText.data(), d.there = there.data();
+  lead->hear(d);
+  EXPECT_EQ(told.find('\x1b'), std::string::npos);
+  EXPECT_LT(told.size(), 1000U);
+}
+
+}  // namespace
+}  // namespace stadion::cluster
