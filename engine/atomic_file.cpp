@@ -43,7 +43,8 @@ std::optional<std::string> targetOf(fs::path path) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
+AtomicFile::AtomicFile(std::string path, Unfinished unfinished)
+    : unfinished_(unfinished), path_(std::move(path)) {
   struct stat status {};
   const bool exists = stat(path_.c_str(), &status) == 0;
   const bool ring = !exists && errno == ELOOP;
@@ -90,8 +91,24 @@ std::optional<Diagnostic> AtomicFile::commit() {
   if (!failed() && !temporary_.empty() && std::rename(temporary_.c_str(), target_.c_str()) != 0)
     fail(std::strerror(errno));
   if (!failed()) temporary_.clear();
+  if (failed() && unfinished_ == Unfinished::KeepsLines && keepLines())
+    error_->message += fmt::format("; what could be written is in {}.partial", target_);
   discard();
   return error_;
+}
+
+// To cut and to rename takes no room.
+bool AtomicFile::keepLines() {
+  std::FILE* const text = temporary_.empty() ? nullptr : std::fopen(temporary_.c_str(), "rbe");
+  if (!text) return false;
+  long whole = 0, at = 0;
+  for (int c = std::fgetc(text); c != EOF; c = std::fgetc(text))
+    if (++at, c == '\n') whole = at;
+  std::fclose(text);
+  if (whole == 0 || truncate(temporary_.c_str(), whole) != 0) return false;
+  if (std::rename(temporary_.c_str(), (target_ + ".partial").c_str()) != 0) return false;
+  temporary_.clear();
+  return true;
 }
 
 void AtomicFile::discard() {

@@ -22,7 +22,13 @@ namespace stadion {
 
 class AtomicFile {
 public:
-  explicit AtomicFile(std::string path);
+  /// What becomes of a text that cannot be finished.
+  enum class Unfinished {
+    Goes,
+    KeepsLines,  ///< its whole lines are kept as PATH.partial, in the place of an older one
+  };
+
+  explicit AtomicFile(std::string path, Unfinished unfinished = Unfinished::Goes);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -40,7 +46,9 @@ public:
 
 private:
   void discard();
+  bool keepLines();
 
+  Unfinished unfinished_;
   std::string path_;       ///< as it was named
   std::string target_;     ///< what its links lead to
   std::string temporary_;  ///< empty: the target is written directly

@@ -7,7 +7,8 @@
 /// Ownership  owns the file, which appears under its name only with commit(); without it nothing is left
 ///            behind.
 /// Threads    one thread.
-/// Errors     kept until commit() (a full disk loses the recording, not the show). A tracker that is not
+/// Errors     kept until commit(): a full disk does not end the show, and what could be written is kept as
+///            PATH.partial, a log of its own. A tracker that is not
 ///            valid or whose pose is not finite is recorded as lost; a pose out of true is normalised; a
 ///            sample that is not later than the tracker's last one is left out.
 

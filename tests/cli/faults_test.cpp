@@ -183,7 +183,7 @@ TEST_F(ProgramFaults, AModelThatTheDiskCannotReadHasAStandIn) {
   EXPECT_TRUE(has(r.err, "a stand-in is shown in its place")) << r.err;
 }
 
-TEST_F(ProgramFaults, ADiskThatIsFullWhileInputIsRecordedCostsTheRecordAndNothingElse) {
+TEST_F(ProgramFaults, ADiskThatIsFullWhileInputIsRecordedCostsTheRestOfTheRecordAndNothingElse) {
   const ProgramResult whole = runProgram(run("", {"--gl", "none"}));
   const std::string record = folder_.write("record.input", "stadion-input 1\nkey head 0  0 0 1.7\n");
   const std::string before = fileContent(record);
@@ -193,6 +193,9 @@ TEST_F(ProgramFaults, ADiskThatIsFullWhileInputIsRecordedCostsTheRecordAndNothin
   EXPECT_TRUE(has(r.err, "record.input: cannot be written: No space left on device")) << r.err;
   EXPECT_EQ(hashOf(r), hashOf(whole));
   EXPECT_EQ(fileContent(record), before);
+  EXPECT_TRUE(has(r.err, "what could be written is in")) << r.err;
+  EXPECT_GT(fileContent(record + ".partial").size(), 500U);
+  EXPECT_EQ(runProgram(run("", {"--gl", "none", "--input", record + ".partial"})).status, 0);
   EXPECT_EQ(leftOver(), std::set<std::string>());
 }
 
