@@ -99,9 +99,9 @@ std::optional<Asked> askedIn(const Way& way) {
   return asked;
 }
 
-class ProgramSteadyRun : public ::testing::TestWithParam<Way> {};
+class ProgramAloneSteadyRun : public ::testing::TestWithParam<Way> {};
 
-TEST_P(ProgramSteadyRun, AsksForNoMemory) {
+TEST_P(ProgramAloneSteadyRun, AsksForNoMemory) {
   if (!countsAllocations()) GTEST_SKIP() << "a sanitizer counts its own";
   const auto asked = askedIn(GetParam());
   ASSERT_TRUE(asked) << "the show cannot be played";
@@ -118,7 +118,7 @@ std::string nameOf(const ::testing::TestParamInfo<Way>& way) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Program, ProgramSteadyRun,
+    ProgramAlone, ProgramAloneSteadyRun,
     ::testing::Values(Way{"process", "plain", "cave4", true}, Way{"process", "plain", "cave4", false},
                       Way{"process", "full", "desktop", true}, Way{"process", "full", "desktop", false},
                       Way{"thread", "plain", "cave4", true}, Way{"thread", "full", "desktop", true}),
