@@ -32,6 +32,7 @@ constexpr std::uint64_t kSampleEvery = 1000, kSampleAt = 50;  ///< frames: while
 constexpr std::uint64_t kCheckEvery = 500, kKillEvery = 700;  ///< frames
 constexpr double kMostSlope = 1024;                           ///< [byte] in 10 000 frames
 constexpr std::uint64_t kSlopeFrames = 10'000;
+constexpr double kMostOfVisit = 4096;  ///< [byte] from visit to visit
 
 struct Options {
   std::vector<std::string> shows;
@@ -164,7 +165,7 @@ void Soak::see(const TimeSignature& now, const Scene& scene, const RunWatch& wat
   c.seconds += std::chrono::duration<double>(clock - measured_).count();
   measured_ = clock;
   const ProcessFigures p = processFigures();
-  record_.add({0, c.frames, p.residentBytes, p.heapBytes, p.handles, p.threads});
+  record_.add({0, c.visits, c.frames, p.residentBytes, p.heapBytes, p.handles, p.threads});
   if (clock - told_ > std::chrono::seconds(10)) told_ = clock, tellProgress();
 }
 
@@ -209,20 +210,30 @@ bool tellVerdicts(const Options& o, const SoakRecord& record) {
   const auto slope = [&](std::uint64_t SoakSample::*figure) {
     return slopeOf(samples, figure).value_or(0) * static_cast<double>(kSlopeFrames);
   };
-  if (samples.size() < 10) {
-    std::printf("  -      %zu samples after the first %ju frames of a process: too few to say what grows\n",
+  constexpr std::size_t kFewest = 10;
+  if (samples.size() < kFewest) {
+    std::printf("  -      memory in a visit: %zu samples after its first %ju frames are too few\n",
                 samples.size(), static_cast<std::uintmax_t>(warmUp));
-    return v.well();
+  } else {
+    const double resident = slope(&SoakSample::residentBytes);
+    v.add(resident < kMostSlope,
+          fmt::format("memory in a visit: {:+.1f} bytes in 10 000 frames (RSS; less than {} is asked for), "
+                      "{:+.1f} of them asked for by the program; {} samples",
+                      resident, kMostSlope, slope(&SoakSample::heapBytes), samples.size()));
   }
-  const double resident = slope(&SoakSample::residentBytes);
-  v.add(resident < kMostSlope,
-        fmt::format("memory: {:+.1f} bytes in 10 000 frames (RSS; less than {} is asked for), "
-                    "{:+.1f} of them asked for by the program; {} samples",
-                    resident, kMostSlope, slope(&SoakSample::heapBytes), samples.size()));
-  const auto handles = growthOf(samples, &SoakSample::handles),
-             threads = growthOf(samples, &SoakSample::threads);
-  v.add(handles <= 0, fmt::format("handles: {:+} of {}", handles, samples.back().handles));
-  v.add(threads <= 0, fmt::format("threads: {:+} of {}", threads, samples.back().threads));
+  if (const auto more = slopeOfVisits(record.samples(), &SoakSample::heapBytes))
+    v.add(
+        *more < kMostOfVisit,
+        fmt::format("memory from visit to visit: {:+.1f} bytes more asked for by the program (less than {}); "
+                    "{:+.1f} bytes of RSS",
+                    *more, kMostOfVisit, *slopeOfVisits(record.samples(), &SoakSample::residentBytes)));
+  else
+    std::printf("  -      memory from visit to visit: too few visits (--visit)\n");
+  if (record.samples().size() < kFewest) return v.well();
+  const auto handles = growthOf(record.samples(), &SoakSample::handles),
+             threads = growthOf(record.samples(), &SoakSample::threads);
+  v.add(handles <= 0, fmt::format("handles: {:+} of {}", handles, record.samples().back().handles));
+  v.add(threads <= 0, fmt::format("threads: {:+} of {}", threads, record.samples().back().threads));
   return v.well();
 }
 
@@ -266,7 +277,9 @@ void addSoakCommand(CLI::App& app, int& code) {
       ->check(CLI::IsMember({"full", "plain"}))
       ->capture_default_str();
   command->footer(
-      "Fails (exit code 1) if memory grows by 1 KiB or more in 10 000 frames, if handles or threads become "
+      "Fails (exit code 1) if memory grows by 1 KiB or more in 10 000 frames of a visit, or by 4 KiB from "
+      "visit "
+      "to visit, if handles or threads become "
       "more, if a "
       "frame is not\none tick after the one before, or if the same frame of a show has another state "
       "than before. docs/all-day.md");

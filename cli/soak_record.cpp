@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -15,6 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int kVersion = 2;
 constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
 
 Json jsonOf(const SoakCounts& c) {
@@ -49,7 +51,7 @@ std::unique_ptr<SoakRecord> SoakRecord::open(const std::string& file, const std:
   if (!record->file_)
     return findings.error({}, "--record: " + file + " cannot be written: " + std::strerror(errno)), nullptr;
   // What a run that was killed has left of a line stays a line of its own.
-  record->write(goesOn ? "" : Json{{"stadion-soak", 1}, {"what", what}}.dump());
+  record->write(goesOn ? "" : Json{{"stadion-soak", kVersion}, {"what", what}}.dump());
   return record;
 }
 
@@ -63,17 +65,18 @@ bool SoakRecord::read(const std::string& text, const std::string& what) {
   const auto parsed = [&] { return Json::parse(line, nullptr, false); };
   if (!std::getline(in, line)) return false;
   const Json head = parsed();
-  if (!head.is_object() || head.value("stadion-soak", 0) != 1 || head.value("what", "") != what) return false;
+  if (!head.is_object() || head.value("stadion-soak", 0) != kVersion || head.value("what", "") != what)
+    return false;
   std::uint32_t last = 0;
   while (std::getline(in, line)) try {
       const Json j = Json::parse(line);
       if (j.contains("sample")) {
         const Json& s = j.at("sample");
-        samples_.push_back({s.at(0), s.at(1), s.at(2), s.at(3), s.at(4), s.at(5)});
+        samples_.push_back({s.at(0), s.at(1), s.at(2), s.at(3), s.at(4), s.at(5), s.at(6)});
         counts = countsOf(j.at("counts"));
         last = samples_.back().process;
       } else {
-        histories_[{j.at("show"), j.at("frame")}] = j.at("history");
+        known(j.at("show"), j.at("frame"), j.at("history"));
       }
     } catch (const Json::exception&) {
       continue;  // half a line: the run ended there
@@ -91,16 +94,26 @@ void SoakRecord::write(const std::string& line) {
 void SoakRecord::add(SoakSample s) {
   s.process = process_;
   samples_.push_back(s);
-  write(Json{{"sample", {s.process, s.frame, s.residentBytes, s.heapBytes, s.handles, s.threads}},
+  write(Json{{"sample", {s.process, s.visit, s.frame, s.residentBytes, s.heapBytes, s.handles, s.threads}},
              {"counts", jsonOf(counts)}}
             .dump());
 }
 
+/// What that frame's history was before; nothing: now it is known.
+std::optional<std::uint64_t> SoakRecord::known(const std::string& show, std::uint64_t frame,
+                                               std::uint64_t history) {
+  auto& all = histories_[show];
+  const auto at = std::ranges::lower_bound(all, frame, {}, &std::pair<std::uint64_t, std::uint64_t>::first);
+  if (at != all.end() && at->first == frame) return at->second;
+  all.emplace(at, frame, history);
+  return {};
+}
+
 bool SoakRecord::agrees(const std::string& show, std::uint64_t frame, std::uint64_t history) {
-  const auto [at, first] = histories_.emplace(std::pair(show, frame), history);
-  if (first) write(Json{{"show", show}, {"frame", frame}, {"history", history}}.dump());
-  if (!first) ++counts.compared;
-  return at->second == history;
+  const auto before = known(show, frame, history);
+  if (before) return ++counts.compared, *before == history;
+  write(Json{{"show", show}, {"frame", frame}, {"history", history}}.dump());
+  return true;
 }
 
 }  // namespace stadion

@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,12 +54,14 @@ public:
 private:
   SoakRecord() = default;
   bool read(const std::string& text, const std::string& what);
+  std::optional<std::uint64_t> known(const std::string& show, std::uint64_t frame, std::uint64_t history);
   void write(const std::string& line);
 
   std::FILE* file_ = nullptr;
   std::uint32_t process_ = 0;
   std::vector<SoakSample> samples_;
-  std::map<std::pair<std::string, std::uint64_t>, std::uint64_t> histories_;
+  /// By show, then by frame: flat, so that the soak itself hardly grows.
+  std::map<std::string, std::vector<std::pair<std::uint64_t, std::uint64_t>>> histories_;
 };
 
 }  // namespace stadion

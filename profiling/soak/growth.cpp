@@ -2,11 +2,20 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace stadion {
 namespace {
 
 using ByProcess = std::map<std::uint32_t, std::vector<SoakSample>>;
+
+using ByVisit = std::map<std::pair<std::uint32_t, std::uint64_t>, std::vector<SoakSample>>;
+
+ByVisit byVisit(std::span<const SoakSample> samples) {
+  ByVisit all;
+  for (const SoakSample& s : samples) all[{s.process, s.visit}].push_back(s);
+  return all;
+}
 
 ByProcess byProcess(std::span<const SoakSample> samples) {
   ByProcess all;
@@ -14,14 +23,35 @@ ByProcess byProcess(std::span<const SoakSample> samples) {
   return all;
 }
 
-/// So many of each process: of their pairs there are half a million.
+/// So many of each series: of their pairs there are half a million.
 constexpr std::size_t kMost = 1000;
+constexpr std::size_t kFewestVisits = 10;
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+/// Adds the slopes between any two of them.
+void addSlopes(const std::vector<Point>& points, std::vector<double>& slopes) {
+  const std::size_t stride = points.size() / kMost + 1;
+  for (std::size_t i = 0; i < points.size(); i += stride)
+    for (std::size_t j = i + stride; j < points.size(); j += stride)
+      if (points[j].x > points[i].x)
+        slopes.push_back((points[j].y - points[i].y) / (points[j].x - points[i].x));
+}
+
+std::optional<double> middleOf(std::vector<double> slopes) {
+  if (slopes.empty()) return {};
+  const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
+  std::nth_element(slopes.begin(), middle, slopes.end());
+  return *middle;
+}
 
 }  // namespace
 
 std::vector<SoakSample> afterWarmUp(std::span<const SoakSample> samples, std::uint64_t frames) {
   std::vector<SoakSample> kept;
-  for (const auto& [process, all] : byProcess(samples))
+  for (const auto& [visit, all] : byVisit(samples))
     for (const SoakSample& s : all)
       if (s.frame - all.front().frame >= frames) kept.push_back(s);
   return kept;
@@ -29,19 +59,25 @@ std::vector<SoakSample> afterWarmUp(std::span<const SoakSample> samples, std::ui
 
 std::optional<double> slopeOf(std::span<const SoakSample> samples, std::uint64_t SoakSample::*figure) {
   std::vector<double> slopes;
-  for (const auto& [process, all] : byProcess(samples)) {
-    const std::size_t stride = all.size() / kMost + 1;
-    for (std::size_t i = 0; i < all.size(); i += stride)
-      for (std::size_t j = i + stride; j < all.size(); j += stride) {
-        if (all[j].frame <= all[i].frame) continue;
-        const double rise = static_cast<double>(all[j].*figure) - static_cast<double>(all[i].*figure);
-        slopes.push_back(rise / static_cast<double>(all[j].frame - all[i].frame));
-      }
+  for (const auto& [visit, all] : byVisit(samples)) {
+    std::vector<Point> points;
+    for (const SoakSample& s : all)
+      points.push_back({static_cast<double>(s.frame), static_cast<double>(s.*figure)});
+    addSlopes(points, slopes);
   }
-  if (slopes.empty()) return {};
-  const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
-  std::nth_element(slopes.begin(), middle, slopes.end());
-  return *middle;
+  return middleOf(std::move(slopes));
+}
+
+std::optional<double> slopeOfVisits(std::span<const SoakSample> samples, std::uint64_t SoakSample::*figure) {
+  std::map<std::uint32_t, std::vector<Point>> visits;  // by process
+  for (const auto& [visit, all] : byVisit(samples)) {
+    std::vector<Point>& points = visits[visit.first];
+    points.push_back({static_cast<double>(points.size()), static_cast<double>(all.back().*figure)});
+  }
+  std::vector<double> slopes;
+  for (const auto& [process, points] : visits)
+    if (points.size() >= kFewestVisits) addSlopes(points, slopes);
+  return middleOf(std::move(slopes));
 }
 
 std::int64_t growthOf(std::span<const SoakSample> samples, std::uint64_t SoakSample::*figure) {

@@ -1,5 +1,5 @@
-/// Machines of a cluster that talk over the real network of this machine, all in one process: a scene is a
-/// number that each frame changes.
+/// Machines of a cluster that talk over the network of this machine, each a process: a scene is a number that
+/// each frame changes.
 
 #include "engine/input/scripted_input.h"
 #include "engine/state_hash.h"
@@ -7,24 +7,26 @@
 #include "pipeline/cluster/lead.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cstring>
 #include <functional>
-#include <map>
 #include <mutex>
-#include <thread>
+#include <utility>
 
 namespace stadion::cluster {
 namespace {
 
 constexpr std::uint64_t kFrames = 60, kHashEvery = 10;
 
-ClusterFile room() {
+ClusterFile room(pid_t test) {
   ClusterFile file;
   for (const char* name : {"front", "left", "right"}) file.nodes.push_back({name, {name}, 1});
-  file.partition = "talk" + std::to_string(getpid());
+  file.partition = "talk" + std::to_string(test);
   file.hashEvery = kHashEvery;
   file.deadline = 2;
   return file;
@@ -74,21 +76,37 @@ private:
   std::string all_;
 };
 
+/// What the processes have in common.
+struct Common {
+  std::atomic<std::uint64_t> frame = 0;  ///< that has been shown
+  std::atomic<std::uint64_t> ends[3]{};  ///< by node: its scene at the end
+};
+
 class ThreadsCluster : public ::testing::Test {
 protected:
-  ThreadsCluster() { visitor_.key("head", 0, Vec3(0, 0, 1.7)).key("head", 2, Vec3(0, 1, 1.7)); }
+  ThreadsCluster()
+      : common_(new (mmap(nullptr, sizeof(Common), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
+                    Common) {
+    visitor_.key("head", 0, Vec3(0, 0, 1.7)).key("head", 2, Vec3(0, 1, 1.7));
+  }
   ~ThreadsCluster() override {
-    stop_ = true;
-    for (std::thread& t : machines_) t.join();
+    for (const pid_t machine : machines_) kill(machine, SIGKILL), waitpid(machine, nullptr, 0);
+    munmap(common_, sizeof(Common));
   }
 
-  std::function<bool()> stopped() {
-    return [this] { return stop_.load(); };
+  /// A machine that follows until the last frame, from frame `from` on. All are started before this process
+  /// has threads. `disturb` may change its scene after a frame.
+  using Disturb = std::function<void(std::uint64_t frame, NumberScene&)>;
+  void follow(std::size_t node, std::uint64_t from = 0, const Disturb& disturb = {}) {
+    const pid_t machine = fork();
+    if (machine != 0) return machines_.push_back(machine);
+    while (common_->frame < from) usleep(1000);
+    _exit(play(node, disturb) ? 0 : 1);
   }
 
   void openLead() {
     lead_.reset();
-    auto lead = Lead::open({room(), 1, "", patience_, told_.teller(), stopped()});
+    auto lead = Lead::open({room(test_), 1, "", patience_, told_.teller(), [] { return false; }});
     ASSERT_TRUE(lead) << lead.error().message;
     lead_ = std::move(lead.value());
     lead_->saveWith([this] { return scene_.save(); });
@@ -105,102 +123,100 @@ protected:
     scene_.simulate(now, input);
     if (lead_->compares(number)) lead_->simulated(number, scene_.number);
     EXPECT_TRUE(lead_->mayShow(now));
+    common_->frame = number;
   }
-
-  /// A machine that follows until the last frame. `disturb` may change its scene after a frame.
-  void follow(std::size_t node, std::function<void(std::uint64_t, NumberScene&)> disturb = {}) {
-    machines_.emplace_back([this, node, disturb] {
-      NumberScene scene;
-      TimeSignature last;
-      for (bool over = false; !over && !stop_;) {
-        auto opened = Follower::open({room(), node, 1, "", told_.teller(), stopped()});
-        if (!opened) return told_.teller()(opened.error().message);
-        Follower& follower = *opened.value();
-        const auto joining = follower.join();
-        if (!joining) continue;
-        scene = {};
-        if (joining->state) scene.restore(*joining->state);
-        follower.compareWith([&](const std::vector<std::uint8_t>& there) -> std::optional<Follower::Differs> {
-          if (scene.save() == there) return {};
-          return Follower::Differs{"the number", "one", "another"};
-        });
-        while (const auto order = follower.next()) {
-          InputSample input;
-          follower.input().sampleAt(order->signature.time, input);
-          scene.simulate(order->signature, input);
-          last = order->signature;
-          if (disturb) disturb(last.frame, scene);
-          if (follower.compares(last.frame)) follower.simulated(last.frame, scene.number);
-          if (!follower.mayShow(last)) break;
-          over = order->last;
-          if (over) break;
-        }
-        if (follower.isAskedForScene()) follower.giveScene(last, scene.save());
-        follower.finish();
-      }
-      const std::lock_guard lock(mutex_);
-      ends_[node] = scene.number;
-    });
+  /// Frames until that was told, kFrames at least. The last one is the last of all.
+  void framesUntil(const std::string& told) {
+    std::uint64_t f = 0;
+    for (; f < kFrames || (!told_.has(told) && f < 100'000); ++f) frame(f);
+    frame(f, true);
+    lead_->finish();
   }
 
   void expectAllAlike() {
-    for (std::thread& t : machines_) t.join();
+    for (const pid_t machine : machines_) {
+      int status = -1;
+      waitpid(machine, &status, 0);
+      EXPECT_EQ(status, 0) << told_.all();
+    }
+    for (std::size_t node = 1; node <= machines_.size(); ++node)
+      EXPECT_EQ(common_->ends[node], scene_.number) << node << "\n" << told_.all();
     machines_.clear();
-    for (const auto& [node, number] : ends_) EXPECT_EQ(number, scene_.number) << node << "\n" << told_.all();
   }
 
+  const pid_t test_ = getpid();
+  Common* common_;
+  std::chrono::seconds patience_{20};  ///< with who has not come
   ScriptedInput visitor_;
   NumberScene scene_;
   Told told_;
-  std::atomic<bool> stop_ = false;
-  std::chrono::seconds patience_{20};  ///< with who has not come
   std::unique_ptr<Lead> lead_;
-  std::mutex mutex_;
-  std::map<std::size_t, std::uint64_t> ends_;
-  std::vector<std::thread> machines_;
+  std::vector<pid_t> machines_;
+
+private:
+  /// False: there is no network.
+  bool play(std::size_t node, const Disturb& disturb) {
+    NumberScene scene;
+    for (bool over = false; !over;) {
+      auto opened = Follower::open({room(test_), node, 1, "", [](const std::string&) {}, [] { return false; }});
+      if (!opened) return false;
+      Follower& follower = *opened.value();
+      const auto joining = follower.join();
+      if (!joining) continue;
+      scene = {};
+      if (joining->state) scene.restore(*joining->state);
+      follower.compareWith([&](const std::vector<std::uint8_t>& there) -> std::optional<Follower::Differs> {
+        if (scene.save() == there) return {};
+        return Follower::Differs{"the number", "one", "another"};
+      });
+      TimeSignature last;
+      while (const auto order = follower.next()) {
+        last = order->signature;
+        InputSample input;
+        follower.input().sampleAt(last.time, input);
+        scene.simulate(last, input);
+        if (disturb) disturb(last.frame, scene);
+        if (follower.compares(last.frame)) follower.simulated(last.frame, scene.number);
+        over = follower.mayShow(last) && order->last;
+        if (over) break;
+      }
+      if (follower.isAskedForScene()) follower.giveScene(last, scene.save());
+      follower.finish();
+    }
+    common_->ends[node] = scene.number;
+    return true;
+  }
 };
 
 TEST_F(ThreadsCluster, AllComeToTheSameScene) {
   follow(1), follow(2);
   openLead();
   lead_->begin(60);
-  for (std::uint64_t f = 0; f < kFrames; ++f) frame(f, f + 1 == kFrames);
-  lead_->finish();
+  framesUntil("");
   expectAllAlike();
-  EXPECT_EQ(ends_.size(), 2U);
   EXPECT_EQ(lead_->tally().leftOut, 0U) << told_.all();
   EXPECT_EQ(lead_->tally().differed, 0U);
 }
 
 TEST_F(ThreadsCluster, WhoComesLaterGetsTheScene) {
-  follow(1);
+  follow(1), follow(2, 20);
   patience_ = std::chrono::seconds(1);
   openLead();
-  lead_->begin(60);  // without the third
-  for (std::uint64_t f = 0; f < kFrames; ++f) {
-    if (f == 20) follow(2);
-    frame(f);
-  }
-  std::uint64_t f = kFrames;
-  for (; !told_.has("right plays with us") && f < 100'000; ++f) frame(f);
-  frame(f, true);
-  lead_->finish();
+  lead_->begin(60);
+  EXPECT_TRUE(told_.has("the show begins without right")) << told_.all();
+  framesUntil("right plays with us");
   expectAllAlike();
-  EXPECT_EQ(ends_.size(), 2U) << told_.all();
 }
 
 TEST_F(ThreadsCluster, AnotherSceneIsNamedAndTakenOver) {
-  std::atomic<bool> done = false;
+  bool done = false;
   follow(1);
-  follow(2, [&](std::uint64_t frame, NumberScene& scene) {
-    if (frame == 25 && !done.exchange(true)) scene.number ^= 1;
+  follow(2, 0, [&](std::uint64_t frame, NumberScene& scene) {
+    if (frame == 25 && !std::exchange(done, true)) scene.number ^= 1;
   });
   openLead();
   lead_->begin(60);
-  std::uint64_t f = 0;
-  for (; f < kFrames || (!told_.has("right plays with us") && f < 100'000); ++f) frame(f);
-  frame(f, true);
-  lead_->finish();
+  framesUntil("right plays with us");
   expectAllAlike();
   EXPECT_TRUE(told_.has("the scene of right differs from ours since frame 30 at the latest")) << told_.all();
   EXPECT_TRUE(told_.has("the number is one there and another here")) << told_.all();
@@ -220,7 +236,7 @@ TEST_F(ThreadsCluster, WhoLeadsAnewGoesOnFromAnothersScene) {
   EXPECT_EQ(scene_.number, before);
   EXPECT_EQ(underWay->last.frame, 29U);
   lead_->begin(60);
-  for (std::uint64_t f = 30; f < kFrames; ++f) frame(f, f + 1 == kFrames);
+  for (std::uint64_t f = 30; f <= kFrames; ++f) frame(f, f == kFrames);
   lead_->finish();
   expectAllAlike();
 }
