@@ -174,9 +174,12 @@ bool Follower::mayShow(const TimeSignature&) {
   shows_.pop_front();
   shown_ = serial;
   if (!member) return true;
-  bus_->tell(Drawn{static_cast<std::uint8_t>(options_.node), joined_, serial});
+  const Drawn told{static_cast<std::uint8_t>(options_.node), joined_, serial};
+  bus_->tell(told);
   const auto drawn = Clock::now();
-  while (go_ < serial && !again_ && !options_.stop()) changed_.wait_for(lock, kLook);
+  // Said again after a while: who has just come is not heard on all channels at once, nor hears all of them.
+  while (go_ < serial && !again_ && !options_.stop())
+    if (changed_.wait_for(lock, kLook) == std::cv_status::timeout) bus_->tell(told);
   if (go_ == serial && latest_ == options_.node)
     tally_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
   return go_ >= serial;

@@ -286,7 +286,10 @@ void Lead::hear(const Drawn& d) {
   const std::lock_guard lock(mutex_);
   if (d.session != session_.number || d.node >= followers_.size()) return;
   const auto at = std::ranges::find(rounds_, d.serial, &Round::serial);
-  if (at == rounds_.end()) return;
+  if (at == rounds_.end()) {
+    if (d.serial <= go_) bus_->tell(Go{session_.number, go_, latest_});  // it has not heard that it may
+    return;
+  }
   at->awaited &= ~bit(d.node);
   latest_ = d.node;
   release();

@@ -221,6 +221,8 @@ void disturb(const RunningCluster& cluster, int times, int signal) {
               "most; back after %.0f ms, %.0f at most\n",
               times, gaps.back(), gaps.size() - back.size(), gaps[gaps.size() - back.size() - 1],
               back[back.size() / 2], back.back());
+  EXPECT_LE(gaps.back(), 300 + 100) << cluster.told();
+  EXPECT_LE(back.back(), 2000) << cluster.told();
 }
 
 TEST(ProgramFullCluster, AHundredMachinesDie) {
