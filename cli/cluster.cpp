@@ -40,6 +40,9 @@ struct NodeProcess {
   std::optional<int> status{};
   unsigned starts = 0;
 
+  void interrupt() const {
+    if (child.pid() > 0) kill(child.pid(), SIGINT);  // -1 would be everybody
+  }
   bool start() {
     said = makeMemoryFile(), status.reset(), ++starts;
     return !child.start(words, {-1, said.get(), 2});
@@ -70,21 +73,25 @@ void watch(const Options& o, std::deque<NodeProcess>& nodes, std::size_t lead) {
     running = false;
     for (NodeProcess& node : nodes) {
       if (node.status) continue;
-      if (stop && !told) kill(node.child.pid(), SIGINT);
+      if (stop && !told) node.interrupt();
       node.status = node.child.wait(std::chrono::milliseconds(0));
       running = running || !node.status;
       const bool over = nodes[lead].status && !died(nodes[lead]);
       if (!died(node) || o.once || stop || over) continue;
       std::fprintf(stderr, "cluster: %s was ended by signal %d and begins again\n", node.name.c_str(),
                    *node.status - 128);
-      running = node.start() || running;
+      if (node.start())
+        running = true;
+      else
+        node.status = kInternalFault,
+        std::fprintf(stderr, "cluster: %s cannot be started\n", node.name.c_str());
     }
     told = stop;
     if (!ended && nodes[lead].status && !died(nodes[lead])) ended = std::chrono::steady_clock::now();
     if (ended && !overTold && std::chrono::steady_clock::now() - *ended > kAfterLead) {
       overTold = true;
       for (NodeProcess& node : nodes)
-        if (!node.status) kill(node.child.pid(), SIGINT);
+        if (!node.status) node.interrupt();
     }
     std::this_thread::sleep_for(kLook);
   }

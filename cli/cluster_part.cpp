@@ -97,7 +97,7 @@ bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
     follower_ = std::move(opened.value());
     if (const auto joining = follower_->join()) {
       show.rate = joining->rate, show.rateGiven = true;
-      show.state = joining->state;
+      show.state = joining->state, last_ = joining->after;
       goesOn_ = show.state != nullptr;
       return true;
     }

@@ -328,6 +328,10 @@ void Placements::state(StateFields& f) {
 /// Whether everything that is there stands below World, once.
 bool Placements::standsTogether() const {
   if (entries_.empty()) return false;
+  const Entry& world = entries_[kWorldPlacement];
+  if (world.parent != kNoPlacement || world.nextSibling != kNoPlacement ||
+      world.previousSibling != kNoPlacement || world.held != Held::Nothing || world.fleet != kNoFleet)
+    return false;
   std::vector<char> seen(entries_.size(), 0);
   std::vector<PlacementId> open{kWorldPlacement};
   seen[kWorldPlacement] = 1;

@@ -17,7 +17,9 @@ dds_duration_t durationOf(double seconds) {
 }
 
 /// Cyclone's own configuration. A second without a sign of life is the network's business, the deadline ours.
-/// What was lost is asked for again at once: somebody waits for it.
+/// What was lost is asked for again at once: somebody waits for it. And nobody waits for one who does not
+/// confirm what it was sent (by itself Cyclone would, after a kilobyte or two: a machine that dies would hold
+/// all others for a second).
 std::string configurationOf(const ClusterFile& o) {
   in_addr address{};
   const bool byAddress = inet_pton(AF_INET, o.interface.c_str(), &address) == 1;
@@ -34,7 +36,10 @@ std::string configurationOf(const ClusterFile& o) {
       "<AllowMulticast>{}</AllowMulticast></General>"
       "<Discovery>{}<LeaseDuration>{}ms</LeaseDuration><SPDPInterval>250ms</SPDPInterval></Discovery>"
       "<Internal><NackDelay>1ms</NackDelay><HeartbeatInterval min=\"2ms\" minsched=\"5ms\" max=\"1s\">5ms"
-      "</HeartbeatInterval><PreEmptiveAckDelay>5ms</PreEmptiveAckDelay></Internal></Domain>",
+      "</HeartbeatInterval><PreEmptiveAckDelay>5ms</PreEmptiveAckDelay>"
+      "<Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHighInit>2MB</WhcHighInit><WhcHigh>2MB</"
+      "WhcHigh><WhcLow>1MB</WhcLow>"
+      "</Watermarks></Internal></Domain>",
       interface, o.interface.empty() ? "false" : "true", found,
       static_cast<long>(std::ceil(1000 * std::max(1.0, 2 * o.deadline))));
 }
@@ -69,7 +74,10 @@ void Bus::take(dds_entity_t reader, void* listener) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       const T& sample = *static_cast<const T*>(samples[i]);
       if constexpr (std::is_same_v<T, Presence>)
-        if (infos[i].instance_state != DDS_IST_ALIVE) to.left(sample.node);
+        if (infos[i].instance_state != DDS_IST_ALIVE) {
+          to.left(sample.node);
+          continue;  // what it said last is out of date
+        }
       if (infos[i].valid_data) to.hear(sample);
     }
     dds_return_loan(reader, samples.data(), count);

@@ -69,7 +69,7 @@ std::unique_ptr<Follower> Follower::unconnected(FollowerOptions options, std::ui
 void Follower::announce(Phase phase) {
   told_ = phase;
   bus_->tell(Presence{static_cast<std::uint8_t>(options_.node), incarnation_, ++announced_, joined_,
-                      static_cast<std::uint8_t>(phase), obeyed_});
+                      static_cast<std::uint8_t>(phase), obeyed_, plays_});
 }
 
 /// False: nobody waits any longer.
@@ -102,7 +102,7 @@ std::optional<Joining> Follower::join() {
     options_.tell(fmt::format("{} plays with {}, we with {}: the walls will not look alike", lead,
                               printable(theirs, kMostTold), options_.settings));
   joined_ = session_.number;
-  Joining joining{session_.rate, {}};
+  Joining joining{session_.rate, {}, {}};
   if (!session_.begun && session_.resumes == 0) return joining;
   announce(Phase::Asking);
   std::uint64_t received = 0;
@@ -114,7 +114,8 @@ std::optional<Joining> Follower::join() {
   };
   if (!await(lock, ("the scene's state from " + lead).c_str(), has) || again_) return {};
   SceneParcel scene = incoming_.take();
-  obeyed_ = scene.serial;
+  obeyed_ = scene.serial, plays_ = true;
+  joining.after.frame = scene.frame, joining.after.time = scene.time;
   std::erase_if(orders_, [&](const HeardOrder& o) {
     return o.numbers.session != joined_ || o.numbers.serial <= obeyed_;
   });
@@ -138,7 +139,7 @@ std::optional<FrameOrder> Follower::next() {
     again_ = true;
     return {};
   }
-  obeyed_ = heard.numbers.serial, frame_ = heard.order.signature.frame;
+  obeyed_ = heard.numbers.serial, plays_ = true, frame_ = heard.order.signature.frame;
   heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
   // Left out, for being late: whoever has caught up is taken back.
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
@@ -150,8 +151,15 @@ std::optional<FrameOrder> Follower::next() {
 
 /// With the lock. True: the scene differs.
 bool Follower::explain(std::unique_lock<std::mutex>& lock) {
-  const auto has = [&] { return again_ || (incoming_.complete() && incoming_.serial() == obeyed_); };
-  if (!await(lock, "the scene of who leads, to compare ours with it", has) || again_) return true;
+  std::uint64_t received = 0;
+  auto since = Clock::now();
+  bool late = false;  // part of it was lost: who joins again asks for it as often as it takes
+  const auto has = [&] {
+    if (std::exchange(received, incoming_.received()) != incoming_.received()) since = Clock::now();
+    late = Clock::now() - since > kLong;
+    return again_ || late || (incoming_.complete() && incoming_.serial() == obeyed_);
+  };
+  if (!await(lock, "the scene of who leads, to compare ours with it", has) || again_ || late) return true;
   const SceneParcel theirs = incoming_.take();
   const std::optional<Differs> differs = compare_ ? compare_(theirs.bytes) : std::nullopt;
   Difference told{};
@@ -161,10 +169,11 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   told.where = d.where.data(), told.here = d.here.data(), told.there = d.there.data();
   bus_->tell(told);
   if (!differs) return false;
+  const bool goesOn = options_.cluster.stopOnDifference;  // to the last order, which follows
   options_.tell(fmt::format("our scene differs from that of {} after frame {}: {} is {} here and {} there",
                             options_.cluster.nodes[options_.cluster.lead].name, frame_, d.where, d.here,
                             d.there));
-  return true;
+  return !goesOn;
 }
 
 bool Follower::mayShow(const TimeSignature&) {

@@ -35,7 +35,8 @@ struct FollowerOptions {
 
 /// How the show is to be opened.
 struct Joining {
-  double rate = 60;  ///< [1/s]
+  double rate = 60;     ///< [1/s]
+  TimeSignature after;  ///< with a state: of what was simulated last
   /// What the scene goes on from; null: the show begins.
   std::shared_ptr<const std::vector<std::uint8_t>> state;
 };
@@ -107,6 +108,7 @@ private:
   std::deque<std::pair<std::uint64_t, bool>>
       shows_;  ///< orders obeyed and not shown yet: whether we draw them
   bool again_ = false;
+  bool plays_ = false;  ///< there is a scene from which the show can go on
   InputSample sample_;
   bool sampled_ = false;
   std::unique_ptr<InputDevice> input_;

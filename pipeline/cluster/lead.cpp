@@ -241,7 +241,7 @@ void Lead::leaveOutWhoIsStuck() {
   if (seconds < kStuck * options_.cluster.deadline) return;
   const std::uint32_t awaited = rounds_.front().awaited;
   for (std::size_t i = 0; i < followers_.size(); ++i)
-    if ((awaited & bit(i)) != 0 && followers_[i].member)
+    if ((awaited & bit(i)) != 0)
       leaveOut(i, fmt::format("lives, but has drawn nothing for {:.1f} s", seconds));
 }
 
@@ -262,17 +262,18 @@ void Lead::hear(const Presence& p) {
   std::unique_lock lock(mutex_);
   if (p.node >= followers_.size() || p.node == options_.cluster.lead) return;
   // Once found again, a node's last word is told again; it may be out of date.
-  const Word before = std::exchange(words_[p.node], {p.incarnation, p.count});
-  if (before.incarnation == p.incarnation && p.count <= before.count) return;
+  Word& word = words_[p.node];
+  if (word.incarnation == p.incarnation && p.count <= word.count) return;
+  word = {p.incarnation, p.count};
   Follower& f = followers_[p.node];
   if (f.incarnation != p.incarnation) {
     if (f.member) leaveOut(p.node, "began anew");
     f = {};
     f.incarnation = p.incarnation;
   }
-  f.plays = static_cast<Phase>(p.phase) == Phase::Ready ? p.session : 0;
+  f.plays = static_cast<Phase>(p.phase) == Phase::Ready && p.plays ? p.session : 0;
   f.phase = p.session == session_.number ? static_cast<Phase>(p.phase) : Phase::Waiting;
-  f.asks = f.phase == Phase::Asking;
+  f.asks = f.phase == Phase::Asking || (f.asks && f.differs);
   if (f.phase == Phase::Ready && !f.member) {
     f.member = true;
     ++tally_.joined;
@@ -306,17 +307,23 @@ void Lead::hear(const StatePart& part) {
 void Lead::left(std::uint8_t node) {
   const std::lock_guard lock(mutex_);
   if (node >= followers_.size() || node == options_.cluster.lead) return;
-  if (followers_[node].member && !pending_.last)  // they go when the show is over
+  if (followers_[node].member && !pending_.last)
     leaveOut(node, fmt::format("has not been heard of for {:g} s", options_.cluster.deadline));
+  letGo(node);  // when the show is over they go, and nobody needs to be told
   followers_[node] = {};
   changed_.notify_all();
 }
 
 // With the mutex.
 void Lead::leaveOut(std::size_t node, const std::string& why) {
-  followers_[node].member = false;
   ++tally_.leftOut;
   options_.tell(fmt::format("{} {}; the others go on", nameOf(node), why));
+  letGo(node);
+}
+
+// With the mutex: nobody waits for it.
+void Lead::letGo(std::size_t node) {
+  followers_[node].member = false;
   for (Round& round : rounds_) round.awaited &= ~bit(node);
   release();
 }
@@ -362,6 +369,7 @@ void Lead::hear(const Difference& d) {
                               printable(d.here, kMostTold), printable(d.there, kMostTold)));
   else
     options_.tell(fmt::format("the scene of {} is like ours after frame {}", nameOf(d.node), d.frame));
+  followers_[d.node].differs = d.found;  // what differs later is news again
   stop_ = stop_ || (d.found && options_.cluster.stopOnDifference);
   if (stop_) tally_.stopped = 1;
 }

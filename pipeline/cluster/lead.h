@@ -108,6 +108,7 @@ private:
   void answerWhoAsks();
   void sendParcels();
   void leaveOut(std::size_t node, const std::string& why);
+  void letGo(std::size_t node);
   void leaveOutWhoIsStuck();
   std::vector<std::string> missing() const;
   void release();

@@ -30,12 +30,17 @@ void send(Bus& bus, const SceneParcel& parcel) {
 
 void IncomingScene::add(const StatePart& part) {
   const std::uint64_t length = part.bytes._length;
-  if (complete_ || part.size > kMostState) return;
+  if (part.size > kMostState) return;
+  // One that nobody has taken gives way to a newer one.
+  if (complete_ && part.session == parcel_.session && part.serial == parcel_.serial) return;
+  if (complete_ && part.offset != 0) return;
   if (part.offset == 0) {
+    complete_ = false;
     parcel_ = {part.to, part.session, part.serial, part.frame, part.time, {}};
     size_ = part.size, received_ = 0;
   }
   if (part.serial != parcel_.serial || part.session != parcel_.session || part.size != size_) return;
+  if (part.frame != parcel_.frame || part.time != parcel_.time || part.to != parcel_.to) return;
   if (part.offset != received_ || length > part.size - part.offset) return;
   // As it comes: who says that much is to come need not be right.
   parcel_.bytes.insert(parcel_.bytes.end(), part.bytes._buffer, part.bytes._buffer + length);

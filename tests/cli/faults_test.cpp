@@ -83,6 +83,7 @@ protected:
 /// Of the last frame, as the text at the end says it.
 std::string hashOf(const ProgramResult& r) {
   const std::size_t line = r.out.find("state hash of frame ");
+  EXPECT_NE(line, r.out.npos) << r.out << r.err;
   return line == r.out.npos ? "" : r.out.substr(line, r.out.find('\n', line) - line);
 }
 

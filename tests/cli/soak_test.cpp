@@ -30,7 +30,7 @@ TEST(ProgramSoak, SomeThousandFramesAreTheSameInEveryWayAndInEveryProcess) {
       stadionProgram({"soak", "--frames", "5000", "--visit", "1000", "--record", record});
   EXPECT_EQ(more.status, 0) << more.out << more.err;
   EXPECT_TRUE(holds(more.out, "by 2 processes")) << more.out;
-  EXPECT_TRUE(holds(more.out, "0 of ")) << more.out;
+  EXPECT_TRUE(holds(more.out, "states: 0 of ")) << more.out;
 }
 
 TEST(ProgramSoak, ARecordOfAnotherSoakIsRefusedAndLeftAlone) {

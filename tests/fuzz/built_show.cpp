@@ -77,8 +77,10 @@ void BuiltShow::play(std::uint64_t frames) {
 void BuiltShow::goOn() {
   constexpr Nanoseconds kStep = 16'666'667;
   InputSample input;
-  input.time = scene_.now() + kStep;
-  scene_.advance({1'000'000, input.time, kStep, {}}, input, changes_, nullptr);
+  for (std::uint64_t frame = 1'000'000; frame < 1'000'010; ++frame) {
+    input.time = scene_.now() + kStep;
+    scene_.advance({frame, input.time, kStep, {}}, input, changes_, nullptr);
+  }
 }
 
 void BuiltShow::request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) {

@@ -1,10 +1,12 @@
 /// What machines of a cluster make of what no machine of a cluster says.
 
+#include "engine/input/scripted_input.h"
 #include "pipeline/cluster/follower.h"
 #include "pipeline/cluster/lead.h"
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -113,6 +115,59 @@ TEST(ClusterHearing, AStateArrivesInParts) {
   const auto joining = f->join();
   ASSERT_TRUE(joining);
   EXPECT_EQ(*joining->state, std::vector<std::uint8_t>(20, 3));
+}
+
+TEST(ClusterHearing, ASceneThatNobodyHasTakenGivesWayToANewerOne) {
+  std::vector<std::uint8_t> bytes(10, 3);
+  StatePart part{};
+  part.to = 7, part.session = 1, part.serial = 4, part.size = 10;
+  part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
+  IncomingScene scene;
+  scene.add(part);
+  ASSERT_TRUE(scene.complete());
+  part.serial = 9;
+  scene.add(part);
+  EXPECT_TRUE(scene.complete());
+  EXPECT_EQ(scene.serial(), 9U);
+}
+
+/// One that gives up after three seconds.
+std::unique_ptr<Lead> lead() {
+  using Clock = std::chrono::steady_clock;
+  return Lead::unconnected(
+      {room(), 1, "", std::chrono::seconds(0), [](const std::string&) {},
+       [begin = Clock::now()] { return Clock::now() - begin > std::chrono::seconds(3); }},
+      1);
+}
+
+TEST(ClusterHearing, NobodyWaitsForWhoIsLostInTheLastFrame) {
+  const auto l = lead();
+  l->hear(Presence{1, 9, 1, 1, static_cast<std::uint8_t>(Phase::Ready), 0, false});
+  l->begin(60);
+  FrameOrder order;
+  order.signature = signatureAt(1, 60), order.last = true;
+  l->issue(order);
+  ScriptedInput visitor;
+  visitor.key("head", 0, Vec3(0, 0, 1.7));
+  InputSample input;
+  l->input(visitor).sampleFrame(0, order.signature.time, input);
+  l->left(1);
+  EXPECT_TRUE(l->mayShow(order.signature));
+}
+
+TEST(ClusterHearing, AShowGoesOnOnlyFromWhoHasPlayedIt) {
+  const auto l = lead();
+  l->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 0, false});
+  std::vector<std::uint8_t> bytes(10, 3);
+  StatePart part{};
+  part.to = 1, part.session = 1, part.size = 10;
+  part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
+  l->hear(part);
+  EXPECT_FALSE(l->takeOver());
+  const auto other = lead();
+  other->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true});
+  other->hear(part);
+  EXPECT_TRUE(other->takeOver());
 }
 
 TEST(ClusterHearing, WhatAnotherMachineSaysIsNoCommandToATerminal) {

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint64_t kFrames = 60, kHashEvery = 10;
 
-ClusterFile room(pid_t test) {
+ClusterFile roomOf(pid_t test) {
   ClusterFile file;
   for (const char* name : {"front", "left", "right"}) file.nodes.push_back({name, {name}, 1});
   file.partition = "talk" + std::to_string(test);
@@ -104,16 +104,21 @@ protected:
     _exit(play(node, disturb) ? 0 : 1);
   }
 
+  ClusterFile room() const {
+    ClusterFile file = roomOf(test_);
+    file.stopOnDifference = stopOnDifference_;
+    return file;
+  }
   void openLead() {
     lead_.reset();
-    auto lead = Lead::open({room(test_), 1, "", patience_, told_.teller(), [] { return false; }});
+    auto lead = Lead::open({room(), 1, "", patience_, told_.teller(), [] { return false; }});
     ASSERT_TRUE(lead) << lead.error().message;
     lead_ = std::move(lead.value());
     lead_->saveWith([this] { return scene_.save(); });
   }
 
-  /// Orders, simulates and shows one frame.
-  void frame(std::uint64_t number, bool last = false) {
+  /// Orders, simulates and shows one frame. True: it was the last one.
+  bool frame(std::uint64_t number, bool last = false) {
     FrameOrder order;
     order.signature = signatureAt(number, 60), order.last = last;
     const TimeSignature now = order.signature;
@@ -124,6 +129,7 @@ protected:
     if (lead_->compares(number)) lead_->simulated(number, scene_.number);
     EXPECT_TRUE(lead_->mayShow(now));
     common_->frame = number;
+    return order.last;
   }
   /// Frames until that was told, kFrames at least. The last one is the last of all.
   void framesUntil(const std::string& told) {
@@ -133,18 +139,23 @@ protected:
     lead_->finish();
   }
 
-  void expectAllAlike() {
+  void expectAllEnd() {
     for (const pid_t machine : machines_) {
       int status = -1;
       waitpid(machine, &status, 0);
       EXPECT_EQ(status, 0) << told_.all();
     }
-    for (std::size_t node = 1; node <= machines_.size(); ++node)
-      EXPECT_EQ(common_->ends[node], scene_.number) << node << "\n" << told_.all();
     machines_.clear();
+  }
+  void expectAllAlike() {
+    const std::size_t machines = machines_.size();
+    expectAllEnd();
+    for (std::size_t node = 1; node <= machines; ++node)
+      EXPECT_EQ(common_->ends[node], scene_.number) << node << "\n" << told_.all();
   }
 
   const pid_t test_ = getpid();
+  bool stopOnDifference_ = false;
   Common* common_;
   std::chrono::seconds patience_{20};  ///< with who has not come
   ScriptedInput visitor_;
@@ -158,7 +169,7 @@ private:
   bool play(std::size_t node, const Disturb& disturb) {
     NumberScene scene;
     for (bool over = false; !over;) {
-      auto opened = Follower::open({room(test_), node, 1, "", [](const std::string&) {}, [] { return false; }});
+      auto opened = Follower::open({room(), node, 1, "", [](const std::string&) {}, [] { return false; }});
       if (!opened) return false;
       Follower& follower = *opened.value();
       const auto joining = follower.join();
@@ -169,7 +180,7 @@ private:
         if (scene.save() == there) return {};
         return Follower::Differs{"the number", "one", "another"};
       });
-      TimeSignature last;
+      TimeSignature last = joining->after;
       while (const auto order = follower.next()) {
         last = order->signature;
         InputSample input;
@@ -219,6 +230,23 @@ TEST_F(ThreadsCluster, AnotherSceneIsNamedAndTakenOver) {
   framesUntil("right plays with us");
   expectAllAlike();
   EXPECT_TRUE(told_.has("the scene of right differs from ours since frame 30 at the latest")) << told_.all();
+  EXPECT_TRUE(told_.has("the number is one there and another here")) << told_.all();
+}
+
+TEST_F(ThreadsCluster, AnotherSceneMayEndTheShowForAll) {
+  stopOnDifference_ = true;
+  follow(1);
+  follow(2, 0, [](std::uint64_t frame, NumberScene& scene) { scene.number += frame == 25; });
+  openLead();
+  lead_->begin(60);
+  std::uint64_t f = 0;
+  while (f < 100'000 && !frame(f)) ++f;
+  EXPECT_LT(f, 100'000U) << told_.all();
+  lead_->finish();
+  expectAllEnd();
+  EXPECT_EQ(common_->ends[1], scene_.number);
+  EXPECT_NE(common_->ends[2], scene_.number);
+  EXPECT_EQ(lead_->tally().stopped, 1U);
   EXPECT_TRUE(told_.has("the number is one there and another here")) << told_.all();
 }
 
