@@ -139,7 +139,8 @@ std::optional<FrameOrder> Follower::next() {
     again_ = true;
     return {};
   }
-  obeyed_ = heard.numbers.serial, plays_ = true, frame_ = heard.order.signature.frame;
+  obeyed_ = heard.numbers.serial, frame_ = heard.order.signature.frame;
+  if (!std::exchange(plays_, true)) announce(told_);
   heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
   // Left out, for being late: whoever has caught up is taken back.
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
