@@ -310,6 +310,12 @@ SharedFit DynamicsNode::refit(const Part& part, const ObjectNode& object, const 
 
 bool DynamicsNode::resume(Scene& scene) {
   if (!resumeParts(scene)) return false;
+  // A field's file may have gone; where it is there, so is the field.
+  const auto isThere = [&](NodeRef ref) {
+    const Load* load = scene.load(ref.load);
+    return !load || ref.position < load->nodes.size();
+  };
+  if (!std::ranges::all_of(fields_, isThere, &Field::ref)) return false;
   partOf_.clear();
   for (Part& part : collidees_) {
     DynObjectNode* node = part.id ? bodyAt(part.ref, scene) : nullptr;
