@@ -5,6 +5,7 @@
 #include "tests/dynamics/scenes.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -103,7 +104,8 @@ TEST(FlightFactory, ABallHasNoBiasWhateverTheScriptSays) {
 }
 
 TEST(FlightFactory, ATableIsReadAndItsMistakesAreToldWithFileAndLine) {
-  const auto folder = std::filesystem::temp_directory_path() / "stadion_flight_factory_test";
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("stadion-flight-test-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "good.csv")
       << "# area = 0.01\n# length = 0.2\nalpha_deg,CD,CL,CM\n0,0.1,0,0\n45,0.5,0.6,0.1\n"
@@ -130,7 +132,8 @@ TEST(FlightFactory, AModelForPlainlyAnotherFormIsWarnedOf) {
           .why.starts_with("a.evs:1:39: warning: flight=plate is for flat bodies; \"a\" is long (2.2 x "))
       << made(", flight=plate").why;
   EXPECT_EQ(made(", flight=plate", ballMesh(0.1, 24, 48)).why, "") << "neither long nor flat";
-  const auto folder = std::filesystem::temp_directory_path() / "stadion_flight_factory_axis";
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("stadion-flight-axis-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "z.csv")
       << "# area = 0.01\n# length = 0.2\n# axis = z\nalpha_deg,CD,CL,CM\n0,0.1,0,0\n"

@@ -95,14 +95,18 @@ TEST(ThreadsFrameLog, HoweverMuchHasComeTogetherThreadsAreToldSideBySide) {
 
 TEST(FrameLog, WhatAStageDoesBesideItsPartsIsItsOwn) {
   ShowProfile profile;
-  FrameLog log({&profile}, {.samples = false, .from = 0});
-  {
-    const SpanScope app(&log, Span::App, 0, kNoWall);
-    burn(std::chrono::microseconds(300));
-    const SpanScope node(&log, Span::Simulate, kBall);
-    burn(std::chrono::microseconds(700));
+  // A frame that lost its processor to others is left out; the next one counts then.
+  for (std::uint64_t frame = 0; !profile.nodes().contains(kBall) && frame < 20; ++frame) {
+    profile = {};
+    FrameLog log({&profile}, {.samples = false, .from = 0});
+    {
+      const SpanScope app(&log, Span::App, frame, kNoWall);
+      burn(std::chrono::microseconds(300));
+      const SpanScope node(&log, Span::Simulate, kBall);
+      burn(std::chrono::microseconds(700));
+    }
+    log.finish();
   }
-  log.finish();
   const SpanTotal& app = profile.spans().at({Span::App, kNoWall});
   const double simulated = profile.nodes().at(kBall).phases[1];
   EXPECT_GE(simulated, 0.699);

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <set>
+#include <unistd.h>
 
 namespace stadion::bench {
 namespace {
@@ -207,7 +208,8 @@ protected:
     if (read) rows_ = read.value().rows.size(), begun_ = read.value().head.begun;
     return read ? std::string() : format(read.error());
   }
-  const std::string file_ = std::filesystem::temp_directory_path() / "stadion-walls-record-test";
+  const std::string file_ =
+      std::filesystem::temp_directory_path() / ("stadion-record-" + std::to_string(::getpid()));
   std::size_t rows_ = 0;
   std::int64_t begun_ = 0;
 };
@@ -284,7 +286,8 @@ TEST(WallsBench, TheTableHasALineForEachCaseWithRatiosToTheBest) {
 }
 
 TEST(WallsBench, PicturesAreReadAsTheyWereWritten) {
-  const std::string file = std::filesystem::temp_directory_path() / "stadion-walls-picture-test.ppm";
+  const std::string file =
+      std::filesystem::temp_directory_path() / ("stadion-picture-" + std::to_string(::getpid()) + ".ppm");
   const RgbPicture p{2, 1, {1, 2, 3, 10, 13, 30}};
   ASSERT_TRUE(writePpm(file, p));
   const auto read = readPpm(file);
