@@ -97,7 +97,7 @@ TEST(FrameLog, WhatAStageDoesBesideItsPartsIsItsOwn) {
   ShowProfile profile;
   // A frame that lost its processor to others is left out; the next one counts then.
   for (std::uint64_t frame = 0; !profile.nodes().contains(kBall) && frame < 20; ++frame) {
-    profile = {};
+    profile = ShowProfile();
     FrameLog log({&profile}, {.samples = false, .from = 0});
     {
       const SpanScope app(&log, Span::App, frame, kNoWall);
