@@ -324,7 +324,7 @@ std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slo
   FrameTicket ticket{now, Clock::now()};
   ticket.shown = turn.shown;
   if (turn.still) {
-    if (!guard("App", kAllWalls, now.frame, [&]() -> Failure { return stages_.still(slot), Failure(); }))
+    if (!guard("App", kAllWalls, now.frame, [&]() -> Failure { return stages_.still(now, slot), Failure(); }))
       return std::nullopt;
     if (stopRequested_) stopped_ = true;
     ticket.last = ended_ = options_.orders ? turn.last : stopped_ || ending_;

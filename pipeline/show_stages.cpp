@@ -67,6 +67,7 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   const bool whole = parts_.probe && parts_.probe->wantsShares(now.frame, kNoWall);
   changes_.sink = whole ? nullptr : &parts_.state;
   parts_.state.begin(slot);
+  published_ = true;
   parts_.scene.advance(now, input, changes_, parts_.probe);
   if (parts_.probe) tellCounts(parts_.scene.counters(), *parts_.probe);
   {
@@ -119,13 +120,19 @@ void ShowStages::hear(const InputSample& input, bool still) {
 }
 
 // The signature, sky and viewer of the last frame stay in the change set, but that the visitor looks around.
-void ShowStages::still(std::size_t slot) {
-  changes_.clear();
+void ShowStages::still(const TimeSignature& now, std::size_t slot) {
+  changes_.sink = nullptr;
+  if (published_)
+    changes_.clear();
+  else
+    parts_.scene.publishAsItStands(now, changes_);
+  published_ = true;
   if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
   if (parts_.head.predict) parts_.input.aimHead(aimedAt());
-  InputSample now;
-  if (parts_.input.sampleNow(now)) changes_.viewer.set(parts_.scene.rigPose(), parts_.scene.headInRig(now));
-  noteMeasured(now);
+  InputSample input;
+  if (parts_.input.sampleNow(input))
+    changes_.viewer.set(parts_.scene.rigPose(), parts_.scene.headInRig(input));
+  noteMeasured(input);
   hear(parts_.scene.lastInput(), true);
   parts_.state.publish(slot, changes_);
 }

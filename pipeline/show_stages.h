@@ -91,7 +91,7 @@ public:
   ~ShowStages() override;
 
   void app(const TimeSignature& now, std::size_t slot) override;
-  void still(std::size_t slot) override;
+  void still(const TimeSignature& now, std::size_t slot) override;
   bool wantsDrawn(const FrameTicket& ticket) const override;
   void cull(std::size_t wall, std::size_t slot, DrawList& list) override;
   std::optional<std::chrono::steady_clock::time_point> headMeasured() const override { return measured_; }
@@ -136,6 +136,7 @@ private:
   ShowParts parts_;
   InputSample input_;  ///< of App's frame
   ChangeSet changes_;
+  bool published_ = false;  ///< the scene, whole
   StillCasters stillCasters_;
   std::vector<WallPixels> wallPixels_;  ///< of the walls that show what the visitor sees
   RoomCull room_;

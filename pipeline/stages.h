@@ -50,8 +50,9 @@ public:
 
   /// Advances the show to the signature's time and publishes it into `slot`.
   virtual void app(const TimeSignature& now, std::size_t slot) = 0;
-  /// The show is paused: publishes what there is once more.
-  virtual void still(std::size_t) {}
+  /// The show is paused after frame `now`: publishes what there is once more. A scene that was put back while
+  /// it is paused has not been published yet.
+  virtual void still(const TimeSignature& now, std::size_t slot) { (void)now, (void)slot; }
   /// Whether anybody looks at this frame; else it is neither culled nor drawn. Asked after app().
   virtual bool wantsDrawn(const FrameTicket&) const { return true; }
   /// Fills `list` with what wall `wall` shows of the frame in `slot`, for both eyes.

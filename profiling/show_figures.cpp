@@ -188,9 +188,10 @@ private:
       out_.stages.push_back(std::move(row));
     }
     for (const auto& [who, eye] : profile_.eyes()) {
-      const auto add = [&](const std::string& part, const CostSeries& ms) {
-        StageRow row = stageRow(Span::Draw, who.first);
-        row.eye = who.second == 0 ? "left" : "right", row.part = part, row.alone = true;
+      const auto add = [&, wall = who.first, side = who.second](const std::string& part,
+                                                                const CostSeries& ms) {
+        StageRow row = stageRow(Span::Draw, wall);
+        row.eye = side == 0 ? "left" : "right", row.part = part, row.alone = true;
         row.ms = std::max(0.0, ms.mean()), row.p95 = ms.percentile(95), row.most = ms.most();
         row.count = ms.count();
         out_.stages.push_back(std::move(row));
@@ -301,7 +302,7 @@ private:
   /// eye took as a whole. In a tiny picture that is mostly what drawing next to nothing takes, and no node's.
   void scaleDraw() {
     for (const auto& [who, eye] : profile_.eyes()) {
-      const auto& [wall, side] = who;
+      const std::uint32_t wall = who.first, side = who.second;
       if (eye.whole.count() == 0 || wall >= out_.walls.size()) continue;
       if (!std::ranges::all_of(out_.nodes,
                                [&](const NodeRow& row) { return row.walls[wall].drawMeasured[side]; }))

@@ -61,6 +61,9 @@ public:
 
   /// One frame of the application phase. Fills `changes` with what the later stages must know.
   void advance(const TimeSignature& now, const InputSample& input, ChangeSet& changes, FrameProbe* probe);
+  /// Nothing moves: fills `changes` with what the scene is after frame `now`. For one that has been put back
+  /// and is to be seen before it goes on.
+  void publishAsItStands(const TimeSignature& now, ChangeSet& changes) { publish(now, lastInput_, changes); }
 
   // What nodes use during their cycle.
 

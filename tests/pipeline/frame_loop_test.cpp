@@ -276,7 +276,7 @@ public:
     if (now.frame == 5) playback_.setPaused(false), playback_.setSpeed(0.25);
     if (now.frame == 8) playback_.setSpeed(1);
   }
-  void still(std::size_t slot) override {
+  void still(const TimeSignature&, std::size_t slot) override {
     ++stills;
     CountingStages::app(signatureAt(times.size() - 1, 10), slot);
     if (stills % 5 == 0) playback_.step();

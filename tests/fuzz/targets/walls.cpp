@@ -11,13 +11,14 @@ void walls(Bytes bytes) {
   require(room.has_value() || findings.hasErrors(), "what is refused has a reason");
   if (room) {
     lintWalls(*room, findings);
-    floorPlan(*room);
     Diagnostics again;
     require(parseWalls(formatWalls(*room), "again.walls", again).has_value(),
             "what is written is read again");
     const bool stands = !findings.hasErrors();
-    if (stands)
+    if (stands) {
+      floorPlan(*room);
       require(unfold(room->walls, 640, 480).size() == room->walls.size(), "each wall has its place");
+    }
     for (const WallEntry& entry : room->walls) {
       if (entry.output) pictureFromOutput(entry.output->shape);
       if (!stands) continue;
