@@ -54,6 +54,7 @@ std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& fin
   if (walls) checkWalls(*file, walls->names(), findings);
   if (!walls || findings.hasErrors()) return nullptr;
   o.show.walls = file->walls;
+  o.follows = *node != file->lead;
   o.show.onlyWalls = file->nodes[*node].walls;
   if (o.show.onlyWalls.empty()) {
     o.show.onlyWalls = {walls->walls.front().wall.name};  // somebody has to take the frames
@@ -101,6 +102,7 @@ bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
       goesOn_ = show.state != nullptr;
       return true;
     }
+    if (follower_->hasDouble()) return false;  // it has told so
     if (!follower_->isToJoinAgain() || nobodyWaits()) return false;
   }
 }
@@ -117,7 +119,7 @@ bool ClusterPart::begin(Player& player, Diagnostics& findings) {
   }
   lead_->saveWith([&player] { return player.scene().save(); });
   lead_->begin(player.rate());
-  return true;
+  return !lead_->hasDouble();
 }
 
 std::optional<cluster::Follower::Differs>
@@ -162,8 +164,12 @@ void ClusterPart::plantDifference() {
   player_->scene().forEachNode([&](const Node& node) { const_cast<Node&>(node).state(bit); });
 }
 
-void ClusterPart::finish() {
-  if (lead_) lead_->finish();
+bool ClusterPart::hasDouble() const {
+  return (lead_ && lead_->hasDouble()) || (follower_ && follower_->hasDouble());
+}
+
+void ClusterPart::finish(bool over) {
+  if (lead_) lead_->finish(over);
   if (follower_ && follower_->isAskedForScene()) follower_->giveScene(last_, player_->scene().save());
   if (follower_) follower_->finish();
 }

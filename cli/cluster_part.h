@@ -40,8 +40,11 @@ public:
   void simulated(const TimeSignature& now, const Scene& scene);
   /// The run has ended for want of an order, and the show is to be joined again.
   bool isToJoinAgain() const { return follower_ && follower_->isToJoinAgain(); }
-  /// What there is to tell is heard by all; who leads anew gets our scene if it asks for it.
-  void finish();
+  /// Another program plays this node already; it has been told, and this one is to end.
+  bool hasDouble() const;
+  /// What there is to tell is heard by all; who leads anew gets our scene if it asks for it. `over`: where we
+  /// lead, the show ends for all.
+  void finish(bool over);
   ClusterSummary summary() const;
 
 private:

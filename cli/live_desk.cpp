@@ -46,7 +46,7 @@ bool LiveDesk::begin(const Player& player, Diagnostics& findings) {
     for (const std::string& root : options_.show.assetRoots) roots_.add(root);
     sounds_ = std::make_unique<SoundPlayer>(roots_, say_);
   }
-  if (!live_) return true;
+  if (!live_ || options_.follows) return true;  // a cluster's operator sits at the machine that leads
   if (options_.oscPort >= 0) {
     auto osc = OscOperator::open(static_cast<std::uint16_t>(options_.oscPort), desk_->queue(), say_);
     if (!osc) return findings.error({}, "--osc: " + osc.error().message), false;

@@ -275,8 +275,8 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
   if (s.supervised) s.supervised->enter(SharedProgress::Phase::Ending);
-  if (s.cluster) s.cluster->finish();
   const bool again = outcome.nextGroup || (s.cluster && s.cluster->isToJoinAgain());
+  if (s.cluster) s.cluster->finish(!again && !outcome.failure);
   if (again && !outcome.failure && !stop) return {};
   if (recording && outcome.failure) recording->keepLastFrames();
 
@@ -286,6 +286,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
               s.cluster.get(), s.supervised ? s.supervised->remark() : ""},
              s.output.get(), s.folder.get());
   if (code == kOk && s.cluster && s.cluster->summary().stopped) return kInternalFault;
+  if (code == kOk && s.cluster && s.cluster->hasDouble()) return kBadInput;
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;

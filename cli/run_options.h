@@ -29,6 +29,7 @@ struct RunOptions {
   bool countWork = false;
   bool unrecorded = false;            ///< for `stadion bench recording` alone
   std::string cluster, node;          ///< a cluster file, and which of its nodes this is
+  bool follows = false;               ///< another node of it leads
   std::uint64_t plantDifference = 0;  ///< for tests: a bit of the scene is changed after that frame
   StressOptions stress;               ///< of the whole show
   bool loadAsked = false;             ///< any option of --load-control and stress was given

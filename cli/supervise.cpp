@@ -70,12 +70,13 @@ public:
 
 private:
   struct End {
-    int status = 0;  ///< exit status; 128 + signal
-    bool hung = false;
+    int status = 0;           ///< exit status; 128 + signal
+    Nanoseconds hung = 0;     ///< so long no picture came, and it was killed
     std::uint64_t shown = 0;  ///< frames
   };
   std::optional<End> playOnce();
-  bool hangs(Nanoseconds since) const;
+  bool hangs(Nanoseconds since, std::uint64_t shownBefore) const;
+  Nanoseconds limit(std::uint64_t shownBefore) const;
   bool isDeath(const End& end) const;
   std::string howOf(const End& end) const;
   void say(const std::string& line);
@@ -106,11 +107,16 @@ bool Supervisor::pause(milliseconds time) const {
   return !stop_;
 }
 
+/// How long no picture may come. The first one waits for drivers and for what is uploaded.
+Nanoseconds Supervisor::limit(std::uint64_t shownBefore) const {
+  const bool playing = progress_->phase() == Phase::Playing && progress_->framesShown() > shownBefore;
+  return playing ? hangs_ : kLonger * hangs_;
+}
+
 /// `since`: nothing counts that was before.
-bool Supervisor::hangs(Nanoseconds since) const {
-  const bool playing = progress_->phase() == Phase::Playing;
+bool Supervisor::hangs(Nanoseconds since, std::uint64_t shownBefore) const {
   const Nanoseconds heard = std::max(since, progress_->lastShown());
-  return machineClock() - heard > (playing ? hangs_ : kLonger * hangs_);
+  return machineClock() - heard > limit(shownBefore);
 }
 
 std::optional<Supervisor::End> Supervisor::playOnce() {
@@ -141,8 +147,8 @@ std::optional<Supervisor::End> Supervisor::playOnce() {
     }
     if (stop_ && !forwarded) kill(player.pid(), stopSignal());
     forwarded = stop_;
-    if (!hangs(since)) continue;
-    end.hung = true;
+    if (!hangs(since, before)) continue;
+    end.hung = limit(before);
     player.kill();
     player.wait(milliseconds(5000));
     end.status = kStopped + SIGKILL;
@@ -158,13 +164,11 @@ std::optional<Supervisor::End> Supervisor::playOnce() {
 bool Supervisor::isDeath(const End& end) const {
   if (stop_ || end.status == kStopped + SIGINT || end.status == kStopped + SIGTERM) return false;
   if (end.status == kBadInput) return progress_->starts() > 1;
-  return end.hung || end.status > kStopped || end.status == kInternalFault;
+  return end.hung > 0 || end.status > kStopped || end.status == kInternalFault;
 }
 
 std::string Supervisor::howOf(const End& end) const {
-  if (end.hung)
-    return fmt::format("showed nothing for {:g} s and was killed",
-                       toSeconds(progress_->phase() == Phase::Playing ? hangs_ : kLonger * hangs_));
+  if (end.hung > 0) return fmt::format("showed nothing for {:g} s and was killed", toSeconds(end.hung));
   if (end.status > kStopped)
     return fmt::format("was ended by signal {} ({})", end.status - kStopped,
                        strsignal(end.status - kStopped));

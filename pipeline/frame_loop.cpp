@@ -74,6 +74,7 @@ FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std:
   clock_ = FrameClock(options.rate, *options.after, options.frameTimes);
   lastSignature_ = *options.after, lastSignature_.load = {};
   nextIndex_ = options.after->frame + 1;
+  begun_ = true;  // it may stand still at that frame
 }
 
 FrameLoopOutcome FrameLoop::run() {

@@ -128,7 +128,7 @@ private:
   std::uint64_t passedOver_ = 0;  ///< frames in a row that were late and not drawn
   FrameClock clock_;
   TimeSignature lastSignature_;
-  bool begun_ = false;   ///< a frame has been simulated: there is one to stand still at
+  bool begun_ = false;   ///< a frame has been simulated, here or elsewhere: there is one to stand still at
   bool ending_ = false;  ///< App was told to end after this frame
   bool ended_ = false;   ///< App has begun its last frame
   std::atomic<bool> stopped_ = false;

@@ -69,7 +69,7 @@ std::unique_ptr<Follower> Follower::unconnected(FollowerOptions options, std::ui
 void Follower::announce(Phase phase) {
   told_ = phase;
   bus_->tell(Presence{static_cast<std::uint8_t>(options_.node), incarnation_, ++announced_, joined_,
-                      static_cast<std::uint8_t>(phase), obeyed_, plays_});
+                      static_cast<std::uint8_t>(phase), obeyed_, plays_, options_.show});
 }
 
 /// False: nobody waits any longer.
@@ -78,7 +78,7 @@ bool Follower::await(std::unique_lock<std::mutex>& lock, const char* what, const
   const auto begin = Clock::now();
   bool told = false;
   while (!ready()) {
-    if (options_.stop()) return false;
+    if (options_.stop() || double_) return false;
     if (!told && Clock::now() - begin > kLong) {
       told = true;
       options_.tell(fmt::format("waiting for {}", what));
@@ -91,7 +91,7 @@ bool Follower::await(std::unique_lock<std::mutex>& lock, const char* what, const
 std::optional<Joining> Follower::join() {
   std::unique_lock lock(mutex_);
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
-  const auto known = [&] { return session_.number != 0 && session_.giver == kNobody; };
+  const auto known = [&] { return session_.number != 0 && session_.giver == kNobody && !session_.over; };
   if (!await(lock, (lead + ", who leads").c_str(), known)) return {};
   if (session_.show != options_.show) {
     options_.tell(
@@ -110,9 +110,9 @@ std::optional<Joining> Follower::join() {
   const auto has = [&] {
     if (std::exchange(received, incoming_.received()) != incoming_.received()) since = Clock::now();
     if (Clock::now() - since > kLong) announce(Phase::Asking), since = Clock::now();
-    return incoming_.complete() || again_;
+    return incoming_.complete() || hasEnded();
   };
-  if (!await(lock, ("the scene's state from " + lead).c_str(), has) || again_) return {};
+  if (!await(lock, ("the scene's state from " + lead).c_str(), has) || hasEnded()) return {};
   SceneParcel scene = incoming_.take();
   obeyed_ = scene.serial, plays_ = true;
   joining.after.frame = scene.frame, joining.after.time = scene.time;
@@ -127,8 +127,8 @@ std::optional<FrameOrder> Follower::next() {
   std::unique_lock lock(mutex_);
   if (orders_.empty() && told_ != Phase::Ready) announce(Phase::Ready);
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
-  if (!await(lock, (lead + ", who leads").c_str(), [&] { return !orders_.empty() || again_; })) return {};
-  if (again_) return {};
+  if (!await(lock, (lead + ", who leads").c_str(), [&] { return !orders_.empty() || hasEnded(); })) return {};
+  if (again_ || double_ || orders_.empty()) return {};
   HeardOrder heard = std::move(orders_.front());
   orders_.pop_front();
   if (heard.numbers.serial != obeyed_ + 1) {
@@ -158,9 +158,9 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   const auto has = [&] {
     if (std::exchange(received, incoming_.received()) != incoming_.received()) since = Clock::now();
     late = Clock::now() - since > kLong;
-    return again_ || late || (incoming_.complete() && incoming_.serial() == obeyed_);
+    return hasEnded() || late || (incoming_.complete() && incoming_.serial() == obeyed_);
   };
-  if (!await(lock, "the scene of who leads, to compare ours with it", has) || again_ || late) return true;
+  if (!await(lock, "the scene of who leads, to compare ours with it", has) || hasEnded() || late) return true;
   const SceneParcel theirs = incoming_.take();
   const std::optional<Differs> differs = compare_ ? compare_(theirs.bytes) : std::nullopt;
   Difference told{};
@@ -188,7 +188,7 @@ bool Follower::mayShow(const TimeSignature&) {
   bus_->tell(told);
   const auto drawn = Clock::now();
   // Said again after a while: who has just come is not heard on all channels at once, nor hears all of them.
-  while (go_ < serial && !again_ && !options_.stop())
+  while (go_ < serial && !hasEnded() && !options_.stop())
     if (changed_.wait_for(lock, kLook) == std::cv_status::timeout) bus_->tell(told);
   if (go_ == serial && latest_ == options_.node)
     tally_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
@@ -203,7 +203,12 @@ void Follower::simulated(std::uint64_t frame, std::uint64_t hash) {
 
 bool Follower::isToJoinAgain() const {
   const std::lock_guard lock(mutex_);
-  return again_;
+  return again_ && !over_ && !double_;
+}
+
+bool Follower::hasDouble() const {
+  const std::lock_guard lock(mutex_);
+  return double_;
 }
 
 void Follower::hear(const Session& session) {
@@ -212,10 +217,27 @@ void Follower::hear(const Session& session) {
     // Whoever looks for a show that is under way does not know its rate yet.
     if (session.giver == kNobody && !(session.rate >= kLeastRate && session.rate <= kMostRate)) return;
     session_ = session;
+    if (session.over && session.number == joined_ && !std::exchange(over_, true))
+      options_.tell(options_.cluster.nodes[options_.cluster.lead].name + " has ended the show");
     // While another one is asked for its scene, we keep ours.
     const bool holds =
         session.resumes == joined_ && session.giver != kNobody && session.giver != options_.node;
     if (joined_ != 0 && session.number != joined_ && !holds) again_ = true;
+  }
+  changed_.notify_all();
+}
+
+// Of two programs that are the same node the one ends that has no scene yet; if that does not tell them
+// apart, the lower number.
+void Follower::hear(const Presence& other) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (other.node != options_.node || other.incarnation == incarnation_ || double_) return;
+    const bool theirs = other.plays != plays_ ? other.plays : other.incarnation > incarnation_;
+    if (!theirs) return;
+    double_ = true;
+    options_.tell(fmt::format("another program is {} already; this one ends",
+                              options_.cluster.nodes[options_.node].name));
   }
   changed_.notify_all();
 }

@@ -64,6 +64,8 @@ public:
   void simulated(std::uint64_t frame, std::uint64_t hash);
   /// Orders are missing: the run has ended, and the show is to be joined again.
   bool isToJoinAgain() const;
+  /// Another program is this node already: ours is to end.
+  bool hasDouble() const;
   /// Who leads anew asks for our scene, once the run has ended.
   bool isAskedForScene() const;
   /// `last`: what has been simulated last.
@@ -78,6 +80,7 @@ public:
 
   using BusListener::hear;
   void hear(const Session& session) override;
+  void hear(const Presence& presence) override;
   void hear(const Order& order) override;
   void hear(const Go& go) override;
   void hear(const StatePart& part) override;
@@ -87,6 +90,7 @@ private:
 
   Follower(FollowerOptions options, std::uint64_t incarnation);
   void announce(Phase phase);
+  bool hasEnded() const { return again_ || over_ || double_; }
   bool explain(std::unique_lock<std::mutex>& lock);
   template <class Ready>
   bool await(std::unique_lock<std::mutex>& lock, const char* what, const Ready& ready);
@@ -107,7 +111,8 @@ private:
   std::uint64_t announced_ = 0;  ///< how often
   std::deque<std::pair<std::uint64_t, bool>>
       shows_;  ///< orders obeyed and not shown yet: whether we draw them
-  bool again_ = false;
+  bool again_ = false, double_ = false;
+  bool over_ = false;   ///< who leads has ended the show
   bool plays_ = false;  ///< there is a scene from which the show can go on
   InputSample sample_;
   bool sampled_ = false;

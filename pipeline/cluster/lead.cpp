@@ -95,7 +95,7 @@ InputDevice& Lead::input(InputDevice& inner) {
 std::optional<ShowUnderWay> Lead::takeOver() {
   std::unique_lock lock(mutex_);
   const auto wait = [&](Clock::time_point until, const auto& ready) {
-    while (!ready() && Clock::now() < until && !options_.stop()) changed_.wait_for(lock, kLook);
+    while (!ready() && Clock::now() < until && waits()) changed_.wait_for(lock, kLook);
   };
   const auto allAreThere = [&] {
     return std::ranges::count(followers_, 0U, &Follower::incarnation) == 1;  // that is us
@@ -103,7 +103,8 @@ std::optional<ShowUnderWay> Lead::takeOver() {
   wait(Clock::now() + kSearch, allAreThere);
   for (std::size_t node = 0; node < followers_.size(); ++node) {
     const Follower& f = followers_[node];
-    if (f.plays == 0 || (session_.resumes != 0 && f.plays != session_.resumes)) continue;
+    if (f.plays == 0 || f.show != session_.show || (session_.resumes != 0 && f.plays != session_.resumes))
+      continue;
     session_.resumes = f.plays, session_.giver = static_cast<std::uint8_t>(node);
     bus_->tell(session_);
     wait(Clock::now() + kGiving, [&] { return incoming_.complete() || f.plays == 0; });
@@ -140,12 +141,13 @@ void Lead::begin(double rate) {
   session_.rate = rate;
   bus_->tell(session_);
   const auto until = Clock::now() + (session_.resumes != 0 ? kReturn : options_.patience);
-  while (!missing().empty() && Clock::now() < until && !options_.stop()) {
+  while (!missing().empty() && Clock::now() < until && waits()) {
     lock.unlock();
     answerWhoAsks();
     lock.lock();
     changed_.wait_for(lock, kLook);
   }
+  if (double_) return;
   if (const auto names = missing(); !names.empty() && !options_.stop())
     options_.tell(fmt::format("the show {} without {}", session_.resumes != 0 ? "goes on" : "begins",
                               fmt::join(names, ", ")));
@@ -226,7 +228,7 @@ bool Lead::mayShow(const TimeSignature&) {
   at->drawnHere = drawn;
   const bool latest = at->awaited == 0;
   release();
-  while (go_ < serial && !options_.stop()) {
+  while (go_ < serial && waits()) {
     changed_.wait_for(lock, kLook);
     leaveOutWhoIsStuck();
   }
@@ -258,6 +260,25 @@ void Lead::release() {
   changed_.notify_all();
 }
 
+// Of two that lead, the one ends that has not begun; if that does not tell them apart, the lower number.
+void Lead::hear(const Session& other) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (other.over || other.number == session_.number || double_) return;
+    const bool theirs = other.begun != session_.begun ? other.begun : other.number > session_.number;
+    if (!theirs) return;
+    double_ = true;
+    options_.tell(
+        fmt::format("another program leads as {} already; this one ends", nameOf(options_.cluster.lead)));
+  }
+  changed_.notify_all();
+}
+
+bool Lead::hasDouble() const {
+  const std::lock_guard lock(mutex_);
+  return double_;
+}
+
 void Lead::hear(const Presence& p) {
   std::unique_lock lock(mutex_);
   if (p.node >= followers_.size() || p.node == options_.cluster.lead) return;
@@ -272,6 +293,7 @@ void Lead::hear(const Presence& p) {
     f.incarnation = p.incarnation;
   }
   f.plays = static_cast<Phase>(p.phase) == Phase::Ready && p.plays ? p.session : 0;
+  f.show = p.show;
   f.phase = p.session == session_.number ? static_cast<Phase>(p.phase) : Phase::Waiting;
   f.asks = f.phase == Phase::Asking || (f.asks && f.differs);
   if (f.phase == Phase::Ready && !f.member) {
@@ -374,7 +396,13 @@ void Lead::hear(const Difference& d) {
   if (stop_) tally_.stopped = 1;
 }
 
-void Lead::finish() {
+// That it is over must not be heard before the last orders.
+void Lead::finish(bool over) {
+  bus_->flush();
+  const std::lock_guard lock(mutex_);
+  if (!over || double_) return;
+  session_.over = true;
+  bus_->tell(session_);
   bus_->flush();
 }
 

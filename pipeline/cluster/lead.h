@@ -65,8 +65,10 @@ public:
   bool compares(std::uint64_t frame) const { return frame % options_.cluster.hashEvery == 0; }
   void simulated(std::uint64_t frame, std::uint64_t hash);
   const Tally& tally() const { return tally_; }
-  /// The show is over: waits until all have heard of it.
-  void finish();
+  /// Another program leads this cluster already: ours is to end.
+  bool hasDouble() const;
+  /// Waits until all have heard what there was to hear; `over`: and that the show has been ended for all.
+  void finish(bool over);
 
   bool leads() const override { return true; }
   void issue(FrameOrder& order) override;
@@ -74,6 +76,7 @@ public:
   bool mayShow(const TimeSignature& now) override;
 
   using BusListener::hear;
+  void hear(const Session& session) override;
   void hear(const Presence& presence) override;
   void hear(const Drawn& drawn) override;
   void hear(const SceneHash& hash) override;
@@ -88,6 +91,7 @@ private:
   struct Follower {
     std::uint64_t incarnation = 0;  ///< 0: it is not there
     std::uint64_t plays = 0;        ///< the session that it is ready to play on in; 0: none
+    std::uint64_t show = 0;         ///< hash of its script
     Phase phase = Phase::Waiting;
     bool member = false, asks = false;
     bool differs = false;  ///< its scene, and it has not joined again since
@@ -113,6 +117,7 @@ private:
   std::vector<std::string> missing() const;
   void release();
   void compare(std::size_t node, std::uint64_t frame, std::uint64_t hash);
+  bool waits() const { return !double_ && !options_.stop(); }
   const std::string& nameOf(std::size_t node) const { return options_.cluster.nodes[node].name; }
 
   LeadOptions options_;
@@ -132,7 +137,7 @@ private:
   std::vector<SceneHash> early_;                                ///< of frames that we have not simulated yet
   std::deque<SceneParcel> parcels_;
   IncomingScene incoming_;  ///< of who gives us the show
-  bool ending_ = false;
+  bool ending_ = false, double_ = false;
   std::function<std::vector<std::uint8_t>()> save_;
   std::unique_ptr<SampledInput> input_;
   WrittenOrder written_;

@@ -92,7 +92,9 @@ bool Journal::write(std::string_view line) {
       moveOn(file_);
       continue;
     }
-    return ::write(file.get(), line.data(), line.size()) == static_cast<ssize_t>(line.size());
+    if (::write(file.get(), line.data(), line.size()) == static_cast<ssize_t>(line.size())) return true;
+    (void)!ftruncate(file.get(), ours.st_size);  // no half line, to which the next one would be added
+    return false;
   }
   return false;
 }

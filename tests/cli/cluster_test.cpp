@@ -239,6 +239,44 @@ TEST(ProgramFullCluster, AHundredMachinesAreStopped) {
   cluster.expectWhatOneShows("200");
 }
 
+/// Machines of which each is started by hand.
+class MachinesByHand {
+public:
+  MachinesByHand() : file_(fourNodes(folder_)) {}
+  pid_t start(const std::string& node, const std::string& as) {
+    return startProgram({{stadionPath(), "run",        kKick,    "--cluster", file_,    "--node",    node,
+                          "--out",       as_(as),      "--size", "32x24",     "--look", "plain",     "--pace",
+                          "lock",        "--pictures", "none",   "--input",   "none",   "--seconds", "600"}},
+                        as_(as + ".said"), as_(as + ".told"));
+  }
+  bool tells(const std::string& as, const std::string& what) const {
+    return becomes([&] { return told(as).find(what) != std::string::npos; });
+  }
+  std::string told(const std::string& as) const { return fileContent(as_(as + ".told")); }
+
+private:
+  std::string as_(const std::string& name) const { return folder_.path() / name; }
+  TemporaryFolder folder_;
+  std::string file_;
+};
+
+TEST(ProgramCluster, OfTwoProgramsOfOneNodeTheLaterEndsAndWhoLeadsEndsTheShowForAll) {
+  MachinesByHand machines;
+  std::map<std::string, pid_t> all;
+  for (const char* node : kFourNodes) all[node] = machines.start(node, node);
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  const pid_t second = machines.start("left", "second");
+  EXPECT_EQ(endOf(second), 2) << machines.told("second");
+  EXPECT_TRUE(machines.tells("second", "another program is left already; this one ends"))
+      << machines.told("second");
+  ASSERT_EQ(kill(all.at("front"), SIGTERM), 0);
+  for (const auto& [node, process] : all) {
+    const int status = endOf(process);
+    EXPECT_EQ(status, node == "front" ? 128 + SIGTERM : 0) << node << machines.told(node);
+  }
+  EXPECT_EQ(machines.told("left").find("another program"), std::string::npos) << "it played first";
+}
+
 TEST(ProgramCluster, WhatIsWrongIsToldAtTheStart) {
   const TemporaryFolder folder;
   const std::string cluster = fourNodes(folder);

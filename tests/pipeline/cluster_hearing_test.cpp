@@ -142,7 +142,7 @@ std::unique_ptr<Lead> lead() {
 
 TEST(ClusterHearing, NobodyWaitsForWhoIsLostInTheLastFrame) {
   const auto l = lead();
-  l->hear(Presence{1, 9, 1, 1, static_cast<std::uint8_t>(Phase::Ready), 0, false});
+  l->hear(Presence{1, 9, 1, 1, static_cast<std::uint8_t>(Phase::Ready), 0, false, 1});
   l->begin(60);
   FrameOrder order;
   order.signature = signatureAt(1, 60), order.last = true;
@@ -157,7 +157,7 @@ TEST(ClusterHearing, NobodyWaitsForWhoIsLostInTheLastFrame) {
 
 TEST(ClusterHearing, AShowGoesOnOnlyFromWhoHasPlayedIt) {
   const auto l = lead();
-  l->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 0, false});
+  l->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 0, false, 1});
   std::vector<std::uint8_t> bytes(10, 3);
   StatePart part{};
   part.to = 1, part.session = 1, part.size = 10;
@@ -165,9 +165,60 @@ TEST(ClusterHearing, AShowGoesOnOnlyFromWhoHasPlayedIt) {
   l->hear(part);
   EXPECT_FALSE(l->takeOver());
   const auto other = lead();
-  other->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true});
+  other->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, 1});
   other->hear(part);
   EXPECT_TRUE(other->takeOver());
+}
+
+TEST(ClusterHearing, AShowOfAnotherScriptIsNotTakenOver) {
+  const auto l = lead();
+  std::vector<std::uint8_t> bytes(10, 3);
+  StatePart part{};
+  part.to = 1, part.session = 1, part.size = 10;
+  part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
+  l->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, 2});
+  l->hear(part);
+  EXPECT_FALSE(l->takeOver());
+}
+
+TEST(ClusterHearing, OfTwoProgramsOfOneNodeOneEnds) {
+  const auto ready = static_cast<std::uint8_t>(Phase::Ready);
+  const auto f = follower();  // its number is 7
+  f->hear(Presence{1, 6, 1, 0, 0, 0, false, 1});
+  EXPECT_FALSE(f->hasDouble()) << "it is told the same of us, and ends";
+  f->hear(Presence{0, 9, 1, 0, 0, 0, false, 1});
+  EXPECT_FALSE(f->hasDouble()) << "another node";
+  f->hear(Presence{1, 6, 2, 1, ready, 3, true, 1});
+  EXPECT_TRUE(f->hasDouble()) << "it plays, we do not yet";
+  EXPECT_FALSE(f->isToJoinAgain());
+  const auto l = lead();  // its number is 1
+  Session waiting = session(60, false);
+  waiting.number = 9, waiting.over = true;
+  l->hear(waiting);
+  EXPECT_FALSE(l->hasDouble());
+  waiting.over = false;
+  l->hear(waiting);
+  EXPECT_TRUE(l->hasDouble());
+  const auto begun = lead();
+  begun->begin(60);
+  begun->hear(waiting);
+  EXPECT_FALSE(begun->hasDouble()) << "it has not begun, we have";
+}
+
+TEST(ClusterHearing, WhoLeadsEndsTheShowForAll) {
+  const auto f = follower();
+  Session s = session(60, false);
+  f->hear(s);
+  ASSERT_TRUE(f->join());
+  FrameOrder order;
+  order.signature = signatureAt(0, 60);
+  WrittenOrder written;
+  f->hear(written.write({1, 1, 3, 0}, order, nullptr));
+  s.begun = s.over = true;
+  f->hear(s);
+  EXPECT_TRUE(f->next()) << "what was ordered before is played";
+  EXPECT_FALSE(f->next());
+  EXPECT_FALSE(f->isToJoinAgain());
 }
 
 TEST(ClusterHearing, WhatAnotherMachineSaysIsNoCommandToATerminal) {

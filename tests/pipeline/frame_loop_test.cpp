@@ -288,6 +288,40 @@ private:
   Playback& playback_;
 };
 
+/// A show that goes on after frame 4, and is paused.
+class PausedStages final : public CountingStages {
+public:
+  PausedStages(Playback& playback) : CountingStages(1, kSlots), playback_(playback) {}
+  void app(const TimeSignature& now, std::size_t slot) override {
+    CountingStages::app(now, slot);
+    if (stills == 0) tooEarly = true;
+  }
+  void still(const TimeSignature& now, std::size_t slot) override {
+    EXPECT_EQ(now.frame, 4U);
+    CountingStages::app(now, slot);
+    if (++stills == 3) playback_.setPaused(false);
+  }
+  int stills = 0;
+  bool tooEarly = false;
+
+private:
+  Playback& playback_;
+};
+
+TEST(ThreadsFrameLoop, AShowThatGoesOnWherePausedStandsStill) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    Playback playback;
+    playback.setPaused(true);
+    PausedStages stages(playback);
+    FrameLoopOptions o;
+    o.mode = mode, o.rate = 10, o.frames = 8, o.playback = &playback, o.after = signatureAt(4, 10);
+    const FrameLoopOutcome outcome = runFrames(stages, o);
+    EXPECT_FALSE(stages.tooEarly);
+    EXPECT_GE(stages.stills, 3);
+    EXPECT_EQ(outcome.framesSimulated, 3u) << "5, 6 and 7";
+  }
+}
+
 TEST(ThreadsFrameLoop, APausedShowIsDrawnOnAndGoesByFramesAndSlowly) {
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
     Playback playback;

@@ -137,15 +137,15 @@ void writeConversations(const Folder& to) {
   difference.node = 1, difference.session = 1, difference.frame = 3, difference.found = true;
   difference.where = where.data(), difference.here = here.data(), difference.there = there.data();
   to.add("takes_over",
-         Conversation()(Step::Presence, stadion_wire_Presence_desc, Presence{1, 9, 1, 5, 2, 3, true})(
+         Conversation()(Step::Presence, stadion_wire_Presence_desc, Presence{1, 9, 1, 5, 2, 3, true, 1})(
              Step::StatePart, stadion_wire_StatePart_desc, part)(Step::StatePart, stadion_wire_StatePart_desc,
                                                                  rest)(Step::TakeOver)(Step::Begin)
              .seed());
   to.add("leads",
-         Conversation()(Step::Presence, stadion_wire_Presence_desc, Presence{1, 9, 1, 1, 2, 0, true})(
-             Step::Presence, stadion_wire_Presence_desc, Presence{2, 8, 1, 1, 1, 0, false})(Step::Issue, {1})(
-             Step::Drawn, stadion_wire_Drawn_desc, Drawn{1, 1, 1})(Step::Show)(Step::Simulated, {3})(
-             Step::SceneHash, stadion_wire_SceneHash_desc, SceneHash{1, 1, 3, 4})(
+         Conversation()(Step::Presence, stadion_wire_Presence_desc, Presence{1, 9, 1, 1, 2, 0, true, 1})(
+             Step::Presence, stadion_wire_Presence_desc, Presence{2, 8, 1, 1, 1, 0, false, 1})(
+             Step::Issue, {1})(Step::Drawn, stadion_wire_Drawn_desc, Drawn{1, 1, 1})(Step::Show)(
+             Step::Simulated, {3})(Step::SceneHash, stadion_wire_SceneHash_desc, SceneHash{1, 1, 3, 4})(
              Step::SceneHash, stadion_wire_SceneHash_desc, SceneHash{2, 1, 5, 4})(Step::Simulated, {5})(
              Step::Difference, stadion_wire_Difference_desc, difference)(Step::Left, {2})
              .seed());
