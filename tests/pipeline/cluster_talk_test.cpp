@@ -136,7 +136,7 @@ protected:
     std::uint64_t f = 0;
     for (; f < kFrames || (!told_.has(told) && f < 100'000); ++f) frame(f);
     frame(f, true);
-    lead_->finish();
+    lead_->finish(true);
   }
 
   void expectAllEnd() {
@@ -242,7 +242,7 @@ TEST_F(ThreadsCluster, AnotherSceneMayEndTheShowForAll) {
   std::uint64_t f = 0;
   while (f < 100'000 && !frame(f)) ++f;
   EXPECT_LT(f, 100'000U) << told_.all();
-  lead_->finish();
+  lead_->finish(true);
   expectAllEnd();
   EXPECT_EQ(common_->ends[1], scene_.number);
   EXPECT_NE(common_->ends[2], scene_.number);
@@ -265,7 +265,7 @@ TEST_F(ThreadsCluster, WhoLeadsAnewGoesOnFromAnothersScene) {
   EXPECT_EQ(underWay->last.frame, 29U);
   lead_->begin(60);
   for (std::uint64_t f = 30; f <= kFrames; ++f) frame(f, f == kFrames);
-  lead_->finish();
+  lead_->finish(true);
   expectAllAlike();
 }
 
