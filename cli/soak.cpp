@@ -38,6 +38,7 @@ struct Options {
   std::vector<std::string> shows;
   std::uint64_t frames = 1'000'000, visit = 400'000;
   std::string record, look = "plain";
+  bool noMemory = false;  ///< what grows is not judged
 };
 
 /// How a visit is played. The same happens in all of them.
@@ -189,11 +190,46 @@ private:
   bool well_ = true;
 };
 
+/// Memory, in a visit or from visit to visit, handles and threads. What could not be judged is no pass.
+void judgeGrowth(Verdicts& v, const SoakRecord& record, std::uint64_t warmUp) {
+  constexpr std::size_t kFewest = 10;
+  const std::vector<SoakSample> samples = afterWarmUp(record.samples(), warmUp);
+  const auto slope = [&](std::uint64_t SoakSample::*figure) {
+    return slopeOf(samples, figure).value_or(0) * static_cast<double>(kSlopeFrames);
+  };
+  const bool inVisit = samples.size() >= kFewest;
+  if (inVisit) {
+    const double resident = slope(&SoakSample::residentBytes);
+    v.add(resident < kMostSlope,
+          fmt::format("memory in a visit: {:+.1f} bytes in 10 000 frames (RSS; less than {} is asked for), "
+                      "{:+.1f} of them asked for by the program; {} samples",
+                      resident, kMostSlope, slope(&SoakSample::heapBytes), samples.size()));
+  } else {
+    std::printf("  -      memory in a visit: %zu samples after its first %ju frames are too few\n",
+                samples.size(), static_cast<std::uintmax_t>(warmUp));
+  }
+  const auto more = slopeOfVisits(record.samples(), &SoakSample::heapBytes);
+  if (more)
+    v.add(
+        *more < kMostOfVisit,
+        fmt::format("memory from visit to visit: {:+.1f} bytes more asked for by the program (less than {}); "
+                    "{:+.1f} bytes of RSS",
+                    *more, kMostOfVisit, *slopeOfVisits(record.samples(), &SoakSample::residentBytes)));
+  else
+    std::printf("  -      memory from visit to visit: too few visits (--visit)\n");
+  if (!inVisit && !more)
+    v.add(false,
+          "memory was not judged: more --frames are needed, or --no-memory says that it is not asked for");
+  if (record.samples().size() < kFewest) return;
+  const auto handles = growthOf(record.samples(), &SoakSample::handles),
+             threads = growthOf(record.samples(), &SoakSample::threads);
+  v.add(handles <= 0, fmt::format("handles: {:+} of {}", handles, record.samples().back().handles));
+  v.add(threads <= 0, fmt::format("threads: {:+} of {}", threads, record.samples().back().threads));
+}
+
 /// Prints what came of it. False if a limit was missed.
 bool tellVerdicts(const Options& o, const SoakRecord& record) {
   const SoakCounts& c = record.counts;
-  const std::uint64_t warmUp = std::min<std::uint64_t>(100'000, o.frames / 5);
-  const std::vector<SoakSample> samples = afterWarmUp(record.samples(), warmUp);
   std::printf("soak of %s: %ju frames in %ju visits by %u processes, %.0f frames a second\n",
               fmt::format("{}", fmt::join(o.shows, ", ")).c_str(), static_cast<std::uintmax_t>(c.frames),
               static_cast<std::uintmax_t>(c.visits), record.processes(),
@@ -207,33 +243,7 @@ bool tellVerdicts(const Options& o, const SoakRecord& record) {
                                        c.wrongSteps, c.frames));
   v.add(c.wrongHashes == 0,
         fmt::format("states: {} of {} histories compared differ", c.wrongHashes, c.compared));
-  const auto slope = [&](std::uint64_t SoakSample::*figure) {
-    return slopeOf(samples, figure).value_or(0) * static_cast<double>(kSlopeFrames);
-  };
-  constexpr std::size_t kFewest = 10;
-  if (samples.size() < kFewest) {
-    std::printf("  -      memory in a visit: %zu samples after its first %ju frames are too few\n",
-                samples.size(), static_cast<std::uintmax_t>(warmUp));
-  } else {
-    const double resident = slope(&SoakSample::residentBytes);
-    v.add(resident < kMostSlope,
-          fmt::format("memory in a visit: {:+.1f} bytes in 10 000 frames (RSS; less than {} is asked for), "
-                      "{:+.1f} of them asked for by the program; {} samples",
-                      resident, kMostSlope, slope(&SoakSample::heapBytes), samples.size()));
-  }
-  if (const auto more = slopeOfVisits(record.samples(), &SoakSample::heapBytes))
-    v.add(
-        *more < kMostOfVisit,
-        fmt::format("memory from visit to visit: {:+.1f} bytes more asked for by the program (less than {}); "
-                    "{:+.1f} bytes of RSS",
-                    *more, kMostOfVisit, *slopeOfVisits(record.samples(), &SoakSample::residentBytes)));
-  else
-    std::printf("  -      memory from visit to visit: too few visits (--visit)\n");
-  if (record.samples().size() < kFewest) return v.well();
-  const auto handles = growthOf(record.samples(), &SoakSample::handles),
-             threads = growthOf(record.samples(), &SoakSample::threads);
-  v.add(handles <= 0, fmt::format("handles: {:+} of {}", handles, record.samples().back().handles));
-  v.add(threads <= 0, fmt::format("threads: {:+} of {}", threads, record.samples().back().threads));
+  if (!o.noMemory) judgeGrowth(v, record, std::min<std::uint64_t>(100'000, o.frames / 5));
   return v.well();
 }
 
@@ -276,13 +286,13 @@ void addSoakCommand(CLI::App& app, int& code) {
   command->add_option("--look", o->look, "full or plain")
       ->check(CLI::IsMember({"full", "plain"}))
       ->capture_default_str();
+  command->add_flag("--no-memory", o->noMemory,
+                    "do not judge memory, handles and threads: a short soak cannot");
   command->footer(
-      "Fails (exit code 1) if memory grows by 1 KiB or more in 10 000 frames of a visit, or by 4 KiB from "
-      "visit "
-      "to visit, if handles or threads become "
-      "more, if a "
-      "frame is not\none tick after the one before, or if the same frame of a show has another state "
-      "than before. docs/all-day.md");
+      "Fails (exit code 1) if memory grows by 1 KiB or more in 10 000 frames of a visit, or by 4 KiB from\n"
+      "visit to visit, or could not be judged; if handles or threads become more, if a frame is not one "
+      "tick\n"
+      "after the one before, or if the same frame of a show has another state than before. docs/all-day.md");
   command->callback([o, &code] { code = soak(*o); });
 }
 

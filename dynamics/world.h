@@ -91,6 +91,9 @@ enum class BodyMode : std::uint8_t {
   Quarantined,  ///< its state would have become non-finite
   Stuck,        ///< its tip sticks in a collider, until that moves or goes, or somebody takes it out
 };
+constexpr BodyMode lastOf(BodyMode) {
+  return BodyMode::Stuck;
+}
 /// Whether a body of this mode neither moves nor is moved.
 constexpr bool standsStill(BodyMode mode) {
   return mode == BodyMode::Rest || mode == BodyMode::Quarantined || mode == BodyMode::Stuck;
@@ -102,6 +105,9 @@ enum class FlightClass : std::uint8_t {
   Series,  ///< to order 16, in one medium that is the same everywhere
   Steps,   ///< by steps of order 5, under anything else
 };
+constexpr FlightClass lastOf(FlightClass) {
+  return FlightClass::Steps;
+}
 
 /// A body's whole simulated state at the end of the last advance, for hashing and reports.
 struct BodyState {

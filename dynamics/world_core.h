@@ -54,6 +54,7 @@ public:
   };
   struct Command {
     enum class Kind : std::uint8_t { Switch, Expire, Hook, Unhook };
+    friend constexpr Kind lastOf(Kind) { return Kind::Unhook; }
     Nanoseconds when = 0;
     std::uint64_t order = 0;
     Kind kind = Kind::Switch;
@@ -64,6 +65,7 @@ public:
   };
   struct Event {
     enum class Kind : std::uint8_t { Command, Touch, Horizon, Tick };
+    friend constexpr Kind lastOf(Kind) { return Kind::Tick; }
     double tau = 0;
     std::uint64_t order = 0;
     Kind kind = Kind::Touch;

@@ -9,6 +9,22 @@
 
 namespace stadion {
 
+constexpr Path::Kind lastOf(Path::Kind) {
+  return Path::Kind::Damped;
+}
+constexpr SpinTerms::Kind lastOf(SpinTerms::Kind) {
+  return SpinTerms::Kind::Steered;
+}
+constexpr LinearField::Unit lastOf(LinearField::Unit) {
+  return LinearField::Unit::Force;
+}
+constexpr SphericalField::Falloff lastOf(SphericalField::Falloff) {
+  return SphericalField::Falloff::Square;
+}
+constexpr MediumField::Region lastOf(MediumField::Region) {
+  return MediumField::Region::Box;
+}
+
 // What the parts consist of.
 
 static void fieldsOf(Aabb& b, StateFields& f) {
@@ -190,6 +206,10 @@ void World::Core::visit(StateFields& f) {
   f("next collider", nextCollider), f("next field", nextField);
   f("looks", looks.looks), f("collider looks", looks.colliders), f("body looks", looks.bodies);
   f("tick number", tickNumber), f("tick", tickAt);
+  // The present lies in the window: from elsewhere it would be hours of simulation to its end.
+  const bool isWindow = window >= kWindow && window <= kLongestWindow;
+  const bool isNow = t0 >= 0 && t0 <= t1 && origin >= 0 && origin <= t1 && t1 - origin < window;
+  if (f.restores() && !(isWindow && isNow)) return f.fail();
   f("leaners", leaners), f("leaners to prune", leanersToPrune), f("changed", changed), f("told", told);
   visitCommands(f);
   visitQueue(f);

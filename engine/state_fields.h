@@ -11,6 +11,10 @@
 ///       f.kept("handle", self.handle_);  // follows from the rest, in ways that matter: no part of the hash
 ///     }
 ///
+/// An enumeration that is part of a state begins at 0; lastOf(), in its namespace, says where it ends:
+///
+///     constexpr Held lastOf(Held) { return Held::All; }
+///
 /// What is read from elsewhere may be damaged or meant for another script: reading it ends in failed(), and
 /// nothing is out of bounds. What was read by then is void.
 ///
@@ -117,6 +121,8 @@ private:
     else
       value = static_cast<T>(bits);
     if (static_cast<std::uint64_t>(value) != bits) fail();
+    if constexpr (std::is_enum_v<T>)
+      if (value < T{} || value > lastOf(T{})) value = T{}, fail();
   }
 
   void visitAll(Vec3& v) {

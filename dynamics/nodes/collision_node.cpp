@@ -11,6 +11,8 @@
 namespace stadion {
 namespace {
 
+constexpr Nanoseconds kMostBehind = fromSeconds(10);  ///< of a state that is put back: what moves in it
+
 /// The box around the ball around a shape. Of an unbounded plane it is as good as everywhere.
 Aabb boxAround(const Shape& shape, const Pose& X_WN) {
   const Sphere ball = boundingSphere(shape);
@@ -374,6 +376,11 @@ void CollisionNode::state(StateFields& f) {
 }
 
 bool CollisionNode::resumeParts(Scene& scene) {
+  // What moves was simulated up to now, or a few frames ago; what lasts longer has not counted.
+  const auto stands = [this](const Part& p) { return p.id == 0 || standsStill(world_.mode(p.id)); };
+  const Nanoseconds behind = scene.now() - advancedTo_;
+  const bool mayBe = standing().missed == Missed::Time || std::ranges::all_of(collidees_, stands);
+  if (behind < 0 || (behind > kMostBehind && !mayBe)) return false;
   comingOrGoing_.clear();
   for (std::vector<Part>* parts : {&colliders_, &collidees_})
     for (Part& part : *parts) {

@@ -45,6 +45,7 @@ public:
   /// Something asked of it, for an exact time.
   struct Request {
     enum class Kind : std::uint8_t { Hook, Unhook, Grab, Release, Reset };
+    friend constexpr Kind lastOf(Kind) { return Kind::Reset; }
     Nanoseconds when = 0;
     Kind kind = Kind::Reset;
     NodeRef field;        ///< Hook, Unhook

@@ -6,6 +6,10 @@
 
 namespace stadion {
 
+constexpr Event lastOf(Event) {
+  return static_cast<Event>(kEventCount - 1);
+}
+
 void SceneNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
   if (initially_) load(scene, scene.now());

@@ -40,6 +40,9 @@ enum class Hider : std::uint8_t {
 
 /// What of a placement is held in World.
 enum class Held : std::uint8_t { Nothing, Position, Orientation, All };
+constexpr Held lastOf(Held) {
+  return Held::All;
+}
 
 /// Where a member of a fleet is.
 struct MemberPlace {

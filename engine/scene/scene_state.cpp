@@ -10,6 +10,14 @@
 #include <utility>
 
 namespace stadion {
+
+constexpr Verb lastOf(Verb) {
+  return static_cast<Verb>(kVerbCount - 1);
+}
+constexpr Node::Missed lastOf(Node::Missed) {
+  return Node::Missed::Time;
+}
+
 namespace {
 
 /// Of what is written: older ones mean something else.
@@ -51,9 +59,11 @@ void Scene::visitLoads(StateFields& f) {
   for (const auto& [number, l] : loads_) there.push_back(number);
   f("loads", there);
   if (f.restores()) {
-    // Who asks for a file has come with an earlier one.
-    for (const auto& [number, asked] : asked_)
+    // Who asks for a file has come with an earlier one, and says where it is to be.
+    for (const auto& [number, asked] : asked_) {
       if (asked.owner.load >= number || !asked.X_WO.matrix().allFinite()) return f.fail();
+      if (!asked.owner.valid() && asked.X_WO.matrix() != Affine::Identity().matrix()) return f.fail();
+    }
     for (const auto& [number, asked] : asked_) loader_.request(number, asked.file, asked.owner, asked.X_WO);
     for (const std::uint32_t number : there) {
       auto load = asked_.contains(number) && !loads_.contains(number) ? loader_.take(number) : nullptr;
@@ -139,8 +149,8 @@ std::optional<Scene::Difference> Scene::difference(std::span<const std::uint8_t>
 bool Scene::standsTogether() const {
   if (now_ < 0 || now_ > kLatest || frameStart_ < 0 || frameStart_ > now_ || stressLevel_ > kMostStress)
     return false;
-  for (const Message& m : messages_.pending())
-    if (static_cast<std::size_t>(m.verb) >= kVerbCount) return false;
+  for (const Change& c : pendingLoads_)
+    if (c.load && (!asked_.contains(c.number) || loads_.contains(c.number))) return false;
   for (const auto& [node, relief] : reliefs_)
     if (relief.pace > levelsOf(Concession::Half) || !std::isfinite(relief.lod)) return false;
   for (const TrackerSample& t : lastInput_.trackers)
@@ -167,9 +177,15 @@ bool Scene::standsTogether() const {
   for (const auto& [id, watcher] : watchers_)
     if (!placement(id)) return false;
   for (const auto& [number, l] : loads_)
-    for (const std::uint32_t position : l->enterOrder)
-      if (const PlacedNode* placed = l->nodes[position]->placed(); placed && !placement(placed->placement()))
+    for (const std::uint32_t position : l->enterOrder) {
+      Node& node = *l->nodes[position];
+      const PlacedNode* placed = node.placed();
+      if (placed && !placement(placed->placement())) return false;
+      const auto paced = paced_.find(node.self());
+      const bool misses = node.standing().missed != Node::Missed::Nothing;
+      if (misses && (paced == paced_.end() || paced->second.since < 0 || paced->second.since > now_))
         return false;
+    }
   return true;
 }
 

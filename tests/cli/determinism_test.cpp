@@ -1,13 +1,13 @@
 /// The same script and input give the same scene, whatever plays them.
 
-#include "tests/cli/program.h"
+#include "tests/cli/played_cluster.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <map>
 #include <random>
 #include <sstream>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -76,7 +76,7 @@ std::string historyOf(const Show& show, const std::string& frames, const std::ve
   const ProgramResult r = play(std::move(words), std::move(environment));
   EXPECT_EQ(r.status, 0) << show.name << "\n" << r.err;
   if (r.status != 0) return {};
-  return nlohmann::json::parse(r.out)["history_hash"].get<std::string>();
+  return Json::parse(r.out)["history_hash"].get<std::string>();
 }
 
 /// Each axis by itself, then some corners of all of them.
@@ -103,6 +103,38 @@ void expectOneHistory(const std::string& frames, int corners) {
       EXPECT_EQ(historyOf(show, frames, how, any(environments)), reference) << show.name << ", corner " << i;
     }
   }
+}
+
+/// Each machine of clusters of one to four has the history that one program has.
+void expectOneHistoryOnMachines(const std::string& frames) {
+  const char* const clusters[] = {"node front front left right floor\n",
+                                  "node front front left\nnode right right floor\n",
+                                  "node front front left\nnode right right\nnode floor floor\n",
+                                  "node front front\nnode left left\nnode right right\nnode floor floor\n"};
+  for (const Show& show : kShows) {
+    const std::string reference = historyOf(show, frames, {"--gl", "none"}, {});
+    ASSERT_FALSE(reference.empty());
+    for (const char* nodes : clusters) {
+      const TemporaryFolder folder;
+      const std::string file =
+          folder.write("some.cluster", std::string("walls cave4\n") + nodes + "deadline 5\npartition h" +
+                                           std::to_string(getpid()) + "\n");
+      const ProgramResult r = play({"cluster", file, pathOf(show), "--frames", frames, "--size", "32x24",
+                                    "--look", "plain", "--pictures", "none", "--out", folder.path() / "out"});
+      ASSERT_EQ(r.status, 0) << show.name << "\n" << nodes << r.err;
+      for (const auto& node : std::filesystem::directory_iterator(folder.path() / "out"))
+        EXPECT_EQ(summaryOf(node.path())["history_hash"], reference) << show.name << "\n"
+                                                                     << nodes << node.path();
+    }
+  }
+}
+
+TEST(ProgramDeterminism, MachinesOfAClusterHaveTheSameHistory) {
+  expectOneHistoryOnMachines("120");
+}
+
+TEST(ProgramFullDeterminism, TenThousandFramesHaveTheSameHistoryOnOneToFourMachines) {
+  expectOneHistoryOnMachines("10000");
 }
 
 TEST(ProgramDeterminism, EveryWayToPlayAShowHasTheSameHistory) {

@@ -8,6 +8,9 @@ namespace stadion {
 namespace {
 
 enum class Colour : std::uint8_t { Red, Green };
+constexpr Colour lastOf(Colour) {
+  return Colour::Green;
+}
 
 struct Part {
   double weight = 0;
@@ -173,6 +176,17 @@ TEST(StateFields, NumbersThatDoNotFitAreRefused) {
   RestoredState in(out.bytes());
   in("count", count);
   EXPECT_TRUE(in.failed());
+}
+
+TEST(StateFields, WhatNoEnumeratorStandsForIsRefused) {
+  std::uint64_t none = 2;
+  SavedState out;
+  out("colour", none);
+  Colour colour = Colour::Green;
+  RestoredState in(out.bytes());
+  in("colour", colour);
+  EXPECT_TRUE(in.failed());
+  EXPECT_EQ(colour, Colour::Red);
 }
 
 TEST(StateFields, WhatIsNoNumberIsRefused) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stadion::fuzz {
@@ -26,19 +27,31 @@ private:
   NodeFactories factories_{};
   mutable MeshStore meshes_;
   MeshId box_;
+  std::vector<std::unique_ptr<Load>>
+      kept_{};  ///< with the shapes of all shows: to fit them anew takes longest
 };
 
-/// The show of tests/fuzz/shows/everything.evs, and the part that it loads.
+/// Those of tests/fuzz/shows that are shows by themselves: one of everything, and small ones, whose states
+/// are read many times as often.
+struct FuzzedShow {
+  std::string_view name;
+  bool bodies = false;  ///< some are simulated
+};
+inline constexpr FuzzedShow kShows[] = {
+    {"everything", true}, {"places"}, {"signals"}, {"bodies", true}, {"parts"}};
+
+/// One of kShows, and the part that it loads.
 class BuiltShow final : private SceneLoader {
 public:
-  explicit BuiltShow(const Workshop& workshop) : workshop_(workshop), scene_(*this, workshop.meshes()) {}
+  BuiltShow(const Workshop& workshop, const FuzzedShow& show)
+      : workshop_(workshop), show_(show.name), scene_(*this, workshop.meshes()) {}
   Scene& scene() { return scene_; }
 
   /// From the show's beginning. Before restore() nothing is opened.
   void open();
   /// The next frames, at 60 Hz; trackers go their ways.
   void play(std::uint64_t frames);
-  /// One frame, after what has been put back.
+  /// Some frames, after what has been put back.
   void goOn();
 
 private:
@@ -53,6 +66,7 @@ private:
   void dispose(std::unique_ptr<Load>, std::uint64_t) override {}
 
   const Workshop& workshop_;
+  std::string_view show_;
   std::map<std::uint32_t, Asked> asked_;
   std::map<std::uint32_t, std::vector<InstanceRecord>> records_;  ///< of static objects, by load
   Scene scene_;

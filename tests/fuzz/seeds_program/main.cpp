@@ -153,12 +153,16 @@ void writeConversations(const Folder& to) {
 
 void writeStates(const Folder& to) {
   const Workshop workshop;
-  BuiltShow show(workshop);
-  show.open();
-  int count = 0;
-  for (const int frames : {1, 1, 30, 30, 120}) {
-    show.play(static_cast<std::uint64_t>(frames));
-    to.add("state_" + std::to_string(++count), show.scene().save());
+  for (std::size_t which = 0; which < std::size(kShows); ++which) {
+    BuiltShow show(workshop, kShows[which]);
+    show.open();
+    int count = 0;
+    for (const int frames : {1, 1, 30, 30, 120}) {
+      show.play(static_cast<std::uint64_t>(frames));
+      Seed seed = show.scene().save();
+      seed.insert(seed.begin(), static_cast<std::uint8_t>(which));
+      to.add(std::string(kShows[which].name) + '_' + std::to_string(++count), seed);
+    }
   }
 }
 
