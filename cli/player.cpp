@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <malloc.h>
+#include <mutex>
+#include <set>
 #include <thread>
 #include <tuple>
 
@@ -33,6 +35,28 @@ constexpr double kLongest = 1e9;
 
 std::size_t appThreadsOf(const ShowOptions& o) {
   return o.appThreads > 0 ? o.appThreads : std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
+}
+
+/// The same, but what was said of a file is not said again whenever it is loaded again.
+std::function<void(const Diagnostics&)> onlyNews(std::function<void(const Diagnostics&)> report) {
+  struct Said {
+    std::mutex mutex;
+    std::set<std::string> texts;
+  };
+  constexpr std::size_t kMost = 10'000;  // then it is said as often as it happens
+  return [report = std::move(report), said = std::make_shared<Said>()](const Diagnostics& findings) {
+    Diagnostics news;
+    {
+      const std::lock_guard lock(said->mutex);
+      for (const Diagnostic& d : findings.all()) {
+        std::string text = format(d);
+        if (said->texts.contains(text)) continue;
+        news.add(d);
+        if (said->texts.size() < kMost) said->texts.insert(std::move(text));
+      }
+    }
+    if (!news.all().empty()) report(news);
+  };
 }
 
 }  // namespace
@@ -170,9 +194,9 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   limits.giveUp = stop;
   p.importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);
   p.loader_ = std::make_unique<Loader>(
-      LoaderParts{*p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_, std::move(report), stop,
-                  fromSeconds(1 / p.rate_), p.trackers_, p.inputName_, kept,
-                  options.texts ? options.texts : ScriptTexts::read(options.script, p.roots_)});
+      LoaderParts{*p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_,
+                  onlyNews(std::move(report)), stop, fromSeconds(1 / p.rate_), p.trackers_, p.inputName_,
+                  kept, options.texts ? options.texts : ScriptTexts::read(options.script, p.roots_)});
   p.loader_->obey(p.decisions_.loads);
   p.scene_ = std::make_unique<Scene>(*p.loader_, *p.meshes_, appThreadsOf(options));
   p.options_.texts.reset();  // the loader keeps what is still to be loaded

@@ -48,6 +48,14 @@ TEST(ProgramUsage, HelpIsNotAnError) {
   EXPECT_TRUE(has(r.out, "--walls"));
 }
 
+TEST(ProgramUsage, WhatIsWrongWithAPartThatComesAndGoesIsToldOnce) {
+  const ProgramResult r = stadionProgram({"hash", testShow("moving.evs"), "--frames", "300"});
+  EXPECT_EQ(r.status, 0);
+  const std::size_t first = r.err.find("part.evs:3:14: warning: there is no asset");
+  ASSERT_NE(first, std::string::npos) << r.err;
+  EXPECT_EQ(r.err.find("part.evs:3:14: warning", first + 1), std::string::npos) << r.err;
+}
+
 TEST(ProgramUsage, AMissingScriptIsNamed) {
   for (const char* command : {"run", "hash", "check"}) {
     const ProgramResult r = stadionProgram({command, "/nowhere/missing.evs"});
