@@ -75,8 +75,11 @@ void SupervisedPart::simulated(const TimeSignature& now, Scene& scene, const Run
 
 void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch& watch) {
   const Nanoseconds begin = machineClock();
-  const bool kept = progress_->keep({now.frame, now.time, watch.history(), 0}, scene.save());
+  const std::vector<std::uint8_t> state = scene.save();
+  bytes_ = state.size();
+  const bool kept = progress_->keep({now.frame, now.time, watch.history(), 0}, state);
   const Nanoseconds took = machineClock() - begin;
+  ++times_, longest_ = std::max(longest_, took);
   const Nanoseconds pause = std::clamp(kShare * took, kKeepEvery, kKeepSeldom);
   nextKept_ = begin + pause;
   if (told_ || (kept && took < step_)) return;
@@ -90,9 +93,16 @@ void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch
 }
 
 std::string SupervisedPart::remark() const {
-  if (progress_->starts() < 2) return "";
-  return fmt::format("the player was replaced {} times; frames, times and what happened are of the last one",
-                     progress_->starts() - 1);
+  std::string words;
+  if (progress_->starts() > 1)
+    words =
+        fmt::format("the player was replaced {} times; frames, times and what happened are of the last one",
+                    progress_->starts() - 1);
+  if (times_ > 0)
+    words +=
+        fmt::format("{}the scene ({} bytes) was kept {} times for the next player, each in {:.2f} ms at most",
+                    words.empty() ? "" : "; ", bytes_, times_, 1e3 * toSeconds(longest_));
+  return words;
 }
 
 }  // namespace stadion

@@ -34,7 +34,7 @@ public:
   void simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch);
   void shown() { progress_->shown(); }
 
-  /// What there is to say of it in a summary; empty if this is the first player.
+  /// What there is to say of it in a summary: players before this one, and what keeping the scene took.
   std::string remark() const;
 
 private:
@@ -50,6 +50,8 @@ private:
   Nanoseconds nextKept_ = 0;  ///< machineClock()
   Nanoseconds step_ = 0;      ///< the longest time that keeping may take unnoticed
   bool told_ = false;
+  std::size_t bytes_ = 0, times_ = 0;  ///< of the scene as it was kept; how often
+  Nanoseconds longest_ = 0;            ///< that keeping it took
 };
 
 }  // namespace stadion

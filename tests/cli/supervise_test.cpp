@@ -114,6 +114,15 @@ TEST(ProgramSupervise, AShowGoesOnAfterItsPlayerWasKilledAndAfterItWasStopped) {
     EXPECT_TRUE(run.hasNoted(line)) << line << '\n' << fileContent(run.journal());
 }
 
+TEST(ProgramSupervise, TheSummarySaysWhatKeepingTheSceneTook) {
+  const ProgramResult r =
+      stadionProgram({"run", kKick, "--supervise", "--json", "--seconds", "6", "--pace", "lock", "--size",
+                      "32x24", "--look", "plain", "--walls", "desktop"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const std::string remarks = Json::parse(r.out)["remarks"].dump();
+  EXPECT_NE(remarks.find("bytes) was kept 1 times for the next player"), std::string::npos) << remarks;
+}
+
 TEST(ProgramSupervise, ALiveShowEndsWithWhoWatchesOverIt) {
   Supervised run({"--walls", "desktop", "--size", "32x24", "--look", "plain", "--input", "none"});
   ASSERT_TRUE(becomes([&] { return run.hasNoted("the first picture"); })) << fileContent(run.told());
