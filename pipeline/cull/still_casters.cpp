@@ -98,7 +98,7 @@ RingCasters StillCasters::at(const RingPlace& place, const SlotView& state) {
   const RingCasters casters = castersOf(place, state);
   // Of a slot that has been taken away meanwhile nobody else must hear.
   if (state.intact()) {
-    std::ranges::rotate(kept, kept.end() - 1);
+    std::rotate(kept.begin(), kept.end() - 1, kept.end());
     kept.front() = {place, state.stillVersion, casters};
   }
   return casters;
