@@ -103,11 +103,12 @@ protected:
   }
 
   /// Ends with what it was, or goes on as if nothing had been; leaves nothing that is not whole.
-  void expectDefinedEnd(const ProgramRun& run, const std::string& what, const std::string& hash) const {
+  void expectDefinedEnd(const ProgramRun& run, const std::string& what, const std::string& hash) {
     const std::string record = file("record.input");
     fs::remove(record);
     const ProgramResult r = runProgram(run);
     EXPECT_TRUE(r.status == 0 || r.status == 2 || r.status == 3) << what << ": " << r.status << "\n" << r.err;
+    inFrames_ += has(r.err, "App, frame ") && has(r.err, ": out of memory");
     if (r.status == 0)
       EXPECT_EQ(hashOf(r), hash) << what;
     else
@@ -119,7 +120,7 @@ protected:
   }
 
   /// `runs` times, between the command line and the end.
-  void sweep(const std::vector<std::string>& words, const char* how, int runs) const {
+  void sweep(const std::vector<std::string>& words, const char* how, int runs) {
     const ProgramResult whole = runProgram(run("", words));
     ASSERT_EQ(whole.status, 0) << whole.err;
     const ProgramRun none{{stadionPath(), "run"}, run("new tell=1").environment};
@@ -137,11 +138,14 @@ protected:
   }
 
   static int times(int few) { return fullRuns() ? 20 * few : few; }
+
+  int inFrames_ = 0;  ///< runs that ended in one, and said so
 };
 
 TEST_F(ProgramFaultsWithoutMemory, OnceTheRunSaysSoOrGoesOn) {
   sweep({"--gl", "none", "--mode", "sequential", "--record-input", file("record.input")}, "new nth={}",
         times(40));
+  EXPECT_GT(inFrames_, 0) << "no run said in which frame it was";
 }
 
 TEST_F(ProgramFaultsWithoutMemory, FromThenOnTheRunSaysSo) {
@@ -215,6 +219,15 @@ TEST_F(ProgramFaults, ADiskThatIsFullOfPicturesEndsTheRunWithThoseThatAreWhole) 
     }
   EXPECT_GT(pictures, 0);
   EXPECT_TRUE(has(json::parse(fileContent(out + "/summary.json")).at("failure"), "No space left on device"));
+}
+
+TEST_F(ProgramFaults, ADiskThatIsFullWhenTheLastFramesAreToBeKeptIsToldAndTheShowIsPlayedWithout) {
+  const ProgramResult whole = runProgram(run("", {"--gl", "none"}));
+  const ProgramResult r = runProgram(run("write error=28 path=.frames", {"--gl", "none"}));
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_TRUE(has(r.err, "the last frames cannot be kept here: No space left on device")) << r.err;
+  EXPECT_TRUE(has(r.err, "the show is played without")) << r.err;
+  EXPECT_EQ(hashOf(r), hashOf(whole));
 }
 
 TEST_F(ProgramFaults, AClockThatIsSetChangesNothing) {

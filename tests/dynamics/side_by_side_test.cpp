@@ -3,8 +3,12 @@
 #include "tests/dynamics/show_nodes.h"
 
 #include <atomic>
+#include <cstdlib>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <stdexcept>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -38,6 +42,29 @@ TEST(ThreadsCrew, WhatAPieceThrowsIsThrownWhenAllAreDone) {
     }
     EXPECT_EQ(done, 10);
   }
+}
+
+/// The address space that this process may have from now on: what it has, and a little.
+void closeAddressSpace() {
+  std::ifstream statm("/proc/self/statm");
+  rlim_t pages = 0;
+  statm >> pages;
+  rlimit most{};
+  getrlimit(RLIMIT_AS, &most);
+  most.rlim_cur = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (1U << 20);
+  setrlimit(RLIMIT_AS, &most);
+}
+
+// In a process of its own; more threads than the C library keeps stacks for.
+TEST(ProgramCrew, WithoutRoomForItsThreadsTheSameIsDone) {
+  const auto work = [] {
+    closeAddressSpace();
+    Crew crew(64);
+    std::atomic<int> done = 0;
+    crew.run(100, [&](std::size_t) { ++done; });
+    std::_Exit(done == 100 ? 0 : 1);
+  };
+  EXPECT_EXIT(work(), testing::ExitedWithCode(0), "");
 }
 
 /// Five heaps, each with a dynamics node of its own; the last two meet: a ball of the fourth is collider of

@@ -134,6 +134,12 @@ TEST(TrackerFeed, ASilentWandIsLostAndLetsGoOfEverything) {
   EXPECT_EQ(room.sample.find("wand")->buttons, 0u);
   EXPECT_EQ(room.sample.find("wand")->axes[1], 0.0f);
   EXPECT_EQ(room.sample.find("wand")->X_RT.p, Vec3(0, 1, 1));
+  // Heard of again it holds nothing: the button may have been released meanwhile.
+  room.next = 25;
+  room.feed.pose("wand", 1'000'000'000 + 400 * kMs, at(0, 1, 1));
+  EXPECT_TRUE(room.frame().find("wand")->valid);
+  EXPECT_EQ(room.sample.find("wand")->buttons, 0u);
+  EXPECT_EQ(room.sample.find("wand")->axes[1], 0.0f);
 }
 
 TEST(TrackerFeed, AButtonPressedAndReleasedBetweenTwoFramesIsNotMissed) {

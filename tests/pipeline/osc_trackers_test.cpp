@@ -1,5 +1,6 @@
 #include "pipeline/input/osc_trackers.h"
 
+#include <algorithm>
 #include <arpa/inet.h>
 #include <cstring>
 #include <gtest/gtest.h>
@@ -109,6 +110,11 @@ TEST(ThreadsOscTrackers, WhatIsNoMeasurementIsCountedToldOnceAndLeftOut) {
   EXPECT_FALSE(room.now().find("wand")->valid);
   EXPECT_EQ(room.now().find("wand")->buttons, 0u);
   EXPECT_EQ(room.told.size(), 8u) << "each kind of mistake once";
+  const auto tellsOf = [&](const char* begin) {
+    return std::ranges::count_if(room.told, [&](const std::string& line) { return line.starts_with(begin); });
+  };
+  EXPECT_EQ(tellsOf("tracker \"wand\" says what cannot be"), 1);
+  EXPECT_EQ(tellsOf("tracker \"hat\" is not in the rig file"), 1);
 }
 
 TEST(ThreadsOscTrackers, PacketsThatAreNoOscNeverReachTheShow) {

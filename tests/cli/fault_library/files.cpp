@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <ctime>
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace {
@@ -85,6 +86,14 @@ ssize_t pread(int file, void* to, std::size_t bytes, off_t at) {
 ssize_t write(int file, const void* from, std::size_t bytes) {
   static const auto call = real<decltype(&write)>("write");
   return faulty(writes(), file, bytes, [&](std::size_t n) { return call(file, from, n); });
+}
+
+// Room that is taken beforehand.
+int posix_fallocate(int file, off_t at, off_t bytes) {
+  static const auto call = real<decltype(&posix_fallocate)>("posix_fallocate");
+  const auto wanted = static_cast<std::size_t>(bytes);
+  if (wanted > 0 && writes().concerns(file) && writes().allowed(wanted) < wanted) return writes().error;
+  return call(file, at, bytes);
 }
 
 // The C library's own buffers are written without write(): what is put into them counts as written.
