@@ -18,7 +18,7 @@
 namespace stadion {
 namespace {
 
-struct Options {
+struct BenchAttributionOptions {
   std::uint64_t frames = 320;
   bool json = false;
 };
@@ -83,7 +83,7 @@ bool tellFigures(const ShowFigures& f, const Show& show, bool json) {
   return met;
 }
 
-int benchAttribution(const Options& o) {
+int benchAttribution(const BenchAttributionOptions& o) {
   const TemporaryFolder folder;
   Diagnostics findings;
   if (const auto wrong = writeFile(folder.path("grid.evs"), gridScript())) {
@@ -113,7 +113,7 @@ int benchAttribution(const Options& o) {
 }  // namespace
 
 void addBenchAttribution(CLI::App& bench, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchAttributionOptions>();
   CLI::App* command = bench.add_subcommand(
       "attribution",
       "How much of the frames of kick, Olympia and a grid of 10 000 nodes is found with nodes?");

@@ -28,7 +28,7 @@ dynamics( name=game, collider=ground, collidee=ball, budget=0.8, onoverrun="half
 )";
 constexpr double kRate = 60;
 
-struct Options {
+struct BenchBudgetsOptions {
   double before = 2, stall = 3, recovery = 9, quiet = 10;  ///< [s]
   int length = 50;                                         ///< [ms]
   double seconds() const { return before + stall + recovery + quiet; }
@@ -51,7 +51,7 @@ struct Played {
 
 class Experiment {
 public:
-  explicit Experiment(const Options& options) : o_(options) {
+  explicit Experiment(const BenchBudgetsOptions& options) : o_(options) {
     std::ofstream(folder_.path("show.evs")) << kShow;
   }
 
@@ -77,8 +77,8 @@ public:
       const auto at = Clock::now();
       played_.periods.push_back(std::chrono::duration<double, std::milli>(at - last).count());
       last = at;
-      if (now.frame == o_.to() + Options::frame(1)) look();  // before the box has moved on
-      if (now.frame >= Options::frame(o_.seconds())) running->endAfterThisFrame();
+      if (now.frame == o_.to() + BenchBudgetsOptions::frame(1)) look();  // before the box has moved on
+      if (now.frame >= BenchBudgetsOptions::frame(o_.seconds())) running->endAfterThisFrame();
     };
     ShowStages stages(std::move(parts));
     FrameLoopOptions options = run.loopOptions(*player);
@@ -154,7 +154,7 @@ private:
     return findings.hasErrors() ? std::nullopt : std::optional(std::move(played_));
   }
 
-  Options o_;
+  BenchBudgetsOptions o_;
   TemporaryFolder folder_;
   PlantedStall* stall_ = nullptr;
   Played played_;
@@ -187,7 +187,7 @@ std::uint64_t backInRate(const Played& p, std::uint64_t from) {
   return p.periods.size();
 }
 
-void judge(const Options& o, const Played& p, Report& report) {
+void judge(const BenchBudgetsOptions& o, const Played& p, Report& report) {
   const std::uint64_t from = o.from(), to = o.to();
   report.limit(p.named && *p.named <= from + 2,
                p.named ? fmt::format("named {} frames after the stall began (at most 2)", *p.named - from)
@@ -209,7 +209,7 @@ void judge(const Options& o, const Played& p, Report& report) {
   std::printf("       %llu of the stall's %llu frames were late, tries to recover included (%llu)\n",
               static_cast<unsigned long long>(late), static_cast<unsigned long long>(to - from),
               static_cast<unsigned long long>(tries));
-  const std::uint64_t quiet = Options::frame(o.seconds() - o.quiet);
+  const std::uint64_t quiet = BenchBudgetsOptions::frame(o.seconds() - o.quiet);
   report.limit(level == 0 && !p.decisions.empty(),
                fmt::format("has everything back from frame {} on, {:.1f} s "
                            "after the stall ended",
@@ -220,7 +220,7 @@ void judge(const Options& o, const Played& p, Report& report) {
                                        p.decisions.size()));
 }
 
-int benchBudgets(const Options& o) {
+int benchBudgets(const BenchBudgetsOptions& o) {
   Diagnostics findings;
   Experiment experiment(o);
   std::fprintf(stderr, "%.0f s: a node stalls for %d ms in each frame from %g s to %g s\n", o.seconds(),
@@ -243,7 +243,7 @@ int benchBudgets(const Options& o) {
 }  // namespace
 
 void addBenchBudgets(CLI::App& bench, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchBudgetsOptions>();
   CLI::App* command = bench.add_subcommand(
       "budgets", "A node stalls: is it named, does the show keep its rate, does it recover and stay quiet?");
   command->add_option("--stall", o->length, "of the node in each frame [ms]")

@@ -26,7 +26,7 @@ namespace {
 
 using namespace regression;
 
-struct Options {
+struct BenchDetectionOptions {
   std::size_t planted = 20, same = 100;
   double share = 5;  ///< [%]
   std::string by = "instructions", record;
@@ -60,9 +60,9 @@ double lengthenedBy(const std::vector<Round>& rounds, const std::string& stage) 
   return all.empty() ? 0 : median(all);
 }
 
-class Experiment {
+class DetectionExperiment {
 public:
-  Experiment(const Options& o, const std::atomic<bool>& stop)
+  DetectionExperiment(const BenchDetectionOptions& o, const std::atomic<bool>& stop)
       : o_(o), stop_(stop), case_(crowd(o.rounds)),
         program_(std::filesystem::canonical("/proc/self/exe").string()) {}
 
@@ -176,7 +176,7 @@ private:
     return true;
   }
 
-  const Options& o_;
+  const BenchDetectionOptions& o_;
   const std::atomic<bool>& stop_;
   SuiteCase case_;
   std::string program_;
@@ -193,7 +193,7 @@ std::string thisProgram() {
 }
 
 /// Results of trials that were done before, in the same file: of this build and experiment, and valid.
-std::vector<TrialResult> doneBefore(const Options& o, const std::string& program) {
+std::vector<TrialResult> doneBefore(const BenchDetectionOptions& o, const std::string& program) {
   const std::string& record = o.record;
   constexpr std::size_t kMostBytes = 16 << 20;
   std::error_code none;
@@ -215,13 +215,13 @@ std::string lineOf(const TrialResult& r) {
                      r.seconds, fmt::join(r.alarms, "; "));
 }
 
-int benchDetection(const Options& o) {
+int benchDetection(const BenchDetectionOptions& o) {
   const std::atomic<bool>& stop = catchStopSignals();
   const std::string program = thisProgram();
   std::vector<TrialResult> results = doneBefore(o, program);
   if (!results.empty())
     std::fprintf(stderr, "%zu trials are in %s already\n", results.size(), o.record.c_str());
-  Experiment experiment(o, stop);
+  DetectionExperiment experiment(o, stop);
   if (!experiment.calibrate()) return stop ? kStopped + stopSignal() : kInternalFault;
   std::ofstream record;
   if (!o.record.empty()) record.open(o.record, std::ios::app);
@@ -244,7 +244,7 @@ int benchDetection(const Options& o) {
 }  // namespace
 
 void addBenchDetection(CLI::App& bench, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchDetectionOptions>();
   CLI::App* command = bench.add_subcommand(
       "detection",
       "Are slowdowns found that were planted in a node, in Cull and in Draw, and nothing where nothing is?");

@@ -18,7 +18,7 @@
 namespace stadion {
 namespace {
 
-struct Options {
+struct BenchDynamicsOptions {
   bench::ComparisonOptions comparison;
   bool json = false;
   std::string out;
@@ -66,7 +66,7 @@ bool writeAll(OutputFolder& folder, const std::vector<bench::CaseResult>& result
 }
 
 std::vector<bench::CaseResult> compareAndPrint(const std::vector<bench::EngineProgram>& programs,
-                                               const Options& o) {
+                                               const BenchDynamicsOptions& o) {
   std::vector<bench::CaseResult> results;
   const auto progress = [](const std::string& what) { std::fprintf(stderr, "%s\n", what.c_str()); };
   bench::compareEngines(programs, o.comparison, progress, [&](const bench::CaseResult& r) {
@@ -80,7 +80,7 @@ std::vector<bench::CaseResult> compareAndPrint(const std::vector<bench::EnginePr
   return results;
 }
 
-int benchDynamics(const Options& o) {
+int benchDynamics(const BenchDynamicsOptions& o) {
   const std::string folder = std::filesystem::canonical("/proc/self/exe").parent_path();
   const auto programs = bench::enginePrograms(folder);
   if (programs.empty() || !programs.front().ours) {
@@ -111,7 +111,7 @@ int benchDynamics(const Options& o) {
 }  // namespace
 
 void addBenchDynamics(CLI::App& bench, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchDynamicsOptions>();
   CLI::App* command =
       bench.add_subcommand("dynamics", "How exact and how fast bodies move, beside Bullet, ODE and MuJoCo");
   command->add_option("CASE", o->comparison.cases,

@@ -16,7 +16,7 @@
 namespace stadion {
 namespace {
 
-struct Options {
+struct BenchFlightOptions {
   int held = 100, rounds = 1000;
   std::string json, out;
 };
@@ -71,7 +71,7 @@ bool writePictures(OutputFolder& folder, const std::vector<Picture>& pictures) {
   return true;
 }
 
-int benchFlight(const Options& o) {
+int benchFlight(const BenchFlightOptions& o) {
   std::unique_ptr<OutputFolder> out;
   if (!o.out.empty()) {
     auto opened = OutputFolder::open(o.out);
@@ -105,7 +105,7 @@ int benchFlight(const Options& o) {
 }  // namespace
 
 void addBenchFlight(CLI::App& bench, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchFlightOptions>();
   CLI::App* command =
       bench.add_subcommand("flight", "How exact and how dear the flight models and integrators are");
   command->add_option("--flights", o->held, "random flights for each object (100)")

@@ -19,7 +19,7 @@
 namespace stadion {
 namespace {
 
-struct Options {
+struct BenchPlanOptions {
   std::vector<std::string> shows;
   std::vector<std::size_t> walls{1, 2, 4, 6};
   std::string size = "240x180";
@@ -57,7 +57,7 @@ double Combination::middleOfRounds(double Round::*what) const {
 
 class Validation {
 public:
-  Validation(const Options& o, GlProvider& provider) : o_(o), provider_(provider) {}
+  Validation(const BenchPlanOptions& o, GlProvider& provider) : o_(o), provider_(provider) {}
 
   /// False, with the findings, if something of the user's is wrong. `met`: all within the limit.
   bool run(const std::string& script, Diagnostics& findings, bool& met) {
@@ -153,11 +153,11 @@ private:
     }
   }
 
-  const Options& o_;
+  const BenchPlanOptions& o_;
   GlProvider& provider_;
 };
 
-int benchPlan(Options o) {
+int benchPlan(BenchPlanOptions o) {
   if (o.shows.empty()) o.shows = {STADION_ROOT "/scripts/kick.evs", STADION_ROOT "/scripts/olympia.evs"};
   Diagnostics findings;
   auto provider = openGlProvider(GlProviderKind::OsMesa);
@@ -176,7 +176,7 @@ int benchPlan(Options o) {
 }  // namespace
 
 void addBenchPlan(CLI::App& bench, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchPlanOptions>();
   CLI::App* command = bench.add_subcommand(
       "plan",
       "Does what `stadion plan` predicts come true on this machine? Measures, predicts and plays, in turns");

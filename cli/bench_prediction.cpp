@@ -27,7 +27,7 @@ constexpr double kFrameRate = 60;                                         ///< [
 constexpr double kJudgedAhead = 50;                                       ///< [ms]
 constexpr double kMostShare = 0.5;  ///< of the error without prediction, of 95 % of the frames
 
-struct Options {
+struct BenchPredictionOptions {
   std::vector<std::string> logs{std::string(STADION_ROOT) + "/scripts/olympia.input"};
   double trackerRate = 120;  ///< [1/s]
   double noise = 0.3;        ///< of a measurement in each axis [mm], and a tenth of it in degrees
@@ -64,7 +64,7 @@ private:
 };
 
 /// Frame by frame: how far the head that is drawn now is from where it will be when that is seen.
-Errors errorsOf(const HeadPath& path, const Options& o, double aheadMs, bool predicted) {
+Errors errorsOf(const HeadPath& path, const BenchPredictionOptions& o, double aheadMs, bool predicted) {
   TrackerFeed feed(standardRig());
   Measuring measuring(o.noise);
   Errors errors;
@@ -107,7 +107,7 @@ nlohmann::json json(const Distribution& d) {
 }
 
 /// One line of the table. Returns what prediction leaves of the error: of the way, of the turn.
-std::pair<double, double> tell(const HeadPath& path, const Options& o, double ahead) {
+std::pair<double, double> tell(const HeadPath& path, const BenchPredictionOptions& o, double ahead) {
   const Errors off = errorsOf(path, o, ahead, false), on = errorsOf(path, o, ahead, true);
   const Distribution way = distributionOf(off.millimetres), wayThen = distributionOf(on.millimetres);
   const Distribution turn = distributionOf(off.degrees), turnThen = distributionOf(on.degrees);
@@ -128,7 +128,7 @@ std::pair<double, double> tell(const HeadPath& path, const Options& o, double ah
   return {wayThen.p95 / way.p95, turnThen.p95 / turn.p95};
 }
 
-int benchPrediction(const Options& o) {
+int benchPrediction(const BenchPredictionOptions& o) {
   Diagnostics findings;
   std::vector<HeadPath> paths{walkOfBenchWalls()};
   for (const std::string& file : o.logs)
@@ -156,7 +156,7 @@ int benchPrediction(const Options& o) {
 }  // namespace
 
 void addBenchPrediction(CLI::App& bench, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchPredictionOptions>();
   CLI::App* command = bench.add_subcommand(
       "prediction",
       "How far off is a head that is drawn now when its picture is seen, with run --predict and "

@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::uint64_t kFramesBefore = 8;
 
-struct Options {
+struct BenchRecordingOptions {
   std::uint64_t frames = 160;
   std::size_t rounds = 4;
   std::string size = "400x300";
@@ -183,7 +183,7 @@ std::optional<double> moreInstructions(const ShowOptions& show, const TemporaryF
   return with.each / without.each - 1;
 }
 
-int benchRecording(const Options& o) {
+int benchRecording(const BenchRecordingOptions& o) {
   const TemporaryFolder folder;
   Diagnostics findings;
   if (const auto wrong = writeFile(folder.path("grid.evs"), gridScript())) findings.add(*wrong);
@@ -229,7 +229,7 @@ int benchRecording(const Options& o) {
 }  // namespace
 
 void addBenchRecording(CLI::App& bench, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchRecordingOptions>();
   CLI::App* command = bench.add_subcommand(
       "recording", "What does recording nodes' costs cost? A show with it and without, in turns");
   command->add_option("--frames", o->frames, "of each round")

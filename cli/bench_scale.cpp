@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kMostAppMs = 0.1, kMostCullMs = 2, kMostBytes = 200;
 constexpr std::uint64_t kWarm = 20;
 
-struct Options {
+struct BenchScaleOptions {
   bench::CityShow city;
   std::uint64_t frames = 200;
   bool cold = false;  ///< what App and Cull need has left the processor's caches
@@ -75,7 +75,7 @@ private:
 };
 
 /// App and Cull in turns, as in a sequential run; nothing is drawn.
-void playFrames(Player& player, const Options& o, Figures& f) {
+void playFrames(Player& player, const BenchScaleOptions& o, Figures& f) {
   ShowParts parts = player.parts(StereoLayout::Pair);
   const std::size_t walls = parts.walls.size();
   ShowStages stages(std::move(parts));
@@ -99,7 +99,7 @@ void playFrames(Player& player, const Options& o, Figures& f) {
   for (const DrawList& list : lists) f.seen += static_cast<double>(list.opaque.size());
 }
 
-std::optional<Figures> measure(const Options& o) {
+std::optional<Figures> measure(const BenchScaleOptions& o) {
   const TemporaryFolder folder;
   if (const std::string wrong = bench::writeCity(folder.path(""), o.city); !wrong.empty())
     return std::fprintf(stderr, "stadion: %s\n", wrong.c_str()), std::nullopt;
@@ -121,7 +121,7 @@ std::optional<Figures> measure(const Options& o) {
   return f;
 }
 
-int benchScale(const Options& o) {
+int benchScale(const BenchScaleOptions& o) {
   const std::optional<Figures> f = measure(o);
   if (!f) return kBadInput;
   const double app = percentile(f->app, 50), cull = percentile(f->cull, 50);
@@ -161,7 +161,7 @@ int benchScale(const Options& o) {
 }  // namespace
 
 void addBenchScale(CLI::App& bench, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchScaleOptions>();
   CLI::App* command = bench.add_subcommand("scale", "A million nodes that stand still, and a few that move");
   command->add_option("--still", o->city.still, "nodes that stand still")
       ->check(wholeNumberFrom(1, 10'000'000));

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t kFewRounds = 5;
 
-struct Options {
+struct BenchWallsOptions {
   WallsSetting one;
   bool measureOne = false, control = false;
   std::string layout = "flat";
@@ -35,10 +35,6 @@ struct Options {
   bool scaling = false, json = false;
   std::string out, record;
 };
-
-int complain(const Diagnostic& d, int code) {
-  return std::fprintf(stderr, "stadion: %s\n", format(d).c_str()), code;
-}
 
 /// In this process, so that its processor time is that setting's.
 int measureOne(WallsSetting s, bool control) {
@@ -77,7 +73,7 @@ std::optional<Diagnostic> writeAll(OutputFolder& folder, const bench::WallsResul
                  : write(folder, "walls.svg", bench::wallsPlot(results));
 }
 
-int report(const WallsOutcome& outcome, const Options& o) {
+int report(const WallsOutcome& outcome, const BenchWallsOptions& o) {
   const auto findings =
       o.scaling ? bench::judgeScaling(outcome.results) : bench::judgeTable(outcome.results, o.scenes);
   std::FILE* to = o.json ? stderr : stdout;
@@ -91,7 +87,7 @@ int report(const WallsOutcome& outcome, const Options& o) {
   return bench::noneMissed(findings) && outcome.failures.empty() ? kOk : kCheckFailed;
 }
 
-int benchTable(const Options& o) {
+int benchTable(const BenchWallsOptions& o) {
   const auto programs = bench::wallsPrograms(std::filesystem::canonical("/proc/self/exe"));
   std::unique_ptr<OutputFolder> out;
   if (!o.out.empty()) {
@@ -120,7 +116,7 @@ int refuse(const std::string& why) {
 }
 
 /// What would be passed over in silence; empty: nothing.
-std::string ignoredIn(const CLI::App& command, const Options& o) {
+std::string ignoredIn(const CLI::App& command, const BenchWallsOptions& o) {
   const auto isGiven = [&](const std::string& name) { return command.count(name) > 0; };
   const WallsSetting& one = o.one;
   if (!o.measureOne) {
@@ -147,7 +143,7 @@ std::string ignoredIn(const CLI::App& command, const Options& o) {
   return {};
 }
 
-int benchWalls(const CLI::App& command, const Options& o) {
+int benchWalls(const CLI::App& command, const BenchWallsOptions& o) {
   if (const std::string ignored = ignoredIn(command, o); !ignored.empty()) return refuse(ignored);
   if (!o.measureOne) return benchTable(o);
   if (const std::string why = unwritable(o.one); !why.empty()) return refuse(why);
@@ -157,7 +153,7 @@ int benchWalls(const CLI::App& command, const Options& o) {
   return measureOne(std::move(one), o.control);
 }
 
-void addTableTo(CLI::App& command, Options& o) {
+void addTableTo(CLI::App& command, BenchWallsOptions& o) {
   command.add_option("--only", o.scenes, "scenes of the table: a, b, c or several, as in a,c")
       ->delimiter(',')
       ->check(CLI::IsMember({"a", "b", "c"}));
@@ -172,7 +168,7 @@ void addTableTo(CLI::App& command, Options& o) {
                      "keep the rows in this file; what it has already is not measured again");
 }
 
-void addOneTo(CLI::App& command, Options& o) {
+void addOneTo(CLI::App& command, BenchWallsOptions& o) {
   WallsSetting& one = o.one;
   command.add_flag("--one", o.measureOne, "measure one setting in this process and print it as JSON:");
   const auto add = [&](const char* name, auto& value, const char* what) {
@@ -208,7 +204,7 @@ void addOneTo(CLI::App& command, Options& o) {
 }  // namespace
 
 void addBenchWalls(CLI::App& bench, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchWallsOptions>();
   CLI::App* command =
       bench.add_subcommand("walls", "A room of stereo walls beside OpenSceneGraph and bare OpenGL");
   addTableTo(*command, *o);

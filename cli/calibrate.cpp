@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kQuiet = 0.5;  ///< threads of others for each processor
 
-struct Options {
+struct CalibrateOptions {
   std::vector<std::string> walls{"cave4", "powerwall"};
   std::string size = "800x600", look = "full";
   double seconds = 50;
@@ -35,11 +35,7 @@ struct Options {
   double window = 1;
 };
 
-int complain(const Diagnostic& d, int code) {
-  return std::fprintf(stderr, "stadion: %s\n", format(d).c_str()), code;
-}
-
-int measureOne(const Options& o) {
+int measureOne(const CalibrateOptions& o) {
   const auto setting = settingOf(o.one);
   if (!setting || o.walls.size() != 1) return kBadInput;
   const auto figures = measureSetting({*setting, o.folder, o.walls.front(), o.size, o.look, o.window});
@@ -81,7 +77,8 @@ std::string tableOf(const MeasuredRoom& room, const std::string& name) {
 }
 
 /// What was known of other machines and rooms stays.
-int remember(const std::string& file, Calibration known, MachineCalibration measured, const Options& o) {
+int remember(const std::string& file, Calibration known, MachineCalibration measured,
+             const CalibrateOptions& o) {
   const MachineCalibration shown = measured;
   known.add(std::move(measured));
   if (const auto wrong = writeCalibration(file, known)) return complain(*wrong, kBadInput);
@@ -104,7 +101,7 @@ int forget(const std::string& file) {
   return kOk;
 }
 
-int calibrate(const Options& o) {
+int calibrate(const CalibrateOptions& o) {
   if (!o.one.empty()) return measureOne(o);
   const std::string file = calibrationFile();
   if (file.empty())
@@ -140,7 +137,7 @@ int calibrate(const Options& o) {
 }  // namespace
 
 void addCalibrateCommand(CLI::App& app, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand(
       "calibrate", "Measure how walls are drawn fastest on this machine, and remember it (a minute)");
   command

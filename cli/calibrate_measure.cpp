@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t kWarm = 2, kLeast = 3;  // frames
+constexpr std::uint64_t kWarmFrames = 2, kLeast = 3;  // frames
 constexpr std::uint64_t kMost = 1'000'000;
 
 /// Ends the run when it has been looked at for long enough.
@@ -24,11 +24,11 @@ public:
 
   void frameShown() {
     ++frames_;
-    if (frames_ == kWarm) begin_ = Clock::now(), processorBegin_ = processorSeconds();
-    if (frames_ < kWarm + kLeast || enough_) return;
+    if (frames_ == kWarmFrames) begin_ = Clock::now(), processorBegin_ = processorSeconds();
+    if (frames_ < kWarmFrames + kLeast || enough_) return;
     const double took = std::chrono::duration<double>(Clock::now() - begin_).count();
     if (took < seconds_) return;
-    const auto frames = static_cast<double>(frames_ - kWarm);
+    const auto frames = static_cast<double>(frames_ - kWarmFrames);
     figures_.framesPerSecond = frames / took;
     figures_.cpuMs = 1e3 * (processorSeconds() - processorBegin_) / frames;
     enough_ = true;

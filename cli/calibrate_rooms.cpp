@@ -35,21 +35,21 @@ std::uint32_t processorsHere() {
   return std::max(1u, std::thread::hardware_concurrency());
 }
 
-struct Figures {
+struct RoomFigures {
   double framesPerSecond = 0, cpuMs = 0;
   std::string rasteriser;
 };
 
-std::optional<Figures> figuresOf(const std::string& text) {
+std::optional<RoomFigures> figuresOf(const std::string& text) {
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) return {};
-  const Figures f{json.value("frames_per_second", 0.0), json.value("cpu_ms_per_frame", 0.0),
-                  json.value("rasteriser", "")};
+  const RoomFigures f{json.value("frames_per_second", 0.0), json.value("cpu_ms_per_frame", 0.0),
+                      json.value("rasteriser", "")};
   return f.framesPerSecond > 0 && f.cpuMs > 0 ? std::optional(f) : std::nullopt;
 }
 
-std::optional<Figures> measure(const RoomToMeasure& room, const DrawSetting& setting, double window,
-                               const std::string& folder, std::chrono::seconds limit) {
+std::optional<RoomFigures> measure(const RoomToMeasure& room, const DrawSetting& setting, double window,
+                                   const std::string& folder, std::chrono::seconds limit) {
   bench::ProgramCall call;
   call.words = {std::filesystem::canonical("/proc/self/exe"), "calibrate", "--one", wordOf(setting)};
   for (const std::string& word :

@@ -25,7 +25,7 @@ constexpr std::chrono::milliseconds kLook{20};
 constexpr std::chrono::seconds kAfterLead{10};
 constexpr std::size_t kMostSaid = 1 << 20;  ///< of a node's summary that is told [byte]
 
-struct Options {
+struct ClusterOptions {
   std::string file, script, out;
   bool once = false;
   std::vector<std::string> more;  ///< for each `run`
@@ -49,7 +49,7 @@ struct NodeProcess {
   }
 };
 
-std::deque<NodeProcess> processesOf(const Options& o, const ClusterFile& cluster) {
+std::deque<NodeProcess> processesOf(const ClusterOptions& o, const ClusterFile& cluster) {
   const std::string program = std::filesystem::canonical("/proc/self/exe").string();
   std::deque<NodeProcess> all;
   for (const ClusterNode& node : cluster.nodes) {
@@ -64,7 +64,7 @@ std::deque<NodeProcess> processesOf(const Options& o, const ClusterFile& cluster
 
 /// Looks after them until all have ended. Who dies begins again, until who leads has come to its end: then
 /// nobody is waited for any more.
-void watch(const Options& o, std::deque<NodeProcess>& nodes, std::size_t lead) {
+void watch(const ClusterOptions& o, std::deque<NodeProcess>& nodes, std::size_t lead) {
   const std::atomic<bool>& stop = catchStopSignals();
   const auto died = [](const NodeProcess& node) { return node.status && *node.status > 128; };
   bool told = false, overTold = false;
@@ -97,7 +97,7 @@ void watch(const Options& o, std::deque<NodeProcess>& nodes, std::size_t lead) {
   }
 }
 
-int playCluster(Options o) {
+int playCluster(ClusterOptions o) {
   Diagnostics findings;
   const auto cluster = loadCluster(o.file, findings);
   if (!std::filesystem::exists(o.script)) findings.error({}, "there is no show " + o.script);
@@ -124,8 +124,8 @@ int playCluster(Options o) {
   return code;
 }
 
-constexpr const char* kFooter =
-    R"(Each node is a process of its own, as `stadion run SHOW --cluster FILE --node NAME` is on a machine of its own. Options that
+constexpr const char* kClusterFooter =
+    R"(Each node is a process of its own, as `stadion run SHOW --cluster FILE --node NAME` is on a machine of its own. ClusterOptions that
 are not listed here go to every one of them; pictures of --out DIR lie in DIR/NODE. A node that dies is begun again, and goes
 on from the others' scene.
 
@@ -137,7 +137,7 @@ docs/cluster.md has the file's format, and what happens when a machine or the ne
 }  // namespace
 
 void addClusterCommand(CLI::App& app, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ClusterOptions>();
   CLI::App* command =
       app.add_subcommand("cluster", "Play a show on all nodes of a cluster at once, on this machine");
   command->add_option("FILE", o->file, "the cluster file")->required();
@@ -145,7 +145,7 @@ void addClusterCommand(CLI::App& app, int& code) {
   command->add_option("--out", o->out, "folder for each node's folder of pictures");
   command->add_flag("--once", o->once, "a node that dies is not begun again");
   command->allow_extras();
-  command->footer(kFooter);
+  command->footer(kClusterFooter);
   command->callback([o, command, &code] {
     o->more = command->remaining();
     code = playCluster(*o);

@@ -1,7 +1,10 @@
 #pragma once
 /// What the program's exit status means, to scripts and CI.
 
+#include "engine/diagnostic.h"
 #include "pipeline/stages.h"
+
+#include <cstdio>
 
 namespace stadion {
 
@@ -16,6 +19,12 @@ enum ExitCode : int {
 /// Of a run that could not go on.
 inline ExitCode exitCodeOf(const Reason& why) {
   return why.kind == FailureKind::Refusal ? kBadInput : kInternalFault;
+}
+
+/// Says on stderr why the program ends with `code`, which it gives back.
+inline int complain(const Diagnostic& why, int code) {
+  std::fprintf(stderr, "stadion: %s\n", format(why).c_str());
+  return code;
 }
 
 }  // namespace stadion

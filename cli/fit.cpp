@@ -23,7 +23,7 @@
 namespace stadion {
 namespace {
 
-struct Options {
+struct FitOptions {
   std::string object;
   std::vector<std::string> references, roots;
   double landing = 1, attitude = 0;  ///< [%], [degrees]; 0: as it comes
@@ -53,7 +53,7 @@ const char* faultOf(const Trajectory& flight) {
 }
 
 /// As the script gives them to the world: flights of A about the centre of mass.
-std::optional<Diagnostic> readFlights(const Options& o, FitTask& task) {
+std::optional<Diagnostic> readFlights(const FitOptions& o, FitTask& task) {
   for (const std::string& file : o.references) {
     const auto text = readPlainFile(file, std::size_t{64} << 20);
     if (!text) return text.error();
@@ -81,7 +81,7 @@ FlightBody bodyOf(const MassProperties& mass, const FlightShape& shape) {
   return {mass.mass, i[axis], 0.5 * (i.sum() - i[axis])};
 }
 
-StatedMatter matterOf(const Options& o) {
+StatedMatter matterOf(const FitOptions& o) {
   StatedMatter m;
   m.mass = o.mass;
   if (!o.centre.empty()) m.centre = Vec3(o.centre[0], o.centre[1], o.centre[2]);
@@ -89,7 +89,7 @@ StatedMatter matterOf(const Options& o) {
   return m;
 }
 
-Result<FitTask> taskOf(const Options& o) {
+Result<FitTask> taskOf(const FitOptions& o) {
   if (!o.inertia.empty() && o.inertia[0] > 2 * o.inertia[1])
     return Result<FitTask>::failure(
         "--inertia: no body has such moments: along its axis at most twice that across");
@@ -110,7 +110,7 @@ std::string nameOf(FlightKind kind) {
 }
 
 /// What the command line says of the body, as a script says it: the fit holds for that.
-std::string matterText(const Options& o, const FlightShape& shape) {
+std::string matterText(const FitOptions& o, const FlightShape& shape) {
   const auto three = [](const char* name, const Vec3& v) {
     return fmt::format("{}=\"{:.9g}, {:.9g}, {:.9g}\", ", name, v.x(), v.y(), v.z());
   };
@@ -143,7 +143,7 @@ bool writeTable(const FittedRung& rung, int axis, const std::string& path) {
   return static_cast<bool>(file);
 }
 
-std::string tableFileOf(const Options& o) {
+std::string tableFileOf(const FitOptions& o) {
   if (!o.table.empty()) return o.table;
   const std::size_t colon = o.object.rfind(".evs:");
   const std::string stem = colon != std::string::npos ? o.object.substr(colon + 5)
@@ -187,7 +187,7 @@ void tellOfAnotherBody(const FitTask& task, const char* form, double landing) {
 }
 
 /// The table is no recorded flight and nothing that the body is read from.
-bool keepsWhatIsRead(const Options& o) {
+bool keepsWhatIsRead(const FitOptions& o) {
   const std::size_t colon = o.object.rfind(".evs:");
   std::vector<NamedFile> files{
       {"OBJECT", colon != std::string::npos ? o.object.substr(0, colon + 4) : o.object, false}};
@@ -199,7 +199,7 @@ bool keepsWhatIsRead(const Options& o) {
   return !findings.hasErrors();
 }
 
-int fit(const Options& o) {
+int fit(const FitOptions& o) {
   if (!keepsWhatIsRead(o)) return kBadInput;
   auto task = taskOf(o);
   if (!task) return refuse(task.error());
@@ -233,7 +233,7 @@ int fit(const Options& o) {
 }  // namespace
 
 void addFitCommand(CLI::App& app, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<FitOptions>();
   CLI::App* command =
       app.add_subcommand("fit", "Find the cheapest flight model that follows recorded flights");
   command->add_option("OBJECT", o->object, "a model file, or SCRIPT.evs:NAME for a dynobject")->required();

@@ -29,7 +29,7 @@ constexpr std::size_t kMostWalls = 24;
 constexpr std::uint64_t kFramesMeasured = 60;
 constexpr double kQuiet = 0.5;  ///< threads of others for each core
 
-struct Options {
+struct PlanOptions {
   PlanRunOptions run;
   std::string walls = "cave4", mode = "all", stereo = "pair", pace = "free", provider = "osmesa", from, svg;
   std::optional<std::size_t> count;  ///< of walls to plan, if known before the costs are
@@ -64,7 +64,7 @@ std::optional<plan::ShowCosts> readFrom(const std::string& file, Diagnostics& fi
   return std::move(costs.value());
 }
 
-std::optional<plan::ShowCosts> measure(Options& o, Diagnostics& findings) {
+std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
   ShowOptions& show = o.run.show;
   if (show.frames == 0 && show.seconds == 0) show.frames = kFramesMeasured;
   if (show.frames == 0)
@@ -101,7 +101,7 @@ std::optional<plan::ShowCosts> measure(Options& o, Diagnostics& findings) {
   return costs;
 }
 
-plan::Question questionOf(const Options& o, const plan::ShowCosts& costs) {
+plan::Question questionOf(const PlanOptions& o, const plan::ShowCosts& costs) {
   plan::Question q;
   q.sequential = o.mode != "pipelined", q.pipelined = o.mode != "sequential";
   q.plan.pipelined = q.pipelined;
@@ -119,7 +119,7 @@ plan::Question questionOf(const Options& o, const plan::ShowCosts& costs) {
 }
 
 /// What was measured elsewhere is planned for as many walls as a room has: by number alone.
-void countWallsOf(Options& o, Diagnostics& findings) {
+void countWallsOf(PlanOptions& o, Diagnostics& findings) {
   if (const auto walls = loadWalls(o.run.show.walls, std::string(STADION_ROOT) + "/walls", findings))
     o.count = walls->walls.size();
 }
@@ -131,7 +131,7 @@ void refuseMeasuring(const CLI::App& command, Diagnostics& findings) {
       findings.error({}, std::string(option) + " is for measuring; --from has measured costs");
 }
 
-int planShow(Options o, const CLI::App& command) {
+int planShow(PlanOptions o, const CLI::App& command) {
   Diagnostics findings;
   o.count = countIn(o.walls);
   o.run.show.walls = o.count ? "cave6" : o.walls;
@@ -162,7 +162,7 @@ int planShow(Options o, const CLI::App& command) {
   return kOk;
 }
 
-constexpr const char* kFooter =
+constexpr const char* kPlanFooter =
     R"(The show is played here first, some frames of it, sequentially, and the processor time of App, of each wall's Cull and
 Draw is measured; of Draw, what its calls take and what the software rasteriser's threads take for them. Then the frame
 loop is played through without it, event by event: threads that share the processors alike, three slots of scene state, two
@@ -182,7 +182,7 @@ the same part of them busy. A rasteriser for each wall is what walls as processe
 }  // namespace
 
 void addPlanCommand(CLI::App& app, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<PlanOptions>();
   CLI::App* command =
       app.add_subcommand("plan", "Predict frames a second and latency for other machines, walls and modes");
   ShowOptions& show = o->run.show;
@@ -224,7 +224,7 @@ void addPlanCommand(CLI::App& app, int& code) {
       ->capture_default_str();
   command->add_option("--svg", o->svg, "write a timing diagram to this file");
   command->add_flag("--json", o->json, "one JSON object, that --from reads");
-  command->footer(kFooter);
+  command->footer(kPlanFooter);
   command->callback([o, command, &code] {
     if (o->from.empty() && o->run.show.script.empty()) throw CLI::RequiredError("SHOW");
     code = planShow(*o, *command);

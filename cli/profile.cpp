@@ -21,7 +21,7 @@
 namespace stadion {
 namespace {
 
-struct Options {
+struct ProfileOptions {
   FidelityOptions fidelity;
   ProfileRunOptions run;
   std::size_t nodes = 25;
@@ -100,7 +100,7 @@ bool isAlone(const CLI::Option& blackBox, CLI::App& command) {
   return !findings.hasErrors();
 }
 
-int profileFrames(Options o) {
+int profileFrames(ProfileOptions o) {
   ProfileRunOptions& options = o.run;
   options.show = o.fidelity.show;
   options.layout = *stereoLayout(options.stereo);
@@ -132,7 +132,7 @@ bool asksForRecord(const CLI::App& command) {
   return findings.hasErrors();
 }
 
-int profileModels(Options o) {
+int profileModels(ProfileOptions o) {
   FidelityOptions& options = o.fidelity;
   options.tolerance = 1e-3 * o.millimetres;
   options.show.walls = "desktop";
@@ -150,7 +150,7 @@ int profileModels(Options o) {
   return kOk;
 }
 
-constexpr const char* kFooter =
+constexpr const char* kProfileFooter =
     R"(The show is played as in run, and each node's share of the frame is told: App is timed by node, when it visits it (where it visits hundreds, in some frames only);
 Cull by wall, shared among the nodes that it looked at; Draw by drawing a few batches alone in some frames, in their
 place in the frame, until every node has had its turn. `visitor` stands for the trackers and for the eyes in front of the walls.
@@ -186,7 +186,7 @@ part of any of its models.
 }  // namespace
 
 void addProfileCommand(CLI::App& app, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ProfileOptions>();
   CLI::App* command = app.add_subcommand(
       "profile",
       "Say what the frames of a show are spent on, node by node; or how exact and how dear the models of its "
@@ -238,7 +238,7 @@ void addProfileCommand(CLI::App& app, int& code) {
       ->check(wholeNumberFrom(1, 99))
       ->capture_default_str();
   command->add_flag("--json", o->json, "one JSON object")->excludes(csv);
-  command->footer(kFooter);
+  command->footer(kProfileFooter);
   command->get_option("SHOW")->required(false);
   command->callback([o, command, &code] {
     if (o->blackBox->count() > 0)

@@ -8,7 +8,6 @@
 #include "cli/regress_folder.h"
 #include "cli/stop_signal.h"
 #include "engine/atomic_file.h"
-#include "engine/plain_file.h"
 #include "profiling/regression/reports.h"
 
 #include <CLI/CLI.hpp>
@@ -58,12 +57,6 @@ void tellGone(const std::vector<std::string>& gone, const RegressOptions& o) {
                   o.update ? name + " is removed: the suite has no such case"
                            : "has a case " + name + ", which the suite has not; --update removes it");
   tell(findings);
-}
-
-std::string textOf(const std::string& file) {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 30;
-  const Result<std::string> text = readPlainFile(file, kMostBytes);
-  return text ? text.value() : std::string();
 }
 
 /// What the results follow from: the suite, what it names, and what it is compared with. (Files that shows

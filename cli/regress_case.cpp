@@ -179,7 +179,7 @@ private:
     StageTimesByName times;
     for (const auto& [stage, ms] : result_.milliseconds)
       for (std::size_t i = 0; i < ms.size(); ++i) times[stage].push_back(ms[i] / m.calibrationMs[i]);
-    const NodeCosts nodes = nodeTimes(m.rounds, m.calibrationMs);
+    const CostsByNode nodes = nodeTimes(m.rounds, m.calibrationMs);
     if (update_) {
       BaselineCase& kept = (*update_)[result_.name];
       kept.times = times;

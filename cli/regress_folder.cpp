@@ -20,12 +20,6 @@ namespace {
 
 constexpr const char *kProgress = "progress.jsonl", *kHistory = "history.jsonl";
 constexpr const char *kPage = "report.html", *kResults = "results.json", *kJunit = "junit.xml";
-constexpr std::size_t kMostBytes = 256 << 20;
-
-std::string textOf(const std::string& file) {
-  const Result<std::string> text = readPlainFile(file, kMostBytes);
-  return text ? text.value() : std::string();
-}
 
 void complain(const std::string& path, const std::string& why) {
   std::fprintf(stderr, "%s: error: %s\n", path.c_str(), why.c_str());
@@ -58,6 +52,12 @@ std::string identityOf(const RegressOptions& o, const std::string& suiteText) {
 }
 
 }  // namespace
+
+std::string textOf(const std::string& file) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+  const Result<std::string> text = readPlainFile(file, kMostBytes);
+  return text ? text.value() : std::string();
+}
 
 bool RegressFolder::open(const RegressOptions& o, const std::string& suiteText) {
   folder_ = o.out;

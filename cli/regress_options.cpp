@@ -13,7 +13,7 @@
 namespace stadion {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kRegressFooter =
     R"(A suite file names shows, walls, modes, input logs, sizes, frames, what to compare and how exactly
 (docs/formats.md, scripts/suites/basic.suite). Each case is played by the program in processes of its own.
 
@@ -86,7 +86,7 @@ void RegressOptions::addTo(CLI::App& command) {
       "folder for report.html with plots of all runs so far, results.json, junit.xml and history.jsonl");
   command.add_flag("--resume", resume, "go on where the run into the same --out DIR was interrupted");
   command.add_flag("--json", json, "the results as JSON in Google Benchmark's layout on stdout");
-  command.footer(kFooter);
+  command.footer(kRegressFooter);
 }
 
 bool RegressOptions::settle(Diagnostics& findings) {

@@ -1,8 +1,8 @@
 #include "cli/regress_rounds.h"
 
 #include "cli/regress_child.h"
+#include "cli/regress_folder.h"
 #include "cli/temporary_folder.h"
-#include "engine/plain_file.h"
 #include "profiling/regression/calibration.h"
 #include "profiling/regression/callgrind_record.h"
 #include "profiling/regression/instruction_comparison.h"
@@ -17,13 +17,7 @@ namespace {
 
 using namespace regression;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 constexpr const char* kStoppedFault = "stopped";
-
-std::string textOf(const std::string& file) {
-  const Result<std::string> text = readPlainFile(file, kMostBytes);
-  return text ? text.value() : std::string();
-}
 
 /// The rasteriser works in the thread that draws: else nobody knows whose time it is.
 const std::vector<std::string> kDrawAlone{"LP_NUM_THREADS=0"};

@@ -34,7 +34,7 @@ constexpr double kMostSlope = 1024;                           ///< [byte] in 10 
 constexpr std::uint64_t kSlopeFrames = 10'000;
 constexpr double kMostOfVisit = 4096;  ///< [byte] from visit to visit
 
-struct Options {
+struct SoakOptions {
   std::vector<std::string> shows;
   std::uint64_t frames = 1'000'000, visit = 400'000;
   std::string record, look = "plain";
@@ -46,7 +46,7 @@ enum class Way { Pipelined, Sequential, Killed };
 
 class Soak {
 public:
-  Soak(const Options& o, SoakRecord& record, GlProvider& provider, const std::atomic<bool>& stop)
+  Soak(const SoakOptions& o, SoakRecord& record, GlProvider& provider, const std::atomic<bool>& stop)
       : options_(o), record_(record), provider_(provider), stop_(stop) {}
 
   /// False, and told, if a show could not be played.
@@ -57,7 +57,7 @@ private:
   void see(const TimeSignature& now, const Scene& scene, const RunWatch& watch);
   void tellProgress();
 
-  const Options& options_;
+  const SoakOptions& options_;
   SoakRecord& record_;
   GlProvider& provider_;
   const std::atomic<bool>& stop_;
@@ -228,7 +228,7 @@ void judgeGrowth(Verdicts& v, const SoakRecord& record, std::uint64_t warmUp) {
 }
 
 /// Prints what came of it. False if a limit was missed.
-bool tellVerdicts(const Options& o, const SoakRecord& record) {
+bool tellVerdicts(const SoakOptions& o, const SoakRecord& record) {
   const SoakCounts& c = record.counts;
   std::printf("soak of %s: %ju frames in %ju visits by %u processes, %.0f frames a second\n",
               fmt::format("{}", fmt::join(o.shows, ", ")).c_str(), static_cast<std::uintmax_t>(c.frames),
@@ -247,7 +247,7 @@ bool tellVerdicts(const Options& o, const SoakRecord& record) {
   return v.well();
 }
 
-int soak(Options o) {
+int soak(SoakOptions o) {
   Diagnostics findings;
   const std::atomic<bool>& stop = catchStopSignals();
   if (o.shows.empty()) o.shows = {std::string(STADION_ROOT) + "/scripts/soak/soak.evs"};
@@ -269,7 +269,7 @@ int soak(Options o) {
 }  // namespace
 
 void addSoakCommand(CLI::App& app, int& code) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<SoakOptions>();
   CLI::App* command = app.add_subcommand(
       "soak",
       "Play shows for very many frames, as fast as possible, and look whether anything grows or changes");

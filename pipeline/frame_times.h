@@ -14,8 +14,8 @@ namespace stadion {
 /// The last durations of one kind [ms], in no particular order. Bounded, so that a show may run all day.
 class DurationSeries {
 public:
-  /// Room for all of them at once: a frame allocates nothing. What is not used takes no memory.
-  DurationSeries() { values_.reserve(kCapacity); }
+  /// Room for all of them at once, so that a frame allocates nothing. What is not used takes no memory.
+  void makeRoom() { values_.reserve(kCapacity); }
   void add(double ms) {
     if (values_.size() < kCapacity)
       values_.push_back(ms);
@@ -33,7 +33,11 @@ private:
 };
 
 struct FrameTimes {
-  explicit FrameTimes(std::size_t walls) : cull(walls), draw(walls), latency(walls) {}
+  explicit FrameTimes(std::size_t walls) : cull(walls), draw(walls), latency(walls) {
+    for (DurationSeries* series : {&app, &swap, &period}) series->makeRoom();
+    for (auto* ofWalls : {&cull, &draw, &latency})
+      for (DurationSeries& series : *ofWalls) series.makeRoom();
+  }
 
   DurationSeries app;
   std::vector<DurationSeries> cull, draw;  ///< by wall

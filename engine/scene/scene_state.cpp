@@ -176,11 +176,14 @@ bool Scene::standsTogether() const {
     if (!placement(r.placement)) return false;
   for (const auto& [id, watcher] : watchers_)
     if (!placement(id)) return false;
+  // No node is World, and no two are one.
+  std::set<PlacementId> ofNodes{kWorldPlacement};
   for (const auto& [number, l] : loads_)
     for (const std::uint32_t position : l->enterOrder) {
       Node& node = *l->nodes[position];
       const PlacedNode* placed = node.placed();
-      if (placed && !placement(placed->placement())) return false;
+      if (placed && !(placement(placed->placement()) && ofNodes.insert(placed->placement()).second))
+        return false;
       const auto paced = paced_.find(node.self());
       const bool misses = node.standing().missed != Node::Missed::Nothing;
       if (misses && (paced == paced_.end() || paced->second.since < 0 || paced->second.since > now_))

@@ -1,5 +1,7 @@
 #include "pipeline/cluster/bus.h"
 
+#include "pipeline/machine/promptness.h"
+
 #include <dds/dds.h>
 #include <fmt/format.h>
 
@@ -64,6 +66,7 @@ void write(dds_entity_t writer, const void* sample) {
 
 template <class T>
 void Bus::take(dds_entity_t reader, void* listener) {
+  thread_local const Promptness prompt;  // Cyclone's own threads call
   auto& to = *static_cast<BusListener*>(listener);
   constexpr std::size_t kAtOnce = 16;
   std::array<void*, kAtOnce> samples{};  // null: the reader lends them

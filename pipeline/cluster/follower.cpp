@@ -1,6 +1,7 @@
 #include "pipeline/cluster/follower.h"
 
 #include "engine/text_line.h"
+#include "pipeline/machine/promptness.h"
 
 #include <fmt/format.h>
 
@@ -54,6 +55,7 @@ Result<std::unique_ptr<Follower>> Follower::open(FollowerOptions options) {
   auto bus = Bus::open(follower->options_.cluster, *follower);
   if (!bus) return bus.error();
   follower->bus_ = std::move(bus.value());
+  follower->tally_.barrier.makeRoom();
   const std::lock_guard lock(follower->mutex_);
   follower->announce(Phase::Waiting);
   return follower;
@@ -178,6 +180,7 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
 }
 
 bool Follower::mayShow(const TimeSignature&) {
+  const Promptness prompt;
   std::unique_lock lock(mutex_);
   if (shows_.empty()) return false;
   const auto [serial, member] = shows_.front();

@@ -1,6 +1,7 @@
 #include "pipeline/cluster/lead.h"
 
 #include "engine/text_line.h"
+#include "pipeline/machine/promptness.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -67,6 +68,7 @@ Result<std::unique_ptr<Lead>> Lead::open(LeadOptions options) {
   auto bus = Bus::open(lead->options_.cluster, *lead);
   if (!bus) return bus.error();
   lead->bus_ = std::move(bus.value());
+  lead->tally_.barrier.makeRoom();
   lead->sender_ = std::thread([self = lead.get()] { self->sendParcels(); });
   return lead;
 }
@@ -220,6 +222,7 @@ void Lead::sendParcels() {
 }
 
 bool Lead::mayShow(const TimeSignature&) {
+  const Promptness prompt;
   std::unique_lock lock(mutex_);
   const std::uint64_t serial = ++shown_;
   const auto at = std::ranges::find(rounds_, serial, &Round::serial);

@@ -22,7 +22,7 @@ struct BaselineCase {
   std::map<std::string, std::vector<double>> times;  ///< by stage, round by round
   std::map<std::string, double> instructions;        ///< by stage
   std::string countedBy = "callgrind";               ///< the instructions
-  NodeCosts nodeTimes, nodeInstructions;             ///< so that the node that moved can be named
+  CostsByNode nodeTimes, nodeInstructions;           ///< so that the node that moved can be named
 };
 
 using Baseline = std::map<std::string, BaselineCase>;  ///< by playedName

@@ -33,7 +33,7 @@ std::map<std::string, double> stageInstructions(const std::vector<SpanRow>& rows
 /// What there was before: of stages by name, and of their nodes, as far as they are known.
 struct InstructionCounts {
   std::map<std::string, double> stages;
-  NodeCosts nodes;
+  CostsByNode nodes;
 };
 InstructionCounts instructionCounts(const std::vector<SpanRow>& rows);
 

@@ -4,15 +4,15 @@
 
 namespace stadion::regression {
 
-NodeCosts nodeInstructions(const std::vector<SpanRow>& rows) {
-  NodeCosts all;
+CostsByNode nodeInstructions(const std::vector<SpanRow>& rows) {
+  CostsByNode all;
   for (const SpanRow& r : rows)
     if (!r.isStage() && r.instructions > 0) all[r.stageName()][r.node()] += r.instructions;
   return all;
 }
 
-NodeCosts dearOf(const NodeCosts& costs, const std::map<std::string, double>& stages) {
-  NodeCosts dear;
+CostsByNode dearOf(const CostsByNode& costs, const std::map<std::string, double>& stages) {
+  CostsByNode dear;
   for (const auto& [stage, nodes] : costs) {
     const auto whole = stages.find(stage);
     if (whole == stages.end()) continue;
@@ -22,8 +22,9 @@ NodeCosts dearOf(const NodeCosts& costs, const std::map<std::string, double>& st
   return dear;
 }
 
-std::string culpritSince(const std::string& stage, double before, double growth, const NodeCosts& nodesBefore,
-                         const NodeCosts& nodesNow, const std::vector<SpanRow>& rows) {
+std::string culpritSince(const std::string& stage, double before, double growth,
+                         const CostsByNode& nodesBefore, const CostsByNode& nodesNow,
+                         const std::vector<SpanRow>& rows) {
   const auto was = nodesBefore.find(stage), is = nodesNow.find(stage);
   if (was == nodesBefore.end() || is == nodesNow.end()) return stage;
   std::vector<std::pair<SpanRow, double>> grown;

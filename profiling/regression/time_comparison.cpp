@@ -158,7 +158,7 @@ std::vector<StageShift> compareTimes(const StageTimesByName& baseline, const Sta
   return shifts;
 }
 
-NodeCosts nodeTimes(const std::vector<Round>& rounds, const std::vector<double>& calibrationMs) {
+CostsByNode nodeTimes(const std::vector<Round>& rounds, const std::vector<double>& calibrationMs) {
   std::map<std::string, std::size_t> frames;
   std::map<std::string, std::map<std::string, std::vector<double>>> all;
   for (std::size_t i = 0; i < rounds.size(); ++i) {
@@ -174,7 +174,7 @@ NodeCosts nodeTimes(const std::vector<Round>& rounds, const std::vector<double>&
       all[r.stageName()][r.node()].push_back(1e-3 * median(us) * share / calibrationMs[i]);
     }
   }
-  NodeCosts costs;
+  CostsByNode costs;
   for (const auto& [stage, nodes] : all)
     for (const auto& [node, each] : nodes) costs[stage][node] = median(each);
   return costs;

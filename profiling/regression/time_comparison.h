@@ -50,7 +50,7 @@ std::vector<StageShift> compareTimes(const StageTimesByName& baseline, const Sta
                                      const std::map<std::string, double>& us, double tolerance);
 
 /// What the nodes of rounds of one build cost in the typical frame, in multiples of the calibration kernel's.
-NodeCosts nodeTimes(const std::vector<Round>& rounds, const std::vector<double>& calibrationMs);
+CostsByNode nodeTimes(const std::vector<Round>& rounds, const std::vector<double>& calibrationMs);
 
 /// Stages of whose `metric` ("times") only one side tells: nothing can be compared, and that is no pass.
 std::vector<Check> unmatchedStages(const std::map<std::string, double>& before,

@@ -3,6 +3,7 @@ file(GLOB dynamics_case_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*.cp
 list(FILTER dynamics_case_sources EXCLUDE REGEX "/engine_[a-z]+\\.cpp$|/program\\.cpp$")
 add_library(stadion_dynamics_cases STATIC ${dynamics_case_sources})
 target_link_libraries(stadion_dynamics_cases PUBLIC stadion_options stadion_sanitize)
+target_precompile_headers(stadion_dynamics_cases REUSE_FROM stadion_precompiled)
 add_custom_target(dynamics_programs)
 
 function(stadion_dynamics_program ENGINE)

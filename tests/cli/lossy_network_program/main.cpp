@@ -11,6 +11,7 @@
 #include <net/ethernet.h>
 #include <net/if.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -166,6 +167,8 @@ int main(int argc, char** argv) {
   for (std::size_t i = 0; well && i < ports.size(); ++i) well = ports[i].open(argv[1], i);
   std::printf(well ? "ready\n" : "cannot make network namespaces\n");
   std::fflush(stdout);
+  const sched_param cable{1};  // which waits for no processor
+  sched_setscheduler(0, SCHED_RR, &cable);
   Relay relay(ports, std::stod(argv[3]) / 100, std::stod(argv[4]));
   if (well) relay.run();
   for (const Port& p : ports) p.close();

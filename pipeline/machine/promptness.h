@@ -1,0 +1,31 @@
+#pragma once
+/// Threads for which other machines wait run as soon as they wake, although the processors are busy
+/// computing.
+///
+/// How     a thread that waits and answers, and computes next to nothing, becomes a real-time one of the
+/// lowest
+///         priority, where the system lets it (root, or RLIMIT_RTPRIO). Elsewhere the scheduler is asked for
+///         short turns of it (`sched_runtime` of sched_setattr(2)), which may interrupt long ones: Linux
+///         heeds that from 6.12 on, and it takes no privilege. Neither gives anybody a greater share of a
+///         processor.
+/// Left    threads that somebody has given another policy than the usual one.
+/// Errors  none: who is refused both runs as before.
+
+#include <cstdint>
+
+namespace stadion {
+
+/// The calling thread, for as long as this lives; the same thread ends it.
+class Promptness {
+public:
+  Promptness();
+  ~Promptness();
+  Promptness(const Promptness&) = delete;
+  Promptness& operator=(const Promptness&) = delete;
+
+private:
+  bool changed_ = false;
+  std::int32_t nice_ = 0;  ///< before
+};
+
+}  // namespace stadion
