@@ -5,6 +5,7 @@
 #include "cli/player.h"
 #include "engine/input/input_log.h"
 #include "engine/input/tracker_feed.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "pipeline/output/run_summary.h"
 #include "profiling/bench/walls/wall_room.h"
@@ -21,7 +22,6 @@
 namespace stadion {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kAheads[] = {0, 1e3 / 60, 2e3 / 60, 50, 4e3 / 60, 100};  ///< [ms]
 constexpr double kFrameRate = 60;                                         ///< [1/s]
 constexpr double kJudgedAhead = 50;                                       ///< [ms]

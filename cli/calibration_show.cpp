@@ -1,18 +1,17 @@
 #include "cli/calibration_show.h"
 
 #include "engine/atomic_file.h"
+#include "engine/maths/angles.h"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
-#include <numbers>
 
 namespace stadion {
 namespace {
 
 constexpr int kStones = 360, kSwaying = 36;
 constexpr int kRings = 9, kSides = 14;  // 252 triangles
-constexpr double kPi = std::numbers::pi;
 
 /// A ball with bumps, +Y up as models are.
 std::string stoneText() {

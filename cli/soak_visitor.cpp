@@ -1,5 +1,6 @@
 #include "cli/soak_visitor.h"
 
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -11,7 +12,6 @@ namespace {
 constexpr double kThrowEvery = 4, kHoldsFor = 1.2, kSwing = 0.4;  ///< [s]
 constexpr double kSilentEvery = 19, kSilentFor = 1.1;             ///< all trackers [s]
 constexpr double kMadEvery = 5;                                   ///< what cannot be is said [s]
-constexpr double kPi = 3.14159265358979323846;
 
 double phaseOf(double t, double period) {
   return t - period * static_cast<double>(static_cast<std::int64_t>(t / period));

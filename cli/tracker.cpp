@@ -8,6 +8,7 @@
 #include "cli/tracker_device.h"
 #include "engine/atomic_file.h"
 #include "engine/input/rig_calibration.h"
+#include "engine/maths/angles.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -32,7 +33,6 @@ constexpr auto kShowEvery = std::chrono::milliseconds(500);
 constexpr auto kMeasureEvery = std::chrono::milliseconds(5);
 constexpr auto kHoldStill = std::chrono::seconds(1);
 constexpr double kStill = 0.02;  ///< how far a held pose may stray [m]
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 struct TrackerToolOptions {
   TrackerOptions trackers;

@@ -10,12 +10,12 @@
 namespace stadion {
 namespace {
 
-constexpr std::size_t kMost = 8;      ///< points of a pair
-constexpr double kSunk = 0.1;         ///< share of a mesh's size by which it may have sunk into another
-constexpr double kSheet = 0.2;        ///< the same into an open mesh
-constexpr double kTurnedAway = 1e-3;  ///< cosine above which a face looks away
-constexpr double kParallel = 1e-5;    ///< sine of the angle between edges that do not cross
-constexpr double kSame = 1e-6;        ///< distances that differ less are equal [m]
+constexpr std::size_t kMostPoints = 8;  ///< points of a pair
+constexpr double kSunk = 0.1;           ///< share of a mesh's size by which it may have sunk into another
+constexpr double kSheet = 0.2;          ///< the same into an open mesh
+constexpr double kTurnedAway = 1e-3;    ///< cosine above which a face looks away
+constexpr double kParallel = 1e-5;      ///< sine of the angle between edges that do not cross
+constexpr double kSame = 1e-6;          ///< distances that differ less are equal [m]
 
 /// One of the two meshes, in the frame of B, in which the search is done.
 struct Body {
@@ -233,14 +233,14 @@ private:
 
 /// Keeps the deepest point and the widest spread, the same ones while they differ only by rounding.
 void thin(std::vector<ManifoldPoint>& points, double size) {
-  if (points.size() <= kMost) return;
+  if (points.size() <= kMostPoints) return;
   std::ranges::sort(points, {}, &ManifoldPoint::key);
   std::size_t first = 0;
   for (std::size_t i = 1; i < points.size(); ++i)
     if (points[i].gap.distance < points[first].gap.distance - kSame) first = i;
   std::swap(points[0], points[first]);
   std::vector<double> away(points.size(), 1e300);
-  for (std::size_t kept = 1; kept < kMost; ++kept) {
+  for (std::size_t kept = 1; kept < kMostPoints; ++kept) {
     const Gap& last = points[kept - 1].gap;
     std::size_t best = kept;
     for (std::size_t i = kept; i < points.size(); ++i) {
@@ -251,7 +251,7 @@ void thin(std::vector<ManifoldPoint>& points, double size) {
     std::swap(points[kept], points[best]);
     std::swap(away[kept], away[best]);
   }
-  points.resize(kMost);
+  points.resize(kMostPoints);
 }
 
 }  // namespace

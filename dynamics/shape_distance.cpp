@@ -1,4 +1,5 @@
 #include "dynamics/shape_distance.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
 #include "dynamics/nearest_surface.h"
@@ -10,7 +11,7 @@
 namespace stadion {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846, kEverywhere = std::numeric_limits<double>::infinity();
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 /// Parts of a flat side's edge, of a circle, and of a quarter of one.
 constexpr int kParts = 20, kRound = 64, kQuarter = 16;
 

@@ -7,7 +7,6 @@ namespace stadion {
 namespace {
 
 constexpr double kUsualPull = 9.81;  ///< that others in contact feel at least [m/s2]
-constexpr double kDue = 1e-9;        ///< times as near as this are the same [s]
 
 /// Groups bodies that touch, by the smallest index (union-find).
 struct Groups {

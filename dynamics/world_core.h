@@ -29,6 +29,8 @@
 
 namespace stadion {
 
+constexpr double kDue = 1e-9;  ///< times as near as this are the same [s]
+
 /// Names a contact point of a pair.
 inline std::uint64_t pairKey(Party a, Party b, std::uint32_t feature) {
   std::uint64_t h = 1469598103934665603ULL;

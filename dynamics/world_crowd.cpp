@@ -10,7 +10,6 @@ namespace {
 constexpr double kParted = 1e-3;      ///< and those farther than this no longer [m]
 constexpr std::size_t kLeast = 4;     ///< a smaller crowd is none any more
 constexpr double kLeaving = 0.1;      ///< the least speed of who may leave a heap for good [m/s]
-constexpr double kDue = 1e-9;         ///< times as near as this are the same [s]
 constexpr double kQuietWay = 1.2e-3;  ///< a surface point that stays within this is quiet [m]
 constexpr double kQuietTime = 0.3;    ///< before a body sleeps among quiet ones [s]
 constexpr double kWaking = 1e-9;      ///< quiet time of one who has been woken softly [s]

@@ -2,6 +2,7 @@
 
 #include "dynamics/flight/fit_flight.h"
 #include "dynamics/flight/least_squares.h"
+#include "engine/maths/angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@ namespace stadion {
 namespace {
 
 using Numbers = Eigen::VectorXd;
-constexpr double kDegree = 3.14159265358979324 / 180;
 constexpr int kRounds = 40;
 
 /// What is tuned: numbers that make a rung.

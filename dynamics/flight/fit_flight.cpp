@@ -1,13 +1,14 @@
 #include "dynamics/flight/fit_flight.h"
 
+#include "engine/maths/angles.h"
+
 #include <cmath>
 
 namespace stadion {
 namespace {
 
 constexpr double kFinest = 1.0 / 240;  ///< [s]
-constexpr double kDegree = 3.14159265358979324 / 180;
-constexpr double kLongest = 5;  ///< how much later than recorded it may land [s]
+constexpr double kLongest = 5;         ///< how much later than recorded it may land [s]
 
 /// A body on its way; steps of any length.
 class Flier {

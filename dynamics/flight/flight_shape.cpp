@@ -1,12 +1,12 @@
 #include "dynamics/flight/flight_shape.h"
 
+#include "engine/maths/angles.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace stadion {
 namespace {
-
-constexpr double kPi = 3.14159265358979324;
 
 /// Which way along the first axis the nose is: +1 or -1.
 double noseSide(const PrincipalAxes& axes, const Vec3& centreOfMass) {

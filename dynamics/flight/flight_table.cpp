@@ -1,6 +1,7 @@
 #include "dynamics/flight/flight_table.h"
 
 #include "dynamics/flight/number_columns.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 
 namespace stadion {
 namespace {
-
-constexpr double kPi = 3.14159265358979324, kDegree = kPi / 180;
 
 /// A flat plate across the wind has less than half as much, per area.
 constexpr double kMostAir = 4;

@@ -3,6 +3,7 @@
 
 #include "dynamics/flight/flight_model.h"
 #include "dynamics/flight/laws.h"
+#include "engine/maths/angles.h"
 
 namespace stadion {
 namespace {
@@ -21,7 +22,6 @@ inline PlateLaw lawOf(const PlateFlight& m) {
   return {m.dragArea, m.liftArea, m.liftGrowth, m.stallArea, m.momentVolume, 1 / m.stall, m.damping};
 }
 inline BallLaw lawOf(const SportsBall& m) {
-  constexpr double kPi = 3.14159265358979324;
   return {kPi * m.radius * m.radius, m.dragLow, m.dragDrop, m.criticalSpeed,
           1 / m.criticalWidth,       m.radius,  m.liftMost, 1 / m.liftScale};
 }

@@ -3,6 +3,7 @@
 #include "dynamics/nodes/dynamics_node.h"
 #include "dynamics/nodes/flight_factory.h"
 #include "dynamics/nodes/shape_store.h"
+#include "engine/maths/angles.h"
 #include "engine/script/choice.h"
 
 #include <algorithm>
@@ -16,8 +17,7 @@ namespace {
 
 constexpr double kStandardGravity = 9.80665;  // [m/s2]
 constexpr double kWaterDensity = 1000;        // [kg/m3]
-constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kAirDensity = 1.225;  // [kg/m3] at sea level, 15 degrees C
+constexpr double kAirDensity = 1.225;         // [kg/m3] at sea level, 15 degrees C
 
 using Made = std::unique_ptr<Node>;
 

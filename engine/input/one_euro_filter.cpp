@@ -1,11 +1,11 @@
 #include "engine/input/one_euro_filter.h"
 
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
 namespace stadion {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSpeedCutoff = 10;  ///< [Hz]
 
 /// How much of a step a low pass of this cutoff takes in dt.

@@ -1,5 +1,6 @@
 #include "engine/input/rig_file.h"
 
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "engine/plain_file.h"
 #include "engine/text_line.h"
@@ -14,7 +15,6 @@
 namespace stadion {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kFar = 1e4;  ///< [m]
 
 struct Unit {

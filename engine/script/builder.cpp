@@ -1,5 +1,6 @@
 #include "engine/script/builder.h"
 
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "engine/text/text_mesh.h"
 
@@ -7,8 +8,6 @@
 
 namespace stadion {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 bool isPlaced(NodeKind kind) {
   return placedKinds().has(kind);

@@ -1,3 +1,4 @@
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "engine/maths/srgb.h"
 #include "engine/nodes/light_node.h"
@@ -18,8 +19,6 @@
 
 namespace stadion {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 using Made = std::unique_ptr<Node>;
 

@@ -1,13 +1,13 @@
 #include "pipeline/cluster/follower.h"
 
 #include "engine/text_line.h"
+#include "pipeline/cluster/terms.h"
 #include "pipeline/machine/promptness.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
-#include <random>
 #include <string_view>
 #include <utility>
 
@@ -16,16 +16,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kLook{100};     ///< how often a wait looks whether it is still wanted
 constexpr std::chrono::seconds kLong{2};            ///< who waits so long says what for
 constexpr double kLeastRate = 1, kMostRate = 1000;  ///< of shows [1/s]
 constexpr std::size_t kMostOrders = 1U << 16U;      ///< heard and not obeyed: minutes of them
-constexpr std::size_t kMostTold = 200;              ///< of what another machine says [characters]
-
-std::uint64_t anyNumber() {
-  std::random_device device;
-  return std::uint64_t{device()} << 32U | device() | 1U;
-}
 
 }  // namespace
 

@@ -1,30 +1,23 @@
 #include "pipeline/cluster/lead.h"
 
 #include "engine/text_line.h"
+#include "pipeline/cluster/terms.h"
 #include "pipeline/machine/promptness.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <random>
 #include <utility>
 
 namespace stadion::cluster {
 namespace {
 
 constexpr std::size_t kHashesKept = 64, kMostEarly = kHashesKept * ClusterFile::kMostNodes;
-constexpr std::size_t kMostTold = 200;              ///< of what another machine says [characters]
-constexpr std::chrono::milliseconds kLook{100};     ///< how often a wait looks whether it is still wanted
 constexpr std::chrono::milliseconds kSearch{1500};  ///< for others: so long until they are heard of
 constexpr std::chrono::seconds kGiving{5};          ///< a node may take so long to send its scene
 constexpr std::chrono::seconds kReturn{5};          ///< a show that goes on waits so long for the others
 constexpr double kStuck = 10;  ///< deadlines: a node that lives but draws nothing is left out after so many
-
-std::uint64_t anyNumber() {
-  std::random_device device;
-  return std::uint64_t{device()} << 32U | device() | 1U;
-}
 
 std::uint32_t bit(std::size_t node) {
   return std::uint32_t{1} << node;

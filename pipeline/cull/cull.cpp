@@ -21,9 +21,10 @@ struct PixelScale {
     most = width * height;
   }
   float of(float radius, float distance) const {
-    constexpr float kPi = 3.14159265f;
-    return distance > radius ? std::min(most, kPi * ofSteradian * radius * radius / (distance * distance))
-                             : most;
+    constexpr float kHalfTurn = 3.14159265f;
+    return distance > radius
+               ? std::min(most, kHalfTurn * ofSteradian * radius * radius / (distance * distance))
+               : most;
   }
 };
 

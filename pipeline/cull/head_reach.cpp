@@ -9,9 +9,9 @@ namespace stadion {
 
 // An eye is half the separation from the middle, and a turn takes it no farther than its arc is long.
 double HeadReach::ofEyes(double separation) const {
-  constexpr double kRounding = 1e-6;  // of the planes that follow from it
+  constexpr double kRoundingOfPlanes = 1e-6;  // of the planes that follow from it
   if (metres <= 0 && radians <= 0) return 0;
-  return metres + 0.5 * std::abs(separation) * std::min(radians, 2.0) + kRounding;
+  return metres + 0.5 * std::abs(separation) * std::min(radians, 2.0) + kRoundingOfPlanes;
 }
 
 Pose HeadReach::within(const Pose& from, const Pose& to) const {

@@ -1,6 +1,7 @@
 #include "pipeline/draw/mesh_cache.h"
 
 #include "engine/maths/srgb.h"
+#include "pipeline/draw/finite.h"
 #include "pipeline/draw/problem.h"
 #include "pipeline/draw/surface_check.h"
 #include "pipeline/draw/uniform_blocks.h"
@@ -20,10 +21,6 @@ struct Vertex {
 };
 
 constexpr float kAnisotropy = 8;  // on the processor it makes textured scenes 2 to 3 times as slow
-
-float finite(float x) {
-  return std::isfinite(x) ? x : 0.0f;
-}
 
 /// Of all bytes, in sixteen bits.
 std::array<std::uint16_t, 256> colourTable(Look look) {

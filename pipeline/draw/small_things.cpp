@@ -1,5 +1,7 @@
 #include "pipeline/draw/small_things.h"
 
+#include "pipeline/draw/finite.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,10 +9,6 @@ namespace stadion {
 namespace {
 
 constexpr std::size_t kLanes = 8;
-
-float finite(float x) {
-  return std::isfinite(x) ? x : 0.0f;
-}
 
 std::uint32_t packed(const std::array<float, 3>& colour) {
   std::uint32_t all = 0xff000000U;

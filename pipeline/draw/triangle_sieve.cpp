@@ -1,19 +1,17 @@
 #include "pipeline/draw/triangle_sieve.h"
 
+#include "pipeline/draw/finite.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace stadion {
 namespace {
 
-constexpr std::size_t kLanes = 8;
+constexpr std::size_t kSieveLanes = 8;
 
 std::size_t padded(std::size_t count) {
-  return (count + kLanes - 1) / kLanes * kLanes;
-}
-
-float finite(float x) {
-  return std::isfinite(x) ? x : 0.0f;
+  return (count + kSieveLanes - 1) / kSieveLanes * kSieveLanes;
 }
 
 }  // namespace
@@ -31,7 +29,7 @@ SieveMesh::SieveMesh(const Mesh& mesh, std::span<const std::uint32_t> indices) {
   }
   std::size_t corner = 0;
   for (auto* corners : {&a, &b, &c}) {
-    corners->resize(triangles + kLanes - 1);
+    corners->resize(triangles + kSieveLanes - 1);
     for (std::size_t t = 0; t < triangles; ++t)
       (*corners)[t] = static_cast<std::int32_t>(indices[3 * t + corner]);
     ++corner;

@@ -1,6 +1,7 @@
 #include "pipeline/draw/uniform_blocks.h"
 
 #include "engine/maths/srgb.h"
+#include "pipeline/draw/finite.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +11,6 @@ namespace {
 
 constexpr float kLeastConeWidth = 1e-4f;  // so that a spot's edge never divides by zero
 constexpr float kLeastRoughness = 0.08f;  // below it a highlight is smaller than a pixel and flickers
-
-float finite(float x) {
-  return std::isfinite(x) ? x : 0.0f;
-}
 
 Float4 widen(const std::array<float, 3>& v, float w) {
   return {finite(v[0]), finite(v[1]), finite(v[2]), finite(w)};

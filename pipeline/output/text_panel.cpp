@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kMargin = 4;  ///< points
 constexpr std::uint32_t kGap = 2;     ///< between lines, points
-constexpr std::uint8_t kGround = 12, kGroundAlpha = 190;
+constexpr std::uint8_t kPanelGround = 12, kGroundAlpha = 190;
 
 std::vector<PanelLine> broken(const std::vector<PanelLine>& lines, std::size_t most) {
   std::vector<PanelLine> out;
@@ -28,7 +28,7 @@ Picture textPanel(const std::vector<PanelLine>& lines, std::uint32_t mostWidth, 
   for (const PanelLine& l : shown) longest = std::max(longest, l.text.size());
   const std::uint32_t step = (kLetterHeight + kGap) * scale;
   Picture panel(static_cast<std::uint32_t>(longest) * kLetterWidth * scale + 2 * kMargin * scale,
-                static_cast<std::uint32_t>(shown.size()) * step + 2 * kMargin * scale, kGround);
+                static_cast<std::uint32_t>(shown.size()) * step + 2 * kMargin * scale, kPanelGround);
   for (std::size_t i = 3; i < panel.rgba.size(); i += 4) panel.rgba[i] = kGroundAlpha;
   std::uint32_t y = kMargin * scale;
   for (const PanelLine& l : shown) {

@@ -34,9 +34,9 @@ std::vector<std::uint8_t> encodeAll(const Mesh& mesh) {
   return bytes;
 }
 
-class Reader {
+class ParcelReader {
 public:
-  explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  explicit ParcelReader(std::span<const std::byte> bytes) : rest_(bytes) {}
   template <class T>
   bool get(T* values, std::uint64_t count) {
     if (count > rest_.size() / sizeof(T)) return false;
@@ -60,7 +60,7 @@ private:
   std::span<const std::byte> rest_;
 };
 
-bool readLevels(Reader& in, Mesh& mesh) {
+bool readLevels(ParcelReader& in, Mesh& mesh) {
   constexpr std::uint64_t kMostLevels = 64;
   std::uint64_t levels = 0;
   if (!in.get(&levels, 1) || levels > kMostLevels) return false;
@@ -108,7 +108,7 @@ void MeshParcels::giveBack(const MeshPlace& place) {
 }
 
 std::unique_ptr<const Mesh> meshOf(std::span<const std::byte> bytes) {
-  Reader in(bytes);
+  ParcelReader in(bytes);
   std::uint64_t size = 0;
   std::span<const std::byte> file;
   if (!in.get(&size, 1) || !in.get(file, size)) return {};

@@ -6,10 +6,10 @@ namespace stadion {
 namespace {
 
 /// So that nothing in it ends the script element that holds it.
-std::string embedded(const std::string& json) {
+std::string embedded(const std::string& text) {
   std::string out;
-  out.reserve(json.size());
-  for (const char c : json)
+  out.reserve(text.size());
+  for (const char c : text)
     if (c == '<')
       out += "\\u003c";
     else

@@ -12,10 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// A place for calibrations, and programs that look for them there. Nobody gives the rasteriser threads.
 class Home {
 public:
@@ -53,7 +49,7 @@ private:
   TemporaryFolder folder_;
 };
 
-json summaryOf(const ProgramResult& r) {
+json drawnSummaryOf(const ProgramResult& r) {
   EXPECT_EQ(r.status, 0) << r.err;
   return json::parse(r.out, nullptr, false);
 }
@@ -75,7 +71,7 @@ TEST(ProgramCalibrate, MeasuresAndRemembersAndRunTakesIt) {
   EXPECT_GE(mine->rooms[0].settings.size(), 1u);
   const MeasuredSetting* fastest = best(mine->rooms[0]);
   ASSERT_TRUE(fastest);
-  const json how = summaryOf(home.run({}, {}, "powerwall"))["how_drawn"];
+  const json how = drawnSummaryOf(home.run({}, {}, "powerwall"))["how_drawn"];
   EXPECT_EQ(how["wall_workers"], fastest->setting.processes ? "process" : "thread");
   EXPECT_EQ(how["rasteriser_threads"], fastest->setting.rasteriserThreads);
   EXPECT_TRUE(has(how["why"], "calibrated 20")) << how["why"];
@@ -83,13 +79,13 @@ TEST(ProgramCalibrate, MeasuresAndRemembersAndRunTakesIt) {
 
 TEST(ProgramCalibrate, PicturesAndHashesDoNotDependOnIt) {
   const Home home;
-  const json before = summaryOf(home.run());
+  const json before = drawnSummaryOf(home.run());
   EXPECT_EQ(before["how_drawn"]["wall_workers"], "thread");
   EXPECT_TRUE(has(before["how_drawn"]["why"], "stadion calibrate")) << before["how_drawn"];
   for (const DrawSetting& setting : {DrawSetting{true, 0, false}, DrawSetting{true, 1, true},
                                      DrawSetting{false, 0, true}, DrawSetting{false, 3, false}}) {
     home.remember(setting);
-    const json after = summaryOf(home.run());
+    const json after = drawnSummaryOf(home.run());
     const json& how = after["how_drawn"];
     EXPECT_EQ(how["wall_workers"], setting.processes ? "process" : "thread") << how;
     EXPECT_EQ(how["rasteriser_threads"], setting.rasteriserThreads) << how;
@@ -105,7 +101,7 @@ TEST(ProgramCalibrate, ForABudgetOnWhatIsDrawnThreadsDrawALiveShow) {
   const TemporaryFolder folder;
   folder.write("show.input", "stadion-input 1\nkey head 0  0 0 1.7\nkey head 0.5  0 0 1.7\n");
   const auto play = [&](const std::string& show) {
-    return summaryOf(
+    return drawnSummaryOf(
         home.start({"run", folder.write("show.evs", show), "--asset-root", assetFolder(), "--walls", "cave4",
                     "--size", "64x48", "--json", "--no-sound"}))["how_drawn"];
   };
@@ -118,17 +114,17 @@ TEST(ProgramCalibrate, ForABudgetOnWhatIsDrawnThreadsDrawALiveShow) {
 TEST(ProgramCalibrate, WhatIsAskedForCountsMore) {
   const Home home;
   home.remember({true, 0, true});
-  const json threads = summaryOf(home.run({"--wall-workers", "thread", "--pin", "off"}))["how_drawn"];
+  const json threads = drawnSummaryOf(home.run({"--wall-workers", "thread", "--pin", "off"}))["how_drawn"];
   EXPECT_EQ(threads["wall_workers"], "thread");
   EXPECT_EQ(threads["pinned"], false);
-  const json given = summaryOf(home.run({}, {"LP_NUM_THREADS=3"}))["how_drawn"];
+  const json given = drawnSummaryOf(home.run({}, {"LP_NUM_THREADS=3"}))["how_drawn"];
   EXPECT_EQ(given["rasteriser_threads"], 3);
-  const json turns = summaryOf(home.run({"--mode", "sequential"}))["how_drawn"];
+  const json turns = drawnSummaryOf(home.run({"--mode", "sequential"}))["how_drawn"];
   EXPECT_EQ(turns["wall_workers"], "thread");
   EXPECT_EQ(turns["pinned"], false);
-  const json counted = summaryOf(home.run({"--count-work"}))["how_drawn"];
+  const json counted = drawnSummaryOf(home.run({"--count-work"}))["how_drawn"];
   EXPECT_EQ(counted["wall_workers"], "thread");
-  EXPECT_FALSE(summaryOf(home.run({"--gl", "none"})).contains("how_drawn"));
+  EXPECT_FALSE(drawnSummaryOf(home.run({"--gl", "none"})).contains("how_drawn"));
 }
 
 TEST(ProgramCalibrate, OfAnotherMachineIsToldAndNotUsed) {
@@ -137,7 +133,7 @@ TEST(ProgramCalibrate, OfAnotherMachineIsToldAndNotUsed) {
   other.processor = "Babbage 1837", other.cores = 1;
   home.remember({true, 0, false}, other);
   const ProgramResult r = home.run();
-  EXPECT_EQ(summaryOf(r)["how_drawn"]["wall_workers"], "thread");
+  EXPECT_EQ(drawnSummaryOf(r)["how_drawn"]["wall_workers"], "thread");
   EXPECT_TRUE(has(r.err, home.file() + ": warning: was measured on another machine (Babbage 1837, 1 core"))
       << r.err;
 }
@@ -149,7 +145,7 @@ TEST(ProgramCalibrate, ThatIsDamagedIsToldAndNotUsedNorOverwritten) {
   EXPECT_FALSE(writeCalibration(home.file(), {}));
   std::filesystem::resize_file(home.file(), 20);
   const ProgramResult r = home.run();
-  EXPECT_EQ(summaryOf(r)["how_drawn"]["wall_workers"], "thread");
+  EXPECT_EQ(drawnSummaryOf(r)["how_drawn"]["wall_workers"], "thread");
   EXPECT_TRUE(has(r.err, home.file() + ":")) << r.err;
   EXPECT_TRUE(has(r.err, "warning: is no JSON; remove the file")) << r.err;
   const ProgramResult again = home.start({"calibrate", "--walls", "powerwall", "--seconds", "1"});
@@ -181,7 +177,7 @@ TEST(ProgramRun, RefusesToPinWallsThatAreDrawnInTurn) {
   const ProgramResult r = home.run({"--mode", "sequential", "--pin", "on"});
   EXPECT_EQ(r.status, 2);
   EXPECT_TRUE(has(r.err, "--pin on")) << r.err;
-  EXPECT_EQ(summaryOf(home.run(
+  EXPECT_EQ(drawnSummaryOf(home.run(
                 {"--mode", "sequential", "--pin", "on", "--wall-workers", "process"}))["how_drawn"]["pinned"],
             true);
 }

@@ -1,15 +1,12 @@
 /// Who draws the walls: what is asked for, else what was measured on this machine, else the rule.
 
 #include "cli/drawing_plan.h"
+#include "tests/cli/program.h"
 
 #include <gtest/gtest.h>
 
 namespace stadion {
 namespace {
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 constexpr DrawSetting kThreads{false, 2, false}, kThreadsPinned{false, 1, true}, kProcesses{true, 0, true},
     kProcessesWithThreads{true, 2, false};

@@ -22,10 +22,6 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 std::string faultLibrary() {
   return STADION_BINARY_DIR "/bin/libfault-library.so";
 }

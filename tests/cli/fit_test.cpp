@@ -1,5 +1,6 @@
 /// `stadion fit` and `stadion bench flight` as a user meets them.
 
+#include "engine/maths/angles.h"
 #include "tests/cli/played_show.h"
 
 #include "dynamics/flight/flight_table.h"
@@ -155,7 +156,6 @@ void expectThePromiseOf(const FlownThing& thing, const std::string& tolerance) {
   ASSERT_TRUE(recorded);
   const RigidFlight start = recorded.value().front().at, end = recorded.value().back().at;
   const auto three = [](const Vec3& v) { return fmt::format("\"{}, {}, {}\"", v.x(), v.y(), v.z()); };
-  constexpr double kDegree = 3.14159265358979324 / 180;
   // The references are pitched about -y alone.
   const Vec3 pitch(0, 2 * std::atan2(start.q.y(), start.q.w()) / kDegree, 0);
   const std::string script = folder.write(
@@ -279,12 +279,12 @@ TEST(ProgramCheck, WhatFliesAsIfMatterFilledItEvenlyIsToldWithTheNumbers) {
 
 TEST(ProgramBenchFlight, PrintsItsLimitsAndWritesNumbersAndPlots) {
   const TemporaryFolder folder;
-  const std::string json = (folder.path() / "flight.json").string(),
+  const std::string report = (folder.path() / "flight.json").string(),
                     plots = (folder.path() / "plots").string();
   const ProgramResult r = stadionProgram(
-      {"bench", "flight", "--flights", "20", "--rounds", "20", "--json", json, "--out", plots});
+      {"bench", "flight", "--flights", "20", "--rounds", "20", "--json", report, "--out", plots});
   EXPECT_TRUE(r.status == 0 || r.status == 1) << r.err;  // its costs may miss their limits on a busy machine
-  const auto all = nlohmann::json::parse(fileContent(json));
+  const auto all = nlohmann::json::parse(fileContent(report));
   std::size_t missed = 0;
   for (const auto& limit : all["limits"]) {
     const bool cost = limit["what"].get<std::string>().find(" / ") != std::string::npos;

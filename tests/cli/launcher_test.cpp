@@ -10,10 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// A root folder with the launcher, sources to compare with, and stand-ins for every program it calls. What
 /// they were called with is in `calls`.
 class House {

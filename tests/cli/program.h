@@ -59,4 +59,8 @@ std::string fileContent(const std::filesystem::path& file);
 /// Whether the long acceptance runs were asked for (`stadion test --full`).
 bool fullRuns();
 
+inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 }  // namespace stadion

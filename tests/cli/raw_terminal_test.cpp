@@ -17,7 +17,7 @@
 namespace stadion {
 namespace {
 
-void wait(int milliseconds) {
+void waitFor(int milliseconds) {
   std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
 }
 
@@ -54,7 +54,7 @@ public:
   }
   /// Waits until it shows keys, or no longer does.
   bool comesToShowKeys(bool shows) const {
-    for (int i = 0; i < 6000 && showsKeys() != shows; ++i) wait(5);
+    for (int i = 0; i < 6000 && showsKeys() != shows; ++i) waitFor(5);
     return showsKeys() == shows;
   }
   void press(char key) const { EXPECT_EQ(write(near_, &key, 1), 1); }
@@ -84,12 +84,12 @@ private:
 };
 
 void waitForSignals() {
-  for (;;) wait(1000);
+  for (;;) waitFor(1000);
 }
 
 TEST(ProgramTerminal, IsGivenBackWhenTheProgramExits) {
   Terminal terminal([] {
-    wait(300);
+    waitFor(300);
     std::exit(7);
   });
   EXPECT_TRUE(terminal.comesToShowKeys(false)) << "it was never taken";
@@ -103,9 +103,9 @@ TEST(ProgramTerminal, IsGivenBackAfterTheSecondControlC) {
     waitForSignals();
   });
   ASSERT_TRUE(terminal.comesToShowKeys(false));
-  wait(200);
+  waitFor(200);
   terminal.press('\003');
-  wait(300);
+  waitFor(300);
   EXPECT_FALSE(terminal.showsKeys()) << "the first one only asks";
   terminal.press('\003');
   EXPECT_EQ(terminal.status(), 130);

@@ -34,7 +34,7 @@ std::unique_ptr<Player> open(const Script& script,
 }
 
 /// What is seen: every instance as it was published last, by what it shows and whose it is.
-struct Seen {
+struct SavedRun {
   std::map<InstanceId, InstanceRecord> instances;
 
   void take(const ChangeSet& changes) {
@@ -72,7 +72,7 @@ public:
   }
   Scene& scene() { return player_->scene(); }
   std::uint64_t seen() const { return seen_.hash(); }
-  const Seen& all() const { return seen_; }
+  const SavedRun& all() const { return seen_; }
 
 private:
   std::unique_ptr<Player> player_;
@@ -80,7 +80,7 @@ private:
   double rate_;
   InputSample input_;
   ChangeSet changes_;
-  Seen seen_;
+  SavedRun seen_;
 };
 
 class SavedState : public testing::TestWithParam<Script> {};

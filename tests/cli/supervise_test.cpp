@@ -66,7 +66,7 @@ private:
 };
 
 /// The number behind those words.
-std::optional<double> numberAfter(const std::string& text, const std::string& words) {
+std::optional<double> secondsAfter(const std::string& text, const std::string& words) {
   std::smatch found;
   if (!std::regex_search(text, found, std::regex(words + "([0-9.]+[0-9])"))) return {};
   return std::stod(found[1]);
@@ -97,8 +97,8 @@ TEST(ProgramSupervise, AShowGoesOnAfterItsPlayerWasKilledAndAfterItWasStopped) {
 
   const std::string told = fileContent(run.told());
   EXPECT_NE(told.find("the player was ended by signal 9 (Killed) at frame"), std::string::npos) << told;
-  const auto from = numberAfter(told, "goes on from frame [0-9]+, "),
-             to = numberAfter(told, "catches up to ");
+  const auto from = secondsAfter(told, "goes on from frame [0-9]+, "),
+             to = secondsAfter(told, "catches up to ");
   ASSERT_TRUE(from && to) << told;
   EXPECT_GE(*from, 4) << "the scene that was kept";
   EXPECT_GE(*to, 6) << "where the show was when its player died, and the time since";

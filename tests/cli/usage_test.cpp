@@ -12,10 +12,6 @@
 namespace stadion {
 namespace {
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// Arguments for a short, small run of one of the test shows.
 std::vector<std::string> shortRun(const std::string& show, std::vector<std::string> more = {},
                                   const char* frames = "5") {

@@ -1,6 +1,7 @@
 /// How bodies start, and what they take along when a hand lets go.
 
 #include "dynamics/body_axes.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "tests/dynamics/scenes.h"
 #include "tests/dynamics/show_nodes.h"
@@ -14,8 +15,6 @@ namespace {
 
 using show_nodes::Field;
 using show_nodes::Sim;
-
-constexpr double kDegree = M_PI / 180;
 
 /// A rod of 2 m along its own x.
 class Rod : public DynObjectNode {

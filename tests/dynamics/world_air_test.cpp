@@ -2,6 +2,7 @@
 
 #include "dynamics/body_flight.h"
 #include "dynamics/flight/flight_shape.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "tests/dynamics/watch.h"
 
@@ -11,8 +12,6 @@ namespace stadion {
 namespace {
 
 using namespace scenes;
-
-constexpr double kDegree = M_PI / 180;
 
 struct Thrown {
   BodyFlight flight;

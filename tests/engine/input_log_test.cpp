@@ -27,7 +27,7 @@ struct Scratch {
   std::string file(const char* name) const { return (folder / name).string(); }
 };
 
-std::optional<InputLog> parsed(const std::string& records) {
+std::optional<InputLog> parsedLog(const std::string& records) {
   Diagnostics out;
   auto log = parseInputLog("stadion-input 1\n" + records, "t.input", out);
   for (const Diagnostic& d : out.all()) ADD_FAILURE() << format(d);
@@ -44,8 +44,8 @@ std::string firstError(const std::string& text) {
 }
 
 TEST(InputLog, HoldsBeforeTheFirstAndAfterTheLastRecordAndInterpolatesBetween) {
-  const auto log = parsed("pose head 1  0 0 1.7  1 0 0 0  buttons 1  axes 0 1\n"
-                          "pose head 2  4 0 1.7  0 0 0 1  buttons 2  axes 1 0\n");
+  const auto log = parsedLog("pose head 1  0 0 1.7  1 0 0 0  buttons 1  axes 0 1\n"
+                             "pose head 2  4 0 1.7  0 0 0 1  buttons 2  axes 1 0\n");
   ASSERT_TRUE(log);
   InputReplay replay(*log);
   EXPECT_EQ(replay.sampleAt(0).find("head")->X_RT.p, Vec3(0, 0, 1.7));
@@ -63,7 +63,7 @@ TEST(InputLog, HoldsBeforeTheFirstAndAfterTheLastRecordAndInterpolatesBetween) {
 }
 
 TEST(InputLog, EasesSmoothRecords) {
-  const auto log = parsed("key foot 0  0 0 0\nkey foot 1  0 8 0  turn 90 0 0  smooth\n");
+  const auto log = parsedLog("key foot 0  0 0 0\nkey foot 1  0 8 0  turn 90 0 0  smooth\n");
   ASSERT_TRUE(log);
   InputReplay replay(*log);
   EXPECT_LE((replay.sampleAt(fromSeconds(0.25)).trackers[0].X_RT.p - Vec3(0, 8 * 0.15625, 0)).norm(), 1e-12);
@@ -72,7 +72,7 @@ TEST(InputLog, EasesSmoothRecords) {
 }
 
 TEST(InputLog, TellsTheSameWayHoweverItIsCutIntoFrames) {
-  const auto log = parsed(
+  const auto log = parsedLog(
       "key foot 0.011  0 0 0\nkey foot 0.1037  0 1 0  turn 0 0 30\nkey foot 0.3  0 2 1  turn 40 0 0  smooth\n"
       "lost foot 0.31\nkey foot 0.4111  5 5 5\nkey foot 0.6  5 6 5\n");
   ASSERT_TRUE(log);
@@ -101,7 +101,7 @@ TEST(InputLog, TellsTheSameWayHoweverItIsCutIntoFrames) {
 }
 
 TEST(InputLog, KeepsALostTrackerWhereItWasSeenLast) {
-  const auto log = parsed("pose wand 0  1 2 3  1 0 0 0\nlost wand 1\npose wand 3  5 2 3  1 0 0 0\n");
+  const auto log = parsedLog("pose wand 0  1 2 3  1 0 0 0\nlost wand 1\npose wand 3  5 2 3  1 0 0 0\n");
   ASSERT_TRUE(log);
   InputReplay replay(*log);
   EXPECT_TRUE(replay.sampleAt(fromSeconds(0.5)).trackers[0].valid);
@@ -159,7 +159,7 @@ TEST(InputLog, NamesTheLineOfWhatIsWrong) {
 }
 
 TEST(InputLog, NormalisesAQuaternionThatIsNearlyUnit) {
-  const auto log = parsed("pose head 0  0 0 0  0.7071 0.7071 0 0\n");
+  const auto log = parsedLog("pose head 0  0 0 0  0.7071 0.7071 0 0\n");
   ASSERT_TRUE(log);
   EXPECT_NEAR(log->tracks[0].stamps[0].X_RT.q.norm(), 1, 1e-15);
 }
@@ -218,9 +218,10 @@ TEST(InputRecorder, ReplaysEverySampleToTheBit) {
 
 TEST(InputRecorder, KeepsWhatHappenedInsideTheFrames) {
   const Scratch scratch;
-  const auto log = parsed("key foot 0.011  0 0 0\nkey foot 0.1037  0 1 0  turn 0 0 30  buttons 2\nkey foot "
-                          "0.3  0 2 1  turn 40 0 0  smooth\n"
-                          "lost foot 0.31\nkey foot 0.4111  5 5 5\nkey foot 0.6  5 6 5\n");
+  const auto log =
+      parsedLog("key foot 0.011  0 0 0\nkey foot 0.1037  0 1 0  turn 0 0 30  buttons 2\nkey foot "
+                "0.3  0 2 1  turn 40 0 0  smooth\n"
+                "lost foot 0.31\nkey foot 0.4111  5 5 5\nkey foot 0.6  5 6 5\n");
   ASSERT_TRUE(log);
   InputReplay replay(*log);
   InputRecorder recorder(scratch.file("a.input"));

@@ -1,4 +1,5 @@
 #include "engine/input/scripted_input.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "engine/nodes/rig_drive.h"
 #include "engine/nodes/rig_node.h"
@@ -8,8 +9,6 @@
 
 namespace stadion {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 void say(ScriptedInput& input, double seconds, float turn, float forward, const Vec3& p = Vec3::Zero(),
          double yaw = 0, bool smooth = false) {

@@ -1,11 +1,10 @@
 #include "engine/input/rig_file.h"
+#include "engine/maths/angles.h"
 
 #include <gtest/gtest.h>
 
 namespace stadion {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 RigFile parsed(const std::string& text) {
   Diagnostics findings;

@@ -2,6 +2,7 @@
 /// than they say.
 
 #include "engine/asset/simplify.h"
+#include "engine/maths/angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,6 @@ namespace {
 
 /// A ball of radius 1, or, squashed, anything like it.
 Mesh ball(int rings, double height = 1) {
-  constexpr double kPi = 3.14159265358979323846;
   Mesh m;
   m.materials.emplace_back();
   const int sectors = 2 * rings;

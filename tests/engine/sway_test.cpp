@@ -1,3 +1,4 @@
+#include "engine/maths/angles.h"
 #include "engine/nodes/sway_node.h"
 
 #include "tests/engine/show_fixture.h"
@@ -5,14 +6,11 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
-#include <numbers>
 #include <random>
 #include <set>
 
 namespace stadion {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 SwayAttributes swell() {
   SwayAttributes a;

@@ -20,7 +20,7 @@ RigFile bareRig() {
   return rig;
 }
 
-Pose at(double x, double y, double z) {
+Pose poseAt(double x, double y, double z) {
   return {Vec3(x, y, z), Quat::Identity()};
 }
 
@@ -45,7 +45,7 @@ TEST(TrackerFeed, TheRigsTrackersAreThereFromTheFirstFrameLostUntilTheyAreHeardO
   room.frame();
   ASSERT_EQ(room.sample.trackers.size(), 2u);
   EXPECT_FALSE(room.sample.find("head")->valid);
-  room.head(10 * kMs, at(0.1, 0.2, 1.6));
+  room.head(10 * kMs, poseAt(0.1, 0.2, 1.6));
   room.frame();
   EXPECT_TRUE(room.sample.find("head")->valid);
   EXPECT_FALSE(room.sample.find("wand")->valid);
@@ -56,7 +56,7 @@ TEST(TrackerFeed, APoseIsCarriedOnToTheFramesEndButNotFarther) {
   rig.ease = 0, rig.predict = 0.02;
   Room room(rig);
   // 1 m/s to the right, for so long that the smoothed speed has arrived.
-  for (int i = 0; i <= 300; ++i) room.head(i * 5 * kMs, at(i * 0.005, 0, 1.7));
+  for (int i = 0; i <= 300; ++i) room.head(i * 5 * kMs, poseAt(i * 0.005, 0, 1.7));
   room.next = 91;  // 1516.67 ms, 16.67 ms after the last measurement
   EXPECT_NEAR(room.frame().find("head")->X_RT.p.x(), 1.5 + 0.016667, 1e-4);
   room.next = 95;  // 83 ms after it
@@ -65,7 +65,7 @@ TEST(TrackerFeed, APoseIsCarriedOnToTheFramesEndButNotFarther) {
 
 TEST(TrackerFeed, ASilentHeadHoldsThenEasesToItsSafePoseThenIsLost) {
   Room room;
-  for (int i = 0; i <= 200; ++i) room.head(i * 5 * kMs, at(1, 0, 1.2));
+  for (int i = 0; i <= 200; ++i) room.head(i * 5 * kMs, poseAt(1, 0, 1.2));
   room.next = 60;
   EXPECT_EQ(room.frame().find("head")->X_RT.p, Vec3(1, 0, 1.2));
   room.next = 66;  // 1.1 s: at the end of hold
@@ -94,27 +94,27 @@ TEST(TrackerFeed, ASilenceIsToldAndItsEndButNotOfWhoComesAndGoes) {
     return told;
   };
   EXPECT_EQ(heardAt(0), "");  // nobody has been heard of yet
-  room.head(10 * kMs, at(0, 0, 1.7));
+  room.head(10 * kMs, poseAt(0, 0, 1.7));
   EXPECT_EQ(heardAt(50 * kMs), "");
   EXPECT_EQ(heardAt(1010 * kMs), "head silent 10;");
   EXPECT_EQ(heardAt(1020 * kMs), "");
-  room.head(2010 * kMs, at(0, 0, 1.7));
+  room.head(2010 * kMs, poseAt(0, 0, 1.7));
   EXPECT_EQ(heardAt(2020 * kMs), "head heard 20;");
   EXPECT_EQ(heardAt(4000 * kMs), "");  // again, within ten seconds
-  room.head(12'000 * kMs, at(0, 0, 1.7));
+  room.head(12'000 * kMs, poseAt(0, 0, 1.7));
   EXPECT_EQ(heardAt(12'010 * kMs), "");
   EXPECT_EQ(heardAt(13'000 * kMs), "head silent 10;");
 }
 
 TEST(TrackerFeed, HeardOfAgainTheHeadEasesBack) {
   Room room;
-  for (int i = 0; i <= 200; ++i) room.head(i * 5 * kMs, at(1, 0, 1.2));
+  for (int i = 0; i <= 200; ++i) room.head(i * 5 * kMs, poseAt(1, 0, 1.2));
   room.next = 121;
-  for (int i = 400; i <= 600; ++i) room.head(i * 5 * kMs, at(-1, 0, 1.2));
+  for (int i = 400; i <= 600; ++i) room.head(i * 5 * kMs, poseAt(-1, 0, 1.2));
   // Heard again at 2 s; halfway back at 2.25 s, there at 2.5 s.
   Room later;
-  for (int i = 0; i <= 200; ++i) later.head(i * 5 * kMs, at(1, 0, 1.2));
-  for (int i = 400; i <= 449; ++i) later.head(i * 5 * kMs, at(-1, 0, 1.2));
+  for (int i = 0; i <= 200; ++i) later.head(i * 5 * kMs, poseAt(1, 0, 1.2));
+  for (int i = 400; i <= 449; ++i) later.head(i * 5 * kMs, poseAt(-1, 0, 1.2));
   later.next = 135;
   EXPECT_NEAR((later.frame().find("head")->X_RT.p - Vec3(-0.5, 0, 1.45)).norm(), 0, 0.02);
   room.next = 150;
@@ -123,7 +123,7 @@ TEST(TrackerFeed, HeardOfAgainTheHeadEasesBack) {
 
 TEST(TrackerFeed, ASilentWandIsLostAndLetsGoOfEverything) {
   Room room;
-  room.feed.pose("wand", 1'000'000'000, at(0, 1, 1));
+  room.feed.pose("wand", 1'000'000'000, poseAt(0, 1, 1));
   room.feed.button("wand", 1'000'000'000, 1, true);
   room.feed.axis("wand", 1'000'000'000, 1, 0.75);
   room.frame();
@@ -136,7 +136,7 @@ TEST(TrackerFeed, ASilentWandIsLostAndLetsGoOfEverything) {
   EXPECT_EQ(room.sample.find("wand")->X_RT.p, Vec3(0, 1, 1));
   // Heard of again it holds nothing: the button may have been released meanwhile.
   room.next = 25;
-  room.feed.pose("wand", 1'000'000'000 + 400 * kMs, at(0, 1, 1));
+  room.feed.pose("wand", 1'000'000'000 + 400 * kMs, poseAt(0, 1, 1));
   EXPECT_TRUE(room.frame().find("wand")->valid);
   EXPECT_EQ(room.sample.find("wand")->buttons, 0u);
   EXPECT_EQ(room.sample.find("wand")->axes[1], 0.0f);
@@ -144,7 +144,7 @@ TEST(TrackerFeed, ASilentWandIsLostAndLetsGoOfEverything) {
 
 TEST(TrackerFeed, AButtonPressedAndReleasedBetweenTwoFramesIsNotMissed) {
   Room room;
-  room.feed.pose("wand", 1'000'000'000, at(0, 1, 1));
+  room.feed.pose("wand", 1'000'000'000, poseAt(0, 1, 1));
   room.frame();
   room.feed.button("wand", 1'000'000'000 + 5 * kMs, 2, true);
   room.feed.button("wand", 1'000'000'000 + 9 * kMs, 2, false);
@@ -158,10 +158,11 @@ TEST(TrackerFeed, AButtonPressedAndReleasedBetweenTwoFramesIsNotMissed) {
 
 TEST(TrackerFeed, WhatCannotBeIsRefusedCountedAndNeverInASample) {
   Room room;
-  room.feed.pose("wand", 1'000'000'000, at(0, 1, 1));
+  room.feed.pose("wand", 1'000'000'000, poseAt(0, 1, 1));
   const double huge = 1e300, inf = std::numeric_limits<double>::infinity();
-  for (const Pose& X : {at(kNaN, 0, 0), at(inf, 0, 0), at(huge, 0, 0), Pose{Vec3::Zero(), Quat(0, 0, 0, 0)},
-                        Pose{Vec3::Zero(), Quat(kNaN, 0, 0, 1)}, Pose{Vec3::Zero(), Quat(huge, 0, 0, 1)}})
+  for (const Pose& X :
+       {poseAt(kNaN, 0, 0), poseAt(inf, 0, 0), poseAt(huge, 0, 0), Pose{Vec3::Zero(), Quat(0, 0, 0, 0)},
+        Pose{Vec3::Zero(), Quat(kNaN, 0, 0, 1)}, Pose{Vec3::Zero(), Quat(huge, 0, 0, 1)}})
     EXPECT_FALSE(room.feed.pose("wand", 1'000'000'000 + kMs, X));
   EXPECT_FALSE(room.feed.button("wand", 0, 0, true));
   EXPECT_FALSE(room.feed.button("wand", 0, 33, true));
@@ -169,9 +170,9 @@ TEST(TrackerFeed, WhatCannotBeIsRefusedCountedAndNeverInASample) {
   EXPECT_FALSE(room.feed.axis("wand", 0, -1, 0.5));
   EXPECT_FALSE(room.feed.axis("wand", 0, 0, kNaN));
   EXPECT_EQ(room.feed.counts().refused, 11u);
-  EXPECT_FALSE(room.feed.pose("hat", 1'000'000'000, at(0, 0, 0)));
+  EXPECT_FALSE(room.feed.pose("hat", 1'000'000'000, poseAt(0, 0, 0)));
   EXPECT_EQ(room.feed.counts().unknown, 1u);
-  EXPECT_FALSE(room.feed.pose("wand", 999'000'000, at(5, 5, 5)));
+  EXPECT_FALSE(room.feed.pose("wand", 999'000'000, poseAt(5, 5, 5)));
   EXPECT_EQ(room.feed.counts().late, 1u);
   EXPECT_TRUE(room.feed.axis("wand", 1'000'000'000, 0, 7));
   room.frame();
@@ -182,7 +183,7 @@ TEST(TrackerFeed, WhatCannotBeIsRefusedCountedAndNeverInASample) {
 
 TEST(TrackerFeed, AFloodOfChangesInOneFrameIsCut) {
   Room room;
-  room.feed.pose("wand", 1'000'000'000, at(0, 1, 1));
+  room.feed.pose("wand", 1'000'000'000, poseAt(0, 1, 1));
   room.frame();
   for (int i = 0; i < 100'000; ++i) room.feed.button("wand", 1'000'000'000 + i * 100, 1 + i % 2, i % 3 != 0);
   EXPECT_LE(room.frame().find("wand")->controls.size(), 70u);
@@ -251,7 +252,7 @@ TEST(TrackerFeed, TheRecordOfAWildVisitGivesTheVerySameSamples) {
 
 TEST(TrackerFeed, ANewGroupBeginsAtTimeZeroWithWhatIsKnown) {
   Room room;
-  room.head(10 * kMs, at(0.1, 0.2, 1.6));
+  room.head(10 * kMs, poseAt(0.1, 0.2, 1.6));
   room.frame(), room.frame(), room.frame();
   room.feed.restart();
   room.next = 0;

@@ -7,14 +7,14 @@
 namespace stadion {
 namespace {
 
-class WatchingNode : public TriggerNode {
+class TellingTrigger : public TriggerNode {
 public:
-  WatchingNode(NodeRef self, std::string name, NodeKind kind, const Region& region,
-               const std::string& tracker, PlaceAttributes place = {}, bool on = true)
+  TellingTrigger(NodeRef self, std::string name, NodeKind kind, const Region& region,
+                 const std::string& tracker, PlaceAttributes place = {}, bool on = true)
       : TriggerNode(kind, self, std::move(name), std::move(place), region, tracker, on) {}
 };
 
-Region ball(double radius) {
+Region ballRegion(double radius) {
   Region r;
   r.radius = radius;
   return r;
@@ -35,7 +35,7 @@ std::vector<EventRecord> told(const Region& region, ScriptedInput input, double 
   show.rate = rate;
   show.loader.files["show"] = [&](Load& load) {
     const NodeKind kind = tracker == "head" ? NodeKind::UserTrigger : NodeKind::WandTrigger;
-    addNode<WatchingNode>(load, "zone", kind, region, tracker, PlaceAttributes{}, on);
+    addNode<TellingTrigger>(load, "zone", kind, region, tracker, PlaceAttributes{}, on);
   };
   show.scene.open("show");
   for (const auto& [verb, when] : commands) show.scene.command("zone", verb, {}, fromSeconds(when));
@@ -62,7 +62,7 @@ TEST(TriggerCrossing, AVisitWithinOneFrameIsToldWithItsExactTimes) {
   ScriptedInput input;
   input.key("head", 0, {-1, 0, 0}).key("head", 1, {-1, 0, 0}).key("head", 1.4, {3, 0, 0});  // 10 m/s
   for (const double rate : {5.0, 30.0, 60.0, 240.0}) {
-    expectEvents(told(ball(0.05), input, rate, 2), {{Event::Enter, 1.095}, {Event::Exit, 1.105}});
+    expectEvents(told(ballRegion(0.05), input, rate, 2), {{Event::Enter, 1.095}, {Event::Exit, 1.105}});
     expectEvents(told(slab({0.05, 1, 1}), input, rate, 2), {{Event::Enter, 1.095}, {Event::Exit, 1.105}});
   }
 }
@@ -72,14 +72,14 @@ TEST(TriggerCrossing, TheWayInsideAFrameCounts) {
   ScriptedInput input;
   input.key("head", 0, {-2, 0, 0}).key("head", 0.1, {0, 0, 0}).key("head", 0.2, {-2, 0, 0});
   for (const double rate : {4.0, 60.0})
-    expectEvents(told(ball(1), input, rate, 1), {{Event::Enter, 0.05}, {Event::Exit, 0.15}});
+    expectEvents(told(ballRegion(1), input, rate, 1), {{Event::Enter, 0.05}, {Event::Exit, 0.15}});
 }
 
 TEST(TriggerCrossing, AGrazeIsNoVisit) {
   ScriptedInput input;
   input.key("head", 0, {-2, 1, 0}).key("head", 1, {2, 1, 0});
-  EXPECT_TRUE(told(ball(0.999999), input, 3, 2).empty());
-  EXPECT_EQ(told(ball(1.000001), input, 3, 2).size(), 2u);
+  EXPECT_TRUE(told(ballRegion(0.999999), input, 3, 2).empty());
+  EXPECT_EQ(told(ballRegion(1.000001), input, 3, 2).size(), 2u);
 }
 
 TEST(TriggerCrossing, ADeviceThatWasLostHasJumped) {
@@ -95,7 +95,7 @@ TEST(TriggerCrossing, ADeviceThatWasLostHasJumped) {
   ASSERT_TRUE(input.add("wand", lost));
   input.key("wand", 0.512, {1, 0, 0}).key("wand", 0.812, {0, 0, 0});
   for (const double rate : {3.0, 60.0})
-    expectEvents(told(ball(0.5), input, rate, 2, "wand"), {{Event::Enter, 0.662}});
+    expectEvents(told(ballRegion(0.5), input, rate, 2, "wand"), {{Event::Enter, 0.662}});
 }
 
 TEST(TriggerCrossing, ButtonsAreToldAtTheTimeOfTheirPressAlsoWhenReleasedWithinTheFrame) {
@@ -104,7 +104,7 @@ TEST(TriggerCrossing, ButtonsAreToldAtTheTimeOfTheirPressAlsoWhenReleasedWithinT
   input.key("wand", 0.503, {0, 0, 0}).key("wand", 0.777, {0, 0, 0}, Vec3::Zero(), false, 2);
   for (const double rate : {10.0, 60.0, 240.0})
     expectEvents(
-        told(ball(1), input, rate, 1, "wand"),
+        told(ballRegion(1), input, rate, 1, "wand"),
         {{Event::Enter, 0}, {Event::Button1, 0.501}, {Event::Button1Up, 0.503}, {Event::Button2, 0.777}});
 }
 
@@ -113,7 +113,7 @@ TEST(TriggerCrossing, AButtonCountsWhereTheDeviceIsWhenItIsPressed) {
   input.key("wand", 0, {-2, 0, 0}).key("wand", 0.2, {0, 0, 0}, Vec3::Zero(), false, 1);
   input.key("wand", 0.4, {2, 0, 0}).key("wand", 0.45, {2, 0, 0}, Vec3::Zero(), false, 1);
   for (const double rate : {2.0, 60.0})
-    expectEvents(told(ball(1), input, rate, 1, "wand"),
+    expectEvents(told(ballRegion(1), input, rate, 1, "wand"),
                  {{Event::Enter, 0.1}, {Event::Button1, 0.2}, {Event::Exit, 0.3}, {Event::Button1Up, 0.4}});
 }
 
@@ -123,11 +123,11 @@ TEST(TriggerCrossing, AReleaseIsToldWhereverTheDeviceIsThenIfThePressWas) {
   input.key("wand", 0.3, {2, 0, 0}, Vec3::Zero(), false, 3).key("wand", 0.4137, {5, 0, 0});
   input.key("wand", 0.5, {2, 0, 0}, Vec3::Zero(), false, 2).key("wand", 0.6, {0, 0, 0});
   for (const double rate : {2.0, 30.0, 60.0, 144.0, 1000.0})
-    expectEvents(told(ball(1), input, rate, 1, "wand"), {{Event::Enter, 0},
-                                                         {Event::Button1, 0.2},
-                                                         {Event::Exit, 0.25},
-                                                         {Event::Button1Up, 0.4137},
-                                                         {Event::Enter, 0.55}});
+    expectEvents(told(ballRegion(1), input, rate, 1, "wand"), {{Event::Enter, 0},
+                                                               {Event::Button1, 0.2},
+                                                               {Event::Exit, 0.25},
+                                                               {Event::Button1Up, 0.4137},
+                                                               {Event::Enter, 0.55}});
 }
 
 TEST(TriggerCrossing, ADeviceThatIsLostLetsGoOfItsButtonsAtThatTime) {
@@ -138,7 +138,7 @@ TEST(TriggerCrossing, ADeviceThatIsLostLetsGoOfItsButtonsAtThatTime) {
   ASSERT_TRUE(input.add("wand", lost));
   input.key("wand", 0.7, {0, 0, 0});
   for (const double rate : {2.0, 30.0, 60.0, 1000.0})
-    expectEvents(told(ball(1), input, rate, 1, "wand"),
+    expectEvents(told(ballRegion(1), input, rate, 1, "wand"),
                  {{Event::Enter, 0}, {Event::Button1, 0.2}, {Event::Button1Up, 0.3123}});
 }
 
@@ -147,7 +147,7 @@ TEST(TriggerCrossing, ATriggerThatWasDisabledMeanwhileTellsNoRelease) {
   input.key("wand", 0, {0, 0, 0}).key("wand", 0.2, {0, 0, 0}, Vec3::Zero(), false, 1);
   input.key("wand", 0.8, {0, 0, 0});
   for (const double rate : {4.0, 60.0})
-    expectEvents(told(ball(1), input, rate, 1, "wand", {{Verb::Disable, 0.5}, {Verb::Enable, 0.6}}),
+    expectEvents(told(ballRegion(1), input, rate, 1, "wand", {{Verb::Disable, 0.5}, {Verb::Enable, 0.6}}),
                  {{Event::Enter, 0}, {Event::Button1, 0.2}, {Event::Enter, 0.6}});
 }
 
@@ -156,7 +156,7 @@ TEST(TriggerCrossing, WhetherAReleaseWillBeToldIsPartOfTheState) {
   const auto hashAfter = [](const Vec3& pressedAt) {
     ShowFixture show;
     show.loader.files["show"] = [](Load& load) {
-      addNode<WatchingNode>(load, "zone", NodeKind::WandTrigger, ball(1), "wand");
+      addNode<TellingTrigger>(load, "zone", NodeKind::WandTrigger, ballRegion(1), "wand");
     };
     show.scene.open("show");
     ScriptedInput input;
@@ -178,7 +178,7 @@ TEST(TriggerCrossing, DisableEndsTheWatchAtItsTimeWithinTheFrame) {
   ScriptedInput input;
   input.key("head", 0, {-2, 0, 0}).key("head", 1, {2, 0, 0});
   for (const double rate : {4.0, 60.0})
-    expectEvents(told(ball(1), input, rate, 1, "head", {{Verb::Disable, 0.6}}), {{Event::Enter, 0.25}});
+    expectEvents(told(ballRegion(1), input, rate, 1, "head", {{Verb::Disable, 0.6}}), {{Event::Enter, 0.25}});
 }
 
 TEST(TriggerCrossing, EnableBeginsTheWatchAtItsTimeWithinTheFrame) {
@@ -187,7 +187,7 @@ TEST(TriggerCrossing, EnableBeginsTheWatchAtItsTimeWithinTheFrame) {
   wand.key("wand", 0, {0, 0, 0}).key("wand", 0.6, {0, 0, 0}).key("wand", 1, {4, 0, 0});
   for (const double rate : {5.0, 30.0, 60.0, 144.0, 1000.0})
     for (const std::string device : {"head", "wand"})
-      expectEvents(told(ball(0.05), device == "head" ? head : wand, rate, 1.2, device,
+      expectEvents(told(ballRegion(0.05), device == "head" ? head : wand, rate, 1.2, device,
                         {{Verb::Enable, 0.6017}}, false),
                    {{Event::Enter, 0.6017}, {Event::Exit, 0.605}});
 }
@@ -199,7 +199,7 @@ TEST(TriggerCrossing, ATriggerThatMovesPastAVisitorNoticesThem) {
     addNode<MovingNode>(load, "carrier");  // 1 m/s along x
     PlaceAttributes below;
     below.parent = {load.number, 0};
-    addNode<WatchingNode>(load, "zone", NodeKind::UserTrigger, ball(0.05), "head", below);
+    addNode<TellingTrigger>(load, "zone", NodeKind::UserTrigger, ballRegion(0.05), "head", below);
   };
   show.scene.open("show");
   show.head({1.1, 0, 0});
@@ -212,12 +212,12 @@ TEST(TriggerCrossing, ATriggerThatMovesPastAVisitorNoticesThem) {
 }
 
 TEST(TriggerCrossing, ChordsOfSpheresAndBoxesAreExact) {
-  const auto s = ball(2).chord({-4, 0, 0}, {4, 0, 0});
+  const auto s = ballRegion(2).chord({-4, 0, 0}, {4, 0, 0});
   ASSERT_TRUE(s);
   EXPECT_DOUBLE_EQ(s->in, 0.25);
   EXPECT_DOUBLE_EQ(s->out, 0.75);
-  EXPECT_FALSE(ball(2).chord({-4, 2.0000001, 0}, {4, 2.0000001, 0}));
-  EXPECT_FALSE(ball(2).chord({1, 0, 0}, {1, 0, 0}));
+  EXPECT_FALSE(ballRegion(2).chord({-4, 2.0000001, 0}, {4, 2.0000001, 0}));
+  EXPECT_FALSE(ballRegion(2).chord({1, 0, 0}, {1, 0, 0}));
   const auto b = slab({1, 2, 3}).chord({-3, -6, 0}, {3, 6, 0});
   ASSERT_TRUE(b);
   EXPECT_DOUBLE_EQ(b->in, 1.0 / 3);

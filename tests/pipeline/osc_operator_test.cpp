@@ -50,8 +50,8 @@ TEST(OscOperator, WordsAndMissingFiguresAreToldOfTheirCommand) {
   const double two[] = {1, 2};
   EXPECT_NE(complaintAbout(message("/stadion/step", two)).find("with 1 2 is not taken"), std::string::npos);
   EXPECT_NE(complaintAbout(message("/stadion/jump", {})).find("is no command"), std::string::npos);
-  const double released[] = {0};
-  EXPECT_EQ(complaintAbout(message("/stadion/step", released)), "") << "a button was let go";
+  const double letGo[] = {0};
+  EXPECT_EQ(complaintAbout(message("/stadion/step", letGo)), "") << "a button was let go";
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 using test::Random;
 
-constexpr int kWidth = 37, kHeight = 23;
+constexpr int kSmallWidth = 37, kSmallHeight = 23;
 
 /// Corners, pixels from the picture's middle; nearness; colours.
 struct Corners {
@@ -30,9 +30,9 @@ struct Corners {
 };
 
 struct Drawn {
-  std::vector<unsigned> colours = std::vector<unsigned>(kWidth * kHeight, 0xff000000U);
-  std::vector<float> depths = std::vector<float>(kWidth * kHeight, 1.0f);
-  RasterTarget target() { return {colours.data(), depths.data(), kWidth, kHeight, -0.05f, 1.0f}; }
+  std::vector<unsigned> colours = std::vector<unsigned>(kSmallWidth * kSmallHeight, 0xff000000U);
+  std::vector<float> depths = std::vector<float>(kSmallWidth * kSmallHeight, 1.0f);
+  RasterTarget target() { return {colours.data(), depths.data(), kSmallWidth, kSmallHeight, -0.05f, 1.0f}; }
   bool operator==(const Drawn&) const = default;
 };
 
@@ -49,7 +49,7 @@ Corners someTriangles(Random& random, int count) {
   const auto onGrid = [](double x) { return std::round(4 * x) / 4; };
   for (int t = 0; t < count; ++t) {
     const double size = random.sizeFrom(1, 30);
-    const Vec3 at = random.within(1).cwiseProduct(Vec3(kWidth / 2.0, kHeight / 2.0, 0));
+    const Vec3 at = random.within(1).cwiseProduct(Vec3(kSmallWidth / 2.0, kSmallHeight / 2.0, 0));
     for (int k = 0; k < 3; ++k) {
       const Vec3 off = random.within(size);
       corners.add({onGrid(at.x() + off.x()), onGrid(at.y() + off.y()), random.from(0.5, 2)},
@@ -63,8 +63,8 @@ Corners someTriangles(Random& random, int count) {
 bool covers(const Corners& c, int first, int x, int y, float facing) {
   std::array<std::array<long, 2>, 3> p;
   for (int k = 0; k < 3; ++k)
-    p[k] = {std::lround(256 * c.x[first + k]) + 256 * (kWidth / 2),
-            std::lround(256 * c.y[first + k]) + 256 * (kHeight / 2)};
+    p[k] = {std::lround(256 * c.x[first + k]) + 256 * (kSmallWidth / 2),
+            std::lround(256 * c.y[first + k]) + 256 * (kSmallHeight / 2)};
   const auto side = [](const auto& a, const auto& b, const auto& q) {
     return (b[0] - a[0]) * (q[1] - a[1]) - (b[1] - a[1]) * (q[0] - a[0]);
   };
@@ -88,9 +88,9 @@ TEST(SmallThings, PixelsAreThoseWhoseMiddlesAreInside) {
     Corners c = someTriangles(random, 1);
     const float facing = static_cast<float>(round % 3 - 1);
     const Drawn picture = drawn(c, facing, bestRaster());
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
-        const bool is = picture.depths[y * kWidth + x] != 1;
+    for (int y = 0; y < kSmallHeight; ++y)
+      for (int x = 0; x < kSmallWidth; ++x) {
+        const bool is = picture.depths[y * kSmallWidth + x] != 1;
         ASSERT_EQ(is, covers(c, 0, x, y, facing)) << "round " << round << ", " << x << ", " << y;
         pixels += is;
       }
@@ -107,12 +107,12 @@ TEST(SmallThings, TrianglesOfOneSurfaceShareNoPixelAndLeaveNone) {
     const Vec3 rim[] = {at(-9, -9), at(9, -9), at(9, 9), at(-9, 9)};
     for (int k = 0; k < 4; ++k)
       c.add(middle, {1, 1, 1}), c.add(rim[k], {1, 1, 1}), c.add(rim[(k + 1) % 4], {1, 1, 1});
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kSmallHeight; ++y)
+      for (int x = 0; x < kSmallWidth; ++x) {
         int times = 0;
         for (int t = 0; t < 4; ++t) times += covers(c, 3 * t, x, y, 1);
-        const bool inside =
-            x >= kWidth / 2 - 9 && x < kWidth / 2 + 9 && y >= kHeight / 2 - 9 && y < kHeight / 2 + 9;
+        const bool inside = x >= kSmallWidth / 2 - 9 && x < kSmallWidth / 2 + 9 &&
+                            y >= kSmallHeight / 2 - 9 && y < kSmallHeight / 2 + 9;
         ASSERT_EQ(times, inside);
       }
     const Drawn picture = drawn(c, 1, bestRaster());
@@ -127,10 +127,10 @@ TEST(SmallThings, ColoursAndDepthsGoOverTheSurfaceAsInSpace) {
     const Drawn picture = drawn(c, 0, bestRaster());
     Eigen::Matrix3d corners;
     for (int k = 0; k < 3; ++k)
-      corners.col(k) = Vec3(double{c.x[k]} + kWidth / 2, double{c.y[k]} + kHeight / 2, 1);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
-        const int at = y * kWidth + x;
+      corners.col(k) = Vec3(double{c.x[k]} + kSmallWidth / 2, double{c.y[k]} + kSmallHeight / 2, 1);
+    for (int y = 0; y < kSmallHeight; ++y)
+      for (int x = 0; x < kSmallWidth; ++x) {
+        const int at = y * kSmallWidth + x;
         if (picture.depths[at] == 1) continue;
         Vec3 part = corners.inverse() * Vec3(x + 0.5, y + 0.5, 1);
         for (int k = 0; k < 3; ++k) part[k] *= double{c.nearness[k]};

@@ -2,14 +2,13 @@
 /// Bodies of revolution as meshes.
 
 #include "engine/asset/mesh.h"
+#include "engine/maths/angles.h"
 
 #include <cmath>
 #include <utility>
 #include <vector>
 
 namespace stadion::bodies {
-
-constexpr double kPi = 3.14159265358979324;
 
 /// Where the profile's axis lies.
 enum class Along { X, Z };

@@ -5,6 +5,7 @@
 
 #include "dynamics/flight/flight_shape.h"
 #include "dynamics/flight/trajectory.h"
+#include "engine/maths/angles.h"
 #include "profiling/bench/flight/reference_models.h"
 
 #include <functional>
@@ -14,7 +15,6 @@
 namespace stadion::bench {
 
 constexpr double kGravity = 9.81, kDensity = 1.2;
-constexpr double kDegree = 3.14159265358979324 / 180;
 
 enum class Thing { Javelin, Discus, Ball };
 

@@ -1,11 +1,11 @@
 #include "profiling/bench/flight/reference_models.h"
 
+#include "engine/maths/angles.h"
+
 #include <cmath>
 
 namespace stadion::bench {
 namespace {
-
-constexpr double kPi = 3.14159265358979324;
 
 /// Gauss and Legendre's eight points on -1..1 and their weights.
 constexpr double kPoints[] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};

@@ -1,12 +1,11 @@
 #include "profiling/bench/walls/wall_scene.h"
 
+#include "engine/maths/angles.h"
+
 #include <cmath>
-#include <numbers>
 
 namespace stadion::bench {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Steele, Lea and Flood 2014.
 class SplitMix64 {

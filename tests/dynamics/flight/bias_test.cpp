@@ -10,7 +10,7 @@
 namespace stadion {
 namespace {
 
-const double kDegree = bodies::kPi / 180;
+const double kDegree = kPi / 180;
 
 Quat pitched(double degrees) {
   return det::expRotation(Vec3(0, -degrees * kDegree, 0));

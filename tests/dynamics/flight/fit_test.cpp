@@ -3,6 +3,7 @@
 #include "dynamics/flight/fit.h"
 
 #include "dynamics/flight/least_squares.h"
+#include "engine/maths/angles.h"
 #include "profiling/bench/flight/bodies.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 
 namespace stadion {
 namespace {
-
-constexpr double kDegree = 3.14159265358979324 / 180;
 
 /// Flights of this model at several angles, as a camera would see them.
 FitTask flownBy(const FlightModel& model, const FlightBody& body, const FlightShape& shape, int axis,

@@ -56,7 +56,7 @@ TEST(FlightModel, BallHasADragCrisisAndMagnusLiftThatSaturates) {
   for (int i = 0; i < 100; ++i) {
     const Vec3 u = randomVector(random, 25), w = randomVector(random, i % 2 ? 60 : 0.01);
     const Wrench f = aerodynamics(footballFlight(), kAir, u, w);
-    const double V = u.norm(), area = bodies::kPi * .11 * .11, q = .5 * kAir * area * V * V;
+    const double V = u.norm(), area = kPi * .11 * .11, q = .5 * kAir * area * V * V;
     const Vec3 h = u / V, side = w.cross(h);
     const double CD = .155 + .346 / (1 + std::exp((V - 12.19) / 1.309)), Sp = .11 * side.norm() / V;
     const double CL = .33 * -std::expm1(-Sp / .17);
@@ -123,7 +123,7 @@ TEST(FlightShape, AJavelinAndADiscusAreMeasured) {
   expectNear(j.q_NA * Vec3::UnitX(), Vec3::UnitX(), 1e-9);  // the nose
   const FlightShape d = measureShape(bodies::discus(96), Vec3::Zero());
   EXPECT_FALSE(d.elongated());
-  EXPECT_NEAR(d.topArea, bodies::kPi * .11 * .11, 1e-4);
+  EXPECT_NEAR(d.topArea, kPi * .11 * .11, 1e-4);
   EXPECT_NEAR(std::fabs((d.q_NA * Vec3::UnitZ()).z()), 1, 1e-9);
   EXPECT_TRUE(measureShape(bodies::ball(0.11), Vec3::Zero()).round());
 }

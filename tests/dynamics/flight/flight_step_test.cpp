@@ -7,6 +7,7 @@
 #include "dynamics/flight/runge_kutta.h"
 #include "dynamics/flight/swarm_step.h"
 #include "dynamics/wide.h"
+#include "engine/maths/angles.h"
 
 #include <bit>
 #include <gtest/gtest.h>
@@ -15,7 +16,6 @@ namespace stadion {
 namespace {
 
 const FlightBody kJavelin{.806, 1.5e-4, .42}, kDiscus{2.0, .0131, .0073}, kBall{.43, .0035, .0035};
-constexpr double kDegree = 3.14159265358979324 / 180;
 
 struct Case {
   FlightModel model;

@@ -1,6 +1,7 @@
 /// Tables of coefficients: read, refused, and turned into air.
 
 #include "dynamics/flight/flight_table.h"
+#include "engine/maths/angles.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -8,7 +9,6 @@
 namespace stadion {
 namespace {
 
-constexpr double kDegree = 3.14159265358979324 / 180;
 const std::string kHead = "# area = 0.04\n# length = 0.2\n# axis = z\nalpha_deg,CD,CL,CM,CQ\n";
 
 std::string reasonFor(const std::string& text, int axis = 2) {

@@ -11,7 +11,7 @@ namespace stadion::fuzz {
 namespace {
 
 /// What messages come to, from a fresh start.
-struct Room {
+struct OscRoom {
   Nanoseconds time = 1'000'000'000;
   LiveTrackers trackers{standardRig(), [](const std::string&) {}, [this] { return time += 1'000'000; }};
   OscTrackers osc{trackers};
@@ -28,7 +28,7 @@ struct Room {
 
 /// One socket for all packets: opening another one takes longer than reading a packet.
 struct Ear {
-  Room* room = nullptr;
+  OscRoom* room = nullptr;
   std::unique_ptr<OscServer> server;
   Ear() {
     auto opened = OscServer::open(0, [this](const OscMessage& m) { room->take(m); });
@@ -42,7 +42,7 @@ struct Ear {
 /// One packet.
 void osc(Bytes bytes) {
   static Ear ear;
-  Room room;
+  OscRoom room;
   ear.room = &room;
   ear.server->hear(bytes);
   InputSample sample;

@@ -1,0 +1,9 @@
+#pragma once
+/// Angles are radians everywhere but where somebody reads or writes them.
+
+namespace stadion {
+
+inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kDegree = kPi / 180;  ///< [rad]
+
+}  // namespace stadion
