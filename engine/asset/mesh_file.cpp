@@ -190,20 +190,20 @@ std::vector<std::uint8_t> encode(const Mesh& mesh) {
 }
 
 Result<std::unique_ptr<Mesh>> decode(std::span<const std::uint8_t> bytes, const MeshLimits& limits) {
-  using Outcome = Result<std::unique_ptr<Mesh>>;
+  using Decoded = Result<std::unique_ptr<Mesh>>;
   Reader in(bytes);
   Head head{};
   if (!in.get(head) || head.magic != kMagic || head.version != kVersion)
-    return Outcome::failure("not a mesh of this version");
+    return Decoded::failure("not a mesh of this version");
   if (head.vertices > limits.vertices || head.indices / 3 > limits.triangles || head.indices % 3 != 0 ||
       head.materials > limits.materials || head.materials == 0 || head.textures > limits.textures ||
       head.submeshes > limits.materials)
-    return Outcome::failure("a mesh beyond the limits");
+    return Decoded::failure("a mesh beyond the limits");
   auto mesh = std::make_unique<Mesh>();
   if (!readGeometry(in, head, *mesh) || !readMaterials(in, head, *mesh) ||
       !readTextures(in, head, limits, *mesh) || !in.atEnd())
-    return Outcome::failure("a mesh that is cut short or has a bad material or texture");
-  if (const char* fault = faultOf(*mesh)) return Outcome::failure(std::string("a mesh with ") + fault);
+    return Decoded::failure("a mesh that is cut short or has a bad material or texture");
+  if (const char* fault = faultOf(*mesh)) return Decoded::failure(std::string("a mesh with ") + fault);
   return mesh;
 }
 
