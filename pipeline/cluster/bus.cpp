@@ -66,7 +66,6 @@ void write(dds_entity_t writer, const void* sample) {
 
 template <class T>
 void Bus::take(dds_entity_t reader, void* listener) {
-  thread_local const Promptness prompt;  // Cyclone's own threads call
   auto& to = *static_cast<BusListener*>(listener);
   constexpr std::size_t kAtOnce = 16;
   std::array<void*, kAtOnce> samples{};  // null: the reader lends them
@@ -102,6 +101,7 @@ Result<std::unique_ptr<Bus>> Bus::open(const ClusterFile& o, BusListener& listen
     return Diagnostic{Severity::Error, {}, "the cluster's network cannot be opened: " + why, {}};
   };
   std::unique_ptr<Bus> bus(new Bus);
+  const Promptness prompt(Promptness::For::ThoseItStarts);  // Cyclone's own
   bus->domain_ = dds_create_domain(o.domain, configurationOf(o).c_str());
   if (bus->domain_ < 0) return wrong(reasonOf(bus->domain_));
   bus->participant_ = dds_create_participant(o.domain, nullptr, nullptr);

@@ -119,6 +119,7 @@ std::optional<Joining> Follower::join() {
 }
 
 std::optional<FrameOrder> Follower::next() {
+  const Promptness prompt;  // others wait while it holds the lock
   std::unique_lock lock(mutex_);
   if (orders_.empty() && told_ != Phase::Ready) announce(Phase::Ready);
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
@@ -192,6 +193,7 @@ bool Follower::mayShow(const TimeSignature&) {
 }
 
 void Follower::simulated(std::uint64_t frame, std::uint64_t hash) {
+  const Promptness prompt;  // others wait while it holds the lock
   const std::lock_guard lock(mutex_);
   ++tally_.compared;
   bus_->tell(SceneHash{static_cast<std::uint8_t>(options_.node), joined_, frame, hash});

@@ -160,6 +160,7 @@ void Lead::issue(FrameOrder& order) {
 }
 
 void Lead::send(const InputSample* input) {
+  const Promptness prompt;  // others wait while it holds the lock
   const std::lock_guard lock(mutex_);
   if (!awaitsInput_) return;
   awaitsInput_ = false;
@@ -223,6 +224,7 @@ bool Lead::mayShow(const TimeSignature&) {
   const auto drawn = Clock::now();
   at->drawnHere = drawn;
   const bool latest = at->awaited == 0;
+  if (latest) latest_ = static_cast<std::uint8_t>(options_.cluster.lead);
   release();
   while (go_ < serial && waits()) {
     changed_.wait_for(lock, kLook);
@@ -347,6 +349,7 @@ void Lead::letGo(std::size_t node) {
 }
 
 void Lead::simulated(std::uint64_t frame, std::uint64_t hash) {
+  const Promptness prompt;  // others wait while it holds the lock
   const std::lock_guard lock(mutex_);
   hashes_.emplace_back(frame, hash);
   if (hashes_.size() > kHashesKept) hashes_.pop_front();

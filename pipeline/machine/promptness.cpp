@@ -25,12 +25,12 @@ bool set(const Attributes& attributes) {
 
 }  // namespace
 
-Promptness::Promptness() {
+Promptness::Promptness(For whom) : handedDown_(whom == For::ThoseItStarts) {
   Attributes now;
   if (syscall(SYS_sched_getattr, 0, &now, sizeof now, 0) != 0 || now.policy != SCHED_OTHER) return;
   nice_ = now.nice;
   Attributes realTime, shortTurns;
-  realTime.policy = SCHED_RR, realTime.priority = 1, realTime.flags = kResetOnFork;
+  realTime.policy = SCHED_RR, realTime.priority = 1, realTime.flags = handedDown_ ? 0 : kResetOnFork;
   shortTurns.nice = now.nice, shortTurns.runtime = kShortTurn;
   changed_ = set(realTime) || set(shortTurns);
 }
@@ -38,7 +38,7 @@ Promptness::Promptness() {
 Promptness::~Promptness() {
   if (!changed_) return;
   Attributes usual;
-  usual.nice = nice_, usual.flags = kResetOnFork;  // which only root may take back
+  usual.nice = nice_, usual.flags = handedDown_ ? 0 : kResetOnFork;  // which only root may take back
   set(usual);
 }
 

@@ -18,13 +18,15 @@ namespace stadion {
 /// The calling thread, for as long as this lives; the same thread ends it.
 class Promptness {
 public:
-  Promptness();
+  enum class For { This, ThoseItStarts };  ///< the latter, in that time, for as long as they live
+
+  explicit Promptness(For whom = For::This);
   ~Promptness();
   Promptness(const Promptness&) = delete;
   Promptness& operator=(const Promptness&) = delete;
 
 private:
-  bool changed_ = false;
+  bool handedDown_, changed_ = false;
   std::int32_t nice_ = 0;  ///< before
 };
 

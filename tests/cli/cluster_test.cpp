@@ -36,12 +36,16 @@ TEST(ProgramCluster, FourMachinesShowWhatOneShows) {
   const auto wanted = picturesIn(one);
   EXPECT_GE(wanted.size(), 80U);
   EXPECT_EQ(picturesIn(out), wanted);
+  std::size_t last = 0;
   for (const char* node : {"front", "left", "right", "floor"}) {
     const Json s = summaryOf(out + "/" + node);
     EXPECT_EQ(s["state_hash"], summaryOf(one)["state_hash"]) << node;
     EXPECT_EQ(s["frames"], 40) << node;
     EXPECT_EQ(s["cluster"]["node"], node);
+    last += s["cluster"]["barriers"].get<std::size_t>();
   }
+  EXPECT_GT(last, 0U);
+  EXPECT_LE(last, 40U) << "of a frame all others wait for one machine";
   const Json lead = summaryOf(out + "/front")["cluster"];
   EXPECT_EQ(lead["leads"], true);
   EXPECT_EQ(lead["orders"], 40);

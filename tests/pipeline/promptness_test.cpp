@@ -42,6 +42,15 @@ TEST(Promptness, IsNotHandedDown) {
   });
 }
 
+TEST(Promptness, IsHandedDownWhereThatIsAskedFor) {
+  onAThread([] {
+    const Promptness prompt(Promptness::For::ThoseItStarts);
+    static int policy;
+    policy = sched_getscheduler(0);
+    onAThread([] { EXPECT_EQ(sched_getscheduler(0), policy); });
+  });
+}
+
 TEST(Promptness, LeavesAnotherPolicy) {
   onAThread([] {
     const sched_param none{};
