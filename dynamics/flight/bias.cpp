@@ -48,7 +48,7 @@ Quat biased(const Bias& bias, const Quat& q_WA, const Vec3& v, double seconds) {
   case BiasForm::Covariance: return covariant(bias, q_WA, v, speed, seconds);
   case BiasForm::Flow: break;
   }
-  constexpr double kFading = 0.1;  // [m/s]
+  constexpr double kFading = 0.1;  // at this speed it has half its effect [m/s]
   const double fade = speed * speed / (speed * speed + kFading * kFading);
   return along(q_WA, v / speed, -det::expm1(-bias.rate * fade * seconds));
 }

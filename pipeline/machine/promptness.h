@@ -1,13 +1,11 @@
 #pragma once
-/// Threads for which other machines wait run as soon as they wake, although the processors are busy
-/// computing.
+/// Threads for which other machines wait run as soon as they wake, also where others compute.
 ///
-/// How     a thread that waits and answers, and computes next to nothing, becomes a real-time one of the
-/// lowest
-///         priority, where the system lets it (root, or RLIMIT_RTPRIO). Elsewhere the scheduler is asked for
-///         short turns of it (`sched_runtime` of sched_setattr(2)), which may interrupt long ones: Linux
-///         heeds that from 6.12 on, and it takes no privilege. Neither gives anybody a greater share of a
-///         processor.
+/// How     such a thread waits and answers, and computes next to nothing. Where the system lets it (root, or
+///         RLIMIT_RTPRIO) it becomes a real-time one of the lowest priority. Elsewhere the scheduler is asked
+///         for short turns of it (`sched_runtime` of sched_setattr(2)), which may interrupt long ones: Linux
+///         heeds that from 6.12 on. Neither gives anybody a greater share of a processor.
+/// Nesting the inner one of two on a thread ends both.
 /// Left    threads that somebody has given another policy than the usual one.
 /// Errors  none: who is refused both runs as before.
 
