@@ -5,7 +5,7 @@
 ///         RLIMIT_RTPRIO) it becomes a real-time one of the lowest priority. Elsewhere the scheduler is asked
 ///         for short turns of it (`sched_runtime` of sched_setattr(2)), which may interrupt long ones: Linux
 ///         heeds that from 6.12 on. Neither gives anybody a greater share of a processor.
-/// Nesting the inner one of two on a thread ends both.
+/// Nesting one at a time on a thread.
 /// Left    threads that somebody has given another policy than the usual one.
 /// Errors  none: who is refused both runs as before.
 
