@@ -1,7 +1,8 @@
 #include "engine/asset/mesh_file.h"
 
+#include "engine/value_reader.h"
+
 #include <cmath>
-#include <cstring>
 #include <type_traits>
 
 namespace stadion {
@@ -48,38 +49,12 @@ private:
   }
 };
 
-class Reader {
-public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
-  template <class T>
-  bool get(T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    return raw(&value, sizeof value);
-  }
-  // Compares before it allocates: a count that lies costs nothing.
-  template <class T>
-  bool get(std::vector<T>& values, std::uint64_t count) {
-    if (count > rest_.size() / sizeof(T)) return false;
-    values.resize(count);
-    return raw(values.data(), count * sizeof(T));
-  }
-  bool get(std::string& text) {
-    std::uint32_t length = 0;
-    if (!get(length) || length > kLongestName || length > rest_.size()) return false;
-    text.resize(length);
-    return raw(text.data(), length);
-  }
-  bool atEnd() const { return rest_.empty(); }
-
-private:
-  bool raw(void* to, std::size_t size) {
-    if (size > rest_.size()) return false;
-    if (size > 0) std::memcpy(to, rest_.data(), size);
-    rest_ = rest_.subspan(size);
-    return true;
-  }
-  std::span<const std::uint8_t> rest_;
-};
+bool getName(ValueReader& in, std::string& text) {
+  std::uint32_t length = 0;
+  if (!in.get(length) || length > kLongestName || length > in.left()) return false;
+  text.resize(length);
+  return in.raw(text.data(), length);
+}
 
 template <std::size_t N>
 bool finite(const std::vector<std::array<float, N>>& values) {
@@ -117,22 +92,22 @@ bool toMaterial(const MaterialRecord& r, std::size_t textures, Material& m) {
   return true;
 }
 
-bool readMaterials(Reader& in, const Head& head, Mesh& mesh) {
+bool readMaterials(ValueReader& in, const Head& head, Mesh& mesh) {
   for (std::uint32_t i = 0; i < head.materials; ++i) {
     MaterialRecord record{};
     Material material;
-    if (!in.get(record) || !in.get(material.name) || !toMaterial(record, head.textures, material))
+    if (!in.get(record) || !getName(in, material.name) || !toMaterial(record, head.textures, material))
       return false;
     mesh.materials.push_back(std::move(material));
   }
   return true;
 }
 
-bool readTextures(Reader& in, const Head& head, const MeshLimits& limits, Mesh& mesh) {
+bool readTextures(ValueReader& in, const Head& head, const MeshLimits& limits, Mesh& mesh) {
   std::uint64_t total = 0;
   for (std::uint32_t i = 0; i < head.textures; ++i) {
     Texture t;
-    if (!in.get(t.width) || !in.get(t.height) || !in.get(t.name)) return false;
+    if (!in.get(t.width) || !in.get(t.height) || !getName(in, t.name)) return false;
     if (t.width == 0 || t.height == 0 || t.width > limits.textureSide || t.height > limits.textureSide)
       return false;
     const std::uint64_t size = std::uint64_t{t.width} * t.height * 4;
@@ -142,7 +117,7 @@ bool readTextures(Reader& in, const Head& head, const MeshLimits& limits, Mesh& 
   return true;
 }
 
-bool readGeometry(Reader& in, const Head& head, Mesh& mesh) {
+bool readGeometry(ValueReader& in, const Head& head, Mesh& mesh) {
   return in.get(mesh.positions, head.vertices) && in.get(mesh.normals, head.vertices) &&
          in.get(mesh.uvs, head.hasUvs ? head.vertices : 0) &&
          in.get(mesh.colours, head.hasColours ? head.vertices : 0) && in.get(mesh.indices, head.indices) &&
@@ -191,7 +166,7 @@ std::vector<std::uint8_t> encode(const Mesh& mesh) {
 
 Result<std::unique_ptr<Mesh>> decode(std::span<const std::uint8_t> bytes, const MeshLimits& limits) {
   using Decoded = Result<std::unique_ptr<Mesh>>;
-  Reader in(bytes);
+  ValueReader in(std::as_bytes(bytes));
   Head head{};
   if (!in.get(head) || head.magic != kMagic || head.version != kVersion)
     return Decoded::failure("not a mesh of this version");

@@ -1,5 +1,7 @@
 #include "pipeline/worker/list_bytes.h"
 
+#include "engine/value_reader.h"
+
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
@@ -79,28 +81,6 @@ private:
   std::size_t at_ = 0;
 };
 
-class Reader {
-public:
-  explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
-  bool get(Head& head) { return raw(&head, sizeof head); }
-  template <class T>
-  bool get(std::vector<T>& values, std::uint64_t count) {
-    if (count > rest_.size() / sizeof(T)) return false;
-    values.resize(count);
-    return raw(values.data(), count * sizeof(T));
-  }
-  bool atEnd() const { return rest_.empty(); }
-
-private:
-  bool raw(void* to, std::size_t size) {
-    if (size > rest_.size()) return false;
-    if (size > 0) std::memcpy(to, rest_.data(), size);
-    rest_ = rest_.subspan(size);
-    return true;
-  }
-  std::span<const std::byte> rest_;
-};
-
 void fill(DrawList& list, const Head& h) {
   list.ticket.signature.frame = h.frame, list.wall = h.wall, list.eyeCount = h.eyeCount;
   std::copy_n(h.origin, 3, list.origin.data());
@@ -112,7 +92,7 @@ void fill(DrawList& list, const Head& h) {
   list.shadows.light = h.shadowLight, list.shadows.axes = h.shadowAxes;
 }
 
-bool readRing(Reader& in, const RingHead& h, DrawShadowRing& ring) {
+bool readRing(ValueReader& in, const RingHead& h, DrawShadowRing& ring) {
   ring.offset = h.offset, ring.movingArea = h.movingArea;
   ring.stillKey = h.stillKey, ring.movingKey = h.movingKey;
   if (!in.get(ring.moving, h.moving)) return false;
@@ -148,7 +128,7 @@ std::size_t write(const DrawList& list, const ListNews& news, StillKeys& known, 
 }
 
 bool read(std::span<const std::byte> bytes, DrawList& list, ListNews& news) {
-  Reader in(bytes);
+  ValueReader in(bytes);
   Head head;
   if (!in.get(head) || head.eyeCount > list.eyes.size()) return false;
   fill(list, head);
