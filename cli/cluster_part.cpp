@@ -25,15 +25,24 @@ bool nobodyWaits() {
   return sinceStopSignal() > kGrace;
 }
 
-/// What all machines have to have alike. (Files that scripts name are found out by the scenes' hashes.)
-std::uint64_t hashOfFiles(const ShowOptions& show) {
+std::uint64_t hashOfFile(const std::string& file) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+  const Result<std::string> text = readPlainFile(file, kMostBytes);
   StateHash hash;
-  for (const std::string& file : {show.script, inputLogOf(show.script, show.input)}) {
-    constexpr std::size_t kMostBytes = std::size_t{1} << 30;
-    const Result<std::string> text = file.empty() ? std::string() : readPlainFile(file, kMostBytes);
-    hash.add(std::string_view(text ? text.value() : ""));
-  }
+  hash.add(std::string_view(text ? text.value() : ""));
   return hash.value();
+}
+
+/// (Files that scripts name are found out by the scenes' digests.)
+cluster::Agreement termsOf(const RunOptions& o, const ClusterFile& file) {
+  const std::string log = inputLogOf(o.show.script, o.show.input);
+  cluster::Agreement terms;
+  terms.script = hashOfFile(o.show.script);
+  terms.input = log.empty() ? 0 : hashOfFile(log);
+  terms.cluster = cluster::hashOf(file), terms.walls = hashOfFile(wallFileOf(file.walls));
+  terms.pictures = fmt::format("--look {} --stereo {}{}{}", o.show.look, stereoLayoutName(o.layout),
+                               o.show.size.empty() ? "" : " --size ", o.show.size);
+  return terms;
 }
 
 }  // namespace
@@ -61,20 +70,19 @@ std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& fin
     o.provider = "none";
   }
   std::unique_ptr<ClusterPart> part(new ClusterPart(std::move(*file), *node, o.say));
-  part->show_ = hashOfFiles(o.show);
-  part->settings_ = "--look " + o.show.look;
+  part->terms_ = termsOf(o, part->file_);
   if (o.plantDifference > 0) part->planted_ = o.plantDifference;
   return part;
 }
 
-void ClusterPart::tell(const std::string& what) const {
-  say_(fmt::format("cluster, {}: {}", file_.nodes[node_].name, what));
+void ClusterPart::tell(const std::string& what) {
+  teller_.tell(fmt::format("cluster, {}: {}", file_.nodes[node_].name, what));
 }
 
 bool ClusterPart::openLead(Diagnostics& findings) {
   lead_.reset();
   auto opened = cluster::Lead::open(
-      {file_, show_, settings_, kPatience, [this](const std::string& what) { tell(what); }, nobodyWaits});
+      {file_, terms_, kPatience, [this](const std::string& what) { tell(what); }, nobodyWaits});
   if (!opened) return findings.add(opened.error()), false;
   lead_ = std::move(opened.value());
   return true;
@@ -86,6 +94,9 @@ bool ClusterPart::join(ShowOptions& show, Diagnostics& findings) {
   const auto underWay = lead_->takeOver();
   if (!underWay) return true;
   show.state = underWay->state, after_ = underWay->last, goesOn_ = true;
+  models_ = underWay->models;
+  operator_.emplace();
+  operator_->paused = underWay->still, operator_->shown = underWay->shown;
   return true;
 }
 
@@ -93,13 +104,14 @@ bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
   for (;;) {
     follower_.reset();
     auto opened = cluster::Follower::open(
-        {file_, node_, show_, settings_, [this](const std::string& what) { tell(what); }, nobodyWaits});
+        {file_, node_, terms_, [this](const std::string& what) { tell(what); }, nobodyWaits});
     if (!opened) return findings.add(opened.error()), false;
     follower_ = std::move(opened.value());
     if (const auto joining = follower_->join()) {
       show.rate = joining->rate, show.rateGiven = true;
       show.state = joining->state, last_ = joining->after;
-      goesOn_ = show.state != nullptr;
+      if (!joining->playsLog) show.input = "none";  // what others say is heard from who leads
+      goesOn_ = show.state != nullptr, models_ = joining->models;
       return true;
     }
     if (follower_->hasDouble()) return false;  // it has told so
@@ -107,24 +119,41 @@ bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
   }
 }
 
+/// Where the show goes on: which of its models differ, nobody can tell without them.
+bool ClusterPart::hasModels(const Scene& scene, Diagnostics& findings) const {
+  if (!goesOn_ || scene.models() == models_) return true;
+  findings.error(
+      {},
+      fmt::format("the models that {} has loaded are others than ours; put the same files on all machines",
+                  leads() ? "who plays" : file_.nodes[file_.lead].name));
+  return false;
+}
+
 bool ClusterPart::begin(Player& player, Diagnostics& findings) {
   player_ = &player;
   if (!leads()) {
-    follower_->compareWith([this](const std::vector<std::uint8_t>& there) { return differenceTo(there); });
-    return true;
+    follower_->compareWith([this](const cluster::SavedScene& there) { return differenceTo(there); });
+    return hasModels(player.scene(), findings);
   }
   if (lead_->hasBegun()) {  // the next group's show
     if (!openLead(findings)) return false;
-    after_.reset();
+    after_.reset(), goesOn_ = false;
   }
-  lead_->saveWith([&player] { return player.scene().save(); });
+  if (!hasModels(player.scene(), findings)) return false;
+  lead_->saveWith([this] { return saved(); });
   lead_->begin(player.rate());
   return !lead_->hasDouble();
 }
 
-std::optional<cluster::Follower::Differs>
-ClusterPart::differenceTo(const std::vector<std::uint8_t>& there) const {
-  const auto d = player_->scene().difference(there);
+cluster::SavedScene ClusterPart::saved() const {
+  return {player_->scene().models(), player_->scene().save()};
+}
+
+std::optional<cluster::Follower::Differs> ClusterPart::differenceTo(const cluster::SavedScene& there) const {
+  if (const std::uint64_t ours = player_->scene().models(); ours != there.models)
+    return cluster::Follower::Differs{"the scene, models", fmt::format("{:016x}", ours),
+                                      fmt::format("{:016x}", there.models)};
+  const auto d = player_->scene().difference(there.bytes);
   if (!d) return {};
   NodeNames names;
   names.see(player_->scene());
@@ -134,20 +163,21 @@ ClusterPart::differenceTo(const std::vector<std::uint8_t>& there) const {
   return cluster::Follower::Differs{where + ", " + d->field, d->here, d->there};
 }
 
-void ClusterPart::addTo(FrameLoopOptions& loop) {
+void ClusterPart::addTo(FrameLoopOptions& loop, LiveDesk& desk) {
   loop.orders = lead_ ? static_cast<FrameOrders*>(lead_.get()) : follower_.get();
   loop.after = after_;
+  if (const auto decided = std::exchange(operator_, {})) desk.resume(*decided);
 }
 
 InputDevice* ClusterPart::inputOf(Player& player) {
   return lead_ ? &lead_->input(player.input()) : &follower_->input();
 }
 
-void ClusterPart::simulated(const TimeSignature& now, const Scene& scene) {
+void ClusterPart::simulated(const TimeSignature& now) {
   const std::uint64_t frame = now.frame;
   last_ = now;
-  if (lead_ && lead_->compares(frame)) lead_->simulated(frame, scene.stateHash());
-  if (follower_ && follower_->compares(frame)) follower_->simulated(frame, scene.stateHash());
+  if (lead_ && lead_->compares(frame)) lead_->simulated(frame, player_->scene().digest());
+  if (follower_ && follower_->compares(frame)) follower_->simulated(frame, player_->scene().digest());
   if (planted_ == frame) plantDifference();
 }
 
@@ -170,7 +200,7 @@ bool ClusterPart::hasDouble() const {
 
 void ClusterPart::finish(bool over) {
   if (lead_) lead_->finish(over);
-  if (follower_ && follower_->isAskedForScene()) follower_->giveScene(last_, player_->scene().save());
+  if (follower_ && follower_->isAskedForScene()) follower_->giveScene(last_, saved());
   if (follower_) follower_->finish();
 }
 

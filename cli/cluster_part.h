@@ -3,7 +3,9 @@
 ///
 /// Threads  main, but for simulated(), which is App's.
 
+#include "cli/live_desk.h"
 #include "cli/run_options.h"
+#include "cli/telling_thread.h"
 #include "pipeline/cluster/follower.h"
 #include "pipeline/cluster/lead.h"
 #include "pipeline/output/run_summary.h"
@@ -33,11 +35,12 @@ public:
   bool goesOn() const { return goesOn_; }
   /// The show has been opened. Who leads waits for the others. False, with findings: there is no network.
   bool begin(Player& player, Diagnostics& findings);
-  /// The other machines' say in what is played. After begin().
-  void addTo(FrameLoopOptions& loop);
+  /// The other machines' say in what is played, and what had been decided about a show that goes on. After
+  /// begin().
+  void addTo(FrameLoopOptions& loop, LiveDesk& desk);
   /// What the show's parts sample: the same on all machines. After begin().
   InputDevice* inputOf(Player& player);
-  void simulated(const TimeSignature& now, const Scene& scene);
+  void simulated(const TimeSignature& now);
   /// The run has ended for want of an order, and the show is to be joined again.
   bool isToJoinAgain() const { return follower_ && follower_->isToJoinAgain(); }
   /// Another program plays this node already; it has been told, and this one is to end.
@@ -49,25 +52,28 @@ public:
 
 private:
   ClusterPart(ClusterFile file, std::size_t node, std::function<void(const std::string&)> say)
-      : file_(std::move(file)), node_(node), say_(std::move(say)) {}
-  void tell(const std::string& what) const;
+      : file_(std::move(file)), node_(node), teller_(std::move(say)) {}
+  void tell(const std::string& what);
+  bool hasModels(const Scene& scene, Diagnostics& findings) const;
   bool openLead(Diagnostics& findings);
   bool follow(ShowOptions& show, Diagnostics& findings);
 
-  std::optional<cluster::Follower::Differs> differenceTo(const std::vector<std::uint8_t>& there) const;
+  cluster::SavedScene saved() const;
+  std::optional<cluster::Follower::Differs> differenceTo(const cluster::SavedScene& there) const;
   void plantDifference();
 
   ClusterFile file_;
   std::size_t node_;
-  std::function<void(const std::string&)> say_;
+  TellingThread teller_;
   std::optional<std::uint64_t>
       planted_;  ///< the frame after which a bit is changed, to see whether that is found
   Player* player_ = nullptr;
-  std::uint64_t show_ = 0;  ///< hash of the files that must be the same everywhere
-  std::string settings_;    ///< what else should be
+  cluster::Agreement terms_;
   bool goesOn_ = false;
-  std::optional<TimeSignature> after_;  ///< the show goes on after that
-  TimeSignature last_;                  ///< simulated
+  std::uint64_t models_ = 0;               ///< with which it went on elsewhere
+  std::optional<TimeSignature> after_;     ///< the show goes on after that
+  std::optional<OperatorState> operator_;  ///< and what had been decided about it
+  TimeSignature last_;                     ///< simulated
   std::unique_ptr<cluster::Lead> lead_;
   std::unique_ptr<cluster::Follower> follower_;
 };

@@ -27,7 +27,7 @@ double seconds(std::chrono::steady_clock::duration d) {
 
 std::unique_ptr<LiveDesk> LiveDesk::open(const RunOptions& options, Diagnostics& findings, Say say) {
   std::unique_ptr<LiveDesk> desk(new LiveDesk(options, say ? std::move(say) : sayInTerminal));
-  if (options.trackers.device.empty()) return desk;
+  if (options.trackers.device.empty() || options.follows) return desk;  // a cluster's are those of who leads
   desk->trackers_ = TrackerDevice::open(options.trackers, desk->say_, findings);
   if (!desk->trackers_) return nullptr;
   desk->say_("trackers: " + desk->trackers_->description());
@@ -79,6 +79,17 @@ void LiveDesk::beginGroup(Player& player, RunWatch& watch) {
   if (shown.eyeSeparation >= 0) watch.order(0, {OperatorAction::EyeSeparation, shown.eyeSeparation, false});
   if (desk_->state().volume != 1) watch.order(0, {OperatorAction::Volume, desk_->state().volume, false});
   if (desk_->state().waiting) say_("waiting for start");
+}
+
+void LiveDesk::resume(const OperatorState& decided) {
+  const auto order = [&](OperatorAction action, double value) { queue().post({action, value, false}); };
+  if (state().waiting && !decided.waiting) queue().post({OperatorAction::Start, {}, false});
+  if (decided.paused) order(OperatorAction::Pause, 1);
+  if (decided.shown.black) order(OperatorAction::Black, 1);
+  if (decided.shown.swapEyes) order(OperatorAction::SwapEyes, 1);
+  if (decided.shown.eyeSeparation >= 0) order(OperatorAction::EyeSeparation, decided.shown.eyeSeparation);
+  if (decided.volume != 1) order(OperatorAction::Volume, decided.volume);
+  if (decided.latency > 0) order(OperatorAction::Latency, decided.latency);
 }
 
 // What came of it, whatever it was before.

@@ -50,6 +50,8 @@ public:
   /// Learns what the operator has decided, whenever that has changed; on the App thread.
   std::function<void(const OperatorState&)> changed;
   const OperatorState& state() const { return desk_->state(); }
+  /// Orders again what had been decided about a show that goes on here; whether it waits for Start included.
+  void resume(const OperatorState& decided);
   /// Takes orders from elsewhere too, such as keys in a window.
   OperatorQueue& queue() { return desk_->queue(); }
   Playback& playback() { return desk_->playback(); }

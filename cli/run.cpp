@@ -249,7 +249,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     s.watch->see(now, input, scene);
-    if (s.cluster) s.cluster->simulated(now, scene);
+    if (s.cluster) s.cluster->simulated(now);
     if (s.journal) s.journal->see(now, input, scene);
     if (s.supervised) s.supervised->simulated(now, s.player->scene(), *s.watch);
     if (recording) recording->see(scene);
@@ -265,7 +265,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   ShowStages stages(std::move(parts));
   running = &stages;
   if (recording && !s.player->obeysLog()) options.decider = recording->governor();
-  if (s.cluster) s.cluster->addTo(options);
+  if (s.cluster) s.cluster->addTo(options, *s.desk);
   if (s.supervised) s.supervised->goOn(options, *s.desk, *s.watch);
   FrameLoop loop(stages, options, stop, probe);
 

@@ -46,15 +46,7 @@ void SupervisedPart::goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watc
   desk.changed = [this](const OperatorState& state) { obeyed(state); };
   if (std::exchange(wentOn_, true) || progress_->starts() < 2) return obeyed(desk.state());
   state_.reset();
-  const bool waited = desk.state().waiting;
-  const auto order = [&](OperatorAction action, double value) { desk.queue().post({action, value, false}); };
-  if (waited && !desk_.waiting) desk.queue().post({OperatorAction::Start, {}, false});
-  if (desk_.paused) order(OperatorAction::Pause, 1);
-  if (desk_.shown.black) order(OperatorAction::Black, 1);
-  if (desk_.shown.swapEyes) order(OperatorAction::SwapEyes, 1);
-  if (desk_.shown.eyeSeparation >= 0) order(OperatorAction::EyeSeparation, desk_.shown.eyeSeparation);
-  if (desk_.volume != 1) order(OperatorAction::Volume, desk_.volume);
-  if (desk_.latency > 0) order(OperatorAction::Latency, desk_.latency);
+  desk.resume(desk_);
   const Nanoseconds at = from_ ? from_->time : 0;
   loop.late = std::max<Nanoseconds>(0, progress_->timeNow() - at);
   if (from_) {

@@ -2,7 +2,7 @@
 /// A state, field by field, in an order that is the same everywhere: to hash it, to write it down, to put it
 /// back, to say in which field two of them differ.
 ///
-/// Whoever has a state says once what it consists of, for all four:
+/// Whoever has a state says once what it consists of, for all of these:
 ///
 ///     template <class Self, class Fields>
 ///     static void fields(Self& self, Fields& f) {
@@ -266,6 +266,18 @@ private:
   void text(std::string& words) override;
 
   std::vector<std::uint8_t> bytes_;
+};
+
+/// A hash of all that SavedState would write: what is kept() counts, too.
+class StateDigest final : public StateFields {
+public:
+  std::uint64_t value() const { return hash_.value(); }
+
+private:
+  void number(std::uint64_t& bits, Form) override { hash_.add(bits); }
+  void text(std::string& words) override { hash_.add(std::string_view(words)); }
+
+  StateHash hash_;
 };
 
 /// Reads what SavedState wrote. The bytes must outlive it.

@@ -183,6 +183,12 @@ public:
   /// All that the show's future depends on, between two frames: whoever puts it back goes on to the same
   /// hashes and the same pictures.
   std::vector<std::uint8_t> save();
+  /// A hash of all that save() writes, and of models(). stateHash() is kept up to date from frame to frame
+  /// and leaves out what usually follows from the rest, such as the way on which a body will go on; this one
+  /// visits every field of every node.
+  std::uint64_t digest();
+  /// A hash of the models that were loaded: where files differ, it does.
+  std::uint64_t models() const;
   /// Puts back what save() wrote, in a scene in which nothing has been opened, of the same files. Waits until
   /// they are loaded. False: this is no such state, or the files have changed; then the scene is of no use.
   bool restore(std::span<const std::uint8_t> state);
@@ -332,6 +338,7 @@ private:
   Cycle cycleOf(Node& node, const TimeSignature& now);
   void hashRelief(StateHash& h) const;
   // The state (scene_state.cpp).
+  void visitAll(StateFields& f);
   void visitLoads(StateFields& f);
   void visitLoad(StateFields& f, std::uint32_t number);
   void visitNodes(StateFields& f);

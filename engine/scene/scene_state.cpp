@@ -28,13 +28,35 @@ constexpr Nanoseconds kLatest = 1'000'000'000'000'000'000;  ///< thirty years of
 
 std::vector<std::uint8_t> Scene::save() {
   SavedState out;
-  std::uint32_t version = kVersion;
-  out("version", version);
-  visitLoads(out);
-  placements_.state(out);
-  visitRest(out);
-  visitNodes(out);
+  visitAll(out);
   return out.take();
+}
+
+std::uint64_t Scene::digest() {
+  StateDigest digest;
+  visitAll(digest);
+  std::uint64_t models = this->models();
+  digest("models", models);
+  return digest.value();
+}
+
+// A mesh is known by what it consists of (MeshStore).
+std::uint64_t Scene::models() const {
+  StateHash hash;
+  for (const auto& [number, l] : loads_) {
+    hash.add(number);
+    for (const MeshId mesh : l->meshes) hash.add(mesh);
+  }
+  return hash.value();
+}
+
+void Scene::visitAll(StateFields& f) {
+  std::uint32_t version = kVersion;
+  f("version", version);
+  visitLoads(f);
+  placements_.state(f);
+  visitRest(f);
+  visitNodes(f);
 }
 
 bool Scene::restore(std::span<const std::uint8_t> state) {
@@ -198,6 +220,7 @@ bool Scene::resume() {
     Instance& i = instances_[id];
     if (!i.live) continue;
     i.form = i.mesh == kNoMesh ? nullptr : meshes_.find(i.mesh);
+    if (i.mesh != kNoMesh && !i.form) return false;
     i.transparent = i.form && i.form->transparent();
     i.leveled = i.form && !i.form->levels.empty();
     markInstance(id);

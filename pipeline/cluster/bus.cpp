@@ -1,5 +1,6 @@
 #include "pipeline/cluster/bus.h"
 
+#include "pipeline/cluster/loopback_sockets.h"
 #include "pipeline/machine/promptness.h"
 
 #include <dds/dds.h>
@@ -102,12 +103,15 @@ Result<std::unique_ptr<Bus>> Bus::open(const ClusterFile& o, BusListener& listen
   };
   std::unique_ptr<Bus> bus(new Bus);
   const Promptness prompt(Promptness::For::ThoseItStarts);  // Cyclone's own
+  const LoopbackSockets sockets;
   bus->domain_ = dds_create_domain(o.domain, configurationOf(o).c_str());
   if (bus->domain_ < 0) return wrong(reasonOf(bus->domain_));
   bus->participant_ = dds_create_participant(o.domain, nullptr, nullptr);
   if (bus->participant_ < 0)
     return wrong((o.interface.empty() ? "" : "is there an interface " + o.interface + "? ") +
                  reasonOf(bus->participant_));
+  if (o.interface.empty())
+    if (const std::string why = sockets.bind(); !why.empty()) return wrong(why);
 
   Qos every, kept, present;
   const char* partition = o.partition.c_str();
@@ -161,8 +165,14 @@ void Bus::tell(const SceneHash& hash) {
 void Bus::tell(const Difference& difference) {
   write(writers_[kDifference], &difference);
 }
-void Bus::tell(const StatePart& part) {
-  write(writers_[kStatePart], &part);
+// Whoever is slow to confirm a large state holds its parts up, for a second each time.
+bool Bus::tell(const StatePart& part) {
+  constexpr int kMostTries = 10;
+  for (int tries = 0; tries < kMostTries; ++tries) {
+    const dds_return_t told = dds_write(writers_[kStatePart], &part);
+    if (told != DDS_RETCODE_TIMEOUT) return told == DDS_RETCODE_OK;
+  }
+  return false;
 }
 
 void Bus::waitForReaders() const {
@@ -176,7 +186,11 @@ void Bus::waitForReaders() const {
 }
 
 void Bus::flush() {
-  for (const dds_entity_t writer : writers_) dds_wait_for_acks(writer, durationOf(1));
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+  for (const dds_entity_t writer : writers_) {
+    const std::chrono::duration<double> left = until - std::chrono::steady_clock::now();
+    dds_wait_for_acks(writer, durationOf(std::max(0.0, left.count())));
+  }
 }
 
 }  // namespace stadion::cluster

@@ -73,8 +73,8 @@ public:
   void tell(const Go& go);
   void tell(const SceneHash& hash);
   void tell(const Difference& difference);
-  /// May take long.
-  void tell(const StatePart& part);
+  /// May take long. False: it cannot be delivered.
+  bool tell(const StatePart& part);
   /// Waits until everybody has heard everything, a second at most.
   void flush();
   /// Waits until whoever hears anything of ours hears all of it, a second at most: who has just come is known

@@ -64,7 +64,8 @@ std::unique_ptr<Follower> Follower::unconnected(FollowerOptions options, std::ui
 void Follower::announce(Phase phase) {
   told_ = phase;
   bus_->tell(Presence{static_cast<std::uint8_t>(options_.node), incarnation_, ++announced_, joined_,
-                      static_cast<std::uint8_t>(phase), obeyed_, plays_, options_.show});
+                      static_cast<std::uint8_t>(phase), obeyed_, plays_,
+                      joined_ != 0 ? read(session_.terms).show() : 0});
 }
 
 /// False: nobody waits any longer.
@@ -88,17 +89,17 @@ std::optional<Joining> Follower::join() {
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
   const auto known = [&] { return session_.number != 0 && session_.giver == kNobody && !session_.over; };
   if (!await(lock, (lead + ", who leads").c_str(), known)) return {};
-  if (session_.show != options_.show) {
-    options_.tell(
-        fmt::format("{} plays another script or input log; put the same files on all machines", lead));
+  const Agreement theirs = read(session_.terms);
+  if (const std::string why = refusal(theirs, options_.terms, lead); !why.empty()) {
+    options_.tell(why);
     return {};
   }
-  if (const std::string_view theirs = session_.settings; theirs != options_.settings)
-    options_.tell(fmt::format("{} plays with {}, we with {}: the walls will not look alike", lead,
-                              printable(theirs, kMostTold), options_.settings));
+  if (const std::string what = remark(theirs, options_.terms, lead); !what.empty()) options_.tell(what);
   joined_ = session_.number;
-  Joining joining{session_.rate, {}, {}};
+  Joining joining{session_.rate, {}, {}, 0, theirs.input != 0};
   if (!session_.begun && session_.resumes == 0) return joining;
+  awaitDouble(lock);
+  if (hasEnded()) return {};
   announce(Phase::Asking);
   std::uint64_t received = 0;
   auto since = Clock::now();
@@ -108,14 +109,22 @@ std::optional<Joining> Follower::join() {
     return incoming_.complete() || hasEnded();
   };
   if (!await(lock, ("the scene's state from " + lead).c_str(), has) || hasEnded()) return {};
-  SceneParcel scene = incoming_.take();
-  obeyed_ = scene.serial, plays_ = true;
-  joining.after.frame = scene.frame, joining.after.time = scene.time;
+  SceneParcel parcel = incoming_.take();
+  obeyed_ = parcel.serial, plays_ = true;
+  joining.after.frame = parcel.frame, joining.after.time = parcel.time;
   std::erase_if(orders_, [&](const HeardOrder& o) {
     return o.numbers.session != joined_ || o.numbers.serial <= obeyed_;
   });
-  joining.state = std::make_shared<const std::vector<std::uint8_t>>(std::move(scene.bytes));
+  joining.state = std::make_shared<const std::vector<std::uint8_t>>(std::move(parcel.scene.bytes));
+  joining.models = parcel.scene.models;
   return joining;
+}
+
+/// With the lock. While who leads counts on one of our name it is one that has just died, for which the
+/// deadline waits, or it lives: then it is heard of, and we end.
+void Follower::awaitDouble(std::unique_lock<std::mutex>& lock) {
+  const auto until = Clock::now() + std::chrono::duration<double>(2 * options_.cluster.deadline);
+  while (isMember_ && !hasEnded() && !options_.stop() && Clock::now() < until) changed_.wait_for(lock, kLook);
 }
 
 std::optional<FrameOrder> Follower::next() {
@@ -136,6 +145,7 @@ std::optional<FrameOrder> Follower::next() {
     return {};
   }
   obeyed_ = heard.numbers.serial, frame_ = heard.order.signature.frame;
+  still_ = heard.order.still, presentation_ = heard.order.shown;
   if (!std::exchange(plays_, true)) announce(told_);
   heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
   // Left out, for being late: whoever has caught up is taken back.
@@ -158,7 +168,7 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   };
   if (!await(lock, "the scene of who leads, to compare ours with it", has) || hasEnded() || late) return true;
   const SceneParcel theirs = incoming_.take();
-  const std::optional<Differs> differs = compare_ ? compare_(theirs.bytes) : std::nullopt;
+  const std::optional<Differs> differs = compare_ ? compare_(theirs.scene) : std::nullopt;
   Difference told{};
   told.node = static_cast<std::uint8_t>(options_.node), told.session = joined_, told.frame = frame_;
   told.found = differs.has_value();
@@ -192,11 +202,11 @@ bool Follower::mayShow(const TimeSignature&) {
   return go_ >= serial;
 }
 
-void Follower::simulated(std::uint64_t frame, std::uint64_t hash) {
+void Follower::simulated(std::uint64_t frame, std::uint64_t digest) {
   const Promptness prompt;  // others wait while it holds the lock
   const std::lock_guard lock(mutex_);
   ++tally_.compared;
-  bus_->tell(SceneHash{static_cast<std::uint8_t>(options_.node), joined_, frame, hash});
+  bus_->tell(SceneHash{static_cast<std::uint8_t>(options_.node), joined_, frame, digest});
 }
 
 bool Follower::isToJoinAgain() const {
@@ -226,12 +236,12 @@ void Follower::hear(const Session& session) {
 }
 
 // Of two programs that are the same node the one ends that has no scene yet; if that does not tell them
-// apart, the lower number.
+// apart, the one that came later.
 void Follower::hear(const Presence& other) {
   {
     const std::lock_guard lock(mutex_);
     if (other.node != options_.node || other.incarnation == incarnation_ || double_) return;
-    const bool theirs = other.plays != plays_ ? other.plays : other.incarnation > incarnation_;
+    const bool theirs = other.plays != plays_ ? other.plays : other.incarnation < incarnation_;
     if (!theirs) return;
     double_ = true;
     options_.tell(fmt::format("another program is {} already; this one ends",
@@ -244,6 +254,7 @@ void Follower::hear(const Order& order) {
   {
     const std::lock_guard lock(mutex_);
     if (joined_ != 0 && order.session != joined_) return;
+    isMember_ = (order.members >> options_.node & 1U) != 0;
     if (orders_.size() >= kMostOrders) return;  // then one is missing, as where it makes no sense
     if (auto heard = readOrder(order)) orders_.push_back(std::move(*heard));
   }
@@ -272,12 +283,16 @@ bool Follower::isAskedForScene() const {
   return joined_ != 0 && session_.resumes == joined_ && session_.giver == options_.node;
 }
 
-void Follower::giveScene(const TimeSignature& last, std::vector<std::uint8_t> state) {
-  const std::uint64_t to = [&] {
+void Follower::giveScene(const TimeSignature& last, SavedScene scene) {
+  SceneParcel parcel;
+  {
     const std::lock_guard lock(mutex_);
-    return session_.number;
-  }();
-  send(*bus_, {to, to, 0, last.frame, last.time, std::move(state)});
+    parcel.to = parcel.session = session_.number;
+    parcel.still = still_, parcel.shown = presentation_;
+  }
+  parcel.frame = last.frame, parcel.time = last.time;
+  parcel.scene = std::move(scene);
+  send(*bus_, parcel);
 }
 
 void Follower::finish() {

@@ -9,6 +9,7 @@
 ///          mayShow() on the Draw thread that arrived last; the rest on the network's.
 
 #include "engine/input/input_device.h"
+#include "pipeline/cluster/agreement.h"
 #include "pipeline/cluster/bus.h"
 #include "pipeline/cluster/cluster_file.h"
 #include "pipeline/cluster/orders.h"
@@ -27,8 +28,7 @@ namespace stadion::cluster {
 struct FollowerOptions {
   ClusterFile cluster;
   std::size_t node = 0;
-  std::uint64_t show = 0;  ///< hash of its script and input
-  std::string settings;    ///< that should be alike everywhere
+  Agreement terms;
   std::function<void(const std::string&)> tell;
   std::function<bool()> stop;  ///< nobody waits any longer
 };
@@ -39,6 +39,8 @@ struct Joining {
   TimeSignature after;  ///< with a state: of what was simulated last
   /// What the scene goes on from; null: the show begins.
   std::shared_ptr<const std::vector<std::uint8_t>> state;
+  std::uint64_t models = 0;  ///< with a state: Scene::models() there
+  bool playsLog = false;     ///< an input log, which we have, too
 };
 
 class Follower final : public FrameOrders, public BusListener {
@@ -56,12 +58,13 @@ public:
   struct Differs {
     std::string where, here, there;
   };
-  using Compare = std::function<std::optional<Differs>(const std::vector<std::uint8_t>& there)>;
+  using Compare = std::function<std::optional<Differs>(const SavedScene& there)>;
   void compareWith(Compare compare) { compare_ = std::move(compare); }
   /// What the leading machine has sampled for the frame that next() has given.
   InputDevice& input() { return *input_; }
   bool compares(std::uint64_t frame) const { return frame % options_.cluster.hashEvery == 0; }
-  void simulated(std::uint64_t frame, std::uint64_t hash);
+  /// The scene's digest() after that frame.
+  void simulated(std::uint64_t frame, std::uint64_t digest);
   /// Orders are missing: the run has ended, and the show is to be joined again.
   bool isToJoinAgain() const;
   /// Another program is this node already: ours is to end.
@@ -69,7 +72,7 @@ public:
   /// Who leads anew asks for our scene, once the run has ended.
   bool isAskedForScene() const;
   /// `last`: what has been simulated last.
-  void giveScene(const TimeSignature& last, std::vector<std::uint8_t> state);
+  void giveScene(const TimeSignature& last, SavedScene scene);
   const Tally& tally() const { return tally_; }
   void finish();
 
@@ -92,6 +95,7 @@ private:
   void announce(Phase phase);
   bool hasEnded() const { return again_ || over_ || double_; }
   bool explain(std::unique_lock<std::mutex>& lock);
+  void awaitDouble(std::unique_lock<std::mutex>& lock);
   template <class Ready>
   bool await(std::unique_lock<std::mutex>& lock, const char* what, const Ready& ready);
 
@@ -102,8 +106,11 @@ private:
   Session session_{};         ///< number 0: there is none
   std::uint64_t joined_ = 0;  ///< the session that we play
   std::deque<HeardOrder> orders_;
-  IncomingScene incoming_;   ///< of who leads
-  std::uint64_t frame_ = 0;  ///< obeyed last
+  IncomingScene incoming_;       ///< of who leads
+  std::uint64_t frame_ = 0;      ///< obeyed last
+  bool still_ = false;           ///< with it the show stood
+  Presentation presentation_{};  ///< and so it was shown
+  bool isMember_ = false;        ///< by the newest order, whoever of this name that is
   Compare compare_;
   std::uint64_t obeyed_ = 0, go_ = 0, shown_ = 0;
   std::uint8_t latest_ = 0;

@@ -52,8 +52,7 @@ private:
 
 Lead::Lead(LeadOptions options, std::uint64_t session)
     : options_(std::move(options)), followers_(options_.cluster.nodes.size()), words_(followers_.size()) {
-  session_.number = session, session_.show = options_.show, session_.giver = kNobody;
-  options_.settings.copy(session_.settings, sizeof(session_.settings) - 1);
+  session_.number = session, session_.terms = written(options_.terms), session_.giver = kNobody;
 }
 
 Result<std::unique_ptr<Lead>> Lead::open(LeadOptions options) {
@@ -87,33 +86,39 @@ InputDevice& Lead::input(InputDevice& inner) {
   return *input_;
 }
 
+// Of another program that leads already we hear no later than of those that follow it. Until then nobody
+// hears of us: they would take us for the one that they have lost.
 std::optional<ShowUnderWay> Lead::takeOver() {
   std::unique_lock lock(mutex_);
   const auto wait = [&](Clock::time_point until, const auto& ready) {
     while (!ready() && Clock::now() < until && waits()) changed_.wait_for(lock, kLook);
   };
-  const auto allAreThere = [&] {
-    return std::ranges::count(followers_, 0U, &Follower::incarnation) == 1;  // that is us
+  const auto allAreNew = [&] {
+    return std::ranges::count(followers_, 0U, &Follower::incarnation) == 1 &&  // that is us
+           std::ranges::count(followers_, 0U, &Follower::plays) == std::ssize(followers_);
   };
-  wait(Clock::now() + kSearch, allAreThere);
-  for (std::size_t node = 0; node < followers_.size(); ++node) {
+  wait(Clock::now() + kSearch, allAreNew);
+  const std::uint64_t show = options_.terms.show();
+  for (std::size_t node = 0; node < followers_.size() && !double_; ++node) {
     const Follower& f = followers_[node];
-    if (f.plays == 0 || f.show != session_.show || (session_.resumes != 0 && f.plays != session_.resumes))
-      continue;
+    if (f.plays == 0 || f.show != show || (session_.resumes != 0 && f.plays != session_.resumes)) continue;
     session_.resumes = f.plays, session_.giver = static_cast<std::uint8_t>(node);
     bus_->tell(session_);
     wait(Clock::now() + kGiving, [&] { return incoming_.complete() || f.plays == 0; });
     if (!incoming_.complete()) continue;
-    SceneParcel scene = incoming_.take();
-    if (!isTime(scene.time)) continue;
+    SceneParcel parcel = incoming_.take();
+    if (!isTime(parcel.time)) continue;
     session_.giver = kNobody;
-    pending_.signature.frame = scene.frame, pending_.signature.time = scene.time;
+    pending_.signature.frame = parcel.frame, pending_.signature.time = parcel.time;
+    pending_.still = parcel.still, pending_.shown = parcel.shown;
     options_.tell(
-        fmt::format("the show goes on after frame {}, with the scene of {}", scene.frame, nameOf(node)));
+        fmt::format("the show goes on after frame {}, with the scene of {}", parcel.frame, nameOf(node)));
     return ShowUnderWay{pending_.signature,
-                        std::make_shared<const std::vector<std::uint8_t>>(std::move(scene.bytes))};
+                        std::make_shared<const std::vector<std::uint8_t>>(std::move(parcel.scene.bytes)),
+                        parcel.scene.models, parcel.still, parcel.shown};
   }
-  if (session_.resumes != 0) options_.tell("the others play, but none sends its scene: the show begins anew");
+  if (session_.resumes != 0 && !double_)
+    options_.tell("the others play, but none sends its scene: the show begins anew");
   session_.resumes = 0, session_.giver = kNobody;
   return {};
 }
@@ -133,6 +138,7 @@ std::vector<std::string> Lead::missing() const {
 
 void Lead::begin(double rate) {
   std::unique_lock lock(mutex_);
+  if (double_) return;
   session_.rate = rate;
   bus_->tell(session_);
   const auto until = Clock::now() + (session_.resumes != 0 ? kReturn : options_.patience);
@@ -183,6 +189,7 @@ void Lead::answerWhoAsks() {
     const std::lock_guard lock(mutex_);
     parcel.session = session_.number, parcel.serial = serial_;
     parcel.frame = pending_.signature.frame, parcel.time = pending_.signature.time;
+    parcel.still = pending_.still, parcel.shown = pending_.shown;
     const bool underWay = serial_ > 0 || session_.resumes != 0;
     for (std::size_t i = 0; i < followers_.size() && underWay; ++i) {
       Follower& f = followers_[i];
@@ -192,7 +199,7 @@ void Lead::answerWhoAsks() {
     }
   }
   if (asking.empty() || !save_) return;
-  parcel.bytes = save_();
+  parcel.scene = save_();
   {
     const std::lock_guard lock(mutex_);
     for (const std::uint64_t to : asking) parcel.to = to, parcels_.push_back(parcel);
@@ -258,12 +265,13 @@ void Lead::release() {
   changed_.notify_all();
 }
 
-// Of two that lead, the one ends that has not begun; if that does not tell them apart, the lower number.
+// Of two that lead, the one ends that has not begun; if that does not tell them apart, the one that came
+// later.
 void Lead::hear(const Session& other) {
   {
     const std::lock_guard lock(mutex_);
     if (other.over || other.number == session_.number || double_) return;
-    const bool theirs = other.begun != session_.begun ? other.begun : other.number > session_.number;
+    const bool theirs = other.begun != session_.begun ? other.begun : other.number < session_.number;
     if (!theirs) return;
     double_ = true;
     options_.tell(
@@ -280,11 +288,13 @@ bool Lead::hasDouble() const {
 void Lead::hear(const Presence& p) {
   std::unique_lock lock(mutex_);
   if (p.node >= followers_.size() || p.node == options_.cluster.lead) return;
+  Follower& f = followers_[p.node];
+  // Another one that has just come may end again at once, because there is this one.
+  if (f.member && f.incarnation != p.incarnation && static_cast<Phase>(p.phase) == Phase::Waiting) return;
   // Once found again, a node's last word is told again; it may be out of date.
   Word& word = words_[p.node];
   if (word.incarnation == p.incarnation && p.count <= word.count) return;
   word = {p.incarnation, p.count};
-  Follower& f = followers_[p.node];
   if (f.incarnation != p.incarnation) {
     if (f.member) leaveOut(p.node, "began anew");
     f = {};
@@ -348,10 +358,10 @@ void Lead::letGo(std::size_t node) {
   release();
 }
 
-void Lead::simulated(std::uint64_t frame, std::uint64_t hash) {
+void Lead::simulated(std::uint64_t frame, std::uint64_t digest) {
   const Promptness prompt;  // others wait while it holds the lock
   const std::lock_guard lock(mutex_);
-  hashes_.emplace_back(frame, hash);
+  hashes_.emplace_back(frame, digest);
   if (hashes_.size() > kHashesKept) hashes_.pop_front();
   for (const SceneHash& early : early_)
     if (early.frame == frame) compare(early.node, frame, early.hash);
@@ -398,10 +408,12 @@ void Lead::hear(const Difference& d) {
 // That it is over must not be heard before the last orders.
 void Lead::finish(bool over) {
   bus_->flush();
-  const std::lock_guard lock(mutex_);
-  if (!over || double_) return;
-  session_.over = true;
-  bus_->tell(session_);
+  {
+    const std::lock_guard lock(mutex_);
+    if (!over || double_) return;
+    session_.over = true;
+    bus_->tell(session_);
+  }
   bus_->flush();
 }
 

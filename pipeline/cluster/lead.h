@@ -11,6 +11,7 @@
 ///          arrived last; the rest on the network's.
 
 #include "engine/input/input_device.h"
+#include "pipeline/cluster/agreement.h"
 #include "pipeline/cluster/bus.h"
 #include "pipeline/cluster/cluster_file.h"
 #include "pipeline/cluster/orders.h"
@@ -30,8 +31,7 @@ namespace stadion::cluster {
 
 struct LeadOptions {
   ClusterFile cluster;
-  std::uint64_t show = 0;           ///< hash of its script and input
-  std::string settings;             ///< that should be alike everywhere, 63 bytes at most
+  Agreement terms;
   std::chrono::seconds patience{};  ///< with nodes that have not come; then the show begins without them
   std::function<void(const std::string&)> tell;
   std::function<bool()> stop;  ///< nobody waits any longer
@@ -41,6 +41,9 @@ struct LeadOptions {
 struct ShowUnderWay {
   TimeSignature last;                                      ///< of the frame after which it goes on
   std::shared_ptr<const std::vector<std::uint8_t>> state;  ///< of its scene
+  std::uint64_t models = 0;                                ///< Scene::models()
+  bool still = false;                                      ///< it was paused
+  Presentation shown{};                                    ///< how that frame was shown
 };
 
 class Lead final : public FrameOrders, public BusListener {
@@ -60,10 +63,10 @@ public:
   /// What becomes of the show's input: each sample goes to all. `inner` must outlive it.
   InputDevice& input(InputDevice& inner);
   /// How the scene's state is written down, between two frames.
-  void saveWith(std::function<std::vector<std::uint8_t>()> save) { save_ = std::move(save); }
-  /// The scene after a frame, where it is compared.
+  void saveWith(std::function<SavedScene()> save) { save_ = std::move(save); }
+  /// The scene after a frame, where it is compared: its digest().
   bool compares(std::uint64_t frame) const { return frame % options_.cluster.hashEvery == 0; }
-  void simulated(std::uint64_t frame, std::uint64_t hash);
+  void simulated(std::uint64_t frame, std::uint64_t digest);
   const Tally& tally() const { return tally_; }
   /// Another program leads this cluster already: ours is to end.
   bool hasDouble() const;
@@ -91,7 +94,7 @@ private:
   struct Follower {
     std::uint64_t incarnation = 0;  ///< 0: it is not there
     std::uint64_t plays = 0;        ///< the session that it is ready to play on in; 0: none
-    std::uint64_t show = 0;         ///< hash of its script
+    std::uint64_t show = 0;         ///< Agreement::show() of that session
     Phase phase = Phase::Waiting;
     bool member = false, asks = false;
     bool differs = false;  ///< its scene, and it has not joined again since
@@ -138,7 +141,7 @@ private:
   std::deque<SceneParcel> parcels_;
   IncomingScene incoming_;  ///< of who gives us the show
   bool ending_ = false, double_ = false;
-  std::function<std::vector<std::uint8_t>()> save_;
+  std::function<SavedScene()> save_;
   std::unique_ptr<SampledInput> input_;
   WrittenOrder written_;
   Tally tally_;

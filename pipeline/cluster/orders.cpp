@@ -62,9 +62,7 @@ bool makesSense(const TrackerSample& t) {
 
 bool makesSense(const HeardOrder& heard) {
   const TimeSignature& now = heard.order.signature;
-  const Presentation& shown = heard.order.shown;
   if (!isTime(now.time) || now.step < 0 || now.step > now.time) return false;
-  if (!(std::abs(shown.eyeSeparation) <= kWidestEyes)) return false;
   std::vector<std::string_view> names;
   for (const TrackerSample& t : heard.input.trackers) {
     if (!makesSense(t)) return false;
@@ -95,6 +93,15 @@ bool isTime(Nanoseconds time) {
   return time >= 0 && time <= kLatest;
 }
 
+stadion_wire_Presentation written(const Presentation& shown) {
+  return {shown.black, shown.swapEyes, shown.eyeSeparation};
+}
+
+std::optional<Presentation> read(const stadion_wire_Presentation& shown) {
+  if (!(std::abs(shown.eye_separation) <= kWidestEyes)) return {};
+  return Presentation{shown.black, shown.swap_eyes, shown.eye_separation};
+}
+
 const Order& WrittenOrder::write(const OrderNumbers& numbers, const FrameOrder& o, const InputSample* input) {
   Order& w = order_;
   w.session = numbers.session, w.serial = numbers.serial, w.members = numbers.members,
@@ -103,8 +110,7 @@ const Order& WrittenOrder::write(const OrderNumbers& numbers, const FrameOrder& 
   decisions_.clear(), trackers_.clear();
   for (const LoadDecision& d : o.signature.load) decisions_.push_back({d.load, d.position, d.level});
   lend(decisions_, w.decisions);
-  w.last = o.last, w.still = o.still;
-  w.black = o.shown.black, w.swap_eyes = o.shown.swapEyes, w.eye_separation = o.shown.eyeSeparation;
+  w.last = o.last, w.still = o.still, w.shown = written(o.shown);
   w.sampled = input != nullptr;
   const std::size_t count = input ? input->trackers.size() : 0;
   if (knots_.size() < count) knots_.resize(count), controls_.resize(count);
@@ -141,7 +147,9 @@ std::optional<HeardOrder> readOrder(const Order& w) {
   now.frame = w.frame, now.time = w.time, now.step = w.step;
   for (const stadion_wire_Decision& d : spanOf(w.decisions))
     if (!now.load.add({d.load, d.position, d.level})) return {};
-  heard.order.shown = {w.black, w.swap_eyes, w.eye_separation};
+  const auto shown = cluster::read(w.shown);
+  if (!shown) return {};
+  heard.order.shown = *shown;
   heard.order.last = w.last, heard.order.still = w.still;
   heard.sampled = w.sampled;
   heard.input.time = w.time;

@@ -46,6 +46,9 @@ struct HeardOrder {
 /// Nothing, if it says what no machine that leads says: poses and axes that are no numbers or far out of
 /// range, times that do not follow each other, one tracker twice.
 std::optional<HeardOrder> readOrder(const Order& order);
+stadion_wire_Presentation written(const Presentation& shown);
+/// Nothing, if eyes are nowhere.
+std::optional<Presentation> read(const stadion_wire_Presentation& shown);
 /// Whether a show can be there: not before its beginning, nor for thirty years.
 bool isTime(Nanoseconds time);
 

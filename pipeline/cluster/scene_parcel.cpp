@@ -1,5 +1,7 @@
 #include "pipeline/cluster/scene_parcel.h"
 
+#include "pipeline/cluster/orders.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -16,16 +18,18 @@ void send(Bus& bus, const SceneParcel& parcel) {
   StatePart part{};
   part.to = parcel.to, part.session = parcel.session, part.serial = parcel.serial;
   part.frame = parcel.frame, part.time = parcel.time;
-  part.size = parcel.bytes.size();
+  part.still = parcel.still, part.shown = written(parcel.shown);
+  const std::vector<std::uint8_t>& bytes = parcel.scene.bytes;
+  part.models = parcel.scene.models, part.size = bytes.size();
   do {
-    const std::size_t size = std::min(kPart, parcel.bytes.size() - part.offset);
+    const std::size_t size = std::min(kPart, bytes.size() - part.offset);
     // It is borrowed, and only read.
-    part.bytes._buffer = const_cast<std::uint8_t*>(parcel.bytes.data()) + part.offset;
+    part.bytes._buffer = const_cast<std::uint8_t*>(bytes.data()) + part.offset;
     part.bytes._release = false;
     part.bytes._length = part.bytes._maximum = static_cast<std::uint32_t>(size);
-    bus.tell(part);
+    if (!bus.tell(part)) return;
     part.offset += size;
-  } while (part.offset < parcel.bytes.size());
+  } while (part.offset < bytes.size());
 }
 
 void IncomingScene::add(const StatePart& part) {
@@ -36,14 +40,16 @@ void IncomingScene::add(const StatePart& part) {
   if (complete_ && part.offset != 0) return;
   if (part.offset == 0) {
     complete_ = false;
-    parcel_ = {part.to, part.session, part.serial, part.frame, part.time, {}};
+    parcel_ = {part.to,   part.session, part.serial,    part.frame,
+               part.time, part.still,   Presentation{}, {part.models, {}}};
+    if (const auto shown = read(part.shown)) parcel_.shown = *shown;
     size_ = part.size, received_ = 0;
   }
   if (part.serial != parcel_.serial || part.session != parcel_.session || part.size != size_) return;
   if (part.frame != parcel_.frame || part.time != parcel_.time || part.to != parcel_.to) return;
   if (part.offset != received_ || length > part.size - part.offset) return;
   // As it comes: who says that much is to come need not be right.
-  parcel_.bytes.insert(parcel_.bytes.end(), part.bytes._buffer, part.bytes._buffer + length);
+  parcel_.scene.bytes.insert(parcel_.scene.bytes.end(), part.bytes._buffer, part.bytes._buffer + length);
   received_ += length;
   complete_ = received_ == part.size;
 }

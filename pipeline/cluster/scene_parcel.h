@@ -5,18 +5,27 @@
 
 #include "engine/time_signature.h"
 #include "pipeline/cluster/bus.h"
+#include "pipeline/operator/presentation.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace stadion::cluster {
 
+/// A scene between two frames, as it can be taken over.
+struct SavedScene {
+  std::uint64_t models = 0;         ///< Scene::models()
+  std::vector<std::uint8_t> bytes;  ///< Scene::save()
+};
+
 struct SceneParcel {
   std::uint64_t to = 0;                   ///< an incarnation, or the session of who leads
   std::uint64_t session = 0, serial = 0;  ///< it is the scene after that order
   std::uint64_t frame = 0;                ///< simulated last
   Nanoseconds time = 0;                   ///< of that
-  std::vector<std::uint8_t> bytes;        ///< Scene::save()
+  bool still = false;                     ///< the show was paused
+  Presentation shown{};                   ///< how that frame was shown
+  SavedScene scene;
 };
 
 /// May take long: it is large.

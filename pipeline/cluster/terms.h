@@ -11,10 +11,13 @@ namespace stadion::cluster {
 constexpr std::size_t kMostTold = 200;           ///< of what another machine says [characters]
 constexpr std::chrono::milliseconds kLook{100};  ///< how often a wait looks whether it is still wanted
 
-/// A number that no other session or machine has; never 0.
+/// A number that no other session or machine has; never 0. Of two the one that was taken earlier is lower, as
+/// far as the machines' clocks agree.
 inline std::uint64_t anyNumber() {
-  std::random_device device;
-  return std::uint64_t{device()} << 32U | device() | 1U;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const auto ms =
+      static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+  return ms << 20U | (std::random_device{}() & 0xfffffU) | 1U;
 }
 
 }  // namespace stadion::cluster

@@ -46,4 +46,9 @@ void stream(const GlTable& gl, GLenum target, const GlBuffer& buffer, std::span<
   gl.BufferData(target, static_cast<GLsizeiptr>(data.size_bytes()), data.data(), GL_STREAM_DRAW);
 }
 
+/// A place in the buffer that is bound, as OpenGL's calls take it.
+inline const void* inBuffer(std::size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);
+}
+
 }  // namespace stadion

@@ -48,10 +48,6 @@ std::vector<Vertex> interleave(const Mesh& mesh, Look look) {
   return vertices;
 }
 
-const void* offset(std::size_t bytes) {
-  return reinterpret_cast<const void*>(bytes);
-}
-
 }  // namespace
 
 void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_t first) {
@@ -59,7 +55,7 @@ void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_
   gl.BindBuffer(GL_ARRAY_BUFFER, instances.name());
   for (GLuint row = 0; row < 3; ++row)
     gl.VertexAttribPointer(kModelX + row, 4, GL_FLOAT, GL_FALSE, kMatrix,
-                           offset(first * kMatrix + row * kRow));
+                           inBuffer(first * kMatrix + row * kRow));
 }
 
 MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, bool sieved)
@@ -126,7 +122,7 @@ void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
   uploadIndices(mesh, out);
   const auto attribute = [&](GLuint at, GLint size, GLenum type, GLboolean normalised, std::size_t from) {
     gl_.EnableVertexAttribArray(at);
-    gl_.VertexAttribPointer(at, size, type, normalised, sizeof(Vertex), offset(from));
+    gl_.VertexAttribPointer(at, size, type, normalised, sizeof(Vertex), inBuffer(from));
   };
   attribute(kPosition, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
   attribute(kNormal, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal));

@@ -8,10 +8,6 @@
 namespace stadion {
 namespace {
 
-const void* offset(std::size_t bytes) {
-  return reinterpret_cast<const void*>(bytes);
-}
-
 /// Instances of one part keep their order within a call; with several parts, or with inner sides to draw
 /// before the outer ones, each instance has to be finished before the next.
 bool drawnTogether(const GlMesh& mesh) {
@@ -238,9 +234,9 @@ void Renderer::beginPart(const GlMesh& mesh, const GlSubmesh& part, bool blended
 void Renderer::drawIndices(std::uintptr_t from, GLsizei count, std::uint32_t first, std::uint32_t instances) {
   const auto times = static_cast<GLsizei>(instances);
   if (basesInstances_)
-    gl_.DrawElementsInstancedBaseInstance(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset(from), times, first);
+    gl_.DrawElementsInstancedBaseInstance(GL_TRIANGLES, count, GL_UNSIGNED_INT, inBuffer(from), times, first);
   else
-    gl_.DrawElementsInstanced(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset(from), times);
+    gl_.DrawElementsInstanced(GL_TRIANGLES, count, GL_UNSIGNED_INT, inBuffer(from), times);
   ++counts_.calls;
   counts_.instances += instances;
   counts_.triangles += std::uint64_t{instances} * static_cast<std::uint64_t>(count / 3);

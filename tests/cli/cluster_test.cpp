@@ -1,8 +1,10 @@
 /// Several machines that play one show, here as processes over the loopback interface.
 
+#include "tests/cli/desk.h"
 #include "tests/cli/played_cluster.h"
 
 #include <gtest/gtest.h>
+#include <lo/lo.h>
 
 #include <algorithm>
 #include <csignal>
@@ -273,12 +275,131 @@ TEST(ProgramCluster, OfTwoProgramsOfOneNodeTheLaterEndsAndWhoLeadsEndsTheShowFor
   EXPECT_EQ(endOf(second), 2) << machines.told("second");
   EXPECT_TRUE(machines.tells("second", "another program is left already; this one ends"))
       << machines.told("second");
+  const pid_t usurper = machines.start("front", "usurper");
+  EXPECT_EQ(endOf(usurper), 2) << machines.told("usurper");
+  EXPECT_TRUE(machines.tells("usurper", "another program leads as front already; this one ends"))
+      << machines.told("usurper");
+  EXPECT_EQ(machines.told("usurper").find("begins anew"), std::string::npos) << machines.told("usurper");
   ASSERT_EQ(kill(all.at("front"), SIGTERM), 0);
   for (const auto& [node, process] : all) {
     const int status = endOf(process);
     EXPECT_EQ(status, node == "front" ? 128 + SIGTERM : 0) << node << machines.told(node);
   }
   EXPECT_EQ(machines.told("left").find("another program"), std::string::npos) << "it played first";
+  EXPECT_EQ(machines.told("front").find("the others go on"), std::string::npos) << "nobody was disturbed\n"
+                                                                                << machines.told("front");
+}
+
+/// Two machines that play live, each started by hand.
+class TwoLive {
+public:
+  explicit TwoLive(const std::string& script = "")
+      : script_(script.empty() ? kKick : folder_.write("show.evs", script)),
+        file_(folder_.write("two.cluster", "walls cave4\nnode front front left right\nnode floor floor\n"
+                                           "partition live" +
+                                               std::to_string(getpid()) + "\n")) {}
+  std::unique_ptr<RunningProgram> start(const std::string& node, std::vector<std::string> more = {}) const {
+    ProgramRun run{{stadionPath(), "run", script_, "--cluster", file_, "--node", node, "--size", "32x24",
+                    "--look", "plain", "--asset-root", assetFolder()}};
+    run.words.insert(run.words.end(), more.begin(), more.end());
+    return std::make_unique<RunningProgram>(run);
+  }
+  static int endOf(RunningProgram& program) {
+    kill(program.pid(), SIGINT);
+    return program.status();
+  }
+
+private:
+  TemporaryFolder folder_;
+  std::string script_, file_;
+};
+
+TEST(ProgramCluster, TheTrackersAreThoseOfWhoLeadsAndTheOthersNeedNotNameThem) {
+  const TwoLive two;
+  const auto front = two.start("front", {"--tracker", "osc:" + std::to_string(freePort())});
+  const auto floor = two.start("floor");
+  EXPECT_TRUE(front->says("playing until Ctrl-C")) << front->err();
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  EXPECT_EQ(TwoLive::endOf(*front), 130) << front->err();
+  EXPECT_TRUE(floor->says("front has ended the show")) << floor->err();
+  EXPECT_EQ(floor->status(), 0) << floor->err();
+  EXPECT_FALSE(has(front->err(), "without floor")) << front->err();
+}
+
+TEST(ProgramCluster, WhatTheOperatorDecidedStaysWhereWhoLeadsBeginsAgain) {
+  const TwoLive two;
+  const auto floor = two.start("floor", {"--input", "none"});
+  const std::string port = std::to_string(freePort());
+  const lo_address desk = lo_address_new("127.0.0.1", port.c_str());
+  {
+    const auto front = two.start("front", {"--input", "none", "--osc", port});
+    ASSERT_TRUE(front->says("playing until Ctrl-C")) << front->err();
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    lo_send(desk, "/stadion/black", "i", 1), lo_send(desk, "/stadion/pause", "i", 1);
+    ASSERT_TRUE(front->says("operator: paused at")) << front->err();
+    front->kill();
+  }
+  const auto front = two.start("front", {"--input", "none", "--osc", port});
+  EXPECT_TRUE(front->says("the show goes on after frame")) << front->err();
+  EXPECT_TRUE(front->says("operator: paused at")) << front->err();
+  EXPECT_TRUE(front->says("operator: black on")) << front->err();
+  lo_address_free(desk);
+  EXPECT_EQ(TwoLive::endOf(*front), 130) << front->err();
+  EXPECT_EQ(floor->status(), 0) << floor->err();
+}
+
+TEST(ProgramCluster, ABitOfABodyThatHasNotMovedYetIsFoundInTime) {
+  const TwoLive two;
+  const std::vector<std::string> play{"--rate", "60", "--pace", "lock", "--seconds", "3"};
+  std::vector<std::string> planted = play;
+  planted.insert(planted.end(), {"--plant-difference", "5"});
+  const auto floor = two.start("floor", planted);
+  const auto front = two.start("front", play);
+  EXPECT_EQ(front->status(), 0) << front->err();
+  std::smatch since;
+  const std::string told = front->err();
+  ASSERT_TRUE(std::regex_search(told, since, std::regex("floor differs from ours since frame ([0-9]+)")))
+      << told;
+  EXPECT_LE(std::stoi(since[1]), 65);
+  EXPECT_TRUE(has(told, "path.c is ")) << told;
+}
+
+TEST(ProgramCluster, WhereModelsAreOthersTheyAreNamedAndNobodyPlaysWithThem) {
+  const TemporaryFolder ours, theirs;
+  const char* const triangle = "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n";
+  ours.write("thing.obj", triangle), theirs.write("thing.obj", std::string("v 0 0 2\n") + triangle);
+  const TwoLive two("object( file=thing.obj, position=\"0, 3, 1\" )\nobject( name=named, file=thing.obj )\n");
+  const std::vector<std::string> play{"--input", "none", "--rate", "60", "--pace", "lock", "--seconds", "4"};
+  const auto with = [&](const TemporaryFolder& assets) {
+    std::vector<std::string> words = play;
+    words.insert(words.end(), {"--asset-root", assets.path()});
+    return words;
+  };
+  const auto floor = two.start("floor", with(theirs));
+  const auto front = two.start("front", with(ours));
+  EXPECT_EQ(floor->status(), 2) << floor->err();
+  EXPECT_TRUE(has(floor->err(), "put the same files on all machines")) << floor->err();
+  EXPECT_TRUE(has(floor->err(), "the scene, models is ")) << floor->err();
+  EXPECT_EQ(front->status(), 0) << front->err();
+  EXPECT_TRUE(has(front->err(), "the scene of floor differs from ours")) << front->err();
+}
+
+TEST(ProgramCluster, WhereFilesOrDeadlinesDifferWhoFollowsSaysWhichAndEnds) {
+  const TemporaryFolder folder;
+  const auto file = [&](const std::string& name, const std::string& more) {
+    return folder.write(name, "walls cave4\npartition files" + std::to_string(getpid()) + "\n" + more);
+  };
+  const std::string nodes = "node front front left right\nnode floor floor\n";
+  const std::string lead = file("lead.cluster", nodes);
+  RunningProgram front({{stadionPath(), "run", kKick, "--cluster", lead, "--node", "front", "--gl", "none"}});
+  for (const std::string& other :
+       {file("deadline.cluster", nodes + "deadline 2\n"), file("hash.cluster", nodes + "hash-every 7\n"),
+        file("order.cluster", "lead front\nnode floor floor\nnode front front left right\n")}) {
+    const ProgramResult r =
+        stadionProgram({"run", kKick, "--cluster", other, "--node", "floor", "--gl", "none"});
+    EXPECT_EQ(r.status, 2) << other << r.err;
+    EXPECT_TRUE(has(r.err, "front has another cluster file; put the same file on all machines")) << r.err;
+  }
 }
 
 TEST(ProgramCluster, WhatIsWrongIsToldAtTheStart) {

@@ -60,12 +60,12 @@ TEST(ClusterHearing, AnOrderThatSaysWhatCannotBeIsNone) {
 }
 
 std::unique_ptr<Follower> follower() {
-  return Follower::unconnected({room(), 1, 1, "", [](const std::string&) {}, [] { return true; }}, 7);
+  return Follower::unconnected({room(), 1, {1}, [](const std::string&) {}, [] { return true; }}, 7);
 }
 
 Session session(double rate, bool begun) {
   Session s{};
-  s.number = 1, s.show = 1, s.rate = rate, s.begun = begun, s.giver = kNobody;
+  s.number = 1, s.terms.script = 1, s.rate = rate, s.begun = begun, s.giver = kNobody;
   return s;
 }
 
@@ -131,18 +131,25 @@ TEST(ClusterHearing, ASceneThatNobodyHasTakenGivesWayToANewerOne) {
   EXPECT_EQ(scene.serial(), 9U);
 }
 
+/// Of the show that these lead.
+const std::uint64_t kShow = Agreement{1}.show();
+constexpr std::uint64_t kSession = 100;
+
 /// One that gives up after three seconds.
 std::unique_ptr<Lead> lead() {
   using Clock = std::chrono::steady_clock;
   return Lead::unconnected(
-      {room(), 1, "", std::chrono::seconds(0), [](const std::string&) {},
+      {room(),
+       {1},
+       std::chrono::seconds(0),
+       [](const std::string&) {},
        [begin = Clock::now()] { return Clock::now() - begin > std::chrono::seconds(3); }},
-      1);
+      kSession);
 }
 
 TEST(ClusterHearing, NobodyWaitsForWhoIsLostInTheLastFrame) {
   const auto l = lead();
-  l->hear(Presence{1, 9, 1, 1, static_cast<std::uint8_t>(Phase::Ready), 0, false, 1});
+  l->hear(Presence{1, 9, 1, kSession, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow});
   l->begin(60);
   FrameOrder order;
   order.signature = signatureAt(1, 60), order.last = true;
@@ -157,15 +164,15 @@ TEST(ClusterHearing, NobodyWaitsForWhoIsLostInTheLastFrame) {
 
 TEST(ClusterHearing, AShowGoesOnOnlyFromWhoHasPlayedIt) {
   const auto l = lead();
-  l->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 0, false, 1});
+  l->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow});
   std::vector<std::uint8_t> bytes(10, 3);
   StatePart part{};
-  part.to = 1, part.session = 1, part.size = 10;
+  part.to = kSession, part.session = kSession, part.size = 10;
   part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
   l->hear(part);
   EXPECT_FALSE(l->takeOver());
   const auto other = lead();
-  other->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, 1});
+  other->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, kShow});
   other->hear(part);
   EXPECT_TRUE(other->takeOver());
 }
@@ -174,9 +181,9 @@ TEST(ClusterHearing, AShowOfAnotherScriptIsNotTakenOver) {
   const auto l = lead();
   std::vector<std::uint8_t> bytes(10, 3);
   StatePart part{};
-  part.to = 1, part.session = 1, part.size = 10;
+  part.to = kSession, part.session = kSession, part.size = 10;
   part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
-  l->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, 2});
+  l->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, kShow + 1});
   l->hear(part);
   EXPECT_FALSE(l->takeOver());
 }
@@ -184,16 +191,19 @@ TEST(ClusterHearing, AShowOfAnotherScriptIsNotTakenOver) {
 TEST(ClusterHearing, OfTwoProgramsOfOneNodeOneEnds) {
   const auto ready = static_cast<std::uint8_t>(Phase::Ready);
   const auto f = follower();  // its number is 7
-  f->hear(Presence{1, 6, 1, 0, 0, 0, false, 1});
-  EXPECT_FALSE(f->hasDouble()) << "it is told the same of us, and ends";
-  f->hear(Presence{0, 9, 1, 0, 0, 0, false, 1});
+  f->hear(Presence{1, 9, 1, 0, 0, 0, false, 1});
+  EXPECT_FALSE(f->hasDouble()) << "it came later: it is told the same of us, and ends";
+  f->hear(Presence{0, 6, 1, 0, 0, 0, false, 1});
   EXPECT_FALSE(f->hasDouble()) << "another node";
-  f->hear(Presence{1, 6, 2, 1, ready, 3, true, 1});
+  f->hear(Presence{1, 9, 2, 1, ready, 3, true, 1});
   EXPECT_TRUE(f->hasDouble()) << "it plays, we do not yet";
   EXPECT_FALSE(f->isToJoinAgain());
-  const auto l = lead();  // its number is 1
+  const auto earlier = follower();
+  earlier->hear(Presence{1, 6, 1, 0, 0, 0, false, 1});
+  EXPECT_TRUE(earlier->hasDouble()) << "it came before us";
+  const auto l = lead();  // its number is kSession
   Session waiting = session(60, false);
-  waiting.number = 9, waiting.over = true;
+  waiting.number = kSession - 1, waiting.over = true;
   l->hear(waiting);
   EXPECT_FALSE(l->hasDouble());
   waiting.over = false;
@@ -203,6 +213,63 @@ TEST(ClusterHearing, OfTwoProgramsOfOneNodeOneEnds) {
   begun->begin(60);
   begun->hear(waiting);
   EXPECT_FALSE(begun->hasDouble()) << "it has not begun, we have";
+}
+
+TEST(ClusterHearing, WhoComesBesideAMemberOfItsNameIsNoneUntilItAsks) {
+  std::vector<std::string> told;
+  const auto l = Lead::unconnected({room(),
+                                    {1},
+                                    std::chrono::seconds(0),
+                                    [&](const std::string& what) { told.push_back(what); },
+                                    [] { return true; }},
+                                   kSession);
+  const auto phase = [](Phase p) { return static_cast<std::uint8_t>(p); };
+  l->hear(Presence{1, 9, 1, kSession, phase(Phase::Ready), 0, true, kShow});
+  l->begin(60);
+  told.clear();
+  l->hear(Presence{1, 12, 1, 0, phase(Phase::Waiting), 0, false, 0});
+  l->hear(Presence{1, 9, 2, kSession, phase(Phase::Ready), 0, true, kShow});
+  EXPECT_EQ(told, std::vector<std::string>()) << "it may end at once";
+  l->hear(Presence{1, 12, 2, kSession, phase(Phase::Asking), 0, false, kShow});
+  EXPECT_EQ(told, std::vector<std::string>{"left began anew; the others go on"});
+}
+
+TEST(ClusterHearing, WhatMustBeAlikeIsNamedWhereItIsNot) {
+  const Agreement lead{1, 2, 3, 4, "--look full"};
+  Agreement ours = lead;
+  EXPECT_EQ(refusal(lead, ours, "front"), "");
+  EXPECT_EQ(remark(lead, ours, "front"), "");
+  ours.pictures = "--look plain";
+  EXPECT_EQ(remark(lead, ours, "front"),
+            "front plays with --look full, we with --look plain: the walls will not look alike");
+  EXPECT_EQ(refusal(lead, ours, "front"), "");
+  const auto with = [&](std::uint64_t Agreement::*what, std::uint64_t value) {
+    Agreement other = lead;
+    other.*what = value;
+    return refusal(lead, other, "front");
+  };
+  EXPECT_EQ(with(&Agreement::script, 9), "front plays another script; put the same file on all machines");
+  EXPECT_EQ(with(&Agreement::cluster, 9),
+            "front has another cluster file; put the same file on all machines");
+  EXPECT_EQ(with(&Agreement::walls, 9), "front has another wall file; put the same file on all machines");
+  EXPECT_EQ(with(&Agreement::input, 0), "front plays another input log; put the same file on all machines");
+  Agreement live = lead;
+  live.input = 0;
+  EXPECT_EQ(refusal(live, lead, "front"), "") << "who follows plays no log of its own then";
+}
+
+TEST(ClusterHearing, AMachinesInterfaceIsItsOwnAndTheRestOfTheFileIsNot) {
+  Diagnostics findings;
+  const auto hash = [&](const std::string& more) {
+    const auto file = parseCluster("node a front\nnode b left\n" + more, "x.cluster", findings);
+    return file ? hashOf(*file) : 0;
+  };
+  const std::uint64_t plain = hash("");
+  EXPECT_EQ(hash("interface lo\n"), plain);
+  for (const char* more :
+       {"deadline 1\n", "lead b\n", "hash-every 7\n", "on-difference stop\n", "node c right\n"})
+    EXPECT_NE(hash(more), plain) << more;
+  EXPECT_TRUE(findings.all().empty());
 }
 
 TEST(ClusterHearing, WhoLeadsEndsTheShowForAll) {
@@ -223,8 +290,11 @@ TEST(ClusterHearing, WhoLeadsEndsTheShowForAll) {
 
 TEST(ClusterHearing, WhatAnotherMachineSaysIsNoCommandToATerminal) {
   std::string told;
-  const auto lead = Lead::unconnected({room(), 1, "", std::chrono::seconds(0),
-                                       [&](const std::string& what) { told = what; }, [] { return true; }},
+  const auto lead = Lead::unconnected({room(),
+                                       {1},
+                                       std::chrono::seconds(0),
+                                       [&](const std::string& what) { told = what; },
+                                       [] { return true; }},
                                       1);
   std::string where = "ball\x1b[2J", longText(5000, 'x'), there = "1";
   Difference d{};

@@ -5,10 +5,12 @@
 #include "engine/state_hash.h"
 #include "pipeline/cluster/follower.h"
 #include "pipeline/cluster/lead.h"
+#include "pipeline/cluster/loopback_sockets.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -111,10 +113,10 @@ protected:
   }
   void openLead() {
     lead_.reset();
-    auto lead = Lead::open({room(), 1, "", patience_, told_.teller(), [] { return false; }});
+    auto lead = Lead::open({room(), {1}, patience_, told_.teller(), [] { return false; }});
     ASSERT_TRUE(lead) << lead.error().message;
     lead_ = std::move(lead.value());
-    lead_->saveWith([this] { return scene_.save(); });
+    lead_->saveWith([this] { return SavedScene{0, scene_.save()}; });
   }
 
   /// Orders, simulates and shows one frame. True: it was the last one.
@@ -169,15 +171,15 @@ private:
   bool play(std::size_t node, const Disturb& disturb) {
     NumberScene scene;
     for (bool over = false; !over;) {
-      auto opened = Follower::open({room(), node, 1, "", [](const std::string&) {}, [] { return false; }});
+      auto opened = Follower::open({room(), node, {1}, [](const std::string&) {}, [] { return false; }});
       if (!opened) return false;
       Follower& follower = *opened.value();
       const auto joining = follower.join();
       if (!joining) continue;
       scene = {};
       if (joining->state) scene.restore(*joining->state);
-      follower.compareWith([&](const std::vector<std::uint8_t>& there) -> std::optional<Follower::Differs> {
-        if (scene.save() == there) return {};
+      follower.compareWith([&](const SavedScene& there) -> std::optional<Follower::Differs> {
+        if (scene.save() == there.bytes) return {};
         return Follower::Differs{"the number", "one", "another"};
       });
       TimeSignature last = joining->after;
@@ -191,7 +193,7 @@ private:
         over = follower.mayShow(last) && order->last;
         if (over) break;
       }
-      if (follower.isAskedForScene()) follower.giveScene(last, scene.save());
+      if (follower.isAskedForScene()) follower.giveScene(last, {0, scene.save()});
       follower.finish();
     }
     common_->ends[node] = scene.number;
@@ -207,6 +209,18 @@ TEST_F(ThreadsCluster, AllComeToTheSameScene) {
   expectAllAlike();
   EXPECT_EQ(lead_->tally().leftOut, 0U) << told_.all();
   EXPECT_EQ(lead_->tally().differed, 0U);
+}
+
+TEST_F(ThreadsCluster, WhereNoInterfaceIsNamedNothingIsHeardFromOtherMachines) {
+  openLead();
+  const std::set<int> sockets = udpSockets();
+  EXPECT_FALSE(sockets.empty());
+  for (const int socket : sockets) {
+    char device[16] = {};
+    socklen_t size = sizeof device;
+    ASSERT_EQ(getsockopt(socket, SOL_SOCKET, SO_BINDTODEVICE, device, &size), 0);
+    EXPECT_STREQ(device, "lo");
+  }
 }
 
 TEST_F(ThreadsCluster, WhoComesLaterGetsTheScene) {

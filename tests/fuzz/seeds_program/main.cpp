@@ -114,7 +114,7 @@ Seed orderOf(std::uint64_t serial) {
 void writeConversations(const Folder& to) {
   using namespace cluster;
   Session waiting{};
-  waiting.number = 1, waiting.show = 1, waiting.rate = 60, waiting.giver = kNobody;
+  waiting.number = 1, waiting.terms.script = 1, waiting.rate = 60, waiting.giver = kNobody;
   Session begun = waiting;
   begun.begun = true;
   std::vector<std::uint8_t> state(40, 7);

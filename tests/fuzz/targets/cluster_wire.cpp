@@ -100,9 +100,9 @@ private:
   ScriptedInput inner_;
   InputSample input_;
   std::unique_ptr<Lead> lead_ = Lead::unconnected(
-      {room(), 1, "", std::chrono::seconds(0), [](const std::string&) {}, [] { return true; }}, 1);
+      {room(), {1}, std::chrono::seconds(0), [](const std::string&) {}, [] { return true; }}, 1);
   std::unique_ptr<Follower> follower_ =
-      Follower::unconnected({room(), 1, 1, "", [](const std::string&) {}, [] { return true; }}, 1);
+      Follower::unconnected({room(), 1, {1}, [](const std::string&) {}, [] { return true; }}, 1);
 };
 
 }  // namespace

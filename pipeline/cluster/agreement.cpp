@@ -1,0 +1,56 @@
+#include "pipeline/cluster/agreement.h"
+
+#include "engine/state_hash.h"
+#include "engine/text_line.h"
+#include "pipeline/cluster/terms.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+namespace stadion::cluster {
+
+std::uint64_t Agreement::show() const {
+  StateHash hash;
+  hash.add(script), hash.add(input);
+  return hash.value();
+}
+
+std::uint64_t hashOf(const ClusterFile& file) {
+  StateHash hash;
+  for (const ClusterNode& node : file.nodes) {
+    hash.add(std::string_view(node.name)), hash.add(std::uint64_t{node.walls.size()});
+    for (const std::string& wall : node.walls) hash.add(std::string_view(wall));
+  }
+  hash.add(std::uint64_t{file.lead}), hash.add(file.deadline), hash.add(file.hashEvery);
+  hash.add(file.stopOnDifference);
+  return hash.value();
+}
+
+stadion_wire_Agreement written(const Agreement& a) {
+  stadion_wire_Agreement w{a.script, a.input, a.cluster, a.walls, {}};
+  a.pictures.copy(w.pictures, sizeof(w.pictures) - 1);
+  return w;
+}
+
+Agreement read(const stadion_wire_Agreement& w) {
+  return {w.script, w.input, w.cluster, w.walls,
+          std::string(w.pictures, strnlen(w.pictures, sizeof(w.pictures)))};
+}
+
+std::string refusal(const Agreement& lead, const Agreement& ours, const std::string& nameOfLead) {
+  const char* what = lead.script != ours.script                    ? "plays another script"
+                     : lead.cluster != ours.cluster                ? "has another cluster file"
+                     : lead.walls != ours.walls                    ? "has another wall file"
+                     : lead.input != 0 && lead.input != ours.input ? "plays another input log"
+                                                                   : nullptr;
+  return what ? fmt::format("{} {}; put the same file on all machines", nameOfLead, what) : std::string();
+}
+
+std::string remark(const Agreement& lead, const Agreement& ours, const std::string& nameOfLead) {
+  if (lead.pictures == ours.pictures) return {};
+  return fmt::format("{} plays with {}, we with {}: the walls will not look alike", nameOfLead,
+                     printable(lead.pictures, kMostTold), ours.pictures);
+}
+
+}  // namespace stadion::cluster
