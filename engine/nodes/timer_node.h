@@ -18,6 +18,7 @@ public:
   Rank rank() const override { return Rank::Sensing; }
   void hash(StateHash& h) const override;
   void state(StateFields& f) override;
+  bool resume(Scene& scene) override;
   template <class Self, class Fields>
   static void fields(Self& self, Fields& f);
 
