@@ -226,6 +226,27 @@ TEST_F(ProgramFaults, ADiskThatIsFullWhenTheLastFramesAreToBeKeptIsToldAndTheSho
   EXPECT_EQ(hashOf(r), hashOf(whole));
 }
 
+TEST_F(ProgramFaults, ADiskThatIsFullWhileASoakIsRecordedIsToldAndTheSoakGoesOn) {
+  const std::string record = file("soak.record");
+  const std::vector<std::string> words{stadionPath(), "soak",        "--frames", "1000", "--visit",
+                                       "1000",        "--no-memory", "--record", record};
+  ProgramRun full = run("write error=28 after=150 path=soak.record");
+  full.words = words;
+  const ProgramResult r = runProgram(full);
+  EXPECT_EQ(r.status, 2) << r.err;
+  const std::string told = "soak.record: cannot be written: No space left on device";
+  EXPECT_TRUE(has(r.err, told)) << r.err;
+  EXPECT_EQ(r.err.find(told), r.err.rfind(told)) << "once: " << r.err;
+  EXPECT_TRUE(has(r.out, "1000 frames in 1 visits")) << r.out;
+  const std::string text = fileContent(record);
+  EXPECT_TRUE(text.ends_with("}\n")) << "no half line: " << text;
+  // A run that finds room goes on with it; a check that fails counts for more than the record.
+  EXPECT_EQ(runProgram({words}).status, 0);
+  const std::size_t history = fileContent(record).find("\"history\":") + 10;
+  folder_.write("soak.record", fileContent(record).insert(history, "1").substr(0, text.size() + 200));
+  EXPECT_EQ(runProgram(full).status, 1);
+}
+
 TEST_F(ProgramFaults, AClockThatIsSetChangesNothing) {
   const std::vector<std::string> words{"--gl", "none", "--pace", "lock", "--seconds", "1"};
   const ProgramResult whole = runProgram(run("", words));
