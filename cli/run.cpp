@@ -391,8 +391,7 @@ int runShow(RunOptions o) try {
   if (o.supervise) return tell(findings), superviseRun(o);
   RunSetup setup;
   const int code = playShow(o, setup, std::move(findings));
-  if (setup.journal) setup.journal->ended(code);
-  return code;
+  return setup.journal ? setup.journal->ended(code) : code;
 } catch (const RunStopped&) {
   std::fprintf(stderr, "stadion: stopped by %s before the show was loaded\n", stopSignalName());
   return kStopped + stopSignal();

@@ -95,9 +95,10 @@ private:
 void Supervisor::say(const std::string& line) {
   std::fprintf(stderr, "supervise: %s\n", line.c_str());
   const SharedProgress::Moment at = progress_->newest();
-  if (journal_)
-    journal_->add("supervise: " + line,
-                  at.clock > 0 ? std::optional(Journal::Place{at.time, at.frame}) : std::nullopt);
+  if (!journal_) return;
+  const auto why = journal_->add(
+      "supervise: " + line, at.clock > 0 ? std::optional(Journal::Place{at.time, at.frame}) : std::nullopt);
+  if (why) std::fprintf(stderr, "supervise: --journal: %s; lines are lost\n", why->c_str());
 }
 
 /// False: the run is to end.
@@ -160,10 +161,11 @@ std::optional<Supervisor::End> Supervisor::playOnce() {
 }
 
 /// Whether another player is to go on. What the user asked for, and what is wrong with the show, is no
-/// reason; but a show that did play may be mended while a later player waits.
+/// reason; but a show that did play may be mended while a later player waits. What could not be written of
+/// one that is over is no reason either.
 bool Supervisor::isDeath(const End& end) const {
   if (stop_ || end.status == kStopped + SIGINT || end.status == kStopped + SIGTERM) return false;
-  if (end.status == kBadInput) return progress_->starts() > 1;
+  if (end.status == kBadInput) return progress_->starts() > 1 && progress_->phase() != Phase::Ending;
   return end.hung > 0 || end.status > kStopped || end.status == kInternalFault;
 }
 

@@ -76,6 +76,14 @@ protected:
   std::string show_;
 };
 
+/// The first of those that the process has started; 0 = there is none.
+pid_t childOf(pid_t process) {
+  const std::string pid = std::to_string(process);
+  pid_t child = 0;
+  std::ifstream("/proc/" + pid + "/task/" + pid + "/children") >> child;
+  return child;
+}
+
 /// Of the last frame, as the text at the end says it.
 std::string hashOf(const ProgramResult& r) {
   const std::size_t line = r.out.find("state hash of frame ");
@@ -245,6 +253,39 @@ TEST_F(ProgramFaults, ADiskThatIsFullWhileASoakIsRecordedIsToldAndTheSoakGoesOn)
   const std::size_t history = fileContent(record).find("\"history\":") + 10;
   folder_.write("soak.record", fileContent(record).insert(history, "1").substr(0, text.size() + 200));
   EXPECT_EQ(runProgram(full).status, 1);
+}
+
+TEST_F(ProgramFaults, ADiskThatIsFullWhenTheJournalIsWrittenIsToldAndTheShowGoesOn) {
+  const ProgramResult whole = runProgram(run("", {"--gl", "none"}));
+  const std::string journal = file("run.log");
+  const ProgramResult r =
+      runProgram(run("write error=28 after=100 path=run.log", {"--gl", "none", "--journal", journal}));
+  EXPECT_EQ(r.status, 2) << r.err;
+  const std::string told = "run.log: cannot be written: No space left on device";
+  EXPECT_TRUE(has(r.err, told)) << r.err;
+  EXPECT_EQ(r.err.find(told), r.err.rfind(told)) << "once: " << r.err;
+  EXPECT_EQ(hashOf(r), hashOf(whole));
+  const std::string text = fileContent(journal);
+  EXPECT_TRUE(text.empty() || text.ends_with("\n")) << "no half line: " << text;
+}
+
+/// The player and who watches over it have the same fault.
+TEST_F(ProgramFaults, AWatchedShowWhoseJournalIsOnAFullDiskIsPlayedOnce) {
+  const std::string journal = file("run.log");
+  ProgramRun watched = run("write error=28 path=run.log", {"--gl", "none", "--pace", "lock", "--seconds", "6",
+                                                           "--supervise", "--journal", journal});
+  RunningProgram program(watched);
+  ASSERT_TRUE(program.says("stadion: --journal: "));
+  ASSERT_TRUE(program.waitUntil([&] { return childOf(program.pid()) > 0; }));
+  ::kill(childOf(program.pid()), SIGKILL);
+  ASSERT_TRUE(
+      program.says("supervise: --journal: " + journal + ": cannot be written: No space left on device"));
+  ASSERT_TRUE(program.says("stadion: --journal: ", 2)) << "the second player";
+  EXPECT_EQ(program.status(), 2) << program.err();
+  const std::string err = program.err();
+  EXPECT_EQ(err.find("supervise: --journal: "), err.rfind("supervise: --journal: ")) << "once: " << err;
+  EXPECT_FALSE(has(err, "exit code 2")) << "a show that is over is not played again: " << err;
+  EXPECT_EQ(fileContent(journal), "");
 }
 
 TEST_F(ProgramFaults, AClockThatIsSetChangesNothing) {
