@@ -123,6 +123,14 @@ TEST(ProgramSupervise, TheSummarySaysWhatKeepingTheSceneTook) {
   EXPECT_NE(remarks.find("bytes) was kept 1 times for the next player"), std::string::npos) << remarks;
 }
 
+TEST(ProgramSupervise, HoweverTheOptionIsWrittenItIsNotThePlayers) {
+  for (const char* option : {"--supervise=true", "--supervise=1", "--supervise=on"}) {
+    const ProgramResult r =
+        stadionProgram({"run", kKick, option, "--gl", "none", "--frames", "10", "--hang-after", "20"});
+    EXPECT_EQ(r.status, 0) << option << '\n' << r.err;
+  }
+}
+
 TEST(ProgramSupervise, ALiveShowEndsWithWhoWatchesOverIt) {
   Supervised run({"--walls", "desktop", "--size", "32x24", "--look", "plain", "--input", "none"});
   ASSERT_TRUE(becomes([&] { return run.hasNoted("the first picture"); })) << fileContent(run.told());
