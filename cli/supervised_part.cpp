@@ -13,6 +13,10 @@ namespace {
 constexpr Nanoseconds kKeepEvery = fromSeconds(5), kKeepSeldom = fromSeconds(60);
 constexpr Nanoseconds kShare = 1000;
 
+std::string timesOf(std::uint64_t count) {
+  return count == 1 ? "once" : fmt::format("{} times", count);
+}
+
 }  // namespace
 
 SupervisedPart::SupervisedPart(std::unique_ptr<SharedProgress> progress,
@@ -95,13 +99,11 @@ void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch
 std::string SupervisedPart::remark() const {
   std::string words;
   if (progress_->starts() > 1)
-    words =
-        fmt::format("the player was replaced {} times; frames, times and what happened are of the last one",
-                    progress_->starts() - 1);
+    words = fmt::format("the player was replaced {}; frames, times and what happened are of the last one",
+                        timesOf(progress_->starts() - 1));
   if (times_ > 0)
-    words +=
-        fmt::format("{}the scene ({} bytes) was kept {} times for the next player, each in {:.2f} ms at most",
-                    words.empty() ? "" : "; ", bytes_, times_, 1e3 * toSeconds(longest_));
+    words += fmt::format("{}the scene ({} bytes) was kept {} for the next player, in {:.2f} ms at most",
+                         words.empty() ? "" : "; ", bytes_, timesOf(times_), 1e3 * toSeconds(longest_));
   return words;
 }
 

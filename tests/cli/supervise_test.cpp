@@ -120,7 +120,7 @@ TEST(ProgramSupervise, TheSummarySaysWhatKeepingTheSceneTook) {
                       "32x24", "--look", "plain", "--walls", "desktop"});
   ASSERT_EQ(r.status, 0) << r.err;
   const std::string remarks = Json::parse(r.out)["remarks"].dump();
-  EXPECT_NE(remarks.find("bytes) was kept 1 times for the next player"), std::string::npos) << remarks;
+  EXPECT_NE(remarks.find("bytes) was kept once for the next player"), std::string::npos) << remarks;
 }
 
 TEST(ProgramSupervise, HoweverTheOptionIsWrittenItIsNotThePlayers) {
@@ -143,7 +143,9 @@ TEST(ProgramSupervise, ALiveShowEndsWithWhoWatchesOverIt) {
   ASSERT_EQ(kill(run.pid(), SIGTERM), 0);
   EXPECT_EQ(run.end(), 128 + SIGTERM) << fileContent(run.told());
   EXPECT_NE(kill(second, 0), 0) << "the player is gone, too";
-  EXPECT_EQ(Json::parse(fileContent(run.said()))["stopped"], "SIGTERM");
+  const Json said = Json::parse(fileContent(run.said()));
+  EXPECT_EQ(said["stopped"], "SIGTERM");
+  EXPECT_NE(said["remarks"].dump().find("replaced once;"), std::string::npos) << said["remarks"];
 }
 
 TEST(ProgramSupervise, APlayerDoesNotOutliveWhoWatchesOverIt) {
