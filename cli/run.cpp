@@ -230,6 +230,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   ShowRecording* const recording = s.recording.get();
   ProgressBar progress(s.player->frames());
   const ShowStages* running = nullptr;
+  const FrameLoop* looping = nullptr;
   FrameLoopOptions options = o.loopOptions(*s.player);
   ShowParts parts = s.player->parts(o.layout, s.cluster ? s.cluster->inputOf(*s.player) : nullptr);
   parts.provider = s.provider.get();
@@ -251,7 +252,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
     s.watch->see(now, input, scene);
     if (s.cluster) s.cluster->simulated(now, scene);
     if (s.journal) s.journal->see(now, input, scene);
-    if (s.supervised) s.supervised->simulated(now, s.player->scene(), *s.watch);
+    if (s.supervised) s.supervised->simulated(now, s.player->scene(), *s.watch, looping->catchesUp());
     if (recording) recording->see(scene);
     s.player->collect(running->shownFrame());
     progress.update(now.frame + 1);
@@ -268,6 +269,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   if (s.cluster) s.cluster->addTo(options);
   if (s.supervised) s.supervised->goOn(options, *s.desk, *s.watch);
   FrameLoop loop(stages, options, stop, probe);
+  looping = &loop;
 
   if (s.supervised) s.supervised->enter(SharedProgress::Phase::Playing);
   const auto start = std::chrono::steady_clock::now();

@@ -71,9 +71,8 @@ public:
 
 private:
   struct End {
-    int status = 0;           ///< exit status; 128 + signal
-    Nanoseconds hung = 0;     ///< so long no picture came, and it was killed
-    std::uint64_t shown = 0;  ///< frames
+    int status = 0;        ///< exit status; 128 + signal
+    Nanoseconds hung = 0;  ///< so long no picture came, and it was killed
   };
   std::optional<End> playOnce();
   bool hangs(Nanoseconds since, std::uint64_t shownBefore) const;
@@ -156,7 +155,6 @@ std::optional<Supervisor::End> Supervisor::playOnce() {
     end.status = kStopped + SIGKILL;
     break;
   }
-  end.shown = progress_->framesShown() - before;
   if (end.status > kStopped) terminal_.giveBack();
   return end;
 }
@@ -185,7 +183,7 @@ int Supervisor::play() {
     if (!isDeath(*end)) return end->status;
     if (gone_ == 0) gone_ = progress_->lastShown();
     const SharedProgress::Moment last = progress_->newest();
-    const Recovery::Step step = recovery_.died(last.frame, end->shown);
+    const Recovery::Step step = recovery_.died(last.time, progress_->played());
     const std::string died =
         fmt::format("the player {} at frame {}, {:.3f} s", howOf(*end), last.frame, toSeconds(last.time));
     if (step.way == Recovery::Way::GiveUp) {
