@@ -366,6 +366,32 @@ TEST_F(ProgramFaultsLive, AProgramThatStoodStillGoesOnByTheClock) {
   EXPECT_GT(summary.value("seconds", 0.0), 1.5);        // the show's time went on with the clock
 }
 
+/// By SIGKILL or a power cut, nothing is tidied up.
+TEST_F(ProgramFaults, ARunThatIsKilledLeavesARecordThatTheNextOneTellsOf) {
+  const std::string record = file("visit.input");
+  const std::string hour =
+      folder_.write("hour.input", "stadion-input 1\nkey head 0  0 0 1.7\nkey head 3600  0 9 1.7  smooth\n");
+  RunningProgram program(
+      run("", {"--gl", "none", "--pace", "lock", "--input", hour, "--record-input", record}));
+  ASSERT_TRUE(program.waitUntil([&] {
+    for (const std::string& name : leftOver())
+      if (fs::file_size(folder_.path() / name) > 4000) return true;
+    return false;
+  }));
+  const std::string name = fmt::format(".visit.input.{}-0.part", program.pid());
+  program.kill();
+  EXPECT_EQ(leftOver(), std::set<std::string>{name});
+  const ProgramResult next = runProgram(run("", {"--gl", "none", "--record-input", record}));
+  EXPECT_EQ(next.status, 0) << next.err;
+  EXPECT_TRUE(has(next.err, name + ": warning: ")) << next.err;
+  EXPECT_EQ(leftOver(), std::set<std::string>{name}) << "it is kept";
+  // As docs/faults.md says: without its last line, half or not, it can be played.
+  std::string text = fileContent(folder_.path() / name);
+  const std::string kept = folder_.write("kept.input", text.substr(0, text.rfind('\n') + 1));
+  const ProgramResult again = runProgram(run("", {"--gl", "none", "--input", kept}));
+  EXPECT_EQ(again.status, 0) << again.err;
+}
+
 /// Where a script may name a file, it names one that is not the show's.
 TEST_F(ProgramFaults, FilesOutsideOfTheShowsFoldersAreNotOpened) {
   const TemporaryFolder outside;
