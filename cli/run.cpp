@@ -230,6 +230,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   ShowRecording* const recording = s.recording.get();
   ProgressBar progress(s.player->frames());
   const ShowStages* running = nullptr;
+  const FrameLoop* looping = nullptr;
   FrameLoopOptions options = o.loopOptions(*s.player);
   ShowParts parts = s.player->parts(o.layout, s.cluster ? s.cluster->inputOf(*s.player) : nullptr);
   parts.provider = s.provider.get();
@@ -251,7 +252,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
     s.watch->see(now, input, scene);
     if (s.cluster) s.cluster->simulated(now);
     if (s.journal) s.journal->see(now, input, scene);
-    if (s.supervised) s.supervised->simulated(now, s.player->scene(), *s.watch);
+    if (s.supervised) s.supervised->simulated(now, s.player->scene(), *s.watch, looping->catchesUp());
     if (recording) recording->see(scene);
     s.player->collect(running->shownFrame());
     progress.update(now.frame + 1);
@@ -268,6 +269,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   if (s.cluster) s.cluster->addTo(options, *s.desk);
   if (s.supervised) s.supervised->goOn(options, *s.desk, *s.watch);
   FrameLoop loop(stages, options, stop, probe);
+  looping = &loop;
 
   if (s.supervised) s.supervised->enter(SharedProgress::Phase::Playing);
   const auto start = std::chrono::steady_clock::now();
@@ -391,8 +393,7 @@ int runShow(RunOptions o) try {
   if (o.supervise) return tell(findings), superviseRun(o);
   RunSetup setup;
   const int code = playShow(o, setup, std::move(findings));
-  if (setup.journal) setup.journal->ended(code);
-  return code;
+  return setup.journal ? setup.journal->ended(code) : code;
 } catch (const RunStopped&) {
   std::fprintf(stderr, "stadion: stopped by %s before the show was loaded\n", stopSignalName());
   return kStopped + stopSignal();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cstdio>
 #include <sys/utsname.h>
 #include <thread>
 #include <unistd.h>
@@ -40,7 +41,8 @@ void RunJournal::note(std::string_view what) {
     const std::lock_guard lock(mutex_);
     at = place_;
   }
-  file_->add(what, at);
+  if (const auto why = file_->add(what, at))
+    std::fprintf(stderr, "stadion: --journal: %s; lines are lost, the show goes on\n", why->c_str());
 }
 
 void RunJournal::note(const Diagnostics& findings) {
@@ -136,13 +138,18 @@ void RunJournal::late(const std::string& text) {
   lastLate_ = text;
 }
 
-void RunJournal::ended(int code) {
+int RunJournal::ended(int code) {
+  const auto status = [&] {
+    const bool well = code == kOk || code > kStopped;
+    return well && file_->incomplete() ? static_cast<int>(kBadInput) : code;
+  };
   std::string text;
   {
     const std::lock_guard lock(mutex_);
-    text = fmt::format("ended with exit code {}: {} frames shown, {} late; ", code, shown_, late_);
+    text = fmt::format("ended with exit code {}: {} frames shown, {} late; ", status(), shown_, late_);
   }
   note(text + figures());
+  return status();
 }
 
 }  // namespace stadion

@@ -4,6 +4,7 @@
 /// once a minute how it does.
 ///
 /// Threads  see() on the App thread, the rest from any.
+/// Errors   a line that cannot be written is told on stderr, the first one; the show goes on.
 
 #include "cli/run_options.h"
 #include "engine/scene/scene.h"
@@ -36,8 +37,8 @@ public:
   void firstPicture(const std::string& gl);
   /// A late frame, in words.
   void late(const std::string& text);
-  /// The run is over; `code` is its exit status.
-  void ended(int code);
+  /// The run is over; `code` is its exit status. Returns what that becomes if lines were lost.
+  int ended(int code);
 
 private:
   using Clock = std::chrono::steady_clock;

@@ -1,5 +1,6 @@
 #include "cli/run_watch.h"
 
+#include "engine/atomic_file.h"
 #include "engine/load_control.h"
 #include "engine/state_hash.h"
 
@@ -64,6 +65,10 @@ void RunWatch::recordInput(const RunOptions& options, Player& player, Diagnostic
                            " is there and is no input log; name another file, or remove this one");
     return;
   }
+  for (const std::string& part : partsOfKilledWriters(options.recordInput))
+    findings.warning({part, 0, 0},
+                     "is what a run that was killed has left of its record of the input: without its "
+                     "last line, which may be half of one, it can be played; else remove it");
   // Where every frame follows the last one at 1/rate there is nothing to record but the input.
   const bool clockDecides = !options.everyFrameCounts(player) || player.obeysLog();
   recorder_ = std::make_unique<InputRecorder>(options.recordInput, clockDecides ? player.rate() : 0);

@@ -190,8 +190,9 @@ private:
   bool well_ = true;
 };
 
-/// Memory, in a visit or from visit to visit, handles and threads. What could not be judged is no pass.
-void judgeGrowth(Verdicts& v, const SoakRecord& record, std::uint64_t warmUp) {
+/// Memory, in a visit or from visit to visit, handles and threads. What could not be judged is no pass, but
+/// where the soak was stopped no failure either.
+void judgeGrowth(Verdicts& v, const SoakRecord& record, std::uint64_t warmUp, bool stopped) {
   constexpr std::size_t kFewest = 10;
   const std::vector<SoakSample> samples = afterWarmUp(record.samples(), warmUp);
   const auto slope = [&](std::uint64_t SoakSample::*figure) {
@@ -217,7 +218,9 @@ void judgeGrowth(Verdicts& v, const SoakRecord& record, std::uint64_t warmUp) {
                     *more, kMostOfVisit, *slopeOfVisits(record.samples(), &SoakSample::residentBytes)));
   else
     std::printf("  -      memory from visit to visit: too few visits (--visit)\n");
-  if (!inVisit && !more)
+  if (!inVisit && !more && stopped)
+    std::printf("  -      memory was not judged: the soak was stopped\n");
+  else if (!inVisit && !more)
     v.add(false,
           "memory was not judged: more --frames are needed, or --no-memory says that it is not asked for");
   if (record.samples().size() < kFewest) return;
@@ -243,7 +246,8 @@ bool tellVerdicts(const SoakOptions& o, const SoakRecord& record) {
                                        c.wrongSteps, c.frames));
   v.add(c.wrongHashes == 0,
         fmt::format("states: {} of {} histories compared differ", c.wrongHashes, c.compared));
-  if (!o.noMemory) judgeGrowth(v, record, std::min<std::uint64_t>(100'000, o.frames / 5));
+  if (!o.noMemory)
+    judgeGrowth(v, record, std::min<std::uint64_t>(100'000, o.frames / 5), c.frames < o.frames);
   return v.well();
 }
 
@@ -261,9 +265,9 @@ int soak(SoakOptions o) {
     return std::fprintf(stderr, "stadion: %s\n", provider.error().message.c_str()), kInternalFault;
   Soak run(o, *record, *provider.value(), stop);
   if (!run.play()) return kBadInput;
-  const bool well = tellVerdicts(o, *record);
-  if (record->counts.frames < o.frames) return kStopped + stopSignal();
-  return well ? kOk : kCheckFailed;
+  if (!tellVerdicts(o, *record)) return kCheckFailed;
+  if (record->incomplete()) return kBadInput;
+  return record->counts.frames < o.frames ? kStopped + stopSignal() : kOk;
 }
 
 }  // namespace
@@ -292,7 +296,8 @@ void addSoakCommand(CLI::App& app, int& code) {
       "Fails (exit code 1) if memory grows by 1 KiB or more in 10 000 frames of a visit, or by 4 KiB from\n"
       "visit to visit, or could not be judged; if handles or threads become more, if a frame is not one "
       "tick\n"
-      "after the one before, or if the same frame of a show has another state than before. docs/all-day.md");
+      "after the one before, or if the same frame of a show has another state than before: also when it is\n"
+      "stopped. docs/all-day.md");
   command->callback([o, &code] { code = soak(*o); });
 }
 

@@ -1,15 +1,19 @@
 #include "cli/soak_record.h"
 
+#include "engine/append.h"
 #include "engine/plain_file.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fmt/format.h>
+#include <fcntl.h>
 #include <sstream>
+#include <sys/file.h>
+#include <sys/stat.h>
 
 namespace stadion {
 namespace {
@@ -18,6 +22,8 @@ using Json = nlohmann::json;
 
 constexpr int kVersion = 2;
 constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
+/// No frames, bytes or files are more; whoever adds some up need not think of overflows.
+constexpr std::uint64_t kMostNumber = std::uint64_t{1} << 53U;
 
 Json jsonOf(const SoakCounts& c) {
   return {c.frames, c.visits,     c.changes,     c.throws,   c.refused,
@@ -32,63 +38,122 @@ SoakCounts countsOf(const Json& j) {
   return c;
 }
 
+/// Whether it is UTF-8: else something is left out, or something else stands there.
+bool isText(const Json& words) {
+  using What = Json::error_handler_t;
+  return words.dump(-1, ' ', true, What::ignore) == words.dump(-1, ' ', true, What::replace);
+}
+
+bool isNumber(const Json& j) {
+  return j.is_number_unsigned() && j.get<std::uint64_t>() <= kMostNumber;
+}
+
+bool areNumbers(const Json& j, std::size_t many) {
+  return j.is_array() && j.size() == many && std::all_of(j.begin(), j.end(), isNumber);
+}
+
+/// As jsonOf() makes them: whole numbers, and the seconds.
+bool areCounts(const Json& j) {
+  if (!j.is_array() || j.size() != 10 || !std::all_of(j.begin(), j.end() - 1, isNumber)) return false;
+  const Json& seconds = j.back();
+  return seconds.is_number() && std::isfinite(seconds.get<double>()) && seconds.get<double>() >= 0;
+}
+
+/// What stands at `key`, null if that is not there.
+const Json& valueAt(const Json& j, const char* key) {
+  static const Json none;
+  const auto at = j.find(key);
+  return at == j.end() ? none : *at;
+}
+
 }  // namespace
 
 std::unique_ptr<SoakRecord> SoakRecord::open(const std::string& file, const std::string& what,
                                              Diagnostics& findings) {
-  std::unique_ptr<SoakRecord> record(new SoakRecord);
+  std::unique_ptr<SoakRecord> record(new SoakRecord(file));
   if (file.empty()) return record;
-  std::error_code none;
-  const bool goesOn = std::filesystem::exists(file, none) && std::filesystem::file_size(file, none) > 0;
-  if (goesOn) {
-    const auto text = readPlainFile(file, kMostBytes);
-    if (!text) return findings.add(text.error()), nullptr;
-    if (!record->read(text.value(), what))
-      return findings.error({file, 0, 0}, "is no record of this soak (" + what + "); name another file"),
-             nullptr;
-  }
-  record->file_ = std::fopen(file.c_str(), "ae");
-  if (!record->file_)
-    return findings.error({}, "--record: " + file + " cannot be written: " + std::strerror(errno)), nullptr;
-  // What a run that was killed has left of a line stays a line of its own.
-  record->write(goesOn ? "" : Json{{"stadion-soak", kVersion}, {"what", what}}.dump());
+  if (!isText(what))
+    return findings.error({}, "--record: it cannot hold a name that is not UTF-8 (" + what + ")"), nullptr;
+  if (!record->lock(findings) || !record->read(what, findings)) return nullptr;
   return record;
 }
 
-SoakRecord::~SoakRecord() {
-  if (file_) std::fclose(file_);
+/// Opens the file, for nobody else.
+bool SoakRecord::lock(Diagnostics& findings) {
+  const auto refuse = [&](const std::string& why) {
+    findings.error({}, "--record: " + name_ + why);
+    return false;
+  };
+  constexpr int kHow = O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
+  file_ = Descriptor(::open(name_.c_str(), kHow, 0666));
+  struct stat about {};
+  if (!file_ || fstat(file_.get(), &about) != 0)
+    return refuse(std::string(" cannot be written: ") + std::strerror(errno));
+  if (!S_ISREG(about.st_mode)) return refuse(" is no plain file, to which lines could be added");
+  if (flock(file_.get(), LOCK_EX | LOCK_NB) == 0) return true;
+  if (errno == EWOULDBLOCK)
+    return refuse(": another process is writing it; wait for it, or name another file");
+  return refuse(std::string(" cannot be locked: ") + std::strerror(errno));
 }
 
-bool SoakRecord::read(const std::string& text, const std::string& what) {
-  std::istringstream in(text);
+/// What is in the file, if that is a record of this soak; an empty one becomes one.
+bool SoakRecord::read(const std::string& what, Diagnostics& findings) {
+  const std::string none = "is no record of this soak (" + what + ")", other = "; name another file";
+  const auto text = readPlainFile(file_.get(), name_, kMostBytes);
+  if (!text) return findings.add(text.error()), false;
+  const Json head{{"stadion-soak", kVersion}, {"what", what}};
+  if (text.value().empty()) return write(head.dump()), true;
+  std::istringstream in(text.value());
   std::string line;
-  const auto parsed = [&] { return Json::parse(line, nullptr, false); };
-  if (!std::getline(in, line)) return false;
-  const Json head = parsed();
-  if (!head.is_object() || head.value("stadion-soak", 0) != kVersion || head.value("what", "") != what)
-    return false;
-  std::uint32_t last = 0;
-  while (std::getline(in, line)) try {
-      const Json j = Json::parse(line);
-      if (j.contains("sample")) {
-        const Json& s = j.at("sample");
-        samples_.push_back({s.at(0), s.at(1), s.at(2), s.at(3), s.at(4), s.at(5), s.at(6)});
-        counts = countsOf(j.at("counts"));
-        last = samples_.back().process;
-      } else {
-        known(j.at("show"), j.at("frame"), j.at("history"));
-      }
-    } catch (const Json::exception&) {
-      continue;  // half a line: the run ended there
-    }
-  process_ = samples_.empty() ? 0 : last + 1;
+  std::getline(in, line);
+  if (!(Json::parse(line, nullptr, false) == head)) return findings.error({name_, 0, 0}, none + other), false;
+  for (std::uint32_t number = 2; std::getline(in, line); ++number) {
+    const Json j = Json::parse(line, nullptr, false);
+    if (j.is_discarded()) continue;  // half a line: a run was killed there
+    if (const char* why = readLine(j))
+      return findings.error({name_, number, 0}, none + ": this line " + why + other), false;
+  }
+  process_ = samples_.empty() ? 0 : samples_.back().process + 1;
+  write("");  // what a run that was killed has left of a line stays a line of its own
   return true;
 }
 
+/// What is wrong with it; null: nothing.
+const char* SoakRecord::readLine(const Json& line) {
+  if (!line.is_object()) return "is neither a sample nor a history";
+  if (line.contains("sample")) return readSample(valueAt(line, "sample"), valueAt(line, "counts"));
+  const Json &show = valueAt(line, "show"), &frame = valueAt(line, "frame"),
+             &history = valueAt(line, "history");
+  if (!show.is_string() || !isNumber(frame) || !history.is_number_unsigned())
+    return "is neither a sample nor a history";
+  const auto before = known(show, frame, history);
+  return before && *before != history.get<std::uint64_t>() ? "has another history of a frame than one before"
+                                                           : nullptr;
+}
+
+const char* SoakRecord::readSample(const Json& s, const Json& c) {
+  if (!areNumbers(s, 7) || !areCounts(c)) return "has a sample whose figures cannot be";
+  const SoakCounts now = countsOf(c);
+  const std::uint64_t process = s.at(0), visit = s.at(1), frame = s.at(2);
+  if (frame != now.frames || visit != now.visits) return "has a sample of another frame than its counts are";
+  const std::uint64_t lastProcess = samples_.empty() ? 0 : samples_.back().process;
+  if (process != lastProcess && (samples_.empty() || process != lastProcess + 1))
+    return "has a sample of a process whose turn it is not";
+  if (frame < counts.frames || visit < counts.visits) return "has a sample of before the one before";
+  samples_.push_back({s.at(0), visit, frame, s.at(3), s.at(4), s.at(5), s.at(6)});
+  counts = now;
+  return nullptr;
+}
+
+// With a line left out, those after it would say of the whole what they do not know.
 void SoakRecord::write(const std::string& line) {
-  if (!file_) return;
-  std::fprintf(file_, "%s\n", line.c_str());
-  std::fflush(file_);
+  if (!file_ || incomplete_) return;
+  const int why = appendWhole(file_.get(), line + "\n");
+  if (why == 0) return;
+  incomplete_ = true;
+  std::fprintf(stderr,
+               "stadion: --record: %s: cannot be written: %s; the record ends here, the soak goes on\n",
+               name_.c_str(), std::strerror(why));
 }
 
 void SoakRecord::add(SoakSample s) {

@@ -4,16 +4,21 @@
 /// One JSON object a line, added and flushed as it comes, so that whatever ends the run loses a sample at
 /// most.
 ///
+/// A record is one process's at a time: it holds a lock on the file.
+///
 /// Threads  App's.
-/// Errors   in the findings: the file cannot be written, or is no record of the same soak.
+/// Errors   in the findings: the file cannot be written, another process is writing it, or it is no record
+///          of the same soak. A line that cannot be written later on (a full disk) is told once on stderr;
+///          then the record ends there, whole, and the soak goes on without.
 
 #include "engine/diagnostic.h"
+#include "pipeline/output/child_process.h"
 #include "profiling/soak/growth.h"
 
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,9 +44,6 @@ public:
   /// `file`: empty = nowhere. `what` says what is played; a record of something else is refused.
   static std::unique_ptr<SoakRecord> open(const std::string& file, const std::string& what,
                                           Diagnostics& findings);
-  ~SoakRecord();
-  SoakRecord(const SoakRecord&) = delete;
-  SoakRecord& operator=(const SoakRecord&) = delete;
 
   SoakCounts counts;
   const std::vector<SoakSample>& samples() const { return samples_; }
@@ -50,14 +52,21 @@ public:
   void add(SoakSample sample);
   /// Whether that frame of the show had this history of states before; the first time it is noted.
   bool agrees(const std::string& show, std::uint64_t frame, std::uint64_t history);
+  /// Something could not be written.
+  bool incomplete() const { return incomplete_; }
 
 private:
-  SoakRecord() = default;
-  bool read(const std::string& text, const std::string& what);
+  explicit SoakRecord(std::string name) : name_(std::move(name)) {}
+  bool lock(Diagnostics& findings);
+  bool read(const std::string& what, Diagnostics& findings);
+  const char* readLine(const nlohmann::json& line);
+  const char* readSample(const nlohmann::json& sample, const nlohmann::json& counts);
   std::optional<std::uint64_t> known(const std::string& show, std::uint64_t frame, std::uint64_t history);
   void write(const std::string& line);
 
-  std::FILE* file_ = nullptr;
+  std::string name_;  ///< empty: nothing is written
+  Descriptor file_;
+  bool incomplete_ = false;
   std::uint32_t process_ = 0;
   std::vector<SoakSample> samples_;
   /// By show, then by frame: flat, so that the soak itself hardly grows.

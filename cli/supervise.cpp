@@ -51,7 +51,8 @@ std::vector<std::string> playerWords(int descriptor) {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::vector<std::string> words;
   for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
-  std::erase(words, "--supervise");
+  std::erase_if(words,
+                [](const std::string& w) { return w == "--supervise" || w.starts_with("--supervise="); });
   words.front() = std::filesystem::canonical("/proc/self/exe").string();
   const auto run = std::ranges::find(words, "run");
   const std::vector<std::string> own{"--supervised", std::to_string(descriptor)};
@@ -70,9 +71,8 @@ public:
 
 private:
   struct End {
-    int status = 0;           ///< exit status; 128 + signal
-    Nanoseconds hung = 0;     ///< so long no picture came, and it was killed
-    std::uint64_t shown = 0;  ///< frames
+    int status = 0;        ///< exit status; 128 + signal
+    Nanoseconds hung = 0;  ///< so long no picture came, and it was killed
   };
   std::optional<End> playOnce();
   bool hangs(Nanoseconds since, std::uint64_t shownBefore) const;
@@ -95,9 +95,10 @@ private:
 void Supervisor::say(const std::string& line) {
   std::fprintf(stderr, "supervise: %s\n", line.c_str());
   const SharedProgress::Moment at = progress_->newest();
-  if (journal_)
-    journal_->add("supervise: " + line,
-                  at.clock > 0 ? std::optional(Journal::Place{at.time, at.frame}) : std::nullopt);
+  if (!journal_) return;
+  const auto why = journal_->add(
+      "supervise: " + line, at.clock > 0 ? std::optional(Journal::Place{at.time, at.frame}) : std::nullopt);
+  if (why) std::fprintf(stderr, "supervise: --journal: %s; lines are lost\n", why->c_str());
 }
 
 /// False: the run is to end.
@@ -154,16 +155,16 @@ std::optional<Supervisor::End> Supervisor::playOnce() {
     end.status = kStopped + SIGKILL;
     break;
   }
-  end.shown = progress_->framesShown() - before;
   if (end.status > kStopped) terminal_.giveBack();
   return end;
 }
 
 /// Whether another player is to go on. What the user asked for, and what is wrong with the show, is no
-/// reason; but a show that did play may be mended while a later player waits.
+/// reason; but a show that did play may be mended while a later player waits. What could not be written of
+/// one that is over is no reason either.
 bool Supervisor::isDeath(const End& end) const {
   if (stop_ || end.status == kStopped + SIGINT || end.status == kStopped + SIGTERM) return false;
-  if (end.status == kBadInput) return progress_->starts() > 1;
+  if (end.status == kBadInput) return progress_->starts() > 1 && progress_->phase() != Phase::Ending;
   return end.hung > 0 || end.status > kStopped || end.status == kInternalFault;
 }
 
@@ -182,7 +183,7 @@ int Supervisor::play() {
     if (!isDeath(*end)) return end->status;
     if (gone_ == 0) gone_ = progress_->lastShown();
     const SharedProgress::Moment last = progress_->newest();
-    const Recovery::Step step = recovery_.died(last.frame, end->shown);
+    const Recovery::Step step = recovery_.died(last.time, progress_->played());
     const std::string died =
         fmt::format("the player {} at frame {}, {:.3f} s", howOf(*end), last.frame, toSeconds(last.time));
     if (step.way == Recovery::Way::GiveUp) {

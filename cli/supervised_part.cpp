@@ -12,6 +12,12 @@ namespace {
 /// How often the scene is kept, unless that takes more than a thousandth of the time.
 constexpr Nanoseconds kKeepEvery = fromSeconds(5), kKeepSeldom = fromSeconds(60);
 constexpr Nanoseconds kShare = 1000;
+/// While a player catches up: unless that takes more than a twentieth.
+constexpr Nanoseconds kKeepSoon = fromSeconds(1), kSoonShare = 20;
+
+std::string timesOf(std::uint64_t count) {
+  return count == 1 ? "once" : fmt::format("{} times", count);
+}
 
 }  // namespace
 
@@ -44,11 +50,14 @@ void SupervisedPart::beginAgain() {
 void SupervisedPart::goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watch) {
   step_ = fromSeconds(1 / loop.rate);
   desk.changed = [this](const OperatorState& state) { obeyed(state); };
+  progress_->catchesUpUntil(machineClock());
   if (std::exchange(wentOn_, true) || progress_->starts() < 2) return obeyed(desk.state());
   state_.reset();
   desk.resume(desk_);
   const Nanoseconds at = from_ ? from_->time : 0;
   loop.late = std::max<Nanoseconds>(0, progress_->timeNow() - at);
+  progress_->catchesUpUntil(machineClock() + loop.late);
+  catchesUp_ = true, nextKept_ = machineClock() + kKeepSoon;
   if (from_) {
     loop.after = TimeSignature{from_->frame, from_->time, 0, {}};
     watch.goOnFrom(from_->history);
@@ -60,9 +69,11 @@ void SupervisedPart::goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watc
                    paced ? fmt::format(", and catches up to {:.3f} s", toSeconds(at + loop.late)) : ""));
 }
 
-void SupervisedPart::simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch) {
+void SupervisedPart::simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch, bool late) {
   progress_->simulated(now);
-  if (machineClock() >= nextKept_) keep(now, scene, watch);
+  const bool arrived = catchesUp_ && !late;
+  if (arrived) catchesUp_ = false, progress_->catchesUpUntil(machineClock());
+  if (arrived || machineClock() >= nextKept_) keep(now, scene, watch);
 }
 
 void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch& watch) {
@@ -73,7 +84,7 @@ void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch
   const Nanoseconds took = machineClock() - begin;
   ++times_, longest_ = std::max(longest_, took);
   const Nanoseconds pause = std::clamp(kShare * took, kKeepEvery, kKeepSeldom);
-  nextKept_ = begin + pause;
+  nextKept_ = begin + (catchesUp_ ? std::clamp(kSoonShare * took, kKeepSoon, pause) : pause);
   if (told_ || (kept && took < step_)) return;
   told_ = true;
   say_(kept
@@ -87,13 +98,11 @@ void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch
 std::string SupervisedPart::remark() const {
   std::string words;
   if (progress_->starts() > 1)
-    words =
-        fmt::format("the player was replaced {} times; frames, times and what happened are of the last one",
-                    progress_->starts() - 1);
+    words = fmt::format("the player was replaced {}; frames, times and what happened are of the last one",
+                        timesOf(progress_->starts() - 1));
   if (times_ > 0)
-    words +=
-        fmt::format("{}the scene ({} bytes) was kept {} times for the next player, each in {:.2f} ms at most",
-                    words.empty() ? "" : "; ", bytes_, times_, 1e3 * toSeconds(longest_));
+    words += fmt::format("{}the scene ({} bytes) was kept {} for the next player, in {:.2f} ms at most",
+                         words.empty() ? "" : "; ", bytes_, timesOf(times_), 1e3 * toSeconds(longest_));
   return words;
 }
 

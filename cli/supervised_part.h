@@ -1,6 +1,8 @@
 #pragma once
 /// A player's part in `run --supervise`: it says how far it is, keeps the show's scene every few seconds
-/// where it outlives the player, and goes on from there if it is not the first one.
+/// where it outlives the player, and goes on from there if it is not the first one. Then it keeps the scene
+/// as soon as it has caught up, and while it does every second: if it dies soon, the next one has less to
+/// catch up with than it had.
 ///
 /// Threads  main, but for simulated(), which is App's, and shown(), which is the Draw thread's that swaps.
 
@@ -31,7 +33,8 @@ public:
   /// The next group's show begins.
   void beginGroup() { progress_->forget(); }
   void obeyed(const OperatorState& state) { progress_->obeyed(state); }
-  void simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch);
+  /// `late`: it is still catching up.
+  void simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch, bool late);
   void shown() { progress_->shown(); }
 
   /// What there is to say of it in a summary: players before this one, and what keeping the scene took.
@@ -46,7 +49,7 @@ private:
   std::optional<SharedProgress::Kept> from_;
   std::shared_ptr<const std::vector<std::uint8_t>> state_;
   OperatorState desk_;
-  bool wentOn_ = false;
+  bool wentOn_ = false, catchesUp_ = false;
   Nanoseconds nextKept_ = 0;  ///< machineClock()
   Nanoseconds step_ = 0;      ///< the longest time that keeping may take unnoticed
   bool told_ = false;

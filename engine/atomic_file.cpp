@@ -1,9 +1,13 @@
 #include "engine/atomic_file.h"
 
+#include "engine/folder_names.h"
+
 #include <fmt/format.h>
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <sys/stat.h>
@@ -16,13 +20,24 @@ namespace fs = std::filesystem;
 
 constexpr int kMostLinks = 40;  ///< as many as the system follows
 
+/// How the names of all temporary files for that one begin.
+std::string beginOfParts(const fs::path& target) {
+  return fmt::format(".{}.", target.filename().string().substr(0, 200));
+}
+
 /// A name that no other writer of this machine uses at the same time.
-std::string temporaryFor(const std::string& path) {
+std::string temporaryFor(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
-  const fs::path target(path);
-  const std::string name = fmt::format(".{}.{}-{}.part", target.filename().string().substr(0, 200), getpid(),
-                                       counter.fetch_add(1));
+  const std::string name = fmt::format("{}{}-{}.part", beginOfParts(target), getpid(), counter.fetch_add(1));
   return (target.parent_path() / name).string();
+}
+
+/// Whether "PID-NUMBER.part" is of a process that there is no more.
+bool isOfGoneProcess(std::string_view rest) {
+  pid_t writer = 0;
+  const auto [end, wrong] = std::from_chars(rest.data(), rest.data() + rest.size(), writer);
+  if (wrong != std::errc() || writer <= 0 || end == rest.data() + rest.size() || *end != '-') return false;
+  return rest.ends_with(".part") && ::kill(writer, 0) != 0 && errno == ESRCH;
 }
 
 /// A link in /proc names a file that somebody has open: it cannot be replaced under him.
@@ -116,6 +131,17 @@ void AtomicFile::discard() {
   file_ = nullptr;
   if (!temporary_.empty()) unlink(temporary_.c_str());
   temporary_.clear();
+}
+
+std::vector<std::string> partsOfKilledWriters(const std::string& path) {
+  const fs::path target = targetOf(path).value_or("");
+  const std::string begin = beginOfParts(target);
+  std::vector<std::string> parts;
+  if (target.empty()) return parts;
+  for (const std::string& name : namesIn(target.has_parent_path() ? target.parent_path().string() : "."))
+    if (name.starts_with(begin) && isOfGoneProcess(std::string_view(name).substr(begin.size())))
+      parts.push_back((target.parent_path() / name).string());
+  return parts;
 }
 
 std::optional<Diagnostic> writeFile(const std::string& path, std::string_view content) {

@@ -6,7 +6,8 @@
 /// symbolic link stays: the target is what it leads to, there or not yet. A target that exists and is no
 /// plain file (a device, a pipe), or that a link names as an open file (/dev/stdout), is written directly.
 ///
-/// Ownership  owns the temporary file; without commit() it is removed again.
+/// Ownership  owns the temporary file; without commit() it is removed again. Only a writer that is killed
+///            leaves it: .NAME.PID-NUMBER.part.
 /// Threads    one thread at a time.
 /// Errors     the first one is kept and reported by commit(); writing after it does nothing.
 
@@ -17,6 +18,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace stadion {
 
@@ -55,6 +57,9 @@ private:
   std::FILE* file_ = nullptr;
   std::optional<Diagnostic> error_;
 };
+
+/// What writers of that file have left which are gone: they were killed, or the machine died.
+std::vector<std::string> partsOfKilledWriters(const std::string& path);
 
 /// The whole content at once.
 std::optional<Diagnostic> writeFile(const std::string& path, std::string_view content);

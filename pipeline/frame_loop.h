@@ -81,6 +81,8 @@ public:
   const FrameTimes& times() const { return times_; }
   /// Ends the show after the frame that App is working on. For App's own thread.
   void endAfterThisFrame() { ending_ = true; }
+  /// Whether the show began late and has not caught up yet. For App's own thread.
+  bool catchesUp() const { return pacer_.catchesUp(); }
 
 private:
   struct StageThreads;

@@ -5,7 +5,7 @@
 /// written as records of its own.
 ///
 /// Ownership  owns the file, which appears under its name only with commit(); without it nothing is left
-///            behind.
+///            behind, unless the process is killed.
 /// Threads    one thread.
 /// Errors     kept until commit(): a full disk does not end the show, and what could be written is kept as
 ///            PATH.partial, a log of its own. A tracker that is not

@@ -1,5 +1,6 @@
 #include "pipeline/output/journal.h"
 
+#include "engine/append.h"
 #include "pipeline/output/child_process.h"
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -64,39 +66,44 @@ Result<std::unique_ptr<Journal>> Journal::open(std::string file, std::size_t lim
   return std::unique_ptr<Journal>(new Journal(std::move(file), limit));
 }
 
-void Journal::add(std::string_view what, std::optional<Place> at) {
+std::optional<std::string> Journal::add(std::string_view what, std::optional<Place> at) {
   const std::string place =
       at ? fmt::format("t={:.3f} f={}", toSeconds(at->time), at->frame) : std::string("-");
   const std::lock_guard lock(mutex_);
   const std::string lost =
       lost_ > 0 ? fmt::format("{}  -  {} lines before this one could not be written\n", dateAndTime(), lost_)
                 : "";
-  if (write(fmt::format("{}{}  {}  {}\n", lost, dateAndTime(), place, oneLine(what))))
-    lost_ = 0;
-  else
-    ++lost_;
+  const auto why = write(fmt::format("{}{}  {}  {}\n", lost, dateAndTime(), place, oneLine(what)));
+  lost_ = why ? lost_ + 1 : 0;
+  if (!why || std::exchange(incomplete_, true)) return {};
+  return file_ + ": cannot be written: " + *why;
+}
+
+bool Journal::incomplete() const {
+  const std::lock_guard lock(mutex_);
+  return incomplete_;
 }
 
 // Whoever moves the file on holds the lock of the old one; who has opened that meanwhile looks again.
-bool Journal::write(std::string_view line) {
+std::optional<std::string> Journal::write(std::string_view line) {
   constexpr int kTries = 8;
   for (int i = 0; i < kTries; ++i) {
     const Descriptor file = openToAppend(file_);
-    if (!file || flock(file.get(), LOCK_EX) != 0) return false;
     struct stat ours {
     }, named{};
-    if (fstat(file.get(), &ours) != 0 || !S_ISREG(ours.st_mode)) return false;
+    if (!file || flock(file.get(), LOCK_EX) != 0 || fstat(file.get(), &ours) != 0)
+      return std::strerror(errno);
+    if (!S_ISREG(ours.st_mode)) return "it is no plain file";
     if (stat(file_.c_str(), &named) != 0 || named.st_ino != ours.st_ino || named.st_dev != ours.st_dev)
       continue;
     if (ours.st_size > 0 && static_cast<std::size_t>(ours.st_size) + line.size() > limit_) {
       moveOn(file_);
       continue;
     }
-    if (::write(file.get(), line.data(), line.size()) == static_cast<ssize_t>(line.size())) return true;
-    (void)!ftruncate(file.get(), ours.st_size);  // no half line, to which the next one would be added
-    return false;
+    const int why = appendWhole(file.get(), line);
+    return why == 0 ? std::nullopt : std::optional<std::string>(std::strerror(why));
   }
-  return false;
+  return "others replace it again and again";
 }
 
 }  // namespace stadion

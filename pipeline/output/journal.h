@@ -8,9 +8,8 @@
 /// renamed to FILE.1, what was FILE.1 to FILE.2, and so on to FILE.3; older lines go.
 ///
 /// Threads  any.
-/// Errors   open() says why a file cannot be written. Later on (a full disk) lines are lost, and the show
-/// goes
-///          on; the first line that can be written again says how many were.
+/// Errors   open() says why a file cannot be written. Later on (a full disk) lines are lost, which add() says
+///          once, and the show goes on; the first line that can be written again says how many were.
 
 #include "engine/diagnostic.h"
 #include "engine/time_signature.h"
@@ -37,18 +36,22 @@ public:
     Nanoseconds time = 0;  ///< show time [ns]
     std::uint64_t frame = 0;
   };
-  /// `what` is one line; whatever cannot stand in one is written as a blank.
-  void add(std::string_view what, std::optional<Place> at = {});
+  /// `what` is one line; whatever cannot stand in one is written as a blank. Why the first line was lost that
+  /// could not be written, else nothing.
+  std::optional<std::string> add(std::string_view what, std::optional<Place> at = {});
+  /// Lines have been lost.
+  bool incomplete() const;
   const std::string& file() const { return file_; }
 
 private:
   Journal(std::string file, std::size_t limit) : file_(std::move(file)), limit_(limit) {}
-  bool write(std::string_view line);
+  std::optional<std::string> write(std::string_view line);
 
   std::string file_;
   std::size_t limit_;
-  std::mutex mutex_;
-  std::uint64_t lost_ = 0;  ///< lines
+  mutable std::mutex mutex_;  ///< of the next ones
+  std::uint64_t lost_ = 0;    ///< lines, of which the file does not tell yet
+  bool incomplete_ = false;
 };
 
 }  // namespace stadion

@@ -4,13 +4,13 @@
 
 namespace stadion {
 
-Recovery::Step Recovery::died(std::uint64_t frame, std::uint64_t shown) {
-  if (deaths_ > 0 && (frame >= steadyAt_ || shown >= kLong)) deaths_ = 0;
+Recovery::Step Recovery::died(Nanoseconds time, Nanoseconds played) {
+  if (deaths_ > 0 && (time >= steadyAt_ || played >= kLong)) deaths_ = 0;
   ++deaths_;
   if (deaths_ >= kMost) return {Way::GiveUp, {}};
   const bool again = deaths_ >= kFromScene;
   // A show that begins again has not come anywhere near yet.
-  steadyAt_ = kSteady + (again ? 0 : frame);
+  steadyAt_ = kSteady + (again ? 0 : time);
   const Milliseconds pause =
       deaths_ == 1 ? Milliseconds(0) : std::min(kLongest, kShortest * (1 << (deaths_ - 2)));
   return {again ? Way::BeginAgain : Way::GoOn, pause};

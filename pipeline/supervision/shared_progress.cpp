@@ -13,7 +13,7 @@
 namespace stadion {
 namespace {
 
-constexpr std::uint64_t kMark = 0x3176'7065'6573'7453;  ///< of this layout
+constexpr std::uint64_t kMark = 0x3276'7065'6573'7453;  ///< of this layout
 constexpr off_t kPageBytes = 4096;
 /// Of each of the two scenes; what is not written takes no memory.
 constexpr std::uint64_t kRoom = std::uint64_t{1} << 36U;
@@ -38,7 +38,7 @@ struct SharedProgress::Page {
   std::uint64_t mark = kMark;
   std::atomic<Phase> phase = Phase::Opening;
   std::atomic<std::uint64_t> starts = 0, shown = 0;
-  std::atomic<Nanoseconds> lastShown = 0;
+  std::atomic<Nanoseconds> lastShown = 0, caughtUp = 0;
   Newest<Moment> moment;
   Newest<Kept> kept;
   Newest<OperatorState> desk;
@@ -116,6 +116,10 @@ bool SharedProgress::keep(Kept kept, std::span<const std::uint8_t> scene) {
   return true;
 }
 
+void SharedProgress::catchesUpUntil(Nanoseconds clock) {
+  page_->caughtUp = clock;
+}
+
 void SharedProgress::forget() {
   page_->moment.serial = 0;
   page_->kept.serial = 0;
@@ -137,6 +141,11 @@ std::uint64_t SharedProgress::framesShown() const {
 
 Nanoseconds SharedProgress::lastShown() const {
   return page_->lastShown;
+}
+
+Nanoseconds SharedProgress::played() const {
+  const Nanoseconds since = page_->caughtUp;
+  return since == 0 ? 0 : std::max<Nanoseconds>(0, page_->lastShown - since);
 }
 
 std::optional<SharedProgress::Kept> SharedProgress::kept() const {
@@ -177,6 +186,7 @@ std::uint64_t SharedProgress::starts() const {
 
 void SharedProgress::countStart() {
   ++page_->starts;
+  page_->caughtUp = 0;
 }
 
 }  // namespace stadion

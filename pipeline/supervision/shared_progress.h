@@ -68,6 +68,8 @@ public:
   void shown();
   /// False if there is no memory for it; the one before is then still the newest.
   bool keep(Kept kept, std::span<const std::uint8_t> scene);
+  /// The player simulates what it has missed until then, by machineClock(), at the latest.
+  void catchesUpUntil(Nanoseconds clock);
   /// A show begins from its start: no moment and no scene of before is of it.
   void forget();
   /// What the operator has decided.
@@ -76,6 +78,8 @@ public:
   Moment newest() const;
   std::uint64_t framesShown() const;
   Nanoseconds lastShown() const;  ///< machineClock(); 0: none yet
+  /// How long the present player has shown pictures since it had caught up; 0 until then [ns].
+  Nanoseconds played() const;
   std::optional<Kept> kept() const;
   /// The scene of kept(); empty if it cannot be read.
   std::vector<std::uint8_t> scene() const;

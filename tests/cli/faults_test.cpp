@@ -76,6 +76,14 @@ protected:
   std::string show_;
 };
 
+/// The first of those that the process has started; 0 = there is none.
+pid_t childOf(pid_t process) {
+  const std::string pid = std::to_string(process);
+  pid_t child = 0;
+  std::ifstream("/proc/" + pid + "/task/" + pid + "/children") >> child;
+  return child;
+}
+
 /// Of the last frame, as the text at the end says it.
 std::string hashOf(const ProgramResult& r) {
   const std::size_t line = r.out.find("state hash of frame ");
@@ -226,6 +234,60 @@ TEST_F(ProgramFaults, ADiskThatIsFullWhenTheLastFramesAreToBeKeptIsToldAndTheSho
   EXPECT_EQ(hashOf(r), hashOf(whole));
 }
 
+TEST_F(ProgramFaults, ADiskThatIsFullWhileASoakIsRecordedIsToldAndTheSoakGoesOn) {
+  const std::string record = file("soak.record");
+  const std::vector<std::string> words{stadionPath(), "soak",        "--frames", "1000", "--visit",
+                                       "1000",        "--no-memory", "--record", record};
+  ProgramRun full = run("write error=28 after=150 path=soak.record");
+  full.words = words;
+  const ProgramResult r = runProgram(full);
+  EXPECT_EQ(r.status, 2) << r.err;
+  const std::string told = "soak.record: cannot be written: No space left on device";
+  EXPECT_TRUE(has(r.err, told)) << r.err;
+  EXPECT_EQ(r.err.find(told), r.err.rfind(told)) << "once: " << r.err;
+  EXPECT_TRUE(has(r.out, "1000 frames in 1 visits")) << r.out;
+  const std::string text = fileContent(record);
+  EXPECT_TRUE(text.ends_with("}\n")) << "no half line: " << text;
+  // A run that finds room goes on with it; a check that fails counts for more than the record.
+  EXPECT_EQ(runProgram({words}).status, 0);
+  const std::size_t history = fileContent(record).find("\"history\":") + 10;
+  folder_.write("soak.record", fileContent(record).insert(history, "1").substr(0, text.size() + 200));
+  EXPECT_EQ(runProgram(full).status, 1);
+}
+
+TEST_F(ProgramFaults, ADiskThatIsFullWhenTheJournalIsWrittenIsToldAndTheShowGoesOn) {
+  const ProgramResult whole = runProgram(run("", {"--gl", "none"}));
+  const std::string journal = file("run.log");
+  const ProgramResult r =
+      runProgram(run("write error=28 after=100 path=run.log", {"--gl", "none", "--journal", journal}));
+  EXPECT_EQ(r.status, 2) << r.err;
+  const std::string told = "run.log: cannot be written: No space left on device";
+  EXPECT_TRUE(has(r.err, told)) << r.err;
+  EXPECT_EQ(r.err.find(told), r.err.rfind(told)) << "once: " << r.err;
+  EXPECT_EQ(hashOf(r), hashOf(whole));
+  const std::string text = fileContent(journal);
+  EXPECT_TRUE(text.empty() || text.ends_with("\n")) << "no half line: " << text;
+}
+
+/// The player and who watches over it have the same fault.
+TEST_F(ProgramFaults, AWatchedShowWhoseJournalIsOnAFullDiskIsPlayedOnce) {
+  const std::string journal = file("run.log");
+  ProgramRun watched = run("write error=28 path=run.log", {"--gl", "none", "--pace", "lock", "--seconds", "6",
+                                                           "--supervise", "--journal", journal});
+  RunningProgram program(watched);
+  ASSERT_TRUE(program.says("stadion: --journal: "));
+  ASSERT_TRUE(program.waitUntil([&] { return childOf(program.pid()) > 0; }));
+  ::kill(childOf(program.pid()), SIGKILL);
+  ASSERT_TRUE(
+      program.says("supervise: --journal: " + journal + ": cannot be written: No space left on device"));
+  ASSERT_TRUE(program.says("stadion: --journal: ", 2)) << "the second player";
+  EXPECT_EQ(program.status(), 2) << program.err();
+  const std::string err = program.err();
+  EXPECT_EQ(err.find("supervise: --journal: "), err.rfind("supervise: --journal: ")) << "once: " << err;
+  EXPECT_FALSE(has(err, "exit code 2")) << "a show that is over is not played again: " << err;
+  EXPECT_EQ(fileContent(journal), "");
+}
+
 TEST_F(ProgramFaults, AClockThatIsSetChangesNothing) {
   const std::vector<std::string> words{"--gl", "none", "--pace", "lock", "--seconds", "1"};
   const ProgramResult whole = runProgram(run("", words));
@@ -302,6 +364,32 @@ TEST_F(ProgramFaultsLive, AProgramThatStoodStillGoesOnByTheClock) {
   ASSERT_TRUE(summary.is_object()) << program.out();
   EXPECT_GE(summary.value("most_passed_over", 0), 20);  // of forty ticks that nobody could see
   EXPECT_GT(summary.value("seconds", 0.0), 1.5);        // the show's time went on with the clock
+}
+
+/// By SIGKILL or a power cut, nothing is tidied up.
+TEST_F(ProgramFaults, ARunThatIsKilledLeavesARecordThatTheNextOneTellsOf) {
+  const std::string record = file("visit.input");
+  const std::string hour =
+      folder_.write("hour.input", "stadion-input 1\nkey head 0  0 0 1.7\nkey head 3600  0 9 1.7  smooth\n");
+  RunningProgram program(
+      run("", {"--gl", "none", "--pace", "lock", "--input", hour, "--record-input", record}));
+  ASSERT_TRUE(program.waitUntil([&] {
+    for (const std::string& name : leftOver())
+      if (fs::file_size(folder_.path() / name) > 4000) return true;
+    return false;
+  }));
+  const std::string name = fmt::format(".visit.input.{}-0.part", program.pid());
+  program.kill();
+  EXPECT_EQ(leftOver(), std::set<std::string>{name});
+  const ProgramResult next = runProgram(run("", {"--gl", "none", "--record-input", record}));
+  EXPECT_EQ(next.status, 0) << next.err;
+  EXPECT_TRUE(has(next.err, name + ": warning: ")) << next.err;
+  EXPECT_EQ(leftOver(), std::set<std::string>{name}) << "it is kept";
+  // As docs/faults.md says: without its last line, half or not, it can be played.
+  std::string text = fileContent(folder_.path() / name);
+  const std::string kept = folder_.write("kept.input", text.substr(0, text.rfind('\n') + 1));
+  const ProgramResult again = runProgram(run("", {"--gl", "none", "--input", kept}));
+  EXPECT_EQ(again.status, 0) << again.err;
 }
 
 /// Where a script may name a file, it names one that is not the show's.

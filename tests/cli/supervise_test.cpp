@@ -120,7 +120,42 @@ TEST(ProgramSupervise, TheSummarySaysWhatKeepingTheSceneTook) {
                       "32x24", "--look", "plain", "--walls", "desktop"});
   ASSERT_EQ(r.status, 0) << r.err;
   const std::string remarks = Json::parse(r.out)["remarks"].dump();
-  EXPECT_NE(remarks.find("bytes) was kept 1 times for the next player"), std::string::npos) << remarks;
+  EXPECT_NE(remarks.find("bytes) was kept once for the next player"), std::string::npos) << remarks;
+}
+
+/// Else each would have to catch up from further back than the one before.
+TEST(ProgramSupervise, APlayerThatIsKilledSoonAfterItWentOnHasKeptTheSceneForTheNextOne) {
+  Supervised run({"--gl", "none", "--rate", "240", "--pace", "lock", "--input", "none"});
+  ASSERT_TRUE(becomes([&] { return run.hasNoted("plays; nothing is drawn"); })) << fileContent(run.told());
+  std::this_thread::sleep_for(std::chrono::milliseconds(5500));  // the first one keeps it every 5 s
+  std::vector<double> from;
+  for (int n = 1; n <= 2; ++n) {
+    const auto toldTimes = [&](const std::string& what) {
+      const std::string told = fileContent(run.told());
+      int times = 0;
+      for (std::size_t at = told.find(what); at != told.npos; at = told.find(what, at + 1)) ++times;
+      return times;
+    };
+    ASSERT_EQ(kill(run.player(), SIGKILL), 0);
+    ASSERT_TRUE(becomes([&] { return toldTimes("pictures again") == n; })) << fileContent(run.told());
+    const std::string told = fileContent(run.told());
+    const auto at = secondsAfter(told.substr(told.rfind("the show ")), "from frame [0-9]+, ");
+    ASSERT_TRUE(at) << told;
+    from.push_back(*at);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  }
+  EXPECT_GT(from[1], from[0]) << fileContent(run.told());
+  ASSERT_EQ(kill(run.pid(), SIGTERM), 0);
+  EXPECT_EQ(run.end(), 128 + SIGTERM) << fileContent(run.told());
+  EXPECT_NE(fileContent(run.said()).find("replaced 2 times"), std::string::npos);
+}
+
+TEST(ProgramSupervise, HoweverTheOptionIsWrittenItIsNotThePlayers) {
+  for (const char* option : {"--supervise=true", "--supervise=1", "--supervise=on"}) {
+    const ProgramResult r =
+        stadionProgram({"run", kKick, option, "--gl", "none", "--frames", "10", "--hang-after", "20"});
+    EXPECT_EQ(r.status, 0) << option << '\n' << r.err;
+  }
 }
 
 TEST(ProgramSupervise, ALiveShowEndsWithWhoWatchesOverIt) {
@@ -135,7 +170,9 @@ TEST(ProgramSupervise, ALiveShowEndsWithWhoWatchesOverIt) {
   ASSERT_EQ(kill(run.pid(), SIGTERM), 0);
   EXPECT_EQ(run.end(), 128 + SIGTERM) << fileContent(run.told());
   EXPECT_NE(kill(second, 0), 0) << "the player is gone, too";
-  EXPECT_EQ(Json::parse(fileContent(run.said()))["stopped"], "SIGTERM");
+  const Json said = Json::parse(fileContent(run.said()));
+  EXPECT_EQ(said["stopped"], "SIGTERM");
+  EXPECT_NE(said["remarks"].dump().find("replaced once;"), std::string::npos) << said["remarks"];
 }
 
 TEST(ProgramSupervise, APlayerDoesNotOutliveWhoWatchesOverIt) {

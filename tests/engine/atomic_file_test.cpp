@@ -7,6 +7,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sstream>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace stadion {
@@ -33,6 +34,27 @@ protected:
 
   fs::path folder;
 };
+
+TEST_F(AtomicFiles, OfWritersThatAreGoneAreFoundAndOthersAreNot) {
+  const fs::path file = folder / "a.input";
+  EXPECT_EQ(partsOfKilledWriters(file).size(), 0U);
+  const pid_t writer = fork();
+  if (writer == 0) {
+    const AtomicFile killed(file);
+    _exit(0);
+  }
+  waitpid(writer, nullptr, 0);
+  ASSERT_EQ(entries(), 1U);
+  const std::vector<std::string> found{fs::directory_iterator(folder)->path()};
+  EXPECT_NE(found[0].find("/.a.input." + std::to_string(writer) + "-"), std::string::npos) << found[0];
+  const AtomicFile here(file);
+  std::ofstream(folder / (".a.input.2." + std::to_string(writer) + "-0.part")) << "of another file";
+  std::ofstream(folder / ".a.input.x-0.part") << "of nobody";
+  fs::create_symlink(file, folder / "link");
+  EXPECT_EQ(partsOfKilledWriters(file), found);
+  EXPECT_EQ(partsOfKilledWriters(folder / "link"), found);
+  EXPECT_EQ(partsOfKilledWriters(folder / "b").size(), 0U);
+}
 
 TEST_F(AtomicFiles, AppearWhenTheyAreCompleteOrNotAtAll) {
   const fs::path file = folder / "a";

@@ -84,6 +84,24 @@ TEST_F(JournalTest, TwoProcessesMayWriteTheSameFile) {
   EXPECT_EQ(seen.size(), 2U * kEach) << "every line is there, whole";
 }
 
+TEST_F(JournalTest, TheFirstLineThatIsLostIsToldAndTheNextOneThatIsNotSaysHowManyWere) {
+  const auto journal = open();
+  EXPECT_FALSE(journal->add("first"));
+  EXPECT_FALSE(journal->incomplete());
+  fs::remove_all(folder_);
+  const auto why = journal->add("second");
+  ASSERT_TRUE(why);
+  EXPECT_EQ(*why, file_ + ": cannot be written: No such file or directory");
+  EXPECT_FALSE(journal->add("third")) << "it is known";
+  fs::create_directories(folder_);
+  EXPECT_FALSE(journal->add("fourth"));
+  EXPECT_TRUE(journal->incomplete());
+  const auto lines = linesOf(file_);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_TRUE(lines[0].ends_with("  -  2 lines before this one could not be written")) << lines[0];
+  EXPECT_TRUE(lines[1].ends_with("  -  fourth")) << lines[1];
+}
+
 TEST_F(JournalTest, WhatCannotBeWrittenIsRefusedWhenItIsOpened) {
   EXPECT_FALSE(Journal::open(folder_ / "none" / "run.log"));
   EXPECT_FALSE(Journal::open(folder_));

@@ -20,7 +20,7 @@ TEST(Recovery, FirstGoesOnAtOnceThenAfterGrowingPausesThenBeginsAgainThenGivesUp
   std::chrono::milliseconds before{-1};
   for (std::size_t n = 1; n <= Recovery::kMost; ++n) {
     const bool begunAgain = n > Recovery::kFromScene;
-    const Recovery::Step step = recovery.died(begunAgain ? 20 : 1000, 20);
+    const Recovery::Step step = recovery.died(fromSeconds(begunAgain ? 0.3 : 17), fromSeconds(0.3));
     ways.push_back(step.way);
     if (step.way == Way::GiveUp) break;
     EXPECT_GT(step.pause, before) << n;
@@ -33,20 +33,21 @@ TEST(Recovery, FirstGoesOnAtOnceThenAfterGrowingPausesThenBeginsAgainThenGivesUp
 
 TEST(Recovery, WhoGotBeyondThePlaceOfTheLastDeathDiesForTheFirstTime) {
   Recovery recovery;
-  EXPECT_EQ(recovery.died(1000, 1000).way, Way::GoOn);
-  for (std::uint64_t frame = 1300; frame < 9000; frame += Recovery::kSteady) {
-    EXPECT_EQ(recovery.died(frame, 300).way, Way::GoOn);
-    EXPECT_EQ(recovery.deaths(), 1U) << frame;
+  EXPECT_EQ(recovery.died(fromSeconds(17), fromSeconds(17)).way, Way::GoOn);
+  for (Nanoseconds at = fromSeconds(22); at < fromSeconds(150); at += Recovery::kSteady) {
+    EXPECT_EQ(recovery.died(at, Recovery::kSteady).way, Way::GoOn);
+    EXPECT_EQ(recovery.deaths(), 1U) << at;
   }
   // The show has begun again since, and been played for long.
-  recovery.died(20, Recovery::kLong);
+  recovery.died(fromSeconds(0.3), Recovery::kLong);
   EXPECT_EQ(recovery.deaths(), 1U);
 }
 
 TEST(Recovery, TheSamePlaceCountsHoweverLongAfterTheKeptSceneItLies) {
   Recovery recovery;
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(recovery.died(5000, 400).way, Way::GoOn);
-  EXPECT_EQ(recovery.died(5000, 400).way, Way::BeginAgain);
+  const Nanoseconds at = fromSeconds(83), played = fromSeconds(6);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(recovery.died(at, played).way, Way::GoOn);
+  EXPECT_EQ(recovery.died(at, played).way, Way::BeginAgain);
 }
 
 std::vector<std::uint8_t> sceneOf(std::uint8_t value, std::size_t bytes) {
@@ -87,6 +88,24 @@ TEST(SharedProgress, WhatAProcessKeptIsThereAfterItWasKilled) {
   EXPECT_TRUE(here.operatorState().shown.black);
   EXPECT_EQ(here.operatorState().volume, 0.5);
   EXPECT_GE(here.timeNow(), 5000) << "show time would have gone on";
+}
+
+TEST(SharedProgress, WhoStillCatchesUpHasNotPlayed) {
+  auto made = SharedProgress::create();
+  ASSERT_TRUE(made);
+  SharedProgress& p = *made.value();
+  p.countStart();
+  p.shown();
+  EXPECT_EQ(p.played(), 0) << "it has not even begun";
+  p.catchesUpUntil(machineClock() + fromSeconds(3600));
+  p.shown();
+  EXPECT_EQ(p.played(), 0);
+  const Nanoseconds caughtUp = machineClock() - fromSeconds(7);
+  p.catchesUpUntil(caughtUp);
+  p.shown();
+  EXPECT_EQ(p.played(), p.lastShown() - caughtUp);
+  p.countStart();
+  EXPECT_EQ(p.played(), 0) << "that was the one before";
 }
 
 TEST(SharedProgress, ASceneThatIsBeingWrittenIsNotTheNewest) {
