@@ -8,7 +8,7 @@
 namespace stadion {
 namespace {
 
-const void* offset(std::size_t bytes) {
+const void* indexOffset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);
 }
 
@@ -238,9 +238,10 @@ void Renderer::beginPart(const GlMesh& mesh, const GlSubmesh& part, bool blended
 void Renderer::drawIndices(std::uintptr_t from, GLsizei count, std::uint32_t first, std::uint32_t instances) {
   const auto times = static_cast<GLsizei>(instances);
   if (basesInstances_)
-    gl_.DrawElementsInstancedBaseInstance(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset(from), times, first);
+    gl_.DrawElementsInstancedBaseInstance(GL_TRIANGLES, count, GL_UNSIGNED_INT, indexOffset(from), times,
+                                          first);
   else
-    gl_.DrawElementsInstanced(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset(from), times);
+    gl_.DrawElementsInstanced(GL_TRIANGLES, count, GL_UNSIGNED_INT, indexOffset(from), times);
   ++counts_.calls;
   counts_.instances += instances;
   counts_.triangles += std::uint64_t{instances} * static_cast<std::uint64_t>(count / 3);
