@@ -33,7 +33,7 @@ Diagnostics findingsOf(const std::string& file, const std::optional<std::string>
   return inFiles(filesOf(file, *around, roots), checkShow(*around, roots));
 }
 
-int checkScripts(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
+int checkEach(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
   bool wrong = false;
   for (const std::string& file : files) {
     const bool watched = isatty(2) == 1;
@@ -89,7 +89,7 @@ void addCheckCommand(CLI::App& app, int& code) {
       code = kBadInput;
       return;
     }
-    if (!o->scripts.empty()) code = checkScripts(o->scripts, o->roots);
+    if (!o->scripts.empty()) code = checkEach(o->scripts, o->roots);
     if (!o->models.empty() && code == kOk) code = checkModels(o->models);
   });
 }

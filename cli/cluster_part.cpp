@@ -7,6 +7,7 @@
 #include "engine/script/suggestion.h"
 #include "engine/state_fields.h"
 #include "engine/state_hash.h"
+#include "pipeline/cluster/interface_check.h"
 #include "profiling/node_names.h"
 
 #include <fmt/format.h>
@@ -61,6 +62,7 @@ std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& fin
   }
   const auto walls = loadWalls(file->walls, std::string(STADION_ROOT) + "/walls", findings);
   if (walls) checkWalls(*file, walls->names(), findings);
+  checkInterface(*file, findings);
   if (!walls || findings.hasErrors()) return nullptr;
   o.show.walls = file->walls;
   o.follows = *node != file->lead;

@@ -360,6 +360,7 @@ int codeWithoutShow(bool stopped, const RunSetup& s) {
 
 int playShow(RunOptions& o, RunSetup& setup, Diagnostics findings) {
   const std::atomic<bool>& stop = catchStopSignals();
+  if (o.endsWith > 0) stopWithParent(o.endsWith);
   const bool ready = setUp(o, stop, setup, findings);
   reportOf(setup)(findings);
   if (!ready && setup.cluster && stop) return kStopped + stopSignal();

@@ -182,6 +182,7 @@ void RunOptions::addSupervisionTo(CLI::App& command) {
       ->check(numberFrom(0.5, 3600))
       ->capture_default_str();
   command.add_option("--supervised", supervised)->group("");  // by --supervise alone
+  command.add_option("--ends-with", endsWith)->group("");     // by `stadion cluster` alone
   command
       .add_option(
           "--journal", journal,
@@ -288,11 +289,14 @@ bool RunOptions::settle(Diagnostics& findings) {
   return show.settle(findings) && !findings.hasErrors();
 }
 
+std::vector<NamedFile> RunOptions::namedFiles() const {
+  return {{"--rig", trackers.rig, false}, {"--record-input", recordInput}, {"--trace-events", events.file},
+          {"--spans", spans.file},        {"--black-box", blackBox},       {"--journal", journal}};
+}
+
 /// No output is another one, or what the show is played from.
 void RunOptions::settleFiles(Diagnostics& findings) const {
-  std::vector<NamedFile> files{{"--rig", trackers.rig, false},  {"--record-input", recordInput},
-                               {"--trace-events", events.file}, {"--spans", spans.file},
-                               {"--black-box", blackBox},       {"--journal", journal}};
+  std::vector<NamedFile> files = namedFiles();
   if (!out.empty())
     for (const std::string& name : OutputFolder::namesOfRuns(out))
       files.push_back({"--out's " + name, out + "/" + name});

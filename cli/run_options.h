@@ -2,6 +2,7 @@
 /// What `stadion run` can be asked for.
 
 #include "cli/drawing_plan.h"
+#include "cli/output_names.h"
 #include "cli/player.h"
 #include "cli/run_output.h"
 #include "cli/span_options.h"
@@ -47,6 +48,7 @@ struct RunOptions {
   bool supervise = false;  ///< another process plays, and is replaced when it dies
   double hangAfter = 10;   ///< or shows nothing for so long [s]
   int supervised = -1;     ///< this is that process: a descriptor (SharedProgress); no option for users
+  int endsWith = -1;       ///< the process that started this one, and takes it along; no option for users
   std::string journal;     ///< to which what happens is written; empty: nowhere
   /// Is given what there is to tell while the show plays, a line at a time, from any thread. No option.
   std::function<void(const std::string&)> say = [](const std::string& line) {
@@ -69,6 +71,8 @@ struct RunOptions {
   void addOperatorTo(CLI::App& command);
   /// Completes what depends on other options. Says what is wrong.
   bool settle(Diagnostics& findings);
+  /// The files that options name one by one, asked for or not.
+  std::vector<NamedFile> namedFiles() const;
 
   void addClusterTo(CLI::App& command);
   void addHeadTo(CLI::App& command);

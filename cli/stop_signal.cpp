@@ -5,6 +5,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <sys/prctl.h>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -33,6 +35,11 @@ const std::atomic<bool>& catchStopSignals() {
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
   return requested;
+}
+
+void stopWithParent(int parent) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) std::raise(SIGTERM);  // it died before it could be asked for
 }
 
 int stopSignal() {

@@ -10,6 +10,9 @@ namespace stadion {
 /// From now on the two signals set the flag that is returned. The flag is the process's, as signals are.
 const std::atomic<bool>& catchStopSignals();
 
+/// SIGTERM comes when the process that started us dies, too; at once if `parent` is that no more.
+void stopWithParent(int parent);
+
 /// The signal that came, 0 if none did.
 int stopSignal();
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -16,12 +17,22 @@ constexpr std::size_t kMaxName = 32;
 bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == ',' || c == '\r';
 }
-bool isControl(char c) {
-  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-}
 bool continuesCharacter(char c) {
   return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
 }  // UTF-8
+
+/// Whether a byte and those that continue it are one character, and none that steers a terminal.
+bool canBeShown(std::string_view bytes) {
+  const auto first = static_cast<unsigned char>(bytes[0]);
+  const std::size_t size = first < 0x80 ? 1 : first >> 5 == 6 ? 2 : first >> 4 == 14 ? 3 : 4;
+  if (first >= 0xf8 || bytes.size() != size) return false;
+  char32_t c = size == 1 ? first : first & (0x7fU >> size);
+  for (const char more : bytes.substr(1)) c = c << 6 | (static_cast<unsigned char>(more) & 0x3fU);
+  const bool control = c < 0x20 || (c >= 0x7f && c < 0xa0);
+  const bool half = c >= 0xd800 && c < 0xe000;  // of a character of UTF-16
+  constexpr std::array<char32_t, 5> kFirst{0, 0, 0x80, 0x800, 0x10000};
+  return !control && !half && c >= kFirst[size] && c <= 0x10ffff;
+}
 
 void splitWords(std::string_view line, std::vector<Word>& words) {
   words.clear();
@@ -166,9 +177,16 @@ std::string formatSeconds(Nanoseconds ns) {
 std::string printable(std::string_view text, std::size_t limit) {
   std::string shown;
   std::size_t characters = 0;
-  for (const char c : text) {
-    if (!continuesCharacter(c) && ++characters > limit) return shown + "...";
-    shown += c == '\t' ? ' ' : isControl(c) ? '?' : c;
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end) {
+    for (end = begin + 1; end < text.size() && continuesCharacter(text[end]);) ++end;
+    if (++characters > limit) return shown + "...";
+    const std::string_view character = text.substr(begin, end - begin);
+    if (character == "\t")
+      shown += ' ';
+    else if (canBeShown(character))
+      shown += character;
+    else
+      shown += '?';
   }
   return shown;
 }

@@ -34,7 +34,7 @@ public:
   bool next();
   const std::vector<Word>& words() const { return words_; }
   std::uint32_t line() const { return line_; }
-  /// The line as it is shown to people: no control characters, of bounded length.
+  /// The line as it is shown to people: printable(), of bounded length.
   std::string excerpt() const;
   SourcePosition at(std::uint32_t column) const { return {file_, line_, column}; }
   std::uint32_t endColumn() const;  ///< just after the last word
@@ -67,10 +67,10 @@ private:
 /// "SECONDS.FRACTION" without trailing zeros; LineReader::seconds reads it back exactly. ns >= 0.
 std::string formatSeconds(Nanoseconds ns);
 
-/// At most `limit` characters of it, with control characters replaced: what came from a file is no command to
-/// a terminal.
+/// At most `limit` characters of it, with control characters and what is no UTF-8 replaced: what came from a
+/// file is no command to a terminal.
 std::string printable(std::string_view text, std::size_t limit);
-/// `"word"`, shortened and with control characters replaced, for messages.
+/// `"word"`, shortened and printable(), for messages.
 std::string quotedWord(std::string_view word);
 
 }  // namespace stadion

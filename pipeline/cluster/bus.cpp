@@ -107,9 +107,7 @@ Result<std::unique_ptr<Bus>> Bus::open(const ClusterFile& o, BusListener& listen
   bus->domain_ = dds_create_domain(o.domain, configurationOf(o).c_str());
   if (bus->domain_ < 0) return wrong(reasonOf(bus->domain_));
   bus->participant_ = dds_create_participant(o.domain, nullptr, nullptr);
-  if (bus->participant_ < 0)
-    return wrong((o.interface.empty() ? "" : "is there an interface " + o.interface + "? ") +
-                 reasonOf(bus->participant_));
+  if (bus->participant_ < 0) return wrong(reasonOf(bus->participant_));
   if (o.interface.empty())
     if (const std::string why = sockets.bind(); !why.empty()) return wrong(why);
 

@@ -14,6 +14,15 @@ namespace stadion {
 namespace {
 
 constexpr std::size_t kMostBytes = 1 << 20;
+constexpr std::size_t kMostInterface = 15;  // of Linux, and of an IPv4 address
+
+/// A name of a network interface, or an IPv4 address. The network's configuration, which is XML, takes it as
+/// it is.
+bool canBeInterface(std::string_view text) {
+  constexpr std::string_view kCharacters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.:@-";
+  return text.size() <= kMostInterface && text.find_first_not_of(kCharacters) == text.npos;
+}
 
 class Parser {
 public:
@@ -21,7 +30,7 @@ public:
       : file_(file), out_(out), in_(text, file, out) {}
 
   std::optional<ClusterFile> run() {
-    cluster_.file = file_;
+    cluster_.file = file_, cluster_.wallsAt.where.file = file_;
     while (in_.next()) statement();
     if (!in_.failed() && cluster_.nodes.empty())
       out_.error({file_, 0, 0}, "there is no node in the file; add a line such as: node front  front");
@@ -72,14 +81,14 @@ private:
 
   void node() {
     if (in_.words().size() < 2) return in_.error(in_.endColumn(), "the node's name is missing");
-    const auto name = in_.name(in_.words()[1], "the node's name");
+    const auto name = in_.name(in_.words()[1], "a node");
     if (!name) return;
     if (cluster_.find(*name))
       return in_.error(in_.words()[1].column, quotedWord(*name) + " is a node already; names are unique");
     if (cluster_.nodes.size() == ClusterFile::kMostNodes)
       return in_.error(in_.words()[0].column,
                        fmt::format("there are more than {} nodes", ClusterFile::kMostNodes));
-    ClusterNode node{*name, {}, in_.line()};
+    ClusterNode node{*name, {}, in_.line(), {}, in_.excerpt()};
     for (std::size_t i = 2; i < in_.words().size(); ++i) {
       const Word& wall = in_.words()[i];
       for (const ClusterNode& other : cluster_.nodes)
@@ -88,21 +97,31 @@ private:
                                                     quotedWord(wall.text), other.name));
       if (std::ranges::find(node.walls, wall.text) != node.walls.end())
         return in_.error(wall.column, quotedWord(wall.text) + " is named twice");
-      node.walls.emplace_back(wall.text);
+      node.walls.emplace_back(wall.text), node.wallColumns.push_back(wall.column);
     }
     cluster_.nodes.push_back(std::move(node));
   }
 
+  ClusterPlace placeOf(const Word& word) const { return {in_.at(word.column), in_.excerpt()}; }
+
   void walls(const Word& word) {
+    cluster_.wallsAt = placeOf(word);
     const std::filesystem::path beside = std::filesystem::path(file_).parent_path() / word.text;
     std::error_code none;
     cluster_.walls =
         std::filesystem::is_regular_file(beside, none) ? beside.string() : std::string(word.text);
   }
-  void lead(const Word& word) { lead_ = word, leadLine_ = in_.line(), leadExcerpt_ = in_.excerpt(); }
-  void interface(const Word& word) { cluster_.interface = word.text; }
+  void lead(const Word& word) { lead_ = word, leadAt_ = placeOf(word); }
+  void interface(const Word& word) {
+    if (!canBeInterface(word.text))
+      return in_.error(word.column,
+                       fmt::format("{} is no network interface: use its IPv4 address or its name, up to {} "
+                                   "letters, digits, '-', '_', '.', ':' and '@'",
+                                   quotedWord(word.text), kMostInterface));
+    cluster_.interface = word.text, cluster_.interfaceAt = placeOf(word);
+  }
   void partition(const Word& word) {
-    if (const auto name = in_.name(word, "the partition")) cluster_.partition = *name;
+    if (const auto name = in_.name(word, "a partition")) cluster_.partition = *name;
   }
   void domain(const Word& word) {
     constexpr std::uint64_t kMost = 230;  // of DDS: beyond it there are no ports left
@@ -132,11 +151,10 @@ private:
     if (const auto at = cluster_.find(lead_->text))
       cluster_.lead = *at;
     else
-      out_.add(
-          {Severity::Error,
-           {file_, leadLine_, lead_->column},
-           quotedWord(lead_->text) + " is no node" + didYouMean(std::string(lead_->text), cluster_.names()),
-           leadExcerpt_});
+      out_.error(leadAt_.where,
+                 quotedWord(lead_->text) + " is no node" +
+                     didYouMean(std::string(lead_->text), cluster_.names()),
+                 leadAt_.excerpt);
     if (!cluster_.find(lead_->text)) cluster_.nodes.clear();
   }
 
@@ -146,8 +164,7 @@ private:
   ClusterFile cluster_;
   std::vector<std::string> seen_;
   std::optional<Word> lead_;
-  std::uint32_t leadLine_ = 0;
-  std::string leadExcerpt_;
+  ClusterPlace leadAt_;
 };
 
 }  // namespace
@@ -177,15 +194,19 @@ std::optional<ClusterFile> loadCluster(const std::string& file, Diagnostics& out
 void checkWalls(const ClusterFile& cluster, const std::vector<std::string>& walls, Diagnostics& out) {
   std::vector<std::string> unseen = walls;
   for (const ClusterNode& node : cluster.nodes)
-    for (const std::string& wall : node.walls) {
+    for (std::size_t i = 0; i < node.walls.size(); ++i) {
+      const std::string& wall = node.walls[i];
       std::erase(unseen, wall);
       if (std::ranges::find(walls, wall) == walls.end())
-        out.error({cluster.file, node.line, 0},
-                  fmt::format("{} has no wall \"{}\"{}", cluster.walls, wall, didYouMean(wall, walls)));
+        out.error(
+            {cluster.file, node.line, node.wallColumns[i]},
+            fmt::format("{} has no wall {}{}", cluster.walls, quotedWord(wall), didYouMean(wall, walls)),
+            node.excerpt);
     }
   for (const std::string& wall : unseen)
-    out.warning({cluster.file, 0, 0},
-                fmt::format("no node shows the wall \"{}\" of {}", wall, cluster.walls));
+    out.warning(cluster.wallsAt.where,
+                fmt::format("no node shows the wall \"{}\" of {}", wall, cluster.walls),
+                cluster.wallsAt.excerpt);
 }
 
 }  // namespace stadion

@@ -13,7 +13,8 @@
 ///     walls FILE|NAME             the room (cave4); a file is looked for beside this one
 ///     node NAME [WALL...]         a machine and the walls that it shows; none: it shows nothing
 ///     lead NAME                   whose clock and trackers count (the first one)
-///     interface NAME|ADDRESS      of the network between them (the loopback interface: all on one machine)
+///     interface NAME|ADDRESS      of the network between them (the loopback interface: all on one machine);
+///                                 whether there is one, checkInterface() says
 ///     domain N                    of DDS, 0 to 230 (0); clusters in one network need different ones, or
 ///     partition NAME              different names (stadion)
 ///     deadline SECONDS            a node silent for so long is left out, 0.1 to 60 (0.5)
@@ -35,10 +36,18 @@
 
 namespace stadion {
 
+/// Where something stands in a cluster file, for findings that come after reading it.
+struct ClusterPlace {
+  SourcePosition where;
+  std::string excerpt;
+};
+
 struct ClusterNode {
   std::string name;
   std::vector<std::string> walls;
-  std::uint32_t line = 0;  ///< in the file
+  std::uint32_t line = 0;                    ///< in the file
+  std::vector<std::uint32_t> wallColumns{};  ///< of each wall
+  std::string excerpt{};                     ///< that line
 };
 
 struct ClusterFile {
@@ -46,9 +55,11 @@ struct ClusterFile {
 
   std::string file;  ///< as the user named it
   std::string walls = "cave4";
+  ClusterPlace wallsAt;  ///< the whole file, if it does not say
   std::vector<ClusterNode> nodes;
   std::size_t lead = 0;   ///< index of a node
   std::string interface;  ///< empty: loopback
+  ClusterPlace interfaceAt;
   std::uint32_t domain = 0;
   std::string partition = "stadion";
   double deadline = 0.5;  ///< [s]

@@ -415,12 +415,13 @@ TEST(ProgramCluster, WhatIsWrongIsToldAtTheStart) {
   refused({"run", kKick, "--cluster", cluster}, "--node");
   refused({"run", kKick, "--cluster", "nowhere.cluster", "--node", "left"}, "nowhere.cluster");
   refused({"run", kKick, "--cluster", cluster, "--node", "left", "--walls", "cave6"}, "--walls");
-  refused({"cluster", cluster, "nowhere.evs"}, "there is no show nowhere.evs");
+  refused({"cluster", cluster, "nowhere.evs"}, "nowhere.evs: error: cannot be read");
   const std::string other = folder.write("other.cluster", "walls cave4\nnode a fromt\n");
   refused({"run", kKick, "--cluster", other, "--node", "a"},
           "has no wall \"fromt\"; did you mean \"front\"?");
   const std::string nowhere = folder.write("net.cluster", "walls cave4\nnode a front\ninterface nowhere7\n");
-  refused({"run", kKick, "--cluster", nowhere, "--node", "a", "--frames", "5"}, "nowhere7");
+  refused({"run", kKick, "--cluster", nowhere, "--node", "a", "--frames", "5"},
+          "net.cluster:3:11: error: this machine has no network interface \"nowhere7\"");
 }
 
 }  // namespace

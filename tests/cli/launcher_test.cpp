@@ -218,6 +218,16 @@ TEST(ProgramLauncher, AnOutdatedBuildThatCannotBeRenewedIsNotStarted) {
   EXPECT_EQ(house.calls(), "");
 }
 
+TEST(ProgramLauncher, FuzzingWithoutABuildOfItsTargetsSaysWhatMakesOne) {
+  const TemporaryFolder root;
+  root.write("tests/fuzz/targets/walls.cpp", "// target\n");
+  fs::copy_file(STADION_SOURCE_DIR "/tests/fuzz/run", root.path() / "tests/fuzz/run");
+  const ProgramResult r = runProgram({{root.path() / "tests/fuzz/run", "walls"}});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_EQ(r.err, "fuzz: there is no build of libFuzzer's targets; ./stadion fuzz makes one\n");
+  EXPECT_FALSE(fs::exists(root.path() / "build"));
+}
+
 TEST(ProgramLauncher, TheRealOneAddsLittleToASecondStart) {
   // Only where the launcher has built this very tree; elsewhere it would begin to build.
   if (!fs::exists(STADION_SOURCE_DIR "/build/release/.built") ||

@@ -23,7 +23,7 @@ using std::chrono::milliseconds;
 constexpr double kRate = 60;  // [1/s]
 /// Between swaps, in periods: who misses one frame leaves two, who misses two leaves three. Where nothing has
 /// happened to anybody there is one, and hardly two.
-constexpr double kMost = 2.5, kCalm = 1.8;
+constexpr double kMostPeriods = 2.5, kCalm = 1.8;
 constexpr std::uint64_t kGapFrames = 180;  // frames
 
 /// The processes that draw walls for this one.
@@ -124,7 +124,8 @@ TEST_P(ProgramAloneWallGaps, TheOtherWallsMissNoMoreThanAFrameWhenOneIsKilledOrS
                       });
     if (!calm) continue;
     for (const Fault& f : faults)
-      EXPECT_LT(watched->longest(f.at, f.at + milliseconds(3000)), kMost) << "periods, signal " << f.signal;
+      EXPECT_LT(watched->longest(f.at, f.at + milliseconds(3000)), kMostPeriods)
+          << "periods, signal " << f.signal;
     EXPECT_GT(watched->inARow, 1u) << "it was hit";
     EXPECT_LT(watched->inARow, kGapFrames);
     return;

@@ -158,6 +158,17 @@ TEST(InputLog, NamesTheLineOfWhatIsWrong) {
             "2:14: a position must be within 1000 km of the rig (metres)");
 }
 
+TEST(InputLog, BytesThatAreNoTextAreShownAsOneMarkForEachCharacter) {
+  Diagnostics out;
+  EXPECT_FALSE(parseInputLog("stadion-input 1\n\xff\xfe\x80x \xc2\x9b[2J\n", "t.input", out));
+  ASSERT_FALSE(out.all().empty());
+  EXPECT_EQ(out.all()[0].excerpt, "??x ?[2J");
+  EXPECT_EQ(out.all()[0].where.column, 1U);
+  EXPECT_NE(out.all()[0].message.find("\"??x\""), std::string::npos) << out.all()[0].message;
+  EXPECT_EQ(printable("T\u00fcr \u201ca\u201d \U0001F600", 80), "T\u00fcr \u201ca\u201d \U0001F600");
+  EXPECT_EQ(printable("\xc0\xaf \xed\xa0\x80 \xf4\x90\x80\x80 \xe2\x80", 80), "? ? ? ?");
+}
+
 TEST(InputLog, NormalisesAQuaternionThatIsNearlyUnit) {
   const auto log = parsedLog("pose head 0  0 0 0  0.7071 0.7071 0 0\n");
   ASSERT_TRUE(log);

@@ -1,6 +1,7 @@
 /// Cluster files, and what is wrong in them.
 
 #include "pipeline/cluster/cluster_file.h"
+#include "pipeline/cluster/interface_check.h"
 
 #include <gtest/gtest.h>
 
@@ -76,14 +77,71 @@ TEST(ClusterFile, MistakesAreToldWithTheirPlaceAndTheFix) {
   EXPECT_NE(wrongIn(many).find("25:1: error: there are more than 24 nodes"), std::string::npos);
 }
 
-TEST(ClusterFile, WallsThatTheRoomHasNotAndThoseThatNobodyShowsAreTold) {
-  Diagnostics found;
-  const auto c = parseCluster("node a front leff\n", "room.cluster", found);
-  ASSERT_TRUE(c);
-  checkWalls(*c, {"front", "left"}, found);
-  ASSERT_EQ(found.all().size(), 2U);
-  EXPECT_NE(found.all()[0].message.find("no wall \"leff\"; did you mean \"left\"?"), std::string::npos);
-  EXPECT_EQ(found.all()[1].severity, Severity::Warning);
+TEST(ClusterFile, WallsThatTheRoomHasNotAndThoseThatNobodyShowsAreToldWithTheirPlace) {
+  const auto wrongWith = [](const std::string& text) {
+    Diagnostics found;
+    const auto c = parseCluster(text, "room.cluster", found);
+    EXPECT_TRUE(c) << text;
+    if (c) checkWalls(*c, {"front", "left"}, found);
+    std::string all;
+    for (const Diagnostic& d : found.all()) all += format(d) + "\n";
+    return all;
+  };
+  EXPECT_EQ(wrongWith("node a front leff\nwalls cave4\n"),
+            "room.cluster:1:14: error: cave4 has no wall \"leff\"; did you mean \"left\"?\n"
+            "node a front leff\n"
+            "             ^\n"
+            "room.cluster:2:7: warning: no node shows the wall \"left\" of cave4\n"
+            "walls cave4\n"
+            "      ^\n");
+  EXPECT_EQ(wrongWith("node a front\n"), "room.cluster: warning: no node shows the wall \"left\" of cave4\n")
+      << "nothing in the file names the room";
+}
+
+TEST(ClusterFile, AWallThatIsNamedTwiceIsPointedAt) {
+  EXPECT_EQ(wrongIn("node a front left front\n"), "room.cluster:1:19: error: \"front\" is named twice\n"
+                                                  "node a front left front\n"
+                                                  "                  ^");
+}
+
+TEST(ClusterFile, WhatCannotBeANameIsToldInWordsAndBytesThatAreNoTextAreNotRepeated) {
+  EXPECT_EQ(wrongIn("node a!\n").substr(0, 59),
+            "room.cluster:1:6: error: \"a!\" is not a good name for a node")
+      << wrongIn("node a!\n");
+  EXPECT_EQ(wrongIn("\xff\xfe\x80x \xc3\n"), "room.cluster:1:1: error: \"??x\" does not begin a statement\n"
+                                             "??x ?\n"
+                                             "^");
+}
+
+TEST(ClusterFile, AnInterfaceIsAnAddressOrANameThatNeedsNoQuoting) {
+  for (const char* good : {"lo", "eth0:1", "br-1a2b.7", "en_x@if7", "255.255.255.255"}) {
+    Diagnostics found;
+    const auto c = parseCluster(std::string("node a\ninterface ") + good + "\n", "x", found);
+    ASSERT_TRUE(c) << good;
+    EXPECT_EQ(c->interface, good);
+  }
+  for (const char* bad : {"a\"b<c>", "a/b", "'", "&lt;", "abcdefghijklmnop"})
+    EXPECT_NE(wrongIn(std::string("node a\ninterface ") + bad + "\n").find("2:11: error: \""),
+              std::string::npos)
+        << bad;
+}
+
+TEST(ClusterFile, AnInterfaceThatThisMachineHasNotIsToldWithThoseThatItHas) {
+  const auto wrongWith = [](const std::string& text) {
+    Diagnostics found;
+    const auto c = parseCluster(text, "room.cluster", found);
+    EXPECT_TRUE(c) << text;
+    if (c) checkInterface(*c, found);
+    return found.all().empty() ? "" : format(found.all()[0]);
+  };
+  const std::string why = wrongWith("node a\ninterface nosuch0\n");
+  EXPECT_EQ(why.find("room.cluster:2:11: error: this machine has no network interface \"nosuch0\""), 0U)
+      << why;
+  EXPECT_NE(why.find("lo (127.0.0.1)"), std::string::npos) << why;
+  EXPECT_NE(why.find("\ninterface nosuch0\n          ^"), std::string::npos) << why;
+  EXPECT_EQ(wrongWith("node a\n"), "") << "all on one machine";
+  EXPECT_EQ(wrongWith("node a\ninterface lo\n"), "");
+  EXPECT_EQ(wrongWith("node a\ninterface 127.0.0.1\n"), "");
 }
 
 }  // namespace

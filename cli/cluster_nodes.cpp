@@ -1,0 +1,169 @@
+#include "cli/cluster_nodes.h"
+
+#include "cli/exit_code.h"
+#include "cli/stop_signal.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <sys/stat.h>
+#include <thread>
+#include <utility>
+
+namespace stadion {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{20};
+/// Who leads tells the others that the show is over. Who has not ended so long after has lost that, and would
+/// wait for ever.
+constexpr std::chrono::seconds kAfterLead{10};
+/// Who played so long has not died as soon as it had begun.
+constexpr std::chrono::seconds kSteady{1};
+constexpr std::size_t kMostDeaths = 10;  ///< in a row
+
+void sayOfCluster(const std::string& what) {
+  std::fprintf(stderr, "cluster: %s\n", what.c_str());
+}
+
+bool wasAskedToEnd(int status) {
+  return status == kStopped + SIGINT || status == kStopped + SIGTERM;
+}
+
+bool hasFailed(int status) {
+  return status != kOk && !wasAskedToEnd(status);
+}
+
+std::string howItEnded(int status) {
+  return status > kStopped ? fmt::format("was ended by signal {}", status - kStopped)
+                           : fmt::format("ended with exit code {}", status);
+}
+
+std::string wholeContentOf(const Descriptor& file) {
+  struct stat about {};
+  if (!file || fstat(file.get(), &about) != 0) return {};
+  return contentOf(file, static_cast<std::size_t>(about.st_size));
+}
+
+}  // namespace
+
+void ClusterNodes::add(std::string name, std::vector<std::string> words) {
+  Node& node = nodes_.emplace_back();
+  node.name = std::move(name), node.words = std::move(words);
+}
+
+bool ClusterNodes::begin(Node& node) {
+  node.said = makeMemoryFile(), node.begun = Clock::now(), ++node.starts;
+  const bool well = !node.child.start(node.words, {-1, node.said.get(), 2});
+  node.state = well ? State::Plays : State::Ended;
+  if (well) return true;
+  node.status = kInternalFault;
+  sayOfCluster(node.name + " cannot be started");
+  return false;
+}
+
+int ClusterNodes::play() {
+  const std::atomic<bool>& stop = catchStopSignals();
+  stop_ = &stop;
+  for (Node& node : nodes_)
+    if (!begin(node)) return kInternalFault;
+  for (bool forwarded = false; anyLeft(); std::this_thread::sleep_for(kLook)) {
+    if (stop && !std::exchange(forwarded, true)) ask(stopSignal());
+    for (Node& node : nodes_) look(node);
+    endWithLead();
+  }
+  return code();
+}
+
+void ClusterNodes::look(Node& node) {
+  if (node.state == State::Plays) {
+    if (const auto status = node.child.wait(std::chrono::milliseconds(0))) ended(node, *status);
+  } else if (node.state == State::Pauses) {
+    if (*stop_) node.status = kStopped + stopSignal();  // it will not fail any more
+    if (*stop_ || leadIsGone())
+      node.state = State::Ended;
+    else if (node.restarts.due(Clock::now()))
+      begin(node);
+  }
+}
+
+void ClusterNodes::ended(Node& node, int status) {
+  const bool over = once_ || *stop_ || leadIsGone();
+  node.state = State::Ended, node.status = status;
+  if (!hasFailed(status)) return;
+  const std::string how = node.name + " " + howItEnded(status);
+  if (over || !isDeath(node)) return sayOfCluster(how);
+  const auto now = Clock::now();
+  if (now - node.begun >= kSteady) node.restarts = {};
+  node.restarts.died(now);
+  const std::size_t deaths = node.restarts.deaths();
+  if (deaths >= kMostDeaths)
+    return sayOfCluster(fmt::format("{}, {} times in a row, and is given up", how, deaths));
+  node.state = State::Pauses;
+  sayOfCluster(how + (deaths == 1
+                          ? " and begins again"
+                          : fmt::format(", {} times in a row, and begins again after a pause", deaths)));
+}
+
+/// A scene differed, and the cluster file says that the show is to end then.
+bool ClusterNodes::isStop(const Node& node) const {
+  return stopOnDifference_ && &node == &nodes_[lead_] && node.status == kInternalFault;
+}
+
+/// What is wrong with the show or its options would be so again.
+bool ClusterNodes::isDeath(const Node& node) const {
+  return node.status > kStopped || (node.status == kInternalFault && !isStop(node));
+}
+
+void ClusterNodes::endWithLead() {
+  if (othersAsked_ || !leadIsGone()) return;
+  if (!goneSince_) goneSince_ = Clock::now();
+  const Node& lead = nodes_[lead_];
+  const bool hasTold = !hasFailed(lead.status) || isStop(lead);
+  if (hasTold && Clock::now() - *goneSince_ < kAfterLead) return;
+  othersAsked_ = true;
+  if (anyLeft()) sayOfCluster(lead.name + ", which leads, is gone; the others end");
+  ask(SIGINT);
+}
+
+void ClusterNodes::ask(int signal) const {
+  for (const Node& node : nodes_)
+    if (node.child.running()) kill(node.child.pid(), signal);
+}
+
+bool ClusterNodes::anyLeft() const {
+  return std::ranges::any_of(nodes_, [](const Node& node) { return node.state != State::Ended; });
+}
+
+/// What went wrong counts more than what was asked for.
+int ClusterNodes::code() const {
+  const auto failed = std::ranges::find_if(nodes_, hasFailed, &Node::status);
+  if (failed != nodes_.end()) return failed->status;
+  if (*stop_) return kStopped + stopSignal();
+  const auto stopped = std::ranges::find_if(nodes_, wasAskedToEnd, &Node::status);
+  return stopped != nodes_.end() ? stopped->status : kOk;
+}
+
+std::string ClusterNodes::said() const {
+  std::string all;
+  for (const Node& node : nodes_)
+    all += fmt::format("-- {}{}\n{}", node.name,
+                       node.starts > 1 ? fmt::format(", begun {} times", node.starts) : "",
+                       wholeContentOf(node.said));
+  return all;
+}
+
+std::string ClusterNodes::saidAsJson() const {
+  std::string all;
+  for (const Node& node : nodes_) {
+    std::string summary = wholeContentOf(node.said);
+    if (!nlohmann::json::accept(summary)) summary = "null";  // it has died before it could say anything
+    while (summary.ends_with('\n')) summary.pop_back();
+    all += fmt::format("{}\"{}\": {}", all.empty() ? "{" : ",\n", node.name, summary);
+  }
+  return all + "}\n";
+}
+
+}  // namespace stadion

@@ -1,0 +1,72 @@
+#pragma once
+/// The processes that play a cluster's nodes on this machine: begun together, looked after, ended together.
+///
+/// A node that dies, by a signal or with exit code 3, begins again: at once the first time, after pauses that
+/// grow if it dies as soon as it has begun. When who leads is gone for good, the others have nobody to wait
+/// for.
+///
+/// Ownership  owns the processes; those that still run when it goes are killed.
+/// Threads    main.
+
+#include "pipeline/cluster/cluster_file.h"
+#include "pipeline/output/child_process.h"
+#include "pipeline/worker/restarts.h"
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+class ClusterNodes {
+public:
+  /// `once`: nobody begins again.
+  ClusterNodes(const ClusterFile& cluster, bool once)
+      : lead_(cluster.lead), stopOnDifference_(cluster.stopOnDifference), once_(once) {}
+  /// In the file's order. `words`: the program and its arguments.
+  void add(std::string name, std::vector<std::string> words);
+
+  /// Begins them all and looks after them until all have ended. The exit code.
+  int play();
+  /// What the nodes have said: each under its name, or as one JSON object.
+  std::string said() const;
+  std::string saidAsJson() const;
+
+private:
+  using Clock = std::chrono::steady_clock;
+  enum class State { Plays, Pauses, Ended };
+  struct Node {
+    std::string name;
+    std::vector<std::string> words;
+    State state = State::Ended;
+    int status = 0;  ///< the last exit status; 128 + signal
+    unsigned starts = 0;
+    Clock::time_point begun{};
+    worker::Restarts restarts{};
+    Descriptor said{};
+    ChildProcess child{};
+  };
+
+  bool begin(Node& node);
+  void look(Node& node);
+  void ended(Node& node, int status);
+  bool isStop(const Node& node) const;
+  bool isDeath(const Node& node) const;
+  bool leadIsGone() const { return nodes_[lead_].state == State::Ended; }
+  void endWithLead();
+  void ask(int signal) const;
+  bool anyLeft() const;
+  int code() const;
+
+  std::size_t lead_;
+  bool stopOnDifference_, once_;
+  const std::atomic<bool>* stop_ = nullptr;
+  std::deque<Node> nodes_;
+  std::optional<Clock::time_point> goneSince_{};  ///< who leads
+  bool othersAsked_ = false;                      ///< to end after it
+};
+
+}  // namespace stadion

@@ -1,0 +1,56 @@
+#include "pipeline/cluster/interface_check.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <arpa/inet.h>
+#include <cstring>
+#include <ifaddrs.h>
+#include <memory>
+#include <net/if.h>
+#include <netinet/in.h>
+
+namespace stadion {
+namespace {
+
+struct Interface {
+  std::string name, address;
+};
+
+/// Those that can be used: they are up, and have an IPv4 address. Nothing if the system does not tell.
+std::optional<std::vector<Interface>> interfacesHere() {
+  ifaddrs* first = nullptr;
+  if (getifaddrs(&first) != 0) return std::nullopt;
+  const std::unique_ptr<ifaddrs, void (*)(ifaddrs*)> owner(first, freeifaddrs);
+  std::vector<Interface> all;
+  for (const ifaddrs* at = first; at; at = at->ifa_next) {
+    if (!at->ifa_addr || at->ifa_addr->sa_family != AF_INET || !(at->ifa_flags & IFF_UP)) continue;
+    sockaddr_in address{};
+    std::memcpy(&address, at->ifa_addr, sizeof address);
+    char text[INET_ADDRSTRLEN] = "";
+    inet_ntop(AF_INET, &address.sin_addr, text, sizeof text);
+    all.push_back({at->ifa_name, text});
+  }
+  return all;
+}
+
+}  // namespace
+
+void checkInterface(const ClusterFile& cluster, Diagnostics& out) {
+  const std::string& wanted = cluster.interface;
+  if (wanted.empty()) return;
+  const auto here = interfacesHere();
+  if (!here) return;  // then who opens the network has to say what is wrong
+  const auto is = [&](const Interface& i) { return i.name == wanted || i.address == wanted; };
+  if (std::ranges::any_of(*here, is)) return;
+  std::vector<std::string> known;
+  for (const Interface& i : *here) known.push_back(fmt::format("{} ({})", i.name, i.address));
+  out.error(cluster.interfaceAt.where,
+            fmt::format(
+                "this machine has no network interface \"{}\" that is up and has an IPv4 address; {}", wanted,
+                known.empty() ? "it has none at all" : fmt::format("it has {}", fmt::join(known, ", "))),
+            cluster.interfaceAt.excerpt);
+}
+
+}  // namespace stadion

@@ -1,0 +1,306 @@
+/// `stadion cluster`: who dies, who is asked to end, and what of the command line goes to which node.
+
+#include "cli/cluster_nodes.h"
+#include "tests/cli/played_cluster.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <optional>
+#include <sys/wait.h>
+
+namespace stadion {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::size_t timesIn(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; at += part.size()) ++count;
+  return count;
+}
+
+/// A cluster of four; what is left of it goes with the test.
+class PlayingCluster {
+public:
+  explicit PlayingCluster(const std::vector<std::string>& more)
+      : file_(fourNodes(folder_, "deadline 0.3\n")) {
+    std::vector<std::string> words{stadionPath(), "cluster", file_,    kKick,
+                                   "--size",      "16x12",   "--look", "plain"};
+    words.insert(words.end(), more.begin(), more.end());
+    program_ = startProgram({words, {}, folder_.path()}, file("said"), file("told"));
+  }
+  ~PlayingCluster() {
+    for (const char* node : kFourNodes)
+      for (pid_t process = 0; (process = processOf(file_, node)) > 0;) {
+        kill(process, SIGKILL);
+        becomes([&] { return processOf(file_, node) != process; });
+      }
+    if (!status_) kill(program_, SIGKILL), endOf(program_);
+  }
+  PlayingCluster(const PlayingCluster&) = delete;
+  PlayingCluster& operator=(const PlayingCluster&) = delete;
+
+  pid_t program() const { return program_; }
+  pid_t node(const std::string& name) const { return processOf(file_, name); }
+  /// All nodes show pictures, and write into `out` when.
+  bool plays() const {
+    return becomes([&] {
+      return std::ranges::all_of(kFourNodes,
+                                 [&](auto n) { return swapTimesOf(folder_.path() / "out" / n).size() > 10; });
+    });
+  }
+  bool nobodyIsLeft() const {
+    return becomes([&] { return std::ranges::all_of(kFourNodes, [&](auto n) { return node(n) < 0; }); });
+  }
+  bool tells(const std::string& what) const {
+    return becomes([&] { return has(told(), what); });
+  }
+  /// In the folder in which it plays.
+  std::string file(const std::string& name) const { return folder_.path() / name; }
+  std::string told() const { return fileContent(file("told")); }
+  std::string said() const { return fileContent(file("said")); }
+  /// The coordinator's exit status, or 128 + signal; nothing if it does not end.
+  std::optional<int> end() {
+    int status = 0;
+    if (becomes([&] { return waitpid(program_, &status, WNOHANG) == program_; }))
+      status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return status_;
+  }
+
+private:
+  TemporaryFolder folder_;
+  std::string file_;
+  pid_t program_ = -1;
+  std::optional<int> status_{};
+};
+
+/// Words with which it plays until it is ended.
+std::vector<std::string> forLong(std::vector<std::string> more = {}) {
+  more.insert(more.end(),
+              {"--seconds", "600", "--pace", "lock", "--out", "out", "--pictures", "none", "--hashes"});
+  return more;
+}
+
+TEST(ProgramClusterProcesses, WhoLeadsDiesForGoodAndTheOthersEnd) {
+  PlayingCluster cluster(forLong({"--once"}));
+  ASSERT_TRUE(cluster.plays()) << cluster.told();
+  ASSERT_EQ(kill(cluster.node("front"), SIGKILL), 0);
+  EXPECT_EQ(cluster.end(), 128 + SIGKILL) << cluster.told();
+  EXPECT_TRUE(has(cluster.told(), "cluster: front was ended by signal 9\n")) << cluster.told();
+  EXPECT_TRUE(has(cluster.told(), "cluster: front, which leads, is gone; the others end")) << cluster.told();
+}
+
+TEST(ProgramClusterProcesses, ADeathIsToldAlsoWhereNobodyBeginsAgain) {
+  PlayingCluster cluster(forLong({"--once"}));
+  ASSERT_TRUE(cluster.plays()) << cluster.told();
+  ASSERT_EQ(kill(cluster.node("left"), SIGKILL), 0);
+  EXPECT_TRUE(cluster.tells("cluster: left was ended by signal 9\n")) << cluster.told();
+  EXPECT_TRUE(cluster.tells("the others go on")) << cluster.told();
+  EXPECT_LT(cluster.node("left"), 0);
+  kill(cluster.program(), SIGTERM);
+  EXPECT_EQ(cluster.end(), 128 + SIGKILL) << "a death counts more than that the rest was stopped";
+}
+
+TEST(ProgramClusterProcesses, NodesDoNotOutliveWhoStartedThem) {
+  PlayingCluster cluster(forLong());
+  ASSERT_TRUE(cluster.plays()) << cluster.told();
+  ASSERT_EQ(kill(cluster.program(), SIGKILL), 0);
+  EXPECT_EQ(cluster.end(), 128 + SIGKILL);
+  EXPECT_TRUE(cluster.nobodyIsLeft()) << cluster.told();
+}
+
+TEST(ProgramClusterProcesses, TheSignalThatStopsThemIsTheOneThatCame) {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    PlayingCluster cluster(forLong({"--json"}));
+    ASSERT_TRUE(cluster.plays()) << cluster.told();
+    ASSERT_EQ(kill(cluster.program(), signal), 0);
+    EXPECT_EQ(cluster.end(), 128 + signal) << cluster.told();
+    EXPECT_FALSE(has(cluster.told(), "begins again")) << cluster.told();
+    const Json said = Json::parse(cluster.said(), nullptr, false);
+    ASSERT_TRUE(said.is_object()) << cluster.said();
+    EXPECT_EQ(said["front"]["stopped"], signal == SIGTERM ? "SIGTERM" : "SIGINT");
+  }
+}
+
+TEST(ProgramClusterProcesses, ANodeThatIsAskedToEndIsNotBegunAnew) {
+  PlayingCluster cluster(forLong());
+  ASSERT_TRUE(cluster.plays()) << cluster.told();
+  ASSERT_EQ(kill(cluster.node("left"), SIGTERM), 0);
+  EXPECT_TRUE(cluster.tells("the others go on")) << cluster.told();
+  EXPECT_TRUE(becomes([&] { return cluster.node("left") < 0; }));
+  ASSERT_EQ(kill(cluster.node("front"), SIGTERM), 0);
+  EXPECT_EQ(cluster.end(), 128 + SIGTERM) << "and who leads ends the show for all: " << cluster.told();
+  EXPECT_FALSE(has(cluster.told(), "begins again")) << cluster.told();
+}
+
+/// A cluster of two of which the first one leads.
+ClusterFile twoNodes() {
+  ClusterFile cluster;
+  cluster.nodes.resize(2);
+  return cluster;
+}
+
+/// A program that ends with that exit code so many times, and well from then on.
+std::vector<std::string> failing(const fs::path& count, int code, int times) {
+  return {"sh", "-c",
+          "echo >>" + count.string() + "; [ $(wc -l <" + count.string() + ") -gt " + std::to_string(times) +
+              " ] || exit " + std::to_string(code)};
+}
+
+std::size_t startsIn(const fs::path& count) {
+  const std::string lines = fileContent(count);
+  return static_cast<std::size_t>(std::ranges::count(lines, '\n'));
+}
+
+TEST(ProgramClusterProcesses, ANodeWithoutMemoryOrOpenGlBeginsAgainAfterAPauseIfItFailsAtOnce) {
+  const TemporaryFolder folder;
+  ClusterNodes nodes(twoNodes(), false);
+  nodes.add("front",
+            {"sh", "-c", "while [ $(wc -l <" + (folder.path() / "left").string() + ") -lt 3 ]; do :; done"});
+  nodes.add("left", failing(folder.path() / "left", 3, 2));
+  folder.write("left", "");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(nodes.play(), 0);
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(startsIn(folder.path() / "left"), 3U);
+  EXPECT_TRUE(has(told, "cluster: left ended with exit code 3 and begins again\n")) << told;
+  EXPECT_TRUE(
+      has(told, "cluster: left ended with exit code 3, 2 times in a row, and begins again after a pause"))
+      << told;
+}
+
+TEST(ProgramClusterProcesses, WhatIsWrongWithTheShowIsNoReasonToBeginAgain) {
+  const TemporaryFolder folder;
+  for (const int code : {1, 2}) {
+    const std::string name = "starts" + std::to_string(code);
+    ClusterNodes nodes(twoNodes(), false);
+    nodes.add("front", failing(folder.path() / name, code, 1));
+    nodes.add("left", {"sleep", "600"});
+    EXPECT_EQ(nodes.play(), code) << "the others end with who leads";
+    EXPECT_EQ(startsIn(folder.path() / name), 1U);
+  }
+}
+
+TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotBeginAgain) {
+  const TemporaryFolder folder;
+  ClusterFile cluster = twoNodes();
+  cluster.stopOnDifference = true;
+  ClusterNodes nodes(cluster, false);
+  nodes.add("front", failing(folder.path() / "front", 3, 1));
+  nodes.add("left", {"true"});
+  EXPECT_EQ(nodes.play(), 3);
+  EXPECT_EQ(startsIn(folder.path() / "front"), 1U);
+}
+
+TEST(ProgramClusterProcesses, WhatANodeSaysIsOneValueOfTheJsonWhateverItIs) {
+  ClusterNodes nodes(twoNodes(), false);
+  nodes.add("front", {"sh", "-c", "echo '{\"frames\":3}'"});
+  nodes.add("left", {"sh", "-c", "echo '{\"frames\":'"});
+  EXPECT_EQ(nodes.play(), 0);
+  EXPECT_EQ(nodes.saidAsJson(), "{\"front\": {\"frames\":3},\n\"left\": null}\n");
+  EXPECT_EQ(nodes.said(), "-- front\n{\"frames\":3}\n-- left\n{\"frames\":\n");
+}
+
+std::vector<std::string> shortCluster(const std::string& file, const std::vector<std::string>& more) {
+  std::vector<std::string> words{"cluster", file, kKick, "--size", "16x12", "--look", "plain"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST(ProgramClusterProcesses, FilesGetTheNodesNamesAndWhatTheInputWasIsWrittenOnce) {
+  const TemporaryFolder folder;
+  const auto file = [&](const std::string& name) { return (folder.path() / name).string(); };
+  const ProgramResult r = stadionProgram(
+      shortCluster(fourNodes(folder), {"--frames", "5", "--trace-events=" + file("trace.json"), "--journal",
+                                       file("journal"), "--record-input", file("said.input")}));
+  ASSERT_EQ(r.status, 0) << r.out << r.err;
+  for (const std::string node : kFourNodes) {
+    EXPECT_TRUE(Json::accept(fileContent(file("trace-" + node + ".json")))) << node;
+    EXPECT_EQ(timesIn(fileContent(file("journal-" + node)), "exit code 0"), 1U)
+        << fileContent(file("journal-" + node));
+  }
+  EXPECT_TRUE(has(fileContent(file("said.input")), "stadion-input 1"));
+  for (const char* name : {"trace.json", "journal", "said-front.input", "said-left.input"})
+    EXPECT_FALSE(fs::exists(file(name))) << name;
+}
+
+TEST(ProgramClusterProcesses, TrackersAndOperatorAreThoseOfWhoLeads) {
+  PlayingCluster cluster({"--tracker", "osc:0", "--osc", "0", "--predict", "10", "--no-sound", "--journal",
+                          "journal", "--black-box", "box"});
+  const auto plays = [&](const std::string& node) {
+    return has(fileContent(cluster.file("journal-" + node)), "first picture");
+  };
+  ASSERT_TRUE(becomes([&] { return std::ranges::all_of(kFourNodes, plays); })) << cluster.told();
+  EXPECT_EQ(timesIn(cluster.told(), "trackers: OSC on UDP port"), 1U) << cluster.told();
+  EXPECT_EQ(timesIn(cluster.told(), "operator: OSC on UDP port"), 1U) << cluster.told();
+  for (const std::string node : kFourNodes)
+    EXPECT_TRUE(fs::is_regular_file(cluster.file("box-" + node))) << node;
+  ASSERT_EQ(kill(cluster.program(), SIGTERM), 0);
+  EXPECT_EQ(cluster.end(), 128 + SIGTERM) << cluster.told();
+}
+
+TEST(ProgramClusterProcesses, WithJsonTheStandardOutputIsOneObject) {
+  const TemporaryFolder folder;
+  const ProgramResult r = stadionProgram(shortCluster(fourNodes(folder), {"--frames", "3", "--json"}));
+  ASSERT_EQ(r.status, 0) << r.err;
+  const Json said = Json::parse(r.out, nullptr, false);
+  ASSERT_TRUE(said.is_object()) << r.out;
+  EXPECT_EQ(said.size(), 4U);
+  for (const char* node : kFourNodes) EXPECT_EQ(said[node]["frames"], 3) << node;
+}
+
+TEST(ProgramClusterProcesses, WhatEachNodeWouldRefuseIsToldOnceBeforeAnyIsStartedAsRunTellsIt) {
+  const TemporaryFolder folder;
+  const std::string four = fourNodes(folder);
+  const auto expectAsRun = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> run{"run"}, cluster{"cluster", four};
+    run.insert(run.end(), words.begin(), words.end());
+    cluster.insert(cluster.end(), words.begin(), words.end());
+    const ProgramResult wanted = stadionProgram(run), r = stadionProgram(cluster);
+    EXPECT_EQ(r.status, 2) << words.back();
+    EXPECT_EQ(wanted.status, 2) << words.back();
+    EXPECT_EQ(r.err, wanted.err) << words.back();
+    EXPECT_EQ(r.out, "") << words.back();
+  };
+  expectAsRun({kKick, "--frmes", "3"});
+  expectAsRun({kKick, "--frames", "-3"});
+  expectAsRun({kKick, "--size", "many"});
+  expectAsRun({folder.path()});
+  expectAsRun({"nowhere.evs"});
+  expectAsRun({folder.write("wrong.evs", "dynobject( name=a, densty=2 )\n")});
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& why) {
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 2) << r.out;
+    EXPECT_EQ(timesIn(r.err, why), 1U) << r.err;
+    EXPECT_EQ(r.out, "");
+  };
+  refused(shortCluster(four, {"--walls", "cave6"}), "--walls");
+  refused(shortCluster(four, {"--node", "front"}), "--node");
+  refused(shortCluster(four, {"--frames", "3", "--late-latch"}), "--late-latch is not for clusters");
+  refused(shortCluster(four, {"--frames", "3", "--spans", folder.path() / "spans"}),
+          "--spans and --count-work");
+  refused(shortCluster(folder.write("walls.cluster", "walls cave4\nnode a front\nnode b fromt\n"), {}),
+          "walls.cluster:3:8: error: cave4 has no wall \"fromt\"");
+  refused(shortCluster(folder.write("net.cluster", "node a front\nnode b left\ninterface nosuch0\n"), {}),
+          "net.cluster:3:11: error: this machine has no network interface \"nosuch0\"");
+}
+
+TEST(ProgramClusterProcesses, OptionsMayStandWhereverTheyLike) {
+  const TemporaryFolder folder;
+  const ProgramResult r = stadionProgram(
+      {"cluster", "--frames", "3", fourNodes(folder), "--size", "16x12", kKick, "--no-sound", "--json"});
+  EXPECT_EQ(r.status, 0) << r.err;
+}
+
+TEST(ProgramClusterProcesses, HelpSaysWhatGoesWhere) {
+  const ProgramResult r = stadionProgram({"cluster", "--help"});
+  EXPECT_EQ(r.status, 0);
+  for (const char* word : {"--record-input", "--trace-events", "--tracker", "trace-NODE.json", "exit code 3"})
+    EXPECT_TRUE(has(r.out, word)) << r.out;
+  EXPECT_FALSE(has(r.out, "ClusterOptions"));
+}
+
+}  // namespace
+}  // namespace stadion
