@@ -157,8 +157,10 @@ std::size_t startsIn(const fs::path& count) {
 TEST(ProgramClusterProcesses, ANodeWithoutMemoryOrOpenGlBeginsAgainAfterAPauseIfItFailsAtOnce) {
   const TemporaryFolder folder;
   ClusterNodes nodes(twoNodes(), false);
-  nodes.add("front",
-            {"sh", "-c", "while [ $(wc -l <" + (folder.path() / "left").string() + ") -lt 3 ]; do :; done"});
+  // Who leads plays until the other one has begun for the third time, half a minute at most.
+  nodes.add("front", {"sh", "-c",
+                      "for i in $(seq 300); do [ $(wc -l <" + (folder.path() / "left").string() +
+                          ") -lt 3 ] || break; sleep 0.1; done"});
   nodes.add("left", failing(folder.path() / "left", 3, 2));
   folder.write("left", "");
   testing::internal::CaptureStderr();
