@@ -220,7 +220,6 @@ bool Scene::resume() {
     Instance& i = instances_[id];
     if (!i.live) continue;
     i.form = i.mesh == kNoMesh ? nullptr : meshes_.find(i.mesh);
-    if (i.mesh != kNoMesh && !i.form) return false;
     i.transparent = i.form && i.form->transparent();
     i.leveled = i.form && !i.form->levels.empty();
     markInstance(id);
@@ -229,6 +228,9 @@ bool Scene::resume() {
   for (const auto& [number, l] : loads_)
     for (const std::uint32_t position : l->enterOrder)
       if (!l->nodes[position]->resume(*this)) return false;
+  // Some make theirs only now; what nobody has is of other files.
+  for (const Instance& i : instances_)
+    if (i.live && i.mesh != kNoMesh && !i.form) return false;
   for (const auto& [number, l] : loads_)
     for (const std::uint32_t position : l->enterOrder) {
       setBusy(*l->nodes[position]);
