@@ -16,7 +16,7 @@ struct Agreement {
   std::uint64_t input = 0;    ///< hash of the input log; 0: nobody plays one
   std::uint64_t cluster = 0;  ///< hashOf() the cluster file
   std::uint64_t walls = 0;    ///< hash of the wall file
-  std::string pictures{};       ///< what they look like; may differ where machines do [120 bytes at most]
+  std::string pictures{};     ///< what they look like; may differ where machines do [120 bytes at most]
 
   /// Who leads anew goes on with a show of the same script and input only.
   std::uint64_t show() const;
