@@ -66,8 +66,8 @@ void write(dds_entity_t writer, const void* sample) {
 }  // namespace
 
 template <class T>
-void Bus::take(dds_entity_t reader, void* listener) {
-  auto& to = *static_cast<BusListener*>(listener);
+void Bus::take(dds_entity_t reader, void* of) {
+  auto& bus = *static_cast<Bus*>(of);
   constexpr std::size_t kAtOnce = 16;
   std::array<void*, kAtOnce> samples{};  // null: the reader lends them
   std::array<dds_sample_info_t, kAtOnce> infos{};
@@ -76,15 +76,29 @@ void Bus::take(dds_entity_t reader, void* listener) {
     if (count <= 0) return;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       const T& sample = *static_cast<const T*>(samples[i]);
-      if constexpr (std::is_same_v<T, Presence>)
-        if (infos[i].instance_state != DDS_IST_ALIVE) {
-          to.left(sample.node);
-          continue;  // what it said last is out of date
-        }
-      if (infos[i].valid_data) to.hear(sample);
+      if (!infos[i].valid_data) continue;
+      if constexpr (std::is_same_v<T, Presence>) {
+        if (infos[i].instance_state != DDS_IST_ALIVE) continue;  // what it said last is out of date
+        const std::lock_guard lock(bus.speakersMutex_);
+        bus.speakers_[infos[i].publication_handle] = {sample.node, sample.incarnation};
+      }
+      bus.listener_->hear(sample);
     }
     dds_return_loan(reader, samples.data(), count);
   }
+}
+
+void Bus::takeLiveliness(dds_entity_t, dds_liveliness_changed_status_t status, void* of) {
+  auto& bus = *static_cast<Bus*>(of);
+  if (status.alive_count_change >= 0) return;
+  Speaker gone;
+  {
+    const std::lock_guard lock(bus.speakersMutex_);
+    const auto at = bus.speakers_.find(status.last_publication_handle);
+    if (at == bus.speakers_.end()) return;
+    gone = at->second;
+  }
+  bus.listener_->left(gone.node, gone.incarnation);
 }
 
 template <class T>
@@ -93,6 +107,8 @@ bool Bus::add(Channel channel, const dds_topic_descriptor_t& type, const std::st
   const dds_entity_t topic = dds_create_topic(participant_, &type, name.c_str(), nullptr, nullptr);
   if (topic < 0) return false;
   dds_lset_data_available(heard, &Bus::take<T>);
+  const bool ofPresences = std::is_same_v<T, Presence>;
+  dds_lset_liveliness_changed(heard, ofPresences ? &Bus::takeLiveliness : nullptr);
   writers_[channel] = dds_create_writer(participant_, topic, qos, nullptr);
   return writers_[channel] > 0 && dds_create_reader(participant_, topic, qos, heard) > 0;
 }
@@ -102,6 +118,7 @@ Result<std::unique_ptr<Bus>> Bus::open(const ClusterFile& o, BusListener& listen
     return Diagnostic{Severity::Error, {}, "the cluster's network cannot be opened: " + why, {}};
   };
   std::unique_ptr<Bus> bus(new Bus);
+  bus->listener_ = &listener;
   const Promptness prompt(Promptness::For::ThoseItStarts);  // Cyclone's own
   const LoopbackSockets sockets;
   bus->domain_ = dds_create_domain(o.domain, configurationOf(o).c_str());
@@ -121,7 +138,7 @@ Result<std::unique_ptr<Bus>> Bus::open(const ClusterFile& o, BusListener& listen
     if (qos != every.qos) dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
   }
   dds_qset_liveliness(present.qos, DDS_LIVELINESS_AUTOMATIC, durationOf(o.deadline));
-  dds_listener_t* heard = dds_create_listener(&listener);
+  dds_listener_t* heard = dds_create_listener(bus.get());
   const bool well =
       bus->add<Session>(kSession, stadion_wire_Session_desc, "stadion_session", heard, kept.qos) &&
       bus->add<Presence>(kPresence, stadion_wire_Presence_desc, "stadion_presence", heard, present.qos) &&

@@ -16,7 +16,9 @@
 #include <array>
 #include <cstdint>
 #include <dds/dds.h>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <wire.h>  // made from wire.idl
 
@@ -52,8 +54,8 @@ public:
   virtual void hear(const SceneHash&) {}
   virtual void hear(const Difference&) {}
   virtual void hear(const StatePart&) {}
-  /// Nobody has heard of that node for the deadline, or it said good-bye.
-  virtual void left(std::uint8_t node) { (void)node; }
+  /// Nobody has heard of that incarnation of the node for the deadline, or it said good-bye.
+  virtual void left(std::uint8_t node, std::uint64_t incarnation) { (void)node, (void)incarnation; }
 };
 
 class Bus {
@@ -99,10 +101,19 @@ private:
   bool add(Channel channel, const dds_topic_descriptor_t& type, const std::string& name,
            dds_listener_t* heard, dds_qos_t* qos);
   template <class T>
-  static void take(dds_entity_t reader, void* listener);
+  static void take(dds_entity_t reader, void* bus);
+  static void takeLiveliness(dds_entity_t reader, dds_liveliness_changed_status_t status, void* bus);
 
+  BusListener* listener_ = nullptr;
   dds_entity_t domain_ = 0, participant_ = 0;
   std::array<dds_entity_t, kChannels> writers_{};
+  /// Who writes presences, and as whom: of two that are the same node one may die. By handles of the network.
+  struct Speaker {
+    std::uint8_t node = 0;
+    std::uint64_t incarnation = 0;
+  };
+  std::mutex speakersMutex_;
+  std::map<dds_instance_handle_t, Speaker> speakers_;
 };
 
 }  // namespace stadion::cluster

@@ -334,9 +334,10 @@ void Lead::hear(const StatePart& part) {
   changed_.notify_all();
 }
 
-void Lead::left(std::uint8_t node) {
+void Lead::left(std::uint8_t node, std::uint64_t incarnation) {
   const std::lock_guard lock(mutex_);
   if (node >= followers_.size() || node == options_.cluster.lead) return;
+  if (followers_[node].incarnation != incarnation) return;  // another one is this node now
   if (followers_[node].member && !pending_.last)
     leaveOut(node, fmt::format("has not been heard of for {:g} s", options_.cluster.deadline));
   letGo(node);  // when the show is over they go, and nobody needs to be told

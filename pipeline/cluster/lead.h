@@ -85,7 +85,7 @@ public:
   void hear(const SceneHash& hash) override;
   void hear(const Difference& difference) override;
   void hear(const StatePart& part) override;
-  void left(std::uint8_t node) override;
+  void left(std::uint8_t node, std::uint64_t incarnation) override;
 
 private:
   class SampledInput;

@@ -158,7 +158,7 @@ TEST(ClusterHearing, NobodyWaitsForWhoIsLostInTheLastFrame) {
   visitor.key("head", 0, Vec3(0, 0, 1.7));
   InputSample input;
   l->input(visitor).sampleFrame(0, order.signature.time, input);
-  l->left(1);
+  l->left(1, 9);
   EXPECT_TRUE(l->mayShow(order.signature));
 }
 

@@ -147,7 +147,7 @@ void writeConversations(const Folder& to) {
              Step::Issue, {1})(Step::Drawn, stadion_wire_Drawn_desc, Drawn{1, 1, 1})(Step::Show)(
              Step::Simulated, {3})(Step::SceneHash, stadion_wire_SceneHash_desc, SceneHash{1, 1, 3, 4})(
              Step::SceneHash, stadion_wire_SceneHash_desc, SceneHash{2, 1, 5, 4})(Step::Simulated, {5})(
-             Step::Difference, stadion_wire_Difference_desc, difference)(Step::Left, {2})
+             Step::Difference, stadion_wire_Difference_desc, difference)(Step::Left, {2, 8})
              .seed());
 }
 

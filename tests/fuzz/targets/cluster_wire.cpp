@@ -31,7 +31,7 @@ public:
     case Step::SceneHash: return hear<SceneHash>(stadion_wire_SceneHash_desc, bytes);
     case Step::Difference: return hear<Difference>(stadion_wire_Difference_desc, bytes);
     case Step::StatePart: return hear<StatePart>(stadion_wire_StatePart_desc, bytes);
-    case Step::Left: return lead_->left(figure);
+    case Step::Left: return lead_->left(figure, bytes.size() > 1 ? bytes[1] : 0);
     case Step::Join: return join();
     case Step::Next: return next();
     case Step::Show: return show();
