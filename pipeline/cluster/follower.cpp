@@ -98,7 +98,7 @@ std::optional<Joining> Follower::join() {
   joined_ = session_.number;
   Joining joining{session_.rate, {}, {}, 0, theirs.input != 0};
   if (!session_.begun && session_.resumes == 0) return joining;
-  awaitDouble(lock);
+  if (session_.begun) awaitDouble(lock);
   if (hasEnded()) return {};
   announce(Phase::Asking);
   std::uint64_t received = 0;
@@ -124,7 +124,8 @@ std::optional<Joining> Follower::join() {
 /// deadline waits, or it lives: then it is heard of, and we end.
 void Follower::awaitDouble(std::unique_lock<std::mutex>& lock) {
   const auto until = Clock::now() + std::chrono::duration<double>(2 * options_.cluster.deadline);
-  while (isMember_ && !hasEnded() && !options_.stop() && Clock::now() < until) changed_.wait_for(lock, kLook);
+  while (isMember_.value_or(true) && !hasEnded() && !options_.stop() && Clock::now() < until)
+    changed_.wait_for(lock, kLook);
 }
 
 std::optional<FrameOrder> Follower::next() {

@@ -106,11 +106,11 @@ private:
   Session session_{};         ///< number 0: there is none
   std::uint64_t joined_ = 0;  ///< the session that we play
   std::deque<HeardOrder> orders_;
-  IncomingScene incoming_;       ///< of who leads
-  std::uint64_t frame_ = 0;      ///< obeyed last
-  bool still_ = false;           ///< with it the show stood
-  Presentation presentation_{};  ///< and so it was shown
-  bool isMember_ = false;        ///< by the newest order, whoever of this name that is
+  IncomingScene incoming_;        ///< of who leads
+  std::uint64_t frame_ = 0;       ///< obeyed last
+  bool still_ = false;            ///< with it the show stood
+  Presentation presentation_{};   ///< and so it was shown
+  std::optional<bool> isMember_;  ///< by the newest order, whoever of our name that is
   Compare compare_;
   std::uint64_t obeyed_ = 0, go_ = 0, shown_ = 0;
   std::uint8_t latest_ = 0;
