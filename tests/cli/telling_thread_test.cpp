@@ -1,0 +1,42 @@
+#include "cli/telling_thread.h"
+
+#include <gtest/gtest.h>
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace stadion {
+namespace {
+
+TEST(TellingThread, WhoTellsDoesNotWaitForWhoSaysAndEverythingIsSaid) {
+  std::mutex held;  // as a terminal may be
+  std::vector<std::string> said;
+  {
+    TellingThread teller([&](const std::string& line) {
+      const std::lock_guard lock(held);
+      said.push_back(line);
+    });
+    const std::lock_guard lock(held);
+    for (const char* line : {"one", "two", "three"}) teller.tell(line);
+  }
+  EXPECT_EQ(said, (std::vector<std::string>{"one", "two", "three"}));
+}
+
+TEST(TellingThread, WhatNobodyHearsIsKeptUpToALimit) {
+  std::mutex held;
+  std::size_t said = 0;
+  {
+    TellingThread teller([&](const std::string&) {
+      const std::lock_guard lock(held);
+      ++said;
+    });
+    const std::lock_guard lock(held);
+    for (int i = 0; i < 5000; ++i) teller.tell("again");
+  }
+  EXPECT_GE(said, 1000U);
+  EXPECT_LE(said, 1001U);
+}
+
+}  // namespace
+}  // namespace stadion
