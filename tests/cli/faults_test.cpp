@@ -116,7 +116,7 @@ protected:
     if (r.status == 0)
       EXPECT_EQ(hashOf(r), hash) << what;
     else
-      EXPECT_TRUE(has(r.err, "out of memory") || has(r.err, "bad_alloc")) << what << "\n" << r.err;
+      EXPECT_TRUE(has(r.err, "out of memory")) << what << "\n" << r.err;
     EXPECT_EQ(leftOver(), std::set<std::string>()) << what;
     if (!fs::exists(record)) return;
     const ProgramResult again = runProgram(this->run("", {"--gl", "none", "--input", record}));
