@@ -4,7 +4,7 @@
 ///
 ///   new nth=N       the Nth time that the program asks for memory there is none; from=N: from then on never.
 ///                   Counted from main() on. tell=1: says at the end how often it asked.
-///   read            of files: most=BYTES at a time; delay=MS each; error=ERRNO
+///   read            of files: most=BYTES at a time (of sockets, too); delay=MS each; error=ERRNO
 ///   write           likewise, and after=BYTES written to such files
 ///   clock jump=S    the time of day jumps by so many seconds, as if somebody set it; after=MS
 ///

@@ -8,6 +8,7 @@
 #include <ctime>
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 namespace {
@@ -81,6 +82,13 @@ ssize_t read(int file, void* to, std::size_t bytes) {
 ssize_t pread(int file, void* to, std::size_t bytes, off_t at) {
   static const auto call = real<decltype(&pread)>("pread");
   return faulty(reads(), file, bytes, [&](std::size_t n) { return call(file, to, n, at); });
+}
+
+// What another process sends comes in pieces, too.
+ssize_t recv(int socket, void* to, std::size_t bytes, int flags) {
+  static const auto call = real<decltype(&recv)>("recv");
+  const auto most = static_cast<std::size_t>(reads().fault ? reads().most : 0);
+  return call(socket, to, most > 0 ? std::min(bytes, most) : bytes, flags);
 }
 
 ssize_t write(int file, const void* from, std::size_t bytes) {
