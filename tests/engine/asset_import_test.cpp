@@ -236,6 +236,8 @@ TEST_F(AssetImportFakeProgram, ThatHangsIsKilledInTime) {
 
 TEST_F(AssetImportFakeProgram, ThatEndsIsReported) {
   EXPECT_TRUE(contains(errorOf("exit 0"), "crashed"));
+  EXPECT_TRUE(contains(errorOf("timeout 0.1 cat <&0 >/dev/null"), "crashed"))
+      << "after it has read the request";
 }
 
 TEST_F(AssetImportFakeProgram, ThatTalksNonsenseIsReported) {
