@@ -74,6 +74,8 @@ std::vector<std::string> wordsOfNode(const CLI::App& command, const RunOptions& 
   // With trackers no log beside the show counts; the others do not know that there are any.
   if (!leads && !asked.trackers.device.empty() && asked.show.input.empty())
     words.insert(words.end(), {"--input", "none"});
+  // All are on this machine: once is loud enough.
+  if (!leads && !asked.noSound) words.push_back("--no-sound");
   return words;
 }
 

@@ -191,10 +191,12 @@ void World::Core::visit(StateFields& f) {
   visitTable("shapes", shapes, f, [&](ShapeId, ShapeEntry& s) { f("bound", s.bound), f("uses", s.uses); });
   visitTable("bodies", bodies, f, [&](BodyId id, RigidBody& b) {
     bool flies = b.flight != nullptr;
+    f.about(id);
     f("body", b), f("flies", flies);
     b.id = id;
     if (f.restores() && flies) flightless.push_back(id);
   });
+  f.about(0);
   visitTable("colliders", colliders, f, [&](ColliderId id, Collider& c) { f("collider", c), c.id = id; });
   visitTable("fields", fields, f, [&](FieldId id, FieldEntry& e) {
     e.id = id;

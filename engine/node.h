@@ -109,6 +109,9 @@ public:
   /// The same fields and what follows from them, to be written down, compared or put back. A node that is put
   /// back has not entered, and does not: resume() is called instead.
   virtual void state(StateFields&) {}
+  /// The node that those of its fields are about which state() visits as a part's (StateFields::about()): the
+  /// bodies of a dynamics node are nodes themselves.
+  virtual NodeRef nodeOf(std::uint32_t /*part*/) const { return self_; }
   /// Its fields have been put back, and so has the scene: makes anew what is not written down. False: what
   /// was written down does not fit what there is.
   virtual bool resume(Scene&) { return true; }

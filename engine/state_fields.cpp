@@ -107,7 +107,7 @@ void StateDifference::found(std::string here, std::string there) {
   if (first_) return;
   std::string name(outer_);
   if (!name.empty()) name += ".";
-  first_ = Field{name + std::string(name_), std::move(here), std::move(there)};
+  first_ = Field{name + std::string(name_), std::move(here), std::move(there), part_};
 }
 
 }  // namespace stadion

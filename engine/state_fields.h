@@ -72,6 +72,10 @@ public:
     return failed() ? 0 : static_cast<std::size_t>(n);
   }
 
+  /// What is visited from now on is about that one of the node's parts, until the next call; 0 = about the
+  /// node. See Node::nodeOf().
+  void about(std::uint32_t part) { part_ = part; }
+
   /// Whether fields are set by what was written.
   virtual bool restores() const { return false; }
   /// What is there is no such state.
@@ -89,6 +93,7 @@ protected:
 
   std::string_view name_;   ///< of the field that is visited
   std::string_view outer_;  ///< of what it is a part of; empty = of the whole
+  std::uint32_t part_ = 0;  ///< of the node; 0 = of none
 
 private:
   template <class T>
@@ -332,6 +337,7 @@ public:
   struct Field {
     std::string name;
     std::string here, there;  ///< as people read them
+    std::uint32_t part;       ///< whose it is; 0 = the node's
   };
   const std::optional<Field>& first() const { return first_; }
   /// Looks for another one in what is visited from now on.

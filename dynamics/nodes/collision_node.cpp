@@ -370,9 +370,18 @@ bool CollisionNode::afterStep(FrameContext&) {
 
 void CollisionNode::state(StateFields& f) {
   f("switch", switch_), f("on", on_), f("awake", awake_), f("loads", loadsSeen_), f("to", advancedTo_);
-  for (std::vector<Part>* parts : {&colliders_, &collidees_})
-    for (Part& part : *parts) f("part", part);
+  for (Part& part : colliders_) f("collider", part);
+  for (Part& part : collidees_) {
+    f.about(part.id);
+    f("collidee", part);
+  }
+  f.about(0);
   world_.visit(f);
+}
+
+NodeRef CollisionNode::nodeOf(std::uint32_t part) const {
+  const auto its = std::ranges::find(collidees_, part, &Part::id);
+  return its == collidees_.end() ? self() : its->ref;
 }
 
 bool CollisionNode::resumeParts(Scene& scene) {

@@ -38,6 +38,7 @@ public:
   bool busy() const override { return switch_.on() && awake_; }
   void hash(StateHash& h) const override;
   void state(StateFields& f) override;
+  NodeRef nodeOf(std::uint32_t part) const override;
   bool resume(Scene& scene) override;
   bool awaits(const Node& earlier, const Scene& scene) const override;
 

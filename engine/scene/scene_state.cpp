@@ -143,6 +143,7 @@ void Scene::visitNode(StateFields& f, Node& node) {
   f("rests", s.rests), f("pace", s.pace), f("missed", s.missed);
   if (f.restores() && s.pace > levelsOf(Concession::Half)) return f.fail();
   node.state(f);
+  f.about(0);
 }
 
 // What is seen of a node, such as where it is, follows from the node: whoever asks wants to know which.
@@ -161,8 +162,9 @@ std::optional<Scene::Difference> Scene::difference(std::span<const std::uint8_t>
   d.next();
   for (const auto& [number, l] : loads_)
     for (const std::uint32_t position : l->enterOrder) {
+      const Node& node = *l->nodes[position];
       visitNode(d, *l->nodes[position]);
-      if (const auto ofNode = found({number, position})) return ofNode;
+      if (d.first()) return found(d.first()->part ? node.nodeOf(d.first()->part) : node.self());
     }
   return elsewhere;
 }

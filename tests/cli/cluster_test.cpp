@@ -361,7 +361,7 @@ TEST(ProgramCluster, ABitOfABodyThatHasNotMovedYetIsFoundInTime) {
   ASSERT_TRUE(std::regex_search(told, since, std::regex("floor differs from ours since frame ([0-9]+)")))
       << told;
   EXPECT_LE(std::stoi(since[1]), 65);
-  EXPECT_TRUE(has(told, "path.c is ")) << told;
+  EXPECT_TRUE(has(told, "ball (") && has(told, "), path.c is ")) << told;
 }
 
 TEST(ProgramCluster, WhereModelsAreOthersTheyAreNamedAndNobodyPlaysWithThem) {
