@@ -1,10 +1,8 @@
 /// `stadion cluster`: who dies, who is asked to end, and what of the command line goes to which node.
 
 #include "cli/cluster_nodes.h"
-#include "cli/node_words.h"
 #include "tests/cli/played_cluster.h"
 
-#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -103,6 +101,17 @@ TEST(ProgramClusterProcesses, ADeathIsToldAlsoWhereNobodyBeginsAgain) {
   EXPECT_LT(cluster.node("left"), 0);
   kill(cluster.program(), SIGTERM);
   EXPECT_EQ(cluster.end(), 128 + SIGKILL) << "a death counts more than that the rest was stopped";
+}
+
+TEST(ProgramClusterProcesses, TheSoundsAreHeardOnce) {
+  PlayingCluster cluster(forLong());
+  ASSERT_TRUE(cluster.plays()) << cluster.told();
+  for (const char* node : kFourNodes) {
+    const std::string words = fileContent("/proc/" + std::to_string(cluster.node(node)) + "/cmdline");
+    EXPECT_EQ(has(words, "--no-sound"), node != std::string("front")) << words;
+  }
+  kill(cluster.program(), SIGTERM);
+  cluster.end();
 }
 
 TEST(ProgramClusterProcesses, NodesDoNotOutliveWhoStartedThem) {
@@ -304,22 +313,6 @@ TEST(ProgramClusterProcesses, HelpSaysWhatGoesWhere) {
   for (const char* word : {"--record-input", "--trace-events", "--tracker", "trace-NODE.json", "exit code 3"})
     EXPECT_TRUE(has(r.out, word)) << r.out;
   EXPECT_FALSE(has(r.out, "ClusterOptions"));
-}
-
-TEST(ClusterWords, OnOneMachineTheSoundsAreHeardOnce) {
-  ClusterFile cluster;
-  cluster.nodes = {{.name = "front"}, {.name = "floor"}};
-  for (const char* asked : {"show.evs", "show.evs --no-sound"}) {
-    CLI::App command;
-    RunOptions options;
-    options.addTo(command);
-    command.parse(asked);
-    const auto silent = [&](std::size_t node) {
-      return std::ranges::count(wordsOfNode(command, options, cluster, node), "--no-sound");
-    };
-    EXPECT_EQ(silent(0), options.noSound ? 1 : 0);
-    EXPECT_EQ(silent(1), 1);
-  }
 }
 
 }  // namespace
