@@ -71,8 +71,7 @@ std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& fin
     o.show.onlyWalls = {walls->walls.front().wall.name};  // somebody has to take the frames
     o.provider = "none";
   }
-  std::unique_ptr<ClusterPart> part(new ClusterPart(std::move(*file), *node, o.say));
-  part->terms_ = termsOf(o, part->file_);
+  std::unique_ptr<ClusterPart> part(new ClusterPart(o, std::move(*file), *node));
   if (o.plantDifference > 0) part->planted_ = o.plantDifference;
   return part;
 }
@@ -81,10 +80,12 @@ void ClusterPart::tell(const std::string& what) {
   teller_.tell(fmt::format("cluster, {}: {}", file_.nodes[node_].name, what));
 }
 
+// What the terms are is looked up each time: a script may have been saved since the show before.
 bool ClusterPart::openLead(Diagnostics& findings) {
+  const std::uint64_t before = lead_ ? lead_->session() : 0;
   lead_.reset();
-  auto opened = cluster::Lead::open(
-      {file_, terms_, kPatience, [this](const std::string& what) { tell(what); }, nobodyWaits});
+  auto opened = cluster::Lead::open({file_, termsOf(options_, file_), kPatience,
+                                     [this](const std::string& what) { tell(what); }, nobodyWaits, before});
   if (!opened) return findings.add(opened.error()), false;
   lead_ = std::move(opened.value());
   return true;
@@ -96,38 +97,38 @@ bool ClusterPart::join(ShowOptions& show, Diagnostics& findings) {
   const auto underWay = lead_->takeOver();
   if (!underWay) return true;
   show.state = underWay->state, after_ = underWay->last, goesOn_ = true;
-  models_ = underWay->models;
+  files_ = underWay->files;
   operator_.emplace();
-  operator_->paused = underWay->still, operator_->shown = underWay->shown;
+  operator_->paused = underWay->still == Standstill::Paused;
+  operator_->waiting = underWay->still == Standstill::Waiting;
+  operator_->shown = underWay->shown;
   return true;
 }
 
 bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
-  for (;;) {
-    follower_.reset();
-    auto opened = cluster::Follower::open(
-        {file_, node_, terms_, [this](const std::string& what) { tell(what); }, nobodyWaits});
-    if (!opened) return findings.add(opened.error()), false;
-    follower_ = std::move(opened.value());
-    if (const auto joining = follower_->join()) {
-      show.rate = joining->rate, show.rateGiven = true;
-      show.state = joining->state, last_ = joining->after;
-      if (!joining->playsLog) show.input = "none";  // what others say is heard from who leads
-      goesOn_ = show.state != nullptr, models_ = joining->models;
-      return true;
-    }
-    if (follower_->hasDouble()) return false;  // it has told so
-    if (!follower_->isToJoinAgain() || nobodyWaits()) return false;
-  }
+  follower_.reset();
+  auto opened = cluster::Follower::open({file_, node_, termsOf(options_, file_),
+                                         [this](const std::string& what) { tell(what); }, nobodyWaits,
+                                         [] { return stopSignal() != 0; }, std::move(kept_)});
+  if (!opened) return findings.add(opened.error()), false;
+  follower_ = std::move(opened.value());
+  const auto joining = follower_->join();
+  if (!joining) return false;  // it has told why, if there is a reason
+  show.rate = joining->rate, show.rateGiven = true;
+  show.state = joining->state, last_ = joining->after;
+  if (!joining->playsLog) show.input = "none";  // what others say is heard from who leads
+  goesOn_ = show.state != nullptr, files_ = joining->files;
+  return true;
 }
 
-/// Where the show goes on: which of its models differ, nobody can tell without them.
-bool ClusterPart::hasModels(const Scene& scene, Diagnostics& findings) const {
-  if (!goesOn_ || scene.models() == models_) return true;
+/// Where the show goes on: which of its files differ, nobody can tell without them.
+bool ClusterPart::hasFiles(const Scene& scene, Diagnostics& findings) const {
+  if (!goesOn_ || scene.files() == files_) return true;
   findings.error(
       {},
-      fmt::format("the models that {} has loaded are others than ours; put the same files on all machines",
-                  leads() ? "who plays" : file_.nodes[file_.lead].name));
+      fmt::format(
+          "the scripts or models that {} has loaded are others than ours; put the same files on all machines",
+          leads() ? "who plays" : file_.nodes[file_.lead].name));
   return false;
 }
 
@@ -135,26 +136,26 @@ bool ClusterPart::begin(Player& player, Diagnostics& findings) {
   player_ = &player;
   if (!leads()) {
     follower_->compareWith([this](const cluster::SavedScene& there) { return differenceTo(there); });
-    return hasModels(player.scene(), findings);
+    return hasFiles(player.scene(), findings);
   }
   if (lead_->hasBegun()) {  // the next group's show
     if (!openLead(findings)) return false;
     after_.reset(), goesOn_ = false;
   }
-  if (!hasModels(player.scene(), findings)) return false;
+  if (!hasFiles(player.scene(), findings)) return false;
   lead_->saveWith([this] { return saved(); });
   lead_->begin(player.rate());
   return !lead_->hasDouble();
 }
 
 cluster::SavedScene ClusterPart::saved() const {
-  return {player_->scene().models(), player_->scene().save()};
+  return {player_->scene().files(), player_->scene().save()};
 }
 
 std::optional<cluster::Follower::Differs> ClusterPart::differenceTo(const cluster::SavedScene& there) const {
-  if (const std::uint64_t ours = player_->scene().models(); ours != there.models)
-    return cluster::Follower::Differs{"the scene, models", fmt::format("{:016x}", ours),
-                                      fmt::format("{:016x}", there.models)};
+  if (const std::uint64_t ours = player_->scene().files(); ours != there.files)
+    return cluster::Follower::Differs{"the scene, files", fmt::format("{:016x}", ours),
+                                      fmt::format("{:016x}", there.files)};
   const auto d = player_->scene().difference(there.bytes);
   if (!d) return {};
   NodeNames names;
@@ -202,8 +203,10 @@ bool ClusterPart::hasDouble() const {
 
 void ClusterPart::finish(bool over) {
   if (lead_) lead_->finish(over);
-  if (follower_ && follower_->isAskedForScene()) follower_->giveScene(last_, saved());
-  if (follower_) follower_->finish();
+  if (!follower_) return;
+  if (follower_->keepsScene()) follower_->keep(last_, saved());
+  kept_ = follower_->kept();
+  follower_->finish();
 }
 
 ClusterSummary ClusterPart::summary() const {

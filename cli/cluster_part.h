@@ -22,8 +22,8 @@ class Scene;
 
 class ClusterPart {
 public:
-  /// Reads the cluster file and completes the options by it: walls, and which of them are ours. Null without
-  /// --cluster, or if something is wrong; then the findings say what.
+  /// Reads the cluster file and completes the options by it, which must outlive it: walls, and which of them
+  /// are ours. Null without --cluster, or if something is wrong; then the findings say what.
   static std::unique_ptr<ClusterPart> create(RunOptions& options, Diagnostics& findings);
 
   bool leads() const { return node_ == file_.lead; }
@@ -51,10 +51,10 @@ public:
   ClusterSummary summary() const;
 
 private:
-  ClusterPart(ClusterFile file, std::size_t node, std::function<void(const std::string&)> say)
-      : file_(std::move(file)), node_(node), teller_(std::move(say)) {}
+  ClusterPart(const RunOptions& options, ClusterFile file, std::size_t node)
+      : options_(options), file_(std::move(file)), node_(node), teller_(options.say) {}
   void tell(const std::string& what);
-  bool hasModels(const Scene& scene, Diagnostics& findings) const;
+  bool hasFiles(const Scene& scene, Diagnostics& findings) const;
   bool openLead(Diagnostics& findings);
   bool follow(ShowOptions& show, Diagnostics& findings);
 
@@ -62,20 +62,21 @@ private:
   std::optional<cluster::Follower::Differs> differenceTo(const cluster::SavedScene& there) const;
   void plantDifference();
 
+  const RunOptions& options_;
   ClusterFile file_;
   std::size_t node_;
   TellingThread teller_;
   std::optional<std::uint64_t>
       planted_;  ///< the frame after which a bit is changed, to see whether that is found
   Player* player_ = nullptr;
-  cluster::Agreement terms_;
   bool goesOn_ = false;
-  std::uint64_t models_ = 0;               ///< with which it went on elsewhere
+  std::uint64_t files_ = 0;                ///< with which it went on elsewhere
   std::optional<TimeSignature> after_;     ///< the show goes on after that
   std::optional<OperatorState> operator_;  ///< and what had been decided about it
   TimeSignature last_;                     ///< simulated
   std::unique_ptr<cluster::Lead> lead_;
   std::unique_ptr<cluster::Follower> follower_;
+  std::shared_ptr<const cluster::KeptScene> kept_;  ///< of the show that the follower before played
 };
 
 }  // namespace stadion

@@ -56,6 +56,7 @@ struct RunSetup {
   std::unique_ptr<DisplayRun> displays;      ///< null without --display
   std::unique_ptr<ShowRecording> recording;  ///< null if somebody else measures
   regression::WorkCounts work;               ///< with --count-work
+  bool recordsNothing = false;               ///< of the input, though it was asked to
 };
 
 /// Findings, on stderr and in the journal.
@@ -153,6 +154,12 @@ bool beginRecording(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
 bool beginGroup(const RunOptions& o, RunSetup& s, Diagnostics& findings) {
   RunOptions recorded = o;
   recorded.recordInput = s.desk->recordName();
+  if (!recorded.recordInput.empty() && s.cluster && s.cluster->goesOn()) {
+    o.say(
+        "--record-input: nothing is recorded: a record that begins in the middle of a show cannot be played");
+    recorded.recordInput.clear();
+    s.recordsNothing = true;
+  }
   s.watch = RunWatch::create(recorded, *s.player, findings);
   if (!s.watch) return false;
   // All machines of a cluster have a file in the same frame, for which they wait.
@@ -289,6 +296,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
              s.output.get(), s.folder.get());
   if (code == kOk && s.cluster && s.cluster->summary().stopped) return kInternalFault;
   if (code == kOk && s.cluster && s.cluster->hasDouble()) return kBadInput;
+  if (code == kOk && s.recordsNothing) return kBadInput;
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;

@@ -206,7 +206,7 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   const std::uint64_t ticks = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return pacer_.wait(); });
   if (!takeCommands()) return std::nullopt;
   const double speed = options_.playback && begun_ ? options_.playback->takeFrame() : 1;
-  if (speed == 0) return told({lastSignature_, {}, true});
+  if (speed == 0) return told({lastSignature_, {}, standstill()});
   // A single frame is one tick, however long the last one took.
   const bool single = options_.playback && options_.playback->paused();
   TimeSignature now = signatureAfter(single ? 1 : ticks, speed);
@@ -216,6 +216,11 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   begun_ = true;
   lastSignature_ = now;
   return told({now});
+}
+
+Standstill FrameLoop::standstill() const {
+  const bool waits = options_.desk && options_.desk->state().waiting;
+  return waits ? Standstill::Waiting : Standstill::Paused;
 }
 
 // What is to be shown, and whether it is the last; where this machine leads, all others hear of it.
@@ -324,7 +329,7 @@ std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slo
   const TimeSignature& now = turn.signature;
   FrameTicket ticket{now, Clock::now()};
   ticket.shown = turn.shown;
-  if (turn.still) {
+  if (turn.still != Standstill::None) {
     if (!guard("App", kAllWalls, now.frame, [&]() -> Failure { return stages_.still(now, slot), Failure(); }))
       return std::nullopt;
     if (stopRequested_) stopped_ = true;

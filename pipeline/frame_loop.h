@@ -95,6 +95,7 @@ private:
   using Turn = FrameOrder;
   std::optional<Turn> nextTurn();
   std::optional<Turn> orderedTurn();
+  Standstill standstill() const;  ///< where show time does not go on
   Turn told(Turn turn);
   template <class Wait>
   auto waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait);

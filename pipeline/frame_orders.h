@@ -14,13 +14,16 @@
 
 namespace stadion {
 
+/// Why show time stands still.
+enum class Standstill : std::uint8_t { None, Paused, Waiting };  ///< Waiting: for the operator's Start
+
 /// A frame, as the machine that leads has decided it for all.
 struct FrameOrder {
   TimeSignature signature;
   Presentation shown{};
-  bool still = false;  ///< the show is paused: its last frame once more
-  bool last = false;   ///< no frame follows it
-  bool drawn = true;   ///< false: this machine is not yet one of those that show it
+  Standstill still = Standstill::None;  ///< if it stands, this is its last frame once more
+  bool last = false;                    ///< no frame follows it
+  bool drawn = true;                    ///< false: this machine is not yet one of those that show it
 };
 
 class FrameOrders {

@@ -5,6 +5,7 @@
 #include "engine/run_stopped.h"
 #include "engine/script/lint.h"
 #include "engine/script/script.h"
+#include "engine/state_hash.h"
 
 #include <filesystem>
 #include <new>
@@ -178,11 +179,14 @@ Diagnostic Loader::askedForBy(const Job& job, Diagnostic d) const {
 std::unique_ptr<Load> Loader::prepare(const Job& job) {
   Diagnostics findings;
   std::unique_ptr<Load> load;
-  auto source = read(job);
-  if (source)
+  if (auto source = read(job)) {
+    StateHash script;
+    script.add(source.value().text());
     load = build(job, std::make_unique<Document>(parseScript(std::move(source.value()), findings)), findings);
-  else
+    if (load) load->script = script.value();
+  } else {
     findings.add(source.error());
+  }
   if (!findings.all().empty()) parts_.report(sorted(findings));
   return load;
 }

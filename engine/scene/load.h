@@ -31,8 +31,9 @@ struct StaticObject {
 struct Load {
   std::uint32_t number = 0;  ///< from 1, in the order of requests
   std::string file;
-  NodeRef owner;          ///< the scene node that asked for it; invalid = the show itself
-  Nanoseconds since = 0;  ///< when it was installed [ns]
+  std::uint64_t script = 0;  ///< hash of what is in it
+  NodeRef owner;             ///< the scene node that asked for it; invalid = the show itself
+  Nanoseconds since = 0;     ///< when it was installed [ns]
   Nanoseconds until =
       std::numeric_limits<Nanoseconds>::max();  ///< when it goes, once that is in the present frame
 

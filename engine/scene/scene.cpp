@@ -27,6 +27,7 @@ Scene::~Scene() {
 }
 
 bool Scene::open(const std::string& file) {
+  script_ = file;
   const std::uint32_t number = requestLoad(file, {}, 0);
   applyLoads({}, nullptr);
   return loads_.contains(number);

@@ -183,15 +183,16 @@ public:
   /// All that the show's future depends on, between two frames: whoever puts it back goes on to the same
   /// hashes and the same pictures.
   std::vector<std::uint8_t> save();
-  /// A hash of all that save() writes, and of models(). stateHash() is kept up to date from frame to frame
+  /// A hash of all that save() writes, and of files(). stateHash() is kept up to date from frame to frame
   /// and leaves out what usually follows from the rest, such as the way on which a body will go on; this one
   /// visits every field of every node.
   std::uint64_t digest();
-  /// A hash of the models that were loaded: where files differ, it does.
-  std::uint64_t models() const;
-  /// Puts back what save() wrote, in a scene in which nothing has been opened, of the same files. Waits until
-  /// they are loaded. False: this is no such state, or the files have changed; then the scene is of no use.
-  bool restore(std::span<const std::uint8_t> state);
+  /// A hash of the scripts and models that were loaded: where files differ, it does.
+  std::uint64_t files() const;
+  /// Puts back what save() wrote, in a scene in which nothing has been opened, of the same files; `script` is
+  /// what open() would be given, which need not be where it was. Waits until they are loaded. False: this is
+  /// no such state, or the files have changed; then the scene is of no use.
+  bool restore(std::span<const std::uint8_t> state, const std::string& script);
   /// Where this scene differs from one that save() has written down elsewhere, after the same frame.
   struct Difference {
     NodeRef node;       ///< whose field it is; not valid: of the scene as a whole
@@ -275,7 +276,9 @@ private:
 
     template <class Self, class Fields>
     static void fields(Self& a, Fields& f) {
-      f("file", a.file), f("owner", a.owner), f("place", a.X_WO);
+      std::string file = a.owner.valid() ? a.file : "";  // where the show's own is, each machine knows
+      f("file", file), f("owner", a.owner), f("place", a.X_WO);
+      if (f.restores()) a.file = file;
     }
   };
   struct Change {
@@ -383,6 +386,7 @@ private:
   std::map<std::uint32_t, std::unique_ptr<Load>> loads_;
   std::uint32_t nextLoad_ = 1;
   std::vector<Change> pendingLoads_;
+  std::string script_;                    ///< the show's own
   std::map<std::uint32_t, Asked> asked_;  ///< by number: of those that are there or will come
   MessageQueue messages_;
   Agenda agenda_;

@@ -35,16 +35,16 @@ std::vector<std::uint8_t> Scene::save() {
 std::uint64_t Scene::digest() {
   StateDigest digest;
   visitAll(digest);
-  std::uint64_t models = this->models();
-  digest("models", models);
+  std::uint64_t files = this->files();
+  digest("files", files);
   return digest.value();
 }
 
 // A mesh is known by what it consists of (MeshStore).
-std::uint64_t Scene::models() const {
+std::uint64_t Scene::files() const {
   StateHash hash;
   for (const auto& [number, l] : loads_) {
-    hash.add(number);
+    hash.add(number), hash.add(l->script);
     for (const MeshId mesh : l->meshes) hash.add(mesh);
   }
   return hash.value();
@@ -59,7 +59,8 @@ void Scene::visitAll(StateFields& f) {
   visitNodes(f);
 }
 
-bool Scene::restore(std::span<const std::uint8_t> state) {
+bool Scene::restore(std::span<const std::uint8_t> state, const std::string& script) {
+  script_ = script;
   RestoredState in(state);
   std::uint32_t version = 0;
   in("version", version);
@@ -86,7 +87,10 @@ void Scene::visitLoads(StateFields& f) {
       if (asked.owner.load >= number || !asked.X_WO.matrix().allFinite()) return f.fail();
       if (!asked.owner.valid() && asked.X_WO.matrix() != Affine::Identity().matrix()) return f.fail();
     }
-    for (const auto& [number, asked] : asked_) loader_.request(number, asked.file, asked.owner, asked.X_WO);
+    for (auto& [number, asked] : asked_) {
+      if (!asked.owner.valid()) asked.file = script_;
+      loader_.request(number, asked.file, asked.owner, asked.X_WO);
+    }
     for (const std::uint32_t number : there) {
       auto load = asked_.contains(number) && !loads_.contains(number) ? loader_.take(number) : nullptr;
       if (!load) return f.fail();

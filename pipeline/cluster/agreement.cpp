@@ -53,4 +53,11 @@ std::string remark(const Agreement& lead, const Agreement& ours, const std::stri
                      printable(lead.pictures, kMostTold), ours.pictures);
 }
 
+std::string inTheWay(const ClusterFile& ours) {
+  return fmt::format("another cluster plays in the same network, with domain {} and partition {}, too; give "
+                     "each a partition "
+                     "of its own; this program ends",
+                     ours.domain, ours.partition);
+}
+
 }  // namespace stadion::cluster

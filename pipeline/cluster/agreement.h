@@ -33,4 +33,7 @@ std::string refusal(const Agreement& lead, const Agreement& ours, const std::str
 /// What will be seen to differ; empty: nothing.
 std::string remark(const Agreement& lead, const Agreement& ours, const std::string& nameOfLead);
 
+/// What to tell where one of another cluster is heard in the network of ours.
+std::string inTheWay(const ClusterFile& ours);
+
 }  // namespace stadion::cluster

@@ -38,6 +38,7 @@ enum class Phase : std::uint8_t {
   Waiting,  ///< for a session, or opening the show
   Asking,   ///< the show is under way: it needs the scene's state
   Ready,    ///< it has obeyed all orders that it knows of
+  Leaving,  ///< it plays no longer
 };
 
 /// In place of a node's number (Session::giver).

@@ -36,10 +36,17 @@ private:
 };
 
 Follower::Follower(FollowerOptions options, std::uint64_t incarnation)
-    : options_(std::move(options)), incarnation_(incarnation), input_(std::make_unique<OrderedInput>(*this)) {
-}
+    : options_(std::move(options)), incarnation_(incarnation), kept_(options_.kept),
+      input_(std::make_unique<OrderedInput>(*this)) {}
 
 Follower::~Follower() {
+  std::vector<std::thread> giving;
+  {
+    const std::lock_guard lock(mutex_);
+    kept_.reset();
+    giving.swap(giving_);
+  }
+  for (std::thread& thread : giving) thread.join();
   bus_.reset();  // nobody calls any more
 }
 
@@ -47,10 +54,11 @@ Result<std::unique_ptr<Follower>> Follower::open(FollowerOptions options) {
   std::unique_ptr<Follower> follower(new Follower(std::move(options), anyNumber()));
   auto bus = Bus::open(follower->options_.cluster, *follower);
   if (!bus) return bus.error();
-  follower->bus_ = std::move(bus.value());
   follower->tally_.barrier.makeRoom();
   const std::lock_guard lock(follower->mutex_);
+  follower->bus_ = std::move(bus.value());
   follower->announce(Phase::Waiting);
+  follower->giveIfAsked();
   return follower;
 }
 
@@ -62,10 +70,29 @@ std::unique_ptr<Follower> Follower::unconnected(FollowerOptions options, std::ui
 
 // With the mutex.
 void Follower::announce(Phase phase) {
-  told_ = phase;
-  bus_->tell(Presence{static_cast<std::uint8_t>(options_.node), incarnation_, ++announced_, joined_,
-                      static_cast<std::uint8_t>(phase), obeyed_, plays_,
-                      joined_ != 0 ? read(session_.terms).show() : 0});
+  told_ = phase, toldSerial_ = obeyed_;
+  Presence p{};
+  p.node = static_cast<std::uint8_t>(options_.node), p.incarnation = incarnation_, p.count = ++announced_;
+  p.cluster = options_.terms.cluster, p.session = joined_, p.phase = static_cast<std::uint8_t>(phase);
+  if (kept_)
+    p.plays = kept_->parcel.session, p.serial = kept_->parcel.serial, p.show = kept_->show;
+  else if (plays_ && !differs_)
+    p.plays = joined_, p.serial = obeyed_, p.show = show_;
+  bus_->tell(p);
+}
+
+// With the mutex, while nothing comes: who leads anew is to know which scene is the newest.
+void Follower::announceProgress() {
+  if (plays_ && toldSerial_ != obeyed_) announce(told_);
+}
+
+// With the mutex. On a thread of its own, for a state may be large.
+void Follower::giveIfAsked() {
+  if (!bus_ || !kept_ || session_.giver != options_.node || session_.resumes != kept_->parcel.session) return;
+  if (std::exchange(given_, session_.number) == session_.number) return;
+  SceneParcel parcel = kept_->parcel;
+  parcel.to = parcel.session = session_.number;
+  giving_.emplace_back([this, parcel = std::move(parcel)] { send(*bus_, parcel); });
 }
 
 /// False: nobody waits any longer.
@@ -79,13 +106,22 @@ bool Follower::await(std::unique_lock<std::mutex>& lock, const char* what, const
       told = true;
       options_.tell(fmt::format("waiting for {}", what));
     }
-    changed_.wait_for(lock, kLook);
+    if (changed_.wait_for(lock, kLook) == std::cv_status::timeout) announceProgress();
   }
   return true;
 }
 
 std::optional<Joining> Follower::join() {
-  std::unique_lock lock(mutex_);
+  for (std::unique_lock lock(mutex_);;) {
+    if (auto joining = joinSession(lock)) return joining;
+    if (!again_ || over_ || double_ || options_.stop()) return {};
+    again_ = false, joined_ = 0;  // another program leads now
+    announce(Phase::Waiting);
+  }
+}
+
+/// With the lock.
+std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock) {
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
   const auto known = [&] { return session_.number != 0 && session_.giver == kNobody && !session_.over; };
   if (!await(lock, (lead + ", who leads").c_str(), known)) return {};
@@ -95,7 +131,11 @@ std::optional<Joining> Follower::join() {
     return {};
   }
   if (const std::string what = remark(theirs, options_.terms, lead); !what.empty()) options_.tell(what);
-  joined_ = session_.number;
+  joined_ = session_.number, show_ = theirs.show();
+  std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.session != joined_; });
+  if (incoming_.session() != joined_) incoming_ = {};
+  const std::uint64_t ofKept = kept_ ? kept_->parcel.session : joined_;
+  if (ofKept != joined_ && ofKept != session_.resumes) kept_.reset();  // it is another show
   Joining joining{session_.rate, {}, {}, 0, theirs.input != 0};
   if (!session_.begun && session_.resumes == 0) return joining;
   if (session_.begun) awaitDouble(lock);
@@ -109,14 +149,14 @@ std::optional<Joining> Follower::join() {
     return incoming_.complete() || hasEnded();
   };
   if (!await(lock, ("the scene's state from " + lead).c_str(), has) || hasEnded()) return {};
-  SceneParcel parcel = incoming_.take();
+  const auto kept = std::make_shared<const KeptScene>(KeptScene{incoming_.take(), show_});
+  kept_ = kept;
+  const SceneParcel& parcel = kept->parcel;
   obeyed_ = parcel.serial, plays_ = true;
   joining.after.frame = parcel.frame, joining.after.time = parcel.time;
-  std::erase_if(orders_, [&](const HeardOrder& o) {
-    return o.numbers.session != joined_ || o.numbers.serial <= obeyed_;
-  });
-  joining.state = std::make_shared<const std::vector<std::uint8_t>>(std::move(parcel.scene.bytes));
-  joining.models = parcel.scene.models;
+  std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.serial <= obeyed_; });
+  joining.state = {kept, &parcel.scene.bytes};
+  joining.files = parcel.scene.files;
   return joining;
 }
 
@@ -133,8 +173,9 @@ std::optional<FrameOrder> Follower::next() {
   std::unique_lock lock(mutex_);
   if (orders_.empty() && told_ != Phase::Ready) announce(Phase::Ready);
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
-  if (!await(lock, (lead + ", who leads").c_str(), [&] { return !orders_.empty() || hasEnded(); })) return {};
-  if (again_ || double_ || orders_.empty()) return {};
+  const auto has = [&] { return !orders_.empty() || hasEnded() || leaves(); };
+  if (!await(lock, (lead + ", who leads").c_str(), has)) return {};
+  if (again_ || double_ || leaves() || orders_.empty()) return {};
   HeardOrder heard = std::move(orders_.front());
   orders_.pop_front();
   if (heard.numbers.serial != obeyed_ + 1) {
@@ -142,12 +183,14 @@ std::optional<FrameOrder> Follower::next() {
     return {};
   }
   if ((heard.numbers.explain >> options_.node & 1U) != 0 && explain(lock)) {
-    again_ = true;
+    again_ = differs_ = true;
     return {};
   }
   obeyed_ = heard.numbers.serial, frame_ = heard.order.signature.frame;
   still_ = heard.order.still, presentation_ = heard.order.shown;
-  if (!std::exchange(plays_, true)) announce(told_);
+  const bool isNew = std::exchange(kept_, nullptr) || !plays_;
+  plays_ = true;
+  if (isNew) announce(told_);
   heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
   // Left out, for being late: whoever has caught up is taken back.
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
@@ -197,7 +240,7 @@ bool Follower::mayShow(const TimeSignature&) {
   const auto drawn = Clock::now();
   // Said again after a while: who has just come is not heard on all channels at once, nor hears all of them.
   while (go_ < serial && !hasEnded() && !options_.stop())
-    if (changed_.wait_for(lock, kLook) == std::cv_status::timeout) bus_->tell(told);
+    if (changed_.wait_for(lock, kLook) == std::cv_status::timeout) bus_->tell(told), announceProgress();
   if (go_ == serial && latest_ == options_.node)
     tally_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
   return go_ >= serial;
@@ -225,6 +268,8 @@ void Follower::hear(const Session& session) {
     const std::lock_guard lock(mutex_);
     // Whoever looks for a show that is under way does not know its rate yet.
     if (session.giver == kNobody && !(session.rate >= kLeastRate && session.rate <= kMostRate)) return;
+    // Who led before, was taken for dead and comes back leads no more.
+    if (session.number < session_.number && hasShow(session_)) return;
     session_ = session;
     if (session.over && session.number == joined_ && !std::exchange(over_, true))
       options_.tell(options_.cluster.nodes[options_.cluster.lead].name + " has ended the show");
@@ -232,6 +277,7 @@ void Follower::hear(const Session& session) {
     const bool holds =
         session.resumes == joined_ && session.giver != kNobody && session.giver != options_.node;
     if (joined_ != 0 && session.number != joined_ && !holds) again_ = true;
+    giveIfAsked();
   }
   changed_.notify_all();
 }
@@ -242,11 +288,14 @@ void Follower::hear(const Presence& other) {
   {
     const std::lock_guard lock(mutex_);
     if (other.node != options_.node || other.incarnation == incarnation_ || double_) return;
-    const bool theirs = other.plays != plays_ ? other.plays : other.incarnation < incarnation_;
+    const bool has = other.plays != 0, have = plays_ || kept_;
+    const bool theirs = has != have ? has : other.incarnation < incarnation_;
     if (!theirs) return;
     double_ = true;
-    options_.tell(fmt::format("another program is {} already; this one ends",
-                              options_.cluster.nodes[options_.node].name));
+    options_.tell(other.cluster == options_.terms.cluster
+                      ? fmt::format("another program is {} already; this one ends",
+                                    options_.cluster.nodes[options_.node].name)
+                      : inTheWay(options_.cluster));
   }
   changed_.notify_all();
 }
@@ -274,29 +323,41 @@ void Follower::hear(const Go& go) {
 void Follower::hear(const StatePart& part) {
   {
     const std::lock_guard lock(mutex_);
-    if (part.to == incarnation_) incoming_.add(part);
+    if (part.to == incarnation_ && (joined_ == 0 || part.session == joined_)) incoming_.add(part);
   }
   changed_.notify_all();
 }
 
-bool Follower::isAskedForScene() const {
+bool Follower::keepsScene() const {
   const std::lock_guard lock(mutex_);
-  return joined_ != 0 && session_.resumes == joined_ && session_.giver == options_.node;
+  const bool isAsked = session_.resumes == joined_ && session_.giver == options_.node;
+  return plays_ && !differs_ && !kept_ && (isAsked || (again_ && !over_ && !double_));
 }
 
-void Follower::giveScene(const TimeSignature& last, SavedScene scene) {
-  SceneParcel parcel;
-  {
-    const std::lock_guard lock(mutex_);
-    parcel.to = parcel.session = session_.number;
-    parcel.still = still_, parcel.shown = presentation_;
-  }
-  parcel.frame = last.frame, parcel.time = last.time;
-  parcel.scene = std::move(scene);
-  send(*bus_, parcel);
+std::shared_ptr<const KeptScene> Follower::kept() const {
+  const std::lock_guard lock(mutex_);
+  return kept_;
+}
+
+void Follower::keep(const TimeSignature& last, SavedScene scene) {
+  KeptScene kept;
+  SceneParcel& parcel = kept.parcel;
+  parcel.frame = last.frame, parcel.time = last.time, parcel.scene = std::move(scene);
+  const std::lock_guard lock(mutex_);
+  parcel.session = joined_, parcel.serial = obeyed_, kept.show = show_;
+  parcel.still = still_, parcel.shown = presentation_;
+  kept_ = std::make_shared<const KeptScene>(std::move(kept));
+  giveIfAsked();
 }
 
 void Follower::finish() {
+  std::vector<std::thread> giving;
+  {
+    const std::lock_guard lock(mutex_);
+    announce(Phase::Leaving);
+    giving.swap(giving_);
+  }
+  for (std::thread& thread : giving) thread.join();
   bus_->flush();
 }
 

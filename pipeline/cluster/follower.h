@@ -3,10 +3,13 @@
 ///
 /// It opens the show from its own files; if that is under way already, it goes on from the leading machine's
 /// scene. Where an order is missing, or another program leads now, it has to join again, with a follower of
-/// its own. Who leads anew may have lost the show: then one follower gives it its scene.
+/// its own. Who leads anew has lost the show: then the follower that has come farthest gives it its scene. So
+/// each keeps the scene that it had until it obeys the first order after another one: who leads may die while
+/// there is no other.
 ///
 /// Threads  join(), next(), simulated() and sampling on the App thread (join() before there is one);
-///          mayShow() on the Draw thread that arrived last; the rest on the network's.
+///          mayShow() on the Draw thread that arrived last; the rest on the network's. Scenes are given on
+///          threads of their own.
 
 #include "engine/input/input_device.h"
 #include "pipeline/cluster/agreement.h"
@@ -22,6 +25,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <thread>
+#include <vector>
 
 namespace stadion::cluster {
 
@@ -30,7 +35,9 @@ struct FollowerOptions {
   std::size_t node = 0;
   Agreement terms;
   std::function<void(const std::string&)> tell;
-  std::function<bool()> stop;  ///< nobody waits any longer
+  std::function<bool()> stop;               ///< nobody waits any longer
+  std::function<bool()> leave{};            ///< no further order is to be obeyed
+  std::shared_ptr<const KeptScene> kept{};  ///< by the follower before
 };
 
 /// How the show is to be opened.
@@ -39,8 +46,8 @@ struct Joining {
   TimeSignature after;  ///< with a state: of what was simulated last
   /// What the scene goes on from; null: the show begins.
   std::shared_ptr<const std::vector<std::uint8_t>> state;
-  std::uint64_t models = 0;  ///< with a state: Scene::models() there
-  bool playsLog = false;     ///< an input log, which we have, too
+  std::uint64_t files = 0;  ///< with a state: Scene::files() there
+  bool playsLog = false;    ///< an input log, which we have, too
 };
 
 class Follower final : public FrameOrders, public BusListener {
@@ -69,10 +76,13 @@ public:
   bool isToJoinAgain() const;
   /// Another program is this node already: ours is to end.
   bool hasDouble() const;
-  /// Who leads anew asks for our scene, once the run has ended.
-  bool isAskedForScene() const;
-  /// `last`: what has been simulated last.
-  void giveScene(const TimeSignature& last, SavedScene scene);
+  /// The run has ended, and the scene is to be kept: for who leads anew and asks for it, or for the next
+  /// follower.
+  bool keepsScene() const;
+  /// The scene as it is now; `last` has been simulated last. Whoever asks gets it.
+  void keep(const TimeSignature& last, SavedScene scene);
+  /// Null: there is none, or it is not that of the others.
+  std::shared_ptr<const KeptScene> kept() const;
   const Tally& tally() const { return tally_; }
   void finish();
 
@@ -93,7 +103,11 @@ private:
 
   Follower(FollowerOptions options, std::uint64_t incarnation);
   void announce(Phase phase);
+  void announceProgress();
+  void giveIfAsked();
+  std::optional<Joining> joinSession(std::unique_lock<std::mutex>& lock);
   bool hasEnded() const { return again_ || over_ || double_; }
+  bool leaves() const { return options_.leave && options_.leave(); }
   bool explain(std::unique_lock<std::mutex>& lock);
   void awaitDouble(std::unique_lock<std::mutex>& lock);
   template <class Ready>
@@ -105,10 +119,11 @@ private:
   std::condition_variable changed_;
   Session session_{};         ///< number 0: there is none
   std::uint64_t joined_ = 0;  ///< the session that we play
+  std::uint64_t show_ = 0;    ///< Agreement::show() of that
   std::deque<HeardOrder> orders_;
   IncomingScene incoming_;        ///< of who leads
   std::uint64_t frame_ = 0;       ///< obeyed last
-  bool still_ = false;            ///< with it the show stood
+  Standstill still_{};            ///< whether the show stood with it
   Presentation presentation_{};   ///< and so it was shown
   std::optional<bool> isMember_;  ///< by the newest order, whoever of our name that is
   Compare compare_;
@@ -116,11 +131,16 @@ private:
   std::uint8_t latest_ = 0;
   Phase told_ = Phase::Waiting;
   std::uint64_t announced_ = 0;  ///< how often
+  std::uint64_t toldSerial_ = 0;
   std::deque<std::pair<std::uint64_t, bool>>
       shows_;  ///< orders obeyed and not shown yet: whether we draw them
   bool again_ = false, double_ = false;
-  bool over_ = false;   ///< who leads has ended the show
-  bool plays_ = false;  ///< there is a scene from which the show can go on
+  bool over_ = false;                      ///< who leads has ended the show
+  bool plays_ = false;                     ///< there is a scene from which the show can go on
+  bool differs_ = false;                   ///< but it is not that of the others
+  std::shared_ptr<const KeptScene> kept_;  ///< until there is another one
+  std::uint64_t given_ = 0;                ///< the session to whose leader it has been
+  std::vector<std::thread> giving_;
   InputSample sample_;
   bool sampled_ = false;
   std::unique_ptr<InputDevice> input_;

@@ -52,7 +52,8 @@ private:
 
 Lead::Lead(LeadOptions options, std::uint64_t session)
     : options_(std::move(options)), followers_(options_.cluster.nodes.size()), words_(followers_.size()) {
-  session_.number = session, session_.terms = written(options_.terms), session_.giver = kNobody;
+  session_.number = std::max(session, options_.above + 1), session_.terms = written(options_.terms),
+  session_.giver = kNobody;
 }
 
 Result<std::unique_ptr<Lead>> Lead::open(LeadOptions options) {
@@ -86,8 +87,22 @@ InputDevice& Lead::input(InputDevice& inner) {
   return *input_;
 }
 
+// With the mutex. Of those nodes who has come farthest in this show.
+std::optional<std::size_t> Lead::newestOf(std::uint32_t nodes) const {
+  std::optional<std::size_t> best;
+  const auto at = [this](std::size_t node) {
+    return std::pair(followers_[node].plays, followers_[node].serial);
+  };
+  for (std::size_t node = 0; node < followers_.size(); ++node) {
+    const Follower& f = followers_[node];
+    if ((nodes & bit(node)) == 0 || f.plays == 0 || f.show != options_.terms.show()) continue;
+    if (!best || at(node) > at(*best)) best = node;
+  }
+  return best;
+}
+
 // Of another program that leads already we hear no later than of those that follow it. Until then nobody
-// hears of us: they would take us for the one that they have lost.
+// hears of us: they would take us for the one that they have lost. They say meanwhile how far they have come.
 std::optional<ShowUnderWay> Lead::takeOver() {
   std::unique_lock lock(mutex_);
   const auto wait = [&](Clock::time_point until, const auto& ready) {
@@ -98,11 +113,14 @@ std::optional<ShowUnderWay> Lead::takeOver() {
            std::ranges::count(followers_, 0U, &Follower::plays) == std::ssize(followers_);
   };
   wait(Clock::now() + kSearch, allAreNew);
-  const std::uint64_t show = options_.terms.show();
-  for (std::size_t node = 0; node < followers_.size() && !double_; ++node) {
-    const Follower& f = followers_[node];
-    if (f.plays == 0 || f.show != show || (session_.resumes != 0 && f.plays != session_.resumes)) continue;
-    session_.resumes = f.plays, session_.giver = static_cast<std::uint8_t>(node);
+  // Whatever clock we have: what comes after a session has a higher number.
+  for (const Follower& f : followers_)
+    session_.number = std::max({session_.number, f.session + 1, f.plays + 1});
+  std::uint32_t untried = ~std::uint32_t{0};
+  for (auto node = newestOf(untried); node && !double_; node = newestOf(untried)) {
+    untried &= ~bit(*node);
+    const Follower& f = followers_[*node];
+    session_.resumes = f.plays, session_.giver = static_cast<std::uint8_t>(*node);
     bus_->tell(session_);
     wait(Clock::now() + kGiving, [&] { return incoming_.complete() || f.plays == 0; });
     if (!incoming_.complete()) continue;
@@ -112,15 +130,20 @@ std::optional<ShowUnderWay> Lead::takeOver() {
     pending_.signature.frame = parcel.frame, pending_.signature.time = parcel.time;
     pending_.still = parcel.still, pending_.shown = parcel.shown;
     options_.tell(
-        fmt::format("the show goes on after frame {}, with the scene of {}", parcel.frame, nameOf(node)));
+        fmt::format("the show goes on after frame {}, with the scene of {}", parcel.frame, nameOf(*node)));
     return ShowUnderWay{pending_.signature,
                         std::make_shared<const std::vector<std::uint8_t>>(std::move(parcel.scene.bytes)),
-                        parcel.scene.models, parcel.still, parcel.shown};
+                        parcel.scene.files, parcel.still, parcel.shown};
   }
   if (session_.resumes != 0 && !double_)
     options_.tell("the others play, but none sends its scene: the show begins anew");
   session_.resumes = 0, session_.giver = kNobody;
   return {};
+}
+
+std::uint64_t Lead::session() const {
+  const std::lock_guard lock(mutex_);
+  return session_.number;
 }
 
 bool Lead::hasBegun() const {
@@ -265,17 +288,19 @@ void Lead::release() {
   changed_.notify_all();
 }
 
-// Of two that lead, the one ends that has not begun; if that does not tell them apart, the one that came
-// later.
 void Lead::hear(const Session& other) {
   {
     const std::lock_guard lock(mutex_);
     if (other.over || other.number == session_.number || double_) return;
-    const bool theirs = other.begun != session_.begun ? other.begun : other.number < session_.number;
-    if (!theirs) return;
+    if (!supersedes(other, session_)) {
+      if (session_.rate > 0) bus_->tell(session_);  // who follows may have heard the other one last
+      return;
+    }
     double_ = true;
     options_.tell(
-        fmt::format("another program leads as {} already; this one ends", nameOf(options_.cluster.lead)));
+        other.terms.cluster == options_.terms.cluster
+            ? fmt::format("another program leads as {} already; this one ends", nameOf(options_.cluster.lead))
+            : inTheWay(options_.cluster));
   }
   changed_.notify_all();
 }
@@ -288,6 +313,7 @@ bool Lead::hasDouble() const {
 void Lead::hear(const Presence& p) {
   std::unique_lock lock(mutex_);
   if (p.node >= followers_.size() || p.node == options_.cluster.lead) return;
+  if (p.cluster != options_.terms.cluster) return;  // it will be told that its file is another one
   Follower& f = followers_[p.node];
   // Another one that has just come may end again at once, because there is this one.
   if (f.member && f.incarnation != p.incarnation && static_cast<Phase>(p.phase) == Phase::Waiting) return;
@@ -300,10 +326,13 @@ void Lead::hear(const Presence& p) {
     f = {};
     f.incarnation = p.incarnation;
   }
-  f.plays = static_cast<Phase>(p.phase) == Phase::Ready && p.plays ? p.session : 0;
-  f.show = p.show;
+  f.session = p.session, f.plays = p.plays, f.serial = p.serial, f.show = p.show;
   f.phase = p.session == session_.number ? static_cast<Phase>(p.phase) : Phase::Waiting;
-  f.asks = f.phase == Phase::Asking || (f.asks && f.differs);
+  f.asks = f.phase == Phase::Asking || (f.asks && f.differs && f.phase == Phase::Ready);
+  if (f.member && f.phase == Phase::Leaving) {
+    if (!pending_.last) leaveOut(p.node, "plays no longer");
+    letGo(p.node);
+  }
   if (f.phase == Phase::Ready && !f.member) {
     f.member = true;
     ++tally_.joined;

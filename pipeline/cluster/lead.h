@@ -35,14 +35,15 @@ struct LeadOptions {
   std::chrono::seconds patience{};  ///< with nodes that have not come; then the show begins without them
   std::function<void(const std::string&)> tell;
   std::function<bool()> stop;  ///< nobody waits any longer
+  std::uint64_t above = 0;     ///< the session's number is: that of the show before
 };
 
 /// A show that the others play already.
 struct ShowUnderWay {
   TimeSignature last;                                      ///< of the frame after which it goes on
   std::shared_ptr<const std::vector<std::uint8_t>> state;  ///< of its scene
-  std::uint64_t models = 0;                                ///< Scene::models()
-  bool still = false;                                      ///< it was paused
+  std::uint64_t files = 0;                                 ///< Scene::files()
+  Standstill still{};                                      ///< whether it stood
   Presentation shown{};                                    ///< how that frame was shown
 };
 
@@ -60,6 +61,7 @@ public:
   /// Waits until all nodes have opened the show, or patience is at its end. `rate` in 1/s.
   void begin(double rate);
   bool hasBegun() const;
+  std::uint64_t session() const;  ///< its number
   /// What becomes of the show's input: each sample goes to all. `inner` must outlive it.
   InputDevice& input(InputDevice& inner);
   /// How the scene's state is written down, between two frames.
@@ -93,7 +95,9 @@ private:
 
   struct Follower {
     std::uint64_t incarnation = 0;  ///< 0: it is not there
-    std::uint64_t plays = 0;        ///< the session that it is ready to play on in; 0: none
+    std::uint64_t session = 0;      ///< that it is in; 0: none
+    std::uint64_t plays = 0;        ///< the session of which it has a scene; 0: none
+    std::uint64_t serial = 0;       ///< of the order after which that is
     std::uint64_t show = 0;         ///< Agreement::show() of that session
     Phase phase = Phase::Waiting;
     bool member = false, asks = false;
@@ -111,6 +115,7 @@ private:
   };
 
   Lead(LeadOptions options, std::uint64_t session);
+  std::optional<std::size_t> newestOf(std::uint32_t nodes) const;
   void send(const InputSample* input);
   void answerWhoAsks();
   void sendParcels();

@@ -102,6 +102,11 @@ std::optional<Presentation> read(const stadion_wire_Presentation& shown) {
   return Presentation{shown.black, shown.swap_eyes, shown.eye_separation};
 }
 
+std::optional<Standstill> readStandstill(std::uint8_t still) {
+  if (still > static_cast<std::uint8_t>(Standstill::Waiting)) return {};
+  return static_cast<Standstill>(still);
+}
+
 const Order& WrittenOrder::write(const OrderNumbers& numbers, const FrameOrder& o, const InputSample* input) {
   Order& w = order_;
   w.session = numbers.session, w.serial = numbers.serial, w.members = numbers.members,
@@ -110,7 +115,7 @@ const Order& WrittenOrder::write(const OrderNumbers& numbers, const FrameOrder& 
   decisions_.clear(), trackers_.clear();
   for (const LoadDecision& d : o.signature.load) decisions_.push_back({d.load, d.position, d.level});
   lend(decisions_, w.decisions);
-  w.last = o.last, w.still = o.still, w.shown = written(o.shown);
+  w.last = o.last, w.still = static_cast<std::uint8_t>(o.still), w.shown = written(o.shown);
   w.sampled = input != nullptr;
   const std::size_t count = input ? input->trackers.size() : 0;
   if (knots_.size() < count) knots_.resize(count), controls_.resize(count);
@@ -148,9 +153,10 @@ std::optional<HeardOrder> readOrder(const Order& w) {
   for (const stadion_wire_Decision& d : spanOf(w.decisions))
     if (!now.load.add({d.load, d.position, d.level})) return {};
   const auto shown = cluster::read(w.shown);
-  if (!shown) return {};
-  heard.order.shown = *shown;
-  heard.order.last = w.last, heard.order.still = w.still;
+  const auto still = readStandstill(w.still);
+  if (!shown || !still) return {};
+  heard.order.shown = *shown, heard.order.still = *still;
+  heard.order.last = w.last;
   heard.sampled = w.sampled;
   heard.input.time = w.time;
   for (const stadion_wire_Tracker& t : spanOf(w.trackers)) heard.input.trackers.push_back(read(t));

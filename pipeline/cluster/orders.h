@@ -49,6 +49,8 @@ std::optional<HeardOrder> readOrder(const Order& order);
 stadion_wire_Presentation written(const Presentation& shown);
 /// Nothing, if eyes are nowhere.
 std::optional<Presentation> read(const stadion_wire_Presentation& shown);
+/// Nothing, if it is none.
+std::optional<Standstill> readStandstill(std::uint8_t still);
 /// Whether a show can be there: not before its beginning, nor for thirty years.
 bool isTime(Nanoseconds time);
 

@@ -18,9 +18,9 @@ void send(Bus& bus, const SceneParcel& parcel) {
   StatePart part{};
   part.to = parcel.to, part.session = parcel.session, part.serial = parcel.serial;
   part.frame = parcel.frame, part.time = parcel.time;
-  part.still = parcel.still, part.shown = written(parcel.shown);
+  part.still = static_cast<std::uint8_t>(parcel.still), part.shown = written(parcel.shown);
   const std::vector<std::uint8_t>& bytes = parcel.scene.bytes;
-  part.models = parcel.scene.models, part.size = bytes.size();
+  part.files = parcel.scene.files, part.size = bytes.size();
   do {
     const std::size_t size = std::min(kPart, bytes.size() - part.offset);
     // It is borrowed, and only read.
@@ -40,9 +40,11 @@ void IncomingScene::add(const StatePart& part) {
   if (complete_ && part.offset != 0) return;
   if (part.offset == 0) {
     complete_ = false;
-    parcel_ = {part.to,   part.session, part.serial,    part.frame,
-               part.time, part.still,   Presentation{}, {part.models, {}}};
-    if (const auto shown = read(part.shown)) parcel_.shown = *shown;
+    parcel_ = {};
+    parcel_.to = part.to, parcel_.session = part.session, parcel_.serial = part.serial;
+    parcel_.frame = part.frame, parcel_.time = part.time, parcel_.scene.files = part.files;
+    parcel_.still = readStandstill(part.still).value_or(Standstill::None);
+    parcel_.shown = read(part.shown).value_or(Presentation{});
     size_ = part.size, received_ = 0;
   }
   if (part.serial != parcel_.serial || part.session != parcel_.session || part.size != size_) return;

@@ -5,7 +5,7 @@
 
 #include "engine/time_signature.h"
 #include "pipeline/cluster/bus.h"
-#include "pipeline/operator/presentation.h"
+#include "pipeline/frame_orders.h"
 
 #include <cstdint>
 #include <vector>
@@ -14,7 +14,7 @@ namespace stadion::cluster {
 
 /// A scene between two frames, as it can be taken over.
 struct SavedScene {
-  std::uint64_t models = 0;         ///< Scene::models()
+  std::uint64_t files = 0;          ///< Scene::files()
   std::vector<std::uint8_t> bytes;  ///< Scene::save()
 };
 
@@ -23,9 +23,16 @@ struct SceneParcel {
   std::uint64_t session = 0, serial = 0;  ///< it is the scene after that order
   std::uint64_t frame = 0;                ///< simulated last
   Nanoseconds time = 0;                   ///< of that
-  bool still = false;                     ///< the show was paused
+  Standstill still{};                     ///< whether the show stood then
   Presentation shown{};                   ///< how that frame was shown
   SavedScene scene;
+};
+
+/// One that a machine holds ready while it has no show, lest it be lost with who leads. `parcel` says after
+/// which order of which session it is.
+struct KeptScene {
+  SceneParcel parcel;
+  std::uint64_t show = 0;  ///< Agreement::show() of that session
 };
 
 /// May take long: it is large.
@@ -40,6 +47,7 @@ public:
   std::uint64_t received() const { return received_; }  ///< [byte]
   /// Only what has come whole. Afterwards there is none.
   SceneParcel take();
+  std::uint64_t session() const { return parcel_.session; }
   std::uint64_t serial() const { return parcel_.serial; }
 
 private:

@@ -379,7 +379,7 @@ TEST(ProgramCluster, WhereModelsAreOthersTheyAreNamedAndNobodyPlaysWithThem) {
   const auto front = two.start("front", with(ours));
   EXPECT_EQ(floor->status(), 2) << floor->err();
   EXPECT_TRUE(has(floor->err(), "put the same files on all machines")) << floor->err();
-  EXPECT_TRUE(has(floor->err(), "the scene, models is ")) << floor->err();
+  EXPECT_TRUE(has(floor->err(), "the scene, files is ")) << floor->err();
   EXPECT_EQ(front->status(), 0) << front->err();
   EXPECT_TRUE(has(front->err(), "the scene of floor differs from ours")) << front->err();
 }

@@ -131,6 +131,12 @@ TEST(ClusterHearing, ASceneThatNobodyHasTakenGivesWayToANewerOne) {
   EXPECT_EQ(scene.serial(), 9U);
 }
 
+/// Who plays has a scene of that session, after that order.
+Presence said(std::uint8_t node, std::uint64_t incarnation, std::uint64_t count, std::uint64_t session,
+              std::uint8_t phase, std::uint64_t serial, bool plays, std::uint64_t show) {
+  return {node, incarnation, count, 0, session, phase, plays ? session : 0, serial, show};
+}
+
 /// Of the show that these lead.
 const std::uint64_t kShow = Agreement{1}.show();
 constexpr std::uint64_t kSession = 100;
@@ -149,7 +155,7 @@ std::unique_ptr<Lead> lead() {
 
 TEST(ClusterHearing, NobodyWaitsForWhoIsLostInTheLastFrame) {
   const auto l = lead();
-  l->hear(Presence{1, 9, 1, kSession, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow});
+  l->hear(said(1, 9, 1, kSession, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow));
   l->begin(60);
   FrameOrder order;
   order.signature = signatureAt(1, 60), order.last = true;
@@ -164,7 +170,7 @@ TEST(ClusterHearing, NobodyWaitsForWhoIsLostInTheLastFrame) {
 
 TEST(ClusterHearing, AShowGoesOnOnlyFromWhoHasPlayedIt) {
   const auto l = lead();
-  l->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow});
+  l->hear(said(1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow));
   std::vector<std::uint8_t> bytes(10, 3);
   StatePart part{};
   part.to = kSession, part.session = kSession, part.size = 10;
@@ -172,7 +178,7 @@ TEST(ClusterHearing, AShowGoesOnOnlyFromWhoHasPlayedIt) {
   l->hear(part);
   EXPECT_FALSE(l->takeOver());
   const auto other = lead();
-  other->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, kShow});
+  other->hear(said(1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, kShow));
   other->hear(part);
   EXPECT_TRUE(other->takeOver());
 }
@@ -183,7 +189,7 @@ TEST(ClusterHearing, AShowOfAnotherScriptIsNotTakenOver) {
   StatePart part{};
   part.to = kSession, part.session = kSession, part.size = 10;
   part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
-  l->hear(Presence{1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, kShow + 1});
+  l->hear(said(1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, kShow + 1));
   l->hear(part);
   EXPECT_FALSE(l->takeOver());
 }
@@ -191,15 +197,15 @@ TEST(ClusterHearing, AShowOfAnotherScriptIsNotTakenOver) {
 TEST(ClusterHearing, OfTwoProgramsOfOneNodeOneEnds) {
   const auto ready = static_cast<std::uint8_t>(Phase::Ready);
   const auto f = follower();  // its number is 7
-  f->hear(Presence{1, 9, 1, 0, 0, 0, false, 1});
+  f->hear(said(1, 9, 1, 0, 0, 0, false, 1));
   EXPECT_FALSE(f->hasDouble()) << "it came later: it is told the same of us, and ends";
-  f->hear(Presence{0, 6, 1, 0, 0, 0, false, 1});
+  f->hear(said(0, 6, 1, 0, 0, 0, false, 1));
   EXPECT_FALSE(f->hasDouble()) << "another node";
-  f->hear(Presence{1, 9, 2, 1, ready, 3, true, 1});
+  f->hear(said(1, 9, 2, 1, ready, 3, true, 1));
   EXPECT_TRUE(f->hasDouble()) << "it plays, we do not yet";
   EXPECT_FALSE(f->isToJoinAgain());
   const auto earlier = follower();
-  earlier->hear(Presence{1, 6, 1, 0, 0, 0, false, 1});
+  earlier->hear(said(1, 6, 1, 0, 0, 0, false, 1));
   EXPECT_TRUE(earlier->hasDouble()) << "it came before us";
   const auto l = lead();  // its number is kSession
   Session waiting = session(60, false);
@@ -215,6 +221,90 @@ TEST(ClusterHearing, OfTwoProgramsOfOneNodeOneEnds) {
   EXPECT_FALSE(begun->hasDouble()) << "it has not begun, we have";
 }
 
+TEST(ClusterHearing, WhoWasTakenForDeadAndComesBackLeadsNoMore) {
+  Session later = session(60, true);
+  later.number = kSession + 1, later.resumes = kSession;
+  const auto l = lead();
+  l->begin(60);
+  l->hear(later);
+  EXPECT_TRUE(l->hasDouble());
+  Session earlier = session(60, true);
+  earlier.number = 3;
+  const auto anew = lead();
+  anew->begin(60);
+  anew->hear(earlier);
+  EXPECT_FALSE(anew->hasDouble()) << "that one had not been heard of";
+  const auto f = follower();
+  later.begun = false;
+  f->hear(later);
+  f->hear(earlier);
+  later.begun = true, later.over = true;
+  f->hear(later);
+  EXPECT_FALSE(f->join()) << "it is in the later session, and that is over";
+}
+
+TEST(ClusterHearing, WhatComesAfterASessionHasAHigherNumberWhateverTheClocksSay) {
+  const auto l = lead();
+  const auto ready = static_cast<std::uint8_t>(Phase::Ready);
+  l->hear(said(1, 9, 1, kSession + 77, ready, 3, false, kShow));
+  EXPECT_FALSE(l->takeOver());
+  EXPECT_GT(l->session(), kSession + 77);
+}
+
+TEST(ClusterHearing, OfAnotherClusterInTheSameNetworkItIsSaidThatThereIsOne) {
+  std::string told;
+  const auto tell = [&](const std::string& what) { told = what; };
+  const auto stop = [] { return true; };
+  Agreement ours;
+  ours.cluster = 5;
+  const auto l = Lead::unconnected({room(), ours, std::chrono::seconds(0), tell, stop}, kSession);
+  Session theirs = session(60, true);
+  theirs.terms.cluster = 6;
+  l->hear(theirs);
+  EXPECT_TRUE(l->hasDouble());
+  EXPECT_NE(told.find("another cluster plays in the same network"), std::string::npos) << told;
+  told.clear();
+  const auto f = Follower::unconnected({room(), 1, ours, tell, stop}, 7);
+  Presence beside = said(1, 6, 1, 0, 0, 0, false, 1);
+  beside.cluster = 6;
+  f->hear(beside);
+  EXPECT_TRUE(f->hasDouble());
+  EXPECT_NE(told.find("another cluster plays in the same network"), std::string::npos) << told;
+}
+
+TEST(ClusterHearing, WhoGoesIsNotMissed) {
+  std::vector<std::string> told;
+  const auto l = Lead::unconnected({room(),
+                                    {1},
+                                    std::chrono::seconds(0),
+                                    [&](const std::string& what) { told.push_back(what); },
+                                    [] { return true; }},
+                                   kSession);
+  l->hear(said(1, 9, 1, kSession, static_cast<std::uint8_t>(Phase::Ready), 0, true, kShow));
+  l->begin(60);
+  told.clear();
+  l->hear(said(1, 9, 2, kSession, static_cast<std::uint8_t>(Phase::Leaving), 0, true, kShow));
+  l->left(1, 9);
+  EXPECT_EQ(told, std::vector<std::string>{"left plays no longer; the others go on"});
+}
+
+TEST(ClusterHearing, WhoIsAskedToEndObeysNoFurtherOrder) {
+  bool leaves = false;
+  const auto f = Follower::unconnected(
+      {room(), 1, {1}, [](const std::string&) {}, [] { return true; }, [&] { return leaves; }}, 7);
+  f->hear(session(60, false));
+  ASSERT_TRUE(f->join());
+  FrameOrder order;
+  order.signature = signatureAt(0, 60);
+  WrittenOrder written;
+  f->hear(written.write({1, 1, 3, 0}, order, nullptr));
+  f->hear(written.write({1, 2, 3, 0}, order, nullptr));
+  EXPECT_TRUE(f->next());
+  leaves = true;
+  EXPECT_FALSE(f->next());
+  EXPECT_FALSE(f->isToJoinAgain());
+}
+
 TEST(ClusterHearing, WhoComesBesideAMemberOfItsNameIsNoneUntilItAsks) {
   std::vector<std::string> told;
   const auto l = Lead::unconnected({room(),
@@ -224,13 +314,13 @@ TEST(ClusterHearing, WhoComesBesideAMemberOfItsNameIsNoneUntilItAsks) {
                                     [] { return true; }},
                                    kSession);
   const auto phase = [](Phase p) { return static_cast<std::uint8_t>(p); };
-  l->hear(Presence{1, 9, 1, kSession, phase(Phase::Ready), 0, true, kShow});
+  l->hear(said(1, 9, 1, kSession, phase(Phase::Ready), 0, true, kShow));
   l->begin(60);
   told.clear();
-  l->hear(Presence{1, 12, 1, 0, phase(Phase::Waiting), 0, false, 0});
-  l->hear(Presence{1, 9, 2, kSession, phase(Phase::Ready), 0, true, kShow});
+  l->hear(said(1, 12, 1, 0, phase(Phase::Waiting), 0, false, 0));
+  l->hear(said(1, 9, 2, kSession, phase(Phase::Ready), 0, true, kShow));
   EXPECT_EQ(told, std::vector<std::string>()) << "it may end at once";
-  l->hear(Presence{1, 12, 2, kSession, phase(Phase::Asking), 0, false, kShow});
+  l->hear(said(1, 12, 2, kSession, phase(Phase::Asking), 0, false, kShow));
   EXPECT_EQ(told, std::vector<std::string>{"left began anew; the others go on"});
 }
 

@@ -170,8 +170,10 @@ private:
   /// False: there is no network.
   bool play(std::size_t node, const Disturb& disturb) {
     NumberScene scene;
+    std::shared_ptr<const KeptScene> kept;
     for (bool over = false; !over;) {
-      auto opened = Follower::open({room(), node, {1}, [](const std::string&) {}, [] { return false; }});
+      auto opened = Follower::open(
+          {room(), node, {1}, [](const std::string&) {}, [] { return false; }, {}, std::move(kept)});
       if (!opened) return false;
       Follower& follower = *opened.value();
       const auto joining = follower.join();
@@ -193,7 +195,8 @@ private:
         over = follower.mayShow(last) && order->last;
         if (over) break;
       }
-      if (follower.isAskedForScene()) follower.giveScene(last, {0, scene.save()});
+      if (follower.keepsScene()) follower.keep(last, {0, scene.save()});
+      kept = follower.kept();
       follower.finish();
     }
     common_->ends[node] = scene.number;
@@ -279,6 +282,49 @@ TEST_F(ThreadsCluster, WhoLeadsAnewGoesOnFromAnothersScene) {
   EXPECT_EQ(underWay->last.frame, 29U);
   lead_->begin(60);
   for (std::uint64_t f = 30; f <= kFrames; ++f) frame(f, f == kFrames);
+  lead_->finish(true);
+  expectAllAlike();
+}
+
+TEST_F(ThreadsCluster, WhoLeadsAnewMayDieBeforeTheOthersHaveItsScene) {
+  follow(1), follow(2);
+  openLead();
+  lead_->begin(60);
+  for (std::uint64_t f = 0; f < 30; ++f) frame(f);
+  const std::uint64_t before = scene_.number;
+  for (int deaths = 0; deaths < 3; ++deaths) {
+    openLead();
+    const auto underWay = lead_->takeOver();
+    ASSERT_TRUE(underWay) << deaths << "\n" << told_.all();
+    EXPECT_EQ(underWay->last.frame, 29U);
+    scene_ = {};
+    scene_.restore(*underWay->state);
+    EXPECT_EQ(scene_.number, before);
+  }
+  lead_->begin(60);
+  for (std::uint64_t f = 30; f <= kFrames; ++f) frame(f, f == kFrames);
+  lead_->finish(true);
+  expectAllAlike();
+}
+
+TEST_F(ThreadsCluster, AShowGoesOnFromWhoHasComeFarthest) {
+  follow(1), follow(2);
+  openLead();
+  lead_->begin(60);
+  for (std::uint64_t f = 0; f < 20; ++f) frame(f);
+  kill(machines_[0], SIGSTOP);
+  for (std::uint64_t f = 20; f < 40; ++f) frame(f);
+  EXPECT_TRUE(told_.has("left has not been heard of")) << told_.all();
+  const std::uint64_t before = scene_.number;
+  openLead();
+  kill(machines_[0], SIGCONT);
+  const auto underWay = lead_->takeOver();
+  ASSERT_TRUE(underWay) << told_.all();
+  EXPECT_EQ(underWay->last.frame, 39U);
+  scene_.restore(*underWay->state);
+  EXPECT_EQ(scene_.number, before);
+  lead_->begin(60);
+  for (std::uint64_t f = 40; f <= kFrames + 40; ++f) frame(f, f == kFrames + 40);
   lead_->finish(true);
   expectAllAlike();
 }

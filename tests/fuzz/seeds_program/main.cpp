@@ -137,13 +137,13 @@ void writeConversations(const Folder& to) {
   difference.node = 1, difference.session = 1, difference.frame = 3, difference.found = true;
   difference.where = where.data(), difference.here = here.data(), difference.there = there.data();
   to.add("takes_over",
-         Conversation()(Step::Presence, stadion_wire_Presence_desc, Presence{1, 9, 1, 5, 2, 3, true, 1})(
+         Conversation()(Step::Presence, stadion_wire_Presence_desc, Presence{1, 9, 1, 0, 5, 2, 5, 3, 1})(
              Step::StatePart, stadion_wire_StatePart_desc, part)(Step::StatePart, stadion_wire_StatePart_desc,
                                                                  rest)(Step::TakeOver)(Step::Begin)
              .seed());
   to.add("leads",
-         Conversation()(Step::Presence, stadion_wire_Presence_desc, Presence{1, 9, 1, 1, 2, 0, true, 1})(
-             Step::Presence, stadion_wire_Presence_desc, Presence{2, 8, 1, 1, 1, 0, false, 1})(
+         Conversation()(Step::Presence, stadion_wire_Presence_desc, Presence{1, 9, 1, 0, 1, 2, 1, 0, 1})(
+             Step::Presence, stadion_wire_Presence_desc, Presence{2, 8, 1, 0, 1, 1, 0, 0, 1})(
              Step::Issue, {1})(Step::Drawn, stadion_wire_Drawn_desc, Drawn{1, 1, 1})(Step::Show)(
              Step::Simulated, {3})(Step::SceneHash, stadion_wire_SceneHash_desc, SceneHash{1, 1, 3, 4})(
              Step::SceneHash, stadion_wire_SceneHash_desc, SceneHash{2, 1, 5, 4})(Step::Simulated, {5})(
