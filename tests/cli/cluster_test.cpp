@@ -294,15 +294,22 @@ TEST(ProgramCluster, OfTwoProgramsOfOneNodeTheLaterEndsAndWhoLeadsEndsTheShowFor
 class TwoLive {
 public:
   explicit TwoLive(const std::string& script = "")
-      : script_(script.empty() ? kKick : folder_.write("show.evs", script)),
-        file_(folder_.write("two.cluster", "walls cave4\nnode front front left right\nnode floor floor\n"
-                                           "partition live" +
-                                               std::to_string(getpid()) + "\n")) {}
+      : script_(script.empty() ? kKick : folder_->write("show.evs", script)),
+        file_(folder_->write("two.cluster", "walls cave4\nnode front front left right\nnode floor floor\n"
+                                            "partition live" +
+                                                std::to_string(getpid()) + "\n")) {}
   std::unique_ptr<RunningProgram> start(const std::string& node, std::vector<std::string> more = {}) const {
     ProgramRun run{{stadionPath(), "run", script_, "--cluster", file_, "--node", node, "--size", "32x24",
                     "--look", "plain", "--asset-root", assetFolder()}};
     run.words.insert(run.words.end(), more.begin(), more.end());
     return std::make_unique<RunningProgram>(run);
+  }
+  /// The same, with another copy of the script.
+  std::unique_ptr<RunningProgram> startWith(const std::string& script, const std::string& node,
+                                            std::vector<std::string> more) const {
+    TwoLive other(*this);
+    other.script_ = script;
+    return other.start(node, std::move(more));
   }
   static int endOf(RunningProgram& program) {
     kill(program.pid(), SIGINT);
@@ -310,7 +317,7 @@ public:
   }
 
 private:
-  TemporaryFolder folder_;
+  std::shared_ptr<const TemporaryFolder> folder_ = std::make_shared<TemporaryFolder>();
   std::string script_, file_;
 };
 
@@ -346,6 +353,79 @@ TEST(ProgramCluster, WhatTheOperatorDecidedStaysWhereWhoLeadsBeginsAgain) {
   lo_address_free(desk);
   EXPECT_EQ(TwoLive::endOf(*front), 130) << front->err();
   EXPECT_EQ(floor->status(), 0) << floor->err();
+}
+
+TEST(ProgramCluster, AShowThatWaitsForStartStillDoesWhereWhoLeadsBeginsAgain) {
+  const TwoLive two;
+  const auto floor = two.start("floor", {"--input", "none"});
+  const std::string port = std::to_string(freePort());
+  const lo_address desk = lo_address_new("127.0.0.1", port.c_str());
+  const std::vector<std::string> waiting{"--input", "none", "--osc", port, "--wait"};
+  {
+    const auto front = two.start("front", waiting);
+    ASSERT_TRUE(front->says("waiting for start")) << front->err();
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    front->kill();
+  }
+  const auto front = two.start("front", waiting);
+  EXPECT_TRUE(front->says("the show goes on after frame")) << front->err();
+  EXPECT_TRUE(front->says("waiting for start")) << front->err();
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_FALSE(has(front->err(), "operator: start")) << front->err();
+  lo_send(desk, "/stadion/start", "i", 1);
+  EXPECT_TRUE(front->says("operator: start")) << front->err();
+  lo_address_free(desk);
+  EXPECT_EQ(TwoLive::endOf(*front), 130) << front->err();
+  EXPECT_FALSE(has(front->err(), "operator: paused")) << front->err();
+  EXPECT_EQ(floor->status(), 0) << floor->err();
+}
+
+TEST(ProgramCluster, ARecordThatWouldBeginInTheMiddleIsNotWritten) {
+  const TemporaryFolder folder;
+  const TwoLive two;
+  const auto floor = two.start("floor", {"--input", "none"});
+  const std::string record = folder.path() / "visitor.input";
+  {
+    const auto front = two.start("front", {"--input", "none", "--record-input", record});
+    ASSERT_TRUE(front->says("playing until Ctrl-C")) << front->err();
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    front->kill();
+  }
+  const auto front = two.start("front", {"--input", "none", "--record-input", record});
+  EXPECT_TRUE(front->says("--record-input: nothing is recorded")) << front->err();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_NE(TwoLive::endOf(*front), 0) << front->err();
+  EXPECT_FALSE(std::filesystem::exists(record));
+}
+
+TEST(ProgramCluster, WhereAScriptLiesIsEachMachinesAffair) {
+  const TemporaryFolder ours, theirs;
+  const TwoLive two;
+  const std::string script = fileContent(kKick);
+  const std::vector<std::string> play{"--input", "none", "--rate", "60", "--pace", "lock", "--seconds", "2"};
+  const auto floor = two.startWith(theirs.write("kick.evs", script), "floor", play);
+  const auto front = two.startWith(ours.write("kick.evs", script), "front", play);
+  EXPECT_EQ(front->status(), 0) << front->err();
+  EXPECT_EQ(floor->status(), 0) << floor->err();
+  EXPECT_FALSE(has(front->err(), "differs")) << front->err();
+}
+
+TEST(ProgramCluster, AScriptThatIsSavedIsComparedForTheNextGroup) {
+  const TemporaryFolder ours, theirs;
+  const TwoLive two;
+  const std::string script = fileContent(kKick), port = std::to_string(freePort());
+  const lo_address desk = lo_address_new("127.0.0.1", port.c_str());
+  const std::string file = ours.write("kick.evs", script);
+  const auto floor = two.startWith(theirs.write("kick.evs", script), "floor", {"--input", "none"});
+  const auto front = two.startWith(file, "front", {"--input", "none", "--osc", port});
+  ASSERT_TRUE(front->says("playing until Ctrl-C")) << front->err();
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  ours.write("kick.evs", script + "# saved\n");
+  lo_send(desk, "/stadion/next-group", "i", 1);
+  EXPECT_EQ(floor->status(), 2) << floor->err();
+  EXPECT_TRUE(has(floor->err(), "front plays another script")) << floor->err();
+  lo_address_free(desk);
+  EXPECT_EQ(TwoLive::endOf(*front), 130) << front->err();
 }
 
 TEST(ProgramCluster, ABitOfABodyThatHasNotMovedYetIsFoundInTime) {
