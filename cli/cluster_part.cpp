@@ -60,7 +60,7 @@ std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& fin
                                           "; it has " + fmt::format("{}", fmt::join(file->names(), ", ")))));
     return nullptr;
   }
-  const auto walls = loadWalls(file->walls, std::string(STADION_ROOT) + "/walls", findings);
+  const auto walls = loadWallsOf(*file, std::string(STADION_ROOT) + "/walls", findings);
   if (walls) checkWalls(*file, walls->names(), findings);
   checkInterface(*file, findings);
   if (!walls || findings.hasErrors()) return nullptr;
