@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <optional>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -205,6 +207,50 @@ TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotBeginAgain) {
   nodes.add("left", {"true"});
   EXPECT_EQ(nodes.play(), 3);
   EXPECT_EQ(startsIn(folder.path() / "front"), 1U);
+}
+
+constexpr std::chrono::milliseconds kShort{300};  // patience
+
+TEST(ProgramClusterProcesses, WhoHangsIsKilledOnceWhoLeadsHasEnded) {
+  for (const char* lead : {"exit 0", "exit 1"}) {
+    const TemporaryFolder folder;
+    const std::string hangs = folder.path() / "hangs";
+    ClusterNodes nodes(twoNodes(), false, kShort);
+    nodes.add("front", {"sh", "-c", "until [ -e " + hangs + " ]; do sleep 0.1; done; " + lead});
+    nodes.add("left", {"sh", "-c", "trap '' INT; echo >" + hangs + "; sleep 600"});
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(nodes.play(), lead == std::string("exit 1") ? 1 : 128 + SIGKILL);
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(timesIn(told, "cluster: left has not ended 0.3 s after it was asked to, and is killed\n"), 1U)
+        << told;
+    EXPECT_EQ(timesIn(told, "cluster: left "), 1U) << told;
+  }
+}
+
+TEST(ProgramClusterProcesses, WhoHangsIsKilledAfterASignal) {
+  const auto play = [] {
+    ClusterNodes nodes(twoNodes(), false, kShort);
+    nodes.add("front", {"sleep", "600"});
+    nodes.add("left", {"sh", "-c", "trap '' TERM; kill -TERM $PPID; sleep 600"});
+    std::exit(nodes.play());
+  };
+  EXPECT_EXIT(play(), testing::ExitedWithCode(128 + SIGKILL),
+              "left has not ended 0.3 s after it was asked to");
+}
+
+TEST(ProgramClusterProcesses, WhatBecomesOfANodeIsToldInItsJournal) {
+  const TemporaryFolder folder;
+  const auto file = [&](const char* node) { return (folder.path() / node).string(); };
+  ClusterNodes nodes(twoNodes(), false);
+  nodes.add("front", {"sh", "-c", "until [ $(wc -l <" + file("starts") + ") = 2 ]; do sleep 0.1; done"},
+            std::move(Journal::open(file("front")).value()));
+  nodes.add("left", failing(file("starts"), 3, 1), std::move(Journal::open(file("left")).value()));
+  folder.write("starts", "");
+  EXPECT_EQ(nodes.play(), 0);
+  EXPECT_TRUE(
+      fileContent(file("left")).ends_with("  -  cluster: left ended with exit code 3 and begins again\n"))
+      << fileContent(file("left"));
+  EXPECT_EQ(fileContent(file("front")), "") << "nothing became of it";
 }
 
 TEST(ProgramClusterProcesses, WhatANodeSaysIsOneValueOfTheJsonWhateverItIs) {
