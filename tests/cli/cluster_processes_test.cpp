@@ -300,6 +300,20 @@ TEST(ProgramClusterProcesses, TrackersAndOperatorAreThoseOfWhoLeads) {
   EXPECT_EQ(cluster.end(), 128 + SIGTERM) << cluster.told();
 }
 
+TEST(ProgramClusterProcesses, TheJournalOfANodeSaysThatItDied) {
+  PlayingCluster cluster(forLong({"--journal", "journal"}));
+  ASSERT_TRUE(cluster.plays()) << cluster.told();
+  ASSERT_EQ(kill(cluster.node("left"), SIGKILL), 0);
+  const auto journal = [&] { return fileContent(cluster.file("journal-left")); };
+  EXPECT_TRUE(becomes([&] {
+    return has(journal(), "  -  cluster: left was ended by signal 9 and begins again\n");
+  })) << journal();
+  EXPECT_TRUE(becomes([&] { return timesIn(journal(), "started: stadion") == 2; })) << journal();
+  EXPECT_FALSE(has(fileContent(cluster.file("journal-right")), "signal 9"));
+  kill(cluster.program(), SIGTERM);
+  EXPECT_EQ(cluster.end(), 128 + SIGTERM) << cluster.told();
+}
+
 TEST(ProgramClusterProcesses, WithJsonTheStandardOutputIsOneObject) {
   const TemporaryFolder folder;
   const ProgramResult r = stadionProgram(shortCluster(fourNodes(folder), {"--frames", "3", "--json"}));
@@ -335,7 +349,8 @@ TEST(ProgramClusterProcesses, WhatEachNodeWouldRefuseIsToldOnceBeforeAnyIsStarte
     EXPECT_EQ(timesIn(r.err, why), 1U) << r.err;
     EXPECT_EQ(r.out, "");
   };
-  refused(shortCluster(four, {"--walls", "cave6"}), "--walls");
+  refused(shortCluster(four, {"--walls", "cave6"}),
+          "--walls is not for clusters: " + four + " says which walls there are");
   refused(shortCluster(four, {"--node", "front"}), "--node");
   refused(shortCluster(four, {"--frames", "3", "--late-latch"}), "--late-latch is not for clusters");
   refused(shortCluster(four, {"--frames", "3", "--spans", folder.path() / "spans"}),
@@ -344,6 +359,35 @@ TEST(ProgramClusterProcesses, WhatEachNodeWouldRefuseIsToldOnceBeforeAnyIsStarte
           "walls.cluster:3:8: error: cave4 has no wall \"fromt\"");
   refused(shortCluster(folder.write("net.cluster", "node a front\nnode b left\ninterface nosuch0\n"), {}),
           "net.cluster:3:11: error: this machine has no network interface \"nosuch0\"");
+}
+
+TEST(ProgramClusterProcesses, FilesThatCannotBeWrittenAreToldOnceBeforeAnyNodeIsStarted) {
+  const TemporaryFolder folder;
+  const std::string four = fourNodes(folder), nowhere = folder.path() / "nowhere" / "x.log";
+  std::filesystem::create_directory(folder.path() / "there-front");
+  const auto refused = [&](const std::string& option, const std::string& file, const std::string& why) {
+    const ProgramResult r = stadionProgram(shortCluster(four, {option + "=" + file, "--frames", "3"}));
+    EXPECT_EQ(r.status, 2) << option;
+    EXPECT_EQ(r.err, "error: " + option + ": " + why + "\n");
+    EXPECT_EQ(r.out, "") << option;
+  };
+  const std::string ofFront = folder.path() / "nowhere" / "x-front.log";
+  const std::string gone = " cannot be written: No such file or directory";
+  for (const char* option : {"--journal", "--trace-events", "--black-box"})
+    refused(option, nowhere, ofFront + gone);
+  refused("--record-input", nowhere, nowhere + gone);
+  refused("--journal", folder.path() / "there",
+          (folder.path() / "there-front").string() + " cannot be written: Is a directory");
+  refused("--out", four, "cannot make the folder " + four + "/front: Not a directory");
+}
+
+TEST(ProgramClusterProcesses, WhatAllNodesWouldWarnOfIsToldOnce) {
+  const TemporaryFolder folder;
+  const std::string three = folder.write("three.cluster", "node a front left\nnode b right\npartition w" +
+                                                              std::to_string(getpid()) + "\n");
+  const ProgramResult r = stadionProgram(shortCluster(three, {"--frames", "3", "--gl", "none"}));
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(timesIn(r.err, "warning: no node shows the wall \"floor\" of cave4"), 1U) << r.err;
 }
 
 TEST(ProgramClusterProcesses, OptionsMayStandWhereverTheyLike) {
