@@ -5,7 +5,9 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/node_words.h"
+#include "cli/output_folder.h"
 #include "cli/show_check.h"
+#include "pipeline/output/journal.h"
 
 #include <CLI/CLI.hpp>
 
@@ -24,17 +26,40 @@ struct ClusterOptions {
 };
 
 /// Whether nothing is wrong that each node would find and tell by itself, or wait for the others meanwhile.
+/// What there is to warn of is the same for all.
 bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::string>>& words) {
   const auto isWell = [](const Diagnostics& findings) {
     if (findings.hasErrors()) tell(findings);
     return !findings.hasErrors();
   };
+  Diagnostics findings;
   for (const std::vector<std::string>& ofNode : words) {
-    Diagnostics findings;
+    findings = {};
     checkWordsOfNode(ofNode, findings);
     if (!isWell(findings)) return false;
   }
-  return isWell(checkScripts(o.run.show.script, o.run.show.assetRoots));
+  if (!isWell(checkScripts(o.run.show.script, o.run.show.assetRoots))) return false;
+  tell(findings);
+  return true;
+}
+
+/// The folders into which the nodes will write, opened as each will, and closed again.
+bool makeFolders(const std::string& out, const ClusterFile& cluster, Diagnostics& findings) {
+  if (out.empty()) return true;
+  for (const ClusterNode& node : cluster.nodes)
+    if (const auto folder = OutputFolder::open(folderOfNode(out, node.name)); !folder)
+      return findings.add(folder.error()), false;
+  return true;
+}
+
+/// The node's own, to which it adds lines as well. Null without --journal, or with the reason in the
+/// findings.
+std::unique_ptr<Journal> openJournal(const std::string& file, const ClusterNode& node,
+                                     Diagnostics& findings) {
+  if (file.empty()) return nullptr;
+  auto journal = Journal::open(fileOfNode(file, node.name));
+  if (!journal) return findings.error({}, "--journal: " + journal.error().message), nullptr;
+  return std::move(journal.value());
 }
 
 /// This program, which ends with us.
@@ -49,18 +74,19 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
   Diagnostics findings;
   const auto cluster = loadCluster(o.file, findings);
   if (!cluster) return tell(findings), kBadInput;
+  if (command.get_option("--walls")->count() > 0)
+    findings.error({}, "--walls is not for clusters: " + o.file + " says which walls there are");
+  if (findings.hasErrors()) return tell(findings), kBadInput;
   std::vector<std::vector<std::string>> words;
   for (std::size_t i = 0; i < cluster->nodes.size(); ++i)
     words.push_back(wordsOfNode(command, o.run, *cluster, i));
   if (!canBePlayed(o, words)) return kBadInput;
-  const std::string& out = o.run.out;
-  std::error_code wrong;
-  if (!out.empty()) std::filesystem::create_directories(out, wrong);
-  if (wrong)
-    return std::fprintf(stderr, "stadion: --out %s: %s\n", out.c_str(), wrong.message().c_str()), kBadInput;
-
+  if (!makeFolders(o.run.out, *cluster, findings)) return tell(findings), kBadInput;
   ClusterNodes nodes(*cluster, o.once);
-  for (std::size_t i = 0; i < words.size(); ++i) nodes.add(cluster->nodes[i].name, programOf(words[i]));
+  for (std::size_t i = 0; i < words.size(); ++i)
+    nodes.add(cluster->nodes[i].name, programOf(words[i]),
+              openJournal(o.run.journal, cluster->nodes[i], findings));
+  if (findings.hasErrors()) return tell(findings), kBadInput;
   const int code = nodes.play();
   std::fputs((o.run.json ? nodes.saidAsJson() : nodes.said()).c_str(), stdout);
   return code;
@@ -69,7 +95,7 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
 constexpr const char* kClusterFooter =
     R"(Each node is a process of its own, as `stadion run SHOW --cluster FILE --node NAME` is on a machine of its own. A node that
 dies, by a signal or with exit code 3, is begun again, and goes on from the others' scene. SIGINT (Ctrl-C) and SIGTERM are
-handed on to all nodes, and the exit code is 130 or 143.
+handed on to all nodes, and the exit code is 130 or 143; one that has not ended after 10 s is killed.
 
   ./stadion cluster walls/four.cluster scripts/kick.evs --frames 300 --out pictures
   ./stadion cluster walls/four.cluster scripts/olympia.evs --size 320x240

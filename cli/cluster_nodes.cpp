@@ -17,9 +17,6 @@ namespace stadion {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{20};
-/// Who leads tells the others that the show is over. Who has not ended so long after has lost that, and would
-/// wait for ever.
-constexpr std::chrono::seconds kAfterLead{10};
 /// Who played so long has not died as soon as it had begun.
 constexpr std::chrono::seconds kSteady{1};
 constexpr std::size_t kMostDeaths = 10;  ///< in a row
@@ -49,9 +46,15 @@ std::string wholeContentOf(const Descriptor& file) {
 
 }  // namespace
 
-void ClusterNodes::add(std::string name, std::vector<std::string> words) {
+void ClusterNodes::add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal) {
   Node& node = nodes_.emplace_back();
-  node.name = std::move(name), node.words = std::move(words);
+  node.name = std::move(name), node.words = std::move(words), node.journal = std::move(journal);
+}
+
+void ClusterNodes::sayOf(const Node& node, const std::string& what) {
+  sayOfCluster(node.name + " " + what);
+  const auto why = node.journal ? node.journal->add("cluster: " + node.name + " " + what) : std::nullopt;
+  if (why) sayOfCluster("--journal: " + *why + "; lines are lost");
 }
 
 bool ClusterNodes::begin(Node& node) {
@@ -60,7 +63,7 @@ bool ClusterNodes::begin(Node& node) {
   node.state = well ? State::Plays : State::Ended;
   if (well) return true;
   node.status = kInternalFault;
-  sayOfCluster(node.name + " cannot be started");
+  sayOf(node, "cannot be started");
   return false;
 }
 
@@ -73,6 +76,7 @@ int ClusterNodes::play() {
     if (stop && !std::exchange(forwarded, true)) ask(stopSignal());
     for (Node& node : nodes_) look(node);
     endWithLead();
+    killWhoHangs();
   }
   return code();
 }
@@ -93,18 +97,18 @@ void ClusterNodes::ended(Node& node, int status) {
   const bool over = once_ || *stop_ || leadIsGone();
   node.state = State::Ended, node.status = status;
   if (!hasFailed(status)) return;
-  const std::string how = node.name + " " + howItEnded(status);
-  if (over || !isDeath(node)) return sayOfCluster(how);
+  const std::string how = howItEnded(status);
+  if (over || !isDeath(node)) return sayOf(node, how);
   const auto now = Clock::now();
   if (now - node.begun >= kSteady) node.restarts = {};
   node.restarts.died(now);
   const std::size_t deaths = node.restarts.deaths();
   if (deaths >= kMostDeaths)
-    return sayOfCluster(fmt::format("{}, {} times in a row, and is given up", how, deaths));
+    return sayOf(node, fmt::format("{}, {} times in a row, and is given up", how, deaths));
   node.state = State::Pauses;
-  sayOfCluster(how + (deaths == 1
-                          ? " and begins again"
-                          : fmt::format(", {} times in a row, and begins again after a pause", deaths)));
+  sayOf(node,
+        how + (deaths == 1 ? " and begins again"
+                           : fmt::format(", {} times in a row, and begins again after a pause", deaths)));
 }
 
 /// A scene differed, and the cluster file says that the show is to end then.
@@ -117,20 +121,36 @@ bool ClusterNodes::isDeath(const Node& node) const {
   return node.status > kStopped || (node.status == kInternalFault && !isStop(node));
 }
 
+/// Who leads tells the others that the show is over. Who has not ended after our patience has lost that, and
+/// would wait for ever.
 void ClusterNodes::endWithLead() {
   if (othersAsked_ || !leadIsGone()) return;
   if (!goneSince_) goneSince_ = Clock::now();
   const Node& lead = nodes_[lead_];
   const bool hasTold = !hasFailed(lead.status) || isStop(lead);
-  if (hasTold && Clock::now() - *goneSince_ < kAfterLead) return;
+  if (hasTold && Clock::now() - *goneSince_ < patience_) return;
   othersAsked_ = true;
   if (anyLeft()) sayOfCluster(lead.name + ", which leads, is gone; the others end");
   ask(SIGINT);
 }
 
-void ClusterNodes::ask(int signal) const {
+void ClusterNodes::ask(int signal) {
+  if (!askedSince_) askedSince_ = Clock::now();
   for (const Node& node : nodes_)
     if (node.child.running()) kill(node.child.pid(), signal);
+}
+
+/// One that hangs in the system may outlive even that; nobody waits for it any longer.
+void ClusterNodes::killWhoHangs() {
+  if (!askedSince_ || Clock::now() - *askedSince_ < patience_) return;
+  for (Node& node : nodes_) {
+    if (!node.child.running()) continue;
+    sayOf(node, fmt::format("has not ended {:g} s after it was asked to, and is killed",
+                            std::chrono::duration<double>(patience_).count()));
+    node.child.kill();
+    node.child.wait(std::chrono::seconds(1));
+    node.state = State::Ended, node.status = kStopped + SIGKILL;
+  }
 }
 
 bool ClusterNodes::anyLeft() const {

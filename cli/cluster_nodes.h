@@ -4,17 +4,20 @@
 /// A node that dies, by a signal or with exit code 3, begins again: at once the first time, after pauses that
 /// grow if it dies as soon as it has begun. When who leads is gone for good, the others have nobody to wait
 /// for.
+/// Who was asked to end and has not so long after hangs, and is killed.
 ///
 /// Ownership  owns the processes; those that still run when it goes are killed.
 /// Threads    main.
 
 #include "pipeline/cluster/cluster_file.h"
 #include "pipeline/output/child_process.h"
+#include "pipeline/output/journal.h"
 #include "pipeline/worker/restarts.h"
 
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,11 +26,16 @@ namespace stadion {
 
 class ClusterNodes {
 public:
-  /// `once`: nobody begins again.
-  ClusterNodes(const ClusterFile& cluster, bool once)
-      : lead_(cluster.lead), stopOnDifference_(cluster.stopOnDifference), once_(once) {}
-  /// In the file's order. `words`: the program and its arguments.
-  void add(std::string name, std::vector<std::string> words);
+  /// What is not drawn five seconds after it was asked to end a node gives up by itself: one that is well has
+  /// ended by then.
+  static constexpr std::chrono::milliseconds kPatience{10000};
+
+  /// `once`: nobody begins again. `patience`: with who is to end.
+  ClusterNodes(const ClusterFile& cluster, bool once, std::chrono::milliseconds patience = kPatience)
+      : lead_(cluster.lead), stopOnDifference_(cluster.stopOnDifference), once_(once), patience_(patience) {}
+  /// In the file's order. `words`: the program and its arguments. What becomes of it is told in its journal,
+  /// too, if it has one.
+  void add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal = nullptr);
 
   /// Begins them all and looks after them until all have ended. The exit code.
   int play();
@@ -41,6 +49,7 @@ private:
   struct Node {
     std::string name;
     std::vector<std::string> words;
+    std::unique_ptr<Journal> journal{};
     State state = State::Ended;
     int status = 0;  ///< the last exit status; 128 + signal
     unsigned starts = 0;
@@ -50,6 +59,7 @@ private:
     ChildProcess child{};
   };
 
+  static void sayOf(const Node& node, const std::string& what);
   bool begin(Node& node);
   void look(Node& node);
   void ended(Node& node, int status);
@@ -57,16 +67,19 @@ private:
   bool isDeath(const Node& node) const;
   bool leadIsGone() const { return nodes_[lead_].state == State::Ended; }
   void endWithLead();
-  void ask(int signal) const;
+  void ask(int signal);
+  void killWhoHangs();
   bool anyLeft() const;
   int code() const;
 
   std::size_t lead_;
   bool stopOnDifference_, once_;
+  std::chrono::milliseconds patience_;
   const std::atomic<bool>* stop_ = nullptr;
   std::deque<Node> nodes_;
-  std::optional<Clock::time_point> goneSince_{};  ///< who leads
-  bool othersAsked_ = false;                      ///< to end after it
+  std::optional<Clock::time_point> goneSince_{};   ///< who leads
+  std::optional<Clock::time_point> askedSince_{};  ///< the nodes, to end
+  bool othersAsked_ = false;                       ///< to end after who leads
 };
 
 }  // namespace stadion

@@ -23,12 +23,6 @@ bool isOfRun(const CLI::Option& option) {
   return option.nonpositional() && std::ranges::find(kOurs, nameOf(option)) == kOurs.end();
 }
 
-std::string withName(const std::string& file, const std::string& name) {
-  std::filesystem::path path = file;
-  const std::string ending = path.extension();
-  return path.replace_extension().string() + "-" + name + ending;
-}
-
 void addWords(const CLI::Option& option, const std::vector<std::string>& values,
               std::vector<std::string>& words) {
   const std::string name = nameOf(option);
@@ -59,16 +53,26 @@ bool namesFileOfEach(const RunOptions& asked, std::string_view option) {
   return std::ranges::any_of(asked.namedFiles(), isIt) && !isOfWhoLeads(option);
 }
 
+std::string fileOfNode(const std::string& file, const std::string& node) {
+  std::filesystem::path path = file;
+  const std::string ending = path.extension();
+  return path.replace_extension().string() + "-" + node + ending;
+}
+
+std::string folderOfNode(const std::string& out, const std::string& node) {
+  return out + "/" + node;
+}
+
 std::vector<std::string> wordsOfNode(const CLI::App& command, const RunOptions& asked,
                                      const ClusterFile& cluster, std::size_t node) {
   const std::string& name = cluster.nodes[node].name;
   const bool leads = node == cluster.lead;
   std::vector<std::string> words{asked.show.script, "--cluster", cluster.file, "--node", name};
-  if (!asked.out.empty()) words.insert(words.end(), {"--out", asked.out + "/" + name});
+  if (!asked.out.empty()) words.insert(words.end(), {"--out", folderOfNode(asked.out, name)});
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0 || !isOfRun(*option) || (!leads && isOfWhoLeads(nameOf(*option)))) continue;
     std::vector<std::string> values = option->results();
-    if (namesFileOfEach(asked, nameOf(*option))) values = {withName(values.back(), name)};
+    if (namesFileOfEach(asked, nameOf(*option))) values = {fileOfNode(values.back(), name)};
     addWords(*option, values, words);
   }
   // With trackers no log beside the show counts; the others do not know that there are any.
@@ -85,7 +89,9 @@ void checkWordsOfNode(std::vector<std::string> words, Diagnostics& findings) {
   o.addTo(run);
   std::ranges::reverse(words);  // as CLI takes them
   run.parse(std::move(words));
-  if (o.settle(findings)) ClusterPart::create(o, findings);
+  if (!o.settle(findings)) return;
+  refuseUnwritable(o.namedFiles(), findings);
+  ClusterPart::create(o, findings);
 }
 
 }  // namespace stadion

@@ -1,6 +1,9 @@
 #include "cli/output_names.h"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -16,6 +19,15 @@ bool isSame(const std::string& a, const std::string& b) {
   return !none && first == fs::weakly_canonical(fs::absolute(b, none), none) && !none;
 }
 
+/// 0, or an errno. A file that is there need not lie in a folder of ours (/var/log/show.log).
+int whyNotWritable(const fs::path& file) {
+  std::error_code none;
+  if (fs::is_directory(file, none)) return EISDIR;
+  const bool isThere = fs::exists(file, none);
+  const fs::path place = isThere ? file : file.parent_path() / ".";
+  return access(place.c_str(), isThere ? W_OK : W_OK | X_OK) == 0 ? 0 : errno;
+}
+
 }  // namespace
 
 void refuseSameFiles(std::span<const NamedFile> files, Diagnostics& findings) {
@@ -28,6 +40,13 @@ void refuseSameFiles(std::span<const NamedFile> files, Diagnostics& findings) {
                              ", and only one of them would be left; name another");
       break;
     }
+}
+
+void refuseUnwritable(std::span<const NamedFile> files, Diagnostics& findings) {
+  for (const NamedFile& f : files) {
+    const int why = f.written && !f.file.empty() ? whyNotWritable(f.file) : 0;
+    if (why != 0) findings.error({}, f.option + ": " + f.file + " cannot be written: " + std::strerror(why));
+  }
 }
 
 }  // namespace stadion

@@ -191,6 +191,17 @@ std::optional<ClusterFile> loadCluster(const std::string& file, Diagnostics& out
   return parseCluster(text.value(), file, out);
 }
 
+std::optional<WallFile> loadWallsOf(const ClusterFile& cluster, const std::string& folder, Diagnostics& out) {
+  Diagnostics found;
+  auto walls = loadWalls(cluster.walls, folder, found);
+  if (walls) return walls;
+  for (Diagnostic d : found.all()) {
+    if (d.where.file.empty()) d.where = cluster.wallsAt.where, d.excerpt = cluster.wallsAt.excerpt;
+    out.add(std::move(d));
+  }
+  return std::nullopt;
+}
+
 void checkWalls(const ClusterFile& cluster, const std::vector<std::string>& walls, Diagnostics& out) {
   std::vector<std::string> unseen = walls;
   for (const ClusterNode& node : cluster.nodes)

@@ -10,7 +10,7 @@
 ///
 /// One statement a line; `#` begins a comment.
 ///
-///     walls FILE|NAME             the room (cave4); a file is looked for beside this one
+///     walls FILE|NAME             the room (without this line cave4); a file is looked for beside this one
 ///     node NAME [WALL...]         a machine and the walls that it shows; none: it shows nothing
 ///     lead NAME                   whose clock and trackers count (the first one)
 ///     interface NAME|ADDRESS      of the network between them (the loopback interface: all on one machine);
@@ -27,6 +27,7 @@
 /// Errors   go to the Diagnostics with line, column and a fix where one is known; there may be several.
 
 #include "engine/diagnostic.h"
+#include "engine/display/wall_file.h"
 
 #include <cstdint>
 #include <optional>
@@ -74,6 +75,10 @@ struct ClusterFile {
 /// Reads the text; nothing if it has errors. Whether the room has such walls, checkWalls() says.
 std::optional<ClusterFile> parseCluster(std::string_view text, const std::string& file, Diagnostics& out);
 std::optional<ClusterFile> loadCluster(const std::string& file, Diagnostics& out);
+
+/// The room's walls, as loadWalls() finds them. What is wrong with their name is told with its place in the
+/// cluster file; warnings are left to who opens the show.
+std::optional<WallFile> loadWallsOf(const ClusterFile& cluster, const std::string& folder, Diagnostics& out);
 
 /// Says which nodes' walls are not among these, and warns of walls that nobody shows.
 void checkWalls(const ClusterFile& cluster, const std::vector<std::string>& walls, Diagnostics& out);

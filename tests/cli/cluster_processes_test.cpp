@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <optional>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -207,6 +209,50 @@ TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotBeginAgain) {
   EXPECT_EQ(startsIn(folder.path() / "front"), 1U);
 }
 
+constexpr std::chrono::milliseconds kShort{300};  // patience
+
+TEST(ProgramClusterProcesses, WhoHangsIsKilledOnceWhoLeadsHasEnded) {
+  for (const char* lead : {"exit 0", "exit 1"}) {
+    const TemporaryFolder folder;
+    const std::string hangs = folder.path() / "hangs";
+    ClusterNodes nodes(twoNodes(), false, kShort);
+    nodes.add("front", {"sh", "-c", "until [ -e " + hangs + " ]; do sleep 0.1; done; " + lead});
+    nodes.add("left", {"sh", "-c", "trap '' INT; echo >" + hangs + "; sleep 600"});
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(nodes.play(), lead == std::string("exit 1") ? 1 : 128 + SIGKILL);
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(timesIn(told, "cluster: left has not ended 0.3 s after it was asked to, and is killed\n"), 1U)
+        << told;
+    EXPECT_EQ(timesIn(told, "cluster: left "), 1U) << told;
+  }
+}
+
+TEST(ProgramClusterProcesses, WhoHangsIsKilledAfterASignal) {
+  const auto play = [] {
+    ClusterNodes nodes(twoNodes(), false, kShort);
+    nodes.add("front", {"sleep", "600"});
+    nodes.add("left", {"sh", "-c", "trap '' TERM; kill -TERM $PPID; sleep 600"});
+    std::exit(nodes.play());
+  };
+  EXPECT_EXIT(play(), testing::ExitedWithCode(128 + SIGKILL),
+              "left has not ended 0.3 s after it was asked to");
+}
+
+TEST(ProgramClusterProcesses, WhatBecomesOfANodeIsToldInItsJournal) {
+  const TemporaryFolder folder;
+  const auto file = [&](const char* node) { return (folder.path() / node).string(); };
+  ClusterNodes nodes(twoNodes(), false);
+  nodes.add("front", {"sh", "-c", "until [ $(wc -l <" + file("starts") + ") = 2 ]; do sleep 0.1; done"},
+            std::move(Journal::open(file("front")).value()));
+  nodes.add("left", failing(file("starts"), 3, 1), std::move(Journal::open(file("left")).value()));
+  folder.write("starts", "");
+  EXPECT_EQ(nodes.play(), 0);
+  EXPECT_TRUE(
+      fileContent(file("left")).ends_with("  -  cluster: left ended with exit code 3 and begins again\n"))
+      << fileContent(file("left"));
+  EXPECT_EQ(fileContent(file("front")), "") << "nothing became of it";
+}
+
 TEST(ProgramClusterProcesses, WhatANodeSaysIsOneValueOfTheJsonWhateverItIs) {
   ClusterNodes nodes(twoNodes(), false);
   nodes.add("front", {"sh", "-c", "echo '{\"frames\":3}'"});
@@ -254,6 +300,20 @@ TEST(ProgramClusterProcesses, TrackersAndOperatorAreThoseOfWhoLeads) {
   EXPECT_EQ(cluster.end(), 128 + SIGTERM) << cluster.told();
 }
 
+TEST(ProgramClusterProcesses, TheJournalOfANodeSaysThatItDied) {
+  PlayingCluster cluster(forLong({"--journal", "journal"}));
+  ASSERT_TRUE(cluster.plays()) << cluster.told();
+  ASSERT_EQ(kill(cluster.node("left"), SIGKILL), 0);
+  const auto journal = [&] { return fileContent(cluster.file("journal-left")); };
+  EXPECT_TRUE(becomes([&] {
+    return has(journal(), "  -  cluster: left was ended by signal 9 and begins again\n");
+  })) << journal();
+  EXPECT_TRUE(becomes([&] { return timesIn(journal(), "started: stadion") == 2; })) << journal();
+  EXPECT_FALSE(has(fileContent(cluster.file("journal-right")), "signal 9"));
+  kill(cluster.program(), SIGTERM);
+  EXPECT_EQ(cluster.end(), 128 + SIGTERM) << cluster.told();
+}
+
 TEST(ProgramClusterProcesses, WithJsonTheStandardOutputIsOneObject) {
   const TemporaryFolder folder;
   const ProgramResult r = stadionProgram(shortCluster(fourNodes(folder), {"--frames", "3", "--json"}));
@@ -289,7 +349,8 @@ TEST(ProgramClusterProcesses, WhatEachNodeWouldRefuseIsToldOnceBeforeAnyIsStarte
     EXPECT_EQ(timesIn(r.err, why), 1U) << r.err;
     EXPECT_EQ(r.out, "");
   };
-  refused(shortCluster(four, {"--walls", "cave6"}), "--walls");
+  refused(shortCluster(four, {"--walls", "cave6"}),
+          "--walls is not for clusters: " + four + " says which walls there are");
   refused(shortCluster(four, {"--node", "front"}), "--node");
   refused(shortCluster(four, {"--frames", "3", "--late-latch"}), "--late-latch is not for clusters");
   refused(shortCluster(four, {"--frames", "3", "--spans", folder.path() / "spans"}),
@@ -298,6 +359,35 @@ TEST(ProgramClusterProcesses, WhatEachNodeWouldRefuseIsToldOnceBeforeAnyIsStarte
           "walls.cluster:3:8: error: cave4 has no wall \"fromt\"");
   refused(shortCluster(folder.write("net.cluster", "node a front\nnode b left\ninterface nosuch0\n"), {}),
           "net.cluster:3:11: error: this machine has no network interface \"nosuch0\"");
+}
+
+TEST(ProgramClusterProcesses, FilesThatCannotBeWrittenAreToldOnceBeforeAnyNodeIsStarted) {
+  const TemporaryFolder folder;
+  const std::string four = fourNodes(folder), nowhere = folder.path() / "nowhere" / "x.log";
+  std::filesystem::create_directory(folder.path() / "there-front");
+  const auto refused = [&](const std::string& option, const std::string& file, const std::string& why) {
+    const ProgramResult r = stadionProgram(shortCluster(four, {option + "=" + file, "--frames", "3"}));
+    EXPECT_EQ(r.status, 2) << option;
+    EXPECT_EQ(r.err, "error: " + option + ": " + why + "\n");
+    EXPECT_EQ(r.out, "") << option;
+  };
+  const std::string ofFront = folder.path() / "nowhere" / "x-front.log";
+  const std::string gone = " cannot be written: No such file or directory";
+  for (const char* option : {"--journal", "--trace-events", "--black-box"})
+    refused(option, nowhere, ofFront + gone);
+  refused("--record-input", nowhere, nowhere + gone);
+  refused("--journal", folder.path() / "there",
+          (folder.path() / "there-front").string() + " cannot be written: Is a directory");
+  refused("--out", four, "cannot make the folder " + four + "/front: Not a directory");
+}
+
+TEST(ProgramClusterProcesses, WhatAllNodesWouldWarnOfIsToldOnce) {
+  const TemporaryFolder folder;
+  const std::string three = folder.write("three.cluster", "node a front left\nnode b right\npartition w" +
+                                                              std::to_string(getpid()) + "\n");
+  const ProgramResult r = stadionProgram(shortCluster(three, {"--frames", "3", "--gl", "none"}));
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(timesIn(r.err, "warning: no node shows the wall \"floor\" of cave4"), 1U) << r.err;
 }
 
 TEST(ProgramClusterProcesses, OptionsMayStandWhereverTheyLike) {

@@ -98,6 +98,21 @@ TEST(ClusterFile, WallsThatTheRoomHasNotAndThoseThatNobodyShowsAreToldWithTheirP
       << "nothing in the file names the room";
 }
 
+TEST(ClusterFile, WallsThatThereAreNotAreToldWithTheirPlace) {
+  const auto wrongWith = [](const std::string& text) {
+    Diagnostics found;
+    const auto c = parseCluster(text, "room.cluster", found);
+    EXPECT_TRUE(c && !loadWallsOf(*c, STADION_SOURCE_DIR "/walls", found)) << text;
+    return found.all().empty() ? "" : format(found.all()[0]);
+  };
+  EXPECT_EQ(wrongWith("node a front\nwalls cvae4\n"),
+            "room.cluster:2:7: error: there are no walls named \"cvae4\"; did you mean \"cave4\"?\n"
+            "walls cvae4\n"
+            "      ^");
+  EXPECT_EQ(wrongWith("node a front\nwalls ./nowhere.walls\n"),
+            "./nowhere.walls: error: cannot be read: No such file or directory");
+}
+
 TEST(ClusterFile, AWallThatIsNamedTwiceIsPointedAt) {
   EXPECT_EQ(wrongIn("node a front left front\n"), "room.cluster:1:19: error: \"front\" is named twice\n"
                                                   "node a front left front\n"
