@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <unistd.h>
@@ -152,11 +153,12 @@ double LiveDesk::uptime() const {
 
 void LiveDesk::tell(const OperatorCommand& command, Nanoseconds showTime) const {
   const OperatorState& s = desk_->state();
+  const Nanoseconds stands = std::max(showTime, desk_->playback().standsFrom());
   const auto onOff = [](bool on) { return on ? " on" : " off"; };
   std::string what(nameOf(command.action));
   switch (command.action) {
   case OperatorAction::Pause:
-    what = fmt::format("{} at {:.3f} s", s.paused ? "paused" : "going on", toSeconds(showTime));
+    what = fmt::format("{} at {:.3f} s", s.paused ? "paused" : "going on", toSeconds(stands));
     break;
   case OperatorAction::Step:
     if (options_.live) return;  // view tells of the picture

@@ -275,6 +275,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   if (recording && !s.player->obeysLog()) options.decider = recording->governor();
   if (s.cluster) s.cluster->addTo(options, *s.desk);
   if (s.supervised) s.supervised->goOn(options, *s.desk, *s.watch);
+  if (options.after) s.watch->goOnAfter(*options.after);
   FrameLoop loop(stages, options, stop, probe);
   looping = &loop;
 

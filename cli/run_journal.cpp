@@ -27,6 +27,8 @@ std::string machineText() {
 
 std::unique_ptr<RunJournal> RunJournal::open(const RunOptions& options, Diagnostics& findings) {
   if (options.journal.empty()) return nullptr;
+  if (options.supervised >= 0)  // who watches has seen that it could be written: no reason for dark walls
+    return std::unique_ptr<RunJournal>(new RunJournal(Journal::openLater(options.journal)));
   auto file = Journal::open(options.journal);
   if (!file) {
     findings.error({}, "--journal: " + file.error().message);

@@ -20,7 +20,8 @@ namespace stadion {
 
 class RunJournal {
 public:
-  /// Null without --journal, or, with the reason in the findings, if the file cannot be written.
+  /// Null without --journal, or, with the reason in the findings, if the file cannot be written; a supervised
+  /// player's show goes on without it then.
   static std::unique_ptr<RunJournal> open(const RunOptions& options, Diagnostics& findings);
 
   void note(std::string_view what);

@@ -128,11 +128,11 @@ void RunOptions::addClusterTo(CLI::App& command) {
 /// What all machines do together each of them cannot decide alone.
 void RunOptions::settleCluster(Diagnostics& findings) {
   if (cluster.empty()) return;
-  const auto refuse = [&](bool asked, const char* option, const char* why) {
-    if (asked) findings.error({}, std::string(option) + " is not for clusters: " + why);
+  const auto refuse = [&](bool asked, const char* options, const char* why) {
+    if (asked) findings.error({}, std::string(options) + " not for clusters: " + why);
   };
-  refuse(lateLatch, "--late-latch", "all walls of a frame are drawn from the same head");
-  refuse(!spans.file.empty() || countWork, "--spans and --count-work", "measure on one machine");
+  refuse(lateLatch, "--late-latch is", "all walls of a frame are drawn from the same head");
+  refuse(!spans.file.empty() || countWork, "--spans and --count-work are", "they measure on one machine");
 }
 
 void RunOptions::addHeadTo(CLI::App& command) {
@@ -182,7 +182,7 @@ void RunOptions::addSupervisionTo(CLI::App& command) {
       ->check(numberFrom(0.5, 3600))
       ->capture_default_str();
   command.add_option("--supervised", supervised)->group("");  // by --supervise alone
-  command.add_option("--ends-with", endsWith)->group("");     // by `stadion cluster` alone
+  command.add_option("--ends-with", endsWith)->group("");     // by that and by `stadion cluster`
   command
       .add_option(
           "--journal", journal,

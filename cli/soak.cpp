@@ -13,6 +13,7 @@
 #include "pipeline/machine/process_figures.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -55,6 +56,8 @@ public:
 private:
   bool visit(const std::string& show, Way way, std::uint64_t frames);
   void see(const TimeSignature& now, const Scene& scene, const RunWatch& watch);
+  void countSeconds();
+  void keepCounts();
   void tellProgress();
 
   const SoakOptions& options_;
@@ -140,6 +143,7 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
   }
   record_.counts.throws += visitor.throws(), record_.counts.refused += visitor.refused();
   ++record_.counts.visits;
+  keepCounts();
   if (outcome.failure) std::fprintf(stderr, "stadion: %s\n", outcome.failure->message.c_str());
   return !outcome.failure;
 } catch (const RunStopped&) {
@@ -148,6 +152,7 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
 
 void Soak::see(const TimeSignature& now, const Scene& scene, const RunWatch& watch) {
   SoakCounts& c = record_.counts;
+  const std::uint64_t wrong = c.wrongSteps + c.wrongHashes;
   ++c.frames;
   if (now.step != signatureAt(now.frame, 60).step || now.time != before_ + now.step) ++c.wrongSteps;
   before_ = now.time;
@@ -158,16 +163,26 @@ void Soak::see(const TimeSignature& now, const Scene& scene, const RunWatch& wat
     std::fprintf(stderr, "%s: frame %ju has another history of states than before\n", show_.c_str(),
                  static_cast<std::uintmax_t>(now.frame));
   }
+  if (wrong == 0 && c.wrongSteps + c.wrongHashes > 0) keepCounts();  // whatever ends the run now
   if (way_ == Way::Killed && now.frame % kKillEvery == kKillEvery / 2)
     for (const pid_t wall : wallProcesses())
       if (kill(wall, SIGKILL) == 0) ++c.killed;
   if (way_ != Way::Pipelined || now.frame % kSampleEvery != kSampleAt) return;
-  const auto clock = Clock::now();
-  c.seconds += std::chrono::duration<double>(clock - measured_).count();
-  measured_ = clock;
+  countSeconds();
   const ProcessFigures p = processFigures();
   record_.add({0, c.visits, c.frames, p.residentBytes, p.heapBytes, p.handles, p.threads});
-  if (clock - told_ > std::chrono::seconds(10)) told_ = clock, tellProgress();
+  if (measured_ - told_ > std::chrono::seconds(10)) told_ = measured_, tellProgress();
+}
+
+void Soak::countSeconds() {
+  const auto clock = Clock::now();
+  record_.counts.seconds += std::chrono::duration<double>(clock - measured_).count();
+  measured_ = clock;
+}
+
+void Soak::keepCounts() {
+  countSeconds();
+  record_.addCounts();
 }
 
 void Soak::tellProgress() {
@@ -184,10 +199,17 @@ public:
     std::printf("  %-6s %s\n", well ? "ok" : "FAILED", what.c_str());
     well_ = well_ && well;
   }
+  /// Likewise, of what more samples might hide.
+  void addLasting(bool well, const std::string& what) {
+    add(well, what);
+    if (!well) failed_.push_back(what);
+  }
   bool well() const { return well_; }
+  const std::vector<std::string>& failed() const { return failed_; }
 
 private:
   bool well_ = true;
+  std::vector<std::string> failed_;
 };
 
 /// Memory, in a visit or from visit to visit, handles and threads. What could not be judged is no pass, but
@@ -201,17 +223,18 @@ void judgeGrowth(Verdicts& v, const SoakRecord& record, std::uint64_t warmUp, bo
   const bool inVisit = samples.size() >= kFewest;
   if (inVisit) {
     const double resident = slope(&SoakSample::residentBytes);
-    v.add(resident < kMostSlope,
-          fmt::format("memory in a visit: {:+.1f} bytes in 10 000 frames (RSS; less than {} is asked for), "
-                      "{:+.1f} of them asked for by the program; {} samples",
-                      resident, kMostSlope, slope(&SoakSample::heapBytes), samples.size()));
+    v.addLasting(
+        resident < kMostSlope,
+        fmt::format("memory in a visit: {:+.1f} bytes in 10 000 frames (RSS; less than {} is asked for), "
+                    "{:+.1f} of them asked for by the program; {} samples",
+                    resident, kMostSlope, slope(&SoakSample::heapBytes), samples.size()));
   } else {
     std::printf("  -      memory in a visit: %zu samples after its first %ju frames are too few\n",
                 samples.size(), static_cast<std::uintmax_t>(warmUp));
   }
   const auto more = slopeOfVisits(record.samples(), &SoakSample::heapBytes);
   if (more)
-    v.add(
+    v.addLasting(
         *more < kMostOfVisit,
         fmt::format("memory from visit to visit: {:+.1f} bytes more asked for by the program (less than {}); "
                     "{:+.1f} bytes of RSS",
@@ -226,12 +249,12 @@ void judgeGrowth(Verdicts& v, const SoakRecord& record, std::uint64_t warmUp, bo
   if (record.samples().size() < kFewest) return;
   const auto handles = growthOf(record.samples(), &SoakSample::handles),
              threads = growthOf(record.samples(), &SoakSample::threads);
-  v.add(handles <= 0, fmt::format("handles: {:+} of {}", handles, record.samples().back().handles));
-  v.add(threads <= 0, fmt::format("threads: {:+} of {}", threads, record.samples().back().threads));
+  v.addLasting(handles <= 0, fmt::format("handles: {:+} of {}", handles, record.samples().back().handles));
+  v.addLasting(threads <= 0, fmt::format("threads: {:+} of {}", threads, record.samples().back().threads));
 }
 
-/// Prints what came of it. False if a limit was missed.
-bool tellVerdicts(const SoakOptions& o, const SoakRecord& record) {
+/// Prints what came of it.
+Verdicts tellVerdicts(const SoakOptions& o, const SoakRecord& record) {
   const SoakCounts& c = record.counts;
   std::printf("soak of %s: %ju frames in %ju visits by %u processes, %.0f frames a second\n",
               fmt::format("{}", fmt::join(o.shows, ", ")).c_str(), static_cast<std::uintmax_t>(c.frames),
@@ -247,8 +270,11 @@ bool tellVerdicts(const SoakOptions& o, const SoakRecord& record) {
   v.add(c.wrongHashes == 0,
         fmt::format("states: {} of {} histories compared differ", c.wrongHashes, c.compared));
   if (!o.noMemory)
-    judgeGrowth(v, record, std::min<std::uint64_t>(100'000, o.frames / 5), c.frames < o.frames);
-  return v.well();
+    judgeGrowth(v, record, std::min<std::uint64_t>(100'000, std::max(o.frames, c.frames) / 5),
+                c.frames < o.frames);
+  for (const std::string& what : record.failed())
+    if (std::ranges::find(v.failed(), what) == v.failed().end()) v.add(false, "before: " + what);
+  return v;
 }
 
 int soak(SoakOptions o) {
@@ -260,12 +286,19 @@ int soak(SoakOptions o) {
   const auto record = SoakRecord::open(o.record, what, findings);
   tell(findings);
   if (!record) return kBadInput;
+  if (record->counts.frames >= o.frames) {
+    std::fprintf(stderr, "soak: it is finished, by the record: nothing is played\n");
+    return tellVerdicts(o, *record).well() ? kOk : kCheckFailed;
+  }
   auto provider = openGlProvider(GlProviderKind::OsMesa);
   if (!provider)
     return std::fprintf(stderr, "stadion: %s\n", provider.error().message.c_str()), kInternalFault;
+  record->begin();
   Soak run(o, *record, *provider.value(), stop);
   if (!run.play()) return kBadInput;
-  if (!tellVerdicts(o, *record)) return kCheckFailed;
+  const Verdicts verdicts = tellVerdicts(o, *record);
+  record->end(verdicts.failed());
+  if (!verdicts.well()) return kCheckFailed;
   if (record->incomplete()) return kBadInput;
   return record->counts.frames < o.frames ? kStopped + stopSignal() : kOk;
 }

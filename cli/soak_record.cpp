@@ -113,19 +113,22 @@ bool SoakRecord::read(const std::string& what, Diagnostics& findings) {
     if (const char* why = readLine(j))
       return findings.error({name_, number, 0}, none + ": this line " + why + other), false;
   }
-  process_ = samples_.empty() ? 0 : samples_.back().process + 1;
   write("");  // what a run that was killed has left of a line stays a line of its own
   return true;
 }
 
 /// What is wrong with it; null: nothing.
 const char* SoakRecord::readLine(const Json& line) {
-  if (!line.is_object()) return "is neither a sample nor a history";
+  if (!line.is_object()) return "is neither a sample nor counts nor a history";
   if (line.contains("sample")) return readSample(valueAt(line, "sample"), valueAt(line, "counts"));
+  if (line.contains("counts")) {
+    const char* why = readCounts(valueAt(line, "process"), valueAt(line, "counts"));
+    return !why && line.contains("failed") ? readFailed(valueAt(line, "failed")) : why;
+  }
   const Json &show = valueAt(line, "show"), &frame = valueAt(line, "frame"),
              &history = valueAt(line, "history");
   if (!show.is_string() || !isNumber(frame) || !history.is_number_unsigned())
-    return "is neither a sample nor a history";
+    return "is neither a sample nor counts nor a history";
   const auto before = known(show, frame, history);
   return before && *before != history.get<std::uint64_t>() ? "has another history of a frame than one before"
                                                            : nullptr;
@@ -136,11 +139,30 @@ const char* SoakRecord::readSample(const Json& s, const Json& c) {
   const SoakCounts now = countsOf(c);
   const std::uint64_t process = s.at(0), visit = s.at(1), frame = s.at(2);
   if (frame != now.frames || visit != now.visits) return "has a sample of another frame than its counts are";
-  const std::uint64_t lastProcess = samples_.empty() ? 0 : samples_.back().process;
-  if (process != lastProcess && (samples_.empty() || process != lastProcess + 1))
-    return "has a sample of a process whose turn it is not";
-  if (frame < counts.frames || visit < counts.visits) return "has a sample of before the one before";
+  if (const char* why = goOn(process, now)) return why;
   samples_.push_back({s.at(0), visit, frame, s.at(3), s.at(4), s.at(5), s.at(6)});
+  return nullptr;
+}
+
+const char* SoakRecord::readCounts(const Json& process, const Json& c) {
+  if (!isNumber(process) || !areCounts(c)) return "has counts that cannot be";
+  return goOn(process, countsOf(c));
+}
+
+const char* SoakRecord::readFailed(const Json& failed) {
+  if (!failed.is_array()) return "says nothing of what failed";
+  for (const Json& what : failed) {
+    if (!what.is_string()) return "says nothing of what failed";
+    failed_.push_back(what);
+  }
+  return nullptr;
+}
+
+/// The counts of a process are the newest ones, if its turn it is.
+const char* SoakRecord::goOn(std::uint64_t process, const SoakCounts& now) {
+  if (process > processes_ || process + 1 < processes_) return "is of a process whose turn it is not";
+  if (now.frames < counts.frames || now.visits < counts.visits) return "is of before the one before";
+  processes_ = static_cast<std::uint32_t>(process) + 1;
   counts = now;
   return nullptr;
 }
@@ -162,6 +184,16 @@ void SoakRecord::add(SoakSample s) {
   write(Json{{"sample", {s.process, s.visit, s.frame, s.residentBytes, s.heapBytes, s.handles, s.threads}},
              {"counts", jsonOf(counts)}}
             .dump());
+}
+
+void SoakRecord::addCounts() {
+  write(Json{{"process", process_}, {"counts", jsonOf(counts)}}.dump());
+}
+
+void SoakRecord::end(const std::vector<std::string>& failed) {
+  for (const std::string& what : failed)
+    if (std::ranges::find(failed_, what) == failed_.end()) failed_.push_back(what);
+  write(Json{{"process", process_}, {"counts", jsonOf(counts)}, {"failed", failed}}.dump());
 }
 
 /// What that frame's history was before; nothing: now it is known.

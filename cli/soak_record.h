@@ -2,7 +2,7 @@
 /// What a soak has found so far, in a file if one is named: a run with the same file goes on.
 ///
 /// One JSON object a line, added and flushed as it comes, so that whatever ends the run loses a sample at
-/// most.
+/// most, and no failure.
 ///
 /// A record is one process's at a time: it holds a lock on the file.
 ///
@@ -47,9 +47,18 @@ public:
 
   SoakCounts counts;
   const std::vector<SoakSample>& samples() const { return samples_; }
-  std::uint32_t processes() const { return process_ + 1; }
+  /// Those that have played.
+  std::uint32_t processes() const { return processes_; }
+  /// What has failed at the end of a run, this one's included.
+  const std::vector<std::string>& failed() const { return failed_; }
+  /// This process plays, too.
+  void begin() { process_ = processes_++; }
   /// With the counts as they are now.
   void add(SoakSample sample);
+  /// The counts as they are now.
+  void addCounts();
+  /// Likewise, and what fails, but for what the counts tell.
+  void end(const std::vector<std::string>& failed);
   /// Whether that frame of the show had this history of states before; the first time it is noted.
   bool agrees(const std::string& show, std::uint64_t frame, std::uint64_t history);
   /// Something could not be written.
@@ -61,14 +70,18 @@ private:
   bool read(const std::string& what, Diagnostics& findings);
   const char* readLine(const nlohmann::json& line);
   const char* readSample(const nlohmann::json& sample, const nlohmann::json& counts);
+  const char* readCounts(const nlohmann::json& process, const nlohmann::json& counts);
+  const char* readFailed(const nlohmann::json& failed);
+  const char* goOn(std::uint64_t process, const SoakCounts& now);
   std::optional<std::uint64_t> known(const std::string& show, std::uint64_t frame, std::uint64_t history);
   void write(const std::string& line);
 
   std::string name_;  ///< empty: nothing is written
   Descriptor file_;
   bool incomplete_ = false;
-  std::uint32_t process_ = 0;
+  std::uint32_t process_ = 0, processes_ = 0;
   std::vector<SoakSample> samples_;
+  std::vector<std::string> failed_;
   /// By show, then by frame: flat, so that the soak itself hardly grows.
   std::map<std::string, std::vector<std::pair<std::uint64_t, std::uint64_t>>> histories_;
 };

@@ -55,7 +55,8 @@ std::vector<std::string> playerWords(int descriptor) {
                 [](const std::string& w) { return w == "--supervise" || w.starts_with("--supervise="); });
   words.front() = std::filesystem::canonical("/proc/self/exe").string();
   const auto run = std::ranges::find(words, "run");
-  const std::vector<std::string> own{"--supervised", std::to_string(descriptor)};
+  const std::vector<std::string> own{"--supervised", std::to_string(descriptor), "--ends-with",
+                                     std::to_string(getpid())};
   words.insert(run == words.end() ? run : std::next(run), own.begin(), own.end());
   return words;
 }

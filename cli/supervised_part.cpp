@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
-#include <sys/prctl.h>
 
 namespace stadion {
 namespace {
@@ -38,7 +36,6 @@ std::unique_ptr<SupervisedPart> SupervisedPart::create(const RunOptions& o, Diag
     findings.error({}, "--supervised is for players that `stadion run --supervise` starts");
     return nullptr;
   }
-  prctl(PR_SET_PDEATHSIG, SIGTERM);  // without who watches over it, it ends as if it had been asked to
   return std::unique_ptr<SupervisedPart>(new SupervisedPart(std::move(progress), o.say));
 }
 
@@ -55,9 +52,11 @@ void SupervisedPart::goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watc
   state_.reset();
   desk.resume(desk_);
   const Nanoseconds at = from_ ? from_->time : 0;
-  loop.late = std::max<Nanoseconds>(0, progress_->timeNow() - at);
-  progress_->catchesUpUntil(machineClock() + loop.late);
-  catchesUp_ = true, nextKept_ = machineClock() + kKeepSoon;
+  begun_ = machineClock(), due_ = std::max(at, progress_->timeNow());
+  loop.late = due_ - at;
+  desk.playback().standFrom(due_);
+  progress_->catchesUpUntil(begun_ + loop.late);
+  catchesUp_ = true, nextKept_ = begun_ + kKeepSoon;
   if (from_) {
     loop.after = TimeSignature{from_->frame, from_->time, 0, {}};
     watch.goOnFrom(from_->history);
@@ -66,13 +65,15 @@ void SupervisedPart::goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watc
       from_ ? fmt::format("goes on from frame {}, {:.3f} s", from_->frame, toSeconds(at)) : "begins again";
   const bool paced = loop.pace != Pace::Free;
   say_(fmt::format("the show {}{}", from,
-                   paced ? fmt::format(", and catches up to {:.3f} s", toSeconds(at + loop.late)) : ""));
+                   paced ? fmt::format(", and catches up to {:.3f} s", toSeconds(due_)) : ""));
 }
 
 void SupervisedPart::simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch, bool late) {
-  progress_->simulated(now);
-  const bool arrived = catchesUp_ && !late;
+  const bool still = progress_->operatorState().still();
+  const bool arrived = catchesUp_ && (!late || (still && now.time >= due_));
   if (arrived) catchesUp_ = false, progress_->catchesUpUntil(machineClock());
+  const Nanoseconds due = due_ + (still ? 0 : machineClock() - begun_);
+  progress_->simulated(now, catchesUp_ ? due : now.time);
   if (arrived || machineClock() >= nextKept_) keep(now, scene, watch);
 }
 

@@ -50,6 +50,8 @@ private:
   std::shared_ptr<const std::vector<std::uint8_t>> state_;
   OperatorState desk_;
   bool wentOn_ = false, catchesUp_ = false;
+  Nanoseconds begun_ = 0;     ///< when it went on, by machineClock()
+  Nanoseconds due_ = 0;       ///< the show time where it would have been then
   Nanoseconds nextKept_ = 0;  ///< machineClock()
   Nanoseconds step_ = 0;      ///< the longest time that keeping may take unnoticed
   bool told_ = false;

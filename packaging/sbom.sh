@@ -1,26 +1,35 @@
 #!/bin/sh
 # sbom.sh BUILD: the software bill of materials of the programs in BUILD/bin, as SPDX 2.3 JSON on stdout.
 #
-# Packages are those of the libraries that the programs are linked with (ldd) and those that they load at run time,
-# as dpkg knows them on this machine. What Debian says of a package's licence is quoted, not concluded: a copyright file that
-# is machine-readable names licences of parts, which need not be what is linked.
+# Packages are those of the libraries that the programs are linked with (ldd), those that they load at run time, and
+# those of the libraries that these are linked with in turn, as dpkg knows them on this machine; those that are not
+# installed are left out, and named on stderr. What Debian says of a package's licence is quoted, not concluded: a copyright
+# file that is machine-readable names licences of parts, which need not be what is linked.
 set -eu
 build=$1
 [ -x "$build/bin/stadion" ] || { echo "sbom: there is no program in $build/bin; build it first" >&2; exit 2; }
 programs="stadion stadion-import stadion-wall"
-# Loaded at run time, and libraries that are headers alone: no program names them.
-others="libosmesa6 libegl1 libegl-mesa0 libgl1-mesa-dri libglfw3 libopenal1 libeigen3-dev libcli11-dev nlohmann-json3-dev tao-pegtl-dev"
+# Loaded at run time, also by GLFW and OpenAL, and libraries that are headers alone: no program names them.
+others="libosmesa6 libegl1 libegl-mesa0 libgl1-mesa-dri libglfw3 libopenal1 libx11-6 libasound2 \
+libgl1 libglx0 libglx-mesa0 libx11-xcb1 libxcursor1 libxi6 libxinerama1 libxrandr2 libxrender1 libxxf86vm1 libpulse0 \
+libjack-jackd2-0 libportaudio2 libeigen3-dev libcli11-dev nlohmann-json3-dev tao-pegtl-dev"
 
 text() { printf '%s' "$1" | tr -d '\000-\037' | sed 's/\\/\\\\/g; s/"/\\"/g'; }
 
-linked() { # the packages whose libraries the programs are linked with
-  libraries=$(for p in $programs; do ldd "$build/bin/$p"; done |
+linked() { # the packages whose libraries these files are linked with
+  libraries=$(for file; do ldd "$file"; done |
     sed -n 's/.* => \(\/[^ ]*\) .*/\1/p; s/^[[:space:]]*\(\/[^ ]*\) (.*/\1/p' | sort -u)
   # A package may have a library below /lib that is found below /usr/lib, and the other way round.
   for library in $libraries; do
     real=$(readlink -f "$library")
     printf '%s\n' "$library" "$real" "/usr$library" "${real#/usr}"
   done | sort -u | xargs dpkg-query -S 2>/dev/null | sed 's/:.*//' | sort -u
+}
+
+installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
+libraries() { # those of packages, each once whatever names it has
+  dpkg -L $1 | grep '\.so\(\.[0-9.]*\)\?$' | xargs -r stat -Lc '%i %n' | sort -u -k1,1 | sed 's/^[0-9]* //'
 }
 
 licences() { # what the machine-readable copyright file names
@@ -33,10 +42,11 @@ licences() { # what the machine-readable copyright file names
 version=$(sed -n 's/^project(Stadion VERSION \([0-9.]*\).*/\1/p' "$(dirname "$0")/../CMakeLists.txt")
 created=$(date -u ${SOURCE_DATE_EPOCH:+-d "@$SOURCE_DATE_EPOCH"} +%Y-%m-%dT%H:%M:%SZ)
 mark=$(cat "$build/bin/stadion" "$build/bin/stadion-import" "$build/bin/stadion-wall" | sha256sum | cut -c1-32)
-links=$(linked)
-loaded=$(for p in $others; do
-  [ "$(dpkg-query -W -f='${db:Status-Status}' "$p" 2>/dev/null)" = installed ] && echo "$p"
-done || true)
+links=$(cd "$build/bin" && linked $programs)
+present=$(for p in $others; do installed "$p" && echo "$p"; done || true)
+absent=$(for p in $others; do installed "$p" || printf ' %s' "$p"; done)
+[ -z "$absent" ] || echo "sbom: not installed, and left out:$absent" >&2
+loaded=$({ echo "$present"; linked $(libraries "$present"); } | sort -u)
 
 cat <<HEAD
 {

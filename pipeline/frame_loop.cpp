@@ -205,7 +205,7 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   if (options_.orders && !options_.orders->leads()) return orderedTurn();
   const std::uint64_t ticks = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return pacer_.wait(); });
   if (!takeCommands()) return std::nullopt;
-  const double speed = options_.playback && begun_ ? options_.playback->takeFrame() : 1;
+  const double speed = options_.playback && begun_ ? options_.playback->takeFrame(lastSignature_.time) : 1;
   if (speed == 0) return told({lastSignature_, {}, standstill()});
   // A single frame is one tick, however long the last one took.
   const bool single = options_.playback && options_.playback->paused();

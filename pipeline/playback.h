@@ -7,6 +7,8 @@
 ///
 /// Threads  every function from any thread; FrameLoop asks once a frame.
 
+#include "engine/time_signature.h"
+
 #include <algorithm>
 #include <atomic>
 
@@ -20,6 +22,9 @@ public:
   bool paused() const { return paused_; }
   /// Lets nothing through, whoever wants to go on or to step, as long as it holds.
   void hold(bool holds) { held_ = holds; }
+  /// A pause holds from this show time on: a show that goes on from further back comes to it first.
+  void standFrom(Nanoseconds time) { standsFrom_ = time; }
+  Nanoseconds standsFrom() const { return standsFrom_; }
   /// Plays one frame at full speed, and pauses after it.
   void step() {
     paused_ = true;
@@ -31,10 +36,11 @@ public:
   void setSpeed(double speed) { speed_ = std::clamp(speed, kSlowest, 1.0); }
   double speed() const { return speed_; }
 
-  /// How far the next frame goes, in parts of a frame: 0 = the show stands still.
-  double takeFrame() {
+  /// How far the frame after the one of that show time goes, in parts of a frame: 0 = the show stands still.
+  double takeFrame(Nanoseconds time) {
     if (held_) return 0;
     if (!paused_) return speed_;
+    if (time < standsFrom_) return 1;
     int waiting = steps_;
     while (waiting > 0 && !steps_.compare_exchange_weak(waiting, waiting - 1)) {
     }
@@ -45,6 +51,7 @@ private:
   std::atomic<bool> paused_ = false, held_ = false;
   std::atomic<int> steps_ = 0;
   std::atomic<double> speed_ = 1;
+  std::atomic<Nanoseconds> standsFrom_ = 0;
 };
 
 }  // namespace stadion

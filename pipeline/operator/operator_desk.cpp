@@ -16,6 +16,7 @@ void OperatorDesk::beginGroup() {
   state_.waiting = waits_;
   state_.paused = state_.headFrozen = state_.nextGroup = false;
   leaving_ = false;
+  playback_.standFrom(0);
   playback_.setPaused(state_.still());
 }
 

@@ -66,6 +66,10 @@ Result<std::unique_ptr<Journal>> Journal::open(std::string file, std::size_t lim
   return std::unique_ptr<Journal>(new Journal(std::move(file), limit));
 }
 
+std::unique_ptr<Journal> Journal::openLater(std::string file) {
+  return std::unique_ptr<Journal>(new Journal(std::move(file), kStandardLimit));
+}
+
 std::optional<std::string> Journal::add(std::string_view what, std::optional<Place> at) {
   const std::string place =
       at ? fmt::format("t={:.3f} f={}", toSeconds(at->time), at->frame) : std::string("-");

@@ -30,6 +30,8 @@ public:
   static constexpr int kOlder = 3;                                      ///< files that are kept beside it
 
   static Result<std::unique_ptr<Journal>> open(std::string file, std::size_t limit = kStandardLimit);
+  /// Of a file that may not be there yet: lines are lost until it can be written.
+  static std::unique_ptr<Journal> openLater(std::string file);
 
   /// Where the show is when something happens.
   struct Place {

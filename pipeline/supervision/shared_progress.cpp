@@ -13,7 +13,7 @@
 namespace stadion {
 namespace {
 
-constexpr std::uint64_t kMark = 0x3276'7065'6573'7453;  ///< of this layout
+constexpr std::uint64_t kMark = 0x3376'7065'6573'7453;  ///< of this layout
 constexpr off_t kPageBytes = 4096;
 /// Of each of the two scenes; what is not written takes no memory.
 constexpr std::uint64_t kRoom = std::uint64_t{1} << 36U;
@@ -90,8 +90,8 @@ SharedProgress::Phase SharedProgress::phase() const {
   return page_->phase;
 }
 
-void SharedProgress::simulated(const TimeSignature& now) {
-  page_->moment.next() = {now.frame, now.time, machineClock()};
+void SharedProgress::simulated(const TimeSignature& now, Nanoseconds due) {
+  page_->moment.next() = {now.frame, now.time, machineClock(), std::max(now.time, due)};
   page_->moment.publish();
 }
 
@@ -126,6 +126,12 @@ void SharedProgress::forget() {
 }
 
 void SharedProgress::obeyed(const OperatorState& state) {
+  Moment last = newest();
+  if (last.clock > 0 && operatorState().still() && !state.still()) {  // it stood still until now
+    last.clock = machineClock();
+    page_->moment.next() = last;
+    page_->moment.publish();
+  }
   page_->desk.next() = state;
   page_->desk.publish();
 }
@@ -176,8 +182,8 @@ OperatorState SharedProgress::operatorState() const {
 
 Nanoseconds SharedProgress::timeNow() const {
   const Moment last = newest();
-  if (last.clock == 0 || operatorState().still()) return last.time;
-  return last.time + (machineClock() - last.clock);
+  if (last.clock == 0 || operatorState().still()) return last.due;
+  return last.due + (machineClock() - last.clock);
 }
 
 std::uint64_t SharedProgress::starts() const {

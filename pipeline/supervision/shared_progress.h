@@ -42,6 +42,7 @@ public:
     std::uint64_t frame = 0;
     Nanoseconds time = 0;   ///< show time [ns]
     Nanoseconds clock = 0;  ///< machineClock(); 0: there has been none
+    Nanoseconds due = 0;    ///< where show time would be, had no player died: later while one catches up
   };
   /// A scene that was kept: after which frame.
   struct Kept {
@@ -63,7 +64,7 @@ public:
 
   void enter(Phase phase);
   Phase phase() const;
-  void simulated(const TimeSignature& now);
+  void simulated(const TimeSignature& now, Nanoseconds due);
   /// A frame has been shown, or the last one once more while the show stands still.
   void shown();
   /// False if there is no memory for it; the one before is then still the newest.

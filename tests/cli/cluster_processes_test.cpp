@@ -354,7 +354,7 @@ TEST(ProgramClusterProcesses, WhatEachNodeWouldRefuseIsToldOnceBeforeAnyIsStarte
   refused(shortCluster(four, {"--node", "front"}), "--node");
   refused(shortCluster(four, {"--frames", "3", "--late-latch"}), "--late-latch is not for clusters");
   refused(shortCluster(four, {"--frames", "3", "--spans", folder.path() / "spans"}),
-          "--spans and --count-work");
+          "--spans and --count-work are not for clusters");
   refused(shortCluster(folder.write("walls.cluster", "walls cave4\nnode a front\nnode b fromt\n"), {}),
           "walls.cluster:3:8: error: cave4 has no wall \"fromt\"");
   refused(shortCluster(folder.write("net.cluster", "node a front\nnode b left\ninterface nosuch0\n"), {}),

@@ -34,6 +34,42 @@ TEST(ProgramSoak, SomeThousandFramesAreTheSameInEveryWayAndInEveryProcess) {
   EXPECT_TRUE(holds(more.out, "states: 0 of ")) << more.out;
 }
 
+TEST(ProgramSoak, ThatIsFinishedIsNotPlayedAgainAndHasTheSameVerdict) {
+  const TemporaryFolder folder;
+  const std::string record = folder.path() / "soak.record";
+  // Ends in a visit without samples.
+  const std::vector<std::string> words{"soak", "--frames",    "2500",     "--visit",
+                                       "1000", "--no-memory", "--record", record};
+  const ProgramResult first = stadionProgram(words);
+  ASSERT_EQ(first.status, 0) << first.out << first.err;
+  const std::string kept = fileContent(record);
+  const ProgramResult again = stadionProgram(words);
+  EXPECT_EQ(again.status, 0) << again.out << again.err;
+  EXPECT_EQ(again.out, first.out);
+  EXPECT_TRUE(holds(again.err, "soak: it is finished")) << again.err;
+  EXPECT_EQ(fileContent(record), kept + "\n");
+}
+
+/// More samples might hide what has grown.
+TEST(ProgramSoak, WhatHasFailedOnceHasFailed) {
+  const TemporaryFolder folder;
+  const std::string record = folder.path() / "soak.record";
+  const auto words = [&](const char* frames) {
+    return std::vector<std::string>{"soak", "--frames",    frames,     "--visit",
+                                    "1000", "--no-memory", "--record", record};
+  };
+  ASSERT_EQ(stadionProgram(words("1000")).status, 0);
+  std::string text = fileContent(record);
+  const std::size_t at = text.find("\"failed\":[");
+  ASSERT_NE(at, std::string::npos) << text;
+  folder.write("soak.record", text.insert(text.find('[', at) + 1, "\"threads: +1 of 9\""));
+  for (const char* frames : {"1000", "1100"}) {
+    const ProgramResult r = stadionProgram(words(frames));
+    EXPECT_EQ(r.status, 1) << r.out << r.err;
+    EXPECT_TRUE(holds(r.out, "FAILED before: threads: +1 of 9")) << r.out;
+  }
+}
+
 TEST(ProgramSoak, MemoryThatCouldNotBeJudgedIsNoPass) {
   const ProgramResult r = stadionProgram({"soak", "--frames", "1000", "--visit", "1000"});
   EXPECT_EQ(r.status, 1) << r.out << r.err;
@@ -65,6 +101,37 @@ TEST(ProgramSoak, AStateThatIsNotThatOfBeforeFails) {
       stadionProgram({"soak", "--frames", "1000", "--visit", "1000", "--no-memory", "--record", record});
   EXPECT_EQ(r.status, 1) << r.out << r.err;
   EXPECT_TRUE(holds(r.err, "has another history of states than before")) << r.err;
+  const ProgramResult more =
+      stadionProgram({"soak", "--frames", "1200", "--visit", "1000", "--no-memory", "--record", record});
+  EXPECT_EQ(more.status, 1) << "it has failed: " << more.out << more.err;
+}
+
+TEST(ProgramSoak, AStateThatIsNotThatOfBeforeIsNotForgottenWhenTheSoakIsKilled) {
+  const TemporaryFolder folder;
+  const std::string record = folder.path() / "soak.record";
+  const auto words = [&](const char* frames) {
+    return std::vector<std::string>{"soak", "--frames",    frames,     "--visit",
+                                    "1000", "--no-memory", "--record", record};
+  };
+  ASSERT_EQ(stadionProgram(words("1000")).status, 0);
+  std::string text = fileContent(record);
+  text.insert(text.find_first_of("0123456789", text.find("\"history\":")), "1");
+  folder.write("soak.record", text.substr(0, text.find('\n', text.find("\"history\":")) + 1));
+  {
+    auto all = words("1000000000");
+    all.insert(all.begin(), stadionPath());
+    RunningProgram soak({all});
+    ASSERT_TRUE(soak.says("has another history of states than before"));
+    soak.kill();
+    soak.status();
+  }
+  // Nothing it compared before it was killed shows it any more.
+  text = fileContent(record);
+  text.erase(text.find("\"history\":") + 10, 1);
+  folder.write("soak.record", text);
+  const ProgramResult r = stadionProgram(words("1200"));
+  EXPECT_EQ(r.status, 1) << r.out << r.err;
+  EXPECT_FALSE(holds(r.out, "FAILED states: 0")) << r.out;
 }
 
 /// A record of a soak of some frames, and soaks that go on with it.
@@ -85,8 +152,8 @@ protected:
     text.insert(text.find_first_of("0123456789", at), "1");
     return text.substr(0, text.find('\n', at) + 1);
   }
-  ProgramResult soakWith(const std::string& text) const {
-    return stadionProgram(words(folder_.write("soak.record", text)));
+  ProgramResult soakWith(const std::string& text, const std::string& frames = "1000") const {
+    return stadionProgram(words(folder_.write("soak.record", text), frames));
   }
 
   TemporaryFolder folder_;
@@ -129,6 +196,12 @@ TEST_F(ProgramSoakRecord, InWhichALineIsWrongIsRefusedWithThatLineAndLeftAlone) 
            sample("5"),
            std::string(R"({"sample":[0,0,51,9,9,9,9]})"),
            std::string(R"({"counts":[41,0,1,0,0,0,0,0,0,0.5],"sample":[0,0,41,9,9,9,9]})"),
+           std::string(R"({"counts":[51,0,1,0,0,0,0,0,0,0.5]})"),
+           std::string(R"({"counts":[51,0,1],"process":0})"),
+           std::string(R"({"counts":[51,0,1,0,0,0,0,0,0,0.5],"process":2})"),
+           std::string(R"({"counts":[41,0,1,0,0,0,0,0,0,0.5],"process":0})"),
+           std::string(R"({"counts":[51,0,1,0,0,0,0,0,0,0.5],"process":0,"failed":5})"),
+           std::string(R"({"counts":[51,0,1,0,0,0,0,0,0,0.5],"process":0,"failed":[5]})"),
            std::string(R"({"show":"a.evs","frame":-1,"history":5})"),
            std::string(R"({"show":"a.evs","frame":1,"history":0.5})"),
            std::string(R"({"show":7,"frame":1,"history":5})"),
@@ -148,7 +221,7 @@ TEST_F(ProgramSoakRecord, InWhichALineIsWrongIsRefusedWithThatLineAndLeftAlone) 
 
 TEST_F(ProgramSoakRecord, WithLinesThatKilledRunsHaveLeftHalfIsOne) {
   const std::string half = R"({"counts":[51,0,1,0,0,)";
-  const ProgramResult r = soakWith(head_ + half + "\n\n" + whole_.substr(head_.size()) + half);
+  const ProgramResult r = soakWith(head_ + half + "\n\n" + whole_.substr(head_.size()) + half, "2000");
   EXPECT_EQ(r.status, 0) << r.err;
   EXPECT_TRUE(holds(r.out, "by 2 processes")) << r.out;
   EXPECT_FALSE(holds(r.out, "states: 0 of 0")) << r.out;

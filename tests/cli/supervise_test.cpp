@@ -1,12 +1,15 @@
 /// `stadion run --supervise`: players are killed and stopped, and the show goes on.
 
 #include "tests/cli/becomes.h"
-#include "tests/cli/program.h"
+#include "tests/cli/desk.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <lo/lo.h>
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <regex>
@@ -38,7 +41,7 @@ public:
   Supervised(const Supervised&) = delete;
   Supervised& operator=(const Supervised&) = delete;
 
-  std::string journal() const { return folder_.path() / "run.log"; }
+  std::string journal() const { return journals_.path() / "run.log"; }
   std::string told() const { return folder_.path() / "told"; }
   std::string said() const { return folder_.path() / "said"; }
   pid_t pid() const { return pid_; }
@@ -61,7 +64,7 @@ public:
   }
 
 private:
-  TemporaryFolder folder_;
+  TemporaryFolder folder_, journals_;
   pid_t pid_ = -1;
 };
 
@@ -150,6 +153,58 @@ TEST(ProgramSupervise, APlayerThatIsKilledSoonAfterItWentOnHasKeptTheSceneForThe
   EXPECT_NE(fileContent(run.said()).find("replaced 2 times"), std::string::npos);
 }
 
+/// Where it was paused, not where the scene was kept: also if the next player dies as well.
+TEST(ProgramSupervise, AShowThatIsPausedStandsStillAtTheSameFrameWhoeverPlaysIt) {
+  const std::uint16_t port = freePort();
+  Supervised run({"--gl", "none", "--no-sound", "--input", "none", "--osc", std::to_string(port)});
+  const auto send = [to = std::to_string(port)](const char* path, double value) {
+    const lo_address address = lo_address_new("127.0.0.1", to.c_str());
+    lo_send(address, path, "d", value);
+    lo_address_free(address);
+  };
+  const auto timesTold = [&](const std::string& what) {
+    const std::string told = fileContent(run.told());
+    int times = 0;
+    for (std::size_t at = told.find(what); at != told.npos; at = told.find(what, at + 1)) ++times;
+    return times;
+  };
+  ASSERT_TRUE(becomes([&] { return run.hasNoted("plays; nothing is drawn"); })) << fileContent(run.told());
+  std::this_thread::sleep_for(std::chrono::milliseconds(6500));  // the scene has been kept once
+  send("/stadion/pause", 1);
+  send("/stadion/black", 1);
+  ASSERT_TRUE(becomes([&] { return run.hasTold("black on"); })) << fileContent(run.told());
+  const auto at = secondsAfter(fileContent(run.told()), "paused at ");
+  ASSERT_TRUE(at) << fileContent(run.told());
+  EXPECT_GT(*at, 6);
+  const std::string paused = fmt::format("operator: paused at {:.3f} s", *at);
+  for (int n = 1; n <= 2; ++n) {
+    ASSERT_EQ(kill(run.player(), SIGKILL), 0);
+    ASSERT_TRUE(becomes([&] { return timesTold("pictures again") == n; })) << fileContent(run.told());
+    EXPECT_EQ(timesTold(paused), 1 + n) << fileContent(run.told());
+    EXPECT_EQ(timesTold("black on"), 1 + n) << fileContent(run.told());
+  }
+  send("/stadion/pause", 0);
+  EXPECT_TRUE(becomes([&] { return run.hasTold("operator: going on at"); }));
+  EXPECT_TRUE(run.hasTold(fmt::format("operator: going on at {:.3f} s", *at))) << fileContent(run.told());
+  ASSERT_EQ(kill(run.pid(), SIGTERM), 0);
+  EXPECT_EQ(run.end(), 128 + SIGTERM) << fileContent(run.told());
+}
+
+TEST(ProgramSupervise, AJournalWhoseFolderIsGoneIsNoReasonForDarkWalls) {
+  Supervised run({"--gl", "none", "--no-sound", "--input", "none"});
+  ASSERT_TRUE(becomes([&] { return run.hasNoted("plays; nothing is drawn"); })) << fileContent(run.told());
+  std::filesystem::remove_all(std::filesystem::path(run.journal()).parent_path());
+  ASSERT_EQ(kill(run.player(), SIGKILL), 0);
+  ASSERT_TRUE(becomes([&] { return run.hasTold("pictures again"); })) << fileContent(run.told());
+  EXPECT_TRUE(run.hasTold("stadion: --journal: " + run.journal() +
+                          ": cannot be written: No such file or directory; lines are lost, the show goes on"))
+      << fileContent(run.told());
+  std::filesystem::create_directory(std::filesystem::path(run.journal()).parent_path());
+  ASSERT_EQ(kill(run.pid(), SIGTERM), 0);
+  EXPECT_EQ(run.end(), 2) << fileContent(run.told());
+  EXPECT_TRUE(run.hasNoted("lines before this one could not be written")) << fileContent(run.journal());
+}
+
 TEST(ProgramSupervise, HoweverTheOptionIsWrittenItIsNotThePlayers) {
   for (const char* option : {"--supervise=true", "--supervise=1", "--supervise=on"}) {
     const ProgramResult r =
@@ -184,6 +239,24 @@ TEST(ProgramSupervise, APlayerDoesNotOutliveWhoWatchesOverIt) {
   EXPECT_EQ(run.end(), 128 + SIGKILL);
   EXPECT_TRUE(becomes([&] { return run.hasNoted("ended with exit code 143"); }))
       << fileContent(run.journal());
+}
+
+bool runs(pid_t process) {
+  std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+  std::string number, name, state;
+  return stat >> number >> name >> state && state != "Z";
+}
+
+TEST(ProgramSupervise, APlayerWhoseWatcherDiedBeforeItCouldAskToBeToldEndsToo) {
+  Supervised run({"--gl", "none", "--input", "none"});
+  pid_t player = 0;
+  while (player == 0) player = run.player();
+  ASSERT_EQ(kill(player, SIGSTOP), 0);  // it has hardly begun
+  ASSERT_EQ(kill(run.pid(), SIGKILL), 0);
+  EXPECT_EQ(run.end(), 128 + SIGKILL);
+  ASSERT_EQ(kill(player, SIGCONT), 0);
+  EXPECT_TRUE(becomes([&] { return !runs(player); }));
+  if (runs(player)) kill(player, SIGKILL);
 }
 
 TEST(ProgramSupervise, WhatIsWrongWithTheShowIsNoReasonToTryAgain) {

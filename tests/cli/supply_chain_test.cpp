@@ -1,6 +1,6 @@
 /// What the product consists of is listed, and the list is right.
 
-#include "tests/cli/program.h"
+#include "tests/cli/desk.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -33,6 +33,38 @@ TEST(SupplyChain, EveryPackageThatTheLauncherInstallsIsListedWithItsLicence) {
   }
   std::istringstream words(packages);
   for (std::string package; words >> package;) EXPECT_TRUE(listed.contains(package)) << package;
+}
+
+/// The package that has a file; empty: none has.
+std::string packageOf(const std::string& file) {
+  // What is below /lib may be known as below /usr/lib, and the other way round.
+  const std::string other = file.starts_with("/usr/") ? file.substr(4) : "/usr" + file;
+  for (const std::string& name : {file, other}) {
+    const ProgramResult r = runProgram({{"dpkg-query", "-S", name}});
+    if (r.status == 0) return r.out.substr(0, r.out.find(':'));
+  }
+  return {};
+}
+
+TEST(ProgramSupplyChain, WhatARunThatDrawsHasLoadedIsInTheBillOfMaterials) {
+  const ProgramResult bill = runProgram({{kRoot + "/packaging/sbom.sh", STADION_BINARY_DIR}});
+  ASSERT_EQ(bill.status, 0) << bill.err;
+  const Json listed = Json::parse(bill.out);
+  std::set<std::string> names, libraries;
+  for (const Json& p : listed["packages"]) names.insert(p["name"].get<std::string>());
+  RunningProgram run({{stadionPath(), "run", kRoot + "/scripts/olympia.evs", "--size", "32x24", "--walls",
+                       "desktop", "--input", "none"},
+                      {"ALSOFT_DRIVERS=null"}});
+  ASSERT_TRUE(run.says("sound: OpenAL")) << run.err();
+  std::istringstream maps(fileContent("/proc/" + std::to_string(run.pid()) + "/maps"));
+  for (std::string line; std::getline(maps, line);)
+    if (line.find(".so") != std::string::npos) libraries.insert(line.substr(line.find('/')));
+  EXPECT_TRUE(std::ranges::any_of(libraries, [](const std::string& l) { return has(l, "libOSMesa"); }));
+  EXPECT_TRUE(std::ranges::any_of(libraries, [](const std::string& l) { return has(l, "libopenal"); }));
+  for (const std::string& library : libraries) {
+    const std::string package = packageOf(library);
+    EXPECT_TRUE(package.empty() || names.contains(package)) << library << " is of " << package;
+  }
 }
 
 TEST(ProgramSupplyChain, TheBillOfMaterialsIsWellFormedAndNamesWhatIsLinked) {

@@ -322,6 +322,21 @@ TEST(ThreadsFrameLoop, AShowThatGoesOnWherePausedStandsStill) {
   }
 }
 
+TEST(ThreadsFrameLoop, APauseThatHoldsFromLaterOnIsCaughtUpWith) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    Playback playback;
+    playback.setPaused(true);
+    playback.standFrom(signatureAt(7, 10).time);
+    PlayedStages stages(playback);
+    FrameLoopOptions o;
+    o.mode = mode, o.rate = 10, o.frames = 9, o.playback = &playback, o.after = signatureAt(5, 10);
+    runFrames(stages, o);
+    EXPECT_EQ(stages.stills, 5) << "before the step to frame 8";
+    EXPECT_EQ(stages.times,
+              (std::vector{signatureAt(6, 10).time, signatureAt(7, 10).time, signatureAt(8, 10).time}));
+  }
+}
+
 TEST(ThreadsFrameLoop, APausedShowIsDrawnOnAndGoesByFramesAndSlowly) {
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
     Playback playback;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace stadion {
@@ -69,7 +70,7 @@ TEST(SharedProgress, WhatAProcessKeptIsThereAfterItWasKilled) {
     there->obeyed(desk);
     there->enter(SharedProgress::Phase::Playing);
     for (std::uint8_t n = 1; n <= 5; ++n) {
-      there->simulated({n, n * 1000, 1000, {}});
+      there->simulated({n, n * 1000, 1000, {}}, 0);
       there->shown();
       there->keep({n, n * 1000, 77, 0}, sceneOf(n, 100'000 - 10'000 * n));
     }
@@ -125,7 +126,7 @@ TEST(SharedProgress, AShowThatBeginsHasNoSceneOfBefore) {
   auto made = SharedProgress::create();
   ASSERT_TRUE(made);
   SharedProgress& p = *made.value();
-  p.simulated({9, 9, 1, {}});
+  p.simulated({9, 9, 1, {}}, 0);
   ASSERT_TRUE(p.keep({9, 9, 0, 0}, sceneOf(1, 50)));
   p.forget();
   EXPECT_FALSE(p.kept());
@@ -137,11 +138,29 @@ TEST(SharedProgress, AShowThatStandsStillIsNotLate) {
   auto made = SharedProgress::create();
   ASSERT_TRUE(made);
   SharedProgress& p = *made.value();
-  p.simulated({9, 9000, 1, {}});
+  p.simulated({9, 9000, 1, {}}, 0);
   OperatorState desk;
   desk.paused = true;
   p.obeyed(desk);
   EXPECT_EQ(p.timeNow(), 9000);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const Nanoseconds before = machineClock();
+  desk.paused = false;
+  p.obeyed(desk);
+  EXPECT_LE(p.timeNow(), 9000 + machineClock() - before) << "it has gone on since then alone";
+}
+
+TEST(SharedProgress, AShowThatCatchesUpIsDueWhereItWouldBe) {
+  auto made = SharedProgress::create();
+  ASSERT_TRUE(made);
+  SharedProgress& p = *made.value();
+  p.simulated({9, 9000, 1, {}}, fromSeconds(7));
+  EXPECT_EQ(p.newest().time, 9000);
+  EXPECT_GE(p.timeNow(), fromSeconds(7));
+  OperatorState desk;
+  desk.paused = true;
+  p.obeyed(desk);
+  EXPECT_EQ(p.timeNow(), fromSeconds(7));
 }
 
 TEST(SharedProgress, AnotherDescriptorIsRefused) {
