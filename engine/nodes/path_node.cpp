@@ -131,6 +131,13 @@ void PathNode::restUntil(Nanoseconds time) {
   since_ = time;
 }
 
+// Each pass that it has missed is told.
+bool PathNode::resume(Scene& scene) {
+  const Nanoseconds now = scene.now(), pass = std::max<Nanoseconds>(length(), 1);
+  return elapsed_ >= 0 && elapsed_ <= length() && since_ >= 0 && since_ <= now &&
+         (!loop_ || (now - since_) / pass <= kMostPasses);
+}
+
 void PathNode::advanceTo(Nanoseconds time, FrameContext& frame) {
   if (frame.rested) restUntil(frame.start());
   if (switch_.on()) {

@@ -38,6 +38,7 @@ public:
   bool busy() const override { return switch_.on() || PlacedNode::busy(); }
   void hash(StateHash& h) const override;
   void state(StateFields& f) override;
+  bool resume(Scene& scene) override;
   template <class Self, class Fields>
   static void fields(Self& self, Fields& f);
 

@@ -64,6 +64,8 @@ public:
   }
 
 protected:
+  /// Passes that a node which has been put back may have missed: each is told.
+  static constexpr Nanoseconds kMostPasses = 100'000;
   void onEnter(Scene& scene) override;
   void onLeave(Scene& scene) override;
   void receive(const Message& m, FrameContext& frame) override;

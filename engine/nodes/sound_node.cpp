@@ -36,6 +36,9 @@ void SoundNode::publish(Scene& scene) {
 
 bool SoundNode::resume(Scene& scene) {
   if (!scene.isSound(handle_, placement())) return false;
+  // Each pass that it has missed is told.
+  const Nanoseconds pass = std::max<Nanoseconds>(attributes_.length, 1);
+  if (since_ < 0 || due_ < 0 || (scene.now() - due_) / pass > kMostPasses) return false;
   tell(scene);
   return true;
 }

@@ -29,6 +29,8 @@ void SwayNode::settleTargets(Scene& scene) {
 }
 
 bool SwayNode::resume(Scene& scene) {
+  const Nanoseconds now = scene.now();
+  if (since_ < 0 || since_ > now || elapsed_ < 0 || elapsed_ > now) return false;
   if (!settled_) return true;
   findTargets(scene);
   return scene.placements().resumeFleet(fleet_, *this, placements_.size());
