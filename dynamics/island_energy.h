@@ -3,7 +3,8 @@
 ///
 /// Method   the work of all impulses on the members is a b + a^2 c if they are `a` times as strong: where it
 /// would be positive they are weakened, all alike, until it is not. So momenta stay what they are. Overlap is
-/// pushed out at a speed of its own: the work that this takes is allowed to who does not move as fast already.
+/// pushed out at a speed of its own: the work that this takes is allowed to who does not move as fast
+/// already.
 
 #include "dynamics/impulse.h"
 
@@ -13,8 +14,8 @@
 namespace stadion {
 
 /// `free` are the velocities without the impulses, `end` those with them; a body that falls does so, on the
-/// mean of the step, by `falls` less than at its end [m/s]; empty: an instant. `allowed` is work that they may
-/// do [J]. Those behind the first `members` are moved by nothing.
+/// mean of the step, by `falls` less than at its end [m/s]; empty: an instant. `allowed` is work that they
+/// may do [J]. Those behind the first `members` are moved by nothing.
 void boundWork(std::size_t members, const std::vector<Mobile>& free, std::vector<Mobile>& end,
                const std::vector<Vec3>& falls, double allowed);
 

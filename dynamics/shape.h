@@ -75,9 +75,9 @@ struct ShapeChoice {
 
 /// The shape to collide with in place of `mesh`. Auto takes the first of plane, ball, box, capsule, cylinder
 /// and convex hull that is within `tolerance` of the mesh, relative to its size and for all but balls to its
-/// thinner side; else the mesh itself. Both ways count (shape_distance.h): a shape that closes a doorway is as
-/// far off as the doorway is wide. Of round shapes the vertices count; facets between them may cut four times
-/// as deep. A kind that is asked for is fitted as well as it goes. Fails if the mesh has no usable
+/// thinner side; else the mesh itself. Both ways count (shape_distance.h): a shape that closes a doorway is
+/// as far off as the doorway is wide. Of round shapes the vertices count; facets between them may cut four
+/// times as deep. A kind that is asked for is fitted as well as it goes. Fails if the mesh has no usable
 /// triangle.
 Result<ShapeChoice> chooseShape(const Mesh& mesh, ShapeKind requested = ShapeKind::Auto,
                                 double tolerance = kShapeTolerance);

@@ -86,8 +86,8 @@ void addRows(const NodeRow& r, const ShowFigures& f, std::string& csv) {
   };
   if (!f.drawMethod.empty())
     csv += fmt::format("{},draw,,,,{},{},{},{},,,,{}\n", who, ifKnown(r.draw, r.drawKnown()),
-                       ifKnown(r.drawingP95, r.drawings > 0), ifKnown(r.drawingMost, r.drawings > 0), r.drawings,
-                       method);
+                       ifKnown(r.drawingP95, r.drawings > 0), ifKnown(r.drawingMost, r.drawings > 0),
+                       r.drawings, method);
   for (std::size_t w = 0; w < r.walls.size(); ++w) {
     const NodeOnWall& on = r.walls[w];
     add("cull", f.walls[w], "", on.cull, on.cullMeasured);

@@ -33,7 +33,8 @@ std::string logName(const std::string& name) {
 
 }  // namespace
 
-InputRecorder::InputRecorder(const std::string& path, double rate) : file_(path, AtomicFile::Unfinished::KeepsLines), rate_(rate) {
+InputRecorder::InputRecorder(const std::string& path, double rate)
+    : file_(path, AtomicFile::Unfinished::KeepsLines), rate_(rate) {
   file_.write(inputLogHeading(rate));
 }
 

@@ -129,7 +129,7 @@ struct HowDrawn {
 
 struct RunSummary {
   static constexpr std::size_t kMostHappenings = 5'000;  ///< kept; a show may run all day
-  static constexpr std::size_t kHappeningsTold = 200;     ///< lines in the text
+  static constexpr std::size_t kHappeningsTold = 200;    ///< lines in the text
   /// What a node tells more often, such as the end of each pass of what loops, is counted in one line.
   static constexpr std::size_t kMostAlike = 5;
 

@@ -99,7 +99,8 @@ void drawBorder(Sketch& sketch) {
   for (std::size_t i = 0; i < 4; ++i) sketch.line(corners[i], corners[(i + 1) % 4], kBorder, 1);
 }
 
-/// The cube's lowest corner. It hangs in the middle of the room, so low that its edges are on floor and walls.
+/// The cube's lowest corner. It hangs in the middle of the room, so low that its edges are on floor and
+/// walls.
 Vec3 cubeCorner(const WallFile& walls) {
   Aabb room;
   room.include(Vec3::Zero());

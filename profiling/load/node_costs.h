@@ -76,7 +76,7 @@ private:
     std::uint64_t since = 0;
     bool hidden = false;
     bool seen = false, sampled = false;  ///< a wall has shown something of it; that has been drawn alone
-    std::uint64_t round = 0;  ///< so long a sample of its drawing may take to come [frames]
+    std::uint64_t round = 0;             ///< so long a sample of its drawing may take to come [frames]
   };
 
   std::vector<GovernedNode> nodes_;

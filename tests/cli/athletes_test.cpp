@@ -50,8 +50,9 @@ Athlete playAthlete(const std::string& name) {
   std::sscanf(athlete.script.c_str() + there, "It is then at (%lf,%lf,%lf)", &p.x(), &p.y(), &p.z());
   const TemporaryFolder folder;
   const auto player = openShow(folder.write(
-      "athlete.evs", athlete.script + "\ntimer( period=0.48, eventmessage=\"timesup, go, enable, latency=0.02\" )\n"
-                                      "timer( period=6, eventmessage=\"timesup, again, enable\" )\n"));
+      "athlete.evs", athlete.script +
+                         "\ntimer( period=0.48, eventmessage=\"timesup, go, enable, latency=0.02\" )\n"
+                         "timer( period=6, eventmessage=\"timesup, again, enable\" )\n"));
   if (!player) return athlete;
   ShowParts parts = player->parts(StereoLayout::Pair);
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {

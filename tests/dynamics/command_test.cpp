@@ -44,10 +44,8 @@ TEST(Command, PulsesOnABoxThatTurnsOnTheFloorAddUp) {
   World w;
   const FieldId g = addGravity(w), pulse = addPulse(w, 2 * kG);
   addFloor(w);
-  const BodyId b = addBox(w, g,
-                          {.half = Vec3::Constant(0.15),
-                           .pose = {{0, 0, 0.15}, Quat::Identity()},
-                           .omega = {0, 0, 1}});
+  const BodyId b = addBox(
+      w, g, {.half = Vec3::Constant(0.15), .pose = {{0, 0, 0.15}, Quat::Identity()}, .omega = {0, 0, 1}});
   w.hook(b, pulse, 0);
   for (int k = 0; k < 20; ++k) {
     const Nanoseconds at = 103'100'000 + 53'100'000 * Nanoseconds{k};

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-
 namespace stadion {
 namespace {
 
@@ -81,7 +80,8 @@ TEST(ScriptDocument, RepeatedAttributesAccumulateInOrder) {
 }
 
 TEST(ScriptDocument, WordsThatAreSaidMayHaveCommas) {
-  const Document d = right(R"(timer( period=1, eventmessage="timesup, t, say Well thrown\, visitor\, well!, 2, latency=0.1",
+  const Document d =
+      right(R"(timer( period=1, eventmessage="timesup, t, say Well thrown\, visitor\, well!, 2, latency=0.1",
                                      eventmessage="timesup, t, say one\,",
                                      eventmessage="timesup, t, say \,, 3" ) text( name=t ))");
   const auto messages = d[0].eventMessages();

@@ -65,7 +65,8 @@ TEST(ScriptSchema, StandardValuesObeyTheirOwnRules) {
       Diagnostics findings;
       checkScript(std::move(SourceText::make("a.evs", script).value()), findings);
       for (const Diagnostic& d : findings.all())  // only what is missing, never the value itself
-        EXPECT_TRUE(d.where.column == 1 || d.message.find("it needs") != std::string::npos) << script << format(d);
+        EXPECT_TRUE(d.where.column == 1 || d.message.find("it needs") != std::string::npos)
+            << script << format(d);
     }
 }
 

@@ -207,8 +207,7 @@ TEST(Shadows, AShowWithoutThemCarriesNothingForThem) {
   yard.lights[0].range = 0;
   const DrawList list = yard.list();
   EXPECT_EQ(list.shadows.light, -1);
-  for (const DrawShadowRing& ring : list.shadows.rings)
-    EXPECT_TRUE(!ring.still && ring.moving.empty());
+  for (const DrawShadowRing& ring : list.shadows.rings) EXPECT_TRUE(!ring.still && ring.moving.empty());
 }
 
 TEST(Shadows, GlassAndWhatIsHiddenCastNone) {
