@@ -9,8 +9,8 @@
 ///
 /// Errors   of place: how far the node's origin is from where it is with the finest model [m].
 /// Costs    processor time a frame. A model's is what the body's dynamics node takes more with it than
-///          without the body, the least of the rounds; that of bodies which are only listed is their share of the
-///          node's time, by the arcs they begin.
+///          without the body, the least of the rounds; that of bodies which are only listed is their share of
+///          the node's time, by the arcs they begin.
 
 #include "cli/model_run.h"
 
