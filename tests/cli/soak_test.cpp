@@ -50,14 +50,15 @@ TEST(ProgramSoak, ThatIsFinishedIsNotPlayedAgainAndHasTheSameVerdict) {
   EXPECT_EQ(fileContent(record), kept + "\n");
 }
 
+std::vector<std::string> shortSoak(const std::string& record, const char* frames) {
+  return {"soak", "--frames", frames, "--visit", "1000", "--no-memory", "--record", record};
+}
+
 /// More samples might hide what has grown.
 TEST(ProgramSoak, WhatHasFailedOnceHasFailed) {
   const TemporaryFolder folder;
   const std::string record = folder.path() / "soak.record";
-  const auto words = [&](const char* frames) {
-    return std::vector<std::string>{"soak", "--frames",    frames,     "--visit",
-                                    "1000", "--no-memory", "--record", record};
-  };
+  const auto words = [&](const char* frames) { return shortSoak(record, frames); };
   ASSERT_EQ(stadionProgram(words("1000")).status, 0);
   std::string text = fileContent(record);
   const std::size_t at = text.find("\"failed\":[");
@@ -109,10 +110,7 @@ TEST(ProgramSoak, AStateThatIsNotThatOfBeforeFails) {
 TEST(ProgramSoak, AStateThatIsNotThatOfBeforeIsNotForgottenWhenTheSoakIsKilled) {
   const TemporaryFolder folder;
   const std::string record = folder.path() / "soak.record";
-  const auto words = [&](const char* frames) {
-    return std::vector<std::string>{"soak", "--frames",    frames,     "--visit",
-                                    "1000", "--no-memory", "--record", record};
-  };
+  const auto words = [&](const char* frames) { return shortSoak(record, frames); };
   ASSERT_EQ(stadionProgram(words("1000")).status, 0);
   std::string text = fileContent(record);
   text.insert(text.find_first_of("0123456789", text.find("\"history\":")), "1");

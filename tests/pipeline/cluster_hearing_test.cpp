@@ -153,6 +153,16 @@ std::unique_ptr<Lead> lead() {
       kSession);
 }
 
+/// One that waits for nobody.
+std::unique_ptr<Lead> leadThatTells(std::vector<std::string>& told) {
+  return Lead::unconnected({room(),
+                            {1},
+                            std::chrono::seconds(0),
+                            [&told](const std::string& what) { told.push_back(what); },
+                            [] { return true; }},
+                           kSession);
+}
+
 TEST(ClusterHearing, NobodyWaitsForWhoIsLostInTheLastFrame) {
   const auto l = lead();
   l->hear(said(1, 9, 1, kSession, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow));
@@ -274,12 +284,7 @@ TEST(ClusterHearing, OfAnotherClusterInTheSameNetworkItIsSaidThatThereIsOne) {
 
 TEST(ClusterHearing, WhoGoesIsNotMissed) {
   std::vector<std::string> told;
-  const auto l = Lead::unconnected({room(),
-                                    {1},
-                                    std::chrono::seconds(0),
-                                    [&](const std::string& what) { told.push_back(what); },
-                                    [] { return true; }},
-                                   kSession);
+  const auto l = leadThatTells(told);
   l->hear(said(1, 9, 1, kSession, static_cast<std::uint8_t>(Phase::Ready), 0, true, kShow));
   l->begin(60);
   told.clear();
@@ -307,12 +312,7 @@ TEST(ClusterHearing, WhoIsAskedToEndObeysNoFurtherOrder) {
 
 TEST(ClusterHearing, WhoComesBesideAMemberOfItsNameIsNoneUntilItAsks) {
   std::vector<std::string> told;
-  const auto l = Lead::unconnected({room(),
-                                    {1},
-                                    std::chrono::seconds(0),
-                                    [&](const std::string& what) { told.push_back(what); },
-                                    [] { return true; }},
-                                   kSession);
+  const auto l = leadThatTells(told);
   const auto phase = [](Phase p) { return static_cast<std::uint8_t>(p); };
   l->hear(said(1, 9, 1, kSession, phase(Phase::Ready), 0, true, kShow));
   l->begin(60);
