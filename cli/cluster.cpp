@@ -7,7 +7,9 @@
 #include "cli/node_words.h"
 #include "cli/output_folder.h"
 #include "cli/show_check.h"
+#include "pipeline/cluster/lead.h"
 #include "pipeline/output/journal.h"
+#include "pipeline/supervision/shared_progress.h"
 
 #include <CLI/CLI.hpp>
 
@@ -62,10 +64,11 @@ std::unique_ptr<Journal> openJournal(const std::string& file, const ClusterNode&
   return std::move(journal.value());
 }
 
-/// This program, which ends with us.
-std::vector<std::string> programOf(const std::vector<std::string>& words) {
+/// This program, which ends with us. `progress`: where it says that it shows pictures.
+std::vector<std::string> programOf(const std::vector<std::string>& words, const SharedProgress* progress) {
   std::vector<std::string> all{std::filesystem::canonical("/proc/self/exe").string(), "run", "--ends-with",
                                std::to_string(getpid())};
+  if (progress) all.insert(all.end(), {"--supervised", std::to_string(progress->descriptor())});
   all.insert(all.end(), words.begin(), words.end());
   return all;
 }
@@ -82,10 +85,17 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
     words.push_back(wordsOfNode(command, o.run, *cluster, i));
   if (!canBePlayed(o, words)) return kBadInput;
   if (!makeFolders(o.run.out, *cluster, findings)) return tell(findings), kBadInput;
+  auto progress = SharedProgress::create();
+  if (!progress) findings.add(progress.error());
+  if (findings.hasErrors()) return tell(findings), kBadInput;
   ClusterNodes nodes(*cluster, o.once);
   for (std::size_t i = 0; i < words.size(); ++i)
-    nodes.add(cluster->nodes[i].name, programOf(words[i]),
+    nodes.add(cluster->nodes[i].name,
+              programOf(words[i], i == cluster->lead ? progress.value().get() : nullptr),
               openJournal(o.run.journal, cluster->nodes[i], findings));
+  // Who leads may wait for a node that lives and draws nothing (pipeline/cluster/lead.cpp).
+  nodes.watchLead(std::move(progress.value()),
+                  fromSeconds(o.run.hangAfter + cluster::Lead::kStuck * cluster->deadline));
   if (findings.hasErrors()) return tell(findings), kBadInput;
   const int code = nodes.play();
   std::fputs((o.run.json ? nodes.saidAsJson() : nodes.said()).c_str(), stdout);

@@ -18,8 +18,10 @@ namespace {
 
 constexpr std::chrono::milliseconds kLook{20};
 /// Who played so long has not died as soon as it had begun.
-constexpr std::chrono::seconds kSteady{1};
+constexpr std::chrono::seconds kSteady{5};
 constexpr std::size_t kMostDeaths = 10;  ///< in a row
+/// Files that differ from those of who leads will not be alike at once.
+constexpr std::chrono::seconds kOtherFiles{2};
 
 void sayOfCluster(const std::string& what) {
   std::fprintf(stderr, "cluster: %s\n", what.c_str());
@@ -51,6 +53,10 @@ void ClusterNodes::add(std::string name, std::vector<std::string> words, std::un
   node.name = std::move(name), node.words = std::move(words), node.journal = std::move(journal);
 }
 
+void ClusterNodes::watchLead(std::unique_ptr<SharedProgress> progress, Nanoseconds after) {
+  progress_ = std::move(progress), hangsAfter_ = after;
+}
+
 void ClusterNodes::sayOf(const Node& node, const std::string& what) {
   sayOfCluster(node.name + " " + what);
   const auto why = node.journal ? node.journal->add("cluster: " + node.name + " " + what) : std::nullopt;
@@ -59,6 +65,8 @@ void ClusterNodes::sayOf(const Node& node, const std::string& what) {
 
 bool ClusterNodes::begin(Node& node) {
   node.said = makeMemoryFile(), node.begun = Clock::now(), ++node.starts;
+  if (progress_ && &node == &nodes_[lead_])
+    progress_->enter(SharedProgress::Phase::Opening), watch_.emplace(*progress_, hangsAfter_);
   const bool well = !node.child.start(node.words, {-1, node.said.get(), 2});
   node.state = well ? State::Plays : State::Ended;
   if (well) return true;
@@ -75,6 +83,7 @@ int ClusterNodes::play() {
   for (bool forwarded = false; anyLeft(); std::this_thread::sleep_for(kLook)) {
     if (stop && !std::exchange(forwarded, true)) ask(stopSignal());
     for (Node& node : nodes_) look(node);
+    killHangingLead();
     endWithLead();
     killWhoHangs();
   }
@@ -88,7 +97,7 @@ void ClusterNodes::look(Node& node) {
     if (*stop_) node.status = kStopped + stopSignal();  // it will not fail any more
     if (*stop_ || leadIsGone())
       node.state = State::Ended;
-    else if (node.restarts.due(Clock::now()))
+    else if (Clock::now() >= node.notBefore && node.restarts.due(Clock::now()))
       begin(node);
   }
 }
@@ -102,8 +111,9 @@ void ClusterNodes::ended(Node& node, int status) {
   const auto now = Clock::now();
   if (now - node.begun >= kSteady) node.restarts = {};
   node.restarts.died(now);
+  if (status == kBadInput) node.notBefore = now + kOtherFiles;
   const std::size_t deaths = node.restarts.deaths();
-  if (deaths >= kMostDeaths)
+  if (deaths >= kMostDeaths && status != kBadInput)
     return sayOf(node, fmt::format("{}, {} times in a row, and is given up", how, deaths));
   node.state = State::Pauses;
   sayOf(node,
@@ -116,8 +126,11 @@ bool ClusterNodes::isStop(const Node& node) const {
   return stopOnDifference_ && &node == &nodes_[lead_] && node.status == kInternalFault;
 }
 
-/// What is wrong with the show or its options would be so again.
+/// What is wrong with the show or its options would be so again. But a node that did play may have found
+/// scripts that somebody was changing: with the next group they are alike again.
 bool ClusterNodes::isDeath(const Node& node) const {
+  if (node.status == kBadInput)
+    return &node != &nodes_[lead_] && (node.starts > 1 || Clock::now() - node.begun >= kSteady);
   return node.status > kStopped || (node.status == kInternalFault && !isStop(node));
 }
 
@@ -136,8 +149,8 @@ void ClusterNodes::endWithLead() {
 
 void ClusterNodes::ask(int signal) {
   if (!askedSince_) askedSince_ = Clock::now();
-  for (const Node& node : nodes_)
-    if (node.child.running()) kill(node.child.pid(), signal);
+  for (Node& node : nodes_)
+    if (node.child.running()) kill(node.child.pid(), signal), node.asked = true;
 }
 
 /// One that hangs in the system may outlive even that; nobody waits for it any longer.
@@ -153,6 +166,15 @@ void ClusterNodes::killWhoHangs() {
   }
 }
 
+void ClusterNodes::killHangingLead() {
+  Node& lead = nodes_[lead_];
+  const auto silent = watch_ && lead.child.running() ? watch_->hangs() : std::nullopt;
+  if (!silent) return;
+  sayOf(lead, fmt::format("has shown nothing for {:g} s, and is killed", toSeconds(*silent)));
+  lead.child.kill();
+  watch_.reset();
+}
+
 bool ClusterNodes::anyLeft() const {
   return std::ranges::any_of(nodes_, [](const Node& node) { return node.state != State::Ended; });
 }
@@ -162,7 +184,8 @@ int ClusterNodes::code() const {
   const auto failed = std::ranges::find_if(nodes_, hasFailed, &Node::status);
   if (failed != nodes_.end()) return failed->status;
   if (*stop_) return kStopped + stopSignal();
-  const auto stopped = std::ranges::find_if(nodes_, wasAskedToEnd, &Node::status);
+  const auto stopped = std::ranges::find_if(
+      nodes_, [](const Node& node) { return wasAskedToEnd(node.status) && !node.asked; });
   return stopped != nodes_.end() ? stopped->status : kOk;
 }
 

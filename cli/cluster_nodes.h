@@ -2,9 +2,10 @@
 /// The processes that play a cluster's nodes on this machine: begun together, looked after, ended together.
 ///
 /// A node that dies, by a signal or with exit code 3, begins again: at once the first time, after pauses that
-/// grow if it dies as soon as it has begun. When who leads is gone for good, the others have nobody to wait
-/// for.
-/// Who was asked to end and has not so long after hangs, and is killed.
+/// grow if it dies soon after it has begun. So does a follower that has played and finds its files changed,
+/// for as long as it takes. When who leads is gone for good, the others have nobody to wait for.
+/// Who was asked to end and has not so long after hangs, and is killed. So is who leads if it shows nothing
+/// any longer: of a follower the others notice by themselves.
 ///
 /// Ownership  owns the processes; those that still run when it goes are killed.
 /// Threads    main.
@@ -12,6 +13,8 @@
 #include "pipeline/cluster/cluster_file.h"
 #include "pipeline/output/child_process.h"
 #include "pipeline/output/journal.h"
+#include "pipeline/supervision/hang_watch.h"
+#include "pipeline/supervision/shared_progress.h"
 #include "pipeline/worker/restarts.h"
 
 #include <atomic>
@@ -37,6 +40,8 @@ public:
   /// too, if it has one.
   void add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal = nullptr);
 
+  /// Who leads is killed if it shows nothing for so long [ns]; its words name the descriptor of `progress`.
+  void watchLead(std::unique_ptr<SharedProgress> progress, Nanoseconds after);
   /// Begins them all and looks after them until all have ended. The exit code.
   int play();
   /// What the nodes have said: each under its name, or as one JSON object.
@@ -53,7 +58,8 @@ private:
     State state = State::Ended;
     int status = 0;  ///< the last exit status; 128 + signal
     unsigned starts = 0;
-    Clock::time_point begun{};
+    bool asked = false;  ///< by us, to end
+    Clock::time_point begun{}, notBefore{};
     worker::Restarts restarts{};
     Descriptor said{};
     ChildProcess child{};
@@ -69,6 +75,7 @@ private:
   void endWithLead();
   void ask(int signal);
   void killWhoHangs();
+  void killHangingLead();
   bool anyLeft() const;
   int code() const;
 
@@ -77,6 +84,9 @@ private:
   std::chrono::milliseconds patience_;
   const std::atomic<bool>* stop_ = nullptr;
   std::deque<Node> nodes_;
+  std::unique_ptr<SharedProgress> progress_;  ///< of who leads; null: nobody watches it
+  Nanoseconds hangsAfter_ = 0;
+  std::optional<HangWatch> watch_{};
   std::optional<Clock::time_point> goneSince_{};   ///< who leads
   std::optional<Clock::time_point> askedSince_{};  ///< the nodes, to end
   bool othersAsked_ = false;                       ///< to end after who leads

@@ -72,7 +72,7 @@ std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& fin
   o.show.onlyWalls = file->nodes[*node].walls;
   if (o.show.onlyWalls.empty()) {
     o.show.onlyWalls = {walls->walls.front().wall.name};  // somebody has to take the frames
-    o.provider = "none";
+    o.provider = "none", o.sheets = o.video = false;
   }
   std::unique_ptr<ClusterPart> part(new ClusterPart(o, std::move(*file), *node));
   if (o.plantDifference > 0) part->planted_ = o.plantDifference;
@@ -85,10 +85,11 @@ void ClusterPart::tell(const std::string& what) {
 
 // What the terms are is looked up each time: a script may have been saved since the show before.
 bool ClusterPart::openLead(Diagnostics& findings) {
-  const std::uint64_t before = lead_ ? lead_->session() : 0;
+  cluster::LeadOptions options{file_, termsOf(options_, file_), kPatience,
+                               [this](const std::string& what) { tell(what); }, nobodyWaits};
+  if (lead_) options.above = lead_->session(), options.expected = lead_->present();
   lead_.reset();
-  auto opened = cluster::Lead::open({file_, termsOf(options_, file_), kPatience,
-                                     [this](const std::string& what) { tell(what); }, nobodyWaits, before});
+  auto opened = cluster::Lead::open(std::move(options));
   if (!opened) return findings.add(opened.error()), false;
   lead_ = std::move(opened.value());
   return true;
@@ -135,7 +136,7 @@ bool ClusterPart::hasFiles(const Scene& scene, Diagnostics& findings) const {
   return false;
 }
 
-bool ClusterPart::begin(Player& player, Diagnostics& findings) {
+bool ClusterPart::begin(Player& player, const OperatorQueue& asked, Diagnostics& findings) {
   player_ = &player;
   if (!leads()) {
     follower_->compareWith([this](const cluster::SavedScene& there) { return differenceTo(there); });
@@ -147,7 +148,8 @@ bool ClusterPart::begin(Player& player, Diagnostics& findings) {
   }
   if (!hasFiles(player.scene(), findings)) return false;
   lead_->saveWith([this] { return saved(); });
-  lead_->begin(player.rate());
+  lead_->begin(player.rate(),
+               [&] { return asked.has(OperatorAction::Start) || asked.has(OperatorAction::End); });
   return !lead_->hasDouble();
 }
 

@@ -33,8 +33,9 @@ public:
   bool join(ShowOptions& show, Diagnostics& findings);
   /// The show was under way when we came, or came back.
   bool goesOn() const { return goesOn_; }
-  /// The show has been opened. Who leads waits for the others. False, with findings: there is no network.
-  bool begin(Player& player, Diagnostics& findings);
+  /// The show has been opened. Who leads waits for the others, unless the operator has no patience. False,
+  /// with findings: there is no network.
+  bool begin(Player& player, const OperatorQueue& asked, Diagnostics& findings);
   /// The other machines' say in what is played, and what had been decided about a show that goes on. After
   /// begin().
   void addTo(FrameLoopOptions& loop, LiveDesk& desk);
@@ -45,6 +46,8 @@ public:
   bool isToJoinAgain() const { return follower_ && follower_->isToJoinAgain(); }
   /// Another program plays this node already; it has been told, and this one is to end.
   bool hasDouble() const;
+  /// Who leads has ended the show: nothing is left to join.
+  bool isOver() const { return follower_ && follower_->isOver(); }
   /// What there is to tell is heard by all; who leads anew gets our scene if it asks for it. `over`: where we
   /// lead, the show ends for all.
   void finish(bool over);

@@ -200,12 +200,11 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   p.loader_->obey(p.decisions_.loads);
   p.scene_ = std::make_unique<Scene>(*p.loader_, *p.meshes_, appThreadsOf(options));
   p.options_.texts.reset();  // the loader keeps what is still to be loaded
-  if (options.state && !p.scene_->restore(*options.state, options.script)) {
-    findings.error(
-        {options.script, 0, 0},
-        "the state to go on from is not one of this show, or its scripts and models differ there from ours");
-    return nullptr;
-  }
+  if (options.state)
+    if (const auto why = p.scene_->restore(*options.state, options.script)) {
+      findings.error({options.script, 0, 0}, "the show cannot go on from the scene that was kept: " + *why);
+      return nullptr;
+    }
   p.options_.state.reset();
   if (!options.state && !p.scene_->open(options.script)) return nullptr;
   // Reading a show of a million nodes takes more memory than holding it. Here nobody waits for that to go.

@@ -30,6 +30,7 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -66,6 +67,34 @@ std::function<void(const Diagnostics&)> reportOf(const RunSetup& s) {
     if (journal) journal->note(findings);
   };
 }
+
+/// Findings that are told only if what is tried succeeds; then those that follow are, too. Any thread.
+class HeldReport {
+public:
+  using Report = std::function<void(const Diagnostics&)>;
+
+  explicit HeldReport(Report report) : held_(std::make_shared<Held>()) { held_->report = std::move(report); }
+  Report function() const {
+    return [held = held_](const Diagnostics& findings) {
+      const std::lock_guard lock(held->mutex);
+      held->released ? held->report(findings) : held->findings.append(findings);
+    };
+  }
+  void release() {
+    const std::lock_guard lock(held_->mutex);
+    held_->released = true;
+    held_->report(held_->findings);
+  }
+
+private:
+  struct Held {
+    std::mutex mutex;
+    Report report;
+    Diagnostics findings;
+    bool released = false;
+  };
+  std::shared_ptr<Held> held_;
+};
 
 /// Late frames, in words, one in ten seconds.
 std::function<void(const std::string&)> tellSometimes(RunJournal* journal) {
@@ -178,14 +207,17 @@ std::unique_ptr<Player> openShow(const RunOptions& o, const std::atomic<bool>& s
                                  Diagnostics& findings) {
   ShowOptions show = o.show;
   if (s.cluster && !s.cluster->join(show, findings)) return nullptr;
-  if (s.supervised && s.supervised->state()) {
-    show.state = s.supervised->state();
-    Diagnostics found;
-    if (auto player = Player::create(show, found, reportOf(s), &stop, modelsOf(*s.desk))) return player;
-    s.supervised->beginAgain();
-    show.state.reset();
-  }
-  return Player::create(show, findings, reportOf(s), &stop, modelsOf(*s.desk));
+  if (!s.supervised || !s.supervised->state())
+    return Player::create(show, findings, reportOf(s), &stop, modelsOf(*s.desk));
+  show.state = s.supervised->state();
+  HeldReport report(reportOf(s));
+  Diagnostics found;
+  if (auto player = Player::create(show, found, report.function(), &stop, modelsOf(*s.desk)))
+    return report.release(), std::move(player);
+  show.state.reset();
+  auto player = Player::create(show, findings, reportOf(s), &stop, modelsOf(*s.desk));
+  if (player) s.supervised->beginAgain(found);
+  return player;
 }
 
 /// Opens everything before anything is played, so that whatever is wrong is found first.
@@ -215,7 +247,7 @@ bool setUp(RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostic
   if (findings.hasErrors()) return false;
   if (!s.desk->begin(*s.player, findings)) return false;
   if (!beginGroup(o, s, findings)) return false;
-  if (s.cluster && !s.cluster->begin(*s.player, findings)) return false;
+  if (s.cluster && !s.cluster->begin(*s.player, s.desk->queue(), findings)) return false;
   if (o.display && !(s.displays = DisplayRun::open(o, s.player->walls(), findings))) return false;
   if (!s.folder) return true;
   const bool goesOn = s.cluster && s.cluster->goesOn();  // what was written before belongs to the same show
@@ -342,7 +374,8 @@ bool nextGroup(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
     if (!waitForScript(o, stop, s)) return false;
   }
   // Of a cluster's next group the others learn by a new session.
-  const bool well = beginGroup(o, s, findings) && (!s.cluster || s.cluster->begin(*s.player, findings));
+  const bool well =
+      beginGroup(o, s, findings) && (!s.cluster || s.cluster->begin(*s.player, s.desk->queue(), findings));
   tell(findings);
   return well;
 }
@@ -354,7 +387,8 @@ bool joinAgain(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
   s.watch.reset();
   s.player.reset();
   s.player = openShow(o, stop, s, findings);
-  const bool well = s.player && beginGroup(o, s, findings) && s.cluster->begin(*s.player, findings);
+  const bool well =
+      s.player && beginGroup(o, s, findings) && s.cluster->begin(*s.player, s.desk->queue(), findings);
   tell(findings);
   return well;
 }
@@ -362,6 +396,7 @@ bool joinAgain(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
 /// There is no next group's show.
 int codeWithoutShow(bool stopped, const RunSetup& s) {
   const auto lost = s.displays ? s.displays->lost() : std::nullopt;
+  if (!lost && !stopped && s.cluster && s.cluster->isOver()) return kOk;
   if (!lost) return stopped ? kStopped + stopSignal() : kBadInput;
   std::fprintf(stderr, "stadion: %s\n", lost->c_str());
   return kInternalFault;
@@ -373,7 +408,7 @@ int playShow(RunOptions& o, RunSetup& setup, Diagnostics findings) {
   const bool ready = setUp(o, stop, setup, findings);
   reportOf(setup)(findings);
   if (!ready && setup.cluster && stop) return kStopped + stopSignal();
-  if (!ready) return kBadInput;
+  if (!ready) return setup.cluster && setup.cluster->isOver() ? kOk : kBadInput;
   if (setup.cluster && !setup.cluster->leads())
     ;  // how long it is, who leads knows
   else if (setup.player->frames() == 0 && setup.player->end() == 0)

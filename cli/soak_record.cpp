@@ -109,7 +109,7 @@ bool SoakRecord::read(const std::string& what, Diagnostics& findings) {
   if (!(Json::parse(line, nullptr, false) == head)) return findings.error({name_, 0, 0}, none + other), false;
   for (std::uint32_t number = 2; std::getline(in, line); ++number) {
     const Json j = Json::parse(line, nullptr, false);
-    if (j.is_discarded()) continue;  // half a line: a run was killed there
+    if (j.is_discarded() && !line.ends_with('}')) continue;  // half a line: a run was killed there
     if (const char* why = readLine(j))
       return findings.error({name_, number, 0}, none + ": this line " + why + other), false;
   }
@@ -119,6 +119,7 @@ bool SoakRecord::read(const std::string& what, Diagnostics& findings) {
 
 /// What is wrong with it; null: nothing.
 const char* SoakRecord::readLine(const Json& line) {
+  if (line.is_discarded()) return "is damaged";
   if (!line.is_object()) return "is neither a sample nor counts nor a history";
   if (line.contains("sample")) return readSample(valueAt(line, "sample"), valueAt(line, "counts"));
   if (line.contains("counts")) {

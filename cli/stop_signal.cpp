@@ -34,6 +34,7 @@ extern "C" void requestStop(int signal) {
 const std::atomic<bool>& catchStopSignals() {
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
+  std::signal(SIGPIPE, SIG_IGN);
   return requested;
 }
 

@@ -7,7 +7,8 @@
 
 namespace stadion {
 
-/// From now on the two signals set the flag that is returned. The flag is the process's, as signals are.
+/// From now on the two signals set the flag that is returned. The flag is the process's, as signals are. Nor
+/// is it the end that nobody reads any longer what the process says (SIGPIPE).
 const std::atomic<bool>& catchStopSignals();
 
 /// SIGTERM comes when the process that started us dies, too; at once if `parent` is that no more.

@@ -4,6 +4,7 @@
 #include "cli/stop_signal.h"
 #include "pipeline/output/child_process.h"
 #include "pipeline/output/journal.h"
+#include "pipeline/supervision/hang_watch.h"
 #include "pipeline/supervision/recovery.h"
 #include "pipeline/supervision/shared_progress.h"
 
@@ -27,11 +28,6 @@ using Phase = SharedProgress::Phase;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kLook{10};
-/// Opening a show, its drivers and devices, and writing its summary may take so many times longer than
-/// frames.
-constexpr int kLonger = 12;
-/// Who has not looked for so long was stopped itself (Ctrl-Z, a debugger, a machine that slept).
-constexpr Nanoseconds kAsleep = fromSeconds(1);
 
 /// The terminal as it was: a player that is killed leaves it as it had it.
 class Terminal {
@@ -76,8 +72,6 @@ private:
     Nanoseconds hung = 0;  ///< so long no picture came, and it was killed
   };
   std::optional<End> playOnce();
-  bool hangs(Nanoseconds since, std::uint64_t shownBefore) const;
-  Nanoseconds limit(std::uint64_t shownBefore) const;
   bool isDeath(const End& end) const;
   std::string howOf(const End& end) const;
   void say(const std::string& line);
@@ -109,18 +103,6 @@ bool Supervisor::pause(milliseconds time) const {
   return !stop_;
 }
 
-/// How long no picture may come. The first one waits for drivers and for what is uploaded.
-Nanoseconds Supervisor::limit(std::uint64_t shownBefore) const {
-  const bool playing = progress_->phase() == Phase::Playing && progress_->framesShown() > shownBefore;
-  return playing ? hangs_ : kLonger * hangs_;
-}
-
-/// `since`: nothing counts that was before.
-bool Supervisor::hangs(Nanoseconds since, std::uint64_t shownBefore) const {
-  const Nanoseconds heard = std::max(since, progress_->lastShown());
-  return machineClock() - heard > limit(shownBefore);
-}
-
 std::optional<Supervisor::End> Supervisor::playOnce() {
   ChildProcess player;
   progress_->enter(Phase::Opening);
@@ -129,9 +111,7 @@ std::optional<Supervisor::End> Supervisor::playOnce() {
     say(fmt::format("the player cannot be started: {}", std::strerror(*why)));
     return {};
   }
-  const std::uint64_t before = progress_->framesShown();
-  Nanoseconds since = machineClock(), looked = since;
-  Phase phase = Phase::Opening;
+  HangWatch watch(*progress_, hangs_);
   bool forwarded = false;
   End end;
   for (;;) {
@@ -140,17 +120,17 @@ std::optional<Supervisor::End> Supervisor::playOnce() {
       end.status = *status;
       break;
     }
-    const Nanoseconds now = machineClock();
-    if (now - looked > kAsleep || progress_->phase() != phase) since = now, phase = progress_->phase();
-    looked = now;
-    if (gone_ > 0 && progress_->framesShown() > before) {
+    if (gone_ > 0 && watch.shows()) {
       say(fmt::format("pictures again, after {:.2f} s without", toSeconds(progress_->lastShown() - gone_)));
       gone_ = 0;
     }
     if (stop_ && !forwarded) kill(player.pid(), stopSignal());
     forwarded = stop_;
-    if (!hangs(since, before)) continue;
-    end.hung = limit(before);
+    end.hung = watch.hangs().value_or(0);
+    if (end.hung == 0) continue;
+    if (stop_)
+      say(fmt::format("the player has not ended {:g} s after {} and is killed", toSeconds(end.hung),
+                      stopSignalName()));
     player.kill();
     player.wait(milliseconds(5000));
     end.status = kStopped + SIGKILL;
@@ -181,6 +161,7 @@ int Supervisor::play() {
   for (;;) {
     const auto end = playOnce();
     if (!end) return kInternalFault;
+    if (stop_ && end->hung > 0) return kStopped + stopSignal();
     if (!isDeath(*end)) return end->status;
     if (gone_ == 0) gone_ = progress_->lastShown();
     const SharedProgress::Moment last = progress_->newest();

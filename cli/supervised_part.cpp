@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace stadion {
 namespace {
@@ -36,15 +37,20 @@ std::unique_ptr<SupervisedPart> SupervisedPart::create(const RunOptions& o, Diag
     findings.error({}, "--supervised is for players that `stadion run --supervise` starts");
     return nullptr;
   }
-  return std::unique_ptr<SupervisedPart>(new SupervisedPart(std::move(progress), o.say));
+  std::unique_ptr<SupervisedPart> part(new SupervisedPart(std::move(progress), o.say));
+  part->keeps_ = o.cluster.empty();
+  return part;
 }
 
-void SupervisedPart::beginAgain() {
+void SupervisedPart::beginAgain(const Diagnostics& found) {
   state_.reset(), from_.reset();
-  say_("the scene that was kept is not one of this show (its files have changed?): it begins again");
+  const auto why = std::ranges::find(found.all(), Severity::Error, &Diagnostic::severity);
+  say_((why == found.all().end() ? "the kept scene cannot be put back" : why->message) +
+       " (have its files changed?): it begins again");
 }
 
 void SupervisedPart::goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watch) {
+  if (!keeps_) return;
   step_ = fromSeconds(1 / loop.rate);
   desk.changed = [this](const OperatorState& state) { obeyed(state); };
   progress_->catchesUpUntil(machineClock());
@@ -69,6 +75,7 @@ void SupervisedPart::goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watc
 }
 
 void SupervisedPart::simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch, bool late) {
+  if (!keeps_) return;
   const bool still = progress_->operatorState().still();
   const bool arrived = catchesUp_ && (!late || (still && now.time >= due_));
   if (arrived) catchesUp_ = false, progress_->catchesUpUntil(machineClock());
@@ -81,19 +88,21 @@ void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch
   const Nanoseconds begin = machineClock();
   const std::vector<std::uint8_t> state = scene.save();
   bytes_ = state.size();
-  const bool kept = progress_->keep({now.frame, now.time, watch.history(), 0}, state);
+  const int wrong = progress_->keep({now.frame, now.time, watch.history()}, state);
   const Nanoseconds took = machineClock() - begin;
   ++times_, longest_ = std::max(longest_, took);
   const Nanoseconds pause = std::clamp(kShare * took, kKeepEvery, kKeepSeldom);
   nextKept_ = begin + (catchesUp_ ? std::clamp(kSoonShare * took, kKeepSoon, pause) : pause);
-  if (told_ || (kept && took < step_)) return;
+  if (told_ || (wrong == 0 && took < step_)) return;
   told_ = true;
-  say_(kept
+  say_(wrong == 0
            ? fmt::format(
                  "to keep the show's scene takes {:.1f} ms, more than a frame has; it is done every {:.0f} s",
                  1e3 * toSeconds(took), toSeconds(pause))
-           : std::string(
-                 "there is no memory to keep the show's scene: if the player dies, the show begins again"));
+           : fmt::format("the show's scene cannot be kept: {}; if the player dies, the show goes on from an "
+                         "older one, "
+                         "or begins again",
+                         std::strerror(wrong)));
 }
 
 std::string SupervisedPart::remark() const {

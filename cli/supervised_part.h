@@ -24,8 +24,8 @@ public:
 
   /// The state to go on from; null: the show begins.
   std::shared_ptr<const std::vector<std::uint8_t>> state() const { return state_; }
-  /// It could not be put back: the show begins, where it would be now.
-  void beginAgain();
+  /// It could not be put back, for what was found: the show begins again.
+  void beginAgain(const Diagnostics& found);
   /// The first show of this process: where it goes on, what the operator had decided. Says so.
   void goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watch);
 
@@ -48,6 +48,7 @@ private:
   std::function<void(const std::string&)> say_;
   std::optional<SharedProgress::Kept> from_;
   std::shared_ptr<const std::vector<std::uint8_t>> state_;
+  bool keeps_ = true;  ///< the scene, for the next player; in a cluster the others have it
   OperatorState desk_;
   bool wentOn_ = false, catchesUp_ = false;
   Nanoseconds begun_ = 0;     ///< when it went on, by machineClock()

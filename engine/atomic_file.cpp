@@ -9,6 +9,7 @@
 #include <charconv>
 #include <csignal>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -46,6 +47,15 @@ bool isOpenFile(const fs::path& link) {
   return fs::canonical(link.parent_path(), none).string().starts_with("/proc/");
 }
 
+/// Opened for writing. A pipe that nobody reads is an error, and no reason to wait.
+std::FILE* openToWrite(const std::string& path) {
+  const int file =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
+  if (file < 0) return nullptr;
+  fcntl(file, F_SETFL, 0);  // what is written may wait
+  return fdopen(file, "wb");
+}
+
 /// What the links of the path lead to. Nothing if that is an open file.
 std::optional<std::string> targetOf(fs::path path) {
   std::error_code none;
@@ -71,11 +81,11 @@ AtomicFile::AtomicFile(std::string path, Unfinished unfinished)
   const bool direct = !target || (exists && !S_ISREG(status.st_mode));
   target_ = target.value_or(path_);
   if (!direct) temporary_ = temporaryFor(target_);
-  file_ = std::fopen((direct ? path_ : temporary_).c_str(), "wbe");
+  file_ = openToWrite(direct ? path_ : temporary_);
   if (!file_) {
     const int reason = errno;
     temporary_.clear();
-    fail(std::strerror(reason));
+    fail(reason == ENXIO ? "it is a pipe that nobody reads" : std::strerror(reason));
   }
 }
 

@@ -385,10 +385,10 @@ NodeRef CollisionNode::nodeOf(std::uint32_t part) const {
 }
 
 bool CollisionNode::resumeParts(Scene& scene) {
-  // What moves was simulated up to now, or a few frames ago; what lasts longer has not counted.
+  // What moves was simulated up to now, or a few frames ago; what lasts longer does not count.
   const auto stands = [this](const Part& p) { return p.id == 0 || standsStill(world_.mode(p.id)); };
   const Nanoseconds behind = scene.now() - advancedTo_;
-  const bool mayBe = standing().missed == Missed::Time || std::ranges::all_of(collidees_, stands);
+  const bool mayBe = !on_ || standing().missed == Missed::Time || std::ranges::all_of(collidees_, stands);
   if (behind < 0 || (behind > kMostBehind && !mayBe)) return false;
   comingOrGoing_.clear();
   for (std::vector<Part>* parts : {&colliders_, &collidees_})

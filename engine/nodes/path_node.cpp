@@ -131,11 +131,12 @@ void PathNode::restUntil(Nanoseconds time) {
   since_ = time;
 }
 
-// Each pass that it has missed is told.
+// Each pass that it has missed is told; time that does not count has none.
 bool PathNode::resume(Scene& scene) {
-  const Nanoseconds now = scene.now(), pass = std::max<Nanoseconds>(length(), 1);
-  return elapsed_ >= 0 && elapsed_ <= length() && since_ >= 0 && since_ <= now &&
-         (!loop_ || (now - since_) / pass <= kMostPasses);
+  const Nanoseconds now = scene.now();
+  if (elapsed_ < 0 || elapsed_ > length() || since_ < 0 || since_ > now) return false;
+  const bool repeats = loop_ && switch_.on() && standing().missed != Missed::Time;
+  return !repeats || (now - since_) / std::max<Nanoseconds>(length(), 1) <= kMostPasses;
 }
 
 void PathNode::advanceTo(Nanoseconds time, FrameContext& frame) {
@@ -146,7 +147,7 @@ void PathNode::advanceTo(Nanoseconds time, FrameContext& frame) {
   }
   since_ = time;
   if (!switch_.on() || elapsed_ < length()) return;
-  if (loop_ && length() > 0) {
+  if (loop_) {
     for (; elapsed_ >= length(); elapsed_ -= length()) raise(Event::Finished, time - (elapsed_ - length()));
     return;
   }

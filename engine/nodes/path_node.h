@@ -32,7 +32,7 @@ public:
   PathNode(NodeRef self, std::string name, PlaceAttributes place, NodeRef target, std::vector<Keyframe> keys,
            bool loop, bool smooth, bool on)
       : PlacedNode(NodeKind::Path, self, std::move(name), std::move(place)), target_(target),
-        keys_(std::move(keys)), loop_(loop), smooth_(smooth), bends_(bends()), switch_(on) {}
+        keys_(std::move(keys)), loop_(loop && length() > 0), smooth_(smooth), bends_(bends()), switch_(on) {}
 
   Rank rank() const override { return Rank::Motion; }
   bool busy() const override { return switch_.on() || PlacedNode::busy(); }

@@ -37,8 +37,9 @@ void SoundNode::publish(Scene& scene) {
 bool SoundNode::resume(Scene& scene) {
   if (!scene.isSound(handle_, placement())) return false;
   // Each pass that it has missed is told.
-  const Nanoseconds pass = std::max<Nanoseconds>(attributes_.length, 1);
-  if (since_ < 0 || due_ < 0 || (scene.now() - due_) / pass > kMostPasses) return false;
+  const bool repeats = switch_.on() && attributes_.loop;
+  if (since_ < 0 || due_ < 0) return false;
+  if (repeats && (scene.now() - due_) / attributes_.length > kMostPasses) return false;
   tell(scene);
   return true;
 }

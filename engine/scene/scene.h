@@ -190,9 +190,9 @@ public:
   /// A hash of the scripts and models that were loaded: where files differ, it does.
   std::uint64_t files() const;
   /// Puts back what save() wrote, in a scene in which nothing has been opened, of the same files; `script` is
-  /// what open() would be given, which need not be where it was. Waits until they are loaded. False: this is
-  /// no such state, or the files have changed; then the scene is of no use.
-  bool restore(std::span<const std::uint8_t> state, const std::string& script);
+  /// what open() would be given, which need not be where it was. Waits until they are loaded. Nothing: well.
+  /// Else why not, in words: this is no such state, or the files have changed; the scene is of no use then.
+  std::optional<std::string> restore(std::span<const std::uint8_t> state, const std::string& script);
   /// Where this scene differs from one that save() has written down elsewhere, after the same frame.
   struct Difference {
     NodeRef node;       ///< whose field it is; not valid: of the scene as a whole
@@ -348,7 +348,7 @@ private:
   void visitNode(StateFields& f, Node& node);
   void visitRest(StateFields& f);
   bool standsTogether() const;
-  bool resume();
+  std::optional<std::string> resume();
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
   bool hasInstances(PlacementId p) const { return p < instancesAt_.size() && instancesAt_[p] != kNoInstance; }
   bool hasLights(PlacementId p) const { return p < lightsAt_.size() && lightsAt_[p] > 0; }

@@ -4,6 +4,8 @@
 #include "engine/nodes/placed_node.h"
 #include "engine/scene/scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -59,20 +61,22 @@ void Scene::visitAll(StateFields& f) {
   visitNodes(f);
 }
 
-bool Scene::restore(std::span<const std::uint8_t> state, const std::string& script) {
+std::optional<std::string> Scene::restore(std::span<const std::uint8_t> state, const std::string& script) {
   script_ = script;
   RestoredState in(state);
   std::uint32_t version = 0;
   in("version", version);
-  if (version != kVersion) return false;
+  if (version != kVersion) return "it is none, or another version has written it";
   visitLoads(in);
   if (!in.failed()) placements_.state(in);
   if (!in.failed()) visitRest(in);
   if (!in.failed()) visitNodes(in);
-  if (in.complete() && standsTogether() && resume()) return true;
+  std::optional<std::string> why = "it does not fit the scripts and models that are here";
+  if (in.complete() && standsTogether()) why = resume();
+  if (!why) return {};
   // Nodes that have been put back only in part must not act any more, not even to leave.
   for (auto& [number, load] : std::exchange(loads_, {})) loader_.dispose(std::move(load), 0);
-  return false;
+  return why;
 }
 
 /// Which files are there, and which are asked for.
@@ -220,8 +224,8 @@ bool Scene::standsTogether() const {
   return true;
 }
 
-/// What was put back takes effect: nodes know the scene again, everything is published anew.
-bool Scene::resume() {
+/// What was put back takes effect: nodes know the scene again, everything is published anew. Else why not.
+std::optional<std::string> Scene::resume() {
   for (InstanceId id = 0; id < instances_.size(); ++id) {
     Instance& i = instances_[id];
     if (!i.live) continue;
@@ -233,16 +237,17 @@ bool Scene::resume() {
   lightsChanged_ = true;
   for (const auto& [number, l] : loads_)
     for (const std::uint32_t position : l->enterOrder)
-      if (!l->nodes[position]->resume(*this)) return false;
+      if (const auto& node = l->nodes[position]; !node->resume(*this))
+        return fmt::format("the node {} cannot go on from it", node->name());
   // Some make theirs only now; what nobody has is of other files.
   for (const Instance& i : instances_)
-    if (i.live && i.mesh != kNoMesh && !i.form) return false;
+    if (i.live && i.mesh != kNoMesh && !i.form) return "a model that it shows is not here";
   for (const auto& [number, l] : loads_)
     for (const std::uint32_t position : l->enterOrder) {
       setBusy(*l->nodes[position]);
       rehash(*l->nodes[position]);
     }
-  return true;
+  return {};
 }
 
 }  // namespace stadion

@@ -90,14 +90,17 @@ void Bus::take(dds_entity_t reader, void* of) {
 
 void Bus::takeLiveliness(dds_entity_t, dds_liveliness_changed_status_t status, void* of) {
   auto& bus = *static_cast<Bus*>(of);
-  if (status.alive_count_change >= 0) return;
+  const bool leaves = status.alive_count_change < 0;
+  const bool isGone = status.not_alive_count_change < (leaves ? 1 : 0);  // else it may come back
   Speaker gone;
   {
     const std::lock_guard lock(bus.speakersMutex_);
     const auto at = bus.speakers_.find(status.last_publication_handle);
-    if (at == bus.speakers_.end()) return;
+    if (at == bus.speakers_.end() || status.alive_count_change > 0) return;
     gone = at->second;
+    if (isGone) bus.speakers_.erase(at);
   }
+  if (!leaves) return;
   bus.listener_->left(gone.node, gone.incarnation);
 }
 

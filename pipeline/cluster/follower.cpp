@@ -16,7 +16,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kLong{2};            ///< who waits so long says what for
 constexpr double kLeastRate = 1, kMostRate = 1000;  ///< of shows [1/s]
 constexpr std::size_t kMostOrders = 1U << 16U;      ///< heard and not obeyed: minutes of them
 
@@ -261,6 +260,11 @@ bool Follower::isToJoinAgain() const {
 bool Follower::hasDouble() const {
   const std::lock_guard lock(mutex_);
   return double_;
+}
+
+bool Follower::isOver() const {
+  const std::lock_guard lock(mutex_);
+  return over_;
 }
 
 void Follower::hear(const Session& session) {

@@ -76,6 +76,8 @@ public:
   bool isToJoinAgain() const;
   /// Another program is this node already: ours is to end.
   bool hasDouble() const;
+  /// Who leads has ended the show for all.
+  bool isOver() const;
   /// The run has ended, and the scene is to be kept: for who leads anew and asks for it, or for the next
   /// follower.
   bool keepsScene() const;

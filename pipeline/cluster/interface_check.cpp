@@ -16,6 +16,7 @@ namespace {
 
 struct Interface {
   std::string name, address;
+  bool multicast = false;
 };
 
 /// Those that can be used: they are up, and have an IPv4 address. Nothing if the system does not tell.
@@ -30,7 +31,8 @@ std::optional<std::vector<Interface>> interfacesHere() {
     std::memcpy(&address, at->ifa_addr, sizeof address);
     char text[INET_ADDRSTRLEN] = "";
     inet_ntop(AF_INET, &address.sin_addr, text, sizeof text);
-    all.push_back({at->ifa_name, text});
+    const bool multicast = (at->ifa_flags & (IFF_MULTICAST | IFF_LOOPBACK)) != 0;
+    all.push_back({at->ifa_name, text, multicast});
   }
   return all;
 }
@@ -43,7 +45,14 @@ void checkInterface(const ClusterFile& cluster, Diagnostics& out) {
   const auto here = interfacesHere();
   if (!here) return;  // then who opens the network has to say what is wrong
   const auto is = [&](const Interface& i) { return i.name == wanted || i.address == wanted; };
-  if (std::ranges::any_of(*here, is)) return;
+  const auto at = std::ranges::find_if(*here, is);
+  if (at != here->end() && at->multicast) return;
+  if (at != here->end())
+    return out.error(cluster.interfaceAt.where,
+                     fmt::format("the network interface \"{}\" has no multicast, by which machines find each "
+                                 "other; `ip link set {} multicast on`, or name another one",
+                                 wanted, at->name),
+                     cluster.interfaceAt.excerpt);
   std::vector<std::string> known;
   for (const Interface& i : *here) known.push_back(fmt::format("{} ({})", i.name, i.address));
   out.error(cluster.interfaceAt.where,

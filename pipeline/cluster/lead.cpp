@@ -17,7 +17,6 @@ constexpr std::size_t kHashesKept = 64, kMostEarly = kHashesKept * ClusterFile::
 constexpr std::chrono::milliseconds kSearch{1500};  ///< for others: so long until they are heard of
 constexpr std::chrono::seconds kGiving{5};          ///< a node may take so long to send its scene
 constexpr std::chrono::seconds kReturn{5};          ///< a show that goes on waits so long for the others
-constexpr double kStuck = 10;  ///< deadlines: a node that lives but draws nothing is left out after so many
 
 std::uint32_t bit(std::size_t node) {
   return std::uint32_t{1} << node;
@@ -154,18 +153,34 @@ bool Lead::hasBegun() const {
 // With the mutex.
 std::vector<std::string> Lead::missing() const {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < followers_.size(); ++i)
-    if (i != options_.cluster.lead && followers_[i].phase != Phase::Ready) names.push_back(nameOf(i));
+  for (std::size_t i = 0; i < followers_.size(); ++i) {
+    if (i == options_.cluster.lead || followers_[i].phase == Phase::Ready) continue;
+    if ((options_.expected & bit(i)) != 0 || followers_[i].incarnation != 0) names.push_back(nameOf(i));
+  }
   return names;
 }
 
-void Lead::begin(double rate) {
+std::uint32_t Lead::present() const {
+  const std::lock_guard lock(mutex_);
+  std::uint32_t nodes = 0;
+  for (std::size_t i = 0; i < followers_.size(); ++i)
+    if (followers_[i].incarnation != 0) nodes |= bit(i);
+  return nodes;
+}
+
+void Lead::begin(double rate, const std::function<bool()>& hurry) {
   std::unique_lock lock(mutex_);
   if (double_) return;
   session_.rate = rate;
   bus_->tell(session_);
-  const auto until = Clock::now() + (session_.resumes != 0 ? kReturn : options_.patience);
-  while (!missing().empty() && Clock::now() < until && waits()) {
+  const auto start = Clock::now();
+  const std::chrono::seconds patience = session_.resumes != 0 ? kReturn : options_.patience;
+  for (bool told = false; !missing().empty() && Clock::now() < start + patience && waits() && !hurry();) {
+    if (!told && Clock::now() > start + kLong) {
+      told = true;
+      options_.tell(fmt::format("waiting for {}, {} s at most; Start begins without",
+                                fmt::join(missing(), ", "), patience.count()));
+    }
     lock.unlock();
     answerWhoAsks();
     lock.lock();
@@ -183,7 +198,7 @@ void Lead::begin(double rate) {
 void Lead::issue(FrameOrder& order) {
   answerWhoAsks();
   const std::lock_guard lock(mutex_);
-  order.last = order.last || stop_;
+  order.last = order.last || stop_ || double_;
   pending_ = order;
   awaitsInput_ = true;
 }
@@ -261,7 +276,7 @@ bool Lead::mayShow(const TimeSignature&) {
     leaveOutWhoIsStuck();
   }
   if (latest) tally_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
-  return go_ >= serial;
+  return go_ >= serial && !double_;
 }
 
 // With the mutex. Who lives and does not draw what all others have drawn would hold them for ever.

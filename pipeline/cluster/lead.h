@@ -36,6 +36,8 @@ struct LeadOptions {
   std::function<void(const std::string&)> tell;
   std::function<bool()> stop;  ///< nobody waits any longer
   std::uint64_t above = 0;     ///< the session's number is: that of the show before
+  /// Nodes, by bits, that are waited for; another one only if it is there. After a show: who was there.
+  std::uint32_t expected = ~std::uint32_t{0};
 };
 
 /// A show that the others play already.
@@ -49,6 +51,9 @@ struct ShowUnderWay {
 
 class Lead final : public FrameOrders, public BusListener {
 public:
+  /// Deadlines: a node that lives but draws nothing is left out after so many.
+  static constexpr double kStuck = 10;
+
   static Result<std::unique_ptr<Lead>> open(LeadOptions options);
   /// One that hears only what hear() is given, and sends no scene to anybody.
   static std::unique_ptr<Lead> unconnected(LeadOptions options, std::uint64_t session);
@@ -58,8 +63,12 @@ public:
   /// Nothing: there is none, so the show begins. Takes two seconds at most where nodes are missing. Expects
   /// that none of our own has begun.
   std::optional<ShowUnderWay> takeOver();
-  /// Waits until all nodes have opened the show, or patience is at its end. `rate` in 1/s.
-  void begin(double rate);
+  /// Waits until all nodes have opened the show, or patience is at its end, or `hurry` says that the operator
+  /// has none. `rate` in 1/s.
+  void begin(
+      double rate, const std::function<bool()>& hurry = [] { return false; });
+  /// The nodes that are there, by bits.
+  std::uint32_t present() const;
   bool hasBegun() const;
   std::uint64_t session() const;  ///< its number
   /// What becomes of the show's input: each sample goes to all. `inner` must outlive it.

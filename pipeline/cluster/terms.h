@@ -12,6 +12,7 @@ namespace stadion::cluster {
 
 constexpr std::size_t kMostTold = 200;           ///< of what another machine says [characters]
 constexpr std::chrono::milliseconds kLook{100};  ///< how often a wait looks whether it is still wanted
+constexpr std::chrono::seconds kLong{2};         ///< who waits so long says what for
 
 /// A number that no other session or machine has; never 0. Of two the one that was taken earlier is lower, as
 /// far as the machines' clocks agree.

@@ -10,6 +10,7 @@
 
 #include "engine/input/operator_command.h"
 
+#include <algorithm>
 #include <chrono>
 #include <mutex>
 #include <utility>
@@ -32,6 +33,11 @@ public:
   std::chrono::steady_clock::time_point nextGroupAsked() const {
     const std::lock_guard lock(mutex_);
     return nextGroupAsked_;
+  }
+  /// Whether such a command has come since take().
+  bool has(OperatorAction action) const {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::find(waiting_, action, &OperatorCommand::action) != waiting_.end();
   }
   /// All that have come since the last call, in their order.
   std::vector<OperatorCommand> take() {

@@ -15,6 +15,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 #include <utility>
 
@@ -45,6 +46,17 @@ std::string oneLine(std::string_view text) {
 Descriptor openToAppend(const std::string& file) {
   return Descriptor(
       ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666));
+}
+
+/// Whoever writes a line holds the file for less than that. Who holds it longer is none of us, or has
+/// stopped.
+bool lockSoon(int file) {
+  constexpr int kTries = 5;
+  for (int i = 0; i < kTries; ++i) {
+    if (flock(file, LOCK_EX | LOCK_NB) == 0) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
 }
 
 /// FILE becomes FILE.1, and so on; the oldest one goes.
@@ -88,19 +100,20 @@ bool Journal::incomplete() const {
   return incomplete_;
 }
 
-// Whoever moves the file on holds the lock of the old one; who has opened that meanwhile looks again.
+// Whoever moves the file on holds the lock of the old one; who has opened that meanwhile looks again. A line
+// needs no lock: without one it is added, and the file is moved on another time.
 std::optional<std::string> Journal::write(std::string_view line) {
   constexpr int kTries = 8;
   for (int i = 0; i < kTries; ++i) {
     const Descriptor file = openToAppend(file_);
     struct stat ours {
     }, named{};
-    if (!file || flock(file.get(), LOCK_EX) != 0 || fstat(file.get(), &ours) != 0)
-      return std::strerror(errno);
+    if (!file || fstat(file.get(), &ours) != 0) return std::strerror(errno);
     if (!S_ISREG(ours.st_mode)) return "it is no plain file";
+    const bool locked = lockSoon(file.get()) && fstat(file.get(), &ours) == 0;
     if (stat(file_.c_str(), &named) != 0 || named.st_ino != ours.st_ino || named.st_dev != ours.st_dev)
       continue;
-    if (ours.st_size > 0 && static_cast<std::size_t>(ours.st_size) + line.size() > limit_) {
+    if (locked && ours.st_size > 0 && static_cast<std::size_t>(ours.st_size) + line.size() > limit_) {
       moveOn(file_);
       continue;
     }

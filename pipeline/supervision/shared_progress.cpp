@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::uint64_t kMark = 0x3376'7065'6573'7453;  ///< of this layout
 constexpr off_t kPageBytes = 4096;
-/// Of each of the two scenes; what is not written takes no memory.
-constexpr std::uint64_t kRoom = std::uint64_t{1} << 36U;
 
 /// The newest of values that one process writes and another one reads, whole.
 template <class T>
@@ -100,20 +98,21 @@ void SharedProgress::shown() {
   ++page_->shown;
 }
 
-bool SharedProgress::keep(Kept kept, std::span<const std::uint8_t> scene) {
-  if (scene.size() > kRoom) return false;
-  const std::uint64_t place = (page_->kept.serial + 1) % 2;
-  auto at = static_cast<off_t>(kPageBytes + place * kRoom);
+int SharedProgress::keep(Kept kept, std::span<const std::uint8_t> scene) {
+  const Kept before = this->kept().value_or(Kept{0, 0, 0, 0, kPageBytes});
+  const bool fitsBefore = kPageBytes + scene.size() <= before.at;
+  kept.at = fitsBefore ? kPageBytes : before.at + before.bytes;
+  auto at = static_cast<off_t>(kept.at);
   for (std::span<const std::uint8_t> left = scene; !left.empty();) {
     const ssize_t written = pwrite(file_.get(), left.data(), left.size(), at);
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
+    if (written <= 0) return written < 0 ? errno : ENOSPC;
     left = left.subspan(static_cast<std::size_t>(written)), at += written;
   }
   kept.bytes = scene.size();
   page_->kept.next() = kept;
   page_->kept.publish();
-  return true;
+  return 0;
 }
 
 void SharedProgress::catchesUpUntil(Nanoseconds clock) {
@@ -162,10 +161,11 @@ std::optional<SharedProgress::Kept> SharedProgress::kept() const {
 std::vector<std::uint8_t> SharedProgress::scene() const {
   const auto about = kept();
   struct stat info {};
-  if (!about || fstat(file_.get(), &info) != 0 || about->bytes > static_cast<std::uint64_t>(info.st_size))
-    return {};
+  if (!about || fstat(file_.get(), &info) != 0) return {};
+  const auto size = static_cast<std::uint64_t>(info.st_size);
+  if (about->bytes > size || about->at > size - about->bytes) return {};
   std::vector<std::uint8_t> bytes(about->bytes);
-  auto at = static_cast<off_t>(kPageBytes + page_->kept.serial % 2 * kRoom);
+  auto at = static_cast<off_t>(about->at);
   for (std::size_t got = 0; got < bytes.size();) {
     const ssize_t n = pread(file_.get(), bytes.data() + got, bytes.size() - got, at);
     if (n < 0 && errno == EINTR) continue;

@@ -3,8 +3,8 @@
 /// on, and the scene as it was a little while ago. It lies in memory and outlives the player, however that
 /// dies.
 ///
-/// A scene is written into one of two places, and becomes the newest one when all of it is there: a player
-/// that dies while it writes leaves the one before.
+/// A scene is written before the newest one or behind it, and becomes the newest one when all of it is there:
+/// a player that dies while it writes leaves the one before.
 ///
 /// Ownership  owns a nameless file in memory, whose descriptor the player inherits.
 /// Threads    simulated() and keep() on the App thread, shown() on the Draw thread that swaps, the rest from
@@ -50,6 +50,7 @@ public:
     Nanoseconds time = 0;       ///< show time [ns]
     std::uint64_t history = 0;  ///< hash of the states up to then
     std::uint64_t bytes = 0;
+    std::uint64_t at = 0;  ///< where it lies; keep() says
   };
 
   /// For who watches.
@@ -67,8 +68,8 @@ public:
   void simulated(const TimeSignature& now, Nanoseconds due);
   /// A frame has been shown, or the last one once more while the show stands still.
   void shown();
-  /// False if there is no memory for it; the one before is then still the newest.
-  bool keep(Kept kept, std::span<const std::uint8_t> scene);
+  /// 0, or the errno of why it cannot be written; the one before is then still the newest.
+  int keep(Kept kept, std::span<const std::uint8_t> scene);
   /// The player simulates what it has missed until then, by machineClock(), at the latest.
   void catchesUpUntil(Nanoseconds clock);
   /// A show begins from its start: no moment and no scene of before is of it.

@@ -198,6 +198,46 @@ TEST(ProgramClusterProcesses, WhatIsWrongWithTheShowIsNoReasonToBeginAgain) {
   }
 }
 
+constexpr std::chrono::milliseconds kShort{300};  // patience
+
+TEST(ProgramClusterProcesses, AFollowerThatHasPlayedAndFindsOtherFilesComesBackOnceTheyAreAlike) {
+  const TemporaryFolder folder;
+  const std::string starts = folder.write("starts", "");
+  ClusterNodes nodes(twoNodes(), false);
+  nodes.add("front",
+            {"sh", "-c",
+             "for i in $(seq 300); do [ $(wc -l <" + starts + ") -lt 4 ] || break; " + "sleep 0.1; done"});
+  // It dies, comes back twice to other files, then plays to the end.
+  nodes.add(
+      "left",
+      {"sh", "-c", "echo >>" + starts + "; case $(wc -l <" + starts + ") in 1) exit 3;; 2|3) exit 2;; esac"});
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(nodes.play(), 0);
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(startsIn(starts), 4U) << told;
+}
+
+TEST(ProgramClusterProcesses, WhoLeadsAndHangsIsReplaced) {
+  const TemporaryFolder folder;
+  const std::string starts = folder.write("starts", "");
+  ClusterNodes nodes(twoNodes(), false);
+  nodes.add("front", {"sh", "-c", "echo >>" + starts + "; [ $(wc -l <" + starts + ") -gt 1 ] || sleep 600"});
+  nodes.add("left", {"sh", "-c", "until [ $(wc -l <" + starts + ") = 2 ]; do sleep 0.1; done"});
+  nodes.watchLead(std::move(SharedProgress::create().value()), fromSeconds(0.05));
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(nodes.play(), 0);
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(has(told, "cluster: front has shown nothing for 0.6 s, and is killed\n")) << told;
+  EXPECT_TRUE(has(told, "cluster: front was ended by signal 9 and begins again\n")) << told;
+}
+
+TEST(ProgramClusterProcesses, WhoFindsTheShowAtItsEndHasNotFailed) {
+  ClusterNodes nodes(twoNodes(), false, kShort);
+  nodes.add("front", {"true"});
+  nodes.add("left", {"sh", "-c", "exec sleep 600"});
+  EXPECT_EQ(nodes.play(), 0) << "it waits for who has gone, and is asked to end";
+}
+
 TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotBeginAgain) {
   const TemporaryFolder folder;
   ClusterFile cluster = twoNodes();
@@ -208,8 +248,6 @@ TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotBeginAgain) {
   EXPECT_EQ(nodes.play(), 3);
   EXPECT_EQ(startsIn(folder.path() / "front"), 1U);
 }
-
-constexpr std::chrono::milliseconds kShort{300};  // patience
 
 TEST(ProgramClusterProcesses, WhoHangsIsKilledOnceWhoLeadsHasEnded) {
   for (const char* lead : {"exit 0", "exit 1"}) {

@@ -333,6 +333,37 @@ TEST(ProgramCluster, TheTrackersAreThoseOfWhoLeadsAndTheOthersNeedNotNameThem) {
   EXPECT_FALSE(has(front->err(), "without floor")) << front->err();
 }
 
+TEST(ProgramCluster, WhoLedWasStoppedAndComesBackEnds) {
+  const TwoLive two;
+  const std::vector<std::string> live{"--input", "none"};
+  const auto floor = two.start("floor", live), first = two.start("front", live);
+  ASSERT_TRUE(first->says("playing until Ctrl-C")) << first->err();
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  ASSERT_EQ(kill(first->pid(), SIGSTOP), 0);
+  const auto second = two.start("front", live);
+  ASSERT_TRUE(second->says("the show goes on after frame")) << second->err();
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  ASSERT_EQ(kill(first->pid(), SIGCONT), 0);
+  EXPECT_EQ(first->status(), 2) << first->err();
+  EXPECT_TRUE(has(first->err(), "another program leads as front already; this one ends")) << first->err();
+  EXPECT_EQ(TwoLive::endOf(*second), 130) << second->err();
+  EXPECT_EQ(floor->status(), 0) << floor->err();
+}
+
+TEST(ProgramCluster, WhoLeadsSaysForWhomItWaitsAndTheOperatorNeedNot) {
+  const TwoLive two;
+  const std::string port = std::to_string(freePort());
+  const lo_address desk = lo_address_new("127.0.0.1", port.c_str());
+  const auto front = two.start("front", {"--input", "none", "--osc", port});
+  EXPECT_TRUE(front->says("cluster, front: waiting for floor, 30 s at most; Start begins without"))
+      << front->err();
+  lo_send(desk, "/stadion/start", "i", 1);
+  EXPECT_TRUE(front->says("the show begins without floor")) << front->err();
+  lo_send(desk, "/stadion/end", "i", 1);
+  EXPECT_EQ(front->status(), 0) << front->err();
+  lo_address_free(desk);
+}
+
 TEST(ProgramCluster, WhatTheOperatorDecidedStaysWhereWhoLeadsBeginsAgain) {
   const TwoLive two;
   const auto floor = two.start("floor", {"--input", "none"});

@@ -122,6 +122,44 @@ TEST_P(SavedState, GoesOnAsIfNothingHadBeen) {
     EXPECT_TRUE(copy.played->scene().save() == played.scene().save()) << "put back after frame " << copy.from;
 }
 
+/// What has stood for long has nothing to make up for; what goes on does so every frame.
+TEST(SavedStateOfADay, GoesOnWhateverIsOffOrFinishedOrRuns) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("day.evs", R"(
+forcelinear( name=gravity, direction="0, 0, -1" )
+object( name=floor, file=plane.3ds )
+dynobject( name=ball, file=football.3ds, position="0, 6, 3000", density=0.08, hook=gravity )
+dynamics( name=sim, collider=floor, collidee=ball )
+timer( name=early, period=0.5, repeat=off, eventmessage="timesup, sim, disable" )
+timer( name=often, period=0.3, eventmessage="timesup, once, reset" )
+light( name=lamp, direction="-1, 2, -3" )
+object( name=stone, file=football.3ds, position="2, 3, 1" )
+object( name=bird, file=football.3ds, position="4, 3, 1" )
+object( name=leaf, file=football.3ds, position="5, 3, 1" )
+path( name=once, target=stone, key="0, 2, 3, 1", loop=on )
+path( name=there, target=stone, key="0, 2, 3, 1", key="0.05, 2, 4, 1", loop=on, initstate=off )
+path( name=round, target=bird, key="0, 4, 3, 1", key="0.5, 4, 4, 1", loop=on )
+path( name=short, target=leaf, key="0, 5, 3, 1", key="0.5, 5, 4, 1" )
+sound( name=never, file=thud.wav, initstate=off )
+sound( name=ringing, file=thud.wav, loop=on, initstate=off )
+sound( name=heard, file=thud.wav )
+sound( name=hum, file=thud.wav, loop=on )
+)");
+  const Script script{file, "none", 1};
+  constexpr double rate = 0.1;  // frames of ten seconds
+  constexpr std::uint64_t kDay = 8640;
+  Played played(open(script), rate);
+  for (std::uint64_t n = 0; n < kDay; ++n) played.frame(n);
+  const auto state = std::make_shared<const std::vector<std::uint8_t>>(played.scene().save());
+  auto copy = open(script, state);
+  ASSERT_TRUE(copy);
+  Played on(std::move(copy), rate);
+  for (std::uint64_t n = kDay; n < kDay + 10; ++n) {
+    played.frame(n), on.frame(n);
+    EXPECT_EQ(on.scene().stateHash(), played.scene().stateHash()) << n;
+  }
+}
+
 std::string ours(const std::string& name) {
   return std::string(STADION_SOURCE_DIR) + "/scripts/" + name;
 }

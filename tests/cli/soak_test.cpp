@@ -200,6 +200,7 @@ TEST_F(ProgramSoakRecord, InWhichALineIsWrongIsRefusedWithThatLineAndLeftAlone) 
            std::string(R"({"counts":[41,0,1,0,0,0,0,0,0,0.5],"process":0})"),
            std::string(R"({"counts":[51,0,1,0,0,0,0,0,0,0.5],"process":0,"failed":5})"),
            std::string(R"({"counts":[51,0,1,0,0,0,0,0,0,0.5],"process":0,"failed":[5]})"),
+           std::string(R"({"counts":[51,0,1,0,0,0,0,0,0,0.5],"process":0,"failed":[ "thr"eads"]})"),
            std::string(R"({"show":"a.evs","frame":-1,"history":5})"),
            std::string(R"({"show":"a.evs","frame":1,"history":0.5})"),
            std::string(R"({"show":7,"frame":1,"history":5})"),

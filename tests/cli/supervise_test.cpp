@@ -241,6 +241,33 @@ TEST(ProgramSupervise, APlayerDoesNotOutliveWhoWatchesOverIt) {
       << fileContent(run.journal());
 }
 
+TEST(ProgramSupervise, ThatNobodyReadsAnyLongerWhatItSaysIsNoEnd) {
+  const TemporaryFolder folder;
+  const std::string journal = folder.path() / "run.log";
+  // The reader of its messages is gone at once; the watcher and the player say something all the same.
+  const pid_t watcher = startProgram({{"bash",        "-c",        "exec \"$0\" \"$@\" 2> >(exec true)",
+                                       stadionPath(), "run",       kKick,
+                                       "--supervise", "--journal", journal,
+                                       "--walls",     "desktop",   "--size",
+                                       "32x24",       "--look",    "plain",
+                                       "--input",     "none",      "--rate",
+                                       "60",          "--seconds", "6",
+                                       "--pace",      "lock"}},
+                                     folder.path() / "said", folder.path() / "told");
+  const auto noted = [&](const std::string& what) {
+    return becomes([&] { return fileContent(journal).find(what) != std::string::npos; });
+  };
+  ASSERT_TRUE(noted("the first picture")) << fileContent(journal);
+  std::ifstream children("/proc/" + std::to_string(watcher) + "/task/" + std::to_string(watcher) +
+                         "/children");
+  for (pid_t child = 0; children >> child;) kill(child, SIGKILL);
+  EXPECT_TRUE(noted("was ended by signal 9 (Killed)")) << fileContent(journal);
+  EXPECT_TRUE(noted("pictures again")) << fileContent(journal);
+  int status = -1;
+  waitpid(watcher, &status, 0);
+  EXPECT_EQ(status, 0) << fileContent(journal);
+}
+
 bool runs(pid_t process) {
   std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
   std::string number, name, state;

@@ -93,6 +93,10 @@ TEST_F(AtomicFiles, ThatCannotBeAreToldAtOnce) {
     EXPECT_EQ(file.error()->where.file, folder / name);
   }
   EXPECT_TRUE(fs::is_symlink(folder / "ring"));
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const auto wrong = writeFile(folder / "pipe", "nobody waits for a reader");
+  ASSERT_TRUE(wrong);
+  EXPECT_EQ(wrong->message, "cannot be written: it is a pipe that nobody reads");
 }
 
 /// As /dev/stdout is: what it leads to is open already, and stays the same file.

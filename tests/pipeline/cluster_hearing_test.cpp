@@ -238,6 +238,15 @@ TEST(ClusterHearing, WhoWasTakenForDeadAndComesBackLeadsNoMore) {
   l->begin(60);
   l->hear(later);
   EXPECT_TRUE(l->hasDouble());
+  FrameOrder order;
+  order.signature = signatureAt(1, 60);
+  l->issue(order);
+  EXPECT_TRUE(order.last) << "it ends";
+  ScriptedInput visitor;
+  visitor.key("head", 0, Vec3(0, 0, 1.7));
+  InputSample input;
+  l->input(visitor).sampleFrame(0, order.signature.time, input);
+  EXPECT_FALSE(l->mayShow(order.signature)) << "another one shows on the same walls";
   Session earlier = session(60, true);
   earlier.number = 3;
   const auto anew = lead();
@@ -251,6 +260,26 @@ TEST(ClusterHearing, WhoWasTakenForDeadAndComesBackLeadsNoMore) {
   later.begun = true, later.over = true;
   f->hear(later);
   EXPECT_FALSE(f->join()) << "it is in the later session, and that is over";
+}
+
+TEST(ClusterHearing, WhoHadGoneBeforeTheNextGroupIsNotWaitedFor) {
+  using Clock = std::chrono::steady_clock;
+  const auto waits = [](std::uint32_t expected, bool isThere, bool hurry) {
+    LeadOptions options{
+        room(), {1}, std::chrono::seconds(1), [](const std::string&) {}, [] { return false; }};
+    options.expected = expected;
+    const auto l = Lead::unconnected(options, kSession);
+    if (isThere) l->hear(said(1, 9, 1, 0, 0, 0, false, kShow));
+    EXPECT_EQ(l->present(), isThere ? 2U : 0U);
+    const auto begin = Clock::now();
+    l->begin(60, [&] { return hurry; });
+    return Clock::now() - begin >= std::chrono::seconds(1);
+  };
+  EXPECT_TRUE(waits(~0U, false, false)) << "the first show waits for all";
+  EXPECT_FALSE(waits(~0U, false, true)) << "unless the operator has no patience";
+  EXPECT_FALSE(waits(1, false, false));
+  EXPECT_TRUE(waits(1, true, false)) << "it is back, and opens the show";
+  EXPECT_TRUE(waits(3, false, false));
 }
 
 TEST(ClusterHearing, WhatComesAfterASessionHasAHigherNumberWhateverTheClocksSay) {

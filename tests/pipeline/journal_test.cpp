@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <set>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -100,6 +102,21 @@ TEST_F(JournalTest, TheFirstLineThatIsLostIsToldAndTheNextOneThatIsNotSaysHowMan
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_TRUE(lines[0].ends_with("  -  2 lines before this one could not be written")) << lines[0];
   EXPECT_TRUE(lines[1].ends_with("  -  fourth")) << lines[1];
+}
+
+TEST_F(JournalTest, WhoHoldsTheFileHoldsNobodyUp) {
+  const auto journal = open();
+  journal->add("before");
+  const int other = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  std::optional<std::string> why = "not yet";
+  std::thread writer([&] { why = journal->add("meanwhile"); });
+  for (int i = 0; i < 100 && linesOf(file_).size() < 2; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(linesOf(file_).size(), 2U) << "while it is held";
+  ::close(other);
+  writer.join();
+  EXPECT_FALSE(why) << *why;
 }
 
 TEST_F(JournalTest, WhatCannotBeWrittenIsRefusedWhenItIsOpened) {

@@ -1,11 +1,16 @@
 /// What a player and who watches over it share, and how a show goes on after a death.
 
 #include "pipeline/frame_loop.h"
+#include "pipeline/supervision/hang_watch.h"
 #include "pipeline/supervision/recovery.h"
 #include "pipeline/supervision/shared_progress.h"
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <csignal>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -72,7 +77,7 @@ TEST(SharedProgress, WhatAProcessKeptIsThereAfterItWasKilled) {
     for (std::uint8_t n = 1; n <= 5; ++n) {
       there->simulated({n, n * 1000, 1000, {}}, 0);
       there->shown();
-      there->keep({n, n * 1000, 77, 0}, sceneOf(n, 100'000 - 10'000 * n));
+      there->keep({n, n * 1000, 77}, sceneOf(n, 100'000 - 10'000 * n));
     }
     _exit(0);
   }
@@ -113,13 +118,76 @@ TEST(SharedProgress, ASceneThatIsBeingWrittenIsNotTheNewest) {
   auto made = SharedProgress::create();
   ASSERT_TRUE(made);
   SharedProgress& p = *made.value();
-  ASSERT_TRUE(p.keep({1, 0, 0, 0}, sceneOf(1, 5000)));
-  ASSERT_TRUE(p.keep({2, 0, 0, 0}, sceneOf(2, 5000)));
-  // As a writer does that dies before the end: the other place, half of it.
+  ASSERT_EQ(p.keep({1, 0, 0}, sceneOf(1, 5000)), 0);
+  ASSERT_EQ(p.keep({2, 0, 0}, sceneOf(2, 5000)), 0);
+  // As a writer does that dies before the end: where the first one lay, half of it.
   const std::vector<std::uint8_t> half = sceneOf(3, 2500);
-  ASSERT_EQ(pwrite(p.descriptor(), half.data(), half.size(), 4096 + (off_t{1} << 36)), 2500);
+  ASSERT_EQ(pwrite(p.descriptor(), half.data(), half.size(), 4096), 2500);
   EXPECT_EQ(p.kept()->frame, 2U);
   EXPECT_EQ(p.scene(), sceneOf(2, 5000));
+}
+
+TEST(SharedProgress, ScenesOfWhateverSizeLieCloseTogether) {
+  auto made = SharedProgress::create();
+  ASSERT_TRUE(made);
+  SharedProgress& p = *made.value();
+  std::size_t most = 0;
+  for (std::size_t n = 1; n < 300; ++n) {
+    const std::size_t bytes = 1000 + (n < 150 ? 17 * n : 997 * n % 4000);
+    const auto value = static_cast<std::uint8_t>(n);
+    const auto before = p.kept();
+    ASSERT_EQ(p.keep({n, 0, 0}, sceneOf(value, bytes)), 0);
+    EXPECT_EQ(p.scene(), sceneOf(value, bytes)) << n;
+    const SharedProgress::Kept now = *p.kept();
+    const bool apart = !before || now.at + now.bytes <= before->at || before->at + before->bytes <= now.at;
+    EXPECT_TRUE(apart) << n << ": it is written over the one before";
+    most = std::max(most, bytes);
+  }
+  struct stat about {};
+  ASSERT_EQ(fstat(p.descriptor(), &about), 0);
+  EXPECT_LE(static_cast<std::size_t>(about.st_size), 4096 + 3 * most);
+}
+
+TEST(SharedProgress, WhyASceneCannotBeKeptIsKnownAndTheOneBeforeIsThere) {
+  auto made = SharedProgress::create();
+  ASSERT_TRUE(made);
+  SharedProgress& p = *made.value();
+  ASSERT_EQ(p.keep({1, 0, 0}, sceneOf(1, 5000)), 0);
+  const pid_t player = fork();
+  if (player == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit few{20'000, 20'000};
+    setrlimit(RLIMIT_FSIZE, &few);
+    const bool fits = p.keep({2, 0, 0}, sceneOf(2, 5000)) == 0;
+    _exit(fits && p.keep({3, 0, 0}, sceneOf(3, 50'000)) == EFBIG ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(player, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(p.scene(), sceneOf(2, 5000));
+}
+
+TEST(HangWatch, WhoShowsNothingHangsAndWhoOpensMayTakeLonger) {
+  auto made = SharedProgress::create();
+  ASSERT_TRUE(made);
+  SharedProgress& p = *made.value();
+  constexpr Nanoseconds kAfter = fromSeconds(0.05);
+  const auto hangsWithin = [](HangWatch& watch, double seconds) -> std::optional<Nanoseconds> {
+    for (const Nanoseconds end = machineClock() + fromSeconds(seconds); machineClock() < end;) {
+      if (const auto silent = watch.hangs()) return silent;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return {};
+  };
+  HangWatch opens(p, kAfter);
+  EXPECT_FALSE(hangsWithin(opens, 0.2)) << "it may open for twelve times as long";
+  EXPECT_FALSE(opens.shows());
+  EXPECT_EQ(hangsWithin(opens, 30), HangWatch::kLonger * kAfter);
+  HangWatch plays(p, kAfter);
+  p.enter(SharedProgress::Phase::Playing);
+  p.shown();
+  EXPECT_TRUE(plays.shows());
+  EXPECT_EQ(hangsWithin(plays, 30), kAfter);
 }
 
 TEST(SharedProgress, AShowThatBeginsHasNoSceneOfBefore) {
@@ -127,7 +195,7 @@ TEST(SharedProgress, AShowThatBeginsHasNoSceneOfBefore) {
   ASSERT_TRUE(made);
   SharedProgress& p = *made.value();
   p.simulated({9, 9, 1, {}}, 0);
-  ASSERT_TRUE(p.keep({9, 9, 0, 0}, sceneOf(1, 50)));
+  ASSERT_EQ(p.keep({9, 9, 0}, sceneOf(1, 50)), 0);
   p.forget();
   EXPECT_FALSE(p.kept());
   EXPECT_TRUE(p.scene().empty());

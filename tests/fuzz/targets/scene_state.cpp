@@ -25,7 +25,7 @@ void scene_state(Bytes bytes) {
   static std::array<std::unique_ptr<BuiltShow>, std::size(kShows)> shows;
   if (!shows[which]) shows[which] = playing(workshop, kShows[which]);
   BuiltShow joining(workshop, kShows[which]);
-  if (joining.scene().restore(bytes, std::string(kShows[which].name))) {
+  if (!joining.scene().restore(bytes, std::string(kShows[which].name))) {
     require(!joining.scene().difference(joining.scene().save()), "what is written down is what is there");
     if (!kShows[which].bodies) joining.goOn();
   }
