@@ -3,8 +3,6 @@
 
 #include "dynamics/contact_rows.h"
 
-#include <Eigen/LU>
-
 namespace stadion {
 
 class ContactChoice {

@@ -7,8 +7,6 @@
 
 #include "dynamics/coupled_step.h"
 
-#include <Eigen/LU>
-
 namespace stadion {
 
 /// As coupledStep; what acts at the ends is given as the mean through the step.

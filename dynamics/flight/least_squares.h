@@ -3,6 +3,8 @@
 ///
 /// Source   Nocedal & Wright, Numerical Optimization, 2006, ch. 10.3.
 
+#include "engine/maths/eigen.h"
+
 #include <Eigen/Dense>
 #include <functional>
 

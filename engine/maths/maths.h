@@ -5,7 +5,7 @@
 ///          `v_WB` is body B's velocity in World.
 /// Units    metres, seconds, kilograms, radians, newtons.
 
-#include <Eigen/Geometry>
+#include "engine/maths/eigen.h"
 
 namespace stadion {
 
