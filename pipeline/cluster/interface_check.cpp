@@ -16,7 +16,7 @@ namespace {
 
 struct Interface {
   std::string name, address;
-  bool multicast = false;
+  bool multicast = false, loopback = false;
 };
 
 /// Those that can be used: they are up, and have an IPv4 address. Nothing if the system does not tell.
@@ -32,7 +32,7 @@ std::optional<std::vector<Interface>> interfacesHere() {
     char text[INET_ADDRSTRLEN] = "";
     inet_ntop(AF_INET, &address.sin_addr, text, sizeof text);
     const bool multicast = (at->ifa_flags & (IFF_MULTICAST | IFF_LOOPBACK)) != 0;
-    all.push_back({at->ifa_name, text, multicast});
+    all.push_back({at->ifa_name, text, multicast, (at->ifa_flags & IFF_LOOPBACK) != 0});
   }
   return all;
 }
@@ -40,10 +40,12 @@ std::optional<std::vector<Interface>> interfacesHere() {
 }  // namespace
 
 void checkInterface(const ClusterFile& cluster, Diagnostics& out) {
-  const std::string& wanted = cluster.interface;
-  if (wanted.empty()) return;
   const auto here = interfacesHere();
   if (!here) return;  // then who opens the network has to say what is wrong
+  if (std::ranges::none_of(*here, &Interface::loopback))  // Cyclone DDS speaks to its own threads over it
+    out.error({}, "this machine's loopback interface is not up: `ip link set lo up`");
+  const std::string& wanted = cluster.interface;
+  if (wanted.empty()) return;
   const auto is = [&](const Interface& i) { return i.name == wanted || i.address == wanted; };
   const auto at = std::ranges::find_if(*here, is);
   if (at != here->end() && at->multicast) return;

@@ -8,8 +8,8 @@
 
 namespace stadion {
 
-/// An error with the place in the file, and the interfaces that there are, if there is none of that name or
-/// address.
+/// An error with the place in the file if there is none of that name or address (with those that there are),
+/// or if it has no multicast; and one if the loopback interface is not up.
 void checkInterface(const ClusterFile& cluster, Diagnostics& out);
 
 }  // namespace stadion

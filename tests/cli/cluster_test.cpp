@@ -333,6 +333,24 @@ TEST(ProgramCluster, TheTrackersAreThoseOfWhoLeadsAndTheOthersNeedNotNameThem) {
   EXPECT_FALSE(has(front->err(), "without floor")) << front->err();
 }
 
+TEST(ProgramCluster, ANetworkThatCannotServeIsNamed) {
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("va.cluster", "walls cave4\nnode front front left right floor\ninterface va\n");
+  const std::string play =
+      stadionPath() + " run " + kKick + " --cluster " + file + " --node front --gl none --frames 3; ";
+  const ProgramResult r = runProgram(
+      {{"unshare", "-n", "sh", "-c",
+        "ip link add va type veth peer name vb && ip link set va multicast off && ip link set va up && "
+        "ip addr add 10.9.0.1/24 dev va && echo made; " +
+            play + "ip link set lo up; " + play + "ip link set va multicast on; " + play}});
+  if (!has(r.out, "made")) GTEST_SKIP() << "network namespaces cannot be made here (that takes root)";
+  EXPECT_TRUE(has(r.err, "this machine's loopback interface is not up: `ip link set lo up`")) << r.err;
+  EXPECT_TRUE(has(r.err, "the network interface \"va\" has no multicast")) << r.err;
+  EXPECT_TRUE(has(r.err, "`ip link set va multicast on`")) << r.err;
+  EXPECT_EQ(r.status, 0) << "and then it can: " << r.err;
+}
+
 TEST(ProgramCluster, WhoLedWasStoppedAndComesBackEnds) {
   const TwoLive two;
   const std::vector<std::string> live{"--input", "none"};
