@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLook{20};
 /// Who played so long has not died as soon as it had begun.
-constexpr std::chrono::seconds kSteady{5};
+constexpr std::chrono::seconds kSteady{1};
 constexpr std::size_t kMostDeaths = 10;  ///< in a row
 /// Files that differ from those of who leads will not be alike at once.
 constexpr std::chrono::seconds kOtherFiles{2};
