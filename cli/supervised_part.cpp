@@ -100,8 +100,7 @@ void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch
                  "to keep the show's scene takes {:.1f} ms, more than a frame has; it is done every {:.0f} s",
                  1e3 * toSeconds(took), toSeconds(pause))
            : fmt::format("the show's scene cannot be kept: {}; if the player dies, the show goes on from an "
-                         "older one, "
-                         "or begins again",
+                         "older one, or begins again",
                          std::strerror(wrong)));
 }
 

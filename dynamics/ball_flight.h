@@ -35,8 +35,8 @@ struct BallFlight {
 
   struct Stay {
     double seconds = 0;  ///< so long its gap is `far` at most
-    bool sure =
-        false;  ///< then it is `far` off the face that was the last below it; else something ended there
+    /// Then it is `far` off the face that was the last below it; else something ended there.
+    bool sure = false;
     std::int32_t triangle = -1;  ///< that face, of a mesh
   };
   /// Over a plane.

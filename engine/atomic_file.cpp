@@ -53,7 +53,9 @@ std::FILE* openToWrite(const std::string& path) {
       ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
   if (file < 0) return nullptr;
   fcntl(file, F_SETFL, 0);  // what is written may wait
-  return fdopen(file, "wb");
+  std::FILE* const stream = fdopen(file, "wb");
+  if (!stream) ::close(file);
+  return stream;
 }
 
 /// What the links of the path lead to. Nothing if that is an open file.
