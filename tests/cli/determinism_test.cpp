@@ -6,6 +6,7 @@
 
 #include <map>
 #include <random>
+#include <ranges>
 #include <sstream>
 #include <unistd.h>
 
@@ -79,7 +80,7 @@ std::string historyOf(const Show& show, const std::string& frames, const std::ve
   return Json::parse(r.out)["history_hash"].get<std::string>();
 }
 
-/// Each axis by itself, then some corners of all of them.
+/// Each axis by itself beside one reference, then some corners of all of them.
 void expectOneHistory(const std::string& frames, int corners) {
   using Words = std::vector<std::string>;
   const std::vector<Words> modes{
@@ -91,11 +92,12 @@ void expectOneHistory(const std::string& frames, int corners) {
   for (const Show& show : kShows) {
     const std::string reference = historyOf(show, frames, modes[0], {});
     ASSERT_FALSE(reference.empty());
-    for (const Words& mode : modes)
+    for (const Words& mode : modes | std::views::drop(1))
       EXPECT_EQ(historyOf(show, frames, mode, {}), reference) << show.name << mode[1];
     for (const Words& count : threads)
       EXPECT_EQ(historyOf(show, frames, count, {}), reference) << show.name << count[1];
-    for (const Words& e : environments) EXPECT_EQ(historyOf(show, frames, {}, e), reference) << show.name;
+    for (const Words& e : environments | std::views::drop(1))
+      EXPECT_EQ(historyOf(show, frames, {}, e), reference) << show.name;
     for (int i = 0; i < corners; ++i) {
       Words how = any(modes);
       const Words count = any(threads);

@@ -114,7 +114,7 @@ TEST_F(ProgramSteadyState, DrawOfThingsOfEveryKindInBothLooks) {
                      "text( text=\"olympia\", position=\"0, 5, 1\" )\nrig( name=room )\n"
                      "path( target=room, loop=on, key=\"0, 0,0,0, 0,0,0\", key=\"1, 0,1,0, 0,0,20\", "
                      "key=\"2, 0,0,0, 0,0,0\" )\n";
-  for (int i = 0; i < 100; ++i)
+  for (int i = 0; i < 40; ++i)
     text += fmt::format("object( file={}, position=\"{}, {}, {}\" )\n", i % 3 ? "football.3ds" : "plane.3ds",
                         i % 20 - 10, 3 + i / 20, i % 3);
   const std::string lamps = "light( type=point, position=\"0, 4, 3\", range=9 )\n";

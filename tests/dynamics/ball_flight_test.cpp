@@ -13,7 +13,7 @@ namespace {
 
 using namespace scenes;
 
-struct Chance {
+struct Draws {
   std::mt19937 bits{7};
   double in(double lo, double hi) { return lo + (hi - lo) * (static_cast<double>(bits()) / 4294967296.0); }
   Vec3 vec(double most) { return {in(-most, most), in(-most, most), in(-most, most)}; }
@@ -21,7 +21,7 @@ struct Chance {
 };
 
 /// A sheet of 10 m of hills and hollows.
-Mesh hills(Chance& chance, double height) {
+Mesh hills(Draws& chance, double height) {
   Mesh m = gridMesh(-5, 5, -5, 5, 12, 12);
   for (auto& p : m.positions) p[2] = static_cast<float>(chance.in(-height, height));
   return m;
@@ -46,7 +46,7 @@ struct Pair {
 };
 
 TEST(BallFlight, MeetsMeshesAndBoxesWhenSmallStepsDo) {
-  Chance chance;
+  Draws chance;
   int touches = 0;
   for (int i = 0; i < 240; ++i) {
     Shape shape = i % 2 ? Shape(MeshShape(TriangleTree(hills(chance, 0.4))))
@@ -76,7 +76,7 @@ TEST(BallFlight, MeetsMeshesAndBoxesWhenSmallStepsDo) {
 }
 
 TEST(BallFlight, StaysNearAsLongAsItSaysAndIsFarOffThenIfItIsSure) {
-  Chance chance;
+  Draws chance;
   int sure = 0;
   for (int i = 0; i < 200; ++i) {
     const double height = i % 3 ? 0 : 0.3, far = 0.5, radius = 0.1;

@@ -271,9 +271,9 @@ TEST(ThinWall, NothingThatFliesAndTumblesGetsThroughABoxASheetOrAMesh) {
   EXPECT_EQ(through, 0);
 }
 
-BodyId addSolid(World& w, FieldId g, Shape shape, const MassProperties& mass, const Pose& X,
-                const Vec3& v = Vec3::Zero(), const Vec3& omega = Vec3::Zero(), double friction = 0.5,
-                double restitution = 0) {
+BodyId addConvex(World& w, FieldId g, Shape shape, const MassProperties& mass, const Pose& X,
+                 const Vec3& v = Vec3::Zero(), const Vec3& omega = Vec3::Zero(), double friction = 0.5,
+                 double restitution = 0) {
   BodyDef d;
   d.shape = w.addShape(std::move(shape)), d.mass = mass, d.pose = X, d.v = v, d.omega = omega;
   d.surface = {friction, restitution, 0.0};
@@ -301,12 +301,12 @@ TEST(SolidShapes, ACylinderStandsAndACylinderRollsAndACapsuleLiesDown) {
       w.addCollider({w.addShape(PlaneShape{}), {}, s});
     }
     const Quat lying = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY());
-    const BodyId standing = addSolid(w, g, CylinderShape{Pose{}, 0.2, 0.3}, rodMass(1, 0.2, 0.3),
-                                     {{0.11, 0.07, 0.3}, Quat::Identity()});
-    const BodyId rolling = addSolid(w, g, CylinderShape{Pose{}, 0.1, 0.2}, rodMass(1, 0.1, 0.2),
-                                    {{-3, -2, 0.1}, lying}, {1, 0, 0}, {0, 10, 0});
-    const BodyId capsule = addSolid(w, g, CapsuleShape{Pose{}, 0.1, 0.2}, rodMass(1, 0.1, 0.3),
-                                    {{2, 2, 0.5}, det::fromEuler(0.3, 1.0, 0.4)});
+    const BodyId standing = addConvex(w, g, CylinderShape{Pose{}, 0.2, 0.3}, rodMass(1, 0.2, 0.3),
+                                      {{0.11, 0.07, 0.3}, Quat::Identity()});
+    const BodyId rolling = addConvex(w, g, CylinderShape{Pose{}, 0.1, 0.2}, rodMass(1, 0.1, 0.2),
+                                     {{-3, -2, 0.1}, lying}, {1, 0, 0}, {0, 10, 0});
+    const BodyId capsule = addConvex(w, g, CapsuleShape{Pose{}, 0.1, 0.2}, rodMass(1, 0.1, 0.3),
+                                     {{2, 2, 0.5}, det::fromEuler(0.3, 1.0, 0.4)});
     play(w, 3);
     const BodyState a = w.state(standing), b = w.state(rolling), c = w.state(capsule);
     std::printf("  %s: standing %.1e m off, rolling %.3e m off course, speed %.6f, height %.1e; capsule "
@@ -331,10 +331,10 @@ TEST(SolidShapes, RollingResistanceStopsARodWhereItShouldAndHoldsItAgainstASmall
   sideways.law = LinearField{{0, 0.1, 0}};
   const FieldId aside = w.addField(sideways, true);
   const Quat lying = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX());
-  const BodyId rolls = addSolid(w, down, CylinderShape{Pose{}, r, half}, rodMass(1, r, half),
-                                {{0, 0, r}, lying}, {0, v0, 0}, {-v0 / r, 0, 0});
+  const BodyId rolls = addConvex(w, down, CylinderShape{Pose{}, r, half}, rodMass(1, r, half),
+                                 {{0, 0, r}, lying}, {0, v0, 0}, {-v0 / r, 0, 0});
   const BodyId held =
-      addSolid(w, down, CylinderShape{Pose{}, r, half}, rodMass(1, r, half), {{3, 0, r}, lying});
+      addConvex(w, down, CylinderShape{Pose{}, r, half}, rodMass(1, r, half), {{3, 0, r}, lying});
   w.hook(held, aside, 0);
   play(w, 12);
   // (I + m r^2) alpha = c r m g about the line that it rolls on.
@@ -361,11 +361,11 @@ TEST(SolidShapes, ABoxAndADiscSlideOverTheSeamsOfAFlatFloorAsOverAPlane) {
         w.addCollider({w.addShape(PlaneShape{}), {}, s});
       }
       const Vec3 v(3, 1, 0);
-      const BodyId b = disc ? addSolid(w, g, CylinderShape{Pose{}, 0.3, 0.05}, rodMass(1, 0.3, 0.05),
-                                       {{-3, -1, 0.05}, Quat::Identity()}, v, Vec3::Zero(), 0.3)
-                            : addSolid(w, g, BoxShape{Pose{}, {0.3, 0.2, 0.05}},
-                                       massOfBox(Pose{}, {0.3, 0.2, 0.05}, 1).withMass(1),
-                                       {{-3, -1, 0.05}, Quat::Identity()}, v, Vec3::Zero(), 0.3);
+      const BodyId b = disc ? addConvex(w, g, CylinderShape{Pose{}, 0.3, 0.05}, rodMass(1, 0.3, 0.05),
+                                        {{-3, -1, 0.05}, Quat::Identity()}, v, Vec3::Zero(), 0.3)
+                            : addConvex(w, g, BoxShape{Pose{}, {0.3, 0.2, 0.05}},
+                                        massOfBox(Pose{}, {0.3, 0.2, 0.05}, 1).withMass(1),
+                                        {{-3, -1, 0.05}, Quat::Identity()}, v, Vec3::Zero(), 0.3);
       play(w, 2);
       end[mesh] = w.state(b).p;
     }
@@ -384,10 +384,10 @@ TEST(SolidShapes, SeparationTellsHowDeepNewShapesStickAtTheStart) {
   w.addCollider({w.addShape(MeshShape(TriangleTree(gridMesh(-5, 5, -5, 5, 9, 9, 0)))), {}, {}});
   w.addCollider({w.addShape(BoxShape{{{0, 0, -0.5}, Quat::Identity()}, {5, 5, 0.5}}), {}, {}});
   Dice d(8);
-  const BodyId capsule = addSolid(w, 0, CapsuleShape{Pose{}, 0.1, 0.2}, rodMass(1, 0.1, 0.3),
-                                  {{0.3, 0.2, 0.298}, Quat::Identity()});
-  const BodyId cylinder = addSolid(w, 0, CylinderShape{Pose{}, 0.1, 0.2}, rodMass(1, 0.1, 0.2),
-                                   {{2, 0.2, 0.198}, Quat::Identity()});
+  const BodyId capsule = addConvex(w, 0, CapsuleShape{Pose{}, 0.1, 0.2}, rodMass(1, 0.1, 0.3),
+                                   {{0.3, 0.2, 0.298}, Quat::Identity()});
+  const BodyId cylinder = addConvex(w, 0, CylinderShape{Pose{}, 0.1, 0.2}, rodMass(1, 0.1, 0.2),
+                                    {{2, 0.2, 0.198}, Quat::Identity()});
   for (const BodyId b : {capsule, cylinder})
     for (const std::uint32_t c : {1u, 2u, 3u})
       EXPECT_NEAR(w.separation({true, b}, {false, c}), -0.002, 1e-9) << b << c;

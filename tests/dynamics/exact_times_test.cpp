@@ -11,7 +11,6 @@ namespace {
 
 using namespace show_nodes;
 
-constexpr double kG = 9.80665;
 constexpr double kRates[] = {30, 60, 96, 144, 240};
 
 /// A show whose visitor follows a script.
@@ -206,7 +205,7 @@ TEST(ExactTimes, AThrowDoesNotDependOnTheFrameRate) {
     VisitedShow show(rate);
     Ball* ball = nullptr;
     show.loader.files["show"] = [&](Load& load) {
-      addNode<Field>(load, "gravity", Vec3(0, 0, -kG), true);
+      addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
       ball = &addNode<Ball>(load, "ball", Vec3(0.1, 0.3, 1), std::vector<std::string>{"gravity"});
       addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
     };
@@ -230,7 +229,7 @@ TEST(ExactTimes, AResetTakesEffectInsideTheFrameAndCommandsKeepTheirOrder) {
     VisitedShow show(rate);
     Ball* ball = nullptr;
     show.loader.files["show"] = [&](Load& load) {
-      addNode<Field>(load, "gravity", Vec3(0, 0, -kG), true);
+      addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
       ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 5), std::vector<std::string>{"gravity"});
       addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
     };
@@ -243,8 +242,10 @@ TEST(ExactTimes, AResetTakesEffectInsideTheFrameAndCommandsKeepTheirOrder) {
     show.tell("ball", Verb::Unhook, {"gravity"}, 0.5091);
     show.playTo(1);
     const double fell = 0.5091 - 0.5043;
-    EXPECT_NEAR(ball->state().v.z(), -kG * fell, 1e-9) << rate;
-    EXPECT_NEAR(ball->state().p.z(), 5 - 0.5 * kG * fell * fell - kG * fell * (1 - 0.5091), 1e-9) << rate;
+    EXPECT_NEAR(ball->state().v.z(), -kStandardGravity * fell, 1e-9) << rate;
+    EXPECT_NEAR(ball->state().p.z(),
+                5 - 0.5 * kStandardGravity * fell * fell - kStandardGravity * fell * (1 - 0.5091), 1e-9)
+        << rate;
   }
 }
 
@@ -254,7 +255,7 @@ TEST(ExactTimes, ASwitchedOffSimulationStandsStillAndThenGoesOn) {
     const MeshId box = show.meshes.add(cube(0.1));
     Ball* ball = nullptr;
     show.loader.files["show"] = [&](Load& load) {
-      addNode<Field>(load, "gravity", Vec3(0, 0, -kG), true);
+      addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
       addNode<Block>(load, "foot", box, Vec3(5, 0, 0));
       ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"gravity"});
       addNode<Sim>(load, "sim", std::vector<std::string>{"foot"}, std::vector<std::string>{"ball"});
@@ -269,10 +270,10 @@ TEST(ExactTimes, ASwitchedOffSimulationStandsStillAndThenGoesOn) {
     show.tell("sim", Verb::Disable, {}, off);
     show.tell("sim", Verb::Enable, {}, on);
     show.playTo(1);
-    EXPECT_NEAR(ball->state().v.z(), -kG * off, 1e-12) << rate;
+    EXPECT_NEAR(ball->state().v.z(), -kStandardGravity * off, 1e-12) << rate;
     show.playTo(2);
     const double flown = 2 - (on - off);
-    EXPECT_NEAR(ball->state().p.z(), -0.5 * kG * flown * flown, 1e-9) << rate;
+    EXPECT_NEAR(ball->state().p.z(), -0.5 * kStandardGravity * flown * flown, 1e-9) << rate;
     EXPECT_EQ(ball->state().p.x(), 0) << rate;
     EXPECT_TRUE(show.events.empty()) << rate;
   }
@@ -283,22 +284,22 @@ TEST(ExactTimes, ALoadedBodyBeginsAtTheTimeOfItsLoad) {
     VisitedShow show(rate);
     Ball* ball = nullptr;
     show.loader.files["game"] = [&](Load& load) {
-      addNode<Field>(load, "gravity", Vec3(0, 0, -kG), true);
+      addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
       ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 5), std::vector<std::string>{"gravity"});
       addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
     };
     show.loader.files["show"] = [&](Load& load) {
       addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", fromSeconds(0.1), false);
       // Somebody outside looks after the same body.
-      addNode<Watch>(load, "watch", std::vector<std::string>{}, std::vector<std::string>{"game/ball"});
+      addNode<TouchWatch>(load, "watch", std::vector<std::string>{}, std::vector<std::string>{"game/ball"});
     };
     show.scene.open("show");
     show.tell("game", Verb::Load, {}, 0.2077);
     show.playTo(1);
     ASSERT_TRUE(ball);
     const double fell = 1 - 0.3077;
-    EXPECT_NEAR(ball->state().v.z(), -kG * fell, 1e-9) << rate;
-    EXPECT_NEAR(ball->state().p.z(), 5 - 0.5 * kG * fell * fell, 1e-9) << rate;
+    EXPECT_NEAR(ball->state().v.z(), -kStandardGravity * fell, 1e-9) << rate;
+    EXPECT_NEAR(ball->state().p.z(), 5 - 0.5 * kStandardGravity * fell * fell, 1e-9) << rate;
   }
 }
 

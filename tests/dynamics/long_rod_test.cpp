@@ -18,29 +18,29 @@ struct Rod {
   double spin;           ///< about its length [rad/s]
 };
 
-enum class Floor { HalfSpace, Sheet, Box, Mesh };
+enum class FloorKind { HalfSpace, Sheet, Box, Mesh };
 
-void addFloor(World& w, Floor kind) {
+void addFloorOf(World& w, FloorKind kind) {
   const Surface surface{0.2, 0.6, 0};
   PlaneShape sheet;
   sheet.half = {50, 50};
   switch (kind) {
-  case Floor::HalfSpace: w.addCollider({w.addShape(PlaneShape{}), {}, surface}); break;
-  case Floor::Sheet: w.addCollider({w.addShape(sheet), {}, surface}); break;
-  case Floor::Box:
+  case FloorKind::HalfSpace: w.addCollider({w.addShape(PlaneShape{}), {}, surface}); break;
+  case FloorKind::Sheet: w.addCollider({w.addShape(sheet), {}, surface}); break;
+  case FloorKind::Box:
     w.addCollider({w.addShape(BoxShape{{{0, 0, -1}, Quat::Identity()}, {50, 50, 1}}), {}, surface});
     break;
-  case Floor::Mesh:
+  case FloorKind::Mesh:
     w.addCollider({w.addShape(MeshShape(TriangleTree(gridMesh(-20, 20, -20, 20, 4, 4)))), {}, surface});
     break;
   }
 }
 
 /// How deep its lowest corner gets below the floor in two seconds [m].
-double deepest(Floor floor, const Rod& rod, const Quat& q, const Vec3& v) {
+double deepest(FloorKind floor, const Rod& rod, const Quat& q, const Vec3& v) {
   World w;
   const FieldId g = addGravity(w);
-  addFloor(w, floor);
+  addFloorOf(w, floor);
   const Vec3 half(rod.length, rod.thick, 1.2 * rod.thick);
   const BodyId b = addBox(w, g,
                           {.half = half,
@@ -61,7 +61,7 @@ double deepest(Floor floor, const Rod& rod, const Quat& q, const Vec3& v) {
 TEST(LongRod, BothEndsMeetEveryFloor) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> any(-1, 1);
-  for (const Floor floor : {Floor::HalfSpace, Floor::Sheet, Floor::Box, Floor::Mesh})
+  for (const FloorKind floor : {FloorKind::HalfSpace, FloorKind::Sheet, FloorKind::Box, FloorKind::Mesh})
     for (const Rod& rod : {Rod{0.3, 0.015, 0}, Rod{1.32, 0.015, 0}, Rod{1.32, 0.015, 50}, Rod{1.3, 0.003, 0},
                            Rod{1.32, 0.05, 5}, Rod{0.6, 0.2, 20}})
       for (int trial = 0; trial < 5; ++trial) {

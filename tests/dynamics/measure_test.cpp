@@ -11,7 +11,6 @@ namespace {
 
 using namespace show_nodes;
 
-constexpr double kG = 9.80665;
 constexpr double kRadius = 0.1;  // of a Ball
 
 /// A field with two balls, which fall where the test puts them, and a measure for each.
@@ -30,7 +29,7 @@ struct Field2 : ShowFixture {
   void open() {
     const MeshId box = meshes.add(cube(100));
     loader.files["show"] = [this, box](Load& load) {
-      addNode<Field>(load, "gravity", Vec3(0, 0, -kG), true);
+      addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
       addNode<Block>(load, "floor", box, Vec3(0, 0, -100));
       addNode<Ball>(load, "ball", first, std::vector<std::string>{"gravity"});
       addNode<Ball>(load, "stone", second, std::vector<std::string>{"gravity"});
@@ -69,7 +68,7 @@ TEST(Measure, TakesTheDistanceSquareFromTheLineAtTheTimeOfTheFirstTouchAtAnyFram
     ASSERT_EQ(show.told.size(), 1u) << rate;
     EXPECT_EQ(show.told[0].event, Event::Measured);
     EXPECT_NEAR(show.told[0].figure.value_or(0), 43.017, 1e-9) << rate;
-    EXPECT_NEAR(toSeconds(show.told[0].when), std::sqrt(2 * (2 - kRadius) / kG), 1e-8) << rate;
+    EXPECT_NEAR(toSeconds(show.told[0].when), std::sqrt(2 * (2 - kRadius) / kStandardGravity), 1e-8) << rate;
     EXPECT_EQ(show.board->words(), "Visitor 43.01 m") << "whole centimetres, rounded down";
   }
 }
@@ -145,7 +144,7 @@ TEST(Measure, TheFartherThrowWinsOnceBothAreMeasuredWhicheverComesLast) {
     show.start("tape"), show.start("other-tape");
     show.play(2);
     EXPECT_EQ(show.events(show.visitor), (std::vector<Event>{Event::Measured, Event::Won})) << ourselvesLast;
-    EXPECT_NEAR(toSeconds(show.told.back().when), std::sqrt(2 * (3 - kRadius) / kG), 1e-8)
+    EXPECT_NEAR(toSeconds(show.told.back().when), std::sqrt(2 * (3 - kRadius) / kStandardGravity), 1e-8)
         << "told for the time of the later touch";
     EXPECT_EQ(show.board->words(), "Visitor 43.01 m\nAthlete 41.20 m\nVisitor wins by 1.81 m");
   }
@@ -207,7 +206,7 @@ TEST(Measure, WhatTouchesInTheVeryFrameOfTheStartCounts) {
     Field2 show;
     show.rate = rate;
     show.open();
-    const double lands = std::sqrt(2 * (2 - kRadius) / kG);
+    const double lands = std::sqrt(2 * (2 - kRadius) / kStandardGravity);
     show.scene.command("tape", Verb::Start, {}, fromSeconds(lands - 0.002));
     show.play(2);
     ASSERT_TRUE(show.visitor->result()) << rate;
@@ -243,7 +242,7 @@ TEST(Measure, WhatSticksHasTouchedBeforeItEndsWhateverTheNanosecond) {
     const MeshId box = show.meshes.add(cube(100)), small = show.meshes.add(std::move(tiny));
     MeasureNode* tape = nullptr;
     show.loader.files["show"] = [&](Load& load) {
-      addNode<Field>(load, "gravity", Vec3(0, 0, -kG), true);
+      addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
       addNode<Block>(load, "floor", box, Vec3(0, 0, -100));
       const Ball& like = addNode<Ball>(load, "ball", Vec3(5, 0, 9), std::vector<std::string>{});
       addNode<Dart>(load, "dart", like, small, Vec3(0, 20, 1 + 0.0137 * i));

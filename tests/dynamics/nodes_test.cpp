@@ -5,8 +5,6 @@
 namespace stadion {
 namespace {
 
-constexpr double kG = 9.80665;
-
 using namespace show_nodes;
 
 TEST(DynamicsNode, AFieldSwitchedByMessageActsForExactlyItsTimeAtAnyFrameRate) {
@@ -49,13 +47,13 @@ TEST(DynamicsNode, UnhookedABodyNoLongerFeelsTheField) {
   show.loader.files["show"] = [&](Load& load) {
     addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{1})
         .addNotification(notify(Event::TimesUp, "ball", Verb::Unhook, 0.25, {"gravity"}));
-    addNode<Field>(load, "gravity", Vec3(0, 0, -kG), true);
+    addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
     ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"gravity"});
     addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
   };
   show.scene.open("show");
   show.frames(61);
-  EXPECT_NEAR(ball->state().v.z(), -kG * 0.25, 1e-7);
+  EXPECT_NEAR(ball->state().v.z(), -kStandardGravity * 0.25, 1e-7);
 }
 
 TEST(DynamicsNode, AFieldTurnsWithWhatCarriesIt) {
@@ -82,7 +80,7 @@ TEST(DynamicsNode, IsNotVisitedWhileItsBodiesRestAndWakesWhenAColliderMoves) {
   const MeshId box = show.meshes.add(cube(1));
   Ball* ball = nullptr;
   show.loader.files["show"] = [&](Load& load) {
-    addNode<Field>(load, "gravity", Vec3(0, 0, -kG), true);
+    addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
     addNode<Block>(load, "floor", box, Vec3(0, 0, -1));
     addNode<Block>(load, "foot", box, Vec3(0, -5, 1.05));
     ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0.1), std::vector<std::string>{"gravity"});
@@ -200,7 +198,7 @@ TEST(CollisionNode, TellsWhenObjectsThatOthersMoveTouchAndComeApart) {
   show.loader.files["show"] = [&](Load& load) {
     addNode<Block>(load, "wall", box, Vec3(0, 0, 0));
     addNode<Block>(load, "hand", box, Vec3(0, -3, 0));
-    addNode<Watch>(load, "watch", std::vector<std::string>{"wall"}, std::vector<std::string>{"hand"});
+    addNode<TouchWatch>(load, "watch", std::vector<std::string>{"wall"}, std::vector<std::string>{"hand"});
   };
   show.scene.open("show");
   show.tracker("hand", {0, -3, 0});

@@ -7,6 +7,8 @@
 
 namespace stadion::show_nodes {
 
+constexpr double kStandardGravity = 9.80665;  ///< m/s^2, a field's own where its script says nothing
+
 class Field : public FieldNode {
 public:
   Field(NodeRef self, std::string name, const Vec3& push, bool on, double duration = 0,
@@ -51,10 +53,10 @@ public:
                      std::make_shared<ShapeStore>()) {}
 };
 
-class Watch : public CollisionNode {
+class TouchWatch : public CollisionNode {
 public:
-  Watch(NodeRef self, std::string name, std::vector<std::string> colliders,
-        std::vector<std::string> collidees)
+  TouchWatch(NodeRef self, std::string name, std::vector<std::string> colliders,
+             std::vector<std::string> collidees)
       : CollisionNode(NodeKind::Collision, self, std::move(name),
                       {std::move(colliders), std::move(collidees), 0.5, true, true, {}},
                       std::make_shared<ShapeStore>()) {}

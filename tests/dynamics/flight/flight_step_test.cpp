@@ -15,7 +15,8 @@
 namespace stadion {
 namespace {
 
-const FlightBody kJavelin{.806, 1.5e-4, .42}, kDiscus{2.0, .0131, .0073}, kBall{.43, .0035, .0035};
+const FlightBody kThrownJavelin{.806, 1.5e-4, .42}, kThrownDiscus{2.0, .0131, .0073},
+    kBall{.43, .0035, .0035};
 
 struct Case {
   FlightModel model;
@@ -28,9 +29,12 @@ TableFlight table() {
                    .038, .22, 2);
 }
 std::vector<Case> cases() {
-  return {{BallisticFlight{}, kJavelin, 0, Vec3(5, 1, 2)},  {BallisticFlight{}, kDiscus, 2, Vec3(.3, 0, -40)},
-          {javelinFlight(), kJavelin, 0, Vec3(100, .2, 0)}, {discusFlight(), kDiscus, 2, Vec3(.3, .1, -300)},
-          {footballFlight(), kBall, 0, Vec3(3, 5, 60)},     {table(), kDiscus, 2, Vec3(.3, .1, -40)}};
+  return {{BallisticFlight{}, kThrownJavelin, 0, Vec3(5, 1, 2)},
+          {BallisticFlight{}, kThrownDiscus, 2, Vec3(.3, 0, -40)},
+          {javelinFlight(), kThrownJavelin, 0, Vec3(100, .2, 0)},
+          {discusFlight(), kThrownDiscus, 2, Vec3(.3, .1, -300)},
+          {footballFlight(), kBall, 0, Vec3(3, 5, 60)},
+          {table(), kThrownDiscus, 2, Vec3(.3, .1, -40)}};
 }
 
 FlightState start(const Case& c, int number = 0) {
@@ -95,7 +99,7 @@ void runForm(const SwarmSteps& form, FlightSwarm& swarm) {
 
 TEST(FlightStep, TwoLanesAndFourLanesGiveTheSameBits) {
   if (!hasWide()) GTEST_SKIP() << "this machine has no AVX2";
-  const Case rod{javelinFlight(), kJavelin, 0, Vec3(100, .2, 0)};
+  const Case rod{javelinFlight(), kThrownJavelin, 0, Vec3(100, .2, 0)};
   FlightSwarm two(8), four(8);
   for (std::size_t i = 0; i < 8; ++i)
     two.set(i, start(rod, static_cast<int>(i))), four.set(i, start(rod, static_cast<int>(i)));
@@ -106,7 +110,7 @@ TEST(FlightStep, TwoLanesAndFourLanesGiveTheSameBits) {
 
 TEST(FlightStep, WithoutAirItIsTheExactTopOnTheExactParabola) {
   for (const double h : {1.0 / 240, 1.0 / 30}) {
-    const Case c{BallisticFlight{}, kDiscus, 2, Vec3(2, 1, -300)};
+    const Case c{BallisticFlight{}, kThrownDiscus, 2, Vec3(2, 1, -300)};
     FlightState s = start(c);
     const FlightState s0 = s;
     const FlightStepper stepper(c.model, c.body, windy(), h, 2);
@@ -122,7 +126,7 @@ TEST(FlightStep, WithoutAirItIsTheExactTopOnTheExactParabola) {
 }
 
 TEST(FlightStep, AHundredThousandStepsKeepTheOrientationAUnit) {
-  const Case c{BallisticFlight{}, kJavelin, 0, Vec3(120, 3, -2)};
+  const Case c{BallisticFlight{}, kThrownJavelin, 0, Vec3(120, 3, -2)};
   FlightState s = start(c);
   const FlightStepper stepper(c.model, c.body, windy(), 1.0 / 60);
   for (int i = 0; i < 100000; ++i) stepper.step(s);
@@ -168,7 +172,7 @@ TEST(FlightStep, NoAirBreaksAStep) {
 }
 
 TEST(FlightStep, AxialMomentumIsNotTouchedByTheAir) {
-  const Case c{discusFlight(), kDiscus, 2, Vec3(.3, .1, -40)};
+  const Case c{discusFlight(), kThrownDiscus, 2, Vec3(.3, .1, -40)};
   FlightState s = start(c);
   const FlightStepper stepper(c.model, c.body, windy(), 1.0 / 60);
   for (int i = 0; i < 200; ++i) stepper.step(s);
@@ -179,8 +183,8 @@ TEST(FlightStep, MomentumAndAngularVelocityAreEachOthersInverse) {
   FlightState s;
   s.q = det::expRotation(Vec3(.4, 1, -2));
   const Vec3 w(3, -1, 40);
-  s.L = momentumOf(kDiscus, 2, s.q, w);
-  EXPECT_LE((angularVelocityOf(kDiscus, 2, s) - w).norm(), 1e-12);
+  s.L = momentumOf(kThrownDiscus, 2, s.q, w);
+  EXPECT_LE((angularVelocityOf(kThrownDiscus, 2, s) - w).norm(), 1e-12);
 }
 
 }  // namespace

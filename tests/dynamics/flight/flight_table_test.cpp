@@ -134,21 +134,22 @@ TEST(FlightTable, AirThatNoBodyOfThisLengthHasIsRefusedWithTheCell) {
     return read ? "" : format(read.error());
   };
   const std::string end = "45,1,0,0,0\n90,1,0,0,0\n";
-  struct Case {
+  struct Refused {
     std::string text;
     const char* said;
   };
-  for (const Case& c :
-       {Case{kHead + "0,-5,0,0,0\n" + end, "air.csv:5:3: error: CD must be 0 or more, not -5"},
-        Case{kHead + "0,0,1e300,0,0\n" + end,
-             "air.csv:5:5: error: CL of 1e+300 makes 4e+298 m2; a body of 0.22 m"},
-        Case{kHead + "0,0,0,-9,0\n" + end, "air.csv:5:7: error: CM of -9 makes -0.072 m3; a body of 0.22 m"},
-        Case{kHead + "0,0,0,0,-1\n" + end, "air.csv:5:9: error: CQ must be 0 or more"},
-        Case{"# length = 1e9\nalpha_deg,CD,CL,CM\n0,0,0,0\n45,1,0,0\n90,1,0,0\n",
-             "air.csv:1:12: error: length must be at most 1 m for a body of 0.22 m, not \"1e9\""},
-        Case{"# area = 9\nalpha_deg,CD,CL,CM\n0,0,0,0\n45,1,0,0\n90,1,0,0\n", "area must be at most 1 m2"},
-        Case{"# area = 0.04\nalpha_deg,CA,CN,CM\n0,-1,0,0\n45,1,0,0\n90,1,0,0\n",
-             "air.csv:3:1: error: CA and CN make a drag of -1"}})
+  for (const Refused& c :
+       {Refused{kHead + "0,-5,0,0,0\n" + end, "air.csv:5:3: error: CD must be 0 or more, not -5"},
+        Refused{kHead + "0,0,1e300,0,0\n" + end,
+                "air.csv:5:5: error: CL of 1e+300 makes 4e+298 m2; a body of 0.22 m"},
+        Refused{kHead + "0,0,0,-9,0\n" + end,
+                "air.csv:5:7: error: CM of -9 makes -0.072 m3; a body of 0.22 m"},
+        Refused{kHead + "0,0,0,0,-1\n" + end, "air.csv:5:9: error: CQ must be 0 or more"},
+        Refused{"# length = 1e9\nalpha_deg,CD,CL,CM\n0,0,0,0\n45,1,0,0\n90,1,0,0\n",
+                "air.csv:1:12: error: length must be at most 1 m for a body of 0.22 m, not \"1e9\""},
+        Refused{"# area = 9\nalpha_deg,CD,CL,CM\n0,0,0,0\n45,1,0,0\n90,1,0,0\n", "area must be at most 1 m2"},
+        Refused{"# area = 0.04\nalpha_deg,CA,CN,CM\n0,-1,0,0\n45,1,0,0\n90,1,0,0\n",
+                "air.csv:3:1: error: CA and CN make a drag of -1"}})
     EXPECT_NE(reason(c.text, 0.22).find(c.said), std::string::npos) << reason(c.text, 0.22);
   EXPECT_EQ(reason(kHead + "0,0.06,0,0,0.05\n45,1,.8,.1,.05\n90,1.14,0,0,.05\n", 0.22), "");
 }

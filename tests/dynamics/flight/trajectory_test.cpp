@@ -7,9 +7,9 @@
 namespace stadion {
 namespace {
 
-const std::string kHead = "t,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n";
+const std::string kColumns = "t,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n";
 
-std::string reasonFor(const std::string& text) {
+std::string whyNoTrajectory(const std::string& text) {
   const auto read = readTrajectory(text, "f.csv");
   return read ? "" : format(read.error());
 }
@@ -37,12 +37,15 @@ TEST(Trajectory, ColumnsMayStandInAnyOrder) {
 
 TEST(Trajectory, WhatIsWrongIsSaidWithItsPlace) {
   const std::string row = ",0,0,0,1,0,0,0,0,0,0,0,0,0\n";
-  EXPECT_NE(reasonFor(kHead + "0" + row).find("two rows"), std::string::npos);
-  EXPECT_NE(reasonFor(kHead + "0" + row + "0" + row).find("f.csv:3: error: t must rise"), std::string::npos);
-  EXPECT_NE(reasonFor(kHead + "0" + row + "1,0,0,0,2,0,0,0,0,0,0,0,0,0\n").find("f.csv:3: error: qw,qx"),
+  EXPECT_NE(whyNoTrajectory(kColumns + "0" + row).find("two rows"), std::string::npos);
+  EXPECT_NE(whyNoTrajectory(kColumns + "0" + row + "0" + row).find("f.csv:3: error: t must rise"),
             std::string::npos);
-  EXPECT_NE(reasonFor("t,px\n0,1\n").find("there is no column \"py\""), std::string::npos);
-  EXPECT_NE(reasonFor(kHead + "0" + row + "inf" + row).find("f.csv:3:1: error: \"inf\""), std::string::npos);
+  EXPECT_NE(
+      whyNoTrajectory(kColumns + "0" + row + "1,0,0,0,2,0,0,0,0,0,0,0,0,0\n").find("f.csv:3: error: qw,qx"),
+      std::string::npos);
+  EXPECT_NE(whyNoTrajectory("t,px\n0,1\n").find("there is no column \"py\""), std::string::npos);
+  EXPECT_NE(whyNoTrajectory(kColumns + "0" + row + "inf" + row).find("f.csv:3:1: error: \"inf\""),
+            std::string::npos);
 }
 
 TEST(Trajectory, BetweenSamplesAParabolaIsExact) {
