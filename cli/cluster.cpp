@@ -89,6 +89,7 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
   if (!progress) findings.add(progress.error());
   if (findings.hasErrors()) return tell(findings), kBadInput;
   ClusterNodes nodes(*cluster, o.once);
+  if (!o.run.out.empty()) nodes.needAll();
   for (std::size_t i = 0; i < words.size(); ++i)
     nodes.add(cluster->nodes[i].name,
               programOf(words[i], i == cluster->lead ? progress.value().get() : nullptr),

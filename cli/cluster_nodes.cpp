@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds kLook{20};
 constexpr std::chrono::seconds kSteady{1};
 constexpr std::size_t kMostDeaths = 10;  ///< in a row
 /// Files that differ from those of who leads will not be alike at once.
-constexpr std::chrono::seconds kOtherFiles{2};
+constexpr std::chrono::seconds kTryAgain{5};
 
 void sayOfCluster(const std::string& what) {
   std::fprintf(stderr, "cluster: %s\n", what.c_str());
@@ -77,6 +77,7 @@ bool ClusterNodes::begin(Node& node) {
 
 int ClusterNodes::play() {
   const std::atomic<bool>& stop = catchStopSignals();
+  outliveReaders();
   stop_ = &stop;
   for (Node& node : nodes_)
     if (!begin(node)) return kInternalFault;
@@ -95,9 +96,10 @@ void ClusterNodes::look(Node& node) {
     if (const auto status = node.child.wait(std::chrono::milliseconds(0))) ended(node, *status);
   } else if (node.state == State::Pauses) {
     if (*stop_) node.status = kStopped + stopSignal();  // it will not fail any more
+    const auto now = Clock::now();
     if (*stop_ || leadIsGone())
       node.state = State::Ended;
-    else if (Clock::now() >= node.notBefore && node.restarts.due(Clock::now()))
+    else if (now >= node.notBefore && node.restarts.due(now))
       begin(node);
   }
 }
@@ -109,11 +111,18 @@ void ClusterNodes::ended(Node& node, int status) {
   const std::string how = howItEnded(status);
   if (over || !isDeath(node)) return sayOf(node, how);
   const auto now = Clock::now();
+  if (status == kOtherFiles) {
+    node.state = State::Pauses, node.notBefore = now + kTryAgain;
+    if (std::exchange(node.waitsForFiles, true)) return;
+    return sayOf(node, fmt::format("has other files than {}, and comes again until they are alike",
+                                   nodes_[lead_].name));
+  }
+  node.waitsForFiles = false;
+  if (node.died == 0) node.died = status;
   if (now - node.begun >= kSteady) node.restarts = {};
   node.restarts.died(now);
-  if (status == kBadInput) node.notBefore = now + kOtherFiles;
   const std::size_t deaths = node.restarts.deaths();
-  if (deaths >= kMostDeaths && status != kBadInput)
+  if (deaths >= kMostDeaths)
     return sayOf(node, fmt::format("{}, {} times in a row, and is given up", how, deaths));
   node.state = State::Pauses;
   sayOf(node,
@@ -126,12 +135,11 @@ bool ClusterNodes::isStop(const Node& node) const {
   return stopOnDifference_ && &node == &nodes_[lead_] && node.status == kInternalFault;
 }
 
-/// What is wrong with the show or its options would be so again. But a node that did play may have found
-/// scripts that somebody was changing: with the next group they are alike again.
+/// What is wrong with the show or its options would be so again. But somebody may be changing the scripts:
+/// with the next group they are alike again.
 bool ClusterNodes::isDeath(const Node& node) const {
-  if (node.status == kBadInput)
-    return &node != &nodes_[lead_] && (node.starts > 1 || Clock::now() - node.begun >= kSteady);
-  return node.status > kStopped || (node.status == kInternalFault && !isStop(node));
+  return node.status > kStopped || node.status == kOtherFiles ||
+         (node.status == kInternalFault && !isStop(node));
 }
 
 /// Who leads tells the others that the show is over. Who has not ended after our patience has lost that, and
@@ -184,9 +192,12 @@ int ClusterNodes::code() const {
   const auto failed = std::ranges::find_if(nodes_, hasFailed, &Node::status);
   if (failed != nodes_.end()) return failed->status;
   if (*stop_) return kStopped + stopSignal();
-  const auto stopped = std::ranges::find_if(
-      nodes_, [](const Node& node) { return wasAskedToEnd(node.status) && !node.asked; });
-  return stopped != nodes_.end() ? stopped->status : kOk;
+  for (const Node& node : nodes_) {
+    if (!wasAskedToEnd(node.status)) continue;
+    if (!node.asked) return node.status;
+    if (needsAll_ && node.died != 0) return node.died;  // its pictures end where it died
+  }
+  return kOk;
 }
 
 std::string ClusterNodes::said() const {

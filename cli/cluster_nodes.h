@@ -2,10 +2,10 @@
 /// The processes that play a cluster's nodes on this machine: begun together, looked after, ended together.
 ///
 /// A node that dies, by a signal or with exit code 3, begins again: at once the first time, after pauses that
-/// grow if it dies soon after it has begun. So does a follower that has played and finds its files changed,
-/// for as long as it takes. When who leads is gone for good, the others have nobody to wait for.
-/// Who was asked to end and has not so long after hangs, and is killed. So is who leads if it shows nothing
-/// any longer: of a follower the others notice by themselves.
+/// grow if it dies soon after it has begun. So does, every few seconds, a follower whose files are not those
+/// of who leads, with exit code 4: somebody may be changing them. When who leads is gone for good, the others
+/// have nobody to wait for. Who was asked to end and has not so long after hangs, and is killed. So is who
+/// leads if it shows nothing any longer: of a follower the others notice by themselves.
 ///
 /// Ownership  owns the processes; those that still run when it goes are killed.
 /// Threads    main.
@@ -40,6 +40,8 @@ public:
   /// too, if it has one.
   void add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal = nullptr);
 
+  /// Pictures are kept: a node that died and was not there again at the end has failed.
+  void needAll() { needsAll_ = true; }
   /// Who leads is killed if it shows nothing for so long [ns]; its words name the descriptor of `progress`.
   void watchLead(std::unique_ptr<SharedProgress> progress, Nanoseconds after);
   /// Begins them all and looks after them until all have ended. The exit code.
@@ -58,7 +60,9 @@ private:
     State state = State::Ended;
     int status = 0;  ///< the last exit status; 128 + signal
     unsigned starts = 0;
-    bool asked = false;  ///< by us, to end
+    int died = 0;                ///< how, the first time that it was begun again
+    bool asked = false;          ///< by us, to end
+    bool waitsForFiles = false;  ///< it has been told that they are others
     Clock::time_point begun{}, notBefore{};
     worker::Restarts restarts{};
     Descriptor said{};
@@ -89,7 +93,8 @@ private:
   std::optional<HangWatch> watch_{};
   std::optional<Clock::time_point> goneSince_{};   ///< who leads
   std::optional<Clock::time_point> askedSince_{};  ///< the nodes, to end
-  bool othersAsked_ = false;                       ///< to end after who leads
+  bool needsAll_ = false;
+  bool othersAsked_ = false;  ///< to end after who leads
 };
 
 }  // namespace stadion

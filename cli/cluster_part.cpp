@@ -87,7 +87,7 @@ void ClusterPart::tell(const std::string& what) {
 bool ClusterPart::openLead(Diagnostics& findings) {
   cluster::LeadOptions options{file_, termsOf(options_, file_), kPatience,
                                [this](const std::string& what) { tell(what); }, nobodyWaits};
-  if (lead_) options.above = lead_->session(), options.expected = lead_->present();
+  if (lead_) options.above = lead_->session(), options.expected = lead_->played();
   lead_.reset();
   auto opened = cluster::Lead::open(std::move(options));
   if (!opened) return findings.add(opened.error()), false;
@@ -117,6 +117,7 @@ bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
   if (!opened) return findings.add(opened.error()), false;
   follower_ = std::move(opened.value());
   const auto joining = follower_->join();
+  over_ = !joining && follower_->isOver(), otherFiles_ = follower_->isRefused();
   if (!joining) return false;  // it has told why, if there is a reason
   show.rate = joining->rate, show.rateGiven = true;
   show.state = joining->state, last_ = joining->after;
@@ -126,8 +127,9 @@ bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
 }
 
 /// Where the show goes on: which of its files differ, nobody can tell without them.
-bool ClusterPart::hasFiles(const Scene& scene, Diagnostics& findings) const {
+bool ClusterPart::hasFiles(const Scene& scene, Diagnostics& findings) {
   if (!goesOn_ || scene.files() == files_) return true;
+  otherFiles_ = !leads();
   findings.error(
       {},
       fmt::format(
@@ -136,7 +138,8 @@ bool ClusterPart::hasFiles(const Scene& scene, Diagnostics& findings) const {
   return false;
 }
 
-bool ClusterPart::begin(Player& player, const OperatorQueue& asked, Diagnostics& findings) {
+bool ClusterPart::begin(Player& player, const OperatorQueue& asked, const std::function<void()>& takeKeys,
+                        Diagnostics& findings) {
   player_ = &player;
   if (!leads()) {
     follower_->compareWith([this](const cluster::SavedScene& there) { return differenceTo(there); });
@@ -148,8 +151,14 @@ bool ClusterPart::begin(Player& player, const OperatorQueue& asked, Diagnostics&
   }
   if (!hasFiles(player.scene(), findings)) return false;
   lead_->saveWith([this] { return saved(); });
-  lead_->begin(player.rate(),
-               [&] { return asked.has(OperatorAction::Start) || asked.has(OperatorAction::End); });
+  // Start counts once the operator knows for whom the show waits: before, it is meant for all.
+  std::size_t before = 0;
+  lead_->begin(player.rate(), [&](bool told) {
+    takeKeys();
+    const std::size_t starts = asked.count(OperatorAction::Start);
+    if (!told) before = starts;
+    return starts > before || asked.count(OperatorAction::End) > 0;
+  });
   return !lead_->hasDouble();
 }
 

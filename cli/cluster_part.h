@@ -34,8 +34,9 @@ public:
   /// The show was under way when we came, or came back.
   bool goesOn() const { return goesOn_; }
   /// The show has been opened. Who leads waits for the others, unless the operator has no patience. False,
-  /// with findings: there is no network.
-  bool begin(Player& player, const OperatorQueue& asked, Diagnostics& findings);
+  /// with findings: there is no network. `takeKeys`: brings those of windows into `asked`.
+  bool begin(Player& player, const OperatorQueue& asked, const std::function<void()>& takeKeys,
+             Diagnostics& findings);
   /// The other machines' say in what is played, and what had been decided about a show that goes on. After
   /// begin().
   void addTo(FrameLoopOptions& loop, LiveDesk& desk);
@@ -46,8 +47,10 @@ public:
   bool isToJoinAgain() const { return follower_ && follower_->isToJoinAgain(); }
   /// Another program plays this node already; it has been told, and this one is to end.
   bool hasDouble() const;
-  /// Who leads has ended the show: nothing is left to join.
-  bool isOver() const { return follower_ && follower_->isOver(); }
+  /// join() has failed because who leads has ended the show: nothing is left to join.
+  bool isOver() const { return over_; }
+  /// join() or begin() has failed because who leads has other files.
+  bool hasOtherFiles() const { return otherFiles_; }
   /// What there is to tell is heard by all; who leads anew gets our scene if it asks for it. `over`: where we
   /// lead, the show ends for all.
   void finish(bool over);
@@ -57,7 +60,7 @@ private:
   ClusterPart(const RunOptions& options, ClusterFile file, std::size_t node)
       : options_(options), file_(std::move(file)), node_(node), teller_(options.say) {}
   void tell(const std::string& what);
-  bool hasFiles(const Scene& scene, Diagnostics& findings) const;
+  bool hasFiles(const Scene& scene, Diagnostics& findings);
   bool openLead(Diagnostics& findings);
   bool follow(ShowOptions& show, Diagnostics& findings);
 
@@ -72,7 +75,7 @@ private:
   std::optional<std::uint64_t>
       planted_;  ///< the frame after which a bit is changed, to see whether that is found
   Player* player_ = nullptr;
-  bool goesOn_ = false;
+  bool goesOn_ = false, over_ = false, otherFiles_ = false;
   std::uint64_t files_ = 0;                ///< with which it went on elsewhere
   std::optional<TimeSignature> after_;     ///< the show goes on after that
   std::optional<OperatorState> operator_;  ///< and what had been decided about it

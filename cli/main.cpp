@@ -33,7 +33,7 @@ int runProgram(int argc, char** argv, std::optional<unsigned> rasteriserThreads)
   CLI::App app("Stadion plays immersive shows written in the EVS world description language on stereo walls.",
                "stadion");
   app.footer("Exit codes: 0 ok, 1 a check or comparison failed, 2 bad usage or bad input, 3 internal fault,\n"
-             "130 or 143 stopped by SIGINT or SIGTERM.\n"
+             "4 of a cluster: who leads has other files, 130 or 143 stopped by SIGINT or SIGTERM.\n"
              "Start with:  ./stadion run scripts/kick.evs --out pictures");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("stadion ") + kVersion);

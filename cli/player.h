@@ -96,6 +96,8 @@ public:
   std::vector<std::uint32_t> overdueLoads() const { return loader_->overdue(); }
   /// `told` learns which files came late, on the App thread. Before the first frame.
   void tellLateLoads(Loader::LateLoad told) { loader_->tellLateLoads(std::move(told)); }
+  /// `told` learns that the App thread waits for files, and that it has them. Before the first frame.
+  void tellWaiting(std::function<void(bool)> told) { loader_->tellWaiting(std::move(told)); }
   const RunDecisions& decisions() const { return decisions_; }
   const WallFile& walls() const { return walls_; }
   Scene& scene() { return *scene_; }

@@ -220,6 +220,14 @@ std::unique_ptr<Player> openShow(const RunOptions& o, const std::atomic<bool>& s
   return player;
 }
 
+/// In a cluster, once all have opened the show.
+bool beginWithOthers(RunSetup& s, Diagnostics& findings) {
+  const auto takeKeys = [&s] {
+    if (s.displays) s.displays->takeKeys(*s.desk);
+  };
+  return !s.cluster || s.cluster->begin(*s.player, s.desk->queue(), takeKeys, findings);
+}
+
 /// Opens everything before anything is played, so that whatever is wrong is found first.
 bool setUp(RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostics& findings) {
   s.journal = RunJournal::open(o, findings);
@@ -247,8 +255,8 @@ bool setUp(RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostic
   if (findings.hasErrors()) return false;
   if (!s.desk->begin(*s.player, findings)) return false;
   if (!beginGroup(o, s, findings)) return false;
-  if (s.cluster && !s.cluster->begin(*s.player, s.desk->queue(), findings)) return false;
   if (o.display && !(s.displays = DisplayRun::open(o, s.player->walls(), findings))) return false;
+  if (!beginWithOthers(s, findings)) return false;
   if (!s.folder) return true;
   const bool goesOn = s.cluster && s.cluster->goesOn();  // what was written before belongs to the same show
   if (const std::size_t removed = goesOn ? 0 : s.folder->clear(); removed > 0)
@@ -306,7 +314,12 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   running = &stages;
   if (recording && !s.player->obeysLog()) options.decider = recording->governor();
   if (s.cluster) s.cluster->addTo(options, *s.desk);
-  if (s.supervised) s.supervised->goOn(options, *s.desk, *s.watch);
+  if (s.supervised) {
+    s.supervised->goOn(options, *s.desk, *s.watch);
+    s.player->tellWaiting([&supervised = *s.supervised](bool waits) {  // that is no hanging
+      supervised.enter(waits ? SharedProgress::Phase::Opening : SharedProgress::Phase::Playing);
+    });
+  }
   if (options.after) s.watch->goOnAfter(*options.after);
   FrameLoop loop(stages, options, stop, probe);
   looping = &loop;
@@ -374,8 +387,7 @@ bool nextGroup(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
     if (!waitForScript(o, stop, s)) return false;
   }
   // Of a cluster's next group the others learn by a new session.
-  const bool well =
-      beginGroup(o, s, findings) && (!s.cluster || s.cluster->begin(*s.player, s.desk->queue(), findings));
+  const bool well = beginGroup(o, s, findings) && beginWithOthers(s, findings);
   tell(findings);
   return well;
 }
@@ -387,28 +399,28 @@ bool joinAgain(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
   s.watch.reset();
   s.player.reset();
   s.player = openShow(o, stop, s, findings);
-  const bool well =
-      s.player && beginGroup(o, s, findings) && s.cluster->begin(*s.player, s.desk->queue(), findings);
+  const bool well = s.player && beginGroup(o, s, findings) && beginWithOthers(s, findings);
   tell(findings);
   return well;
 }
 
-/// There is no next group's show.
+/// There is no show, or no next one.
 int codeWithoutShow(bool stopped, const RunSetup& s) {
   const auto lost = s.displays ? s.displays->lost() : std::nullopt;
-  if (!lost && !stopped && s.cluster && s.cluster->isOver()) return kOk;
-  if (!lost) return stopped ? kStopped + stopSignal() : kBadInput;
+  if (!lost && stopped) return kStopped + stopSignal();
+  if (!lost && s.cluster && s.cluster->isOver()) return kOk;
+  if (!lost) return s.cluster && s.cluster->hasOtherFiles() ? kOtherFiles : kBadInput;
   std::fprintf(stderr, "stadion: %s\n", lost->c_str());
   return kInternalFault;
 }
 
 int playShow(RunOptions& o, RunSetup& setup, Diagnostics findings) {
   const std::atomic<bool>& stop = catchStopSignals();
+  outliveReaders();
   if (o.endsWith > 0) stopWithParent(o.endsWith);
   const bool ready = setUp(o, stop, setup, findings);
   reportOf(setup)(findings);
-  if (!ready && setup.cluster && stop) return kStopped + stopSignal();
-  if (!ready) return setup.cluster && setup.cluster->isOver() ? kOk : kBadInput;
+  if (!ready) return codeWithoutShow(setup.cluster && stop, setup);
   if (setup.cluster && !setup.cluster->leads())
     ;  // how long it is, who leads knows
   else if (setup.player->frames() == 0 && setup.player->end() == 0)

@@ -34,8 +34,11 @@ extern "C" void requestStop(int signal) {
 const std::atomic<bool>& catchStopSignals() {
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
-  std::signal(SIGPIPE, SIG_IGN);
   return requested;
+}
+
+void outliveReaders() {
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 void stopWithParent(int parent) {

@@ -199,6 +199,7 @@ int superviseRun(const RunOptions& o) {
     if (!opened) return refuse("--journal: " + opened.error().message);
     journal = std::move(opened.value());
   }
+  outliveReaders();
   Supervisor supervisor(o, std::move(progress.value()), std::move(journal), catchStopSignals());
   return supervisor.play();
 }

@@ -87,7 +87,8 @@ AtomicFile::AtomicFile(std::string path, Unfinished unfinished)
   if (!file_) {
     const int reason = errno;
     temporary_.clear();
-    fail(reason == ENXIO ? "it is a pipe that nobody reads" : std::strerror(reason));
+    fail(reason == ENXIO && S_ISFIFO(status.st_mode) ? "it is a pipe that nobody reads"
+                                                     : std::strerror(reason));
   }
 }
 

@@ -64,9 +64,12 @@ std::vector<std::uint32_t> Loader::overdue() const {
 
 std::unique_ptr<Load> Loader::take(std::uint32_t number) {
   std::unique_lock lock(mutex_);
+  const bool waits = waitsTold_ && !done_.contains(number);
+  if (waits) waitsTold_(true);
   // A signal handler can set a flag, but wake nobody: look at it now and then.
   while (!changed_.wait_for(lock, std::chrono::milliseconds(20), [&] { return done_.contains(number); }))
     if (stopped()) throw RunStopped();
+  if (waits) waitsTold_(false);
   Prepared prepared = std::move(done_.extract(number).mapped());
   if (prepared.thrown) std::rethrow_exception(prepared.thrown);
   return std::move(prepared.load);

@@ -56,6 +56,8 @@ public:
   /// Told of each load that came late: its number, and the show time at which it takes effect.
   using LateLoad = std::function<void(std::uint32_t, Nanoseconds)>;
   void tellLateLoads(LateLoad told) { late_ = std::move(told); }
+  /// Told, by App, that it begins to wait for files (true), and that it has them (false).
+  void tellWaiting(std::function<void(bool)> told) { waitsTold_ = std::move(told); }
   /// The show is live: late loads do not hold it up. Before the first frame.
   void playLive() { live_ = true; }
   /// The loads that are due and have not taken effect yet.
@@ -129,8 +131,9 @@ private:
   std::deque<std::unique_ptr<Load>> garbage_;  ///< may go
   bool ending_ = false;
   std::map<std::uint32_t, Around> around_;  ///< the worker's own
-  bool live_ = false;                       ///< this and the next three are App's
+  bool live_ = false;                       ///< this and the next four are App's
   LateLoad late_;
+  std::function<void(bool)> waitsTold_;
   std::map<std::uint32_t, Nanoseconds> decided_;
   std::map<std::uint32_t, Nanoseconds> awaited_;  ///< due, and passed over, last at this show time
   std::thread worker_;

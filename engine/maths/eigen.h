@@ -3,8 +3,8 @@
 /// use.
 ///
 /// Where Eigen sees AVX or FMA, it multiplies and adds in one (which `-ffp-contract=off` does not forbid),
-/// adds in another order, and aligns its types otherwise, so that those in FCL's and assimp's interfaces are
-/// other types than the libraries were built with. What the compiler itself makes of such instructions
+/// adds in another order, and aligns its types otherwise, so that those in FCL's interfaces are other types
+/// than the library was built with. What the compiler itself makes of such instructions
 /// changes no result.
 
 #pragma push_macro("__SSE3__")

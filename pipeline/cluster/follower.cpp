@@ -127,6 +127,7 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
   const Agreement theirs = read(session_.terms);
   if (const std::string why = refusal(theirs, options_.terms, lead); !why.empty()) {
     options_.tell(why);
+    refused_ = true;
     return {};
   }
   if (const std::string what = remark(theirs, options_.terms, lead); !what.empty()) options_.tell(what);
@@ -260,6 +261,11 @@ bool Follower::isToJoinAgain() const {
 bool Follower::hasDouble() const {
   const std::lock_guard lock(mutex_);
   return double_;
+}
+
+bool Follower::isRefused() const {
+  const std::lock_guard lock(mutex_);
+  return refused_;
 }
 
 bool Follower::isOver() const {

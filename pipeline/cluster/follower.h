@@ -76,6 +76,8 @@ public:
   bool isToJoinAgain() const;
   /// Another program is this node already: ours is to end.
   bool hasDouble() const;
+  /// Who leads has other files than we have.
+  bool isRefused() const;
   /// Who leads has ended the show for all.
   bool isOver() const;
   /// The run has ended, and the scene is to be kept: for who leads anew and asks for it, or for the next
@@ -136,7 +138,7 @@ private:
   std::uint64_t toldSerial_ = 0;
   std::deque<std::pair<std::uint64_t, bool>>
       shows_;  ///< orders obeyed and not shown yet: whether we draw them
-  bool again_ = false, double_ = false;
+  bool again_ = false, double_ = false, refused_ = false;
   bool over_ = false;                      ///< who leads has ended the show
   bool plays_ = false;                     ///< there is a scene from which the show can go on
   bool differs_ = false;                   ///< but it is not that of the others

@@ -17,6 +17,7 @@ constexpr std::size_t kHashesKept = 64, kMostEarly = kHashesKept * ClusterFile::
 constexpr std::chrono::milliseconds kSearch{1500};  ///< for others: so long until they are heard of
 constexpr std::chrono::seconds kGiving{5};          ///< a node may take so long to send its scene
 constexpr std::chrono::seconds kReturn{5};          ///< a show that goes on waits so long for the others
+constexpr std::chrono::seconds kLately{10};         ///< who died so long ago may be on its way back
 
 std::uint32_t bit(std::size_t node) {
   return std::uint32_t{1} << node;
@@ -160,22 +161,19 @@ std::vector<std::string> Lead::missing() const {
   return names;
 }
 
-std::uint32_t Lead::present() const {
+std::uint32_t Lead::played() const {
   const std::lock_guard lock(mutex_);
-  std::uint32_t nodes = 0;
-  for (std::size_t i = 0; i < followers_.size(); ++i)
-    if (followers_[i].incarnation != 0) nodes |= bit(i);
-  return nodes;
+  return played_;
 }
 
-void Lead::begin(double rate, const std::function<bool()>& hurry) {
+void Lead::begin(double rate, const std::function<bool(bool)>& hurry) {
   std::unique_lock lock(mutex_);
   if (double_) return;
   session_.rate = rate;
   bus_->tell(session_);
   const auto start = Clock::now();
   const std::chrono::seconds patience = session_.resumes != 0 ? kReturn : options_.patience;
-  for (bool told = false; !missing().empty() && Clock::now() < start + patience && waits() && !hurry();) {
+  for (bool told = false; !missing().empty() && Clock::now() < start + patience && waits() && !hurry(told);) {
     if (!told && Clock::now() > start + kLong) {
       told = true;
       options_.tell(fmt::format("waiting for {}, {} s at most; Start begins without",
@@ -335,7 +333,7 @@ void Lead::hear(const Presence& p) {
   // Once found again, a node's last word is told again; it may be out of date.
   Word& word = words_[p.node];
   if (word.incarnation == p.incarnation && p.count <= word.count) return;
-  word = {p.incarnation, p.count};
+  word.incarnation = p.incarnation, word.count = p.count;
   if (f.incarnation != p.incarnation) {
     if (f.member) leaveOut(p.node, "began anew");
     f = {};
@@ -398,7 +396,7 @@ void Lead::leaveOut(std::size_t node, const std::string& why) {
 
 // With the mutex: nobody waits for it.
 void Lead::letGo(std::size_t node) {
-  followers_[node].member = false;
+  if (std::exchange(followers_[node].member, false)) words_[node].gone = Clock::now();
   for (Round& round : rounds_) round.awaited &= ~bit(node);
   release();
 }
@@ -455,6 +453,11 @@ void Lead::finish(bool over) {
   bus_->flush();
   {
     const std::lock_guard lock(mutex_);
+    played_ = 0;
+    for (std::size_t i = 0; i < followers_.size(); ++i) {
+      const auto gone = words_[i].gone;
+      if (followers_[i].member || (gone && Clock::now() - *gone < kLately)) played_ |= bit(i);
+    }
     if (!over || double_) return;
     session_.over = true;
     bus_->tell(session_);

@@ -64,11 +64,12 @@ public:
   /// that none of our own has begun.
   std::optional<ShowUnderWay> takeOver();
   /// Waits until all nodes have opened the show, or patience is at its end, or `hurry` says that the operator
-  /// has none. `rate` in 1/s.
+  /// has none: it is asked again and again, and is told whether the operator has heard for whom is waited.
+  /// `rate` in 1/s.
   void begin(
-      double rate, const std::function<bool()>& hurry = [] { return false; });
-  /// The nodes that are there, by bits.
-  std::uint32_t present() const;
+      double rate, const std::function<bool(bool)>& hurry = [](bool) { return false; });
+  /// The nodes that played with us at the end or shortly before, by bits. After finish().
+  std::uint32_t played() const;
   bool hasBegun() const;
   std::uint64_t session() const;  ///< its number
   /// What becomes of the show's input: each sample goes to all. `inner` must outlive it.
@@ -115,6 +116,7 @@ private:
   /// What was heard last of a node, there or not.
   struct Word {
     std::uint64_t incarnation = 0, count = 0;
+    std::optional<Clock::time_point> gone{};  ///< when it played no longer
   };
   /// An order that not all have drawn.
   struct Round {
@@ -143,6 +145,7 @@ private:
   std::condition_variable changed_;
   std::vector<Follower> followers_;  ///< by node
   std::vector<Word> words_;          ///< by node
+  std::uint32_t played_ = ~std::uint32_t{0};
   FrameOrder pending_;
   bool awaitsInput_ = false;   ///< an order waits for its input
   std::uint32_t explain_ = 0;  ///< who is to say with it where its scene differs

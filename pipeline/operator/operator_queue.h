@@ -34,10 +34,10 @@ public:
     const std::lock_guard lock(mutex_);
     return nextGroupAsked_;
   }
-  /// Whether such a command has come since take().
-  bool has(OperatorAction action) const {
+  /// How many such commands have come since take().
+  std::size_t count(OperatorAction action) const {
     const std::lock_guard lock(mutex_);
-    return std::ranges::find(waiting_, action, &OperatorCommand::action) != waiting_.end();
+    return static_cast<std::size_t>(std::ranges::count(waiting_, action, &OperatorCommand::action));
   }
   /// All that have come since the last call, in their order.
   std::vector<OperatorCommand> take() {

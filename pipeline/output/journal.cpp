@@ -48,16 +48,7 @@ Descriptor openToAppend(const std::string& file) {
       ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666));
 }
 
-/// Whoever writes a line holds the file for less than that. Who holds it longer is none of us, or has
-/// stopped.
-bool lockSoon(int file) {
-  constexpr int kTries = 5;
-  for (int i = 0; i < kTries; ++i) {
-    if (flock(file, LOCK_EX | LOCK_NB) == 0) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
+constexpr std::chrono::seconds kHeldOn{10};
 
 /// FILE becomes FILE.1, and so on; the oldest one goes.
 void moveOn(const std::string& file) {
@@ -98,6 +89,18 @@ std::optional<std::string> Journal::add(std::string_view what, std::optional<Pla
 bool Journal::incomplete() const {
   const std::lock_guard lock(mutex_);
   return incomplete_;
+}
+
+// Whoever writes a line holds the file for less than the tries take. Who holds it longer is none of us, or
+// has stopped: for a while nobody waits for it any more.
+bool Journal::lockSoon(int file) {
+  const auto now = std::chrono::steady_clock::now();
+  for (int tries = now < heldUntil_ ? 1 : 5; tries > 0; --tries) {
+    if (flock(file, LOCK_EX | LOCK_NB) == 0) return true;
+    if (tries > 1) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  heldUntil_ = now + kHeldOn;
+  return false;
 }
 
 // Whoever moves the file on holds the lock of the old one; who has opened that meanwhile looks again. A line

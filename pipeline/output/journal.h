@@ -14,6 +14,7 @@
 #include "engine/diagnostic.h"
 #include "engine/time_signature.h"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -47,12 +48,14 @@ public:
 
 private:
   Journal(std::string file, std::size_t limit) : file_(std::move(file)), limit_(limit) {}
+  bool lockSoon(int file);
   std::optional<std::string> write(std::string_view line);
 
   std::string file_;
   std::size_t limit_;
-  mutable std::mutex mutex_;  ///< of the next ones
-  std::uint64_t lost_ = 0;    ///< lines, of which the file does not tell yet
+  mutable std::mutex mutex_;                           ///< of the next ones
+  std::chrono::steady_clock::time_point heldUntil_{};  ///< somebody holds the lock, and not for a line
+  std::uint64_t lost_ = 0;                             ///< lines, of which the file does not tell yet
   bool incomplete_ = false;
 };
 

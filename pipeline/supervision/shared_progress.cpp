@@ -13,7 +13,7 @@
 namespace stadion {
 namespace {
 
-constexpr std::uint64_t kMark = 0x3376'7065'6573'7453;  ///< of this layout
+constexpr std::uint64_t kMark = 0x3476'7065'6573'7453;  ///< of this layout
 constexpr off_t kPageBytes = 4096;
 
 /// The newest of values that one process writes and another one reads, whole.

@@ -200,7 +200,7 @@ TEST(ProgramClusterProcesses, WhatIsWrongWithTheShowIsNoReasonToBeginAgain) {
 
 constexpr std::chrono::milliseconds kShort{300};  // patience
 
-TEST(ProgramClusterProcesses, AFollowerThatHasPlayedAndFindsOtherFilesComesBackOnceTheyAreAlike) {
+TEST(ProgramClusterProcesses, AFollowerThatFindsOtherFilesComesBackOnceTheyAreAlike) {
   const TemporaryFolder folder;
   const std::string starts = folder.write("starts", "");
   ClusterNodes nodes(twoNodes(), false);
@@ -210,11 +210,13 @@ TEST(ProgramClusterProcesses, AFollowerThatHasPlayedAndFindsOtherFilesComesBackO
   // It dies, comes back twice to other files, then plays to the end.
   nodes.add(
       "left",
-      {"sh", "-c", "echo >>" + starts + "; case $(wc -l <" + starts + ") in 1) exit 3;; 2|3) exit 2;; esac"});
+      {"sh", "-c", "echo >>" + starts + "; case $(wc -l <" + starts + ") in 1) exit 3;; 2|3) exit 4;; esac"});
   testing::internal::CaptureStderr();
   EXPECT_EQ(nodes.play(), 0);
   const std::string told = testing::internal::GetCapturedStderr();
   EXPECT_EQ(startsIn(starts), 4U) << told;
+  EXPECT_EQ(timesIn(told, "left has other files than front, and comes again until they are alike\n"), 1U)
+      << told;
 }
 
 TEST(ProgramClusterProcesses, WhoLeadsAndHangsIsReplaced) {
@@ -222,7 +224,7 @@ TEST(ProgramClusterProcesses, WhoLeadsAndHangsIsReplaced) {
   const std::string starts = folder.write("starts", "");
   ClusterNodes nodes(twoNodes(), false);
   nodes.add("front", {"sh", "-c", "echo >>" + starts + "; [ $(wc -l <" + starts + ") -gt 1 ] || sleep 600"});
-  nodes.add("left", {"sh", "-c", "until [ $(wc -l <" + starts + ") = 2 ]; do sleep 0.1; done"});
+  nodes.add("left", {"sh", "-c", "until [ $(wc -l <" + starts + ") -ge 2 ]; do sleep 0.1; done"});
   nodes.watchLead(std::move(SharedProgress::create().value()), fromSeconds(0.05));
   testing::internal::CaptureStderr();
   EXPECT_EQ(nodes.play(), 0);
@@ -231,11 +233,36 @@ TEST(ProgramClusterProcesses, WhoLeadsAndHangsIsReplaced) {
   EXPECT_TRUE(has(told, "cluster: front was ended by signal 9 and begins again\n")) << told;
 }
 
+TEST(ProgramClusterProcesses, OnlyTheOneThatLeadsAndIsStoppedIsTakenForHanging) {
+  PlayingCluster cluster(forLong());
+  ASSERT_TRUE(cluster.plays()) << cluster.told();
+  ASSERT_EQ(kill(cluster.node("front"), SIGSTOP), 0);
+  EXPECT_TRUE(cluster.tells("cluster: front has shown nothing for 13 s, and is killed\n")) << cluster.told();
+  EXPECT_TRUE(cluster.tells("cluster, front: the show goes on after frame")) << cluster.told();
+  EXPECT_EQ(timesIn(cluster.told(), "has shown nothing"), 1U) << cluster.told();
+  kill(cluster.program(), SIGTERM);
+  EXPECT_EQ(cluster.end(), 128 + SIGTERM) << cluster.told();
+}
+
 TEST(ProgramClusterProcesses, WhoFindsTheShowAtItsEndHasNotFailed) {
   ClusterNodes nodes(twoNodes(), false, kShort);
   nodes.add("front", {"true"});
   nodes.add("left", {"sh", "-c", "exec sleep 600"});
   EXPECT_EQ(nodes.play(), 0) << "it waits for who has gone, and is asked to end";
+}
+
+TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoDiedAndIsNotBackAtTheEndHasFailed) {
+  for (const bool needed : {false, true}) {
+    const TemporaryFolder folder;
+    const std::string starts = folder.write("starts", "");
+    ClusterNodes nodes(twoNodes(), false, kShort);
+    if (needed) nodes.needAll();
+    nodes.add("front", {"sh", "-c", "until [ $(wc -l <" + starts + ") -ge 2 ]; do sleep 0.1; done"});
+    nodes.add(
+        "left",
+        {"sh", "-c", "echo >>" + starts + "; [ $(wc -l <" + starts + ") -gt 1 ] || exit 3; exec sleep 600"});
+    EXPECT_EQ(nodes.play(), needed ? 3 : 0);
+  }
 }
 
 TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotBeginAgain) {

@@ -471,7 +471,7 @@ TEST(ProgramCluster, AScriptThatIsSavedIsComparedForTheNextGroup) {
   std::this_thread::sleep_for(std::chrono::seconds(2));
   ours.write("kick.evs", script + "# saved\n");
   lo_send(desk, "/stadion/next-group", "i", 1);
-  EXPECT_EQ(floor->status(), 2) << floor->err();
+  EXPECT_EQ(floor->status(), 4) << floor->err();
   EXPECT_TRUE(has(floor->err(), "front plays another script")) << floor->err();
   lo_address_free(desk);
   EXPECT_EQ(TwoLive::endOf(*front), 130) << front->err();
@@ -506,7 +506,7 @@ TEST(ProgramCluster, WhereModelsAreOthersTheyAreNamedAndNobodyPlaysWithThem) {
   };
   const auto floor = two.start("floor", with(theirs));
   const auto front = two.start("front", with(ours));
-  EXPECT_EQ(floor->status(), 2) << floor->err();
+  EXPECT_EQ(floor->status(), 4) << floor->err();
   EXPECT_TRUE(has(floor->err(), "put the same files on all machines")) << floor->err();
   EXPECT_TRUE(has(floor->err(), "the scene, files is ")) << floor->err();
   EXPECT_EQ(front->status(), 0) << front->err();
@@ -526,7 +526,7 @@ TEST(ProgramCluster, WhereFilesOrDeadlinesDifferWhoFollowsSaysWhichAndEnds) {
         file("order.cluster", "lead front\nnode floor floor\nnode front front left right\n")}) {
     const ProgramResult r =
         stadionProgram({"run", kKick, "--cluster", other, "--node", "floor", "--gl", "none"});
-    EXPECT_EQ(r.status, 2) << other << r.err;
+    EXPECT_EQ(r.status, 4) << other << r.err;
     EXPECT_TRUE(has(r.err, "front has another cluster file; put the same file on all machines")) << r.err;
   }
 }

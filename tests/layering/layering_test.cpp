@@ -141,6 +141,19 @@ TEST(Layering, EachForeignLibraryHasItsRoom) {
     EXPECT_TRUE(file.starts_with("engine/asset/importer_program/")) << file;
 }
 
+// What Eigen makes of a processor's instructions is decided there.
+TEST(Layering, EigenIsReadAsMathsSays) {
+  std::string file;
+  bool decided = false;
+  for (const std::string& floor : kFloors)
+    for (const Line& line : linesBelow(floor)) {
+      if (line.file != file) file = line.file, decided = file == "engine/maths/eigen.h";
+      if (included(line.text, '"', '"') == "engine/maths/eigen.h") decided = true;
+      if (!included(line.text, '<', '>').starts_with("Eigen/")) continue;
+      EXPECT_TRUE(decided) << line.place() << ": include engine/maths/eigen.h before";
+    }
+}
+
 TEST(Layering, WhatIsSimulatedCallsNoFunctionThatDiffersBetweenMachines) {
   // sqrt and fabs, and what IEEE 754 or integers make exact (floor, ceil, ...), are the same everywhere.
   const std::regex call(

@@ -270,9 +270,8 @@ TEST(ClusterHearing, WhoHadGoneBeforeTheNextGroupIsNotWaitedFor) {
     options.expected = expected;
     const auto l = Lead::unconnected(options, kSession);
     if (isThere) l->hear(said(1, 9, 1, 0, 0, 0, false, kShow));
-    EXPECT_EQ(l->present(), isThere ? 2U : 0U);
     const auto begin = Clock::now();
-    l->begin(60, [&] { return hurry; });
+    l->begin(60, [&](bool) { return hurry; });
     return Clock::now() - begin >= std::chrono::seconds(1);
   };
   EXPECT_TRUE(waits(~0U, false, false)) << "the first show waits for all";
@@ -280,6 +279,36 @@ TEST(ClusterHearing, WhoHadGoneBeforeTheNextGroupIsNotWaitedFor) {
   EXPECT_FALSE(waits(1, false, false));
   EXPECT_TRUE(waits(1, true, false)) << "it is back, and opens the show";
   EXPECT_TRUE(waits(3, false, false));
+}
+
+TEST(ClusterHearing, WhoPlayedIsWhoWasTakenIntoTheShow) {
+  const auto l = lead();
+  EXPECT_EQ(l->played(), ~0U) << "there was no show before";
+  const auto ready = static_cast<std::uint8_t>(Phase::Ready),
+             waiting = static_cast<std::uint8_t>(Phase::Waiting);
+  l->hear(said(1, 9, 1, kSession, waiting, 0, false, kShow));
+  l->finish(false);
+  EXPECT_EQ(l->played(), 0U) << "it waited, and was refused";
+  l->hear(said(1, 9, 2, kSession, ready, 0, false, kShow));
+  l->finish(false);
+  EXPECT_EQ(l->played(), 2U);
+  l->left(1, 9);
+  l->finish(false);
+  EXPECT_EQ(l->played(), 2U) << "it died just now, and is begun again";
+}
+
+TEST(ClusterHearing, WhoWaitsForOthersIsAskedOnlyWhenItHasBeenTold) {
+  std::vector<bool> told;
+  bool said = false;
+  const auto l = Lead::unconnected(
+      {room(), {1}, std::chrono::seconds(60), [&](const std::string&) { said = true; }, [] { return false; }},
+      kSession);
+  l->begin(60, [&](bool t) {
+    EXPECT_EQ(t, said);
+    told.push_back(t);
+    return t;
+  });
+  EXPECT_TRUE(told.size() > 1 && !told.front() && told.back());
 }
 
 TEST(ClusterHearing, WhatComesAfterASessionHasAHigherNumberWhateverTheClocksSay) {

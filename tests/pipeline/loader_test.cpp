@@ -109,6 +109,25 @@ TEST(ThreadsLoader, ALiveShowGoesOnAndTheDecisionIsTold) {
   EXPECT_EQ(told[0], std::pair(std::uint32_t{1}, now));
 }
 
+TEST(ThreadsLoader, WhoWaitsForFilesSaysSoAndThatItHasThem) {
+  released = false;
+  OneTimer show(waitForRelease);
+  std::vector<bool> told;
+  show.loader->tellWaiting([&](bool waits) {
+    told.push_back(waits);
+    released = true;
+  });
+  show.request(1);
+  show.loader->take(1);
+  EXPECT_EQ(told, (std::vector<bool>{true, false}));
+  show.request(2);
+  show.request(3);
+  show.loader->take(3);
+  told.clear();
+  show.loader->take(2);
+  EXPECT_EQ(told, std::vector<bool>{}) << "it is there";
+}
+
 TEST(ThreadsLoader, AReplayObeysTheDecision) {
   released = true;
   OneTimer show(waitForRelease);

@@ -175,7 +175,8 @@ std::optional<Diagnostic> Worker::readPictures() {
 }
 
 int work() {
-  std::signal(SIGINT, SIG_IGN);  // Ctrl-C is for the show
+  std::signal(SIGINT, SIG_IGN);   // Ctrl-C is for the show
+  std::signal(SIGPIPE, SIG_IGN);  // that nobody reads what OpenGL says is no end
   Worker worker;
   OrderHead order;
   std::array<int, 3> segments{-1, -1, -1};
