@@ -11,6 +11,7 @@
 #include <cmath>
 #include <thread>
 #include <type_traits>
+#include <utility>
 
 namespace stadion::cluster {
 namespace {
@@ -158,8 +159,12 @@ Result<std::unique_ptr<Bus>> Bus::open(const ClusterFile& o, BusListener& listen
 }
 
 Bus::~Bus() {
-  if (participant_ > 0) dds_delete(participant_);
-  if (domain_ > 0) dds_delete(domain_);
+  close();
+}
+
+void Bus::close() {
+  if (participant_ > 0) dds_delete(std::exchange(participant_, 0));
+  if (domain_ > 0) dds_delete(std::exchange(domain_, 0));
 }
 
 void Bus::tell(const Session& session) {

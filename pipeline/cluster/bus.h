@@ -83,6 +83,8 @@ public:
   /// Waits until whoever hears anything of ours hears all of it, a second at most: who has just come is known
   /// channel by channel, the scene's parts last.
   void waitForReaders() const;
+  /// Waits for whoever is in the listener just now; then it is called no more, and nobody hears anything.
+  void close();
 
 private:
   enum Channel : std::size_t {

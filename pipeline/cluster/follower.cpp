@@ -46,7 +46,7 @@ Follower::~Follower() {
     giving.swap(giving_);
   }
   for (std::thread& thread : giving) thread.join();
-  bus_.reset();  // nobody calls any more
+  if (bus_) bus_->close();  // nobody calls any more; who does so still looks at bus_
 }
 
 Result<std::unique_ptr<Follower>> Follower::open(FollowerOptions options) {

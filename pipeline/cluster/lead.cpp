@@ -79,7 +79,7 @@ Lead::~Lead() {
   }
   changed_.notify_all();
   if (sender_.joinable()) sender_.join();
-  bus_.reset();  // nobody calls any more
+  if (bus_) bus_->close();  // nobody calls any more; who does so still looks at bus_
 }
 
 InputDevice& Lead::input(InputDevice& inner) {
