@@ -22,6 +22,8 @@ constexpr std::chrono::seconds kSteady{1};
 constexpr std::size_t kMostDeaths = 10;  ///< in a row
 /// Files that differ from those of who leads will not be alike at once.
 constexpr std::chrono::seconds kTryAgain{5};
+/// Who ends for its files after so long did have the right ones before.
+constexpr std::chrono::seconds kPlayed{60};
 
 void sayOfCluster(const std::string& what) {
   std::fprintf(stderr, "cluster: %s\n", what.c_str());
@@ -111,14 +113,15 @@ void ClusterNodes::ended(Node& node, int status) {
   const std::string how = howItEnded(status);
   if (over || !isDeath(node)) return sayOf(node, how);
   const auto now = Clock::now();
+  if (node.died == 0) node.died = status;
   if (status == kOtherFiles) {
     node.state = State::Pauses, node.notBefore = now + kTryAgain;
-    if (std::exchange(node.waitsForFiles, true)) return;
+    const bool played = now - node.begun >= kPlayed;
+    if (std::exchange(node.waitsForFiles, true) && !played) return;
     return sayOf(node, fmt::format("has other files than {}, and comes again until they are alike",
                                    nodes_[lead_].name));
   }
   node.waitsForFiles = false;
-  if (node.died == 0) node.died = status;
   if (now - node.begun >= kSteady) node.restarts = {};
   node.restarts.died(now);
   const std::size_t deaths = node.restarts.deaths();

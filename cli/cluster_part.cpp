@@ -126,40 +126,44 @@ bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
   return true;
 }
 
-/// Where the show goes on: which of its files differ, nobody can tell without them.
-bool ClusterPart::hasFiles(const Scene& scene, Diagnostics& findings) {
-  if (!goesOn_ || scene.files() == files_) return true;
-  otherFiles_ = !leads();
+/// Which of them differ, nobody can tell without the others.
+void ClusterPart::refuseFiles(Diagnostics& findings) {
+  otherFiles_ = true;
   findings.error(
       {},
       fmt::format(
           "the scripts or models that {} has loaded are others than ours; put the same files on all machines",
-          leads() ? "who plays" : file_.nodes[file_.lead].name));
-  return false;
+          file_.nodes[file_.lead].name));
 }
 
-bool ClusterPart::begin(Player& player, const OperatorQueue& asked, const std::function<void()>& takeKeys,
+bool ClusterPart::beginAnew(Diagnostics& findings) {
+  tell("the scripts or models of the show that the others play are others than ours: it begins anew");
+  after_.reset(), operator_.reset(), goesOn_ = false;
+  return openLead(findings);
+}
+
+bool ClusterPart::begin(Player& player, const OperatorQueue& asked, const std::function<bool()>& takeKeys,
                         Diagnostics& findings) {
   player_ = &player;
   if (!leads()) {
     follower_->compareWith([this](const cluster::SavedScene& there) { return differenceTo(there); });
-    return hasFiles(player.scene(), findings);
+    return true;
   }
   if (lead_->hasBegun()) {  // the next group's show
     if (!openLead(findings)) return false;
     after_.reset(), goesOn_ = false;
   }
-  if (!hasFiles(player.scene(), findings)) return false;
   lead_->saveWith([this] { return saved(); });
   // Start counts once the operator knows for whom the show waits: before, it is meant for all.
   std::size_t before = 0;
-  lead_->begin(player.rate(), [&](bool told) {
-    takeKeys();
+  const bool begun = lead_->begin(player.rate(), [&](bool told) {
+    if (!takeKeys()) return cluster::Patience::GivesUp;
     const std::size_t starts = asked.count(OperatorAction::Start);
     if (!told) before = starts;
-    return starts > before || asked.count(OperatorAction::End) > 0;
+    const bool hurries = starts > before || asked.count(OperatorAction::End) > 0;
+    return hurries ? cluster::Patience::Ends : cluster::Patience::Lasts;
   });
-  return !lead_->hasDouble();
+  return begun && !lead_->hasDouble();
 }
 
 cluster::SavedScene ClusterPart::saved() const {
@@ -224,7 +228,7 @@ void ClusterPart::finish(bool over) {
 }
 
 ClusterSummary ClusterPart::summary() const {
-  const cluster::Tally& t = lead_ ? lead_->tally() : follower_->tally();
+  const cluster::Tally t = lead_ ? lead_->tally() : follower_->tally();
   ClusterSummary s;
   s.node = file_.nodes[node_].name, s.nodes = file_.nodes.size(), s.leads = leads();
   s.orders = t.orders;

@@ -33,9 +33,19 @@ public:
   bool join(ShowOptions& show, Diagnostics& findings);
   /// The show was under way when we came, or came back.
   bool goesOn() const { return goesOn_; }
+  /// Of a show that goes on, once it has been opened: whether its files are those that it is played with
+  /// elsewhere.
+  bool hasFiles(const Scene& scene) const { return scene.files() == files_; }
+  /// They are not, or the scene that was sent cannot be put back with them. Who follows may come again when
+  /// they are alike.
+  void refuseFiles(Diagnostics& findings);
+  /// The same for who leads: the show begins anew for all, with the files that are here. False, with
+  /// findings: there is no network.
+  bool beginAnew(Diagnostics& findings);
   /// The show has been opened. Who leads waits for the others, unless the operator has no patience. False,
-  /// with findings: there is no network. `takeKeys`: brings those of windows into `asked`.
-  bool begin(Player& player, const OperatorQueue& asked, const std::function<void()>& takeKeys,
+  /// with findings: there is no network; or without: a window is gone. `takeKeys`: brings those of windows
+  /// into `asked`; false: one is gone.
+  bool begin(Player& player, const OperatorQueue& asked, const std::function<bool()>& takeKeys,
              Diagnostics& findings);
   /// The other machines' say in what is played, and what had been decided about a show that goes on. After
   /// begin().
@@ -49,8 +59,10 @@ public:
   bool hasDouble() const;
   /// join() has failed because who leads has ended the show: nothing is left to join.
   bool isOver() const { return over_; }
-  /// join() or begin() has failed because who leads has other files.
+  /// There is no show because who leads has other files.
   bool hasOtherFiles() const { return otherFiles_; }
+  /// The show's end has been drawn here: this machine was not still catching up.
+  bool drewLast() const { return leads() || follower_->drewLast(); }
   /// What there is to tell is heard by all; who leads anew gets our scene if it asks for it. `over`: where we
   /// lead, the show ends for all.
   void finish(bool over);
@@ -60,7 +72,6 @@ private:
   ClusterPart(const RunOptions& options, ClusterFile file, std::size_t node)
       : options_(options), file_(std::move(file)), node_(node), teller_(options.say) {}
   void tell(const std::string& what);
-  bool hasFiles(const Scene& scene, Diagnostics& findings);
   bool openLead(Diagnostics& findings);
   bool follow(ShowOptions& show, Diagnostics& findings);
 

@@ -170,6 +170,13 @@ void Player::settleLength() {
 std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& findings,
                                        std::function<void(const Diagnostics&)> report,
                                        const std::atomic<bool>* stop, ImportedMeshes* kept) {
+  auto player = prepare(options, findings, std::move(report), stop, kept);
+  return player && player->openScene(findings) ? std::move(player) : nullptr;
+}
+
+std::unique_ptr<Player> Player::prepare(const ShowOptions& options, Diagnostics& findings,
+                                        std::function<void(const Diagnostics&)> report,
+                                        const std::atomic<bool>* stop, ImportedMeshes* kept) {
   std::unique_ptr<Player> player(new Player);
   Player& p = *player;
   p.options_ = options;
@@ -200,16 +207,21 @@ std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& 
   p.loader_->obey(p.decisions_.loads);
   p.scene_ = std::make_unique<Scene>(*p.loader_, *p.meshes_, appThreadsOf(options));
   p.options_.texts.reset();  // the loader keeps what is still to be loaded
-  if (options.state)
-    if (const auto why = p.scene_->restore(*options.state, options.script)) {
-      findings.error({options.script, 0, 0}, "the show cannot go on from the scene that was kept: " + *why);
-      return nullptr;
+  return player;
+}
+
+bool Player::openScene(Diagnostics& findings) {
+  if (const auto state = std::exchange(options_.state, nullptr)) {
+    if (const auto why = scene_->restore(*state, options_.script)) {
+      findings.error({options_.script, 0, 0}, "the show cannot go on from the scene that was kept: " + *why);
+      return false;
     }
-  p.options_.state.reset();
-  if (!options.state && !p.scene_->open(options.script)) return nullptr;
+  } else if (!scene_->open(options_.script)) {
+    return false;
+  }
   // Reading a show of a million nodes takes more memory than holding it. Here nobody waits for that to go.
   malloc_trim(0);
-  return player;
+  return true;
 }
 
 FrameLoopOptions Player::loopOptions() const {

@@ -77,6 +77,12 @@ public:
                                         std::function<void(const Diagnostics&)> report = tell,
                                         const std::atomic<bool>* stop = nullptr,
                                         ImportedMeshes* kept = nullptr);
+  /// The same in two steps: all but the scene, and that. Only the second one reads the show's files. A player
+  /// whose scene could not be opened is of no use.
+  static std::unique_ptr<Player> prepare(const ShowOptions& options, Diagnostics& findings,
+                                         std::function<void(const Diagnostics&)> report,
+                                         const std::atomic<bool>* stop, ImportedMeshes* kept);
+  bool openScene(Diagnostics& findings);
   ~Player();
 
   /// Frames to play: as asked, or to the end of the input log; 0 = until stopped.

@@ -207,24 +207,33 @@ std::unique_ptr<Player> openShow(const RunOptions& o, const std::atomic<bool>& s
                                  Diagnostics& findings) {
   ShowOptions show = o.show;
   if (s.cluster && !s.cluster->join(show, findings)) return nullptr;
-  if (!s.supervised || !s.supervised->state())
-    return Player::create(show, findings, reportOf(s), &stop, modelsOf(*s.desk));
-  show.state = s.supervised->state();
+  if (s.supervised && s.supervised->state()) show.state = s.supervised->state();
+  if (!show.state) return Player::create(show, findings, reportOf(s), &stop, modelsOf(*s.desk));
+
   HeldReport report(reportOf(s));
   Diagnostics found;
-  if (auto player = Player::create(show, found, report.function(), &stop, modelsOf(*s.desk)))
+  auto player = Player::prepare(show, findings, report.function(), &stop, modelsOf(*s.desk));
+  if (!player) return nullptr;
+  if (player->openScene(found) && (!s.cluster || s.cluster->hasFiles(player->scene())))
     return report.release(), std::move(player);
-  show.state.reset();
-  auto player = Player::create(show, findings, reportOf(s), &stop, modelsOf(*s.desk));
-  if (player) s.supervised->beginAgain(found);
+  if (s.cluster && !s.cluster->leads()) {
+    report.release();
+    findings.append(found);
+    return s.cluster->refuseFiles(findings), nullptr;
+  }
+  show.state.reset(), player.reset();
+  player = Player::create(show, findings, reportOf(s), &stop, modelsOf(*s.desk));
+  if (!player) return nullptr;
+  if (!s.cluster)
+    s.supervised->beginAgain(found);
+  else if (!s.cluster->beginAnew(findings))
+    return nullptr;
   return player;
 }
 
 /// In a cluster, once all have opened the show.
 bool beginWithOthers(RunSetup& s, Diagnostics& findings) {
-  const auto takeKeys = [&s] {
-    if (s.displays) s.displays->takeKeys(*s.desk);
-  };
+  const auto takeKeys = [&s] { return !s.displays || s.displays->takeKeys(*s.desk); };
   return !s.cluster || s.cluster->begin(*s.player, s.desk->queue(), takeKeys, findings);
 }
 
@@ -270,6 +279,13 @@ bool setUp(RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostic
   }
   s.output = std::make_unique<RunOutput>(std::move(out));
   return true;
+}
+
+/// The show has ended while this machine was away, or still caught up.
+int codeWithoutLastPictures(const RunSetup& s) {
+  if (!s.folder || !s.drawing) return kOk;
+  std::fprintf(stderr, "stadion: the show has ended without this machine, whose last pictures are missing\n");
+  return kInternalFault;
 }
 
 /// Plays the show to its end and reports on it, unless it is to begin again: then there is no exit code yet.
@@ -343,6 +359,7 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   if (code == kOk && s.cluster && s.cluster->summary().stopped) return kInternalFault;
   if (code == kOk && s.cluster && s.cluster->hasDouble()) return kBadInput;
   if (code == kOk && s.recordsNothing) return kBadInput;
+  if (code == kOk && s.cluster && !s.cluster->drewLast()) return codeWithoutLastPictures(s);
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;
@@ -408,7 +425,7 @@ bool joinAgain(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
 int codeWithoutShow(bool stopped, const RunSetup& s) {
   const auto lost = s.displays ? s.displays->lost() : std::nullopt;
   if (!lost && stopped) return kStopped + stopSignal();
-  if (!lost && s.cluster && s.cluster->isOver()) return kOk;
+  if (!lost && s.cluster && s.cluster->isOver()) return codeWithoutLastPictures(s);
   if (!lost) return s.cluster && s.cluster->hasOtherFiles() ? kOtherFiles : kBadInput;
   std::fprintf(stderr, "stadion: %s\n", lost->c_str());
   return kInternalFault;

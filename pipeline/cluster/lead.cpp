@@ -141,6 +141,11 @@ std::optional<ShowUnderWay> Lead::takeOver() {
   return {};
 }
 
+Tally Lead::tally() const {
+  const std::lock_guard lock(mutex_);
+  return tally_;
+}
+
 std::uint64_t Lead::session() const {
   const std::lock_guard lock(mutex_);
   return session_.number;
@@ -166,14 +171,17 @@ std::uint32_t Lead::played() const {
   return played_;
 }
 
-void Lead::begin(double rate, const std::function<bool(bool)>& hurry) {
+bool Lead::begin(double rate, const OperatorsPatience& operators) {
   std::unique_lock lock(mutex_);
-  if (double_) return;
+  if (double_) return true;
   session_.rate = rate;
   bus_->tell(session_);
   const auto start = Clock::now();
   const std::chrono::seconds patience = session_.resumes != 0 ? kReturn : options_.patience;
-  for (bool told = false; !missing().empty() && Clock::now() < start + patience && waits() && !hurry(told);) {
+  for (bool told = false; !missing().empty() && Clock::now() < start + patience && waits();) {
+    const Patience his = operators(told);
+    if (his == Patience::GivesUp) return false;
+    if (his == Patience::Ends) break;
     if (!told && Clock::now() > start + kLong) {
       told = true;
       options_.tell(fmt::format("waiting for {}, {} s at most; Start begins without",
@@ -184,12 +192,13 @@ void Lead::begin(double rate, const std::function<bool(bool)>& hurry) {
     lock.lock();
     changed_.wait_for(lock, kLook);
   }
-  if (double_) return;
+  if (double_) return true;
   if (const auto names = missing(); !names.empty() && !options_.stop())
     options_.tell(fmt::format("the show {} without {}", session_.resumes != 0 ? "goes on" : "begins",
                               fmt::join(names, ", ")));
   session_.begun = true;
   bus_->tell(session_);
+  return true;
 }
 
 // The order goes out with its input, which App takes next.

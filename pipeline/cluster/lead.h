@@ -40,6 +40,14 @@ struct LeadOptions {
   std::uint32_t expected = ~std::uint32_t{0};
 };
 
+/// The operator's, with nodes that have not come.
+enum class Patience {
+  Lasts,
+  Ends,     ///< the show is to begin without them
+  GivesUp,  ///< it is not to begin
+};
+using OperatorsPatience = std::function<Patience(bool told)>;
+
 /// A show that the others play already.
 struct ShowUnderWay {
   TimeSignature last;                                      ///< of the frame after which it goes on
@@ -63,11 +71,11 @@ public:
   /// Nothing: there is none, so the show begins. Takes two seconds at most where nodes are missing. Expects
   /// that none of our own has begun.
   std::optional<ShowUnderWay> takeOver();
-  /// Waits until all nodes have opened the show, or patience is at its end, or `hurry` says that the operator
-  /// has none: it is asked again and again, and is told whether the operator has heard for whom is waited.
-  /// `rate` in 1/s.
-  void begin(
-      double rate, const std::function<bool(bool)>& hurry = [](bool) { return false; });
+  /// Waits until all nodes have opened the show, or patience is at its end; `operators` is asked for the
+  /// operator's again and again, and told whether he has heard for whom is waited. `rate` in 1/s. False: he
+  /// gives up, and nothing has begun.
+  bool begin(
+      double rate, const OperatorsPatience& operators = [](bool) { return Patience::Lasts; });
   /// The nodes that played with us at the end or shortly before, by bits. After finish().
   std::uint32_t played() const;
   bool hasBegun() const;
@@ -79,7 +87,7 @@ public:
   /// The scene after a frame, where it is compared: its digest().
   bool compares(std::uint64_t frame) const { return frame % options_.cluster.hashEvery == 0; }
   void simulated(std::uint64_t frame, std::uint64_t digest);
-  const Tally& tally() const { return tally_; }
+  Tally tally() const;
   /// Another program leads this cluster already: ours is to end.
   bool hasDouble() const;
   /// Waits until all have heard what there was to hear; `over`: and that the show has been ended for all.

@@ -513,6 +513,70 @@ TEST(ProgramCluster, WhereModelsAreOthersTheyAreNamedAndNobodyPlaysWithThem) {
   EXPECT_TRUE(has(front->err(), "the scene of floor differs from ours")) << front->err();
 }
 
+/// Two copies of a show, of which one has another model, or a sub-scene with a node more.
+class OtherFiles {
+public:
+  OtherFiles() {
+    for (const TemporaryFolder* folder : {&ours_, &models_, &scenes_}) {
+      folder->write("show.evs", kShow);
+      folder->write("thing.obj", std::string(folder == &models_ ? "v 0 0 -1\n" : "v 0 0 0\n") + kRest);
+      folder->write("sub.evs", std::string("object( name=one, file=thing.obj )\n") +
+                                   (folder == &scenes_ ? "object( name=two, file=thing.obj )\n" : ""));
+    }
+  }
+  std::string ours() const { return ours_.path() / "show.evs"; }
+  std::vector<std::string> others() const {
+    return {models_.path() / "show.evs", scenes_.path() / "show.evs"};
+  }
+  static std::vector<std::string> play(const std::string& seconds) {
+    return {"--input", "none", "--rate", "60", "--pace", "lock", "--seconds", seconds};
+  }
+
+private:
+  static constexpr const char* kShow =
+      "dynobject( name=ball, file=thing.obj, position=\"0, 3, 1\", density=1 )\n"
+      "scene( name=sub, file=sub.evs )\n";
+  static constexpr const char* kRest = "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  TemporaryFolder ours_, models_, scenes_;
+};
+
+TEST(ProgramCluster, WhoComesLateWithOtherModelsOrSubScenesMayComeAgain) {
+  const OtherFiles files;
+  const TwoLive two;
+  const auto front = two.startWith(files.ours(), "front", OtherFiles::play("600"));
+  {
+    const auto floor = two.startWith(files.ours(), "floor", OtherFiles::play("600"));
+    EXPECT_TRUE(becomes([&] { return floor->pid() > 0; }));
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    EXPECT_EQ(TwoLive::endOf(*floor), 130) << floor->err();
+  }
+  for (const std::string& other : files.others()) {
+    const auto floor = two.startWith(other, "floor", OtherFiles::play("600"));
+    EXPECT_EQ(floor->status(), 4) << floor->err();
+    EXPECT_TRUE(has(floor->err(), "that front has loaded are others than ours; put the same files on all"))
+        << floor->err();
+  }
+  EXPECT_EQ(TwoLive::endOf(*front), 130) << front->err();
+}
+
+TEST(ProgramCluster, WhoLeadsAnewWithOtherFilesBeginsTheShowAnew) {
+  const OtherFiles files;
+  for (const std::string& other : files.others()) {
+    const TwoLive two;
+    auto front = two.startWith(files.ours(), "front", OtherFiles::play("600"));
+    const auto floor = two.startWith(files.ours(), "floor", OtherFiles::play("600"));
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    ASSERT_EQ(kill(front->pid(), SIGKILL), 0);
+    EXPECT_EQ(front->status(), 128 + SIGKILL) << front->err();
+    front = two.startWith(other, "front", OtherFiles::play("600"));
+    EXPECT_TRUE(front->says("the show goes on after frame")) << front->err();
+    EXPECT_TRUE(front->says("are others than ours: it begins anew")) << front->err();
+    EXPECT_TRUE(front->says("the scene of floor differs from ours")) << front->err() << floor->err();
+    EXPECT_EQ(floor->status(), 4) << floor->err();
+    EXPECT_EQ(TwoLive::endOf(*front), 130) << front->err();
+  }
+}
+
 TEST(ProgramCluster, WhereFilesOrDeadlinesDifferWhoFollowsSaysWhichAndEnds) {
   const TemporaryFolder folder;
   const auto file = [&](const std::string& name, const std::string& more) {

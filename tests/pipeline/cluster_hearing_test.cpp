@@ -271,7 +271,7 @@ TEST(ClusterHearing, WhoHadGoneBeforeTheNextGroupIsNotWaitedFor) {
     const auto l = Lead::unconnected(options, kSession);
     if (isThere) l->hear(said(1, 9, 1, 0, 0, 0, false, kShow));
     const auto begin = Clock::now();
-    l->begin(60, [&](bool) { return hurry; });
+    l->begin(60, [&](bool) { return hurry ? Patience::Ends : Patience::Lasts; });
     return Clock::now() - begin >= std::chrono::seconds(1);
   };
   EXPECT_TRUE(waits(~0U, false, false)) << "the first show waits for all";
@@ -306,9 +306,17 @@ TEST(ClusterHearing, WhoWaitsForOthersIsAskedOnlyWhenItHasBeenTold) {
   l->begin(60, [&](bool t) {
     EXPECT_EQ(t, said);
     told.push_back(t);
-    return t;
+    return t ? Patience::Ends : Patience::Lasts;
   });
   EXPECT_TRUE(told.size() > 1 && !told.front() && told.back());
+  EXPECT_TRUE(l->hasBegun());
+}
+
+TEST(ClusterHearing, WhoGivesUpWaitingHasBegunNothing) {
+  const auto l = Lead::unconnected(
+      {room(), {1}, std::chrono::seconds(60), [](const std::string&) {}, [] { return false; }}, kSession);
+  EXPECT_FALSE(l->begin(60, [](bool) { return Patience::GivesUp; }));
+  EXPECT_FALSE(l->hasBegun());
 }
 
 TEST(ClusterHearing, WhatComesAfterASessionHasAHigherNumberWhateverTheClocksSay) {
