@@ -50,7 +50,7 @@ bool RunOutput::wantsPictures(std::uint64_t frame) const {
 }
 
 bool RunOutput::wants(const TimeSignature& now) const {
-  return options_.video || options_.hashes || wantsPictures(now.frame);
+  return (options_.video && !videoFailed_) || options_.hashes || wantsPictures(now.frame);
 }
 
 Failure RunOutput::take(const TimeSignature& now, const std::vector<EyePictures>& walls) {
@@ -140,6 +140,7 @@ Picture RunOutput::sheetOf(const Job& job, std::uint32_t cellWidth) const {
 }
 
 void RunOutput::addToVideo(const Job& job) {
+  if (videoFailed_) return;
   Picture frame = sheetOf(job, 480);
   if (!video_) {
     VideoOptions video;
@@ -152,7 +153,8 @@ void RunOutput::addToVideo(const Job& job) {
   // Here every frame counts and nobody waits for us but the show's own back-pressure.
   while (!video_->failed() && !video_->waitForRoom(std::chrono::seconds(1))) {
   }
-  video_->offer(std::move(frame));
+  videoFailed_ = video_->failed();
+  if (!videoFailed_) video_->offer(std::move(frame));
 }
 
 void RunOutput::writeFile(const std::string& name, const Picture& picture) {

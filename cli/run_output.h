@@ -88,6 +88,7 @@ private:
   std::deque<Job> jobs_;
   bool ending_ = false;
   std::atomic<bool> failed_ = false;
+  std::atomic<bool> videoFailed_ = false;  ///< then no frame is drawn for its sake
   Failure failure_;  ///< the first one
   std::vector<std::string> files_, remarks_;
   std::size_t written_ = 0;

@@ -372,6 +372,17 @@ TEST(ProgramUsage, OnlyDrawnFramesAreCountedAndTimed) {
   EXPECT_FALSE(has(text.out, "frames/s")) << text.out;
 }
 
+TEST(ProgramUsage, ForAVideoThatCannotBeMadeNothingIsDrawn) {
+  const TemporaryFolder folder;
+  const ProgramResult r = runProgram(
+      {{stadionPath(), "run", testShow("moving.evs"), "--input", "none", "--walls", "desktop", "--size",
+        "64x48", "--frames", "2000", "--json", "--video", "--out", folder.path() / "out"},
+       {"PATH=/nowhere"}});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_TRUE(has(r.out, "ffmpeg is not installed")) << r.out << r.err;
+  EXPECT_LT(nlohmann::json::parse(r.out).at("frames_drawn"), 1000);
+}
+
 TEST(ProgramUsage, NothingButAnInputLogIsReplacedByAnInputLog) {
   const TemporaryFolder folder;
   const std::string show = folder.write("show.evs", "group( name=a )\n"),
