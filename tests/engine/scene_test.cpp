@@ -132,6 +132,22 @@ TEST(Scene, AFileThatComesLateTakesEffectAndIsToldWhenItWasDecided) {
   EXPECT_EQ(ear.heard[0].frame, 13u);
 }
 
+TEST(Scene, WithoutMemoryToDisposeOfItsFilesItGoesAllTheSame) {
+  TestLoader loader;
+  MeshStore meshes;
+  loader.files["game"] = [](Load& load) { addNode<MovingNode>(load, "ball"); };
+  loader.files["show"] = [](Load& load) {
+    addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", fromSeconds(0.1), true);
+  };
+  {
+    Scene scene(loader, meshes, 1);
+    ASSERT_TRUE(scene.open("show"));
+    ASSERT_EQ(scene.loadCount(), 2u);
+    loader.lacksMemory = true;
+  }
+  EXPECT_EQ(loader.disposed, 2u);
+}
+
 TEST(Scene, AFileThatIsUnloadedBeforeItComesDoesNotStay) {
   ShowFixture show;
   show.loader.files["game"] = [](Load& load) { addNode<MovingNode>(load, "ball"); };

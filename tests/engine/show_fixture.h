@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <map>
+#include <new>
 
 namespace stadion {
 
@@ -15,6 +16,7 @@ public:
   using Recipe = std::function<void(Load&)>;
   std::map<std::string, Recipe> files;
   std::size_t disposed = 0;
+  bool lacksMemory = false;                   ///< for what is disposed of
   std::map<std::uint32_t, Nanoseconds> late;  ///< when loads take effect that are not ready when they are due
   std::vector<Diagnostic> reported;
 
@@ -33,7 +35,10 @@ public:
     ready_.erase(number);
     return load;
   }
-  void dispose(std::unique_ptr<Load>, std::uint64_t) override { ++disposed; }
+  void dispose(std::unique_ptr<Load>, std::uint64_t) override {
+    ++disposed;
+    if (lacksMemory) throw std::bad_alloc();
+  }
   void report(const Diagnostic& finding) override { reported.push_back(finding); }
 
 private:
