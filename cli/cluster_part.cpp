@@ -136,8 +136,10 @@ void ClusterPart::refuseFiles(Diagnostics& findings) {
           file_.nodes[file_.lead].name));
 }
 
-bool ClusterPart::beginAnew(Diagnostics& findings) {
-  tell("the scripts or models of the show that the others play are others than ours: it begins anew");
+bool ClusterPart::beginAnew(const Diagnostics& found, Diagnostics& findings) {
+  const auto why = std::ranges::find(found.all(), Severity::Error, &Diagnostic::severity);
+  tell("the scripts or models of the show that the others play are others than ours: it begins anew" +
+       (why == found.all().end() ? "" : " (" + why->message + ")"));
   after_.reset(), operator_.reset(), goesOn_ = false;
   return openLead(findings);
 }

@@ -39,9 +39,9 @@ public:
   /// They are not, or the scene that was sent cannot be put back with them. Who follows may come again when
   /// they are alike.
   void refuseFiles(Diagnostics& findings);
-  /// The same for who leads: the show begins anew for all, with the files that are here. False, with
-  /// findings: there is no network.
-  bool beginAnew(Diagnostics& findings);
+  /// The same for who leads: the show begins anew for all, with the files that are here. `found`: what was in
+  /// the way. False, with findings: there is no network.
+  bool beginAnew(const Diagnostics& found, Diagnostics& findings);
   /// The show has been opened. Who leads waits for the others, unless the operator has no patience. False,
   /// with findings: there is no network; or without: a window is gone. `takeKeys`: brings those of windows
   /// into `asked`; false: one is gone.
@@ -61,8 +61,6 @@ public:
   bool isOver() const { return over_; }
   /// There is no show because who leads has other files.
   bool hasOtherFiles() const { return otherFiles_; }
-  /// The show's end has been drawn here: this machine was not still catching up.
-  bool drewLast() const { return leads() || follower_->drewLast(); }
   /// What there is to tell is heard by all; who leads anew gets our scene if it asks for it. `over`: where we
   /// lead, the show ends for all.
   void finish(bool over);

@@ -226,7 +226,7 @@ std::unique_ptr<Player> openShow(const RunOptions& o, const std::atomic<bool>& s
   if (!player) return nullptr;
   if (!s.cluster)
     s.supervised->beginAgain(found);
-  else if (!s.cluster->beginAnew(findings))
+  else if (!s.cluster->beginAnew(found, findings))
     return nullptr;
   return player;
 }
@@ -279,13 +279,6 @@ bool setUp(RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostic
   }
   s.output = std::make_unique<RunOutput>(std::move(out));
   return true;
-}
-
-/// The show has ended while this machine was away, or still caught up.
-int codeWithoutLastPictures(const RunSetup& s) {
-  if (!s.folder || !s.drawing) return kOk;
-  std::fprintf(stderr, "stadion: the show has ended without this machine, whose last pictures are missing\n");
-  return kInternalFault;
 }
 
 /// Plays the show to its end and reports on it, unless it is to begin again: then there is no exit code yet.
@@ -359,7 +352,6 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   if (code == kOk && s.cluster && s.cluster->summary().stopped) return kInternalFault;
   if (code == kOk && s.cluster && s.cluster->hasDouble()) return kBadInput;
   if (code == kOk && s.recordsNothing) return kBadInput;
-  if (code == kOk && s.cluster && !s.cluster->drewLast()) return codeWithoutLastPictures(s);
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
     return kBadInput;
@@ -425,7 +417,7 @@ bool joinAgain(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
 int codeWithoutShow(bool stopped, const RunSetup& s) {
   const auto lost = s.displays ? s.displays->lost() : std::nullopt;
   if (!lost && stopped) return kStopped + stopSignal();
-  if (!lost && s.cluster && s.cluster->isOver()) return codeWithoutLastPictures(s);
+  if (!lost && s.cluster && s.cluster->isOver()) return kOk;
   if (!lost) return s.cluster && s.cluster->hasOtherFiles() ? kOtherFiles : kBadInput;
   std::fprintf(stderr, "stadion: %s\n", lost->c_str());
   return kInternalFault;

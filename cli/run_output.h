@@ -89,7 +89,7 @@ private:
   bool ending_ = false;
   std::atomic<bool> failed_ = false;
   std::atomic<bool> videoFailed_ = false;  ///< then no frame is drawn for its sake
-  Failure failure_;  ///< the first one
+  Failure failure_;                        ///< the first one
   std::vector<std::string> files_, remarks_;
   std::size_t written_ = 0;
   std::uint64_t lastWritten_ = ~std::uint64_t{0};

@@ -191,7 +191,7 @@ std::optional<FrameOrder> Follower::next() {
   const bool isNew = std::exchange(kept_, nullptr) || !plays_;
   plays_ = true;
   if (isNew) announce(told_);
-  heard.order.drawn = drewLast_ = (heard.numbers.members >> options_.node & 1U) != 0;
+  heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
   // Left out, for being late: whoever has caught up is taken back.
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
   shows_.emplace_back(obeyed_, heard.order.drawn);
@@ -251,11 +251,6 @@ void Follower::simulated(std::uint64_t frame, std::uint64_t digest) {
   const std::lock_guard lock(mutex_);
   ++tally_.compared;
   bus_->tell(SceneHash{static_cast<std::uint8_t>(options_.node), joined_, frame, digest});
-}
-
-bool Follower::drewLast() const {
-  const std::lock_guard lock(mutex_);
-  return drewLast_;
 }
 
 Tally Follower::tally() const {

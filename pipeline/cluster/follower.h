@@ -88,8 +88,6 @@ public:
   /// Null: there is none, or it is not that of the others.
   std::shared_ptr<const KeptScene> kept() const;
   Tally tally() const;
-  /// Whether the last frame that was obeyed was to be drawn here, too: not by who was still catching up.
-  bool drewLast() const;
   void finish();
 
   bool leads() const override { return false; }
@@ -140,7 +138,6 @@ private:
   std::uint64_t toldSerial_ = 0;
   std::deque<std::pair<std::uint64_t, bool>>
       shows_;  ///< orders obeyed and not shown yet: whether we draw them
-  bool drewLast_ = false;
   bool again_ = false, double_ = false, refused_ = false;
   bool over_ = false;                      ///< who leads has ended the show
   bool plays_ = false;                     ///< there is a scene from which the show can go on
