@@ -158,12 +158,13 @@ void Soak::see(const TimeSignature& now, const Scene& scene, const RunWatch& wat
   before_ = now.time;
   c.changes += scene.loadsVersion() - loadsVersion_;
   loadsVersion_ = scene.loadsVersion();
-  if (now.frame % kCheckEvery == 0 && !record_.agrees(show_, now.frame, watch.history())) {
-    ++c.wrongHashes;
+  const bool another = now.frame % kCheckEvery == 0 && !record_.agrees(show_, now.frame, watch.history());
+  if (another) ++c.wrongHashes;
+  if (wrong == 0 && c.wrongSteps + c.wrongHashes > 0) keepCounts();  // whatever ends the run now
+  // Only what is kept is told: who reads it may end the run.
+  if (another)
     std::fprintf(stderr, "%s: frame %ju has another history of states than before\n", show_.c_str(),
                  static_cast<std::uintmax_t>(now.frame));
-  }
-  if (wrong == 0 && c.wrongSteps + c.wrongHashes > 0) keepCounts();  // whatever ends the run now
   if (way_ == Way::Killed && now.frame % kKillEvery == kKillEvery / 2)
     for (const pid_t wall : wallProcesses())
       if (kill(wall, SIGKILL) == 0) ++c.killed;
