@@ -109,6 +109,11 @@ void ClusterNodes::look(Node& node) {
 void ClusterNodes::ended(Node& node, int status) {
   const bool over = once_ || *stop_ || leadIsGone();
   node.state = State::Ended, node.status = status;
+  if (mayMissPictures(node)) {
+    sayOf(node, "has not heard that the show is over: its last pictures may be missing");
+    node.status = node.died != 0 ? node.died : kBadInput;
+    return;
+  }
   if (!hasFailed(status)) return;
   const std::string how = howItEnded(status);
   if (over || !isDeath(node)) return sayOf(node, how);
@@ -131,6 +136,12 @@ void ClusterNodes::ended(Node& node, int status) {
   sayOf(node,
         how + (deaths == 1 ? " and begins again"
                            : fmt::format(", {} times in a row, and begins again after a pause", deaths)));
+}
+
+/// Asked to end, because it still waited for who leads when that was gone.
+bool ClusterNodes::mayMissPictures(const Node& node) const {
+  return needsAll_ && othersAsked_ && node.asked && !*stop_ && wasAskedToEnd(node.status) &&
+         !hasFailed(nodes_[lead_].status);
 }
 
 /// A scene differed, and the cluster file says that the show is to end then.
@@ -195,11 +206,8 @@ int ClusterNodes::code() const {
   const auto failed = std::ranges::find_if(nodes_, hasFailed, &Node::status);
   if (failed != nodes_.end()) return failed->status;
   if (*stop_) return kStopped + stopSignal();
-  for (const Node& node : nodes_) {
-    if (!wasAskedToEnd(node.status)) continue;
-    if (!node.asked) return node.status;
-    if (needsAll_ && node.died != 0) return node.died;  // its pictures end where it died
-  }
+  for (const Node& node : nodes_)
+    if (wasAskedToEnd(node.status) && !node.asked) return node.status;
   return kOk;
 }
 

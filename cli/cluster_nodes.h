@@ -40,7 +40,7 @@ public:
   /// too, if it has one.
   void add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal = nullptr);
 
-  /// Pictures are kept: a node that died and was not there again at the end has failed.
+  /// Pictures are kept: a node that has to be asked to end, since it was not there at the end, has failed.
   void needAll() { needsAll_ = true; }
   /// Who leads is killed if it shows nothing for so long [ns]; its words name the descriptor of `progress`.
   void watchLead(std::unique_ptr<SharedProgress> progress, Nanoseconds after);
@@ -75,6 +75,7 @@ private:
   void ended(Node& node, int status);
   bool isStop(const Node& node) const;
   bool isDeath(const Node& node) const;
+  bool mayMissPictures(const Node& node) const;
   bool leadIsGone() const { return nodes_[lead_].state == State::Ended; }
   void endWithLead();
   void ask(int signal);

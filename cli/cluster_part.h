@@ -59,6 +59,8 @@ public:
   bool hasDouble() const;
   /// join() has failed because who leads has ended the show: nothing is left to join.
   bool isOver() const { return over_; }
+  /// The show has ended before its last frame could be shown here.
+  bool missedTheEnd() const { return follower_ && follower_->missedTheEnd(); }
   /// There is no show because who leads has other files.
   bool hasOtherFiles() const { return otherFiles_; }
   /// What there is to tell is heard by all; who leads anew gets our scene if it asks for it. `over`: where we

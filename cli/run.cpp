@@ -281,6 +281,20 @@ bool setUp(RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostic
   return true;
 }
 
+bool keepsPictures(const RunOptions& o) {
+  return !o.out.empty() && o.provider != "none" &&
+         (o.pictureChoice.kind != PictureChoice::Kind::None || o.video || o.hashes);
+}
+
+/// Of a show that was played well, or is over: whether all that was asked for is there.
+int codeOfWhatIsMissing(const RunOptions& o, const RunSetup& s) {
+  if (!s.cluster) return kOk;
+  if (s.recordsNothing || s.cluster->hasDouble()) return kBadInput;
+  if (!keepsPictures(o) || !s.cluster->missedTheEnd()) return kOk;
+  o.say("--out: the show ended before this machine had caught up with it: its last pictures are missing");
+  return kBadInput;
+}
+
 /// Plays the show to its end and reports on it, unless it is to begin again: then there is no exit code yet.
 std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   ShowRecording* const recording = s.recording.get();
@@ -344,17 +358,16 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   if (again && !outcome.failure && !stop) return {};
   if (recording && outcome.failure) recording->keepLastFrames();
 
-  const int code =
+  int code =
       report({o, *s.player, stages, loop, outcome, *s.watch, elapsed, s.desk->groups(), s.desk->uptime(),
               recording, s.work.totals(s.player->walls().names()), s.drawing ? &*s.drawing : nullptr,
               s.cluster.get(), s.supervised ? s.supervised->remark() : ""},
              s.output.get(), s.folder.get());
-  if (code == kOk && s.cluster && s.cluster->summary().stopped) return kInternalFault;
-  if (code == kOk && s.cluster && s.cluster->hasDouble()) return kBadInput;
-  if (code == kOk && s.recordsNothing) return kBadInput;
+  if (code == kOk && s.cluster && s.cluster->summary().stopped) code = kInternalFault;
+  if (code == kOk) code = codeOfWhatIsMissing(o, s);
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
-    return kBadInput;
+    return code == kOk ? kBadInput : code;
   }
   if (recording && !tellRecording(o, *recording, *s.player, stages.glDescription()))
     return code == kOk ? kBadInput : code;
@@ -414,10 +427,10 @@ bool joinAgain(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
 }
 
 /// There is no show, or no next one.
-int codeWithoutShow(bool stopped, const RunSetup& s) {
+int codeWithoutShow(const RunOptions& o, bool stopped, const RunSetup& s) {
   const auto lost = s.displays ? s.displays->lost() : std::nullopt;
   if (!lost && stopped) return kStopped + stopSignal();
-  if (!lost && s.cluster && s.cluster->isOver()) return kOk;
+  if (!lost && s.cluster && s.cluster->isOver()) return codeOfWhatIsMissing(o, s);
   if (!lost) return s.cluster && s.cluster->hasOtherFiles() ? kOtherFiles : kBadInput;
   std::fprintf(stderr, "stadion: %s\n", lost->c_str());
   return kInternalFault;
@@ -429,7 +442,7 @@ int playShow(RunOptions& o, RunSetup& setup, Diagnostics findings) {
   if (o.endsWith > 0) stopWithParent(o.endsWith);
   const bool ready = setUp(o, stop, setup, findings);
   reportOf(setup)(findings);
-  if (!ready) return codeWithoutShow(setup.cluster && stop, setup);
+  if (!ready) return codeWithoutShow(o, setup.cluster && stop, setup);
   if (setup.cluster && !setup.cluster->leads())
     ;  // how long it is, who leads knows
   else if (setup.player->frames() == 0 && setup.player->end() == 0)
@@ -446,10 +459,10 @@ int playShow(RunOptions& o, RunSetup& setup, Diagnostics findings) {
   for (;;) {
     if (const auto code = play(o, stop, setup)) return *code;
     if (setup.cluster && setup.cluster->isToJoinAgain()) {
-      if (!joinAgain(o, stop, setup)) return codeWithoutShow(stop, setup);
+      if (!joinAgain(o, stop, setup)) return codeWithoutShow(o, stop, setup);
       continue;
     }
-    if (!nextGroup(o, stop, setup)) return codeWithoutShow(stop, setup);
+    if (!nextGroup(o, stop, setup)) return codeWithoutShow(o, stop, setup);
   }
 }
 

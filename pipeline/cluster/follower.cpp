@@ -35,7 +35,8 @@ private:
 };
 
 Follower::Follower(FollowerOptions options, std::uint64_t incarnation)
-    : options_(std::move(options)), incarnation_(incarnation), kept_(options_.kept),
+    : options_(std::move(options)), incarnation_(incarnation),
+      showsLast_(options_.kept && options_.kept->shown), kept_(options_.kept),
       input_(std::make_unique<OrderedInput>(*this)) {}
 
 Follower::~Follower() {
@@ -137,7 +138,10 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
   const std::uint64_t ofKept = kept_ ? kept_->parcel.session : joined_;
   if (ofKept != joined_ && ofKept != session_.resumes) kept_.reset();  // it is another show
   Joining joining{session_.rate, {}, {}, 0, theirs.input != 0};
-  if (!session_.begun && session_.resumes == 0) return joining;
+  if (!session_.begun && session_.resumes == 0) {
+    showsLast_ = true;  // there is none yet
+    return joining;
+  }
   if (session_.begun) awaitDouble(lock);
   if (hasEnded()) return {};
   announce(Phase::Asking);
@@ -149,7 +153,9 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
     return incoming_.complete() || hasEnded();
   };
   if (!await(lock, ("the scene's state from " + lead).c_str(), has) || hasEnded()) return {};
-  const auto kept = std::make_shared<const KeptScene>(KeptScene{incoming_.take(), show_});
+  KeptScene theirScene{incoming_.take(), show_, false};
+  theirScene.shown = showsLast_ = kept_ && kept_->shown && kept_->parcel.frame == theirScene.parcel.frame;
+  const auto kept = std::make_shared<const KeptScene>(std::move(theirScene));
   kept_ = kept;
   const SceneParcel& parcel = kept->parcel;
   obeyed_ = parcel.serial, plays_ = true;
@@ -234,6 +240,7 @@ bool Follower::mayShow(const TimeSignature&) {
   const auto [serial, member] = shows_.front();
   shows_.pop_front();
   shown_ = serial;
+  showsLast_ = false;
   if (!member) return true;
   const Drawn told{static_cast<std::uint8_t>(options_.node), joined_, serial};
   bus_->tell(told);
@@ -243,7 +250,8 @@ bool Follower::mayShow(const TimeSignature&) {
     if (changed_.wait_for(lock, kLook) == std::cv_status::timeout) bus_->tell(told), announceProgress();
   if (go_ == serial && latest_ == options_.node)
     tally_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
-  return go_ >= serial;
+  showsLast_ = go_ >= serial;
+  return showsLast_;
 }
 
 void Follower::simulated(std::uint64_t frame, std::uint64_t digest) {
@@ -271,6 +279,11 @@ bool Follower::hasDouble() const {
 bool Follower::isRefused() const {
   const std::lock_guard lock(mutex_);
   return refused_;
+}
+
+bool Follower::missedTheEnd() const {
+  const std::lock_guard lock(mutex_);
+  return over_ && !showsLast_;
 }
 
 bool Follower::isOver() const {
@@ -360,7 +373,7 @@ void Follower::keep(const TimeSignature& last, SavedScene scene) {
   parcel.frame = last.frame, parcel.time = last.time, parcel.scene = std::move(scene);
   const std::lock_guard lock(mutex_);
   parcel.session = joined_, parcel.serial = obeyed_, kept.show = show_;
-  parcel.still = still_, parcel.shown = presentation_;
+  parcel.still = still_, parcel.shown = presentation_, kept.shown = showsLast_;
   kept_ = std::make_shared<const KeptScene>(std::move(kept));
   giveIfAsked();
 }

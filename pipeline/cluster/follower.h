@@ -80,6 +80,8 @@ public:
   bool isRefused() const;
   /// Who leads has ended the show for all.
   bool isOver() const;
+  /// It is over, and its last frame was not shown here: we were still catching up, or had been left out.
+  bool missedTheEnd() const;
   /// The run has ended, and the scene is to be kept: for who leads anew and asks for it, or for the next
   /// follower.
   bool keepsScene() const;
@@ -140,6 +142,7 @@ private:
       shows_;  ///< orders obeyed and not shown yet: whether we draw them
   bool again_ = false, double_ = false, refused_ = false;
   bool over_ = false;                      ///< who leads has ended the show
+  bool showsLast_;                         ///< of the frames that there were: it is shown here
   bool plays_ = false;                     ///< there is a scene from which the show can go on
   bool differs_ = false;                   ///< but it is not that of the others
   std::shared_ptr<const KeptScene> kept_;  ///< until there is another one

@@ -33,6 +33,7 @@ struct SceneParcel {
 struct KeptScene {
   SceneParcel parcel;
   std::uint64_t show = 0;  ///< Agreement::show() of that session
+  bool shown = true;       ///< its frame, on our walls
 };
 
 /// May take long: it is large.

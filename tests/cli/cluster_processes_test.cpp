@@ -265,6 +265,19 @@ TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoDiedAndIsNotBackAtTheEndHas
   }
 }
 
+TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoHasNotHeardOfTheEndHasFailed) {
+  ClusterNodes nodes(twoNodes(), false, kShort);
+  nodes.needAll();
+  nodes.add("front", {"true"});
+  nodes.add("left", {"sh", "-c", "trap 'exit 130' INT; while :; do sleep 0.1; done"});
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(nodes.play(), 2);
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(
+      has(told, "cluster: left has not heard that the show is over: its last pictures may be missing\n"))
+      << told;
+}
+
 TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotBeginAgain) {
   const TemporaryFolder folder;
   ClusterFile cluster = twoNodes();

@@ -145,6 +145,7 @@ public:
     becomes([&] { return swapTimesOf(out(node)).size() > 60; });
     return processOf(file_, node);
   }
+  pid_t processNow(const std::string& node) const { return processOf(file_, node); }
   std::filesystem::path out(const std::string& node) const { return folder_.path() / "out" / node; }
   int end() const { return endOf(program_); }
 
@@ -191,6 +192,22 @@ TEST(ProgramCluster, AMachineThatIsStoppedIsLeftOutAndComesBack) {
   EXPECT_TRUE(cluster.tells("left plays with us")) << cluster.told();
   EXPECT_EQ(cluster.end(), 0) << cluster.told();
   cluster.expectWhatOneShows("9");
+}
+
+TEST(ProgramCluster, AMachineWhoseLastPicturesAreMissingHasFailed) {
+  const RunningCluster cluster("4");
+  const pid_t left = cluster.processOfRunning("left");
+  ASSERT_EQ(kill(left, SIGSTOP), 0);
+  EXPECT_TRUE(cluster.tells("left has not been heard of for 0.3 s; the others go on")) << cluster.told();
+  EXPECT_TRUE(becomes([&] { return cluster.processNow("front") < 0; })) << "the show is over";
+  ASSERT_EQ(kill(left, SIGCONT), 0);
+  EXPECT_EQ(cluster.end(), 2) << cluster.told();
+  // Whether it hears of the end, which it was not there for, the network knows.
+  EXPECT_TRUE(cluster.hasTold("cluster: left has not heard that the show is over: its last pictures may be "
+                              "missing") ||
+              cluster.hasTold("--out: the show ended before this machine had caught up with it: its last "
+                              "pictures are missing"))
+      << cluster.told();
 }
 
 /// Kills or stops one machine after the other, so many times; says how long the others waited, and how long
@@ -320,6 +337,26 @@ private:
   std::shared_ptr<const TemporaryFolder> folder_ = std::make_shared<TemporaryFolder>();
   std::string script_, file_;
 };
+
+TEST(ProgramCluster, WhoIsLeftOutAsTheShowEndsSaysThatItsLastPicturesAreMissing) {
+  const TwoLive two;
+  const TemporaryFolder folder;
+  const std::string out = folder.path() / "floor";
+  const auto front = two.start("front");
+  const auto floor = two.start("floor", {"--out", out, "--pictures", "none", "--hashes"});
+  ASSERT_TRUE(becomes([&] { return swapTimesOf(out).size() > 60; })) << floor->err();
+  ASSERT_EQ(kill(floor->pid(), SIGSTOP), 0);
+  EXPECT_TRUE(front->says("floor has not been heard of")) << front->err();
+  kill(front->pid(), SIGTERM);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // no further order takes it back
+  kill(floor->pid(), SIGCONT);
+  EXPECT_EQ(front->status(), 128 + SIGTERM) << front->err();
+  EXPECT_EQ(floor->status(), 2) << floor->err();
+  EXPECT_NE(floor->err().find("--out: the show ended before this machine had caught up with it: its last "
+                              "pictures are missing"),
+            std::string::npos)
+      << floor->err();
+}
 
 TEST(ProgramCluster, TheTrackersAreThoseOfWhoLeadsAndTheOthersNeedNotNameThem) {
   const TwoLive two;

@@ -444,6 +444,76 @@ TEST(ClusterHearing, WhoLeadsEndsTheShowForAll) {
   EXPECT_FALSE(f->isToJoinAgain());
 }
 
+/// Of a show of some frames: of which of them this machine is a member, and which all have drawn.
+struct PlayedByOthers {
+  std::vector<bool> member;
+  std::uint64_t go = 0;
+};
+
+bool missesTheEndOf(const PlayedByOthers& show) {
+  const auto f = follower();
+  Session s = session(60, false);
+  f->hear(s);
+  EXPECT_TRUE(f->join());
+  WrittenOrder written;
+  FrameOrder order;
+  for (std::size_t i = 0; i < show.member.size(); ++i) {
+    order.signature = signatureAt(i, 60);
+    f->hear(written.write({1, i + 1, show.member[i] ? 3U : 1U, 0}, order, nullptr));
+  }
+  f->hear(Go{1, show.go, 0});
+  for (TimeSignature none; f->next();) f->mayShow(none);
+  EXPECT_FALSE(f->missedTheEnd()) << "it is not over";
+  s.begun = s.over = true;
+  f->hear(s);
+  return f->missedTheEnd();
+}
+
+TEST(ClusterHearing, WhoDoesNotShowTheLastFrameHasMissedTheEnd) {
+  EXPECT_FALSE(missesTheEndOf({{}, 0})) << "a show without frames has been seen";
+  EXPECT_FALSE(missesTheEndOf({{true, true}, 2}));
+  EXPECT_FALSE(missesTheEndOf({{true, false, true}, 3})) << "it was left out, and is back";
+  EXPECT_TRUE(missesTheEndOf({{true, false, false}, 3})) << "it was left out, and is not back";
+  EXPECT_TRUE(missesTheEndOf({{true, true}, 1})) << "the last frame was torn";
+}
+
+TEST(ClusterHearing, WhoIsStillJoiningAsTheShowEndsHasMissedTheEnd) {
+  const auto f = follower();
+  Session s = session(60, true);
+  std::vector<std::uint8_t> bytes(10, 3);
+  StatePart part{};
+  part.to = 7, part.session = 1, part.serial = 4, part.size = 10;
+  part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
+  f->hear(s);
+  f->hear(part);
+  ASSERT_TRUE(f->join());
+  s.over = true;
+  f->hear(s);
+  EXPECT_TRUE(f->missedTheEnd());
+}
+
+/// Who leads died when the last frame had been shown, and had its scene from us.
+TEST(ClusterHearing, WhoHasShownTheLastFrameHasNotMissedItWhoeverEndsTheShow) {
+  for (const bool shown : {true, false}) {
+    auto kept = std::make_shared<KeptScene>();
+    kept->parcel.session = 1, kept->parcel.serial = 5, kept->parcel.frame = 4, kept->shown = shown;
+    const auto f =
+        Follower::unconnected({room(), 1, {1}, [](const std::string&) {}, [] { return true; }, {}, kept}, 7);
+    Session s = session(60, true);
+    s.number = 2, s.resumes = 1;
+    f->hear(s);
+    std::vector<std::uint8_t> bytes(10, 3);
+    StatePart part{};
+    part.to = 7, part.session = 2, part.serial = 0, part.frame = 4, part.size = 10;
+    part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
+    f->hear(part);
+    ASSERT_TRUE(f->join());
+    s.over = true;
+    f->hear(s);
+    EXPECT_EQ(f->missedTheEnd(), !shown);
+  }
+}
+
 TEST(ClusterHearing, WhatAnotherMachineSaysIsNoCommandToATerminal) {
   std::string told;
   const auto lead = Lead::unconnected({room(),
