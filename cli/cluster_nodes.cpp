@@ -50,9 +50,11 @@ std::string wholeContentOf(const Descriptor& file) {
 
 }  // namespace
 
-void ClusterNodes::add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal) {
+void ClusterNodes::add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal,
+                       bool keepsPictures) {
   Node& node = nodes_.emplace_back();
   node.name = std::move(name), node.words = std::move(words), node.journal = std::move(journal);
+  node.keepsPictures = keepsPictures;
 }
 
 void ClusterNodes::watchLead(std::unique_ptr<SharedProgress> progress, Nanoseconds after) {
@@ -110,7 +112,7 @@ void ClusterNodes::ended(Node& node, int status) {
   const bool over = once_ || *stop_ || leadIsGone();
   node.state = State::Ended, node.status = status;
   if (mayMissPictures(node)) {
-    sayOf(node, "has not heard that the show is over: its last pictures may be missing");
+    sayOf(node, "was not done when the show was over: its last pictures may be missing");
     node.status = node.died != 0 ? node.died : kBadInput;
     return;
   }
@@ -138,10 +140,10 @@ void ClusterNodes::ended(Node& node, int status) {
                            : fmt::format(", {} times in a row, and begins again after a pause", deaths)));
 }
 
-/// Asked to end, because it still waited for who leads when that was gone.
+/// The show has come to its end, and this node, which went on or still waited, had to be asked to end.
 bool ClusterNodes::mayMissPictures(const Node& node) const {
-  return needsAll_ && othersAsked_ && node.asked && !*stop_ && wasAskedToEnd(node.status) &&
-         !hasFailed(nodes_[lead_].status);
+  return node.keepsPictures && nodes_[lead_].status == kOk && othersAsked_ && !*stop_ && node.asked &&
+         wasAskedToEnd(node.status);
 }
 
 /// A scene differed, and the cluster file says that the show is to end then.

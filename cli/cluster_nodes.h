@@ -37,11 +37,9 @@ public:
   ClusterNodes(const ClusterFile& cluster, bool once, std::chrono::milliseconds patience = kPatience)
       : lead_(cluster.lead), stopOnDifference_(cluster.stopOnDifference), once_(once), patience_(patience) {}
   /// In the file's order. `words`: the program and its arguments. What becomes of it is told in its journal,
-  /// too, if it has one.
-  void add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal = nullptr);
-
-  /// Pictures are kept: a node that has to be asked to end, since it was not there at the end, has failed.
-  void needAll() { needsAll_ = true; }
+  /// too, if it has one. `keepsPictures`: it has failed if it was not there when the show ended.
+  void add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal = nullptr,
+           bool keepsPictures = false);
   /// Who leads is killed if it shows nothing for so long [ns]; its words name the descriptor of `progress`.
   void watchLead(std::unique_ptr<SharedProgress> progress, Nanoseconds after);
   /// Begins them all and looks after them until all have ended. The exit code.
@@ -57,6 +55,7 @@ private:
     std::string name;
     std::vector<std::string> words;
     std::unique_ptr<Journal> journal{};
+    bool keepsPictures = false;
     State state = State::Ended;
     int status = 0;  ///< the last exit status; 128 + signal
     unsigned starts = 0;
@@ -94,8 +93,7 @@ private:
   std::optional<HangWatch> watch_{};
   std::optional<Clock::time_point> goneSince_{};   ///< who leads
   std::optional<Clock::time_point> askedSince_{};  ///< the nodes, to end
-  bool needsAll_ = false;
-  bool othersAsked_ = false;  ///< to end after who leads
+  bool othersAsked_ = false;                       ///< to end after who leads
 };
 
 }  // namespace stadion

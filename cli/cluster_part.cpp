@@ -110,10 +110,13 @@ bool ClusterPart::join(ShowOptions& show, Diagnostics& findings) {
 }
 
 bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
+  over_ = follower_ && follower_->isOver();
+  if (over_) return false;
+  const std::uint64_t played = follower_ ? follower_->session() : 0;
   follower_.reset();
   auto opened = cluster::Follower::open({file_, node_, termsOf(options_, file_),
                                          [this](const std::string& what) { tell(what); }, nobodyWaits,
-                                         [] { return stopSignal() != 0; }, std::move(kept_)});
+                                         [] { return stopSignal() != 0; }, std::move(kept_), played});
   if (!opened) return findings.add(opened.error()), false;
   follower_ = std::move(opened.value());
   const auto joining = follower_->join();

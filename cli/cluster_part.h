@@ -59,7 +59,7 @@ public:
   bool hasDouble() const;
   /// join() has failed because who leads has ended the show: nothing is left to join.
   bool isOver() const { return over_; }
-  /// The show has ended before its last frame could be shown here.
+  /// The show is over, and its last frame was not shown here.
   bool missedTheEnd() const { return follower_ && follower_->missedTheEnd(); }
   /// There is no show because who leads has other files.
   bool hasOtherFiles() const { return otherFiles_; }

@@ -11,7 +11,7 @@ namespace stadion {
 enum ExitCode : int {
   kOk = 0,
   kCheckFailed = 1,    ///< a check or comparison failed
-  kBadInput = 2,       ///< bad usage, or a file of the user's is wrong
+  kBadInput = 2,       ///< bad usage, a file of the user's is wrong, or not all that was asked for is there
   kInternalFault = 3,  ///< our fault, OpenGL's, or the display is gone
   kOtherFiles = 4,     ///< of a cluster: who leads has other files; with its next show they may be alike
   kStopped = 128,      ///< plus the number of the signal that ended a run, as shells have it: 130, 143

@@ -83,15 +83,16 @@ std::vector<std::string> wordsOfNode(const CLI::App& command, const RunOptions& 
   return words;
 }
 
-void checkWordsOfNode(std::vector<std::string> words, Diagnostics& findings) {
+RunOptions optionsOfNode(std::vector<std::string> words, Diagnostics& findings) {
   CLI::App run;
   RunOptions o;
   o.addTo(run);
   std::ranges::reverse(words);  // as CLI takes them
   run.parse(std::move(words));
-  if (!o.settle(findings)) return;
+  if (!o.settle(findings)) return o;
   refuseUnwritable(o.namedFiles(), findings);
   ClusterPart::create(o, findings);
+  return o;
 }
 
 }  // namespace stadion

@@ -281,22 +281,24 @@ bool setUp(RunOptions& o, const std::atomic<bool>& stop, RunSetup& s, Diagnostic
   return true;
 }
 
-bool keepsPictures(const RunOptions& o) {
-  return !o.out.empty() && o.provider != "none" &&
-         (o.pictureChoice.kind != PictureChoice::Kind::None || o.video || o.hashes);
-}
-
 /// Of a show that was played well, or is over: whether all that was asked for is there.
 int codeOfWhatIsMissing(const RunOptions& o, const RunSetup& s) {
   if (!s.cluster) return kOk;
   if (s.recordsNothing || s.cluster->hasDouble()) return kBadInput;
-  if (!keepsPictures(o) || !s.cluster->missedTheEnd()) return kOk;
+  if (!o.keepsPictures() || !s.cluster->missedTheEnd()) return kOk;
   o.say("--out: the show ended before this machine had caught up with it: its last pictures are missing");
   return kBadInput;
 }
 
-/// Plays the show to its end and reports on it, unless it is to begin again: then there is no exit code yet.
-std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
+/// What follows once a show has been played.
+enum class Then { Ends, NextGroup, JoinAgain };
+struct Played {
+  Then then = Then::Ends;
+  int code = kOk;  ///< if it ends
+};
+
+/// Plays the show to its end and, if nothing follows, reports on it.
+Played play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   ShowRecording* const recording = s.recording.get();
   ProgressBar progress(s.player->frames());
   const ShowStages* running = nullptr;
@@ -353,9 +355,11 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
   if (s.supervised) s.supervised->enter(SharedProgress::Phase::Ending);
-  const bool again = outcome.nextGroup || (s.cluster && s.cluster->isToJoinAgain());
-  if (s.cluster) s.cluster->finish(!again && !outcome.failure);
-  if (again && !outcome.failure && !stop) return {};
+  const Then then = outcome.nextGroup                         ? Then::NextGroup
+                    : s.cluster && s.cluster->isToJoinAgain() ? Then::JoinAgain
+                                                              : Then::Ends;
+  if (s.cluster) s.cluster->finish(then == Then::Ends && !outcome.failure);
+  if (then != Then::Ends && !outcome.failure && !stop) return {then};
   if (recording && outcome.failure) recording->keepLastFrames();
 
   int code =
@@ -367,11 +371,11 @@ std::optional<int> play(const RunOptions& o, const std::atomic<bool>& stop, RunS
   if (code == kOk) code = codeOfWhatIsMissing(o, s);
   if (const auto wrong = s.spans ? s.spans->finish() : std::nullopt) {
     std::fprintf(stderr, "stadion: --spans: %s\n", wrong->message.c_str());
-    return code == kOk ? kBadInput : code;
+    return {Then::Ends, kBadInput};
   }
   if (recording && !tellRecording(o, *recording, *s.player, stages.glDescription()))
-    return code == kOk ? kBadInput : code;
-  return code;
+    return {Then::Ends, code == kOk ? kBadInput : code};
+  return {Then::Ends, code};
 }
 
 /// Waits until the script is saved again or the next group is asked for once more; false if the run is to
@@ -457,12 +461,10 @@ int playShow(RunOptions& o, RunSetup& setup, Diagnostics findings) {
   }
   if (setup.journal) setup.journal->began(o, *setup.player);
   for (;;) {
-    if (const auto code = play(o, stop, setup)) return *code;
-    if (setup.cluster && setup.cluster->isToJoinAgain()) {
-      if (!joinAgain(o, stop, setup)) return codeWithoutShow(o, stop, setup);
-      continue;
-    }
-    if (!nextGroup(o, stop, setup)) return codeWithoutShow(o, stop, setup);
+    const Played played = play(o, stop, setup);
+    if (played.then == Then::Ends) return played.code;
+    const bool well = played.then == Then::NextGroup ? nextGroup(o, stop, setup) : joinAgain(o, stop, setup);
+    if (!well) return codeWithoutShow(o, stop, setup);
   }
 }
 

@@ -289,6 +289,11 @@ bool RunOptions::settle(Diagnostics& findings) {
   return show.settle(findings) && !findings.hasErrors();
 }
 
+bool RunOptions::keepsPictures() const {
+  return !out.empty() && provider != "none" &&
+         (pictureChoice.kind != PictureChoice::Kind::None || video || hashes);
+}
+
 std::vector<NamedFile> RunOptions::namedFiles() const {
   return {{"--rig", trackers.rig, false}, {"--record-input", recordInput}, {"--trace-events", events.file},
           {"--spans", spans.file},        {"--black-box", blackBox},       {"--journal", journal}};

@@ -84,6 +84,8 @@ struct RunOptions {
   void settleHead(Diagnostics& findings);
   void addSupervisionTo(CLI::App& command);
   void settleSupervision(Diagnostics& findings) const;
+  /// Whether pictures are asked for, as files, as a video or as hashes. After settle().
+  bool keepsPictures() const;
   /// Whether the options ask for a run that does not go by the clock.
   bool asksForEveryFrame() const;
   /// Every frame counts where somebody looks at the result later, and where a log says when each one was;

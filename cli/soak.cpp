@@ -152,7 +152,7 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
 
 void Soak::see(const TimeSignature& now, const Scene& scene, const RunWatch& watch) {
   SoakCounts& c = record_.counts;
-  const std::uint64_t wrong = c.wrongSteps + c.wrongHashes;
+  const std::uint64_t wrong = c.wrongSteps;
   ++c.frames;
   if (now.step != signatureAt(now.frame, 60).step || now.time != before_ + now.step) ++c.wrongSteps;
   before_ = now.time;
@@ -160,8 +160,8 @@ void Soak::see(const TimeSignature& now, const Scene& scene, const RunWatch& wat
   loadsVersion_ = scene.loadsVersion();
   const bool another = now.frame % kCheckEvery == 0 && !record_.agrees(show_, now.frame, watch.history());
   if (another) ++c.wrongHashes;
-  if (wrong == 0 && c.wrongSteps + c.wrongHashes > 0) keepCounts();  // whatever ends the run now
-  // Only what is kept is told: who reads it may end the run.
+  // Whatever ends the run now. Only what is kept is told: who reads it may end the run.
+  if (another || (wrong == 0 && c.wrongSteps > 0)) keepCounts();
   if (another)
     std::fprintf(stderr, "%s: frame %ju has another history of states than before\n", show_.c_str(),
                  static_cast<std::uintmax_t>(now.frame));

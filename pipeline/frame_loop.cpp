@@ -75,6 +75,8 @@ FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std:
   lastSignature_ = *options.after, lastSignature_.load = {};
   nextIndex_ = options.after->frame + 1;
   begun_ = true;  // it may stand still at that frame
+  const bool follows = options.orders && !options.orders->leads();
+  ended_ = !follows && isPastEnd();
 }
 
 FrameLoopOutcome FrameLoop::run() {
@@ -283,7 +285,12 @@ TimeSignature FrameLoop::signatureAfter(std::uint64_t ticks, double speed) {
 // Asked once a frame, on the App thread, after App: so that the last frame is known before it is drawn.
 bool FrameLoop::noneFollows() {
   if (stopRequested_) stopped_ = true;
-  return stopped_ || ending_ || (options_.frames != 0 && nextIndex_ >= options_.frames) ||
+  return stopped_ || ending_ || isPastEnd();
+}
+
+/// Whether the show is no longer than what has been played.
+bool FrameLoop::isPastEnd() const {
+  return (options_.frames != 0 && nextIndex_ >= options_.frames) ||
          (options_.end > 0 && clock_.timeOfNext() > options_.end);
 }
 

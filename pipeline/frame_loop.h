@@ -105,6 +105,7 @@ private:
   FrameLoad loadOf(std::uint64_t frame);
   TimeSignature signatureAfter(std::uint64_t ticks, double speed);
   bool noneFollows();
+  bool isPastEnd() const;
 
   bool passesOver(const FrameTicket& ticket);
   std::optional<FrameTicket> appStage(const Turn& turn, std::size_t slot);

@@ -36,7 +36,7 @@ private:
 
 Follower::Follower(FollowerOptions options, std::uint64_t incarnation)
     : options_(std::move(options)), incarnation_(incarnation),
-      showsLast_(options_.kept && options_.kept->shown), kept_(options_.kept),
+      framesShown_(options_.kept ? options_.kept->framesShown : 0), kept_(options_.kept),
       input_(std::make_unique<OrderedInput>(*this)) {}
 
 Follower::~Follower() {
@@ -123,8 +123,10 @@ std::optional<Joining> Follower::join() {
 /// With the lock.
 std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock) {
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
-  const auto known = [&] { return session_.number != 0 && session_.giver == kNobody && !session_.over; };
-  if (!await(lock, (lead + ", who leads").c_str(), known)) return {};
+  const auto known = [&] {
+    return over_ || (session_.number != 0 && session_.giver == kNobody && !session_.over);
+  };
+  if (!await(lock, (lead + ", who leads").c_str(), known) || over_) return {};
   const Agreement theirs = read(session_.terms);
   if (const std::string why = refusal(theirs, options_.terms, lead); !why.empty()) {
     options_.tell(why);
@@ -136,12 +138,9 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
   std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.session != joined_; });
   if (incoming_.session() != joined_) incoming_ = {};
   const std::uint64_t ofKept = kept_ ? kept_->parcel.session : joined_;
-  if (ofKept != joined_ && ofKept != session_.resumes) kept_.reset();  // it is another show
+  if (ofKept != joined_ && ofKept != session_.resumes) kept_.reset(), framesShown_ = 0;  // it is another show
   Joining joining{session_.rate, {}, {}, 0, theirs.input != 0};
-  if (!session_.begun && session_.resumes == 0) {
-    showsLast_ = true;  // there is none yet
-    return joining;
-  }
+  if (!session_.begun && session_.resumes == 0) return joining;
   if (session_.begun) awaitDouble(lock);
   if (hasEnded()) return {};
   announce(Phase::Asking);
@@ -153,9 +152,7 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
     return incoming_.complete() || hasEnded();
   };
   if (!await(lock, ("the scene's state from " + lead).c_str(), has) || hasEnded()) return {};
-  KeptScene theirScene{incoming_.take(), show_, false};
-  theirScene.shown = showsLast_ = kept_ && kept_->shown && kept_->parcel.frame == theirScene.parcel.frame;
-  const auto kept = std::make_shared<const KeptScene>(std::move(theirScene));
+  const auto kept = std::make_shared<const KeptScene>(KeptScene{incoming_.take(), show_, framesShown_});
   kept_ = kept;
   const SceneParcel& parcel = kept->parcel;
   obeyed_ = parcel.serial, plays_ = true;
@@ -197,6 +194,7 @@ std::optional<FrameOrder> Follower::next() {
   const bool isNew = std::exchange(kept_, nullptr) || !plays_;
   plays_ = true;
   if (isNew) announce(told_);
+  if (heard.order.last) frames_ = frame_ + 1;
   heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
   // Left out, for being late: whoever has caught up is taken back.
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
@@ -233,14 +231,13 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   return !goesOn;
 }
 
-bool Follower::mayShow(const TimeSignature&) {
+bool Follower::mayShow(const TimeSignature& now) {
   const Promptness prompt;
   std::unique_lock lock(mutex_);
   if (shows_.empty()) return false;
   const auto [serial, member] = shows_.front();
   shows_.pop_front();
   shown_ = serial;
-  showsLast_ = false;
   if (!member) return true;
   const Drawn told{static_cast<std::uint8_t>(options_.node), joined_, serial};
   bus_->tell(told);
@@ -250,8 +247,9 @@ bool Follower::mayShow(const TimeSignature&) {
     if (changed_.wait_for(lock, kLook) == std::cv_status::timeout) bus_->tell(told), announceProgress();
   if (go_ == serial && latest_ == options_.node)
     tally_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
-  showsLast_ = go_ >= serial;
-  return showsLast_;
+  if (go_ < serial) return false;
+  framesShown_ = now.frame + 1;
+  return true;
 }
 
 void Follower::simulated(std::uint64_t frame, std::uint64_t digest) {
@@ -283,12 +281,23 @@ bool Follower::isRefused() const {
 
 bool Follower::missedTheEnd() const {
   const std::lock_guard lock(mutex_);
-  return over_ && !showsLast_;
+  return framesShown_ < frames_;
+}
+
+std::uint64_t Follower::session() const {
+  const std::lock_guard lock(mutex_);
+  return joined_;
 }
 
 bool Follower::isOver() const {
   const std::lock_guard lock(mutex_);
   return over_;
+}
+
+/// With the mutex: whether it is the one that we play, or, as long as we play none, goes on with ours.
+bool Follower::isOurs(const Session& session) const {
+  if (joined_ != 0) return session.number == joined_;
+  return options_.played != 0 && (session.number == options_.played || session.resumes == options_.played);
 }
 
 void Follower::hear(const Session& session) {
@@ -299,8 +308,11 @@ void Follower::hear(const Session& session) {
     // Who led before, was taken for dead and comes back leads no more.
     if (session.number < session_.number && hasShow(session_)) return;
     session_ = session;
-    if (session.over && session.number == joined_ && !std::exchange(over_, true))
-      options_.tell(options_.cluster.nodes[options_.cluster.lead].name + " has ended the show");
+    if (session.over && isOurs(session)) {
+      frames_ = session.shown;
+      if (!std::exchange(over_, true))
+        options_.tell(options_.cluster.nodes[options_.cluster.lead].name + " has ended the show");
+    }
     // While another one is asked for its scene, we keep ours.
     const bool holds =
         session.resumes == joined_ && session.giver != kNobody && session.giver != options_.node;
@@ -373,7 +385,7 @@ void Follower::keep(const TimeSignature& last, SavedScene scene) {
   parcel.frame = last.frame, parcel.time = last.time, parcel.scene = std::move(scene);
   const std::lock_guard lock(mutex_);
   parcel.session = joined_, parcel.serial = obeyed_, kept.show = show_;
-  parcel.still = still_, parcel.shown = presentation_, kept.shown = showsLast_;
+  parcel.still = still_, parcel.shown = presentation_, kept.framesShown = framesShown_;
   kept_ = std::make_shared<const KeptScene>(std::move(kept));
   giveIfAsked();
 }

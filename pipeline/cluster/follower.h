@@ -38,6 +38,7 @@ struct FollowerOptions {
   std::function<bool()> stop;               ///< nobody waits any longer
   std::function<bool()> leave{};            ///< no further order is to be obeyed
   std::shared_ptr<const KeptScene> kept{};  ///< by the follower before
+  std::uint64_t played = 0;                 ///< the session of that; 0: there was none
 };
 
 /// How the show is to be opened.
@@ -80,8 +81,10 @@ public:
   bool isRefused() const;
   /// Who leads has ended the show for all.
   bool isOver() const;
-  /// It is over, and its last frame was not shown here: we were still catching up, or had been left out.
+  /// The show is over, and its last frame was not shown here: we were still catching up, or had been left
+  /// out.
   bool missedTheEnd() const;
+  std::uint64_t session() const;  ///< the number of the one that was joined; 0: none
   /// The run has ended, and the scene is to be kept: for who leads anew and asks for it, or for the next
   /// follower.
   bool keepsScene() const;
@@ -108,6 +111,7 @@ private:
   class OrderedInput;
 
   Follower(FollowerOptions options, std::uint64_t incarnation);
+  bool isOurs(const Session& session) const;
   void announce(Phase phase);
   void announceProgress();
   void giveIfAsked();
@@ -134,6 +138,8 @@ private:
   std::optional<bool> isMember_;  ///< by the newest order, whoever of our name that is
   Compare compare_;
   std::uint64_t obeyed_ = 0, go_ = 0, shown_ = 0;
+  std::uint64_t framesShown_;  ///< the last frame that our walls have shown, and one; 0: none
+  std::uint64_t frames_ = 0;   ///< once the show is over: the last one that was shown anywhere, and one
   std::uint8_t latest_ = 0;
   Phase told_ = Phase::Waiting;
   std::uint64_t announced_ = 0;  ///< how often
@@ -142,7 +148,6 @@ private:
       shows_;  ///< orders obeyed and not shown yet: whether we draw them
   bool again_ = false, double_ = false, refused_ = false;
   bool over_ = false;                      ///< who leads has ended the show
-  bool showsLast_;                         ///< of the frames that there were: it is shown here
   bool plays_ = false;                     ///< there is a scene from which the show can go on
   bool differs_ = false;                   ///< but it is not that of the others
   std::shared_ptr<const KeptScene> kept_;  ///< until there is another one

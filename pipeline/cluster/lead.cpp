@@ -218,7 +218,7 @@ void Lead::send(const InputSample* input) {
   std::uint32_t members = 0;
   for (std::size_t i = 0; i < followers_.size(); ++i)
     if (followers_[i].member) members |= bit(i);
-  rounds_.push_back({++serial_, members, {}});
+  rounds_.push_back({++serial_, pending_.signature.frame, members, {}});
   bus_->tell(
       written_.write({session_.number, serial_, members, std::exchange(explain_, 0)}, pending_, input));
   const std::uint64_t bytes = written_.bytes();
@@ -301,7 +301,7 @@ void Lead::leaveOutWhoIsStuck() {
 void Lead::release() {
   bool released = false;
   while (!rounds_.empty() && rounds_.front().awaited == 0 && rounds_.front().drawnHere) {
-    go_ = rounds_.front().serial;
+    go_ = rounds_.front().serial, session_.shown = rounds_.front().frame + 1;
     rounds_.pop_front();
     released = true;
   }

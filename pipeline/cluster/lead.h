@@ -128,7 +128,7 @@ private:
   };
   /// An order that not all have drawn.
   struct Round {
-    std::uint64_t serial = 0;
+    std::uint64_t serial = 0, frame = 0;
     std::uint32_t awaited = 0;
     std::optional<Clock::time_point> drawnHere{};
   };

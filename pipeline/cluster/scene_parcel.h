@@ -32,8 +32,8 @@ struct SceneParcel {
 /// which order of which session it is.
 struct KeptScene {
   SceneParcel parcel;
-  std::uint64_t show = 0;  ///< Agreement::show() of that session
-  bool shown = true;       ///< its frame, on our walls
+  std::uint64_t show = 0;         ///< Agreement::show() of that session
+  std::uint64_t framesShown = 0;  ///< Follower::framesShown_ then
 };
 
 /// May take long: it is large.

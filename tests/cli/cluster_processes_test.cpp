@@ -256,26 +256,33 @@ TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoDiedAndIsNotBackAtTheEndHas
     const TemporaryFolder folder;
     const std::string starts = folder.write("starts", "");
     ClusterNodes nodes(twoNodes(), false, kShort);
-    if (needed) nodes.needAll();
     nodes.add("front", {"sh", "-c", "until [ $(wc -l <" + starts + ") -ge 2 ]; do sleep 0.1; done"});
     nodes.add(
         "left",
-        {"sh", "-c", "echo >>" + starts + "; [ $(wc -l <" + starts + ") -gt 1 ] || exit 3; exec sleep 600"});
+        {"sh", "-c", "echo >>" + starts + "; [ $(wc -l <" + starts + ") -gt 1 ] || exit 3; exec sleep 600"},
+        nullptr, needed);
     EXPECT_EQ(nodes.play(), needed ? 3 : 0);
   }
 }
 
-TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoHasNotHeardOfTheEndHasFailed) {
+TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoWasNotDoneAtTheEndHasFailed) {
   ClusterNodes nodes(twoNodes(), false, kShort);
-  nodes.needAll();
-  nodes.add("front", {"true"});
-  nodes.add("left", {"sh", "-c", "trap 'exit 130' INT; while :; do sleep 0.1; done"});
+  nodes.add("front", {"true"}, nullptr, true);
+  nodes.add("left", {"sleep", "600"}, nullptr, true);
   testing::internal::CaptureStderr();
   EXPECT_EQ(nodes.play(), 2);
   const std::string told = testing::internal::GetCapturedStderr();
   EXPECT_TRUE(
-      has(told, "cluster: left has not heard that the show is over: its last pictures may be missing\n"))
+      has(told, "cluster: left was not done when the show was over: its last pictures may be missing\n"))
       << told;
+}
+
+/// The others wait for who leads, which was asked to end before there was a show.
+TEST(ProgramClusterProcesses, OfAShowThatWasStoppedNoPictureIsMissed) {
+  ClusterNodes nodes(twoNodes(), false, kShort);
+  nodes.add("front", {"sh", "-c", "exit 143"}, nullptr, true);
+  nodes.add("left", {"sleep", "600"}, nullptr, true);
+  EXPECT_EQ(nodes.play(), 128 + SIGTERM);
 }
 
 TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotBeginAgain) {

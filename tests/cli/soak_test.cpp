@@ -113,8 +113,11 @@ TEST(ProgramSoak, AStateThatIsNotThatOfBeforeIsNotForgottenWhenTheSoakIsKilled) 
   const auto words = [&](const char* frames) { return shortSoak(record, frames); };
   ASSERT_EQ(stadionProgram(words("1000")).status, 0);
   std::string text = fileContent(record);
-  text.insert(text.find_first_of("0123456789", text.find("\"history\":")), "1");
-  folder.write("soak.record", text.substr(0, text.find('\n', text.find("\"history\":")) + 1));
+  // That of frame 500: no sample is taken soon after it.
+  const std::size_t history = text.find("\"history\":", text.find("\"frame\":500"));
+  ASSERT_NE(history, std::string::npos) << text;
+  text.insert(history + 10, "1");
+  folder.write("soak.record", text.substr(0, text.find('\n', history) + 1));
   {
     auto all = words("1000000000");
     all.insert(all.begin(), stadionPath());
@@ -125,7 +128,7 @@ TEST(ProgramSoak, AStateThatIsNotThatOfBeforeIsNotForgottenWhenTheSoakIsKilled) 
   }
   // Nothing it compared before it was killed shows it any more.
   text = fileContent(record);
-  text.erase(text.find("\"history\":") + 10, 1);
+  text.erase(history + 10, 1);
   folder.write("soak.record", text);
   const ProgramResult r = stadionProgram(words("1200"));
   EXPECT_EQ(r.status, 1) << r.out << r.err;

@@ -322,6 +322,19 @@ TEST(ThreadsFrameLoop, AShowThatGoesOnWherePausedStandsStill) {
   }
 }
 
+TEST(ThreadsFrameLoop, AShowThatWouldGoOnAfterItsLastFrameIsOver) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
+    for (const bool byFrames : {true, false}) {
+      CountingStages stages(1, kSlots);
+      FrameLoopOptions o;
+      o.mode = mode, o.rate = 10, o.after = signatureAt(7, 10);
+      byFrames ? void(o.frames = 8) : void(o.end = o.after->time);
+      const FrameLoopOutcome outcome = runFrames(stages, o);
+      EXPECT_EQ(outcome.framesSimulated, 0u);
+      EXPECT_FALSE(outcome.stopped || outcome.failure);
+    }
+}
+
 TEST(ThreadsFrameLoop, APauseThatHoldsFromLaterOnIsCaughtUpWith) {
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
     Playback playback;

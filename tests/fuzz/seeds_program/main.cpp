@@ -117,16 +117,19 @@ void writeConversations(const Folder& to) {
   waiting.number = 1, waiting.terms.script = 1, waiting.rate = 60, waiting.giver = kNobody;
   Session begun = waiting;
   begun.begun = true;
+  Session over = begun;
+  over.over = true, over.shown = 40;
   std::vector<std::uint8_t> state(40, 7);
   StatePart part{};
   part.to = 1, part.session = 1, part.serial = 1, part.size = 2 * state.size();
   part.bytes._buffer = state.data(), part.bytes._length = part.bytes._maximum = 40;
   StatePart rest = part;
   rest.offset = 40;
-  to.add("from_the_beginning", Conversation()(Step::Session, stadion_wire_Session_desc, waiting)(Step::Join)(
-                                   Step::Order, orderOf(1))(Step::Order, orderOf(2))(Step::Next)(Step::Next)(
-                                   Step::Show)(Step::Go, stadion_wire_Go_desc, Go{1, 2, 1})
-                                   .seed());
+  to.add("from_the_beginning",
+         Conversation()(Step::Session, stadion_wire_Session_desc, waiting)(Step::Join)(
+             Step::Order, orderOf(1))(Step::Order, orderOf(2))(Step::Next)(Step::Next)(Step::Show)(
+             Step::Go, stadion_wire_Go_desc, Go{1, 2, 1})(Step::Session, stadion_wire_Session_desc, over)
+             .seed());
   to.add("joins_later", Conversation()(Step::Session, stadion_wire_Session_desc,
                                        begun)(Step::StatePart, stadion_wire_StatePart_desc,
                                               part)(Step::StatePart, stadion_wire_StatePart_desc,
