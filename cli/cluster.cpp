@@ -28,9 +28,8 @@ struct ClusterOptions {
 };
 
 /// Whether nothing is wrong that each node would find and tell by itself, or wait for the others meanwhile.
-/// What there is to warn of is the same for all. `ofNodes`: the options that each has.
-bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::string>>& words,
-                 std::vector<RunOptions>& ofNodes) {
+/// What there is to warn of is the same for all.
+bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::string>>& words) {
   const auto isWell = [](const Diagnostics& findings) {
     if (findings.hasErrors()) tell(findings);
     return !findings.hasErrors();
@@ -38,7 +37,7 @@ bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::str
   Diagnostics findings;
   for (const std::vector<std::string>& ofNode : words) {
     findings = {};
-    ofNodes.push_back(optionsOfNode(ofNode, findings));
+    checkWordsOfNode(ofNode, findings);
     if (!isWell(findings)) return false;
   }
   if (!isWell(checkScripts(o.run.show.script, o.run.show.assetRoots))) return false;
@@ -84,17 +83,17 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
   std::vector<std::vector<std::string>> words;
   for (std::size_t i = 0; i < cluster->nodes.size(); ++i)
     words.push_back(wordsOfNode(command, o.run, *cluster, i));
-  std::vector<RunOptions> ofNodes;
-  if (!canBePlayed(o, words, ofNodes)) return kBadInput;
+  if (!canBePlayed(o, words)) return kBadInput;
   if (!makeFolders(o.run.out, *cluster, findings)) return tell(findings), kBadInput;
   auto progress = SharedProgress::create();
   if (!progress) findings.add(progress.error());
   if (findings.hasErrors()) return tell(findings), kBadInput;
   ClusterNodes nodes(*cluster, o.once);
+  if (!o.run.out.empty()) nodes.needAll();
   for (std::size_t i = 0; i < words.size(); ++i)
     nodes.add(cluster->nodes[i].name,
               programOf(words[i], i == cluster->lead ? progress.value().get() : nullptr),
-              openJournal(o.run.journal, cluster->nodes[i], findings), ofNodes[i].keepsPictures());
+              openJournal(o.run.journal, cluster->nodes[i], findings));
   // Who leads may wait for a node that lives and draws nothing (pipeline/cluster/lead.cpp).
   nodes.watchLead(std::move(progress.value()),
                   fromSeconds(o.run.hangAfter + cluster::Lead::kStuck * cluster->deadline));

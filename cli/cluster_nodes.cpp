@@ -50,11 +50,9 @@ std::string wholeContentOf(const Descriptor& file) {
 
 }  // namespace
 
-void ClusterNodes::add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal,
-                       bool keepsPictures) {
+void ClusterNodes::add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal) {
   Node& node = nodes_.emplace_back();
   node.name = std::move(name), node.words = std::move(words), node.journal = std::move(journal);
-  node.keepsPictures = keepsPictures;
 }
 
 void ClusterNodes::watchLead(std::unique_ptr<SharedProgress> progress, Nanoseconds after) {
@@ -89,6 +87,7 @@ int ClusterNodes::play() {
     if (stop && !std::exchange(forwarded, true)) ask(stopSignal());
     for (Node& node : nodes_) look(node);
     killHangingLead();
+    endLeadOfNobody();
     endWithLead();
     killWhoHangs();
   }
@@ -111,8 +110,8 @@ void ClusterNodes::look(Node& node) {
 void ClusterNodes::ended(Node& node, int status) {
   const bool over = once_ || *stop_ || leadIsGone();
   node.state = State::Ended, node.status = status;
-  if (mayMissPictures(node)) {
-    sayOf(node, "was not done when the show was over: its last pictures may be missing");
+  if (isIncomplete(node)) {
+    sayOf(node, "was not done when the show was over: what it has written may not be whole");
     node.status = node.died != 0 ? node.died : kBadInput;
     return;
   }
@@ -141,8 +140,8 @@ void ClusterNodes::ended(Node& node, int status) {
 }
 
 /// The show has come to its end, and this node, which went on or still waited, had to be asked to end.
-bool ClusterNodes::mayMissPictures(const Node& node) const {
-  return node.keepsPictures && nodes_[lead_].status == kOk && othersAsked_ && !*stop_ && node.asked &&
+bool ClusterNodes::isIncomplete(const Node& node) const {
+  return needsAll_ && nodes_[lead_].status == kOk && othersAsked_ && !*stop_ && node.asked &&
          wasAskedToEnd(node.status);
 }
 
@@ -197,6 +196,22 @@ void ClusterNodes::killHangingLead() {
   sayOf(lead, fmt::format("has shown nothing for {:g} s, and is killed", toSeconds(*silent)));
   lead.child.kill();
   watch_.reset();
+}
+
+/// Who leads has died, but the show was over for the others. Begun again, it would play it once more, alone.
+void ClusterNodes::endLeadOfNobody() {
+  Node& lead = nodes_[lead_];
+  const auto isOther = [&](const Node& node) { return &node != &lead; };
+  const auto isDone = [](const Node& node) { return node.state == State::Ended && node.status == kOk; };
+  const bool opens = lead.state == State::Plays && lead.died != 0 && progress_ &&
+                     progress_->phase() == SharedProgress::Phase::Opening;
+  if (lead.state != State::Pauses && !opens) return;
+  if (std::ranges::none_of(nodes_, isDone)) return;
+  if (std::ranges::any_of(nodes_, [&](const Node& n) { return isOther(n) && n.state != State::Ended; }))
+    return;
+  if (lead.child.running()) lead.child.kill(), lead.child.wait(std::chrono::seconds(1));
+  lead.state = State::Ended, lead.status = lead.died;
+  sayOf(lead, "does not play again: the show is over");
 }
 
 bool ClusterNodes::anyLeft() const {

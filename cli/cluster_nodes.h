@@ -37,9 +37,11 @@ public:
   ClusterNodes(const ClusterFile& cluster, bool once, std::chrono::milliseconds patience = kPatience)
       : lead_(cluster.lead), stopOnDifference_(cluster.stopOnDifference), once_(once), patience_(patience) {}
   /// In the file's order. `words`: the program and its arguments. What becomes of it is told in its journal,
-  /// too, if it has one. `keepsPictures`: it has failed if it was not there when the show ended.
-  void add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal = nullptr,
-           bool keepsPictures = false);
+  /// too, if it has one.
+  void add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal = nullptr);
+
+  /// What they write is to be whole: a node that is not done when the show has come to its end has failed.
+  void needAll() { needsAll_ = true; }
   /// Who leads is killed if it shows nothing for so long [ns]; its words name the descriptor of `progress`.
   void watchLead(std::unique_ptr<SharedProgress> progress, Nanoseconds after);
   /// Begins them all and looks after them until all have ended. The exit code.
@@ -55,7 +57,6 @@ private:
     std::string name;
     std::vector<std::string> words;
     std::unique_ptr<Journal> journal{};
-    bool keepsPictures = false;
     State state = State::Ended;
     int status = 0;  ///< the last exit status; 128 + signal
     unsigned starts = 0;
@@ -74,12 +75,13 @@ private:
   void ended(Node& node, int status);
   bool isStop(const Node& node) const;
   bool isDeath(const Node& node) const;
-  bool mayMissPictures(const Node& node) const;
+  bool isIncomplete(const Node& node) const;
   bool leadIsGone() const { return nodes_[lead_].state == State::Ended; }
   void endWithLead();
   void ask(int signal);
   void killWhoHangs();
   void killHangingLead();
+  void endLeadOfNobody();
   bool anyLeft() const;
   int code() const;
 
@@ -93,7 +95,8 @@ private:
   std::optional<HangWatch> watch_{};
   std::optional<Clock::time_point> goneSince_{};   ///< who leads
   std::optional<Clock::time_point> askedSince_{};  ///< the nodes, to end
-  bool othersAsked_ = false;                       ///< to end after who leads
+  bool needsAll_ = false;
+  bool othersAsked_ = false;  ///< to end after who leads
 };
 
 }  // namespace stadion

@@ -126,6 +126,7 @@ bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
   show.state = joining->state, last_ = joining->after;
   if (!joining->playsLog) show.input = "none";  // what others say is heard from who leads
   goesOn_ = show.state != nullptr, files_ = joining->files;
+  after_ = goesOn_ ? std::optional(joining->after) : std::nullopt;
   return true;
 }
 

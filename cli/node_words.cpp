@@ -83,16 +83,15 @@ std::vector<std::string> wordsOfNode(const CLI::App& command, const RunOptions& 
   return words;
 }
 
-RunOptions optionsOfNode(std::vector<std::string> words, Diagnostics& findings) {
+void checkWordsOfNode(std::vector<std::string> words, Diagnostics& findings) {
   CLI::App run;
   RunOptions o;
   o.addTo(run);
   std::ranges::reverse(words);  // as CLI takes them
   run.parse(std::move(words));
-  if (!o.settle(findings)) return o;
+  if (!o.settle(findings)) return;
   refuseUnwritable(o.namedFiles(), findings);
   ClusterPart::create(o, findings);
-  return o;
 }
 
 }  // namespace stadion

@@ -27,9 +27,8 @@ std::string folderOfNode(const std::string& out, const std::string& node);
 std::vector<std::string> wordsOfNode(const CLI::App& command, const RunOptions& asked,
                                      const ClusterFile& cluster, std::size_t node);
 
-/// The options that a node has that is started with these words. What it would refuse, or warn of, before it
-/// opens anything, is in the findings; each would tell it for itself. Throws as CLI does, if the words are
-/// wrong themselves.
-RunOptions optionsOfNode(std::vector<std::string> words, Diagnostics& findings);
+/// What a node that is started with these words would refuse, or warn of, before it opens anything; each
+/// would tell it for itself. Throws as CLI does, if the words are wrong themselves.
+void checkWordsOfNode(std::vector<std::string> words, Diagnostics& findings);
 
 }  // namespace stadion

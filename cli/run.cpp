@@ -345,7 +345,7 @@ Played play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
       supervised.enter(waits ? SharedProgress::Phase::Opening : SharedProgress::Phase::Playing);
     });
   }
-  if (options.after) s.watch->goOnAfter(*options.after);
+  if (options.after) s.watch->goOnAfter(*options.after, s.player->scene());
   FrameLoop loop(stages, options, stop, probe);
   looping = &loop;
 
@@ -355,10 +355,12 @@ Played play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
   if (s.supervised) s.supervised->enter(SharedProgress::Phase::Ending);
+  const bool over = stop || !outcome.nextGroup;
+  if (s.cluster) s.cluster->finish(over && !outcome.failure);
+  // Asked after that: meanwhile the show may have ended for all.
   const Then then = outcome.nextGroup                         ? Then::NextGroup
                     : s.cluster && s.cluster->isToJoinAgain() ? Then::JoinAgain
                                                               : Then::Ends;
-  if (s.cluster) s.cluster->finish(then == Then::Ends && !outcome.failure);
   if (then != Then::Ends && !outcome.failure && !stop) return {then};
   if (recording && outcome.failure) recording->keepLastFrames();
 
@@ -432,6 +434,11 @@ bool joinAgain(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) 
 
 /// There is no show, or no next one.
 int codeWithoutShow(const RunOptions& o, bool stopped, const RunSetup& s) {
+  if (s.output) s.output->finish({});  // what was shown before is kept
+  if (s.output && s.output->failure()) {
+    std::fprintf(stderr, "stadion: %s\n", s.output->failure()->message.c_str());
+    return exitCodeOf(*s.output->failure());
+  }
   const auto lost = s.displays ? s.displays->lost() : std::nullopt;
   if (!lost && stopped) return kStopped + stopSignal();
   if (!lost && s.cluster && s.cluster->isOver()) return codeOfWhatIsMissing(o, s);
@@ -464,7 +471,9 @@ int playShow(RunOptions& o, RunSetup& setup, Diagnostics findings) {
     const Played played = play(o, stop, setup);
     if (played.then == Then::Ends) return played.code;
     const bool well = played.then == Then::NextGroup ? nextGroup(o, stop, setup) : joinAgain(o, stop, setup);
-    if (!well) return codeWithoutShow(o, stop, setup);
+    if (well) continue;
+    if (setup.cluster && setup.cluster->leads()) setup.cluster->finish(true);
+    return codeWithoutShow(o, stop, setup);
   }
 }
 

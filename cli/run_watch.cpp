@@ -93,6 +93,11 @@ void RunWatch::see(const TimeSignature& now, const InputSample& input, const Sce
   for (NodeTrace& t : traces_) t.record(now, scene);
 }
 
+void RunWatch::goOnAfter(const TimeSignature& frame, const Scene& scene) {
+  last_ = frame;
+  stateHash_ = scene.stateHash();
+}
+
 std::optional<Diagnostic> RunWatch::finish() {
   if (!recorder_ || std::exchange(finished_, true)) return {};
   // What had not come by the end must not come in a replay either.

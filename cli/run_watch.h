@@ -33,8 +33,8 @@ public:
 
   /// The frames before the first one were another process's; `history` was what it had of them.
   void goOnFrom(std::uint64_t history) { historyHash_ = history; }
-  /// The last of them was this one.
-  void goOnAfter(const TimeSignature& frame) { last_ = frame; }
+  /// The last of them was this one, and the scene is as it was then.
+  void goOnAfter(const TimeSignature& frame, const Scene& scene);
   /// Hash of the states of all frames up to now.
   std::uint64_t history() const { return historyHash_; }
   /// Show time of the last frame seen.

@@ -75,8 +75,6 @@ FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std:
   lastSignature_ = *options.after, lastSignature_.load = {};
   nextIndex_ = options.after->frame + 1;
   begun_ = true;  // it may stand still at that frame
-  const bool follows = options.orders && !options.orders->leads();
-  ended_ = !follows && isPastEnd();
 }
 
 FrameLoopOutcome FrameLoop::run() {
@@ -208,7 +206,8 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   const std::uint64_t ticks = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return pacer_.wait(); });
   if (!takeCommands()) return std::nullopt;
   const double speed = options_.playback && begun_ ? options_.playback->takeFrame(lastSignature_.time) : 1;
-  if (speed == 0) return told({lastSignature_, {}, standstill()});
+  // A show that goes on after its last frame is over once this has been shown.
+  if (speed == 0 || isPastEnd()) return told({lastSignature_, {}, standstill()});
   // A single frame is one tick, however long the last one took.
   const bool single = options_.playback && options_.playback->paused();
   TimeSignature now = signatureAfter(single ? 1 : ticks, speed);
@@ -339,8 +338,7 @@ std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slo
   if (turn.still != Standstill::None) {
     if (!guard("App", kAllWalls, now.frame, [&]() -> Failure { return stages_.still(now, slot), Failure(); }))
       return std::nullopt;
-    if (stopRequested_) stopped_ = true;
-    ticket.last = ended_ = options_.orders ? turn.last : stopped_ || ending_;
+    ticket.last = ended_ = options_.orders ? turn.last : noneFollows();
     ticket.drawn = turn.drawn;
     ticket.posed = stages_.headMeasured().value_or(ticket.began);
     return ticket;

@@ -194,7 +194,7 @@ std::optional<FrameOrder> Follower::next() {
   const bool isNew = std::exchange(kept_, nullptr) || !plays_;
   plays_ = true;
   if (isNew) announce(told_);
-  if (heard.order.last) frames_ = frame_ + 1;
+  if (heard.order.last && !over_) frames_ = frame_ + 1;
   heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
   // Left out, for being late: whoever has caught up is taken back.
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
@@ -306,7 +306,7 @@ void Follower::hear(const Session& session) {
     // Whoever looks for a show that is under way does not know its rate yet.
     if (session.giver == kNobody && !(session.rate >= kLeastRate && session.rate <= kMostRate)) return;
     // Who led before, was taken for dead and comes back leads no more.
-    if (session.number < session_.number && hasShow(session_)) return;
+    if (session.number < session_.number && (hasShow(session_) || (session.over && !isOurs(session)))) return;
     session_ = session;
     if (session.over && isOurs(session)) {
       frames_ = session.shown;

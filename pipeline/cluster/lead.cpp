@@ -315,7 +315,8 @@ void Lead::hear(const Session& other) {
     const std::lock_guard lock(mutex_);
     if (other.over || other.number == session_.number || double_) return;
     if (!supersedes(other, session_)) {
-      if (session_.rate > 0) bus_->tell(session_);  // who follows may have heard the other one last
+      // Who follows may have heard the other one last; but when ours is over, it is the other one's.
+      if (session_.rate > 0 && !session_.over) bus_->tell(session_);
       return;
     }
     double_ = true;

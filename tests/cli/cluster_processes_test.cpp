@@ -256,32 +256,51 @@ TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoDiedAndIsNotBackAtTheEndHas
     const TemporaryFolder folder;
     const std::string starts = folder.write("starts", "");
     ClusterNodes nodes(twoNodes(), false, kShort);
+    if (needed) nodes.needAll();
     nodes.add("front", {"sh", "-c", "until [ $(wc -l <" + starts + ") -ge 2 ]; do sleep 0.1; done"});
     nodes.add(
         "left",
-        {"sh", "-c", "echo >>" + starts + "; [ $(wc -l <" + starts + ") -gt 1 ] || exit 3; exec sleep 600"},
-        nullptr, needed);
+        {"sh", "-c", "echo >>" + starts + "; [ $(wc -l <" + starts + ") -gt 1 ] || exit 3; exec sleep 600"});
     EXPECT_EQ(nodes.play(), needed ? 3 : 0);
   }
 }
 
 TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoWasNotDoneAtTheEndHasFailed) {
   ClusterNodes nodes(twoNodes(), false, kShort);
-  nodes.add("front", {"true"}, nullptr, true);
-  nodes.add("left", {"sleep", "600"}, nullptr, true);
+  nodes.needAll();
+  nodes.add("front", {"true"});
+  nodes.add("left", {"sleep", "600"});
   testing::internal::CaptureStderr();
   EXPECT_EQ(nodes.play(), 2);
   const std::string told = testing::internal::GetCapturedStderr();
   EXPECT_TRUE(
-      has(told, "cluster: left was not done when the show was over: its last pictures may be missing\n"))
+      has(told, "cluster: left was not done when the show was over: what it has written may not be whole\n"))
       << told;
 }
 
 /// The others wait for who leads, which was asked to end before there was a show.
+TEST(ProgramClusterProcesses, AShowThatIsOverForTheOthersIsNotPlayedAgainByWhoLeadsAlone) {
+  for (const bool endsFirst : {true, false}) {
+    const TemporaryFolder folder;
+    const std::string starts = folder.write("starts", "");
+    ClusterNodes nodes(twoNodes(), false);
+    nodes.add("front", {"sh", "-c",
+                        "echo >>" + starts + "; [ $(wc -l <" + starts + ") -eq 1 ] || sleep 600; " +
+                            (endsFirst ? "" : "sleep 0.3; ") + "exit 3"});
+    nodes.add("left", {"sh", "-c", endsFirst ? "sleep 0.3" : "true"});
+    nodes.watchLead(std::move(SharedProgress::create().value()), fromSeconds(60));
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(nodes.play(), 3);
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_TRUE(has(told, "cluster: front does not play again: the show is over\n")) << told;
+  }
+}
+
 TEST(ProgramClusterProcesses, OfAShowThatWasStoppedNoPictureIsMissed) {
   ClusterNodes nodes(twoNodes(), false, kShort);
-  nodes.add("front", {"sh", "-c", "exit 143"}, nullptr, true);
-  nodes.add("left", {"sleep", "600"}, nullptr, true);
+  nodes.needAll();
+  nodes.add("front", {"sh", "-c", "exit 143"});
+  nodes.add("left", {"sleep", "600"});
   EXPECT_EQ(nodes.play(), 128 + SIGTERM);
 }
 

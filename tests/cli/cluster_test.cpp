@@ -203,10 +203,11 @@ TEST(ProgramCluster, AMachineWhoseLastPicturesAreMissingHasFailed) {
   ASSERT_EQ(kill(left, SIGCONT), 0);
   EXPECT_EQ(cluster.end(), 2) << cluster.told();
   // Whether it hears of the end, which it was not there for, the network knows.
-  EXPECT_TRUE(cluster.hasTold("cluster: left was not done when the show was over: its last pictures may be "
-                              "missing") ||
-              cluster.hasTold("--out: the show ended before this machine had caught up with it: its last "
-                              "pictures are missing"))
+  EXPECT_TRUE(
+      cluster.hasTold("cluster: left was not done when the show was over: what it has written may not "
+                      "be whole") ||
+      cluster.hasTold("--out: the show ended before this machine had caught up with it: its last "
+                      "pictures are missing"))
       << cluster.told();
 }
 

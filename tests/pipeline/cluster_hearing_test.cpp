@@ -561,6 +561,17 @@ TEST(ClusterHearing, WhoWantsToJoinAgainAndHearsThatTheShowIsOverIsDone) {
   EXPECT_FALSE(f->isOver()) << "it was another show";
 }
 
+/// Of an earlier run that is still busy with its video.
+TEST(ClusterHearing, AnEarlierShowThatIsOverIsNoReasonToLeaveTheNextOne) {
+  const auto f = follower();
+  Session next = session(60, false), earlier = over(7);
+  next.number = 9, earlier.number = 5;
+  f->hear(next);
+  ASSERT_TRUE(f->join());
+  f->hear(earlier);
+  EXPECT_FALSE(f->isToJoinAgain() || f->isOver());
+}
+
 TEST(ClusterHearing, WhatAnotherMachineSaysIsNoCommandToATerminal) {
   std::string told;
   const auto lead = Lead::unconnected({room(),
