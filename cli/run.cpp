@@ -355,13 +355,12 @@ Played play(const RunOptions& o, const std::atomic<bool>& stop, RunSetup& s) {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.finish();
   if (s.supervised) s.supervised->enter(SharedProgress::Phase::Ending);
-  const bool over = stop || !outcome.nextGroup;
-  if (s.cluster) s.cluster->finish(over && !outcome.failure);
+  const bool ends = stop || !outcome.nextGroup;
+  if (s.cluster) s.cluster->finish(ends && !outcome.failure);
   // Asked after that: meanwhile the show may have ended for all.
-  const Then then = outcome.nextGroup                         ? Then::NextGroup
-                    : s.cluster && s.cluster->isToJoinAgain() ? Then::JoinAgain
-                                                              : Then::Ends;
-  if (then != Then::Ends && !outcome.failure && !stop) return {then};
+  const bool joins = s.cluster && s.cluster->isToJoinAgain() && !stop;
+  if (!outcome.failure && joins) return {Then::JoinAgain};
+  if (!outcome.failure && !ends) return {Then::NextGroup};
   if (recording && outcome.failure) recording->keepLastFrames();
 
   int code =
