@@ -182,6 +182,37 @@ TEST(ProgramCluster, WhoLeadsMayDieAndTheShowGoesOn) {
   EXPECT_EQ(shown.rbegin()->first, 480U);
 }
 
+/// A frame a second: one machine holds the last one up until who leads is dead.
+TEST(ProgramCluster, WhoLeadsMayDieInTheLastFrame) {
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("two.cluster", "walls cave4\nnode front front left right\nnode floor floor\ndeadline 6\n"
+                                  "partition l" +
+                                      std::to_string(getpid()) + "\n");
+  const std::filesystem::path out = folder.path() / "out", one = folder.path() / "one";
+  const std::vector<std::string> show{kKick,   "--rate", "1",     "--frames", "6",    "--size",
+                                      "16x12", "--look", "plain", "--input",  "none", "--hashes"};
+  std::vector<std::string> cluster{stadionPath(), "cluster", file, "--pace", "lock", "--out", out},
+      alone{"run", "--walls", "cave4", "--out", one};
+  cluster.insert(cluster.end(), show.begin(), show.end());
+  alone.insert(alone.end(), show.begin(), show.end());
+  const std::string told = folder.path() / "told";
+  const pid_t program = startProgram({cluster}, folder.path() / "said", told);
+  ASSERT_TRUE(becomes([&] { return swapTimesOf(out / "floor").contains(4); })) << fileContent(told);
+  const pid_t floor = processOf(file, "floor"), front = processOf(file, "front");
+  ASSERT_EQ(kill(floor, SIGSTOP), 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  kill(front, SIGKILL), kill(floor, SIGCONT);
+  EXPECT_EQ(endOf(program), 0) << fileContent(told);
+  EXPECT_NE(fileContent(told).find("the show goes on after frame 5"), std::string::npos) << fileContent(told);
+  ASSERT_EQ(stadionProgram(alone).status, 0);
+  const std::set<std::string> wanted = hashesBelow(one);
+  EXPECT_EQ(hashesBelow(out), wanted);
+  EXPECT_EQ(picturesIn(out), picturesIn(one)) << "of the last frame";
+  for (const char* node : {"front", "floor"})
+    EXPECT_EQ(summaryOf(out / node)["state_hash"], summaryOf(one)["state_hash"]) << node;
+}
+
 TEST(ProgramCluster, AMachineThatIsStoppedIsLeftOutAndComesBack) {
   const RunningCluster cluster("9");
   const pid_t left = cluster.processOfRunning("left");
