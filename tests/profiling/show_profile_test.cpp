@@ -180,7 +180,7 @@ void visitNodes(FrameLog& log, std::uint32_t nodes, std::uint64_t frames, std::u
 TEST(FrameLog, OfVeryManyNodesOnlySomeFramesAreRecordedAsAWhole) {
   ShowProfile profile;
   // A frame that lost its processor to others is left out; the next time fewer may.
-  for (int attempt = 0; profile.wholeFrames() < 2 && attempt < 20; ++attempt) {
+  for (int attempt = 0; profile.wholeFrames() < 2 && attempt < 100; ++attempt) {
     profile = ShowProfile();
     FrameLog log({&profile}, {.samples = false, .from = 0});
     visitNodes(log, 1000, 40, 7);
