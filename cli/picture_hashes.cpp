@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 namespace stadion {
 namespace {
 
@@ -14,16 +17,33 @@ std::uint64_t hashOf(const Picture& picture) {
   return hash.value();
 }
 
+/// Cuts off what a run that was killed has left of a line: the next one would be written behind it.
+void cutHalfLine(const std::string& file) {
+  constexpr std::streamoff kLongestLine = 1 << 16;
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in.tellg(), from = std::max<std::streamoff>(0, size - kLongestLine);
+  if (!in || size <= 0) return;
+  std::string end(static_cast<std::size_t>(size - from), '\0');
+  in.seekg(from).read(end.data(), size - from);
+  if (!in || end.ends_with('\n')) return;
+  const std::size_t whole = end.rfind('\n') + 1;  // 0 if there is none
+  std::error_code none;                           // if it cannot be cut it cannot be written: that is told
+  std::filesystem::resize_file(file, static_cast<std::uintmax_t>(from) + whole, none);
+}
+
 }  // namespace
 
 PictureHashes::PictureHashes(OutputFolder& folder, std::vector<std::string> wallNames, bool further)
-    : folder_(folder), wallNames_(std::move(wallNames)), mode_(further ? std::ios::app : std::ios::trunc) {}
+    : folder_(folder), wallNames_(std::move(wallNames)), further_(further) {}
 
 std::optional<Diagnostic> PictureHashes::open() {
   for (const char* name : {kHashes, kTimes})
     if (auto wrong = folder_.note(name)) return wrong;
-  hashes_.open(folder_.pathOf(kHashes), std::ios::out | mode_);
-  times_.open(folder_.pathOf(kTimes), std::ios::out | mode_);
+  if (further_)
+    for (const char* name : {kHashes, kTimes}) cutHalfLine(folder_.pathOf(name));
+  const std::ios::openmode how = std::ios::out | (further_ ? std::ios::app : std::ios::trunc);
+  hashes_.open(folder_.pathOf(kHashes), how);
+  times_.open(folder_.pathOf(kTimes), how);
   return {};
 }
 

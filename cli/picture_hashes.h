@@ -27,7 +27,7 @@ public:
   static constexpr const char* kHashes = "picture-hashes.txt";
   static constexpr const char* kTimes = "swap-times.txt";
 
-  /// `further`: lines are added to those of the run that this one goes on with.
+  /// `further`: lines are added to those of the run that this one goes on with; half a line goes.
   PictureHashes(OutputFolder& folder, std::vector<std::string> wallNames, bool further);
 
   std::optional<Diagnostic> add(std::uint64_t frame, const std::vector<EyePictures>& walls,
@@ -38,7 +38,7 @@ private:
 
   OutputFolder& folder_;
   std::vector<std::string> wallNames_;
-  std::ios::openmode mode_;
+  bool further_;
   std::ofstream hashes_, times_;
 };
 
