@@ -4,6 +4,7 @@
 #include "cli/exit_code.h"
 #include "engine/atomic_file.h"
 #include "engine/diagnostic.h"
+#include "engine/likeness.h"
 #include "engine/script/reference.h"
 
 #include <CLI/CLI.hpp>
@@ -20,7 +21,7 @@ int printReference(const std::string& type) {
   const std::vector<std::string> known(kNodeKindNames.begin(), kNodeKindNames.end());
   const auto meant = closest(type, known);
   std::fprintf(stderr, "stadion: there is no node type \"%s\"%s\n", type.c_str(),
-               meant ? ("; did you mean \"" + *meant + "\"?").c_str() : "; `stadion nodes` lists them");
+               meant ? ("; " + didYouMeanOne(type, *meant)).c_str() : "; `stadion nodes` lists them");
   return kBadInput;
 }
 

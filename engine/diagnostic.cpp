@@ -1,5 +1,8 @@
 #include "engine/diagnostic.h"
 
+#include "engine/likeness.h"
+#include "engine/unicode/characters.h"
+
 #include <algorithm>
 #include <string_view>
 
@@ -9,6 +12,8 @@ namespace {
 
 constexpr std::size_t kWindow = 160;  // characters of a long line that are worth showing
 constexpr std::size_t kLongestWord = 64;
+constexpr std::size_t kLongestLook = 1024;    // of a word whose look is compared [bytes]
+constexpr std::size_t kMostLetters = 200'000;  // whose looks are compared, in the search for one suggestion
 constexpr std::size_t kMostComparisons = 1'000'000;  // of letters, in the search for one suggestion
 
 const char* nameOf(Severity s) {
@@ -20,37 +25,43 @@ const char* nameOf(Severity s) {
   return "note";
 }
 
-bool continues(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
-}
+/// A character of a line, as it is shown.
+struct Shown {
+  std::string bytes;
+  std::size_t columns;
+};
 
-/// The bytes of each character of a UTF-8 line, without the line's end. Control characters other than the tab
-/// become '?', so that a hostile file cannot steer the terminal.
-std::vector<std::string> charactersOf(const std::string& line) {
-  std::vector<std::string> result;
-  for (const char c : line) {
-    if (c == '\n' || c == '\r') break;
-    const auto byte = static_cast<unsigned char>(c);
-    if (continues(c) && !result.empty() && result.back().size() < 4)
-      result.back() += c;
+/// The characters of a UTF-8 line, without the line's end. What would steer the terminal, or could not be
+/// seen below the caret, is shown as '?': control characters, those of writing directions, and what has no
+/// width. Joiners and variation selectors stay, where they do not matter.
+std::vector<Shown> charactersOf(std::string_view line, std::size_t caret) {
+  std::vector<Shown> result;
+  std::size_t bytes = 0;
+  for (; !line.empty() && line[0] != '\n' && line[0] != '\r'; line.remove_prefix(bytes)) {
+    const char32_t c = unicode::firstCharacter(line, bytes);
+    const std::size_t columns = unicode::columnsOf(c);
+    const bool harmless = c == 0x200C || c == 0x200D || (c >= 0xFE00 && c <= 0xFE0F);
+    const bool hidden = c != '\t' && columns == 0 && (unicode::isHidden(c) || c < 0x20);
+    if (hidden && !(harmless && result.size() != caret))
+      result.push_back({"?", 1});
     else
-      result.emplace_back(1, (byte < 0x20 && c != '\t') || byte == 0x7F ? '?' : c);
+      result.push_back({std::string(line.substr(0, bytes)), columns});
   }
   return result;
 }
 
 /// The line and, under it, a caret below `column`. A tab above stands as a tab below, whatever its width.
 std::string pointAt(const std::string& excerpt, std::uint32_t column) {
-  const auto characters = charactersOf(excerpt);
   const std::size_t caret = column > 0 ? column - 1 : 0;
+  const std::vector<Shown> characters = charactersOf(excerpt, caret);
   const std::size_t first = caret > kWindow / 2 && characters.size() > kWindow ? caret - kWindow / 2 : 0;
   const std::size_t end = std::min(characters.size(), first + kWindow);
 
   std::string line = first > 0 ? "..." : "";
   std::string below(line.size(), ' ');
   for (std::size_t i = first; i < end; ++i) {
-    line += characters[i];
-    if (i < caret) below += characters[i] == "\t" ? '\t' : ' ';
+    line += characters[i].bytes;
+    if (i < caret) below += characters[i].bytes == "\t" ? "\t" : std::string(characters[i].columns, ' ');
   }
   if (end < characters.size()) line += "...";
   if (column == 0 || caret > characters.size()) return "\n" + line;
@@ -79,6 +90,19 @@ std::size_t editDistance(std::string_view a, std::string_view b, std::size_t lim
     std::swap(row, next);
   }
   return row[b.size()];
+}
+
+/// The first candidate that looks like the word and is not the same.
+std::optional<std::string> lookAlike(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string look = unicode::skeleton(word);
+  if (look.empty() || word.size() > kLongestLook) return std::nullopt;
+  std::size_t letters = 0;
+  for (const std::string& candidate : candidates) {
+    letters += candidate.size();
+    if (letters > kMostLetters) break;
+    if (candidate != word && unicode::skeleton(candidate) == look) return candidate;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -120,6 +144,7 @@ void Diagnostics::append(const Diagnostics& other) {
 }
 
 std::optional<std::string> closest(const std::string& word, const std::vector<std::string>& candidates) {
+  if (const auto alike = lookAlike(word, candidates)) return alike;
   if (word.empty() || word.size() > kLongestWord) return std::nullopt;
   std::size_t best = std::max<std::size_t>(1, word.size() / 3) + 1;  // a third of the letters may be wrong
   const std::string* found = nullptr;
@@ -136,6 +161,13 @@ std::optional<std::string> closest(const std::string& word, const std::vector<st
   }
   if (found == nullptr || best >= word.size()) return std::nullopt;
   return *found;
+}
+
+std::string didYouMeanOne(const std::string& word, const std::string& candidate) {
+  std::string text = "did you mean \"" + unicode::withHiddenShown(candidate) + "\"?";
+  if (unicode::skeleton(word) != unicode::skeleton(candidate)) return text;
+  const std::string difference = unicode::differenceOf(word, candidate);
+  return difference.empty() ? text : text + " They look alike: " + difference;
 }
 
 }  // namespace stadion

@@ -1,5 +1,7 @@
 #include "engine/text_line.h"
 
+#include "engine/unicode/characters.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -98,12 +100,23 @@ void LineReader::warning(std::uint32_t column, std::string message) {
   out_.warning(at(column), std::move(message), excerpt());
 }
 
+bool LineReader::reportHidden(const Word& word) {
+  const auto at = unicode::hiddenIn(word.text);
+  if (!at) return false;
+  std::uint32_t column = word.column;
+  for (const char c : word.text.substr(0, *at)) column += continuesCharacter(c) ? 0 : 1;
+  error(column, fmt::format("{} has {}, which cannot be seen; leave it out", quotedWord(word.text),
+                            unicode::nameOfFirst(word.text.substr(*at))));
+  return true;
+}
+
 std::optional<double> LineReader::number(const Word& word, std::string_view what) {
   std::string_view text = word.text;
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || problem == std::errc::invalid_argument) {
+    if (reportHidden(word)) return std::nullopt;
     error(word.column, fmt::format("{} is not a number ({})", quotedWord(word.text), what));
     return std::nullopt;
   }
@@ -161,9 +174,14 @@ std::optional<std::string> LineReader::name(const Word& word, std::string_view w
   bool good = !text.empty() && text.size() <= kMaxName && text[0] != '.' && text[0] != '-';
   for (const char c : text) good = good && isNameCharacter(c);
   if (good) return std::string(text);
+  if (reportHidden(word)) return std::nullopt;
+  const auto foreign =
+      std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+  const std::string_view rest = text.substr(static_cast<std::size_t>(foreign - text.begin()));
   error(word.column,
-        fmt::format("{} is not a good name for {}; use up to {} letters, digits, '-', '_' and '.'",
-                    quotedWord(text), what, kMaxName));
+        fmt::format("{} is not a good name for {}; use up to {} letters, digits, '-', '_' and '.'{}",
+                    quotedWord(text), what, kMaxName,
+                    rest.empty() ? "" : fmt::format("; it has {}", unicode::nameOfFirst(rest))));
   return std::nullopt;
 }
 
@@ -192,7 +210,7 @@ std::string printable(std::string_view text, std::size_t limit) {
 }
 
 std::string quotedWord(std::string_view word) {
-  return fmt::format("\"{}\"", printable(word, 40));
+  return fmt::format("\"{}\"", printable(unicode::withHiddenShown(word), 40));
 }
 
 }  // namespace stadion

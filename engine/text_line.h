@@ -54,6 +54,9 @@ public:
   std::optional<std::string> name(const Word& word, std::string_view what);
 
 private:
+  /// A character of the word that cannot be seen is an error in its place. False if there is none.
+  bool reportHidden(const Word& word);
+
   std::string_view text_;
   std::string file_;
   Diagnostics& out_;

@@ -1,5 +1,7 @@
 #include "engine/asset/roots.h"
 
+#include "engine/likeness.h"
+
 #include <fcntl.h>
 
 #include <algorithm>
@@ -77,7 +79,7 @@ std::string AssetRoots::missing(const std::string& name) const {
     text += roots_[i].path.string();
     collect(roots_[i].path, known);
   }
-  if (const auto near = closest(name, known)) text += "; did you mean \"" + *near + "\"?";
+  if (const auto near = closest(name, known)) text += "; " + didYouMeanOne(name, *near);
   return text;
 }
 

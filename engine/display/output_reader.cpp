@@ -1,5 +1,7 @@
 #include "engine/display/output_reader.h"
 
+#include "engine/likeness.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,7 +44,7 @@ private:
     for (const Field& f : fields()) known.emplace_back(f.name);
     const auto near = closest(std::string(key.text.substr(0, 64)), known);
     return wrong(key, quotedWord(key.text) + " is not a field of an output" +
-                          (near ? fmt::format("; did you mean \"{}\"?", *near)
+                          (near ? "; " + didYouMeanOne(std::string(key.text), *near)
                                 : fmt::format("; known are {}", fmt::join(known, ", "))));
   }
 

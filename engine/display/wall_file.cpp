@@ -3,6 +3,7 @@
 #include "engine/display/output_reader.h"
 #include "engine/display/wall_lint.h"
 #include "engine/folder_names.h"
+#include "engine/likeness.h"
 #include "engine/plain_file.h"
 #include "engine/text_line.h"
 
@@ -27,7 +28,7 @@ constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}
 
 std::string didYouMean(std::string_view word, const std::vector<std::string>& known) {
   const auto near = closest(std::string(word.substr(0, 64)), known);
-  if (near) return fmt::format("; did you mean \"{}\"?", *near);
+  if (near) return "; " + didYouMeanOne(std::string(word), *near);
   return fmt::format("; known are {}", fmt::join(known, ", "));
 }
 

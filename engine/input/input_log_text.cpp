@@ -1,6 +1,7 @@
 // Reading and writing of input logs (the format is described in input_log.h).
 
 #include "engine/input/input_log.h"
+#include "engine/likeness.h"
 #include "engine/maths/functions.h"
 #include "engine/plain_file.h"
 #include "engine/text_line.h"
@@ -27,7 +28,7 @@ constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
 
 std::string didYouMean(std::string_view word, const std::vector<std::string>& known) {
   const auto near = closest(std::string(word.substr(0, 64)), known);
-  return near ? fmt::format("; did you mean \"{}\"?", *near)
+  return near ? "; " + didYouMeanOne(std::string(word), *near)
               : fmt::format("; known are {}", fmt::join(known, ", "));
 }
 

@@ -1,5 +1,6 @@
 #include "engine/input/rig_file.h"
 
+#include "engine/likeness.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "engine/plain_file.h"
@@ -76,7 +77,7 @@ private:
     }
     const auto near = closest(std::string(keyword.text.substr(0, 64)), known);
     in_.error(keyword.column, fmt::format("{} is not a statement of a rig file; {}", quotedWord(keyword.text),
-                                          near ? fmt::format("did you mean \"{}\"?", *near)
+                                          near ? didYouMeanOne(std::string(keyword.text), *near)
                                                : fmt::format("known are {}", fmt::join(known, ", "))));
   }
 

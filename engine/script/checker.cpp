@@ -4,6 +4,7 @@
 #include "engine/script/file_path.h"
 #include "engine/script/suggestion.h"
 #include "engine/text/text_mesh.h"
+#include "engine/unicode/characters.h"
 
 #include <algorithm>
 #include <cctype>
@@ -159,7 +160,21 @@ void Checker::reportUnknown(NodeKind kind, const RawAttribute& raw) {
                                              nameOf(kind), elsewhere ? otherwise : didYouMean(word, words)));
 }
 
+/// Files may be called anything, and what is written may have any blanks; names and messages are looked at
+/// part by part.
+bool Checker::reportHidden(const AttributeSpec& spec, TextSpan value) {
+  constexpr std::array kElsewhere{ValueKind::NewName, ValueKind::Tracker, ValueKind::Reference,
+                                  ValueKind::File,    ValueKind::Words,   ValueKind::EventMessage};
+  if (std::ranges::find(kElsewhere, spec.kind) != kElsewhere.end()) return false;
+  const auto hidden = hiddenCharacter(text(value));
+  if (hidden)
+    report_.error(value.offset + static_cast<std::uint32_t>(hidden->offset),
+                  fmt::format("{}: {}", nameOf(spec.attr), hidden->message));
+  return hidden.has_value();
+}
+
 void Checker::takeValue(NodeKind kind, const AttributeSpec& spec, TextSpan value) {
+  if (reportHidden(spec, value)) return;
   switch (spec.kind) {
   case ValueKind::Flag: return takeFlag(spec, value);
   case ValueKind::Choice: return takeChoice(spec, value);
@@ -297,9 +312,10 @@ void Checker::takeWord(const AttributeSpec& spec, TextSpan value) {
                          fmt::format("{} must be {}, not empty", nameOf(spec.attr), formOf(spec)));
   const bool reference = spec.kind == ValueKind::Reference;
   if (const auto fault = reference ? faultOfReference(text(value)) : faultOfName(text(value))) {
-    if (spec.kind == ValueKind::NewName) writer_.addLostName(std::string(text(value)));
-    return report_.error(value.offset,
-                         fmt::format("{}: \"{}\" {}", nameOf(spec.attr), shortened(text(value)), *fault));
+    if (spec.kind == ValueKind::NewName) writer_.addLostName(unicode::withoutHidden(text(value)));
+    return report_.error(
+        value.offset + static_cast<std::uint32_t>(fault->offset),
+        fmt::format("{}: \"{}\" {}", nameOf(spec.attr), shortened(text(value)), fault->message));
   }
   if (reference)
     writer_.addReference(spec.attr, value);

@@ -22,6 +22,7 @@ private:
   void takeUnknown(const RawDeclaration& raw);
   void takeAttribute(NodeKind kind, const RawAttribute& raw, Seen& seen);
   void reportUnknown(NodeKind kind, const RawAttribute& raw);
+  bool reportHidden(const AttributeSpec& spec, TextSpan value);
   void takeValue(NodeKind kind, const AttributeSpec& spec, TextSpan value);
   void takeNumbers(const AttributeSpec& spec, TextSpan value);
   void takeFlag(const AttributeSpec& spec, TextSpan value);

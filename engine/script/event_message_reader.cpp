@@ -4,6 +4,7 @@
 #include "engine/script/schema.h"
 #include "engine/script/suggestion.h"
 #include "engine/text/text_mesh.h"
+#include "engine/unicode/characters.h"
 
 #include <fmt/format.h>
 
@@ -34,7 +35,22 @@ Piece takeCommand(std::string_view& rest, std::size_t& offset, bool& more) {
   return command;
 }
 
+/// What is wrong with a part of the message, told in its place and with the part's text before it.
+Failure named(const Piece& piece, Failure fault) {
+  if (!fault) return fault;
+  return ValueError{piece.offset + fault->offset,
+                    fmt::format("\"{}\" {}", shortened(piece.text), fault->message)};
+}
+
+/// A character of a part that cannot be seen.
+Failure hiddenIn(const Piece& piece) {
+  auto fault = hiddenCharacter(piece.text);
+  if (fault) fault->offset += piece.offset;
+  return fault;
+}
+
 Failure readEvent(const Piece& piece, NodeKind sender, ReadMessage& message) {
+  if (auto hidden = hiddenIn(piece)) return hidden;
   const auto events = specOf(sender).events;
   if (events.empty()) return ValueError{piece.offset, fmt::format("{} posts no events", nameOf(sender))};
   const auto event = eventNamed(piece.text);
@@ -54,6 +70,7 @@ Failure readEvent(const Piece& piece, NodeKind sender, ReadMessage& message) {
 
 Failure readPart(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
   const Piece word = takeWord(rest, offset);
+  if (auto hidden = hiddenIn(word)) return hidden;
   for (std::size_t i = 0; i < kAttachPartNames.size(); ++i) {
     if (kAttachPartNames[i] != word.text) continue;
     message.part = static_cast<AttachPart>(i);
@@ -67,10 +84,7 @@ Failure readPart(std::string_view& rest, std::size_t& offset, ReadMessage& messa
 Failure readTracker(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
   message.tracker = takeWord(rest, offset);
   if (message.tracker.text.empty()) return std::nullopt;
-  if (auto fault = faultOfName(message.tracker.text))
-    return ValueError{message.tracker.offset,
-                      fmt::format("\"{}\" {}", shortened(message.tracker.text), *fault)};
-  return std::nullopt;
+  return named(message.tracker, faultOfName(message.tracker.text));
 }
 
 Failure readField(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
@@ -80,9 +94,7 @@ Failure readField(std::string_view& rest, std::size_t& offset, ReadMessage& mess
     return ValueError{
         message.field.offset,
         fmt::format("\"{}\" must be followed by the name of a force field", nameOf(message.verb))};
-  if (auto fault = faultOfReference(name))
-    return ValueError{message.field.offset, fmt::format("\"{}\" {}", shortened(name), *fault)};
-  return std::nullopt;
+  return named(message.field, faultOfReference(name));
 }
 
 Failure readWords(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
@@ -110,6 +122,7 @@ Failure readCommand(const Piece& piece, ReadMessage& message) {
   std::string_view rest = piece.text;
   std::size_t offset = piece.offset;
   const Piece word = takeWord(rest, offset);
+  if (auto hidden = hiddenIn(word)) return hidden;
   const auto verb = verbNamed(word.text);
   if (!verb)
     return ValueError{word.offset,
@@ -118,6 +131,7 @@ Failure readCommand(const Piece& piece, ReadMessage& message) {
   message.verb = *verb;
   if (auto failure = readArguments(rest, offset, message)) return failure;
   const Piece extra = takeWord(rest, offset);
+  if (auto hidden = hiddenIn(extra)) return hidden;
   if (!extra.text.empty())
     return ValueError{extra.offset, fmt::format("\"{}\" is too much: the command is \"{}\"",
                                                 shortened(extra.text), specOf(*verb).form)};
@@ -172,6 +186,7 @@ const Option* optionNamed(std::string_view word) {
 
 /// One part after the command; `seen` has a bit for each option that was given.
 Failure readOption(const Piece& piece, unsigned& seen, ReadMessage& message) {
+  if (auto hidden = hiddenIn(piece)) return hidden;
   std::string_view rest = piece.text;
   std::size_t offset = piece.offset;
   const bool named = rest.find('=') != rest.npos;
@@ -212,8 +227,7 @@ std::vector<ValueError> readEventMessage(std::string_view text, NodeKind sender,
     note(missing(message.target.offset, "target"));
     return faults;
   }
-  if (auto fault = faultOfReference(message.target.text))
-    note(ValueError{message.target.offset, fmt::format("\"{}\" {}", shortened(message.target.text), *fault)});
+  note(named(message.target, faultOfReference(message.target.text)));
   bool more = false;
   message.command = takeCommand(rest, offset, more);
   if (message.command.text.empty()) {
@@ -235,21 +249,27 @@ std::vector<ValueError> readEventMessage(std::string_view text, NodeKind sender,
   return faults;
 }
 
-std::optional<std::string> faultOfName(std::string_view name) {
-  if (name.empty()) return "is empty, which is not a name";
-  if (name.size() > kLongestName) return "is longer than any name may be";
+std::optional<ValueError> faultOfName(std::string_view name) {
+  if (name.empty()) return ValueError{0, "is empty, which is not a name"};
+  if (name.size() > kLongestName) return ValueError{0, "is longer than any name may be"};
+  if (const auto at = unicode::hiddenIn(name))
+    return ValueError{*at, fmt::format("has {}, which cannot be seen; leave it out",
+                                       unicode::nameOfFirst(name.substr(*at)))};
   for (const char c : name)
-    if (static_cast<unsigned char>(c) <= 0x20 || c == 0x7F ||
+    if (static_cast<unsigned char>(c) <= 0x20 ||
         std::string_view(",/=()#'\"").find(c) != std::string_view::npos)
-      return "is not a name: one word without blanks and without , / = ( ) # or quotes";
+      return ValueError{0, "is not a name: one word without blanks and without , / = ( ) # or quotes"};
   return std::nullopt;
 }
 
-std::optional<std::string> faultOfReference(std::string_view name) {
+std::optional<ValueError> faultOfReference(std::string_view name) {
   std::size_t start = 0;
   while (true) {
     const std::size_t end = std::min(name.find('/', start), name.size());
-    if (auto fault = faultOfName(name.substr(start, end - start))) return fault;
+    if (auto fault = faultOfName(name.substr(start, end - start))) {
+      fault->offset += start;
+      return fault;
+    }
     if (end == name.size()) return std::nullopt;
     start = end + 1;
   }

@@ -25,9 +25,9 @@ struct ReadMessage {
 /// What is wrong with each part; nothing if the message is whole.
 std::vector<ValueError> readEventMessage(std::string_view text, NodeKind sender, ReadMessage& message);
 
-/// What is wrong with a word as a name, as the end of a sentence that begins with it.
-std::optional<std::string> faultOfName(std::string_view name);
+/// What is wrong with a word as a name, as the end of a sentence that begins with it, and where in it.
+std::optional<ValueError> faultOfName(std::string_view name);
 /// The same for a name that may lead into sub-scenes: parts separated by "/".
-std::optional<std::string> faultOfReference(std::string_view name);
+std::optional<ValueError> faultOfReference(std::string_view name);
 
 }  // namespace stadion

@@ -2,6 +2,7 @@
 /// The end of a message about an unknown word.
 
 #include "engine/diagnostic.h"
+#include "engine/likeness.h"
 
 #include <string>
 #include <string_view>
@@ -17,7 +18,7 @@ inline std::string didYouMean(std::string_view word, const std::vector<std::stri
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c | 0x20);
   auto found = closest(std::string(word), candidates);
   if (!found) found = closest(small, candidates);
-  return found ? "; did you mean \"" + *found + "\"?" : otherwise;
+  return found ? "; " + didYouMeanOne(std::string(word), *found) : otherwise;
 }
 
 }  // namespace stadion

@@ -1,5 +1,7 @@
 #include "engine/script/syntax.h"
 
+#include "engine/unicode/characters.h"
+
 #include <algorithm>
 #include <string_view>
 
@@ -140,16 +142,6 @@ std::string_view wordAt(std::string_view rest) {
   return rest.substr(0, length);
 }
 
-/// The code point of the character that well-formed text begins with.
-unsigned codePointAt(std::string_view rest) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned>(static_cast<unsigned char>(rest[i])); };
-  const unsigned lead = byte(0);
-  const std::size_t more = lead < 0x80 ? 0 : lead < 0xE0 ? 1 : lead < 0xF0 ? 2 : 3;
-  unsigned code = more == 0 ? lead : lead & (0x3FU >> more);
-  for (std::size_t i = 1; i <= more && i < rest.size(); ++i) code = code << 6 | (byte(i) & 0x3FU);
-  return code;
-}
-
 /// What `rest` begins with, in words.
 std::string describe(std::string_view rest) {
   if (rest.empty()) return "the end of the file";
@@ -157,9 +149,11 @@ std::string describe(std::string_view rest) {
   if (rest[0] == '"') return "a quote";
   const std::string_view word = wordAt(rest);
   if (!word.empty()) return fmt::format("\"{}\"", word);
-  const unsigned code = codePointAt(rest);
+  std::size_t bytes = 0;
+  const char32_t code = unicode::firstCharacter(rest, bytes);
   if (code > 0x20 && code < 0x7F) return fmt::format("\"{}\"", rest[0]);
-  return fmt::format("the character U+{:04X}", code);
+  return fmt::format("the character {}{}", unicode::nameOf(code),
+                     unicode::isHidden(code) ? ", which cannot be seen" : "");
 }
 
 std::string textOf(const Reading& r, TextSpan span) {

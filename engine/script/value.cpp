@@ -1,5 +1,7 @@
 #include "engine/script/value.h"
 
+#include "engine/unicode/characters.h"
+
 #include <charconv>
 #include <cmath>
 
@@ -88,10 +90,17 @@ Piece takeWord(std::string_view& rest, std::size_t& offset) {
 
 std::string shortened(std::string_view text) {
   constexpr std::size_t kMost = 40;
-  if (text.size() <= kMost) return std::string(text);
+  if (text.size() <= kMost) return unicode::withHiddenShown(text);
   std::size_t end = kMost;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return std::string(text.substr(0, end)) + "...";
+  return unicode::withHiddenShown(text.substr(0, end)) + "...";
+}
+
+std::optional<ValueError> hiddenCharacter(std::string_view text) {
+  const auto at = unicode::hiddenIn(text);
+  if (!at) return std::nullopt;
+  return ValueError{*at, fmt::format("\"{}\" has {}, which cannot be seen; leave it out", shortened(text),
+                                     unicode::nameOfFirst(text.substr(*at)))};
 }
 
 }  // namespace stadion

@@ -40,5 +40,7 @@ Piece takeWord(std::string_view& rest, std::size_t& offset);
 
 /// The first 40 bytes or so of a text, for messages: whole characters, "..." if it was cut.
 std::string shortened(std::string_view text);
+/// Says where the text has a character that cannot be seen, and which (engine/unicode/characters.h).
+std::optional<ValueError> hiddenCharacter(std::string_view text);
 
 }  // namespace stadion

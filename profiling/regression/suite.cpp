@@ -1,5 +1,6 @@
 #include "profiling/regression/suite.h"
 
+#include "engine/likeness.h"
 #include "engine/plain_file.h"
 #include "engine/text_line.h"
 
@@ -20,7 +21,7 @@ constexpr std::uint64_t kMostFrames = 1'000'000, kMostRounds = 80, kMaxPixels = 
 
 std::string didYouMean(std::string_view word, const std::vector<std::string>& known) {
   const auto near = closest(std::string(word.substr(0, 64)), known);
-  if (near) return fmt::format("; did you mean \"{}\"?", *near);
+  if (near) return "; " + didYouMeanOne(std::string(word), *near);
   return fmt::format("; known are {}", fmt::join(known, ", "));
 }
 

@@ -1,0 +1,11 @@
+#pragma once
+/// The end of a message about a word that nobody knows.
+
+#include <string>
+
+namespace stadion {
+
+/// `did you mean "front"?`, and how the two differ if they look alike.
+std::string didYouMeanOne(const std::string& word, const std::string& candidate);
+
+}  // namespace stadion
