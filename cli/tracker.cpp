@@ -53,11 +53,12 @@ std::pair<double, double> aim(const Pose& X) {
 
 std::string rowOf(const Status& s) {
   const auto [left, up] = aim(s.X_RT);
-  std::string row = fmt::format("{:<12} {:>7} {:>6.1f}  {}   {}  {:6.1f} {:6.1f}  {:#x}", s.name,
+  std::string row = fmt::format("{:<12} {:>7} {:>6.1f}  {:23}   {:23}  {:6.1f} {:6.1f}  {:#x}", s.name,
                                 s.heard     ? "heard"
                                 : s.age > 0 ? fmt::format("{:.1f} s", s.age)
                                             : "silent",
-                                s.rate, listOf(s.X_SD.p), listOf(s.X_RT.p), left, up, s.buttons);
+                                s.rate, s.posed || !s.heard ? listOf(s.X_SD.p) : "no pose",
+                                s.posed || !s.heard ? listOf(s.X_RT.p) : "no pose", left, up, s.buttons);
   for (std::size_t i = 0; i < s.axes.size(); ++i)
     if (s.axes[i] != 0) row += fmt::format("  {}:{:.2f}", i, s.axes[i]);
   return row;
@@ -87,6 +88,7 @@ void showJson(TrackerDevice& device) {
   for (const Status& s : device.trackers().status())
     out["trackers"].push_back({{"name", s.name},
                                {"heard", s.heard},
+                               {"posed", s.posed},
                                {"age_s", s.age},
                                {"rate_hz", s.rate},
                                {"as_sent", pose(s.X_SD)},

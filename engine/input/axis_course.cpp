@@ -9,7 +9,7 @@ AxisCourse axisCourse(const InputSample& input, std::string_view device, std::si
   const TrackerSample* t = input.find(device);
   if (!t || axis >= kTrackerAxes) return {{start, 0}};
   AxisCourse course;
-  const double last = t->valid ? double{t->axes[axis]} : 0;
+  const double last = t->hasControls() ? double{t->axes[axis]} : 0;
   for (const ControlKnot& c : t->controls) course.push_back({c.time, double{c.axes[axis]}});
   if (course.empty()) course.push_back({start, last});
   course.push_back({end, last});

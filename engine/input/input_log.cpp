@@ -12,6 +12,12 @@ void copy(const InputStamp& stamp, TrackerSample& sample) {
   sample.buttons = stamp.buttons;
   sample.axes = stamp.axes;
   sample.valid = stamp.valid;
+  sample.controlsOnly = stamp.controlsOnly;
+}
+
+/// Whether the device was heard all the way from a to b, with a pose or without.
+bool wholeWay(const InputStamp& a, const InputStamp& b) {
+  return a.valid == b.valid && a.controlsOnly == b.controlsOnly && (a.valid || a.controlsOnly);
 }
 
 constexpr Nanoseconds kEasedGrid = 5'000'000;  ///< corners of an eased way fall on multiples of this [ns]
@@ -58,9 +64,9 @@ double progress(const InputStamp& a, const InputStamp& b, Nanoseconds time) {
 /// Between two stamps, a.time < time < b.time; `leap`: it does not go, but is at b from b.time on.
 void blend(const InputStamp& a, const InputStamp& b, Nanoseconds time, bool leap, TrackerSample& sample) {
   copy(a, sample);
-  if (!a.valid || !b.valid) return;  // a lost tracker stays where it was last seen
+  if (!wholeWay(a, b)) return;  // a lost tracker stays where it was last seen
   const double s = progress(a, b, time);
-  if (!leap) sample.X_RT = det::interpolate(a.X_RT, b.X_RT, s);
+  if (!leap && a.valid) sample.X_RT = det::interpolate(a.X_RT, b.X_RT, s);
   for (std::size_t i = 0; i < kTrackerAxes; ++i)
     sample.axes[i] = static_cast<float>(a.axes[i] + s * (static_cast<double>(b.axes[i]) - a.axes[i]));
 }
@@ -99,7 +105,7 @@ void addKnots(const InputStamp& a, const InputStamp& b, bool leap, Nanoseconds s
 /// axes of a tracker that is lost or found do not go evenly: they jump.
 void addControls(const InputStamp& a, const InputStamp& b, Nanoseconds start, Nanoseconds end,
                  std::vector<ControlKnot>& controls) {
-  const bool whole = a.valid && b.valid;
+  const bool whole = wholeWay(a, b);
   if (whole && b.smooth && a.axes != b.axes) {
     const Nanoseconds after = std::max(a.time, start), before = std::min(b.time, end);
     for (Nanoseconds t = (after / kEasedGrid + 1) * kEasedGrid; t < before && controls.size() < kMostKnots;

@@ -15,8 +15,10 @@
 ///         position [m] and unit quaternion of the tracker in rig space
 ///     key NAME SECONDS  X Y Z  [turn ROLL PITCH YAW] [smooth] [buttons N] [axes A ...]
 ///         the same for people: angles in degrees, about the rig's X, then Y, then Z axis
+///     controls NAME SECONDS  [smooth] [buttons N] [axes A ...]
+///         buttons and axes of a device that has no pose, such as a gamepad
 ///     lost NAME SECONDS
-///         the tracker is not valid until its next pose
+///         the tracker is not valid until its next record
 /// SECONDS has at most nine decimals and increases strictly within each tracker. `smooth` eases the way from
 /// the record before (at rest at both ends); without it the speed is constant. `buttons` is a bit mask
 /// (decimal or 0x...), `axes` up to eight numbers from -1 to 1; both are 0 where not given. Other kinds of
@@ -66,7 +68,8 @@ struct InputStamp {
   std::uint32_t buttons = 0;
   std::array<float, kTrackerAxes> axes{};
   bool valid = true;
-  bool smooth = false;  ///< the way here from the stamp before is eased
+  bool controlsOnly = false;  ///< buttons and axes of a device without a pose, which is not valid
+  bool smooth = false;        ///< the way here from the stamp before is eased
 };
 
 struct InputTrack {

@@ -73,6 +73,7 @@ private:
     const Word& kind = in_.words()[0];
     if (kind.text == "pose") return pose(&Parser::quaternion);
     if (kind.text == "key") return pose(nullptr);
+    if (kind.text == "controls") return controls();
     if (kind.text == "lost") return lost();
     if (version_ >= 2 && kind.text == "rate") return rate();
     if (version_ >= 2 && kind.text == "frame")
@@ -82,7 +83,7 @@ private:
     if (version_ >= 2 && kind.text == "order") return order();
     if (version_ >= 2 && kind.text == "relief") return relief();
     if (version_ >= 2 && kind.text == "stress") return stress();
-    std::vector<std::string> known{"pose", "key", "lost"};
+    std::vector<std::string> known{"pose", "key", "controls", "lost"};
     if (version_ >= 2) known.insert(known.end(), {"rate", "frame", "load", "order", "relief", "stress"});
     in_.error(kind.column, fmt::format("{} is not a kind of record{}", quotedWord(kind.text),
                                        didYouMean(kind.text, known)));
@@ -332,6 +333,15 @@ private:
     track->stamps.push_back(stamp);
   }
 
+  void controls() {
+    InputStamp stamp;
+    InputTrack* track = begin(stamp);
+    if (!track) return;
+    if (!track->stamps.empty()) stamp.X_RT = track->stamps.back().X_RT;
+    stamp.valid = false, stamp.controlsOnly = true;
+    if (options(3, false, stamp)) track->stamps.push_back(stamp);
+  }
+
   void lost() {
     InputStamp stamp;
     InputTrack* track = begin(stamp);
@@ -385,11 +395,14 @@ std::string formatRelief(std::uint64_t frame, const LoadDecision& d) {
 }
 
 std::string formatRecord(const std::string& tracker, const InputStamp& stamp) {
-  if (!stamp.valid) return fmt::format("lost {} {}\n", tracker, formatSeconds(stamp.time));
+  if (!stamp.valid && !stamp.controlsOnly)
+    return fmt::format("lost {} {}\n", tracker, formatSeconds(stamp.time));
   const Vec3& p = stamp.X_RT.p;
   const Quat& q = stamp.X_RT.q;
-  std::string line = fmt::format("pose {} {}  {} {} {}  {} {} {} {}", tracker, formatSeconds(stamp.time),
-                                 p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
+  std::string line =
+      fmt::format("{} {} {}", stamp.valid ? "pose" : "controls", tracker, formatSeconds(stamp.time));
+  if (stamp.valid)
+    line += fmt::format("  {} {} {}  {} {} {} {}", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
   if (stamp.smooth) line += "  smooth";
   if (stamp.buttons != 0) line += fmt::format("  buttons 0x{:x}", stamp.buttons);
   std::size_t used = kTrackerAxes;

@@ -12,6 +12,7 @@ InputStamp stampOf(const TrackerSample& tracker, Nanoseconds time) {
   const double squared = tracker.X_RT.q.squaredNorm();
   stamp.valid = tracker.valid && tracker.X_RT.finite() && tracker.X_RT.p.cwiseAbs().maxCoeff() <= 1e6 &&
                 squared > 0.25 && squared < 4;
+  stamp.controlsOnly = tracker.controlsOnly && !tracker.valid;
   stamp.X_RT = tracker.X_RT;
   if (std::fabs(squared - 1) > 1e-12) stamp.X_RT.q.normalize();
   stamp.buttons = tracker.buttons;
@@ -72,6 +73,7 @@ void InputRecorder::record(const InputSample& sample) {
 
 void InputRecorder::record(const TrackerSample& tracker, Nanoseconds time) {
   for (const PoseKnot& knot : tracker.knots) recordKnot(tracker, knot, time);
+  if (tracker.controlsOnly) recordControls(tracker, time);
   write(tracker, time);
 }
 
@@ -80,13 +82,24 @@ void InputRecorder::record(const TrackerSample& tracker, Nanoseconds time) {
 void InputRecorder::recordKnot(TrackerSample tracker, const PoseKnot& knot, Nanoseconds end) {
   if (const auto last = last_.find(logName(tracker.name)); last != last_.end()) {
     tracker.buttons = last->second.buttons, tracker.axes = last->second.axes;
-    tracker.valid = false;
+    tracker.valid = tracker.controlsOnly = false;
     if (knot.jump && last->second.valid) write(tracker, knot.time - 1);
   }
   for (const ControlKnot& c : tracker.controls)
     if (c.time == knot.time) tracker.buttons = c.buttons, tracker.axes = c.axes;
   tracker.X_RT = knot.X, tracker.valid = true;
   if (knot.time < end) write(tracker, knot.time);
+}
+
+/// Without a pose there are no corners that the changes inside the frame could be written with.
+void InputRecorder::recordControls(TrackerSample tracker, Nanoseconds end) {
+  const std::vector<ControlKnot> controls = std::move(tracker.controls);
+  for (std::size_t i = 0; i < controls.size() && controls[i].time < end; ++i) {
+    const bool jumps = i + 1 < controls.size() && controls[i + 1].time == controls[i].time;
+    if (jumps) continue;  // the later one says what is from then on
+    tracker.buttons = controls[i].buttons, tracker.axes = controls[i].axes;
+    write(tracker, controls[i].time);
+  }
 }
 
 void InputRecorder::write(const TrackerSample& tracker, Nanoseconds time) {
@@ -96,8 +109,9 @@ void InputRecorder::write(const TrackerSample& tracker, Nanoseconds time) {
   if (time <= last.time) return;
   const InputStamp stamp = stampOf(tracker, time);
   // A tracker that stays lost needs no second line.
-  if (stamp.valid || last.valid) file_.write(formatRecord(name, stamp));
-  last = {time, stamp.valid, stamp.buttons, stamp.axes};
+  const bool hasControls = stamp.valid || stamp.controlsOnly;
+  if (hasControls || last.hasControls) file_.write(formatRecord(name, stamp));
+  last = {time, stamp.valid, hasControls, stamp.buttons, stamp.axes};
 }
 
 }  // namespace stadion

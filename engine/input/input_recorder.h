@@ -40,12 +40,14 @@ public:
 private:
   struct Last {
     Nanoseconds time = -1;
-    bool valid = true;
+    bool valid = true;        ///< there was a pose
+    bool hasControls = true;  ///< there were buttons and axes, with a pose or without
     std::uint32_t buttons = 0;
     std::array<float, kTrackerAxes> axes{};
   };
   void record(const TrackerSample& tracker, Nanoseconds time);
   void recordKnot(TrackerSample tracker, const PoseKnot& knot, Nanoseconds end);
+  void recordControls(TrackerSample tracker, Nanoseconds end);
   void write(const TrackerSample& tracker, Nanoseconds time);
 
   AtomicFile file_;

@@ -39,7 +39,9 @@ struct TrackerSample {
   std::uint32_t buttons = 0;               ///< one bit a button
   std::array<float, kTrackerAxes> axes{};  ///< joypad and triggers
   Nanoseconds stamp = 0;                   ///< when the newest measurement in it was made [ns]
-  bool valid = true;                       ///< false: the device is lost at the moment
+  bool valid = true;                       ///< false: its pose is not known at the moment
+  /// The device sends buttons and axes and has never sent a pose: they count, although it is not valid.
+  bool controlsOnly = false;
   /// The corners of its way since the frame before, X_RT at times inside the frame (a jump may be at its very
   /// end); without any it came straight.
   Course knots;
@@ -53,15 +55,19 @@ struct TrackerSample {
   /// equal without it.
   Nanoseconds measured = 0;
 
+  /// Whether its buttons and axes count.
+  bool hasControls() const { return valid || controlsOnly; }
+
   template <class Self, class Fields>
   static void fields(Self& t, Fields& f) {
     f("name", t.name), f("pose", t.X_RT), f("buttons", t.buttons), f("axes", t.axes);
-    f("stamp", t.stamp), f("valid", t.valid), f("knots", t.knots), f("controls", t.controls);
+    f("stamp", t.stamp), f("valid", t.valid), f("controls only", t.controlsOnly);
+    f("knots", t.knots), f("controls", t.controls);
   }
   bool operator==(const TrackerSample& o) const {
     return name == o.name && X_RT.p == o.X_RT.p && X_RT.q.coeffs() == o.X_RT.q.coeffs() &&
            buttons == o.buttons && axes == o.axes && stamp == o.stamp && valid == o.valid &&
-           knots == o.knots && controls == o.controls;
+           controlsOnly == o.controlsOnly && knots == o.knots && controls == o.controls;
   }
 };
 

@@ -15,6 +15,9 @@ constexpr std::size_t kStampsKept = 16;                    ///< more than a fram
 constexpr Nanoseconds kLongestLeap = 50'000'000;           ///< [ns]; as input logs have it
 constexpr Nanoseconds kSilenceToldEvery = 10'000'000'000;  ///< of one tracker [ns]
 constexpr double kLeapSpeed = 15;                          ///< [m/s]
+constexpr double kKeptWithoutNews = 10;  ///< what a device without a pose holds, at most [s]
+constexpr double kRepeatAfter = 0.2;  ///< a message that changes nothing so long after a change: a beat [s]
+constexpr double kBeatsMissed = 3;    ///< of a device that repeats its state until it is lost
 
 double eased(double s) {
   s = std::clamp(s, 0.0, 1.0);
@@ -75,16 +78,24 @@ bool TrackerFeed::heard(const Channel& c, Nanoseconds clock) const {
   return c.ever && toSeconds(clock - c.last) <= rig_.hold;
 }
 
+bool TrackerFeed::controlled(const Channel& c, Nanoseconds clock) const {
+  if (c.ever || !c.controlled) return false;
+  const double most = std::max(rig_.hold, std::min(kBeatsMissed * c.beat, kKeptWithoutNews));
+  return c.beat == 0 || toSeconds(clock - c.lastControl) <= most;
+}
+
 std::vector<TrackerFeed::Hearing> TrackerFeed::hearings(Nanoseconds clock) {
   std::vector<Hearing> news;
   for (Channel& c : channels_) {
-    const bool now = heard(c, clock);
+    const bool now = there(c, clock);
+    const bool ever = c.ever || c.controlled;
+    const Nanoseconds last = c.ever ? c.last : c.lastControl;
     const bool toldLately = c.toldSilent && clock - *c.toldSilent < kSilenceToldEvery;
-    if (!now && c.ever && !c.silentSince && !toldLately) {
-      c.silentSince = c.last, c.toldSilent = clock;
-      news.push_back({c.tracker->name, false, toSeconds(clock - c.last)});
+    if (!now && ever && !c.silentSince && !toldLately) {
+      c.silentSince = last, c.toldSilent = clock;
+      news.push_back({c.tracker->name, false, toSeconds(clock - last)});
     } else if (now && c.silentSince) {
-      news.push_back({c.tracker->name, true, toSeconds(c.last - *c.silentSince)});
+      news.push_back({c.tracker->name, true, toSeconds(last - *c.silentSince)});
       c.silentSince.reset();
     }
   }
@@ -141,8 +152,16 @@ std::optional<HeadNow> TrackerFeed::soon(std::string_view name, Nanoseconds cloc
   return {};
 }
 
-void TrackerFeed::change(Channel& c, Nanoseconds clock) {
+void TrackerFeed::change(Channel& c, Nanoseconds clock, bool changes) {
   ++counts_.taken;
+  if (!controlled(c, clock)) c.controlled = true, c.beat = 0, c.lastControl = c.lastChange = clock;
+  const double gap = std::max(0.0, toSeconds(clock - c.lastControl));
+  if (changes)
+    c.lastChange = clock;
+  else if (toSeconds(clock - c.lastChange) > kRepeatAfter)
+    c.beat = std::max(gap, 0.99 * c.beat);
+  if (!c.ever) c.period = c.period == 0 ? gap : c.period + 0.1 * (gap - c.period);
+  c.lastControl = std::max(c.lastControl, clock);
   if (c.changes.size() == kMostChanges) c.changes.pop_back();
   c.changes.push_back({clock, c.buttons, c.axes});
 }
@@ -152,8 +171,9 @@ bool TrackerFeed::button(std::string_view name, Nanoseconds clock, std::int64_t 
   if (!c) return false;
   if (index < 1 || index > 32) return refuse();
   const std::uint32_t bit = 1u << (index - 1);
+  const std::uint32_t before = c->buttons;
   c->buttons = down ? c->buttons | bit : c->buttons & ~bit;
-  change(*c, clock);
+  change(*c, clock, c->buttons != before);
   return true;
 }
 
@@ -161,8 +181,10 @@ bool TrackerFeed::axis(std::string_view name, Nanoseconds clock, std::int64_t in
   Channel* c = channel(name);
   if (!c) return false;
   if (index < 0 || index >= static_cast<std::int64_t>(kTrackerAxes) || !std::isfinite(value)) return refuse();
-  c->axes[static_cast<std::size_t>(index)] = static_cast<float>(std::clamp(value, -1.0, 1.0));
-  change(*c, clock);
+  float& axis = c->axes[static_cast<std::size_t>(index)];
+  const float before = axis;
+  axis = static_cast<float>(std::clamp(value, -1.0, 1.0));
+  change(*c, clock, axis != before);
   return true;
 }
 
@@ -194,39 +216,58 @@ std::optional<Pose> TrackerFeed::poseAt(const Channel& c, Nanoseconds clock, Nan
   return along(X, {*c.tracker->safe, Quat::Identity()}, rig_.ease > 0 ? (age - rig_.hold) / rig_.ease : 1);
 }
 
+/// What happened between the frames, in the order in which it came. What was measured before the last frame
+/// and came after it happens at the beginning of this one.
+void TrackerFeed::addChanges(std::span<const Change> changes, const InputStamp& now, InputTrack& track,
+                             Nanoseconds clock, Nanoseconds start) const {
+  const InputStamp first = track.stamps.back();
+  const Nanoseconds end = now.time;
+  const double span = std::max(1.0, static_cast<double>(clock - lastClock_));
+  for (const Change& change : changes) {
+    InputStamp s = now;
+    const double share = std::clamp(static_cast<double>(change.clock - lastClock_) / span, 0.0, 1.0);
+    s.time = start + static_cast<Nanoseconds>(share * static_cast<double>(end - start));
+    const InputStamp& last = track.stamps.back();
+    const bool news = change.buttons != last.buttons || change.axes != last.axes;
+    const bool passes = change.buttons != now.buttons || change.axes != now.axes;
+    if (s.time <= last.time && !news) continue;
+    if (s.time >= end && !passes) continue;
+    s.time = std::max(std::min(s.time, end - 1), last.time + 1);
+    if (s.time >= end) return;
+    if (s.valid) {
+      const double way = static_cast<double>(s.time - first.time) / static_cast<double>(end - first.time);
+      s.X_RT = det::interpolate(first.X_RT, now.X_RT, way);
+      s.X_RT.q.normalize();
+    }
+    s.buttons = change.buttons, s.axes = change.axes;
+    track.stamps.push_back(s);
+  }
+}
+
 void TrackerFeed::addStamps(Channel& c, InputTrack& track, Nanoseconds clock, Nanoseconds start,
                             Nanoseconds end) {
   std::vector<Change> changes;
   changes.swap(c.changes);
-  if (!heard(c, clock)) c.buttons = 0, c.axes = {}, changes.clear();
+  const bool controls = controlled(c, clock);
+  const bool forgotten = controls && toSeconds(clock - c.lastControl) > kKeptWithoutNews;
+  if (!there(c, clock) || forgotten) c.buttons = 0, c.axes = {}, changes.clear();
   const auto X = poseAt(c, clock);
-  const bool was = track.stamps.back().valid;
-  if (!X) {
-    if (was && end > track.stamps.back().time) track.stamps.push_back(lostAt(end, track));
+  const bool wasValid = track.stamps.back().valid, wasThere = wasValid || track.stamps.back().controlsOnly;
+  if (!X && !controls) {
+    if (wasThere && end > track.stamps.back().time) track.stamps.push_back(lostAt(end, track));
     return;
   }
-  InputStamp now;
-  now.time = end, now.X_RT = *X, now.buttons = c.buttons, now.axes = c.axes;
+  InputStamp now = X ? InputStamp() : lostAt(end, track);
+  now.time = end, now.buttons = c.buttons, now.axes = c.axes, now.controlsOnly = !X;
+  if (X) now.X_RT = *X;
   if (end <= track.stamps.back().time) {  // frame 0
     track.stamps.back() = now;
     return;
   }
-  if (mayLeap(track, *X, end)) {
+  if (X && mayLeap(track, *X, end)) {
     if (end - 1 > track.stamps.back().time) track.stamps.push_back(lostAt(end - 1, track));
-  } else if (was) {
-    const InputStamp first = track.stamps.back();
-    const double span = std::max(1.0, static_cast<double>(clock - lastClock_));
-    for (const Change& change : changes) {
-      InputStamp s;
-      const double share = std::clamp(static_cast<double>(change.clock - lastClock_) / span, 0.0, 1.0);
-      s.time = start + static_cast<Nanoseconds>(share * static_cast<double>(end - start));
-      if (s.time <= track.stamps.back().time || s.time >= end) continue;
-      const double way = static_cast<double>(s.time - first.time) / static_cast<double>(end - first.time);
-      s.X_RT = det::interpolate(first.X_RT, *X, way);
-      s.X_RT.q.normalize();
-      s.buttons = change.buttons, s.axes = change.axes;
-      track.stamps.push_back(s);
-    }
+  } else if (X ? wasValid : controls) {
+    addChanges(changes, now, track, clock, start);
   }
   track.stamps.push_back(now);
 }
@@ -252,7 +293,8 @@ void TrackerFeed::sampleNow(Nanoseconds clock, InputSample& sample) const {
     const auto X = poseAt(c, clock);
     t.name = c.tracker->name, t.valid = X.has_value(), t.measured = measuredBy(c, clock);
     if (X) t.X_RT = *X;
-    if (heard(c, clock)) t.buttons = c.buttons, t.axes = c.axes;
+    t.controlsOnly = !X && controlled(c, clock);
+    if (there(c, clock)) t.buttons = c.buttons, t.axes = c.axes;
   }
 }
 
@@ -260,7 +302,9 @@ std::vector<TrackerFeed::Status> TrackerFeed::status(Nanoseconds clock) const {
   std::vector<Status> all;
   for (const Channel& c : channels_) {
     Status s;
-    s.name = c.tracker->name, s.heard = heard(c, clock), s.age = c.ever ? toSeconds(clock - c.last) : 0;
+    const bool ever = c.ever || c.controlled;
+    s.name = c.tracker->name, s.heard = there(c, clock), s.posed = c.ever;
+    s.age = ever ? toSeconds(clock - (c.ever ? c.last : c.lastControl)) : 0;
     s.rate = s.heard && c.period > 0 ? 1 / c.period : 0;
     s.X_SD = c.X_SD, s.X_RT = c.X_RT, s.buttons = c.buttons, s.axes = c.axes;
     all.push_back(std::move(s));

@@ -5,6 +5,10 @@
 /// A tracker that has been silent for `hold` lets go of its buttons and axes. One with a safe pose then eases
 /// there; after that it is lost, as is one without. When it is heard of again it eases back.
 ///
+/// A device that has never sent a pose, such as a gamepad, is there while its buttons and axes are. If it
+/// repeats its state, it is lost once that stops for three of its periods, at least `hold`. If it sends only
+/// changes, it lets go of what it holds after 10 s without one.
+///
 /// Only trackers of the rig file are known, from the first frame on. What is not finite, absurdly far, not a
 /// rotation, or of an unknown name is refused.
 ///
@@ -40,9 +44,13 @@ public:
   TrackerFeed& operator=(const TrackerFeed&) = delete;
 
   // Measurements, in whatever order they come. False: refused, and counted.
+  // Those whose time is not known to be right: see SenderClock (pipeline/input/sender_clock.h).
   bool pose(std::string_view tracker, Nanoseconds clock, const Pose& X_SD);
   bool button(std::string_view tracker, Nanoseconds clock, std::int64_t index, bool down);
   bool axis(std::string_view tracker, Nanoseconds clock, std::int64_t index, double value);
+
+  /// Counts a measurement that came later than a newer one, and is left out.
+  void late() { ++counts_.late; }
 
   /// From now on the tracker is told as it will be so much later than asked for [ns] (forecast.h).
   void aim(std::string_view tracker, Nanoseconds ahead);
@@ -75,6 +83,7 @@ public:
   struct Status {
     std::string name;
     bool heard = false;  ///< within `hold`
+    bool posed = false;  ///< it has sent a pose
     double age = 0;      ///< of the last measurement [s]
     double rate = 0;     ///< measurements a second
     Pose X_SD;           ///< as it came
@@ -104,7 +113,12 @@ private:
     Nanoseconds found = 0;
     std::uint32_t buttons = 0;
     std::array<float, kTrackerAxes> axes{};
-    std::vector<Change> changes;               ///< since the last frame
+    std::vector<Change> changes;  ///< since the last frame
+    // Of a device without a pose.
+    bool controlled = false;      ///< its buttons and axes count
+    Nanoseconds lastControl = 0;  ///< its last message about one [ns]
+    Nanoseconds lastChange = 0;   ///< the last one that changed something [ns]
+    double beat = 0;              ///< between messages that change nothing [s]; 0: it sends changes only
     std::optional<Nanoseconds> silentSince{};  ///< as it was told; nothing: it is heard, as far as was told
     std::optional<Nanoseconds> toldSilent{};   ///< when that was the last time
   };
@@ -112,12 +126,17 @@ private:
   Channel* channel(std::string_view name);
   bool refuse() { return ++counts_.refused, false; }
   bool heard(const Channel& c, Nanoseconds clock) const;
+  /// Whether it is there without a pose.
+  bool controlled(const Channel& c, Nanoseconds clock) const;
+  bool there(const Channel& c, Nanoseconds clock) const { return heard(c, clock) || controlled(c, clock); }
   /// When, for whom it is told to at `clock`; 0 if it is long since.
   Nanoseconds measuredBy(const Channel& c, Nanoseconds clock) const { return heard(c, clock) ? c.last : 0; }
   std::optional<Pose> poseAt(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const;
   std::optional<Pose> poseAt(const Channel& c, Nanoseconds clock) const { return poseAt(c, clock, c.ahead); }
   Pose carriedOn(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const;
-  void change(Channel& c, Nanoseconds clock);
+  void change(Channel& c, Nanoseconds clock, bool changes);
+  void addChanges(std::span<const Change> changes, const InputStamp& now, InputTrack& track,
+                  Nanoseconds clock, Nanoseconds start) const;
   void addStamps(Channel& c, InputTrack& track, Nanoseconds clock, Nanoseconds start, Nanoseconds end);
 
   RigFile rig_;

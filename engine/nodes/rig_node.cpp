@@ -46,7 +46,7 @@ Course NavigatorNode::way(const TrackerSample* t, const FrameContext& frame, con
 
 void NavigatorNode::drive(FrameContext& frame, Nanoseconds until) {
   const TrackerSample* t = frame.input.find(attributes_.tracker);
-  if (!t || !t->valid || frame.now.step == 0) return;
+  if (!t || !t->hasControls() || frame.now.step == 0) return;
   const auto axis = [&](std::size_t i) {
     return axisCourse(frame.input, attributes_.tracker, i, frame.start(), frame.now.time);
   };

@@ -47,12 +47,15 @@ const Course& TriggerNode::wayInRig(const FrameContext& frame) {
   Course& way = way_;
   way.clear();
   const TrackerSample* t = frame.input.find(tracker_);
+  // A device without a pose is where the visitor is who holds it.
+  const bool byHead = tracker_ == "head" || (t && t->controlsOnly);
+  if (byHead) t = frame.input.find("head");
   if (looked_) {
     way.push_back({seen_, {p_RV_, Quat::Identity()}, false});
   } else if (seen_ < frame.now.time) {  // it begins to look inside this frame
     const InputSample& before = frame.scene.lastInput();
-    const TrackerSample* was = before.find(tracker_);
-    if (tracker_ == "head" && (was ? was->valid : !t || t->knots.empty()))
+    const TrackerSample* was = byHead ? before.find("head") : before.find(tracker_);
+    if (byHead && (was ? was->valid : !t || t->knots.empty()))
       way.push_back({frame.start(), {frame.scene.headInRig(before).p, Quat::Identity()}, false});
     else if (was && was->valid)
       way.push_back({frame.start(), {was->X_RT.p, Quat::Identity()}, false});
@@ -62,7 +65,7 @@ const Course& TriggerNode::wayInRig(const FrameContext& frame) {
       if (k.time > seen_) way.push_back({k.time, {k.X.p, Quat::Identity()}, k.jump});
   const bool there = t && t->valid;
   const bool reached = !way.empty() && way.back().time >= frame.now.time;  // by a jump at the frame's end
-  if (tracker_ == "head" && (there || !t || t->knots.empty())) {
+  if (byHead && (there || !t || t->knots.empty())) {
     if (!reached)
       way.push_back({frame.now.time, {frame.scene.headInRig(frame.input).p, Quat::Identity()}, false});
   } else if (there && !reached) {

@@ -23,7 +23,7 @@ constexpr Node::Missed lastOf(Node::Missed) {
 namespace {
 
 /// Of what is written: older ones mean something else.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr Nanoseconds kLatest = 1'000'000'000'000'000'000;  ///< thirty years of a show [ns]
 
 }  // namespace

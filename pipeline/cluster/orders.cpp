@@ -32,6 +32,7 @@ stadion_wire_Tracker written(const TrackerSample& t) {
   stadion_wire_Tracker w{};
   t.name.copy(w.name, sizeof(w.name) - 1);
   w.pose = written(t.X_RT), w.buttons = t.buttons, w.stamp = t.stamp, w.valid = t.valid;
+  w.controls_only = t.controlsOnly;
   std::ranges::copy(t.axes, w.axes);
   return w;
 }
@@ -76,6 +77,7 @@ TrackerSample read(const stadion_wire_Tracker& w) {
   TrackerSample t;
   t.name.assign(w.name, strnlen(w.name, sizeof(w.name)));
   t.X_RT = read(w.pose), t.buttons = w.buttons, t.stamp = w.stamp, t.valid = w.valid;
+  t.controlsOnly = w.controls_only;
   std::ranges::copy(w.axes, t.axes.begin());
   for (const stadion_wire_PoseKnot& k : spanOf(w.knots)) t.knots.push_back({k.time, read(k.pose), k.jump});
   for (const stadion_wire_ControlKnot& k : spanOf(w.controls)) {
@@ -139,7 +141,7 @@ std::size_t WrittenOrder::bytes() const {
   // As XCDR1 lays it out, up to the padding.
   std::size_t bytes = 72 + decisions_.size() * sizeof(stadion_wire_Decision);
   for (const stadion_wire_Tracker& t : trackers_)
-    bytes += 4 + std::strlen(t.name) + 1 + sizeof(t.pose) + sizeof(t.axes) + 25 +
+    bytes += 4 + std::strlen(t.name) + 1 + sizeof(t.pose) + sizeof(t.axes) + 26 +
              t.knots._length * sizeof(stadion_wire_PoseKnot) +
              t.controls._length * sizeof(stadion_wire_ControlKnot);
   return bytes;

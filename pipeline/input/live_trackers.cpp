@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <cmath>
 
 namespace stadion {
 
@@ -47,6 +48,17 @@ void LiveTrackers::button(std::string_view tracker, Nanoseconds clock, std::int6
 
 void LiveTrackers::axis(std::string_view tracker, Nanoseconds clock, std::int64_t index, double value) {
   take(tracker, [&] { feed_.axis(tracker, clock, index, value); });
+}
+
+void LiveTrackers::late(std::string_view tracker) {
+  take(tracker, [&] { feed_.late(); });
+}
+
+void LiveTrackers::clockWasSet(std::string_view tracker, Nanoseconds by) {
+  const std::lock_guard lock(mutex_);
+  if (told_.size() >= kMostToldOf || !told_.insert(fmt::format("clock {}", tracker)).second) return;
+  tell_(fmt::format("tracker {}: its sender's clock was set {} by {:.2f} s; its poses go on by the new time",
+                    tracker, by < 0 ? "back" : "forward", std::abs(toSeconds(by))));
 }
 
 void LiveTrackers::misunderstood(const std::string& what) {

@@ -29,6 +29,12 @@ public:
   void pose(std::string_view tracker, Nanoseconds clock, const Pose& X_SD);
   void button(std::string_view tracker, Nanoseconds clock, std::int64_t index, bool down);
   void axis(std::string_view tracker, Nanoseconds clock, std::int64_t index, double value);
+  /// A measurement came later than a newer one, and is left out.
+  void late(std::string_view tracker);
+  /// The clock of the tracker's sender was set by so much [ns], which is told once.
+  void clockWasSet(std::string_view tracker, Nanoseconds by);
+  /// Whether the rig file has it.
+  bool knows(std::string_view tracker) const { return feed_.rig().find(tracker) != nullptr; }
   /// Something came that is no measurement at all.
   void misunderstood(const std::string& what);
 

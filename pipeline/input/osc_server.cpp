@@ -59,16 +59,18 @@ struct OscServer::Socket {
   static int receive(const char* path, const char* types, lo_arg** args, int count, lo_message message,
                      void* self) {
     try {
-      static_cast<Socket*>(self)->take(path, types, args, count, lo_message_get_timestamp(message));
+      static_cast<Socket*>(self)->take(path, types, args, count, message);
     } catch (const std::exception&) {
       ++static_cast<Socket*>(self)->malformed;
     }
     return 0;
   }
 
-  void take(const char* path, const char* types, lo_arg** args, int count, lo_timetag tag) const {
+  void take(const char* path, const char* types, lo_arg** args, int count, lo_message message) const {
     std::array<double, OscMessage::kMostNumbers> numbers{};
-    OscMessage m{path, {}, true, timeOf(tag)};
+    OscMessage m{path, {}, true, timeOf(lo_message_get_timestamp(message))};
+    const lo_address sender = m.sent ? lo_message_get_source(message) : nullptr;
+    if (const char* host = sender ? lo_address_get_hostname(sender) : nullptr) m.from = host;
     std::size_t n = 0;
     for (int i = 0; i < count; ++i) {
       const auto x = numberOf(types[i], args[i]);

@@ -26,6 +26,7 @@ struct OscMessage {
   std::span<const double> numbers;  ///< its arguments, true as 1 and false as 0
   bool numeric = true;              ///< false: there were other arguments, or too many
   std::optional<Nanoseconds> sent;  ///< the time tag, by the sender's clock [ns]
+  std::string_view from{};          ///< the sender's host, if there is a time tag
 };
 
 class OscServer {

@@ -6,26 +6,20 @@
 ///     /tracker/NAME/axis    i value               i from 0 to 7, value from -1 to 1
 ///
 /// Numbers may be of any OSC type. A bundle's time tag, if it has one, says when something was measured, by
-/// the sender's clock: it orders and spaces measurements better than their arrival does.
+/// the sender's clock: it orders and spaces measurements better than their arrival does. Each sender has a
+/// clock of its own, and may set it (sender_clock.h).
 ///
 /// Threads  the server's own.
 /// Errors   whatever comes that is none of these is counted and told of once.
 
 #include "pipeline/input/live_trackers.h"
 #include "pipeline/input/osc_server.h"
+#include "pipeline/input/sender_clock.h"
+
+#include <array>
+#include <vector>
 
 namespace stadion {
-
-/// A sender's clock in terms of ours: the least delay seen is taken for none. Forgets by 1 ms a second, so
-/// that clocks that drift apart are followed.
-class SenderClock {
-public:
-  Nanoseconds ours(Nanoseconds sent, Nanoseconds arrived);
-
-private:
-  bool known_ = false;
-  Nanoseconds offset_ = 0, at_ = 0;
-};
 
 class OscTrackers {
 public:
@@ -41,10 +35,26 @@ public:
   std::uint64_t misunderstood() const { return misunderstood_ + (server_ ? server_->malformed() : 0); }
 
 private:
-  bool understood(std::string_view tracker, std::string_view what, const OscMessage& m, Nanoseconds clock);
+  enum class Kind { Pose, Button, Axis };
+  struct Measurement {
+    Kind kind;
+    std::array<double, 7> numbers;
+  };
+  /// What one sender says of one tracker: its poses, or its buttons and axes.
+  struct Stream {
+    std::string host, tracker;
+    bool poses;
+    SenderClock clock;
+    std::vector<Measurement> late{};  ///< buttons and axes since the last one that was not late
+  };
+
+  static std::optional<Measurement> measurementOf(std::string_view what, std::span<const double> numbers);
+  void takeStamped(std::string_view tracker, const Measurement& m, std::string_view host, Nanoseconds sent);
+  void post(std::string_view tracker, Nanoseconds clock, const Measurement& m);
+  Stream& streamOf(std::string_view host, std::string_view tracker, bool poses);
 
   LiveTrackers& trackers_;
-  SenderClock clock_;
+  std::vector<Stream> streams_;
   std::atomic<std::uint64_t> misunderstood_ = 0;
   std::unique_ptr<OscServer> server_;  ///< the last one: its thread uses the others
 };

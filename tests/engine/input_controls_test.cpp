@@ -74,5 +74,31 @@ TEST(InputControls, ARecordingKeepsWhatHappenedWithinFramesToTheBit) {
   }
 }
 
+TEST(InputControls, ADeviceWithoutAPoseHasRecordsOfItsOwn) {
+  const InputLog log = logOf("controls pad 0\n"
+                             "controls pad 1 buttons 0x5 axes 0 1\n"
+                             "controls pad 2 smooth axes 0 0.5\n"
+                             "lost pad 3\n");
+  InputSample sample;
+  log.sampleAt(fromSeconds(1.5), sample);
+  const TrackerSample& pad = sample.trackers[0];
+  EXPECT_TRUE(pad.controlsOnly && !pad.valid && pad.hasControls());
+  EXPECT_EQ(pad.buttons, 5u);
+  EXPECT_EQ(pad.axes[1], 0.75f);
+  log.sampleAt(fromSeconds(3.5), sample);
+  EXPECT_FALSE(sample.trackers[0].hasControls());
+  Diagnostics findings;
+  const std::string text = formatInputLog(log);
+  const auto again = parseInputLog(text, "again", findings);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(formatInputLog(*again), text);
+  for (const char* wrong : {"controls pad", "controls pad 0 turn 1 2 3", "controls pad 0 1 2 3",
+                            "controls pad 0 axes 2", "controls pad 0 axes"}) {
+    Diagnostics told;
+    EXPECT_FALSE(parseInputLog(std::string("stadion-input 1\n") + wrong, "wrong", told)) << wrong;
+    EXPECT_EQ(told.errorCount(), 1u) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace stadion

@@ -123,5 +123,19 @@ TEST(RigDrive, SmallTurnsAreAsExactAsLargeOnes) {
   }
 }
 
+TEST(Navigator, ADeviceWithoutAPoseMovesTheRigTheWayItFaces) {
+  for (const double rate : {30., 60., 144.}) {
+    ScriptedInput pad;
+    InputStamp stamp;
+    stamp.valid = false, stamp.controlsOnly = true;
+    stamp.axes[1] = 1;
+    for (const double t : {0., 2.}) {
+      stamp.time = fromSeconds(t);
+      ASSERT_TRUE(pad.add("wand", stamp));
+    }
+    EXPECT_LT((driven(pad, rate, 1).p - Vec3(0, 2, 0)).norm(), 1e-9) << rate;
+  }
+}
+
 }  // namespace
 }  // namespace stadion

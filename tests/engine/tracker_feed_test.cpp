@@ -4,6 +4,7 @@
 #include "engine/maths/functions.h"
 #include "tests/engine/asset_importing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -189,6 +190,93 @@ TEST(TrackerFeed, AFloodOfChangesInOneFrameIsCut) {
   EXPECT_LE(room.frame().find("wand")->controls.size(), 70u);
 }
 
+/// A rig with a gamepad, which may send what it holds again and again.
+struct PadRoom : Room {
+  static RigFile rig() {
+    RigFile rig = bareRig();
+    rig.trackers.push_back({"pad", {}, {}});
+    return rig;
+  }
+  PadRoom() : Room(rig()) {}
+  const TrackerSample& pad() { return *frame().find("pad"); }
+  Nanoseconds now() const { return 1'000'000'000 + signatureAt(next, 60).time - kMs; }
+};
+
+TEST(TrackerFeed, ADeviceOfAxesAndButtonsOnlyIsThereWithoutAPose) {
+  PadRoom room;
+  EXPECT_FALSE(room.pad().hasControls());
+  room.feed.axis("pad", room.now(), 1, 0.75);
+  room.feed.button("pad", room.now(), 3, true);
+  const TrackerSample& pad = room.pad();
+  EXPECT_TRUE(pad.controlsOnly);
+  EXPECT_FALSE(pad.valid) << "nobody knows where it is";
+  EXPECT_EQ(pad.axes[1], 0.75f);
+  EXPECT_EQ(pad.buttons, 4u);
+  EXPECT_TRUE(pad.knots.empty());
+  InputSample now;
+  room.feed.sampleNow(room.now(), now);
+  EXPECT_TRUE(now.find("pad")->controlsOnly);
+  EXPECT_TRUE(room.feed.status(room.now()).back().heard);
+  EXPECT_FALSE(room.feed.status(room.now()).back().posed);
+}
+
+TEST(TrackerFeed, APadThatRepeatsItsStateIsLostWhenItStops) {
+  for (const int every : {1, 2, 6, 30, 60}) {  // frames between two messages
+    PadRoom room;
+    for (int n = 0; n < 300; ++n) {
+      if (n % every == 0)
+        room.feed.axis("pad", room.now(), 1, 1), room.feed.button("pad", room.now(), 1, true);
+      const TrackerSample& pad = room.pad();
+      EXPECT_TRUE(pad.controlsOnly) << "frame " << n << " of one that sends every " << every;
+      EXPECT_EQ(pad.axes[1], 1.0f);
+    }
+    const int patience = std::max(6, 3 * every) + 2;
+    for (int n = 0; n < patience; ++n) room.frame();
+    EXPECT_FALSE(room.pad().controlsOnly) << every;
+    EXPECT_EQ(room.sample.find("pad")->axes[1], 0.0f);
+    EXPECT_EQ(room.sample.find("pad")->buttons, 0u);
+    EXPECT_EQ(room.feed.hearings(room.now()).size(), 1u);
+    room.feed.axis("pad", room.now(), 1, 0.5);
+    EXPECT_EQ(room.pad().axes[1], 0.5f);
+    EXPECT_TRUE(room.feed.hearings(room.now()).at(0).heard);
+  }
+}
+
+TEST(TrackerFeed, APadThatSendsChangesOnlyHoldsThemForTenSeconds) {
+  PadRoom room;
+  for (int copy = 0; copy < 3; ++copy) room.feed.axis("pad", room.now() + copy * 10, 1, 1);
+  for (int n = 0; n < 590; ++n) EXPECT_EQ(room.pad().axes[1], 1.0f) << n;
+  for (int n = 0; n < 20; ++n) room.frame();
+  EXPECT_EQ(room.pad().axes[1], 0.0f);
+  EXPECT_TRUE(room.pad().controlsOnly);
+  EXPECT_TRUE(room.feed.hearings(room.now()).empty()) << "a pad at rest is not silent";
+  room.feed.axis("pad", room.now(), 1, -1);
+  EXPECT_EQ(room.pad().axes[1], -1.0f);
+}
+
+TEST(TrackerFeed, APressOfAPadWithinOneFrameIsNotMissed) {
+  for (const Nanoseconds off : {0 * kMs, -40 * kMs, 40 * kMs}) {  // measured before, in and after the frame
+    PadRoom room;
+    room.pad(), room.pad();
+    room.feed.button("pad", room.now() + off - 2 * kMs, 2, true);
+    room.feed.button("pad", room.now() + off, 2, false);
+    const auto controls = room.pad().controls;
+    EXPECT_TRUE(std::ranges::any_of(controls, [](const ControlKnot& c) { return c.buttons == 2; })) << off;
+    EXPECT_EQ(room.sample.find("pad")->buttons, 0u);
+  }
+}
+
+TEST(TrackerFeed, ADeviceThatSendsAPoseLaterIsATrackerFromThenOn) {
+  PadRoom room;
+  room.feed.axis("pad", room.now(), 1, 1);
+  EXPECT_TRUE(room.pad().controlsOnly);
+  room.feed.pose("pad", room.now(), poseAt(0, 1, 1));
+  EXPECT_TRUE(room.pad().valid);
+  EXPECT_FALSE(room.sample.find("pad")->controlsOnly);
+  for (int n = 0; n < 20; ++n) room.frame();
+  EXPECT_FALSE(room.pad().hasControls());
+}
+
 /// What a record of the run gives when it is replayed.
 std::vector<InputSample> replayed(const std::string& path, const std::vector<InputSample>& live,
                                   double rate) {
@@ -209,6 +297,7 @@ TEST(TrackerFeed, TheRecordOfAWildVisitGivesTheVerySameSamples) {
     RigFile rig = standardRig();
     rig.origin = Vec3(0.3, 0.1, 0), rig.yaw = 0.7;
     if (visit % 3 == 0) rig.cutoff = 0;
+    rig.trackers.push_back({"pad", {}, {}});
     TrackerFeed feed(rig);
     std::uint64_t seed = 17 + static_cast<std::uint64_t>(visit);
     const auto random = [&] {
@@ -225,6 +314,11 @@ TEST(TrackerFeed, TheRecordOfAWildVisitGivesTheVerySameSamples) {
       const Nanoseconds frameEnd = clock + 16 * kMs + static_cast<Nanoseconds>(random() * 3e6);
       for (Nanoseconds t = clock; t < frameEnd; t += 1 + static_cast<Nanoseconds>(random() * 8e6)) {
         const char* name = random() < 0.5 ? "head" : "wand";
+        const bool padComes = n > 20 + static_cast<unsigned>(visit);
+        if (padComes && random() < 0.4) feed.axis("pad", t, 1, std::floor(4 * random()) / 4);
+        if (padComes && random() < 0.2)
+          feed.button("pad", t, 1 + static_cast<int>(2 * random()), random() < 0.5);
+        if (n == 280 && visit % 2 == 0) feed.pose("pad", t, poseAt(0, 1, 1));
         if (random() < 0.02) t += 700 * kMs;             // silence
         const double wild = random() < 0.03 ? 3 : 0.02;  // what cannot have moved there
         if (random() < 0.7)

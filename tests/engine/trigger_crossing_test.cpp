@@ -225,5 +225,20 @@ TEST(TriggerCrossing, ChordsOfSpheresAndBoxesAreExact) {
   EXPECT_FALSE(slab({1, 2, 3}).chord({-3, 2.1, 0}, {3, 2.1, 0}));
 }
 
+TEST(TriggerCrossing, ADeviceWithoutAPoseIsWhereTheHeadIs) {
+  ScriptedInput input;
+  input.key("head", 0, {-1, 0, 0}).key("head", 1, {-1, 0, 0}).key("head", 1.4, {3, 0, 0});  // 10 m/s
+  InputStamp pad;
+  pad.valid = false, pad.controlsOnly = true;
+  for (const auto& [time, buttons] : {std::pair{0., 0u}, {1.05, 1u}, {1.1, 0u}, {2., 0u}}) {
+    pad.time = fromSeconds(time), pad.buttons = buttons;
+    ASSERT_TRUE(input.add("pad", pad));
+  }
+  for (const double rate : {30.0, 60.0, 240.0})
+    expectEvents(
+        told(ballRegion(0.75), input, rate, 2, "pad"),
+        {{Event::Enter, 1.025}, {Event::Button1, 1.05}, {Event::Button1Up, 1.1}, {Event::Exit, 1.175}});
+}
+
 }  // namespace
 }  // namespace stadion

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <arpa/inet.h>
+#include <atomic>
 #include <cstring>
 #include <gtest/gtest.h>
 #include <limits>
@@ -151,15 +152,19 @@ TEST(ThreadsOscTrackers, APortThatIsTakenIsRefused) {
   EXPECT_FALSE(OscTrackers::open(room.osc->port(), other));
 }
 
-TEST(SenderClock, TheLeastDelayCountsAndDriftIsFollowed) {
-  SenderClock clock;
-  constexpr Nanoseconds kMs = 1'000'000, kApart = 3600'000 * kMs;
-  EXPECT_EQ(clock.ours(0, kApart + 5 * kMs), kApart + 5 * kMs);
-  EXPECT_EQ(clock.ours(10 * kMs, kApart + 12 * kMs), kApart + 12 * kMs) << "a shorter delay";
-  EXPECT_NEAR(static_cast<double>(clock.ours(20 * kMs, kApart + 29 * kMs)),
-              static_cast<double>(kApart + 22 * kMs), 1e5)
-      << "what came late was measured on time";
-  EXPECT_EQ(clock.ours(0, kApart + 10'000 * kMs), kApart + 10'000 * kMs) << "another clock";
+TEST(ThreadsOscTrackers, EachSenderIsToldFromTheOthersByItsHost) {
+  std::string from;
+  std::atomic<int> heard = 0;
+  auto server = OscServer::open(0, [&](const OscMessage& m) { from = m.from, ++heard; });
+  ASSERT_TRUE(server);
+  const lo_address to = lo_address_new("127.0.0.1", std::to_string(server.value()->port()).c_str());
+  lo_timetag now;
+  lo_timetag_now(&now);
+  lo_send_timestamped(to, now, "/tracker/wand/button", "ii", 2, 1);
+  for (int i = 0; i < 5000 && heard == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  lo_address_free(to);
+  server.value().reset();
+  EXPECT_EQ(from, "127.0.0.1");
 }
 
 }  // namespace
