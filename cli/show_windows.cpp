@@ -66,10 +66,10 @@ void ShowWindow::setOverlay(std::size_t number, const Picture& picture, bool atB
   if (o.shown) o.picture.upload(picture);
 }
 
-void ShowWindow::drawPane(const WindowPane& pane, EyeMix mix) {
+void ShowWindow::drawPane(const WindowPane& pane, EyeMix mix, std::int32_t firstRow) {
   const Eyes& eyes = *eyes_[pane.wall];
   pass_->draw({&eyes.left, eyes.two ? &eyes.right : nullptr, pane.place.x, pane.place.y, pane.place.width,
-               pane.place.height, mix, pane.shape});
+               pane.place.height, mix, pane.shape, firstRow});
 }
 
 // From the upper left corner down, and from the lower left corner up.
@@ -89,6 +89,23 @@ void ShowWindow::drawSide(const std::vector<WindowPane>& panes, GLenum buffer, E
   const auto [width, height] = window_->size();
   pass_->begin(width, height, buffer);
   for (const WindowPane& pane : panes) drawPane(pane, mix);
+  drawOverlays(0, 0, static_cast<std::int32_t>(height));
+}
+
+// Monitors side by side may show a row of the window in an even and in an odd row of theirs.
+void ShowWindow::drawRows(const std::vector<WindowPane>& panes) {
+  const auto [width, height] = window_->size();
+  pass_->begin(width, height);
+  const std::vector<MonitorPart> parts = window_->monitorParts();
+  const auto odd = [](const MonitorPart& part) { return part.firstRow & 1; };
+  for (const MonitorPart& part : parts) {
+    const bool first = &part == &parts.front();
+    if (!first && odd(part) == odd(parts.front())) continue;
+    const PixelRectangle& r = part.place;
+    if (!first) pass_->clip(r.x, r.y, r.width, r.height);
+    for (const WindowPane& pane : panes) drawPane(pane, EyeMix::Interlaced, part.firstRow);
+  }
+  pass_->clip(0, 0, 0, 0);
   drawOverlays(0, 0, static_cast<std::int32_t>(height));
 }
 
@@ -120,7 +137,7 @@ std::optional<Picture> ShowWindow::draw(const std::vector<WindowPane>& panes, bo
   case WindowStereo::SideBySide: drawHalves(panes, true); break;
   case WindowStereo::TopBottom: drawHalves(panes, false); break;
   case WindowStereo::Anaglyph: drawSide(panes, GL_BACK, EyeMix::Anaglyph); break;
-  case WindowStereo::Interlaced: drawSide(panes, GL_BACK, EyeMix::Interlaced); break;
+  case WindowStereo::Interlaced: drawRows(panes); break;
   case WindowStereo::Quad:
     drawSide(panes, GL_BACK_RIGHT, EyeMix::Right);
     drawSide(panes, GL_BACK_LEFT, EyeMix::Left);

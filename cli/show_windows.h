@@ -15,6 +15,7 @@
 
 namespace stadion {
 
+/// Interlaced: the even rows of the monitor, counted from its top from 0, are for the left eye.
 enum class WindowStereo { Mono, SideBySide, TopBottom, Anaglyph, Interlaced, Quad };
 
 /// "mono", "side-by-side", ...
@@ -61,7 +62,8 @@ private:
       : window_(std::move(window)), stereo_(stereo) {}
   void drawSide(const std::vector<WindowPane>& panes, GLenum buffer, EyeMix mix);
   void drawHalves(const std::vector<WindowPane>& panes, bool beside);
-  void drawPane(const WindowPane& pane, EyeMix mix);
+  void drawRows(const std::vector<WindowPane>& panes);
+  void drawPane(const WindowPane& pane, EyeMix mix, std::int32_t firstRow = 0);
   void drawOverlays(std::int32_t x, std::int32_t y, std::int32_t bottom);
   void enter();
 

@@ -21,6 +21,7 @@ std::unique_ptr<ViewWindows> ViewWindows::open(const ViewOptions& options, const
   auto system = WindowSystem::open();
   if (!system) return findings.add(system.error()), nullptr;
   made->system_ = std::move(system.value());
+  if (const auto why = made->system_->mayGoDark()) findings.warning({}, "the display may go dark: " + *why);
   made->sizes_ = unfold(walls.walls, options.width, options.height);
   const std::string name = std::filesystem::path(options.run.show.script).filename().string();
   const auto add = [&](const WindowPlan& plan) {

@@ -58,6 +58,8 @@ std::unique_ptr<WallDisplays> WallDisplays::open(const WallFile& walls, WindowSt
     displays->windows_.push_back(std::move(window.value()));
     displays->shapes_.push_back(entry.output ? entry.output->shape : OutputShape{});
   }
+  if (const auto why = displays->mayGoDark())
+    findings.warning({}, "displays may go dark during the show: " + *why);
   return displays;
 }
 
@@ -65,6 +67,12 @@ std::array<std::uint32_t, 2> WallDisplays::pictureSize(std::size_t wall) const {
   auto [width, height] = windows_[wall]->window().size();
   if (shapes_[wall].rotate % 180 == 90) std::swap(width, height);
   return {width, height};
+}
+
+std::optional<std::string> WallDisplays::mayGoDark() const {
+  for (const auto& [screen, system] : systems_)
+    if (auto why = system->mayGoDark()) return why;
+  return {};
 }
 
 void WallDisplays::show(const std::vector<EyePictures>& pictures) {

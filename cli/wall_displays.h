@@ -36,6 +36,8 @@ public:
 private:
   WallDisplays() = default;
   Result<WindowSystem*> systemOf(const std::string& screen);
+  /// Why displays may go dark during the show, and what to do; nothing if they are kept from it.
+  std::optional<std::string> mayGoDark() const;
 
   std::map<std::string, std::unique_ptr<WindowSystem>> systems_;  ///< by X screen
   std::vector<std::unique_ptr<ShowWindow>> windows_;              ///< by wall; go before their systems

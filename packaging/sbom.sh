@@ -11,7 +11,7 @@ build=$1
 programs="stadion stadion-import stadion-wall"
 # Loaded at run time, also by GLFW and OpenAL, and libraries that are headers alone: no program names them.
 others="libosmesa6 libegl1 libegl-mesa0 libgl1-mesa-dri libglfw3 libopenal1 libx11-6 libasound2 \
-libgl1 libglx0 libglx-mesa0 libx11-xcb1 libxcursor1 libxi6 libxinerama1 libxrandr2 libxrender1 libxxf86vm1 libpulse0 \
+libgl1 libglx0 libglx-mesa0 libx11-xcb1 libxcursor1 libxi6 libxinerama1 libxrandr2 libxrender1 libxxf86vm1 libxss1 libxext6 libdbus-1-3 libpulse0 \
 libjack-jackd2-0 libportaudio2 libeigen3-dev libcli11-dev nlohmann-json3-dev tao-pegtl-dev"
 
 text() { printf '%s' "$1" | tr -d '\000-\037' | sed 's/\\/\\\\/g; s/"/\\"/g'; }

@@ -18,7 +18,7 @@ constexpr const char* kFragment = R"(#version 330 core
 uniform sampler2D left, right;
 uniform vec4 place;      // x, y of the lower left corner, width, height [pixels]
 uniform mat3 toPicture;  // of shares from the upper left corner
-uniform ivec4 mode;      // x: 0 left, 1 right, 2 anaglyph, 3 interlaced; y: height of the content; z: colours; w: alpha
+uniform ivec4 mode;      // x: 0 left, 1 right, 2 anaglyph, 3 interlaced; y: height of the content, and 1 if its top row is an odd one of the monitor; z: colours; w: alpha
 uniform vec3 gamma, gain;
 out vec4 shown;
 
@@ -119,8 +119,8 @@ void OutputPass::draw(const Pane& pane) {
   for (std::size_t i = 0; i < 9; ++i)
     columns[i] = static_cast<float>(toPicture(static_cast<int>(i % 3), static_cast<int>(i / 3)));
   gl_.UniformMatrix3fv(uniforms_.toPicture, 1, GL_FALSE, columns.data());
-  gl_.Uniform4i(uniforms_.mode, static_cast<GLint>(pane.mix), static_cast<GLint>(height_),
-                pane.shape.turnsColours() ? 1 : 0, 0);
+  gl_.Uniform4i(uniforms_.mode, static_cast<GLint>(pane.mix),
+                static_cast<GLint>(height_) + (pane.firstRow & 1), pane.shape.turnsColours() ? 1 : 0, 0);
   const auto& g = pane.shape.gamma;
   gl_.Uniform3f(uniforms_.gamma, static_cast<float>(1 / g[0]), static_cast<float>(1 / g[1]),
                 static_cast<float>(1 / g[2]));
@@ -129,6 +129,13 @@ void OutputPass::draw(const Pane& pane) {
   };
   gl_.Uniform3f(uniforms_.gain, gain(0), gain(1), gain(2));
   fill(pane.x, pane.y, pane.width, pane.height);
+}
+
+void OutputPass::clip(std::int32_t x, std::int32_t y, std::uint32_t width, std::uint32_t height) {
+  if (width == 0) return gl_.Disable(GL_SCISSOR_TEST);
+  gl_.Enable(GL_SCISSOR_TEST);
+  gl_.Scissor(x, static_cast<GLint>(height_) - y - static_cast<GLint>(height), static_cast<GLsizei>(width),
+              static_cast<GLsizei>(height));
 }
 
 void OutputPass::overlay(const PictureTexture& picture, std::int32_t x, std::int32_t y) {

@@ -43,6 +43,7 @@ struct Pane {
   std::uint32_t width = 0, height = 0;    ///< [pixels]
   EyeMix mix = EyeMix::Left;
   OutputShape shape;
+  std::int32_t firstRow = 0;  ///< of Interlaced: the monitor's row that shows the top row of the window
 };
 
 class OutputPass {
@@ -52,6 +53,9 @@ public:
   /// Begins a new content of so many pixels: all black. Of a quad-buffered window one buffer after the other.
   void begin(std::uint32_t width, std::uint32_t height, GLenum buffer = GL_BACK);
   void draw(const Pane& pane);
+  /// From now on draws only there, from the upper left corner of the content; without a width everywhere
+  /// again.
+  void clip(std::int32_t x, std::int32_t y, std::uint32_t width, std::uint32_t height);
   /// Lays a picture with transparency over what is there.
   void overlay(const PictureTexture& picture, std::int32_t x, std::int32_t y);
   /// What has been drawn, from the buffer that was drawn to.

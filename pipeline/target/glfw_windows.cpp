@@ -1,6 +1,7 @@
 // The only file that knows GLFW.
 #include "pipeline/draw/gl_table.h"
 #include "pipeline/draw/problem.h"
+#include "pipeline/target/screen_saver.h"
 #include "pipeline/target/shared_library.h"
 #include "pipeline/target/window.h"
 #include "pipeline/target/x_connection.h"
@@ -8,6 +9,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <optional>
@@ -28,6 +30,8 @@ namespace {
   X(GetMonitors)                                                                                             \
   X(GetProcAddress)                                                                                          \
   X(GetVideoMode)                                                                                            \
+  X(GetWindowPos)                                                                                            \
+  X(GetWindowSize)                                                                                           \
   X(GetWindowUserPointer)                                                                                    \
   X(Init)                                                                                                    \
   X(MakeContextCurrent)                                                                                      \
@@ -40,6 +44,7 @@ namespace {
   X(SetScrollCallback)                                                                                       \
   X(SetWindowCloseCallback)                                                                                  \
   X(SetWindowFocusCallback)                                                                                  \
+  X(SetWindowIconifyCallback)                                                                                \
   X(SetWindowPos)                                                                                            \
   X(SetWindowTitle)                                                                                          \
   X(SetWindowUserPointer)                                                                                    \
@@ -96,11 +101,42 @@ Key keyOf(int code) {
   return code >= 32 && code < 127 ? static_cast<Key>(code) : Key::Unknown;
 }
 
+/// Where the monitors are, asked anew once a second: they may be arranged anew during a show.
+class MonitorPlaces {
+public:
+  explicit MonitorPlaces(const Glfw& glfw) : glfw_(glfw) {}
+
+  const std::vector<PixelRectangle>& now() {
+    const auto clock = std::chrono::steady_clock::now();
+    if (clock < due_) return places_;
+    due_ = clock + std::chrono::seconds(1);
+    places_.clear();
+    int count = 0;
+    GLFWmonitor** const all = glfw_.GetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+      PixelRectangle place;
+      glfw_.GetMonitorPos(all[i], &place.x, &place.y);
+      const GLFWvidmode* mode = glfw_.GetVideoMode(all[i]);
+      if (!mode) continue;
+      place.width = static_cast<std::uint32_t>(mode->width),
+      place.height = static_cast<std::uint32_t>(mode->height);
+      places_.push_back(place);
+    }
+    return places_;
+  }
+
+private:
+  const Glfw& glfw_;
+  std::vector<PixelRectangle> places_;
+  std::chrono::steady_clock::time_point due_{};
+};
+
 class GlfwWindow final : public Window {
 public:
   GlfwWindow(const Glfw& glfw, GLFWwindow* handle, const GlTable& gl, std::mutex& turns, std::uint32_t width,
-             std::uint32_t height, bool quadBuffered)
-      : Window(gl, turns, width, height), glfw_(glfw), handle_(handle), quadBuffered_(quadBuffered) {
+             std::uint32_t height, bool quadBuffered, MonitorPlaces& monitors, ScreenSaverPause& saver)
+      : Window(gl, turns, width, height), glfw_(glfw), handle_(handle), quadBuffered_(quadBuffered),
+        monitors_(monitors), saver_(saver) {
     glfw_.SetWindowUserPointer(handle_, this);
     glfw_.SetKeyCallback(handle_, [](GLFWwindow* w, int key, int, int action, int mods) {
       if (action == GLFW_REPEAT) return;
@@ -126,6 +162,10 @@ public:
       if (!focused) note(w, at(WindowEvent::Kind::FocusLost, 0, 0));
     });
     glfw_.SetWindowCloseCallback(handle_, [](GLFWwindow* w) { note(w, at(WindowEvent::Kind::Close, 0, 0)); });
+    // A full screen that comes back takes its monitor anew.
+    glfw_.SetWindowIconifyCallback(handle_, [](GLFWwindow* w, int iconified) {
+      if (!iconified) static_cast<GlfwWindow*>(ownerOf(w))->saver_.restoreTimeouts();
+    });
   }
   ~GlfwWindow() override {
     if (!xConnectionLost()) glfw_.DestroyWindow(handle_);
@@ -155,6 +195,19 @@ public:
   std::vector<WindowEvent> takeEvents() override { return std::exchange(events_, {}); }
   void setTitle(const std::string& title) override { glfw_.SetWindowTitle(handle_, title.c_str()); }
   bool quadBuffered() const override { return quadBuffered_; }
+  std::vector<MonitorPart> monitorParts() const override {
+    const auto [width, height] = size();
+    const MonitorPart atTop{{0, 0, width, height}, 0};
+    if (xConnectionLost()) return {atTop};
+    glfw_.GetError(nullptr);
+    int x = 0, y = 0, across = 0, down = 0;
+    glfw_.GetWindowPos(handle_, &x, &y);
+    if (glfw_.GetError(nullptr) != GLFW_NO_ERROR) return {atTop};  // Wayland does not say
+    glfw_.GetWindowSize(handle_, &across, &down);
+    if (across <= 0 || down <= 0) return {atTop};
+    const PixelRectangle content{x, y, static_cast<std::uint32_t>(across), static_cast<std::uint32_t>(down)};
+    return partsOnMonitors(content, monitors_.now(), static_cast<double>(height) / down);
+  }
 
 private:
   static WindowEvent at(WindowEvent::Kind kind, double x, double y) {
@@ -169,13 +222,17 @@ private:
   const Glfw& glfw_;
   GLFWwindow* handle_;
   bool quadBuffered_;
+  MonitorPlaces& monitors_;
+  ScreenSaverPause& saver_;
   std::vector<WindowEvent> events_;
 };
 
 class GlfwSystem final : public WindowSystem {
 public:
-  explicit GlfwSystem(const Glfw& glfw) : glfw_(glfw) {}
+  GlfwSystem(const Glfw& glfw, void* display)
+      : glfw_(glfw), monitors_(glfw_), saver_(std::make_unique<ScreenSaverPause>(display)) {}
   ~GlfwSystem() override {
+    saver_.reset();
     if (!xConnectionLost()) glfw_.Terminate();
   }
 
@@ -194,6 +251,7 @@ public:
           fmt::format("no window{} with OpenGL 3.3 core: {}",
                       plan.quadBuffer ? " with a back buffer for each eye (quad-buffered stereo)" : "",
                       lastError(glfw_)));
+    if (plan.fullscreen) saver_->restoreTimeouts();
     place(handle, plan, monitor);
     if (!plan.pointer) glfw_.SetInputMode(handle, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
     if (const auto why = loadTable(handle)) {
@@ -202,15 +260,18 @@ public:
     }
     int width = 0, height = 0;
     glfw_.GetFramebufferSize(handle, &width, &height);
-    return std::unique_ptr<Window>(
-        std::make_unique<GlfwWindow>(glfw_, handle, gl_, turns_, static_cast<std::uint32_t>(width),
-                                     static_cast<std::uint32_t>(height), plan.quadBuffer));
+    return std::unique_ptr<Window>(std::make_unique<GlfwWindow>(
+        glfw_, handle, gl_, turns_, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
+        plan.quadBuffer, monitors_, *saver_));
   }
 
   void poll() override {
-    if (!xConnectionLost()) glfw_.PollEvents();
+    if (xConnectionLost()) return;
+    glfw_.PollEvents();
+    saver_->poll(std::chrono::steady_clock::now());
   }
   std::optional<std::string> lost() const override { return xConnectionLost(); }
+  std::optional<std::string> mayGoDark() const override { return saver_->shortcoming(); }
 
   std::optional<GamepadState> gamepad() override {
     GLFWgamepadstate raw;
@@ -299,6 +360,8 @@ private:
   }
 
   const Glfw glfw_;
+  MonitorPlaces monitors_;
+  std::unique_ptr<ScreenSaverPause> saver_;
   GlTable gl_;
   std::mutex turns_;
   bool loaded_ = false;
@@ -341,8 +404,9 @@ Result<std::unique_ptr<WindowSystem>> WindowSystem::open(const std::string& scre
   if (glfw.value().Init()) {
     // Only a GLFW for X has it.
     const auto connection = library.value().find<void*()>("glfwGetX11Display");
-    watchXConnection(connection ? connection() : nullptr);
-    return std::unique_ptr<WindowSystem>(std::make_unique<GlfwSystem>(glfw.value()));
+    void* const xDisplay = connection ? connection() : nullptr;
+    watchXConnection(xDisplay);
+    return std::unique_ptr<WindowSystem>(std::make_unique<GlfwSystem>(glfw.value(), xDisplay));
   }
   if (!screen.empty())
     return Opened::failure(

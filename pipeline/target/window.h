@@ -7,6 +7,7 @@
 /// Errors   where there is no display open() says so, and what to do. A display that goes while windows are
 ///          shown is told by lost(); all that is asked of them then does nothing.
 
+#include "pipeline/target/monitor_rows.h"
 #include "pipeline/target/target.h"
 
 #include <array>
@@ -56,13 +57,6 @@ struct WindowEvent {
   double x = 0, y = 0;  ///< of Move: where the pointer is; of Wheel: how far it was turned, y away from one
 };
 
-struct PixelRectangle {
-  std::int32_t x = 0, y = 0;  ///< upper left corner
-  std::uint32_t width = 0, height = 0;
-
-  bool operator==(const PixelRectangle&) const = default;
-};
-
 struct WindowPlan {
   std::string title;
   std::uint32_t width = 800, height = 600;  ///< of the content; of a full screen as the monitor has it
@@ -89,6 +83,8 @@ public:
   virtual std::vector<WindowEvent> takeEvents() = 0;
   virtual void setTitle(const std::string& title) = 0;
   virtual bool quadBuffered() const = 0;
+  /// Where its content lies now. Where the window system does not say, it begins in a monitor's top row.
+  virtual std::vector<MonitorPart> monitorParts() const = 0;
 
 protected:
   using Target::Target;
@@ -100,7 +96,7 @@ struct GamepadState {
   std::uint32_t buttons = 0;    ///< bits: A, B, X, Y, left and right bumper
 };
 
-/// One connection to a window system.
+/// One connection to a window system. While it lasts, the screen saver and DPMS wait (screen_saver.h).
 class WindowSystem {
 public:
   virtual ~WindowSystem() = default;
@@ -116,6 +112,8 @@ public:
   virtual std::optional<std::string> lost() const = 0;
   /// The first gamepad; nothing if there is none.
   virtual std::optional<GamepadState> gamepad() = 0;
+  /// Why its displays may go dark during a show, and what to do; nothing if they are kept from it.
+  virtual std::optional<std::string> mayGoDark() const = 0;
   /// "HDMI-1 (1920 x 1080)", in the order in which they are numbered.
   virtual std::vector<std::string> monitors() = 0;
 };
