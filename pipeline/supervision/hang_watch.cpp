@@ -9,12 +9,12 @@ constexpr Nanoseconds kAsleep = fromSeconds(1);
 
 }  // namespace
 
-HangWatch::HangWatch(const SharedProgress& progress, Nanoseconds after)
-    : progress_(progress), after_(after), before_(progress.framesShown()), since_(machineClock()),
+HangWatch::HangWatch(const SharedProgress& progress, Nanoseconds after, Clock clock)
+    : progress_(progress), after_(after), clock_(clock), before_(progress.framesShown()), since_(clock()),
       looked_(since_) {}
 
 std::optional<Nanoseconds> HangWatch::hangs() {
-  const Nanoseconds now = machineClock();
+  const Nanoseconds now = clock_();
   const SharedProgress::Phase phase = progress_.phase();
   if (now - looked_ > kAsleep || phase != phase_) since_ = now, phase_ = phase;
   looked_ = now;

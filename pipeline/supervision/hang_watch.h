@@ -18,8 +18,10 @@ class HangWatch {
 public:
   static constexpr int kLonger = 12;
 
-  /// `after`: while it plays, no picture may come for so long [ns]. `progress` must outlive it.
-  HangWatch(const SharedProgress& progress, Nanoseconds after);
+  using Clock = Nanoseconds (*)();
+  /// `after`: while it plays, no picture may come for so long [ns]. `progress` must outlive it. `clock`:
+  /// tells the time as `progress` notes it; a test passes its own.
+  HangWatch(const SharedProgress& progress, Nanoseconds after, Clock clock = machineClock);
   /// How long no picture has come, at least, if it hangs [ns]. Whoever has not asked for a second was stopped
   /// itself (Ctrl-Z, a debugger, a machine that slept): what was before does not count.
   std::optional<Nanoseconds> hangs();
@@ -29,6 +31,7 @@ public:
 private:
   const SharedProgress& progress_;
   Nanoseconds after_;
+  Clock clock_;
   std::uint64_t before_;  ///< frames shown by players before this one
   Nanoseconds since_, looked_;
   SharedProgress::Phase phase_ = SharedProgress::Phase::Opening;

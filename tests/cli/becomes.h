@@ -6,10 +6,10 @@
 
 namespace stadion {
 
-/// Waits until what is asked for is so, for a minute at most.
+/// Waits until what is asked for is so. The limit is no measure of speed: a machine may be busy.
 template <class Asked>
 bool becomes(const Asked& asked) {
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < 30'000; ++i) {
     if (asked()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

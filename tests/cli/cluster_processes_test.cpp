@@ -2,6 +2,7 @@
 
 #include "cli/cluster_nodes.h"
 #include "tests/cli/played_cluster.h"
+#include "tests/proc.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +37,7 @@ public:
   ~PlayingCluster() {
     for (const char* node : kFourNodes)
       for (pid_t process = 0; (process = processOf(file_, node)) > 0;) {
-        kill(process, SIGKILL);
+        signalTo(process, SIGKILL);
         becomes([&] { return processOf(file_, node) != process; });
       }
     if (!status_) kill(program_, SIGKILL), endOf(program_);
@@ -88,7 +89,7 @@ std::vector<std::string> forLong(std::vector<std::string> more = {}) {
 TEST(ProgramClusterProcesses, WhoLeadsDiesForGoodAndTheOthersEnd) {
   PlayingCluster cluster(forLong({"--once"}));
   ASSERT_TRUE(cluster.plays()) << cluster.told();
-  ASSERT_EQ(kill(cluster.node("front"), SIGKILL), 0);
+  ASSERT_TRUE(signalTo(cluster.node("front"), SIGKILL));
   EXPECT_EQ(cluster.end(), 128 + SIGKILL) << cluster.told();
   EXPECT_TRUE(has(cluster.told(), "cluster: front was ended by signal 9\n")) << cluster.told();
   EXPECT_TRUE(has(cluster.told(), "cluster: front, which leads, is gone; the others end")) << cluster.told();
@@ -97,7 +98,7 @@ TEST(ProgramClusterProcesses, WhoLeadsDiesForGoodAndTheOthersEnd) {
 TEST(ProgramClusterProcesses, ADeathIsToldAlsoWhereNobodyBeginsAgain) {
   PlayingCluster cluster(forLong({"--once"}));
   ASSERT_TRUE(cluster.plays()) << cluster.told();
-  ASSERT_EQ(kill(cluster.node("left"), SIGKILL), 0);
+  ASSERT_TRUE(signalTo(cluster.node("left"), SIGKILL));
   EXPECT_TRUE(cluster.tells("cluster: left was ended by signal 9\n")) << cluster.told();
   EXPECT_TRUE(cluster.tells("the others go on")) << cluster.told();
   EXPECT_LT(cluster.node("left"), 0);
@@ -109,7 +110,7 @@ TEST(ProgramClusterProcesses, TheSoundsAreHeardOnce) {
   PlayingCluster cluster(forLong());
   ASSERT_TRUE(cluster.plays()) << cluster.told();
   for (const char* node : kFourNodes) {
-    const std::string words = fileContent("/proc/" + std::to_string(cluster.node(node)) + "/cmdline");
+    const std::string words = procText(cluster.node(node), "cmdline");
     EXPECT_EQ(has(words, "--no-sound"), node != std::string("front")) << words;
   }
   kill(cluster.program(), SIGTERM);
@@ -119,7 +120,7 @@ TEST(ProgramClusterProcesses, TheSoundsAreHeardOnce) {
 TEST(ProgramClusterProcesses, NodesDoNotOutliveWhoStartedThem) {
   PlayingCluster cluster(forLong());
   ASSERT_TRUE(cluster.plays()) << cluster.told();
-  ASSERT_EQ(kill(cluster.program(), SIGKILL), 0);
+  ASSERT_TRUE(signalTo(cluster.program(), SIGKILL));
   EXPECT_EQ(cluster.end(), 128 + SIGKILL);
   EXPECT_TRUE(cluster.nobodyIsLeft()) << cluster.told();
 }
@@ -128,7 +129,7 @@ TEST(ProgramClusterProcesses, TheSignalThatStopsThemIsTheOneThatCame) {
   for (const int signal : {SIGTERM, SIGINT}) {
     PlayingCluster cluster(forLong({"--json"}));
     ASSERT_TRUE(cluster.plays()) << cluster.told();
-    ASSERT_EQ(kill(cluster.program(), signal), 0);
+    ASSERT_TRUE(signalTo(cluster.program(), signal));
     EXPECT_EQ(cluster.end(), 128 + signal) << cluster.told();
     EXPECT_FALSE(has(cluster.told(), "begins again")) << cluster.told();
     const Json said = Json::parse(cluster.said(), nullptr, false);
@@ -140,10 +141,10 @@ TEST(ProgramClusterProcesses, TheSignalThatStopsThemIsTheOneThatCame) {
 TEST(ProgramClusterProcesses, ANodeThatIsAskedToEndIsNotBegunAnew) {
   PlayingCluster cluster(forLong());
   ASSERT_TRUE(cluster.plays()) << cluster.told();
-  ASSERT_EQ(kill(cluster.node("left"), SIGTERM), 0);
+  ASSERT_TRUE(signalTo(cluster.node("left"), SIGTERM));
   EXPECT_TRUE(cluster.tells("the others go on")) << cluster.told();
   EXPECT_TRUE(becomes([&] { return cluster.node("left") < 0; }));
-  ASSERT_EQ(kill(cluster.node("front"), SIGTERM), 0);
+  ASSERT_TRUE(signalTo(cluster.node("front"), SIGTERM));
   EXPECT_EQ(cluster.end(), 128 + SIGTERM) << "and who leads ends the show for all: " << cluster.told();
   EXPECT_FALSE(has(cluster.told(), "begins again")) << cluster.told();
 }
@@ -236,7 +237,7 @@ TEST(ProgramClusterProcesses, WhoLeadsAndHangsIsReplaced) {
 TEST(ProgramClusterProcesses, OnlyTheOneThatLeadsAndIsStoppedIsTakenForHanging) {
   PlayingCluster cluster(forLong());
   ASSERT_TRUE(cluster.plays()) << cluster.told();
-  ASSERT_EQ(kill(cluster.node("front"), SIGSTOP), 0);
+  ASSERT_TRUE(signalTo(cluster.node("front"), SIGSTOP));
   EXPECT_TRUE(cluster.tells("cluster: front has shown nothing for 13 s, and is killed\n")) << cluster.told();
   EXPECT_TRUE(cluster.tells("cluster, front: the show goes on after frame")) << cluster.told();
   EXPECT_EQ(timesIn(cluster.told(), "has shown nothing"), 1U) << cluster.told();
@@ -400,14 +401,14 @@ TEST(ProgramClusterProcesses, TrackersAndOperatorAreThoseOfWhoLeads) {
   EXPECT_EQ(timesIn(cluster.told(), "operator: OSC on UDP port"), 1U) << cluster.told();
   for (const std::string node : kFourNodes)
     EXPECT_TRUE(fs::is_regular_file(cluster.file("box-" + node))) << node;
-  ASSERT_EQ(kill(cluster.program(), SIGTERM), 0);
+  ASSERT_TRUE(signalTo(cluster.program(), SIGTERM));
   EXPECT_EQ(cluster.end(), 128 + SIGTERM) << cluster.told();
 }
 
 TEST(ProgramClusterProcesses, TheJournalOfANodeSaysThatItDied) {
   PlayingCluster cluster(forLong({"--journal", "journal"}));
   ASSERT_TRUE(cluster.plays()) << cluster.told();
-  ASSERT_EQ(kill(cluster.node("left"), SIGKILL), 0);
+  ASSERT_TRUE(signalTo(cluster.node("left"), SIGKILL));
   const auto journal = [&] { return fileContent(cluster.file("journal-left")); };
   EXPECT_TRUE(becomes([&] {
     return has(journal(), "  -  cluster: left was ended by signal 9 and begins again\n");

@@ -22,11 +22,11 @@ public:
 
   /// What it has written to its standard output and error so far.
   std::string out() const, err() const;
-  /// Waits until its standard error contains the text `times` times; false if it does not in good time.
+  /// Waits until its standard error contains the text `times` times; false if it ends before, or does not in good time.
   bool says(const std::string& text, int times = 1) const;
-  /// Waits for anything else; false if it does not come in good time.
+  /// Waits for anything else; false if it is not so when the program has ended, or does not come in good time.
   bool waitUntil(const std::function<bool()>& condition) const;
-  bool runs();
+  bool runs() const;
   /// Of the program, and of its process group.
   pid_t pid() const { return child_; }
   /// Ends it at once, as a power cut would.
@@ -37,8 +37,8 @@ public:
 private:
   TemporaryFolder folder_;
   pid_t child_ = -1;
-  int status_ = -1;
-  bool ended_ = false;
+  mutable int status_ = -1;  ///< known once somebody has asked whether it runs
+  mutable bool ended_ = false;
 };
 
 /// An X server without a screen to look at (Xvfb), and hands (xdotool).
@@ -61,7 +61,7 @@ private:
   std::string name_;
 };
 
-/// A UDP port that nobody listens to.
+/// A UDP port that nobody listens to, and that no other test takes while this process runs.
 std::uint16_t freePort();
 
 /// `stadion` with these arguments, on that display.

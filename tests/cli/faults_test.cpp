@@ -2,6 +2,7 @@
 /// has a defined outcome (docs/faults.md).
 
 #include "tests/cli/desk.h"
+#include "tests/proc.h"
 
 #include <csignal>
 #include <fmt/format.h>
@@ -60,7 +61,6 @@ protected:
       r.environment.push_back("LD_PRELOAD=" + faultLibrary());
       r.environment.push_back("STADION_FAULT=" + fault);
     }
-    r.limit = std::chrono::seconds(60);
     return r;
   }
 
@@ -75,14 +75,6 @@ protected:
   TemporaryFolder folder_;
   std::string show_;
 };
-
-/// The first of those that the process has started; 0 = there is none.
-pid_t childOf(pid_t process) {
-  const std::string pid = std::to_string(process);
-  pid_t child = 0;
-  std::ifstream("/proc/" + pid + "/task/" + pid + "/children") >> child;
-  return child;
-}
 
 /// Of the last frame, as the text at the end says it.
 std::string hashOf(const ProgramResult& r) {
@@ -141,25 +133,25 @@ protected:
     }
   }
 
-  static int times(int few) { return fullRuns() ? 20 * few : few; }
+  static int times(int few) { return fullRuns() ? 50 * few : few; }
 
   int inFrames_ = 0;  ///< runs that ended in one, and said so
 };
 
 TEST_F(ProgramFaultsWithoutMemory, OnceTheRunSaysSoOrGoesOn) {
   sweep({"--gl", "none", "--mode", "sequential", "--record-input", file("record.input")}, "new nth={}",
-        times(40));
+        times(16));
   EXPECT_GT(inFrames_, 0) << "no run said in which frame it was";
 }
 
 TEST_F(ProgramFaultsWithoutMemory, FromThenOnTheRunSaysSo) {
   sweep({"--gl", "none", "--mode", "sequential", "--record-input", file("record.input")}, "new from={}",
-        times(30));
+        times(12));
 }
 
 TEST_F(ProgramFaultsWithoutMemory, InThreadsItIsTheSame) {
-  sweep({"--gl", "none", "--record-input", file("record.input")}, "new nth={}", times(24));
-  sweep({"--gl", "none", "--record-input", file("record.input")}, "new from={}", times(16));
+  sweep({"--gl", "none", "--record-input", file("record.input")}, "new nth={}", times(10));
+  sweep({"--gl", "none", "--record-input", file("record.input")}, "new from={}", times(6));
 }
 
 TEST_F(ProgramFaults, ReadsThatGiveAFewBytesAtATimeChangeNothing) {
@@ -276,8 +268,8 @@ TEST_F(ProgramFaults, AWatchedShowWhoseJournalIsOnAFullDiskIsPlayedOnce) {
                                                            "--supervise", "--journal", journal});
   RunningProgram program(watched);
   ASSERT_TRUE(program.says("stadion: --journal: "));
-  ASSERT_TRUE(program.waitUntil([&] { return childOf(program.pid()) > 0; }));
-  ::kill(childOf(program.pid()), SIGKILL);
+  ASSERT_TRUE(program.waitUntil([&] { return procChild(program.pid()) > 0; }));
+  ::kill(procChild(program.pid()), SIGKILL);
   ASSERT_TRUE(
       program.says("supervise: --journal: " + journal + ": cannot be written: No space left on device"));
   ASSERT_TRUE(program.says("stadion: --journal: ", 2)) << "the second player";
@@ -301,12 +293,12 @@ TEST_F(ProgramFaults, AClockThatIsSetChangesNothing) {
 /// The sockets of the program and of those that it has started, as they stand in /proc/net.
 std::string socketsOf(pid_t program) {
   std::set<std::string> inodes;
-  for (const auto& process : fs::directory_iterator("/proc")) {
-    const std::string pid = process.path().filename();
-    if (pid.find_first_not_of("0123456789") != pid.npos || ::getpgid(std::stoi(pid)) != program) continue;
-    std::error_code gone;
-    for (const auto& f : fs::directory_iterator(process.path() / "fd", gone)) {
-      const std::string link = fs::read_symlink(f.path(), gone).string();
+  for (const pid_t process : procNumbers()) {
+    if (::getpgid(process) != program) continue;
+    const std::string files = "/proc/" + std::to_string(process) + "/fd/";
+    for (const std::string& f : procNames(files)) {
+      std::error_code gone;
+      const std::string link = fs::read_symlink(files + f, gone).string();
       if (link.starts_with("socket:[")) inodes.insert(link.substr(8, link.size() - 9));
     }
   }
@@ -333,15 +325,11 @@ protected:
 
 TEST_F(ProgramFaultsLive, NothingListensToTheNetworkUnlessAsked) {
   const ProgramRun quiet = live({"--record-input", file("r.input")});
-  const TemporaryFolder folder;
-  const auto socketsWhilePlaying = [&](const ProgramRun& run) {
-    const std::string out = folder.path() / "out", err = folder.path() / "err";
-    const pid_t child = startProgram(run, out, err);
-    while (!has(fileContent(err), "playing until Ctrl-C"))
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const auto socketsWhilePlaying = [](const ProgramRun& run) {
+    RunningProgram program(run);
+    EXPECT_TRUE(program.says("playing until Ctrl-C"));
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    const std::string sockets = socketsOf(child);
-    ::kill(-child, SIGKILL), ::waitpid(child, nullptr, 0);
+    const std::string sockets = socketsOf(program.pid());
     return sockets;
   };
   EXPECT_EQ(socketsWhilePlaying(quiet), "");

@@ -39,9 +39,10 @@ json visit(const TemporaryFolder& folder, const std::vector<std::string>& more) 
   RunningProgram program(run);
   const lo_address head = lo_address_new("127.0.0.1", tracker.c_str());
   const lo_address operating = lo_address_new("127.0.0.1", desk.c_str());
-  for (int i = 0; i < 400 || program.runs(); ++i) {
+  EXPECT_TRUE(program.says("playing until Ctrl-C"));
+  for (int i = 0; i < 200 || program.runs(); ++i) {
     lo_send(head, "/tracker/head/pose", "ddddddd", 0.3 * std::sin(0.05 * i), 0.0, 1.7, 0.0, 0.0, 0.0, 1.0);
-    if (i >= 400 && i % 10 == 0) lo_send(operating, "/stadion/end", "");
+    if (i >= 200 && i % 10 == 0) lo_send(operating, "/stadion/end", "");
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   lo_address_free(head), lo_address_free(operating);

@@ -1,5 +1,8 @@
 #include "tests/cli/played_cluster.h"
 
+#include "tests/proc.h"
+
+#include <csignal>
 #include <fstream>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -37,17 +40,18 @@ std::map<std::uint64_t, std::int64_t> swapTimesOf(const std::filesystem::path& f
 }
 
 pid_t processOf(const std::string& clusterFile, const std::string& node) {
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    const std::string number = entry.path().filename();
-    if (number.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::ifstream in(entry.path() / "cmdline");
-    const std::string words((std::istreambuf_iterator<char>(in)), {});
+  for (const pid_t process : procNumbers()) {
+    const std::string words = procText(process, "cmdline");
     const std::string run = std::string("run") + '\0', is = std::string("--node") + '\0' + node + '\0';
     if (words.find(run) != words.npos && words.find(clusterFile) != words.npos &&
         words.find(is) != words.npos)
-      return std::stoi(number);
+      return process;
   }
   return -1;
+}
+
+bool signalTo(pid_t process, int signal) {
+  return process > 0 && kill(process, signal) == 0;
 }
 
 int endOf(pid_t child) {

@@ -32,6 +32,8 @@ std::map<std::uint64_t, std::int64_t> swapTimesOf(const std::filesystem::path& f
 
 /// The process that plays that node of that cluster; -1: there is none.
 pid_t processOf(const std::string& clusterFile, const std::string& node);
+/// Sends the signal; false if there is no such process. (To kill(), -1 means every process there is.)
+bool signalTo(pid_t process, int signal);
 /// Its exit status, or 128 + signal.
 int endOf(pid_t child);
 

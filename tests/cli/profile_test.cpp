@@ -35,7 +35,7 @@ TEST(ProgramProfile, EveryNodeThatWorksOrIsSeenHasARow) {
 /// enough.
 TEST(ProgramProfile, MostOfEveryStageIsExplained) {
   nlohmann::json little;
-  for (int run = 0; run < 5; ++run) {
+  for (int run = 0; run < 20; ++run) {
     const ProgramResult r = profileKick({"--json", "--walls", "desktop"});
     ASSERT_EQ(r.status, 0) << r.err;
     little.clear();
@@ -107,28 +107,39 @@ TEST(ProgramProfile, OfTwoThingsOfOneModelTheLargeOneIsTheDearOne) {
                               "object( name=huge, file=football.3ds, scale=10, position=\"0, 3, "
                               "1.7\" )\n"
                               "object( name=tiny, file=football.3ds, position=\"0, 60, 8\" )\n");
-  const ProgramResult r = stadionProgram({"profile", show, "--asset-root", assetFolder(), "--frames", "96",
-                                          "--walls", "desktop", "--size", "400x300", "--json"});
-  ASSERT_EQ(r.status, 0) << r.err;
-  const auto figures = nlohmann::json::parse(r.out);
   std::map<std::string, double> draw;
-  for (const auto& row : figures["nodes"]) draw[row["path"]] = row["draw_ms"].get<double>();
+  std::string out;
+  const auto isSeen = [&] { return draw["tiny"] > 0 && draw["huge"] > 2 * draw["tiny"]; };
+  // Frames in which others have the processor are left out: on a busy machine it takes more of them.
+  for (int frames = 96; !isSeen() && frames < 10'000; frames *= 4) {
+    const ProgramResult r =
+        stadionProgram({"profile", show, "--asset-root", assetFolder(), "--frames", std::to_string(frames),
+                        "--walls", "desktop", "--size", "400x300", "--json"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    out = r.out;
+    const auto figures = nlohmann::json::parse(out);
+    for (const auto& row : figures["nodes"]) draw[row["path"]] = row["draw_ms"].get<double>();
+  }
   EXPECT_GT(draw["tiny"], 0);
-  EXPECT_GT(draw["huge"], 2 * draw["tiny"]) << r.out;
+  EXPECT_GT(draw["huge"], 2 * draw["tiny"]) << out;
 }
 
 TEST(ProgramProfile, TheShadowsRingsAreTheLights) {
   const TemporaryFolder folder;
   const std::string show = folder.write(
       "shade.evs", "light( name=sun, direction=\"0.3, 0.2, -1\" )\nobject( file=crude_foot.obj )\n");
-  const ProgramResult r = stadionProgram({"profile", show, "--asset-root", assetFolder(), "--no-draw",
-                                          "--frames", "64", "--walls", "desktop", "--json"});
-  ASSERT_EQ(r.status, 0) << r.err;
-  const auto figures = nlohmann::json::parse(r.out);
   double ms = 0;
-  for (const auto& row : figures["nodes"])
-    if (row["path"] == "sun") ms = row["cull_ms"];
-  EXPECT_GT(ms, 0) << r.out;
+  std::string out;
+  for (int frames = 64; ms == 0 && frames < 10'000; frames *= 4) {
+    const ProgramResult r = stadionProgram({"profile", show, "--asset-root", assetFolder(), "--no-draw",
+                                            "--frames", std::to_string(frames), "--walls", "desktop", "--json"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    out = r.out;
+    const auto figures = nlohmann::json::parse(out);
+    for (const auto& row : figures["nodes"])
+      if (row["path"] == "sun") ms = row["cull_ms"];
+  }
+  EXPECT_GT(ms, 0) << out;
 }
 
 TEST(ProgramProfile, WithoutDrawingAppAndCullAreLeft) {

@@ -40,20 +40,22 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
   ::_exit(127);
 }
 
-int statusWithin(pid_t child, const ProgramRun& run) {
+int statusWithin(pid_t child, const ProgramRun& run, const std::string& out, const std::string& err) {
   const auto start = Clock::now();
-  bool signalled = run.signal == 0;
+  bool signalled = run.signal == 0, ready = !run.signalWhen;
+  auto readySince = start;
   for (;;) {
     int status = 0;
     if (::waitpid(child, &status, WNOHANG) == child)
       return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     const auto past = Clock::now() - start;
-    if (!signalled && past > run.signalAfter) {
+    if (!ready && run.signalWhen(fileContent(out), fileContent(err))) ready = true, readySince = Clock::now();
+    if (!signalled && ready && Clock::now() - readySince >= run.signalAfter) {
       ::kill(-child, run.signal);
       signalled = true;
     }
     if (past > run.limit) ::kill(-child, SIGKILL);
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(std::chrono::milliseconds(ready ? 2 : 20));
   }
 }
 
@@ -75,7 +77,7 @@ ProgramResult runProgram(const ProgramRun& run) {
   const auto start = Clock::now();
   const pid_t child = startProgram(run, out, err);
   ProgramResult result;
-  result.status = statusWithin(child, run);
+  result.status = statusWithin(child, run, out, err);
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   result.out = fileContent(out), result.err = fileContent(err);
   return result;

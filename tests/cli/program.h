@@ -23,8 +23,16 @@ struct ProgramRun {
   /// A signal to its whole process group, as a terminal would send it; 0 = none.
   int signal = 0;
   std::chrono::milliseconds signalAfter{500};
-  std::chrono::seconds limit{120};  ///< killed past it
+  std::chrono::seconds limit{600};  ///< killed past it: no measure of speed, a machine may be busy
+  /// The signal waits until this is true of what it has written so far, and then for `signalAfter`. Without
+  /// it, a busy machine may send the signal before the program has begun.
+  std::function<bool(const std::string& out, const std::string& err)> signalWhen{};
 };
+
+/// A live run without an input log plays.
+inline bool playsLive(const std::string&, const std::string& err) {
+  return err.find("playing until Ctrl-C") != std::string::npos;
+}
 
 ProgramResult runProgram(const ProgramRun& run);
 /// Starts it and returns its number, which is that of its process group too; its texts go to these files.

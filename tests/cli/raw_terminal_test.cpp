@@ -5,9 +5,12 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <pty.h>
+#include <string>
 #include <sys/wait.h>
 #include <termios.h>
 #include <thread>
@@ -57,6 +60,17 @@ public:
     for (int i = 0; i < 6000 && showsKeys() != shows; ++i) waitFor(5);
     return showsKeys() == shows;
   }
+  /// Waits until the program has written this to the terminal.
+  bool says(const std::string& text) {
+    pollfd arrived{near_, POLLIN, 0};
+    while (said_.find(text) == said_.npos) {
+      char part[256];
+      const ssize_t n = poll(&arrived, 1, 120'000) == 1 ? read(near_, part, sizeof part) : 0;
+      if (n <= 0) return false;
+      said_.append(part, static_cast<std::size_t>(n));
+    }
+    return true;
+  }
   void press(char key) const { EXPECT_EQ(write(near_, &key, 1), 1); }
   void send(int signal) const { kill(program_, signal); }
   /// The program's exit status, or 128 + the signal that ended it.
@@ -81,7 +95,12 @@ private:
   int near_ = -1, far_ = -1;
   pid_t shell_ = -1, program_ = -1;
   bool ended_ = false;
+  std::string said_;
 };
+
+void say(const char* text) {
+  EXPECT_EQ(write(1, text, std::strlen(text)), static_cast<ssize_t>(std::strlen(text)));
+}
 
 void waitForSignals() {
   for (;;) waitFor(1000);
@@ -89,23 +108,28 @@ void waitForSignals() {
 
 TEST(ProgramTerminal, IsGivenBackWhenTheProgramExits) {
   Terminal terminal([] {
-    waitFor(300);
+    for (char key = 0; read(0, &key, 1) != 1;) waitFor(5);
     std::exit(7);
   });
   EXPECT_TRUE(terminal.comesToShowKeys(false)) << "it was never taken";
+  terminal.press('x');
   EXPECT_EQ(terminal.status(), 7);
   EXPECT_TRUE(terminal.showsKeys());
 }
 
 TEST(ProgramTerminal, IsGivenBackAfterTheSecondControlC) {
   Terminal terminal([] {
-    catchStopSignals();  // a program that takes long to stop
+    const std::atomic<bool>& asked = catchStopSignals();  // a program that takes long to stop
+    say("ready");
+    while (!asked) waitFor(5);
+    say("asked");
     waitForSignals();
   });
+  ASSERT_TRUE(terminal.says("ready"));
   ASSERT_TRUE(terminal.comesToShowKeys(false));
-  waitFor(200);
   terminal.press('\003');
-  waitFor(300);
+  ASSERT_TRUE(terminal.says("asked"));
+  waitFor(300);  // two within a tenth of a second are one
   EXPECT_FALSE(terminal.showsKeys()) << "the first one only asks";
   terminal.press('\003');
   EXPECT_EQ(terminal.status(), 130);

@@ -1,6 +1,7 @@
 /// What the product consists of is listed, and the list is right.
 
 #include "tests/cli/desk.h"
+#include "tests/proc.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -56,7 +57,7 @@ TEST(ProgramSupplyChain, WhatARunThatDrawsHasLoadedIsInTheBillOfMaterials) {
                        "desktop", "--input", "none"},
                       {"ALSOFT_DRIVERS=null"}});
   ASSERT_TRUE(run.says("sound: OpenAL")) << run.err();
-  std::istringstream maps(fileContent("/proc/" + std::to_string(run.pid()) + "/maps"));
+  std::istringstream maps(procText(run.pid(), "maps"));
   for (std::string line; std::getline(maps, line);)
     if (line.find(".so") != std::string::npos) libraries.insert(line.substr(line.find('/')));
   EXPECT_TRUE(std::ranges::any_of(libraries, [](const std::string& l) { return has(l, "libOSMesa"); }));

@@ -585,8 +585,9 @@ TEST(ProgramUsage, InterruptsEndTheShowWithItsSummary) {
                    "--out",        out.path(),    "--pictures",
                    "100"};
       run.signal = signal;
-      run.signalAfter = std::chrono::milliseconds(1500);
-      run.limit = std::chrono::seconds(30);
+      run.signalWhen = [&](const std::string&, const std::string& err) {
+        return has(err, "playing until") && std::filesystem::exists(out.path() / "screen-left-000000.png");
+      };
       const ProgramResult r = runProgram(run);
       ASSERT_EQ(r.status, 128 + signal) << mode << r.err;
       const auto summary = nlohmann::json::parse(r.out);
@@ -597,7 +598,6 @@ TEST(ProgramUsage, InterruptsEndTheShowWithItsSummary) {
                 summary.at("stopped"));
       EXPECT_TRUE(std::filesystem::exists(out.path() / "screen-left-000000.png"));
       EXPECT_TRUE(std::filesystem::exists(out.path() / "contact-sheet.png"));
-      EXPECT_LT(r.seconds, 10);
       // The importer is a child in its own process group: it must not have been torn down with a complaint.
       EXPECT_FALSE(has(r.err, "importer")) << r.err;
     }
@@ -608,7 +608,7 @@ TEST(ProgramUsage, ACrashSaysWhereItWas) {
   run.words = {stadionPath(), "hash",   testShow("reload_with.evs"), "--asset-root", assetFolder(),
                "--frames",    "1000000"};
   run.signal = SIGSEGV;
-  run.signalAfter = std::chrono::milliseconds(500);
+  run.signalWhen = [](const std::string& out, const std::string&) { return !out.empty(); };
   const ProgramResult r = runProgram(run);
   EXPECT_EQ(r.status, 128 + SIGSEGV);
   EXPECT_TRUE(has(r.err, "stadion: crashed with SIGSEGV")) << r.err;

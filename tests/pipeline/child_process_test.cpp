@@ -17,7 +17,7 @@ std::string saidBy(const std::vector<std::string>& words, const std::vector<std:
   const Descriptor out = makeMemoryFile();
   ChildProcess child;
   EXPECT_FALSE(child.start(words, {-1, out.get(), -1}, environment));
-  EXPECT_EQ(child.wait(milliseconds(10'000)), 0);
+  EXPECT_EQ(child.wait(milliseconds(120'000)), 0);
   return contentOf(out);
 }
 
@@ -44,7 +44,7 @@ TEST(ChildProcess, ItsStreamsMayBeWhereTheStandardStreamsAre) {
   dup2(in.get(), 2), dup2(out.get(), 0), dup2(err.get(), 1);
   ChildProcess child;
   const auto problem = child.start({"sh", "-c", "cat; echo wrong >&2"}, {2, 0, 1});
-  const auto status = child.wait(milliseconds(10'000));
+  const auto status = child.wait(milliseconds(120'000));
   for (int i = 0; i < 3; ++i) kept[i] < 0 ? close(i) : dup2(kept[i], i);
   for (const int fd : kept) close(fd);
   ASSERT_TRUE(told && !problem);
@@ -62,13 +62,13 @@ TEST(ChildProcess, WhatItHasStartedIsKilledWithIt) {
   const pid_t sleeper = std::stoi(number);
   ASSERT_EQ(::kill(sleeper, 0), 0);
   child.kill();
-  EXPECT_EQ(child.wait(milliseconds(10'000)), 128 + SIGKILL);
+  EXPECT_EQ(child.wait(milliseconds(120'000)), 128 + SIGKILL);
   // Whoever takes in orphans may take a moment; one that is dead and not yet taken in has no memory.
   const auto isGone = [&] {
     const std::string state = saidBy({"sh", "-c", "ps -o stat= -p " + number + " || true"});
     return state.empty() || state.starts_with('Z');
   };
-  for (int i = 0; i < 100 && !isGone(); ++i) std::this_thread::sleep_for(milliseconds(20));
+  for (int i = 0; i < 6000 && !isGone(); ++i) std::this_thread::sleep_for(milliseconds(20));
   EXPECT_TRUE(isGone());
 }
 

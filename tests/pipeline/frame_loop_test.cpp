@@ -526,27 +526,32 @@ TEST(FrameLoop, TooFewSlotsAreNoticed) {
 
 TEST(FrameLoop, LockedPaceKeepsToTheTicks) {
   Pacer pacer(Pace::Lock, 200);
-  pacer.wait();
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(pacer.wait(), 1u);
+  pacer.wait();
+  std::uint64_t ticks = 0, now = 0;
+  // Where nothing else takes the processor the next tick comes first; on a busy machine that may take some.
+  while (now != 1 && ticks < 100'000) ticks += now = pacer.wait();
+  EXPECT_EQ(now, 1u);
+  const std::uint64_t missedBefore = pacer.missed();
   std::this_thread::sleep_for(std::chrono::milliseconds(12));  // two ticks of 5 ms go by unused
-  EXPECT_GE(pacer.wait(), 3u);
+  now = pacer.wait();
+  EXPECT_GE(now, 3u);
+  EXPECT_GE(pacer.missed(), missedBefore + 2);
   const double ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  EXPECT_GE(ms, 19.9);
-  EXPECT_GE(pacer.missed(), 2u);
+  EXPECT_GE(ms, 5.0 * static_cast<double>(ticks + now) - 0.1);
 }
 
 TEST(FrameLoop, WhereEveryTickCountsWhatIsLateIsCaughtUpWith) {
   Pacer pacer(Pace::Lock, 200, true);
-  pacer.wait();
   const auto start = std::chrono::steady_clock::now();
+  pacer.wait();
   std::this_thread::sleep_for(std::chrono::milliseconds(22));
   EXPECT_TRUE(pacer.behind());
   int ticks = 0;
-  for (; pacer.behind() && ticks < 10000; ++ticks) EXPECT_EQ(pacer.wait(), 1u);
+  for (; pacer.behind() && ticks < 1'000'000; ++ticks) EXPECT_EQ(pacer.wait(), 1u);
   EXPECT_GE(ticks, 4);
-  EXPECT_FALSE(pacer.behind());
+  EXPECT_LT(ticks, 1'000'000) << "it has caught up";
   const double ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   EXPECT_GE(ms, 5 * ticks - 0.1);

@@ -111,7 +111,7 @@ TEST_F(JournalTest, WhoHoldsTheFileHoldsNobodyUp) {
   ASSERT_EQ(flock(other, LOCK_EX), 0);
   std::optional<std::string> why = "not yet";
   std::thread writer([&] { why = journal->add("meanwhile"); });
-  for (int i = 0; i < 100 && linesOf(file_).size() < 2; ++i)
+  for (int i = 0; i < 2400 && linesOf(file_).size() < 2; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_EQ(linesOf(file_).size(), 2U) << "while it is held";
   ::close(other);

@@ -2,11 +2,12 @@
 #include "pipeline/drawing_here.h"
 #include "pipeline/worker/drawing_in_workers.h"
 #include "tests/pipeline/renderer_scene.h"
+#include "tests/proc.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
+#include <optional>
 #include <sched.h>
 #include <thread>
 
@@ -15,10 +16,11 @@ namespace {
 
 constexpr std::uint32_t kWidth = 48, kHeight = 36;
 
-ProcessorSet processorsOf(pid_t process) {
+/// Nothing if the thread has ended.
+std::optional<ProcessorSet> processorsOf(pid_t thread) {
   cpu_set_t set;
   CPU_ZERO(&set);
-  EXPECT_EQ(sched_getaffinity(process, sizeof set, &set), 0);
+  if (sched_getaffinity(thread, sizeof set, &set) != 0) return {};
   ProcessorSet found;
   for (std::size_t i = 0; i < ProcessorSet::kMost; ++i)
     if (CPU_ISSET(i, &set)) found.add(i);
@@ -36,18 +38,12 @@ ProcessorSet oneProcessor() {
 
 /// The threads of a process.
 std::vector<pid_t> threadsOf(pid_t process) {
-  std::vector<pid_t> threads;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task"))
-    threads.push_back(std::stoi(entry.path().filename()));
-  return threads;
+  return procNumbers("/proc/" + std::to_string(process) + "/task");
 }
 
 /// Mesa sees to it that the thread of its cache of programs is bound nowhere.
 bool ofTheCache(pid_t process, pid_t thread) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/task/" + std::to_string(thread) + "/comm");
-  std::string name;
-  std::getline(file, name);
-  return name.find("disk$") != std::string::npos;
+  return procText(process, "task/" + std::to_string(thread) + "/comm").find("disk$") != std::string::npos;
 }
 
 TEST(PinnedWalls, ProcessesRunWhereTheyAreToldToWithAllTheirThreads) {
@@ -67,8 +63,9 @@ TEST(PinnedWalls, ProcessesRunWhereTheyAreToldToWithAllTheirThreads) {
   }
   std::size_t bound = 0;
   for (const pid_t thread : threadsOf(drawing.pid(0))) {
-    if (ofTheCache(drawing.pid(0), thread)) continue;
-    EXPECT_EQ(processorsOf(thread), oneProcessor());
+    const auto processors = processorsOf(thread);
+    if (!processors || ofTheCache(drawing.pid(0), thread)) continue;
+    EXPECT_EQ(*processors, oneProcessor());
     ++bound;
   }
   EXPECT_GE(bound, 3u);  // the rasteriser's two as well
@@ -90,7 +87,8 @@ TEST(PinnedWalls, OnlyTheThreadThatDrawsAWallIsBoundNotTheRasterisersThatAllWall
     EXPECT_FALSE(drawing.draw(0, list, true).failure);
     drawing.close(0);
   }).join();
-  for (const pid_t thread : threadsOf(getpid())) EXPECT_EQ(processorsOf(thread), before) << thread;
+  for (const pid_t thread : threadsOf(getpid()))
+    EXPECT_EQ(processorsOf(thread).value_or(before), before) << thread;
 }
 
 }  // namespace

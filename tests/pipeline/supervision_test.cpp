@@ -167,27 +167,55 @@ TEST(SharedProgress, WhyASceneCannotBeKeptIsKnownAndTheOneBeforeIsThere) {
   EXPECT_EQ(p.scene(), sceneOf(2, 5000));
 }
 
+/// A clock that a test sets.
+Nanoseconds testTime = 0;
+
 TEST(HangWatch, WhoShowsNothingHangsAndWhoOpensMayTakeLonger) {
   auto made = SharedProgress::create();
   ASSERT_TRUE(made);
   SharedProgress& p = *made.value();
-  constexpr Nanoseconds kAfter = fromSeconds(0.05);
-  const auto hangsWithin = [](HangWatch& watch, double seconds) -> std::optional<Nanoseconds> {
-    for (const Nanoseconds end = machineClock() + fromSeconds(seconds); machineClock() < end;) {
-      if (const auto silent = watch.hangs()) return silent;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  constexpr Nanoseconds kAfter = fromSeconds(0.5);
+  // Asks every tenth of a second, as the watcher does: who asks more seldom was stopped itself.
+  const auto askUntil = [](HangWatch& watch, Nanoseconds end) {
+    std::optional<Nanoseconds> silent;
+    while (!silent && testTime < end) {
+      testTime = std::min(testTime + fromSeconds(0.1), end);
+      silent = watch.hangs();
     }
-    return {};
+    return silent;
   };
-  HangWatch opens(p, kAfter);
-  EXPECT_FALSE(hangsWithin(opens, 0.2)) << "it may open for twelve times as long";
+  testTime = machineClock();
+  HangWatch opens(p, kAfter, [] { return testTime; });
+  const Nanoseconds longer = testTime + HangWatch::kLonger * kAfter;
+  EXPECT_FALSE(askUntil(opens, longer)) << "it may open for twelve times as long";
   EXPECT_FALSE(opens.shows());
-  EXPECT_EQ(hangsWithin(opens, 30), HangWatch::kLonger * kAfter);
-  HangWatch plays(p, kAfter);
+  EXPECT_EQ(askUntil(opens, longer + 1), HangWatch::kLonger * kAfter);
+  testTime = machineClock();
+  HangWatch plays(p, kAfter, [] { return testTime; });
   p.enter(SharedProgress::Phase::Playing);
   p.shown();
   EXPECT_TRUE(plays.shows());
-  EXPECT_EQ(hangsWithin(plays, 30), kAfter);
+  testTime = p.lastShown();
+  EXPECT_FALSE(plays.hangs());
+  const Nanoseconds limit = testTime + kAfter;
+  EXPECT_FALSE(askUntil(plays, limit));
+  EXPECT_EQ(askUntil(plays, limit + 1), kAfter);
+}
+
+TEST(HangWatch, WhoDidNotAskForASecondWasStoppedItselfAndAsksAnew) {
+  auto made = SharedProgress::create();
+  ASSERT_TRUE(made);
+  SharedProgress& p = *made.value();
+  testTime = machineClock();
+  HangWatch watch(p, fromSeconds(0.5), [] { return testTime; });
+  p.enter(SharedProgress::Phase::Playing);
+  p.shown();
+  testTime = p.lastShown();
+  EXPECT_FALSE(watch.hangs());
+  testTime += fromSeconds(3600);
+  EXPECT_FALSE(watch.hangs());
+  testTime += fromSeconds(0.6);
+  EXPECT_EQ(watch.hangs(), fromSeconds(0.5));
 }
 
 TEST(SharedProgress, AShowThatBeginsHasNoSceneOfBefore) {

@@ -3,12 +3,12 @@
 #include "pipeline/worker/eyes_in_workers.h"
 #include "pipeline/worker/list_bytes.h"
 #include "tests/pipeline/renderer_scene.h"
+#include "tests/proc.h"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <thread>
 #include <unistd.h>
@@ -438,14 +438,8 @@ TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNobodyWaitsForAProcessThatIsGo
 
 /// Gone, or not yet taken leave of; it may take a moment.
 bool isDead(int pid) {
-  for (int i = 0; i < 500; ++i) {
-    std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
-    const std::string stat((std::istreambuf_iterator<char>(in)), {});
-    const std::size_t state = stat.rfind(") ");
-    if (state == stat.npos || stat[state + 2] == 'Z') return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
+  for (int i = 0; i < 6000 && procRuns(pid); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return !procRuns(pid);
 }
 
 /// Busy it is all the same.

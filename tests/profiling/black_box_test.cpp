@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -296,14 +297,20 @@ public:
 };
 
 TEST(ThreadsBlackBox, AStallIsNamedAtOnceAndKept) {
-  const Folder folder;
-  Played show(folder.file());
-  ASSERT_TRUE(show.box);
-  for (std::uint64_t n = 0; n < 6; ++n) show.frame(n, std::chrono::milliseconds(n == 3 ? 60 : 0));
-  show.log->finish();
-  ASSERT_FALSE(show.told.empty());
-  EXPECT_NE(show.told[0].find("frame 3 "), std::string::npos) << show.told[0];
-  const auto kept = BlackBox::read(folder.file());
+  std::optional<Folder> folder;
+  std::vector<std::string> told;
+  // On a busy machine another frame may be late as well; then the next run may have a calm one.
+  for (int attempt = 0; told.size() != 1 && attempt < 100; ++attempt) {
+    folder.reset(), folder.emplace();
+    Played show(folder->file());
+    ASSERT_TRUE(show.box);
+    for (std::uint64_t n = 0; n < 6; ++n) show.frame(n, std::chrono::milliseconds(n == 3 ? 60 : 0));
+    show.log->finish();
+    told = show.told;
+  }
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("frame 3 "), std::string::npos) << told[0];
+  const auto kept = BlackBox::read(folder->file());
   ASSERT_TRUE(kept);
   ASSERT_EQ(kept.value().frames.size(), 6U);
   const Cause cause = kept.value().frames[3].cause;
