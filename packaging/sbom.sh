@@ -14,7 +14,20 @@ others="libosmesa6 libegl1 libegl-mesa0 libgl1-mesa-dri libglfw3 libopenal1 libx
 libgl1 libglx0 libglx-mesa0 libx11-xcb1 libxcursor1 libxi6 libxinerama1 libxrandr2 libxrender1 libxxf86vm1 libxss1 libxext6 libdbus-1-3 libpulse0 \
 libjack-jackd2-0 libportaudio2 libeigen3-dev libcli11-dev nlohmann-json3-dev tao-pegtl-dev"
 
-text() { printf '%s' "$1" | tr -d '\000-\037' | sed 's/\\/\\\\/g; s/"/\\"/g'; }
+# Starting a program for each word would take most of the time: only for words that need one.
+text() {
+  case $1 in
+    *[[:cntrl:]\"\\]*) printf '%s' "$1" | tr -d '\000-\037' | sed 's/\\/\\\\/g; s/"/\\"/g' ;;
+    *) printf '%s' "$1" ;;
+  esac
+}
+replaced() { # what sed makes of a word that has something else than letters, digits, points and hyphens
+  case $2 in
+    *[!A-Za-z0-9.-]*) printf '%s' "$2" | sed "$1" ;;
+    *) printf '%s' "$2" ;;
+  esac
+}
+id() { replaced 's/[^A-Za-z0-9.-]/-/g' "$1"; }
 
 linked() { # the packages whose libraries these files are linked with
   libraries=$(for file; do ldd "$file"; done |
@@ -26,7 +39,9 @@ linked() { # the packages whose libraries these files are linked with
   done | sort -u | xargs dpkg-query -S 2>/dev/null | sed 's/:.*//' | sort -u
 }
 
-installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+installed() { # those of these packages
+  dpkg-query -W -f='${Package} ${db:Status-Status}\n' "$@" 2>/dev/null | sed -n 's/ installed$//p' | sort -u
+}
 
 libraries() { # those of packages, each once whatever names it has
   dpkg -L $1 | grep '\.so\(\.[0-9.]*\)\?$' | xargs -r stat -Lc '%i %n' | sort -u -k1,1 | sed 's/^[0-9]* //'
@@ -43,8 +58,12 @@ version=$(sed -n 's/^project(Stadion VERSION \([0-9.]*\).*/\1/p' "$(dirname "$0"
 created=$(date -u ${SOURCE_DATE_EPOCH:+-d "@$SOURCE_DATE_EPOCH"} +%Y-%m-%dT%H:%M:%SZ)
 mark=$(cat "$build/bin/stadion" "$build/bin/stadion-import" "$build/bin/stadion-wall" | sha256sum | cut -c1-32)
 links=$(cd "$build/bin" && linked $programs)
-present=$(for p in $others; do installed "$p" && echo "$p"; done || true)
-absent=$(for p in $others; do installed "$p" || printf ' %s' "$p"; done)
+present=$(installed $others)
+absent=$(for p in $others; do case "
+$present
+" in *"
+$p
+"*) ;; *) printf ' %s' "$p" ;; esac; done)
 [ -z "$absent" ] || echo "sbom: not installed, and left out:$absent" >&2
 loaded=$({ echo "$present"; linked $(libraries "$present"); } | sort -u)
 
@@ -66,7 +85,7 @@ printf '%s\n%s\n' "$links" "$loaded" | sort -u | xargs dpkg-query -W -f="$form" 
   while IFS='|' read -r p v architecture source sourceVersion home; do
     quoted=$(licences "$p")
     printf '    ,{ "name": "%s", "SPDXID": "SPDXRef-deb-%s", "versionInfo": "%s", "supplier": "Organization: Debian",\n' \
-      "$p" "$(printf '%s' "$p" | sed 's/[^A-Za-z0-9.-]/-/g')" "$(text "$v")"
+      "$p" "$(id "$p")" "$(text "$v")"
     printf '      "downloadLocation": "NOASSERTION", "filesAnalyzed": false, "licenseConcluded": "NOASSERTION",\n'
     printf '      "licenseDeclared": "NOASSERTION", "copyrightText": "NOASSERTION",\n'
     [ -z "$quoted" ] || printf '      "licenseComments": "Debian names for its parts: %s",\n' "$(text "$quoted")"
@@ -74,7 +93,7 @@ printf '%s\n%s\n' "$links" "$loaded" | sort -u | xargs dpkg-query -W -f="$form" 
     printf '      "sourceInfo": "Debian source package %s %s",\n' "$(text "$source")" "$(text "$sourceVersion")"
     printf '      "externalRefs": [{ "referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",\n'
     printf '        "referenceLocator": "pkg:deb/debian/%s@%s?arch=%s" }] }\n' \
-      "$(printf '%s' "$p" | sed 's/+/%2B/g')" "$(printf '%s' "$v" | sed 's/+/%2B/g; s/:/%3A/g; s/~/~/g')" "$architecture"
+      "$(replaced 's/+/%2B/g' "$p")" "$(replaced 's/+/%2B/g; s/:/%3A/g' "$v")" "$architecture"
   done
 cat <<'MIDDLE'
   ],
@@ -84,7 +103,7 @@ MIDDLE
 relate() { # kind, packages
   for p in $2; do
     printf '    ,{ "spdxElementId": "SPDXRef-stadion", "relationshipType": "%s", "relatedSpdxElement": "SPDXRef-deb-%s" }\n' \
-      "$1" "$(printf '%s' "$p" | sed 's/[^A-Za-z0-9.-]/-/g')"
+      "$1" "$(id "$p")"
   done
 }
 relate DYNAMIC_LINK "$links"
