@@ -47,9 +47,9 @@ TestResults readResults(const std::string& file) {
   return testResultsOf(std::string(std::istreambuf_iterator<char>(in), {}));
 }
 
-/// Many tests wait for a good part of their time: more of them than processors.
+/// Many tests wait for a good part of their time: twice as many as there are processors keep these busy.
 unsigned testsAtATime() {
-  return std::max(2U, std::thread::hardware_concurrency()) + 1;
+  return 2 * std::max(2U, std::thread::hardware_concurrency());
 }
 
 /// Names each skipped test with its reason, then prints the closing line.
