@@ -3,12 +3,14 @@
 #include "cli/regress_child.h"
 #include "cli/regress_hint.h"
 #include "cli/regress_rounds.h"
+#include "profiling/regression/hitch_comparison.h"
 #include "profiling/regression/instruction_comparison.h"
 #include "profiling/regression/instruction_counter.h"
 #include "profiling/regression/rank_test.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sys/resource.h>
 
 namespace stadion {
@@ -166,9 +168,14 @@ private:
       const MeasuredRounds m = measureRounds(case_, mode, {with_.program}, {o_.program}, measuring());
       if (failed(m.fault)) return;
       keepMilliseconds(m);
-      std::vector<StageShift> shifts = compareRounds(m.rounds, tolerance);
-      askWhichNode(shifts);
-      add(checksOf(shifts, "the other build", tolerance, case_.rounds));
+      std::vector<Check> checks = compareTimesOfBuilds(m.rounds);
+      if (std::ranges::any_of(checks, isAlarm)) {
+        progress_(fmt::format("{}: times, {} more rounds to confirm", result_.name, case_.rounds));
+        const MeasuredRounds again = measureRounds(case_, mode, {with_.program}, {o_.program}, measuring());
+        if (failed(again.fault)) return;
+        confirm(checks, compareTimesOfBuilds(again.rounds, kAlarm), case_.rounds);
+      }
+      add(std::move(checks));
       const Round& first = m.rounds.front();
       add(unmatchedStages(typicalStages(first.before), typicalStages(first.now), "times", "the other build"));
       return;
@@ -183,6 +190,7 @@ private:
     if (update_) {
       BaselineCase& kept = (*update_)[result_.name];
       kept.times = times;
+      kept.frames = keep(seriesOfNow(m.rounds, frameBudgetUs()), m.calibrationMs);
       kept.nodeTimes = dearOf(nodes, typicalOf(times));
     } else {
       const std::vector<SpanRow>& rows = m.rounds.front().now;
@@ -193,8 +201,61 @@ private:
         s.culprit = culpritSince(s.name, before, s.shift * before, known()->nodeTimes, nodes, rows);
       }
       add(checksOf(shifts, "the baseline", tolerance, case_.rounds));
+      compareFramesWithBaseline(m, mode);
       add(unmatchedStages(typicalOf(known()->times), typicalOf(times), "times", "the baseline"));
     }
+  }
+
+  /// Typical frames, then all others.
+  std::vector<Check> compareTimesOfBuilds(const std::vector<Round>& rounds, double alarm = kHitchAlarm) {
+    const double tolerance = case_.tolerances.times / 100;
+    std::vector<StageShift> shifts = compareRounds(rounds, tolerance);
+    askWhichNode(shifts);
+    std::vector<Check> checks = checksOf(shifts, "the other build", tolerance, case_.rounds);
+    const auto found = compareFrames(seriesOf(rounds, frameBudgetUs()), {rounds.size(), rounds.size(), true},
+                                     {tolerance, alarm});
+    for (Check& c : checksOf(found, culpritsOf(found, rounds), "the other build", rounds.size()))
+      checks.push_back(std::move(c));
+    return checks;
+  }
+
+  void compareFramesWithBaseline(const MeasuredRounds& m, const std::string& mode) {
+    const KeptStages& kept = known()->frames;
+    const std::size_t before = roundsIn(kept);
+    if (before == 0 || before + m.rounds.size() > kMostRuns) {
+      result_.checks.push_back(
+          {"frames", Outcome::Skipped, "the baseline keeps no frames to compare with; --update takes them"});
+      return;
+    }
+    std::vector<Check> checks = framesSince(kept, m);
+    if (std::ranges::any_of(checks, isAlarm)) {
+      progress_(fmt::format("{}: times, {} more rounds to confirm", result_.name, case_.rounds));
+      const MeasuredRounds again = measureRounds(case_, mode, {o_.program}, measuring());
+      if (failed(again.fault)) return;
+      confirm(checks, framesSince(kept, again, kAlarm), case_.rounds);
+    }
+    add(std::move(checks));
+  }
+
+  std::vector<Check> framesSince(const KeptStages& kept, const MeasuredRounds& m,
+                                 double alarm = kHitchAlarm) {
+    const auto found =
+        compareFrames(joined(kept, seriesOfNow(m.rounds, frameBudgetUs()), m.calibrationMs),
+                      {roundsIn(kept), m.rounds.size(), false}, {case_.tolerances.times / 100, alarm});
+    return checksOf(found, culpritsOf(found, m.rounds), "the baseline", m.rounds.size());
+  }
+
+  static std::vector<std::string> culpritsOf(const std::vector<StageFrames>& found,
+                                             const std::vector<Round>& rounds) {
+    std::vector<std::string> culprits;
+    for (const StageFrames& f : found) culprits.push_back(f.worse() ? culpritOf(f, rounds) : "");
+    return culprits;
+  }
+
+  /// A frame that takes longer is late.
+  double frameBudgetUs() const {
+    const double rate = case_.rate > 0 ? case_.rate : last_.facts ? last_.facts->rate : 0;
+    return rate > 0 ? 1e6 / rate : 0;
   }
 
   /// App's nodes are known from the rounds; those of Cull and Draw are asked for.
@@ -211,6 +272,7 @@ private:
   }
 
   void keepMilliseconds(const MeasuredRounds& m) {
+    result_.frameFigures = typicalFigures(seriesOfNow(m.rounds, frameBudgetUs()));
     for (const Round& r : m.rounds) {
       for (const auto& [stage, us] : typicalStages(r.now)) result_.milliseconds[stage].push_back(us / 1000);
       for (const SpanRow& row : r.now)

@@ -26,7 +26,9 @@ Times are processor times of the typical frame, stage by stage. With --against t
 frame by frame, in several rounds; a stage is slower if the ranks of the rounds say so (Wilcoxon, p <= 5 % over all
 stages of the case) and the difference exceeds the tolerance. With a baseline, times are divided by those of a
 calibration kernel run in the same minute, and compared by rank sums. A stage that is slower is told with the node in it
-that moved. --instructions counts instead: less than the tolerance apart on any machine, however busy.
+that moved. Beside the typical frame, hitches are compared by processor time and by the clock on the wall: frames that are
+long in more rounds than before, and mean, p95, p99, longest and late frames of a round. A failure of times must show
+again in as many fresh rounds. --instructions counts instead: less than the tolerance apart on any machine, however busy.
 
 State hashes, image hashes and counts (nodes visited, messages, draw calls, triangles and so on, by wall and eye) have to
 be equal. Images are compared only where the same renderer on the same processor drew them. All modes of a case have to

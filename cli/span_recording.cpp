@@ -56,16 +56,16 @@ bool SpanRecording::count(regression::SpanTimesOptions& times, Diagnostics& find
 bool SpanRecording::plant(regression::SpanTimesOptions& times, Diagnostics& findings) {
   auto planted = regression::PlantedDelay::parse(options_.planted);
   if (!planted) {
-    findings.error({},
-                   "--plant is simulate:NODE=ITERATIONS, cull:WALL=ITERATIONS or draw:WALL=ITERATIONS, not " +
-                       options_.planted);
+    findings.error(
+        {}, "--plant is simulate:NODE=AMOUNT, cull:WALL=AMOUNT, draw:WALL=AMOUNT or frame:=AMOUNT, not " +
+                options_.planted);
     return false;
   }
   if (planted->where == regression::PlantedDelay::Where::Simulate) {
     planted->node = player_.scene().resolve(planted->name, {1, 0});
     if (!player_.scene().find(planted->node))
       findings.error({}, "--plant: the show has no node \"" + planted->name + "\"");
-  } else {
+  } else if (planted->where != regression::PlantedDelay::Where::Frame) {
     const std::vector<std::string> walls = wallNames(player_);
     const auto at = std::ranges::find(walls, planted->name);
     planted->wall = static_cast<std::uint32_t>(at - walls.begin());

@@ -2,18 +2,65 @@
 
 #include "engine/plain_file.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 namespace stadion::regression {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kFormat = "stadion-baseline 1";
+constexpr const char *kFormat = "stadion-baseline 2", *kOldFormat = "stadion-baseline 1";
 constexpr std::size_t kMaxFileBytes = 64 << 20;
+
+/// A few thousand numbers, on one line.
+std::string lineOf(const std::vector<double>& values) {
+  return fmt::format("{:.4g}", fmt::join(values, " "));
+}
+
+std::vector<double> numbersIn(const std::string& line) {
+  std::vector<double> values;
+  std::istringstream in(line);
+  for (double v = 0; in >> v;) values.push_back(std::isfinite(v) ? v : 0);
+  return values;
+}
+
+Json jsonOf(const KeptStage& kept) {
+  Json longer = Json::array();
+  for (const auto& run : kept.longer) {
+    Json& of = longer.emplace_back(Json::object());
+    for (const auto& [frame, excess] : run) of[std::to_string(frame)] = excess;
+  }
+  return {{"usual", lineOf(kept.usual)},
+          {"deviation", kept.deviation},
+          {"levels", lineOf(kept.levels)},
+          {"longer", std::move(longer)},
+          {"figures", kept.figures}};
+}
+
+KeptStage keptStageOf(const Json& j) {
+  constexpr std::size_t kMostNumbered = 1'000'000;
+  KeptStage kept{numbersIn(j.at("usual").get<std::string>()),
+                  j.at("deviation").get<double>(),
+                  numbersIn(j.at("levels").get<std::string>()),
+                  {},
+                  {}};
+  for (const Json& run : j.at("longer")) {
+    auto& of = kept.longer.emplace_back();
+    for (const auto& [frame, excess] : run.items())
+      if (const auto n = std::strtoull(frame.c_str(), nullptr, 10); n < kMostNumbered)
+        of[n] = excess.get<double>();
+  }
+  j.at("figures").get_to(kept.figures);
+  return kept;
+}
 
 BaselineCase caseOf(const Json& j) {
   BaselineCase c;
@@ -22,6 +69,9 @@ BaselineCase caseOf(const Json& j) {
   j.at("images").get_to(c.facts.images);
   j.at("counts").get_to(c.facts.counts);
   if (j.contains("times")) j.at("times").get_to(c.times);
+  if (j.contains("frames"))
+    for (const auto& [stage, clocks] : j.at("frames").items())
+      for (const auto& [clock, kept] : clocks.items()) c.frames[stage][clock] = keptStageOf(kept);
   if (j.contains("instructions")) j.at("instructions").get_to(c.instructions);
   c.countedBy = j.value("counted_by", c.countedBy);
   if (j.contains("node_times")) j.at("node_times").get_to(c.nodeTimes);
@@ -35,6 +85,8 @@ Json jsonOf(const BaselineCase& c) {
          {"images", c.facts.images},
          {"counts", c.facts.counts}};
   if (!c.times.empty()) j["times"] = c.times;
+  for (const auto& [stage, clocks] : c.frames)
+    for (const auto& [clock, kept] : clocks) j["frames"][stage][clock] = jsonOf(kept);
   if (!c.instructions.empty()) j["instructions"] = c.instructions, j["counted_by"] = c.countedBy;
   if (!c.nodeTimes.empty()) j["node_times"] = c.nodeTimes;
   if (!c.nodeInstructions.empty()) j["node_instructions"] = c.nodeInstructions;
@@ -52,7 +104,10 @@ Result<Baseline> readBaseline(const std::string& path) try {
   const Result<std::string> text = readPlainFile(path, kMaxFileBytes);
   if (!text) return text.error();
   const Json j = Json::parse(text.value());
-  if (!j.is_object() || j.value("format", "") != kFormat)
+  const std::string format = j.is_object() ? j.value("format", "") : "";
+  if (format.starts_with("stadion-baseline ") && format != kFormat && format != kOldFormat)
+    return refused(path, "its format is \"" + format + "\", and this build reads versions 1 and 2");
+  if (format != kFormat && format != kOldFormat)
     return refused(path, std::string("its format is not \"") + kFormat + "\"");
   Baseline baseline;
   for (const auto& [name, value] : j.at("cases").items()) baseline[name] = caseOf(value);
@@ -74,7 +129,7 @@ void takeUp(const RunFacts& found, const Metrics& asked, const SuiteCase& played
   if (isNew || asked.state) c.facts.state = found.state;
   if (isNew || asked.images) c.facts.images = found.images, c.facts.renderer = found.renderer;
   if (isNew || asked.counts) c.facts.counts = found.counts;
-  if (asked.times && !played.metrics.times) c.times.clear(), c.nodeTimes.clear();
+  if (asked.times && !played.metrics.times) c.times.clear(), c.frames.clear(), c.nodeTimes.clear();
   if (asked.instructions && !played.metrics.instructions) c.instructions.clear(), c.nodeInstructions.clear();
 }
 

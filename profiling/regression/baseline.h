@@ -4,10 +4,12 @@
 /// Units    times in multiples of the calibration kernel's (calibration.h), so that a faster machine, or a
 ///          busier one, changes little; instructions a frame.
 /// Threads  plain values, any thread.
-/// Errors   a file that is none is refused with its name and what is wrong.
+/// Errors   a file that is none is refused with its name and what is wrong. Version 2 is written; version 1,
+///          which keeps no frames, is read, too.
 
 #include "engine/diagnostic.h"
 #include "profiling/regression/facts.h"
+#include "profiling/regression/kept_frames.h"
 #include "profiling/regression/node_costs.h"
 #include "profiling/regression/suite.h"
 
@@ -20,6 +22,7 @@ namespace stadion::regression {
 struct BaselineCase {
   RunFacts facts;
   std::map<std::string, std::vector<double>> times;  ///< by stage, round by round
+  KeptStages frames;                          ///< of these rounds; files of version 1 have none
   std::map<std::string, double> instructions;        ///< by stage
   std::string countedBy = "callgrind";               ///< the instructions
   CostsByNode nodeTimes, nodeInstructions;           ///< so that the node that moved can be named

@@ -81,6 +81,7 @@ std::string benchmarkJsonOf(const SuiteResult& result) {
       const bool isHash = name.find("hash") != name.npos || name.starts_with("image ");
       whole[name] = isHash || *end ? Json(value) : Json(number);
     }
+    for (const auto& [name, value] : c.frameFigures) whole[name] = value;
     for (const auto& [stage, count] : c.instructions) whole["instructions " + stage] = count;
     j["benchmarks"].push_back(std::move(whole));
     for (const auto& [stage, rounds] : c.milliseconds) {

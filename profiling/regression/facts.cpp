@@ -45,6 +45,8 @@ std::optional<RunFacts> factsOf(const std::string& summaryJson) try {
   for (const Json& image : summary.value("image_hashes", Json::array()))
     facts.images["image" + ofEye(image)] = asText(image.at("hash"));
   takeCounts(summary, facts.counts);
+  if (summary.contains("rate_hz") && summary["rate_hz"].is_number())
+    facts.rate = summary["rate_hz"].get<double>();
   for (const Json& remark : summary.value("remarks", Json::array()))
     if (const std::string text = asText(remark); text.starts_with(kDrawnBy))
       facts.renderer = text.substr(kDrawnBy.size());

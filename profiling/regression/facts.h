@@ -18,6 +18,7 @@ struct RunFacts {
   NamedFacts images;     ///< "image WALL EYE": of the last frame's pictures
   NamedFacts counts;     ///< "frames", "nodes visited per frame", "triangles WALL EYE" ...
   std::string renderer;  ///< who drew: images are the same only from the same one
+  double rate = 0;       ///< [1/s] that was asked for; 0: not told
 };
 
 /// From the object that `stadion run --json` prints.

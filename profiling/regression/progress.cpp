@@ -17,6 +17,7 @@ Json jsonOf(const CaseResult& r) {
          {"instructions", r.instructions},
          {"processor_seconds", r.processorSeconds},
          {"elapsed_ms", r.elapsedMs},
+         {"frame_figures", r.frameFigures},
          {"warnings", r.warnings},
          {"checks", Json::array()}};
   for (const Check& c : r.checks)
@@ -35,6 +36,7 @@ CaseResult resultOf(const Json& j) {
   j.at("milliseconds").get_to(r.milliseconds), j.at("facts").get_to(r.facts);
   j.at("instructions").get_to(r.instructions);
   j.at("processor_seconds").get_to(r.processorSeconds), j.at("elapsed_ms").get_to(r.elapsedMs);
+  j.at("frame_figures").get_to(r.frameFigures);
   j.at("warnings").get_to(r.warnings);
   for (const Json& c : j.at("checks"))
     r.checks.push_back({c.at("metric"), static_cast<Outcome>(std::clamp(c.at("outcome").get<int>(), 0, 2)),

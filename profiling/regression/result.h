@@ -35,6 +35,8 @@ struct CaseResult {
   double seconds = 0;                                         ///< that it took
   double processorSeconds = 0;                                ///< of the programs that were played
   std::map<std::string, std::vector<double>> elapsedMs{};     ///< as `milliseconds`, by the clock on the wall
+  /// Of the typical round: "p99 of draw of wall front, wall-clock time [ms]", "late frames of frame, ...".
+  std::map<std::string, double> frameFigures{};
   std::vector<std::string> warnings{};  ///< of the show, as it said them: "FILE:LINE:COLUMN: warning: ..."
 
   bool failed() const;

@@ -15,6 +15,14 @@ double number(const Json& row, const char* field) {
   return row.contains(field) && row[field].is_number() ? row[field].get<double>() : 0;
 }
 
+std::map<std::uint64_t, double> byFrame(const Json& row, const char* field) {
+  std::map<std::uint64_t, double> values;
+  if (!row.contains(field) || !row[field].is_object()) return values;
+  for (const auto& [frame, us] : row[field].items())
+    if (us.is_number()) values[std::strtoull(frame.c_str(), nullptr, 10)] = us.get<double>();
+  return values;
+}
+
 SpanRow rowOf(const Json& j) {
   SpanRow row;
   row.path = text(j, "path"), row.file = text(j, "file"), row.stage = text(j, "stage");
@@ -23,9 +31,7 @@ SpanRow rowOf(const Json& j) {
   row.msMean = number(j, "ms_mean"), row.count = static_cast<std::size_t>(number(j, "count"));
   row.instructions = number(j, "instructions"), row.plantedUs = number(j, "planted_us");
   row.elapsedUs = number(j, "elapsed_us");
-  if (!j.contains("frame_us") || !j["frame_us"].is_object()) return row;
-  for (const auto& [frame, us] : j["frame_us"].items())
-    if (us.is_number()) row.frames[std::strtoull(frame.c_str(), nullptr, 10)] = us.get<double>();
+  row.frames = byFrame(j, "frame_us"), row.elapsed = byFrame(j, "frame_elapsed_us");
   return row;
 }
 
@@ -136,6 +142,7 @@ std::string toJson(const std::vector<SpanRow>& rows) {
     if (r.elapsedUs > 0) j["elapsed_us"] = r.elapsedUs;
     if (r.plantedUs > 0) j["planted_us"] = r.plantedUs;
     for (const auto& [frame, us] : r.frames) j["frame_us"][std::to_string(frame)] = us;
+    for (const auto& [frame, us] : r.elapsed) j["frame_elapsed_us"][std::to_string(frame)] = us;
     all.push_back(std::move(j));
   }
   return all.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -2,9 +2,12 @@
 /// What a run cost, row by row: of each stage and wall, and of the dearest nodes, as a table of JSON objects.
 ///
 ///     {"path": "sim_kick", "file": "scripts/kick.evs", "line": 12, "stage": "app", "wall": null,
-///      "eye": null, "ms_mean": 0.012, "count": 180, "frame_us": {"0": 12.1, "1": 11.9, ...}}
+///      "eye": null, "ms_mean": 0.012, "count": 180, "frame_us": {"0": 12.1, "1": 11.9, ...},
+///      "frame_elapsed_us": {"0": 12.3, "1": 12.0, ...}}
 ///
-/// `path` is null for a stage itself. `frame_us`, where there is one, has the cost of each frame.
+/// `path` is null for a stage itself. `frame_us`, where there is one, has the processor time of each frame;
+/// `frame_elapsed_us` has its duration by the clock on the wall. The stage "frame" is the whole frame: it has
+/// durations only.
 ///
 /// Threads  plain values, any thread.
 /// Errors   rows that are none are left out.
@@ -25,9 +28,11 @@ struct SpanRow {
   double msMean = 0;                       ///< a frame in which it had something to do
   std::size_t count = 0;                   ///< of such frames
   std::map<std::uint64_t, double> frames;  ///< cost [us] by frame; empty if it was not told
-  double elapsedUs = 0;                    ///< of a stage: the typical frame, by the clock on the wall [us]
-  double instructions = 0;                 ///< a frame; 0 if nobody counted
-  double plantedUs = 0;  ///< of a stage: how much of the typical frame was planted on purpose [us]
+  std::map<std::uint64_t, double>
+      elapsed{};            ///< duration by the clock on the wall [us], by frame; may be empty
+  double elapsedUs = 0;     ///< of a stage: the typical frame, by the clock on the wall [us]
+  double instructions = 0;  ///< a frame; 0 if nobody counted
+  double plantedUs = 0;     ///< of a stage: how much of the typical frame was planted on purpose [us]
 
   bool isStage() const { return path.empty() && line == 0; }
   /// The same in another run has the same.

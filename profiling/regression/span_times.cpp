@@ -33,11 +33,23 @@ bool isPlantedIn(const std::optional<PlantedDelay>& planted, Span phase, NodeRef
          planted->node == node;
 }
 
+double microseconds(std::chrono::steady_clock::duration d) {
+  return std::chrono::duration<double, std::micro>(d).count();
+}
+
+double typicalElapsed(const SpanRow& row) {
+  std::vector<double> us;
+  for (const auto& [frame, value] : row.elapsed) us.push_back(value);
+  return median(std::move(us));
+}
+
 }  // namespace
 
 void SpanTimes::began(Span what, std::uint64_t frame, std::uint32_t wall) {
   if (!isStage(what)) return;  // a wait
-  if (what == Span::App && options_.turns) options_.turns->take();
+  const bool waits = what == Span::App && options_.turns;
+  const auto waiting = waits ? Clock::now() : Clock::time_point{};
+  if (waits) options_.turns->take();
   if (what == Span::App && frame == kFirstCounted && options_.countInstructions) {
     if (!options_.instructions) beginCountingInstructions();
     counting_ = true;
@@ -46,6 +58,10 @@ void SpanTimes::began(Span what, std::uint64_t frame, std::uint32_t wall) {
   const std::lock_guard lock(mutex_);
   open_[std::this_thread::get_id()] = {key, frame, {}};
   if (what == Span::App) appFrame_ = frame;
+  if (what == Span::App && frameEndedAt_ == Clock::time_point{})
+    frameEndedAt_ = Clock::now();
+  else if (waits)
+    frameEndedAt_ += Clock::now() - waiting;
   begin(key);
   boundary(nullptr);
   stage_ = &costs_[key];
@@ -70,6 +86,9 @@ void SpanTimes::ended(Span what) {
   if (isStage(what)) {
     if (isPlantedIn(options_.planted, what, open.stage.wall)) plantIn(open.frame);
     stageEnded(open);
+    if (what == Span::App && options_.planted && options_.planted->where == PlantedDelay::Where::Frame)
+      plantIn(open.frame);
+    if (what == Span::Swap) frameEnded(open.frame);
     if (what == Span::Swap && options_.turns) options_.turns->give();
   } else if (open.node.valid()) {
     if (isPlantedIn(options_.planted, what, open.node)) plantIn(appFrame);
@@ -80,14 +99,14 @@ void SpanTimes::ended(Span what) {
 // A node's cycle may simulate in two parts: once is enough. The clock on the wall costs next to nothing to
 // read, so that what is planted is what burn() takes.
 void SpanTimes::plantIn(std::uint64_t frame) {
+  if (!options_.planted->isIn(frame)) return;
   {
     const std::lock_guard lock(mutex_);
     if (plantedFrame_ == frame) return;
     plantedFrame_ = frame;
   }
-  using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  burn(options_.planted->iterations);
+  options_.planted->spend();
   const auto took = Clock::now() - start;
   const std::lock_guard lock(mutex_);
   planted_.push_back(static_cast<std::uint64_t>(std::chrono::nanoseconds(took).count()));
@@ -105,11 +124,17 @@ void SpanTimes::stageEnded(const Open& open) {
   Cost& cost = end(open.stage);
   boundary(&cost);
   stage_ = nullptr;
-  cost.frames.emplace_back(open.frame, cost.now);
-  cost.elapsedUs.push_back(
-      std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - cost.beganAt).count());
-  cost.total += cost.now, cost.now = 0;
+  cost.frames.push_back({open.frame, cost.now, cost.elapsed});
+  cost.total += cost.now, cost.now = 0, cost.elapsed = {};
   if (open.stage.stage == Span::App) closeFrame(open.frame);
+}
+
+/// Of the whole frame; where two runs take turns, without the wait for the other one.
+void SpanTimes::frameEnded(std::uint64_t frame) {
+  const std::lock_guard lock(mutex_);
+  const Clock::time_point now = Clock::now();
+  wholeFrames_.emplace_back(frame, now - frameEndedAt_);
+  frameEndedAt_ = now;
 }
 
 void SpanTimes::nodeEnded(NodeRef node) {
@@ -124,20 +149,22 @@ void SpanTimes::nodeEnded(NodeRef node) {
 void SpanTimes::begin(const Key& key) {
   const auto [at, isNew] = costs_.try_emplace(key);
   if (isNew) at->second.row = costs_.size() - 1;
-  if (!key.node.valid()) at->second.beganAt = std::chrono::steady_clock::now();
+  at->second.beganAt = Clock::now();
   at->second.began = threadNanoseconds();
 }
 
 SpanTimes::Cost& SpanTimes::end(const Key& key) {
   Cost& cost = costs_[key];
   cost.now += std::max<std::uint64_t>(1, threadNanoseconds() - cost.began);
+  cost.elapsed += Clock::now() - cost.beganAt;
   return cost;
 }
 
 void SpanTimes::closeFrame(std::uint64_t frame) {
   for (Cost* node : touched_) {
-    node->frames.emplace_back(frame, node->now);
-    node->total += node->now, node->now = 0;
+    node->frames.push_back({frame, node->now, node->elapsed});
+    node->total += node->now, node->elapsedTotal += node->elapsed;
+    node->now = 0, node->elapsed = {};
   }
   touched_.clear();
 }
@@ -158,11 +185,11 @@ void SpanTimes::boundary(const Cost* cost) {
 
 std::vector<SpanRow> SpanTimes::rows(const std::vector<std::string>& walls,
                                      const std::function<void(NodeRef, SpanRow&)>& nameNode) const {
-  std::vector<std::uint64_t> totals;
+  std::vector<Clock::rep> totals;
   for (const auto& [key, cost] : costs_)
-    if (key.node.valid()) totals.push_back(cost.total);
+    if (key.node.valid()) totals.push_back(cost.elapsedTotal.count());
   std::ranges::sort(totals, std::greater());
-  const std::uint64_t dear = totals.size() > kNodesWithFrames ? totals[kNodesWithFrames] : 0;
+  const Clock::rep dear = totals.size() > kNodesWithFrames ? totals[kNodesWithFrames] : 0;
 
   std::vector<SpanRow> all(costs_.size());
   for (const auto& [key, cost] : costs_) {
@@ -172,15 +199,24 @@ std::vector<SpanRow> SpanTimes::rows(const std::vector<std::string>& walls,
     if (ofWall && key.wall < walls.size()) row.wall = walls[key.wall];
     if (key.node.valid()) nameNode(key.node, row);
     row.count = cost.frames.size();
-    if (!cost.elapsedUs.empty()) row.elapsedUs = median(cost.elapsedUs);
     if (isPlanted(key)) row.plantedUs = 1e-3 * median({planted_.begin(), planted_.end()});
     if (row.count > 0) row.msMean = 1e-6 * static_cast<double>(cost.total) / static_cast<double>(row.count);
-    if (key.node.valid() && cost.total < dear) continue;
-    for (const auto& [frame, ns] : cost.frames) row.frames[frame] = 1e-3 * static_cast<double>(ns);
+    if (key.node.valid() && cost.elapsedTotal.count() < dear) continue;
+    for (const OfFrame& of : cost.frames) {
+      row.frames[of.frame] = 1e-3 * static_cast<double>(of.processor);
+      row.elapsed[of.frame] = microseconds(of.elapsed);
+    }
+    if (row.isStage() && !row.elapsed.empty()) row.elapsedUs = typicalElapsed(row);
   }
   std::map<std::string, double> byLabel;
   for (const auto& [row, count] : executed_) byLabel["row " + std::to_string(row)] = count;
   if (!byLabel.empty()) giveInstructions(all, byLabel);
+  if (!wholeFrames_.empty()) {
+    SpanRow& whole = all.emplace_back();
+    whole.stage = "frame", whole.count = wholeFrames_.size();
+    for (const auto& [frame, took] : wholeFrames_) whole.elapsed[frame] = microseconds(took);
+    whole.elapsedUs = typicalElapsed(whole);
+  }
   return all;
 }
 

@@ -45,18 +45,24 @@ public:
                             const std::function<void(NodeRef, SpanRow&)>& nameNode) const;
 
 private:
+  using Clock = std::chrono::steady_clock;
   struct Key {
     Span stage = Span::App;
     std::uint32_t wall = 0;
     NodeRef node;
     auto operator<=>(const Key&) const = default;
   };
+  /// Of one frame: processor time [ns], and the duration by the clock on the wall.
+  struct OfFrame {
+    std::uint64_t frame = 0, processor = 0;
+    Clock::duration elapsed{};
+  };
   struct Cost {
     std::size_t row = 0;
     std::uint64_t began = 0, now = 0, total = 0;  ///< [ns]; `now`: of this frame
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> frames;
-    std::chrono::steady_clock::time_point beganAt{};  ///< by the clock on the wall
-    std::vector<double> elapsedUs;                    ///< of a stage, frame by frame
+    Clock::time_point beganAt{};
+    Clock::duration elapsed{}, elapsedTotal{};  ///< `elapsed`: of this frame
+    std::vector<OfFrame> frames;
   };
   /// What a thread is at.
   struct Open {
@@ -68,6 +74,7 @@ private:
   void plantIn(std::uint64_t frame);
   bool isPlanted(const Key& stage) const;
   void stageEnded(const Open& open);
+  void frameEnded(std::uint64_t frame);
   void nodeEnded(NodeRef node);
   void begin(const Key& key);
   Cost& end(const Key& key);
@@ -85,6 +92,8 @@ private:
   std::map<std::size_t, double> executed_{};  ///< by row
   std::uint64_t appFrame_ = kNoFrame, plantedFrame_ = kNoFrame;
   std::vector<std::uint64_t> planted_;
+  Clock::time_point frameEndedAt_{};  ///< the frame before; moved on by what was waited since
+  std::vector<std::pair<std::uint64_t, Clock::duration>> wholeFrames_;
 };
 
 }  // namespace stadion::regression

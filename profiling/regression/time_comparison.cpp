@@ -194,6 +194,23 @@ std::vector<Check> unmatchedStages(const std::map<std::string, double>& before,
   return checks;
 }
 
+bool isAlarm(const Check& check) {
+  return check.outcome == Outcome::Failed && !check.figures.empty();
+}
+
+void confirm(std::vector<Check>& checks, const std::vector<Check>& again, std::size_t rounds) {
+  for (Check& c : checks) {
+    if (!isAlarm(c)) continue;
+    const auto same = std::ranges::find(again, c.metric, &Check::metric);
+    if (same != again.end() && isAlarm(*same)) {
+      c.said += fmt::format("; again in {} more rounds", rounds);
+      continue;
+    }
+    c.outcome = Outcome::Passed, c.culprit.clear(), c.figures.clear();
+    c.said += fmt::format("; not in {} more rounds: by chance", rounds);
+  }
+}
+
 std::vector<Check> checksOf(const std::vector<StageShift>& shifts, const std::string& with, double tolerance,
                             std::size_t rounds) {
   std::vector<Check> checks;

@@ -10,6 +10,7 @@
 /// Units    ratios: 0.05 is 5 % slower.
 /// Threads  free functions, any thread.
 
+#include "profiling/regression/frame_figures.h"
 #include "profiling/regression/node_costs.h"
 #include "profiling/regression/result.h"
 #include "profiling/regression/span_record.h"
@@ -36,9 +37,8 @@ struct StageShift {
   std::string unfit{};    ///< why it cannot be compared; then the figures are void
 };
 
-constexpr double kAlarm = 0.05;          ///< probability below which it is no chance
-constexpr double kShortest = 10;         ///< [us]: what takes less is not judged by the clock
-constexpr std::size_t kFirstFrames = 5;  ///< left out: they build what the others use
+constexpr double kAlarm = 0.05;   ///< probability below which it is no chance
+constexpr double kShortest = 10;  ///< [us]: what takes less is not judged by the clock
 
 /// Of every stage that all rounds told of.
 std::vector<StageShift> compareRounds(const std::vector<Round>& rounds, double tolerance);
@@ -59,6 +59,11 @@ std::vector<Check> unmatchedStages(const std::map<std::string, double>& before,
 /// A check for each; what cannot be compared is no pass.
 std::vector<Check> checksOf(const std::vector<StageShift>& shifts, const std::string& with, double tolerance,
                             std::size_t rounds);
+
+/// Whether a check failed by a probability, which another measurement can confirm.
+bool isAlarm(const Check& check);
+/// What failed stays failed only if it fails in a second measurement, too; else says that it did not.
+void confirm(std::vector<Check>& checks, const std::vector<Check>& again, std::size_t rounds);
 
 /// The typical frame of each stage [us], by its name.
 std::map<std::string, double> typicalStages(const std::vector<SpanRow>& rows);

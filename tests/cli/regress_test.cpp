@@ -266,6 +266,25 @@ TEST(ProgramFullRegress, ANodeThatBecameDearerIsNamedByItsTime) {
       << r.out;
 }
 
+/// The typical frame is the same. Three kinds, so that work, sleep, a node and a wall are among them.
+TEST(ProgramFullRegress, HitchesAreFoundAndNamedWithTheirFrames) {
+  const struct {
+    const char *planted, *frames, *moved;
+  } kinds[] = {{"simulate:lane_07=sleep20ms/10", "frames 0, 10, 20, 30 longer by 2",
+                "moved: lane_07 \\(.*crowd.evs:[0-9]+\\) in app"},
+               {"draw:west=20ms/20+3", "frames 3, 23 longer by 2", "moved: draw of wall west"},
+               {"frame:=sleep20ms/100+9", "frame 9 longer by 2", "moved: frame, between the stages"}};
+  for (const auto& kind : kinds) {
+    const TemporaryFolder folder;
+    const ProgramResult r = regress(
+        {crowdSuite(folder, "times"), "--against", stadionPath(), "--stadion", spoilt(folder, kind.planted)});
+    EXPECT_EQ(r.status, 1) << kind.planted << r.out << r.err;
+    EXPECT_NE(r.out.find(kind.frames), std::string::npos) << r.out;
+    EXPECT_TRUE(std::regex_search(r.out, std::regex(kind.moved))) << r.out;
+    EXPECT_NE(r.out.find("again in 12 more rounds"), std::string::npos) << r.out;
+  }
+}
+
 TEST(ProgramFullRegress, AWallWhoseCullingBecameDearerIsNamedByItsInstructions) {
   if (runProgram({{"valgrind", "--version"}}).status != 0) GTEST_SKIP() << "there is no valgrind";
   const TemporaryFolder folder;

@@ -1,0 +1,37 @@
+#pragma once
+/// Permutation tests over runs: which of the runs are called "now", and how else they might have been called.
+///
+/// If two builds do not differ, the names "before" and "now" say nothing, and every way of giving them is as
+/// likely as the true one. The probability of a difference by chance is the share of the ways that show at
+/// least as large a difference. No distribution of the noise is assumed. The largest difference of many
+/// quantities under each way answers for all of them at once (Westfall and Young, 1993).
+///
+/// Threads  free functions, any thread.
+
+#include <bitset>
+#include <cstddef>
+#include <vector>
+
+namespace stadion::regression {
+
+constexpr std::size_t kMostRuns = 160;  ///< of both sides
+using RunSet = std::bitset<kMostRuns>;
+
+/// How runs belong together.
+struct RunDesign {
+  std::size_t before = 0, now = 0;  ///< runs of each side
+  bool paired = false;              ///< run 2r is "before" and run 2r + 1 is "now" in round r
+
+  std::size_t runs() const { return before + now; }
+  /// The true one. Unpaired runs of "before" come first.
+  RunSet trueNow() const;
+};
+
+/// The runs that are called "now": the true way first, then the others. All of them where there are few, else
+/// some drawn at random, the same ones each time.
+std::vector<RunSet> labellingsOf(const RunDesign& design);
+
+/// The share of the values that are at least `observed`.
+double shareAtLeast(const std::vector<double>& values, double observed);
+
+}  // namespace stadion::regression
