@@ -8,6 +8,7 @@
 #include "pipeline/output/progress.h"
 
 #include <cstdio>
+#include <fmt/format.h>
 
 namespace stadion {
 namespace {
@@ -82,9 +83,14 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnos
                                                              "could be collected");
   ShowFigures figures =
       recording->figures(player->walls().names(), options.drawn ? stages.glDescription() : "");
+  if (options.drawn) figures.warmUpMs = loop.times().warmUp;
   if (figures.frames == 0) return findings.error({}, tooShort("the show ended too early")), std::nullopt;
   if (html) {
-    ReportData data = recording->report(reportHead(options, *player, stages.glDescription()), figures);
+    ReportHead head = reportHead(options, *player, stages.glDescription());
+    if (figures.warmUpMs > 0)
+      head.facts.emplace_back("warm-up", fmt::format("{:.3f} s before the first frame: shaders, uploads",
+                                                     figures.warmUpMs / 1000));
+    ReportData data = recording->report(std::move(head), figures);
     if (!stop) data.dynamics = dynamicsFigures(options, figures);
     html->write(reportPage(data));
     if (const auto why = html->commit()) return findings.add(*why), std::nullopt;

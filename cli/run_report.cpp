@@ -16,6 +16,7 @@ namespace {
 void addTimes(const FinishedRun& run, RunSummary& s) {
   const FrameTimes& t = run.loop.times();
   s.frameMs = distributionOf(t.period.values());
+  if (run.stages.glDescription() != "") s.warmUpMs = t.warmUp;
   const std::string clock = "steady clock around the stage",
                     finish = std::string("steady clock around draw + finish + read back") +
                              (run.options.cullDraw == "overlap" ? ", with its waits for Cull" : "");

@@ -29,12 +29,23 @@ Failure DrawingHere::open(std::size_t wall) {
   return {};
 }
 
+// Nobody observes it, and what it draws counts for nothing.
+Failure DrawingHere::warmUp(std::size_t wall, const DrawList& list) {
+  DrawOutcome outcome = draw(wall, list, nullptr);
+  if (!outcome.failure) contexts_.renderer(wall).forgetTotals();
+  return std::move(outcome.failure);
+}
+
 DrawOutcome DrawingHere::draw(std::size_t wall, const DrawList& list, bool) {
+  return draw(wall, list, parts_.probe);
+}
+
+DrawOutcome DrawingHere::draw(std::size_t wall, const DrawList& list, FrameProbe* probe) {
   const auto about = [&](const std::string& what) {
     return "wall " + nameOf(wall) + ", frame " + std::to_string(list.ticket.signature.frame) + ": " + what;
   };
   for (int contexts = 1; contexts <= kMostContexts; ++contexts) {
-    if (auto drawn = drawOnce(wall, list)) {
+    if (auto drawn = drawOnce(wall, list, probe)) {
       if (list.filling && list.filling->isVoid()) return {{}, false};
       return {std::move(*drawn)};
     }
@@ -47,10 +58,10 @@ DrawOutcome DrawingHere::draw(std::size_t wall, const DrawList& list, bool) {
 }
 
 /// How it went; nothing: the context is lost.
-std::optional<Failure> DrawingHere::drawOnce(std::size_t wall, const DrawList& list) {
+std::optional<Failure> DrawingHere::drawOnce(std::size_t wall, const DrawList& list, FrameProbe* probe) {
   if (contexts_.enter(wall)) return {};
   Renderer& renderer = contexts_.renderer(wall);
-  const auto problem = renderer.draw(list, parts_.giveUp, parts_.probe);
+  const auto problem = renderer.draw(list, parts_.giveUp, probe);
   if (renderer.contextIsLost()) return {};
   return toFailure(problem);
 }

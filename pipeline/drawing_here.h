@@ -37,6 +37,7 @@ public:
   explicit DrawingHere(DrawingHereParts parts);
 
   Failure open(std::size_t wall) override;
+  Failure warmUp(std::size_t wall, const DrawList& list) override;
   DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) override;
   Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) override;
   void close(std::size_t wall) override;
@@ -44,7 +45,8 @@ public:
   std::string glDescription(std::size_t wall) const override;
 
 private:
-  std::optional<Failure> drawOnce(std::size_t wall, const DrawList& list);
+  DrawOutcome draw(std::size_t wall, const DrawList& list, FrameProbe* probe);
+  std::optional<Failure> drawOnce(std::size_t wall, const DrawList& list, FrameProbe* probe);
   std::string nameOf(std::size_t wall) const;
 
   DrawingHereParts parts_;

@@ -11,6 +11,7 @@
 #include <functional>
 #include <new>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace stadion {
@@ -68,7 +69,7 @@ FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std:
                      FrameProbe* probe)
     : stages_(stages), options_(options), stopRequested_(stopRequested), probe_(probe),
       pacer_(options.pace, options.rate, options.everyTick), times_(options.walls),
-      clock_(options.rate, options.frameTimes) {
+      clock_(options.rate, options.frameTimes), warmUps_(options.walls) {
   pacer_.startLate(std::chrono::nanoseconds(options.late));
   if (!options.after) return;
   clock_ = FrameClock(options.rate, *options.after, options.frameTimes);
@@ -97,17 +98,25 @@ auto FrameLoop::waited(Span what, std::uint64_t frame, std::size_t wall, const W
 // One frame after the other, one stage after the other.
 void FrameLoop::runSequential() {
   std::vector<DrawList> lists(options_.walls);
-  bool well = true;
+  bool well = true, warm = false;
   for (std::size_t wall = 0; well && wall < options_.walls; ++wall) well = openStage(wall);
 
   while (well) {
     std::optional<Turn> turn;
     well = guard("App", kAllWalls, nextIndex_, [&]() -> Failure { return turn = nextTurn(), Failure(); });
     if (!turn) break;
-    const auto ticket = appStage(*turn, 0);
+    auto ticket = appStage(*turn, 0);
     well = ticket.has_value();
     for (std::size_t wall = 0; well && wall < options_.walls; ++wall)
       well = cullStage(wall, 0, *ticket, lists[wall]);
+    if (well && ticket->drawn && !std::exchange(warm, true)) {
+      const Clock::time_point began = Clock::now();
+      for (std::size_t wall = 0; well && wall < options_.walls; ++wall) well = warmUpStage(wall, lists[wall]);
+      const auto took = Clock::now() - began;
+      for (DrawList& list : lists) list.ticket.delay(took);
+      ticket->delay(took);
+      warmedUp(took);
+    }
     for (std::size_t wall = 0; well && wall < options_.walls; ++wall) well = drawStage(wall, lists[wall]);
     well = well && swapStage(*ticket);
   }
@@ -123,9 +132,13 @@ void FrameLoop::runPipelined() {
   std::deque<ListQueue> queues;
   while (queues.size() < options_.walls) queues.emplace_back(options_.drawBeginsEarly);
   SwapBarrier barrier(options_.walls);
+  // All walls and App: before all are ready none draws, since they may share a rasteriser, and show time
+  // stands still.
+  SwapBarrier warm(options_.walls + 1);
 
   StageThreads threads;
   threads.app = [&] {
+    bool isWarm = options_.walls == 0;
     while (const auto turn = nextTurn()) {
       slots.limitUnderWay(framesUnderWay(), lastWalls());
       const auto slot = waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return slots.beginWrite(); });
@@ -133,6 +146,10 @@ void FrameLoop::runPipelined() {
       const auto ticket = appStage(*turn, *slot);
       if (!ticket) break;
       slots.endWrite(*slot, *ticket);
+      if (!ticket->drawn || std::exchange(isWarm, true)) continue;
+      const Clock::time_point began = Clock::now();
+      if (!waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return warm.arrive([] {}); })) break;
+      warmedUp(Clock::now() - began);
     }
     slots.finish();
   };
@@ -148,7 +165,14 @@ void FrameLoop::runPipelined() {
   threads.draw = [&](std::size_t wall) {
     if (!openStage(wall)) return;
     const auto next = [&] { return queues[wall].takeHanded(); };
+    bool isWarm = false;
     while (DrawList* list = waited(Span::ForDraw, kNoFrame, wall, next)) {
+      if (list->ticket.drawn && !std::exchange(isWarm, true)) {
+        const Clock::time_point began = Clock::now();
+        if (list->filling->isWhole() && !warmUpStage(wall, *list)) return;
+        if (!waited(Span::ForWalls, kNoFrame, wall, [&] { return warm.arrive([] {}); })) return;
+        list->ticket.delay(Clock::now() - began);
+      }
       if (!list->filling->isVoid() && !drawStage(wall, *list)) return;
       if (list->filling->isCutShort()) return;
       slots.drawn();
@@ -166,7 +190,7 @@ void FrameLoop::runPipelined() {
   threads.stopAll = [&] {
     slots.stop();
     for (ListQueue& q : queues) q.stop();
-    barrier.stop();
+    barrier.stop(), warm.stop();
   };
   runThreads(threads);
 }
@@ -367,7 +391,28 @@ bool FrameLoop::cullStage(std::size_t wall, std::size_t slot, const FrameTicket&
 }
 
 bool FrameLoop::openStage(std::size_t wall) {
-  return guard("opening", wall, kNoFrame, [&] { return stages_.openWall(wall); });
+  const Clock::time_point began = Clock::now();
+  const bool well = guard("opening", wall, kNoFrame, [&] { return stages_.openWall(wall); });
+  warmUps_[wall] += millisecondsSince(began);
+  return well;
+}
+
+// Before a wall draws for the first time, so that its first frame takes no longer than others.
+bool FrameLoop::warmUpStage(std::size_t wall, const DrawList& list) {
+  const Clock::time_point began = Clock::now();
+  const std::uint64_t frame = list.ticket.signature.frame;
+  const bool well = guard("warming up", wall, frame, [&] { return stages_.warmUp(wall, list); });
+  warmUps_[wall] += millisecondsSince(began);
+  if (!well) broken_ = true;
+  return well;
+}
+
+/// Show time stood still meanwhile; but a show that goes on after a crash has to catch up with that, too.
+void FrameLoop::warmedUp(Clock::duration took) {
+  if (!options_.after) pacer_.hold(took);
+  // One wall after the other, or all at once.
+  for (const double ms : warmUps_)
+    times_.warmUp = options_.mode == Mode::Sequential ? times_.warmUp + ms : std::max(times_.warmUp, ms);
 }
 
 void FrameLoop::closeStage(std::size_t wall) {

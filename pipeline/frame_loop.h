@@ -111,6 +111,8 @@ private:
   std::optional<FrameTicket> appStage(const Turn& turn, std::size_t slot);
   bool cullStage(std::size_t wall, std::size_t slot, const FrameTicket& ticket, DrawList& list);
   bool openStage(std::size_t wall);
+  bool warmUpStage(std::size_t wall, const DrawList& list);
+  void warmedUp(std::chrono::steady_clock::duration took);
   bool drawStage(std::size_t wall, DrawList& list);
   bool swapStage(const FrameTicket& ticket);
   void noteShown(const FrameTicket& ticket);
@@ -139,6 +141,7 @@ private:
   std::atomic<bool> broken_ = false;  ///< failed, or Draw gave up: all threads are to end at once
   std::mutex failureMutex_;
   std::chrono::steady_clock::time_point ready_{};  ///< the first frame was shown
+  std::vector<double> warmUps_;  ///< by wall: what getting ready took [ms]; each its Draw thread's own
   // Of the frame shown last; whoever swaps has them.
   std::chrono::steady_clock::time_point lastSwap_{};
   bool lastDrawn_ = false;

@@ -19,6 +19,9 @@ struct FrameTicket {
   /// When the head's pose was measured that its pictures are drawn with; where nobody knows, when it was
   /// sampled.
   std::chrono::steady_clock::time_point posed{};
+
+  /// Nothing could be drawn for so long, and it counts as begun so much later.
+  void delay(std::chrono::steady_clock::duration by) { began += by, posed += by; }
 };
 
 }  // namespace stadion

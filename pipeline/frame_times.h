@@ -43,6 +43,8 @@ struct FrameTimes {
   std::vector<DurationSeries> cull, draw;  ///< by wall
   DurationSeries swap;                     ///< showing: outputs of a frame handed on
   DurationSeries period;                   ///< from swap to swap
+  /// Before the first frame is drawn [ms]: contexts, shaders, uploads. The other series are without it.
+  double warmUp = 0;
   /// By wall: from the measurement of the head's pose that its picture was drawn with to the swap.
   std::vector<DurationSeries> latency;
 };

@@ -8,6 +8,12 @@ Pacer::Pacer(Pace pace, double rate, bool everyTick)
     : pace_(pace), everyTick_(everyTick),
       period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate))) {}
 
+void Pacer::hold(Clock::duration by) {
+  if (!started_) return;
+  next_ += by;
+  if (catchUpUntil_ != Clock::time_point{}) catchUpUntil_ += by;
+}
+
 std::uint64_t Pacer::wait() {
   if (pace_ == Pace::Free) return 1;
   const auto now = Clock::now();

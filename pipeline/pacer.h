@@ -32,6 +32,8 @@ public:
   /// Waits until the next frame may begin. Returns how many ticks have passed since the previous one: 1 when
   /// all is well.
   std::uint64_t wait();
+  /// Nothing could go on for so long: the ticks to come are as much later.
+  void hold(std::chrono::steady_clock::duration by);
   /// Whether the next frame is late already.
   bool behind() const { return pace_ != Pace::Free && started_ && Clock::now() > next_; }
   /// Ticks that passed without a frame beginning.

@@ -1,5 +1,6 @@
 #include "pipeline/show_stages.h"
 
+#include "pipeline/draw/warm_up_list.h"
 #include "pipeline/drawing_here.h"
 #include "pipeline/worker/eyes_in_workers.h"
 
@@ -151,6 +152,10 @@ Failure ShowStages::openWall(std::size_t wall) {
   if (Failure f = drawing_->open(wall)) return f;
   if (wall == 0) glDescription_ = drawing_->glDescription(wall);
   return {};
+}
+
+Failure ShowStages::warmUp(std::size_t wall, const DrawList& list) {
+  return drawing_ ? drawing_->warmUp(wall, warmUpList(list, parts_.meshes)) : std::nullopt;
 }
 
 bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {

@@ -98,6 +98,7 @@ public:
   std::optional<std::chrono::steady_clock::time_point> posed(std::size_t wall) const override;
   void latch(std::size_t wall, DrawList& list) override;
   Failure openWall(std::size_t wall) override;
+  Failure warmUp(std::size_t wall, const DrawList& list) override;
   Failure draw(std::size_t wall, const DrawList& list) override;
   void closeWall(std::size_t wall) override;
   Failure swap(const TimeSignature& now) override;

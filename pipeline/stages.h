@@ -71,6 +71,10 @@ public:
   virtual void latch(std::size_t wall, DrawList& list) { (void)wall, (void)list; }
 
   virtual Failure openWall(std::size_t wall) = 0;
+  /// Compiles the shaders and uploads the meshes that lists such as this one need. Nothing of it is shown or
+  /// counted, and no state of the show changes. Called once, before the wall's first draw(), with that list,
+  /// which is complete.
+  virtual Failure warmUp(std::size_t wall, const DrawList& list) { return (void)wall, (void)list, Failure(); }
   /// Cull may still be filling the list (ListFilling).
   virtual Failure draw(std::size_t wall, const DrawList& list) = 0;
   virtual void closeWall(std::size_t wall) = 0;

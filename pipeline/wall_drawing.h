@@ -27,6 +27,9 @@ public:
   virtual ~WallDrawing() = default;
 
   virtual Failure open(std::size_t wall) = 0;
+  /// Draws the list, which is complete, so that shaders are compiled and meshes uploaded; it is not counted.
+  /// Waits as long as that takes. May throw RunStopped.
+  virtual Failure warmUp(std::size_t wall, const DrawList& list) = 0;
   /// Draws all eyes of the list, which may still be filled, and waits until that is done. `read`: read() will
   /// be called for all of them, and the list is not there any more then. May throw RunStopped.
   virtual DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) = 0;

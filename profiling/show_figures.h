@@ -87,7 +87,8 @@ struct ShowFigures {
   Explained app, cull, draw;
   /// The eyes drawn alone, and what was drawn alone in them, before it was scaled to that.
   Explained alone;
-  std::string drawMethod;          ///< empty: nothing was drawn
+  double warmUpMs = 0;     ///< before the first frame is drawn; in no other figure. 0: nothing was drawn
+  std::string drawMethod;  ///< empty: nothing was drawn
   std::uint64_t wholeFrames = 0;   ///< of `frames`: those that App by node is of
   std::uint64_t framesNeeded = 0;  ///< about so many would measure every node; 0: these did, or none would
   std::array<const Explained*, 4> explained() const { return {&app, &cull, &draw, &alone}; }

@@ -157,6 +157,8 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
         "App by node is of {} of the {} frames: in the others it had no processor for a while, or it visits "
         "too many nodes to record them each time\n",
         f.wholeFrames, f.frames);
+  if (f.warmUpMs > 0)
+    text += fmt::format("warm-up {:.3f} s before the first frame: shaders, uploads\n", f.warmUpMs / 1000);
   text += "\n       ms      p95      max  allocs  stage\n";
   for (const StageRow& s : f.stages)
     text += fmt::format("{:9.4f} {:8.3f} {:8.3f} {:7.1f}  {}{}{}\n", s.ms, s.p95, s.most, s.allocations,
@@ -182,6 +184,7 @@ std::string toJson(const ShowFigures& f) {
   const bool wouldDo = f.framesNeeded > 0 || std::ranges::none_of(f.nodes, isUnmeasured);
   j["frames_needed"] = wouldDo ? nlohmann::json(f.framesNeeded) : nlohmann::json();
   j["whole_frames"] = f.wholeFrames;
+  j["warm_up_ms"] = f.warmUpMs;
   j["nodes"] = nlohmann::json::array(), j["stages"] = nlohmann::json::array();
   for (const NodeRow& row : f.nodes) j["nodes"].push_back(toJson(row, f.walls));
   for (const StageRow& s : f.stages)

@@ -38,6 +38,14 @@ const Mesh* MeshStore::find(MeshId id) const {
   return at == entries_.end() ? nullptr : at->second.mesh.get();
 }
 
+std::vector<MeshId> MeshStore::used() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<MeshId> ids;
+  for (const auto& [id, entry] : entries_)
+    if (entry.uses > 0) ids.push_back(id);
+  return ids;
+}
+
 bool MeshStore::holds(MeshId id, std::uint64_t hash) const {
   const std::lock_guard lock(mutex_);
   const auto at = entries_.find(id);

@@ -31,6 +31,8 @@ public:
 
   /// The mesh, or nullptr if it is gone.
   const Mesh* find(MeshId id) const;
+  /// Those that are in use, in ascending order.
+  std::vector<MeshId> used() const;
   /// Whether a mesh of this content is there under this id, used or not: what nobody uses may go the next
   /// moment, so a pointer to it would be no good.
   bool holds(MeshId id, std::uint64_t hash) const;

@@ -156,6 +156,8 @@ std::string toText(const RunSummary& s) {
                       s.height, s.mode, s.rate);
   if (!s.howDrawn.workers.empty())
     text += fmt::format("  drawn by {}: {}\n", s.howDrawn.text, s.howDrawn.why);
+  if (s.warmUpMs > 0)
+    text += fmt::format("  warm-up {:.3f} s before the first frame: shaders, uploads\n", s.warmUpMs / 1000);
   if (s.frameMs.count + s.stages.size() + s.latency.size() > 0)
     text += fmt::format("  {:<16} {:<12} {:>9} {:>9} {:>9} {:>9}\n", "milliseconds", "wall", "p50", "p95",
                         "p99", "max");
@@ -234,6 +236,7 @@ std::string toJson(const RunSummary& s) {
                           {"rasteriser_threads", s.howDrawn.rasteriserThreads},
                           {"pinned", s.howDrawn.pinned},
                           {"why", s.howDrawn.why}};
+  j["warm_up_ms"] = s.warmUpMs;
   j["late_frames"] = s.lateFrames;
   j["frame_ms"] = json(s.frameMs);
   j["stages"] = Json::array();

@@ -143,6 +143,8 @@ struct RunSummary {
   std::uint64_t groups = 1;       ///< of visitors; the other figures are of the last one
   double uptimeSeconds = 0;       ///< of all groups, and between them
   HowDrawn howDrawn{};
+  double warmUpMs =
+      0;  ///< before the first frame is drawn: contexts, shaders, uploads; no other figure has it
   std::uint64_t lateFrames = 0;
   Distribution frameMs;  ///< from one frame shown to the next
   std::vector<StageTimes> stages;

@@ -174,6 +174,11 @@ Failure DrawingInWorkers::open(std::size_t index) {
                 std::to_string(kMostStarts) + " times");
 }
 
+// Nothing is shown yet, so no wall waits for another one.
+Failure DrawingInWorkers::warmUp(std::size_t index, const DrawList& list) {
+  return drawEvery(*walls_[index], list, false, true);
+}
+
 DrawOutcome DrawingInWorkers::draw(std::size_t index, const DrawList& list, bool read) {
   if (list.filling && !list.filling->isWhole()) return {{}, false};
   Wall& wall = *walls_[index];
@@ -182,13 +187,13 @@ DrawOutcome DrawingInWorkers::draw(std::size_t index, const DrawList& list, bool
 }
 
 /// What it uses of the processor counts from now on: it may have had nothing to do for long.
-void DrawingInWorkers::begin(Wall& wall, const DrawList& list, bool read) {
+void DrawingInWorkers::begin(Wall& wall, const DrawList& list, bool read, bool warmUp) {
   wall.processor = -1;
   wall.began = wall.since = Clock::now();
-  wall.process.draw(list, read);
+  warmUp ? wall.process.warmUp(list) : wall.process.draw(list, read);
 }
 
-Failure DrawingInWorkers::drawEvery(Wall& wall, const DrawList& list, bool read) {
+Failure DrawingInWorkers::drawEvery(Wall& wall, const DrawList& list, bool read, bool warmUp) {
   std::string how;
   for (int processes = 0; processes <= kMostStarts; ++processes) {
     if (wall.process.state() == State::Down) {
@@ -198,7 +203,7 @@ Failure DrawingInWorkers::drawEvery(Wall& wall, const DrawList& list, bool read)
     if (wall.process.state() == State::Opening && await(wall, kForEver))
       if (Failure f = answered(wall)) return f;
     if (wall.process.state() == State::Idle) {
-      begin(wall, list, read);
+      begin(wall, list, read, warmUp);
       if (await(wall, kForEver)) {
         wall.restarts.drew();
         return answered(wall);

@@ -44,6 +44,7 @@ public:
   ~DrawingInWorkers() override;
 
   Failure open(std::size_t wall) override;
+  Failure warmUp(std::size_t wall, const DrawList& list) override;
   DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) override;
   Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) override;
   void close(std::size_t wall) override;
@@ -57,10 +58,10 @@ private:
   struct Wall;
   using Milliseconds = std::chrono::milliseconds;
 
-  Failure drawEvery(Wall& wall, const DrawList& list, bool read);
+  Failure drawEvery(Wall& wall, const DrawList& list, bool read, bool warmUp = false);
   DrawOutcome drawNewest(Wall& wall, const DrawList& list, bool read);
   Failure lookAfter(Wall& wall);
-  static void begin(Wall& wall, const DrawList& list, bool read);
+  static void begin(Wall& wall, const DrawList& list, bool read, bool warmUp = false);
   static Milliseconds patience(const Wall& wall);
   static void hasDrawn(Wall& wall, const std::array<DrawTotals, 2>& totals);
   void drewInTime(Wall& wall);

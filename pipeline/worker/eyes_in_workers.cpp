@@ -144,6 +144,16 @@ Failure EyesInWorkers::open(std::size_t wall) {
   return failures[0] ? std::move(failures[0]) : std::move(failures[1]);
 }
 
+Failure EyesInWorkers::warmUp(std::size_t wall, const DrawList& list) {
+  Wall& w = *walls_[wall];
+  std::array<Failure, 2> failures;
+  w.both([&](std::uint32_t eye) {
+    takeEye(list, eye, w.lists[eye]);
+    failures[eye] = eyes_->warmUp(w.first + eye, w.lists[eye]);
+  });
+  return failures[0] ? std::move(failures[0]) : std::move(failures[1]);
+}
+
 DrawOutcome EyesInWorkers::drawEye(Wall& wall, std::uint32_t eye, bool read) {
   const bool placed = bindsProcesses_ && wall.took[eye] > kWorthAPlace;
   std::optional<worker::ProcessorPlaces::Place> place;

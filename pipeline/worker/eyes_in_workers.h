@@ -20,6 +20,7 @@ public:
   ~EyesInWorkers() override;
 
   Failure open(std::size_t wall) override;
+  Failure warmUp(std::size_t wall, const DrawList& list) override;
   DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) override;
   Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) override;
   void close(std::size_t wall) override;

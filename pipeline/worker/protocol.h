@@ -18,7 +18,7 @@
 namespace stadion::worker {
 
 constexpr std::uint32_t kMagic = 0x57445453;  // "STDW"
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kLongestText = 4096;
 
 // Address space, not memory.
@@ -41,7 +41,8 @@ struct OrderHead {
   RenderQuality quality{};
   ProcessorSet processors{};  ///< that it may use; empty: all
   // Of Draw.
-  std::uint32_t read = 0;  ///< 1: one answer when the pictures are there, so that no death falls in between
+  std::uint32_t read = 0;    ///< 1: one answer when the pictures are there, so that no death falls in between
+  std::uint32_t warmUp = 0;  ///< 1: what it draws is not counted
   std::uint64_t listBytes = 0;
 };
 

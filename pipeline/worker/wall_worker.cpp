@@ -127,10 +127,21 @@ void WallWorker::order(const OrderHead& head, std::span<const int> descriptors) 
 }
 
 void WallWorker::draw(const DrawList& list, bool read) {
-  const ListNews news = newsFor(list);
   OrderHead head;
-  head.order = Order::Draw, head.read = read;
-  reads_ = read, holdsPictures_ = false;
+  head.read = read;
+  draw(list, head);
+}
+
+void WallWorker::warmUp(const DrawList& list) {
+  OrderHead head;
+  head.warmUp = 1;
+  draw(list, head);
+}
+
+void WallWorker::draw(const DrawList& list, OrderHead head) {
+  const ListNews news = newsFor(list);
+  head.order = Order::Draw;
+  reads_ = head.read, holdsPictures_ = false;
   head.listBytes = write(list, news, known_, list_);
   state_ = State::Busy;
   order(head);

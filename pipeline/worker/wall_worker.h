@@ -67,6 +67,8 @@ public:
   // For an idle one:
   /// `read`: and then the pictures.
   void draw(const DrawList& list, bool read);
+  /// The same, not counted.
+  void warmUp(const DrawList& list);
   void readPictures();
 
   /// Hears what it has to say, at most so long. True when it has become idle; read the answer then. When it
@@ -92,6 +94,7 @@ private:
     std::uint64_t hash = 0;
   };
 
+  void draw(const DrawList& list, OrderHead head);
   void order(const OrderHead& head, std::span<const int> descriptors = {});
   ListNews newsFor(const DrawList& list);
   void add(MeshId id, ListNews& news);

@@ -117,6 +117,86 @@ TEST(ThreadsFrameLoop, MotionToImageIsCountedFromTheMeasurementOfThePoseThatEach
   }
 }
 
+/// Which take their time to get ready, and note what happens meanwhile.
+class ColdStages final : public CountingStages {
+public:
+  explicit ColdStages(std::size_t walls) : CountingStages(walls, kSlots), walls_(walls) {}
+  void app(const TimeSignature& now, std::size_t slot) override {
+    if (now.frame > firstDrawn && warm < walls_) early = true;
+    CountingStages::app(now, slot);
+  }
+  bool wantsDrawn(const FrameTicket& ticket) const override { return ticket.signature.frame >= firstDrawn; }
+  Failure warmUp(std::size_t wall, const DrawList& list) override {
+    if (list.ticket.signature.frame != firstDrawn) early = true;
+    if (fails && wall == 1) return "no shader compiles";
+    if (stops) throw RunStopped();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5 + 5 * wall));
+    ++warm;
+    return {};
+  }
+  Failure draw(std::size_t wall, const DrawList& list) override {
+    if (warm < walls_) early = true;
+    return CountingStages::draw(wall, list);
+  }
+  Failure swap(const TimeSignature& now) override {
+    return now.frame >= firstDrawn ? CountingStages::swap(now) : Failure();
+  }
+
+  std::uint64_t firstDrawn = 0;
+  bool fails = false, stops = false;
+  std::atomic<std::size_t> warm = 0;
+  std::atomic<bool> early = false;
+
+private:
+  std::size_t walls_;
+};
+
+TEST(ThreadsFrameLoop, NoWallDrawsAndNoFrameBeginsBeforeAllWallsAreWarm) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
+    for (const Delivery delivery : {Delivery::Every, Delivery::Latest})
+      for (const std::uint64_t first : {0u, 3u})
+        for (const std::size_t walls : {1u, 3u}) {
+          ColdStages stages(walls);
+          stages.firstDrawn = first;
+          FrameLoopOptions o;
+          o.mode = mode, o.walls = walls, o.delivery = delivery, o.frames = 20;
+          const std::atomic<bool> stop = false;
+          FrameLoop loop(stages, o, stop);
+          const FrameLoopOutcome outcome = loop.run();
+          EXPECT_EQ(stages.warm, walls) << "once each";
+          EXPECT_FALSE(stages.early);
+          EXPECT_FALSE(outcome.failure);
+          EXPECT_EQ(stages.shown.back(), 19u);
+          // As long as all of them one after the other, or as the longest.
+          EXPECT_GE(loop.times().warmUp, mode == Mode::Sequential && walls == 3 ? 30 : walls == 3 ? 15 : 5);
+        }
+}
+
+TEST(ThreadsFrameLoop, AWallThatCannotGetReadyEndsTheRunWithItsReason) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
+    for (const bool stops : {false, true}) {
+      ColdStages stages(3);
+      stages.fails = !stops, stages.stops = stops;
+      FrameLoopOptions o;
+      o.mode = mode, o.walls = 3, o.frames = 20;
+      const FrameLoopOutcome outcome = runFrames(stages, o);
+      EXPECT_EQ(outcome.framesShown, 0u);
+      EXPECT_EQ(outcome.stopped, stops);
+      EXPECT_EQ(outcome.failure.has_value(), !stops);
+      EXPECT_EQ(stages.closed, 3);
+    }
+}
+
+TEST(FrameLoop, TicksAreLaterByAsLongAsWallsGetReady) {
+  Pacer pacer(Pace::Lock, 1000);
+  pacer.wait();
+  std::this_thread::sleep_for(std::chrono::milliseconds(3));
+  EXPECT_TRUE(pacer.behind());
+  pacer.hold(std::chrono::hours(1));
+  EXPECT_FALSE(pacer.behind());
+  EXPECT_EQ(pacer.missed(), 0u);
+}
+
 TEST(FrameLoop, TicksThatNobodySawAreCountedAtMostInARow) {
   CountingStages stages(1, kSlots);
   FrameLoopOptions o;

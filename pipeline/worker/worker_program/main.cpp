@@ -162,6 +162,7 @@ void Worker::draw(const OrderHead& order) {
   for (DrawShadowRing& ring : list_.shadows.rings) rename(ring.moving);
   renameStill();
   auto problem = renderer_->draw(list_);
+  if (order.warmUp) renderer_->forgetTotals();
   if (!problem && order.read) problem = readPictures();
   answer(Order::Draw, problem, renderer_->totals());
 }

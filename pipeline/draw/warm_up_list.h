@@ -1,0 +1,14 @@
+#pragma once
+/// What a wall draws before its first frame, so that no frame has to compile shaders or upload meshes.
+///
+/// Threads  free functions, any thread.
+
+#include "pipeline/draw/draw_list.h"
+
+namespace stadion {
+
+/// A complete list, and one of each mesh in the store that it does not show: those are drawn before the
+/// viewer at their coarsest level.
+DrawList warmUpList(const DrawList& first, const MeshStore& meshes);
+
+}  // namespace stadion
