@@ -95,8 +95,8 @@ Mat4 projectionMatrix(const EyeFrustum& f) {
   m(0, 2) = (f.right + f.left) / width;
   m(1, 1) = 2 * f.depth.near / height;
   m(1, 2) = (f.top + f.bottom) / height;
-  m(2, 2) = -(f.depth.far + f.depth.near) / length;
-  m(2, 3) = -2 * f.depth.far * f.depth.near / length;
+  m(2, 2) = f.depth.near / length;
+  m(2, 3) = f.depth.far * f.depth.near / length;
   m(3, 2) = -1;
   return m;
 }

@@ -43,7 +43,8 @@ struct EyeFrustum {
 
 EyeFrustum eyeFrustum(const Wall& wall, const Vec3& eye_R, const DepthRange& depth);
 
-/// Eye to clip coordinates, z in [-w, w].
+/// Eye to clip coordinates, z in [0, w]: w at the near plane, 0 at the far one. In single precision, depths
+/// are then about as exact in proportion to the distance wherever a surface is.
 Mat4 projectionMatrix(const EyeFrustum& frustum);
 
 /// World axes relative to `origin` (in World), to eye coordinates. Far from World's origin, an `origin` near

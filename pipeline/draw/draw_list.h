@@ -75,7 +75,7 @@ struct DrawShadows {
 /// One eye's camera.
 struct DrawEye {
   Mat4 view = Mat4::Identity();        ///< World axes relative to origin, to eye coordinates (looks along -z)
-  Mat4 projection = Mat4::Identity();  ///< eye to clip, GL conventions (z in [-w, w])
+  Mat4 projection = Mat4::Identity();  ///< eye to clip; z in [0, w], w at the near plane, 0 at the far one
 };
 
 struct DrawList {

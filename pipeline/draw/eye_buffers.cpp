@@ -31,7 +31,6 @@ EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t hei
     gl_.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(stored), this->width(), this->height(), 0, format,
                    type, nullptr);
   };
-  // 32 bits of depth are read and written faster.
   if (!sampled_) picture(depth_, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
   for (std::size_t eye = 0; eye < pictures_.size(); ++eye) {
     picture(pictures_[eye], colours, GL_RGBA, GL_UNSIGNED_BYTE);
@@ -48,7 +47,7 @@ EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t hei
                                        std::min(static_cast<GLint>(std::min(quality.samples, 64u)), most),
                                        format, this->width(), this->height());
   };
-  storage(sampledDepth_, GL_DEPTH_COMPONENT24);
+  storage(sampledDepth_, GL_DEPTH_COMPONENT32F);
   storage(colour_, colours);
   attach(gl_, drawn_, GL_COLOR_ATTACHMENT0, colour_);
   attach(gl_, drawn_, GL_DEPTH_ATTACHMENT, sampledDepth_);

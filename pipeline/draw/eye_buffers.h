@@ -28,15 +28,15 @@ public:
   /// The same, and clears that.
   void begin(std::uint32_t eye);
   /// The same, and puts there what has been drawn elsewhere, with one sample a pixel: RGBA, 8 bits each, and
-  /// depths, 0 .. 1 (height x width), rows from the bottom.
+  /// depths, 1 at the near plane and 0 at the far one (height x width), rows from the bottom.
   void begin(std::uint32_t eye, std::span<const std::uint32_t> colours, std::span<const float> depths);
   /// Completes the picture of `eye`: averages its samples.
   void resolve(std::uint32_t eye);
   /// 8-bit RGBA (height x width x 4), rows from the top, colour in sRGB. Waits for the drawing to end.
   void read(std::uint32_t eye, std::span<std::uint8_t> rgba);
 
-  /// How far what has been drawn of `eye` is, 0 .. 1 (height x width), rows from the bottom; with one sample
-  /// a pixel. Waits for the drawing to end.
+  /// The depths of what has been drawn of `eye`, 1 at the near plane and 0 at the far one or where nothing is
+  /// (height x width), rows from the bottom; with one sample a pixel. Waits for the drawing to end.
   void readDepths(std::uint32_t eye, std::span<float> depths);
 
 private:

@@ -30,6 +30,12 @@ bool hasGlExtension(const GlTable& gl, const char* name) {
   return false;
 }
 
+ClipDepth settleClipDepth(const GlTable& gl) {
+  if (!gl.ClipControl || !hasGlExtension(gl, "GL_ARB_clip_control")) return ClipDepth::MinusOneToOne;
+  gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  return ClipDepth::ZeroToOne;
+}
+
 bool isSoftware(const GlTable& gl) {
   const auto* renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
   return renderer && (std::strstr(renderer, "llvmpipe") || std::strstr(renderer, "softpipe"));

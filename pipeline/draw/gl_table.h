@@ -31,6 +31,7 @@ namespace stadion {
   X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                                 \
   X(PFNGLCLEARPROC, Clear)                                                                                   \
   X(PFNGLCLEARCOLORPROC, ClearColor)                                                                         \
+  X(PFNGLCLEARDEPTHPROC, ClearDepth)                                                                         \
   X(PFNGLCLIENTWAITSYNCPROC, ClientWaitSync)                                                                 \
   X(PFNGLCOLORMASKPROC, ColorMask)                                                                           \
   X(PFNGLCOMPILESHADERPROC, CompileShader)                                                                   \
@@ -106,6 +107,7 @@ namespace stadion {
 
 /// What newer versions have; null where it is missing. Whether a context has it, its extension says.
 #define STADION_GL_MORE_FUNCTIONS(X)                                                                         \
+  X(PFNGLCLIPCONTROLPROC, ClipControl)                                                                       \
   X(PFNGLDRAWELEMENTSINSTANCEDBASEINSTANCEPROC, DrawElementsInstancedBaseInstance)
 
 struct GlTable {
@@ -123,6 +125,13 @@ Result<GlTable> loadGlTable(GlResolver resolve);
 
 /// Whether the current context has the extension.
 bool hasGlExtension(const GlTable& gl, const char* name);
+
+/// From clip coordinates to depths: z / w as it is, or (z / w + 1) / 2 in contexts that know nothing else.
+enum class ClipDepth { ZeroToOne, MinusOneToOne };
+
+/// Makes the current context take z / w as the depth, if it can, and says what it does. Depths of single
+/// precision are exact near 0 then; otherwise they are right, but coarser far away.
+ClipDepth settleClipDepth(const GlTable& gl);
 
 /// Whether the current context draws on the processor.
 bool isSoftware(const GlTable& gl);

@@ -166,7 +166,7 @@ struct Raster : Lanes<By> {
             const int at = pixel[lane];
             const unsigned mine = static_cast<unsigned>(colour[lane]);
             const float theirs = to.depths[at];
-            if (depth[lane] < theirs || (depth[lane] == theirs && mine > to.colours[at]))
+            if (depth[lane] > theirs || (depth[lane] == theirs && mine > to.colours[at]))
               to.depths[at] = depth[lane], to.colours[at] = mine;
           }
         }

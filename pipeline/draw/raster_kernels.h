@@ -40,7 +40,7 @@ struct PictureVertices {
 /// The picture, rows from the bottom (height x width).
 struct RasterTarget {
   unsigned* colours;  ///< red in the lowest byte
-  float* depths;      ///< 0 .. 1; what is nearer than what is there is drawn
+  float* depths;      ///< 1 at the near plane, 0 at the far one; what is nearer than what is there is drawn
   int width, height;
   float depthScale, depthOffset;  ///< depth = scale x nearness + offset
 };

@@ -47,7 +47,7 @@ Renderer::Renderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes
                    std::uint32_t height, RenderQuality quality, Programs programs)
     : gl_(gl), turns_(turns), takesTurns_(isSoftware(gl)),
       basesInstances_(gl.DrawElementsInstancedBaseInstance && hasGlExtension(gl, "GL_ARB_base_instance")),
-      width_(width), height_(height), quality_(quality), programs_(std::move(programs)),
+      clipDepth_(settleClipDepth(gl)), width_(width), height_(height), quality_(quality), programs_(std::move(programs)),
       buffers_(gl, width, height, quality),
       cache_(gl, meshes, quality.look, isSieved(gl, quality) && basesInstances_), instances_(gl), scene_(gl),
       indices_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl) {
@@ -126,7 +126,8 @@ void Renderer::settleState() {
 void Renderer::setUnchangingState() {
   gl_.Enable(GL_MULTISAMPLE);
   gl_.Enable(GL_DEPTH_TEST);
-  gl_.DepthFunc(GL_LEQUAL);
+  gl_.DepthFunc(GL_GEQUAL);  // depths are 1 at the near plane and 0 at the far one
+  gl_.ClearDepth(0);
   gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // pictures stay opaque
   gl_.ClearColor(0, 0, 0, 1);
   gl_.ActiveTexture(GL_TEXTURE0);
@@ -280,7 +281,7 @@ void Renderer::prepareShadows(const DrawList& list) {
   shadowed_ = list.shadows.light >= 0 && !noShadows_;
   if (!shadowed_) return;
   if (!shadows_) {
-    auto made = ShadowMaps::create(gl_);
+    auto made = ShadowMaps::create(gl_, clipDepth_);
     if (made)
       shadows_ = std::move(made.value());
     else
@@ -297,7 +298,7 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index, Turn& turn) {
   usedProgram_ = 0;
   boundMaterial_ = {};
   ViewBlock view;
-  if (!fillView(eye, view)) {
+  if (!fillView(eye, clipDepth_, view)) {
     report("an eye's matrices are not finite or have no inverse: its picture is not drawn");
     return;
   }

@@ -174,6 +174,7 @@ private:
   std::unique_lock<std::mutex> lastTurn_;  ///< held while the members below are destroyed
   bool takesTurns_ = false;
   bool basesInstances_;  ///< a draw call may begin at any instance
+  ClipDepth clipDepth_;
   std::uint32_t width_, height_;
   RenderQuality quality_;
   Programs programs_;

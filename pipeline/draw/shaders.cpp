@@ -341,7 +341,7 @@ out vec3 ray;
 
 void main() {
   ray = rays[gl_VertexID].xyz;
-  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 1.0, 1.0);
+  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, eye.w, 1.0);
 }
 )";
 

@@ -13,19 +13,20 @@ namespace {
 constexpr auto kTile = static_cast<GLsizei>(kShadowTexels);
 constexpr GLsizei kSide = 2 * kTile;
 constexpr std::uint32_t kMostAtOnce = 1024;  // instances a call, as in the renderer
-/// Away from the light, so that no surface shadows itself: by its slope, and by steps of the depth.
-constexpr float kSlopeOffset = 2, kStepOffset = 4;
+/// Away from the light, so that no surface shadows itself: by its slope, and by steps of the depth, of which
+/// there are 2^24 or more in the ring.
+constexpr float kSlopeOffset = -2, kStepOffset = -4;
 
 void makeMap(const GlTable& gl, const GlTexture& texture, const GlFramebuffer& framebuffer) {
   gl.BindTexture(GL_TEXTURE_2D, texture.name());
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, kSide, kSide, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, kSide, kSide, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
                 nullptr);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     gl.TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
     gl.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture.name(), 0);
   gl.DrawBuffer(GL_NONE);
@@ -34,10 +35,10 @@ void makeMap(const GlTable& gl, const GlTexture& texture, const GlFramebuffer& f
 
 }  // namespace
 
-Result<std::unique_ptr<ShadowMaps>> ShadowMaps::create(const GlTable& gl) {
+Result<std::unique_ptr<ShadowMaps>> ShadowMaps::create(const GlTable& gl, ClipDepth clip) {
   auto program = GlProgram::build(gl, shadowVertexShader(), shadowFragmentShader());
   if (!program) return program.error();
-  std::unique_ptr<ShadowMaps> maps(new ShadowMaps(gl, std::move(program.value())));
+  std::unique_ptr<ShadowMaps> maps(new ShadowMaps(gl, clip, std::move(program.value())));
   for (const GlFramebuffer* into : {&maps->intoStill_, &maps->intoShown_}) {
     gl.BindFramebuffer(GL_FRAMEBUFFER, into->name());
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
@@ -46,8 +47,8 @@ Result<std::unique_ptr<ShadowMaps>> ShadowMaps::create(const GlTable& gl) {
   return maps;
 }
 
-ShadowMaps::ShadowMaps(const GlTable& gl, GlProgram program)
-    : gl_(gl), program_(std::move(program)), still_(gl), shown_(gl), intoStill_(gl), intoShown_(gl),
+ShadowMaps::ShadowMaps(const GlTable& gl, ClipDepth clip, GlProgram program)
+    : gl_(gl), clip_(clip), program_(std::move(program)), still_(gl), shown_(gl), intoStill_(gl), intoShown_(gl),
       view_(gl), block_(gl), instances_(gl) {
   makeMap(gl, still_, intoStill_);
   makeMap(gl, shown_, intoShown_);
@@ -120,13 +121,15 @@ void ShadowMaps::drawCasters(const DrawShadows& shadows, std::size_t index, std:
                              MeshCache& meshes, const std::function<void()>& between) {
   if (casters.empty()) return;
   ViewBlock view{};
-  const auto reach = static_cast<float>(kShadowReach[index]), depth = static_cast<float>(kShadowDepth);
-  for (std::size_t k = 0; k < 3; ++k) {
-    view.viewProjection[4 * k] = shadows.axes[k] / reach;
-    view.viewProjection[4 * k + 1] = shadows.axes[3 + k] / reach;
-    view.viewProjection[4 * k + 2] = -shadows.axes[6 + k] / depth;
+  Mat4 toClip = Mat4::Identity();
+  for (int k = 0; k < 3; ++k) {
+    const auto along = [&](int axis) { return double{shadows.axes[static_cast<std::size_t>(3 * axis + k)]}; };
+    toClip(0, k) = along(0) / kShadowReach[index];
+    toClip(1, k) = along(1) / kShadowReach[index];
+    toClip(2, k) = 0.5 * along(2) / kShadowDepth;
   }
-  view.viewProjection[15] = 1;
+  toClip(2, 3) = 0.5;
+  fillViewProjection(toClip, clip_, view);
   stream(gl_, GL_UNIFORM_BUFFER, view_, std::span<const ViewBlock>(&view, 1));
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, view_.name());
 
@@ -159,7 +162,7 @@ void ShadowMaps::fillBlock(const DrawShadows& shadows) {
   const auto& a = shadows.axes;
   const auto depth = static_cast<float>(kShadowDepth);
   out.right = {a[0], a[1], a[2], 0}, out.up = {a[3], a[4], a[5], 0};
-  out.towards = {a[6], a[7], a[8], -0.5f / depth};
+  out.towards = {a[6], a[7], a[8], 0.5f / depth};
   for (std::size_t i = 0; i < kShadowRings; ++i) {
     const Area tile = tileOf(i);
     const auto& offset = shadows.rings[i].offset;
@@ -167,7 +170,7 @@ void ShadowMaps::fillBlock(const DrawShadows& shadows) {
     const auto middle = [](GLint corner) { return (static_cast<float>(corner) + 0.5f * kTile) / kSide; };
     const float scale = 0.25f / reach;
     out.rings[i] = {middle(tile.x) + offset[0] * scale, middle(tile.y) + offset[1] * scale,
-                    0.5f - 0.5f * offset[2] / depth, scale};
+                    0.5f + 0.5f * offset[2] / depth, scale};
     out.lift[i] = kWithin * 2 * reach / kTile;
   }
   stream(gl_, GL_UNIFORM_BUFFER, block_, std::span<const ShadowBlock>(&out, 1));

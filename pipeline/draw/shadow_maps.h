@@ -1,6 +1,8 @@
 #pragma once
 /// Depth as the light sees it: the maps that surfaces look up whether the light reaches them.
 ///
+/// Depths are 1 where a ring begins, towards the light, and 0 where it ends.
+///
 /// One texture holds the rings of a draw list side by side, two by two. What does not move is drawn into a
 /// texture of its own and kept as long as it stays the same; each frame that something moves, the part of it
 /// that the movers cover is copied back and the movers are drawn over it. A frame in which nothing moves
@@ -21,7 +23,7 @@ namespace stadion {
 class ShadowMaps {
 public:
   /// Fails with the compiler's words, or if the context has no such framebuffers.
-  static Result<std::unique_ptr<ShadowMaps>> create(const GlTable& gl);
+  static Result<std::unique_ptr<ShadowMaps>> create(const GlTable& gl, ClipDepth clip);
 
   /// Brings the maps up to date. `between` is called now and then; it may throw. Leaves another framebuffer
   /// bound, and another viewport.
@@ -30,7 +32,7 @@ public:
   void bind() const;
 
 private:
-  ShadowMaps(const GlTable& gl, GlProgram program);
+  ShadowMaps(const GlTable& gl, ClipDepth clip, GlProgram program);
 
   /// Texels of the whole texture: x, y, width, height.
   struct Area {
@@ -54,6 +56,7 @@ private:
   void fillBlock(const DrawShadows& shadows);
 
   const GlTable& gl_;
+  ClipDepth clip_;
   GlProgram program_;
   GlTexture still_, shown_;
   GlFramebuffer intoStill_, intoShown_;

@@ -120,15 +120,16 @@ struct Sieve : Lanes<By> {
     const int top = bottom + kSquare < height ? bottom + kSquare : height;
     float* out = nearness + (bottom / kSquare) * wide;
     for (int first = 0; first < width; first += kAtOnce) {
-      float farthest[kAtOnce] = {};
+      float farthest[kAtOnce];
+      for (float& depth : farthest) depth = 1;
       const int columns = width - first < kAtOnce ? width - first : kAtOnce;
       for (int y = bottom; y < top; ++y) {
         const float* row = depths + static_cast<long>(y) * width + first;
-        for (int x = 0; x < columns; ++x) farthest[x] = row[x] > farthest[x] ? row[x] : farthest[x];
+        for (int x = 0; x < columns; ++x) farthest[x] = row[x] < farthest[x] ? row[x] : farthest[x];
       }
       for (int x = 0; x < columns; x += kSquare) {
-        float depth = 0;
-        for (int k = x; k < x + kSquare; ++k) depth = farthest[k] > depth ? farthest[k] : depth;
+        float depth = 1;
+        for (int k = x; k < x + kSquare; ++k) depth = farthest[k] < depth ? farthest[k] : depth;
         out[(first + x) / kSquare] = of.scale * depth + of.offset;
       }
     }

@@ -30,7 +30,7 @@ struct SeenSquares {
 };
 constexpr int kSquare = 4;  ///< [pixels]
 
-/// From depths of a picture, 0 .. 1, to nearness: scale depth + offset.
+/// From depths of a picture, 1 at the near plane and 0 at the far one, to nearness: scale depth + offset.
 struct NearnessOfDepth {
   float scale, offset;
 };

@@ -56,25 +56,21 @@ SmallThings::SmallThings(std::uint32_t width, std::uint32_t height, const Raster
 
 bool SmallThings::serves(const DrawEye& eye, const SceneBlock& scene) {
   const Mat4& p = eye.projection;
-  const bool perspective = p(3, 2) == -1 && p(3, 3) == 0 && p(2, 3) < 0 && p(3, 0) == 0 && p(3, 1) == 0;
+  const bool perspective = p(3, 2) == -1 && p(3, 3) == 0 && p(2, 3) > 0 && p(3, 0) == 0 && p(3, 1) == 0;
   bool directional = true;
   for (int i = 0; i < scene.lightCount[0]; ++i)
     directional = directional && scene.lights[static_cast<std::size_t>(i)].direction[3] == 0;
   return perspective && directional && scene.ambient[3] == 0;
 }
 
-/// A depth d is (1 - p22 + p23 / w) / 2 for the projection's third row: 0 at the near plane.
+/// A depth d is p23 / w - p22 for the projection's third row: 1 at the near plane.
 void SmallThings::begin(const DrawEye& eye, const SceneBlock& scene, const std::array<float, 3>& background) {
   const double p22 = eye.projection(2, 2), p23 = eye.projection(2, 3);
-  nearest_ = static_cast<float>((p22 - 1) / p23);
+  nearest_ = static_cast<float>((1 + p22) / p23);
   std::ranges::fill(colours_, packed(background));
-  std::ranges::fill(depths_, 1.0f);
-  target_ = {colours_.data(),
-             depths_.data(),
-             width_,
-             height_,
-             static_cast<float>(p23 / 2),
-             static_cast<float>((1 - p22) / 2)};
+  std::ranges::fill(depths_, 0.0f);
+  target_ = {colours_.data(), depths_.data(),          width_,
+             height_,         static_cast<float>(p23), static_cast<float>(-p22)};
   lights_.clear();
   for (int i = 0; i < scene.lightCount[0]; ++i) {
     const LightBlock& l = scene.lights[static_cast<std::size_t>(i)];

@@ -53,7 +53,8 @@ public:
   std::uint32_t draw(std::uint32_t first, std::uint32_t count, TriangleSieve::Facing facing,
                      const MaterialBlock& material, std::uint32_t firstVertex, std::uint32_t endVertex);
 
-  /// Of begin()'s picture (height x width), rows from the bottom: RGBA, 8 bits each, and depths, 0 .. 1.
+  /// Of begin()'s picture (height x width), rows from the bottom: RGBA, 8 bits each, and depths, 1 at the
+  /// near plane and 0 at the far one.
   std::span<const std::uint32_t> colours() const { return colours_; }
   std::span<const float> depths() const { return depths_; }
 

@@ -46,19 +46,18 @@ void TriangleSieve::look(const DrawEye& eye) {
   seen_ = {};
 }
 
-/// A depth d is (1 - p22 + p23 / w) / 2 for the projection's third row, so that 1 / w = (2 d - 1 + p22) /
-/// p23.
+/// A depth d is p23 / w - p22 for the projection's third row, so that 1 / w = (d + p22) / p23.
 void TriangleSieve::hideBehind(std::span<const float> depths) {
-  constexpr double kDepthRounding = 4e-7;  // of a depth, twice over
+  constexpr double kDepthRounding = 4e-7;  // of depths of a surface that begins near the eye, twice over
   constexpr double kBehind = 1.001;        // as near is not behind
   const double p22 = eye_.projection(2, 2), p23 = eye_.projection(2, 3);
-  const bool perspective = eye_.projection(3, 2) == -1 && eye_.projection(3, 3) == 0 && p23 < 0;
+  const bool perspective = eye_.projection(3, 2) == -1 && eye_.projection(3, 3) == 0 && p23 > 0;
   if (!perspective) return;
   const int wide = static_cast<int>((width_ + kSquare - 1) / kSquare),
             high = static_cast<int>((height_ + kSquare - 1) / kSquare);
   squares_.resize(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high));
-  const NearnessOfDepth of{static_cast<float>(2 / p23 / kBehind),
-                           static_cast<float>((p22 - 1 + 2 * kDepthRounding) / p23 / kBehind)};
+  const NearnessOfDepth of{static_cast<float>(1 / p23 / kBehind),
+                           static_cast<float>((p22 - kDepthRounding) / p23 / kBehind)};
   kernels_.squares(depths.data(), static_cast<int>(width_), static_cast<int>(height_), of, squares_.data());
   seen_ = {squares_.data(), wide, high, static_cast<float>(width_ / 2), static_cast<float>(height_ / 2)};
 }

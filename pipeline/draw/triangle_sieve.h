@@ -44,8 +44,8 @@ public:
   void clear() { used_ = 0; }
   /// Through whose eye things are seen from now on.
   void look(const DrawEye& eye);
-  /// What has been drawn for this eye so far: its depths, 0 .. 1 (height x width), rows from the bottom. What
-  /// is behind is left out from now on.
+  /// What has been drawn for this eye so far: its depths, 1 at the near plane and 0 at the far one (height x
+  /// width), rows from the bottom. What is behind is left out from now on.
   void hideBehind(std::span<const float> depths);
   /// What is sieved next, and where it stands.
   void place(const SieveMesh& mesh, const InstanceMatrix& model);

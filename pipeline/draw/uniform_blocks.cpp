@@ -53,23 +53,27 @@ void placeSun(const std::vector<DrawLight>& lights, SceneBlock& out) {
 
 }  // namespace
 
-bool fillView(const DrawEye& eye, ViewBlock& out) {
+void fillViewProjection(const Mat4& viewProjection, ClipDepth clip, ViewBlock& out) {
+  Mat4 m = viewProjection;
+  if (clip == ClipDepth::MinusOneToOne) m.row(2) = 2 * m.row(2) - m.row(3);
+  for (int i = 0; i < 16; ++i)
+    out.viewProjection[static_cast<std::size_t>(i)] = static_cast<float>(m(i % 4, i / 4));
+  out.eye[3] = clip == ClipDepth::MinusOneToOne ? -1 : 0;
+}
+
+bool fillView(const DrawEye& eye, ClipDepth clip, ViewBlock& out) {
   if (!eye.view.allFinite() || !eye.projection.allFinite()) return false;
   const Mat4 toWorld = eye.view.inverse();
   const Mat4 fromClip = eye.projection.inverse();
   if (!toWorld.allFinite() || !fromClip.allFinite()) return false;
 
-  const Mat4 viewProjection = eye.projection * eye.view;
-  for (int i = 0; i < 16; ++i)
-    out.viewProjection[static_cast<std::size_t>(i)] = static_cast<float>(viewProjection(i % 4, i / 4));
-  const Vec4 centre = toWorld.col(3);
-  out.eye = {static_cast<float>(centre.x()), static_cast<float>(centre.y()), static_cast<float>(centre.z()),
-             1};
+  fillViewProjection(eye.projection * eye.view, clip, out);
+  for (std::size_t i = 0; i < 3; ++i) out.eye[i] = static_cast<float>(toWorld(static_cast<int>(i), 3));
 
   // Points of the far plane depend linearly on the position on the screen, so the shader may interpolate.
   constexpr double corners[3][2] = {{-1, -1}, {3, -1}, {-1, 3}};
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec4 far = fromClip * Vec4(corners[i][0], corners[i][1], 1, 1);
+    const Vec4 far = fromClip * Vec4(corners[i][0], corners[i][1], 0, 1);
     if (!(std::abs(far.w()) > 0)) return false;
     const Vec3 inEye = far.head<3>() / far.w();
     const Vec3 ray = toWorld.topLeftCorner<3, 3>() * (inEye / std::abs(inEye.z()));

@@ -6,6 +6,7 @@
 
 #include "engine/asset/mesh.h"
 #include "pipeline/draw/draw_list.h"
+#include "pipeline/draw/gl_table.h"
 #include "pipeline/draw/look.h"
 
 #include <array>
@@ -18,7 +19,7 @@ using Float4 = std::array<float, 4>;
 /// One eye.
 struct ViewBlock {
   std::array<float, 16> viewProjection;  ///< (4 x 4), column major
-  Float4 eye;                            ///< where the eye is [m], w unused
+  Float4 eye;                            ///< where the eye is [m]; w: the clip z of the far plane, for w = 1
   std::array<Float4, 3> rays;  ///< through the corners (-1,-1), (3,-1), (-1,3) of clip space; for the sky
 };
 
@@ -62,8 +63,10 @@ enum UniformBinding : std::uint32_t {
 };
 constexpr int kShadowUnit = 1;  ///< the texture unit of the shadow maps
 
+/// Takes a matrix to clip coordinates, z in [0, w], over into the block, as the context wants them.
+void fillViewProjection(const Mat4& viewProjection, ClipDepth clip, ViewBlock& out);
 /// False if the eye's matrices are not finite or cannot be inverted: nothing can be drawn then.
-bool fillView(const DrawEye& eye, ViewBlock& out);
+bool fillView(const DrawEye& eye, ClipDepth clip, ViewBlock& out);
 /// In the plain look all colours are in sRGB, as they are stored, instead of linear.
 SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights, Look look,
                      std::int32_t shadowed = -1);

@@ -48,8 +48,8 @@ Mat4 reference(const Wall& wall, const Vec3& eye, double n, double f) {
   const double d = -va.dot(vn);
   const double l = vr.dot(va) * n / d, r = vr.dot(vb) * n / d, b = vu.dot(va) * n / d, t = vu.dot(vc) * n / d;
   Mat4 P, M = Mat4::Identity(), T = Mat4::Identity();
-  P << 2 * n / (r - l), 0, (r + l) / (r - l), 0, 0, 2 * n / (t - b), (t + b) / (t - b), 0, 0, 0,
-      -(f + n) / (f - n), -2 * f * n / (f - n), 0, 0, -1, 0;
+  P << 2 * n / (r - l), 0, (r + l) / (r - l), 0, 0, 2 * n / (t - b), (t + b) / (t - b), 0, 0, 0, n / (f - n),
+      f * n / (f - n), 0, 0, -1, 0;
   M.row(0).head<3>() = vr.transpose();
   M.row(1).head<3>() = vu.transpose();
   M.row(2).head<3>() = vn.transpose();
@@ -102,13 +102,13 @@ TEST(Frustum, IsTheSymmetricOneWhenTheEyeFacesTheMiddle) {
   EXPECT_EQ(f.bottom, -0.25);
 }
 
-TEST(Frustum, MapsNearToMinusOneAndFarToOne) {
+TEST(Frustum, MapsNearToOneAndFarToZero) {
   const Wall wall{"w", {-1, 2, 0}, {1, 2, 0}, {-1, 2, 2}};
   const Vec3 eye(0.3, 0.1, 1.2);
   const Vec4 n = clip(wall, eye, eye + Vec3(0, 0.1, 0), {0.1, 100});
   const Vec4 f = clip(wall, eye, eye + Vec3(0, 100, 0), {0.1, 100});
-  EXPECT_NEAR(n.z() / n.w(), -1, 1e-12);
-  EXPECT_NEAR(f.z() / f.w(), 1, 1e-12);
+  EXPECT_NEAR(n.z() / n.w(), 1, 1e-12);
+  EXPECT_NEAR(f.z() / f.w(), 0, 1e-12);
 }
 
 TEST(Frustum, FollowsTheRigThroughTheWorldAndStaysExactFarFromItsOrigin) {

@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
-struct Scratch {
+struct VideoScratch {
   fs::path folder = fs::temp_directory_path() / ("stadion-video-" + std::to_string(getpid()));
-  Scratch() { fs::create_directories(folder); }
-  ~Scratch() { fs::remove_all(folder); }
+  VideoScratch() { fs::create_directories(folder); }
+  ~VideoScratch() { fs::remove_all(folder); }
   std::string file(const char* name) const { return (folder / name).string(); }
   std::size_t count() const {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
@@ -57,7 +57,7 @@ bool installed(const char* program) {
 
 TEST(ThreadsVideo, HoldsEveryFrameThatWasOffered) {
   if (!installed("ffmpeg") || !installed("ffprobe")) GTEST_SKIP() << "ffmpeg is not installed";
-  const Scratch scratch;
+  const VideoScratch scratch;
   const VideoOptions o = options(65, 47);  // odd sides are padded
   VideoWriter video(scratch.file("run.mp4"), o);
   EXPECT_EQ(feed(video, o, 40), 40);
@@ -69,7 +69,7 @@ TEST(ThreadsVideo, HoldsEveryFrameThatWasOffered) {
 }
 
 TEST(ThreadsVideo, SaysThatFfmpegIsMissingAndRefusesFrames) {
-  const Scratch scratch;
+  const VideoScratch scratch;
   VideoOptions o = options();
   o.ffmpeg = "no-such-ffmpeg";
   VideoWriter video(scratch.file("run.mp4"), o);
@@ -82,7 +82,7 @@ TEST(ThreadsVideo, SaysThatFfmpegIsMissingAndRefusesFrames) {
 }
 
 TEST(ThreadsVideo, SurvivesAnEncoderThatDiesAndRepeatsItsLastWords) {
-  const Scratch scratch;
+  const VideoScratch scratch;
   VideoOptions o = options(320, 240);
   o.ffmpeg = scratch.program("dies", "echo first >&2; echo 'no encoder today' >&2; exit 3");
   VideoWriter video(scratch.file("run.mp4"), o);
@@ -94,7 +94,7 @@ TEST(ThreadsVideo, SurvivesAnEncoderThatDiesAndRepeatsItsLastWords) {
 }
 
 TEST(ThreadsVideo, NeverKeepsTheCallerWaitingForAnEncoderThatStalls) {
-  const Scratch scratch;
+  const VideoScratch scratch;
   VideoOptions o = options(320, 240);
   o.queue = 2;
   o.patience = milliseconds(3000);
@@ -110,7 +110,7 @@ TEST(ThreadsVideo, NeverKeepsTheCallerWaitingForAnEncoderThatStalls) {
 }
 
 TEST(ThreadsVideo, CountsTheFramesThatCanBeReadBack) {
-  const Scratch scratch;
+  const VideoScratch scratch;
   VideoOptions o = options();
   // An encoder that exits well but keeps only part, as on a full disk.
   o.ffmpeg = scratch.program("loses", "cat > /dev/null; for last; do :; done; echo part > \"${last#file:}\"");
@@ -124,7 +124,7 @@ TEST(ThreadsVideo, CountsTheFramesThatCanBeReadBack) {
 }
 
 TEST(ThreadsVideo, RefusesAPictureOfAnotherSize) {
-  const Scratch scratch;
+  const VideoScratch scratch;
   VideoOptions o = options();
   o.ffmpeg = scratch.program("takes", "cat > /dev/null");
   VideoWriter video(scratch.file("run.mp4"), o);
@@ -135,7 +135,7 @@ TEST(ThreadsVideo, RefusesAPictureOfAnotherSize) {
 }
 
 TEST(ThreadsVideo, LeavesNothingBehindWhenItIsGivenUp) {
-  const Scratch scratch;
+  const VideoScratch scratch;
   const auto begin = std::chrono::steady_clock::now();
   {
     VideoOptions o = options(320, 240);

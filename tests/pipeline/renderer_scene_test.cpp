@@ -169,8 +169,8 @@ DrawEye lookAt(const Vec3& from, const Vec3& to, double fieldOfView, double aspe
   eye.projection.setZero();
   eye.projection(0, 0) = f / aspect;
   eye.projection(1, 1) = f;
-  eye.projection(2, 2) = (far + near) / (near - far);
-  eye.projection(2, 3) = 2 * far * near / (near - far);
+  eye.projection(2, 2) = near / (far - near);
+  eye.projection(2, 3) = far * near / (far - near);
   eye.projection(3, 2) = -1;
   return eye;
 }
@@ -178,8 +178,8 @@ DrawEye lookAt(const Vec3& from, const Vec3& to, double fieldOfView, double aspe
 DrawEye orthographic() {
   DrawEye eye;
   eye.view << 1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, -10, 0, 0, 0, 1;
-  eye.projection(2, 2) = -2.0 / 99;
-  eye.projection(2, 3) = -101.0 / 99;
+  eye.projection(2, 2) = 1.0 / 99;
+  eye.projection(2, 3) = 100.0 / 99;
   return eye;
 }
 

@@ -31,8 +31,8 @@ struct Corners {
 
 struct Drawn {
   std::vector<unsigned> colours = std::vector<unsigned>(kSmallWidth * kSmallHeight, 0xff000000U);
-  std::vector<float> depths = std::vector<float>(kSmallWidth * kSmallHeight, 1.0f);
-  RasterTarget target() { return {colours.data(), depths.data(), kSmallWidth, kSmallHeight, -0.05f, 1.0f}; }
+  std::vector<float> depths = std::vector<float>(kSmallWidth * kSmallHeight, 0.0f);
+  RasterTarget target() { return {colours.data(), depths.data(), kSmallWidth, kSmallHeight, 0.05f, 0.0f}; }
   bool operator==(const Drawn&) const = default;
 };
 
@@ -90,7 +90,7 @@ TEST(SmallThings, PixelsAreThoseWhoseMiddlesAreInside) {
     const Drawn picture = drawn(c, facing, bestRaster());
     for (int y = 0; y < kSmallHeight; ++y)
       for (int x = 0; x < kSmallWidth; ++x) {
-        const bool is = picture.depths[y * kSmallWidth + x] != 1;
+        const bool is = picture.depths[y * kSmallWidth + x] != 0;
         ASSERT_EQ(is, covers(c, 0, x, y, facing)) << "round " << round << ", " << x << ", " << y;
         pixels += is;
       }
@@ -131,10 +131,10 @@ TEST(SmallThings, ColoursAndDepthsGoOverTheSurfaceAsInSpace) {
     for (int y = 0; y < kSmallHeight; ++y)
       for (int x = 0; x < kSmallWidth; ++x) {
         const int at = y * kSmallWidth + x;
-        if (picture.depths[at] == 1) continue;
+        if (picture.depths[at] == 0) continue;
         Vec3 part = corners.inverse() * Vec3(x + 0.5, y + 0.5, 1);
         for (int k = 0; k < 3; ++k) part[k] *= double{c.nearness[k]};
-        EXPECT_NEAR(double{picture.depths[at]}, 1 - 0.05 * part.sum(), 2e-6);
+        EXPECT_NEAR(double{picture.depths[at]}, 0.05 * part.sum(), 2e-6);
         part /= part.sum();
         for (int channel = 0; channel < 3; ++channel) {
           const auto& of = channel == 0 ? c.r : channel == 1 ? c.g : c.b;
