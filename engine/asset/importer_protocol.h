@@ -14,7 +14,7 @@ namespace stadion {
 
 constexpr std::uint32_t kImportMagic = 0x51495453;  // "STIQ"
 constexpr std::uint32_t kAnswerMagic = 0x41495453;  // "STIA"
-constexpr std::uint32_t kImportVersion = 1;
+constexpr std::uint32_t kImportVersion = 2;
 constexpr std::uint32_t kLongestPath = 4096;
 constexpr std::uint32_t kLongestText = 16384;
 constexpr std::uint64_t kLongestAnswer = 1ull << 30;

@@ -20,16 +20,23 @@ struct Texture {
   std::string name;                     ///< where it came from, for messages
 };
 
+constexpr float kMostAlphaCutoff = 2;  ///< beyond 1 nothing is left
+
 struct Material {
   std::string name;
   std::array<float, 4> baseColour{0.8f, 0.8f, 0.8f, 1.0f};  ///< linear RGB, alpha
   std::array<float, 3> emissive{0, 0, 0};                   ///< linear RGB
   float roughness = 0.7f;                                   ///< 0 mirror .. 1 matt
   float metallic = 0.0f;
-  std::int32_t texture = -1;  ///< index into Mesh::textures, -1 = none
+  std::int32_t texture = -1;          ///< index into Mesh::textures, -1 = none
+  std::int32_t emissiveTexture = -1;  ///< likewise; multiplies `emissive`, its alpha counts for nothing
+  float alphaCutoff =
+      0;  ///< 0 = nothing is cut out; else what has less alpha is not there, the rest is opaque
   bool doubleSided = false;
-  bool transparent() const { return baseColour[3] < 0.999f || textureHasAlpha; }
   bool textureHasAlpha = false;
+
+  bool masked() const { return alphaCutoff > 0; }
+  bool transparent() const { return !masked() && (baseColour[3] < 0.999f || textureHasAlpha); }
 };
 
 /// A run of triangles with one material.

@@ -47,6 +47,10 @@ std::uint64_t contentHash(const Mesh& mesh) {
     hash.add(m.roughness), hash.add(m.metallic);
     hash.add(static_cast<std::uint64_t>(m.texture));
     hash.add(std::uint64_t{m.doubleSided}), hash.add(std::uint64_t{m.textureHasAlpha});
+    // Only where there is such a thing: other meshes keep the hashes that they have always had.
+    if (m.masked()) hash.add(std::uint64_t{1} << 32), hash.add(m.alphaCutoff);
+    if (m.emissiveTexture >= 0)
+      hash.add(std::uint64_t{2} << 32), hash.add(static_cast<std::uint64_t>(m.emissiveTexture));
   }
   for (const Texture& t : mesh.textures)
     hash.add(std::uint64_t{t.width}), hash.add(std::uint64_t{t.height}), hash.add(t.rgba);

@@ -9,7 +9,7 @@ namespace stadion {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4d445453;  // "STDM"
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::uint32_t kLongestName = 1024;
 
 struct Head {
@@ -19,8 +19,8 @@ struct Head {
 };
 
 struct MaterialRecord {
-  float baseColour[4], emissive[3], roughness, metallic;
-  std::int32_t texture;
+  float baseColour[4], emissive[3], roughness, metallic, alphaCutoff;
+  std::int32_t texture, emissiveTexture;
   std::uint32_t doubleSided, textureHasAlpha;
 };
 
@@ -85,9 +85,12 @@ bool toMaterial(const MaterialRecord& r, std::size_t textures, Material& m) {
     if (!within(r.emissive[k], 0, 1000)) return false;
     m.emissive[k] = r.emissive[k];
   }
-  if (!within(r.roughness, 0, 1) || !within(r.metallic, 0, 1)) return false;
-  if (r.texture < -1 || r.texture >= static_cast<std::int64_t>(textures)) return false;
-  m.roughness = r.roughness, m.metallic = r.metallic, m.texture = r.texture;
+  if (!within(r.roughness, 0, 1) || !within(r.metallic, 0, 1) || !within(r.alphaCutoff, 0, kMostAlphaCutoff))
+    return false;
+  for (const std::int32_t texture : {r.texture, r.emissiveTexture})
+    if (texture < -1 || texture >= static_cast<std::int64_t>(textures)) return false;
+  m.roughness = r.roughness, m.metallic = r.metallic, m.alphaCutoff = r.alphaCutoff;
+  m.texture = r.texture, m.emissiveTexture = r.emissiveTexture;
   m.doubleSided = r.doubleSided != 0, m.textureHasAlpha = r.textureHasAlpha != 0;
   return true;
 }
@@ -154,7 +157,9 @@ std::vector<std::uint8_t> encode(const Mesh& mesh) {
                            {m.emissive[0], m.emissive[1], m.emissive[2]},
                            m.roughness,
                            m.metallic,
+                           m.alphaCutoff,
                            m.texture,
+                           m.emissiveTexture,
                            m.doubleSided,
                            m.textureHasAlpha});
     out.put(m.name);

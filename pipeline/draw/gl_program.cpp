@@ -73,6 +73,7 @@ Result<GlProgram> GlProgram::build(const GlTable& gl, const std::string& vertex,
   gl.UseProgram(program.name());
   gl.Uniform1i(gl.GetUniformLocation(program.name(), "baseTexture"), 0);  // the same for every view
   gl.Uniform1i(gl.GetUniformLocation(program.name(), "shadowMap"), kShadowUnit);
+  gl.Uniform1i(gl.GetUniformLocation(program.name(), "glowTexture"), kGlowUnit);
   return program;
 }
 

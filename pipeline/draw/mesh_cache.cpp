@@ -2,6 +2,7 @@
 
 #include "engine/maths/srgb.h"
 #include "pipeline/draw/finite.h"
+#include "pipeline/draw/mask_levels.h"
 #include "pipeline/draw/problem.h"
 #include "pipeline/draw/surface_check.h"
 #include "pipeline/draw/uniform_blocks.h"
@@ -46,6 +47,14 @@ std::vector<Vertex> interleave(const Mesh& mesh, Look look) {
     v.colour = {colours[c[0]], colours[c[1]], colours[c[2]], static_cast<std::uint16_t>(257 * c[3])};
   }
   return vertices;
+}
+
+/// Below which alpha the texture itself leaves holes; 0 if it leaves none.
+float textureCutoff(const Mesh& mesh, std::size_t texture) {
+  for (const Material& m : mesh.materials)
+    if (m.masked() && m.texture == static_cast<std::int64_t>(texture) && m.baseColour[3] > 0)
+      return m.alphaCutoff / m.baseColour[3];
+  return 0;
 }
 
 }  // namespace
@@ -103,7 +112,8 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
   GlMesh out{GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, {}, 0, {}, {}};
   uploadVertices(mesh, out);
   out.textures.reserve(mesh.textures.size());
-  for (const Texture& texture : mesh.textures) out.textures.push_back(uploadTexture(texture));
+  for (std::size_t i = 0; i < mesh.textures.size(); ++i)
+    out.textures.push_back(uploadTexture(mesh.textures[i], textureCutoff(mesh, i)));
   uploadMaterials(mesh, out);
   if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) {
     report("\"" + mesh.name + "\" cannot be drawn: OpenGL says " + glErrorName(error));
@@ -163,14 +173,19 @@ void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
   const auto partOf = [&](const Submesh& part, std::span<const std::uint32_t> indices, std::size_t before) {
     const Material& material = mesh.materials[part.material];
     const bool textured = material.texture >= 0 && !mesh.uvs.empty();
+    const auto nameOf = [&](std::int32_t texture) {
+      return texture >= 0 ? out.textures[static_cast<std::size_t>(texture)].name() : 0;
+    };
     const auto own = indices.subspan(part.firstIndex, part.indexCount);
     const auto [least, most] = std::ranges::minmax_element(own);
     const std::uint32_t first = own.empty() ? 0 : *least, end = own.empty() ? 0 : *most + 1;
     return GlSubmesh{static_cast<GLsizei>(part.indexCount),
                      (before + part.firstIndex) * sizeof(std::uint32_t),
                      static_cast<GLintptr>(part.material * stride),
-                     textured ? out.textures[static_cast<std::size_t>(material.texture)].name() : 0,
+                     textured ? nameOf(material.texture) : 0,
+                     nameOf(material.emissiveTexture),
                      material.transparent(),
+                     material.masked(),
                      material.doubleSided || open,
                      static_cast<std::uint32_t>(part.material),
                      first,
@@ -186,18 +201,29 @@ void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
     for (const Submesh& part : level.submeshes) parts.push_back(partOf(part, level.indices, first));
     first += level.indices.size();
   }
-  const auto isPlain = [](const GlSubmesh& part) { return part.texture == 0 && !part.transparent; };
+  const auto isPlain = [](const GlSubmesh& part) {
+    return part.texture == 0 && part.glowTexture == 0 && !part.transparent && !part.masked;
+  };
   if (sieved_ && look_ == Look::Plain && std::ranges::all_of(out.parts, isPlain)) out.shading.emplace(mesh);
 }
 
-GlTexture MeshCache::uploadTexture(const Texture& texture) {
+GlTexture MeshCache::uploadTexture(const Texture& texture, float alphaCutoff) {
   GlTexture out(gl_);
+  const std::vector<Texture> smaller =
+      alphaCutoff > 0 ? maskLevels(texture, alphaCutoff, look_) : std::vector<Texture>();
   gl_.BindTexture(GL_TEXTURE_2D, out.name());
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, look_ == Look::Full ? GL_SRGB8_ALPHA8 : GL_RGBA8,
-                 static_cast<GLsizei>(texture.width), static_cast<GLsizei>(texture.height), 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, texture.rgba.data());
-  gl_.GenerateMipmap(GL_TEXTURE_2D);
+  const auto level = [&](GLint number, const Texture& of) {
+    gl_.TexImage2D(GL_TEXTURE_2D, number, look_ == Look::Full ? GL_SRGB8_ALPHA8 : GL_RGBA8,
+                   static_cast<GLsizei>(of.width), static_cast<GLsizei>(of.height), 0, GL_RGBA,
+                   GL_UNSIGNED_BYTE, of.rgba.data());
+  };
+  level(0, texture);
+  for (std::size_t i = 0; i < smaller.size(); ++i) level(static_cast<GLint>(i + 1), smaller[i]);
+  if (alphaCutoff > 0)
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(smaller.size()));
+  else
+    gl_.GenerateMipmap(GL_TEXTURE_2D);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   if (anisotropy_) gl_.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY, kAnisotropy);

@@ -25,7 +25,9 @@ struct GlSubmesh {
   std::uintptr_t indexOffset;  ///< [bytes]
   GLintptr materialOffset;     ///< [bytes] into GlMesh::materials
   GLuint texture;              ///< 0 = none
+  GLuint glowTexture;          ///< where it emits light; 0 = everywhere alike
   bool transparent;
+  bool masked;
   bool bothSides;                        ///< not culled: double-sided, or the mesh is open
   std::uint32_t material;                ///< of the mesh's
   std::uint32_t firstVertex, endVertex;  ///< it has none but these
@@ -38,8 +40,9 @@ struct GlMesh {
   std::vector<GlSubmesh> parts;                ///< of the full surface
   std::vector<std::vector<GlSubmesh>> levels;  ///< of the simplified ones
   std::size_t transparentParts = 0;
-  std::optional<SieveMesh> sieve;      ///< all levels, as in `indices`; where triangles are sieved
-  std::optional<MeshShading> shading;  ///< there, if it has neither pictures nor anything to see through
+  std::optional<SieveMesh> sieve;  ///< all levels, as in `indices`; where triangles are sieved
+  std::optional<MeshShading>
+      shading;  ///< there, if it has neither pictures nor holes nor anything to see through
 
   /// What is drawn of it at a level; the coarsest there is, if there are not so many.
   const std::vector<GlSubmesh>& partsAt(std::uint32_t level) const {
@@ -76,7 +79,7 @@ private:
   void uploadVertices(const Mesh& mesh, GlMesh& out);
   void uploadIndices(const Mesh& mesh, GlMesh& out);
   void uploadMaterials(const Mesh& mesh, GlMesh& out);
-  GlTexture uploadTexture(const Texture& texture);
+  GlTexture uploadTexture(const Texture& texture, float alphaCutoff);
   void report(std::string what);
 
   const GlTable& gl_;

@@ -47,8 +47,8 @@ Renderer::Renderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes
                    std::uint32_t height, RenderQuality quality, Programs programs)
     : gl_(gl), turns_(turns), takesTurns_(isSoftware(gl)),
       basesInstances_(gl.DrawElementsInstancedBaseInstance && hasGlExtension(gl, "GL_ARB_base_instance")),
-      clipDepth_(settleClipDepth(gl)), width_(width), height_(height), quality_(quality), programs_(std::move(programs)),
-      buffers_(gl, width, height, quality),
+      clipDepth_(settleClipDepth(gl)), width_(width), height_(height), quality_(quality),
+      programs_(std::move(programs)), buffers_(gl, width, height, quality),
       cache_(gl, meshes, quality.look, isSieved(gl, quality) && basesInstances_), instances_(gl), scene_(gl),
       indices_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl) {
   if (isSieved(gl, quality) && basesInstances_) sieve_.emplace(width, height);
@@ -75,26 +75,46 @@ Result<Renderer::Programs> Renderer::buildPrograms(const GlTable& gl, Look look)
   Programs programs;
   SurfaceTraits common;
   common.look = look;
-  auto surfaces = buildSurfaces(gl, common);
-  if (!surfaces) return surfaces.error();
-  programs.surface[0] = std::move(surfaces.value());
+  if (auto why = buildSurfaces(gl, common, programs.surface[0])) return *why;
   auto sky = GlProgram::build(gl, skyVertexShader(), skyFragmentShader(look));
   if (!sky) return sky.error();
   programs.sky.push_back(std::move(sky.value()));
   return programs;
 }
 
-Result<std::vector<GlProgram>> Renderer::buildSurfaces(const GlTable& gl, const SurfaceTraits& common) {
-  std::vector<GlProgram> programs;
-  for (std::size_t i = 0; i < 8; ++i) {
+/// All of the usual ones, or none.
+std::optional<Diagnostic> Renderer::buildSurfaces(const GlTable& gl, const SurfaceTraits& common,
+                                                  Surfaces& set) {
+  set.common = common;
+  for (std::size_t i = SurfaceTraits::kUsual; i-- > 0;) {  // the first one last: it says that all are there
     SurfaceTraits traits = common;
     traits.textured = (i & 1) != 0, traits.localLights = (i & 2) != 0, traits.blended = (i & 4) != 0;
+    assert(traits.index() == i);
     auto built = GlProgram::build(gl, surfaceVertexShader(traits), surfaceFragmentShader(traits));
     if (!built) return built.error();
-    assert(traits.index() == i);
-    programs.push_back(std::move(built.value()));
+    set.programs[i].emplace(std::move(built.value()));
   }
-  return programs;
+  return {};
+}
+
+/// Where that cannot be built, the usual one next to it.
+const GlProgram& Renderer::surfaceFor(SurfaceTraits traits) {
+  const std::size_t i = traits.index();
+  std::optional<GlProgram>& program = surfaces_->programs[i];
+  if (!program && !surfaces_->failed[i]) {
+    const SurfaceTraits& common = surfaces_->common;
+    traits.look = common.look, traits.shadowed = common.shadowed, traits.hazy = common.hazy;
+    traits.lights = common.lights;
+    auto built = GlProgram::build(gl_, surfaceVertexShader(traits), surfaceFragmentShader(traits));
+    if (built) {
+      program.emplace(std::move(built.value()));
+    } else {
+      surfaces_->failed[i] = true;
+      report(built.error().message);
+    }
+    usedProgram_ = 0;
+  }
+  return program ? *program : *surfaces_->programs[i % SurfaceTraits::kUsual];
 }
 
 void Renderer::chooseSurfaces(bool shadowed, bool hazy, std::size_t lights) {
@@ -103,15 +123,9 @@ void Renderer::chooseSurfaces(bool shadowed, bool hazy, std::size_t lights) {
   common.shadowed = shadowed, common.hazy = hazy, common.look = quality_.look;
   common.lights = counted ? static_cast<int>(lights) : -1;
   const auto which = static_cast<std::size_t>(common.lights + 1);
-  std::vector<GlProgram>& set =
-      programs_.surface[std::size_t{shadowed} | std::size_t{hazy} << 1 | which << 2];
-  if (set.empty()) {
-    auto built = buildSurfaces(gl_, common);
-    if (built)
-      set = std::move(built.value());
-    else
-      report(built.error().message);
-  }
+  Surfaces& set = programs_.surface[std::size_t{shadowed} | std::size_t{hazy} << 1 | which << 2];
+  if (set.empty())
+    if (const auto why = buildSurfaces(gl_, common, set)) report(why->message);
   surfaces_ = set.empty() ? &programs_.surface[0] : &set;
 }
 

@@ -90,10 +90,18 @@ public:
 
 private:
   static constexpr std::size_t kMostCounted = 4;  ///< lights for which there are programs of their own
+  /// Those that differ in the mesh and in local lights, by SurfaceTraits::index(). The usual ones are built
+  /// together, the others each at its first use.
+  struct Surfaces {
+    SurfaceTraits common;
+    std::array<std::optional<GlProgram>, SurfaceTraits::kCount> programs;
+    std::array<bool, SurfaceTraits::kCount> failed{};
+    bool empty() const { return !programs[0]; }
+  };
   struct Programs {
-    /// By surfaceIndex() of those that differ in the mesh and the light. One set for air without haze and
-    /// shadows, which is there from the start; the others, each at its first use.
-    std::array<std::vector<GlProgram>, 4 * (kMostCounted + 2)> surface;
+    /// One set for air without haze and shadows, which is there from the start; the others, each at its first
+    /// use.
+    std::array<Surfaces, 4 * (kMostCounted + 2)> surface;
     std::vector<GlProgram> sky;  ///< one
   };
   enum class Pass { Opaque, OpaqueParts, Transparent };
@@ -138,7 +146,9 @@ private:
   void uploadInstances();
   void prepareScene(const DrawList& list);
   void prepareShadows(const DrawList& list);
-  static Result<std::vector<GlProgram>> buildSurfaces(const GlTable& gl, const SurfaceTraits& common);
+  static std::optional<Diagnostic> buildSurfaces(const GlTable& gl, const SurfaceTraits& common,
+                                                 Surfaces& set);
+  const GlProgram& surfaceFor(SurfaceTraits traits);
   void chooseSurfaces(bool shadowed, bool hazy, std::size_t lights);
   void drawEye(const DrawEye& eye, std::uint32_t index, Turn& turn);
   bool drawSmallThings(const DrawEye& eye, std::uint32_t index, Turn& turn);
@@ -197,19 +207,19 @@ private:
   GLuint usedProgram_ = 0;
   std::pair<GLuint, GLintptr> boundMaterial_{};  ///< buffer, place in it [bytes]; in this eye
   bool localLights_ = false, shadowed_ = false;
-  SceneBlock lit_{};                                  ///< of the list that is drawn
-  bool skyIsFlat_ = false;                            ///< one colour: cleared, not drawn
-  const std::vector<GlProgram>* surfaces_ = nullptr;  ///< of the list that is drawn
-  std::unique_ptr<ShadowMaps> shadows_;               ///< from the first list with shadows on
-  bool noShadows_ = false;                            ///< this OpenGL cannot
-  const std::function<bool()>* giveUp_ = nullptr;     ///< while a list is drawn
-  FrameProbe* probe_ = nullptr;                       ///< likewise; null = nobody asks
-  std::unique_ptr<DrawSampler> sampler_;              ///< from the first frame on that is sampled
-  DrawSample sample_ = DrawSample::None;              ///< of the list that is drawn
-  float work_ = 0;                                    ///< all there is to draw, while somebody asks
-  std::vector<NodeShare> shares_;                     ///< of what is drawn alone
-  std::vector<std::uint32_t> pieces_;                 ///< likewise: the first instance of each
-  std::vector<std::size_t> wanted_;                   ///< of these, those that are to have a turn
+  SceneBlock lit_{};                               ///< of the list that is drawn
+  bool skyIsFlat_ = false;                         ///< one colour: cleared, not drawn
+  Surfaces* surfaces_ = nullptr;                   ///< of the list that is drawn
+  std::unique_ptr<ShadowMaps> shadows_;            ///< from the first list with shadows on
+  bool noShadows_ = false;                         ///< this OpenGL cannot
+  const std::function<bool()>* giveUp_ = nullptr;  ///< while a list is drawn
+  FrameProbe* probe_ = nullptr;                    ///< likewise; null = nobody asks
+  std::unique_ptr<DrawSampler> sampler_;           ///< from the first frame on that is sampled
+  DrawSample sample_ = DrawSample::None;           ///< of the list that is drawn
+  float work_ = 0;                                 ///< all there is to draw, while somebody asks
+  std::vector<NodeShare> shares_;                  ///< of what is drawn alone
+  std::vector<std::uint32_t> pieces_;              ///< likewise: the first instance of each
+  std::vector<std::size_t> wanted_;                ///< of these, those that are to have a turn
   DrawCounts counts_;
   std::array<DrawTotals, 2> totals_{};
   std::set<std::string> reported_;

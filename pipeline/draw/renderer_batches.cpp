@@ -225,8 +225,14 @@ void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t
 void Renderer::beginPart(const GlMesh& mesh, const GlSubmesh& part, bool blended) {
   SurfaceTraits traits;
   traits.textured = part.texture != 0, traits.localLights = localLights_, traits.blended = blended;
-  use((*surfaces_)[traits.index()]);
+  traits.masked = part.masked, traits.glowing = part.glowTexture != 0;
+  use(surfaceFor(traits));
   if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
+  if (part.glowTexture) {
+    gl_.ActiveTexture(GL_TEXTURE0 + kGlowUnit);
+    gl_.BindTexture(GL_TEXTURE_2D, part.glowTexture);
+    gl_.ActiveTexture(GL_TEXTURE0);
+  }
   bindMaterial(mesh.materials.name(), part.materialOffset);
 }
 

@@ -54,6 +54,14 @@ vec4 encoded(vec3 c) {  // IEC 61966-2-1
 }
 )";
 
+constexpr const char* kMaterial = R"(
+layout(std140) uniform Material {
+  vec4 baseColour;
+  vec4 emissive;  // w: roughness
+  vec4 finish;    // x: metallic, y: alpha cutoff
+};
+)";
+
 constexpr const char* kSurfaceVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -66,7 +74,7 @@ layout(location = 6) in vec4 modelZ;
 out vec3 placed;
 out vec3 outward;
 out vec4 vertexColour;
-#ifdef TEXTURED
+#ifdef PICTURES
 out vec2 texel;
 #endif
 
@@ -82,7 +90,7 @@ void main() {
   vec3 n = side * vec3(dot(cofactorX, normal), dot(cofactorY, normal), dot(cofactorZ, normal));
   outward = n * inversesqrt(max(dot(n, n), 1e-30));
   vertexColour = colour;
-#ifdef TEXTURED
+#ifdef PICTURES
   texel = uv;
 #endif
   gl_Position = viewProjection * vec4(placed, 1.0);
@@ -90,18 +98,17 @@ void main() {
 )";
 
 constexpr const char* kSurfaceFragment = R"(
-layout(std140) uniform Material {
-  vec4 baseColour;
-  vec4 emissive;  // w: roughness
-  vec4 finish;    // x: metallic
-};
-
 in vec3 placed;
 in vec3 outward;
 in vec4 vertexColour;
-#ifdef TEXTURED
+#ifdef PICTURES
 in vec2 texel;
+#endif
+#ifdef TEXTURED
 uniform sampler2D baseTexture;
+#endif
+#ifdef GLOWING
+uniform sampler2D glowTexture;
 #endif
 
 out vec4 shown;
@@ -153,6 +160,13 @@ void main() {
 #ifdef TEXTURED
   base *= texture(baseTexture, texel);
 #endif
+  vec3 emitted = emissive.rgb;
+#ifdef GLOWING
+  emitted *= texture(glowTexture, texel).rgb;
+#endif
+#ifdef MASKED
+  if (base.a < finish.y) discard;
+#endif
   float roughness = emissive.w;
   float metallic = finish.x;
   vec3 diffuse = base.rgb * (1.0 - metallic);
@@ -168,7 +182,7 @@ void main() {
 
   // A dielectric seen square on shows its diffuse colour alone; towards grazing it mirrors the surroundings.
   float grazing = fifth(1.0 - nv) * (1.0 - roughness) * (1.0 - roughness);
-  vec3 light = emissive.rgb + diffuse * ambientFrom(n) +
+  vec3 light = emitted + diffuse * ambientFrom(n) +
                (mirror * metallic + (1.0 - mirror) * grazing) * ambientFrom(reflect(-v, n));
 
   float spread = roughness * roughness;
@@ -222,12 +236,6 @@ void main() {
 )";
 
 constexpr const char* kPlainVertex = R"(
-layout(std140) uniform Material {
-  vec4 baseColour;
-  vec4 emissive;
-  vec4 finish;
-};
-
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
@@ -237,7 +245,7 @@ layout(location = 5) in vec4 modelY;
 layout(location = 6) in vec4 modelZ;
 
 out vec4 shade;
-#ifdef TEXTURED
+#ifdef PICTURES
 out vec2 texel;
 #endif
 #ifdef HAZY
@@ -273,8 +281,12 @@ void main() {
 #endif
     light += lights[i].colour.rgb * (strength * max(dot(n, l), 0.0));
   }
+#ifdef GLOWING
+  shade = vec4(min(baseColour.rgb * colour.rgb * light, 1.0), baseColour.a * colour.a);
+#else
   shade = vec4(min(emissive.rgb + baseColour.rgb * colour.rgb * light, 1.0), baseColour.a * colour.a);
-#ifdef TEXTURED
+#endif
+#ifdef PICTURES
   texel = uv;
 #endif
 #ifdef HAZY
@@ -286,9 +298,14 @@ void main() {
 
 constexpr const char* kPlainFragment = R"(
 in vec4 shade;
-#ifdef TEXTURED
+#ifdef PICTURES
 in vec2 texel;
+#endif
+#ifdef TEXTURED
 uniform sampler2D baseTexture;
+#endif
+#ifdef GLOWING
+uniform sampler2D glowTexture;
 #endif
 #ifdef HAZY
 in float clearness;
@@ -300,6 +317,12 @@ void main() {
   vec4 c = shade;
 #ifdef TEXTURED
   c *= texture(baseTexture, texel);
+#endif
+#ifdef GLOWING
+  c.rgb = min(c.rgb + emissive.rgb * texture(glowTexture, texel).rgb, 1.0);
+#endif
+#ifdef MASKED
+  if (c.a < finish.y) discard;
 #endif
 #ifdef HAZY
   c.rgb = mix(horizon.rgb, c.rgb, clearness);
@@ -326,13 +349,50 @@ void main() {
 
 constexpr const char* kShadowVertex = R"(
 layout(location = 0) in vec3 position;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 colour;
 layout(location = 4) in vec4 modelX;
 layout(location = 5) in vec4 modelY;
 layout(location = 6) in vec4 modelZ;
 
+#ifdef MASKED
+out float alpha;
+#endif
+#ifdef PICTURES
+out vec2 texel;
+#endif
+
 void main() {
+#ifdef MASKED
+  alpha = baseColour.a * colour.a;
+#endif
+#ifdef PICTURES
+  texel = uv;
+#endif
   vec4 p = vec4(position, 1.0);
   gl_Position = viewProjection * vec4(dot(modelX, p), dot(modelY, p), dot(modelZ, p), 1.0);
+}
+)";
+
+constexpr const char* kShadowFragment = R"(
+#ifdef MASKED
+in float alpha;
+#endif
+#ifdef PICTURES
+in vec2 texel;
+#endif
+#ifdef TEXTURED
+uniform sampler2D baseTexture;
+#endif
+
+void main() {
+#ifdef MASKED
+  float a = alpha;
+#ifdef TEXTURED
+  a *= texture(baseTexture, texel).a;
+#endif
+  if (a < finish.y) discard;
+#endif
 }
 )";
 
@@ -370,6 +430,9 @@ std::string definitions(const SurfaceTraits& traits) {
   if (traits.hazy) text += "#define HAZY\n";
   if (traits.localLights) text += "#define LOCAL_LIGHTS\n";
   if (traits.blended) text += "#define BLENDED\n";
+  if (traits.masked) text += "#define MASKED\n";
+  if (traits.glowing) text += "#define GLOWING\n";
+  if (traits.textured || traits.glowing) text += "#define PICTURES\n";
   text += "#define LIGHTS " +
           (traits.lights < 0 ? std::string("lightCount.x") : std::to_string(traits.lights)) + "\n";
   return text;
@@ -379,20 +442,20 @@ std::string definitions(const SurfaceTraits& traits) {
 
 std::string surfaceVertexShader(const SurfaceTraits& traits) {
   return kVersion + definitions(traits) + kBlocks +
-         (traits.look == Look::Plain ? kPlainVertex : kSurfaceVertex);
+         (traits.look == Look::Plain ? std::string(kMaterial) + kPlainVertex : kSurfaceVertex);
 }
 
 std::string surfaceFragmentShader(const SurfaceTraits& traits) {
-  return kVersion + definitions(traits) + kBlocks +
+  return kVersion + definitions(traits) + kBlocks + kMaterial +
          (traits.look == Look::Plain ? kPlainFragment : kSurfaceFragment);
 }
 
-std::string shadowVertexShader() {
-  return std::string(kVersion) + kBlocks + kShadowVertex;
+std::string shadowVertexShader(const SurfaceTraits& traits) {
+  return kVersion + definitions(traits) + kBlocks + kMaterial + kShadowVertex;
 }
 
-std::string shadowFragmentShader() {
-  return std::string(kVersion) + "void main() {}\n";
+std::string shadowFragmentShader(const SurfaceTraits& traits) {
+  return kVersion + definitions(traits) + kMaterial + kShadowFragment;
 }
 
 std::string skyVertexShader() {

@@ -32,22 +32,27 @@ struct SurfaceTraits {
   bool shadowed = false;     ///< a light casts shadows
   bool hazy = false;         ///< there is haze
   bool blended = false;      ///< writes linear light, for blending in a buffer that encodes sRGB itself
+  bool masked = false;       ///< leaves out what has less alpha than the material's cutoff
+  bool glowing = false;      ///< a picture says where it emits light
   Look look = Look::Full;
   /// How many lights there are; negative: any number, looked up for every vertex or pixel, which a software
   /// rasteriser does lane by lane.
   int lights = -1;
 
-  /// Among the eight that differ in the mesh, in local lights, and in what they write.
+  /// Among those that differ in the mesh, in local lights, and in what they write; the first kUsual need
+  /// neither a mask nor a picture of light.
   std::size_t index() const {
-    return std::size_t{textured} | std::size_t{localLights} << 1 | std::size_t{blended} << 2;
+    return std::size_t{textured} | std::size_t{localLights} << 1 | std::size_t{blended} << 2 |
+           std::size_t{masked} << 3 | std::size_t{glowing} << 4;
   }
+  static constexpr std::size_t kUsual = 8, kCount = 32;
 };
 
 std::string surfaceVertexShader(const SurfaceTraits& traits);
 std::string surfaceFragmentShader(const SurfaceTraits& traits);
-/// Depth alone, as the light sees it.
-std::string shadowVertexShader();
-std::string shadowFragmentShader();
+/// Depth alone, as the light sees it; of the traits `masked` counts, and then `textured`.
+std::string shadowVertexShader(const SurfaceTraits& traits = {});
+std::string shadowFragmentShader(const SurfaceTraits& traits = {});
 std::string skyVertexShader();
 std::string skyFragmentShader(Look look);
 

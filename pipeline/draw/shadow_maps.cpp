@@ -48,8 +48,8 @@ Result<std::unique_ptr<ShadowMaps>> ShadowMaps::create(const GlTable& gl, ClipDe
 }
 
 ShadowMaps::ShadowMaps(const GlTable& gl, ClipDepth clip, GlProgram program)
-    : gl_(gl), clip_(clip), program_(std::move(program)), still_(gl), shown_(gl), intoStill_(gl), intoShown_(gl),
-      view_(gl), block_(gl), instances_(gl) {
+    : gl_(gl), clip_(clip), program_(std::move(program)), still_(gl), shown_(gl), intoStill_(gl),
+      intoShown_(gl), view_(gl), block_(gl), instances_(gl) {
   makeMap(gl, still_, intoStill_);
   makeMap(gl, shown_, intoShown_);
 }
@@ -146,14 +146,37 @@ void ShadowMaps::drawCasters(const DrawShadows& shadows, std::size_t index, std:
       between();
       pointAtInstances(gl_, instances_, batch.first + done);
       const auto count = static_cast<GLsizei>(std::min(batch.count - done, kMostAtOnce));
-      for (const GlSubmesh& part : mesh->parts) {
-        part.bothSides ? gl_.Disable(GL_CULL_FACE) : gl_.Enable(GL_CULL_FACE);
-        gl_.CullFace(GL_BACK);
-        gl_.DrawElementsInstanced(GL_TRIANGLES, part.indexCount, GL_UNSIGNED_INT,
-                                  reinterpret_cast<const void*>(part.indexOffset), count);
-      }
+      for (const GlSubmesh& part : mesh->parts) drawPart(*mesh, part, count);
     }
   }
+}
+
+const GlProgram& ShadowMaps::programFor(const GlSubmesh& part) {
+  if (!part.masked) return program_;
+  SurfaceTraits traits;
+  traits.masked = true, traits.textured = part.texture != 0;
+  const auto which = std::size_t{traits.textured};
+  if (!masked_[which] && !maskedFailed_[which]) {
+    auto built = GlProgram::build(gl_, shadowVertexShader(traits), shadowFragmentShader(traits));
+    if (built)
+      masked_[which].emplace(std::move(built.value()));
+    else
+      maskedFailed_[which] = true;
+  }
+  return masked_[which] ? *masked_[which] : program_;
+}
+
+void ShadowMaps::drawPart(const GlMesh& mesh, const GlSubmesh& part, GLsizei instances) {
+  gl_.UseProgram(programFor(part).name());
+  if (part.masked) {
+    if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
+    gl_.BindBufferRange(GL_UNIFORM_BUFFER, kMaterialBinding, mesh.materials.name(), part.materialOffset,
+                        sizeof(MaterialBlock));
+  }
+  part.bothSides ? gl_.Disable(GL_CULL_FACE) : gl_.Enable(GL_CULL_FACE);
+  gl_.CullFace(GL_BACK);
+  gl_.DrawElementsInstanced(GL_TRIANGLES, part.indexCount, GL_UNSIGNED_INT,
+                            reinterpret_cast<const void*>(part.indexOffset), instances);
 }
 
 void ShadowMaps::fillBlock(const DrawShadows& shadows) {

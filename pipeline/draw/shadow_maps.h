@@ -16,7 +16,9 @@
 #include "pipeline/draw/instance_batches.h"
 #include "pipeline/draw/mesh_cache.h"
 
+#include <array>
 #include <functional>
+#include <optional>
 
 namespace stadion {
 
@@ -52,12 +54,17 @@ private:
                   const std::function<void()>& between);
   void drawCasters(const DrawShadows& shadows, std::size_t index, std::span<const DrawItem> casters,
                    MeshCache& meshes, const std::function<void()>& between);
+  void drawPart(const GlMesh& mesh, const GlSubmesh& part, GLsizei instances);
+  const GlProgram& programFor(const GlSubmesh& part);
   void restore(const Area& area);
   void fillBlock(const DrawShadows& shadows);
 
   const GlTable& gl_;
   ClipDepth clip_;
   GlProgram program_;
+  /// Of what has holes, without pictures and with them: each at its first use. None: it casts a whole shadow.
+  std::array<std::optional<GlProgram>, 2> masked_;
+  std::array<bool, 2> maskedFailed_{};
   GlTexture still_, shown_;
   GlFramebuffer intoStill_, intoShown_;
   GlBuffer view_, block_, instances_;

@@ -1,5 +1,6 @@
 #include "pipeline/draw/surface_check.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -51,7 +52,8 @@ std::string drawingFault(const Mesh& mesh) {
     if (part.material >= mesh.materials.size()) return "a part of it names a material that is not there";
   }
   for (const Material& material : mesh.materials)
-    if (material.texture >= static_cast<std::int64_t>(mesh.textures.size()))
+    if (std::max(material.texture, material.emissiveTexture) >=
+        static_cast<std::int64_t>(mesh.textures.size()))
       return "a material names a texture that is not there";
   for (const Texture& texture : mesh.textures)
     if (texture.width == 0 || texture.height == 0 || texture.width > 8192 || texture.height > 8192 ||

@@ -51,6 +51,13 @@ void placeSun(const std::vector<DrawLight>& lights, SceneBlock& out) {
   out.sunColour = {sun->colour[0] / brightest, sun->colour[1] / brightest, sun->colour[2] / brightest, 0};
 }
 
+/// A little below, so that an alpha of just so much is not lost by rounding when it is interpolated.
+float cutoffOf(const Material& material) {
+  constexpr float kRounding = 1.0f / 2048;
+  const float cutoff = finite(material.alphaCutoff);
+  return std::max(cutoff - kRounding, 0.5f * cutoff);
+}
+
 }  // namespace
 
 void fillViewProjection(const Mat4& viewProjection, ClipDepth clip, ViewBlock& out) {
@@ -101,7 +108,7 @@ MaterialBlock fillMaterial(const Material& material, Look look) {
   const auto& c = material.baseColour;
   return {colour({c[0], c[1], c[2]}, c[3], look),
           colour(material.emissive, std::clamp(finite(material.roughness), kLeastRoughness, 1.0f), look),
-          {std::clamp(finite(material.metallic), 0.0f, 1.0f), 0, 0, 0}};
+          {std::clamp(finite(material.metallic), 0.0f, 1.0f), cutoffOf(material), 0, 0}};
 }
 
 }  // namespace stadion

@@ -43,7 +43,7 @@ struct SceneBlock {
 struct MaterialBlock {
   Float4 baseColour;  ///< linear, alpha
   Float4 emissive;    ///< linear; w: roughness
-  Float4 finish;      ///< x: metallic
+  Float4 finish;      ///< x: metallic, y: alpha cutoff
 };
 
 /// Where the shadow maps lie: from World axes relative to the list's origin to the texture.
@@ -61,7 +61,8 @@ enum UniformBinding : std::uint32_t {
   kMaterialBinding = 2,
   kShadowBinding = 3
 };
-constexpr int kShadowUnit = 1;  ///< the texture unit of the shadow maps
+/// The texture units of the shadow maps, and of the picture that says where a surface emits light.
+constexpr int kShadowUnit = 1, kGlowUnit = 2;
 
 /// Takes a matrix to clip coordinates, z in [0, w], over into the block, as the context wants them.
 void fillViewProjection(const Mat4& viewProjection, ClipDepth clip, ViewBlock& out);

@@ -10,6 +10,7 @@
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <new>
 #include <string_view>
@@ -127,6 +128,10 @@ std::string folderOf(const std::string& path) {
   return slash == std::string::npos ? std::string() : path.substr(0, slash + 1);
 }
 
+bool seenThrough(const Flat& flat) {
+  return std::ranges::any_of(flat.vertices, [](const FlatVertex& v) { return v.colour[3] != 255; });
+}
+
 std::string listed(const std::vector<std::string>& notes, const Dropped& dropped) {
   std::string text;
   for (const std::string& note : notes) text += note + '\n';
@@ -159,7 +164,7 @@ Imported importModel(const Request& request) {
   std::vector<std::string> notes;
   readMaterials(scene, *format,
                 {request.root.get(), folderOf(request.path), request.head.fileBytes, request.head.mesh},
-                result.mesh, notes);
+                seenThrough(flat), result.mesh, notes);
   importer.FreeScene();
   makeNormals(flat);
   joinInto(flat, result.mesh);

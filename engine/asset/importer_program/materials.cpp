@@ -8,7 +8,9 @@
 #include <assimp/material.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <optional>
 
@@ -31,6 +33,7 @@ AlphaUse alphaUse(const aiMaterial& from, const FormatInfo& format) {
   aiString mode;
   from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode);
   from.Get(AI_MATKEY_GLTF_ALPHACUTOFF, use.cutoff);
+  use.cutoff = bounded(use.cutoff, 0, kMostAlphaCutoff, 0.5f);
   if (mode == aiString("MASK"))
     use.mode = AlphaUse::Mask;
   else if (mode != aiString("BLEND"))
@@ -39,16 +42,14 @@ AlphaUse alphaUse(const aiMaterial& from, const FormatInfo& format) {
 }
 
 void applyAlpha(const AlphaUse& use, Texture& texture) {
-  if (use.mode == AlphaUse::Blend) return;
-  const float cut = use.cutoff * 255.0f;
-  for (std::size_t i = 3; i < texture.rgba.size(); i += 4)
-    texture.rgba[i] = use.mode == AlphaUse::Opaque || static_cast<float>(texture.rgba[i]) >= cut ? 255 : 0;
+  if (use.mode != AlphaUse::Opaque) return;
+  for (std::size_t i = 3; i < texture.rgba.size(); i += 4) texture.rgba[i] = 255;
 }
 
-bool hasAlpha(const Texture& texture) {
-  for (std::size_t i = 3; i < texture.rgba.size(); i += 4)
-    if (texture.rgba[i] != 255) return true;
-  return false;
+std::uint8_t leastAlpha(const Texture& texture) {
+  std::uint8_t least = 255;
+  for (std::size_t i = 3; i < texture.rgba.size(); i += 4) least = std::min(least, texture.rgba[i]);
+  return least;
 }
 
 class Pictures {
@@ -112,8 +113,8 @@ private:
   std::map<std::string, std::int32_t> known_;
 };
 
-std::optional<std::string> texturePath(const aiMaterial& from) {
-  for (aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+std::optional<std::string> texturePath(const aiMaterial& from, std::initializer_list<aiTextureType> types) {
+  for (const aiTextureType type : types) {
     aiString path;
     if (from.GetTexture(type, 0, &path) == aiReturn_SUCCESS && path.length > 0)
       return std::string(path.C_Str());
@@ -153,7 +154,29 @@ void readSurface(const aiMaterial& from, const FormatInfo& format, Material& to)
   to.doubleSided = twoSided != 0;
 }
 
-Material readMaterial(const aiMaterial& from, const FormatInfo& format, Pictures& pictures, Mesh& mesh) {
+/// A cutoff that nothing falls below cuts nothing out: the surface is opaque, and drawn as fast as any other.
+void readMask(float cutoff, std::uint8_t leastOfTexture, bool alphaOfVertices, Material& to) {
+  const float least = to.baseColour[3] * static_cast<float>(leastOfTexture) / 255;
+  if (alphaOfVertices ? cutoff > 0 : least < cutoff)
+    to.alphaCutoff = cutoff;
+  else
+    to.baseColour[3] = 1, to.textureHasAlpha = false;
+}
+
+/// What glows by a picture glows nowhere if that cannot be had. Formats other than glTF leave the factor out
+/// where there is a picture: it is white then.
+void readGlow(const aiMaterial& from, const FormatInfo& format, Pictures& pictures, Material& to) {
+  const auto path = texturePath(from, {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR});
+  if (!path) return;
+  constexpr std::array<float, 3> kDark{0, 0, 0};
+  if (to.emissive == kDark && format.format != ModelFormat::Gltf) to.emissive = {1, 1, 1};
+  if (to.emissive == kDark) return;
+  to.emissiveTexture = pictures.get(*path, {AlphaUse::Opaque, 0});
+  if (to.emissiveTexture < 0) to.emissive = kDark;
+}
+
+Material readMaterial(const aiMaterial& from, const FormatInfo& format, bool alphaOfVertices,
+                      Pictures& pictures, Mesh& mesh) {
   Material to;
   aiString name;
   if (from.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) to.name = name.C_Str();
@@ -161,19 +184,25 @@ Material readMaterial(const aiMaterial& from, const FormatInfo& format, Pictures
   readSurface(from, format, to);
   const AlphaUse use = alphaUse(from, format);
   if (use.mode == AlphaUse::Opaque) to.baseColour[3] = 1;
-  if (const auto path = texturePath(from)) to.texture = pictures.get(*path, use);
-  if (to.texture >= 0) to.textureHasAlpha = hasAlpha(mesh.textures[static_cast<std::size_t>(to.texture)]);
+  if (const auto path = texturePath(from, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}))
+    to.texture = pictures.get(*path, use);
+  const std::uint8_t least =
+      to.texture >= 0 ? leastAlpha(mesh.textures[static_cast<std::size_t>(to.texture)]) : 255;
+  to.textureHasAlpha = least < 255;
+  if (use.mode == AlphaUse::Mask) readMask(use.cutoff, least, alphaOfVertices, to);
+  readGlow(from, format, pictures, to);
   return to;
 }
 
 }  // namespace
 
-void readMaterials(const aiScene& scene, const FormatInfo& format, const PictureSource& pictures, Mesh& mesh,
-                   std::vector<std::string>& notes) {
+void readMaterials(const aiScene& scene, const FormatInfo& format, const PictureSource& pictures,
+                   bool alphaOfVertices, Mesh& mesh, std::vector<std::string>& notes) {
   Pictures source(scene, pictures, mesh, notes);
   for (unsigned i = 0; i < scene.mNumMaterials; ++i)
-    mesh.materials.push_back(scene.mMaterials[i] ? readMaterial(*scene.mMaterials[i], format, source, mesh)
-                                                 : Material{});
+    mesh.materials.push_back(scene.mMaterials[i]
+                                 ? readMaterial(*scene.mMaterials[i], format, alphaOfVertices, source, mesh)
+                                 : Material{});
   if (mesh.materials.empty()) mesh.materials.emplace_back();
 }
 

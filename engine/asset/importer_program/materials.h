@@ -20,8 +20,8 @@ struct PictureSource {
 };
 
 /// Fills mesh.materials (one for each of the scene's) and mesh.textures. A picture that cannot be had is left
-/// out and named in `notes`.
-void readMaterials(const aiScene& scene, const FormatInfo& format, const PictureSource& pictures, Mesh& mesh,
-                   std::vector<std::string>& notes);
+/// out and named in `notes`. `alphaOfVertices`: vertices have colours with an alpha below 1.
+void readMaterials(const aiScene& scene, const FormatInfo& format, const PictureSource& pictures,
+                   bool alphaOfVertices, Mesh& mesh, std::vector<std::string>& notes);
 
 }  // namespace stadion::importer

@@ -189,10 +189,13 @@ void writeMeshes(const Folder& to) {
   coloured.submeshes = {{0, 18, 0}, {18, 18, 1}};
   Mesh textured = plain;
   textured.textures.push_back({2, 1, Seed(8, 255), "two pixels"}), textured.materials[0].texture = 0;
+  Mesh masked = textured;
+  masked.materials[0].alphaCutoff = 0.5f, masked.materials[0].emissiveTexture = 0;
   to.add("plain", answered(ImportStatus::Loaded, "", encode(plain)));
   to.add("coloured",
          answered(ImportStatus::Loaded, "a texture is missing\nanother one, too", encode(coloured)));
   to.add("textured", answered(ImportStatus::Loaded, "", encode(textured)));
+  to.add("masked", answered(ImportStatus::Loaded, "", encode(masked)));
   to.add("failed", answered(ImportStatus::Failed, "is cut short", {}));
 }
 
