@@ -72,7 +72,7 @@ void addTestCommand(CLI::App& app, int& code) {
   command->add_flag(
       "--full", options->full,
       "the acceptance counts as well: 10 000 damaged scripts, models, input logs and wall files each, "
-      "1000 reloads, 300 frames of every comparison, and the tests that measure time (about an hour)");
+      "1000 reloads, 300 frames of every comparison, and the tests that measure time; takes long");
   command->add_option("--only", options->only, "only tests whose name matches this regular expression");
   command->add_option(
       "--summarize", options->summarize,
