@@ -131,8 +131,7 @@ void ShowStages::still(const TimeSignature& now, std::size_t slot) {
   if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
   if (parts_.head.predict) parts_.input.aimHead(aimedAt());
   InputSample input;
-  if (parts_.input.sampleNow(input))
-    changes_.viewer.set(parts_.scene.rigPose(), parts_.scene.headInRig(input));
+  if (parts_.input.sampleNow(input)) parts_.scene.look(input, changes_);
   noteMeasured(input);
   hear(parts_.scene.lastInput(), true);
   parts_.state.publish(slot, changes_);

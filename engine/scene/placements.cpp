@@ -211,22 +211,29 @@ void Placements::settle(PlacementId id) const {
   if (e.fleet == kNoFleet) return;
   const Fleet& fleet = fleets_[e.fleet];
   if (!fleet.rule) return;  // put back, and nobody has claimed it
-  if (std::exchange(e.move, fleet.moves) != fleet.moves) X_PN_[id] = memberOf(fleet, e.member);
+  if (std::exchange(e.move, fleet.moves) != fleet.moves) X_PN_[id] = memberOf(fleet, e.member).affine();
 }
 
-Affine Placements::memberOf(const Fleet& fleet, std::uint32_t member) const {
+MemberPlace Placements::memberOf(const Fleet& fleet, std::uint32_t member) const {
   MemberPlace place;
   fleet.rule->putMembers(member, {&place, 1});
-  return place.affine();
+  return place;
 }
 
-/// It stays where it is.
+std::optional<MemberPlace> Placements::inFleet(PlacementId id) const {
+  const Entry& e = entries_[id];
+  if (e.fleet == kNoFleet || !fleets_[e.fleet].rule || fleets_[e.fleet].moves == 0) return {};
+  return memberOf(fleets_[e.fleet], e.member);
+}
+
+/// It stays where it is. It is marked even if the fleet stands: what is published of it follows from its
+/// matrix alone from now on, as for one that was restored from a snapshot.
 void Placements::leaveFleet(PlacementId id) {
   settle(id);
   Entry& e = entries_[id];
   Fleet& fleet = fleets_[std::exchange(e.fleet, kNoFleet)];
   fleet.members[e.member] = kNoPlacement;
-  if (fleet.moved) mark(id, e);
+  mark(id, e);
 }
 
 /// Somebody else has to do with it: it does not go with its fleet any more, but is moved by it still.
@@ -249,7 +256,7 @@ void Placements::putStrays(const Fleet& fleet) {
   for (const auto& [number, id] : fleet.strays) {
     Entry& e = entries_[id];
     if (e.claimed) continue;
-    X_PN_[id] = memberOf(fleet, number);
+    X_PN_[id] = memberOf(fleet, number).affine();
     e.held = Held::Nothing;
     if (e.firstChild != kNoPlacement || e.watched) {
       markBelow(id, true);

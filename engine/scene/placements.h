@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -102,6 +103,8 @@ public:
   Held held(PlacementId id) const { return entries_[id].held; }
   const Affine& world(PlacementId id) const;
   Affine local(PlacementId id) const;  ///< where it is relative to its parent now
+  /// Where its fleet puts it; nothing if it is in no fleet. The numbers are those of takeMovedFleets().
+  std::optional<MemberPlace> inFleet(PlacementId id) const;
   PlacementId parent(PlacementId id) const { return entries_[id].parent; }
   bool has(PlacementId id) const { return id < entries_.size() && entries_[id].live; }
   /// What moves it when it does not move itself: its parent, or World if it is held there.
@@ -174,7 +177,7 @@ private:
   void markBelow(PlacementId id, bool moved);
   bool standsTogether() const;
   void settle(PlacementId id) const;
-  Affine memberOf(const Fleet& fleet, std::uint32_t member) const;
+  MemberPlace memberOf(const Fleet& fleet, std::uint32_t member) const;
   void join(PlacementId id, FleetId fleet, std::uint32_t member);
   void leaveFleet(PlacementId id);
   void stray(PlacementId id);

@@ -19,13 +19,9 @@ double sphereScale(const Affine& X_WN) {
 }
 
 void placeInstance(InstanceRecord& r, const Affine& X_WN, const Sphere& sphere_N) {
-  const auto& X = X_WN.matrix();
-  for (int row = 0; row < 3; ++row)
-    for (int col = 0; col < 4; ++col) r.model[4 * row + col] = X(row, col);
-  const Vec3 centre = X_WN * sphere_N.centre;
-  for (int i = 0; i < 3; ++i) r.centre[i] = centre[i];
-  // Rounding to float must not shrink the sphere.
-  r.radius = static_cast<float>(sphere_N.radius * sphereScale(X_WN) * (1 + 1e-6));
+  std::array<double, 12> rows;
+  Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(rows.data()) = X_WN.affine();
+  placeInstance(r, rows, sphereScale(X_WN), sphere_N);
 }
 
 InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, NodeRef owner,

@@ -6,6 +6,7 @@
 #include "engine/asset/mesh_store.h"
 #include "engine/maths/maths.h"
 #include "engine/message.h"
+#include "engine/scene/shadow_places.h"
 #include "engine/time_signature.h"
 
 #include <array>
@@ -42,6 +43,7 @@ InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, boo
                             double lodFactor = 1);
 
 /// Where the instance is: its matrix, and the sphere around it. Leaves the rest of the record as it is.
+/// Both forms compute the same to the bit, so that it does not matter which of them has published a thing.
 void placeInstance(InstanceRecord& record, const Affine& X_WN, const Sphere& sphere_N);
 /// The same of a matrix's rows, when its sphereScale() is known.
 inline void placeInstance(InstanceRecord& r, const std::array<double, 12>& m, double scale,
@@ -80,6 +82,7 @@ struct ViewerRecord {
 
   Pose rig() const { return {Vec3(rigPosition), Quat(rigOrientation)}; }
   Pose head() const { return {Vec3(headPosition), Quat(headOrientation)}; }
+  Vec3 headInWorld() const { return rig() * head().p; }  ///< [m]
   void set(const Pose& X_WR, const Pose& X_RH);
 };
 
@@ -118,6 +121,7 @@ struct ChangeSet {
   std::vector<LightRecord> lights;  ///< all that shine (at most kMostLights), when lightsChanged
   SkyRecord sky;
   ViewerRecord viewer;
+  ShadowRecord shadows;
 
   void clear();  ///< all but the sink
 };

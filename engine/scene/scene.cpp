@@ -58,6 +58,7 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
   const SpanScope span(probe, Span::Publish);
   if (events_.size() > 1) std::ranges::stable_sort(events_, {}, &EventRecord::when);  // it takes memory
   publish(now, input, changes);
+  shadowPlaces_.follow(changes.viewer.headInWorld());
 }
 
 void Scene::settleTouched(FrameProbe* probe) {

@@ -64,6 +64,9 @@ public:
   /// Nothing moves: fills `changes` with what the scene is after frame `now`. For one that has been put back
   /// and is to be seen before it goes on.
   void publishAsItStands(const TimeSignature& now, ChangeSet& changes) { publish(now, lastInput_, changes); }
+  /// Sets only the viewer and the shadow rings around the head: while the show is paused, the visitor still
+  /// looks around. The scene's state stays as it is.
+  void look(const InputSample& input, ChangeSet& changes) const;
 
   // What nodes use during their cycle.
 
@@ -435,6 +438,7 @@ private:
   std::size_t chunksShown_ = 0;
   std::vector<Rig> rigs_;  ///< the last one is in use
   Pose freeRig_;           ///< of a show without a rig node
+  ShadowPlaces shadowPlaces_;
   std::vector<ChangeSet::Chunk> chunkChanges_;
   std::vector<ChangeSet::StaticItem> staticChanges_;
   Crew crew_;

@@ -163,9 +163,15 @@ void Scene::publish(const TimeSignature& now, const InputSample& input, ChangeSe
   handOn(changes);
   if (lightsChanged_ || !shining_.empty()) publishLights(input, changes);
   changes.sky = skies_.empty() ? SkyRecord{} : skies_.back().record;
-  changes.viewer.set(rigPose(), headInRig(input));
+  look(input, changes);
   changes.viewer.poseTime = input.time;
   changes.viewer.stress = stress();
+}
+
+void Scene::look(const InputSample& input, ChangeSet& changes) const {
+  changes.viewer.set(rigPose(), headInRig(input));
+  ShadowPlaces rings = shadowPlaces_;
+  changes.shadows = rings.follow(changes.viewer.headInWorld());
 }
 
 /// All but where it is.
@@ -215,7 +221,10 @@ void Scene::publishInstance(const Instance& i, InstanceId id, const Affine& X_WN
     r.radius = -1;
     return;
   }
-  placeInstance(r, X_WN, i.form->sphere);
+  if (const std::optional<MemberPlace> member = placements_.inFleet(i.placement))
+    placeInstance(r, member->rows, member->widens, i.form->sphere);
+  else
+    placeInstance(r, X_WN, i.form->sphere);
   describe(i, shown, r);
 }
 

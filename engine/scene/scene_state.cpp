@@ -135,7 +135,7 @@ void Scene::visitRest(StateFields& f) {
   f("stress", stressLevel_), f("put off", putOff_), f("paced", paced_);
   f("watchers", watchers_), f("load watchers", loadWatchers_), f("impact watchers", impactWatchers_);
   f("loads version", loadsVersion_), f("loads told", loadsTold_);
-  f("last input", lastInput_);
+  f("last input", lastInput_), f("shadow rings", shadowPlaces_);
 }
 
 void Scene::visitNodes(StateFields& f) {

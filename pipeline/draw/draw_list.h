@@ -10,7 +10,7 @@
 #include "engine/maths/maths.h"
 #include "engine/scene/records.h"
 #include "pipeline/frame_ticket.h"
-#include "pipeline/state/shadow_places.h"
+#include "engine/scene/shadow_places.h"
 
 #include <array>
 #include <memory>

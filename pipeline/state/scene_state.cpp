@@ -167,7 +167,7 @@ void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
   }
   h.sky = changes.sky;
   h.viewer = changes.viewer;
-  h.shadows = shadowPlaces_.follow(changes.viewer.rig() * changes.viewer.head().p);
+  h.shadows = changes.shadows;
   h.stillVersion = stillVersion_;
   h.signature = changes.signature;
 }

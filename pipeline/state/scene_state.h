@@ -12,7 +12,6 @@
 ///          slot (FrameSlots decides who may do what when).
 
 #include "pipeline/state/chunk_arena.h"
-#include "pipeline/state/shadow_places.h"
 #include "pipeline/state/slot_memory.h"
 
 #include <atomic>
@@ -107,7 +106,6 @@ private:
   };
   std::vector<Marks> marks_;  ///< by InstanceId
   std::uint64_t stillVersion_ = 0;
-  ShadowPlaces shadowPlaces_;
   std::size_t newest_ = 0;
   bool any_ = false;
   std::size_t writing_ = 0;  ///< the slot that was begun

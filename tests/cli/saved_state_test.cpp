@@ -33,12 +33,16 @@ std::unique_ptr<Player> open(const Script& script,
   return player;
 }
 
-/// What is seen: every instance as it was published last, by what it shows and whose it is.
+/// What is seen: every instance as it was published last, by what it shows and whose it is; the visitor, and
+/// the rings in which shadows are drawn.
 struct SavedRun {
   std::map<InstanceId, InstanceRecord> instances;
+  ViewerRecord viewer;
+  ShadowRecord shadows;
 
   void take(const ChangeSet& changes) {
     for (const ChangeSet::Instance& i : changes.instances) instances[i.id] = i.record;
+    viewer = changes.viewer, shadows = changes.shadows;
   }
   /// Of what is there.
   std::uint64_t hash() const {
@@ -48,7 +52,11 @@ struct SavedRun {
       h.add(id), h.add(r.owner), h.add(r.mesh), h.add(r.flags), h.add(double{r.radius}),
           h.add(double{r.lodFactor});
       for (const double m : r.model) h.add(m);
+      for (const double x : r.centre) h.add(x);
     }
+    h.add(viewer.rig()), h.add(viewer.head()), h.add(viewer.stress);
+    for (const auto& ring : shadows.centre)
+      for (const double x : ring) h.add(x);
     return h.value();
   }
 };

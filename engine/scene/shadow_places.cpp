@@ -1,6 +1,4 @@
-#include "pipeline/state/shadow_places.h"
-
-#include <algorithm>
+#include "engine/scene/shadow_places.h"
 
 namespace stadion {
 
@@ -9,10 +7,10 @@ const ShadowRecord& ShadowPlaces::follow(const Vec3& p_WH) {
   for (std::size_t ring = 0; ring < kShadowRings; ++ring) {
     auto& centre = record_.centre[ring];
     const double away = (p_WH - Vec3(centre[0], centre[1], centre[2])).norm();
-    if (any_ && away <= kStray * kShadowReach[ring]) continue;
+    if (placed_ && away <= kStray * kShadowReach[ring]) continue;
     for (int k = 0; k < 3; ++k) centre[k] = p_WH[k];
   }
-  any_ = true;
+  placed_ = true;
   return record_;
 }
 
