@@ -34,7 +34,8 @@ void DrawOrder::sortOpaque(std::vector<DrawnRecord>& things) {
 void DrawOrder::sortTransparent(std::vector<DrawnRecord>& things) {
   keys_.clear();
   for (const DrawnRecord& d : things)
-    keys_.push_back({joined(~bitsOf(d.distance), d.mesh), 0, static_cast<std::uint32_t>(keys_.size())});
+    keys_.push_back({joined(d.record->owner.load, d.record->owner.position), d.mesh,
+                     static_cast<std::uint32_t>(keys_.size())});
   arrange(things);
 }
 

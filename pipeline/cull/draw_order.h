@@ -1,7 +1,8 @@
 #pragma once
 /// Sorts what is drawn by what it is, so that its order does not depend on where records lie: opaque things
-/// by mesh, level and the eyes that see them, then near to far; transparent ones far to near. Who is equal in
-/// that goes by owner, then by place.
+/// by mesh, level and the eyes that see them, then near to far; transparent ones by owner, then by mesh, so
+/// that surfaces at the same depth keep their order wherever the visitor is. Who is equal in that goes by owner,
+/// then by place.
 ///
 /// Numbers are sorted, byte by byte from the lowest (radix sort; bytes that are the same in all are passed
 /// over), and each thing is moved once.
@@ -31,7 +32,7 @@ public:
   void sortTransparent(std::vector<DrawnRecord>& things);
 
 private:
-  /// `high` first, then `low`; neither is negative as a float.
+  /// `high` first, then `low`; no distance is negative.
   struct Key {
     std::uint64_t high;
     std::uint32_t low;

@@ -92,7 +92,9 @@ struct DrawList {
   /// Sorted by mesh and level, then those that only the left eye sees, both eyes, only the right one; then
   /// near to far.
   std::vector<DrawItem> opaque;
-  std::vector<DrawItem> transparent;  ///< items with any transparent material, far to near
+  /// Items with any transparent material, in an order that does not depend on the viewer. Where surfaces lie
+  /// at the same depth, the later one is in front.
+  std::vector<DrawItem> transparent;
 
   static constexpr std::size_t kMaxLights = 16;
   static constexpr std::size_t kPortion = 1024;  ///< Draw takes opaque items up by so many

@@ -18,6 +18,8 @@ void attach(const GlTable& gl, const GlFramebuffer& framebuffer, GLenum attachme
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer.name());
 }
 
+constexpr GLenum kDepth = GL_DEPTH_COMPONENT32F;
+
 }  // namespace
 
 EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height, RenderQuality quality)
@@ -31,7 +33,7 @@ EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t hei
     gl_.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(stored), this->width(), this->height(), 0, format,
                    type, nullptr);
   };
-  if (!sampled_) picture(depth_, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
+  if (!sampled_) picture(depth_, kDepth, GL_DEPTH_COMPONENT, GL_FLOAT);
   for (std::size_t eye = 0; eye < pictures_.size(); ++eye) {
     picture(pictures_[eye], colours, GL_RGBA, GL_UNSIGNED_BYTE);
     attach(gl_, resolved_[eye], GL_COLOR_ATTACHMENT0, pictures_[eye]);
@@ -41,13 +43,13 @@ EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t hei
   if (!sampled_) return;
   GLint most = 0;
   gl_.GetIntegerv(GL_MAX_SAMPLES, &most);
+  samples_ = std::min(std::min(quality.samples, 64u), static_cast<std::uint32_t>(std::max(most, 1)));
   const auto storage = [&](const GlRenderbuffer& buffer, GLenum format) {
     gl_.BindRenderbuffer(GL_RENDERBUFFER, buffer.name());
-    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER,
-                                       std::min(static_cast<GLint>(std::min(quality.samples, 64u)), most),
-                                       format, this->width(), this->height());
+    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, static_cast<GLint>(samples_), format, this->width(),
+                                       this->height());
   };
-  storage(sampledDepth_, GL_DEPTH_COMPONENT32F);
+  storage(sampledDepth_, kDepth);
   storage(colour_, colours);
   attach(gl_, drawn_, GL_COLOR_ATTACHMENT0, colour_);
   attach(gl_, drawn_, GL_DEPTH_ATTACHMENT, sampledDepth_);
@@ -91,6 +93,31 @@ void EyeBuffers::resolve(std::uint32_t eye) {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.name());
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_[eye].name());
   gl_.BlitFramebuffer(0, 0, width(), height(), 0, 0, width(), height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+GLuint EyeBuffers::depthsSoFar(std::uint32_t eye) {
+  if (!copied_) {
+    copied_.emplace(gl_), copiedDepth_.emplace(gl_);
+    const GLenum target = sampled_ ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+    gl_.BindTexture(target, copiedDepth_->name());
+    if (sampled_) {
+      gl_.TexImage2DMultisample(target, static_cast<GLsizei>(samples_), kDepth, width(), height(),
+                                GL_TRUE);
+    } else {
+      gl_.TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
+      gl_.TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+      gl_.TexImage2D(target, 0, kDepth, width(), height(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                     nullptr);
+    }
+    gl_.BindTexture(target, 0);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, copied_->name());
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, target, copiedDepth_->name(), 0);
+    gl_.DrawBuffer(GL_NONE), gl_.ReadBuffer(GL_NONE);
+  }
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_ ? drawn_.name() : resolved_[eye].name());
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, copied_->name());
+  gl_.BlitFramebuffer(0, 0, width(), height(), 0, 0, width(), height(), GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  return copiedDepth_->name();
 }
 
 void EyeBuffers::readDepths(std::uint32_t eye, std::span<float> depths) {

@@ -35,6 +35,11 @@ public:
   /// 8-bit RGBA (height x width x 4), rows from the top, colour in sRGB. Waits for the drawing to end.
   void read(std::uint32_t eye, std::span<std::uint8_t> rgba);
 
+  /// A copy of the depths that have been drawn of `eye`: a texture, multisampled as they are. Another
+  /// framebuffer is bound afterwards.
+  GLuint depthsSoFar(std::uint32_t eye);
+  std::uint32_t samples() const { return samples_; }  ///< a pixel
+
   /// The depths of what has been drawn of `eye`, 1 at the near plane and 0 at the far one or where nothing is
   /// (height x width), rows from the bottom; with one sample a pixel. Waits for the drawing to end.
   void readDepths(std::uint32_t eye, std::span<float> depths);
@@ -46,11 +51,14 @@ private:
   const GlTable& gl_;
   std::uint32_t width_, height_;
   bool sampled_;                          ///< more than once a pixel
+  std::uint32_t samples_ = 1;
   GlRenderbuffer colour_, sampledDepth_;  ///< where more than one sample a pixel is taken
   GlFramebuffer drawn_;
   GlTexture depth_;  ///< where one is
   std::array<GlTexture, 2> pictures_;
   std::array<GlFramebuffer, 2> resolved_;
+  std::optional<GlTexture> copiedDepth_;  ///< from the first time on that it is asked for
+  std::optional<GlFramebuffer> copied_;
 };
 
 }  // namespace stadion

@@ -74,6 +74,8 @@ Result<GlProgram> GlProgram::build(const GlTable& gl, const std::string& vertex,
   gl.Uniform1i(gl.GetUniformLocation(program.name(), "baseTexture"), 0);  // the same for every view
   gl.Uniform1i(gl.GetUniformLocation(program.name(), "shadowMap"), kShadowUnit);
   gl.Uniform1i(gl.GetUniformLocation(program.name(), "glowTexture"), kGlowUnit);
+  program.layers_ = gl.GetUniformLocation(program.name(), "layers");
+  program.area_ = gl.GetUniformLocation(program.name(), "area");
   return program;
 }
 

@@ -18,16 +18,21 @@ public:
   ~GlProgram() {
     if (name_) gl_->DeleteProgram(name_);
   }
-  GlProgram(GlProgram&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
+  GlProgram(GlProgram&& other) noexcept
+      : gl_(other.gl_), name_(std::exchange(other.name_, 0)), layers_(other.layers_), area_(other.area_) {}
   GlProgram& operator=(GlProgram&&) = delete;
 
   GLuint name() const { return name_; }
+  /// Where the uniforms "layers" and "area" are; -1 if it has none.
+  GLint layers() const { return layers_; }
+  GLint area() const { return area_; }
 
 private:
   GlProgram(const GlTable& gl, GLuint name) : gl_(&gl), name_(name) {}
 
   const GlTable* gl_;
   GLuint name_;
+  GLint layers_ = -1, area_ = -1;
 };
 
 }  // namespace stadion

@@ -69,6 +69,7 @@ namespace stadion {
   X(PFNGLGENTEXTURESPROC, GenTextures)                                                                       \
   X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                               \
   X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap)                                                                 \
+  X(PFNGLGETBUFFERSUBDATAPROC, GetBufferSubData)                                                             \
   X(PFNGLGETERRORPROC, GetError)                                                                             \
   X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                       \
   X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                           \
@@ -89,7 +90,9 @@ namespace stadion {
   X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample)                                 \
   X(PFNGLSCISSORPROC, Scissor)                                                                               \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                     \
+  X(PFNGLTEXBUFFERPROC, TexBuffer)                                                                           \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                                                         \
+  X(PFNGLTEXIMAGE2DMULTISAMPLEPROC, TexImage2DMultisample)                                                   \
   X(PFNGLTEXPARAMETERFPROC, TexParameterf)                                                                   \
   X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                                                   \
   X(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                                                                   \
@@ -107,8 +110,10 @@ namespace stadion {
 
 /// What newer versions have; null where it is missing. Whether a context has it, its extension says.
 #define STADION_GL_MORE_FUNCTIONS(X)                                                                         \
+  X(PFNGLCLEARBUFFERSUBDATAPROC, ClearBufferSubData)                                                         \
   X(PFNGLCLIPCONTROLPROC, ClipControl)                                                                       \
-  X(PFNGLDRAWELEMENTSINSTANCEDBASEINSTANCEPROC, DrawElementsInstancedBaseInstance)
+  X(PFNGLDRAWELEMENTSINSTANCEDBASEINSTANCEPROC, DrawElementsInstancedBaseInstance)                           \
+  X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)
 
 struct GlTable {
 #define STADION_GL_MEMBER(type, name) type name = nullptr;

@@ -28,7 +28,11 @@ struct RenderQuality {
   /// There, in the plain look, small things are drawn without OpenGL (small_things.h).
   bool drawsSmallThings = true;
 
-  static constexpr RenderQuality plain() { return {Look::Plain, 1, 1024, true, true}; }
+  /// Of transparent surfaces, so many fragments are sorted at a time (glass_layers.h); each takes 32 bytes. The
+  /// picture does not depend on it.
+  std::uint32_t mostFragments = 1U << 21;
+
+  static constexpr RenderQuality plain() { return {Look::Plain, 1}; }
   bool operator==(const RenderQuality&) const = default;
 };
 

@@ -109,7 +109,7 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
     report("\"" + mesh.name + "\" cannot be drawn: " + fault);
     return {};
   }
-  GlMesh out{GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, {}, 0, {}, {}};
+  GlMesh out{GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, {}, 0, {}, mesh.bounds, {}};
   uploadVertices(mesh, out);
   out.textures.reserve(mesh.textures.size());
   for (std::size_t i = 0; i < mesh.textures.size(); ++i)

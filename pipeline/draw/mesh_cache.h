@@ -41,6 +41,7 @@ struct GlMesh {
   std::vector<std::vector<GlSubmesh>> levels;  ///< of the simplified ones
   std::size_t transparentParts = 0;
   std::optional<SieveMesh> sieve;  ///< all levels, as in `indices`; where triangles are sieved
+  Aabb bounds;  ///< [m]
   std::optional<MeshShading>
       shading;  ///< there, if it has neither pictures nor holes nor anything to see through
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <utility>
 
 namespace stadion {
@@ -47,10 +48,10 @@ Renderer::Renderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes
                    std::uint32_t height, RenderQuality quality, Programs programs)
     : gl_(gl), turns_(turns), takesTurns_(isSoftware(gl)),
       basesInstances_(gl.DrawElementsInstancedBaseInstance && hasGlExtension(gl, "GL_ARB_base_instance")),
-      clipDepth_(settleClipDepth(gl)), width_(width), height_(height), quality_(quality),
-      programs_(std::move(programs)), buffers_(gl, width, height, quality),
+      clipDepth_(settleClipDepth(gl)), layersGlass_(GlassLayers::isSupported(gl)), width_(width), height_(height),
+      quality_(quality), programs_(std::move(programs)), buffers_(gl, width, height, quality),
       cache_(gl, meshes, quality.look, isSieved(gl, quality) && basesInstances_), instances_(gl), scene_(gl),
-      indices_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl) {
+      indices_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl), covered_(width, height) {
   if (isSieved(gl, quality) && basesInstances_) sieve_.emplace(width, height);
   if (sieve_ && quality.look == Look::Plain && quality.drawsSmallThings) small_.emplace(width, height);
   setUnchangingState();
@@ -88,7 +89,8 @@ std::optional<Diagnostic> Renderer::buildSurfaces(const GlTable& gl, const Surfa
   set.common = common;
   for (std::size_t i = SurfaceTraits::kUsual; i-- > 0;) {  // the first one last: it says that all are there
     SurfaceTraits traits = common;
-    traits.textured = (i & 1) != 0, traits.localLights = (i & 2) != 0, traits.blended = (i & 4) != 0;
+    traits.textured = (i & 1) != 0, traits.localLights = (i & 2) != 0;
+    traits.writes = (i & 4) != 0 ? SurfaceWrites::Blended : SurfaceWrites::Picture;
     assert(traits.index() == i);
     auto built = GlProgram::build(gl, surfaceVertexShader(traits), surfaceFragmentShader(traits));
     if (!built) return built.error();
@@ -135,6 +137,7 @@ void Renderer::settleState() {
   gl_.Disable(GL_POLYGON_OFFSET_FILL);
   gl_.Disable(GL_BLEND);
   gl_.DepthMask(GL_TRUE);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void Renderer::setUnchangingState() {
@@ -253,7 +256,12 @@ bool Renderer::takeMore() {
   complete_ = there == ListFilling::kAll;
   if (complete_ && list_->filling && list_->filling->isVoid()) return false;  // nobody will see it
   batches_.addOpaque(list_->opaque, std::min(there, list_->opaque.size()));
-  if (complete_) batches_.addTransparent(list_->transparent);
+  if (complete_ && layersGlass_) batches_.addTransparent(list_->transparent);
+  if (complete_ && !layersGlass_) {
+    sorted_ = list_->transparent;
+    std::ranges::stable_sort(sorted_, std::greater<>{}, &DrawItem::distance);
+    batches_.addTransparent(sorted_);
+  }
   return true;
 }
 
@@ -335,11 +343,7 @@ void Renderer::drawEye(const DrawEye& eye, std::uint32_t index, Turn& turn) {
   part(Span::Sky, [&] { drawBackground(); });
   // Blending and averaging of samples act on linear light.
   if (quality_.look == Look::Full) gl_.Enable(GL_FRAMEBUFFER_SRGB);
-  gl_.Enable(GL_BLEND);
-  gl_.DepthMask(GL_FALSE);
-  drawTransparentBatches(Pass::Transparent, index);
-  gl_.DepthMask(GL_TRUE);
-  gl_.Disable(GL_BLEND);
+  drawTransparent(view, index);
   part(Span::Resolve, [&] { buffers_.resolve(index); });
   if (sample_ == DrawSample::Some)
     sampler_->endEye([&](std::uint32_t first, std::uint32_t end) { return sharesOf(index, first, end); });

@@ -2,8 +2,9 @@
 /// Draws a wall's draw lists with OpenGL 3.3 core.
 ///
 /// Order        shadow maps, as far as they have changed, then opaque things instanced by mesh, then the sky
-/// where nothing was drawn, then transparent
-///              things in the list's order, blended and without writing depth. 4 samples a pixel, light
+/// where nothing was drawn, then what is transparent,
+///              sorted for every sample (glass_layers.h; below OpenGL 4.3 by whole objects, far to near), blended
+///              and without writing depth. 4 samples a pixel, light
 ///              computed in linear RGB, pictures in sRGB (shaders.h says how).
 /// Beginning    with what is there of a list that is still filled: the first eye's opaque things are drawn as
 ///              they come, unless all must be known first (what is timed alone, what hides what).
@@ -21,6 +22,7 @@
 #include "pipeline/draw/draw_sampler.h"
 #include "pipeline/draw/eye_buffers.h"
 #include "pipeline/draw/gl_program.h"
+#include "pipeline/draw/glass_layers.h"
 #include "pipeline/draw/instance_batches.h"
 #include "pipeline/draw/look.h"
 #include "pipeline/draw/mesh_cache.h"
@@ -87,6 +89,8 @@ public:
   const std::array<DrawTotals, 2>& totals() const { return totals_; }
   void forgetTotals() { totals_ = {}; }
   std::size_t meshesHeld() const { return cache_.size(); }
+  /// Whether anything transparent has been drawn so far: else there are no buffers for it.
+  bool holdsLayers() const { return layers_ != nullptr; }
 
 private:
   static constexpr std::size_t kMostCounted = 4;  ///< lights for which there are programs of their own
@@ -104,7 +108,8 @@ private:
     std::array<Surfaces, 4 * (kMostCounted + 2)> surface;
     std::vector<GlProgram> sky;  ///< one
   };
-  enum class Pass { Opaque, OpaqueParts, Transparent };
+  enum class Pass { Opaque, OpaqueParts, Transparent, Layers };  ///< Transparent: whole objects are sorted
+
 
   Renderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes, std::uint32_t width,
            std::uint32_t height, RenderQuality quality, Programs programs);
@@ -149,6 +154,9 @@ private:
   static std::optional<Diagnostic> buildSurfaces(const GlTable& gl, const SurfaceTraits& common,
                                                  Surfaces& set);
   const GlProgram& surfaceFor(SurfaceTraits traits);
+  void drawTransparent(const ViewBlock& view, std::uint32_t eye);
+  bool coverTransparent(const ViewBlock& view, std::uint32_t eye);
+  void drawLayers(std::uint32_t eye);
   void chooseSurfaces(bool shadowed, bool hazy, std::size_t lights);
   void drawEye(const DrawEye& eye, std::uint32_t index, Turn& turn);
   bool drawSmallThings(const DrawEye& eye, std::uint32_t index, Turn& turn);
@@ -168,6 +176,8 @@ private:
   void drawTransparentParts(const MeshParts& mesh, std::uint32_t first, std::uint32_t count);
   void drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t first, std::uint32_t instances,
                 bool blended);
+  void drawLayeredParts(const MeshParts& mesh, std::uint32_t first, std::uint32_t count);
+  SurfaceTraits surfaceTraits(const GlSubmesh& part, bool blended) const;
   void beginPart(const GlMesh& mesh, const GlSubmesh& part, bool blended);
   void drawIndices(std::uintptr_t from, GLsizei count, std::uint32_t first, std::uint32_t instances);
   void stopIfAsked() const;
@@ -185,6 +195,7 @@ private:
   bool takesTurns_ = false;
   bool basesInstances_;  ///< a draw call may begin at any instance
   ClipDepth clipDepth_;
+  bool layersGlass_;     ///< what is transparent is sorted for every sample
   std::uint32_t width_, height_;
   RenderQuality quality_;
   Programs programs_;
@@ -210,6 +221,10 @@ private:
   SceneBlock lit_{};                               ///< of the list that is drawn
   bool skyIsFlat_ = false;                         ///< one colour: cleared, not drawn
   Surfaces* surfaces_ = nullptr;                   ///< of the list that is drawn
+  std::unique_ptr<GlassLayers> layers_;            ///< from the first list with something transparent on
+  CoveredAreas covered_;                           ///< by what is transparent, for the eye that is drawn
+  std::uint32_t layerTriangles_ = 0;               ///< that were kept before this call's, of this eye
+  std::vector<DrawItem> sorted_;                   ///< what is transparent, where whole objects are sorted
   std::unique_ptr<ShadowMaps> shadows_;            ///< from the first list with shadows on
   bool noShadows_ = false;                         ///< this OpenGL cannot
   const std::function<bool()>* giveUp_ = nullptr;  ///< while a list is drawn

@@ -131,11 +131,81 @@ void Renderer::drawTransparentBatches(Pass pass, std::uint32_t eye) {
   if (sample_ == DrawSample::Some) sampler_->endPass();
 }
 
+void Renderer::drawTransparent(const ViewBlock& view, std::uint32_t eye) {
+  if (layersGlass_) {
+    if (coverTransparent(view, eye)) drawLayers(eye);
+    return;
+  }
+  gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // pictures stay opaque
+  gl_.Enable(GL_BLEND);
+  gl_.DepthMask(GL_FALSE);
+  drawTransparentBatches(Pass::Transparent, eye);
+  gl_.DepthMask(GL_TRUE);
+  gl_.Disable(GL_BLEND);
+}
+
+/// Notes which parts of the picture what is transparent may cover; false: there is nothing.
+bool Renderer::coverTransparent(const ViewBlock& view, std::uint32_t eye) {
+  covered_.clear();
+  for (const InstanceBatch& ofBoth : batches_.transparent()) {
+    const InstanceBatch batch = ofBoth.seenBy(eye);
+    const GlMesh* mesh = batch.count > 0 ? cache_.find(batch.mesh) : nullptr;
+    if (!mesh || mesh->transparentParts == 0) continue;
+    for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {
+      const InstanceMatrix& m = batches_.matrices()[i];
+      std::array<std::array<float, 4>, 8> corners{};
+      for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+        std::array<float, 4> p{0, 0, 0, 1};
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto along = static_cast<int>(k);
+          p[k] = static_cast<float>((corner >> k) & 1 ? mesh->bounds.hi[along] : mesh->bounds.lo[along]);
+        }
+        std::array<float, 4> w{0, 0, 0, 1};
+        for (std::size_t k = 0; k < 3; ++k)
+          w[k] = m[4 * k] * p[0] + m[4 * k + 1] * p[1] + m[4 * k + 2] * p[2] + m[4 * k + 3];
+        for (std::size_t k = 0; k < 4; ++k)
+          for (std::size_t from = 0; from < 4; ++from)
+            corners[corner][k] += view.viewProjection[4 * from + k] * w[from];
+      }
+      covered_.cover(corners);
+    }
+  }
+  return !covered_.bounds().empty();
+}
+
+void Renderer::drawLayers(std::uint32_t eye) {
+  if (!layers_) {
+    auto made = GlassLayers::create(gl_, width_, height_, buffers_.samples(), quality_.mostFragments);
+    usedProgram_ = 0;
+    if (!made) {
+      report(made.error().message);
+      return;
+    }
+    layers_ = std::move(made.value());
+  }
+  // It may take several times, of which one counts.
+  const DrawCounts before = counts_;
+  const DrawSample sample = sample_;
+  DrawCounts once;
+  bool first = true;
+  layers_->draw(buffers_, eye, covered_, [&] {
+    usedProgram_ = 0, layerTriangles_ = 0;
+    if (!first) sample_ = DrawSample::None;
+    drawTransparentBatches(Pass::Layers, eye);
+    if (first) once = counts_;
+    first = false;
+  });
+  sample_ = sample;
+  usedProgram_ = 0;
+  counts_ = first ? before : once;
+  counts_.calls += 1;  // that blends them
+}
+
 void Renderer::drawBatch(const InstanceBatch& ofBoth, Pass pass, std::uint32_t eye) {
   const InstanceBatch batch = ofBoth.seenBy(eye);
   const GlMesh* mesh = batch.count > 0 ? cache_.find(batch.mesh) : nullptr;
   if (!mesh) return;
-  if (pass == Pass::Transparent && mesh->transparentParts == 0) return;
+  if ((pass == Pass::Transparent || pass == Pass::Layers) && mesh->transparentParts == 0) return;
   if (pass == Pass::OpaqueParts && mesh->transparentParts == mesh->parts.size()) return;
   uploadInstances();
   gl_.BindVertexArray(mesh->vertexArray.name());
@@ -157,7 +227,9 @@ void Renderer::drawInstances(const MeshParts& mesh, std::uint32_t first, std::ui
   for (std::uint32_t i = first; i < first + count; i += step) {
     stopIfAsked();
     if (!basesInstances_) pointAtInstances(gl_, instances_, i);
-    if (pass == Pass::Transparent)
+    if (pass == Pass::Layers)
+      drawLayeredParts(mesh, i, step);
+    else if (pass == Pass::Transparent)
       drawTransparentParts(mesh, i, step);
     else
       drawOpaqueParts(mesh, i, step, pass);
@@ -216,17 +288,39 @@ void Renderer::drawTransparentParts(const MeshParts& mesh, std::uint32_t first, 
   }
 }
 
+/// Both sides at once, and any number of instances: they are sorted later. Triangles are numbered through the
+/// whole list, so that those at the same depth have an order.
+void Renderer::drawLayeredParts(const MeshParts& mesh, std::uint32_t first, std::uint32_t count) {
+  std::uint32_t before = 0;
+  for (const GlSubmesh& part : mesh.parts) {
+    if (part.transparent) {
+      cull(false, !part.bothSides);
+      beginPart(*mesh.gl, part, true);
+      const GlProgram& program = surfaceFor(surfaceTraits(part, true));
+      layers_->setSurface(program, layerTriangles_ + before, mesh.triangles);
+      drawIndices(part.indexOffset, part.indexCount, first, count);
+    }
+    before += static_cast<std::uint32_t>(part.indexCount) / 3;
+  }
+  layerTriangles_ += mesh.triangles * count;
+}
+
 void Renderer::drawPart(const GlMesh& mesh, const GlSubmesh& part, std::uint32_t first,
                         std::uint32_t instances, bool blended) {
   beginPart(mesh, part, blended);
   drawIndices(part.indexOffset, part.indexCount, first, instances);
 }
 
-void Renderer::beginPart(const GlMesh& mesh, const GlSubmesh& part, bool blended) {
+SurfaceTraits Renderer::surfaceTraits(const GlSubmesh& part, bool blended) const {
   SurfaceTraits traits;
-  traits.textured = part.texture != 0, traits.localLights = localLights_, traits.blended = blended;
+  traits.textured = part.texture != 0, traits.localLights = localLights_;
+  if (blended) traits.writes = layersGlass_ ? SurfaceWrites::Layers : SurfaceWrites::Blended;
   traits.masked = part.masked, traits.glowing = part.glowTexture != 0;
-  use(surfaceFor(traits));
+  return traits;
+}
+
+void Renderer::beginPart(const GlMesh& mesh, const GlSubmesh& part, bool blended) {
+  use(surfaceFor(surfaceTraits(part, blended)));
   if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
   if (part.glowTexture) {
     gl_.ActiveTexture(GL_TEXTURE0 + kGlowUnit);

@@ -4,6 +4,7 @@ namespace stadion {
 namespace {
 
 constexpr const char* kVersion = "#version 330 core\n";
+constexpr const char* kStorageVersion = "#version 430 core\n";  ///< with buffers that shaders write
 
 // The same blocks as uniform_blocks.h.
 constexpr const char* kBlocks = R"(
@@ -54,6 +55,151 @@ vec4 encoded(vec3 c) {  // IEC 61966-2-1
 }
 )";
 
+// Where what is transparent goes: a list of fragments for each pixel (glass_layers.h).
+constexpr const char* kKeepFragment = R"(
+#ifdef LAYERED
+layout(early_fragment_tests) in;
+layout(std430, binding = 0) buffer FragmentCount { uint fragmentCount; };
+layout(std430, binding = 1) buffer FragmentHeads { uint fragmentHead[]; };
+layout(std430, binding = 2) writeonly buffer Fragments { uvec4 fragment[]; };
+uniform ivec4 layers;  // pixels in a row, room for fragments, this call's first triangle, triangles an instance
+uniform ivec4 area;    // that is drawn: from x, y to x, y
+flat in int instance;
+
+// Derivatives are taken before anything diverges.
+vec3 depthPlane() { return vec3(gl_FragCoord.z, dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z)); }
+
+void keep(vec4 colour, vec3 plane) {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  if (!(colour.a > 0.0) || any(lessThan(at, area.xy)) || any(greaterThanEqual(at, area.zw))) return;
+  uint place = atomicAdd(fragmentCount, 1u);
+  if (place >= uint(layers.y)) return;
+  uint next = atomicExchange(fragmentHead[at.y * layers.x + at.x], place + 1u);
+  fragment[2u * place] = uvec4(next, floatBitsToUint(plane));
+  uint order = uint(layers.z) + uint(instance) * uint(layers.w) + uint(gl_PrimitiveID);
+  fragment[2u * place + 1u] =
+      uvec4(packHalf2x16(colour.rg), packHalf2x16(colour.ba), order, uint(gl_SampleMaskIn[0]));
+}
+#else
+out vec4 shown;
+#endif
+)";
+
+// For each sample: what covers it, sorted, four at a time. Depths are the greater, the nearer. Loops are few and
+// short, and no array is indexed:
+// a software rasteriser runs every line for eight pixels at once.
+constexpr const char* kBlendLayers = R"(
+#ifdef SAMPLED
+uniform sampler2DMS depths;
+#else
+uniform sampler2D depths;
+#endif
+uniform usamplerBuffer heads, nodes;
+uniform int row;
+out vec4 shown;
+
+// One of the four nearest so far, and one that may have to be sorted in before it.
+void settle(inout float nearHere, inout uvec3 here, inout float nearOther, inout uvec3 other) {
+  bool first = nearOther > nearHere || (nearOther == nearHere && other.z > here.z);
+  float n = first ? nearHere : nearOther;
+  uvec3 o = first ? here : other;
+  nearHere = first ? nearOther : nearHere;
+  here = first ? other : here;
+  nearOther = n;
+  other = o;
+}
+
+vec4 colourOf(uvec3 fragment) { return vec4(unpackHalf2x16(fragment.x), unpackHalf2x16(fragment.y)); }
+
+void blend(uvec3 fragment, inout vec3 sum, inout float left) {
+  vec4 c = colourOf(fragment);
+  sum += left * c.a * c.rgb;
+  left *= 1.0 - c.a;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  uint head = texelFetch(heads, pixel.y * row + pixel.x).r;
+  if (head == 0u) discard;
+#ifdef SAMPLED
+  vec2 off = gl_SamplePosition - 0.5;
+  uint mask = 1u << uint(gl_SampleID);
+  float opaque = texelFetch(depths, pixel, gl_SampleID).r;
+#else
+  vec2 off = vec2(0.0);
+  uint mask = 1u;
+  float opaque = texelFetch(depths, pixel, 0).r;
+#endif
+  // The depth test has been passed by one sample at least. What lies on an opaque surface is seen, however its
+  // depth was rounded.
+  float least = opaque - 2e-6 * opaque;
+  vec3 sum = vec3(0.0);
+  float left = 1.0;
+  float last = 2.0;  // behind this one and its order what comes next lies
+  uint lastOrder = 0u;
+  const uint kGroups = EXACT_GROUPS;
+  uint group = 0u;
+  int found = 5;
+  while (found > 4 && left > 0.0 && group < kGroups) {
+    float n0 = -2.0, n1 = -2.0, n2 = -2.0, n3 = -2.0;
+    uvec3 f0 = uvec3(0u), f1 = uvec3(0u), f2 = uvec3(0u), f3 = uvec3(0u);
+    found = 0;
+    for (uint at = head; at != 0u;) {
+      uvec4 a = texelFetch(nodes, int(2u * at - 2u)), b = texelFetch(nodes, int(2u * at - 1u));
+      vec3 plane = uintBitsToFloat(a.yzw);
+      float n = plane.x + plane.y * off.x + plane.z * off.y;
+      if ((b.w & mask) != 0u && n >= least && (n < last || (n == last && b.z < lastOrder))) {
+        ++found;
+        uvec3 f = b.xyz;
+        settle(n0, f0, n, f);
+        settle(n1, f1, n, f);
+        settle(n2, f2, n, f);
+        settle(n3, f3, n, f);
+      }
+      at = a.x;
+    }
+    blend(f0, sum, left);
+    blend(f1, sum, left);
+    blend(f2, sum, left);
+    blend(f3, sum, left);
+    last = n3;
+    lastOrder = f3.z;
+    ++group;
+  }
+  if (found > 4 && left > 0.0) {
+    // The rest as one layer. Whole numbers are added: their sum does not depend on the order.
+    uvec3 colours = uvec3(0u);
+    uint weights = 0u, through = 0u;
+    for (uint at = head; at != 0u;) {
+      uvec4 a = texelFetch(nodes, int(2u * at - 2u)), b = texelFetch(nodes, int(2u * at - 1u));
+      vec3 plane = uintBitsToFloat(a.yzw);
+      float n = plane.x + plane.y * off.x + plane.z * off.y;
+      if ((b.w & mask) != 0u && n >= least && (n < last || (n == last && b.z < lastOrder))) {
+        vec4 c = colourOf(b.xyz);
+        colours += uvec3(c.rgb * c.a * 4095.0 + 0.5);
+        weights += uint(c.a * 4095.0 + 0.5);
+        through += uint(min(-log2(max(1.0 - c.a, 1e-6)) * 4096.0 + 0.5, 131072.0));
+      }
+      at = a.x;
+    }
+    float passed = exp2(-float(min(through, 1048576u)) / 4096.0);
+    sum += left * (1.0 - passed) * vec3(colours) / float(max(weights, 1u));
+    left *= passed;
+  }
+  shown = vec4(sum, left);
+}
+)";
+
+// Whole pixels.
+constexpr const char* kRectangle = R"(
+uniform vec4 corners;  // in clip space: x, y, x, y
+
+void main() {
+  gl_Position = vec4((gl_VertexID & 1) == 0 ? corners.x : corners.z, (gl_VertexID & 2) == 0 ? corners.y : corners.w,
+                     0.0, 1.0);
+}
+)";
+
 constexpr const char* kMaterial = R"(
 layout(std140) uniform Material {
   vec4 baseColour;
@@ -71,6 +217,9 @@ layout(location = 4) in vec4 modelX;  // the model matrix, by rows
 layout(location = 5) in vec4 modelY;
 layout(location = 6) in vec4 modelZ;
 
+#ifdef LAYERED
+flat out int instance;
+#endif
 out vec3 placed;
 out vec3 outward;
 out vec4 vertexColour;
@@ -93,6 +242,9 @@ void main() {
 #ifdef PICTURES
   texel = uv;
 #endif
+#ifdef LAYERED
+  instance = gl_InstanceID;
+#endif
   gl_Position = viewProjection * vec4(placed, 1.0);
 }
 )";
@@ -110,8 +262,6 @@ uniform sampler2D baseTexture;
 #ifdef GLOWING
 uniform sampler2D glowTexture;
 #endif
-
-out vec4 shown;
 
 vec3 ambientFrom(vec3 n) { return ambient.rgb * mix(0.3 + ground.rgb, vec3(1.0), 0.5 + 0.5 * n.z); }
 
@@ -156,6 +306,9 @@ float fifth(float x) {
 }
 
 void main() {
+#ifdef LAYERED
+  vec3 plane = depthPlane();
+#endif
   vec4 base = baseColour * vertexColour;
 #ifdef TEXTURED
   base *= texture(baseTexture, texel);
@@ -227,7 +380,9 @@ void main() {
 #ifdef HAZY
   light = mix(air(-v), light, exp2(-1.442695 * distanceSquared * perDistance * ambient.w));
 #endif
-#ifdef BLENDED
+#if defined(LAYERED)
+  keep(vec4(softClip(light), clamp(base.a, 0.0, 1.0)), plane);
+#elif defined(BLENDED)
   shown = vec4(softClip(light), clamp(base.a, 0.0, 1.0));
 #else
   shown = encoded(softClip(light));
@@ -244,6 +399,9 @@ layout(location = 4) in vec4 modelX;  // the model matrix, by rows
 layout(location = 5) in vec4 modelY;
 layout(location = 6) in vec4 modelZ;
 
+#ifdef LAYERED
+flat out int instance;
+#endif
 out vec4 shade;
 #ifdef PICTURES
 out vec2 texel;
@@ -292,6 +450,9 @@ void main() {
 #ifdef HAZY
   clearness = exp2(-1.442695 * distance(eye.xyz, placed) * ambient.w);
 #endif
+#ifdef LAYERED
+  instance = gl_InstanceID;
+#endif
   gl_Position = viewProjection * vec4(placed, 1.0);
 }
 )";
@@ -311,9 +472,10 @@ uniform sampler2D glowTexture;
 in float clearness;
 #endif
 
-out vec4 shown;
-
 void main() {
+#ifdef LAYERED
+  vec3 plane = depthPlane();
+#endif
   vec4 c = shade;
 #ifdef TEXTURED
   c *= texture(baseTexture, texel);
@@ -327,7 +489,9 @@ void main() {
 #ifdef HAZY
   c.rgb = mix(horizon.rgb, c.rgb, clearness);
 #endif
-#ifdef BLENDED
+#if defined(LAYERED)
+  keep(vec4(c.rgb, clamp(c.a, 0.0, 1.0)), plane);
+#elif defined(BLENDED)
   shown = vec4(c.rgb, clamp(c.a, 0.0, 1.0));
 #else
   shown = vec4(c.rgb, 1.0);
@@ -429,7 +593,8 @@ std::string definitions(const SurfaceTraits& traits) {
   if (traits.shadowed) text += "#define SHADOWED\n";
   if (traits.hazy) text += "#define HAZY\n";
   if (traits.localLights) text += "#define LOCAL_LIGHTS\n";
-  if (traits.blended) text += "#define BLENDED\n";
+  if (traits.writes == SurfaceWrites::Blended) text += "#define BLENDED\n";
+  if (traits.writes == SurfaceWrites::Layers) text += "#define LAYERED\n";
   if (traits.masked) text += "#define MASKED\n";
   if (traits.glowing) text += "#define GLOWING\n";
   if (traits.textured || traits.glowing) text += "#define PICTURES\n";
@@ -438,16 +603,29 @@ std::string definitions(const SurfaceTraits& traits) {
   return text;
 }
 
+const char* versionOf(const SurfaceTraits& traits) {
+  return traits.writes == SurfaceWrites::Layers ? kStorageVersion : kVersion;
+}
+
 }  // namespace
 
 std::string surfaceVertexShader(const SurfaceTraits& traits) {
-  return kVersion + definitions(traits) + kBlocks +
+  return versionOf(traits) + definitions(traits) + kBlocks +
          (traits.look == Look::Plain ? std::string(kMaterial) + kPlainVertex : kSurfaceVertex);
 }
 
 std::string surfaceFragmentShader(const SurfaceTraits& traits) {
-  return kVersion + definitions(traits) + kBlocks + kMaterial +
+  return versionOf(traits) + definitions(traits) + kBlocks + kMaterial + kKeepFragment +
          (traits.look == Look::Plain ? kPlainFragment : kSurfaceFragment);
+}
+
+std::string layerBlendVertexShader() {
+  return std::string(kStorageVersion) + kRectangle;
+}
+
+std::string layerBlendFragmentShader(bool sampled) {
+  return std::string(kStorageVersion) + (sampled ? "#define SAMPLED\n" : "") + "#define EXACT_GROUPS " +
+         std::to_string(kExactLayers / 4) + "u\n" + kBlendLayers;
 }
 
 std::string shadowVertexShader(const SurfaceTraits& traits) {

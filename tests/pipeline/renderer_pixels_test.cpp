@@ -123,7 +123,7 @@ TEST(PicturePixels, VertexColoursMultiplyTheMaterial) {
   EXPECT_TRUE(shows(Stage(meshes, kSide, kSide).draw(list).at(5, 5), test::sRgb(0.5), test::sRgb(green), 0));
 }
 
-TEST(PicturePixels, TransparentThingsBlendOverWhatIsBehindInTheListsOrder) {
+TEST(PicturePixels, TransparentThingsBlendByDepthWhateverTheListsOrder) {
   MeshStore meshes;
   DrawList list = test::plainList();
   const MeshId wall = meshes.add(sheet(matt(0.8f, 0, 0), -2, 2, -2, 2, 5));
@@ -134,7 +134,7 @@ TEST(PicturePixels, TransparentThingsBlendOverWhatIsBehindInTheListsOrder) {
   Stage stage(meshes, kSide, kSide);
   EXPECT_TRUE(shows(stage.draw(list).at(20, 20), test::sRgb(0.2), test::sRgb(0.2), test::sRgb(0.4), 2));
   std::swap(list.transparent[0], list.transparent[1]);
-  EXPECT_TRUE(shows(stage.draw(list).at(20, 20), test::sRgb(0.2), test::sRgb(0.4), test::sRgb(0.2), 2));
+  EXPECT_TRUE(shows(stage.draw(list).at(20, 20), test::sRgb(0.2), test::sRgb(0.2), test::sRgb(0.4), 2));
 }
 
 TEST(PicturePixels, NothingTransparentShowsThroughWhatStandsBeforeIt) {

@@ -26,7 +26,7 @@ GlProvider* provider(GlProviderKind kind);
 class Stage {
 public:
   Stage(const MeshStore& meshes, std::uint32_t width, std::uint32_t height,
-        GlProviderKind kind = GlProviderKind::OsMesa);
+        GlProviderKind kind = GlProviderKind::OsMesa, RenderQuality quality = {});
   ~Stage();
 
   Renderer& renderer() { return *renderer_; }

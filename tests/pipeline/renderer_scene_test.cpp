@@ -28,13 +28,14 @@ GlProvider* provider(GlProviderKind kind) {
   return slot.get();
 }
 
-Stage::Stage(const MeshStore& meshes, std::uint32_t width, std::uint32_t height, GlProviderKind kind) {
+Stage::Stage(const MeshStore& meshes, std::uint32_t width, std::uint32_t height, GlProviderKind kind,
+             RenderQuality quality) {
   auto target = provider(kind)->create(width, height);
   EXPECT_TRUE(target) << (target ? "" : target.error().message);
   target_ = std::move(target.value());
   const auto bound = target_->makeCurrent();
   EXPECT_FALSE(bound) << bound->message;
-  auto renderer = Renderer::create(target_->gl(), target_->turns(), meshes, width, height);
+  auto renderer = Renderer::create(target_->gl(), target_->turns(), meshes, width, height, quality);
   EXPECT_TRUE(renderer) << (renderer ? "" : renderer.error().message);
   renderer_ = std::move(renderer.value());
 }

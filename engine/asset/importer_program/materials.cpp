@@ -149,9 +149,14 @@ void readSurface(const aiMaterial& from, const FormatInfo& format, Material& to)
   }
   to.roughness = bounded(roughness, 0, 1, 0.7f);
   to.metallic = bounded(metallic, 0, 1, 0);
+}
+
+/// Expects that the rest of `to` has been read. Where nothing says how many sides there are, what is seen
+/// through has two: from within a room of glass its walls are seen, and from outside the far ones, too.
+void readSides(const aiMaterial& from, Material& to) {
   int twoSided = 0;
-  from.Get(AI_MATKEY_TWOSIDED, twoSided);
-  to.doubleSided = twoSided != 0;
+  const bool known = from.Get(AI_MATKEY_TWOSIDED, twoSided) == aiReturn_SUCCESS;
+  to.doubleSided = known ? twoSided != 0 : to.transparent();
 }
 
 /// A cutoff that nothing falls below cuts nothing out: the surface is opaque, and drawn as fast as any other.
@@ -191,6 +196,7 @@ Material readMaterial(const aiMaterial& from, const FormatInfo& format, bool alp
   to.textureHasAlpha = least < 255;
   if (use.mode == AlphaUse::Mask) readMask(use.cutoff, least, alphaOfVertices, to);
   readGlow(from, format, pictures, to);
+  readSides(from, to);
   return to;
 }
 
