@@ -134,11 +134,12 @@ void FrameLoop::runPipelined() {
   SwapBarrier barrier(options_.walls);
   // All walls and App: before all are ready none draws, since they may share a rasteriser, and show time
   // stands still.
-  SwapBarrier warm(options_.walls + 1);
+  SwapBarrier opened(options_.walls + 1), warm(options_.walls + 1);
 
   StageThreads threads;
   threads.app = [&] {
     bool isWarm = options_.walls == 0;
+    if (!isWarm && !opened.arrive([] {})) return;
     while (const auto turn = nextTurn()) {
       slots.limitUnderWay(framesUnderWay(), lastWalls());
       const auto slot = waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return slots.beginWrite(); });
@@ -163,7 +164,11 @@ void FrameLoop::runPipelined() {
     queues[wall].finish();
   };
   threads.draw = [&](std::size_t wall) {
-    if (!openStage(wall)) return;
+    if (!openStage(wall)) {
+      broken_ = true;  // given up, if it has not failed: App and the other walls would wait for this one
+      return;
+    }
+    if (!opened.arrive([] {})) return;
     const auto next = [&] { return queues[wall].takeHanded(); };
     bool isWarm = false;
     while (DrawList* list = waited(Span::ForDraw, kNoFrame, wall, next)) {
@@ -190,7 +195,7 @@ void FrameLoop::runPipelined() {
   threads.stopAll = [&] {
     slots.stop();
     for (ListQueue& q : queues) q.stop();
-    barrier.stop(), warm.stop();
+    barrier.stop(), opened.stop(), warm.stop();
   };
   runThreads(threads);
 }

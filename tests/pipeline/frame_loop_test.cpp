@@ -126,6 +126,10 @@ public:
     CountingStages::app(now, slot);
   }
   bool wantsDrawn(const FrameTicket& ticket) const override { return ticket.signature.frame >= firstDrawn; }
+  Failure openWall(std::size_t wall) override {
+    if (stopsOpening && wall == 1) throw RunStopped();
+    return {};
+  }
   Failure warmUp(std::size_t wall, const DrawList& list) override {
     if (list.ticket.signature.frame != firstDrawn) early = true;
     if (fails && wall == 1) return "no shader compiles";
@@ -143,7 +147,7 @@ public:
   }
 
   std::uint64_t firstDrawn = 0;
-  bool fails = false, stops = false;
+  bool fails = false, stops = false, stopsOpening = false;
   std::atomic<std::size_t> warm = 0;
   std::atomic<bool> early = false;
 
@@ -185,6 +189,19 @@ TEST(ThreadsFrameLoop, AWallThatCannotGetReadyEndsTheRunWithItsReason) {
       EXPECT_EQ(outcome.failure.has_value(), !stops);
       EXPECT_EQ(stages.closed, 3);
     }
+}
+
+TEST(ThreadsFrameLoop, ARunThatIsStoppedWhileAWallOpensEnds) {
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
+    ColdStages stages(3);
+    stages.stopsOpening = true;
+    FrameLoopOptions o;
+    o.mode = mode, o.walls = 3, o.frames = 20;
+    const FrameLoopOutcome outcome = runFrames(stages, o);
+    EXPECT_EQ(outcome.framesShown, 0u);
+    EXPECT_TRUE(outcome.stopped);
+    EXPECT_FALSE(outcome.failure);
+  }
 }
 
 TEST(FrameLoop, TicksAreLaterByAsLongAsWallsGetReady) {
