@@ -230,9 +230,11 @@ void TrackerFeed::addChanges(std::span<const Change> changes, const InputStamp& 
     const InputStamp& last = track.stamps.back();
     const bool news = change.buttons != last.buttons || change.axes != last.axes;
     const bool passes = change.buttons != now.buttons || change.axes != now.axes;
-    if (s.time <= last.time && !news) continue;
+    // The frame's start belongs to the frame before, which has been recorded.
+    const Nanoseconds taken = std::max(last.time, start);
+    if (s.time <= taken && !news) continue;
     if (s.time >= end && !passes) continue;
-    s.time = std::max(std::min(s.time, end - 1), last.time + 1);
+    s.time = std::max(std::min(s.time, end - 1), taken + 1);
     if (s.time >= end) return;
     if (s.valid) {
       const double way = static_cast<double>(s.time - first.time) / static_cast<double>(end - first.time);

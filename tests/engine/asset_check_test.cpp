@@ -22,11 +22,11 @@ TEST(AssetCheck, CountsWhatLoadsAndWhatDoesNot) {
     told[f.file] = f;
   });
   ASSERT_TRUE(counts);
-  EXPECT_EQ(counts.value().loaded, 13u);
+  EXPECT_EQ(counts.value().loaded, 15u);
   EXPECT_EQ(counts.value().refused, 1u);
   EXPECT_EQ(counts.value().failed, 2u);
   EXPECT_EQ(counts.value().faults, 0u);
-  EXPECT_EQ(told.size(), 16u);
+  EXPECT_EQ(told.size(), 18u);
   EXPECT_EQ(told["models/empty.stl"].verdict, AssetVerdict::Failed);
   EXPECT_FALSE(checkAssets(Importer::programBesideThis(), "/nonexistent", [](const AssetFinding&) {}));
 }

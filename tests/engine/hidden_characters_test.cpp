@@ -141,7 +141,7 @@ TEST(HiddenCharacters, AJoinerStandsOnlyWhereAScriptNeedsIt) {
 
 TEST(HiddenCharacters, WhatIsWrittenForPeopleMayHaveAnyBlanks) {
   const Diagnostics findings =
-      findingsOf("text( words=\"Bonjour\u00A0!\", name=t )\n"
+      findingsOf("text( text=\"Bonjour\u00A0!\", name=t )\n"
                  "timer( period=1, eventmessage=\"timesup, t, say a\u00A0b\u200Bc\" )\n"
                  "# a comment\u00A0too\u200B");
   for (const Diagnostic& d : findings.all()) EXPECT_EQ(d.severity, Severity::Warning) << format(d);

@@ -123,7 +123,7 @@ TEST(InputLog, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(firstError(h + "psoe head 0  0 0 0  1 0 0 0\n"),
             "2:1: \"psoe\" is not a kind of record; did you mean \"pose\"?");
   EXPECT_EQ(firstError(h + "\n# x\nsignature 5\n"),
-            "4:1: \"signature\" is not a kind of record; known are pose, key, lost");
+            "4:1: \"signature\" is not a kind of record; known are pose, key, controls, lost");
   EXPECT_EQ(
       firstError(h +
                  "pose head 1  0 0 0  1 0 0 0\npose wand 0.5 0 0 0 1 0 0 0\npose head 1  0 0 0  1 0 0 0\n"),
@@ -286,7 +286,7 @@ TEST(InputRecorder, KeepsWhatAClockDecidedAndWhereTheRunEnded) {
 TEST(InputLog, DecisionsThatMakeNoSenseAreNamed) {
   const std::string h = "stadion-input 2\n";
   EXPECT_EQ(firstError("stadion-input 1\nframe 3 0.1\n"),
-            "2:1: \"frame\" is not a kind of record; known are pose, key, lost");
+            "2:1: \"frame\" is not a kind of record; known are pose, key, controls, lost");
   EXPECT_EQ(firstError(h + "rate nan\n"), "2:6: \"nan\" is not a finite number in range (frames a second)");
   EXPECT_EQ(firstError(h + "rate 0\n"), "2:6: the rate must be from 1 to 1000 frames a second");
   EXPECT_EQ(firstError(h + "frame 3 0.1\nframe 4 0.1\n"),
