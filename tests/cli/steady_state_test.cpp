@@ -37,7 +37,7 @@ std::uint64_t allocationsOfApp(const std::string& script, const std::string& log
 /// How often Draw does, on all walls, when it has seen the show for a while. What Mesa asks for itself, of C,
 /// is not counted.
 std::uint64_t allocationsOfDraw(const std::string& script, const std::string& look) {
-  constexpr std::uint64_t kWarm = 60, kFrames = 20;
+  constexpr std::uint64_t kWarm = 60, kDrawnFrames = 20;
   ShowOptions options;
   options.script = script, options.walls = "desktop", options.size = "64x48", options.look = look;
   options.input = "none", options.assetRoots = {assetFolder()};
@@ -53,7 +53,7 @@ std::uint64_t allocationsOfDraw(const std::string& script, const std::string& lo
   std::vector<DrawList> lists(2 * walls);
   Allocations asked;
   for (std::size_t wall = 0; wall < walls; ++wall) EXPECT_FALSE(stages.openWall(wall));
-  for (std::uint64_t frame = 0; frame < kWarm + kFrames; ++frame) {
+  for (std::uint64_t frame = 0; frame < kWarm + kDrawnFrames; ++frame) {
     stages.app(signatureAt(frame, 60), frame % kSlots);
     for (std::size_t wall = 0; wall < walls; ++wall) {
       DrawList& list = lists[2 * wall + frame % 2];
