@@ -29,6 +29,7 @@ constexpr double kDepthFar = 20000;
 
 DrawList lookingThrough(const Wall& wall) {
   DrawList list = test::plainList();
+  list.sky.zenith = list.sky.horizon = list.sky.ground = {0, 0, 0};
   list.eyeCount = 2;
   for (std::uint32_t eye = 0; eye < 2; ++eye) {
     const EyeFrustum f = eyeFrustum(wall, Vec3(eye == 0 ? -0.032 : 0.032, 0, 0), {0.1, kDepthFar});
@@ -74,24 +75,6 @@ Quat slantedBy(Random& random, double most) {
   return Quat(Eigen::AngleAxisd(random.from(-most, most), random.within(1).normalized()));
 }
 
-test::Picture depthPicture(const MeshStore& meshes, const DrawList& list, std::uint32_t eye,
-                           std::uint32_t width, std::uint32_t height, RenderQuality quality,
-                           GlProviderKind kind) {
-  auto target = test::provider(kind)->create(width, height);
-  EXPECT_TRUE(target && !target.value()->makeCurrent());
-  test::Picture picture{width, height, {}};
-  picture.rgba.resize(std::size_t{width} * height * 4);
-  {
-    auto renderer =
-        Renderer::create(target.value()->gl(), target.value()->turns(), meshes, width, height, quality);
-    EXPECT_TRUE(renderer);
-    EXPECT_FALSE(renderer.value()->draw(list, eye));
-    EXPECT_FALSE(renderer.value()->read(eye, picture.rgba));
-  }
-  target.value()->release();
-  return picture;
-}
-
 std::size_t coloured(const test::Picture& picture, int channel) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
@@ -114,21 +97,24 @@ const NamedQuality kDepthQualities[] = {
 };
 
 /// The picture of both is that of the near ones alone, in either order.
-void expectNearOnes(const SheetPairs& pairs, std::uint32_t width, std::uint32_t height, GlProviderKind kind) {
-  for (const NamedWall& w : kDepthWalls)
-    for (const NamedQuality& q : kDepthQualities)
-      for (const std::uint32_t eye : {0u, 1u}) {
-        DrawList list = lookingThrough(w.wall);
-        list.opaque = pairs.reds;
-        const auto near = depthPicture(pairs.meshes, list, eye, width, height, q.quality, kind);
-        EXPECT_GT(coloured(near, 0), 5u) << w.name;
-        for (const bool greenFirst : {false, true}) {
-          list.opaque = pairs.both(greenFirst);
-          const auto both = depthPicture(pairs.meshes, list, eye, width, height, q.quality, kind);
-          ASSERT_EQ(coloured(both, 1), 0u) << w.name << ", " << q.name << ", eye " << eye;
-          ASSERT_EQ(both, near) << w.name << ", " << q.name << ", eye " << eye;
-        }
-      }
+void expectNearOnes(const SheetPairs& pairs, std::uint32_t width, std::uint32_t height,
+                    GlProviderKind kind = GlProviderKind::OsMesa, std::uint32_t walls = 4) {
+  for (const NamedQuality& q : kDepthQualities) {
+    test::Stage stage(pairs.meshes, width, height, kind, q.quality);
+    for (std::uint32_t i = 0; i < 2 * walls; ++i) {
+      const NamedWall& w = kDepthWalls[i / 2];
+      DrawList list = lookingThrough(w.wall);
+      list.opaque = pairs.reds;
+      const auto near = stage.draw(list, i % 2);
+      EXPECT_GT(coloured(near, 0), 5u) << w.name;
+      list.opaque = pairs.both(i / 2 % 2 == 0);
+      const auto both = stage.draw(list, i % 2);
+      ASSERT_EQ(coloured(both, 1), 0u) << w.name << ", " << q.name << ", eye " << i % 2;
+      ASSERT_EQ(both, near) << w.name << ", " << q.name << ", eye " << i % 2;
+      list.opaque = pairs.both(i / 2 % 2 != 0);
+      ASSERT_EQ(stage.draw(list, i % 2), near) << w.name << ", " << q.name << ", eye " << i % 2;
+    }
+  }
 }
 
 /// At so many metres, so far apart.
@@ -144,7 +130,7 @@ TEST(PictureDepth, TheNearerOfTwoSheetsIsSeenAtOneMetreAndAtKilometresInOnePictu
       pairs.add(along * direction.normalized(), 0.2 * along, kApart[i][1],
                 slantedBy(random, i == 0 ? 0.3 : 1));
     }
-    expectNearOnes(pairs, width, height, GlProviderKind::OsMesa);
+    expectNearOnes(pairs, width, height);
   }
 }
 
@@ -154,7 +140,7 @@ TEST(PictureDepth, ThroughEglAsWell) {
   for (int i = 0; i < 4; ++i)
     pairs.add(kApart[i][0] * Vec3(-0.45 + 0.3 * i, 1, 0.1).normalized(), 0.2 * kApart[i][0], kApart[i][1],
               slantedBy(random, 0.3));
-  expectNearOnes(pairs, 40, 30, GlProviderKind::Egl);
+  expectNearOnes(pairs, 40, 30, GlProviderKind::Egl, 1);
 }
 
 TEST(PictureDepth, SmallSheetsThatAreDrawnWithoutOpenGlAreOrderedAlike) {
@@ -166,7 +152,7 @@ TEST(PictureDepth, SmallSheetsThatAreDrawnWithoutOpenGlAreOrderedAlike) {
       pairs.add(along * Vec3(0.1 * x, 1, 0.1 * z).normalized(), 0.05 * along, 2.5e-4 * along,
                 slantedBy(random, 0.3));
     }
-  expectNearOnes(pairs, 120, 90, GlProviderKind::OsMesa);
+  expectNearOnes(pairs, 120, 90);
 }
 
 /// Floors and roofs begin beside the eye and end at the horizon.
@@ -181,7 +167,7 @@ TEST(PictureDepth, SurfacesThatReachFromTheEyeToTheHorizonAreOrderedToo) {
     X.translation() *= 1.05;
     pairs.greens.push_back(test::place(pairs.green, X));
   }
-  expectNearOnes(pairs, 64, 48, GlProviderKind::OsMesa);
+  expectNearOnes(pairs, 64, 48);
 }
 
 /// Where a head turns or moves after Cull, lists keep their origin.
@@ -196,10 +182,10 @@ TEST(PictureDepth, HoldsWhereTheListsOriginIsFarFromTheWorldsAndFromTheEye) {
       DrawList list = lookingThrough(kDepthWalls[0].wall);
       for (DrawEye& e : list.eyes) e.view.topRightCorner<3, 1>() -= e.view.topLeftCorner<3, 3>() * eye;
       list.opaque = pairs.reds;
-      const auto near = depthPicture(pairs.meshes, list, 0, 64, 48, q.quality, GlProviderKind::OsMesa);
+      test::Stage stage(pairs.meshes, 64, 48, GlProviderKind::OsMesa, q.quality);
+      const auto near = stage.draw(list);
       list.opaque = pairs.both(true);
-      EXPECT_EQ(depthPicture(pairs.meshes, list, 0, 64, 48, q.quality, GlProviderKind::OsMesa), near)
-          << q.name;
+      EXPECT_EQ(stage.draw(list), near) << q.name;
     }
   }
 }
@@ -212,12 +198,10 @@ TEST(PictureDepth, TheSkyIsBehindWhatIsFarthestAndHidesWhatIsBeyond) {
     DrawList list = lookingThrough(kDepthWalls[0].wall);
     list.sky = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {1, 1, 1}, 0};
     list.opaque = {pairs.reds[0]};
-    const auto at = [&] {
-      return depthPicture(pairs.meshes, list, 0, 32, 24, q.quality, GlProviderKind::OsMesa);
-    };
-    EXPECT_GT(at().at(16, 12)[0], 200) << q.name;
+    test::Stage stage(pairs.meshes, 32, 24, GlProviderKind::OsMesa, q.quality);
+    EXPECT_GT(stage.draw(list).at(16, 12)[0], 200) << q.name;
     list.opaque[0].model[7] = 20010;
-    EXPECT_LT(at().at(16, 12)[0], 100) << q.name;
+    EXPECT_LT(stage.draw(list).at(16, 12)[0], 100) << q.name;
   }
 }
 

@@ -302,7 +302,7 @@ TEST(PictureRenderer, LeavesOutWhatIsNotFinite) {
 TEST(PictureRenderer, DrawsAnEmptyListAndTooManyLights) {
   MeshStore meshes;
   Stage stage(meshes, 16, 16);
-  DrawList list;
+  DrawList list = test::plainList();
   EXPECT_FALSE(stage.renderer().draw(list));
   list.lights.resize(DrawList::kMaxLights + 1);
   EXPECT_TRUE(stage.renderer().draw(list));
