@@ -202,7 +202,7 @@ TEST(SenderClock, DatagramsThatOvertakeOthersCostThoseOthersOnly) {
       EXPECT_LT(head.worst(), 0.03 + 0.6 / rate) << rate << " Hz, step " << step;
       EXPECT_NEAR(static_cast<double>(head.counts.late), 4 * rate / 7, 3);
       const bool told = !head.told.empty();
-      EXPECT_EQ(told, step != 0);
+      EXPECT_EQ(told, step < 0) << "forwards nothing had been taken for late";
     }
 }
 
@@ -211,7 +211,7 @@ TEST(SenderClock, EverySenderHasAClockOfItsOwn) {
     SwayingHead all{.step = step, .trackers = {"head", "wand", "foot"}};
     EXPECT_LT(all.worst(), 0.03);
     EXPECT_LE(all.counts.late, 3U);
-    EXPECT_EQ(all.told.size(), 3U) << "each is told once";
+    EXPECT_EQ(all.told.size(), step < 0 ? 3U : 0U) << "each is told once, where older stamps came";
   }
 }
 
@@ -270,6 +270,7 @@ TEST(SenderClock, AButtonIsNotHeldForEverBecauseTheClockWasSetMeanwhile) {
       if (pad.held() == 0) continue;
       // Within a tenth of a second it may have been overtaken; what is said next tells.
       EXPECT_LT(held, 100 * kMs);
+      if (back < held + 50 * kMs) continue;  // no: that is newer than the first one again
       pad.now += 50 * kMs;
       pad.button(pad.now - back, 2, true);
       EXPECT_EQ(pad.held(), 2U) << back << " " << held;
