@@ -27,23 +27,11 @@ const MaskQuality kMaskQualities[] = {
     {"plain, all by OpenGL", {Look::Plain, 1, 1024, false, false}},
 };
 
-test::Picture maskDrawn(const MeshStore& meshes, const DrawList& list, RenderQuality quality,
-                        std::uint32_t width = 64, std::uint32_t height = 64) {
-  auto target = test::provider(GlProviderKind::OsMesa)->create(width, height);
-  EXPECT_TRUE(target && !target.value()->makeCurrent());
-  test::Picture picture{width, height, {}};
-  picture.rgba.resize(std::size_t{width} * height * 4);
-  {
-    auto renderer =
-        Renderer::create(target.value()->gl(), target.value()->turns(), meshes, width, height, quality);
-    EXPECT_TRUE(renderer);
-    const auto wrong = renderer.value()->draw(list, 0);
-    EXPECT_FALSE(wrong) << wrong->message;
-    EXPECT_FALSE(renderer.value()->read(0, picture.rgba));
-  }
-  target.value()->release();
-  return picture;
-}
+/// Draws with one renderer, whatever is added to the store.
+struct MaskStage : test::Stage {
+  MaskStage(const MeshStore& meshes, const RenderQuality& quality, std::uint32_t side = 64)
+      : Stage(meshes, side, side, GlProviderKind::OsMesa, quality) {}
+};
 
 /// Solid where `there` says so; of a colour.
 template <class F>
@@ -118,12 +106,13 @@ DrawList blueList() {
 
 TEST(PictureMask, ANearCardCoversAFarOneAndIsSeenThroughWhereItHasHoles) {
   for (const MaskQuality& q : kMaskQualities)
-    for (const bool farFirst : {false, true})
-      for (const std::uint32_t side : {64u, 40u}) {
-        MeshStore meshes;
+    for (const std::uint32_t side : {64u, 40u}) {
+      MeshStore meshes;
+      MaskStage stage(meshes, q.quality, side);
+      for (const bool farFirst : {false, true}) {
         DrawList list = test::plainList();
         list.opaque = {place(meshes.add(twoCards(farFirst)))};
-        const auto picture = maskDrawn(meshes, list, q.quality, side, side);
+        const auto picture = stage.draw(list);
         // Red in the left half; green from a quarter to three quarters, of which the left part is hidden.
         EXPECT_NEAR(double(ofColour(picture, 0)), side * side / 2.0, 2.0 * side) << q.name;
         EXPECT_NEAR(double(ofColour(picture, 1)), side * side / 4.0, 2.0 * side) << q.name;
@@ -132,6 +121,7 @@ TEST(PictureMask, ANearCardCoversAFarOneAndIsSeenThroughWhereItHasHoles) {
         EXPECT_LT(picture.at(3 * side / 8, side / 2)[1], 60);
         EXPECT_GT(picture.at(5 * side / 8, side / 2)[1], 200) << "green through the hole";
       }
+    }
 }
 
 /// Alpha at or above the cutoff is there, whichever factor it comes from.
@@ -145,11 +135,12 @@ TEST(PictureMask, AlphaIsTheProductOfPictureFactorAndVertexColour) {
                {0.6f, 0.5f, 200, 255, false}, {0.6f, 0.5f, 255, 200, false}, {0.4f, 0.5f, 255, 255, false},
                {0.4f, 0.3f, 255, 255, true},  {1, 1, 255, 255, true},        {1, 1, 254, 255, false},
                {1, 1.5f, 255, 255, false},    {1, 0.004f, 0, 255, false}};
-  for (const MaskQuality& q : kMaskQualities)
+  for (const MaskQuality& q : kMaskQualities) {
+    MeshStore meshes;
+    MaskStage stage(meshes, q.quality, 16);
     for (const bool pictured : {true, false})
       for (const auto& c : cases) {
         if (!pictured && c.picture != 255) continue;
-        MeshStore meshes;
         Material material = masked(1, 0, 0, c.cutoff);
         material.baseColour[3] = c.factor;
         auto mesh = pictured ? card(material, leaf(
@@ -158,10 +149,11 @@ TEST(PictureMask, AlphaIsTheProductOfPictureFactorAndVertexColour) {
         mesh->colours.assign(mesh->positions.size(), {255, 255, 255, c.vertex});
         DrawList list = test::plainList();
         list.opaque = {place(meshes.add(std::move(mesh)))};
-        const std::size_t red = ofColour(maskDrawn(meshes, list, q.quality, 16, 16), 0);
+        const std::size_t red = ofColour(stage.draw(list), 0);
         EXPECT_EQ(red, c.seen ? 256u : 0u) << q.name << ", " << c.factor << ", " << c.cutoff << ", "
                                            << int(c.picture) << ", " << int(c.vertex);
       }
+  }
 }
 
 TEST(PictureMask, SimplifiedLevelsAndMirroredThingsHaveTheSameHoles) {
@@ -172,13 +164,14 @@ TEST(PictureMask, SimplifiedLevelsAndMirroredThingsHaveTheSameHoles) {
     const MeshId id = meshes.add(std::move(mesh));
     DrawList list = blueList();
     list.opaque = {place(id)};
-    const auto full = maskDrawn(meshes, list, q.quality);
+    MaskStage stage(meshes, q.quality);
+    const auto full = stage.draw(list);
     list.opaque[0].level = 1;
-    EXPECT_EQ(maskDrawn(meshes, list, q.quality), full) << q.name;
+    EXPECT_EQ(stage.draw(list), full) << q.name;
     Affine mirror = Affine::Identity();
     mirror.linear()(0, 0) = -1;
     list.opaque = {place(id, mirror)};
-    const auto mirrored = maskDrawn(meshes, list, q.quality);
+    const auto mirrored = stage.draw(list);
     EXPECT_NEAR(double(ofColour(mirrored, 0)), double(ofColour(full, 0)), 128) << q.name;
     EXPECT_GT(mirrored.at(48, 32)[0], 200) << q.name;
     EXPECT_LT(mirrored.at(16, 32)[0], 60) << q.name;
@@ -192,28 +185,33 @@ TEST(PictureMask, SmallCardsHaveTheirHolesToo) {
   byVertex->colours = {{255, 255, 255, 255}, {255, 255, 255, 0}, {255, 255, 255, 0}, {255, 255, 255, 255}};
   const MeshId ids[] = {meshes.add(card(masked(1, 0, 0), leftHalf())), meshes.add(std::move(byVertex)),
                         meshes.add(sheetAt(matt(1, 0, 0), 0))};
-  std::array<std::size_t, 3> red{};
-  for (std::size_t kind = 0; kind < 3; ++kind) {
-    DrawList list = test::plainList();
-    list.eyes[0] = test::lookAt(Vec3(0, -10, 0), Vec3::Zero(), 0.2, 1);
-    for (int i = 0; i < 64; ++i) {
-      Affine X = Affine::Identity();
-      X.translation() = Vec3(0.25 * (i % 8) - 0.875, 0, 0.25 * (i / 8) - 0.875);
-      X.linear() *= 0.1;
-      list.opaque.push_back(place(ids[kind], X));
+  std::array<std::size_t, 3> red{}, byOpenGl{};
+  for (const bool here : {true, false}) {
+    MaskStage stage(meshes,
+                    here ? RenderQuality::plain() : RenderQuality{Look::Plain, 1, 1024, false, false});
+    for (std::size_t kind = 0; kind < 3; ++kind) {
+      DrawList list = test::plainList();
+      list.eyes[0] = test::lookAt(Vec3(0, -10, 0), Vec3::Zero(), 0.2, 1);
+      for (int i = 0; i < 64; ++i) {
+        Affine X = Affine::Identity();
+        X.translation() = Vec3(0.25 * (i % 8) - 0.875, 0, 0.25 * (i / 8) - 0.875);
+        X.linear() *= 0.1;
+        list.opaque.push_back(place(ids[kind], X));
+      }
+      (here ? red : byOpenGl)[kind] = ofColour(stage.draw(list), 0);
     }
-    red[kind] = ofColour(maskDrawn(meshes, list, RenderQuality::plain(), 64, 64), 0);
-    const auto byOpenGl = maskDrawn(meshes, list, {Look::Plain, 1, 1024, false, false}, 64, 64);
-    EXPECT_NEAR(double(red[kind]), double(ofColour(byOpenGl, 0)), kind == 2 ? 8 : 0);
   }
+  for (std::size_t kind = 0; kind < 3; ++kind)
+    EXPECT_NEAR(double(red[kind]), double(byOpenGl[kind]), kind == 2 ? 8 : 0) << kind;
   for (const std::size_t kind : {0u, 1u}) EXPECT_NEAR(double(red[kind]), red[2] / 2.0, red[2] / 8.0) << kind;
 }
 
 /// What is as fine as half a pixel is there for as large a part as near by.
 TEST(PictureMask, FarAwayAsMuchOfItIsThereAsNearBy) {
-  for (const std::uint32_t holes : {1u, 2u, 4u, 8u})
-    for (const MaskQuality& q : kMaskQualities) {
-      MeshStore meshes;
+  for (const MaskQuality& q : kMaskQualities) {
+    MeshStore meshes;
+    MaskStage stage(meshes, q.quality, 61);
+    for (const std::uint32_t holes : {1u, 2u, 4u, 8u}) {
       const MeshId id = meshes.add(card(masked(1, 0, 0), leaf(64, [&](std::uint32_t x, std::uint32_t y) {
                                           return x / holes % 2 && y / holes % 2;
                                         })));
@@ -224,12 +222,13 @@ TEST(PictureMask, FarAwayAsMuchOfItIsThereAsNearBy) {
         X.linear() *= 1 / 18.3;
         list.opaque.push_back(place(id, X));
       }
-      const auto picture = maskDrawn(meshes, list, q.quality, 61, 61);
+      const auto picture = stage.draw(list);
       double red = 0;
       for (std::size_t i = 0; i < picture.rgba.size(); i += 4) red += picture.rgba[i] > 100;
       const double covered = 61 * 61 * 0.765;  // by the cards
       EXPECT_NEAR(red / covered, 0.25, 0.15) << q.name << ", " << holes;
     }
+  }
 }
 
 TEST(MaskLevels, KeepThePartThatIsThereOrEnd) {
@@ -270,9 +269,12 @@ TEST(MaskLevels, KeepThePartThatIsThereOrEnd) {
 
 /// Seen from above: a card over the ground, under a sun that stands straight above both.
 TEST(PictureMask, TheShadowHasTheHolesOfTheCard) {
+  MeshStore meshes;
+  MaskStage stage(meshes, {});
+  std::uint64_t key = 0;
   for (const bool byVertex : {false, true})
     for (const bool moves : {false, true}) {
-      MeshStore meshes;
+      ++key;
       MeshMaker flat(masked(0.6f, 0.6f, 0.6f));
       flat.texture(byVertex ? leaf(4, [](auto, auto) { return true; }) : leftHalf());
       flat.quad({-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0});
@@ -297,12 +299,13 @@ TEST(PictureMask, TheShadowHasTheHolesOfTheCard) {
       list.shadows.light = 0;
       list.shadows.axes = {1, 0, 0, 0, 1, 0, 0, 0, 1};
       for (DrawShadowRing& ring : list.shadows.rings) {
+        ring.stillKey = ring.movingKey = key;
         if (moves)
           ring.moving = {caster}, ring.movingArea = {-1, -1, 1, 1};
         else
           ring.still = std::make_shared<std::vector<DrawItem>>(1, caster);
       }
-      const auto picture = maskDrawn(meshes, list, {});
+      const auto picture = stage.draw(list);
       const auto at = [&](double x, double y) {  // [m]
         const double scale = 32 / (10 * std::tan(0.3));
         return int(picture.at(static_cast<std::uint32_t>(32 + scale * x),
@@ -322,10 +325,11 @@ TEST(PictureGlow, OnlyWhatThePictureOfLightShowsGlows) {
   for (std::uint32_t y = 0; y < 16; ++y)
     for (std::uint32_t x = 0; x < 16; ++x)
       for (const int c : {255, 128, 0, 0}) lamp.rgba.push_back(static_cast<std::uint8_t>(x < 8 ? c : 0));
-  for (const MaskQuality& q : kMaskQualities)
+  for (const MaskQuality& q : kMaskQualities) {
+    MeshStore meshes;
+    MaskStage stage(meshes, q.quality);
     for (const bool pictured : {false, true})
       for (const float factor : {1.0f, 0.25f}) {
-        MeshStore meshes;
         Material material = matt(0.8f, 0.8f, 0.8f);
         material.emissive = {factor, factor, 1};
         auto mesh = card(material, lamp);
@@ -337,7 +341,7 @@ TEST(PictureGlow, OnlyWhatThePictureOfLightShowsGlows) {
         DrawList list = test::plainList();
         list.sky.ambient = {0, 0, 0};
         list.opaque = {place(meshes.add(std::move(mesh)))};
-        const auto picture = maskDrawn(meshes, list, q.quality);
+        const auto picture = stage.draw(list);
         const auto *lit = picture.at(16, 20), *dark = picture.at(48, 20);
         EXPECT_EQ(int(dark[0]) + dark[1] + dark[2], 0) << q.name;
         const bool bent = q.quality.look == Look::Full && factor == 1;  // by softClip
@@ -346,10 +350,11 @@ TEST(PictureGlow, OnlyWhatThePictureOfLightShowsGlows) {
         EXPECT_LT(lit[1], 140) << q.name;
         EXPECT_EQ(lit[2], 0) << q.name;
         list.sky.ambient = {1, 1, 1};
-        const auto day = maskDrawn(meshes, list, q.quality);
+        const auto day = stage.draw(list);
         EXPECT_GT(day.at(48, 20)[2], 30) << q.name << ": lit by day";
         EXPECT_NEAR(day.at(48, 20)[0], day.at(48, 20)[2], pictured ? 130 : 1) << q.name;
       }
+  }
 }
 
 TEST(PictureGlow, AMaskedLampHasHolesAndGlowsBetweenThem) {
@@ -363,7 +368,8 @@ TEST(PictureGlow, AMaskedLampHasHolesAndGlowsBetweenThem) {
     DrawList list = blueList();
     list.sky.ambient = {0, 0, 0};
     list.opaque = {place(meshes.add(std::move(mesh)))};
-    const auto picture = maskDrawn(meshes, list, q.quality);
+    MaskStage stage(meshes, q.quality);
+    const auto picture = stage.draw(list);
     EXPECT_GT(picture.at(16, 32)[1], 150) << q.name;
     EXPECT_EQ(picture.at(16, 32)[0], 0) << q.name;
     EXPECT_LT(picture.at(48, 32)[1], 60) << q.name;
@@ -381,7 +387,8 @@ TEST(ProgramWallWorkers, DrawHolesAndPicturesOfLightAsThisProcessDoes) {
     list.opaque = {place(meshes.add(card(masked(1, 0, 0), leftHalf()))),
                    place(meshes.add(std::move(shining)))};
     DrawingInWorkersParts parts{.meshes = meshes, .walls = {{48, 36}}, .names = {"w"}};
-    parts.quality = look == Look::Full ? RenderQuality{} : RenderQuality::plain();
+    const RenderQuality quality = look == Look::Full ? RenderQuality{} : RenderQuality::plain();
+    parts.quality = quality;
     parts.program = std::filesystem::path(STADION_BINARY_DIR) / "bin" / "stadion-wall";
     DrawingInWorkers drawing(std::move(parts));
     const Failure failure = drawing.open(0);
@@ -389,9 +396,8 @@ TEST(ProgramWallWorkers, DrawHolesAndPicturesOfLightAsThisProcessDoes) {
     ASSERT_FALSE(drawing.draw(0, list, false).failure);
     std::vector<std::uint8_t> rgba(48 * 36 * 4);
     ASSERT_FALSE(drawing.read(0, 0, rgba));
-    EXPECT_EQ(
-        rgba,
-        maskDrawn(meshes, list, look == Look::Full ? RenderQuality{} : RenderQuality::plain(), 48, 36).rgba);
+    test::Stage here(meshes, 48, 36, GlProviderKind::OsMesa, quality);
+    EXPECT_EQ(rgba, here.draw(list).rgba);
   }
 }
 
