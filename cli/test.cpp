@@ -47,9 +47,9 @@ TestResults readResults(const std::string& file) {
   return testResultsOf(std::string(std::istreambuf_iterator<char>(in), {}));
 }
 
-/// Many tests wait for a good part of their time: twice as many as there are processors keep these busy.
+/// More would wait less for each other, but would take the processors from shows that play in real time.
 unsigned testsAtATime() {
-  return 2 * std::max(2U, std::thread::hardware_concurrency());
+  return std::max(2U, std::thread::hardware_concurrency());
 }
 
 /// Names each skipped test with its reason, then prints the closing line.
