@@ -9,6 +9,7 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <mutex>
 #include <new>
 #include <thread>
 #include <utility>
@@ -135,6 +136,8 @@ void FrameLoop::runPipelined() {
   // All walls and App: before all are ready none draws, since they may share a rasteriser, and show time
   // stands still.
   SwapBarrier opened(options_.walls + 1), warm(options_.walls + 1);
+  std::once_flag warming;
+  Clock::time_point warmUpBegan{}, warmUpEnded{};  // settled before `warm` lets anything go on
 
   StageThreads threads;
   threads.app = [&] {
@@ -149,7 +152,8 @@ void FrameLoop::runPipelined() {
       slots.endWrite(*slot, *ticket);
       if (!ticket->drawn || std::exchange(isWarm, true)) continue;
       const Clock::time_point began = Clock::now();
-      if (!waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return warm.arrive([] {}); })) break;
+      const auto end = [&] { warmUpEnded = Clock::now(); };
+      if (!waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return warm.arrive(end); })) break;
       warmedUp(Clock::now() - began);
     }
     slots.finish();
@@ -173,10 +177,11 @@ void FrameLoop::runPipelined() {
     bool isWarm = false;
     while (DrawList* list = waited(Span::ForDraw, kNoFrame, wall, next)) {
       if (list->ticket.drawn && !std::exchange(isWarm, true)) {
-        const Clock::time_point began = Clock::now();
+        std::call_once(warming, [&] { warmUpBegan = Clock::now(); });
         if (list->filling->isWhole() && !warmUpStage(wall, *list)) return;
-        if (!waited(Span::ForWalls, kNoFrame, wall, [&] { return warm.arrive([] {}); })) return;
-        list->ticket.delay(Clock::now() - began);
+        const auto end = [&] { warmUpEnded = Clock::now(); };
+        if (!waited(Span::ForWalls, kNoFrame, wall, [&] { return warm.arrive(end); })) return;
+        list->ticket.delay(warmUpEnded - warmUpBegan);  // on all walls the same: it is one frame
       }
       if (!list->filling->isVoid() && !drawStage(wall, *list)) return;
       if (list->filling->isCutShort()) return;
