@@ -1,5 +1,5 @@
 #pragma once
-/// The end of a message about a word that nobody knows.
+/// The end of a message about an unknown word.
 
 #include <string>
 

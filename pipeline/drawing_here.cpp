@@ -29,7 +29,7 @@ Failure DrawingHere::open(std::size_t wall) {
   return {};
 }
 
-// Nobody observes it, and what it draws counts for nothing.
+// Without a probe, and left out of the totals.
 Failure DrawingHere::warmUp(std::size_t wall, const DrawList& list) {
   DrawOutcome outcome = draw(wall, list, nullptr);
   if (!outcome.failure) contexts_.renderer(wall).forgetTotals();

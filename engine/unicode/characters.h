@@ -2,7 +2,7 @@
 /// Characters of UTF-8 text: which of them cannot be seen, and which look like others.
 ///
 /// A *hidden* character leaves no mark or only a gap: ignorable, format and control characters and all blanks
-/// but those of ASCII. In a name it is a mistake that nobody finds by looking. Only the joiners U+200C and
+/// but those of ASCII. In a name it is a mistake that cannot be seen. Only the joiners U+200C and
 /// U+200D may stand in words, where their script needs them: between letters of Arabic and its relatives, and
 /// after the virama of an Indic script.
 ///

@@ -228,7 +228,7 @@ private:
   std::unique_ptr<ShadowMaps> shadows_;            ///< from the first list with shadows on
   bool noShadows_ = false;                         ///< this OpenGL cannot
   const std::function<bool()>* giveUp_ = nullptr;  ///< while a list is drawn
-  FrameProbe* probe_ = nullptr;                    ///< likewise; null = nobody asks
+  FrameProbe* probe_ = nullptr;                    ///< likewise; null = none
   std::unique_ptr<DrawSampler> sampler_;           ///< from the first frame on that is sampled
   DrawSample sample_ = DrawSample::None;           ///< of the list that is drawn
   float work_ = 0;                                 ///< all there is to draw, while somebody asks
