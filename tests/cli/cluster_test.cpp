@@ -185,7 +185,7 @@ TEST(ProgramCluster, WhoLeadsMayDieAndTheShowGoesOn) {
   EXPECT_EQ(times.rbegin()->first, summaryOf(cluster.out("front"))["last_frame"].get<std::uint64_t>());
 }
 
-/// A frame every two seconds: one machine holds the last one up until who leads is dead.
+/// A frame a second: one machine holds the last one up until who leads is dead.
 TEST(ProgramCluster, WhoLeadsMayDieInTheLastFrame) {
   const TemporaryFolder folder;
   const std::string file =
@@ -193,7 +193,7 @@ TEST(ProgramCluster, WhoLeadsMayDieInTheLastFrame) {
                                   "partition l" +
                                       std::to_string(getpid()) + "\n");
   const std::filesystem::path out = folder.path() / "out", one = folder.path() / "one";
-  const std::vector<std::string> show{kKick,   "--rate", "0.5",   "--frames", "4",    "--size",
+  const std::vector<std::string> show{kKick,   "--rate", "1",     "--frames", "6",    "--size",
                                       "16x12", "--look", "plain", "--input",  "none", "--hashes"};
   std::vector<std::string> cluster{stadionPath(), "cluster", file, "--pace", "lock", "--out", out},
       alone{"run", "--walls", "cave4", "--out", one};
@@ -201,13 +201,13 @@ TEST(ProgramCluster, WhoLeadsMayDieInTheLastFrame) {
   alone.insert(alone.end(), show.begin(), show.end());
   const std::string told = folder.path() / "told";
   const pid_t program = startProgram({cluster}, folder.path() / "said", told);
-  ASSERT_TRUE(becomes([&] { return swapTimesOf(out / "floor").contains(2); })) << fileContent(told);
+  ASSERT_TRUE(becomes([&] { return swapTimesOf(out / "floor").contains(4); })) << fileContent(told);
   const pid_t floor = processOf(file, "floor"), front = processOf(file, "front");
   ASSERT_TRUE(signalTo(floor, SIGSTOP));
-  std::this_thread::sleep_for(std::chrono::milliseconds(3000));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   signalTo(front, SIGKILL), signalTo(floor, SIGCONT);
   EXPECT_EQ(endOf(program), 0) << fileContent(told);
-  EXPECT_NE(fileContent(told).find("the show goes on after frame 3"), std::string::npos) << fileContent(told);
+  EXPECT_NE(fileContent(told).find("the show goes on after frame 5"), std::string::npos) << fileContent(told);
   ASSERT_EQ(stadionProgram(alone).status, 0);
   const std::set<std::string> wanted = hashesBelow(one);
   EXPECT_EQ(hashesBelow(out), wanted);
@@ -305,7 +305,8 @@ public:
   pid_t start(const std::string& node, const std::string& as) {
     return startProgram({{stadionPath(), "run",        kKick,    "--cluster", file_,    "--node",    node,
                           "--out",       as_(as),      "--size", "32x24",     "--look", "plain",     "--pace",
-                          "lock",        "--pictures", "none",   "--input",   "none",   "--seconds", "600"}},
+                          "lock",        "--pictures", "none",   "--input",   "none",   "--seconds", "600",
+                          "--hashes"}},
                         as_(as + ".said"), as_(as + ".told"));
   }
   bool tells(const std::string& as, const std::string& what) const {

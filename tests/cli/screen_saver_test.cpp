@@ -2,6 +2,7 @@
 /// longer.
 
 #include "pipeline/target/shared_library.h"
+#include "tests/cli/becomes.h"
 #include "tests/cli/desk.h"
 
 #include <chrono>
@@ -119,7 +120,7 @@ TEST(ProgramScreenSaver, WaitsForEveryKindOfOutputAndGoesOnWhenItEndsOrIsKilled)
   for (std::size_t i = 0; i < all.size(); ++i)
     i == 1 ? all[i].display->hands({"mousemove", "40", "30", "key", "Escape"}) : all[i].program->kill();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    EXPECT_TRUE(all[i].program->waitUntil([&] { return all[i].client->dark(); })) << kinds[i].name;
+    EXPECT_TRUE(becomes([&] { return all[i].client->dark(); })) << kinds[i].name;
     EXPECT_EQ(all[i].client->timeout(), 1) << kinds[i].name;
   }
 }
