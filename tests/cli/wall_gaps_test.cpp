@@ -152,16 +152,18 @@ TEST_P(ProgramWallGaps, TheOtherWallsGoOnWhileOneThatWasKilledOrStoppedIsReplace
       for (int i = 0; i < 30'000 && !condition(); ++i) std::this_thread::sleep_for(milliseconds(10));
       return condition();
     };
-    EXPECT_TRUE(waitFor([&] { return shown > 60 && wallProcesses().size() == 4; }));
+    EXPECT_TRUE(waitFor([&] { return shown > 60; }));
+    const std::size_t all = wallProcesses().size();
+    EXPECT_GE(all, 4U) << "one for each wall, or for each eye";
     for (const int signal : {SIGKILL, SIGSTOP}) {
       const std::vector<pid_t> before = wallProcesses();
-      if (before.size() != 4) return ADD_FAILURE() << before.size() << " processes";
+      if (before.size() != all) return ADD_FAILURE() << before.size() << " processes of " << all;
       const pid_t hit = before[2];
       const std::size_t then = shown;
       ::kill(hit, signal);
       EXPECT_TRUE(waitFor([&] {
         const std::vector<pid_t> now = wallProcesses();
-        return now.size() == 4 && std::ranges::find(now, hit) == now.end();
+        return now.size() == all && std::ranges::find(now, hit) == now.end();
       })) << signal;
       EXPECT_GT(shown, then) << "nothing was swapped meanwhile, signal " << signal;
       const std::size_t since = shown;
