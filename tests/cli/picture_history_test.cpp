@@ -16,7 +16,8 @@ class DrawnShow {
 public:
   using State = std::shared_ptr<const std::vector<std::uint8_t>>;
 
-  DrawnShow(const std::string& script, const std::string& input, GlProvider& provider, const State& state = {}) {
+  DrawnShow(const std::string& script, const std::string& input, GlProvider& provider,
+            const State& state = {}) {
     ShowOptions options;
     options.script = script, options.input = input, options.walls = "cave4", options.size = "64x48";
     options.assetRoots = {assetFolder()}, options.state = state, options.appThreads = 1;
@@ -70,8 +71,8 @@ std::string shownHere(const std::string& name) {
   return std::string(STADION_SOURCE_DIR) + "/scripts/" + name;
 }
 
-/// The visitor walks far, so that shadow rings follow; a thing goes round; others stand still, or have done so
-/// for long.
+/// The visitor walks far, so that shadow rings follow; a thing goes round; others stand still, or have done
+/// so for long.
 constexpr const char* kWalk = R"(
 light( direction="-1, 2, -3" )
 sky( haze=300 )
@@ -93,7 +94,8 @@ key head 4    3  2   1.7   turn 10 0 0  smooth
 TEST_P(PictureHistory, IsNotSeenAfterASnapshotNorWhereFramesWereNotDrawn) {
   HistoryCase c = GetParam();
   const TemporaryFolder folder;
-  if (c.script.empty()) c.script = folder.write("walk.evs", kWalk), c.input = folder.write("walk.input", kWalkInput);
+  if (c.script.empty())
+    c.script = folder.write("walk.evs", kWalk), c.input = folder.write("walk.input", kWalkInput);
   auto provider = openGlProvider(GlProviderKind::OsMesa);
   ASSERT_TRUE(provider) << provider.error().message;
   DrawnShow always(c.script, c.input, *provider.value()), seldom(c.script, c.input, *provider.value());
@@ -113,19 +115,29 @@ TEST_P(PictureHistory, IsNotSeenAfterASnapshotNorWhereFramesWereNotDrawn) {
       }
     }
     if (n < c.start || (n - c.start) % (c.frames / 3) != 2) continue;
-    restored.emplace_back(n, std::make_unique<DrawnShow>(c.script, c.input, *provider.value(), always.save()));
+    restored.emplace_back(n,
+                          std::make_unique<DrawnShow>(c.script, c.input, *provider.value(), always.save()));
     ASSERT_TRUE(*restored.back().second) << n;
   }
   EXPECT_GE(restored.size(), 3U);
 }
 
+std::string nameOf(const testing::TestParamInfo<HistoryCase>& show) {
+  return show.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Program, PictureHistory,
+                         testing::Values(HistoryCase{"kick", shownHere("kick.evs"), shownHere("kick.input"),
+                                                     0, 120},
+                                         HistoryCase{"crowd", shownHere("crowd.evs"), "none", 20, 30},
+                                         HistoryCase{"walk", "", "", 0, 240}),
+                         nameOf);
 INSTANTIATE_TEST_SUITE_P(
-    Shows, PictureHistory,
+    ProgramFull, PictureHistory,
     testing::Values(HistoryCase{"kick", shownHere("kick.evs"), shownHere("kick.input"), 0, 240},
                     HistoryCase{"olympia", shownHere("olympia.evs"), shownHere("olympia.input"), 1100, 60},
-                    HistoryCase{"crowd", shownHere("crowd.evs"), "none", 20, 60},
-                    HistoryCase{"walk", "", "", 0, 240}),
-    [](const testing::TestParamInfo<HistoryCase>& show) { return show.param.name; });
+                    HistoryCase{"crowd", shownHere("crowd.evs"), "none", 20, 60}),
+    nameOf);
 
 }  // namespace
 }  // namespace stadion
