@@ -36,6 +36,8 @@ struct World::Core::CrowdStep {
   std::vector<Vec3> points;  ///< of each contact
   std::vector<ManifoldPoint> found;
   std::vector<RigidBody*> near;
+  std::vector<Bearing> bearings;        ///< of one member on colliders
+  std::vector<std::uint32_t> features;  ///< of each bearing
   Crowd crowd;
 
   bool has(const RigidBody& b) const { return b.slot < members.size() && members[b.slot].body == &b; }

@@ -22,7 +22,8 @@ bool strikesWithAPoint(const Side& s, const Mobile& m, const Vec3& n) {
 }  // namespace
 
 std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau, const Gap& first,
-                                        Mobile& ma, Mobile& mb, double restitution, double friction) {
+                                        Mobile& ma, Mobile& mb, double restitution, double friction,
+                                        std::vector<PatchSide>& beside) {
   const auto closing = [&](const Gap& g) {
     return g.normal.dot(mb.velocityAt(g.point) - ma.velocityAt(g.point));
   };
@@ -30,32 +31,54 @@ std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau
   if (!(speed > 0) || strikesWithAPoint(a, ma, first.normal) || strikesWithAPoint(b, mb, first.normal))
     return {};
   std::vector<ManifoldPoint> points;
-  manifold(a, b, tau, std::max(first.distance, 0.0) + kTogether, points);
   std::vector<SolverContact> contacts;
-  for (const ManifoldPoint& p : points) {
-    const double comes = closing(p.gap);
-    if (p.gap.normal.dot(first.normal) < kSameSide || !(p.gap.distance < kSoon * comes)) continue;
-    SolverContact c;
-    c.b = 1;
-    c.placeAt(p.gap.point, p.gap.normal, ma.p, mb.p);
-    c.friction = friction, c.floor = restitution * comes;
-    contacts.push_back(c);
-  }
+  std::vector<PatchSide*> whose;  // null: b's
+  const auto gather = [&](const Side& side, PatchSide* part, double bounce, double grip) {
+    manifold(a, side, tau, std::max(first.distance, 0.0) + kTogether, points);
+    for (const ManifoldPoint& p : points) {
+      const double comes = closing(p.gap);
+      if (p.gap.normal.dot(first.normal) < kSameSide || !(p.gap.distance < kSoon * comes)) continue;
+      SolverContact c;
+      c.b = 1;
+      c.placeAt(p.gap.point, p.gap.normal, ma.p, mb.p);
+      c.friction = grip, c.floor = bounce * comes;
+      contacts.push_back(c), whose.push_back(part);
+      if (part) part->closing = std::max(part->closing, comes);
+    }
+  };
+  gather(b, nullptr, restitution, friction);
+  for (PatchSide& part : beside) part.closing = 0, gather(part.side, &part, part.restitution, part.friction);
   if (contacts.size() < 2) return {};
   std::vector<Mobile> mobiles{ma, mb};
   if (!solveContacts(mobiles, contacts)) return {};
-  PatchImpact sum;
+  struct Sum {
+    Vec3 impulse = Vec3::Zero(), arm = Vec3::Zero();
+    double pushed = 0;
+  };
   double work = 0, pushed = 0;
   const std::vector<Mobile> before{ma, mb};
-  for (const SolverContact& c : contacts) {
-    work += 0.5 * c.impulse.dot(c.velocity(before) + c.velocity(mobiles));
-    sum.impulse += c.push * c.impulse;
-    sum.middle += c.impulse[0] * c.pushA, pushed += c.impulse[0];
+  const auto sumOf = [&](const PatchSide* part) {
+    Sum sum;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (whose[i] != part) continue;
+      const SolverContact& c = contacts[i];
+      work += 0.5 * c.impulse.dot(c.velocity(before) + c.velocity(mobiles));
+      sum.impulse += c.push * c.impulse;
+      sum.arm += c.impulse[0] * c.pushA, sum.pushed += c.impulse[0];
+    }
+    pushed += sum.pushed;
+    return sum;
+  };
+  const Sum own = sumOf(nullptr);
+  for (PatchSide& part : beside) {
+    const Sum sum = sumOf(&part);
+    part.impulse = sum.impulse;
+    part.middle = sum.pushed > 0 ? Vec3(ma.p + sum.arm / sum.pushed) : first.point;
   }
   if (work > 0 || !(pushed > 0)) return {};
-  sum.middle = ma.p + sum.middle / pushed;
+  const PatchImpact result{own.impulse, own.pushed > 0 ? Vec3(ma.p + own.arm / own.pushed) : first.point};
   ma = mobiles[0], mb = mobiles[1];
-  return sum;
+  return result;
 }
 
 }  // namespace stadion

@@ -21,10 +21,13 @@ struct Local {
   std::int32_t triangle;
 };
 
+constexpr double kNoWay =
+    1e-12;  ///< points as near as this have no direction from each other but rounding's [m]
+
 Local towards(const Vec3& c, const Vec3& q, double r, const Vec3& fallback) {
   const Vec3 d = c - q;
   const double n = d.norm();
-  return {n - r, q, n > 0 ? Vec3(d / n) : fallback, false, -1};
+  return {n - r, q, n > kNoWay ? Vec3(d / n) : fallback, false, -1};
 }
 
 Local localGap(const Vec3& c, double r, const BallShape& s, Within) {
@@ -36,7 +39,7 @@ Local localGap(const Vec3& c, double r, const BallShape& s, Within) {
 Local localGap(const Vec3& c, double r, const BoxShape& s, Within) {
   const Vec3 p = s.pose.q.conjugate() * (c - s.pose.p), inside = s.half - p.cwiseAbs();
   int axis = 0;
-  if (inside.minCoeff(&axis) > 0) {  // the centre is inside: out through the nearest face
+  if (inside.minCoeff(&axis) > -kNoWay) {  // the centre is inside: out through the nearest face
     Vec3 n = Vec3::Zero();
     n[axis] = p[axis] < 0 ? -1 : 1;
     Vec3 q = p;
@@ -100,7 +103,7 @@ Local localGap(const Vec3& c, double r, const MeshShape& s, Within within) {
   if (s.tree.closed() && t.normal.dot(c - at.point) < 0) {  // inside: out the near way
     const double depth = (c - at.point).norm();
     l.distance = -depth - r;
-    l.normal = depth > 0 ? Vec3((at.point - c) / depth) : t.normal;
+    l.normal = depth > kNoWay ? Vec3((at.point - c) / depth) : t.normal;
   }
   return l;
 }

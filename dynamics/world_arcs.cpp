@@ -338,8 +338,14 @@ void World::Core::freeze(RigidBody& b, double tau) {
   setArc(b, tau, Path::still(b.position(tau)), Spin::still(b.orientation(tau)), kForever, BodyMode::Rest);
 }
 
-/// Looks for the face beyond the edge that the ball has reached: true if it rolls on in the same plane.
-bool World::Core::crossEdge(RigidBody& b, double tau) {
+/// Looks for the face beyond the edge that the ball has reached: true if it rolls on in the same plane, or in
+/// one that is `lift` higher.
+bool World::Core::crossEdge(RigidBody& b, double tau, double& lift) {
+  return crossFold(b, tau) || crossSeam(b, tau, lift);
+}
+
+/// The same within one mesh.
+bool World::Core::crossFold(RigidBody& b, double tau) const {
   if (b.support.triangle < 0) return false;
   const Collider* c = collider(b.support.on.id);
   if (!c) return false;
@@ -382,10 +388,12 @@ void World::Core::reachHorizon(RigidBody& b, double tau) {
   const Vec3 p = b.position(tau), v = b.velocity(tau);
   const Quat q = b.orientation(tau);
   BallStart s{p, v, b.spin.angularVelocity(b.spinAge(tau)), q};
-  const Vec3& n = b.support.normal;
-  if (b.support.ends(p, v) && !crossEdge(b, tau)) {
+  const Vec3 n = b.support.normal;
+  double lift = 0;
+  if (b.support.ends(p, v) && !crossEdge(b, tau, lift)) {
     startFlight(b, tau, p, v, q, b.inertia.x() * s.omega);
   } else {
+    s.p += lift * n;
     Vec3 slip = v - b.radius() * s.omega.cross(n);
     slip -= n * n.dot(slip);
     const bool gripped = slip.norm() < 1e-7 * (1 + v.norm()), stopped = gripped && v.norm() < 1e-7;

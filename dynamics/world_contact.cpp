@@ -227,6 +227,8 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
     against(other, other);
   });
   chooseWayOut(b, first, found);
+  dropHidden(b, tau, first, found);
+  joinFlush(b, first, found);
 }
 
 /// Sleepers touched by something that moves wake; true if there were any, who then take part.
@@ -302,7 +304,7 @@ void World::Core::tick(double tau) {
   std::vector<RigidBody*> set;
   std::vector<Found> found;
   for (int pass = 0; pass < 50; ++pass) {
-    set.clear(), found.clear();
+    set.clear(), found.clear(), beside.clear();
     for (RigidBody* b : active) {
       b->slot = kNowhere;
       if (b->mode == BodyMode::Contact && b->enabled && !b->crowd && b->dueAge <= b->age(tau) + kDue)

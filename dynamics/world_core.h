@@ -2,8 +2,9 @@
 /// The inside of World, shared by its source files: world.cpp (interface), world_frame.cpp (one frame),
 /// world_foresight.cpp (what will touch), world_arcs.cpp (new arcs), world_impact.cpp (touches),
 /// world_air.cpp (flight in air), world_release.cpp (who has parted),
-/// world_way_out.cpp (out of what a hand has put a body into), world_contact.cpp (lasting contact: who with
-/// whom), world_island.cpp (one island), world_crowd.cpp and world_crowd_contacts.cpp (heaps).
+/// world_way_out.cpp (out of what a hand has put a body into), world_seams.cpp (surfaces of several pieces),
+/// world_contact.cpp (lasting contact: who with whom), world_island.cpp (one island), world_crowd.cpp and
+/// world_crowd_contacts.cpp (heaps).
 ///
 /// Time     runs in windows of 128 ms to 1 s on a grid of show time. tau is seconds since the window's start.
 /// What will happen is foreseen to the window's end, once for each arc; a frame only lets happen what is due
@@ -16,8 +17,10 @@
 #include "dynamics/coupled_step.h"
 #include "dynamics/id_table.h"
 #include "dynamics/manifold.h"
+#include "dynamics/patch_impact.h"
 #include "dynamics/rigid_body.h"
 #include "dynamics/touch.h"
+#include "dynamics/touch_seams.h"
 #include "dynamics/way_out.h"
 #include "dynamics/world.h"
 
@@ -198,7 +201,8 @@ public:
   void quarantine(RigidBody& b, double tau, std::string why);
   bool flyOn(RigidBody& b, double tau);
   void reachHorizon(RigidBody& b, double tau);
-  bool crossEdge(RigidBody& b, double tau);
+  bool crossEdge(RigidBody& b, double tau, double& lift);
+  bool crossFold(RigidBody& b, double tau) const;
 
   // --- flight in air (world_air.cpp)
   bool inMedium(const RigidBody& b) const;
@@ -207,6 +211,22 @@ public:
   Spin spinFrom(const RigidBody& b, double tau, const CoupledState& s) const;
   void turnByFrame();
   static void setSpin(RigidBody& b, double tau, const Spin& spin);
+
+  // --- surfaces of several pieces (world_seams.cpp)
+  /// A collider that a body touches, or comes to, without a contact of its own.
+  struct Beside {
+    BodyId body = 0;
+    Party piece;
+    bool touches = false;
+  };
+  std::vector<Beside> beside;  ///< in this tick
+  template <class F>
+  void eachColliderAt(const RigidBody& b, double tau, F f) const;
+  std::vector<Bearing> bearingsOf(const RigidBody& b, double tau, const Collider& but) const;
+  bool isHiddenTouch(const Side& a, const Side& b, const Touch& touch) const;
+  std::optional<Touch> firstRealTouch(const Side& a, const Side& b, double from, double to);
+  bool crossSeam(RigidBody& b, double tau, double& lift);
+  std::vector<PatchSide> struckBeside(const RigidBody& b, const Collider& but, double tau, bool ends) const;
 
   // --- touches (world_impact.cpp)
   void countImpact(RigidBody& b, double tau) const;
@@ -271,6 +291,10 @@ public:
   bool isCrowd(const std::vector<RigidBody*>& island, double tau);
   void findContacts(RigidBody& b, double tau, std::vector<Found>& found, std::vector<RigidBody*>& set);
   void chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found) const;
+  void dropHidden(const RigidBody& b, double tau, std::size_t first, std::vector<Found>& found);
+  void joinFlush(const RigidBody& b, std::size_t first, std::vector<Found>& found);
+  double timeCarried(const RigidBody& b, const Found& f, const Vec3& u, const Vec3& a, double most,
+                     std::vector<Party>& way) const;
   bool wakeTouched(const std::vector<Found>& found, double tau);
   void remember(RigidBody& b, const std::vector<Party>& near);
   // --- many bodies in one heap (world_crowd.cpp)

@@ -60,8 +60,12 @@ void World::Core::addCrowdContact(const RigidBody& b, Party other, const Surface
 void World::Core::findCrowdColliders(const RigidBody& b, const Aabb& box, double margin, CrowdStep& step) {
   const CrowdStep::Member me = step.members[b.slot];
   const Side self = Side::of(b);
+  step.bearings.clear(), step.features.clear();
+  const auto note = [&](const Collider& c, const Gap& gap, std::uint32_t feature) {
+    step.bearings.push_back({{false, c.id}, c.shape, c.motion.at(step.tau).pose, gap});
+    step.features.push_back(feature);
+  };
   nearColliders.eachNear(box, [&](const Collider& c) {
-    const Party other{false, c.id};
     const bool moves = c.motion.moving;
     if (!mayTouch(self, Side::of(c))) return;
     if (me.round && !moves && !std::holds_alternative<MeshShape>(*c.shape)) {
@@ -69,15 +73,21 @@ void World::Core::findCrowdColliders(const RigidBody& b, const Aabb& box, double
       const Gap gap = plane && !plane->bounded()
                           ? planeGap(me.middle, me.bound, *plane, c.motion.end)
                           : ballGap(me.middle, me.bound, *c.shape, c.motion.end, {.limit = margin});
-      if (gap.distance < margin) addCrowdContact(b, other, c.surface, gap, 1, step);
+      if (gap.distance < margin) note(c, gap, 1);
       return;
     }
     const double theirs = moves ? step.crowd.h * c.motion.at(step.tau).velocityAt(me.middle).norm() : 0;
     manifold(self, Side::of(c), step.tau, margin + theirs, step.found);
     // Whose centre is inside leaves by one way, the shortest.
     if (me.round && !step.found.empty() && step.found.front().gap.distance < -me.bound) step.found.resize(1);
-    for (const ManifoldPoint& p : step.found) addCrowdContact(b, other, c.surface, p.gap, p.key, step);
+    for (const ManifoldPoint& p : step.found) note(c, p.gap, p.key);
   });
+  const std::vector<char> hidden = hiddenAmong(step.bearings);
+  for (std::size_t i = 0; i < step.bearings.size(); ++i) {
+    const Bearing& on = step.bearings[i];
+    if (hidden.empty() || !hidden[i])
+      addCrowdContact(b, on.of, collider(on.of.id)->surface, on.gap, step.features[i], step);
+  }
 }
 
 /// One who is near a member: at which points they may meet, and whether it comes along.

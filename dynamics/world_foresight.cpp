@@ -106,7 +106,7 @@ void World::Core::predictPair(const Side& a, const Side& b, double tau) {
   // An arc that ends before the window is only asked up to its end.
   const double to = std::min({windowEnd(), knownUntil(a), knownUntil(b)});
   if (!(tau <= to)) return;
-  const auto touch = firstTouch(a, b, tau, to, counters.distances);
+  const auto touch = firstRealTouch(a, b, tau, to);
   if (!touch) return;
   Event e;
   e.tau = touch->tau, e.kind = Event::Kind::Touch, e.a = a.party, e.b = b.party;

@@ -221,8 +221,11 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   if (tired) ++counters.tired;
   const double restitution = ends ? 0 : pair.restitution;
   std::optional<PatchImpact> patch;
-  if (!a.isBall() && !(b && b->isBall()))
-    patch = collidePatch(Side::of(a), *side(pb), tau, touch.gap, ma, mb, restitution, pair.friction);
+  std::vector<PatchSide> others;
+  if (!a.isBall() && !(b && b->isBall())) {
+    if (c) others = struckBeside(a, *c, tau, ends);
+    patch = collidePatch(Side::of(a), *side(pb), tau, touch.gap, ma, mb, restitution, pair.friction, others);
+  }
   const Vec3 impulse = patch ? patch->impulse : collide(ma, mb, x, n, restitution, pair.friction);
   ContactMemory::Waiting* waiting = memory.impact(key, timeAt(tau), patch ? patch->middle : x, outwards,
                                                   closing, impulse.dot(n), frame, awaited);
@@ -239,6 +242,14 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   afterImpulse(a, ma, tau, ends);
   if (b) afterImpulse(*b, mb, tau, ends);
   if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
+  for (const PatchSide& part : others) {
+    if (!patch || !(part.closing > 0)) continue;
+    const ContactMemory::Key other = ContactMemory::keyOf(part.side.party, pa);
+    waiting =
+        memory.impact(other, timeAt(tau), part.middle, n, part.closing, part.impulse.dot(n), frame, awaited);
+    if (ends) memory.setTouching(other, true);
+    if (waiting) foreseeRelease(*waiting, tau, -1);
+  }
 }
 
 }  // namespace stadion

@@ -69,24 +69,6 @@ void place(const Mobile& a0, const Mobile& b0, const Gap& gap, Carrier carrier, 
   }
 }
 
-/// Seconds until a point that starts at x with velocity v and acceleration a (in the axes of a rectangle with
-/// these half extents) leaves it; negative if it is not inside.
-double timeInside(const Vec2& x, const Vec2& v, const Vec2& a, const Vec2& half) {
-  double first = 1e300;
-  for (int i = 0; i < 2; ++i) {
-    if (!(std::fabs(x[i]) < half[i] - 1e-6)) return -1;
-    for (const double side : {half[i], -half[i]}) {
-      // 0.5 a t^2 + v t = side - x, outwards
-      const double sign = side > 0 ? 1 : -1, d = half[i] - sign * x[i], u = sign * v[i], g = sign * a[i];
-      const double disc = u * u + 2 * g * d;
-      if (disc < 0) continue;
-      const double q = u + std::sqrt(disc);
-      if (q > 0) first = std::min(first, 2 * d / q);
-    }
-  }
-  return first;
-}
-
 double pushOut(double gap) {
   return std::min(kPushOut, std::max(0.0, -gap - kSlop) * 20);
 }
@@ -278,6 +260,7 @@ double World::Core::glide(Island& s, double tau, double h) {
   const double probe = std::min(h, kProbe);
   if (!solveStep(s, tau, probe, Effort::AtRest)) return 0;
   double most = kFarthest, fastest = 0, strongest = 0;
+  std::vector<Party> way;  // of faces that the points come to
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     const RigidBody& b = *s.set[i];
     const Vec3 a = (s.end[i].v - s.start[i].v) / probe;
@@ -300,26 +283,10 @@ double World::Core::glide(Island& s, double tau, double h) {
     if (speed <= kStill && change <= kBalanced) continue;
     if (ut.cross(at).norm() > 1e-9 * speed * (change + 1)) return 0;  // the slip turns
     if (ut.dot(at) < 0 && c.friction > 0) most = std::min(most, speed / change);
-    // The faces must go on carrying the same points.
-    const Collider* on = f.b.isBody ? nullptr : collider(f.b.id);
-    if (!on || f.carrier != Carrier::A) return 0;
-    const Pose X = on->motion.end;
-    const auto inside = [&](const Pose& F, const Vec3& half) {
-      Vec2 x, v, w, extent;
-      int k = 0, j = 0;
-      (F.q.conjugate() * n).cwiseAbs().maxCoeff(&k);
-      const Vec3 lx = F.inverse() * f.gap.point, lv = F.q.conjugate() * ut, la = F.q.conjugate() * at;
-      for (int i = 0; i < 3; ++i)
-        if (i != k) x[j] = lx[i], v[j] = lv[i], w[j] = la[i], extent[j++] = half[i];
-      most = std::min(most, timeInside(x, v, w, extent));
-    };
-    if (const auto* plane = std::get_if<PlaneShape>(on->shape)) {
-      if (plane->bounded()) inside(X * plane->pose, {plane->half.x(), plane->half.y(), 0});
-    } else if (const auto* box = std::get_if<BoxShape>(on->shape)) {
-      inside(X * box->pose, box->half);
-    } else {
-      return 0;
-    }
+    // Faces must go on carrying the same points.
+    if (f.b.isBody || f.carrier != Carrier::A) return 0;
+    most = std::min(most, timeCarried(*s.set[c.a], f, ut, at, most, way));
+    if (!(most > kShortest)) return 0;
   }
   if (!(most > kShortest)) return 0;
   for (std::size_t i = 0; i < s.set.size(); ++i) {
@@ -327,6 +294,8 @@ double World::Core::glide(Island& s, double tau, double h) {
     s.end[i].v = s.start[i].v + (s.end[i].v - s.start[i].v) / probe * most;
   }
   for (Found& f : s.found) f.contact.impulse *= most / probe;
+  for (const RigidBody* b : s.set)
+    for (const Party p : way) beside.push_back({b->id, p, false});
   return most;
 }
 
@@ -481,6 +450,11 @@ void World::Core::conclude(Island& s, double tau, double h) {
       if (f.gap.distance < kTouching) note(near, other);
       if (f.contact.a == i && !f.contact.impulse.isZero(0))
         b.presses.push_back({f.key, basisAround(f.gap.normal) * (f.contact.impulse / h), h});
+    }
+    for (const Beside& o : beside) {
+      if (o.body != b.id) continue;
+      note(b.touching, o.piece);
+      if (o.touches) note(near, o.piece);
     }
     remember(b, near);
     if (points == 0) {
