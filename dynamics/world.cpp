@@ -197,6 +197,7 @@ bool World::ignorePair(Party a, Party b, bool on) {
   const auto key = a < b ? std::pair(a, b) : std::pair(b, a);
   if (on) {
     core_->ignored.insert(key);
+    core_->wakeOnto(a, core_->now), core_->wakeOnto(b, core_->now);
   } else {
     core_->ignored.erase(key);
   }

@@ -320,10 +320,12 @@ void World::Core::restart(RigidBody& b, double tau) {
   case BodyMode::Roll:
   case BodyMode::Rest:
     if (b.support.on.id) {
+      const bool rested = b.mode == BodyMode::Rest;
       startOnFace(
           b, tau,
           {b.position(tau), b.velocity(tau), b.spin.angularVelocity(b.spinAge(tau)), b.orientation(tau)},
           false, false);
+      if (rested && b.mode != BodyMode::Rest) wakeOnto({true, b.id}, tau);
     } else {
       wake(b, tau);
     }
@@ -385,6 +387,7 @@ void World::Core::reachHorizon(RigidBody& b, double tau) {
       predict(b, tau);
     return;
   }
+  const bool rested = b.mode == BodyMode::Rest;
   const Vec3 p = b.position(tau), v = b.velocity(tau);
   const Quat q = b.orientation(tau);
   BallStart s{p, v, b.spin.angularVelocity(b.spinAge(tau)), q};
@@ -399,6 +402,7 @@ void World::Core::reachHorizon(RigidBody& b, double tau) {
     const bool gripped = slip.norm() < 1e-7 * (1 + v.norm()), stopped = gripped && v.norm() < 1e-7;
     startOnFace(b, tau, s, gripped, stopped);
   }
+  if (rested && b.mode != BodyMode::Rest) wakeOnto({true, b.id}, tau);
   predict(b, tau);
 }
 

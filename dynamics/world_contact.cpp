@@ -113,10 +113,12 @@ void World::Core::wakeOnto(Party moved, double tau) {
       const bool onFace =
           other->mode == BodyMode::Rest || other->mode == BodyMode::Slide || other->mode == BodyMode::Roll;
       if (onFace && other->support.on.id && other->support.on == gone) {
+        waking.push_back({true, id});
         startFlight(*other, tau, other->position(tau), other->velocity(tau), other->orientation(tau),
                     other->spin.angularMomentum(other->spinAge(tau)));
         predict(*other, tau);
       } else if (other->mode == BodyMode::Stuck) {
+        waking.push_back({true, id});
         startFlight(*other, tau, other->position(tau), Vec3::Zero(), other->orientation(tau), Vec3::Zero());
         predict(*other, tau);
       } else if (other->mode == BodyMode::Contact) {

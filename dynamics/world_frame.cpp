@@ -183,6 +183,8 @@ void World::Core::beginFrame() {
   settleFresh(arrived);
   if (active.size() < bodies.size())  // somebody sleeps
     for (const Party p : arrived) wakeWithin(p);
+  for (const RigidBody* b : held)
+    if (b->held.moving) wakeOnto({true, b->id}, frameFrom);
   for (const ColliderId id : told)
     if (Collider* c = collider(id); c && c->enabled && (c->motion.moving || c->disturbed)) {
       wakeOnto({false, id}, frameFrom);

@@ -125,7 +125,9 @@ void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool l
   if (b.support.on.id && b.mode != BodyMode::Flight) {
     const double away = m.v.dot(b.support.normal);
     if (std::fabs(away) <= 1e-9) {
+      const bool rested = b.mode == BodyMode::Rest;
       startOnFace(b, tau, {p, m.v, m.omega, q}, false, false);
+      if (rested && b.mode != BodyMode::Rest) wakeOnto({true, b.id}, tau);
       predict(b, tau);
       return;
     }

@@ -1,3 +1,4 @@
+#include "engine/nodes/scene_node.h"
 #include "tests/dynamics/show_nodes.h"
 
 #include <gtest/gtest.h>
@@ -214,6 +215,85 @@ TEST(CollisionNode, TellsWhenObjectsThatOthersMoveTouchAndComeApart) {
   EXPECT_EQ(events[0].event, Event::OnImpact);
   EXPECT_EQ(events[1].event, Event::OnRelease);
   EXPECT_NEAR(toSeconds(events[1].when - events[0].when), 0.1 + 0.25, 0.02);
+}
+
+/// A ball sleeps a metre up, on a shelf that follows a tracker, on one from a sub-scene, or on a held ball.
+/// Whatever the show does to that, the ball falls.
+TEST(DynamicsNode, ASleeperFallsWhateverTheShowDoesToWhatHoldsItUp) {
+  struct Cause {
+    const char* name;
+    const char* carrier;
+    std::function<void(ShowFixture&)> happens;
+  };
+  const auto tell = [](const char* node, Verb verb) {
+    return [=](ShowFixture& show) { show.scene.command(node, verb, {}, show.input.time); };
+  };
+  const auto turn = [](ShowFixture& show) {
+    show.input.trackers[0].X_RT.q = Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX()));
+  };
+  const std::vector<Cause> causes{
+      {"its tracker goes", "shelf",
+       [](ShowFixture& show) {
+         show.tracker("hand", {3, 0, 1});
+       }},
+      {"it is detached and reset", "shelf",
+       [&](ShowFixture& show) {
+         tell("shelf", Verb::Detach)(show), show.frames(30);
+         tell("shelf", Verb::Reset)(show);
+       }},
+      {"it goes while the simulation is off", "shelf",
+       [&](ShowFixture& show) {
+         tell("sim", Verb::Disable)(show), show.frames(30);
+         show.tracker("hand", {3, 0, 1}), show.frames(30);
+         tell("sim", Verb::Enable)(show);
+       }},
+      {"its file is unloaded", "game", tell("game", Verb::Unload)},
+      {"it is let go", "held", tell("held", Verb::Release)},
+      {"it is reset", "held", tell("held", Verb::Reset)},
+      {"the hand goes", "held",
+       [](ShowFixture& show) {
+         show.tracker("hand", {3, 0, 1});
+       }},
+      {"gravity is turned over", "shelf", turn},
+  };
+  for (const Cause& cause : causes) {
+    SCOPED_TRACE(std::string(cause.carrier) + ": " + cause.name);
+    ShowFixture show;
+    const MeshId box = show.meshes.add(cube(0.5));
+    const std::string on = cause.carrier;
+    Ball* ball = nullptr;
+    show.loader.files["game"] = [&](Load& load) { addNode<Block>(load, "plate", box, Vec3(0, 0, 1)); };
+    show.loader.files["show"] = [&](Load& load) {
+      addNode<MovingNode>(load, "leg", PlaceAttributes{}, false);
+      PlaceAttributes carried;
+      carried.parent = {load.number, 0};
+      addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true, 0.0, carried);
+      addNode<Block>(load, "shelf", box, Vec3(5, 0, 1));
+      if (on == "game") addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", Nanoseconds{0}, true);
+      addNode<Ball>(load, "held", Vec3(5, 0, 3), std::vector<std::string>{});
+      ball = &addNode<Ball>(load, "ball", Vec3(0, 0, on == "held" ? 1.25 : 1.65),
+                            std::vector<std::string>{"gravity"});
+      std::vector<std::string> colliders{"shelf"};
+      if (on == "game") colliders.emplace_back("game/plate");
+      addNode<Sim>(load, "sim", colliders, std::vector<std::string>{"ball", "held"});
+    };
+    show.tracker("hand", on == "held" ? Vec3(5, 0, 3) : Vec3(0, 0, 1));
+    show.scene.open("show");
+    show.frame();
+    if (on == "shelf") show.scene.command("shelf", Verb::Attach, {"all", "hand"}, show.input.time);
+    if (on == "held") show.scene.command("held", Verb::Grab, {"hand"}, show.input.time);
+    if (cause.name == std::string("gravity is turned over"))
+      show.scene.command("leg", Verb::Attach, {"orientation", "hand"}, show.input.time);
+    show.frames(2);
+    if (on == "held") show.tracker("hand", {0, 0, 1});
+    show.frames(300);
+    ASSERT_EQ(ball->state().mode, BodyMode::Rest);
+    const Vec3 bed = ball->state().p;
+    ASSERT_NEAR(bed.z(), on == "held" ? 1.2 : 1.6, 0.01);
+    cause.happens(show);
+    show.frames(60);
+    EXPECT_GT((ball->state().p - bed).norm(), 1.0);
+  }
 }
 
 }  // namespace
