@@ -7,6 +7,7 @@
 /// it until it holds. Islands too large for that, or whose choice does not settle, go on sweeping along
 /// conjugate directions.
 
+#include "dynamics/flat_friction.h"
 #include "dynamics/impulse.h"
 
 #include <cstdint>
@@ -28,10 +29,19 @@ struct SolverContact {
   bool slides = false;          ///< known to slip all through the step
   Vec3 impulse = Vec3::Zero();  ///< in `push` [N s]; the guess on entry
 
+  // Points that carry a flat contact leave friction to its area: one more contact, which presses nothing. Its
+  // normal axis stands for the spin about the normal, in units of the area's radius.
+  std::int32_t patch = -1;            ///< index of that contact; -1: the point has friction of its own
+  const ContactArea* area = nullptr;  ///< this is one
+  double spin = 0;                    ///< the same as `slip`, about the normal [m/s]
+  bool limited = false;               ///< its friction is at its limit
+
   /// Takes place at a point of a (at pa) and b (at pb), as at one moment.
   void placeAt(const Vec3& point, const Vec3& n, const Vec3& pa, const Vec3& pb);
   Vec3 velocity(const std::vector<Mobile>& m) const {
-    return rows.transpose() * (m[a].v + m[a].omega.cross(armA) - m[b].v - m[b].omega.cross(armB));
+    Vec3 u = rows.transpose() * (m[a].v + m[a].omega.cross(armA) - m[b].v - m[b].omega.cross(armB));
+    if (area) u[0] = area->radius() * rows.col(0).dot(m[a].omega - m[b].omega);
+    return u;
   }
 };
 

@@ -47,7 +47,7 @@ private:
   double response(std::uint32_t body, const Vec3& arm, const Vec3& along) const;
   double normalVelocity(const CrowdContact& c) const;
   void prepare(CrowdContact& c) const;
-  void give(const CrowdContact& c, const Vec3& impulse);
+  void give(const CrowdContact& c, double pressed, const Vec3& held);
   double relax(CrowdContact& c);
   double sweepAll(bool forward);
   double sweepWide(bool forward);
@@ -95,14 +95,16 @@ void CrowdSolver::prepare(CrowdContact& c) const {
     const CrowdArms& arms = crowd_.arms[static_cast<std::size_t>(c.arms)];
     const Vec3 t1 = (std::fabs(c.n.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY()).cross(c.n).normalized(),
                t2 = c.n.cross(t1);
-    const auto along = [&](const Vec3& t) { return response(c.a, arms.a, t) + response(c.b, arms.b, t); };
-    kn = along(c.n), kt = along(t1) + along(t2);
+    kn = response(c.a, arms.a, c.n) + response(c.b, arms.b, c.n);
+    kt = response(c.a, arms.holdA, t1) + response(c.b, arms.holdB, t1) + response(c.a, arms.holdA, t2) +
+         response(c.b, arms.holdB, t2);
   }
   c.normalMass = kn > 0 ? 1 / kn : 0, c.tangentMass = kt > 0 ? 1 / kt : 0;
 }
 
-void CrowdSolver::give(const CrowdContact& c, const Vec3& impulse) {
+void CrowdSolver::give(const CrowdContact& c, double pressed, const Vec3& held) {
   CrowdBody &a = crowd_.bodies[c.a], &b = crowd_.bodies[c.b];
+  const Vec3 push = pressed * c.n, impulse = push + held;
   a.v += a.inverseMass * impulse, b.v -= b.inverseMass * impulse;
   if (c.arms < 0) {
     const Vec3 turn = c.n.cross(impulse);
@@ -116,22 +118,25 @@ void CrowdSolver::give(const CrowdContact& c, const Vec3& impulse) {
     else if (body.inverseMass > 0)
       body.omega += crowd_.inverseInertia[i] * moment;
   };
-  turn(a, c.a, arms.a.cross(impulse)), turn(b, c.b, -arms.b.cross(impulse));
+  turn(a, c.a, arms.a.cross(push) + arms.holdA.cross(held));
+  turn(b, c.b, -arms.b.cross(push) - arms.holdB.cross(held));
 }
 
 /// One pass over a point; returns the greatest change of a velocity, squared.
 double CrowdSolver::relax(CrowdContact& c) {
   const CrowdBody &a = crowd_.bodies[c.a], &b = crowd_.bodies[c.b];
   const CrowdArms& arms = crowd_.arms[static_cast<std::size_t>(c.arms)];
-  const Vec3 u = a.v + a.omega.cross(arms.a) - b.v - b.omega.cross(arms.b);
-  const double un = u.dot(c.n), pressed = std::max(0.0, c.pressed + (c.floor - un) * c.normalMass);
+  const Vec3 apart = a.v - b.v, u = apart + a.omega.cross(arms.a) - b.omega.cross(arms.b);
+  const double pressed = std::max(0.0, c.pressed + (c.floor - u.dot(c.n)) * c.normalMass);
   if (pressed == 0 && c.pressed == 0) return 0;
-  Vec3 held = c.held - c.tangentMass * (u - un * c.n);
+  const Vec3 slip = apart + a.omega.cross(arms.holdA) - b.omega.cross(arms.holdB);
+  Vec3 held = c.held - c.tangentMass * (slip - slip.dot(c.n) * c.n);
   const double most = c.friction * pressed, size = held.squaredNorm();
   if (size > most * most) held *= most / std::sqrt(size);
-  const Vec3 step = (pressed - c.pressed) * c.n + (held - c.held);
+  const double more = pressed - c.pressed;
+  const Vec3 hold = held - c.held, step = more * c.n + hold;
   c.pressed = pressed, c.held = held;
-  give(c, step);
+  give(c, more, hold);
   const double mass = std::max(a.inverseMass, b.inverseMass);
   return step.squaredNorm() * mass * mass;
 }
@@ -185,7 +190,7 @@ int CrowdSolver::sweepsFor(std::size_t points) const {
 
 /// Changes what a contact point pushes.
 void CrowdSolver::go(CrowdContact& c, double pressed, const Vec3& held) {
-  give(c, pressed * c.n + held);
+  give(c, pressed, held);
   c.pressed += pressed, c.held += held;
 }
 
@@ -277,7 +282,7 @@ void CrowdSolver::push() {
   crowd_.start = crowd_.bodies;
   for (std::size_t i = 0; i < crowd_.members; ++i) crowd_.bodies[i].v += crowd_.h * crowd_.pull[i];
   for (const CrowdContact& c : all)
-    if (c.pressed > 0) give(c, c.pressed * c.n + c.held);
+    if (c.pressed > 0) give(c, c.pressed, c.held);
   const bool still = meanSquare() < kSlow * kSlow;
   const int sweeps = still ? kStillSweeps : kSweeps;
   const int affordable = sweepsFor(still ? kSwept : kSwept / 4);

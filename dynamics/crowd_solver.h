@@ -42,7 +42,9 @@ struct CrowdContact {
 };
 
 struct CrowdArms {
-  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  ///< from the centres of mass to the point [m]
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero();          ///< from the centres of mass to the point [m]
+  Vec3 holdA = Vec3::Zero(), holdB = Vec3::Zero();  ///< to where its friction acts: nearer to the middle of a
+                                                    ///< flat contact, as the pressure is even there [m]
 };
 
 struct Crowd {

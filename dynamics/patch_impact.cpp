@@ -1,5 +1,6 @@
 #include "dynamics/patch_impact.h"
 
+#include "dynamics/contact_area.h"
 #include "dynamics/contact_solver.h"
 #include "dynamics/convex_core.h"
 #include "dynamics/manifold.h"
@@ -33,6 +34,7 @@ std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau
   std::vector<ManifoldPoint> points;
   std::vector<SolverContact> contacts;
   std::vector<PatchSide*> whose;  // null: b's
+  std::vector<Gap> gaps;
   const auto gather = [&](const Side& side, PatchSide* part, double bounce, double grip) {
     manifold(a, side, tau, std::max(first.distance, 0.0) + kTogether, points);
     for (const ManifoldPoint& p : points) {
@@ -42,13 +44,29 @@ std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau
       c.b = 1;
       c.placeAt(p.gap.point, p.gap.normal, ma.p, mb.p);
       c.friction = grip, c.floor = bounce * comes;
-      contacts.push_back(c), whose.push_back(part);
+      contacts.push_back(c), whose.push_back(part), gaps.push_back(p.gap);
       if (part) part->closing = std::max(part->closing, comes);
     }
   };
   gather(b, nullptr, restitution, friction);
   for (PatchSide& part : beside) part.closing = 0, gather(part.side, &part, part.restitution, part.friction);
   if (contacts.size() < 2) return {};
+  std::vector<FlatContact> flats;  // own the areas
+  const auto flatten = [&](const Side& side, PatchSide* part, double grip) {
+    const auto begin = static_cast<std::size_t>(std::ranges::find(whose, part) - whose.begin());
+    const auto count = static_cast<std::size_t>(std::ranges::count(whose, part));
+    if (!(grip > 0) || count < 3) return;
+    for (FlatContact& flat : flatContacts(a, side, tau, std::span(gaps).subspan(begin, count))) {
+      SolverContact c;
+      c.b = 1, c.friction = grip, c.area = flat.area.get();
+      c.placeAt(flat.plane.origin, flat.plane.n, ma.p, mb.p);
+      for (const std::uint32_t k : flat.points)
+        contacts[begin + k].patch = static_cast<std::int32_t>(contacts.size());
+      contacts.push_back(c), whose.push_back(part), flats.push_back(std::move(flat));
+    }
+  };
+  flatten(b, nullptr, friction);
+  for (PatchSide& part : beside) flatten(part.side, &part, part.friction);
   std::vector<Mobile> mobiles{ma, mb};
   if (!solveContacts(mobiles, contacts)) return {};
   struct Sum {
@@ -63,6 +81,10 @@ std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau
       if (whose[i] != part) continue;
       const SolverContact& c = contacts[i];
       work += 0.5 * c.impulse.dot(c.velocity(before) + c.velocity(mobiles));
+      if (c.area) {
+        sum.impulse += c.push.rightCols<2>() * c.impulse.tail<2>();
+        continue;
+      }
       sum.impulse += c.push * c.impulse;
       sum.arm += c.impulse[0] * c.pushA, sum.pushed += c.impulse[0];
     }

@@ -1,3 +1,4 @@
+#include "dynamics/contact_order.h"
 #include "dynamics/world_core.h"
 
 #include <algorithm>
@@ -282,6 +283,24 @@ std::size_t World::Core::thickness(const RigidBody& b, double tau) {
   return many;
 }
 
+/// Whether bodies are solved for together with little work: towers, and what stands side by side on one
+/// thing.
+bool World::Core::isSlender(const std::vector<RigidBody*>& island, const std::vector<Found>& found) {
+  constexpr double kSlender = 4e5;  // multiplications
+  if (island.size() > kMostInLine || std::ranges::any_of(island, &RigidBody::isBall)) return false;
+  std::vector<LeaningPair> pairs;
+  const auto placeOf = [&](Party p) {
+    const auto at = p.isBody ? std::ranges::lower_bound(island, p.id, {}, &RigidBody::id) : island.end();
+    return static_cast<std::uint32_t>(at != island.end() && (*at)->id != p.id
+                                          ? island.size()
+                                          : static_cast<std::size_t>(at - island.begin()));
+  };
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (i == 0 || found[i].a != found[i - 1].a || found[i].b != found[i - 1].b)
+      pairs.push_back({placeOf(found[i].a), placeOf(found[i].b)});
+  return workOfLine(island.size(), pairs) < kSlender;
+}
+
 /// Whether an island is better off as a crowd: it is large, not solved exactly, or its balls are in the thick
 /// of it.
 bool World::Core::isCrowd(const std::vector<RigidBody*>& island, double tau) {
@@ -337,7 +356,7 @@ void World::Core::tick(double tau) {
   for (Found& f : found) islands[islandOf[body(f.a.id)->slot]].found.push_back(std::move(f));
   bool crowds = false;
   for (Island& island : islands) {
-    if (isCrowd(island.set, tau)) {
+    if (isCrowd(island.set, tau) && !isSlender(island.set, island.found)) {
       for (RigidBody* b : island.set) {
         b->crowd = true, b->dueAge = 0;
         b->drift.setZero(), b->twist.setZero();

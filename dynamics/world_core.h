@@ -12,6 +12,7 @@
 
 #include "dynamics/ball_motion.h"
 #include "dynamics/broad_phase.h"
+#include "dynamics/contact_area.h"
 #include "dynamics/contact_events.h"
 #include "dynamics/contact_solver.h"
 #include "dynamics/coupled_step.h"
@@ -265,10 +266,22 @@ public:
     Carrier carrier = Carrier::None;
     Rounding rounding;
   };
+  /// Two flat faces on each other; points that carry them leave friction to their area.
+  struct FoundFlat {
+    SolverContact contact;
+    FlatContact flat;
+    std::uint64_t key = 0;
+    std::vector<std::size_t> points;  ///< among those found
+
+    /// Arms and a basis, in which the area does not turn, when its sides lie like this.
+    void place(const Mobile& a, const Mobile& b, const Mat3& turnA, const Mat3& turnB, const Vec3& pA,
+               const Vec3& pB, Mat3& basis, Vec3& armA, Vec3& armB) const;
+  };
   /// Bodies that lean on each other, by id, and what they lean on.
   struct Island {
     std::vector<RigidBody*> set;
     std::vector<Found> found;
+    std::vector<FoundFlat> flats;
     std::vector<Mobile> start, end;  ///< the set's, then those of the parties that nothing moves
     std::vector<Party> fixed;        ///< the latter
     std::vector<Vec3> pull;          ///< on the set in this step [m/s2]
@@ -289,6 +302,7 @@ public:
   void tick(double tau);
   std::size_t thickness(const RigidBody& b, double tau);
   bool isCrowd(const std::vector<RigidBody*>& island, double tau);
+  static bool isSlender(const std::vector<RigidBody*>& island, const std::vector<Found>& found);
   void findContacts(RigidBody& b, double tau, std::vector<Found>& found, std::vector<RigidBody*>& set);
   void chooseWayOut(const RigidBody& b, std::size_t first, std::vector<Found>& found) const;
   void dropHidden(const RigidBody& b, double tau, std::size_t first, std::vector<Found>& found);
@@ -300,6 +314,7 @@ public:
   // --- many bodies in one heap (world_crowd.cpp)
   /// Their steps end on multiples of this show time: 1/120 s, so that frames of 60 Hz have two steps each.
   Nanoseconds crowdGrid = 8'333'333;
+  static constexpr std::size_t kMostInLine = 64;   ///< towers of more are a crowd, too
   static constexpr std::size_t kCrowd = 16;        ///< islands with so many bodies become one
   static constexpr std::size_t kRestless = 5;      ///< the same if they are not solved exactly
   static constexpr std::size_t kCrowdOfBalls = 5;  ///< the same if they are balls
@@ -319,6 +334,7 @@ public:
   void findCrowdColliders(const RigidBody& b, const Aabb& box, double margin, CrowdStep& step);
   void meetInCrowd(RigidBody& b, RigidBody& o, double margin, CrowdStep& step);
   void findCrowdContacts(RigidBody& b, CrowdStep& step);
+  std::vector<Vec3> placesOfFriction(const CrowdStep& step) const;
   void linkCrowdContacts(CrowdStep& step);
   // --- one island (world_island.cpp)
   void advanceIsland(Island& island, double tau, double h);
@@ -326,6 +342,7 @@ public:
   bool isDriven(Party p) const;
   bool solveIsland(Island& island, std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
                    Effort effort) const;
+  void findFlats(Island& island, double tau) const;
   void stopApproaches(Island& island) const;
   static double pushOutOf(const std::vector<Found>& found, std::size_t i);
   static bool staysWedged(const Island& island);

@@ -164,6 +164,7 @@ void World::Core::linkCrowdContacts(CrowdStep& step) {
     crowd.bodies.push_back(still);
   }
   std::size_t kept = 0;
+  const std::vector<Vec3> holds = placesOfFriction(step);
   for (std::size_t k = 0; k < crowd.contacts.size(); ++k) {
     CrowdContact c = crowd.contacts[k];
     const CrowdStep::Note& note = step.notes[k];
@@ -175,14 +176,15 @@ void World::Core::linkCrowdContacts(CrowdStep& step) {
       c.b = n + note.fixed;
     }
     const CrowdStep::Member& a = step.members[c.a];
-    const Vec3 armA = step.points[k] - a.p,
-               armB = step.points[k] - (c.b < n ? step.members[c.b].p : fixed->p);
+    const Vec3 other = c.b < n ? step.members[c.b].p : fixed->p;
+    const Vec3 armA = step.points[k] - a.p, armB = step.points[k] - other;
     const bool still = c.b >= n && crowd.bodies[c.b].omega.isZero(0);
     if (a.round && (still || (c.b < n && step.members[c.b].round))) {
       c.leverA = -armA.dot(c.n), c.leverB = still ? 0 : armB.dot(c.n);
     } else {
       c.arms = static_cast<std::int32_t>(crowd.arms.size());
-      crowd.arms.push_back({armA, armB});
+      const Vec3& hold = holds.empty() ? step.points[k] : holds[k];
+      crowd.arms.push_back({armA, armB, hold - a.p, hold - other});
     }
     crowd.contacts[kept] = c, step.notes[kept] = note, ++kept;
   }

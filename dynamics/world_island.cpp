@@ -12,7 +12,7 @@ constexpr double kPushOut = 0.2;           ///< speed limit of the correction of
 constexpr double kApproach = 1e-4;         ///< approaches up to this end with the step's own forces [m/s]
 constexpr double kRestitutionSpeed = 0.1;  ///< slower approaches inside lasting contact do not bounce [m/s]
 constexpr double kQuietSpeed = 2e-3;       ///< of surface points [m/s]
-constexpr double kQuietTime = 0.2;         ///< before a set of bodies sleeps [s]
+constexpr double kSleepsAfter = 0.2;       ///< before a set of bodies sleeps [s]
 constexpr double kGliding = 1e-9;          ///< quiet time of one whose slow motion is known [s]
 constexpr double kCreep = 1e-4;            ///< mean speeds below this are none [m/s]
 constexpr double kCalm = 1e-5;             ///< mean accelerations below this are balance, per pull [m/s2]
@@ -69,6 +69,21 @@ void place(const Mobile& a0, const Mobile& b0, const Gap& gap, Carrier carrier, 
   }
 }
 
+/// The same for a flat contact, at the end and in the middle of the step, and its slip before it.
+template <class Flat>
+void placeFlat(const Flat& f, const std::vector<Mobile>& start, const std::vector<Mobile>& guess, double h,
+               SolverContact& c) {
+  const Mobile &a = start[c.a], &b = start[c.b];
+  SolverContact before = c;
+  f.place(a, b, Mat3::Identity(), Mat3::Identity(), a.p, b.p, before.rows, before.armA, before.armB);
+  const Vec3 u0 = before.velocity(start);
+  c.spin = u0[0], c.slip = u0.tail<2>();
+  const Turned am = turned(a, guess[c.a], 0.5, h), bm = turned(b, guess[c.b], 0.5, h),
+               ae = turned(a, guess[c.a], 1, h), be = turned(b, guess[c.b], 1, h);
+  f.place(a, b, am.R, bm.R, am.p, bm.p, c.push, c.pushA, c.pushB);
+  f.place(a, b, ae.R, be.R, ae.p, be.p, c.rows, c.armA, c.armB);
+}
+
 double pushOut(double gap) {
   return std::min(kPushOut, std::max(0.0, -gap - kSlop) * 20);
 }
@@ -111,6 +126,7 @@ void World::Core::begin(Island& s, double tau) const {
     s.carried = s.carried || !m.v.isZero(0) || !m.omega.isZero(0);
     s.start.push_back(m);
   }
+  findFlats(s, tau);
 }
 
 /// Whether it moves from outside, or may.
@@ -149,8 +165,10 @@ bool World::Core::staysWedged(const Island& s) {
 void World::Core::stopApproaches(Island& s) const {
   bool any = false;
   std::vector<SolverContact> hits;
+  std::vector<std::int32_t> hitOf(s.found.size(), -1);
   for (const Found& f : s.found) {
     if (f.gap.distance > kSlop) continue;
+    hitOf[static_cast<std::size_t>(&f - s.found.data())] = static_cast<std::int32_t>(hits.size());
     SolverContact c = f.contact;
     const Mobile &a = s.start[c.a], &b = s.start[c.b];
     c.placeAt(f.gap.point, f.gap.normal, a.p, b.p);
@@ -161,6 +179,18 @@ void World::Core::stopApproaches(Island& s) const {
     hits.push_back(c);
   }
   if (!any) return;
+  for (SolverContact& c : hits) c.patch = -1;
+  for (const FoundFlat& f : s.flats) {
+    SolverContact c = f.contact;
+    const Mobile &a = s.start[c.a], &b = s.start[c.b];
+    f.place(a, b, Mat3::Identity(), Mat3::Identity(), a.p, b.p, c.rows, c.armA, c.armB);
+    c.push = c.rows, c.pushA = c.armA, c.pushB = c.armB;
+    c.impulse.setZero(), c.slides = false;
+    for (const std::size_t k : f.points)
+      if (hitOf[k] >= 0)
+        hits[static_cast<std::size_t>(hitOf[k])].patch = static_cast<std::int32_t>(hits.size());
+    hits.push_back(c);
+  }
   const std::vector<Mobile> before = s.start;
   solveIsland(s, s.start, hits, Effort::Moving);
   if (!s.carried) boundWork(s.set.size(), before, s.start, {}, 0);
@@ -177,14 +207,17 @@ bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) cons
     guess[i].v += h * pull[i];
   }
   std::vector<SolverContact> step;
-  step.reserve(s.found.size());
-  for (Found& f : s.found) {
-    SolverContact c = f.contact;
+  const std::size_t points = s.found.size();
+  step.reserve(points + s.flats.size());
+  const auto begins = [&](SolverContact c, std::uint64_t key, const Vec3& n) {
     c.impulse.setZero();
-    for (const Pressed& p : body(f.a.id)->presses)
-      if (p.key == f.key) c.impulse = std::min(h, p.step) * (basisAround(f.gap.normal).transpose() * p.force);
+    for (const Pressed& p : s.set[c.a]->presses)
+      if (p.key == key) c.impulse = std::min(h, p.step) * (basisAround(n).transpose() * p.force);
+    if (c.patch >= 0) c.impulse.tail<2>().setZero();  // its area's now
     step.push_back(c);
-  }
+  };
+  for (const Found& f : s.found) begins(f.contact, f.key, f.gap.normal);
+  for (const FoundFlat& f : s.flats) begins(f.contact, f.key, f.flat.plane.n);
   bool holds = false;
   for (int pass = 0; pass < 2; ++pass) {
     s.end = s.start;
@@ -205,7 +238,15 @@ bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) cons
         m.inverseInertia = turnedInverse;
       }
     }
-    for (std::size_t i = 0; i < step.size(); ++i) {
+    for (std::size_t i = points; i < step.size(); ++i) {
+      SolverContact& c = step[i];
+      placeFlat(s.flats[i - points], s.start, guess, h, c);
+      if (pass > 0) {
+        const Vec3 u0(c.spin, c.slip.x(), c.slip.y());
+        c.slides = u0.norm() > 2 * (c.velocity(guess) - u0).norm();
+      }
+    }
+    for (std::size_t i = 0; i < points; ++i) {
       const Found& f = s.found[i];
       SolverContact& c = step[i];
       const Mobile &a = s.start[c.a], &b = s.start[c.b], &a1 = guess[c.a], &b1 = guess[c.b];
@@ -243,7 +284,8 @@ bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) cons
     guess = s.end;
     for (std::size_t i = 0; i < guess.size(); ++i) guess[i].p = s.start[i].p;
   }
-  for (std::size_t i = 0; i < step.size(); ++i) s.found[i].contact = step[i];
+  for (std::size_t i = 0; i < points; ++i) s.found[i].contact = step[i];
+  for (std::size_t i = points; i < step.size(); ++i) s.flats[i - points].contact = step[i];
   return holds;
 }
 
@@ -296,6 +338,7 @@ double World::Core::glide(Island& s, double tau, double h) {
   for (Found& f : s.found) f.contact.impulse *= most / probe;
   for (const RigidBody* b : s.set)
     for (const Party p : way) beside.push_back({b->id, p, false});
+  for (FoundFlat& f : s.flats) f.contact.impulse *= most / probe;
   return most;
 }
 
@@ -358,10 +401,13 @@ void World::Core::holdRims(Island& s, const std::vector<Mobile>& solved) const {
   }
   if (!any) return;
   std::vector<SolverContact> contacts;
+  const std::size_t points = s.found.size();
   for (const Found& f : s.found) contacts.push_back(f.contact);
+  for (const FoundFlat& f : s.flats) contacts.push_back(f.contact);
   solveIsland(s, mobiles, contacts, Effort::Moving);
   for (std::size_t i = 0; i < s.set.size(); ++i) s.end[i].v = mobiles[i].v, s.end[i].omega = mobiles[i].omega;
-  for (std::size_t i = 0; i < contacts.size(); ++i) s.found[i].contact = contacts[i];
+  for (std::size_t i = 0; i < points; ++i) s.found[i].contact = contacts[i];
+  for (std::size_t i = points; i < contacts.size(); ++i) s.flats[i - points].contact = contacts[i];
 }
 
 /// Nothing is near any more: it flies.
@@ -421,7 +467,7 @@ void World::Core::noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end
     b.calm = {from.v, from.omega, since, span, balanced};
     b.drift.setZero(), b.twist.setZero();
   };
-  if (!(before > kGliding)) look(start, 0, kQuietTime, false);
+  if (!(before > kGliding)) look(start, 0, kSleepsAfter, false);
   b.drift += 0.5 * h * (start.v + end.v), b.twist += 0.5 * h * (start.omega + end.omega);
   const double seconds = b.quiet - b.calm.since;
   if (seconds < b.calm.span) return;
@@ -456,6 +502,9 @@ void World::Core::conclude(Island& s, double tau, double h) {
       note(b.touching, o.piece);
       if (o.touches) note(near, o.piece);
     }
+    for (const FoundFlat& f : s.flats)
+      if (f.contact.a == i && !f.contact.impulse.isZero(0))
+        b.presses.push_back({f.key, basisAround(f.flat.plane.n) * (f.contact.impulse / h), h});
     remember(b, near);
     if (points == 0) {
       concludeFreely(b, s.start[i], tau);
@@ -541,7 +590,7 @@ void World::Core::advanceIsland(Island& s, double tau, double h) {
   conclude(s, tau, s.glides ? last : h);
   // Sets that have been quiet together fall asleep together.
   const bool quiet = !s.carried && std::ranges::all_of(s.set, [&](const RigidBody* b) {
-    return b->mode == BodyMode::Contact && b->quiet >= kQuietTime && b->calm.balanced && !feelsChange(*b);
+    return b->mode == BodyMode::Contact && b->quiet >= kSleepsAfter && b->calm.balanced && !feelsChange(*b);
   });
   if (quiet)
     for (RigidBody* b : s.set) freeze(*b, tau);

@@ -1,0 +1,86 @@
+#include "dynamics/crowd_step.h"
+#include "dynamics/world_core.h"
+
+#include <algorithm>
+
+namespace stadion {
+namespace {
+
+constexpr std::uint32_t kAreaKey = 0x7fffff00;  ///< of the first flat contact of a pair
+
+}  // namespace
+
+void World::Core::FoundFlat::place(const Mobile& a, const Mobile& b, const Mat3& turnA, const Mat3& turnB,
+                                   const Vec3& pA, const Vec3& pB, Mat3& basis, Vec3& armA,
+                                   Vec3& armB) const {
+  const bool withA = flat.carrier == Carrier::A;
+  const Mat3 &own = withA ? turnA : turnB, &other = withA ? turnB : turnA;
+  basis.col(0) = other * flat.plane.n;
+  const Vec3 t1 = own * flat.plane.t1;
+  basis.col(1) = (t1 - basis.col(0) * basis.col(0).dot(t1)).normalized();
+  basis.col(2) = basis.col(0).cross(basis.col(1));
+  if (withA) {
+    armA = turnA * (flat.plane.origin - a.p), armB = pA + armA - pB;
+  } else {
+    armB = turnB * (flat.plane.origin - b.p), armA = pB + armB - pA;
+  }
+}
+
+/// Which points carry flat contacts, and with which friction those begin.
+void World::Core::findFlats(Island& s, double tau) const {
+  std::vector<Gap> gaps;
+  for (std::size_t first = 0, end = 0; first < s.found.size(); first = end) {
+    const Found& f = s.found[first];
+    gaps.clear();
+    for (end = first; end < s.found.size() && s.found[end].a == f.a && s.found[end].b == f.b; ++end)
+      gaps.push_back(s.found[end].gap);
+    if (gaps.size() < 3 || f.surface.friction <= 0) continue;
+    const std::optional<Side> a = side(f.a), b = side(f.b);
+    if (!a || !b) continue;
+    for (FlatContact& flat : flatContacts(*a, *b, tau, gaps)) {
+      FoundFlat found;
+      SolverContact& c = found.contact;
+      c.a = f.contact.a, c.b = f.contact.b, c.friction = f.surface.friction, c.area = flat.area.get();
+      const auto index = static_cast<std::int32_t>(s.found.size() + s.flats.size());
+      found.key = pairKey(f.a, f.b, kAreaKey + static_cast<std::uint32_t>(flat.points.front()));
+      for (const std::uint32_t k : flat.points)
+        found.points.push_back(first + k), s.found[first + k].contact.patch = index;
+      found.flat = std::move(flat);
+      s.flats.push_back(std::move(found));
+    }
+  }
+}
+
+/// In a crowd the points of a flat contact keep friction of their own, but at the mean radius of its area: so
+/// they resist spin as even pressure does, whichever of them carry it. Empty if all have it where they are.
+std::vector<Vec3> World::Core::placesOfFriction(const CrowdStep& step) const {
+  std::vector<Vec3> places;
+  std::vector<Gap> gaps;
+  const std::vector<CrowdContact>& all = step.crowd.contacts;
+  for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+    for (end = first + 1; end < all.size() && all[end].a == all[first].a; ++end)
+      if (step.notes[end].other != step.notes[first].other) break;
+    if (end - first < 3 || all[first].friction <= 0) continue;
+    const std::optional<Side> b = side(step.notes[first].other);
+    if (!b) continue;
+    gaps.clear();
+    for (std::size_t k = first; k < end; ++k) {
+      Gap g;
+      g.distance = all[k].gap, g.normal = all[k].n, g.point = step.points[k];
+      gaps.push_back(g);
+    }
+    for (const FlatContact& flat :
+         flatContacts(Side::of(*step.members[all[first].a].body), *b, step.tau, gaps)) {
+      if (places.empty()) places = step.points;
+      const Vec3& middle = flat.plane.origin;
+      for (const std::uint32_t k : flat.points) {
+        const Vec3 off = step.points[first + k] - middle;
+        const double away = (off - flat.plane.n * flat.plane.n.dot(off)).norm();
+        if (away > flat.area->radius()) places[first + k] = middle + flat.area->radius() / away * off;
+      }
+    }
+  }
+  return places;
+}
+
+}  // namespace stadion
