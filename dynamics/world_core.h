@@ -272,6 +272,7 @@ public:
     FlatContact flat;
     std::uint64_t key = 0;
     std::vector<std::size_t> points;  ///< among those found
+    std::vector<Vec3> places;         ///< where those are on the side that carries it
 
     /// Arms and a basis, in which the area does not turn, when its sides lie like this.
     void place(const Mobile& a, const Mobile& b, const Mat3& turnA, const Mat3& turnB, const Vec3& pA,

@@ -19,10 +19,17 @@ void World::Core::FoundFlat::place(const Mobile& a, const Mobile& b, const Mat3&
   const Vec3 t1 = own * flat.plane.t1;
   basis.col(1) = (t1 - basis.col(0) * basis.col(0).dot(t1)).normalized();
   basis.col(2) = basis.col(0).cross(basis.col(1));
+  // Where the sides tilt, what still touches is what is farthest on; friction is in the plane there.
+  const Vec3 start = withA ? a.p : b.p, towards = withA ? Vec3(-basis.col(0)) : Vec3(basis.col(0));
+  Vec3 arm = own * (flat.plane.origin - start);
+  double farthest = -1e300;
+  for (const Vec3& x : places) farthest = std::max(farthest, towards.dot(own * (x - start)));
+  arm += (farthest - towards.dot(arm)) * towards;
+  (withA ? armA : armB) = arm;
   if (withA) {
-    armA = turnA * (flat.plane.origin - a.p), armB = pA + armA - pB;
+    armB = pA + armA - pB;
   } else {
-    armB = turnB * (flat.plane.origin - b.p), armA = pB + armB - pA;
+    armA = pB + armB - pA;
   }
 }
 
@@ -43,8 +50,11 @@ void World::Core::findFlats(Island& s, double tau) const {
       c.a = f.contact.a, c.b = f.contact.b, c.friction = f.surface.friction, c.area = flat.area.get();
       const auto index = static_cast<std::int32_t>(s.found.size() + s.flats.size());
       found.key = pairKey(f.a, f.b, kAreaKey + static_cast<std::uint32_t>(flat.points.front()));
-      for (const std::uint32_t k : flat.points)
+      for (const std::uint32_t k : flat.points) {
         found.points.push_back(first + k), s.found[first + k].contact.patch = index;
+        found.places.push_back(gaps[k].point);
+        if (flat.carrier == Carrier::A) found.places.back() += gaps[k].distance * gaps[k].normal;
+      }
       found.flat = std::move(flat);
       s.flats.push_back(std::move(found));
     }

@@ -134,7 +134,7 @@ TEST(FlatFriction, ASpinningPlateStopsAsEvenPressureSays) {
 /// Points that share an area evenly.
 std::vector<Vec2> samplesOf(const std::string& name) {
   std::vector<Vec2> points;
-  constexpr int n = 20;
+  constexpr int n = 40;
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < n; ++k) {
       const double x = (i + 0.5) / n, y = (k + 0.5) / n;
@@ -203,9 +203,9 @@ TEST(FlatFriction, SlideAndSpinAreBrakedTogether) {
       });
       const std::string what = plate.name + std::to_string(slide);
       EXPECT_NEAR(slides, spins, 0.02) << what;
-      EXPECT_NEAR(slides / truth.time, 1, 0.015) << what;
-      EXPECT_NEAR(w.state(b).p.head<2>().norm() / truth.way, 1, 0.015) << what;
-      EXPECT_NEAR(angle / truth.angle, 1, 0.015) << what;
+      EXPECT_NEAR(slides / truth.time, 1, 0.005) << what;
+      EXPECT_NEAR(w.state(b).p.head<2>().norm() / truth.way, 1, 0.005) << what;
+      EXPECT_NEAR(angle / truth.angle, 1, 0.005) << what;
     }
   }
 }
