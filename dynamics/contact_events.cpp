@@ -56,6 +56,34 @@ bool ContactMemory::touching(const Key& pair) const {
   return at != memory_.end() && at->second.touching;
 }
 
+std::uint64_t ContactMemory::share(const Owed& owed) {
+  StateHash h;
+  h.add(owed.pair.first.isBody), h.add(owed.pair.first.id), h.add(owed.pair.second), h.add(owed.time);
+  return h.value();
+}
+
+void ContactMemory::beginFrame() {
+  events_.clear();
+  for (const Owed& o : owed_) {
+    digest_ -= share(o);
+    events_.push_back(
+        {ContactEvent::Kind::Release, o.time, o.pair.first, o.pair.second, Vec3::Zero(), Vec3::Zero(), 0, 0});
+  }
+  owed_.clear();
+}
+
+ContactMemory::Waiting* ContactMemory::waitingOf(const Key& pair) {
+  const auto at = memory_.find(pair);
+  return at == memory_.end() || at->second.waiting == kNowhere ? nullptr : &waiting_[at->second.waiting];
+}
+
+void ContactMemory::releaseLater(const Key& pair, Nanoseconds time) {
+  if (!waitingOf(pair)) return;
+  update(pair, [&](Memory& m) { leave(m); });
+  owed_.push_back({pair, time});
+  digest_ += share(owed_.back());
+}
+
 void ContactMemory::release(const Key& pair, Nanoseconds time) {
   const auto at = memory_.find(pair);
   if (at == memory_.end() || at->second.waiting == kNowhere) return;

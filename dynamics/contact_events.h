@@ -18,7 +18,8 @@ public:
   static Key keyOf(Party a,
                    Party b);  ///< at least one side is a body; the body with the greater id comes last
 
-  void beginFrame() { events_.clear(); }
+  /// Forgets the last frame's events and tells what has been owed since.
+  void beginFrame();
   struct Waiting;
   /// A separated pair fires if it closes fast enough: it waits for its release then, if that is asked for.
   Waiting* impact(const Key& pair, Nanoseconds time, const Vec3& point, const Vec3& normal, double speed,
@@ -27,6 +28,10 @@ public:
   void setTouching(const Key& pair, bool touching);
   bool touching(const Key& pair) const;
   void release(const Key& pair, Nanoseconds time);
+  /// The same, but it is told in the next frame.
+  void releaseLater(const Key& pair, Nanoseconds time);
+  /// That pair if its release has yet to be told, else null.
+  Waiting* waitingOf(const Key& pair);
   void forget(Party gone);
 
   /// A pair whose impact has been told and whose release has not.
@@ -39,11 +44,13 @@ public:
     const std::uint32_t *versionA = nullptr, *versionB = nullptr;  ///< what they are now
     std::int32_t triangle = -1;                                    ///< of a mesh, that was near
     bool sure = false;  ///< it will be as far off by then as it must be from what was near
+    Nanoseconds seen = 0;  ///< up to then it has not parted ...
+    double slack = 0;      ///< ... and after that it must go so far to do so [m]
 
     template <class Self, class Fields>
     static void fields(Self& w, Fields& f) {
       f("pair", w.pair), f("frame", w.frame), f("look", w.look), f("versions", w.versions);
-      f("triangle", w.triangle), f("sure", w.sure);
+      f("triangle", w.triangle), f("sure", w.sure), f("seen", w.seen), f("slack", w.slack);
     }
   };
   /// Equal for equal memories, up to chance; costs nothing.
@@ -67,7 +74,7 @@ public:
   template <class Fields, class VersionOf>
   void state(Fields& f, const VersionOf& versionOf) {
     f("pairs", memory_), f("idle", idle_), f("digest", digest_);
-    f("waiting", waiting_);
+    f("waiting", waiting_), f("owed", owed_);
     for (Waiting& w : waiting_) {
       bool foreseen = w.versionA != nullptr;
       f("foreseen", foreseen);
@@ -114,6 +121,17 @@ private:
   std::vector<Waiting> waiting_;
   std::set<std::pair<BodyId, Party>> others_;  ///< the same pairs by their body
   std::vector<ContactEvent> events_;
+  struct Owed {
+    Key pair;
+    Nanoseconds time = 0;
+
+    template <class Self, class Fields>
+    static void fields(Self& o, Fields& f) {
+      f("pair", o.pair), f("time", o.time);
+    }
+  };
+  static std::uint64_t share(const Owed& owed);
+  std::vector<Owed> owed_;  ///< releases in the frame of their impact
 };
 
 }  // namespace stadion

@@ -5,6 +5,7 @@
 
 #include "dynamics/arc.h"
 #include "dynamics/body_flight.h"
+#include "dynamics/body_way.h"
 #include "dynamics/drag_flight.h"
 #include "dynamics/instant.h"
 #include "dynamics/shape.h"
@@ -17,22 +18,18 @@
 
 namespace stadion {
 
-/// Position and velocity of a rigid frame at one moment.
-struct Kinematics {
-  Pose pose;              ///< X_WN
-  Vec3 p = Vec3::Zero();  ///< the point that v belongs to: a body's centre of mass, a collider's origin
-  Vec3 v = Vec3::Zero();
-  Vec3 omega = Vec3::Zero();
-  Vec3 velocityAt(const Vec3& x) const { return v + omega.cross(x - p); }
-};
+/// Events on a known way are found a little beyond the end of its part: what closes there counts to it [s].
+constexpr double kTurnsLate = 1e-10;
 
-/// A straight move with constant angular velocity through the frame.
+/// A straight move with constant angular velocity through the frame, or a way that is known exactly.
 struct GuidedMotion {
   Pose start, end;
   Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
   double begin = 0;  ///< tau of `start`
   double rate = 0;   ///< 1 / frame length [1/s]
   bool moving = false;
+  BodyWay way;           ///< instead of all that, in this frame
+  std::size_t part = 0;  ///< of it, at the last turn
 
   void set(const Pose& from, const Pose& to, double tau, double seconds) {
     start = from, end = to, begin = tau;
@@ -41,21 +38,42 @@ struct GuidedMotion {
     v = moving ? Vec3((to.p - from.p) * rate) : Vec3::Zero();
     omega = moving ? Vec3(from.q * det::logRotation(from.q.conjugate() * to.q) * rate) : Vec3::Zero();
   }
+  /// Instead of what has been set it follows `way` from tau to `until`; a window began at `origin`.
+  void follow(const Instant& origin, double tau, double until) {
+    if (way.empty()) return;
+    rebase(origin);
+    part = partAfter(tau + 1e-12);
+    moving = false;
+    for (std::size_t i = part; i < way.size() && way[i].tau < until; ++i) moving = moving || !way[i].stands();
+    if (!moving) way.clear(), v.setZero(), omega.setZero();
+  }
+  void rebase(const Instant& origin) {
+    for (WayPart& p : way) p.tau = p.from.since(origin);
+  }
+  bool guided() const { return !way.empty(); }
   Kinematics at(double tau) const {
+    if (guided()) return way[partAt(tau)].at(tau);
     const Pose X = moving ? det::interpolate(start, end, (tau - begin) * rate) : end;
     return {X, X.p, v, omega};
   }
-};
-
-/// How wildly the points of a side can move until the end of the frame.
-struct MotionBound {
-  double speed = 0;         ///< of p [m/s]
-  double acceleration = 0;  ///< of p [m/s2]
-  double spin = 0;          ///< [rad/s]
-  double spinChange = 0;    ///< [rad/s2]
-  /// Of a point r metres from p.
-  double accelerationAt(double r) const { return acceleration + (spin * spin + spinChange) * r; }
-  double speedAt(double r) const { return speed + spin * r; }
+  /// Of what does not reach beyond one part of the way.
+  MotionBound boundOver(double from, double to) const {
+    if (guided()) return way[partAt(from)].boundOver(from, to);
+    return {v.norm(), 0, omega.norm(), 0};
+  }
+  /// When its way goes on otherwise [s].
+  double nextTurn() const {
+    return part + 1 < way.size() ? way[part + 1].tau : std::numeric_limits<double>::infinity();
+  }
+  /// Both sides of a turn are seen from the part that has been reached.
+  std::size_t partAt(double tau) const {
+    if (way[part].tau <= tau && !(tau > nextTurn() + kTurnsLate)) return part;
+    return partAfter(tau);
+  }
+  std::size_t partAfter(double tau) const {
+    const auto next = std::ranges::upper_bound(way, tau, {}, &WayPart::tau);
+    return next == way.begin() ? 0 : static_cast<std::size_t>(next - way.begin()) - 1;
+  }
 };
 
 /// A flat face that a ball slides or rolls on.
@@ -159,6 +177,10 @@ struct RigidBody : RigidMotion {
   Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< how far since it is quiet, or is looked at [m], [rad]
   std::uint32_t slot = 0;                           ///< scratch of the contact solver
   GuidedMotion held;
+  BodyWay nextWay;                ///< Held: in the coming part of a frame, if it is known
+  bool traced = false, awaited = false;  ///< its way is noted, for others or because it may part from something
+  bool put = false;               ///< it has been put where it is
+  BodyWay trace;                  ///< traced: its way in this frame
   std::vector<FieldId> carried;   ///< Held: fields in the same hand
   Vec3 wound = Vec3::Zero();      ///< Held: the velocity that their pushes have added up to, in N [m/s]
   Instant woundTo;                ///< Held: until when
@@ -232,6 +254,7 @@ struct Collider {
   bool enabled = true;
   Pose now;                  ///< X_WN at the start of the coming frame
   std::optional<Pose> next;  ///< where it will be at its end
+  BodyWay nextWay;           ///< how it gets there, if that is known
   GuidedMotion motion;
   Vec3 planePoint = Vec3::Zero(), planeNormal = Vec3::UnitZ();  ///< of a PlaneShape, at the motion's end
   bool disturbed = false;  ///< it moved, jumped or came: sleepers on it wake
@@ -248,21 +271,9 @@ struct Collider {
 };
 
 inline MotionBound RigidBody::boundOver(double from, double to) const {
-  MotionBound b;
-  if (mode == BodyMode::Held) {
-    b.spin = held.omega.norm();
-    const double arm = X_NC.p.norm();
-    b.speed = held.v.norm() + b.spin * arm, b.acceleration = b.spin * b.spin * arm;
-    return b;
-  }
-  b.acceleration = path.accelerationBound();
-  b.speed = path.velocity(age(from)).norm() + b.acceleration * (to - from);
-  b.spin = spin.speedBound(spinAge(to));
-  b.spinChange = spin.kind == Spin::Kind::Driven    ? spin.alpha.norm()
-                 : spin.kind == Spin::Kind::Uniform ? 0
-                 : spin.kind == Spin::Kind::Steered ? spin.steeredChange()
-                                                    : b.spin * b.spin;
-  return b;
+  if (mode == BodyMode::Held)
+    return held.boundOver(from, to).seenFrom(X_NC.p.norm());
+  return boundOf(path, age(from), age(to), spin, spinAge(to));
 }
 
 }  // namespace stadion

@@ -477,12 +477,24 @@ Aabb sweptBox(const Side& side, double from, double to) {
     box.lo.setConstant(-1e300), box.hi.setConstant(1e300);
     return box;
   }
-  const Kinematics k0 = side.at(from), k1 = side.still() ? k0 : side.at(to);
-  const MotionBound b = side.boundOver(from, to);
-  const double arm = side.body ? (side.body->X_NC.p - s.centre).norm() : s.centre.norm();
-  const double sag = b.accelerationAt(arm) * (to - from) * (to - from) / 8 + s.radius + 1e-6;
-  box.include(k0.pose * s.centre), box.include(k1.pose * s.centre);
-  box.lo.array() -= sag, box.hi.array() += sag;
+  const auto sweep = [&](const Pose& X0, const Pose& X1, const MotionBound& b, double arm, double seconds) {
+    const Vec3 c0 = X0 * s.centre, c1 = X1 * s.centre;
+    const double sag = b.accelerationAt(arm) * seconds * seconds / 8 + s.radius + 1e-6;
+    box.include(Vec3(c0.cwiseMin(c1).array() - sag)), box.include(Vec3(c0.cwiseMax(c1).array() + sag));
+  };
+  if (!side.guided()) {
+    const Pose X0 = side.at(from).pose;
+    const double arm = side.body ? (side.body->X_NC.p - s.centre).norm() : s.centre.norm();
+    sweep(X0, side.still() ? X0 : side.at(to).pose, side.boundOver(from, to), arm, to - from);
+    return box;
+  }
+  const GuidedMotion& m = *side.motion();
+  for (std::size_t i = m.partAfter(from); i < m.way.size() && (i == 0 || m.way[i].tau <= to); ++i) {
+    const WayPart& part = m.way[i];
+    const double start = std::max(from, part.tau),
+                 end = std::max(start, i + 1 < m.way.size() ? std::min(to, m.way[i + 1].tau) : to);
+    sweep(part.at(start).pose, part.at(end).pose, part.boundOver(start, end), s.centre.norm(), end - start);
+  }
   return box;
 }
 

@@ -22,11 +22,16 @@ struct Side {
   static Side of(const Collider& c) { return {{false, c.id}, c.shape, nullptr, &c}; }
   Kinematics at(double tau) const { return body ? body->at(tau) : collider->motion.at(tau); }
   MotionBound boundOver(double from, double to) const {
-    if (body) return body->boundOver(from, to);
-    return {collider->motion.v.norm(), 0, collider->motion.omega.norm(), 0};
+    return body ? body->boundOver(from, to) : collider->motion.boundOver(from, to);
   }
   std::uint32_t version() const { return body ? body->version : collider->version; }
   const Sphere& bound() const { return body ? body->bound : collider->bound; }
+  /// How it moves if that is said from outside, else null.
+  const GuidedMotion* motion() const {
+    if (collider) return &collider->motion;
+    return body->mode == BodyMode::Held ? &body->held : nullptr;
+  }
+  bool guided() const { return motion() && motion()->guided(); }
   bool still() const { return body ? standsStill(body->mode) : !collider->motion.moving; }
 };
 

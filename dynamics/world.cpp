@@ -148,6 +148,7 @@ bool World::removeCollider(ColliderId id) {
 bool World::moveCollider(ColliderId id, const Pose& end, bool teleport) {
   Collider* c = core_->collider(id);
   if (!c || !usable(end)) return false;
+  c->nextWay.clear();
   if (teleport) {
     c->now = unit(end), c->next.reset();
     c->disturbed = true;
@@ -155,6 +156,12 @@ bool World::moveCollider(ColliderId id, const Pose& end, bool teleport) {
     c->next = unit(end);
   }
   core_->told.push_back(id);
+  return true;
+}
+
+bool World::moveCollider(ColliderId id, const Pose& end, const BodyWay& way) {
+  if (!moveCollider(id, end)) return false;
+  core_->collider(id)->nextWay = way;
   return true;
 }
 
@@ -292,18 +299,25 @@ bool World::hooked(BodyId id, FieldId field) const {
 
 bool World::placeBody(BodyId id, const Pose& X_WN, const Vec3& v, const Vec3& omega) {
   RigidBody* b = core_->body(id);
-  if (!b || !usable(X_WN) || !v.allFinite() || !omega.allFinite()) return false;
-  b->pose = unit(X_WN);
-  b->trouble.clear();
-  b->fresh = true;
-  b->touching.clear(), b->waysOut.clear();
-  const Pose X_WC = b->pose * b->X_NC;
-  core_->memory.forget({true, id});
-  core_->startFlight(*b, core_->now, X_WC.p, v, X_WC.q,
-                     X_WC.q * b->inertia.cwiseProduct(X_WC.q.conjugate() * omega));
+  if (!b) return false;
+  b->put = true;
+  const bool placed = core_->putBody(*b, X_WN, v, omega);
+  b->put = false;
+  return placed;
+}
+
+bool World::Core::putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const Vec3& omega) {
+  if (!usable(X_WN) || !v.allFinite() || !omega.allFinite()) return false;
+  b.pose = unit(X_WN);
+  b.trouble.clear();
+  b.fresh = true;
+  b.touching.clear(), b.waysOut.clear();
+  const Pose X_WC = b.pose * b.X_NC;
+  memory.forget({true, b.id});
+  startFlight(b, now, X_WC.p, v, X_WC.q, X_WC.q * b.inertia.cwiseProduct(X_WC.q.conjugate() * omega));
   // One that is in trouble again at once is told of, too.
-  if (b->mode == BodyMode::Quarantined && !b->active) b->active = true, core_->active.push_back(b);
-  core_->wakeOnto({true, id}, core_->now);
+  if (b.mode == BodyMode::Quarantined && !b.active) b.active = true, active.push_back(&b);
+  wakeOnto({true, b.id}, now);
   return true;
 }
 
@@ -326,6 +340,7 @@ bool World::holdBody(BodyId id) {
   b->mode = BodyMode::Held;
   b->freePlace = b->pose * b->bound.centre;
   if (std::ranges::find(core_->held, b) == core_->held.end()) core_->held.push_back(b);
+  b->held.way.clear(), b->nextWay.clear();
   b->held.set(b->pose, b->pose, core_->now, 0);
   b->carried.clear();
   b->wound.setZero();
@@ -348,7 +363,9 @@ Vec3 World::woundUp(BodyId id) const {
 bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
   RigidBody* b = core_->body(id);
   if (!b || b->mode != BodyMode::Held || !usable(end)) return false;
+  b->nextWay.clear();
   if (teleport) {
+    b->put = b->traced || b->awaited;
     b->pose = unit(end);
     b->held.set(b->pose, b->pose, core_->now, 0);
     b->freePlace = b->pose * b->bound.centre;
@@ -361,9 +378,15 @@ bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
   return true;
 }
 
+bool World::moveHeld(BodyId id, const Pose& end, const BodyWay& way) {
+  if (!moveHeld(id, end)) return false;
+  core_->body(id)->nextWay = way;
+  return true;
+}
+
 bool World::releaseBody(BodyId id, const Vec3& v, const Vec3& omega) {
   RigidBody* b = core_->body(id);
-  if (!b || b->mode != BodyMode::Held || !placeBody(id, b->pose, v, omega)) return false;
+  if (!b || b->mode != BodyMode::Held || !core_->putBody(*b, b->pose, v, omega)) return false;
   b->letGo = true;
   return true;
 }
@@ -380,6 +403,19 @@ bool World::pause(Nanoseconds t0, Nanoseconds t1, bool continues) {
   if (!core_->started) core_->start(t0);
   core_->pause(t1, continues);
   return true;
+}
+
+bool World::traceBody(BodyId id, bool on) {
+  RigidBody* b = core_->body(id);
+  if (!b) return false;
+  if (b->traced != on) core_->trace(*b, on, b->awaited, core_->now);
+  return true;
+}
+
+const BodyWay& World::wayOf(BodyId id) const {
+  static const BodyWay none;
+  const RigidBody* b = core_->body(id);
+  return b && b->traced ? b->trace : none;
 }
 
 const std::vector<BodyId>& World::changed() const {

@@ -60,6 +60,8 @@ struct Stick {
 
 class StateFields;
 struct BodyFlight;
+struct WayPart;
+using BodyWay = std::vector<WayPart>;
 
 struct BodyDef {
   ShapeId shape = 0;
@@ -174,6 +176,9 @@ public:
   /// impacts. Not told, it stays. `teleport`: it is there from the frame's start and gives no impulse for the
   /// jump; sleepers that it is put into wake.
   bool moveCollider(ColliderId id, const Pose& end, bool teleport = false);
+  /// The same, on a way that is known from the frame's start to its end, where it leads to `end`. A jump in
+  /// it must be told by itself, at its time.
+  bool moveCollider(ColliderId id, const Pose& end, const BodyWay& way);
   /// A collider that is off takes part in nothing.
   bool enableCollider(ColliderId id, bool on);
   bool enableBody(BodyId id, bool on);
@@ -210,6 +215,7 @@ public:
   bool holdBody(BodyId id);
   /// `teleport`: it is put there and gives no impulse for the jump.
   bool moveHeld(BodyId id, const Pose& end, bool teleport = false);
+  bool moveHeld(BodyId id, const Pose& end, const BodyWay& way);
   bool releaseBody(BodyId id, const Vec3& v, const Vec3& omega);
   /// The fields that the holding hand carries, until told otherwise or it is held anew: while one of them is
   /// a linear field, on, and hooked to the body, its push adds up instead of moving the body.
@@ -223,6 +229,11 @@ public:
   bool advance(Nanoseconds t0, Nanoseconds t1, bool continues = false);
   /// The same, but nothing moves and nothing happens: the world stands still while show time goes on.
   bool pause(Nanoseconds t0, Nanoseconds t1, bool continues = false);
+
+  /// From now on it is noted how the body moves within a frame, or no longer.
+  bool traceBody(BodyId id, bool on);
+  /// How it has moved from the last frame's start, or since it is traced; empty if it is not.
+  const BodyWay& wayOf(BodyId id) const;
 
   /// Bodies that may not be where, or as, they were before the last frame; by id. All others are.
   const std::vector<BodyId>& changed() const;

@@ -130,6 +130,7 @@ void World::Core::setPath(RigidBody& b, double tau, const Path& path, double hor
   ++b.version;
   if (mode != BodyMode::Flight && !b.crowd) noteLeaner(b);
   if (!b.active) b.active = true, active.push_back(&b);
+  note(b, tau);
   if (!foresee) mark(b);  // a change between frames is looked at when the next one begins
 }
 
@@ -148,6 +149,7 @@ void World::Core::quarantine(RigidBody& b, double tau, std::string why) {
   b.support.on = {};
   b.touching.clear();
   ++b.version;
+  note(b, tau);
 }
 
 void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, const Quat& q,
@@ -379,6 +381,7 @@ bool World::Core::crossFold(RigidBody& b, double tau) const {
 }
 
 void World::Core::reachHorizon(RigidBody& b, double tau) {
+  if (b.mode == BodyMode::Held) return turn(b, tau);
   if (b.mode == BodyMode::Flight) {
     // The motion is the same, but what was foreseen ended here.
     if (!flyOn(b, tau) && b.alone)  // it goes where it was seen to go

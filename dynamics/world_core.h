@@ -126,6 +126,7 @@ public:
   void windUp(double tau);
   void endFrame();
   void partCarried();
+  bool putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const Vec3& omega);
   void insert(Command c);
   void postCommand(const Command& c);
   void execute(const Command& c, double tau);
@@ -172,6 +173,9 @@ public:
   }
   void predictPair(const Side& a, const Side& b, double tau);
   void pushHorizon(const RigidBody& b);
+  void pushTurn(Party p, const GuidedMotion& motion, double tau);
+  void turn(RigidBody& b, double tau);
+  void turn(Collider& c, double tau);
   static bool bothCarried(const Side& a, const Side& b);
   bool mayTouch(const Side& a, const Side& b) const;
   std::uint32_t versionOf(Party p) const;
@@ -240,12 +244,30 @@ public:
   void afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting);
 
   // --- who has parted (world_release.cpp)
+  static constexpr double kCarriedApart = 1e-5;  ///< what is moved from outside touches while it is nearer [m]
+  std::optional<double> firstBeyond(const Side& a, const Side& b, double far, double from, double to) const;
   void reportReleases();
   bool nobodyNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const;
-  void foreseeRelease(ContactMemory::Waiting& w, double tau, std::int32_t triangle) const;
+  void foreseeRelease(ContactMemory::Waiting& w, double tau, std::int32_t triangle);
+  std::optional<Nanoseconds> whenParted(const ContactMemory::Waiting& w, double tau) const;
+  double wayLength(const Side& s, double from, double tau) const;
+  bool stillNear(ContactMemory::Waiting& w, double tau) const;
+  void release(const ContactMemory::Key& pair, Nanoseconds time);
+  void releaseBefore(const ContactMemory::Key& pair, double tau);
   void awaitRelease(ContactMemory::Waiting& w, const Side& a, const Side& b, double distance,
                     double tau) const;
   Nanoseconds soonest(const Side& a, const Side& b, double distance, double tau) const;
+
+  // --- ways within a frame (world_trace.cpp)
+  std::vector<RigidBody*> tracedBodies;
+  bool stoodStill = false;  ///< the frame's last part was a pause
+  void trace(RigidBody& b, bool traced, bool awaited, double tau);
+  void note(RigidBody& b, double tau);
+  void noteHeld(RigidBody& b);
+  void addPart(RigidBody& b, WayPart part);
+  void beginTraces(bool continues);
+  void findTraced();
+  void pauseTraces(bool continues);
 
   // --- out of what a hand has put a body into (world_way_out.cpp)
   void noteFreePlaces();

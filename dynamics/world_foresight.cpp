@@ -71,11 +71,39 @@ bool World::Core::mayTouch(const Side& a, const Side& b) const {
 
 /// The last tau at which it is known where a side is.
 double World::Core::knownUntil(const Side& s) const {
-  if (s.collider) return s.collider->motion.moving ? now : windowEnd();
-  return isHeld(s) ? now : s.body->until;
+  const GuidedMotion* motion = s.motion();
+  if (!motion) return s.body->until;
+  if (s.collider && !motion->moving) return windowEnd();
+  return motion->guided() ? std::min(now, motion->nextTurn()) : now;
+}
+
+/// Its way goes on otherwise before the frame is over: what it meets then must be looked at again.
+void World::Core::pushTurn(Party p, const GuidedMotion& motion, double tau) {
+  const double turns = std::max(tau, motion.nextTurn() + kTurnsLate);
+  if (!motion.guided() || !(turns <= std::min(now, windowEnd()))) return;
+  Event e;
+  e.tau = turns, e.kind = Event::Kind::Horizon, e.a = p, e.versionA = versionOf(p);
+  post(e);
+}
+
+void World::Core::turn(RigidBody& b, double tau) {
+  ++b.held.part, ++b.version;
+  wakeOnto({true, b.id}, tau);
+  predict(b, tau);
+}
+
+void World::Core::turn(Collider& c, double tau) {
+  ++c.motion.part, ++c.version;
+  wakeOnto({false, c.id}, tau);
+  nearBodies.eachNear(c.swept, [&](RigidBody& o) {
+    comeNear(o, tau);
+    predictPair(Side::of(o), Side::of(c), tau);
+  });
+  pushTurn({false, c.id}, c.motion, tau);
 }
 
 void World::Core::pushHorizon(const RigidBody& b) {
+  if (b.mode == BodyMode::Held) return pushTurn({true, b.id}, b.held, frameFrom);
   if (!(b.until <= windowEnd()) || b.mode == BodyMode::Contact) return;
   Event e;
   e.tau = std::max(b.until, frameFrom), e.kind = Event::Kind::Horizon, e.a = {true, b.id},
@@ -99,17 +127,26 @@ void World::Core::predictPair(const Side& a, const Side& b, double tau) {
   if (bothCarried(a, b)) {
     // Nothing comes of it but the news that they touch, once.
     if (!isHeld(a) && !isHeld(b)) return;
-    if (memory.touching(ContactMemory::keyOf(a.party, b.party))) return;
+    const ContactMemory::Key key = ContactMemory::keyOf(a.party, b.party);
+    if (memory.touching(key)) {
+      const double known = std::min({now, knownUntil(a), knownUntil(b)});
+      const auto parted = a.guided() || b.guided() ? firstBeyond(a, b, kCarriedApart, tau, known)
+                                                   : std::optional<double>();
+      if (!parted) return;
+      memory.setTouching(key, false);
+      tau = *parted;
+    }
   }
   ++counters.pairTests;
   if (a.body && b.body) ++looks.bodies;
   // An arc that ends before the window is only asked up to its end.
   const double to = std::min({windowEnd(), knownUntil(a), knownUntil(b)});
   if (!(tau <= to)) return;
-  const auto touch = firstRealTouch(a, b, tau, to);
+  const double beyond = a.guided() || b.guided() ? to + kTurnsLate : to;
+  const auto touch = firstRealTouch(a, b, tau, beyond);
   if (!touch) return;
   Event e;
-  e.tau = touch->tau, e.kind = Event::Kind::Touch, e.a = a.party, e.b = b.party;
+  e.tau = std::min(touch->tau, to), e.kind = Event::Kind::Touch, e.a = a.party, e.b = b.party;
   e.versionA = a.version(), e.versionB = b.version();
   e.detail = static_cast<std::uint32_t>(touches_.size());
   touches_.push_back(*touch);
@@ -233,6 +270,7 @@ void World::Core::foreseeMarked(double tau) {
       comeNear(o, tau);
       predictPair(Side::of(o), Side::of(*c), tau);
     });
+    pushTurn({false, id}, c->motion, tau);
   }
   for (RigidBody* b : marked) b->marked = false;
   marked.clear();
@@ -322,9 +360,9 @@ void World::Core::beginWindow(Nanoseconds at) {
   for (RigidBody& b : bodies) {
     b.age0 = start.since(b.since);
     b.until = b.validAge - b.age0;
-    b.held.begin = frameFrom;
+    b.held.begin = frameFrom, b.held.rebase(start);
   }
-  for (Collider& c : colliders) c.motion.begin = frameFrom;
+  for (Collider& c : colliders) c.motion.begin = frameFrom, c.motion.rebase(start);
   tickAt = -1;
   scheduleDue(from);
   const Command* before = nullptr;

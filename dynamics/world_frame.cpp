@@ -120,6 +120,7 @@ void World::Core::forgetBody(RigidBody& b) {
   std::erase(active, &b);
   std::erase(marked, &b);
   std::erase(held, &b);
+  std::erase(tracedBodies, &b);
 }
 
 void World::Core::newFrame() {
@@ -133,6 +134,7 @@ void World::Core::newFrame() {
 void World::Core::pause(Nanoseconds to, bool continues) {
   if (!continues) newFrame();
   const Nanoseconds gap = to - t1;
+  pauseTraces(continues);
   if (gap == 0) return;
   for (RigidBody& b : bodies) b.since.ns += gap, b.woundTo.ns += gap;
   t0 = t1 = to;
@@ -146,6 +148,7 @@ void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
     newFrame();
     if (jerking) turnByFrame();
   }
+  beginTraces(continues);
   beginFrame();
   while (t1 - origin >= window) {
     runEvents(windowEnd());
@@ -163,6 +166,9 @@ void World::Core::beginFrame() {
   std::erase_if(held, [](const RigidBody* b) { return b->mode != BodyMode::Held; });
   for (RigidBody* b : held) {
     b->held.set(b->held.start, b->held.end, frameFrom, seconds);
+    b->held.way.swap(b->nextWay), b->nextWay.clear();
+    b->held.follow({origin, 0}, frameFrom, now);
+    noteHeld(*b);
     ++b->version;
     mark(*b);
   }
@@ -172,6 +178,8 @@ void World::Core::beginFrame() {
     if (Collider* c = collider(id)) {
       c->move(c->now, c->next.value_or(c->now), frameFrom, seconds);
       c->next.reset();
+      c->motion.way.swap(c->nextWay), c->nextWay.clear();
+      c->motion.follow({origin, 0}, frameFrom, now);
       ++c->version;
       sweep(*c);
     }
@@ -331,7 +339,9 @@ void World::Core::runEvents(double until) {
       if (e.detail == tickNumber && tickAt >= 0) tick(e.tau);
       break;
     case Event::Kind::Horizon:
-      if (RigidBody* b = body(e.a.id); b && b->version == e.versionA) reachHorizon(*b, e.tau);
+      if (versionOf(e.a) != e.versionA) break;
+      if (Collider* c = e.a.isBody ? nullptr : collider(e.a.id)) turn(*c, e.tau);
+      if (RigidBody* b = e.a.isBody ? body(e.a.id) : nullptr) reachHorizon(*b, e.tau);
       break;
     case Event::Kind::Touch:
       if (versionOf(e.a) == e.versionA && versionOf(e.b) == e.versionB) {
@@ -371,7 +381,7 @@ void World::Core::sample(RigidBody& b) {
     b.pose = X;
   else
     expel(b);
-  if (b.mode == BodyMode::Held) b.held.start = b.held.end;
+  if (b.mode == BodyMode::Held) b.held.start = b.held.end, b.held.way.clear();
   changed.push_back(b.id);
   b.active = !standsStill(b.mode);
 }
@@ -417,7 +427,7 @@ void World::Core::endFrame() {
   // Who moved is told once more next time that it stands.
   std::erase_if(told, [&](ColliderId id) {
     Collider* c = collider(id);
-    if (c) c->now = c->motion.end;
+    if (c) c->now = c->motion.end, c->motion.way.clear();
     return !c || !c->motion.moving;
   });
 }
@@ -428,7 +438,7 @@ void World::Core::partCarried() {
   const auto look = [&](const ContactMemory::Key& key) {
     if (!memory.touching(key)) return;
     const auto a = side(key.first), b = side({true, key.second});
-    if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, now, {1e-3}).distance > 1e-5)
+    if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, now, {1e-3}).distance > kCarriedApart)
       apart.push_back(key);
   };
   for (const RigidBody* b : held)

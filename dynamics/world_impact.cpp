@@ -185,9 +185,12 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   const ContactMemory::Key key = ContactMemory::keyOf(pa, pb);
   const Vec3 outwards = key.second == pa.id ? n : Vec3(-n);
   const bool awaited = std::isfinite((key.second == pa.id ? a : *b).releaseDistance);
+  if (awaited) releaseBefore(key, tau);
   if (!a.movable() && !(b && b->movable())) {
-    memory.impact(key, timeAt(tau), x, outwards, closing, 0, frame, awaited);
+    ContactMemory::Waiting* waiting =
+        memory.impact(key, timeAt(tau), x, outwards, closing, 0, frame, awaited);
     memory.setTouching(key, true);
+    if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
     return;
   }
   if (a.stick && c && !c->motion.moving && sticksIn(a, x, n, closing, tau)) {

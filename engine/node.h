@@ -42,8 +42,9 @@ struct FrameContext {
 };
 
 /// In which order nodes run within a frame: what places things comes before what looks at them. Within a
-/// rank, the order is (load number, position in file).
-enum class Rank : std::uint8_t { Input, Attachment, Motion, Sensing, Dynamics, Outcome };
+/// rank, nodes come after those whose movers they name (Node::addMovers), else the order is (load number,
+/// position in file).
+enum class Rank : std::uint8_t { Input, Attachment, Motion, Sensing, Dynamics, Contact, Outcome };
 
 /// One `eventmessage` of a node: what it posts when something happens to it.
 struct Notification {
@@ -75,9 +76,11 @@ public:
     bool touched = false;   ///< its state has changed since then
     bool rests = false;     ///< it does not run, to save time (load_control.h), or
     std::uint8_t pace = 0;  ///< only in one of 2^pace frames
+    std::uint16_t level = 0;  ///< within its rank: it comes after those that it looks at
     Missed missed{};
   };
   Standing& standing() { return standing_; }
+  const Standing& standing() const { return standing_; }
   void addNotification(Notification n) { notifications_.push_back(std::move(n)); }
 
   /// Takes its place in the scene: names resolve, placements and instances are made. Once, when its load is
@@ -100,6 +103,9 @@ public:
   }
   /// Whether it may look at what `earlier` tells the scene in this frame, and so can begin only after that.
   virtual bool awaits(const Node& earlier, const Scene& scene) const;
+
+  /// Adds the nodes of its rank that move what it looks at.
+  virtual void addMovers(const Scene&, std::vector<NodeRef>& /*movers*/) const {}
 
   virtual Rank rank() const { return Rank::Motion; }
   /// Whether it wants to be visited in the next frame even if no message arrives.

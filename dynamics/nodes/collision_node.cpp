@@ -6,6 +6,7 @@
 #include "engine/state_fields.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace stadion {
@@ -94,7 +95,7 @@ void CollisionNode::changeParts(Nanoseconds time, FrameContext& frame) {
     const bool isCollider = part >= colliders_.data() && part < colliders_.data() + colliders_.size();
     if (part->ref.valid() && part->leaveAt <= time) {
       isCollider ? removeCollider(*part, scene) : removeCollidee(*part, scene);
-      part->ref = {}, part->id = 0, part->fit = nullptr, part->course.clear();
+      part->ref = {}, part->id = 0, part->fit = nullptr, part->course.clear(), part->way.clear();
     }
     if (!part->next.valid() || part->nextAt > time || part->ref.valid()) continue;
     auto* object = dynamic_cast<ObjectNode*>(scene.find(part->next));
@@ -102,24 +103,21 @@ void CollisionNode::changeParts(Nanoseconds time, FrameContext& frame) {
     if (!object) continue;
     part->ref = ref, part->leaveAt = scene.endOf(ref.load);
     part->placement = object->placement();
-    if (isCollider)
-      bringCollider(*part, *object, time, frame);
-    else
-      part->pose = poseOf(scene.placements().world(part->placement)), addCollidee(*part, *object, scene);
+    bring(*part, *object, isCollider, time, frame);
   }
 }
 
-/// A collider comes where it is at that time, and goes on from there.
-void CollisionNode::bringCollider(Part& part, const ObjectNode& object, Nanoseconds time,
-                                  FrameContext& frame) {
+/// A part comes where it is at that time, and goes on from there.
+void CollisionNode::bring(Part& part, ObjectNode& object, bool isCollider, Nanoseconds time,
+                          FrameContext& frame) {
   const Placements& placements = frame.scene.placements();
-  const Courses& courses = frame.scene.courses();
-  part.course = courses.within(part.placement, courses.startOf(part.placement, placements), frame.start(),
-                               frame.now.time, placements);
-  part.pose = part.course.empty() ? poseOf(placements.world(part.placement))
-                                  : poseOn(part.course, time, Limit::After);
-  addCollider(part, object, frame.scene);
   part.pose = poseOf(placements.world(part.placement));
+  if (!isCollider && !followsCollidees()) return addCollidee(part, object, frame.scene);
+  followFrom(part, frame.scene.courses().startOf(part.placement, placements), frame);
+  const Pose now = part.pose;
+  if (moves(part)) part.pose = poseAt(part, time, Limit::After);
+  isCollider ? addCollider(part, object, frame.scene) : addCollidee(part, object, frame.scene);
+  part.pose = now;
 }
 
 void CollisionNode::addCollider(Part& part, const ObjectNode& object, Scene& scene) {
@@ -209,16 +207,67 @@ void CollisionNode::addCuts(const Course& course, std::vector<Nanoseconds>& cuts
   for (const PoseKnot& k : course) cuts.push_back(k.time);
 }
 
-bool CollisionNode::follow(Part& part, FrameContext& frame, std::vector<Nanoseconds>& cuts) {
-  part.course.clear();
+bool CollisionNode::follow(Part& part, FrameContext& frame, std::vector<Nanoseconds>& cuts) const {
+  part.course.clear(), part.way.clear();
   if (!part.ref.valid()) return false;
+  followFrom(part, part.pose, frame);
+  if (!part.way.empty()) {
+    for (const WayPart& p : part.way)
+      if (p.jump) cuts.push_back(p.begins());
+  } else {
+    addCuts(part.course, cuts);
+  }
+  return moves(part);
+}
+
+/// The way of a part that was at `before` when the frame began.
+void CollisionNode::followFrom(Part& part, const Pose& before, FrameContext& frame) const {
   const Placements& placements = frame.scene.placements();
-  part.course =
-      frame.scene.courses().within(part.placement, part.pose, frame.start(), frame.now.time, placements);
-  if (part.course.empty()) return false;
+  const Courses& courses = frame.scene.courses();
+  // What has moved while this node was kept from running is put where it has come to.
+  const Pose start = frame.rested ? courses.startOf(part.placement, placements) : before;
+  part.course = courses.within(part.placement, start, frame.start(), frame.now.time, placements);
+  if (frame.rested && !(start.p == before.p && start.q.coeffs() == before.q.coeffs())) {
+    if (part.course.empty()) part.course.push_back({frame.start(), start, false});
+    part.course.front().jump = true;
+    part.course.insert(part.course.begin(), {frame.start(), before, false});
+  } else if (!part.course.empty()) {
+    followBody(part, before, frame);
+  }
   part.pose = poseOf(placements.world(part.placement));
-  addCuts(part.course, cuts);
+}
+
+/// Where a body that another dynamics node moves carries the part, and nothing else does, it goes as that has
+/// gone.
+bool CollisionNode::followBody(Part& part, const Pose& before, const FrameContext& frame) const {
+  const Scene& scene = frame.scene;
+  const Placements& placements = scene.placements();
+  const DynObjectNode* body = nullptr;
+  for (NodeRef at = part.ref; at.valid() && !body; at = scene.parentOf(at)) {
+    const Load* load = scene.load(at.load);
+    body = load ? dynamic_cast<const DynObjectNode*>(load->nodes[at.position].get()) : nullptr;
+  }
+  const BodyWay* way = body && body->movedBy() != self() ? body->wayIn(frame.now.frame) : nullptr;
+  if (!way) return false;
+  for (PlacementId id = part.placement; id != body->placement(); id = placements.carrier(id))
+    if (id == kWorldPlacement || id == kNoPlacement) return false;  // a tracker has it
+  const Pose X_NP = poseOf(placements.world(body->placement())).inverse() * poseOf(placements.world(part.placement));
+  const Pose begins = poseOn(*way, frame.start(), Limit::Before) * X_NP;
+  const bool rides = (begins.p - before.p).norm() <= 1e-9 * (1 + before.p.norm()) &&
+                     std::fabs(begins.q.dot(before.q)) >= 1 - 1e-12;
+  if (!rides) return false;  // it moves on the body
+  part.way = *way;
+  if (part.ref != body->self())
+    for (WayPart& p : part.way) p.X_CN = p.X_CN * X_NP;
   return true;
+}
+
+bool CollisionNode::jumps(const Part& part, Nanoseconds time) {
+  return part.way.empty() ? jumpsAt(part.course, time) : jumpsAt(part.way, time);
+}
+
+Pose CollisionNode::poseAt(const Part& part, Nanoseconds time, Limit limit) {
+  return part.way.empty() ? poseOn(part.course, time, limit) : poseOn(part.way, time, limit);
 }
 
 bool CollisionNode::foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
@@ -239,8 +288,7 @@ void CollisionNode::actAt(Nanoseconds time, FrameContext* frame) {
     if (s.when == time) on_ = s.on;
   if (frame) changeParts(time, *frame);
   for (const Part& part : colliders_)
-    if (jumpsAt(part.course, time))
-      world_.moveCollider(part.id, poseOn(part.course, time, Limit::After), true);
+    if (jumps(part, time)) world_.moveCollider(part.id, poseAt(part, time, Limit::After), true);
   act(time, frame);
 }
 
@@ -263,8 +311,12 @@ void CollisionNode::step(FrameContext* frame) {
   actAt(begin, frame);
   Nanoseconds from = begin;
   for (const Nanoseconds to : cuts) {
-    for (const Part& part : colliders_)
-      if (!part.course.empty()) world_.moveCollider(part.id, poseOn(part.course, to, Limit::Before), !on_);
+    for (const Part& part : colliders_) {
+      if (!moves(part)) continue;
+      const Pose end = poseAt(part, to, Limit::Before);
+      on_ && !part.way.empty() ? world_.moveCollider(part.id, end, part.way)
+                               : world_.moveCollider(part.id, end, !on_);
+    }
     move(from, to, !on_);
     pass(from, to);
     if (to > begin) actAt(to, frame);
@@ -323,6 +375,19 @@ bool CollisionNode::looksAt(const Node& mover, const Scene& scene) const {
   return false;
 }
 
+void CollisionNode::addMovers(const Scene& scene, std::vector<NodeRef>& movers) const {
+  for (const Part& part : colliders_) addMover(part.ref, scene, movers);
+}
+
+void CollisionNode::addMover(NodeRef node, const Scene& scene, std::vector<NodeRef>& movers) const {
+  for (NodeRef at = node; at.valid(); at = scene.parentOf(at)) {
+    const Load* load = scene.load(at.load);
+    const auto* body = load ? dynamic_cast<const DynObjectNode*>(load->nodes[at.position].get()) : nullptr;
+    if (!body || !body->movedBy().valid() || body->movedBy() == self()) continue;
+    if (std::ranges::find(movers, body->movedBy()) == movers.end()) movers.push_back(body->movedBy());
+  }
+}
+
 bool CollisionNode::isMovedBy(const Node& mover, NodeRef node, const Scene& scene) {
   for (NodeRef at = node; at.valid(); at = scene.parentOf(at)) {
     const Load* load = scene.load(at.load);
@@ -356,12 +421,16 @@ bool CollisionNode::prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts)
 
 void CollisionNode::act(Nanoseconds time, FrameContext*) {
   for (const Part& part : collidees_)
-    if (jumpsAt(part.course, time)) world_.moveHeld(part.id, poseOn(part.course, time, Limit::After), true);
+    if (jumps(part, time)) world_.moveHeld(part.id, poseAt(part, time, Limit::After), true);
 }
 
 void CollisionNode::move(Nanoseconds, Nanoseconds to, bool jump) {
-  for (const Part& part : collidees_)
-    if (!part.course.empty()) world_.moveHeld(part.id, poseOn(part.course, to, Limit::Before), jump);
+  for (const Part& part : collidees_) {
+    if (!moves(part)) continue;
+    const Pose end = poseAt(part, to, Limit::Before);
+    jump || part.way.empty() ? world_.moveHeld(part.id, end, jump)
+                             : world_.moveHeld(part.id, end, part.way);
+  }
 }
 
 bool CollisionNode::afterStep(FrameContext&) {

@@ -34,13 +34,15 @@ public:
   CollisionNode(NodeKind kind, NodeRef self, std::string name, CollisionAttributes attributes,
                 std::shared_ptr<ShapeStore> shapes);
 
-  Rank rank() const override { return Rank::Dynamics; }
+  /// What only looks on is visited when all bodies have been moved.
+  Rank rank() const override { return kind() == NodeKind::Collision ? Rank::Contact : Rank::Dynamics; }
   bool busy() const override { return switch_.on() && awake_; }
   void hash(StateHash& h) const override;
   void state(StateFields& f) override;
   NodeRef nodeOf(std::uint32_t part) const override;
   bool resume(Scene& scene) override;
   bool awaits(const Node& earlier, const Scene& scene) const override;
+  void addMovers(const Scene& scene, std::vector<NodeRef>& movers) const override;
 
   /// What the last step did, for reports.
   const World& world() const { return world_; }
@@ -70,6 +72,7 @@ protected:
     PlacementId placement = kNoPlacement;
     Pose pose;      ///< at the end of the last step
     Course course;  ///< in this frame, if something outside moves it
+    BodyWay way;    ///< the same, if a body of another dynamics node carries it
     /// When it goes, and what its name stands for from when on.
     Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max(), nextAt = 0;
     NodeRef next;
@@ -92,6 +95,8 @@ protected:
 
   /// Puts a collidee into the world; here as a body that is moved from outside.
   virtual void addCollidee(Part& part, ObjectNode& object, Scene& scene);
+  /// Whether something outside moves its collidees.
+  virtual bool followsCollidees() const { return true; }
   virtual void removeCollidee(Part& part, Scene& scene);
   // The frame is cut where something outside turns, jumps or is commanded; then act, move, act, ... in turn.
   /// Looks at what has changed outside, and adds the times at which the frame must be cut. True if anything
@@ -125,8 +130,16 @@ protected:
   CollisionAttributes attributes_;
   std::vector<Part> colliders_, collidees_;
 
-  /// The part's course in this frame, its knots added to the cuts. True if it moves.
-  static bool follow(Part& part, FrameContext& frame, std::vector<Nanoseconds>& cuts);
+  /// The part's way in this frame, with the times added to the cuts at which it must be told. True if it
+  /// moves.
+  bool follow(Part& part, FrameContext& frame, std::vector<Nanoseconds>& cuts) const;
+  void followFrom(Part& part, const Pose& before, FrameContext& frame) const;
+  bool followBody(Part& part, const Pose& before, const FrameContext& frame) const;
+  static bool moves(const Part& part) { return !part.way.empty() || !part.course.empty(); }
+  static bool jumps(const Part& part, Nanoseconds time);
+  static Pose poseAt(const Part& part, Nanoseconds time, Limit limit);
+  /// Adds the other dynamics node that moves the node or something that carries it.
+  void addMover(NodeRef node, const Scene& scene, std::vector<NodeRef>& movers) const;
   /// Whether `mover` moves the node or something that carries it.
   static bool isMovedBy(const Node& mover, NodeRef node, const Scene& scene);
   static void addCuts(const Course& course, std::vector<Nanoseconds>& cuts);
@@ -139,7 +152,7 @@ private:
   ColliderDef colliderOf(Part& part, const ObjectNode& object, const Scene& scene);
   void addCollider(Part& part, const ObjectNode& object, Scene& scene);
   void removeCollider(Part& part, Scene& scene);
-  void bringCollider(Part& part, const ObjectNode& object, Nanoseconds time, FrameContext& frame);
+  void bring(Part& part, ObjectNode& object, bool isCollider, Nanoseconds time, FrameContext& frame);
   void changeParts(Nanoseconds time, FrameContext& frame);
   bool foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts);
   void actAt(Nanoseconds time, FrameContext* frame);

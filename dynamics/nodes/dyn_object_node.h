@@ -7,6 +7,7 @@
 /// It is passive: its dynamics node reads what was asked of it in this frame, obeys at the exact times, and
 /// moves it by direct calls.
 
+#include "dynamics/body_way.h"
 #include "dynamics/nodes/shape_store.h"
 #include "dynamics/world.h"
 #include "engine/script/choice.h"
@@ -82,6 +83,11 @@ public:
   void setState(const BodyState& state) { state_ = state; }
   const BodyState& state() const { return state_; }
 
+  /// How it has moved in a frame, said by its dynamics node for those who look at it; null: it has not, or
+  /// nobody has looked before.
+  void setWay(std::uint64_t frame, const BodyWay& way) { way_ = way, wayOf_ = frame; }
+  const BodyWay* wayIn(std::uint64_t frame) const { return frame == wayOf_ && !way_.empty() ? &way_ : nullptr; }
+
   bool moved() const override { return simulation_.asking != nullptr || ObjectNode::moved(); }
   void hash(StateHash& h) const override;
   void state(StateFields& f) override;
@@ -102,6 +108,8 @@ private:
   std::vector<Request> requests_;
   Simulation simulation_;
   BodyState state_;
+  BodyWay way_;
+  std::uint64_t wayOf_ = ~std::uint64_t{0};
 };
 
 }  // namespace stadion

@@ -56,6 +56,8 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
     def.stick = stickAlong(nose, *body.sticks, body.stickDepth, mesh);
   }
   part.id = world_.addBody(def);
+  world_.traceBody(part.id, true);  // those who look at it may be visited only after this node
+  traced_.push_back(&part);
   for (const NodeRef field : node->hooked())
     if (const FieldId id = fieldFor(field, scene)) world_.hook(part.id, id, 0);  // from its beginning
   node->takeRequests();
@@ -76,6 +78,7 @@ DynamicsNode::Velocity DynamicsNode::startOf(const DynObjectNode& node, const Sc
 void DynamicsNode::removeCollidee(Part& part, Scene& scene) {
   grips_.forget(part.id);
   partOf_.erase(part.id);
+  std::erase(traced_, &part);
   world_.removeBody(part.id);
   world_.removeShape(part.shape);
   DynObjectNode* node = bodyAt(part.ref, scene);
@@ -244,6 +247,13 @@ bool DynamicsNode::prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts) 
   const bool fields = followFields(frame, cuts);
   grips_.follow(frame, cuts);
   for (const Grip& grip : grips_.all()) carryFields(grip, frame.scene);
+  traced_.clear();
+  for (Part& part : collidees_) {
+    if (part.id == 0) continue;
+    const bool watched = frame.scene.placements().watchedBelow(part.placement);
+    world_.traceBody(part.id, watched);
+    if (watched) traced_.push_back(&part);
+  }
   return asked || fields || !grips_.empty();
 }
 
@@ -257,6 +267,11 @@ bool DynamicsNode::looksAt(const Node& mover, const Scene& scene) const {
   const auto moved = [&](NodeRef node) { return node.valid() && isMovedBy(mover, node, scene); };
   return std::ranges::any_of(colliders_, moved, &Part::ref) ||
          std::ranges::any_of(fields_, moved, &Field::ref);
+}
+
+void DynamicsNode::addMovers(const Scene& scene, std::vector<NodeRef>& movers) const {
+  CollisionNode::addMovers(scene, movers);
+  for (const Field& f : fields_) addMover(f.ref, scene, movers);
 }
 
 void DynamicsNode::act(Nanoseconds time, FrameContext* frame) {
@@ -345,8 +360,21 @@ void DynamicsNode::tellCounts(FrameProbe& probe) const {
   probe.counted(Count::Substeps, c.arcs + c.contactSteps, self());
 }
 
+/// Others see how the body has moved in this frame.
+void DynamicsNode::publishWay(const Part& part, FrameContext& frame) {
+  const BodyWay& way = world_.wayOf(part.id);
+  DynObjectNode* node = bodyAt(part.ref, frame.scene);
+  if (!node || way.empty() || (way.size() == 1 && way.front().stands())) return;
+  node->setWay(frame.now.frame, way);
+  const PoseKnot first{frame.start(), poseOn(way, frame.start(), Limit::Before), false};
+  Course& course = frame.scene.courses().of(part.placement, first);
+  course.assign(1, first);
+  addChords(way, frame.now.time, course);
+}
+
 bool DynamicsNode::afterStep(FrameContext& frame) {
   bool any = false;
+  for (const Part* part : traced_) publishWay(*part, frame);
   if (frame.probe) tellCounts(*frame.probe);
   if (world_.counters().limited > 0 && !std::exchange(toldOfLimit_, true))
     frame.scene.warn(*this, fmt::format("cut the frame at {:.3f} s short: its contacts came without end",

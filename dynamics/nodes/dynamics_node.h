@@ -25,10 +25,12 @@ public:
   void hash(StateHash& h) const override;
   void state(StateFields& f) override;
   bool resume(Scene& scene) override;
+  void addMovers(const Scene& scene, std::vector<NodeRef>& movers) const override;
 
 protected:
   void onLeave(Scene& scene) override;
   void addCollidee(Part& part, ObjectNode& object, Scene& scene) override;
+  bool followsCollidees() const override { return false; }
   void removeCollidee(Part& part, Scene& scene) override;
   bool prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts) override;
   bool needsScene(Nanoseconds end) const override;
@@ -74,6 +76,7 @@ private:
   void obey(const Order& order, FrameContext& frame);
   void grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame);
   void letGo(const Part& part, Nanoseconds when, Scene& scene);
+  void publishWay(const Part& part, FrameContext& frame);
   void tellTrouble(const BodyState& before, DynObjectNode& node, FrameContext& frame);
   void carryFields(const Grip& grip, const Scene& scene);
   Velocity startOf(const DynObjectNode& node, const Scene& scene) const;
@@ -81,6 +84,7 @@ private:
 
   std::vector<NodeRef> asking_;               ///< bodies of which something has been asked
   std::unordered_map<BodyId, Part*> partOf_;  ///< by its body
+  std::vector<Part*> traced_;                 ///< those whose way in this frame somebody may look at
   std::vector<Field> fields_;
   Grips grips_{world_};
   std::vector<Order> orders_;  ///< of this frame, in the order of time

@@ -7,7 +7,7 @@ namespace stadion {
 namespace {
 
 Agenda::Entry entryOf(Node& node) {
-  return {{node.rank(), node.self()}, &node};
+  return {Visit::of(node), &node};
 }
 
 void sortOut(std::vector<Agenda::Entry>& entries) {
@@ -34,6 +34,12 @@ void Agenda::settle() {
   }
   if (left_) std::erase_if(busy_, [](const Entry& e) { return !e.node->standing().busy; });
   left_ = false;
+}
+
+void Agenda::reorder() {
+  settle();
+  for (Entry& e : busy_) e.visit = Visit::of(*e.node);
+  sortOut(busy_);
 }
 
 void Agenda::begin() {

@@ -1,5 +1,6 @@
 #pragma once
-/// Who is to be visited in a frame, in the order of ranks, then of load numbers and positions in the file.
+/// Who is to be visited in a frame, in the order of ranks, of levels within a rank, then of load numbers and
+/// positions in the file.
 ///
 /// A round begins with the nodes that are busy; others are called to it, also while it is under way. Each
 /// that waits is visited once, however often it was called. From frame to frame the memory is used again.
@@ -16,8 +17,11 @@ namespace stadion {
 
 struct Visit {
   Rank rank{};
+  std::uint16_t level = 0;
   NodeRef node;
   auto operator<=>(const Visit&) const = default;
+
+  static Visit of(const Node& node) { return {node.rank(), node.standing().level, node.self()}; }
 };
 
 class Agenda {
@@ -33,6 +37,8 @@ public:
   void setBusy(Node& node, bool busy);
   /// Forgets those that are not busy any more: before nodes go.
   void settle();
+  /// Levels have changed. Between rounds.
+  void reorder();
 
   /// A new round, of those that are busy. Nobody of the last one is left.
   void begin();

@@ -1,6 +1,5 @@
 #include "engine/scene/courses.h"
 
-#include "engine/input/input_sample.h"
 #include "engine/maths/functions.h"
 
 #include <cmath>
@@ -86,8 +85,7 @@ Course Courses::within(PlacementId id, const Pose& before, Nanoseconds start, Na
     }
     if (course.back().time >= end || near(course.back().X, now)) return course;
   }
-  // What goes faster than a hand can move has been put there.
-  course.push_back({end, now, teleported(course.back().X, now, end - course.back().time)});
+  course.push_back({end, now, course.back().time >= end});
   return course;
 }
 

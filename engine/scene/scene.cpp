@@ -76,6 +76,7 @@ void Scene::settleTouched(FrameProbe* probe) {
 /// after their turn. Returns the mail, by target.
 std::vector<Message> Scene::callRound(const TimeSignature& now) {
   std::vector<Message> mail = messages_.takeDue(now.time);
+  settleLevels();
   agenda_.begin();
   if (!reliefs_.empty()) agenda_.leaveOut([&](Node& node) { return putOff(node); });
   std::erase_if(putOff_, [&](NodeRef ref) {
@@ -114,6 +115,49 @@ std::vector<Message> Scene::callRound(const TimeSignature& now) {
   return mail;
 }
 
+/// Nodes that look at each other's results come in that order. Who moves what is known a round after it came.
+void Scene::settleLevels() {
+  if (levelsLoads_ == loadsVersion_ && levelsSettled_) return;
+  levelsSettled_ = levelsLoads_ == loadsVersion_;
+  levelsLoads_ = loadsVersion_;
+  std::map<NodeRef, std::vector<NodeRef>> movers;
+  for (const NodeRef ref : loadWatchers_)
+    if (const Node* node = find(ref)) node->addMovers(*this, movers[ref]);
+  std::erase_if(movers, [](const auto& entry) { return entry.second.empty(); });
+  const auto reaches = [&](NodeRef from, NodeRef to) {
+    std::set<NodeRef> seen{from};
+    std::vector<NodeRef> open{from};
+    while (!open.empty()) {
+      const auto at = movers.find(open.back());
+      open.pop_back();
+      if (at == movers.end()) continue;
+      for (const NodeRef next : at->second) {
+        if (next == to) return true;
+        if (seen.insert(next).second) open.push_back(next);
+      }
+    }
+    return false;
+  };
+  // Where two look at each other, the one that comes first in the file does so here.
+  std::vector<std::pair<NodeRef, NodeRef>> mutual;
+  for (const auto& [ref, before] : movers)
+    for (const NodeRef mover : before)
+      if (ref < mover && reaches(mover, ref)) mutual.emplace_back(ref, mover);
+  for (const auto& [ref, mover] : mutual) std::erase(movers[ref], mover);
+  std::map<NodeRef, std::uint16_t> levels;
+  const std::function<std::uint16_t(NodeRef)> levelOf = [&](NodeRef ref) {
+    if (const auto known = levels.find(ref); known != levels.end()) return known->second;
+    std::uint16_t level = 0;
+    if (const auto at = movers.find(ref); at != movers.end())
+      for (const NodeRef mover : at->second) level = std::max<std::uint16_t>(level, levelOf(mover) + 1);
+    return levels[ref] = level;
+  };
+  bool changed = false;
+  for (const NodeRef ref : loadWatchers_)
+    if (Node* node = find(ref)) changed |= std::exchange(node->standing().level, levelOf(ref)) != levelOf(ref);
+  if (changed) agenda_.reorder();
+}
+
 bool Scene::callToRound(NodeRef ref) {
   Node* node = find(ref);
   if (node) agenda_.call(*node);
@@ -138,7 +182,7 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
     computeTogether(batch_, probe);
     for (const Cycle& cycle : batch_) {
       Node* node = cycle.node;
-      current_ = Visit{node->rank(), node->self()};
+      current_ = Visit::of(*node);
       FrameContext own = cycle.context(frame);
       node->conclude(own, probe);
       ++counters_.nodesVisited;
@@ -198,7 +242,7 @@ void Scene::rejoinParent(const Detached& d, const FrameContext& frame) {
 void Scene::wakeNow(NodeRef ref) {
   Node* node = find(ref);
   if (!node) return;
-  const Visit v{node->rank(), ref};
+  const Visit v = Visit::of(*node);
   if (current_ && *current_ < v)
     agenda_.callNow(*node);
   else if (!current_ || *current_ != v)

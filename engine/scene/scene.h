@@ -327,6 +327,7 @@ private:
   void remove(std::uint32_t number, std::uint64_t frame);
   void visit(const TimeSignature& now, const InputSample& input, FrameProbe* probe);
   std::vector<Message> callRound(const TimeSignature& now);
+  void settleLevels();
   bool callToRound(NodeRef ref);
   void settleTouched(FrameProbe* probe);
   void computeTogether(std::span<const Cycle> batch, FrameProbe* probe);
@@ -413,7 +414,10 @@ private:
   std::map<NodeRef, Paced> paced_;  ///< those that must be told what they have missed
   std::multimap<PlacementId, NodeRef> watchers_;
   std::uint64_t loadsVersion_ = 0, loadsTold_ = 0;
+  std::uint64_t levelsLoads_ = 0;  ///< loadsVersion_ when levels were found, ...
+  bool levelsSettled_ = false;     ///< ... and those who move things were known
   std::set<NodeRef> loadWatchers_;
+  void rideAlong(Course& way, Nanoseconds start, Nanoseconds end) const;
   Courses courses_;
   Course trackerWay_;      ///< trackerCourse()'s answer
   InputSample lastInput_;  ///< of the frame before

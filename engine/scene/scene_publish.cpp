@@ -350,15 +350,11 @@ const Course* Scene::trackerCourse(const std::string& tracker, const FrameContex
   if (!t || !t->valid) return nullptr;
   // Who has not looked for some frames: where it was before this one nobody remembers.
   const Nanoseconds start = frameStart_, end = frame.now.time;
-  const Pose X_WR = rigPose();
-  const bool rides = X_WR.p != rigStart_.p || X_WR.q.coeffs() != rigStart_.q.coeffs();
   Course& way = trackerWay_;
   way.clear();
+  // Only the tracker can jump: how the rig has moved is known.
   const auto add = [&](Nanoseconds time, const Pose& X_RT, bool jump) {
-    const double s = static_cast<double>(time - start) / static_cast<double>(end - start);
-    const Pose X_WT = (rides && time < end ? det::interpolate(rigStart_, X_WR, s) : X_WR) * X_RT;
-    jump = jump || way.empty() || teleported(way.back().X, X_WT, time - way.back().time);
-    way.push_back({time, X_WT, jump});
+    way.push_back({time, X_RT, jump || way.empty() || teleported(way.back().X, X_RT, time - way.back().time)});
   };
   if (const TrackerSample* was = lastInput_.find(tracker); was && was->valid && start < end) {
     add(start, was->X_RT, false);
@@ -368,7 +364,38 @@ const Course* Scene::trackerCourse(const std::string& tracker, const FrameContex
     if (k.X.finite() && k.time >= (way.empty() ? start : way.back().time) && k.time <= end)
       add(k.time, k.X, k.jump);
   if (way.empty() || way.back().time < end) add(end, t->X_RT, false);
+  rideAlong(way, start, end);
   return &way;
+}
+
+/// From the rig's coordinates to World.
+void Scene::rideAlong(Course& way, Nanoseconds start, Nanoseconds end) const {
+  const Pose X_WR = rigPose();
+  Course rig;
+  if (!rigs_.empty()) {
+    rig = courses_.within(rigs_.back().placement, rigStart_, start, end, placements_);
+  } else if (X_WR.p != rigStart_.p || X_WR.q.coeffs() != rigStart_.q.coeffs()) {
+    rig = {{start, rigStart_, false}, {end, X_WR, false}};
+  }
+  if (rig.empty()) {
+    for (PoseKnot& k : way) k.X = X_WR * k.X;
+    return;
+  }
+  Course ridden;
+  const Nanoseconds known = way.front().time;
+  const auto add = [&](Nanoseconds time, const Pose& X_RT, bool jump) {
+    const bool arrived = time == end && (jump || !rig.back().jump);
+    const Pose X = arrived ? rig.back().X : poseOn(rig, time, jump ? Limit::After : Limit::Before);
+    ridden.push_back({time, X * X_RT, jump});
+  };
+  std::size_t next = 0;
+  for (const PoseKnot& k : way) {
+    for (; next < rig.size() && rig[next].time < k.time; ++next)
+      if (rig[next].time > known) add(rig[next].time, poseOn(way, rig[next].time, Limit::Before), rig[next].jump);
+    add(k.time, k.X, k.jump || jumpsAt(rig, k.time));
+    while (next < rig.size() && rig[next].time == k.time) ++next;
+  }
+  way.swap(ridden);
 }
 
 Pose Scene::headInRig(const InputSample& input) const {

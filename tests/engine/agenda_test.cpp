@@ -56,7 +56,7 @@ TEST(Agenda, IsWhatASortedSetWouldBe) {
   std::vector<std::unique_ptr<RankedNode>> nodes;
   for (std::uint32_t i = 0; i < 40; ++i)
     nodes.push_back(std::make_unique<RankedNode>(i, static_cast<Rank>(random() % 6)));
-  const auto visitOf = [&](std::size_t i) { return Visit{nodes[i]->rank(), nodes[i]->self()}; };
+  const auto visitOf = [&](std::size_t i) { return Visit::of(*nodes[i]); };
   Agenda agenda;
   std::set<Visit> busy;
   for (int round = 0; round < 500; ++round) {
