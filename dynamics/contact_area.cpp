@@ -89,16 +89,14 @@ void corePieces(const Shape& shape, const Pose& X, const Frame2& f, FacePieces& 
   }
 }
 
-FacePieces piecesOf(const Side& s, double tau, const Frame2& f) {
-  FacePieces pieces;
+void addPieces(const Side& s, double tau, const Frame2& f, FacePieces& pieces) {
   const Pose X = s.at(tau).pose;
   if (const auto* plane = std::get_if<PlaneShape>(s.shape); plane && !plane->bounded())
-    pieces.endless = (X.q * plane->normal()).dot(f.towards) > kAligned;
+    pieces.endless = pieces.endless || (X.q * plane->normal()).dot(f.towards) > kAligned;
   else if (const auto* mesh = std::get_if<MeshShape>(s.shape))
     meshPieces(*mesh, X, f, pieces);
   else
     corePieces(*s.shape, X, f, pieces);
-  return pieces;
 }
 
 /// What of a convex ring is left of the line from p to q.
@@ -140,11 +138,16 @@ bool addCommon(const FacePieces& a, const FacePieces& b, ContactArea& area) {
   return true;
 }
 
-std::shared_ptr<const ContactArea> areaIn(const Side& a, const Side& b, double tau,
+/// Whether a is the smaller side.
+bool isOnMore(const Side& a, std::span<const Side> b) {
+  return b.size() > 1 || a.bound().radius <= b[0].bound().radius;
+}
+
+std::shared_ptr<const ContactArea> areaIn(const Side& a, std::span<const Side> b, double tau,
                                           const ContactPlane& plane) {
   // Meshes are looked through no farther than the smaller side reaches.
   const auto reachOf = [](const Side& s) { return s.bound().radius; };
-  const Side& small = reachOf(a) <= reachOf(b) ? a : b;
+  const Side& small = isOnMore(a, b) ? a : b[0];
   Frame2 f{plane, -plane.n, {}};
   if (!(reachOf(small) < 1e299)) return {};
   const Vec3 centre = small.at(tau).pose * small.bound().centre;
@@ -155,10 +158,11 @@ std::shared_ptr<const ContactArea> areaIn(const Side& a, const Side& b, double t
     f.box.lo[i] = middle - across * reachOf(small) - plane.thick;
     f.box.hi[i] = middle + across * reachOf(small) + plane.thick;
   }
-  const FacePieces fa = piecesOf(a, tau, f);
+  FacePieces fa, fb;
+  addPieces(a, tau, f, fa);
   if (!fa.endless && fa.rings.empty()) return {};
   f.towards = plane.n;
-  const FacePieces fb = piecesOf(b, tau, f);
+  for (const Side& piece : b) addPieces(piece, tau, f, fb);
   const std::size_t pieces = std::max(fa.rings.size(), fb.rings.size());
   if ((fa.endless && fb.endless) || (!fb.endless && fb.rings.empty()) || pieces > kMostPieces) return {};
   auto area = std::make_shared<ContactArea>();
@@ -182,7 +186,8 @@ bool spreadOut(const std::vector<Vec3>& points) {
 
 }  // namespace
 
-std::vector<FlatContact> flatContacts(const Side& a, const Side& b, double tau, std::span<const Gap> points) {
+std::vector<FlatContact> flatContacts(const Side& a, std::span<const Side> b, double tau,
+                                      std::span<const Gap> points) {
   std::vector<FlatContact> flats;
   std::vector<char> used(points.size(), 0);
   std::vector<Vec3> at;
@@ -207,7 +212,7 @@ std::vector<FlatContact> flatContacts(const Side& a, const Side& b, double tau, 
     flat.area = areaIn(a, b, tau, plane);
     if (!flat.area) continue;
     plane.origin = plane.at(flat.area->middle());
-    flat.carrier = a.bound().radius <= b.bound().radius ? Carrier::A : Carrier::B;
+    flat.carrier = isOnMore(a, b) ? Carrier::A : Carrier::B;
     flats.push_back(std::move(flat));
   }
   return flats;

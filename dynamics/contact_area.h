@@ -26,7 +26,9 @@ struct FlatContact {
 };
 
 /// What the faces of a and b have in common, for each plane in which at least three of these points of
-/// contact touch. Faces that are too much to work out are left out.
-std::vector<FlatContact> flatContacts(const Side& a, const Side& b, double tau, std::span<const Gap> points);
+/// contact touch. b may be several pieces that make up one surface; none may lie on another. Faces that are
+/// too much to work out are left out.
+std::vector<FlatContact> flatContacts(const Side& a, std::span<const Side> b, double tau,
+                                      std::span<const Gap> points);
 
 }  // namespace stadion

@@ -42,7 +42,7 @@ ContactMemory::Waiting* ContactMemory::impact(const Key& pair, Nanoseconds time,
       waiting_.push_back({pair});
     }
     waiting = &waiting_[m.waiting];
-    m.impact = time, waiting->frame = frame;
+    m.impact = time, waiting->frame = frame, waiting->seen = time;
   });
   return waiting;
 }

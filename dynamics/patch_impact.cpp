@@ -56,7 +56,7 @@ std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau
     const auto begin = static_cast<std::size_t>(std::ranges::find(whose, part) - whose.begin());
     const auto count = static_cast<std::size_t>(std::ranges::count(whose, part));
     if (!(grip > 0) || count < 3) return;
-    for (FlatContact& flat : flatContacts(a, side, tau, std::span(gaps).subspan(begin, count))) {
+    for (FlatContact& flat : flatContacts(a, {&side, 1}, tau, std::span(gaps).subspan(begin, count))) {
       SolverContact c;
       c.b = 1, c.friction = grip, c.area = flat.area.get();
       c.placeAt(flat.plane.origin, flat.plane.n, ma.p, mb.p);

@@ -177,8 +177,9 @@ struct RigidBody : RigidMotion {
   Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< how far since it is quiet, or is looked at [m], [rad]
   std::uint32_t slot = 0;                           ///< scratch of the contact solver
   GuidedMotion held;
-  BodyWay nextWay;                ///< Held: in the coming part of a frame, if it is known
-  bool traced = false, awaited = false;  ///< its way is noted, for others or because it may part from something
+  BodyWay nextWay;  ///< Held: in the coming part of a frame, if it is known
+  bool traced = false,
+       awaited = false;           ///< its way is noted, for others or because it may part from something
   bool put = false;               ///< it has been put where it is
   BodyWay trace;                  ///< traced: its way in this frame
   std::vector<FieldId> carried;   ///< Held: fields in the same hand
@@ -271,8 +272,7 @@ struct Collider {
 };
 
 inline MotionBound RigidBody::boundOver(double from, double to) const {
-  if (mode == BodyMode::Held)
-    return held.boundOver(from, to).seenFrom(X_NC.p.norm());
+  if (mode == BodyMode::Held) return held.boundOver(from, to).seenFrom(X_NC.p.norm());
   return boundOf(path, age(from), age(to), spin, spinAge(to));
 }
 

@@ -152,6 +152,7 @@ bool World::moveCollider(ColliderId id, const Pose& end, bool teleport) {
   if (teleport) {
     c->now = unit(end), c->next.reset();
     c->disturbed = true;
+    core_->forgetSlack({false, id});
   } else {
     c->next = unit(end);
   }
@@ -367,6 +368,7 @@ bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
   if (teleport) {
     b->put = b->traced || b->awaited;
     b->pose = unit(end);
+    core_->forgetSlack({true, id});
     b->held.set(b->pose, b->pose, core_->now, 0);
     b->freePlace = b->pose * b->bound.centre;
     b->fresh = true;

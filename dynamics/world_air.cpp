@@ -92,7 +92,7 @@ void World::Core::setSpin(RigidBody& b, double tau, const Spin& spin) {
   b.validAge = std::min(b.pathAge, b.spinStart + spin.horizon);
   b.until = b.validAge - b.age0;
   ++b.version;
-  note(b, tau);
+  noteWay(b, tau);
 }
 
 /// The paper's bias turns a body once at the start of every frame, whatever that lasts.

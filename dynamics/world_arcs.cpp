@@ -130,7 +130,7 @@ void World::Core::setPath(RigidBody& b, double tau, const Path& path, double hor
   ++b.version;
   if (mode != BodyMode::Flight && !b.crowd) noteLeaner(b);
   if (!b.active) b.active = true, active.push_back(&b);
-  note(b, tau);
+  noteWay(b, tau);
   if (!foresee) mark(b);  // a change between frames is looked at when the next one begins
 }
 
@@ -149,7 +149,7 @@ void World::Core::quarantine(RigidBody& b, double tau, std::string why) {
   b.support.on = {};
   b.touching.clear();
   ++b.version;
-  note(b, tau);
+  noteWay(b, tau);
 }
 
 void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, const Quat& q,

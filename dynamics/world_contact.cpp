@@ -337,6 +337,7 @@ void World::Core::tick(double tau) {
   }
   counters.contacts += found.size();
   std::ranges::sort(set, {}, &RigidBody::id);
+  std::ranges::sort(beside);
   std::ranges::stable_sort(found, {}, [](const Found& f) { return std::pair(f.a, f.b); });
   for (std::size_t i = 0; i < set.size(); ++i) set[i]->slot = static_cast<std::uint32_t>(i);
   Groups groups(set.size());

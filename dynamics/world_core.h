@@ -215,7 +215,7 @@ public:
   bool flyInAir(RigidBody& b, double tau, const CoupledState& s);
   Spin spinFrom(const RigidBody& b, double tau, const CoupledState& s) const;
   void turnByFrame();
-  static void setSpin(RigidBody& b, double tau, const Spin& spin);
+  void setSpin(RigidBody& b, double tau, const Spin& spin);
 
   // --- surfaces of several pieces (world_seams.cpp)
   /// A collider that a body touches, or comes to, without a contact of its own.
@@ -223,8 +223,10 @@ public:
     BodyId body = 0;
     Party piece;
     bool touches = false;
+    auto operator<=>(const Beside&) const = default;
   };
-  std::vector<Beside> beside;  ///< in this tick
+  std::vector<Beside> beside;  ///< in this tick, by body
+  std::span<const Beside> besideOf(BodyId id) const;
   template <class F>
   void eachColliderAt(const RigidBody& b, double tau, F f) const;
   std::vector<Bearing> bearingsOf(const RigidBody& b, double tau, const Collider& but) const;
@@ -252,6 +254,7 @@ public:
   std::optional<Nanoseconds> whenParted(const ContactMemory::Waiting& w, double tau) const;
   double wayLength(const Side& s, double from, double tau) const;
   bool stillNear(ContactMemory::Waiting& w, double tau) const;
+  void forgetSlack(Party p);
   void release(const ContactMemory::Key& pair, Nanoseconds time);
   void releaseBefore(const ContactMemory::Key& pair, double tau);
   void awaitRelease(ContactMemory::Waiting& w, const Side& a, const Side& b, double distance,
@@ -262,11 +265,11 @@ public:
   std::vector<RigidBody*> tracedBodies;
   bool stoodStill = false;  ///< the frame's last part was a pause
   void trace(RigidBody& b, bool traced, bool awaited, double tau);
-  void note(RigidBody& b, double tau);
-  void noteHeld(RigidBody& b);
+  void noteWay(RigidBody& b, double tau);
+  void noteHeld(RigidBody& b, double tau);
   void addPart(RigidBody& b, WayPart part);
   void beginTraces(bool continues);
-  void findTraced();
+  void findTraced(bool goesOn);
   void pauseTraces(bool continues);
 
   // --- out of what a hand has put a body into (world_way_out.cpp)
@@ -311,6 +314,7 @@ public:
     std::vector<Mobile> free;        ///< what `end` would be without contacts
     bool carried = false;            ///< one of them moves
     bool wedged = false;             ///< no velocities suit all: what moves from outside gives way
+    std::vector<Party> way;          ///< pieces that a glide comes to
     bool glides = false;             ///< in closed form: it stops when it stops, however slow
   };
   void enterContact(RigidBody& b, double tau);
@@ -365,6 +369,7 @@ public:
   bool isDriven(Party p) const;
   bool solveIsland(Island& island, std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
                    Effort effort) const;
+  std::vector<Side> surfaceUnder(const Found& f) const;
   void findFlats(Island& island, double tau) const;
   void stopApproaches(Island& island) const;
   static double pushOutOf(const std::vector<Found>& found, std::size_t i);

@@ -33,6 +33,22 @@ void World::Core::FoundFlat::place(const Mobile& a, const Mobile& b, const Mat3&
   }
 }
 
+/// The other side of a body's contact, and the flush pieces that feel like it.
+std::vector<Side> World::Core::surfaceUnder(const Found& f) const {
+  std::vector<Side> sides;
+  const std::optional<Side> own = side(f.b);
+  if (!own) return sides;
+  sides.push_back(*own);
+  if (f.b.isBody) return sides;
+  for (const Beside& o : besideOf(f.a.id)) {
+    if (std::ranges::find(sides, o.piece, &Side::party) != sides.end()) continue;
+    const Collider* c = collider(o.piece.id);
+    if (c && combine(body(f.a.id)->surface, c->surface).friction == f.surface.friction)
+      sides.push_back(Side::of(*c));
+  }
+  return sides;
+}
+
 /// Which points carry flat contacts, and with which friction those begin.
 void World::Core::findFlats(Island& s, double tau) const {
   std::vector<Gap> gaps;
@@ -42,9 +58,10 @@ void World::Core::findFlats(Island& s, double tau) const {
     for (end = first; end < s.found.size() && s.found[end].a == f.a && s.found[end].b == f.b; ++end)
       gaps.push_back(s.found[end].gap);
     if (gaps.size() < 3 || f.surface.friction <= 0) continue;
-    const std::optional<Side> a = side(f.a), b = side(f.b);
-    if (!a || !b) continue;
-    for (FlatContact& flat : flatContacts(*a, *b, tau, gaps)) {
+    const std::optional<Side> a = side(f.a);
+    const std::vector<Side> under = surfaceUnder(f);
+    if (!a || under.empty()) continue;
+    for (FlatContact& flat : flatContacts(*a, under, tau, gaps)) {
       FoundFlat found;
       SolverContact& c = found.contact;
       c.a = f.contact.a, c.b = f.contact.b, c.friction = f.surface.friction, c.area = flat.area.get();
@@ -80,7 +97,7 @@ std::vector<Vec3> World::Core::placesOfFriction(const CrowdStep& step) const {
       gaps.push_back(g);
     }
     for (const FlatContact& flat :
-         flatContacts(Side::of(*step.members[all[first].a].body), *b, step.tau, gaps)) {
+         flatContacts(Side::of(*step.members[all[first].a].body), {&*b, 1}, step.tau, gaps)) {
       if (places.empty()) places = step.points;
       const Vec3& middle = flat.plane.origin;
       for (const std::uint32_t k : flat.points) {

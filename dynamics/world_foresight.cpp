@@ -129,7 +129,7 @@ void World::Core::predictPair(const Side& a, const Side& b, double tau) {
     if (!isHeld(a) && !isHeld(b)) return;
     const ContactMemory::Key key = ContactMemory::keyOf(a.party, b.party);
     if (memory.touching(key)) {
-      const double known = std::min({now, knownUntil(a), knownUntil(b)});
+      const double known = std::min({now, windowEnd(), knownUntil(a), knownUntil(b)});
       const auto parted = a.guided() || b.guided() ? firstBeyond(a, b, kCarriedApart, tau, known)
                                                    : std::optional<double>();
       if (!parted) return;

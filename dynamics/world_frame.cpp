@@ -137,6 +137,7 @@ void World::Core::pause(Nanoseconds to, bool continues) {
   pauseTraces(continues);
   if (gap == 0) return;
   for (RigidBody& b : bodies) b.since.ns += gap, b.woundTo.ns += gap;
+  for (ContactMemory::Waiting& w : memory.waiting()) w.look += gap, w.seen += gap;
   t0 = t1 = to;
   openWindow(to / kWindow * kWindow);
 }
@@ -168,7 +169,8 @@ void World::Core::beginFrame() {
     b->held.set(b->held.start, b->held.end, frameFrom, seconds);
     b->held.way.swap(b->nextWay), b->nextWay.clear();
     b->held.follow({origin, 0}, frameFrom, now);
-    noteHeld(*b);
+    noteHeld(*b, frameFrom);
+    b->put = false;
     ++b->version;
     mark(*b);
   }

@@ -250,6 +250,7 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   for (const PatchSide& part : others) {
     if (!patch || !(part.closing > 0)) continue;
     const ContactMemory::Key other = ContactMemory::keyOf(part.side.party, pa);
+    if (awaited) releaseBefore(other, tau);
     waiting =
         memory.impact(other, timeAt(tau), part.middle, n, part.closing, part.impulse.dot(n), frame, awaited);
     if (ends) memory.setTouching(other, true);

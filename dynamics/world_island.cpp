@@ -336,8 +336,7 @@ double World::Core::glide(Island& s, double tau, double h) {
     s.end[i].v = s.start[i].v + (s.end[i].v - s.start[i].v) / probe * most;
   }
   for (Found& f : s.found) f.contact.impulse *= most / probe;
-  for (const RigidBody* b : s.set)
-    for (const Party p : way) beside.push_back({b->id, p, false});
+  s.way = std::move(way);
   for (FoundFlat& f : s.flats) f.contact.impulse *= most / probe;
   return most;
 }
@@ -497,11 +496,11 @@ void World::Core::conclude(Island& s, double tau, double h) {
       if (f.contact.a == i && !f.contact.impulse.isZero(0))
         b.presses.push_back({f.key, basisAround(f.gap.normal) * (f.contact.impulse / h), h});
     }
-    for (const Beside& o : beside) {
-      if (o.body != b.id) continue;
+    for (const Beside& o : besideOf(b.id)) {
       note(b.touching, o.piece);
       if (o.touches) note(near, o.piece);
     }
+    for (const Party p : s.way) note(b.touching, p);
     for (const FoundFlat& f : s.flats)
       if (f.contact.a == i && !f.contact.impulse.isZero(0))
         b.presses.push_back({f.key, basisAround(f.flat.plane.n) * (f.contact.impulse / h), h});

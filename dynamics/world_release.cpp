@@ -67,6 +67,8 @@ public:
   PastSide(const PastSide&) = delete;
   PastSide& operator=(const PastSide&) = delete;
 
+  /// From when on it is known how it has gone.
+  double begins() const { return side_.guided() ? side_.motion()->way.front().tau : -1e300; }
   /// Where its way goes on otherwise.
   void addTurns(std::vector<double>& turns) const {
     if (side_.guided())
@@ -112,9 +114,11 @@ std::optional<double> World::Core::firstBeyond(const Side& a, const Side& b, dou
 
 /// When the pair has parted by tau, since it has been seen last. Nothing: it has not.
 std::optional<Nanoseconds> World::Core::whenParted(const ContactMemory::Waiting& w, double tau) const {
-  const double far = body(w.pair.second)->releaseDistance, from = std::max(frameFrom, tauOf(w.seen));
-  if (!(from < tau) || !isNoted(*side(w.pair.first)) || !isNoted(*side({true, w.pair.second}))) return {};
+  const double far = body(w.pair.second)->releaseDistance;
+  if (!isNoted(*side(w.pair.first)) || !isNoted(*side({true, w.pair.second}))) return {};
   PastSide a(*side(w.pair.first), {origin, 0}), b(*side({true, w.pair.second}), {origin, 0});
+  const double from = std::max({frameFrom, tauOf(w.seen), a.begins(), b.begins()});
+  if (!(from < tau)) return {};
   std::vector<double> turns{from, tau};
   a.addTurns(turns), b.addTurns(turns);
   std::erase_if(turns, [&](double t) { return t < from || t > tau; });
@@ -135,14 +139,14 @@ double World::Core::wayLength(const Side& s, double from, double tau) const {
   const auto add = [&](const MotionBound& b, double seconds) {
     length += (b.speed + turningSpeed(b, reach)) * seconds;
   };
-  if (s.collider) {
-    if (!s.collider->motion.moving) return 0;
-    if (s.guided()) return 1e300;
+  if (s.collider && !s.collider->motion.moving) return 0;
+  if (s.collider && !s.guided()) {
     add(s.boundOver(from, tau), tau - from);
     return length;
   }
-  const BodyWay& way = s.body->trace;
+  const BodyWay& way = s.collider ? s.collider->motion.way : s.body->trace;
   if (way.empty()) return standsStill(s.body->mode) ? 0 : 1e300;
+  if (s.body && way.front().from.since({origin, 0}) > from) return 1e300;
   for (std::size_t i = 0; i < way.size(); ++i) {
     WayPart part = way[i];
     part.tau = part.from.since({origin, 0});
@@ -153,11 +157,18 @@ double World::Core::wayLength(const Side& s, double from, double tau) const {
   return length;
 }
 
+/// It has been put elsewhere: no way leads there that could be too short to part from anything.
+void World::Core::forgetSlack(Party p) {
+  memory.eachWith(p, [&](const ContactMemory::Key& pair) {
+    if (ContactMemory::Waiting* w = memory.waitingOf(pair)) w->slack = 0;
+  });
+}
+
 /// Whether the pair has gone so little way since it has been seen last that it cannot have parted.
 bool World::Core::stillNear(ContactMemory::Waiting& w, double tau) const {
   const double from = std::max(frameFrom, tauOf(w.seen));
-  const double length = wayLength(*side(w.pair.first), from, tau) +
-                        wayLength(*side({true, w.pair.second}), from, tau);
+  const double length =
+      wayLength(*side(w.pair.first), from, tau) + wayLength(*side({true, w.pair.second}), from, tau);
   if (!(length < w.slack)) return false;
   w.slack -= length, w.seen = timeAt(tau);
   return true;

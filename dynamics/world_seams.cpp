@@ -158,6 +158,10 @@ std::vector<Bearing> World::Core::bearingsOf(const RigidBody& b, double tau, con
   return bearings;
 }
 
+std::span<const World::Core::Beside> World::Core::besideOf(BodyId id) const {
+  return std::ranges::equal_range(beside, id, {}, &Beside::body);
+}
+
 /// Whether the body meets there only what a surface that it already touches hides.
 bool World::Core::isHiddenTouch(const Side& a, const Side& b, const Touch& touch) const {
   const Side &body = a.body ? a : b, &piece = a.body ? b : a;

@@ -12,7 +12,7 @@ void World::Core::trace(RigidBody& b, bool traced, bool awaited, double tau) {
     std::erase(tracedBodies, &b);
   } else {
     tracedBodies.push_back(&b);
-    note(b, tau);
+    noteWay(b, tau);
   }
 }
 
@@ -28,50 +28,50 @@ void World::Core::addPart(RigidBody& b, WayPart part) {
 }
 
 /// The body follows the arc that it has now from tau on.
-void World::Core::note(RigidBody& b, double tau) {
+void World::Core::noteWay(RigidBody& b, double tau) {
   if (!b.traced && !b.awaited) return;
+  if (b.mode == BodyMode::Held) return noteHeld(b, tau);
   WayPart part;
   part.from = instantAt(tau);
-  if (b.mode == BodyMode::Held) {
-    const Kinematics k = b.held.at(tau);
-    part = WayPart::straight(part.from, k.pose, Vec3::Zero(), Vec3::Zero());
-  } else {
-    part.pathAge = b.age(tau), part.spinAge = b.spinAge(tau);
-    part.path = b.path, part.spin = b.spin, part.X_CN = b.X_CN;
-  }
+  part.pathAge = b.age(tau), part.spinAge = b.spinAge(tau);
+  part.path = b.path, part.spin = b.spin, part.X_CN = b.X_CN;
   addPart(b, part);
 }
 
-/// The way of a held body in this part of a frame.
-void World::Core::noteHeld(RigidBody& b) {
+/// The way of a held body from tau on, in this part of a frame.
+void World::Core::noteHeld(RigidBody& b, double tau) {
   if (!b.traced && !b.awaited) return;
-  if (!b.held.guided())
-    return addPart(b, WayPart::straight(instantAt(frameFrom), b.held.start, b.held.v, b.held.omega));
-  for (std::size_t i = b.held.part; i < b.held.way.size() && b.held.way[i].tau < now; ++i) {
+  if (!b.held.guided()) {
+    const Kinematics k = b.held.at(tau);
+    return addPart(b, WayPart::straight(instantAt(tau), k.pose, k.v, k.omega));
+  }
+  for (std::size_t i = b.held.partAfter(tau); i < b.held.way.size() && b.held.way[i].tau < now; ++i) {
     WayPart part = b.held.way[i];
-    const double early = frameFrom - part.tau;
-    if (early > 0) part.from = instantAt(frameFrom), part.pathAge += early, part.spinAge += early;
+    const double early = tau - part.tau;
+    if (early > 0) part.from = instantAt(tau), part.pathAge += early, part.spinAge += early;
     addPart(b, part);
   }
 }
 
 /// A frame begins, or goes on after the world has stood still.
 void World::Core::beginTraces(bool continues) {
-  if (continues && !std::exchange(stoodStill, false)) return;
+  const bool goesOn = continues && !std::exchange(stoodStill, false);
   stoodStill = false;
-  if (!continues) findTraced();
+  findTraced(goesOn);
+  if (goesOn) return;
   for (RigidBody* b : tracedBodies) {
     if (!continues) b->trace.clear();
-    note(*b, frameFrom);
+    noteWay(*b, frameFrom);
   }
 }
 
-/// Those who are traced for others, and those of a pair that could part in this frame. Who is dashed away
-/// meanwhile is noted from then on.
-void World::Core::findTraced() {
+/// Those who are traced for others, and those of a pair that could part in this part of a frame; if it goes
+/// on, besides those of its first part. What is dashed away meanwhile is noted from then on.
+void World::Core::findTraced(bool goesOn) {
   constexpr double kUsualPull = 10;  // [m/s2]
   const double span = 2 * (now - frameFrom) + 0.02;
-  for (RigidBody* b : tracedBodies) b->awaited = false;
+  if (!goesOn)
+    for (RigidBody* b : tracedBodies) b->awaited = false;
   const auto mayGo = [&](const RigidBody* b) {
     if (!b || standsStill(b->mode)) return 0.0;
     if (b->mode == BodyMode::Held) return 1e300;
@@ -84,7 +84,9 @@ void World::Core::findTraced() {
     for (RigidBody* one : {a, b}) {
       if (!one || one->awaited) continue;
       one->awaited = true;
-      if (!one->traced && one->trace.empty()) tracedBodies.push_back(one);
+      if (one->traced || !one->trace.empty()) continue;
+      tracedBodies.push_back(one);
+      if (goesOn) noteWay(*one, frameFrom);
     }
   }
   std::erase_if(tracedBodies, [](RigidBody* b) {

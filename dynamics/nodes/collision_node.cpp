@@ -251,7 +251,8 @@ bool CollisionNode::followBody(Part& part, const Pose& before, const FrameContex
   if (!way) return false;
   for (PlacementId id = part.placement; id != body->placement(); id = placements.carrier(id))
     if (id == kWorldPlacement || id == kNoPlacement) return false;  // a tracker has it
-  const Pose X_NP = poseOf(placements.world(body->placement())).inverse() * poseOf(placements.world(part.placement));
+  const Pose X_NP =
+      poseOf(placements.world(body->placement())).inverse() * poseOf(placements.world(part.placement));
   const Pose begins = poseOn(*way, frame.start(), Limit::Before) * X_NP;
   const bool rides = (begins.p - before.p).norm() <= 1e-9 * (1 + before.p.norm()) &&
                      std::fabs(begins.q.dot(before.q)) >= 1 - 1e-12;
@@ -365,7 +366,8 @@ bool CollisionNode::needsScene(Nanoseconds) const {
 }
 
 bool CollisionNode::awaits(const Node& earlier, const Scene& scene) const {
-  return loadsSeen_ != scene.loadsVersion() || looksAt(earlier, scene);
+  // What is placed before must be in its place: else the frame would be simulated twice.
+  return earlier.rank() < Rank::Dynamics || loadsSeen_ != scene.loadsVersion() || looksAt(earlier, scene);
 }
 
 bool CollisionNode::looksAt(const Node& mover, const Scene& scene) const {
@@ -428,8 +430,7 @@ void CollisionNode::move(Nanoseconds, Nanoseconds to, bool jump) {
   for (const Part& part : collidees_) {
     if (!moves(part)) continue;
     const Pose end = poseAt(part, to, Limit::Before);
-    jump || part.way.empty() ? world_.moveHeld(part.id, end, jump)
-                             : world_.moveHeld(part.id, end, part.way);
+    jump || part.way.empty() ? world_.moveHeld(part.id, end, jump) : world_.moveHeld(part.id, end, part.way);
   }
 }
 

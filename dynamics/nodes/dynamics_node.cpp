@@ -366,9 +366,15 @@ void DynamicsNode::publishWay(const Part& part, FrameContext& frame) {
   DynObjectNode* node = bodyAt(part.ref, frame.scene);
   if (!node || way.empty() || (way.size() == 1 && way.front().stands())) return;
   node->setWay(frame.now.frame, way);
-  const PoseKnot first{frame.start(), poseOn(way, frame.start(), Limit::Before), false};
+  // A node that runs in some frames only knows more than those who look at this frame.
+  if (frame.start() < frame.scene.frameStart()) return;
+  const Pose begins = poseOn(way, frame.start(), Limit::Before);
+  const PoseKnot first{frame.start(), part.pose, false};
   Course& course = frame.scene.courses().of(part.placement, first);
   course.assign(1, first);
+  const bool put = (begins.p - part.pose.p).norm() > 1e-9 * (1 + begins.p.norm()) ||
+                   std::fabs(begins.q.dot(part.pose.q)) < 1 - 1e-12;
+  if (put) course.push_back({frame.start(), begins, true});
   addChords(way, frame.now.time, course);
 }
 

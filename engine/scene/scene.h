@@ -159,6 +159,7 @@ public:
 
   /// Show time at the end of this frame; while a load enters, the exact time at which it does.
   Nanoseconds now() const { return now_; }
+  Nanoseconds frameStart() const { return frameStart_; }
 
   void setRig(NodeRef rig, PlacementId placement, double eyeHeight);
   void dropRig(NodeRef rig);
@@ -417,9 +418,10 @@ private:
   std::uint64_t levelsLoads_ = 0;  ///< loadsVersion_ when levels were found, ...
   bool levelsSettled_ = false;     ///< ... and those who move things were known
   std::set<NodeRef> loadWatchers_;
-  void rideAlong(Course& way, Nanoseconds start, Nanoseconds end) const;
+  void rideAlong(Course& way, Nanoseconds start, Nanoseconds end);
   Courses courses_;
   Course trackerWay_;      ///< trackerCourse()'s answer
+  Course rigWay_, riddenWay_;
   InputSample lastInput_;  ///< of the frame before
   Pose rigStart_;          ///< X_WR at this frame's start
   std::set<Wake> wakes_;

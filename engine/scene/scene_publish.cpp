@@ -369,19 +369,19 @@ const Course* Scene::trackerCourse(const std::string& tracker, const FrameContex
 }
 
 /// From the rig's coordinates to World.
-void Scene::rideAlong(Course& way, Nanoseconds start, Nanoseconds end) const {
+void Scene::rideAlong(Course& way, Nanoseconds start, Nanoseconds end) {
   const Pose X_WR = rigPose();
-  Course rig;
+  Course &rig = rigWay_, &ridden = riddenWay_;
+  rig.clear(), ridden.clear();
   if (!rigs_.empty()) {
     rig = courses_.within(rigs_.back().placement, rigStart_, start, end, placements_);
   } else if (X_WR.p != rigStart_.p || X_WR.q.coeffs() != rigStart_.q.coeffs()) {
-    rig = {{start, rigStart_, false}, {end, X_WR, false}};
+    rig.push_back({start, rigStart_, false}), rig.push_back({end, X_WR, false});
   }
   if (rig.empty()) {
     for (PoseKnot& k : way) k.X = X_WR * k.X;
     return;
   }
-  Course ridden;
   const Nanoseconds known = way.front().time;
   const auto add = [&](Nanoseconds time, const Pose& X_RT, bool jump) {
     const bool arrived = time == end && (jump || !rig.back().jump);

@@ -23,7 +23,7 @@ constexpr Node::Missed lastOf(Node::Missed) {
 namespace {
 
 /// Of what is written: older ones mean something else.
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr Nanoseconds kLatest = 1'000'000'000'000'000'000;  ///< thirty years of a show [ns]
 
 }  // namespace
@@ -135,6 +135,7 @@ void Scene::visitRest(StateFields& f) {
   f("stress", stressLevel_), f("put off", putOff_), f("paced", paced_);
   f("watchers", watchers_), f("load watchers", loadWatchers_), f("impact watchers", impactWatchers_);
   f("loads version", loadsVersion_), f("loads told", loadsTold_);
+  f("levels' loads", levelsLoads_), f("levels settled", levelsSettled_);
   f("last input", lastInput_), f("shadow rings", shadowPlaces_);
 }
 
@@ -148,7 +149,7 @@ void Scene::visitNodes(StateFields& f) {
 
 void Scene::visitNode(StateFields& f, Node& node) {
   Node::Standing& s = node.standing();
-  f("rests", s.rests), f("pace", s.pace), f("missed", s.missed);
+  f("rests", s.rests), f("pace", s.pace), f("missed", s.missed), f("level", s.level);
   if (f.restores() && s.pace > levelsOf(Concession::Half)) return f.fail();
   node.state(f);
   f.about(0);
@@ -247,6 +248,7 @@ std::optional<std::string> Scene::resume() {
       setBusy(*l->nodes[position]);
       rehash(*l->nodes[position]);
     }
+  agenda_.reorder();  // those who were busy before had no levels yet
   return {};
 }
 

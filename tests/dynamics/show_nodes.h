@@ -73,7 +73,7 @@ inline std::unique_ptr<Mesh> cube(double half) {
   mesh->materials.emplace_back();
   for (const auto& p : mesh->positions) mesh->bounds.include(Vec3(p[0], p[1], p[2]));
   mesh->sphere = {Vec3::Zero(), half * 1.7320509};
-  mesh->hash = 7;
+  mesh->hash = std::bit_cast<std::uint64_t>(half);
   return mesh;
 }
 

@@ -286,8 +286,8 @@ struct Share {
   std::size_t of = 1, next = 0;
 };
 
-/// From the sleeper `first` on, all are to notice: those on the shelf move by kGone, those on another sleeper
-/// by most of its height.
+/// From the sleeper `first` on, all are to notice: those on the shelf move by about kGone, those on another
+/// sleeper by most of its height.
 void tryAll(const std::vector<Cause>& causes, Carrier c, Lying l, Solid s, std::size_t first, Share& share,
             Tried& tried) {
   const std::size_t offset = share.next++;
@@ -298,8 +298,10 @@ void tryAll(const std::vector<Cause>& causes, Carrier c, Lying l, Solid s, std::
       ++tried.restless;
       return;
     }
+    // What leans sideways may find a new hold near the old one.
+    const double onShelf = l == Lying::Leaning ? 0.3 * kGone : kGone;
     const double gone =
-        first > 0 ? std::min(kGone, 0.8 * (room.beds[first] - room.beds[first - 1]).norm()) : kGone;
+        first > 0 ? std::min(kGone, 0.8 * (room.beds[first] - room.beds[first - 1]).norm()) : onShelf;
     if (!cause.happens(room)) continue;
     room.play(kNotices);
     ++tried.cells;

@@ -79,7 +79,7 @@ TEST(Seams, TheSlideDoesNotDependOnTheFrameRate) {
 Slid slideAlongWall(Ground floor, Ground wall, Slider kind, bool single) {
   World w;
   const FieldId g = addGravity(w, {-2, 0, -kG});
-  addFloorOf(w, floor, {}, {0.1, 0.0, 0.0}, single);
+  addFloorOf(w, floor, {}, {0.1, 0.0, 0.0}, single, 1.1, 0.35, 3, 20);
   // The wall's near side is x = 0.
   constexpr double kHeight = 1.5;
   for (int i = 0; i < (single ? 1 : 9); ++i) {
@@ -99,20 +99,22 @@ Slid slideAlongWall(Ground floor, Ground wall, Slider kind, bool single) {
 }
 
 TEST(Seams, AlongAWallOfPiecesItGoesAsAlongOne) {
-  for (const Slider kind : {Slider::Box, Slider::Convex, Slider::Ball, Slider::RodAlong})
+  for (const Slider kind : {Slider::Box, Slider::Convex, Slider::Ball, Slider::RodAlong, Slider::Mesh})
     for (const Ground wall : {Ground::Boxes, Ground::ClosedMeshes})
       for (const Ground floor : {Ground::Boxes, Ground::OpenMeshes}) {
         SCOPED_TRACE(std::string(nameOf(kind)) + " along " + nameOf(wall) + " on " + nameOf(floor));
         const Slid whole = slideAlongWall(floor, wall, kind, true),
                    pieces = slideAlongWall(floor, wall, kind, false);
-        EXPECT_LT((pieces.end - whole.end).norm(), 1e-5);
+        EXPECT_LT((pieces.end - whole.end).norm(), kind == Slider::Mesh ? 2e-4 : 1e-5);
         EXPECT_EQ(pieces.events, whole.events);
-        if (kind != Slider::Ball) EXPECT_LT(pieces.turned, 1e-5);
+        if (kind != Slider::Ball) {
+          EXPECT_LT(pieces.turned, 1e-5);
+        }
       }
 }
 
 /// A body slides from a floor to one that is `step` higher.
-Slid slideToStep(Ground ground, Slider kind, double step) {
+Slid slideToStep(Ground ground, Slider kind, double step, double rolling = 0.2) {
   World w;
   const FieldId g = addGravity(w);
   addPiece(w, ground, {}, -2, 2, -2, 1, 0, {0.2, 0.0, 0.0});
@@ -120,7 +122,7 @@ Slid slideToStep(Ground ground, Slider kind, double step) {
   BodyDef d = slider(w, kind);
   d.v = {0, 3, 0};
   if (rolls(kind)) d.omega = {-12, 0, 0};
-  d.surface = {0.2, 0.0, rolls(kind) ? 0.2 : 0.0};
+  d.surface = {0.2, 0.0, rolls(kind) ? rolling : 0.0};
   return watchSlide(w, addSolid(w, g, d), {}, 1.6, 60);
 }
 
@@ -137,9 +139,10 @@ TEST(Seams, AStepOfAMillimetreIsARealEdge) {
       EXPECT_NEAR(down.end.z(), 0.249, 1e-4) << "it has come down";
     }
   for (const Slider kind : {Slider::Ball, Slider::CapsuleAcross}) {
-    const Slid up = slideToStep(Ground::Boxes, kind, 1e-3), flush = slideToStep(Ground::Boxes, kind, 0);
+    // Without rolling resistance, which it does not feel while the edge has thrown it up.
+    const Slid up = slideToStep(Ground::Boxes, kind, 1e-3, 0), flush = slideToStep(Ground::Boxes, kind, 0, 0);
     EXPECT_NEAR(up.end.z(), 0.251, 1e-4);
-    EXPECT_LT(up.end.y(), flush.end.y() - 0.02) << "the edge costs speed";
+    EXPECT_LT(up.end.y(), flush.end.y() - 0.005) << "the edge costs speed";
     EXPECT_EQ(flush.events, 0u);
   }
 }
@@ -168,7 +171,9 @@ TEST(Seams, EachPartOfTheWayHasItsOwnFriction) {
     const Slid t = watchSlide(w, addSolid(w, g, d), {}, 1.2, 60);
     EXPECT_EQ(t.events, 0u);
     EXPECT_LT(t.highest, 0.25 + 1e-6);
-    if (kind == Slider::Box) EXPECT_NEAR(t.end.y(), 1 + (9 - 2 * 0.1 * kG) / (2 * 0.4 * kG), 0.15);
+    if (kind == Slider::Box) {
+      EXPECT_NEAR(t.end.y(), 1 + (9 - 2 * 0.1 * kG) / (2 * 0.4 * kG), 0.15);
+    }
   }
 }
 
@@ -199,7 +204,7 @@ TEST(Seams, APieceThatIsGoneOrHasMovedIsNoLongerFlush) {
 }
 
 TEST(Seams, ABodyThatLandsFlatOnASeamDoesNotTurn) {
-  for (const Slider kind : {Slider::Box, Slider::Convex, Slider::Disc, Slider::RodAcross})
+  for (const Slider kind : {Slider::Box, Slider::Convex, Slider::Disc, Slider::RodAlong, Slider::RodAcross})
     for (const double restitution : {0.0, 0.5}) {
       SCOPED_TRACE(std::string(nameOf(kind)) + " " + std::to_string(restitution));
       World w;
@@ -218,7 +223,7 @@ TEST(Seams, ABodyThatLandsFlatOnASeamDoesNotTurn) {
         for (const ContactEvent& e : w.events()) impacts += e.kind == ContactEvent::Kind::Impact;
       });
       EXPECT_LT(turned, 1e-6);
-      EXPECT_EQ(impacts, 2u) << "each piece is struck";
+      EXPECT_EQ(impacts, kind == Slider::RodAcross ? 1u : 2u) << "each piece that it meets is struck";
     }
 }
 
