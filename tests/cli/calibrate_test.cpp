@@ -82,8 +82,7 @@ TEST(ProgramCalibrate, PicturesAndHashesDoNotDependOnIt) {
   const json before = drawnSummaryOf(home.run());
   EXPECT_EQ(before["how_drawn"]["wall_workers"], "thread");
   EXPECT_TRUE(has(before["how_drawn"]["why"], "stadion calibrate")) << before["how_drawn"];
-  for (const DrawSetting& setting : {DrawSetting{true, 0, false}, DrawSetting{true, 1, true},
-                                     DrawSetting{false, 0, true}, DrawSetting{false, 3, false}}) {
+  for (const DrawSetting& setting : {DrawSetting{true, 1, true}, DrawSetting{false, 3, false}}) {
     home.remember(setting);
     const json after = drawnSummaryOf(home.run());
     const json& how = after["how_drawn"];

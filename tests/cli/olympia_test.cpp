@@ -69,7 +69,7 @@ std::vector<std::string> distances(const std::string& log, const std::string& ra
 }
 
 // What counts has a latency, so that it happens at its own time.
-TEST(ProgramOlympia, AllGoAsFarAtOtherFrameRatesAndWhenFramesAreLate) {
+TEST(ProgramFullOlympia, AllGoAsFarAtOtherFrameRatesAndWhenFramesAreLate) {
   const std::string visit = std::filesystem::path(olympia()).replace_extension(".input");
   const std::vector<std::string> usual = distances(visit, "60");
   EXPECT_EQ(usual.size(), 6u);
@@ -117,7 +117,7 @@ key wand 5     0   6    1
 
 // In real time as long as the machine is fast enough: what is late is simulated all the same, and loads are
 // waited for.
-TEST(ProgramOlympia, AsItComesFromTheClockTheVisitIsTheRecordedOne) {
+TEST(ProgramFullOlympia, AsItComesFromTheClockTheVisitIsTheRecordedOne) {
   const TemporaryFolder folder;
   const std::string log = folder.path() / "short.input";
   std::ofstream(log)
