@@ -2,21 +2,29 @@
 /// Records on their way from the thread that makes them to the one that collects them, without a lock.
 ///
 /// Whenever all has been collected it begins again at its first place: a ring that few records pass through
-/// stays in the cache.
+/// stays in the cache. Memory that no record has reached yet is not touched: most rings never use it.
 ///
 /// Threads  claim() and push() on the maker's; next() and take() on the collector's; lost() on any.
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <memory>
+#include <type_traits>
 
 namespace stadion {
 
 template <class Record>
 class RecordRing {
 public:
-  explicit RecordRing(std::size_t capacity) : records_(capacity) {}
+  static_assert(std::is_trivially_destructible_v<Record> &&
+                alignof(Record) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+
+  explicit RecordRing(std::size_t capacity)
+      : capacity_(capacity), memory_(std::make_unique_for_overwrite<std::byte[]>(capacity * sizeof(Record))) {
+    while (made_ < std::min(capacity_, kReady)) make();
+  }
 
   /// The place of the next record, until it is pushed; null, and counted, if nobody has collected.
   Record* claim() {
@@ -24,7 +32,10 @@ public:
     const std::size_t tail = tail_.load(std::memory_order_acquire);
     // The collector looks at it only after a push, and until then there is nothing to look at.
     if (head == tail) first_.store(head, std::memory_order_relaxed);
-    if (head - tail < records_.size()) return at(head);
+    if (head - tail < capacity_) {
+      if (placeOf(head) == made_) make();
+      return at(head);
+    }
     lost_.fetch_add(1, std::memory_order_relaxed);
     return nullptr;
   }
@@ -47,12 +58,19 @@ public:
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
 private:
-  Record* at(std::size_t number) {
-    return &records_[(number - first_.load(std::memory_order_relaxed)) % records_.size()];
+  static constexpr std::size_t kReady = 1024;  ///< records that take no page fault
+
+  std::size_t placeOf(std::size_t number) const {
+    return (number - first_.load(std::memory_order_relaxed)) % capacity_;
   }
+  Record* at(std::size_t number) { return reinterpret_cast<Record*>(memory_.get()) + placeOf(number); }
   const Record* at(std::size_t number) const { return const_cast<RecordRing*>(this)->at(number); }
 
-  std::vector<Record> records_;
+  /// Places are reached one after the other.
+  void make() { std::construct_at(reinterpret_cast<Record*>(memory_.get()) + made_), ++made_; }
+
+  std::size_t capacity_, made_ = 0;
+  std::unique_ptr<std::byte[]> memory_;
   std::atomic<std::size_t> first_ = 0;  ///< the number of the record that lies at the first place
   std::atomic<std::size_t> head_ = 0, tail_ = 0;
   std::atomic<std::uint64_t> lost_ = 0;
