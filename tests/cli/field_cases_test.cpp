@@ -15,13 +15,14 @@ namespace stadion {
 namespace {
 
 /// How a case is played.
-struct Way {
+struct FieldWay {
   const char *mode, *rate;
 };
-constexpr std::array kWays{Way{"sequential", "60"}, Way{"pipelined", "30"}, Way{"pipelined", "144"}};
+constexpr std::array kWays{FieldWay{"sequential", "60"}, FieldWay{"pipelined", "30"},
+                           FieldWay{"pipelined", "144"}};
 
 /// Where a body was in each frame.
-struct Track {
+struct BodyTrack {
   struct Row {
     double time, x, y, z;
     std::string mode;
@@ -43,9 +44,10 @@ struct Track {
 };
 
 /// One case, played in one way.
-class Played {
+class PlayedCase {
 public:
-  Played(const Way& way, const std::string& show, const std::string& seconds, const std::string& body = {}) {
+  PlayedCase(const FieldWay& way, const std::string& show, const std::string& seconds,
+             const std::string& body = {}) {
     const std::string field = STADION_SOURCE_DIR "/tests/corpus/field/";
     const std::string log = field + show + ".input";
     std::vector<std::string> words{"run",        field + show + ".evs",
@@ -64,7 +66,7 @@ public:
     EXPECT_EQ(result_.status, 0) << result_.err;
     if (!body.empty()) read(folder_.path() / ("trace-" + body + ".csv"));
   }
-  const Track& track() const { return track_; }
+  const BodyTrack& track() const { return track_; }
   /// When each node told of something, as the report says it [s].
   std::map<std::string, double> told(const std::string& event) const {
     std::map<std::string, double> times;
@@ -93,17 +95,17 @@ private:
 
   TemporaryFolder folder_;
   ProgramResult result_;
-  Track track_;
+  BodyTrack track_;
 };
 
-class ProgramFieldCase : public testing::TestWithParam<Way> {};
+class ProgramFieldCase : public testing::TestWithParam<FieldWay> {};
 
 INSTANTIATE_TEST_SUITE_P(Program, ProgramFieldCase, testing::ValuesIn(kWays), [](const auto& way) {
   return fmt::format("{}_{}", way.param.mode, way.param.rate);
 });
 
 TEST_P(ProgramFieldCase, ACrateSlidesOverASeamAsOverOneSlab) {
-  const Played played(GetParam(), "seam", "5", "crate");
+  const PlayedCase played(GetParam(), "seam", "5", "crate");
   constexpr double kGravity = 9.80665;
   EXPECT_NEAR(played.track().end().y, 0.5 + 36 / (2 * 0.2 * kGravity), 1e-4);
   EXPECT_NEAR(played.track().end().x, 0, 1e-6);
@@ -113,7 +115,7 @@ TEST_P(ProgramFieldCase, ACrateSlidesOverASeamAsOverOneSlab) {
 }
 
 TEST_P(ProgramFieldCase, ACrateWithoutFrictionKeepsItsSpeedOverTiles) {
-  const Played played(GetParam(), "tiles", "5", "crate");
+  const PlayedCase played(GetParam(), "tiles", "5", "crate");
   EXPECT_NEAR(played.track().end().y, 15, 1e-4);
   EXPECT_NEAR(played.track().end().x, 0.1, 1e-6);
   EXPECT_LT(played.track().highest(), 0.25 + 1e-6);
@@ -121,7 +123,7 @@ TEST_P(ProgramFieldCase, ACrateWithoutFrictionKeepsItsSpeedOverTiles) {
 }
 
 TEST_P(ProgramFieldCase, SensorsSeeFastBodiesAtTheExactTime) {
-  const Played played(GetParam(), "fast", "0.5");
+  const PlayedCase played(GetParam(), "fast", "0.5");
   const auto meets = played.told("onimpact"), parts = played.told("onrelease");
   const std::map<std::string, double> half{{"c_thick", 2.5}, {"c_thin", 0.5}};
   ASSERT_EQ(meets.size(), 2U);
@@ -133,7 +135,7 @@ TEST_P(ProgramFieldCase, SensorsSeeFastBodiesAtTheExactTime) {
 }
 
 TEST_P(ProgramFieldCase, ACrateFallsWhenAHandTakesAwayTheOneBelow) {
-  const Played played(GetParam(), "grab", "6", "upper");
+  const PlayedCase played(GetParam(), "grab", "6", "upper");
   EXPECT_NEAR(played.track().end().z, 0.25, 1e-4);
   EXPECT_EQ(played.track().end().mode, "rest");
 }
@@ -143,14 +145,14 @@ TEST_P(ProgramFieldCase, FlatThingsThatSpinStopAsUnderEvenPressure) {
   // Angular deceleration 4 mu g / 3 R of the disc; 0.3826 is the mean radius of a square of side 1.
   const std::map<std::string, double> stops{{"disc", 0.765}, {"slab", 0.888}};
   for (const auto& [body, time] : stops) {
-    const double seen = Played(GetParam(), "spin", "2", body).track().stops();
+    const double seen = PlayedCase(GetParam(), "spin", "2", body).track().stops();
     EXPECT_GT(seen, 0.99 * time) << body;
     EXPECT_LT(seen, 1.01 * time + frame) << body;
   }
 }
 
 TEST_P(ProgramFieldCase, ATowerOfCratesOfOneAndAHundredKilogramsStands) {
-  const Played played(GetParam(), "tower", "60", "s9");
+  const PlayedCase played(GetParam(), "tower", "60", "s9");
   EXPECT_NEAR(played.track().end().z, 4.75, 1e-3);
   EXPECT_NEAR(played.track().end().x, 0, 1e-3);
   EXPECT_NEAR(played.track().end().y, 3, 1e-3);

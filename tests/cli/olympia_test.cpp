@@ -20,8 +20,8 @@ std::string olympia() {
 
 TEST(ProgramOlympia, TheRecordedVisitEndsTheSameInBothModesAndReportsAllThrows) {
   const TemporaryFolder folder;
-  const ProgramResult played =
-      stadionProgram({"run", olympia(), "--walls", "cave4", "--size", "64x48", "--out", folder.path()});
+  const ProgramResult played = stadionProgram(
+      {"run", olympia(), "--walls", "cave4", "--size", "64x48", "--look", "plain", "--out", folder.path()});
   ASSERT_EQ(played.status, 0) << played.err;
   const auto summary = nlohmann::json::parse(fileContent(folder.path() / "summary.json"));
 

@@ -131,8 +131,9 @@ TEST(ProgramProfile, TheShadowsRingsAreTheLights) {
   double ms = 0;
   std::string out;
   for (int frames = 64; ms == 0 && frames < 10'000; frames *= 4) {
-    const ProgramResult r = stadionProgram({"profile", show, "--asset-root", assetFolder(), "--no-draw",
-                                            "--frames", std::to_string(frames), "--walls", "desktop", "--json"});
+    const ProgramResult r =
+        stadionProgram({"profile", show, "--asset-root", assetFolder(), "--no-draw", "--frames",
+                        std::to_string(frames), "--walls", "desktop", "--json"});
     ASSERT_EQ(r.status, 0) << r.err;
     out = r.out;
     const auto figures = nlohmann::json::parse(out);
@@ -153,8 +154,9 @@ TEST(ProgramProfile, WithoutDrawingAppAndCullAreLeft) {
 
 TEST(ProgramProfile, WhatHadNoTurnInSoFewFramesIsToldAsSuch) {
   const auto profiled = [](const std::string& frames) {
-    const ProgramResult r = stadionProgram({"profile", STADION_SOURCE_DIR "/scripts/olympia.evs", "--walls",
-                                            "desktop", "--size", "64x48", "--frames", frames, "--json"});
+    const ProgramResult r =
+        stadionProgram({"profile", STADION_SOURCE_DIR "/scripts/olympia.evs", "--walls", "desktop", "--size",
+                        "64x48", "--look", "plain", "--frames", frames, "--json"});
     EXPECT_EQ(r.status, 0) << r.err;
     return nlohmann::json::parse(r.out);
   };

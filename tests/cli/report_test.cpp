@@ -13,7 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 ProgramResult profile(const std::string& show, const std::vector<std::string>& options) {
-  std::vector<std::string> words = {"profile", show, "--frames", "90", "--size", "96x72", "--nodes", "0"};
+  std::vector<std::string> words = {"profile", show,     "--frames", "90",      "--size",
+                                    "96x72",   "--look", "plain",    "--nodes", "0"};
   words.insert(words.end(), options.begin(), options.end());
   return stadionProgram(words);
 }

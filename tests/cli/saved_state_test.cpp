@@ -19,7 +19,7 @@ struct Script {
   double rate = 60;
 };
 
-std::unique_ptr<Player> open(const Script& script,
+std::unique_ptr<Player> openScript(const Script& script,
                              std::shared_ptr<const std::vector<std::uint8_t>> state = {}) {
   ShowOptions options;
   options.script = script.file, options.walls = "desktop", options.size = "64x48";
@@ -99,7 +99,7 @@ TEST_P(SavedState, GoesOnAsIfNothingHadBeen) {
     std::uint64_t from;
     std::unique_ptr<Played> played;
   };
-  auto player = open(script);
+  auto player = openScript(script);
   ASSERT_TRUE(player);
   Played played(std::move(player), script.rate);
   std::vector<Copy> copies;
@@ -115,7 +115,7 @@ TEST_P(SavedState, GoesOnAsIfNothingHadBeen) {
     if (n % (script.frames / 20) != 5) continue;
     if (copies.size() > 5) copies.erase(copies.begin());
     const auto state = std::make_shared<const std::vector<std::uint8_t>>(played.scene().save());
-    auto copy = open(script, state);
+    auto copy = openScript(script, state);
     ASSERT_TRUE(copy) << "after frame " << n;
     EXPECT_EQ(copy->scene().stateHash(), played.scene().stateHash()) << "after frame " << n;
     const std::vector<std::uint8_t> again = copy->scene().save();
@@ -156,10 +156,10 @@ sound( name=hum, file=thud.wav, loop=on )
   const Script script{file, "none", 1};
   constexpr double rate = 0.1;  // frames of ten seconds
   constexpr std::uint64_t kDay = 8640;
-  Played played(open(script), rate);
+  Played played(openScript(script), rate);
   for (std::uint64_t n = 0; n < kDay; ++n) played.frame(n);
   const auto state = std::make_shared<const std::vector<std::uint8_t>>(played.scene().save());
-  auto copy = open(script, state);
+  auto copy = openScript(script, state);
   ASSERT_TRUE(copy);
   Played on(std::move(copy), rate);
   for (std::uint64_t n = kDay; n < kDay + 10; ++n) {
