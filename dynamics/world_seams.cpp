@@ -45,11 +45,12 @@ std::optional<FlatFace> flatFace(const Collider& c, const Vec3& n) {
   int up = 0;
   (F.q.conjugate() * n).cwiseAbs().maxCoeff(&up);
   const double side = n.dot(F.q * Vec3::Unit(up)) < 0 ? -1 : 1;
-  const Quat turn = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::Unit(up));
+  const double half = std::sqrt(0.5);  // a quarter turn takes z to x or y
+  const Quat turn = up == 0 ? Quat(half, 0, half, 0) : up == 1 ? Quat(half, -half, 0, 0) : Quat::Identity();
   FlatFace face{{F.p + side * box->half[up] * (F.q * Vec3::Unit(up)), F.q * turn}, {}};
   // A quarter turn puts x and y on two of the box's axes.
-  const Vec3 half = (turn.conjugate() * box->half).cwiseAbs();
-  face.half = half.head<2>();
+  const Vec3 sides = (turn.conjugate() * box->half).cwiseAbs();
+  face.half = sides.head<2>();
   return face;
 }
 
