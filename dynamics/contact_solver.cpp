@@ -12,6 +12,7 @@ constexpr int kRounds = 4, kRoundsAtRest = 12;    ///< so often at most a choice
 constexpr double kWork = 6e5, kWorkAtRest = 3e7;  ///< ... and with so many multiplications ...
 constexpr double kUsual = 48;                     ///< ... for so many points; for more, as many more
 constexpr double kSwept = 2000;                   ///< points that are relaxed where none is found
+constexpr double kArea = 20;                      ///< an area takes as long as so many points
 constexpr double kHolds = 1e-13;                  ///< a sweep that changes less is the last [m/s]
 constexpr int kNewton = 3;                        ///< steps towards the slip of an area
 constexpr double kExactly = 1e-17;                ///< the same where an exact solution is at hand [m/s]
@@ -146,8 +147,9 @@ bool solveContacts(std::vector<Mobile>& mobiles, std::vector<SolverContact>& con
     if (sweeps.conjugate(round == 0 ? 3 : 16, kExactly)) return true;
     if (choice.settle(work)) return true;
   }
-  return sweeps.conjugate(static_cast<int>(
-      std::clamp(kSwept / static_cast<double>(std::max<std::size_t>(contacts.size(), 1)), 20.0, 200.0)));
+  double each = 0;  // sweep, in points
+  for (const SolverContact& c : contacts) each += c.area ? kArea : 1;
+  return sweeps.conjugate(static_cast<int>(std::clamp(kSwept / std::max(each, 1.0), 20.0, 200.0)));
 }
 
 }  // namespace stadion
