@@ -92,7 +92,7 @@ TEST(ProgramSamePictures, OneWallSequentialAndPipelined) {
 TEST(ProgramSamePictures, FourWallsSequentialAndPipelined) {
   expectSamePictures("cave4", 4);
 }
-TEST(ProgramSamePictures, SixWallsSequentialAndPipelined) {
+TEST(ProgramFullSamePictures, SixWallsSequentialAndPipelined) {
   expectSamePictures("cave6", 6);
 }
 
@@ -152,7 +152,7 @@ void expectSamePicturesInEveryMode(const std::vector<std::string>& show) {
   }
 }
 
-TEST(ProgramSamePictures, OfTheBenchsScenesInEveryMode) {
+TEST(ProgramFullSamePictures, OfTheBenchsScenesInEveryMode) {
   for (const char name : {'a', 'b', 'c'}) {
     const TemporaryFolder folder;
     bench::WallScene scene;

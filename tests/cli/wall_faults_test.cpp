@@ -144,7 +144,7 @@ TEST(ProgramFullWallFaults, AWallThatIsKilledOrStoppedIsBackInThreeSecondsAndThe
 }
 
 /// How soon, is the test above's affair.
-TEST(ProgramWallFaults, AWallWhoseProcessIsKilledOrStoppedDrawsAgain) {
+TEST(ProgramFullWallFaults, AWallWhoseProcessIsKilledOrStoppedDrawsAgain) {
   LiveWalls live;
   const auto hasFour = [&](pid_t without) {
     return live.waitUntil([&] {
