@@ -65,7 +65,7 @@ struct HistoryCase {
   std::uint64_t start, frames;  ///< drawn from `start` on; the shows before it are only simulated
 };
 
-class PictureHistory : public testing::TestWithParam<HistoryCase> {};
+class ProgramPictureHistory : public testing::TestWithParam<HistoryCase> {};
 
 std::string shownHere(const std::string& name) {
   return std::string(STADION_SOURCE_DIR) + "/scripts/" + name;
@@ -91,7 +91,7 @@ key head 2    0  9   1.7   turn 20 0 0  smooth
 key head 4    3  2   1.7   turn 10 0 0  smooth
 )";
 
-TEST_P(PictureHistory, IsNotSeenAfterASnapshotNorWhereFramesWereNotDrawn) {
+TEST_P(ProgramPictureHistory, IsNotSeenAfterASnapshotNorWhereFramesWereNotDrawn) {
   HistoryCase c = GetParam();
   const TemporaryFolder folder;
   if (c.script.empty())
@@ -126,14 +126,14 @@ std::string nameOf(const testing::TestParamInfo<HistoryCase>& show) {
   return show.param.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Program, PictureHistory,
+INSTANTIATE_TEST_SUITE_P(Program, ProgramPictureHistory,
                          testing::Values(HistoryCase{"kick", shownHere("kick.evs"), shownHere("kick.input"),
                                                      0, 120},
                                          HistoryCase{"crowd", shownHere("crowd.evs"), "none", 20, 30},
                                          HistoryCase{"walk", "", "", 0, 240}),
                          nameOf);
 INSTANTIATE_TEST_SUITE_P(
-    ProgramFull, PictureHistory,
+    ProgramFull, ProgramPictureHistory,
     testing::Values(HistoryCase{"kick", shownHere("kick.evs"), shownHere("kick.input"), 0, 240},
                     HistoryCase{"olympia", shownHere("olympia.evs"), shownHere("olympia.input"), 1100, 60},
                     HistoryCase{"crowd", shownHere("crowd.evs"), "none", 20, 60}),

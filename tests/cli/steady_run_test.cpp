@@ -102,9 +102,9 @@ std::optional<Asked> askedIn(const Way& way) {
   return asked;
 }
 
-class SteadyRun : public ::testing::TestWithParam<Way> {};
+class ProgramSteadyRun : public ::testing::TestWithParam<Way> {};
 
-TEST_P(SteadyRun, AsksForNoMemory) {
+TEST_P(ProgramSteadyRun, AsksForNoMemory) {
   if (!countsAllocations()) GTEST_SKIP() << "a sanitizer counts its own";
   const auto asked = askedIn(GetParam());
   ASSERT_TRUE(asked) << "the show cannot be played";
@@ -120,11 +120,11 @@ std::string nameOf(const ::testing::TestParamInfo<Way>& way) {
   return std::string(way.param.workers) + "_" + way.param.look + (way.param.everyFrame ? "" : "_newest");
 }
 
-INSTANTIATE_TEST_SUITE_P(Program, SteadyRun,
+INSTANTIATE_TEST_SUITE_P(Program, ProgramSteadyRun,
                          ::testing::Values(Way{"process", "plain", "cave4", true},
                                            Way{"thread", "plain", "cave4", true}),
                          nameOf);
-INSTANTIATE_TEST_SUITE_P(ProgramFull, SteadyRun,
+INSTANTIATE_TEST_SUITE_P(ProgramFull, ProgramSteadyRun,
                          ::testing::Values(Way{"process", "plain", "cave4", false},
                                            Way{"thread", "full", "desktop", true},
                                            Way{"process", "full", "desktop", true},
