@@ -1,5 +1,5 @@
 #pragma once
-/// How a body goes through a frame, as those see it who do not simulate it: the arcs that it follows, each
+/// How a body goes through a frame, as nodes see it that do not simulate it: the arcs that it follows, each
 /// from an exact moment on.
 ///
 /// Frames   C is at the centre of mass, along the principal axes; N is the node that goes along, the body's
@@ -84,7 +84,7 @@ using BodyWay = std::vector<WayPart>;
 Pose poseOn(const BodyWay& way, Nanoseconds time, Limit limit);
 /// Whether it is put somewhere at exactly `time`.
 bool jumpsAt(const BodyWay& way, Nanoseconds time);
-/// The same way by straight chords, to `end`, for those who follow no arcs.
+/// The same way by straight chords, to `end`, for nodes that follow no arcs.
 void addChords(const BodyWay& way, Nanoseconds end, Course& course);
 
 }  // namespace stadion

@@ -18,7 +18,7 @@ void World::Core::trace(RigidBody& b, bool traced, bool awaited, double tau) {
 
 void World::Core::addPart(RigidBody& b, WayPart part) {
   part.jump = std::exchange(b.put, false);
-  // What lasts for no time has been nobody's way.
+  // What lasts for no time is no part of a way.
   if (!b.trace.empty() && !(b.trace.back().from < part.from)) {
     part.from = b.trace.back().from, part.jump = part.jump || b.trace.back().jump;
     b.trace.back() = part;
@@ -65,7 +65,7 @@ void World::Core::beginTraces(bool continues) {
   }
 }
 
-/// Those who are traced for others, and those of a pair that could part in this part of a frame; if it goes
+/// Bodies that are traced for others, and those of a pair that could part in this part of a frame; if it goes
 /// on, besides those of its first part. What is dashed away meanwhile is noted from then on.
 void World::Core::findTraced(bool goesOn) {
   constexpr double kUsualPull = 10;  // [m/s2]

@@ -83,10 +83,12 @@ public:
   void setState(const BodyState& state) { state_ = state; }
   const BodyState& state() const { return state_; }
 
-  /// How it has moved in a frame, said by its dynamics node for those who look at it; null: it has not, or
-  /// nobody has looked before.
+  /// How it has moved in a frame, said by its dynamics node for nodes that look at it; null: it has not, or
+  /// no node has looked before.
   void setWay(std::uint64_t frame, const BodyWay& way) { way_ = way, wayOf_ = frame; }
-  const BodyWay* wayIn(std::uint64_t frame) const { return frame == wayOf_ && !way_.empty() ? &way_ : nullptr; }
+  const BodyWay* wayIn(std::uint64_t frame) const {
+    return frame == wayOf_ && !way_.empty() ? &way_ : nullptr;
+  }
 
   bool moved() const override { return simulation_.asking != nullptr || ObjectNode::moved(); }
   void hash(StateHash& h) const override;

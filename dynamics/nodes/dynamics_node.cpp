@@ -56,7 +56,7 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
     def.stick = stickAlong(nose, *body.sticks, body.stickDepth, mesh);
   }
   part.id = world_.addBody(def);
-  world_.traceBody(part.id, true);  // those who look at it may be visited only after this node
+  world_.traceBody(part.id, true);  // nodes that look at it may be visited only after this one
   traced_.push_back(&part);
   for (const NodeRef field : node->hooked())
     if (const FieldId id = fieldFor(field, scene)) world_.hook(part.id, id, 0);  // from its beginning
@@ -366,7 +366,7 @@ void DynamicsNode::publishWay(const Part& part, FrameContext& frame) {
   DynObjectNode* node = bodyAt(part.ref, frame.scene);
   if (!node || way.empty() || (way.size() == 1 && way.front().stands())) return;
   node->setWay(frame.now.frame, way);
-  // A node that runs in some frames only knows more than those who look at this frame.
+  // A node that runs in some frames only knows more than those that look at this frame.
   if (frame.start() < frame.scene.frameStart()) return;
   const Pose begins = poseOn(way, frame.start(), Limit::Before);
   const PoseKnot first{frame.start(), part.pose, false};

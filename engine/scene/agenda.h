@@ -1,6 +1,6 @@
 #pragma once
-/// Who is to be visited in a frame, in the order of ranks, of levels within a rank, then of load numbers and
-/// positions in the file.
+/// Which nodes are to be visited in a frame, in the order of ranks, of levels within a rank, then of load
+/// numbers and positions in the file.
 ///
 /// A round begins with the nodes that are busy; others are called to it, also while it is under way. Each
 /// that waits is visited once, however often it was called. From frame to frame the memory is used again.

@@ -115,7 +115,8 @@ std::vector<Message> Scene::callRound(const TimeSignature& now) {
   return mail;
 }
 
-/// Nodes that look at each other's results come in that order. Who moves what is known a round after it came.
+/// Nodes that look at each other's results come in that order. Which node moves what is known a round after
+/// it has come.
 void Scene::settleLevels() {
   if (levelsLoads_ == loadsVersion_ && levelsSettled_) return;
   levelsSettled_ = levelsLoads_ == loadsVersion_;
@@ -154,7 +155,8 @@ void Scene::settleLevels() {
   };
   bool changed = false;
   for (const NodeRef ref : loadWatchers_)
-    if (Node* node = find(ref)) changed |= std::exchange(node->standing().level, levelOf(ref)) != levelOf(ref);
+    if (Node* node = find(ref))
+      changed |= std::exchange(node->standing().level, levelOf(ref)) != levelOf(ref);
   if (changed) agenda_.reorder();
 }
 

@@ -416,7 +416,7 @@ private:
   std::multimap<PlacementId, NodeRef> watchers_;
   std::uint64_t loadsVersion_ = 0, loadsTold_ = 0;
   std::uint64_t levelsLoads_ = 0;  ///< loadsVersion_ when levels were found, ...
-  bool levelsSettled_ = false;     ///< ... and those who move things were known
+  bool levelsSettled_ = false;     ///< ... and the nodes that move things were known
   std::set<NodeRef> loadWatchers_;
   void rideAlong(Course& way, Nanoseconds start, Nanoseconds end);
   Courses courses_;

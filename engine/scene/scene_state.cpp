@@ -248,7 +248,7 @@ std::optional<std::string> Scene::resume() {
       setBusy(*l->nodes[position]);
       rehash(*l->nodes[position]);
     }
-  agenda_.reorder();  // those who were busy before had no levels yet
+  agenda_.reorder();  // nodes that were busy before had no levels yet
   return {};
 }
 
