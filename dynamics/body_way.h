@@ -60,7 +60,7 @@ struct WayPart {
   Spin spin;                        ///< of C
   Pose X_CN;
   bool jump = false;  ///< it was put there
-  double tau = 0;     ///< `from`, in seconds after a moment that whoever looks has chosen
+  double tau = 0;     ///< `from`, in seconds after a moment that the reader has chosen
 
   /// From X_WN on it goes straight and turns evenly.
   static WayPart straight(const Instant& from, const Pose& X_WN, const Vec3& v, const Vec3& omega);

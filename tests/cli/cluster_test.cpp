@@ -185,7 +185,7 @@ TEST(ProgramCluster, WhoLeadsMayDieAndTheShowGoesOn) {
   EXPECT_EQ(times.rbegin()->first, summaryOf(cluster.out("front"))["last_frame"].get<std::uint64_t>());
 }
 
-/// A frame a second: one machine holds the last one up until who leads is dead.
+/// A frame a second: one machine holds the last one up until the leader is dead.
 TEST(ProgramCluster, WhoLeadsMayDieInTheLastFrame) {
   const TemporaryFolder folder;
   const std::string file =
