@@ -16,8 +16,8 @@ void World::Core::FoundFlat::place(const Mobile& a, const Mobile& b, const Mat3&
   const bool withA = flat.carrier == Carrier::A;
   const Mat3 &own = withA ? turnA : turnB, &other = withA ? turnB : turnA;
   basis.col(0) = other * flat.plane.n;
-  const Vec3 t1 = own * flat.plane.t1;
-  basis.col(1) = (t1 - basis.col(0) * basis.col(0).dot(t1)).normalized();
+  const Vec3 along = own * flat.plane.t1;
+  basis.col(1) = (along - basis.col(0) * basis.col(0).dot(along)).normalized();
   basis.col(2) = basis.col(0).cross(basis.col(1));
   // Where the sides tilt, what still touches is what is farthest on; friction is in the plane there.
   const Vec3 start = withA ? a.p : b.p, towards = withA ? Vec3(-basis.col(0)) : Vec3(basis.col(0));

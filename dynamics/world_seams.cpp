@@ -160,7 +160,8 @@ std::vector<Bearing> World::Core::bearingsOf(const RigidBody& b, double tau, con
 }
 
 std::span<const World::Core::Beside> World::Core::besideOf(BodyId id) const {
-  return std::ranges::equal_range(beside, id, {}, &Beside::body);
+  return {std::ranges::lower_bound(beside, id, {}, &Beside::body),
+          std::ranges::upper_bound(beside, id, {}, &Beside::body)};
 }
 
 /// Whether the body meets there only what a surface that it already touches hides.

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <new>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef STADION_SANITIZED
 #define STADION_COUNTS_ALLOCATIONS 0
 #else
 #define STADION_COUNTS_ALLOCATIONS 1

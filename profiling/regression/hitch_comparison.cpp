@@ -145,7 +145,7 @@ private:
     std::vector<double> sorted = of;
     std::ranges::sort(sorted);
     for (const double v : of) {
-      const auto [first, last] = std::ranges::equal_range(sorted, v);
+      const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), v);
       ranks_.push_back(static_cast<double>((first - sorted.begin()) + (last - sorted.begin()) + 1) / 2);
     }
   }

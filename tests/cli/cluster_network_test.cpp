@@ -40,13 +40,13 @@ private:
   std::FILE* relay_;
 };
 
-struct Played {
+struct PlayedCluster {
   const char *loss, *jitter, *frames, *size;
 };
 
 /// All walls show what one machine shows, and no machine shows a frame before every other one has shown the
 /// one before.
-void expectTheSamePictures(const Played& how) {
+void expectTheSamePictures(const PlayedCluster& how) {
   const Network network(how.loss, how.jitter);
   if (!network.isReady()) GTEST_SKIP() << "network namespaces cannot be made here (that takes root)";
   const TemporaryFolder folder;

@@ -52,12 +52,12 @@ std::size_t coloursIn(const Picture& p) {
   return colours.size();
 }
 
-struct Shown {
+struct ShownWindow {
   Picture one, two;
 };
 
 /// What stands on the two screens once the program says that the walls are shown.
-std::optional<Shown> shownBy(const Display& display, std::vector<std::string> arguments, std::uint32_t width,
+std::optional<ShownWindow> shownBy(const Display& display, std::vector<std::string> arguments, std::uint32_t width,
                              std::uint32_t height) {
   const TemporaryFolder folder;
   RunningProgram program(onDisplay(display, std::move(arguments)));
@@ -68,7 +68,7 @@ std::optional<Shown> shownBy(const Display& display, std::vector<std::string> ar
   EXPECT_EQ(program.status(), 0) << program.err();
   const auto a = readPng(first), b = readPng(second);
   if (!a || !b) return {};
-  return Shown{cut(a.value(), 30, 20, width, height), cut(b.value(), 50, 40, width, height)};
+  return ShownWindow{cut(a.value(), 30, 20, width, height), cut(b.value(), 50, 40, width, height)};
 }
 
 class ProgramDisplay : public testing::Test {
@@ -79,7 +79,7 @@ protected:
   }
 
   /// The test pattern, or a show that stands still, on outputs with these fields.
-  std::optional<Shown> shown(const std::string& fields, bool across = false) {
+  std::optional<ShownWindow> shown(const std::string& fields, bool across = false) {
     const std::uint32_t w = across ? kHeight : kWidth, h = across ? kWidth : kHeight;
     const std::string walls =
         folder_.write("two.walls", wallFile(display_->name(), fmt::format("{} {}", w, h), fields));

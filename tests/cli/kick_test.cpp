@@ -18,7 +18,7 @@ namespace {
 constexpr double kRadius = 0.11;  // [m] of the football
 
 /// What holds at the end of a frame.
-struct Moment {
+struct KickMoment {
   double time = 0;  ///< [s]
   Vec3 ball = Vec3::Zero(), v = Vec3::Zero();
   bool asleep = false, kickOn = false, kickHooked = false;
@@ -32,8 +32,8 @@ struct Told {
   double time;  ///< [s]
 };
 
-struct Played {
-  std::vector<Moment> moments;
+struct PlayedKick {
+  std::vector<KickMoment> moments;
   std::vector<Told> told;  ///< by the dynamics node
 };
 
@@ -50,13 +50,13 @@ std::vector<Vec3> footCorners() {
   return corners;
 }
 
-Moment momentOf(const TimeSignature& now, Scene& scene, const std::vector<Vec3>& corners) {
+KickMoment momentOf(const TimeSignature& now, Scene& scene, const std::vector<Vec3>& corners) {
   const auto named = [&](const char* name) { return scene.find(scene.resolve(name, {1, 0})); };
   const auto& ball = dynamic_cast<const DynObjectNode&>(*named("ball"));
   const auto& leg = dynamic_cast<const PlacedNode&>(*named("dummy_leg"));
   const Affine X = scene.placements().world(leg.placement());
   const NodeRef kick = scene.resolve("kick", {1, 0});
-  Moment m;
+  KickMoment m;
   m.time = toSeconds(now.time);
   m.ball = ball.state().p, m.v = ball.state().v, m.asleep = ball.state().asleep();
   m.kickOn = dynamic_cast<const FieldNode&>(*named("kick")).on();
@@ -71,8 +71,8 @@ Moment momentOf(const TimeSignature& now, Scene& scene, const std::vector<Vec3>&
   return m;
 }
 
-Played playKick(const std::string& script, double rate, const std::string& input = {}) {
-  Played played;
+PlayedKick playKick(const std::string& script, double rate, const std::string& input = {}) {
+  PlayedKick played;
   ShowOptions options;
   options.script = script, options.walls = "desktop", options.size = "64x48", options.rate = rate,
   options.input = input;
@@ -131,9 +131,9 @@ struct Figures {
   bool hookedUntilRelease = true, unhookedAfter = true, sleepsAtEnd = false;
 };
 
-Figures figuresOf(const Played& played) {
+Figures figuresOf(const PlayedKick& played) {
   Figures f;
-  const std::vector<Moment>& all = played.moments;
+  const std::vector<KickMoment>& all = played.moments;
   if (all.empty() || played.told.empty()) {
     ADD_FAILURE() << "nothing happened";
     return f;
@@ -150,7 +150,7 @@ Figures figuresOf(const Played& played) {
   bool ended = false;
   const Vec3 start = all.front().ball;
   for (std::size_t n = 1; n < all.size(); ++n) {
-    const Moment &before = all[n - 1], &m = all[n];
+    const KickMoment &before = all[n - 1], &m = all[n];
     const double frame = m.time - before.time;
     if (m.time <= 2) f.stirred = std::max(f.stirred, (m.ball - start).norm());
     if (before.time < f.firstEvent && f.firstEvent <= m.time) {
@@ -216,7 +216,7 @@ TEST(Kick, ItDoesSoAtOtherFrameRates) {
 }
 
 TEST(Kick, AtSixtyHertzTheBallComesToRestBeforeTheVisitor) {
-  const Played played = playKick(kickScript(), 60);
+  const PlayedKick played = playKick(kickScript(), 60);
   ASSERT_FALSE(played.moments.empty());
   const Vec3 end = played.moments.back().ball;
   EXPECT_LT(std::fabs(end.x()), 1.5);
@@ -228,9 +228,9 @@ TEST(Kick, WithALatencyTheBallComesToRestAtTheSamePlaceAtEveryFrameRate) {
   const std::string folder = STADION_SOURCE_DIR "/scripts/";
   Vec3 rest = Vec3::Zero();
   for (const double rate : {60., 96., 144., 240.}) {
-    const Played played = playKick(folder + "kick_latency.evs", rate, folder + "kick.input");
+    const PlayedKick played = playKick(folder + "kick_latency.evs", rate, folder + "kick.input");
     ASSERT_FALSE(played.moments.empty());
-    const Moment& end = played.moments.back();
+    const KickMoment& end = played.moments.back();
     EXPECT_TRUE(end.asleep);
     if (rate == 60) rest = end.ball;
     fmt::print("{:3.0f} Hz: at rest {:.3g} m from where it lies at 60 Hz\n", rate, (end.ball - rest).norm());

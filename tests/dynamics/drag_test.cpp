@@ -54,12 +54,12 @@ double distance(const Flight& f, const Vec3& p) {
   return static_cast<double>(std::sqrt(square));
 }
 
-struct Thrown {
+struct ThrownBall {
   World world;
   BodyId ball = 0;
 
   /// A ball whose drag in air of density 1 is `quadratic` [1/m].
-  Thrown(const Vec3& p, const Vec3& v, const Drag& drag, const Vec3& g) {
+  ThrownBall(const Vec3& p, const Vec3& v, const Drag& drag, const Vec3& g) {
     const FieldId pull = addGravity(world, g);
     ForceField air;
     air.law = MediumField{1.0, drag.linear, drag.wind};
@@ -84,7 +84,7 @@ const Vec3 kDown(0, 0, -9.81);
 
 TEST(Drag, AFootballAndABeachBallFlyAsTheReferenceDoes) {
   for (const double k : {0.0132, 0.354}) {
-    Thrown t({0, 0, 1.5}, {25, 3, 12}, {0, k, Vec3::Zero()}, kDown);
+    ThrownBall t({0, 0, 1.5}, {25, 3, 12}, {0, k, Vec3::Zero()}, kDown);
     fly(t.world, 2.5, 60);
     EXPECT_LT(distance(reference({0, 0, 1.5}, {25, 3, 12}, kDown, {0, k, Vec3::Zero()}, 2.5),
                        t.world.state(t.ball).p),
@@ -100,7 +100,7 @@ TEST(Drag, AnyThrowInAnyWindIsWithinANanometre) {
     const Vec3 v(30 * u(random), 30 * u(random), 30 * u(random)),
         wind(8 * u(random), 8 * u(random), u(random));
     const Drag drag{0.1 * (1 + u(random)), 0.1 * (1 + u(random)), i % 2 ? wind : Vec3(Vec3::Zero())};
-    Thrown t({0, 0, 100}, v, drag, kDown);
+    ThrownBall t({0, 0, 100}, v, drag, kDown);
     fly(t.world, 1.5, 60);
     EXPECT_LT(distance(reference({0, 0, 100}, v, kDown, drag, 1.5), t.world.state(t.ball).p), 1e-9) << i;
   }
@@ -108,7 +108,7 @@ TEST(Drag, AnyThrowInAnyWindIsWithinANanometre) {
 
 TEST(Drag, AStraightThrowUpStandsStillAtItsApexAndComesBack) {
   const Drag drag{0, 0.0132, Vec3::Zero()};
-  Thrown t({0, 0, 1}, {0, 0, 10}, drag, kDown);
+  ThrownBall t({0, 0, 1}, {0, 0, 10}, drag, kDown);
   fly(t.world, 2, 60);
   EXPECT_LT(distance(reference({0, 0, 1}, {0, 0, 10}, kDown, drag, 2), t.world.state(t.ball).p), 1e-8);
 }
@@ -116,7 +116,7 @@ TEST(Drag, AStraightThrowUpStandsStillAtItsApexAndComesBack) {
 TEST(Drag, DoesNotDependOnTheFrameRate) {
   Vec3 first = Vec3::Zero();
   for (const double rate : {30.0, 60.0, 96.0, 144.0, 240.0}) {
-    Thrown t({0, 0, 1.5}, {25, 3, 12}, {0, 0.1, {3, 0, 0}}, kDown);
+    ThrownBall t({0, 0, 1.5}, {25, 3, 12}, {0, 0.1, {3, 0, 0}}, kDown);
     fly(t.world, 2, rate);
     if (rate == 30) first = t.world.state(t.ball).p;
     EXPECT_EQ(t.world.state(t.ball).p, first) << rate;

@@ -10,16 +10,16 @@ namespace {
 
 using namespace scenes;
 
-enum class Ground { Plane, Box, Grid };
-constexpr std::array kGrounds{Ground::Plane, Ground::Box, Ground::Grid};
+enum class SpinGround { Plane, Box, Grid };
+constexpr std::array kGrounds{SpinGround::Plane, SpinGround::Box, SpinGround::Grid};
 
-ColliderId addGround(World& w, Ground kind, double friction, double restitution) {
+ColliderId addGround(World& w, SpinGround kind, double friction, double restitution) {
   const Surface surface{friction, restitution, 0.0};
   switch (kind) {
-  case Ground::Plane: return w.addCollider({w.addShape(PlaneShape{}), {}, surface});
-  case Ground::Box:
+  case SpinGround::Plane: return w.addCollider({w.addShape(PlaneShape{}), {}, surface});
+  case SpinGround::Box:
     return w.addCollider({w.addShape(BoxShape{{{0, 0, -1}, Quat::Identity()}, {400, 400, 1}}), {}, surface});
-  case Ground::Grid:
+  case SpinGround::Grid:
     return w.addCollider(
         {w.addShape(MeshShape(TriangleTree(gridMesh(-400, 400, -400, 400, 160, 160)))), {}, surface});
   }
@@ -33,7 +33,7 @@ struct Drop {
   ColliderId ground = 0;
   double deepest = 0;
 
-  Drop(Solid kind, Ground on, Chance& chance, double friction, double restitution) {
+  Drop(Solid kind, SpinGround on, Chance& chance, double friction, double restitution) {
     const FieldId g = addGravity(w);
     ground = addGround(w, on, friction, restitution);
     BodyDef d = solidBody(w, kind, 0.2, 2);
@@ -49,7 +49,7 @@ TEST(FastSpin, EverySolidBouncesOffEveryGroundWithoutSinkingInOrGainingEnergy) {
   Chance chance(51);
   for (int i = 0; i < 54; ++i) {
     const Solid kind = kSolids[static_cast<std::size_t>(i) % 6];
-    const Ground on = kGrounds[static_cast<std::size_t>(i / 6) % 3];
+    const SpinGround on = kGrounds[static_cast<std::size_t>(i / 6) % 3];
     const double e = 0.5 * (i / 18 % 3), mu = i % 4 == 0 ? 0 : 0.6;
     Drop drop(kind, on, chance, mu, e);
     Watch watch(drop.w, {drop.body});
@@ -65,7 +65,7 @@ TEST(FastSpin, EverySolidBouncesOffEveryGroundWithoutSinkingInOrGainingEnergy) {
 
 TEST(FastSpin, ABallThatLandsGripsWhereTheClosedFormSays) {
   // Spin about a level axis turns into speed: of v = 0 and omega, a share k / (1 + k) of omega r is left.
-  for (const Ground on : kGrounds) {
+  for (const SpinGround on : kGrounds) {
     World w;
     const FieldId g = addGravity(w);
     addGround(w, on, 0.5, 0);
@@ -76,7 +76,7 @@ TEST(FastSpin, ABallThatLandsGripsWhereTheClosedFormSays) {
     play(w, 3, 60, [&](double t) {
       watch.look();
       const double x = t < grip ? 0.25 * kG * t * t : 0.5 * last * grip + last * (t - grip);
-      EXPECT_NEAR(w.state(b).p.x() + 3.1, x, on == Ground::Grid ? 1e-4 : 1e-9) << t;
+      EXPECT_NEAR(w.state(b).p.x() + 3.1, x, on == SpinGround::Grid ? 1e-4 : 1e-9) << t;
     });
     EXPECT_LE(watch.greatestRise, 1e-9 * watch.first);
     EXPECT_NEAR(w.state(b).v.x(), last, 1e-6);

@@ -1,12 +1,12 @@
 #pragma once
-/// Scenes that are many and long: with AddressSanitizer each takes fifty times as long, so that only some are
+/// Scenes that are many and long: with a sanitizer each takes fifty times as long, so that only some are
 /// played.
 
 namespace stadion {
 
 /// Whether the n-th of them is played.
 constexpr bool isPlayed([[maybe_unused]] int n) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef STADION_SANITIZED
   return n % 7 == 0;
 #else
   return true;

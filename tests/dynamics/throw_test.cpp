@@ -17,9 +17,9 @@ using show_nodes::Field;
 using show_nodes::Sim;
 
 /// A rod of 2 m along its own x.
-class Rod : public DynObjectNode {
+class ThrownRod : public DynObjectNode {
 public:
-  Rod(NodeRef self, std::string name, BodyAttributes body, PlaceAttributes place)
+  ThrownRod(NodeRef self, std::string name, BodyAttributes body, PlaceAttributes place)
       : DynObjectNode(self, std::move(name), std::move(place), {kNoMesh, true, "cylinder"}, std::move(body),
                       fit()) {}
 
@@ -36,7 +36,7 @@ private:
 
 /// A rod that a wand holds, and a field in the same hand.
 struct Throwing : ShowFixture {
-  Rod* rod = nullptr;
+  ThrownRod* rod = nullptr;
 
   explicit Throwing(double framesPerSecond, BodyAttributes body, PlaceAttributes place = {}) {
     rate = framesPerSecond;
@@ -46,7 +46,7 @@ struct Throwing : ShowFixture {
       auto& parent = addNode<MovingNode>(load, "parent", turned(), false);
       PlaceAttributes below = place;
       below.parent = parent.self();
-      rod = &addNode<Rod>(load, "rod", body, below);
+      rod = &addNode<ThrownRod>(load, "rod", body, below);
       auto& hand = addNode<MovingNode>(load, "hand", PlaceAttributes{}, false);
       PlaceAttributes inHand;
       inHand.parent = hand.self();
@@ -153,9 +153,9 @@ TEST(Throw, AFieldThatHangsOnTheHeldBodyIsInTheHandToo) {
     body.hooks = {"thrust"};
     ShowFixture show;
     show.rate = rate;
-    Rod* rod = nullptr;
+    ThrownRod* rod = nullptr;
     show.loader.files["show"] = [&](Load& load) {
-      rod = &addNode<Rod>(load, "rod", body, PlaceAttributes{});
+      rod = &addNode<ThrownRod>(load, "rod", body, PlaceAttributes{});
       PlaceAttributes onRod;
       onRod.parent = rod->self();
       addNode<Field>(load, "thrust", Vec3(20, 0, 0), true, 0.5, onRod);

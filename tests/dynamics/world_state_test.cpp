@@ -42,7 +42,7 @@ std::string differenceOf(World& a, World& b) {
   return d.first() ? d.first()->name + ": " + d.first()->here + " and " + d.first()->there : "";
 }
 
-struct Case {
+struct StateCase {
   const char* name;
   std::function<void(World&)> build;
   std::function<void(World&, std::uint64_t frame)> act = [](World&, std::uint64_t) {};
@@ -120,12 +120,12 @@ void swing(World& w, std::uint64_t frame) {
 }
 
 TEST(WorldState, GoesOnToTheBit) {
-  const std::vector<Case> cases{{"a heap", heap},
+  const std::vector<StateCase> cases{{"a heap", heap},
                                 {"a slope", slope},
                                 {"air", air},
                                 {"a hand", heap, swing},
                                 {"a hand on a slope", slope, swing}};
-  for (const Case& c : cases) {
+  for (const StateCase& c : cases) {
     World w;
     c.build(w);
     std::vector<std::pair<std::uint64_t, std::unique_ptr<World>>> copies;

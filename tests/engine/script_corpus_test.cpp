@@ -70,9 +70,9 @@ TEST(ScriptCorpus, ThePapersScriptHasNeitherErrorNorWarning) {
 }
 
 /// Damages a text in one of many ways, the same for the same state of `random`.
-class Mutator {
+class ScriptMutator {
 public:
-  explicit Mutator(std::uint64_t seed) : random_(seed) {}
+  explicit ScriptMutator(std::uint64_t seed) : random_(seed) {}
 
   std::string mutate(std::string text, const std::vector<std::string>& others) {
     const std::size_t changes = 1 + below(8);
@@ -147,7 +147,7 @@ TEST(ScriptCorpus, DamagedScriptsAreAnsweredWithinASecond) {
 
   int refused = 0;
   for (int i = 0; i < count; ++i) {
-    Mutator mutator(seed * 1'000'003 + static_cast<std::uint64_t>(i));
+    ScriptMutator mutator(seed * 1'000'003 + static_cast<std::uint64_t>(i));
     const std::string& base = i % 2 == 0 ? texts[0] : texts[static_cast<std::size_t>(i) % texts.size()];
     const std::string text = mutator.mutate(base, texts);
     const std::clock_t start = std::clock();  // of the processor: others may be at work, too

@@ -269,7 +269,7 @@ TEST(GlassOrder, OfPanesAtTheSameDepthTheLaterInTheListIsInFront) {
           expected[c] = double{pane.alpha} * double{pane.colour[c]} + (1 - double{pane.alpha}) * expected[c];
       for (std::size_t c = 0; c < 3; ++c)
         EXPECT_NEAR(picture.at(kWide / 2, kHigh / 2)[c], test::sRgb(expected[c]), 2) << k;
-      std::ranges::rotate(scene.panes, scene.panes.begin() + 1);
+      std::rotate(scene.panes.begin(), scene.panes.begin() + 1, scene.panes.end());
     }
   }
 }

@@ -16,14 +16,14 @@ WallPixels front() {
   return w;
 }
 
-struct Room {
+struct LevelRoom {
   MeshStore meshes;
   MeshId id = kNoMesh;
   ViewerRecord viewer;
   std::vector<WallPixels> walls{front()};
 
   /// A small thing whose two levels are off by 5 cm and by 20 cm.
-  explicit Room(double radius = 0.01) {
+  explicit LevelRoom(double radius = 0.01) {
     auto mesh = std::make_unique<Mesh>();
     mesh->materials.emplace_back();
     mesh->bounds = {Vec3::Constant(-radius), Vec3::Constant(radius)};
@@ -48,7 +48,7 @@ struct Room {
 };
 
 TEST(LevelChoice, TakesTheCoarsestLevelThatIsOffByLessThanAPixel) {
-  const Room room;
+  const LevelRoom room;
   // 5 cm are a pixel at 10 m, 20 cm at 40 m.
   EXPECT_EQ(room.levelOf(room.at(Vec3(0, 9.8, 1.7))), 0U);
   EXPECT_EQ(room.levelOf(room.at(Vec3(0, 10.3, 1.7))), 1U);
@@ -57,13 +57,13 @@ TEST(LevelChoice, TakesTheCoarsestLevelThatIsOffByLessThanAPixel) {
 }
 
 TEST(LevelChoice, WhatIsLargerIsOffByMore) {
-  const Room room;
+  const LevelRoom room;
   EXPECT_EQ(room.levelOf(room.at(Vec3(0, 19, 1.7), 2)), 0U);
   EXPECT_EQ(room.levelOf(room.at(Vec3(0, 21, 1.7), 2)), 1U);
 }
 
 TEST(LevelChoice, TowardsTheCornersOfAWallItsPixelsAreFiner) {
-  const Room room;
+  const LevelRoom room;
   // At 45 degrees an error of 5 cm covers twice as many pixels.
   const Vec3 aside(15, 15, 1.7);
   EXPECT_NEAR((aside - Vec3(0, 0, 1.7)).norm(), 21.2, 0.1);
@@ -72,7 +72,7 @@ TEST(LevelChoice, TowardsTheCornersOfAWallItsPixelsAreFiner) {
 }
 
 TEST(LevelChoice, OfAllWallsTheStrictestCountsSoThatAllOfThemChooseAlike) {
-  Room room;
+  LevelRoom room;
   WallPixels fine = front();
   fine.width = fine.height = 800;
   room.walls = {front(), fine};
@@ -83,7 +83,7 @@ TEST(LevelChoice, OfAllWallsTheStrictestCountsSoThatAllOfThemChooseAlike) {
 }
 
 TEST(LevelChoice, UnderStressAndWithLessDetailThingsCountAsFartherAway) {
-  Room room;
+  LevelRoom room;
   const Vec3 p(0, 8, 1.7);
   EXPECT_EQ(room.levelOf(room.at(p)), 0U);
   EXPECT_EQ(room.levelOf(room.at(p, 1, 1.5)), 1U);
@@ -92,18 +92,18 @@ TEST(LevelChoice, UnderStressAndWithLessDetailThingsCountAsFartherAway) {
 }
 
 TEST(LevelChoice, WhoStandsInsideAThingSeesAllOfIt) {
-  const Room room(30);
+  const LevelRoom room(30);
   EXPECT_EQ(room.levelOf(room.at(Vec3(0, 5, 1.7))), 0U);
 }
 
 TEST(LevelChoice, ADeepBoxCountsFromItsNearestPoint) {
-  const Room room(30);
+  const LevelRoom room(30);
   EXPECT_EQ(room.levelOf(room.at(Vec3(0, 45, 1.7))), 0U);  // 15 m away, seen up to 42 degrees aside
   EXPECT_EQ(room.levelOf(room.at(Vec3(0, 60, 1.7))), 1U);  // 30 m
 }
 
 TEST(LevelChoice, WithoutLevelsOrWallsTheFullSurfaceIsDrawn) {
-  Room room;
+  LevelRoom room;
   InstanceRecord r = room.at(Vec3(0, 500, 1.7));
   EXPECT_EQ(room.levelOf(r), 2U);
   r.lodFactor = 0;

@@ -122,15 +122,15 @@ TEST(TargetLibrary, NamesTheFunctionThatAnImplementationLacks) {
 }
 
 /// Puts a variable of the environment back at the end.
-class Environment {
+class ProviderEnvironment {
 public:
-  explicit Environment(const char* name) : name_(name) {
+  explicit ProviderEnvironment(const char* name) : name_(name) {
     if (const char* value = std::getenv(name)) before_ = value;
     unsetenv(name);
   }
-  ~Environment() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
+  ~ProviderEnvironment() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+  ProviderEnvironment(const ProviderEnvironment&) = delete;
+  ProviderEnvironment& operator=(const ProviderEnvironment&) = delete;
 
 private:
   const char* name_;
@@ -138,14 +138,14 @@ private:
 };
 
 TEST(TargetRasteriser, IsPinnedTo256BitsAndAThreadPerCore) {
-  const Environment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
+  const ProviderEnvironment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
   EXPECT_FALSE(pinRasteriser());
   EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "256");
   EXPECT_GE(std::atoi(std::getenv("LP_NUM_THREADS")), 1);
 }
 
 TEST(TargetRasteriser, KeepsWhatTheUserChose) {
-  const Environment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
+  const ProviderEnvironment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
   setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
   setenv("LP_NUM_THREADS", "0", 1);
   EXPECT_FALSE(pinRasteriser());
@@ -154,7 +154,7 @@ TEST(TargetRasteriser, KeepsWhatTheUserChose) {
 }
 
 TEST(TargetRasteriser, KnowsWhetherTheUserChoseItsThreads) {
-  const Environment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
+  const ProviderEnvironment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
   EXPECT_FALSE(rasteriserThreadsGiven());
   setenv("LP_NUM_THREADS", "", 1);
   EXPECT_FALSE(rasteriserThreadsGiven());
@@ -169,7 +169,7 @@ TEST(TargetRasteriser, KnowsWhetherTheUserChoseItsThreads) {
 }
 
 TEST(TargetRasteriser, RefusesAVectorWidthWithWhichMesaCrashes) {
-  const Environment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
+  const ProviderEnvironment width("LP_NATIVE_VECTOR_WIDTH"), threads("LP_NUM_THREADS");
   setenv("LP_NATIVE_VECTOR_WIDTH", "512", 1);
   const auto problem = pinRasteriser();
   ASSERT_TRUE(problem);

@@ -256,7 +256,7 @@ TEST(ReportPage, ARunWithoutFramesIsAPageToo) {
   const ShowFigures figures = figuresOf(run.profile, run.names, {"front"}, "Mesa, llvmpipe");
   const ReportData data{{"show.evs", 60, 0, 0, {}}, figures, run.names, run.recording.series(),
                         run.recording.kept(),       {},      {},        {}};
-  EXPECT_NO_THROW(nlohmann::json::parse(reportJson(data)));
+  EXPECT_TRUE(nlohmann::json::accept(reportJson(data)));
 }
 
 }  // namespace
