@@ -8,7 +8,7 @@
 #include "cli/show_recording.h"
 #include "cli/stop_signal.h"
 #include "cli/temporary_folder.h"
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 #include "profiling/bench/grid_show.h"
 
 #include <CLI/CLI.hpp>

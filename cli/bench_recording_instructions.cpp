@@ -1,7 +1,7 @@
 #include "cli/bench_recording_instructions.h"
 
 #include "cli/regress_child.h"
-#include "engine/plain_file.h"
+#include "engine/base/plain_file.h"
 
 #include <cstdlib>
 #include <filesystem>

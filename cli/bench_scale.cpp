@@ -4,7 +4,7 @@
 #include "cli/number_option.h"
 #include "cli/player.h"
 #include "cli/temporary_folder.h"
-#include "engine/prefetch.h"
+#include "engine/base/prefetch.h"
 #include "pipeline/output/run_summary.h"
 #include "profiling/allocations.h"
 #include "profiling/bench/city_show.h"

@@ -7,7 +7,7 @@
 #include "cli/walls_measure.h"
 #include "cli/walls_record_head.h"
 #include "cli/walls_rounds.h"
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 #include "profiling/bench/walls/wall_files.h"
 #include "profiling/bench/walls/walls_judge.h"
 #include "profiling/bench/walls/walls_plot.h"

@@ -3,7 +3,7 @@
 ///
 /// Threads  plain function, on the main thread.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "pipeline/machine/calibration.h"
 
 #include <string>

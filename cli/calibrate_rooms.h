@@ -6,7 +6,7 @@
 
 #include "pipeline/machine/calibration.h"
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <atomic>
 #include <string>

@@ -1,6 +1,6 @@
 #include "cli/calibration_show.h"
 
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 #include "engine/maths/angles.h"
 
 #include <cmath>

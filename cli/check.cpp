@@ -1,11 +1,11 @@
 /// `stadion check SHOW...`: everything that can be found wrong without playing; `--assets DIR`: every model
 /// below a folder.
 
-#include "engine/asset/check.h"
 #include "cli/commands.h"
 #include "cli/enclosing_show.h"
 #include "cli/exit_code.h"
 #include "cli/show_check.h"
+#include "engine/asset/check.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

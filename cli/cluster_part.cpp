@@ -3,10 +3,10 @@
 #include "cli/player.h"
 #include "cli/show_files.h"
 #include "cli/stop_signal.h"
-#include "engine/plain_file.h"
+#include "engine/base/plain_file.h"
+#include "engine/core/state_fields.h"
+#include "engine/core/state_hash.h"
 #include "engine/script/suggestion.h"
-#include "engine/state_fields.h"
-#include "engine/state_hash.h"
 #include "pipeline/cluster/interface_check.h"
 #include "profiling/node_names.h"
 

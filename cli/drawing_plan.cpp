@@ -1,6 +1,6 @@
 #include "cli/drawing_plan.h"
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "pipeline/machine/calibration_file.h"
 
 #include <algorithm>

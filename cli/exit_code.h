@@ -1,7 +1,7 @@
 #pragma once
 /// What the program's exit status means, to scripts and CI.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "pipeline/stages.h"
 
 #include <cstdio>

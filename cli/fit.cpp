@@ -1,14 +1,14 @@
 /// `stadion fit OBJECT --reference CSV`: the cheapest flight model that is good enough, and the line to
 /// paste.
 
-#include "dynamics/flight/fit.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/fit_object.h"
 #include "cli/number_option.h"
 #include "cli/output_names.h"
 #include "cli/player.h"
-#include "engine/plain_file.h"
+#include "dynamics/flight/fit.h"
+#include "engine/base/plain_file.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

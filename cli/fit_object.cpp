@@ -5,7 +5,7 @@
 
 #include "dynamics/nodes/dyn_object_node.h"
 #include "engine/asset/import.h"
-#include "engine/script/builder.h"
+#include "engine/build/builder.h"
 #include "engine/script/choice.h"
 #include "engine/script/script.h"
 #include "engine/script/script_texts.h"

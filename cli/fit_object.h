@@ -4,7 +4,7 @@
 #include "dynamics/flight/flight_shape.h"
 #include "dynamics/mass_properties.h"
 #include "engine/asset/mesh.h"
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <optional>
 #include <string>

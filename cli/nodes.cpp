@@ -2,10 +2,10 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "engine/atomic_file.h"
-#include "engine/diagnostic.h"
-#include "engine/likeness.h"
+#include "engine/base/atomic_file.h"
+#include "engine/base/diagnostic.h"
 #include "engine/script/reference.h"
+#include "engine/unicode/likeness.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include "cli/output_folder.h"
 
-#include "engine/plain_file.h"
+#include "engine/base/plain_file.h"
 
 #include <cerrno>
 #include <cstring>

@@ -7,8 +7,8 @@
 /// Ownership  one run at a time: the list is locked while the run lasts.
 /// Threads    one at a time.
 
-#include "engine/asset/file_descriptor.h"
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/file_descriptor.h"
 
 #include <memory>
 #include <optional>

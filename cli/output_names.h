@@ -2,7 +2,7 @@
 /// No two outputs may be one file, and none a file that is read, whether it was named on the command line or
 /// not. None may lie where nothing can be written.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <span>
 #include <string>

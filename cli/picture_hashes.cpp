@@ -1,6 +1,6 @@
 #include "cli/picture_hashes.h"
 
-#include "engine/state_hash.h"
+#include "engine/core/state_hash.h"
 
 #include <fmt/format.h>
 

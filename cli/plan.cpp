@@ -6,8 +6,8 @@
 #include "cli/overwriting.h"
 #include "cli/plan_run.h"
 #include "cli/stop_signal.h"
-#include "engine/atomic_file.h"
-#include "engine/plain_file.h"
+#include "engine/base/atomic_file.h"
+#include "engine/base/plain_file.h"
 #include "profiling/plan/diagram.h"
 #include "profiling/plan/report.h"
 

@@ -4,7 +4,7 @@
 ///
 /// Threads  as FrameProbe; the window is set before the run.
 
-#include "engine/frame_probe.h"
+#include "engine/core/frame_probe.h"
 
 #include <atomic>
 #include <chrono>

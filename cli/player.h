@@ -4,11 +4,11 @@
 
 #include "dynamics/nodes/dynamics_factories.h"
 #include "engine/asset/import.h"
+#include "engine/build/builder.h"
 #include "engine/display/wall_file.h"
 #include "engine/input/input_device.h"
 #include "engine/input/run_decisions.h"
 #include "engine/scene/scene.h"
-#include "engine/script/builder.h"
 #include "engine/script/script_texts.h"
 #include "pipeline/frame_loop.h"
 #include "pipeline/loader.h"

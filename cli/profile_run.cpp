@@ -4,7 +4,7 @@
 #include "cli/profile_report.h"
 #include "cli/show_recording.h"
 #include "cli/stop_signal.h"
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 #include "pipeline/output/progress.h"
 
 #include <cstdio>

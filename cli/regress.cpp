@@ -7,7 +7,7 @@
 #include "cli/regress_case.h"
 #include "cli/regress_folder.h"
 #include "cli/stop_signal.h"
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 #include "profiling/regression/reports.h"
 
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 #include "cli/regress_folder.h"
 
-#include "engine/plain_file.h"
-#include "engine/state_hash.h"
+#include "engine/base/plain_file.h"
+#include "engine/core/state_hash.h"
 #include "profiling/regression/history.h"
 #include "profiling/regression/page.h"
 #include "profiling/regression/reports.h"

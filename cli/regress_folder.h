@@ -5,7 +5,7 @@
 /// Errors   what cannot be written is told at once, on stderr.
 
 #include "cli/regress_options.h"
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 #include "pipeline/output/child_process.h"
 #include "profiling/regression/progress.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What `stadion regress` can be asked for.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "profiling/regression/baseline.h"
 #include "profiling/regression/suite.h"
 

@@ -19,7 +19,7 @@
 #include "cli/stop_signal.h"
 #include "cli/supervise.h"
 #include "cli/supervised_part.h"
-#include "engine/run_stopped.h"
+#include "engine/base/run_stopped.h"
 #include "pipeline/machine/topology.h"
 #include "pipeline/output/progress.h"
 #include "pipeline/target/rasteriser_settings.h"

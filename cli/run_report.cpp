@@ -4,7 +4,7 @@
 #include "cli/last_frames.h"
 #include "cli/span_recording.h"
 #include "cli/stop_signal.h"
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,8 +1,8 @@
 #include "cli/run_watch.h"
 
-#include "engine/atomic_file.h"
-#include "engine/load_control.h"
-#include "engine/state_hash.h"
+#include "engine/base/atomic_file.h"
+#include "engine/core/load_control.h"
+#include "engine/core/state_hash.h"
 
 #include <algorithm>
 #include <filesystem>

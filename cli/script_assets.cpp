@@ -1,6 +1,6 @@
 #include "cli/script_assets.h"
 
-#include "engine/plain_file.h"
+#include "engine/base/plain_file.h"
 #include "engine/script/script.h"
 #include "engine/script/script_texts.h"
 

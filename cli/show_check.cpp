@@ -6,9 +6,9 @@
 #include "dynamics/nodes/dyn_object_node.h"
 #include "dynamics/nodes/dynamics_factories.h"
 #include "engine/asset/sound_file.h"
+#include "engine/base/run_stopped.h"
+#include "engine/build/lint.h"
 #include "engine/input/input_log.h"
-#include "engine/run_stopped.h"
-#include "engine/script/lint.h"
 #include "engine/script/script.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 /// What `check` finds in one script: its language, its names, its assets, and how its bodies start.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "engine/script/script_texts.h"
 
 #include <atomic>

@@ -1,7 +1,7 @@
 #include "cli/show_reload.h"
 
 #include "cli/show_check.h"
-#include "engine/run_stopped.h"
+#include "engine/base/run_stopped.h"
 
 #include <utility>
 

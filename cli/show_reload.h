@@ -8,7 +8,7 @@
 /// Threads  the caller's; the reading is done on a thread of its own, that is ended with this.
 
 #include "cli/playing_show.h"
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <atomic>
 #include <exception>

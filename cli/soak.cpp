@@ -9,7 +9,7 @@
 #include "cli/soak_record.h"
 #include "cli/soak_visitor.h"
 #include "cli/stop_signal.h"
-#include "engine/run_stopped.h"
+#include "engine/base/run_stopped.h"
 #include "pipeline/machine/process_figures.h"
 
 #include <CLI/CLI.hpp>

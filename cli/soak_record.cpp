@@ -1,7 +1,7 @@
 #include "cli/soak_record.h"
 
-#include "engine/append.h"
-#include "engine/plain_file.h"
+#include "engine/base/append.h"
+#include "engine/base/plain_file.h"
 
 #include <nlohmann/json.hpp>
 

@@ -11,7 +11,7 @@
 ///          of the same soak. A line that cannot be written later on (a full disk) is told once on stderr;
 ///          then the record ends there, whole, and the soak goes on without.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "pipeline/output/child_process.h"
 #include "profiling/soak/growth.h"
 

@@ -1,6 +1,6 @@
 #include "cli/span_recording.h"
 
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 
 #include <CLI/CLI.hpp>
 

@@ -6,7 +6,7 @@
 #include "cli/player.h"
 #include "cli/stop_signal.h"
 #include "cli/tracker_device.h"
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 #include "engine/input/rig_calibration.h"
 #include "engine/maths/angles.h"
 

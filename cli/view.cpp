@@ -4,7 +4,7 @@
 #include "cli/exit_code.h"
 #include "cli/stop_signal.h"
 #include "cli/view_session.h"
-#include "engine/run_stopped.h"
+#include "engine/base/run_stopped.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

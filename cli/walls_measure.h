@@ -1,7 +1,7 @@
 #pragma once
 /// One setting of `stadion bench walls`, measured in this process.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "profiling/bench/walls/wall_scene.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "cli/walls_record_head.h"
 
-#include "engine/state_hash.h"
+#include "engine/core/state_hash.h"
 #include "pipeline/machine/machine.h"
 #include "pipeline/worker/wall_worker.h"
 

@@ -1,7 +1,7 @@
 #include "cli/walls_rounds.h"
 
 #include "cli/temporary_folder.h"
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,6 @@
 #include "dynamics/contact_events.h"
 
-#include "engine/state_hash.h"
+#include "engine/core/state_hash.h"
 
 namespace stadion {
 std::uint64_t ContactMemory::share(const Key& pair, const Memory& m) {

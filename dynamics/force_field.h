@@ -7,8 +7,8 @@
 /// Forces   all fields here act at the centre of mass. A new kind is a new struct in `FieldLaw` and one case
 /// in `accelerationOf`.
 
+#include "engine/base/time_signature.h"
 #include "engine/maths/maths.h"
-#include "engine/time_signature.h"
 
 #include <optional>
 #include <variant>

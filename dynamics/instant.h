@@ -2,7 +2,7 @@
 /// A point of show time finer than a nanosecond: bodies keep their own clocks, and an impact does not fall on
 /// a tick.
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 
 namespace stadion {
 

@@ -6,7 +6,7 @@
 ///          Mirtich, Fast and Accurate Computation of Polyhedral Mass Properties, 1996.
 
 #include "engine/asset/mesh.h"
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "engine/maths/maths.h"
 
 namespace stadion {

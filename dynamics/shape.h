@@ -8,7 +8,7 @@
 #include "dynamics/mesh_distance.h"
 #include "dynamics/triangle_tree.h"
 #include "engine/asset/mesh.h"
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "engine/maths/maths.h"
 
 #include <memory>

@@ -1,7 +1,7 @@
 #include "dynamics/world.h"
 
 #include "dynamics/world_core.h"
-#include "engine/state_hash.h"
+#include "engine/core/state_hash.h"
 
 #include <algorithm>
 #include <cmath>

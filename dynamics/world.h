@@ -17,8 +17,8 @@
 #include "dynamics/force_field.h"
 #include "dynamics/mass_properties.h"
 #include "dynamics/shape.h"
+#include "engine/base/time_signature.h"
 #include "engine/maths/maths.h"
-#include "engine/time_signature.h"
 
 #include <cstdint>
 #include <memory>

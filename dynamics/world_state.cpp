@@ -1,8 +1,8 @@
-// The world's state, field by field (engine/state_fields.h). It is put back to the bit with all that has been
+// The world's state, field by field (engine/core/state_fields.h). It is put back to the bit with all that has been
 // foreseen, so that what happens then, and in which order, is the same.
 
 #include "dynamics/world_core.h"
-#include "engine/state_fields.h"
+#include "engine/core/state_fields.h"
 
 #include <algorithm>
 #include <utility>

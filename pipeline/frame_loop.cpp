@@ -1,6 +1,6 @@
 #include "pipeline/frame_loop.h"
 
-#include "engine/run_stopped.h"
+#include "engine/base/run_stopped.h"
 #include "pipeline/list_queue.h"
 #include "pipeline/swap_barrier.h"
 

@@ -6,10 +6,10 @@
 /// frame n + 2 while Cull works on n + 1 and Draw on n. Both give the same pixels and the same state, frame
 /// by frame.
 
-#include "engine/frame_probe.h"
+#include "engine/base/time_signature.h"
+#include "engine/core/frame_probe.h"
+#include "engine/core/load_control.h"
 #include "engine/input/run_decisions.h"
-#include "engine/load_control.h"
-#include "engine/time_signature.h"
 #include "pipeline/frame_orders.h"
 #include "pipeline/frame_times.h"
 #include "pipeline/operator/operator_desk.h"

@@ -6,7 +6,7 @@
 /// Errors   whoever is to wait no longer answers nothing, or false; the run then ends as if it had been asked
 ///          to.
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 #include "pipeline/operator/presentation.h"
 
 #include <cstdint>

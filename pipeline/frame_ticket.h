@@ -3,7 +3,7 @@
 ///
 /// Threads  a plain value; each stage has its own copy.
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 #include "pipeline/operator/presentation.h"
 
 #include <chrono>

@@ -3,7 +3,7 @@
 ///
 /// Threads  each series is written by one thread at a time and read when the run is over.
 
-#include "engine/frame_probe.h"
+#include "engine/core/frame_probe.h"
 
 #include <chrono>
 #include <cstdint>

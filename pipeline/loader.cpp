@@ -2,10 +2,10 @@
 
 #include "engine/asset/simplify.h"
 #include "engine/asset/sound_file.h"
-#include "engine/run_stopped.h"
-#include "engine/script/lint.h"
+#include "engine/base/run_stopped.h"
+#include "engine/build/lint.h"
+#include "engine/core/state_hash.h"
 #include "engine/script/script.h"
-#include "engine/state_hash.h"
 
 #include <filesystem>
 #include <new>

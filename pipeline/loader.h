@@ -12,8 +12,8 @@
 /// recorded. A replay is given those decisions and obeys them.
 
 #include "engine/asset/import.h"
+#include "engine/build/builder.h"
 #include "engine/scene/load.h"
-#include "engine/script/builder.h"
 #include "engine/script/script_texts.h"
 #include "pipeline/imported_meshes.h"
 #include "pipeline/state/chunk_arena.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// When the next frame may begin.
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 
 #include <chrono>
 #include <cstdint>

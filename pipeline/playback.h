@@ -7,7 +7,7 @@
 ///
 /// Threads  every function from any thread; FrameLoop asks once a frame.
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 
 #include <algorithm>
 #include <atomic>

@@ -10,8 +10,8 @@
 ///          What a stage throws (it should not: memory may run out) becomes such a reason, with the stage's
 ///          name and frame. RunStopped ends the run: from App before this frame, from Draw at once.
 
-#include "engine/diagnostic.h"
-#include "engine/time_signature.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/time_signature.h"
 #include "pipeline/draw/draw_list.h"
 #include "pipeline/frame_ticket.h"
 

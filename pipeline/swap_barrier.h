@@ -1,7 +1,7 @@
 #pragma once
 /// All walls show the same frame together: nobody goes on before everybody has drawn.
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 
 #include <condition_variable>
 #include <cstddef>

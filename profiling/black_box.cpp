@@ -1,6 +1,6 @@
 #include "profiling/black_box.h"
 
-#include "engine/plain_file.h"
+#include "engine/base/plain_file.h"
 
 #include <algorithm>
 #include <cerrno>

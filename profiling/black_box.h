@@ -10,8 +10,8 @@
 
 #include "profiling/frame_judge.h"
 
-#include "engine/asset/file_descriptor.h"
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/file_descriptor.h"
 
 #include <atomic>
 #include <functional>

@@ -1,6 +1,6 @@
 #include "profiling/black_box_folder.h"
 
-#include "engine/folder_names.h"
+#include "engine/base/folder_names.h"
 #include "profiling/black_box.h"
 
 #include <fmt/chrono.h>

@@ -5,7 +5,7 @@
 ///
 /// Units    milliseconds. Threads  plain values.
 
-#include "engine/frame_probe.h"
+#include "engine/core/frame_probe.h"
 
 #include <array>
 #include <string>

@@ -4,7 +4,7 @@
 ///
 /// Threads  built by one thread; unchanging from then on.
 
-#include "engine/message.h"
+#include "engine/core/message.h"
 
 #include <algorithm>
 #include <cstdint>

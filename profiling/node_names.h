@@ -5,7 +5,7 @@
 ///
 /// Threads  see() on the App thread; names may be asked for by another thread at the same time.
 
-#include "engine/node_kind.h"
+#include "engine/core/node_kind.h"
 #include "engine/scene/scene.h"
 
 #include <map>

@@ -1,6 +1,6 @@
 #include "profiling/run_delay.h"
 
-#include "engine/folder_names.h"
+#include "engine/base/folder_names.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -3,7 +3,7 @@
 ///
 /// Threads  began() and ended() on the thread itself, take() on the collector's; they meet without a lock.
 
-#include "engine/frame_probe.h"
+#include "engine/core/frame_probe.h"
 #include "profiling/allocations.h"
 #include "profiling/record_ring.h"
 #include "profiling/run_delay.h"

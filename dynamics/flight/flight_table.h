@@ -13,7 +13,7 @@
 /// Between  cubic through the rows, even or odd about the ends as symmetry has it.
 
 #include "dynamics/flight/flight_model.h"
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <string>
 #include <string_view>

@@ -5,7 +5,7 @@
 ///          names the columns, the rest hold a finite number for each.
 /// Errors   with the file's name, line and column, and what was expected.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <map>
 #include <string>

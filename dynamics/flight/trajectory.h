@@ -5,7 +5,7 @@
 ///          (body), in any order, SI units, z up; the last row is the landing. t rises.
 
 #include "dynamics/flight/runge_kutta.h"
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <string>
 #include <string_view>

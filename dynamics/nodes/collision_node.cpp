@@ -2,8 +2,8 @@
 
 #include "dynamics/broad_phase.h"
 #include "dynamics/nodes/dyn_object_node.h"
+#include "engine/core/state_fields.h"
 #include "engine/scene/scene.h"
-#include "engine/state_fields.h"
 
 #include <algorithm>
 #include <cmath>

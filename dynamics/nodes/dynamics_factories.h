@@ -1,7 +1,7 @@
 #pragma once
 /// The node types of this floor, for the factory table.
 
-#include "engine/script/builder.h"
+#include "engine/build/builder.h"
 
 #include <functional>
 

@@ -12,8 +12,8 @@
 
 #include "dynamics/force_field.h"
 #include "engine/input/axis_course.h"
-#include "engine/nodes/placed_node.h"
 #include "engine/nodes/switched.h"
+#include "engine/scene/placed_node.h"
 
 namespace stadion {
 

@@ -3,7 +3,7 @@
 #include "dynamics/flight/flight_shape.h"
 #include "dynamics/flight/flight_table.h"
 #include "dynamics/nodes/shape_store.h"
-#include "engine/plain_file.h"
+#include "engine/base/plain_file.h"
 #include "engine/script/choice.h"
 #include "engine/script/value.h"
 

@@ -4,7 +4,7 @@
 
 #include "dynamics/body_flight.h"
 #include "engine/asset/roots.h"
-#include "engine/script/builder.h"
+#include "engine/build/builder.h"
 
 namespace stadion {
 

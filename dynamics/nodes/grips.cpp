@@ -1,7 +1,7 @@
 #include "dynamics/nodes/grips.h"
 
+#include "engine/core/state_fields.h"
 #include "engine/scene/scene.h"
-#include "engine/state_fields.h"
 
 #include <algorithm>
 

@@ -10,7 +10,7 @@
 #include "dynamics/hand_motion.h"
 #include "dynamics/world.h"
 #include "engine/maths/course.h"
-#include "engine/node.h"
+#include "engine/scene/node.h"
 
 #include <optional>
 #include <string>

@@ -4,7 +4,7 @@
 #include "dynamics/mass_properties.h"
 #include "dynamics/shape.h"
 #include "engine/maths/course.h"
-#include "engine/nodes/object_node.h"
+#include "engine/scene/object_node.h"
 
 #include <map>
 #include <memory>

@@ -1,7 +1,7 @@
 #pragma once
 /// Opens files that lie inside a folder, and no others.
 
-#include "engine/asset/file_descriptor.h"
+#include "engine/base/file_descriptor.h"
 
 #include <string>
 

@@ -13,7 +13,7 @@
 #include "engine/asset/importer_process.h"
 #include "engine/asset/mesh.h"
 #include "engine/asset/roots.h"
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <atomic>
 #include <chrono>

@@ -6,8 +6,8 @@
 ///          a new one. No signal reaches the show.
 /// Threads  one caller at a time.
 
-#include "engine/asset/file_descriptor.h"
 #include "engine/asset/importer_protocol.h"
+#include "engine/base/file_descriptor.h"
 
 #include <atomic>
 #include <chrono>

@@ -1,6 +1,6 @@
 #include "engine/asset/mesh_file.h"
 
-#include "engine/value_reader.h"
+#include "engine/base/value_reader.h"
 
 #include <cmath>
 #include <type_traits>

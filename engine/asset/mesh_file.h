@@ -9,7 +9,7 @@
 ///         every number finite, normals of unit length. It reads no byte beyond the given ones.
 
 #include "engine/asset/mesh.h"
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <memory>
 #include <span>

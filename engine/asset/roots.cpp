@@ -1,6 +1,6 @@
 #include "engine/asset/roots.h"
 
-#include "engine/likeness.h"
+#include "engine/unicode/likeness.h"
 
 #include <fcntl.h>
 

@@ -8,7 +8,7 @@
 /// Threads    immutable once filled; open() may be called from any thread.
 
 #include "engine/asset/beneath.h"
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <filesystem>
 #include <string>

@@ -7,8 +7,8 @@
 /// Threads  free functions, any thread.
 /// Errors   one sentence with the file's name; hostile files included.
 
-#include "engine/diagnostic.h"
-#include "engine/time_signature.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/time_signature.h"
 
 #include <cstdint>
 #include <string>

@@ -1,6 +1,6 @@
 #include "engine/display/output_reader.h"
 
-#include "engine/likeness.h"
+#include "engine/unicode/likeness.h"
 
 #include <algorithm>
 #include <array>

@@ -5,8 +5,8 @@
 ///
 /// Errors  are told with the word they are about.
 
+#include "engine/base/text_line.h"
 #include "engine/display/output.h"
-#include "engine/text_line.h"
 
 namespace stadion {
 

@@ -1,11 +1,11 @@
 #include "engine/display/wall_file.h"
 
+#include "engine/base/folder_names.h"
+#include "engine/base/plain_file.h"
+#include "engine/base/text_line.h"
 #include "engine/display/output_reader.h"
 #include "engine/display/wall_lint.h"
-#include "engine/folder_names.h"
-#include "engine/likeness.h"
-#include "engine/plain_file.h"
-#include "engine/text_line.h"
+#include "engine/unicode/likeness.h"
 
 #include <fmt/format.h>
 

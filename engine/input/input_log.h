@@ -53,7 +53,7 @@
 /// Threads        a log that nobody changes may be read from any thread.
 /// Errors         reading collects them with line and column; a log with errors is not returned.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "engine/input/input_device.h"
 #include "engine/input/run_decisions.h"
 

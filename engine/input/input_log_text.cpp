@@ -1,10 +1,10 @@
 // Reading and writing of input logs (the format is described in input_log.h).
 
+#include "engine/base/plain_file.h"
+#include "engine/base/text_line.h"
 #include "engine/input/input_log.h"
-#include "engine/likeness.h"
 #include "engine/maths/functions.h"
-#include "engine/plain_file.h"
-#include "engine/text_line.h"
+#include "engine/unicode/likeness.h"
 
 #include <fmt/format.h>
 

@@ -12,7 +12,7 @@
 ///            valid or whose pose is not finite is recorded as lost; a pose out of true is normalised; a
 ///            sample that is not later than the tracker's last one is left out.
 
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 #include "engine/input/input_log.h"
 
 #include <map>

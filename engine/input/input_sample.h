@@ -7,8 +7,8 @@
 /// Units    metres, show time in nanoseconds, axes from -1 to 1.
 /// Threads  plain values, any thread.
 
+#include "engine/base/time_signature.h"
 #include "engine/maths/course.h"
-#include "engine/time_signature.h"
 
 #include <array>
 #include <cstdint>

@@ -1,10 +1,10 @@
 #include "engine/input/rig_file.h"
 
-#include "engine/likeness.h"
+#include "engine/base/plain_file.h"
+#include "engine/base/text_line.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
-#include "engine/plain_file.h"
-#include "engine/text_line.h"
+#include "engine/unicode/likeness.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

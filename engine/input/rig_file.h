@@ -29,7 +29,7 @@
 /// Threads  plain values.
 /// Errors   with line and column; a file with errors is not returned.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "engine/maths/maths.h"
 
 #include <optional>

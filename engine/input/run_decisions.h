@@ -7,8 +7,8 @@
 /// Units    show time [ns], from the start of the show.
 /// Threads  plain values.
 
+#include "engine/base/time_signature.h"
 #include "engine/input/operator_command.h"
-#include "engine/time_signature.h"
 
 #include <cstdint>
 #include <map>

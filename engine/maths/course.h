@@ -4,8 +4,8 @@
 /// Times    non-decreasing. Before the first knot it is where that knot says, after the last one likewise.
 /// Frames   whatever the owner says; all knots of a course are in the same one.
 
+#include "engine/base/time_signature.h"
 #include "engine/maths/maths.h"
-#include "engine/time_signature.h"
 
 #include <vector>
 

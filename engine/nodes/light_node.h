@@ -1,8 +1,8 @@
 #pragma once
 /// Light sources and the sky.
 
-#include "engine/nodes/placed_node.h"
 #include "engine/nodes/switched.h"
+#include "engine/scene/placed_node.h"
 #include "engine/scene/records.h"
 
 namespace stadion {

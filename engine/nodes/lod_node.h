@@ -9,7 +9,7 @@
 /// The choice is made here, once a frame, for all walls and both eyes. It changes no simulated state and is
 /// no part of the hash.
 
-#include "engine/nodes/placed_node.h"
+#include "engine/scene/placed_node.h"
 
 namespace stadion {
 

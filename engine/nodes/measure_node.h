@@ -11,8 +11,8 @@
 /// count. Units     metres; results are compared and told in whole centimetres, rounded down, as in
 /// athletics. It waits for the impact without being visited: the simulation wakes it.
 
-#include "engine/nodes/placed_node.h"
 #include "engine/scene/impact.h"
+#include "engine/scene/placed_node.h"
 
 #include <optional>
 

@@ -14,8 +14,8 @@
 ///           own time has it; who looks sees it go straight there within that frame.
 /// Frames    keys are in the coordinates of the target's parent, or of its own parent.
 
-#include "engine/nodes/placed_node.h"
 #include "engine/nodes/switched.h"
+#include "engine/scene/placed_node.h"
 
 #include <optional>
 

@@ -2,8 +2,8 @@
 /// The visitor's platform and what drives it.
 
 #include "engine/input/input_sample.h"
-#include "engine/nodes/placed_node.h"
 #include "engine/nodes/switched.h"
+#include "engine/scene/placed_node.h"
 
 namespace stadion {
 

@@ -7,7 +7,7 @@
 /// Events    loaded, unloaded.
 /// Commands  load, unload, reset (unload and load again), and those of a placed node.
 
-#include "engine/nodes/placed_node.h"
+#include "engine/scene/placed_node.h"
 
 namespace stadion {
 

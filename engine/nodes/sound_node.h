@@ -10,8 +10,8 @@
 ///           placed node. One that is hidden still plays.
 /// It is not visited while it plays.
 
-#include "engine/nodes/placed_node.h"
 #include "engine/nodes/switched.h"
+#include "engine/scene/placed_node.h"
 
 namespace stadion {
 

@@ -1,7 +1,7 @@
 #include "engine/nodes/sway_node.h"
 
+#include "engine/base/prefetch.h"
 #include "engine/maths/functions.h"
-#include "engine/prefetch.h"
 #include "engine/scene/scene.h"
 
 #include <algorithm>

@@ -20,8 +20,8 @@
 ///           where its own time has them; who looks sees them go straight there within that frame.
 /// Frames    displacement and angular velocity are in the coordinates of the target's parent.
 
-#include "engine/nodes/placed_node.h"
 #include "engine/nodes/switched.h"
+#include "engine/scene/placed_node.h"
 
 #include <optional>
 #include <span>

@@ -3,7 +3,7 @@
 ///
 /// Commands  enable, disable, toggle, reset.
 
-#include "engine/message.h"
+#include "engine/core/message.h"
 
 namespace stadion {
 

@@ -1,7 +1,7 @@
 #include "engine/nodes/timer_node.h"
 
+#include "engine/core/state_fields.h"
 #include "engine/scene/scene.h"
-#include "engine/state_fields.h"
 
 namespace stadion {
 

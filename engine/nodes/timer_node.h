@@ -5,8 +5,8 @@
 /// Commands  enable (starts it anew), disable, toggle, reset.
 /// It is not visited while it waits.
 
-#include "engine/node.h"
 #include "engine/nodes/switched.h"
+#include "engine/scene/node.h"
 
 namespace stadion {
 

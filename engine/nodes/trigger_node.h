@@ -12,8 +12,8 @@
 /// Commands  enable, disable, toggle, reset, and those of a placed node.
 
 #include "engine/input/input_sample.h"
-#include "engine/nodes/placed_node.h"
 #include "engine/nodes/switched.h"
+#include "engine/scene/placed_node.h"
 
 namespace stadion {
 

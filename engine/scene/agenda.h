@@ -7,7 +7,7 @@
 ///
 /// Threads  App only.
 
-#include "engine/node.h"
+#include "engine/scene/node.h"
 
 #include <compare>
 #include <cstddef>

@@ -2,9 +2,9 @@
 /// What a simulation found out about a touch, for nodes that judge it: the exact place and time, not the
 /// frame's.
 
+#include "engine/base/time_signature.h"
+#include "engine/core/message.h"
 #include "engine/maths/maths.h"
-#include "engine/message.h"
-#include "engine/time_signature.h"
 
 namespace stadion {
 

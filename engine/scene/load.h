@@ -4,9 +4,9 @@
 /// Prepared on the loader thread, installed by App before the frame in which its show time falls and removed
 /// after it, destroyed on the loader thread. Dynamics knows the exact times.
 
-#include "engine/diagnostic.h"
-#include "engine/load_control.h"
-#include "engine/node.h"
+#include "engine/base/diagnostic.h"
+#include "engine/core/load_control.h"
+#include "engine/scene/node.h"
 #include "engine/scene/records.h"
 
 #include <algorithm>

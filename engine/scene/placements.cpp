@@ -1,6 +1,6 @@
 #include "engine/scene/placements.h"
 
-#include "engine/state_fields.h"
+#include "engine/core/state_fields.h"
 
 #include <algorithm>
 #include <cassert>

@@ -4,10 +4,10 @@
 /// No pointers in the records, so that other processes can map them. World coordinates, double precision.
 
 #include "engine/asset/mesh_store.h"
+#include "engine/base/time_signature.h"
+#include "engine/core/message.h"
 #include "engine/maths/maths.h"
-#include "engine/message.h"
 #include "engine/scene/shadow_places.h"
-#include "engine/time_signature.h"
 
 #include <array>
 #include <cstdint>

@@ -6,14 +6,14 @@
 ///
 /// Threads  App only; while nodes compute side by side nobody else is in here.
 
-#include "engine/crew.h"
+#include "engine/base/crew.h"
+#include "engine/core/load_control.h"
 #include "engine/input/input_sample.h"
-#include "engine/load_control.h"
-#include "engine/node.h"
 #include "engine/scene/agenda.h"
 #include "engine/scene/courses.h"
 #include "engine/scene/impact.h"
 #include "engine/scene/load.h"
+#include "engine/scene/node.h"
 #include "engine/scene/placements.h"
 #include "engine/scene/records.h"
 #include "engine/scene/sounds.h"

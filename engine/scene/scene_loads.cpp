@@ -1,6 +1,6 @@
 #include "engine/scene/scene.h"
 
-#include "engine/nodes/object_node.h"
+#include "engine/scene/object_node.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 #include "engine/scene/scene.h"
 
 #include "engine/maths/functions.h"
-#include "engine/nodes/placed_node.h"
+#include "engine/scene/placed_node.h"
 
 #include <algorithm>
 #include <string>

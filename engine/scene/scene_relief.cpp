@@ -1,7 +1,7 @@
-// What nodes have to do without, because they cost too much. Decided elsewhere (engine/load_control.h); here
+// What nodes have to do without, because they cost too much. Decided elsewhere (engine/core/load_control.h); here
 // it is obeyed, at the start of the frame whose signature says so.
 
-#include "engine/nodes/object_node.h"
+#include "engine/scene/object_node.h"
 #include "engine/scene/scene.h"
 
 #include <algorithm>

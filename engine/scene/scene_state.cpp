@@ -1,7 +1,7 @@
-// The scene's state, written down and put back (engine/state_fields.h). What follows from it by the same
+// The scene's state, written down and put back (engine/core/state_fields.h). What follows from it by the same
 // computation, such as what is published, is made anew.
 
-#include "engine/nodes/placed_node.h"
+#include "engine/scene/placed_node.h"
 #include "engine/scene/scene.h"
 
 #include <fmt/format.h>

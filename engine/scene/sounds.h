@@ -5,9 +5,9 @@
 /// Units    show time in nanoseconds.
 /// Threads  plain values.
 
+#include "engine/base/time_signature.h"
+#include "engine/core/message.h"
 #include "engine/maths/maths.h"
-#include "engine/message.h"
-#include "engine/time_signature.h"
 
 #include <string>
 #include <vector>

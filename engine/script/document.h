@@ -16,8 +16,8 @@
 ///          a standard value; broken values were reported by the checker and are absent here.
 /// Threads  constant once names are resolved.
 
+#include "engine/core/node_kind.h"
 #include "engine/maths/maths.h"
-#include "engine/node_kind.h"
 #include "engine/script/attribute.h"
 #include "engine/script/event_message.h"
 #include "engine/script/schema.h"

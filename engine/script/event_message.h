@@ -6,10 +6,10 @@
 ///          before the frame after the one in which the event was told. A latency of at least a frame's
 ///          step therefore fixes the lag: the same at every frame rate up to that step.
 
-#include "engine/diagnostic.h"
-#include "engine/event.h"
-#include "engine/time_signature.h"
-#include "engine/verb.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/time_signature.h"
+#include "engine/core/event.h"
+#include "engine/core/verb.h"
 
 #include <string_view>
 

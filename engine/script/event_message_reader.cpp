@@ -1,6 +1,6 @@
 #include "engine/script/event_message_reader.h"
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "engine/script/schema.h"
 #include "engine/script/suggestion.h"
 #include "engine/text/text_mesh.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// Reads the text of an eventmessage.
 
-#include "engine/node_kind.h"
+#include "engine/core/node_kind.h"
 #include "engine/script/event_message.h"
 #include "engine/script/value.h"
 

@@ -2,7 +2,7 @@
 /// What the schema says, written out: the language reference for readers, a grammar and a completion list for
 /// editors. All are made from the table of schema.h and from nothing else.
 
-#include "engine/node_kind.h"
+#include "engine/core/node_kind.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Adds findings about one source text, with positions and excerpts, up to a number that a reader can use.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "engine/script/source_text.h"
 
 namespace stadion {

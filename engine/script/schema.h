@@ -7,10 +7,10 @@
 ///
 /// Threads  constant data; may be read from anywhere.
 
-#include "engine/event.h"
-#include "engine/node_kind.h"
+#include "engine/core/event.h"
+#include "engine/core/node_kind.h"
+#include "engine/core/verb.h"
 #include "engine/script/attribute.h"
-#include "engine/verb.h"
 
 #include <limits>
 #include <optional>

@@ -1,9 +1,9 @@
 #include "engine/script/script_texts.h"
 
 #include "engine/asset/roots.h"
-#include "engine/plain_file.h"
+#include "engine/base/plain_file.h"
+#include "engine/core/state_hash.h"
 #include "engine/script/script.h"
-#include "engine/state_hash.h"
 
 namespace stadion {
 namespace {

@@ -1,6 +1,6 @@
 #include "engine/script/source_text.h"
 
-#include "engine/plain_file.h"
+#include "engine/base/plain_file.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 /// Errors   make() and read() refuse what is not such a text.
 /// Threads  constant once made. Moving it keeps views into text() valid.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <cstdint>
 #include <string>

@@ -1,8 +1,8 @@
 #pragma once
 /// The end of a message about an unknown word.
 
-#include "engine/diagnostic.h"
-#include "engine/likeness.h"
+#include "engine/base/diagnostic.h"
+#include "engine/unicode/likeness.h"
 
 #include <string>
 #include <string_view>

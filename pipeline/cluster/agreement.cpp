@@ -1,7 +1,7 @@
 #include "pipeline/cluster/agreement.h"
 
-#include "engine/state_hash.h"
-#include "engine/text_line.h"
+#include "engine/base/text_line.h"
+#include "engine/core/state_hash.h"
 #include "pipeline/cluster/terms.h"
 
 #include <fmt/format.h>

@@ -10,7 +10,7 @@
 /// Errors     open() says why there is no network. What cannot be delivered for a second, because somebody no
 ///            longer listens, is left to who watches whether they are there.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "pipeline/cluster/cluster_file.h"
 
 #include <array>

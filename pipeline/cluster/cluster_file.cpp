@@ -1,8 +1,8 @@
 #include "pipeline/cluster/cluster_file.h"
 
-#include "engine/plain_file.h"
+#include "engine/base/plain_file.h"
+#include "engine/base/text_line.h"
 #include "engine/script/suggestion.h"
-#include "engine/text_line.h"
 
 #include <fmt/format.h>
 

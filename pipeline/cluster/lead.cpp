@@ -1,6 +1,6 @@
 #include "pipeline/cluster/lead.h"
 
-#include "engine/text_line.h"
+#include "engine/base/text_line.h"
 #include "pipeline/cluster/terms.h"
 #include "pipeline/machine/promptness.h"
 

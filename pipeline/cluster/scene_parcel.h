@@ -3,7 +3,7 @@
 ///
 /// Threads  plain values; the caller locks.
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 #include "pipeline/cluster/bus.h"
 #include "pipeline/frame_orders.h"
 

@@ -3,7 +3,7 @@
 ///
 /// Threads  one at a time for each wall: any thread that holds a lease on the view's slot.
 
-#include "engine/frame_probe.h"
+#include "engine/core/frame_probe.h"
 #include "pipeline/cull/draw_order.h"
 #include "pipeline/cull/level_choice.h"
 #include "pipeline/cull/room_cull.h"

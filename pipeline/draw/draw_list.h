@@ -9,8 +9,8 @@
 #include "engine/asset/mesh_store.h"
 #include "engine/maths/maths.h"
 #include "engine/scene/records.h"
-#include "pipeline/frame_ticket.h"
 #include "engine/scene/shadow_places.h"
+#include "pipeline/frame_ticket.h"
 
 #include <array>
 #include <memory>

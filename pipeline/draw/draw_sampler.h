@@ -1,11 +1,11 @@
 #pragma once
-/// Times pieces of a frame's drawing, each alone, where a probe asks for it (engine/frame_probe.h). The
+/// Times pieces of a frame's drawing, each alone, where a probe asks for it (engine/core/frame_probe.h). The
 /// pieces are drawn in their place in the frame, over the depths that are there then, so that they cost what
 /// they cost in it. No pixel changes.
 ///
 /// Threads  the thread on which the context is current, in its turn.
 
-#include "engine/frame_probe.h"
+#include "engine/core/frame_probe.h"
 #include "pipeline/draw/lone_clock.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 ///
 /// Ownership  owns the GL objects. Threads: the thread on which the context is current.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "pipeline/draw/gl_object.h"
 #include "pipeline/draw/look.h"
 

@@ -7,7 +7,7 @@
 /// Ownership  plain pointers into a library that stays loaded until the process ends.
 /// Threads    immutable once loaded; a call acts on the context that is current on the calling thread.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <GL/glcorearb.h>
 

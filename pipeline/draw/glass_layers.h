@@ -21,7 +21,7 @@
 /// Errors   create() fails below OpenGL 4.3; the renderer then sorts whole objects.
 /// Ownership  owns its GL objects. Threads: the thread on which the context is current.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "pipeline/draw/eye_buffers.h"
 #include "pipeline/draw/gl_object.h"
 #include "pipeline/draw/gl_program.h"

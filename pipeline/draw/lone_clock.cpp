@@ -1,6 +1,6 @@
 #include "pipeline/draw/lone_clock.h"
 
-#include "engine/folder_names.h"
+#include "engine/base/folder_names.h"
 
 #include <cstdlib>
 #include <fstream>

@@ -6,8 +6,8 @@
 /// Errors     a mesh that is gone, damaged or does not fit into memory is reported once and draws nothing.
 
 #include "engine/asset/mesh_store.h"
-#include "engine/diagnostic.h"
-#include "engine/frame_probe.h"
+#include "engine/base/diagnostic.h"
+#include "engine/core/frame_probe.h"
 #include "pipeline/draw/gl_object.h"
 #include "pipeline/draw/look.h"
 #include "pipeline/draw/small_things.h"

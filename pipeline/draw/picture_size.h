@@ -1,7 +1,7 @@
 #pragma once
 /// How large a picture may be. OpenGL does not check the size of every buffer it is given, so we do.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <cstdint>
 #include <optional>

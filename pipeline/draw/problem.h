@@ -1,7 +1,7 @@
 #pragma once
 /// An error that no place in a script stands for.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <string>
 #include <utility>

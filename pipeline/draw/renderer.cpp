@@ -1,6 +1,6 @@
 #include "pipeline/draw/renderer.h"
 
-#include "engine/run_stopped.h"
+#include "engine/base/run_stopped.h"
 #include "pipeline/draw/list_filling.h"
 #include "pipeline/draw/picture_size.h"
 #include "pipeline/draw/problem.h"

@@ -1,6 +1,6 @@
 #include "pipeline/input/live_trackers.h"
 
-#include "engine/text_line.h"
+#include "engine/base/text_line.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -6,8 +6,8 @@
 ///            back.
 /// Errors     what is no OSC message is counted and otherwise ignored; the handler must not throw.
 
-#include "engine/diagnostic.h"
-#include "engine/time_signature.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/time_signature.h"
 
 #include <atomic>
 #include <functional>

@@ -1,6 +1,6 @@
 #include "pipeline/input/osc_trackers.h"
 
-#include "engine/text_line.h"
+#include "engine/base/text_line.h"
 
 #include <algorithm>
 #include <cmath>

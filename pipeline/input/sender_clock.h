@@ -10,7 +10,7 @@
 /// Units    nanoseconds.
 /// Threads  one at a time.
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 
 #include <optional>
 

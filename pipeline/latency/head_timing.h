@@ -3,7 +3,7 @@
 ///
 /// Threads  plain values.
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 #include "pipeline/cull/head_reach.h"
 
 #include <optional>

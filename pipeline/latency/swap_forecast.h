@@ -3,7 +3,7 @@
 ///
 /// Threads  note() by whoever swaps; expected() by any.
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 
 #include <array>
 #include <atomic>

@@ -1,7 +1,7 @@
 #include "pipeline/machine/calibration_file.h"
 
-#include "engine/atomic_file.h"
-#include "engine/plain_file.h"
+#include "engine/base/atomic_file.h"
+#include "engine/base/plain_file.h"
 
 #include <nlohmann/json.hpp>
 

@@ -5,7 +5,7 @@
 ///          line and column; nothing is half read.
 /// Threads  plain functions.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "pipeline/machine/calibration.h"
 
 #include <string>

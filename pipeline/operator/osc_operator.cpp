@@ -1,6 +1,6 @@
 #include "pipeline/operator/osc_operator.h"
 
-#include "engine/text_line.h"
+#include "engine/base/text_line.h"
 #include "pipeline/operator/operator_state.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "pipeline/output/journal.h"
 
-#include "engine/append.h"
+#include "engine/base/append.h"
 #include "pipeline/output/child_process.h"
 
 #include <fmt/format.h>

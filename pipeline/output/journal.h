@@ -11,8 +11,8 @@
 /// Errors   open() says why a file cannot be written. Later on (a full disk) lines are lost, which add() says
 ///          once, and the show goes on; the first line that can be written again says how many were.
 
-#include "engine/diagnostic.h"
-#include "engine/time_signature.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/time_signature.h"
 
 #include <chrono>
 #include <cstddef>

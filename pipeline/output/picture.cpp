@@ -1,6 +1,6 @@
 #include "pipeline/output/picture.h"
 
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 
 #include <fmt/format.h>
 #include <png.h>

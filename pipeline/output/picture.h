@@ -5,7 +5,7 @@
 /// Threads  plain values; the functions are pure or touch only the file named.
 /// Errors   returned with the file's name; a file that could not be written completely does not appear.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <cstdint>
 #include <optional>

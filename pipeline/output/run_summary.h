@@ -5,7 +5,7 @@
 /// Threads  plain values, filled when the run has ended.
 /// Errors   none; a figure that is not finite is left out of the JSON as null.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <cstdint>
 #include <map>

@@ -10,7 +10,7 @@
 /// disk,
 ///            an encoder that fails, stalls or loses frames. The run goes on without the video.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "pipeline/output/picture.h"
 
 #include <chrono>

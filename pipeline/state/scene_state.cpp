@@ -1,6 +1,6 @@
 #include "pipeline/state/scene_state.h"
 
-#include "engine/prefetch.h"
+#include "engine/base/prefetch.h"
 
 #include <algorithm>
 #include <cassert>

@@ -8,7 +8,7 @@
 ///
 /// Threads  one at a time.
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 
 #include <chrono>
 #include <cstddef>

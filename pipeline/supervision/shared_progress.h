@@ -12,8 +12,8 @@
 /// Errors     what lies there may be damaged, since a program that crashed could write to it: a scene that
 ///            cannot be put back is refused by Scene::restore().
 
-#include "engine/diagnostic.h"
-#include "engine/time_signature.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/time_signature.h"
 #include "pipeline/operator/operator_state.h"
 #include "pipeline/output/child_process.h"
 

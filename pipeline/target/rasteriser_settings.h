@@ -2,7 +2,7 @@
 /// How Mesa's software rasteriser works in this process. It reads its settings from the environment once,
 /// when the first context is made.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <optional>
 

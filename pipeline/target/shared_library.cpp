@@ -1,6 +1,6 @@
 #include "pipeline/target/shared_library.h"
 
-#include "engine/asset/file_descriptor.h"
+#include "engine/base/file_descriptor.h"
 
 #include <cstring>
 #include <fcntl.h>

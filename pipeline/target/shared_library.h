@@ -4,7 +4,7 @@
 /// Ownership  never unloaded: Mesa leaves threads and exit handlers behind.
 /// Threads    any.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <dlfcn.h>
 #include <string>

@@ -4,7 +4,7 @@
 /// The colour result itself is the Renderer's (an offscreen buffer of the target's size per eye), so that all
 /// providers give the same pixels.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <cstdint>
 #include <memory>

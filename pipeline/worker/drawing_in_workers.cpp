@@ -1,6 +1,6 @@
 #include "pipeline/worker/drawing_in_workers.h"
 
-#include "engine/run_stopped.h"
+#include "engine/base/run_stopped.h"
 #include "pipeline/draw/list_filling.h"
 #include "pipeline/worker/patience.h"
 #include "pipeline/worker/restarts.h"

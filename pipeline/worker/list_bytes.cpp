@@ -1,6 +1,6 @@
 #include "pipeline/worker/list_bytes.h"
 
-#include "engine/value_reader.h"
+#include "engine/base/value_reader.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "profiling/bench/city_show.h"
 
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 ///
 /// Threads  SpanReader's on the log's thread; decide() and see() on App's; reports from any.
 
-#include "engine/load_control.h"
+#include "engine/core/load_control.h"
 #include "profiling/frame_facts.h"
 #include "profiling/load/node_costs.h"
 #include "profiling/load/stress_filter.h"

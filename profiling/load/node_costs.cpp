@@ -1,6 +1,6 @@
 #include "profiling/load/node_costs.h"
 
-#include "engine/nodes/object_node.h"
+#include "engine/scene/object_node.h"
 #include "engine/script/schema.h"
 
 #include <algorithm>

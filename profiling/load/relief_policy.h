@@ -13,7 +13,7 @@
 /// Units    milliseconds, frames. No clock: it knows what it is told.
 /// Threads  plain values; one thread at a time.
 
-#include "engine/load_control.h"
+#include "engine/core/load_control.h"
 
 #include <array>
 #include <optional>

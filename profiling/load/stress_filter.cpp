@@ -1,6 +1,6 @@
 #include "profiling/load/stress_filter.h"
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 
 #include <algorithm>
 #include <cmath>

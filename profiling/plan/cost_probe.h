@@ -6,7 +6,7 @@
 ///
 /// Threads  told on the thread of the frame loop; what the crew tells is not looked at.
 
-#include "engine/frame_probe.h"
+#include "engine/core/frame_probe.h"
 #include "profiling/plan/schedule.h"
 
 #include <map>

@@ -11,7 +11,7 @@
 ///
 /// Threads  plain values, any thread. Errors  a text that says what is wrong and where.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "profiling/plan/schedule.h"
 
 namespace stadion::plan {

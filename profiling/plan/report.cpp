@@ -1,6 +1,6 @@
 #include "profiling/plan/report.h"
 
-#include "engine/text_line.h"
+#include "engine/base/text_line.h"
 #include "profiling/plan/diagram.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "profiling/regression/baseline.h"
 
-#include "engine/plain_file.h"
+#include "engine/base/plain_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -7,7 +7,7 @@
 /// Errors   a file that is none is refused with its name and what is wrong. Version 2 is written; version 1,
 ///          which keeps no frames, is read, too.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "profiling/regression/facts.h"
 #include "profiling/regression/kept_frames.h"
 #include "profiling/regression/node_costs.h"

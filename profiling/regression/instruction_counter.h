@@ -6,7 +6,7 @@
 /// Threads  opened, and read, by the thread that is counted.
 /// Errors   open() says why nothing can be counted: virtual machines and containers often hide the counters.
 
-#include "engine/asset/file_descriptor.h"
+#include "engine/base/file_descriptor.h"
 
 #include <cstdint>
 #include <optional>

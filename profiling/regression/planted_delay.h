@@ -4,7 +4,7 @@
 ///
 /// Threads  a plain value; burn() on any thread.
 
-#include "engine/message.h"
+#include "engine/core/message.h"
 
 #include <cstdint>
 #include <optional>

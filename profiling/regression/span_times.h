@@ -8,7 +8,7 @@
 /// Threads  told on the threads that do the work; read when the run is over.
 /// Errors   none.
 
-#include "engine/frame_probe.h"
+#include "engine/core/frame_probe.h"
 #include "profiling/regression/planted_delay.h"
 #include "profiling/regression/span_record.h"
 #include "profiling/regression/turns.h"

@@ -1,8 +1,8 @@
 #include "profiling/regression/suite.h"
 
-#include "engine/likeness.h"
-#include "engine/plain_file.h"
-#include "engine/text_line.h"
+#include "engine/base/plain_file.h"
+#include "engine/base/text_line.h"
+#include "engine/unicode/likeness.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -16,7 +16,7 @@
 /// Threads  plain values, any thread.
 /// Errors   go to the Diagnostics with line, column and a fix where one is known; there may be several.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <cstdint>
 #include <optional>

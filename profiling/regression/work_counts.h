@@ -5,7 +5,7 @@
 /// Threads  told on the threads that do the work; read when the run is over.
 /// Errors   none.
 
-#include "engine/frame_probe.h"
+#include "engine/core/frame_probe.h"
 
 #include <map>
 #include <mutex>

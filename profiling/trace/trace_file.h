@@ -15,7 +15,7 @@
 #include "profiling/thread_names.h"
 #include "profiling/trace/trace_events.h"
 
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 
 #include <map>
 #include <optional>

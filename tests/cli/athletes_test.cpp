@@ -2,7 +2,7 @@
 
 #include "tests/cli/played_show.h"
 
-#include "engine/nodes/placed_node.h"
+#include "engine/scene/placed_node.h"
 #include "tests/cli/program.h"
 
 #include <cstdio>

@@ -1,8 +1,8 @@
 /// What a live run gave up because something took too long is in its log, and a replay of it goes the same
 /// way, frame by frame, in every mode.
 
+#include "engine/core/load_control.h"
 #include "engine/input/input_recorder.h"
-#include "engine/load_control.h"
 #include "tests/cli/played_show.h"
 #include "tests/cli/program.h"
 

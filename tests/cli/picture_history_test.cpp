@@ -3,7 +3,7 @@
 /// of detail and haze.
 
 #include "cli/player.h"
-#include "engine/state_fields.h"
+#include "engine/core/state_fields.h"
 #include "tests/cli/program.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 /// and the same to be drawn, frame by frame.
 
 #include "cli/player.h"
-#include "engine/state_fields.h"
+#include "engine/core/state_fields.h"
 #include "pipeline/frame_loop.h"
 #include "tests/cli/program.h"
 

@@ -4,7 +4,7 @@
 #include "tests/cli/played_show.h"
 #include "tests/cli/program.h"
 
-#include "engine/state_hash.h"
+#include "engine/core/state_hash.h"
 #include "pipeline/draw/list_filling.h"
 
 #include <gtest/gtest.h>

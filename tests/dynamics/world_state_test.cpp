@@ -2,8 +2,8 @@
 /// doing: in heaps, on slopes, in the air, in a hand, with commands that are still to come.
 
 #include "dynamics/world.h"
+#include "engine/core/state_fields.h"
 #include "engine/maths/functions.h"
-#include "engine/state_fields.h"
 #include "tests/dynamics/scenes.h"
 
 #include <functional>

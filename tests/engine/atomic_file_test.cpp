@@ -1,6 +1,6 @@
 /// A file is there complete or not at all, also where links lead to it.
 
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,7 +1,7 @@
+#include "engine/base/plain_file.h"
+#include "engine/base/text_line.h"
 #include "engine/display/wall_file.h"
 #include "engine/display/wall_lint.h"
-#include "engine/plain_file.h"
-#include "engine/text_line.h"
 #include "tests/mutations.h"
 
 #include <gtest/gtest.h>

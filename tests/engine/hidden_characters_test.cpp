@@ -1,9 +1,9 @@
 #include "engine/display/wall_file.h"
 #include "engine/input/input_log.h"
 #include "engine/input/rig_file.h"
-#include "engine/likeness.h"
 #include "engine/script/script.h"
 #include "engine/unicode/characters.h"
+#include "engine/unicode/likeness.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

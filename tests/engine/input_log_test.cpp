@@ -1,9 +1,9 @@
+#include "engine/base/plain_file.h"
+#include "engine/base/text_line.h"
 #include "engine/input/input_log.h"
 #include "engine/input/input_recorder.h"
 #include "engine/input/scripted_input.h"
 #include "engine/maths/functions.h"
-#include "engine/plain_file.h"
-#include "engine/text_line.h"
 #include "tests/mutations.h"
 
 #include <gtest/gtest.h>

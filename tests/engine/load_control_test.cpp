@@ -1,13 +1,13 @@
 /// What is decided about nodes that cost too much is obeyed from the frame on whose signature says so, and
 /// the same by everyone; levels of detail follow the visitor's distance; the log keeps all of it.
 
+#include "engine/base/plain_file.h"
 #include "engine/input/input_log.h"
 #include "engine/input/input_recorder.h"
 #include "engine/nodes/lod_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/scene_node.h"
 #include "engine/nodes/sway_node.h"
-#include "engine/plain_file.h"
 #include "tests/engine/show_fixture.h"
 
 #include <cmath>

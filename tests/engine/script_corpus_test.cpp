@@ -1,7 +1,7 @@
 /// Every wrong script of tests/corpus/scripts/wrong gives the first error line in the .expected file beside
 /// it, and damaged scripts of every sort are refused or read, quickly, but never bring the program down.
 
-#include "engine/script/lint.h"
+#include "engine/build/lint.h"
 #include "engine/script/script.h"
 #include "tests/mutations.h"
 

@@ -1,4 +1,4 @@
-#include "engine/script/lint.h"
+#include "engine/build/lint.h"
 #include "engine/script/script.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// A scene built by hand for tests: loads are prepared by a function, the input is what the test says.
 
-#include "engine/nodes/object_node.h"
+#include "engine/scene/object_node.h"
 #include "engine/scene/scene.h"
 
 #include <functional>

@@ -3,8 +3,8 @@
 ///
 /// Threads  one.
 
+#include "engine/build/builder.h"
 #include "engine/scene/scene.h"
-#include "engine/script/builder.h"
 
 #include <map>
 #include <memory>

@@ -1,8 +1,8 @@
 /// Machines of a cluster that talk over the network of this machine, each a process: a scene is a number that
 /// each frame changes.
 
+#include "engine/core/state_hash.h"
 #include "engine/input/scripted_input.h"
-#include "engine/state_hash.h"
 #include "pipeline/cluster/follower.h"
 #include "pipeline/cluster/lead.h"
 #include "pipeline/cluster/loopback_sockets.h"

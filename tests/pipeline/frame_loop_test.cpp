@@ -1,6 +1,6 @@
 #include "pipeline/frame_loop.h"
 
-#include "engine/run_stopped.h"
+#include "engine/base/run_stopped.h"
 
 #include <gtest/gtest.h>
 #include <mutex>

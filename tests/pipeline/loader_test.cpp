@@ -1,7 +1,7 @@
 #include "pipeline/loader.h"
 
-#include "engine/run_stopped.h"
-#include "engine/script/builder.h"
+#include "engine/base/run_stopped.h"
+#include "engine/build/builder.h"
 #include "pipeline/state/scene_state.h"
 
 #include <filesystem>

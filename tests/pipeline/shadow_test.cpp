@@ -1,7 +1,7 @@
 #include "engine/asset/mesh_checks.h"
-#include "engine/run_stopped.h"
-#include "pipeline/cull/shadow_cull.h"
+#include "engine/base/run_stopped.h"
 #include "engine/scene/shadow_places.h"
+#include "pipeline/cull/shadow_cull.h"
 #include "tests/pipeline/renderer_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #pragma once
 /// The importer program's end of the conversation (see importer_protocol.h).
 
-#include "engine/asset/file_descriptor.h"
 #include "engine/asset/importer_protocol.h"
+#include "engine/base/file_descriptor.h"
 
 #include <optional>
 #include <string>

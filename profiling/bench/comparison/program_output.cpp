@@ -1,6 +1,6 @@
 #include "profiling/bench/comparison/program_output.h"
 
-#include "engine/asset/file_descriptor.h"
+#include "engine/base/file_descriptor.h"
 
 #include <algorithm>
 #include <cerrno>

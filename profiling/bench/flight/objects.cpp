@@ -1,6 +1,6 @@
 #include "profiling/bench/flight/objects.h"
 
-#include "engine/plain_file.h"
+#include "engine/base/plain_file.h"
 #include "profiling/bench/flight/bodies.h"
 
 #include <algorithm>

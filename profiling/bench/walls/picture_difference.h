@@ -3,7 +3,7 @@
 ///
 /// Threads  plain functions.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <cstdint>
 #include <string>

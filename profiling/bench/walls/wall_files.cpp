@@ -1,6 +1,6 @@
 #include "profiling/bench/walls/wall_files.h"
 
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 #include "profiling/bench/walls/wall_room.h"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 ///
 /// Errors   what cannot be started, ends without a row, or takes too long, is told with the case's name.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 #include "profiling/bench/walls/walls_case.h"
 
 #include <nlohmann/json.hpp>

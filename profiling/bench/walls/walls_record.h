@@ -7,7 +7,7 @@
 /// Errors   name the file and the line, and what to do.
 /// Threads  plain functions.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 #include "engine/script/script.h"
 
-#include "engine/script/lint.h"
+#include "engine/build/lint.h"
 #include "tests/fuzz/built_show.h"
 #include "tests/fuzz/targets.h"
 

@@ -9,11 +9,11 @@
 /// Threads  App only. Nodes are constructed on the loader thread and belong to it until they are installed.
 /// Ownership  the Scene owns every installed node.
 
-#include "engine/event.h"
-#include "engine/frame_probe.h"
-#include "engine/message.h"
-#include "engine/node_kind.h"
-#include "engine/state_hash.h"
+#include "engine/core/event.h"
+#include "engine/core/frame_probe.h"
+#include "engine/core/message.h"
+#include "engine/core/node_kind.h"
+#include "engine/core/state_hash.h"
 
 #include <optional>
 #include <span>

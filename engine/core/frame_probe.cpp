@@ -1,4 +1,4 @@
-#include "engine/frame_probe.h"
+#include "engine/core/frame_probe.h"
 
 #include <array>
 

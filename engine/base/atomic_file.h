@@ -11,7 +11,7 @@
 /// Threads    one thread at a time.
 /// Errors     the first one is kept and reported by commit(); writing after it does nothing.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <cstddef>
 #include <cstdio>

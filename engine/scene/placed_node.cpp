@@ -1,4 +1,4 @@
-#include "engine/nodes/placed_node.h"
+#include "engine/scene/placed_node.h"
 
 #include "engine/input/input_sample.h"
 #include "engine/scene/scene.h"

@@ -6,7 +6,7 @@
 ///          cannot be read.
 /// Threads  free functions, any thread.
 
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
 #include <cstddef>
 #include <string>

@@ -1,6 +1,6 @@
-#include "engine/atomic_file.h"
+#include "engine/base/atomic_file.h"
 
-#include "engine/folder_names.h"
+#include "engine/base/folder_names.h"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 /// cycle, in an order that no thread can influence: (due time, sender's load number, sender's position in its
 /// file, sequence).
 
-#include "engine/time_signature.h"
-#include "engine/verb.h"
+#include "engine/base/time_signature.h"
+#include "engine/core/verb.h"
 
 #include <compare>
 #include <cstdint>

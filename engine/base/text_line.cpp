@@ -1,4 +1,4 @@
-#include "engine/text_line.h"
+#include "engine/base/text_line.h"
 
 #include "engine/unicode/characters.h"
 

@@ -1,4 +1,4 @@
-#include "engine/nodes/object_node.h"
+#include "engine/scene/object_node.h"
 
 #include "engine/scene/scene.h"
 

@@ -1,4 +1,4 @@
-#include "engine/crew.h"
+#include "engine/base/crew.h"
 
 #include <algorithm>
 #include <exception>

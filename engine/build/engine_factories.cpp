@@ -1,3 +1,4 @@
+#include "engine/build/builder.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "engine/maths/srgb.h"
@@ -12,7 +13,6 @@
 #include "engine/nodes/text_node.h"
 #include "engine/nodes/timer_node.h"
 #include "engine/nodes/trigger_node.h"
-#include "engine/script/builder.h"
 #include "engine/script/choice.h"
 
 #include <algorithm>

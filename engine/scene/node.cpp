@@ -1,4 +1,4 @@
-#include "engine/node.h"
+#include "engine/scene/node.h"
 
 #include "engine/scene/scene.h"
 

@@ -1,4 +1,4 @@
-#include "engine/state_fields.h"
+#include "engine/core/state_fields.h"
 
 #include <cmath>
 #include <fmt/format.h>

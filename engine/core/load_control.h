@@ -9,7 +9,7 @@
 ///
 /// Threads  plain values.
 
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
 
 #include <array>
 #include <cmath>

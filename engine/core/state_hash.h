@@ -4,8 +4,8 @@
 /// It runs over named fields in (load number, position in file) order, never over memory layout or addresses.
 /// Doubles count by their bits; -0 and +0 differ, and no NaN is ever in a scene.
 
+#include "engine/core/message.h"
 #include "engine/maths/maths.h"
-#include "engine/message.h"
 
 #include <cstdint>
 #include <string_view>

@@ -1,6 +1,6 @@
-#include "engine/plain_file.h"
+#include "engine/base/plain_file.h"
 
-#include "engine/asset/file_descriptor.h"
+#include "engine/base/file_descriptor.h"
 
 #include <array>
 #include <cerrno>

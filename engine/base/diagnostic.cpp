@@ -1,7 +1,7 @@
-#include "engine/diagnostic.h"
+#include "engine/base/diagnostic.h"
 
-#include "engine/likeness.h"
 #include "engine/unicode/characters.h"
+#include "engine/unicode/likeness.h"
 
 #include <algorithm>
 #include <string_view>

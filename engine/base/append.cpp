@@ -1,4 +1,4 @@
-#include "engine/append.h"
+#include "engine/base/append.h"
 
 #include <cerrno>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-#include "engine/script/lint.h"
+#include "engine/build/lint.h"
 
 #include "engine/scene/records.h"
 #include "engine/script/file_path.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// A mesh in the world: `object`. It is drawn, may collide, and moves only when somebody moves it.
 
-#include "engine/nodes/placed_node.h"
+#include "engine/scene/placed_node.h"
 #include "engine/scene/records.h"
 
 namespace stadion {

@@ -8,10 +8,10 @@
 /// Times    attach, detach and reset put it elsewhere at their exact time: inside the frame for dynamics (the
 ///          course that it leaves in the scene), at the frame's end for the picture.
 
+#include "engine/core/state_fields.h"
 #include "engine/maths/course.h"
-#include "engine/node.h"
+#include "engine/scene/node.h"
 #include "engine/scene/placements.h"
-#include "engine/state_fields.h"
 
 namespace stadion {
 

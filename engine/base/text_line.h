@@ -8,8 +8,8 @@
 /// Threads    one reader, one thread.
 /// Errors     go to the Diagnostics, at most kMaxErrors for a file; none is thrown.
 
-#include "engine/diagnostic.h"
-#include "engine/time_signature.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/time_signature.h"
 
 #include <cstddef>
 #include <optional>

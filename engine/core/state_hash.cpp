@@ -1,4 +1,4 @@
-#include "engine/state_hash.h"
+#include "engine/core/state_hash.h"
 
 #include <bit>
 #include <xxhash.h>

@@ -11,8 +11,8 @@
 /// Threads  each function is called on the thread that does the work; an implementation takes calls of
 ///          several threads at a time.
 
-#include "engine/message.h"
-#include "engine/time_signature.h"
+#include "engine/base/time_signature.h"
+#include "engine/core/message.h"
 
 #include <cstdint>
 #include <span>

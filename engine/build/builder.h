@@ -5,9 +5,9 @@
 /// Threads  the loader's; touches nothing that App uses.
 
 #include "engine/asset/mesh_store.h"
-#include "engine/diagnostic.h"
-#include "engine/nodes/object_node.h"
+#include "engine/base/diagnostic.h"
 #include "engine/scene/load.h"
+#include "engine/scene/object_node.h"
 #include "engine/script/document.h"
 
 #include <array>

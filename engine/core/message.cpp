@@ -1,4 +1,4 @@
-#include "engine/message.h"
+#include "engine/core/message.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,4 +1,4 @@
-#include "engine/folder_names.h"
+#include "engine/base/folder_names.h"
 
 #include <dirent.h>
 #include <memory>

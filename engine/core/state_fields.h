@@ -21,9 +21,9 @@
 /// Threads  one at a time.
 /// Bits     numbers by their bits, little end first, so that what is put back is the very same.
 
+#include "engine/core/message.h"
+#include "engine/core/state_hash.h"
 #include "engine/maths/maths.h"
-#include "engine/message.h"
-#include "engine/state_hash.h"
 
 #include <array>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "engine/script/builder.h"
+#include "engine/build/builder.h"
 
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
