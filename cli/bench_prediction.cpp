@@ -7,7 +7,7 @@
 #include "engine/input/tracker_feed.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
-#include "pipeline/output/run_summary.h"
+#include "pipeline/record/run_summary.h"
 #include "profiling/bench/walls/wall_room.h"
 
 #include <CLI/CLI.hpp>

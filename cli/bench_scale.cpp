@@ -5,7 +5,7 @@
 #include "cli/player.h"
 #include "cli/temporary_folder.h"
 #include "engine/base/prefetch.h"
-#include "pipeline/output/run_summary.h"
+#include "pipeline/record/run_summary.h"
 #include "profiling/allocations.h"
 #include "profiling/bench/city_show.h"
 

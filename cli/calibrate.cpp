@@ -9,7 +9,7 @@
 #include "cli/plan_run.h"
 #include "cli/stop_signal.h"
 #include "cli/temporary_folder.h"
-#include "pipeline/machine/calibration_file.h"
+#include "pipeline/platform/calibration_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/chrono.h>

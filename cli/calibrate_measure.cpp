@@ -2,7 +2,7 @@
 
 #include "cli/calibration_show.h"
 #include "cli/player.h"
-#include "pipeline/machine/topology.h"
+#include "pipeline/platform/topology.h"
 #include "pipeline/target/rasteriser_settings.h"
 #include "profiling/processor_time.h"
 

@@ -4,7 +4,7 @@
 /// Threads  plain function, on the main thread.
 
 #include "engine/base/diagnostic.h"
-#include "pipeline/machine/calibration.h"
+#include "pipeline/platform/calibration.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 
 #include "cli/number_option.h"
 #include "engine/display/wall_file.h"
-#include "pipeline/machine/setting_trials.h"
+#include "pipeline/platform/setting_trials.h"
 #include "profiling/bench/comparison/program_output.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 ///
 /// Threads  one thread; the machine should have nothing else to do.
 
-#include "pipeline/machine/calibration.h"
+#include "pipeline/platform/calibration.h"
 
 #include "engine/base/diagnostic.h"
 

@@ -8,7 +8,7 @@
 #include "cli/output_folder.h"
 #include "cli/show_check.h"
 #include "pipeline/cluster/lead.h"
-#include "pipeline/output/journal.h"
+#include "pipeline/record/journal.h"
 #include "pipeline/supervision/shared_progress.h"
 
 #include <CLI/CLI.hpp>

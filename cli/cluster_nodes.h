@@ -11,11 +11,11 @@
 /// Threads    main.
 
 #include "pipeline/cluster/cluster_file.h"
-#include "pipeline/output/child_process.h"
-#include "pipeline/output/journal.h"
+#include "pipeline/platform/child_process.h"
+#include "pipeline/process/restarts.h"
+#include "pipeline/record/journal.h"
 #include "pipeline/supervision/hang_watch.h"
 #include "pipeline/supervision/shared_progress.h"
-#include "pipeline/worker/restarts.h"
 
 #include <atomic>
 #include <chrono>

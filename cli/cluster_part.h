@@ -8,7 +8,7 @@
 #include "cli/telling_thread.h"
 #include "pipeline/cluster/follower.h"
 #include "pipeline/cluster/lead.h"
-#include "pipeline/output/run_summary.h"
+#include "pipeline/record/run_summary.h"
 
 #include <functional>
 #include <memory>

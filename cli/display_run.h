@@ -7,7 +7,7 @@
 #include "cli/live_desk.h"
 #include "cli/run_options.h"
 #include "cli/wall_displays.h"
-#include "pipeline/output/picture_mailbox.h"
+#include "pipeline/loop/picture_mailbox.h"
 
 #include <atomic>
 #include <memory>

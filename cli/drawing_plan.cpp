@@ -1,7 +1,7 @@
 #include "cli/drawing_plan.h"
 
 #include "engine/base/diagnostic.h"
-#include "pipeline/machine/calibration_file.h"
+#include "pipeline/platform/calibration_file.h"
 
 #include <algorithm>
 #include <fmt/format.h>

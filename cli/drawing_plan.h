@@ -4,7 +4,7 @@
 ///
 /// Threads  to be settled before the first OpenGL context is made.
 
-#include "pipeline/machine/calibration.h"
+#include "pipeline/platform/calibration.h"
 
 #include <optional>
 #include <string>

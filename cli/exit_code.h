@@ -2,7 +2,7 @@
 /// What the program's exit status means, to scripts and CI.
 
 #include "engine/base/diagnostic.h"
-#include "pipeline/stages.h"
+#include "pipeline/wall/stages.h"
 
 #include <cstdio>
 

@@ -4,8 +4,8 @@
 ///
 /// Threads  one show's at a time. The provider of the contexts must outlive it.
 
-#include "pipeline/imported_meshes.h"
-#include "pipeline/wall_contexts.h"
+#include "pipeline/load/imported_meshes.h"
+#include "pipeline/wall/wall_contexts.h"
 
 namespace stadion {
 

@@ -5,7 +5,7 @@
 #include "cli/exit_code.h"
 #include "cli/version.h"
 #include "engine/script/suggestion.h"
-#include "pipeline/output/sound_libraries.h"
+#include "pipeline/sound/sound_libraries.h"
 #include "pipeline/target/rasteriser_settings.h"
 
 #include <CLI/CLI.hpp>

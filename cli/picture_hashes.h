@@ -11,8 +11,8 @@
 /// Errors   add() says what could not be written; what is there then ends with a whole line but for the last.
 
 #include "cli/output_folder.h"
-#include "pipeline/output/stereo.h"
-#include "pipeline/show_stages.h"
+#include "pipeline/loop/show_stages.h"
+#include "pipeline/picture/stereo.h"
 
 #include <chrono>
 #include <fstream>

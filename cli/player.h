@@ -10,10 +10,10 @@
 #include "engine/input/run_decisions.h"
 #include "engine/scene/scene.h"
 #include "engine/script/script_texts.h"
-#include "pipeline/frame_loop.h"
-#include "pipeline/loader.h"
-#include "pipeline/output/stereo.h"
-#include "pipeline/show_stages.h"
+#include "pipeline/load/loader.h"
+#include "pipeline/loop/frame_loop.h"
+#include "pipeline/loop/show_stages.h"
+#include "pipeline/picture/stereo.h"
 
 #include <atomic>
 #include <memory>

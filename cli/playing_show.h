@@ -11,7 +11,7 @@
 #include "cli/run_watch.h"
 #include "cli/show_recording.h"
 #include "engine/display/unfolding.h"
-#include "pipeline/playback.h"
+#include "pipeline/frame/playback.h"
 #include "profiling/live_budget.h"
 
 #include <atomic>

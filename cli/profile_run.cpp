@@ -5,7 +5,7 @@
 #include "cli/show_recording.h"
 #include "cli/stop_signal.h"
 #include "engine/base/atomic_file.h"
-#include "pipeline/output/progress.h"
+#include "pipeline/record/progress.h"
 
 #include <cstdio>
 #include <fmt/format.h>

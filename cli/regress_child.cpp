@@ -1,6 +1,6 @@
 #include "cli/regress_child.h"
 
-#include "pipeline/output/child_process.h"
+#include "pipeline/platform/child_process.h"
 
 #include <fmt/format.h>
 

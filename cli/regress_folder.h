@@ -6,7 +6,7 @@
 
 #include "cli/regress_options.h"
 #include "engine/base/atomic_file.h"
-#include "pipeline/output/child_process.h"
+#include "pipeline/platform/child_process.h"
 #include "profiling/regression/progress.h"
 
 #include <map>

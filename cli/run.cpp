@@ -20,8 +20,8 @@
 #include "cli/supervise.h"
 #include "cli/supervised_part.h"
 #include "engine/base/run_stopped.h"
-#include "pipeline/machine/topology.h"
-#include "pipeline/output/progress.h"
+#include "pipeline/platform/topology.h"
+#include "pipeline/record/progress.h"
 #include "pipeline/target/rasteriser_settings.h"
 #include "profiling/regression/work_counts.h"
 

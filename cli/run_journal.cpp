@@ -3,7 +3,7 @@
 #include "cli/exit_code.h"
 #include "cli/regress_child.h"
 #include "cli/version.h"
-#include "pipeline/machine/process_figures.h"
+#include "pipeline/platform/process_figures.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

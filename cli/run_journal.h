@@ -8,7 +8,7 @@
 
 #include "cli/run_options.h"
 #include "engine/scene/scene.h"
-#include "pipeline/output/journal.h"
+#include "pipeline/record/journal.h"
 
 #include <chrono>
 #include <map>

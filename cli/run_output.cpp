@@ -1,6 +1,6 @@
 #include "cli/run_output.h"
 
-#include "pipeline/output/contact_sheet.h"
+#include "pipeline/picture/contact_sheet.h"
 
 #include <algorithm>
 #include <charconv>

@@ -5,9 +5,9 @@
 
 #include "cli/output_folder.h"
 #include "cli/picture_hashes.h"
-#include "pipeline/output/stereo.h"
-#include "pipeline/output/video.h"
-#include "pipeline/show_stages.h"
+#include "pipeline/loop/show_stages.h"
+#include "pipeline/picture/stereo.h"
+#include "pipeline/record/video.h"
 
 #include <condition_variable>
 #include <deque>

@@ -5,7 +5,7 @@
 #include "cli/run_options.h"
 #include "cli/run_watch.h"
 #include "cli/show_recording.h"
-#include "pipeline/output/run_summary.h"
+#include "pipeline/record/run_summary.h"
 
 #include <map>
 #include <string>

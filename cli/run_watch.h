@@ -7,7 +7,7 @@
 #include "cli/node_trace.h"
 #include "cli/run_options.h"
 #include "engine/input/input_recorder.h"
-#include "pipeline/output/run_summary.h"
+#include "pipeline/record/run_summary.h"
 
 #include <map>
 #include <memory>

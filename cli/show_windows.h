@@ -5,8 +5,8 @@
 /// Errors   open() says what stands against it; afterwards windows only show what they are given.
 
 #include "engine/display/unfolding.h"
-#include "pipeline/draw/output_pass.h"
-#include "pipeline/show_stages.h"
+#include "pipeline/draw/passes/output_pass.h"
+#include "pipeline/loop/show_stages.h"
 #include "pipeline/target/window.h"
 
 #include <optional>

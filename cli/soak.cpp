@@ -10,7 +10,7 @@
 #include "cli/soak_visitor.h"
 #include "cli/stop_signal.h"
 #include "engine/base/run_stopped.h"
-#include "pipeline/machine/process_figures.h"
+#include "pipeline/platform/process_figures.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

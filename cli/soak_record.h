@@ -12,7 +12,7 @@
 ///          then the record ends there, whole, and the soak goes on without.
 
 #include "engine/base/diagnostic.h"
-#include "pipeline/output/child_process.h"
+#include "pipeline/platform/child_process.h"
 #include "profiling/soak/growth.h"
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 
 #include "cli/exit_code.h"
 #include "cli/stop_signal.h"
-#include "pipeline/output/child_process.h"
-#include "pipeline/output/journal.h"
+#include "pipeline/platform/child_process.h"
+#include "pipeline/record/journal.h"
 #include "pipeline/supervision/hang_watch.h"
 #include "pipeline/supervision/recovery.h"
 #include "pipeline/supervision/shared_progress.h"

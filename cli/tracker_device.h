@@ -3,8 +3,8 @@
 ///
 /// Ownership  owns the device and its threads.
 
-#include "pipeline/input/osc_trackers.h"
-#include "pipeline/input/vrpn_trackers.h"
+#include "pipeline/device/osc_trackers.h"
+#include "pipeline/device/vrpn_trackers.h"
 
 #include <memory>
 #include <string>

@@ -3,7 +3,7 @@
 ///
 /// Threads  main.
 
-#include "pipeline/input/desk_visitor.h"
+#include "pipeline/device/desk_visitor.h"
 #include "pipeline/target/window.h"
 
 #include <array>

@@ -3,7 +3,7 @@
 ///
 /// Threads  say() from any, the rest on the main thread.
 
-#include "pipeline/output/text_panel.h"
+#include "pipeline/picture/text_panel.h"
 #include "profiling/live_budget.h"
 
 #include <chrono>

@@ -3,7 +3,7 @@
 #include "cli/exit_code.h"
 #include "cli/last_frames.h"
 #include "cli/stop_signal.h"
-#include "pipeline/output/run_summary.h"
+#include "pipeline/record/run_summary.h"
 #include "pipeline/target/rasteriser_settings.h"
 
 #include <cinttypes>

@@ -15,7 +15,7 @@
 #include "cli/view_hud.h"
 #include "cli/view_options.h"
 #include "cli/view_windows.h"
-#include "pipeline/output/picture_mailbox.h"
+#include "pipeline/loop/picture_mailbox.h"
 
 #include <atomic>
 #include <chrono>

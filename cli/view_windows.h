@@ -7,7 +7,7 @@
 #include "cli/show_windows.h"
 #include "cli/view_options.h"
 #include "engine/display/wall_file.h"
-#include "pipeline/output/text_panel.h"
+#include "pipeline/picture/text_panel.h"
 
 #include <memory>
 #include <string>

@@ -4,7 +4,7 @@
 #include "cli/player.h"
 #include "cli/stop_signal.h"
 #include "cli/wall_displays.h"
-#include "pipeline/output/test_pattern.h"
+#include "pipeline/picture/test_pattern.h"
 
 #include <algorithm>
 #include <cstdio>

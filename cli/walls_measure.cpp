@@ -1,8 +1,8 @@
 #include "cli/walls_measure.h"
 
 #include "cli/player.h"
-#include "pipeline/output/run_summary.h"
-#include "pipeline/pacer.h"
+#include "pipeline/loop/pacer.h"
+#include "pipeline/record/run_summary.h"
 #include "profiling/bench/walls/picture_difference.h"
 #include "profiling/bench/walls/wall_room.h"
 #include "profiling/processor_time.h"

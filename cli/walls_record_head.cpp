@@ -1,8 +1,8 @@
 #include "cli/walls_record_head.h"
 
 #include "engine/core/state_hash.h"
-#include "pipeline/machine/machine.h"
-#include "pipeline/worker/wall_worker.h"
+#include "pipeline/platform/machine.h"
+#include "pipeline/process/wall_worker.h"
 
 #include <chrono>
 #include <fmt/format.h>

@@ -17,7 +17,7 @@
 ///
 /// Times    `clock` is that of the machine [ns]; show time may stand still or go slower than it. What came
 ///          between two frames is spread over the frame's show time in proportion.
-/// Threads  one at a time (pipeline/input/live_trackers.h lets several use it).
+/// Threads  one at a time (pipeline/device/live_trackers.h lets several use it).
 
 #include "engine/input/input_device.h"
 #include "engine/input/input_log.h"
@@ -44,7 +44,7 @@ public:
   TrackerFeed& operator=(const TrackerFeed&) = delete;
 
   // Measurements, in whatever order they come. False: refused, and counted.
-  // Those whose time is not known to be right: see SenderClock (pipeline/input/sender_clock.h).
+  // Those whose time is not known to be right: see SenderClock (pipeline/device/sender_clock.h).
   bool pose(std::string_view tracker, Nanoseconds clock, const Pose& X_SD);
   bool button(std::string_view tracker, Nanoseconds clock, std::int64_t index, bool down);
   bool axis(std::string_view tracker, Nanoseconds clock, std::int64_t index, double value);

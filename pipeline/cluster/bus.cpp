@@ -1,7 +1,7 @@
 #include "pipeline/cluster/bus.h"
 
 #include "pipeline/cluster/loopback_sockets.h"
-#include "pipeline/machine/promptness.h"
+#include "pipeline/platform/promptness.h"
 
 #include <dds/dds.h>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "engine/base/text_line.h"
 #include "pipeline/cluster/terms.h"
-#include "pipeline/machine/promptness.h"
+#include "pipeline/platform/promptness.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include "engine/input/input_sample.h"
 #include "pipeline/cluster/bus.h"
-#include "pipeline/frame_orders.h"
+#include "pipeline/loop/frame_orders.h"
 
 #include <cstdint>
 #include <optional>

@@ -3,7 +3,7 @@
 ///
 /// Threads  plain values.
 
-#include "pipeline/frame_times.h"
+#include "pipeline/frame/frame_times.h"
 
 #include <cstdint>
 

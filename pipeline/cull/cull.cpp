@@ -2,7 +2,7 @@
 
 #include "pipeline/cull/eye_test.h"
 #include "pipeline/cull/shadow_cull.h"
-#include "pipeline/draw/list_filling.h"
+#include "pipeline/draw_list/list_filling.h"
 
 #include <algorithm>
 #include <cmath>

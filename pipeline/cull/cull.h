@@ -8,7 +8,7 @@
 #include "pipeline/cull/level_choice.h"
 #include "pipeline/cull/room_cull.h"
 #include "pipeline/cull/still_casters.h"
-#include "pipeline/draw/draw_list.h"
+#include "pipeline/draw_list/draw_list.h"
 #include "pipeline/state/scene_state.h"
 
 namespace stadion {

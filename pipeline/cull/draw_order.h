@@ -10,7 +10,7 @@
 /// Threads  one at a time; keeps its memory.
 
 #include "engine/scene/records.h"
-#include "pipeline/draw/draw_list.h"
+#include "pipeline/draw_list/draw_list.h"
 
 #include <array>
 #include <vector>

@@ -10,7 +10,7 @@
 /// Frames    spheres are in World axes relative to the list's origin [m].
 /// Threads   plain values.
 
-#include "pipeline/draw/draw_list.h"
+#include "pipeline/draw_list/draw_list.h"
 
 #include <cstdint>
 

@@ -9,7 +9,7 @@
 /// handed
 ///          out never changes.
 
-#include "pipeline/draw/draw_list.h"
+#include "pipeline/draw_list/draw_list.h"
 #include "pipeline/state/scene_state.h"
 
 #include <memory>

@@ -7,7 +7,7 @@
 #include "engine/display/frustum.h"
 #include "pipeline/cull/free_camera.h"
 #include "pipeline/cull/head_reach.h"
-#include "pipeline/draw/draw_list.h"
+#include "pipeline/draw_list/draw_list.h"
 
 #include <array>
 #include <cstdint>

@@ -8,7 +8,7 @@
 ///
 /// Threads  the thread on which the context is current.
 
-#include "pipeline/draw/gl_table.h"
+#include "pipeline/gl/gl_table.h"
 
 #include <cstdint>
 #include <ctime>

@@ -1,9 +1,9 @@
 #include "pipeline/draw/renderer.h"
 
 #include "engine/base/run_stopped.h"
-#include "pipeline/draw/list_filling.h"
-#include "pipeline/draw/picture_size.h"
-#include "pipeline/draw/problem.h"
+#include "pipeline/draw_list/list_filling.h"
+#include "pipeline/gl/picture_size.h"
+#include "pipeline/gl/problem.h"
 
 #include <algorithm>
 #include <cassert>
@@ -48,8 +48,9 @@ Renderer::Renderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes
                    std::uint32_t height, RenderQuality quality, Programs programs)
     : gl_(gl), turns_(turns), takesTurns_(isSoftware(gl)),
       basesInstances_(gl.DrawElementsInstancedBaseInstance && hasGlExtension(gl, "GL_ARB_base_instance")),
-      clipDepth_(settleClipDepth(gl)), layersGlass_(GlassLayers::isSupported(gl)), width_(width), height_(height),
-      quality_(quality), programs_(std::move(programs)), buffers_(gl, width, height, quality),
+      clipDepth_(settleClipDepth(gl)), layersGlass_(GlassLayers::isSupported(gl)), width_(width),
+      height_(height), quality_(quality), programs_(std::move(programs)),
+      buffers_(gl, width, height, quality),
       cache_(gl, meshes, quality.look, isSieved(gl, quality) && basesInstances_), instances_(gl), scene_(gl),
       indices_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl), covered_(width, height) {
   if (isSieved(gl, quality) && basesInstances_) sieve_.emplace(width, height);
@@ -77,7 +78,7 @@ Result<Renderer::Programs> Renderer::buildPrograms(const GlTable& gl, Look look)
   SurfaceTraits common;
   common.look = look;
   if (auto why = buildSurfaces(gl, common, programs.surface[0])) return *why;
-  auto sky = GlProgram::build(gl, skyVertexShader(), skyFragmentShader(look));
+  auto sky = GlProgram::build(gl, skyVertexShader(), skyFragmentShader(look), shaderBindings());
   if (!sky) return sky.error();
   programs.sky.push_back(std::move(sky.value()));
   return programs;
@@ -92,7 +93,8 @@ std::optional<Diagnostic> Renderer::buildSurfaces(const GlTable& gl, const Surfa
     traits.textured = (i & 1) != 0, traits.localLights = (i & 2) != 0;
     traits.writes = (i & 4) != 0 ? SurfaceWrites::Blended : SurfaceWrites::Picture;
     assert(traits.index() == i);
-    auto built = GlProgram::build(gl, surfaceVertexShader(traits), surfaceFragmentShader(traits));
+    auto built =
+        GlProgram::build(gl, surfaceVertexShader(traits), surfaceFragmentShader(traits), shaderBindings());
     if (!built) return built.error();
     set.programs[i].emplace(std::move(built.value()));
   }
@@ -107,7 +109,8 @@ const GlProgram& Renderer::surfaceFor(SurfaceTraits traits) {
     const SurfaceTraits& common = surfaces_->common;
     traits.look = common.look, traits.shadowed = common.shadowed, traits.hazy = common.hazy;
     traits.lights = common.lights;
-    auto built = GlProgram::build(gl_, surfaceVertexShader(traits), surfaceFragmentShader(traits));
+    auto built =
+        GlProgram::build(gl_, surfaceVertexShader(traits), surfaceFragmentShader(traits), shaderBindings());
     if (built) {
       program.emplace(std::move(built.value()));
     } else {

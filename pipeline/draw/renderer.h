@@ -18,17 +18,17 @@
 ///              crashes when one of them ends a scene just then. They wait for their pixels together.
 /// Errors       returned once per kind, never thrown; what can be drawn is drawn.
 
-#include "pipeline/draw/draw_list.h"
 #include "pipeline/draw/draw_sampler.h"
-#include "pipeline/draw/eye_buffers.h"
-#include "pipeline/draw/gl_program.h"
-#include "pipeline/draw/glass_layers.h"
-#include "pipeline/draw/instance_batches.h"
-#include "pipeline/draw/look.h"
-#include "pipeline/draw/mesh_cache.h"
-#include "pipeline/draw/shaders.h"
-#include "pipeline/draw/shadow_maps.h"
-#include "pipeline/draw/uniform_blocks.h"
+#include "pipeline/draw/gpu/mesh_cache.h"
+#include "pipeline/draw/passes/eye_buffers.h"
+#include "pipeline/draw/passes/glass_layers.h"
+#include "pipeline/draw/passes/shadow_maps.h"
+#include "pipeline/draw_list/draw_list.h"
+#include "pipeline/draw_list/instance_batches.h"
+#include "pipeline/gl/gl_program.h"
+#include "pipeline/shader/look.h"
+#include "pipeline/shader/shaders.h"
+#include "pipeline/shader/uniform_blocks.h"
 
 #include <functional>
 #include <memory>

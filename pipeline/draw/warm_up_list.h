@@ -3,7 +3,7 @@
 ///
 /// Threads  free functions, any thread.
 
-#include "pipeline/draw/draw_list.h"
+#include "pipeline/draw_list/draw_list.h"
 
 namespace stadion {
 

@@ -10,9 +10,9 @@
 /// Threads  queue(), leaving() and pictureSeen() from any; everything else is App's while the show runs.
 
 #include "engine/input/run_decisions.h"
+#include "pipeline/frame/playback.h"
 #include "pipeline/operator/operator_queue.h"
 #include "pipeline/operator/operator_state.h"
-#include "pipeline/playback.h"
 
 #include <atomic>
 #include <cstdint>

@@ -5,7 +5,7 @@
 /// Errors   a value that is not finite or out of range is refused; the others are as documented.
 
 #include "engine/input/operator_command.h"
-#include "pipeline/operator/presentation.h"
+#include "pipeline/frame/presentation.h"
 
 #include <cstdint>
 

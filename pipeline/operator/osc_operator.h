@@ -12,7 +12,7 @@
 /// Errors   what is no command, or has a figure that is none of its own, is not taken and told of once, with
 ///          what it takes. Who can send to the port can command the show.
 
-#include "pipeline/input/osc_server.h"
+#include "pipeline/device/osc_server.h"
 #include "pipeline/operator/operator_queue.h"
 
 #include <set>

@@ -7,7 +7,7 @@
 ///
 /// Threads  every function from any thread; one thread per wall.
 
-#include "pipeline/frame_ticket.h"
+#include "pipeline/frame/frame_ticket.h"
 #include "pipeline/state/chunk_arena.h"
 
 #include <array>

@@ -15,7 +15,7 @@
 #include "engine/base/diagnostic.h"
 #include "engine/base/time_signature.h"
 #include "pipeline/operator/operator_state.h"
-#include "pipeline/output/child_process.h"
+#include "pipeline/platform/child_process.h"
 
 #include <atomic>
 #include <cstddef>

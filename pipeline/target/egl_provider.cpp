@@ -1,9 +1,9 @@
 // The only file that knows EGL.
-#include "pipeline/draw/gl_table.h"
-#include "pipeline/draw/picture_size.h"
-#include "pipeline/draw/problem.h"
+#include "pipeline/gl/gl_table.h"
+#include "pipeline/gl/picture_size.h"
+#include "pipeline/gl/problem.h"
+#include "pipeline/platform/shared_library.h"
 #include "pipeline/target/rasteriser_settings.h"
-#include "pipeline/target/shared_library.h"
 #include "pipeline/target/target.h"
 
 #define EGL_NO_X11

@@ -1,8 +1,8 @@
 // The only file that knows GLFW.
-#include "pipeline/draw/gl_table.h"
-#include "pipeline/draw/problem.h"
+#include "pipeline/gl/gl_table.h"
+#include "pipeline/gl/problem.h"
+#include "pipeline/platform/shared_library.h"
 #include "pipeline/target/screen_saver.h"
-#include "pipeline/target/shared_library.h"
 #include "pipeline/target/window.h"
 #include "pipeline/target/x_connection.h"
 

@@ -1,6 +1,6 @@
 #include "pipeline/target/rasteriser_settings.h"
 
-#include "pipeline/draw/problem.h"
+#include "pipeline/gl/problem.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,8 +1,8 @@
 #include "pipeline/target/target.h"
 
-#include "pipeline/draw/gl_table.h"
-#include "pipeline/draw/picture_size.h"
-#include "pipeline/draw/problem.h"
+#include "pipeline/gl/gl_table.h"
+#include "pipeline/gl/picture_size.h"
+#include "pipeline/gl/problem.h"
 
 #include <algorithm>
 #include <array>

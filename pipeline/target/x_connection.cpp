@@ -1,6 +1,6 @@
 #include "pipeline/target/x_connection.h"
 
-#include "pipeline/target/shared_library.h"
+#include "pipeline/platform/shared_library.h"
 
 #include <atomic>
 

@@ -2,7 +2,7 @@
 /// Does the pipeline overlap its stages? Runs the real frame loop over stages that wait a fixed time instead
 /// of computing.
 
-#include "pipeline/frame_loop.h"
+#include "pipeline/loop/frame_loop.h"
 
 namespace stadion {
 

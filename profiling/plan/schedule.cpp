@@ -94,7 +94,7 @@ private:
     if (simulation_.now() > begin) out_.bars.push_back({row, what, frame, begin, simulation_.now()});
   }
 
-  // When the next frame may begin (pipeline/pacer.h).
+  // When the next frame may begin (pipeline/loop/pacer.h).
   double nextBegin(double& next) const {
     if (plan_.pacing == Pacing::Free) return 0;
     const double period = 1000 / plan_.rate, now = simulation_.now();

@@ -1,7 +1,7 @@
 #pragma once
 /// How the frames of a show fall out in time, on a machine that need not be there.
 ///
-/// What the frame loop does (pipeline/frame_loop.h) is done here by processes that only compute as long as
+/// What the frame loop does (pipeline/loop/frame_loop.h) is done here by processes that only compute as long as
 /// the stages were measured to: one thread for App and, for each wall, one for Cull and one for Draw, or one
 /// for all of it; three slots of scene state; two draw lists a wall; all walls swap together. The software
 /// rasteriser is modelled as it works: walls take turns with their calls, what they call for is rasterised by

@@ -1,7 +1,7 @@
 /// `stadion calibrate`, and that `run` draws by what it remembers: the same pictures in another way.
 
-#include "pipeline/machine/calibration_file.h"
-#include "pipeline/machine/machine.h"
+#include "pipeline/platform/calibration_file.h"
+#include "pipeline/platform/machine.h"
 #include "tests/cli/program.h"
 
 #include <gtest/gtest.h>

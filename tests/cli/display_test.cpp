@@ -1,6 +1,6 @@
 /// Walls on real outputs: two screens of a display in memory, photographed.
 
-#include "pipeline/output/picture.h"
+#include "pipeline/picture/picture.h"
 #include "tests/cli/desk.h"
 
 #include <array>

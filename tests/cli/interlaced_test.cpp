@@ -1,7 +1,7 @@
 /// Interlaced pictures on a display in memory: the monitor's even rows are for the left eye, wherever the
 /// window is.
 
-#include "pipeline/output/picture.h"
+#include "pipeline/picture/picture.h"
 #include "tests/cli/desk.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 /// A live run and somebody who commands it, over the network and from a terminal.
 
-#include "pipeline/output/picture.h"
+#include "pipeline/picture/picture.h"
 #include "tests/cli/desk.h"
 
 #include <atomic>

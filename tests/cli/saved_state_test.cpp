@@ -3,7 +3,7 @@
 
 #include "cli/player.h"
 #include "engine/core/state_fields.h"
-#include "pipeline/frame_loop.h"
+#include "pipeline/loop/frame_loop.h"
 #include "tests/cli/program.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 /// A display in memory whose screen saver is due after a second: it waits while a show is shown, and no
 /// longer.
 
-#include "pipeline/target/shared_library.h"
+#include "pipeline/platform/shared_library.h"
 #include "tests/cli/becomes.h"
 #include "tests/cli/desk.h"
 

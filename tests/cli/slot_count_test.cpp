@@ -5,7 +5,7 @@
 #include "tests/cli/program.h"
 
 #include "engine/core/state_hash.h"
-#include "pipeline/draw/list_filling.h"
+#include "pipeline/draw_list/list_filling.h"
 
 #include <gtest/gtest.h>
 #include <mutex>

@@ -1,6 +1,6 @@
 /// What a show's models look like on its walls, from file to picture: counted pixels in both looks, with
 /// walls drawn by threads and by processes.
-#include "pipeline/output/picture.h"
+#include "pipeline/picture/picture.h"
 #include "tests/cli/program.h"
 
 #include <gtest/gtest.h>

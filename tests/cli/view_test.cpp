@@ -1,6 +1,6 @@
 /// `stadion view` on a display in memory, driven by keys and mouse as a person would.
 
-#include "pipeline/output/picture.h"
+#include "pipeline/picture/picture.h"
 #include "tests/cli/desk.h"
 
 #include <algorithm>

@@ -125,12 +125,12 @@ TEST(Layering, EachForeignLibraryHasItsRoom) {
   EXPECT_EQ(whoIncludes("GLFW/"), Files{"pipeline/target/glfw_windows.cpp"});
   EXPECT_EQ(whoIncludes("meshoptimizer"), Files{"engine/asset/simplify.cpp"});
   EXPECT_EQ(whoIncludes("sndfile"), Files{"engine/asset/sound_file.cpp"});
-  EXPECT_EQ(whoIncludes("hwloc"), Files{"pipeline/machine/topology.cpp"});
-  EXPECT_EQ(whoIncludes("lo/"), Files{"pipeline/input/osc_server.cpp"});
-  EXPECT_EQ(whoIncludes("vrpn"), Files{"pipeline/input/vrpn_trackers.cpp"});
-  EXPECT_EQ(whoIncludes("AL/"), Files{"pipeline/output/sound_device.cpp"});
+  EXPECT_EQ(whoIncludes("hwloc"), Files{"pipeline/platform/topology.cpp"});
+  EXPECT_EQ(whoIncludes("lo/"), Files{"pipeline/device/osc_server.cpp"});
+  EXPECT_EQ(whoIncludes("vrpn"), Files{"pipeline/device/vrpn_trackers.cpp"});
+  EXPECT_EQ(whoIncludes("AL/"), Files{"pipeline/sound/sound_device.cpp"});
   EXPECT_EQ(whoIncludes("fcl/"), Files{"dynamics/mesh_distance.cpp"});
-  EXPECT_EQ(whoIncludes("GL/gl"), (Files{"pipeline/draw/gl_table.h", floor + "gl.h"}));
+  EXPECT_EQ(whoIncludes("GL/gl"), (Files{"pipeline/gl/gl_table.h", floor + "gl.h"}));
   EXPECT_EQ(whoIncludes("btBulletDynamicsCommon"), Files{"profiling/bench/dynamics/engine_bullet.cpp"});
   EXPECT_EQ(whoIncludes("ode/"), Files{"profiling/bench/dynamics/engine_ode.cpp"});
   EXPECT_EQ(whoIncludes("mujoco/"), Files{"profiling/bench/dynamics/engine_mujoco.cpp"});

@@ -1,5 +1,5 @@
-#include "pipeline/machine/calibration_file.h"
-#include "pipeline/machine/setting_trials.h"
+#include "pipeline/platform/calibration_file.h"
+#include "pipeline/platform/setting_trials.h"
 
 #include <gtest/gtest.h>
 

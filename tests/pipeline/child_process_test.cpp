@@ -1,6 +1,6 @@
 /// Other programs, run with their streams connected to ours.
 
-#include "pipeline/output/child_process.h"
+#include "pipeline/platform/child_process.h"
 
 #include <csignal>
 #include <fcntl.h>

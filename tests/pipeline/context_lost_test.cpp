@@ -1,7 +1,7 @@
 /// An OpenGL context that is lost while walls are drawn: it is told and made anew, and the frame is drawn.
 
-#include "pipeline/draw/gl_table.h"
-#include "pipeline/drawing_here.h"
+#include "pipeline/gl/gl_table.h"
+#include "pipeline/wall/drawing_here.h"
 #include "tests/pipeline/renderer_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /// Keyboard and mouse as head and wand.
 
-#include "pipeline/input/desk_visitor.h"
+#include "pipeline/device/desk_visitor.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "pipeline/frame_loop.h"
+#include "pipeline/loop/frame_loop.h"
 
 #include "engine/base/run_stopped.h"
 

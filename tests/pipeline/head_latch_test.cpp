@@ -1,8 +1,8 @@
 // The head's newest pose in place of App's, just before a frame is drawn, and what Cull has to find for it.
-#include "pipeline/latency/head_latch.h"
+#include "pipeline/loop/head_latch.h"
 
 #include "engine/maths/functions.h"
-#include "pipeline/latency/swap_forecast.h"
+#include "pipeline/loop/swap_forecast.h"
 #include "tests/pipeline/cull_room.h"
 
 #include <gtest/gtest.h>

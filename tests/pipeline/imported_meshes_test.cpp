@@ -1,4 +1,4 @@
-#include "pipeline/imported_meshes.h"
+#include "pipeline/load/imported_meshes.h"
 
 #include <fcntl.h>
 #include <filesystem>

@@ -1,6 +1,6 @@
 /// A run log stays in bounds, and each line of it in one piece.
 
-#include "pipeline/output/journal.h"
+#include "pipeline/record/journal.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 /// Draw begins while Cull still fills its list: the same pictures, nothing torn, nobody left waiting.
 
-#include "pipeline/draw/list_filling.h"
+#include "pipeline/draw_list/list_filling.h"
 
-#include "pipeline/frame_loop.h"
+#include "pipeline/loop/frame_loop.h"
 #include "tests/pipeline/cull_room.h"
 #include "tests/pipeline/renderer_scene.h"
 

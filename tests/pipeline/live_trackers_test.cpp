@@ -1,4 +1,4 @@
-#include "pipeline/input/live_trackers.h"
+#include "pipeline/device/live_trackers.h"
 
 #include <gtest/gtest.h>
 

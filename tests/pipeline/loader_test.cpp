@@ -1,4 +1,4 @@
-#include "pipeline/loader.h"
+#include "pipeline/load/loader.h"
 
 #include "engine/base/run_stopped.h"
 #include "engine/build/builder.h"

@@ -2,8 +2,8 @@
 #include "engine/asset/mesh_checks.h"
 #include "engine/asset/simplify.h"
 #include "engine/maths/srgb.h"
-#include "pipeline/draw/mask_levels.h"
-#include "pipeline/worker/drawing_in_workers.h"
+#include "pipeline/draw/gpu/mask_levels.h"
+#include "pipeline/process/drawing_in_workers.h"
 #include "tests/pipeline/renderer_scene.h"
 
 #include <gtest/gtest.h>

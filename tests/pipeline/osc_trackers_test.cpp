@@ -1,4 +1,4 @@
-#include "pipeline/input/osc_trackers.h"
+#include "pipeline/device/osc_trackers.h"
 
 #include <algorithm>
 #include <arpa/inet.h>

@@ -1,8 +1,8 @@
-#include "pipeline/output/contact_sheet.h"
-#include "pipeline/output/lettering.h"
-#include "pipeline/output/linear_light.h"
-#include "pipeline/output/picture.h"
-#include "pipeline/output/stereo.h"
+#include "pipeline/picture/contact_sheet.h"
+#include "pipeline/picture/lettering.h"
+#include "pipeline/picture/linear_light.h"
+#include "pipeline/picture/picture.h"
+#include "pipeline/picture/stereo.h"
 
 #include <gtest/gtest.h>
 

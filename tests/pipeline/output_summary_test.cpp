@@ -1,5 +1,5 @@
-#include "pipeline/output/progress.h"
-#include "pipeline/output/run_summary.h"
+#include "pipeline/record/progress.h"
+#include "pipeline/record/run_summary.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "pipeline/output/child_process.h"
-#include "pipeline/output/video.h"
+#include "pipeline/platform/child_process.h"
+#include "pipeline/record/video.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipeline/worker/patience.h"
+#include "pipeline/process/patience.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Walls that are drawn on processors of their own.
-#include "pipeline/drawing_here.h"
-#include "pipeline/worker/drawing_in_workers.h"
+#include "pipeline/process/drawing_in_workers.h"
+#include "pipeline/wall/drawing_here.h"
 #include "tests/pipeline/renderer_scene.h"
 #include "tests/proc.h"
 

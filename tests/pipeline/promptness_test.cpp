@@ -1,4 +1,4 @@
-#include "pipeline/machine/promptness.h"
+#include "pipeline/platform/promptness.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What the renderer promises besides its pixels: the same pictures everywhere, errors said once, nothing
 // lost.
-#include "pipeline/draw/surface_check.h"
+#include "pipeline/draw/gpu/surface_check.h"
 #include "tests/pipeline/renderer_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "pipeline/worker/restarts.h"
+#include "pipeline/process/restarts.h"
 
 #include <gtest/gtest.h>
 

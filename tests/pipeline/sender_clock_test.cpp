@@ -1,4 +1,4 @@
-#include "pipeline/input/osc_trackers.h"
+#include "pipeline/device/osc_trackers.h"
 
 #include "engine/input/input_recorder.h"
 #include "tests/engine/asset_importing.h"

@@ -1,6 +1,6 @@
 /// Small things that are drawn without OpenGL look as OpenGL draws them.
 
-#include "pipeline/draw/small_things.h"
+#include "pipeline/raster/small_things.h"
 #include "tests/pipeline/cull_room.h"
 #include "tests/pipeline/renderer_scene.h"
 

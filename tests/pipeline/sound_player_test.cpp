@@ -1,4 +1,4 @@
-#include "pipeline/output/sound_player.h"
+#include "pipeline/sound/sound_player.h"
 
 #include <cstdlib>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 /// What a player and who watches over it share, and how a show goes on after a death.
 
-#include "pipeline/frame_loop.h"
+#include "pipeline/loop/frame_loop.h"
 #include "pipeline/supervision/hang_watch.h"
 #include "pipeline/supervision/recovery.h"
 #include "pipeline/supervision/shared_progress.h"

@@ -1,7 +1,7 @@
-#include "pipeline/draw/gl_table.h"
-#include "pipeline/draw/picture_size.h"
+#include "pipeline/gl/gl_table.h"
+#include "pipeline/gl/picture_size.h"
+#include "pipeline/platform/shared_library.h"
 #include "pipeline/target/rasteriser_settings.h"
-#include "pipeline/target/shared_library.h"
 #include "tests/pipeline/renderer_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "pipeline/machine/machine.h"
-#include "pipeline/machine/topology.h"
+#include "pipeline/platform/machine.h"
+#include "pipeline/platform/topology.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Triangles that make pixels are never left out, and pictures are the same without the others.
 
-#include "pipeline/draw/triangle_sieve.h"
+#include "pipeline/raster/triangle_sieve.h"
 #include "tests/pipeline/cull_room.h"
 #include "tests/pipeline/renderer_scene.h"
 

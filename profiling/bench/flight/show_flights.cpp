@@ -6,7 +6,7 @@
 #include "engine/asset/import.h"
 #include "engine/scene/scene.h"
 #include "engine/script/script.h"
-#include "pipeline/loader.h"
+#include "pipeline/load/loader.h"
 #include "pipeline/state/scene_state.h"
 #include "profiling/bench/flight/exact_table.h"
 

@@ -1,6 +1,6 @@
-#include "pipeline/input/osc_server.h"
+#include "pipeline/device/osc_server.h"
 
-#include "pipeline/input/osc_trackers.h"
+#include "pipeline/device/osc_trackers.h"
 #include "pipeline/operator/operator_state.h"
 #include "pipeline/operator/osc_operator.h"
 #include "tests/fuzz/targets.h"

@@ -1,0 +1,62 @@
+#pragma once
+/// Trackers that send Open Sound Control messages over UDP.
+///
+///     /tracker/NAME/pose    x y z  qx qy qz qw    [the rig file's unit], unit quaternion
+///     /tracker/NAME/button  i down                i from 1 to 32, down 1 or 0
+///     /tracker/NAME/axis    i value               i from 0 to 7, value from -1 to 1
+///
+/// Numbers may be of any OSC type. A bundle's time tag, if it has one, says when something was measured, by
+/// the sender's clock: it orders and spaces measurements better than their arrival does. Each sender has a
+/// clock of its own, and may set it (sender_clock.h).
+///
+/// Threads  the server's own.
+/// Errors   whatever comes that is none of these is counted and told of once.
+
+#include "pipeline/device/live_trackers.h"
+#include "pipeline/device/osc_server.h"
+#include "pipeline/device/sender_clock.h"
+
+#include <array>
+#include <vector>
+
+namespace stadion {
+
+class OscTrackers {
+public:
+  /// Hears of nothing but what take() is given. The trackers must outlive it.
+  explicit OscTrackers(LiveTrackers& trackers) : trackers_(trackers) {}
+  /// One that listens. Fails if the port is taken.
+  static Result<std::unique_ptr<OscTrackers>> open(std::uint16_t port, LiveTrackers& trackers);
+
+  /// Of one that listens.
+  std::uint16_t port() const { return server_->port(); }
+  void take(const OscMessage& m);
+  /// Messages that were no measurements, packets that were no messages.
+  std::uint64_t misunderstood() const { return misunderstood_ + (server_ ? server_->malformed() : 0); }
+
+private:
+  enum class Kind { Pose, Button, Axis };
+  struct Measurement {
+    Kind kind;
+    std::array<double, 7> numbers;
+  };
+  /// What one sender says of one tracker: its poses, or its buttons and axes.
+  struct Stream {
+    std::string host, tracker;
+    bool poses;
+    SenderClock clock;
+    std::vector<Measurement> late{};  ///< buttons and axes since the last one that was not late
+  };
+
+  static std::optional<Measurement> measurementOf(std::string_view what, std::span<const double> numbers);
+  void takeStamped(std::string_view tracker, const Measurement& m, std::string_view host, Nanoseconds sent);
+  void post(std::string_view tracker, Nanoseconds clock, const Measurement& m);
+  Stream& streamOf(std::string_view host, std::string_view tracker, bool poses);
+
+  LiveTrackers& trackers_;
+  std::vector<Stream> streams_;
+  std::atomic<std::uint64_t> misunderstood_ = 0;
+  std::unique_ptr<OscServer> server_;  ///< the last one: its thread uses the others
+};
+
+}  // namespace stadion

@@ -1,0 +1,102 @@
+#pragma once
+/// The meshes that one context holds in GL objects.
+///
+/// Ownership  owns the GL objects, borrows the mesh store, which must outlive it.
+/// Threads    the thread on which the context is current; its destructor too.
+/// Errors     a mesh that is gone, damaged or does not fit into memory is reported once and draws nothing.
+
+#include "engine/asset/mesh_store.h"
+#include "engine/base/diagnostic.h"
+#include "engine/core/frame_probe.h"
+#include "pipeline/gl/gl_object.h"
+#include "pipeline/raster/small_things.h"
+#include "pipeline/shader/look.h"
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace stadion {
+
+/// What one draw call of a mesh needs.
+struct GlSubmesh {
+  GLsizei indexCount;
+  std::uintptr_t indexOffset;  ///< [bytes]
+  GLintptr materialOffset;     ///< [bytes] into GlMesh::materials
+  GLuint texture;              ///< 0 = none
+  GLuint glowTexture;          ///< where it emits light; 0 = everywhere alike
+  bool transparent;
+  bool masked;
+  bool bothSides;                        ///< not culled: double-sided, or the mesh is open
+  std::uint32_t material;                ///< of the mesh's
+  std::uint32_t firstVertex, endVertex;  ///< it has none but these
+};
+
+struct GlMesh {
+  GlVertexArray vertexArray;
+  GlBuffer vertices, indices, materials;
+  std::vector<GlTexture> textures;
+  std::vector<GlSubmesh> parts;                ///< of the full surface
+  std::vector<std::vector<GlSubmesh>> levels;  ///< of the simplified ones
+  std::size_t transparentParts = 0;
+  std::optional<SieveMesh> sieve;  ///< all levels, as in `indices`; where triangles are sieved
+  Aabb bounds;  ///< [m]
+  std::optional<MeshShading>
+      shading;  ///< there, if it has neither pictures nor holes nor anything to see through
+
+  /// What is drawn of it at a level; the coarsest there is, if there are not so many.
+  const std::vector<GlSubmesh>& partsAt(std::uint32_t level) const {
+    return level == 0 || levels.empty() ? parts : levels[std::min<std::size_t>(level, levels.size()) - 1];
+  }
+};
+
+/// Where vertex arrays find what; the shaders use the same numbers.
+enum VertexAttribute : GLuint { kPosition, kNormal, kUv, kColour, kModelX, kModelY, kModelZ };
+
+/// Points the model matrices of the bound vertex array at `instances`, from number `first` on.
+void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_t first);
+
+class MeshCache {
+public:
+  /// `sieved`: meshes are kept for TriangleSieve, too.
+  MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, bool sieved = false);
+
+  /// The mesh, uploaded if this is its first use; nullptr if it cannot be drawn.
+  const GlMesh* find(MeshId id);
+  /// Whether find() has it already, and uploads nothing.
+  bool holds(MeshId id) const;
+  /// Who is told of uploads from now on; null = nobody.
+  void tell(FrameProbe* probe) { probe_ = probe; }
+  /// Frees the GL objects of meshes that the store has freed since the last call.
+  void freeUnused();
+
+  std::size_t size() const { return meshes_.size(); }
+  /// What went wrong since the last call, if anything did.
+  std::optional<Diagnostic> takeProblem();
+
+private:
+  std::optional<GlMesh> upload(const Mesh& mesh);
+  void uploadVertices(const Mesh& mesh, GlMesh& out);
+  void uploadIndices(const Mesh& mesh, GlMesh& out);
+  void uploadMaterials(const Mesh& mesh, GlMesh& out);
+  GlTexture uploadTexture(const Texture& texture, float alphaCutoff);
+  void report(std::string what);
+
+  const GlTable& gl_;
+  const MeshStore& store_;
+  Look look_;  ///< colours are uploaded as it reckons with them
+  bool sieved_;
+  struct Cached {
+    std::uint64_t hash = 0;    ///< of the content; an id may be given again
+    std::optional<GlMesh> gl;  ///< empty: known not to be drawable
+  };
+  std::unordered_map<MeshId, Cached> meshes_;
+  std::uint64_t freedCount_ = 0;  ///< of the store, when it was last looked at
+  GLint uniformAlignment_ = 256;
+  bool anisotropy_ = false;
+  FrameProbe* probe_ = nullptr;
+  std::optional<Diagnostic> problem_;
+};
+
+}  // namespace stadion

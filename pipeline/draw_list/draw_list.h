@@ -1,0 +1,103 @@
+#pragma once
+/// What one wall draws in one frame, for both eyes: filled by Cull, read by Draw, self-contained.
+///
+/// Frames   item matrices and light positions are relative to `origin`, a World point near the viewer, so
+///          that single precision suffices anywhere in the world; axes are World's.
+/// Ownership  plain values; a list may outlive the scene state it was made from. It refers to meshes by id.
+/// Threads  one stage at a time owns it; but Draw may begin while Cull fills the items (list_filling.h).
+
+#include "engine/asset/mesh_store.h"
+#include "engine/maths/maths.h"
+#include "engine/scene/records.h"
+#include "engine/scene/shadow_places.h"
+#include "pipeline/frame/frame_ticket.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace stadion {
+
+class ListFilling;
+
+/// One mesh to draw.
+struct DrawItem {
+  std::array<float, 12> model;  ///< (3 x 4), row major: mesh coordinates to World axes relative to origin
+  MeshId mesh = kNoMesh;
+  NodeRef owner;                   ///< who it is, for profiling
+  float distance = 0;              ///< of its centre from the viewer [m]
+  float pixels = 0;                ///< that its bounding sphere may cover in one eye's picture, for profiling
+  std::uint32_t level = 0;         ///< 0 = all of the mesh; else Mesh::levels[level - 1]
+  std::uint32_t eyes = kBothEyes;  ///< that may see it: bit 0 the left or only eye, bit 1 the right one
+
+  static constexpr std::uint32_t kLeftEye = 1, kRightEye = 2, kBothEyes = 3;
+};
+
+struct DrawLight {
+  enum class Kind : std::uint32_t { Directional, Point, Spot };
+  Kind kind = Kind::Directional;
+  std::array<float, 3> position{0, 0, 0};    ///< relative to origin [m]
+  std::array<float, 3> direction{0, 0, -1};  ///< the way the light goes, unit
+  std::array<float, 3> colour{1, 1, 1};      ///< linear, intensity included
+  float range = 0;                           ///< where it has faded out [m]; 0 = it does not fade
+  float cosInner = 1, cosOuter = 0;          ///< of the spot's half angles
+  bool shadows = false;                      ///< directional: things stand in its way
+};
+
+struct DrawSky {
+  std::array<float, 3> zenith{0.18f, 0.36f, 0.72f};   ///< linear
+  std::array<float, 3> horizon{0.66f, 0.76f, 0.85f};  ///< linear
+  std::array<float, 3> ground{0.28f, 0.26f, 0.22f};   ///< linear, below the horizon
+  std::array<float, 3> ambient{0.25f, 0.27f, 0.30f};  ///< linear, light from everywhere
+  float hazeDistance = 0;                             ///< where 63 % is haze [m]; 0 = none
+};
+
+constexpr std::uint32_t kShadowTexels = 1024;  ///< a side of a ring of the shadow maps
+constexpr double kShadowDepth = 600;           ///< of a ring, along the light, from its middle either way [m]
+
+/// A square across the light, and what casts shadows into it. Matrices are relative to the ring's middle.
+struct DrawShadowRing {
+  std::array<float, 3> offset{};  ///< of the list's origin from the ring's middle, along the axes [m]
+  std::shared_ptr<const std::vector<DrawItem>> still;  ///< the same for all walls; null = nothing
+  std::vector<DrawItem> moving;
+  std::uint64_t stillKey = 0, movingKey = 0;  ///< follow from what casts and from where the ring is
+  std::array<float, 4> movingArea{1, 1, -1,
+                                  -1};  ///< what moves covers: from x, y to x, y; the ring is -1 .. 1
+};
+
+/// The light whose shadows are drawn, and the rings from the nearest, finest one outwards.
+struct DrawShadows {
+  std::int32_t light = -1;      ///< its index in the list; -1 = there are no shadows
+  std::array<float, 9> axes{};  ///< (3 x 3), rows: right, up, towards the light; in World
+  std::array<DrawShadowRing, kShadowRings> rings;
+};
+
+/// One eye's camera.
+struct DrawEye {
+  Mat4 view = Mat4::Identity();        ///< World axes relative to origin, to eye coordinates (looks along -z)
+  Mat4 projection = Mat4::Identity();  ///< eye to clip; z in [0, w], w at the near plane, 0 at the far one
+};
+
+struct DrawList {
+  FrameTicket ticket;
+  std::uint32_t wall = 0;
+  ListFilling* filling = nullptr;  ///< how far that has come; null = all is there
+  Vec3 origin = Vec3::Zero();      ///< in World [m]
+  std::array<DrawEye, 2> eyes;     ///< left, right
+  std::uint32_t eyeCount = 2;      ///< 1 = mono: eyes[0] only
+  ViewerRecord viewer;             ///< whose eyes they are
+  DrawSky sky;
+  std::vector<DrawLight> lights;  ///< at most kMaxLights
+  DrawShadows shadows;
+  /// Sorted by mesh and level, then those that only the left eye sees, both eyes, only the right one; then
+  /// near to far.
+  std::vector<DrawItem> opaque;
+  /// Items with any transparent material, in an order that does not depend on the viewer. Where surfaces lie
+  /// at the same depth, the later one is in front.
+  std::vector<DrawItem> transparent;
+
+  static constexpr std::size_t kMaxLights = 16;
+  static constexpr std::size_t kPortion = 1024;  ///< Draw takes opaque items up by so many
+};
+
+}  // namespace stadion

@@ -1,0 +1,76 @@
+#pragma once
+/// Turns a draw list into what one instanced draw call each can draw.
+///
+/// Ownership  keeps its memory from frame to frame, so that a steady show allocates nothing.
+/// Threads    plain data, no GL.
+
+#include "pipeline/draw_list/draw_list.h"
+
+#include <span>
+#include <vector>
+
+namespace stadion {
+
+/// Instances of one mesh and level, next to each other in the instance array: those that only the left eye
+/// sees come first, those that only the right one sees last.
+struct InstanceBatch {
+  MeshId mesh = kNoMesh;
+  std::uint32_t level = 0;
+  std::uint32_t first = 0, count = 0;
+  bool mirrored = false;  ///< the model matrices turn left into right: front faces run clockwise
+  std::uint32_t leftOnly = 0, rightOnly = 0;
+
+  /// What eye 0, left or mono, or 1, right, draws of it.
+  InstanceBatch seenBy(std::uint32_t eye) const {
+    InstanceBatch seen = *this;
+    if (eye == 1) seen.first += leftOnly;
+    seen.count -= eye == 1 ? leftOnly : rightOnly;
+    return seen;
+  }
+};
+
+using InstanceMatrix = std::array<float, 12>;  ///< (3 x 4), row major, as in DrawItem
+
+class InstanceBatches {
+public:
+  /// Begins anew, with nothing.
+  void begin(bool withOwners = false);
+  /// Takes up opaque items of a list: those before `end`, by DrawList::kPortion (but for the last ones, if
+  /// `end` is the list's), that have not been. Expects those of one mesh and level next to each other, those
+  /// for one eye as in a batch. Items whose matrix is not finite are left out and counted.
+  void addOpaque(std::span<const DrawItem> list, std::size_t end);
+  /// Takes up the transparent items, after all opaque ones.
+  void addTransparent(std::span<const DrawItem> items);
+  void build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent) {
+    begin();
+    addOpaque(opaque, opaque.size()), addTransparent(transparent);
+  }
+  /// So many opaque items were taken up.
+  std::size_t taken() const { return taken_; }
+
+  std::span<const InstanceMatrix> matrices() const { return matrices_; }
+  /// From the viewer [m].
+  std::span<const float> distances() const { return distances_; }
+  /// Whose they are, and how many pixels each may cover; empty unless they were asked for.
+  std::span<const NodeRef> owners() const { return owners_; }
+  std::span<const float> pixels() const { return pixels_; }
+  std::span<const InstanceBatch> opaque() const { return opaque_; }
+  /// In the list's order; neighbours of the same mesh share a batch.
+  std::span<const InstanceBatch> transparent() const { return transparent_; }
+  std::size_t refused() const { return refused_; }
+
+private:
+  void addPortion(std::span<const DrawItem> items);
+  void addRun(std::span<const DrawItem> run, bool mirrored);
+  void add(const DrawItem& item);
+
+  bool withOwners_ = false;
+  std::vector<InstanceMatrix> matrices_;
+  std::vector<float> distances_;
+  std::vector<NodeRef> owners_;
+  std::vector<float> pixels_;
+  std::vector<InstanceBatch> opaque_, transparent_;
+  std::size_t taken_ = 0, refused_ = 0;
+};
+
+}  // namespace stadion

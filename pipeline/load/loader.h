@@ -1,0 +1,142 @@
+#pragma once
+/// Prepares scene files beside the running show, on a thread of its own: reads, checks, imports meshes,
+/// builds nodes, writes the static chunk. App only installs the result.
+///
+/// Threads   one worker; request, take, dispose and shown are App's.
+/// Errors    what is wrong with a file goes to the report function (on the worker's thread, or App's when the
+/// show
+///           is opened); the show goes on. What the worker throws, take() throws again, with the file's name.
+///
+/// A load takes effect when it is due, and take() waits for it, unless the show is live: then one that is not
+/// ready takes effect in the first frame in which it is, and that decision is told, so that it can be
+/// recorded. A replay is given those decisions and obeys them.
+
+#include "engine/asset/import.h"
+#include "engine/build/builder.h"
+#include "engine/scene/load.h"
+#include "engine/script/script_texts.h"
+#include "pipeline/load/imported_meshes.h"
+#include "pipeline/state/chunk_arena.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+namespace stadion {
+
+struct LoaderParts {
+  MeshStore& meshes;
+  ChunkArena& arena;
+  Importer& importer;
+  const AssetRoots& roots;
+  const NodeFactories& factories;
+  std::function<void(const Diagnostics&)> report;
+  const std::atomic<bool>* stop = nullptr;  ///< once true, nobody waits for a load any more
+  Nanoseconds step = 0;                 ///< of a frame, to warn of latencies that are shorter [ns]; 0: do not
+  std::vector<std::string> trackers{};  ///< devices of the input log, to warn of other names
+  std::string log{};                    ///< the input log; empty: nobody knows which devices there will be
+  ImportedMeshes* kept = nullptr;       ///< models that need not be imported again; null: none
+  /// The scripts as they are to be played; null: as their files are when they are loaded.
+  std::shared_ptr<const ScriptTexts> texts{};
+};
+
+class Loader final : public SceneLoader {
+public:
+  explicit Loader(LoaderParts parts);
+  ~Loader() override;
+
+  /// Told of each load that came late: its number, and the show time at which it takes effect.
+  using LateLoad = std::function<void(std::uint32_t, Nanoseconds)>;
+  void tellLateLoads(LateLoad told) { late_ = std::move(told); }
+  /// Told, by App, that it begins to wait for files (true), and that it has them (false).
+  void tellWaiting(std::function<void(bool)> told) { waitsTold_ = std::move(told); }
+  /// The show is live: late loads do not hold it up. Before the first frame.
+  void playLive() { live_ = true; }
+  /// The loads that are due and have not taken effect yet.
+  std::vector<std::uint32_t> overdue() const;
+  /// The show is replayed: these loads came late. Before the first frame.
+  void obey(std::map<std::uint32_t, Nanoseconds> late) { decided_ = std::move(late); }
+
+  void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) override;
+  bool takesEffect(std::uint32_t number, Nanoseconds now) override;
+  std::unique_ptr<Load> take(std::uint32_t number) override;
+  void dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) override;
+  void report(const Diagnostic& finding) override;
+
+  /// All walls have shown `frame`: what was disposed of up to it may go.
+  void shown(std::uint64_t frame);
+
+private:
+  struct Prepared {
+    std::unique_ptr<Load> load;
+    std::exception_ptr thrown;
+  };
+  struct Job {
+    std::uint32_t number;
+    std::string file;
+    NodeRef owner;
+    Affine X_WO;
+    std::map<std::uint32_t, Prepared>::node_type
+        place;  ///< among done_: taken beforehand, while App can be told
+  };
+  struct Garbage {
+    std::unique_ptr<Load> load;
+    std::uint64_t lastFrame;
+  };
+  /// What a file's sub-scenes need to know of it to resolve names outwards. Kept only of files that have
+  /// sub-scenes.
+  struct Around {
+    std::uint32_t outer = 0;  ///< the load around it
+    std::unique_ptr<const Document> document;
+  };
+
+  /// The models of one load, each imported and counted once.
+  struct Imports {
+    using Key = std::tuple<std::string, double, int, double>;  ///< file, unit, up axis, levels
+    std::map<Key, MeshId> known;
+    std::vector<MeshId> counted;
+
+    MeshId of(const Declaration& d, Loader& loader, Diagnostics& findings);
+  };
+
+  void work();
+  Prepared prepareSafely(const Job& job);
+  bool stopped() const { return parts_.stop && *parts_.stop; }
+  Result<SourceText> read(const Job& job);
+  Diagnostic askedForBy(const Job& job, Diagnostic d) const;
+  std::unique_ptr<Load> prepare(const Job& job);
+  std::unique_ptr<Load> build(const Job& job, std::unique_ptr<Document> document, Diagnostics& findings);
+  std::optional<ImportedMeshes::Key> keyOf(const std::string& file, const ImportOptions& options,
+                                           std::uint32_t levels) const;
+  MeshId importMesh(const Declaration& d, Diagnostics& findings);
+  Nanoseconds soundLength(const Declaration& d, Diagnostics& findings);
+  void destroy(std::unique_ptr<Load> load);
+  std::vector<std::uint32_t> around(std::uint32_t outer) const;
+
+  LoaderParts parts_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> jobs_;
+  std::map<std::uint32_t, Prepared> done_;
+  std::exception_ptr thrown_;                  ///< outside of a preparation
+  std::deque<Garbage> waiting_;                ///< for their last frame to be shown
+  std::deque<std::unique_ptr<Load>> garbage_;  ///< may go
+  bool ending_ = false;
+  std::map<std::uint32_t, Around> around_;  ///< the worker's own
+  bool live_ = false;                       ///< this and the next four are App's
+  LateLoad late_;
+  std::function<void(bool)> waitsTold_;
+  std::map<std::uint32_t, Nanoseconds> decided_;
+  std::map<std::uint32_t, Nanoseconds> awaited_;  ///< due, and passed over, last at this show time
+  std::thread worker_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,497 @@
+#include "pipeline/loop/frame_loop.h"
+
+#include "engine/base/run_stopped.h"
+#include "pipeline/loop/list_queue.h"
+#include "pipeline/loop/swap_barrier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <new>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace stadion {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kAllWalls = ~std::size_t{0};
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Times one stage of one frame, and tells the probe if there is one.
+class StageSpan {
+public:
+  StageSpan(DurationSeries& series, FrameProbe* probe, Span stage, std::uint64_t frame,
+            std::uint32_t wall = kNoWall)
+      : series_(series), scope_(std::in_place, probe, stage, frame, wall) {}
+  ~StageSpan() {
+    scope_.reset();
+    if (!counts_) return;
+    try {
+      series_.add(millisecondsSince(start_));
+    } catch (const std::bad_alloc&) {
+      // One duration less; what else needs memory will say so.
+    }
+  }
+  /// It was not finished: how long it took says nothing.
+  void leaveOut() { counts_ = false; }
+  StageSpan(const StageSpan&) = delete;
+  StageSpan& operator=(const StageSpan&) = delete;
+
+private:
+  DurationSeries& series_;
+  std::optional<SpanScope> scope_;
+  bool counts_ = true;
+  Clock::time_point start_ = Clock::now();
+};
+
+std::uint32_t numberOf(std::size_t wall) {
+  return static_cast<std::uint32_t>(wall);
+}
+
+}  // namespace
+
+/// What each kind of thread does in a pipelined run.
+struct FrameLoop::StageThreads {
+  std::function<void()> app;
+  std::function<void(std::size_t wall)> cull, draw;
+  std::function<void()> stopAll;  ///< nobody waits for anybody any more
+};
+
+FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std::atomic<bool>& stopRequested,
+                     FrameProbe* probe)
+    : stages_(stages), options_(options), stopRequested_(stopRequested), probe_(probe),
+      pacer_(options.pace, options.rate, options.everyTick), times_(options.walls),
+      clock_(options.rate, options.frameTimes), warmUps_(options.walls) {
+  pacer_.startLate(std::chrono::nanoseconds(options.late));
+  if (!options.after) return;
+  clock_ = FrameClock(options.rate, *options.after, options.frameTimes);
+  lastSignature_ = *options.after, lastSignature_.load = {};
+  nextIndex_ = options.after->frame + 1;
+  begun_ = true;  // it may stand still at that frame
+}
+
+FrameLoopOutcome FrameLoop::run() {
+  // Whoever waits for the outcome may stand at the bottom of a thread.
+  guard("the frame loop", kAllWalls, kNoFrame, [&]() -> Failure {
+    options_.mode == Mode::Sequential ? runSequential() : runPipelined();
+    return {};
+  });
+  outcome_.missedTicks = pacer_.missed();
+  outcome_.stopped = stopped_;
+  return std::move(outcome_);  // to copy it may take memory
+}
+
+template <class Wait>
+auto FrameLoop::waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait) {
+  const SpanScope span(probe_, what, frame, numberOf(wall));
+  return wait();
+}
+
+// One frame after the other, one stage after the other.
+void FrameLoop::runSequential() {
+  std::vector<DrawList> lists(options_.walls);
+  bool well = true, warm = false;
+  for (std::size_t wall = 0; well && wall < options_.walls; ++wall) well = openStage(wall);
+
+  while (well) {
+    std::optional<Turn> turn;
+    well = guard("App", kAllWalls, nextIndex_, [&]() -> Failure { return turn = nextTurn(), Failure(); });
+    if (!turn) break;
+    auto ticket = appStage(*turn, 0);
+    well = ticket.has_value();
+    for (std::size_t wall = 0; well && wall < options_.walls; ++wall)
+      well = cullStage(wall, 0, *ticket, lists[wall]);
+    if (well && ticket->drawn && !std::exchange(warm, true)) {
+      const Clock::time_point began = Clock::now();
+      for (std::size_t wall = 0; well && wall < options_.walls; ++wall) well = warmUpStage(wall, lists[wall]);
+      const auto took = Clock::now() - began;
+      for (DrawList& list : lists) list.ticket.delay(took);
+      ticket->delay(took);
+      warmedUp(took);
+    }
+    for (std::size_t wall = 0; well && wall < options_.walls; ++wall) well = drawStage(wall, lists[wall]);
+    well = well && swapStage(*ticket);
+  }
+
+  for (std::size_t wall = 0; wall < options_.walls; ++wall) closeStage(wall);
+}
+
+// The same stages, overlapped: App fills slots, Cull turns slots into lists, Draw draws lists, all walls swap
+// together.
+void FrameLoop::runPipelined() {
+  // What all machines show together none of them may leave out.
+  FrameSlots slots(options_.walls, options_.orders ? Delivery::Every : options_.delivery);
+  std::deque<ListQueue> queues;
+  while (queues.size() < options_.walls) queues.emplace_back(options_.drawBeginsEarly);
+  SwapBarrier barrier(options_.walls);
+  // All walls and App: before all are ready none draws, since they may share a rasteriser, and show time
+  // stands still.
+  SwapBarrier opened(options_.walls + 1), warm(options_.walls + 1);
+  std::once_flag warming;
+  Clock::time_point warmUpBegan{}, warmUpEnded{};  // settled before `warm` lets anything go on
+
+  StageThreads threads;
+  threads.app = [&] {
+    bool isWarm = options_.walls == 0;
+    if (!isWarm && !opened.arrive([] {})) return;
+    while (const auto turn = nextTurn()) {
+      slots.limitUnderWay(framesUnderWay(), lastWalls());
+      const auto slot = waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return slots.beginWrite(); });
+      if (!slot) return;
+      const auto ticket = appStage(*turn, *slot);
+      if (!ticket) break;
+      slots.endWrite(*slot, *ticket);
+      if (!ticket->drawn || std::exchange(isWarm, true)) continue;
+      const Clock::time_point began = Clock::now();
+      const auto end = [&] { warmUpEnded = Clock::now(); };
+      if (!waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return warm.arrive(end); })) break;
+      warmedUp(Clock::now() - began);
+    }
+    slots.finish();
+  };
+  threads.cull = [&](std::size_t wall) {
+    while (const auto lease = waited(Span::ForFrame, kNoFrame, wall, [&] { return slots.lease(wall); })) {
+      const std::uint64_t frame = lease->ticket.signature.frame;
+      DrawList* list = waited(Span::ForList, frame, wall, [&] { return queues[wall].takeEmpty(); });
+      if (!list || !cullStage(wall, lease->slot, lease->ticket, *list)) return;
+      list->filling->finish(!slots.release(*lease));
+    }
+    queues[wall].finish();
+  };
+  threads.draw = [&](std::size_t wall) {
+    if (!openStage(wall)) {
+      broken_ = true;  // given up, if it has not failed: App and the other walls would wait for this one
+      return;
+    }
+    if (!opened.arrive([] {})) return;
+    const auto next = [&] { return queues[wall].takeHanded(); };
+    bool isWarm = false;
+    while (DrawList* list = waited(Span::ForDraw, kNoFrame, wall, next)) {
+      if (list->ticket.drawn && !std::exchange(isWarm, true)) {
+        std::call_once(warming, [&] { warmUpBegan = Clock::now(); });
+        if (list->filling->isWhole() && !warmUpStage(wall, *list)) return;
+        const auto end = [&] { warmUpEnded = Clock::now(); };
+        if (!waited(Span::ForWalls, kNoFrame, wall, [&] { return warm.arrive(end); })) return;
+        list->ticket.delay(warmUpEnded - warmUpBegan);  // on all walls the same: it is one frame
+      }
+      if (!list->filling->isVoid() && !drawStage(wall, *list)) return;
+      if (list->filling->isCutShort()) return;
+      slots.drawn();
+      const FrameTicket ticket = list->ticket;
+      bool shown = true;
+      const auto show = [&] {
+        shown = swapStage(ticket);
+        slots.shown();
+      };
+      const auto arrive = [&] { return barrier.arrive(show); };
+      if (!waited(Span::ForWalls, ticket.signature.frame, wall, arrive) || !shown) return;
+      queues[wall].giveEmpty(list);
+    }
+  };
+  threads.stopAll = [&] {
+    slots.stop();
+    for (ListQueue& q : queues) q.stop();
+    barrier.stop(), opened.stop(), warm.stop();
+  };
+  runThreads(threads);
+}
+
+// Whatever happens in one of the threads, the others must not wait for it.
+void FrameLoop::runThreads(const StageThreads& work) {
+  std::vector<std::thread> threads;
+  const auto start = [&](const char* what, std::size_t wall, std::function<void()> stage) {
+    threads.emplace_back([this, &work, what, wall, stage = std::move(stage)] {
+      guard(what, wall, kNoFrame, [&]() -> Failure { return stage(), Failure(); });
+      if (broken_) work.stopAll();
+    });
+  };
+  threads.reserve(1 + 2 * options_.walls);
+  guard("starting the threads", kAllWalls, kNoFrame, [&]() -> Failure {
+    for (std::size_t wall = 0; wall < options_.walls; ++wall) {
+      start("Cull", wall, [&work, wall] { work.cull(wall); });
+      start("Draw", wall, [this, &work, wall] { drawAndClose(work, wall); });
+    }
+    start("App", kAllWalls, work.app);
+    return Failure();
+  });
+  if (broken_) work.stopAll();
+  for (std::thread& t : threads) t.join();
+}
+
+void FrameLoop::drawAndClose(const StageThreads& work, std::size_t wall) {
+  guard("Draw", wall, kNoFrame, [&]() -> Failure { return work.draw(wall), Failure(); });
+  if (broken_) work.stopAll();
+  closeStage(wall);
+}
+
+std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
+  if (nextIndex_ == 0 && stopRequested_) stopped_ = ended_ = true;
+  if (ended_ || broken_) return std::nullopt;
+  if (options_.orders && !options_.orders->leads()) return orderedTurn();
+  const std::uint64_t ticks = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return pacer_.wait(); });
+  if (!takeCommands()) return std::nullopt;
+  const double speed = options_.playback && begun_ ? options_.playback->takeFrame(lastSignature_.time) : 1;
+  // A show that goes on after its last frame is over once this has been shown.
+  if (speed == 0 || isPastEnd()) return told({lastSignature_, {}, standstill()});
+  // A single frame is one tick, however long the last one took.
+  const bool single = options_.playback && options_.playback->paused();
+  TimeSignature now = signatureAfter(single ? 1 : ticks, speed);
+  if (options_.end > 0 && now.time > options_.end) return std::nullopt;
+  now.load = loadOf(now.frame);
+  ++nextIndex_;
+  begun_ = true;
+  lastSignature_ = now;
+  return told({now});
+}
+
+Standstill FrameLoop::standstill() const {
+  const bool waits = options_.desk && options_.desk->state().waiting;
+  return waits ? Standstill::Waiting : Standstill::Paused;
+}
+
+// What is to be shown, and whether it is the last; where this machine leads, all others hear of it.
+FrameLoop::Turn FrameLoop::told(Turn turn) {
+  if (options_.desk) turn.shown = options_.desk->state().shown;
+  if (!options_.orders) return turn;
+  turn.last = noneFollows();
+  options_.orders->issue(turn);
+  return turn;
+}
+
+// Another machine has decided.
+std::optional<FrameLoop::Turn> FrameLoop::orderedTurn() {
+  auto turn = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return options_.orders->next(); });
+  if (!turn) {
+    if (stopRequested_) stopped_ = true;
+    return std::nullopt;
+  }
+  nextIndex_ = turn->signature.frame + 1;
+  return turn;
+}
+
+// What a log has decided, and in a live run somebody who looks at the clock.
+FrameLoad FrameLoop::loadOf(std::uint64_t frame) {
+  FrameLoad load = options_.decider ? options_.decider->decide(frame) : FrameLoad{};
+  const auto [first, last] = options_.relief.equal_range(frame);
+  for (auto at = first; at != last; ++at) load.add(at->second);
+  return load;
+}
+
+// What the operator asked for takes effect now, in the whole of the coming frame. False: none is to come.
+bool FrameLoop::takeCommands() {
+  if (!options_.desk) return true;
+  options_.desk->beginFrame(nextIndex_);
+  const OperatorState& state = options_.desk->state();
+  outcome_.nextGroup = state.nextGroup;
+  ending_ = ending_ || state.end;
+  return !state.nextGroup;
+}
+
+std::size_t FrameLoop::framesUnderWay() const {
+  const bool commanded = options_.desk && options_.desk->state().latency > 0;
+  return commanded ? static_cast<std::size_t>(options_.desk->state().latency) : options_.latency;
+}
+
+// With so few walls left at a frame, processors are idle. Where there are many of them, half of the walls is
+// enough: what begins early is old when it is shown.
+std::size_t FrameLoop::lastWalls() const {
+  const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
+  return std::min(options_.walls / 2, processors - 1);
+}
+
+// Where every frame counts, time goes by frames; where the newest counts, by the clock's ticks.
+TimeSignature FrameLoop::signatureAfter(std::uint64_t ticks, double speed) {
+  const std::uint64_t counted = options_.delivery == Delivery::Latest ? ticks : 1;
+  if (speed == 1) return clock_.next(counted);
+  return clock_.nextAfter(fromSeconds(speed * static_cast<double>(counted) / options_.rate));
+}
+
+// Asked once a frame, on the App thread, after App: so that the last frame is known before it is drawn.
+bool FrameLoop::noneFollows() {
+  if (stopRequested_) stopped_ = true;
+  return stopped_ || ending_ || isPastEnd();
+}
+
+/// Whether the show is no longer than what has been played.
+bool FrameLoop::isPastEnd() const {
+  return (options_.frames != 0 && nextIndex_ >= options_.frames) ||
+         (options_.end > 0 && clock_.timeOfNext() > options_.end);
+}
+
+/// Runs a piece of work; false, with the reason kept, if it did not succeed or threw something.
+template <class Work>
+bool FrameLoop::guard(const char* what, std::size_t wall, std::uint64_t frame, const Work& work) {
+  try {
+    Failure f = work();
+    return !f || fail(std::move(*f));
+  } catch (const RunStopped&) {
+    stopped_ = true;
+    return false;
+  } catch (const std::bad_alloc&) {
+    return fail(what, wall, frame, "out of memory");
+  } catch (const std::exception& e) {
+    return fail(what, wall, frame, e.what());
+  } catch (...) {
+    return fail(what, wall, frame, "an unknown exception");
+  }
+}
+
+bool FrameLoop::fail(const char* what, std::size_t wall, std::uint64_t frame, const char* why) noexcept {
+  try {
+    std::string text = what;
+    if (wall != kAllWalls) text += " of wall " + std::to_string(wall + 1);
+    if (frame != kNoFrame) text += ", frame " + std::to_string(frame);
+    return fail(Reason(text + ": " + why));
+  } catch (...) {
+    return fail(Reason("out of memory"));  // not even enough for a sentence
+  }
+}
+
+/// Whether a frame that nobody would see in time is not drawn; of those that follow each other one a second
+/// is.
+bool FrameLoop::passesOver(const FrameTicket& ticket) {
+  const bool late = (options_.everyTick || pacer_.catchesUp()) && options_.mode == Mode::Sequential &&
+                    !options_.orders && !ticket.last && pacer_.behind();
+  passedOver_ = late && static_cast<double>(passedOver_) < options_.rate ? passedOver_ + 1 : 0;
+  return passedOver_ > 0;
+}
+
+std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slot) {
+  const TimeSignature& now = turn.signature;
+  FrameTicket ticket{now, Clock::now()};
+  ticket.shown = turn.shown;
+  if (turn.still != Standstill::None) {
+    if (!guard("App", kAllWalls, now.frame, [&]() -> Failure { return stages_.still(now, slot), Failure(); }))
+      return std::nullopt;
+    ticket.last = ended_ = options_.orders ? turn.last : noneFollows();
+    ticket.drawn = turn.drawn;
+    ticket.posed = stages_.headMeasured().value_or(ticket.began);
+    return ticket;
+  }
+  {
+    const StageSpan span(times_.app, probe_, Span::App, now.frame);
+    if (!guard("App", kAllWalls, now.frame, [&]() -> Failure { return stages_.app(now, slot), Failure(); }))
+      return std::nullopt;
+  }
+  ++outcome_.framesSimulated;
+  ticket.posed = stages_.headMeasured().value_or(ticket.began);
+  ticket.last = ended_ = options_.orders ? turn.last : noneFollows();
+  ticket.drawn = turn.drawn && stages_.wantsDrawn(ticket) && !passesOver(ticket);
+  return ticket;
+}
+
+bool FrameLoop::cullStage(std::size_t wall, std::size_t slot, const FrameTicket& ticket, DrawList& list) {
+  const std::uint64_t frame = ticket.signature.frame;
+  bool well = true;
+  list.ticket = ticket;
+  if (ticket.drawn) {
+    const StageSpan span(times_.cull[wall], probe_, Span::Cull, frame, numberOf(wall));
+    well = guard("Cull", wall, frame, [&]() -> Failure { return stages_.cull(wall, slot, list), Failure(); });
+  }
+  return well;
+}
+
+bool FrameLoop::openStage(std::size_t wall) {
+  const Clock::time_point began = Clock::now();
+  const bool well = guard("opening", wall, kNoFrame, [&] { return stages_.openWall(wall); });
+  warmUps_[wall] += millisecondsSince(began);
+  return well;
+}
+
+// Before a wall draws for the first time, so that its first frame takes no longer than others.
+bool FrameLoop::warmUpStage(std::size_t wall, const DrawList& list) {
+  const Clock::time_point began = Clock::now();
+  const std::uint64_t frame = list.ticket.signature.frame;
+  const bool well = guard("warming up", wall, frame, [&] { return stages_.warmUp(wall, list); });
+  warmUps_[wall] += millisecondsSince(began);
+  if (!well) broken_ = true;
+  return well;
+}
+
+/// Show time stood still meanwhile; but a show that goes on after a crash has to catch up with that, too.
+void FrameLoop::warmedUp(Clock::duration took) {
+  if (!options_.after) pacer_.hold(took);
+  // One wall after the other, or all at once.
+  for (const double ms : warmUps_)
+    times_.warmUp = options_.mode == Mode::Sequential ? times_.warmUp + ms : std::max(times_.warmUp, ms);
+}
+
+void FrameLoop::closeStage(std::size_t wall) {
+  guard("closing", wall, kNoFrame, [&]() -> Failure { return stages_.closeWall(wall), Failure(); });
+}
+
+bool FrameLoop::drawStage(std::size_t wall, DrawList& list) {
+  if (!list.ticket.drawn) return true;
+  const std::uint64_t frame = list.ticket.signature.frame;
+  StageSpan span(times_.draw[wall], probe_, Span::Draw, frame, numberOf(wall));
+  const auto draw = [&] {
+    stages_.latch(wall, list);
+    return stages_.draw(wall, list);
+  };
+  if (guard("Draw", wall, frame, draw)) return true;
+  span.leaveOut();
+  broken_ = true;  // given up, if it has not failed: the other walls would wait for this one
+  return false;
+}
+
+bool FrameLoop::swapStage(const FrameTicket& ticket) {
+  const TimeSignature& now = ticket.signature;
+  if (options_.orders && !options_.orders->mayShow(now)) {
+    if (stopRequested_) stopped_ = true;
+    broken_ = true;  // nobody waits for this frame any longer
+    return false;
+  }
+  {
+    const StageSpan span(times_.swap, probe_, Span::Swap, now.frame);
+    if (!guard("Swap", kAllWalls, now.frame, [&] { return stages_.swap(now); })) return false;
+  }
+  ++outcome_.framesShown;
+  notePassedOver(ticket);
+  if (ticket.drawn) noteShown(ticket);
+  lastDrawn_ = ticket.drawn;
+  return true;
+}
+
+void FrameLoop::noteShown(const FrameTicket& ticket) {
+  const Clock::time_point shown = Clock::now();
+  const auto since = [&](Clock::time_point then) {
+    return std::chrono::duration<double, std::milli>(shown - then).count();
+  };
+  ++outcome_.framesDrawn;
+  if (lastDrawn_) times_.period.add(since(lastSwap_));
+  lastSwap_ = shown;
+  for (std::size_t wall = 0; wall < times_.latency.size(); ++wall)
+    times_.latency[wall].add(since(stages_.posed(wall).value_or(ticket.posed)));
+}
+
+/// The first frame takes as long as a driver needs to be ready, and what was begun meanwhile waits for it.
+void FrameLoop::notePassedOver(const FrameTicket& ticket) {
+  if (outcome_.framesShown == 1) ready_ = Clock::now();
+  if (ticket.began < ready_) return;
+  const TimeSignature& now = ticket.signature;
+  if (lastShown_) {
+    const auto ticks = std::llround(toSeconds(now.time - *lastShown_) * options_.rate);
+    const auto passed = static_cast<std::uint64_t>(std::max(ticks, 1LL) - 1);
+    outcome_.ticksPassedOver += passed;
+    outcome_.mostPassedOver = std::max(outcome_.mostPassedOver, passed);
+  }
+  lastShown_ = now.time;
+}
+
+bool FrameLoop::fail(Reason why) {
+  const std::lock_guard lock(failureMutex_);
+  if (!outcome_.failure) outcome_.failure = std::move(why);
+  broken_ = true;
+  return false;
+}
+
+}  // namespace stadion

@@ -1,0 +1,212 @@
+#include "pipeline/loop/show_stages.h"
+
+#include "pipeline/draw/warm_up_list.h"
+#include "pipeline/process/eyes_in_workers.h"
+#include "pipeline/wall/drawing_here.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace stadion {
+namespace {
+
+std::unique_ptr<WallDrawing> drawingOf(const ShowParts& parts) {
+  if (!parts.provider) return {};
+  std::vector<PictureSize> sizes;
+  for (const WallView& view : parts.walls) sizes.push_back({view.width, view.height});
+  std::vector<std::string> names;
+  for (const WallView& view : parts.walls) names.push_back(view.wall.name);
+  if (!parts.workers)
+    return std::make_unique<DrawingHere>(
+        DrawingHereParts{*parts.provider, parts.meshes, std::move(sizes), parts.quality, parts.contexts,
+                         parts.giveUp, parts.probe, parts.processors, std::move(names), parts.tell});
+  const WallWorkers& w = *parts.workers;
+  DrawingInWorkersParts workers{
+      parts.meshes,          std::move(sizes), std::move(names), parts.quality, w.egl,
+      w.rasteriserThreads,   w.everyFrame,     w.rate,           parts.giveUp,  w.tell,
+      worker::wallProgram(), parts.processors};
+  if (parts.quality.look != Look::Plain) return std::make_unique<DrawingInWorkers>(std::move(workers));
+  std::vector<std::uint32_t> eyes;
+  for (const WallView& view : parts.walls) eyes.push_back(view.stereo && !view.camera ? 2 : 1);
+  return std::make_unique<EyesInWorkers>(std::move(workers), eyes);
+}
+
+void tellCounts(const FrameCounters& counters, FrameProbe& probe) {
+  probe.counted(Count::Visits, counters.nodesVisited);
+  probe.counted(Count::Messages, counters.messagesDelivered);
+  probe.counted(Count::Published, counters.changesPublished);
+}
+
+}  // namespace
+
+ShowStages::ShowStages(ShowParts parts)
+    : parts_(std::move(parts)), room_(parts_.walls), drawing_(drawingOf(parts_)), drawn_(parts_.walls.size()),
+      pictures_(parts_.walls.size()) {
+  if (parts_.head.latch) latch_.emplace(parts_.input, *parts_.head.latch);
+  for (const WallView& view : parts_.walls)
+    if (!view.camera) wallPixels_.push_back({view.wall, view.width, view.height});
+  std::ranges::copy(parts_.otherWalls, std::back_inserter(wallPixels_));
+  const bool shadows = parts_.quality.look == Look::Full;
+  const bool oneSample = parts_.quality.samples == 1 && parts_.quality.leavesOutUnseen;
+  const CullParts cull{
+      room_, shadows ? &stillCasters_ : nullptr, wallPixels_, &parts_.meshes, parts_.probe, oneSample};
+  for (std::uint32_t wall = 0; wall < parts_.walls.size(); ++wall) culls_.emplace_back(cull, wall);
+}
+
+ShowStages::~ShowStages() = default;
+
+void ShowStages::app(const TimeSignature& now, std::size_t slot) {
+  InputSample& input = input_;
+  {
+    const SpanScope span(parts_.probe, Span::Input);
+    if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
+    if (parts_.head.predict) parts_.input.aimHead(aimedAt());
+    parts_.input.sampleFrame(now.time - now.step, now.time, input);
+    noteMeasured(input);
+  }
+  // What is published goes into the slot as it is found, unless somebody wants to see it as a whole.
+  const bool whole = parts_.probe && parts_.probe->wantsShares(now.frame, kNoWall);
+  changes_.sink = whole ? nullptr : &parts_.state;
+  parts_.state.begin(slot);
+  published_ = true;
+  parts_.scene.advance(now, input, changes_, parts_.probe);
+  if (parts_.probe) tellCounts(parts_.scene.counters(), *parts_.probe);
+  {
+    const SpanScope span(parts_.probe, Span::Publish);
+    parts_.state.finish(changes_);
+    parts_.meshes.collect(shownFrame_);
+  }
+  if (whole) tellPublished();
+  if (parts_.sounds) {
+    const SpanScope span(parts_.probe, Span::Sound);
+    hear(input, false);
+  }
+  if (!parts_.observer) return;
+  const SpanScope span(parts_.probe, Span::Watching);
+  parts_.observer(now, input, parts_.scene);
+}
+
+/// For whom publishing was: the visitor's place goes with every frame.
+void ShowStages::tellPublished() {
+  std::vector<NodeRef> owners{NodeRef{}};
+  for (const ChangeSet::Instance& i : changes_.instances)
+    if (i.record.radius >= 0) owners.push_back(i.record.owner);
+  parts_.probe->shared(Span::Publish, changes_.signature.frame, kNoWall, owners);
+}
+
+void ShowStages::noteMeasured(const InputSample& input) {
+  const TrackerSample* head = input.find("head");
+  measured_.reset();
+  if (head && head->valid && head->measured > 0) measured_.emplace(std::chrono::nanoseconds(head->measured));
+}
+
+Nanoseconds ShowStages::aimedAt() const {
+  const auto predict = parts_.head.predict;
+  return !predict ? 0 : *predict == HeadTiming::kToSwap ? swaps_.expected() : *predict;
+}
+
+std::optional<std::chrono::steady_clock::time_point> ShowStages::posed(std::size_t wall) const {
+  return drawn_[wall].posed;
+}
+
+void ShowStages::latch(std::size_t wall, DrawList& list) {
+  if (latch_)
+    latch_->latch(parts_.walls[wall], list.ticket.began + std::chrono::nanoseconds(aimedAt()), list);
+}
+
+void ShowStages::hear(const InputSample& input, bool still) {
+  if (!parts_.sounds) return;
+  parts_.scene.listen(input, heard_);
+  parts_.sounds->hear(heard_, {parts_.desk ? parts_.desk->state().volume : 1, still});
+}
+
+// The signature, sky and viewer of the last frame stay in the change set, but that the visitor looks around.
+void ShowStages::still(const TimeSignature& now, std::size_t slot) {
+  changes_.sink = nullptr;
+  if (published_)
+    changes_.clear();
+  else
+    parts_.scene.publishAsItStands(now, changes_);
+  published_ = true;
+  if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
+  if (parts_.head.predict) parts_.input.aimHead(aimedAt());
+  InputSample input;
+  if (parts_.input.sampleNow(input)) parts_.scene.look(input, changes_);
+  noteMeasured(input);
+  hear(parts_.scene.lastInput(), true);
+  parts_.state.publish(slot, changes_);
+}
+
+void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
+  const Presentation& shown = list.ticket.shown;
+  const bool visitors = !parts_.walls[wall].camera;  // else it is somebody else's who looks on
+  const CullOptions options{.eyeSeparation = shown.eyeSeparation,
+                            .order = visitors && shown.swapEyes ? EyeOrder::Swapped : EyeOrder::LeftRight,
+                            .black = visitors && shown.black};
+  culls_[wall].fill(parts_.state.view(slot), options, list);
+}
+
+Failure ShowStages::openWall(std::size_t wall) {
+  if (!drawing_) return {};
+  if (Failure f = drawing_->open(wall)) return f;
+  if (wall == 0) glDescription_ = drawing_->glDescription(wall);
+  return {};
+}
+
+Failure ShowStages::warmUp(std::size_t wall, const DrawList& list) {
+  return drawing_ ? drawing_->warmUp(wall, warmUpList(list, parts_.meshes)) : std::nullopt;
+}
+
+bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {
+  return parts_.drawUnseen || ticket.last || (parts_.sink && parts_.sink->wants(ticket.signature));
+}
+
+Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
+  if (!drawing_) return {};
+  Drawn& drawn = drawn_[wall];
+  drawn.eyes = 0;  // until it is finished there is no picture
+  began_ = list.ticket.began;
+  const bool wanted = list.ticket.last || (parts_.sink && parts_.sink->wants(list.ticket.signature));
+  if (DrawOutcome outcome = drawing_->draw(wall, list, wanted); outcome.failure || !outcome.drawn) {
+    if (!outcome.failure)
+      drawn.late.inARow = std::max(drawn.late.inARow, ++drawn.lateNow), ++drawn.late.frames;
+    return std::move(outcome.failure);
+  }
+  drawn.lateNow = 0, drawn.posed = list.ticket.posed;
+  drawn.eyes = list.eyeCount, drawn.frame = list.ticket.signature.frame, drawn.read = false;
+  drawn.totals = drawing_->totals(wall);
+  return wanted ? readPictures(wall) : std::nullopt;
+}
+
+Failure ShowStages::readPictures(std::size_t wall) {
+  const SpanScope span(parts_.probe, Span::Read);
+  Drawn& drawn = drawn_[wall];
+  pictures_[wall].frame = drawn.frame;
+  pictures_[wall].eyes.resize(drawn.eyes);
+  for (std::uint32_t eye = 0; eye < drawn.eyes; ++eye) {
+    Picture& p = pictures_[wall].eyes[eye];
+    p = Picture(parts_.walls[wall].width, parts_.walls[wall].height);
+    if (Failure f = drawing_->read(wall, eye, p.rgba)) return f;
+  }
+  drawn.read = true;
+  return {};
+}
+
+void ShowStages::closeWall(std::size_t wall) {
+  if (!drawing_) return;
+  // After a failure, or a wait that was given up, nobody knew which frame would be the last.
+  const bool wanted = drawn_[wall].eyes > 0 && !drawn_[wall].read && !(parts_.desk && parts_.desk->leaving());
+  if (wanted) readPictures(wall);
+  drawing_->close(wall);
+}
+
+Failure ShowStages::swap(const TimeSignature& now) {
+  shownFrame_ = now.frame;
+  if (const auto began = began_.exchange({}); began.time_since_epoch().count() != 0)
+    swaps_.note(std::chrono::steady_clock::now() - began);
+  if (parts_.shown) parts_.shown();
+  if (parts_.sink && parts_.sink->wants(now)) return parts_.sink->take(now, pictures_);
+  return {};
+}
+
+}  // namespace stadion

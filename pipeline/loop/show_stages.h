@@ -1,0 +1,157 @@
+#pragma once
+/// The stages of a real show: the scene, its published state, the walls and their pictures.
+
+#include "engine/input/input_device.h"
+#include "engine/scene/scene.h"
+#include "pipeline/cull/cull.h"
+#include "pipeline/draw/renderer.h"
+#include "pipeline/loop/head_latch.h"
+#include "pipeline/loop/head_timing.h"
+#include "pipeline/loop/swap_forecast.h"
+#include "pipeline/operator/operator_desk.h"
+#include "pipeline/picture/picture.h"
+#include "pipeline/platform/processor_set.h"
+#include "pipeline/sound/sound_player.h"
+#include "pipeline/state/scene_state.h"
+#include "pipeline/target/target.h"
+#include "pipeline/wall/stages.h"
+#include "pipeline/wall/wall_contexts.h"
+#include "pipeline/wall/wall_drawing.h"
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+namespace stadion {
+
+/// One wall's pictures of one frame: left and right, or one for both.
+struct EyePictures {
+  std::uint64_t frame = 0;
+  std::vector<Picture> eyes;
+};
+
+/// Takes finished frames: files, hashes, a video, a window.
+///
+/// Threads  take() on the Draw thread that arrived last, the others waiting; it should hand on and return.
+class PictureSink {
+public:
+  virtual ~PictureSink() = default;
+  /// Whether the pictures of this frame are wanted at all: reading them back costs time. Any thread.
+  virtual bool wants(const TimeSignature& now) const = 0;
+  virtual Failure take(const TimeSignature& now, const std::vector<EyePictures>& walls) = 0;
+};
+
+/// Sees the scene after each App stage, on the App thread.
+using AppObserver = std::function<void(const TimeSignature&, const InputSample&, const Scene&)>;
+
+/// Walls that are drawn by a process each (worker/drawing_in_workers.h).
+struct WallWorkers {
+  bool egl = false;                     ///< else OSMesa
+  std::uint32_t rasteriserThreads = 0;  ///< of each process
+  bool everyFrame = true;               ///< else the newest counts, and nobody waits for a wall that is late
+  double rate = 60;                     ///< [1/s]
+  std::function<void(const std::string&)> tell{};  ///< what became of a process; on Draw threads
+};
+
+struct ShowParts {
+  Scene& scene;
+  SceneState& state;
+  MeshStore& meshes;
+  InputDevice& input;
+  std::vector<WallView> walls;
+  GlProvider* provider = nullptr;  ///< null draws nothing
+  PictureSink* sink = nullptr;
+  WallContexts* contexts = nullptr;  ///< that outlive the show; null: it makes its own
+  bool drawUnseen = true;            ///< false: only frames that the sink wants, and the last one, are drawn
+  AppObserver observer;
+  FrameProbe* probe = nullptr;
+  /// Once true, Draw gives up what it is at and the run ends. Any thread; null = never.
+  std::function<bool()> giveUp{};
+  std::function<void()> shown{};       ///< all walls have shown a frame; on the Draw thread that swaps
+  SoundPlayer* sounds = nullptr;       ///< null: nobody listens
+  const OperatorDesk* desk = nullptr;  ///< null: nobody commands
+  RenderQuality quality{};
+  std::optional<WallWorkers> workers{};  ///< nothing: this process draws
+  std::vector<WallPixels> otherWalls{};  ///< of the room, that other machines draw: levels are chosen for all
+  /// By wall: where it is drawn; none: anywhere. Expects a thread or a process for each wall.
+  std::vector<ProcessorSet> processors{};
+  HeadTiming head{};  ///< the walls' views must have its reach, too
+  /// What became of a wall that this process draws; on Draw threads.
+  std::function<void(const std::string&)> tell{};
+};
+
+/// How often a wall kept an older picture, because it was not drawn in time.
+struct WallLateness {
+  std::uint64_t frames = 0, inARow = 0;  ///< in all, and at most one after the other
+};
+
+class ShowStages final : public Stages {
+public:
+  explicit ShowStages(ShowParts parts);
+  ~ShowStages() override;
+
+  void app(const TimeSignature& now, std::size_t slot) override;
+  void still(const TimeSignature& now, std::size_t slot) override;
+  bool wantsDrawn(const FrameTicket& ticket) const override;
+  void cull(std::size_t wall, std::size_t slot, DrawList& list) override;
+  std::optional<std::chrono::steady_clock::time_point> headMeasured() const override { return measured_; }
+  std::optional<std::chrono::steady_clock::time_point> posed(std::size_t wall) const override;
+  void latch(std::size_t wall, DrawList& list) override;
+  Failure openWall(std::size_t wall) override;
+  Failure warmUp(std::size_t wall, const DrawList& list) override;
+  Failure draw(std::size_t wall, const DrawList& list) override;
+  void closeWall(std::size_t wall) override;
+  Failure swap(const TimeSignature& now) override;
+
+  /// Of the frame drawn last; their number says which that is. For when the run is over.
+  const std::vector<EyePictures>& lastPictures() const { return pictures_; }
+  /// Of wall `wall`, by eye: what it was drawn with in all. For when the run is over.
+  const std::array<DrawTotals, 2>& drawn(std::size_t wall) const { return drawn_[wall].totals; }
+  std::string glDescription() const { return glDescription_; }
+  /// For when the run is over.
+  const WallLateness& late(std::size_t wall) const { return drawn_[wall].late; }
+  /// What late latch did; null if there was none. For when the run is over.
+  const LatchCounts* latched() const { return latch_ ? &latch_->counts() : nullptr; }
+  /// What prediction is aimed at now: so long after a frame's start [ns]. Any thread.
+  Nanoseconds aimedAt() const;
+  /// The newest frame that all walls have shown. Any thread.
+  std::uint64_t shownFrame() const { return shownFrame_; }
+
+private:
+  /// What a wall has drawn last.
+  struct Drawn {
+    std::uint32_t eyes = 0;
+    std::uint64_t frame = 0;
+    bool read = false;                   ///< the pictures have been read back
+    std::array<DrawTotals, 2> totals{};  ///< by eye, of the whole show, when it has been closed
+    std::optional<std::chrono::steady_clock::time_point> posed{};  ///< the head's pose was measured then
+    WallLateness late{};
+    std::uint64_t lateNow = 0;  ///< frames in a row, up to this one
+  };
+
+  void tellPublished();
+  void hear(const InputSample& input, bool still);
+  void noteMeasured(const InputSample& input);
+  Failure readPictures(std::size_t wall);
+
+  ShowParts parts_;
+  InputSample input_;  ///< of App's frame
+  ChangeSet changes_;
+  bool published_ = false;  ///< the scene, whole
+  StillCasters stillCasters_;
+  std::vector<WallPixels> wallPixels_;  ///< of the walls that show what the visitor sees
+  RoomCull room_;
+  std::vector<WallCull> culls_;  ///< by wall, each its Cull's own
+  SoundScape heard_;
+  std::unique_ptr<WallDrawing> drawing_;  ///< null draws nothing
+  std::vector<Drawn> drawn_;              ///< by wall
+  std::vector<EyePictures> pictures_;
+  std::optional<HeadLatch> latch_;
+  SwapForecast swaps_;
+  std::optional<std::chrono::steady_clock::time_point> measured_;  ///< of App's frame
+  std::atomic<std::chrono::steady_clock::time_point> began_{};     ///< the frame that is drawn now
+  std::atomic<std::uint64_t> shownFrame_ = 0;
+  std::string glDescription_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,17 @@
+#include "pipeline/loop/swap_barrier.h"
+
+namespace stadion {
+
+bool SwapBarrier::wait(std::unique_lock<std::mutex>& lock) {
+  const std::uint64_t mine = round_;
+  changed_.wait(lock, [&] { return round_ != mine || stopped_; });
+  return round_ != mine;
+}
+
+void SwapBarrier::stop() {
+  const std::lock_guard lock(mutex_);
+  stopped_ = true;
+  changed_.notify_all();
+}
+
+}  // namespace stadion

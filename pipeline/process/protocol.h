@@ -1,0 +1,57 @@
+#pragma once
+/// What a show and the process that draws one of its walls say to each other.
+///
+/// Over a pair of sockets that keep messages apart (SOCK_SEQPACKET): each is a head, and after an answer's
+/// head a text. The first message carries the descriptors of three segments: the draw list, the meshes, the
+/// pictures. Both sides are the same build, so structs travel as they are. When the show is gone, the socket
+/// ends, and the worker with it; when the worker is gone, the show sees that too. Nobody holds a lock that
+/// the other waits for.
+
+#include "pipeline/draw/renderer.h"
+#include "pipeline/platform/processor_set.h"
+#include "pipeline/shader/look.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace stadion::worker {
+
+constexpr std::uint32_t kMagic = 0x57445453;  // "STDW"
+constexpr std::uint32_t kVersion = 3;
+constexpr std::size_t kLongestText = 4096;
+
+// Address space, not memory.
+constexpr std::size_t kListReserve = std::size_t{1} << 32, kMeshReserve = std::size_t{1} << 38,
+                      kPictureReserve = std::size_t{1} << 32;
+
+enum class Order : std::uint32_t {
+  Open,  ///< with the segments' descriptors: list, meshes, pictures
+  Draw,  ///< what lies in the list's segment; with `read`, the pictures into theirs as well
+  Read,  ///< the pictures drawn last, into the pictures' segment: left, right
+};
+
+struct OrderHead {
+  std::uint32_t magic = kMagic, version = kVersion;
+  Order order = Order::Open;
+  // Of Open.
+  std::uint32_t width = 0, height = 0;  ///< of one eye's picture [pixels]
+  std::uint32_t egl = 0;                ///< 1: through EGL, else OSMesa
+  std::uint32_t rasteriserThreads = 0;  ///< 0: it rasterises on the thread that draws
+  RenderQuality quality{};
+  ProcessorSet processors{};  ///< that it may use; empty: all
+  // Of Draw.
+  std::uint32_t read = 0;    ///< 1: one answer when the pictures are there, so that no death falls in between
+  std::uint32_t warmUp = 0;  ///< 1: what it draws is not counted
+  std::uint64_t listBytes = 0;
+};
+
+struct AnswerHead {
+  std::uint32_t magic = kMagic;
+  Order to = Order::Open;
+  std::uint32_t failed = 0;  ///< the text says why
+  std::uint32_t textBytes = 0;
+  std::array<DrawTotals, 2> totals{};  ///< of Draw, by eye: since the worker began
+};
+
+}  // namespace stadion::worker

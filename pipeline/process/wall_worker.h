@@ -1,0 +1,123 @@
+#pragma once
+/// One running process that draws a wall, and the conversation with it.
+///
+/// Ownership  owns the process and the segments it shares with it; borrows the parcels.
+/// Errors     whatever the process does (dies, hangs, sends nonsense), the calls return and say so; the next
+///            start() begins anew. No signal reaches the show.
+/// Threads    one at a time.
+
+#include "pipeline/platform/child_process.h"
+#include "pipeline/platform/processor_set.h"
+#include "pipeline/process/list_bytes.h"
+#include "pipeline/process/mesh_parcels.h"
+#include "pipeline/process/protocol.h"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace stadion::worker {
+
+struct WorkerSetting {
+  std::filesystem::path program;        ///< stadion-wall
+  bool egl = false;                     ///< else OSMesa
+  std::uint32_t width = 0, height = 0;  ///< of one eye's picture [pixels]
+  RenderQuality quality{};
+  std::uint32_t rasteriserThreads = 0;  ///< 0: it rasterises on the thread that draws
+  ProcessorSet processors{};            ///< that it may use; empty: all
+};
+
+/// What the system says of a process.
+struct ProcessStatus {
+  double processorSeconds = -1;  ///< used so far; negative: not known. It stands still while it hangs
+  char state = '?';  ///< as in /proc: R runs, or would if there was a processor; T stopped, Z dead
+  int end = 0;       ///< of a dead one, as waitpid() has it
+};
+
+/// `stadion-wall` beside the program that is running.
+std::filesystem::path wallProgram();
+
+class WallWorker {
+public:
+  WallWorker(WorkerSetting setting, const MeshStore& meshes, MeshParcels& parcels);
+  ~WallWorker() { stop(); }
+  WallWorker(const WallWorker&) = delete;
+  WallWorker& operator=(const WallWorker&) = delete;
+
+  enum class State {
+    Down,     ///< there is no process
+    Opening,  ///< it makes its context
+    Idle,
+    Busy,  ///< with a list, or with pictures
+  };
+  State state() const { return state_; }
+
+  /// Starts the process and has it open its context, without waiting. Returns why it could not, or nothing.
+  std::optional<std::string> start();
+  /// Kills it, if it runs, without waiting for its end.
+  void stop();
+
+  // For an idle one:
+  /// `read`: and then the pictures.
+  void draw(const DrawList& list, bool read);
+  /// The same, not counted.
+  void warmUp(const DrawList& list);
+  void readPictures();
+
+  /// Hears what it has to say, at most so long. True when it has become idle; read the answer then. When it
+  /// is gone, its state is Down and end() says how it ended: at once where its socket ends, else at the end
+  /// of the time. (A rasteriser's threads, of the lowest priority, may keep the socket open for seconds.)
+  bool hear(std::chrono::milliseconds atMost);
+
+  const AnswerHead& answer() const { return answer_; }
+  const std::string& text() const { return text_; }  ///< of the answer
+  const std::string& end() const { return end_; }    ///< "was killed by signal 9 (Killed)"
+  std::span<const std::byte> picture(std::uint32_t eye) const;
+  /// Whether picture() is that of the list that was drawn last, also when the process is gone.
+  bool holdsPictures() const { return holdsPictures_; }
+
+  /// When it was heard last and had nothing to say.
+  const ProcessStatus& status() const { return status_; }
+  int pid() const { return process_->pid(); }
+  int started() const { return started_; }
+
+private:
+  struct Sent {
+    MeshPlace place;
+    std::uint64_t hash = 0;
+  };
+
+  void draw(const DrawList& list, OrderHead head);
+  void order(const OrderHead& head, std::span<const int> descriptors = {});
+  ListNews newsFor(const DrawList& list);
+  void add(MeshId id, ListNews& news);
+  void forgetFreed(ListNews& news);
+  void look();
+  void isGone(const std::string& how);
+
+  WorkerSetting setting_;
+  const MeshStore& meshes_;
+  MeshParcels& parcels_;
+  std::unique_ptr<ChildProcess> process_ = std::make_unique<ChildProcess>();
+  std::vector<std::unique_ptr<ChildProcess>> dying_;  ///< killed; nobody waits until they are gone
+  Descriptor socket_;
+  SharedSegment list_, pictures_;
+  State state_ = State::Down;
+  StillKeys known_;
+  std::unordered_map<MeshId, Sent> sent_;
+  std::uint64_t freedCount_ = 0;  ///< of the store, when it was last looked at
+  ProcessStatus status_;
+  AnswerHead answer_{};
+  std::string text_, end_;
+  int started_ = 0;
+  bool reads_ = false, holdsPictures_ = false;  ///< what it is at gives pictures; they are there
+};
+
+}  // namespace stadion::worker

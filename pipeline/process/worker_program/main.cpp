@@ -1,0 +1,202 @@
+/// stadion-wall: draws one wall for a show, in a process that may die.
+///
+/// Started by stadion with a socket as its standard input; it ends when the show closes that.
+
+#include "pipeline/process/list_bytes.h"
+#include "pipeline/process/mesh_parcels.h"
+#include "pipeline/process/protocol.h"
+#include "pipeline/target/rasteriser_settings.h"
+#include "pipeline/target/target.h"
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/uio.h>
+#include <thread>
+#include <unistd.h>
+#include <unordered_map>
+
+namespace stadion::worker {
+namespace {
+
+constexpr int kSocket = STDIN_FILENO;
+
+void answer(Order to, const std::string& text, bool failed, const std::array<DrawTotals, 2>& totals = {}) {
+  AnswerHead head;
+  head.to = to, head.failed = failed, head.totals = totals;
+  head.textBytes = static_cast<std::uint32_t>(std::min(text.size(), kLongestText));
+  iovec parts[] = {{&head, sizeof head}, {const_cast<char*>(text.data()), head.textBytes}};
+  msghdr message{};
+  message.msg_iov = parts, message.msg_iovlen = 2;
+  while (::sendmsg(kSocket, &message, MSG_NOSIGNAL) < 0 && errno == EINTR) {
+  }
+}
+
+void answer(Order to, const std::optional<Diagnostic>& problem,
+            const std::array<DrawTotals, 2>& totals = {}) {
+  answer(to, problem ? problem->message : std::string(), problem.has_value(), totals);
+}
+
+/// The next order, with the descriptors that came along. False when the show is gone.
+bool hear(OrderHead& head, std::array<int, 3>& descriptors) {
+  iovec part{&head, sizeof head};
+  alignas(cmsghdr) char control[CMSG_SPACE(3 * sizeof(int))];
+  msghdr message{};
+  message.msg_iov = &part, message.msg_iovlen = 1;
+  message.msg_control = control, message.msg_controllen = sizeof control;
+  ssize_t got = 0;
+  do got = ::recvmsg(kSocket, &message, MSG_CMSG_CLOEXEC);
+  while (got < 0 && errno == EINTR);
+  if (const cmsghdr* attached = got > 0 ? CMSG_FIRSTHDR(&message) : nullptr;
+      attached && attached->cmsg_len == CMSG_LEN(sizeof descriptors))
+    std::memcpy(descriptors.data(), CMSG_DATA(attached), sizeof descriptors);
+  return got == static_cast<ssize_t>(sizeof head) && head.magic == kMagic && head.version == kVersion;
+}
+
+/// Whatever the driver is at when the show is gone, this process goes, too.
+void goWithTheShow() {
+  std::thread([] {
+    pollfd show{kSocket, POLLRDHUP, 0};
+    while (poll(&show, 1, -1) < 0 || (show.revents & (POLLRDHUP | POLLHUP | POLLERR)) == 0) {
+    }
+    constexpr std::chrono::seconds kToTidyUp{2};
+    std::this_thread::sleep_for(kToTidyUp);
+    _exit(1);
+  }).detach();
+}
+
+class Worker {
+public:
+  /// Why there is none, or nothing.
+  std::optional<std::string> open(const OrderHead& order, const std::array<int, 3>& segments);
+  void draw(const OrderHead& order);
+  void read() { answer(Order::Read, readPictures()); }
+  std::string description() const { return describeGl(target_->gl()); }
+
+private:
+  using Access = SharedSegment::Access;
+
+  std::optional<Diagnostic> readPictures();
+  void takeNews();
+  void rename(std::vector<DrawItem>& items) const;
+  void renameStill();
+
+  std::unique_ptr<SharedSegment> bytes_, parcels_, pictures_;
+  std::unique_ptr<GlProvider> provider_;
+  std::unique_ptr<Target> target_;
+  MeshStore meshes_;
+  std::unique_ptr<Renderer> renderer_;
+  std::size_t pictureBytes_ = 0;
+  DrawList list_;
+  ListNews news_;
+  /// What the show calls a mesh, and what it is called here: the same, but by a chance of one in four
+  /// billion.
+  std::unordered_map<MeshId, MeshId> ids_;
+  std::array<std::shared_ptr<const std::vector<DrawItem>>, kShadowRings> still_;  ///< renamed
+  std::uint64_t frames_ = 0;
+};
+
+std::optional<std::string> Worker::open(const OrderHead& order, const std::array<int, 3>& segments) {
+  bytes_ = std::make_unique<SharedSegment>(segments[0], kListReserve, Access::Read);
+  parcels_ = std::make_unique<SharedSegment>(segments[1], kMeshReserve, Access::Read);
+  pictures_ = std::make_unique<SharedSegment>(segments[2], kPictureReserve, Access::Write);
+  if (!order.processors.empty()) order.processors.bindThisThread();  // others will start from here
+  goWithTheShow();
+  setRasteriserThreads(order.rasteriserThreads);
+  if (const auto why = pinRasteriser()) return why->message;
+  auto provider = openGlProvider(order.egl ? GlProviderKind::Egl : GlProviderKind::OsMesa);
+  if (!provider) return provider.error().message;
+  provider_ = std::move(provider.value());
+  auto target = provider_->create(order.width, order.height);
+  if (!target) return target.error().message;
+  target_ = std::move(target.value());
+  if (const auto why = target_->makeCurrent()) return why->message;
+  auto renderer =
+      Renderer::create(target_->gl(), target_->turns(), meshes_, order.width, order.height, order.quality);
+  if (!renderer) return renderer.error().message;
+  renderer_ = std::move(renderer.value());
+  pictureBytes_ = std::size_t{order.width} * order.height * 4;
+  return {};
+}
+
+void Worker::takeNews() {
+  ++frames_;
+  for (const MeshId gone : news_.gone)
+    if (const auto at = ids_.find(gone); at != ids_.end()) {
+      meshes_.release(at->second, frames_ - 1);
+      ids_.erase(at);
+    }
+  meshes_.collect(frames_);
+  for (const MeshPlace& place : news_.meshes)
+    if (auto mesh = meshOf({parcels_->data() + place.offset, place.bytes}))
+      ids_[place.id] = meshes_.add(std::move(mesh));
+}
+
+void Worker::rename(std::vector<DrawItem>& items) const {
+  for (DrawItem& item : items)
+    if (const auto at = ids_.find(item.mesh); at != ids_.end()) item.mesh = at->second;
+}
+
+/// What stands still came with an earlier list, perhaps.
+void Worker::renameStill() {
+  for (std::size_t i = 0; i < kShadowRings; ++i) {
+    auto& still = list_.shadows.rings[i].still;
+    if (!still || still == still_[i]) continue;
+    auto renamed = std::make_shared<std::vector<DrawItem>>(*still);
+    rename(*renamed);
+    still = still_[i] = std::move(renamed);
+  }
+}
+
+void Worker::draw(const OrderHead& order) {
+  if (!worker::read({bytes_->data(), order.listBytes}, list_, news_))
+    return answer(Order::Draw, "the draw list is damaged", true);
+  takeNews();
+  rename(list_.opaque), rename(list_.transparent);
+  for (DrawShadowRing& ring : list_.shadows.rings) rename(ring.moving);
+  renameStill();
+  auto problem = renderer_->draw(list_);
+  if (order.warmUp) renderer_->forgetTotals();
+  if (!problem && order.read) problem = readPictures();
+  answer(Order::Draw, problem, renderer_->totals());
+}
+
+std::optional<Diagnostic> Worker::readPictures() {
+  for (std::uint32_t eye = 0; eye < list_.eyeCount; ++eye) {
+    auto* at = reinterpret_cast<std::uint8_t*>(pictures_->data() + eye * pictureBytes_);
+    if (auto problem = renderer_->read(eye, {at, pictureBytes_})) return problem;
+  }
+  return {};
+}
+
+int work() {
+  std::signal(SIGINT, SIG_IGN);   // Ctrl-C is for the show
+  std::signal(SIGPIPE, SIG_IGN);  // that nobody reads what OpenGL says is no end
+  Worker worker;
+  OrderHead order;
+  std::array<int, 3> segments{-1, -1, -1};
+  if (!hear(order, segments) || order.order != Order::Open || segments[0] < 0) {
+    std::fputs("stadion-wall is started by stadion; there is nothing to run by hand\n", stderr);
+    return 2;
+  }
+  const auto why = worker.open(order, segments);
+  answer(Order::Open, why ? *why : worker.description(), why.has_value());
+  while (!why && hear(order, segments)) {
+    if (order.order == Order::Draw) worker.draw(order);
+    if (order.order == Order::Read) worker.read();
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace stadion::worker
+
+int main() {
+  return stadion::worker::work();
+}

@@ -1,0 +1,647 @@
+#include "pipeline/shader/shaders.h"
+
+namespace stadion {
+namespace {
+
+constexpr const char* kVersion = "#version 330 core\n";
+constexpr const char* kStorageVersion = "#version 430 core\n";  ///< with buffers that shaders write
+
+// The same blocks as uniform_blocks.h.
+constexpr const char* kBlocks = R"(
+layout(std140) uniform View {
+  mat4 viewProjection;
+  vec4 eye;
+  vec4 rays[3];
+};
+struct Light {
+  vec4 position;   // w: 1 / range^2
+  vec4 direction;  // towards the light; w: kind
+  vec4 colour;
+  vec4 cone;
+};
+layout(std140) uniform Scene {
+  vec4 zenith;
+  vec4 horizon;
+  vec4 ground;
+  vec4 ambient;  // w: 1 / haze distance
+  vec4 sunDirection;
+  vec4 sunColour;
+  ivec4 lightCount;
+  Light lights[16];
+};
+
+// The sun's glow in the air.
+vec3 glow(vec3 d) {
+  float off = max(1.0 - dot(d, sunDirection.xyz), 0.0);  // half the square of the angle
+  float near = 1.0 / (1.0 + 900.0 * off);
+  return sunColour.rgb * (0.3 * near * near + 0.06 / (1.0 + 18.0 * off)) * sunDirection.w;
+}
+
+// Air without end, seen in direction d.
+vec3 air(vec3 d) {
+  float low = (1.0 - max(d.z, 0.0)) * (1.0 - max(d.z, 0.0));
+  return mix(zenith.rgb, horizon.rgb, low * low) + glow(d);
+}
+
+// Leaves 0 .. 0.8 alone and bends what is brighter towards 1, with a continuous slope.
+vec3 softClip(vec3 c) {
+  vec3 over = max(c - 0.8, 0.0) * 5.0;
+  return min(c, 0.8) + 0.2 * over / (1.0 + over);
+}
+
+vec4 encoded(vec3 c) {  // IEC 61966-2-1
+  vec3 bent = 1.055 * pow(max(c, 0.0031308), vec3(1.0 / 2.4)) - 0.055;
+  return vec4(mix(12.92 * max(c, 0.0), bent, greaterThan(c, vec3(0.0031308))), 1.0);
+}
+)";
+
+// Where what is transparent goes: a list of fragments for each pixel (glass_layers.h).
+constexpr const char* kKeepFragment = R"(
+#ifdef LAYERED
+layout(early_fragment_tests) in;
+layout(std430, binding = 0) buffer FragmentCount { uint fragmentCount; };
+layout(std430, binding = 1) buffer FragmentHeads { uint fragmentHead[]; };
+layout(std430, binding = 2) writeonly buffer Fragments { uvec4 fragment[]; };
+uniform ivec4 layers;  // pixels in a row, room for fragments, this call's first triangle, triangles an instance
+uniform ivec4 area;    // that is drawn: from x, y to x, y
+flat in int instance;
+
+// Derivatives are taken before anything diverges.
+vec3 depthPlane() { return vec3(gl_FragCoord.z, dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z)); }
+
+void keep(vec4 colour, vec3 plane) {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  if (!(colour.a > 0.0) || any(lessThan(at, area.xy)) || any(greaterThanEqual(at, area.zw))) return;
+  uint place = atomicAdd(fragmentCount, 1u);
+  if (place >= uint(layers.y)) return;
+  uint next = atomicExchange(fragmentHead[at.y * layers.x + at.x], place + 1u);
+  fragment[2u * place] = uvec4(next, floatBitsToUint(plane));
+  uint order = uint(layers.z) + uint(instance) * uint(layers.w) + uint(gl_PrimitiveID);
+  fragment[2u * place + 1u] =
+      uvec4(packHalf2x16(colour.rg), packHalf2x16(colour.ba), order, uint(gl_SampleMaskIn[0]));
+}
+#else
+out vec4 shown;
+#endif
+)";
+
+// For each sample: what covers it, sorted, four at a time. Depths are the greater, the nearer. Loops are few and
+// short, and no array is indexed:
+// a software rasteriser runs every line for eight pixels at once.
+constexpr const char* kBlendLayers = R"(
+#ifdef SAMPLED
+uniform sampler2DMS depths;
+#else
+uniform sampler2D depths;
+#endif
+uniform usamplerBuffer heads, nodes;
+uniform int row;
+out vec4 shown;
+
+// One of the four nearest so far, and one that may have to be sorted in before it.
+void settle(inout float nearHere, inout uvec3 here, inout float nearOther, inout uvec3 other) {
+  bool first = nearOther > nearHere || (nearOther == nearHere && other.z > here.z);
+  float n = first ? nearHere : nearOther;
+  uvec3 o = first ? here : other;
+  nearHere = first ? nearOther : nearHere;
+  here = first ? other : here;
+  nearOther = n;
+  other = o;
+}
+
+vec4 colourOf(uvec3 fragment) { return vec4(unpackHalf2x16(fragment.x), unpackHalf2x16(fragment.y)); }
+
+void blend(uvec3 fragment, inout vec3 sum, inout float left) {
+  vec4 c = colourOf(fragment);
+  sum += left * c.a * c.rgb;
+  left *= 1.0 - c.a;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  uint head = texelFetch(heads, pixel.y * row + pixel.x).r;
+  if (head == 0u) discard;
+#ifdef SAMPLED
+  vec2 off = gl_SamplePosition - 0.5;
+  uint mask = 1u << uint(gl_SampleID);
+  float opaque = texelFetch(depths, pixel, gl_SampleID).r;
+#else
+  vec2 off = vec2(0.0);
+  uint mask = 1u;
+  float opaque = texelFetch(depths, pixel, 0).r;
+#endif
+  // The depth test has been passed by one sample at least. What lies on an opaque surface is seen, however its
+  // depth was rounded.
+  float least = opaque - 2e-6 * opaque;
+  vec3 sum = vec3(0.0);
+  float left = 1.0;
+  float last = 2.0;  // behind this one and its order what comes next lies
+  uint lastOrder = 0u;
+  const uint kGroups = EXACT_GROUPS;
+  uint group = 0u;
+  int found = 5;
+  while (found > 4 && left > 0.0 && group < kGroups) {
+    float n0 = -2.0, n1 = -2.0, n2 = -2.0, n3 = -2.0;
+    uvec3 f0 = uvec3(0u), f1 = uvec3(0u), f2 = uvec3(0u), f3 = uvec3(0u);
+    found = 0;
+    for (uint at = head; at != 0u;) {
+      uvec4 a = texelFetch(nodes, int(2u * at - 2u)), b = texelFetch(nodes, int(2u * at - 1u));
+      vec3 plane = uintBitsToFloat(a.yzw);
+      float n = plane.x + plane.y * off.x + plane.z * off.y;
+      if ((b.w & mask) != 0u && n >= least && (n < last || (n == last && b.z < lastOrder))) {
+        ++found;
+        uvec3 f = b.xyz;
+        settle(n0, f0, n, f);
+        settle(n1, f1, n, f);
+        settle(n2, f2, n, f);
+        settle(n3, f3, n, f);
+      }
+      at = a.x;
+    }
+    blend(f0, sum, left);
+    blend(f1, sum, left);
+    blend(f2, sum, left);
+    blend(f3, sum, left);
+    last = n3;
+    lastOrder = f3.z;
+    ++group;
+  }
+  if (found > 4 && left > 0.0) {
+    // The rest as one layer. Whole numbers are added: their sum does not depend on the order.
+    uvec3 colours = uvec3(0u);
+    uint weights = 0u, through = 0u;
+    for (uint at = head; at != 0u;) {
+      uvec4 a = texelFetch(nodes, int(2u * at - 2u)), b = texelFetch(nodes, int(2u * at - 1u));
+      vec3 plane = uintBitsToFloat(a.yzw);
+      float n = plane.x + plane.y * off.x + plane.z * off.y;
+      if ((b.w & mask) != 0u && n >= least && (n < last || (n == last && b.z < lastOrder))) {
+        vec4 c = colourOf(b.xyz);
+        colours += uvec3(c.rgb * c.a * 4095.0 + 0.5);
+        weights += uint(c.a * 4095.0 + 0.5);
+        through += uint(min(-log2(max(1.0 - c.a, 1e-6)) * 4096.0 + 0.5, 131072.0));
+      }
+      at = a.x;
+    }
+    float passed = exp2(-float(min(through, 1048576u)) / 4096.0);
+    sum += left * (1.0 - passed) * vec3(colours) / float(max(weights, 1u));
+    left *= passed;
+  }
+  shown = vec4(sum, left);
+}
+)";
+
+// Whole pixels.
+constexpr const char* kRectangle = R"(
+uniform vec4 corners;  // in clip space: x, y, x, y
+
+void main() {
+  gl_Position = vec4((gl_VertexID & 1) == 0 ? corners.x : corners.z, (gl_VertexID & 2) == 0 ? corners.y : corners.w,
+                     0.0, 1.0);
+}
+)";
+
+constexpr const char* kMaterial = R"(
+layout(std140) uniform Material {
+  vec4 baseColour;
+  vec4 emissive;  // w: roughness
+  vec4 finish;    // x: metallic, y: alpha cutoff
+};
+)";
+
+constexpr const char* kSurfaceVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 colour;
+layout(location = 4) in vec4 modelX;  // the model matrix, by rows
+layout(location = 5) in vec4 modelY;
+layout(location = 6) in vec4 modelZ;
+
+#ifdef LAYERED
+flat out int instance;
+#endif
+out vec3 placed;
+out vec3 outward;
+out vec4 vertexColour;
+#ifdef PICTURES
+out vec2 texel;
+#endif
+
+void main() {
+  vec4 p = vec4(position, 1.0);
+  placed = vec3(dot(modelX, p), dot(modelY, p), dot(modelZ, p));
+  // Normals go by the inverse transpose; up to its length that is the cofactor matrix, whose rows are cross
+  // products, with the sign of the determinant.
+  vec3 cofactorX = cross(modelY.xyz, modelZ.xyz);
+  vec3 cofactorY = cross(modelZ.xyz, modelX.xyz);
+  vec3 cofactorZ = cross(modelX.xyz, modelY.xyz);
+  float side = dot(modelX.xyz, cofactorX) < 0.0 ? -1.0 : 1.0;
+  vec3 n = side * vec3(dot(cofactorX, normal), dot(cofactorY, normal), dot(cofactorZ, normal));
+  outward = n * inversesqrt(max(dot(n, n), 1e-30));
+  vertexColour = colour;
+#ifdef PICTURES
+  texel = uv;
+#endif
+#ifdef LAYERED
+  instance = gl_InstanceID;
+#endif
+  gl_Position = viewProjection * vec4(placed, 1.0);
+}
+)";
+
+constexpr const char* kSurfaceFragment = R"(
+in vec3 placed;
+in vec3 outward;
+in vec4 vertexColour;
+#ifdef PICTURES
+in vec2 texel;
+#endif
+#ifdef TEXTURED
+uniform sampler2D baseTexture;
+#endif
+#ifdef GLOWING
+uniform sampler2D glowTexture;
+#endif
+
+vec3 ambientFrom(vec3 n) { return ambient.rgb * mix(0.3 + ground.rgb, vec3(1.0), 0.5 + 0.5 * n.z); }
+
+#ifdef SHADOWED
+layout(std140) uniform Shadow {
+  vec4 shadowRight;
+  vec4 shadowUp;
+  vec4 shadowTowards;
+  vec4 shadowRings[4];
+  vec4 shadowLift;
+};
+uniform sampler2DShadow shadowMap;
+
+// How far p lies from the middle of a ring's quarter of the map; the quarter ends at 0.25.
+float outside(vec2 p, vec4 ring, vec2 middle) {
+  vec2 away = abs(p * ring.w + ring.xy - middle);
+  return max(away.x, away.y);
+}
+
+// The part of the light that arrives.
+float lightArriving(vec3 n) {
+  vec3 s = vec3(dot(shadowRight.xyz, placed), dot(shadowUp.xyz, placed), dot(shadowTowards.xyz, placed));
+  vec4 ring = shadowRings[3];
+  float lift = shadowLift.w;
+  float edge = outside(s.xy, ring, vec2(0.75, 0.75));
+  if (outside(s.xy, shadowRings[2], vec2(0.25, 0.75)) < 0.245) { ring = shadowRings[2]; lift = shadowLift.z; }
+  if (outside(s.xy, shadowRings[1], vec2(0.75, 0.25)) < 0.245) { ring = shadowRings[1]; lift = shadowLift.y; }
+  if (outside(s.xy, shadowRings[0], vec2(0.25, 0.25)) < 0.245) { ring = shadowRings[0]; lift = shadowLift.x; }
+  s += lift * vec3(dot(shadowRight.xyz, n), dot(shadowUp.xyz, n), dot(shadowTowards.xyz, n));
+  vec2 at = s.xy * ring.w + ring.xy;
+  float depth = s.z * shadowTowards.w + ring.z;
+  const vec2 o = vec2(0.75, -0.75) / 2048.0;  // of a texel, so that the edge is some three texels wide
+  float lit = textureLod(shadowMap, vec3(at + o.xx, depth), 0.0) + textureLod(shadowMap, vec3(at + o.xy, depth), 0.0) +
+              textureLod(shadowMap, vec3(at + o.yx, depth), 0.0) + textureLod(shadowMap, vec3(at + o.yy, depth), 0.0);
+  return mix(0.25 * lit, 1.0, clamp((edge - 0.22) * 40.0, 0.0, 1.0));
+}
+#endif
+
+float fifth(float x) {
+  float squared = x * x;
+  return squared * squared * x;
+}
+
+void main() {
+#ifdef LAYERED
+  vec3 plane = depthPlane();
+#endif
+  vec4 base = baseColour * vertexColour;
+#ifdef TEXTURED
+  base *= texture(baseTexture, texel);
+#endif
+  vec3 emitted = emissive.rgb;
+#ifdef GLOWING
+  emitted *= texture(glowTexture, texel).rgb;
+#endif
+#ifdef MASKED
+  if (base.a < finish.y) discard;
+#endif
+  float roughness = emissive.w;
+  float metallic = finish.x;
+  vec3 diffuse = base.rgb * (1.0 - metallic);
+  vec3 mirror = mix(vec3(0.04), base.rgb, metallic);
+
+  vec3 away = eye.xyz - placed;
+  float distanceSquared = max(dot(away, away), 1e-12);
+  float perDistance = inversesqrt(distanceSquared);
+  vec3 v = away * perDistance;
+  vec3 n = outward * inversesqrt(max(dot(outward, outward), 1e-30));
+  if (!gl_FrontFacing) n = -n;
+  float nv = max(dot(n, v), 1e-3);
+
+  // A dielectric seen square on shows its diffuse colour alone; towards grazing it mirrors the surroundings.
+  float grazing = fifth(1.0 - nv) * (1.0 - roughness) * (1.0 - roughness);
+  vec3 light = emitted + diffuse * ambientFrom(n) +
+               (mirror * metallic + (1.0 - mirror) * grazing) * ambientFrom(reflect(-v, n));
+
+  float spread = roughness * roughness;
+  float spreadSquared = spread * spread;
+  float k = 0.5 * spread;
+#ifdef SHADOWED
+  float arriving = lightArriving(n);  // not in the loop: its lines are run whatever the branches say
+#endif
+  for (int i = 0; i < LIGHTS; ++i) {
+    vec3 l = lights[i].direction.xyz;
+    float strength = 1.0;
+#ifdef LOCAL_LIGHTS
+    if (lights[i].direction.w > 0.5) {
+      vec3 to = lights[i].position.xyz - placed;
+      float squared = max(dot(to, to), 1e-12);
+      to *= inversesqrt(squared);
+      float fading = max(1.0 - squared * lights[i].position.w, 0.0);
+      strength = fading * fading;
+      if (lights[i].direction.w > 1.5) {
+        float inside = clamp((dot(to, l) - lights[i].cone.x) * lights[i].cone.y, 0.0, 1.0);
+        strength *= inside * inside * (3.0 - 2.0 * inside);
+      }
+      l = to;
+    }
+#endif
+    float nl = dot(n, l);
+    if (nl > 0.0) {
+#ifdef SHADOWED
+      strength *= i == lightCount.y ? arriving : 1.0;
+#endif
+      vec3 h = l + v;
+      h *= inversesqrt(max(dot(h, h), 1e-12));
+      float nh = clamp(dot(n, h), 0.0, 1.0);
+      float lobe = nh * nh * (spreadSquared - 1.0) + 1.0;
+      float shadowing = (nl * (1.0 - k) + k) * (nv * (1.0 - k) + k);
+      float highlight = 0.25 * spreadSquared / (lobe * lobe * shadowing);
+      vec3 fresnel = mirror + (1.0 - mirror) * fifth(1.0 - clamp(dot(l, h), 0.0, 1.0));
+      light += (diffuse + highlight * fresnel) * lights[i].colour.rgb * (strength * nl);
+    }
+  }
+
+#ifdef HAZY
+  light = mix(air(-v), light, exp2(-1.442695 * distanceSquared * perDistance * ambient.w));
+#endif
+#if defined(LAYERED)
+  keep(vec4(softClip(light), clamp(base.a, 0.0, 1.0)), plane);
+#elif defined(BLENDED)
+  shown = vec4(softClip(light), clamp(base.a, 0.0, 1.0));
+#else
+  shown = encoded(softClip(light));
+#endif
+}
+)";
+
+constexpr const char* kPlainVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 colour;
+layout(location = 4) in vec4 modelX;  // the model matrix, by rows
+layout(location = 5) in vec4 modelY;
+layout(location = 6) in vec4 modelZ;
+
+#ifdef LAYERED
+flat out int instance;
+#endif
+out vec4 shade;
+#ifdef PICTURES
+out vec2 texel;
+#endif
+#ifdef HAZY
+out float clearness;
+#endif
+
+void main() {
+  vec4 p = vec4(position, 1.0);
+  vec3 placed = vec3(dot(modelX, p), dot(modelY, p), dot(modelZ, p));
+  vec3 cofactorX = cross(modelY.xyz, modelZ.xyz);
+  vec3 cofactorY = cross(modelZ.xyz, modelX.xyz);
+  vec3 cofactorZ = cross(modelX.xyz, modelY.xyz);
+  float side = dot(modelX.xyz, cofactorX) < 0.0 ? -1.0 : 1.0;
+  vec3 n = side * vec3(dot(cofactorX, normal), dot(cofactorY, normal), dot(cofactorZ, normal));
+  n *= inversesqrt(max(dot(n, n), 1e-30));
+  vec3 light = ambient.rgb;
+  for (int i = 0; i < LIGHTS; ++i) {
+    vec3 l = lights[i].direction.xyz;
+    float strength = 1.0;
+#ifdef LOCAL_LIGHTS
+    if (lights[i].direction.w > 0.5) {
+      vec3 to = lights[i].position.xyz - placed;
+      float squared = max(dot(to, to), 1e-12);
+      to *= inversesqrt(squared);
+      float fading = max(1.0 - squared * lights[i].position.w, 0.0);
+      strength = fading * fading;
+      if (lights[i].direction.w > 1.5) {
+        float inside = clamp((dot(to, l) - lights[i].cone.x) * lights[i].cone.y, 0.0, 1.0);
+        strength *= inside * inside * (3.0 - 2.0 * inside);
+      }
+      l = to;
+    }
+#endif
+    light += lights[i].colour.rgb * (strength * max(dot(n, l), 0.0));
+  }
+#ifdef GLOWING
+  shade = vec4(min(baseColour.rgb * colour.rgb * light, 1.0), baseColour.a * colour.a);
+#else
+  shade = vec4(min(emissive.rgb + baseColour.rgb * colour.rgb * light, 1.0), baseColour.a * colour.a);
+#endif
+#ifdef PICTURES
+  texel = uv;
+#endif
+#ifdef HAZY
+  clearness = exp2(-1.442695 * distance(eye.xyz, placed) * ambient.w);
+#endif
+#ifdef LAYERED
+  instance = gl_InstanceID;
+#endif
+  gl_Position = viewProjection * vec4(placed, 1.0);
+}
+)";
+
+constexpr const char* kPlainFragment = R"(
+in vec4 shade;
+#ifdef PICTURES
+in vec2 texel;
+#endif
+#ifdef TEXTURED
+uniform sampler2D baseTexture;
+#endif
+#ifdef GLOWING
+uniform sampler2D glowTexture;
+#endif
+#ifdef HAZY
+in float clearness;
+#endif
+
+void main() {
+#ifdef LAYERED
+  vec3 plane = depthPlane();
+#endif
+  vec4 c = shade;
+#ifdef TEXTURED
+  c *= texture(baseTexture, texel);
+#endif
+#ifdef GLOWING
+  c.rgb = min(c.rgb + emissive.rgb * texture(glowTexture, texel).rgb, 1.0);
+#endif
+#ifdef MASKED
+  if (c.a < finish.y) discard;
+#endif
+#ifdef HAZY
+  c.rgb = mix(horizon.rgb, c.rgb, clearness);
+#endif
+#if defined(LAYERED)
+  keep(vec4(c.rgb, clamp(c.a, 0.0, 1.0)), plane);
+#elif defined(BLENDED)
+  shown = vec4(c.rgb, clamp(c.a, 0.0, 1.0));
+#else
+  shown = vec4(c.rgb, 1.0);
+#endif
+}
+)";
+
+constexpr const char* kPlainSkyFragment = R"(
+in vec3 ray;
+out vec4 shown;
+
+void main() {
+  vec3 d = normalize(ray);
+  float low = (1.0 - max(d.z, 0.0)) * (1.0 - max(d.z, 0.0));
+  vec3 above = mix(zenith.rgb, horizon.rgb, low * low);
+  shown = vec4(d.z >= 0.0 ? above : mix(horizon.rgb, ground.rgb, exp2(0.03 / min(d.z, -1e-4))), 1.0);
+}
+)";
+
+constexpr const char* kShadowVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 colour;
+layout(location = 4) in vec4 modelX;
+layout(location = 5) in vec4 modelY;
+layout(location = 6) in vec4 modelZ;
+
+#ifdef MASKED
+out float alpha;
+#endif
+#ifdef PICTURES
+out vec2 texel;
+#endif
+
+void main() {
+#ifdef MASKED
+  alpha = baseColour.a * colour.a;
+#endif
+#ifdef PICTURES
+  texel = uv;
+#endif
+  vec4 p = vec4(position, 1.0);
+  gl_Position = viewProjection * vec4(dot(modelX, p), dot(modelY, p), dot(modelZ, p), 1.0);
+}
+)";
+
+constexpr const char* kShadowFragment = R"(
+#ifdef MASKED
+in float alpha;
+#endif
+#ifdef PICTURES
+in vec2 texel;
+#endif
+#ifdef TEXTURED
+uniform sampler2D baseTexture;
+#endif
+
+void main() {
+#ifdef MASKED
+  float a = alpha;
+#ifdef TEXTURED
+  a *= texture(baseTexture, texel).a;
+#endif
+  if (a < finish.y) discard;
+#endif
+}
+)";
+
+constexpr const char* kSkyVertex = R"(
+out vec3 ray;
+
+void main() {
+  ray = rays[gl_VertexID].xyz;
+  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, eye.w, 1.0);
+}
+)";
+
+constexpr const char* kSkyFragment = R"(
+in vec3 ray;
+out vec4 shown;
+
+void main() {
+  vec3 d = normalize(ray);
+  vec3 c;
+  if (d.z >= 0.0) {
+    float off = max(1.0 - dot(d, sunDirection.xyz), 0.0);
+    c = air(d) + sunColour.rgb * (3.0 * sunDirection.w * (1.0 - smoothstep(6.0e-5, 9.0e-5, off)));
+  } else {
+    // An endless plain in thin haze: near the horizon one looks through ever more of it.
+    c = mix(air(d), ground.rgb, exp2(0.03 / min(d.z, -1e-4)));
+  }
+  shown = encoded(softClip(c));
+}
+)";
+
+std::string definitions(const SurfaceTraits& traits) {
+  std::string text;
+  if (traits.textured) text += "#define TEXTURED\n";
+  if (traits.shadowed) text += "#define SHADOWED\n";
+  if (traits.hazy) text += "#define HAZY\n";
+  if (traits.localLights) text += "#define LOCAL_LIGHTS\n";
+  if (traits.writes == SurfaceWrites::Blended) text += "#define BLENDED\n";
+  if (traits.writes == SurfaceWrites::Layers) text += "#define LAYERED\n";
+  if (traits.masked) text += "#define MASKED\n";
+  if (traits.glowing) text += "#define GLOWING\n";
+  if (traits.textured || traits.glowing) text += "#define PICTURES\n";
+  text += "#define LIGHTS " +
+          (traits.lights < 0 ? std::string("lightCount.x") : std::to_string(traits.lights)) + "\n";
+  return text;
+}
+
+const char* versionOf(const SurfaceTraits& traits) {
+  return traits.writes == SurfaceWrites::Layers ? kStorageVersion : kVersion;
+}
+
+}  // namespace
+
+std::string surfaceVertexShader(const SurfaceTraits& traits) {
+  return versionOf(traits) + definitions(traits) + kBlocks +
+         (traits.look == Look::Plain ? std::string(kMaterial) + kPlainVertex : kSurfaceVertex);
+}
+
+std::string surfaceFragmentShader(const SurfaceTraits& traits) {
+  return versionOf(traits) + definitions(traits) + kBlocks + kMaterial + kKeepFragment +
+         (traits.look == Look::Plain ? kPlainFragment : kSurfaceFragment);
+}
+
+std::string layerBlendVertexShader() {
+  return std::string(kStorageVersion) + kRectangle;
+}
+
+std::string layerBlendFragmentShader(bool sampled) {
+  return std::string(kStorageVersion) + (sampled ? "#define SAMPLED\n" : "") + "#define EXACT_GROUPS " +
+         std::to_string(kExactLayers / 4) + "u\n" + kBlendLayers;
+}
+
+std::string shadowVertexShader(const SurfaceTraits& traits) {
+  return kVersion + definitions(traits) + kBlocks + kMaterial + kShadowVertex;
+}
+
+std::string shadowFragmentShader(const SurfaceTraits& traits) {
+  return kVersion + definitions(traits) + kMaterial + kShadowFragment;
+}
+
+std::string skyVertexShader() {
+  return std::string(kVersion) + kBlocks + kSkyVertex;
+}
+
+std::string skyFragmentShader(Look look) {
+  return std::string(kVersion) + kBlocks + (look == Look::Plain ? kPlainSkyFragment : kSkyFragment);
+}
+
+}  // namespace stadion

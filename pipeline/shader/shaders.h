@@ -1,0 +1,74 @@
+#pragma once
+/// The shaders' source text (GLSL 3.30), and how light is computed in them.
+///
+/// Light        a white Lambert face square to a light of colour 1 has radiance 1: the factor pi of the light
+///              and of the reflectance cancel. The highlight is GGX (Walter et al. 2007) with Smith's
+///              shadowing in Schlick's form and Schlick's Fresnel term.
+/// Ambient      a face looking up receives `ambient`, one looking down `ambient` x (0.3 + `ground`), others
+/// in
+///              between in proportion to their normal's z.
+/// Range        radiance up to 0.8 is shown as it is; above, it approaches 1 smoothly (softClip).
+/// sRGB         opaque surfaces and the sky encode it themselves: once a pixel, not once a sample.
+/// Haze         what lies d away keeps exp(-d / haze distance) of its colour; the rest is the sky's behind
+/// it,
+///              brighter towards the sun, so that what is far melts into the horizon.
+/// Shadows      of one directional light: four lookups of two by two texels in the ring of the shadow maps
+///              that is finest there (shadow_maps.h). Beyond the last ring everything is lit.
+
+///
+/// The plain look (look.h) has shaders of its own: light at the vertices, in colours as they are stored.
+
+#include "pipeline/shader/look.h"
+
+#include <cstdint>
+#include <string>
+
+namespace stadion {
+
+/// What becomes of the light that a surface program has found.
+enum class SurfaceWrites : std::uint8_t {
+  Picture,  ///< it is shown; encoded, in the full look
+  Blended,  ///< it is blended, in a buffer that encodes sRGB itself
+  Layers,   ///< it is kept, and sorted later (glass_layers.h)
+};
+
+/// That many transparent layers are blended exactly (glass_layers.h); a multiple of four.
+constexpr int kExactLayers = 32;
+
+/// What a surface program does, so that none pays for what it does not need. A software rasteriser runs every
+/// line of a fragment shader for every block of pixels that a triangle touches, whatever the branches say.
+struct SurfaceTraits {
+  bool textured = false;
+  bool localLights = false;  ///< there are point or spot lights
+  bool shadowed = false;     ///< a light casts shadows
+  bool hazy = false;         ///< there is haze
+  SurfaceWrites writes = SurfaceWrites::Picture;
+  bool masked = false;       ///< leaves out what has less alpha than the material's cutoff
+  bool glowing = false;      ///< a picture says where it emits light
+  Look look = Look::Full;
+  /// How many lights there are; negative: any number, looked up for every vertex or pixel, which a software
+  /// rasteriser does lane by lane.
+  int lights = -1;
+
+  /// Among those that differ in the mesh, in local lights, and in what they write; the first kUsual need
+  /// neither a mask nor a picture of light.
+  std::size_t index() const {
+    return std::size_t{textured} | std::size_t{localLights} << 1 |
+           std::size_t{writes != SurfaceWrites::Picture} << 2 | std::size_t{masked} << 3 |
+           std::size_t{glowing} << 4 | std::size_t{writes == SurfaceWrites::Layers} << 5;
+  }
+  static constexpr std::size_t kUsual = 8, kCount = 64;
+};
+
+std::string surfaceVertexShader(const SurfaceTraits& traits);
+std::string surfaceFragmentShader(const SurfaceTraits& traits);
+/// Depth alone, as the light sees it; of the traits `masked` counts, and then `textured`.
+std::string shadowVertexShader(const SurfaceTraits& traits = {});
+std::string shadowFragmentShader(const SurfaceTraits& traits = {});
+/// Blends the layers that were kept, each sample by itself if the picture is multisampled.
+std::string layerBlendVertexShader();
+std::string layerBlendFragmentShader(bool sampled);
+std::string skyVertexShader();
+std::string skyFragmentShader(Look look);
+
+}  // namespace stadion

@@ -1,0 +1,80 @@
+#pragma once
+/// The uniform blocks of the shaders, laid out as std140 lays them out, and how they are filled.
+///
+/// Everything that differs per view or per mesh is in such a block, nothing in program uniforms. Coordinates
+/// are World axes relative to the draw list's origin, as in the list.
+
+#include "engine/asset/mesh.h"
+#include "pipeline/draw_list/draw_list.h"
+#include "pipeline/gl/gl_program.h"
+#include "pipeline/gl/gl_table.h"
+#include "pipeline/shader/look.h"
+
+#include <array>
+#include <cstdint>
+
+namespace stadion {
+
+using Float4 = std::array<float, 4>;
+
+/// One eye.
+struct ViewBlock {
+  std::array<float, 16> viewProjection;  ///< (4 x 4), column major
+  Float4 eye;                            ///< where the eye is [m]; w: the clip z of the far plane, for w = 1
+  std::array<Float4, 3> rays;  ///< through the corners (-1,-1), (3,-1), (-1,3) of clip space; for the sky
+};
+
+struct LightBlock {
+  Float4 position;   ///< relative to origin [m]; w: 1 / range^2, or 0
+  Float4 direction;  ///< towards the light, unit; w: 0 directional, 1 point, 2 spot
+  Float4 colour;     ///< linear; w unused
+  Float4 cone;       ///< spot: cosine of the outer half angle, 1 / (cosine inner - outer)
+};
+
+/// What both eyes of a wall share.
+struct SceneBlock {
+  Float4 zenith, horizon, ground;          ///< linear; w unused
+  Float4 ambient;                          ///< linear; w: 1 / haze distance [1/m], or 0
+  Float4 sunDirection;                     ///< towards the sun, unit; w: 1 if there is one
+  Float4 sunColour;                        ///< linear, brightest component 1
+  std::array<std::int32_t, 4> lightCount;  ///< y: the light that casts shadows, or -1
+  std::array<LightBlock, DrawList::kMaxLights> lights;
+};
+
+struct MaterialBlock {
+  Float4 baseColour;  ///< linear, alpha
+  Float4 emissive;    ///< linear; w: roughness
+  Float4 finish;      ///< x: metallic, y: alpha cutoff
+};
+
+/// Where the shadow maps lie: from World axes relative to the list's origin to the texture.
+struct ShadowBlock {
+  Float4 right, up;                        ///< the light's axes; w unused
+  Float4 towards;                          ///< w: depth per metre
+  std::array<Float4, kShadowRings> rings;  ///< what to add to texture coordinates and depth; w: their scale
+  Float4 lift;                             ///< for each ring: along the surface's normal [m]
+};
+
+/// Where the blocks are bound.
+enum UniformBinding : std::uint32_t {
+  kViewBinding = 0,
+  kSceneBinding = 1,
+  kMaterialBinding = 2,
+  kShadowBinding = 3
+};
+/// The texture units of the shadow maps, and of the picture that says where a surface emits light.
+constexpr int kShadowUnit = 1, kGlowUnit = 2;
+
+/// The blocks and textures of all our shaders; a program takes those that it uses.
+GlBindings shaderBindings();
+
+/// Takes a matrix to clip coordinates, z in [0, w], over into the block, as the context wants them.
+void fillViewProjection(const Mat4& viewProjection, ClipDepth clip, ViewBlock& out);
+/// False if the eye's matrices are not finite or cannot be inverted: nothing can be drawn then.
+bool fillView(const DrawEye& eye, ClipDepth clip, ViewBlock& out);
+/// In the plain look all colours are in sRGB, as they are stored, instead of linear.
+SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights, Look look,
+                     std::int32_t shadowed = -1);
+MaterialBlock fillMaterial(const Material& material, Look look);
+
+}  // namespace stadion

@@ -1,0 +1,86 @@
+#pragma once
+/// Makes the show's sounds heard, beside it: a reader of what App publishes, like the walls.
+///
+/// It hears of each frame what plays since when and from where, starts and stops voices accordingly, and
+/// never tells the show anything: what happens in the show is the same with a device and without.
+///
+/// How loud a sound is falls to nothing at its range R: with d its distance from the head, (1 - d/R)^2.
+///
+/// Threads    one of its own, which reads files and waits for the device; hear() is App's and only hands
+/// over. Ownership  borrows the roots, which must outlive it. Errors     without a device it says so once,
+/// and is silent.
+
+#include "engine/asset/roots.h"
+#include "engine/scene/sounds.h"
+#include "pipeline/sound/sound_device.h"
+
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace stadion {
+
+/// What the operator makes of the show's sounds.
+struct SoundMix {
+  double volume = 1;  ///< from 0 to 1
+  bool paused = false;
+
+  bool operator==(const SoundMix&) const = default;
+};
+
+/// What is left of a sound of range R [m] at a distance [m]; all of it if R is 0.
+double loudnessAt(double distance, double range);
+
+class SoundPlayer {
+public:
+  using OpenDevice = std::function<Result<std::unique_ptr<SoundDevice>>()>;
+
+  /// `tell` is given one line, when the first sound plays: which device there is, or why there is none.
+  SoundPlayer(const AssetRoots& roots, std::function<void(const std::string&)> tell,
+              OpenDevice open = openSoundDevice);
+  ~SoundPlayer();
+  SoundPlayer(const SoundPlayer&) = delete;
+  SoundPlayer& operator=(const SoundPlayer&) = delete;
+
+  /// What is heard from now on. Takes the scape's content, and gives back memory to fill.
+  void hear(SoundScape& scape, const SoundMix& mix);
+  /// Waits until what was handed over has reached the device.
+  void settle();
+
+private:
+  struct Playing {
+    SoundDevice::Voice voice = 0;
+    Nanoseconds since = 0;
+    bool paused = false;
+  };
+
+  void work();
+  void follow(const SoundScape& scape, const SoundMix& mix);
+  void begin(const SoundRecord& sound, Nanoseconds now, Playing& playing);
+  void openDevice();
+  const Sound* samplesOf(const SoundRecord& sound);
+
+  const AssetRoots& roots_;
+  std::function<void(const std::string&)> tell_;
+  OpenDevice open_;
+
+  bool silent_ = true;  ///< nothing was to be heard last; App's
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  SoundScape next_;  ///< this and the following are shared
+  SoundMix nextMix_;
+  bool fresh_ = false, busy_ = false, ending_ = false;
+
+  bool opened_ = false;  ///< this and the following are the thread's own
+  std::unique_ptr<SoundDevice> device_;
+  double volume_ = -1;
+  std::map<NodeRef, Playing> playing_;
+  std::map<std::pair<std::string, bool>, Sound> samples_;  ///< by file, and whether mixed into one channel
+  std::thread thread_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,94 @@
+#include "pipeline/wall/drawing_here.h"
+
+#include "pipeline/draw_list/list_filling.h"
+
+namespace stadion {
+namespace {
+
+constexpr int kMostContexts = 4;  ///< for one frame
+
+Failure toFailure(const std::optional<Diagnostic>& d) {
+  return d ? Failure(Reason(*d)) : std::nullopt;
+}
+
+}  // namespace
+
+DrawingHere::DrawingHere(DrawingHereParts parts)
+    : parts_(std::move(parts)), contexts_(parts_.contexts ? *parts_.contexts : ownContexts_) {
+  contexts_.resize(parts_.walls.size());
+}
+
+Failure DrawingHere::open(std::size_t wall) {
+  const PictureSize size = parts_.walls[wall];
+  if (Failure f =
+          contexts_.open(wall, parts_.provider, parts_.meshes, size.width, size.height, parts_.quality))
+    return f;
+  contexts_.renderer(wall).forgetTotals();
+  // Not before: with the first context the rasteriser starts threads, which are bound as this one is.
+  if (wall < parts_.processors.size()) parts_.processors[wall].bindThisThread();
+  return {};
+}
+
+// Without a probe, and left out of the totals.
+Failure DrawingHere::warmUp(std::size_t wall, const DrawList& list) {
+  DrawOutcome outcome = draw(wall, list, nullptr);
+  if (!outcome.failure) contexts_.renderer(wall).forgetTotals();
+  return std::move(outcome.failure);
+}
+
+DrawOutcome DrawingHere::draw(std::size_t wall, const DrawList& list, bool) {
+  return draw(wall, list, parts_.probe);
+}
+
+DrawOutcome DrawingHere::draw(std::size_t wall, const DrawList& list, FrameProbe* probe) {
+  const auto about = [&](const std::string& what) {
+    return "wall " + nameOf(wall) + ", frame " + std::to_string(list.ticket.signature.frame) + ": " + what;
+  };
+  for (int contexts = 1; contexts <= kMostContexts; ++contexts) {
+    if (auto drawn = drawOnce(wall, list, probe)) {
+      if (list.filling && list.filling->isVoid()) return {{}, false};
+      return {std::move(*drawn)};
+    }
+    if (parts_.tell) parts_.tell(about("its OpenGL context was lost; it is made anew"));
+    contexts_.close(wall);
+    if (Failure f = open(wall))
+      return {Reason(about("its OpenGL context was lost, and there is no other: " + f->message))};
+  }
+  return {Reason(about("its OpenGL context was lost again and again"))};
+}
+
+/// How it went; nothing: the context is lost.
+std::optional<Failure> DrawingHere::drawOnce(std::size_t wall, const DrawList& list, FrameProbe* probe) {
+  if (contexts_.enter(wall)) return {};
+  Renderer& renderer = contexts_.renderer(wall);
+  const auto problem = renderer.draw(list, parts_.giveUp, probe);
+  if (renderer.contextIsLost()) return {};
+  return toFailure(problem);
+}
+
+std::string DrawingHere::nameOf(std::size_t wall) const {
+  return wall < parts_.names.size() ? parts_.names[wall] : std::to_string(wall + 1);
+}
+
+Failure DrawingHere::read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) {
+  if (Failure f = contexts_.enter(wall)) return f;
+  return toFailure(contexts_.renderer(wall).read(eye, rgba));
+}
+
+void DrawingHere::close(std::size_t wall) {
+  if (contexts_.hasContext(wall)) contexts_.enter(wall);  // another wall may be current on this thread
+  if (parts_.contexts)
+    contexts_.leave(wall);
+  else
+    contexts_.close(wall);
+}
+
+std::array<DrawTotals, 2> DrawingHere::totals(std::size_t wall) const {
+  return contexts_.renderer(wall).totals();
+}
+
+std::string DrawingHere::glDescription(std::size_t wall) const {
+  return describeGl(contexts_.gl(wall));
+}
+
+}  // namespace stadion

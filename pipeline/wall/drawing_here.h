@@ -1,0 +1,57 @@
+#pragma once
+/// Draws the walls in this process, each on its own thread and in its own context. One that is lost (a
+/// graphics card was reset) is told and made anew, and the frame drawn with the new one.
+
+#include "engine/asset/mesh_store.h"
+#include "pipeline/platform/processor_set.h"
+#include "pipeline/wall/wall_contexts.h"
+#include "pipeline/wall/wall_drawing.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+/// Of one eye's picture [pixels].
+struct PictureSize {
+  std::uint32_t width = 0, height = 0;
+};
+
+struct DrawingHereParts {
+  GlProvider& provider;
+  const MeshStore& meshes;
+  std::vector<PictureSize> walls;
+  RenderQuality quality{};
+  WallContexts* contexts = nullptr;  ///< that outlive it; null: it makes its own
+  std::function<bool()> giveUp{};    ///< see Renderer::draw
+  FrameProbe* probe = nullptr;
+  std::vector<ProcessorSet> processors{};  ///< by wall: those that its Draw thread may use; none: all of them
+  std::vector<std::string> names{};        ///< of the walls, for messages
+  std::function<void(const std::string&)> tell{};  ///< of a context that was lost; on Draw threads
+};
+
+class DrawingHere final : public WallDrawing {
+public:
+  explicit DrawingHere(DrawingHereParts parts);
+
+  Failure open(std::size_t wall) override;
+  Failure warmUp(std::size_t wall, const DrawList& list) override;
+  DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) override;
+  Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) override;
+  void close(std::size_t wall) override;
+  std::array<DrawTotals, 2> totals(std::size_t wall) const override;
+  std::string glDescription(std::size_t wall) const override;
+
+private:
+  DrawOutcome draw(std::size_t wall, const DrawList& list, FrameProbe* probe);
+  std::optional<Failure> drawOnce(std::size_t wall, const DrawList& list, FrameProbe* probe);
+  std::string nameOf(std::size_t wall) const;
+
+  DrawingHereParts parts_;
+  WallContexts ownContexts_;
+  WallContexts& contexts_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,86 @@
+#pragma once
+/// The three stages of a frame, as the frame loop calls them.
+///
+/// The loop decides who runs them and when; the stages do not know whether they are overlapped.
+///
+/// Threads  app() and wantsDrawn() on the App thread; cull(w) on wall w's Cull thread; openWall, latch, draw
+///          and closeWall(w) on wall w's Draw thread; swap() on the Draw thread that arrives last, while the
+///          others wait. In sequential mode all on one thread.
+/// Errors   a stage that cannot go on returns a reason; the loop stops every thread and hands the reason on.
+///          What a stage throws (it should not: memory may run out) becomes such a reason, with the stage's
+///          name and frame. RunStopped ends the run: from App before this frame, from Draw at once.
+
+#include "engine/base/diagnostic.h"
+#include "engine/base/time_signature.h"
+#include "pipeline/draw_list/draw_list.h"
+#include "pipeline/frame/frame_ticket.h"
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace stadion {
+
+/// Whose affair it is that a run cannot go on.
+enum class FailureKind {
+  Fault,    ///< ours, or OpenGL's
+  Refusal,  ///< the user's: a full disk, a size that nobody can draw
+};
+
+/// Why a stage could not go on.
+struct Reason {
+  Reason(std::string what) : message(std::move(what)) {}
+  Reason(const char* what) : message(what) {}
+  Reason(std::string what, FailureKind whose) : message(std::move(what)), kind(whose) {}
+  /// Of a finding: its file comes first.
+  explicit Reason(const Diagnostic& d, FailureKind whose = FailureKind::Fault)
+      : message(d.where.file.empty() ? d.message : d.where.file + ": " + d.message), kind(whose) {}
+
+  std::string message;
+  FailureKind kind = FailureKind::Fault;
+};
+
+using Failure = std::optional<Reason>;  ///< nothing = all is well
+
+class Stages {
+public:
+  virtual ~Stages() = default;
+
+  /// Advances the show to the signature's time and publishes it into `slot`.
+  virtual void app(const TimeSignature& now, std::size_t slot) = 0;
+  /// The show is paused after frame `now`: publishes what there is once more. A scene that was put back while
+  /// it is paused has not been published yet.
+  virtual void still(const TimeSignature& now, std::size_t slot) { (void)now, (void)slot; }
+  /// Whether anybody looks at this frame; else it is neither culled nor drawn. Asked after app().
+  virtual bool wantsDrawn(const FrameTicket&) const { return true; }
+  /// Fills `list` with what wall `wall` shows of the frame in `slot`, for both eyes.
+  virtual void cull(std::size_t wall, std::size_t slot, DrawList& list) = 0;
+
+  /// When the head's pose was measured that app() or still() has just taken; nothing: nobody knows, and the
+  /// start of the frame counts. On the App thread.
+  virtual std::optional<std::chrono::steady_clock::time_point> headMeasured() const { return {}; }
+  /// The same of the picture that the wall shows, asked while all are swapped; nothing: that of the frame.
+  virtual std::optional<std::chrono::steady_clock::time_point> posed(std::size_t wall) const {
+    (void)wall;
+    return {};
+  }
+
+  /// Just before draw(): a newer head may take the place of the list's.
+  virtual void latch(std::size_t wall, DrawList& list) { (void)wall, (void)list; }
+
+  virtual Failure openWall(std::size_t wall) = 0;
+  /// Compiles the shaders and uploads the meshes that lists such as this one need. Nothing of it is shown or
+  /// counted, and no state of the show changes. Called once, before the wall's first draw(), with that list,
+  /// which is complete.
+  virtual Failure warmUp(std::size_t wall, const DrawList& list) { return (void)wall, (void)list, Failure(); }
+  /// Cull may still be filling the list (ListFilling).
+  virtual Failure draw(std::size_t wall, const DrawList& list) = 0;
+  virtual void closeWall(std::size_t wall) = 0;
+
+  /// All walls have drawn this frame (if it is drawn), both eyes: show it.
+  virtual Failure swap(const TimeSignature& now) = 0;
+};
+
+}  // namespace stadion

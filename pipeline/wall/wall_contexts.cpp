@@ -1,0 +1,62 @@
+#include "pipeline/wall/wall_contexts.h"
+
+namespace stadion {
+
+// On a thread of its own, since something else may be current on this one, a window's context for example.
+WallContexts::~WallContexts() {
+  const auto closeAll = [this] {
+    for (std::size_t wall = 0; wall < contexts_.size(); ++wall)
+      if (contexts_[wall]->target && !enter(wall)) close(wall);
+  };
+  if (!contexts_.empty()) std::thread(closeAll).join();
+}
+
+void WallContexts::resize(std::size_t walls) {
+  while (contexts_.size() < walls) contexts_.push_back(std::make_unique<Context>());
+}
+
+Failure WallContexts::open(std::size_t wall, GlProvider& provider, const MeshStore& meshes,
+                           std::uint32_t width, std::uint32_t height, RenderQuality quality) {
+  Context& c = *contexts_[wall];
+  if (c.target) {
+    if (Failure f = enter(wall)) return f;
+    if (c.renderer && c.renderer->width() == width && c.renderer->height() == height &&
+        c.renderer->quality() == quality)
+      return {};
+    close(wall);
+  }
+  auto target = provider.create(width, height);
+  if (!target) return Reason(target.error());
+  c.target = std::move(target.value());
+  if (Failure f = enter(wall)) return f;
+  auto renderer = Renderer::create(c.target->gl(), c.target->turns(), meshes, width, height, quality);
+  if (!renderer) return Reason(renderer.error());
+  c.renderer = std::move(renderer.value());
+  return {};
+}
+
+Failure WallContexts::enter(std::size_t wall) {
+  const std::thread::id me = std::this_thread::get_id();
+  if (contexts_[wall]->currentOn == me) return {};
+  for (std::size_t other = 0; other < contexts_.size(); ++other)
+    if (contexts_[other]->currentOn == me) leave(other);
+  if (const auto why = contexts_[wall]->target->makeCurrent()) return Reason(*why);
+  contexts_[wall]->currentOn = me;
+  return {};
+}
+
+void WallContexts::leave(std::size_t wall) {
+  Context& c = *contexts_[wall];
+  if (c.currentOn != std::this_thread::get_id()) return;
+  c.target->release();
+  c.currentOn = std::thread::id{};
+}
+
+void WallContexts::close(std::size_t wall) {
+  Context& c = *contexts_[wall];
+  c.renderer.reset();
+  if (c.target) leave(wall);
+  c.target.reset();
+}
+
+}  // namespace stadion
