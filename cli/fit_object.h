@@ -2,7 +2,7 @@
 /// The body that `stadion fit` is about: a model file, or a dynobject of a script as SCRIPT.evs:NAME.
 
 #include "dynamics/flight/flight_shape.h"
-#include "dynamics/mass_properties.h"
+#include "dynamics/shapes/mass_properties.h"
 #include "engine/asset/mesh.h"
 #include "engine/base/diagnostic.h"
 

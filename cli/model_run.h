@@ -2,7 +2,7 @@
 /// Plays a show without drawing it, with one body's model changed, and notes what its bodies did and cost.
 
 #include "cli/player.h"
-#include "dynamics/world.h"
+#include "dynamics/world/world.h"
 
 #include <array>
 #include <map>

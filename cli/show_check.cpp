@@ -1,7 +1,7 @@
 #include "cli/show_check.h"
 
 #include "cli/player.h"
-#include "dynamics/body_flight.h"
+#include "dynamics/motion/body_flight.h"
 #include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dyn_object_node.h"
 #include "dynamics/nodes/dynamics_factories.h"

@@ -3,7 +3,7 @@
 #include "dynamics/flight/model_laws.h"
 #include "dynamics/flight/step_kernel.h"
 #include "dynamics/flight/swarm_step.h"
-#include "dynamics/wide.h"
+#include "dynamics/maths/wide.h"
 
 #include <array>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "dynamics/flight/principal_axes.h"
 
-#include "dynamics/mass_properties.h"
+#include "dynamics/shapes/mass_properties.h"
 
 #include <cmath>
 #include <vector>

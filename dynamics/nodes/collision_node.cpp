@@ -1,6 +1,6 @@
 #include "dynamics/nodes/collision_node.h"
 
-#include "dynamics/broad_phase.h"
+#include "dynamics/collision/broad_phase.h"
 #include "dynamics/nodes/dyn_object_node.h"
 #include "engine/core/state_fields.h"
 #include "engine/scene/scene.h"

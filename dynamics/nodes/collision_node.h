@@ -13,7 +13,7 @@
 /// something in it moves.
 
 #include "dynamics/nodes/shape_store.h"
-#include "dynamics/world.h"
+#include "dynamics/world/world.h"
 #include "engine/nodes/switched.h"
 
 #include <limits>

@@ -7,9 +7,9 @@
 /// It is passive: its dynamics node reads what was asked of it in this frame, obeys at the exact times, and
 /// moves it by direct calls.
 
-#include "dynamics/body_way.h"
+#include "dynamics/motion/body_way.h"
 #include "dynamics/nodes/shape_store.h"
-#include "dynamics/world.h"
+#include "dynamics/world/world.h"
 #include "engine/script/choice.h"
 
 #include <optional>

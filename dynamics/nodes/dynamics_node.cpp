@@ -1,8 +1,8 @@
 #include "dynamics/nodes/dynamics_node.h"
 
-#include "dynamics/body_axes.h"
-#include "dynamics/body_flight.h"
+#include "dynamics/body/body_axes.h"
 #include "dynamics/flight/flight_shape.h"
+#include "dynamics/motion/body_flight.h"
 #include "engine/maths/functions.h"
 #include "engine/scene/scene.h"
 

@@ -10,7 +10,7 @@
 /// Times     a command takes effect inside dynamics at its exact time; a device's axis scales the strength
 ///           evenly between the times at which it changed.
 
-#include "dynamics/force_field.h"
+#include "dynamics/motion/force_field.h"
 #include "engine/input/axis_course.h"
 #include "engine/nodes/switched.h"
 #include "engine/scene/placed_node.h"

@@ -2,7 +2,7 @@
 /// From what the script says of a body's flight (`flight`, `coefficients`, `flighttable`, `bias`, `biasrate`,
 /// `axes`, `nose`) to how it flies.
 
-#include "dynamics/body_flight.h"
+#include "dynamics/motion/body_flight.h"
 #include "engine/asset/roots.h"
 #include "engine/build/builder.h"
 

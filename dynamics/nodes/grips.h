@@ -7,8 +7,8 @@
 /// Units    s, m, rad; show times [ns]. Poses in World coordinates.
 /// Threads  its node's.
 
-#include "dynamics/hand_motion.h"
-#include "dynamics/world.h"
+#include "dynamics/motion/hand_motion.h"
+#include "dynamics/world/world.h"
 #include "engine/maths/course.h"
 #include "engine/scene/node.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 /// From models to what the world collides: each fitted once for all the objects that look alike.
 
-#include "dynamics/mass_properties.h"
-#include "dynamics/shape.h"
+#include "dynamics/shapes/mass_properties.h"
+#include "dynamics/shapes/shape.h"
 #include "engine/maths/course.h"
 #include "engine/scene/object_node.h"
 

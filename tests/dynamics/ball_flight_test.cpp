@@ -1,6 +1,6 @@
 /// A ball's flight in closed form against looking at every tenth of a millisecond.
 
-#include "dynamics/ball_flight.h"
+#include "dynamics/collision/ball_flight.h"
 
 #include "tests/dynamics/scenes.h"
 

@@ -1,6 +1,6 @@
 /// Contacts that contradict each other, wedge or shake: a step's work is bounded, and what it leaves is sane.
 
-#include "dynamics/contact_solver.h"
+#include "dynamics/contact/contact_solver.h"
 #include "tests/dynamics/watch.h"
 
 #include <gtest/gtest.h>

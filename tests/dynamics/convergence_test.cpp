@@ -1,7 +1,7 @@
 /// The orders that the headers claim, measured: what happens to errors when steps are halved.
 
-#include "dynamics/arc.h"
-#include "dynamics/drag_flight.h"
+#include "dynamics/motion/arc.h"
+#include "dynamics/motion/drag_flight.h"
 #include "engine/maths/functions.h"
 #include "tests/dynamics/watch.h"
 

@@ -1,6 +1,6 @@
-#include "dynamics/convex_manifold.h"
-#include "dynamics/convex_touch.h"
-#include "dynamics/nearest_surface.h"
+#include "dynamics/collision/convex_manifold.h"
+#include "dynamics/collision/convex_touch.h"
+#include "dynamics/collision/nearest_surface.h"
 #include "engine/maths/functions.h"
 #include "tests/dynamics/scenes.h"
 

@@ -1,4 +1,4 @@
-#include "dynamics/drag_flight.h"
+#include "dynamics/motion/drag_flight.h"
 #include "tests/dynamics/scenes.h"
 
 #include <gtest/gtest.h>

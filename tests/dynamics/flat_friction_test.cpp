@@ -1,6 +1,6 @@
 /// Friction of flat contacts: as if pressure were even over their area, in spin, in slide and in both.
 
-#include "dynamics/flat_friction.h"
+#include "dynamics/contact/flat_friction.h"
 #include "engine/maths/functions.h"
 #include "tests/dynamics/watch.h"
 

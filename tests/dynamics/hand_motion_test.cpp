@@ -1,4 +1,4 @@
-#include "dynamics/hand_motion.h"
+#include "dynamics/motion/hand_motion.h"
 
 #include "engine/maths/functions.h"
 

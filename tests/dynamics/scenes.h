@@ -2,7 +2,7 @@
 /// Worlds that the tests of dynamics share. Up is +Z; g = 9.81 as in the published cases, not a
 /// show's 9.80665.
 
-#include "dynamics/world.h"
+#include "dynamics/world/world.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 /// Simple shapes must not close what a model leaves open.
 
-#include "dynamics/shape_distance.h"
+#include "dynamics/collision/shape_distance.h"
 #include "tests/dynamics/scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /// Many bodies far from each other: what they cost, and that nothing is missed for it.
 
-#include "dynamics/world.h"
+#include "dynamics/world/world.h"
 #include "tests/dynamics/watch.h"
 
 #include <gtest/gtest.h>

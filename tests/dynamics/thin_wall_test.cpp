@@ -1,4 +1,4 @@
-#include "dynamics/convex_touch.h"
+#include "dynamics/collision/convex_touch.h"
 #include "engine/maths/functions.h"
 #include "tests/dynamics/scenes.h"
 

@@ -1,6 +1,6 @@
 /// How bodies start, and what they take along when a hand lets go.
 
-#include "dynamics/body_axes.h"
+#include "dynamics/body/body_axes.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "tests/dynamics/scenes.h"

@@ -1,10 +1,10 @@
 /// Series in four lanes give the bits of plain arithmetic, written here number by number: with AVX2 where the
 /// machine has it, and without.
 
-#include "dynamics/wide.h"
+#include "dynamics/maths/wide.h"
 
-#include "dynamics/arc.h"
-#include "dynamics/drag_flight.h"
+#include "dynamics/motion/arc.h"
+#include "dynamics/motion/drag_flight.h"
 #include "tests/dynamics/watch.h"
 
 #include <gtest/gtest.h>

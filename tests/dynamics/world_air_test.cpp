@@ -1,7 +1,7 @@
 /// Bodies that fly by a model of the air, or by a bias, in a world.
 
-#include "dynamics/body_flight.h"
 #include "dynamics/flight/flight_shape.h"
+#include "dynamics/motion/body_flight.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "tests/dynamics/watch.h"

@@ -1,7 +1,7 @@
 /// A world that is put back from what was written down of it goes on to the bit, whatever its bodies are
 /// doing: in heaps, on slopes, in the air, in a hand, with commands that are still to come.
 
-#include "dynamics/world.h"
+#include "dynamics/world/world.h"
 #include "engine/core/state_fields.h"
 #include "engine/maths/functions.h"
 #include "tests/dynamics/scenes.h"

@@ -129,7 +129,7 @@ TEST(Layering, EachForeignLibraryHasItsRoom) {
   EXPECT_EQ(whoIncludes("lo/"), Files{"pipeline/device/osc_server.cpp"});
   EXPECT_EQ(whoIncludes("vrpn"), Files{"pipeline/device/vrpn_trackers.cpp"});
   EXPECT_EQ(whoIncludes("AL/"), Files{"pipeline/sound/sound_device.cpp"});
-  EXPECT_EQ(whoIncludes("fcl/"), Files{"dynamics/mesh_distance.cpp"});
+  EXPECT_EQ(whoIncludes("fcl/"), Files{"dynamics/shapes/mesh_distance.cpp"});
   EXPECT_EQ(whoIncludes("GL/gl"), (Files{"pipeline/gl/gl_table.h", floor + "gl.h"}));
   EXPECT_EQ(whoIncludes("btBulletDynamicsCommon"), Files{"profiling/bench/dynamics/engine_bullet.cpp"});
   EXPECT_EQ(whoIncludes("ode/"), Files{"profiling/bench/dynamics/engine_ode.cpp"});

@@ -8,7 +8,7 @@
 ///          advances to the nearest one; what is read is carried on (or back) for the remaining half
 ///          nanosecond at most by the velocity, which leaves an error below 1e-17 m.
 
-#include "dynamics/world.h"
+#include "dynamics/world/world.h"
 #include "profiling/bench/dynamics/engine.h"
 
 #include <limits>

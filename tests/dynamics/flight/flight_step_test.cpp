@@ -6,7 +6,7 @@
 #include "dynamics/flight/flight_table.h"
 #include "dynamics/flight/runge_kutta.h"
 #include "dynamics/flight/swarm_step.h"
-#include "dynamics/wide.h"
+#include "dynamics/maths/wide.h"
 #include "engine/maths/angles.h"
 
 #include <bit>

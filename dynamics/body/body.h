@@ -1,0 +1,125 @@
+#pragma once
+/// The values with which bodies and colliders are described: ids, surfaces, definitions, modes, states.
+///
+/// Frames   node poses X_WN in World, right-handed, +Z up; C is a body's centre of mass with its principal axes.
+/// Units    metres, seconds, kilograms; times in show nanoseconds.
+
+#include "dynamics/shapes/mass_properties.h"
+#include "engine/base/time_signature.h"
+#include "engine/maths/maths.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace stadion {
+
+/// Ids count up from 1 in the order of creation and are never used again; 0 means none.
+using ShapeId = std::uint32_t;
+using BodyId = std::uint32_t;
+using ColliderId = std::uint32_t;
+using FieldId = std::uint32_t;
+
+/// What one side says about a contact; what it leaves open, the other side decides, else the default.
+/// Pair: friction sqrt(a b), restitution and rolling the larger.
+struct Surface {
+  std::optional<double> friction;     ///< Coulomb coefficient, default 0.5
+  std::optional<double> restitution;  ///< in [0, 1], default 0.5
+  std::optional<double> rolling;      ///< rolling resistance, default 0.01
+};
+
+struct PairSurface {
+  double friction, restitution, rolling;
+};
+PairSurface combine(const Surface& a, const Surface& b);
+
+/// A body that sticks fast in what its tip meets first, as a javelin does in the ground: in a collider that
+/// stands still, at more than 1 m/s.
+struct Stick {
+  Vec3 nose = Vec3::UnitX();  ///< the way the tip points, unit, in N
+  double tip = 0;             ///< of the foremost point, along the nose [m]
+  double reach = 0.01;        ///< points so far behind it still belong to the tip [m]
+  double cosine = 0.5;        ///< of the greatest angle between the nose and straight into the surface
+  double depth = 0;           ///< so far it goes in, the way the tip comes [m]
+};
+
+struct BodyFlight;
+
+struct BodyDef {
+  ShapeId shape = 0;
+  Pose pose;                  ///< X_WN
+  Vec3 v = Vec3::Zero();      ///< of the centre of mass [m/s]
+  Vec3 omega = Vec3::Zero();  ///< in World [rad/s]
+  MassProperties mass;        ///< in N
+  Surface surface;
+  double damping = 0;            ///< velocity lost as exp(-c t) [1/s]
+  double dragArea = 0;           ///< drag coefficient times cross section, for media [m2]
+  double releaseDistance = 0.5;  ///< [m]; if infinite, releases are not watched for and not told
+  std::optional<Stick> stick;
+  std::shared_ptr<const BodyFlight> flight;  ///< null: it feels media as a point with its drag area
+};
+
+struct ColliderDef {
+  ShapeId shape = 0;
+  Pose pose;  ///< X_WN
+  Surface surface;
+};
+
+enum class BodyMode : std::uint8_t {
+  Flight,       ///< nothing touches it
+  Slide,        ///< ball on a flat face, slipping
+  Roll,         ///< ball on a flat face, not slipping
+  Contact,      ///< advanced by the contact solver
+  Rest,         ///< asleep: its state is frozen
+  Held,         ///< moved from outside (grabbed)
+  Quarantined,  ///< its state would have become non-finite
+  Stuck,        ///< its tip sticks in a collider, until that moves or goes, or somebody takes it out
+};
+constexpr BodyMode lastOf(BodyMode) {
+  return BodyMode::Stuck;
+}
+/// Whether a body of this mode neither moves nor is moved.
+constexpr bool standsStill(BodyMode mode) {
+  return mode == BodyMode::Rest || mode == BodyMode::Quarantined || mode == BodyMode::Stuck;
+}
+
+/// How the path of a body in flight is known.
+enum class FlightClass : std::uint8_t {
+  Exact,   ///< in closed form, under pulls that are the same everywhere
+  Series,  ///< to order 16, in one medium that is the same everywhere
+  Steps,   ///< by steps of order 5, under anything else
+};
+constexpr FlightClass lastOf(FlightClass) {
+  return FlightClass::Steps;
+}
+
+/// A body's whole simulated state at the end of the last advance, for hashing and reports.
+struct BodyState {
+  Pose pose;                  ///< X_WN
+  Vec3 p = Vec3::Zero();      ///< centre of mass [m]
+  Quat q = Quat::Identity();  ///< principal axes C to World
+  Vec3 v = Vec3::Zero();      ///< [m/s]
+  Vec3 omega = Vec3::Zero();  ///< [rad/s]
+  Vec3 L = Vec3::Zero();      ///< angular momentum [kg m2/s]
+  BodyMode mode = BodyMode::Flight;
+  Nanoseconds clock = 0;  ///< when its present arc began [ns]
+  double clockRest = 0;   ///< [s], part of the clock below a nanosecond
+  // For reports, no part of the state:
+  FlightClass flight = FlightClass::Exact;  ///< in flight
+  std::uint32_t arcs = 0;                   ///< how many it has begun so far: the measure of work
+  bool asleep() const { return mode == BodyMode::Rest; }
+};
+
+/// One side of a pair; body and collider ids count separately.
+struct Party {
+  bool isBody = false;
+  std::uint32_t id = 0;
+  auto operator<=>(const Party&) const = default;
+
+  template <class Self, class Fields>
+  static void fields(Self& p, Fields& f) {
+    f("body", p.isBody), f("id", p.id);
+  }
+};
+
+}  // namespace stadion

@@ -1,0 +1,36 @@
+#pragma once
+/// Collision impulses at one point: Newton's restitution, Coulomb's friction; none brings energy.
+///
+/// Formula  K = sum (1/m + [r]^T I^-1 [r]); the impulse that stops the slip and reverses the approach is K^-1
+/// du; outside the
+///          friction cone the tangential part is mu times the normal part against the slip.
+
+#include "dynamics/body/rigid_body.h"
+
+namespace stadion {
+
+/// Velocities of one side that an impulse changes.
+struct Mobile {
+  double inverseMass = 0;              ///< 0: nothing moves it
+  Mat3 inverseInertia = Mat3::Zero();  ///< in World
+  Vec3 p = Vec3::Zero(), v = Vec3::Zero(), omega = Vec3::Zero();
+  Quat q = Quat::Identity();  ///< of a body C to World, of a collider N to World
+
+  Vec3 velocityAt(const Vec3& x) const { return v + omega.cross(x - p); }
+  void apply(const Vec3& impulse, const Vec3& x) {
+    v += inverseMass * impulse;
+    omega += inverseInertia * (x - p).cross(impulse);
+  }
+};
+
+Mobile mobileOf(const RigidBody& b, double tau);
+Mobile mobileOf(const Collider& c, double tau);
+
+/// Change of velocity at x per impulse at x.
+Mat3 response(const Mobile& m, const Vec3& x);
+
+/// Resolves the approach of a against b at x, n from b to a. Returns the impulse on a; zero if they part
+/// already.
+Vec3 collide(Mobile& a, Mobile& b, const Vec3& x, const Vec3& n, double restitution, double friction);
+
+}  // namespace stadion

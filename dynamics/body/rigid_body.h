@@ -1,0 +1,279 @@
+#pragma once
+/// What the world keeps of a body, a collider and their motion through one frame. Internal to dynamics/.
+///
+/// Times    tau is seconds after the start of the present window; an arc's age is `age0 + tau`.
+
+#include "dynamics/body/body.h"
+#include "dynamics/motion/arc.h"
+#include "dynamics/motion/body_flight.h"
+#include "dynamics/motion/body_way.h"
+#include "dynamics/motion/drag_flight.h"
+#include "dynamics/motion/instant.h"
+#include "dynamics/shapes/shape.h"
+#include "engine/maths/functions.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace stadion {
+
+/// Events on a known way are found a little beyond the end of its part: what closes there counts to it [s].
+constexpr double kTurnsLate = 1e-10;
+
+/// A straight move with constant angular velocity through the frame, or a way that is known exactly.
+struct GuidedMotion {
+  Pose start, end;
+  Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
+  double begin = 0;  ///< tau of `start`
+  double rate = 0;   ///< 1 / frame length [1/s]
+  bool moving = false;
+  BodyWay way;           ///< instead of all that, in this frame
+  std::size_t part = 0;  ///< of it, at the last turn
+
+  void set(const Pose& from, const Pose& to, double tau, double seconds) {
+    start = from, end = to, begin = tau;
+    moving = seconds > 0 && (from.p != to.p || from.q.coeffs() != to.q.coeffs());
+    rate = moving ? 1 / seconds : 0;
+    v = moving ? Vec3((to.p - from.p) * rate) : Vec3::Zero();
+    omega = moving ? Vec3(from.q * det::logRotation(from.q.conjugate() * to.q) * rate) : Vec3::Zero();
+  }
+  /// Instead of what has been set it follows `way` from tau to `until`; a window began at `origin`.
+  void follow(const Instant& origin, double tau, double until) {
+    if (way.empty()) return;
+    rebase(origin);
+    part = partAfter(tau + 1e-12);
+    moving = false;
+    for (std::size_t i = part; i < way.size() && way[i].tau < until; ++i) moving = moving || !way[i].stands();
+    if (!moving) way.clear(), v.setZero(), omega.setZero();
+  }
+  void rebase(const Instant& origin) {
+    for (WayPart& p : way) p.tau = p.from.since(origin);
+  }
+  bool guided() const { return !way.empty(); }
+  Kinematics at(double tau) const {
+    if (guided()) return way[partAt(tau)].at(tau);
+    const Pose X = moving ? det::interpolate(start, end, (tau - begin) * rate) : end;
+    return {X, X.p, v, omega};
+  }
+  /// Of what does not reach beyond one part of the way.
+  MotionBound boundOver(double from, double to) const {
+    if (guided()) return way[partAt(from)].boundOver(from, to);
+    return {v.norm(), 0, omega.norm(), 0};
+  }
+  /// When its way goes on otherwise [s].
+  double nextTurn() const {
+    return part + 1 < way.size() ? way[part + 1].tau : std::numeric_limits<double>::infinity();
+  }
+  /// Both sides of a turn are seen from the part that has been reached.
+  std::size_t partAt(double tau) const {
+    if (way[part].tau <= tau && !(tau > nextTurn() + kTurnsLate)) return part;
+    return partAfter(tau);
+  }
+  std::size_t partAfter(double tau) const {
+    const auto next = std::ranges::upper_bound(way, tau, {}, &WayPart::tau);
+    return next == way.begin() ? 0 : static_cast<std::size_t>(next - way.begin()) - 1;
+  }
+};
+
+/// A flat face that a ball slides or rolls on.
+struct Support {
+  Party on;                    ///< collider, or none
+  std::int32_t triangle = -1;  ///< of a mesh
+  Vec3 point = Vec3::Zero();   ///< the plane that the ball's surface touches
+  Vec3 normal = Vec3::UnitZ();
+  int edges = 0;  ///< the face ends where n . x < d for one of these
+  std::array<Vec3, 4> edgeNormal{Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
+  std::array<double, 4> edgeOffset{};
+  double friction = 0, rolling = 0, restitution = 0;
+
+  /// Whether a ball at p that moves with v has come to the face's end.
+  bool ends(const Vec3& p, const Vec3& v) const {
+    constexpr double kAtEdge = 1e-9;  // [m]
+    for (std::size_t i = 0; i < static_cast<std::size_t>(edges); ++i)
+      if (edgeNormal[i].dot(p) - edgeOffset[i] <= kAtEdge && edgeNormal[i].dot(v) < 0) return true;
+    return false;
+  }
+};
+
+/// A contact point of the last step of the solver, as a guess for the next.
+struct Pressed {
+  std::uint64_t key = 0;
+  Vec3 force = Vec3::Zero();  ///< on the body [N]
+  double step = 0;            ///< how long that was, so that a blow is no guess for a long push [s]
+};
+
+struct Hook {
+  FieldId field = 0;
+};
+
+/// How a body that hardly moves changes its velocity: who is being accelerated does not fall asleep.
+struct Calm {
+  Vec3 v = Vec3::Zero(), omega = Vec3::Zero();  ///< when the present look began
+  double since = 0;                             ///< its quiet time then [s]
+  double span = 0;                              ///< how long this look takes [s]
+  bool balanced = false;                        ///< what the last one said
+};
+
+/// What is asked of every body in flight, in one piece that begins with a cache line: where many fly, most of
+/// the cost is to fetch it.
+struct alignas(64) RigidMotion {
+  BodyId id = 0;
+  BodyMode mode = BodyMode::Flight;
+  bool enabled = true, fresh = true;
+  bool active = false, marked = false;  ///< in the world's lists of these names
+  bool stirred = false;                 ///< and of this
+  bool aligned = false;                 ///< X_NC is the identity
+  bool alone = false;                   ///< nothing is near what it sweeps, but `only`
+  bool lazy = false;          ///< nothing at all, whatever its next arcs: they are made when asked for
+  std::uint32_t version = 0;  ///< counts arcs: older predictions are void
+  Instant since;              ///< when the present arc began
+  double age0 = 0;            ///< its age at the start of the window [s]
+  double until = 0;           ///< greatest valid tau; infinity if unlimited
+  double validAge = 0;        ///< the same as an age
+  double pathAge = 0;         ///< the same for the path alone: the spin may wear out earlier
+  double spinStart = 0;       ///< the arc's age at which the spin's own began
+  Pose pose;                  ///< X_WN at the end of the last frame
+  Path path;
+  Spin spin;
+};
+
+/// The way out of a collider that a hand has put the body into (way_out.h).
+struct WayOut {
+  ColliderId of = 0;
+  Vec3 normal = Vec3::UnitZ();  ///< unit, in the collider's frame
+  double side = 1;              ///< 1: out of the front of its faces, -1: out of their back
+};
+
+struct RigidBody : RigidMotion {
+  ShapeId shapeId = 0;
+  const Shape* shape = nullptr;
+  Surface surface;
+  double mass = 1, inverseMass = 1;
+  Vec3 inertia = Vec3::Ones();
+  EvenPull even;  ///< a path that is a series: what acts on the body
+  Pose X_NC, X_CN;
+  bool centred = false;  ///< a ball that rotates about its own centre: it has closed forms
+  Sphere bound;          ///< centre in N
+  double reach = 0;      ///< greatest distance of a surface point from the centre of mass [m]
+  double damping = 0, dragArea = 0, releaseDistance = 0.5;
+  std::optional<Stick> stick;
+  std::shared_ptr<const BodyFlight> flight;
+  Quat q_CA = Quat::Identity();  ///< flight frame A to C, of a body with `flight`
+
+  Vec3 endL = Vec3::Zero();  ///< Contact, but for Driven spins: angular momentum at the end of the sub-step
+  double step = 0;           ///< last step of the general integrator [s]
+  Support support;
+  std::vector<Hook> hooks;
+  std::vector<Party> touching;   ///< Contact, Rest: whom the body leans on, or nearly
+  std::vector<Party> leaning;    ///< Contact: those of them that the memory of pairs calls touching
+  std::vector<Pressed> presses;  ///< Contact: forces of the last step on the points of this body
+  double dueAge = 0;             ///< Contact: age at which the solver looks again; 0: at once [s]
+  bool crowd = false;            ///< Contact: one of many, advanced together with them
+  bool wedged = false;           ///< Contact, islands: a hand or a lift presses it against what does not move
+  bool restless = false;         ///< Contact, islands: the last step had no exact solution, or not soon
+  bool drowsy = false;           ///< crowd: it falls asleep when the present step is over
+  bool heaped = false;           ///< Rest: it fell asleep as one of them
+  Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< how far since it is quiet, or is looked at [m], [rad]
+  std::uint32_t slot = 0;                           ///< scratch of the contact solver
+  GuidedMotion held;
+  BodyWay nextWay;  ///< Held: in the coming part of a frame, if it is known
+  bool traced = false,
+       awaited = false;           ///< its way is noted, for others or because it may part from something
+  bool put = false;               ///< it has been put where it is
+  BodyWay trace;                  ///< traced: its way in this frame
+  std::vector<FieldId> carried;   ///< Held: fields in the same hand
+  Vec3 wound = Vec3::Zero();      ///< Held: the velocity that their pushes have added up to, in N [m/s]
+  Instant woundTo;                ///< Held: until when
+  Vec3 freePlace = Vec3::Zero();  ///< Held: where the middle of its bound was when it last was in nothing
+  bool letGo = false;             ///< a hand has let go of it in this moment
+  std::vector<WayOut> waysOut;    ///< Contact: of what it was let go in, until it is out
+  std::uint32_t impacts = 0;      ///< in the short time `impactSpan`
+  Nanoseconds impactSpan = -1;
+  double quiet = 0;  ///< Contact: how long it has hardly moved [s]
+  Calm calm;         ///< Contact, islands
+  std::string trouble;
+  Aabb swept;                        ///< of the rest of the window, as far as it is known
+  std::uint32_t place = 0xffffffff;  ///< in the broad phase
+  ColliderId only = 0;               ///< all that is near what it sweeps, if it is alone
+
+  bool isBall() const { return std::holds_alternative<BallShape>(*shape); }
+  /// How far the ball's centre is from the centre of mass [m].
+  double eccentricity() const { return (X_CN * std::get<BallShape>(*shape).centre).norm(); }
+  double radius() const { return std::get<BallShape>(*shape).radius; }
+  bool movable() const {
+    return mode != BodyMode::Held && mode != BodyMode::Quarantined && mode != BodyMode::Stuck;
+  }
+  bool sampled() const { return mode != BodyMode::Held; }
+
+  double age(double tau) const { return age0 + tau; }
+  double spinAge(double tau) const { return age0 + tau - spinStart; }
+  Vec3 position(double tau) const { return path.position(age(tau)); }
+  Vec3 velocity(double tau) const { return path.velocity(age(tau)); }
+  Quat orientation(double tau) const { return spin.orientation(spinAge(tau)); }
+  /// In a step of contact the arc turns with the mean of the step, through which the momentum grows evenly.
+  bool torqued() const { return mode == BodyMode::Contact && dueAge > 0 && spin.kind != Spin::Kind::Driven; }
+  /// Angular momentum now.
+  Vec3 momentum(double tau) const {
+    if (!torqued()) return spin.angularMomentum(spinAge(tau));
+    const double share = std::clamp(2 * age(tau) / dueAge - 1, -1.0, 1.0);
+    return spin.L + share * (endL - spin.L);
+  }
+  /// Angular velocity that belongs to it.
+  Vec3 turning(double tau) const { return turning(tau, orientation(tau)); }
+  Vec3 turning(double tau, const Quat& q) const {  ///< if the orientation is known already
+    if (!torqued()) return spin.angularVelocity(spinAge(tau), q);
+    const Vec3 inverse = inertia.cwiseInverse();
+    if (inverse.x() == inverse.y() && inverse.y() == inverse.z()) return inverse.x() * momentum(tau);
+    return q * inverse.cwiseProduct(q.conjugate() * momentum(tau));
+  }
+  /// X_WN alone.
+  Pose poseAt(double tau) const {
+    if (mode == BodyMode::Held) return held.at(tau).pose;
+    const Pose X_WC{position(tau), orientation(tau)};
+    return aligned ? X_WC : X_WC * X_CN;
+  }
+  Kinematics at(double tau) const {
+    if (mode == BodyMode::Held) {
+      Kinematics k = held.at(tau);
+      const Vec3 c = k.pose * X_NC.p;
+      k.v = k.velocityAt(c), k.p = c;
+      return k;
+    }
+    const Pose X_WC{position(tau), orientation(tau)};
+    return {X_WC * X_CN, X_WC.p, velocity(tau), spin.angularVelocity(spinAge(tau), X_WC.q)};
+  }
+  MotionBound boundOver(double from, double to) const;
+};
+
+struct Collider {
+  ColliderId id = 0;
+  ShapeId shapeId = 0;
+  const Shape* shape = nullptr;
+  Surface surface;
+  Sphere bound;  ///< in N
+  bool enabled = true;
+  Pose now;                  ///< X_WN at the start of the coming frame
+  std::optional<Pose> next;  ///< where it will be at its end
+  BodyWay nextWay;           ///< how it gets there, if that is known
+  GuidedMotion motion;
+  Vec3 planePoint = Vec3::Zero(), planeNormal = Vec3::UnitZ();  ///< of a PlaneShape, at the motion's end
+  bool disturbed = false;  ///< it moved, jumped or came: sleepers on it wake
+  bool fresh = true;
+  std::uint32_t version = 0;  ///< counts motions: older predictions are void
+  Aabb swept;
+  std::uint32_t place = 0xffffffff;  ///< in the broad phase
+
+  void move(const Pose& from, const Pose& to, double tau, double seconds) {
+    motion.set(from, to, tau, seconds);
+    if (const auto* plane = std::get_if<PlaneShape>(shape))
+      planePoint = to * plane->pose.p, planeNormal = to.q * plane->normal();
+  }
+};
+
+inline MotionBound RigidBody::boundOver(double from, double to) const {
+  if (mode == BodyMode::Held) return held.boundOver(from, to).seenFrom(X_NC.p.norm());
+  return boundOf(path, age(from), age(to), spin, spinAge(to));
+}
+
+}  // namespace stadion

@@ -1,0 +1,318 @@
+#include "dynamics/contact/crowd_solver.h"
+
+#include "dynamics/contact/crowd_energy.h"
+#include "dynamics/maths/wide.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr int kJumps = 12, kShifts = 4;
+constexpr int kSweeps = 14,
+              kStillSweeps = 16;       ///< while it moves; when it comes to rest, and sleep depends on it
+constexpr int kMostSweeps = 500;       ///< of small heaps ...
+constexpr std::size_t kSwept = 40000;  ///< ... and the points that these relax in all
+constexpr double kConverged = 1e-8;    ///< a sweep that changes less is the last there [m/s]
+constexpr double kSlow = 0.1;          ///< root mean square speed at rest, nearly [m/s]
+constexpr double kSettled = 1e-5;      ///< a sweep that changes less is the last [m/s]
+constexpr double kSlop = 1e-4;         ///< overlap that is left alone [m]
+constexpr double kDeep = 2e-2;         ///< overlap that no step leaves behind: somebody was put there [m]
+constexpr double kShare = 0.3;         ///< of deeper overlap that a step takes back
+constexpr double kMostShift = 2e-3;    ///< in a step [m]
+constexpr double kBounceSpeed = 0.5;   ///< slower approaches do not bounce [m/s]
+
+/// Three numbers and the one behind them.
+inline WideAnywhere& wide(Vec3& v) {
+  return *reinterpret_cast<WideAnywhere*>(v.data());
+}
+/// Of the first three.
+inline double dot(const Wide& a, const Wide& b) {
+  const Wide each = a * b;
+  return each[0] + each[1] + each[2];
+}
+inline void cross(const Wide& a, const Wide& b, Wide& product) {
+  const Wide nextA{a[1], a[2], a[0], a[3]}, nextB{b[1], b[2], b[0], b[3]};
+  const Wide turned = a * nextB - nextA * b;  // (z, x, y)
+  product = Wide{turned[1], turned[2], turned[0], turned[3]};
+}
+
+class CrowdSolver {
+public:
+  explicit CrowdSolver(Crowd& crowd) : crowd_(crowd), energy_(crowd) {}
+  void solve();
+
+private:
+  double response(std::uint32_t body, const Vec3& arm, const Vec3& along) const;
+  double normalVelocity(const CrowdContact& c) const;
+  void prepare(CrowdContact& c) const;
+  void give(const CrowdContact& c, double pressed, const Vec3& held);
+  double relax(CrowdContact& c);
+  double sweepAll(bool forward);
+  double sweepWide(bool forward);
+  double sweep(bool forward);
+  double meanSquare() const;
+  int sweepsFor(std::size_t points) const;
+  void converge(int most);
+  void go(CrowdContact& c, double pressed, const Vec3& held);
+  void jump();
+  void shift();
+  void push();
+
+  struct Guess {
+    double pressed;
+    Vec3 held;
+  };
+  Crowd& crowd_;
+  CrowdEnergy energy_;
+  std::vector<Guess> guess_;
+  std::vector<Guess> before_, direction_;
+};
+
+double CrowdSolver::response(std::uint32_t body, const Vec3& arm, const Vec3& along) const {
+  const CrowdBody& b = crowd_.bodies[body];
+  if (b.inverseMass == 0) return 0;
+  const Vec3 c = arm.cross(along);
+  return b.inverseMass +
+         (b.roundInertia > 0 ? b.roundInertia * c.squaredNorm() : c.dot(crowd_.inverseInertia[body] * c));
+}
+
+double CrowdSolver::normalVelocity(const CrowdContact& c) const {
+  const CrowdBody &a = crowd_.bodies[c.a], &b = crowd_.bodies[c.b];
+  if (c.arms < 0) return (a.v - b.v).dot(c.n);
+  const CrowdArms& arms = crowd_.arms[static_cast<std::size_t>(c.arms)];
+  return (a.v + a.omega.cross(arms.a) - b.v - b.omega.cross(arms.b)).dot(c.n);
+}
+
+/// What an impulse changes, along the normal and (at most) across it.
+void CrowdSolver::prepare(CrowdContact& c) const {
+  const CrowdBody &a = crowd_.bodies[c.a], &b = crowd_.bodies[c.b];
+  double kn = a.inverseMass + b.inverseMass, kt = kn;
+  if (c.arms < 0) {
+    kt += a.roundInertia * c.leverA * c.leverA + b.roundInertia * c.leverB * c.leverB;
+  } else {
+    const CrowdArms& arms = crowd_.arms[static_cast<std::size_t>(c.arms)];
+    const Vec3 t1 = (std::fabs(c.n.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY()).cross(c.n).normalized(),
+               t2 = c.n.cross(t1);
+    kn = response(c.a, arms.a, c.n) + response(c.b, arms.b, c.n);
+    kt = response(c.a, arms.holdA, t1) + response(c.b, arms.holdB, t1) + response(c.a, arms.holdA, t2) +
+         response(c.b, arms.holdB, t2);
+  }
+  c.normalMass = kn > 0 ? 1 / kn : 0, c.tangentMass = kt > 0 ? 1 / kt : 0;
+}
+
+void CrowdSolver::give(const CrowdContact& c, double pressed, const Vec3& held) {
+  CrowdBody &a = crowd_.bodies[c.a], &b = crowd_.bodies[c.b];
+  const Vec3 push = pressed * c.n, impulse = push + held;
+  a.v += a.inverseMass * impulse, b.v -= b.inverseMass * impulse;
+  if (c.arms < 0) {
+    const Vec3 turn = c.n.cross(impulse);
+    a.omega -= a.roundInertia * c.leverA * turn, b.omega -= b.roundInertia * c.leverB * turn;
+    return;
+  }
+  const CrowdArms& arms = crowd_.arms[static_cast<std::size_t>(c.arms)];
+  const auto turn = [&](CrowdBody& body, std::uint32_t i, const Vec3& moment) {
+    if (body.roundInertia > 0)
+      body.omega += body.roundInertia * moment;
+    else if (body.inverseMass > 0)
+      body.omega += crowd_.inverseInertia[i] * moment;
+  };
+  turn(a, c.a, arms.a.cross(push) + arms.holdA.cross(held));
+  turn(b, c.b, -arms.b.cross(push) - arms.holdB.cross(held));
+}
+
+/// One pass over a point; returns the greatest change of a velocity, squared.
+double CrowdSolver::relax(CrowdContact& c) {
+  const CrowdBody &a = crowd_.bodies[c.a], &b = crowd_.bodies[c.b];
+  const CrowdArms& arms = crowd_.arms[static_cast<std::size_t>(c.arms)];
+  const Vec3 apart = a.v - b.v, u = apart + a.omega.cross(arms.a) - b.omega.cross(arms.b);
+  const double pressed = std::max(0.0, c.pressed + (c.floor - u.dot(c.n)) * c.normalMass);
+  if (pressed == 0 && c.pressed == 0) return 0;
+  const Vec3 slip = apart + a.omega.cross(arms.holdA) - b.omega.cross(arms.holdB);
+  Vec3 held = c.held - c.tangentMass * (slip - slip.dot(c.n) * c.n);
+  const double most = c.friction * pressed, size = held.squaredNorm();
+  if (size > most * most) held *= most / std::sqrt(size);
+  const double more = pressed - c.pressed;
+  const Vec3 hold = held - c.held, step = more * c.n + hold;
+  c.pressed = pressed, c.held = held;
+  give(c, more, hold);
+  const double mass = std::max(a.inverseMass, b.inverseMass);
+  return step.squaredNorm() * mass * mass;
+}
+
+/// The same where both sides are balls, or moved by nothing: the normal does not turn them.
+[[gnu::always_inline]] inline double relaxRound(CrowdContact& c, std::vector<CrowdBody>& bodies) {
+  constexpr Wide kThree{1, 1, 1, 0};
+  CrowdBody &a = bodies[c.a], &b = bodies[c.b];
+  const Wide n = wide(c.n), va = wide(a.v), vb = wide(b.v), apart = va - vb;
+  const double un = dot(apart, n), pressed = std::max(0.0, c.pressed + (c.floor - un) * c.normalMass);
+  if (pressed == 0 && c.pressed == 0) return 0;
+  const Wide wa = wide(a.omega), wb = wide(b.omega), before = wide(c.held);
+  const Wide rolls = c.leverA * wa + c.leverB * wb;
+  Wide across, turn;
+  cross(rolls, n, across);
+  Wide held = before - c.tangentMass * (apart - un * n - across);
+  const double most = c.friction * pressed, size = dot(held, held);
+  if (size > most * most) held *= most / std::sqrt(size);
+  const Wide step = kThree * ((pressed - c.pressed) * n + (held - before));
+  held[3] = c.floor;
+  c.pressed = pressed, wide(c.held) = held;
+  cross(n, step, turn);
+  wide(a.v) = va + a.inverseMass * step, wide(b.v) = vb - b.inverseMass * step;
+  wide(a.omega) = wa - a.roundInertia * c.leverA * turn;
+  wide(b.omega) = wb - b.roundInertia * c.leverB * turn;
+  const double mass = std::max(a.inverseMass, b.inverseMass);
+  return dot(step, step) * mass * mass;
+}
+
+[[gnu::always_inline]] inline double CrowdSolver::sweepAll(bool forward) {
+  double change = 0;
+  std::vector<CrowdContact>& all = crowd_.contacts;
+  const std::size_t n = all.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    CrowdContact& c = all[forward ? i : n - 1 - i];
+    change = std::max(change, c.arms < 0 ? relaxRound(c, crowd_.bodies) : relax(c));
+  }
+  return change;
+}
+[[gnu::target("avx2")]] double CrowdSolver::sweepWide(bool forward) {
+  return sweepAll(forward);
+}
+double CrowdSolver::sweep(bool forward) {
+  return hasWide() ? sweepWide(forward) : sweepAll(forward);
+}
+
+/// So many sweeps relax so many points. Balls do not pile up high: they need no more than usual.
+int CrowdSolver::sweepsFor(std::size_t points) const {
+  return crowd_.arms.empty() ? 0 : static_cast<int>(points / crowd_.contacts.size());
+}
+
+/// Changes what a contact point pushes.
+void CrowdSolver::go(CrowdContact& c, double pressed, const Vec3& held) {
+  give(c, pressed, held);
+  c.pressed += pressed, c.held += held;
+}
+
+/// Small heaps can afford more sweeps, and need them where they are tall. What a sweep did is a gradient: the
+/// next one begins farther along it, conjugate to where it went before (Silcowitz, Niebe and Erleben 2010).
+void CrowdSolver::converge(int most) {
+  std::vector<CrowdContact>& all = crowd_.contacts;
+  const std::size_t n = all.size();
+  before_.resize(n), direction_.assign(n, {0, Vec3::Zero()});
+  double last = 0;
+  for (int i = 0; i < most; ++i) {
+    for (std::size_t k = 0; k < n; ++k) before_[k] = {all[k].pressed, all[k].held};
+    if (sweep(i % 2 == 0) < kConverged * kConverged || i + 1 == most) return;
+    double square = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double dp = all[k].pressed - before_[k].pressed;
+      square +=
+          (dp * dp + (all[k].held - before_[k].held).squaredNorm()) / std::max(all[k].normalMass, 1e-300);
+    }
+    const double beta = last > 0 ? square / last : 2;
+    last = square;
+    if (beta > 1) {
+      for (Guess& d : direction_) d = {0, Vec3::Zero()};
+      continue;
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      const Guess step{beta * direction_[k].pressed, beta * direction_[k].held};
+      direction_[k] = {step.pressed + all[k].pressed - before_[k].pressed,
+                       step.held + all[k].held - before_[k].held};
+      if (step.pressed != 0 || !step.held.isZero(0)) go(all[k], step.pressed, step.held);
+    }
+  }
+}
+
+/// Of the members' speeds at the step's start [m2/s2].
+double CrowdSolver::meanSquare() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < crowd_.members; ++i) sum += crowd_.start[i].v.squaredNorm();
+  return sum / static_cast<double>(std::max<std::size_t>(crowd_.members, 1));
+}
+
+/// Whoever would meet within the step bounces now, or slows down so far that it just meets.
+void CrowdSolver::jump() {
+  bool any = false;
+  for (CrowdContact& c : crowd_.contacts) {
+    const double closing = -normalVelocity(c), gap = std::max(c.gap, 0.0) / crowd_.h;
+    c.floor = closing > kBounceSpeed && closing > gap ? c.restitution * closing : -gap;
+    any = any || closing > gap + kSettled;
+    c.pressed = 0, c.held.setZero();
+  }
+  if (!any) return;
+  const std::vector<CrowdBody> before = crowd_.bodies;
+  const int affordable = sweepsFor(kSwept / 4);
+  for (int i = 0; i < std::clamp(affordable, kJumps, kMostSweeps); ++i)
+    if (sweep(i % 2 != 0) < kSettled * kSettled) break;
+  energy_.boundJump(crowd_, before);
+}
+
+/// Takes back a share of what overlaps; who is in the way moves along.
+void CrowdSolver::shift() {
+  crowd_.shift.assign(crowd_.bodies.size(), Vec3::Zero());
+  bool any = false;
+  for (CrowdContact& c : crowd_.contacts) {
+    c.floor = c.gap < -kSlop ? std::min(kMostShift, kShare * (-kSlop - c.gap)) : std::min(0.0, -c.gap);
+    any = any || c.floor > 0;
+    c.pressed = 0;
+  }
+  if (!any) return;
+  std::vector<Vec3>& d = crowd_.shift;
+  for (int i = 0; i < kShifts; ++i)
+    for (CrowdContact& c : crowd_.contacts) {
+      const double ka = crowd_.bodies[c.a].inverseMass, kb = crowd_.bodies[c.b].inverseMass;
+      const double more = std::max(-c.pressed, (c.floor - (d[c.a] - d[c.b]).dot(c.n)) / (ka + kb));
+      c.pressed += more;
+      d[c.a] += more * ka * c.n, d[c.b] -= more * kb * c.n;
+    }
+  energy_.payShift(crowd_, kDeep);
+  for (CrowdContact& c : crowd_.contacts) c.gap += (d[c.a] - d[c.b]).dot(c.n);
+}
+
+/// Forces through the step.
+void CrowdSolver::push() {
+  std::vector<CrowdContact>& all = crowd_.contacts;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    CrowdContact& c = all[k];
+    c.pressed = guess_[k].pressed, c.held = guess_[k].held;
+    c.floor = std::min(0.0, -2 * std::max(c.gap, 0.0) / crowd_.h - normalVelocity(c));
+  }
+  crowd_.start = crowd_.bodies;
+  for (std::size_t i = 0; i < crowd_.members; ++i) crowd_.bodies[i].v += crowd_.h * crowd_.pull[i];
+  for (const CrowdContact& c : all)
+    if (c.pressed > 0) give(c, c.pressed, c.held);
+  const bool still = meanSquare() < kSlow * kSlow;
+  const int sweeps = still ? kStillSweeps : kSweeps;
+  const int affordable = sweepsFor(still ? kSwept : kSwept / 4);
+  if (affordable > 2 * sweeps) {
+    converge(std::min(affordable, kMostSweeps));
+  } else {
+    for (int i = 0; i < sweeps; ++i)
+      if (sweep(i % 2 == 0) < kSettled * kSettled) break;
+  }
+  for (const CrowdContact& c : all) {  // rolling resistance takes spin
+    if (!(c.rolling * c.pressed > 0)) continue;
+    CrowdBody& a = crowd_.bodies[c.a];
+    const double most = c.rolling * c.pressed * a.roundInertia, w = a.omega.norm();
+    if (w > 0) a.omega *= std::max(0.0, 1 - most / w);
+  }
+  energy_.boundWork(crowd_);
+}
+
+void CrowdSolver::solve() {
+  guess_.reserve(crowd_.contacts.size());
+  for (CrowdContact& c : crowd_.contacts) prepare(c), guess_.push_back({c.pressed, c.held});
+  jump();
+  shift();
+  push();
+}
+
+}  // namespace
+
+void solveCrowd(Crowd& crowd) {
+  CrowdSolver(crowd).solve();
+}
+
+}  // namespace stadion

@@ -1,0 +1,126 @@
+#include "dynamics/world/contact_events.h"
+
+#include "engine/core/state_hash.h"
+
+namespace stadion {
+std::uint64_t ContactMemory::share(const Key& pair, const Memory& m) {
+  if (m.idle()) return 0;
+  StateHash h;
+  h.add(pair.first.isBody), h.add(pair.first.id), h.add(pair.second);
+  h.add(m.touching), h.add(m.waiting != kNowhere), h.add(m.impact);
+  return h.value();
+}
+
+ContactMemory::Key ContactMemory::keyOf(Party a, Party b) {
+  if (a.isBody && (!b.isBody || b.id < a.id)) std::swap(a, b);
+  return {a, b.id};
+}
+
+template <class F>
+void ContactMemory::update(const Key& pair, F change) {
+  const auto [at, isNew] = memory_.try_emplace(pair);
+  Memory& m = at->second;
+  if (isNew) others_.emplace(pair.second, pair.first);
+  if (!isNew && m.idle()) --idle_;
+  change(m);
+  digest_ -= m.share;
+  digest_ += m.share = share(pair, m);
+  if (m.idle() && ++idle_ > 64 + memory_.size() / 2) forgetIdle();
+}
+
+ContactMemory::Waiting* ContactMemory::impact(const Key& pair, Nanoseconds time, const Vec3& point,
+                                              const Vec3& normal, double speed, double impulse,
+                                              std::uint64_t frame, bool awaited) {
+  if (!(speed > kImpactSpeed) || touching(pair)) return nullptr;
+  events_.push_back(
+      {ContactEvent::Kind::Impact, time, pair.first, pair.second, point, normal, speed, impulse});
+  if (!awaited) return nullptr;
+  Waiting* waiting = nullptr;
+  update(pair, [&](Memory& m) {
+    if (m.waiting == kNowhere) {
+      m.waiting = static_cast<std::uint32_t>(waiting_.size());
+      waiting_.push_back({pair});
+    }
+    waiting = &waiting_[m.waiting];
+    m.impact = time, waiting->frame = frame, waiting->seen = time;
+  });
+  return waiting;
+}
+
+void ContactMemory::setTouching(const Key& pair, bool now) {
+  if (touching(pair) != now) update(pair, [&](Memory& m) { m.touching = now; });
+}
+
+bool ContactMemory::touching(const Key& pair) const {
+  const auto at = memory_.find(pair);
+  return at != memory_.end() && at->second.touching;
+}
+
+std::uint64_t ContactMemory::share(const Owed& owed) {
+  StateHash h;
+  h.add(owed.pair.first.isBody), h.add(owed.pair.first.id), h.add(owed.pair.second), h.add(owed.time);
+  return h.value();
+}
+
+void ContactMemory::beginFrame() {
+  events_.clear();
+  for (const Owed& o : owed_) {
+    digest_ -= share(o);
+    events_.push_back(
+        {ContactEvent::Kind::Release, o.time, o.pair.first, o.pair.second, Vec3::Zero(), Vec3::Zero(), 0, 0});
+  }
+  owed_.clear();
+}
+
+ContactMemory::Waiting* ContactMemory::waitingOf(const Key& pair) {
+  const auto at = memory_.find(pair);
+  return at == memory_.end() || at->second.waiting == kNowhere ? nullptr : &waiting_[at->second.waiting];
+}
+
+void ContactMemory::releaseLater(const Key& pair, Nanoseconds time) {
+  if (!waitingOf(pair)) return;
+  update(pair, [&](Memory& m) { leave(m); });
+  owed_.push_back({pair, time});
+  digest_ += share(owed_.back());
+}
+
+void ContactMemory::release(const Key& pair, Nanoseconds time) {
+  const auto at = memory_.find(pair);
+  if (at == memory_.end() || at->second.waiting == kNowhere) return;
+  update(pair, [&](Memory& m) { leave(m); });
+  events_.push_back(
+      {ContactEvent::Kind::Release, time, pair.first, pair.second, Vec3::Zero(), Vec3::Zero(), 0, 0});
+}
+
+/// It waits no longer; the last one takes its place.
+void ContactMemory::leave(Memory& m) {
+  memory_.find(waiting_.back().pair)->second.waiting = m.waiting;
+  waiting_[m.waiting] = waiting_.back();
+  waiting_.pop_back();
+  m.waiting = kNowhere;
+}
+
+void ContactMemory::forget(Party gone) {
+  std::vector<Key> pairs;
+  eachWith(gone, [&](const Key& pair) { pairs.push_back(pair); });
+  for (const Key& pair : pairs) erase(pair);
+}
+
+void ContactMemory::erase(const Key& pair) {
+  const auto at = memory_.find(pair);
+  digest_ -= at->second.share;
+  if (at->second.waiting != kNowhere) leave(at->second);
+  memory_.erase(at);
+  others_.erase({pair.second, pair.first});
+}
+
+void ContactMemory::forgetIdle() {
+  std::erase_if(memory_, [&](const auto& known) {
+    if (!known.second.idle()) return false;
+    others_.erase({known.first.second, known.first.first});
+    return true;
+  });
+  idle_ = 0;
+}
+
+}  // namespace stadion

@@ -1,0 +1,46 @@
+#pragma once
+/// One step of all who lie in heaps, while it is being put together. Internal to world_crowd.cpp and
+/// world_crowd_contacts.cpp.
+
+#include "dynamics/contact/crowd_solver.h"
+#include "dynamics/world/world_core.h"
+
+namespace stadion {
+
+struct World::Core::CrowdStep {
+  struct Member {
+    RigidBody* body = nullptr;
+    Vec3 p = Vec3::Zero();       ///< centre of mass
+    Vec3 middle = Vec3::Zero();  ///< of its bounding ball
+    double bound = 0;            ///< radius of that
+    double way = 0;              ///< that it may go within the step [m]
+    bool round = false;          ///< a ball about its centre of mass
+  };
+  struct Fixed {
+    Party party;
+    RigidBody* body = nullptr;
+    Vec3 p = Vec3::Zero();
+  };
+  /// What the solver need not know of a contact.
+  struct Note {
+    std::uint64_t key = 0, reverse = 0;  ///< from the first side's view, from the second's
+    Party other;
+    std::uint32_t fixed = kNobody;  ///< which one its second side is, if no member
+  };
+  static constexpr std::uint32_t kNobody = 0xffffffff;
+
+  double tau = 0;
+  std::vector<Member> members;
+  std::vector<Fixed> fixed;
+  std::vector<Note> notes;   ///< of each contact
+  std::vector<Vec3> points;  ///< of each contact
+  std::vector<ManifoldPoint> found;
+  std::vector<RigidBody*> near;
+  std::vector<Bearing> bearings;        ///< of one member on colliders
+  std::vector<std::uint32_t> features;  ///< of each bearing
+  Crowd crowd;
+
+  bool has(const RigidBody& b) const { return b.slot < members.size() && members[b.slot].body == &b; }
+};
+
+}  // namespace stadion

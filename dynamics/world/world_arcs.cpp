@@ -1,0 +1,412 @@
+#include "dynamics/motion/drag_flight.h"
+#include "dynamics/world/world_core.h"
+
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+struct State {
+  Vec3 p, v;
+};
+
+/// One step of Dormand and Prince's pair of orders 5 and 4 for p'' = f(tau, p, v).
+template <class F>
+State dormandPrince(F f, double tau, const State& s, double h, double& error) {
+  static constexpr double c[7] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
+  static constexpr double a[7][6] = {
+      {},
+      {1.0 / 5},
+      {3.0 / 40, 9.0 / 40},
+      {44.0 / 45, -56.0 / 15, 32.0 / 9},
+      {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+      {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+      {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
+  static constexpr double d[7] = {71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
+                                  -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+  Vec3 kp[7], kv[7];
+  State y = s;
+  for (int i = 0; i < 7; ++i) {
+    y = s;
+    for (int j = 0; j < i; ++j) y.p += h * a[i][j] * kp[j], y.v += h * a[i][j] * kv[j];
+    kp[i] = y.v, kv[i] = f(tau + c[i] * h, y.p, y.v);
+  }
+  Vec3 ep = Vec3::Zero(), ev = Vec3::Zero();
+  for (int i = 0; i < 7; ++i) ep += h * d[i] * kp[i], ev += h * d[i] * kv[i];
+  error = std::max(ep.norm(), ev.norm());
+  return y;
+}
+
+}  // namespace
+
+Vec3 World::Core::accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& v, double tau) const {
+  Vec3 a = Vec3::Zero();
+  for (const Hook& h : b.hooks) {
+    const FieldEntry* f = fields.find(h.field);
+    if (!f || !f->on) continue;
+    a += accelerationOf(f->field, {b.mass, b.dragArea, p, v}, shareAt(tau));
+  }
+  return a;
+}
+
+bool World::Core::uniformFor(const RigidBody& b) const {
+  for (const Hook& h : b.hooks) {
+    const FieldEntry* f = fields.find(h.field);
+    if (f && f->on && !f->field.uniform()) return false;
+  }
+  return true;
+}
+
+/// How long from tau on it is known what acts on the body: a field that changes is known to the end of this
+/// frame only [s].
+double World::Core::knownFor(const RigidBody& b, double tau) const {
+  return tau < now && feelsChange(b) ? now - tau : kForever;
+}
+
+/// Whether what acts on the body differs in the course of this part of the frame.
+bool World::Core::feelsChange(const RigidBody& b) const {
+  return std::ranges::any_of(b.hooks, [&](const Hook& h) {
+    const FieldEntry* f = fields.find(h.field);
+    return f && f->on && f->field.changing();
+  });
+}
+
+/// What acts on a body that feels nothing but constant pulls and at most one medium that is the same
+/// everywhere.
+std::optional<EvenPull> World::Core::evenPullOn(const RigidBody& b) const {
+  EvenPull even;
+  bool immersed = false;
+  for (const Hook& h : b.hooks) {
+    const FieldEntry* f = fields.find(h.field);
+    if (!f || !f->on) continue;
+    if (f->field.uniform()) {
+      even.pull += accelerationOf(f->field, {b.mass, b.dragArea}, 1);
+      continue;
+    }
+    const MediumField* medium = f->field.evenMedium();
+    if (!medium || immersed) return {};
+    immersed = true;
+    even.drag = dragOf(*medium, f->field.end.q, b.mass, b.dragArea);
+    even.drag.wind *= f->field.last;
+  }
+  return even;
+}
+
+void World::Core::setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon,
+                         BodyMode mode) {
+  const auto sane = [](const Vec3& x, double most) {
+    return x.cwiseAbs().maxCoeff() <= most;
+  };  // false of NaN
+  if (!spin.q0.coeffs().allFinite() || !spin.L.allFinite() || !sane(spin.L, 1e30) ||
+      !spin.omega.allFinite() || !sane(spin.omega, 1e12)) {
+    quarantine(b, tau, "its state would become infinite or undefined");
+    return;
+  }
+  b.spin = spin, b.spinStart = 0;
+  setPath(b, tau, path, horizon, mode);
+}
+
+/// A new path from tau on; the spin has its own beginning.
+void World::Core::setPath(RigidBody& b, double tau, const Path& path, double horizon, BodyMode mode) {
+  ++counters.arcs;
+  const auto sane = [](const Vec3& x) { return x.allFinite() && x.cwiseAbs().maxCoeff() <= 1e12; };
+  if (!sane(path.c[0]) || !sane(path.c[1]) || !sane(path.c[2])) {
+    quarantine(b, tau, "its state would become infinite or undefined");
+    return;
+  }
+  if (&path != &b.path) b.path = path;
+  b.mode = mode;
+  b.since = instantAt(tau);
+  b.age0 = -tau;
+  b.pathAge = horizon;
+  b.validAge = std::min(horizon, b.spinStart + b.spin.horizon);
+  b.dueAge = 0;
+  b.drowsy = b.lazy = false;
+  b.heaped = b.crowd && mode == BodyMode::Rest;
+  b.crowd = b.crowd && mode == BodyMode::Contact;
+  b.until = tau + b.validAge;
+  ++b.version;
+  if (mode != BodyMode::Flight && !b.crowd) noteLeaner(b);
+  if (!b.active) b.active = true, active.push_back(&b);
+  noteWay(b, tau);
+  if (!foresee) mark(b);  // a change between frames is looked at when the next one begins
+}
+
+void World::Core::quarantine(RigidBody& b, double tau, std::string why) {
+  b.trouble = std::move(why);
+  const Pose X_WC = b.pose * b.X_NC;
+  const bool usable = b.path.c[0].allFinite() && b.spin.q0.coeffs().allFinite();
+  const Vec3 p = usable && b.position(tau).allFinite() && b.position(tau).cwiseAbs().maxCoeff() <= 1e12
+                     ? b.position(tau)
+                     : X_WC.p;
+  const Quat q = usable && b.orientation(tau).coeffs().allFinite() ? b.orientation(tau) : X_WC.q;
+  b.path = Path::still(p), b.spin = Spin::still(q);
+  b.mode = BodyMode::Quarantined;
+  b.since = instantAt(tau);
+  b.age0 = -tau, b.until = b.validAge = b.pathAge = kForever;
+  b.support.on = {};
+  b.touching.clear();
+  ++b.version;
+  noteWay(b, tau);
+}
+
+void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, const Quat& q,
+                              const Vec3& L) {
+  if (b.support.on.id) memory.setTouching(ContactMemory::keyOf(b.support.on, {true, b.id}), false);
+  b.support.on = {};
+  b.spin = b.flight ? spinFrom(b, tau, {p, v, q, L}) : Spin::free(q, L, b.inertia), b.spinStart = 0;
+  if (!q.coeffs().allFinite() || !(L.cwiseAbs().maxCoeff() <= 1e30) || !L.allFinite()) {
+    b.spin = Spin::still(b.pose.q * b.X_NC.q);
+    quarantine(b, tau, "its state would become infinite or undefined");
+    return;
+  }
+  if (b.flight && flyInAir(b, tau, {p, v, q, L})) return;
+  fly(b, tau, p, v);
+}
+
+/// How long the body takes for a step that passes over nothing that a field does, if it gains `more` speed.
+double World::Core::timeToPass(const RigidBody& b, const Vec3& p, const Vec3& v, double more) const {
+  double stride = kForever;
+  for (const Hook& h : b.hooks)
+    if (const FieldEntry* f = fields.find(h.field); f && f->on)
+      stride = std::min(stride, strideIn(f->field, p) / std::max(v.norm() + more, 1e-9));
+  return std::max(stride, 1e-6);
+}
+
+/// Flight under the even pull that the body knows; false if it is too near to standing in the air for a
+/// series.
+bool World::Core::resist(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
+  const double horizon = dragFlight(p, v, b.even.pull, b.even.drag, 1.0, 5e-10, b.path);
+  if (horizon > 1e-4) setPath(b, tau, b.path, horizon, BodyMode::Flight);
+  return horizon > 1e-4;
+}
+
+/// Flight from here; the spin goes on as it is.
+void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
+  const auto even = evenPullOn(b);
+  if (even && !even->drag.resists()) {
+    setPath(b, tau, Path::parabola(p, v, even->pull, b.damping), kForever, BodyMode::Flight);
+    return;
+  }
+  if (even) {
+    const Drag total{even->drag.linear + b.damping, even->drag.quadratic, even->drag.wind};
+    b.even = {even->pull - b.damping * total.wind, total};
+    if (resist(b, tau, p, v)) return;
+  }
+  const auto f = [&](double at, const Vec3& x, const Vec3& u) {
+    return Vec3(accelerationAt(b, x, u, at) - b.damping * u);
+  };
+  double h = std::min({b.step > 0 ? b.step : 0.01, 0.05, knownFor(b, tau)}), error = 0;
+  h = std::min(h, timeToPass(b, p, v, h * f(tau, p, v).norm()));
+  State end{p, v};
+  const double tolerance = 1e-13 * (1 + v.norm());
+  for (int i = 0; i < 60; ++i) {
+    end = dormandPrince(f, tau, {p, v}, h, error);
+    if (error <= tolerance || !(error == error) || h < 1e-7) break;
+    h *= std::clamp(0.9 * det::pow(tolerance / error, 0.2), 0.1, 0.8);
+  }
+  b.step = h * (error > 0 ? std::clamp(0.9 * det::pow(tolerance / error, 0.2), 0.3, 4.0) : 4.0);
+  const Vec3 from[3] = {p, v, f(tau, p, v)}, to[3] = {end.p, end.v, f(tau + h, end.p, end.v)};
+  setPath(b, tau, Path::hermite(from, to, h), h, BodyMode::Flight);
+}
+
+/// The same where the spin began earlier, unless it ends here as well. `pullsAsBefore`: what acts on the body
+/// is what did so in the last arc.
+void World::Core::continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, bool pullsAsBefore) {
+  const double spinAge = b.spinAge(tau);
+  if (b.flight) return startFlight(b, tau, p, v, b.orientation(tau), b.spin.angularMomentum(spinAge));
+  if (spinAge > b.spin.horizon - 1e-9) return startFlight(b, tau, p, v, b.orientation(tau), b.spin.L);
+  b.spinStart = -spinAge;
+  if (pullsAsBefore && b.path.isSeries() && resist(b, tau, p, v)) return;
+  fly(b, tau, p, v);
+}
+
+/// An arc of flight has ended, the motion goes on as it was. False if only the expansion of the spin has worn
+/// out.
+bool World::Core::flyOn(RigidBody& b, double tau) {
+  const double age = b.age(tau);
+  if (age < b.pathAge - 1e-9) {
+    const Quat q = b.orientation(tau);
+    setSpin(b, tau,
+            b.flight ? spinFrom(b, tau, {b.position(tau), b.velocity(tau), q, b.momentum(tau)})
+                     : Spin::free(q, b.spin.L, b.inertia));
+    return false;
+  }
+  continueFlight(b, tau, b.position(tau), b.velocity(tau), true);
+  return true;
+}
+
+/// How long a ball stays at rest on its face: until what pulls at it, as far as that is known, becomes too
+/// much for friction [s].
+double World::Core::restLasts(const RigidBody& b, const BallStart& s, double tau) const {
+  const double known = knownFor(b, tau);
+  const auto rests = [&](double after) {
+    const Vec3 a = accelerationAt(b, s.p, s.v, tau + after);
+    const BallArc arc = ballOnFace(s, b.support, a, b.radius(), b.mass, b.inertia.x(), true, true);
+    return !arc.leaves && arc.mode == BodyMode::Rest;
+  };
+  if (known == kForever || rests(known)) return kForever;
+  // What keeps a ball at rest is a cone of pulls: one that goes evenly from inside to outside leaves it once.
+  double holds = 0, breaks = known;
+  for (int i = 0; i < 60 && breaks - holds > 1e-12; ++i) {
+    const double middle = 0.5 * (holds + breaks);
+    (rests(middle) ? holds : breaks) = middle;
+  }
+  return breaks;
+}
+
+/// The next arc of a ball that touches its face. Pulls that are not the same everywhere and always are taken
+/// from the middle of a short step.
+BallArc World::Core::arcOnFace(const RigidBody& b, double tau, const BallStart& s, bool gripped,
+                               bool stopped) const {
+  const auto arcUnder = [&](const Vec3& a) {
+    return ballOnFace(s, b.support, a, b.radius(), b.mass, b.inertia.x(), gripped, stopped);
+  };
+  const Vec3 a = accelerationAt(b, s.p, s.v, tau);
+  BallArc arc = arcUnder(a);
+  if (uniformFor(b) || arc.leaves) return arc;
+  if (arc.mode == BodyMode::Rest) {
+    arc.horizon = restLasts(b, s, tau);
+    return arc;
+  }
+  double step = std::min(faceStep, knownFor(b, tau));
+  const Vec3 along = a - b.support.normal * b.support.normal.dot(a);
+  const auto arcAfter = [&](double after) {
+    const Vec3 p = s.p + after * (s.v + 0.5 * after * along), v = s.v + after * along;
+    return arcUnder(accelerationAt(b, p, v, tau + after));
+  };
+  if (arcAfter(step).leaves) {  // when it does so is the end of the step
+    double holds = 0;
+    while (step - holds > 1e-12) {
+      const double middle = 0.5 * (holds + step);
+      (arcAfter(middle).leaves ? step : holds) = middle;
+    }
+  }
+  if (const BallArc better = arcAfter(0.5 * step); !better.leaves) arc = better;
+  arc.horizon = arc.mode == BodyMode::Rest ? step : std::min(arc.horizon, step);
+  return arc;
+}
+
+void World::Core::startOnFace(RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped) {
+  const Party self{true, b.id};
+  const BallArc arc = arcOnFace(b, tau, s, gripped, stopped);
+  if (arc.leaves) {
+    startFlight(b, tau, s.p, s.v, s.q, b.inertia.x() * s.omega);
+    return;
+  }
+  memory.setTouching(ContactMemory::keyOf(b.support.on, self), true);
+  if (arc.mode == BodyMode::Rest) b.touching = {b.support.on};
+  if (b.damping > 0 && arc.mode != BodyMode::Rest) {
+    // Drag on top of friction: short arcs of mean deceleration.
+    Path path = arc.path;
+    const double h = std::min(arc.horizon, faceStep);
+    path.c[2] -= 0.5 * b.damping * path.c[1], path.degree = 2;
+    setArc(b, tau, path, arc.spin, h, arc.mode);
+    return;
+  }
+  setArc(b, tau, arc.path, arc.spin, arc.horizon, arc.mode);
+}
+
+/// A new arc from the present state, because what acts on the body has changed.
+void World::Core::restart(RigidBody& b, double tau) {
+  catchUp(b, tau);
+  switch (b.mode) {
+  case BodyMode::Flight: {
+    const Vec3 p = b.position(tau), v = b.velocity(tau);
+    continueFlight(b, tau, p, v, false);
+    break;
+  }
+  case BodyMode::Slide:
+  case BodyMode::Roll:
+  case BodyMode::Rest:
+    if (b.support.on.id) {
+      const bool rested = b.mode == BodyMode::Rest;
+      startOnFace(
+          b, tau,
+          {b.position(tau), b.velocity(tau), b.spin.angularVelocity(b.spinAge(tau)), b.orientation(tau)},
+          false, false);
+      if (rested && b.mode != BodyMode::Rest) wakeOnto({true, b.id}, tau);
+    } else {
+      wake(b, tau);
+    }
+    break;
+  case BodyMode::Contact: cutStep(b, tau); return;
+  default: return;
+  }
+  predict(b, tau);
+}
+
+void World::Core::freeze(RigidBody& b, double tau) {
+  setArc(b, tau, Path::still(b.position(tau)), Spin::still(b.orientation(tau)), kForever, BodyMode::Rest);
+}
+
+/// Looks for the face beyond the edge that the ball has reached: true if it rolls on in the same plane, or in
+/// one that is `lift` higher.
+bool World::Core::crossEdge(RigidBody& b, double tau, double& lift) {
+  return crossFold(b, tau) || crossSeam(b, tau, lift);
+}
+
+/// The same within one mesh.
+bool World::Core::crossFold(RigidBody& b, double tau) const {
+  if (b.support.triangle < 0) return false;
+  const Collider* c = collider(b.support.on.id);
+  if (!c) return false;
+  const auto& tree = std::get<MeshShape>(*c->shape).tree;
+  const Vec3 n = b.support.normal, foot = b.position(tau) - b.radius() * n;
+  const Vec3 local = c->motion.end.inverse() * foot;
+  std::vector<std::uint32_t> near;
+  Aabb box;
+  box.include(local);
+  box.lo.array() -= 1e-5, box.hi.array() += 1e-5;
+  tree.overlapping(box, near);
+  for (const std::uint32_t i : near) {
+    if (static_cast<std::int32_t>(i) == b.support.triangle) continue;
+    const Triangle& t = tree.triangles()[i];
+    const Vec3 up = c->motion.end.q * t.normal;
+    if (up.dot(n) < 1 - 1e-7) continue;
+    const ClosestPoint q = closestPoint(t, local);
+    if ((q.point - local).norm() > 5e-7) continue;
+    Gap gap;
+    gap.triangle = static_cast<std::int32_t>(i), gap.face = true, gap.normal = up;
+    gap.point = c->motion.end * q.point;
+    Support next;
+    if (!supportFor(b, *c, gap, next)) continue;
+    next.point = b.support.point, next.normal = n;  // the same plane: no step of rounding from face to face
+    b.support = next;
+    return true;
+  }
+  return false;
+}
+
+void World::Core::reachHorizon(RigidBody& b, double tau) {
+  if (b.mode == BodyMode::Held) return turn(b, tau);
+  if (b.mode == BodyMode::Flight) {
+    // The motion is the same, but what was foreseen ended here.
+    if (!flyOn(b, tau) && b.alone)  // it goes where it was seen to go
+      lookAtOnly(b, tau);
+    else
+      predict(b, tau);
+    return;
+  }
+  const bool rested = b.mode == BodyMode::Rest;
+  const Vec3 p = b.position(tau), v = b.velocity(tau);
+  const Quat q = b.orientation(tau);
+  BallStart s{p, v, b.spin.angularVelocity(b.spinAge(tau)), q};
+  const Vec3 n = b.support.normal;
+  double lift = 0;
+  if (b.support.ends(p, v) && !crossEdge(b, tau, lift)) {
+    startFlight(b, tau, p, v, q, b.inertia.x() * s.omega);
+  } else {
+    s.p += lift * n;
+    Vec3 slip = v - b.radius() * s.omega.cross(n);
+    slip -= n * n.dot(slip);
+    const bool gripped = slip.norm() < 1e-7 * (1 + v.norm()), stopped = gripped && v.norm() < 1e-7;
+    startOnFace(b, tau, s, gripped, stopped);
+  }
+  if (rested && b.mode != BodyMode::Rest) wakeOnto({true, b.id}, tau);
+  predict(b, tau);
+}
+
+}  // namespace stadion

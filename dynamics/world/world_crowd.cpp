@@ -1,0 +1,239 @@
+#include "dynamics/world/crowd_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+
+namespace {
+
+constexpr double kParted = 1e-3;      ///< and those farther than this no longer [m]
+constexpr std::size_t kLeast = 4;     ///< a smaller crowd is none any more
+constexpr double kLeaving = 0.1;      ///< the least speed of who may leave a heap for good [m/s]
+constexpr double kQuietWay = 1.2e-3;  ///< a surface point that stays within this is quiet [m]
+constexpr double kQuietTime = 0.3;    ///< before a body sleeps among quiet ones [s]
+constexpr double kWaking = 1e-9;      ///< quiet time of one who has been woken softly [s]
+
+bool in(const std::vector<Party>& list, Party p) {
+  return std::find(list.begin(), list.end(), p) != list.end();
+}
+/// The points of a pair come one after the other.
+void note(std::vector<Party>& list, Party p) {
+  if (list.empty() || list.back() != p) list.push_back(p);
+}
+
+/// The contacts of each member, one after the other.
+struct ContactLists {
+  std::vector<std::uint32_t> begin, of;
+  explicit ContactLists(const Crowd& crowd) : begin(crowd.members + 1, 0) {
+    for (const CrowdContact& c : crowd.contacts) {
+      ++begin[c.a + 1];
+      if (c.b < crowd.members) ++begin[c.b + 1];
+    }
+    for (std::size_t i = 0; i < crowd.members; ++i) begin[i + 1] += begin[i];
+    of.resize(begin.back());
+    std::vector<std::uint32_t> next = begin;
+    for (std::uint32_t k = 0; k < crowd.contacts.size(); ++k) {
+      const CrowdContact& c = crowd.contacts[k];
+      of[next[c.a]++] = k;
+      if (c.b < crowd.members) of[next[c.b]++] = k;
+    }
+  }
+};
+
+}  // namespace
+
+/// From tau to the next step but a very short one [s].
+double World::Core::untilCrowdStep(double tau) const {
+  Nanoseconds next = (timeAt(tau) / crowdGrid + 1) * crowdGrid;
+  if (next - timeAt(tau) < crowdGrid / 8) next += crowdGrid;
+  return Instant{next, 0}.since(instantAt(tau));
+}
+
+void World::Core::joinCrowd(RigidBody& b, CrowdStep& step) {
+  const double tau = step.tau;
+  if (!b.crowd) {
+    const double quiet = b.mode == BodyMode::Rest ? kWaking : b.quiet;
+    enterContact(b, tau);
+    if (b.mode != BodyMode::Contact) return;
+    b.crowd = true, b.restless = false, b.quiet = quiet, b.dueAge = 0;
+    b.drift.setZero(), b.twist.setZero();
+  }
+  CrowdStep::Member m;
+  CrowdBody c;
+  m.body = &b;
+  m.p = b.position(tau), m.round = b.centred, m.bound = b.bound.radius;
+  m.middle = m.round ? m.p : Vec3(b.poseAt(tau) * b.bound.centre);
+  const Vec3 L = b.momentum(tau);
+  c.v = b.velocity(tau), c.inverseMass = b.inverseMass;
+  Mat3 inverse = Mat3::Zero();
+  if (m.round && b.inertia.x() == b.inertia.y() && b.inertia.y() == b.inertia.z()) {
+    c.roundInertia = 1 / b.inertia.x();
+    c.omega = c.roundInertia * L;
+  } else {
+    m.round = false;
+    const Mat3 R = b.orientation(tau).toRotationMatrix();
+    inverse = R * b.inertia.cwiseInverse().asDiagonal() * R.transpose();
+    c.omega = inverse * L;
+  }
+  m.way = step.crowd.h * (c.v.norm() + (m.round ? 0 : c.omega.norm() * b.reach));
+  b.slot = static_cast<std::uint32_t>(step.members.size());
+  step.members.push_back(m);
+  step.crowd.bodies.push_back(c);
+  step.crowd.inverseInertia.push_back(inverse);
+}
+
+/// How long each member has hardly moved; whether it is time to sleep for those among their like.
+std::vector<char> World::Core::calmInCrowd(const CrowdStep& step) {
+  const Crowd& crowd = step.crowd;
+  const std::size_t n = crowd.members;
+  std::vector<char> calm(n, 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    RigidBody& b = *step.members[i].body;
+    const CrowdBody &start = crowd.start[i], &end = crowd.bodies[i];
+    b.drift += crowd.shift[i] + 0.5 * crowd.h * (start.v + end.v);
+    b.twist += 0.5 * crowd.h * (start.omega + end.omega);
+    b.quiet += crowd.h;
+    if (b.drift.norm() + b.twist.norm() * b.reach > kQuietWay)
+      b.quiet = 0, b.drift.setZero(), b.twist.setZero();
+    calm[i] = b.quiet >= kQuietTime;
+  }
+  std::vector<char> may = calm;
+  for (const CrowdContact& c : crowd.contacts) {
+    if (c.b < n) {
+      may[c.a] = may[c.a] && calm[c.b], may[c.b] = may[c.b] && calm[c.a];
+    } else {
+      const CrowdBody& fixed = crowd.bodies[c.b];
+      may[c.a] = may[c.a] && fixed.v.isZero(0) && fixed.omega.isZero(0);
+    }
+  }
+  return may;
+}
+
+/// Whom the member leans on, and the forces as a guess for the next step. False if nothing is near.
+bool World::Core::noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const std::uint32_t> list,
+                                 std::vector<Party>& near) {
+  const Crowd& crowd = step.crowd;
+  RigidBody& b = *step.members[i].body;
+  b.touching.clear(), b.presses.clear();
+  near.clear();
+  for (const std::uint32_t k : list) {
+    const CrowdContact& c = crowd.contacts[k];
+    const bool first = c.a == i;
+    const Party other = first ? step.notes[k].other : Party{true, step.members[c.a].body->id};
+    note(b.touching, other);
+    if (c.gap < kTouching || (c.gap < kParted && in(b.leaning, other))) note(near, other);
+    if (!(c.pressed > 0)) continue;
+    const Vec3 force = (c.pressed * c.n + c.held) / crowd.h;
+    const std::uint64_t key = first ? step.notes[k].key : step.notes[k].reverse;
+    b.presses.push_back({key, first ? force : Vec3(-force), crowd.h});
+  }
+  std::ranges::sort(near);
+  if (near != b.leaning) {
+    const std::vector<Party> left = b.leaning;
+    remember(b, near);
+    for (const Party p : left)  // who leaned on it may fall now
+      if (p.isBody && !in(near, p))
+        if (RigidBody* o = body(p.id); o && o->mode == BodyMode::Rest) enterContact(*o, step.tau);
+  }
+  return !list.empty();
+}
+
+/// The member's arc of the step.
+void World::Core::followCrowd(const CrowdStep& step, std::size_t i) {
+  const Crowd& crowd = step.crowd;
+  const double tau = step.tau, h = crowd.h;
+  RigidBody& b = *step.members[i].body;
+  const CrowdBody &start = crowd.start[i], &end = crowd.bodies[i];
+  const Quat q = b.orientation(tau);
+  const double quiet = b.quiet;
+  const Path path = Path::parabola(step.members[i].p + crowd.shift[i], start.v, (end.v - start.v) / h);
+  if (step.members[i].round) {
+    const Vec3 alpha = (end.omega - start.omega) / h;
+    setArc(b, tau, path,
+           alpha.isZero(0) ? Spin::free(q, start.omega / start.roundInertia, b.inertia)
+                           : Spin::driven(q, start.omega, alpha, b.inertia.x()),
+           h, BodyMode::Contact);
+    b.endL = end.omega / end.roundInertia;
+  } else {
+    const auto momentum = [&](const Vec3& omega) {
+      return Vec3(q * b.inertia.cwiseProduct(q.conjugate() * omega));
+    };
+    const Vec3 L0 = momentum(start.omega), L1 = momentum(end.omega);
+    setArc(b, tau, path, Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
+    b.endL = L1;
+  }
+  if (b.mode == BodyMode::Contact) b.dueAge = h, b.quiet = quiet;
+}
+
+/// Arcs of the step, and who may sleep.
+void World::Core::concludeCrowd(CrowdStep& step) {
+  const Crowd& crowd = step.crowd;
+  const double tau = step.tau;
+  const ContactLists lists(crowd);
+  const std::vector<char> may = calmInCrowd(step);
+  std::vector<Party> near;
+  for (std::size_t i = 0; i < crowd.members; ++i) {
+    RigidBody& b = *step.members[i].body;
+    const std::span list(lists.of.data() + lists.begin[i], lists.begin[i + 1] - lists.begin[i]);
+    if (!noteNeighbours(step, i, list, near)) {
+      const Quat q = b.orientation(tau);
+      const Vec3 L = b.momentum(tau);
+      wakeOnto({true, b.id}, tau);
+      startFlight(b, tau, step.members[i].p, crowd.start[i].v, q, L);
+      predict(b, tau);
+      continue;
+    }
+    followCrowd(step, i);
+    if (b.mode != BodyMode::Contact) continue;
+    b.drowsy = may[i] != 0;  // not at once: the others' motion counts on its own
+    sweep(b, tau);
+  }
+}
+
+/// Too few are left: they go on as an island. (Not those that hardly move: an island takes overlap back
+/// whether or not their motion pays for it.)
+void World::Core::dissolveCrowd(const std::vector<RigidBody*>& due, double tau) {
+  for (RigidBody* b : due) {
+    const Vec3 L = b->momentum(tau);
+    if (b->dueAge > 0)
+      setArc(*b, tau, Path::parabola(b->position(tau), b->velocity(tau), Vec3::Zero()),
+             Spin::free(b->orientation(tau), L, b->inertia), tickTime, BodyMode::Contact);
+    b->crowd = false, b->endL = L;
+  }
+}
+
+/// One step of all who lie in heaps, to the next time on the crowd's grid.
+void World::Core::advanceCrowd(double tau) {
+  CrowdStep step;
+  step.tau = tau;
+  Crowd& crowd = step.crowd;
+  crowd.h = untilCrowdStep(tau);
+  std::vector<RigidBody*> due;
+  for (RigidBody* b : active) {
+    b->slot = CrowdStep::kNobody;
+    if (b->crowd && b->enabled && b->dueAge <= b->age(tau) + kDue) due.push_back(b);
+  }
+  std::ranges::sort(due, {}, &RigidBody::id);
+  for (RigidBody* b : due)
+    if (b->drowsy) freeze(*b, tau), predict(*b, tau);
+  std::erase_if(due, [](const RigidBody* b) { return b->mode != BodyMode::Contact; });
+  if (due.empty()) return;
+  const auto leaves = [&](const RigidBody* b) { return b->velocity(tau).norm() > kLeaving; };
+  if (due.size() < kLeast && std::ranges::any_of(due, leaves) && !isCrowd(due, tau))
+    return dissolveCrowd(due, tau);
+  for (RigidBody* b : due) joinCrowd(*b, step);
+  for (std::size_t i = 0; i < step.members.size(); ++i) findCrowdContacts(*step.members[i].body, step);
+  crowd.members = step.members.size();
+  linkCrowdContacts(step);
+  crowd.pull.resize(crowd.members);
+  for (std::size_t i = 0; i < crowd.members; ++i) {
+    const RigidBody& b = *step.members[i].body;
+    crowd.pull[i] = accelerationAt(b, step.members[i].p, crowd.bodies[i].v, tau);
+    if (b.damping > 0) crowd.bodies[i].v *= det::exp(-b.damping * crowd.h);
+  }
+  solveCrowd(crowd);
+  concludeCrowd(step);
+}
+
+}  // namespace stadion

@@ -1,0 +1,194 @@
+#include "dynamics/world/crowd_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr double kWakeSpeed = 5e-3;  ///< whoever touches a sleeper faster wakes it [m/s]
+constexpr double kStrongest = 9.81;  ///< acceleration that a step allows for [m/s2]
+
+bool sleeps(const RigidBody& b) {
+  return standsStill(b.mode);
+}
+
+/// The gap between a ball and a plane that does not move and has no rim.
+Gap planeGap(const Vec3& centre, double radius, const PlaneShape& plane, const Pose& X) {
+  Gap gap;
+  gap.normal = X.q * plane.normal();
+  const double height = gap.normal.dot(centre - X * plane.pose.p);
+  gap.distance = height - radius, gap.point = centre - height * gap.normal, gap.face = true;
+  return gap;
+}
+
+}  // namespace
+
+/// A point of contact of a member with a member or one that nothing moves.
+void World::Core::addCrowdContact(const RigidBody& b, Party other, const Surface& surface, const Gap& gap,
+                                  std::uint32_t feature, CrowdStep& step) {
+  CrowdContact c;
+  const PairSurface pair = combine(b.surface, surface);
+  c.a = b.slot, c.n = gap.normal, c.gap = gap.distance;
+  c.friction = pair.friction, c.restitution = pair.restitution;
+  if (b.isBall()) c.rolling = pair.rolling * b.radius();
+  CrowdStep::Note note;
+  note.other = other, note.key = pairKey({true, b.id}, other, feature);
+  note.reverse = pairKey(other, {true, b.id}, feature);
+  for (const Pressed& p : b.presses)
+    if (p.key == note.key) {
+      const Vec3 impulse = std::min(step.crowd.h, p.step) * p.force;
+      c.pressed = std::max(0.0, impulse.dot(c.n));
+      c.held = impulse - impulse.dot(c.n) * c.n;
+    }
+  RigidBody* o = other.isBody ? body(other.id) : nullptr;
+  if (o && step.has(*o)) {
+    c.b = o->slot;
+  } else if (o && o->slot < step.fixed.size() && step.fixed[o->slot].body == o) {
+    note.fixed = o->slot;
+  } else {
+    const auto known = o ? step.fixed.end() : std::ranges::find(step.fixed, other, &CrowdStep::Fixed::party);
+    note.fixed = static_cast<std::uint32_t>(known - step.fixed.begin());
+    if (known == step.fixed.end()) step.fixed.push_back({other, o, Vec3::Zero()});
+    if (o) o->slot = note.fixed;
+  }
+  step.crowd.contacts.push_back(c);
+  step.notes.push_back(note);
+  step.points.push_back(gap.point);
+}
+
+void World::Core::findCrowdColliders(const RigidBody& b, const Aabb& box, double margin, CrowdStep& step) {
+  const CrowdStep::Member me = step.members[b.slot];
+  const Side self = Side::of(b);
+  step.bearings.clear(), step.features.clear();
+  const auto note = [&](const Collider& c, const Gap& gap, std::uint32_t feature) {
+    step.bearings.push_back({{false, c.id}, c.shape, c.motion.at(step.tau).pose, gap});
+    step.features.push_back(feature);
+  };
+  nearColliders.eachNear(box, [&](const Collider& c) {
+    const bool moves = c.motion.moving;
+    if (!mayTouch(self, Side::of(c))) return;
+    if (me.round && !moves && !std::holds_alternative<MeshShape>(*c.shape)) {
+      const auto* plane = std::get_if<PlaneShape>(c.shape);
+      const Gap gap = plane && !plane->bounded()
+                          ? planeGap(me.middle, me.bound, *plane, c.motion.end)
+                          : ballGap(me.middle, me.bound, *c.shape, c.motion.end, {.limit = margin});
+      if (gap.distance < margin) note(c, gap, 1);
+      return;
+    }
+    const double theirs = moves ? step.crowd.h * c.motion.at(step.tau).velocityAt(me.middle).norm() : 0;
+    manifold(self, Side::of(c), step.tau, margin + theirs, step.found);
+    // Whose centre is inside leaves by one way, the shortest.
+    if (me.round && !step.found.empty() && step.found.front().gap.distance < -me.bound) step.found.resize(1);
+    for (const ManifoldPoint& p : step.found) note(c, p.gap, p.key);
+  });
+  const std::vector<char> hidden = hiddenAmong(step.bearings);
+  for (std::size_t i = 0; i < step.bearings.size(); ++i) {
+    const Bearing& on = step.bearings[i];
+    if (hidden.empty() || !hidden[i])
+      addCrowdContact(b, on.of, collider(on.of.id)->surface, on.gap, step.features[i], step);
+  }
+}
+
+/// One who is near a member: at which points they may meet, and whether it comes along.
+void World::Core::meetInCrowd(RigidBody& b, RigidBody& o, double margin, CrowdStep& step) {
+  if (&o == &b || !o.enabled) return;
+  const CrowdStep::Member me = step.members[b.slot];
+  bool member = step.has(o);
+  if (member && o.id < b.id) return;  // the pair is found from there
+  double reach = margin;
+  Vec3 there;
+  if (member) {
+    reach += step.members[o.slot].way, there = step.members[o.slot].middle;
+  } else {
+    reach += step.crowd.h * o.velocity(step.tau).norm();
+    there = o.centred ? o.position(step.tau) : Vec3(o.poseAt(step.tau) * o.bound.centre);
+  }
+  const Vec3 apart = me.middle - there;
+  const double square = apart.squaredNorm(), far = me.bound + o.bound.radius + reach;
+  if (square > far * far || !mayTouch(Side::of(b), Side::of(o))) return;
+  if (me.round && o.centred) {
+    const double d = std::sqrt(square);
+    Gap gap;
+    gap.distance = d - me.bound - o.bound.radius;
+    gap.normal = d > 0 ? Vec3(apart / d) : Vec3::UnitZ();
+    gap.point = there + o.bound.radius * gap.normal;
+    step.found.assign(1, {gap, 1});
+  } else {
+    manifold(Side::of(b), Side::of(o), step.tau, reach, step.found);
+    if (step.found.empty()) return;
+  }
+  if (!member && o.movable()) {
+    // Who sleeps stays asleep unless it is pushed; who moves comes along.
+    const bool touched =
+        std::ranges::any_of(step.found, [](const auto& p) { return p.gap.distance < kTouching; });
+    const bool pushes = b.quiet == 0 || step.crowd.bodies[b.slot].v.norm() > kWakeSpeed;
+    if (!sleeps(o) || (touched && pushes)) joinCrowd(o, step);
+    member = step.has(o);
+    if (member && o.id < b.id) return;
+  }
+  for (const ManifoldPoint& p : step.found) addCrowdContact(b, {true, o.id}, o.surface, p.gap, p.key, step);
+}
+
+void World::Core::findCrowdContacts(RigidBody& b, CrowdStep& step) {
+  const CrowdStep::Member& me = step.members[b.slot];
+  const double margin = kTouching + me.way + step.crowd.h * step.crowd.h * kStrongest;
+  Aabb box;
+  box.include(me.middle);
+  box.lo.array() -= me.bound + margin, box.hi.array() += me.bound + margin;
+  findCrowdColliders(b, box, margin, step);
+  // Fliers' boxes hold their whole way, so that those who come fast are met as well. In the order of ids:
+  // sweeps depend on it, and the broad phase's own depends on frames.
+  step.near.clear();
+  eachBodyNear(box, step.tau, [&](RigidBody& o) {
+    if (step.has(o)) {  // most of them: the pair is found from the other, or too far apart
+      const CrowdStep::Member& other = step.members[o.slot];
+      const double far = me.bound + other.bound + margin + other.way;
+      if (o.id <= b.id || (me.middle - other.middle).squaredNorm() > far * far) return;
+    }
+    step.near.push_back(&o);
+  });
+  std::ranges::sort(step.near, {}, &RigidBody::id);
+  for (RigidBody* o : step.near) meetInCrowd(b, *o, margin, step);
+}
+
+/// Everybody is known now: who moves, who does not, and where the points are on both.
+void World::Core::linkCrowdContacts(CrowdStep& step) {
+  Crowd& crowd = step.crowd;
+  const auto n = static_cast<std::uint32_t>(step.members.size());
+  for (CrowdStep::Fixed& f : step.fixed) {
+    const Kinematics k = f.body ? f.body->at(step.tau) : collider(f.party.id)->motion.at(step.tau);
+    f.p = k.p;
+    CrowdBody still;
+    still.v = k.v, still.omega = k.omega;
+    crowd.bodies.push_back(still);
+  }
+  std::size_t kept = 0;
+  const std::vector<Vec3> holds = placesOfFriction(step);
+  for (std::size_t k = 0; k < crowd.contacts.size(); ++k) {
+    CrowdContact c = crowd.contacts[k];
+    const CrowdStep::Note& note = step.notes[k];
+    const CrowdStep::Fixed* fixed = note.fixed == CrowdStep::kNobody ? nullptr : &step.fixed[note.fixed];
+    if (fixed && fixed->body && step.has(*fixed->body)) {  // it has come along after all
+      c.b = fixed->body->slot;
+      if (fixed->body->id < step.members[c.a].body->id) continue;  // and has found the pair by itself
+    } else if (fixed) {
+      c.b = n + note.fixed;
+    }
+    const CrowdStep::Member& a = step.members[c.a];
+    const Vec3 other = c.b < n ? step.members[c.b].p : fixed->p;
+    const Vec3 armA = step.points[k] - a.p, armB = step.points[k] - other;
+    const bool still = c.b >= n && crowd.bodies[c.b].omega.isZero(0);
+    if (a.round && (still || (c.b < n && step.members[c.b].round))) {
+      c.leverA = -armA.dot(c.n), c.leverB = still ? 0 : armB.dot(c.n);
+    } else {
+      c.arms = static_cast<std::int32_t>(crowd.arms.size());
+      const Vec3& hold = holds.empty() ? step.points[k] : holds[k];
+      crowd.arms.push_back({armA, armB, hold - a.p, hold - other});
+    }
+    crowd.contacts[kept] = c, step.notes[kept] = note, ++kept;
+  }
+  crowd.contacts.resize(kept), step.notes.resize(kept);
+}
+
+}  // namespace stadion

@@ -1,0 +1,284 @@
+// The world's state, field by field (engine/core/state_fields.h). It is put back to the bit with all that has been
+// foreseen, so that what happens then, and in which order, is the same.
+
+#include "dynamics/world/world_core.h"
+#include "engine/core/state_fields.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace stadion {
+
+constexpr Path::Kind lastOf(Path::Kind) {
+  return Path::Kind::Damped;
+}
+constexpr SpinTerms::Kind lastOf(SpinTerms::Kind) {
+  return SpinTerms::Kind::Steered;
+}
+constexpr LinearField::Unit lastOf(LinearField::Unit) {
+  return LinearField::Unit::Force;
+}
+constexpr SphericalField::Falloff lastOf(SphericalField::Falloff) {
+  return SphericalField::Falloff::Square;
+}
+constexpr MediumField::Region lastOf(MediumField::Region) {
+  return MediumField::Region::Box;
+}
+
+// What the parts consist of.
+
+static void fieldsOf(Aabb& b, StateFields& f) {
+  f("low", b.lo), f("high", b.hi);
+}
+static void fieldsOf(Sphere& s, StateFields& f) {
+  f("centre", s.centre), f("radius", s.radius);
+}
+static void fieldsOf(Instant& i, StateFields& f) {
+  f("ns", i.ns), f("rest", i.rest);
+}
+static void fieldsOf(Surface& s, StateFields& f) {
+  f("friction", s.friction), f("restitution", s.restitution), f("rolling", s.rolling);
+}
+static void fieldsOf(Stick& s, StateFields& f) {
+  f("nose", s.nose), f("tip", s.tip), f("reach", s.reach), f("cosine", s.cosine), f("depth", s.depth);
+}
+static void fieldsOf(Drag& d, StateFields& f) {
+  f("linear", d.linear), f("quadratic", d.quadratic), f("wind", d.wind);
+}
+static void fieldsOf(EvenPull& e, StateFields& f) {
+  f("pull", e.pull), f("drag", e.drag);
+}
+/// Of the coefficients those that mean something.
+static void fieldsOf(Path& p, StateFields& f) {
+  f("kind", p.kind), f("degree", p.degree), f("damping", p.damping), f("spare", p.spare);
+  if (p.degree < 0 || p.degree > Path::kMostDegree) return p.degree = 0, f.fail();
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(std::max(2, p.degree)); ++i) f("c", p.c[i]);
+}
+static void fieldsOf(Spin& s, StateFields& f) {
+  f("kind", s.kind), f("axis", s.axis), f("q0", s.q0), f("momentum", s.L), f("omega", s.omega);
+  f("alpha", s.alpha), f("inverse inertia", s.inverse), f("horizon", s.horizon);
+  const std::size_t terms = s.kind == Spin::Kind::Taylor    ? s.series.size()
+                            : s.kind == Spin::Kind::Steered ? Spin::kSteered
+                                                            : 0;
+  for (std::size_t i = 0; i < terms; ++i) f("series", s.series[i]);
+}
+static void fieldsOf(GuidedMotion& m, StateFields& f) {
+  f("start", m.start), f("end", m.end), f("v", m.v), f("omega", m.omega);
+  f("begin", m.begin), f("rate", m.rate), f("moving", m.moving);
+}
+static void fieldsOf(Support& s, StateFields& f) {
+  f("on", s.on), f("triangle", s.triangle), f("point", s.point), f("normal", s.normal), f("edges", s.edges);
+  f("edge normals", s.edgeNormal), f("edge offsets", s.edgeOffset);
+  f("friction", s.friction), f("rolling", s.rolling), f("restitution", s.restitution);
+  if (s.edges < 0 || static_cast<std::size_t>(s.edges) > s.edgeNormal.size()) s.edges = 0, f.fail();
+}
+static void fieldsOf(Pressed& p, StateFields& f) {
+  f("key", p.key), f("force", p.force), f("step", p.step);
+}
+static void fieldsOf(Hook& h, StateFields& f) {
+  f("field", h.field);
+}
+static void fieldsOf(Calm& c, StateFields& f) {
+  f("v", c.v), f("omega", c.omega), f("since", c.since), f("span", c.span), f("balanced", c.balanced);
+}
+static void fieldsOf(WayOut& w, StateFields& f) {
+  f("of", w.of), f("normal", w.normal), f("side", w.side);
+}
+static void fieldsOf(Gap& g, StateFields& f) {
+  f("distance", g.distance), f("point", g.point), f("normal", g.normal), f("face", g.face);
+  f("triangle", g.triangle);
+}
+static void fieldsOf(Touch& t, StateFields& f) {
+  f("tau", t.tau), f("gap", t.gap), f("swapped", t.swapped);
+}
+
+static void fieldsOf(LinearField& l, StateFields& f) {
+  f("push", l.push), f("unit", l.unit);
+}
+static void fieldsOf(SphericalField& l, StateFields& f) {
+  f("strength", l.strength), f("radius", l.radius), f("falloff", l.falloff), f("unit", l.unit);
+}
+static void fieldsOf(PointField& l, StateFields& f) {
+  f("strength", l.strength), f("softening", l.softening), f("unit", l.unit);
+}
+static void fieldsOf(VortexField& l, StateFields& f) {
+  f("strength", l.strength), f("core", l.core), f("inward", l.inward), f("radius", l.radius);
+  f("unit", l.unit);
+}
+static void fieldsOf(MediumField& l, StateFields& f) {
+  f("density", l.density), f("viscosity", l.viscosity), f("wind", l.wind), f("region", l.region);
+  f("centre", l.centre), f("half", l.half);
+}
+template <std::size_t... I>
+static void makeLaw(FieldLaw& law, std::size_t which, std::index_sequence<I...>) {
+  ((which == I ? void(law.emplace<I>()) : void()), ...);
+}
+static void fieldsOf(ForceField& field, StateFields& f) {
+  std::size_t which = field.law.index();
+  f("law", which);
+  if (which >= std::variant_size_v<FieldLaw>) return f.fail();
+  if (f.restores()) makeLaw(field.law, which, std::make_index_sequence<std::variant_size_v<FieldLaw>>());
+  std::visit([&](auto& law) { f("law", law); }, field.law);
+  f("start", field.start), f("end", field.end), f("duration", field.duration);
+  f("first", field.first), f("last", field.last);
+}
+
+static void fieldsOf(RigidBody& b, StateFields& f) {
+  f("mode", b.mode), f("pose", b.pose);
+  f("path", b.path), f("spin", b.spin), f("since", b.since), f("version", b.version);
+  f("age", b.age0), f("until", b.until), f("valid", b.validAge), f("path valid", b.pathAge);
+  f("spin start", b.spinStart);
+  f("enabled", b.enabled), f("fresh", b.fresh), f("active", b.active), f("marked", b.marked);
+  f("stirred", b.stirred), f("aligned", b.aligned), f("alone", b.alone), f("lazy", b.lazy);
+  f("shape", b.shapeId), f("surface", b.surface), f("mass", b.mass), f("inverse mass", b.inverseMass);
+  f("inertia", b.inertia), f("even pull", b.even), f("X_NC", b.X_NC), f("X_CN", b.X_CN);
+  f("centred", b.centred), f("bound", b.bound), f("reach", b.reach), f("damping", b.damping);
+  f("drag area", b.dragArea), f("release distance", b.releaseDistance), f("stick", b.stick);
+  f("q_CA", b.q_CA), f("end momentum", b.endL), f("step", b.step), f("support", b.support);
+  f("hooks", b.hooks), f("touching", b.touching), f("leaning", b.leaning), f("presses", b.presses);
+  f("due", b.dueAge), f("crowd", b.crowd), f("wedged", b.wedged), f("restless", b.restless);
+  f("drowsy", b.drowsy), f("heaped", b.heaped), f("drift", b.drift), f("twist", b.twist);
+  f("slot", b.slot), f("held", b.held), f("carried", b.carried), f("wound", b.wound);
+  f("wound to", b.woundTo), f("free place", b.freePlace), f("let go", b.letGo), f("ways out", b.waysOut);
+  f("impacts", b.impacts), f("impact span", b.impactSpan), f("quiet", b.quiet), f("calm", b.calm);
+  f("trouble", b.trouble), f("swept", b.swept), f("place", b.place), f("only", b.only);
+}
+static void fieldsOf(Collider& c, StateFields& f) {
+  f("shape", c.shapeId), f("surface", c.surface), f("bound", c.bound), f("enabled", c.enabled);
+  f("now", c.now), f("next", c.next), f("motion", c.motion), f("plane point", c.planePoint);
+  f("plane normal", c.planeNormal), f("disturbed", c.disturbed), f("fresh", c.fresh);
+  f("version", c.version), f("swept", c.swept), f("place", c.place);
+}
+
+namespace {
+
+/// Ids, and what has them.
+template <class T, class Each>
+void visitTable(std::string_view name, IdTable<T>& table, StateFields& f, const Each& each) {
+  std::vector<std::uint32_t> ids;
+  table.eachId([&](std::uint32_t id) { ids.push_back(id); });
+  f(name, ids);
+  if (f.restores()) table = {};
+  std::uint32_t last = 0;
+  for (const std::uint32_t id : ids) {
+    if (f.failed()) return;
+    if (f.restores() && id <= std::exchange(last, id)) return f.fail();
+    T& item = f.restores() ? table.add(id) : *table.find(id);
+    each(id, item);
+  }
+}
+
+/// A list of things that are known by their ids.
+template <class T, class Find>
+void visitList(std::string_view name, std::vector<T*>& list, StateFields& f, const Find& find) {
+  std::vector<std::uint32_t> ids;
+  for (const T* item : list) ids.push_back(item->id);
+  f(name, ids);
+  if (!f.restores()) return;
+  list.clear();
+  for (const std::uint32_t id : ids) {
+    T* item = find(id);
+    if (!item) return f.fail();
+    list.push_back(item);
+  }
+}
+
+}  // namespace
+
+void World::Core::visit(StateFields& f) {
+  f("started", started), f("t0", t0), f("t1", t1), f("origin", origin), f("window", window);
+  f("from", frameFrom), f("now", now), f("frame", frame);
+  visitTable("shapes", shapes, f, [&](ShapeId, ShapeEntry& s) { f("bound", s.bound), f("uses", s.uses); });
+  visitTable("bodies", bodies, f, [&](BodyId id, RigidBody& b) {
+    bool flies = b.flight != nullptr;
+    f.about(id);
+    f("body", b), f("flies", flies);
+    b.id = id;
+    if (f.restores() && flies) flightless.push_back(id);
+  });
+  f.about(0);
+  visitTable("colliders", colliders, f, [&](ColliderId id, Collider& c) { f("collider", c), c.id = id; });
+  visitTable("fields", fields, f, [&](FieldId id, FieldEntry& e) {
+    e.id = id;
+    f("field", e.field), f("on", e.on), f("changed", e.changed), f("activation", e.activation);
+  });
+  f("ignored", ignored), f("bodies collide", bodiesCollide), f("coming out", comingOut);
+  f("jerking", jerking), f("foresee", foresee);
+  f("next order", nextOrder), f("next shape", nextShape), f("next body", nextBody);
+  f("next collider", nextCollider), f("next field", nextField);
+  f("looks", looks.looks), f("collider looks", looks.colliders), f("body looks", looks.bodies);
+  f("tick number", tickNumber), f("tick", tickAt);
+  // The present lies in the window: from elsewhere it would be hours of simulation to its end.
+  const bool isWindow = window >= kWindow && window <= kLongestWindow;
+  const bool isNow = t0 >= 0 && t0 <= t1 && origin >= 0 && origin <= t1 && t1 - origin < window;
+  if (f.restores() && !(isWindow && isNow)) return f.fail();
+  f("leaners", leaners), f("leaners to prune", leanersToPrune), f("changed", changed), f("told", told);
+  visitCommands(f);
+  visitQueue(f);
+  if (f.failed()) return;
+  memory.state(f, [this](Party p) -> const std::uint32_t* {
+    if (RigidBody* b = p.isBody ? body(p.id) : nullptr) return &b->version;
+    if (Collider* c = p.isBody ? nullptr : collider(p.id)) return &c->version;
+    return nullptr;
+  });
+  const auto findBody = [this](BodyId id) { return body(id); };
+  visitList("active", active, f, findBody), visitList("stirred", stirred, f, findBody);
+  visitList("held", held, f, findBody), visitList("marked", marked, f, findBody);
+  nearBodies.state(f, findBody);
+  nearColliders.state(f, [this](ColliderId id) { return collider(id); });
+}
+
+void World::Core::visitCommands(StateFields& f) {
+  const std::size_t n = f.count("commands", commands.size());
+  if (f.restores()) commands.assign(n, {});
+  for (Command& c : commands) {
+    f("when", c.when), f("order", c.order), f("kind", c.kind), f("field", c.field), f("body", c.body);
+    f("on", c.on), f("activation", c.activation);
+  }
+}
+
+/// In the order in which they come, which does not depend on how the queue keeps them.
+void World::Core::visitQueue(StateFields& f) {
+  f("touches", touches_);
+  std::vector<Event> events;
+  for (auto left = queue_; !left.empty(); left.pop()) events.push_back(left.top());
+  const std::size_t n = f.count("events", events.size());
+  if (f.restores()) events.assign(n, {}), queue_ = {};
+  for (Event& e : events) {
+    f("tau", e.tau), f("order", e.order), f("kind", e.kind), f("a", e.a), f("b", e.b);
+    f("version a", e.versionA), f("version b", e.versionB), f("detail", e.detail);
+    if (e.kind == Event::Kind::Touch && e.detail >= touches_.size()) return f.fail();
+    if (f.restores()) queue_.push(e);
+  }
+}
+
+void World::visit(StateFields& f) {
+  core_->visit(f);
+}
+
+bool World::giveBack(ShapeId id, std::shared_ptr<const Shape> shape) {
+  Core::ShapeEntry* entry = core_->shapes.find(id);
+  if (!entry || entry->shape || !shape) return false;
+  entry->shape = std::move(shape);
+  for (RigidBody& b : core_->bodies)
+    if (b.shapeId == id) b.shape = entry->shape.get();
+  for (Collider& c : core_->colliders)
+    if (c.shapeId == id) c.shape = entry->shape.get();
+  return true;
+}
+
+bool World::giveBack(BodyId id, std::shared_ptr<const BodyFlight> flight) {
+  RigidBody* b = core_->body(id);
+  if (!b || !flight || std::erase(core_->flightless, id) == 0) return false;
+  b->flight = std::move(flight);
+  return true;
+}
+
+bool World::complete() const {
+  bool whole = core_->flightless.empty();
+  for (const RigidBody& b : core_->bodies) whole = whole && b.shape;
+  for (const Collider& c : core_->colliders) whole = whole && c.shape;
+  return whole;
+}
+
+}  // namespace stadion
