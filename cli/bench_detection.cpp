@@ -6,9 +6,9 @@
 #include "cli/stop_signal.h"
 #include "engine/base/plain_file.h"
 #include "engine/core/state_hash.h"
-#include "profiling/regression/detection.h"
-#include "profiling/regression/instruction_comparison.h"
-#include "profiling/regression/rank_test.h"
+#include "profiling/regression/statistics/detection.h"
+#include "profiling/regression/statistics/instruction_comparison.h"
+#include "profiling/regression/statistics/rank_test.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

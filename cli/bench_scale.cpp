@@ -6,7 +6,7 @@
 #include "cli/temporary_folder.h"
 #include "engine/base/prefetch.h"
 #include "pipeline/record/run_summary.h"
-#include "profiling/allocations.h"
+#include "profiling/record/allocations.h"
 #include "profiling/bench/city_show.h"
 
 #include <CLI/CLI.hpp>

@@ -4,7 +4,7 @@
 #include "cli/player.h"
 #include "pipeline/platform/topology.h"
 #include "pipeline/target/rasteriser_settings.h"
-#include "profiling/processor_time.h"
+#include "profiling/record/processor_time.h"
 
 #include <atomic>
 #include <chrono>

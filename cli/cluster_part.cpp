@@ -8,7 +8,7 @@
 #include "engine/core/state_hash.h"
 #include "engine/script/suggestion.h"
 #include "pipeline/cluster/interface_check.h"
-#include "profiling/node_names.h"
+#include "profiling/record/node_names.h"
 
 #include <fmt/format.h>
 

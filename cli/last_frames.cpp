@@ -1,6 +1,6 @@
 #include "cli/last_frames.h"
 
-#include "profiling/black_box_folder.h"
+#include "profiling/record/black_box_folder.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 /// were late, or what was going on when the program died.
 
 #include "cli/run_options.h"
-#include "profiling/black_box.h"
+#include "profiling/record/black_box.h"
 
 namespace stadion {
 

@@ -2,7 +2,7 @@
 /// How a live run keeps its budgets: what the options and the show say of it.
 
 #include "cli/run_options.h"
-#include "profiling/load/load_governor.h"
+#include "profiling/budget/load_governor.h"
 
 namespace stadion {
 

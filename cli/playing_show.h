@@ -12,7 +12,7 @@
 #include "cli/show_recording.h"
 #include "engine/display/unfolding.h"
 #include "pipeline/frame/playback.h"
-#include "profiling/live_budget.h"
+#include "profiling/record/live_budget.h"
 
 #include <atomic>
 #include <memory>

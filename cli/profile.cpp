@@ -8,8 +8,8 @@
 #include "cli/overwriting.h"
 #include "cli/profile_run.h"
 #include "cli/stop_signal.h"
-#include "profiling/black_box.h"
-#include "profiling/black_box_folder.h"
+#include "profiling/record/black_box.h"
+#include "profiling/record/black_box_folder.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

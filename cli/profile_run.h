@@ -4,7 +4,7 @@
 #include "cli/fidelity.h"
 #include "cli/run_options.h"
 #include "cli/trace_options.h"
-#include "profiling/show_figures.h"
+#include "profiling/report/show_figures.h"
 
 #include <optional>
 

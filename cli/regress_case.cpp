@@ -3,10 +3,10 @@
 #include "cli/regress_child.h"
 #include "cli/regress_hint.h"
 #include "cli/regress_rounds.h"
-#include "profiling/regression/hitch_comparison.h"
-#include "profiling/regression/instruction_comparison.h"
-#include "profiling/regression/instruction_counter.h"
-#include "profiling/regression/rank_test.h"
+#include "profiling/regression/statistics/hitch_comparison.h"
+#include "profiling/regression/statistics/instruction_comparison.h"
+#include "profiling/regression/spans/instruction_counter.h"
+#include "profiling/regression/statistics/rank_test.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "cli/regress_options.h"
 #include "profiling/regression/exact_comparison.h"
-#include "profiling/regression/result.h"
+#include "profiling/regression/spans/result.h"
 
 #include <functional>
 

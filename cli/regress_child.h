@@ -4,7 +4,7 @@
 /// Threads  one at a time.
 /// Errors   in the result, as a sentence; Ctrl-C ends the child and is told.
 
-#include "profiling/regression/facts.h"
+#include "profiling/regression/spans/facts.h"
 #include "profiling/regression/suite.h"
 
 #include <atomic>

@@ -2,7 +2,7 @@
 
 #include "engine/base/plain_file.h"
 #include "engine/core/state_hash.h"
-#include "profiling/regression/history.h"
+#include "profiling/regression/statistics/history.h"
 #include "profiling/regression/page.h"
 #include "profiling/regression/reports.h"
 

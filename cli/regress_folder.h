@@ -7,7 +7,7 @@
 #include "cli/regress_options.h"
 #include "engine/base/atomic_file.h"
 #include "pipeline/platform/child_process.h"
-#include "profiling/regression/progress.h"
+#include "profiling/regression/suite_progress.h"
 
 #include <map>
 #include <string>

@@ -2,7 +2,7 @@
 /// Where in Cull or Draw a difference is: asked of `stadion profile`, when a stage has become slower.
 
 #include "cli/regress_options.h"
-#include "profiling/regression/span_record.h"
+#include "profiling/regression/spans/span_record.h"
 
 namespace stadion {
 

@@ -3,9 +3,9 @@
 #include "cli/regress_child.h"
 #include "cli/regress_folder.h"
 #include "cli/temporary_folder.h"
-#include "profiling/regression/calibration.h"
-#include "profiling/regression/callgrind_record.h"
-#include "profiling/regression/instruction_comparison.h"
+#include "profiling/regression/statistics/noise_calibration.h"
+#include "profiling/regression/spans/callgrind_record.h"
+#include "profiling/regression/statistics/instruction_comparison.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 /// Errors   a sentence in `fault`; then the rest is void.
 
 #include "cli/regress_options.h"
-#include "profiling/regression/time_comparison.h"
+#include "profiling/regression/statistics/time_comparison.h"
 
 namespace stadion {
 

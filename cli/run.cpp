@@ -23,7 +23,7 @@
 #include "pipeline/platform/topology.h"
 #include "pipeline/record/progress.h"
 #include "pipeline/target/rasteriser_settings.h"
-#include "profiling/regression/work_counts.h"
+#include "profiling/regression/spans/work_counts.h"
 
 #include <CLI/CLI.hpp>
 #include <chrono>

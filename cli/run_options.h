@@ -8,7 +8,7 @@
 #include "cli/span_options.h"
 #include "cli/trace_options.h"
 #include "cli/tracker_device.h"
-#include "profiling/load/stress_filter.h"
+#include "profiling/budget/stress_filter.h"
 
 #include <cstdio>
 #include <functional>

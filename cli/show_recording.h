@@ -5,11 +5,11 @@
 
 #include "cli/crash_report.h"
 #include "cli/live_load.h"
-#include "profiling/black_box.h"
-#include "profiling/load/load_governor.h"
+#include "profiling/record/black_box.h"
+#include "profiling/budget/load_governor.h"
 #include "profiling/report/report_data.h"
 #include "profiling/report/report_recording.h"
-#include "profiling/show_figures.h"
+#include "profiling/report/show_figures.h"
 #include "profiling/trace/trace_file.h"
 
 #include <optional>

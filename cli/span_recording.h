@@ -5,8 +5,8 @@
 
 #include "cli/player.h"
 #include "cli/span_options.h"
-#include "profiling/regression/instruction_counter.h"
-#include "profiling/regression/span_times.h"
+#include "profiling/regression/spans/instruction_counter.h"
+#include "profiling/regression/statistics/span_times.h"
 
 #include <memory>
 #include <optional>

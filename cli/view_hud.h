@@ -4,7 +4,7 @@
 /// Threads  say() from any, the rest on the main thread.
 
 #include "pipeline/picture/text_panel.h"
-#include "profiling/live_budget.h"
+#include "profiling/record/live_budget.h"
 
 #include <chrono>
 #include <mutex>

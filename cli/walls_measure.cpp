@@ -5,7 +5,7 @@
 #include "pipeline/record/run_summary.h"
 #include "profiling/bench/walls/picture_difference.h"
 #include "profiling/bench/walls/wall_room.h"
-#include "profiling/processor_time.h"
+#include "profiling/record/processor_time.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,6 +1,6 @@
 #include "profiling/plan/diagram.h"
 
-#include "profiling/markup_text.h"
+#include "profiling/report/markup_text.h"
 
 #include <algorithm>
 #include <array>

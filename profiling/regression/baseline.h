@@ -8,9 +8,9 @@
 ///          which keeps no frames, is read, too.
 
 #include "engine/base/diagnostic.h"
-#include "profiling/regression/facts.h"
-#include "profiling/regression/kept_frames.h"
-#include "profiling/regression/node_costs.h"
+#include "profiling/regression/spans/facts.h"
+#include "profiling/regression/statistics/kept_frames.h"
+#include "profiling/regression/statistics/node_cost_comparison.h"
 #include "profiling/regression/suite.h"
 
 #include <map>

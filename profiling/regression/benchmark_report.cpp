@@ -1,4 +1,4 @@
-#include "profiling/regression/rank_test.h"
+#include "profiling/regression/statistics/rank_test.h"
 #include "profiling/regression/reports.h"
 
 #include <nlohmann/json.hpp>

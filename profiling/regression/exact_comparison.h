@@ -1,8 +1,8 @@
 #pragma once
 /// Hashes and counts: equal, or not.
 
-#include "profiling/regression/facts.h"
-#include "profiling/regression/result.h"
+#include "profiling/regression/spans/facts.h"
+#include "profiling/regression/spans/result.h"
 #include "profiling/regression/suite.h"
 
 namespace stadion::regression {

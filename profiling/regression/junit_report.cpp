@@ -1,4 +1,4 @@
-#include "profiling/markup_text.h"
+#include "profiling/report/markup_text.h"
 #include "profiling/regression/reports.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "profiling/regression/page.h"
 
-#include "profiling/markup_text.h"
+#include "profiling/report/markup_text.h"
 
 #include <fmt/format.h>
 

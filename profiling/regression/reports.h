@@ -3,7 +3,7 @@
 ///
 /// Threads  free functions, any thread.
 
-#include "profiling/regression/result.h"
+#include "profiling/regression/spans/result.h"
 
 #include <string>
 

@@ -7,8 +7,8 @@
 /// Units    milliseconds. Memory  80 bytes a frame: 17 MB an hour at 60 Hz.
 /// Threads  plain values.
 
-#include "profiling/frame_facts.h"
-#include "profiling/frame_log.h"
+#include "profiling/record/frame_facts.h"
+#include "profiling/record/frame_log.h"
 
 #include <map>
 #include <vector>

@@ -3,7 +3,7 @@
 ///
 /// Ownership  points into the figures that it was made of.
 
-#include "profiling/show_figures.h"
+#include "profiling/report/show_figures.h"
 
 #include <map>
 #include <vector>

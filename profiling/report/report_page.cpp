@@ -1,4 +1,4 @@
-#include "profiling/markup_text.h"
+#include "profiling/report/markup_text.h"
 #include "profiling/report/page_parts.h"
 #include "profiling/report/report_data.h"
 

@@ -10,9 +10,9 @@
 /// Ownership  borrows the names, which must outlive it. The file appears complete, with finish(), or not at
 ///            all.
 
-#include "profiling/frame_log.h"
-#include "profiling/node_names.h"
-#include "profiling/thread_names.h"
+#include "profiling/record/frame_log.h"
+#include "profiling/record/node_names.h"
+#include "profiling/record/thread_names.h"
 #include "profiling/trace/trace_events.h"
 
 #include "engine/base/atomic_file.h"

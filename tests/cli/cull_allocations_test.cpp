@@ -1,6 +1,6 @@
 /// Once it has seen the show, Cull asks for no memory.
 
-#include "profiling/allocations.h"
+#include "profiling/record/allocations.h"
 #include "tests/pipeline/cull_room.h"
 
 #include <gtest/gtest.h>

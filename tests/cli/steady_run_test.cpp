@@ -1,7 +1,7 @@
 /// A whole run, with all its threads and the processes that draw its walls, asks for no memory while nothing
 /// comes, goes or happens. What Mesa asks for itself, of C, is not counted.
 
-#include "profiling/allocations.h"
+#include "profiling/record/allocations.h"
 #include "tests/cli/counting_library/shared_count.h"
 #include "tests/cli/played_show.h"
 #include "tests/cli/program.h"

@@ -1,7 +1,7 @@
 /// While nothing comes, goes or happens App asks for no memory: what it needs from frame to frame it has
 /// already. (What happens, a path's end for example, may be told with a message, which is memory.)
 
-#include "profiling/allocations.h"
+#include "profiling/record/allocations.h"
 #include "tests/cli/played_show.h"
 #include "tests/cli/program.h"
 

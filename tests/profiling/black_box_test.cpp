@@ -1,7 +1,7 @@
 /// Late frames have a cause, and the last ones are kept whatever happens.
 
-#include "profiling/black_box.h"
-#include "profiling/black_box_folder.h"
+#include "profiling/record/black_box.h"
+#include "profiling/record/black_box_folder.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,9 +1,9 @@
 /// Hitches: frames that are longer than before although the typical frame is not.
 
 #include "profiling/regression/baseline.h"
-#include "profiling/regression/hitch_comparison.h"
-#include "profiling/regression/planted_delay.h"
-#include "profiling/regression/span_times.h"
+#include "profiling/regression/statistics/hitch_comparison.h"
+#include "profiling/regression/spans/planted_delay.h"
+#include "profiling/regression/statistics/span_times.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// Who is told of, and who gives up what, when spans say that nodes and frames take too long. The spans are
 /// made up: no clock is asked.
 
-#include "profiling/load/load_governor.h"
+#include "profiling/budget/load_governor.h"
 
 #include "engine/nodes/light_node.h"
 #include "engine/nodes/lod_node.h"

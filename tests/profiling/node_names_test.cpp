@@ -1,9 +1,9 @@
 /// Nodes whose file goes and comes again are the same nodes, for whoever names them or adds them up.
 
-#include "profiling/node_names.h"
+#include "profiling/record/node_names.h"
 
 #include "engine/nodes/scene_node.h"
-#include "profiling/show_profile.h"
+#include "profiling/report/show_profile.h"
 #include "tests/engine/show_fixture.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /// Processor time of this process and of what it started.
 
-#include "profiling/processor_time.h"
+#include "profiling/record/processor_time.h"
 
 #include <csignal>
 #include <ctime>

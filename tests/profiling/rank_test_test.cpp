@@ -1,6 +1,6 @@
 /// Against tables that can be looked up, and against plain counting of all cases.
 
-#include "profiling/regression/rank_test.h"
+#include "profiling/regression/statistics/rank_test.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 /// Who gives up what, and when it comes back, for costs that are made up frame by frame.
 
-#include "profiling/load/relief_policy.h"
+#include "profiling/budget/relief_policy.h"
 
-#include "profiling/load/stress_filter.h"
+#include "profiling/budget/stress_filter.h"
 
 #include <functional>
 #include <gtest/gtest.h>

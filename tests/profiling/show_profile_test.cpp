@@ -1,7 +1,7 @@
 /// Where a frame's time goes: spans of several threads, added up by node and stage.
 
-#include "profiling/csv_field.h"
-#include "profiling/show_figures.h"
+#include "profiling/record/csv_field.h"
+#include "profiling/report/show_figures.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,0 +1,99 @@
+#pragma once
+/// What each stage of each wall and each node of App cost, frame by frame, for comparisons: processor time of
+/// the thread that did it, so that waiting and being interrupted do not count.
+///
+/// Under callgrind, and if asked to, the instructions between any two of its calls are written down under
+/// "row N", N being the index in rows(). With a counter of instructions they are in rows() themselves.
+///
+/// Threads  told on the threads that do the work; read when the run is over.
+/// Errors   none.
+
+#include "engine/core/frame_probe.h"
+#include "profiling/regression/spans/planted_delay.h"
+#include "profiling/regression/spans/span_record.h"
+#include "profiling/regression/spans/turns.h"
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace stadion::regression {
+
+struct SpanTimesOptions {
+  std::optional<PlantedDelay> planted{};
+  Turns* turns = nullptr;          ///< null: frames wait for nobody
+  bool countInstructions = false;  ///< from the third frame on; the first ones build what the others use
+  /// What the calling thread has executed so far; null: they are left to callgrind.
+  std::function<std::uint64_t()> instructions{};
+};
+
+class SpanTimes final : public FrameProbe {
+public:
+  explicit SpanTimes(SpanTimesOptions options) : options_(std::move(options)) {}
+
+  void began(Span what, std::uint64_t frame, std::uint32_t wall) override;
+  void began(Span what, NodeRef node) override;
+  void ended(Span what) override;
+
+  /// What was planted, frame by frame [ns]: at most once in each.
+  const std::vector<std::uint64_t>& planted() const { return planted_; }
+
+  /// `nameNode` fills in path, file and line. Frames are told of stages and of the dearest nodes.
+  std::vector<SpanRow> rows(const std::vector<std::string>& walls,
+                            const std::function<void(NodeRef, SpanRow&)>& nameNode) const;
+
+private:
+  using Clock = std::chrono::steady_clock;
+  struct Key {
+    Span stage = Span::App;
+    std::uint32_t wall = 0;
+    NodeRef node;
+    auto operator<=>(const Key&) const = default;
+  };
+  /// Of one frame: processor time [ns], and the duration by the clock on the wall.
+  struct OfFrame {
+    std::uint64_t frame = 0, processor = 0;
+    Clock::duration elapsed{};
+  };
+  struct Cost {
+    std::size_t row = 0;
+    std::uint64_t began = 0, now = 0, total = 0;  ///< [ns]; `now`: of this frame
+    Clock::time_point beganAt{};
+    Clock::duration elapsed{}, elapsedTotal{};  ///< `elapsed`: of this frame
+    std::vector<OfFrame> frames;
+  };
+  /// What a thread is at.
+  struct Open {
+    Key stage;
+    std::uint64_t frame = 0;
+    NodeRef node;
+  };
+
+  void plantIn(std::uint64_t frame);
+  bool isPlanted(const Key& stage) const;
+  void stageEnded(const Open& open);
+  void frameEnded(std::uint64_t frame);
+  void nodeEnded(NodeRef node);
+  void begin(const Key& key);
+  Cost& end(const Key& key);
+  void closeFrame(std::uint64_t frame);
+  void boundary(const Cost* cost);
+
+  SpanTimesOptions options_;
+  std::mutex mutex_;  ///< of what follows
+  std::map<std::thread::id, Open> open_;
+  std::map<Key, Cost> costs_;
+  std::vector<Cost*> touched_;  ///< nodes, in this frame
+  Cost* stage_ = nullptr;       ///< that is under way, where one thread does all
+  bool counting_ = false;
+  std::uint64_t counted_ = 0;                 ///< at the last boundary
+  std::map<std::size_t, double> executed_{};  ///< by row
+  std::uint64_t appFrame_ = kNoFrame, plantedFrame_ = kNoFrame;
+  std::vector<std::uint64_t> planted_;
+  Clock::time_point frameEndedAt_{};  ///< the frame before; moved on by what was waited since
+  std::vector<std::pair<std::uint64_t, Clock::duration>> wholeFrames_;
+};
+
+}  // namespace stadion::regression
