@@ -1,0 +1,63 @@
+#include "assets/generator/craft/models.h"
+#include "assets/generator/craft/picture.h"
+
+#include <algorithm>
+
+// Blades of grass, drawn as short strokes of sixteen greens.
+
+namespace stadion::assets {
+namespace {
+
+constexpr int kSide = 256;  // pixels
+constexpr int kShades = 16;
+
+class Dice {  // a small linear congruential generator
+public:
+  unsigned roll(unsigned sides) {
+    state_ = state_ * 6364136223846793005ull + 1442695040888963407ull;
+    return static_cast<unsigned>((state_ >> 33) % sides);
+  }
+
+private:
+  std::uint64_t state_ = 20260101;
+};
+
+std::vector<int> draw() {
+  std::vector<int> shade(kSide * kSide, 7);
+  Dice dice;
+  const auto at = [&](int x, int y) -> int& {
+    return shade[static_cast<std::size_t>((y & 255) * kSide + (x & 255))];
+  };
+  for (int blade = 0; blade < 14000; ++blade) {
+    int x = static_cast<int>(dice.roll(kSide)), y = static_cast<int>(dice.roll(kSide));
+    const int base = 4 + static_cast<int>(dice.roll(5) + dice.roll(4)),
+              length = 4 + static_cast<int>(dice.roll(6));
+    const int lean = static_cast<int>(dice.roll(3)) - 1;
+    for (int i = 0; i < length; ++i) {
+      at(x, y) = std::clamp(base - 3 + 5 * i / length, 0, kShades - 1);  // dark at the root, light at the tip
+      --y;
+      if (dice.roll(3) == 0) x += lean;
+    }
+  }
+  return shade;
+}
+
+}  // namespace
+
+std::string grassPicture() {
+  std::string palette, rows;
+  for (int i = 0; i < kShades; ++i) {
+    palette.push_back(static_cast<char>(44 + 5 * i));
+    palette.push_back(static_cast<char>(92 + 6 * i));
+    palette.push_back(static_cast<char>(30 + 3 * i));
+  }
+  const std::vector<int> shade = draw();
+  for (std::size_t y = 0; y < kSide; ++y) {
+    rows.push_back(0);
+    for (std::size_t x = 0; x < kSide; x += 2)
+      rows.push_back(static_cast<char>(shade[y * kSide + x] << 4 | shade[y * kSide + x + 1]));
+  }
+  return png(kSide, kSide, {4, PngColour::Palette}, palette, rows);
+}
+
+}  // namespace stadion::assets
