@@ -11,7 +11,7 @@
 namespace stadion {
 namespace {
 
-constexpr std::size_t kMost = 16;
+constexpr std::size_t kMostPairs = 16;
 constexpr double kOnFace = 1e-6;  ///< a centre this near to a face is inside [m]
 constexpr std::size_t kMostDeep = 4;
 constexpr double kSameWay = 0.7;  ///< cosine of directions that lead out at the same side
@@ -56,7 +56,7 @@ void waysOut(const Vec3& c, double r, const TriangleTree& tree, const std::vecto
                       i + 1});
   }
   std::ranges::stable_sort(points, std::greater{}, [](const ManifoldPoint& p) { return p.gap.distance; });
-  keepDistinct(points, kMost);
+  keepDistinct(points, kMostPairs);
 }
 
 /// A ball touches a mesh wherever a face, a ridge or a peak is near enough; merged edges do not count.
@@ -83,7 +83,7 @@ void ballOnMesh(const Vec3& centre, double r, const MeshShape& mesh, const Pose&
       const bool known = std::any_of(points.begin(), points.end(), [&](const ManifoldPoint& p) {
         return p.gap.normal.dot(X.q * n) > 1 - 1e-6;
       });
-      if (known || points.size() >= kMost) continue;
+      if (known || points.size() >= kMostPairs) continue;
       points.push_back({{away - r, X * q.point, X.q * n, !edges, static_cast<std::int32_t>(i)}, i + 1});
     }
   }
@@ -120,11 +120,11 @@ void cornersNear(const Side& a, const Side& b, double tau, double margin, bool f
     if (flipped) flip(g);
     found.push_back({g, key, flipped ? Carrier::B : Carrier::A});
   });
-  if (found.size() > kMost) {  // keep the deepest and the widest spread
+  if (found.size() > kMostPairs) {  // keep the deepest and the widest spread
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& l, const auto& r) { return l.gap.distance < r.gap.distance; });
     std::vector<ManifoldPoint> kept{found.front()};
-    while (kept.size() < kMost) {
+    while (kept.size() < kMostPairs) {
       std::size_t best = 0;
       double far = -1;
       for (std::size_t i = 0; i < found.size(); ++i) {

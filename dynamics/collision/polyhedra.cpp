@@ -16,7 +16,7 @@ constexpr double kNear = 1e-6;  ///< meshes closer than this touch [m]
 /// past.
 constexpr double kLeast = 5e-7;
 constexpr double kShare = 0.9;  ///< steps believe this much of a gap: it is found much sooner
-constexpr int kMostLooks = 100;
+constexpr int kMostFaceLooks = 100;
 
 Gap gapOf(const NearestPoints& n, const Triangle& b) {
   if (n.distance > 0) return {n.distance, n.b, (n.a - n.b) / n.distance, false, -1};
@@ -109,7 +109,7 @@ std::optional<Touch> meshesTouch(const Side& a, const Side& b, double from, doub
   double tau = from;
   std::optional<Touch> lastFree;
   Pair pair;
-  for (int i = 0; i < kMostLooks; ++i) {
+  for (int i = 0; i < kMostFaceLooks; ++i) {
     ++iterations;
     const Kinematics ka = a.at(tau), kb = b.at(tau);
     // Speed of the points of the two towards each other, seen along no particular direction.

@@ -6,7 +6,7 @@
 namespace stadion {
 namespace {
 
-constexpr double kRounding = 1e-13;    ///< relative excess that is none
+constexpr double kPileRounding = 1e-13;    ///< relative excess that is none
 constexpr double kMotionSpent = 0.05;  ///< share of a group's energy of motion that a shift may use
 
 }  // namespace
@@ -114,8 +114,8 @@ void CrowdEnergy::boundWork(Crowd& crowd) {
     if (g.across > first && g.across > 0) s = std::min(s, first / g.across);
     if (g.end > last) s = std::min(s, last / g.end);
     s = std::max(s, 0.0);
-    if (s < 1 - kRounding) slow(crowd.bodies[i], s);
-    if (s * g.across > first + kRounding * (g.start + std::fabs(g.fallsAtStart)))
+    if (s < 1 - kPileRounding) slow(crowd.bodies[i], s);
+    if (s * g.across > first + kPileRounding * (g.start + std::fabs(g.fallsAtStart)))
       slow(crowd.start[i], 0), slow(crowd.bodies[i], 0);
   }
 }

@@ -13,7 +13,7 @@ constexpr int kJumps = 12, kShifts = 4;
 constexpr int kSweeps = 14,
               kStillSweeps = 16;       ///< while it moves; when it comes to rest, and sleep depends on it
 constexpr int kMostSweeps = 500;       ///< of small heaps ...
-constexpr std::size_t kSwept = 40000;  ///< ... and the points that these relax in all
+constexpr std::size_t kPileSwept = 40000;  ///< ... and the points that these relax in all
 constexpr double kConverged = 1e-8;    ///< a sweep that changes less is the last there [m/s]
 constexpr double kSlow = 0.1;          ///< root mean square speed at rest, nearly [m/s]
 constexpr double kSettled = 1e-5;      ///< a sweep that changes less is the last [m/s]
@@ -243,7 +243,7 @@ void CrowdSolver::jump() {
   }
   if (!any) return;
   const std::vector<CrowdBody> before = crowd_.bodies;
-  const int affordable = sweepsFor(kSwept / 4);
+  const int affordable = sweepsFor(kPileSwept / 4);
   for (int i = 0; i < std::clamp(affordable, kJumps, kMostSweeps); ++i)
     if (sweep(i % 2 != 0) < kSettled * kSettled) break;
   energy_.boundJump(crowd_, before);
@@ -285,7 +285,7 @@ void CrowdSolver::push() {
     if (c.pressed > 0) give(c, c.pressed, c.held);
   const bool still = meanSquare() < kSlow * kSlow;
   const int sweeps = still ? kStillSweeps : kSweeps;
-  const int affordable = sweepsFor(still ? kSwept : kSwept / 4);
+  const int affordable = sweepsFor(still ? kPileSwept : kPileSwept / 4);
   if (affordable > 2 * sweeps) {
     converge(std::min(affordable, kMostSweeps));
   } else {

@@ -20,21 +20,21 @@ namespace {
 constexpr const char* kFormatName = "stadion-input";
 constexpr std::uint64_t kVersion = 1;        ///< of logs that hold input alone
 constexpr std::uint64_t kNewestVersion = 2;  ///< of logs that also hold what a clock decided
-constexpr std::size_t kMaxFileBytes = std::size_t(1) << 30;
+constexpr std::size_t kMaxLogBytes = std::size_t(1) << 30;
 constexpr double kFarthest = 1e6;       ///< of a position [m]
 constexpr double kExactlyUnit = 1e-12;  ///< squared norms this near 1 are kept to the bit
 constexpr double kNearlyUnit = 2e-3;    ///< nearer than this they are normalised, else it is an error
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
 
-std::string didYouMean(std::string_view word, const std::vector<std::string>& known) {
+std::string logHint(std::string_view word, const std::vector<std::string>& known) {
   const auto near = closest(std::string(word.substr(0, 64)), known);
   return near ? "; " + didYouMeanOne(std::string(word), *near)
               : fmt::format("; known are {}", fmt::join(known, ", "));
 }
 
-class Parser {
+class LogParser {
 public:
-  Parser(std::string_view text, const std::string& file, Diagnostics& out)
+  LogParser(std::string_view text, const std::string& file, Diagnostics& out)
       : file_(file), out_(out), in_(text, file, out) {}
 
   std::optional<InputLog> run() {
@@ -71,7 +71,7 @@ private:
 
   void record() {
     const Word& kind = in_.words()[0];
-    if (kind.text == "pose") return pose(&Parser::quaternion);
+    if (kind.text == "pose") return pose(&LogParser::quaternion);
     if (kind.text == "key") return pose(nullptr);
     if (kind.text == "controls") return controls();
     if (kind.text == "lost") return lost();
@@ -86,7 +86,7 @@ private:
     std::vector<std::string> known{"pose", "key", "controls", "lost"};
     if (version_ >= 2) known.insert(known.end(), {"rate", "frame", "load", "order", "relief", "stress"});
     in_.error(kind.column, fmt::format("{} is not a kind of record{}", quotedWord(kind.text),
-                                       didYouMean(kind.text, known)));
+                                       logHint(kind.text, known)));
   }
 
   void rate() {
@@ -269,7 +269,7 @@ private:
         std::vector<std::string> known{"smooth", "buttons", "axes"};
         if (isKey) known.emplace_back("turn");
         in_.error(key.column, fmt::format("{} is not expected here{}", quotedWord(key.text),
-                                          didYouMean(key.text, known)));
+                                          logHint(key.text, known)));
         return false;
       }
     }
@@ -324,7 +324,7 @@ private:
     return count > 0 || word(i, "the value of the first axis") != nullptr;
   }
 
-  void pose(bool (Parser::*rotation)(std::size_t, Pose&)) {
+  void pose(bool (LogParser::*rotation)(std::size_t, Pose&)) {
     InputStamp stamp;
     InputTrack* track = begin(stamp);
     if (!track || !position(3, stamp.X_RT)) return;
@@ -362,11 +362,11 @@ private:
 }  // namespace
 
 std::optional<InputLog> parseInputLog(std::string_view text, const std::string& file, Diagnostics& out) {
-  return Parser(text, file, out).run();
+  return LogParser(text, file, out).run();
 }
 
 std::optional<InputLog> loadInputLog(const std::string& path, Diagnostics& out) {
-  const Result<std::string> text = readPlainFile(path, kMaxFileBytes);
+  const Result<std::string> text = readPlainFile(path, kMaxLogBytes);
   if (text) return parseInputLog(text.value(), path, out);
   out.add(text.error());
   return std::nullopt;

@@ -9,9 +9,9 @@
 namespace stadion {
 namespace {
 
-constexpr std::array kBlocks{GlBinding{"View", kViewBinding}, GlBinding{"Scene", kSceneBinding},
+constexpr std::array kBlockBindings{GlBinding{"View", kViewBinding}, GlBinding{"Scene", kSceneBinding},
                              GlBinding{"Material", kMaterialBinding}, GlBinding{"Shadow", kShadowBinding}};
-constexpr std::array kTextures{GlBinding{"baseTexture", 0}, GlBinding{"shadowMap", kShadowUnit},
+constexpr std::array kTextureBindings{GlBinding{"baseTexture", 0}, GlBinding{"shadowMap", kShadowUnit},
                                GlBinding{"glowTexture", kGlowUnit}};
 
 constexpr float kLeastConeWidth = 1e-4f;  // so that a spot's edge never divides by zero
@@ -66,7 +66,7 @@ float cutoffOf(const Material& material) {
 }  // namespace
 
 GlBindings shaderBindings() {
-  return {kBlocks, kTextures};
+  return {kBlockBindings, kTextureBindings};
 }
 
 void fillViewProjection(const Mat4& viewProjection, ClipDepth clip, ViewBlock& out) {

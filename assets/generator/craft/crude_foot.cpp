@@ -28,16 +28,16 @@ constexpr Outline kOutlines[] = {
     {0.510, -0.050, 0.054, 0.046, 0.00, Skin},
 };
 
-struct Direction {
+struct FootDirection {
   double c, s;
 };
 
 // The unit circle in steps of 15 degrees from square roots alone, so that it is the same everywhere.
-Direction direction(int n) {
+FootDirection direction(int n) {
   const double s15 = (std::sqrt(6.0) - std::sqrt(2.0)) / 4, c15 = (std::sqrt(6.0) + std::sqrt(2.0)) / 4;
   const double r2 = std::sqrt(0.5), r3 = std::sqrt(0.75);
-  const Direction quarter[] = {{1, 0}, {c15, s15}, {r3, 0.5}, {r2, r2}, {0.5, r3}, {s15, c15}};
-  const Direction d = quarter[n % 6];
+  const FootDirection quarter[] = {{1, 0}, {c15, s15}, {r3, 0.5}, {r2, r2}, {0.5, r3}, {s15, c15}};
+  const FootDirection d = quarter[n % 6];
   switch (n / 6 % 4) {
   case 0: return d;
   case 1: return {-d.s, d.c};
@@ -47,7 +47,7 @@ Direction direction(int n) {
 }
 
 Point onOutline(const Outline& o, int n) {
-  const Direction d = direction(n);  // c points forward, s to the left
+  const FootDirection d = direction(n);  // c points forward, s to the left
   const double middle = 0.5 * (o.heel + o.toe), reach = 0.5 * (o.toe - o.heel);
   const double narrow = 1 - o.taper * 0.5 * (1 - d.c);
   return {-o.half * d.s * narrow, middle + reach * d.c, o.z};

@@ -8,7 +8,7 @@
 namespace stadion::assets {
 namespace {
 
-constexpr int kSide = 256;  // pixels
+constexpr int kGrassSide = 256;  // pixels
 constexpr int kShades = 16;
 
 class Dice {  // a small linear congruential generator
@@ -23,13 +23,13 @@ private:
 };
 
 std::vector<int> draw() {
-  std::vector<int> shade(kSide * kSide, 7);
+  std::vector<int> shade(kGrassSide * kGrassSide, 7);
   Dice dice;
   const auto at = [&](int x, int y) -> int& {
-    return shade[static_cast<std::size_t>((y & 255) * kSide + (x & 255))];
+    return shade[static_cast<std::size_t>((y & 255) * kGrassSide + (x & 255))];
   };
   for (int blade = 0; blade < 14000; ++blade) {
-    int x = static_cast<int>(dice.roll(kSide)), y = static_cast<int>(dice.roll(kSide));
+    int x = static_cast<int>(dice.roll(kGrassSide)), y = static_cast<int>(dice.roll(kGrassSide));
     const int base = 4 + static_cast<int>(dice.roll(5) + dice.roll(4)),
               length = 4 + static_cast<int>(dice.roll(6));
     const int lean = static_cast<int>(dice.roll(3)) - 1;
@@ -52,12 +52,12 @@ std::string grassPicture() {
     palette.push_back(static_cast<char>(30 + 3 * i));
   }
   const std::vector<int> shade = draw();
-  for (std::size_t y = 0; y < kSide; ++y) {
+  for (std::size_t y = 0; y < kGrassSide; ++y) {
     rows.push_back(0);
-    for (std::size_t x = 0; x < kSide; x += 2)
-      rows.push_back(static_cast<char>(shade[y * kSide + x] << 4 | shade[y * kSide + x + 1]));
+    for (std::size_t x = 0; x < kGrassSide; x += 2)
+      rows.push_back(static_cast<char>(shade[y * kGrassSide + x] << 4 | shade[y * kGrassSide + x + 1]));
   }
-  return png(kSide, kSide, {4, PngColour::Palette}, palette, rows);
+  return png(kGrassSide, kGrassSide, {4, PngColour::Palette}, palette, rows);
 }
 
 }  // namespace stadion::assets

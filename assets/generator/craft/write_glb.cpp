@@ -8,7 +8,7 @@
 namespace stadion::assets {
 namespace {
 
-void put32(std::string& out, std::uint32_t v) {
+void putWord(std::string& out, std::uint32_t v) {
   for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<char>(v >> shift & 255));
 }
 
@@ -17,7 +17,7 @@ void put16(std::string& out, std::uint32_t v) {
 }
 
 void putFloat(std::string& out, double v) {
-  put32(out, std::bit_cast<std::uint32_t>(static_cast<float>(v) + 0.0f));  // + 0 makes -0 equal to 0
+  putWord(out, std::bit_cast<std::uint32_t>(static_cast<float>(v) + 0.0f));  // + 0 makes -0 equal to 0
 }
 
 void putPoint(std::string& out, Point p) {
@@ -63,7 +63,7 @@ public:
       smoothed = smoothed && dot(v.n, v.n) > 0;
     }
     for (const auto& t : part.triangles)
-      for (std::uint32_t c : t) narrow ? put16(corners, c) : put32(corners, c);
+      for (std::uint32_t c : t) narrow ? put16(corners, c) : putWord(corners, c);
     while (corners.size() % 4 != 0) corners.push_back(0);
     std::string attributes =
         text("\"POSITION\":%d", accessor(positions, 34962, count, 5126, "VEC3",
@@ -97,9 +97,9 @@ public:
             text(",\n\"buffers\":[{\"byteLength\":%d}]}", static_cast<int>(numbers_.size()));
     while (json.size() % 4 != 0) json.push_back(' ');
     std::string out = "glTF";
-    put32(out, 2), put32(out, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + numbers_.size()));
-    put32(out, static_cast<std::uint32_t>(json.size())), out += "JSON" + json;
-    put32(out, static_cast<std::uint32_t>(numbers_.size())), out += std::string("BIN\0", 4) + numbers_;
+    putWord(out, 2), putWord(out, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + numbers_.size()));
+    putWord(out, static_cast<std::uint32_t>(json.size())), out += "JSON" + json;
+    putWord(out, static_cast<std::uint32_t>(numbers_.size())), out += std::string("BIN\0", 4) + numbers_;
     return out;
   }
 
