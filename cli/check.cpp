@@ -2,10 +2,10 @@
 /// below a folder.
 
 #include "cli/commands.h"
-#include "cli/enclosing_show.h"
 #include "cli/exit_code.h"
-#include "cli/show_check.h"
 #include "engine/asset/check.h"
+#include "show/player/enclosing_show.h"
+#include "show/player/show_check.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

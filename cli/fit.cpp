@@ -3,12 +3,12 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/fit_object.h"
-#include "cli/number_option.h"
-#include "cli/output_names.h"
-#include "cli/player.h"
+#include "cli/options/number_option.h"
 #include "dynamics/flight/fit.h"
 #include "engine/base/plain_file.h"
+#include "show/measure/fit_object.h"
+#include "show/output/output_names.h"
+#include "show/player/player.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

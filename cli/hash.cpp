@@ -2,7 +2,8 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/player.h"
+#include "cli/options/show_options.h"
+#include "show/player/player.h"
 
 #include <CLI/CLI.hpp>
 #include <cinttypes>
@@ -43,7 +44,7 @@ void addHashCommand(CLI::App& app, int& code) {
   auto options = std::make_shared<ShowOptions>();
   CLI::App* command = app.add_subcommand(
       "hash", "Print the state hash of every frame, one line FRAME HEX16 each; draws nothing");
-  options->addTo(*command);
+  addShowOptions(*command, *options);
   command->callback([options, &code] { code = hashShow(*options); });
 }
 

@@ -1,12 +1,12 @@
 /// The `stadion` program: one small file per subcommand.
 
 #include "cli/commands.h"
-#include "cli/crash_report.h"
 #include "cli/exit_code.h"
 #include "cli/version.h"
 #include "engine/script/suggestion.h"
 #include "pipeline/sound/sound_libraries.h"
 #include "pipeline/target/rasteriser_settings.h"
+#include "show/session/crash_report.h"
 
 #include <CLI/CLI.hpp>
 #include <cerrno>

@@ -2,14 +2,17 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/number_option.h"
-#include "cli/overwriting.h"
-#include "cli/plan_run.h"
-#include "cli/stop_signal.h"
+#include "cli/options/number_option.h"
+#include "cli/options/show_options.h"
 #include "engine/base/atomic_file.h"
+#include "engine/base/number_text.h"
 #include "engine/base/plain_file.h"
 #include "profiling/plan/diagram.h"
 #include "profiling/plan/report.h"
+#include "show/base/share_folder.h"
+#include "show/base/stop_signal.h"
+#include "show/measure/plan_run.h"
+#include "show/player/overwriting.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -70,7 +73,7 @@ std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
   if (show.frames == 0)
     show.frames = static_cast<std::uint64_t>(std::ceil(show.seconds * show.rate)), show.seconds = 0;
   if (!show.settle(findings)) return {};
-  const auto walls = loadWalls(show.walls, std::string(STADION_ROOT) + "/walls", findings);
+  const auto walls = loadWalls(show.walls, shareFolder() + "/walls", findings);
   if (!walls) return {};
   auto provider = openGlProvider(o.provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa);
   if (!provider) return findings.add(provider.error()), std::nullopt;
@@ -120,7 +123,7 @@ plan::Question questionOf(const PlanOptions& o, const plan::ShowCosts& costs) {
 
 /// What was measured elsewhere is planned for as many walls as a room has: by number alone.
 void countWallsOf(PlanOptions& o, Diagnostics& findings) {
-  if (const auto walls = loadWalls(o.run.show.walls, std::string(STADION_ROOT) + "/walls", findings))
+  if (const auto walls = loadWalls(o.run.show.walls, shareFolder() + "/walls", findings))
     o.count = walls->walls.size();
 }
 
@@ -217,8 +220,8 @@ void addPlanCommand(CLI::App& app, int& code) {
   command->add_option(
       "--size", show.size,
       "WIDTHxHEIGHT in pixels of one eye's picture (default: what the wall file says, else 800x600)");
-  show.addLookTo(*command);
-  show.addLengthTo(*command);
+  addLookOption(*command, show);
+  addLengthOptions(*command, show);
   command->add_option("--gl", o->provider, "who draws: osmesa or egl")
       ->check(CLI::IsMember({"osmesa", "egl"}))
       ->capture_default_str();

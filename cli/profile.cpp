@@ -3,13 +3,15 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/fidelity.h"
-#include "cli/number_option.h"
-#include "cli/overwriting.h"
-#include "cli/profile_run.h"
-#include "cli/stop_signal.h"
+#include "cli/options/number_option.h"
+#include "cli/options/run_options.h"
+#include "cli/options/show_options.h"
 #include "profiling/record/black_box.h"
 #include "profiling/record/black_box_folder.h"
+#include "show/base/stop_signal.h"
+#include "show/measure/fidelity.h"
+#include "show/measure/profile_run.h"
+#include "show/player/overwriting.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -192,7 +194,7 @@ void addProfileCommand(CLI::App& app, int& code) {
       "Say what the frames of a show are spent on, node by node; or how exact and how dear the models of its "
       "bodies are");
   ShowOptions& show = o->fidelity.show;
-  show.addTo(*command);
+  addShowOptions(*command, show);
   command->add_option("--stereo", o->run.stereo, "pair, or off for one eye")
       ->check(CLI::IsMember({"pair", "off"}))
       ->capture_default_str();
@@ -213,7 +215,7 @@ void addProfileCommand(CLI::App& app, int& code) {
   command->add_option("--html", o->run.html,
                       "write a page for a browser to FILE: frames, nodes, stages, walls, late frames; with "
                       "--fidelity the bodies' errors too");
-  o->run.trace.addTo(*command, "--trace");
+  addTraceOptions(*command, o->run.trace, "--trace");
   CLI::Option* csv = command->add_flag("--csv", o->csv, "a row a node, stage, wall and eye");
   command->add_flag("--fidelity", o->fidelityAsked,
                     "each body's model, its error against the finest, and its cost");

@@ -2,15 +2,16 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/kept_parts.h"
-#include "cli/number_option.h"
-#include "cli/run_watch.h"
-#include "cli/show_recording.h"
-#include "cli/soak_record.h"
-#include "cli/soak_visitor.h"
-#include "cli/stop_signal.h"
+#include "cli/options/number_option.h"
 #include "engine/base/run_stopped.h"
 #include "pipeline/platform/process_figures.h"
+#include "show/base/share_folder.h"
+#include "show/base/stop_signal.h"
+#include "show/measure/soak_record.h"
+#include "show/measure/soak_visitor.h"
+#include "show/player/kept_parts.h"
+#include "show/session/run_watch.h"
+#include "show/session/show_recording.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -107,7 +108,7 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
   o.show.script = show, o.show.walls = "desktop", o.show.size = "32x24", o.show.look = options_.look;
   o.show.input = "none", o.show.frames = frames, o.stereo = "off";
   o.show.mode = way == Way::Sequential ? "sequential" : "pipelined";
-  o.show.assetRoots = {std::string(STADION_ROOT) + "/assets"};
+  o.show.assetRoots = {shareFolder() + "/assets"};
   Diagnostics findings;
   KeptParts& kept = kept_[show];
   kept.models.store().collect(~std::uint64_t{0});  // no frame shows it any more
@@ -281,7 +282,7 @@ Verdicts tellVerdicts(const SoakOptions& o, const SoakRecord& record) {
 int soak(SoakOptions o) {
   Diagnostics findings;
   const std::atomic<bool>& stop = catchStopSignals();
-  if (o.shows.empty()) o.shows = {std::string(STADION_ROOT) + "/scripts/soak/soak.evs"};
+  if (o.shows.empty()) o.shows = {shareFolder() + "/scripts/soak/soak.evs"};
   const std::string what =
       fmt::format("{}, look {}, visits of {} frames", fmt::join(o.shows, ", "), o.look, o.visit);
   const auto record = SoakRecord::open(o.record, what, findings);

@@ -2,13 +2,14 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/number_option.h"
-#include "cli/player.h"
-#include "cli/stop_signal.h"
-#include "cli/tracker_device.h"
+#include "cli/options/number_option.h"
+#include "cli/options/run_options.h"
 #include "engine/base/atomic_file.h"
 #include "engine/input/rig_calibration.h"
 #include "engine/maths/angles.h"
+#include "show/base/stop_signal.h"
+#include "show/player/player.h"
+#include "show/settings/tracker_device.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -187,7 +188,7 @@ int trackerTool(TrackerToolOptions o) {
 void addTrackerCommand(CLI::App& app, int& code) {
   auto o = std::make_shared<TrackerToolOptions>();
   CLI::App* command = app.add_subcommand("tracker", "Show what live trackers say, and calibrate them");
-  o->trackers.addTo(*command);
+  addTrackerOptions(*command, o->trackers);
   command->get_option("--tracker")->required();
   command->add_option("--seconds", o->seconds, "stop after so long (default: at Ctrl-C)")
       ->check(numberFrom(0.1, 1e6));

@@ -5,11 +5,11 @@
 /// uses only arithmetic that is the same on every machine.
 
 #include "assets/generator/craft/models.h"
+#include "assets/generator/craft/picture.h"
+#include "assets/generator/craft/sounds.h"
 #include "assets/generator/olympia/athletes.h"
 #include "assets/generator/olympia/body.h"
 #include "assets/generator/olympia/olympia.h"
-#include "assets/generator/craft/picture.h"
-#include "assets/generator/craft/sounds.h"
 
 #include <cstdio>
 #include <filesystem>

@@ -10,9 +10,9 @@
 /// Threads  SpanReader's on the log's thread; decide() and see() on App's; reports from any.
 
 #include "engine/core/load_control.h"
-#include "profiling/record/frame_facts.h"
 #include "profiling/budget/node_costs.h"
 #include "profiling/budget/stress_filter.h"
+#include "profiling/record/frame_facts.h"
 #include "profiling/record/node_names.h"
 
 #include <functional>

@@ -9,8 +9,8 @@
 ///          the owner.
 
 #include "engine/scene/scene.h"
-#include "profiling/record/frame_log.h"
 #include "profiling/budget/relief_policy.h"
+#include "profiling/record/frame_log.h"
 
 #include <map>
 #include <unordered_map>

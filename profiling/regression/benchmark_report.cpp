@@ -1,5 +1,5 @@
-#include "profiling/regression/statistics/rank_test.h"
 #include "profiling/regression/reports.h"
+#include "profiling/regression/statistics/rank_test.h"
 
 #include <nlohmann/json.hpp>
 

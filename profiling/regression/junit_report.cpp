@@ -1,5 +1,5 @@
-#include "profiling/report/markup_text.h"
 #include "profiling/regression/reports.h"
+#include "profiling/report/markup_text.h"
 
 #include <fmt/format.h>
 

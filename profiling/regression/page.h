@@ -1,8 +1,8 @@
 #pragma once
 /// What a suite has found as a page for a browser: nothing beside the file is needed, no script, no network.
 
-#include "profiling/regression/statistics/history.h"
 #include "profiling/regression/spans/result.h"
+#include "profiling/regression/statistics/history.h"
 
 #include <string>
 #include <vector>

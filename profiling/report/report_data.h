@@ -3,10 +3,10 @@
 ///
 /// Units  milliseconds unless said otherwise. Threads  plain values, once recording is over.
 
+#include "profiling/record/thread_names.h"
 #include "profiling/report/frame_series.h"
 #include "profiling/report/kept_frames_table.h"
 #include "profiling/report/show_figures.h"
-#include "profiling/record/thread_names.h"
 
 #include <optional>
 #include <string>

@@ -5,9 +5,9 @@
 /// Ownership  borrows the names, which must outlive it.
 
 #include "profiling/record/frame_judge.h"
+#include "profiling/record/thread_names.h"
 #include "profiling/report/frame_series.h"
 #include "profiling/report/kept_frames_table.h"
-#include "profiling/record/thread_names.h"
 
 namespace stadion {
 

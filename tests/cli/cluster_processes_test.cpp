@@ -1,6 +1,6 @@
 /// `stadion cluster`: who dies, who is asked to end, and what of the command line goes to which node.
 
-#include "cli/cluster_nodes.h"
+#include "cli/cluster/cluster_nodes.h"
 #include "tests/cli/played_cluster.h"
 #include "tests/proc.h"
 

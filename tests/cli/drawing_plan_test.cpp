@@ -1,6 +1,6 @@
 /// Who draws the walls: what is asked for, else what was measured on this machine, else the rule.
 
-#include "cli/drawing_plan.h"
+#include "show/player/drawing_plan.h"
 #include "tests/cli/program.h"
 
 #include <gtest/gtest.h>

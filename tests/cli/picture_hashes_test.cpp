@@ -1,4 +1,4 @@
-#include "cli/picture_hashes.h"
+#include "show/output/picture_hashes.h"
 #include "tests/cli/program.h"
 
 #include <gtest/gtest.h>

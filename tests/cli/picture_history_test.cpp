@@ -2,8 +2,8 @@
 /// before, draws the same to the bit as one that has drawn them all. In the full look, with shadows, levels
 /// of detail and haze.
 
-#include "cli/player.h"
 #include "engine/core/state_fields.h"
+#include "show/player/player.h"
 #include "tests/cli/program.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// Plays a test show in this process, so that a test can look into it.
 
-#include "cli/player.h"
+#include "show/player/player.h"
 
 #include <memory>
 #include <string>

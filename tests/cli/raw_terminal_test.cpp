@@ -1,7 +1,7 @@
 /// A terminal is given back as it was, however the program ends.
 
-#include "cli/raw_terminal.h"
-#include "cli/stop_signal.h"
+#include "show/base/raw_terminal.h"
+#include "show/base/stop_signal.h"
 
 #include <csignal>
 #include <cstdlib>

@@ -1,9 +1,9 @@
 /// A show that is put back from what was written down of it goes on as if nothing had been: the same hashes,
 /// and the same to be drawn, frame by frame.
 
-#include "cli/player.h"
 #include "engine/core/state_fields.h"
 #include "pipeline/loop/frame_loop.h"
+#include "show/player/player.h"
 #include "tests/cli/program.h"
 
 #include <fmt/format.h>

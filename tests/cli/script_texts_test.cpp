@@ -1,6 +1,6 @@
 /// What a show plays, and what is watched, while somebody saves its scripts.
 
-#include "cli/script_watch.h"
+#include "show/base/script_watch.h"
 #include "tests/cli/played_show.h"
 #include "tests/cli/program.h"
 

@@ -1,4 +1,4 @@
-#include "cli/telling_thread.h"
+#include "show/base/telling_thread.h"
 
 #include <gtest/gtest.h>
 

@@ -55,12 +55,13 @@ const std::vector<Line>& linesBelow(const std::string& folder) {
   return known != read.end() ? known->second : read.emplace(folder, readBelow(folder)).first->second;
 }
 
-const std::vector<std::string> kFloors{"engine", "pipeline", "dynamics", "profiling", "cli"};
+const std::vector<std::string> kFloors{"engine", "pipeline", "dynamics", "profiling", "show", "cli"};
 
-/// Which floors a file may include. Benches join floors as cli/ does.
+/// Which floors a file may include. Benches join floors as show/ does.
 std::set<std::string> allowedFor(const std::string& file) {
   const std::string floor = file.substr(0, file.find('/'));
-  if (floor == "cli") return {"engine", "pipeline", "dynamics", "profiling", "cli"};
+  if (floor == "cli") return {"engine", "pipeline", "dynamics", "profiling", "show", "cli"};
+  if (floor == "show") return {"engine", "pipeline", "dynamics", "profiling", "show"};
   if (file.starts_with("profiling/bench/")) return {"engine", "pipeline", "dynamics", "profiling"};
   return {"engine", floor};
 }
@@ -87,7 +88,7 @@ TEST(Layering, IncludesGoDownAndNeverUpOrSideways) {
 }
 
 TEST(Layering, IncludesAreRelativeToTheRoot) {
-  for (const char* folder : {"engine", "pipeline", "dynamics", "profiling", "cli", "tests"})
+  for (const char* folder : {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "tests"})
     for (const Line& line : linesBelow(folder)) {
       const std::string name = included(line.text, '"', '"');
       if (name.empty()) continue;
@@ -103,6 +104,73 @@ TEST(Layering, TheFoldersOfAFloorFormNoCycleWithItsImporterProgram) {
         EXPECT_FALSE(included(line.text, '"', '"').starts_with("engine/asset/importer_program/"))
             << line.place();
       }
+}
+
+/// A room is a folder; its name is the folder's path.
+std::string roomOf(const std::string& file) {
+  return file.substr(0, file.rfind('/'));
+}
+
+/// The rooms of a part of the house, and one include for each room that another one includes.
+using Rooms = std::map<std::string, std::map<std::string, std::string>>;
+Rooms roomsOf(const std::string& part) {
+  Rooms rooms;
+  for (const Line& line : linesBelow(part)) {
+    const std::string name = included(line.text, '"', '"'), room = roomOf(line.file);
+    if (name.starts_with(part + "/") && roomOf(name) != room) rooms[room].emplace(roomOf(name), line.place());
+  }
+  return rooms;
+}
+
+/// A way along includes from the last room of `way` back to its first; empty if there is none.
+std::vector<std::string> cycleFrom(const Rooms& rooms, std::vector<std::string> way, std::set<std::string>& seen) {
+  const auto next = rooms.find(way.back());
+  if (next == rooms.end()) return {};
+  for (const auto& [room, place] : next->second) {
+    if (room == way.front()) return way;
+    if (!seen.insert(room).second) continue;
+    way.push_back(room);
+    if (auto cycle = cycleFrom(rooms, way, seen); !cycle.empty()) return cycle;
+    way.pop_back();
+  }
+  return {};
+}
+
+TEST(Layering, TheRoomsOfAFloorFormNoCycle) {
+  for (const char* part : {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "assets/generator"}) {
+    const Rooms rooms = roomsOf(part);
+    for (const auto& [room, others] : rooms) {
+      std::set<std::string> seen;
+      const std::vector<std::string> cycle = cycleFrom(rooms, {room}, seen);
+      for (std::size_t i = 0; i < cycle.size(); ++i) {
+        const std::string& to = cycle[(i + 1) % cycle.size()];
+        ADD_FAILURE() << cycle[i] << " -> " << to << ", " << rooms.at(cycle[i]).at(to);
+      }
+      if (!cycle.empty()) break;
+    }
+  }
+}
+
+TEST(Layering, NoFolderHasMoreThanFortyFiles) {
+  constexpr int kMost = 40;
+  std::map<std::string, int> files;
+  for (const char* part : {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "assets/generator"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / part))
+      if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
+        ++files[fs::relative(entry.path().parent_path(), kRoot).string()];
+  for (const auto& [folder, count] : files) EXPECT_LE(count, kMost) << folder;
+}
+
+TEST(Layering, OnlyTheCommandLineKnowsCli11AndExitCodes) {
+  for (const std::string& floor : kFloors) {
+    if (floor == "cli") continue;
+    for (const Line& line : linesBelow(floor)) {
+      const std::string library = included(line.text, '<', '>');
+      // The program of a bench has a command line of its own.
+      if (line.file.starts_with("profiling/bench/")) continue;
+      EXPECT_FALSE(library.starts_with("CLI/")) << line.place();
+    }
+  }
 }
 
 /// The files that include a header whose name begins so.
@@ -181,7 +249,7 @@ TEST(Layering, NothingStandsOutsideTheRepository) {
   std::vector<fs::path> files{kRoot / "stadion", kRoot / "CMakeLists.txt", kRoot / "CMakePresets.json",
                               kRoot / ".ci/run"};
   for (const char* folder :
-       {"engine", "pipeline", "dynamics", "profiling", "cli", "tests", "scripts", "walls"})
+       {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "tests", "scripts", "walls"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
       if (std::set<std::string>{".h", ".cpp", ".txt", ".evs", ".walls", ".input", ".md"}.contains(
               entry.path().extension()))

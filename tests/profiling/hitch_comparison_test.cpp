@@ -1,8 +1,8 @@
 /// Hitches: frames that are longer than before although the typical frame is not.
 
 #include "profiling/regression/baseline.h"
-#include "profiling/regression/statistics/hitch_comparison.h"
 #include "profiling/regression/spans/planted_delay.h"
+#include "profiling/regression/statistics/hitch_comparison.h"
 #include "profiling/regression/statistics/span_times.h"
 
 #include <gtest/gtest.h>

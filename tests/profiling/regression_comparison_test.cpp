@@ -1,17 +1,17 @@
 /// What is made of the figures of two builds: exactly, by times, by instructions; and what is written of it.
 
 #include "profiling/regression/baseline.h"
-#include "profiling/regression/statistics/noise_calibration.h"
-#include "profiling/regression/spans/callgrind_record.h"
-#include "profiling/regression/statistics/detection.h"
 #include "profiling/regression/exact_comparison.h"
-#include "profiling/regression/statistics/instruction_comparison.h"
-#include "profiling/regression/spans/instruction_counter.h"
 #include "profiling/regression/page.h"
-#include "profiling/regression/suite_progress.h"
 #include "profiling/regression/reports.h"
+#include "profiling/regression/spans/callgrind_record.h"
+#include "profiling/regression/spans/instruction_counter.h"
+#include "profiling/regression/statistics/detection.h"
+#include "profiling/regression/statistics/instruction_comparison.h"
+#include "profiling/regression/statistics/noise_calibration.h"
 #include "profiling/regression/statistics/span_times.h"
 #include "profiling/regression/statistics/time_comparison.h"
+#include "profiling/regression/suite_progress.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
-#include "assets/generator/olympia/body.h"
 #include "assets/generator/craft/sculpt.h"
+#include "assets/generator/olympia/body.h"
 
 namespace stadion::assets {
 namespace {

@@ -13,9 +13,9 @@
 ///
 /// Threads  free functions, any thread.
 
+#include "profiling/regression/spans/result.h"
 #include "profiling/regression/statistics/frame_figures.h"
 #include "profiling/regression/statistics/labellings.h"
-#include "profiling/regression/spans/result.h"
 #include "profiling/regression/statistics/time_comparison.h"
 
 #include <map>

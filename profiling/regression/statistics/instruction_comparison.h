@@ -4,9 +4,9 @@
 ///
 /// Threads  free functions, any thread.
 
-#include "profiling/regression/statistics/node_cost_comparison.h"
 #include "profiling/regression/spans/result.h"
 #include "profiling/regression/spans/span_record.h"
+#include "profiling/regression/statistics/node_cost_comparison.h"
 
 #include <cmath>
 #include <map>

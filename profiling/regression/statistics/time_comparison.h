@@ -10,10 +10,10 @@
 /// Units    ratios: 0.05 is 5 % slower.
 /// Threads  free functions, any thread.
 
-#include "profiling/regression/statistics/frame_figures.h"
-#include "profiling/regression/statistics/node_cost_comparison.h"
 #include "profiling/regression/spans/result.h"
 #include "profiling/regression/spans/span_record.h"
+#include "profiling/regression/statistics/frame_figures.h"
+#include "profiling/regression/statistics/node_cost_comparison.h"
 
 #include <string>
 #include <utility>

@@ -1,0 +1,121 @@
+#include "cli/bench/bench_flight.h"
+
+#include "cli/exit_code.h"
+#include "cli/options/number_option.h"
+#include "profiling/bench/comparison/work_precision_plot.h"
+#include "profiling/bench/flight/flight_report.h"
+#include "profiling/bench/flight/trajectory_plot.h"
+#include "show/base/share_folder.h"
+#include "show/output/output_folder.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+
+namespace stadion {
+namespace {
+
+struct BenchFlightOptions {
+  int held = 100, rounds = 1000;
+  std::string json, out;
+};
+
+using Picture = std::pair<std::string, std::string>;  ///< file name and content
+
+/// One throw of each thing, by all its rungs.
+Picture flightsOf(bench::Thing thing, const bench::ReferenceFlight& reference) {
+  const bench::ThingFacts& facts = bench::factsOf(thing);
+  std::vector<bench::DrawnFlight> flights{{"exact", reference.path}};
+  for (const bench::Rung& rung : bench::rungsOf(thing))
+    if (rung.name.find("Hz") == std::string::npos)
+      flights.push_back({rung.name, rung.fly(reference.release)});
+  const std::string title = fmt::format("{}: {} by every rung", facts.name, reference.release.name);
+  return {fmt::format("flights-{}.svg", facts.name),
+          bench::trajectoryPlot(title, flights, thing == bench::Thing::Ball ? -1 : facts.axis)};
+}
+
+std::vector<Picture> picturesOf(const bench::FlightReport& report,
+                                const std::vector<bench::ReferenceFlight>& references) {
+  std::vector<Picture> pictures;
+  for (const bench::Thing thing : {bench::Thing::Javelin, bench::Thing::Discus, bench::Thing::Ball}) {
+    const std::string name = bench::factsOf(thing).name;
+    pictures.emplace_back(fmt::format("work-precision-{}.svg", name),
+                          bench::workPrecisionPlot(name + ": integrators, exact model",
+                                                   report.integrators.measurements(thing)));
+    const char* shown = thing == bench::Thing::Javelin  ? "jav_30_34_xwind5"
+                        : thing == bench::Thing::Discus ? "disc_25_35_s40_a-10_head5"
+                                                        : "ball_25_20_side60";
+    for (const bench::ReferenceFlight& r : references)
+      if (r.release.name == shown) pictures.push_back(flightsOf(thing, r));
+  }
+  return pictures;
+}
+
+bool writeFile(const std::string& path, const std::string& content) {
+  std::ofstream file(path, std::ios::binary);
+  file << content;
+  file.close();
+  if (!file) std::fprintf(stderr, "stadion: cannot write %s\n", path.c_str());
+  return static_cast<bool>(file);
+}
+
+bool writePictures(OutputFolder& folder, const std::vector<Picture>& pictures) {
+  for (const auto& [name, content] : pictures) {
+    if (const auto wrong = folder.note(name)) {
+      std::fprintf(stderr, "stadion: %s\n", wrong->message.c_str());
+      return false;
+    }
+    if (!writeFile(folder.pathOf(name), content)) return false;
+  }
+  return true;
+}
+
+int benchFlight(const BenchFlightOptions& o) {
+  std::unique_ptr<OutputFolder> out;
+  if (!o.out.empty()) {
+    auto opened = OutputFolder::open(o.out);
+    if (!opened) {
+      std::fprintf(stderr, "stadion: %s\n", opened.error().message.c_str());
+      return kBadInput;
+    }
+    out = std::move(opened.value());
+    out->clear();
+  }
+  const auto references = bench::referenceFlights(shareFolder() + "/profiling/bench/flight/reference");
+  if (!references) {
+    std::fprintf(stderr, "stadion: %s\n", format(references.error()).c_str());
+    return kInternalFault;
+  }
+  const auto show = bench::ShowFlights::ofOlympia(shareFolder());
+  if (!show) {
+    std::fprintf(stderr, "stadion: %s\n", format(show.error()).c_str());
+    return kInternalFault;
+  }
+  const bench::FlightReport report{bench::measureLadder(references.value(), o.held, &show.value()),
+                                   bench::measureIntegrators(references.value()),
+                                   bench::measureCosts(o.rounds), bench::measurePublished(),
+                                   bench::measureHardCases()};
+  std::printf("%s", bench::textOf(report).c_str());
+  if (!o.json.empty() && !writeFile(o.json, bench::jsonOf(report))) return kBadInput;
+  if (out && !writePictures(*out, picturesOf(report, references.value()))) return kBadInput;
+  return bench::allMet(report) ? kOk : kCheckFailed;
+}
+
+}  // namespace
+
+void addBenchFlight(CLI::App& bench, int& code) {
+  auto o = std::make_shared<BenchFlightOptions>();
+  CLI::App* command =
+      bench.add_subcommand("flight", "How exact and how dear the flight models and integrators are");
+  command->add_option("--flights", o->held, "random flights for each object (100)")
+      ->check(wholeNumberFrom(1, 10000));
+  command->add_option("--rounds", o->rounds, "rounds of the cost measurement; the median counts (1000)")
+      ->check(wholeNumberFrom(1, 100000));
+  command->add_option("--json", o->json, "file for everything that was measured");
+  command->add_option("--out", o->out, "folder for plots of the flights and of error against cost");
+  command->callback([o, &code] { code = benchFlight(*o); });
+}
+
+}  // namespace stadion

@@ -1,0 +1,204 @@
+#include "cli/bench/bench_plan.h"
+
+#include "cli/exit_code.h"
+#include "cli/options/number_option.h"
+#include "profiling/plan/forecast.h"
+#include "show/base/share_folder.h"
+#include "show/base/stop_signal.h"
+#include "show/measure/plan_run.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+namespace stadion {
+namespace {
+
+struct BenchPlanOptions {
+  std::vector<std::string> shows;
+  std::vector<std::size_t> walls{1, 2, 4, 6};
+  std::string size = "240x180";
+  std::uint64_t frames = 24;
+  std::size_t rounds = 5;
+  double within = 15;  ///< [%]
+  bool json = false;
+};
+
+/// One number of walls, in one mode.
+struct Combination {
+  std::size_t walls;
+  Mode mode;
+  struct Round {
+    double predicted, measured;                ///< period [ms]
+    double predictedLatency, measuredLatency;  ///< [ms]
+  };
+  std::vector<Round> rounds{};
+
+  double middleOfRounds(double Round::*what) const;
+};
+
+double middleOf(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+double Combination::middleOfRounds(double Round::*what) const {
+  std::vector<double> values;
+  for (const Round& r : rounds) values.push_back(r.*what);
+  return middleOf(std::move(values));
+}
+
+class Validation {
+public:
+  Validation(const BenchPlanOptions& o, GlProvider& provider) : o_(o), provider_(provider) {}
+
+  /// False, with the findings, if something of the user's is wrong. `met`: all within the limit.
+  bool run(const std::string& script, Diagnostics& findings, bool& met) {
+    PlanRunOptions options;
+    options.show.script = script, options.show.walls = "cave6", options.show.size = o_.size;
+    options.show.frames = o_.frames;
+    if (!options.show.settle(findings)) return false;
+    std::vector<Combination> combinations;
+    for (const std::size_t walls : o_.walls)
+      for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) combinations.push_back({walls, mode});
+    const double before = loadNow();
+    if (!lengthen(options, findings)) return false;
+    // In turns, and what is predicted from beside what is to come: machines are not as fast at all times.
+    for (std::size_t round = 0; round < o_.rounds; ++round) {
+      for (Combination& c : combinations) {
+        const auto forecast = predict(options, c, findings);
+        if (!forecast) return false;
+        options.walls = c.walls;
+        const auto played = playTimes(options, c.mode, provider_, findings);
+        if (!played) return false;
+        c.rounds.push_back({forecast->period, played->period, forecast->latency, played->latency});
+      }
+      std::fprintf(stderr, "%s: round %zu of %zu\n", script.c_str(), round + 1, o_.rounds);
+    }
+    tell(script, options.show.frames, combinations, met, before);
+    return true;
+  }
+
+private:
+  /// What `stadion plan` says now.
+  std::optional<plan::Forecast> predict(PlanRunOptions options, const Combination& c, Diagnostics& findings) {
+    options.walls = *std::ranges::max_element(o_.walls);
+    MeasuredCosts costs;
+    if (!measureCosts(options, provider_, costs, findings)) return {};
+    plan::Plan p;
+    p.machine.cores = std::max(1u, std::thread::hardware_concurrency());
+    p.waitsInTurn = costs.waitsInTurn;
+    p.frames = options.show.frames;
+    p.walls = c.walls, p.pipelined = c.mode == Mode::Pipelined;
+    return plan::forecastOf(plan::scheduleOf(plan::plannedCosts(costs.runs), p), p);
+  }
+
+  /// Short runs say little: they last as many frames as are asked for, and a second.
+  bool lengthen(PlanRunOptions& options, Diagnostics& findings) {
+    constexpr double kShortest = 1000;  // [ms]
+    const Combination least{*std::ranges::min_element(o_.walls), Mode::Pipelined};
+    const auto forecast = predict(options, least, findings);
+    if (!forecast) return false;
+    const auto frames = static_cast<std::uint64_t>(kShortest / std::max(forecast->period, 0.1));
+    options.show.frames = std::max(options.show.frames, frames);
+    return true;
+  }
+
+  void tell(const std::string& script, std::uint64_t frames, const std::vector<Combination>& combinations,
+            bool& met, double loadBefore) const {
+    if (!o_.json)
+      std::printf("%s, %s a wall and eye, %u cores, load %.1f to %.1f, %zu rounds of %llu frames\n"
+                  "walls  mode        predicted  measured  error (of rounds)       latency  measured\n",
+                  script.c_str(), o_.size.c_str(), std::thread::hardware_concurrency(), loadBefore, loadNow(),
+                  o_.rounds, static_cast<unsigned long long>(frames));
+    for (const Combination& c : combinations) {
+      using Round = Combination::Round;
+      const double period = c.middleOfRounds(&Round::predicted),
+                   measured = c.middleOfRounds(&Round::measured),
+                   latency = c.middleOfRounds(&Round::predictedLatency),
+                   measuredLatency = c.middleOfRounds(&Round::measuredLatency);
+      std::vector<double> errors;
+      for (const Round& r : c.rounds) errors.push_back(r.predicted / r.measured - 1);
+      const auto [least, most] = std::ranges::minmax(errors);
+      const double error = middleOf(std::move(errors));
+      const bool ok = std::abs(error) <= o_.within / 100;
+      met = met && ok;
+      const char* mode = c.mode == Mode::Pipelined ? "pipelined" : "sequential";
+      if (o_.json)
+        std::printf("%s\n", nlohmann::json{{"bench", "plan"},
+                                           {"show", script},
+                                           {"walls", c.walls},
+                                           {"mode", mode},
+                                           {"predicted_ms", period},
+                                           {"measured_ms", measured},
+                                           {"error", error},
+                                           {"error_least", least},
+                                           {"error_most", most},
+                                           {"predicted_latency_ms", latency},
+                                           {"measured_latency_ms", measuredLatency},
+                                           {"ok", ok}}
+                                .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+                                .c_str());
+      else
+        std::printf("%5zu  %-10s %7.2f ms %6.2f ms %+5.1f %% (%+5.1f .. %+5.1f)  %6.2f ms %6.2f ms  %s\n",
+                    c.walls, mode, period, measured, 100 * error, 100 * least, 100 * most, latency,
+                    measuredLatency, ok ? "ok" : "MISSED");
+    }
+  }
+
+  const BenchPlanOptions& o_;
+  GlProvider& provider_;
+};
+
+int benchPlan(BenchPlanOptions o) {
+  if (o.shows.empty()) o.shows = {shareFolder() + "/scripts/kick.evs", shareFolder() + "/scripts/olympia.evs"};
+  Diagnostics findings;
+  auto provider = openGlProvider(GlProviderKind::OsMesa);
+  if (!provider) return findings.add(provider.error()), tell(findings), kBadInput;
+  bool met = true;
+  Validation validation(o, *provider.value());
+  for (const std::string& show : o.shows)
+    if (!validation.run(show, findings, met)) {
+      tell(findings);
+      return catchStopSignals() ? kStopped + stopSignal() : kBadInput;
+    }
+  if (!o.json) std::printf("%s\n", met ? "ok" : "FAILED");
+  return met ? kOk : kCheckFailed;
+}
+
+}  // namespace
+
+void addBenchPlan(CLI::App& bench, int& code) {
+  auto o = std::make_shared<BenchPlanOptions>();
+  CLI::App* command = bench.add_subcommand(
+      "plan",
+      "Does what `stadion plan` predicts come true on this machine? Measures, predicts and plays, in turns");
+  command->add_option("SHOW", o->shows, "shows to play (default: kick and olympia)");
+  command->add_option("--counts", o->walls, "numbers of walls of cave6 to play on")
+      ->check(wholeNumberFrom(1, 6))
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--size", o->size, "WIDTHxHEIGHT in pixels of one eye's picture")
+      ->capture_default_str();
+  command->add_option("--frames", o->frames, "of each run at least; quick shows play a second")
+      ->check(wholeNumberFrom(12, 100000))
+      ->capture_default_str();
+  command->add_option("--rounds", o->rounds, "the middle one counts, of how far off each is")
+      ->check(wholeNumberFrom(1, 99))
+      ->capture_default_str();
+  command->add_option("--within", o->within, "how far off the period may be [%]")
+      ->check(numberFrom(0.01, 1000))
+      ->capture_default_str();
+  command->add_flag("--json", o->json, "one JSON object a line");
+  command->callback([o, &code] { code = benchPlan(*o); });
+}
+
+}  // namespace stadion

@@ -1,0 +1,252 @@
+#include "cli/bench/bench_recording.h"
+
+#include "cli/bench/bench_recording_instructions.h"
+#include "cli/exit_code.h"
+#include "cli/options/number_option.h"
+#include "engine/base/atomic_file.h"
+#include "profiling/bench/grid_show.h"
+#include "show/base/share_folder.h"
+#include "show/base/stop_signal.h"
+#include "show/base/temporary_folder.h"
+#include "show/player/player.h"
+#include "show/session/last_frames.h"
+#include "show/session/show_recording.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace stadion {
+namespace {
+
+constexpr std::uint64_t kFramesBefore = 8;
+
+struct BenchRecordingOptions {
+  std::uint64_t frames = 160;
+  std::size_t rounds = 4;
+  std::string size = "400x300";
+  double most = 1;  ///< [%]
+  bool json = false, instructions = true;
+};
+
+double processMs() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+/// Two shows in one process take turns, frame by frame, and each frame's processor time is noted: of all
+/// threads, so that what collects records counts, too.
+class Turns {
+public:
+  void begin(std::size_t who) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return next_ == who || alone_; });
+    began_ = processMs();
+  }
+  void end(std::size_t who) {
+    const std::lock_guard lock(mutex_);
+    took_[who].push_back(processMs() - began_);
+    next_ = 1 - who;
+    changed_.notify_all();
+  }
+  void leave() {
+    const std::lock_guard lock(mutex_);
+    alone_ = true;
+    changed_.notify_all();
+  }
+  const std::vector<double>& took(std::size_t who) const { return took_[who]; }
+
+private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t next_ = 0;
+  bool alone_ = false;
+  double began_ = 0;
+  std::array<std::vector<double>, 2> took_;
+};
+
+/// A show whose frames wait for their turns.
+class TurningShow {
+public:
+  static std::unique_ptr<TurningShow> create(const ShowOptions& options, GlProvider& provider, bool recorded,
+                                             Turns& turns, std::size_t who, Diagnostics& findings) {
+    std::unique_ptr<TurningShow> made(new TurningShow(turns, who));
+    made->player_ = Player::create(options, findings, tell);
+    if (!made->player_) return nullptr;
+    RecordingOptions everything;
+    everything.keep = unaskedLastFrames(made->player_->walls().names());
+    if (recorded) made->recording_ = ShowRecording::create(std::move(everything), findings);
+    ShowParts parts = made->player_->parts(StereoLayout::Pair);
+    parts.provider = &provider;
+    parts.probe = made->probe();
+    parts.observer = [show = made.get()](const TimeSignature&, const InputSample&, const Scene& scene) {
+      if (show->recording_) show->recording_->see(scene);
+    };
+    parts.shown = [show = made.get()] {
+      show->turns_.end(show->who_);
+      if (++show->frames_ < show->player_->frames()) show->turns_.begin(show->who_);
+    };
+    made->stages_ = std::make_unique<ShowStages>(std::move(parts));
+    return made;
+  }
+
+  void play() {
+    FrameLoopOptions options = player_->loopOptions();
+    options.mode = Mode::Sequential;
+    turns_.begin(who_);
+    FrameLoop loop(*stages_, options, never_, probe());
+    failure_ = loop.run().failure;
+    if (failure_) turns_.leave();
+  }
+  const Failure& failure() const { return failure_; }
+  std::uint64_t lost() const { return recording_ ? recording_->lost() : 0; }
+
+private:
+  TurningShow(Turns& turns, std::size_t who) : turns_(turns), who_(who) {}
+  FrameProbe* probe() { return recording_ ? &recording_->probe() : nullptr; }
+
+  Turns& turns_;
+  std::size_t who_;
+  std::uint64_t frames_ = 0;
+  std::atomic<bool> never_ = false;
+  std::unique_ptr<Player> player_;
+  std::unique_ptr<ShowRecording> recording_;
+  std::unique_ptr<ShowStages> stages_;
+  Failure failure_;
+};
+
+double middleOf(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+/// The middle frames alone would leave out those that are sampled: of every kBlock frames the sum is taken,
+/// and of these the middle ratio.
+double ratioOf(const std::vector<double>& with, const std::vector<double>& without) {
+  constexpr std::size_t kBlock = 16;
+  std::vector<double> ratios;
+  for (std::size_t at = kFramesBefore; at + kBlock <= std::min(with.size(), without.size()); at += kBlock) {
+    double a = 0, b = 0;
+    for (std::size_t i = at; i < at + kBlock; ++i) a += with[i], b += without[i];
+    ratios.push_back(a / b);
+  }
+  return middleOf(std::move(ratios));
+}
+
+struct Measured {
+  double ratio = 1, ms = 0;
+};
+
+std::optional<Measured> measureRound(const ShowOptions& options, GlProvider& provider, std::size_t recorded,
+                                     Diagnostics& findings) {
+  Turns turns;
+  std::array<std::unique_ptr<TurningShow>, 2> shows;
+  for (std::size_t who = 0; who < 2; ++who) {
+    shows[who] = TurningShow::create(options, provider, who == recorded, turns, who, findings);
+    if (!shows[who]) return {};
+  }
+  std::thread second([&] { shows[1]->play(); });
+  shows[0]->play();
+  second.join();
+  for (const auto& show : shows)
+    if (show->failure()) return findings.error({}, show->failure()->message), std::nullopt;
+  if (shows[recorded]->lost() > 0) findings.warning({}, "spans were lost");
+  return Measured{ratioOf(turns.took(recorded), turns.took(1 - recorded)),
+                  middleOf(turns.took(1 - recorded))};
+}
+
+/// How much more a frame executes when it is recorded; nothing, with the findings, if that cannot be counted.
+std::optional<double> moreInstructions(const ShowOptions& show, const TemporaryFolder& folder,
+                                       Diagnostics& findings) {
+  const std::atomic<bool>& stop = catchStopSignals();
+  std::vector<std::string> words{"run",     show.script, "--walls",      show.walls,
+                                 "--size",  show.size,   "--mode",       "sequential",
+                                 "--input", "none",      "--asset-root", show.assetRoots.front(),
+                                 "--json"};
+  words.push_back("--unrecorded");
+  const FrameInstructions without = instructionsAFrame(words, folder.path(""), stop);
+  words.back() = "--profile";
+  const FrameInstructions with =
+      without.fault.empty() ? instructionsAFrame(words, folder.path(""), stop) : without;
+  if (!with.fault.empty()) return findings.error({}, with.fault), std::nullopt;
+  return with.each / without.each - 1;
+}
+
+int benchRecording(const BenchRecordingOptions& o) {
+  const TemporaryFolder folder;
+  Diagnostics findings;
+  if (const auto wrong = writeFile(folder.path("grid.evs"), gridScript())) findings.add(*wrong);
+  ShowOptions show;
+  show.script = folder.path("grid.evs"), show.walls = "desktop", show.size = o.size, show.input = "none";
+  show.frames = o.frames + kFramesBefore, show.assetRoots = {shareFolder() + "/scripts"};
+  auto provider = openGlProvider(GlProviderKind::OsMesa);
+  if (!provider) findings.add(provider.error());
+  if (findings.hasErrors() || !show.settle(findings)) return tell(findings), kBadInput;
+  std::vector<double> ratios;
+  double ms = 0;
+  for (std::size_t round = 0; round < o.rounds; ++round) {
+    const auto measured = measureRound(show, *provider.value(), round % 2, findings);
+    tell(findings);
+    if (!measured) return kBadInput;
+    ratios.push_back(measured->ratio), ms = measured->ms;
+    std::fprintf(stderr, "round %zu of %zu: %+.2f %%\n", round + 1, o.rounds, 100 * (measured->ratio - 1));
+  }
+  const double more = middleOf(ratios) - 1;
+  std::optional<double> executed;
+  if (o.instructions && !(executed = moreInstructions(show, folder, findings)))
+    return tell(findings), kBadInput;
+  const bool ok = more <= o.most / 100 && executed.value_or(0) <= o.most / 100;
+  if (o.json)
+    std::printf("%s\n", nlohmann::json{{"bench", "recording"},
+                                       {"frame_ms", ms},
+                                       {"more", more},
+                                       {"more_instructions", executed.value_or(0)},
+                                       {"ok", ok}}
+                            .dump()
+                            .c_str());
+  else
+    std::printf("a grid of 10 000 nodes, 5 000 of them visited in every frame, %s, two eyes: %.1f ms of "
+                "processor time a "
+                "frame\nrecorded, it takes %+.2f %%  (at most %g %%)  %s\n",
+                o.size.c_str(), ms, 100 * more, o.most, more <= o.most / 100 ? "ok" : "MISSED");
+  if (!o.json && executed)
+    std::printf("and executes %+.2f %% instructions  (at most %g %%)  %s\n", 100 * *executed, o.most,
+                *executed <= o.most / 100 ? "ok" : "MISSED");
+  return ok ? kOk : kCheckFailed;
+}
+
+}  // namespace
+
+void addBenchRecording(CLI::App& bench, int& code) {
+  auto o = std::make_shared<BenchRecordingOptions>();
+  CLI::App* command = bench.add_subcommand(
+      "recording", "What does recording nodes' costs cost? A show with it and without, in turns");
+  command->add_option("--frames", o->frames, "of each round")
+      ->check(wholeNumberFrom(32, 100000))
+      ->capture_default_str();
+  command->add_option("--rounds", o->rounds, "the middle one counts")
+      ->check(wholeNumberFrom(1, 99))
+      ->capture_default_str();
+  command->add_option("--size", o->size, "WIDTHxHEIGHT in pixels of one eye's picture")
+      ->capture_default_str();
+  command->add_option("--most", o->most, "how much more a frame may take [%]")
+      ->check(numberFrom(0.001, 1000))
+      ->capture_default_str();
+  command->add_flag("!--no-instructions", o->instructions, "the clock alone, without callgrind");
+  command->add_flag("--json", o->json, "one JSON object");
+  command->callback([o, &code] { code = benchRecording(*o); });
+}
+
+}  // namespace stadion

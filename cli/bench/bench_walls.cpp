@@ -1,0 +1,217 @@
+#include "cli/bench/bench_walls.h"
+
+#include "cli/bench/walls_measure.h"
+#include "cli/bench/walls_record_head.h"
+#include "cli/bench/walls_rounds.h"
+#include "cli/exit_code.h"
+#include "cli/options/number_option.h"
+#include "engine/base/atomic_file.h"
+#include "profiling/bench/walls/wall_files.h"
+#include "profiling/bench/walls/walls_judge.h"
+#include "profiling/bench/walls/walls_plot.h"
+#include "profiling/bench/walls/walls_table.h"
+#include "show/base/temporary_folder.h"
+#include "show/output/output_folder.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+namespace stadion {
+namespace {
+
+constexpr std::size_t kFewRounds = 5;
+
+struct BenchWallsOptions {
+  WallsSetting one;
+  bool measureOne = false, control = false;
+  std::string layout = "flat";
+  std::vector<std::string> scenes{"a", "b", "c"};
+  std::size_t rounds = kFewRounds;
+  double minutes = 14;
+  std::string workers;  ///< empty: thread for one case, process for the table
+  bool scaling = false, json = false;
+  std::string out, record;
+};
+
+/// In this process, so that its processor time is that setting's.
+int measureOne(WallsSetting s, bool control) {
+  if (control) return std::printf("%s\n", measureTicks(s.frames).dump().c_str()), kOk;
+  const TemporaryFolder folder;
+  const std::string wrong =
+      bench::writeWallScene(folder.path(""), sceneOf(s), s.walls, !s.flat, s.warm + s.frames + 1);
+  if (!wrong.empty()) return std::fprintf(stderr, "stadion: %s\n", wrong.c_str()), kBadInput;
+  const auto row = measureWalls(s, folder.path(""));
+  if (!row) return complain(row.error(), kInternalFault);
+  std::printf("%s\n", row.value().dump().c_str());
+  return kOk;
+}
+
+void sayWho(const bench::WallsPrograms& programs) {
+  if (programs.floor.empty())
+    std::fprintf(stderr, "stadion: stadion-walls-floor is missing beside the program; build the target "
+                         "walls_programs\n");
+  if (programs.osg.empty())
+    std::fprintf(stderr,
+                 "stadion: OpenSceneGraph's program is not built, and what is compared with it is left out. "
+                 "To have it, install and build it with\n  ./stadion setup peers\n");
+}
+
+std::optional<Diagnostic> write(OutputFolder& folder, const std::string& name, const std::string& content) {
+  if (auto wrong = folder.note(name)) return wrong;
+  return writeFile(folder.pathOf(name), content);
+}
+
+std::optional<Diagnostic> writeAll(OutputFolder& folder, const bench::WallsResults& results, bool scaling) {
+  std::string rows;
+  for (const std::string& name : results.names())
+    for (const nlohmann::json& row : results.rowsOf(name)) rows += row.dump() + "\n";
+  if (auto wrong = write(folder, "rows.jsonl", rows)) return wrong;
+  return scaling ? write(folder, "scaling.svg", bench::scalingPlot(results))
+                 : write(folder, "walls.svg", bench::wallsPlot(results));
+}
+
+int report(const WallsOutcome& outcome, const BenchWallsOptions& o) {
+  const auto findings =
+      o.scaling ? bench::judgeScaling(outcome.results) : bench::judgeTable(outcome.results, o.scenes);
+  std::FILE* to = o.json ? stderr : stdout;
+  std::fprintf(to, "%s\n%s\n%s", bench::tableOf(outcome.results).c_str(),
+               bench::picturesOf(outcome.results).c_str(), bench::textOf(findings).c_str());
+  std::fprintf(to, "%zu round%s%s\n", outcome.rounds, outcome.rounds == 1 ? "" : "s",
+               outcome.rounds < kFewRounds && !o.scaling
+                   ? ": so few say little; medians of five are what counts"
+                   : "");
+  for (const std::string& failure : outcome.failures) std::fprintf(stderr, "stadion: %s\n", failure.c_str());
+  return bench::noneMissed(findings) && outcome.failures.empty() ? kOk : kCheckFailed;
+}
+
+int benchTable(const BenchWallsOptions& o) {
+  const auto programs = bench::wallsPrograms(std::filesystem::canonical("/proc/self/exe"));
+  std::unique_ptr<OutputFolder> out;
+  if (!o.out.empty()) {
+    auto opened = OutputFolder::open(o.out);
+    if (!opened) return complain(opened.error(), kBadInput);
+    out = std::move(opened.value());
+    out->clear();
+  }
+  sayWho(programs);
+  const std::string workers = o.workers.empty() ? "process" : o.workers;
+  const bench::WallsChoice choice{o.scenes, !programs.osg.empty(), !programs.floor.empty(), workers};
+  WallsRounds how{o.rounds, o.minutes, o.record, recordHead(programs, workers), !o.scaling, o.scenes};
+  if (o.json)
+    how.row = [](const nlohmann::json& row) { std::printf("%s\n", row.dump().c_str()), std::fflush(stdout); };
+  const auto outcome = playRounds(o.scaling ? scalingCases(choice) : tableCases(choice), programs, how);
+  if (!outcome) return complain(outcome.error(), kBadInput);
+  const int code = report(outcome.value(), o);
+  if (out)
+    if (const auto wrong = writeAll(*out, outcome.value().results, o.scaling))
+      return complain(*wrong, kBadInput);
+  return code;
+}
+
+int refuse(const std::string& why) {
+  return std::fprintf(stderr, "stadion: %s\n", why.c_str()), kBadInput;
+}
+
+/// What would be passed over in silence; empty: nothing.
+std::string ignoredIn(const CLI::App& command, const BenchWallsOptions& o) {
+  const auto isGiven = [&](const std::string& name) { return command.count(name) > 0; };
+  const WallsSetting& one = o.one;
+  if (!o.measureOne) {
+    if (o.scaling && isGiven("--only"))
+      return "--scaling has scenes of its own: leave out --only, or --scaling for the table";
+    return {};
+  }
+  for (const char* name : {"--only", "--rounds", "--minutes", "--scaling", "--out", "--record"})
+    if (isGiven(name))
+      return std::string(name) + " is for the table, and --one measures one setting: leave one of them out";
+  if (o.control)
+    for (const CLI::Option* given : command.get_options())
+      if (given->count() > 0 && !given->check_lname("one") && !given->check_lname("control") &&
+          !given->check_lname("frames") && !given->check_lname("json"))
+        return "--control draws nothing, it only waits for ticks: leave out " + given->get_name();
+  if (one.kind == "STRICT" && !one.without.empty())
+    return "--without leaves out a trick, and STRICT has none: say --class OPEN or --class SUBMIT";
+  if (one.mode == "sequential" && isGiven("--latency"))
+    return "--latency is for frames that overlap, and --mode sequential has one under way: leave one of them "
+           "out";
+  if (const std::size_t nodes = sceneOf(one).nodes(); one.moving > nodes)
+    return "--moving " + std::to_string(one.moving) + " is more than the " + std::to_string(nodes) +
+           " nodes that there are: say --nodes " + std::to_string(one.moving) + ", or move fewer";
+  return {};
+}
+
+int benchWalls(const CLI::App& command, const BenchWallsOptions& o) {
+  if (const std::string ignored = ignoredIn(command, o); !ignored.empty()) return refuse(ignored);
+  if (!o.measureOne) return benchTable(o);
+  if (const std::string why = unwritable(o.one); !why.empty()) return refuse(why);
+  WallsSetting one = o.one;
+  one.flat = o.layout == "flat";
+  if (!o.workers.empty()) one.workers = o.workers;
+  return measureOne(std::move(one), o.control);
+}
+
+void addTableTo(CLI::App& command, BenchWallsOptions& o) {
+  command.add_option("--only", o.scenes, "scenes of the table: a, b, c or several, as in a,c")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"a", "b", "c"}));
+  command.add_option("--rounds", o.rounds, "how often everything is measured; the median counts (5)")
+      ->check(wholeNumberFrom(1, 99));
+  command.add_option("--minutes", o.minutes, "no further round that would not end by then (14)")
+      ->check(numberFrom(0.1, 1e5));
+  command.add_flag("--scaling", o.scaling, "curves instead: 1000 to 1 000 000 nodes, 1 to 6 walls");
+  command.add_flag("--json", o.json, "one JSON object a line for each run");
+  command.add_option("--out", o.out, "folder for the rows and a plot");
+  command.add_option("--record", o.record,
+                     "keep the rows in this file; what it has already is not measured again");
+}
+
+void addOneTo(CLI::App& command, BenchWallsOptions& o) {
+  WallsSetting& one = o.one;
+  command.add_flag("--one", o.measureOne, "measure one setting in this process and print it as JSON:");
+  const auto add = [&](const char* name, auto& value, const char* what) {
+    return command.add_option(name, value, what)->needs("--one");
+  };
+  add("--scene", one.scene, "a, b or c")->check(CLI::IsMember({"a", "b", "c"}));
+  add("--class", one.kind, "STRICT, OPEN or SUBMIT")->check(CLI::IsMember({"STRICT", "OPEN", "SUBMIT"}));
+  add("--without", one.without,
+      "OPEN, SUBMIT without a trick: unseen (nothing goes to OpenGL that no pixel would show), small (small "
+      "things are "
+      "drawn without OpenGL)")
+      ->check(CLI::IsMember({"unseen", "small"}));
+  add("--mode", one.mode, "pipelined or sequential")->check(CLI::IsMember({"pipelined", "sequential"}));
+  add("--pace", one.pace, "free, or lock: frames begin on ticks of 1/60 s")
+      ->check(CLI::IsMember({"free", "lock"}));
+  add("--latency", one.latency, "frames under way at most between pose and picture; 1: the youngest")
+      ->check(wholeNumberFrom(1, 4));
+  add("--gl", one.gl, "osmesa or egl")->check(CLI::IsMember({"osmesa", "egl"}));
+  add("--layout", o.layout, "flat, or grid: nodes in cells with a group each")
+      ->check(CLI::IsMember({"flat", "grid"}));
+  add("--walls", one.walls, "1 to 6")->check(wholeNumberFrom(1, 6));
+  add("--width", one.width, "[pixels]")->check(wholeNumberFrom(8, 16384));
+  add("--height", one.height, "[pixels]")->check(wholeNumberFrom(8, 16384));
+  add("--warm", one.warm, "frames before those that are measured")->check(wholeNumberFrom(1, 100));
+  add("--frames", one.frames, "frames that are measured")->check(wholeNumberFrom(1, 1000));
+  add("--nodes", one.nodes, "so many nodes instead of the scene's own")->check(wholeNumberFrom(1, 4'000'000));
+  add("--moving", one.moving, "so many of them move")->check(wholeNumberFrom(1, 4'000'000));
+  add("--far", one.far, "how far is seen instead of as far as in the scene [m]")->check(numberFrom(1, 1000));
+  add("--pictures", one.pictures, "write the next frame's pictures to PREFIX_WALL_EYE.ppm");
+  command.add_flag("--control", o.control, "only wait for ticks: how even is this machine?")->needs("--one");
+}
+
+}  // namespace
+
+void addBenchWalls(CLI::App& bench, int& code) {
+  auto o = std::make_shared<BenchWallsOptions>();
+  CLI::App* command =
+      bench.add_subcommand("walls", "A room of stereo walls beside OpenSceneGraph and bare OpenGL");
+  addTableTo(*command, *o);
+  addOneTo(*command, *o);
+  command->add_option("--wall-workers", o->workers, "thread or process: who draws Stadion's walls")
+      ->check(CLI::IsMember({"thread", "process"}));
+  command->callback([o, command, &code] { code = benchWalls(*command, *o); });
+}
+
+}  // namespace stadion

@@ -1,0 +1,256 @@
+#include "cli/bench/walls_measure.h"
+
+#include "pipeline/loop/pacer.h"
+#include "pipeline/record/run_summary.h"
+#include "profiling/bench/walls/picture_difference.h"
+#include "profiling/bench/walls/wall_room.h"
+#include "profiling/record/processor_time.h"
+#include "show/player/player.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <malloc.h>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds(Clock::duration d) {
+  return std::chrono::duration<double>(d).count();
+}
+
+/// What this process holds in memory now [MB].
+double memoryMb() {
+  std::ifstream in("/proc/self/statm");
+  double all = 0, resident = 0;
+  in >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+/// What the show holds [MB]: what this process has allocated, and the records of what stands still, which are
+/// mapped by themselves. Not counted are the slots of what moves. Walls are closed by then.
+double heldMb(Player& player) {
+  const struct mallinfo2 heap = mallinfo2();
+  const std::size_t chunks = player.parts(StereoLayout::Pair).state.arena().bytesInUse();
+  return static_cast<double>(heap.uordblks + heap.hblkhd + chunks) / 1e6;
+}
+
+/// When frames were complete on all walls.
+struct Completed {
+  std::uint64_t frames = 0;
+  Clock::time_point begin{}, end{};
+  double processorBegin = 0, processorEnd = 0;
+
+  void add(const WallsSetting& s) {
+    if (++frames == s.warm) begin = Clock::now(), processorBegin = processorSeconds();
+    if (frames == s.warm + s.frames) end = Clock::now(), processorEnd = processorSeconds();
+  }
+};
+
+std::string pictureFile(const WallsSetting& s, const std::string& wall, std::size_t eye) {
+  return s.pictures + "_" + wall + (eye == 0 ? "_L.ppm" : "_R.ppm");
+}
+
+/// Frames, of those that are measured or not, of which a view was not drawn: at least so many.
+std::uint64_t incompleteFrames(const FrameLoopOutcome& outcome, const ShowStages& stages, std::size_t walls,
+                               std::uint64_t frames) {
+  std::uint64_t late = 0;  // several walls may be late in the same frame
+  for (std::size_t wall = 0; wall < walls; ++wall) late = std::max(late, stages.late(wall).frames);
+  return frames - std::min(frames, outcome.framesDrawn) + late;
+}
+
+/// Takes the pictures of the frame that follows the last one that is measured.
+class LastPictures final : public PictureSink {
+public:
+  LastPictures(const WallsSetting& setting, std::vector<std::string> walls)
+      : setting_(setting), walls_(std::move(walls)) {}
+
+  bool wants(const TimeSignature& now) const override {
+    return !setting_.pictures.empty() && now.frame == setting_.warm + setting_.frames;
+  }
+  Failure take(const TimeSignature&, const std::vector<EyePictures>& walls) override {
+    for (std::size_t wall = 0; wall < walls.size(); ++wall)
+      for (std::size_t eye = 0; eye < walls[wall].eyes.size(); ++eye)
+        if (const std::string file = pictureFile(setting_, walls_[wall], eye);
+            !write(file, walls[wall].eyes[eye]))
+          return Reason("cannot write " + file);
+    return {};
+  }
+
+private:
+  static bool write(const std::string& file, const Picture& p) {
+    bench::RgbPicture rgb{p.width, p.height, {}};
+    for (std::size_t i = 0; i < p.rgba.size(); ++i)
+      if (i % 4 != 3) rgb.rgb.push_back(p.rgba[i]);
+    return bench::writePpm(file, rgb);
+  }
+
+  const WallsSetting& setting_;
+  std::vector<std::string> walls_;
+};
+
+/// Without the frames before those that are measured.
+std::vector<double> measured(const DurationSeries& series, const WallsSetting& s) {
+  const std::vector<double>& all = series.values();
+  const std::size_t first = std::min<std::size_t>(s.warm, all.size());
+  const std::size_t last = std::min<std::size_t>(s.warm + s.frames, all.size());
+  return {all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
+/// What frames took on all walls together: one wall may do what is for all.
+double medianOfSums(const std::vector<DurationSeries>& walls, const WallsSetting& s) {
+  std::vector<double> sums(s.frames, 0);
+  for (const DurationSeries& wall : walls) {
+    const std::vector<double> of = measured(wall, s);
+    for (std::size_t i = 0; i < std::min(of.size(), sums.size()); ++i) sums[i] += of[i];
+  }
+  return percentile(sums, 50);
+}
+
+}  // namespace
+
+std::string unwritable(const WallsSetting& s) {
+  namespace fs = std::filesystem;
+  if (s.pictures.empty()) return {};
+  for (std::size_t wall = 0; wall < s.walls; ++wall)
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+      const std::string file = pictureFile(s, bench::roomWalls()[wall].name, eye);
+      std::error_code error;
+      const bool there = fs::exists(file, error);
+      const bool opens = static_cast<bool>(std::ofstream(file, std::ios::binary | std::ios::app));
+      if (opens && !there) fs::remove(file, error);
+      if (!opens)
+        return "--pictures: " + file + " cannot be written: its folder must be there, and yours to write to";
+    }
+  return {};
+}
+
+Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& folder) {
+  ShowOptions show;
+  show.script = folder + "/show.evs", show.walls = folder + "/room.walls",
+  show.input = folder + "/show.input";
+  show.mode = s.mode, show.look = "plain";
+  show.size = std::to_string(s.width) + "x" + std::to_string(s.height);
+  show.frames = s.warm + s.frames + 1;
+  Diagnostics findings;
+  const auto wrong = [&](const std::string& what) {
+    tell(findings);
+    return Diagnostic{Severity::Error, {folder, 0, 0}, what, {}};
+  };
+  if (!show.settle(findings)) return wrong("bad settings");
+  auto provider = openGlProvider(s.gl == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa);
+  if (!provider) return provider.error();
+  const auto player = Player::create(show, findings);
+  if (!player) return wrong("the show cannot be played");
+  LastPictures pictures(s, player->walls().names());
+  Completed completed;
+  ShowParts parts = player->parts(StereoLayout::Pair);
+  parts.provider = provider.value().get();
+  parts.sink = &pictures;
+  if (s.kind == "STRICT") parts.quality.mostAtOnce = 1, parts.quality.leavesOutUnseen = false;
+  if (s.without == "unseen") parts.quality.leavesOutUnseen = false;
+  if (s.without == "small") parts.quality.drawsSmallThings = false;
+  parts.shown = [&] { completed.add(s); };
+  if (s.workers == "process") parts.workers = WallWorkers{s.gl == "egl"};
+  ShowStages stages(std::move(parts));
+  const std::atomic<bool> never = false;
+  FrameLoopOptions options = player->loopOptions();
+  options.latency = s.latency;
+  options.pace = s.pace == "lock" ? Pace::Lock : Pace::Free;
+  FrameLoop loop(stages, options, never);
+  const FrameLoopOutcome outcome = loop.run();
+  if (outcome.failure) return wrong(outcome.failure->message);
+
+  const double memory = memoryMb(), held = heldMb(*player);
+  const FrameTimes& times = loop.times();
+  const double took = seconds(completed.end - completed.begin);
+  const double processor = completed.processorEnd - completed.processorBegin;
+  const auto frames = static_cast<double>(s.frames), views = 2 * static_cast<double>(s.walls);
+  const std::vector<double> period = measured(times.period, s);
+  std::vector<double> latency;
+  for (std::size_t i = 0; i < s.frames; ++i) {
+    double worst = 0;
+    for (const DurationSeries& wall : times.latency)
+      if (s.warm + i < wall.values().size()) worst = std::max(worst, wall.values()[s.warm + i]);
+    latency.push_back(worst);
+  }
+  nlohmann::json counts = nlohmann::json::array();
+  double draws = 0, triangles = 0;
+  for (std::size_t wall = 0; wall < s.walls; ++wall)
+    for (const DrawTotals& eye : stages.drawn(wall)) {
+      const double n = std::max(1.0, static_cast<double>(eye.frames));
+      counts.push_back(std::llround(static_cast<double>(eye.calls) / n));
+      draws += static_cast<double>(eye.calls) / n, triangles += static_cast<double>(eye.triangles) / n;
+    }
+  const double cull = medianOfSums(times.cull, s), draw = medianOfSums(times.draw, s);
+  const char* lp = std::getenv("LP_NUM_THREADS");
+  return nlohmann::json{{"engine", "stadion"},
+                        {"class", s.kind},
+                        {"without", s.without},
+                        {"backend", s.gl},
+                        {"renderer", stages.glDescription()},
+                        {"scene", s.scene},
+                        {"flat", s.flat ? 1 : 0},
+                        {"walls", s.walls},
+                        {"eyes", 2},
+                        {"width", s.width},
+                        {"height", s.height},
+                        {"mode", s.mode},
+                        {"wall_workers", s.workers},
+                        {"frames_under_way", s.latency},
+                        {"lp_threads", lp ? lp : "default"},
+                        {"pace", s.pace},
+                        {"frames", s.frames},
+                        {"fps", frames / took},
+                        {"frame_ms_median", percentile(period, 50)},
+                        {"frame_ms_p95", percentile(period, 95)},
+                        {"frame_ms_p99", percentile(period, 99)},
+                        {"frame_ms_max", percentile(period, 100)},
+                        {"latency_ms_median", percentile(latency, 50)},
+                        {"latency_ms_p95", percentile(latency, 95)},
+                        {"latency_ms_p99", percentile(latency, 99)},
+                        {"app_ms", percentile(measured(times.app, s), 50)},
+                        {"cull_ms_per_view", cull / views},
+                        {"draw_ms_per_view", draw / views},
+                        {"cull_ms_sum", cull},
+                        {"draw_ms_sum", draw},
+                        {"cpu_cores", processor / took},
+                        {"cpu_ms_per_frame", 1e3 * processor / frames},
+                        {"memory_mb", memory},
+                        {"held_mb", held},
+                        {"incomplete", incompleteFrames(outcome, stages, s.walls, show.frames)},
+                        {"draws_per_frame", draws},
+                        {"tris_per_frame", triangles},
+                        {"draws_per_view", counts}};
+}
+
+nlohmann::json measureTicks(std::uint64_t frames) {
+  Pacer pacer(Pace::Lock, bench::kWallSceneRate);
+  pacer.wait();
+  std::vector<double> periods;
+  Clock::time_point before = Clock::now();
+  for (std::uint64_t i = 0; i < frames; ++i) {
+    pacer.wait();
+    const Clock::time_point now = Clock::now();
+    periods.push_back(1e3 * seconds(now - before));
+    before = now;
+  }
+  return nlohmann::json{{"engine", "control"},
+                        {"frames", frames},
+                        {"frame_ms_median", percentile(periods, 50)},
+                        {"frame_ms_p95", percentile(periods, 95)},
+                        {"frame_ms_p99", percentile(periods, 99)},
+                        {"frame_ms_max", percentile(periods, 100)}};
+}
+
+bench::WallScene sceneOf(const WallsSetting& s) {
+  return {s.scene.front(), s.nodes, s.moving, s.far};
+}
+
+}  // namespace stadion

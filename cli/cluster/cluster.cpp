@@ -1,0 +1,152 @@
+/// `stadion cluster FILE SHOW`: plays a show on all nodes of a cluster at once, on this machine, for trying
+/// out.
+
+#include "cli/cluster/cluster_nodes.h"
+#include "cli/cluster/node_words.h"
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/options/run_options.h"
+#include "pipeline/cluster/lead.h"
+#include "pipeline/record/journal.h"
+#include "pipeline/supervision/shared_progress.h"
+#include "show/output/output_folder.h"
+#include "show/player/show_check.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+struct ClusterOptions {
+  std::string file;
+  bool once = false;
+  RunOptions run;  ///< as the command line says it, for all nodes
+};
+
+/// Whether nothing is wrong that each node would find and tell by itself, or wait for the others meanwhile.
+/// What there is to warn of is the same for all.
+bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::string>>& words) {
+  const auto isWell = [](const Diagnostics& findings) {
+    if (findings.hasErrors()) tell(findings);
+    return !findings.hasErrors();
+  };
+  Diagnostics findings;
+  for (const std::vector<std::string>& ofNode : words) {
+    findings = {};
+    checkWordsOfNode(ofNode, findings);
+    if (!isWell(findings)) return false;
+  }
+  if (!isWell(checkScripts(o.run.show.script, o.run.show.assetRoots))) return false;
+  tell(findings);
+  return true;
+}
+
+/// The folders into which the nodes will write, opened as each will, and closed again.
+bool makeFolders(const std::string& out, const ClusterFile& cluster, Diagnostics& findings) {
+  if (out.empty()) return true;
+  for (const ClusterNode& node : cluster.nodes)
+    if (const auto folder = OutputFolder::open(folderOfNode(out, node.name)); !folder)
+      return findings.add(folder.error()), false;
+  return true;
+}
+
+/// The node's own, to which it adds lines as well. Null without --journal, or with the reason in the
+/// findings.
+std::unique_ptr<Journal> openJournal(const std::string& file, const ClusterNode& node,
+                                     Diagnostics& findings) {
+  if (file.empty()) return nullptr;
+  auto journal = Journal::open(fileOfNode(file, node.name));
+  if (!journal) return findings.error({}, "--journal: " + journal.error().message), nullptr;
+  return std::move(journal.value());
+}
+
+/// This program, which ends with us. `progress`: where it says that it shows pictures.
+std::vector<std::string> programOf(const std::vector<std::string>& words, const SharedProgress* progress) {
+  std::vector<std::string> all{std::filesystem::canonical("/proc/self/exe").string(), "run", "--ends-with",
+                               std::to_string(getpid())};
+  if (progress) all.insert(all.end(), {"--supervised", std::to_string(progress->descriptor())});
+  all.insert(all.end(), words.begin(), words.end());
+  return all;
+}
+
+int playCluster(const ClusterOptions& o, const CLI::App& command) {
+  Diagnostics findings;
+  const auto cluster = loadCluster(o.file, findings);
+  if (!cluster) return tell(findings), kBadInput;
+  if (command.get_option("--walls")->count() > 0)
+    findings.error({}, "--walls is not for clusters: " + o.file + " says which walls there are");
+  if (findings.hasErrors()) return tell(findings), kBadInput;
+  std::vector<std::vector<std::string>> words;
+  for (std::size_t i = 0; i < cluster->nodes.size(); ++i)
+    words.push_back(wordsOfNode(command, o.run, *cluster, i));
+  if (!canBePlayed(o, words)) return kBadInput;
+  if (!makeFolders(o.run.out, *cluster, findings)) return tell(findings), kBadInput;
+  auto progress = SharedProgress::create();
+  if (!progress) findings.add(progress.error());
+  if (findings.hasErrors()) return tell(findings), kBadInput;
+  ClusterNodes nodes(*cluster, o.once);
+  if (!o.run.out.empty()) nodes.needAll();
+  for (std::size_t i = 0; i < words.size(); ++i)
+    nodes.add(cluster->nodes[i].name,
+              programOf(words[i], i == cluster->lead ? progress.value().get() : nullptr),
+              openJournal(o.run.journal, cluster->nodes[i], findings));
+  // Who leads may wait for a node that lives and draws nothing (pipeline/cluster/lead.cpp).
+  nodes.watchLead(std::move(progress.value()),
+                  fromSeconds(o.run.hangAfter + cluster::Lead::kStuck * cluster->deadline));
+  if (findings.hasErrors()) return tell(findings), kBadInput;
+  const int code = nodes.play();
+  std::fputs((o.run.json ? nodes.saidAsJson() : nodes.said()).c_str(), stdout);
+  return code;
+}
+
+constexpr const char* kClusterFooter =
+    R"(Each node is a process of its own, as `stadion run SHOW --cluster FILE --node NAME` is on a machine of its own. A node that
+dies, by a signal or with exit code 3, is begun again, and goes on from the others' scene. SIGINT (Ctrl-C) and SIGTERM are
+handed on to all nodes, and the exit code is 130 or 143; one that has not ended after 10 s is killed.
+
+  ./stadion cluster walls/four.cluster scripts/kick.evs --frames 300 --out pictures
+  ./stadion cluster walls/four.cluster scripts/olympia.evs --size 320x240
+
+docs/cluster.md has the file's format, and what happens when a machine or the network fails.)";
+
+/// What clusters refuse (RunOptions::settle() says why) is not in the help.
+const char* groupOf(const RunOptions& run, const std::string& option) {
+  if (option == "--help" || option == "--out" || option == "--json") return "Options";
+  for (const char* refused :
+       {"--walls", "--supervise", "--hang-after", "--late-latch", "--latch-reach", "--spans", "--count-work"})
+    if (option == refused) return "";
+  if (isOfWhoLeads(option)) return "Options of `stadion run` for the node that leads, whose input all have";
+  if (namesFileOfEach(run, option))
+    return "Options of `stadion run` for a file of each node (trace.json becomes trace-NODE.json)";
+  return "Options of `stadion run` for all nodes";
+}
+
+void addRunOptions(RunOptions& run, CLI::App& command) {
+  addRunOptions(command, run);
+  for (const char* ours : {"--cluster", "--node"}) command.remove_option(command.get_option(ours));
+  command.get_option("--out")->description("folder for each node's folder of pictures");
+  command.get_option("--json")->description("one JSON object on stdout: each node's summary under its name");
+  for (CLI::Option* option : command.get_options())
+    if (option->nonpositional() && !option->get_group().empty())
+      option->group(groupOf(run, option->get_name()));
+}
+
+}  // namespace
+
+void addClusterCommand(CLI::App& app, int& code) {
+  auto o = std::make_shared<ClusterOptions>();
+  CLI::App* command =
+      app.add_subcommand("cluster", "Play a show on all nodes of a cluster at once, on this machine");
+  command->add_option("FILE", o->file, "the cluster file")->required();
+  addRunOptions(o->run, *command);
+  command->add_flag("--once", o->once, "a node that dies is not begun again");
+  command->footer(kClusterFooter);
+  command->callback([o, command, &code] { code = playCluster(*o, *command); });
+}
+
+}  // namespace stadion

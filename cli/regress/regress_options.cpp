@@ -1,0 +1,141 @@
+#include "cli/regress/regress_options.h"
+
+#include "cli/options/number_option.h"
+#include "engine/script/suggestion.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace stadion {
+namespace {
+
+constexpr const char* kRegressFooter =
+    R"(A suite file names shows, walls, modes, input logs, sizes, frames, what to compare and how exactly
+(docs/formats.md, scripts/suites/basic.suite). Each case is played by the program in processes of its own.
+
+  ./stadion regress scripts/suites/basic.suite                    # with the baseline that lies beside it
+  ./stadion regress my.suite --update                             # writes that baseline: look at its changes
+  ./stadion regress my.suite --against ../before/build/release/bin/stadion --out report
+  ./stadion regress my.suite --compare state,counts --junit results.xml                            # in CI
+
+Times are processor times of the typical frame, stage by stage. With --against the two builds play the same case in turns,
+frame by frame, in several rounds; a stage is slower if the ranks of the rounds say so (Wilcoxon, p <= 5 % over all
+stages of the case) and the difference exceeds the tolerance. With a baseline, times are divided by those of a
+calibration kernel run in the same minute, and compared by rank sums. A stage that is slower is told with the node in it
+that moved. Beside the typical frame, hitches are compared by processor time and by the clock on the wall: frames that are
+long in more rounds than before, and mean, p95, p99, longest and late frames of a round. A failure of times must show
+again in as many fresh rounds. --instructions counts instead: less than the tolerance apart on any machine, however busy.
+
+State hashes, image hashes and counts (nodes visited, messages, draw calls, triangles and so on, by wall and eye) have to
+be equal. Images are compared only where the same renderer on the same processor drew them. All modes of a case have to
+give the same state and images, whether there is a baseline or not.
+
+Exit codes: 0 all is equal, 1 a comparison failed, 2 bad usage, a suite or show with mistakes, no baseline (and no
+--against), or nothing that could be compared, 3 a program that was played crashed or hung.)";
+
+/// The program itself, however it was called.
+std::string ownPath() {
+  std::error_code none;
+  return std::filesystem::canonical("/proc/self/exe", none).string();
+}
+
+/// It is this file, wherever programs are looked for.
+void checkProgram(std::string& path, const char* option, Diagnostics& findings) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none))
+    findings.error({}, std::string(option) + ": " + path + " is a folder; name the program in it, such as " +
+                           path + "/build/release/bin/stadion");
+  else if (!std::filesystem::exists(path, none))
+    findings.error({}, std::string(option) + ": there is no program " + path);
+  else
+    path = std::filesystem::absolute(path, none).string();
+}
+
+}  // namespace
+
+void RegressOptions::addTo(CLI::App& command) {
+  command.add_option("SUITE", suite, "the suite file")->required();
+  command.add_option("--stadion", program, "the program to try; this one if not given");
+  command.add_option("--against", against, "another build's program, to compare with");
+  command.add_option(
+      "--baseline", baseline,
+      "the file to compare with, or to write; SUITE.baseline.json beside the suite if not given");
+  command.add_flag("--update", update,
+                   "write the baseline, instead of comparing with it; what --case and --compare leave out "
+                   "stays in it as it was");
+  command.add_option("--case", cases, "only these cases");
+  command
+      .add_option("--compare", compare,
+                  "only this, of what the suite compares: state, images, counts, instructions, times")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"state", "images", "counts", "instructions", "times"}));
+  command.add_flag(
+      "--instructions", instructions,
+      "count instructions where the suite compares them also where the processor has no counter of them that "
+      "can be read: under callgrind, half a minute a case");
+  command.add_option("--rounds", rounds, "of times, instead of the suite's number")
+      ->check(wholeNumberFrom(12, 80));
+  command.add_option("--limit", limit, "seconds that a program may take to play a case once")
+      ->check(wholeNumberFrom(1, 100000))
+      ->capture_default_str();
+  command.add_option("--junit", junit, "write the results to this file as JUnit XML");
+  command.add_option(
+      "--out", out,
+      "folder for report.html with plots of all runs so far, results.json, junit.xml and history.jsonl");
+  command.add_flag("--resume", resume, "go on where the run into the same --out DIR was interrupted");
+  command.add_flag("--json", json, "the results as JSON in Google Benchmark's layout on stdout");
+  command.footer(kRegressFooter);
+}
+
+bool RegressOptions::settle(Diagnostics& findings) {
+  if (program.empty()) program = ownPath();
+  checkProgram(program, "--stadion", findings);
+  if (!against.empty()) checkProgram(against, "--against", findings);
+  if (!against.empty() && (!baseline.empty() || update))
+    findings.error({},
+                   "--against compares with another build, --baseline and --update are about a file; leave "
+                   "one of them out");
+  if (resume && (out.empty() || update))
+    findings.error({}, "--resume needs the --out DIR of the run that was interrupted, and no --update");
+  baselineGiven = !baseline.empty();
+  if (baseline.empty()) baseline = regression::baselineBeside(suite);
+  return !findings.hasErrors();
+}
+
+regression::Metrics RegressOptions::asked() const {
+  const auto wanted = [&](const char* metric) {
+    return compare.empty() || std::ranges::find(compare, metric) != compare.end();
+  };
+  return {wanted("state"), wanted("images"), wanted("counts"), wanted("instructions"), wanted("times")};
+}
+
+bool RegressOptions::choose(regression::Suite& suiteRead, Diagnostics& findings) const {
+  std::vector<std::string> known;
+  for (const regression::SuiteCase& c : suiteRead.cases) known.push_back(c.name);
+  for (const std::string& name : cases)
+    if (std::ranges::find(known, name) == known.end())
+      findings.error({suite, 0, 0}, "there is no case \"" + name + "\"" + didYouMean(name, known));
+  if (!cases.empty())
+    std::erase_if(suiteRead.cases, [&](const regression::SuiteCase& c) {
+      return std::ranges::find(cases, c.name) == cases.end();
+    });
+  const regression::Metrics wanted = asked();
+  for (regression::SuiteCase& c : suiteRead.cases) {
+    regression::Metrics& m = c.metrics;
+    m.state &= wanted.state, m.images &= wanted.images, m.counts &= wanted.counts;
+    m.instructions &= wanted.instructions, m.times &= wanted.times;
+    if (rounds > 0) c.rounds = rounds;
+  }
+  // A case that compares nothing of what was asked for is not played.
+  std::erase_if(suiteRead.cases, [](const regression::SuiteCase& c) { return c.metrics.none(); });
+  if (suiteRead.cases.empty() && !findings.hasErrors())
+    findings.error({suite, 0, 0}, "no case compares " + fmt::format("{}", fmt::join(compare, " or ")) +
+                                      "; say so in its \"compare\" statement, or leave --compare out");
+  return !findings.hasErrors();
+}
+
+}  // namespace stadion

@@ -1,0 +1,22 @@
+#pragma once
+/// The test pattern of a place: as files, or on its outputs until somebody presses Escape.
+
+#include "engine/display/wall_file.h"
+#include "show/display/show_windows.h"
+
+#include <atomic>
+#include <string>
+
+namespace stadion {
+
+struct PatternOptions {
+  std::string out;     ///< folder for files; empty = on the outputs
+  bool stereo = true;  ///< of files: a picture for each eye
+  WindowStereo windowStereo = WindowStereo::Mono;
+  std::uint32_t width = 800, height = 800;  ///< of walls for which nothing is stated
+};
+
+/// Returns the exit code.
+int showPattern(const WallFile& walls, const PatternOptions& options, const std::atomic<bool>& stop);
+
+}  // namespace stadion

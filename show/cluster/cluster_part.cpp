@@ -1,0 +1,250 @@
+#include "show/cluster/cluster_part.h"
+
+#include "engine/base/plain_file.h"
+#include "engine/core/state_fields.h"
+#include "engine/core/state_hash.h"
+#include "engine/script/suggestion.h"
+#include "pipeline/cluster/interface_check.h"
+#include "profiling/record/node_names.h"
+#include "show/base/share_folder.h"
+#include "show/base/stop_signal.h"
+#include "show/player/player.h"
+#include "show/player/show_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stadion {
+namespace {
+
+/// With others that have not come the show waits so long before it begins.
+constexpr std::chrono::seconds kPatience{30};
+/// After a stop signal the others' answers are waited for so long.
+constexpr std::chrono::seconds kGrace{2};
+
+bool nobodyWaits() {
+  return sinceStopSignal() > kGrace;
+}
+
+std::uint64_t hashOfFile(const std::string& file) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+  const Result<std::string> text = readPlainFile(file, kMostBytes);
+  StateHash hash;
+  hash.add(std::string_view(text ? text.value() : ""));
+  return hash.value();
+}
+
+/// (Files that scripts name are found out by the scenes' digests.)
+cluster::Agreement termsOf(const RunOptions& o, const ClusterFile& file) {
+  const std::string log = inputLogOf(o.show.script, o.show.input);
+  cluster::Agreement terms;
+  terms.script = hashOfFile(o.show.script);
+  terms.input = log.empty() ? 0 : hashOfFile(log);
+  terms.cluster = cluster::hashOf(file), terms.walls = hashOfFile(wallFileOf(file.walls));
+  terms.pictures = fmt::format("--look {} --stereo {}{}{}", o.show.look, stereoLayoutName(o.layout),
+                               o.show.size.empty() ? "" : " --size ", o.show.size);
+  return terms;
+}
+
+}  // namespace
+
+std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& findings) {
+  if (o.cluster.empty()) return nullptr;
+  auto file = loadCluster(o.cluster, findings);
+  if (!file) return nullptr;
+  const auto node = file->find(o.node);
+  if (!node) {
+    findings.error({},
+                   fmt::format("--node: {} has no node \"{}\"{}", o.cluster, o.node,
+                               didYouMean(o.node, file->names(),
+                                          "; it has " + fmt::format("{}", fmt::join(file->names(), ", ")))));
+    return nullptr;
+  }
+  const auto walls = loadWallsOf(*file, shareFolder() + "/walls", findings);
+  Diagnostics ofWalls;
+  if (walls) checkWalls(*file, walls->names(), ofWalls);
+  const bool isWarned = o.endsWith >= 0;  // by `stadion cluster`, which has warned for all
+  if (!isWarned || ofWalls.hasErrors()) findings.append(ofWalls);
+  checkInterface(*file, findings);
+  if (!walls || findings.hasErrors()) return nullptr;
+  o.show.walls = file->walls;
+  o.follows = *node != file->lead;
+  o.show.onlyWalls = file->nodes[*node].walls;
+  if (o.show.onlyWalls.empty()) {
+    o.show.onlyWalls = {walls->walls.front().wall.name};  // somebody has to take the frames
+    o.provider = "none", o.sheets = o.video = false;
+  }
+  std::unique_ptr<ClusterPart> part(new ClusterPart(o, std::move(*file), *node));
+  if (o.plantDifference > 0) part->planted_ = o.plantDifference;
+  return part;
+}
+
+void ClusterPart::tell(const std::string& what) {
+  teller_.tell(fmt::format("cluster, {}: {}", file_.nodes[node_].name, what));
+}
+
+// What the terms are is looked up each time: a script may have been saved since the show before.
+bool ClusterPart::openLead(Diagnostics& findings) {
+  cluster::LeadOptions options{file_, termsOf(options_, file_), kPatience,
+                               [this](const std::string& what) { tell(what); }, nobodyWaits};
+  if (lead_) options.above = lead_->session(), options.expected = lead_->played();
+  lead_.reset();
+  auto opened = cluster::Lead::open(std::move(options));
+  if (!opened) return findings.add(opened.error()), false;
+  lead_ = std::move(opened.value());
+  return true;
+}
+
+bool ClusterPart::join(ShowOptions& show, Diagnostics& findings) {
+  if (!leads()) return follow(show, findings);
+  if (!openLead(findings)) return false;
+  const auto underWay = lead_->takeOver();
+  if (!underWay) return true;
+  show.state = underWay->state, after_ = underWay->last, goesOn_ = true;
+  files_ = underWay->files;
+  operator_.emplace();
+  operator_->paused = underWay->still == Standstill::Paused;
+  operator_->waiting = underWay->still == Standstill::Waiting;
+  operator_->shown = underWay->shown;
+  return true;
+}
+
+bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
+  over_ = follower_ && follower_->isOver();
+  if (over_) return false;
+  const std::uint64_t played = follower_ ? follower_->session() : 0;
+  follower_.reset();
+  auto opened = cluster::Follower::open({file_, node_, termsOf(options_, file_),
+                                         [this](const std::string& what) { tell(what); }, nobodyWaits,
+                                         [] { return stopSignal() != 0; }, std::move(kept_), played});
+  if (!opened) return findings.add(opened.error()), false;
+  follower_ = std::move(opened.value());
+  const auto joining = follower_->join();
+  over_ = !joining && follower_->isOver(), otherFiles_ = follower_->isRefused();
+  if (!joining) return false;  // it has told why, if there is a reason
+  show.rate = joining->rate, show.rateGiven = true;
+  show.state = joining->state, last_ = joining->after;
+  if (!joining->playsLog) show.input = "none";  // what others say is heard from who leads
+  goesOn_ = show.state != nullptr, files_ = joining->files;
+  after_ = goesOn_ ? std::optional(joining->after) : std::nullopt;
+  return true;
+}
+
+/// Which of them differ, nobody can tell without the others.
+void ClusterPart::refuseFiles(Diagnostics& findings) {
+  otherFiles_ = true;
+  findings.error(
+      {},
+      fmt::format(
+          "the scripts or models that {} has loaded are others than ours; put the same files on all machines",
+          file_.nodes[file_.lead].name));
+}
+
+bool ClusterPart::beginAnew(const Diagnostics& found, Diagnostics& findings) {
+  const auto why = std::ranges::find(found.all(), Severity::Error, &Diagnostic::severity);
+  tell("the scripts or models of the show that the others play are others than ours: it begins anew" +
+       (why == found.all().end() ? "" : " (" + why->message + ")"));
+  after_.reset(), operator_.reset(), goesOn_ = false;
+  return openLead(findings);
+}
+
+bool ClusterPart::begin(Player& player, const OperatorQueue& asked, const std::function<bool()>& takeKeys,
+                        Diagnostics& findings) {
+  player_ = &player;
+  if (!leads()) {
+    follower_->compareWith([this](const cluster::SavedScene& there) { return differenceTo(there); });
+    return true;
+  }
+  if (lead_->hasBegun()) {  // the next group's show
+    if (!openLead(findings)) return false;
+    after_.reset(), goesOn_ = false;
+  }
+  lead_->saveWith([this] { return saved(); });
+  // Start counts once the operator knows for whom the show waits: before, it is meant for all.
+  std::size_t before = 0;
+  const bool begun = lead_->begin(player.rate(), [&](bool told) {
+    if (!takeKeys()) return cluster::Patience::GivesUp;
+    const std::size_t starts = asked.count(OperatorAction::Start);
+    if (!told) before = starts;
+    const bool hurries = starts > before || asked.count(OperatorAction::End) > 0;
+    return hurries ? cluster::Patience::Ends : cluster::Patience::Lasts;
+  });
+  return begun && !lead_->hasDouble();
+}
+
+cluster::SavedScene ClusterPart::saved() const {
+  return {player_->scene().files(), player_->scene().save()};
+}
+
+std::optional<cluster::Follower::Differs> ClusterPart::differenceTo(const cluster::SavedScene& there) const {
+  if (const std::uint64_t ours = player_->scene().files(); ours != there.files)
+    return cluster::Follower::Differs{"the scene, files", fmt::format("{:016x}", ours),
+                                      fmt::format("{:016x}", there.files)};
+  const auto d = player_->scene().difference(there.bytes);
+  if (!d) return {};
+  NodeNames names;
+  names.see(player_->scene());
+  const auto name = names.find(d->node);
+  const std::string where =
+      name ? fmt::format("{} ({}:{})", name->path, name->file, name->line) : "the scene";
+  return cluster::Follower::Differs{where + ", " + d->field, d->here, d->there};
+}
+
+void ClusterPart::addTo(FrameLoopOptions& loop, LiveDesk& desk) {
+  loop.orders = lead_ ? static_cast<FrameOrders*>(lead_.get()) : follower_.get();
+  loop.after = after_;
+  if (const auto decided = std::exchange(operator_, {})) desk.resume(*decided);
+}
+
+InputDevice* ClusterPart::inputOf(Player& player) {
+  return lead_ ? &lead_->input(player.input()) : &follower_->input();
+}
+
+void ClusterPart::simulated(const TimeSignature& now) {
+  const std::uint64_t frame = now.frame;
+  last_ = now;
+  if (lead_ && lead_->compares(frame)) lead_->simulated(frame, player_->scene().digest());
+  if (follower_ && follower_->compares(frame)) follower_->simulated(frame, player_->scene().digest());
+  if (planted_ == frame) plantDifference();
+}
+
+/// The last bit of a body's path, if there is one.
+void ClusterPart::plantDifference() {
+  class OneBit final : public StateFields {
+    void number(std::uint64_t& bits, Form form) override {
+      if (done_ || form != Form::Real || name_ != "c" || bits == 0) return;
+      bits ^= 1, done_ = true;
+    }
+    void text(std::string&) override {}
+    bool done_ = false;
+  } bit;
+  player_->scene().forEachNode([&](const Node& node) { const_cast<Node&>(node).state(bit); });
+}
+
+bool ClusterPart::hasDouble() const {
+  return (lead_ && lead_->hasDouble()) || (follower_ && follower_->hasDouble());
+}
+
+void ClusterPart::finish(bool over) {
+  if (lead_) lead_->finish(over);
+  if (!follower_) return;
+  if (follower_->keepsScene()) follower_->keep(last_, saved());
+  kept_ = follower_->kept();
+  follower_->finish();
+}
+
+ClusterSummary ClusterPart::summary() const {
+  const cluster::Tally t = lead_ ? lead_->tally() : follower_->tally();
+  ClusterSummary s;
+  s.node = file_.nodes[node_].name, s.nodes = file_.nodes.size(), s.leads = leads();
+  s.orders = t.orders;
+  s.orderBytes = t.orders > 0 ? static_cast<double>(t.orderBytes) / static_cast<double>(t.orders) : 0;
+  s.mostOrderBytes = t.mostOrderBytes;
+  s.barrier = distributionOf(t.barrier.values());
+  s.stopped = t.stopped > 0;
+  s.joined = t.joined, s.leftOut = t.leftOut, s.compared = t.compared, s.differed = t.differed;
+  return s;
+}
+
+}  // namespace stadion

@@ -1,0 +1,180 @@
+#include "show/console/live_desk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <unistd.h>
+#include <utility>
+
+namespace stadion {
+namespace {
+
+void sayInTerminal(const std::string& line) {
+  std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+std::string clockText(double seconds) {
+  const auto s = static_cast<long>(seconds);
+  return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+}
+
+double seconds(std::chrono::steady_clock::duration d) {
+  return std::chrono::duration<double>(d).count();
+}
+
+}  // namespace
+
+std::unique_ptr<LiveDesk> LiveDesk::open(const RunOptions& options, Diagnostics& findings, Say say) {
+  std::unique_ptr<LiveDesk> desk(new LiveDesk(options, say ? std::move(say) : sayInTerminal));
+  if (options.trackers.device.empty() || options.follows) return desk;  // a cluster's are those of who leads
+  desk->trackers_ = TrackerDevice::open(options.trackers, desk->say_, findings);
+  if (!desk->trackers_) return nullptr;
+  desk->say_("trackers: " + desk->trackers_->description());
+  return desk;
+}
+
+LiveDesk::~LiveDesk() = default;
+
+bool LiveDesk::begin(const Player& player, Diagnostics& findings) {
+  desk_ = std::make_unique<OperatorDesk>(options_.wait, player.walls().eyeSeparation);
+  const FrameLoopOptions loop = options_.loopOptions(player);
+  live_ = options_.live || loop.delivery == Delivery::Latest;
+  // Whoever plays faster than the clock has no ear for it.
+  if (loop.pace != Pace::Free && !options_.noSound) {
+    roots_ = AssetRoots::ofScript(options_.show.script);
+    for (const std::string& root : options_.show.assetRoots) roots_.add(root);
+    sounds_ = std::make_unique<SoundPlayer>(roots_, say_);
+  }
+  if (!live_ || options_.follows) return true;  // a cluster's operator sits at the machine that leads
+  if (options_.oscPort >= 0) {
+    auto osc = OscOperator::open(static_cast<std::uint16_t>(options_.oscPort), desk_->queue(), say_);
+    if (!osc) return findings.error({}, "--osc: " + osc.error().message), false;
+    osc_ = std::move(osc.value());
+    say_(fmt::format("operator: OSC on UDP port {}", osc_->port()));
+  }
+  keys_ = OperatorKeys::open(STDIN_FILENO, desk_->queue());
+  const bool hasWindows = options_.live || options_.display;
+  if (options_.wait && !keys_ && !osc_ && !hasWindows)
+    return findings.error({}, "--wait: nobody can say start; there is no terminal and no --osc PORT"), false;
+  if (keys_) sayInTerminal("operator: keys in this terminal, h shows them");
+  return true;
+}
+
+void LiveDesk::beginGroup(Player& player, RunWatch& watch) {
+  ready_ = Clock::now();
+  if (std::exchange(groupIsNew_, false)) desk_->awaitPicture();
+  if (trackers_) player.takeInputFrom(trackers_->trackers());
+  visitorIsLive_ = player.inputIsLive();
+  desk_->obey(player.decisions().orders);
+  desk_->told = [this, &watch](std::uint64_t frame, const OperatorCommand& command) {
+    tell(command, watch.time());
+    if (isOfPresentation(command.action)) writeDown(frame, command, watch);
+    if (changed) changed(desk_->state());
+  };
+  // What stands already stands from the first frame on.
+  const Presentation& shown = desk_->state().shown;
+  if (shown.black) watch.order(0, {OperatorAction::Black, 1, false});
+  if (shown.swapEyes) watch.order(0, {OperatorAction::SwapEyes, 1, false});
+  if (shown.eyeSeparation >= 0) watch.order(0, {OperatorAction::EyeSeparation, shown.eyeSeparation, false});
+  if (desk_->state().volume != 1) watch.order(0, {OperatorAction::Volume, desk_->state().volume, false});
+  if (desk_->state().waiting) say_("waiting for start");
+}
+
+void LiveDesk::resume(const OperatorState& decided) {
+  const auto order = [&](OperatorAction action, double value) { queue().post({action, value, false}); };
+  if (state().waiting && !decided.waiting) queue().post({OperatorAction::Start, {}, false});
+  if (decided.paused) order(OperatorAction::Pause, 1);
+  if (decided.shown.black) order(OperatorAction::Black, 1);
+  if (decided.shown.swapEyes) order(OperatorAction::SwapEyes, 1);
+  if (decided.shown.eyeSeparation >= 0) order(OperatorAction::EyeSeparation, decided.shown.eyeSeparation);
+  if (decided.volume != 1) order(OperatorAction::Volume, decided.volume);
+  if (decided.latency > 0) order(OperatorAction::Latency, decided.latency);
+}
+
+// What came of it, whatever it was before.
+void LiveDesk::writeDown(std::uint64_t frame, const OperatorCommand& command, RunWatch& watch) const {
+  const OperatorState& s = desk_->state();
+  const double value = command.action == OperatorAction::Black      ? s.shown.black
+                       : command.action == OperatorAction::SwapEyes ? s.shown.swapEyes
+                       : command.action == OperatorAction::Volume   ? s.volume
+                                                                    : s.eyeSeparation();
+  watch.order(frame, {command.action, value, false});
+}
+
+void LiveDesk::pictureSeen() {
+  if (!desk_->pictureSeen()) return;
+  say_(fmt::format("group {} begins: reset in {:.2f} s, first picture after {:.2f} s; up {}", groups(),
+                   seconds(ready_ - asked_), seconds(Clock::now() - asked_), clockText(uptime())));
+}
+
+void LiveDesk::endGroup(const RunWatch& watch) {
+  std::string told = fmt::format("group {} ends at {:.3f} s", groups(), toSeconds(watch.time()));
+  const char* before = ": ";
+  for (const MeasuredDistance& m : watch.measured())
+    told += fmt::format("{}{} {:.3f} m", std::exchange(before, ", "), m.node, m.metres);
+  say_(told);
+  asked_ = desk_->queue().nextGroupAsked();
+  groupIsNew_ = true;
+  desk_->beginGroup();
+  if (trackers_) trackers_->trackers().restart();
+  silence();
+}
+
+void LiveDesk::silence() {
+  if (!sounds_) return;
+  SoundScape nothing;
+  sounds_->hear(nothing, {});
+  sounds_->settle();
+}
+
+std::string LiveDesk::recordName() const {
+  if (options_.recordInput.empty() || !desk_ || groups() == 1) return options_.recordInput;
+  std::filesystem::path path = options_.recordInput;
+  const std::string ending = path.extension();
+  return path.replace_extension().string() + fmt::format("-{}", groups()) + ending;
+}
+
+void LiveDesk::addTo(ShowParts& parts, FrameLoopOptions& loop) {
+  parts.sounds = sounds_.get();
+  parts.tell = say_;
+  parts.desk = loop.desk = desk_.get();
+  loop.playback = &desk_->playback();
+  desk_->startWith(loop.latency);
+  parts.giveUp = [desk = desk_.get(), before = std::move(parts.giveUp)] {
+    return desk->leaving() || (before && before());
+  };
+}
+
+double LiveDesk::uptime() const {
+  return seconds(Clock::now() - opened_);
+}
+
+void LiveDesk::tell(const OperatorCommand& command, Nanoseconds showTime) const {
+  const OperatorState& s = desk_->state();
+  const Nanoseconds stands = std::max(showTime, desk_->playback().standsFrom());
+  const auto onOff = [](bool on) { return on ? " on" : " off"; };
+  std::string what(nameOf(command.action));
+  switch (command.action) {
+  case OperatorAction::Pause:
+    what = fmt::format("{} at {:.3f} s", s.paused ? "paused" : "going on", toSeconds(stands));
+    break;
+  case OperatorAction::Step:
+    if (options_.live) return;  // view tells of the picture
+    break;
+  case OperatorAction::Black: what += onOff(s.shown.black); break;
+  case OperatorAction::SwapEyes: what += onOff(s.shown.swapEyes); break;
+  case OperatorAction::FreezeHead:
+    what += onOff(s.headFrozen);
+    if (!visitorIsLive_) what += " (without effect: the head is a record's)";
+    break;
+  case OperatorAction::EyeSeparation: what += fmt::format(" {:.4f} m", s.eyeSeparation()); break;
+  case OperatorAction::Volume: what += fmt::format(" {:.0f} %", 100 * s.volume); break;
+  case OperatorAction::Latency: what += fmt::format(" {:.0f}", s.latency); break;
+  default: break;
+  }
+  say_(fmt::format("operator: {} ({})", what, clockText(uptime())));
+}
+
+}  // namespace stadion

@@ -1,0 +1,102 @@
+#include "show/console/operator_keys.h"
+
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+
+namespace stadion {
+namespace {
+
+constexpr char kEscape = 27;
+constexpr int kLookForEnd = 50;  ///< [ms]
+
+struct Binding {
+  char key;
+  OperatorCommand command;
+};
+
+using enum OperatorAction;
+const std::array<Binding, 17> kKeys{{{'\n', {Start}},
+                                     {'\r', {Start}},
+                                     {' ', {Pause}},
+                                     {'p', {Pause}},
+                                     {'.', {Step}},
+                                     {'b', {Black}},
+                                     {'n', {NextGroup}},
+                                     {'x', {SwapEyes}},
+                                     {'[', {EyeSeparation, -0.002, true}},
+                                     {']', {EyeSeparation, 0.002, true}},
+                                     {'f', {FreezeHead}},
+                                     {'-', {Volume, -0.05, true}},
+                                     {'+', {Volume, 0.05, true}},
+                                     {'=', {Volume, 0.05, true}},
+                                     {'k', {Latency, -1, true}},
+                                     {'l', {Latency, 1, true}},
+                                     {'q', {End}}}};
+
+}  // namespace
+
+std::optional<OperatorCommand> operatorCommandOf(char key) {
+  for (const Binding& k : kKeys)
+    if (k.key == key) return k.command;
+  return {};
+}
+
+std::optional<OperatorCommand> operatorCommandOf(Key key) {
+  if (key == Key::Enter) return operatorCommandOf('\n');
+  const auto code = static_cast<std::uint32_t>(key);
+  if (code < 32 || code >= 127) return {};
+  const char c = static_cast<char>(code);
+  return operatorCommandOf(c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
+}
+
+std::string operatorKeysHelp() {
+  return "keys: Enter start, space pause, . one frame, b black, n next group, x swap eyes, "
+         "[ ] eyes closer or wider, f freeze head,\n      - + volume, k l fewer or more frames under way, q "
+         "end, h these lines";
+}
+
+std::unique_ptr<OperatorKeys> OperatorKeys::open(int file, OperatorQueue& queue) {
+  auto terminal = RawTerminal::take(file);
+  if (!terminal) return nullptr;
+  return std::unique_ptr<OperatorKeys>(new OperatorKeys(std::move(terminal), queue));
+}
+
+OperatorKeys::OperatorKeys(std::unique_ptr<RawTerminal> terminal, OperatorQueue& queue)
+    : terminal_(std::move(terminal)), queue_(queue), thread_([this] { listen(); }) {}
+
+OperatorKeys::~OperatorKeys() {
+  ending_ = true;
+  thread_.join();
+}
+
+void OperatorKeys::listen() {
+  while (!ending_) {
+    // In the background the keys are somebody else's, and whoever reads them all the same is stopped.
+    if (!terminal_->inForeground()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(kLookForEnd));
+      continue;
+    }
+    pollfd waiting{terminal_->file(), POLLIN, 0};
+    if (poll(&waiting, 1, kLookForEnd) <= 0) continue;
+    char key = 0;
+    // A terminal that has gone says so for ever: there will be no more keys.
+    if ((waiting.revents & POLLIN) == 0 || read(terminal_->file(), &key, 1) != 1) return;
+    if (key == kEscape) {  // an arrow or the like: its other characters are no keys of ours
+      tcflush(terminal_->file(), TCIFLUSH);
+      continue;
+    }
+    if (key == 'h' || key == '?') std::fprintf(stderr, "%s\n", operatorKeysHelp().c_str());
+    try {
+      if (const auto command = operatorCommandOf(key)) queue_.post(*command);
+    } catch (const std::bad_alloc&) {
+      std::fprintf(stderr, "out of memory: the key was not taken\n");
+    }
+  }
+}
+
+}  // namespace stadion

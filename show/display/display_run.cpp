@@ -1,0 +1,82 @@
+#include "show/display/display_run.h"
+
+#include "show/console/operator_keys.h"
+
+#include <chrono>
+#include <cstdio>
+#include <thread>
+#include <utility>
+
+namespace stadion {
+namespace {
+
+constexpr std::chrono::milliseconds kNap{1};  ///< while there is nothing new to show
+
+WindowStereo windowStereoOf(StereoLayout layout) {
+  switch (layout) {
+  case StereoLayout::Pair: return WindowStereo::Quad;
+  case StereoLayout::SideBySide: return WindowStereo::SideBySide;
+  case StereoLayout::TopBottom: return WindowStereo::TopBottom;
+  case StereoLayout::Anaglyph: return WindowStereo::Anaglyph;
+  case StereoLayout::Interlaced: return WindowStereo::Interlaced;
+  case StereoLayout::Off: break;
+  }
+  return WindowStereo::Mono;
+}
+
+/// The same keys as in the terminal.
+std::optional<OperatorCommand> windowOrderOf(Key key) {
+  if (key == Key::Escape) return OperatorCommand{OperatorAction::End};
+  return operatorCommandOf(key);
+}
+
+}  // namespace
+
+std::unique_ptr<DisplayRun> DisplayRun::open(const RunOptions& options, const WallFile& walls,
+                                             Diagnostics& findings) {
+  std::unique_ptr<DisplayRun> run(new DisplayRun(options, walls));
+  run->displays_ = WallDisplays::open(walls, windowStereoOf(options.layout), options.show.width,
+                                      options.show.height, findings);
+  return run->displays_ ? std::move(run) : nullptr;
+}
+
+void DisplayRun::fitPictures(std::vector<WallView>& views) const {
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!options_.show.size.empty() || walls_.walls[i].pixels.width > 0) continue;
+    const auto [width, height] = displays_->pictureSize(i);
+    views[i].width = width, views[i].height = height;
+  }
+}
+
+FrameLoopOutcome DisplayRun::play(FrameLoop& loop, LiveDesk& desk) {
+  FrameLoopOutcome outcome;
+  std::vector<EyePictures> pictures;
+  TimeSignature now;
+  mailbox_.fetch(pictures, now);  // what the group before has left is not this one's
+  std::atomic<bool> over = false;
+  std::thread playing([&] {
+    outcome = loop.run();
+    over = true;
+  });
+  while (!over) {
+    if (!takeKeys(desk) || !mailbox_.fetch(pictures, now)) {
+      std::this_thread::sleep_for(kNap);
+      continue;
+    }
+    displays_->show(pictures);
+    desk.pictureSeen();
+    if (!std::exchange(shown_, true)) std::fprintf(stderr, "the walls are shown; Escape ends the show\n");
+  }
+  playing.join();
+  return outcome;
+}
+
+bool DisplayRun::takeKeys(LiveDesk& desk) {
+  for (const Key key : displays_->poll())
+    if (const auto order = windowOrderOf(key)) desk.queue().post(*order);
+  const auto lost = displays_->lost();
+  if (lost) mailbox_.close(*lost);  // the next frame's pictures are refused, and all stages stop
+  return !lost;
+}
+
+}  // namespace stadion

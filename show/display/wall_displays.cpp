@@ -1,0 +1,104 @@
+#include "show/display/wall_displays.h"
+
+#include <fmt/format.h>
+#include <utility>
+
+namespace stadion {
+namespace {
+
+WindowPlan planFor(const WallEntry& entry, std::uint32_t width, std::uint32_t height) {
+  WindowPlan plan;
+  plan.title = "Stadion: " + entry.wall.name;
+  plan.width = entry.pixels.width > 0 ? entry.pixels.width : width;
+  plan.height = entry.pixels.width > 0 ? entry.pixels.height : height;
+  if (!entry.output) return plan;
+  const OutputPlace& place = entry.output->place;
+  plan.monitor = place.monitor, plan.fullscreen = place.fullscreen, plan.refresh = place.refresh;
+  plan.frame = !(place.rectangle || place.fullscreen);
+  plan.pointer = plan.frame;
+  if (place.rectangle) {
+    plan.placed = true, plan.x = place.rectangle->x, plan.y = place.rectangle->y;
+    plan.width = place.rectangle->width, plan.height = place.rectangle->height;
+  }
+  return plan;
+}
+
+}  // namespace
+
+WallDisplays::~WallDisplays() = default;
+
+Result<WindowSystem*> WallDisplays::systemOf(const std::string& screen) {
+  auto& system = systems_[screen];
+  if (!system) {
+    auto opened = WindowSystem::open(screen);
+    if (!opened) return opened.error();
+    system = std::move(opened.value());
+  }
+  return system.get();
+}
+
+std::unique_ptr<WallDisplays> WallDisplays::open(const WallFile& walls, WindowStereo stereo,
+                                                 std::uint32_t width, std::uint32_t height,
+                                                 Diagnostics& findings) {
+  std::unique_ptr<WallDisplays> displays(new WallDisplays);
+  for (const WallEntry& entry : walls.walls) {
+    const auto refuse = [&](const Diagnostic& why) {
+      findings.error({walls.file, entry.line, entry.column},
+                     fmt::format("the output of wall \"{}\": {}", entry.wall.name, why.message),
+                     entry.excerpt);
+      return nullptr;
+    };
+    const auto system = displays->systemOf(entry.output ? entry.output->place.screen : "");
+    if (!system) return refuse(system.error());
+    auto window =
+        ShowWindow::open(*system.value(), planFor(entry, width, height), stereo, walls.walls.size());
+    if (!window) return refuse(window.error());
+    // One of them waits for its display; if all did, each would take a picture's time.
+    window.value()->window().waitForDisplay(displays->windows_.empty());
+    displays->windows_.push_back(std::move(window.value()));
+    displays->shapes_.push_back(entry.output ? entry.output->shape : OutputShape{});
+  }
+  if (const auto why = displays->mayGoDark())
+    findings.warning({}, "displays may go dark during the show: " + *why);
+  return displays;
+}
+
+std::array<std::uint32_t, 2> WallDisplays::pictureSize(std::size_t wall) const {
+  auto [width, height] = windows_[wall]->window().size();
+  if (shapes_[wall].rotate % 180 == 90) std::swap(width, height);
+  return {width, height};
+}
+
+std::optional<std::string> WallDisplays::mayGoDark() const {
+  for (const auto& [screen, system] : systems_)
+    if (auto why = system->mayGoDark()) return why;
+  return {};
+}
+
+void WallDisplays::show(const std::vector<EyePictures>& pictures) {
+  for (std::size_t i = 0; i < windows_.size(); ++i) {
+    windows_[i]->take(pictures, {i});
+    const auto [width, height] = windows_[i]->window().size();
+    windows_[i]->draw({{i, {0, 0, width, height}, shapes_[i]}});
+  }
+  for (const auto& window : windows_) window->swap();
+}
+
+std::vector<Key> WallDisplays::poll() {
+  std::vector<Key> keys;
+  for (const auto& [screen, system] : systems_) system->poll();
+  for (const auto& window : windows_)
+    for (const WindowEvent& event : window->window().takeEvents()) {
+      if (event.kind == WindowEvent::Kind::Close) keys.push_back(Key::Escape);
+      if (event.kind == WindowEvent::Kind::Key && event.down) keys.push_back(event.key);
+    }
+  return keys;
+}
+
+std::optional<std::string> WallDisplays::lost() const {
+  for (const auto& [screen, system] : systems_)
+    if (auto why = system->lost()) return why;
+  return {};
+}
+
+}  // namespace stadion

@@ -1,0 +1,47 @@
+#pragma once
+/// The walls of a place on their real displays: a window for each, on the output that the wall file names.
+///
+/// Threads  the main thread alone.
+
+#include "engine/display/wall_file.h"
+#include "show/display/show_windows.h"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+class WallDisplays {
+public:
+  /// A wall without an output gets a window with a frame, of its stated pixels or of `width` x `height`. Null
+  /// if one of the outputs cannot be opened; the findings say which and why.
+  static std::unique_ptr<WallDisplays> open(const WallFile& walls, WindowStereo stereo, std::uint32_t width,
+                                            std::uint32_t height, Diagnostics& findings);
+  ~WallDisplays();
+
+  /// The size of picture that fills a wall's output pixel by pixel.
+  std::array<std::uint32_t, 2> pictureSize(std::size_t wall) const;
+  /// Shows these pictures, by wall, on all outputs one directly after the other.
+  void show(const std::vector<EyePictures>& pictures);
+  /// Takes in what happened and returns the keys that were pressed. Escape also stands for a window that
+  /// somebody closed.
+  std::vector<Key> poll();
+  /// Why nothing can be shown any more; nothing while it can.
+  std::optional<std::string> lost() const;
+
+private:
+  WallDisplays() = default;
+  Result<WindowSystem*> systemOf(const std::string& screen);
+  /// Why displays may go dark during the show, and what to do; nothing if they are kept from it.
+  std::optional<std::string> mayGoDark() const;
+
+  std::map<std::string, std::unique_ptr<WindowSystem>> systems_;  ///< by X screen
+  std::vector<std::unique_ptr<ShowWindow>> windows_;              ///< by wall; go before their systems
+  std::vector<OutputShape> shapes_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,60 @@
+#pragma once
+/// Plays a show without drawing it, with one body's model changed, and notes what its bodies did and cost.
+
+#include "dynamics/world/world.h"
+#include "show/player/player.h"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+/// How one body is modelled in a run; the others are as the script says.
+struct BodyModel {
+  NodeRef body;                      ///< invalid: all as the script says
+  std::string shape;                 ///< as the language writes it; empty: as the script says
+  std::optional<double> dragArea;    ///< so that another shape does not change the drag [m2]
+  std::vector<std::string> without;  ///< fields that it is not hooked to
+  std::uint32_t fineness = 1;        ///< of the whole show's dynamics, as in World::setFineness
+  bool absent = false;               ///< not simulated at all: what the show costs without it
+};
+
+/// A field that a body is hooked to when it is first seen.
+struct HookedField {
+  std::string name;  ///< as the script says it
+  NodeKind kind{};
+};
+
+/// What a body is, and what it did.
+struct PlayedBody {
+  std::string name, file;
+  std::uint32_t line = 0;
+  ShapeKind shape = ShapeKind::Mesh;
+  bool chosen = false;   ///< by shape=auto
+  double deviation = 0;  ///< of the shape from the model [m]
+  std::size_t triangles = 0;
+  std::string exact;    ///< box or convex, if its model is just that to rounding; else empty
+  double dragArea = 0;  ///< [m2]
+  std::vector<HookedField> fields;
+  NodeRef dynamics;                           ///< the node that moves it
+  std::array<std::uint64_t, 7> modes{};       ///< frames in each BodyMode
+  std::array<std::uint64_t, 3> flights{};     ///< of those in flight, by FlightClass
+  std::uint64_t arcs = 0;                     ///< begun
+  std::vector<std::optional<Pose>> places{};  ///< in each frame, of bodies that are watched
+};
+
+struct PlayedShow {
+  std::uint64_t frames = 0;
+  double rate = 60;
+  std::map<NodeRef, PlayedBody> bodies;      ///< that a dynamics node moves
+  std::map<NodeRef, double> milliseconds{};  ///< that each dynamics node took in all
+};
+
+/// Plays the show, of the model's body alone noting places, or, without one, of all bodies all but places.
+/// Nothing, with the findings, if it cannot be built like that.
+std::optional<PlayedShow> playWith(const ShowOptions& show, const BodyModel& model, Diagnostics& findings);
+
+}  // namespace stadion

@@ -1,0 +1,78 @@
+#include "show/measure/plan_run.h"
+
+#include "show/base/stop_signal.h"
+
+#include <algorithm>
+#include <fstream>
+
+namespace stadion {
+namespace {
+
+double middleOf(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// The last ones: those before are not looked at.
+double middleOfLast(const std::vector<double>& values, std::size_t count) {
+  const std::size_t from = values.size() > count ? values.size() - count : 0;
+  return middleOf({values.begin() + static_cast<std::ptrdiff_t>(from), values.end()});
+}
+
+/// Plays it once; false, with the findings, if that cannot be.
+bool play(const PlanRunOptions& options, Mode mode, GlProvider& provider, FrameProbe* probe,
+          Diagnostics& findings, FrameTimes& times) {
+  const std::atomic<bool>& stop = catchStopSignals();
+  ShowOptions show = options.show;
+  show.frames += kFramesBefore;
+  const auto player = Player::create(show, findings, tell, &stop);
+  if (!player) return false;
+  FrameLoopOptions loopOptions = player->loopOptions();
+  loopOptions.mode = mode, loopOptions.walls = options.walls;
+  ShowParts parts = player->parts(options.layout);
+  parts.walls.resize(options.walls);
+  parts.provider = &provider;
+  parts.probe = probe;
+  const ShowStages* running = nullptr;
+  parts.observer = [&](const TimeSignature&, const InputSample&, const Scene&) {
+    player->collect(running->shownFrame());
+  };
+  ShowStages stages(std::move(parts));
+  running = &stages;
+  FrameLoop loop(stages, loopOptions, stop, probe);
+  const FrameLoopOutcome outcome = loop.run();
+  if (outcome.failure) findings.error({}, outcome.failure->message);
+  times = loop.times();
+  return !outcome.failure && !outcome.stopped;
+}
+
+}  // namespace
+
+double loadNow() {
+  double load = 0;
+  std::ifstream("/proc/loadavg") >> load;
+  return load;
+}
+
+bool measureCosts(const PlanRunOptions& options, GlProvider& provider, MeasuredCosts& costs,
+                  Diagnostics& findings) {
+  plan::CostProbe probe(options.walls, kFramesBefore);
+  FrameTimes times(options.walls);
+  if (!play(options, Mode::Sequential, provider, &probe, findings, times)) return false;
+  costs.runs.push_back(probe.costs());
+  costs.waitsInTurn = probe.waitsInTurn();
+  return true;
+}
+
+std::optional<PlayedTimes> playTimes(const PlanRunOptions& options, Mode mode, GlProvider& provider,
+                                     Diagnostics& findings) {
+  FrameTimes times(options.walls);
+  if (!play(options, mode, provider, nullptr, findings, times)) return {};
+  const std::size_t frames = options.show.frames;
+  return PlayedTimes{middleOfLast(times.period.values(), frames - 1),
+                     middleOfLast(times.latency.front().values(), frames)};
+}
+
+}  // namespace stadion

@@ -1,0 +1,42 @@
+#pragma once
+/// Plays a show for `stadion plan`: to measure what its stages cost, and, for `stadion bench plan`, what
+/// comes of it.
+
+#include "profiling/plan/cost_probe.h"
+#include "show/player/player.h"
+
+#include <optional>
+
+namespace stadion {
+
+struct PlanRunOptions {
+  ShowOptions show;  ///< settled; `frames` says how many are looked at
+  StereoLayout layout = StereoLayout::Pair;
+  std::size_t walls = 1;  ///< the first ones of the wall file
+};
+
+/// What the frames of a show cost.
+struct MeasuredCosts {
+  std::vector<std::map<std::uint64_t, plan::FrameCost>> runs;
+  bool waitsInTurn = true;
+};
+
+/// What came of playing it.
+struct PlayedTimes {
+  double period = 0;   ///< from swap to swap, the middle one [ms]
+  double latency = 0;  ///< from the poses to the swap [ms]
+};
+
+/// Frames that are played before those that are looked at: programs are compiled and meshes uploaded in them.
+constexpr std::uint64_t kFramesBefore = 6;
+
+/// Threads of the whole machine that were ready, on average over the last minute.
+double loadNow();
+
+/// Adds a run. False, with the findings, if something of the user's is wrong.
+bool measureCosts(const PlanRunOptions& options, GlProvider& provider, MeasuredCosts& costs,
+                  Diagnostics& findings);
+std::optional<PlayedTimes> playTimes(const PlanRunOptions& options, Mode mode, GlProvider& provider,
+                                     Diagnostics& findings);
+
+}  // namespace stadion

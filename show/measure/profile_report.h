@@ -1,0 +1,20 @@
+#pragma once
+/// What `stadion profile --html` tells beyond what was recorded: how the show was played, and how exact its
+/// bodies' models are.
+
+#include "profiling/report/report_data.h"
+#include "show/measure/fidelity.h"
+#include "show/measure/profile_run.h"
+
+#include <optional>
+
+namespace stadion {
+
+/// `gl`: who drew, in the driver's words; empty if nobody did.
+ReportHead reportHead(const ProfileRunOptions& options, const Player& player, const std::string& gl);
+
+/// Cost and error of the bodies that dynamics nodes move; none if there are none. Bodies are played with
+/// other models if that was asked for, or takes seconds only; else their errors are missing, and it says why.
+std::optional<DynamicsFigures> dynamicsFigures(const ProfileRunOptions& options, const ShowFigures& figures);
+
+}  // namespace stadion

@@ -1,0 +1,226 @@
+#include "show/player/player.h"
+
+#include "engine/base/number_text.h"
+#include "engine/input/input_log.h"
+#include "show/base/share_folder.h"
+#include "show/player/show_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <iterator>
+#include <malloc.h>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <tuple>
+
+namespace stadion {
+namespace {
+
+/// Nobody is there: no tracker says anything.
+class NoInput final : public InputDevice {
+public:
+  using InputDevice::sampleAt;
+  void sampleAt(Nanoseconds showTime, InputSample& sample) override {
+    sample.time = showTime;
+    sample.trackers.clear();
+  }
+};
+
+std::size_t appThreadsOf(const ShowOptions& o) {
+  return o.appThreads > 0 ? o.appThreads : std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
+}
+
+/// The same, but what was said of a file is not said again whenever it is loaded again.
+std::function<void(const Diagnostics&)> onlyNews(std::function<void(const Diagnostics&)> report) {
+  struct Said {
+    std::mutex mutex;
+    std::set<std::string> texts;
+  };
+  constexpr std::size_t kMost = 10'000;  // then it is said as often as it happens
+  return [report = std::move(report), said = std::make_shared<Said>()](const Diagnostics& findings) {
+    Diagnostics news;
+    {
+      const std::lock_guard lock(said->mutex);
+      for (const Diagnostic& d : findings.all()) {
+        std::string text = format(d);
+        if (said->texts.contains(text)) continue;
+        news.add(d);
+        if (said->texts.size() < kMost) said->texts.insert(std::move(text));
+      }
+    }
+    if (!news.all().empty()) report(news);
+  };
+}
+
+}  // namespace
+
+void tell(const Diagnostics& findings) {
+  for (const Diagnostic& d : findings.all()) std::fprintf(stderr, "%s\n", format(d).c_str());
+}
+
+AssetRoots ShowOptions::roots() const {
+  AssetRoots all = AssetRoots::ofScript(script);
+  for (const std::string& root : assetRoots) all.add(root);
+  return all;
+}
+
+bool ShowOptions::settle(Diagnostics& findings) {
+  const auto sides = parseSize(size.empty() ? "800x600" : size);
+  const auto fits = [](std::uint32_t side) { return side >= 1 && side <= 16384; };
+  if (sides && fits(sides->first) && fits(sides->second))
+    std::tie(width, height) = *sides;
+  else
+    findings.error({}, "--size: \"" + size +
+                           "\" is not WIDTHxHEIGHT in pixels from 1x1 to 16384x16384, such as 800x600");
+  return !findings.hasErrors();
+}
+
+Player::Player() = default;
+Player::~Player() = default;
+
+bool Player::openInput(Diagnostics& findings) {
+  inputName_ = inputLogOf(options_.script, options_.input);
+  rate_ = options_.rate;
+  if (inputName_.empty()) {
+    input_ = std::make_unique<NoInput>();
+    return true;
+  }
+  auto log = loadInputLog(inputName_, findings);
+  if (!log) return false;
+  decisions_ = log->decisions;
+  if (decisions_.rate > 0 && !options_.rateGiven) rate_ = decisions_.rate;
+  if (decisions_.rate > 0 && rate_ != decisions_.rate && !decisions_.empty())
+    findings.error({inputName_, 0, 0},
+                   fmt::format("was recorded live at {} frames a second, and holds times that only this rate "
+                               "repeats; leave --rate out",
+                               decisions_.rate));
+  for (const InputTrack& track : log->tracks) trackers_.push_back(track.name);
+  input_ = std::make_unique<InputReplay>(std::move(*log));
+  inputFound_ = true;
+  return !findings.hasErrors();
+}
+
+// As asked for, else to the end of the input, else until stopped.
+void Player::settleLength() {
+  const auto framesTo = [&](double seconds) {
+    return static_cast<std::uint64_t>(std::ceil(seconds * rate_)) + 1;
+  };
+  frames_ = options_.frames;
+  if (frames_ == 0 && options_.seconds > 0) frames_ = framesTo(options_.seconds);
+  if (frames_ > 0 || !inputFound_) return;
+  end_ = input_->end();
+  // Where ticks were missed there are fewer frames than that.
+  if (decisions_.frames.empty()) frames_ = framesTo(toSeconds(end_));
+}
+
+std::unique_ptr<Player> Player::create(const ShowOptions& options, Diagnostics& findings,
+                                       std::function<void(const Diagnostics&)> report,
+                                       const std::atomic<bool>* stop, ImportedMeshes* kept) {
+  auto player = prepare(options, findings, std::move(report), stop, kept);
+  return player && player->openScene(findings) ? std::move(player) : nullptr;
+}
+
+std::unique_ptr<Player> Player::prepare(const ShowOptions& options, Diagnostics& findings,
+                                        std::function<void(const Diagnostics&)> report,
+                                        const std::atomic<bool>* stop, ImportedMeshes* kept) {
+  std::unique_ptr<Player> player(new Player);
+  Player& p = *player;
+  p.options_ = options;
+  if (kept) p.meshes_ = &kept->store();
+
+  auto walls = loadWalls(options.walls, shareFolder() + "/walls", findings);
+  if (!walls) return nullptr;
+  p.takeWalls(std::move(*walls));
+  if (!p.openInput(findings)) return nullptr;
+  p.settleLength();
+
+  p.roots_ = AssetRoots::ofScript(options.script);
+  AssetRoots forImporter = AssetRoots::ofScript(options.script);
+  for (const std::string& root : options.assetRoots)
+    if (!p.roots_.add(root) || !forImporter.add(root))
+      findings.error({}, "--asset-root: cannot open the folder " + root);
+  if (findings.hasErrors()) return nullptr;
+
+  addEngineFactories(p.factories_);
+  addDynamicsFactories(p.factories_, options.variation, &p.roots_);
+  ImportLimits limits;
+  limits.giveUp = stop;
+  p.importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);
+  p.loader_ = std::make_unique<Loader>(
+      LoaderParts{*p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_,
+                  onlyNews(std::move(report)), stop, fromSeconds(1 / p.rate_), p.trackers_, p.inputName_,
+                  kept, options.texts ? options.texts : ScriptTexts::read(options.script, p.roots_)});
+  p.loader_->obey(p.decisions_.loads);
+  p.scene_ = std::make_unique<Scene>(*p.loader_, *p.meshes_, appThreadsOf(options));
+  p.options_.texts.reset();  // the loader keeps what is still to be loaded
+  return player;
+}
+
+bool Player::openScene(Diagnostics& findings) {
+  if (const auto state = std::exchange(options_.state, nullptr)) {
+    if (const auto why = scene_->restore(*state, options_.script)) {
+      findings.error({options_.script, 0, 0}, "the show cannot go on from the scene that was kept: " + *why);
+      return false;
+    }
+  } else if (!scene_->open(options_.script)) {
+    return false;
+  }
+  // Reading a show of a million nodes takes more memory than holding it. Here nobody waits for that to go.
+  malloc_trim(0);
+  return true;
+}
+
+FrameLoopOptions Player::loopOptions() const {
+  FrameLoopOptions l;
+  l.mode = options_.mode == "sequential" ? Mode::Sequential : Mode::Pipelined;
+  l.rate = rate_;
+  l.walls = walls_.walls.size();
+  l.frames = frames_;
+  l.frameTimes = decisions_.frames;
+  l.relief = decisions_.relief;
+  if (frames_ == 0) l.end = end_;
+  return l;
+}
+
+void Player::takeWalls(WallFile room) {
+  walls_ = std::move(room);
+  if (options_.onlyWalls.empty()) return;
+  const auto isOurs = [&](const WallEntry& entry) {
+    return std::ranges::find(options_.onlyWalls, entry.wall.name) != options_.onlyWalls.end();
+  };
+  std::ranges::remove_copy_if(walls_.walls, std::back_inserter(others_), isOurs);
+  std::erase_if(walls_.walls, [&](const WallEntry& entry) { return !isOurs(entry); });
+}
+
+/// What the user says on the command line counts, else what the wall file says, else the standard size.
+PixelSize Player::pixelsOf(const WallEntry& entry) const {
+  const bool byFile = options_.size.empty() && entry.pixels.width > 0;
+  return byFile ? entry.pixels : PixelSize{options_.width, options_.height};
+}
+
+ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
+  ShowParts parts{*scene_, state_, *meshes_, instead ? *instead : input(), {}, nullptr, nullptr, nullptr,
+                  true,    {},     nullptr};
+  if (options_.look == "plain") parts.quality = RenderQuality::plain();
+  for (const WallEntry& entry : walls_.walls) {
+    WallView view;
+    view.wall = entry.wall;
+    view.depth = walls_.depth;
+    view.eyeSeparation = walls_.eyeSeparation;
+    view.stereo = eyeCount(stereo) == 2;
+    const PixelSize pixels = pixelsOf(entry);
+    view.width = pixels.width, view.height = pixels.height;
+    parts.walls.push_back(view);
+  }
+  for (const WallEntry& entry : others_) {
+    const PixelSize pixels = pixelsOf(entry);
+    parts.otherWalls.push_back({entry.wall, pixels.width, pixels.height});
+  }
+  return parts;
+}
+
+}  // namespace stadion

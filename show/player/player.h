@@ -1,0 +1,144 @@
+#pragma once
+/// A show, put together: script, walls, input, scene, loader and stages. What `run` and `hash` have in
+/// common.
+
+#include "dynamics/nodes/dynamics_factories.h"
+#include "engine/asset/import.h"
+#include "engine/build/builder.h"
+#include "engine/display/wall_file.h"
+#include "engine/input/input_device.h"
+#include "engine/input/run_decisions.h"
+#include "engine/scene/scene.h"
+#include "engine/script/script_texts.h"
+#include "pipeline/load/loader.h"
+#include "pipeline/loop/frame_loop.h"
+#include "pipeline/loop/show_stages.h"
+#include "pipeline/picture/stereo.h"
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+/// The options that mean the same in every subcommand that plays a show.
+struct ShowOptions {
+  std::string script;
+  std::string walls = "cave4";
+  std::string mode = "pipelined";
+  std::string look = "full";
+  std::string size;  ///< empty = as the wall file says, else 800x600
+  double rate = 60;
+  bool rateGiven = false;    ///< else a recorded run's own rate counts more
+  std::uint64_t frames = 0;  ///< 0 = by `seconds`
+  double seconds = 0;        ///< 0 = to the end of the input
+  std::string input;         ///< empty = beside the script if there is one; "none"
+  std::vector<std::string> assetRoots;
+  /// Those of the room that are drawn here; empty = all. No option.
+  std::vector<std::string> onlyWalls;
+  std::size_t appThreads = 0;   ///< 0 = as many as there are processors, 8 at most
+  DynamicsVariation variation;  ///< of the script's models; no option
+  /// What is played; null: the scripts as they are on disk when the show is opened. No option.
+  std::shared_ptr<const ScriptTexts> texts;
+  /// The state that the show goes on from (Scene::save()); null: it begins. No option.
+  std::shared_ptr<const std::vector<std::uint8_t>> state;
+
+  std::uint32_t width = 0, height = 0;  ///< from `size`
+
+  /// Where the show's files may lie; --asset-root's as far as they are there.
+  AssetRoots roots() const;
+  /// Completes what depends on other options. Says what is wrong.
+  bool settle(Diagnostics& findings);
+};
+
+/// Writes every finding to stderr as the compiler would.
+void tell(const Diagnostics& findings);
+
+/// Everything of a show but its drawing.
+///
+/// Ownership  owns all parts; nothing outlives it.
+class Player {
+public:
+  /// Reads, checks and loads everything. Null if something of the user's is wrong; the findings say what.
+  /// What is found while files are loaded, now and during the show, goes to `report`. Once `stop` is true,
+  /// nobody waits for a file any more. Models that are `kept` from an earlier show are not imported again; it
+  /// must outlive the player. The scripts are those of that moment: sub-scenes that are loaded later, too.
+  static std::unique_ptr<Player> create(const ShowOptions& options, Diagnostics& findings,
+                                        std::function<void(const Diagnostics&)> report = tell,
+                                        const std::atomic<bool>* stop = nullptr,
+                                        ImportedMeshes* kept = nullptr);
+  /// The same in two steps: all but the scene, and that. Only the second one reads the show's files. A player
+  /// whose scene could not be opened is of no use.
+  static std::unique_ptr<Player> prepare(const ShowOptions& options, Diagnostics& findings,
+                                         std::function<void(const Diagnostics&)> report,
+                                         const std::atomic<bool>* stop, ImportedMeshes* kept);
+  bool openScene(Diagnostics& findings);
+  ~Player();
+
+  /// Frames to play: as asked, or to the end of the input log; 0 = until stopped.
+  std::uint64_t frames() const { return frames_; }
+  /// Show time at which the input log ends, unless the number of frames was asked for; 0 = none.
+  Nanoseconds end() const { return end_; }
+  /// Frames a second: as asked, else as the input log was recorded.
+  double rate() const { return rate_; }
+  /// Whether the input log holds what a clock decided: then every frame is played as it was recorded.
+  bool obeysLog() const { return !decisions_.empty(); }
+  bool inputFound() const { return inputFound_; }
+  /// Mode, rate, walls, length, and what the input log decided. Plays every frame, as fast as possible.
+  FrameLoopOptions loopOptions() const;
+  /// Files that come late do not hold up the show. Before the first frame.
+  void playLive() { loader_->playLive(); }
+  /// The loads that were due when the run ended and had not taken effect.
+  std::vector<std::uint32_t> overdueLoads() const { return loader_->overdue(); }
+  /// `told` learns which files came late, on the App thread. Before the first frame.
+  void tellLateLoads(Loader::LateLoad told) { loader_->tellLateLoads(std::move(told)); }
+  /// `told` learns that the App thread waits for files, and that it has them. Before the first frame.
+  void tellWaiting(std::function<void(bool)> told) { loader_->tellWaiting(std::move(told)); }
+  const RunDecisions& decisions() const { return decisions_; }
+  const WallFile& walls() const { return walls_; }
+  Scene& scene() { return *scene_; }
+  const AssetRoots& assets() const { return roots_; }
+  MeshStore& meshes() { return *meshes_; }
+  const std::string& inputName() const { return inputName_; }
+
+  /// The parts for a ShowStages; provider and sink are the caller's to add. `input`: instead of input().
+  ShowParts parts(StereoLayout stereo, InputDevice* input = nullptr);
+  /// Where the show's input comes from.
+  InputDevice& input() { return live_ ? *live_ : *input_; }
+  /// From now on the input is what this device says, not the log's. Before the first frame.
+  void takeInputFrom(InputDevice& device) { live_ = &device; }
+  bool inputIsLive() const { return live_ != nullptr; }
+  /// To be called after each App stage: unloaded files go when they are no longer shown.
+  void collect(std::uint64_t shownFrame) { loader_->shown(shownFrame); }
+
+private:
+  Player();
+  bool openInput(Diagnostics& findings);
+  void settleLength();
+  void takeWalls(WallFile room);
+  PixelSize pixelsOf(const WallEntry& entry) const;
+
+  NodeFactories factories_{};
+  MeshStore ownMeshes_;
+  MeshStore* meshes_ = &ownMeshes_;
+  SceneState state_;
+  AssetRoots roots_;
+  std::unique_ptr<Importer> importer_;
+  std::unique_ptr<Loader> loader_;
+  std::unique_ptr<Scene> scene_;
+  std::unique_ptr<InputDevice> input_;
+  InputDevice* live_ = nullptr;    ///< counts more than input_
+  WallFile walls_;                 ///< that are drawn here
+  std::vector<WallEntry> others_;  ///< the room's others
+  ShowOptions options_;
+  RunDecisions decisions_;
+  double rate_ = 60;
+  std::uint64_t frames_ = 0;
+  Nanoseconds end_ = 0;
+  bool inputFound_ = false;
+  std::string inputName_;
+  std::vector<std::string> trackers_;  ///< that the input log names
+};
+
+}  // namespace stadion

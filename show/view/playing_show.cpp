@@ -1,0 +1,165 @@
+#include "show/view/playing_show.h"
+
+#include "show/session/last_frames.h"
+#include "show/session/live_load.h"
+
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+/// The scene nodes of the show's own file, and which of them have their file loaded.
+std::map<std::string, bool> subScenes(const Scene& scene) {
+  std::map<std::string, bool> known;
+  std::set<std::uint32_t> loads;
+  scene.forEachNode([&](const Node& node) {
+    const NodeRef ref = node.self();
+    const Load* load = scene.load(ref.load);
+    if (load && !load->owner.valid() && node.kind() == NodeKind::Scene && !node.name().empty())
+      known.try_emplace(node.name(), false);
+    loads.insert(ref.load);
+  });
+  for (const std::uint32_t number : loads) {
+    const Load* load = scene.load(number);
+    const Load* outer = load ? scene.load(load->owner.load) : nullptr;
+    if (!outer || outer->owner.valid() || load->owner.position >= outer->nodes.size()) continue;
+    if (const Node* owner = outer->nodes[load->owner.position].get()) known[owner->name()] = true;
+  }
+  return known;
+}
+
+}  // namespace
+
+std::unique_ptr<PlayingShow> PlayingShow::open(const ShowSurroundings& around, Diagnostics& findings) {
+  std::unique_ptr<PlayingShow> show(new PlayingShow(around));
+  ShowOptions played = around.options.show;
+  played.texts = around.texts;
+  show->player_ =
+      Player::create(played, findings, around.report, show->around_.stopping.get(), &around.kept->models);
+  if (!show->player_) return nullptr;
+  Player& player = *show->player_;
+  if (around.visitor) player.takeInputFrom(*around.visitor);
+  RunOptions recorded = around.options;
+  recorded.recordInput = around.recorded ? around.desk.recordName() : "";
+  show->watch_ = RunWatch::create(recorded, player, findings);
+  if (!show->watch_) return nullptr;
+  const SheetPlace& size = around.overviewSize;
+  show->overview_ = std::make_unique<Overview>(player.meshes(), player.walls(),
+                                               static_cast<double>(size.width) / size.height);
+  if (!around.options.repeats(player)) player.playLive();
+  return show;
+}
+
+/// The show before this one has ended: its last frames may be replaced by these.
+void PlayingShow::beginRecording() {
+  std::vector<std::string> walls = player_->walls().names();
+  walls.push_back("overview");
+  RecordingOptions options;
+  options.profile = false, options.also = &budget_;
+  options.log.whole = false, options.log.samples = hasDrawnBudgets(player_->scene());
+  options.log.shares = true;
+  options.govern = governorOf(around_.options, *player_, walls);
+  options.keep = lastFramesOf(around_.options, *player_, walls);
+  options.keep->wanted = false;  // whether it can be was found out before anything was played
+  Diagnostics findings;
+  recording_ = ShowRecording::create(std::move(options), findings);
+  around_.report(findings);
+}
+
+PlayingShow::~PlayingShow() {
+  stop();
+}
+
+ShowParts PlayingShow::parts() {
+  ShowParts parts = player_->parts(around_.options.layout);
+  for (std::size_t i = 0; i < parts.walls.size() && i < around_.pictureSizes.size(); ++i) {
+    const bool stated = !around_.options.show.size.empty() || player_->walls().walls[i].pixels.width > 0;
+    if (stated) continue;
+    parts.walls[i].width = around_.pictureSizes[i].width;
+    parts.walls[i].height = around_.pictureSizes[i].height;
+  }
+  WallView outside;
+  outside.camera = overview_.get();
+  outside.depth = player_->walls().depth;
+  outside.stereo = false;
+  outside.width = around_.overviewSize.width, outside.height = around_.overviewSize.height;
+  parts.walls.push_back(outside);
+  parts.provider = &around_.provider;
+  parts.sink = &around_.sink;
+  parts.contexts = &around_.kept->contexts;
+  parts.probe = &recording_->probe();
+  parts.giveUp = [this] { return around_.stopping->load(); };
+  parts.observer = [this](const TimeSignature& now, const InputSample& input, const Scene& scene) {
+    see(now, input, scene);
+  };
+  return parts;
+}
+
+void PlayingShow::start(const std::optional<ShowPlace>& place) {
+  from_ = place;
+  beginRecording();
+  FrameLoopOptions options = around_.options.loopOptions(*player_);
+  options.walls += 1;  // the overview
+  ShowParts show = parts();
+  around_.desk.beginGroup(*player_, *watch_);
+  around_.desk.addTo(show, options);
+  if (!player_->obeysLog()) options.decider = recording_->governor();
+  stages_ = std::make_unique<ShowStages>(std::move(show));
+  loop_ = std::make_unique<FrameLoop>(*stages_, options, *around_.stopping, &recording_->probe());
+  thread_ = std::thread([this] {
+    outcome_ = loop_->run();
+    if (around_.ended) around_.ended();
+  });
+}
+
+void PlayingShow::stop() {
+  *around_.stopping = true;
+  if (thread_.joinable()) thread_.join();
+  if (recording_) recording_->finish();
+}
+
+std::string PlayingShow::lateFrames() const {
+  const BlackBox* box = recording_ ? recording_->blackBox() : nullptr;
+  return box ? lateFramesText(*box) : "";
+}
+
+ShowPlace PlayingShow::place() const {
+  const std::lock_guard lock(mutex_);
+  return place_;
+}
+
+// On the App thread, after each App stage.
+void PlayingShow::see(const TimeSignature& now, const InputSample& input, const Scene& scene) {
+  watch_->see(now, input, scene);
+  recording_->see(scene);
+  overview_->see(input);
+  player_->collect(stages_->shownFrame());
+  if (now.frame == 0 && from_) takeUp(*from_);
+  notePlace(scene);
+  frames_ = now.frame + 1;
+  time_ = now.time;
+  const auto ticks = std::llround(toSeconds(now.step) * player_->rate());
+  if (ticks > 1) dropped_ += static_cast<std::uint64_t>(ticks - 1);
+}
+
+void PlayingShow::takeUp(const ShowPlace& place) {
+  Scene& scene = player_->scene();
+  scene.moveRig(place.X_WR);
+  for (const auto& [name, loaded] : subScenes(scene)) {
+    const bool wanted = place.loaded.contains(name);
+    if (wanted != loaded) scene.command(name, wanted ? Verb::Load : Verb::Unload, {}, 0);
+  }
+}
+
+void PlayingShow::notePlace(const Scene& scene) {
+  const bool changed = scene.loadsVersion() != loadsSeen_;
+  loadsSeen_ = scene.loadsVersion();
+  const std::lock_guard lock(mutex_);
+  place_.X_WR = scene.rigPose();
+  if (!changed) return;
+  place_.loaded.clear();
+  for (const auto& [name, loaded] : subScenes(scene))
+    if (loaded) place_.loaded.insert(name);
+}
+
+}  // namespace stadion

@@ -1,0 +1,42 @@
+#pragma once
+/// A show that is read again while the one before it plays on.
+///
+/// Its scripts are read once and checked first, so that a slip of the keyboard is told at once, not when
+/// every asset has been read, and what plays then is what was checked. Nothing is recorded of it before it
+/// plays.
+///
+/// Threads  the caller's; the reading is done on a thread of its own, that is ended with this.
+
+#include "engine/base/diagnostic.h"
+#include "show/view/playing_show.h"
+
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <thread>
+
+namespace stadion {
+
+class ShowReload {
+public:
+  /// Begins to read the show that `around` names.
+  explicit ShowReload(ShowSurroundings around);
+  /// Gives up what has not been read.
+  ~ShowReload();
+
+  bool done() const { return done_; }
+  /// What was read; null if it has errors, which are in the findings. Expects done().
+  std::unique_ptr<PlayingShow> take(Diagnostics& findings);
+
+private:
+  void read();
+
+  ShowSurroundings around_;
+  std::unique_ptr<PlayingShow> show_;
+  Diagnostics errors_;
+  std::exception_ptr thrown_;
+  std::atomic<bool> done_ = false;
+  std::thread thread_;
+};
+
+}  // namespace stadion
