@@ -52,7 +52,7 @@ int checkEach(const std::vector<std::string>& files, const std::vector<std::stri
 }
 
 int checkModels(const std::string& folder) {
-  const auto counts = checkAssets(Importer::programBesideThis(), folder, [](const AssetFinding& f) {
+  const auto counts = checkAssets(Importer::installedProgram(), folder, [](const AssetFinding& f) {
     if (f.verdict == AssetVerdict::Loaded)
       std::printf("loaded   %s: %zu triangles\n", f.file.c_str(), f.mesh->indices.size() / 3);
     else

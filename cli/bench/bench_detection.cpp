@@ -3,12 +3,12 @@
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
 #include "cli/regress/regress_rounds.h"
+#include "engine/base/installed_files.h"
 #include "engine/base/plain_file.h"
 #include "engine/core/state_hash.h"
 #include "profiling/regression/statistics/detection.h"
 #include "profiling/regression/statistics/instruction_comparison.h"
 #include "profiling/regression/statistics/rank_test.h"
-#include "show/base/share_folder.h"
 #include "show/base/stop_signal.h"
 
 #include <CLI/CLI.hpp>

@@ -2,10 +2,10 @@
 
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "engine/base/installed_files.h"
 #include "profiling/bench/comparison/work_precision_plot.h"
 #include "profiling/bench/flight/flight_report.h"
 #include "profiling/bench/flight/trajectory_plot.h"
-#include "show/base/share_folder.h"
 #include "show/output/output_folder.h"
 
 #include <CLI/CLI.hpp>

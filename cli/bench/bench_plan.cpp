@@ -2,8 +2,8 @@
 
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "engine/base/installed_files.h"
 #include "profiling/plan/forecast.h"
-#include "show/base/share_folder.h"
 #include "show/base/stop_signal.h"
 #include "show/measure/plan_run.h"
 

@@ -2,13 +2,13 @@
 
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "engine/base/installed_files.h"
 #include "engine/input/input_log.h"
 #include "engine/input/tracker_feed.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "pipeline/record/run_summary.h"
 #include "profiling/bench/walls/wall_room.h"
-#include "show/base/share_folder.h"
 #include "show/player/player.h"
 
 #include <CLI/CLI.hpp>

@@ -1,11 +1,11 @@
 #include "cli/calibrate/calibrate_rooms.h"
 
 #include "cli/options/number_option.h"
+#include "engine/base/installed_files.h"
 #include "engine/base/number_text.h"
 #include "engine/display/wall_file.h"
 #include "pipeline/platform/setting_trials.h"
 #include "profiling/bench/comparison/program_output.h"
-#include "show/base/share_folder.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

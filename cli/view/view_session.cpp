@@ -1,9 +1,9 @@
 #include "cli/view/view_session.h"
 
 #include "cli/exit_code.h"
+#include "engine/base/installed_files.h"
 #include "pipeline/record/run_summary.h"
 #include "pipeline/target/rasteriser_settings.h"
-#include "show/base/share_folder.h"
 #include "show/base/stop_signal.h"
 #include "show/session/last_frames.h"
 

@@ -4,9 +4,9 @@
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
 #include "cli/walls/wall_pattern.h"
+#include "engine/base/installed_files.h"
 #include "engine/base/number_text.h"
 #include "engine/display/wall_lint.h"
-#include "show/base/share_folder.h"
 #include "show/base/stop_signal.h"
 #include "show/player/player.h"
 

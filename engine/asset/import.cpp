@@ -1,6 +1,7 @@
 #include "engine/asset/import.h"
 
 #include "engine/asset/mesh_checks.h"
+#include "engine/base/installed_files.h"
 
 #include <cmath>
 #include <sstream>
@@ -95,10 +96,8 @@ Outcome Importer::load(const std::string& name, const ImportOptions& options, co
   return mesh;
 }
 
-std::filesystem::path Importer::programBesideThis() {
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? std::filesystem::path("stadion-import") : self.parent_path() / "stadion-import";
+std::filesystem::path Importer::installedProgram() {
+  return helperProgram("stadion-import");
 }
 
 int Importer::started() const {

@@ -42,8 +42,8 @@ public:
   Result<std::unique_ptr<Mesh>> load(const std::string& name, const ImportOptions& options = {},
                                      const SourcePosition& where = {}, Diagnostics* notes = nullptr);
 
-  /// `stadion-import` beside the program that is running.
-  static std::filesystem::path programBesideThis();
+  /// `stadion-import` of this copy of Stadion (helperProgram).
+  static std::filesystem::path installedProgram();
 
   /// How many importer programs have been started so far.
   int started() const;

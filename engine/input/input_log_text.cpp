@@ -21,7 +21,7 @@ constexpr const char* kFormatName = "stadion-input";
 constexpr std::uint64_t kVersion = 1;        ///< of logs that hold input alone
 constexpr std::uint64_t kNewestVersion = 2;  ///< of logs that also hold what a clock decided
 constexpr std::size_t kMaxLogBytes = std::size_t(1) << 30;
-constexpr double kFarthest = 1e6;       ///< of a position [m]
+constexpr double kFarthestLogged = 1e6;       ///< of a position [m]
 constexpr double kExactlyUnit = 1e-12;  ///< squared norms this near 1 are kept to the bit
 constexpr double kNearlyUnit = 2e-3;    ///< nearer than this they are normalised, else it is an error
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
@@ -219,7 +219,7 @@ private:
       const auto value =
           number(index + static_cast<std::size_t>(axis), fmt::format("{} of the position", "xyz"[axis]));
       if (!value) return false;
-      if (std::fabs(*value) > kFarthest) {
+      if (std::fabs(*value) > kFarthestLogged) {
         in_.error(in_.words()[index + static_cast<std::size_t>(axis)].column,
                   "a position must be within 1000 km of the rig (metres)");
         return false;

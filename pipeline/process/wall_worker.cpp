@@ -1,3 +1,4 @@
+#include "engine/base/installed_files.h"
 #include "pipeline/process/wall_worker.h"
 
 #include <algorithm>
@@ -61,9 +62,7 @@ std::size_t pictureBytes(const WorkerSetting& s) {
 }  // namespace
 
 std::filesystem::path wallProgram() {
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? std::filesystem::path("stadion-wall") : self.parent_path() / "stadion-wall";
+  return helperProgram("stadion-wall");
 }
 
 WallWorker::WallWorker(WorkerSetting setting, const MeshStore& meshes, MeshParcels& parcels)

@@ -41,7 +41,7 @@ struct ProcessStatus {
   int end = 0;       ///< of a dead one, as waitpid() has it
 };
 
-/// `stadion-wall` beside the program that is running.
+/// `stadion-wall` of this copy of Stadion (helperProgram).
 std::filesystem::path wallProgram();
 
 class WallWorker {

@@ -1,12 +1,12 @@
 #include "show/cluster/cluster_part.h"
 
+#include "engine/base/installed_files.h"
 #include "engine/base/plain_file.h"
 #include "engine/core/state_fields.h"
 #include "engine/core/state_hash.h"
 #include "engine/script/suggestion.h"
 #include "pipeline/cluster/interface_check.h"
 #include "profiling/record/node_names.h"
-#include "show/base/share_folder.h"
 #include "show/base/stop_signal.h"
 #include "show/player/player.h"
 #include "show/player/show_files.h"

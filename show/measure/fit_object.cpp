@@ -66,7 +66,7 @@ std::optional<Diagnostic> refusedByScripts(const Wanted& w, const Mesh& mesh, co
 }
 
 Read imported(const Wanted& w, const StatedMatter& stated, AssetRoots roots) {
-  Importer importer(Importer::programBesideThis(), std::move(roots));
+  Importer importer(Importer::installedProgram(), std::move(roots));
   const auto model = importer.load(w.file, w.options, w.where);
   if (!model) return model.error();
   const auto fail = [&](const std::string& why) {

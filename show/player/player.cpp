@@ -1,8 +1,8 @@
 #include "show/player/player.h"
 
+#include "engine/base/installed_files.h"
 #include "engine/base/number_text.h"
 #include "engine/input/input_log.h"
-#include "show/base/share_folder.h"
 #include "show/player/show_files.h"
 
 #include <algorithm>
@@ -149,7 +149,7 @@ std::unique_ptr<Player> Player::prepare(const ShowOptions& options, Diagnostics&
   addDynamicsFactories(p.factories_, options.variation, &p.roots_);
   ImportLimits limits;
   limits.giveUp = stop;
-  p.importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);
+  p.importer_ = std::make_unique<Importer>(Importer::installedProgram(), std::move(forImporter), limits);
   p.loader_ = std::make_unique<Loader>(
       LoaderParts{*p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_,
                   onlyNews(std::move(report)), stop, fromSeconds(1 / p.rate_), p.trackers_, p.inputName_,

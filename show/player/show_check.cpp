@@ -38,7 +38,7 @@ public:
     texts_ = texts ? std::move(texts) : ScriptTexts::read(file, roots_);
     ImportLimits limits;
     limits.giveUp = giveUp;
-    importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter), limits);
+    importer_ = std::make_unique<Importer>(Importer::installedProgram(), std::move(forImporter), limits);
     addEngineFactories(factories_);
     addDynamicsFactories(factories_, {}, &roots_);
     readLogBeside(file);

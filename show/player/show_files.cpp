@@ -1,6 +1,6 @@
 #include "show/player/show_files.h"
 
-#include "show/base/share_folder.h"
+#include "engine/base/installed_files.h"
 #include "show/player/player.h"
 
 #include <filesystem>

@@ -16,7 +16,7 @@ TEST(AssetCheck, CountsWhatLoadsAndWhatDoesNot) {
   folder.write("horse.fbx", "x");
   folder.write("notes.txt", "x");
   std::map<std::string, AssetFinding> told;
-  const auto counts = checkAssets(Importer::programBesideThis(), folder.path(), [&](const AssetFinding& f) {
+  const auto counts = checkAssets(Importer::installedProgram(), folder.path(), [&](const AssetFinding& f) {
     EXPECT_EQ(f.mesh != nullptr, f.verdict == AssetVerdict::Loaded);
     EXPECT_EQ(f.message.empty(), f.verdict == AssetVerdict::Loaded);
     told[f.file] = f;
@@ -28,14 +28,14 @@ TEST(AssetCheck, CountsWhatLoadsAndWhatDoesNot) {
   EXPECT_EQ(counts.value().faults, 0u);
   EXPECT_EQ(told.size(), 18u);
   EXPECT_EQ(told["models/empty.stl"].verdict, AssetVerdict::Failed);
-  EXPECT_FALSE(checkAssets(Importer::programBesideThis(), "/nonexistent", [](const AssetFinding&) {}));
+  EXPECT_FALSE(checkAssets(Importer::installedProgram(), "/nonexistent", [](const AssetFinding&) {}));
 }
 
 TEST(AssetCheck, TheModelsOfTheAssimpPackageNeitherCrashNorHang) {
   const std::filesystem::path folder = "/usr/share/assimp";
   if (!std::filesystem::exists(folder / "models"))
     GTEST_SKIP() << "the package assimp-testmodels is not installed";
-  const auto counts = checkAssets(Importer::programBesideThis(), folder, [](const AssetFinding& f) {
+  const auto counts = checkAssets(Importer::installedProgram(), folder, [](const AssetFinding& f) {
     EXPECT_EQ(f.message.empty(), f.verdict == AssetVerdict::Loaded) << f.file;
   });
   ASSERT_TRUE(counts);

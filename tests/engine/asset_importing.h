@@ -16,7 +16,7 @@ inline std::filesystem::path models() {
 }
 
 inline Importer importerOf(const std::filesystem::path& folder, ImportLimits limits = {},
-                           std::filesystem::path program = Importer::programBesideThis()) {
+                           std::filesystem::path program = Importer::installedProgram()) {
   AssetRoots roots;
   EXPECT_TRUE(roots.add(folder));
   return Importer(std::move(program), std::move(roots), limits);

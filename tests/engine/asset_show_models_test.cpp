@@ -13,7 +13,7 @@ const std::filesystem::path kAssets = std::filesystem::path(STADION_SOURCE_DIR) 
 
 TEST(AssetShowModels, AndTheAthletesScriptsAreMadeByTheirProgramByteForByte) {
   TemporaryFolder models, scripts;
-  const auto program = Importer::programBesideThis().parent_path() / "stadion-assets";
+  const auto program = Importer::installedProgram().parent_path() / "stadion-assets";
   const std::string folders = "' '" + models.path().string() + "' '" + scripts.path().string() + "'";
   ASSERT_EQ(::system(("'" + program.string() + folders).c_str()), 0);
   for (const auto& entry : std::filesystem::directory_iterator(kAssets)) {

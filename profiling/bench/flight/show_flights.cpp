@@ -83,7 +83,7 @@ public:
     roots_.add(assets), forImporter.add(assets);
     addEngineFactories(factories_);
     addDynamicsFactories(factories_, {}, &roots_);
-    importer_ = std::make_unique<Importer>(Importer::programBesideThis(), std::move(forImporter));
+    importer_ = std::make_unique<Importer>(Importer::installedProgram(), std::move(forImporter));
     loader_ = std::make_unique<Loader>(LoaderParts{meshes_, state_.arena(), *importer_, roots_, factories_,
                                                    [this](const Diagnostics& d) { findings_.append(d); }});
     scene_ = std::make_unique<Scene>(*loader_, meshes_);
