@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 /// Parts of a flat side's edge, of a circle, and of a quarter of one.
-constexpr int kParts = 20, kRound = 64, kQuarter = 16;
+constexpr int kParts = 20, kAround = 64, kQuarter = 16;
 
 /// A point of a shape's surface, and which way the surface looks there.
 struct SurfacePoint {
@@ -38,7 +38,7 @@ void addDome(const Pose& X, double z, double radius, double up, Samples& out) {
   out.push_back({X * Vec3(0, 0, z + up * radius), X.q * Vec3(0, 0, up)});
   for (int i = 0; i < kQuarter; ++i) {
     const double a = 0.5 * kPi * (i + 0.5) / kQuarter;
-    const int around = std::max(4, static_cast<int>(kRound * det::cos(a)));
+    const int around = std::max(4, static_cast<int>(kAround * det::cos(a)));
     for (int j = 0; j < around; ++j) {
       const Vec3 n = det::cos(a) * onCircle(j, around) + Vec3(0, 0, up * det::sin(a));
       out.push_back({X * Vec3(radius * n + Vec3(0, 0, z)), X.q * n});
@@ -48,8 +48,8 @@ void addDome(const Pose& X, double z, double radius, double up, Samples& out) {
 
 void addTube(const Pose& X, double radius, double half, Samples& out) {
   for (int i = 0; i < kParts; ++i)
-    for (int j = 0; j < kRound; ++j) {
-      const Vec3 n = onCircle(j, kRound);
+    for (int j = 0; j < kAround; ++j) {
+      const Vec3 n = onCircle(j, kAround);
       out.push_back({X * Vec3(radius * n + Vec3(0, 0, half * ((2.0 * i + 1) / kParts - 1))), X.q * n});
     }
 }
@@ -58,7 +58,7 @@ void addDisc(const Pose& X, double radius, double z, Samples& out) {
   out.push_back({X * Vec3(0, 0, z), X.q * Vec3(0, 0, z < 0 ? -1 : 1)});
   for (int i = 0; i < kQuarter; ++i) {
     const double r = radius * (i + 0.5) / kQuarter;
-    const int around = std::max(4, kRound * (i + 1) / kQuarter);
+    const int around = std::max(4, kAround * (i + 1) / kQuarter);
     for (int j = 0; j < around; ++j)
       out.push_back({X * Vec3(r * onCircle(j, around) + Vec3(0, 0, z)), X.q * Vec3(0, 0, z < 0 ? -1 : 1)});
   }

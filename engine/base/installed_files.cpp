@@ -12,13 +12,13 @@ namespace fs = std::filesystem;
 /// A checkout's program lies in build/PRESET/bin, an installed one in bin.
 constexpr int kMostLevels = 4;
 
-bool exists(const fs::path& path) {
+bool isThere(const fs::path& path) {
   std::error_code unknown;
   return fs::exists(path, unknown);
 }
 
 bool holdsWalls(const fs::path& folder) {
-  return exists(folder / "walls" / "cave4.walls");
+  return isThere(folder / "walls" / "cave4.walls");
 }
 
 fs::path folderOfProgram() {
@@ -47,7 +47,7 @@ std::optional<fs::path> shareAbove(fs::path folder) {
 
 std::optional<fs::path> programNear(const fs::path& folder, const std::string& name) {
   for (const fs::path& candidate : {folder / name, folder.parent_path() / "lib" / "stadion" / name})
-    if (exists(candidate)) return candidate;
+    if (isThere(candidate)) return candidate;
   return {};
 }
 

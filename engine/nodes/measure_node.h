@@ -11,14 +11,13 @@
 /// count. Units     metres; results are compared and told in whole centimetres, rounded down, as in
 /// athletics. It waits for the impact without being visited: the simulation wakes it.
 
+#include "engine/core/measure_from.h"
 #include "engine/scene/impact.h"
 #include "engine/scene/placed_node.h"
 
 #include <optional>
 
 namespace stadion {
-
-enum class MeasureFrom : std::uint8_t { Line, Point };  ///< measure: from
 
 struct MeasureAttributes {
   std::string body;     ///< whose throw it is, as seen from its file

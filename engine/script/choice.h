@@ -3,7 +3,7 @@
 /// same order, and Declaration::choice<E>() turns one into the other.
 
 #include "engine/asset/format.h"
-#include "engine/nodes/measure_node.h"
+#include "engine/core/measure_from.h"
 #include "engine/text/text_mesh.h"
 
 #include <cstdint>
@@ -26,7 +26,7 @@ enum class ForceUnit : std::uint8_t { Gravity, Acceleration, Newton };  ///< for
 enum class FieldMode : std::uint8_t { Attract, Repel };                 ///< forcespherical: mode
 enum class FieldFalloff : std::uint8_t { None, Linear, Square };        ///< forcespherical: falloff
 enum class ThrowSource : std::uint8_t { Hand, Field, Both };            ///< dynobject: throw
-// measure: `from` is the MeasureFrom of nodes/measure_node.h
+// measure: `from` is the MeasureFrom of core/measure_from.h
 // text: `align` is the TextAlign of text/text_mesh.h
 enum class FlightWord : std::uint8_t {
   Point,

@@ -1,5 +1,5 @@
 #pragma once
-/// How far a head may go between Cull and Draw, where Draw takes the newest pose (latency/head_latch.h):
+/// How far a head may go between Cull and Draw, where Draw takes the newest pose (loop/head_latch.h):
 /// Cull looks for what may be seen from anywhere within, and no picture is drawn from beyond.
 ///
 /// Units    metres, radians.

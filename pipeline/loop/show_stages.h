@@ -44,7 +44,7 @@ public:
 /// Sees the scene after each App stage, on the App thread.
 using AppObserver = std::function<void(const TimeSignature&, const InputSample&, const Scene&)>;
 
-/// Walls that are drawn by a process each (worker/drawing_in_workers.h).
+/// Walls that are drawn by a process each (process/drawing_in_workers.h).
 struct WallWorkers {
   bool egl = false;                     ///< else OSMesa
   std::uint32_t rasteriserThreads = 0;  ///< of each process

@@ -1,5 +1,5 @@
 #pragma once
-/// The functions of raster_kernels.h, as many at a time as By has lanes. Internal to pipeline/draw/.
+/// The functions of raster_kernels.h, as many at a time as By has lanes. Internal to pipeline/raster/.
 ///
 /// Linkage  internal.
 

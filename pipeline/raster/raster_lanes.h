@@ -1,5 +1,5 @@
 #pragma once
-/// Several numbers at a time, in GCC's vectors. Internal to pipeline/draw/.
+/// Several numbers at a time, in GCC's vectors. Internal to pipeline/raster/.
 ///
 /// Linkage  internal; includes nothing: files that are compiled for AVX2 use this, too, and must share no
 ///          function with others.

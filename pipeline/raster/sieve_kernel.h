@@ -1,5 +1,5 @@
 #pragma once
-/// The functions of sieve_kernels.h, as many at a time as F has lanes. Internal to pipeline/draw/.
+/// The functions of sieve_kernels.h, as many at a time as F has lanes. Internal to pipeline/raster/.
 ///
 /// Linkage  internal; includes nothing but these two.
 

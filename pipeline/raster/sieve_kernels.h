@@ -1,5 +1,5 @@
 #pragma once
-/// Which triangles of a placed mesh make pixels, several at a time. Internal to pipeline/draw/.
+/// Which triangles of a placed mesh make pixels, several at a time. Internal to pipeline/raster/.
 ///
 /// A triangle makes none if it is turned away, or if no pixel's middle lies between its edges, up and down or
 /// left and right: OpenGL takes the pixels whose middles are inside (OpenGL 3.3 core, 3.6.1), with corners

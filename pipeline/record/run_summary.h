@@ -45,7 +45,7 @@ struct WallLate {
   std::uint64_t frames = 0, inARow = 0;  ///< in all, and at most one after the other
 };
 
-/// What late latch did (latency/head_latch.h).
+/// What late latch did (loop/head_latch.h).
 struct LateLatched {
   std::uint64_t frames = 0, beyond = 0;  ///< drawn from a newer head; of these, from the edge of the reach
   double farthest = 0, widest = 0;       ///< that it went and turned between App and Draw [m], [rad]

@@ -1,6 +1,6 @@
 #pragma once
 /// Who draws the walls' lists: this process (drawing_here.h), or one process for each wall
-/// (worker/drawing_in_workers.h) or for each eye (worker/eyes_in_workers.h). The pixels are the same.
+/// (process/drawing_in_workers.h) or for each eye (process/eyes_in_workers.h). The pixels are the same.
 ///
 /// Threads  a wall's functions on its Draw thread, several walls at a time; destroyed when all walls are
 /// closed.

@@ -15,7 +15,7 @@ double number(const Json& row, const char* field) {
   return row.contains(field) && row[field].is_number() ? row[field].get<double>() : 0;
 }
 
-std::map<std::uint64_t, double> byFrame(const Json& row, const char* field) {
+std::map<std::uint64_t, double> microsecondsByFrame(const Json& row, const char* field) {
   std::map<std::uint64_t, double> values;
   if (!row.contains(field) || !row[field].is_object()) return values;
   for (const auto& [frame, us] : row[field].items())
@@ -31,7 +31,7 @@ SpanRow rowOf(const Json& j) {
   row.msMean = number(j, "ms_mean"), row.count = static_cast<std::size_t>(number(j, "count"));
   row.instructions = number(j, "instructions"), row.plantedUs = number(j, "planted_us");
   row.elapsedUs = number(j, "elapsed_us");
-  row.frames = byFrame(j, "frame_us"), row.elapsed = byFrame(j, "frame_elapsed_us");
+  row.frames = microsecondsByFrame(j, "frame_us"), row.elapsed = microsecondsByFrame(j, "frame_elapsed_us");
   return row;
 }
 

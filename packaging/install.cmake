@@ -1,0 +1,53 @@
+# What `cmake --install` and the Debian packages hold. Component "runtime" plays shows; "development" has the libraries for
+# programs that embed Stadion, with the targets Stadion::engine, dynamics, pipeline, profiling and show.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS stadion RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
+install(TARGETS stadion-import stadion-wall RUNTIME DESTINATION lib/stadion COMPONENT runtime)
+install(DIRECTORY scripts walls DESTINATION ${CMAKE_INSTALL_DATADIR}/stadion COMPONENT runtime)
+install(DIRECTORY assets DESTINATION ${CMAKE_INSTALL_DATADIR}/stadion COMPONENT runtime PATTERN generator EXCLUDE)
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(FILES README.md CHANGELOG.md packaging/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+
+install(TARGETS stadion_options stadion_sanitize stadion_engine stadion_wire stadion_pipeline stadion_dynamics
+  stadion_profiling stadion_show EXPORT StadionTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+foreach(floor engine pipeline dynamics profiling show)
+  set_target_properties(stadion_${floor} PROPERTIES EXPORT_NAME ${floor})
+  add_library(Stadion::${floor} ALIAS stadion_${floor})
+  install(DIRECTORY ${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stadion COMPONENT development
+    FILES_MATCHING PATTERN "*.h" PATTERN "*_program" EXCLUDE PATTERN bench EXCLUDE)
+endforeach()
+install(FILES ${PROJECT_BINARY_DIR}/wire.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stadion COMPONENT development)
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Stadion)
+install(EXPORT StadionTargets NAMESPACE Stadion:: DESTINATION ${package} COMPONENT development)
+configure_package_config_file(packaging/StadionConfig.cmake.in ${PROJECT_BINARY_DIR}/StadionConfig.cmake
+  INSTALL_DESTINATION ${package})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/StadionConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/StadionConfig.cmake ${PROJECT_BINARY_DIR}/StadionConfigVersion.cmake
+  DESTINATION ${package} COMPONENT development)
+
+if(PROJECT_IS_TOP_LEVEL)
+  set(CPACK_GENERATOR DEB)
+  set(CPACK_PACKAGE_CONTACT "the Stadion project")
+  set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Show engine for immersive virtual reality on several walls")
+  set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+  set(CPACK_STRIP_FILES ON)
+  set(CPACK_DEB_COMPONENT_INSTALL ON)
+  set(CPACK_COMPONENTS_ALL runtime development)
+  set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME stadion)
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+  # Loaded at run time: no program names them.
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "libosmesa6")
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libegl1, libegl-mesa0, libgl1-mesa-dri, libglfw3, libopenal1, libxss1, ffmpeg")
+  set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libstadion-dev)
+  set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+  set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS runtime)
+  set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
+  string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "g++, cmake, pkg-config, libeigen3-dev, libfcl-dev, libfmt-dev, "
+    "libxxhash-dev, libsndfile1-dev, libpng-dev, libmeshoptimizer-dev, libhwloc-dev, liblo-dev, nlohmann-json3-dev, "
+    "cyclonedds-dev, libgl-dev")
+  include(CPack)
+endif()

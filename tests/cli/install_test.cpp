@@ -1,0 +1,80 @@
+/// An installed copy needs no checkout: it plays, and programs of others are built on it.
+
+#include "tests/cli/program.h"
+
+#include <gtest/gtest.h>
+
+namespace stadion {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kRoot = STADION_SOURCE_DIR;
+
+/// What `cmake --install` puts into an empty folder; installed once for all tests.
+class ProgramInstall : public testing::Test {
+protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    const ProgramResult r =
+        runProgram({{"cmake", "--install", STADION_BINARY_DIR, "--prefix", prefix(), "--strip"}});
+    ASSERT_EQ(r.status, 0) << r.err;
+  }
+  static void TearDownTestSuite() { delete folder_, folder_ = nullptr; }
+
+  static std::string prefix() { return folder_->path() / "usr"; }
+  static std::string path() { return "PATH=" + prefix() + "/bin:/usr/local/bin:/usr/bin:/bin"; }
+
+  /// Builds an example; its program's path.
+  static std::string built(const std::string& name) {
+    const std::string build = folder_->path() / name, source = folder_->path() / ("source-" + name);
+    fs::copy(kRoot + "/examples/" + name, source, fs::copy_options::recursive);
+    const ProgramResult made = runProgram(
+        {{"cmake", "-S", source, "-B", build, "-G", "Ninja", "-DCMAKE_PREFIX_PATH=" + prefix(),
+          "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-O1 -Wall -Wextra -Werror"}});
+    EXPECT_EQ(made.status, 0) << made.out << made.err;
+    const ProgramResult compiled = runProgram({{"cmake", "--build", build}});
+    EXPECT_EQ(compiled.status, 0) << compiled.out << compiled.err;
+    return build + "/" + name;
+  }
+
+  static TemporaryFolder* folder_;
+};
+TemporaryFolder* ProgramInstall::folder_ = nullptr;
+
+TEST_F(ProgramInstall, AnInstalledCopyPlaysAShow) {
+  const std::string out = folder_->path() / "pictures";
+  const ProgramResult r = runProgram({{prefix() + "/bin/stadion", "run", prefix() + "/share/stadion/scripts/kick.evs",
+                                       "--walls", "desktop", "--size", "96x72", "--frames", "3", "--out", out},
+                                      {path()},
+                                      folder_->path()});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_TRUE(fs::exists(out + "/contact-sheet.png")) << r.err;
+}
+
+TEST_F(ProgramInstall, NamesNoPathOfTheCheckout) {
+  for (const char* program : {"/bin/stadion", "/lib/stadion/stadion-import", "/lib/stadion/stadion-wall"})
+    EXPECT_FALSE(has(fileContent(prefix() + program), kRoot + "/")) << program;
+  for (const auto& entry : fs::recursive_directory_iterator(prefix()))
+    if (entry.path().extension() == ".cmake") {
+      EXPECT_FALSE(has(fileContent(entry.path()), kRoot + "/")) << entry.path();
+    }
+}
+
+TEST_F(ProgramInstall, AProgramPlaysAShow) {
+  const std::string program = built("play_show"), picture = folder_->path() / "ball.png";
+  const ProgramResult r =
+      runProgram({{program, prefix() + "/share/stadion/scripts/kick.evs", "ball", picture}, {path()}});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_TRUE(has(r.out, "after 60 frames")) << r.out;
+  EXPECT_TRUE(fs::exists(picture));
+}
+
+TEST_F(ProgramInstall, AProgramEmbedsDynamics) {
+  const ProgramResult r = runProgram({{built("embed_dynamics")}});
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  EXPECT_TRUE(has(r.out, "10 of 10 crates rest")) << r.out;
+}
+
+}  // namespace
+}  // namespace stadion
