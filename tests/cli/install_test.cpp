@@ -31,7 +31,7 @@ protected:
     fs::copy(kRoot + "/examples/" + name, source, fs::copy_options::recursive);
     const ProgramResult made = runProgram(
         {{"cmake", "-S", source, "-B", build, "-G", "Ninja", "-DCMAKE_PREFIX_PATH=" + prefix(),
-          "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-O1 -Wall -Wextra -Werror"}});
+          "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-O0 -Wall -Wextra -Werror"}});
     EXPECT_EQ(made.status, 0) << made.out << made.err;
     const ProgramResult compiled = runProgram({{"cmake", "--build", build}});
     EXPECT_EQ(compiled.status, 0) << compiled.out << compiled.err;
