@@ -45,7 +45,7 @@ void addLengthOptions(CLI::App& command, ShowOptions& o) {
   CLI::Option* count = command.add_option("--frames", o.frames, "stop after so many frames")
                            ->check(wholeNumberFrom(1, 1'000'000'000));
   command.add_option("--seconds", o.seconds, "stop after so much show time")
-      ->check(numberFrom(1e-3, kLongest))
+      ->check(numberFrom(1e-3, kLongestRun))
       ->excludes(count);
   command.add_option("--input", o.input,
                      "input log to replay (default: SHOW's name with .input, if there is one), or none");

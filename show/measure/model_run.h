@@ -1,8 +1,10 @@
 #pragma once
 /// Plays a show without drawing it, with one body's model changed, and notes what its bodies did and cost.
 
-#include "dynamics/world/world.h"
 #include "show/player/player.h"
+
+// After the schema, one of whose enumerators is called as a type of it is.
+#include "dynamics/world/world.h"
 
 #include <array>
 #include <map>
