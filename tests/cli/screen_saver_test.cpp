@@ -105,7 +105,9 @@ TEST(ProgramScreenSaver, WaitsForEveryKindOfOutputAndGoesOnWhenItEndsOrIsKilled)
                                    "--size",
                                    "96x64",
                                    "--look",
-                                   "plain"};
+                                   "plain",
+                                   "--rate",
+                                   "10"};
     if (!kind.view) words.push_back("--display");
     s.program = std::make_unique<RunningProgram>(onDisplay(*s.display, words));
   }

@@ -37,7 +37,7 @@ std::uint64_t allocationsOfApp(const std::string& script, const std::string& log
 /// How often Draw does, on all walls, when it has seen the show for a while. What Mesa asks for itself, of C,
 /// is not counted.
 std::uint64_t allocationsOfDraw(const std::string& script, const std::string& look) {
-  constexpr std::uint64_t kWarm = 60, kDrawnFrames = 20;
+  constexpr std::uint64_t kWarm = 30, kDrawnFrames = 15;
   ShowOptions options;
   options.script = script, options.walls = "desktop", options.size = "64x48", options.look = look;
   options.input = "none", options.assetRoots = {assetFolder()};
@@ -112,8 +112,8 @@ TEST_F(ProgramSteadyState, OfWhatPathsAndSwaysMove) {
 TEST_F(ProgramSteadyState, DrawOfThingsOfEveryKindInBothLooks) {
   std::string text = "light( direction=\"-1, 2, -3\" )\n"
                      "text( text=\"olympia\", position=\"0, 5, 1\" )\nrig( name=room )\n"
-                     "path( target=room, loop=on, key=\"0, 0,0,0, 0,0,0\", key=\"1, 0,1,0, 0,0,20\", "
-                     "key=\"2, 0,0,0, 0,0,0\" )\n";
+                     "path( target=room, loop=on, key=\"0, 0,0,0, 0,0,0\", key=\"0.2, 0,1,0, 0,0,20\", "
+                     "key=\"0.4, 0,0,0, 0,0,0\" )\n";
   for (int i = 0; i < 40; ++i)
     text += fmt::format("object( file={}, position=\"{}, {}, {}\" )\n", i % 3 ? "football.3ds" : "plane.3ds",
                         i % 20 - 10, 3 + i / 20, i % 3);
