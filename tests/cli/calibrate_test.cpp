@@ -26,11 +26,12 @@ public:
   }
 
   ProgramResult run(std::vector<std::string> more = {}, std::vector<std::string> environment = {},
-                    const char* walls = "cave4") const {
+                    const char* walls = "desktop") const {
     std::vector<std::string> words{"run",          testShow("moving.evs"),
                                    "--asset-root", assetFolder(),
                                    "--walls",      walls,
                                    "--size",       "64x48",
+                                   "--look",       "plain",
                                    "--frames",     "6",
                                    "--json"};
     words.insert(words.end(), more.begin(), more.end());
@@ -41,7 +42,7 @@ public:
   void remember(const DrawSetting& fastest, Machine machine = thisMachine()) const {
     machine.rasteriser = "llvmpipe of a test";
     const DrawSetting slower{!fastest.processes, 1, false};
-    const MeasuredRoom room{4, 800, 600, "full", {{fastest, 40, 50, 3}, {slower, 20, 50, 3}}};
+    const MeasuredRoom room{4, 800, 600, "plain", {{fastest, 40, 50, 3}, {slower, 20, 50, 3}}};
     EXPECT_FALSE(writeCalibration(file(), {{{machine, "2026-11-23 05:01 UTC", {room}}}}));
   }
 
@@ -56,8 +57,8 @@ json drawnSummaryOf(const ProgramResult& r) {
 
 TEST(ProgramCalibrate, MeasuresAndRemembersAndRunTakesIt) {
   const Home home;
-  const ProgramResult r =
-      home.start({"calibrate", "--walls", "powerwall", "--size", "32x24", "--seconds", "4", "--json"});
+  const ProgramResult r = home.start({"calibrate", "--walls", "powerwall", "--look", "plain", "--size",
+                                      "32x24", "--seconds", "4", "--json"});
   ASSERT_EQ(r.status, 0) << r.err;
   const auto printed = calibrationOf(r.out, "stdout"), kept = readCalibration(home.file());
   ASSERT_TRUE(printed) << r.out;
@@ -79,12 +80,12 @@ TEST(ProgramCalibrate, MeasuresAndRemembersAndRunTakesIt) {
 
 TEST(ProgramCalibrate, PicturesAndHashesDoNotDependOnIt) {
   const Home home;
-  const json before = drawnSummaryOf(home.run());
+  const json before = drawnSummaryOf(home.run({}, {}, "cave4"));
   EXPECT_EQ(before["how_drawn"]["wall_workers"], "thread");
   EXPECT_TRUE(has(before["how_drawn"]["why"], "stadion calibrate")) << before["how_drawn"];
   for (const DrawSetting& setting : {DrawSetting{true, 1, true}, DrawSetting{false, 3, false}}) {
     home.remember(setting);
-    const json after = drawnSummaryOf(home.run());
+    const json after = drawnSummaryOf(home.run({}, {}, "cave4"));
     const json& how = after["how_drawn"];
     EXPECT_EQ(how["wall_workers"], setting.processes ? "process" : "thread") << how;
     EXPECT_EQ(how["rasteriser_threads"], setting.rasteriserThreads) << how;
@@ -101,8 +102,8 @@ TEST(ProgramCalibrate, ForABudgetOnWhatIsDrawnThreadsDrawALiveShow) {
   folder.write("show.input", "stadion-input 1\nkey head 0  0 0 1.7\nkey head 0.5  0 0 1.7\n");
   const auto play = [&](const std::string& show) {
     return drawnSummaryOf(
-        home.start({"run", folder.write("show.evs", show), "--asset-root", assetFolder(), "--walls", "cave4",
-                    "--size", "64x48", "--json", "--no-sound"}))["how_drawn"];
+        home.start({"run", folder.write("show.evs", show), "--asset-root", assetFolder(), "--walls",
+                    "desktop", "--look", "plain", "--size", "64x48", "--json", "--no-sound"}))["how_drawn"];
   };
   EXPECT_EQ(play("object( file=football.3ds )\n")["wall_workers"], "process");
   const json how = play("object( file=football.3ds, budget=1 )\n");

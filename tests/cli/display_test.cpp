@@ -84,8 +84,9 @@ protected:
     const std::string walls =
         folder_.write("two.walls", wallFile(display_->name(), fmt::format("{} {}", w, h), fields));
     if (show_.empty()) return shownBy(*display_, {"walls", walls, "--pattern"}, w, h);
-    return shownBy(*display_, {"run", show_, "--asset-root", assetFolder(), "--walls", walls, "--display"}, w,
-                   h);
+    return shownBy(
+        *display_,
+        {"run", show_, "--asset-root", assetFolder(), "--walls", walls, "--look", look_, "--display"}, w, h);
   }
 
   void expectChanges() {
@@ -107,16 +108,24 @@ protected:
 
   TemporaryFolder folder_;
   std::unique_ptr<Display> display_;
-  std::string show_;
+  std::string show_, look_ = "plain";
 };
+class ProgramFullDisplay : public ProgramDisplay {};
 
 TEST_F(ProgramDisplay, ThePatternIsMirroredAndTurnedPixelByPixelOnTwoScreens) {
   expectChanges();
 }
 
+constexpr const char* kStillShow = "object( file=football.3ds, position=\"0.5, 3, 1.5\", scale=4 )\n"
+                                   "object( file=plane.3ds )\n";
+
 TEST_F(ProgramDisplay, AShowIsMirroredAndTurnedPixelByPixelOnTwoScreens) {
-  show_ = folder_.write("still.evs", "object( file=football.3ds, position=\"0.5, 3, 1.5\", scale=4 )\n"
-                                     "object( file=plane.3ds )\n");
+  show_ = folder_.write("still.evs", kStillShow);
+  expectChanges();
+}
+
+TEST_F(ProgramFullDisplay, AShowInTheFullLookIsMirroredAndTurnedPixelByPixelOnTwoScreens) {
+  show_ = folder_.write("still.evs", kStillShow), look_ = "full";
   expectChanges();
 }
 
@@ -125,8 +134,9 @@ TEST_F(ProgramDisplay, TheNextGroupIsAKeyInAWindowAndTheShowBeginsAgain) {
       folder_.write("two.walls", wallFile(display_->name(), fmt::format("{} {}", kWidth, kHeight), ""));
   const std::string show = folder_.write("ball.evs", "object( file=football.3ds, position=\"0, 3, 1.5\" )\n");
   const std::string record = folder_.path() / "visit.input";
-  RunningProgram program(onDisplay(*display_, {"run", show, "--asset-root", assetFolder(), "--walls", walls,
-                                               "--display", "--no-sound", "--record-input", record}));
+  RunningProgram program(
+      onDisplay(*display_, {"run", show, "--asset-root", assetFolder(), "--walls", walls, "--look", "plain",
+                            "--display", "--no-sound", "--record-input", record}));
   ASSERT_TRUE(program.says("the walls are shown"));
   display_->hands({"mousemove", "40", "30", "key", "n"});
   ASSERT_TRUE(program.says("group 2 begins: reset in "));
@@ -151,8 +161,9 @@ TEST_F(ProgramDisplay, AKilledWindowOrServerEndsTheRunAsItShould) {
   const std::vector<std::string> ways[] = {{"windowkill"}, {"windowclose"}, {}};  // {}: the whole server
   for (const std::vector<std::string>& way : ways) {
     const std::string record = folder_.path() / fmt::format("visit{}.input", way.empty() ? "" : way[0]);
-    RunningProgram program(onDisplay(*display_, {"run", show, "--asset-root", assetFolder(), "--walls", walls,
-                                                 "--display", "--no-sound", "--record-input", record}));
+    RunningProgram program(
+        onDisplay(*display_, {"run", show, "--asset-root", assetFolder(), "--walls", walls, "--look", "plain",
+                              "--display", "--no-sound", "--record-input", record}));
     ASSERT_TRUE(program.says("the walls are shown"));
     if (way.empty())
       display_->breakDown();

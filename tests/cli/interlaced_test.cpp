@@ -59,7 +59,8 @@ protected:
 
   /// Moves a window of that shape about and looks at its rows. Returns what is for the left and the right
   /// eye.
-  std::array<Picture, 2> expectRows(std::uint32_t height, const std::string& fields) {
+  std::array<Picture, 2> expectRows(std::uint32_t height, const std::string& fields,
+                                    std::initializer_list<int> places = {31, 0}) {
     RunningProgram program(
         onDisplay(*display_, {"walls", walls(40, height, fields), "--pattern", "--stereo", "interlaced"}));
     EXPECT_TRUE(program.says("the walls are shown"));
@@ -69,13 +70,14 @@ protected:
     EXPECT_TRUE(program.waitUntil([&] { return (at41 = window(41, height)).rgba != at40.rgba; }));
     const Picture left = mixed(at40, at41), right = mixed(at41, at40);
     EXPECT_NE(imageHash(left), imageHash(right));
-    for (const int y : {31, 0, 7, 200}) {
-      move(y);
+    int last = 41;
+    for (const int y : places) {
+      move(last = y);
       const Picture wanted = y % 2 == 0 ? mixed(left, right) : mixed(right, left);
       EXPECT_TRUE(program.waitUntil([&] { return window(y, height).rgba == wanted.rgba; }))
           << fields << " at " << y;
     }
-    display_->hands({"mousemove", "40", "210", "key", "Escape"});
+    display_->hands({"mousemove", "40", std::to_string(last + 10), "key", "Escape"});
     EXPECT_EQ(program.status(), 0) << program.err();
     return {left, right};
   }
@@ -92,7 +94,7 @@ TEST_F(ProgramInterlaced, TheEvenRowsOfTheMonitorAreForTheLeftEyeWhereverTheWind
   const auto left = readPng(folder_.path() / "one-left.png"),
              right = readPng(folder_.path() / "one-right.png");
   ASSERT_TRUE(left && right);
-  const auto rows = expectRows(64, "");
+  const auto rows = expectRows(64, "", {31, 0, 7, 200});
   EXPECT_EQ(rows[0].rgba, left.value().rgba);
   EXPECT_EQ(rows[1].rgba, right.value().rgba);
   const auto swapped = expectRows(64, "swap-eyes");

@@ -31,7 +31,7 @@ TEST(ProgramManyObjects, AppVisitsTenNodesAFrameAndPublishesTenChanges) {
   const TemporaryFolder folder;
   const std::string script = folder.write("many.evs", manyObjects(kStatic));
   const ProgramResult r = stadionProgram({"run", script, "--asset-root", assetFolder(), "--walls", "desktop",
-                                          "--size", "32x24", "--frames", "20", "--input", "none", "--json"});
+                                          "--gl", "none", "--frames", "20", "--input", "none", "--json"});
   ASSERT_EQ(r.status, 0) << r.err;
   const auto counters = nlohmann::json::parse(r.out).at("counters");
   EXPECT_EQ(counters.at("nodes visited per frame"), kMoving);

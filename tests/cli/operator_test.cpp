@@ -34,11 +34,12 @@ sound( file=thud.wav, loop=on )
 /// A show that runs beside the test.
 class LiveShow {
 public:
-  explicit LiveShow(std::vector<std::string> more) {
+  explicit LiveShow(std::vector<std::string> more, const std::string& look = "plain") {
     show_ = folder_.write("show.evs", kShow);
     ProgramRun run;
     run.words = {stadionPath(), "run",    show_,   "--asset-root", assetFolder(), "--walls",
                  "desktop",     "--size", "64x48", "--json",       "--osc",       std::to_string(port_)};
+    run.words.insert(run.words.end(), {"--look", look});
     run.words.insert(run.words.end(), more.begin(), more.end());
     run.environment = {"ALSOFT_DRIVERS=null"};
     program_ = std::make_unique<RunningProgram>(run);
@@ -134,7 +135,7 @@ TEST(ProgramOperator, ANextGroupWhoseScriptHasErrorsWaitsForItToBeMended) {
   const TemporaryFolder folder;
   const std::string show = folder.write("show.evs", kShow), port = std::to_string(freePort());
   ProgramRun run{{stadionPath(), "run", show, "--asset-root", assetFolder(), "--walls", "desktop", "--size",
-                  "64x48", "--no-sound", "--osc", port}};
+                  "64x48", "--look", "plain", "--no-sound", "--osc", port}};
   RunningProgram program(run);
   const lo_address to = lo_address_new("127.0.0.1", port.c_str());
   ASSERT_TRUE(program.says("operator: OSC on UDP port"));  // the first show is loaded
@@ -165,10 +166,10 @@ TEST(ProgramOperator, WhoWaitsStandsAtTheFirstFrameUntilTheStart) {
 
 // Contexts, programs and meshes are those of the groups before, whose drawings were given up.
 TEST(ProgramOperator, TheNextGroupSeesTheSamePictures) {
-  LiveShow first({"--wait"});
+  LiveShow first({"--wait"}, "full");
   ASSERT_TRUE(first.says("waiting for start"));
   const json seen = first.finish();
-  LiveShow second({"--wait"});
+  LiveShow second({"--wait"}, "full");
   ASSERT_TRUE(second.says("waiting for start"));
   second.send("/stadion/next-group");
   ASSERT_TRUE(second.says("group 2 begins"));
@@ -184,8 +185,9 @@ TEST(ProgramOperator, OrdersOfALogAreObeyedInTheirFrame) {
   const auto picturesWith = [&](const std::string& orders) {
     const std::string log =
         folder.write("orders.input", "stadion-input 2\nrate 60\n" + orders + "frame 6 0.1\n");
-    const ProgramResult r = stadionProgram({"run", show, "--input", log, "--asset-root", assetFolder(),
-                                            "--walls", "desktop", "--size", "64x48", "--json"});
+    const ProgramResult r =
+        stadionProgram({"run", show, "--input", log, "--asset-root", assetFolder(), "--walls", "desktop",
+                        "--size", "64x48", "--look", "plain", "--json"});
     EXPECT_EQ(r.status, 0) << r.err;
     const json images = json::parse(r.out).at("image_hashes");
     return std::pair(images.at(0).at("hash").get<std::string>(), images.at(1).at("hash").get<std::string>());
@@ -217,7 +219,7 @@ TEST(ProgramOperator, KeysOfATerminalCommandTheShowAndTheTerminalIsGivenBack) {
     dup2(file, 1), dup2(file, 2);
     setenv("ALSOFT_DRIVERS", "null", 1);
     execl(stadionPath().c_str(), "stadion", "run", show.c_str(), "--asset-root", assetFolder().c_str(),
-          "--walls", "desktop", "--size", "64x48", nullptr);
+          "--walls", "desktop", "--size", "64x48", "--look", "plain", nullptr);
     _exit(127);
   }
   for (int i = 0; i < 60'000 && fileContent(out).find("operator: keys") == std::string::npos; ++i) wait(10);

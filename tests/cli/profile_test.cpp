@@ -51,10 +51,11 @@ TEST(ProgramProfile, ItSaysWhatDrawingWasMeasuredWithWhateverTheProvider) {
   for (const char* provider : {"osmesa", "egl"}) {
     const ProgramResult r =
         stadionProgram({"profile", STADION_SOURCE_DIR "/scripts/kick.evs", "--frames", "20", "--size",
-                        "32x24", "--walls", "desktop", "--json", "--gl", provider});
+                        "32x24", "--walls", "desktop", "--look", "plain", "--json", "--gl", provider});
     ASSERT_EQ(r.status, 0) << r.err;
-    const auto run = stadionProgram({"run", STADION_SOURCE_DIR "/scripts/kick.evs", "--frames", "1", "--size",
-                                     "32x24", "--walls", "desktop", "--json", "--gl", provider});
+    const auto run =
+        stadionProgram({"run", STADION_SOURCE_DIR "/scripts/kick.evs", "--frames", "1", "--size", "32x24",
+                        "--walls", "desktop", "--look", "plain", "--json", "--gl", provider});
     const bool software = run.out.find("llvmpipe") != std::string::npos;
     const std::string method = nlohmann::json::parse(r.out)["draw_method"];
     EXPECT_EQ(method.find("processor time") == 0, software) << provider << ": " << method;
@@ -62,10 +63,9 @@ TEST(ProgramProfile, ItSaysWhatDrawingWasMeasuredWithWhateverTheProvider) {
 }
 
 TEST(ProgramProfile, ItCountsWhatAPlainRunCounts) {
-  const ProgramResult r = profileKick({"--json", "--walls", "desktop"});
-  const ProgramResult run =
-      stadionProgram({"run", std::string(STADION_SOURCE_DIR "/scripts/kick.evs"), "--frames", "180", "--size",
-                      "96x72", "--walls", "desktop", "--json"});
+  const ProgramResult r = profileKick({"--json", "--walls", "desktop", "--look", "plain"});
+  const ProgramResult run = stadionProgram({"run", std::string(STADION_SOURCE_DIR "/scripts/kick.evs"),
+                                            "--frames", "180", "--gl", "none", "--json"});
   ASSERT_EQ(r.status, 0) << r.err;
   ASSERT_EQ(run.status, 0) << run.err;
   const auto j = nlohmann::json::parse(r.out), plain = nlohmann::json::parse(run.out);

@@ -161,9 +161,10 @@ TEST(ProgramRegress, AnUpdateWritesOverNothingThatIsNoBaseline) {
 TEST(ProgramRegress, WhatAShowWarnsOfIsToldOnceAndFailsNothing) {
   const TemporaryFolder folder;
   folder.write("w.evs", "rig( position=\"0, -4, 0\" )\nobject( name=a, file=gone.obj )\n");
-  const std::string suite = folder.write("w.suite", "stadion-suite 1\nsize 16x12\nwalls desktop\nlook plain\nframes 3\n"
-                                                    "modes sequential pipelined\ncase one\n  show w.evs\n"
-                                                    "case two\n  show w.evs\n");
+  const std::string suite =
+      folder.write("w.suite", "stadion-suite 1\nsize 16x12\nwalls desktop\nlook plain\nframes 3\n"
+                              "modes sequential pipelined\ncase one\n  show w.evs\n"
+                              "case two\n  show w.evs\n");
   ASSERT_EQ(regress({suite, "--update"}).status, 0);
   const std::string junit = folder.path() / "r.xml", out = folder.path() / "out";
   const std::regex warning("w\\.evs:2:[0-9]+: warning: [^\n]*gone\\.obj");
@@ -557,8 +558,7 @@ TEST(ProgramRegress, AProgramsPathMayHoldAnEqualsSign) {
   const ProgramResult r = regress({suite, "--stadion", build + "/stadion", "--update"});
   EXPECT_EQ(r.status, 0) << r.out << r.err;
   EXPECT_TRUE(
-      Json::parse(fileContent(folder.path() / "small.baseline.json"))["cases"][kSmallCase].contains(
-          "times"));
+      Json::parse(fileContent(folder.path() / "small.baseline.json"))["cases"][kSmallCase].contains("times"));
 }
 
 TEST(ProgramRegress, WhatCannotBeWrittenIsToldBeforeAnythingIsPlayed) {

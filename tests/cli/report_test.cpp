@@ -95,7 +95,7 @@ TEST_F(ProgramReport, ABrowserFillsItsTablesAndPlotsWithoutAComplaint) {
 
 TEST_F(ProgramReport, WhatIsChosenInTheAddressIsShown) {
   const fs::path page = folder_.path() / "kick.html";
-  ASSERT_EQ(profile(kKick, {"--html", page.string(), "--walls", "desktop", "--no-draw"}).status, 0);
+  ASSERT_EQ(profile(kKick, {"--html", page.string(), "--walls", "desktop", "--no-draw"}, "90").status, 0);
   const Shown s = shown(page, "stage=app&view=one&sort=path");
   EXPECT_EQ(s.complaints, "");
   EXPECT_NE(part(s.dom, "nodes-table").find("aria-sort=\"ascending\""), std::string::npos);
@@ -186,8 +186,9 @@ TEST(ProgramTrace, FramesAfterTheRunsEndAreSaidToBeMissing) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "trace.json";
   for (const auto& [command, option] : {std::pair{"profile", "--trace"}, {"run", "--trace-events"}}) {
-    const ProgramResult r = stadionProgram({command, kKick, "--frames", "20", "--size", "32x24", "--walls",
-                                            "desktop", "--look", "plain", option, file, "--trace-frames", "100..160"});
+    const ProgramResult r =
+        stadionProgram({command, kKick, "--frames", "20", "--size", "32x24", "--walls", "desktop", "--look",
+                        "plain", option, file, "--trace-frames", "100..160"});
     EXPECT_EQ(r.status, 0) << r.err;
     EXPECT_NE(r.err.find("warning: the trace leaves out frames 100 to 160: the run ended with frame 19"),
               std::string::npos)

@@ -34,6 +34,8 @@ private:
   SharedCount count_;
 };
 
+constexpr const char* kTwoWalls = STADION_SOURCE_DIR "/scripts/suites/two.walls";
+
 struct Way {
   const char *workers, *look, *walls;
   bool everyFrame;
@@ -121,11 +123,12 @@ std::string nameOf(const ::testing::TestParamInfo<Way>& way) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Program, ProgramSteadyRun,
-                         ::testing::Values(Way{"process", "plain", "cave4", true},
-                                           Way{"thread", "plain", "cave4", true}),
+                         ::testing::Values(Way{"process", "plain", kTwoWalls, true},
+                                           Way{"thread", "plain", kTwoWalls, true}),
                          nameOf);
 INSTANTIATE_TEST_SUITE_P(ProgramFull, ProgramSteadyRun,
                          ::testing::Values(Way{"process", "plain", "cave4", false},
+                                           Way{"thread", "plain", "cave4", true},
                                            Way{"thread", "full", "desktop", true},
                                            Way{"process", "full", "desktop", true},
                                            Way{"process", "full", "desktop", false}),

@@ -96,8 +96,7 @@ void expectTheNearerOfTwoSheets(const std::vector<SheetsShown>& cases) {
 }
 
 TEST(ProgramSurfaces, TheNearerOfTwoSheetsIsSeenAtEveryDistance) {
-  expectTheNearerOfTwoSheets(
-      {{1, 0.001, kEachOnce}, {800, 0.2, kEachOnceOtherwise}, {8000, 2, kEachOnce}});
+  expectTheNearerOfTwoSheets({{1, 0.001, kEachOnce}, {800, 0.2, kEachOnceOtherwise}, {8000, 2, kEachOnce}});
 }
 
 TEST(ProgramFullSurfaces, TheNearerOfTwoSheetsIsSeenAtEveryDistanceInEveryWay) {

@@ -193,10 +193,9 @@ TEST_P(ProgramViewThrow, FliesWithTheHandsSpeedAndTheRecordRepeatsIt) {
   const std::string told = view.end();
 
   const std::string out = view.folder() / "again";
-  const ProgramResult again =
-      stadionProgram({"run", t.show, "--asset-root", assetFolder(), "--walls", "desktop", "--size", "32x24",
-                      "--look", "plain", "--pictures", "none", "--input", view.log(), "--out", out, "--trace",
-                      t.thrown});
+  const ProgramResult again = stadionProgram(
+      {"run", t.show, "--asset-root", assetFolder(), "--walls", "desktop", "--size", "32x24", "--look",
+       "plain", "--pictures", "none", "--input", view.log(), "--out", out, "--trace", t.thrown});
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_NE(fileContent(out + "/summary.json").find(hashIn(told)), std::string::npos) << told << "\nagainst\n"
                                                                                       << again.out;
