@@ -54,7 +54,7 @@ protected:
 
   ProgramRun run(const std::string& fault, std::vector<std::string> more = {}) const {
     ProgramRun r{{stadionPath(), "run", show_, "--asset-root", assetFolder(), "--walls", "desktop", "--size",
-                  "32x24"}};
+                  "32x24", "--look", "plain"}};
     r.words.insert(r.words.end(), more.begin(), more.end());
     r.environment = {"XDG_STATE_HOME=" + file("state"), "LP_NUM_THREADS=1"};
     if (!fault.empty()) {

@@ -21,7 +21,7 @@ dynamics( collider=floor, collidee=ball )
 usertrigger( sphere="0.2, 0, 1.7, 0.1", eventmessage="enter, gravity, toggle" )
 )";
 
-const std::string kTwoWalls = STADION_SOURCE_DIR "/scripts/suites/two.walls";
+const std::string kLatencyWalls = STADION_SOURCE_DIR "/scripts/suites/two.walls";
 
 std::string lastHash(const std::string& show, const std::string& input) {
   const ProgramResult r = stadionProgram({"hash", show, "--asset-root", assetFolder(), "--input", input});
@@ -34,8 +34,8 @@ std::string lastHash(const std::string& show, const std::string& input) {
 json visit(const TemporaryFolder& folder, const std::vector<std::string>& more) {
   const std::string show = folder.write("show.evs", kShow);
   const std::string tracker = std::to_string(freePort()), desk = std::to_string(freePort());
-  ProgramRun run{{stadionPath(), "run", show, "--asset-root", assetFolder(), "--walls", kTwoWalls, "--size",
-                  "64x48", "--look", "plain", "--no-sound", "--json", "--osc", desk, "--tracker",
+  ProgramRun run{{stadionPath(), "run", show, "--asset-root", assetFolder(), "--walls", kLatencyWalls,
+                  "--size", "64x48", "--look", "plain", "--no-sound", "--json", "--osc", desk, "--tracker",
                   "osc:" + tracker}};
   run.words.insert(run.words.end(), more.begin(), more.end());
   RunningProgram program(run);

@@ -34,7 +34,7 @@ private:
   SharedCount count_;
 };
 
-constexpr const char* kTwoWalls = STADION_SOURCE_DIR "/scripts/suites/two.walls";
+constexpr const char* kSteadyWalls = STADION_SOURCE_DIR "/scripts/suites/two.walls";
 
 struct Way {
   const char *workers, *look, *walls;
@@ -123,8 +123,8 @@ std::string nameOf(const ::testing::TestParamInfo<Way>& way) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Program, ProgramSteadyRun,
-                         ::testing::Values(Way{"process", "plain", kTwoWalls, true},
-                                           Way{"thread", "plain", kTwoWalls, true}),
+                         ::testing::Values(Way{"process", "plain", kSteadyWalls, true},
+                                           Way{"thread", "plain", kSteadyWalls, true}),
                          nameOf);
 INSTANTIATE_TEST_SUITE_P(ProgramFull, ProgramSteadyRun,
                          ::testing::Values(Way{"process", "plain", "cave4", false},

@@ -15,8 +15,8 @@ namespace {
 /// Arguments for a short, small run of one of the test shows.
 std::vector<std::string> shortRun(const std::string& show, std::vector<std::string> more = {},
                                   const char* frames = "5") {
-  std::vector<std::string> words{"run",     show,     "--asset-root", assetFolder(), "--walls",
-                                 "desktop", "--size", "32x24",        "--frames",    frames};
+  std::vector<std::string> words{"run",    show,    "--asset-root", assetFolder(), "--walls",  "desktop",
+                                 "--size", "32x24", "--look",       "plain",       "--frames", frames};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -581,9 +581,9 @@ TEST(ProgramUsage, InterruptsEndTheShowWithItsSummary) {
       run.words = {stadionPath(),  "run",         testShow("reload_with.evs"),
                    "--asset-root", assetFolder(), "--size",
                    "64x48",        "--walls",     "desktop",
-                   "--json",       "--mode",      mode,
-                   "--out",        out.path(),    "--pictures",
-                   "100"};
+                   "--look",       "plain",       "--json",
+                   "--mode",       mode,          "--out",
+                   out.path(),     "--pictures",  "100"};
       run.signal = signal;
       run.signalWhen = [&](const std::string&, const std::string& err) {
         return has(err, "playing until") && std::filesystem::exists(out.path() / "screen-left-000000.png");
