@@ -16,10 +16,10 @@ class DrawnShow {
 public:
   using State = std::shared_ptr<const std::vector<std::uint8_t>>;
 
-  DrawnShow(const std::string& script, const std::string& input, const std::string& walls,
-            GlProvider& provider, const State& state = {}) {
+  DrawnShow(const std::string& script, const std::string& input, GlProvider& provider,
+            const State& state = {}) {
     ShowOptions options;
-    options.script = script, options.input = input, options.walls = walls, options.size = "64x48";
+    options.script = script, options.input = input, options.walls = "cave4", options.size = "64x48";
     options.assetRoots = {assetFolder()}, options.state = state, options.appThreads = 1;
     Diagnostics findings;
     if (options.settle(findings)) player_ = Player::create(options, findings);
@@ -63,7 +63,6 @@ private:
 struct HistoryCase {
   std::string name, script, input;
   std::uint64_t start, frames;  ///< drawn from `start` on; the shows before it are only simulated
-  std::string walls = "desktop";
 };
 
 class ProgramPictureHistory : public testing::TestWithParam<HistoryCase> {};
@@ -99,8 +98,7 @@ TEST_P(ProgramPictureHistory, IsNotSeenAfterASnapshotNorWhereFramesWereNotDrawn)
     c.script = folder.write("walk.evs", kWalk), c.input = folder.write("walk.input", kWalkInput);
   auto provider = openGlProvider(GlProviderKind::OsMesa);
   ASSERT_TRUE(provider) << provider.error().message;
-  DrawnShow always(c.script, c.input, c.walls, *provider.value()),
-      seldom(c.script, c.input, c.walls, *provider.value());
+  DrawnShow always(c.script, c.input, *provider.value()), seldom(c.script, c.input, *provider.value());
   ASSERT_TRUE(always && seldom);
   std::vector<std::pair<std::uint64_t, std::unique_ptr<DrawnShow>>> restored;
   for (std::uint64_t n = 0; n < c.start + c.frames; ++n) {
@@ -117,8 +115,8 @@ TEST_P(ProgramPictureHistory, IsNotSeenAfterASnapshotNorWhereFramesWereNotDrawn)
       }
     }
     if (n < c.start || (n - c.start) % (c.frames / 3) != 2) continue;
-    restored.emplace_back(
-        n, std::make_unique<DrawnShow>(c.script, c.input, c.walls, *provider.value(), always.save()));
+    restored.emplace_back(n,
+                          std::make_unique<DrawnShow>(c.script, c.input, *provider.value(), always.save()));
     ASSERT_TRUE(*restored.back().second) << n;
   }
   EXPECT_GE(restored.size(), 3U);
@@ -136,11 +134,9 @@ INSTANTIATE_TEST_SUITE_P(Program, ProgramPictureHistory,
                          nameOf);
 INSTANTIATE_TEST_SUITE_P(
     ProgramFull, ProgramPictureHistory,
-    testing::Values(HistoryCase{"kick", shownHere("kick.evs"), shownHere("kick.input"), 0, 240, "cave4"},
-                    HistoryCase{"walk", "", "", 0, 240, "cave4"},
-                    HistoryCase{"olympia", shownHere("olympia.evs"), shownHere("olympia.input"), 1100, 60,
-                                "cave4"},
-                    HistoryCase{"crowd", shownHere("crowd.evs"), "none", 20, 60, "cave4"}),
+    testing::Values(HistoryCase{"kick", shownHere("kick.evs"), shownHere("kick.input"), 0, 240},
+                    HistoryCase{"olympia", shownHere("olympia.evs"), shownHere("olympia.input"), 1100, 60},
+                    HistoryCase{"crowd", shownHere("crowd.evs"), "none", 20, 60}),
     nameOf);
 
 }  // namespace
