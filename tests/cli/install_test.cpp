@@ -61,7 +61,10 @@ TEST_F(ProgramInstall, NamesNoPathOfTheCheckout) {
     }
 }
 
-TEST_F(ProgramInstall, AProgramPlaysAShow) {
+// They compile for as long as many tests take.
+class ProgramFullInstall : public ProgramInstall {};
+
+TEST_F(ProgramFullInstall, AProgramPlaysAShow) {
   const std::string program = built("play_show"), picture = folder_->path() / "ball.png";
   const ProgramResult r =
       runProgram({{program, prefix() + "/share/stadion/scripts/kick.evs", "ball", picture}, {path()}});
@@ -70,7 +73,7 @@ TEST_F(ProgramInstall, AProgramPlaysAShow) {
   EXPECT_TRUE(fs::exists(picture));
 }
 
-TEST_F(ProgramInstall, AProgramEmbedsDynamics) {
+TEST_F(ProgramFullInstall, AProgramEmbedsDynamics) {
   const ProgramResult r = runProgram({{built("embed_dynamics")}});
   EXPECT_EQ(r.status, 0) << r.out << r.err;
   EXPECT_TRUE(has(r.out, "10 of 10 crates rest")) << r.out;
