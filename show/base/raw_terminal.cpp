@@ -16,29 +16,29 @@ namespace {
 /// That end the program without asking; SIGINT and SIGTERM are stop_signal's.
 constexpr std::array kEnding{SIGHUP, SIGQUIT, SIGABRT, SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGPIPE};
 
-/// Reached by handlers, which can reach nothing else. Complete before `taken` says so.
+/// Reached by handlers, which can reach nothing else. Complete before `isTaken` says so.
 struct Taken {
   int file = -1;
   termios before{}, raw{};
   std::array<struct sigaction, kEnding.size()> actions{};  ///< of kEnding, before
   struct sigaction stopAction {};                          ///< of Ctrl-Z, before
-} terminal;
-std::atomic<bool> taken = false;
+} savedTerminal;
+std::atomic<bool> isTaken = false;
 
 bool isForeground(int file) {
   return tcgetpgrp(file) == getpgrp();
 }
 
 void set(const termios& how) {
-  if (taken && isForeground(terminal.file)) tcsetattr(terminal.file, TCSANOW, &how);
+  if (isTaken && isForeground(savedTerminal.file)) tcsetattr(savedTerminal.file, TCSANOW, &how);
 }
 
 /// The signal's earlier action follows when this returns.
 extern "C" void endBySignal(int signal) {
   const int error = errno;
-  set(terminal.before);
+  set(savedTerminal.before);
   for (std::size_t i = 0; i < kEnding.size(); ++i)
-    if (kEnding[i] == signal) sigaction(signal, &terminal.actions[i], nullptr);
+    if (kEnding[i] == signal) sigaction(signal, &savedTerminal.actions[i], nullptr);
   raise(signal);
   errno = error;
 }
@@ -46,9 +46,9 @@ extern "C" void endBySignal(int signal) {
 /// Ctrl-Z: the program stands still in here until it is told to go on.
 extern "C" void standStill(int signal) {
   const int error = errno;
-  set(terminal.before);
+  set(savedTerminal.before);
   struct sigaction mine {};
-  sigaction(signal, &terminal.stopAction, &mine);
+  sigaction(signal, &savedTerminal.stopAction, &mine);
   sigset_t only, before;
   sigemptyset(&only);
   sigaddset(&only, signal);
@@ -56,7 +56,7 @@ extern "C" void standStill(int signal) {
   raise(signal);
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   sigaction(signal, &mine, nullptr);
-  set(terminal.raw);
+  set(savedTerminal.raw);
   errno = error;
 }
 
@@ -77,25 +77,25 @@ void handle(int signal, void (*handler)(int), struct sigaction& before) {
 }  // namespace
 
 std::unique_ptr<RawTerminal> RawTerminal::take(int file) {
-  if (taken || isatty(file) != 1 || !isForeground(file)) return nullptr;
-  if (tcgetattr(file, &terminal.before) != 0) return nullptr;
-  terminal.file = file;
-  terminal.raw = terminal.before;
-  terminal.raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-  terminal.raw.c_cc[VMIN] = 1, terminal.raw.c_cc[VTIME] = 0;
-  for (std::size_t i = 0; i < kEnding.size(); ++i) handle(kEnding[i], endBySignal, terminal.actions[i]);
-  handle(SIGTSTP, standStill, terminal.stopAction);
-  taken = true;
+  if (isTaken || isatty(file) != 1 || !isForeground(file)) return nullptr;
+  if (tcgetattr(file, &savedTerminal.before) != 0) return nullptr;
+  savedTerminal.file = file;
+  savedTerminal.raw = savedTerminal.before;
+  savedTerminal.raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  savedTerminal.raw.c_cc[VMIN] = 1, savedTerminal.raw.c_cc[VTIME] = 0;
+  for (std::size_t i = 0; i < kEnding.size(); ++i) handle(kEnding[i], endBySignal, savedTerminal.actions[i]);
+  handle(SIGTSTP, standStill, savedTerminal.stopAction);
+  isTaken = true;
   std::atexit(giveTerminalBack);
   std::unique_ptr<RawTerminal> mine(new RawTerminal(file));
-  return tcsetattr(file, TCSANOW, &terminal.raw) == 0 ? std::move(mine) : nullptr;
+  return tcsetattr(file, TCSANOW, &savedTerminal.raw) == 0 ? std::move(mine) : nullptr;
 }
 
 RawTerminal::~RawTerminal() {
   giveTerminalBack();
-  taken = false;
-  for (std::size_t i = 0; i < kEnding.size(); ++i) sigaction(kEnding[i], &terminal.actions[i], nullptr);
-  sigaction(SIGTSTP, &terminal.stopAction, nullptr);
+  isTaken = false;
+  for (std::size_t i = 0; i < kEnding.size(); ++i) sigaction(kEnding[i], &savedTerminal.actions[i], nullptr);
+  sigaction(SIGTSTP, &savedTerminal.stopAction, nullptr);
 }
 
 bool RawTerminal::inForeground() const {
@@ -103,7 +103,7 @@ bool RawTerminal::inForeground() const {
 }
 
 void giveTerminalBack() {
-  set(terminal.before);
+  set(savedTerminal.before);
 }
 
 }  // namespace stadion
