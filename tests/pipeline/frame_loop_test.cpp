@@ -530,7 +530,7 @@ TEST(ThreadsFrameLoop, LatencyCountsFromTheAppOfTheFrameThatIsShown) {
 }
 
 /// Nobody looks at most of its frames.
-class SeldomSeen final : public CountingStages {
+class SeldomSeen : public CountingStages {
 public:
   explicit SeldomSeen(std::uint64_t every) : CountingStages(2, kSlots), every_(every) {}
   bool wantsDrawn(const FrameTicket& t) const override {
@@ -571,19 +571,27 @@ TEST(ThreadsFrameLoop, OnlyFramesThatAreLookedAtAreDrawnAndTimed) {
     }
 }
 
+/// Asks the run to stop when some frames have been shown, none of which was drawn.
+class StopsWhileShown final : public SeldomSeen {
+public:
+  explicit StopsWhileShown(std::atomic<bool>& stop) : SeldomSeen(0), stop_(stop) {}
+  Failure swap(const TimeSignature& now) override {
+    if (now.frame >= 10) stop_ = true;
+    return SeldomSeen::swap(now);
+  }
+
+private:
+  std::atomic<bool>& stop_;
+};
+
 TEST(ThreadsFrameLoop, TheFrameInWhichAStopIsSeenIsTheLastOneAndDrawn) {
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
-    SeldomSeen stages(0);
+    std::atomic<bool> stop = false;
+    StopsWhileShown stages(stop);
     FrameLoopOptions o;
     o.mode = mode, o.walls = 2, o.rate = 1000, o.pace = Pace::Lock;
-    std::atomic<bool> stop = false;
     FrameLoop loop(stages, o, stop);
-    std::thread signal([&] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(30));
-      stop = true;
-    });
     const FrameLoopOutcome outcome = loop.run();
-    signal.join();
     EXPECT_TRUE(outcome.stopped);
     ASSERT_EQ(stages.drawn.size(), 1u);
     EXPECT_EQ(stages.drawn.back(), outcome.framesSimulated - 1);
