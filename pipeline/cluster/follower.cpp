@@ -190,7 +190,7 @@ std::optional<FrameOrder> Follower::next() {
     return {};
   }
   obeyed_ = heard.numbers.serial, frame_ = heard.order.signature.frame;
-  still_ = heard.order.still, presentation_ = heard.order.shown;
+  still_ = heard.order.standsAfter, presentation_ = heard.order.shown;
   const bool isNew = std::exchange(kept_, nullptr) || !plays_;
   plays_ = true;
   if (isNew) announce(told_);

@@ -128,7 +128,7 @@ std::optional<ShowUnderWay> Lead::takeOver() {
     if (!isTime(parcel.time)) continue;
     session_.giver = kNobody;
     pending_.signature.frame = parcel.frame, pending_.signature.time = parcel.time;
-    pending_.still = parcel.still, pending_.shown = parcel.shown;
+    pending_.standsAfter = parcel.still, pending_.shown = parcel.shown;
     options_.tell(
         fmt::format("the show goes on after frame {}, with the scene of {}", parcel.frame, nameOf(*node)));
     return ShowUnderWay{pending_.signature,
@@ -234,7 +234,7 @@ void Lead::answerWhoAsks() {
     const std::lock_guard lock(mutex_);
     parcel.session = session_.number, parcel.serial = serial_;
     parcel.frame = pending_.signature.frame, parcel.time = pending_.signature.time;
-    parcel.still = pending_.still, parcel.shown = pending_.shown;
+    parcel.still = pending_.standsAfter, parcel.shown = pending_.shown;
     const bool underWay = serial_ > 0 || session_.resumes != 0;
     for (std::size_t i = 0; i < followers_.size() && underWay; ++i) {
       Follower& f = followers_[i];

@@ -117,7 +117,8 @@ const Order& WrittenOrder::write(const OrderNumbers& numbers, const FrameOrder& 
   decisions_.clear(), trackers_.clear();
   for (const LoadDecision& d : o.signature.load) decisions_.push_back({d.load, d.position, d.level});
   lend(decisions_, w.decisions);
-  w.last = o.last, w.still = static_cast<std::uint8_t>(o.still), w.shown = written(o.shown);
+  w.last = o.last, w.shown = written(o.shown);
+  w.still = static_cast<std::uint8_t>(o.still), w.stands_after = static_cast<std::uint8_t>(o.standsAfter);
   w.sampled = input != nullptr;
   const std::size_t count = input ? input->trackers.size() : 0;
   if (knots_.size() < count) knots_.resize(count), controls_.resize(count);
@@ -155,9 +156,9 @@ std::optional<HeardOrder> readOrder(const Order& w) {
   for (const stadion_wire_Decision& d : spanOf(w.decisions))
     if (!now.load.add({d.load, d.position, d.level})) return {};
   const auto shown = cluster::read(w.shown);
-  const auto still = readStandstill(w.still);
-  if (!shown || !still) return {};
-  heard.order.shown = *shown, heard.order.still = *still;
+  const auto still = readStandstill(w.still), standsAfter = readStandstill(w.stands_after);
+  if (!shown || !still || !standsAfter) return {};
+  heard.order.shown = *shown, heard.order.still = *still, heard.order.standsAfter = *standsAfter;
   heard.order.last = w.last;
   heard.sampled = w.sampled;
   heard.input.time = w.time;

@@ -261,6 +261,9 @@ Standstill FrameLoop::standstill() const {
 // What is to be shown, and whether it is the last; where this machine leads, all others hear of it.
 FrameLoop::Turn FrameLoop::told(Turn turn) {
   if (options_.desk) turn.shown = options_.desk->state().shown;
+  // A waiting show plays its first frame, and a paused one each single step: after it, time stands again.
+  const bool stands = turn.still != Standstill::None || (options_.desk && options_.desk->state().still());
+  if (stands) turn.standsAfter = standstill();
   if (!options_.orders) return turn;
   turn.last = noneFollows();
   options_.orders->issue(turn);

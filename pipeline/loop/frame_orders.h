@@ -21,9 +21,10 @@ enum class Standstill : std::uint8_t { None, Paused, Waiting };  ///< Waiting: f
 struct FrameOrder {
   TimeSignature signature;
   Presentation shown{};
-  Standstill still = Standstill::None;  ///< if it stands, this is its last frame once more
-  bool last = false;                    ///< no frame follows it
-  bool drawn = true;                    ///< false: this machine is not yet one of those that show it
+  Standstill still = Standstill::None;        ///< if it stands, this is its last frame once more
+  Standstill standsAfter = Standstill::None;  ///< what a machine that leads in our place goes on with
+  bool last = false;                          ///< no frame follows it
+  bool drawn = true;                          ///< false: this machine is not yet one of those that show it
 };
 
 class FrameOrders {

@@ -1,6 +1,7 @@
 #include "pipeline/loop/frame_loop.h"
 
 #include "engine/base/run_stopped.h"
+#include "tests/pipeline/counting_stages.h"
 
 #include <gtest/gtest.h>
 #include <mutex>
@@ -9,60 +10,6 @@
 
 namespace stadion {
 namespace {
-
-/// Stages that carry a number through the pipeline, with as many slots as there is real memory for.
-class CountingStages : public Stages {
-public:
-  CountingStages(std::size_t walls, std::size_t memories) : memory_(memories), drawn_(walls) {}
-
-  void app(const TimeSignature& now, std::size_t slot) override {
-    // Written byte by byte, as it were: a reader that is let in too early sees a torn frame.
-    Cell& c = memory_[slot % memory_.size()];
-    for (auto& v : c.values) v.store(now.frame, std::memory_order_relaxed);
-    c.signature = now;
-  }
-  void cull(std::size_t, std::size_t slot, DrawList& list) override {
-    const Cell& c = memory_[slot % memory_.size()];
-    list.ticket.signature = c.signature;
-    for (const auto& v : c.values)
-      if (v.load(std::memory_order_relaxed) != c.signature.frame) torn = true;
-    std::this_thread::sleep_for(std::chrono::microseconds(200));
-    for (const auto& v : c.values)
-      if (v.load(std::memory_order_relaxed) != list.ticket.signature.frame) torn = true;
-  }
-  Failure openWall(std::size_t) override { return {}; }
-  Failure draw(std::size_t wall, const DrawList& list) override {
-    if (list.ticket.signature.frame == failAt && wall == 1) return "wall 1 is broken";
-    drawn_[wall].push_back(list.ticket.signature.frame);
-    return {};
-  }
-  void closeWall(std::size_t) override { ++closed; }
-  Failure swap(const TimeSignature& now) override {
-    for (const auto& d : drawn_)
-      if (d.empty() || d.back() != now.frame) torn = true;
-    shown.push_back(now.frame);
-    return {};
-  }
-
-  std::vector<std::uint64_t> shown;
-  std::atomic<bool> torn = false;
-  std::atomic<int> closed = 0;
-  std::uint64_t failAt = ~std::uint64_t{0};
-
-private:
-  struct Cell {
-    std::array<std::atomic<std::uint64_t>, 64> values{};
-    TimeSignature signature;
-  };
-  std::vector<Cell> memory_;
-  std::vector<std::vector<std::uint64_t>> drawn_;
-};
-
-FrameLoopOutcome runFrames(CountingStages& stages, FrameLoopOptions options) {
-  const std::atomic<bool> stop = false;
-  FrameLoop loop(stages, options, stop);
-  return loop.run();
-}
 
 TEST(ThreadsFrameLoop, ShowsEveryFrameOnceInOrderOnAllWalls) {
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
@@ -362,111 +309,6 @@ TEST(ThreadsFrameLoop, TimesThatWereDecidedAreObeyed) {
   EXPECT_EQ(outcome.framesShown, 5u) << "at 0, 0.1, 0.5, 0.6 and 1 s";
 }
 
-/// Stages at which somebody sits who pauses the show, lets it go on by single frames, and slows it down.
-class PlayedStages final : public CountingStages {
-public:
-  PlayedStages(Playback& playback) : CountingStages(1, kSlots), playback_(playback) {}
-  void app(const TimeSignature& now, std::size_t slot) override {
-    CountingStages::app(now, slot);
-    times.push_back(now.time);
-    if (now.frame == 3) playback_.setPaused(true);
-    if (now.frame == 5) playback_.setPaused(false), playback_.setSpeed(0.25);
-    if (now.frame == 8) playback_.setSpeed(1);
-  }
-  void still(const TimeSignature&, std::size_t slot) override {
-    ++stills;
-    CountingStages::app(signatureAt(times.size() - 1, 10), slot);
-    if (stills % 5 == 0) playback_.step();
-  }
-  std::vector<Nanoseconds> times;
-  int stills = 0;
-
-private:
-  Playback& playback_;
-};
-
-/// A show that goes on after frame 4, and is paused.
-class PausedStages final : public CountingStages {
-public:
-  PausedStages(Playback& playback) : CountingStages(1, kSlots), playback_(playback) {}
-  void app(const TimeSignature& now, std::size_t slot) override {
-    CountingStages::app(now, slot);
-    if (stills == 0) tooEarly = true;
-  }
-  void still(const TimeSignature& now, std::size_t slot) override {
-    EXPECT_EQ(now.frame, 4U);
-    CountingStages::app(now, slot);
-    if (++stills == 3) playback_.setPaused(false);
-  }
-  int stills = 0;
-  bool tooEarly = false;
-
-private:
-  Playback& playback_;
-};
-
-TEST(ThreadsFrameLoop, AShowThatGoesOnWherePausedStandsStill) {
-  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
-    Playback playback;
-    playback.setPaused(true);
-    PausedStages stages(playback);
-    FrameLoopOptions o;
-    o.mode = mode, o.rate = 10, o.frames = 8, o.playback = &playback, o.after = signatureAt(4, 10);
-    const FrameLoopOutcome outcome = runFrames(stages, o);
-    EXPECT_FALSE(stages.tooEarly);
-    EXPECT_GE(stages.stills, 3);
-    EXPECT_EQ(outcome.framesSimulated, 3u) << "5, 6 and 7";
-  }
-}
-
-/// Whoever played it before may have died before that frame was shown.
-TEST(ThreadsFrameLoop, AShowThatGoesOnAfterItsLastFrameShowsThisOnceMore) {
-  for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
-    for (const bool byFrames : {true, false}) {
-      Playback playback;
-      PlayedStages stages(playback);
-      FrameLoopOptions o;
-      o.mode = mode, o.rate = 10, o.after = signatureAt(7, 10);
-      byFrames ? void(o.frames = 8) : void(o.end = o.after->time);
-      const FrameLoopOutcome outcome = runFrames(stages, o);
-      EXPECT_EQ(stages.stills, 1);
-      EXPECT_EQ(outcome.framesSimulated, 0u);
-      EXPECT_EQ(outcome.framesDrawn, 1u);
-      EXPECT_FALSE(outcome.stopped || outcome.failure);
-    }
-}
-
-TEST(ThreadsFrameLoop, APauseThatHoldsFromLaterOnIsCaughtUpWith) {
-  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
-    Playback playback;
-    playback.setPaused(true);
-    playback.standFrom(signatureAt(7, 10).time);
-    PlayedStages stages(playback);
-    FrameLoopOptions o;
-    o.mode = mode, o.rate = 10, o.frames = 9, o.playback = &playback, o.after = signatureAt(5, 10);
-    runFrames(stages, o);
-    EXPECT_EQ(stages.stills, 5) << "before the step to frame 8";
-    EXPECT_EQ(stages.times,
-              (std::vector{signatureAt(6, 10).time, signatureAt(7, 10).time, signatureAt(8, 10).time}));
-  }
-}
-
-TEST(ThreadsFrameLoop, APausedShowIsDrawnOnAndGoesByFramesAndSlowly) {
-  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
-    Playback playback;
-    PlayedStages stages(playback);
-    FrameLoopOptions o;
-    o.mode = mode, o.rate = 10, o.frames = 11, o.playback = &playback;
-    const FrameLoopOutcome outcome = runFrames(stages, o);
-    EXPECT_EQ(stages.stills, 10) << "five before each of two steps";
-    EXPECT_EQ(outcome.framesSimulated, 11u);
-    std::vector<Nanoseconds> expected;
-    for (const double s : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.525, 0.55, 0.575, 0.7, 0.8})
-      expected.push_back(fromSeconds(s));
-    EXPECT_EQ(stages.times, expected) << "on ticks again after slow motion";
-  }
-}
-
 TEST(ThreadsFrameLoop, StopsCleanlyWhenAsked) {
   CountingStages stages(4, kSlots);
   FrameLoopOptions o;
@@ -688,51 +530,6 @@ TEST(FrameLoop, SignaturesDoNotAccumulateRounding) {
   EXPECT_EQ(signatureAt(60ull * 3600 * 24, 60).time, 86400ll * 1000000000);
   EXPECT_EQ(signatureAt(0, 60).step, 0);
   EXPECT_EQ(signatureAt(1, 60).step, 16666667);
-}
-
-TEST(ThreadsFrameLoop, TheNextGroupEndsTheRunInOrderAndASecondRunBegins) {
-  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
-    OperatorDesk desk(false, 0.064);
-    CountingStages stages(2, 3);
-    FrameLoopOptions o;
-    o.mode = mode, o.walls = 2, o.frames = 1000, o.desk = &desk, o.playback = &desk.playback();
-    const std::atomic<bool> never = false;
-    FrameLoop loop(stages, o, never);
-    desk.queue().post({OperatorAction::NextGroup});
-    const FrameLoopOutcome outcome = loop.run();
-    EXPECT_TRUE(outcome.nextGroup);
-    EXPECT_FALSE(outcome.failure);
-    EXPECT_EQ(outcome.framesSimulated, 0u);
-    EXPECT_EQ(stages.closed, 2);
-    desk.beginGroup();
-    EXPECT_EQ(desk.groups(), 2u);
-    desk.queue().post({OperatorAction::End});
-    FrameLoop again(stages, o, never);
-    EXPECT_FALSE(again.run().nextGroup);
-    EXPECT_EQ(stages.shown, std::vector<std::uint64_t>{0}) << "the frame that was begun is the last one";
-  }
-}
-
-TEST(ThreadsFrameLoop, WhatTheOperatorSaysOfAFrameTravelsWithIt) {
-  /// Notes how each frame was to be shown.
-  struct NotingStages : CountingStages {
-    using CountingStages::CountingStages;
-    Failure draw(std::size_t wall, const DrawList& list) override {
-      if (wall == 0) black.push_back(list.ticket.shown.black);
-      return CountingStages::draw(wall, list);
-    }
-    std::vector<bool> black;
-  };
-  for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
-    OperatorDesk desk(false, 0.064);
-    desk.obey({{2, {OperatorAction::Black, 1, false}}, {4, {OperatorAction::Black, 0, false}}});
-    NotingStages stages(2, 3);
-    FrameLoopOptions o;
-    o.mode = mode, o.walls = 2, o.frames = 6, o.desk = &desk, o.playback = &desk.playback();
-    const std::atomic<bool> never = false;
-    FrameLoop(stages, o, never).run();
-    EXPECT_EQ(stages.black, (std::vector<bool>{false, false, true, true, false, false}));
-  }
 }
 
 }  // namespace
