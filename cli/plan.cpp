@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::size_t kMostWalls = 24;
 constexpr std::uint64_t kFramesMeasured = 60;
-constexpr double kQuiet = 0.5;  ///< threads of others for each core
+constexpr double kQuietPlan = 0.5;  ///< threads of others for each core
 
 struct PlanOptions {
   PlanRunOptions run;
@@ -95,7 +95,7 @@ std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
   costs.frames = plan::plannedCosts(measured.runs);
   if (costs.frames.empty())
     return findings.error({}, "no frame could be measured: ask for more with --frames"), std::nullopt;
-  if (load > kQuiet * coresHere() || plan::wasStarved(costs.frames))
+  if (load > kQuietPlan * coresHere() || plan::wasStarved(costs.frames))
     findings.warning({},
                      fmt::format("others were at work on this machine (load {:.1f} before, {:g} cores): what "
                                  "is said of threads, and so what is predicted, may be far off; measure "

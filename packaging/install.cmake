@@ -4,6 +4,8 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS stadion RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 install(TARGETS stadion-import stadion-wall RUNTIME DESTINATION lib/stadion COMPONENT runtime)
+# Where they have been built.
+install(TARGETS stadion-bench stadion-dyn-stadion RUNTIME DESTINATION lib/stadion COMPONENT runtime OPTIONAL)
 install(DIRECTORY scripts walls DESTINATION ${CMAKE_INSTALL_DATADIR}/stadion COMPONENT runtime)
 install(DIRECTORY assets DESTINATION ${CMAKE_INSTALL_DATADIR}/stadion COMPONENT runtime PATTERN generator EXCLUDE)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)

@@ -64,8 +64,7 @@ double lengthenedBy(const std::vector<Round>& rounds, const std::string& stage) 
 class DetectionExperiment {
 public:
   DetectionExperiment(const BenchDetectionOptions& o, const std::atomic<bool>& stop)
-      : o_(o), stop_(stop), case_(crowd(o.rounds)),
-        program_(std::filesystem::canonical("/proc/self/exe").string()) {}
+      : o_(o), stop_(stop), case_(crowd(o.rounds)), program_(helperProgram("stadion")) {}
 
   /// What stages cost when nothing is planted, and what an iteration does. False, with the reason told, if
   /// that cannot be found out.
@@ -185,9 +184,9 @@ private:
   StagePrices prices_;
 };
 
-/// A hash of the program that runs: a trial of another build says nothing of this one.
+/// A hash of the program that is tried: a trial of another build says nothing of this one.
 std::string thisProgram() {
-  const Result<std::string> bytes = readPlainFile("/proc/self/exe", std::size_t{1} << 30);
+  const Result<std::string> bytes = readPlainFile(helperProgram("stadion"), std::size_t{1} << 30);
   StateHash hash;
   if (bytes) hash.add(std::string_view(bytes.value()));
   return fmt::format("{:016x}", hash.value());

@@ -22,10 +22,10 @@ struct BenchFlightOptions {
   std::string json, out;
 };
 
-using Picture = std::pair<std::string, std::string>;  ///< file name and content
+using NamedPlot = std::pair<std::string, std::string>;  ///< file name and content
 
 /// One throw of each thing, by all its rungs.
-Picture flightsOf(bench::Thing thing, const bench::ReferenceFlight& reference) {
+NamedPlot flightsOf(bench::Thing thing, const bench::ReferenceFlight& reference) {
   const bench::ThingFacts& facts = bench::factsOf(thing);
   std::vector<bench::DrawnFlight> flights{{"exact", reference.path}};
   for (const bench::Rung& rung : bench::rungsOf(thing))
@@ -36,9 +36,9 @@ Picture flightsOf(bench::Thing thing, const bench::ReferenceFlight& reference) {
           bench::trajectoryPlot(title, flights, thing == bench::Thing::Ball ? -1 : facts.axis)};
 }
 
-std::vector<Picture> picturesOf(const bench::FlightReport& report,
-                                const std::vector<bench::ReferenceFlight>& references) {
-  std::vector<Picture> pictures;
+std::vector<NamedPlot> picturesOf(const bench::FlightReport& report,
+                                  const std::vector<bench::ReferenceFlight>& references) {
+  std::vector<NamedPlot> pictures;
   for (const bench::Thing thing : {bench::Thing::Javelin, bench::Thing::Discus, bench::Thing::Ball}) {
     const std::string name = bench::factsOf(thing).name;
     pictures.emplace_back(fmt::format("work-precision-{}.svg", name),
@@ -53,7 +53,7 @@ std::vector<Picture> picturesOf(const bench::FlightReport& report,
   return pictures;
 }
 
-bool writeFile(const std::string& path, const std::string& content) {
+bool writePlot(const std::string& path, const std::string& content) {
   std::ofstream file(path, std::ios::binary);
   file << content;
   file.close();
@@ -61,13 +61,13 @@ bool writeFile(const std::string& path, const std::string& content) {
   return static_cast<bool>(file);
 }
 
-bool writePictures(OutputFolder& folder, const std::vector<Picture>& pictures) {
+bool writePictures(OutputFolder& folder, const std::vector<NamedPlot>& pictures) {
   for (const auto& [name, content] : pictures) {
     if (const auto wrong = folder.note(name)) {
       std::fprintf(stderr, "stadion: %s\n", wrong->message.c_str());
       return false;
     }
-    if (!writeFile(folder.pathOf(name), content)) return false;
+    if (!writePlot(folder.pathOf(name), content)) return false;
   }
   return true;
 }
@@ -98,7 +98,7 @@ int benchFlight(const BenchFlightOptions& o) {
                                    bench::measureCosts(o.rounds), bench::measurePublished(),
                                    bench::measureHardCases()};
   std::printf("%s", bench::textOf(report).c_str());
-  if (!o.json.empty() && !writeFile(o.json, bench::jsonOf(report))) return kBadInput;
+  if (!o.json.empty() && !writePlot(o.json, bench::jsonOf(report))) return kBadInput;
   if (out && !writePictures(*out, picturesOf(report, references.value()))) return kBadInput;
   return bench::allMet(report) ? kOk : kCheckFailed;
 }

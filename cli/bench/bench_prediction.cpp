@@ -108,7 +108,7 @@ nlohmann::json json(const Distribution& d) {
 }
 
 /// One line of the table. Returns what prediction leaves of the error: of the way, of the turn.
-std::pair<double, double> tell(const HeadPath& path, const BenchPredictionOptions& o, double ahead) {
+std::pair<double, double> toldErrors(const HeadPath& path, const BenchPredictionOptions& o, double ahead) {
   const Errors off = errorsOf(path, o, ahead, false), on = errorsOf(path, o, ahead, true);
   const Distribution way = distributionOf(off.millimetres), wayThen = distributionOf(on.millimetres);
   const Distribution turn = distributionOf(off.degrees), turnThen = distributionOf(on.degrees);
@@ -147,7 +147,7 @@ int benchPrediction(const BenchPredictionOptions& o) {
   bool ok = true;
   for (const HeadPath& path : paths)
     for (const double ahead : kAheads) {
-      const auto [way, turn] = tell(path, o, ahead);
+      const auto [way, turn] = toldErrors(path, o, ahead);
       if (ahead == kJudgedAhead) ok = ok && way <= kMostShare && turn <= kMostShare;
     }
   if (!o.json) std::printf("%s\n", ok ? "ok" : "MISSED");

@@ -125,7 +125,7 @@ private:
   Failure failure_;
 };
 
-double middleOf(std::vector<double> values) {
+double medianOfRounds(std::vector<double> values) {
   if (values.empty()) return 0;
   std::ranges::sort(values);
   const std::size_t half = values.size() / 2;
@@ -142,7 +142,7 @@ double ratioOf(const std::vector<double>& with, const std::vector<double>& witho
     for (std::size_t i = at; i < at + kBlock; ++i) a += with[i], b += without[i];
     ratios.push_back(a / b);
   }
-  return middleOf(std::move(ratios));
+  return medianOfRounds(std::move(ratios));
 }
 
 struct Measured {
@@ -164,7 +164,7 @@ std::optional<Measured> measureRound(const ShowOptions& options, GlProvider& pro
     if (show->failure()) return findings.error({}, show->failure()->message), std::nullopt;
   if (shows[recorded]->lost() > 0) findings.warning({}, "spans were lost");
   return Measured{ratioOf(turns.took(recorded), turns.took(1 - recorded)),
-                  middleOf(turns.took(1 - recorded))};
+                  medianOfRounds(turns.took(1 - recorded))};
 }
 
 /// How much more a frame executes when it is recorded; nothing, with the findings, if that cannot be counted.
@@ -203,7 +203,7 @@ int benchRecording(const BenchRecordingOptions& o) {
     ratios.push_back(measured->ratio), ms = measured->ms;
     std::fprintf(stderr, "round %zu of %zu: %+.2f %%\n", round + 1, o.rounds, 100 * (measured->ratio - 1));
   }
-  const double more = middleOf(ratios) - 1;
+  const double more = medianOfRounds(ratios) - 1;
   std::optional<double> executed;
   if (o.instructions && !(executed = moreInstructions(show, folder, findings)))
     return tell(findings), kBadInput;

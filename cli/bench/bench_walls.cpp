@@ -59,7 +59,7 @@ void sayWho(const bench::WallsPrograms& programs) {
                  "To have it, install and build it with\n  ./stadion setup peers\n");
 }
 
-std::optional<Diagnostic> write(OutputFolder& folder, const std::string& name, const std::string& content) {
+std::optional<Diagnostic> addFile(OutputFolder& folder, const std::string& name, const std::string& content) {
   if (auto wrong = folder.note(name)) return wrong;
   return writeFile(folder.pathOf(name), content);
 }
@@ -68,9 +68,9 @@ std::optional<Diagnostic> writeAll(OutputFolder& folder, const bench::WallsResul
   std::string rows;
   for (const std::string& name : results.names())
     for (const nlohmann::json& row : results.rowsOf(name)) rows += row.dump() + "\n";
-  if (auto wrong = write(folder, "rows.jsonl", rows)) return wrong;
-  return scaling ? write(folder, "scaling.svg", bench::scalingPlot(results))
-                 : write(folder, "walls.svg", bench::wallsPlot(results));
+  if (auto wrong = addFile(folder, "rows.jsonl", rows)) return wrong;
+  return scaling ? addFile(folder, "scaling.svg", bench::scalingPlot(results))
+                 : addFile(folder, "walls.svg", bench::wallsPlot(results));
 }
 
 int report(const WallsOutcome& outcome, const BenchWallsOptions& o) {

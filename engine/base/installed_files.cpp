@@ -46,7 +46,9 @@ std::optional<fs::path> shareAbove(fs::path folder) {
 }
 
 std::optional<fs::path> programNear(const fs::path& folder, const std::string& name) {
-  for (const fs::path& candidate : {folder / name, folder.parent_path() / "lib" / "stadion" / name})
+  const fs::path above = folder.parent_path();
+  for (const fs::path& candidate :
+       {folder / name, above / "lib" / "stadion" / name, above.parent_path() / "bin" / name})
     if (isThere(candidate)) return candidate;
   return {};
 }

@@ -1,6 +1,6 @@
 /// An installed copy needs no checkout: it plays, and programs of others are built on it.
 
-#include "tests/cli/program.h"
+#include "tests/programs/program.h"
 
 #include <gtest/gtest.h>
 

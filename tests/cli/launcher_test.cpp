@@ -1,7 +1,7 @@
 /// The launcher `./stadion`, in a house of its own: a copy of the script beside programs that only say that
 /// they were called.
 
-#include "tests/cli/program.h"
+#include "tests/programs/program.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,8 @@ public:
   House() {
     fs::create_directories(root_.path() / "stubs");
     fs::copy_file(STADION_SOURCE_DIR "/stadion", root_.path() / "stadion");
-    for (const char* floor : {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "assets/generator", "tests"})
+    for (const char* floor :
+         {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "assets/generator", "tests"})
       write(std::string(floor) + "/x.cpp", "// source\n");
     write("CMakeLists.txt", "# build\n"), write("CMakePresets.json", "{}\n");
     stub("id", "echo ${STUB_UID:-0}");
@@ -63,7 +64,7 @@ TEST(ProgramLauncher, BuildsTheFirstTimeAndThenOnlyStarts) {
   EXPECT_EQ(first.status, 0) << first.err;
   EXPECT_EQ(first.out, "<run><a show.evs><--frames><5>");
   EXPECT_TRUE(has(house.calls(), "cmake --preset release")) << house.calls();
-  EXPECT_TRUE(has(house.calls(), "--target programs")) << house.calls();
+  EXPECT_TRUE(has(house.calls(), "--target stadion\n")) << house.calls();
   EXPECT_FALSE(has(house.calls(), "apt-get"));
   EXPECT_TRUE(has(first.err, "building")) << first.err;
 
@@ -71,6 +72,18 @@ TEST(ProgramLauncher, BuildsTheFirstTimeAndThenOnlyStarts) {
   const ProgramResult second = house.start({"nodes"});
   EXPECT_EQ(second.out, "<nodes>");
   EXPECT_EQ(second.err, "");
+  EXPECT_EQ(house.calls(), "");
+}
+
+TEST(ProgramLauncher, TheMeasurementsAreBuiltWhenTheyAreFirstCalled) {
+  House house;
+  house.start({"nodes"});
+  house.forgetCalls();
+  EXPECT_EQ(house.start({"bench", "walls"}).out, "<bench><walls>");
+  EXPECT_TRUE(has(house.calls(), "--target programs")) << house.calls();
+  house.forgetCalls();
+  EXPECT_EQ(house.start({"bench", "walls"}).out, "<bench><walls>");
+  EXPECT_EQ(house.start({"nodes"}).out, "<nodes>");
   EXPECT_EQ(house.calls(), "");
 }
 

@@ -1,7 +1,7 @@
 /// What the product consists of is listed, and the list is right.
 
-#include "tests/cli/desk.h"
 #include "tests/proc.h"
+#include "tests/programs/desk.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 /// What the program answers when something is wrong with what it was given, and how it ends.
 
-#include "tests/cli/program.h"
+#include "tests/programs/program.h"
 
 #include <csignal>
 #include <fmt/format.h>

@@ -1,0 +1,31 @@
+#include "cli/bench_program.h"
+
+#include "cli/exit_code.h"
+#include "engine/base/installed_files.h"
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <string_view>
+#include <unistd.h>
+
+namespace stadion {
+
+bool isBench(int argc, char** argv) {
+  return argc > 1 && std::string_view(argv[1]) == "bench";
+}
+
+int startBench(char** argv) {
+  const std::string program = helperProgram("stadion-bench");
+  ::execvp(program.c_str(), argv);
+  std::fprintf(stderr, "stadion: the benchmarks (%s) cannot be started: %s%s\n", program.c_str(),
+               std::strerror(errno), errno == ENOENT ? "; in a checkout, `./stadion bench` builds them" : "");
+  return kBadInput;
+}
+
+void describeBench(CLI::App& app) {
+  app.add_subcommand("bench", "Measure, and fail when a limit is missed")->prefix_command();
+}
+
+}  // namespace stadion

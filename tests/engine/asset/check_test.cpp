@@ -1,0 +1,104 @@
+// Whole folders of models, and models broken on purpose.
+
+#include "tests/engine/asset/importing.h"
+
+#include "engine/asset/check.h"
+#include "tests/mutations.h"
+
+#include <map>
+
+namespace stadion::test {
+namespace {
+
+TEST(AssetCheck, CountsWhatLoadsAndWhatDoesNot) {
+  TemporaryFolder folder;
+  std::filesystem::copy(models(), folder.path() / "models");
+  folder.write("horse.fbx", "x");
+  folder.write("notes.txt", "x");
+  std::map<std::string, AssetFinding> told;
+  const auto counts = checkAssets(Importer::installedProgram(), folder.path(), [&](const AssetFinding& f) {
+    EXPECT_EQ(f.mesh != nullptr, f.verdict == AssetVerdict::Loaded);
+    EXPECT_EQ(f.message.empty(), f.verdict == AssetVerdict::Loaded);
+    told[f.file] = f;
+  });
+  ASSERT_TRUE(counts);
+  EXPECT_EQ(counts.value().loaded, 15u);
+  EXPECT_EQ(counts.value().refused, 1u);
+  EXPECT_EQ(counts.value().failed, 2u);
+  EXPECT_EQ(counts.value().faults, 0u);
+  EXPECT_EQ(told.size(), 18u);
+  EXPECT_EQ(told["models/empty.stl"].verdict, AssetVerdict::Failed);
+  EXPECT_FALSE(checkAssets(Importer::installedProgram(), "/nonexistent", [](const AssetFinding&) {}));
+}
+
+TEST(AssetCheck, TheModelsOfTheAssimpPackageNeitherCrashNorHang) {
+  const std::filesystem::path folder = "/usr/share/assimp";
+  if (!std::filesystem::exists(folder / "models"))
+    GTEST_SKIP() << "the package assimp-testmodels is not installed";
+  const auto counts = checkAssets(Importer::installedProgram(), folder, [](const AssetFinding& f) {
+    EXPECT_EQ(f.message.empty(), f.verdict == AssetVerdict::Loaded) << f.file;
+  });
+  ASSERT_TRUE(counts);
+  EXPECT_GE(counts.value().loaded, 75u);
+  EXPECT_GE(counts.value().refused, 200u);
+  RecordProperty("loaded", static_cast<int>(counts.value().loaded));
+  RecordProperty("refused", static_cast<int>(counts.value().refused));
+  RecordProperty("failed", static_cast<int>(counts.value().failed));
+  RecordProperty("faults", static_cast<int>(counts.value().faults));
+}
+
+class Mutator {
+public:
+  explicit Mutator(std::uint64_t seed) : state_(seed + 42) {}
+  std::string operator()(std::string bytes) {
+    for (std::size_t n = 1 + roll(6); n > 0 && !bytes.empty(); --n) {
+      const std::size_t at = roll(bytes.size());
+      switch (roll(6)) {
+      case 0: bytes[at] = static_cast<char>(roll(256)); break;
+      case 1: bytes[at] = static_cast<char>(bytes[at] ^ (1 << roll(8))); break;
+      case 2: bytes.resize(at); break;
+      case 3: bytes.insert(at, bytes.substr(at, 1 + roll(64))); break;
+      case 4: bytes.erase(at, 1 + roll(16)); break;
+      default:
+        for (std::size_t i = at; i < std::min(at + 4, bytes.size()); ++i) bytes[i] = static_cast<char>(0xff);
+      }
+    }
+    return bytes;
+  }
+
+private:
+  std::size_t roll(std::size_t sides) {
+    state_ = state_ * 6364136223846793005ull + 1442695040888963407ull;
+    return static_cast<std::size_t>(state_ >> 33) % sides;
+  }
+  std::uint64_t state_;
+};
+
+TEST(AssetCheck, MutatedModelsNeverHarmTheShow) {
+  const auto [count, seed] = mutations(200);
+  TemporaryFolder folder;
+  std::filesystem::copy_file(models() / "arms.bin", folder.path() / "arms.bin");
+  ImportLimits limits;
+  limits.timeout = std::chrono::milliseconds(2000);
+  Importer importer = importerOf(folder.path(), limits);
+  Mutator mutate(seed);
+  int loaded = 0, failed = 0;
+  const char* names[] = {"arms.obj", "arms.3ds", "arms.gltf", "arms.glb", "arms_zup_cm.dae", "arms.stl"};
+  for (int i = 0; i < count; ++i) {
+    const char* name = names[i % 6];
+    folder.write(name, mutate(bytesOf(models() / name)));
+    const auto mesh = importer.load(name);
+    ++(mesh ? loaded : failed);
+    if (mesh)
+      for (auto index : mesh.value()->indices) ASSERT_LT(index, mesh.value()->positions.size());
+    else
+      ASSERT_FALSE(mesh.error().message.empty());
+  }
+  EXPECT_EQ(loaded + failed, count);
+  std::printf("%d mutated models: %d loaded, %d refused, %d importer programs lost\n", count, loaded, failed,
+              importer.started() - 1);
+  EXPECT_TRUE(importerOf(models()).load("arms.obj"));
+}
+
+}  // namespace
+}  // namespace stadion::test
