@@ -2,19 +2,18 @@
 /// What the program's exit status means, to scripts and CI.
 
 #include "engine/base/diagnostic.h"
-#include "pipeline/wall/stages.h"
+#include "show/base/process_status.h"
 
 #include <cstdio>
 
 namespace stadion {
 
+/// kOtherFiles and kStopped are those of any process that plays a show.
 enum ExitCode : int {
-  kOk = 0,
-  kCheckFailed = 1,    ///< a check or comparison failed
-  kBadInput = 2,       ///< bad usage, a file of the user's is wrong, or not all that was asked for is there
-  kInternalFault = 3,  ///< our fault, OpenGL's, or the display is gone
-  kOtherFiles = 4,     ///< of a cluster: who leads has other files; with its next show they may be alike
-  kStopped = 128,      ///< plus the number of the signal that ended a run, as shells have it: 130, 143
+  kOk = kPlayed,
+  kCheckFailed = 1,          ///< a check or comparison failed
+  kBadInput = kRefused,      ///< wrong usage, a wrong file, or a result that was asked for is missing
+  kInternalFault = kFailed,  ///< our fault, OpenGL's, or the display was lost
 };
 
 /// Of a run that could not go on.
@@ -22,7 +21,7 @@ inline ExitCode exitCodeOf(const Reason& why) {
   return why.kind == FailureKind::Refusal ? kBadInput : kInternalFault;
 }
 
-/// Says on stderr why the program ends with `code`, which it gives back.
+/// Writes to stderr why the program ends with `code`. Returns `code`.
 inline int complain(const Diagnostic& why, int code) {
   std::fprintf(stderr, "stadion: %s\n", format(why).c_str());
   return code;

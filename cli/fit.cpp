@@ -1,10 +1,11 @@
 /// `stadion fit OBJECT --reference CSV`: the cheapest flight model that is good enough, and the line to
 /// paste.
 
+#include "dynamics/flight/fit.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
-#include "dynamics/flight/fit.h"
+#include "cli/terminal.h"
 #include "engine/base/plain_file.h"
 #include "show/measure/fit_object.h"
 #include "show/output/output_names.h"

@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/show_options.h"
+#include "cli/terminal.h"
 #include "show/player/player.h"
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,7 @@ namespace {
 int hashShow(ShowOptions options) {
   Diagnostics findings;
   if (!options.settle(findings)) return tell(findings), kBadInput;
-  auto player = Player::create(options, findings);
+  auto player = Player::create(options, findings, tell);
   tell(findings);
   if (!player) return kBadInput;
 

@@ -4,6 +4,7 @@
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
 #include "cli/options/show_options.h"
+#include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/installed_files.h"
 #include "engine/base/number_text.h"
@@ -81,7 +82,8 @@ std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
   o.run.walls = std::min(o.count.value_or(walls->walls.size()), walls->walls.size());
   const double load = loadNow();
   MeasuredCosts measured;
-  if (!measureCosts(o.run, *provider.value(), measured, findings)) return {};
+  TerminalReporter terminal;
+  if (!measureCosts(o.run, *provider.value(), terminal, measured, findings)) return {};
 
   plan::ShowCosts costs;
   costs.show = std::filesystem::path(show.script).filename().string();

@@ -6,6 +6,7 @@
 #include "cli/options/number_option.h"
 #include "cli/options/run_options.h"
 #include "cli/options/show_options.h"
+#include "cli/terminal.h"
 #include "profiling/record/black_box.h"
 #include "profiling/record/black_box_folder.h"
 #include "show/base/stop_signal.h"
@@ -26,6 +27,7 @@ namespace {
 struct ProfileOptions {
   FidelityOptions fidelity;
   ProfileRunOptions run;
+  TraceRequest trace;
   std::size_t nodes = 25;
   double millimetres = 1;
   CLI::Option* blackBox = nullptr;
@@ -107,13 +109,15 @@ int profileFrames(ProfileOptions o) {
   options.show = o.fidelity.show;
   options.layout = *stereoLayout(options.stereo);
   options.drawn = !o.undrawn;
-  options.fidelity = o.fidelity, options.fidelityAsked = o.fidelityAsked;
+  options.fidelity = o.fidelity, options.fidelity.report = tell, options.fidelityAsked = o.fidelityAsked;
   options.fidelity.tolerance = 1e-3 * o.millimetres;
   Diagnostics findings;
-  const std::vector<NamedFile> files{{"--html", options.html}, {"--trace", options.trace.file}};
+  const std::vector<NamedFile> files{{"--html", options.html}, {"--trace", o.trace.file}};
   refuseOverwriting({&options.show, 1}, files, findings);
+  options.trace = o.trace.settle(findings);
   const bool settled = options.show.settle(findings) && !findings.hasErrors();
-  const auto figures = settled ? profileShow(options, findings) : std::nullopt;
+  TerminalReporter terminal;
+  const auto figures = settled ? profileShow(options, terminal, findings) : std::nullopt;
   tell(findings);
   if (!figures) return kBadInput;
   std::printf("%s", o.json  ? (toJson(*figures) + "\n").c_str()
@@ -137,6 +141,7 @@ bool asksForRecord(const CLI::App& command) {
 int profileModels(ProfileOptions o) {
   FidelityOptions& options = o.fidelity;
   options.tolerance = 1e-3 * o.millimetres;
+  options.report = tell;
   options.show.walls = "desktop";
   Diagnostics findings;
   if (!options.show.settle(findings)) return tell(findings), kBadInput;
@@ -215,7 +220,7 @@ void addProfileCommand(CLI::App& app, int& code) {
   command->add_option("--html", o->run.html,
                       "write a page for a browser to FILE: frames, nodes, stages, walls, late frames; with "
                       "--fidelity the bodies' errors too");
-  addTraceOptions(*command, o->run.trace, "--trace");
+  addTraceOptions(*command, o->trace, "--trace");
   CLI::Option* csv = command->add_flag("--csv", o->csv, "a row a node, stage, wall and eye");
   command->add_flag("--fidelity", o->fidelityAsked,
                     "each body's model, its error against the finest, and its cost");

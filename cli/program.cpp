@@ -1,11 +1,11 @@
 #include "cli/program.h"
 
 #include "cli/exit_code.h"
-#include "cli/version.h"
 #include "engine/script/suggestion.h"
 #include "pipeline/sound/sound_libraries.h"
 #include "pipeline/target/rasteriser_settings.h"
-#include "show/session/crash_report.h"
+#include "show/base/version.h"
+#include "show/recording/crash_report.h"
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
@@ -20,8 +20,9 @@
 namespace stadion {
 namespace {
 
-/// Who starts the program with one of them closed would have the next file that is opened take its place, and
-/// messages written into it. Opened the wrong way round, so that their use is an error still.
+/// If the program was started with a standard stream closed, the next file that it opens would take its place,
+/// and messages would be written into that file. The streams are opened the wrong way round, so that their use
+/// is still an error.
 void occupyStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
@@ -32,7 +33,7 @@ int obey(int argc, char** argv, const AddCommands& addCommands, std::optional<un
   CLI::App app("Stadion plays immersive shows written in the EVS world description language on stereo walls.",
                "stadion");
   app.footer("Exit codes: 0 ok, 1 a check or comparison failed, 2 bad usage or bad input, 3 internal fault,\n"
-             "4 of a cluster: who leads has other files, 130 or 143 stopped by SIGINT or SIGTERM.\n"
+             "4 in a cluster: the leader has other files, 130 or 143 stopped by SIGINT or SIGTERM.\n"
              "Start with:  ./stadion run scripts/kick.evs --out pictures");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("stadion ") + kVersion);

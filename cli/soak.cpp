@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "cli/terminal.h"
 #include "engine/base/installed_files.h"
 #include "engine/base/run_stopped.h"
 #include "pipeline/platform/process_figures.h"
@@ -10,8 +11,8 @@
 #include "show/measure/soak_record.h"
 #include "show/measure/soak_visitor.h"
 #include "show/player/kept_parts.h"
-#include "show/session/run_watch.h"
-#include "show/session/show_recording.h"
+#include "show/recording/run_watch.h"
+#include "show/recording/show_recording.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -104,17 +105,17 @@ bool Soak::play() {
 
 bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
   show_ = show, way_ = way, before_ = 0, loadsVersion_ = 0;
-  RunOptions o;
-  o.show.script = show, o.show.walls = "desktop", o.show.size = "32x24", o.show.look = options_.look;
-  o.show.input = "none", o.show.frames = frames, o.stereo = "off";
-  o.show.mode = way == Way::Sequential ? "sequential" : "pipelined";
-  o.show.assetRoots = {shareFolder() + "/assets"};
+  ShowOptions o;
+  o.script = show, o.walls = "desktop", o.size = "32x24", o.look = options_.look;
+  o.input = "none", o.frames = frames;
+  o.mode = way == Way::Sequential ? "sequential" : "pipelined";
+  o.assetRoots = {shareFolder() + "/assets"};
   Diagnostics findings;
   KeptParts& kept = kept_[show];
   kept.models.store().collect(~std::uint64_t{0});  // no frame shows it any more
-  const auto player =
-      o.settle(findings) ? Player::create(o.show, findings, tell, &stop_, &kept.models) : nullptr;
-  const auto watch = player ? RunWatch::create(o, *player, findings) : nullptr;
+  const auto player = o.settle(findings) ? Player::create(o, findings, tell, &stop_, &kept.models) : nullptr;
+  const auto watch =
+      player ? RunWatch::create({}, PlaySettings{.everyFrame = true}, *player, findings) : nullptr;
   tell(findings);
   if (!watch) return false;
   RecordingOptions recording;
@@ -285,7 +286,8 @@ int soak(SoakOptions o) {
   if (o.shows.empty()) o.shows = {shareFolder() + "/scripts/soak/soak.evs"};
   const std::string what =
       fmt::format("{}, look {}, visits of {} frames", fmt::join(o.shows, ", "), o.look, o.visit);
-  const auto record = SoakRecord::open(o.record, what, findings);
+  TerminalReporter terminal;
+  const auto record = SoakRecord::open(o.record, what, terminal.faultFunction(), findings);
   tell(findings);
   if (!record) return kBadInput;
   if (record->counts.frames >= o.frames) {

@@ -4,12 +4,13 @@
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
 #include "cli/options/run_options.h"
+#include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/input/rig_calibration.h"
 #include "engine/maths/angles.h"
 #include "show/base/stop_signal.h"
+#include "show/console/tracker_device.h"
 #include "show/player/player.h"
-#include "show/settings/tracker_device.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #include "cli/bench/bench_recording.h"
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/installed_files.h"
 #include "profiling/bench/grid_show.h"
@@ -96,13 +97,14 @@ int benchAttribution(const BenchAttributionOptions& o) {
                         {"olympia", scripts + "olympia.evs", "desktop", "400x300", 0},
                         {"grid of 10 000 nodes", folder.path("grid.evs"), "desktop", "160x120", 0.85}};
   bool met = true;
+  TerminalReporter terminal;
   for (const Show& show : shows) {
     ProfileRunOptions options;
     options.show.script = show.script, options.show.walls = show.walls, options.show.size = show.size;
     options.show.mode = "sequential";  // so that nothing else of the process is at work meanwhile
     options.show.frames = o.frames, options.show.assetRoots = {scripts};
     if (!options.show.settle(findings)) return tell(findings), kBadInput;
-    const auto figures = profileShow(options, findings);
+    const auto figures = profileShow(options, terminal, findings);
     tell(findings);
     if (!figures) return stopSignal() ? kStopped + stopSignal() : kBadInput;
     met = tellFigures(*figures, show, o.json) && met;

@@ -3,12 +3,13 @@
 #include "cli/bench/planted_stall.h"
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "cli/terminal.h"
 #include "engine/base/installed_files.h"
 #include "engine/input/input_log.h"
 #include "show/base/stop_signal.h"
 #include "show/base/temporary_folder.h"
-#include "show/session/run_watch.h"
-#include "show/session/show_recording.h"
+#include "show/recording/run_watch.h"
+#include "show/recording/show_recording.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -57,13 +58,16 @@ public:
   }
 
   std::optional<Played> play(Diagnostics& findings) {
-    RunOptions run = runOptions();
-    run.show.input = "none", run.live = true, run.recordInput = folder_.path("live.input");
-    const auto player = Player::create(run.show, findings);
+    ShowOptions show = showOptions();
+    show.input = "none";
+    const PlaySettings live;
+    RecordSettings record;
+    record.input = folder_.path("live.input");
+    const auto player = Player::create(show, findings, tell);
     if (!player) return {};
     player->playLive();
-    auto watch = RunWatch::create(run, *player, findings);
-    auto recording = record(*player, findings);
+    auto watch = RunWatch::create(record, live, *player, findings);
+    auto recording = recordingOf(*player, findings);
     if (!watch || !recording) return {};
     const NodeRef game = player->scene().resolve("game", {1, 0});
     PlantedStall stall(recording->probe(), {game, o_.from(), o_.to(), std::chrono::milliseconds(o_.length)});
@@ -82,7 +86,7 @@ public:
       if (now.frame >= BenchBudgetsOptions::frame(o_.seconds())) running->endAfterThisFrame();
     };
     ShowStages stages(std::move(parts));
-    FrameLoopOptions options = run.loopOptions(*player);
+    FrameLoopOptions options = live.loopOptions(*player);
     options.decider = recording->governor();
     FrameLoop loop(stages, options, catchStopSignals(), &stall);
     running = &loop;
@@ -93,10 +97,10 @@ public:
 
   /// Of a replay of what was recorded: over the state hashes of all frames. Nothing if it cannot be played.
   std::optional<std::uint64_t> replay(const std::string& mode, Diagnostics& findings) {
-    RunOptions run = runOptions();
-    run.show.input = folder_.path("live.input"), run.show.mode = mode;
-    const auto player = Player::create(run.show, findings);
-    auto watch = player ? RunWatch::create(run, *player, findings) : nullptr;
+    ShowOptions show = showOptions();
+    show.input = folder_.path("live.input"), show.mode = mode;
+    const auto player = Player::create(show, findings, tell);
+    auto watch = player ? RunWatch::create({}, PlaySettings{.everyFrame = true}, *player, findings) : nullptr;
     if (!watch) return {};
     ShowParts parts = player->parts(StereoLayout::Off);
     parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
@@ -108,17 +112,16 @@ public:
   }
 
 private:
-  RunOptions runOptions() const {
-    RunOptions run;
-    run.show.script = folder_.path("show.evs");
-    run.show.walls = "desktop", run.show.rate = kRate;
-    run.show.assetRoots = {shareFolder() + "/assets"};
-    run.show.width = 32, run.show.height = 24;
-    run.provider = "none";
-    return run;
+  ShowOptions showOptions() const {
+    ShowOptions show;
+    show.script = folder_.path("show.evs");
+    show.walls = "desktop", show.rate = kRate;
+    show.assetRoots = {shareFolder() + "/assets"};
+    show.width = 32, show.height = 24;
+    return show;
   }
 
-  std::unique_ptr<ShowRecording> record(const Player& player, Diagnostics& findings) {
+  std::unique_ptr<ShowRecording> recordingOf(const Player& player, Diagnostics& findings) {
     RecordingOptions options;
     options.profile = false, options.log.samples = false;
     options.keep = BlackBoxOptions{folder_.path("frames"), kRate, player.walls().names(), {}, {}};

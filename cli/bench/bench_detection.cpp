@@ -2,7 +2,6 @@
 
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
-#include "cli/regress/regress_rounds.h"
 #include "engine/base/installed_files.h"
 #include "engine/base/plain_file.h"
 #include "engine/core/state_hash.h"
@@ -10,6 +9,7 @@
 #include "profiling/regression/statistics/instruction_comparison.h"
 #include "profiling/regression/statistics/rank_test.h"
 #include "show/base/stop_signal.h"
+#include "show/regress/regress_rounds.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

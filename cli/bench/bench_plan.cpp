@@ -2,6 +2,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "cli/terminal.h"
 #include "engine/base/installed_files.h"
 #include "profiling/plan/forecast.h"
 #include "show/base/stop_signal.h"
@@ -77,7 +78,7 @@ public:
         const auto forecast = predict(options, c, findings);
         if (!forecast) return false;
         options.walls = c.walls;
-        const auto played = playTimes(options, c.mode, provider_, findings);
+        const auto played = playTimes(options, c.mode, provider_, terminal_, findings);
         if (!played) return false;
         c.rounds.push_back({forecast->period, played->period, forecast->latency, played->latency});
       }
@@ -92,7 +93,7 @@ private:
   std::optional<plan::Forecast> predict(PlanRunOptions options, const Combination& c, Diagnostics& findings) {
     options.walls = *std::ranges::max_element(o_.walls);
     MeasuredCosts costs;
-    if (!measureCosts(options, provider_, costs, findings)) return {};
+    if (!measureCosts(options, provider_, terminal_, costs, findings)) return {};
     plan::Plan p;
     p.machine.cores = std::max(1u, std::thread::hardware_concurrency());
     p.waitsInTurn = costs.waitsInTurn;
@@ -156,10 +157,12 @@ private:
 
   const BenchPlanOptions& o_;
   GlProvider& provider_;
+  TerminalReporter terminal_;
 };
 
 int benchPlan(BenchPlanOptions o) {
-  if (o.shows.empty()) o.shows = {shareFolder() + "/scripts/kick.evs", shareFolder() + "/scripts/olympia.evs"};
+  if (o.shows.empty())
+    o.shows = {shareFolder() + "/scripts/kick.evs", shareFolder() + "/scripts/olympia.evs"};
   Diagnostics findings;
   auto provider = openGlProvider(GlProviderKind::OsMesa);
   if (!provider) return findings.add(provider.error()), tell(findings), kBadInput;

@@ -2,6 +2,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "cli/terminal.h"
 #include "engine/base/installed_files.h"
 #include "engine/input/input_log.h"
 #include "engine/input/tracker_feed.h"

@@ -3,14 +3,15 @@
 #include "cli/bench/bench_recording_instructions.h"
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/installed_files.h"
 #include "profiling/bench/grid_show.h"
 #include "show/base/stop_signal.h"
 #include "show/base/temporary_folder.h"
 #include "show/player/player.h"
-#include "show/session/last_frames.h"
-#include "show/session/show_recording.h"
+#include "show/recording/last_frames.h"
+#include "show/recording/show_recording.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

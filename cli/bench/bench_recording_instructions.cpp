@@ -1,7 +1,7 @@
 #include "cli/bench/bench_recording_instructions.h"
 
 #include "engine/base/plain_file.h"
-#include "show/measure/regress_child.h"
+#include "show/regress/regress_child.h"
 
 #include <cstdlib>
 #include <filesystem>

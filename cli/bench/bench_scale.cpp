@@ -2,6 +2,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "cli/terminal.h"
 #include "engine/base/prefetch.h"
 #include "pipeline/record/run_summary.h"
 #include "profiling/bench/city_show.h"
@@ -111,7 +112,7 @@ std::optional<Figures> measure(const BenchScaleOptions& o) {
   Figures f;
   const double before = bytesInUse(), peakBefore = peakBytes();
   const Clock::time_point began = Clock::now();
-  const auto player = show.settle(findings) ? Player::create(show, findings) : nullptr;
+  const auto player = show.settle(findings) ? Player::create(show, findings, tell) : nullptr;
   if (!player) return tell(findings), std::nullopt;
   f.loadSeconds = 1e-3 * millisecondsSince(began);
   const auto chunk = static_cast<double>(player->parts(StereoLayout::Pair).state.arena().bytesInUse());

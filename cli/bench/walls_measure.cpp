@@ -1,5 +1,6 @@
 #include "cli/bench/walls_measure.h"
 
+#include "cli/terminal.h"
 #include "pipeline/loop/pacer.h"
 #include "pipeline/record/run_summary.h"
 #include "profiling/bench/walls/picture_difference.h"
@@ -146,7 +147,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   if (!show.settle(findings)) return wrong("bad settings");
   auto provider = openGlProvider(s.gl == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa);
   if (!provider) return provider.error();
-  const auto player = Player::create(show, findings);
+  const auto player = Player::create(show, findings, tell);
   if (!player) return wrong("the show cannot be played");
   LastPictures pictures(s, player->walls().names());
   Completed completed;

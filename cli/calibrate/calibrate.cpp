@@ -1,13 +1,14 @@
 /// `stadion calibrate`: measures how walls are drawn fastest on this machine, and remembers it.
 
-#include "cli/calibrate/calibrate_rooms.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "cli/terminal.h"
 #include "pipeline/platform/calibration_file.h"
 #include "show/base/stop_signal.h"
 #include "show/base/temporary_folder.h"
 #include "show/measure/calibrate_measure.h"
+#include "show/measure/calibrate_rooms.h"
 #include "show/measure/calibration_show.h"
 #include "show/measure/plan_run.h"
 
@@ -23,7 +24,7 @@
 namespace stadion {
 namespace {
 
-constexpr double kQuiet = 0.5;  ///< threads of others for each processor
+constexpr double kQuietShare = 0.5;  ///< threads of others for each processor
 
 struct CalibrateOptions {
   std::vector<std::string> walls{"cave4", "powerwall"};
@@ -38,7 +39,10 @@ struct CalibrateOptions {
 int measureOne(const CalibrateOptions& o) {
   const auto setting = settingOf(o.one);
   if (!setting || o.walls.size() != 1) return kBadInput;
-  const auto figures = measureSetting({*setting, o.folder, o.walls.front(), o.size, o.look, o.window});
+  Diagnostics findings;
+  const auto figures =
+      measureSetting({*setting, o.folder, o.walls.front(), o.size, o.look, o.window}, findings);
+  tell(findings);
   if (!figures) return complain(figures.error(), kInternalFault);
   std::printf("%s\n", nlohmann::json{{"frames_per_second", figures.value().framesPerSecond},
                                      {"cpu_ms_per_frame", figures.value().cpuMs},
@@ -54,7 +58,7 @@ std::string nowText() {
 
 void warnIfBusy(double load) {
   const double processors = std::max(1u, std::thread::hardware_concurrency());
-  if (load > kQuiet * processors)
+  if (load > kQuietShare * processors)
     std::fprintf(stderr,
                  "stadion: others are at work on this machine (load %.1f, %g processors): what is fastest "
                  "beside them may not be when it is quiet\n",
@@ -123,7 +127,8 @@ int calibrate(const CalibrateOptions& o) {
   MachineCalibration measured;
   measured.machine = thisMachine();
   for (const RoomToMeasure& room : rooms) {
-    const auto found = measureRoom(room, folder.path(""), stop);
+    const auto found = measureRoom(room, folder.path(""), stop,
+                                   [](const std::string& text) { std::fputs(text.c_str(), stderr); });
     if (stop)
       return std::fprintf(stderr, "stadion: stopped; nothing is remembered\n"), kStopped + stopSignal();
     if (!found) return complain(found.error(), kCheckFailed);

@@ -1,14 +1,15 @@
 /// `stadion cluster FILE SHOW`: plays a show on all nodes of a cluster at once, on this machine, for trying
 /// out.
 
-#include "cli/cluster/cluster_nodes.h"
 #include "cli/cluster/node_words.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/run_options.h"
+#include "cli/terminal.h"
 #include "pipeline/cluster/lead.h"
 #include "pipeline/record/journal.h"
 #include "pipeline/supervision/shared_progress.h"
+#include "show/cluster/cluster_nodes.h"
 #include "show/output/output_folder.h"
 #include "show/player/show_check.h"
 
@@ -41,7 +42,7 @@ bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::str
     checkWordsOfNode(ofNode, findings);
     if (!isWell(findings)) return false;
   }
-  if (!isWell(checkScripts(o.run.show.script, o.run.show.assetRoots))) return false;
+  if (!isWell(checkScripts(o.run.settings.show.script, o.run.settings.show.assetRoots))) return false;
   tell(findings);
   return true;
 }
@@ -85,19 +86,20 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
   for (std::size_t i = 0; i < cluster->nodes.size(); ++i)
     words.push_back(wordsOfNode(command, o.run, *cluster, i));
   if (!canBePlayed(o, words)) return kBadInput;
-  if (!makeFolders(o.run.out, *cluster, findings)) return tell(findings), kBadInput;
+  if (!makeFolders(o.run.settings.record.out, *cluster, findings)) return tell(findings), kBadInput;
   auto progress = SharedProgress::create();
   if (!progress) findings.add(progress.error());
   if (findings.hasErrors()) return tell(findings), kBadInput;
-  ClusterNodes nodes(*cluster, o.once);
-  if (!o.run.out.empty()) nodes.needAll();
+  TerminalReporter terminal;
+  ClusterNodes nodes(*cluster, o.once, terminal);
+  if (!o.run.settings.record.out.empty()) nodes.needAll();
   for (std::size_t i = 0; i < words.size(); ++i)
     nodes.add(cluster->nodes[i].name,
               programOf(words[i], i == cluster->lead ? progress.value().get() : nullptr),
-              openJournal(o.run.journal, cluster->nodes[i], findings));
+              openJournal(o.run.settings.supervision.journal, cluster->nodes[i], findings));
   // Who leads may wait for a node that lives and draws nothing (pipeline/cluster/lead.cpp).
-  nodes.watchLead(std::move(progress.value()),
-                  fromSeconds(o.run.hangAfter + cluster::Lead::kStuck * cluster->deadline));
+  nodes.watchLead(std::move(progress.value()), fromSeconds(o.run.settings.supervision.hangAfter +
+                                                           cluster::Lead::kStuck * cluster->deadline));
   if (findings.hasErrors()) return tell(findings), kBadInput;
   const int code = nodes.play();
   std::fputs((o.run.json ? nodes.saidAsJson() : nodes.said()).c_str(), stdout);

@@ -68,8 +68,10 @@ std::vector<std::string> wordsOfNode(const CLI::App& command, const RunOptions& 
                                      const ClusterFile& cluster, std::size_t node) {
   const std::string& name = cluster.nodes[node].name;
   const bool leads = node == cluster.lead;
-  std::vector<std::string> words{asked.show.script, "--cluster", cluster.file, "--node", name};
-  if (!asked.out.empty()) words.insert(words.end(), {"--out", folderOfNode(asked.out, name)});
+  const SessionSettings& settings = asked.settings;
+  std::vector<std::string> words{settings.show.script, "--cluster", cluster.file, "--node", name};
+  if (!settings.record.out.empty())
+    words.insert(words.end(), {"--out", folderOfNode(settings.record.out, name)});
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0 || !isOfRun(*option) || (!leads && isOfWhoLeads(nameOf(*option)))) continue;
     std::vector<std::string> values = option->results();
@@ -77,10 +79,10 @@ std::vector<std::string> wordsOfNode(const CLI::App& command, const RunOptions& 
     addWords(*option, values, words);
   }
   // With trackers no log beside the show counts; the others do not know that there are any.
-  if (!leads && !asked.trackers.device.empty() && asked.show.input.empty())
+  if (!leads && !settings.console.trackers.device.empty() && settings.show.input.empty())
     words.insert(words.end(), {"--input", "none"});
   // All are on this machine: once is loud enough.
-  if (!leads && !asked.noSound) words.push_back("--no-sound");
+  if (!leads && !settings.console.noSound) words.push_back("--no-sound");
   return words;
 }
 
@@ -92,7 +94,9 @@ void checkWordsOfNode(std::vector<std::string> words, Diagnostics& findings) {
   run.parse(std::move(words));
   if (!o.settle(findings)) return;
   refuseUnwritable(o.namedFiles(), findings);
-  ClusterPart::create(o, findings);
+  SessionSettings& s = o.settings;
+  ClusterPart::create(
+      s.cluster, s.show, s.draw.layout, [](const std::string&) {}, findings);
 }
 
 }  // namespace stadion

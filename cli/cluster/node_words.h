@@ -2,8 +2,8 @@
 /// What `stadion cluster` plays each node with: what its own command line says, as far as that is the node's
 /// affair.
 
+#include "cli/options/run_options.h"
 #include "pipeline/cluster/cluster_file.h"
-#include "show/settings/run_options.h"
 
 #include <string>
 #include <string_view>

@@ -19,7 +19,8 @@ void addTraceOptions(CLI::App& command, TraceRequest& o, const std::string& opti
   command.add_option(option, o.file,
                      "write every span of every thread to FILE, for a trace viewer (ui.perfetto.dev)");
   command.add_option("--trace-frames", o.frames, "only these frames of it: A..B");
-  command.add_option("--trace-limit", o.megabytes, "begin no further frame once the trace is that large [MB]")
+  command
+      .add_option("--trace-limit", o.megabytes, "begin no further frame once the trace is that large [MB]")
       ->check(numberFrom(0.1, 100000))
       ->capture_default_str();
 }
@@ -41,8 +42,9 @@ void addTrackerOptions(CLI::App& command, TrackerOptions& o) {
   command.add_option("--rig", o.rig, "rig file: where the room is in the trackers' coordinates, their names");
 }
 
-void addLoadOptions(CLI::App& command, RunOptions& o) {
-  const auto asked = [&o](const std::string&) { o.loadAsked = true; };
+void addLoadOptions(CLI::App& command, RunOptions& run) {
+  PlaySettings& o = run.settings.play;
+  const auto asked = [&run](const std::string&) { run.loadAsked = true; };
   command
       .add_option_function<std::string>(
           "--load-control", [&o](const std::string& word) { o.loadControl = word == "on"; },
@@ -61,9 +63,9 @@ void addLoadOptions(CLI::App& command, RunOptions& o) {
   add("--stress-max", o.stress.max, "how many times farther away things count at most; 1: never", 1, 16);
 }
 
-void addClusterOptions(CLI::App& command, RunOptions& o) {
+void addClusterOptions(CLI::App& command, ClusterSettings& o) {
   CLI::Option* file = command.add_option(
-      "--cluster", o.cluster,
+      "--cluster", o.file,
       "play the show on several machines together: a file that names them and their walls (docs/cluster.md)");
   CLI::Option* name = command.add_option("--node", o.node, "which of the cluster's nodes this machine is");
   file->check(aName, "FILE")->needs(name)->excludes(command.get_option("--walls"));
@@ -80,7 +82,7 @@ void addHeadOptions(CLI::App& command, RunOptions& o) {
       .add_option_function<std::vector<double>>(
           "--latch-reach",
           [&o](const std::vector<double>& v) {
-            o.latchReach = {v[0], v[1]};
+            o.reach = {v[0], v[1]};
           },
           "how far the head may go meanwhile [m] and turn [rad]: Cull looks for what is seen from there, and "
           "a head that goes farther is drawn from this edge, and counted")
@@ -98,7 +100,7 @@ void addHeadOptions(CLI::App& command, RunOptions& o) {
       ->capture_default_str();
 }
 
-void addBlackBoxOption(CLI::App& command, RunOptions& o) {
+void addBlackBoxOption(CLI::App& command, RecordSettings& o) {
   command
       .add_option(
           "--black-box", o.blackBox,
@@ -110,18 +112,21 @@ void addBlackBoxOption(CLI::App& command, RunOptions& o) {
 }
 
 void addSupervisionOptions(CLI::App& command, RunOptions& o) {
+  SupervisionSettings& supervision = o.settings.supervision;
   command.add_flag("--supervise", o.supervise,
                    "another process plays the show, and is replaced when it dies or "
                    "hangs: the next one goes on at the show "
                    "time that would be now (docs/all-day.md)");
-  command.add_option("--hang-after", o.hangAfter, "it hangs when it shows no frame for so many seconds")
+  command
+      .add_option("--hang-after", supervision.hangAfter,
+                  "it hangs when it shows no frame for so many seconds")
       ->check(numberFrom(0.5, 3600))
       ->capture_default_str();
-  command.add_option("--supervised", o.supervised)->group("");  // by --supervise alone
-  command.add_option("--ends-with", o.endsWith)->group("");     // by that and by `stadion cluster`
+  command.add_option("--supervised", supervision.progress)->group("");  // by --supervise alone
+  command.add_option("--ends-with", o.endsWith)->group("");             // by that and by `stadion cluster`
   command
       .add_option(
-          "--journal", o.journal,
+          "--journal", supervision.journal,
           "add a line to this file for all that happens to the run: how it began, files that came and "
           "went, late frames, trackers, walls and players that died, how it ended")
       ->check(aName, "FILE");
@@ -130,7 +135,7 @@ void addSupervisionOptions(CLI::App& command, RunOptions& o) {
 void addOperatorOptions(CLI::App& command, RunOptions& o) {
   command
       .add_option(
-          "--latency", o.latency,
+          "--latency", o.settings.play.latency,
           "frames under way at most between pose and picture, 1 to 4: fewer show what is younger, more let "
           "the stages overlap (default: as many as the stages hold); the operator may change it")
       ->check(wholeNumberFrom(1, 4));
@@ -143,21 +148,25 @@ void addOperatorOptions(CLI::App& command, RunOptions& o) {
       ->each([&o](const std::string&) { o.cullDrawGiven = true; })
       ->capture_default_str();
   command
-      .add_option("--osc", o.oscPort, "listen for the operator's commands on this UDP port (docs/operator.md)")
+      .add_option("--osc", o.settings.console.oscPort,
+                  "listen for the operator's commands on this UDP port (docs/operator.md)")
       ->check(wholeNumberFrom(0, 65535));
-  command.add_flag("--wait", o.wait, "stand at the first frame until the operator says start");
-  command.add_flag("--no-sound", o.noSound, "the show's sounds are not played");
+  command.add_flag("--wait", o.settings.console.wait,
+                   "stand at the first frame until the operator says start");
+  command.add_flag("--no-sound", o.settings.console.noSound, "the show's sounds are not played");
 }
 
 void addRunOptions(CLI::App& command, RunOptions& o) {
-  addShowOptions(command, o.show);
+  SessionSettings& settings = o.settings;
+  RecordSettings& record = settings.record;
+  addShowOptions(command, settings.show);
   std::vector<std::string> layouts = stereoLayoutNames();
   command.add_option("--stereo", o.stereo, "how the two eyes' pictures are written")
       ->check(CLI::IsMember(layouts))
       ->each([&o](const std::string&) { o.stereoGiven = true; })
       ->capture_default_str();
   command.add_flag(
-      "--display", o.display,
+      "--display", settings.play.display,
       "show the walls on the outputs that the wall file names (a window for each that has none), "
       "live; Escape ends it. --stereo pair is a buffer for each eye then (quad-buffered); without "
       "--stereo both eyes see the same");
@@ -167,23 +176,23 @@ void addRunOptions(CLI::App& command, RunOptions& o) {
           "free: as fast as possible; lock: on the ticks of --rate; float: a late frame begins at once "
           "(default: free with --frames or --out, else lock)")
       ->check(CLI::IsMember({"free", "lock", "float"}));
-  command.add_option("--record-input", o.recordInput, "write what the trackers said to this input log")
+  command.add_option("--record-input", record.input, "write what the trackers said to this input log")
       ->check(aName, "FILE");
   command
       .add_option(
-          "--out", o.out,
+          "--out", record.out,
           "folder for pictures, contact-sheet.png and summary.json; only the frames of --pictures are drawn")
       ->check(aName, "DIR");
   command
       .add_option("--pictures", o.pictures,
                   "of which frames pictures are written: last, all, none, or N for every Nth")
       ->capture_default_str();
-  command.add_flag("--sheets", o.sheets, "a contact sheet of all walls beside each frame's pictures");
-  command.add_flag("--hashes", o.hashes,
+  command.add_flag("--sheets", record.sheets, "a contact sheet of all walls beside each frame's pictures");
+  command.add_flag("--hashes", record.hashes,
                    "each picture's hash, and when it was shown: picture-hashes.txt, swap-times.txt");
-  command.add_flag("--video", o.video, "a video of all walls (needs ffmpeg)");
-  command.add_flag("--profile", o.profile, "say which nodes cost the most; stadion profile says more");
-  addBlackBoxOption(command, o);
+  command.add_flag("--video", record.video, "a video of all walls (needs ffmpeg)");
+  command.add_flag("--profile", record.profile, "say which nodes cost the most; stadion profile says more");
+  addBlackBoxOption(command, record);
   command
       .add_option("--gl", o.provider, "who draws: osmesa or egl (the same pixels), none: App and Cull alone")
       ->check(CLI::IsMember({"osmesa", "egl", "none"}))
@@ -203,19 +212,19 @@ void addRunOptions(CLI::App& command, RunOptions& o) {
       ->check(CLI::IsMember({"on", "off", "auto"}))
       ->capture_default_str();
   command
-      .add_option("--trace", o.trace,
+      .add_option("--trace", record.nodes,
                   "write where this node is in every frame to trace-NODE.csv in --out DIR; may be repeated")
       ->allow_extra_args(false);
-  addTraceOptions(command, o.events, "--trace-events");
-  addClusterOptions(command, o);
+  addTraceOptions(command, o.trace, "--trace-events");
+  addClusterOptions(command, settings.cluster);
   addLoadOptions(command, o);
-  addTrackerOptions(command, o.trackers);
+  addTrackerOptions(command, settings.console.trackers);
   addHeadOptions(command, o);
-  addSpanOptions(command, o.spans);
+  addSpanOptions(command, record.spans);
   command.add_flag(
-      "--count-work", o.countWork,
+      "--count-work", record.countWork,
       "count pixels, spheres tested and seen, contacts and so on of all frames, for the summary");
-  command.add_flag("--unrecorded", o.unrecorded)->group("");  // for `stadion bench recording` alone
+  command.add_flag("--unrecorded", record.unrecorded)->group("");  // for `stadion bench recording` alone
   addOperatorOptions(command, o);
   addSupervisionOptions(command, o);
   command.add_flag("--json", o.json, "the summary as one JSON object on stdout");

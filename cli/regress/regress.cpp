@@ -2,13 +2,15 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/regress/regress_case.h"
 #include "cli/regress/regress_folder.h"
+#include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "profiling/regression/reports.h"
 #include "show/base/stop_signal.h"
 #include "show/player/overwriting.h"
 #include "show/player/player.h"
+#include "show/regress/regress_case.h"
+#include "show/regress/regress_child.h"
 
 #include <CLI/CLI.hpp>
 
@@ -151,7 +153,7 @@ int regress(RegressOptions o) {
     const auto done = folder.done().find(c.name);
     const auto results = done != folder.done().end()
                              ? done->second
-                             : playCase(c, o, with, o.update ? &updated : nullptr, stop, progress);
+                             : playCase(c, o.settings(), with, o.update ? &updated : nullptr, stop, progress);
     if (stop) break;
     if (!o.out.empty() && done == folder.done().end() && !folder.note(c.name, results)) return kBadInput;
     for (const regression::CaseResult& r : results) result.add(r);

@@ -1,10 +1,10 @@
 #include "cli/regress/regress_folder.h"
 
-#include "engine/base/plain_file.h"
 #include "engine/core/state_hash.h"
 #include "profiling/regression/page.h"
 #include "profiling/regression/reports.h"
 #include "profiling/regression/statistics/history.h"
+#include "show/regress/regress_child.h"
 
 #include <fmt/format.h>
 
@@ -52,12 +52,6 @@ std::string identityOf(const RegressOptions& o, const std::string& suiteText) {
 }
 
 }  // namespace
-
-std::string textOf(const std::string& file) {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 30;
-  const Result<std::string> text = readPlainFile(file, kMostBytes);
-  return text ? text.value() : std::string();
-}
 
 bool RegressFolder::open(const RegressOptions& o, const std::string& suiteText) {
   folder_ = o.out;

@@ -14,9 +14,6 @@
 
 namespace stadion {
 
-/// What is in a file of a regression run; nothing if it cannot be read.
-std::string textOf(const std::string& file);
-
 class RegressFolder {
 public:
   /// Makes the folder if need be, and opens what finish() writes. With `resume`, cases that an interrupted

@@ -2,8 +2,7 @@
 /// What `stadion regress` can be asked for.
 
 #include "engine/base/diagnostic.h"
-#include "profiling/regression/baseline.h"
-#include "profiling/regression/suite.h"
+#include "show/regress/regress_settings.h"
 
 #include <atomic>
 #include <chrono>
@@ -32,17 +31,11 @@ struct RegressOptions {
   void addTo(CLI::App& command);
   /// Completes what depends on other options. Says what is wrong.
   bool settle(Diagnostics& findings);
+  RegressSettings settings() const { return {program, std::chrono::seconds(limit), instructions, asked()}; }
   /// What --compare leaves of what a suite may compare.
   regression::Metrics asked() const;
   /// Leaves what was asked for in the suite. Says which names it does not have.
   bool choose(regression::Suite& suite, Diagnostics& findings) const;
-};
-
-/// What a suite is compared with.
-struct RegressReference {
-  std::string program;                             ///< another one; empty: none
-  std::optional<regression::Baseline> baseline{};  ///< nothing: none
-  std::string baselineFile{};
 };
 
 }  // namespace stadion

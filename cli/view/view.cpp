@@ -2,24 +2,39 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/view/view_session.h"
+#include "cli/terminal.h"
+#include "cli/view/view_options.h"
 #include "engine/base/run_stopped.h"
 #include "show/base/stop_signal.h"
+#include "show/view/view_session.h"
 
 #include <CLI/CLI.hpp>
+#include <cinttypes>
 #include <cstdio>
 #include <memory>
 
 namespace stadion {
 namespace {
 
+void print(const ViewReport& report) {
+  const RunSummary& s = report.summary;
+  std::printf("the rig stands at %.3f %.3f %.3f\n", report.rig.x(), report.rig.y(), report.rig.z());
+  std::printf("played %.3f s in %" PRIu64 " frames, %" PRIu64 " ticks dropped; state hash %016" PRIx64 "\n%s",
+              s.seconds, report.frames, report.dropped, s.stateHash.value_or(0), happeningsText(s).c_str());
+  std::fputs(report.lateFrames.c_str(), stderr);
+}
+
 int viewShow(ViewOptions options) try {
   Diagnostics findings;
   const std::atomic<bool>& stop = catchStopSignals();
+  TerminalReporter terminal;
   std::unique_ptr<ViewSession> session;
-  if (options.settle(findings)) session = ViewSession::open(std::move(options), findings);
+  if (options.settle(findings)) session = ViewSession::open(std::move(options.settings), terminal, findings);
   tell(findings);
-  return session ? session->run(stop) : kBadInput;
+  if (!session) return kBadInput;
+  const SessionEnd end = session->run(stop);
+  print(session->report());
+  return statusOf(end);
 } catch (const RunStopped&) {
   std::fprintf(stderr, "stadion: stopped by %s before the show was loaded\n", stopSignalName());
   return kStopped + stopSignal();
@@ -29,7 +44,7 @@ int viewShow(ViewOptions options) try {
 
 void addViewCommand(CLI::App& app, int& code, std::optional<unsigned> rasteriserThreads) {
   auto o = std::make_shared<ViewOptions>();
-  o->run.rasteriserThreads = rasteriserThreads;
+  o->run.settings.draw.rasteriserThreads = rasteriserThreads;
   CLI::App* command =
       app.add_subcommand("view", "Play a show in windows, with keyboard and mouse for a visitor");
   o->addTo(*command);

@@ -10,30 +10,11 @@
 
 namespace stadion {
 
-std::vector<std::string> viewKeys() {
-  return {"F1 H      this help",
-          "F2        frame budget: what App, Cull and Draw cost",
-          "W S A D   the joypad: forward, back, turn left, right (the show needs a navigator)",
-          "arrows    step about in the room; page up, page down: up, down",
-          "mouse     move: look about.  Drag: move the hand; with shift: forward and back",
-          "wheel     the hand nearer, farther",
-          "buttons   left, right, middle: the wand's buttons 1, 2, 3",
-          "1 2 3 4   the wand's buttons, too.  Home: stand in the middle again",
-          "gamepad   left stick: joypad.  Right stick: look.  A B X Y: buttons 1 to 4",
-          "space P   pause, go on.  Enter: start, with --wait",
-          ".         a single frame",
-          "[ ]       slower, as fast as the clock.  With shift: eyes closer, wider",
-          "N         next group: the show from its start",
-          "B X F     black walls; swap eyes; freeze the head",
-          "- +       the sounds' volume",
-          "O         the room from outside; drag with the right button turns it, the wheel goes nearer",
-          "F5        read the script again (so does saving it)",
-          "F12       screenshot: the window and every wall's pictures",
-          "Esc Q     quit"};
-}
-
 void ViewOptions::addTo(CLI::App& command) {
-  addShowOptions(command, run.show);
+  SessionSettings& session = run.settings;
+  addShowOptions(command, session.show);
+  command.get_option("--input")->description(
+      "input log to replay (default: none; keyboard, mouse and gamepad stand in for the visitor)");
   command
       .add_option(
           "--windows", windows,
@@ -48,15 +29,15 @@ void ViewOptions::addTo(CLI::App& command) {
       ->check(CLI::IsMember(windowStereoNames()))
       ->capture_default_str();
   command.add_option("--window", window, "WIDTHxHEIGHT of the window at the start")->capture_default_str();
-  command.add_flag("--hud", hud, "begin with the frame budget shown (F2)");
-  command.add_option("--shots", shots, "folder for screenshots (F12)")->capture_default_str();
+  command.add_flag("--hud", settings.hud, "begin with the frame budget shown (F2)");
+  command.add_option("--shots", settings.shots, "folder for screenshots (F12)")->capture_default_str();
   command.add_option(
-      "--record-input", run.recordInput,
+      "--record-input", session.record.input,
       "write what head, wand and joypad did to this input log; run and hash --input FILE come to "
       "the same state. The log ends where the script is read again");
   addOperatorOptions(command, run);
   addLoadOptions(command, run);
-  addBlackBoxOption(command, run);
+  addBlackBoxOption(command, session.record);
   command
       .add_option(
           "--gl", provider,
@@ -73,22 +54,28 @@ void ViewOptions::addTo(CLI::App& command) {
 }
 
 bool ViewOptions::settle(Diagnostics& findings) {
-  windowStereo = *stadion::windowStereo(stereo);
-  run.layout = windowStereo == WindowStereo::Mono ? StereoLayout::Off : StereoLayout::Pair;
-  run.stereo = stereoLayoutName(run.layout);
-  run.live = true;
+  SessionSettings& session = settings.session = run.settings;
+  settings.stereo = *windowStereo(stereo);
+  session.draw.layout = settings.stereo == WindowStereo::Mono ? StereoLayout::Off : StereoLayout::Pair;
+  session.play.windows = true;
+  session.play.drawBeginsEarly = run.cullDraw == "overlap";
+  settings.oneWindow = windows == "one";
+  if (provider != "auto")
+    settings.provider = provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa;
   const auto sides = parseSize(window);
   const auto fits = [](std::uint32_t side) { return side >= 64 && side <= 16384; };
   if (sides && fits(sides->first) && fits(sides->second))
-    width = sides->first, height = sides->second;
+    settings.width = sides->first, settings.height = sides->second;
   else
     findings.error({},
                    fmt::format("--window: \"{}\" is not WIDTHxHEIGHT in pixels from 64x64 to 16384x16384, "
                                "such as 1200x800",
                                window));
-  if (run.show.input.empty()) run.show.input = "none";  // who looks on is the visitor, not the log beside it
+  if (session.show.input.empty())
+    session.show.input = "none";  // the viewer is the visitor, not the log beside the script
+  run.settings.show.input = session.show.input;
   run.settleFiles(findings);
-  return run.show.settle(findings) && !findings.hasErrors();
+  return session.show.settle(findings) && !findings.hasErrors();
 }
 
 }  // namespace stadion

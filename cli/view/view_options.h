@@ -1,8 +1,8 @@
 #pragma once
-/// What `stadion view` can be asked for.
+/// The options of `stadion view`.
 
-#include "show/display/show_windows.h"
-#include "show/settings/run_options.h"
+#include "cli/options/run_options.h"
+#include "show/view/view_settings.h"
 
 #include <string>
 
@@ -10,19 +10,13 @@ namespace stadion {
 
 struct ViewOptions {
   RunOptions run;  ///< script, walls, rate, input, records
-  std::string windows = "one", stereo = "mono", window = "1200x800", shots = "screenshots", provider = "auto";
-  bool hud = false;
-
-  WindowStereo windowStereo = WindowStereo::Mono;  ///< from `stereo`
-  std::uint32_t width = 0, height = 0;             ///< from `window`
+  std::string windows = "one", stereo = "mono", window = "1200x800", provider = "auto";
+  ViewSettings settings{};
 
   /// Expects that this object stays where it is until the command line has been read.
   void addTo(CLI::App& command);
-  /// Completes what depends on other options. Says what is wrong.
+  /// Completes the settings. False, with the reason in the findings, if an option is wrong.
   bool settle(Diagnostics& findings);
 };
-
-/// Keys and mouse, one line each: what --help and the window's own help say.
-std::vector<std::string> viewKeys();
 
 }  // namespace stadion

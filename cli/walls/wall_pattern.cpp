@@ -1,6 +1,7 @@
 #include "cli/walls/wall_pattern.h"
 
 #include "cli/exit_code.h"
+#include "cli/terminal.h"
 #include "pipeline/picture/test_pattern.h"
 #include "show/base/stop_signal.h"
 #include "show/display/wall_displays.h"

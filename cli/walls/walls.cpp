@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "cli/terminal.h"
 #include "cli/walls/wall_pattern.h"
 #include "engine/base/installed_files.h"
 #include "engine/base/number_text.h"
@@ -57,8 +58,7 @@ struct WallsOptions {
 int lookAtWalls(WallsOptions o) {
   Diagnostics findings;
   const bool settled = o.settle(findings);
-  const auto walls =
-      settled ? loadWalls(o.file, shareFolder() + "/walls", findings) : std::nullopt;
+  const auto walls = settled ? loadWalls(o.file, shareFolder() + "/walls", findings) : std::nullopt;
   tell(findings);
   if (!walls) return kBadInput;
   if (o.pattern) return showPattern(*walls, o.shown, catchStopSignals());

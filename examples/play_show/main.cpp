@@ -1,12 +1,10 @@
-/// Plays 60 frames of a show without a window, says where a node is then, and saves what is seen on the first wall.
+/// Plays 60 frames of a show without a window, says where a node is then, and saves what is seen on the first
+/// wall.
 ///
 ///     play_show SHOW.evs NODE PICTURE.png
 
 #include <stadion/engine/scene/placed_node.h>
-#include <stadion/pipeline/loop/frame_loop.h>
-#include <stadion/pipeline/loop/show_stages.h>
-#include <stadion/pipeline/target/rasteriser_settings.h>
-#include <stadion/show/player/player.h>
+#include <stadion/show/player.h>
 
 #include <cstdio>
 
@@ -51,7 +49,7 @@ int main(int argc, char** argv) {
   Diagnostics findings;
   const bool usable = options.settle(findings);
   const std::unique_ptr<Player> player = usable ? Player::create(options, findings) : nullptr;
-  tell(findings);
+  for (const Diagnostic& d : findings.all()) std::fprintf(stderr, "%s\n", format(d).c_str());
   if (!player) return fail("the show cannot be played");
 
   const auto provider = openOsMesa();

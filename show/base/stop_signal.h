@@ -10,7 +10,7 @@ namespace stadion {
 /// From now on the two signals set the flag that is returned. The flag is the process's, as signals are.
 const std::atomic<bool>& catchStopSignals();
 
-/// From now on it is not the end that nobody reads any longer what the process says (SIGPIPE).
+/// From now on the process survives if its output is no longer read (SIGPIPE).
 void outliveReaders();
 
 /// SIGTERM comes when the process that started us dies, too; at once if `parent` is that no more.

@@ -1,8 +1,8 @@
 #pragma once
-/// Says lines one after the other on a thread of its own: whoever tells something never waits for a terminal
-/// that is held, or a disk.
+/// Writes lines one after the other on a thread of its own, so that the caller never waits for a blocked
+/// terminal or a disk.
 ///
-/// Threads  tell() from any. Ends when everything has been said.
+/// Threads  tell() from any. Ends when everything has been written.
 
 #include <condition_variable>
 #include <deque>
@@ -20,7 +20,7 @@ public:
   TellingThread(const TellingThread&) = delete;
   TellingThread& operator=(const TellingThread&) = delete;
 
-  /// While nobody can hear it, no more than the first thousand lines are kept.
+  /// While lines cannot be written, no more than the first thousand are kept.
   void tell(std::string line);
 
 private:

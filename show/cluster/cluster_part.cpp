@@ -23,7 +23,7 @@ constexpr std::chrono::seconds kPatience{30};
 /// After a stop signal the others' answers are waited for so long.
 constexpr std::chrono::seconds kGrace{2};
 
-bool nobodyWaits() {
+bool isGivenUp() {
   return sinceStopSignal() > kGrace;
 }
 
@@ -36,27 +36,30 @@ std::uint64_t hashOfFile(const std::string& file) {
 }
 
 /// (Files that scripts name are found out by the scenes' digests.)
-cluster::Agreement termsOf(const RunOptions& o, const ClusterFile& file) {
-  const std::string log = inputLogOf(o.show.script, o.show.input);
+cluster::Agreement termsOf(const ShowOptions& show, StereoLayout layout, const ClusterFile& file) {
+  const std::string log = inputLogOf(show.script, show.input);
   cluster::Agreement terms;
-  terms.script = hashOfFile(o.show.script);
+  terms.script = hashOfFile(show.script);
   terms.input = log.empty() ? 0 : hashOfFile(log);
   terms.cluster = cluster::hashOf(file), terms.walls = hashOfFile(wallFileOf(file.walls));
-  terms.pictures = fmt::format("--look {} --stereo {}{}{}", o.show.look, stereoLayoutName(o.layout),
-                               o.show.size.empty() ? "" : " --size ", o.show.size);
+  terms.pictures = fmt::format("--look {} --stereo {}{}{}", show.look, stereoLayoutName(layout),
+                               show.size.empty() ? "" : " --size ", show.size);
   return terms;
 }
 
 }  // namespace
 
-std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& findings) {
-  if (o.cluster.empty()) return nullptr;
-  auto file = loadCluster(o.cluster, findings);
+std::unique_ptr<ClusterPart> ClusterPart::create(const ClusterSettings& o, ShowOptions& show,
+                                                 StereoLayout layout,
+                                                 std::function<void(const std::string&)> say,
+                                                 Diagnostics& findings) {
+  if (o.file.empty()) return nullptr;
+  auto file = loadCluster(o.file, findings);
   if (!file) return nullptr;
   const auto node = file->find(o.node);
   if (!node) {
     findings.error({},
-                   fmt::format("--node: {} has no node \"{}\"{}", o.cluster, o.node,
+                   fmt::format("--node: {} has no node \"{}\"{}", o.file, o.node,
                                didYouMean(o.node, file->names(),
                                           "; it has " + fmt::format("{}", fmt::join(file->names(), ", ")))));
     return nullptr;
@@ -64,18 +67,13 @@ std::unique_ptr<ClusterPart> ClusterPart::create(RunOptions& o, Diagnostics& fin
   const auto walls = loadWallsOf(*file, shareFolder() + "/walls", findings);
   Diagnostics ofWalls;
   if (walls) checkWalls(*file, walls->names(), ofWalls);
-  const bool isWarned = o.endsWith >= 0;  // by `stadion cluster`, which has warned for all
-  if (!isWarned || ofWalls.hasErrors()) findings.append(ofWalls);
+  if (!o.isChecked || ofWalls.hasErrors()) findings.append(ofWalls);
   checkInterface(*file, findings);
   if (!walls || findings.hasErrors()) return nullptr;
-  o.show.walls = file->walls;
-  o.follows = *node != file->lead;
-  o.show.onlyWalls = file->nodes[*node].walls;
-  if (o.show.onlyWalls.empty()) {
-    o.show.onlyWalls = {walls->walls.front().wall.name};  // somebody has to take the frames
-    o.provider = "none", o.sheets = o.video = false;
-  }
-  std::unique_ptr<ClusterPart> part(new ClusterPart(o, std::move(*file), *node));
+  show.walls = file->walls;
+  show.onlyWalls = file->nodes[*node].walls;
+  if (show.onlyWalls.empty()) show.onlyWalls = {walls->walls.front().wall.name};
+  std::unique_ptr<ClusterPart> part(new ClusterPart(show, layout, std::move(*file), *node, std::move(say)));
   if (o.plantDifference > 0) part->planted_ = o.plantDifference;
   return part;
 }
@@ -86,8 +84,8 @@ void ClusterPart::tell(const std::string& what) {
 
 // What the terms are is looked up each time: a script may have been saved since the show before.
 bool ClusterPart::openLead(Diagnostics& findings) {
-  cluster::LeadOptions options{file_, termsOf(options_, file_), kPatience,
-                               [this](const std::string& what) { tell(what); }, nobodyWaits};
+  cluster::LeadOptions options{file_, termsOf(show_, layout_, file_), kPatience,
+                               [this](const std::string& what) { tell(what); }, isGivenUp};
   if (lead_) options.above = lead_->session(), options.expected = lead_->played();
   lead_.reset();
   auto opened = cluster::Lead::open(std::move(options));
@@ -115,8 +113,8 @@ bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
   if (over_) return false;
   const std::uint64_t played = follower_ ? follower_->session() : 0;
   follower_.reset();
-  auto opened = cluster::Follower::open({file_, node_, termsOf(options_, file_),
-                                         [this](const std::string& what) { tell(what); }, nobodyWaits,
+  auto opened = cluster::Follower::open({file_, node_, termsOf(show_, layout_, file_),
+                                         [this](const std::string& what) { tell(what); }, isGivenUp,
                                          [] { return stopSignal() != 0; }, std::move(kept_), played});
   if (!opened) return findings.add(opened.error()), false;
   follower_ = std::move(opened.value());
@@ -125,13 +123,13 @@ bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
   if (!joining) return false;  // it has told why, if there is a reason
   show.rate = joining->rate, show.rateGiven = true;
   show.state = joining->state, last_ = joining->after;
-  if (!joining->playsLog) show.input = "none";  // what others say is heard from who leads
+  if (!joining->playsLog) show.input = "none";  // the leader sends what the input says
   goesOn_ = show.state != nullptr, files_ = joining->files;
   after_ = goesOn_ ? std::optional(joining->after) : std::nullopt;
   return true;
 }
 
-/// Which of them differ, nobody can tell without the others.
+/// Which files differ is not known here.
 void ClusterPart::refuseFiles(Diagnostics& findings) {
   otherFiles_ = true;
   findings.error(

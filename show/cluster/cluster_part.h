@@ -1,5 +1,5 @@
 #pragma once
-/// A machine's part in a cluster: `run --cluster FILE --node NAME`.
+/// A machine's part in a cluster, as its leader or as a follower.
 ///
 /// Threads  main, but for simulated(), which is App's.
 
@@ -7,8 +7,8 @@
 #include "pipeline/cluster/lead.h"
 #include "pipeline/record/run_summary.h"
 #include "show/base/telling_thread.h"
+#include "show/cluster/cluster_settings.h"
 #include "show/console/live_desk.h"
-#include "show/settings/run_options.h"
 
 #include <functional>
 #include <memory>
@@ -22,55 +22,59 @@ class Scene;
 
 class ClusterPart {
 public:
-  /// Reads the cluster file and completes the options by it, which must outlive it: walls, and which of them
-  /// are ours. Null without --cluster, or if something is wrong; then the findings say what.
-  static std::unique_ptr<ClusterPart> create(RunOptions& options, Diagnostics& findings);
+  /// Reads the cluster file and completes `show` by it: the walls, and which of them are drawn here. `show`
+  /// must outlive it. Null if the settings name no cluster, or with the reason in the findings.
+  static std::unique_ptr<ClusterPart> create(const ClusterSettings& settings, ShowOptions& show,
+                                             StereoLayout layout, std::function<void(const std::string&)> say,
+                                             Diagnostics& findings);
 
+  /// False: this machine has no walls. Then it takes the frames of another one's wall, and draws nothing.
+  bool hasWalls() const { return !file_.nodes[node_].walls.empty(); }
   bool leads() const { return node_ == file_.lead; }
-  /// Waits for the others as far as needed to know how the show begins, and completes what it is opened with:
-  /// who leads, where the others play already; who follows, for who leads. False: it is not to be; if the
-  /// findings do not say why, nobody waits any longer.
+  /// Waits until it is known how the show begins, and completes `show` by it. The leader takes the show from
+  /// followers that already play it; a follower waits for the leader. False: there is no show; if the
+  /// findings do not say why, the wait was given up.
   bool join(ShowOptions& show, Diagnostics& findings);
-  /// The show was under way when we came, or came back.
+  /// The show was already playing when this machine joined it.
   bool goesOn() const { return goesOn_; }
-  /// Of a show that goes on, once it has been opened: whether its files are those that it is played with
-  /// elsewhere.
+  /// Of a show that goes on, once it has been opened: whether the other machines play it with the same files.
   bool hasFiles(const Scene& scene) const { return scene.files() == files_; }
-  /// They are not, or the scene that was sent cannot be put back with them. Who follows may come again when
-  /// they are alike.
+  /// The files differ, or the snapshot that was sent cannot be restored with them. A follower may come again
+  /// when they are equal.
   void refuseFiles(Diagnostics& findings);
-  /// The same for who leads: the show begins anew for all, with the files that are here. `found`: what was in
-  /// the way. False, with findings: there is no network.
+  /// The same for the leader: the show restarts for all machines, with the files of this one. `found`: the
+  /// reason. False, with findings: there is no network.
   bool beginAnew(const Diagnostics& found, Diagnostics& findings);
-  /// The show has been opened. Who leads waits for the others, unless the operator has no patience. False,
-  /// with findings: there is no network; or without: a window is gone. `takeKeys`: brings those of windows
-  /// into `asked`; false: one is gone.
+  /// The show has been opened. The leader waits for the followers, until the operator hurries. `takeKeys`
+  /// brings keys of windows into `asked`; it returns false if a window was lost. False, with findings: there
+  /// is no network; without: a window was lost.
   bool begin(Player& player, const OperatorQueue& asked, const std::function<bool()>& takeKeys,
              Diagnostics& findings);
-  /// The other machines' say in what is played, and what had been decided about a show that goes on. After
+  /// Adds the orders of the other machines, and the operator's decisions about a show that goes on. After
   /// begin().
   void addTo(FrameLoopOptions& loop, LiveDesk& desk);
   /// What the show's parts sample: the same on all machines. After begin().
   InputDevice* inputOf(Player& player);
   void simulated(const TimeSignature& now);
-  /// The run has ended for want of an order, and the show is to be joined again.
+  /// The run has ended because no order came, and the show is to be joined again.
   bool isToJoinAgain() const { return follower_ && follower_->isToJoinAgain(); }
-  /// Another program plays this node already; it has been told, and this one is to end.
+  /// Another program already plays this node; it was reported, and this program is to end.
   bool hasDouble() const;
-  /// join() has failed because who leads has ended the show: nothing is left to join.
+  /// join() has failed because the leader has ended the show.
   bool isOver() const { return over_; }
   /// The show is over, and its last frame was not shown here.
   bool missedTheEnd() const { return follower_ && follower_->missedTheEnd(); }
-  /// There is no show because who leads has other files.
+  /// There is no show because the leader has other files.
   bool hasOtherFiles() const { return otherFiles_; }
-  /// What there is to tell is heard by all; who leads anew gets our scene if it asks for it. `over`: where we
-  /// lead, the show ends for all.
+  /// Waits until all machines have the last messages. A new leader gets this machine's scene if it asks for
+  /// it. `over`: if this machine leads, the show ends for all.
   void finish(bool over);
   ClusterSummary summary() const;
 
 private:
-  ClusterPart(const RunOptions& options, ClusterFile file, std::size_t node)
-      : options_(options), file_(std::move(file)), node_(node), teller_(options.say) {}
+  ClusterPart(const ShowOptions& show, StereoLayout layout, ClusterFile file, std::size_t node,
+              std::function<void(const std::string&)> say)
+      : show_(show), layout_(layout), file_(std::move(file)), node_(node), teller_(std::move(say)) {}
   void tell(const std::string& what);
   bool openLead(Diagnostics& findings);
   bool follow(ShowOptions& show, Diagnostics& findings);
@@ -79,7 +83,8 @@ private:
   std::optional<cluster::Follower::Differs> differenceTo(const cluster::SavedScene& there) const;
   void plantDifference();
 
-  const RunOptions& options_;
+  const ShowOptions& show_;
+  StereoLayout layout_;
   ClusterFile file_;
   std::size_t node_;
   TellingThread teller_;

@@ -3,17 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <unistd.h>
 #include <utility>
 
 namespace stadion {
 namespace {
-
-void sayInTerminal(const std::string& line) {
-  std::fprintf(stderr, "%s\n", line.c_str());
-}
 
 std::string clockText(double seconds) {
   const auto s = static_cast<long>(seconds);
@@ -26,39 +21,42 @@ double seconds(std::chrono::steady_clock::duration d) {
 
 }  // namespace
 
-std::unique_ptr<LiveDesk> LiveDesk::open(const RunOptions& options, Diagnostics& findings, Say say) {
-  std::unique_ptr<LiveDesk> desk(new LiveDesk(options, say ? std::move(say) : sayInTerminal));
-  if (options.trackers.device.empty() || options.follows) return desk;  // a cluster's are those of who leads
-  desk->trackers_ = TrackerDevice::open(options.trackers, desk->say_, findings);
+std::unique_ptr<LiveDesk> LiveDesk::open(const Settings& settings, Reporter& reporter,
+                                         Diagnostics& findings) {
+  std::unique_ptr<LiveDesk> desk(new LiveDesk(settings, reporter));
+  if (settings.console.trackers.device.empty() || settings.console.elsewhere) return desk;
+  desk->trackers_ = TrackerDevice::open(settings.console.trackers, reporter.sayFunction(), findings);
   if (!desk->trackers_) return nullptr;
-  desk->say_("trackers: " + desk->trackers_->description());
+  desk->say("trackers: " + desk->trackers_->description());
   return desk;
 }
 
 LiveDesk::~LiveDesk() = default;
 
 bool LiveDesk::begin(const Player& player, Diagnostics& findings) {
-  desk_ = std::make_unique<OperatorDesk>(options_.wait, player.walls().eyeSeparation);
-  const FrameLoopOptions loop = options_.loopOptions(player);
-  live_ = options_.live || loop.delivery == Delivery::Latest;
-  // Whoever plays faster than the clock has no ear for it.
-  if (loop.pace != Pace::Free && !options_.noSound) {
-    roots_ = AssetRoots::ofScript(options_.show.script);
-    for (const std::string& root : options_.show.assetRoots) roots_.add(root);
-    sounds_ = std::make_unique<SoundPlayer>(roots_, say_);
+  const auto& [show, play, console] = settings_;
+  desk_ = std::make_unique<OperatorDesk>(console.wait, player.walls().eyeSeparation);
+  const FrameLoopOptions loop = play.loopOptions(player);
+  live_ = play.windows || loop.delivery == Delivery::Latest;
+  // A show that plays faster than the clock has no sound.
+  if (loop.pace != Pace::Free && !console.noSound) {
+    roots_ = AssetRoots::ofScript(show.script);
+    for (const std::string& root : show.assetRoots) roots_.add(root);
+    sounds_ = std::make_unique<SoundPlayer>(roots_, reporter_.sayFunction());
   }
-  if (!live_ || options_.follows) return true;  // a cluster's operator sits at the machine that leads
-  if (options_.oscPort >= 0) {
-    auto osc = OscOperator::open(static_cast<std::uint16_t>(options_.oscPort), desk_->queue(), say_);
+  if (!live_ || console.elsewhere) return true;
+  if (console.oscPort >= 0) {
+    auto osc = OscOperator::open(static_cast<std::uint16_t>(console.oscPort), desk_->queue(),
+                                 reporter_.sayFunction());
     if (!osc) return findings.error({}, "--osc: " + osc.error().message), false;
     osc_ = std::move(osc.value());
-    say_(fmt::format("operator: OSC on UDP port {}", osc_->port()));
+    say(fmt::format("operator: OSC on UDP port {}", osc_->port()));
   }
-  keys_ = OperatorKeys::open(STDIN_FILENO, desk_->queue());
-  const bool hasWindows = options_.live || options_.display;
-  if (options_.wait && !keys_ && !osc_ && !hasWindows)
+  keys_ = OperatorKeys::open(STDIN_FILENO, desk_->queue(), reporter_.hintFunction());
+  const bool hasWindows = play.windows || play.display;
+  if (console.wait && !keys_ && !osc_ && !hasWindows)
     return findings.error({}, "--wait: nobody can say start; there is no terminal and no --osc PORT"), false;
-  if (keys_) sayInTerminal("operator: keys in this terminal, h shows them");
+  if (keys_) reporter_.hint("operator: keys in this terminal, h shows them");
   return true;
 }
 
@@ -79,7 +77,7 @@ void LiveDesk::beginGroup(Player& player, RunWatch& watch) {
   if (shown.swapEyes) watch.order(0, {OperatorAction::SwapEyes, 1, false});
   if (shown.eyeSeparation >= 0) watch.order(0, {OperatorAction::EyeSeparation, shown.eyeSeparation, false});
   if (desk_->state().volume != 1) watch.order(0, {OperatorAction::Volume, desk_->state().volume, false});
-  if (desk_->state().waiting) say_("waiting for start");
+  if (desk_->state().waiting) say("waiting for start");
 }
 
 void LiveDesk::resume(const OperatorState& decided) {
@@ -105,8 +103,8 @@ void LiveDesk::writeDown(std::uint64_t frame, const OperatorCommand& command, Ru
 
 void LiveDesk::pictureSeen() {
   if (!desk_->pictureSeen()) return;
-  say_(fmt::format("group {} begins: reset in {:.2f} s, first picture after {:.2f} s; up {}", groups(),
-                   seconds(ready_ - asked_), seconds(Clock::now() - asked_), clockText(uptime())));
+  say(fmt::format("group {} begins: reset in {:.2f} s, first picture after {:.2f} s; up {}", groups(),
+                  seconds(ready_ - asked_), seconds(Clock::now() - asked_), clockText(uptime())));
 }
 
 void LiveDesk::endGroup(const RunWatch& watch) {
@@ -114,7 +112,7 @@ void LiveDesk::endGroup(const RunWatch& watch) {
   const char* before = ": ";
   for (const MeasuredDistance& m : watch.measured())
     told += fmt::format("{}{} {:.3f} m", std::exchange(before, ", "), m.node, m.metres);
-  say_(told);
+  say(told);
   asked_ = desk_->queue().nextGroupAsked();
   groupIsNew_ = true;
   desk_->beginGroup();
@@ -129,16 +127,16 @@ void LiveDesk::silence() {
   sounds_->settle();
 }
 
-std::string LiveDesk::recordName() const {
-  if (options_.recordInput.empty() || !desk_ || groups() == 1) return options_.recordInput;
-  std::filesystem::path path = options_.recordInput;
+std::string LiveDesk::fileOfGroup(const std::string& file) const {
+  if (file.empty() || !desk_ || groups() == 1) return file;
+  std::filesystem::path path = file;
   const std::string ending = path.extension();
   return path.replace_extension().string() + fmt::format("-{}", groups()) + ending;
 }
 
 void LiveDesk::addTo(ShowParts& parts, FrameLoopOptions& loop) {
   parts.sounds = sounds_.get();
-  parts.tell = say_;
+  parts.tell = reporter_.sayFunction();
   parts.desk = loop.desk = desk_.get();
   loop.playback = &desk_->playback();
   desk_->startWith(loop.latency);
@@ -161,7 +159,7 @@ void LiveDesk::tell(const OperatorCommand& command, Nanoseconds showTime) const 
     what = fmt::format("{} at {:.3f} s", s.paused ? "paused" : "going on", toSeconds(stands));
     break;
   case OperatorAction::Step:
-    if (options_.live) return;  // view tells of the picture
+    if (settings_.play.windows) return;  // the windows' session reports the picture
     break;
   case OperatorAction::Black: what += onOff(s.shown.black); break;
   case OperatorAction::SwapEyes: what += onOff(s.shown.swapEyes); break;
@@ -174,7 +172,7 @@ void LiveDesk::tell(const OperatorCommand& command, Nanoseconds showTime) const 
   case OperatorAction::Latency: what += fmt::format(" {:.0f}", s.latency); break;
   default: break;
   }
-  say_(fmt::format("operator: {} ({})", what, clockText(uptime())));
+  say(fmt::format("operator: {} ({})", what, clockText(uptime())));
 }
 
 }  // namespace stadion

@@ -1,15 +1,16 @@
 #pragma once
-/// What a live show has beside it, longer than one group of visitors stays: the operator with keys and
-/// network, trackers, sounds, and the parts of a show that need not be made again. `run` and `view` have one
-/// each.
+/// What a live show keeps from one group of visitors to the next: the operator with keys and network,
+/// trackers, sounds, and the parts of a show that need not be made again.
 ///
-/// Threads  main, but for what its parts say of theirs.
+/// Ownership  borrows settings and reporter, which must outlive it.
+/// Threads    main, except where a function names another one.
 
 #include "pipeline/operator/osc_operator.h"
+#include "show/base/reporter.h"
 #include "show/console/operator_keys.h"
+#include "show/console/operator_settings.h"
 #include "show/player/kept_parts.h"
-#include "show/session/run_watch.h"
-#include "show/settings/run_options.h"
+#include "show/recording/run_watch.h"
 
 #include <atomic>
 #include <chrono>
@@ -19,31 +20,32 @@ namespace stadion {
 
 class LiveDesk {
 public:
-  using Say = std::function<void(const std::string&)>;
+  struct Settings {
+    const ShowOptions& show;
+    const PlaySettings& play;
+    const OperatorSettings& console;
+  };
 
-  /// Opens trackers. Null, with the reason in the findings, if they cannot be opened. `say` is given what
-  /// there is to tell, a line at a time, from any thread; none: it goes to the terminal.
-  static std::unique_ptr<LiveDesk> open(const RunOptions& options, Diagnostics& findings, Say say = {});
+  /// Opens trackers. Null, with the reason in the findings, if they cannot be opened.
+  static std::unique_ptr<LiveDesk> open(const Settings& settings, Reporter& reporter, Diagnostics& findings);
   ~LiveDesk();
 
-  /// What a live run keeps from group to group; null: this run is for one.
+  /// What a live run keeps from group to group; null: this run is for one group.
   KeptParts* kept() { return live_ ? &kept_ : nullptr; }
 
-  /// The first show is there: opens sounds and what hears commands. False, with the reason in the findings,
-  /// if it cannot.
+  /// The first show is open: opens sounds, keys and the OSC port. False, with the reason in the findings, if
+  /// one cannot be opened.
   bool begin(const Player& player, Diagnostics& findings);
-  /// A show is about to begin, of the next group or of the same one: what is written down of the operator's
-  /// orders goes to `watch`.
+  /// A show is about to begin. The operator's orders that are recorded go to `watch`.
   void beginGroup(Player& player, RunWatch& watch);
-  /// A picture of the present show is seen: tells how long it took since the operator asked, once a group.
-  /// Any thread.
+  /// A picture of the present show is visible. Once a group it reports how long that took since the operator
+  /// asked. Any thread.
   void pictureSeen();
-  /// Where the record of the present group goes.
-  std::string recordName() const;
-  /// The show is over; the next one is being made, for the next group. Tells how long it was and which
-  /// distances were measured.
+  /// The file of the present group where `file` is that of the first: visit.input, visit-2.input, ...
+  std::string fileOfGroup(const std::string& file) const;
+  /// The show is over; the next group follows. Reports how long it was and which distances were measured.
   void endGroup(const RunWatch& watch);
-  /// Nothing is heard until the next show.
+  /// Silences all sounds until the next show.
   void silence();
 
   void addTo(ShowParts& parts, FrameLoopOptions& loop);
@@ -59,15 +61,16 @@ public:
   double uptime() const;  ///< since it was opened [s]
 
 private:
-  LiveDesk(const RunOptions& options, Say say)
-      : options_(options), say_(std::move(say)), live_(!options.asksForEveryFrame()) {}
+  LiveDesk(const Settings& settings, Reporter& reporter)
+      : settings_(settings), reporter_(reporter), live_(!settings.play.everyFrame) {}
+  void say(const std::string& line) const { reporter_.say(line); }
   void writeDown(std::uint64_t frame, const OperatorCommand& command, RunWatch& watch) const;
   void tell(const OperatorCommand& command, Nanoseconds showTime) const;
 
   using Clock = std::chrono::steady_clock;
 
-  const RunOptions& options_;
-  Say say_;
+  const Settings settings_;
+  Reporter& reporter_;
   bool live_;
   bool visitorIsLive_ = false;
   Clock::time_point opened_ = Clock::now();

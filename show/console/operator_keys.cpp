@@ -6,7 +6,6 @@
 
 #include <array>
 #include <chrono>
-#include <cstdio>
 
 namespace stadion {
 namespace {
@@ -60,14 +59,14 @@ std::string operatorKeysHelp() {
          "end, h these lines";
 }
 
-std::unique_ptr<OperatorKeys> OperatorKeys::open(int file, OperatorQueue& queue) {
+std::unique_ptr<OperatorKeys> OperatorKeys::open(int file, OperatorQueue& queue, Say say) {
   auto terminal = RawTerminal::take(file);
   if (!terminal) return nullptr;
-  return std::unique_ptr<OperatorKeys>(new OperatorKeys(std::move(terminal), queue));
+  return std::unique_ptr<OperatorKeys>(new OperatorKeys(std::move(terminal), queue, std::move(say)));
 }
 
-OperatorKeys::OperatorKeys(std::unique_ptr<RawTerminal> terminal, OperatorQueue& queue)
-    : terminal_(std::move(terminal)), queue_(queue), thread_([this] { listen(); }) {}
+OperatorKeys::OperatorKeys(std::unique_ptr<RawTerminal> terminal, OperatorQueue& queue, Say say)
+    : terminal_(std::move(terminal)), queue_(queue), say_(std::move(say)), thread_([this] { listen(); }) {}
 
 OperatorKeys::~OperatorKeys() {
   ending_ = true;
@@ -75,8 +74,9 @@ OperatorKeys::~OperatorKeys() {
 }
 
 void OperatorKeys::listen() {
+  const std::string lost = "out of memory: the key was not taken";
   while (!ending_) {
-    // In the background the keys are somebody else's, and whoever reads them all the same is stopped.
+    // A process in the background is stopped if it reads the terminal.
     if (!terminal_->inForeground()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(kLookForEnd));
       continue;
@@ -90,11 +90,11 @@ void OperatorKeys::listen() {
       tcflush(terminal_->file(), TCIFLUSH);
       continue;
     }
-    if (key == 'h' || key == '?') std::fprintf(stderr, "%s\n", operatorKeysHelp().c_str());
     try {
+      if (key == 'h' || key == '?') say_(operatorKeysHelp());
       if (const auto command = operatorCommandOf(key)) queue_.post(*command);
     } catch (const std::bad_alloc&) {
-      std::fprintf(stderr, "out of memory: the key was not taken\n");
+      say_(lost);
     }
   }
 }

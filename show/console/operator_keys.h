@@ -12,6 +12,7 @@
 #include "show/base/raw_terminal.h"
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,18 +29,21 @@ std::string operatorKeysHelp();
 
 class OperatorKeys {
 public:
-  /// Null where nobody can press a key.
-  static std::unique_ptr<OperatorKeys> open(int terminal, OperatorQueue& queue);
+  using Say = std::function<void(const std::string&)>;
+
+  /// Null if the terminal is not interactive. `say` receives the help, on the thread of the keys.
+  static std::unique_ptr<OperatorKeys> open(int terminal, OperatorQueue& queue, Say say);
   ~OperatorKeys();
   OperatorKeys(const OperatorKeys&) = delete;
   OperatorKeys& operator=(const OperatorKeys&) = delete;
 
 private:
-  OperatorKeys(std::unique_ptr<RawTerminal> terminal, OperatorQueue& queue);
+  OperatorKeys(std::unique_ptr<RawTerminal> terminal, OperatorQueue& queue, Say say);
   void listen();
 
   std::unique_ptr<RawTerminal> terminal_;
   OperatorQueue& queue_;
+  Say say_;
   std::atomic<bool> ending_ = false;
   std::thread thread_;
 };

@@ -3,7 +3,6 @@
 #include "show/console/operator_keys.h"
 
 #include <chrono>
-#include <cstdio>
 #include <thread>
 #include <utility>
 
@@ -32,17 +31,17 @@ std::optional<OperatorCommand> windowOrderOf(Key key) {
 
 }  // namespace
 
-std::unique_ptr<DisplayRun> DisplayRun::open(const RunOptions& options, const WallFile& walls,
+std::unique_ptr<DisplayRun> DisplayRun::open(const ShowOptions& show, StereoLayout layout,
+                                             const WallFile& walls, Reporter& reporter,
                                              Diagnostics& findings) {
-  std::unique_ptr<DisplayRun> run(new DisplayRun(options, walls));
-  run->displays_ = WallDisplays::open(walls, windowStereoOf(options.layout), options.show.width,
-                                      options.show.height, findings);
+  std::unique_ptr<DisplayRun> run(new DisplayRun(show, walls, reporter));
+  run->displays_ = WallDisplays::open(walls, windowStereoOf(layout), show.width, show.height, findings);
   return run->displays_ ? std::move(run) : nullptr;
 }
 
 void DisplayRun::fitPictures(std::vector<WallView>& views) const {
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (!options_.show.size.empty() || walls_.walls[i].pixels.width > 0) continue;
+    if (!show_.size.empty() || walls_.walls[i].pixels.width > 0) continue;
     const auto [width, height] = displays_->pictureSize(i);
     views[i].width = width, views[i].height = height;
   }
@@ -65,7 +64,7 @@ FrameLoopOutcome DisplayRun::play(FrameLoop& loop, LiveDesk& desk) {
     }
     displays_->show(pictures);
     desk.pictureSeen();
-    if (!std::exchange(shown_, true)) std::fprintf(stderr, "the walls are shown; Escape ends the show\n");
+    if (!std::exchange(shown_, true)) reporter_.hint("the walls are shown; Escape ends the show");
   }
   playing.join();
   return outcome;

@@ -7,7 +7,6 @@
 #include "pipeline/loop/picture_mailbox.h"
 #include "show/console/live_desk.h"
 #include "show/display/wall_displays.h"
-#include "show/settings/run_options.h"
 
 #include <atomic>
 #include <memory>
@@ -17,8 +16,8 @@ namespace stadion {
 class DisplayRun {
 public:
   /// Opens the outputs. Null if one cannot be opened; the findings say which and why.
-  static std::unique_ptr<DisplayRun> open(const RunOptions& options, const WallFile& walls,
-                                          Diagnostics& findings);
+  static std::unique_ptr<DisplayRun> open(const ShowOptions& show, StereoLayout layout, const WallFile& walls,
+                                          Reporter& reporter, Diagnostics& findings);
 
   PictureSink& sink() { return mailbox_; }
   /// The walls' pictures fill their outputs pixel by pixel, unless --size or the wall file says otherwise.
@@ -26,19 +25,21 @@ public:
   /// Plays the loop to its end. Keys pressed in the windows are the operator's (docs/operator.md); Escape
   /// ends the run.
   FrameLoopOutcome play(FrameLoop& loop, LiveDesk& desk);
-  /// Keys pressed since the last call become commands. False if the display is gone: then the run fails.
+  /// Keys pressed since the last call become commands. False if the display was lost: then the run fails.
   bool takeKeys(LiveDesk& desk);
   /// Why nothing can be shown any more; nothing while it can.
   std::optional<std::string> lost() const { return displays_->lost(); }
 
 private:
-  DisplayRun(const RunOptions& options, const WallFile& walls) : options_(options), walls_(walls) {}
+  DisplayRun(const ShowOptions& show, const WallFile& walls, Reporter& reporter)
+      : show_(show), walls_(walls), reporter_(reporter) {}
 
-  const RunOptions& options_;
-  const WallFile walls_;  ///< a copy: the show it came from may be made anew
+  const ShowOptions& show_;
+  const WallFile walls_;  ///< a copy: the next group's show has walls of its own
+  Reporter& reporter_;
   std::unique_ptr<WallDisplays> displays_;
   PictureMailbox mailbox_;
-  bool shown_ = false;  ///< something has been
+  bool shown_ = false;  ///< a picture has been shown
 };
 
 }  // namespace stadion

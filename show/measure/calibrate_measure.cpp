@@ -56,15 +56,11 @@ ShowOptions showOf(const CalibrationRun& run) {
 
 }  // namespace
 
-Result<CalibrationFigures> measureSetting(const CalibrationRun& run) {
+Result<CalibrationFigures> measureSetting(const CalibrationRun& run, Diagnostics& findings) {
   using Measured = Result<CalibrationFigures>;
   setRasteriserThreads(run.setting.rasteriserThreads);
   ShowOptions show = showOf(run);
-  Diagnostics findings;
-  const auto failed = [&](const std::string& what) {
-    tell(findings);
-    return Measured::failure(what);
-  };
+  const auto failed = [](const std::string& what) { return Measured::failure(what); };
   if (!show.settle(findings)) return failed("bad settings");
   auto provider = openGlProvider(GlProviderKind::OsMesa);
   if (!provider) return provider.error();

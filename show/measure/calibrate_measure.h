@@ -23,6 +23,7 @@ struct CalibrationFigures {
   std::string rasteriser;  ///< as it describes itself
 };
 
-Result<CalibrationFigures> measureSetting(const CalibrationRun& run);
+/// The findings say more about a failure.
+Result<CalibrationFigures> measureSetting(const CalibrationRun& run, Diagnostics& findings);
 
 }  // namespace stadion

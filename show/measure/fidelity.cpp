@@ -187,7 +187,7 @@ std::size_t Fidelity::lookedAt() const {
 std::optional<Fidelity> measureFidelity(const FidelityOptions& options, Diagnostics& findings,
                                         const std::function<void(const std::string&)>& progress) {
   progress("the show as it is");
-  const auto show = playWith(options.show, {}, findings);
+  const auto show = playWith(options.show, {}, findings, options.report);
   if (!show || !namesAreKnown(options.bodies, *show, findings)) return {};
   Fidelity fidelity{options.show.script, show->frames, show->rate, options.tolerance, {}};
   std::uint64_t looked = 0;

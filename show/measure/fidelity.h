@@ -25,6 +25,7 @@ struct FidelityOptions {
   std::uint64_t rounds = 3;         ///< how often each model but the finest is played, for its cost
   std::string finest;               ///< shape that a body has in truth; empty: its mesh, else its hull
   std::vector<std::string> bodies;  ///< only these are played with other models; empty: the dearest
+  std::function<void(const Diagnostics&)> report{};  ///< receives findings of files that are loaded
 };
 
 /// A body played with one model.

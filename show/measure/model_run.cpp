@@ -2,7 +2,7 @@
 
 #include "dynamics/nodes/dyn_object_node.h"
 #include "dynamics/nodes/field_node.h"
-#include "show/session/show_recording.h"
+#include "show/recording/show_recording.h"
 
 #include <algorithm>
 
@@ -97,15 +97,11 @@ DynamicsVariation variationOf(const BodyModel& model) {
 
 }  // namespace
 
-std::optional<PlayedShow> playWith(const ShowOptions& show, const BodyModel& model, Diagnostics& findings) {
+std::optional<PlayedShow> playWith(const ShowOptions& show, const BodyModel& model, Diagnostics& findings,
+                                   std::function<void(const Diagnostics&)> report) {
   ShowOptions options = show;
   options.variation = variationOf(model);
-  // What the variation of a model lacks is told by its absence.
-  const bool varied = model.body.valid();
-  const auto report = [&](const Diagnostics& d) {
-    if (!varied) tell(d);
-  };
-  const auto player = Player::create(options, findings, report);
+  const auto player = Player::create(options, findings, std::move(report));
   if (!player) return {};
   const auto recording = ShowRecording::create({.log = {.samples = false}}, findings);
   if (!recording) return {};

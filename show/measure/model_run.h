@@ -7,6 +7,7 @@
 #include "dynamics/world/world.h"
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -56,7 +57,9 @@ struct PlayedShow {
 };
 
 /// Plays the show, of the model's body alone noting places, or, without one, of all bodies all but places.
-/// Nothing, with the findings, if it cannot be built like that.
-std::optional<PlayedShow> playWith(const ShowOptions& show, const BodyModel& model, Diagnostics& findings);
+/// Null, with the findings, if it cannot be built like that. Findings of files that are loaded go to
+/// `report`, if there is one.
+std::optional<PlayedShow> playWith(const ShowOptions& show, const BodyModel& model, Diagnostics& findings,
+                                   std::function<void(const Diagnostics&)> report = {});
 
 }  // namespace stadion

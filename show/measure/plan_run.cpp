@@ -22,12 +22,12 @@ double middleOfLast(const std::vector<double>& values, std::size_t count) {
 }
 
 /// Plays it once; false, with the findings, if that cannot be.
-bool play(const PlanRunOptions& options, Mode mode, GlProvider& provider, FrameProbe* probe,
-          Diagnostics& findings, FrameTimes& times) {
+bool play(const PlanRunOptions& options, Mode mode, GlProvider& provider, Reporter& reporter,
+          FrameProbe* probe, Diagnostics& findings, FrameTimes& times) {
   const std::atomic<bool>& stop = catchStopSignals();
   ShowOptions show = options.show;
   show.frames += kFramesBefore;
-  const auto player = Player::create(show, findings, tell, &stop);
+  const auto player = Player::create(show, findings, reporter.reportFunction(), &stop);
   if (!player) return false;
   FrameLoopOptions loopOptions = player->loopOptions();
   loopOptions.mode = mode, loopOptions.walls = options.walls;
@@ -56,20 +56,20 @@ double loadNow() {
   return load;
 }
 
-bool measureCosts(const PlanRunOptions& options, GlProvider& provider, MeasuredCosts& costs,
-                  Diagnostics& findings) {
+bool measureCosts(const PlanRunOptions& options, GlProvider& provider, Reporter& reporter,
+                  MeasuredCosts& costs, Diagnostics& findings) {
   plan::CostProbe probe(options.walls, kFramesBefore);
   FrameTimes times(options.walls);
-  if (!play(options, Mode::Sequential, provider, &probe, findings, times)) return false;
+  if (!play(options, Mode::Sequential, provider, reporter, &probe, findings, times)) return false;
   costs.runs.push_back(probe.costs());
   costs.waitsInTurn = probe.waitsInTurn();
   return true;
 }
 
 std::optional<PlayedTimes> playTimes(const PlanRunOptions& options, Mode mode, GlProvider& provider,
-                                     Diagnostics& findings) {
+                                     Reporter& reporter, Diagnostics& findings) {
   FrameTimes times(options.walls);
-  if (!play(options, mode, provider, nullptr, findings, times)) return {};
+  if (!play(options, mode, provider, reporter, nullptr, findings, times)) return {};
   const std::size_t frames = options.show.frames;
   return PlayedTimes{middleOfLast(times.period.values(), frames - 1),
                      middleOfLast(times.latency.front().values(), frames)};

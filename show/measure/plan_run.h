@@ -3,6 +3,7 @@
 /// comes of it.
 
 #include "profiling/plan/cost_probe.h"
+#include "show/base/reporter.h"
 #include "show/player/player.h"
 
 #include <optional>
@@ -34,9 +35,9 @@ constexpr std::uint64_t kFramesBefore = 6;
 double loadNow();
 
 /// Adds a run. False, with the findings, if something of the user's is wrong.
-bool measureCosts(const PlanRunOptions& options, GlProvider& provider, MeasuredCosts& costs,
-                  Diagnostics& findings);
+bool measureCosts(const PlanRunOptions& options, GlProvider& provider, Reporter& reporter,
+                  MeasuredCosts& costs, Diagnostics& findings);
 std::optional<PlayedTimes> playTimes(const PlanRunOptions& options, Mode mode, GlProvider& provider,
-                                     Diagnostics& findings);
+                                     Reporter& reporter, Diagnostics& findings);
 
 }  // namespace stadion

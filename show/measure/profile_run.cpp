@@ -1,13 +1,11 @@
 #include "show/measure/profile_run.h"
 
 #include "engine/base/atomic_file.h"
-#include "pipeline/record/progress.h"
 #include "show/base/stop_signal.h"
 #include "show/measure/profile_report.h"
-#include "show/session/last_frames.h"
-#include "show/session/show_recording.h"
+#include "show/recording/last_frames.h"
+#include "show/recording/show_recording.h"
 
-#include <cstdio>
 #include <fmt/format.h>
 
 namespace stadion {
@@ -28,7 +26,7 @@ std::unique_ptr<ShowRecording> record(const ProfileRunOptions& options, const Pl
                                       Diagnostics& findings) {
   RecordingOptions recorded;
   const std::vector<std::string> walls = player.walls().names();
-  recorded.trace = options.trace.settle(findings);
+  recorded.trace = options.trace;
   if (recorded.trace) recorded.trace->show = options.show.script, recorded.trace->walls = walls;
   recorded.keep = unaskedLastFrames(walls);
   if (!options.html.empty()) recorded.report = RecordingOptions::Report{player.rate(), walls};
@@ -37,7 +35,8 @@ std::unique_ptr<ShowRecording> record(const ProfileRunOptions& options, const Pl
 
 }  // namespace
 
-std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnostics& findings) {
+std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Reporter& reporter,
+                                       Diagnostics& findings) {
   const std::atomic<bool>& stop = catchStopSignals();
   std::unique_ptr<GlProvider> provider;
   if (options.drawn) {
@@ -45,7 +44,7 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnos
     if (!opened) return findings.add(opened.error()), std::nullopt;
     provider = std::move(opened.value());
   }
-  const auto player = Player::create(options.show, findings, tell, &stop);
+  const auto player = Player::create(options.show, findings, reporter.reportFunction(), &stop);
   if (!player) return {};
   FrameLoopOptions loopOptions = player->loopOptions();
   if (loopOptions.frames == 0 && loopOptions.end == 0) loopOptions.frames = kProfiledWithoutInput;
@@ -59,7 +58,6 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnos
   if (!options.html.empty() && html.emplace(options.html).error()) findings.add(*html->error());
   const auto recording = record(options, *player, findings);
   if (!recording || findings.hasErrors()) return {};
-  ProgressBar progress(loopOptions.frames);
   const ShowStages* running = nullptr;
   ShowParts parts = player->parts(options.layout);
   parts.provider = provider.get();
@@ -67,13 +65,13 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnos
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
     recording->see(scene);
     player->collect(running->shownFrame());
-    progress.update(now.frame + 1);
+    reporter.progress(now.frame + 1, loopOptions.frames);
   };
   ShowStages stages(std::move(parts));
   running = &stages;
   FrameLoop loop(stages, loopOptions, stop, &recording->probe());
   const FrameLoopOutcome outcome = loop.run();
-  progress.finish();
+  reporter.progressOver();
   if (outcome.failure) recording->keepLastFrames();
   if (outcome.failure) return findings.error({}, outcome.failure->message), std::nullopt;
   recording->finishTrace(findings);

@@ -2,9 +2,9 @@
 /// Plays a show and says what its frames are spent on, node by node.
 
 #include "profiling/report/show_figures.h"
+#include "profiling/trace/trace_file.h"
+#include "show/base/reporter.h"
 #include "show/measure/fidelity.h"
-#include "show/settings/run_options.h"
-#include "show/settings/trace_options.h"
 
 #include <optional>
 
@@ -15,13 +15,14 @@ struct ProfileRunOptions {
   std::string stereo = "pair", provider = "osmesa";
   StereoLayout layout = StereoLayout::Pair;  ///< from `stereo`
   bool drawn = true;                         ///< false: App and Cull alone
-  TraceRequest trace;
+  std::optional<TraceOptions> trace{};
   std::string html;  ///< the report's file; empty: none
   FidelityOptions fidelity;
   bool fidelityAsked = false;  ///< for the report; else if it takes seconds only
 };
 
-/// Nothing, with the findings, if something of the user's is wrong.
-std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Diagnostics& findings);
+/// Null, with the reason in the findings, if a file or an option is wrong.
+std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Reporter& reporter,
+                                       Diagnostics& findings);
 
 }  // namespace stadion

@@ -3,6 +3,7 @@
 #include "engine/base/append.h"
 #include "engine/base/plain_file.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -69,8 +70,9 @@ const Json& valueAt(const Json& j, const char* key) {
 }  // namespace
 
 std::unique_ptr<SoakRecord> SoakRecord::open(const std::string& file, const std::string& what,
+                                             std::function<void(const std::string&)> fault,
                                              Diagnostics& findings) {
-  std::unique_ptr<SoakRecord> record(new SoakRecord(file));
+  std::unique_ptr<SoakRecord> record(new SoakRecord(file, std::move(fault)));
   if (file.empty()) return record;
   if (!isText(what))
     return findings.error({}, "--record: it cannot hold a name that is not UTF-8 (" + what + ")"), nullptr;
@@ -174,9 +176,8 @@ void SoakRecord::write(const std::string& line) {
   const int why = appendWhole(file_.get(), line + "\n");
   if (why == 0) return;
   incomplete_ = true;
-  std::fprintf(stderr,
-               "stadion: --record: %s: cannot be written: %s; the record ends here, the soak goes on\n",
-               name_.c_str(), std::strerror(why));
+  fault_(fmt::format("--record: {}: cannot be written: {}; the record ends here, the soak goes on", name_,
+                     std::strerror(why)));
 }
 
 void SoakRecord::add(SoakSample s) {

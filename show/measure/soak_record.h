@@ -8,7 +8,7 @@
 ///
 /// Threads  App's.
 /// Errors   in the findings: the file cannot be written, another process is writing it, or it is no record
-///          of the same soak. A line that cannot be written later on (a full disk) is told once on stderr;
+///          of the same soak. A line that cannot be written later on (a full disk) is reported once;
 ///          then the record ends there, whole, and the soak goes on without.
 
 #include "engine/base/diagnostic.h"
@@ -16,6 +16,7 @@
 #include "profiling/soak/growth.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -41,8 +42,10 @@ struct SoakCounts {
 
 class SoakRecord {
 public:
-  /// `file`: empty = nowhere. `what` says what is played; a record of something else is refused.
+  /// `file`: empty = nowhere. `what` says what is played; a record of something else is refused. `fault`
+  /// learns why the record ends early, if it does.
   static std::unique_ptr<SoakRecord> open(const std::string& file, const std::string& what,
+                                          std::function<void(const std::string&)> fault,
                                           Diagnostics& findings);
 
   SoakCounts counts;
@@ -65,7 +68,8 @@ public:
   bool incomplete() const { return incomplete_; }
 
 private:
-  explicit SoakRecord(std::string name) : name_(std::move(name)) {}
+  SoakRecord(std::string name, std::function<void(const std::string&)> fault)
+      : name_(std::move(name)), fault_(std::move(fault)) {}
   bool lock(Diagnostics& findings);
   bool read(const std::string& what, Diagnostics& findings);
   const char* readLine(const nlohmann::json& line);
@@ -77,6 +81,7 @@ private:
   void write(const std::string& line);
 
   std::string name_;  ///< empty: nothing is written
+  std::function<void(const std::string&)> fault_;
   Descriptor file_;
   bool incomplete_ = false;
   std::uint32_t process_ = 0, processes_ = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// How a run draws its walls in software, and why: what is asked for, else what `stadion calibrate` found to
-/// be fastest on this machine, else a rule (unmeasuredSetting).
+/// How a run draws its walls in software, and why: as the settings say, else as `stadion calibrate` found to
+/// be fastest on this machine, else by a rule (unmeasuredSetting).
 ///
 /// Threads  to be settled before the first OpenGL context is made.
 
@@ -37,7 +37,7 @@ public:
   const DrawSetting& setting() const { return chosen_.setting; }
   /// "calibrated 2026-11-23 05:01 UTC: 17.2 frames/s with 4 walls, 12.3 by threads"
   const std::string& why() const { return chosen_.why; }
-  /// Those of this program's rasteriser, whoever draws the walls.
+  /// Threads of this program's rasteriser, for in-process and worker-process walls alike.
   std::uint32_t rasteriserThreadsHere() const { return here_.setting.rasteriserThreads; }
 
   /// This program must draw after all.

@@ -52,15 +52,11 @@ std::function<void(const Diagnostics&)> onlyNews(std::function<void(const Diagno
         if (said->texts.size() < kMost) said->texts.insert(std::move(text));
       }
     }
-    if (!news.all().empty()) report(news);
+    if (report && !news.all().empty()) report(news);
   };
 }
 
 }  // namespace
-
-void tell(const Diagnostics& findings) {
-  for (const Diagnostic& d : findings.all()) std::fprintf(stderr, "%s\n", format(d).c_str());
-}
 
 AssetRoots ShowOptions::roots() const {
   AssetRoots all = AssetRoots::ofScript(script);

@@ -1,6 +1,6 @@
 #pragma once
-/// A show, put together: script, walls, input, scene, loader and stages. What `run` and `hash` have in
-/// common.
+/// A show with all its parts: script, walls, input, scene and loader. The parts of its stages are made from
+/// it.
 
 #include "dynamics/nodes/dynamics_factories.h"
 #include "engine/asset/import.h"
@@ -22,7 +22,7 @@
 
 namespace stadion {
 
-/// The options that mean the same in every subcommand that plays a show.
+/// Which show is played, on which walls, and for how long.
 struct ShowOptions {
   std::string script;
   std::string walls = "cave4";
@@ -35,37 +35,35 @@ struct ShowOptions {
   double seconds = 0;        ///< 0 = to the end of the input
   std::string input;         ///< empty = beside the script if there is one; "none"
   std::vector<std::string> assetRoots;
-  /// Those of the room that are drawn here; empty = all. No option.
+  /// The walls of the room that are drawn here; empty = all.
   std::vector<std::string> onlyWalls;
   std::size_t appThreads = 0;   ///< 0 = as many as there are processors, 8 at most
-  DynamicsVariation variation;  ///< of the script's models; no option
-  /// What is played; null: the scripts as they are on disk when the show is opened. No option.
+  DynamicsVariation variation;  ///< of the script's models
+  /// The scripts that are played; null: as they are on disk when the show is opened.
   std::shared_ptr<const ScriptTexts> texts;
-  /// The state that the show goes on from (Scene::save()); null: it begins. No option.
+  /// The snapshot that the show continues from (Scene::save()); null: it starts from the beginning.
   std::shared_ptr<const std::vector<std::uint8_t>> state;
 
   std::uint32_t width = 0, height = 0;  ///< from `size`
 
-  /// Where the show's files may lie; --asset-root's as far as they are there.
+  /// The folders of the show's files: the script's own, and those of `assetRoots` that exist.
   AssetRoots roots() const;
-  /// Completes what depends on other options. Says what is wrong.
+  /// Completes the members that depend on others. False, with the reason in the findings, if one is wrong.
   bool settle(Diagnostics& findings);
 };
-
-/// Writes every finding to stderr as the compiler would.
-void tell(const Diagnostics& findings);
 
 /// Everything of a show but its drawing.
 ///
 /// Ownership  owns all parts; nothing outlives it.
 class Player {
 public:
-  /// Reads, checks and loads everything. Null if something of the user's is wrong; the findings say what.
-  /// What is found while files are loaded, now and during the show, goes to `report`. Once `stop` is true,
-  /// nobody waits for a file any more. Models that are `kept` from an earlier show are not imported again; it
-  /// must outlive the player. The scripts are those of that moment: sub-scenes that are loaded later, too.
+  /// Reads, checks and loads everything. Null if a file or an option is wrong; the findings say what.
+  /// Errors and warnings of files that are loaded, now and during the show, go to `report`, if there is one.
+  /// Once `stop` is true, the player no longer waits for files. Models `kept` from an earlier show are not
+  /// imported again; they must outlive the player. The scripts are those of that moment, also those of
+  /// sub-scenes that are loaded later.
   static std::unique_ptr<Player> create(const ShowOptions& options, Diagnostics& findings,
-                                        std::function<void(const Diagnostics&)> report = tell,
+                                        std::function<void(const Diagnostics&)> report = {},
                                         const std::atomic<bool>* stop = nullptr,
                                         ImportedMeshes* kept = nullptr);
   /// The same in two steps: all but the scene, and that. Only the second one reads the show's files. A player
@@ -101,6 +99,7 @@ public:
   const AssetRoots& assets() const { return roots_; }
   MeshStore& meshes() { return *meshes_; }
   const std::string& inputName() const { return inputName_; }
+  const std::string& script() const { return options_.script; }
 
   /// The parts for a ShowStages; provider and sink are the caller's to add. `input`: instead of input().
   ShowParts parts(StereoLayout stereo, InputDevice* input = nullptr);

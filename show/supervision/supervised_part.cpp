@@ -30,15 +30,17 @@ SupervisedPart::SupervisedPart(std::unique_ptr<SharedProgress> progress,
   state_ = std::make_shared<const std::vector<std::uint8_t>>(progress_->scene());
 }
 
-std::unique_ptr<SupervisedPart> SupervisedPart::create(const RunOptions& o, Diagnostics& findings) {
-  if (o.supervised < 0) return nullptr;
-  auto progress = SharedProgress::attach(o.supervised);
+std::unique_ptr<SupervisedPart> SupervisedPart::create(const SupervisionSettings& settings, bool keepsScene,
+                                                       std::function<void(const std::string&)> say,
+                                                       Diagnostics& findings) {
+  if (settings.progress < 0) return nullptr;
+  auto progress = SharedProgress::attach(settings.progress);
   if (!progress) {
     findings.error({}, "--supervised is for players that `stadion run --supervise` starts");
     return nullptr;
   }
-  std::unique_ptr<SupervisedPart> part(new SupervisedPart(std::move(progress), o.say));
-  part->keeps_ = o.cluster.empty();
+  std::unique_ptr<SupervisedPart> part(new SupervisedPart(std::move(progress), std::move(say)));
+  part->keeps_ = keepsScene;
   return part;
 }
 

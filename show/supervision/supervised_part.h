@@ -1,15 +1,15 @@
 #pragma once
-/// A player's part in `run --supervise`: it says how far it is, keeps the show's scene every few seconds
-/// where it outlives the player, and goes on from there if it is not the first one. Then it keeps the scene
-/// as soon as it has caught up, and while it does every second: if it dies soon, the next one has less to
-/// catch up with than it had.
+/// A supervised player's side: it reports its progress, saves a snapshot of the scene every few seconds where
+/// it outlives the player, and continues from the last one if it is not the first player. While it catches up
+/// it saves every second, and once more when it has caught up: if it crashes soon, the next player has less
+/// to catch up with.
 ///
 /// Threads  main, but for simulated(), which is App's, and shown(), which is the Draw thread's that swaps.
 
 #include "pipeline/supervision/shared_progress.h"
 #include "show/console/live_desk.h"
-#include "show/session/run_watch.h"
-#include "show/settings/run_options.h"
+#include "show/recording/run_watch.h"
+#include "show/supervision/supervision_settings.h"
 
 #include <memory>
 #include <optional>
@@ -19,14 +19,17 @@ namespace stadion {
 
 class SupervisedPart {
 public:
-  /// Null if nobody watches over this process.
-  static std::unique_ptr<SupervisedPart> create(const RunOptions& options, Diagnostics& findings);
+  /// Null if this process has no supervisor, or with the reason in the findings. `keepsScene`: the scene is
+  /// saved for the next player; in a cluster the other machines have it.
+  static std::unique_ptr<SupervisedPart> create(const SupervisionSettings& settings, bool keepsScene,
+                                                std::function<void(const std::string&)> say,
+                                                Diagnostics& findings);
 
-  /// The state to go on from; null: the show begins.
+  /// The snapshot to continue from; null: the show begins.
   std::shared_ptr<const std::vector<std::uint8_t>> state() const { return state_; }
-  /// It could not be put back, for what was found: the show begins again.
+  /// The snapshot could not be restored, for the reasons found: the show restarts.
   void beginAgain(const Diagnostics& found);
-  /// The first show of this process: where it goes on, what the operator had decided. Says so.
+  /// The first show of this process: where it continues, and what the operator had decided. Reports it.
   void goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watch);
 
   void enter(SharedProgress::Phase phase) { progress_->enter(phase); }
@@ -37,7 +40,7 @@ public:
   void simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch, bool late);
   void shown() { progress_->shown(); }
 
-  /// What there is to say of it in a summary: players before this one, and what keeping the scene took.
+  /// For the summary: the number of players before this one, and what saving the snapshots took.
   std::string remark() const;
 
 private:
@@ -48,7 +51,7 @@ private:
   std::function<void(const std::string&)> say_;
   std::optional<SharedProgress::Kept> from_;
   std::shared_ptr<const std::vector<std::uint8_t>> state_;
-  bool keeps_ = true;  ///< the scene, for the next player; in a cluster the others have it
+  bool keeps_ = true;  ///< the scene, for the next player
   OperatorState desk_;
   bool wentOn_ = false, catchesUp_ = false;
   Nanoseconds begun_ = 0;     ///< when it went on, by machineClock()

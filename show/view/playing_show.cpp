@@ -1,7 +1,7 @@
 #include "show/view/playing_show.h"
 
-#include "show/session/last_frames.h"
-#include "show/session/live_load.h"
+#include "show/recording/last_frames.h"
+#include "show/recording/live_load.h"
 
 #include <cmath>
 
@@ -32,21 +32,21 @@ std::map<std::string, bool> subScenes(const Scene& scene) {
 
 std::unique_ptr<PlayingShow> PlayingShow::open(const ShowSurroundings& around, Diagnostics& findings) {
   std::unique_ptr<PlayingShow> show(new PlayingShow(around));
-  ShowOptions played = around.options.show;
+  ShowOptions played = around.settings.show;
   played.texts = around.texts;
-  show->player_ =
-      Player::create(played, findings, around.report, show->around_.stopping.get(), &around.kept->models);
+  show->player_ = Player::create(played, findings, around.reporter.reportFunction(),
+                                 show->around_.stopping.get(), &around.kept->models);
   if (!show->player_) return nullptr;
   Player& player = *show->player_;
   if (around.visitor) player.takeInputFrom(*around.visitor);
-  RunOptions recorded = around.options;
-  recorded.recordInput = around.recorded ? around.desk.recordName() : "";
-  show->watch_ = RunWatch::create(recorded, player, findings);
+  RecordSettings recorded = around.settings.record;
+  recorded.input = around.recorded ? around.desk.fileOfGroup(recorded.input) : "";
+  show->watch_ = RunWatch::create(recorded, around.settings.play, player, findings);
   if (!show->watch_) return nullptr;
   const SheetPlace& size = around.overviewSize;
   show->overview_ = std::make_unique<Overview>(player.meshes(), player.walls(),
                                                static_cast<double>(size.width) / size.height);
-  if (!around.options.repeats(player)) player.playLive();
+  if (!around.settings.play.repeats(player)) player.playLive();
   return show;
 }
 
@@ -58,12 +58,12 @@ void PlayingShow::beginRecording() {
   options.profile = false, options.also = &budget_;
   options.log.whole = false, options.log.samples = hasDrawnBudgets(player_->scene());
   options.log.shares = true;
-  options.govern = governorOf(around_.options, *player_, walls);
-  options.keep = lastFramesOf(around_.options, *player_, walls);
+  options.govern = governorOf(around_.settings.play, *player_, walls, around_.reporter.hintFunction());
+  options.keep = lastFramesOf(around_.settings.play, around_.settings.record.blackBox, *player_, walls);
   options.keep->wanted = false;  // whether it can be was found out before anything was played
   Diagnostics findings;
   recording_ = ShowRecording::create(std::move(options), findings);
-  around_.report(findings);
+  around_.reporter.report(findings);
 }
 
 PlayingShow::~PlayingShow() {
@@ -71,9 +71,9 @@ PlayingShow::~PlayingShow() {
 }
 
 ShowParts PlayingShow::parts() {
-  ShowParts parts = player_->parts(around_.options.layout);
+  ShowParts parts = player_->parts(around_.settings.draw.layout);
   for (std::size_t i = 0; i < parts.walls.size() && i < around_.pictureSizes.size(); ++i) {
-    const bool stated = !around_.options.show.size.empty() || player_->walls().walls[i].pixels.width > 0;
+    const bool stated = !around_.settings.show.size.empty() || player_->walls().walls[i].pixels.width > 0;
     if (stated) continue;
     parts.walls[i].width = around_.pictureSizes[i].width;
     parts.walls[i].height = around_.pictureSizes[i].height;
@@ -98,7 +98,7 @@ ShowParts PlayingShow::parts() {
 void PlayingShow::start(const std::optional<ShowPlace>& place) {
   from_ = place;
   beginRecording();
-  FrameLoopOptions options = around_.options.loopOptions(*player_);
+  FrameLoopOptions options = around_.settings.play.loopOptions(*player_);
   options.walls += 1;  // the overview
   ShowParts show = parts();
   around_.desk.beginGroup(*player_, *watch_);

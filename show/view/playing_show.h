@@ -1,17 +1,16 @@
 #pragma once
-/// A show that plays live while somebody looks on: its own threads, from opening it to its last frame.
+/// A show that plays live on its own threads, from opening it to its last frame.
 ///
-/// Threads  opened and ended by one thread (any); it plays on threads of its own; place(), budget() and the
-/// rest
-///          of what is const may be asked meanwhile.
+/// Threads  opened and ended by one thread (any); it plays on threads of its own; const functions may be
+/// called meanwhile.
 
 #include "engine/display/unfolding.h"
 #include "pipeline/frame/playback.h"
 #include "profiling/record/live_budget.h"
 #include "show/console/live_desk.h"
-#include "show/session/run_watch.h"
-#include "show/session/show_recording.h"
-#include "show/settings/run_options.h"
+#include "show/recording/run_watch.h"
+#include "show/recording/show_recording.h"
+#include "show/session/session_settings.h"
 #include "show/view/overview.h"
 
 #include <atomic>
@@ -29,9 +28,9 @@ struct ShowPlace {
   std::set<std::string> loaded;  ///< scene nodes of the show's own file whose files are there
 };
 
-/// What is there longer than one show: what it plays into, and who plays.
+/// What a show plays into, and what outlives it.
 struct ShowSurroundings {
-  const RunOptions& options;
+  const SessionSettings& settings;
   GlProvider& provider;
   PictureSink& sink;
   LiveDesk& desk;
@@ -40,8 +39,8 @@ struct ShowSurroundings {
   InputDevice* visitor = nullptr;        ///< null: the input log plays
   std::vector<SheetPlace> pictureSizes;  ///< by wall, where neither --size nor the wall file says
   SheetPlace overviewSize;
-  std::function<void(const Diagnostics&)> report;  ///< what is found later; any thread
-  std::function<void()> ended;                     ///< the show has come to its end; on its own thread
+  Reporter& reporter;
+  std::function<void()> ended;  ///< the show has come to its end; on its own thread
   /// Once true the show ends, or, while it is still being opened, is given up. One for each show.
   std::shared_ptr<std::atomic<bool>> stopping = std::make_shared<std::atomic<bool>>(false);
   /// What is played; null: the scripts as they are on disk when the show is opened.

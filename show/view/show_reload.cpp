@@ -42,7 +42,7 @@ ShowReload::~ShowReload() {
 }
 
 void ShowReload::read() {
-  const ShowOptions& show = around_.options.show;
+  const ShowOptions& show = around_.settings.show;
   around_.texts = ScriptTexts::read(show.script, show.roots());
   Diagnostics found = checkScripts(show.script, show.assetRoots, around_.texts);
   if (!found.hasErrors())
@@ -56,7 +56,7 @@ std::unique_ptr<PlayingShow> ShowReload::take(Diagnostics& findings) {
   if (thread_.joinable()) thread_.join();
   if (thrown_) {
     show_.reset();
-    findings.error({around_.options.show.script, 0, 0}, "cannot be read again: " + whyOf(thrown_));
+    findings.error({around_.settings.show.script, 0, 0}, "cannot be read again: " + whyOf(thrown_));
   }
   for (const Diagnostic& d : errors_.all()) findings.add(d);
   return std::move(show_);

@@ -123,7 +123,8 @@ Rooms roomsOf(const std::string& part) {
 }
 
 /// A way along includes from the last room of `way` back to its first; empty if there is none.
-std::vector<std::string> cycleFrom(const Rooms& rooms, std::vector<std::string> way, std::set<std::string>& seen) {
+std::vector<std::string> cycleFrom(const Rooms& rooms, std::vector<std::string> way,
+                                   std::set<std::string>& seen) {
   const auto next = rooms.find(way.back());
   if (next == rooms.end()) return {};
   for (const auto& [room, place] : next->second) {
@@ -137,7 +138,8 @@ std::vector<std::string> cycleFrom(const Rooms& rooms, std::vector<std::string> 
 }
 
 TEST(Layering, TheRoomsOfAFloorFormNoCycle) {
-  for (const char* part : {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "assets/generator"}) {
+  for (const char* part :
+       {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "assets/generator"}) {
     const Rooms rooms = roomsOf(part);
     for (const auto& [room, others] : rooms) {
       std::set<std::string> seen;
@@ -170,6 +172,14 @@ TEST(Layering, OnlyTheCommandLineKnowsCli11AndExitCodes) {
       if (line.file.starts_with("profiling/bench/")) continue;
       EXPECT_FALSE(library.starts_with("CLI/")) << line.place();
     }
+  }
+}
+
+TEST(Layering, TheLibraryThatPlaysShowsWritesToNoTerminal) {
+  const std::regex writes(R"(\b(stderr|stdout|printf|puts|perror|cout|cerr|clog)\b)");
+  for (const Line& line : linesBelow("show")) {
+    if (line.file == "show/recording/crash_report.cpp") continue;  // a crash has no other place left
+    EXPECT_FALSE(std::regex_search(line.text, writes)) << line.place();
   }
 }
 

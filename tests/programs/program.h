@@ -1,6 +1,8 @@
 #pragma once
 /// Runs a program as a user would: words in, exit status and texts out.
 
+#include "cli/terminal.h"
+
 #include <chrono>
 #include <filesystem>
 #include <functional>

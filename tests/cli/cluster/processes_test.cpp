@@ -1,6 +1,7 @@
 /// `stadion cluster`: who dies, who is asked to end, and what of the command line goes to which node.
 
-#include "cli/cluster/cluster_nodes.h"
+#include "cli/terminal.h"
+#include "show/cluster/cluster_nodes.h"
 #include "tests/proc.h"
 #include "tests/programs/played_cluster.h"
 
@@ -17,6 +18,8 @@ namespace stadion {
 namespace {
 
 namespace fs = std::filesystem;
+
+TerminalReporter terminal;
 
 std::size_t timesIn(const std::string& text, const std::string& part) {
   std::size_t count = 0;
@@ -170,7 +173,7 @@ std::size_t startsIn(const fs::path& count) {
 
 TEST(ProgramClusterProcesses, ANodeWithoutMemoryOrOpenGlBeginsAgainAfterAPauseIfItFailsAtOnce) {
   const TemporaryFolder folder;
-  ClusterNodes nodes(twoNodes(), false);
+  ClusterNodes nodes(twoNodes(), false, terminal);
   // Who leads plays until the other one has begun for the third time, half a minute at most.
   nodes.add("front", {"sh", "-c",
                       "for i in $(seq 300); do [ $(wc -l <" + (folder.path() / "left").string() +
@@ -191,7 +194,7 @@ TEST(ProgramClusterProcesses, WhatIsWrongWithTheShowIsNoReasonToBeginAgain) {
   const TemporaryFolder folder;
   for (const int code : {1, 2}) {
     const std::string name = "starts" + std::to_string(code);
-    ClusterNodes nodes(twoNodes(), false);
+    ClusterNodes nodes(twoNodes(), false, terminal);
     nodes.add("front", failing(folder.path() / name, code, 1));
     nodes.add("left", {"sleep", "600"});
     EXPECT_EQ(nodes.play(), code) << "the others end with who leads";
@@ -204,7 +207,7 @@ constexpr std::chrono::milliseconds kShort{300};  // patience
 TEST(ProgramClusterProcesses, AFollowerThatFindsOtherFilesComesBackOnceTheyAreAlike) {
   const TemporaryFolder folder;
   const std::string starts = folder.write("starts", "");
-  ClusterNodes nodes(twoNodes(), false);
+  ClusterNodes nodes(twoNodes(), false, terminal);
   nodes.add("front",
             {"sh", "-c",
              "for i in $(seq 300); do [ $(wc -l <" + starts + ") -lt 4 ] || break; " + "sleep 0.1; done"});
@@ -223,7 +226,7 @@ TEST(ProgramClusterProcesses, AFollowerThatFindsOtherFilesComesBackOnceTheyAreAl
 TEST(ProgramClusterProcesses, WhoLeadsAndHangsIsReplaced) {
   const TemporaryFolder folder;
   const std::string starts = folder.write("starts", "");
-  ClusterNodes nodes(twoNodes(), false);
+  ClusterNodes nodes(twoNodes(), false, terminal);
   nodes.add("front", {"sh", "-c", "echo >>" + starts + "; [ $(wc -l <" + starts + ") -gt 1 ] || sleep 600"});
   nodes.add("left", {"sh", "-c", "until [ $(wc -l <" + starts + ") -ge 2 ]; do sleep 0.1; done"});
   nodes.watchLead(std::move(SharedProgress::create().value()), fromSeconds(0.05));
@@ -246,7 +249,7 @@ TEST(ProgramClusterProcesses, OnlyTheOneThatLeadsAndIsStoppedIsTakenForHanging) 
 }
 
 TEST(ProgramClusterProcesses, WhoFindsTheShowAtItsEndHasNotFailed) {
-  ClusterNodes nodes(twoNodes(), false, kShort);
+  ClusterNodes nodes(twoNodes(), false, terminal, kShort);
   nodes.add("front", {"true"});
   nodes.add("left", {"sh", "-c", "exec sleep 600"});
   EXPECT_EQ(nodes.play(), 0) << "it waits for who has gone, and is asked to end";
@@ -256,7 +259,7 @@ TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoDiedAndIsNotBackAtTheEndHas
   for (const bool needed : {false, true}) {
     const TemporaryFolder folder;
     const std::string starts = folder.write("starts", "");
-    ClusterNodes nodes(twoNodes(), false, kShort);
+    ClusterNodes nodes(twoNodes(), false, terminal, kShort);
     if (needed) nodes.needAll();
     nodes.add("front", {"sh", "-c", "until [ $(wc -l <" + starts + ") -ge 2 ]; do sleep 0.1; done"});
     nodes.add(
@@ -267,7 +270,7 @@ TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoDiedAndIsNotBackAtTheEndHas
 }
 
 TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoWasNotDoneAtTheEndHasFailed) {
-  ClusterNodes nodes(twoNodes(), false, kShort);
+  ClusterNodes nodes(twoNodes(), false, terminal, kShort);
   nodes.needAll();
   nodes.add("front", {"true"});
   nodes.add("left", {"sleep", "600"});
@@ -284,7 +287,7 @@ TEST(ProgramClusterProcesses, AShowThatIsOverForTheOthersIsNotPlayedAgainByWhoLe
   for (const bool endsFirst : {true, false}) {
     const TemporaryFolder folder;
     const std::string starts = folder.write("starts", "");
-    ClusterNodes nodes(twoNodes(), false);
+    ClusterNodes nodes(twoNodes(), false, terminal);
     nodes.add("front", {"sh", "-c",
                         "echo >>" + starts + "; [ $(wc -l <" + starts + ") -eq 1 ] || sleep 600; " +
                             (endsFirst ? "" : "sleep 0.3; ") + "exit 3"});
@@ -298,7 +301,7 @@ TEST(ProgramClusterProcesses, AShowThatIsOverForTheOthersIsNotPlayedAgainByWhoLe
 }
 
 TEST(ProgramClusterProcesses, OfAShowThatWasStoppedNoPictureIsMissed) {
-  ClusterNodes nodes(twoNodes(), false, kShort);
+  ClusterNodes nodes(twoNodes(), false, terminal, kShort);
   nodes.needAll();
   nodes.add("front", {"sh", "-c", "exit 143"});
   nodes.add("left", {"sleep", "600"});
@@ -309,7 +312,7 @@ TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotBeginAgain) {
   const TemporaryFolder folder;
   ClusterFile cluster = twoNodes();
   cluster.stopOnDifference = true;
-  ClusterNodes nodes(cluster, false);
+  ClusterNodes nodes(cluster, false, terminal);
   nodes.add("front", failing(folder.path() / "front", 3, 1));
   nodes.add("left", {"true"});
   EXPECT_EQ(nodes.play(), 3);
@@ -320,7 +323,7 @@ TEST(ProgramClusterProcesses, WhoHangsIsKilledOnceWhoLeadsHasEnded) {
   for (const char* lead : {"exit 0", "exit 1"}) {
     const TemporaryFolder folder;
     const std::string hangs = folder.path() / "hangs";
-    ClusterNodes nodes(twoNodes(), false, kShort);
+    ClusterNodes nodes(twoNodes(), false, terminal, kShort);
     nodes.add("front", {"sh", "-c", "until [ -e " + hangs + " ]; do sleep 0.1; done; " + lead});
     nodes.add("left", {"sh", "-c", "trap '' INT; echo >" + hangs + "; sleep 600"});
     testing::internal::CaptureStderr();
@@ -334,7 +337,7 @@ TEST(ProgramClusterProcesses, WhoHangsIsKilledOnceWhoLeadsHasEnded) {
 
 TEST(ProgramClusterProcesses, WhoHangsIsKilledAfterASignal) {
   const auto play = [] {
-    ClusterNodes nodes(twoNodes(), false, kShort);
+    ClusterNodes nodes(twoNodes(), false, terminal, kShort);
     nodes.add("front", {"sleep", "600"});
     nodes.add("left", {"sh", "-c", "trap '' TERM; kill -TERM $PPID; sleep 600"});
     std::exit(nodes.play());
@@ -346,7 +349,7 @@ TEST(ProgramClusterProcesses, WhoHangsIsKilledAfterASignal) {
 TEST(ProgramClusterProcesses, WhatBecomesOfANodeIsToldInItsJournal) {
   const TemporaryFolder folder;
   const auto file = [&](const char* node) { return (folder.path() / node).string(); };
-  ClusterNodes nodes(twoNodes(), false);
+  ClusterNodes nodes(twoNodes(), false, terminal);
   nodes.add("front", {"sh", "-c", "until [ $(wc -l <" + file("starts") + ") = 2 ]; do sleep 0.1; done"},
             std::move(Journal::open(file("front")).value()));
   nodes.add("left", failing(file("starts"), 3, 1), std::move(Journal::open(file("left")).value()));
@@ -359,7 +362,7 @@ TEST(ProgramClusterProcesses, WhatBecomesOfANodeIsToldInItsJournal) {
 }
 
 TEST(ProgramClusterProcesses, WhatANodeSaysIsOneValueOfTheJsonWhateverItIs) {
-  ClusterNodes nodes(twoNodes(), false);
+  ClusterNodes nodes(twoNodes(), false, terminal);
   nodes.add("front", {"sh", "-c", "echo '{\"frames\":3}'"});
   nodes.add("left", {"sh", "-c", "echo '{\"frames\":'"});
   EXPECT_EQ(nodes.play(), 0);

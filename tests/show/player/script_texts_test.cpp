@@ -1,6 +1,6 @@
 /// What a show plays, and what is watched, while somebody saves its scripts.
 
-#include "show/base/script_watch.h"
+#include "show/player/script_watch.h"
 #include "tests/programs/program.h"
 #include "tests/show/player/played_show.h"
 

@@ -1,0 +1,203 @@
+#include "cli/options/run_options.h"
+
+#include "engine/base/number_text.h"
+#include "show/output/output_folder.h"
+#include "show/player/overwriting.h"
+
+namespace stadion {
+namespace {
+
+std::optional<bool> wish(const std::string& word, const char* yes) {
+  return word == "auto" ? std::nullopt : std::optional(word == yes);
+}
+
+}  // namespace
+
+bool RunOptions::hasEnd() const {
+  const SessionSettings& s = settings;
+  return s.show.frames != 0 || s.show.seconds > 0 || !s.record.out.empty();
+}
+
+bool RunOptions::asksForEveryFrame() const {
+  if (settings.play.windows || settings.play.display) return false;
+  const std::string& input = settings.show.input;
+  return hasEnd() || (!input.empty() && input != "none");
+}
+
+/// Machines that play together cannot decide these each for itself.
+void RunOptions::refuseInCluster(Diagnostics& findings) const {
+  if (settings.cluster.file.empty()) return;
+  const auto refuse = [&](bool asked, const char* options, const char* why) {
+    if (asked) findings.error({}, std::string(options) + " not for clusters: " + why);
+  };
+  refuse(lateLatch, "--late-latch is", "all walls of a frame are drawn from the same head");
+  refuse(!settings.record.spans.file.empty() || settings.record.countWork, "--spans and --count-work are",
+         "they measure on one machine");
+}
+
+/// These belong to one process, and end with it.
+void RunOptions::refuseInSupervision(Diagnostics& findings) const {
+  const RecordSettings& r = settings.record;
+  const SupervisionSettings standard;
+  if (!supervise && settings.supervision.progress < 0 && settings.supervision.hangAfter != standard.hangAfter)
+    findings.error({}, "--hang-after says when a supervised player hangs: it needs --supervise");
+  if (!supervise) return;
+  const auto refuse = [&](bool asked, const char* option, const char* why) {
+    if (asked) findings.error({}, std::string(option) + " and --supervise: " + why);
+  };
+  refuse(!r.out.empty(), "--out",
+         "pictures of a run that can be repeated need nobody who goes on; leave one out");
+  refuse(!r.input.empty(), "--record-input",
+         "a record that begins in the middle of a show cannot be played; leave one out");
+  refuse(!r.spans.file.empty() || r.countWork || r.profile || !trace.file.empty(),
+         "--spans, --count-work, --profile and --trace-events",
+         "what is measured is one process's; leave one out");
+  refuse(!settings.cluster.file.empty(), "--cluster",
+         "a node that dies joins the others again by itself; `stadion cluster` begins it anew");
+}
+
+/// Options of drawing that exclude each other.
+void RunOptions::settleDrawing(Diagnostics& findings) {
+  SessionSettings& s = settings;
+  const RecordSettings& r = s.record;
+  const bool display = s.play.display, measures = r.profile || !trace.file.empty();
+  const bool inTurn = s.show.mode == "sequential";
+  if (wallWorkers == "process" && (measures || !r.spans.file.empty() || r.countWork))
+    findings.error({}, "--profile, --trace-events, --spans and --count-work look into the drawing, which "
+                       "--wall-workers process gives to others: say --wall-workers thread");
+  if (wallWorkers == "process" && display)
+    findings.error({}, "--display draws into windows of this program: say --wall-workers thread");
+  if (wallWorkers == "process" && provider == "none")
+    findings.error({}, "--gl none draws nothing that --wall-workers process could: leave one of them out");
+  if (inTurn && (s.play.latency != 0 || cullDrawGiven))
+    findings.error({}, std::string(s.play.latency != 0 ? "--latency" : "--cull-draw") +
+                           " says how stages overlap, which those of --mode sequential do not: leave one of "
+                           "them out");
+  if (pin == "on" && (display || (inTurn && wallWorkers != "process")))
+    findings.error({},
+                   "--pin on is for walls that are drawn beside each other: leave out --display, and --mode "
+                   "sequential without --wall-workers process");
+  s.draw.layout = display && !stereoGiven ? StereoLayout::Off : *stereoLayout(stereo);
+  if (provider == "none")
+    s.draw.provider.reset();
+  else
+    s.draw.provider = provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa;
+  s.draw.processes = wish(wallWorkers, "process");
+  s.draw.pinned = wish(pin, "on");
+  s.play.drawBeginsEarly = cullDraw == "overlap";
+}
+
+/// Options that measure, and exclude each other.
+void RunOptions::settleMeasuring(Diagnostics& findings) const {
+  const RecordSettings& r = settings.record;
+  const bool measures = r.profile || !trace.file.empty(), spans = !r.spans.file.empty();
+  if (spans && !asksForEveryFrame())
+    findings.error(
+        {}, "--spans is for runs in which every frame counts: say --frames N, --seconds S or --input FILE");
+  if (r.countWork && !asksForEveryFrame())
+    findings.error({}, "--count-work is for runs in which every frame counts: say --frames N, --seconds S or "
+                       "--input FILE");
+  if (r.countWork && (measures || spans))
+    findings.error(
+        {}, "--profile, --trace-events and --spans time what --count-work counts; leave the one or the "
+            "other out");
+  if (measures && spans)
+    findings.error(
+        {}, "--profile and --trace-events time the nodes, as --spans does; leave the one or the other out");
+}
+
+bool RunOptions::settle(Diagnostics& findings) {
+  SessionSettings& s = settings;
+  RecordSettings& r = s.record;
+  if (const auto choice = PictureChoice::parse(pictures))
+    r.pictures = *choice;
+  else
+    findings.error({}, "--pictures: \"" + pictures +
+                           "\" is not last, all, none or a whole number N from 1 (every Nth frame)");
+  if (s.play.display && !r.out.empty())
+    findings.error(
+        {}, "--display plays live, and --out writes every frame that is asked for; leave one of them out");
+  if (provider == "none" && (s.play.display || !r.out.empty()))
+    findings.error({}, "--gl none draws nothing that --display or --out could show");
+  settleMeasuring(findings);
+  settleDrawing(findings);
+  r.trace = trace.settle(findings);
+  if (!r.nodes.empty() && r.out.empty())
+    findings.error({}, "--trace needs --out DIR to know where the table goes");
+  if (r.hashes && r.out.empty()) findings.error({}, "--hashes needs --out DIR to know where they go");
+  if (r.video && r.out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
+  if (s.play.stress.low > s.play.stress.high)
+    findings.error({}, "--stress-low must not be greater than --stress-high: between them stress stays");
+  settleLive(findings);
+  refuseInCluster(findings);
+  settleFiles(findings);
+  settleHead(findings);
+  refuseInSupervision(findings);
+  s.cluster.isChecked = endsWith >= 0;  // `stadion cluster` has warned for all its nodes
+  return s.show.settle(findings) && !findings.hasErrors();
+}
+
+std::vector<NamedFile> RunOptions::namedFiles() const {
+  const RecordSettings& r = settings.record;
+  return {{"--rig", settings.console.trackers.rig, false},
+          {"--record-input", r.input},
+          {"--trace-events", trace.file},
+          {"--spans", r.spans.file},
+          {"--black-box", r.blackBox},
+          {"--journal", settings.supervision.journal}};
+}
+
+void RunOptions::settleFiles(Diagnostics& findings) const {
+  std::vector<NamedFile> files = namedFiles();
+  const std::string& out = settings.record.out;
+  if (!out.empty())
+    for (const std::string& name : OutputFolder::namesOfRuns(out))
+      files.push_back({"--out's " + name, out + "/" + name});
+  refuseOverwriting({&settings.show, 1}, files, findings);
+}
+
+/// Options that need the clock, an operator or a tracker.
+void RunOptions::settleLive(Diagnostics& findings) {
+  SessionSettings& s = settings;
+  const auto refuse = [&](const char* option) {
+    findings.error({}, std::string(option) +
+                           " is for live runs: leave out --frames, --seconds, --out and --input FILE");
+  };
+  const TrackerOptions& trackers = s.console.trackers;
+  const bool everyFrame = asksForEveryFrame();
+  if (everyFrame && s.console.oscPort >= 0) refuse("--osc");
+  if (everyFrame && s.console.wait) refuse("--wait");
+  if (everyFrame && !trackers.device.empty()) refuse("--tracker");
+  if (everyFrame && loadAsked) refuse("--load-control (and --stress-...)");
+  if (!trackers.rig.empty() && trackers.device.empty())
+    findings.error({}, "--rig says where trackers are, and there are none: --tracker osc:PORT");
+  s.play.everyFrame = everyFrame;
+  const bool free = pace == "free" || (pace.empty() && hasEnd());
+  s.play.pace = free && !s.play.display ? Pace::Free : pace == "float" ? Pace::Float : Pace::Lock;
+  if (!trackers.device.empty()) s.show.input = "none";  // not the log beside the show
+}
+
+/// Pictures that depend on the moment at which they are drawn need a head that moves meanwhile.
+void RunOptions::settleHead(Diagnostics& findings) {
+  std::optional<Nanoseconds>& ahead = settings.draw.ahead;
+  const auto milliseconds = parseNumber(predict);
+  if (predict == "auto")
+    ahead = HeadTiming::kToSwap;
+  else if (milliseconds && *milliseconds >= 0 && *milliseconds <= 100)
+    ahead = fromSeconds(1e-3 * *milliseconds);
+  else if (predict != "off")
+    findings.error({}, "--predict: \"" + predict + "\" is not off, auto or milliseconds from 0 to 100");
+  if (lateLatch) settings.draw.latch = reach;
+  const auto needsTracker = [&](bool asked, const char* option) {
+    if (asked && asksForEveryFrame())
+      findings.error({}, std::string(option) + " is for live runs, whose pictures are never the same twice: "
+                                               "leave out --frames, --seconds, --out and --input FILE");
+    else if (asked && settings.console.trackers.device.empty())
+      findings.error({},
+                     std::string(option) + " needs a head that a live tracker tells of: --tracker osc:PORT");
+  };
+  needsTracker(lateLatch, "--late-latch");
+  needsTracker(predict != "off", "--predict");
+}
+
+}  // namespace stadion

@@ -1,0 +1,18 @@
+#pragma once
+/// The entry for a program that plays shows frame by frame: open a show, take its stages, run the loop.
+///
+///     ShowOptions options;
+///     options.script = "kick.evs";
+///     Diagnostics findings;
+///     const auto player = options.settle(findings) ? Player::create(options, findings) : nullptr;
+///     ShowParts parts = player->parts(StereoLayout::Off);
+///     parts.provider = ...;  // openOsMesa(), openGlProvider()
+///     ShowStages stages(std::move(parts));
+///     FrameLoop loop(stages, player->loopOptions(), stop);
+///     loop.run();
+
+#include "pipeline/loop/frame_loop.h"
+#include "pipeline/loop/show_stages.h"
+#include "pipeline/target/rasteriser_settings.h"
+#include "pipeline/target/target.h"
+#include "show/player/player.h"

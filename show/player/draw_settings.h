@@ -1,0 +1,27 @@
+#pragma once
+/// What draws the walls, in which layout, and from which pose of the head.
+
+#include "pipeline/loop/show_stages.h"
+#include "pipeline/picture/stereo.h"
+#include "pipeline/target/target.h"
+
+#include <optional>
+#include <vector>
+
+namespace stadion {
+
+struct DrawSettings {
+  std::optional<GlProviderKind> provider =
+      GlProviderKind::OsMesa;  ///< null: App and Cull alone, nothing is drawn
+  StereoLayout layout = StereoLayout::Pair;
+  std::optional<bool> processes{};  ///< a process for each wall, or a thread; null: what measured faster
+  std::optional<bool> pinned{};     ///< each wall on processors of its own; null: what measured faster
+  std::optional<unsigned> rasteriserThreads{};  ///< if the environment gives them
+  std::optional<Nanoseconds> ahead{};           ///< how far the head is predicted, as HeadTiming has it
+  std::optional<HeadReach> latch{};             ///< Draw takes the newest pose of the head, within this reach
+
+  /// How the head's pose is kept young. The walls are culled for it.
+  HeadTiming headFor(std::vector<WallView>& walls) const;
+};
+
+}  // namespace stadion

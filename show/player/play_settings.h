@@ -1,0 +1,30 @@
+#pragma once
+/// When the frames of a show are played: each one or the newest, by the clock or as fast as possible.
+
+#include "profiling/budget/stress_filter.h"
+#include "show/player/player.h"
+
+namespace stadion {
+
+struct PlaySettings {
+  /// Every frame is played and shown, because its result is kept or because an input log says when it was.
+  /// Else the show is live: it follows the clock, and a frame that comes late is left out.
+  bool everyFrame = false;
+  Pace pace = Pace::Lock;   ///< Free: as fast as possible
+  bool display = false;     ///< the walls are shown on their real outputs
+  bool windows = false;     ///< a person looks at the walls in windows, and is the visitor
+  std::size_t latency = 0;  ///< frames in flight at most; 0: as many as the stages hold
+  bool drawBeginsEarly =
+      true;  ///< Draw begins with the first part of a frame's list; else it waits for all of it
+  bool loadControl = true;  ///< a live show applies what its script says (onoverrun) if frames take too long
+  StressOptions stress{};   ///< of the whole show
+
+  /// Whether every frame counts in this show: because of `everyFrame`, or because its input log holds what a
+  /// clock decided.
+  bool everyFrameCounts(const Player& player) const;
+  /// Whether the show is the same in every run: every frame counts, or a log alone decides what happens.
+  bool repeats(const Player& player) const;
+  FrameLoopOptions loopOptions(const Player& player) const;
+};
+
+}  // namespace stadion

@@ -1,0 +1,26 @@
+#pragma once
+/// What a crash of the program says of itself: the signal and where it was, on the standard error. The
+/// process then ends as it would have without.
+
+#include <string>
+
+namespace stadion {
+
+/// A file with the last frames, which the report of a crash tells of while this is there.
+///
+/// Threads  any; of more than four at a time the others are not told of.
+class ToldInCrash {
+public:
+  explicit ToldInCrash(const std::string& file);
+  ~ToldInCrash();
+  ToldInCrash(const ToldInCrash&) = delete;
+  ToldInCrash& operator=(const ToldInCrash&) = delete;
+
+private:
+  int place_ = -1;
+};
+
+/// For signals that have no other handler (of a sanitizer). Once, before there are threads.
+void reportCrashes();
+
+}  // namespace stadion

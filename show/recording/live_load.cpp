@@ -1,0 +1,27 @@
+#include "show/recording/live_load.h"
+
+namespace stadion {
+
+bool hasDrawnBudgets(const Scene& scene) {
+  bool any = false;
+  scene.forEachLoad([&](const Load& load) {
+    for (const auto& [position, terms] : load.terms) any |= mayBeDrawn(load.nodes[position].get());
+  });
+  return any;
+}
+
+GovernorOptions governorOf(const PlaySettings& play, const Player& player, std::vector<std::string> walls,
+                           std::function<void(const std::string&)> say) {
+  const bool live = !play.everyFrameCounts(player);
+  const FrameLoopOptions loop = play.loopOptions(player);
+  GovernorOptions g;
+  g.rate = loop.rate, g.paced = loop.pace != Pace::Free;
+  g.pipelined = loop.mode == Mode::Pipelined;
+  g.walls = std::move(walls);
+  g.stress = play.stress;
+  g.acts = live && play.loadControl;
+  if (live) g.tell = std::move(say);
+  return g;
+}
+
+}  // namespace stadion

@@ -1,0 +1,39 @@
+#pragma once
+/// What a run records: its input, pictures, poses of nodes, costs, and its last frames.
+
+#include "profiling/trace/trace_file.h"
+#include "show/output/run_output.h"
+#include "show/recording/span_options.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+struct RecordSettings {
+  std::string input;         ///< the input log to write; empty: none
+  std::string out;           ///< folder for pictures, tables and the summary; empty: none
+  PictureChoice pictures{};  ///< which frames' pictures go there
+  bool sheets = false;       ///< and a contact sheet beside each
+  bool video = false;
+  bool hashes = false;             ///< of every picture
+  std::vector<std::string> nodes;  ///< whose poses are written as tables into `out`
+  std::string blackBox;            ///< the file of the last frames; empty: one in the user's folder for them
+  std::optional<TraceOptions> trace{};  ///< every span of every thread
+  SpanOptions spans{};                  ///< costs by frame, for comparisons
+  bool profile = false;                 ///< costs by node, for the report
+  bool countWork = false;               ///< pixels, contacts and so on, for the summary
+  bool unrecorded = false;  ///< costs of frames are not recorded at all, to measure what recording costs
+
+  /// Whether the drawing itself is measured. Then this process must draw.
+  bool measuresDrawing() const {
+    return profile || trace.has_value() || !spans.file.empty() || countWork || unrecorded;
+  }
+  /// Whether pictures are kept, as files, as a video or as hashes.
+  bool keepsPictures() const {
+    return !out.empty() && (pictures.kind != PictureChoice::Kind::None || video || hashes);
+  }
+};
+
+}  // namespace stadion

@@ -1,0 +1,61 @@
+#pragma once
+/// The inside of a ShowSession: opens shows, one after the other, and plays them with all parts.
+
+#include "show/player/drawing_plan.h"
+#include "show/session/journal_reporter.h"
+#include "show/session/session_part.h"
+
+#include <memory>
+#include <optional>
+#include <ranges>
+#include <vector>
+
+namespace stadion {
+
+class OpenSession {
+public:
+  OpenSession(SessionSettings settings, Reporter& terminal, const std::atomic<bool>& stop);
+  ~OpenSession();
+
+  bool open(Diagnostics& findings);
+  /// What follows once a show has been played.
+  enum class Then { Ends, NextGroup, Rejoin };
+  Then playOnce(std::optional<SessionReport>& report);
+  /// The next group's show: everything is made anew, except for the files that were read. False if there is
+  /// none.
+  bool nextGroup();
+  /// The show as the leader has it now. False if there is none.
+  bool rejoin();
+  SessionEnd close(SessionEnd end);
+
+  const SessionState& state() const { return state_; }
+  Reporter& reporter() { return reporter_; }
+
+private:
+  bool openDrawing(Diagnostics& findings);
+  bool canDraw(Diagnostics& findings);
+  void reconsiderDrawing();
+  std::unique_ptr<Player> openShow(Diagnostics& findings);
+  std::unique_ptr<Player> createPlayer(const ShowOptions& show, Diagnostics& findings);
+  ImportedMeshes* models();
+  bool openGroup(Diagnostics& findings);
+  void closeShow(NextShow next, Diagnostics& findings);
+  bool waitForScript();
+  ShowParts stageParts();
+  void fillReport(SessionReport& report, const FrameLoopOutcome& outcome, double elapsed);
+  void addTimes(RunSummary& summary) const;
+  void writeSummary(SessionReport& report);
+  auto reversedParts() { return std::views::reverse(parts_); }
+
+  Reporter& terminal_;
+  std::unique_ptr<RunJournal> journal_;
+  JournalReporter reporter_;
+  SessionState state_;
+  std::unique_ptr<GlProvider> provider_;
+  std::optional<DrawingPlan> drawing_;
+  std::unique_ptr<LiveDesk> console_;
+  std::unique_ptr<Player> player_;
+  std::vector<std::unique_ptr<SessionPart>> parts_;  ///< closed before the player
+};
+
+}  // namespace stadion

@@ -1,0 +1,365 @@
+#include "show/view/view_session.h"
+
+#include "engine/base/installed_files.h"
+#include "pipeline/target/rasteriser_settings.h"
+#include "show/recording/last_frames.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <sstream>
+#include <utility>
+
+namespace stadion {
+namespace {
+
+constexpr std::size_t kMostGiven = 4;  ///< lines of what nodes give up
+constexpr std::chrono::milliseconds kHudEvery{250}, kFilesEvery{250};
+constexpr std::chrono::milliseconds kIdle{2};  ///< while there is nothing new to show
+constexpr double kTurnPerPixel = 0.006;        ///< of the overview [rad]
+constexpr double kZoomPerNotch = 0.88;
+constexpr std::size_t kMostTrouble = 12;
+
+std::vector<std::string> linesOf(const Diagnostics& findings) {
+  std::vector<std::string> lines;
+  for (const Diagnostic& d : findings.all()) {
+    if (d.severity != Severity::Error) continue;
+    std::istringstream text(format(d));
+    for (std::string line; std::getline(text, line) && lines.size() < kMostTrouble;) lines.push_back(line);
+  }
+  return lines;
+}
+
+std::string pointText(const Vec3& p) {
+  return fmt::format("{:.3f} {:.3f} {:.3f}", p.x(), p.y(), p.z());
+}
+
+}  // namespace
+
+std::unique_ptr<ViewSession> ViewSession::open(ViewSettings settings, Reporter& reporter,
+                                               Diagnostics& findings) {
+  std::unique_ptr<ViewSession> session(new ViewSession(std::move(settings), reporter));
+  ViewSession& s = *session;
+  const SessionSettings& played = s.settings_.session;
+  if (!lastFramesCanBeKept(played.record.blackBox, findings)) return nullptr;
+  auto walls = loadWalls(played.show.walls, shareFolder() + "/walls", findings);
+  if (!walls) return nullptr;
+  s.walls_ = std::move(*walls);
+  s.windows_ = ViewWindows::open(s.settings_, s.walls_, findings);
+  if (!s.windows_ || !s.openDrawing(findings)) return nullptr;
+  s.hud_.budgetShown = s.settings_.hud;
+  s.desk_ = LiveDesk::open({played.show, played.play, played.console}, s.hudReporter_, findings);
+  if (!s.desk_) return nullptr;
+  s.show_ = PlayingShow::open(s.surroundings(std::make_shared<KeptParts>()), findings);
+  if (!s.show_ || !s.desk_->begin(s.show_->player(), findings)) return nullptr;
+  return session;
+}
+
+// A display that the graphics card drives is a sign that the card can draw the walls too.
+bool ViewSession::openDrawing(Diagnostics& findings) {
+  DrawingNeeds needs = settings_.session.drawingNeeds(walls_.walls.size());
+  needs.wishes.processes = false;
+  setRasteriserThreads(DrawingPlan(needs, knownMachine(findings)).rasteriserThreadsHere());
+  const auto chosen = settings_.provider;
+  const auto kind = chosen ? *chosen : windows_->accelerated() ? GlProviderKind::Egl : GlProviderKind::OsMesa;
+  auto provider = openGlProvider(kind);
+  if (!provider && kind == GlProviderKind::Egl && !chosen) provider = openGlProvider(GlProviderKind::OsMesa);
+  if (!provider) return findings.add(provider.error()), false;
+  provider_ = std::move(provider.value());
+  return true;
+}
+
+ShowSurroundings ViewSession::surroundings(std::shared_ptr<KeptParts> kept) {
+  const bool live = settings_.session.show.input == "none";
+  return {settings_.session,
+          *provider_,
+          mailbox_,
+          *desk_,
+          std::move(kept),
+          live ? &visitor_ : nullptr,
+          windows_->pictureSizes(),
+          {0, 0, settings_.width, settings_.height},
+          hudReporter_,
+          [this] { ended_ = true; }};
+}
+
+void ViewSession::HudReporter::report(const Diagnostics& findings) {
+  to_.report(findings);
+  for (const Diagnostic& d : findings.all())
+    if (d.severity == Severity::Error) hud_.say(d.where.file + ": " + d.message);
+}
+
+SessionEnd ViewSession::run(const std::atomic<bool>& stop) {
+  begin({});
+  hud_.say("H: help   Esc: quit");
+  while (!quit_ && !stop) {
+    takeEvents();
+    if (const auto lost = windows_->lost()) {
+      reporter_.fault(*lost);
+      end_ = SessionEnd::Failed;
+      endShow();
+      return end_;
+    }
+    pollPad();
+    watchFiles();
+    takePictures();
+    updateHud();
+    if (std::exchange(stale_, false)) {
+      windows_->show(overview_.shown);
+      if (!begins_) desk_->pictureSeen();
+      tellOfStep();
+    } else {
+      std::this_thread::sleep_for(kIdle);
+    }
+    if (ended_.exchange(false)) afterTheEnd();
+  }
+  endShow();
+  return stop ? SessionEnd::Stopped : end_;
+}
+
+// What keys do
+// -------------------------------------------------------------------------------------------------
+
+void ViewSession::takeEvents() {
+  for (const auto& [window, event] : windows_->takeEvents()) take(window, event);
+}
+
+void ViewSession::take(std::size_t window, const WindowEvent& event) {
+  using Kind = WindowEvent::Kind;
+  if (event.kind == Kind::Close) quit_ = true;
+  if (event.kind == Kind::Key && event.down && command(event)) return;
+  const bool overOverview = overview_.shown && window == 0;
+  const bool turns = overOverview && event.kind == Kind::Button && event.button == 1;
+  if (overOverview && event.kind == Kind::Wheel) {
+    overview_.zoom(event.y > 0 ? kZoomPerNotch : 1 / kZoomPerNotch, walls_);
+    return moveOverview();
+  }
+  if (turns) return controls_.turnCamera(event.down);
+  controls_.take(event);
+  if (overOverview && controls_.turnsCamera() && event.kind == Kind::Move) {
+    overview_.turn(-kTurnPerPixel * controls_.lastMove()[0], kTurnPerPixel * controls_.lastMove()[1]);
+    moveOverview();
+  }
+}
+
+bool ViewSession::command(const WindowEvent& event) {
+  if (!viewersCommand(event.key) && !operatorsCommand(event.key, event.shift)) return false;
+  hudDrawn_ = {};
+  stale_ = true;
+  return true;
+}
+
+bool ViewSession::viewersCommand(Key key) {
+  switch (key) {
+  case Key::Escape: quit_ = true; return true;
+  case Key::F1: hud_.helpShown = !hud_.helpShown; return true;
+  case Key::F2: hud_.budgetShown = !hud_.budgetShown; return true;
+  case Key::F5: beginReload("F5"); return true;
+  case Key::F12: takeScreenshot(); return true;
+  default: break;
+  }
+  switch (static_cast<char>(key)) {
+  case 'H': hud_.helpShown = !hud_.helpShown; return true;
+  case '.': step(); return true;
+  case 'O':
+    overview_.shown = !overview_.shown;
+    moveOverview();
+    return true;
+  default: return false;
+  }
+}
+
+// As in the terminal, but that the brackets without shift are the viewer's.
+bool ViewSession::operatorsCommand(Key key, bool shift) {
+  const bool bracket = key == static_cast<Key>('[') || key == static_cast<Key>(']');
+  if (bracket && !shift) return changeSpeed(key == static_cast<Key>(']') ? 2 : 0.5), true;
+  const auto order = operatorCommandOf(key);
+  if (order) desk_->queue().post(*order);
+  return order.has_value();
+}
+
+void ViewSession::step() {
+  if (!steppedFrom_) steppedFrom_ = show_->framesPlayed();
+  if (!desk_->playback().paused()) desk_->queue().post({OperatorAction::Pause, 1, false});
+  desk_->queue().post({OperatorAction::Step});
+}
+
+void ViewSession::changeSpeed(double factor) {
+  Playback& playback = desk_->playback();
+  playback.setSpeed(playback.speed() * factor);
+  say(fmt::format("speed 1/{:.0f}", 1 / playback.speed()));
+}
+
+void ViewSession::moveOverview() {
+  show_->overview().move(overview_);
+  stale_ = true;
+}
+
+void ViewSession::pollPad() {
+  const auto now = Clock::now();
+  const double seconds = std::min(std::chrono::duration<double>(now - padAsked_).count(), 0.1);
+  padAsked_ = now;
+  controls_.take(windows_->gamepad(), seconds);
+}
+
+// One show after the other
+// ------------------------------------------------------------------------------------------
+
+// Until there is a first picture the show stands at its first frame.
+void ViewSession::begin(const std::optional<ShowPlace>& place) {
+  ended_ = over_ = false, begins_ = true;
+  unseen_ = 0;
+  steppedFrom_.reset();
+  visitor_.restart();
+  desk_->playback().hold(true);
+  show_->start(place);
+}
+
+void ViewSession::takePictures() {
+  const std::uint64_t before = shown_.frame;
+  if (!mailbox_.fetch(pictures_, shown_)) return;
+  windows_->take(pictures_);
+  stale_ = true;
+  if (!begins_ && shown_.frame > before) unseen_ += shown_.frame - before - 1;
+  if (!std::exchange(begins_, false)) return;
+  say("playing " + settings_.session.show.script);
+  desk_->playback().hold(false);
+}
+
+void ViewSession::afterTheEnd() {
+  show_->stop();
+  if (show_->nextGroup())
+    nextGroup();
+  else
+    quit_ = true;
+}
+
+/// What the old one left is not the new one's.
+void ViewSession::putInPlace(std::unique_ptr<PlayingShow> show) {
+  show_ = std::move(show);
+  show_->overview().move(overview_);
+  mailbox_.fetch(pictures_, shown_);
+}
+
+// Everything of the show is made anew, but for what was read from files.
+void ViewSession::nextGroup() {
+  finishRecord();
+  desk_->endGroup(show_->watch());
+  Diagnostics findings;
+  auto next = PlayingShow::open(surroundings(show_->kept()), findings);
+  reporter_.report(findings);
+  hud_.setTrouble(linesOf(findings));
+  if (!next) {
+    over_ = true;
+    return say("the script has errors; the next group's show begins once it is saved without them");
+  }
+  putInPlace(std::move(next));
+  show_->kept()->models.store().collect(~std::uint64_t{0});  // no frame shows the old one any more
+  begin({});
+}
+
+void ViewSession::watchFiles() {
+  if (reload_ && reload_->done()) finishReload();
+  const auto now = Clock::now();
+  if (reload_ || now - filesLookedAt_ < kFilesEvery) return;
+  filesLookedAt_ = now;
+  if (const auto why = files_.changed()) beginReload(*why);
+}
+
+// What plays is recorded until it ends. A show that begins in the middle of a visit is not, the show of a
+// group that waits for it is.
+void ViewSession::beginReload(const std::string& why) {
+  if (reload_) return;
+  say(fmt::format("reading {} again: {}", settings_.session.show.script, why));
+  files_.settle();
+  ShowSurroundings around = surroundings(std::make_shared<KeptParts>());
+  around.recorded = over_;
+  reload_ = std::make_unique<ShowReload>(std::move(around));
+}
+
+void ViewSession::finishReload() {
+  Diagnostics findings;
+  std::unique_ptr<PlayingShow> show = std::exchange(reload_, nullptr)->take(findings);
+  reporter_.report(findings);
+  hud_.setTrouble(linesOf(findings));
+  if (!show) return say("the script has errors; the show goes on as it was");
+  show_->stop();
+  finishRecord();
+  desk_->silence();
+  std::optional<ShowPlace> place;
+  if (!over_) {
+    place = show_->place();
+    settings_.session.record.input.clear();  // another script, another log
+  }
+  putInPlace(std::move(show));
+  begin(place);
+  say(fmt::format("reloaded {}; the rig stands at {}", settings_.session.show.script,
+                  pointText(place ? place->X_WR.p : Vec3(Vec3::Zero()))));
+}
+
+/// Of a show that has stopped.
+void ViewSession::finishRecord() {
+  const auto wrong = show_->watch().finish();
+  if (!wrong) return;
+  say("stadion: " + format(*wrong));
+  if (end_ == SessionEnd::Played) end_ = SessionEnd::Refused;
+}
+
+void ViewSession::endShow() {
+  show_->stop();
+  if (const Failure& f = show_->failure()) {
+    reporter_.fault(f->message);
+    end_ = endOf(*f);
+  }
+  finishRecord();
+  show_->watch().addTo(report_.summary, show_->framesPlayed());
+  report_.rig = show_->place().X_WR.p;
+  report_.frames = show_->framesPlayed(), report_.dropped = show_->droppedTicks();
+  report_.lateFrames = show_->lateFrames();
+}
+
+// What is shown
+// ------------------------------------------------------------------------------------------------
+
+// Told when the newest of them is seen.
+void ViewSession::tellOfStep() {
+  const Playback& playback = desk_->playback();
+  const bool newest = steppedFrom_ && shown_.frame >= *steppedFrom_ && playback.stepsWaiting() == 0 &&
+                      shown_.frame + 1 == show_->framesPlayed();
+  if (!newest) return;
+  say(fmt::format("one frame, to {:.3f} s", toSeconds(shown_.time)));
+  steppedFrom_ = shown_.frame + 1;
+  if (!playback.paused()) steppedFrom_.reset();
+}
+
+HudFigures ViewSession::figures() const {
+  HudFigures f;
+  f.show = std::filesystem::path(settings_.session.show.script).filename().string();
+  f.seconds = toSeconds(shown_.time), f.rate = settings_.session.show.rate;
+  f.speed = desk_->playback().speed(), f.paused = desk_->playback().paused();
+  f.budget = show_->budget(), f.dropped = show_->droppedTicks() + unseen_;
+  if (const double stress = show_->stress(); stress > 1)
+    f.given.push_back(fmt::format("everything counts as {:.3g} times farther away", stress));
+  for (const BudgetReport& b : show_->budgets())
+    if (b.now > 0 && f.given.size() < kMostGiven)
+      f.given.push_back(fmt::format("{} gives up {} of {}: {:.2f} ms", b.name, b.now, b.levels, b.mean));
+  return f;
+}
+
+void ViewSession::updateHud() {
+  const auto now = Clock::now();
+  if (now - hudDrawn_ < kHudEvery) return;
+  hudDrawn_ = now;
+  stale_ = true;
+  const std::vector<PanelLine> none;
+  windows_->setPanel(0, hud_.budgetShown ? hud_.budgetLines(figures()) : none, false);
+  windows_->setPanel(1, hud_.helpShown ? hud_.helpLines() : none, false);
+  windows_->setPanel(2, hud_.messageLines(), true);
+}
+
+void ViewSession::takeScreenshot() {
+  hudDrawn_ = {};
+  updateHud();
+  say(windows_->screenshot(settings_.shots, pictures_, overview_.shown));
+}
+
+}  // namespace stadion

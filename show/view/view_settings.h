@@ -1,0 +1,26 @@
+#pragma once
+/// How a show is viewed in windows.
+
+#include "show/display/show_windows.h"
+#include "show/session/session_settings.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+struct ViewSettings {
+  SessionSettings session{};  ///< script, walls, rate, input, records
+  bool oneWindow = true;      ///< a window with the room unfolded; else a window for each wall
+  WindowStereo stereo = WindowStereo::Mono;
+  std::uint32_t width = 1200, height = 800;  ///< of the window at the start
+  std::string shots = "screenshots";         ///< folder for screenshots
+  std::optional<GlProviderKind> provider{};  ///< null: EGL if the display is accelerated
+  bool hud = false;                          ///< the frame budget is shown from the start
+};
+
+/// Keys and mouse, one line each.
+std::vector<std::string> viewKeys();
+
+}  // namespace stadion
