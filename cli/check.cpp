@@ -1,9 +1,9 @@
 /// `stadion check SHOW...`: everything that can be found wrong without playing; `--assets DIR`: every model
 /// below a folder.
 
+#include "engine/asset/check.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "engine/asset/check.h"
 #include "show/player/enclosing_show.h"
 #include "show/player/show_check.h"
 
@@ -28,18 +28,19 @@ Diagnostics inFiles(const std::set<std::filesystem::path>& files, const Diagnost
 
 /// A script that a show loads is checked in it: its names and assets are that show's.
 Diagnostics findingsOf(const std::string& file, const std::optional<std::string>& around,
-                       const std::vector<std::string>& roots) {
-  if (!around) return checkShow(file, roots);
-  return inFiles(filesOf(file, *around, roots), checkShow(*around, roots));
+                       const std::vector<std::string>& roots, const SharedTypes& types) {
+  if (!around) return checkShow(file, roots, types);
+  return inFiles(filesOf(file, *around, roots, *types), checkShow(*around, roots, types));
 }
 
-int checkEach(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
+int checkEach(const std::vector<std::string>& files, const std::vector<std::string>& roots,
+              const SharedTypes& types) {
   bool wrong = false;
   for (const std::string& file : files) {
     const bool watched = isatty(2) == 1;
     if (watched) std::fprintf(stderr, "checking %s ...", file.c_str());
-    const std::optional<std::string> around = showAround(file, roots);
-    const Diagnostics findings = findingsOf(file, around, roots);
+    const std::optional<std::string> around = showAround(file, roots, *types);
+    const Diagnostics findings = findingsOf(file, around, roots, types);
     if (watched) std::fprintf(stderr, "\r\x1b[K");
     for (const Diagnostic& d : findings.all()) std::printf("%s\n", format(d).c_str());
     wrong |= findings.hasErrors();
@@ -73,6 +74,7 @@ int checkModels(const std::string& folder) {
 void addCheckCommand(CLI::App& app, int& code) {
   struct Options {
     std::vector<std::string> scripts, roots;
+    SharedTypes types = standardNodes();
     std::string models;
   };
   auto o = std::make_shared<Options>();
@@ -89,7 +91,7 @@ void addCheckCommand(CLI::App& app, int& code) {
       code = kBadInput;
       return;
     }
-    if (!o->scripts.empty()) code = checkEach(o->scripts, o->roots);
+    if (!o->scripts.empty()) code = checkEach(o->scripts, o->roots, o->types);
     if (!o->models.empty() && code == kOk) code = checkModels(o->models);
   });
 }

@@ -7,6 +7,7 @@
 #include "cli/options/number_option.h"
 #include "cli/terminal.h"
 #include "engine/base/plain_file.h"
+#include "show/base/standard_nodes.h"
 #include "show/measure/fit_object.h"
 #include "show/output/output_names.h"
 #include "show/player/player.h"
@@ -27,6 +28,7 @@ namespace {
 struct FitOptions {
   std::string object;
   std::vector<std::string> references, roots;
+  SharedTypes types = standardNodes();
   double landing = 1, attitude = 0;  ///< [%], [degrees]; 0: as it comes
   std::optional<double> mass;
   std::vector<double> wind{0, 0, 0}, inertia, centre;
@@ -94,7 +96,7 @@ Result<FitTask> taskOf(const FitOptions& o) {
   if (!o.inertia.empty() && o.inertia[0] > 2 * o.inertia[1])
     return Result<FitTask>::failure(
         "--inertia: no body has such moments: along its axis at most twice that across");
-  auto object = readFlownObject(o.object, o.roots, matterOf(o));
+  auto object = readFlownObject(o.object, o.roots, *o.types, matterOf(o));
   if (!object) return object.error();
   const FlownObject& body = object.value();
   FitTask task;

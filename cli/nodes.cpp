@@ -6,6 +6,7 @@
 #include "engine/base/diagnostic.h"
 #include "engine/script/reference.h"
 #include "engine/unicode/likeness.h"
+#include "show/base/standard_nodes.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -15,21 +16,21 @@
 namespace stadion {
 namespace {
 
-int printReference(const std::string& type) {
-  if (type.empty()) return std::printf("%s", languageReference().c_str()), kOk;
-  if (const auto kind = nodeKindNamed(type)) return std::printf("%s", languageReference(*kind).c_str()), kOk;
-  const std::vector<std::string> known(kNodeKindNames.begin(), kNodeKindNames.end());
-  const auto meant = closest(type, known);
+int printReference(const NodeRegistry& types, const std::string& type) {
+  if (type.empty()) return std::printf("%s", languageReference(types).c_str()), kOk;
+  if (const RegisteredType* known = types.named(type))
+    return std::printf("%s", languageReference(types, *known).c_str()), kOk;
+  const auto meant = closest(type, types.names());
   std::fprintf(stderr, "stadion: there is no node type \"%s\"%s\n", type.c_str(),
                meant ? ("; " + didYouMeanOne(type, *meant)).c_str() : "; `stadion nodes` lists them");
   return kBadInput;
 }
 
-int writeEditorFiles(const std::string& folder) {
+int writeEditorFiles(const NodeRegistry& types, const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  for (const auto& [name, content] : {std::pair{"evs.tmLanguage.json", editorGrammar()},
-                                      std::pair{"evs.completion.json", editorCompletion()}}) {
+  for (const auto& [name, content] : {std::pair{"evs.tmLanguage.json", editorGrammar(types)},
+                                      std::pair{"evs.completion.json", editorCompletion(types)}}) {
     const std::string path = folder + "/" + name;
     if (const auto wrong = writeFile(path, content))
       return std::fprintf(stderr, "%s\n", format(*wrong).c_str()), kBadInput;
@@ -43,6 +44,7 @@ int writeEditorFiles(const std::string& folder) {
 void addNodesCommand(CLI::App& app, int& code) {
   struct Options {
     std::string type, editor;
+    SharedTypes types = standardNodes();
   };
   auto o = std::make_shared<Options>();
   CLI::App* command =
@@ -50,8 +52,9 @@ void addNodesCommand(CLI::App& app, int& code) {
   command->add_option("TYPE", o->type, "only this node type");
   command->add_option("--editor", o->editor,
                       "write a TextMate grammar and a completion file into this folder");
-  command->callback(
-      [o, &code] { code = o->editor.empty() ? printReference(o->type) : writeEditorFiles(o->editor); });
+  command->callback([o, &code] {
+    code = o->editor.empty() ? printReference(*o->types, o->type) : writeEditorFiles(*o->types, o->editor);
+  });
 }
 
 }  // namespace stadion

@@ -38,6 +38,7 @@ constexpr std::uint64_t kSlopeFrames = 10'000;
 constexpr double kMostOfVisit = 4096;  ///< [byte] from visit to visit
 
 struct SoakOptions {
+  SharedTypes types = standardNodes();
   std::vector<std::string> shows;
   std::uint64_t frames = 1'000'000, visit = 400'000;
   std::string record, look = "plain";
@@ -109,7 +110,7 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
   o.script = show, o.walls = "desktop", o.size = "32x24", o.look = options_.look;
   o.input = "none", o.frames = frames;
   o.mode = way == Way::Sequential ? "sequential" : "pipelined";
-  o.assetRoots = {shareFolder() + "/assets"};
+  o.assetRoots = {shareFolder() + "/assets"}, o.types = options_.types;
   Diagnostics findings;
   KeptParts& kept = kept_[show];
   kept.models.store().collect(~std::uint64_t{0});  // no frame shows it any more

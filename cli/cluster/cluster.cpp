@@ -42,7 +42,8 @@ bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::str
     checkWordsOfNode(ofNode, findings);
     if (!isWell(findings)) return false;
   }
-  if (!isWell(checkScripts(o.run.settings.show.script, o.run.settings.show.assetRoots))) return false;
+  if (!isWell(checkScripts(o.run.settings.show.script, o.run.settings.show.assetRoots,
+                            o.run.settings.show.types))) return false;
   tell(findings);
   return true;
 }

@@ -1,13 +1,20 @@
 #include "dynamics/nodes/collision_node.h"
 
 #include "dynamics/collision/broad_phase.h"
+#include "dynamics/nodes/body_maker.h"
 #include "dynamics/nodes/dyn_object_node.h"
+#include "engine/build/lint.h"
+#include "engine/build/node_request.h"
+#include "engine/core/node_registry.h"
+#include "engine/core/shared_rows.h"
 #include "engine/core/state_fields.h"
 #include "engine/scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace stadion {
 namespace {
@@ -27,9 +34,9 @@ std::shared_ptr<const Shape> shapeOf(const SharedFit& fit) {
 
 }  // namespace
 
-CollisionNode::CollisionNode(NodeKind kind, NodeRef self, std::string name, CollisionAttributes attributes,
-                             std::shared_ptr<ShapeStore> shapes)
-    : Node(kind, self, std::move(name)), attributes_(std::move(attributes)), shapes_(std::move(shapes)),
+CollisionNode::CollisionNode(const NodeType& type, NodeRef self, std::string name,
+                             CollisionAttributes attributes, std::shared_ptr<ShapeStore> shapes)
+    : Node(type, self, std::move(name)), attributes_(std::move(attributes)), shapes_(std::move(shapes)),
       switch_(attributes_.on), on_(attributes_.on) {
   const auto part = [](const std::string& n) {
     Part p;
@@ -341,7 +348,7 @@ void CollisionNode::simulateApart() {
 void CollisionNode::afterSimulation(FrameContext& frame) {
   switchings_.clear();
   for (const ContactEvent& e : world_.events())
-    raise(e.kind == ContactEvent::Kind::Impact ? Event::OnImpact : Event::OnRelease, e.time);
+    raise(e.kind == ContactEvent::Kind::Impact ? Event("onimpact") : Event("onrelease"), e.time);
   if (frame.scene.impactsWanted()) noteImpacts(frame.scene);
   std::erase_if(comingOrGoing_,
                 [](const Part* p) { return !p->next.valid() && p->leaveAt == Scene::kNever; });
@@ -481,5 +488,68 @@ void CollisionNode::hash(StateHash& h) const {
   h.add(switch_.on());
   h.add(world_.pairsDigest());
 }
+
+CollisionAttributes collisionAttributesOf(const NodeRequest& r, ShapeStore& shapes) {
+  const Declaration& d = r.declaration;
+  CollisionAttributes a;
+  for (const NodeReference& n : d.references("collider")) a.colliders.push_back(std::string(n.name));
+  for (const NodeReference& n : d.references("collidee")) a.collidees.push_back(std::string(n.name));
+  a.releaseDistance = d.number("releasedistance");
+  if (d.takes("selfcollide")) a.selfCollide = d.flag("selfcollide");
+  a.on = d.flag("initstate");
+  // Fitting a large model takes longer than a frame: it is done here, beside the show.
+  for (const NodeReference& n : d.references("collider"))
+    if (const auto model = r.model(n); model && model->mesh)
+      if (auto fit = shapes.fit(*model->mesh, model->appearance, scaleOf(model->X_WN)))
+        a.fits.push_back(std::move(fit.value()));
+  return a;
+}
+
+void lintContacts(const Declaration& node, LintScope& scope) {
+  const auto collidees = node.references("collidee");
+  if (collidees.empty())
+    scope.warn(node, "name", fmt::format("{} has no collidee and so no effect", LintScope::called(node)));
+  scope.warnRepeated(node, "collider");
+  scope.warnNeverOn(node);
+}
+
+namespace {
+
+std::unique_ptr<Node> makeCollision(const NodeRequest& r) {
+  const auto& shapes = r.services.get<DynamicsServices>().shapes;
+  return std::make_unique<CollisionNode>(r.type(), r.self, r.name, collisionAttributesOf(r, *shapes), shapes);
+}
+
+constexpr AttributeSpec kCollisionRows[] = {
+    kColliderRow,
+    {.name = "collidee",
+     .kind = ValueKind::Reference,
+     .help = "is tested against every collider",
+     .repeatable = true,
+     .targets = kModelTypes,
+     .acts = true},
+    kReleaseDistanceRow,
+    kInitStateRow,
+};
+
+}  // namespace
+
+constinit const NodeType kCollisionType{
+    .name = "collision",
+    .help = "notices contact between objects and leaves them where they are",
+    .attributes = kCollisionRows,
+    .events = kContactEvents,
+    .traits = {Trait::Switched, Trait::Collides, Trait::Degradable},
+    .make = makeCollision,
+    .lint = lintContacts,
+};
+
+namespace node_types {
+
+void addCollisionNode(NodeRegistrar& types) {
+  types.add(kCollisionType);
+}
+
+}  // namespace node_types
 
 }  // namespace stadion

@@ -14,6 +14,7 @@
 
 #include "dynamics/nodes/shape_store.h"
 #include "dynamics/world/world.h"
+#include "engine/core/shared_rows.h"
 #include "engine/nodes/switched.h"
 
 #include <limits>
@@ -31,11 +32,11 @@ struct CollisionAttributes {
 
 class CollisionNode : public Node {
 public:
-  CollisionNode(NodeKind kind, NodeRef self, std::string name, CollisionAttributes attributes,
+  CollisionNode(const NodeType& type, NodeRef self, std::string name, CollisionAttributes attributes,
                 std::shared_ptr<ShapeStore> shapes);
 
   /// What only looks on is visited when all bodies have been moved.
-  Rank rank() const override { return kind() == NodeKind::Collision ? Rank::Contact : Rank::Dynamics; }
+  Rank rank() const override { return kind() == "collision" ? Rank::Contact : Rank::Dynamics; }
   bool busy() const override { return switch_.on() && awake_; }
   void hash(StateHash& h) const override;
   void state(StateFields& f) override;
@@ -181,5 +182,28 @@ private:
   };
   Span span_;
 };
+
+/// What the attributes of a collision or dynamics node say.
+CollisionAttributes collisionAttributesOf(const NodeRequest& request, ShapeStore& shapes);
+/// Warns of a node without collidees, and of colliders that are given twice.
+void lintContacts(const Declaration& node, LintScope& scope);
+
+extern const NodeType kCollisionType;
+inline constexpr AttributeSpec kColliderRow{.name = "collider",
+                                            .kind = ValueKind::Reference,
+                                            .help = "takes part, and is not moved",
+                                            .repeatable = true,
+                                            .targets = kModelTypes,
+                                            .acts = true};
+inline constexpr AttributeSpec kReleaseDistanceRow{
+    .name = "releasedistance",
+    .kind = ValueKind::Number,
+    .help = "how far the surfaces of a pair must be apart for onrelease",
+    .standard = "0.5",
+    .unit = "m",
+    .range = kLengthRange};
+inline constexpr EventSpec kContactEvents[] = {
+    {"onimpact", "a pair that was apart has touched"},
+    {"onrelease", "a pair that posted onimpact is farther apart than releasedistance"}};
 
 }  // namespace stadion

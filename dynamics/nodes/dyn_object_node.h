@@ -10,13 +10,14 @@
 #include "dynamics/motion/body_way.h"
 #include "dynamics/nodes/shape_store.h"
 #include "dynamics/world/world.h"
-#include "engine/script/choice.h"
 
 #include <optional>
 
 namespace stadion {
 
 /// What the script says about a body.
+enum class ThrowSource : std::uint8_t { Hand, Field, Both };  ///< `throw`
+
 struct BodyAttributes {
   double density = 1000;       ///< [kg/m3]
   std::optional<double> mass;  ///< instead of the density [kg]
@@ -41,6 +42,8 @@ struct BodyAttributes {
   MassProperties massOf(const FittedShape& fit) const;
 };
 
+extern const NodeType kDynObjectType;
+
 class DynObjectNode : public ObjectNode {
 public:
   /// Something asked of it, for an exact time.
@@ -60,7 +63,7 @@ public:
 
   DynObjectNode(NodeRef self, std::string name, PlaceAttributes place, Appearance appearance,
                 BodyAttributes body, SharedFit fit)
-      : ObjectNode(NodeKind::DynObject, self, std::move(name), std::move(place), std::move(appearance)),
+      : ObjectNode(kDynObjectType, self, std::move(name), std::move(place), std::move(appearance)),
         body_(std::move(body)), fit_(std::move(fit)) {}
 
   /// How its model collides at the scale that its script gives it; never null, closed.

@@ -3,10 +3,16 @@
 #include "dynamics/body/body_axes.h"
 #include "dynamics/flight/flight_shape.h"
 #include "dynamics/motion/body_flight.h"
+#include "dynamics/nodes/body_maker.h"
+#include "engine/build/lint.h"
+#include "engine/build/node_request.h"
+#include "engine/core/node_registry.h"
+#include "engine/core/shared_rows.h"
 #include "engine/maths/functions.h"
 #include "engine/scene/scene.h"
 
 #include <algorithm>
+
 #include <fmt/format.h>
 
 namespace stadion {
@@ -350,7 +356,7 @@ void DynamicsNode::tellTrouble(const BodyState& before, DynObjectNode& node, Fra
   frame.scene.warn(
       node, fmt::format("is out of the simulation from {:.3f} s on: {}; it stands still until its reset",
                         toSeconds(now.clock), world_.troubleOf(node.bodyId())));
-  node.tell(Event::OnQuarantine, now.clock, frame);
+  node.tell("onquarantine", now.clock, frame);
 }
 
 void DynamicsNode::tellCounts(FrameProbe& probe) const {
@@ -407,5 +413,50 @@ bool DynamicsNode::afterStep(FrameContext& frame) {
   }
   return any || !grips_.empty();
 }
+
+namespace {
+
+std::unique_ptr<Node> makeDynamics(const NodeRequest& r) {
+  const auto& services = r.services.get<DynamicsServices>();
+  CollisionAttributes attributes = collisionAttributesOf(r, *services.shapes);
+  attributes.fineness = services.variation.fineness;
+  return std::make_unique<DynamicsNode>(r.self, r.name, std::move(attributes), services.shapes);
+}
+
+constexpr AttributeSpec kDynamicsRows[] = {
+    kColliderRow,
+    {.name = "collidee",
+     .kind = ValueKind::Reference,
+     .help = "a body that this node moves; a body belongs to one dynamics node",
+     .repeatable = true,
+     .targets = {{}, {"dynobject"}},
+     .acts = true},
+    kReleaseDistanceRow,
+    {.name = "selfcollide",
+     .kind = ValueKind::Flag,
+     .help = "whether the bodies of this node collide with each other",
+     .standard = "on"},
+    kInitStateRow,
+};
+
+}  // namespace
+
+constinit const NodeType kDynamicsType{
+    .name = "dynamics",
+    .help = "moves its bodies by forces and collisions",
+    .attributes = kDynamicsRows,
+    .events = kContactEvents,
+    .traits = {Trait::Switched, Trait::Collides, Trait::OwnsBodies, Trait::Degradable},
+    .make = makeDynamics,
+    .lint = lintContacts,
+};
+
+namespace node_types {
+
+void addDynamicsNode(NodeRegistrar& types) {
+  types.add(kDynamicsType);
+}
+
+}  // namespace node_types
 
 }  // namespace stadion

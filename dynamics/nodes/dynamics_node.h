@@ -16,11 +16,13 @@
 
 namespace stadion {
 
+extern const NodeType kDynamicsType;
+
 class DynamicsNode : public CollisionNode {
 public:
   DynamicsNode(NodeRef self, std::string name, CollisionAttributes attributes,
                std::shared_ptr<ShapeStore> shapes)
-      : CollisionNode(NodeKind::Dynamics, self, std::move(name), std::move(attributes), std::move(shapes)) {}
+      : CollisionNode(kDynamicsType, self, std::move(name), std::move(attributes), std::move(shapes)) {}
 
   void hash(StateHash& h) const override;
   void state(StateFields& f) override;

@@ -31,6 +31,12 @@ struct FieldAttributes {
   std::optional<StrengthAxis> axis;
 };
 
+extern const NodeType kForceLinearType;
+extern const NodeType kForceSphericalType;
+extern const NodeType kForcePointType;
+extern const NodeType kForceVortexType;
+extern const NodeType kMediumType;
+
 class FieldNode : public PlacedNode {
 public:
   /// A switch at an exact time within a frame.
@@ -44,8 +50,9 @@ public:
     }
   };
 
-  FieldNode(NodeKind kind, NodeRef self, std::string name, PlaceAttributes place, FieldAttributes attributes)
-      : PlacedNode(kind, self, std::move(name), std::move(place)), law_(attributes.law),
+  FieldNode(const NodeType& type, NodeRef self, std::string name, PlaceAttributes place,
+            FieldAttributes attributes)
+      : PlacedNode(type, self, std::move(name), std::move(place)), law_(attributes.law),
         duration_(attributes.duration), axis_(std::move(attributes.axis)), switch_(attributes.on) {}
 
   /// The law as the field's present scale makes it.

@@ -4,7 +4,7 @@
 
 #include "dynamics/motion/body_flight.h"
 #include "engine/asset/roots.h"
-#include "engine/build/builder.h"
+#include "engine/build/node_request.h"
 
 namespace stadion {
 
@@ -13,5 +13,8 @@ namespace stadion {
 /// table.
 Result<std::shared_ptr<const BodyFlight>> flightOf(const NodeRequest& request, const MassProperties& mass,
                                                    const AssetRoots* roots);
+
+/// NodeType::check of the dynobject: what only one way of flight has a use for.
+void checkFlight(DeclarationCheck& check);
 
 }  // namespace stadion

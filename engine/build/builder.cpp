@@ -9,27 +9,25 @@
 namespace stadion {
 namespace {
 
-bool isPlaced(NodeKind kind) {
-  return placedKinds().has(kind);
-}
-
 PlaceAttributes placeOf(const Declaration& d) {
   PlaceAttributes place;
-  if (!specOf(d.kind(), Attr::Position)) return place;
-  const Vec3 turn = d.vec3(Attr::Orientation) * kDegree;
-  const Vec3 scale = specOf(d.kind(), Attr::Scale) ? d.vec3(Attr::Scale) : Vec3::Ones();
+  if (!d.takes("position")) return place;
+  const Vec3 turn = d.vec3("orientation") * kDegree;
+  const Vec3 scale = d.takes("scale") ? d.vec3("scale") : Vec3::Ones();
   place.X_PN.linear() = det::fromEuler(turn.x(), turn.y(), turn.z()).toRotationMatrix() * scale.asDiagonal();
-  place.X_PN.translation() = d.vec3(Attr::Position);
+  place.X_PN.translation() = d.vec3("position");
   return place;
 }
 
-Notification notificationOf(const EventMessage& m) {
+Notification notificationOf(const EventMessage& m, const NodeRegistry& types) {
+  const ArgumentKind argument = types.command(m.verb)->argument;
   Notification n;
   n.event = m.event, n.verb = m.verb, n.delay = m.delay + m.latency;
   n.target = std::string(m.target.name);
-  if (m.verb == Verb::Attach) n.arguments = {std::string(kAttachPartNames[static_cast<std::size_t>(m.part)])};
+  if (argument == ArgumentKind::PartAndTracker)
+    n.arguments = {std::string(kAttachPartNames[static_cast<std::size_t>(m.part)])};
   if (!m.field.name.empty()) n.arguments.push_back(std::string(m.field.name));
-  if (m.verb == Verb::Say) n.arguments.push_back(unescaped(m.words));
+  if (argument == ArgumentKind::Words) n.arguments.push_back(unescaped(m.words));
   if (!m.tracker.empty()) n.arguments.push_back(std::string(m.tracker));
   return n;
 }
@@ -46,7 +44,7 @@ public:
   }
 
   bool isStatic(std::uint32_t i) const {
-    if (document_[i].kind() != NodeKind::Object || mentioned_[i] || hasChild_[i]) return false;
+    if (document_[i].kind() != "object" || mentioned_[i] || hasChild_[i]) return false;
     for (std::uint32_t up = parent_[i]; up != kNone; up = parent_[up])
       if (mayMove(up)) return false;
     return true;
@@ -56,7 +54,7 @@ public:
   std::vector<std::uint32_t> childrenOf(std::uint32_t node) const {
     std::vector<std::uint32_t> children;
     for (std::uint32_t i = 0; i < parent_.size(); ++i)
-      if (parent_[i] == node && lodLevelKinds().has(document_[i].kind())) children.push_back(i);
+      if (parent_[i] == node && document_[i].is(Trait::Level)) children.push_back(i);
     return children;
   }
 
@@ -79,19 +77,17 @@ public:
 
 private:
   void look(const Declaration& d) {
-    if (isPlaced(d.kind()))
-      if (const auto p = d.reference(Attr::Parent); p && p->resolved() && p->level == 0) {
+    if (d.is(Trait::Placed))
+      if (const auto p = d.reference("parent"); p && p->resolved() && p->level == 0) {
         parent_[d.index()] = p->declaration;
         hasChild_[p->declaration] = true;
       }
     // A force field is carried by what it is attached to.
-    if (specOf(d.kind(), Attr::Attach))
-      if (const auto carrier = d.reference(Attr::Attach);
-          carrier && carrier->resolved() && carrier->level == 0)
+    if (d.takes("attach"))
+      if (const auto carrier = d.reference("attach"); carrier && carrier->resolved() && carrier->level == 0)
         parent_[d.index()] = carrier->declaration;
-    for (const Attr attr : {Attr::Attach, Attr::Target, Attr::Collider, Attr::Collidee, Attr::Hook})
-      if (specOf(d.kind(), attr))
-        for (const NodeReference& r : d.references(attr)) mention(r);
+    for (const Attr attr : d.type().actsBy())
+      for (const NodeReference& r : d.references(attr)) mention(r);
     for (const EventMessage& m : d.eventMessages()) mention(m.target), mention(m.field);
   }
 
@@ -99,11 +95,7 @@ private:
     if (r.resolved() && r.level == 0) mentioned_[r.declaration] = true;
   }
 
-  bool mayMove(std::uint32_t i) const {
-    const NodeKind kind = document_[i].kind();
-    return mentioned_[i] || kind == NodeKind::DynObject || kind == NodeKind::Rig || kind == NodeKind::Path ||
-           kind == NodeKind::Sway || kind == NodeKind::Scene || kind == NodeKind::Lod;
-  }
+  bool mayMove(std::uint32_t i) const { return mentioned_[i] || document_[i].is(Trait::Moves); }
 
   const Document& document_;
   std::vector<std::uint32_t> parent_;
@@ -154,39 +146,37 @@ private:
   }
 
   NodeRef parentOf(const Declaration& d) const {
-    if (!isPlaced(d.kind())) return {};
-    const auto p = d.reference(Attr::Parent);
+    if (!d.is(Trait::Placed)) return {};
+    const auto p = d.reference("parent");
     return p ? resolve(*p) : NodeRef{};
   }
 
   Appearance appearanceOf(const Declaration& d) const {
     Appearance a;
-    if (d.kind() != NodeKind::Object && d.kind() != NodeKind::DynObject) return a;
+    if (!d.is(Trait::Model)) return a;
     a.mesh = input_.meshes(d);
-    a.drawn = d.flag(Attr::Draw);
-    a.shape = std::string(d.text(Attr::Shape));
-    a.tolerance = d.number(Attr::Tolerance);
+    a.drawn = d.flag("draw");
+    a.shape = std::string(d.text("shape"));
+    a.tolerance = d.number("tolerance");
     return a;
   }
 
-  Nanoseconds soundLengthOf(const Declaration& d) const {
-    return d.kind() == NodeKind::Sound ? input_.sounds(d) : 0;
-  }
+  Nanoseconds soundLengthOf(const Declaration& d) const { return d.is(Trait::Sound) ? input_.sounds(d) : 0; }
 
   std::vector<NodeRef> childrenOf(const Declaration& d) const {
     std::vector<NodeRef> children;
-    if (d.kind() == NodeKind::Lod)
+    if (d.kind() == "lod")
       for (const std::uint32_t child : layout_.childrenOf(d.index()))
         children.push_back({input_.number, child});
     return children;
   }
 
   void addTerms(const Declaration& d) {
-    if (!d.has(Attr::Budget) && !d.has(Attr::OnOverrun)) return;
+    if (!d.has("budget") && !d.has("onoverrun")) return;
     NodeTerms terms;
-    terms.budget = d.optionalNumber(Attr::Budget).value_or(0);
-    terms.gives = d.choices<Concession>(Attr::OnOverrun);
-    terms.priority = d.number(Attr::Priority);
+    terms.budget = d.optionalNumber("budget").value_or(0);
+    terms.gives = d.choices<Concession>("onoverrun");
+    terms.priority = d.number("priority");
     built_.load->terms[d.index()] = std::move(terms);
   }
 
@@ -208,6 +198,7 @@ private:
   void addStatic(const Declaration& d, const std::string* name) {
     const Affine X = worldPlaceOf(d);
     const Appearance a = appearanceOf(d);
+    built_.load->staticType = &d.type().type();
     built_.load->statics.push_back({d.index(), parentOf(d)});
     if (name) built_.load->staticNames.emplace_back(d.index(), name);
     built_.staticRecords.push_back(
@@ -227,12 +218,13 @@ private:
                               resolve_,
                               model_,
                               findings_,
+                              input_.services,
                               soundLengthOf(d),
                               childrenOf(d)};
-    const NodeFactory& make = input_.factories[static_cast<std::size_t>(d.kind())];
-    std::unique_ptr<Node> node = make(request);
+    std::unique_ptr<Node> node = request.type().make(request);
     if (!node) return;
-    for (const EventMessage& m : d.eventMessages()) node->addNotification(notificationOf(m));
+    for (const EventMessage& m : d.eventMessages())
+      node->addNotification(notificationOf(m, input_.document.types()));
     built_.load->nodes[d.index()] = std::move(node);
   }
 

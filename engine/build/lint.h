@@ -2,8 +2,66 @@
 /// Warnings about a script that is correct but hardly means what it says.
 
 #include "engine/script/document.h"
+#include "engine/script/reporter.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace stadion {
+
+/// What the nodes of a file do to one of them.
+struct NodeUse {
+  bool hooked = false;      ///< by an attribute or a message
+  bool simulated = false;   ///< collidee of a dynamics node
+  bool switchedOn = false;  ///< target of enable or toggle
+  bool isParent = false;
+  std::size_t levels = 0;  ///< children that an lod node chooses from
+};
+
+/// One file, for NodeType::lint.
+class LintScope {
+public:
+  /// Expects a document whose names are resolved, and that it and the findings outlive the scope.
+  LintScope(const Document& document, bool alone, Diagnostics& findings);
+
+  const Document& document() const { return document_; }
+  /// No file loads this one and it loads none.
+  bool alone() const { return alone_; }
+  const NodeUse& useOf(const Declaration& node) const { return uses_[node.index()]; }
+  /// Null if the node is in another file.
+  const NodeUse* useOf(const NodeReference& reference) const;
+
+  /// Counts on, and returns how many of this kind have been counted.
+  std::size_t tally(NodeKind kind) { return ++tallies_[kind.id()]; }
+
+  void warn(const Declaration& node, Attr attr, std::string message);
+  void warnAt(std::uint32_t place, std::string message) { report_.warning(place, std::move(message)); }
+  /// Letters that the show cannot write.
+  void warnOfMissing(std::string_view words, std::uint32_t place);
+  /// It is off at the start, and nothing switches it on.
+  void warnNeverOn(const Declaration& node);
+  /// A reference that is given twice.
+  void warnRepeated(const Declaration& node, Attr attr);
+  /// `the timer "clock"`, `this timer`.
+  static std::string called(const Declaration& node);
+
+private:
+  void note(const Declaration& node);
+  NodeUse* noted(const NodeReference& reference);
+
+  const Document& document_;
+  bool alone_;
+  Reporter report_;
+  std::vector<NodeUse> uses_;
+  std::map<std::uint32_t, std::size_t> tallies_;
+};
+
+/// For types that do nothing but post events.
+void lintSender(const Declaration& node, LintScope& scope);
+/// For types that move their targets, or what has them as parent.
+void lintTargets(const Declaration& node, LintScope& scope);
 
 /// Expects a document whose names are resolved. Looks at this file only; files inside and around it may use
 /// what seems unused here, so a field or trigger is called unused only if it has no name or the file stands

@@ -1,14 +1,18 @@
 #pragma once
 /// What a node can be told to do.
+///
+/// The commands that several node types share have numbers of their own. They are part of the state hash
+/// while a message waits, so they never change. A command that one node type adds is numbered by its name.
+
+#include "engine/core/word.h"
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 namespace stadion {
 
-enum class Verb : std::uint8_t {
+enum class Verb : std::uint32_t {
   Enable,
   Disable,
   Toggle,
@@ -30,16 +34,15 @@ enum class Verb : std::uint8_t {
 inline constexpr std::array<std::string_view, 16> kVerbNames = {
     "enable", "disable", "toggle", "attach",  "detach", "show",   "hide", "reset",
     "hook",   "unhook",  "grab",   "release", "load",   "unload", "say",  "start"};
-inline constexpr std::size_t kVerbCount = kVerbNames.size();
 
-constexpr std::string_view nameOf(Verb verb) {
-  return kVerbNames[static_cast<std::size_t>(verb)];
-}
-
-constexpr std::optional<Verb> verbNamed(std::string_view word) {
-  for (std::size_t i = 0; i < kVerbCount; ++i)
+/// Also in a `case`: `case verbNamed("tug"):`.
+constexpr Verb verbNamed(std::string_view word) {
+  for (std::uint32_t i = 0; i < kVerbNames.size(); ++i)
     if (kVerbNames[i] == word) return static_cast<Verb>(i);
-  return std::nullopt;
+  return static_cast<Verb>(hashOfWord(word));
+}
+constexpr Verb lastOf(Verb) {
+  return static_cast<Verb>(0xFFFFFF);
 }
 
 /// What of a tracker's pose `attach` takes over.

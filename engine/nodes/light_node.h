@@ -10,10 +10,12 @@ namespace stadion {
 /// `light`: directional, point or spot. Direction and position are in its own coordinates and move with it.
 /// It is dark while it, or something above it, is hidden.
 /// Commands  enable, disable, toggle, and those of a placed node.
+extern const NodeType kLightType;
+
 class LightNode : public PlacedNode {
 public:
   LightNode(NodeRef self, std::string name, PlaceAttributes place, const LightRecord& light, bool on)
-      : PlacedNode(NodeKind::Light, self, std::move(name), std::move(place)), light_(light), switch_(on) {}
+      : PlacedNode(kLightType, self, std::move(name), std::move(place)), light_(light), switch_(on) {}
 
   void hash(StateHash& h) const override { hashFields(*this, h); }
   void state(StateFields& f) override { fields(*this, f); }
@@ -38,10 +40,12 @@ private:
 
 /// `sky`: colours of the background, light from everywhere, haze. The last one to enter is seen; when it
 /// leaves, the one before returns.
+extern const NodeType kSkyType;
+
 class SkyNode : public Node {
 public:
   SkyNode(NodeRef self, std::string name, const SkyRecord& sky)
-      : Node(NodeKind::Sky, self, std::move(name)), sky_(sky) {}
+      : Node(kSkyType, self, std::move(name)), sky_(sky) {}
 
   bool resume(Scene& scene) override;
 

@@ -13,6 +13,8 @@
 
 namespace stadion {
 
+extern const NodeType kLodType;
+
 class LodNode : public PlacedNode {
 public:
   static constexpr double kBand = 0.1;  ///< of a range
@@ -20,7 +22,7 @@ public:
   /// `children` in the order of the script; `ranges` growing [m], at least one.
   LodNode(NodeRef self, std::string name, PlaceAttributes place, std::vector<NodeRef> children,
           std::vector<double> ranges)
-      : PlacedNode(NodeKind::Lod, self, std::move(name), std::move(place)), children_(std::move(children)),
+      : PlacedNode(kLodType, self, std::move(name), std::move(place)), children_(std::move(children)),
         ranges_(std::move(ranges)) {}
 
   bool busy() const override { return true; }

@@ -1,11 +1,17 @@
 #include "engine/nodes/measure_node.h"
 
+#include "engine/build/node_request.h"
+#include "engine/core/node_registry.h"
+#include "engine/core/shared_rows.h"
+#include "engine/maths/angles.h"
+#include "engine/maths/functions.h"
 #include "engine/scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace stadion {
 namespace {
@@ -66,7 +72,7 @@ void MeasureNode::simulate(FrameContext& frame) {
   stop(frame.scene);
   result_ = result;
   compared_ = attributes_.against.empty();
-  result_->foul ? raise(Event::Foul, result_->when) : raise(Event::Measured, result_->when, result_->metres);
+  result_->foul ? raise("foul", result_->when) : raise("measured", result_->when, result_->metres);
 }
 
 /// How the throw has ended, if it has by `now`.
@@ -109,7 +115,7 @@ void MeasureNode::compare(const MeasureNode& other, FrameContext& frame) {
   compared_ = true;
   const int ours = result_->centimetres(), theirs = other.result()->centimetres();
   const Nanoseconds when = std::max(result_->when, other.result()->when);
-  raise(ours > theirs ? Event::Won : ours < theirs ? Event::Lost : Event::Drawn, when);
+  raise(ours > theirs ? Event("won") : ours < theirs ? Event("lost") : Event("drawn"), when);
   std::string verdict = "a draw";
   if (ours != theirs) {
     verdict = (ours > theirs ? called() : other.called()) + " wins";
@@ -128,7 +134,7 @@ std::string MeasureNode::called() const {
 
 void MeasureNode::write(const std::string& words, Nanoseconds when, Scene& scene) const {
   if (attributes_.text.empty()) return;
-  scene.post(*this, {Event::Measured, attributes_.text, Verb::Say, {words}, 0}, when);
+  scene.post(*this, {Event("measured"), attributes_.text, Verb::Say, {words}, 0}, when);
 }
 
 template <class Self, class Fields>
@@ -147,5 +153,94 @@ void MeasureNode::hash(StateHash& h) const {
 void MeasureNode::state(StateFields& f) {
   fields(*this, f);
 }
+
+namespace {
+
+std::unique_ptr<Node> makeMeasure(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  const auto named = [&](Attr attr) {
+    const auto reference = d.reference(attr);
+    return reference ? std::string(reference->name) : std::string();
+  };
+  MeasureAttributes a;
+  a.body = named("body"), a.ground = named("ground");
+  a.text = named("text"), a.against = named("against");
+  a.label = std::string(d.text("label"));
+  a.from = d.choice<MeasureFrom>("from");
+  a.duration = fromSeconds(d.number("duration"));
+  if (const auto sector = d.optionalNumber("sector")) a.cosHalfSector = det::cos(0.5 * *sector * kDegree);
+  return std::make_unique<MeasureNode>(r.self, r.name, r.place, std::move(a));
+}
+
+constexpr std::string_view kOrigins[] = {"line", "point"};
+constexpr AttributeSpec kMeasureRows[] = {
+    {.name = "body",
+     .kind = ValueKind::Reference,
+     .help = "what is thrown; its first impact after \"start\" counts",
+     .required = true,
+     .targets = {{}, {"dynobject"}}},
+    {.name = "ground",
+     .kind = ValueKind::Reference,
+     .help = "only an impact with this counts; any, if not stated",
+     .targets = kModelTypes},
+    {.name = "from",
+     .kind = ValueKind::Choice,
+     .help = "square from the node's X axis, or from its place",
+     .standard = "line",
+     .choices = kOrigins},
+    {.name = "sector",
+     .kind = ValueKind::Number,
+     .help = "full angle about the node's +Y, outside which a throw is a foul; if not stated, only one that "
+             "lands behind the line is",
+     .unit = "degrees",
+     .range = {0, 180, true}},
+    {.name = "duration",
+     .kind = ValueKind::Number,
+     .help = "a throw that has not touched anything so long after its start is a foul",
+     .standard = "60",
+     .unit = "s",
+     .range = {0, 1e6, true}},
+    {.name = "label",
+     .kind = ValueKind::Words,
+     .help = "what the result is called; the node's name if not stated"},
+    {.name = "text",
+     .kind = ValueKind::Reference,
+     .help = "a text node that shows the result",
+     .targets = {{}, {"text"}}},
+    {.name = "against",
+     .kind = ValueKind::Reference,
+     .help = "the measure to compare with, once both have a result",
+     .targets = {{}, {"measure"}}},
+};
+
+constexpr EventSpec kMeasureEvents[] = {
+    {"measured", "the throw has been measured"},
+    {"foul", "the throw has landed behind the line or outside the sector"},
+    {"won", "both throws have a result, and this one is farther, by a centimetre at least"},
+    {"lost", "both throws have a result, and the other is farther"},
+    {"drawn", "both throws have a result, and neither is farther"}};
+
+constexpr CommandSpec kMeasureCommands[] = {
+    {"start", ArgumentKind::None, "start", "the body's next impact is measured"}};
+
+}  // namespace
+
+constinit const NodeType kMeasureType{
+    .name = "measure",
+    .help = "takes the distance of a throw where the body first touches, from its X axis towards +Y",
+    .attributes = kMeasureRows,
+    .events = kMeasureEvents,
+    .commands = kMeasureCommands,
+    .traits = {Trait::Placed},
+    .make = makeMeasure,
+};
+
+namespace node_types {
+
+void addMeasureNode(NodeRegistrar& types) {
+  types.add(kMeasureType);
+}
+
+}  // namespace node_types
 
 }  // namespace stadion

@@ -43,12 +43,14 @@ struct MeasureResult {
   }
 };
 
+extern const NodeType kMeasureType;
+
 class MeasureNode : public PlacedNode {
 public:
   using Result = MeasureResult;
 
   MeasureNode(NodeRef self, std::string name, PlaceAttributes place, MeasureAttributes attributes)
-      : PlacedNode(NodeKind::Measure, self, std::move(name), std::move(place)),
+      : PlacedNode(kMeasureType, self, std::move(name), std::move(place)),
         attributes_(std::move(attributes)) {}
 
   const std::optional<Result>& result() const { return result_; }
@@ -60,9 +62,7 @@ public:
   template <class Self, class Fields>
   static void fields(Self& self, Fields& f);
   /// Measures take their results side by side, and compare them afterwards.
-  bool awaits(const Node& earlier, const Scene&) const override {
-    return earlier.kind() != NodeKind::Measure;
-  }
+  bool awaits(const Node& earlier, const Scene&) const override { return earlier.kind() != "measure"; }
 
 protected:
   void onLeave(Scene& scene) override;

@@ -1,9 +1,17 @@
 #include "engine/nodes/path_node.h"
 
+#include "engine/build/lint.h"
+#include "engine/build/node_request.h"
+#include "engine/core/node_registry.h"
+#include "engine/core/shared_rows.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "engine/scene/scene.h"
+#include "engine/script/declaration_check.h"
 
 #include <algorithm>
+
+#include <fmt/format.h>
 
 namespace stadion {
 namespace {
@@ -148,10 +156,10 @@ void PathNode::advanceTo(Nanoseconds time, FrameContext& frame) {
   since_ = time;
   if (!switch_.on() || elapsed_ < length()) return;
   if (loop_) {
-    for (; elapsed_ >= length(); elapsed_ -= length()) raise(Event::Finished, time - (elapsed_ - length()));
+    for (; elapsed_ >= length(); elapsed_ -= length()) raise("finished", time - (elapsed_ - length()));
     return;
   }
-  raise(Event::Finished, time - (elapsed_ - length()));
+  raise("finished", time - (elapsed_ - length()));
   elapsed_ = length();
   switch_.set(false);
 }
@@ -194,5 +202,104 @@ void PathNode::hash(StateHash& h) const {
 void PathNode::state(StateFields& f) {
   fields(*this, f);
 }
+
+namespace {
+
+std::unique_ptr<Node> makePath(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  std::vector<Keyframe> keys;
+  for (const PathKey& k : d.keys()) {
+    const Vec3 turn = k.orientation * kDegree;
+    keys.push_back({k.time, {k.position, det::fromEuler(turn.x(), turn.y(), turn.z())}});
+  }
+  const auto target = d.reference("target");
+  return std::make_unique<PathNode>(r.self, r.name, r.place, target ? r.resolve(*target) : NodeRef{},
+                                    std::move(keys), d.flag("loop"), d.flag("smooth"), d.flag("initstate"));
+}
+
+/// Keys follow each other in time.
+void checkPath(DeclarationCheck& check) {
+  constexpr double kShortestPass = 0.001;  // of a looping path, which tells the end of each pass [s]
+  const auto keys = check.declaration().keys();
+  const auto places = check.places("key");
+  if (places.size() != keys.size()) return;  // a key was wrong by itself
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    if (!(keys[i].time > keys[i - 1].time))
+      return check.errorAt(places[i], fmt::format("the times of keys must increase, but {} follows {}",
+                                                  keys[i].time, keys[i - 1].time));
+  if (!keys.empty() && keys.back().time > 0 && keys.back().time < kShortestPass &&
+      check.declaration().flag("loop"))
+    check.errorAt(places.back(), fmt::format("a path that loops must last at least {} s", kShortestPass));
+}
+
+/// From key to key a path turns the shorter way round.
+void lintTurns(const Declaration& node, LintScope& scope) {
+  const auto keys = node.keys();
+  for (std::size_t i = 1; i < keys.size(); ++i) {
+    const double turn = (keys[i].orientation - keys[i - 1].orientation).cwiseAbs().maxCoeff();
+    if (turn < 180) continue;
+    scope.warn(
+        node, "key",
+        fmt::format("from {} s to {} s the keys turn by {:g} degrees, but a path turns the shorter way from "
+                    "key to key: put keys between them, less than 180 degrees apart",
+                    keys[i - 1].time, keys[i].time, turn));
+    return;
+  }
+}
+
+void lintPath(const Declaration& node, LintScope& scope) {
+  lintTargets(node, scope);
+  lintTurns(node, scope);
+  scope.warnNeverOn(node);
+}
+
+constexpr AttributeSpec kPathRows[] = {
+    {.name = "target",
+     .kind = ValueKind::Reference,
+     .help = "the node to move; without it, the path moves the nodes that have it as parent",
+     .targets = kPlacedOrRig,
+     .acts = true},
+    {.name = "key",
+     .kind = ValueKind::Key,
+     .help = "time, position, orientation; times must increase",
+     .unit = "s, m, degrees",
+     .range = kPlaceRange,
+     .required = true,
+     .repeatable = true},
+    {.name = "loop",
+     .kind = ValueKind::Flag,
+     .help = "whether it starts again at its end",
+     .standard = "off"},
+    {.name = "smooth",
+     .kind = ValueKind::Flag,
+     .help = "whether it passes the keys in a curve rather than in straight lines",
+     .standard = "off"},
+    kInitStateRow,
+};
+
+constexpr EventSpec kPathEvents[] = {
+    {"finished",
+     "the path has reached its last key, the sound its end; told at the end of each pass if it loops"}};
+
+}  // namespace
+
+constinit const NodeType kPathType{
+    .name = "path",
+    .help = "moves a node along keys given in advance",
+    .attributes = kPathRows,
+    .events = kPathEvents,
+    .traits = {Trait::Placed, Trait::Switched, Trait::Parent, Trait::Level, Trait::Moves, Trait::Degradable},
+    .make = makePath,
+    .check = checkPath,
+    .lint = lintPath,
+};
+
+namespace node_types {
+
+void addPathNode(NodeRegistrar& types) {
+  types.add(kPathType);
+}
+
+}  // namespace node_types
 
 }  // namespace stadion

@@ -21,6 +21,8 @@
 
 namespace stadion {
 
+extern const NodeType kPathType;
+
 struct Keyframe {
   double time = 0;  ///< from the path's start [s]
   Pose X_PN;
@@ -31,7 +33,7 @@ public:
   /// Expects at least one key, times strictly increasing from >= 0; a looping path should last a millisecond.
   PathNode(NodeRef self, std::string name, PlaceAttributes place, NodeRef target, std::vector<Keyframe> keys,
            bool loop, bool smooth, bool on)
-      : PlacedNode(NodeKind::Path, self, std::move(name), std::move(place)), target_(target),
+      : PlacedNode(kPathType, self, std::move(name), std::move(place)), target_(target),
         keys_(std::move(keys)), loop_(loop && length() > 0), smooth_(smooth), bends_(bends()), switch_(on) {}
 
   Rank rank() const override { return Rank::Motion; }

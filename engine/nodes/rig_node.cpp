@@ -1,6 +1,10 @@
 #include "engine/nodes/rig_node.h"
 
+#include "engine/build/node_request.h"
+#include "engine/core/node_registry.h"
+#include "engine/core/shared_rows.h"
 #include "engine/input/axis_course.h"
+#include "engine/maths/angles.h"
 #include "engine/nodes/rig_drive.h"
 #include "engine/scene/scene.h"
 
@@ -80,5 +84,96 @@ void NavigatorNode::drive(FrameContext& frame, Nanoseconds until) {
   }
   frame.scene.moveRig(X_WR);
 }
+
+namespace {
+
+enum class NavigatorMode : std::uint8_t { Walk, Fly };
+
+std::unique_ptr<Node> makeNavigator(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  NavigatorNode::Attributes a;
+  a.speed = d.number("speed");
+  a.turnRate = d.number("turnrate") * kDegree;
+  a.fly = d.choice<NavigatorMode>("mode") == NavigatorMode::Fly;
+  a.tracker = std::string(d.text("tracker"));
+  return std::make_unique<NavigatorNode>(r.self, r.name, a, d.flag("initstate"));
+}
+
+std::unique_ptr<Node> makeRig(const NodeRequest& r) {
+  return std::make_unique<RigNode>(r.self, r.name, r.place, r.declaration.number("eyeheight"));
+}
+
+constexpr std::string_view kNavigatorModes[] = {"walk", "fly"};
+constexpr AttributeSpec kNavigatorRows[] = {
+    {.name = "speed",
+     .kind = ValueKind::Number,
+     .help = "of the rig at full deflection of the joypad",
+     .standard = "1.5",
+     .unit = "m/s",
+     .range = {0, 1000}},
+    {.name = "turnrate",
+     .kind = ValueKind::Number,
+     .help = "of the rig at full deflection of the joypad",
+     .standard = "45",
+     .unit = "degrees/s",
+     .range = {0, 3600}},
+    {.name = "tracker",
+     .kind = ValueKind::Tracker,
+     .help = "the device that points the way",
+     .standard = "wand"},
+    {.name = "mode",
+     .kind = ValueKind::Choice,
+     .help = "keep the height, or follow the device up and down",
+     .standard = "walk",
+     .choices = kNavigatorModes},
+    kInitStateRow,
+};
+constexpr AttributeSpec kRigRows[] = {
+    {.name = "position",
+     .kind = ValueKind::Vector,
+     .help = "the middle of the floor of the display, in the world",
+     .standard = "0, 0, 0",
+     .unit = "m",
+     .range = kPlaceRange},
+    {.name = "orientation",
+     .kind = ValueKind::Vector,
+     .help = "rotations about the world's X axis, then Y, then Z",
+     .standard = "0, 0, 0",
+     .unit = "degrees",
+     .range = kTurnRange},
+    {.name = "eyeheight",
+     .kind = ValueKind::Number,
+     .help = "of the head above the floor while no tracker says where it is",
+     .standard = "1.7",
+     .unit = "m",
+     .range = {0, 10}},
+};
+
+}  // namespace
+
+constinit const NodeType kNavigatorType{
+    .name = "navigator",
+    .help = "lets the user move the rig with joypad and wand",
+    .attributes = kNavigatorRows,
+    .traits = {Trait::Switched},
+    .make = makeNavigator,
+};
+
+constinit const NodeType kRigType{
+    .name = "rig",
+    .help = "the platform that carries walls, trackers and viewers through the world",
+    .attributes = kRigRows,
+    .traits = {Trait::Single, Trait::Parent, Trait::Moves},
+    .make = makeRig,
+};
+
+namespace node_types {
+
+void addRigNode(NodeRegistrar& types) {
+  types.add(kNavigatorType);
+  types.add(kRigType);
+}
+
+}  // namespace node_types
 
 }  // namespace stadion

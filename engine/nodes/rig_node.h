@@ -8,10 +8,12 @@
 namespace stadion {
 
 /// `rig`: the tracked platform that carries walls and trackers. The last one to enter is the one in use.
+extern const NodeType kRigType;
+
 class RigNode : public PlacedNode {
 public:
   RigNode(NodeRef self, std::string name, PlaceAttributes place, double eyeHeight)
-      : PlacedNode(NodeKind::Rig, self, std::move(name), std::move(place)), eyeHeight_(eyeHeight) {}
+      : PlacedNode(kRigType, self, std::move(name), std::move(place)), eyeHeight_(eyeHeight) {}
 
   Rank rank() const override { return Rank::Input; }
 
@@ -27,6 +29,8 @@ private:
 /// that the world turns around them and not they around the room's centre. Axis 0 turns (right is positive),
 /// axis 1 goes forward; both at once go along an arc. walk keeps to the horizontal, fly does not. The motion
 /// is integrated over the times at which the axes changed, so that it does not depend on the frame rate.
+extern const NodeType kNavigatorType;
+
 class NavigatorNode : public Node {
 public:
   struct Attributes {
@@ -37,7 +41,7 @@ public:
   };
 
   NavigatorNode(NodeRef self, std::string name, Attributes a, bool on)
-      : Node(NodeKind::Navigator, self, std::move(name)), attributes_(std::move(a)), switch_(on) {}
+      : Node(kNavigatorType, self, std::move(name)), attributes_(std::move(a)), switch_(on) {}
 
   Rank rank() const override { return Rank::Input; }
   bool busy() const override { return switch_.on(); }

@@ -11,11 +11,15 @@
 
 namespace stadion {
 
+extern const NodeType kSceneType;
+
 class SceneNode : public PlacedNode {
 public:
+  enum class Change : std::uint8_t { Loaded = 7, Unloaded = 8 };  ///< the numbers are part of the state hash
+
   SceneNode(NodeRef self, std::string name, PlaceAttributes place, std::string file, Nanoseconds ready,
             bool initially)
-      : PlacedNode(NodeKind::Scene, self, std::move(name), std::move(place)), file_(std::move(file)),
+      : PlacedNode(kSceneType, self, std::move(name), std::move(place)), file_(std::move(file)),
         ready_(ready), initially_(initially) {}
 
   void hash(StateHash& h) const override;
@@ -36,7 +40,7 @@ private:
   Nanoseconds ready_;
   bool initially_;
   std::uint32_t number_ = 0;  ///< the load that is there or asked for; 0 = none
-  std::vector<std::pair<Nanoseconds, Event>> expected_;
+  std::vector<std::pair<Nanoseconds, Change>> expected_;
 };
 
 }  // namespace stadion

@@ -1,13 +1,20 @@
 #include "engine/nodes/sound_node.h"
 
+#include "engine/build/lint.h"
+#include "engine/build/node_request.h"
+#include "engine/core/node_registry.h"
+#include "engine/core/shared_rows.h"
 #include "engine/scene/scene.h"
+#include "engine/script/file_path.h"
 
 #include <algorithm>
+
+#include <fmt/format.h>
 
 namespace stadion {
 
 SoundNode::SoundNode(NodeRef self, std::string name, PlaceAttributes place, Attributes a, bool on)
-    : PlacedNode(NodeKind::Sound, self, std::move(name), std::move(place)), attributes_(std::move(a)),
+    : PlacedNode(kSoundType, self, std::move(name), std::move(place)), attributes_(std::move(a)),
       switch_(on) {
   if (attributes_.loop) attributes_.length = std::max(attributes_.length, kShortestPass);
 }
@@ -52,7 +59,7 @@ void SoundNode::tell(Scene& scene) const {
 
 void SoundNode::endPasses(Nanoseconds time) {
   while (switch_.on() && due_ <= time) {
-    raise(Event::Finished, due_);
+    raise("finished", due_);
     if (attributes_.loop)
       due_ += attributes_.length;
     else
@@ -87,5 +94,76 @@ void SoundNode::hash(StateHash& h) const {
 void SoundNode::state(StateFields& f) {
   fields(*this, f);
 }
+
+namespace {
+
+std::unique_ptr<Node> makeSound(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  SoundNode::Attributes a;
+  a.file = std::string(d.text("file"));
+  a.length = r.soundLength;
+  a.gain = d.number("gain");
+  a.range = d.optionalNumber("range").value_or(0);
+  a.loop = d.flag("loop");
+  return std::make_unique<SoundNode>(r.self, r.name, r.place, std::move(a), d.flag("initstate"));
+}
+
+constexpr std::string_view kSoundEndings[] = {"wav", "aiff", "aif", "flac", "ogg"};
+
+void lintSound(const Declaration& node, LintScope& scope) {
+  const std::string ending = endingOf(node.text("file"));
+  if (std::find(std::begin(kSoundEndings), std::end(kSoundEndings), ending) == std::end(kSoundEndings))
+    scope.warn(
+        node, "file",
+        fmt::format("\"{}\" is not in a format that is read (.wav, .aiff, .flac, .ogg)", node.text("file")));
+  if (node.number("gain") == 0) scope.warn(node, "gain", "a sound of gain 0 is never heard");
+  scope.warnNeverOn(node);
+}
+
+constexpr AttributeSpec kSoundRows[] = {
+    {.name = "file",
+     .kind = ValueKind::File,
+     .help = "what is heard: .wav, .aiff, .flac or .ogg (Vorbis)",
+     .required = true},
+    {.name = "gain",
+     .kind = ValueKind::Number,
+     .help = "how loud it is: 1 as the file has it",
+     .standard = "1",
+     .range = kUnitInterval},
+    {.name = "range",
+     .kind = ValueKind::Number,
+     .help = "how far from its place it is heard; without it, it is heard everywhere alike",
+     .unit = "m",
+     .range = kLengthRange},
+    {.name = "loop",
+     .kind = ValueKind::Flag,
+     .help = "whether it starts again at its end",
+     .standard = "off"},
+    kInitStateRow,
+};
+
+constexpr EventSpec kSoundEvents[] = {
+    {"finished",
+     "the path has reached its last key, the sound its end; told at the end of each pass if it loops"}};
+
+}  // namespace
+
+constinit const NodeType kSoundType{
+    .name = "sound",
+    .help = "something that is heard, from its place or from everywhere",
+    .attributes = kSoundRows,
+    .events = kSoundEvents,
+    .traits = {Trait::Placed, Trait::Switched, Trait::Sound},
+    .make = makeSound,
+    .lint = lintSound,
+};
+
+namespace node_types {
+
+void addSoundNode(NodeRegistrar& types) {
+  types.add(kSoundType);
+}
+
+}  // namespace node_types
 
 }  // namespace stadion

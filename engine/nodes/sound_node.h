@@ -15,6 +15,8 @@
 
 namespace stadion {
 
+extern const NodeType kSoundType;
+
 class SoundNode : public PlacedNode {
 public:
   struct Attributes {

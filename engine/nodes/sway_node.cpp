@@ -1,10 +1,17 @@
 #include "engine/nodes/sway_node.h"
 
 #include "engine/base/prefetch.h"
+#include "engine/build/lint.h"
+#include "engine/build/node_request.h"
+#include "engine/core/node_registry.h"
+#include "engine/core/shared_rows.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "engine/scene/scene.h"
 
 #include <algorithm>
+
+#include <fmt/format.h>
 
 namespace stadion {
 namespace {
@@ -253,5 +260,93 @@ void SwayNode::hash(StateHash& h) const {
 void SwayNode::state(StateFields& f) {
   fields(*this, f);
 }
+
+namespace {
+
+std::unique_ptr<Node> makeSway(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  SwayAttributes a;
+  for (const NodeReference& target : d.references("target"))
+    if (const NodeRef node = r.resolve(target); node.valid()) a.targets.push_back(node);
+  a.amplitude = d.vec3("amplitude"), a.frequency = d.vec3("frequency");
+  a.phase = d.vec3("phase") * kDegree, a.phaseStep = d.vec3("phasestep") * kDegree;
+  a.angularVelocity = d.vec3("angularvelocity") * kDegree;
+  return std::make_unique<SwayNode>(r.self, r.name, r.place, std::move(a), d.flag("initstate"));
+}
+
+void lintSway(const Declaration& node, LintScope& scope) {
+  lintTargets(node, scope);
+  scope.warnRepeated(node, "target");
+  const Vec3 amplitude = node.vec3("amplitude"), frequency = node.vec3("frequency");
+  if (amplitude.isZero(0) && node.vec3("angularvelocity").isZero(0))
+    scope.warn(
+        node, "amplitude",
+        fmt::format("{} moves nothing: its amplitude and angularvelocity are 0", LintScope::called(node)));
+  for (int i = 0; i < 3; ++i)
+    if (amplitude[i] != 0 && frequency[i] == 0)
+      scope.warn(node, "frequency",
+                 fmt::format("along {} it does not go to and fro: its frequency there is 0", "xyz"[i]));
+  scope.warnNeverOn(node);
+}
+
+constexpr AttributeSpec kSwayRows[] = {
+    {.name = "target",
+     .kind = ValueKind::Reference,
+     .help = "a node to move, each by itself; without any, the sway moves the nodes that have it as parent",
+     .repeatable = true,
+     .targets = kPlacedOrRig,
+     .acts = true},
+    {.name = "amplitude",
+     .kind = ValueKind::Vector,
+     .help = "how far it goes to either side of where the script puts it, along the axes of its parent",
+     .standard = "0, 0, 0",
+     .unit = "m",
+     .range = kPlaceRange},
+    {.name = "frequency",
+     .kind = ValueKind::Scale,
+     .help = "how often it goes to and fro, one number or one for each axis",
+     .standard = "1",
+     .unit = "Hz",
+     .range = {0, 100}},
+    {.name = "phase",
+     .kind = ValueKind::Scale,
+     .help = "where in its swing the first target begins, one number or one for each axis",
+     .standard = "0",
+     .unit = "degrees",
+     .range = kTurnRange},
+    {.name = "phasestep",
+     .kind = ValueKind::Scale,
+     .help = "how much farther in its swing each target is than the one before, so that they do not move in "
+             "step",
+     .standard = "0",
+     .unit = "degrees",
+     .range = kTurnRange},
+    {.name = "angularvelocity",
+     .kind = ValueKind::Vector,
+     .help = "how fast each turns about itself, about the axes of its parent",
+     .standard = "0, 0, 0",
+     .unit = "degrees/s",
+     .range = kTurnRange},
+    kInitStateRow,
+};
+
+}  // namespace
+
+constinit const NodeType kSwayType{
+    .name = "sway",
+    .help = "moves nodes to and fro and turns them evenly: boats, banners, a shoal",
+    .attributes = kSwayRows,
+    .traits = {Trait::Placed, Trait::Switched, Trait::Parent, Trait::Level, Trait::Moves, Trait::Degradable},
+    .make = makeSway,
+    .lint = lintSway,
+};
+
+namespace node_types {
+
+void addSwayNode(NodeRegistrar& types) {
+  types.add(kSwayType);
+}
+
+}  // namespace node_types
 
 }  // namespace stadion

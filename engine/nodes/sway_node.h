@@ -29,6 +29,8 @@
 
 namespace stadion {
 
+extern const NodeType kSwayType;
+
 struct SwayAttributes {
   std::vector<NodeRef> targets;         ///< in the order of the script; empty = itself
   Vec3 amplitude = Vec3::Zero();        ///< [m]
@@ -41,8 +43,7 @@ struct SwayAttributes {
 class SwayNode : public PlacedNode, private FleetRule {
 public:
   SwayNode(NodeRef self, std::string name, PlaceAttributes place, SwayAttributes sway, bool on)
-      : PlacedNode(NodeKind::Sway, self, std::move(name), std::move(place)), sway_(std::move(sway)),
-        switch_(on) {}
+      : PlacedNode(kSwayType, self, std::move(name), std::move(place)), sway_(std::move(sway)), switch_(on) {}
 
   Rank rank() const override { return Rank::Motion; }
   bool busy() const override { return switch_.on() || PlacedNode::busy(); }

@@ -10,10 +10,12 @@
 
 namespace stadion {
 
+extern const NodeType kTextType;
+
 class TextNode : public PlacedNode {
 public:
   TextNode(NodeRef self, std::string name, PlaceAttributes place, std::string words, const TextStyle& style)
-      : PlacedNode(NodeKind::Text, self, std::move(name), std::move(place)), declared_(words),
+      : PlacedNode(kTextType, self, std::move(name), std::move(place)), declared_(words),
         words_(std::move(words)), style_(style) {}
 
   const std::string& words() const { return words_; }

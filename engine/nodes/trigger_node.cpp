@@ -1,6 +1,11 @@
 #include "engine/nodes/trigger_node.h"
 
+#include "engine/build/lint.h"
+#include "engine/build/node_request.h"
+#include "engine/core/node_registry.h"
+#include "engine/core/shared_rows.h"
 #include "engine/scene/scene.h"
+#include "engine/script/declaration_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -87,7 +92,7 @@ std::uint32_t TriggerNode::heldBefore(const TrackerSample& t, Nanoseconds time,
 
 void TriggerNode::look(FrameContext& frame, Nanoseconds until) {
   const Course& way = wayInRig(frame);
-  const TrackerSample* t = kind() == NodeKind::WandTrigger ? frame.input.find(tracker_) : nullptr;
+  const TrackerSample* t = kind() == "wandtrigger" ? frame.input.find(tracker_) : nullptr;
   if (way.empty()) {
     if (looked_ && t) watchLost(*t, frame, until);
     return;
@@ -119,7 +124,7 @@ void TriggerNode::look(FrameContext& frame, Nanoseconds until) {
     } else {
       last_ = inNode(time, p_RV);
       inside_ = region_.contains(last_);
-      if (inside_) raise(Event::Enter, time);
+      if (inside_) raise("enter", time);
       // What was held down before was not pressed here; at the very start it was.
       if (t && frame.now.step > 0) buttons_ = heldBefore(*t, time, frame);
     }
@@ -136,12 +141,12 @@ void TriggerNode::goTo(const Vec3& p, bool jumped, Nanoseconds time) {
   };
   const bool inside = region_.contains(p);
   if (inside != inside_) {
-    raise(inside ? Event::Enter : Event::Exit, jumped ? time : when(region_.crossing(last_, p)));
+    raise(inside ? Event("enter") : Event("exit"), jumped ? time : when(region_.crossing(last_, p)));
   } else if (!inside && !jumped) {
     const std::optional<Region::Chord> part = region_.chord(last_, p);
     if (part && part->in > 0 && part->out < 1) {
-      raise(Event::Enter, when(part->in));
-      raise(Event::Exit, when(part->out));
+      raise("enter", when(part->in));
+      raise("exit", when(part->out));
     }
   }
   inside_ = inside;
@@ -175,14 +180,15 @@ void TriggerNode::watchButtons(const TrackerSample& t, Nanoseconds time, bool at
       if (c.time <= time) now = c.buttons;
   }
   tellReleases(now, time);
-  constexpr Event press[] = {Event::Button1, Event::Button2, Event::Button3, Event::Button4};
+  constexpr Event press[] = {Event("button1"), Event("button2"), Event("button3"), Event("button4")};
   for (std::uint32_t b = 0; b < 4; ++b)
     if (inside_ && (now & ~buttons_ & (1U << b))) raise(press[b], time), pressed_ |= 1U << b;
   buttons_ = now;
 }
 
 void TriggerNode::tellReleases(std::uint32_t down, Nanoseconds time) {
-  constexpr Event release[] = {Event::Button1Up, Event::Button2Up, Event::Button3Up, Event::Button4Up};
+  constexpr Event release[] = {Event("button1up"), Event("button2up"), Event("button3up"),
+                               Event("button4up")};
   for (std::uint32_t b = 0; b < 4; ++b)
     if (pressed_ & ~down & (1U << b)) raise(release[b], time);
   pressed_ &= down;
@@ -210,5 +216,93 @@ void TriggerNode::hash(StateHash& h) const {
 void TriggerNode::state(StateFields& f) {
   fields(*this, f);
 }
+
+namespace {
+
+std::unique_ptr<Node> makeTrigger(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  Region region;
+  if (const auto box = d.box("box")) {
+    region.form = Region::Form::Box;
+    region.centre = box->centre, region.halfSize = 0.5 * box->edges;
+  } else if (const auto sphere = d.sphere("sphere")) {
+    region.centre = sphere->centre, region.radius = sphere->radius;
+  }
+  const bool wand = d.kind() == "wandtrigger";
+  return std::make_unique<TriggerNode>(r.type(), r.self, r.name, r.place, region,
+                                       wand ? std::string(d.text("tracker")) : "head", d.flag("initstate"));
+}
+
+void checkTrigger(DeclarationCheck& check) {
+  checkVolume(check, true);
+}
+
+constexpr AttributeSpec kTriggerSphere{.name = "sphere",
+                                       .kind = ValueKind::Sphere,
+                                       .help =
+                                           "the space watched: centre and radius, in the node's coordinates",
+                                       .unit = "m",
+                                       .range = kLengthRange};
+constexpr AttributeSpec kTriggerBox{.name = "box",
+                                    .kind = ValueKind::Box,
+                                    .help = "the space watched: centre and edges, in the node's coordinates",
+                                    .unit = "m",
+                                    .range = kLengthRange};
+constexpr AttributeSpec kUserTriggerRows[] = {kTriggerSphere, kTriggerBox, kInitStateRow};
+constexpr AttributeSpec kWandTriggerRows[] = {
+    kTriggerSphere,
+    kTriggerBox,
+    kInitStateRow,
+    {.name = "tracker", .kind = ValueKind::Tracker, .help = "the device that is watched", .standard = "wand"},
+};
+
+constexpr EventSpec kUserTriggerEvents[] = {
+    {"enter", "the tracked thing has come into the trigger's space; also if it is there at the start"},
+    {"exit", "the tracked thing has left the trigger's space"}};
+
+constexpr EventSpec kWandTriggerEvents[] = {
+    {"enter", "the tracked thing has come into the trigger's space; also if it is there at the start"},
+    {"exit", "the tracked thing has left the trigger's space"},
+    {"button1", "button 1 was pressed inside the trigger's space"},
+    {"button2", "button 2 was pressed inside the trigger's space"},
+    {"button3", "button 3 was pressed inside the trigger's space"},
+    {"button4", "button 4 was pressed inside the trigger's space"},
+    {"button1up", "button 1, of whose press the trigger told, was let go, wherever the device is then"},
+    {"button2up", "button 2, of whose press the trigger told, was let go, wherever the device is then"},
+    {"button3up", "button 3, of whose press the trigger told, was let go, wherever the device is then"},
+    {"button4up", "button 4, of whose press the trigger told, was let go, wherever the device is then"}};
+
+}  // namespace
+
+constinit const NodeType kUserTriggerType{
+    .name = "usertrigger",
+    .help = "notices the user's head in a part of space",
+    .attributes = kUserTriggerRows,
+    .events = kUserTriggerEvents,
+    .traits = {Trait::Placed, Trait::Switched},
+    .make = makeTrigger,
+    .check = checkTrigger,
+    .lint = lintSender,
+};
+
+constinit const NodeType kWandTriggerType{
+    .name = "wandtrigger",
+    .help = "notices a hand-held device and its buttons in a part of space",
+    .attributes = kWandTriggerRows,
+    .events = kWandTriggerEvents,
+    .traits = {Trait::Placed, Trait::Switched},
+    .make = makeTrigger,
+    .check = checkTrigger,
+    .lint = lintSender,
+};
+
+namespace node_types {
+
+void addTriggerNode(NodeRegistrar& types) {
+  types.add(kUserTriggerType);
+  types.add(kWandTriggerType);
+}
+
+}  // namespace node_types
 
 }  // namespace stadion

@@ -36,11 +36,15 @@ struct Region {
   double crossing(const Vec3& a, const Vec3& b) const;
 };
 
+extern const NodeType kUserTriggerType;
+
+extern const NodeType kWandTriggerType;
+
 class TriggerNode : public PlacedNode {
 public:
-  TriggerNode(NodeKind kind, NodeRef self, std::string name, PlaceAttributes place, const Region& region,
-              std::string tracker, bool on)
-      : PlacedNode(kind, self, std::move(name), std::move(place)), region_(region),
+  TriggerNode(const NodeType& type, NodeRef self, std::string name, PlaceAttributes place,
+              const Region& region, std::string tracker, bool on)
+      : PlacedNode(type, self, std::move(name), std::move(place)), region_(region),
         tracker_(std::move(tracker)), switch_(on) {}
 
   Rank rank() const override { return Rank::Sensing; }

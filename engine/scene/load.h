@@ -47,6 +47,7 @@ struct Load {
   ChunkId chunk = kNoChunk;
   bool chunkShown = false;                       ///< the scene's own
   std::span<const InstanceRecord> chunkRecords;  ///< in published memory, immutable
+  const NodeType* staticType = nullptr;          ///< of its static objects, if there are any
   std::vector<StaticObject> statics;             ///< parallel to chunkRecords, ordered by position
   std::vector<std::pair<std::uint32_t, const std::string*>>
       staticNames;                           ///< position to key in `names`, of those that have one, in order

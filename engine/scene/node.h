@@ -12,7 +12,7 @@
 #include "engine/core/event.h"
 #include "engine/core/frame_probe.h"
 #include "engine/core/message.h"
-#include "engine/core/node_kind.h"
+#include "engine/core/node_type.h"
 #include "engine/core/state_hash.h"
 
 #include <optional>
@@ -57,12 +57,15 @@ struct Notification {
 
 class Node {
 public:
-  Node(NodeKind kind, NodeRef self, std::string name) : kind_(kind), self_(self), name_(std::move(name)) {}
+  /// Expects that the type outlives the node.
+  Node(const NodeType& type, NodeRef self, std::string name)
+      : type_(&type), self_(self), name_(std::move(name)) {}
   virtual ~Node() = default;
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
-  NodeKind kind() const { return kind_; }
+  const NodeType& type() const { return *type_; }
+  NodeKind kind() const { return type_->kind; }
   NodeRef self() const { return self_; }
   const std::string& name() const { return name_; }
   /// The node, if it has a place in the world; else nullptr.
@@ -73,9 +76,9 @@ public:
   struct Standing {
     std::uint64_t hash = 0;  ///< its part of the state hash
     bool busy = false;
-    bool touched = false;   ///< its state has changed since then
-    bool rests = false;     ///< it does not run, to save time (load_control.h), or
-    std::uint8_t pace = 0;  ///< only in one of 2^pace frames
+    bool touched = false;     ///< its state has changed since then
+    bool rests = false;       ///< it does not run, to save time (load_control.h), or
+    std::uint8_t pace = 0;    ///< only in one of 2^pace frames
     std::uint16_t level = 0;  ///< within its rank: it comes after those that it looks at
     Missed missed{};
   };
@@ -145,7 +148,7 @@ private:
 
   void dispatch(FrameContext& frame);
 
-  NodeKind kind_;
+  const NodeType* type_;
   NodeRef self_;
   Standing standing_;
   std::string name_;

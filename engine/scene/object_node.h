@@ -16,8 +16,9 @@ struct Appearance {
 
 class ObjectNode : public PlacedNode {
 public:
-  ObjectNode(NodeKind kind, NodeRef self, std::string name, PlaceAttributes place, Appearance appearance)
-      : PlacedNode(kind, self, std::move(name), std::move(place)), appearance_(std::move(appearance)) {}
+  ObjectNode(const NodeType& type, NodeRef self, std::string name, PlaceAttributes place,
+             Appearance appearance)
+      : PlacedNode(type, self, std::move(name), std::move(place)), appearance_(std::move(appearance)) {}
 
   const Appearance& appearance() const { return appearance_; }
 

@@ -24,8 +24,8 @@ struct PlaceAttributes {
 
 class PlacedNode : public Node {
 public:
-  PlacedNode(NodeKind kind, NodeRef self, std::string name, PlaceAttributes place)
-      : Node(kind, self, std::move(name)), attributes_(std::move(place)) {}
+  PlacedNode(const NodeType& type, NodeRef self, std::string name, PlaceAttributes place)
+      : Node(type, self, std::move(name)), attributes_(std::move(place)) {}
 
   PlacedNode* placed() final { return this; }
   PlacementId placement() const { return placement_; }

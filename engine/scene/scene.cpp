@@ -354,8 +354,7 @@ void Scene::warn(const Node& about, const std::string& what) {
   if (from) where.file = from->file;
   if (from && about.self().position < from->lines.size())
     where.line = from->lines[about.self().position], where.column = 1;
-  const std::string name =
-      about.name().empty() ? std::string(nameOf(about.kind())) : "\"" + about.name() + "\"";
+  const std::string name = about.name().empty() ? std::string(about.type().name) : "\"" + about.name() + "\"";
   loader_.report({Severity::Warning, where, name + " " + what, {}});
 }
 

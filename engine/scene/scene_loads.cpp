@@ -46,7 +46,7 @@ Node& Scene::nodeInsteadOf(Load& load, std::size_t index) {
   appearance.mesh = record.mesh;
   appearance.drawn = (record.flags & InstanceRecord::kShown) != 0;
   load.nodes[object.position] =
-      std::make_unique<ObjectNode>(NodeKind::Object, self, load.nameOf(object), place, appearance);
+      std::make_unique<ObjectNode>(*load.staticType, self, load.nameOf(object), place, appearance);
   load.enterOrder.push_back(object.position);
   staticChanges_.push_back({load.chunk, static_cast<std::uint32_t>(index), true});
   return *load.nodes[object.position];

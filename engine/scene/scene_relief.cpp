@@ -1,5 +1,5 @@
-// What nodes have to do without, because they cost too much. Decided elsewhere (engine/core/load_control.h); here
-// it is obeyed, at the start of the frame whose signature says so.
+// What nodes have to do without, because they cost too much. Decided elsewhere (engine/core/load_control.h);
+// here it is obeyed, at the start of the frame whose signature says so.
 
 #include "engine/scene/object_node.h"
 #include "engine/scene/scene.h"
@@ -11,14 +11,13 @@ namespace stadion {
 namespace {
 
 /// Those that go on from where they stopped step by step: what they have missed is one longer step.
-bool takesSteps(NodeKind kind) {
-  return kind == NodeKind::Dynamics || kind == NodeKind::Collision;
+bool takesSteps(const Node& node) {
+  return node.type().traits.has(Trait::Collides);
 }
 
-/// Those, and what moves things as the time says. What others do in a frame costs little, or somebody looks
-/// at it in every frame.
-bool hasPace(NodeKind kind) {
-  return takesSteps(kind) || kind == NodeKind::Path || kind == NodeKind::Sway;
+/// What others do in a frame costs little, or somebody looks at it in every frame.
+bool hasPace(const Node& node) {
+  return node.type().traits.has(Trait::Degradable);
 }
 
 /// In which of four frames a node has its turn, when it runs in one of so many: spread evenly, also over
@@ -91,7 +90,7 @@ void Scene::relieve(NodeRef ref, const Relief& before, const Relief& now) {
   const Load* l = load(ref.load);
   Node* node = l ? l->nodes[ref.position].get() : nullptr;
   if (!node) return;
-  if (hasPace(node->kind())) node->standing().rests = now.rests, node->standing().pace = now.pace;
+  if (hasPace(*node)) node->standing().rests = now.rests, node->standing().pace = now.pace;
   const PlacedNode* placed = node->placed();
   if (!placed || placed->placement() == kNoPlacement) return;
   if (before.hidden != now.hidden) placements_.setShown(placed->placement(), !now.hidden, Hider::Relief);
@@ -113,7 +112,7 @@ bool Scene::putOff(Node& node) {
   if (!isPutOff(node)) return false;
   Node::Standing& s = node.standing();
   const Node::Missed missed = s.rests ? Node::Missed::Time : Node::Missed::Frames;
-  if (missed <= s.missed || !(s.rests || takesSteps(node.kind()))) return true;
+  if (missed <= s.missed || !(s.rests || takesSteps(node))) return true;
   s.missed = missed;
   paced_.try_emplace(node.self(), Paced{frameStart_, false}).first->second.rests = s.rests;
   return true;

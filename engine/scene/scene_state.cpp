@@ -13,9 +13,6 @@
 
 namespace stadion {
 
-constexpr Verb lastOf(Verb) {
-  return static_cast<Verb>(kVerbCount - 1);
-}
 constexpr Node::Missed lastOf(Node::Missed) {
   return Node::Missed::Time;
 }

@@ -1,6 +1,8 @@
 #include "engine/script/checker.h"
 
-#include "engine/script/choice.h"
+#include "engine/core/shared_rows.h"
+#include "engine/script/attribute_text.h"
+#include "engine/script/declaration_check.h"
 #include "engine/script/file_path.h"
 #include "engine/script/suggestion.h"
 #include "engine/text/text_mesh.h"
@@ -17,26 +19,25 @@ namespace stadion {
 namespace {
 
 constexpr NumberRange kTimeOfKey{0, 1e6};
-constexpr double kShortestPass = 0.001;  // of a looping path, which tells the end of each pass [s]
-constexpr NumberRange kPlace{-1e6, 1e6};
-constexpr NumberRange kTurn{-36000, 36000};
 
-const AttributeSpec* findAttribute(NodeKind kind, std::string_view word) {
-  const auto attr = attrNamed(word);
-  return attr ? specOf(kind, *attr) : nullptr;
+const AttributeSpec* findAttribute(const RegisteredType& type, std::string_view word) {
+  const AttributeSpec* spec = type.find(Attr::of(word));
+  return spec && spec->name == word ? spec : nullptr;
 }
 
-std::string kindsThatHave(Attr attr) {
-  KindSet kinds;
-  for (std::size_t i = 0; i < kNodeKindCount; ++i)
-    if (specOf(static_cast<NodeKind>(i), attr) != nullptr) kinds = kinds | KindSet{static_cast<NodeKind>(i)};
-  return describe(kinds);
+/// The types that have such an attribute; empty if none has.
+std::string typesThatHave(std::string_view word, const NodeRegistry& types) {
+  std::vector<std::string> names;
+  for (const NodeRegistry::Index i : types.byName())
+    if (findAttribute(types[i], word) != nullptr) names.emplace_back(types[i].name());
+  return joinWithOr(names);
 }
 
 /// The numbers of numbers that a value may have.
 bool countIsRight(ValueKind kind, std::size_t count) {
   switch (kind) {
-  case ValueKind::Number: return count == 1;
+  case ValueKind::Number:
+  case ValueKind::Whole: return count == 1;
   case ValueKind::Scale: return count == 1 || count == 3;
   case ValueKind::Sphere: return count == 4;
   case ValueKind::Box: return count == 6;
@@ -54,17 +55,18 @@ struct Element {
 };
 
 Element elementOf(const AttributeSpec& spec, std::size_t i) {
-  const auto part = [&](const char* of) { return fmt::format("{} of {}", of, nameOf(spec.attr)); };
+  const auto part = [&](const char* of) { return fmt::format("{} of {}", of, spec.name); };
   switch (spec.kind) {
   case ValueKind::Sphere:
-    return i < 3 ? Element{part("the centre"), "m", kPlace} : Element{part("the radius"), "m", spec.range};
+    return i < 3 ? Element{part("the centre"), "m", kPlaceRange}
+                 : Element{part("the radius"), "m", spec.range};
   case ValueKind::Box:
-    return i < 3 ? Element{part("the centre"), "m", kPlace} : Element{part("an edge"), "m", spec.range};
+    return i < 3 ? Element{part("the centre"), "m", kPlaceRange} : Element{part("an edge"), "m", spec.range};
   case ValueKind::Key:
     if (i == 0) return {part("the time"), "s", kTimeOfKey};
     return i < 4 ? Element{part("the position"), "m", spec.range}
-                 : Element{part("the orientation"), "degrees", kTurn};
-  default: return {std::string(nameOf(spec.attr)), spec.unit, spec.range};
+                 : Element{part("the orientation"), "degrees", kTurnRange};
+  default: return {std::string(spec.name), spec.unit, spec.range};
   }
 }
 
@@ -77,14 +79,14 @@ std::string demand(const NumberRange& range, double x, std::string_view unit) {
                         : describe(NumberRange{range.least, kNone, range.above}, unit);
 }
 
-/// Why a node of this kind cannot give that up; empty if it can.
-std::string faultOfConcession(NodeKind kind, std::string_view word) {
+/// Why a node of this type cannot give that up; empty if it can.
+std::string faultOfConcession(const RegisteredType& type, const NodeRegistry& types, std::string_view word) {
   const bool drawn = word == "lod" || word == "hide";
-  if ((drawn ? placedKinds() : pacedKinds()).has(kind)) return {};
+  if (drawn ? type.has(Trait::Placed) : kPacedTypes.matches(type.type())) return {};
   if (drawn)
-    return fmt::format("\"{}\" is for what has a place in the world; {} has none", word, nameOf(kind));
+    return fmt::format("\"{}\" is for what has a place in the world; {} has none", word, type.name());
   return fmt::format("\"{}\" is for {}, which run on their own from frame to frame; {} does not", word,
-                     describe(pacedKinds()), nameOf(kind));
+                     describe(types, kPacedTypes), type.name());
 }
 
 bool contains(const NumberRange& range, double x) {
@@ -106,21 +108,28 @@ std::size_t strayComma(std::string_view list) {
 }  // namespace
 
 Checker::Checker(Document& document, Reporter& report)
-    : document_(document), writer_(document), report_(report) {}
+    : document_(document), writer_(document), report_(report) {
+  const auto positionOf = [](std::string_view name) {
+    const auto at = std::ranges::find(kCommonRows, name, &AttributeSpec::name);
+    return static_cast<std::size_t>(at - std::begin(kCommonRows));
+  };
+  priority_ = positionOf("priority"), onOverrun_ = positionOf("onoverrun");
+}
 
 void Checker::take(const RawDeclaration& raw) {
   if (report_.full()) return writer_.setIncomplete();
-  const auto kind = nodeKindNamed(text(raw.type));
-  if (!kind) return takeUnknown(raw);
-  const std::uint32_t node = writer_.beginNode(*kind, raw.type.offset);
+  const auto index = types().find(text(raw.type));
+  if (!index) return takeUnknown(raw);
+  const RegisteredType& type = types()[*index];
+  const std::uint32_t node = writer_.beginNode(*index, raw.type.offset);
   Seen seen;
-  for (const RawAttribute& attribute : raw.attributes) takeAttribute(*kind, attribute, seen);
+  for (const RawAttribute& attribute : raw.attributes) takeAttribute(type, attribute, seen);
   if (!raw.complete) return writer_.setIncomplete();
-  checkRequired(*kind, raw.type, seen);
-  checkVolume(*kind, raw, seen);
-  if (*kind == NodeKind::Path) checkKeyTimes(raw, node);
-  if (*kind == NodeKind::DynObject) checkFlight(raw, node);
-  if (seen[static_cast<std::size_t>(Attr::Priority)] && !seen[static_cast<std::size_t>(Attr::OnOverrun)])
+  checkRequired(type, raw.type, seen);
+  const Declaration declaration = document_[node];
+  DeclarationCheck check(declaration, raw, report_);
+  if (type.type().check != nullptr) type.type().check(check);
+  if (seen[priority_] && !seen[onOverrun_])
     report_.error(raw.type.offset, "priority says who gives something up first, and this node gives up "
                                    "nothing: say onoverrun, or leave priority out");
 }
@@ -129,35 +138,34 @@ void Checker::takeUnknown(const RawDeclaration& raw) {
   if (!raw.complete)
     writer_.setIncomplete();  // its syntax error says more than its type
   else
-    report_.error(raw.type.offset,
-                  fmt::format("\"{}\" is not a node type{}", shortened(text(raw.type)),
-                              didYouMean(text(raw.type), {kNodeKindNames.begin(), kNodeKindNames.end()})));
+    report_.error(raw.type.offset, fmt::format("\"{}\" is not a node type{}", shortened(text(raw.type)),
+                                               didYouMean(text(raw.type), types().names())));
   for (const RawAttribute& attribute : raw.attributes)
-    if (text(attribute.name) == nameOf(Attr::Name) && !report_.full())
+    if (text(attribute.name) == "name" && !report_.full())
       writer_.addLostName(std::string(text(attribute.value)));
 }
 
-void Checker::takeAttribute(NodeKind kind, const RawAttribute& raw, Seen& seen) {
+void Checker::takeAttribute(const RegisteredType& type, const RawAttribute& raw, Seen& seen) {
   if (report_.full()) return;
-  const AttributeSpec* spec = findAttribute(kind, text(raw.name));
-  if (spec == nullptr) return reportUnknown(kind, raw);
-  const auto bit = static_cast<std::size_t>(spec->attr);
+  const AttributeSpec* spec = findAttribute(type, text(raw.name));
+  if (spec == nullptr) return reportUnknown(type, raw);
+  const std::size_t bit = type.positionOf(*spec);
   if (seen[bit] && !spec->repeatable)
-    return report_.error(raw.name.offset, fmt::format("\"{}\" is given twice; {} takes one",
-                                                      nameOf(spec->attr), nameOf(kind)));
+    return report_.error(raw.name.offset,
+                         fmt::format("\"{}\" is given twice; {} takes one", spec->name, type.name()));
   seen[bit] = true;
-  takeValue(kind, *spec, raw.value);
+  takeValue(type, *spec, raw.value);
 }
 
-void Checker::reportUnknown(NodeKind kind, const RawAttribute& raw) {
+void Checker::reportUnknown(const RegisteredType& type, const RawAttribute& raw) {
   if (report_.full()) return;
   const std::string_view word = text(raw.name);
   std::vector<std::string> words;
-  for (const AttributeSpec* spec : attributesOf(kind)) words.emplace_back(nameOf(spec->attr));
-  const auto elsewhere = attrNamed(word);
-  const std::string otherwise = elsewhere ? fmt::format("; it belongs to {}", kindsThatHave(*elsewhere)) : "";
-  report_.error(raw.name.offset, fmt::format("\"{}\" is not an attribute of {}{}", shortened(word),
-                                             nameOf(kind), elsewhere ? otherwise : didYouMean(word, words)));
+  for (const AttributeSpec& spec : type.attributes()) words.emplace_back(spec.name);
+  const std::string elsewhere = typesThatHave(word, types());
+  report_.error(raw.name.offset,
+                fmt::format("\"{}\" is not an attribute of {}{}", shortened(word), type.name(),
+                            elsewhere.empty() ? didYouMean(word, words) : "; it belongs to " + elsewhere));
 }
 
 /// Files may be called anything, and what is written may have any blanks; names and messages are looked at
@@ -169,38 +177,38 @@ bool Checker::reportHidden(const AttributeSpec& spec, TextSpan value) {
   const auto hidden = hiddenCharacter(text(value));
   if (hidden)
     report_.error(value.offset + static_cast<std::uint32_t>(hidden->offset),
-                  fmt::format("{}: {}", nameOf(spec.attr), hidden->message));
+                  fmt::format("{}: {}", spec.name, hidden->message));
   return hidden.has_value();
 }
 
-void Checker::takeValue(NodeKind kind, const AttributeSpec& spec, TextSpan value) {
+void Checker::takeValue(const RegisteredType& type, const AttributeSpec& spec, TextSpan value) {
   if (reportHidden(spec, value)) return;
   switch (spec.kind) {
   case ValueKind::Flag: return takeFlag(spec, value);
   case ValueKind::Choice: return takeChoice(spec, value);
-  case ValueKind::Choices: return takeChoices(kind, spec, value);
+  case ValueKind::Choices: return takeChoices(type, spec, value);
   case ValueKind::NewName:
   case ValueKind::Tracker:
   case ValueKind::Reference: return takeWord(spec, value);
   case ValueKind::File: return takeFile(spec, value);
   case ValueKind::Words: return takeWords(spec, value);
   case ValueKind::Coefficients: return takeCoefficients(spec, value);
-  case ValueKind::EventMessage: return takeMessage(kind, value);
+  case ValueKind::EventMessage: return takeMessage(type, value);
   default: return takeNumbers(spec, value);
   }
 }
 
 void Checker::takeNumbers(const AttributeSpec& spec, TextSpan value) {
   NumberList numbers;
-  const std::string name(nameOf(spec.attr));
+  const std::string name(spec.name);
   if (const auto failure = readNumbers(text(value), numbers, name, formOf(spec)))
     return report_.error(value.offset + static_cast<std::uint32_t>(failure->offset), failure->message);
   if (!countIsRight(spec.kind, numbers.count)) return reportCount(spec, value, numbers.count);
   if (!numbersInRange(spec, value, numbers) || !momentsArePossible(spec, value, numbers)) return;
   if (spec.kind == ValueKind::Distances) return takeDistances(spec, value, numbers);
-  if (spec.attr == Attr::Levels && numbers.value[0] != std::floor(numbers.value[0]))
+  if (spec.kind == ValueKind::Whole && numbers.value[0] != std::floor(numbers.value[0]))
     return report_.error(value.offset,
-                         fmt::format("levels must be a whole number, not {}", numbers.value[0]));
+                         fmt::format("{} must be a whole number, not {}", spec.name, numbers.value[0]));
   if (spec.kind == ValueKind::Scale && numbers.count == 1)
     numbers.value[1] = numbers.value[2] = numbers.value[0];
   const std::size_t stored = spec.kind == ValueKind::Scale ? 3
@@ -213,7 +221,7 @@ void Checker::reportCount(const AttributeSpec& spec, TextSpan value, std::size_t
   std::string found = count == 0 ? "empty" : fmt::format("{} number{}", count, count == 1 ? "" : "s");
   if (spec.kind == ValueKind::Number && text(value).find(',') != std::string_view::npos)
     found += "; the decimal sign is \".\"";
-  report_.error(value.offset, fmt::format("{} must be {}, not {}", nameOf(spec.attr), formOf(spec), found));
+  report_.error(value.offset, fmt::format("{} must be {}, not {}", spec.name, formOf(spec), found));
 }
 
 bool Checker::numbersInRange(const AttributeSpec& spec, TextSpan value, const NumberList& numbers) {
@@ -228,7 +236,7 @@ bool Checker::numbersInRange(const AttributeSpec& spec, TextSpan value, const Nu
     return false;
   }
   if (spec.kind == ValueKind::Direction && allZero) {
-    report_.error(value.offset, fmt::format("{} must not be zero", nameOf(spec.attr)));
+    report_.error(value.offset, fmt::format("{} must not be zero", spec.name));
     return false;
   }
   return true;
@@ -244,7 +252,7 @@ bool Checker::momentsArePossible(const AttributeSpec& spec, TextSpan value, cons
     report_.error(value.offset + static_cast<std::uint32_t>(numbers.offset[i]),
                   fmt::format("{}: no body has such moments: each is at most the sum of the other two, but "
                               "{} is more than {} + {}",
-                              nameOf(spec.attr), one, next, last));
+                              spec.name, one, next, last));
     return false;
   }
   return true;
@@ -254,7 +262,7 @@ void Checker::takeFlag(const AttributeSpec& spec, TextSpan value) {
   if (const auto flag = readFlag(text(value)))
     return writer_.addIndex(spec.attr, spec.kind, value.offset, *flag ? 1 : 0);
   report_.error(value.offset,
-                fmt::format("{} must be on or off, not \"{}\"", nameOf(spec.attr), shortened(text(value))));
+                fmt::format("{} must be on or off, not \"{}\"", spec.name, shortened(text(value))));
 }
 
 void Checker::takeChoice(const AttributeSpec& spec, TextSpan value) {
@@ -262,12 +270,12 @@ void Checker::takeChoice(const AttributeSpec& spec, TextSpan value) {
   if (found != spec.choices.end())
     return writer_.addIndex(spec.attr, spec.kind, value.offset,
                             static_cast<std::uint32_t>(found - spec.choices.begin()));
-  report_.error(value.offset, fmt::format("{} must be {}, not \"{}\"", nameOf(spec.attr), formOf(spec),
-                                          shortened(text(value))));
+  report_.error(value.offset,
+                fmt::format("{} must be {}, not \"{}\"", spec.name, formOf(spec), shortened(text(value))));
 }
 
 /// Words between commas or blanks.
-void Checker::takeChoices(NodeKind kind, const AttributeSpec& spec, TextSpan value) {
+void Checker::takeChoices(const RegisteredType& type, const AttributeSpec& spec, TextSpan value) {
   constexpr std::string_view kBetween = ", \t\r\n";
   const std::string_view all = text(value);
   std::vector<std::string_view> words;
@@ -277,30 +285,29 @@ void Checker::takeChoices(NodeKind kind, const AttributeSpec& spec, TextSpan val
     const auto where = value.offset + static_cast<std::uint32_t>(at);
     const std::vector<std::string> known(spec.choices.begin(), spec.choices.end());
     if (std::ranges::find(spec.choices, word) == spec.choices.end())
-      return report_.error(where, fmt::format("{} must be {}, not \"{}\"{}", nameOf(spec.attr), formOf(spec),
+      return report_.error(where, fmt::format("{} must be {}, not \"{}\"{}", spec.name, formOf(spec),
                                               shortened(word), didYouMean(word, known)));
     if (std::ranges::find(words, word) != words.end())
-      return report_.error(where, fmt::format("{}: \"{}\" is given twice", nameOf(spec.attr), word));
-    if (const std::string why = faultOfConcession(kind, word); !why.empty())
-      return report_.error(where, fmt::format("{}: {}", nameOf(spec.attr), why));
+      return report_.error(where, fmt::format("{}: \"{}\" is given twice", spec.name, word));
+    if (const std::string why = faultOfConcession(type, types(), word); !why.empty())
+      return report_.error(where, fmt::format("{}: {}", spec.name, why));
     words.push_back(word);
     at += word.size();
   }
   if (words.empty())
-    return report_.error(value.offset,
-                         fmt::format("{} must be {}, not empty", nameOf(spec.attr), formOf(spec)));
+    return report_.error(value.offset, fmt::format("{} must be {}, not empty", spec.name, formOf(spec)));
   if (const std::size_t comma = strayComma(all); comma != all.npos)
     return report_.error(value.offset + static_cast<std::uint32_t>(comma),
-                         fmt::format("{}: a word is missing beside this comma", nameOf(spec.attr)));
+                         fmt::format("{}: a word is missing beside this comma", spec.name));
   writer_.addText(spec.attr, spec.kind, value);
 }
 
 void Checker::takeDistances(const AttributeSpec& spec, TextSpan value, const NumberList& numbers) {
   for (std::size_t i = 1; i < numbers.count; ++i)
     if (!(numbers.value[i] > numbers.value[i - 1]))
-      return report_.error(value.offset + static_cast<std::uint32_t>(numbers.offset[i]),
-                           fmt::format("{} must grow, but {} follows {}", nameOf(spec.attr), numbers.value[i],
-                                       numbers.value[i - 1]));
+      return report_.error(
+          value.offset + static_cast<std::uint32_t>(numbers.offset[i]),
+          fmt::format("{} must grow, but {} follows {}", spec.name, numbers.value[i], numbers.value[i - 1]));
   std::array<double, 8> stored{static_cast<double>(numbers.count)};
   std::copy_n(numbers.value.begin(), numbers.count, stored.begin() + 1);
   writer_.addNumbers(spec.attr, spec.kind, value.offset, std::span(stored).first(numbers.count + 1));
@@ -308,14 +315,12 @@ void Checker::takeDistances(const AttributeSpec& spec, TextSpan value, const Num
 
 void Checker::takeWord(const AttributeSpec& spec, TextSpan value) {
   if (value.length == 0)
-    return report_.error(value.offset,
-                         fmt::format("{} must be {}, not empty", nameOf(spec.attr), formOf(spec)));
+    return report_.error(value.offset, fmt::format("{} must be {}, not empty", spec.name, formOf(spec)));
   const bool reference = spec.kind == ValueKind::Reference;
   if (const auto fault = reference ? faultOfReference(text(value)) : faultOfName(text(value))) {
     if (spec.kind == ValueKind::NewName) writer_.addLostName(unicode::withoutHidden(text(value)));
-    return report_.error(
-        value.offset + static_cast<std::uint32_t>(fault->offset),
-        fmt::format("{}: \"{}\" {}", nameOf(spec.attr), shortened(text(value)), fault->message));
+    return report_.error(value.offset + static_cast<std::uint32_t>(fault->offset),
+                         fmt::format("{}: \"{}\" {}", spec.name, shortened(text(value)), fault->message));
   }
   if (reference)
     writer_.addReference(spec.attr, value);
@@ -327,7 +332,7 @@ void Checker::takeWord(const AttributeSpec& spec, TextSpan value) {
 
 void Checker::takeWords(const AttributeSpec& spec, TextSpan value) {
   if (value.length > kLongestWords)
-    return report_.error(value.offset, fmt::format("{} may have {} bytes at most, not {}", nameOf(spec.attr),
+    return report_.error(value.offset, fmt::format("{} may have {} bytes at most, not {}", spec.name,
                                                    kLongestWords, value.length));
   writer_.addText(spec.attr, spec.kind, value);
 }
@@ -337,7 +342,7 @@ void Checker::takeCoefficients(const AttributeSpec& spec, TextSpan value) {
   const bool letter = value.length > 0 && std::isalpha(static_cast<unsigned char>(text(value).front()));
   if (letter && !faultOfName(text(value))) return writer_.addText(spec.attr, spec.kind, value);
   NumberList numbers;
-  const std::string name(nameOf(spec.attr));
+  const std::string name(spec.name);
   if (const auto failure = readNumbers(text(value), numbers, name, formOf(spec)))
     return report_.error(value.offset + static_cast<std::uint32_t>(failure->offset), failure->message);
   if (numbers.count == 0)
@@ -345,83 +350,27 @@ void Checker::takeCoefficients(const AttributeSpec& spec, TextSpan value) {
   writer_.addText(spec.attr, spec.kind, value);
 }
 
-/// What only one way of flight has a use for.
-void Checker::checkFlight(const RawDeclaration& raw, std::uint32_t node) {
-  using enum FlightWord;
-  const Declaration d = document_[node];
-  const auto flight = d.choice<FlightWord>(Attr::Flight);
-  const auto report = [&](Attr attr, std::string why) {
-    const auto at = std::ranges::find_if(raw.attributes,
-                                         [&](const RawAttribute& a) { return text(a.name) == nameOf(attr); });
-    report_.error(at == raw.attributes.end() ? raw.type.offset : at->value.offset, std::move(why));
-  };
-  struct Use {
-    Attr attr;
-    std::initializer_list<FlightWord> of;
-    const char* words;
-  };
-  for (const Use& use : {Use{Attr::Coefficients, {Rod, Plate, Ball}, "rod, plate or ball"},
-                         Use{Attr::FlightTable, {Table}, "table"}, Use{Attr::Bias, {Bias}, "bias"},
-                         Use{Attr::BiasRate, {Bias}, "bias"}, Use{Attr::Axes, {Bias}, "bias"}})
-    if (d.has(use.attr) && std::ranges::find(use.of, flight) == use.of.end())
-      report(use.attr, fmt::format("{} is for flight={}, not for flight={}", nameOf(use.attr), use.words,
-                                   d.text(Attr::Flight)));
-  if (d.has(Attr::Depth) && !d.has(Attr::Sticks))
-    report(Attr::Depth, "depth is how far in it sticks; it needs sticks: within which angle it does");
-  if (flight == Table && !d.has(Attr::FlightTable))
-    report(Attr::Flight, "flight=table needs a flighttable: the file of its coefficients");
-  const double rate = d.optionalNumber(Attr::BiasRate).value_or(0);
-  if (rate > 1 && d.optionalChoice<BiasWord>(Attr::Bias) == BiasWord::Paper)
-    report(Attr::BiasRate,
-           fmt::format("with bias=paper, biasrate is a share of the angle, at most 1, not {}", rate));
-}
-
 void Checker::takeFile(const AttributeSpec& spec, TextSpan value) {
   if (value.length == 0)
-    return report_.error(value.offset, fmt::format("{} must be a file name, not empty", nameOf(spec.attr)));
+    return report_.error(value.offset, fmt::format("{} must be a file name, not empty", spec.name));
   if (const auto fault = faultOfPath(text(value)))
     return report_.error(value.offset, fmt::format("\"{}\" {}", shortened(text(value)), *fault));
   writer_.addText(spec.attr, spec.kind, value);
 }
 
-void Checker::takeMessage(NodeKind kind, TextSpan value) {
+void Checker::takeMessage(const RegisteredType& type, TextSpan value) {
   ReadMessage message;
-  const std::vector<ValueError> faults = readEventMessage(text(value), kind, message);
+  const std::vector<ValueError> faults = readEventMessage(text(value), type, types(), message);
   for (const ValueError& fault : faults)
     report_.error(value.offset + static_cast<std::uint32_t>(fault.offset), fault.message);
   if (faults.empty()) writer_.addMessage(value, message);
 }
 
-void Checker::checkRequired(NodeKind kind, TextSpan type, const Seen& seen) {
-  for (const AttributeSpec& spec : specOf(kind).own)
-    if (spec.required && !seen[static_cast<std::size_t>(spec.attr)])
-      report_.error(type.offset, fmt::format("{} has no \"{}\", which it must have: {}", nameOf(kind),
-                                             nameOf(spec.attr), spec.help));
-}
-
-void Checker::checkVolume(NodeKind kind, const RawDeclaration& raw, const Seen& seen) {
-  const bool medium = kind == NodeKind::Medium;  // without a volume it is everywhere
-  if (!medium && kind != NodeKind::UserTrigger && kind != NodeKind::WandTrigger) return;
-  const bool sphere = seen[static_cast<std::size_t>(Attr::Sphere)];
-  const bool box = seen[static_cast<std::size_t>(Attr::Box)];
-  if (sphere != box || (medium && !sphere)) return;
-  report_.error(raw.type.offset, fmt::format("{} needs {} \"sphere\" or \"box\"{}", nameOf(kind),
-                                             sphere ? "either" : "a", sphere ? ", not both" : ""));
-}
-
-void Checker::checkKeyTimes(const RawDeclaration& raw, std::uint32_t node) {
-  const auto keys = document_[node].keys();
-  std::vector<std::uint32_t> places;
-  for (const RawAttribute& attribute : raw.attributes)
-    if (text(attribute.name) == nameOf(Attr::Key)) places.push_back(attribute.value.offset);
-  if (places.size() != keys.size()) return;  // a key was wrong by itself
-  for (std::size_t i = 1; i < keys.size(); ++i)
-    if (!(keys[i].time > keys[i - 1].time))
-      return report_.error(places[i], fmt::format("the times of keys must increase, but {} follows {}",
-                                                  keys[i].time, keys[i - 1].time));
-  if (!keys.empty() && keys.back().time > 0 && keys.back().time < kShortestPass &&
-      document_[node].flag(Attr::Loop))
-    report_.error(places.back(), fmt::format("a path that loops must last at least {} s", kShortestPass));
+void Checker::checkRequired(const RegisteredType& type, TextSpan where, const Seen& seen) {
+  for (const AttributeSpec& spec : type.attributes())
+    if (spec.required && !seen[type.positionOf(spec)])
+      report_.error(where.offset, fmt::format("{} has no \"{}\", which it must have: {}", type.name(),
+                                              spec.name, spec.help));
 }
 
 void Checker::finish() {
@@ -430,17 +379,17 @@ void Checker::finish() {
     const auto name = document_[again].name();
     report_.error(static_cast<std::uint32_t>(name.data() - document_.source().text().data()),
                   fmt::format("the name \"{}\" is already taken by the {} in line {}", shortened(name),
-                              nameOf(before.kind()), before.line()));
+                              before.type().name(), before.line()));
   });
-  std::array<std::uint32_t, kNodeKindCount> firstOf;
-  firstOf.fill(NodeReference::kNone);
+  std::vector<std::uint32_t> firstOf(types().size(), NodeReference::kNone);
   for (const Declaration node : document_) {
-    auto& first = firstOf[static_cast<std::size_t>(node.kind())];
+    if (!node.is(Trait::Single)) continue;
+    auto& first = firstOf[*types().find(node.type().name())];
     if (first == NodeReference::kNone) {
       first = node.index();
-    } else if (specOf(node.kind()).single) {
+    } else {
       report_.error(writer_.offsetOf(node.index()),
-                    fmt::format("a script has at most one {}; the first is in line {}", nameOf(node.kind()),
+                    fmt::format("a script has at most one {}; the first is in line {}", node.type().name(),
                                 document_[first].line()));
     }
   }

@@ -25,8 +25,8 @@ Vec3 vec3From(const double* numbers) {
 // --- Declaration
 // -----------------------------------------------------------------------------------------------
 
-NodeKind Declaration::kind() const {
-  return document_->nodes_[index_].kind;
+const RegisteredType& Declaration::type() const {
+  return (*document_->types_)[document_->nodes_[index_].type];
 }
 
 std::string_view Declaration::name() const {
@@ -47,7 +47,7 @@ bool Declaration::has(Attr attr) const {
 
 std::uint32_t Declaration::offset(Attr attr) const {
   const auto& node = document_->nodes_[index_];
-  if (attr == Attr::Name && node.nameLength > 0) return node.name;
+  if (attr == "name" && node.nameLength > 0) return node.name;
   const auto* value = document_->find(index_, attr);
   return value != nullptr ? value->where : node.where;
 }
@@ -61,7 +61,7 @@ std::string Declaration::excerpt(Attr attr) const {
 
 std::optional<double> Declaration::optionalNumber(Attr attr) const {
   if (const auto* value = document_->find(index_, attr)) return document_->numbers_[value->data];
-  const AttributeSpec* spec = specOf(kind(), attr);
+  const AttributeSpec* spec = type().find(attr);
   if (spec == nullptr || spec->standard.empty()) return std::nullopt;
   return standardNumbers(*spec).value[0];
 }
@@ -74,7 +74,7 @@ double Declaration::number(Attr attr) const {
 
 Vec3 Declaration::vec3(Attr attr) const {
   if (const auto* value = document_->find(index_, attr)) return vec3From(&document_->numbers_[value->data]);
-  const AttributeSpec* spec = specOf(kind(), attr);
+  const AttributeSpec* spec = type().find(attr);
   assert(spec != nullptr && !spec->standard.empty());
   if (spec == nullptr) return Vec3::Zero();
   const NumberList numbers = standardNumbers(*spec);
@@ -83,21 +83,21 @@ Vec3 Declaration::vec3(Attr attr) const {
 
 bool Declaration::flag(Attr attr) const {
   if (const auto* value = document_->find(index_, attr)) return value->data != 0;
-  const AttributeSpec* spec = specOf(kind(), attr);
+  const AttributeSpec* spec = type().find(attr);
   assert(spec != nullptr && spec->kind == ValueKind::Flag);
   return spec != nullptr && readFlag(spec->standard).value_or(false);
 }
 
 std::optional<std::size_t> Declaration::choiceIndex(Attr attr) const {
   if (const auto* value = document_->find(index_, attr)) return value->data;
-  const AttributeSpec* spec = specOf(kind(), attr);
+  const AttributeSpec* spec = type().find(attr);
   if (spec == nullptr || spec->standard.empty()) return std::nullopt;
   const auto found = std::find(spec->choices.begin(), spec->choices.end(), spec->standard);
   return static_cast<std::size_t>(found - spec->choices.begin());
 }
 
 std::vector<std::size_t> Declaration::choiceIndices(Attr attr) const {
-  const AttributeSpec* spec = specOf(kind(), attr);
+  const AttributeSpec* spec = type().find(attr);
   std::vector<std::size_t> indices;
   if (spec == nullptr) return indices;
   std::string words(text(attr));
@@ -120,11 +120,11 @@ std::vector<double> Declaration::distances(Attr attr) const {
 }
 
 std::string_view Declaration::text(Attr attr) const {
-  if (attr == Attr::Name) return name();
-  const AttributeSpec* spec = specOf(kind(), attr);
+  if (attr == "name") return name();
+  const AttributeSpec* spec = type().find(attr);
   const auto* value = document_->find(index_, attr);
   if (spec == nullptr || value == nullptr) return spec != nullptr ? spec->standard : std::string_view{};
-  if (value->kind == ValueKind::Choice) return spec->choices[value->data];
+  if (value->kind() == ValueKind::Choice) return spec->choices[value->data];
   return document_->source_.slice(value->where, value->data);
 }
 
@@ -151,14 +151,14 @@ std::optional<NodeReference> Declaration::reference(Attr attr) const {
 std::vector<NodeReference> Declaration::references(Attr attr) const {
   std::vector<NodeReference> result;
   for (const auto& value : document_->valuesOf(index_))
-    if (value.attr == attr) result.push_back(document_->referenceAt(value.data));
+    if (value.attr() == attr) result.push_back(document_->referenceAt(value.data));
   return result;
 }
 
 std::vector<PathKey> Declaration::keys() const {
   std::vector<PathKey> result;
   for (const auto& value : document_->valuesOf(index_)) {
-    if (value.attr != Attr::Key) continue;
+    if (value.attr() != "key") continue;
     const double* numbers = &document_->numbers_[value.data];
     result.push_back({numbers[0], vec3From(numbers + 1), vec3From(numbers + 4)});
   }
@@ -168,7 +168,7 @@ std::vector<PathKey> Declaration::keys() const {
 std::vector<EventMessage> Declaration::eventMessages() const {
   std::vector<EventMessage> result;
   for (const auto& value : document_->valuesOf(index_))
-    if (value.attr == Attr::EventMessage) result.push_back(document_->messageAt(value.data));
+    if (value.attr() == "eventmessage") result.push_back(document_->messageAt(value.data));
   return result;
 }
 
@@ -183,7 +183,7 @@ std::span<const Document::Value> Document::valuesOf(std::uint32_t node) const {
 
 const Document::Value* Document::find(std::uint32_t node, Attr attr) const {
   for (const Value& value : valuesOf(node))
-    if (value.attr == attr) return &value;
+    if (value.attr() == attr) return &value;
   return nullptr;
 }
 

@@ -2,25 +2,23 @@
 /// One script, checked: its declarations with typed values, each knowing where it was written.
 ///
 ///   Diagnostics findings;
-///   auto document = parseScript(std::move(source), findings);       // script.h
+///   auto document = parseScript(std::move(source), types, findings);       // script.h
 ///   resolveNames(document, surroundings, findings);
-///   for (const Declaration node : document) if (node.kind() == NodeKind::DynObject)
-///   node.number(Attr::Density);
+///   for (const Declaration node : document) if (node.kind() == "dynobject")
+///   node.number("density");
 ///
-/// Units    those of the schema: metres, seconds, kilograms, degrees.
-/// Ownership the document owns its text and values; Declarations and string views borrow from it and stay
-/// valid
+/// Units    those of the node types: metres, seconds, kilograms, degrees.
+/// Ownership the document owns its text and values and borrows the registry; Declarations and string views
+/// borrow from it and stay valid
 ///          when it is moved as a whole only if taken after the move.
-/// Errors   accessors expect an attribute that the schema gives to this kind of node and that is stated or
+/// Errors   accessors expect an attribute that this type of node has and that is stated or
 /// has
 ///          a standard value; broken values were reported by the checker and are absent here.
 /// Threads  constant once names are resolved.
 
-#include "engine/core/node_kind.h"
+#include "engine/core/node_registry.h"
 #include "engine/maths/maths.h"
-#include "engine/script/attribute.h"
 #include "engine/script/event_message.h"
-#include "engine/script/schema.h"
 #include "engine/script/source_text.h"
 
 #include <array>
@@ -49,10 +47,13 @@ public:
 
   const Document& document() const { return *document_; }
   std::uint32_t index() const { return index_; }  ///< position in the file's order, from 0
-  NodeKind kind() const;
-  std::string_view name() const;  ///< empty if it has none
-  SourcePosition where() const;   ///< of the type word
-  std::uint32_t line() const;     ///< cheaper than where()
+  const RegisteredType& type() const;
+  NodeKind kind() const { return type().type().kind; }
+  bool is(Trait trait) const { return type().has(trait); }
+  bool takes(Attr attr) const { return type().find(attr) != nullptr; }  ///< its type has this attribute
+  std::string_view name() const;                                        ///< empty if it has none
+  SourcePosition where() const;                                         ///< of the type word
+  std::uint32_t line() const;                                           ///< cheaper than where()
 
   /// Offset in the text of the first value of this attribute, of the type word if it is not stated.
   std::uint32_t offset(Attr attr) const;
@@ -67,7 +68,7 @@ public:
   bool flag(Attr attr) const;
   std::string_view
   text(Attr attr) const;  ///< NewName, Tracker, File, Words, and the word of a Choice; empty if neither
-  /// The position of the word among the schema's choices, as an enumeration of choice.h.
+  /// The position of the word among the attribute's choices, as an enumeration in the same order.
   template <class E>
   E choice(Attr attr) const {
     return static_cast<E>(choiceIndex(attr).value());
@@ -105,6 +106,7 @@ private:
 class Document {
 public:
   const SourceText& source() const { return source_; }
+  const NodeRegistry& types() const { return *types_; }
   const std::string& file() const { return source_.file(); }
   std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
   Declaration operator[](std::uint32_t index) const { return {*this, index}; }
@@ -145,7 +147,7 @@ private:
     std::uint32_t firstValue;  // into values_, up to the next node's
     std::uint32_t name;        // offset of the name
     std::uint16_t nameLength;  // 0: none
-    NodeKind kind;
+    NodeRegistry::Index type;
   };
 
   struct Value {
@@ -153,8 +155,11 @@ private:
     // numbers: index of the first in numbers_; text: length; flag and choice: the value itself;
     // references: index in references_; event messages: index in messages_
     std::uint32_t data;
-    Attr attr;
-    ValueKind kind;
+    std::uint32_t attrId : 24;
+    std::uint32_t kindId : 8;
+
+    Attr attr() const { return Attr::numbered(attrId); }
+    ValueKind kind() const { return static_cast<ValueKind>(kindId); }
   };
 
   struct StoredReference {
@@ -179,7 +184,7 @@ private:
     AttachPart part;
   };
 
-  explicit Document(SourceText source) : source_(std::move(source)) {}
+  Document(SourceText source, const NodeRegistry& types) : source_(std::move(source)), types_(&types) {}
 
   std::span<const Value> valuesOf(std::uint32_t node) const;
   const Value* find(std::uint32_t node, Attr attr) const;
@@ -187,6 +192,7 @@ private:
   EventMessage messageAt(std::uint32_t index) const;
 
   SourceText source_;
+  const NodeRegistry* types_;
   std::vector<Node> nodes_;
   std::vector<Value> values_;
   std::vector<double> numbers_;

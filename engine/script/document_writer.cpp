@@ -4,9 +4,14 @@
 
 namespace stadion {
 
-std::uint32_t DocumentWriter::beginNode(NodeKind kind, std::uint32_t where) {
-  document_.nodes_.push_back({where, static_cast<std::uint32_t>(document_.values_.size()), 0, 0, kind});
+std::uint32_t DocumentWriter::beginNode(NodeRegistry::Index type, std::uint32_t where) {
+  document_.nodes_.push_back({where, static_cast<std::uint32_t>(document_.values_.size()), 0, 0, type});
   return document_.size() - 1;
+}
+
+void DocumentWriter::add(Attr attr, ValueKind kind, std::uint32_t where, std::size_t data) {
+  document_.values_.push_back(
+      {where, static_cast<std::uint32_t>(data), attr.id(), static_cast<std::uint32_t>(kind)});
 }
 
 void DocumentWriter::setName(TextSpan name) {
@@ -16,16 +21,16 @@ void DocumentWriter::setName(TextSpan name) {
 
 void DocumentWriter::addNumbers(Attr attr, ValueKind kind, std::uint32_t where,
                                 std::span<const double> numbers) {
-  document_.values_.push_back({where, static_cast<std::uint32_t>(document_.numbers_.size()), attr, kind});
+  add(attr, kind, where, document_.numbers_.size());
   document_.numbers_.insert(document_.numbers_.end(), numbers.begin(), numbers.end());
 }
 
 void DocumentWriter::addIndex(Attr attr, ValueKind kind, std::uint32_t where, std::uint32_t index) {
-  document_.values_.push_back({where, index, attr, kind});
+  add(attr, kind, where, index);
 }
 
 void DocumentWriter::addText(Attr attr, ValueKind kind, TextSpan text) {
-  document_.values_.push_back({text.offset, text.length, attr, kind});
+  add(attr, kind, text.offset, text.length);
 }
 
 std::uint32_t DocumentWriter::storeReference(TextSpan name) {
@@ -34,7 +39,7 @@ std::uint32_t DocumentWriter::storeReference(TextSpan name) {
 }
 
 void DocumentWriter::addReference(Attr attr, TextSpan name) {
-  document_.values_.push_back({name.offset, storeReference(name), attr, ValueKind::Reference});
+  add(attr, ValueKind::Reference, name.offset, storeReference(name));
 }
 
 void DocumentWriter::addMessage(TextSpan value, const ReadMessage& read) {
@@ -54,10 +59,9 @@ void DocumentWriter::addMessage(TextSpan value, const ReadMessage& read) {
   message.words = at(read.words).offset;
   message.wordsLength = at(read.words).length;
   message.event = read.event;
-  message.verb = read.verb;
+  message.verb = read.verb->verb;
   message.part = read.part;
-  document_.values_.push_back({value.offset, static_cast<std::uint32_t>(document_.messages_.size()),
-                               Attr::EventMessage, ValueKind::EventMessage});
+  add("eventmessage", ValueKind::EventMessage, value.offset, document_.messages_.size());
   document_.messages_.push_back(message);
 }
 
@@ -102,13 +106,13 @@ void DocumentWriter::store(std::uint32_t reference, Resolution resolution) {
 
 void DocumentWriter::resolveReferences(std::uint32_t node, const Visit& visit) {
   for (const Document::Value& value : document_.valuesOf(node)) {
-    if (value.kind == ValueKind::Reference) {
-      store(value.data, visit(value.attr, document_.referenceAt(value.data), nullptr));
-    } else if (value.kind == ValueKind::EventMessage) {
+    if (value.kind() == ValueKind::Reference) {
+      store(value.data, visit(value.attr(), document_.referenceAt(value.data), nullptr));
+    } else if (value.kind() == ValueKind::EventMessage) {
       const EventMessage message = document_.messageAt(value.data);
       const Document::StoredMessage& stored = document_.messages_[value.data];
-      store(stored.target, visit(Attr::EventMessage, message.target, &message));
-      if (stored.field != Document::kNone) store(stored.field, visit(Attr::Hook, message.field, &message));
+      store(stored.target, visit("eventmessage", message.target, &message));
+      if (stored.field != Document::kNone) store(stored.field, visit("hook", message.field, &message));
     }
   }
 }

@@ -11,9 +11,9 @@ class DocumentWriter {
 public:
   /// Expects that `document` outlives the writer.
   explicit DocumentWriter(Document& document) : document_(document) {}
-  static Document empty(SourceText source) { return Document(std::move(source)); }
+  static Document empty(SourceText source, const NodeRegistry& types) { return {std::move(source), types}; }
 
-  std::uint32_t beginNode(NodeKind kind, std::uint32_t where);
+  std::uint32_t beginNode(NodeRegistry::Index type, std::uint32_t where);
   void setName(TextSpan name);
   void addNumbers(Attr attr, ValueKind kind, std::uint32_t where, std::span<const double> numbers);
   void addIndex(Attr attr, ValueKind kind, std::uint32_t where, std::uint32_t index);  ///< flag, choice
@@ -33,7 +33,7 @@ public:
   void finish(const std::function<void(std::uint32_t first, std::uint32_t again)>& duplicate);
 
   /// Visits every reference of a node once: `visit(attr, reference)`; for eventmessages the target and the
-  /// field come with Attr::EventMessage and Attr::Hook, and with the message. What `visit` returns is stored.
+  /// field come as "eventmessage" and "hook", and with the message. What `visit` returns is stored.
   struct Resolution {
     std::uint32_t declaration = NodeReference::kNone;
     std::uint32_t level = 0;
@@ -43,6 +43,7 @@ public:
   void resolveReferences(std::uint32_t node, const Visit& visit);
 
 private:
+  void add(Attr attr, ValueKind kind, std::uint32_t where, std::size_t data);
   std::uint32_t storeReference(TextSpan name);
   void store(std::uint32_t reference, Resolution resolution);
 

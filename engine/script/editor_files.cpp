@@ -1,8 +1,8 @@
+#include "engine/script/attribute_text.h"
 #include "engine/script/reference.h"
-#include "engine/script/schema.h"
 
 #include <algorithm>
-#include <array>
+#include <set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -26,59 +26,71 @@ std::string anyOf(std::vector<std::string> words) {
   return "\\b(" + pattern + ")\\b";
 }
 
-template <std::size_t N>
-std::vector<std::string> wordsOf(const std::array<std::string_view, N>& names) {
-  return {names.begin(), names.end()};
+std::vector<std::string> eventsOf(const NodeRegistry& types) {
+  std::vector<std::string> words;
+  for (const EventSpec* row : types.events()) words.emplace_back(row->event.name());
+  return words;
+}
+
+std::vector<std::string> commandsOf(const NodeRegistry& types) {
+  std::vector<std::string> words;
+  for (const CommandSpec* row : types.commands()) words.emplace_back(row->name);
+  return words;
+}
+
+std::vector<std::string> attributesOf(const NodeRegistry& types) {
+  std::set<std::string> words;
+  for (const NodeRegistry::Index i : types.byName())
+    for (const AttributeSpec& row : types[i].attributes()) words.emplace(row.name);
+  return {words.begin(), words.end()};
 }
 
 Json match(const char* scope, const std::string& pattern) {
   return {{"name", scope}, {"match", pattern}};
 }
 
-Json attributeEntry(const AttributeSpec& spec) {
-  Json entry = {{"name", nameOf(spec.attr)}, {"help", spec.help}, {"form", formOf(spec)}};
+Json attributeEntry(const AttributeSpec& spec, const NodeRegistry& types) {
+  Json entry = {{"name", spec.name}, {"help", spec.help}, {"form", formOf(spec)}};
   if (!spec.unit.empty()) entry["unit"] = spec.unit;
   if (!spec.standard.empty()) entry["standard"] = spec.standard;
   if (spec.required) entry["required"] = true;
   if (spec.repeatable) entry["repeatable"] = true;
   for (const std::string_view word : spec.choices) entry["values"].push_back(word);
   if (spec.kind == ValueKind::Flag) entry["values"] = {"on", "off"};
-  for (std::size_t i = 0; i < kNodeKindCount; ++i)
-    if (spec.targets.has(static_cast<NodeKind>(i))) entry["nodes"].push_back(kNodeKindNames[i]);
+  for (const NodeRegistry::Index i : types.byName())
+    if (spec.targets.matches(types[i].type())) entry["nodes"].push_back(types[i].name());
   return entry;
 }
 
 /// "dynobject( name=${1:name}, file=${2:file} )": the name and what is required.
-std::string snippetOf(NodeKind kind) {
-  std::string snippet = fmt::format("{}( name=${{1:name}}", nameOf(kind));
+std::string snippetOf(const RegisteredType& node) {
+  std::string snippet = fmt::format("{}( name=${{1:name}}", node.name());
   int stop = 2;
-  for (const AttributeSpec* spec : attributesOf(kind))
-    if (spec->required)
-      snippet += fmt::format(", {}=\"${{{}:{}}}\"", nameOf(spec->attr), stop++, nameOf(spec->attr));
+  for (const AttributeSpec& spec : node.attributes())
+    if (spec.required) snippet += fmt::format(", {}=\"${{{}:{}}}\"", spec.name, stop++, spec.name);
   return snippet + " )$0";
 }
 
-Json nodeEntry(const NodeSpec& node) {
-  Json entry = {{"name", nameOf(node.kind)}, {"help", node.help}, {"snippet", snippetOf(node.kind)}};
-  for (const AttributeSpec* spec : attributesOf(node.kind))
-    entry["attributes"].push_back(attributeEntry(*spec));
+Json nodeEntry(const RegisteredType& node, const NodeRegistry& types) {
+  Json entry = {{"name", node.name()}, {"help", node.type().help}, {"snippet", snippetOf(node)}};
+  for (const AttributeSpec& spec : node.attributes())
+    entry["attributes"].push_back(attributeEntry(spec, types));
   entry["events"] = Json::array();
-  for (const Event event : node.events) entry["events"].push_back(nameOf(event));
+  for (const EventSpec& row : node.type().events) entry["events"].push_back(row.event.name());
   entry["commands"] = Json::array();
-  for (std::size_t i = 0; i < kVerbCount; ++i)
-    if (specOf(static_cast<Verb>(i)).receivers.has(node.kind)) entry["commands"].push_back(kVerbNames[i]);
+  for (const CommandSpec& command : node.commands()) entry["commands"].push_back(command.name);
   return entry;
 }
 
 }  // namespace
 
-std::string editorGrammar() {
+std::string editorGrammar(const NodeRegistry& types) {
   const Json quoted = {{"name", "string.quoted.evs"},
                        {"begin", kQuotes},
                        {"end", fmt::format("{}|$", kQuotes)},
                        {"patterns",
-                        {match("entity.name.function.event.evs", anyOf(wordsOf(kEventNames))),
-                         match("support.function.command.evs", anyOf(wordsOf(kVerbNames))),
+                        {match("entity.name.function.event.evs", anyOf(eventsOf(types))),
+                         match("support.function.command.evs", anyOf(commandsOf(types))),
                          match("constant.numeric.evs", "[-+]?[0-9]*\\.?[0-9]+([eE][-+]?[0-9]+)?")}}};
   const Json grammar = {
       {"name", "EVS world description"},
@@ -86,26 +98,20 @@ std::string editorGrammar() {
       {"fileTypes", {"evs"}},
       {"patterns",
        {match("comment.line.number-sign.evs", "#.*$"), quoted,
-        match("entity.name.type.node.evs", anyOf(wordsOf(kNodeKindNames)) + "(?=\\s*\\()"),
-        match("variable.parameter.attribute.evs", anyOf(wordsOf(kAttrNames)) + "(?=\\s*=)"),
+        match("entity.name.type.node.evs", anyOf(types.names()) + "(?=\\s*\\()"),
+        match("variable.parameter.attribute.evs", anyOf(attributesOf(types)) + "(?=\\s*=)"),
         match("constant.language.evs", "\\b(on|off|true|false)\\b"),
         match("constant.numeric.evs", "(?<==)\\s*[-+]?[0-9]*\\.?[0-9]+([eE][-+]?[0-9]+)?")}}};
   return grammar.dump(2) + "\n";
 }
 
-std::string editorCompletion() {
+std::string editorCompletion(const NodeRegistry& types) {
   Json list;
-  for (std::size_t i = 0; i < kNodeKindCount; ++i)
-    list["nodes"].push_back(nodeEntry(specOf(static_cast<NodeKind>(i))));
-  for (std::size_t i = 0; i < kEventCount; ++i) {
-    const EventSpec& event = specOf(static_cast<Event>(i));
-    list["events"].push_back({{"name", nameOf(event.event)}, {"help", event.help}});
-  }
-  for (std::size_t i = 0; i < kVerbCount; ++i) {
-    const CommandSpec& command = specOf(static_cast<Verb>(i));
-    list["commands"].push_back(
-        {{"name", nameOf(command.verb)}, {"form", command.form}, {"help", command.help}});
-  }
+  for (const NodeRegistry::Index i : types.byName()) list["nodes"].push_back(nodeEntry(types[i], types));
+  for (const EventSpec* row : types.events())
+    list["events"].push_back({{"name", row->event.name()}, {"help", row->help}});
+  for (const CommandSpec* row : types.commands())
+    list["commands"].push_back({{"name", row->name}, {"form", row->form}, {"help", row->help}});
   return list.dump(2) + "\n";
 }
 

@@ -1,7 +1,7 @@
 #include "engine/script/event_message_reader.h"
 
 #include "engine/base/diagnostic.h"
-#include "engine/script/schema.h"
+#include "engine/script/attribute_text.h"
 #include "engine/script/suggestion.h"
 #include "engine/text/text_mesh.h"
 #include "engine/unicode/characters.h"
@@ -17,9 +17,15 @@ constexpr std::size_t kLongestName = 255;
 
 using Failure = std::optional<ValueError>;
 
-std::vector<std::string> namesOf(std::span<const Event> events) {
+std::vector<std::string> namesOf(std::span<const EventSpec> events) {
   std::vector<std::string> words;
-  for (const Event event : events) words.emplace_back(nameOf(event));
+  for (const EventSpec& row : events) words.emplace_back(row.event.name());
+  return words;
+}
+
+std::vector<std::string> namesOfCommands(const NodeRegistry& types) {
+  std::vector<std::string> words;
+  for (const CommandSpec* command : types.commands()) words.emplace_back(command->name);
   return words;
 }
 
@@ -49,22 +55,22 @@ Failure hiddenIn(const Piece& piece) {
   return fault;
 }
 
-Failure readEvent(const Piece& piece, NodeKind sender, ReadMessage& message) {
+Failure readEvent(const Piece& piece, const RegisteredType& sender, const NodeRegistry& types,
+                  ReadMessage& message) {
   if (auto hidden = hiddenIn(piece)) return hidden;
-  const auto events = specOf(sender).events;
-  if (events.empty()) return ValueError{piece.offset, fmt::format("{} posts no events", nameOf(sender))};
-  const auto event = eventNamed(piece.text);
-  for (const Event own : events) {
-    if (event != own) continue;
-    message.event = own;
+  const auto events = sender.type().events;
+  if (events.empty()) return ValueError{piece.offset, fmt::format("{} posts no events", sender.name())};
+  for (const EventSpec& own : events) {
+    if (own.event.name() != piece.text) continue;
+    message.event = own.event;
     return std::nullopt;
   }
   const std::string ours = joinWithOr(namesOf(events));
-  if (event)
+  if (types.isEvent(piece.text))
     return ValueError{piece.offset,
-                      fmt::format("{} posts no \"{}\", only {}", nameOf(sender), piece.text, ours)};
+                      fmt::format("{} posts no \"{}\", only {}", sender.name(), piece.text, ours)};
   return ValueError{piece.offset,
-                    fmt::format("\"{}\" is not an event of {}{}", shortened(piece.text), nameOf(sender),
+                    fmt::format("\"{}\" is not an event of {}{}", shortened(piece.text), sender.name(),
                                 didYouMean(piece.text, namesOf(events), "; it posts " + ours))};
 }
 
@@ -93,7 +99,7 @@ Failure readField(std::string_view& rest, std::size_t& offset, ReadMessage& mess
   if (name.empty())
     return ValueError{
         message.field.offset,
-        fmt::format("\"{}\" must be followed by the name of a force field", nameOf(message.verb))};
+        fmt::format("\"{}\" must be followed by the name of a force field", message.verb->name)};
   return named(message.field, faultOfReference(name));
 }
 
@@ -101,12 +107,12 @@ Failure readWords(std::string_view& rest, std::size_t& offset, ReadMessage& mess
   message.words = takeUntil('\0', rest, offset);  // the whole rest
   if (message.words.text.size() <= kLongestWords) return std::nullopt;
   return ValueError{message.words.offset,
-                    fmt::format("\"{}\" takes {} bytes at most, not {}", nameOf(message.verb), kLongestWords,
+                    fmt::format("\"{}\" takes {} bytes at most, not {}", message.verb->name, kLongestWords,
                                 message.words.text.size())};
 }
 
 Failure readArguments(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
-  switch (specOf(message.verb).argument) {
+  switch (message.verb->argument) {
   case ArgumentKind::None: return std::nullopt;
   case ArgumentKind::Field: return readField(rest, offset, message);
   case ArgumentKind::Tracker: return readTracker(rest, offset, message);
@@ -118,23 +124,21 @@ Failure readArguments(std::string_view& rest, std::size_t& offset, ReadMessage& 
   return std::nullopt;
 }
 
-Failure readCommand(const Piece& piece, ReadMessage& message) {
+Failure readCommand(const Piece& piece, const NodeRegistry& types, ReadMessage& message) {
   std::string_view rest = piece.text;
   std::size_t offset = piece.offset;
   const Piece word = takeWord(rest, offset);
   if (auto hidden = hiddenIn(word)) return hidden;
-  const auto verb = verbNamed(word.text);
-  if (!verb)
-    return ValueError{word.offset,
-                      fmt::format("\"{}\" is not a command{}", shortened(word.text),
-                                  didYouMean(word.text, {kVerbNames.begin(), kVerbNames.end()}))};
-  message.verb = *verb;
+  message.verb = types.command(word.text);
+  if (message.verb == nullptr)
+    return ValueError{word.offset, fmt::format("\"{}\" is not a command{}", shortened(word.text),
+                                               didYouMean(word.text, namesOfCommands(types)))};
   if (auto failure = readArguments(rest, offset, message)) return failure;
   const Piece extra = takeWord(rest, offset);
   if (auto hidden = hiddenIn(extra)) return hidden;
   if (!extra.text.empty())
     return ValueError{extra.offset, fmt::format("\"{}\" is too much: the command is \"{}\"",
-                                                shortened(extra.text), specOf(*verb).form)};
+                                                shortened(extra.text), message.verb->form)};
   return std::nullopt;
 }
 
@@ -213,7 +217,8 @@ Failure missing(std::size_t offset, const char* what) {
 
 }  // namespace
 
-std::vector<ValueError> readEventMessage(std::string_view text, NodeKind sender, ReadMessage& message) {
+std::vector<ValueError> readEventMessage(std::string_view text, const RegisteredType& sender,
+                                         const NodeRegistry& types, ReadMessage& message) {
   std::vector<ValueError> faults;
   const auto note = [&](Failure failure) {
     if (failure) faults.push_back(std::move(*failure));
@@ -221,7 +226,7 @@ std::vector<ValueError> readEventMessage(std::string_view text, NodeKind sender,
   std::string_view rest = text;
   std::size_t offset = 0;
   const Piece event = takeUntil(',', rest, offset);
-  note(event.text.empty() ? missing(0, "event") : readEvent(event, sender, message));
+  note(event.text.empty() ? missing(0, "event") : readEvent(event, sender, types, message));
   message.target = takeUntil(',', rest, offset);
   if (message.target.text.empty()) {
     note(missing(message.target.offset, "target"));
@@ -234,14 +239,14 @@ std::vector<ValueError> readEventMessage(std::string_view text, NodeKind sender,
     note(missing(message.command.offset, "command"));
     return faults;
   }
-  note(readCommand(message.command, message));
+  note(readCommand(message.command, types, message));
 
   unsigned seen = 0;
   for (; more; more = text[offset - 1] == ',') {
     const Piece option = takeUntil(',', rest, offset);
     auto failure = readOption(option, seen, message);
     if (!failure) continue;
-    if (faults.empty() && message.verb == Verb::Say)
+    if (faults.empty() && message.verb != nullptr && message.verb->argument == ArgumentKind::Words)
       failure->message += R"(; a comma in words is written "\,")";
     note(std::move(failure));
     break;  // an empty part is a failure, so this ends

@@ -1,7 +1,7 @@
 #pragma once
 /// Reads the text of an eventmessage.
 
-#include "engine/core/node_kind.h"
+#include "engine/core/node_registry.h"
 #include "engine/script/event_message.h"
 #include "engine/script/value.h"
 
@@ -11,8 +11,8 @@ namespace stadion {
 struct ReadMessage {
   Event event{};
   Piece target;
-  Piece command;  ///< with its arguments
-  Verb verb{};
+  Piece command;                      ///< with its arguments
+  const CommandSpec* verb = nullptr;  ///< null: not understood
   AttachPart part = AttachPart::All;
   Piece field;
   Piece tracker;
@@ -20,10 +20,11 @@ struct ReadMessage {
   Nanoseconds delay = 0, latency = 0;
 };
 
-/// "event, target, command [arguments] [, delay]" posted by a node of kind `sender`. After the command come,
-/// in any order, the delay as a bare number and options of the form `word=value`: `delay` and `latency`.
-/// What is wrong with each part; nothing if the message is whole.
-std::vector<ValueError> readEventMessage(std::string_view text, NodeKind sender, ReadMessage& message);
+/// "event, target, command [arguments] [, delay]" posted by a node of the type `sender`. After the command
+/// come, in any order, the delay as a bare number and options of the form `word=value`: `delay` and
+/// `latency`. What is wrong with each part; nothing if the message is whole.
+std::vector<ValueError> readEventMessage(std::string_view text, const RegisteredType& sender,
+                                         const NodeRegistry& types, ReadMessage& message);
 
 /// What is wrong with a word as a name, as the end of a sentence that begins with it, and where in it.
 std::optional<ValueError> faultOfName(std::string_view name);

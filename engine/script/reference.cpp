@@ -1,6 +1,7 @@
 #include "engine/script/reference.h"
 
-#include "engine/script/schema.h"
+#include "engine/core/shared_rows.h"
+#include "engine/script/attribute_text.h"
 
 #include <algorithm>
 
@@ -54,9 +55,9 @@ NumberRange memorable(NumberRange range) {
 }
 
 /// "three numbers "x, y, z" [m], greater than 0; standard 1; may be repeated".
-std::string termsOf(const AttributeSpec& spec) {
+std::string termsOf(const AttributeSpec& spec, const NodeRegistry& types) {
   std::string terms = spec.kind == ValueKind::Reference
-                          ? fmt::format("the name of a node: {}", describe(spec.targets))
+                          ? fmt::format("the name of a node: {}", describe(types, spec.targets))
                           : formOf(spec);
   if (!spec.unit.empty()) terms += fmt::format(" [{}]", spec.unit);
   if (const std::string range = describe(memorable(spec.range), {}); !range.empty())
@@ -67,16 +68,16 @@ std::string termsOf(const AttributeSpec& spec) {
   return terms;
 }
 
-std::string describeAttribute(const AttributeSpec& spec) {
+std::string describeAttribute(const AttributeSpec& spec, const NodeRegistry& types) {
   constexpr std::size_t kIndent = 20;
   const std::string margin(kIndent, ' ');
-  return fmt::format("  {:<17} {}\n{}{}\n", nameOf(spec.attr), wrapped(spec.help, kIndent), margin,
-                     wrapped(termsOf(spec), kIndent));
+  return fmt::format("  {:<17} {}\n{}{}\n", spec.name, wrapped(spec.help, kIndent), margin,
+                     wrapped(termsOf(spec, types), kIndent));
 }
 
-std::string describeAttributes(std::span<const AttributeSpec> specs) {
+std::string describeAttributes(std::span<const AttributeSpec> specs, const NodeRegistry& types) {
   std::string text;
-  for (const AttributeSpec& spec : specs) text += describeAttribute(spec);
+  for (const AttributeSpec& spec : specs) text += describeAttribute(spec, types);
   return text;
 }
 
@@ -84,56 +85,54 @@ std::string describeCommand(const CommandSpec& command) {
   return fmt::format("  {:<42} {}\n", command.form, wrapped(command.help, 45));
 }
 
-/// Events and commands of a kind, and its own attributes.
-std::string describeOwn(const NodeSpec& node) {
-  std::string text = fmt::format("{}: {}\n", nameOf(node.kind), node.help);
-  if (node.single) text += "  at most one in a file\n";
-  return text + describeAttributes(node.own);
+/// What a type is, and its own attributes.
+std::string describeOwn(const RegisteredType& node, const NodeRegistry& types) {
+  std::string text = fmt::format("{}: {}\n", node.name(), node.type().help);
+  if (node.has(Trait::Single)) text += "  at most one in a file\n";
+  return text + describeAttributes(node.type().attributes, types);
 }
 
-std::string describeEvents(const NodeSpec& node) {
+std::string describeEvents(const RegisteredType& node) {
   std::string text;
-  for (const Event event : node.events)
-    text += fmt::format("  {:<17} {}\n", nameOf(event), wrapped(specOf(event).help, 20));
+  for (const EventSpec& row : node.type().events)
+    text += fmt::format("  {:<17} {}\n", row.event.name(), wrapped(row.help, 20));
   return text;
 }
 
-std::string wordsOfCommands(NodeKind kind) {
+std::string wordsOfCommands(const RegisteredType& node) {
   std::string text;
-  for (std::size_t i = 0; i < kVerbCount; ++i)
-    if (specOf(static_cast<Verb>(i)).receivers.has(kind))
-      text += fmt::format("{}{}", text.empty() ? "" : ", ", kVerbNames[i]);
+  for (const CommandSpec& command : node.commands())
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", command.name);
   return text;
 }
 
 }  // namespace
 
-std::string languageReference(NodeKind kind) {
-  const NodeSpec& node = specOf(kind);
-  std::string text = describeOwn(node);
-  if (node.placed) text.append("\n as every placed node\n").append(describeAttributes(placedAttributes()));
-  text.append("\n as every node\n").append(describeAttributes(commonAttributes()));
-  if (!node.events.empty()) text.append("\n events\n").append(describeEvents(node));
+std::string languageReference(const NodeRegistry& types, const RegisteredType& node) {
+  std::string text = describeOwn(node, types);
+  if (node.has(Trait::Placed))
+    text.append("\n as every placed node\n").append(describeAttributes(kPlacedRows, types));
+  text.append("\n as every node\n").append(describeAttributes(kCommonRows, types));
+  if (!node.type().events.empty()) text.append("\n events\n").append(describeEvents(node));
   text += "\n commands\n";
-  for (std::size_t i = 0; i < kVerbCount; ++i)
-    if (const CommandSpec& command = specOf(static_cast<Verb>(i)); command.receivers.has(kind))
-      text += describeCommand(command);
+  for (const CommandSpec& command : node.commands()) text += describeCommand(command);
   return text;
 }
 
-std::string languageReference() {
+std::string languageReference(const NodeRegistry& types) {
   std::string text(kPreface);
-  text.append("\nEvery node\n").append(describeAttributes(commonAttributes()));
-  text += fmt::format("\n{}\n", wrapped(fmt::format("Every placed node: {}", describe(placedKinds())), 0));
-  text += describeAttributes(placedAttributes());
-  for (std::size_t i = 0; i < kNodeKindCount; ++i) {
-    const NodeSpec& node = specOf(static_cast<NodeKind>(i));
-    text.append("\n").append(describeOwn(node));
-    if (!node.events.empty()) text.append(" events\n").append(describeEvents(node));
-    text += fmt::format(" commands: {}\n", wordsOfCommands(node.kind));
+  text.append("\nEvery node\n").append(describeAttributes(kCommonRows, types));
+  text += fmt::format("\n{}\n",
+                      wrapped(fmt::format("Every placed node: {}", describe(types, {{Trait::Placed}})), 0));
+  text += describeAttributes(kPlacedRows, types);
+  for (const NodeRegistry::Index i : types.byName()) {
+    const RegisteredType& node = types[i];
+    text.append("\n").append(describeOwn(node, types));
+    if (!node.type().events.empty()) text.append(" events\n").append(describeEvents(node));
+    text += fmt::format(" commands: {}\n", wordsOfCommands(node));
   }
   text += "\nCommands\n";
-  for (std::size_t i = 0; i < kVerbCount; ++i) text += describeCommand(specOf(static_cast<Verb>(i)));
+  for (const CommandSpec* command : types.commands()) text += describeCommand(*command);
   return text;
 }
 

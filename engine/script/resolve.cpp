@@ -1,3 +1,5 @@
+#include "engine/core/shared_rows.h"
+#include "engine/script/attribute_text.h"
 #include "engine/script/document_writer.h"
 #include "engine/script/reporter.h"
 #include "engine/script/script.h"
@@ -18,14 +20,13 @@ constexpr std::size_t kMostSuggestions = 20;
 std::string withArticle(const std::string& words) {
   return fmt::format("{} {}", words.starts_with('o') ? "an" : "a", words);
 }
-std::string withArticle(NodeKind kind) {
-  return withArticle(std::string(nameOf(kind)));
+std::string withArticle(const RegisteredType& type) {
+  return withArticle(std::string(type.name()));
 }
 
-std::string commandsOf(NodeKind kind) {
+std::string commandsOf(const RegisteredType& type) {
   std::vector<std::string> words;
-  for (std::size_t i = 0; i < kVerbCount; ++i)
-    if (specOf(static_cast<Verb>(i)).receivers.has(kind)) words.emplace_back(kVerbNames[i]);
+  for (const CommandSpec& command : type.commands()) words.emplace_back(command.name);
   return joinWithOr(words);
 }
 
@@ -67,7 +68,7 @@ private:
     }
     const Declaration target = documentAt(found.level)[found.declaration];
     const auto final = enter(target, reference);
-    if (final && !mayUse(user, attr, reference, final->kind(), message)) return {};
+    if (final && !mayUse(user, attr, reference, final->type(), message)) return {};
     return found;
   }
 
@@ -75,9 +76,9 @@ private:
   std::optional<Declaration> enter(Declaration node, const NodeReference& reference) {
     std::string_view rest = reference.inner();
     while (!rest.empty()) {
-      if (node.kind() != NodeKind::Scene) {
+      if (!node.is(Trait::Encloses)) {
         report_.error(reference.where, fmt::format("\"{}\": \"{}\" is {}, and only a scene has nodes inside",
-                                                   reference.name, node.name(), withArticle(node.kind())));
+                                                   reference.name, node.name(), withArticle(node.type())));
         return std::nullopt;
       }
       const Document* inside = surroundings_.subScene ? surroundings_.subScene(node) : nullptr;
@@ -94,21 +95,24 @@ private:
     return node;
   }
 
-  bool mayUse(const Declaration& user, Attr attr, const NodeReference& reference, NodeKind kind,
+  bool mayUse(const Declaration& user, Attr attr, const NodeReference& reference, const RegisteredType& type,
               const EventMessage* message) {
-    const bool field = attr == Attr::Hook && message != nullptr;  // the argument of a hook or unhook command
+    const NodeRegistry& types = document_.types();
+    const bool field = attr == "hook" && message != nullptr;  // the argument of a hook or unhook command
+    const auto commandName = [&] { return types.command(message->verb)->name; };
     if (message != nullptr && !field) {
-      if (specOf(message->verb).receivers.has(kind)) return true;
+      if (type.takes(message->verb)) return true;
       report_.error(message->command,
                     fmt::format("\"{}\" is {}, which does not take \"{}\"; it takes {}", reference.name,
-                                withArticle(kind), nameOf(message->verb), commandsOf(kind)));
+                                withArticle(type), commandName(), commandsOf(type)));
       return false;
     }
-    const KindSet allowed = field ? fieldKinds() : specOf(user.kind(), attr)->targets;
-    if (allowed.has(kind)) return true;
+    const AttributeSpec* spec = field ? nullptr : user.type().find(attr);
+    const NodeFilter& allowed = field ? kFieldTypes : spec->targets;
+    if (allowed.matches(type.type())) return true;
     report_.error(reference.where,
-                  fmt::format("\"{}\" is {}; {} takes the name of {}", reference.name, withArticle(kind),
-                              field ? nameOf(message->verb) : nameOf(attr), withArticle(describe(allowed))));
+                  fmt::format("\"{}\" is {}; {} takes the name of {}", reference.name, withArticle(type),
+                              field ? commandName() : spec->name, withArticle(describe(types, allowed))));
     return false;
   }
 
@@ -139,7 +143,7 @@ private:
 
   /// The parent in this file, or kNone.
   std::uint32_t parentOf(std::uint32_t node) const {
-    const auto parent = document_[node].reference(Attr::Parent);
+    const auto parent = document_[node].reference("parent");
     const bool here = parent && parent->resolved() && parent->level == 0 && parent->inner().empty();
     return here ? parent->declaration : NodeReference::kNone;
   }
@@ -168,17 +172,17 @@ private:
       chain += fmt::format(" is below \"{}\", which", document_[next].name());
     chain += fmt::format(" is below {}",
                          names == kMostNames ? "others" : fmt::format("\"{}\"", document_[first].name()));
-    report_.error(document_[first].reference(Attr::Parent)->where, "parents form a circle: " + chain);
+    report_.error(document_[first].reference("parent")->where, "parents form a circle: " + chain);
   }
 
   void checkOwners() {
     std::unordered_map<std::string_view, std::uint32_t> ownerOf;
     for (const Declaration node : document_) {
-      const bool dynamics = node.kind() == NodeKind::Dynamics;
-      if (!dynamics && node.kind() != NodeKind::Collision) continue;
+      if (!node.is(Trait::Collides)) continue;
+      const bool dynamics = node.is(Trait::OwnsBodies);
       std::unordered_set<std::string_view> colliders;
-      for (const NodeReference& collider : node.references(Attr::Collider)) colliders.insert(collider.name);
-      for (const NodeReference& body : node.references(Attr::Collidee)) {
+      for (const NodeReference& collider : node.references("collider")) colliders.insert(collider.name);
+      for (const NodeReference& body : node.references("collidee")) {
         if (colliders.contains(body.name))
           report_.error(body.where,
                         fmt::format("\"{}\" is collider of this node as well; it would collide with "

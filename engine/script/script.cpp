@@ -7,8 +7,8 @@
 
 namespace stadion {
 
-Document parseScript(SourceText source, Diagnostics& findings) {
-  Document document = DocumentWriter::empty(std::move(source));
+Document parseScript(SourceText source, const NodeRegistry& types, Diagnostics& findings) {
+  Document document = DocumentWriter::empty(std::move(source), types);
   Reporter report(document.source(), findings);
   Checker checker(document, report);
   parseSyntax(
@@ -22,9 +22,9 @@ Document parseScript(SourceText source, Diagnostics& findings) {
   return document;
 }
 
-Document checkScript(SourceText source, Diagnostics& findings) {
+Document checkScript(SourceText source, const NodeRegistry& types, Diagnostics& findings) {
   Diagnostics found;
-  Document document = parseScript(std::move(source), found);
+  Document document = parseScript(std::move(source), types, found);
   resolveNames(document, {}, found);
   findings.append(sorted(found));
   return document;

@@ -3,7 +3,7 @@
 /// names that may lead into other files.
 ///
 ///   auto source = SourceText::read(path);                          // Result<SourceText>
-///   Document document = parseScript(std::move(source.value()), findings);
+///   Document document = parseScript(std::move(source.value()), types, findings);
 ///   resolveNames(document, {enclosing files, sub-scene files}, findings);
 ///   if (findings.hasErrors()) ...                                  // build nothing
 ///
@@ -19,7 +19,8 @@
 namespace stadion {
 
 /// Syntax, types and values of one file, and rules within one declaration.
-Document parseScript(SourceText source, Diagnostics& findings);
+/// The document borrows `types`, the node types that the file may use.
+Document parseScript(SourceText source, const NodeRegistry& types, Diagnostics& findings);
 
 /// The files around one file.
 struct Surroundings {
@@ -36,7 +37,7 @@ struct Surroundings {
 void resolveNames(Document& document, const Surroundings& surroundings, Diagnostics& findings);
 
 /// Both steps for a script that stands alone; findings are in the order of the lines.
-Document checkScript(SourceText source, Diagnostics& findings);
+Document checkScript(SourceText source, const NodeRegistry& types, Diagnostics& findings);
 
 /// File by file in the order of their first finding, in each by line and column.
 Diagnostics sorted(const Diagnostics& findings);

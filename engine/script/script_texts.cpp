@@ -17,14 +17,14 @@ std::uint64_t hashOf(const SourceText& source) {
 }
 
 /// The files of a script's scene nodes.
-std::vector<std::string> partsNamedIn(const Result<SourceText>& source) {
+std::vector<std::string> partsNamedIn(const Result<SourceText>& source, const NodeRegistry& types) {
   // Most large scripts hold nothing but objects; they need not be parsed for this.
   if (!source || source.value().text().find("scene") == std::string_view::npos) return {};
   Diagnostics ignored;  // told when it is checked or loaded
-  const Document document = parseScript(SourceText(source.value()), ignored);
+  const Document document = parseScript(SourceText(source.value()), types, ignored);
   std::vector<std::string> names;
   for (const Declaration d : document)
-    if (d.kind() == NodeKind::Scene && !d.text(Attr::File).empty()) names.emplace_back(d.text(Attr::File));
+    if (d.is(Trait::Encloses) && !d.text("file").empty()) names.emplace_back(d.text("file"));
   return names;
 }
 
@@ -38,9 +38,10 @@ Result<SourceText> ScriptTexts::readPart(const std::string& name, const AssetRoo
   return SourceText::make(found.value().path, bytes.value());
 }
 
-std::shared_ptr<const ScriptTexts> ScriptTexts::read(const std::string& script, const AssetRoots& roots) {
+std::shared_ptr<const ScriptTexts> ScriptTexts::read(const std::string& script, const AssetRoots& roots,
+                                                     const NodeRegistry& types) {
   std::shared_ptr<ScriptTexts> texts(new ScriptTexts(SourceText::read(script)));
-  std::vector<std::string> open = partsNamedIn(texts->show_);
+  std::vector<std::string> open = partsNamedIn(texts->show_, types);
   while (!open.empty()) {
     const std::string name = std::move(open.back());
     open.pop_back();
@@ -48,7 +49,7 @@ std::shared_ptr<const ScriptTexts> ScriptTexts::read(const std::string& script, 
     const auto at =
         texts->parts_.emplace(name, Part{std::make_shared<const Result<SourceText>>(readPart(name, roots))})
             .first;
-    for (std::string& inner : partsNamedIn(*at->second.text)) open.push_back(std::move(inner));
+    for (std::string& inner : partsNamedIn(*at->second.text, types)) open.push_back(std::move(inner));
   }
   return texts;
 }

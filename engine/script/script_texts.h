@@ -2,7 +2,7 @@
 /// The texts of a show's scripts, as they were when they were read: the show's own file and every sub-scene
 /// below it.
 ///
-///   const auto texts = ScriptTexts::read("scripts/olympia.evs", roots);
+///   const auto texts = ScriptTexts::read("scripts/olympia.evs", roots, types);
 ///   texts->show();                          // Result<SourceText>
 ///   texts->part("olympia/game_ball.evs");   // as a scene node names its file
 ///
@@ -23,10 +23,12 @@
 namespace stadion {
 
 class AssetRoots;
+class NodeRegistry;
 
 class ScriptTexts {
 public:
-  static std::shared_ptr<const ScriptTexts> read(const std::string& script, const AssetRoots& roots);
+  static std::shared_ptr<const ScriptTexts> read(const std::string& script, const AssetRoots& roots,
+                                                 const NodeRegistry& types);
   /// One file that a scene node names, as it is on disk now. Errors say where it was looked for.
   static Result<SourceText> readPart(const std::string& name, const AssetRoots& roots);
 

@@ -174,8 +174,8 @@ Diagnostic Loader::askedForBy(const Job& job, Diagnostic d) const {
   const auto outer = around_.find(job.owner.load);
   if (outer == around_.end()) return d;
   const Declaration scene = (*outer->second.document)[job.owner.position];
-  d.where = scene.where(Attr::File);
-  d.excerpt = scene.excerpt(Attr::File);
+  d.where = scene.where("file");
+  d.excerpt = scene.excerpt("file");
   return d;
 }
 
@@ -185,7 +185,7 @@ std::unique_ptr<Load> Loader::prepare(const Job& job) {
   if (auto source = read(job)) {
     StateHash script;
     script.add(source.value().text());
-    load = build(job, std::make_unique<Document>(parseScript(std::move(source.value()), findings)), findings);
+    load = build(job, std::make_unique<Document>(parseScript(std::move(source.value()), parts_.types, findings)), findings);
     if (load) load->script = script.value();
   } else {
     findings.add(source.error());
@@ -223,7 +223,7 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
                          job.owner,
                          job.X_WO,
                          numbers,
-                         parts_.factories,
+                         parts_.services,
                          [&](const Declaration& d) { return imports.of(d, *this, findings); },
                          parts_.meshes,
                          [&](const Declaration& d) { return soundLength(d, findings); }};
@@ -240,7 +240,7 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
     load->chunkRecords = parts_.arena.find(load->chunk, 0).records;
   }
   for (const Declaration d : *document)
-    if (d.kind() == NodeKind::Scene) {
+    if (d.is(Trait::Encloses)) {
       around_[job.number] = {job.owner.load, std::move(document)};
       break;
     }
@@ -249,9 +249,9 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
 
 // A hundred thousand objects with the same file: one import, and one word about it.
 MeshId Loader::Imports::of(const Declaration& d, Loader& loader, Diagnostics& findings) {
-  const auto up = d.optionalChoice<UpAxis>(Attr::Up);
-  const Key key(d.text(Attr::File), d.optionalNumber(Attr::Unit).value_or(0), up ? static_cast<int>(*up) : -1,
-                d.number(Attr::Levels));
+  const auto up = d.optionalChoice<UpAxis>("up");
+  const Key key(d.text("file"), d.optionalNumber("unit").value_or(0), up ? static_cast<int>(*up) : -1,
+                d.number("levels"));
   const auto [at, isNew] = known.try_emplace(key, kNoMesh);
   if (isNew) counted.push_back(at->second = loader.importMesh(d, findings));
   return at->second;
@@ -269,15 +269,15 @@ std::optional<ImportedMeshes::Key> Loader::keyOf(const std::string& file, const 
 
 MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {
   ImportOptions options;
-  options.unit = d.optionalNumber(Attr::Unit);
-  options.up = d.optionalChoice<UpAxis>(Attr::Up);
-  const std::string file(d.text(Attr::File));
-  const auto levels = static_cast<std::uint32_t>(d.number(Attr::Levels));
+  options.unit = d.optionalNumber("unit");
+  options.up = d.optionalChoice<UpAxis>("up");
+  const std::string file(d.text("file"));
+  const auto levels = static_cast<std::uint32_t>(d.number("levels"));
   const auto key = keyOf(file, options, levels);
   if (const MeshId known = key ? parts_.kept->find(*key) : kNoMesh; known != kNoMesh) return known;
   Diagnostics notes;
   if (stopped()) throw RunStopped();
-  auto mesh = parts_.importer.load(file, options, d.where(Attr::File), &notes);
+  auto mesh = parts_.importer.load(file, options, d.where("file"), &notes);
   if (stopped()) throw RunStopped();
   findings.append(notes);
   if (mesh) {
@@ -287,7 +287,7 @@ MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {
     return id;
   }
   Diagnostic missing = mesh.error();
-  missing.excerpt = d.excerpt(Attr::File);
+  missing.excerpt = d.excerpt("file");
   missing.severity = Severity::Warning;
   missing.message += "; a stand-in is shown in its place";
   findings.add(missing);
@@ -296,14 +296,14 @@ MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {
 
 Nanoseconds Loader::soundLength(const Declaration& d, Diagnostics& findings) {
   const auto read = [&]() -> Result<SoundInfo> {
-    auto found = parts_.roots.open(std::string(d.text(Attr::File)));
+    auto found = parts_.roots.open(std::string(d.text("file")));
     if (!found) return found.error();
     return readSoundInfo(found.value().file.get(), found.value().path);
   };
   const auto info = read();
   if (info) return info.value().length();
   Diagnostic missing = info.error();
-  missing.where = d.where(Attr::File), missing.excerpt = d.excerpt(Attr::File);
+  missing.where = d.where("file"), missing.excerpt = d.excerpt("file");
   missing.severity = Severity::Warning;
   missing.message += "; a second of silence stands in for it";
   findings.add(missing);

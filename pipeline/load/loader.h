@@ -37,7 +37,8 @@ struct LoaderParts {
   ChunkArena& arena;
   Importer& importer;
   const AssetRoots& roots;
-  const NodeFactories& factories;
+  const NodeRegistry& types;
+  NodeServices& services;  ///< of this show
   std::function<void(const Diagnostics&)> report;
   const std::atomic<bool>* stop = nullptr;  ///< once true, nobody waits for a load any more
   Nanoseconds step = 0;                 ///< of a frame, to warn of latencies that are shorter [ns]; 0: do not

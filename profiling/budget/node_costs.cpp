@@ -1,7 +1,6 @@
 #include "profiling/budget/node_costs.h"
 
 #include "engine/scene/object_node.h"
-#include "engine/script/schema.h"
 
 #include <algorithm>
 #include <optional>
@@ -19,7 +18,7 @@ constexpr std::uint64_t kAwaited = 128;
 }  // namespace
 
 bool mayBeDrawn(const Node* node) {
-  return !node || placedKinds().has(node->kind()) || node->kind() == NodeKind::Sky;
+  return !node || node->type().traits.meets({Trait::Placed, Trait::Drawn});
 }
 
 std::pair<std::vector<GovernedNode>, std::map<NodeRef, std::vector<std::size_t>>>
@@ -49,7 +48,7 @@ bool hasLevels(const Scene& scene) {
     if (!node) return;
     const auto* object = dynamic_cast<const ObjectNode*>(node);
     const Mesh* mesh = object ? scene.mesh(object->appearance().mesh) : nullptr;
-    any |= node->kind() == NodeKind::Lod || (mesh && !mesh->levels.empty());
+    any |= node->kind() == "lod" || (mesh && !mesh->levels.empty());
   };
   scene.forEachLoad([&](const Load& load) {
     for (const auto& node : load.nodes) look(node.get());

@@ -33,10 +33,10 @@ NodeNames::File NodeNames::read(const Scene& scene, const Load& load) {
   for (std::uint32_t i = 0; i < file.nodes.size(); ++i) {
     NodeName& n = file.nodes[i];
     n.file = load.file, n.line = load.lines[i];
-    if (load.nodes[i]) n.kind = load.nodes[i]->kind();
+    if (load.nodes[i]) n.type = load.nodes[i]->type().name;
     n.parent = scene.parentOf({load.number, i});
     if (const auto terms = load.terms.find(i); terms != load.terms.end()) n.budget = terms->second.budget;
-    if (n.path.empty()) n.path = std::string(nameOf(n.kind)) + ":" + std::to_string(n.line);
+    if (n.path.empty()) n.path = std::string(n.type) + ":" + std::to_string(n.line);
   }
   return file;
 }

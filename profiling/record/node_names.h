@@ -5,7 +5,6 @@
 ///
 /// Threads  see() on the App thread; names may be asked for by another thread at the same time.
 
-#include "engine/core/node_kind.h"
 #include "engine/scene/scene.h"
 
 #include <map>
@@ -13,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stadion {
@@ -21,7 +21,7 @@ struct NodeName {
   std::string path;  ///< "arena/ball": names of scene nodes, then its own; "object:17" if it has none
   std::string file;
   std::uint32_t line = 0;
-  NodeKind kind = NodeKind::Object;
+  std::string_view type = "object";  ///< the name of its node type
   NodeRef parent;     ///< what it is placed below, in a sub-scene at least the scene node; invalid = World
   double budget = 0;  ///< [ms]; 0 = none
   bool unloaded = false;

@@ -230,7 +230,7 @@ private:
       json j{{"path", n.name.path}};
       if (n.parent != i) j["parent"] = n.parent;
       if (!n.name.file.empty()) j["place"] = {placeIn(files_, n.name.file), n.name.line};
-      if (n.restCount == 0) j["kind"] = placeIn(kinds_, std::string(nameOf(n.name.kind)));
+      if (n.restCount == 0) j["kind"] = placeIn(kinds_, std::string(n.name.type));
       if (n.name.unloaded) j["unloaded"] = true;
       if (n.name.budget > 0) j["budget"] = number(n.name.budget);
       if (n.row || n.restCount > 0) addCosts(j, n.row ? *n.row : n.rest, ++priced <= kMostOnWalls);

@@ -152,7 +152,7 @@ private:
   /// Whom no node of the script stands for: what the trackers say, and the eyes in front of the walls.
   void addVisitor() {
     NodeRow row;
-    row.name.path = "visitor", row.name.kind = NodeKind::Rig;
+    row.name.path = "visitor", row.name.type = "rig";
     row.receive = sum(Span::Input);
     const auto published = profile_.nodes().find(NodeRef{});
     if (published != profile_.nodes().end())

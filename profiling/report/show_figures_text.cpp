@@ -66,7 +66,7 @@ std::string unmeasuredText(const ShowFigures& f) {
 /// A node's rows: its App and the parts of it, its Cull by wall, its Draw by wall and eye.
 void addRows(const NodeRow& r, const ShowFigures& f, std::string& csv) {
   const std::string who = fmt::format("{},{},{},{}", csvField(r.name.path), csvField(r.name.file),
-                                      r.name.line, nameOf(r.name.kind));
+                                      r.name.line, r.name.type);
   const std::string budget = r.name.budget > 0 ? fmt::to_string(r.name.budget) : "";
   const std::string method = csvField(f.drawMethod);
   const auto ifKnown = [](double ms, bool is) { return is ? fmt::to_string(ms) : ""; };
@@ -100,7 +100,7 @@ nlohmann::json toJson(const NodeRow& row, const std::vector<std::string>& walls)
   nlohmann::json j{{"path", row.name.path},
                    {"file", row.name.file},
                    {"line", row.name.line},
-                   {"kind", nameOf(row.name.kind)},
+                   {"kind", row.name.type},
                    {"unloaded", row.name.unloaded},
                    {"budget_ms", row.name.budget},
                    {"receive_ms", row.receive},

@@ -134,7 +134,7 @@ const TraceFile::Name& TraceFile::nameOfNode(NodeRef node) {
   }
   const std::string place = fmt::format("{}:{}", name->file, name->line);
   return nodes_[node] = {trace::jsonText(name->path),
-                         fmt::format(",\"kind\":{},\"script\":{}", trace::jsonText(nameOf(name->kind)),
+                         fmt::format(",\"kind\":{},\"script\":{}", trace::jsonText(name->type),
                                      trace::jsonText(place)),
                          name->path};
 }

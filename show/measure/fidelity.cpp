@@ -43,7 +43,7 @@ std::vector<TriedModel> modelsFor(NodeRef ref, const PlayedBody& body, const std
       add(fmt::format("shape={}", nameOf(kind)), nameOf(kind)).simpler =
           detailOf(kind) > detailOf(body.shape);
   for (const HookedField& f : body.fields) {
-    if (f.kind != NodeKind::Medium) continue;
+    if (f.type != "medium") continue;
     TriedModel& t = add("without " + f.name, "");
     t.simpler = true, t.model.without = {f.name};
   }

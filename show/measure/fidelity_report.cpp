@@ -38,8 +38,8 @@ std::string fieldsOf(const PlayedBody& body) {
   std::string text;
   bool drag = false;
   for (const HookedField& f : body.fields) {
-    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", f.name, nameOf(f.kind));
-    drag |= f.kind == NodeKind::Medium;
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", f.name, f.type);
+    drag |= f.type == "medium";
   }
   if (text.empty()) text = "none";
   return text + (drag ? fmt::format("; drag area {:.3g} m2", body.dragArea) : "; no drag");
@@ -121,8 +121,7 @@ nlohmann::json toJson(const BodyFidelity& b) {
                    {"drag_area_m2", body.dragArea},
                    {"cost_us", b.cost}};
   j["fields"] = nlohmann::json::array();
-  for (const HookedField& f : body.fields)
-    j["fields"].push_back({{"name", f.name}, {"kind", nameOf(f.kind)}});
+  for (const HookedField& f : body.fields) j["fields"].push_back({{"name", f.name}, {"kind", f.type}});
   for (std::size_t i = 0; i < body.modes.size(); ++i) j["frames"][kModes[i]] = body.modes[i];
   for (std::size_t i = 0; i < body.flights.size(); ++i) j["flight_frames"][kFlights[i]] = body.flights[i];
   j["models"] = nlohmann::json::array();

@@ -1,12 +1,12 @@
 #include "show/measure/fit_object.h"
 
-#include "dynamics/nodes/dynamics_factories.h"
+#include "dynamics/nodes/body_maker.h"
+#include "show/base/standard_nodes.h"
 #include "show/player/enclosing_show.h"
 
 #include "dynamics/nodes/dyn_object_node.h"
 #include "engine/asset/import.h"
 #include "engine/build/builder.h"
-#include "engine/script/choice.h"
 #include "engine/script/script.h"
 #include "engine/script/script_texts.h"
 #include "engine/script/suggestion.h"
@@ -41,16 +41,15 @@ std::optional<Diagnostic> refusedByScripts(const Wanted& w, const Mesh& mesh, co
       SourceText::make("", "dynobject( name=body, file=body.obj\n" + fmt::format(", mass={:.17g}\n", mass) +
                                three("centre", body.centre) + "\n" + three("inertia", body.inertia) + " )\n");
   Diagnostics findings;
-  const Document document = parseScript(SourceText(source.value()), findings);
+  const SharedTypes types = standardNodes();
+  const Document document = parseScript(SourceText(source.value()), *types, findings);
   if (!findings.hasErrors()) {
-    NodeFactories factories{};
-    addDynamicsFactories(factories);
+    NodeServices services;
     const std::function<NodeRef(const NodeReference&)> resolve;
     const std::function<std::optional<PlacedModel>(const NodeReference&)> model;
     PlaceAttributes place;
     place.X_PN = Affine(Eigen::Scaling(w.scale));
-    factories[static_cast<std::size_t>(NodeKind::DynObject)](
-        {document[0], {}, "body", place, w.appearance, &mesh, resolve, model, findings});
+    makeDynObject({document[0], {}, "body", place, w.appearance, &mesh, resolve, model, findings, services});
   }
   for (const Diagnostic& d : findings.all()) {
     if (d.severity != Severity::Error) continue;
@@ -105,37 +104,37 @@ Read fromModel(const std::string& file, const std::vector<std::string>& further,
 }
 
 /// The sub-scene of a show that has this dynobject, as the user would name it.
-std::optional<std::string> partWith(const std::string& name, const std::string& show,
-                                    const AssetRoots& roots) {
-  const auto texts = ScriptTexts::read(show, roots);
+std::optional<std::string> partWith(const std::string& name, const std::string& show, const AssetRoots& roots,
+                                    const NodeRegistry& types) {
+  const auto texts = ScriptTexts::read(show, roots, types);
   for (const std::string& part : texts->parts()) {
     auto source = texts->part(part);
     if (!source) continue;
     Diagnostics ignored;
     const std::string file = source.value().file();
-    const Document document = parseScript(std::move(source.value()), ignored);
-    if (const auto found = document.find(name); found && found->kind() == NodeKind::DynObject) return file;
+    const Document document = parseScript(std::move(source.value()), types, ignored);
+    if (const auto found = document.find(name); found && found->kind() == "dynobject") return file;
   }
   return std::nullopt;
 }
 
 Read fromScript(const std::string& file, const std::string& name, const std::vector<std::string>& further,
-                const StatedMatter& stated) {
+                const NodeRegistry& types, const StatedMatter& stated) {
   auto source = SourceText::read(file);
   if (!source) return source.error();
   Diagnostics findings;
-  const Document document = parseScript(std::move(source.value()), findings);
+  const Document document = parseScript(std::move(source.value()), types, findings);
   for (const Diagnostic& d : findings.all())
     if (d.severity == Severity::Error) return d;
   std::vector<std::string> names;
   for (const Declaration d : document)
-    if (d.kind() == NodeKind::DynObject) names.emplace_back(d.name());
-  AssetRoots roots = AssetRoots::ofScript(showAround(file, further).value_or(file));
+    if (d.kind() == "dynobject") names.emplace_back(d.name());
+  AssetRoots roots = AssetRoots::ofScript(showAround(file, further, types).value_or(file));
   for (const std::string& r : further)
     if (!roots.add(r)) return Read::failure("--asset-root: cannot open the folder " + r);
   const auto found = document.find(name);
-  if (!found || found->kind() != NodeKind::DynObject) {
-    const auto part = partWith(name, file, roots);
+  if (!found || found->kind() != "dynobject") {
+    const auto part = partWith(name, file, roots, types);
     Diagnostic wrong;
     wrong.where.file = file;
     wrong.message = "has no dynobject \"" + name + "\"" +
@@ -144,11 +143,11 @@ Read fromScript(const std::string& file, const std::string& name, const std::vec
   }
   const Declaration& d = *found;
   Wanted w;
-  w.file = std::string(d.text(Attr::File)), w.where = d.where(Attr::File);
-  w.options.unit = d.optionalNumber(Attr::Unit);
-  w.options.up = d.optionalChoice<UpAxis>(Attr::Up);
-  w.appearance.shape = std::string(d.text(Attr::Shape)), w.appearance.tolerance = d.number(Attr::Tolerance);
-  w.scale = d.vec3(Attr::Scale);
+  w.file = std::string(d.text("file")), w.where = d.where("file");
+  w.options.unit = d.optionalNumber("unit");
+  w.options.up = d.optionalChoice<UpAxis>("up");
+  w.appearance.shape = std::string(d.text("shape")), w.appearance.tolerance = d.number("tolerance");
+  w.scale = d.vec3("scale");
   w.body = bodyAttributesOf(d);
   return imported(w, stated, std::move(roots));
 }
@@ -161,10 +160,10 @@ Vec3 momentsOf(const Vec2& alongAndAcross, const FlightShape& shape) {
 }
 
 Read readFlownObject(const std::string& object, const std::vector<std::string>& roots,
-                     const StatedMatter& stated) {
+                     const NodeRegistry& types, const StatedMatter& stated) {
   const std::size_t colon = object.rfind(':');
   if (colon != std::string::npos && colon > 4 && object.compare(colon - 4, 4, ".evs") == 0)
-    return fromScript(object.substr(0, colon), object.substr(colon + 1), roots, stated);
+    return fromScript(object.substr(0, colon), object.substr(colon + 1), roots, types, stated);
   if (object.ends_with(".evs"))
     return Read::failure(object + " is a whole script: write " + object + ":NAME for one of its dynobjects");
   return fromModel(object, roots, stated);

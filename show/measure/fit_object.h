@@ -12,6 +12,8 @@
 
 namespace stadion {
 
+class NodeRegistry;
+
 struct FlownObject {
   Mesh mesh;  ///< at the script's scale
   MassProperties mass;
@@ -28,7 +30,7 @@ struct StatedMatter {
 /// With the mass, centre and moments that a show would give it. A script that is part of a show is read with
 /// the show's assets. Errors as the importer and the checker say them.
 Result<FlownObject> readFlownObject(const std::string& object, const std::vector<std::string>& roots,
-                                    const StatedMatter& stated);
+                                    const NodeRegistry& types, const StatedMatter& stated);
 
 /// Moments along and across the axis of symmetry, as `inertia` of a dynobject has them.
 Vec3 momentsOf(const Vec2& alongAndAcross, const FlightShape& shape);

@@ -28,7 +28,7 @@ private:
     loadsSeen_ = scene_.loadsVersion();
     present_.clear();
     scene_.forEachNode([&](const Node& node) {
-      if (node.kind() == NodeKind::DynObject && (!only_.valid() || node.self() == only_))
+      if (node.kind() == "dynobject" && (!only_.valid() || node.self() == only_))
         present_.push_back(node.self());
     });
   }
@@ -61,7 +61,7 @@ private:
     body.dynamics = node.movedBy();
     for (const std::string& name : node.body().hooks)
       if (const Node* field = scene_.find(scene_.resolve(name, node.self())))
-        body.fields.push_back({name, field->kind()});
+        body.fields.push_back({name, field->type().name});
   }
 
   /// Of a model with flat faces: the simple shape that it is without tolerance.
@@ -127,7 +127,7 @@ std::optional<PlayedShow> playWith(const ShowOptions& show, const BodyModel& mod
   }
   PlayedShow played{outcome.framesSimulated, player->rate(), watch.take()};
   for (const auto& [ref, cost] : recording->profile().nodes())
-    if (const Node* node = player->scene().find(ref); node && node->kind() == NodeKind::Dynamics)
+    if (const Node* node = player->scene().find(ref); node && node->kind() == "dynamics")
       played.milliseconds[ref] = cost.phases[0] + cost.phases[1] + cost.phases[2];
   return played;
 }

@@ -27,8 +27,8 @@ struct BodyModel {
 
 /// A field that a body is hooked to when it is first seen.
 struct HookedField {
-  std::string name;  ///< as the script says it
-  NodeKind kind{};
+  std::string name;       ///< as the script says it
+  std::string_view type;  ///< the name of its node type
 };
 
 /// What a body is, and what it did.

@@ -86,7 +86,7 @@ ReportHead reportHead(const ProfileRunOptions& o, const Player& player, const st
 
 std::optional<DynamicsFigures> dynamicsFigures(const ProfileRunOptions& o, const ShowFigures& figures) {
   const auto moved = std::ranges::count_if(
-      figures.nodes, [](const NodeRow& r) { return r.name.kind == NodeKind::Dynamics && r.simulate > 0; });
+      figures.nodes, [](const NodeRow& r) { return r.name.type == "dynamics" && r.simulate > 0; });
   if (moved == 0 && !o.fidelityAsked) return {};
   FidelityOptions options = o.fidelity;
   options.show = o.show, options.show.walls = "desktop";

@@ -23,17 +23,18 @@ std::vector<fs::path> scriptsIn(const fs::path& folder) {
 }
 
 /// Adds a script and those that it loads, directly or through others.
-void addFiles(const fs::path& script, const AssetRoots& roots, std::set<fs::path>& files) {
+void addFiles(const fs::path& script, const AssetRoots& roots, const NodeRegistry& types,
+              std::set<fs::path>& files) {
   std::error_code error;
   if (files.size() >= kMostScripts || !files.insert(fs::weakly_canonical(script, error)).second) return;
   auto source = SourceText::read(script.string());
   if (!source) return;
   Diagnostics ignored;
-  const Document document = parseScript(std::move(source.value()), ignored);
+  const Document document = parseScript(std::move(source.value()), types, ignored);
   for (const Declaration d : document) {
-    if (d.kind() != NodeKind::Scene || d.text(Attr::File).empty()) continue;
-    if (const auto below = roots.open(std::string(d.text(Attr::File))))
-      addFiles(below.value().path, roots, files);
+    if (!d.is(Trait::Encloses) || d.text("file").empty()) continue;
+    if (const auto below = roots.open(std::string(d.text("file"))))
+      addFiles(below.value().path, roots, types, files);
   }
 }
 
@@ -46,22 +47,23 @@ std::string asWritten(const fs::path& file) {
 }  // namespace
 
 std::set<fs::path> filesOf(const fs::path& script, const fs::path& show,
-                           const std::vector<std::string>& assetRoots) {
+                           const std::vector<std::string>& assetRoots, const NodeRegistry& types) {
   AssetRoots roots = AssetRoots::ofScript(show);
   for (const std::string& root : assetRoots) roots.add(root);
   std::set<fs::path> files;
-  addFiles(script, roots, files);
+  addFiles(script, roots, types, files);
   return files;
 }
 
-std::optional<std::string> showAround(const std::string& file, const std::vector<std::string>& assetRoots) {
+std::optional<std::string> showAround(const std::string& file, const std::vector<std::string>& assetRoots,
+                                      const NodeRegistry& types) {
   std::error_code error;
   const fs::path own = fs::weakly_canonical(file, error);
   if (error || !fs::exists(own, error)) return std::nullopt;
   fs::path folder = own.parent_path();
   for (int up = 0; up <= kFoldersUp; ++up, folder = folder.parent_path()) {
     for (const fs::path& script : scriptsIn(folder))
-      if (script != own && filesOf(script, script, assetRoots).contains(own)) return asWritten(script);
+      if (script != own && filesOf(script, script, assetRoots, types).contains(own)) return asWritten(script);
     if (folder == folder.root_path()) break;
   }
   return std::nullopt;

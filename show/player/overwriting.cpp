@@ -25,7 +25,8 @@ void refuseOverwriting(std::span<const ShowOptions> shows, std::span<const Named
   for (const ShowOptions& show : shows) {
     const std::vector<NamedFile> own = filesOf(show);
     files.insert(files.end(), own.begin(), own.end());
-    if (!outputs.empty() && !show.script.empty()) addAssetsOf(show.script, show.roots(), outputs, files);
+    if (!outputs.empty() && !show.script.empty())
+      addAssetsOf(show.script, show.roots(), *show.types, outputs, files);
   }
   files.insert(files.end(), named.begin(), named.end());
   refuseSameFiles(files, findings);

@@ -141,15 +141,15 @@ std::unique_ptr<Player> Player::prepare(const ShowOptions& options, Diagnostics&
       findings.error({}, "--asset-root: cannot open the folder " + root);
   if (findings.hasErrors()) return nullptr;
 
-  addEngineFactories(p.factories_);
-  addDynamicsFactories(p.factories_, options.variation, &p.roots_);
+  p.types_ = options.types;
+  p.services_.set(DynamicsServices(options.variation, &p.roots_));
   ImportLimits limits;
   limits.giveUp = stop;
   p.importer_ = std::make_unique<Importer>(Importer::installedProgram(), std::move(forImporter), limits);
-  p.loader_ = std::make_unique<Loader>(
-      LoaderParts{*p.meshes_, p.state_.arena(), *p.importer_, p.roots_, p.factories_,
-                  onlyNews(std::move(report)), stop, fromSeconds(1 / p.rate_), p.trackers_, p.inputName_,
-                  kept, options.texts ? options.texts : ScriptTexts::read(options.script, p.roots_)});
+  p.loader_ = std::make_unique<Loader>(LoaderParts{
+      *p.meshes_, p.state_.arena(), *p.importer_, p.roots_, *p.types_, p.services_,
+      onlyNews(std::move(report)), stop, fromSeconds(1 / p.rate_), p.trackers_, p.inputName_, kept,
+      options.texts ? options.texts : ScriptTexts::read(options.script, p.roots_, *p.types_)});
   p.loader_->obey(p.decisions_.loads);
   p.scene_ = std::make_unique<Scene>(*p.loader_, *p.meshes_, appThreadsOf(options));
   p.options_.texts.reset();  // the loader keeps what is still to be loaded

@@ -2,7 +2,7 @@
 /// A show with all its parts: script, walls, input, scene and loader. The parts of its stages are made from
 /// it.
 
-#include "dynamics/nodes/dynamics_factories.h"
+#include "dynamics/nodes/body_maker.h"
 #include "engine/asset/import.h"
 #include "engine/build/builder.h"
 #include "engine/display/wall_file.h"
@@ -14,6 +14,7 @@
 #include "pipeline/loop/frame_loop.h"
 #include "pipeline/loop/show_stages.h"
 #include "pipeline/picture/stereo.h"
+#include "show/base/standard_nodes.h"
 
 #include <atomic>
 #include <memory>
@@ -37,8 +38,9 @@ struct ShowOptions {
   std::vector<std::string> assetRoots;
   /// The walls of the room that are drawn here; empty = all.
   std::vector<std::string> onlyWalls;
-  std::size_t appThreads = 0;   ///< 0 = as many as there are processors, 8 at most
-  DynamicsVariation variation;  ///< of the script's models
+  SharedTypes types = standardNodes();  ///< that its scripts may use
+  std::size_t appThreads = 0;           ///< 0 = as many as there are processors, 8 at most
+  DynamicsVariation variation;          ///< of the script's models
   /// The scripts that are played; null: as they are on disk when the show is opened.
   std::shared_ptr<const ScriptTexts> texts;
   /// The snapshot that the show continues from (Scene::save()); null: it starts from the beginning.
@@ -118,7 +120,8 @@ private:
   void takeWalls(WallFile room);
   PixelSize pixelsOf(const WallEntry& entry) const;
 
-  NodeFactories factories_{};
+  SharedTypes types_;
+  NodeServices services_;
   MeshStore ownMeshes_;
   MeshStore* meshes_ = &ownMeshes_;
   SceneState state_;

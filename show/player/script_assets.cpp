@@ -75,16 +75,17 @@ std::string withMaterials(const fs::path& model) {
 
 class Assets {
 public:
-  Assets(const AssetRoots& roots, std::span<const std::string> suspects, std::vector<NamedFile>& files)
-      : roots_(roots), suspects_(suspects), files_(files) {}
+  Assets(const AssetRoots& roots, const NodeRegistry& types, std::span<const std::string> suspects,
+         std::vector<NamedFile>& files)
+      : roots_(roots), types_(types), suspects_(suspects), files_(files) {}
 
   void addAllOf(const Result<SourceText>& source) {
     if (!source) return;
     Diagnostics ignored;
-    const Document document = parseScript(SourceText(source.value()), ignored);
+    const Document document = parseScript(SourceText(source.value()), types_, ignored);
     for (const Declaration d : document)
-      for (const AttributeSpec* spec : attributesOf(d.kind()))
-        if (spec->kind == ValueKind::File && d.has(spec->attr)) add(d, spec->attr);
+      for (const AttributeSpec& row : d.type().attributes())
+        if (row.kind == ValueKind::File && d.has(row.attr)) add(d, row.attr);
   }
 
 private:
@@ -95,7 +96,7 @@ private:
     if (!found) return;
     const SourcePosition at = d.where(attr);
     files_.push_back({fmt::format("{}:{}:{}", at.file, at.line, at.column), found.value().path, false});
-    if (d.kind() != NodeKind::Scene && d.kind() != NodeKind::Sound) addNamedBy(found.value().path);
+    if (!d.is(Trait::Encloses) && !d.is(Trait::Sound)) addNamedBy(found.value().path);
   }
 
   void addNamedBy(const std::string& model) {
@@ -110,6 +111,7 @@ private:
   }
 
   const AssetRoots& roots_;
+  const NodeRegistry& types_;
   std::span<const std::string> suspects_;
   std::vector<NamedFile>& files_;
   std::set<std::string> seen_;
@@ -117,10 +119,10 @@ private:
 
 }  // namespace
 
-void addAssetsOf(const std::string& script, const AssetRoots& roots, std::span<const std::string> suspects,
-                 std::vector<NamedFile>& files) {
-  const auto texts = ScriptTexts::read(script, roots);
-  Assets assets(roots, suspects, files);
+void addAssetsOf(const std::string& script, const AssetRoots& roots, const NodeRegistry& types,
+                 std::span<const std::string> suspects, std::vector<NamedFile>& files) {
+  const auto texts = ScriptTexts::read(script, roots, types);
+  Assets assets(roots, types, suspects, files);
   assets.addAllOf(texts->show());
   for (const std::string& part : texts->parts()) assets.addAllOf(texts->part(part));
 }

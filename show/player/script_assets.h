@@ -10,10 +10,12 @@
 
 namespace stadion {
 
+class NodeRegistry;
+
 /// Adds every file that the show's script and its sub-scenes name, called by the place that names it
 /// ("part.evs:3:20"), and those of `suspects` that a model among these names in turn, called by the model.
 /// What cannot be read names nothing: a run tells what is wrong with it.
-void addAssetsOf(const std::string& script, const AssetRoots& roots, std::span<const std::string> suspects,
-                 std::vector<NamedFile>& files);
+void addAssetsOf(const std::string& script, const AssetRoots& roots, const NodeRegistry& types,
+                 std::span<const std::string> suspects, std::vector<NamedFile>& files);
 
 }  // namespace stadion

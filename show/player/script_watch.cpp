@@ -17,8 +17,8 @@ AssetRoots rootsOf(const std::string& script, const std::vector<std::string>& fu
 
 }  // namespace
 
-ScriptWatch::ScriptWatch(std::string script, std::vector<std::string> assetRoots)
-    : script_(std::move(script)), assetRoots_(std::move(assetRoots)) {
+ScriptWatch::ScriptWatch(std::string script, std::vector<std::string> assetRoots, SharedTypes types)
+    : script_(std::move(script)), assetRoots_(std::move(assetRoots)), types_(std::move(types)) {
   settle();
 }
 
@@ -60,7 +60,7 @@ std::optional<std::string> ScriptWatch::changed() {
 }
 
 void ScriptWatch::settle() {
-  parts_ = ScriptTexts::read(script_, rootsOf(script_, assetRoots_))->parts();
+  parts_ = ScriptTexts::read(script_, rootsOf(script_, assetRoots_), *types_)->parts();
   known_ = seen_ = look();
   stayedFor_ = 0;
 }

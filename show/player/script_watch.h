@@ -5,6 +5,8 @@
 ///
 /// Threads  one.
 
+#include "show/base/standard_nodes.h"
+
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -15,7 +17,7 @@ namespace stadion {
 
 class ScriptWatch {
 public:
-  ScriptWatch(std::string script, std::vector<std::string> assetRoots);
+  ScriptWatch(std::string script, std::vector<std::string> assetRoots, SharedTypes types);
 
   /// What has happened to which file since the last time it said so, in words. A file that is saved must have
   /// stayed as it is since it was asked before: an editor may write in several goes. One that is gone must be
@@ -41,6 +43,7 @@ private:
 
   std::string script_;
   std::vector<std::string> assetRoots_;
+  SharedTypes types_;
   std::vector<std::string> parts_;  ///< sub-scenes, as scripts name them
   Stamps known_, seen_;
   int stayedFor_ = 0;  ///< how many times it has been so

@@ -1,9 +1,9 @@
 #include "show/player/show_check.h"
 
 #include "dynamics/motion/body_flight.h"
+#include "dynamics/nodes/body_maker.h"
 #include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dyn_object_node.h"
-#include "dynamics/nodes/dynamics_factories.h"
 #include "engine/asset/sound_file.h"
 #include "engine/base/run_stopped.h"
 #include "engine/build/lint.h"
@@ -27,20 +27,20 @@ constexpr std::size_t kDeepestNesting = 16;
 /// Checks a file and the sub-scenes below it.
 class ShowChecker {
 public:
-  ShowChecker(const std::string& file, const std::vector<std::string>& roots, bool withAssets,
-              const std::atomic<bool>* giveUp, std::shared_ptr<const ScriptTexts> texts,
+  ShowChecker(const std::string& file, const std::vector<std::string>& roots, SharedTypes types,
+              bool withAssets, const std::atomic<bool>* giveUp, std::shared_ptr<const ScriptTexts> texts,
               Diagnostics& findings)
-      : roots_(AssetRoots::ofScript(file)), withAssets_(withAssets), giveUp_(giveUp), findings_(findings) {
+      : types_(std::move(types)), roots_(AssetRoots::ofScript(file)), withAssets_(withAssets),
+        giveUp_(giveUp), findings_(findings) {
     AssetRoots forImporter = AssetRoots::ofScript(file);
     for (const std::string& r : roots)
       if (!roots_.add(r) || !forImporter.add(r))
         findings.error({}, "--asset-root: cannot open the folder " + r);
-    texts_ = texts ? std::move(texts) : ScriptTexts::read(file, roots_);
+    texts_ = texts ? std::move(texts) : ScriptTexts::read(file, roots_, *types_);
     ImportLimits limits;
     limits.giveUp = giveUp;
     importer_ = std::make_unique<Importer>(Importer::installedProgram(), std::move(forImporter), limits);
-    addEngineFactories(factories_);
-    addDynamicsFactories(factories_, {}, &roots_);
+    services_.set(DynamicsServices({}, &roots_));
     readLogBeside(file);
   }
 
@@ -50,14 +50,14 @@ private:
   void checkFile(Result<SourceText> source, std::vector<const Document*> enclosing) {
     if (!source) return findings_.add(source.error());
     Diagnostics own;
-    Document document = parseScript(std::move(source.value()), own);
+    Document document = parseScript(std::move(source.value()), *types_, own);
     std::map<std::string, std::unique_ptr<Document>> inner;
     Surroundings around;
     around.enclosing = enclosing;
     around.subScene = [&](Declaration scene) { return subScene(scene, inner); };
     resolveNames(document, around, own);
     bool alone = enclosing.empty();
-    for (const Declaration d : document) alone &= d.kind() != NodeKind::Scene;
+    for (const Declaration d : document) alone &= !d.is(Trait::Encloses);
     if (!own.hasErrors() && withAssets_) {
       lint(document, alone, own);
       lintLatencies(document, fromSeconds(1 / ShowOptions{}.rate), own);
@@ -69,7 +69,7 @@ private:
     enclosing.insert(enclosing.begin(), &document);
     for (const Declaration d : document) {
       // One whose file name was refused has been told already.
-      if (d.kind() != NodeKind::Scene || d.text(Attr::File).empty()) continue;
+      if (!d.is(Trait::Encloses) || d.text("file").empty()) continue;
       auto below = readBelow(d);
       const bool circle =
           below && std::any_of(enclosing.begin(), enclosing.end(), [&](const Document* outer) {
@@ -77,9 +77,9 @@ private:
             return std::filesystem::equivalent(outer->file(), below.value().file(), unknown);
           });
       if (circle)
-        findings_.error(d.where(Attr::File), "this scene loads itself, and that one again, without end",
-                        d.excerpt(Attr::File));
-      else if (seen_.insert(std::string(d.text(Attr::File))).second)
+        findings_.error(d.where("file"), "this scene loads itself, and that one again, without end",
+                        d.excerpt("file"));
+      else if (seen_.insert(std::string(d.text("file"))).second)
         checkFile(std::move(below), enclosing);
     }
   }
@@ -97,23 +97,23 @@ private:
   }
 
   Result<SourceText> readBelow(const Declaration& scene) const {
-    auto source = texts_->part(std::string(scene.text(Attr::File)));
+    auto source = texts_->part(std::string(scene.text("file")));
     if (source || !source.error().where.file.empty()) return source;
     Diagnostic d = source.error();
-    d.where = scene.where(Attr::File), d.excerpt = scene.excerpt(Attr::File);
+    d.where = scene.where("file"), d.excerpt = scene.excerpt("file");
     return d;
   }
 
   /// Its names alone; its mistakes are found in its own turn.
   const Document* subScene(const Declaration& scene,
                            std::map<std::string, std::unique_ptr<Document>>& inner) const {
-    const std::string file(scene.text(Attr::File));
+    const std::string file(scene.text("file"));
     if (const auto known = inner.find(file); known != inner.end()) return known->second.get();
     auto source = readBelow(scene);
     if (!source) return nullptr;
     Diagnostics ignored;
     auto& document = inner[file];
-    document = std::make_unique<Document>(parseScript(std::move(source.value()), ignored));
+    document = std::make_unique<Document>(parseScript(std::move(source.value()), *types_, ignored));
     return document.get();
   }
 
@@ -123,7 +123,7 @@ private:
                            {},
                            Affine::Identity(),
                            {},
-                           factories_,
+                           services_,
                            [&](const Declaration& d) { return importMesh(d, findings); },
                            meshes_,
                            [&](const Declaration& d) { return readSoundOf(d, findings); }};
@@ -134,14 +134,14 @@ private:
   /// How a body flies hangs on where its matter is, which its model does not show.
   static void noteEvenMatter(const Load& load, const Document& document, Diagnostics& findings) {
     for (const Declaration d : document) {
-      if (d.kind() != NodeKind::DynObject || d.has(Attr::Centre) || d.has(Attr::Inertia)) continue;
+      if (d.kind() != "dynobject" || d.has("centre") || d.has("inertia")) continue;
       const auto* node = dynamic_cast<const DynObjectNode*>(load.nodes[d.index()].get());
       if (!node || !node->body().flight || !leansOnMatter(node->body().flight->model)) continue;
       const MassProperties mass = node->body().massOf(*node->fit());
       const Vec3 c = mass.centre.cwiseQuotient(node->fit()->scale);
       Vec3 i = mass.inertia;
       std::sort(i.begin(), i.end());
-      findings.note(d.where(Attr::Flight),
+      findings.note(d.where("flight"),
                     fmt::format("\"{}\" flies as if matter filled its model evenly: centre=\"{:.4f}, {:.4f}, "
                                 "{:.4f}\", inertia=\"{:.4g}, {:.4g}, {:.4g}\"; state them if it is otherwise",
                                 d.name(), c.x(), c.y(), c.z(), i.x(), i.y(), i.z()));
@@ -155,19 +155,19 @@ private:
 
   MeshId importMesh(const Declaration& d, Diagnostics& findings) {
     ImportOptions options;
-    options.unit = d.optionalNumber(Attr::Unit);
-    options.up = d.optionalChoice<UpAxis>(Attr::Up);
-    const std::string file(d.text(Attr::File));
+    options.unit = d.optionalNumber("unit");
+    options.up = d.optionalChoice<UpAxis>("up");
+    const std::string file(d.text("file"));
     // A hundred objects with the same file: one import, and one word about it.
     const auto key = std::tuple(file, options.unit.value_or(0),
                                 static_cast<int>(options.up.value_or(UpAxis::Z)), options.up.has_value());
     if (const auto known = imported_.find(key); known != imported_.end()) return known->second;
     Diagnostics notes;
-    auto mesh = importer_->load(file, options, d.where(Attr::File), &notes);
+    auto mesh = importer_->load(file, options, d.where("file"), &notes);
     findings.append(notes);
     if (!mesh) {
       Diagnostic wrong = mesh.error();
-      wrong.excerpt = d.excerpt(Attr::File);
+      wrong.excerpt = d.excerpt("file");
       findings.add(wrong);
     }
     return imported_[key] = meshes_.add(mesh ? std::move(mesh.value()) : standIn(file));
@@ -175,30 +175,30 @@ private:
 
   Nanoseconds readSoundOf(const Declaration& d, Diagnostics& findings) const {
     const auto read = [&]() -> Result<SoundInfo> {
-      auto found = roots_.open(std::string(d.text(Attr::File)));
+      auto found = roots_.open(std::string(d.text("file")));
       if (!found) return found.error();
       return readSoundInfo(found.value().file.get(), found.value().path);
     };
     const auto info = read();
     if (!info) {
       Diagnostic wrong = info.error();
-      wrong.where = d.where(Attr::File), wrong.excerpt = d.excerpt(Attr::File);
+      wrong.where = d.where("file"), wrong.excerpt = d.excerpt("file");
       findings.add(wrong);
       return kSilentStandIn;
     }
-    if (info.value().channels == 2 && d.has(Attr::Range))
-      findings.note(d.where(Attr::File),
-                    "\"" + std::string(d.text(Attr::File)) +
-                        "\" has two channels; heard from a place they are mixed into one");
+    if (info.value().channels == 2 && d.has("range"))
+      findings.note(d.where("file"), "\"" + std::string(d.text("file")) +
+                                         "\" has two channels; heard from a place they are mixed into one");
     return info.value().length();
   }
 
+  SharedTypes types_;
   AssetRoots roots_;
   std::shared_ptr<const ScriptTexts> texts_;
   bool withAssets_;
   const std::atomic<bool>* giveUp_;
   std::unique_ptr<Importer> importer_;
-  NodeFactories factories_{};
+  NodeServices services_;
   MeshStore meshes_;
   std::map<std::tuple<std::string, double, int, bool>, MeshId> imported_;
   std::set<std::string> seen_;
@@ -208,12 +208,13 @@ private:
 };
 
 /// What stands for each object in collisions, and bodies that stick in something when the show begins.
-void lookAtCollisions(const std::string& file, const std::vector<std::string>& roots,
+void lookAtCollisions(const std::string& file, const std::vector<std::string>& roots, SharedTypes types,
                       const std::atomic<bool>* giveUp, std::shared_ptr<const ScriptTexts> texts,
                       Diagnostics& findings) {
   ShowOptions options;
   options.texts = std::move(texts);
   options.script = file;
+  options.types = std::move(types);
   options.input = "none";
   options.assetRoots = roots;
   Diagnostics told;
@@ -260,12 +261,12 @@ void lookAtCollisions(const std::string& file, const std::vector<std::string>& r
 
 }  // namespace
 
-Diagnostics checkShow(const std::string& file, const std::vector<std::string>& assetRoots,
+Diagnostics checkShow(const std::string& file, const std::vector<std::string>& assetRoots, SharedTypes types,
                       const std::atomic<bool>* giveUp, std::shared_ptr<const ScriptTexts> texts) {
   Diagnostics findings;
-  ShowChecker(file, assetRoots, true, giveUp, texts, findings).check();
+  ShowChecker(file, assetRoots, types, true, giveUp, texts, findings).check();
   if (!findings.hasErrors()) try {
-      lookAtCollisions(file, assetRoots, giveUp, texts, findings);
+      lookAtCollisions(file, assetRoots, types, giveUp, texts, findings);
     } catch (const RunStopped&) {
       // given up
     }
@@ -273,9 +274,9 @@ Diagnostics checkShow(const std::string& file, const std::vector<std::string>& a
 }
 
 Diagnostics checkScripts(const std::string& file, const std::vector<std::string>& assetRoots,
-                         std::shared_ptr<const ScriptTexts> texts) {
+                         SharedTypes types, std::shared_ptr<const ScriptTexts> texts) {
   Diagnostics findings;
-  ShowChecker(file, assetRoots, false, nullptr, std::move(texts), findings).check();
+  ShowChecker(file, assetRoots, std::move(types), false, nullptr, std::move(texts), findings).check();
   return sorted(findings);
 }
 

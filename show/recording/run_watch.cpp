@@ -109,7 +109,7 @@ void RunWatch::note(const EventRecord& event, const Scene& scene) {
   ++happenedCount_;
   if (happened_.size() < RunSummary::kMostHappenings)
     happened_.push_back(
-        {toSeconds(event.when), std::string(nameOf(event.event)), nameIn(scene, event.node), event.figure});
+        {toSeconds(event.when), std::string(event.event.name()), nameIn(scene, event.node), event.figure});
   if (event.figure && measured_.size() < RunSummary::kMostHappenings)
     measured_.push_back({toSeconds(event.when), nameIn(scene, event.node), *event.figure});
 }

@@ -176,7 +176,8 @@ void OpenSession::closeShow(NextShow next, Diagnostics& findings) {
 bool OpenSession::waitForScript() {
   constexpr std::chrono::milliseconds kLookAgain{250};
   reporter_.say("the script has errors; the next group's show begins once it is saved without them");
-  ScriptWatch files(state_.settings.show.script, state_.settings.show.assetRoots);
+  ScriptWatch files(state_.settings.show.script, state_.settings.show.assetRoots,
+                    state_.settings.show.types);
   for (;;) {
     if (state_.stop || !state_.takeKeys()) return false;
     for (const OperatorCommand& c : console_->queue().take()) {

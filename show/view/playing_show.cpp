@@ -15,7 +15,7 @@ std::map<std::string, bool> subScenes(const Scene& scene) {
   scene.forEachNode([&](const Node& node) {
     const NodeRef ref = node.self();
     const Load* load = scene.load(ref.load);
-    if (load && !load->owner.valid() && node.kind() == NodeKind::Scene && !node.name().empty())
+    if (load && !load->owner.valid() && node.kind() == "scene" && !node.name().empty())
       known.try_emplace(node.name(), false);
     loads.insert(ref.load);
   });

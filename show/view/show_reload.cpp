@@ -43,10 +43,10 @@ ShowReload::~ShowReload() {
 
 void ShowReload::read() {
   const ShowOptions& show = around_.settings.show;
-  around_.texts = ScriptTexts::read(show.script, show.roots());
-  Diagnostics found = checkScripts(show.script, show.assetRoots, around_.texts);
+  around_.texts = ScriptTexts::read(show.script, show.roots(), *show.types);
+  Diagnostics found = checkScripts(show.script, show.assetRoots, show.types, around_.texts);
   if (!found.hasErrors())
-    found = checkShow(show.script, show.assetRoots, around_.stopping.get(), around_.texts);
+    found = checkShow(show.script, show.assetRoots, show.types, around_.stopping.get(), around_.texts);
   for (const Diagnostic& d : found.all())
     if (d.severity == Severity::Error) errors_.add(d);
   if (!errors_.hasErrors()) show_ = PlayingShow::open(around_, errors_);

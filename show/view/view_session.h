@@ -66,7 +66,8 @@ private:
 
   ViewSession(ViewSettings settings, Reporter& reporter)
       : settings_(std::move(settings)), reporter_(reporter),
-        files_(settings_.session.show.script, settings_.session.show.assetRoots) {}
+        files_(settings_.session.show.script, settings_.session.show.assetRoots,
+               settings_.session.show.types) {}
   bool openDrawing(Diagnostics& findings);
   ShowSurroundings surroundings(std::shared_ptr<KeptParts> kept);
 

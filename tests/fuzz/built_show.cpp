@@ -1,10 +1,11 @@
 #include "tests/fuzz/built_show.h"
 
-#include "dynamics/nodes/dynamics_factories.h"
+#include "dynamics/nodes/body_maker.h"
 #include "engine/asset/import.h"
 #include "engine/asset/sound_file.h"
 #include "engine/script/script.h"
 #include "tests/fuzz/targets.h"
+#include "tests/node_types.h"
 
 #include <cmath>
 
@@ -22,7 +23,7 @@ const std::map<std::string, Document>& documents() {
       auto source = SourceText::read(path);
       require(static_cast<bool>(source), "the show is there");
       Diagnostics findings;
-      Document& document = all.emplace(name, parseScript(std::move(source.value()), findings)).first->second;
+      Document& document = all.emplace(name, parseScript(std::move(source.value()), testTypes(), findings)).first->second;
       resolveNames(document, {std::move(enclosing), [](Declaration) { return nullptr; }}, findings);
       for (const Diagnostic& d : findings.all()) std::fprintf(stderr, "%s\n", format(d).c_str());
       require(!findings.hasErrors(), "the show is right");
@@ -39,8 +40,6 @@ const std::map<std::string, Document>& documents() {
 }  // namespace
 
 Workshop::Workshop() : box_(meshes_.add(standIn("box"))) {
-  addEngineFactories(factories_);
-  addDynamicsFactories(factories_);
   for (const auto& [name, document] : documents()) {
     Diagnostics findings;
     kept_.push_back(build(document, 1, {}, Affine::Identity(), {}, findings).load);
@@ -54,7 +53,7 @@ Built Workshop::build(const Document& document, std::uint32_t number, NodeRef ow
                          owner,
                          X_WO,
                          std::move(surroundings),
-                         factories_,
+                         services_,
                          [this](const Declaration&) { return box_; },
                          meshes_,
                          [](const Declaration&) { return kSilentStandIn; }};

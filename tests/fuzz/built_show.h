@@ -24,7 +24,7 @@ public:
   MeshStore& meshes() const { return meshes_; }
 
 private:
-  NodeFactories factories_{};
+  mutable NodeServices services_;
   mutable MeshStore meshes_;
   MeshId box_;
   std::vector<std::unique_ptr<Load>>

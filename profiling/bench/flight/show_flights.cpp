@@ -1,10 +1,12 @@
 #include "profiling/bench/flight/show_flights.h"
 
-#include "dynamics/nodes/dynamics_factories.h"
+#include "dynamics/nodes/body_maker.h"
+#include "dynamics/nodes/dynamics_nodes.h"
 
 #include "dynamics/nodes/dyn_object_node.h"
 #include "engine/asset/import.h"
 #include "engine/scene/scene.h"
+#include "engine/nodes/engine_nodes.h"
 #include "engine/script/script.h"
 #include "pipeline/load/loader.h"
 #include "pipeline/state/scene_state.h"
@@ -81,10 +83,10 @@ public:
     AssetRoots forImporter = AssetRoots::ofScript(script);
     roots_ = AssetRoots::ofScript(script);
     roots_.add(assets), forImporter.add(assets);
-    addEngineFactories(factories_);
-    addDynamicsFactories(factories_, {}, &roots_);
+    addEngineNodes(types_), addDynamicsNodes(types_);
+    services_.set(DynamicsServices({}, &roots_));
     importer_ = std::make_unique<Importer>(Importer::installedProgram(), std::move(forImporter));
-    loader_ = std::make_unique<Loader>(LoaderParts{meshes_, state_.arena(), *importer_, roots_, factories_,
+    loader_ = std::make_unique<Loader>(LoaderParts{meshes_, state_.arena(), *importer_, roots_, types_, services_,
                                                    [this](const Diagnostics& d) { findings_.append(d); }});
     scene_ = std::make_unique<Scene>(*loader_, meshes_);
     opened_ = scene_->open(script);
@@ -101,7 +103,8 @@ public:
 
 private:
   Diagnostics findings_;
-  NodeFactories factories_{};
+  NodeRegistry types_;
+  NodeServices services_;
   MeshStore meshes_;
   SceneState state_;
   AssetRoots roots_;
@@ -149,25 +152,27 @@ Diagnostic inFile(const fs::path& file, std::string what) {
 Result<ShowFlights> ShowFlights::ofOlympia(const fs::path& repository) {
   ShowFlights show;
   show.assets_ = repository / "assets";
+  NodeRegistry types;
+  addEngineNodes(types), addDynamicsNodes(types);
   for (const auto& [name, body] :
        {std::pair("javelin", &show.javelin_), std::pair("discus", &show.discus_)}) {
     const fs::path file = repository / fmt::format("scripts/olympia/game_{}.evs", name);
     auto source = SourceText::read(file.string());
     if (!source) return source.error();
     Diagnostics findings;
-    const Document document = parseScript(std::move(source.value()), findings);
+    const Document document = parseScript(std::move(source.value()), types, findings);
     const auto found = document.find(name);
-    if (!found || found->kind() != NodeKind::DynObject)
+    if (!found || found->kind() != "dynobject")
       return inFile(file, fmt::format("has no dynobject \"{}\"", name));
     const Declaration& d = *found;
     body->model =
-        fmt::format("file={}, mass={}", d.text(Attr::File), d.optionalNumber(Attr::Mass).value_or(1));
-    if (d.has(Attr::Nose)) body->model += ", nose=" + words(d.vec3(Attr::Nose));
-    if (d.has(Attr::Centre)) body->matter += ", centre=" + words(d.vec3(Attr::Centre));
-    if (d.has(Attr::Inertia)) body->matter += ", inertia=" + words(d.vec3(Attr::Inertia));
-    body->flight = fmt::format(", flight={}", d.text(Attr::Flight));
-    if (d.has(Attr::Coefficients))
-      body->flight += fmt::format(", coefficients=\"{}\"", d.text(Attr::Coefficients));
+        fmt::format("file={}, mass={}", d.text("file"), d.optionalNumber("mass").value_or(1));
+    if (d.has("nose")) body->model += ", nose=" + words(d.vec3("nose"));
+    if (d.has("centre")) body->matter += ", centre=" + words(d.vec3("centre"));
+    if (d.has("inertia")) body->matter += ", inertia=" + words(d.vec3("inertia"));
+    body->flight = fmt::format(", flight={}", d.text("flight"));
+    if (d.has("coefficients"))
+      body->flight += fmt::format(", coefficients=\"{}\"", d.text("coefficients"));
   }
   return show;
 }

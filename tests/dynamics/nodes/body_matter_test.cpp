@@ -1,11 +1,12 @@
 /// Where a body's matter is: as its model filled evenly has it, or as the script states it.
 
-#include "dynamics/nodes/dynamics_factories.h"
+#include "dynamics/nodes/body_maker.h"
 
 #include "dynamics/nodes/dyn_object_node.h"
 #include "engine/maths/functions.h"
 #include "engine/script/script.h"
 #include "tests/dynamics/nodes/show_nodes.h"
+#include "tests/node_types.h"
 
 #include <gtest/gtest.h>
 
@@ -36,16 +37,16 @@ Made made(const std::string& words, double scale = 1, bool standIn = false) {
   static Mesh mesh = bar();
   mesh.standIn = standIn;
   Diagnostics findings;
-  const Document document = parseScript(
-      SourceText::make("a.evs", "dynobject( name=a, file=a.obj, mass=3" + words + " )\n").value(), findings);
-  NodeFactories factories{};
-  addDynamicsFactories(factories);
+  const Document document =
+      parseScript(SourceText::make("a.evs", "dynobject( name=a, file=a.obj, mass=3" + words + " )\n").value(),
+                  testTypes(), findings);
+  NodeServices services;
   PlaceAttributes place;
   place.X_PN.linear() *= scale;
   const std::function<NodeRef(const NodeReference&)> resolve;
   const std::function<std::optional<PlacedModel>(const NodeReference&)> model;
-  const NodeRequest request{document[0], {}, "a", place, {}, &mesh, resolve, model, findings};
-  Made m{factories[static_cast<std::size_t>(NodeKind::DynObject)](request), ""};
+  const NodeRequest request{document[0], {}, "a", place, {}, &mesh, resolve, model, findings, services};
+  Made m{makeDynObject(request), ""};
   for (const Diagnostic& d : findings.all()) m.findings += format(d) + "\n";
   return m;
 }

@@ -1,7 +1,7 @@
 #include "engine/input/scripted_input.h"
+#include "engine/nodes/group_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/scene_node.h"
-#include "engine/nodes/timer_node.h"
 #include "tests/dynamics/nodes/show_nodes.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ Kick kickAt(double rate, bool smooth, bool carried) {
   Kick kick;
   kick.after = ball->state();
   for (const EventRecord& e : show.events)
-    if (e.event == Event::OnImpact && kick.when == 0) kick.when = e.when;
+    if (e.event == Event("onimpact") && kick.when == 0) kick.when = e.when;
   return kick;
 }
 
@@ -326,11 +326,20 @@ TEST(ExactTimes, AnUnloadedWallIsFeltUntilItGoes) {
     }
 }
 
+/// Waits for a time long after the test.
+class AlarmNode : public Node {
+public:
+  AlarmNode(NodeRef self, std::string name) : Node(kGroupType, self, std::move(name)) {}
+
+protected:
+  void onEnter(Scene& scene) override { scene.wakeAt(fromSeconds(100), self()); }
+};
+
 TEST(ExactTimes, AlarmsOfAnUnloadedFileLeaveNoTraceInTheStateHash) {
   const auto hashWith = [](bool alarm) {
     VisitedShow show(60);
     show.loader.files["game"] = [&](Load& load) {
-      if (alarm) addNode<TimerNode>(load, "clock", fromSeconds(100), true, true);
+      if (alarm) addNode<AlarmNode>(load, "clock");
     };
     show.loader.files["show"] = [&](Load& load) {
       addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", Nanoseconds{0}, true);

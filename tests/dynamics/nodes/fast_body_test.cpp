@@ -1,6 +1,7 @@
 /// Only a tracker can jump: sensors and other dynamics nodes see bodies and animations of any speed at the
 /// exact time, at every frame rate.
 
+#include "engine/nodes/model_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/rig_node.h"
 #include "tests/dynamics/nodes/show_nodes.h"
@@ -53,7 +54,7 @@ private:
 class Rider : public ObjectNode {
 public:
   Rider(NodeRef self, std::string name, MeshId mesh, NodeRef parent, const Vec3& p)
-      : ObjectNode(NodeKind::Object, self, std::move(name), below(parent, p), {mesh, true, "box"}) {}
+      : ObjectNode(kObjectType, self, std::move(name), below(parent, p), {mesh, true, "box"}) {}
 
 private:
   static PlaceAttributes below(NodeRef parent, const Vec3& p) {
@@ -84,8 +85,8 @@ struct Gallery : ShowFixture {
       frame();
       for (const EventRecord& e : scene.events()) {
         if (e.node != sensor) continue;
-        if (e.event == Event::OnImpact) impacts.push_back(toSeconds(e.when));
-        if (e.event == Event::OnRelease) releases.push_back(toSeconds(e.when));
+        if (e.event == Event("onimpact")) impacts.push_back(toSeconds(e.when));
+        if (e.event == Event("onrelease")) releases.push_back(toSeconds(e.when));
       }
     }
     return *this;
@@ -95,7 +96,7 @@ private:
   class Sensor : public CollisionNode {
   public:
     Sensor(NodeRef self, std::string name, Names colliders, Names collidees, double releaseDistance)
-        : CollisionNode(NodeKind::Collision, self, std::move(name),
+        : CollisionNode(kCollisionType, self, std::move(name),
                         {std::move(colliders), std::move(collidees), releaseDistance, true, true, {}},
                         std::make_shared<ShapeStore>()) {}
   };
@@ -261,7 +262,7 @@ TEST(FastBody, AResetIsAJumpThatNothingOnItsWaySees) {
       addNode<Sim>(load, "sim", Gallery::Names{}, Gallery::Names{"shot"});
       g.sense(load, {"target"}, {"shot"});
       addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{333'333'333})
-          .addNotification(notify(Event::TimesUp, "shot", Verb::Reset));
+          .addNotification(notify(Event("timesup"), "shot", Verb::Reset));
       (void)shot;
     });
     g.play(1);
@@ -281,7 +282,7 @@ TEST(FastBody, ARigThatIsDrivenFastTakesItsLoadAlongTheWay) {
         addNode<Rider>(load, "load", g.small, onTracker ? hand.self() : rig.self(), Vec3::Zero());
         g.sense(load, {"target"}, {"load"});
         addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{0})
-            .addNotification(notify(Event::TimesUp, "hand", Verb::Attach, 0, {"all", "wand"}));
+            .addNotification(notify(Event("timesup"), "hand", Verb::Attach, 0, {"all", "wand"}));
       });
       g.tracker("wand", Vec3::Zero());
       g.input.trackers[0].axes[1] = 1;
@@ -298,7 +299,7 @@ TEST(FastBody, ATrackerStillJumps) {
     addNode<Rider>(load, "glove", g.small, hand.self(), Vec3::Zero());
     g.sense(load, {"target"}, {"glove"});
     addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{0})
-        .addNotification(notify(Event::TimesUp, "hand", Verb::Attach, 0, {"all", "wand"}));
+        .addNotification(notify(Event("timesup"), "hand", Verb::Attach, 0, {"all", "wand"}));
   });
   g.tracker("wand", Vec3(0, 0, 0));
   g.play(0.5);
@@ -316,7 +317,7 @@ TEST(FastBody, WhatIsPutElsewhereIsReleasedAtOnce) {
       addNode<Sim>(load, "sim", Gallery::Names{}, Gallery::Names{"shot"});
       g.sense(load, {"target"}, {"shot"});
       addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{500'000'000})
-          .addNotification(notify(Event::TimesUp, "shot", Verb::Reset));
+          .addNotification(notify(Event("timesup"), "shot", Verb::Reset));
     });
     g.play(0.85);
     expectTimes(g.impacts, {(23 - kRadius) / 50}, std::to_string(rate));
@@ -337,7 +338,7 @@ TEST(FastBody, WhatHangsOnABodyThatIsResetDoesNotSweepOverWhatLiesBetween) {
       addNode<Sim>(load, "sim", Gallery::Names{}, Gallery::Names{"shot"});
       g.sense(load, {"target"}, {"rider"});
       addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{1'000'000'000, 1'333'333'333})
-          .addNotification(notify(Event::TimesUp, "shot", Verb::Reset));
+          .addNotification(notify(Event("timesup"), "shot", Verb::Reset));
     });
     g.play(1.6);
     EXPECT_TRUE(g.impacts.empty()) << rate;

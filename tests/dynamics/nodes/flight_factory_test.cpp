@@ -3,6 +3,7 @@
 #include "dynamics/nodes/flight_factory.h"
 #include "engine/script/script.h"
 #include "tests/dynamics/world/scenes.h"
+#include "tests/node_types.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -42,12 +43,14 @@ struct Made {
 
 Made made(const std::string& words, const Mesh& mesh = spear(), const AssetRoots* roots = nullptr) {
   Diagnostics findings;
-  const Document document = parseScript(
-      SourceText::make("a.evs", "dynobject( name=a, file=a.obj" + words + " )\n").value(), findings);
+  const Document document =
+      parseScript(SourceText::make("a.evs", "dynobject( name=a, file=a.obj" + words + " )\n").value(),
+                  testTypes(), findings);
   if (findings.hasErrors()) return {format(findings.all().front()), nullptr};
   const std::function<NodeRef(const NodeReference&)> resolve;
   const std::function<std::optional<PlacedModel>(const NodeReference&)> model;
-  const NodeRequest request{document[0], {}, "a", {}, {}, &mesh, resolve, model, findings};
+  NodeServices services;
+  const NodeRequest request{document[0], {}, "a", {}, {}, &mesh, resolve, model, findings, services};
   auto flight = flightOf(request, massOfMesh(mesh, 100).value(), roots);
   if (!flight) return {format(flight.error()), nullptr};
   return {findings.all().empty() ? "" : format(findings.all().front()), flight.value()};

@@ -59,7 +59,7 @@ TEST(InsideFrames, ASmoothTurningPathIsFollowedByShortChords) {
 class Shield : public FieldNode {
 public:
   Shield(NodeRef self, std::string name, NodeRef carrier)
-      : FieldNode(NodeKind::ForceSpherical, self, std::move(name), below(carrier),
+      : FieldNode(kForceSphericalType, self, std::move(name), below(carrier),
                   {SphericalField{3, 2, SphericalField::Falloff::Square}, 0, true, {}}) {}
 
 private:

@@ -15,8 +15,8 @@ TEST(DynamicsNode, AFieldSwitchedByMessageActsForExactlyItsTimeAtAnyFrameRate) {
     Ball* ball = nullptr;
     show.loader.files["show"] = [&](Load& load) {
       auto& clock = addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{fromSeconds(0.0123)});
-      clock.addNotification(notify(Event::TimesUp, "push", Verb::Enable, 0.3));
-      clock.addNotification(notify(Event::TimesUp, "push", Verb::Disable, 0.5111));
+      clock.addNotification(notify(Event("timesup"), "push", Verb::Enable, 0.3));
+      clock.addNotification(notify(Event("timesup"), "push", Verb::Disable, 0.5111));
       addNode<Field>(load, "push", Vec3(0, 10, 0), false);
       ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"push"});
       addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
@@ -47,7 +47,7 @@ TEST(DynamicsNode, UnhookedABodyNoLongerFeelsTheField) {
   Ball* ball = nullptr;
   show.loader.files["show"] = [&](Load& load) {
     addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{1})
-        .addNotification(notify(Event::TimesUp, "ball", Verb::Unhook, 0.25, {"gravity"}));
+        .addNotification(notify(Event("timesup"), "ball", Verb::Unhook, 0.25, {"gravity"}));
     addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
     ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"gravity"});
     addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
@@ -98,7 +98,7 @@ TEST(DynamicsNode, IsNotVisitedWhileItsBodiesRestAndWakesWhenAColliderMoves) {
   for (int n = 0; n < 120; ++n) {  // at 4 m/s; the near face reaches the ball after 3.9 m
     show.tracker("foot", {0, std::min(-5 + 4 * n / 60.0, -0.5), 1.05});
     show.frame();
-    for (const EventRecord& e : show.scene.events()) impacts += e.event == Event::OnImpact;
+    for (const EventRecord& e : show.scene.events()) impacts += e.event == Event("onimpact");
   }
   EXPECT_EQ(impacts, 1u);
   EXPECT_GT(ball->state().v.y(), 1.0);
@@ -146,7 +146,7 @@ TEST(DynamicsNode, ABodyThatLeavesAllBoundsIsToldOfByEventAndByName) {
       addNode<Field>(load, "storm", Vec3(pull, 0, 0), true);
       addNode<Field>(load, "other", Vec3(0, 0, 0), false);
       ball = &addNode<Ball>(load, "doomed", Vec3(0, 0, 1), std::vector<std::string>{"storm"});
-      ball->addNotification({Event::OnQuarantine, "other", Verb::Enable, {}, 0});
+      ball->addNotification({Event("onquarantine"), "other", Verb::Enable, {}, 0});
       addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"doomed"});
     };
     show.scene.open("show");
@@ -155,7 +155,7 @@ TEST(DynamicsNode, ABodyThatLeavesAllBoundsIsToldOfByEventAndByName) {
       for (std::size_t n = 0; n < frames; ++n) {
         show.frame();
         for (const EventRecord& e : show.scene.events())
-          if (e.event == Event::OnQuarantine) told.push_back(e);
+          if (e.event == Event("onquarantine")) told.push_back(e);
       }
     };
     play(static_cast<std::size_t>(5 * rate));
@@ -212,8 +212,8 @@ TEST(CollisionNode, TellsWhenObjectsThatOthersMoveTouchAndComeApart) {
     for (const EventRecord& e : show.scene.events()) events.push_back(e);
   }
   ASSERT_EQ(events.size(), 2u);
-  EXPECT_EQ(events[0].event, Event::OnImpact);
-  EXPECT_EQ(events[1].event, Event::OnRelease);
+  EXPECT_EQ(events[0].event, Event("onimpact"));
+  EXPECT_EQ(events[1].event, Event("onrelease"));
   EXPECT_NEAR(toSeconds(events[1].when - events[0].when), 0.1 + 0.25, 0.02);
 }
 

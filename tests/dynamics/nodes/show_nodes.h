@@ -3,6 +3,7 @@
 
 #include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dynamics_node.h"
+#include "engine/nodes/model_node.h"
 #include "tests/engine/scene/show_fixture.h"
 
 namespace stadion::show_nodes {
@@ -13,7 +14,7 @@ class Field : public FieldNode {
 public:
   Field(NodeRef self, std::string name, const Vec3& push, bool on, double duration = 0,
         PlaceAttributes place = {}, std::optional<StrengthAxis> axis = {})
-      : FieldNode(NodeKind::ForceLinear, self, std::move(name), std::move(place),
+      : FieldNode(kForceLinearType, self, std::move(name), std::move(place),
                   {LinearField{push}, fromSeconds(duration), on, std::move(axis)}) {}
 };
 
@@ -57,7 +58,7 @@ class TouchWatch : public CollisionNode {
 public:
   TouchWatch(NodeRef self, std::string name, std::vector<std::string> colliders,
              std::vector<std::string> collidees)
-      : CollisionNode(NodeKind::Collision, self, std::move(name),
+      : CollisionNode(kCollisionType, self, std::move(name),
                       {std::move(colliders), std::move(collidees), 0.5, true, true, {}},
                       std::make_shared<ShapeStore>()) {}
 };
@@ -80,7 +81,7 @@ inline std::unique_ptr<Mesh> cube(double half) {
 class Block : public ObjectNode {
 public:
   Block(NodeRef self, std::string name, MeshId mesh, const Vec3& p)
-      : ObjectNode(NodeKind::Object, self, std::move(name), at(p), {mesh, true, "box"}) {}
+      : ObjectNode(kObjectType, self, std::move(name), at(p), {mesh, true, "box"}) {}
 
 private:
   static PlaceAttributes at(const Vec3& p) {

@@ -1,5 +1,6 @@
 #include "engine/build/lint.h"
 #include "engine/script/script.h"
+#include "tests/node_types.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@ namespace {
 
 std::vector<std::string> warningsOf(std::string_view text, bool alone = true) {
   Diagnostics findings;
-  const Document document = checkScript(std::move(SourceText::make("a.evs", text).value()), findings);
+  const Document document = checkScript(std::move(SourceText::make("a.evs", text).value()), testTypes(), findings);
   for (const Diagnostic& d : findings.all()) ADD_FAILURE() << format(d);
   Diagnostics warnings;
   lint(document, alone, warnings);
@@ -83,7 +84,7 @@ TEST(ScriptLint, ALatencyShorterThanAFrameIsTold) {
     const std::string_view text = "light(name=lamp)\n"
                                   "timer(period=1, eventmessage=\"timesup, lamp, hide, latency=0.02\",\n"
                                   "  eventmessage=\"timesup, lamp, show, 0.02, latency=0.02\")";
-    const Document document = checkScript(std::move(SourceText::make("a.evs", text).value()), findings);
+    const Document document = checkScript(std::move(SourceText::make("a.evs", text).value()), testTypes(), findings);
     EXPECT_FALSE(findings.hasErrors());
     lintLatencies(document, fromSeconds(1 / rate), warnings);
     std::string all;
@@ -109,7 +110,7 @@ TEST(ScriptLint, ATrackerThatNoDeviceIsCalledIsNamed) {
                                   "timer(period=1, eventmessage=\"timesup, ball, grab nosuch\", "
                                   "eventmessage=\"timesup, ball, grab foot\")\n"
                                   "dynamics(collidee=ball)";
-    const Document document = checkScript(std::move(SourceText::make("a.evs", text).value()), findings);
+    const Document document = checkScript(std::move(SourceText::make("a.evs", text).value()), testTypes(), findings);
     EXPECT_FALSE(findings.hasErrors());
     lintTrackers(document, known, log, warnings);
     std::string all;

@@ -4,6 +4,7 @@
 #include "engine/build/lint.h"
 #include "engine/script/script.h"
 #include "tests/mutations.h"
+#include "tests/node_types.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +43,7 @@ Diagnostics findingsOf(const std::string& name, const std::string& bytes) {
     findings.add(source.error());
     return findings;
   }
-  const Document document = checkScript(std::move(source.value()), findings);
+  const Document document = checkScript(std::move(source.value()), testTypes(), findings);
   lint(document, true, findings);
   return findings;
 }

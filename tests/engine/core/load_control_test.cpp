@@ -4,7 +4,9 @@
 #include "engine/base/plain_file.h"
 #include "engine/input/input_log.h"
 #include "engine/input/input_recorder.h"
+#include "engine/nodes/group_node.h"
 #include "engine/nodes/lod_node.h"
+#include "engine/nodes/model_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/scene_node.h"
 #include "engine/nodes/sway_node.h"
@@ -19,9 +21,13 @@ namespace stadion {
 namespace {
 
 /// Runs on its own in every frame, as a dynamics node whose bodies move.
+/// Goes on step by step, as dynamics nodes do.
+constexpr NodeType kRunningType{
+    .name = "running", .help = "", .traits = {Trait::Collides, Trait::Degradable}};
+
 class RunningNode : public Node {
 public:
-  RunningNode(NodeRef self, std::string name) : Node(NodeKind::Dynamics, self, std::move(name)) {}
+  RunningNode(NodeRef self, std::string name) : Node(kRunningType, self, std::move(name)) {}
   bool busy() const override { return true; }
   Rank rank() const override { return Rank::Dynamics; }
   struct Cycle {
@@ -69,7 +75,7 @@ struct LoadFixture : ShowFixture {
   }
   void addObject(Load& load, const std::string& name, const PlaceAttributes& place) {
     const auto position = static_cast<std::uint32_t>(load.nodes.size());
-    load.nodes.push_back(std::make_unique<ObjectNode>(NodeKind::Object, NodeRef{1, position}, name, place,
+    load.nodes.push_back(std::make_unique<ObjectNode>(kObjectType, NodeRef{1, position}, name, place,
                                                       Appearance{mesh, true, "", 0.02}));
     load.enterOrder.push_back(position);
     load.names[name] = position;
@@ -196,7 +202,7 @@ TEST(LoadControl, TheSameDecisionsGiveTheSameHashAndOthersDoNot) {
 class LookingNode : public Node {
 public:
   LookingNode(NodeRef self, std::string name, const PlacedNode& at)
-      : Node(NodeKind::Group, self, std::move(name)), at_(at) {}
+      : Node(kGroupType, self, std::move(name)), at_(at) {}
   Rank rank() const override { return Rank::Outcome; }
   Course way;  ///< in the last of them
 

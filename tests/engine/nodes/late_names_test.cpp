@@ -18,7 +18,7 @@ struct LateShow : ShowFixture {
     loader.files["show"] = [initially](Load& load) {
       addNode<SceneNode>(load, "inner", PlaceAttributes{}, "inner", Nanoseconds{0}, initially);
       addNode<SpeakingNode>(load, "speaker", std::vector<Nanoseconds>{fromSeconds(0.5)})
-          .addNotification(notify(Event::TimesUp, "inner/ear", Verb::Enable, 1));
+          .addNotification(notify(Event("timesup"), "inner/ear", Verb::Enable, 1));
     };
     scene.open("show");
   }
@@ -67,8 +67,8 @@ TEST(LateNames, AMessageOutlivesTheFileOfItsSenderButNotTheFileItNames) {
   ListeningNode* outer = nullptr;
   show.loader.files["inner"] = [](Load& load) {
     auto& speaker = addNode<SpeakingNode>(load, "speaker", std::vector<Nanoseconds>{fromSeconds(0.1)});
-    speaker.addNotification(notify(Event::TimesUp, "outer", Verb::Enable, 1));
-    speaker.addNotification(notify(Event::TimesUp, "both", Verb::Enable, 1));
+    speaker.addNotification(notify(Event("timesup"), "outer", Verb::Enable, 1));
+    speaker.addNotification(notify(Event("timesup"), "both", Verb::Enable, 1));
     addNode<ListeningNode>(load, "both");
   };
   ListeningNode* both = nullptr;

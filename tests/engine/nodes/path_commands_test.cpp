@@ -18,7 +18,7 @@ struct PathShow : ShowFixture {
       const std::vector<Keyframe> keys{{0, {Vec3(0, 0, 0), Quat::Identity()}},
                                        {2, {Vec3(2, 0, 0), Quat::Identity()}}};
       addNode<PathNode>(load, "path", PlaceAttributes{}, NodeRef{load.number, 0}, keys, loop, false, true)
-          .addNotification(notify(Event::Finished, "listener", Verb::Toggle, 0.5));
+          .addNotification(notify(Event("finished"), "listener", Verb::Toggle, 0.5));
       listener = &addNode<ListeningNode>(load, "listener");
     };
     scene.open("show");

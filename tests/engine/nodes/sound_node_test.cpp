@@ -17,9 +17,9 @@ struct HeardShow : ShowFixture {
       PlaceAttributes place;
       place.X_PN.translation() = Vec3(1, 2, 3);
       addNode<SoundNode>(load, "cheer", place, a, on)
-          .addNotification(notify(Event::Finished, "listener", Verb::Enable, 1));
+          .addNotification(notify(Event("finished"), "listener", Verb::Enable, 1));
       addNode<SpeakingNode>(load, "speaker", told)
-          .addNotification(notify(Event::TimesUp, "cheer", verb, 0.1));
+          .addNotification(notify(Event("timesup"), "cheer", verb, 0.1));
       listener = &addNode<ListeningNode>(load, "listener");
     };
     scene.open("show");

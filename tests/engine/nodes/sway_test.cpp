@@ -1,6 +1,7 @@
 #include "engine/maths/angles.h"
 #include "engine/nodes/sway_node.h"
 
+#include "engine/nodes/group_node.h"
 #include "tests/engine/scene/show_fixture.h"
 
 #include <cmath>
@@ -316,7 +317,7 @@ TEST(Sway, OfTwoThatMoveTheSameTheLaterOneCounts) {
 class Onlooker : public Node {
 public:
   Onlooker(NodeRef self, std::string name, NodeRef target)
-      : Node(NodeKind::Group, self, std::move(name)), target_(target) {}
+      : Node(kGroupType, self, std::move(name)), target_(target) {}
   Rank rank() const override { return Rank::Sensing; }
   bool busy() const override { return true; }
   double worst = 0;

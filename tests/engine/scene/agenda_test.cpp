@@ -1,5 +1,6 @@
 #include "engine/scene/agenda.h"
 
+#include "engine/nodes/group_node.h"
 #include "tests/engine/scene/show_fixture.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ namespace {
 
 class RankedNode : public Node {
 public:
-  RankedNode(std::uint32_t position, Rank rank) : Node(NodeKind::Group, {1, position}, ""), rank_(rank) {}
+  RankedNode(std::uint32_t position, Rank rank) : Node(kGroupType, {1, position}, ""), rank_(rank) {}
   Rank rank() const override { return rank_; }
 
 private:

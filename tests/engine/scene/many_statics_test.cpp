@@ -1,3 +1,4 @@
+#include "engine/nodes/model_node.h"
 #include "engine/nodes/scene_node.h"
 #include "tests/engine/scene/show_fixture.h"
 
@@ -11,7 +12,7 @@ namespace {
 /// Static objects with names, in one chunk.
 void addStatics(Load& load, std::uint32_t count, const std::vector<InstanceRecord>& records, ChunkId chunk) {
   load.nodes.resize(count);
-  load.chunk = chunk;
+  load.chunk = chunk, load.staticType = &kObjectType;
   load.chunkRecords = records;
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto at = load.names.emplace("stone" + std::to_string(i), i).first;

@@ -1,3 +1,4 @@
+#include "engine/nodes/model_node.h"
 #include "engine/nodes/scene_node.h"
 #include "engine/scene/scene.h"
 #include "tests/engine/scene/show_fixture.h"
@@ -15,6 +16,7 @@ TEST(Scene, VisitsOnlyTheNodesThatHaveSomethingToDo) {
     load.nodes.resize(100000);
     load.chunk = 1;
     load.chunkRecords = records;
+    load.staticType = &kObjectType;
     for (std::uint32_t i = 0; i < 100000; ++i) load.statics.push_back({i, {}});
     for (int i = 0; i < 10; ++i) addNode<MovingNode>(load, "", PlaceAttributes{}, true, mesh);
     for (int i = 0; i < 500; ++i) addNode<MovingNode>(load, "", PlaceAttributes{}, false, mesh);
@@ -35,7 +37,7 @@ TEST(Scene, DeliversMessagesInTheReceiversNextCycleAndNotBefore) {
   show.loader.files["show"] = [&](Load& load) {
     // The listener stands behind the speaker: in the same frame it would hear it too early.
     addNode<SpeakingNode>(load, "speaker", std::vector<Nanoseconds>{fromSeconds(0.040)})
-        .addNotification(notify(Event::TimesUp, "listener", Verb::Enable));
+        .addNotification(notify(Event("timesup"), "listener", Verb::Enable));
     listener = &addNode<ListeningNode>(load, "listener");
   };
   show.scene.open("show");
@@ -53,7 +55,7 @@ TEST(Scene, ADelayCountsFromTheEventItselfWhateverTheFrameRate) {
     ListeningNode* listener = nullptr;
     show.loader.files["show"] = [&](Load& load) {
       addNode<SpeakingNode>(load, "speaker", std::vector<Nanoseconds>{fromSeconds(0.0411)})
-          .addNotification(notify(Event::TimesUp, "listener", Verb::Enable, 0.2));
+          .addNotification(notify(Event("timesup"), "listener", Verb::Enable, 0.2));
       listener = &addNode<ListeningNode>(load, "listener");
     };
     show.scene.open("show");
@@ -69,12 +71,12 @@ TEST(Scene, OrdersMessagesByTimeThenSenderThenSequence) {
   show.loader.files["show"] = [&](Load& load) {
     listener = &addNode<ListeningNode>(load, "listener");
     auto& late = addNode<SpeakingNode>(load, "late", std::vector<Nanoseconds>{fromSeconds(0.012)});
-    late.addNotification(notify(Event::TimesUp, "listener", Verb::Hide));
-    late.addNotification(notify(Event::TimesUp, "listener", Verb::Show));
+    late.addNotification(notify(Event("timesup"), "listener", Verb::Hide));
+    late.addNotification(notify(Event("timesup"), "listener", Verb::Show));
     addNode<SpeakingNode>(load, "early", std::vector<Nanoseconds>{fromSeconds(0.011)})
-        .addNotification(notify(Event::TimesUp, "listener", Verb::Enable));
+        .addNotification(notify(Event("timesup"), "listener", Verb::Enable));
     addNode<SpeakingNode>(load, "same", std::vector<Nanoseconds>{fromSeconds(0.012)})
-        .addNotification(notify(Event::TimesUp, "listener", Verb::Disable));
+        .addNotification(notify(Event("timesup"), "listener", Verb::Disable));
   };
   show.scene.open("show");
   show.frames(4);
@@ -113,7 +115,7 @@ TEST(Scene, AFileThatComesLateTakesEffectAndIsToldWhenItWasDecided) {
   show.loader.files["game"] = [](Load& load) { addNode<MovingNode>(load, "ball"); };
   show.loader.files["show"] = [](Load& load) {
     auto& game = addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", fromSeconds(0.1), false);
-    game.addNotification(notify(Event::Loaded, "ear", Verb::Enable));
+    game.addNotification(notify(Event("loaded"), "ear", Verb::Enable));
     addNode<ListeningNode>(load, "ear");
   };
   show.loader.late[2] = fromSeconds(0.2);
@@ -190,7 +192,7 @@ TEST(Scene, MessagesToAnUnloadedNodeAreCountedAndHarmless) {
   ShowFixture show;
   show.loader.files["show"] = [](Load& load) {
     addNode<SpeakingNode>(load, "speaker", std::vector<Nanoseconds>{1})
-        .addNotification(notify(Event::TimesUp, "nobody/there", Verb::Enable));
+        .addNotification(notify(Event("timesup"), "nobody/there", Verb::Enable));
   };
   show.scene.open("show");
   show.frame();
@@ -208,6 +210,7 @@ TEST(Scene, AStaticObjectBecomesANodeWhenItIsAddressed) {
     load.nodes.resize(1);
     load.chunk = 5;
     load.chunkRecords = records;
+    load.staticType = &kObjectType;
     load.statics = {{0, {}}};
     load.names["stone"] = 0;
   };

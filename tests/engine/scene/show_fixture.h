@@ -3,6 +3,7 @@
 
 #include "engine/scene/object_node.h"
 #include "engine/scene/scene.h"
+#include "engine/nodes/group_node.h"
 
 #include <functional>
 #include <map>
@@ -70,7 +71,7 @@ class MovingNode : public PlacedNode {
 public:
   MovingNode(NodeRef self, std::string name, PlaceAttributes place = {}, bool moving = true,
              MeshId mesh = kNoMesh)
-      : PlacedNode(NodeKind::Transform, self, std::move(name), std::move(place)), moving_(moving),
+      : PlacedNode(kTransformType, self, std::move(name), std::move(place)), moving_(moving),
         mesh_(mesh) {}
   bool busy() const override { return moving_ || PlacedNode::busy(); }
 
@@ -100,7 +101,7 @@ private:
 /// Notes what it is told and when.
 class ListeningNode : public Node {
 public:
-  ListeningNode(NodeRef self, std::string name) : Node(NodeKind::Group, self, std::move(name)) {}
+  ListeningNode(NodeRef self, std::string name) : Node(kGroupType, self, std::move(name)) {}
   struct Heard {
     Verb verb;
     Nanoseconds effective;
@@ -121,14 +122,14 @@ protected:
 class SpeakingNode : public Node {
 public:
   SpeakingNode(NodeRef self, std::string name, std::vector<Nanoseconds> when)
-      : Node(NodeKind::Timer, self, std::move(name)), when_(std::move(when)) {}
+      : Node(kGroupType, self, std::move(name)), when_(std::move(when)) {}
   bool busy() const override { return !when_.empty(); }
 
 protected:
   void simulate(FrameContext& frame) override {
     std::erase_if(when_, [&](Nanoseconds t) {
       if (t > frame.now.time) return false;
-      raise(Event::TimesUp, t);
+      raise(Event("timesup"), t);
       return true;
     });
   }

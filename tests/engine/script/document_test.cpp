@@ -1,6 +1,7 @@
-#include "engine/script/choice.h"
+#include "engine/asset/format.h"
 #include "engine/script/script.h"
 #include "engine/text/text_mesh.h"
+#include "tests/node_types.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@ namespace stadion {
 namespace {
 
 Document checked(std::string_view text, Diagnostics& findings) {
-  return checkScript(std::move(SourceText::make("a.evs", text).value()), findings);
+  return checkScript(std::move(SourceText::make("a.evs", text).value()), testTypes(), findings);
 }
 
 Document right(std::string_view text) {
@@ -32,47 +33,46 @@ TEST(ScriptDocument, ValuesAreTypedAndKnowTheirPlace) {
             "draw=off, up=y, scale=2)");
   ASSERT_EQ(d.size(), 1U);
   const Declaration ball = d[0];
-  EXPECT_EQ(ball.kind(), NodeKind::DynObject);
+  EXPECT_TRUE(ball.kind() == "dynobject");
   EXPECT_EQ(ball.name(), "ball");
-  EXPECT_EQ(ball.text(Attr::File), "football.3ds");
-  EXPECT_EQ(ball.vec3(Attr::Position), Vec3(10, 0, 0.5));
-  EXPECT_EQ(ball.vec3(Attr::Scale), Vec3(2, 2, 2));
-  EXPECT_EQ(ball.number(Attr::Density), 0.5);
-  EXPECT_FALSE(ball.flag(Attr::Draw));
-  EXPECT_EQ(ball.optionalChoice<UpAxis>(Attr::Up), UpAxis::Y);
+  EXPECT_EQ(ball.text("file"), "football.3ds");
+  EXPECT_EQ(ball.vec3("position"), Vec3(10, 0, 0.5));
+  EXPECT_EQ(ball.vec3("scale"), Vec3(2, 2, 2));
+  EXPECT_EQ(ball.number("density"), 0.5);
+  EXPECT_FALSE(ball.flag("draw"));
+  EXPECT_EQ(ball.optionalChoice<UpAxis>("up"), UpAxis::Y);
   EXPECT_EQ(ball.line(), 2U);
-  EXPECT_EQ(ball.where(Attr::Position).line, 3U);
-  EXPECT_EQ(ball.where(Attr::Position).column, 13U);
+  EXPECT_EQ(ball.where("position").line, 3U);
+  EXPECT_EQ(ball.where("position").column, 13U);
 }
 
 TEST(ScriptDocument, WhatIsNotStatedHasItsStandardValue) {
   const Document d = right("dynobject(file=a.obj)");
-  EXPECT_EQ(d[0].number(Attr::Density), 1);
-  EXPECT_EQ(d[0].number(Attr::Friction), 0.5);
-  EXPECT_EQ(d[0].vec3(Attr::Position), Vec3::Zero());
-  EXPECT_EQ(d[0].vec3(Attr::Scale), Vec3::Ones());
-  EXPECT_TRUE(d[0].flag(Attr::Draw));
-  EXPECT_EQ(d[0].choice<ShapeWord>(Attr::Shape), ShapeWord::Auto);
-  EXPECT_EQ(d[0].text(Attr::Shape), "auto");
-  EXPECT_EQ(d[0].optionalNumber(Attr::Mass), std::nullopt);
-  EXPECT_EQ(d[0].optionalChoice<UpAxis>(Attr::Up), std::nullopt);
-  EXPECT_FALSE(d[0].has(Attr::Density));
-  EXPECT_TRUE(d[0].references(Attr::Hook).empty());
+  EXPECT_EQ(d[0].number("density"), 1);
+  EXPECT_EQ(d[0].number("friction"), 0.5);
+  EXPECT_EQ(d[0].vec3("position"), Vec3::Zero());
+  EXPECT_EQ(d[0].vec3("scale"), Vec3::Ones());
+  EXPECT_TRUE(d[0].flag("draw"));
+  EXPECT_EQ(d[0].text("shape"), "auto");
+  EXPECT_EQ(d[0].optionalNumber("mass"), std::nullopt);
+  EXPECT_EQ(d[0].optionalChoice<UpAxis>("up"), std::nullopt);
+  EXPECT_FALSE(d[0].has("density"));
+  EXPECT_TRUE(d[0].references("hook").empty());
   EXPECT_TRUE(d[0].name().empty());
 }
 
 TEST(ScriptDocument, BooleansHaveThreeSpellings) {
   for (const char* word : {"on", "true", "1"})
-    EXPECT_TRUE(right(std::string("object(file=a.obj, draw=") + word + ")")[0].flag(Attr::Draw)) << word;
+    EXPECT_TRUE(right(std::string("object(file=a.obj, draw=") + word + ")")[0].flag("draw")) << word;
   for (const char* word : {"off", "false", "0"})
-    EXPECT_FALSE(right(std::string("object(file=a.obj, draw=") + word + ")")[0].flag(Attr::Draw)) << word;
+    EXPECT_FALSE(right(std::string("object(file=a.obj, draw=") + word + ")")[0].flag("draw")) << word;
 }
 
 TEST(ScriptDocument, RepeatedAttributesAccumulateInOrder) {
   const Document d =
       right("dynobject(file=a.obj, hook=b, hook=a, hook=c) forcelinear(name=a, direction=\"0 0 1\")\n"
             "forcelinear(name=b, direction=\"0 0 1\") forcespherical(name=c, radius=1)");
-  const auto hooks = d[0].references(Attr::Hook);
+  const auto hooks = d[0].references("hook");
   ASSERT_EQ(hooks.size(), 3U);
   EXPECT_EQ(hooks[0].declaration, 2U);
   EXPECT_EQ(hooks[1].declaration, 1U);
@@ -102,13 +102,13 @@ TEST(ScriptDocument, EventMessagesAreTyped) {
       "forcelinear(name=wind, direction=\"1 0 0\")");
   const auto messages = d[0].eventMessages();
   ASSERT_EQ(messages.size(), 3U);
-  EXPECT_EQ(messages[0].event, Event::Enter);
+  EXPECT_EQ(messages[0].event, Event("enter"));
   EXPECT_EQ(messages[0].verb, Verb::Attach);
   EXPECT_EQ(messages[0].part, AttachPart::Position);
   EXPECT_EQ(messages[0].tracker, "wand");
   EXPECT_EQ(messages[0].delay, 250'000'000);
   EXPECT_EQ(messages[0].target.declaration, 1U);
-  EXPECT_EQ(messages[1].event, Event::Exit);
+  EXPECT_EQ(messages[1].event, Event("exit"));
   EXPECT_EQ(messages[1].verb, Verb::Unhook);
   EXPECT_EQ(messages[1].field.declaration, 3U);
   EXPECT_EQ(messages[1].delay, 0);
@@ -121,9 +121,9 @@ TEST(ScriptDocument, EventMessagesAreTyped) {
 TEST(ScriptDocument, SpheresBoxesAndKeysHaveTheirNumbers) {
   const Document d = right("wandtrigger(sphere=\"1,2,3,4\") usertrigger(box=\"1,2,3,4,5,6\")\n"
                            "path(key=\"0, 1,2,3\", key=\"2, 4,5,6, 0,0,90\", name=p)");
-  EXPECT_EQ(d[0].sphere(Attr::Sphere)->radius, 4);
-  EXPECT_FALSE(d[0].box(Attr::Box));
-  EXPECT_EQ(d[1].box(Attr::Box)->edges, Vec3(4, 5, 6));
+  EXPECT_EQ(d[0].sphere("sphere")->radius, 4);
+  EXPECT_FALSE(d[0].box("box"));
+  EXPECT_EQ(d[1].box("box")->edges, Vec3(4, 5, 6));
   const auto keys = d[2].keys();
   ASSERT_EQ(keys.size(), 2U);
   EXPECT_EQ(keys[0].orientation, Vec3::Zero());
@@ -159,7 +159,7 @@ TEST(ScriptDocument, VeryManyLostNamesDoNotMakeReferencesDear) {
   text += ")\n";
   for (int i = 0; i < 100000; ++i) text += "group(parent=x" + std::to_string(i) + ")\n";
   Diagnostics findings;  // a hundred thousand times a hundred thousand comparisons would take a minute
-  checkScript(std::move(SourceText::make("many.evs", text).value()), findings);
+  checkScript(std::move(SourceText::make("many.evs", text).value()), testTypes(), findings);
   EXPECT_EQ(findings.errorCount(), 1u) << "any of the names may be among those lost";
 }
 
@@ -181,12 +181,12 @@ TEST(ScriptDocument, NamesOfTheFilesAroundAreFoundNearestFirst) {
                                                           "hook=gravity)\ntimer(period=1, "
                                                           "eventmessage=\"timesup, ball, release\")")
                                 .value()),
-                  findings);
+                  testTypes(), findings);
   resolveNames(inner, {{&middle, &outer}, {}}, findings);
   for (const Diagnostic& d : findings.all()) ADD_FAILURE() << format(d);
-  EXPECT_EQ(inner[0].reference(Attr::Parent)->level, 1U);
-  EXPECT_EQ(inner[0].references(Attr::Hook)[0].level, 2U);
-  EXPECT_EQ(inner[0].references(Attr::Hook)[0].declaration, 0U);
+  EXPECT_EQ(inner[0].reference("parent")->level, 1U);
+  EXPECT_EQ(inner[0].references("hook")[0].level, 2U);
+  EXPECT_EQ(inner[0].references("hook")[0].declaration, 0U);
   EXPECT_EQ(inner[1].eventMessages()[0].target.level, 0U);
 }
 
@@ -197,8 +197,8 @@ TEST(ScriptDocument, APathLeadsIntoASubScene) {
                                 "timer(period=1, eventmessage=\"timesup, arena/lamp, enable\",\n"
                                 "  eventmessage=\"timesup, arena/stone, enable\",\n"
                                 "  eventmessage=\"timesup, arena/stoen, hide\")";
-  Document document = parseScript(std::move(SourceText::make("a.evs", text).value()), findings);
-  Document trusting = parseScript(std::move(SourceText::make("a.evs", text).value()), findings);
+  Document document = parseScript(std::move(SourceText::make("a.evs", text).value()), testTypes(), findings);
+  Document trusting = parseScript(std::move(SourceText::make("a.evs", text).value()), testTypes(), findings);
   resolveNames(document, {{}, [&](Declaration scene) { return scene.name() == "arena" ? &inside : nullptr; }},
                findings);
   const auto messages = document[1].eventMessages();
@@ -222,7 +222,7 @@ TEST(ScriptDocument, HundredThousandDeclarationsAreCompact) {
   const Document d = right(text);
   EXPECT_EQ(d.size(), 100'001U);
   EXPECT_EQ(d.find("stone_99999")->index(), 99'999U);
-  EXPECT_EQ(d[77].reference(Attr::Parent)->declaration, 100'000U);
+  EXPECT_EQ(d[77].reference("parent")->declaration, 100'000U);
   EXPECT_LT(d.bytesHeld() / d.size(), 300U);
 }
 

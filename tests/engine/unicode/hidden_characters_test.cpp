@@ -4,6 +4,7 @@
 #include "engine/script/script.h"
 #include "engine/unicode/characters.h"
 #include "engine/unicode/likeness.h"
+#include "tests/node_types.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ using unicode::skeleton;
 
 Diagnostics findingsOf(std::string_view script) {
   Diagnostics findings;
-  checkScript(std::move(SourceText::make("a.evs", script).value()), findings);
+  checkScript(std::move(SourceText::make("a.evs", script).value()), testTypes(), findings);
   return findings;
 }
 

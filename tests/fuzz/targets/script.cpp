@@ -3,6 +3,7 @@
 #include "engine/build/lint.h"
 #include "tests/fuzz/built_show.h"
 #include "tests/fuzz/targets.h"
+#include "tests/node_types.h"
 
 namespace stadion::fuzz {
 
@@ -14,7 +15,7 @@ void script(Bytes bytes) {
     return;
   }
   Diagnostics findings;
-  const Document document = checkScript(std::move(source.value()), findings);
+  const Document document = checkScript(std::move(source.value()), testTypes(), findings);
   lint(document, true, findings);
   if (!findings.hasErrors()) {
     lintLatencies(document, 16'666'667, findings);

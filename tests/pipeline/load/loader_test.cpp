@@ -28,15 +28,17 @@ std::unique_ptr<Node> waitForRelease(const NodeRequest&) {
   return nullptr;
 }
 
+using MakeNode = std::unique_ptr<Node> (*)(const NodeRequest&);
+
 /// A loader for a show of one timer, which `make` makes.
 class OneTimer {
 public:
-  explicit OneTimer(NodeFactory make) {
+  explicit OneTimer(MakeNode make) : type_{.name = "timer", .help = "", .make = make} {
     fs::create_directories(folder_);
-    std::ofstream(file()) << "timer( period=1 )\n";
-    factories_[static_cast<std::size_t>(NodeKind::Timer)] = make;
+    std::ofstream(file()) << "timer( )\n";
+    types_.add(type_, "this test");
     roots_.add(folder_);
-    loader = std::make_unique<Loader>(LoaderParts{meshes_, state_.arena(), importer_, roots_, factories_,
+    loader = std::make_unique<Loader>(LoaderParts{meshes_, state_.arena(), importer_, roots_, types_, services_,
                                                   [](const Diagnostics&) {}, &stop});
   }
   ~OneTimer() {
@@ -55,11 +57,13 @@ private:
   MeshStore meshes_;
   SceneState state_;
   AssetRoots roots_;
-  NodeFactories factories_{};
+  NodeType type_;
+  NodeRegistry types_;
+  NodeServices services_;
   Importer importer_{"/nowhere/stadion-import", AssetRoots()};
 };
 
-std::string thrownBy(NodeFactory make) {
+std::string thrownBy(MakeNode make) {
   OneTimer show(make);
   show.request(1);
   try {

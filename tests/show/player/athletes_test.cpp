@@ -57,7 +57,7 @@ Athlete playAthlete(const std::string& name) {
   ShowParts parts = player->parts(StereoLayout::Pair);
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
     athlete.moments.push_back(momentOf(toSeconds(now.time), player->scene()));
-    for (const EventRecord& e : scene.events()) athlete.finished += e.event == Event::Finished;
+    for (const EventRecord& e : scene.events()) athlete.finished += e.event == Event("finished");
   };
   ShowStages stages(std::move(parts));
   play(stages, Mode::Sequential, 1, static_cast<std::uint64_t>(kEnd * kRate) + 1, kRate);

@@ -87,7 +87,7 @@ PlayedKick playKick(const std::string& script, double rate, const std::string& i
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
     played.moments.push_back(momentOf(now, player->scene(), corners));
     for (const EventRecord& e : scene.events())
-      if (e.event == Event::OnImpact || e.event == Event::OnRelease)
+      if (e.event == Event("onimpact") || e.event == Event("onrelease"))
         played.told.push_back({e.event, toSeconds(e.when)});
   };
   ShowStages stages(std::move(parts));
@@ -140,7 +140,7 @@ Figures figuresOf(const PlayedKick& played) {
   }
   f.firstEvent = played.told.front().time;
   const auto release =
-      std::ranges::find_if(played.told, [](const Told& t) { return t.event == Event::OnRelease; });
+      std::ranges::find_if(played.told, [](const Told& t) { return t.event == Event("onrelease"); });
   if (release == played.told.end()) {
     ADD_FAILURE() << "the ball was never released";
     return f;

@@ -75,9 +75,9 @@ Seen playReloading(const Playing& what) {
     player->collect(running->shownFrame());
     if (what.noteBall) seen.ball.push_back(placeOf("ball", player->scene()));
     for (const EventRecord& e : scene.events()) {
-      if (e.event != Event::Loaded && e.event != Event::Unloaded) continue;
+      if (e.event != Event("loaded") && e.event != Event("unloaded")) continue;
       seen.changed.push_back(now.frame);
-      seen.loaded += e.event == Event::Loaded;
+      seen.loaded += e.event == Event("loaded");
     }
     if (what.noteMemory && now.frame % kFramesPerCycle == 0) {
       const struct mallinfo2 m = mallinfo2();

@@ -25,7 +25,7 @@ TEST(ShowTexts, ASubSceneIsLoadedAsItWasWhenTheShowWasOpenedWhateverBecomesOfIts
     bool loaded = false;
     ShowParts parts = player->parts(StereoLayout::Pair);
     parts.observer = [&](const TimeSignature&, const InputSample&, const Scene& scene) {
-      for (const EventRecord& e : scene.events()) loaded |= e.event == Event::Loaded;
+      for (const EventRecord& e : scene.events()) loaded |= e.event == Event("loaded");
     };
     ShowStages stages(std::move(parts));
     EXPECT_FALSE(play(stages, Mode::Sequential, 1, 30).failure);
@@ -39,7 +39,7 @@ TEST(ShowTexts, ArePartsOfPartsToo) {
   folder.write("b.evs", "timer( name=b, period=1 )\n");
   folder.write("a.evs", "scene( file=b.evs )\nscene( file=missing.evs )\n");
   const std::string show = folder.write("show.evs", "scene( file=a.evs )\n");
-  const auto texts = ScriptTexts::read(show, AssetRoots::ofScript(show));
+  const auto texts = ScriptTexts::read(show, AssetRoots::ofScript(show), *standardNodes());
   EXPECT_EQ(texts->parts(), (std::vector<std::string>{"a.evs", "b.evs", "missing.evs"}));
   EXPECT_TRUE(texts->part("b.evs"));
   ASSERT_FALSE(texts->part("missing.evs"));
@@ -53,7 +53,7 @@ TEST(ShowTexts, OfLargePartsAreReadAgainAndMustBeWhatTheyWere) {
   folder.write("small.evs", "timer( name=b, period=1 )\n");
   const std::string show = folder.write("show.evs", "scene( file=large.evs )\nscene( file=small.evs )\n");
   const AssetRoots roots = AssetRoots::ofScript(show);
-  const auto rest = ScriptTexts::read(show, roots)->without(name)->without("small.evs");
+  const auto rest = ScriptTexts::read(show, roots, *standardNodes())->without(name)->without("small.evs");
   EXPECT_TRUE(rest->part("small.evs"));
   EXPECT_FALSE(rest->part(name)) << "it is not kept";
   ASSERT_TRUE(rest->part(name, roots));
@@ -77,7 +77,7 @@ protected:
   TemporaryFolder folder_;
   const std::string part_ = folder_.write("part.evs", "timer( period=1 )\n");
   const std::string show_ = folder_.write("show.evs", kShow);
-  ScriptWatch watch_{show_, {}};
+  ScriptWatch watch_{show_, {}, standardNodes()};
   std::string said_;
 };
 

@@ -1,74 +1,8 @@
-#include "engine/script/schema.h"
-
-#include "engine/script/schema_table.h"
+#include "engine/script/attribute_text.h"
 
 #include <fmt/format.h>
 
 namespace stadion {
-
-KindSet placedKinds() {
-  return schema_table::kPlacedKinds;
-}
-KindSet fieldKinds() {
-  return schema_table::kFieldKinds;
-}
-
-KindSet pacedKinds() {
-  return schema_table::kPacedKinds;
-}
-
-KindSet lodLevelKinds() {
-  using enum NodeKind;
-  return {Group, Transform, Lod, Object, DynObject, Text, Path, Sway, Scene};
-}
-
-std::span<const AttributeSpec> commonAttributes() {
-  return schema_table::kCommon;
-}
-std::span<const AttributeSpec> placedAttributes() {
-  return schema_table::kPlaced;
-}
-
-const NodeSpec& specOf(NodeKind kind) {
-  return schema_table::kNodes[static_cast<std::size_t>(kind)];
-}
-const CommandSpec& specOf(Verb verb) {
-  return schema_table::kCommands[static_cast<std::size_t>(verb)];
-}
-const EventSpec& specOf(Event event) {
-  return schema_table::kEvents[static_cast<std::size_t>(event)];
-}
-
-namespace {
-
-const AttributeSpec* findIn(std::span<const AttributeSpec> rows, Attr attr) {
-  for (const AttributeSpec& row : rows)
-    if (row.attr == attr) return &row;
-  return nullptr;
-}
-
-void append(std::vector<const AttributeSpec*>& list, std::span<const AttributeSpec> rows) {
-  for (const AttributeSpec& row : rows) list.push_back(&row);
-}
-
-}  // namespace
-
-const AttributeSpec* specOf(NodeKind kind, Attr attr) {
-  const NodeSpec& node = specOf(kind);
-  if (const auto* row = findIn(schema_table::kCommon, attr)) return row;
-  if (node.placed)
-    if (const auto* row = findIn(schema_table::kPlaced, attr)) return row;
-  return findIn(node.own, attr);
-}
-
-std::vector<const AttributeSpec*> attributesOf(NodeKind kind) {
-  const NodeSpec& node = specOf(kind);
-  std::vector<const AttributeSpec*> list;
-  append(list, schema_table::kCommon);
-  if (node.placed) append(list, schema_table::kPlaced);
-  append(list, node.own);
-  return list;
-}
 
 std::string joinWithOr(const std::vector<std::string>& words) {
   std::string text;
@@ -79,10 +13,10 @@ std::string joinWithOr(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string describe(KindSet kinds) {
+std::string describe(const NodeRegistry& types, const NodeFilter& filter) {
   std::vector<std::string> words;
-  for (std::size_t i = 0; i < kNodeKindCount; ++i)
-    if (kinds.has(static_cast<NodeKind>(i))) words.emplace_back(kNodeKindNames[i]);
+  for (const NodeRegistry::Index i : types.byName())
+    if (filter.matches(types[i].type())) words.emplace_back(types[i].name());
   return joinWithOr(words);
 }
 
@@ -101,6 +35,7 @@ std::string describe(const NumberRange& range, std::string_view unit) {
 std::string formOf(const AttributeSpec& spec) {
   switch (spec.kind) {
   case ValueKind::Number: return "a number";
+  case ValueKind::Whole: return "a whole number";
   case ValueKind::Vector:
   case ValueKind::Direction: return "three numbers \"x, y, z\"";
   case ValueKind::Colour: return "three numbers \"r, g, b\"";

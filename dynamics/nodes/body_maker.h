@@ -1,0 +1,40 @@
+#pragma once
+/// Makes the node of a dynobject, and holds what the nodes of this floor share while a show is built.
+
+#include "engine/build/node_request.h"
+
+#include <functional>
+#include <memory>
+
+namespace stadion {
+
+struct BodyAttributes;
+class AssetRoots;
+class ShapeStore;
+
+/// How a show is built with other models than its script says, so that they can be compared.
+struct DynamicsVariation {
+  /// May change how a body looks to collisions (its shape) and what it is (fields, drag area). On the
+  /// loader's thread; empty: nothing.
+  std::function<void(NodeRef body, Appearance&, BodyAttributes&)> body;
+  std::uint32_t fineness = 1;  ///< of all dynamics nodes, as in World::setFineness
+};
+
+/// What a dynobject's declaration says of its body; its flight, which depends on the model, is left open.
+BodyAttributes bodyAttributesOf(const Declaration& dynobject);
+
+/// NodeType::make of the dynobject.
+std::unique_ptr<Node> makeDynObject(const NodeRequest& request);
+
+/// One of NodeServices. Without anything set, the script counts and no table of coefficients is found.
+struct DynamicsServices {
+  DynamicsServices();
+  explicit DynamicsServices(DynamicsVariation varied, const AssetRoots* assetRoots = nullptr);
+
+  std::shared_ptr<ShapeStore> shapes;  ///< of all nodes of a show
+  DynamicsVariation variation;
+  const AssetRoots* roots =
+      nullptr;  ///< where tables of coefficients are looked for; null: nowhere. Borrowed
+};
+
+}  // namespace stadion

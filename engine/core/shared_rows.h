@@ -1,0 +1,106 @@
+#pragma once
+/// What the descriptors of several node types have in common: ranges, attributes and commands.
+
+#include "engine/core/node_type.h"
+
+namespace stadion {
+
+inline constexpr double kFar = 1e6;   ///< no length or distance in a show is greater [m]
+inline constexpr double kLong = 1e6;  ///< no time in a show is longer [s]
+
+inline constexpr NumberRange kPlaceRange{-kFar, kFar};
+inline constexpr NumberRange kLengthRange{0, kFar, true};
+inline constexpr NumberRange kDistanceRange{0, kFar};
+inline constexpr NumberRange kTimeRange{0, kLong, true};
+inline constexpr NumberRange kUnitInterval{0, 1};
+inline constexpr NumberRange kColourRange{0, 1};
+inline constexpr NumberRange kTurnRange{-36000, 36000};
+inline constexpr NumberRange kForceRange{-kFar, kFar};
+
+/// What a path, a sway or a force field may move or follow.
+inline constexpr NodeFilter kPlacedOrRig{{Trait::Placed}, {"rig"}};
+inline constexpr NodeFilter kModelTypes{{Trait::Model}};
+inline constexpr NodeFilter kFieldTypes{{Trait::Field}};
+/// What may run less often, and what may have such below it.
+inline constexpr NodeFilter kPacedTypes{{Trait::Degradable, Trait::Encloses}};
+
+inline constexpr std::string_view kConcessionWords[] = {"lod", "half", "rest", "hide"};
+
+/// Of every node.
+inline constexpr AttributeSpec kCommonRows[] = {
+    {.name = "name", .kind = ValueKind::NewName, .help = "how other nodes call this one; unique in its file"},
+    {.name = "eventmessage",
+     .kind = ValueKind::EventMessage,
+     .help = "what to tell another node when an event happens here",
+     .repeatable = true},
+    {.name = "budget",
+     .kind = ValueKind::Number,
+     .help = "what it, with all below it, may cost in a frame: App, and Cull and Draw of all walls; more is "
+             "told",
+     .unit = "ms",
+     .range = {0, 10000, true}},
+    {.name = "onoverrun",
+     .kind = ValueKind::Choices,
+     .help = "what a live show may take from it, in this order, while it costs more than its budget: lod "
+             "(detail), half (runs in every second frame, then every fourth), rest (stands still), hide (is "
+             "not drawn)",
+     .choices = kConcessionWords},
+    {.name = "priority",
+     .kind = ValueKind::Number,
+     .help = "when the whole frame takes too long, who has the lowest gives up first",
+     .standard = "1",
+     .range = {0, 1000}},
+};
+
+/// Of every node with Trait::Placed, beside the common ones.
+inline constexpr AttributeSpec kPlacedRows[] = {
+    {.name = "parent",
+     .kind = ValueKind::Reference,
+     .help = "the node whose coordinates this one is placed in; the world if there is none",
+     .targets = {{Trait::Parent}}},
+    {.name = "position",
+     .kind = ValueKind::Vector,
+     .help = "the origin in the parent's coordinates",
+     .standard = "0, 0, 0",
+     .unit = "m",
+     .range = kPlaceRange},
+    {.name = "orientation",
+     .kind = ValueKind::Vector,
+     .help = "rotations about the parent's X axis, then Y, then Z",
+     .standard = "0, 0, 0",
+     .unit = "degrees",
+     .range = kTurnRange},
+    {.name = "scale",
+     .kind = ValueKind::Scale,
+     .help = "size relative to the original, one factor or one for each axis",
+     .standard = "1",
+     .range = {0, kFar, true}},
+};
+
+/// Most types with Trait::Switched take it.
+inline constexpr AttributeSpec kInitStateRow{.name = "initstate",
+                                             .kind = ValueKind::Flag,
+                                             .help = "whether it is enabled at the start",
+                                             .standard = "on"};
+
+/// Of Trait::Switched.
+inline constexpr CommandSpec kSwitchCommands[] = {
+    {"enable", ArgumentKind::None, "enable",
+     "begins to act; a field's duration starts anew, a path that has ended too, and every sound"},
+    {"disable", ArgumentKind::None, "disable", "stops acting"},
+    {"toggle", ArgumentKind::None, "toggle", "enables if disabled, disables if enabled"},
+};
+/// Of Trait::Placed.
+inline constexpr CommandSpec kPlacedCommands[] = {
+    {"attach", ArgumentKind::PartAndTracker, "attach all|position|orientation [TRACKER]",
+     "follows a tracker (foot, else wand, if none is named)"},
+    {"detach", ArgumentKind::None, "detach", "stays where it is and follows no tracker any more"},
+    {"show", ArgumentKind::None, "show", "becomes visible, with all below it"},
+    {"hide", ArgumentKind::None, "hide", "becomes invisible, with all below it"},
+};
+/// Of every node.
+inline constexpr CommandSpec kCommonCommands[] = {
+    {"reset", ArgumentKind::None, "reset", "returns to the state it was declared in"},
+};
+
+}  // namespace stadion
