@@ -4,6 +4,7 @@
 #include "engine/asset/check.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/options/plugin_option.h"
 #include "show/player/enclosing_show.h"
 #include "show/player/show_check.h"
 
@@ -73,7 +74,7 @@ int checkModels(const std::string& folder) {
 
 void addCheckCommand(CLI::App& app, int& code) {
   struct Options {
-    std::vector<std::string> scripts, roots;
+    std::vector<std::string> scripts, roots, plugins;
     SharedTypes types = standardNodes();
     std::string models;
   };
@@ -85,6 +86,7 @@ void addCheckCommand(CLI::App& app, int& code) {
   command->add_option("--assets", o->models, "try to import every model below this folder and count");
   command->add_option("--asset-root", o->roots, "further folder to look for assets in; may be repeated")
       ->allow_extra_args(false);  // what follows the folder is a script
+  addPluginOption(*command, o->plugins, o->types);
   command->callback([o, &code] {
     if (o->scripts.empty() && o->models.empty()) {
       std::fprintf(stderr, "check: name a script, or a folder with --assets DIR\n");

@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "cli/options/plugin_option.h"
 #include "cli/terminal.h"
 #include "engine/base/plain_file.h"
 #include "show/base/standard_nodes.h"
@@ -27,7 +28,7 @@ namespace {
 
 struct FitOptions {
   std::string object;
-  std::vector<std::string> references, roots;
+  std::vector<std::string> references, roots, plugins;
   SharedTypes types = standardNodes();
   double landing = 1, attitude = 0;  ///< [%], [degrees]; 0: as it comes
   std::optional<double> mass;
@@ -265,6 +266,7 @@ void addFitCommand(CLI::App& app, int& code) {
   command->add_option("--table", o->table, "where to write a table, if that is chosen (OBJECT-flight.csv)");
   command->add_option("--asset-root", o->roots, "further folder to look for the model in; may be repeated")
       ->allow_extra_args(false);
+  addPluginOption(*command, o->plugins, o->types);
   command->callback([o, &code] { code = fit(*o); });
 }
 

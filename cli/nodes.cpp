@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/options/plugin_option.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/diagnostic.h"
 #include "engine/script/reference.h"
@@ -44,6 +45,7 @@ int writeEditorFiles(const NodeRegistry& types, const std::string& folder) {
 void addNodesCommand(CLI::App& app, int& code) {
   struct Options {
     std::string type, editor;
+    std::vector<std::string> plugins;
     SharedTypes types = standardNodes();
   };
   auto o = std::make_shared<Options>();
@@ -52,6 +54,7 @@ void addNodesCommand(CLI::App& app, int& code) {
   command->add_option("TYPE", o->type, "only this node type");
   command->add_option("--editor", o->editor,
                       "write a TextMate grammar and a completion file into this folder");
+  addPluginOption(*command, o->plugins, o->types);
   command->callback([o, &code] {
     code = o->editor.empty() ? printReference(*o->types, o->type) : writeEditorFiles(*o->types, o->editor);
   });

@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
+#include "cli/options/plugin_option.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"
 #include "engine/base/run_stopped.h"
@@ -38,6 +39,7 @@ constexpr std::uint64_t kSlopeFrames = 10'000;
 constexpr double kMostOfVisit = 4096;  ///< [byte] from visit to visit
 
 struct SoakOptions {
+  std::vector<std::string> plugins;
   SharedTypes types = standardNodes();
   std::vector<std::string> shows;
   std::uint64_t frames = 1'000'000, visit = 400'000;
@@ -328,6 +330,7 @@ void addSoakCommand(CLI::App& app, int& code) {
   command->add_option("--look", o->look, "full or plain")
       ->check(CLI::IsMember({"full", "plain"}))
       ->capture_default_str();
+  addPluginOption(*command, o->plugins, o->types);
   command->add_flag("--no-memory", o->noMemory,
                     "do not judge memory, handles and threads: a short soak cannot");
   command->footer(

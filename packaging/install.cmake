@@ -1,5 +1,6 @@
 # What `cmake --install` and the Debian packages hold. Component "runtime" plays shows; "development" has the libraries for
-# programs that embed Stadion, with the targets Stadion::engine, dynamics, pipeline, profiling and show.
+# programs that embed Stadion, with the targets Stadion::engine, dynamics, pipeline, profiling and show, and Stadion::plugin for
+# plugins.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS stadion RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
@@ -11,7 +12,7 @@ install(DIRECTORY assets DESTINATION ${CMAKE_INSTALL_DATADIR}/stadion COMPONENT 
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(FILES README.md CHANGELOG.md packaging/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
-install(TARGETS stadion_options stadion_sanitize stadion_engine stadion_wire stadion_pipeline stadion_dynamics
+install(TARGETS stadion_options stadion_sanitize stadion_plugin stadion_engine stadion_wire stadion_pipeline stadion_dynamics
   stadion_profiling stadion_show EXPORT StadionTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 foreach(floor engine pipeline dynamics profiling show)
   set_target_properties(stadion_${floor} PROPERTIES EXPORT_NAME ${floor})
@@ -20,6 +21,9 @@ foreach(floor engine pipeline dynamics profiling show)
     FILES_MATCHING PATTERN "*.h" PATTERN "*_program" EXCLUDE PATTERN bench EXCLUDE)
 endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/wire.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stadion COMPONENT development)
+
+set_target_properties(stadion_plugin PROPERTIES EXPORT_NAME plugin)
+add_library(Stadion::plugin ALIAS stadion_plugin)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Stadion)
 install(EXPORT StadionTargets NAMESPACE Stadion:: DESTINATION ${package} COMPONENT development)

@@ -1,6 +1,7 @@
 #include "cli/options/show_options.h"
 
 #include "cli/options/number_option.h"
+#include "cli/options/plugin_option.h"
 
 #include <CLI/CLI.hpp>
 
@@ -51,6 +52,7 @@ void addLengthOptions(CLI::App& command, ShowOptions& o) {
                      "input log to replay (default: SHOW's name with .input, if there is one), or none");
   command.add_option("--asset-root", o.assetRoots, "further folder to look for assets in; may be repeated")
       ->allow_extra_args(false);  // what follows the folder is the script
+  addPluginOption(command, o.plugins, o.types);
   command
       .add_option(
           "--app-threads", o.appThreads,

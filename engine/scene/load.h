@@ -86,6 +86,8 @@ public:
   virtual std::unique_ptr<Load> take(std::uint32_t number) = 0;
   /// Destroys a removed load, once no frame up to `lastFrame` needs it.
   virtual void dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) = 0;
+  /// The plugins whose node types a file may use, in words; empty: none.
+  virtual std::string plugins() const { return {}; }
   /// Tells the author of something that was found while the show runs.
   virtual void report(const Diagnostic&) {}
 };

@@ -21,7 +21,12 @@ namespace {
 
 /// Of what is written: older ones mean something else.
 constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kWithPlugins = 4;                   ///< the same with the names of plugins
 constexpr Nanoseconds kLatest = 1'000'000'000'000'000'000;  ///< thirty years of a show [ns]
+
+std::string pluginsOr(const std::string& plugins) {
+  return plugins.empty() ? "no plugins" : "the plugins " + plugins;
+}
 
 }  // namespace
 
@@ -50,8 +55,10 @@ std::uint64_t Scene::files() const {
 }
 
 void Scene::visitAll(StateFields& f) {
-  std::uint32_t version = kVersion;
+  std::string plugins = loader_.plugins();
+  std::uint32_t version = plugins.empty() ? kVersion : kWithPlugins;
   f("version", version);
+  if (version == kWithPlugins) f("plugins", plugins);
   visitLoads(f);
   placements_.state(f);
   visitRest(f);
@@ -63,7 +70,12 @@ std::optional<std::string> Scene::restore(std::span<const std::uint8_t> state, c
   RestoredState in(state);
   std::uint32_t version = 0;
   in("version", version);
-  if (version != kVersion) return "it is none, or another version has written it";
+  if (version != kVersion && version != kWithPlugins) return "it is none, or another version has written it";
+  std::string plugins;
+  if (version == kWithPlugins) in("plugins", plugins);
+  if (!in.failed() && plugins != loader_.plugins())
+    return fmt::format("it was saved with {}, and this program has {}", pluginsOr(plugins),
+                       pluginsOr(loader_.plugins()));
   visitLoads(in);
   if (!in.failed()) placements_.state(in);
   if (!in.failed()) visitRest(in);

@@ -28,14 +28,16 @@ std::uint64_t hashOf(const ClusterFile& file) {
 }
 
 stadion_wire_Agreement written(const Agreement& a) {
-  stadion_wire_Agreement w{a.script, a.input, a.cluster, a.walls, {}};
+  stadion_wire_Agreement w{a.script, a.input, a.cluster, a.walls, {}, {}};
+  a.plugins.copy(w.plugins, sizeof(w.plugins) - 1);
   a.pictures.copy(w.pictures, sizeof(w.pictures) - 1);
   return w;
 }
 
 Agreement read(const stadion_wire_Agreement& w) {
   return {w.script, w.input, w.cluster, w.walls,
-          std::string(w.pictures, strnlen(w.pictures, sizeof(w.pictures)))};
+          std::string(w.pictures, strnlen(w.pictures, sizeof(w.pictures))),
+          std::string(w.plugins, strnlen(w.plugins, sizeof(w.plugins)))};
 }
 
 std::string refusal(const Agreement& lead, const Agreement& ours, const std::string& nameOfLead) {
@@ -44,7 +46,13 @@ std::string refusal(const Agreement& lead, const Agreement& ours, const std::str
                      : lead.walls != ours.walls                    ? "has another wall file"
                      : lead.input != 0 && lead.input != ours.input ? "plays another input log"
                                                                    : nullptr;
-  return what ? fmt::format("{} {}; put the same file on all machines", nameOfLead, what) : std::string();
+  if (what) return fmt::format("{} {}; put the same file on all machines", nameOfLead, what);
+  if (lead.plugins == ours.plugins) return {};
+  const auto words = [](const std::string& plugins) {
+    return plugins.empty() ? "no plugins" : "the plugins " + printable(plugins, kMostTold);
+  };
+  return fmt::format("{} plays with {}, we with {}; load the same plugins on all machines", nameOfLead,
+                     words(lead.plugins), words(ours.plugins));
 }
 
 std::string remark(const Agreement& lead, const Agreement& ours, const std::string& nameOfLead) {

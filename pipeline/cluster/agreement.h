@@ -17,6 +17,7 @@ struct Agreement {
   std::uint64_t cluster = 0;  ///< hashOf() the cluster file
   std::uint64_t walls = 0;    ///< hash of the wall file
   std::string pictures{};     ///< what they look like; may differ where machines do [120 bytes at most]
+  std::string plugins{};      ///< names, versions and hashes of its plugins; empty: none [250 bytes at most]
 
   /// Who leads anew goes on with a show of the same script and input only.
   std::uint64_t show() const;

@@ -71,6 +71,7 @@ public:
   std::unique_ptr<Load> take(std::uint32_t number) override;
   void dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) override;
   void report(const Diagnostic& finding) override;
+  std::string plugins() const override { return parts_.types.pluginsInWords(); }
 
   /// All walls have shown `frame`: what was disposed of up to it may go.
   void shown(std::uint64_t frame);

@@ -44,6 +44,13 @@ cluster::Agreement termsOf(const ShowOptions& show, StereoLayout layout, const C
   terms.cluster = cluster::hashOf(file), terms.walls = hashOfFile(wallFileOf(file.walls));
   terms.pictures = fmt::format("--look {} --stereo {}{}{}", show.look, stereoLayoutName(layout),
                                show.size.empty() ? "" : " --size ", show.size);
+  constexpr std::size_t kMostPlugins = 250;  // bytes; with many plugins, a hash stands for them
+  terms.plugins = show.types->pluginsInWords();
+  if (terms.plugins.size() > kMostPlugins) {
+    StateHash hash;
+    hash.add(std::string_view(terms.plugins));
+    terms.plugins = fmt::format("{} in number ({:016x})", show.types->plugins().size(), hash.value());
+  }
   return terms;
 }
 

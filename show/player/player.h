@@ -38,6 +38,7 @@ struct ShowOptions {
   std::vector<std::string> assetRoots;
   /// The walls of the room that are drawn here; empty = all.
   std::vector<std::string> onlyWalls;
+  std::vector<std::string> plugins;     ///< files of node types, which `types` holds
   SharedTypes types = standardNodes();  ///< that its scripts may use
   std::size_t appThreads = 0;           ///< 0 = as many as there are processors, 8 at most
   DynamicsVariation variation;          ///< of the script's models

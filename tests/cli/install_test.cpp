@@ -2,6 +2,8 @@
 
 #include "tests/programs/program.h"
 
+#include <algorithm>
+#include <fstream>
 #include <gtest/gtest.h>
 
 namespace stadion {
@@ -25,17 +27,17 @@ protected:
   static std::string prefix() { return folder_->path() / "usr"; }
   static std::string path() { return "PATH=" + prefix() + "/bin:/usr/local/bin:/usr/bin:/bin"; }
 
-  /// Builds an example; its program's path.
-  static std::string built(const std::string& name) {
+  /// Builds an example; the path of its program, or of another file that comes of it.
+  static std::string built(const std::string& name, const std::string& file = {}) {
     const std::string build = folder_->path() / name, source = folder_->path() / ("source-" + name);
     fs::copy(kRoot + "/examples/" + name, source, fs::copy_options::recursive);
-    const ProgramResult made = runProgram(
-        {{"cmake", "-S", source, "-B", build, "-G", "Ninja", "-DCMAKE_PREFIX_PATH=" + prefix(),
-          "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-O0 -Wall -Wextra -Werror"}});
+    const ProgramResult made =
+        runProgram({{"cmake", "-S", source, "-B", build, "-G", "Ninja", "-DCMAKE_PREFIX_PATH=" + prefix(),
+                     "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-O0 -Wall -Wextra -Werror"}});
     EXPECT_EQ(made.status, 0) << made.out << made.err;
     const ProgramResult compiled = runProgram({{"cmake", "--build", build}});
     EXPECT_EQ(compiled.status, 0) << compiled.out << compiled.err;
-    return build + "/" + name;
+    return build + (file.empty() ? "/" + name : file);
   }
 
   static TemporaryFolder* folder_;
@@ -44,10 +46,11 @@ TemporaryFolder* ProgramInstall::folder_ = nullptr;
 
 TEST_F(ProgramInstall, AnInstalledCopyPlaysAShow) {
   const std::string out = folder_->path() / "pictures";
-  const ProgramResult r = runProgram({{prefix() + "/bin/stadion", "run", prefix() + "/share/stadion/scripts/kick.evs",
-                                       "--walls", "desktop", "--size", "96x72", "--frames", "3", "--out", out},
-                                      {path()},
-                                      folder_->path()});
+  const ProgramResult r =
+      runProgram({{prefix() + "/bin/stadion", "run", prefix() + "/share/stadion/scripts/kick.evs", "--walls",
+                   "desktop", "--size", "96x72", "--frames", "3", "--out", out},
+                  {path()},
+                  folder_->path()});
   EXPECT_EQ(r.status, 0) << r.err;
   EXPECT_TRUE(fs::exists(out + "/contact-sheet.png")) << r.err;
 }
@@ -77,6 +80,18 @@ TEST_F(ProgramFullInstall, AProgramEmbedsDynamics) {
   const ProgramResult r = runProgram({{built("embed_dynamics")}});
   EXPECT_EQ(r.status, 0) << r.out << r.err;
   EXPECT_TRUE(has(r.out, "10 of 10 crates rest")) << r.out;
+}
+
+TEST_F(ProgramFullInstall, APluginAddsANodeType) {
+  const std::string plugin = built("node_plugin", "/libnode_plugin.so");
+  const std::string show = folder_->path() / "spring.evs";
+  std::ofstream(show) << "path( name=way, key=\"0, 0,0,0\", key=\"1, 3,0,0\" )\nspring( target=way )\n";
+  const ProgramResult r =
+      runProgram({{prefix() + "/bin/stadion", "hash", show, "--frames", "3", "--plugin", plugin},
+                  {path()},
+                  folder_->path()});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(std::ranges::count(r.out, '\n'), 3) << r.out;
 }
 
 }  // namespace

@@ -72,5 +72,39 @@ TEST(NodeRegistry, ATypeThatIsNotWholeIsRefused) {
       faultOf(type).starts_with("the command \"say\" of \"rope\" is already there with other arguments"));
 }
 
+/// Loads nothing, and has plugins.
+class PluginLoader final : public TestLoader {
+public:
+  std::string plugins() const override { return words; }
+  std::string words;
+};
+
+TEST(NodeRegistry, ASnapshotNamesThePlugins) {
+  const auto saved = [](const std::string& plugins) {
+    PluginLoader loader;
+    loader.words = plugins;
+    loader.files["show"] = [](Load&) {};
+    MeshStore meshes;
+    Scene scene(loader, meshes);
+    scene.open("show");
+    return scene.save();
+  };
+  const auto restored = [](const std::vector<std::uint8_t>& state, const std::string& plugins) {
+    PluginLoader loader;
+    loader.words = plugins;
+    loader.files["show"] = [](Load&) {};
+    MeshStore meshes;
+    Scene scene(loader, meshes);
+    return scene.restore(state, "show").value_or("");
+  };
+  const auto plain = saved(""), spring = saved("spring 1.0 (12ab)");
+  EXPECT_EQ(restored(plain, ""), "");
+  EXPECT_EQ(restored(spring, "spring 1.0 (12ab)"), "");
+  EXPECT_EQ(restored(spring, ""),
+            "it was saved with the plugins spring 1.0 (12ab), and this program has no plugins");
+  EXPECT_EQ(restored(plain, "spring 2.0 (34cd)"),
+            "it was saved with no plugins, and this program has the plugins spring 2.0 (34cd)");
+}
+
 }  // namespace
 }  // namespace stadion

@@ -411,6 +411,11 @@ TEST(ClusterHearing, WhatMustBeAlikeIsNamedWhereItIsNot) {
             "front has another cluster file; put the same file on all machines");
   EXPECT_EQ(with(&Agreement::walls, 9), "front has another wall file; put the same file on all machines");
   EXPECT_EQ(with(&Agreement::input, 0), "front plays another input log; put the same file on all machines");
+  Agreement extended = lead;
+  extended.plugins = "spring 1.0 (12ab)";
+  EXPECT_EQ(refusal(lead, extended, "front"),
+            "front plays with no plugins, we with the plugins spring 1.0 (12ab); load the same plugins on all machines");
+  EXPECT_EQ(refusal(extended, extended, "front"), "");
   Agreement live = lead;
   live.input = 0;
   EXPECT_EQ(refusal(live, lead, "front"), "") << "who follows plays no log of its own then";
