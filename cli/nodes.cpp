@@ -6,7 +6,7 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/diagnostic.h"
 #include "engine/script/reference.h"
-#include "engine/unicode/likeness.h"
+#include "engine/plain_text/suggestion.h"
 #include "show/base/standard_nodes.h"
 
 #include <CLI/CLI.hpp>

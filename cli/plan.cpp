@@ -7,7 +7,7 @@
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/installed_files.h"
-#include "engine/base/number_text.h"
+#include "engine/plain_text/number_text.h"
 #include "engine/base/plain_file.h"
 #include "profiling/plan/diagram.h"
 #include "profiling/plan/report.h"

@@ -1,7 +1,7 @@
 #include "cli/program.h"
 
 #include "cli/exit_code.h"
-#include "engine/script/suggestion.h"
+#include "engine/plain_text/suggestion.h"
 #include "pipeline/sound/sound_libraries.h"
 #include "pipeline/target/rasteriser_settings.h"
 #include "show/base/version.h"

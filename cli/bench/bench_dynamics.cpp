@@ -2,7 +2,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/options/number_option.h"
-#include "engine/script/suggestion.h"
+#include "engine/plain_text/suggestion.h"
 #include "profiling/bench/comparison/comparison_report.h"
 #include "profiling/bench/comparison/work_precision_plot.h"
 #include "show/output/output_folder.h"

@@ -1,6 +1,6 @@
 #include "cli/options/run_options.h"
 
-#include "engine/base/number_text.h"
+#include "engine/plain_text/number_text.h"
 #include "show/output/output_folder.h"
 #include "show/player/overwriting.h"
 

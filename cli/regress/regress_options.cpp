@@ -1,7 +1,7 @@
 #include "cli/regress/regress_options.h"
 
 #include "cli/options/number_option.h"
-#include "engine/script/suggestion.h"
+#include "engine/plain_text/suggestion.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "cli/options/number_option.h"
 #include "cli/options/run_options.h"
 #include "cli/options/show_options.h"
-#include "engine/base/number_text.h"
+#include "engine/plain_text/number_text.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 #include "cli/terminal.h"
 #include "cli/walls/wall_pattern.h"
 #include "engine/base/installed_files.h"
-#include "engine/base/number_text.h"
+#include "engine/plain_text/number_text.h"
 #include "engine/display/wall_lint.h"
 #include "show/base/stop_signal.h"
 #include "show/player/player.h"

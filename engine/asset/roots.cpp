@@ -1,6 +1,6 @@
 #include "engine/asset/roots.h"
 
-#include "engine/unicode/likeness.h"
+#include "engine/plain_text/suggestion.h"
 
 #include <fcntl.h>
 

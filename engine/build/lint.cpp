@@ -1,6 +1,6 @@
 #include "engine/build/lint.h"
 
-#include "engine/script/suggestion.h"
+#include "engine/plain_text/suggestion.h"
 #include "engine/text/glyphs.h"
 #include "engine/text/text_mesh.h"
 

@@ -1,7 +1,5 @@
 #include "engine/display/output_reader.h"
 
-#include "engine/unicode/likeness.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,69 +11,29 @@ namespace {
 
 class OutputReader {
 public:
-  explicit OutputReader(LineReader& in) : in_(in) {}
+  explicit OutputReader(StatementReader& in) : in_(in) {}
 
-  std::optional<WallOutput> run(std::size_t first) {
-    next_ = first;
-    while (next_ < in_.words().size())
-      if (!field()) return std::nullopt;
-    if (!agree()) return std::nullopt;
+  std::optional<WallOutput> run() {
+    if (!in_.fields(*this, kFields, "an output") || !agree()) return std::nullopt;
     return output_;
   }
 
 private:
-  struct Field {
-    const char* name;
-    bool (OutputReader::*read)();
-  };
-  static constexpr std::size_t kFieldCount = 12;
-  static const std::array<Field, kFieldCount>& fields();
-
-  bool field() {
-    const Word& key = in_.words()[next_++];
-    for (const Field& f : fields()) {
-      if (key.text != f.name) continue;
-      if (std::ranges::find(given_, f.name) != given_.end())
-        return wrong(key, fmt::format("\"{}\" is given twice for this output; keep one of them", f.name));
-      given_.emplace_back(f.name);
-      return (this->*f.read)();
-    }
-    std::vector<std::string> known;
-    for (const Field& f : fields()) known.emplace_back(f.name);
-    const auto near = closest(std::string(key.text.substr(0, 64)), known);
-    return wrong(key, quotedWord(key.text) + " is not a field of an output" +
-                          (near ? "; " + didYouMeanOne(std::string(key.text), *near)
-                                : fmt::format("; known are {}", fmt::join(known, ", "))));
-  }
+  static const StatementField<OutputReader> kFields[12];
 
   bool wrong(const Word& at, std::string message) {
-    in_.error(at.column, std::move(message));
+    in_.error(at, std::move(message));
     return false;
   }
 
-  const Word* word(std::string_view what) {
-    if (next_ < in_.words().size()) return &in_.words()[next_++];
-    in_.error(in_.endColumn(), fmt::format("{} is missing", what));
-    return nullptr;
-  }
-
-  std::optional<double> number(std::string_view what, double lo, double hi) {
-    const Word* w = word(what);
-    if (!w) return std::nullopt;
-    const auto value = in_.number(*w, what);
-    if (value && !(*value >= lo && *value <= hi))
-      return wrong(*w, fmt::format("{} must be from {} to {}, not {}", what, lo, hi, *value)), std::nullopt;
-    return value;
-  }
-
   bool text(std::string_view what, std::string& target) {
-    const Word* w = word(what);
+    const Word* w = in_.word(what);
     if (w) target = std::string(w->text.substr(0, 64));
     return w != nullptr;
   }
 
   bool screen() {
-    const Word* w = word("an X screen, such as :0.1");
+    const Word* w = in_.word("an X screen, such as :0.1");
     if (!w) return false;
     const std::string_view s = w->text;
     const auto digits = [](std::string_view t) {
@@ -90,24 +48,18 @@ private:
   }
   bool monitor() { return text("a monitor's name or number", output_.place.monitor); }
   bool rectangle() {
-    const auto x = whole("x of the rectangle [pixels]", -32768, 32767);
-    const auto y = x ? whole("y of the rectangle [pixels]", -32768, 32767) : x;
-    const auto w = y ? whole("the width of the rectangle [pixels]", 1, 16384) : y;
-    const auto h = w ? whole("the height of the rectangle [pixels]", 1, 16384) : w;
+    const auto x = in_.whole("x of the rectangle [pixels]", -32768, 32767);
+    const auto y = x ? in_.whole("y of the rectangle [pixels]", -32768, 32767) : x;
+    const auto w = y ? in_.whole("the width of the rectangle [pixels]", 1, 16384) : y;
+    const auto h = w ? in_.whole("the height of the rectangle [pixels]", 1, 16384) : w;
     if (!h) return false;
-    output_.place.rectangle = {*x, *y, static_cast<std::uint32_t>(*w), static_cast<std::uint32_t>(*h)};
+    output_.place.rectangle = {static_cast<std::int32_t>(*x), static_cast<std::int32_t>(*y),
+                               static_cast<std::uint32_t>(*w), static_cast<std::uint32_t>(*h)};
     return true;
-  }
-  std::optional<std::int32_t> whole(std::string_view what, double lo, double hi) {
-    const Word* w = next_ < in_.words().size() ? &in_.words()[next_] : nullptr;
-    const auto value = number(what, lo, hi);
-    if (!value) return std::nullopt;
-    if (*value == std::floor(*value)) return static_cast<std::int32_t>(*value);
-    return wrong(*w, fmt::format("{} must be a whole number, not {}", what, *value)), std::nullopt;
   }
   bool fullscreen() { return output_.place.fullscreen = true; }
   bool refresh() {
-    const auto hz = whole("the refresh rate [1/s]", 1, 1000);
+    const auto hz = in_.whole("the refresh rate [1/s]", 1, 1000);
     if (hz) output_.place.refresh = static_cast<std::uint32_t>(*hz);
     return hz.has_value();
   }
@@ -115,7 +67,7 @@ private:
   bool flipV() { return output_.shape.flipV = true; }
   bool swapEyes() { return output_.shape.swapEyes = true; }
   bool rotate() {
-    const Word* w = word("90, 180 or 270");
+    const Word* w = in_.word("90, 180 or 270");
     if (!w) return false;
     for (const std::uint32_t degrees : {0u, 90u, 180u, 270u})
       if (w->text == std::to_string(degrees)) return output_.shape.rotate = degrees, true;
@@ -125,33 +77,33 @@ private:
 
   /// One number for all channels, or three.
   bool channels(std::string_view what, double lo, double hi, std::array<double, 3>& target) {
-    const auto first = number(what, lo, hi);
+    const auto first = in_.number(what, lo, hi);
     if (!first) return false;
     target.fill(*first);
     if (!numberFollows()) return true;
     for (const std::size_t i : {1u, 2u}) {
-      const auto value = number(fmt::format("{} of {}", what, i == 1 ? "green" : "blue"), lo, hi);
+      const auto value = in_.number(fmt::format("{} of {}", what, i == 1 ? "green" : "blue"), lo, hi);
       if (!value) return false;
       target[i] = *value;
     }
     return true;
   }
   bool numberFollows() const {
-    if (next_ >= in_.words().size()) return false;
-    const char c = in_.words()[next_].text[0];
+    if (!in_.more()) return false;
+    const char c = in_.peek()->text[0];
     return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
   }
   bool gamma() { return channels("gamma", 0.1, 10, output_.shape.gamma); }
   bool brightness() { return channels("brightness", 0, 1, output_.shape.brightness); }
 
   bool warp() {
-    const Word& key = in_.words()[next_ - 1];
+    const Word key = in_.last();
     std::array<Vec2, 4> corners;
     constexpr const char* kNames[] = {"upper left", "upper right", "lower right", "lower left"};
     for (std::size_t i = 0; i < 4; ++i)
       for (int axis = 0; axis < 2; ++axis) {
         const auto value =
-            number(fmt::format("{} of the {} corner", axis == 0 ? "x" : "y", kNames[i]), -1, 2);
+            in_.number(fmt::format("{} of the {} corner", axis == 0 ? "x" : "y", kNames[i]), -1, 2);
         if (!value) return false;
         corners[i][axis] = *value;
       }
@@ -173,31 +125,21 @@ private:
     else if (p.refresh > 0 && !p.fullscreen)
       what = "only a fullscreen output can choose its refresh rate; add fullscreen, or leave refresh out";
     if (!what) return true;
-    in_.error(in_.words()[0].column, what);
+    in_.error(in_.keyword(), what);
     return false;
   }
 
-  LineReader& in_;
-  std::size_t next_ = 0;
+  StatementReader& in_;
   WallOutput output_;
-  std::vector<std::string> given_;
 };
 
-const std::array<OutputReader::Field, OutputReader::kFieldCount>& OutputReader::fields() {
-  static constexpr std::array<Field, kFieldCount> kFields{{{"screen", &OutputReader::screen},
-                                                           {"monitor", &OutputReader::monitor},
-                                                           {"rectangle", &OutputReader::rectangle},
-                                                           {"fullscreen", &OutputReader::fullscreen},
-                                                           {"refresh", &OutputReader::refresh},
-                                                           {"flip-h", &OutputReader::flipH},
-                                                           {"flip-v", &OutputReader::flipV},
-                                                           {"rotate", &OutputReader::rotate},
-                                                           {"swap-eyes", &OutputReader::swapEyes},
-                                                           {"gamma", &OutputReader::gamma},
-                                                           {"brightness", &OutputReader::brightness},
-                                                           {"warp", &OutputReader::warp}}};
-  return kFields;
-}
+constexpr StatementField<OutputReader> OutputReader::kFields[12] = {
+    {"screen", &OutputReader::screen},         {"monitor", &OutputReader::monitor},
+    {"rectangle", &OutputReader::rectangle},   {"fullscreen", &OutputReader::fullscreen},
+    {"refresh", &OutputReader::refresh},       {"flip-h", &OutputReader::flipH},
+    {"flip-v", &OutputReader::flipV},          {"rotate", &OutputReader::rotate},
+    {"swap-eyes", &OutputReader::swapEyes},    {"gamma", &OutputReader::gamma},
+    {"brightness", &OutputReader::brightness}, {"warp", &OutputReader::warp}};
 
 std::string channelsText(const char* name, const std::array<double, 3>& v) {
   return v == std::array<double, 3>{1, 1, 1} ? "" : fmt::format("  {} {} {} {}", name, v[0], v[1], v[2]);
@@ -205,8 +147,8 @@ std::string channelsText(const char* name, const std::array<double, 3>& v) {
 
 }  // namespace
 
-std::optional<WallOutput> readOutput(LineReader& in, std::size_t first) {
-  return OutputReader(in).run(first);
+std::optional<WallOutput> readOutput(StatementReader& in) {
+  return OutputReader(in).run();
 }
 
 std::string formatOutput(const WallOutput& output) {

@@ -2,14 +2,15 @@
 
 #include "engine/base/folder_names.h"
 #include "engine/base/plain_file.h"
-#include "engine/base/text_line.h"
 #include "engine/display/output_reader.h"
 #include "engine/display/wall_lint.h"
-#include "engine/unicode/likeness.h"
+#include "engine/plain_text/statement_reader.h"
+#include "engine/plain_text/suggestion.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -20,32 +21,18 @@ constexpr std::size_t kMaxFileBytes = 1 << 20;
 constexpr double kMaxLength = 1e7;  ///< of any number before units [m or the file's unit]
 constexpr std::uint64_t kMaxPixels = 16384;
 
-struct Unit {
-  const char* name;
-  double metres;
-};
-constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
-
-std::string didYouMean(std::string_view word, const std::vector<std::string>& known) {
-  const auto near = closest(std::string(word.substr(0, 64)), known);
-  if (near) return "; " + didYouMeanOne(std::string(word), *near);
-  return fmt::format("; known are {}", fmt::join(known, ", "));
-}
-
-/// Reads one file, statement by statement.
-class Parser {
+class WallParser {
 public:
-  Parser(std::string_view text, const std::string& file, Diagnostics& out)
-      : file_(file), out_(out), in_(text, file, out) {}
+  WallParser(std::string_view text, const std::string& file, Diagnostics& out) : in_(text, file, out) {
+    walls_.file = file;
+  }
 
   std::optional<WallFile> run() {
-    walls_.file = file_;
-    while (in_.next()) statement();
+    while (in_.next()) in_.read(*this, kStatements);
     if (in_.failed()) return std::nullopt;
     if (walls_.walls.empty()) {
-      out_.error({file_, 0, 0},
-                 "there is no wall in the file; add a line such as: wall front  lower-left -1.5 1.5 "
-                 "0  lower-right 1.5 1.5 0  upper-left -1.5 1.5 3");
+      in_.errorOfFile("there is no wall in the file; add a line such as: wall front  lower-left -1.5 1.5 "
+                      "0  lower-right 1.5 1.5 0  upper-left -1.5 1.5 3");
       return std::nullopt;
     }
     for (WallEntry& entry : walls_.walls)
@@ -55,82 +42,31 @@ public:
   }
 
 private:
-  struct Statement {
-    const char* name;
-    void (Parser::*read)();
-    bool once;
-  };
-
-  /// What may begin a line.
-  static std::span<const Statement> statements() {
-    static constexpr Statement kStatements[] = {
-        {"wall", &Parser::wall, false},   {"output", &Parser::output, false},
-        {"unit", &Parser::unit, true},    {"eye-separation", &Parser::eyeSeparation, true},
-        {"near", &Parser::near, true},    {"far", &Parser::far, true},
-        {"pixels", &Parser::pixels, true}};
-    return kStatements;
-  }
-
-  void statement() {
-    const Word& keyword = in_.words()[0];
-    for (const Statement& s : statements()) {
-      if (keyword.text != s.name) continue;
-      if (s.once && std::ranges::find(seen_, s.name) != seen_.end())
-        return in_.error(keyword.column, fmt::format("\"{}\" is given twice; keep one of them", s.name));
-      seen_.emplace_back(s.name);
-      return (this->*s.read)();
-    }
-    std::vector<std::string> known;
-    for (const Statement& s : statements()) known.emplace_back(s.name);
-    in_.error(keyword.column,
-              quotedWord(keyword.text) + " does not begin a statement" + didYouMean(keyword.text, known));
-  }
-
-  /// The word at `index`, or an error that says what is missing there.
-  const Word* word(std::size_t index, std::string_view what) {
-    if (index < in_.words().size()) return &in_.words()[index];
-    in_.error(in_.endColumn(), fmt::format("{} is missing", what));
-    return nullptr;
-  }
-
-  bool nothingAfter(std::size_t count) {
-    if (in_.words().size() <= count) return true;
-    const Word& extra = in_.words()[count];
-    in_.error(extra.column, fmt::format("{} is one word too many here", quotedWord(extra.text)));
-    return false;
-  }
+  static const Statement<WallParser> kStatements[7];
+  static const StatementField<WallParser> kFields[4];
 
   void unit() {
-    const Word* name = word(1, "a unit (m, cm, mm, in, ft)");
-    if (!name || !nothingAfter(2)) return;
+    const auto unit = lengthUnit(in_);
+    if (!unit || !in_.finished()) return;
     if (lengths_ > 0)
-      return in_.error(in_.words()[0].column,
-                       "the unit must stand before the first length; move this line up");
-    std::vector<std::string> known;
-    for (const Unit& u : kUnits) {
-      if (name->text == u.name) return void(walls_.metresPerUnit = u.metres);
-      known.emplace_back(u.name);
-    }
-    in_.error(name->column, quotedWord(name->text) + " is not a unit" + didYouMean(name->text, known));
+      return in_.error(in_.keyword(), "the unit must stand before the first length; move this line up");
+    walls_.metresPerUnit = unit->metres;
   }
 
-  std::optional<double> length(std::size_t index, std::string_view what) {
-    const Word* w = word(index, what);
-    if (!w) return std::nullopt;
-    const auto value = in_.number(*w, what);
+  std::optional<double> length(std::string_view what) {
+    const auto value = in_.number(what);
     if (!value) return std::nullopt;
     ++lengths_;
     if (std::fabs(*value) <= kMaxLength) return *value * walls_.metresPerUnit;
-    in_.error(w->column, fmt::format("{} is too large ({})", quotedWord(w->text), what));
+    in_.error(in_.last(), fmt::format("{} is too large ({})", quotedWord(in_.last().text), what));
     return std::nullopt;
   }
 
   void positive(std::string_view what, double lo, double hi, double& target) {
-    const auto value = length(1, what);
-    if (!value || !nothingAfter(2)) return;
+    const auto value = length(what);
+    if (!value || !in_.finished()) return;
     if (*value >= lo && *value <= hi) return void(target = *value);
-    in_.error(in_.words()[1].column,
-              fmt::format("{} must be from {} m to {} m, not {} m", what, lo, hi, *value));
+    in_.error(in_.last(), fmt::format("{} must be from {} m to {} m, not {} m", what, lo, hi, *value));
   }
 
   void eyeSeparation() { positive("the eye separation", 0, 0.5, walls_.eyeSeparation); }
@@ -147,120 +83,87 @@ private:
 
   void checkDepth() {
     if (walls_.depth.near < walls_.depth.far) return;
-    in_.error(in_.words()[0].column,
+    in_.error(in_.keyword(),
               fmt::format("near ({} m) must be less than far ({} m)", walls_.depth.near, walls_.depth.far));
     walls_.depth = {};
   }
 
-  bool pixelsAt(std::size_t index, PixelSize& target) {
-    const Word* w = word(index, "the width in pixels");
-    const Word* h = w ? word(index + 1, "the height in pixels") : nullptr;
+  bool readPixels(PixelSize& target) {
+    const Word* w = in_.word("the width in pixels");
+    const Word* h = w ? in_.word("the height in pixels") : nullptr;
     if (!h) return false;
-    const auto width = in_.count(*w, "the width in pixels", 1, kMaxPixels);
-    const auto height = in_.count(*h, "the height in pixels", 1, kMaxPixels);
+    const auto width = in_.countIn(*w, "the width in pixels", 1, kMaxPixels);
+    const auto height = in_.countIn(*h, "the height in pixels", 1, kMaxPixels);
     if (!width || !height) return false;
     target = {static_cast<std::uint32_t>(*width), static_cast<std::uint32_t>(*height)};
     return true;
   }
 
   void pixels() {
-    if (pixelsAt(1, pixels_)) nothingAfter(3);
+    if (readPixels(pixels_)) in_.finished();
   }
 
-  /// The fields of a wall line; each begins with its name, in any order.
-  struct Field {
+  // The fields of a wall; they fill entry_ and corners_.
+
+  struct Corner {
     const char* name;
-    std::size_t words;   ///< after the name
-    Vec3 Wall::*corner;  ///< nullptr: not a corner
+    Vec3 Wall::*place;
   };
-  static constexpr Field kFields[] = {{"lower-left", 3, &Wall::lowerLeft},
-                                      {"lower-right", 3, &Wall::lowerRight},
-                                      {"upper-left", 3, &Wall::upperLeft},
-                                      {"pixels", 2, nullptr}};
+  static constexpr Corner kCorners[] = {
+      {"lower-left", &Wall::lowerLeft}, {"lower-right", &Wall::lowerRight}, {"upper-left", &Wall::upperLeft}};
 
-  static std::vector<std::string> fieldNames() {
-    std::vector<std::string> names;
-    for (const Field& f : kFields) names.emplace_back(f.name);
-    return names;
-  }
-
-  bool corner(std::size_t index, const Field& field, Wall& wall) {
+  bool corner(std::size_t which) {
     for (int axis = 0; axis < 3; ++axis) {
-      const std::size_t i = index + static_cast<std::size_t>(axis);
-      const auto value =
-          length(i, fmt::format("{} of {}", std::string_view("xyz").substr(i - index, 1), field.name));
+      const auto value = length(fmt::format("{} of {}", "xyz"[axis], kCorners[which].name));
       if (!value) return false;
-      (wall.*field.corner)[axis] = *value;
+      (entry_.wall.*kCorners[which].place)[axis] = *value;
     }
-    return true;
+    return corners_[which] = true;
   }
-
-  bool fields(WallEntry& entry, std::vector<std::string>& given) {
-    for (std::size_t i = 2; i < in_.words().size();) {
-      const Word& key = in_.words()[i];
-      const auto field = std::ranges::find_if(kFields, [&](const Field& f) { return key.text == f.name; });
-      if (field == std::end(kFields)) {
-        in_.error(key.column,
-                  quotedWord(key.text) + " is not a field of a wall" + didYouMean(key.text, fieldNames()));
-        return false;
-      }
-      if (std::ranges::find(given, field->name) != given.end()) {
-        in_.error(key.column,
-                  fmt::format("\"{}\" is given twice for this wall; keep one of them", field->name));
-        return false;
-      }
-      given.emplace_back(field->name);
-      if (!(field->corner ? corner(i + 1, *field, entry.wall) : pixelsAt(i + 1, entry.pixels))) return false;
-      i += 1 + field->words;
-    }
-    return true;
-  }
+  bool lowerLeft() { return corner(0); }
+  bool lowerRight() { return corner(1); }
+  bool upperLeft() { return corner(2); }
+  bool wallPixels() { return readPixels(entry_.pixels); }
 
   void wall() {
-    const Word* name = word(1, "the wall's name");
+    const auto name = in_.name("the wall's name", "a wall");
     if (!name) return;
-    const auto good = in_.name(*name, "a wall");
-    if (!good) return;
-    WallEntry entry;
-    entry.wall.name = *good;
-    entry.line = in_.line();
-    entry.column = name->column;
-    entry.excerpt = in_.excerpt();
-    std::vector<std::string> given;
-    if (!fields(entry, given)) return;
-    for (const Field& f : kFields)
-      if (f.corner && std::ranges::find(given, f.name) == given.end())
-        return in_.error(in_.endColumn(),
-                         fmt::format("wall \"{}\" has no {}; add: {} X Y Z", *good, f.name, f.name));
+    const Word nameWord = in_.last();
+    entry_ = {}, corners_ = {};
+    entry_.wall.name = *name;
+    entry_.line = in_.line(), entry_.column = nameWord.column, entry_.excerpt = in_.excerpt();
+    if (!in_.fields(*this, kFields, "a wall")) return;
+    for (std::size_t i = 0; i < corners_.size(); ++i)
+      if (!corners_[i])
+        return in_.errorAtEnd(
+            fmt::format("wall \"{}\" has no {}; add: {} X Y Z", *name, kCorners[i].name, kCorners[i].name));
     for (const WallEntry& other : walls_.walls)
-      if (other.wall.name == *good)
-        return in_.error(name->column,
+      if (other.wall.name == *name)
+        return in_.error(nameWord,
                          fmt::format("there is a wall \"{}\" already, on line {}; give this one another "
                                      "name",
-                                     *good, other.line));
+                                     *name, other.line));
     if (walls_.walls.size() == WallFile::kMaxWalls)
-      return in_.error(in_.words()[0].column,
+      return in_.error(in_.keyword(),
                        fmt::format("a file has at most {} walls; leave this one out", WallFile::kMaxWalls));
-    walls_.walls.push_back(std::move(entry));
+    walls_.walls.push_back(std::move(entry_));
   }
 
   void output() {
-    const Word* wall = word(1, "the name of the output's wall");
-    if (!wall) return;
-    const auto name = in_.name(*wall, "a wall");
+    const auto name = in_.name("the name of the output's wall", "a wall");
     if (!name) return;
-    const auto read = readOutput(in_, 2);
+    const Word nameWord = in_.last();
+    const auto read = readOutput(in_);
     if (!read) return;
     for (const NamedOutput& other : outputs_)
       if (other.wall == *name)
-        return in_.error(wall->column,
-                         fmt::format("wall \"{}\" has an output already, on line {}; keep one of "
-                                     "them",
-                                     *name, other.where.line));
-    outputs_.push_back({*name, *read, in_.at(wall->column), in_.excerpt()});
+        return in_.error(nameWord, fmt::format("wall \"{}\" has an output already, on line {}; keep one of "
+                                               "them",
+                                               *name, other.at.where.line));
+    outputs_.push_back({*name, *read, in_.place(nameWord)});
   }
 
-  /// Walls may stand below their outputs, so this is done last.
+  /// Gives each wall its output. Called after the last line, as walls may stand below their outputs.
   bool giveOutputs() {
     bool good = true;
     for (const NamedOutput& o : outputs_) {
@@ -270,10 +173,8 @@ private:
         wall->output = o.output;
         continue;
       }
-      std::vector<std::string> known;
-      for (const WallEntry& e : walls_.walls) known.push_back(e.wall.name);
-      out_.error(o.where, fmt::format("there is no wall {}{}", quotedWord(o.wall), didYouMean(o.wall, known)),
-                 o.excerpt);
+      in_.errorAt(o.at, fmt::format("there is no wall {}{}", quotedWord(o.wall),
+                                    didYouMeanOrKnown(o.wall, walls_.names())));
       good = false;
     }
     return good;
@@ -282,19 +183,28 @@ private:
   struct NamedOutput {
     std::string wall;
     WallOutput output;
-    SourcePosition where;
-    std::string excerpt;
+    StatementPlace at;
   };
 
-  std::string file_;
-  Diagnostics& out_;
-  LineReader in_;
+  StatementReader in_;
   WallFile walls_;
   PixelSize pixels_;
+  WallEntry entry_;                ///< the wall of this line
+  std::array<bool, 3> corners_{};  ///< which of its corners the line has
   std::vector<NamedOutput> outputs_;
-  std::vector<std::string> seen_;
   std::size_t lengths_ = 0;
 };
+
+constexpr Statement<WallParser> WallParser::kStatements[7] = {
+    {"wall", &WallParser::wall, true}, {"output", &WallParser::output, true},
+    {"unit", &WallParser::unit},       {"eye-separation", &WallParser::eyeSeparation},
+    {"near", &WallParser::near},       {"far", &WallParser::far},
+    {"pixels", &WallParser::pixels}};
+
+constexpr StatementField<WallParser> WallParser::kFields[4] = {{"lower-left", &WallParser::lowerLeft},
+                                                               {"lower-right", &WallParser::lowerRight},
+                                                               {"upper-left", &WallParser::upperLeft},
+                                                               {"pixels", &WallParser::wallPixels}};
 
 std::vector<std::string> shippedNames(const std::string& folder) {
   std::vector<std::string> names;
@@ -313,7 +223,7 @@ bool looksLikePath(const std::string& text) {
 }  // namespace
 
 std::optional<WallFile> parseWalls(std::string_view text, const std::string& file, Diagnostics& out) {
-  return Parser(text, file, out).run();
+  return WallParser(text, file, out).run();
 }
 
 std::optional<WallFile> loadWalls(const std::string& nameOrPath, const std::string& folder,
@@ -322,9 +232,9 @@ std::optional<WallFile> loadWalls(const std::string& nameOrPath, const std::stri
   if (!looksLikePath(nameOrPath)) {
     const std::vector<std::string> names = shippedNames(folder);
     if (std::ranges::find(names, nameOrPath) == names.end()) {
-      out.error({},
-                fmt::format("there are no walls named {}{}", quotedWord(nameOrPath),
-                            names.empty() ? fmt::format(" in {}", folder) : didYouMean(nameOrPath, names)));
+      out.error({}, fmt::format("there are no walls named {}{}", quotedWord(nameOrPath),
+                                names.empty() ? fmt::format(" in {}", folder)
+                                              : didYouMeanOrKnown(nameOrPath, names)));
       return std::nullopt;
     }
     path = (std::filesystem::path(folder) / (nameOrPath + ".walls")).string();

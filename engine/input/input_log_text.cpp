@@ -1,10 +1,9 @@
 // Reading and writing of input logs (the format is described in input_log.h).
 
 #include "engine/base/plain_file.h"
-#include "engine/base/text_line.h"
 #include "engine/input/input_log.h"
 #include "engine/maths/functions.h"
-#include "engine/unicode/likeness.h"
+#include "engine/plain_text/statement_reader.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +12,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <span>
 
 namespace stadion {
 namespace {
@@ -21,184 +21,117 @@ constexpr const char* kFormatName = "stadion-input";
 constexpr std::uint64_t kVersion = 1;        ///< of logs that hold input alone
 constexpr std::uint64_t kNewestVersion = 2;  ///< of logs that also hold what a clock decided
 constexpr std::size_t kMaxLogBytes = std::size_t(1) << 30;
-constexpr double kFarthestLogged = 1e6;       ///< of a position [m]
-constexpr double kExactlyUnit = 1e-12;  ///< squared norms this near 1 are kept to the bit
-constexpr double kNearlyUnit = 2e-3;    ///< nearer than this they are normalised, else it is an error
+constexpr std::uint64_t kMostFrames = 1'000'000'000'000;
+constexpr double kFarthestLogged = 1e6;  ///< of a position [m]
+constexpr double kExactlyUnit = 1e-12;   ///< squared norms this near 1 are kept to the bit
+constexpr double kNearlyUnit = 2e-3;     ///< nearer than this they are normalised, else it is an error
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
-
-std::string logHint(std::string_view word, const std::vector<std::string>& known) {
-  const auto near = closest(std::string(word.substr(0, 64)), known);
-  return near ? "; " + didYouMeanOne(std::string(word), *near)
-              : fmt::format("; known are {}", fmt::join(known, ", "));
-}
 
 class LogParser {
 public:
-  LogParser(std::string_view text, const std::string& file, Diagnostics& out)
-      : file_(file), out_(out), in_(text, file, out) {}
+  LogParser(std::string_view text, const std::string& file, Diagnostics& out) : in_(text, file, out) {}
 
   std::optional<InputLog> run() {
-    if (!heading()) return std::nullopt;
-    while (in_.next()) record();
+    const auto version = in_.heading("an input log", kFormatName, kNewestVersion);
+    if (!version) return std::nullopt;
+    std::span<const Statement<LogParser>> records(kRecords);
+    if (*version == kVersion) records = records.first(kInputRecords);
+    while (in_.next()) in_.read(*this, records);
     if (in_.failed()) return std::nullopt;
     return std::move(log_);
   }
 
 private:
-  bool heading() {
-    if (!in_.next()) {
-      out_.error({file_, 1, 1}, fmt::format("the file is empty; an input log begins with the line: {} {}",
-                                            kFormatName, kVersion));
-      return false;
-    }
-    if (in_.words()[0].text != kFormatName) {
-      in_.error(
-          in_.words()[0].column,
-          fmt::format("this is not an input log; one begins with the line: {} {}", kFormatName, kVersion));
-      return false;
-    }
-    const Word* version = word(1, "the version of the format");
-    if (!version) return false;
-    const auto number = in_.count(*version, "the version of the format", 1, 1'000'000);
-    if (!number) return false;
-    version_ = *number;
-    if (version_ <= kNewestVersion) return nothingAfter(2);
-    in_.error(version->column,
-              fmt::format("version {} of the format is newer than this program, which reads {}", *number,
-                          kNewestVersion));
-    return false;
-  }
+  static constexpr std::size_t kInputRecords = 4;  ///< the first ones; the others are decisions
+  static const Statement<LogParser> kRecords[10];
+  static const StatementField<LogParser> kFields[4];
 
-  void record() {
-    const Word& kind = in_.words()[0];
-    if (kind.text == "pose") return pose(&LogParser::quaternion);
-    if (kind.text == "key") return pose(nullptr);
-    if (kind.text == "controls") return controls();
-    if (kind.text == "lost") return lost();
-    if (version_ >= 2 && kind.text == "rate") return rate();
-    if (version_ >= 2 && kind.text == "frame")
-      return decision(log_.decisions.frames, "the frame's number", 1'000'000'000'000, true);
-    if (version_ >= 2 && kind.text == "load")
-      return decision(log_.decisions.loads, "the load's number", 1'000'000'000, false);
-    if (version_ >= 2 && kind.text == "order") return order();
-    if (version_ >= 2 && kind.text == "relief") return relief();
-    if (version_ >= 2 && kind.text == "stress") return stress();
-    std::vector<std::string> known{"pose", "key", "controls", "lost"};
-    if (version_ >= 2) known.insert(known.end(), {"rate", "frame", "load", "order", "relief", "stress"});
-    in_.error(kind.column, fmt::format("{} is not a kind of record{}", quotedWord(kind.text),
-                                       logHint(kind.text, known)));
-  }
+  // What a clock decided.
 
   void rate() {
-    const auto value = number(1, "frames a second");
-    if (!value || !nothingAfter(2)) return;
-    if (!(*value >= 1 && *value <= 1000))
-      return in_.error(in_.words()[1].column, "the rate must be from 1 to 1000 frames a second");
-    log_.decisions.rate = *value;
+    const auto value = in_.number("frames a second", 1, 1000);
+    if (value && in_.finished()) log_.decisions.rate = *value;
   }
 
-  /// NUMBER SECONDS; of frames, both grow from line to line.
+  void frame() {
+    // Loads may take effect in any order; frames may not.
+    decision(log_.decisions.frames, "the frame's number", kMostFrames, true);
+  }
+  void load() { decision(log_.decisions.loads, "the load's number", 1'000'000'000, false); }
+
+  /// NUMBER SECONDS; if `increasing`, both grow from line to line.
   template <class Number>
   void decision(std::map<Number, Nanoseconds>& known, std::string_view what, std::uint64_t most,
                 bool increasing) {
-    const Word* numberWord = word(1, what);
-    const Word* timeWord = numberWord ? word(2, "the time in seconds") : nullptr;
-    if (!timeWord || !nothingAfter(3)) return;
-    const auto index = in_.count(*numberWord, what, 1, most);
-    const auto time = in_.seconds(*timeWord, "the time");
-    if (!index || !time) return;
+    const auto index = in_.count(what, 1, most);
+    if (!index) return;
+    const Word numberWord = in_.last();
+    if (!in_.more()) return static_cast<void>(in_.word("the time in seconds"));
+    const auto time = in_.seconds("the time");
+    if (!time || !in_.finished()) return;
     if (known.contains(static_cast<Number>(*index)))
-      return in_.error(numberWord->column, fmt::format("{} is there already", what));
-    // Loads may take effect in any order; frames may not.
+      return in_.error(numberWord, fmt::format("{} is there already", what));
     const bool grows =
         known.empty() || !increasing || (known.rbegin()->first < *index && known.rbegin()->second < *time);
-    if (!grows)
-      return in_.error(numberWord->column, fmt::format("{} must increase, and the time with it", what));
+    if (!grows) return in_.error(numberWord, fmt::format("{} must increase, and the time with it", what));
     known.emplace(static_cast<Number>(*index), *time);
   }
 
   void order() {
-    const Word* frameWord = word(1, "the frame's number");
-    const Word* actionWord = frameWord ? word(2, "what was asked for") : nullptr;
-    const auto value = actionWord ? number(3, "the figure") : std::nullopt;
-    if (!value || !nothingAfter(4)) return;
-    const auto frame = in_.count(*frameWord, "the frame's number", 0, 1'000'000'000'000);
-    const auto action = operatorActionNamed(actionWord->text);
+    const auto frame = in_.count("the frame's number", 0, kMostFrames);
+    const Word* asked = frame ? in_.word("what was asked for") : nullptr;
+    if (!asked) return;
+    const auto action = operatorActionNamed(asked->text);
     if (!action || !isOfPresentation(*action))
-      return in_.error(actionWord->column,
-                       fmt::format("{} is no order; known are black, swap-eyes, eye-separation, volume",
-                                   quotedWord(actionWord->text)));
-    if (!(*value >= 0 && *value <= 1))
-      return in_.error(in_.words()[3].column, "the figure must be from 0 to 1");
-    if (frame) log_.decisions.orders.insert({*frame, {*action, *value, false}});
+      return in_.unknown(*asked, "is no order", {"black", "swap-eyes", "eye-separation", "volume"});
+    const auto value = in_.number("the figure", 0, 1);
+    if (value && in_.finished()) log_.decisions.orders.insert({*frame, {*action, *value, false}});
   }
 
   void relief() {
-    const auto frame = wholeNumber(1, "the frame's number", 0, 1'000'000'000'000);
-    const auto load = frame ? wholeNumber(2, "the load's number", 1, 1'000'000'000) : std::nullopt;
-    const auto position = load ? wholeNumber(3, "the node's position", 0, 1'000'000'000) : std::nullopt;
-    const auto level = position ? wholeNumber(4, "the level", 0, 100) : std::nullopt;
-    if (!level || !nothingAfter(5)) return;
+    const auto frame = in_.count("the frame's number", 0, kMostFrames);
+    const auto load = frame ? in_.count("the load's number", 1, 1'000'000'000) : std::nullopt;
+    const auto position = load ? in_.count("the node's position", 0, 1'000'000'000) : std::nullopt;
+    const auto level = position ? in_.count("the level", 0, 100) : std::nullopt;
+    if (!level || !in_.finished()) return;
     const auto number = [](std::uint64_t n) { return static_cast<std::uint32_t>(n); };
     decide(*frame, {number(*load), number(*position), number(*level)});
   }
 
   void stress() {
-    const auto frame = wholeNumber(1, "the frame's number", 0, 1'000'000'000'000);
-    const auto level = frame ? wholeNumber(2, "the level", 0, kMostStress) : std::nullopt;
-    if (level && nothingAfter(3)) decide(*frame, {0, 0, static_cast<std::uint32_t>(*level)});
+    const auto frame = in_.count("the frame's number", 0, kMostFrames);
+    const auto level = frame ? in_.count("the level", 0, kMostStress) : std::nullopt;
+    if (level && in_.finished()) decide(*frame, {0, 0, static_cast<std::uint32_t>(*level)});
   }
 
   void decide(std::uint64_t frame, const LoadDecision& decision) {
     LoadDecisions& known = log_.decisions.relief;
     if (known.count(frame) == FrameLoad::kMost)
-      return in_.error(in_.words()[0].column,
+      return in_.error(in_.keyword(),
                        fmt::format("at most {} of these take effect in one frame", FrameLoad::kMost));
     const auto [first, last] = known.equal_range(frame);
     for (auto at = first; at != last; ++at)
       if (at->second.load == decision.load && at->second.position == decision.position)
-        return in_.error(in_.words()[0].column, "of this frame and this node that is said already");
+        return in_.error(in_.keyword(), "of this frame and this node that is said already");
     known.insert({frame, decision});
   }
 
-  std::optional<std::uint64_t> wholeNumber(std::size_t index, std::string_view what, std::uint64_t least,
-                                           std::uint64_t most) {
-    const Word* w = word(index, what);
-    return w ? in_.count(*w, what, least, most) : std::nullopt;
-  }
+  // What trackers sent.
 
-  const Word* word(std::size_t index, std::string_view what) {
-    if (index < in_.words().size()) return &in_.words()[index];
-    in_.error(in_.endColumn(), fmt::format("{} is missing", what));
-    return nullptr;
-  }
-
-  bool nothingAfter(std::size_t count) {
-    if (in_.words().size() <= count) return true;
-    in_.error(in_.words()[count].column,
-              fmt::format("{} is one word too many here", quotedWord(in_.words()[count].text)));
-    return false;
-  }
-
-  std::optional<double> number(std::size_t index, std::string_view what) {
-    const Word* w = word(index, what);
-    return w ? in_.number(*w, what) : std::nullopt;
-  }
-
-  /// NAME SECONDS, checked against what the tracker has so far; nullptr after an error.
-  InputTrack* begin(InputStamp& stamp) {
-    const Word* nameWord = word(1, "the tracker's name");
-    const Word* timeWord = nameWord ? word(2, "the time in seconds") : nullptr;
-    if (!timeWord) return nullptr;
-    const auto name = in_.name(*nameWord, "a tracker");
-    const auto time = in_.seconds(*timeWord, "the time");
-    if (!name || !time) return nullptr;
-    stamp.time = *time;
-    InputTrack* track = trackOf(*name, *nameWord);
+  /// Takes NAME SECONDS into stamp_. Returns the tracker's records so far; null after an error.
+  InputTrack* begin() {
+    stamp_ = {};
+    const auto name = in_.name("the tracker's name", "a tracker");
+    if (!name) return nullptr;
+    const Word nameWord = in_.last();
+    if (!in_.more()) return in_.word("the time in seconds"), nullptr;
+    const auto time = in_.seconds("the time");
+    if (!time) return nullptr;
+    stamp_.time = *time;
+    InputTrack* track = trackOf(*name, nameWord);
     if (!track || track->stamps.empty() || track->stamps.back().time < *time) return track;
-    in_.error(timeWord->column,
-              fmt::format("time must increase, but {} s comes after {} s of the same tracker",
-                          formatSeconds(*time), formatSeconds(track->stamps.back().time)));
+    in_.error(in_.last(), fmt::format("time must increase, but {} s comes after {} s of the same tracker",
+                                      formatSeconds(*time), formatSeconds(track->stamps.back().time)));
     return nullptr;
   }
 
@@ -206,7 +139,7 @@ private:
     const auto known = byName_.find(name);
     if (known != byName_.end()) return &log_.tracks[known->second];
     if (log_.tracks.size() == InputLog::kMaxTrackers) {
-      in_.error(where.column, fmt::format("an input log has at most {} trackers", InputLog::kMaxTrackers));
+      in_.error(where, fmt::format("an input log has at most {} trackers", InputLog::kMaxTrackers));
       return nullptr;
     }
     byName_.emplace(name, log_.tracks.size());
@@ -214,150 +147,139 @@ private:
     return &log_.tracks.back();
   }
 
-  bool position(std::size_t index, Pose& pose) {
+  bool position() {
     for (int axis = 0; axis < 3; ++axis) {
-      const auto value =
-          number(index + static_cast<std::size_t>(axis), fmt::format("{} of the position", "xyz"[axis]));
+      const auto value = in_.number(fmt::format("{} of the position", "xyz"[axis]));
       if (!value) return false;
       if (std::fabs(*value) > kFarthestLogged) {
-        in_.error(in_.words()[index + static_cast<std::size_t>(axis)].column,
-                  "a position must be within 1000 km of the rig (metres)");
+        in_.error(in_.last(), "a position must be within 1000 km of the rig (metres)");
         return false;
       }
-      pose.p[axis] = *value;
+      stamp_.X_RT.p[axis] = *value;
     }
     return true;
   }
 
-  bool quaternion(std::size_t index, Pose& pose) {
+  bool quaternion() {
     double q[4];
+    Word first;
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto value = number(index + i, fmt::format("{} of the unit quaternion w, x, y, z", "wxyz"[i]));
+      const auto value = in_.number(fmt::format("{} of the unit quaternion w, x, y, z", "wxyz"[i]));
       if (!value) return false;
       q[i] = *value;
+      if (i == 0) first = in_.last();
     }
     const double squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
     if (!(std::fabs(squared - 1) <= kNearlyUnit)) {
-      in_.error(in_.words()[index].column,
-                fmt::format("the quaternion must have length 1, not {:.6g}", std::sqrt(squared)));
+      in_.error(first, fmt::format("the quaternion must have length 1, not {:.6g}", std::sqrt(squared)));
       return false;
     }
-    pose.q = Quat(q[0], q[1], q[2], q[3]);
-    if (std::fabs(squared - 1) > kExactlyUnit) pose.q.coeffs() /= std::sqrt(squared);
+    stamp_.X_RT.q = Quat(q[0], q[1], q[2], q[3]);
+    if (std::fabs(squared - 1) > kExactlyUnit) stamp_.X_RT.q.coeffs() /= std::sqrt(squared);
     return true;
   }
 
-  /// The words after the pose; `i` is where they begin.
-  bool options(std::size_t i, bool isKey, InputStamp& stamp) {
-    std::vector<std::string_view> given;
-    while (i < in_.words().size()) {
-      const Word key = in_.words()[i++];
-      if (std::ranges::find(given, key.text) != given.end()) {
-        in_.error(key.column, fmt::format("{} is given twice; keep one of them", quotedWord(key.text)));
-        return false;
-      }
-      given.push_back(key.text);
-      if (key.text == "smooth")
-        stamp.smooth = true;
-      else if (key.text == "turn" && isKey) {
-        if (!turn(i, stamp.X_RT)) return false;
-      } else if (key.text == "buttons") {
-        if (!buttons(i, stamp)) return false;
-      } else if (key.text == "axes") {
-        if (!axes(i, stamp)) return false;
-      } else {
-        std::vector<std::string> known{"smooth", "buttons", "axes"};
-        if (isKey) known.emplace_back("turn");
-        in_.error(key.column, fmt::format("{} is not expected here{}", quotedWord(key.text),
-                                          logHint(key.text, known)));
-        return false;
-      }
-    }
-    return true;
-  }
+  // The fields behind the pose.
 
-  bool turn(std::size_t& i, Pose& pose) {
+  bool smooth() { return stamp_.smooth = true; }
+
+  bool turn() {
     double angle[3];
     constexpr std::array<std::string_view, 3> kNames{"roll", "pitch", "yaw"};
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto value = number(i++, fmt::format("{} of turn (roll, pitch, yaw in degrees)", kNames[k]));
+      const auto value = in_.number(fmt::format("{} of turn (roll, pitch, yaw in degrees)", kNames[k]));
       if (!value) return false;
       if (std::fabs(*value) > 3600) {
-        in_.error(in_.words()[i - 1].column, "an angle must be within ten turns (3600 degrees)");
+        in_.error(in_.last(), "an angle must be within ten turns (3600 degrees)");
         return false;
       }
       angle[k] = *value * kRadiansPerDegree;
     }
-    pose.q = det::fromEuler(angle[0], angle[1], angle[2]);
+    stamp_.X_RT.q = det::fromEuler(angle[0], angle[1], angle[2]);
     return true;
   }
 
-  bool buttons(std::size_t& i, InputStamp& stamp) {
-    const Word* w = word(i++, "the buttons' bit mask");
+  bool buttons() {
+    const Word* w = in_.word("the buttons' bit mask");
     if (!w) return false;
     const bool hex = w->text.starts_with("0x");
     const std::string_view digits = w->text.substr(hex ? 2 : 0);
     const auto [end, problem] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), stamp.buttons, hex ? 16 : 10);
+        std::from_chars(digits.data(), digits.data() + digits.size(), stamp_.buttons, hex ? 16 : 10);
     if (problem == std::errc() && end == digits.data() + digits.size()) return true;
-    in_.error(w->column, fmt::format("the buttons must be a bit mask of 32 bits, such as 5 or 0x5, not {}",
-                                     quotedWord(w->text)));
+    in_.error(*w, fmt::format("the buttons must be a bit mask of 32 bits, such as 5 or 0x5, not {}",
+                              quotedWord(w->text)));
     return false;
   }
 
-  static bool beginsNumber(const Word& w) { return w.text.find_first_of("0123456789+-.") == 0; }
+  bool numberFollows() const { return in_.more() && in_.peek()->text.find_first_of("0123456789+-.") == 0; }
 
-  bool axes(std::size_t& i, InputStamp& stamp) {
-    std::size_t count = 0;
-    for (; i < in_.words().size() && (count == 0 || beginsNumber(in_.words()[i])); ++i, ++count) {
-      const Word& w = in_.words()[i];
-      const auto value = in_.number(w, "an axis");
+  bool axes() {
+    if (!in_.more()) return in_.word("the value of the first axis") != nullptr;
+    for (std::size_t count = 0; count == 0 || numberFollows(); ++count) {
+      const auto value = in_.number("an axis");
       if (!value) return false;
       if (count == kTrackerAxes || std::fabs(*value) > 1) {
-        in_.error(w.column, count == kTrackerAxes
-                                ? fmt::format("a tracker has at most {} axes", kTrackerAxes)
-                                : fmt::format("an axis must be from -1 to 1, not {}", quotedWord(w.text)));
+        in_.error(in_.last(),
+                  count == kTrackerAxes
+                      ? fmt::format("a tracker has at most {} axes", kTrackerAxes)
+                      : fmt::format("an axis must be from -1 to 1, not {}", quotedWord(in_.last().text)));
         return false;
       }
-      stamp.axes[count] = static_cast<float>(*value);
+      stamp_.axes[count] = static_cast<float>(*value);
     }
-    return count > 0 || word(i, "the value of the first axis") != nullptr;
+    return true;
   }
 
-  void pose(bool (LogParser::*rotation)(std::size_t, Pose&)) {
-    InputStamp stamp;
-    InputTrack* track = begin(stamp);
-    if (!track || !position(3, stamp.X_RT)) return;
-    if (rotation && !(this->*rotation)(6, stamp.X_RT)) return;
-    if (!options(rotation ? 10 : 6, !rotation, stamp)) return;
-    track->stamps.push_back(stamp);
+  /// Reads the fields; `turn` is one of a key only.
+  bool fields(bool isKey) {
+    const std::span<const StatementField<LogParser>> all(kFields);
+    return in_.fields(*this, isKey ? all : all.first(all.size() - 1), "a record");
+  }
+
+  void pose() {
+    InputTrack* track = begin();
+    if (track && position() && quaternion() && fields(false)) track->stamps.push_back(stamp_);
+  }
+
+  void key() {
+    InputTrack* track = begin();
+    if (track && position() && fields(true)) track->stamps.push_back(stamp_);
   }
 
   void controls() {
-    InputStamp stamp;
-    InputTrack* track = begin(stamp);
+    InputTrack* track = begin();
     if (!track) return;
-    if (!track->stamps.empty()) stamp.X_RT = track->stamps.back().X_RT;
-    stamp.valid = false, stamp.controlsOnly = true;
-    if (options(3, false, stamp)) track->stamps.push_back(stamp);
+    if (!track->stamps.empty()) stamp_.X_RT = track->stamps.back().X_RT;
+    stamp_.valid = false, stamp_.controlsOnly = true;
+    if (fields(false)) track->stamps.push_back(stamp_);
   }
 
   void lost() {
-    InputStamp stamp;
-    InputTrack* track = begin(stamp);
-    if (!track || !nothingAfter(3)) return;
-    if (!track->stamps.empty()) stamp.X_RT = track->stamps.back().X_RT;
-    stamp.valid = false;
-    track->stamps.push_back(stamp);
+    InputTrack* track = begin();
+    if (!track || !in_.finished()) return;
+    if (!track->stamps.empty()) stamp_.X_RT = track->stamps.back().X_RT;
+    stamp_.valid = false;
+    track->stamps.push_back(stamp_);
   }
 
-  std::string file_;
-  Diagnostics& out_;
-  LineReader in_;
+  StatementReader in_;
   InputLog log_;
+  InputStamp stamp_;  ///< of this line
   std::map<std::string, std::size_t> byName_;
-  std::uint64_t version_ = kVersion;
 };
+
+constexpr Statement<LogParser> LogParser::kRecords[10] = {
+    {"pose", &LogParser::pose, true},         {"key", &LogParser::key, true},
+    {"controls", &LogParser::controls, true}, {"lost", &LogParser::lost, true},
+    {"rate", &LogParser::rate, true},         {"frame", &LogParser::frame, true},
+    {"load", &LogParser::load, true},         {"order", &LogParser::order, true},
+    {"relief", &LogParser::relief, true},     {"stress", &LogParser::stress, true}};
+
+constexpr StatementField<LogParser> LogParser::kFields[4] = {{"smooth", &LogParser::smooth},
+                                                             {"buttons", &LogParser::buttons},
+                                                             {"axes", &LogParser::axes},
+                                                             {"turn", &LogParser::turn}};
 
 }  // namespace
 

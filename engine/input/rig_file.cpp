@@ -1,16 +1,13 @@
 #include "engine/input/rig_file.h"
 
 #include "engine/base/plain_file.h"
-#include "engine/base/text_line.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
-#include "engine/unicode/likeness.h"
+#include "engine/plain_text/statement_reader.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace stadion {
@@ -18,158 +15,104 @@ namespace {
 
 constexpr double kFar = 1e4;  ///< [m]
 
-struct Unit {
-  std::string_view name;
-  double metres;
-};
-constexpr std::array<Unit, 5> kUnits{{{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}}};
-
-class Parser {
+class RigParser {
 public:
-  Parser(std::string_view text, const std::string& file, Diagnostics& out)
-      : file_(file), out_(out), in_(text, file, out) {}
+  RigParser(std::string_view text, const std::string& file, Diagnostics& out) : in_(text, file, out) {}
 
   std::optional<RigFile> run() {
-    if (!heading()) return std::nullopt;
-    while (in_.next()) statement();
+    if (!in_.heading("a rig file", "stadion-rig")) return std::nullopt;
+    while (in_.next()) in_.read(*this, kStatements);
     if (in_.failed()) return std::nullopt;
     if (rig_.trackers.empty()) rig_.trackers = standardRig().trackers;
     return std::move(rig_);
   }
 
 private:
-  struct Statement {
-    std::string_view name;
-    void (Parser::*read)();
-    bool once;
-  };
-  static constexpr std::size_t kStatements = 9;
-  static const std::array<Statement, kStatements>& statements() {
-    static constexpr std::array<Statement, kStatements> kAll{{{"unit", &Parser::unit, true},
-                                                              {"up", &Parser::up, true},
-                                                              {"origin", &Parser::origin, true},
-                                                              {"yaw", &Parser::yaw, true},
-                                                              {"filter", &Parser::filter, true},
-                                                              {"hold", &Parser::hold, true},
-                                                              {"ease", &Parser::ease, true},
-                                                              {"predict", &Parser::predict, true},
-                                                              {"tracker", &Parser::tracker, false}}};
-    return kAll;
-  }
+  static const Statement<RigParser> kStatements[9];
+  static const StatementField<RigParser> kFields[3];
 
-  bool heading() {
-    const bool there = in_.next() && in_.words().size() == 2 && in_.words()[0].text == "stadion-rig" &&
-                       in_.words()[1].text == "1";
-    if (!there) out_.error({file_, 1, 1}, "this is not a rig file; one begins with the line: stadion-rig 1");
-    return there;
-  }
-
-  void statement() {
-    const Word keyword = in_.words()[0];
-    std::vector<std::string> known;
-    for (const Statement& s : statements()) {
-      known.emplace_back(s.name);
-      if (keyword.text != s.name) continue;
-      if (s.once && std::ranges::find(seen_, s.name) != seen_.end())
-        return in_.error(keyword.column, fmt::format("\"{}\" is given twice; keep one of them", s.name));
-      seen_.push_back(s.name);
-      return (this->*s.read)();
-    }
-    const auto near = closest(std::string(keyword.text.substr(0, 64)), known);
-    in_.error(keyword.column, fmt::format("{} is not a statement of a rig file; {}", quotedWord(keyword.text),
-                                          near ? didYouMeanOne(std::string(keyword.text), *near)
-                                               : fmt::format("known are {}", fmt::join(known, ", "))));
-  }
-
-  const Word* word(std::size_t index, std::string_view what) {
-    if (index < in_.words().size()) return &in_.words()[index];
-    in_.error(in_.endColumn(), fmt::format("{} is missing", what));
-    return nullptr;
-  }
-  std::optional<double> number(std::size_t index, std::string_view what, double least, double most) {
-    const Word* w = word(index, what);
-    const auto value = w ? in_.number(*w, what) : std::nullopt;
-    if (!value) return {};
-    if (*value >= least && *value <= most) return value;
-    in_.error(w->column, fmt::format("{} must be from {} to {}", what, least, most));
-    return {};
-  }
-  std::optional<Vec3> vector(std::size_t index, std::string_view what, double most) {
+  std::optional<Vec3> vector(std::string_view what, double most) {
     Vec3 v;
     for (int i = 0; i < 3; ++i) {
-      const auto x = number(index + static_cast<std::size_t>(i), what, -most, most);
+      const auto x = in_.number(what, -most, most);
       if (!x) return {};
       v[i] = *x;
     }
     return v;
   }
-  void nothingAfter(std::size_t count) {
-    if (in_.words().size() > count)
-      in_.error(in_.words()[count].column,
-                fmt::format("{} is one word too many here", quotedWord(in_.words()[count].text)));
-  }
 
   void unit() {
-    const Word* w = word(1, "the unit");
-    if (!w) return;
-    for (const Unit& u : kUnits)
-      if (w->text == u.name) return rig_.unit = u.metres, nothingAfter(2);
-    in_.error(w->column, fmt::format("{} is not a unit; known are m, cm, mm, in, ft", quotedWord(w->text)));
+    const auto unit = lengthUnit(in_);
+    if (unit && in_.finished()) rig_.unit = unit->metres;
   }
   void up() {
-    const Word* w = word(1, "the axis");
-    if (!w) return;
-    if (w->text != "y" && w->text != "z")
-      return in_.error(w->column, fmt::format("{} is not z or y", quotedWord(w->text)));
-    rig_.upIsY = w->text == "y";
-    nothingAfter(2);
+    static constexpr std::string_view kAxes[] = {"z", "y"};
+    const auto axis = in_.choice("an axis that can point up", kAxes);
+    if (axis && in_.finished()) rig_.upIsY = *axis == 1;
   }
   void origin() {
-    if (const auto v = vector(1, "the origin", kFar)) rig_.origin = *v, nothingAfter(4);
+    const auto v = vector("the origin", kFar);
+    if (v && in_.finished()) rig_.origin = *v;
   }
   void yaw() {
-    if (const auto d = number(1, "the yaw", -3600, 3600)) rig_.yaw = *d * kDegree, nothingAfter(2);
+    const auto d = in_.number("the yaw", -3600, 3600);
+    if (d && in_.finished()) rig_.yaw = *d * kDegree;
   }
   void filter() {
-    const auto cutoff = number(1, "the filter's lowest cutoff", 0, 1000);
-    const auto beta = cutoff ? number(2, "the filter's beta", 0, 10000) : std::nullopt;
-    if (beta) rig_.cutoff = *cutoff, rig_.beta = *beta, nothingAfter(3);
+    const auto cutoff = in_.number("the filter's lowest cutoff", 0, 1000);
+    const auto beta = cutoff ? in_.number("the filter's beta", 0, 10000) : std::nullopt;
+    if (beta && in_.finished()) rig_.cutoff = *cutoff, rig_.beta = *beta;
   }
   void seconds(double& value, std::string_view what, double most) {
-    if (const auto s = number(1, what, 0, most)) value = *s, nothingAfter(2);
+    const auto s = in_.number(what, 0, most);
+    if (s && in_.finished()) value = *s;
   }
   void hold() { seconds(rig_.hold, "the time to hold", 60); }
   void ease() { seconds(rig_.ease, "the time to ease", 60); }
   void predict() { seconds(rig_.predict, "the time to predict", 0.1); }
 
-  void tracker() {
-    const Word* w = word(1, "the tracker's name");
-    const auto name = w ? in_.name(*w, "a tracker") : std::nullopt;
-    if (!name) return;
-    if (rig_.find(*name)) return in_.error(w->column, fmt::format("there are two trackers \"{}\"", *name));
-    if (rig_.trackers.size() == RigFile::kMostTrackers)
-      return in_.error(w->column, fmt::format("a rig has at most {} trackers", RigFile::kMostTrackers));
-    RigTracker t{*name, {}, {}};
-    for (std::size_t i = 2; i < in_.words().size(); i += 4) {
-      const Word key = in_.words()[i];
-      if (key.text != "offset" && key.text != "turn" && key.text != "safe")
-        return in_.error(key.column, fmt::format("{} is not expected here; known are offset, turn, safe",
-                                                 quotedWord(key.text)));
-      const auto v = vector(i + 1, key.text, key.text == "turn" ? 3600 : kFar);
-      if (!v) return;
-      if (key.text == "offset") t.X_DT.p = *v;
-      if (key.text == "turn") t.X_DT.q = det::fromEuler(v->x() * kDegree, v->y() * kDegree, v->z() * kDegree);
-      if (key.text == "safe") t.safe = *v;
-    }
-    rig_.trackers.push_back(std::move(t));
+  // The fields of a tracker; they fill tracker_.
+
+  bool offset() {
+    const auto v = vector("offset", kFar);
+    if (v) tracker_.X_DT.p = *v;
+    return v.has_value();
+  }
+  bool turn() {
+    const auto v = vector("turn", 3600);
+    if (v) tracker_.X_DT.q = det::fromEuler(v->x() * kDegree, v->y() * kDegree, v->z() * kDegree);
+    return v.has_value();
+  }
+  bool safe() {
+    tracker_.safe = vector("safe", kFar);
+    return tracker_.safe.has_value();
   }
 
-  std::string file_;
-  Diagnostics& out_;
-  LineReader in_;
+  void tracker() {
+    const auto name = in_.name("the tracker's name", "a tracker");
+    if (!name) return;
+    if (rig_.find(*name))
+      return in_.error(in_.last(),
+                       fmt::format("there are two trackers \"{}\"; give this one another name", *name));
+    if (rig_.trackers.size() == RigFile::kMostTrackers)
+      return in_.error(in_.last(), fmt::format("a rig has at most {} trackers; leave this one out",
+                                               RigFile::kMostTrackers));
+    tracker_ = {*name, {}, {}};
+    if (in_.fields(*this, kFields, "a tracker")) rig_.trackers.push_back(std::move(tracker_));
+  }
+
+  StatementReader in_;
   RigFile rig_;
-  std::vector<std::string_view> seen_;
+  RigTracker tracker_;  ///< of this line
 };
+
+constexpr Statement<RigParser> RigParser::kStatements[9] = {
+    {"unit", &RigParser::unit}, {"up", &RigParser::up},           {"origin", &RigParser::origin},
+    {"yaw", &RigParser::yaw},   {"filter", &RigParser::filter},   {"hold", &RigParser::hold},
+    {"ease", &RigParser::ease}, {"predict", &RigParser::predict}, {"tracker", &RigParser::tracker, true}};
+
+constexpr StatementField<RigParser> RigParser::kFields[3] = {
+    {"offset", &RigParser::offset}, {"turn", &RigParser::turn}, {"safe", &RigParser::safe}};
 
 /// roll, pitch, yaw about fixed axes, as fromEuler takes them [degrees].
 Vec3 eulerOf(const Quat& q) {
@@ -213,7 +156,7 @@ RigFile standardRig() {
 }
 
 std::optional<RigFile> parseRigFile(std::string_view text, const std::string& file, Diagnostics& out) {
-  return Parser(text, file, out).run();
+  return RigParser(text, file, out).run();
 }
 
 std::optional<RigFile> loadRigFile(const std::string& path, Diagnostics& out) {
@@ -226,7 +169,7 @@ std::optional<RigFile> loadRigFile(const std::string& path, Diagnostics& out) {
 std::string formatRigFile(const RigFile& rig) {
   const auto vector = [](const Vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x(), v.y(), v.z()); };
   std::string text = "stadion-rig 1\n";
-  for (const Unit& u : kUnits)
+  for (const LengthUnit& u : kLengthUnits)
     if (u.metres == rig.unit) text += fmt::format("unit {}\n", u.name);
   text += fmt::format("up {}\norigin {}\nyaw {:.6g}\n", rig.upIsY ? "y" : "z", vector(rig.origin),
                       rig.yaw / kDegree);

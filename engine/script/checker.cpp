@@ -4,7 +4,7 @@
 #include "engine/script/attribute_text.h"
 #include "engine/script/declaration_check.h"
 #include "engine/script/file_path.h"
-#include "engine/script/suggestion.h"
+#include "engine/plain_text/suggestion.h"
 #include "engine/text/text_mesh.h"
 #include "engine/unicode/characters.h"
 

@@ -2,7 +2,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/script/attribute_text.h"
-#include "engine/script/suggestion.h"
+#include "engine/plain_text/suggestion.h"
 #include "engine/text/text_mesh.h"
 #include "engine/unicode/characters.h"
 

@@ -3,7 +3,7 @@
 #include "engine/script/document_writer.h"
 #include "engine/script/reporter.h"
 #include "engine/script/script.h"
-#include "engine/script/suggestion.h"
+#include "engine/plain_text/suggestion.h"
 
 #include <unordered_map>
 #include <unordered_set>

@@ -1,6 +1,6 @@
 #include "pipeline/cluster/agreement.h"
 
-#include "engine/base/text_line.h"
+#include "engine/plain_text/text_line.h"
 #include "engine/core/state_hash.h"
 #include "pipeline/cluster/terms.h"
 

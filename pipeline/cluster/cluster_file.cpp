@@ -1,14 +1,13 @@
 #include "pipeline/cluster/cluster_file.h"
 
 #include "engine/base/plain_file.h"
-#include "engine/base/text_line.h"
-#include "engine/script/suggestion.h"
+#include "engine/plain_text/statement_reader.h"
+#include "engine/plain_text/suggestion.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <span>
 
 namespace stadion {
 namespace {
@@ -24,148 +23,122 @@ bool canBeInterface(std::string_view text) {
   return text.size() <= kMostInterface && text.find_first_not_of(kCharacters) == text.npos;
 }
 
-class Parser {
+class ClusterParser {
 public:
-  Parser(std::string_view text, const std::string& file, Diagnostics& out)
-      : file_(file), out_(out), in_(text, file, out) {}
+  ClusterParser(std::string_view text, const std::string& file, Diagnostics& out) : in_(text, file, out) {
+    cluster_.file = file, cluster_.wallsAt.where.file = file;
+  }
 
   std::optional<ClusterFile> run() {
-    cluster_.file = file_, cluster_.wallsAt.where.file = file_;
-    while (in_.next()) statement();
+    while (in_.next()) in_.read(*this, kStatements);
     if (!in_.failed() && cluster_.nodes.empty())
-      out_.error({file_, 0, 0}, "there is no node in the file; add a line such as: node front  front");
-    if (!in_.failed() && !cluster_.nodes.empty()) takeLead();
-    if (in_.failed() || cluster_.nodes.empty()) return std::nullopt;
+      in_.errorOfFile("there is no node in the file; add a line such as: node front  front");
+    if (!in_.failed()) takeLead();
+    if (in_.failed()) return std::nullopt;
     return std::move(cluster_);
   }
 
 private:
-  struct Statement {
-    const char* name;
-    const char* what;  ///< of its one word
-    void (Parser::*read)(const Word&);
-  };
-
-  static std::span<const Statement> statements() {
-    static constexpr Statement kStatements[] = {
-        {"walls", "a wall file, or its name", &Parser::walls},
-        {"lead", "the name of a node", &Parser::lead},
-        {"interface", "a network interface or its address", &Parser::interface},
-        {"domain", "a number", &Parser::domain},
-        {"partition", "a name", &Parser::partition},
-        {"deadline", "seconds", &Parser::deadline},
-        {"hash-every", "a number of frames", &Parser::hashEvery},
-        {"on-difference", "resync or stop", &Parser::onDifference}};
-    return kStatements;
-  }
-
-  void statement() {
-    const Word& keyword = in_.words()[0];
-    if (keyword.text == "node") return node();
-    std::vector<std::string> known{"node"};
-    for (const Statement& s : statements()) {
-      known.emplace_back(s.name);
-      if (keyword.text != s.name) continue;
-      if (std::ranges::find(seen_, s.name) != seen_.end())
-        return in_.error(keyword.column, fmt::format("\"{}\" is given twice; keep one of them", s.name));
-      seen_.emplace_back(s.name);
-      if (in_.words().size() < 2) return in_.error(in_.endColumn(), fmt::format("{} is missing", s.what));
-      if (in_.words().size() > 2)
-        return in_.error(in_.words()[2].column,
-                         quotedWord(in_.words()[2].text) + " is one word too many here");
-      return (this->*s.read)(in_.words()[1]);
-    }
-    in_.error(keyword.column,
-              quotedWord(keyword.text) + " does not begin a statement" + didYouMean(keyword.text, known));
-  }
+  static const Statement<ClusterParser> kStatements[9];
 
   void node() {
-    if (in_.words().size() < 2) return in_.error(in_.endColumn(), "the node's name is missing");
-    const auto name = in_.name(in_.words()[1], "a node");
+    const auto name = in_.name("the node's name", "a node");
     if (!name) return;
     if (cluster_.find(*name))
-      return in_.error(in_.words()[1].column, quotedWord(*name) + " is a node already; names are unique");
+      return in_.error(in_.last(), quotedWord(*name) + " is a node already; names are unique");
     if (cluster_.nodes.size() == ClusterFile::kMostNodes)
-      return in_.error(in_.words()[0].column,
-                       fmt::format("there are more than {} nodes", ClusterFile::kMostNodes));
+      return in_.error(in_.keyword(), fmt::format("there are more than {} nodes", ClusterFile::kMostNodes));
     ClusterNode node{*name, {}, in_.line(), {}, in_.excerpt()};
-    for (std::size_t i = 2; i < in_.words().size(); ++i) {
-      const Word& wall = in_.words()[i];
+    while (in_.more()) {
+      const Word& wall = *in_.word("a wall");
       for (const ClusterNode& other : cluster_.nodes)
         if (std::ranges::find(other.walls, wall.text) != other.walls.end())
-          return in_.error(wall.column, fmt::format("{} is shown by {} already; a wall has one node",
-                                                    quotedWord(wall.text), other.name));
+          return in_.error(wall, fmt::format("{} is shown by {} already; a wall has one node",
+                                             quotedWord(wall.text), other.name));
       if (std::ranges::find(node.walls, wall.text) != node.walls.end())
-        return in_.error(wall.column, quotedWord(wall.text) + " is named twice");
+        return in_.error(wall, quotedWord(wall.text) + " is named twice");
       node.walls.emplace_back(wall.text), node.wallColumns.push_back(wall.column);
     }
     cluster_.nodes.push_back(std::move(node));
   }
 
-  ClusterPlace placeOf(const Word& word) const { return {in_.at(word.column), in_.excerpt()}; }
+  /// The one word of a statement that has one; null after an error.
+  const Word* only(std::string_view what) {
+    const Word* word = in_.word(what);
+    return word && in_.finished() ? word : nullptr;
+  }
 
-  void walls(const Word& word) {
-    cluster_.wallsAt = placeOf(word);
-    const std::filesystem::path beside = std::filesystem::path(file_).parent_path() / word.text;
+  void walls() {
+    const Word* word = only("a wall file, or its name");
+    if (!word) return;
+    cluster_.wallsAt = in_.place(*word);
+    const std::filesystem::path beside = std::filesystem::path(cluster_.file).parent_path() / word->text;
     std::error_code none;
     cluster_.walls =
-        std::filesystem::is_regular_file(beside, none) ? beside.string() : std::string(word.text);
+        std::filesystem::is_regular_file(beside, none) ? beside.string() : std::string(word->text);
   }
-  void lead(const Word& word) { lead_ = word, leadAt_ = placeOf(word); }
-  void interface(const Word& word) {
-    if (!canBeInterface(word.text))
-      return in_.error(word.column,
+  void lead() {
+    const Word* word = only("the name of a node");
+    if (word) lead_ = word->text, leadAt_ = in_.place(*word);
+  }
+  void interface() {
+    const Word* word = only("a network interface or its address");
+    if (!word) return;
+    if (!canBeInterface(word->text))
+      return in_.error(*word,
                        fmt::format("{} is no network interface: use its IPv4 address or its name, up to {} "
                                    "letters, digits, '-', '_', '.', ':' and '@'",
-                                   quotedWord(word.text), kMostInterface));
-    cluster_.interface = word.text, cluster_.interfaceAt = placeOf(word);
+                                   quotedWord(word->text), kMostInterface));
+    cluster_.interface = word->text, cluster_.interfaceAt = in_.place(*word);
   }
-  void partition(const Word& word) {
-    if (const auto name = in_.name(word, "a partition")) cluster_.partition = *name;
+  void partition() {
+    const auto name = in_.name("the partition's name", "a partition");
+    if (name && in_.finished()) cluster_.partition = *name;
   }
-  void domain(const Word& word) {
+  void domain() {
     constexpr std::uint64_t kMost = 230;  // of DDS: beyond it there are no ports left
-    if (const auto number = in_.count(word, "the domain", 0, kMost))
-      cluster_.domain = static_cast<std::uint32_t>(*number);
+    const auto number = in_.count("the domain", 0, kMost);
+    if (number && in_.finished()) cluster_.domain = static_cast<std::uint32_t>(*number);
   }
-  void deadline(const Word& word) {
-    const auto seconds = in_.number(word, "the deadline");
-    if (seconds && (*seconds < 0.1 || *seconds > 60))
-      in_.error(word.column, fmt::format("the deadline must be from 0.1 s to 60 s, not {} s", *seconds));
-    else if (seconds)
-      cluster_.deadline = *seconds;
+  void deadline() {
+    const auto seconds = in_.number("the deadline", 0.1, 60, " s");
+    if (seconds && in_.finished()) cluster_.deadline = *seconds;
   }
-  void hashEvery(const Word& word) {
-    if (const auto frames = in_.count(word, "the number of frames", 1, 1000)) cluster_.hashEvery = *frames;
+  void hashEvery() {
+    const auto frames = in_.count("the number of frames", 1, 1000);
+    if (frames && in_.finished()) cluster_.hashEvery = *frames;
   }
-
-  void onDifference(const Word& word) {
-    if (word.text != "resync" && word.text != "stop")
-      return in_.error(word.column, quotedWord(word.text) + " is neither resync nor stop");
-    cluster_.stopOnDifference = word.text == "stop";
+  void onDifference() {
+    static constexpr std::string_view kAnswers[] = {"resync", "stop"};
+    const auto answer = in_.choice("an answer to a difference", kAnswers);
+    if (answer && in_.finished()) cluster_.stopOnDifference = *answer == 1;
   }
 
-  /// Once all nodes are known.
+  /// Finds the leader. Called after the last line, as its node may stand below.
   void takeLead() {
-    if (!lead_) return;
-    if (const auto at = cluster_.find(lead_->text))
+    if (lead_.empty()) return;
+    if (const auto at = cluster_.find(lead_))
       cluster_.lead = *at;
     else
-      out_.error(leadAt_.where,
-                 quotedWord(lead_->text) + " is no node" +
-                     didYouMean(std::string(lead_->text), cluster_.names()),
-                 leadAt_.excerpt);
-    if (!cluster_.find(lead_->text)) cluster_.nodes.clear();
+      in_.errorAt(leadAt_, quotedWord(lead_) + " is no node" + didYouMeanOrKnown(lead_, cluster_.names()));
   }
 
-  std::string file_;
-  Diagnostics& out_;
-  LineReader in_;
+  StatementReader in_;
   ClusterFile cluster_;
-  std::vector<std::string> seen_;
-  std::optional<Word> lead_;
-  ClusterPlace leadAt_;
+  std::string lead_;  ///< as the file names it; empty: it does not
+  StatementPlace leadAt_;
 };
+
+constexpr Statement<ClusterParser> ClusterParser::kStatements[9] = {
+    {"node", &ClusterParser::node, true},
+    {"walls", &ClusterParser::walls},
+    {"lead", &ClusterParser::lead},
+    {"interface", &ClusterParser::interface},
+    {"domain", &ClusterParser::domain},
+    {"partition", &ClusterParser::partition},
+    {"deadline", &ClusterParser::deadline},
+    {"hash-every", &ClusterParser::hashEvery},
+    {"on-difference", &ClusterParser::onDifference}};
 
 }  // namespace
 
@@ -182,7 +155,7 @@ std::vector<std::string> ClusterFile::names() const {
 }
 
 std::optional<ClusterFile> parseCluster(std::string_view text, const std::string& file, Diagnostics& out) {
-  return Parser(text, file, out).run();
+  return ClusterParser(text, file, out).run();
 }
 
 std::optional<ClusterFile> loadCluster(const std::string& file, Diagnostics& out) {

@@ -28,6 +28,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/display/wall_file.h"
+#include "engine/plain_text/statement_reader.h"
 
 #include <cstdint>
 #include <optional>
@@ -36,12 +37,6 @@
 #include <vector>
 
 namespace stadion {
-
-/// Where something stands in a cluster file, for findings that come after reading it.
-struct ClusterPlace {
-  SourcePosition where;
-  std::string excerpt;
-};
 
 struct ClusterNode {
   std::string name;
@@ -56,11 +51,11 @@ struct ClusterFile {
 
   std::string file;  ///< as the user named it
   std::string walls = "cave4";
-  ClusterPlace wallsAt;  ///< the whole file, if it does not say
+  StatementPlace wallsAt;  ///< the whole file, if it does not say
   std::vector<ClusterNode> nodes;
   std::size_t lead = 0;   ///< index of a node
   std::string interface;  ///< empty: loopback
-  ClusterPlace interfaceAt;
+  StatementPlace interfaceAt;
   std::uint32_t domain = 0;
   std::string partition = "stadion";
   double deadline = 0.5;  ///< [s]

@@ -1,6 +1,6 @@
 #include "pipeline/cluster/follower.h"
 
-#include "engine/base/text_line.h"
+#include "engine/plain_text/text_line.h"
 #include "pipeline/cluster/terms.h"
 #include "pipeline/platform/promptness.h"
 

@@ -1,6 +1,6 @@
 #include "pipeline/device/live_trackers.h"
 
-#include "engine/base/text_line.h"
+#include "engine/plain_text/text_line.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,6 @@
 #include "pipeline/operator/osc_operator.h"
 
-#include "engine/base/text_line.h"
+#include "engine/plain_text/text_line.h"
 #include "pipeline/operator/operator_state.h"
 
 #include <cmath>

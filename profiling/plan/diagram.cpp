@@ -1,6 +1,6 @@
 #include "profiling/plan/diagram.h"
 
-#include "profiling/report/markup_text.h"
+#include "engine/plain_text/markup_text.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "profiling/plan/report.h"
 
-#include "engine/base/text_line.h"
+#include "engine/plain_text/text_line.h"
 #include "profiling/plan/diagram.h"
 
 #include <algorithm>

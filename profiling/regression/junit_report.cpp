@@ -1,5 +1,5 @@
 #include "profiling/regression/reports.h"
-#include "profiling/report/markup_text.h"
+#include "engine/plain_text/markup_text.h"
 
 #include <fmt/format.h>
 

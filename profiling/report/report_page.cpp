@@ -1,4 +1,4 @@
-#include "profiling/report/markup_text.h"
+#include "engine/plain_text/markup_text.h"
 #include "profiling/report/page_parts.h"
 #include "profiling/report/report_data.h"
 

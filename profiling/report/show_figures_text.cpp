@@ -1,4 +1,4 @@
-#include "profiling/record/csv_field.h"
+#include "engine/plain_text/csv_field.h"
 #include "profiling/report/show_figures.h"
 
 #include <algorithm>

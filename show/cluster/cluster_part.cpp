@@ -4,7 +4,7 @@
 #include "engine/base/plain_file.h"
 #include "engine/core/state_fields.h"
 #include "engine/core/state_hash.h"
-#include "engine/script/suggestion.h"
+#include "engine/plain_text/suggestion.h"
 #include "pipeline/cluster/interface_check.h"
 #include "profiling/record/node_names.h"
 #include "show/base/stop_signal.h"

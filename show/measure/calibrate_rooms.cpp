@@ -1,7 +1,7 @@
 #include "show/measure/calibrate_rooms.h"
 
 #include "engine/base/installed_files.h"
-#include "engine/base/number_text.h"
+#include "engine/plain_text/number_text.h"
 #include "engine/display/wall_file.h"
 #include "pipeline/platform/setting_trials.h"
 #include "show/regress/regress_child.h"

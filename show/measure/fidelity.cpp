@@ -1,6 +1,6 @@
 #include "show/measure/fidelity.h"
 
-#include "engine/script/suggestion.h"
+#include "engine/plain_text/suggestion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "engine/build/builder.h"
 #include "engine/script/script.h"
 #include "engine/script/script_texts.h"
-#include "engine/script/suggestion.h"
+#include "engine/plain_text/suggestion.h"
 
 #include <filesystem>
 #include <fmt/format.h>

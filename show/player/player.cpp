@@ -1,7 +1,7 @@
 #include "show/player/player.h"
 
 #include "engine/base/installed_files.h"
-#include "engine/base/number_text.h"
+#include "engine/plain_text/number_text.h"
 #include "engine/input/input_log.h"
 #include "show/player/show_files.h"
 

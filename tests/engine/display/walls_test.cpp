@@ -1,5 +1,5 @@
 #include "engine/base/plain_file.h"
-#include "engine/base/text_line.h"
+#include "engine/plain_text/text_line.h"
 #include "engine/display/wall_file.h"
 #include "engine/display/wall_lint.h"
 #include "tests/mutations.h"

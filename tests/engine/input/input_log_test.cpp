@@ -1,5 +1,5 @@
 #include "engine/base/plain_file.h"
-#include "engine/base/text_line.h"
+#include "engine/plain_text/text_line.h"
 #include "engine/input/input_log.h"
 #include "engine/input/input_recorder.h"
 #include "engine/input/scripted_input.h"
@@ -121,9 +121,9 @@ TEST(InputLog, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(firstError("stadion-input 3\n"),
             "1:15: version 3 of the format is newer than this program, which reads 2");
   EXPECT_EQ(firstError(h + "psoe head 0  0 0 0  1 0 0 0\n"),
-            "2:1: \"psoe\" is not a kind of record; did you mean \"pose\"?");
+            "2:1: \"psoe\" does not begin a statement; did you mean \"pose\"?");
   EXPECT_EQ(firstError(h + "\n# x\nsignature 5\n"),
-            "4:1: \"signature\" is not a kind of record; known are pose, key, controls, lost");
+            "4:1: \"signature\" does not begin a statement; known are pose, key, controls, lost");
   EXPECT_EQ(
       firstError(h +
                  "pose head 1  0 0 0  1 0 0 0\npose wand 0.5 0 0 0 1 0 0 0\npose head 1  0 0 0  1 0 0 0\n"),
@@ -147,9 +147,9 @@ TEST(InputLog, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(firstError(h + "pose head 0  0 0 0  1 0 0 0  axes 0 0 0 0 0 0 0 0 0\n"),
             "2:51: a tracker has at most 8 axes");
   EXPECT_EQ(firstError(h + "pose head 0  0 0 0  1 0 0 0  turn 0 0 0\n"),
-            "2:30: \"turn\" is not expected here; known are smooth, buttons, axes");
+            "2:30: \"turn\" is not a field of a record; known are smooth, buttons, axes");
   EXPECT_EQ(firstError(h + "key head 0  0 0 0  smooth smooth\n"),
-            "2:27: \"smooth\" is given twice; keep one of them");
+            "2:27: \"smooth\" is given twice for this record; keep one of them");
   EXPECT_EQ(firstError(h + "lost head 0 1\n"), "2:13: \"1\" is one word too many here");
   EXPECT_EQ(
       firstError(h + "lost -head 0\n"),
@@ -286,9 +286,9 @@ TEST(InputRecorder, KeepsWhatAClockDecidedAndWhereTheRunEnded) {
 TEST(InputLog, DecisionsThatMakeNoSenseAreNamed) {
   const std::string h = "stadion-input 2\n";
   EXPECT_EQ(firstError("stadion-input 1\nframe 3 0.1\n"),
-            "2:1: \"frame\" is not a kind of record; known are pose, key, controls, lost");
+            "2:1: \"frame\" does not begin a statement; known are pose, key, controls, lost");
   EXPECT_EQ(firstError(h + "rate nan\n"), "2:6: \"nan\" is not a finite number in range (frames a second)");
-  EXPECT_EQ(firstError(h + "rate 0\n"), "2:6: the rate must be from 1 to 1000 frames a second");
+  EXPECT_EQ(firstError(h + "rate 0\n"), "2:6: frames a second must be from 1 to 1000, not 0");
   EXPECT_EQ(firstError(h + "frame 3 0.1\nframe 4 0.1\n"),
             "3:7: the frame's number must increase, and the time with it");
   EXPECT_EQ(firstError(h + "load 2\n"), "2:7: the time in seconds is missing");

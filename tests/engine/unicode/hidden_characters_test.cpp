@@ -3,7 +3,7 @@
 #include "engine/input/rig_file.h"
 #include "engine/script/script.h"
 #include "engine/unicode/characters.h"
-#include "engine/unicode/likeness.h"
+#include "engine/plain_text/suggestion.h"
 #include "tests/node_types.h"
 
 #include <fmt/format.h>

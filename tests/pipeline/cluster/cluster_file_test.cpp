@@ -71,7 +71,7 @@ TEST(ClusterFile, MistakesAreToldWithTheirPlaceAndTheFix) {
   EXPECT_NE(wrongIn("node a\ndomain 231\n").find("2:8: error:"), std::string::npos);
   EXPECT_NE(wrongIn("node a\ndeadline 0\n").find("from 0.1 s to 60 s"), std::string::npos);
   EXPECT_NE(wrongIn("node\n").find("the node's name is missing"), std::string::npos);
-  EXPECT_NE(wrongIn("node a\npartition\n").find("a name is missing"), std::string::npos);
+  EXPECT_NE(wrongIn("node a\npartition\n").find("the partition's name is missing"), std::string::npos);
   std::string many;
   for (int i = 0; i < 25; ++i) many += "node n" + std::to_string(i) + "\n";
   EXPECT_NE(wrongIn(many).find("25:1: error: there are more than 24 nodes"), std::string::npos);
@@ -123,9 +123,12 @@ TEST(ClusterFile, WhatCannotBeANameIsToldInWordsAndBytesThatAreNoTextAreNotRepea
   EXPECT_EQ(wrongIn("node a!\n").substr(0, 59),
             "room.cluster:1:6: error: \"a!\" is not a good name for a node")
       << wrongIn("node a!\n");
-  EXPECT_EQ(wrongIn("\xff\xfe\x80x \xc3\n"), "room.cluster:1:1: error: \"??x\" does not begin a statement\n"
-                                             "??x ?\n"
-                                             "^");
+  EXPECT_EQ(
+      wrongIn("\xff\xfe\x80x \xc3\n"),
+      "room.cluster:1:1: error: \"??x\" does not begin a statement; known are node, walls, lead, interface, "
+      "domain, partition, deadline, hash-every, on-difference\n"
+      "??x ?\n"
+      "^");
 }
 
 TEST(ClusterFile, AnInterfaceIsAnAddressOrANameThatNeedsNoQuoting) {

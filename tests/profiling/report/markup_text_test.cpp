@@ -1,6 +1,6 @@
 /// Names that may be anything, in pages and XML.
 
-#include "profiling/report/markup_text.h"
+#include "engine/plain_text/markup_text.h"
 
 #include <gtest/gtest.h>
 

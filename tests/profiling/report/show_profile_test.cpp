@@ -1,6 +1,6 @@
 /// Where a frame's time goes: spans of several threads, added up by node and stage.
 
-#include "profiling/record/csv_field.h"
+#include "engine/plain_text/csv_field.h"
 #include "profiling/report/show_figures.h"
 
 #include <algorithm>

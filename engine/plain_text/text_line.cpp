@@ -1,4 +1,4 @@
-#include "engine/base/text_line.h"
+#include "engine/plain_text/text_line.h"
 
 #include "engine/unicode/characters.h"
 

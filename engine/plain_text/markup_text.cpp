@@ -1,4 +1,4 @@
-#include "profiling/report/markup_text.h"
+#include "engine/plain_text/markup_text.h"
 
 #include <cstddef>
 #include <cstdint>

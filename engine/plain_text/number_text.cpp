@@ -1,4 +1,4 @@
-#include "engine/base/number_text.h"
+#include "engine/plain_text/number_text.h"
 
 #include <charconv>
 #include <cmath>
