@@ -4,7 +4,7 @@
 /// Ownership  borrows the player, which must outlive it.
 
 #include "profiling/regression/spans/instruction_counter.h"
-#include "profiling/regression/statistics/span_times.h"
+#include "profiling/regression/spans/span_times.h"
 #include "show/player/player.h"
 #include "show/recording/span_options.h"
 

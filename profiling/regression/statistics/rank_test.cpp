@@ -64,14 +64,6 @@ double approximateRankSum(const std::vector<std::uint32_t>& ranks, std::size_t c
 
 }  // namespace
 
-double median(std::vector<double> values) {
-  values = finite(std::move(values));
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
-
 // The weights of all sums that 2^n ways of giving the ranks signs can have, built up rank by rank.
 double signedRankTest(const std::vector<double>& differences) {
   std::vector<double> kept = finite(differences);

@@ -8,13 +8,12 @@
 /// Threads  free functions, any thread.
 /// Errors   none; figures that are not finite are left out.
 
+#include "profiling/regression/spans/median.h"
+
 #include <cstddef>
 #include <vector>
 
 namespace stadion::regression {
-
-/// The middle one, or the mean of the two middle ones; 0 of none.
-double median(std::vector<double> values);
 
 /// The probability, if the differences of pairs lay evenly about 0, that their signed ranks were at least as
 /// lopsided (Wilcoxon, both sides). Differences of 0 say nothing. 1 of none.

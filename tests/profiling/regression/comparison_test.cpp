@@ -9,7 +9,7 @@
 #include "profiling/regression/statistics/detection.h"
 #include "profiling/regression/statistics/instruction_comparison.h"
 #include "profiling/regression/statistics/noise_calibration.h"
-#include "profiling/regression/statistics/span_times.h"
+#include "profiling/regression/spans/span_times.h"
 #include "profiling/regression/statistics/time_comparison.h"
 #include "profiling/regression/suite_progress.h"
 

@@ -3,7 +3,7 @@
 #include "profiling/regression/baseline.h"
 #include "profiling/regression/spans/planted_delay.h"
 #include "profiling/regression/statistics/hitch_comparison.h"
-#include "profiling/regression/statistics/span_times.h"
+#include "profiling/regression/spans/span_times.h"
 
 #include <gtest/gtest.h>
 

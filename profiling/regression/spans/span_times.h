@@ -1,11 +1,11 @@
 #pragma once
-/// What each stage of each wall and each node of App cost, frame by frame, for comparisons: processor time of
-/// the thread that did it, so that waiting and being interrupted do not count.
+/// Records what each stage of each wall and each node of App costs in each frame, for comparisons. It
+/// measures the processor time of the thread that does the work, so waiting and interruptions do not count.
 ///
-/// Under callgrind, and if asked to, the instructions between any two of its calls are written down under
-/// "row N", N being the index in rows(). With a counter of instructions they are in rows() themselves.
+/// If instructions are counted, those between two calls belong to a row. Callgrind writes them under "row N",
+/// where N is the index in rows(). With a counter of instructions, rows() contains them.
 ///
-/// Threads  told on the threads that do the work; read when the run is over.
+/// Threads  called on the threads that do the work; read it when the run is over.
 /// Errors   none.
 
 #include "engine/core/frame_probe.h"
@@ -23,9 +23,9 @@ namespace stadion::regression {
 
 struct SpanTimesOptions {
   std::optional<PlantedDelay> planted{};
-  Turns* turns = nullptr;          ///< null: frames wait for nobody
+  Turns* turns = nullptr;          ///< null: frames do not wait for turns
   bool countInstructions = false;  ///< from the third frame on; the first ones build what the others use
-  /// What the calling thread has executed so far; null: they are left to callgrind.
+  /// Instructions of the calling thread so far; null: callgrind counts them.
   std::function<std::uint64_t()> instructions{};
 };
 
@@ -37,10 +37,11 @@ public:
   void began(Span what, NodeRef node) override;
   void ended(Span what) override;
 
-  /// What was planted, frame by frame [ns]: at most once in each.
+  /// The delay that was planted in each frame [ns].
   const std::vector<std::uint64_t>& planted() const { return planted_; }
 
-  /// `nameNode` fills in path, file and line. Frames are told of stages and of the dearest nodes.
+  /// The costs as rows; `nameNode` fills in path, file and line. Stages and the most expensive nodes have
+  /// their single frames.
   std::vector<SpanRow> rows(const std::vector<std::string>& walls,
                             const std::function<void(NodeRef, SpanRow&)>& nameNode) const;
 
@@ -64,7 +65,7 @@ private:
     Clock::duration elapsed{}, elapsedTotal{};  ///< `elapsed`: of this frame
     std::vector<OfFrame> frames;
   };
-  /// What a thread is at.
+  /// What a thread does at the moment.
   struct Open {
     Key stage;
     std::uint64_t frame = 0;

@@ -1,7 +1,7 @@
-#include "profiling/regression/statistics/span_times.h"
+#include "profiling/regression/spans/span_times.h"
 
 #include "profiling/regression/spans/callgrind_request.h"
-#include "profiling/regression/statistics/rank_test.h"
+#include "profiling/regression/spans/median.h"
 
 #include <algorithm>
 #include <chrono>
