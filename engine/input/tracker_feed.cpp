@@ -1,6 +1,6 @@
 #include "engine/input/tracker_feed.h"
 
-#include "engine/input/forecast.h"
+#include "engine/input/head_forecast.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 /// C05, C06: a ball dropped from 1 m, on a plane and, flying sideways, on a flat mesh of 10 240 triangles.
 
 #include "profiling/bench/dynamics/cases.h"
-#include "profiling/bench/dynamics/reference.h"
+#include "profiling/bench/dynamics/reference_solutions.h"
 
 #include <algorithm>
 #include <fmt/format.h>

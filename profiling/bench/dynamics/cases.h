@@ -1,7 +1,7 @@
 #pragma once
 /// The cases C01 to C15, exactly defined. Each family has a file of its own.
 
-#include "profiling/bench/dynamics/scene.h"
+#include "profiling/bench/dynamics/case_run.h"
 
 namespace stadion::bench {
 

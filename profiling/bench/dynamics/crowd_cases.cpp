@@ -1,7 +1,7 @@
 /// C14: a thousand balls fall into a bowl of 4 x 4 m; C15: five thousand spinning boxes fly with drag.
 
 #include "profiling/bench/dynamics/cases.h"
-#include "profiling/bench/dynamics/reference.h"
+#include "profiling/bench/dynamics/reference_solutions.h"
 
 #include <algorithm>
 #include <random>

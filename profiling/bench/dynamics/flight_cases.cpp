@@ -1,7 +1,7 @@
 /// C01, C02: a football (m 0.43 kg, r 0.11 m) thrown without and with quadratic drag.
 
 #include "profiling/bench/dynamics/cases.h"
-#include "profiling/bench/dynamics/reference.h"
+#include "profiling/bench/dynamics/reference_solutions.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 /// C03, C04: rotation that no torque acts on.
 
 #include "profiling/bench/dynamics/cases.h"
-#include "profiling/bench/dynamics/reference.h"
+#include "profiling/bench/dynamics/reference_solutions.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 /// each at eight places between two frames.
 
 #include "profiling/bench/dynamics/cases.h"
-#include "profiling/bench/dynamics/reference.h"
+#include "profiling/bench/dynamics/reference_solutions.h"
 
 #include <algorithm>
 #include <fmt/format.h>

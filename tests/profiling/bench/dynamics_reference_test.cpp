@@ -1,7 +1,7 @@
 /// The solutions that engines are measured against hold to 1e-12: halving their steps changes nothing, and
 /// they keep what nature keeps.
 
-#include "profiling/bench/dynamics/reference.h"
+#include "profiling/bench/dynamics/reference_solutions.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

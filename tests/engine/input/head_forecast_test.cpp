@@ -1,4 +1,4 @@
-#include "engine/input/forecast.h"
+#include "engine/input/head_forecast.h"
 
 #include "engine/input/input_recorder.h"
 #include "engine/input/tracker_feed.h"

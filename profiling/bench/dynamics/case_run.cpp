@@ -1,4 +1,4 @@
-#include "profiling/bench/dynamics/scene.h"
+#include "profiling/bench/dynamics/case_run.h"
 
 #include <algorithm>
 #include <array>

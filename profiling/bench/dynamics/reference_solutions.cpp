@@ -1,4 +1,4 @@
-#include "profiling/bench/dynamics/reference.h"
+#include "profiling/bench/dynamics/reference_solutions.h"
 
 #include <algorithm>
 
