@@ -2,8 +2,8 @@
 /// Light sources and the sky.
 
 #include "engine/nodes/switched.h"
+#include "engine/published/records.h"
 #include "engine/scene/placed_node.h"
-#include "engine/scene/records.h"
 
 namespace stadion {
 

@@ -4,8 +4,8 @@
 /// Commands  say WORDS, reset, and those of a placed node. What it says is part of the show's state.
 /// Its mesh is made anew when the words change; two nodes that say the same in the same style share one.
 
+#include "engine/published/records.h"
 #include "engine/scene/placed_node.h"
-#include "engine/scene/records.h"
 #include "engine/text/text_mesh.h"
 
 namespace stadion {

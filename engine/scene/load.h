@@ -6,8 +6,8 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/core/load_control.h"
+#include "engine/published/records.h"
 #include "engine/scene/node.h"
-#include "engine/scene/records.h"
 
 #include <algorithm>
 #include <limits>

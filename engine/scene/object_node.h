@@ -1,8 +1,8 @@
 #pragma once
 /// A mesh in the world: `object`. It is drawn, may collide, and moves only when somebody moves it.
 
+#include "engine/published/records.h"
 #include "engine/scene/placed_node.h"
-#include "engine/scene/records.h"
 
 namespace stadion {
 

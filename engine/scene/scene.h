@@ -9,14 +9,14 @@
 #include "engine/base/crew.h"
 #include "engine/core/load_control.h"
 #include "engine/input/input_sample.h"
+#include "engine/published/records.h"
+#include "engine/published/sound_scape.h"
 #include "engine/scene/agenda.h"
 #include "engine/scene/courses.h"
 #include "engine/scene/impact.h"
 #include "engine/scene/load.h"
 #include "engine/scene/node.h"
 #include "engine/scene/placements.h"
-#include "engine/scene/records.h"
-#include "engine/scene/sounds.h"
 
 #include <functional>
 #include <limits>

@@ -9,7 +9,7 @@
 ///
 /// Threads  one at a time; keeps its memory.
 
-#include "engine/scene/records.h"
+#include "engine/published/records.h"
 #include "pipeline/draw_list/draw_list.h"
 
 #include <array>

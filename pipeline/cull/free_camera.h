@@ -6,7 +6,7 @@
 /// Threads  asked on the Cull thread of its view; whoever moves it may do so from another.
 
 #include "engine/display/wall.h"
-#include "engine/scene/records.h"
+#include "engine/published/records.h"
 
 #include <optional>
 #include <vector>

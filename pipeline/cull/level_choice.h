@@ -16,7 +16,7 @@
 
 #include "engine/asset/mesh_store.h"
 #include "engine/display/wall.h"
-#include "engine/scene/records.h"
+#include "engine/published/records.h"
 
 #include <span>
 #include <utility>

@@ -8,8 +8,8 @@
 
 #include "engine/asset/mesh_store.h"
 #include "engine/maths/maths.h"
-#include "engine/scene/records.h"
-#include "engine/scene/shadow_places.h"
+#include "engine/published/records.h"
+#include "engine/published/shadow_places.h"
 #include "pipeline/frame/frame_ticket.h"
 
 #include <array>

@@ -11,7 +11,7 @@
 /// and is silent.
 
 #include "engine/asset/roots.h"
-#include "engine/scene/sounds.h"
+#include "engine/published/sound_scape.h"
 #include "pipeline/sound/sound_device.h"
 
 #include <condition_variable>

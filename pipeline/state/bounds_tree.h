@@ -10,7 +10,7 @@
 ///            is allowed for by those who test (pipeline/cull/bounds_kernels.h).
 /// Threads    plain memory: whoever may read the records may read their tree.
 
-#include "engine/scene/records.h"
+#include "engine/published/records.h"
 
 #include <array>
 #include <span>

@@ -6,7 +6,7 @@
 /// Threads   add() and free() from any thread (the loader's); find() from any thread while the chunk lives.
 /// Lifetime  whoever frees a chunk has made sure that no slot still shows it.
 
-#include "engine/scene/records.h"
+#include "engine/published/records.h"
 #include "pipeline/state/bounds_tree.h"
 #include "pipeline/state/shared_segment.h"
 

@@ -1,6 +1,6 @@
 #include "engine/asset/mesh_checks.h"
 #include "engine/base/run_stopped.h"
-#include "engine/scene/shadow_places.h"
+#include "engine/published/shadow_places.h"
 #include "pipeline/cull/shadow_cull.h"
 #include "tests/pipeline/draw/renderer_scene.h"
 

@@ -7,7 +7,7 @@
 #include "engine/base/time_signature.h"
 #include "engine/core/message.h"
 #include "engine/maths/maths.h"
-#include "engine/scene/shadow_places.h"
+#include "engine/published/shadow_places.h"
 
 #include <array>
 #include <cstdint>

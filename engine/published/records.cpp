@@ -1,4 +1,4 @@
-#include "engine/scene/records.h"
+#include "engine/published/records.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "engine/scene/shadow_places.h"
+#include "engine/published/shadow_places.h"
 
 namespace stadion {
 
