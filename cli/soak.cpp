@@ -161,8 +161,8 @@ void Soak::see(const TimeSignature& now, const Scene& scene, const RunWatch& wat
   ++c.frames;
   if (now.step != signatureAt(now.frame, 60).step || now.time != before_ + now.step) ++c.wrongSteps;
   before_ = now.time;
-  c.changes += scene.loadsVersion() - loadsVersion_;
-  loadsVersion_ = scene.loadsVersion();
+  c.changes += scene.tree().version() - loadsVersion_;
+  loadsVersion_ = scene.tree().version();
   const bool another = now.frame % kCheckEvery == 0 && !record_.agrees(show_, now.frame, watch.history());
   if (another) ++c.wrongHashes;
   // Whatever ends the run now. Only what is kept is told: who reads it may end the run.

@@ -69,7 +69,7 @@ public:
     auto watch = RunWatch::create(record, live, *player, findings);
     auto recording = recordingOf(*player, findings);
     if (!watch || !recording) return {};
-    const NodeRef game = player->scene().resolve("game", {1, 0});
+    const NodeRef game = player->scene().tree().resolve("game", {1, 0});
     PlantedStall stall(recording->probe(), {game, o_.from(), o_.to(), std::chrono::milliseconds(o_.length)});
     stall_ = &stall;
     ShowParts parts = player->parts(StereoLayout::Off);

@@ -51,14 +51,14 @@ CollisionNode::CollisionNode(const NodeType& type, NodeRef self, std::string nam
 
 void CollisionNode::onEnter(Scene& scene) {
   advancedTo_ = scene.now();
-  scene.watchLoads(self());
-  scene.wakeNow(self());
+  scene.schedule().watchLoads(self());
+  scene.schedule().wakeNow(self());
 }
 
 void CollisionNode::onLeave(Scene& scene) {
-  scene.unwatchLoads(self());
+  scene.schedule().unwatchLoads(self());
   for (Part& part : colliders_)
-    if (part.ref.valid()) scene.unwatch(part.placement, self());
+    if (part.ref.valid()) scene.schedule().unwatch(part.placement, self());
   for (Part& part : collidees_)
     if (part.ref.valid()) removeCollidee(part, scene);
 }
@@ -71,24 +71,24 @@ void CollisionNode::receive(const Message& m, FrameContext& frame) {
 
 // Parts may stand in files that come and go; they are looked up again whenever a file has.
 void CollisionNode::findParts(Scene& scene) {
-  if (loadsSeen_ == scene.loadsVersion()) return;
-  loadsSeen_ = scene.loadsVersion();
+  if (loadsSeen_ == scene.tree().version()) return;
+  loadsSeen_ = scene.tree().version();
   comingOrGoing_.clear();
   for (std::vector<Part>* parts : {&colliders_, &collidees_})
     for (Part& part : *parts) {
       findPart(part, scene);
-      if (part.next.valid() || part.leaveAt != Scene::kNever) comingOrGoing_.push_back(&part);
+      if (part.next.valid() || part.leaveAt != SceneTree::kNever) comingOrGoing_.push_back(&part);
     }
 }
 
 void CollisionNode::findPart(Part& part, Scene& scene) {
-  auto* object = dynamic_cast<ObjectNode*>(scene.find(scene.resolve(part.name, self())));
+  auto* object = dynamic_cast<ObjectNode*>(scene.find(scene.tree().resolve(part.name, self())));
   const NodeRef found = object ? object->self() : NodeRef{};
-  if (part.ref.valid()) part.leaveAt = scene.find(part.ref) ? scene.endOf(part.ref.load) : 0;
+  if (part.ref.valid()) part.leaveAt = scene.find(part.ref) ? scene.tree().endOf(part.ref.load) : 0;
   part.next = {};
   if (found == part.ref) return;
   if (object) {
-    part.next = found, part.nextAt = scene.load(found.load)->since;
+    part.next = found, part.nextAt = scene.tree().load(found.load)->since;
     part.leaveAt = std::min(part.leaveAt, part.nextAt);
   } else {
     part.leaveAt = 0;
@@ -108,7 +108,7 @@ void CollisionNode::changeParts(Nanoseconds time, FrameContext& frame) {
     auto* object = dynamic_cast<ObjectNode*>(scene.find(part->next));
     const NodeRef ref = std::exchange(part->next, NodeRef{});
     if (!object) continue;
-    part->ref = ref, part->leaveAt = scene.endOf(ref.load);
+    part->ref = ref, part->leaveAt = scene.tree().endOf(ref.load);
     part->placement = object->placement();
     bring(*part, *object, isCollider, time, frame);
   }
@@ -129,13 +129,13 @@ void CollisionNode::bring(Part& part, ObjectNode& object, bool isCollider, Nanos
 
 void CollisionNode::addCollider(Part& part, const ObjectNode& object, Scene& scene) {
   part.id = world_.addCollider(colliderOf(part, object, scene));
-  scene.watch(part.placement, self());
+  scene.schedule().watch(part.placement, self());
 }
 
 void CollisionNode::removeCollider(Part& part, Scene& scene) {
   world_.removeCollider(part.id);
   world_.removeShape(part.shape);
-  scene.unwatch(part.placement, self());
+  scene.schedule().unwatch(part.placement, self());
 }
 
 std::vector<CollisionNode::Overlap> CollisionNode::overlaps(double deeperThan) const {
@@ -190,7 +190,7 @@ SharedFit CollisionNode::fitOf(const ObjectNode& object, const Scene& scene) {
 }
 
 SharedFit CollisionNode::fitAt(const Vec3& scale, const ObjectNode& object, const Scene& scene) {
-  const Mesh* mesh = scene.mesh(object.appearance().mesh);
+  const Mesh* mesh = scene.instances().mesh(object.appearance().mesh);
   if (!mesh) return nullptr;
   auto fit = shapes_->fit(*mesh, object.appearance(), scale);
   return fit ? std::move(fit.value()) : nullptr;
@@ -250,8 +250,8 @@ bool CollisionNode::followBody(Part& part, const Pose& before, const FrameContex
   const Scene& scene = frame.scene;
   const Placements& placements = scene.placements();
   const DynObjectNode* body = nullptr;
-  for (NodeRef at = part.ref; at.valid() && !body; at = scene.parentOf(at)) {
-    const Load* load = scene.load(at.load);
+  for (NodeRef at = part.ref; at.valid() && !body; at = scene.tree().parentOf(at)) {
+    const Load* load = scene.tree().load(at.load);
     body = load ? dynamic_cast<const DynObjectNode*>(load->nodes[at.position].get()) : nullptr;
   }
   const BodyWay* way = body && body->movedBy() != self() ? body->wayIn(frame.now.frame) : nullptr;
@@ -335,8 +335,9 @@ void CollisionNode::step(FrameContext* frame) {
 
 void CollisionNode::simulate(FrameContext& frame) {
   findParts(frame.scene);
-  span_ = {frame.start(), std::min(frame.now.time, frame.scene.endOf(self().load)), {}, false, frame.rested,
-           false};
+  span_ = {
+      frame.start(), std::min(frame.now.time, frame.scene.tree().endOf(self().load)), {}, false, frame.rested,
+      false};
   span_.outside = foresee(frame, span_.cuts);
   if (needsScene(frame.now.time)) step(&frame);
 }
@@ -349,9 +350,9 @@ void CollisionNode::afterSimulation(FrameContext& frame) {
   switchings_.clear();
   for (const ContactEvent& e : world_.events())
     raise(e.kind == ContactEvent::Kind::Impact ? Event("onimpact") : Event("onrelease"), e.time);
-  if (frame.scene.impactsWanted()) noteImpacts(frame.scene);
+  if (frame.scene.impacts().wanted()) noteImpacts(frame.scene);
   std::erase_if(comingOrGoing_,
-                [](const Part* p) { return !p->next.valid() && p->leaveAt == Scene::kNever; });
+                [](const Part* p) { return !p->next.valid() && p->leaveAt == SceneTree::kNever; });
   awake_ = afterStep(frame) || span_.outside;
 }
 
@@ -365,7 +366,7 @@ NodeRef CollisionNode::nodeOf(Party party) const {
 void CollisionNode::noteImpacts(Scene& scene) const {
   for (const ContactEvent& e : world_.events())
     if (e.kind == ContactEvent::Kind::Impact)
-      scene.noteImpact({nodeOf({true, e.body}), nodeOf(e.other), e.point, e.time});
+      scene.impacts().note({nodeOf({true, e.body}), nodeOf(e.other), e.point, e.time});
 }
 
 bool CollisionNode::needsScene(Nanoseconds) const {
@@ -374,7 +375,7 @@ bool CollisionNode::needsScene(Nanoseconds) const {
 
 bool CollisionNode::awaits(const Node& earlier, const Scene& scene) const {
   // What is placed before must be in its place: else the frame would be simulated twice.
-  return earlier.rank() < Rank::Dynamics || loadsSeen_ != scene.loadsVersion() || looksAt(earlier, scene);
+  return earlier.rank() < Rank::Dynamics || loadsSeen_ != scene.tree().version() || looksAt(earlier, scene);
 }
 
 bool CollisionNode::looksAt(const Node& mover, const Scene& scene) const {
@@ -389,8 +390,8 @@ void CollisionNode::addMovers(const Scene& scene, std::vector<NodeRef>& movers) 
 }
 
 void CollisionNode::addMover(NodeRef node, const Scene& scene, std::vector<NodeRef>& movers) const {
-  for (NodeRef at = node; at.valid(); at = scene.parentOf(at)) {
-    const Load* load = scene.load(at.load);
+  for (NodeRef at = node; at.valid(); at = scene.tree().parentOf(at)) {
+    const Load* load = scene.tree().load(at.load);
     const auto* body = load ? dynamic_cast<const DynObjectNode*>(load->nodes[at.position].get()) : nullptr;
     if (!body || !body->movedBy().valid() || body->movedBy() == self()) continue;
     if (std::ranges::find(movers, body->movedBy()) == movers.end()) movers.push_back(body->movedBy());
@@ -398,8 +399,8 @@ void CollisionNode::addMover(NodeRef node, const Scene& scene, std::vector<NodeR
 }
 
 bool CollisionNode::isMovedBy(const Node& mover, NodeRef node, const Scene& scene) {
-  for (NodeRef at = node; at.valid(); at = scene.parentOf(at)) {
-    const Load* load = scene.load(at.load);
+  for (NodeRef at = node; at.valid(); at = scene.tree().parentOf(at)) {
+    const Load* load = scene.tree().load(at.load);
     const auto* body = load ? dynamic_cast<const DynObjectNode*>(load->nodes[at.position].get()) : nullptr;
     if (body && body->movedBy() == mover.self()) return true;
   }
@@ -413,13 +414,13 @@ void CollisionNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   def.releaseDistance = attributes_.releaseDistance;
   part.id = world_.addBody(def);
   world_.holdBody(part.id);
-  scene.watch(part.placement, self());
+  scene.schedule().watch(part.placement, self());
 }
 
 void CollisionNode::removeCollidee(Part& part, Scene& scene) {
   world_.removeBody(part.id);
   world_.removeShape(part.shape);
-  scene.unwatch(part.placement, self());
+  scene.schedule().unwatch(part.placement, self());
 }
 
 bool CollisionNode::prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
@@ -470,7 +471,7 @@ bool CollisionNode::resumeParts(Scene& scene) {
   comingOrGoing_.clear();
   for (std::vector<Part>* parts : {&colliders_, &collidees_})
     for (Part& part : *parts) {
-      if (part.next.valid() || part.leaveAt != Scene::kNever) comingOrGoing_.push_back(&part);
+      if (part.next.valid() || part.leaveAt != SceneTree::kNever) comingOrGoing_.push_back(&part);
       if (!part.refit) continue;
       const auto* object = dynamic_cast<const ObjectNode*>(scene.find(part.ref));
       if (!object) return false;

@@ -39,7 +39,7 @@ void DynObjectNode::onEnter(Scene& scene) {
   ObjectNode::onEnter(scene);
   hooked_.clear();
   for (const std::string& name : body_.hooks)
-    if (const NodeRef field = scene.resolve(name, self()); field.valid()) hooked_.push_back(field);
+    if (const NodeRef field = scene.tree().resolve(name, self()); field.valid()) hooked_.push_back(field);
 }
 
 std::vector<DynObjectNode::Request> DynObjectNode::takeRequests() {
@@ -76,7 +76,7 @@ void DynObjectNode::receive(const Message& m, FrameContext& frame) {
     break;
   default: ObjectNode::receive(m, frame); break;
   }
-  if (simulation_.asking) frame.scene.wakeNow(simulation_.dynamics);
+  if (simulation_.asking) frame.scene.schedule().wakeNow(simulation_.dynamics);
 }
 
 void DynObjectNode::restoreHooks(Nanoseconds when, Scene& scene) {
@@ -84,7 +84,7 @@ void DynObjectNode::restoreHooks(Nanoseconds when, Scene& scene) {
   for (const NodeRef field : hooked_) ask({when, Request::Kind::Unhook, field, {}});
   hooked_.clear();
   for (const std::string& name : body_.hooks)
-    if (const NodeRef field = scene.resolve(name, self()); field.valid()) {
+    if (const NodeRef field = scene.tree().resolve(name, self()); field.valid()) {
       hooked_.push_back(field);
       ask({when, Request::Kind::Hook, field, {}});
     }

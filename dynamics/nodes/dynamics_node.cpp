@@ -32,7 +32,7 @@ FieldNode* fieldAt(NodeRef ref, Scene& scene) {
 
 void DynamicsNode::onLeave(Scene& scene) {
   for (const Field& f : fields_) {
-    scene.unwatch(f.placement, self());
+    scene.schedule().unwatch(f.placement, self());
     if (FieldNode* node = fieldAt(f.ref, scene)) node->removeUser(self());
   }
   CollisionNode::onLeave(scene);
@@ -56,7 +56,7 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   def.v = start.v, def.omega = start.omega;
   def.flight = body.flight;
   if (def.flight) def.mass = revolved(def.mass, *def.flight);
-  if (const Mesh* model = body.sticks ? scene.mesh(object.appearance().mesh) : nullptr) {
+  if (const Mesh* model = body.sticks ? scene.instances().mesh(object.appearance().mesh) : nullptr) {
     const Mesh mesh = scaled(*model, part.fit->scale.cast<float>());
     const Vec3 nose = body.nose ? *body.nose : measureShape(mesh, def.mass.centre).q_NA * Vec3::UnitX();
     def.stick = stickAlong(nose, *body.sticks, body.stickDepth, mesh);
@@ -107,7 +107,7 @@ FieldId DynamicsNode::fieldFor(NodeRef ref, Scene& scene) {
   f.id = world_.addField({node->law(scene), f.pose, f.pose, node->duration()}, false);
   if (node->on()) world_.switchField(f.id, true, node->activated());
   node->addUser(self());
-  scene.watch(f.placement, self());
+  scene.schedule().watch(f.placement, self());
   fields_.push_back(f);
   return f.id;
 }
@@ -127,7 +127,7 @@ bool DynamicsNode::followFields(FrameContext& frame, std::vector<Nanoseconds>& c
   for (Field& f : fields_) {
     f.course.clear();
     const FieldNode* node = fieldAt(f.ref, frame.scene);
-    f.leaveAt = node ? frame.scene.endOf(f.ref.load) : 0;
+    f.leaveAt = node ? frame.scene.tree().endOf(f.ref.load) : 0;
     if (f.leaveAt <= frame.now.time) cuts.push_back(f.leaveAt), any = true;
     if (!node) continue;
     world_.setFieldLaw(f.id, node->law(frame.scene));
@@ -169,7 +169,7 @@ bool DynamicsNode::takeOrders(FrameContext& frame, std::vector<Nanoseconds>& cut
         continue;
       }
       cuts.push_back(r.when);
-      if (const auto hand = frame.scene.trackerCourse(r.tracker, frame)) addCuts(*hand, cuts);
+      if (const auto hand = frame.scene.feed().trackerCourse(r.tracker, frame)) addCuts(*hand, cuts);
       orders_.push_back({ref, std::move(r)});
     }
   }
@@ -198,7 +198,7 @@ void DynamicsNode::obey(const Order& order, FrameContext& frame) {
 }
 
 void DynamicsNode::grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame) {
-  const Course* hand = frame.scene.trackerCourse(tracker, frame);
+  const Course* hand = frame.scene.feed().trackerCourse(tracker, frame);
   if (!hand || when < hand->front().time) return;  // nobody knows where the hand is
   Course way = *hand;
   letGo(part, when, frame.scene);
@@ -212,12 +212,12 @@ void DynamicsNode::carryFields(const Grip& grip, const Scene& scene) {
   std::vector<FieldId> carried;
   const auto moves = [&](NodeRef ref) {
     if (ref == grip.node) return true;
-    const Load* load = scene.load(ref.load);
+    const Load* load = scene.tree().load(ref.load);
     const auto* placed = load ? dynamic_cast<const PlacedNode*>(load->nodes[ref.position].get()) : nullptr;
     return placed && placed->follows(grip.tracker);
   };
   for (const Field& f : fields_)
-    for (NodeRef at = f.ref; at.valid(); at = scene.parentOf(at))
+    for (NodeRef at = f.ref; at.valid(); at = scene.tree().parentOf(at))
       if (moves(at)) {
         carried.push_back(f.id);
         break;
@@ -286,7 +286,7 @@ void DynamicsNode::act(Nanoseconds time, FrameContext* frame) {
   std::erase_if(fields_, [&](const Field& f) {
     if (f.leaveAt > time) return false;
     world_.removeField(f.id);
-    frame->scene.unwatch(f.placement, self());
+    frame->scene.schedule().unwatch(f.placement, self());
     return true;
   });
   const auto later = std::ranges::upper_bound(orders_, time, {}, [](const Order& o) { return o.what.when; });
@@ -333,7 +333,7 @@ bool DynamicsNode::resume(Scene& scene) {
   if (!resumeParts(scene)) return false;
   // A field's file may have gone; where it is there, so is the field.
   const auto isThere = [&](NodeRef ref) {
-    const Load* load = scene.load(ref.load);
+    const Load* load = scene.tree().load(ref.load);
     return !load || ref.position < load->nodes.size();
   };
   if (!std::ranges::all_of(fields_, isThere, &Field::ref)) return false;
@@ -405,7 +405,8 @@ bool DynamicsNode::afterStep(FrameContext& frame) {
     tellTrouble(before, *node, frame);
     // Its end is rounded up: what sticks has touched before, be it by less than a nanosecond.
     if (standsStill(state.mode) && (!standsStill(before.mode) || state.clock != before.clock))
-      frame.scene.noteImpact({node->self(), {}, state.p, state.clock + (state.clockRest > 0 ? 1 : 0), true});
+      frame.scene.impacts().note(
+          {node->self(), {}, state.p, state.clock + (state.clockRest > 0 ? 1 : 0), true});
     if (same)
       frame.scene.touch(*node);
     else

@@ -42,7 +42,7 @@ const std::vector<FieldNode::Change>& FieldNode::changes(std::uint64_t frame) co
 void FieldNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
   since_ = scene.now();
-  if (switch_.on() && duration_ > 0) scene.wakeAt(since_ + duration_, self());
+  if (switch_.on() && duration_ > 0) scene.schedule().wakeAt(since_ + duration_, self());
 }
 
 void FieldNode::change(bool on, Nanoseconds when, FrameContext& frame) {
@@ -51,9 +51,9 @@ void FieldNode::change(bool on, Nanoseconds when, FrameContext& frame) {
   changes_.push_back({when, on});
   if (on) {
     since_ = when;
-    if (duration_ > 0) frame.scene.wakeAt(when + duration_, self());
+    if (duration_ > 0) frame.scene.schedule().wakeAt(when + duration_, self());
   }
-  for (const NodeRef user : users_) frame.scene.wakeNow(user);
+  for (const NodeRef user : users_) frame.scene.schedule().wakeNow(user);
 }
 
 void FieldNode::receive(const Message& m, FrameContext& frame) {
@@ -69,7 +69,7 @@ void FieldNode::followAxis(FrameContext& frame) {
   const double before = strength_.empty() ? 0 : strength_.back().value;
   strength_ = axisCourse(frame.input, axis_->tracker, axis_->axis, frame.start(), frame.now.time);
   if (std::ranges::any_of(strength_, [&](const AxisKnot& k) { return k.value != before; }))
-    for (const NodeRef user : users_) frame.scene.wakeNow(user);
+    for (const NodeRef user : users_) frame.scene.schedule().wakeNow(user);
 }
 
 void FieldNode::simulate(FrameContext& frame) {

@@ -32,7 +32,7 @@ void Grips::forget(BodyId body) {
 
 void Grips::follow(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
   for (Grip& grip : grips_) {
-    const Course* way = frame.scene.trackerCourse(grip.tracker, frame);
+    const Course* way = frame.scene.feed().trackerCourse(grip.tracker, frame);
     grip.course = way ? *way : Course{};
     for (const PoseKnot& k : grip.course) cuts.push_back(k.time);
   }

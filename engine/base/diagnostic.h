@@ -1,5 +1,5 @@
 #pragma once
-/// What is said to the author of a show when something is wrong, and where.
+/// Errors, warnings and notes for the author of a file, each with its place.
 
 #include <cstdint>
 #include <optional>
@@ -64,9 +64,5 @@ public:
 private:
   std::variant<T, Diagnostic> content_;
 };
-
-/// The candidate closest to `word` by edit distance if it is close enough to be a slip, else nothing. Of very
-/// many candidates only as many are looked at as take some milliseconds; the first ones come first.
-std::optional<std::string> closest(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace stadion

@@ -21,9 +21,9 @@ std::size_t LodNode::levelAt(double distance, std::size_t level, const std::vect
 void LodNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
   Scene& scene = frame.scene;
-  const Vec3 head = scene.rigPose() * scene.headInRig(frame.input).p;
+  const Vec3 head = scene.feed().rigPose() * scene.feed().headInRig(frame.input).p;
   const double distance = (scene.placements().world(placement()).translation() - head).norm();
-  const double counted = distance * scene.stress() * scene.reliefOf(self()).lod;
+  const double counted = distance * scene.degradation().stress() * scene.degradation().of(self()).lod;
   const std::size_t level = levelAt(counted, chosen_ ? level_ : 0, ranges_);
   if (!chosen_ || level != level_) choose(scene, level);
 }

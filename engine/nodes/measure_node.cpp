@@ -44,13 +44,13 @@ void MeasureNode::start(Nanoseconds when, Scene& scene) {
   result_.reset();
   compared_ = written_ = false;
   started_ = when;
-  body_ = scene.resolve(attributes_.body, self());
-  if (body_.valid()) scene.watchImpacts(body_, self());
-  if (body_.valid()) scene.wakeAt(started_ + attributes_.duration, self());
+  body_ = scene.tree().resolve(attributes_.body, self());
+  if (body_.valid()) scene.impacts().watch(body_, self());
+  if (body_.valid()) scene.schedule().wakeAt(started_ + attributes_.duration, self());
 }
 
 void MeasureNode::stop(Scene& scene) {
-  if (body_.valid()) scene.unwatchImpacts(body_, self());
+  if (body_.valid()) scene.impacts().unwatch(body_, self());
   body_ = {};
 }
 
@@ -77,9 +77,10 @@ void MeasureNode::simulate(FrameContext& frame) {
 
 /// How the throw has ended, if it has by `now`.
 std::optional<MeasureNode::Result> MeasureNode::ended(const Scene& scene, Nanoseconds now) const {
-  const NodeRef ground = attributes_.ground.empty() ? NodeRef{} : scene.resolve(attributes_.ground, self());
+  const NodeRef ground =
+      attributes_.ground.empty() ? NodeRef{} : scene.tree().resolve(attributes_.ground, self());
   const Impact* first = nullptr;
-  for (const Impact& i : scene.impacts()) {
+  for (const Impact& i : scene.impacts().impacts()) {
     const bool ours = i.body == body_ || i.other == body_;
     const NodeRef touched = i.body == body_ ? i.other : i.body;
     if (!ours || i.when < started_ || (!i.ended && ground.valid() && touched != ground)) continue;
@@ -106,8 +107,8 @@ void MeasureNode::afterSimulation(FrameContext& frame) {
   if (!written_) write(told(), result_->when, frame.scene);
   written_ = true;
   if (compared_) return;
-  const auto* other =
-      dynamic_cast<const MeasureNode*>(frame.scene.find(frame.scene.resolve(attributes_.against, self())));
+  const auto* other = dynamic_cast<const MeasureNode*>(
+      frame.scene.find(frame.scene.tree().resolve(attributes_.against, self())));
   if (other && other != this && other->result()) compare(*other, frame);
 }
 

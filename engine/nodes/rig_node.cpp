@@ -14,11 +14,11 @@ namespace stadion {
 
 void RigNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
-  scene.setRig(self(), placement(), eyeHeight_);
+  scene.feed().addRig(self(), placement(), eyeHeight_);
 }
 
 void RigNode::onLeave(Scene& scene) {
-  scene.dropRig(self());
+  scene.feed().dropRig(self());
   PlacedNode::onLeave(scene);
 }
 
@@ -35,7 +35,7 @@ void NavigatorNode::simulate(FrameContext& frame) {
   const TrackerSample* t = frame.input.find(attributes_.tracker);
   ended_ = frame.now.time;
   q_RT_ = t ? t->X_RT.q : Quat::Identity();
-  p_RH_ = frame.scene.headInRig(frame.input).p;
+  p_RH_ = frame.scene.feed().headInRig(frame.input).p;
 }
 
 Course NavigatorNode::way(const TrackerSample* t, const FrameContext& frame, const Pose& before,
@@ -61,7 +61,7 @@ void NavigatorNode::drive(FrameContext& frame, Nanoseconds until) {
   if (still(turn) && still(forward)) return;
 
   const Course wand = way(t, frame, {Vec3::Zero(), q_RT_}, t->X_RT);
-  const Pose head_R = frame.scene.headInRig(frame.input);
+  const Pose head_R = frame.scene.feed().headInRig(frame.input);
   const Course head = way(frame.input.find("head"), frame, {p_RH_, Quat::Identity()}, head_R);
   const Nanoseconds from = std::max(since_, frame.start());
   std::vector<Nanoseconds> stops{from, until};
@@ -71,7 +71,7 @@ void NavigatorNode::drive(FrameContext& frame, Nanoseconds until) {
   std::sort(stops.begin(), stops.end());
   stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
 
-  Pose X_WR = frame.scene.rigPose();
+  Pose X_WR = frame.scene.feed().rigPose();
   for (std::size_t i = 1; i < stops.size(); ++i) {
     if (stops[i - 1] < from || stops[i] > until) continue;
     const auto end = [&](Nanoseconds time, Limit limit) {

@@ -26,7 +26,7 @@ void SceneNode::load(Scene& scene, Nanoseconds at) {
   if (number_ != 0) return;
   number_ = scene.requestLoad(file_, self(), at);
   expected_.push_back({at, Change::Loaded});
-  scene.wakeAt(at, self());
+  scene.schedule().wakeAt(at, self());
 }
 
 void SceneNode::unload(Scene& scene, Nanoseconds at) {
@@ -34,7 +34,7 @@ void SceneNode::unload(Scene& scene, Nanoseconds at) {
   scene.requestUnload(number_, at);
   number_ = 0;
   expected_.push_back({at, Change::Unloaded});
-  scene.wakeAt(at, self());
+  scene.schedule().wakeAt(at, self());
 }
 
 void SceneNode::receive(const Message& m, FrameContext& frame) {
@@ -56,12 +56,12 @@ void SceneNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
   std::erase_if(expected_, [&](const auto& e) {
     if (e.first > frame.now.time) return false;
-    if (e.second == Change::Loaded && number_ != 0 && frame.scene.awaits(number_)) {  // it comes late
-      frame.scene.wakeAt(frame.now.time + 1, self());
+    if (e.second == Change::Loaded && number_ != 0 && frame.scene.requests().awaits(number_)) {  // it comes late
+      frame.scene.schedule().wakeAt(frame.now.time + 1, self());
       return false;
     }
     // A file that could not be loaded is not there; the load may be asked for again.
-    const bool failed = e.second == Change::Loaded && number_ != 0 && !frame.scene.load(number_);
+    const bool failed = e.second == Change::Loaded && number_ != 0 && !frame.scene.tree().load(number_);
     if (failed)
       number_ = 0;
     else

@@ -21,18 +21,18 @@ SoundNode::SoundNode(NodeRef self, std::string name, PlaceAttributes place, Attr
 
 void SoundNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
-  handle_ = scene.addSound(placement());
+  handle_ = scene.sounds().add(placement());
   if (switch_.on()) startAt(scene.now(), scene);
 }
 
 void SoundNode::onLeave(Scene& scene) {
-  scene.removeSound(handle_);
+  scene.sounds().remove(handle_);
   PlacedNode::onLeave(scene);
 }
 
 void SoundNode::startAt(Nanoseconds when, Scene& scene) {
   since_ = when, due_ = when + attributes_.length;
-  scene.wakeAt(due_, self());
+  scene.schedule().wakeAt(due_, self());
   publish(scene);
 }
 
@@ -42,7 +42,7 @@ void SoundNode::publish(Scene& scene) {
 }
 
 bool SoundNode::resume(Scene& scene) {
-  if (!scene.isSound(handle_, placement())) return false;
+  if (!scene.sounds().isAt(handle_, placement())) return false;
   // Each pass that it has missed is told.
   const bool repeats = switch_.on() && attributes_.loop;
   if (since_ < 0 || due_ < 0) return false;
@@ -52,9 +52,9 @@ bool SoundNode::resume(Scene& scene) {
 }
 
 void SoundNode::tell(Scene& scene) const {
-  scene.setSound(handle_, heard_,
-                 {self(), attributes_.file, Vec3::Zero(), attributes_.gain, attributes_.range,
-                  attributes_.loop, since_});
+  scene.sounds().set(handle_, heard_,
+                     {self(), attributes_.file, Vec3::Zero(), attributes_.gain, attributes_.range,
+                      attributes_.loop, since_});
 }
 
 void SoundNode::endPasses(Nanoseconds time) {
@@ -76,7 +76,7 @@ void SoundNode::receive(const Message& m, FrameContext& frame) {
 void SoundNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
   endPasses(frame.now.time);
-  if (switch_.on()) frame.scene.wakeAt(due_, self());
+  if (switch_.on()) frame.scene.schedule().wakeAt(due_, self());
   if (heard_ != switch_.on()) publish(frame.scene);
 }
 

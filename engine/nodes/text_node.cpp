@@ -12,13 +12,13 @@ namespace stadion {
 
 void TextNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
-  instance_ = scene.addInstance(placement(), kNoMesh, true, self());
+  instance_ = scene.instances().add(placement(), kNoMesh, true, self());
   draw(scene);
 }
 
 void TextNode::onLeave(Scene& scene) {
-  scene.removeInstance(instance_);
-  scene.releaseMesh(std::exchange(mesh_, kNoMesh));
+  scene.instances().remove(instance_);
+  scene.instances().releaseMesh(std::exchange(mesh_, kNoMesh));
   PlacedNode::onLeave(scene);
 }
 
@@ -35,16 +35,16 @@ void TextNode::say(std::string words, Scene& scene) {
 }
 
 bool TextNode::resume(Scene& scene) {
-  if (!scene.owns(instance_, self())) return false;
+  if (!scene.instances().owns(instance_, self())) return false;
   draw(scene);
   return true;
 }
 
 void TextNode::draw(Scene& scene) {
   auto mesh = textMesh(words_, style_);
-  const MeshId before = std::exchange(mesh_, mesh ? scene.addMesh(std::move(mesh)) : kNoMesh);
-  scene.setMesh(instance_, mesh_);
-  scene.releaseMesh(before);
+  const MeshId before = std::exchange(mesh_, mesh ? scene.instances().addMesh(std::move(mesh)) : kNoMesh);
+  scene.instances().setMesh(instance_, mesh_);
+  scene.instances().releaseMesh(before);
 }
 
 template <class Self, class Fields>

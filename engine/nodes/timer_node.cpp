@@ -49,7 +49,7 @@ private:
 
 void TimerNode::startAt(Nanoseconds when, Scene& scene) {
   due_ = when + period_;
-  scene.wakeAt(due_, self());
+  scene.schedule().wakeAt(due_, self());
 }
 
 void TimerNode::onEnter(Scene& scene) {
@@ -68,7 +68,7 @@ void TimerNode::simulate(FrameContext& frame) {
     else
       switch_.set(false);
   }
-  if (switch_.on()) frame.scene.wakeAt(due_, self());
+  if (switch_.on()) frame.scene.schedule().wakeAt(due_, self());
 }
 
 template <class Self, class Fields>

@@ -58,10 +58,10 @@ const Course& TriggerNode::wayInRig(const FrameContext& frame) {
   if (looked_) {
     way.push_back({seen_, {p_RV_, Quat::Identity()}, false});
   } else if (seen_ < frame.now.time) {  // it begins to look inside this frame
-    const InputSample& before = frame.scene.lastInput();
+    const InputSample& before = frame.scene.feed().lastInput();
     const TrackerSample* was = byHead ? before.find("head") : before.find(tracker_);
     if (byHead && (was ? was->valid : !t || t->knots.empty()))
-      way.push_back({frame.start(), {frame.scene.headInRig(before).p, Quat::Identity()}, false});
+      way.push_back({frame.start(), {frame.scene.feed().headInRig(before).p, Quat::Identity()}, false});
     else if (was && was->valid)
       way.push_back({frame.start(), {was->X_RT.p, Quat::Identity()}, false});
   }
@@ -72,7 +72,7 @@ const Course& TriggerNode::wayInRig(const FrameContext& frame) {
   const bool reached = !way.empty() && way.back().time >= frame.now.time;  // by a jump at the frame's end
   if (byHead && (there || !t || t->knots.empty())) {
     if (!reached)
-      way.push_back({frame.now.time, {frame.scene.headInRig(frame.input).p, Quat::Identity()}, false});
+      way.push_back({frame.now.time, {frame.scene.feed().headInRig(frame.input).p, Quat::Identity()}, false});
   } else if (there && !reached) {
     way.push_back({frame.now.time, {t->X_RT.p, Quat::Identity()}, false});
   } else if (!there && (!t || t->knots.empty())) {
@@ -83,7 +83,7 @@ const Course& TriggerNode::wayInRig(const FrameContext& frame) {
 
 std::uint32_t TriggerNode::heldBefore(const TrackerSample& t, Nanoseconds time,
                                       const FrameContext& frame) const {
-  const TrackerSample* was = frame.scene.lastInput().find(tracker_);
+  const TrackerSample* was = frame.scene.feed().lastInput().find(tracker_);
   std::uint32_t held = was ? was->buttons : t.controls.empty() ? t.buttons : t.controls.front().buttons;
   for (const ControlKnot& c : t.controls)
     if (c.time < time) held = c.buttons;
@@ -106,7 +106,8 @@ void TriggerNode::look(FrameContext& frame, Nanoseconds until) {
   stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
 
   // The room moves evenly within the frame, as seen from the trigger.
-  const Affine X_NR = frame.scene.placements().world(placement()).inverse() * toAffine(frame.scene.rigPose());
+  const Affine X_NR =
+      frame.scene.placements().world(placement()).inverse() * toAffine(frame.scene.feed().rigPose());
   const auto inNode = [&](Nanoseconds time, const Vec3& p_R) -> Vec3 {
     const double s = looked_ && frame.now.step > 0
                          ? static_cast<double>(time - frame.start()) / static_cast<double>(frame.now.step)

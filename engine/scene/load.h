@@ -1,8 +1,13 @@
 #pragma once
 /// One loaded file: its nodes, its names, its static objects.
 ///
-/// Prepared on the loader thread, installed by App before the frame in which its show time falls and removed
-/// after it, destroyed on the loader thread. Dynamics knows the exact times.
+/// The loader thread prepares a load, and App installs it before the frame in which its show time falls. App
+/// removes it after the frame in which it ends, and the loader thread destroys it. Dynamics knows both times
+/// exactly.
+///
+/// Ownership  owns its nodes.
+/// Threads    one at a time: the loader's until it is installed, then App's.
+/// Errors     of the file are reported when it is prepared.
 
 #include "engine/base/diagnostic.h"
 #include "engine/core/load_control.h"
@@ -21,8 +26,8 @@
 
 namespace stadion {
 
-/// A plain object that nothing in its file moves: it has no node, only a record in the load's static chunk.
-/// There may be a million of them, so what most have not lies elsewhere.
+/// A plain object that nothing in its file moves. It has no node, only a record in the load's static chunk.
+/// There may be a million of them, so rare properties are stored elsewhere.
 struct StaticObject {
   std::uint32_t position = 0;  ///< in its file
   NodeRef parent;
@@ -45,7 +50,7 @@ struct Load {
   std::vector<std::uint32_t> lines;                      ///< source line by position
 
   ChunkId chunk = kNoChunk;
-  bool chunkShown = false;                       ///< the scene's own
+  bool chunkShown = false;                       ///< set by the scene's publisher
   std::span<const InstanceRecord> chunkRecords;  ///< in published memory, immutable
   const NodeType* staticType = nullptr;          ///< of its static objects, if there are any
   std::vector<StaticObject> statics;             ///< parallel to chunkRecords, ordered by position
@@ -74,21 +79,20 @@ public:
   virtual ~SceneLoader() = default;
   /// Begins to prepare `file` as load `number`, below `owner`, which is at X_WO now.
   virtual void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) = 0;
-  /// Whether the load, which is due, takes effect in the frame of show time `now`. Where it always does,
-  /// take() waits for what comes late; where it need not (live shows, and replays of them), it is asked again
-  /// in the next frame.
+  /// Whether the load, which is due, takes effect in the frame of show time `now`. If it always does, take()
+  /// waits for late loads. If not (live shows and their replays), the scene asks again in the next frame.
   virtual bool takesEffect(std::uint32_t number, Nanoseconds now) {
     static_cast<void>(number), static_cast<void>(now);
     return true;
   }
-  /// The load, waiting for it if it is not ready yet; null if it could not be loaded (the reason has been
-  /// told). Throws what the preparation threw, and RunStopped when the run is to end while it waits.
+  /// Returns the load and waits until it is ready; null if it could not be loaded and the reason was
+  /// reported. Throws what the preparation threw, and RunStopped if the run ends while it waits.
   virtual std::unique_ptr<Load> take(std::uint32_t number) = 0;
   /// Destroys a removed load, once no frame up to `lastFrame` needs it.
   virtual void dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) = 0;
   /// The plugins whose node types a file may use, in words; empty: none.
   virtual std::string plugins() const { return {}; }
-  /// Tells the author of something that was found while the show runs.
+  /// Reports to the author what was found while the show runs.
   virtual void report(const Diagnostic&) {}
 };
 

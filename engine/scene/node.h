@@ -1,13 +1,14 @@
 #pragma once
-/// A node of the show: identically structured and interfaced, whatever it does.
+/// A node of the show. All node types have the same cycle and the same interface.
 ///
-/// In each frame in which it has something to do a node runs one cycle of the application phase: it receives
+/// In each frame in which it has something to do, a node runs one cycle of the application phase: it receives
 /// its messages, simulates, and dispatches notifications. Nodes that do not look at each other's results
-/// (dynamics nodes, mostly) simulate side by side. A node with nothing to do is not visited at all.
-/// What is drawn is not the node but an instance record that it publishes through the scene.
+/// simulate side by side; these are mostly dynamics nodes. A node with nothing to do is not visited. The node
+/// itself is not drawn: it publishes an instance record through the scene.
 ///
-/// Threads  App only. Nodes are constructed on the loader thread and belong to it until they are installed.
-/// Ownership  the Scene owns every installed node.
+/// Ownership  the scene owns every installed node.
+/// Threads    App only. The loader thread constructs nodes and owns them until they are installed.
+/// Errors     resume() returns false if the restored state does not fit; no other function fails.
 
 #include "engine/core/event.h"
 #include "engine/core/frame_probe.h"
@@ -33,16 +34,16 @@ struct FrameContext {
                              ///< nodes that run more seldom the step is that since their last cycle
   const InputSample& input;  ///< trackers at now.time
   Scene& scene;
-  bool rested = false;  ///< it was kept from running up to this frame's start: its own time stood still
-  FrameProbe* probe = nullptr;  ///< who counts, if anybody does
+  bool rested = false;  ///< the node did not run up to this frame's start, and its own time stood still
+  FrameProbe* probe = nullptr;  ///< receives the costs; null: they are not measured
 
   Nanoseconds start() const { return now.time - now.step; }
   /// When a delivered message takes effect: at its due time, but not before this frame's start.
   Nanoseconds effective(const Message& m) const { return m.due > start() ? m.due : start(); }
 };
 
-/// In which order nodes run within a frame: what places things comes before what looks at them. Within a
-/// rank, nodes come after those whose movers they name (Node::addMovers), else the order is (load number,
+/// The order of nodes within a frame: nodes that place things come before nodes that look at them. Within a
+/// rank, a node comes after the movers that it names (Node::addMovers); else the order is (load number,
 /// position in file).
 enum class Rank : std::uint8_t { Input, Attachment, Motion, Sensing, Dynamics, Contact, Outcome };
 
@@ -70,64 +71,64 @@ public:
   const std::string& name() const { return name_; }
   /// The node, if it has a place in the world; else nullptr.
   virtual PlacedNode* placed() { return nullptr; }
-  /// What it has missed since its last cycle: nothing, frames that it makes up for, or time as well.
+  /// What the node has missed since its last cycle: nothing, frames that it makes up for, or time as well.
   enum class Missed : std::uint8_t { Nothing, Frames, Time };
-  /// What the scene notes of a node that is in it. The scene's own.
+  /// What the scene notes about an installed node. Only the scene's parts use it.
   struct Standing {
     std::uint64_t hash = 0;  ///< its part of the state hash
     bool busy = false;
-    bool touched = false;     ///< its state has changed since then
-    bool rests = false;       ///< it does not run, to save time (load_control.h), or
-    std::uint8_t pace = 0;    ///< only in one of 2^pace frames
-    std::uint16_t level = 0;  ///< within its rank: it comes after those that it looks at
+    bool touched = false;     ///< its state has changed since `hash` was computed
+    bool rests = false;       ///< it does not run, to save time (load_control.h)
+    std::uint8_t pace = 0;    ///< it runs in one of 2^pace frames
+    std::uint16_t level = 0;  ///< within its rank: a node comes after those that it looks at
     Missed missed{};
   };
   Standing& standing() { return standing_; }
   const Standing& standing() const { return standing_; }
   void addNotification(Notification n) { notifications_.push_back(std::move(n)); }
 
-  /// Takes its place in the scene: names resolve, placements and instances are made. Once, when its load is
-  /// installed, after every node of the load exists and after its parent's enter().
+  /// Enters the scene: resolves names, adds placements and instances. Called once, when the load is
+  /// installed: all nodes of the load exist, and the parent has entered.
   void enter(Scene& scene) { onEnter(scene); }
-  /// Gives back what enter() took. Once, in reverse order.
+  /// Removes what enter() added. Called once, in reverse order.
   void leave(Scene& scene) { onLeave(scene); }
 
-  // The node cycle, in three parts. Between the first and the last of them other nodes may have theirs.
-  /// Receives this frame's messages, in delivery order, and simulates as far as that needs the scene.
+  // The node cycle, in three parts. Between the first and the last part, other nodes may have theirs.
+  /// Receives this frame's messages in delivery order, and simulates as far as that needs the scene.
   void begin(std::span<const Message> inbox, FrameContext& frame, FrameProbe* probe);
-  /// The rest of the simulation, which touches nothing but the node: on any thread.
+  /// Simulates the rest, which touches only the node. Runs on any thread.
   void compute(FrameProbe* probe);
-  /// Tells the scene what has come of it, and dispatches notifications.
+  /// Reports the results to the scene and dispatches notifications.
   void conclude(FrameContext& frame, FrameProbe* probe);
-  /// Something has happened to it that another node has found out: told at once.
+  /// Raises and dispatches an event of this node that another node has detected.
   void tell(Event event, Nanoseconds when, FrameContext& frame) {
     raise(event, when);
     dispatch(frame);
   }
-  /// Whether it may look at what `earlier` tells the scene in this frame, and so can begin only after that.
+  /// Whether the node may look at what `earlier` reports in this frame, and so can begin only after it.
   virtual bool awaits(const Node& earlier, const Scene& scene) const;
 
-  /// Adds the nodes of its rank that move what it looks at.
+  /// Adds the nodes of the same rank that move what this node looks at.
   virtual void addMovers(const Scene&, std::vector<NodeRef>& /*movers*/) const {}
 
   virtual Rank rank() const { return Rank::Motion; }
-  /// Whether it wants to be visited in the next frame even if no message arrives.
+  /// Whether the node must be visited in the next frame even if no message arrives.
   virtual bool busy() const { return false; }
   /// Adds every field that the show's future depends on.
   virtual void hash(StateHash&) const {}
-  /// The same fields and what follows from them, to be written down, compared or put back. A node that is put
-  /// back has not entered, and does not: resume() is called instead.
+  /// Visits the same fields and what follows from them, to save, compare or restore them. A restored node
+  /// does not enter: resume() is called instead.
   virtual void state(StateFields&) {}
-  /// The node that those of its fields are about which state() visits as a part's (StateFields::about()): the
-  /// bodies of a dynamics node are nodes themselves.
+  /// Maps a part number (StateFields::about()) to its node: the bodies of a dynamics node are nodes
+  /// themselves.
   virtual NodeRef nodeOf(std::uint32_t /*part*/) const { return self_; }
-  /// Its fields have been put back, and so has the scene: makes anew what is not written down. False: what
-  /// was written down does not fit what there is.
+  /// Called after the node's fields and the scene were restored: makes again what is not saved. False if the
+  /// saved state does not fit.
   virtual bool resume(Scene&) { return true; }
 
 protected:
-  /// Notes that something happened; the messages that tell of it go out when the node dispatches.
-  /// A figure, such as a distance [m], is for reports.
+  /// Notes an event; its messages are sent when the node dispatches. A figure, such as a distance [m], is for
+  /// reports.
   void raise(Event event, Nanoseconds when, std::optional<double> figure = {}) {
     raised_.push_back({event, when, figure});
   }

@@ -6,15 +6,15 @@ namespace stadion {
 
 void ObjectNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
-  instance_ = scene.addInstance(placement(), appearance_.mesh, appearance_.drawn, self());
+  instance_ = scene.instances().add(placement(), appearance_.mesh, appearance_.drawn, self());
 }
 
 bool ObjectNode::resume(Scene& scene) {
-  return scene.owns(instance_, self());
+  return scene.instances().owns(instance_, self());
 }
 
 void ObjectNode::onLeave(Scene& scene) {
-  scene.removeInstance(instance_);
+  scene.instances().remove(instance_);
   PlacedNode::onLeave(scene);
 }
 

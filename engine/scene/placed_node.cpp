@@ -6,7 +6,8 @@
 namespace stadion {
 
 void PlacedNode::onEnter(Scene& scene) {
-  placement_ = scene.placements().add(scene.placementFor(attributes_.parent, self()), attributes_.X_PN);
+  placement_ =
+      scene.placements().add(scene.tree().placementFor(attributes_.parent, self()), attributes_.X_PN);
   shown_ = attributes_.shown;
   if (!shown_) scene.placements().setShown(placement_, false);
   X_PN_ = attributes_.X_PN;
@@ -24,7 +25,7 @@ void PlacedNode::aboutToChange(Scene& scene) {
 void PlacedNode::letMove(Scene& scene) {
   if (!carriesStatics_) return;
   carriesStatics_ = false;
-  scene.promoteBelow(self());
+  scene.tree().promoteBelow(self());
 }
 
 void PlacedNode::stay(Scene& scene) {
@@ -120,7 +121,7 @@ Affine PlacedNode::placedAt(const Pose& X_WN, const Scene& scene) const {
 
 /// Continues its course along the tracker's up to `to`. False if the tracker is silent.
 bool PlacedNode::trace(Nanoseconds to, FrameContext& frame) {
-  const Course* tracker = frame.scene.trackerCourse(tracker_, frame);
+  const Course* tracker = frame.scene.feed().trackerCourse(tracker_, frame);
   if (!tracker) return false;
   Course& way = course(frame);
   const Pose own = way.back().X;

@@ -15,7 +15,7 @@ namespace stadion::cluster {
 /// A scene between two frames, as it can be taken over.
 struct SavedScene {
   std::uint64_t files = 0;          ///< Scene::files()
-  std::vector<std::uint8_t> bytes;  ///< Scene::save()
+  std::vector<std::uint8_t> bytes;  ///< SceneSnapshot::save()
 };
 
 struct SceneParcel {

@@ -133,7 +133,7 @@ void ShowStages::still(const TimeSignature& now, std::size_t slot) {
   InputSample input;
   if (parts_.input.sampleNow(input)) parts_.scene.look(input, changes_);
   noteMeasured(input);
-  hear(parts_.scene.lastInput(), true);
+  hear(parts_.scene.feed().lastInput(), true);
   parts_.state.publish(slot, changes_);
 }
 

@@ -10,7 +10,7 @@
 /// Threads    simulated() and keep() on the App thread, shown() on the Draw thread that swaps, the rest from
 ///            any. The player and its watcher at the same time; two players never.
 /// Errors     what lies there may be damaged, since a program that crashed could write to it: a scene that
-///            cannot be put back is refused by Scene::restore().
+///            cannot be restored is refused by SceneSnapshot::restore().
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/time_signature.h"

@@ -210,8 +210,8 @@ void LoadGovernor::spreadFrameLevels() {
 // App.
 
 bool LoadGovernor::see(const Scene& scene) {
-  if (seen_ == scene.loadsVersion()) return false;
-  seen_ = scene.loadsVersion();
+  if (seen_ == scene.tree().version()) return false;
+  seen_ = scene.tree().version();
   auto [nodes, above] = governedNodes(scene);
   const bool scalable = hasLevels(scene);
   const std::lock_guard lock(mutex_);
@@ -246,7 +246,7 @@ bool LoadGovernor::see(const Scene& scene) {
   for (const auto& [node, governed] : above)
     accounts->add(node, static_cast<NodeAccounts::Account>(governed.front()));
   accounts_ = accounts;
-  costs_.govern(std::move(nodes), std::move(above), scene.sky());
+  costs_.govern(std::move(nodes), std::move(above), scene.lights().sky());
   return true;
 }
 

@@ -25,7 +25,7 @@ std::pair<std::vector<GovernedNode>, std::map<NodeRef, std::vector<std::size_t>>
 governedNodes(const Scene& scene) {
   std::vector<GovernedNode> nodes;
   std::map<NodeRef, std::size_t> places;
-  scene.forEachLoad([&](const Load& load) {
+  scene.tree().forEachLoad([&](const Load& load) {
     for (const auto& [position, terms] : load.terms) {
       places[{load.number, position}] = nodes.size();
       nodes.push_back({{load.number, position}, terms, mayBeDrawn(load.nodes[position].get())});
@@ -33,9 +33,9 @@ governedNodes(const Scene& scene) {
   });
   std::map<NodeRef, std::vector<std::size_t>> above;
   if (nodes.empty()) return {nodes, above};
-  scene.forEachLoad([&](const Load& load) {
+  scene.tree().forEachLoad([&](const Load& load) {
     for (std::uint32_t i = 0; i < load.nodes.size(); ++i)
-      for (NodeRef at{load.number, i}; at.valid(); at = scene.parentOf(at))
+      for (NodeRef at{load.number, i}; at.valid(); at = scene.tree().parentOf(at))
         if (const auto place = places.find(at); place != places.end())
           above[{load.number, i}].push_back(place->second);
   });
@@ -47,10 +47,10 @@ bool hasLevels(const Scene& scene) {
   const auto look = [&](const Node* node) {
     if (!node) return;
     const auto* object = dynamic_cast<const ObjectNode*>(node);
-    const Mesh* mesh = object ? scene.mesh(object->appearance().mesh) : nullptr;
+    const Mesh* mesh = object ? scene.instances().mesh(object->appearance().mesh) : nullptr;
     any |= node->kind() == "lod" || (mesh && !mesh->levels.empty());
   };
-  scene.forEachLoad([&](const Load& load) {
+  scene.tree().forEachLoad([&](const Load& load) {
     for (const auto& node : load.nodes) look(node.get());
     for (const InstanceRecord& r : load.chunkRecords) any |= r.lodFactor > 0;
   });

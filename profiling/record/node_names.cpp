@@ -11,15 +11,15 @@ constexpr std::size_t kMostGone = 64;
 }  // namespace
 
 void NodeNames::see(const Scene& scene) {
-  if (seen_ == scene.loadsVersion()) return;
-  seen_ = scene.loadsVersion();
+  if (seen_ == scene.tree().version()) return;
+  seen_ = scene.tree().version();
   const std::lock_guard lock(mutex_);
   std::set<std::uint32_t> there;
-  scene.forEachLoad([&](const Load& load) { there.insert(load.number); });
+  scene.tree().forEachLoad([&](const Load& load) { there.insert(load.number); });
   for (auto& [number, file] : files_) file.there = there.contains(number);
   for (const auto& [number, first] : again_)
     if (there.contains(number)) files_[first].there = true;
-  scene.forEachLoad([&](const Load& load) {
+  scene.tree().forEachLoad([&](const Load& load) {
     if (!fileOf(load.number)) add(scene, load);
   });
   forgetGone(there);
@@ -34,7 +34,7 @@ NodeNames::File NodeNames::read(const Scene& scene, const Load& load) {
     NodeName& n = file.nodes[i];
     n.file = load.file, n.line = load.lines[i];
     if (load.nodes[i]) n.type = load.nodes[i]->type().name;
-    n.parent = scene.parentOf({load.number, i});
+    n.parent = scene.tree().parentOf({load.number, i});
     if (const auto terms = load.terms.find(i); terms != load.terms.end()) n.budget = terms->second.budget;
     if (n.path.empty()) n.path = std::string(n.type) + ":" + std::to_string(n.line);
   }

@@ -5,6 +5,7 @@
 #include "engine/core/state_fields.h"
 #include "engine/core/state_hash.h"
 #include "engine/plain_text/suggestion.h"
+#include "engine/scene/scene_snapshot.h"
 #include "pipeline/cluster/interface_check.h"
 #include "profiling/record/node_names.h"
 #include "show/base/stop_signal.h"
@@ -179,14 +180,14 @@ bool ClusterPart::begin(Player& player, const OperatorQueue& asked, const std::f
 }
 
 cluster::SavedScene ClusterPart::saved() const {
-  return {player_->scene().files(), player_->scene().save()};
+  return {SceneSnapshot::filesOf(player_->scene()), SceneSnapshot(player_->scene()).save()};
 }
 
 std::optional<cluster::Follower::Differs> ClusterPart::differenceTo(const cluster::SavedScene& there) const {
-  if (const std::uint64_t ours = player_->scene().files(); ours != there.files)
+  if (const std::uint64_t ours = SceneSnapshot::filesOf(player_->scene()); ours != there.files)
     return cluster::Follower::Differs{"the scene, files", fmt::format("{:016x}", ours),
                                       fmt::format("{:016x}", there.files)};
-  const auto d = player_->scene().difference(there.bytes);
+  const auto d = SceneSnapshot(player_->scene()).difference(there.bytes);
   if (!d) return {};
   NodeNames names;
   names.see(player_->scene());
@@ -209,8 +210,9 @@ InputDevice* ClusterPart::inputOf(Player& player) {
 void ClusterPart::simulated(const TimeSignature& now) {
   const std::uint64_t frame = now.frame;
   last_ = now;
-  if (lead_ && lead_->compares(frame)) lead_->simulated(frame, player_->scene().digest());
-  if (follower_ && follower_->compares(frame)) follower_->simulated(frame, player_->scene().digest());
+  if (lead_ && lead_->compares(frame)) lead_->simulated(frame, SceneSnapshot(player_->scene()).digest());
+  if (follower_ && follower_->compares(frame))
+    follower_->simulated(frame, SceneSnapshot(player_->scene()).digest());
   if (planted_ == frame) plantDifference();
 }
 
@@ -224,7 +226,7 @@ void ClusterPart::plantDifference() {
     void text(std::string&) override {}
     bool done_ = false;
   } bit;
-  player_->scene().forEachNode([&](const Node& node) { const_cast<Node&>(node).state(bit); });
+  player_->scene().tree().forEachNode([&](const Node& node) { const_cast<Node&>(node).state(bit); });
 }
 
 bool ClusterPart::hasDouble() const {

@@ -3,6 +3,7 @@
 ///
 /// Threads  main, but for simulated(), which is App's.
 
+#include "engine/scene/scene_snapshot.h"
 #include "pipeline/cluster/follower.h"
 #include "pipeline/cluster/lead.h"
 #include "pipeline/record/run_summary.h"
@@ -38,7 +39,7 @@ public:
   /// The show was already playing when this machine joined it.
   bool goesOn() const { return goesOn_; }
   /// Of a show that goes on, once it has been opened: whether the other machines play it with the same files.
-  bool hasFiles(const Scene& scene) const { return scene.files() == files_; }
+  bool hasFiles(const Scene& scene) const { return SceneSnapshot::filesOf(scene) == files_; }
   /// The files differ, or the snapshot that was sent cannot be restored with them. A follower may come again
   /// when they are equal.
   void refuseFiles(Diagnostics& findings);

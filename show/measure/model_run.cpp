@@ -17,7 +17,7 @@ public:
   BodyWatch(Scene& scene, NodeRef only) : scene_(scene), only_(only) {}
 
   void look(const TimeSignature& now) {
-    if (loadsSeen_ != scene_.loadsVersion()) findBodies();
+    if (loadsSeen_ != scene_.tree().version()) findBodies();
     for (const NodeRef ref : present_)
       if (const auto* node = dynamic_cast<const DynObjectNode*>(scene_.find(ref))) note(*node, now.frame);
   }
@@ -25,9 +25,9 @@ public:
 
 private:
   void findBodies() {
-    loadsSeen_ = scene_.loadsVersion();
+    loadsSeen_ = scene_.tree().version();
     present_.clear();
-    scene_.forEachNode([&](const Node& node) {
+    scene_.tree().forEachNode([&](const Node& node) {
       if (node.kind() == "dynobject" && (!only_.valid() || node.self() == only_))
         present_.push_back(node.self());
     });
@@ -48,19 +48,19 @@ private:
   }
 
   void describe(const DynObjectNode& node, PlayedBody& body) {
-    const Load& load = *scene_.load(node.self().load);
+    const Load& load = *scene_.tree().load(node.self().load);
     const FittedShape& fit = *node.fit();
     body.name = node.name(), body.file = load.file, body.line = load.lines[node.self().position];
     body.shape = fit.choice.kind, body.deviation = fit.choice.deviation;
     body.chosen = node.appearance().shape == "auto" || node.appearance().shape.empty();
-    if (const Mesh* mesh = scene_.mesh(node.appearance().mesh)) {
+    if (const Mesh* mesh = scene_.instances().mesh(node.appearance().mesh)) {
       body.triangles = mesh->indices.size() / 3;
       if (!only_.valid()) body.exact = exactShapeOf(node.appearance().mesh, *mesh);
     }
     body.dragArea = node.body().dragArea.value_or(fit.dragArea);
     body.dynamics = node.movedBy();
     for (const std::string& name : node.body().hooks)
-      if (const Node* field = scene_.find(scene_.resolve(name, node.self())))
+      if (const Node* field = scene_.find(scene_.tree().resolve(name, node.self())))
         body.fields.push_back({name, field->type().name});
   }
 

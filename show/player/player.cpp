@@ -1,8 +1,9 @@
 #include "show/player/player.h"
 
 #include "engine/base/installed_files.h"
-#include "engine/plain_text/number_text.h"
 #include "engine/input/input_log.h"
+#include "engine/plain_text/number_text.h"
+#include "engine/scene/scene_snapshot.h"
 #include "show/player/show_files.h"
 
 #include <algorithm>
@@ -158,7 +159,7 @@ std::unique_ptr<Player> Player::prepare(const ShowOptions& options, Diagnostics&
 
 bool Player::openScene(Diagnostics& findings) {
   if (const auto state = std::exchange(options_.state, nullptr)) {
-    if (const auto why = scene_->restore(*state, options_.script)) {
+    if (const auto why = SceneSnapshot(*scene_).restore(*state, options_.script)) {
       findings.error({options_.script, 0, 0}, "the show cannot go on from the scene that was kept: " + *why);
       return false;
     }

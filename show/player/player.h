@@ -44,7 +44,7 @@ struct ShowOptions {
   DynamicsVariation variation;          ///< of the script's models
   /// The scripts that are played; null: as they are on disk when the show is opened.
   std::shared_ptr<const ScriptTexts> texts;
-  /// The snapshot that the show continues from (Scene::save()); null: it starts from the beginning.
+  /// The snapshot that the show continues from (SceneSnapshot::save()); null: it starts from the beginning.
   std::shared_ptr<const std::vector<std::uint8_t>> state;
 
   std::uint32_t width = 0, height = 0;  ///< from `size`

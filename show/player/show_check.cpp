@@ -230,9 +230,9 @@ void lookAtCollisions(const std::string& file, const std::vector<std::string>& r
   };
   std::map<const FittedShape*, Alike> alike;
   std::set<NodeRef> seen;
-  player->scene().forEachNode([&](const Node& node) {
+  player->scene().tree().forEachNode([&](const Node& node) {
     const auto* collision = dynamic_cast<const CollisionNode*>(&node);
-    const Load* load = player->scene().load(node.self().load);
+    const Load* load = player->scene().tree().load(node.self().load);
     if (!collision || !load) return;
     for (const auto& [ref, fit] : collision->participants()) {
       const auto* object = dynamic_cast<const ObjectNode*>(player->scene().find(ref));
@@ -251,7 +251,7 @@ void lookAtCollisions(const std::string& file, const std::vector<std::string>& r
   });
   for (const auto& [fit, objects] : alike) {
     const NodeRef ref = objects.first->self();
-    const Load& from = *player->scene().load(ref.load);
+    const Load& from = *player->scene().tree().load(ref.load);
     std::string who = "\"" + objects.first->name() + "\" " + fit->choice.remark;
     if (objects.count > 1)
       who += "; " + std::to_string(objects.count - 1) + " more of this model do the same";

@@ -28,8 +28,8 @@ NodeTrace::NodeTrace(std::string name)
     : name_(std::move(name)), table_("t,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,mode\n") {}
 
 void NodeTrace::record(const TimeSignature& now, const Scene& scene) {
-  const NodeRef node = scene.resolve(name_, {1, 0});
-  const Load* load = scene.load(node.load);
+  const NodeRef node = scene.tree().resolve(name_, {1, 0});
+  const Load* load = scene.tree().load(node.load);
   const auto* placed = load ? dynamic_cast<const PlacedNode*>(load->nodes[node.position].get()) : nullptr;
   if (!placed) return;  // it is unloaded at the moment
   const Pose X = poseOf(scene.placements().world(placed->placement()));

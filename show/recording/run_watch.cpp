@@ -14,14 +14,14 @@ namespace stadion {
 namespace {
 
 std::string nameIn(const Scene& scene, NodeRef node) {
-  const Load* load = scene.load(node.load);
+  const Load* load = scene.tree().load(node.load);
   if (!load || node.position >= load->nodes.size() || !load->nodes[node.position]) return "?";
   const std::string name = load->nodes[node.position]->name();
   return name.empty() ? load->file + ":" + std::to_string(load->lines[node.position]) : name;
 }
 
 bool givesUp(const Scene& scene, NodeRef node) {
-  const Load* load = scene.load(node.load);
+  const Load* load = scene.tree().load(node.load);
   const auto at = load ? load->terms.find(node.position) : decltype(load->terms.end())();
   return load && at != load->terms.end() && levelsOf(at->second.gives) > 0;
 }
@@ -42,7 +42,7 @@ std::unique_ptr<RunWatch> RunWatch::create(const RecordSettings& record, const P
                                            Player& player, Diagnostics& findings) {
   std::unique_ptr<RunWatch> watch(new RunWatch(player));
   for (const std::string& node : record.nodes) {
-    const NodeRef ref = player.scene().resolve(node, {1, 0});
+    const NodeRef ref = player.scene().tree().resolve(node, {1, 0});
     // What stands in a sub-scene may come later.
     if (node.find('/') == node.npos && !player.scene().find(ref))
       findings.error({player.script(), 0, 0}, "--trace: the show has no node \"" + node + "\"");

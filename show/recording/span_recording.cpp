@@ -49,7 +49,7 @@ bool SpanRecording::plant(regression::SpanTimesOptions& times, Diagnostics& find
     return false;
   }
   if (planted->where == regression::PlantedDelay::Where::Simulate) {
-    planted->node = player_.scene().resolve(planted->name, {1, 0});
+    planted->node = player_.scene().tree().resolve(planted->name, {1, 0});
     if (!player_.scene().find(planted->node))
       findings.error({}, "--plant: the show has no node \"" + planted->name + "\"");
   } else if (planted->where != regression::PlantedDelay::Where::Frame) {
@@ -70,7 +70,7 @@ std::optional<Diagnostic> SpanRecording::finish() {
 }
 
 void nameNode(const Scene& scene, NodeRef node, regression::SpanRow& row) {
-  const Load* load = scene.load(node.load);
+  const Load* load = scene.tree().load(node.load);
   if (!load || node.position >= load->nodes.size()) {
     row.path = "(unloaded)";
     return;

@@ -73,15 +73,15 @@ void RunJournal::see(const TimeSignature& now, const InputSample& input, const S
     const std::lock_guard lock(mutex_);
     place_ = Journal::Place{now.time, now.frame};
   }
-  if (scene.loadsVersion() != loadsSeen_ || now.frame == 0) noteLoads(scene);
+  if (scene.tree().version() != loadsSeen_ || now.frame == 0) noteLoads(scene);
   noteTrackers(input);
   if (const auto clock = Clock::now(); clock - minute_ >= kEvery) noteMinute(clock);
 }
 
 void RunJournal::noteLoads(const Scene& scene) {
-  loadsSeen_ = scene.loadsVersion();
+  loadsSeen_ = scene.tree().version();
   std::map<std::uint32_t, std::string> there;
-  scene.forEachLoad([&](const Load& load) { there.emplace(load.number, load.file); });
+  scene.tree().forEachLoad([&](const Load& load) { there.emplace(load.number, load.file); });
   for (const auto& [number, file] : there)
     if (!loads_.contains(number)) note("loaded " + file);
   for (const auto& [number, file] : loads_)

@@ -1,4 +1,5 @@
 #include "show/supervision/supervised_part.h"
+#include "engine/scene/scene_snapshot.h"
 
 #include <fmt/format.h>
 
@@ -88,7 +89,7 @@ void SupervisedPart::simulated(const TimeSignature& now, Scene& scene, const Run
 
 void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch& watch) {
   const Nanoseconds begin = machineClock();
-  const std::vector<std::uint8_t> state = scene.save();
+  const std::vector<std::uint8_t> state = SceneSnapshot(scene).save();
   bytes_ = state.size();
   const int wrong = progress_->keep({now.frame, now.time, watch.history()}, state);
   const Nanoseconds took = machineClock() - begin;

@@ -12,16 +12,16 @@ namespace {
 std::map<std::string, bool> subScenes(const Scene& scene) {
   std::map<std::string, bool> known;
   std::set<std::uint32_t> loads;
-  scene.forEachNode([&](const Node& node) {
+  scene.tree().forEachNode([&](const Node& node) {
     const NodeRef ref = node.self();
-    const Load* load = scene.load(ref.load);
+    const Load* load = scene.tree().load(ref.load);
     if (load && !load->owner.valid() && node.kind() == "scene" && !node.name().empty())
       known.try_emplace(node.name(), false);
     loads.insert(ref.load);
   });
   for (const std::uint32_t number : loads) {
-    const Load* load = scene.load(number);
-    const Load* outer = load ? scene.load(load->owner.load) : nullptr;
+    const Load* load = scene.tree().load(number);
+    const Load* outer = load ? scene.tree().load(load->owner.load) : nullptr;
     if (!outer || outer->owner.valid() || load->owner.position >= outer->nodes.size()) continue;
     if (const Node* owner = outer->nodes[load->owner.position].get()) known[owner->name()] = true;
   }
@@ -152,10 +152,10 @@ void PlayingShow::takeUp(const ShowPlace& place) {
 }
 
 void PlayingShow::notePlace(const Scene& scene) {
-  const bool changed = scene.loadsVersion() != loadsSeen_;
-  loadsSeen_ = scene.loadsVersion();
+  const bool changed = scene.tree().version() != loadsSeen_;
+  loadsSeen_ = scene.tree().version();
   const std::lock_guard lock(mutex_);
-  place_.X_WR = scene.rigPose();
+  place_.X_WR = scene.feed().rigPose();
   if (!changed) return;
   place_.loaded.clear();
   for (const auto& [name, loaded] : subScenes(scene))

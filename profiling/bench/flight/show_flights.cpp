@@ -116,7 +116,7 @@ private:
 
 RigidFlight motionOf(Scene& scene, std::size_t i) {
   const auto* node =
-      dynamic_cast<DynObjectNode*>(scene.find(scene.resolve(fmt::format("body{}", i), {1, 0})));
+      dynamic_cast<DynObjectNode*>(scene.find(scene.tree().resolve(fmt::format("body{}", i), {1, 0})));
   if (!node) return {Vec3::Constant(NAN), Vec3::Zero(), Quat::Identity(), Vec3::Zero()};
   const BodyState& s = node->state();
   RigidFlight f;

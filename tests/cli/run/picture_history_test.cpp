@@ -3,6 +3,7 @@
 /// of detail and haze.
 
 #include "engine/core/state_fields.h"
+#include "engine/scene/scene_snapshot.h"
 #include "show/player/player.h"
 #include "tests/programs/program.h"
 
@@ -51,7 +52,9 @@ public:
     }
     return hash.value();
   }
-  State save() { return std::make_shared<const std::vector<std::uint8_t>>(player_->scene().save()); }
+  State save() {
+    return std::make_shared<const std::vector<std::uint8_t>>(SceneSnapshot(player_->scene()).save());
+  }
 
 private:
   std::unique_ptr<Player> player_;

@@ -332,7 +332,7 @@ public:
   AlarmNode(NodeRef self, std::string name) : Node(kGroupType, self, std::move(name)) {}
 
 protected:
-  void onEnter(Scene& scene) override { scene.wakeAt(fromSeconds(100), self()); }
+  void onEnter(Scene& scene) override { scene.schedule().wakeAt(fromSeconds(100), self()); }
 };
 
 TEST(ExactTimes, AlarmsOfAnUnloadedFileLeaveNoTraceInTheStateHash) {

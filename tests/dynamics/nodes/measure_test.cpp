@@ -132,7 +132,7 @@ TEST(Measure, WithoutAStartNothingIsMeasuredAndNobodyVisitsIt) {
   show.play(6);
   EXPECT_TRUE(show.told.empty());
   EXPECT_EQ(show.scene.counters().nodesVisited, 0u);
-  EXPECT_FALSE(show.scene.impactsWanted());
+  EXPECT_FALSE(show.scene.impacts().wanted());
 }
 
 TEST(Measure, TheFartherThrowWinsOnceBothAreMeasuredWhicheverComesLast) {

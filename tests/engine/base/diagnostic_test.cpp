@@ -1,4 +1,5 @@
 #include "engine/base/diagnostic.h"
+#include "engine/plain_text/suggestion.h"
 
 #include <gtest/gtest.h>
 

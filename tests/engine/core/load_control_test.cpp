@@ -168,8 +168,8 @@ TEST(LoadControl, LessDetailIsInTheRecordsOfAllBelow) {
   LoadFixture f;
   f.frames(2);
   f.frame({{1, 0, 2}});
-  EXPECT_DOUBLE_EQ(f.scene.reliefOf(LoadFixture::kObject).lod, 2.25);
-  EXPECT_EQ(f.scene.reliefOf(LoadFixture::kRunning), Relief{});
+  EXPECT_DOUBLE_EQ(f.scene.degradation().of(LoadFixture::kObject).lod, 2.25);
+  EXPECT_EQ(f.scene.degradation().of(LoadFixture::kRunning), Relief{});
 }
 
 TEST(LoadControl, DecisionsAboutNobodyAreLeft) {
@@ -178,8 +178,8 @@ TEST(LoadControl, DecisionsAboutNobodyAreLeft) {
   f.frame({{7, 3, 2}, {1, 1, 1}, {1, 999, 1}});
   f.frame({{1, 2, 99}});  // a level that the ladder does not have
   f.frames(2);
-  EXPECT_EQ(f.scene.reliefOf(LoadFixture::kObject), Relief{});
-  EXPECT_TRUE(f.scene.reliefOf(LoadFixture::kRunning).rests);
+  EXPECT_EQ(f.scene.degradation().of(LoadFixture::kObject), Relief{});
+  EXPECT_TRUE(f.scene.degradation().of(LoadFixture::kRunning).rests);
 }
 
 TEST(LoadControl, TheSameDecisionsGiveTheSameHashAndOthersDoNot) {
@@ -208,7 +208,7 @@ public:
 
 protected:
   void onEnter(Scene& scene) override {
-    scene.watch(at_.placement(), self());
+    scene.schedule().watch(at_.placement(), self());
     before_ = poseOf(scene.placements().world(at_.placement()));
   }
   void simulate(FrameContext& frame) override {
@@ -415,7 +415,7 @@ TEST(LodNode, UnderStressEverythingCountsAsFartherAway) {
   f.frames(2);
   EXPECT_TRUE(f.shown(4));
   f.frame({{0, 0, 2}});  // 2^(2/4) times
-  EXPECT_DOUBLE_EQ(f.scene.stress(), std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(f.scene.degradation().stress(), std::sqrt(2.0));
   EXPECT_FALSE(f.shown(4));
   EXPECT_TRUE(f.shown(5));
   EXPECT_DOUBLE_EQ(f.changes.viewer.stress, std::sqrt(2.0));

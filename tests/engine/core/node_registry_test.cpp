@@ -2,6 +2,7 @@
 
 #include "engine/core/shared_rows.h"
 #include "engine/scene/node.h"
+#include "engine/scene/scene_snapshot.h"
 #include "engine/script/script.h"
 #include "tests/engine/scene/show_fixture.h"
 #include "tests/node_types.h"
@@ -87,7 +88,7 @@ TEST(NodeRegistry, ASnapshotNamesThePlugins) {
     MeshStore meshes;
     Scene scene(loader, meshes);
     scene.open("show");
-    return scene.save();
+    return SceneSnapshot(scene).save();
   };
   const auto restored = [](const std::vector<std::uint8_t>& state, const std::string& plugins) {
     PluginLoader loader;
@@ -95,7 +96,7 @@ TEST(NodeRegistry, ASnapshotNamesThePlugins) {
     loader.files["show"] = [](Load&) {};
     MeshStore meshes;
     Scene scene(loader, meshes);
-    return scene.restore(state, "show").value_or("");
+    return SceneSnapshot(scene).restore(state, "show").value_or("");
   };
   const auto plain = saved(""), spring = saved("spring 1.0 (12ab)");
   EXPECT_EQ(restored(plain, ""), "");

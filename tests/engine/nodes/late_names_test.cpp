@@ -80,7 +80,7 @@ TEST(LateNames, AMessageOutlivesTheFileOfItsSenderButNotTheFileItNames) {
   show.scene.open("show");
   show.scene.command("inner", Verb::Unload, {}, fromSeconds(0.5));
   show.frames(120);
-  EXPECT_EQ(show.scene.loadCount(), 1u);
+  EXPECT_EQ(show.scene.tree().loads().size(), 1u);
   EXPECT_EQ(outer->heard.size(), 1u);
   EXPECT_TRUE(both->heard.empty()) << "it meant the node of its own file, which has gone";
 }

@@ -35,7 +35,7 @@ Pose driven(ScriptedInput input, double rate, double seconds, double speed = 2, 
     input.sampleFrame(now.time - now.step, now.time, show.input);
     show.frame();
   }
-  return show.scene.rigPose();
+  return show.scene.feed().rigPose();
 }
 
 ScriptedInput steps() {

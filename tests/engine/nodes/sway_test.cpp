@@ -331,7 +331,7 @@ protected:
         const Vec3 p = frame.scene.courses().at(id, t, frame.scene.placements()).p;
         worst = std::max(worst, (p - expected(1, toSeconds(t)).translation()).norm());
       }
-    if (!std::exchange(watched_, true)) frame.scene.watch(id, self());
+    if (!std::exchange(watched_, true)) frame.scene.schedule().watch(id, self());
   }
 
 private:

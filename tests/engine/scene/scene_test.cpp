@@ -99,15 +99,15 @@ TEST(Scene, LoadsAndUnloadsASubSceneAtAFixedShowTime) {
   std::uint64_t arrived = 0;
   for (int n = 0; n < 12; ++n) {
     show.frame();
-    if (show.scene.loadCount() == 2 && arrived == 0) arrived = show.next - 1;
+    if (show.scene.tree().loads().size() == 2 && arrived == 0) arrived = show.next - 1;
   }
   EXPECT_EQ(arrived, 8u) << "frame 2's end (33.3 ms) + 100 ms = 133.3 ms, the end of frame 8";
-  EXPECT_TRUE(show.scene.resolve("game/ball", {1, 0}).valid());
+  EXPECT_TRUE(show.scene.tree().resolve("game/ball", {1, 0}).valid());
   show.scene.command("game", Verb::Unload, {}, show.input.time);
   show.frames(12);
-  EXPECT_EQ(show.scene.loadCount(), 1u);
+  EXPECT_EQ(show.scene.tree().loads().size(), 1u);
   EXPECT_EQ(show.loader.disposed, 1u);
-  EXPECT_FALSE(show.scene.resolve("game/ball", {1, 0}).valid());
+  EXPECT_FALSE(show.scene.tree().resolve("game/ball", {1, 0}).valid());
 }
 
 TEST(Scene, AFileThatComesLateTakesEffectAndIsToldWhenItWasDecided) {
@@ -123,13 +123,14 @@ TEST(Scene, AFileThatComesLateTakesEffectAndIsToldWhenItWasDecided) {
   show.frames(1);
   show.scene.command("game", Verb::Load, {}, signatureAt(1, 60).time);
   show.frames(11);
-  EXPECT_EQ(show.scene.loadCount(), 1u) << "due at 0.117 s; frame 11 is at 0.183 s";
-  EXPECT_TRUE(show.scene.awaits(2));
+  EXPECT_EQ(show.scene.tree().loads().size(), 1u) << "due at 0.117 s; frame 11 is at 0.183 s";
+  EXPECT_TRUE(show.scene.requests().awaits(2));
   show.frames(1);
-  EXPECT_EQ(show.scene.loadCount(), 2u) << "frame 12 is at 0.2 s";
-  EXPECT_FALSE(show.scene.awaits(2));
+  EXPECT_EQ(show.scene.tree().loads().size(), 2u) << "frame 12 is at 0.2 s";
+  EXPECT_FALSE(show.scene.requests().awaits(2));
   show.frames(2);
-  const auto& ear = dynamic_cast<const ListeningNode&>(*show.scene.find(show.scene.resolve("ear", {1, 0})));
+  const auto& ear =
+      dynamic_cast<const ListeningNode&>(*show.scene.find(show.scene.tree().resolve("ear", {1, 0})));
   ASSERT_EQ(ear.heard.size(), 1u);
   EXPECT_EQ(ear.heard[0].frame, 13u);
 }
@@ -144,7 +145,7 @@ TEST(Scene, WithoutMemoryToDisposeOfItsFilesItGoesAllTheSame) {
   {
     Scene scene(loader, meshes, 1);
     ASSERT_TRUE(scene.open("show"));
-    ASSERT_EQ(scene.loadCount(), 2u);
+    ASSERT_EQ(scene.tree().loads().size(), 2u);
     loader.lacksMemory = true;
   }
   EXPECT_EQ(loader.disposed, 2u);
@@ -163,9 +164,9 @@ TEST(Scene, AFileThatIsUnloadedBeforeItComesDoesNotStay) {
   show.frames(2);
   show.scene.command("game", Verb::Unload, {}, show.input.time);
   show.frames(40);
-  EXPECT_EQ(show.scene.loadCount(), 1u);
+  EXPECT_EQ(show.scene.tree().loads().size(), 1u);
   EXPECT_EQ(show.loader.disposed, 1u);
-  EXPECT_FALSE(show.scene.awaits(2));
+  EXPECT_FALSE(show.scene.requests().awaits(2));
 }
 
 TEST(Scene, NamesResolveInTheFileThenOutwards) {
@@ -181,11 +182,11 @@ TEST(Scene, NamesResolveInTheFileThenOutwards) {
   };
   show.scene.open("show");
   show.frame();
-  EXPECT_EQ(show.scene.resolve("ball", {2, 0}), (NodeRef{2, 0}));
-  EXPECT_EQ(show.scene.resolve("field", {2, 0}), (NodeRef{1, 1}));
-  EXPECT_EQ(show.scene.resolve("game/own", {1, 0}), (NodeRef{2, 1}));
-  EXPECT_FALSE(show.scene.resolve("own", {1, 0}).valid());
-  EXPECT_FALSE(show.scene.resolve("game/field", {1, 0}).valid());
+  EXPECT_EQ(show.scene.tree().resolve("ball", {2, 0}), (NodeRef{2, 0}));
+  EXPECT_EQ(show.scene.tree().resolve("field", {2, 0}), (NodeRef{1, 1}));
+  EXPECT_EQ(show.scene.tree().resolve("game/own", {1, 0}), (NodeRef{2, 1}));
+  EXPECT_FALSE(show.scene.tree().resolve("own", {1, 0}).valid());
+  EXPECT_FALSE(show.scene.tree().resolve("game/field", {1, 0}).valid());
 }
 
 TEST(Scene, MessagesToAnUnloadedNodeAreCountedAndHarmless) {

@@ -78,10 +78,10 @@ public:
 protected:
   void onEnter(Scene& scene) override {
     PlacedNode::onEnter(scene);
-    if (mesh_ != kNoMesh) instance_ = scene.addInstance(placement(), mesh_, true, self());
+    if (mesh_ != kNoMesh) instance_ = scene.instances().add(placement(), mesh_, true, self());
   }
   void onLeave(Scene& scene) override {
-    if (mesh_ != kNoMesh) scene.removeInstance(instance_);
+    if (mesh_ != kNoMesh) scene.instances().remove(instance_);
     PlacedNode::onLeave(scene);
   }
   void simulate(FrameContext& frame) override {

@@ -3,6 +3,7 @@
 #include "engine/asset/import.h"
 #include "engine/asset/importer_answer.h"
 #include "engine/input/scripted_input.h"
+#include "engine/scene/scene_snapshot.h"
 #include "pipeline/cluster/orders.h"
 #include "tests/fuzz/built_show.h"
 #include "tests/fuzz/packets.h"
@@ -162,7 +163,7 @@ void writeStates(const Folder& to) {
     int count = 0;
     for (const int frames : {1, 1, 30, 30, 120}) {
       show.play(static_cast<std::uint64_t>(frames));
-      Seed seed = show.scene().save();
+      Seed seed = SceneSnapshot(show.scene()).save();
       seed.insert(seed.begin(), static_cast<std::uint8_t>(which));
       to.add(std::string(kShows[which].name) + '_' + std::to_string(++count), seed);
     }

@@ -1,3 +1,4 @@
+#include "engine/scene/scene_snapshot.h"
 #include "tests/fuzz/built_show.h"
 #include "tests/fuzz/targets.h"
 
@@ -25,11 +26,12 @@ void scene_state(Bytes bytes) {
   static std::array<std::unique_ptr<BuiltShow>, std::size(kShows)> shows;
   if (!shows[which]) shows[which] = playing(workshop, kShows[which]);
   BuiltShow joining(workshop, kShows[which]);
-  if (!joining.scene().restore(bytes, std::string(kShows[which].name))) {
-    require(!joining.scene().difference(joining.scene().save()), "what is written down is what is there");
+  if (!SceneSnapshot(joining.scene()).restore(bytes, std::string(kShows[which].name))) {
+    require(!SceneSnapshot(joining.scene()).difference(SceneSnapshot(joining.scene()).save()),
+            "what is written down is what is there");
     if (!kShows[which].bodies) joining.goOn();
   }
-  const auto differs = shows[which]->scene().difference(bytes);
+  const auto differs = SceneSnapshot(shows[which]->scene()).difference(bytes);
   require(!differs || !differs->field.empty(), "a difference has a name");
 }
 

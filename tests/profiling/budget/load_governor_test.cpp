@@ -66,7 +66,7 @@ struct Governed : ShowFixture {
     double app = 0.1;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const NodeRef ref{1, static_cast<std::uint32_t>(i)};
-      const Load* load = scene.load(1);
+      const Load* load = scene.tree().load(1);
       if (reliefAt(load->terms.at(ref.position).gives, levels[ref]).rests) continue;
       governor->take(0, span(Span::Simulate, at, nodes[i], kNoWall, ref));
       app += nodes[i];
@@ -84,10 +84,10 @@ struct Governed : ShowFixture {
   }
   /// The annex comes or goes.
   void annex(Verb verb) {
-    const std::uint64_t before = scene.loadsVersion();
+    const std::uint64_t before = scene.tree().version();
     scene.command("annex", verb, {}, 0);
-    for (int i = 0; i < 200 && scene.loadsVersion() == before; ++i) ShowFixture::frame();
-    ASSERT_NE(scene.loadsVersion(), before);
+    for (int i = 0; i < 200 && scene.tree().version() == before; ++i) ShowFixture::frame();
+    ASSERT_NE(scene.tree().version(), before);
     names.see(scene);
     governor->see(scene);
   }
@@ -137,7 +137,7 @@ struct Drawn : Governed {
 
   void draw(std::uint64_t count, double ms) {
     for (; count > 0; --count) {
-      const bool hidden = reliefAt(scene.load(1)->terms.at(0).gives, level(0)).hidden;
+      const bool hidden = reliefAt(scene.tree().load(1)->terms.at(0).gives, level(0)).hidden;
       if (at % 16 == 9 && !hidden) {
         const DrawnAlone alone{at, 0, 0, Span::Draw, ms, 0};
         governor->take(alone, {{NodeRef{1, 0}, 1}});

@@ -41,7 +41,7 @@ struct Annexed : ShowFixture {
   /// Of the load that has that file now; 0 = it is not there.
   std::uint32_t loadOf(const std::string& file) {
     std::uint32_t number = 0;
-    scene.forEachLoad([&](const Load& load) {
+    scene.tree().forEachLoad([&](const Load& load) {
       if (load.file == file) number = load.number;
     });
     return number;

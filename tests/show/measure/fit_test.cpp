@@ -114,7 +114,7 @@ RigidFlight landingOf(const std::string& script, double height) {
     ChangeSet changes;
     Scene& scene = player->scene();
     scene.advance(signatureAt(frame, 60), {}, changes, nullptr);
-    const auto* body = dynamic_cast<DynObjectNode*>(scene.find(scene.resolve("thing", {1, 0})));
+    const auto* body = dynamic_cast<DynObjectNode*>(scene.find(scene.tree().resolve("thing", {1, 0})));
     if (!body) break;
     before = now;
     now.p = body->state().p, now.v = body->state().v;

@@ -34,7 +34,7 @@ Moment momentOf(double time, Scene& scene) {
   Moment m;
   m.time = time;
   for (const char* name : {"pelvis", "head", "right_hand", "left_hand", "right_foot", "left_foot", "held"}) {
-    const auto* node = dynamic_cast<const PlacedNode*>(scene.find(scene.resolve(name, {1, 0})));
+    const auto* node = dynamic_cast<const PlacedNode*>(scene.find(scene.tree().resolve(name, {1, 0})));
     if (node) m.at[name] = scene.placements().world(node->placement()).translation();
   }
   return m;

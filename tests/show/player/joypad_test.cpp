@@ -27,7 +27,7 @@ Ends playJoypad(double rate) {
   tell(findings);
   if (!player) return ends;
   const auto ball = [&](const char* name) {
-    const Node* node = player->scene().find(player->scene().resolve(name, {1, 0}));
+    const Node* node = player->scene().find(player->scene().tree().resolve(name, {1, 0}));
     return dynamic_cast<const DynObjectNode&>(*node).state().p;
   };
   ShowStages stages(player->parts(StereoLayout::Pair));

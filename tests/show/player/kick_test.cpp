@@ -51,11 +51,11 @@ std::vector<Vec3> footCorners() {
 }
 
 KickMoment momentOf(const TimeSignature& now, Scene& scene, const std::vector<Vec3>& corners) {
-  const auto named = [&](const char* name) { return scene.find(scene.resolve(name, {1, 0})); };
+  const auto named = [&](const char* name) { return scene.find(scene.tree().resolve(name, {1, 0})); };
   const auto& ball = dynamic_cast<const DynObjectNode&>(*named("ball"));
   const auto& leg = dynamic_cast<const PlacedNode&>(*named("dummy_leg"));
   const Affine X = scene.placements().world(leg.placement());
-  const NodeRef kick = scene.resolve("kick", {1, 0});
+  const NodeRef kick = scene.tree().resolve("kick", {1, 0});
   KickMoment m;
   m.time = toSeconds(now.time);
   m.ball = ball.state().p, m.v = ball.state().v, m.asleep = ball.state().asleep();

@@ -50,7 +50,7 @@ private:
 std::string playLive(const std::string& show, const std::string& log, Mode mode, bool relieved) {
   const auto player = openShow(show);
   if (!player) return {};
-  const auto at = [&](const char* name) { return player->scene().resolve(name, {1, 0}).position; };
+  const auto at = [&](const char* name) { return player->scene().tree().resolve(name, {1, 0}).position; };
   Scripted decider({{20, {1, at("game"), 1}},
                     {31, {1, at("game"), 3}},
                     {32, {1, at("bats"), 2}},

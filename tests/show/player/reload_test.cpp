@@ -53,7 +53,7 @@ struct Seen {
 };
 
 Affine placeOf(const std::string& name, Scene& scene) {
-  const Node* node = scene.find(scene.resolve(name, {1, 0}));
+  const Node* node = scene.find(scene.tree().resolve(name, {1, 0}));
   return scene.placements().world(dynamic_cast<const PlacedNode&>(*node).placement());
 }
 

@@ -2,6 +2,7 @@
 /// and the same to be drawn, frame by frame.
 
 #include "engine/core/state_fields.h"
+#include "engine/scene/scene_snapshot.h"
 #include "pipeline/loop/frame_loop.h"
 #include "show/player/player.h"
 #include "tests/programs/program.h"
@@ -117,11 +118,12 @@ TEST_P(SavedState, GoesOnAsIfNothingHadBeen) {
     }
     if (n % (script.frames / kTimes) != 5) continue;
     if (copies.size() == kMostCopies) copies.erase(copies.begin());
-    const auto state = std::make_shared<const std::vector<std::uint8_t>>(played.scene().save());
+    const auto state =
+        std::make_shared<const std::vector<std::uint8_t>>(SceneSnapshot(played.scene()).save());
     auto copy = openScript(script, state);
     ASSERT_TRUE(copy) << "after frame " << n;
     EXPECT_EQ(copy->scene().stateHash(), played.scene().stateHash()) << "after frame " << n;
-    const std::vector<std::uint8_t> again = copy->scene().save();
+    const std::vector<std::uint8_t> again = SceneSnapshot(copy->scene()).save();
     EXPECT_EQ(again.size(), state->size()) << "after frame " << n;
     EXPECT_TRUE(again == *state) << "written down again after frame " << n << " it is something else";
     copies.push_back({n, std::make_unique<Played>(std::move(copy), script.rate)});
@@ -130,7 +132,8 @@ TEST_P(SavedState, GoesOnAsIfNothingHadBeen) {
     EXPECT_EQ(copies.back().played->seen(), played.seen()) << "as it stands after frame " << n;
   }
   for (Copy& copy : copies)
-    EXPECT_TRUE(copy.played->scene().save() == played.scene().save()) << "put back after frame " << copy.from;
+    EXPECT_TRUE(SceneSnapshot(copy.played->scene()).save() == SceneSnapshot(played.scene()).save())
+        << "put back after frame " << copy.from;
 }
 
 /// What has stood for long has nothing to make up for; what goes on does so every frame.
@@ -161,7 +164,7 @@ sound( name=hum, file=thud.wav, loop=on )
   constexpr std::uint64_t kDay = 8640;
   Played played(openScript(script), rate);
   for (std::uint64_t n = 0; n < kDay; ++n) played.frame(n);
-  const auto state = std::make_shared<const std::vector<std::uint8_t>>(played.scene().save());
+  const auto state = std::make_shared<const std::vector<std::uint8_t>>(SceneSnapshot(played.scene()).save());
   auto copy = openScript(script, state);
   ASSERT_TRUE(copy);
   Played on(std::move(copy), rate);

@@ -30,7 +30,7 @@ TEST(ShowTexts, ASubSceneIsLoadedAsItWasWhenTheShowWasOpenedWhateverBecomesOfIts
     ShowStages stages(std::move(parts));
     EXPECT_FALSE(play(stages, Mode::Sequential, 1, 30).failure);
     EXPECT_TRUE(loaded) << "part.evs with \"" << later << '"';
-    EXPECT_TRUE(player->scene().find(player->scene().resolve("part/inside", {1, 0})));
+    EXPECT_TRUE(player->scene().find(player->scene().tree().resolve("part/inside", {1, 0})));
   }
 }
 

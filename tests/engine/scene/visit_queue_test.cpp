@@ -1,4 +1,4 @@
-#include "engine/scene/agenda.h"
+#include "engine/scene/visit_queue.h"
 
 #include "engine/nodes/group_node.h"
 #include "tests/engine/scene/show_fixture.h"
@@ -19,73 +19,73 @@ private:
   Rank rank_;
 };
 
-std::vector<std::uint32_t> takeAll(Agenda& agenda) {
+std::vector<std::uint32_t> takeAll(VisitQueue& queue) {
   std::vector<std::uint32_t> order;
-  for (; agenda.next(); agenda.take()) order.push_back(agenda.next()->visit.node.position);
+  for (; queue.next(); queue.take()) order.push_back(queue.next()->visit.node.position);
   return order;
 }
 
 using Order = std::vector<std::uint32_t>;
 
-TEST(Agenda, VisitsByRankThenByPositionHoweverTheyWereCalled) {
+TEST(VisitQueue, VisitsByRankThenByPositionHoweverTheyWereCalled) {
   RankedNode late(1, Rank::Dynamics), early(7, Rank::Input), middle(3, Rank::Motion), other(2, Rank::Motion);
-  Agenda agenda;
-  for (Node* node : {static_cast<Node*>(&late), static_cast<Node*>(&middle)}) agenda.setBusy(*node, true);
-  agenda.begin();
+  VisitQueue queue;
+  for (Node* node : {static_cast<Node*>(&late), static_cast<Node*>(&middle)}) queue.setBusy(*node, true);
+  queue.begin();
   for (Node* node : {static_cast<Node*>(&other), static_cast<Node*>(&early), static_cast<Node*>(&late)})
-    agenda.call(*node);
-  agenda.sort();
-  EXPECT_EQ(takeAll(agenda), (Order{7, 2, 3, 1}));
-  agenda.begin();
-  EXPECT_EQ(takeAll(agenda), (Order{3, 1})) << "who was only called once is not visited again";
+    queue.call(*node);
+  queue.sort();
+  EXPECT_EQ(takeAll(queue), (Order{7, 2, 3, 1}));
+  queue.begin();
+  EXPECT_EQ(takeAll(queue), (Order{3, 1})) << "who was only called once is not visited again";
 }
 
-TEST(Agenda, WhoIsCalledWhileARoundIsUnderWayHasItsTurnOnce) {
+TEST(VisitQueue, WhoIsCalledWhileARoundIsUnderWayHasItsTurnOnce) {
   RankedNode a(1, Rank::Motion), b(2, Rank::Motion), c(3, Rank::Motion);
-  Agenda agenda;
-  agenda.setBusy(a, true), agenda.setBusy(c, true);
-  agenda.begin();
-  agenda.take();
-  for (int i = 0; i < 3; ++i) agenda.callNow(c), agenda.callNow(b);
-  EXPECT_EQ(takeAll(agenda), (Order{2, 3}));
-  agenda.callNow(a);
-  EXPECT_EQ(takeAll(agenda), (Order{1})) << "its turn had come, but it was called once more";
+  VisitQueue queue;
+  queue.setBusy(a, true), queue.setBusy(c, true);
+  queue.begin();
+  queue.take();
+  for (int i = 0; i < 3; ++i) queue.callNow(c), queue.callNow(b);
+  EXPECT_EQ(takeAll(queue), (Order{2, 3}));
+  queue.callNow(a);
+  EXPECT_EQ(takeAll(queue), (Order{1})) << "its turn had come, but it was called once more";
 }
 
-TEST(Agenda, IsWhatASortedSetWouldBe) {
+TEST(VisitQueue, IsWhatASortedSetWouldBe) {
   std::mt19937 random(11);
   std::vector<std::unique_ptr<RankedNode>> nodes;
   for (std::uint32_t i = 0; i < 40; ++i)
     nodes.push_back(std::make_unique<RankedNode>(i, static_cast<Rank>(random() % 6)));
   const auto visitOf = [&](std::size_t i) { return Visit::of(*nodes[i]); };
-  Agenda agenda;
+  VisitQueue queue;
   std::set<Visit> busy;
   for (int round = 0; round < 500; ++round) {
     for (std::uint32_t n = random() % 8; n > 0; --n) {
       const std::size_t i = random() % nodes.size();
       const bool on = random() % 2 == 0;
-      agenda.setBusy(*nodes[i], on);
+      queue.setBusy(*nodes[i], on);
       if (on)
         busy.insert(visitOf(i));
       else
         busy.erase(visitOf(i));
     }
-    agenda.begin();
+    queue.begin();
     std::set<Visit> expected = busy;
     for (std::uint32_t n = random() % 4; n > 0; --n) {
       const std::size_t i = random() % nodes.size();
-      agenda.call(*nodes[i]), expected.insert(visitOf(i));
+      queue.call(*nodes[i]), expected.insert(visitOf(i));
     }
-    agenda.sort();
+    queue.sort();
     while (!expected.empty()) {
-      ASSERT_TRUE(agenda.next());
-      const Visit now = agenda.next()->visit;
+      ASSERT_TRUE(queue.next());
+      const Visit now = queue.next()->visit;
       ASSERT_EQ(now, *expected.begin());
-      agenda.take(), expected.erase(expected.begin());
+      queue.take(), expected.erase(expected.begin());
       const std::size_t i = random() % nodes.size();
-      if (random() % 3 == 0 && now < visitOf(i)) agenda.callNow(*nodes[i]), expected.insert(visitOf(i));
+      if (random() % 3 == 0 && now < visitOf(i)) queue.callNow(*nodes[i]), expected.insert(visitOf(i));
     }
-    ASSERT_FALSE(agenda.next());
+    ASSERT_FALSE(queue.next());
   }
 }
 

@@ -1,4 +1,4 @@
-#include "engine/scene/agenda.h"
+#include "engine/scene/visit_queue.h"
 
 #include <algorithm>
 #include <functional>
@@ -6,18 +6,18 @@
 namespace stadion {
 namespace {
 
-Agenda::Entry entryOf(Node& node) {
+VisitQueue::Entry entryOf(Node& node) {
   return {Visit::of(node), &node};
 }
 
-void sortOut(std::vector<Agenda::Entry>& entries) {
+void sortOut(std::vector<VisitQueue::Entry>& entries) {
   std::ranges::sort(entries);
   entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
 }
 
 }  // namespace
 
-void Agenda::setBusy(Node& node, bool busy) {
+void VisitQueue::setBusy(Node& node, bool busy) {
   if (node.standing().busy == busy) return;
   node.standing().busy = busy;
   if (busy)
@@ -26,7 +26,7 @@ void Agenda::setBusy(Node& node, bool busy) {
     left_ = true;
 }
 
-void Agenda::settle() {
+void VisitQueue::settle() {
   if (!joining_.empty()) {
     busy_.insert(busy_.end(), joining_.begin(), joining_.end());
     joining_.clear();
@@ -36,39 +36,39 @@ void Agenda::settle() {
   left_ = false;
 }
 
-void Agenda::reorder() {
+void VisitQueue::reorder() {
   settle();
   for (Entry& e : busy_) e.visit = Visit::of(*e.node);
   sortOut(busy_);
 }
 
-void Agenda::begin() {
+void VisitQueue::begin() {
   settle();
   round_ = busy_;
   at_ = 0;
   later_.clear();
 }
 
-void Agenda::call(Node& node) {
+void VisitQueue::call(Node& node) {
   round_.push_back(entryOf(node));
 }
 
-void Agenda::sort() {
+void VisitQueue::sort() {
   if (std::ranges::adjacent_find(round_, std::greater_equal<>()) != round_.end()) sortOut(round_);
 }
 
-void Agenda::callNow(Node& node) {
+void VisitQueue::callNow(Node& node) {
   later_.push_back(entryOf(node));
   std::ranges::push_heap(later_, std::greater<>());
 }
 
-const Agenda::Entry* Agenda::next() const {
+const VisitQueue::Entry* VisitQueue::next() const {
   const Entry* first = at_ < round_.size() ? &round_[at_] : nullptr;
   if (!later_.empty() && (!first || later_.front() < *first)) first = &later_.front();
   return first;
 }
 
-void Agenda::take() {
+void VisitQueue::take() {
   const Entry taken = *next();
   if (at_ < round_.size() && round_[at_] == taken) ++at_;
   while (!later_.empty() && later_.front() == taken) {

@@ -1,0 +1,102 @@
+#pragma once
+/// Applies the degradation of nodes that cost too much: who must run less often, simplify its meshes or hide.
+///
+/// Decisions are made elsewhere (engine/core/load_control.h). They arrive with the time signature of a frame
+/// and take effect at its start. A decision about a node also holds for all nodes below it.
+///
+/// Ownership  borrows its collaborators.
+/// Threads    App only.
+/// Errors     decisions that name no such node or level are ignored: a log may belong to another version of
+///            the script.
+
+#include "engine/core/load_control.h"
+#include "engine/scene/instances.h"
+#include "engine/scene/placements.h"
+#include "engine/scene/scene_time.h"
+#include "engine/scene/scene_tree.h"
+
+#include <cstdint>
+#include <map>
+#include <set>
+
+namespace stadion {
+
+class Degradation {
+public:
+  /// The time for which a node's cycle runs.
+  struct Turn {
+    TimeSignature now;  ///< its step includes the frames that the node missed
+    bool rested;        ///< the node's own time stood still up to this frame's start
+  };
+
+  Degradation(SceneTree& tree, Placements& placements, Instances& instances, const SceneTime& time)
+      : tree_(tree), placements_(placements), instances_(instances), time_(time) {}
+
+  // For nodes.
+
+  /// What the node must do without, because it or something above it costs too much.
+  Relief of(NodeRef node) const {
+    if (reliefs_.empty()) return {};
+    const auto at = reliefs_.find(node);
+    return at == reliefs_.end() ? Relief{} : at->second;
+  }
+  /// Factor by which everything counts as farther away when levels of detail are chosen.
+  double stress() const { return stressOf(stressLevel_); }
+
+  // For the scene.
+
+  void apply(const TimeSignature& now);
+  /// Whether any node must do without something.
+  bool any() const { return !reliefs_.empty(); }
+  /// Whether the node's cycle does not run in this frame. If so, notes once what the node misses.
+  bool putOff(Node& node);
+  /// Keeps a node waiting that was woken and is put off.
+  void keepWaiting(NodeRef node) { waiting_.insert(node); }
+  /// Calls `wake` for each waiting node that is put off no longer, also if it is gone.
+  template <class Wake>
+  void wakeWaiting(const Wake& wake) {
+    std::erase_if(waiting_, [&](NodeRef ref) {
+      Node* node = tree_.find(ref);
+      if (node && putOff(*node)) return false;
+      wake(ref);
+      return true;
+    });
+  }
+  /// The turn of a node whose cycle runs in this frame. It has then missed nothing.
+  Turn turnOf(Node& node, const TimeSignature& now);
+  void forget(std::uint32_t load);
+
+  void hash(StateHash& h) const;
+  void state(StateFields& f);
+  bool consistent() const;
+
+private:
+  struct Paced {
+    Nanoseconds since = 0;  ///< when its last cycle ended
+    bool rests = false;
+
+    template <class Self, class Fields>
+    static void fields(Self& p, Fields& f) {
+      f("since", p.since), f("rests", p.rests);
+    }
+  };
+
+  void apply(const LoadDecision& decision);
+  void spread();
+  void relieve(NodeRef node, const Relief& before, const Relief& now);
+  const NodeTerms* termsOf(NodeRef node) const;
+  bool isPutOff(Node& node) const;
+
+  SceneTree& tree_;
+  Placements& placements_;
+  Instances& instances_;
+  const SceneTime& time_;
+  std::map<NodeRef, std::uint32_t> levels_;  ///< of the nodes that were decided about
+  std::map<NodeRef, Relief> reliefs_;        ///< of these and all below them
+  std::uint64_t treeVersion_ = 0;            ///< the tree's when reliefs_ were found
+  std::uint32_t stressLevel_ = 0;
+  std::set<NodeRef> waiting_;       ///< woken and put off
+  std::map<NodeRef, Paced> paced_;  ///< nodes that missed something
+};
+
+}  // namespace stadion

@@ -1,0 +1,111 @@
+#pragma once
+/// The drawn instances of nodes: a mesh at a placement, each published as one InstanceRecord.
+///
+/// A change marks an instance; publishing writes the record of marked instances and of those whose placement
+/// moved, each once a frame.
+///
+/// Frames     records are in World.
+/// Ownership  borrows placements and meshes.
+/// Threads    App only.
+/// Errors     ids and handles are the caller's to keep: expects that they exist. consistent() checks those of
+///            a restored snapshot.
+
+#include "engine/asset/mesh_store.h"
+#include "engine/published/records.h"
+#include "engine/scene/placements.h"
+#include "engine/scene/scene_time.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace stadion {
+
+class Degradation;
+class StateFields;
+
+class Instances {
+public:
+  Instances(Placements& placements, MeshStore& meshes, const SceneTime& time)
+      : placements_(placements), meshes_(meshes), time_(time) {}
+
+  // For nodes.
+
+  InstanceId add(PlacementId placement, MeshId mesh, bool drawn, NodeRef owner);
+  void remove(InstanceId id);
+  void setDrawn(InstanceId id, bool drawn);
+  /// Sets what the instance shows; kNoMesh = nothing.
+  void setMesh(InstanceId id, MeshId mesh);
+  /// Whether the instance exists and belongs to `owner`; nodes ask this when they are restored.
+  bool owns(InstanceId id, NodeRef owner) const {
+    return id < all_.size() && all_[id].live && all_[id].owner == owner;
+  }
+  const Mesh* mesh(MeshId id) const { return meshes_.find(id); }
+  /// Adds a mesh that a node has made; the node gives it back with releaseMesh().
+  MeshId addMesh(std::unique_ptr<const Mesh> mesh) { return meshes_.add(std::move(mesh)); }
+  void releaseMesh(MeshId mesh);
+
+  // For the scene.
+
+  /// Marks all instances at the placement.
+  void markAt(PlacementId placement);
+  /// Publishes the unmarked instances at a placement that moved.
+  void publishAt(PlacementId placement, const Degradation& degradation, ChangeSet& changes) {
+    if (placement < first_.size() && first_[placement] != kNone) publishAll(placement, degradation, changes);
+  }
+  /// Publishes the unmarked instances at a fleet's members.
+  void publishFleet(std::span<const PlacementId> ids, std::span<const MemberPlace> places,
+                    const Degradation& degradation, ChangeSet& changes);
+  /// Publishes the marked instances and hands on all records that are left.
+  void publishMarked(const Degradation& degradation, ChangeSet& changes);
+  /// How many records were published since the last call.
+  std::uint64_t takePublished() { return std::exchange(published_, 0); }
+
+  void state(StateFields& f);
+  bool consistent() const;
+  /// After state() has restored: finds the meshes again and marks all instances.
+  void resume();
+  /// Whether every instance has found its mesh.
+  bool complete() const;
+
+private:
+  static constexpr InstanceId kNone = ~InstanceId{0};
+  struct Instance {
+    const Mesh* form = nullptr;  ///< what `mesh` names; null = nothing
+    PlacementId placement = kNoPlacement;
+    MeshId mesh = kNoMesh;
+    NodeRef owner;
+    InstanceId next = kNone;  ///< at the same placement
+    bool drawn : 1 = true, live : 1 = false, changed : 1 = false;
+    bool transparent : 1 = false, leveled : 1 = false;  ///< of its form; leveled: it has simplified levels
+
+    template <class Self, class Fields>
+    static void fields(Self& i, Fields& f) {
+      bool drawn = i.drawn, live = i.live;
+      f("placement", i.placement), f("mesh", i.mesh), f("owner", i.owner), f("next", i.next);
+      f("drawn", drawn), f("live", live);
+      if (f.restores()) i.drawn = drawn, i.live = live;
+    }
+  };
+
+  void mark(InstanceId id);
+  void findForm(Instance& i) const;
+  void publishAll(PlacementId placement, const Degradation& degradation, ChangeSet& changes);
+  void publish(const Instance& i, InstanceId id, const Affine& X_WN, bool shown,
+               const Degradation& degradation, ChangeSet& changes);
+  static void describe(const Instance& i, bool shown, const Degradation& degradation, InstanceRecord& r);
+  InstanceRecord& nextRecord(InstanceId id, ChangeSet& changes);
+  static void handOn(ChangeSet& changes);
+
+  Placements& placements_;
+  MeshStore& meshes_;
+  const SceneTime& time_;
+  std::vector<Instance> all_;  ///< by id
+  std::vector<InstanceId> free_, changed_;
+  std::vector<InstanceId> first_;  ///< by placement: the first of its instances
+  std::uint64_t published_ = 0;
+};
+
+}  // namespace stadion

@@ -1,0 +1,137 @@
+#include "engine/scene/node_schedule.h"
+
+#include "engine/core/state_fields.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace stadion {
+
+void NodeSchedule::begin(const Scene& scene) {
+  findLevels(scene);
+  queue_.begin();
+  if (degradation_.any()) queue_.leaveOut([&](Node& node) { return degradation_.putOff(node); });
+  degradation_.wakeWaiting([&](NodeRef ref) { wokenLate_.push_back(ref); });
+}
+
+bool NodeSchedule::call(NodeRef ref) {
+  Node* node = tree_.find(ref);
+  if (node) queue_.call(*node);
+  return node != nullptr;
+}
+
+void NodeSchedule::callDue(Nanoseconds now) {
+  while (!alarms_.empty() && alarms_.begin()->at <= now) {
+    call(alarms_.begin()->node);
+    alarms_.erase(alarms_.begin());
+  }
+  wokenBefore_.swap(wokenLate_);
+  for (const NodeRef ref : wokenBefore_) call(ref);
+  wokenBefore_.clear();
+  if (loadsTold_ != tree_.version())
+    for (const NodeRef ref : loadWatchers_) call(ref);
+  loadsTold_ = tree_.version();
+  queue_.sort();
+  wakeWatchers();
+}
+
+/// Finds the levels: a node comes after the nodes whose results it looks at. Which node moves what is known
+/// one round after it has entered.
+void NodeSchedule::findLevels(const Scene& scene) {
+  if (levelsLoads_ == tree_.version() && levelsSettled_) return;
+  levelsSettled_ = levelsLoads_ == tree_.version();
+  levelsLoads_ = tree_.version();
+  std::map<NodeRef, std::vector<NodeRef>> movers;
+  for (const NodeRef ref : loadWatchers_)
+    if (const Node* node = tree_.find(ref)) node->addMovers(scene, movers[ref]);
+  std::erase_if(movers, [](const auto& entry) { return entry.second.empty(); });
+  const auto reaches = [&](NodeRef from, NodeRef to) {
+    std::set<NodeRef> seen{from};
+    std::vector<NodeRef> open{from};
+    while (!open.empty()) {
+      const auto at = movers.find(open.back());
+      open.pop_back();
+      if (at == movers.end()) continue;
+      for (const NodeRef next : at->second) {
+        if (next == to) return true;
+        if (seen.insert(next).second) open.push_back(next);
+      }
+    }
+    return false;
+  };
+  // If two look at each other, the one that comes first in the file comes first here.
+  std::vector<std::pair<NodeRef, NodeRef>> mutual;
+  for (const auto& [ref, before] : movers)
+    for (const NodeRef mover : before)
+      if (ref < mover && reaches(mover, ref)) mutual.emplace_back(ref, mover);
+  for (const auto& [ref, mover] : mutual) std::erase(movers[ref], mover);
+  std::map<NodeRef, std::uint16_t> levels;
+  const std::function<std::uint16_t(NodeRef)> levelOf = [&](NodeRef ref) {
+    if (const auto known = levels.find(ref); known != levels.end()) return known->second;
+    std::uint16_t level = 0;
+    if (const auto at = movers.find(ref); at != movers.end())
+      for (const NodeRef mover : at->second) level = std::max<std::uint16_t>(level, levelOf(mover) + 1);
+    return levels[ref] = level;
+  };
+  bool changed = false;
+  for (const NodeRef ref : loadWatchers_)
+    if (Node* node = tree_.find(ref))
+      changed |= std::exchange(node->standing().level, levelOf(ref)) != levelOf(ref);
+  if (changed) queue_.reorder();
+}
+
+void NodeSchedule::wakeNow(NodeRef ref) {
+  Node* node = tree_.find(ref);
+  if (!node) return;
+  const Visit v = Visit::of(*node);
+  if (current_ && *current_ < v)
+    queue_.callNow(*node);
+  else if (!current_ || *current_ != v)
+    wokenLate_.push_back(ref);
+}
+
+void NodeSchedule::watch(PlacementId placement, NodeRef watcher) {
+  watchers_.insert({placement, watcher});
+  placements_.watch(placement);
+}
+
+void NodeSchedule::unwatch(PlacementId placement, NodeRef watcher) {
+  const auto [first, last] = watchers_.equal_range(placement);
+  const auto at = std::find_if(first, last, [&](const auto& w) { return w.second == watcher; });
+  if (at != last) watchers_.erase(at);
+}
+
+void NodeSchedule::wakeWatchers() {
+  for (const PlacementId p : placements_.takeMovedWatched()) {
+    const auto [first, last] = watchers_.equal_range(p);
+    // A node that moves what it watches does not wake itself.
+    for (auto at = first; at != last; ++at) {
+      const NodeRef ref = at->second;
+      if (current_ && current_->node == ref) continue;
+      Node* node = degradation_.any() ? tree_.find(ref) : nullptr;
+      if (node && degradation_.putOff(*node))
+        degradation_.keepWaiting(ref);
+      else
+        wakeNow(ref);
+    }
+  }
+}
+
+void NodeSchedule::stateOfAlarms(StateFields& f) {
+  f("wakes", alarms_), f("woken", wokenLate_);
+}
+
+void NodeSchedule::stateOfWatchers(StateFields& f) {
+  f("watchers", watchers_), f("load watchers", loadWatchers_);
+}
+
+void NodeSchedule::stateOfLevels(StateFields& f) {
+  f("loads told", loadsTold_), f("levels' loads", levelsLoads_), f("levels settled", levelsSettled_);
+}
+
+bool NodeSchedule::consistent() const {
+  return std::ranges::all_of(watchers_, [&](const auto& w) { return placements_.has(w.first); });
+}
+
+}  // namespace stadion
