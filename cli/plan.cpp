@@ -9,6 +9,7 @@
 #include "engine/base/installed_files.h"
 #include "engine/plain_text/number_text.h"
 #include "engine/base/plain_file.h"
+#include "engine/display/wall_file.h"
 #include "profiling/plan/diagram.h"
 #include "profiling/plan/report.h"
 #include "show/base/stop_signal.h"
@@ -29,7 +30,7 @@
 namespace stadion {
 namespace {
 
-constexpr std::size_t kMostWalls = 24;
+constexpr std::size_t kMostWalls = WallFile::kMaxWalls;
 constexpr std::uint64_t kFramesMeasured = 60;
 constexpr double kQuietPlan = 0.5;  ///< threads of others for each core
 

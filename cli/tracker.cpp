@@ -7,6 +7,7 @@
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/input/rig_calibration.h"
+#include "engine/input/tracker_names.h"
 #include "engine/maths/angles.h"
 #include "show/base/stop_signal.h"
 #include "show/console/tracker_device.h"
@@ -39,7 +40,7 @@ constexpr double kStill = 0.02;  ///< how far a held pose may stray [m]
 struct TrackerToolOptions {
   TrackerOptions trackers;
   double seconds = 0, eyeHeight = 0;
-  std::string floorTracker = "wand", headTracker = "head";
+  std::string floorTracker = kWandTracker, headTracker = kHeadTracker;
   bool json = false, calibrate = false;
 };
 

@@ -1,5 +1,6 @@
 #include "engine/build/lint.h"
 
+#include "engine/input/tracker_names.h"
 #include "engine/plain_text/suggestion.h"
 #include "engine/text/glyphs.h"
 #include "engine/text/text_mesh.h"
@@ -119,7 +120,7 @@ void lintLatencies(const Document& document, Nanoseconds step, Diagnostics& find
 
 void lintTrackers(const Document& document, const std::vector<std::string>& known, const std::string& log,
                   Diagnostics& findings) {
-  static const std::vector<std::string> kUsual = {"head", "wand", "foot"};
+  static const std::vector<std::string> kUsual = {kHeadTracker, kWandTracker, kFootTracker};
   Reporter report(document.source(), findings);
   const auto among = [](const std::vector<std::string>& names, std::string_view name) {
     return std::ranges::find(names, name) != names.end();

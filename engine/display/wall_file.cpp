@@ -28,7 +28,7 @@ public:
   }
 
   std::optional<WallFile> run() {
-    while (in_.next()) in_.read(*this, kStatements);
+    while (!tooMany_ && in_.next()) in_.read(*this, kStatements);
     if (in_.failed()) return std::nullopt;
     if (walls_.walls.empty()) {
       in_.errorOfFile("there is no wall in the file; add a line such as: wall front  lower-left -1.5 1.5 "
@@ -137,16 +137,21 @@ private:
       if (!corners_[i])
         return in_.errorAtEnd(
             fmt::format("wall \"{}\" has no {}; add: {} X Y Z", *name, kCorners[i].name, kCorners[i].name));
+    if (walls_.walls.size() == WallFile::kMaxWalls) return refuseMore("walls");
     for (const WallEntry& other : walls_.walls)
       if (other.wall.name == *name)
         return in_.error(nameWord,
                          fmt::format("there is a wall \"{}\" already, on line {}; give this one another "
                                      "name",
                                      *name, other.line));
-    if (walls_.walls.size() == WallFile::kMaxWalls)
-      return in_.error(in_.keyword(),
-                       fmt::format("a file has at most {} walls; leave this one out", WallFile::kMaxWalls));
     walls_.walls.push_back(std::move(entry_));
+  }
+
+  /// Ends the reading: more lines would only repeat the error.
+  void refuseMore(std::string_view what) {
+    in_.error(in_.keyword(), fmt::format("a file has at most {} {}; delete this line and those after it",
+                                         WallFile::kMaxWalls, what));
+    tooMany_ = true;
   }
 
   void output() {
@@ -155,6 +160,7 @@ private:
     const Word nameWord = in_.last();
     const auto read = readOutput(in_);
     if (!read) return;
+    if (outputs_.size() == WallFile::kMaxWalls) return refuseMore("outputs");
     for (const NamedOutput& other : outputs_)
       if (other.wall == *name)
         return in_.error(nameWord, fmt::format("wall \"{}\" has an output already, on line {}; keep one of "
@@ -193,6 +199,7 @@ private:
   std::array<bool, 3> corners_{};  ///< which of its corners the line has
   std::vector<NamedOutput> outputs_;
   std::size_t lengths_ = 0;
+  bool tooMany_ = false;  ///< walls or outputs
 };
 
 constexpr Statement<WallParser> WallParser::kStatements[7] = {

@@ -13,8 +13,8 @@
 ///     near LENGTH, far LENGTH   how near and far is drawn from the eye (0.1 m, 1000 m)
 ///     pixels WIDTH HEIGHT       of every wall that does not say otherwise (the run decides)
 ///     wall NAME lower-left X Y Z  lower-right X Y Z  upper-left X Y Z  [pixels WIDTH HEIGHT]
-/// Corners are in rig space (+X right, +Y forward, +Z up) as seen from inside the room. A file has 1 to 6
-/// walls.
+/// Corners are in rig space (+X right, +Y forward, +Z up) as seen from inside the room. A file has 1 to
+/// WallFile::kMaxWalls walls.
 ///
 /// Units    metres in memory, whatever the file's unit.
 /// Threads  plain values, any thread.
@@ -49,7 +49,8 @@ struct WallEntry {
 };
 
 struct WallFile {
-  static constexpr std::size_t kMaxWalls = 6;
+  /// Each wall takes two threads and an OpenGL context, or a process. A larger count is a mistake in the file.
+  static constexpr std::size_t kMaxWalls = 256;
 
   std::string file;              ///< as the user named it
   std::vector<WallEntry> walls;  ///< in file order

@@ -1,6 +1,7 @@
 #include "engine/input/rig_file.h"
 
 #include "engine/base/plain_file.h"
+#include "engine/input/tracker_names.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "engine/plain_text/statement_reader.h"
@@ -150,8 +151,8 @@ Pose RigFile::inRig(const Pose& X_SD, const RigTracker& tracker) const {
 
 RigFile standardRig() {
   RigFile rig;
-  rig.trackers.push_back({"head", {}, Vec3(0, 0, 1.7)});
-  rig.trackers.push_back({"wand", {}, {}});
+  rig.trackers.push_back({kHeadTracker, {}, Vec3(0, 0, 1.7)});
+  rig.trackers.push_back({kWandTracker, {}, {}});
   return rig;
 }
 

@@ -4,6 +4,7 @@
 #include "engine/core/node_registry.h"
 #include "engine/core/shared_rows.h"
 #include "engine/input/axis_course.h"
+#include "engine/input/tracker_names.h"
 #include "engine/maths/angles.h"
 #include "engine/nodes/rig_drive.h"
 #include "engine/scene/scene.h"
@@ -62,7 +63,7 @@ void NavigatorNode::drive(FrameContext& frame, Nanoseconds until) {
 
   const Course wand = way(t, frame, {Vec3::Zero(), q_RT_}, t->X_RT);
   const Pose head_R = frame.scene.feed().headInRig(frame.input);
-  const Course head = way(frame.input.find("head"), frame, {p_RH_, Quat::Identity()}, head_R);
+  const Course head = way(frame.input.find(kHeadTracker), frame, {p_RH_, Quat::Identity()}, head_R);
   const Nanoseconds from = std::max(since_, frame.start());
   std::vector<Nanoseconds> stops{from, until};
   for (const Course* course : {&wand, &head})

@@ -2,6 +2,7 @@
 /// The visitor's platform and what drives it.
 
 #include "engine/input/input_sample.h"
+#include "engine/input/tracker_names.h"
 #include "engine/nodes/switched.h"
 #include "engine/scene/placed_node.h"
 
@@ -37,7 +38,7 @@ public:
     double speed = 1.5;     ///< [m/s] at full deflection
     double turnRate = 0.8;  ///< [rad/s] at full deflection
     bool fly = false;
-    std::string tracker = "wand";
+    std::string tracker = kWandTracker;
   };
 
   NavigatorNode(NodeRef self, std::string name, Attributes a, bool on)

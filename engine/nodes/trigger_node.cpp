@@ -4,6 +4,7 @@
 #include "engine/build/node_request.h"
 #include "engine/core/node_registry.h"
 #include "engine/core/shared_rows.h"
+#include "engine/input/tracker_names.h"
 #include "engine/scene/scene.h"
 #include "engine/script/declaration_check.h"
 
@@ -53,13 +54,13 @@ const Course& TriggerNode::wayInRig(const FrameContext& frame) {
   way.clear();
   const TrackerSample* t = frame.input.find(tracker_);
   // A device without a pose is where the visitor is who holds it.
-  const bool byHead = tracker_ == "head" || (t && t->controlsOnly);
-  if (byHead) t = frame.input.find("head");
+  const bool byHead = tracker_ == kHeadTracker || (t && t->controlsOnly);
+  if (byHead) t = frame.input.find(kHeadTracker);
   if (looked_) {
     way.push_back({seen_, {p_RV_, Quat::Identity()}, false});
   } else if (seen_ < frame.now.time) {  // it begins to look inside this frame
     const InputSample& before = frame.scene.feed().lastInput();
-    const TrackerSample* was = byHead ? before.find("head") : before.find(tracker_);
+    const TrackerSample* was = byHead ? before.find(kHeadTracker) : before.find(tracker_);
     if (byHead && (was ? was->valid : !t || t->knots.empty()))
       way.push_back({frame.start(), {frame.scene.feed().headInRig(before).p, Quat::Identity()}, false});
     else if (was && was->valid)
@@ -231,7 +232,7 @@ std::unique_ptr<Node> makeTrigger(const NodeRequest& r) {
   }
   const bool wand = d.kind() == "wandtrigger";
   return std::make_unique<TriggerNode>(r.type(), r.self, r.name, r.place, region,
-                                       wand ? std::string(d.text("tracker")) : "head", d.flag("initstate"));
+                                       wand ? std::string(d.text("tracker")) : kHeadTracker, d.flag("initstate"));
 }
 
 void checkTrigger(DeclarationCheck& check) {

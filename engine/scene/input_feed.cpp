@@ -1,6 +1,7 @@
 #include "engine/scene/input_feed.h"
 
 #include "engine/core/state_fields.h"
+#include "engine/input/tracker_names.h"
 
 #include <algorithm>
 
@@ -12,7 +13,7 @@ Pose InputFeed::rigPose() const {
 }
 
 Pose InputFeed::headInRig(const InputSample& input) const {
-  const TrackerSample* head = input.find("head");
+  const TrackerSample* head = input.find(kHeadTracker);
   if (head && head->valid) return head->X_RT;
   return {Vec3(0, 0, rigs_.empty() ? 1.7 : rigs_.back().eyeHeight), Quat::Identity()};
 }

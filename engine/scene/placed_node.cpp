@@ -1,6 +1,7 @@
 #include "engine/scene/placed_node.h"
 
 #include "engine/input/input_sample.h"
+#include "engine/input/tracker_names.h"
 #include "engine/scene/scene.h"
 
 namespace stadion {
@@ -81,7 +82,7 @@ void PlacedNode::follow(const Message& m, FrameContext& frame) {
                                        : Held::All,
                frame.scene);
   tracker_ = m.arguments.size() > 1 ? m.arguments[1] : "";
-  if (tracker_.empty()) tracker_ = frame.input.find("foot") ? "foot" : "wand";
+  if (tracker_.empty()) tracker_ = frame.input.find(kFootTracker) ? kFootTracker : kWandTracker;
   traced_ = when;
   arrived_ = false;
 }

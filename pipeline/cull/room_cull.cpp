@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 
 namespace stadion {
 
@@ -25,9 +24,7 @@ const WallSeen& RoomCull::Seen::on(std::size_t wall) const {
 }
 
 RoomCull::RoomCull(std::vector<WallView> views, const BoundsKernels& kernels)
-    : views_(std::move(views)), search_(kernels) {
-  assert(views_.size() <= BoundsSearch::kMostVolumes);
-}
+    : views_(std::move(views)), search_(kernels) {}
 
 RoomCull::~RoomCull() = default;
 
@@ -89,17 +86,23 @@ void RoomCull::lookFor(const SlotView& state, double eyeSeparation, Found& found
     wallsOf_.push_back(wall);
   }
   eachTree(state, [&](const BoundsTree& tree, const auto& recordAt) {
-    for (const TreeSphere& sphere : search_.find(tree, volumes_))
-      if (const InstanceRecord* r = recordAt(tree.indexOf(sphere.place))) keep(sphere, *r, found);
-    for (std::size_t v = 0; v < volumes_.size(); ++v) found.walls[wallsOf_[v]].tested += search_.tested()[v];
+    for (std::size_t first = 0; first < volumes_.size(); first += BoundsSearch::kMostVolumes) {
+      const std::size_t count = std::min(BoundsSearch::kMostVolumes, volumes_.size() - first);
+      for (const TreeSphere& sphere : search_.find(tree, std::span(volumes_).subspan(first, count)))
+        if (const InstanceRecord* r = recordAt(tree.indexOf(sphere.place))) keep(sphere, first, *r, found);
+      for (std::size_t v = 0; v < count; ++v)
+        found.walls[wallsOf_[first + v]].tested += search_.tested()[v];
+    }
   });
 }
 
 /// On the walls that surely show it, and on those of which the records themselves must say.
-void RoomCull::keep(const TreeSphere& sphere, const InstanceRecord& r, Found& found) const {
+/// Bit v of the sphere's masks: volumes_[first + v].
+void RoomCull::keep(const TreeSphere& sphere, std::size_t first, const InstanceRecord& r,
+                    Found& found) const {
   for (unsigned bits = sphere.seen | sphere.unsure; bits != 0; bits &= bits - 1) {
-    const auto v = static_cast<std::size_t>(std::countr_zero(bits));
-    if (!((sphere.seen >> v) & 1)) {
+    const auto bit = static_cast<std::size_t>(std::countr_zero(bits)), v = first + bit;
+    if (!((sphere.seen >> bit) & 1)) {
       const Vec3 centre = Vec3(r.centre[0], r.centre[1], r.centre[2]) - volumes_[v].origin;
       if (!volumes_[v].volume.mayTouch(Sphere{centre, r.radius})) continue;
     }

@@ -54,7 +54,7 @@ public:
     Found* found_;
   };
 
-  /// Of at most BoundsSearch::kMostVolumes walls, in their order.
+  /// Of any number of walls, in their order.
   explicit RoomCull(std::vector<WallView> views, const BoundsKernels& kernels = bestBounds());
   ~RoomCull();
 
@@ -69,7 +69,7 @@ private:
   void lookFor(const SlotView& state, double eyeSeparation, Found& found);
   template <class Each>
   void eachTree(const SlotView& state, const Each& each);
-  void keep(const TreeSphere& sphere, const InstanceRecord& record, Found& found) const;
+  void keep(const TreeSphere& sphere, std::size_t first, const InstanceRecord& record, Found& found) const;
 
   const std::vector<WallView> views_;
   std::mutex mutex_;

@@ -1,5 +1,6 @@
 #include "pipeline/device/desk_visitor.h"
 
+#include "engine/input/tracker_names.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -149,7 +150,7 @@ void DeskVisitor::sampleAt(Nanoseconds showTime, InputSample& sample) {
 
 void DeskVisitor::fill(Nanoseconds showTime, InputSample& sample) const {
   sample.time = showTime;
-  sample.trackers = {tracker("head", headTold(), showTime), tracker("wand", {hand_, head().q}, showTime)};
+  sample.trackers = {tracker(kHeadTracker, headTold(), showTime), tracker(kWandTracker, {hand_, head().q}, showTime)};
   TrackerSample& wand = sample.trackers[1];
   wand.buttons = (buttons_ | padButtons_ | pressed_) & ~pressedAnew();
   for (std::size_t i = 0; i < axes_.size(); ++i)

@@ -1,5 +1,6 @@
 #include "pipeline/device/live_trackers.h"
 
+#include "engine/input/tracker_names.h"
 #include "engine/plain_text/text_line.h"
 
 #include <fmt/format.h>
@@ -86,17 +87,17 @@ bool LiveTrackers::sampleNow(InputSample& sample) {
 
 std::optional<HeadNow> LiveTrackers::headSoon(Nanoseconds ahead) {
   const std::lock_guard lock(mutex_);
-  return feed_.soon("head", clock_(), ahead);
+  return feed_.soon(kHeadTracker, clock_(), ahead);
 }
 
 void LiveTrackers::aimHead(Nanoseconds ahead) {
   const std::lock_guard lock(mutex_);
-  feed_.aim("head", ahead);
+  feed_.aim(kHeadTracker, ahead);
 }
 
 void LiveTrackers::freezeHead(bool frozen) {
   const std::lock_guard lock(mutex_);
-  feed_.freeze("head", clock_(), frozen);
+  feed_.freeze(kHeadTracker, clock_(), frozen);
 }
 
 void LiveTrackers::restart() {

@@ -1,5 +1,6 @@
 #include "pipeline/loop/show_stages.h"
 
+#include "engine/input/tracker_names.h"
 #include "pipeline/draw/warm_up_list.h"
 #include "pipeline/process/eyes_in_workers.h"
 #include "pipeline/wall/drawing_here.h"
@@ -95,7 +96,7 @@ void ShowStages::tellPublished() {
 }
 
 void ShowStages::noteMeasured(const InputSample& input) {
-  const TrackerSample* head = input.find("head");
+  const TrackerSample* head = input.find(kHeadTracker);
   measured_.reset();
   if (head && head->valid && head->measured > 0) measured_.emplace(std::chrono::nanoseconds(head->measured));
 }

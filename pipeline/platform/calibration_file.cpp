@@ -2,6 +2,7 @@
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/plain_file.h"
+#include "engine/display/wall_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -17,7 +18,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kFormat = "stadion-calibration";
 constexpr int kVersion = 1;
 constexpr std::size_t kMostBytes = 1 << 20;
-constexpr std::uint32_t kMostWalls = 64, kMostPixels = 16384, kMostProcessors = 1 << 16;
+constexpr std::uint32_t kMostWalls = WallFile::kMaxWalls, kMostPixels = 16384, kMostProcessors = 1 << 16;
 
 /// What a file says that cannot be.
 struct Wrong {

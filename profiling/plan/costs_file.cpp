@@ -1,5 +1,7 @@
 #include "profiling/plan/costs_file.h"
 
+#include "engine/display/wall_file.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -12,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "stadion-plan-costs 1";
 constexpr double kLongest = 1e7;  ///< [ms]
-constexpr std::size_t kMostWalls = 64, kMostPictures = 2;
+constexpr std::size_t kMostWalls = WallFile::kMaxWalls, kMostPictures = 2;
 
 struct Wrong {
   std::string what;

@@ -20,15 +20,23 @@ struct TableRow {
   Forecast forecast;
 };
 
+/// The table shows each number of walls of a small hall, and every eighth of a large one.
+bool hasRow(std::size_t walls, std::size_t most) {
+  constexpr std::size_t kSmall = 24;
+  return walls <= kSmall || walls % 8 == 0 || walls == most;
+}
+
 std::vector<TableRow> tableOf(const ShowCosts& costs, const Question& q) {
   std::vector<TableRow> rows;
-  for (std::size_t walls = 1; walls <= q.plan.walls; ++walls)
+  for (std::size_t walls = 1; walls <= q.plan.walls; ++walls) {
+    if (!hasRow(walls, q.plan.walls)) continue;
     for (const bool pipelined : {false, true}) {
       if (!(pipelined ? q.pipelined : q.sequential)) continue;
       Plan p = q.plan;
       p.walls = walls, p.pipelined = pipelined;
       rows.push_back({p, forecastOf(scheduleOf(costs.frames, p), p)});
     }
+  }
   return rows;
 }
 

@@ -16,8 +16,10 @@
 namespace stadion {
 namespace {
 
-constexpr char kMagic[16] = "stadion frames4";
+constexpr char kMagic[16] = "stadion frames5";
 constexpr std::string_view kAnyVersion = "stadion frames";
+constexpr std::size_t kMostWalls = 1024;  ///< that a file holds
+constexpr std::size_t kNameBytes = 32;
 
 Diagnostic problem(const std::string& file, const std::string& what) {
   return {Severity::Error, {file, 0, 0}, what, {}};
@@ -79,13 +81,59 @@ bool isSound(const FrameFacts& f, std::uint32_t walls) {
 
 }  // namespace
 
-/// What lies in the file.
+/// The beginning of the file. The names of the walls follow, then the frames: for each a FrameRecord, and for
+/// each wall the StageFacts of its Cull and its Draw.
 struct BlackBox::Ring {
   char magic[16] = {};
   std::uint32_t recordBytes = 0, capacity = 0, walls = 0, reserved = 0;
   std::uint64_t written = 0;  ///< frames, ever
-  char names[FrameFacts::kMostWalls][32] = {};
-  FrameFacts frames[kFrames];
+
+  using Name = char[kNameBytes];
+
+  explicit Ring(std::size_t wallCount = 0)
+      : recordBytes(sizeof(FrameRecord)), capacity(kFrames), walls(static_cast<std::uint32_t>(wallCount)) {
+    std::memcpy(magic, kMagic, sizeof kMagic);
+  }
+
+  static std::size_t frameBytes(std::size_t walls) {
+    return sizeof(FrameRecord) + 2 * walls * sizeof(StageFacts);
+  }
+  static std::size_t bytes(std::size_t walls) {
+    return sizeof(Ring) + walls * kNameBytes + kFrames * frameBytes(walls);
+  }
+  std::byte* name(std::size_t wall) {
+    return reinterpret_cast<std::byte*>(this) + sizeof(Ring) + wall * kNameBytes;
+  }
+  std::byte* frame(std::uint64_t number) { return name(walls) + number % kFrames * frameBytes(walls); }
+
+  void put(const FrameFacts& facts) {
+    std::byte* to = frame(written);
+    const auto add = [&to](const void* from, std::size_t count) {
+      std::memcpy(to, from, count);
+      to += count;
+    };
+    FrameRecord record = facts;
+    record.walls = std::min(facts.walls, walls);
+    add(&record, sizeof record);
+    for (std::size_t wall = 0; wall < walls; ++wall) {
+      const bool known = wall < facts.walls;
+      const StageFacts none, &cull = known ? facts.cull[wall] : none, &draw = known ? facts.draw[wall] : none;
+      add(&cull, sizeof cull), add(&draw, sizeof draw);
+    }
+    ++written;
+  }
+  FrameFacts get(std::uint64_t number) {
+    const std::byte* from = frame(number);
+    const auto take = [&from](void* to, std::size_t count) {
+      std::memcpy(to, from, count);
+      from += count;
+    };
+    FrameFacts facts(walls);
+    take(static_cast<FrameRecord*>(&facts), sizeof(FrameRecord));
+    for (std::size_t wall = 0; wall < walls; ++wall)
+      take(&facts.cull[wall], sizeof(StageFacts)), take(&facts.draw[wall], sizeof(StageFacts));
+    return facts;
+  }
 };
 
 /// A file that is ours to write, with room for everything.
@@ -95,7 +143,7 @@ struct BlackBox::Place {
   Ring* ring = nullptr;
 };
 
-Result<BlackBox::Place> BlackBox::open(const std::string& name) {
+Result<BlackBox::Place> BlackBox::open(const std::string& name, std::size_t walls) {
   constexpr int kHow = O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
   Place place;
   place.file = FileDescriptor(::open(name.c_str(), kHow | O_CREAT | O_EXCL, 0600));
@@ -116,36 +164,39 @@ Result<BlackBox::Place> BlackBox::open(const std::string& name) {
     return problem(name, "the last frames would be written over something else that is in this file" +
                              std::string(kFix));
   // The space is taken now: a full disk must not kill the show later.
-  int refused = posix_fallocate(file, 0, sizeof(Ring));
+  const std::size_t bytes = Ring::bytes(walls);
+  int refused = posix_fallocate(file, 0, static_cast<off_t>(bytes));
   void* at = MAP_FAILED;
   if (refused == 0) {
-    at = mmap(nullptr, sizeof(Ring), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    at = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     if (at == MAP_FAILED) refused = errno;
   }
-  const bool cut = refused == 0 && ::ftruncate(file, sizeof(Ring)) == 0;
+  const bool cut = refused == 0 && ::ftruncate(file, static_cast<off_t>(bytes)) == 0;
   if (refused == 0 && !cut) refused = errno;
   if (refused != 0) {
-    if (at != MAP_FAILED) munmap(at, sizeof(Ring));
+    if (at != MAP_FAILED) munmap(at, bytes);
     if (place.made) ::unlink(name.c_str());
     return cannotKeep(name, refused);
   }
-  place.ring = new (at) Ring();
+  std::memset(at, 0, bytes);
+  place.ring = new (at) Ring(walls);
   return place;
 }
 
 Result<std::unique_ptr<BlackBox>> BlackBox::create(BlackBoxOptions options, const NodeNames& names) {
-  auto place = open(options.file);
+  auto place = open(options.file, std::min(options.walls.size(), kMostWalls));
   if (!place) return place.error();
   Ring* ring = place.value().ring;
-  std::memcpy(ring->magic, kMagic, sizeof kMagic);
-  ring->recordBytes = sizeof(FrameFacts), ring->capacity = kFrames;
-  ring->walls = static_cast<std::uint32_t>(std::min(options.walls.size(), FrameFacts::kMostWalls));
-  for (std::size_t i = 0; i < ring->walls; ++i) copyText(options.walls[i], ring->names[i]);
+  for (std::size_t i = 0; i < ring->walls; ++i) {
+    Ring::Name name = {};
+    copyText(options.walls[i], name);
+    std::memcpy(ring->name(i), name, sizeof name);
+  }
   return std::unique_ptr<BlackBox>(new BlackBox(std::move(options), names, std::move(place.value())));
 }
 
 BlackBox::~BlackBox() {
-  munmap(ring_, sizeof(Ring));
+  munmap(ring_, Ring::bytes(ring_->walls));
   const bool dying = std::uncaught_exceptions() > 0;
   if (!stays() && !dying && made_ && isStill(options_.file, file_.get())) ::unlink(options_.file.c_str());
 }
@@ -161,8 +212,7 @@ void BlackBox::keep(FrameFacts facts) {
     copyText(over->name, facts.over);
     facts.overMs = static_cast<float>(over->ms), facts.overBudget = static_cast<float>(over->budget);
   }
-  ring_->frames[ring_->written % kFrames] = facts;
-  ++ring_->written;
+  ring_->put(facts);
   if (facts.cause == Cause::None) return;
   {
     const std::lock_guard lock(mutex_);
@@ -183,28 +233,29 @@ std::uint64_t BlackBox::late() const {
 }
 
 Result<BlackBox::Content> BlackBox::read(const std::string& file) {
-  const auto bytes = readPlainFile(file, sizeof(Ring));
+  auto bytes = readPlainFile(file, Ring::bytes(kMostWalls));
   if (!bytes) return bytes.error();
-  const auto ring = std::make_unique<Ring>();
-  const bool ours =
-      bytes.value().size() >= sizeof kMagic && std::memcmp(bytes.value().data(), kMagic, sizeof kMagic) == 0;
-  if (ours && bytes.value().size() == sizeof(Ring))
-    std::memcpy(ring.get(), bytes.value().data(), sizeof(Ring));
-  if (ring->recordBytes != sizeof(FrameFacts) || ring->capacity != kFrames)
+  const std::size_t size = bytes.value().size();
+  const bool ours = size >= sizeof(Ring) && std::memcmp(bytes.value().data(), kMagic, sizeof kMagic) == 0;
+  // The memory of a string of that length is aligned for any record.
+  Ring* ring = ours ? reinterpret_cast<Ring*>(bytes.value().data()) : nullptr;
+  if (!ring || ring->recordBytes != sizeof(FrameRecord) || ring->capacity != kFrames)
     return problem(file, "holds no frames that this version of stadion kept; run and view write such a file "
                          "while they play live");
   const auto damaged = [&] { return problem(file, "is damaged: what it holds cannot be frames of a show"); };
-  if (ring->walls > FrameFacts::kMostWalls) return damaged();
+  if (ring->walls > kMostWalls || size != Ring::bytes(ring->walls)) return damaged();
   Content content;
   for (std::size_t i = 0; i < ring->walls; ++i) {
-    if (!isText(ring->names[i])) return damaged();
-    content.walls.push_back(ring->names[i]);
+    Ring::Name name;
+    std::memcpy(name, ring->name(i), sizeof name);
+    if (!isText(name)) return damaged();
+    content.walls.push_back(name);
   }
   const std::uint64_t count = std::min<std::uint64_t>(ring->written, kFrames);
   for (std::uint64_t i = ring->written - count; i != ring->written; ++i) {
-    const FrameFacts& facts = ring->frames[i % kFrames];
+    FrameFacts facts = ring->get(i);
     if (!isSound(facts, ring->walls)) return damaged();
-    content.frames.push_back(facts);
+    content.frames.push_back(std::move(facts));
   }
   // A program that died may have begun to write over the oldest one.
   if (count > 1 && content.frames[0].frame >= content.frames[1].frame)

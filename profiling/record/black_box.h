@@ -66,7 +66,7 @@ public:
 private:
   struct Ring;
   struct Place;
-  static Result<Place> open(const std::string& file);
+  static Result<Place> open(const std::string& file, std::size_t walls);
   BlackBox(BlackBoxOptions options, const NodeNames& names, Place place);
   void keep(FrameFacts facts);
 

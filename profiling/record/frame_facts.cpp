@@ -1,6 +1,7 @@
 #include "profiling/record/frame_facts.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <map>
 #include <utility>

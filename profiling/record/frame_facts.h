@@ -1,15 +1,17 @@
 #pragma once
 /// What is known of one frame when it has been shown, and whose fault it is if it came late.
 ///
-/// Plain fixed-width records, so that they can lie in a file that outlives the program.
+/// FrameRecord and StageFacts are plain fixed-width records. A file that outlives the program holds them
+/// (black_box.h).
 ///
 /// Units    milliseconds. Threads  plain values.
 
 #include "engine/core/frame_probe.h"
 
-#include <array>
+#include <algorithm>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace stadion {
 
@@ -49,9 +51,8 @@ struct Overrun {
   double ms = 0, budget = 0;
 };
 
-struct FrameFacts {
-  static constexpr std::size_t kMostWalls = 8;
-
+/// The facts of a frame that do not grow with the number of walls.
+struct FrameRecord {
   std::uint64_t frame = kNoFrame;
   float period = 0;  ///< since the frame before was shown
   float budget = 0;  ///< what it may be
@@ -64,7 +65,6 @@ struct FrameFacts {
   /// Whose App this is: not its own, if one that was passed over since the last one shown held App up more.
   std::uint64_t appFrame = kNoFrame;
   StageFacts app, swap;
-  std::array<StageFacts, kMostWalls> cull{}, draw{};
   std::uint32_t node[2] = {0, 0};  ///< the dearest in App: load, position
   float nodeMs = 0;
   Cause cause = Cause::None;
@@ -78,7 +78,17 @@ struct FrameFacts {
 
   NodeRef dearest() const { return {node[0], node[1]}; }
 };
-static_assert(std::is_trivially_copyable_v<FrameFacts>);
+static_assert(std::is_trivially_copyable_v<FrameRecord> && std::is_trivially_copyable_v<StageFacts>);
+
+/// All facts of a frame.
+struct FrameFacts : FrameRecord {
+  explicit FrameFacts(std::size_t wallCount = 0)
+      : cull(std::max<std::size_t>(1, wallCount)), draw(std::max<std::size_t>(1, wallCount)) {
+    walls = static_cast<std::uint32_t>(wallCount);
+  }
+
+  std::vector<StageFacts> cull, draw;  ///< by wall; one element if there is no wall
+};
 
 /// Fills in the cause, from the other facts. A frame is late if its period is half as long again as it may
 /// be. One whose drawing was sampled may be late for that: it is, if something but drawing took long.

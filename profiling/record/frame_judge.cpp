@@ -26,16 +26,15 @@ StageFacts factsOf(const SpanRecord& r, StageFacts stage) {
 }  // namespace
 
 FrameJudge::Open& FrameJudge::frame(std::uint64_t number) {
-  const auto [at, isNew] = open_.try_emplace(number);
+  const auto [at, isNew] = open_.try_emplace(number, walls_);
   if (isNew) {
     FrameFacts& facts = at->second.facts;
     facts.frame = facts.appFrame = number;
-    facts.walls = walls_;
     facts.budget = budget_;
     facts.sequential = sequential_;
     if (open_.size() > kMostOpen) open_.erase(open_.begin());
   }
-  return open_[number];
+  return open_.at(number);
 }
 
 void FrameJudge::take(std::size_t track, const SpanRecord& r) {
@@ -144,8 +143,8 @@ void FrameJudge::show(const SpanRecord& swap, const StageFacts& stage) {
   open.facts.swap = stage, open.facts.sampled = swap.frame < sampledUntil_;
   takePassedOver(open);
   if (lastShown_ != ProfileClock::time_point{}) place(open, swap);
-  FrameFacts facts = open.facts;
-  const auto shadows = open.shadows;
+  FrameFacts facts = std::move(open.facts);
+  const auto shadows = std::move(open.shadows);
   open_.erase(open_.begin(), open_.upper_bound(swap.frame));
   if (lastShown_ != ProfileClock::time_point{}) facts.period = milliseconds(swap.ended - lastShown_);
   lastShown_ = swap.ended;

@@ -20,8 +20,7 @@ public:
   /// the order in which they were shown. `sequential`: the stages' times add up.
   FrameJudge(double rate, std::size_t walls, const NodeNames& names, Shown shown, bool sequential = false)
       : budget_(rate > 0 ? static_cast<float>(1e3 / rate) : 0),
-        walls_(static_cast<std::uint32_t>(std::min(walls, FrameFacts::kMostWalls))), names_(names),
-        shown_(std::move(shown)), sequential_(sequential) {}
+        walls_(walls), names_(names), shown_(std::move(shown)), sequential_(sequential) {}
 
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
@@ -31,10 +30,13 @@ public:
 private:
   /// A frame that has not been shown yet.
   struct Open {
+    explicit Open(std::size_t walls)
+        : facts(walls), cull(facts.cull.size()), draw(cull.size()), shadows(cull.size()) {}
+
     FrameFacts facts;
     ProfileClock::time_point app;  ///< when these began
-    std::array<ProfileClock::time_point, FrameFacts::kMostWalls> cull{}, draw{};
-    std::array<bool, FrameFacts::kMostWalls> shadows{};  ///< took most of the wall's Draw
+    std::vector<ProfileClock::time_point> cull, draw;
+    std::vector<bool> shadows;  ///< took most of the wall's Draw
   };
   /// What went on in a thread since its last stage.
   struct Pending {
@@ -53,7 +55,7 @@ private:
   void show(const SpanRecord& swap, const StageFacts& stage);
 
   float budget_;  ///< [ms]
-  std::uint32_t walls_;
+  std::size_t walls_;
   const NodeNames& names_;
   Shown shown_;
   bool sequential_;

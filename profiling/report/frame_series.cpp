@@ -7,8 +7,9 @@ namespace stadion {
 void FrameSeries::add(const FrameFacts& f) {
   FrameRow row;
   row.frame = f.frame, row.period = f.period, row.app = f.app.ms;
-  for (std::size_t wall = 0; wall < f.walls; ++wall)
-    row.cull[wall] = f.cull[wall].ms, row.draw[wall] = f.draw[wall].ms;
+  walls_ = f.cull.size();
+  for (const StageFacts& stage : f.cull) stages_.push_back(stage.ms);
+  for (const StageFacts& stage : f.draw) stages_.push_back(stage.ms);
   row.sampled = f.sampled != 0;
   row.cause = f.cause;
   rows_.push_back(row);

@@ -79,10 +79,10 @@ private:
 
   /// Of frames that sampling did not disturb.
   json distribution(const std::string& name, const char* stage,
-                    const std::function<float(const FrameRow&)>& of) const {
+                    const std::function<float(std::size_t row)>& of) const {
     std::vector<float> values;
-    for (const FrameRow& row : data_.series.rows())
-      if (!row.sampled && of(row) > 0) values.push_back(of(row));
+    for (std::size_t row = 0; row < data_.series.rows().size(); ++row)
+      if (!data_.series.rows()[row].sampled && of(row) > 0) values.push_back(of(row));
     const Distribution d = distributionOf(std::move(values));
     return {{"name", name},           {"stage", stage},
             {"mean", number(d.mean)}, {"median", number(d.median)},
@@ -94,15 +94,20 @@ private:
 
   json distributions() const {
     json all = json::array();
-    all.push_back(distribution("frame to frame", "frame", [](const FrameRow& r) { return r.period; }));
-    all.push_back(distribution("App", "app", [](const FrameRow& r) { return r.app; }));
-    const std::size_t walls = std::min(data_.figures.walls.size(), FrameFacts::kMostWalls);
-    for (std::size_t w = 0; w < walls; ++w)
-      all.push_back(distribution("Cull " + data_.figures.walls[w], "cull",
-                                 [w](const FrameRow& r) { return r.cull[w]; }));
-    for (std::size_t w = 0; w < walls; ++w)
-      all.push_back(distribution("Draw " + data_.figures.walls[w], "draw",
-                                 [w](const FrameRow& r) { return r.draw[w]; }));
+    const FrameSeries& series = data_.series;
+    all.push_back(
+        distribution("frame to frame", "frame", [&](std::size_t row) { return series.rows()[row].period; }));
+    all.push_back(distribution("App", "app", [&](std::size_t row) { return series.rows()[row].app; }));
+    const auto at = [](std::span<const float> byWall, std::size_t wall) {
+      return wall < byWall.size() ? byWall[wall] : 0;
+    };
+    const std::vector<std::string>& walls = data_.figures.walls;
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      all.push_back(
+          distribution("Cull " + walls[w], "cull", [&](std::size_t row) { return at(series.cull(row), w); }));
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      all.push_back(
+          distribution("Draw " + walls[w], "draw", [&](std::size_t row) { return at(series.draw(row), w); }));
     std::erase_if(all.get_ref<json::array_t&>(), [](const json& d) { return d["count"] == 0; });
     return all;
   }
@@ -114,16 +119,17 @@ private:
     json s{{"framesEach", each}, {"columns", json::array()}};
     for (std::size_t i = 0; i < rows.size(); i += each) {
       const FrameRow* worst = nullptr;
+      std::size_t at = i;
       for (std::size_t k = i; k < std::min(i + each, rows.size()); ++k) {
         const bool better = !worst || (worst->sampled && !rows[k].sampled) ||
                             (worst->sampled == rows[k].sampled && rows[k].period > worst->period);
-        if (better) worst = &rows[k];
+        if (better) worst = &rows[k], at = k;
       }
       s["columns"].push_back({worst->frame, number(static_cast<double>(worst->period)),
                               worst->sampled ? 1 : 0, worst->cause == Cause::None ? 0 : 1,
                               number(static_cast<double>(worst->app)),
-                              number(static_cast<double>(std::ranges::max(worst->cull))),
-                              number(static_cast<double>(std::ranges::max(worst->draw)))});
+                              number(static_cast<double>(std::ranges::max(data_.series.cull(at)))),
+                              number(static_cast<double>(std::ranges::max(data_.series.draw(at))))});
     }
     return s;
   }

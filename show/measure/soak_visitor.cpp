@@ -1,5 +1,6 @@
 #include "show/measure/soak_visitor.h"
 
+#include "engine/input/tracker_names.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
@@ -33,21 +34,21 @@ void SoakVisitor::measure(Nanoseconds at) {
   const double t = toSeconds(at);
   if (phaseOf(t, kSilentEvery) > kSilentEvery - kSilentFor) return;
   const double sway = det::sin(2 * kPi * phaseOf(t, 7) / 7);
-  feed_.pose("head", at, {{0.2 * sway, 0.1 * sway, 1.7}, turned(0.5 * sway)});
+  feed_.pose(kHeadTracker, at, {{0.2 * sway, 0.1 * sway, 1.7}, turned(0.5 * sway)});
   const double phase = phaseOf(t, kThrowEvery);
   const bool holds = phase < kHoldsFor;
   const double swing = std::clamp((phase - (kHoldsFor - kSwing)) / kSwing, 0.0, 1.0);
-  feed_.pose("wand", at, {{0.3, 0.5 + 1.2 * swing * swing, 1.3 + 0.6 * swing * swing}, turned(0)});
+  feed_.pose(kWandTracker, at, {{0.3, 0.5 + 1.2 * swing * swing, 1.3 + 0.6 * swing * swing}, turned(0)});
   if (holds != holds_) {
-    feed_.button("wand", at, 1, holds);
+    feed_.button(kWandTracker, at, 1, holds);
     throws_ += holds ? 0 : 1;
     holds_ = holds;
   }
   if (phaseOf(t, kMadEvery) > 0.02) return;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  feed_.pose("head", at, {{nan, 0, 1e9}, turned(0)});
+  feed_.pose(kHeadTracker, at, {{nan, 0, 1e9}, turned(0)});
   feed_.pose("nobody", at, {{0, 0, 1}, turned(0)});
-  feed_.button("wand", at, 4711, true);
+  feed_.button(kWandTracker, at, 4711, true);
 }
 
 void SoakVisitor::sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) {

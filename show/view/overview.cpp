@@ -1,6 +1,7 @@
 #include "show/view/overview.h"
 
 #include "engine/asset/mesh_checks.h"
+#include "engine/input/tracker_names.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -146,7 +147,7 @@ void Overview::move(const OverviewPlace& place) {
 }
 
 void Overview::see(const InputSample& input) {
-  const TrackerSample* wand = input.find("wand");
+  const TrackerSample* wand = input.find(kWandTracker);
   const std::lock_guard lock(mutex_);
   X_RT_.reset();
   if (wand && wand->valid) X_RT_ = wand->X_RT;

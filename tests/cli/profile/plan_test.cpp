@@ -41,7 +41,7 @@ TEST(ProgramPlan, SaysWhatIsWrong) {
   EXPECT_EQ(none.status, 2);
   const ProgramResult many = stadionProgram({"plan", kKick, "--walls", "99"});
   EXPECT_EQ(many.status, 2);
-  EXPECT_NE(many.err.find("from 1 to 24"), std::string::npos) << many.err;
+  EXPECT_NE(many.err.find("from 1 to 256"), std::string::npos) << many.err;
   const ProgramResult wrong = stadionProgram({"plan", "--from", folder.write("costs.json", "{}")});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_NE(wrong.err.find("has no \"format\""), std::string::npos) << wrong.err;
@@ -115,7 +115,7 @@ TEST(ProgramPlan, BesideMeasuredCostsWallsAreObeyedAndWhatMeasuresIsRefused) {
     EXPECT_NE(r.out.find("6 walls,"), std::string::npos) << six << r.out;
   }
   for (const char* number : {"-3", "0", "2.5", "", "99999999999999999999999"})
-    refused({"--walls", number}, "from 1 to 24 walls");
+    refused({"--walls", number}, "from 1 to 256 walls");
   refused({"--walls", "nonsense"}, "there are no walls named");
   for (const auto& [option, value] : std::map<std::string, std::string>{{"--size", "64x48"},
                                                                         {"--stereo", "off"},

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -201,6 +202,30 @@ std::string mutated(std::string text, std::mt19937& random) {
     }
   }
   return text;
+}
+
+/// A hall: walls in a ring about the visitor, seen from inside.
+std::string ringOf(std::size_t count) {
+  std::string text;
+  const auto corner = [&](std::size_t i) {
+    const double turn = 2 * 3.14159265358979 * static_cast<double>(i) / static_cast<double>(count);
+    return std::to_string(5 * std::sin(turn)) + " " + std::to_string(5 * std::cos(turn));
+  };
+  for (std::size_t i = 0; i < count; ++i)
+    text += "wall w" + std::to_string(i) + "  lower-left " + corner(i) + " 0  lower-right " + corner(i + 1) +
+            " 0  upper-left " + corner(i) + " 3\n";
+  return text;
+}
+
+TEST(Walls, MayBeManyAndTooManyAreOneErrorAtTheFirstLineBeyond) {
+  EXPECT_EQ(listing(findingsIn(ringOf(64))), "");
+  EXPECT_EQ(listing(findingsIn(ringOf(WallFile::kMaxWalls))), "");
+  EXPECT_EQ(listing(findingsIn(ringOf(10'000))),
+            "257:1: error: a file has at most 256 walls; delete this line and those after it\n");
+  std::string outputs = ringOf(3);
+  for (int i = 0; i < 10'000; ++i) outputs += "output w" + std::to_string(i) + "  rotate 90\n";
+  const std::string found = listing(findingsIn(outputs));
+  EXPECT_EQ(found, "260:1: error: a file has at most 256 outputs; delete this line and those after it\n");
 }
 
 TEST(Walls, ThatAreMutatedNeverCrashAndWhatIsAcceptedDrawsFinitePictures) {

@@ -23,9 +23,9 @@ struct Folder {
   std::string file() const { return (path / "last.frames").string(); }
 };
 
-FrameFacts facts(float period) {
-  FrameFacts f;
-  f.frame = 7, f.period = period, f.budget = 16.7f, f.walls = 2;
+FrameFacts facts(float period, std::size_t walls = 2) {
+  FrameFacts f(walls);
+  f.frame = 7, f.period = period, f.budget = 16.7f;
   f.app.ms = f.app.processor = 2;
   for (StageFacts& s : f.cull) s.ms = s.processor = 1;
   for (StageFacts& s : f.draw) s.ms = 8;
@@ -199,8 +199,8 @@ TEST(FrameVerdict, WhoBeginsLateForWantOfAProcessorIsPreempted) {
 }
 
 TEST(FrameVerdict, StagesThatFollowEachOtherCountTogether) {
-  FrameFacts f = facts(33.3f);
-  f.walls = 4, f.sequential = 1;
+  FrameFacts f = facts(33.3f, 4);
+  f.sequential = 1;
   f.app.ms = f.app.processor = 6;
   for (std::uint32_t w = 0; w < 4; ++w) f.draw[w].ms = 5.5f;
   f.draw[2].ms = 5.6f;
