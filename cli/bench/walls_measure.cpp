@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <malloc.h>
+#include <span>
 #include <unistd.h>
 
 namespace stadion {
@@ -184,7 +185,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   nlohmann::json counts = nlohmann::json::array();
   double draws = 0, triangles = 0;
   for (std::size_t wall = 0; wall < s.walls; ++wall)
-    for (const DrawTotals& eye : stages.drawn(wall)) {
+    for (const DrawTotals& eye : std::span(stages.drawn(wall)).first(kEyes.size())) {
       const double n = std::max(1.0, static_cast<double>(eye.frames));
       counts.push_back(std::llround(static_cast<double>(eye.calls) / n));
       draws += static_cast<double>(eye.calls) / n, triangles += static_cast<double>(eye.triangles) / n;

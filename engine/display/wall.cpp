@@ -4,6 +4,10 @@
 
 namespace stadion {
 
+std::string pictureName(std::size_t number) {
+  return number < kEyes.size() ? eyeName(kEyes[number]) : "view-" + std::to_string(number + 1);
+}
+
 WallBasis basis(const Wall& wall) {
   WallBasis b;
   const Vec3 lower = wall.lowerRight - wall.lowerLeft;

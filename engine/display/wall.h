@@ -10,6 +10,7 @@
 #include "engine/maths/maths.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -20,6 +21,9 @@ constexpr std::array<Eye, 2> kEyes{Eye::Left, Eye::Right};
 constexpr const char* eyeName(Eye eye) {
   return eye == Eye::Left ? "left" : "right";
 }
+
+/// The name of a wall's picture in files and reports, by number: left, right, view-3.
+std::string pictureName(std::size_t number);
 
 /// A rectangle seen from the room: three corners say where it is and which way its picture stands.
 struct Wall {

@@ -14,9 +14,9 @@ namespace {
 struct PixelScale {
   float ofSteradian = 0, most = 0;  ///< pixels: of a steradian in the picture's middle, of the picture
 
-  PixelScale(const DrawList& list, const WallView& view) {
-    const auto width = static_cast<float>(view.width), height = static_cast<float>(view.height);
-    const Mat4& p = list.eyes[0].projection;
+  PixelScale(const DrawList& list, const WallViews& wall) {
+    const auto width = static_cast<float>(wall.width), height = static_cast<float>(wall.height);
+    const Mat4& p = list.views[0].projection;
     ofSteradian = 0.25f * static_cast<float>(p(0, 0) * p(1, 1)) * width * height;
     most = width * height;
   }
@@ -46,7 +46,7 @@ DrawItem itemOf(const DrawnRecord& drawn, const Vec3& origin, const PixelScale& 
   item.owner = r.owner;
   item.distance = drawn.distance;
   item.pixels = scale.of(r.radius, drawn.distance);
-  item.level = drawn.level, item.eyes = drawn.eyes;
+  item.level = drawn.level, item.views = drawn.views;
   return item;
 }
 
@@ -89,6 +89,14 @@ void setSky(const SkyRecord& sky, DrawList& out) {
   out.sky.hazeDistance = sky.haze;
 }
 
+/// Bits of the views whose pictures are for that eye.
+std::uint32_t viewsFor(Eye eye, const DrawList& list) {
+  std::uint32_t mask = 0;
+  for (std::uint32_t v = 0; v < list.viewCount; ++v)
+    if (list.views[v].eye == eye) mask |= 1U << v;
+  return mask;
+}
+
 /// The light finds its rings and what stands still in them, kept from frame to frame; what moves is looked
 /// for.
 void addOwners(const SlotView& state, const DrawShadows& shadows, std::vector<NodeRef>& owners) {
@@ -112,17 +120,17 @@ void WallCull::fill(const SlotView& state, const CullOptions& options, DrawList&
   opaque_.clear(), transparent_.clear(), added_.clear();
   const RoomCull::Seen room = [&] {
     const SpanScope span(probe, Span::Test);
-    return parts_.room.seen(state, options.eyeSeparation);
+    return parts_.room.seen(state, options.eyes);
   }();
   const WallSeen& seen = room.on(wall_);
   if (!seen.looks) {
     out.opaque.clear(), out.transparent.clear();
-    out.eyeCount = 0;
+    out.viewCount = 0;
     return;
   }
   {
     const SpanScope span(probe, Span::Eyes);
-    lookThrough(state, seen, options, out);
+    lookThrough(state, seen, out);
   }
   if (options.black) {
     makeBlack(out);
@@ -142,28 +150,26 @@ void WallCull::fill(const SlotView& state, const CullOptions& options, DrawList&
     const SpanScope span(probe, Span::Fill);
     write(out);
   }
-  if (probe) tell(state, seen, options.eyeSeparation, out);
+  if (probe) tell(state, seen, options.eyes, out);
 }
 
-void WallCull::lookThrough(const SlotView& state, const WallSeen& seen, const CullOptions& options,
-                           DrawList& out) const {
+void WallCull::lookThrough(const SlotView& state, const WallSeen& seen, DrawList& out) const {
   out.viewer = *state.viewer;
-  eyesOf(out.viewer, parts_.room.view(wall_), options.eyeSeparation, seen.from ? &*seen.from : nullptr)
-      .setUp(out);
+  seen.placed.setUp(out);
   setLights(state, out);
   setSky(*state.sky, out);
-  if (options.order == EyeOrder::Swapped && out.eyeCount == 2) std::swap(out.eyes[0], out.eyes[1]);
 }
 
-/// What is drawn of the records that may be seen, by which eyes, at which level.
+/// What is drawn of the records that may be seen, by which views, at which level.
 void WallCull::choose(const SlotView& state, const WallSeen& seen, const DrawList& out) {
   if (levels_) levels_->look(*state.viewer);
-  const WallView& view = parts_.room.view(wall_);
-  const bool eyesMove = view.reach.metres > 0 || view.reach.radians > 0;  // before they draw
-  const EyeTest eyes(out, parts_.oneSample, view.width, view.height);
+  const WallViews& wall = parts_.room.wall(wall_);
+  const bool eyesMove = wall.reach.metres > 0 || wall.reach.radians > 0;  // before they draw
+  const std::uint32_t all = (1U << out.viewCount) - 1;
+  const EyeTest eyes(out, parts_.oneSample, wall.width, wall.height);
   const auto consider = [&](const InstanceRecord& r) {
     const auto centre = centreOf(r, out.origin);
-    const std::uint32_t seenBy = eyesMove ? DrawItem::kBothEyes : eyes.eyesThatSee(centre, r.radius);
+    const std::uint32_t seenBy = eyesMove ? all : eyes.viewsThatSee(centre, r.radius);
     if (seenBy == 0) return;
     const float distance = std::sqrt(centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2]);
     auto& things = r.flags & InstanceRecord::kTransparent ? transparent_ : opaque_;
@@ -175,13 +181,13 @@ void WallCull::choose(const SlotView& state, const WallSeen& seen, const DrawLis
     if (i + kAhead < records.size()) fetch(records[i + kAhead]);
     consider(*records[i]);
   }
-  if (seen.from) view.camera->addTo(added_, *state.viewer);
+  if (seen.from) wall.camera->addTo(added_, *state.viewer);
   for (const InstanceRecord& r : added_) consider(r);
 }
 
 /// The items, in their order. Draw may begin with the first of them.
 void WallCull::write(DrawList& out) const {
-  const PixelScale scale(out, parts_.room.view(wall_));
+  const PixelScale scale(out, parts_.room.wall(wall_));
   const auto writeSome = [&](std::span<const DrawnRecord> things, DrawItem* items) {
     for (std::size_t i = 0; i < things.size(); ++i) {
       if (i + kAhead < things.size()) fetch(things[i + kAhead].record);
@@ -205,7 +211,7 @@ void WallCull::addCasters(const SlotView& state, DrawList& out) const {
 }
 
 /// What was counted, and for whom the work was.
-void WallCull::tell(const SlotView& state, const WallSeen& seen, double eyeSeparation,
+void WallCull::tell(const SlotView& state, const WallSeen& seen, const EyeChoice& choice,
                     const DrawList& out) const {
   FrameProbe& probe = *parts_.probe;
   std::size_t casters = 0;
@@ -218,20 +224,20 @@ void WallCull::tell(const SlotView& state, const WallSeen& seen, double eyeSepar
   const std::uint64_t frame = state.signature->frame;
   if (!probe.wantsShares(frame, wall_)) return;
   std::vector<NodeRef> owners;
-  parts_.room.reached(state, eyeSeparation, wall_, owners);
+  parts_.room.reached(state, choice, wall_, owners);
   probe.shared(Span::Test, frame, wall_, owners);
   owners.clear();
   for (const auto* items : {&out.opaque, &out.transparent})
     for (const DrawItem& item : *items) owners.push_back(item.owner);
   probe.shared(Span::Fill, frame, wall_, owners);
   probe.shared(Span::Sort, frame, wall_, owners);
-  for (const auto& [eye, mask] :
-       {std::pair(Span::LeftEye, DrawItem::kLeftEye), {Span::RightEye, DrawItem::kRightEye}}) {
+  for (const Eye eye : kEyes) {
+    const std::uint32_t mask = viewsFor(eye, out);
     owners.clear();
     for (const auto* items : {&out.opaque, &out.transparent})
       for (const DrawItem& item : *items)
-        if (item.eyes & mask) owners.push_back(item.owner);
-    probe.shared(eye, frame, wall_, owners);
+        if (item.views & mask) owners.push_back(item.owner);
+    probe.shared(eye == Eye::Left ? Span::LeftEye : Span::RightEye, frame, wall_, owners);
   }
   if (!parts_.still) return;
   owners.clear();

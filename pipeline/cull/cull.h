@@ -23,11 +23,8 @@ struct CullParts {
   bool oneSample = false;  ///< of each pixel: what lies between their middles is left out
 };
 
-enum class EyeOrder { LeftRight, Swapped };
-
 struct CullOptions {
-  double eyeSeparation = -1;  ///< [m]; negative: as the wall has it
-  EyeOrder order = EyeOrder::LeftRight;
+  EyeChoice eyes{};    ///< the same for all walls of a frame
   bool black = false;  ///< nothing is drawn, and no light is there
 };
 
@@ -41,12 +38,11 @@ public:
   void fill(const SlotView& state, const CullOptions& options, DrawList& out);
 
 private:
-  void lookThrough(const SlotView& state, const WallSeen& seen, const CullOptions& options,
-                   DrawList& out) const;
+  void lookThrough(const SlotView& state, const WallSeen& seen, DrawList& out) const;
   void choose(const SlotView& state, const WallSeen& seen, const DrawList& out);
   void addCasters(const SlotView& state, DrawList& out) const;
   void write(DrawList& out) const;
-  void tell(const SlotView& state, const WallSeen& seen, double eyeSeparation, const DrawList& out) const;
+  void tell(const SlotView& state, const WallSeen& seen, const EyeChoice& choice, const DrawList& out) const;
 
   CullParts parts_;
   std::uint32_t wall_;

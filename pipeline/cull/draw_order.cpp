@@ -12,9 +12,11 @@ std::uint32_t bitsOf(float distance) {
   return std::bit_cast<std::uint32_t>(distance);
 }
 
-/// What one eye sees lies together: before what both see, or after it.
-std::uint32_t rankOf(std::uint32_t eyes) {
-  return eyes == DrawItem::kLeftEye ? 0 : eyes == DrawItem::kRightEye ? 2 : 1;
+constexpr int kRankBits = 6;  ///< views have numbers below 32
+
+/// What one of two views sees lies together: before what both see, or after it. Expects that any sees it.
+std::uint32_t rankOf(std::uint32_t views) {
+  return static_cast<std::uint32_t>(std::countr_zero(views) + std::bit_width(views) - 1);
 }
 
 std::uint64_t joined(std::uint32_t high, std::uint32_t low) {
@@ -26,7 +28,7 @@ std::uint64_t joined(std::uint32_t high, std::uint32_t low) {
 void DrawOrder::sortOpaque(std::vector<DrawnRecord>& things) {
   keys_.clear();
   for (const DrawnRecord& d : things)
-    keys_.push_back({joined(d.mesh, d.level << 2 | rankOf(d.eyes)), bitsOf(d.distance),
+    keys_.push_back({joined(d.mesh, d.level << kRankBits | rankOf(d.views)), bitsOf(d.distance),
                      static_cast<std::uint32_t>(keys_.size())});
   arrange(things);
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// Sorts what is drawn by what it is, so that its order does not depend on where records lie: opaque things
-/// by mesh, level and the eyes that see them, then near to far; transparent ones by owner, then by mesh, so
+/// by mesh, level and the views that see them, then near to far; transparent ones by owner, then by mesh, so
 /// that surfaces at the same depth keep their order wherever the visitor is. Who is equal in that goes by owner,
 /// then by place.
 ///
@@ -23,7 +23,7 @@ struct DrawnRecord {
   MeshId mesh = kNoMesh;    ///< the record's
   float distance = 0;       ///< see DrawItem
   std::uint32_t level = 0;  ///< likewise
-  std::uint32_t eyes = 0;   ///< likewise
+  std::uint32_t views = 0;  ///< likewise
 };
 
 class DrawOrder {

@@ -17,11 +17,11 @@ bool holdsAMiddle(double from, double to) {
 }  // namespace
 
 EyeTest::EyeTest(const DrawList& list, bool oneSample, std::uint32_t width, std::uint32_t height)
-    : count_(std::min<std::uint32_t>(list.eyeCount, 2)) {
+    : count_(std::min<std::uint32_t>(list.viewCount, DrawList::kMostViews)) {
   const double pixels[2] = {static_cast<double>(width), static_cast<double>(height)};
   double sharpest = 0;
-  for (std::uint32_t eye = 0; eye < count_; ++eye) {
-    const DrawEye& e = list.eyes[eye];
+  for (std::uint32_t view = 0; view < count_; ++view) {
+    const DrawView& e = list.views[view];
     const Mat4 clip = e.projection * e.view;
     for (int side = 0; side < 4; ++side) {
       // Inside is w + x >= 0, w - x >= 0, and so for y (Gribb and Hartmann, "Fast Extraction of Viewing
@@ -29,11 +29,11 @@ EyeTest::EyeTest(const DrawList& list, bool oneSample, std::uint32_t width, std:
       const Vec4 plane =
           clip.row(3).transpose() + (side % 2 == 0 ? 1.0 : -1.0) * clip.row(side / 2).transpose();
       const Vec4 unit = plane / plane.head<3>().norm();
-      Sides& s = sides_[eye];
+      Sides& s = sides_[view];
       s.x[side] = static_cast<float>(unit[0]), s.y[side] = static_cast<float>(unit[1]);
       s.z[side] = static_cast<float>(unit[2]), s.offset[side] = static_cast<float>(unit[3]);
     }
-    Lens& lens = lenses_[eye];
+    Lens& lens = lenses_[view];
     for (int row = 0; row < 3; ++row)
       for (int k = 0; k < 4; ++k)
         lens.view[static_cast<std::size_t>(4 * row + k)] = static_cast<float>(e.view(row, k));
@@ -49,9 +49,9 @@ EyeTest::EyeTest(const DrawList& list, bool oneSample, std::uint32_t width, std:
 
 std::uint8_t EyeTest::withoutThoseBetweenPixels(std::uint8_t seen, const std::array<float, 3>& centre,
                                                 float radius) const {
-  for (std::uint32_t eye = 0; eye < count_; ++eye)
-    if ((seen >> eye & 1) && !coversAMiddle(lenses_[eye], centre, radius))
-      seen &= static_cast<std::uint8_t>(~(1u << eye));
+  for (std::uint32_t view = 0; view < count_; ++view)
+    if ((seen >> view & 1) && !coversAMiddle(lenses_[view], centre, radius))
+      seen &= static_cast<std::uint8_t>(~(1u << view));
   return seen;
 }
 

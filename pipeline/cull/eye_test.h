@@ -1,7 +1,7 @@
 #pragma once
-/// Which of a wall's eyes can see a sphere, among those that the wall as a whole may see (room_cull.h).
+/// Which of a wall's views can see a sphere, among those that the wall as a whole may see (room_cull.h).
 ///
-/// An eye does not see a sphere that is wholly outside one of the four sides of its frustum; nor, where one
+/// A view does not see a sphere that is wholly outside one of the four sides of its frustum; nor, where one
 /// sample is taken a pixel, one whose outline lies between the middles of pixels: OpenGL makes fragments only
 /// for pixels whose middles are inside of a triangle (OpenGL 3.3 core, 3.6.1). Pictures are the same without
 /// it.
@@ -18,18 +18,16 @@ namespace stadion {
 
 class EyeTest {
 public:
-  static constexpr std::uint8_t kBoth = 3;
-
-  /// For the list's eyes. `oneSample`: pictures of width x height pixels with one sample each; else what is
+  /// For the list's views. `oneSample`: pictures of width x height pixels with one sample each; else what is
   /// small is seen, too.
   EyeTest(const DrawList& list, bool oneSample, std::uint32_t width, std::uint32_t height);
 
-  /// Bit 0: the left or only eye; bit 1: the right one.
-  std::uint8_t eyesThatSee(const std::array<float, 3>& centre, float radius) const {
+  /// Bit v: the list's view number v.
+  std::uint8_t viewsThatSee(const std::array<float, 3>& centre, float radius) const {
     const float reach = radius + kRounding * (size(centre[0]) + size(centre[1]) + size(centre[2]) + radius);
     std::uint8_t seen = 0;
-    for (std::uint32_t eye = 0; eye < count_; ++eye)
-      if (sides_[eye].mayTouch(centre, reach)) seen |= static_cast<std::uint8_t>(1u << eye);
+    for (std::uint32_t view = 0; view < count_; ++view)
+      if (sides_[view].mayTouch(centre, reach)) seen |= static_cast<std::uint8_t>(1u << view);
     if (smallFrom_ == 0 || seen == 0) return seen;
     return withoutThoseBetweenPixels(seen, centre, reach);
   }
@@ -38,7 +36,7 @@ private:
   static constexpr float kRounding = 4e-6f;  ///< of single precision, a few times over
   typedef float FourFloats __attribute__((vector_size(16)));
 
-  /// The sides of an eye's frustum: inside is x px + y py + z pz + offset >= 0.
+  /// The sides of a view's frustum: inside is x px + y py + z pz + offset >= 0.
   struct Sides {
     FourFloats x, y, z, offset;
 
@@ -59,8 +57,9 @@ private:
   bool coversAMiddle(const Lens& lens, const std::array<float, 3>& centre, float radius) const;
 
   std::uint32_t count_ = 0;
-  std::array<Sides, 2> sides_{};
-  std::array<Lens, 2> lenses_{};
+  static_assert(DrawList::kMostViews <= 8, "a byte has a bit for each view");
+  std::array<Sides, DrawList::kMostViews> sides_;
+  std::array<Lens, DrawList::kMostViews> lenses_;
   /// Of radius by depth: what is larger is a pixel wide or more. 0 = nothing is looked at so closely.
   float smallFrom_ = 0;
 };

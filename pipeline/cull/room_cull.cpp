@@ -23,12 +23,12 @@ const WallSeen& RoomCull::Seen::on(std::size_t wall) const {
   return found_->walls[wall];
 }
 
-RoomCull::RoomCull(std::vector<WallView> views, const BoundsKernels& kernels)
-    : views_(std::move(views)), search_(kernels) {}
+RoomCull::RoomCull(std::vector<WallViews> walls, const BoundsKernels& kernels)
+    : walls_(std::move(walls)), search_(kernels) {}
 
 RoomCull::~RoomCull() = default;
 
-RoomCull::Seen RoomCull::seen(const SlotView& state, double eyeSeparation) {
+RoomCull::Seen RoomCull::seen(const SlotView& state, const EyeChoice& choice) {
   const std::lock_guard lock(mutex_);
   const auto known = std::ranges::find_if(
       found_, [&](const auto& f) { return f->slot == state.slot && f->written == state.written; });
@@ -37,7 +37,7 @@ RoomCull::Seen RoomCull::seen(const SlotView& state, double eyeSeparation) {
   found.holders.fetch_add(1, std::memory_order_relaxed);
   Seen seen(&found);
   if (first) {
-    lookFor(state, eyeSeparation, found);
+    lookFor(state, choice, found);
     if (state.intact())
       found.written = state.written;
     else
@@ -71,28 +71,45 @@ void RoomCull::eachTree(const SlotView& state, const Each& each) {
   }
 }
 
-void RoomCull::lookFor(const SlotView& state, double eyeSeparation, Found& found) {
-  volumes_.clear(), wallsOf_.clear();
-  found.walls.resize(views_.size());
-  for (std::uint32_t wall = 0; wall < views_.size(); ++wall) {
-    const WallView& view = views_[wall];
-    WallSeen& seen = found.walls[wall];
-    seen.tested = 0, seen.records.clear();
-    seen.from = view.camera ? view.camera->view() : std::nullopt;
-    seen.looks = !view.camera || seen.from;
-    if (!seen.looks) continue;
-    const WallEyes eyes = eyesOf(*state.viewer, view, eyeSeparation, seen.from ? &*seen.from : nullptr);
-    volumes_.push_back({eyes.volume(), eyes.origin});
+void RoomCull::addVolumes(std::uint32_t wall, const PlacedViews& placed) {
+  for (std::uint32_t first = 0, end = 0; first < placed.count; first = end) {
+    end = placed.endOfScreen(first);
+    volumes_.push_back({placed.volume(first, end), placed.origin});
     wallsOf_.push_back(wall);
   }
+}
+
+/// `each(first, count)`: parts of the volumes that one search takes. A wall's volumes lie in one part.
+template <class Each>
+void RoomCull::eachPart(const Each& each) const {
+  for (std::size_t first = 0; first < volumes_.size();) {
+    std::size_t end = std::min(first + BoundsSearch::kMostVolumes, volumes_.size());
+    while (end < volumes_.size() && wallsOf_[end] == wallsOf_[end - 1]) --end;
+    each(first, end - first);
+    first = end;
+  }
+}
+
+void RoomCull::lookFor(const SlotView& state, const EyeChoice& choice, Found& found) {
+  volumes_.clear(), wallsOf_.clear();
+  found.walls.resize(walls_.size());
+  for (std::uint32_t number = 0; number < walls_.size(); ++number) {
+    const WallViews& wall = walls_[number];
+    WallSeen& seen = found.walls[number];
+    seen.tested = 0, seen.records.clear();
+    seen.from = wall.camera ? wall.camera->view() : std::nullopt;
+    seen.looks = !wall.camera || seen.from;
+    if (!seen.looks) continue;
+    seen.placed = place(*state.viewer, wall, choice, seen.from ? &*seen.from : nullptr);
+    addVolumes(number, seen.placed);
+  }
   eachTree(state, [&](const BoundsTree& tree, const auto& recordAt) {
-    for (std::size_t first = 0; first < volumes_.size(); first += BoundsSearch::kMostVolumes) {
-      const std::size_t count = std::min(BoundsSearch::kMostVolumes, volumes_.size() - first);
+    eachPart([&](std::size_t first, std::size_t count) {
       for (const TreeSphere& sphere : search_.find(tree, std::span(volumes_).subspan(first, count)))
         if (const InstanceRecord* r = recordAt(tree.indexOf(sphere.place))) keep(sphere, first, *r, found);
       for (std::size_t v = 0; v < count; ++v)
         found.walls[wallsOf_[first + v]].tested += search_.tested()[v];
-    }
+    });
   });
 }
 
@@ -100,26 +117,27 @@ void RoomCull::lookFor(const SlotView& state, double eyeSeparation, Found& found
 /// Bit v of the sphere's masks: volumes_[first + v].
 void RoomCull::keep(const TreeSphere& sphere, std::size_t first, const InstanceRecord& r,
                     Found& found) const {
+  std::uint32_t kept = ~0U;  // the volumes of a wall follow each other
   for (unsigned bits = sphere.seen | sphere.unsure; bits != 0; bits &= bits - 1) {
     const auto bit = static_cast<std::size_t>(std::countr_zero(bits)), v = first + bit;
+    if (wallsOf_[v] == kept) continue;
     if (!((sphere.seen >> bit) & 1)) {
       const Vec3 centre = Vec3(r.centre[0], r.centre[1], r.centre[2]) - volumes_[v].origin;
       if (!volumes_[v].volume.mayTouch(Sphere{centre, r.radius})) continue;
     }
-    found.walls[wallsOf_[v]].records.push_back(&r);
+    found.walls[kept = wallsOf_[v]].records.push_back(&r);
   }
 }
 
-void RoomCull::reached(const SlotView& state, double eyeSeparation, std::size_t wall,
+void RoomCull::reached(const SlotView& state, const EyeChoice& choice, std::size_t wall,
                        std::vector<NodeRef>& owners) {
-  const Seen held = seen(state, eyeSeparation);
+  const Seen held = seen(state, choice);
   if (!held.on(wall).looks) return;
-  const std::optional<CameraView>& from = held.on(wall).from;
   const std::lock_guard lock(mutex_);
-  const WallEyes eyes = eyesOf(*state.viewer, views_[wall], eyeSeparation, from ? &*from : nullptr);
-  const std::array<SearchVolume, 1> volume{{{eyes.volume(), eyes.origin}}};
+  volumes_.clear(), wallsOf_.clear();
+  addVolumes(static_cast<std::uint32_t>(wall), held.on(wall).placed);
   eachTree(state, [&](const BoundsTree& tree, const auto& recordAt) {
-    search_.find(tree, volume);
+    search_.find(tree, volumes_);
     for (const TreeGroup& group : search_.reached())
       for (std::uint32_t place = BoundsLayout::kWide * group.group;
            place < std::min(tree.count, BoundsLayout::kWide * (group.group + 1)); ++place)

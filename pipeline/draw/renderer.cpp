@@ -52,7 +52,8 @@ Renderer::Renderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes
       height_(height), quality_(quality), programs_(std::move(programs)),
       buffers_(gl, width, height, quality),
       cache_(gl, meshes, quality.look, isSieved(gl, quality) && basesInstances_), instances_(gl), scene_(gl),
-      indices_(gl), views_{GlBuffer(gl), GlBuffer(gl)}, nothing_(gl), covered_(width, height) {
+      indices_(gl), nothing_(gl), covered_(width, height) {
+  views_.emplace_back(gl);
   if (isSieved(gl, quality) && basesInstances_) sieve_.emplace(width, height);
   if (sieve_ && quality.look == Look::Plain && quality.drawsSmallThings) small_.emplace(width, height);
   setUnchangingState();
@@ -162,19 +163,21 @@ std::optional<Diagnostic> Renderer::draw(const DrawList& list, const std::functi
   giveUp_ = giveUp ? &giveUp : nullptr;
   probe_ = probe;
   cache_.tell(probe);
-  drawEyes(list, 0, std::min<std::uint32_t>(list.eyeCount, 2));
+  drawViews(list, 0, std::min<std::uint32_t>(list.viewCount, DrawList::kMostViews));
   return collectProblems();
 }
 
-void Renderer::drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t end) {
+void Renderer::drawViews(const DrawList& list, std::uint32_t first, std::uint32_t end) {
   GLsync drawn = nullptr;
   {
     Turn mine = [&] {
       const SpanScope span(probe_, Span::ForTurn, list.ticket.signature.frame, list.wall);
       return turn();
     }();
+    while (views_.size() < end) views_.emplace_back(gl_);
+    if (const auto why = buffers_.growTo(end)) report(why->message);
     beginSampling(list);
-    submitEyes(list, first, end, mine);
+    submitViews(list, first, end, mine);
     drawn = gl_.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl_.Flush();
   }
@@ -184,7 +187,7 @@ void Renderer::drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t
   gl_.DeleteSync(drawn);
 }
 
-void Renderer::submitEyes(const DrawList& list, std::uint32_t first, std::uint32_t end, Turn& turn) {
+void Renderer::submitViews(const DrawList& list, std::uint32_t first, std::uint32_t end, Turn& turn) {
   {
     const SpanScope span(probe_, Span::Prepare);
     if (sample_ == DrawSample::Some)
@@ -200,12 +203,12 @@ void Renderer::submitEyes(const DrawList& list, std::uint32_t first, std::uint32
       prepareShadows(list);
   }
   prepareScene(list);
-  for (std::uint32_t eye = first; eye < end; ++eye) {
-    const SpanScope span(probe_, eye == 0 ? Span::LeftEye : Span::RightEye);
+  for (std::uint32_t view = first; view < end; ++view) {
+    const SpanScope span(probe_, spanOf(list.views[view]));
     if (sample_ == DrawSample::Whole)
-      drawEyeAlone(list.eyes[eye], eye, turn);
+      drawViewAlone(list.views[view], view, turn);
     else
-      drawEye(list.eyes[eye], eye, turn);
+      drawView(list.views[view], view, turn);
     if (probe_) tellCounts();
   }
   while (takeMore()) {
@@ -214,7 +217,7 @@ void Renderer::submitEyes(const DrawList& list, std::uint32_t first, std::uint32
   if (probe_ && sample_ == DrawSample::None) weigh();
 }
 
-/// Of the last eye.
+/// Of the last view.
 void Renderer::tellCounts() const {
   probe_->counted(Count::Calls, counts_.calls);
   probe_->counted(Count::Instances, counts_.instances);
@@ -226,9 +229,9 @@ void Renderer::stopIfAsked() const {
   if (giveUp_ && (*giveUp_)()) throw RunStopped();
 }
 
-std::optional<Diagnostic> Renderer::draw(const DrawList& list, std::uint32_t eye) {
-  assert(eye < list.eyes.size());
-  drawEyes(list, eye, eye + 1);
+std::optional<Diagnostic> Renderer::draw(const DrawList& list, std::uint32_t view) {
+  assert(view < list.views.size());
+  drawViews(list, view, view + 1);
   return collectProblems();
 }
 
@@ -318,24 +321,24 @@ void Renderer::prepareShadows(const DrawList& list) {
   shadows_->bind();
 }
 
-void Renderer::drawEye(const DrawEye& eye, std::uint32_t index, Turn& turn) {
+void Renderer::drawView(const DrawView& from, std::uint32_t index, Turn& turn) {
   counts_ = {};
   usedProgram_ = 0;
   boundMaterial_ = {};
   ViewBlock view;
-  if (!fillView(eye, clipDepth_, view)) {
-    report("an eye's matrices are not finite or have no inverse: its picture is not drawn");
+  if (!fillView(from, clipDepth_, view)) {
+    report("a view's matrices are not finite or have no inverse: its picture is not drawn");
     return;
   }
-  if (sample_ == DrawSample::Some) findPieces(index), sampler_->beginEye(index, pieces_, wanted_);
-  const bool begun = drawSmallThings(eye, index, turn);
+  if (sample_ == DrawSample::Some) findPieces(index), sampler_->beginEye(from.eye, pieces_, wanted_);
+  const bool begun = drawSmallThings(from, index, turn);
   stream(gl_, GL_UNIFORM_BUFFER, views_[index], std::span<const ViewBlock>(&view, 1));
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, views_[index].name());
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, kSceneBinding, scene_.name());
 
-  if (sieve_) sieve_->look(eye);
+  if (sieve_) sieve_->look(from);
   gl_.Disable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
-  // Alone, clearing is writing the whole picture to memory. In an eye drawn whole that is done once, with
+  // Alone, clearing is writing the whole picture to memory. In a view drawn whole that is done once, with
   // what comes next: it is a part of what the sky takes alone.
   if (begun)
     part(Span::Sky, [&] { buffers_.begin(index, small_->colours(), small_->depths()); });
@@ -381,11 +384,11 @@ void Renderer::use(const GlProgram& program) {
   gl_.UseProgram(usedProgram_);
 }
 
-std::optional<Diagnostic> Renderer::read(std::uint32_t eye, std::span<std::uint8_t> rgba) {
-  assert(eye < 2 && rgba.size() == std::size_t{width_} * height_ * 4);
+std::optional<Diagnostic> Renderer::read(std::uint32_t view, std::span<std::uint8_t> rgba) {
+  assert(view < views_.size() && rgba.size() == std::size_t{width_} * height_ * 4);
   {
     const auto mine = turn();
-    buffers_.read(eye, rgba);
+    buffers_.read(view, rgba);
   }
   return collectProblems();
 }

@@ -6,7 +6,7 @@
 ///              sorted for every sample (glass_layers.h; below OpenGL 4.3 by whole objects, far to near), blended
 ///              and without writing depth. 4 samples a pixel, light
 ///              computed in linear RGB, pictures in sRGB (shaders.h says how).
-/// Beginning    with what is there of a list that is still filled: the first eye's opaque things are drawn as
+/// Beginning    with what is there of a list that is still filled: the first view's opaque things are drawn as
 ///              they come, unless all must be known first (what is timed alone, what hides what).
 /// Same pixels  for the same list in every thread, context and provider of one Mesa version.
 /// Ownership    owns its GL objects; the table, the mutex and the mesh store must outlive it.
@@ -41,7 +41,7 @@
 
 namespace stadion {
 
-/// What the last draw of an eye consisted of: the same on every machine, so tests may pin it.
+/// What the last draw of a view consisted of: the same on every machine, so tests may pin it.
 struct DrawCounts {
   std::uint32_t calls = 0;      ///< draw calls
   std::uint32_t instances = 0;  ///< meshes drawn, an instance of two parts counting twice
@@ -57,6 +57,8 @@ struct DrawTotals {
   }
 };
 
+using ViewTotals = std::array<DrawTotals, DrawList::kMostViews>;  ///< by view of a wall
+
 class Renderer {
 public:
   /// Pictures of width x height pixels; fails if the size or the context does not serve.
@@ -65,18 +67,18 @@ public:
                                                   std::uint32_t height, RenderQuality quality = {});
   ~Renderer();
 
-  /// Draws every eye of the list and waits until that is done: time around it is what drawing costs. Returns
+  /// Draws every view of the list and waits until that is done: time around it is what drawing costs. Returns
   /// a problem that had not been reported before, or nothing. `giveUp`, if there is one, is asked now and
   /// then; once it says true, RunStopped is thrown and the pictures are void.
   std::optional<Diagnostic> draw(const DrawList& list, const std::function<bool()>& giveUp,
                                  FrameProbe* probe = nullptr);
   std::optional<Diagnostic> draw(const DrawList& list) { return draw(list, std::function<bool()>{}); }
-  /// Draws one eye, 0 left or mono, 1 right.
-  std::optional<Diagnostic> draw(const DrawList& list, std::uint32_t eye);
+  /// Draws one view.
+  std::optional<Diagnostic> draw(const DrawList& list, std::uint32_t view);
 
-  /// The last picture of `eye`: 8-bit RGBA (height x width x 4), rows from the top, sRGB, alpha 255.
+  /// The last picture of `view`, which was drawn: 8-bit RGBA (height x width x 4), rows from the top, sRGB, alpha 255.
   /// Expects room for exactly that. Returns a new problem, or nothing.
-  std::optional<Diagnostic> read(std::uint32_t eye, std::span<std::uint8_t> rgba);
+  std::optional<Diagnostic> read(std::uint32_t view, std::span<std::uint8_t> rgba);
 
   /// The driver has given up the context (the graphics card was reset, or is gone): nothing can be drawn with
   /// it any more.
@@ -85,8 +87,8 @@ public:
   std::uint32_t height() const { return height_; }  ///< [pixels]
   RenderQuality quality() const { return quality_; }
   const DrawCounts& counts() const { return counts_; }
-  /// By eye, 0 left or mono, 1 right. Shadow maps are not counted.
-  const std::array<DrawTotals, 2>& totals() const { return totals_; }
+  /// Shadow maps are not counted.
+  const ViewTotals& totals() const { return totals_; }
   void forgetTotals() { totals_ = {}; }
   std::size_t meshesHeld() const { return cache_.size(); }
   /// Whether anything transparent has been drawn so far: else there are no buffers for it.
@@ -125,8 +127,8 @@ private:
   static MeshParts partsOf(const GlMesh& mesh, std::uint32_t level);
 
   using Turn = std::unique_lock<std::mutex>;
-  void drawEyes(const DrawList& list, std::uint32_t first, std::uint32_t end);
-  void submitEyes(const DrawList& list, std::uint32_t first, std::uint32_t end, Turn& turn);
+  void drawViews(const DrawList& list, std::uint32_t first, std::uint32_t end);
+  void submitViews(const DrawList& list, std::uint32_t first, std::uint32_t end, Turn& turn);
   void tellCounts() const;
   void beginSampling(const DrawList& list);
   void drawNothing();
@@ -144,7 +146,10 @@ private:
     else
       work();
   }
-  void drawEyeAlone(const DrawEye& eye, std::uint32_t index, Turn& turn);
+  static Span spanOf(const DrawView& view) {
+    return view.eye == Eye::Left ? Span::LeftEye : Span::RightEye;
+  }
+  void drawViewAlone(const DrawView& view, std::uint32_t index, Turn& turn);
   void prepare(const DrawList& list);
   bool takeMore();
   bool hasOpaque(std::size_t batch);
@@ -158,8 +163,8 @@ private:
   bool coverTransparent(const ViewBlock& view, std::uint32_t eye);
   void drawLayers(std::uint32_t eye);
   void chooseSurfaces(bool shadowed, bool hazy, std::size_t lights);
-  void drawEye(const DrawEye& eye, std::uint32_t index, Turn& turn);
-  bool drawSmallThings(const DrawEye& eye, std::uint32_t index, Turn& turn);
+  void drawView(const DrawView& from, std::uint32_t index, Turn& turn);
+  bool drawSmallThings(const DrawView& from, std::uint32_t index, Turn& turn);
   void drawSmallThings(std::uint32_t eye, Turn* away);
   bool drawSmallThing(const MeshParts& mesh, const InstanceBatch& batch, std::uint32_t instance);
   void setUnchangingState();
@@ -213,7 +218,7 @@ private:
   std::vector<bool> isDrawn_;         ///< by instance: as a small thing, for this eye
   bool mirrored_ = false;             ///< the batch that is drawn
   GlBuffer instances_, scene_, indices_;
-  std::array<GlBuffer, 2> views_;
+  std::vector<GlBuffer> views_;  ///< as many as a list had at most
   GlVertexArray nothing_;  // the sky's triangle has no vertex data
   GLuint usedProgram_ = 0;
   std::pair<GLuint, GLintptr> boundMaterial_{};  ///< buffer, place in it [bytes]; in this eye
@@ -236,7 +241,7 @@ private:
   std::vector<std::uint32_t> pieces_;              ///< likewise: the first instance of each
   std::vector<std::size_t> wanted_;                ///< of these, those that are to have a turn
   DrawCounts counts_;
-  std::array<DrawTotals, 2> totals_{};
+  ViewTotals totals_{};
   std::set<std::string> reported_;
   std::optional<Diagnostic> problem_;
   bool contextIsLost_ = false;

@@ -19,10 +19,10 @@ bool drawnTogether(const GlMesh& mesh) {
 
 /// Before everything else, into the empty picture. True if OpenGL is to go on with that. Nobody else has to
 /// wait meanwhile, unless it is timed.
-bool Renderer::drawSmallThings(const DrawEye& eye, std::uint32_t index, Turn& turn) {
+bool Renderer::drawSmallThings(const DrawView& from, std::uint32_t index, Turn& turn) {
   constexpr std::uint64_t kPixels = 64;  // to hand them over costs as much as a triangle in OpenGL
   isDrawn_.clear();
-  if (!small_ || !SmallThings::serves(eye, lit_)) return false;
+  if (!small_ || !SmallThings::serves(from, lit_)) return false;
   const std::uint64_t enough = (std::uint64_t{width_} * height_ + kPixels - 1) / kPixels;
   std::uint64_t triangles = 0;
   for (std::size_t i = 0; triangles < enough && hasOpaque(i); ++i) {
@@ -35,7 +35,7 @@ bool Renderer::drawSmallThings(const DrawEye& eye, std::uint32_t index, Turn& tu
   if (skyIsFlat_) std::copy_n(lit_.zenith.begin(), 3, background.begin());
   const bool away = turn.owns_lock() && sample_ == DrawSample::None;
   if (away) turn.unlock();
-  part(Span::Sky, [&] { small_->begin(eye, lit_, background); });
+  part(Span::Sky, [&] { small_->begin(from, lit_, background); });
   drawSmallThings(index, away ? &turn : nullptr);
   if (!away) return true;
   const SpanScope span(probe_, Span::ForTurn);

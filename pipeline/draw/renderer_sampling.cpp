@@ -34,9 +34,9 @@ void Renderer::drawNothing() {
   gl_.Disable(GL_SCISSOR_TEST);
 }
 
-void Renderer::drawEyeAlone(const DrawEye& eye, std::uint32_t index, Turn& turn) {
-  sampler_->beginEye(index, {}, {});
-  sampler_->piece(index == 0 ? Span::LeftEye : Span::RightEye, [&] { drawEye(eye, index, turn); });
+void Renderer::drawViewAlone(const DrawView& view, std::uint32_t index, Turn& turn) {
+  sampler_->beginEye(view.eye, {}, {});
+  sampler_->piece(spanOf(view), [&] { drawView(view, index, turn); });
 }
 
 /// How much there is to draw of one instance: an estimate, for profiling.

@@ -12,7 +12,7 @@ constexpr float kDistance = 3, kRadius = 0.7f;  // [m]: large enough that none i
 constexpr std::size_t kMostMeshes = 1000;       // of what is not seen at once, so that no show waits for long
 
 /// Where the eye looks, relative to the list's origin.
-Vec3 placeBefore(const DrawEye& eye) {
+Vec3 placeBefore(const DrawView& eye) {
   const Eigen::Matrix3d turn = eye.view.topLeftCorner<3, 3>();
   const Vec3 at = -turn.transpose() * eye.view.topRightCorner<3, 1>();
   return at - static_cast<double>(kDistance) * turn.row(2).transpose();
@@ -41,7 +41,7 @@ DrawList warmUpList(const DrawList& first, const MeshStore& meshes) {
   std::set<MeshId> seen;
   for (const auto* items : {&first.opaque, &first.transparent})
     for (const DrawItem& item : *items) seen.insert(item.mesh);
-  const Vec3 place = placeBefore(first.eyes[0]);
+  const Vec3 place = placeBefore(first.views[0]);
   std::size_t added = 0;
   for (const MeshId id : meshes.used()) {
     const Mesh* mesh = seen.contains(id) ? nullptr : meshes.find(id);

@@ -1,5 +1,5 @@
 #pragma once
-/// What one wall draws in one frame, for both eyes: filled by Cull, read by Draw, self-contained.
+/// What one wall draws in one frame, in all its views: filled by Cull, read by Draw, self-contained.
 ///
 /// Frames   item matrices and light positions are relative to `origin`, a World point near the viewer, so
 ///          that single precision suffices anywhere in the world; axes are World's.
@@ -7,6 +7,7 @@
 /// Threads  one stage at a time owns it; but Draw may begin while Cull fills the items (list_filling.h).
 
 #include "engine/asset/mesh_store.h"
+#include "engine/display/wall.h"
 #include "engine/maths/maths.h"
 #include "engine/published/records.h"
 #include "engine/published/shadow_places.h"
@@ -26,11 +27,11 @@ struct DrawItem {
   MeshId mesh = kNoMesh;
   NodeRef owner;                   ///< who it is, for profiling
   float distance = 0;              ///< of its centre from the viewer [m]
-  float pixels = 0;                ///< that its bounding sphere may cover in one eye's picture, for profiling
+  float pixels = 0;                ///< that its bounding sphere may cover in one view's picture, for profiling
   std::uint32_t level = 0;         ///< 0 = all of the mesh; else Mesh::levels[level - 1]
-  std::uint32_t eyes = kBothEyes;  ///< that may see it: bit 0 the left or only eye, bit 1 the right one
+  std::uint32_t views = kAllViews;  ///< that may see it: bit v, DrawList::views[v]
 
-  static constexpr std::uint32_t kLeftEye = 1, kRightEye = 2, kBothEyes = 3;
+  static constexpr std::uint32_t kAllViews = ~0U;
 };
 
 struct DrawLight {
@@ -72,32 +73,34 @@ struct DrawShadows {
   std::array<DrawShadowRing, kShadowRings> rings;
 };
 
-/// One eye's camera.
-struct DrawEye {
+/// One view's camera.
+struct DrawView {
   Mat4 view = Mat4::Identity();        ///< World axes relative to origin, to eye coordinates (looks along -z)
   Mat4 projection = Mat4::Identity();  ///< eye to clip; z in [0, w], w at the near plane, 0 at the far one
+  Eye eye = Eye::Left;                 ///< for which its picture is; Left also for one from the middle
 };
 
 struct DrawList {
+  static constexpr std::size_t kMostViews = 8;  ///< of a wall
+  static constexpr std::size_t kMaxLights = 16;
+  static constexpr std::size_t kPortion = 1024;  ///< Draw takes opaque items up by so many
+
   FrameTicket ticket;
   std::uint32_t wall = 0;
   ListFilling* filling = nullptr;  ///< how far that has come; null = all is there
   Vec3 origin = Vec3::Zero();      ///< in World [m]
-  std::array<DrawEye, 2> eyes;     ///< left, right
-  std::uint32_t eyeCount = 2;      ///< 1 = mono: eyes[0] only
-  ViewerRecord viewer;             ///< whose eyes they are
+  std::array<DrawView, kMostViews> views;
+  std::uint32_t viewCount = 2;
+  ViewerRecord viewer;             ///< who looks
   DrawSky sky;
   std::vector<DrawLight> lights;  ///< at most kMaxLights
   DrawShadows shadows;
-  /// Sorted by mesh and level, then those that only the left eye sees, both eyes, only the right one; then
-  /// near to far.
+  /// Sorted by mesh and level, then by the sum of the first and the last view that see them, then near to far.
+  /// So what one of two views sees lies together.
   std::vector<DrawItem> opaque;
   /// Items with any transparent material, in an order that does not depend on the viewer. Where surfaces lie
   /// at the same depth, the later one is in front.
   std::vector<DrawItem> transparent;
-
-  static constexpr std::size_t kMaxLights = 16;
-  static constexpr std::size_t kPortion = 1024;  ///< Draw takes opaque items up by so many
 };
 
 }  // namespace stadion

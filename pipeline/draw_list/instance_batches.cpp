@@ -1,6 +1,7 @@
 #include "pipeline/draw_list/instance_batches.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace stadion {
@@ -25,6 +26,17 @@ bool alike(const DrawItem& a, const DrawItem& b) {
 
 }  // namespace
 
+/// Another instance, seen by those views.
+void InstanceBatch::add(std::uint32_t views) {
+  constexpr std::uint32_t kOfAWall = (1U << DrawList::kMostViews) - 1;
+  for (std::uint32_t left = views & kOfAWall; left != 0; left &= left - 1) {
+    const auto view = static_cast<std::size_t>(std::countr_zero(left));
+    if (ends[view] == 0) begins[view] = count;
+    ends[view] = count + 1;
+  }
+  ++count;
+}
+
 void InstanceBatches::add(const DrawItem& item) {
   matrices_.push_back(item.model), distances_.push_back(item.distance);
   if (withOwners_) owners_.push_back(item.owner), pixels_.push_back(item.pixels);
@@ -33,13 +45,11 @@ void InstanceBatches::add(const DrawItem& item) {
 void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
   const auto first = static_cast<std::uint32_t>(matrices_.size());
   const Handedness wanted = mirrored ? Handedness::Mirrored : Handedness::Kept;
-  InstanceBatch batch{run.front().mesh, run.front().level, first, 0, mirrored, 0, 0};
+  InstanceBatch batch{run.front().mesh, run.front().level, first, 0, mirrored, {}, {}};
   for (const DrawItem& item : run) {
     if (handednessOf(item.model) != wanted) continue;
     add(item);
-    ++batch.count;
-    batch.leftOnly += item.eyes == DrawItem::kLeftEye;
-    batch.rightOnly += item.eyes == DrawItem::kRightEye;
+    batch.add(item.views);
   }
   if (batch.count > 0) opaque_.push_back(batch);
 }
@@ -85,9 +95,9 @@ void InstanceBatches::addTransparent(std::span<const DrawItem> items) {
     if (transparent_.empty() || transparent_.back().mesh != item.mesh ||
         transparent_.back().level != item.level || transparent_.back().mirrored != mirrored)
       transparent_.push_back(
-          {item.mesh, item.level, static_cast<std::uint32_t>(matrices_.size()), 0, mirrored, 0, 0});
+          {item.mesh, item.level, static_cast<std::uint32_t>(matrices_.size()), 0, mirrored, {}, {}});
     add(item);
-    ++transparent_.back().count;
+    transparent_.back().add(DrawItem::kAllViews);
   }
   refused_ += items.size() - (matrices_.size() - before);
 }

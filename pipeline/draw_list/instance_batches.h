@@ -6,27 +6,29 @@
 
 #include "pipeline/draw_list/draw_list.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
 namespace stadion {
 
-/// Instances of one mesh and level, next to each other in the instance array: those that only the left eye
-/// sees come first, those that only the right one sees last.
+/// Instances of one mesh and level, next to each other in the instance array.
 struct InstanceBatch {
   MeshId mesh = kNoMesh;
   std::uint32_t level = 0;
   std::uint32_t first = 0, count = 0;
   bool mirrored = false;  ///< the model matrices turn left into right: front faces run clockwise
-  std::uint32_t leftOnly = 0, rightOnly = 0;
+  /// By view: all that it sees lies within these instances of the batch.
+  std::array<std::uint32_t, DrawList::kMostViews> begins{}, ends{};
 
-  /// What eye 0, left or mono, or 1, right, draws of it.
-  InstanceBatch seenBy(std::uint32_t eye) const {
+  /// What a view draws of it.
+  InstanceBatch seenBy(std::uint32_t view) const {
     InstanceBatch seen = *this;
-    if (eye == 1) seen.first += leftOnly;
-    seen.count -= eye == 1 ? leftOnly : rightOnly;
+    seen.first += begins[view];
+    seen.count = ends[view] - begins[view];
     return seen;
   }
+  void add(std::uint32_t views);
 };
 
 using InstanceMatrix = std::array<float, 12>;  ///< (3 x 4), row major, as in DrawItem
@@ -36,8 +38,8 @@ public:
   /// Begins anew, with nothing.
   void begin(bool withOwners = false);
   /// Takes up opaque items of a list: those before `end`, by DrawList::kPortion (but for the last ones, if
-  /// `end` is the list's), that have not been. Expects those of one mesh and level next to each other, those
-  /// for one eye as in a batch. Items whose matrix is not finite are left out and counted.
+  /// `end` is the list's), that have not been. Expects those of one mesh and level next to each other, sorted
+  /// by view as in a list. Items whose matrix is not finite are left out and counted.
   void addOpaque(std::span<const DrawItem> list, std::size_t end);
   /// Takes up the transparent items, after all opaque ones.
   void addTransparent(std::span<const DrawItem> items);

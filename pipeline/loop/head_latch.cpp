@@ -8,16 +8,16 @@ namespace stadion {
 
 using std::chrono::nanoseconds;
 
-void HeadLatch::latch(const WallView& view, TimePoint seen, DrawList& list) {
-  if (view.camera || list.eyeCount == 0) return;
+void HeadLatch::latch(const WallViews& wall, TimePoint seen, DrawList& list) {
+  if (wall.camera || list.viewCount == 0) return;
   const Taken taken = take(list, seen);
   if (!taken.X_RH) return;
   list.viewer.set(list.viewer.rig(), *taken.X_RH);
   list.ticket.posed = taken.measured;
-  WallEyes eyes = eyesOf(list.viewer, view, list.ticket.shown.eyeSeparation);
-  eyes.origin = list.origin;  // what is in the list lies around it
-  eyes.setUp(list);
-  if (list.ticket.shown.swapEyes && list.eyeCount == 2) std::swap(list.eyes[0], list.eyes[1]);
+  const Presentation& shown = list.ticket.shown;
+  PlacedViews placed = place(list.viewer, wall, {shown.eyeSeparation, shown.swapEyes});
+  placed.origin = list.origin;  // what is in the list lies around it
+  placed.setUp(list);
 }
 
 HeadLatch::Taken HeadLatch::take(const DrawList& list, TimePoint seen) {

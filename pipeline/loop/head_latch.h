@@ -2,9 +2,9 @@
 /// Late latch: just before a frame is drawn, the head's newest pose takes the place of the one that App
 /// sampled one or two frames earlier.
 ///
-/// It is taken once a frame, by the wall that comes first, so that all walls and both eyes show the room from
+/// It is taken once a frame, by the wall that comes first, so that all views show the room from
 /// the same head and no edge between walls is seen. What was culled stays: Cull has looked for what may be
-/// seen from anywhere within the reach (WallView::reach), and a head that has gone farther is drawn from its
+/// seen from anywhere within the reach (WallViews::reach), and a head that has gone farther is drawn from its
 /// edge, and counted. Lights, shadows and the order of what is transparent are those of App's pose.
 ///
 /// Pictures then depend on when they were drawn.
@@ -13,7 +13,7 @@
 /// Threads  latch() on any wall's Draw thread, all walls at the same frame; the counts when they are over.
 
 #include "engine/input/input_device.h"
-#include "pipeline/cull/wall_view.h"
+#include "pipeline/view/wall_views.h"
 
 #include <chrono>
 #include <cstdint>
@@ -38,7 +38,7 @@ public:
 
   /// Looks at the list's wall from the newest head there is, carried on to `seen`, the time at which pictures
   /// are expected to be (in the past: to now). The list stays as it is if nobody knows more of the head.
-  void latch(const WallView& view, TimePoint seen, DrawList& list);
+  void latch(const WallViews& wall, TimePoint seen, DrawList& list);
 
   const LatchCounts& counts() const { return counts_; }
 

@@ -4,7 +4,7 @@
 /// Threads  plain values.
 
 #include "engine/base/time_signature.h"
-#include "pipeline/cull/head_reach.h"
+#include "pipeline/view/head_reach.h"
 
 #include <optional>
 

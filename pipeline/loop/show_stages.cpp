@@ -2,7 +2,7 @@
 
 #include "engine/input/tracker_names.h"
 #include "pipeline/draw/warm_up_list.h"
-#include "pipeline/process/eyes_in_workers.h"
+#include "pipeline/process/views_in_workers.h"
 #include "pipeline/wall/drawing_here.h"
 
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace {
 std::unique_ptr<WallDrawing> drawingOf(const ShowParts& parts) {
   if (!parts.provider) return {};
   std::vector<PictureSize> sizes;
-  for (const WallView& view : parts.walls) sizes.push_back({view.width, view.height});
+  for (const WallViews& wall : parts.walls) sizes.push_back({wall.width, wall.height});
   std::vector<std::string> names;
-  for (const WallView& view : parts.walls) names.push_back(view.wall.name);
+  for (const WallViews& wall : parts.walls) names.push_back(wall.name);
   if (!parts.workers)
     return std::make_unique<DrawingHere>(
         DrawingHereParts{*parts.provider, parts.meshes, std::move(sizes), parts.quality, parts.contexts,
@@ -27,9 +27,9 @@ std::unique_ptr<WallDrawing> drawingOf(const ShowParts& parts) {
       w.rasteriserThreads,   w.everyFrame,     w.rate,           parts.giveUp,  w.tell,
       worker::wallProgram(), parts.processors};
   if (parts.quality.look != Look::Plain) return std::make_unique<DrawingInWorkers>(std::move(workers));
-  std::vector<std::uint32_t> eyes;
-  for (const WallView& view : parts.walls) eyes.push_back(view.stereo && !view.camera ? 2 : 1);
-  return std::make_unique<EyesInWorkers>(std::move(workers), eyes);
+  std::vector<std::uint32_t> views;
+  for (const WallViews& wall : parts.walls) views.push_back(static_cast<std::uint32_t>(wall.views.size()));
+  return std::make_unique<ViewsInWorkers>(std::move(workers), views);
 }
 
 void tellCounts(const FrameCounters& counters, FrameProbe& probe) {
@@ -44,8 +44,14 @@ ShowStages::ShowStages(ShowParts parts)
     : parts_(std::move(parts)), room_(parts_.walls), drawing_(drawingOf(parts_)), drawn_(parts_.walls.size()),
       pictures_(parts_.walls.size()) {
   if (parts_.head.latch) latch_.emplace(parts_.input, *parts_.head.latch);
-  for (const WallView& view : parts_.walls)
-    if (!view.camera) wallPixels_.push_back({view.wall, view.width, view.height});
+  for (const WallViews& wall : parts_.walls) {
+    const Wall* last = nullptr;
+    for (const View& view : wall.views) {
+      if (!wall.camera && !(last && isSameScreen(view.screen, *last)))
+        wallPixels_.push_back({view.screen, wall.width, wall.height});
+      last = &view.screen;
+    }
+  }
   std::ranges::copy(parts_.otherWalls, std::back_inserter(wallPixels_));
   const bool shadows = parts_.quality.look == Look::Full;
   const bool oneSample = parts_.quality.samples == 1 && parts_.quality.leavesOutUnseen;
@@ -141,9 +147,7 @@ void ShowStages::still(const TimeSignature& now, std::size_t slot) {
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
   const bool visitors = !parts_.walls[wall].camera;  // else it is somebody else's who looks on
-  const CullOptions options{.eyeSeparation = shown.eyeSeparation,
-                            .order = visitors && shown.swapEyes ? EyeOrder::Swapped : EyeOrder::LeftRight,
-                            .black = visitors && shown.black};
+  const CullOptions options{.eyes = {shown.eyeSeparation, shown.swapEyes}, .black = visitors && shown.black};
   culls_[wall].fill(parts_.state.view(slot), options, list);
 }
 
@@ -165,7 +169,7 @@ bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {
 Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
   if (!drawing_) return {};
   Drawn& drawn = drawn_[wall];
-  drawn.eyes = 0;  // until it is finished there is no picture
+  drawn.views = 0;  // until it is finished there is no picture
   began_ = list.ticket.began;
   const bool wanted = list.ticket.last || (parts_.sink && parts_.sink->wants(list.ticket.signature));
   if (DrawOutcome outcome = drawing_->draw(wall, list, wanted); outcome.failure || !outcome.drawn) {
@@ -174,7 +178,7 @@ Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
     return std::move(outcome.failure);
   }
   drawn.lateNow = 0, drawn.posed = list.ticket.posed;
-  drawn.eyes = list.eyeCount, drawn.frame = list.ticket.signature.frame, drawn.read = false;
+  drawn.views = list.viewCount, drawn.frame = list.ticket.signature.frame, drawn.read = false;
   drawn.totals = drawing_->totals(wall);
   return wanted ? readPictures(wall) : std::nullopt;
 }
@@ -183,11 +187,11 @@ Failure ShowStages::readPictures(std::size_t wall) {
   const SpanScope span(parts_.probe, Span::Read);
   Drawn& drawn = drawn_[wall];
   pictures_[wall].frame = drawn.frame;
-  pictures_[wall].eyes.resize(drawn.eyes);
-  for (std::uint32_t eye = 0; eye < drawn.eyes; ++eye) {
-    Picture& p = pictures_[wall].eyes[eye];
+  pictures_[wall].eyes.resize(drawn.views);
+  for (std::uint32_t view = 0; view < drawn.views; ++view) {
+    Picture& p = pictures_[wall].eyes[view];
     p = Picture(parts_.walls[wall].width, parts_.walls[wall].height);
-    if (Failure f = drawing_->read(wall, eye, p.rgba)) return f;
+    if (Failure f = drawing_->read(wall, view, p.rgba)) return f;
   }
   drawn.read = true;
   return {};
@@ -196,7 +200,7 @@ Failure ShowStages::readPictures(std::size_t wall) {
 void ShowStages::closeWall(std::size_t wall) {
   if (!drawing_) return;
   // After a failure, or a wait that was given up, nobody knew which frame would be the last.
-  const bool wanted = drawn_[wall].eyes > 0 && !drawn_[wall].read && !(parts_.desk && parts_.desk->leaving());
+  const bool wanted = drawn_[wall].views > 0 && !drawn_[wall].read && !(parts_.desk && parts_.desk->leaving());
   if (wanted) readPictures(wall);
   drawing_->close(wall);
 }

@@ -24,7 +24,7 @@
 
 namespace stadion {
 
-/// One wall's pictures of one frame: left and right, or one for both.
+/// One wall's pictures of one frame, by view: left and right, or one for both.
 struct EyePictures {
   std::uint64_t frame = 0;
   std::vector<Picture> eyes;
@@ -58,7 +58,7 @@ struct ShowParts {
   SceneState& state;
   MeshStore& meshes;
   InputDevice& input;
-  std::vector<WallView> walls;
+  std::vector<WallViews> walls;
   GlProvider* provider = nullptr;  ///< null draws nothing
   PictureSink* sink = nullptr;
   WallContexts* contexts = nullptr;  ///< that outlive the show; null: it makes its own
@@ -105,8 +105,8 @@ public:
 
   /// Of the frame drawn last; their number says which that is. For when the run is over.
   const std::vector<EyePictures>& lastPictures() const { return pictures_; }
-  /// Of wall `wall`, by eye: what it was drawn with in all. For when the run is over.
-  const std::array<DrawTotals, 2>& drawn(std::size_t wall) const { return drawn_[wall].totals; }
+  /// Of wall `wall`, by view: what it was drawn with in all. For when the run is over.
+  const ViewTotals& drawn(std::size_t wall) const { return drawn_[wall].totals; }
   std::string glDescription() const { return glDescription_; }
   /// For when the run is over.
   const WallLateness& late(std::size_t wall) const { return drawn_[wall].late; }
@@ -120,10 +120,10 @@ public:
 private:
   /// What a wall has drawn last.
   struct Drawn {
-    std::uint32_t eyes = 0;
+    std::uint32_t views = 0;
     std::uint64_t frame = 0;
     bool read = false;                   ///< the pictures have been read back
-    std::array<DrawTotals, 2> totals{};  ///< by eye, of the whole show, when it has been closed
+    ViewTotals totals{};  ///< of the whole show, when it has been closed
     std::optional<std::chrono::steady_clock::time_point> posed{};  ///< the head's pose was measured then
     WallLateness late{};
     std::uint64_t lateNow = 0;  ///< frames in a row, up to this one

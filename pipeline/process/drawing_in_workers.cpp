@@ -41,7 +41,7 @@ struct DrawingInWorkers::Wall {
   std::string name;
   worker::WallWorker process;
   std::string description;
-  std::array<DrawTotals, 2> before{}, totals{};  ///< of the processes before this one; in all
+  ViewTotals before{}, totals{};  ///< of the processes before this one; in all
   std::atomic<int> pid = 0;
   worker::Restarts restarts;
 
@@ -80,7 +80,7 @@ void DrawingInWorkers::tell(const Wall& wall, const std::string& what) const {
 }
 
 Failure DrawingInWorkers::start(Wall& wall) {
-  for (std::size_t eye = 0; eye < wall.before.size(); ++eye) wall.before[eye] = wall.totals[eye];
+  wall.before = wall.totals;
   wall.processor = -1;
   wall.began = wall.since = Clock::now();
   wall.warm = false;
@@ -150,10 +150,10 @@ Failure DrawingInWorkers::answered(Wall& wall) {
 }
 
 /// In time or not.
-void DrawingInWorkers::hasDrawn(Wall& wall, const std::array<DrawTotals, 2>& totals) {
-  for (std::size_t eye = 0; eye < wall.totals.size(); ++eye) {
-    wall.totals[eye] = totals[eye];
-    wall.totals[eye].add(wall.before[eye]);
+void DrawingInWorkers::hasDrawn(Wall& wall, const ViewTotals& totals) {
+  for (std::size_t view = 0; view < wall.totals.size(); ++view) {
+    wall.totals[view] = totals[view];
+    wall.totals[view].add(wall.before[view]);
   }
   const auto took = Clock::now() - wall.began;
   if (wall.warm) wall.patience.took(took);
@@ -285,14 +285,14 @@ void DrawingInWorkers::drewInTime(Wall& wall) {
                          : "draws again, after " + std::to_string(deaths) + " processes that died");
 }
 
-Failure DrawingInWorkers::read(std::size_t index, std::uint32_t eye, std::span<std::uint8_t> rgba) {
+Failure DrawingInWorkers::read(std::size_t index, std::uint32_t view, std::span<std::uint8_t> rgba) {
   Wall& wall = *walls_[index];
   if (!wall.process.holdsPictures() && wall.process.state() == State::Idle) {
     wall.process.readPictures();
     if (await(wall, kForEver))
       if (Failure f = answered(wall)) return f;
   }
-  const auto picture = wall.process.picture(eye);
+  const auto picture = wall.process.picture(view);
   if (!wall.process.holdsPictures() || picture.size() != rgba.size())
     return Reason("wall " + wall.name + ": its picture is lost: the process that draws it " +
                   (wall.process.state() == State::Down ? wall.process.end() : std::string("hung")));
@@ -305,7 +305,7 @@ void DrawingInWorkers::close(std::size_t index) {
   walls_[index]->process.stop();
 }
 
-std::array<DrawTotals, 2> DrawingInWorkers::totals(std::size_t wall) const {
+ViewTotals DrawingInWorkers::totals(std::size_t wall) const {
   return walls_[wall]->totals;
 }
 

@@ -46,9 +46,9 @@ public:
   Failure open(std::size_t wall) override;
   Failure warmUp(std::size_t wall, const DrawList& list) override;
   DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) override;
-  Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) override;
+  Failure read(std::size_t wall, std::uint32_t view, std::span<std::uint8_t> rgba) override;
   void close(std::size_t wall) override;
-  std::array<DrawTotals, 2> totals(std::size_t wall) const override;
+  ViewTotals totals(std::size_t wall) const override;
   std::string glDescription(std::size_t wall) const override;
 
   /// The process that draws the wall; 0 while there is none (for tests that kill it).
@@ -63,7 +63,7 @@ private:
   Failure lookAfter(Wall& wall);
   static void begin(Wall& wall, const DrawList& list, bool read, bool warmUp = false);
   static Milliseconds patience(const Wall& wall);
-  static void hasDrawn(Wall& wall, const std::array<DrawTotals, 2>& totals);
+  static void hasDrawn(Wall& wall, const ViewTotals& totals);
   void drewInTime(Wall& wall);
   bool await(Wall& wall, Milliseconds atMost);
   bool awaitInTime(Wall& wall);

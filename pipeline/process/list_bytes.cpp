@@ -18,9 +18,10 @@ struct RingHead {
 
 struct Head {
   std::uint64_t frame;
-  std::uint32_t wall, eyeCount;
+  std::uint32_t wall, viewCount;
   double origin[3];
-  double view[2][16], projection[2][16];
+  Eye eye[DrawList::kMostViews];
+  double view[DrawList::kMostViews][16], projection[DrawList::kMostViews][16];
   DrawSky sky;
   std::int32_t shadowLight;
   std::array<float, 9> shadowAxes;
@@ -37,11 +38,12 @@ std::size_t bytesOf(const std::vector<T>& values) {
 
 Head headOf(const DrawList& list, const ListNews& news) {
   Head h{};
-  h.frame = list.ticket.signature.frame, h.wall = list.wall, h.eyeCount = list.eyeCount;
+  h.frame = list.ticket.signature.frame, h.wall = list.wall, h.viewCount = list.viewCount;
   std::copy_n(list.origin.data(), 3, h.origin);
-  for (std::size_t eye = 0; eye < list.eyes.size(); ++eye) {
-    std::copy_n(list.eyes[eye].view.data(), 16, h.view[eye]);
-    std::copy_n(list.eyes[eye].projection.data(), 16, h.projection[eye]);
+  for (std::size_t v = 0; v < list.views.size(); ++v) {
+    std::copy_n(list.views[v].view.data(), 16, h.view[v]);
+    std::copy_n(list.views[v].projection.data(), 16, h.projection[v]);
+    h.eye[v] = list.views[v].eye;
   }
   h.sky = list.sky;
   h.shadowLight = list.shadows.light, h.shadowAxes = list.shadows.axes;
@@ -82,11 +84,12 @@ private:
 };
 
 void fill(DrawList& list, const Head& h) {
-  list.ticket.signature.frame = h.frame, list.wall = h.wall, list.eyeCount = h.eyeCount;
+  list.ticket.signature.frame = h.frame, list.wall = h.wall, list.viewCount = h.viewCount;
   std::copy_n(h.origin, 3, list.origin.data());
-  for (std::size_t eye = 0; eye < list.eyes.size(); ++eye) {
-    std::copy_n(h.view[eye], 16, list.eyes[eye].view.data());
-    std::copy_n(h.projection[eye], 16, list.eyes[eye].projection.data());
+  for (std::size_t v = 0; v < list.views.size(); ++v) {
+    std::copy_n(h.view[v], 16, list.views[v].view.data());
+    std::copy_n(h.projection[v], 16, list.views[v].projection.data());
+    list.views[v].eye = h.eye[v];
   }
   list.sky = h.sky;
   list.shadows.light = h.shadowLight, list.shadows.axes = h.shadowAxes;
@@ -130,7 +133,7 @@ std::size_t write(const DrawList& list, const ListNews& news, StillKeys& known, 
 bool read(std::span<const std::byte> bytes, DrawList& list, ListNews& news) {
   ValueReader in(bytes);
   Head head;
-  if (!in.get(head) || head.eyeCount > list.eyes.size()) return false;
+  if (!in.get(head) || head.viewCount > list.views.size()) return false;
   fill(list, head);
   if (!in.get(list.lights, head.lights) || !in.get(list.opaque, head.opaque) ||
       !in.get(list.transparent, head.transparent))

@@ -18,7 +18,7 @@
 namespace stadion::worker {
 
 constexpr std::uint32_t kMagic = 0x57445453;  // "STDW"
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 constexpr std::size_t kLongestText = 4096;
 
 // Address space, not memory.
@@ -28,14 +28,14 @@ constexpr std::size_t kListReserve = std::size_t{1} << 32, kMeshReserve = std::s
 enum class Order : std::uint32_t {
   Open,  ///< with the segments' descriptors: list, meshes, pictures
   Draw,  ///< what lies in the list's segment; with `read`, the pictures into theirs as well
-  Read,  ///< the pictures drawn last, into the pictures' segment: left, right
+  Read,  ///< the pictures drawn last, into the pictures' segment: view by view
 };
 
 struct OrderHead {
   std::uint32_t magic = kMagic, version = kVersion;
   Order order = Order::Open;
   // Of Open.
-  std::uint32_t width = 0, height = 0;  ///< of one eye's picture [pixels]
+  std::uint32_t width = 0, height = 0;  ///< of one view's picture [pixels]
   std::uint32_t egl = 0;                ///< 1: through EGL, else OSMesa
   std::uint32_t rasteriserThreads = 0;  ///< 0: it rasterises on the thread that draws
   RenderQuality quality{};
@@ -51,7 +51,7 @@ struct AnswerHead {
   Order to = Order::Open;
   std::uint32_t failed = 0;  ///< the text says why
   std::uint32_t textBytes = 0;
-  std::array<DrawTotals, 2> totals{};  ///< of Draw, by eye: since the worker began
+  ViewTotals totals{};  ///< of Draw: since the worker began
 };
 
 }  // namespace stadion::worker

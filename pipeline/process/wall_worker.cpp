@@ -68,7 +68,7 @@ std::filesystem::path wallProgram() {
 WallWorker::WallWorker(WorkerSetting setting, const MeshStore& meshes, MeshParcels& parcels)
     : setting_(std::move(setting)), meshes_(meshes), parcels_(parcels), list_("stadion-list", kListReserve),
       pictures_("stadion-pictures", kPictureReserve) {
-  pictures_.growTo(2 * pictureBytes(setting_));
+  pictures_.growTo(pictureBytes(setting_));
 }
 
 std::optional<std::string> WallWorker::start() {
@@ -139,6 +139,7 @@ void WallWorker::warmUp(const DrawList& list) {
 
 void WallWorker::draw(const DrawList& list, OrderHead head) {
   const ListNews news = newsFor(list);
+  pictures_.growTo(list.viewCount * pictureBytes(setting_));
   head.order = Order::Draw;
   reads_ = head.read, holdsPictures_ = false;
   head.listBytes = write(list, news, known_, list_);
@@ -234,8 +235,8 @@ void WallWorker::isGone(const std::string& how) {
   stop();
 }
 
-std::span<const std::byte> WallWorker::picture(std::uint32_t eye) const {
-  return {pictures_.data() + eye * pictureBytes(setting_), pictureBytes(setting_)};
+std::span<const std::byte> WallWorker::picture(std::uint32_t view) const {
+  return {pictures_.data() + view * pictureBytes(setting_), pictureBytes(setting_)};
 }
 
 }  // namespace stadion::worker

@@ -28,7 +28,7 @@ namespace stadion::worker {
 struct WorkerSetting {
   std::filesystem::path program;        ///< stadion-wall
   bool egl = false;                     ///< else OSMesa
-  std::uint32_t width = 0, height = 0;  ///< of one eye's picture [pixels]
+  std::uint32_t width = 0, height = 0;  ///< of one view's picture [pixels]
   RenderQuality quality{};
   std::uint32_t rasteriserThreads = 0;  ///< 0: it rasterises on the thread that draws
   ProcessorSet processors{};            ///< that it may use; empty: all
@@ -79,7 +79,7 @@ public:
   const AnswerHead& answer() const { return answer_; }
   const std::string& text() const { return text_; }  ///< of the answer
   const std::string& end() const { return end_; }    ///< "was killed by signal 9 (Killed)"
-  std::span<const std::byte> picture(std::uint32_t eye) const;
+  std::span<const std::byte> picture(std::uint32_t view) const;
   /// Whether picture() is that of the list that was drawn last, also when the process is gone.
   bool holdsPictures() const { return holdsPictures_; }
 

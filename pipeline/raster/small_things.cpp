@@ -54,7 +54,7 @@ SmallThings::SmallThings(std::uint32_t width, std::uint32_t height, const Raster
     : kernels_(kernels), width_(static_cast<int>(width)), height_(static_cast<int>(height)),
       sieve_(width, height), colours_(std::size_t{width} * height), depths_(std::size_t{width} * height) {}
 
-bool SmallThings::serves(const DrawEye& eye, const SceneBlock& scene) {
+bool SmallThings::serves(const DrawView& eye, const SceneBlock& scene) {
   const Mat4& p = eye.projection;
   const bool perspective = p(3, 2) == -1 && p(3, 3) == 0 && p(2, 3) > 0 && p(3, 0) == 0 && p(3, 1) == 0;
   bool directional = true;
@@ -64,7 +64,7 @@ bool SmallThings::serves(const DrawEye& eye, const SceneBlock& scene) {
 }
 
 /// A depth d is p23 / w - p22 for the projection's third row: 1 at the near plane.
-void SmallThings::begin(const DrawEye& eye, const SceneBlock& scene, const std::array<float, 3>& background) {
+void SmallThings::begin(const DrawView& eye, const SceneBlock& scene, const std::array<float, 3>& background) {
   const double p22 = eye.projection(2, 2), p23 = eye.projection(2, 3);
   nearest_ = static_cast<float>((1 + p22) / p23);
   std::ranges::fill(colours_, packed(background));

@@ -42,10 +42,10 @@ public:
   SmallThings(std::uint32_t width, std::uint32_t height, const RasterKernels& kernels = bestRaster());
 
   /// Whether things that are lit so can be drawn here.
-  static bool serves(const DrawEye& eye, const SceneBlock& scene);
+  static bool serves(const DrawView& eye, const SceneBlock& scene);
 
   /// An empty picture of that colour, for an eye and a scene that are served.
-  void begin(const DrawEye& eye, const SceneBlock& scene, const std::array<float, 3>& background);
+  void begin(const DrawView& eye, const SceneBlock& scene, const std::array<float, 3>& background);
   /// What is drawn next, and where it stands. False: it is not small.
   bool place(const SieveMesh& mesh, const MeshShading& shading, const InstanceMatrix& model);
   /// Of the triangles of what was placed, from number `first` on, whose vertices are within [firstVertex,

@@ -43,7 +43,7 @@ public:
   /// Forgets what was kept.
   void clear() { used_ = 0; }
   /// Through whose eye things are seen from now on.
-  void look(const DrawEye& eye);
+  void look(const DrawView& eye);
   /// What has been drawn for this eye so far: its depths, 1 at the near plane and 0 at the far one (height x
   /// width), rows from the bottom. What is behind is left out from now on.
   void hideBehind(std::span<const float> depths);
@@ -65,7 +65,7 @@ private:
   double halfWidth_, halfHeight_, oddX_, oddY_;
   Mat4 clip_ = Mat4::Identity();
   std::uint32_t width_, height_;
-  DrawEye eye_;
+  DrawView eye_;
   std::vector<float> squares_;
   SeenSquares seen_{};
   const SieveMesh* mesh_ = nullptr;

@@ -77,7 +77,7 @@ void fillViewProjection(const Mat4& viewProjection, ClipDepth clip, ViewBlock& o
   out.eye[3] = clip == ClipDepth::MinusOneToOne ? -1 : 0;
 }
 
-bool fillView(const DrawEye& eye, ClipDepth clip, ViewBlock& out) {
+bool fillView(const DrawView& eye, ClipDepth clip, ViewBlock& out) {
   if (!eye.view.allFinite() || !eye.projection.allFinite()) return false;
   const Mat4 toWorld = eye.view.inverse();
   const Mat4 fromClip = eye.projection.inverse();

@@ -71,7 +71,7 @@ GlBindings shaderBindings();
 /// Takes a matrix to clip coordinates, z in [0, w], over into the block, as the context wants them.
 void fillViewProjection(const Mat4& viewProjection, ClipDepth clip, ViewBlock& out);
 /// False if the eye's matrices are not finite or cannot be inverted: nothing can be drawn then.
-bool fillView(const DrawEye& eye, ClipDepth clip, ViewBlock& out);
+bool fillView(const DrawView& eye, ClipDepth clip, ViewBlock& out);
 /// In the plain look all colours are in sRGB, as they are stored, instead of linear.
 SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights, Look look,
                      std::int32_t shadowed = -1);

@@ -70,9 +70,9 @@ std::string DrawingHere::nameOf(std::size_t wall) const {
   return wall < parts_.names.size() ? parts_.names[wall] : std::to_string(wall + 1);
 }
 
-Failure DrawingHere::read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) {
+Failure DrawingHere::read(std::size_t wall, std::uint32_t view, std::span<std::uint8_t> rgba) {
   if (Failure f = contexts_.enter(wall)) return f;
-  return toFailure(contexts_.renderer(wall).read(eye, rgba));
+  return toFailure(contexts_.renderer(wall).read(view, rgba));
 }
 
 void DrawingHere::close(std::size_t wall) {
@@ -83,7 +83,7 @@ void DrawingHere::close(std::size_t wall) {
     contexts_.close(wall);
 }
 
-std::array<DrawTotals, 2> DrawingHere::totals(std::size_t wall) const {
+ViewTotals DrawingHere::totals(std::size_t wall) const {
   return contexts_.renderer(wall).totals();
 }
 

@@ -14,7 +14,7 @@
 
 namespace stadion {
 
-/// Of one eye's picture [pixels].
+/// Of the picture of a view [pixels].
 struct PictureSize {
   std::uint32_t width = 0, height = 0;
 };
@@ -39,9 +39,9 @@ public:
   Failure open(std::size_t wall) override;
   Failure warmUp(std::size_t wall, const DrawList& list) override;
   DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) override;
-  Failure read(std::size_t wall, std::uint32_t eye, std::span<std::uint8_t> rgba) override;
+  Failure read(std::size_t wall, std::uint32_t view, std::span<std::uint8_t> rgba) override;
   void close(std::size_t wall) override;
-  std::array<DrawTotals, 2> totals(std::size_t wall) const override;
+  ViewTotals totals(std::size_t wall) const override;
   std::string glDescription(std::size_t wall) const override;
 
 private:

@@ -55,7 +55,7 @@ public:
   virtual void still(const TimeSignature& now, std::size_t slot) { (void)now, (void)slot; }
   /// Whether anybody looks at this frame; else it is neither culled nor drawn. Asked after app().
   virtual bool wantsDrawn(const FrameTicket&) const { return true; }
-  /// Fills `list` with what wall `wall` shows of the frame in `slot`, for both eyes.
+  /// Fills `list` with what wall `wall` shows of the frame in `slot`, in all its views.
   virtual void cull(std::size_t wall, std::size_t slot, DrawList& list) = 0;
 
   /// When the head's pose was measured that app() or still() has just taken; nothing: nobody knows, and the
@@ -79,7 +79,7 @@ public:
   virtual Failure draw(std::size_t wall, const DrawList& list) = 0;
   virtual void closeWall(std::size_t wall) = 0;
 
-  /// All walls have drawn this frame (if it is drawn), both eyes: show it.
+  /// All walls have drawn this frame (if it is drawn), in all views: show it.
   virtual Failure swap(const TimeSignature& now) = 0;
 };
 

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "stadion-plan-costs 1";
 constexpr double kLongest = 1e7;  ///< [ms]
-constexpr std::size_t kMostWalls = WallFile::kMaxWalls, kMostPictures = 2;
+constexpr std::size_t kMostWalls = WallFile::kMaxWalls, kMostPictures = 8;
 
 struct Wrong {
   std::string what;
@@ -44,7 +44,7 @@ WallCost wallOf(const Json& j) {
     wall.pictures.push_back({number(p[0], "calls", 0, kLongest), number(p[1], "raster", 0, kLongest),
                              number(p[2], "threads at a time", 0, 4096)});
   }
-  if (wall.pictures.size() > kMostPictures) throw Wrong{"a wall has more than two pictures"};
+  if (wall.pictures.size() > kMostPictures) throw Wrong{"a wall has more than eight pictures"};
   return wall;
 }
 

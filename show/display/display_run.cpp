@@ -39,11 +39,11 @@ std::unique_ptr<DisplayRun> DisplayRun::open(const ShowOptions& show, StereoLayo
   return run->displays_ ? std::move(run) : nullptr;
 }
 
-void DisplayRun::fitPictures(std::vector<WallView>& views) const {
-  for (std::size_t i = 0; i < views.size(); ++i) {
+void DisplayRun::fitPictures(std::vector<WallViews>& walls) const {
+  for (std::size_t i = 0; i < walls.size(); ++i) {
     if (!show_.size.empty() || walls_.walls[i].pixels.width > 0) continue;
     const auto [width, height] = displays_->pictureSize(i);
-    views[i].width = width, views[i].height = height;
+    walls[i].width = width, walls[i].height = height;
   }
 }
 

@@ -21,7 +21,7 @@ public:
 
   PictureSink& sink() { return mailbox_; }
   /// The walls' pictures fill their outputs pixel by pixel, unless --size or the wall file says otherwise.
-  void fitPictures(std::vector<WallView>& views) const;
+  void fitPictures(std::vector<WallViews>& walls) const;
   /// Plays the loop to its end. Keys pressed in the windows are the operator's (docs/operator.md); Escape
   /// ends the run.
   FrameLoopOutcome play(FrameLoop& loop, LiveDesk& desk);

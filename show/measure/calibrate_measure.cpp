@@ -77,7 +77,7 @@ Result<CalibrationFigures> measureSetting(const CalibrationRun& run, Diagnostics
   }
   if (run.setting.pinned) parts.processors = Topology::ofThisMachine().parts(parts.walls.size());
   // As canDraw() does in a run: the rasteriser's threads start here, on all processors.
-  const WallView& wall = parts.walls.front();
+  const WallViews& wall = parts.walls.front();
   if (!run.setting.processes)
     if (auto why = checkPictureSize(*provider.value(), wall.width, wall.height)) return *why;
   ShowStages stages(std::move(parts));

@@ -54,7 +54,7 @@ std::optional<Diagnostic> PictureHashes::add(std::uint64_t frame, const std::vec
   std::string lines;
   for (std::size_t w = 0; w < walls.size(); ++w)
     for (std::size_t e = 0; e < walls[w].eyes.size(); ++e)
-      lines += fmt::format("{} {} {} {:016x}\n", frame, wallNames_[w], eyeName(kEyes[e]),
+      lines += fmt::format("{} {} {} {:016x}\n", frame, wallNames_[w], pictureName(e),
                            hashOf(walls[w].eyes[e]));
   using Ns = std::chrono::nanoseconds;
   const auto at = std::chrono::duration_cast<Ns>(shown.time_since_epoch()).count();

@@ -117,13 +117,13 @@ void RunOutput::write(const Job& job) {
 void RunOutput::writePictures(const Job& job) {
   for (std::size_t w = 0; w < job.walls.size(); ++w) {
     const std::vector<Picture>& eyes = job.walls[w].eyes;
-    const auto name = [&](const char* what) {
+    const auto name = [&](const std::string& what) {
       return fmt::format("{}-{}-{:06}.png", options_.wallNames[w], what, job.frame);
     };
     if (eyes.size() == 2 && !keepsEyesApart(options_.layout))
       writeFile(name(stereoLayoutName(options_.layout)), compose(options_.layout, eyes[0], eyes[1]));
     else
-      for (std::size_t e = 0; e < eyes.size(); ++e) writeFile(name(eyeName(kEyes[e])), eyes[e]);
+      for (std::size_t e = 0; e < eyes.size(); ++e) writeFile(name(pictureName(e)), eyes[e]);
   }
   if (options_.sheets) writeFile(fmt::format("contact-sheet-{:06}.png", job.frame), sheetOf(job, 320));
   lastWritten_ = job.frame;

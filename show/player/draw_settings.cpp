@@ -2,12 +2,12 @@
 
 namespace stadion {
 
-HeadTiming DrawSettings::headFor(std::vector<WallView>& walls) const {
+HeadTiming DrawSettings::headFor(std::vector<WallViews>& walls) const {
   HeadTiming head;
   head.predict = ahead;
   if (!latch) return head;
   head.latch = *latch;
-  for (WallView& view : walls) view.reach = *latch;
+  for (WallViews& wall : walls) wall.reach = *latch;
   return head;
 }
 

@@ -21,7 +21,7 @@ struct DrawSettings {
   std::optional<HeadReach> latch{};             ///< Draw takes the newest pose of the head, within this reach
 
   /// How the head's pose is kept young. The walls are culled for it.
-  HeadTiming headFor(std::vector<WallView>& walls) const;
+  HeadTiming headFor(std::vector<WallViews>& walls) const;
 };
 
 }  // namespace stadion

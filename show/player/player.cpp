@@ -204,14 +204,12 @@ ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
                   true,    {},     nullptr};
   if (options_.look == "plain") parts.quality = RenderQuality::plain();
   for (const WallEntry& entry : walls_.walls) {
-    WallView view;
-    view.wall = entry.wall;
-    view.depth = walls_.depth;
-    view.eyeSeparation = walls_.eyeSeparation;
-    view.stereo = eyeCount(stereo) == 2;
+    WallViews wall{.name = entry.wall.name, .views = viewsOf(entry.wall, eyeCount(stereo) == 2)};
+    wall.depth = walls_.depth;
+    wall.eyeSeparation = walls_.eyeSeparation;
     const PixelSize pixels = pixelsOf(entry);
-    view.width = pixels.width, view.height = pixels.height;
-    parts.walls.push_back(view);
+    wall.width = pixels.width, wall.height = pixels.height;
+    parts.walls.push_back(std::move(wall));
   }
   for (const WallEntry& entry : others_) {
     const PixelSize pixels = pixelsOf(entry);

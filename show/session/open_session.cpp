@@ -98,9 +98,9 @@ bool OpenSession::openDrawing(Diagnostics& findings) {
 /// Found out here rather than when the first picture is to be drawn.
 bool OpenSession::canDraw(Diagnostics& findings) {
   std::optional<Diagnostic> why;
-  const WallView* before = nullptr;
+  const WallViews* before = nullptr;
   const ShowParts parts = player_->parts(state_.settings.draw.layout);
-  for (const WallView& wall : parts.walls) {
+  for (const WallViews& wall : parts.walls) {
     if (!why && !(before && before->width == wall.width && before->height == wall.height))
       why = checkPictureSize(*provider_, wall.width, wall.height);
     before = &wall;

@@ -111,13 +111,13 @@ void OpenSession::addTimes(RunSummary& s) const {
     if (const WallLateness& late = stages.late(w); late.frames > 0)
       s.lateWalls.push_back({name, late.frames, late.inARow});
     const std::vector<Picture>& eyes = stages.lastPictures()[w].eyes;
-    const std::array<DrawTotals, 2>& drawn = stages.drawn(w);
+    const ViewTotals& drawn = stages.drawn(w);
     for (std::size_t e = 0; e < drawn.size(); ++e)
       if (const DrawTotals& d = drawn[e]; d.frames > 0)
-        s.drawn.push_back({name, eyeName(kEyes[e]), d.frames, d.calls, d.instances, d.triangles});
+        s.drawn.push_back({name, pictureName(e), d.frames, d.calls, d.instances, d.triangles});
     if (stages.lastPictures()[w].frame != s.lastFrame) continue;
     for (std::size_t e = 0; e < eyes.size(); ++e)
-      s.imageHashes.push_back({name, eyeName(kEyes[e]), imageHash(eyes[e])});
+      s.imageHashes.push_back({name, pictureName(e), imageHash(eyes[e])});
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include "engine/display/wall_file.h"
 #include "engine/input/input_sample.h"
-#include "pipeline/cull/free_camera.h"
+#include "pipeline/view/free_camera.h"
 
 #include <mutex>
 

@@ -78,10 +78,9 @@ ShowParts PlayingShow::parts() {
     parts.walls[i].width = around_.pictureSizes[i].width;
     parts.walls[i].height = around_.pictureSizes[i].height;
   }
-  WallView outside;
+  WallViews outside{.name = {}, .views = {View{}}};
   outside.camera = overview_.get();
   outside.depth = player_->walls().depth;
-  outside.stereo = false;
   outside.width = around_.overviewSize.width, outside.height = around_.overviewSize.height;
   parts.walls.push_back(outside);
   parts.provider = &around_.provider;

@@ -130,7 +130,7 @@ std::string ViewWindows::screenshot(const std::string& folder, const std::vector
     const std::vector<Picture>& eyes = pictures[i].eyes;
     const std::string name = i < walls_.walls.size() ? walls_.walls[i].wall.name : "overview";
     for (std::size_t e = 0; e < eyes.size(); ++e)
-      write(eyes.size() == 1 ? name : name + "-" + eyeName(kEyes[e]), eyes[e]);
+      write(eyes.size() == 1 ? name : name + "-" + pictureName(e), eyes[e]);
   }
   return wrong ? "no screenshot: " + format(*wrong)
                : fmt::format("screenshot: {} and {} more", path(windowName(0)), count - 1);

@@ -20,25 +20,27 @@ void attach(const GlTable& gl, const GlFramebuffer& framebuffer, GLenum attachme
 
 constexpr GLenum kDepth = GL_DEPTH_COMPONENT32F;
 
+struct TexelFormat {
+  GLenum stored, format, type;
+};
+
+void giveStorage(const GlTable& gl, const GlTexture& texture, GLsizei width, GLsizei height,
+                 const TexelFormat& of) {
+  gl.BindTexture(GL_TEXTURE_2D, texture.name());
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(of.stored), width, height, 0, of.format, of.type,
+                nullptr);
+}
+
 }  // namespace
 
 EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t height, RenderQuality quality)
-    : gl_(gl), width_(width), height_(height), sampled_(quality.samples > 1), colour_(gl), sampledDepth_(gl),
-      drawn_(gl),
-      depth_(gl), pictures_{GlTexture(gl), GlTexture(gl)}, resolved_{GlFramebuffer(gl), GlFramebuffer(gl)} {
-  const GLenum colours = quality.look == Look::Full ? GL_SRGB8_ALPHA8 : GL_RGBA8;
-  const auto picture = [&](const GlTexture& texture, GLenum stored, GLenum format, GLenum type) {
-    gl_.BindTexture(GL_TEXTURE_2D, texture.name());
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl_.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(stored), this->width(), this->height(), 0, format,
-                   type, nullptr);
-  };
-  if (!sampled_) picture(depth_, kDepth, GL_DEPTH_COMPONENT, GL_FLOAT);
-  for (std::size_t eye = 0; eye < pictures_.size(); ++eye) {
-    picture(pictures_[eye], colours, GL_RGBA, GL_UNSIGNED_BYTE);
-    attach(gl_, resolved_[eye], GL_COLOR_ATTACHMENT0, pictures_[eye]);
-    if (!sampled_) attach(gl_, resolved_[eye], GL_DEPTH_ATTACHMENT, depth_);
-  }
+    : gl_(gl), width_(width), height_(height),
+      colours_(quality.look == Look::Full ? GL_SRGB8_ALPHA8 : GL_RGBA8), sampled_(quality.samples > 1),
+      colour_(gl), sampledDepth_(gl), drawn_(gl), depth_(gl) {
+  if (!sampled_)
+    giveStorage(gl_, depth_, this->width(), this->height(), {kDepth, GL_DEPTH_COMPONENT, GL_FLOAT});
+  addPicture();
   gl_.BindTexture(GL_TEXTURE_2D, 0);
   if (!sampled_) return;
   GLint most = 0;
@@ -50,52 +52,68 @@ EyeBuffers::EyeBuffers(const GlTable& gl, std::uint32_t width, std::uint32_t hei
                                        this->height());
   };
   storage(sampledDepth_, kDepth);
-  storage(colour_, colours);
+  storage(colour_, colours_);
   attach(gl_, drawn_, GL_COLOR_ATTACHMENT0, colour_);
   attach(gl_, drawn_, GL_DEPTH_ATTACHMENT, sampledDepth_);
 }
 
+/// Leaves no texture bound.
+void EyeBuffers::addPicture() {
+  const GlTexture& picture = pictures_.emplace_back(gl_);
+  const GlFramebuffer& resolved = resolved_.emplace_back(gl_);
+  giveStorage(gl_, picture, width(), height(), {colours_, GL_RGBA, GL_UNSIGNED_BYTE});
+  attach(gl_, resolved, GL_COLOR_ATTACHMENT0, picture);
+  if (!sampled_) attach(gl_, resolved, GL_DEPTH_ATTACHMENT, depth_);
+  gl_.BindTexture(GL_TEXTURE_2D, 0);
+}
+
+std::optional<Diagnostic> EyeBuffers::growTo(std::size_t views) {
+  if (pictures_.size() >= views) return {};
+  while (pictures_.size() < views) addPicture();
+  return check();
+}
+
 std::optional<Diagnostic> EyeBuffers::check() {
-  for (const GLuint framebuffer : {drawn_.name(), resolved_[0].name(), resolved_[1].name()}) {
-    if (framebuffer == drawn_.name() && !sampled_) continue;
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-      return problem("this OpenGL cannot draw into a multisampled sRGB buffer");
-  }
+  const auto serves = [&](const GlFramebuffer& framebuffer) {
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    return gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  };
+  if ((sampled_ && !serves(drawn_)) || !std::ranges::all_of(resolved_, serves))
+    return problem("this OpenGL cannot draw into a multisampled sRGB buffer");
   if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR)
     return problem(std::string("no buffers for this picture size: ") + glErrorName(error));
   return {};
 }
 
-void EyeBuffers::bind(std::uint32_t eye) {
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_ ? drawn_.name() : resolved_[eye].name());
+void EyeBuffers::bind(std::uint32_t view) {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_ ? drawn_.name() : resolved_[view].name());
   gl_.Viewport(0, 0, width(), height());
 }
 
-void EyeBuffers::begin(std::uint32_t eye) {
-  bind(eye);
+void EyeBuffers::begin(std::uint32_t view) {
+  bind(view);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void EyeBuffers::begin(std::uint32_t eye, std::span<const std::uint32_t> colours,
+void EyeBuffers::begin(std::uint32_t view, std::span<const std::uint32_t> colours,
                        std::span<const float> depths) {
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  gl_.BindTexture(GL_TEXTURE_2D, pictures_[eye].name());
+  gl_.BindTexture(GL_TEXTURE_2D, pictures_[view].name());
   gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width(), height(), GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
   gl_.BindTexture(GL_TEXTURE_2D, depth_.name());
   gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width(), height(), GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
   gl_.BindTexture(GL_TEXTURE_2D, 0);
-  bind(eye);
+  bind(view);
 }
 
-void EyeBuffers::resolve(std::uint32_t eye) {
+void EyeBuffers::resolve(std::uint32_t view) {
   if (!sampled_) return;
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.name());
-  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_[eye].name());
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_[view].name());
   gl_.BlitFramebuffer(0, 0, width(), height(), 0, 0, width(), height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-GLuint EyeBuffers::depthsSoFar(std::uint32_t eye) {
+GLuint EyeBuffers::depthsSoFar(std::uint32_t view) {
   if (!copied_) {
     copied_.emplace(gl_), copiedDepth_.emplace(gl_);
     const GLenum target = sampled_ ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
@@ -114,20 +132,20 @@ GLuint EyeBuffers::depthsSoFar(std::uint32_t eye) {
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, target, copiedDepth_->name(), 0);
     gl_.DrawBuffer(GL_NONE), gl_.ReadBuffer(GL_NONE);
   }
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_ ? drawn_.name() : resolved_[eye].name());
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_ ? drawn_.name() : resolved_[view].name());
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, copied_->name());
   gl_.BlitFramebuffer(0, 0, width(), height(), 0, 0, width(), height(), GL_DEPTH_BUFFER_BIT, GL_NEAREST);
   return copiedDepth_->name();
 }
 
-void EyeBuffers::readDepths(std::uint32_t eye, std::span<float> depths) {
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_[eye].name());
+void EyeBuffers::readDepths(std::uint32_t view, std::span<float> depths) {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_[view].name());
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
   gl_.ReadPixels(0, 0, width(), height(), GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
 }
 
-void EyeBuffers::read(std::uint32_t eye, std::span<std::uint8_t> rgba) {
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_[eye].name());
+void EyeBuffers::read(std::uint32_t view, std::span<std::uint8_t> rgba) {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_[view].name());
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl_.ReadPixels(0, 0, width(), height(), GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   const std::size_t row = std::size_t{width_} * 4;  // OpenGL counts rows from the bottom

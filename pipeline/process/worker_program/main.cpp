@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kSocket = STDIN_FILENO;
 
-void answer(Order to, const std::string& text, bool failed, const std::array<DrawTotals, 2>& totals = {}) {
+void answer(Order to, const std::string& text, bool failed, const ViewTotals& totals = {}) {
   AnswerHead head;
   head.to = to, head.failed = failed, head.totals = totals;
   head.textBytes = static_cast<std::uint32_t>(std::min(text.size(), kLongestText));
@@ -39,7 +39,7 @@ void answer(Order to, const std::string& text, bool failed, const std::array<Dra
 }
 
 void answer(Order to, const std::optional<Diagnostic>& problem,
-            const std::array<DrawTotals, 2>& totals = {}) {
+            const ViewTotals& totals = {}) {
   answer(to, problem ? problem->message : std::string(), problem.has_value(), totals);
 }
 
@@ -168,9 +168,9 @@ void Worker::draw(const OrderHead& order) {
 }
 
 std::optional<Diagnostic> Worker::readPictures() {
-  for (std::uint32_t eye = 0; eye < list_.eyeCount; ++eye) {
-    auto* at = reinterpret_cast<std::uint8_t*>(pictures_->data() + eye * pictureBytes_);
-    if (auto problem = renderer_->read(eye, {at, pictureBytes_})) return problem;
+  for (std::uint32_t view = 0; view < list_.viewCount; ++view) {
+    auto* at = reinterpret_cast<std::uint8_t*>(pictures_->data() + view * pictureBytes_);
+    if (auto problem = renderer_->read(view, {at, pictureBytes_})) return problem;
   }
   return {};
 }

@@ -44,15 +44,15 @@ inline Wall wallOf(const Vec3& lowerLeft, const Vec3& lowerRight, const Vec3& up
 }
 
 /// The six sides of a box about the rig's origin, seen from inside.
-inline std::vector<WallView> boxRoom(double half, const DepthRange& depth) {
+inline std::vector<WallViews> boxRoom(double half, const DepthRange& depth) {
   const double h = half;
-  std::vector<WallView> views;
+  std::vector<WallViews> views;
   for (const Wall& wall :
        {wallOf({-h, h, -h}, {h, h, -h}, {-h, h, h}), wallOf({-h, -h, -h}, {-h, h, -h}, {-h, -h, h}),
         wallOf({h, h, -h}, {h, -h, -h}, {h, h, h}), wallOf({-h, -h, -h}, {h, -h, -h}, {-h, h, -h}),
         wallOf({h, -h, -h}, {-h, -h, -h}, {h, -h, h}), wallOf({-h, h, h}, {h, h, h}, {-h, -h, h})}) {
-    WallView view;
-    view.wall = wall, view.depth = depth;
+    WallViews view;
+    view.views = viewsOf(wall, true), view.depth = depth;
     views.push_back(view);
   }
   return views;
@@ -78,12 +78,12 @@ void forEachRecord(const SlotView& state, const F& f) {
 }
 
 /// What a wall may see, by looking at every record.
-inline std::vector<const InstanceRecord*> simplySeen(const SlotView& state, const WallView& view) {
-  const WallEyes eyes = eyesOf(*state.viewer, view, -1);
-  const ConvexVolume volume = eyes.volume();
+inline std::vector<const InstanceRecord*> simplySeen(const SlotView& state, const WallViews& view) {
+  const PlacedViews placed = place(*state.viewer, view, {});
+  const ConvexVolume volume = placed.volume(0, placed.count);
   std::vector<const InstanceRecord*> seen;
   forEachRecord(state, [&](const InstanceRecord& r) {
-    const Vec3 centre = Vec3(r.centre[0], r.centre[1], r.centre[2]) - eyes.origin;
+    const Vec3 centre = Vec3(r.centre[0], r.centre[1], r.centre[2]) - placed.origin;
     if (isShown(r) && volume.mayTouch(Sphere{centre, r.radius})) seen.push_back(&r);
   });
   return seen;
@@ -92,7 +92,7 @@ inline std::vector<const InstanceRecord*> simplySeen(const SlotView& state, cons
 /// What goes into the order of a list, compared as it is written down.
 inline void simplySort(DrawList& list) {
   std::sort(list.opaque.begin(), list.opaque.end(), [](const DrawItem& a, const DrawItem& b) {
-    const auto rank = [](const DrawItem& d) { return d.eyes == 1 ? 0 : d.eyes == 2 ? 2 : 1; };
+    const auto rank = [](const DrawItem& d) { return d.views == 1 ? 0 : d.views == 2 ? 2 : 1; };
     return std::tuple(a.mesh, a.level, rank(a), a.distance, a.owner, a.model) <
            std::tuple(b.mesh, b.level, rank(b), b.distance, b.owner, b.model);
   });
@@ -102,9 +102,9 @@ inline void simplySort(DrawList& list) {
 }
 
 /// The same as WallCull::fill, as it is written down.
-inline DrawList simplyFilled(const SlotView& state, const WallView& view) {
+inline DrawList simplyFilled(const SlotView& state, const WallViews& view) {
   DrawList list;
-  eyesOf(*state.viewer, view, -1).setUp(list);
+  place(*state.viewer, view, {}).setUp(list);
   const EyeTest sees(list, false, view.width, view.height);
   for (const InstanceRecord* r : simplySeen(state, view)) {
     DrawItem item;
@@ -116,8 +116,8 @@ inline DrawList simplyFilled(const SlotView& state, const WallView& view) {
     for (std::size_t k = 0; k < 3; ++k)
       at[k] = static_cast<float>(r->centre[k] - list.origin[static_cast<int>(k)]);
     item.distance = std::sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
-    item.eyes = sees.eyesThatSee(at, r->radius);
-    if (item.eyes == 0) continue;
+    item.views = sees.viewsThatSee(at, r->radius);
+    if (item.views == 0) continue;
     (r->flags & InstanceRecord::kTransparent ? list.transparent : list.opaque).push_back(item);
   }
   simplySort(list);
@@ -125,8 +125,8 @@ inline DrawList simplyFilled(const SlotView& state, const WallView& view) {
 }
 
 inline bool alike(const DrawItem& a, const DrawItem& b) {
-  return std::tie(a.model, a.mesh, a.owner, a.distance, a.pixels, a.level, a.eyes) ==
-         std::tie(b.model, b.mesh, b.owner, b.distance, b.pixels, b.level, b.eyes);
+  return std::tie(a.model, a.mesh, a.owner, a.distance, a.pixels, a.level, a.views) ==
+         std::tie(b.model, b.mesh, b.owner, b.distance, b.pixels, b.level, b.views);
 }
 
 /// Plays changes into the slots in turn, as a show does.

@@ -35,7 +35,7 @@ void expectAlike(std::vector<DrawItem> a, const std::vector<DrawItem>& b) {
 
 TEST(DrawLists, AreThoseOfTheSimplestCullWhereverRecordsLie) {
   Random random(6);
-  const std::vector<WallView> views = boxRoom(1.5, {0.1, 40});
+  const std::vector<WallViews> views = boxRoom(1.5, {0.1, 40});
   for (int round = 0; round < 20; ++round) {
     Frames f;
     f.viewer.set({random.within(10), random.turned()}, test::headIn(1.5, random));
@@ -57,7 +57,7 @@ TEST(DrawLists, AreThoseOfTheSimplestCullWhereverRecordsLie) {
         ASSERT_NO_FATAL_FAILURE(expectAlike(list.opaque, simple.opaque));
         ASSERT_NO_FATAL_FAILURE(expectAlike(list.transparent, simple.transparent));
         EXPECT_EQ(list.origin, simple.origin);
-        EXPECT_EQ(list.eyes[1].view, simple.eyes[1].view);
+        EXPECT_EQ(list.views[1].view, simple.views[1].view);
       }
     }
   }
@@ -65,7 +65,7 @@ TEST(DrawLists, AreThoseOfTheSimplestCullWhereverRecordsLie) {
 
 TEST(DrawLists, WhereEyesMayGoBeforeTheyDrawBothDrawAll) {
   Random random(16);
-  std::vector<WallView> views = boxRoom(1.5, {0.1, 40});
+  std::vector<WallViews> views = boxRoom(1.5, {0.1, 40});
   views[0].eyeSeparation = 0.5;
   Frames f;
   ChangeSet c;
@@ -77,7 +77,7 @@ TEST(DrawLists, WhereEyesMayGoBeforeTheyDrawBothDrawAll) {
     DrawList list;
     WallCull({.room = room, .oneSample = true}, 0).fill(state, {}, list);
     return std::ranges::count_if(list.opaque,
-                                 [](const DrawItem& d) { return d.eyes != DrawItem::kBothEyes; });
+                                 [](const DrawItem& d) { return d.views != 3; });
   };
   EXPECT_GT(forOneEye({}), 0);
   EXPECT_EQ(forOneEye({0.05, 0.25}), 0);
@@ -93,14 +93,14 @@ TEST(DrawLists, AreSortedByWhatThingsAre) {
       DrawItem item;
       item.mesh = random.below(3) ? random.below(5) : random.below(~0U);
       item.level = random.below(3);
-      item.eyes = 1 + random.below(3);
+      item.views = 1 + random.below(3);
       item.distance = random.below(4) ? static_cast<float>(random.sizeFrom(1e-6, 1e9)) : 0;
       item.owner = {random.below(3), random.below(3)};
       item.model.fill(0);
       item.model[random.below(12)] = static_cast<float>(random.from(-1, 1));
       std::ranges::copy(item.model, r.model);
       r.owner = item.owner, r.mesh = item.mesh;
-      opaque.push_back({&r, item.mesh, item.distance, item.level, item.eyes});
+      opaque.push_back({&r, item.mesh, item.distance, item.level, item.views});
       simple.opaque.push_back(item), simple.transparent.push_back(item);
     }
     transparent = opaque;
@@ -115,7 +115,7 @@ TEST(DrawLists, AreSortedByWhatThingsAre) {
     for (std::uint32_t i = 0; i < count; ++i) {
       const DrawItem &a = simple.opaque[i], &b = simple.transparent[i];
       ASSERT_EQ(placeOf(opaque[i]), std::tuple(a.distance, a.mesh, a.owner, a.model)) << i << " of " << count;
-      ASSERT_EQ(std::tie(opaque[i].level, opaque[i].eyes), std::tie(a.level, a.eyes));
+      ASSERT_EQ(std::tie(opaque[i].level, opaque[i].views), std::tie(a.level, a.views));
       const auto [distance, mesh, owner, model] = placeOf(transparent[i]);
       ASSERT_EQ(std::tuple(mesh, owner, model), std::tuple(b.mesh, b.owner, b.model));
     }
@@ -129,7 +129,7 @@ TEST(DrawLists, AShowWithoutShadowsLooksForNoCasters) {
   c.lights[0].range = 1;  // casts shadows
   c.instances = {{0, thing({0, 5, 0}, 1)}};
   const SlotView state = f.publish(c);
-  const std::vector<WallView> views = boxRoom(1.5, {0.1, 40});
+  const std::vector<WallViews> views = boxRoom(1.5, {0.1, 40});
   RoomCull room(views);
   StillCasters still;
   DrawList list;
@@ -165,7 +165,7 @@ TEST(DrawLists, TellWhatWasTestedAndForWhom) {
   c.chunks = {{f.state.arena().add(records), true}};
   for (std::uint32_t i = 0; i < 3; ++i) c.instances.push_back({i, thing({0, 5.0 + i, 0}, 0.1, 1, {2, i})});
   const SlotView state = f.publish(c);
-  const std::vector<WallView> views = boxRoom(1.5, {0.1, 40});
+  const std::vector<WallViews> views = boxRoom(1.5, {0.1, 40});
   RoomCull room(views);
   for (const std::uint32_t wall : {0U, 4U}) {  // the first that comes searches for all
     Probe probe;

@@ -36,16 +36,15 @@ struct Solid {
   ConvexVolume planes;
   std::array<Vec3, 8> corners;  ///< near, then far, each from the lower left, counter-clockwise
 
-  Solid(const WallEyes& eyes, std::uint32_t e)
-      : planes(unionFrustum(*eyes.wall, {&eyes.eyes[e], 1}, eyes.depth).transformed(eyes.X_WR, eyes.origin)) {
-    const EyeFrustum f = eyeFrustum(*eyes.wall, eyes.eyes[e], eyes.depth);
+  Solid(const PlacedViews& placed, std::uint32_t v) : planes(placed.volume(v, v + 1)) {
+    const EyeFrustum f = eyeFrustum(*placed.views[v].screen, placed.views[v].eye, placed.depth);
     const Affine X_RE = f.X_ER.inverse();
     for (std::size_t i = 0; i < 8; ++i) {
       const double scale = i < 4 ? 1 : f.depth.far / f.depth.near;
       const bool right = i % 4 == 1 || i % 4 == 2, up = i % 4 >= 2;
       const Vec3 p_E(scale * (right ? f.right : f.left), scale * (up ? f.top : f.bottom),
                      -scale * f.depth.near);
-      corners[i] = eyes.X_WR * (X_RE * p_E) - eyes.origin;
+      corners[i] = placed.X_WR * (X_RE * p_E) - placed.origin;
     }
   }
   double distance(const Vec3& p) const {
@@ -68,8 +67,8 @@ struct Tally {
 /// Culls `count` spheres about the visitor for a random room; nothing that an eye can see may be missing.
 void cullOneRoom(Random& random, std::uint32_t count, const auto& radius, Tally& tally) {
   const double half = random.from(0.5, 3);
-  std::vector<WallView> views = test::boxRoom(half, {0.1, random.sizeFrom(10, 500)});
-  for (WallView& view : views) view.eyeSeparation = random.from(0, 0.08);
+  std::vector<WallViews> views = test::boxRoom(half, {0.1, random.sizeFrom(10, 500)});
+  for (WallViews& view : views) view.eyeSeparation = random.from(0, 0.08);
   const Vec3 rig = random.below(3) == 0 ? random.within(1e6) : random.within(50);
   test::Frames f;
   f.viewer.set({rig, random.turned()}, test::headIn(half, random));
@@ -82,13 +81,13 @@ void cullOneRoom(Random& random, std::uint32_t count, const auto& radius, Tally&
   const SlotView state = f.publish(c);
   const RoomCull::Seen seen = room.seen(state);
   for (std::size_t wall = 0; wall < views.size(); ++wall) {
-    const WallEyes eyes = eyesOf(f.viewer, views[wall], -1);
-    const Solid left(eyes, 0), right(eyes, 1);
+    const PlacedViews placed = place(f.viewer, views[wall], {});
+    const Solid left(placed, 0), right(placed, 1);
     std::vector<const InstanceRecord*> kept = seen.on(wall).records;
     std::ranges::sort(kept);
     const ChunkView chunk = state.chunk(1);
     for (const InstanceRecord& r : chunk.records) {
-      const Vec3 p = Vec3(r.centre[0], r.centre[1], r.centre[2]) - eyes.origin;
+      const Vec3 p = Vec3(r.centre[0], r.centre[1], r.centre[2]) - placed.origin;
       const double away = std::min(left.distance(p), right.distance(p)) - double{r.radius};
       const bool isKept = std::ranges::binary_search(kept, &r);
       const double rounded = 1e-9 * (p.norm() + views[wall].depth.far);

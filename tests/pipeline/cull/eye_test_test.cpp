@@ -12,9 +12,9 @@ namespace {
 using test::Random;
 using test::thing;
 
-DrawList listOf(const std::vector<WallView>& views, const ViewerRecord& viewer, std::size_t wall) {
+DrawList listOf(const std::vector<WallViews>& views, const ViewerRecord& viewer, std::size_t wall) {
   DrawList list;
-  eyesOf(viewer, views[wall], -1).setUp(list);
+  place(viewer, views[wall], {}).setUp(list);
   return list;
 }
 
@@ -23,14 +23,14 @@ std::array<float, 3> single(const Vec3& p) {
 }
 
 /// Where the ray through a pixel's middle goes, from the eye, in eye coordinates with a depth of 1.
-Vec3 throughPixel(const DrawEye& eye, double x, double y, double width, double height) {
+Vec3 throughPixel(const DrawView& eye, double x, double y, double width, double height) {
   const double ndcX = 2 * (x + 0.5) / width - 1, ndcY = 2 * (y + 0.5) / height - 1;
   const Mat4& p = eye.projection;
   return {(ndcX + p(0, 2)) / p(0, 0), (ndcY + p(1, 2)) / p(1, 1), -1};
 }
 
 /// Whether the ray through any pixel's middle meets the sphere (in eye coordinates).
-bool meetsAMiddle(const DrawEye& eye, const Vec3& centre, double radius, int width, int height) {
+bool meetsAMiddle(const DrawView& eye, const Vec3& centre, double radius, int width, int height) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const Vec3 way = throughPixel(eye, x, y, width, height).normalized();
@@ -43,19 +43,18 @@ TEST(EyeTest, AnEyeSeesWhatTouchesItsFrustumAndHardlyAnythingElse) {
   Random random(21);
   std::size_t touched = 0, kept = 0;
   for (int round = 0; round < 200; ++round) {
-    std::vector<WallView> views = test::boxRoom(random.from(0.5, 3), {0.1, 200});
+    std::vector<WallViews> views = test::boxRoom(random.from(0.5, 3), {0.1, 200});
     ViewerRecord viewer;
-    viewer.set({random.within(50), random.turned()}, test::headIn(views[0].wall.lowerRight.x(), random));
+    viewer.set({random.within(50), random.turned()}, test::headIn(views[0].views[0].screen.lowerRight.x(), random));
     const std::size_t wall = random.below(6);
-    const WallEyes eyes = eyesOf(viewer, views[wall], -1);
+    const PlacedViews placed = place(viewer, views[wall], {});
     const EyeTest sees(listOf(views, viewer, wall), false, 800, 600);
     for (int i = 0; i < 500; ++i) {
       const Vec3 centre = random.within(100);
       const double radius = random.sizeFrom(1e-3, 5);
-      const std::uint8_t seen = sees.eyesThatSee(single(centre), static_cast<float>(radius));
+      const std::uint8_t seen = sees.viewsThatSee(single(centre), static_cast<float>(radius));
       for (std::uint32_t e = 0; e < 2; ++e) {
-        ConvexVolume sides =
-            unionFrustum(*eyes.wall, {&eyes.eyes[e], 1}, eyes.depth).transformed(eyes.X_WR, eyes.origin);
+        ConvexVolume sides = placed.volume(e, e + 1);
         sides.count = 4;
         const bool touches = sides.mayTouch(Sphere{centre, radius});
         ASSERT_TRUE(!touches || (seen >> e & 1)) << "round " << round << ", eye " << e;
@@ -72,7 +71,7 @@ TEST(EyeTest, WhatAPixelsMiddleMayMeetIsSeen) {
   constexpr int kWidth = 32, kHeight = 24;
   std::size_t met = 0, left = 0, leftOut = 0;
   for (int round = 0; round < 300; ++round) {
-    const std::vector<WallView> views = test::boxRoom(1.5, {0.1, 200});
+    const std::vector<WallViews> views = test::boxRoom(1.5, {0.1, 200});
     ViewerRecord viewer;
     viewer.set({random.within(50), random.turned()}, test::headIn(1.5, random));
     const std::size_t wall = random.below(6);
@@ -82,13 +81,13 @@ TEST(EyeTest, WhatAPixelsMiddleMayMeetIsSeen) {
       const Vec3 centre = random.within(60);
       const double radius = random.sizeFrom(1e-2, 1);
       const auto size = static_cast<float>(radius);
-      const std::uint8_t seen = closely.eyesThatSee(single(centre), size),
-                         inView = sides.eyesThatSee(single(centre), size);
+      const std::uint8_t seen = closely.viewsThatSee(single(centre), size),
+                         inView = sides.viewsThatSee(single(centre), size);
       ASSERT_EQ(seen & ~inView, 0);
       for (std::uint32_t e = 0; e < 2; ++e) {
         if (!(inView >> e & 1)) continue;
-        const Vec4 p = list.eyes[e].view * centre.homogeneous();
-        const bool meets = meetsAMiddle(list.eyes[e], p.head<3>(), radius, kWidth, kHeight);
+        const Vec4 p = list.views[e].view * centre.homogeneous();
+        const bool meets = meetsAMiddle(list.views[e], p.head<3>(), radius, kWidth, kHeight);
         ASSERT_TRUE(!meets || (seen >> e & 1)) << "radius " << radius << " at " << p.transpose();
         met += meets, left += !meets, leftOut += !(seen >> e & 1);
       }
@@ -99,11 +98,11 @@ TEST(EyeTest, WhatAPixelsMiddleMayMeetIsSeen) {
 }
 
 TEST(EyeTest, WhatIsNotFiniteIsSeen) {
-  const std::vector<WallView> views = test::boxRoom(1.5, {0.1, 200});
+  const std::vector<WallViews> views = test::boxRoom(1.5, {0.1, 200});
   const EyeTest sees(listOf(views, ViewerRecord(), 0), true, 32, 24);
-  EXPECT_EQ(sees.eyesThatSee({NAN, 0, 0}, 1), EyeTest::kBoth);
-  EXPECT_EQ(sees.eyesThatSee({0, 5, 0}, NAN), EyeTest::kBoth);
-  EXPECT_EQ(sees.eyesThatSee({0, 5, 0}, INFINITY), EyeTest::kBoth);
+  EXPECT_EQ(sees.viewsThatSee({NAN, 0, 0}, 1), 3U);
+  EXPECT_EQ(sees.viewsThatSee({0, 5, 0}, NAN), 3U);
+  EXPECT_EQ(sees.viewsThatSee({0, 5, 0}, INFINITY), 3U);
 }
 
 /// Boxes of all sizes about the visitor, some mirrored.
@@ -131,8 +130,8 @@ TEST(PictureEyeTest, PicturesAreThoseOfEyesThatDrawEverything) {
   c.chunks = {{f.state.arena().add(boxes(random, ids)), true}};
   c.lightsChanged = true, c.lights.resize(1);
   const SlotView state = f.publish(c);
-  std::vector<WallView> views = test::boxRoom(1.5, {0.1, 100});
-  for (WallView& view : views) view.eyeSeparation = 0.3, view.width = 64, view.height = 48;
+  std::vector<WallViews> views = test::boxRoom(1.5, {0.1, 100});
+  for (WallViews& view : views) view.eyeSeparation = 0.3, view.width = 64, view.height = 48;
   RoomCull room(views);
   auto provider = test::provider(GlProviderKind::OsMesa);
   ASSERT_TRUE(provider);
@@ -145,10 +144,10 @@ TEST(PictureEyeTest, PicturesAreThoseOfEyesThatDrawEverything) {
   std::uint64_t drawn = 0, ofAll = 0;
   for (std::uint32_t wall = 0; wall < views.size(); ++wall) {
     DrawList list;
-    WallCull({.room = room, .oneSample = true}, wall).fill(state, {.order = EyeOrder(wall % 2)}, list);
+    WallCull({.room = room, .oneSample = true}, wall).fill(state, {.eyes = {.swapped = true}}, list);
     DrawList all;
-    WallCull({.room = room}, wall).fill(state, {.order = EyeOrder(wall % 2)}, all);
-    for (DrawItem& item : all.opaque) item.eyes = DrawItem::kBothEyes;
+    WallCull({.room = room}, wall).fill(state, {.eyes = {.swapped = true}}, all);
+    for (DrawItem& item : all.opaque) item.views = DrawItem::kAllViews;
     for (std::uint32_t eye = 0; eye < 2; ++eye) {
       std::vector<std::uint8_t> a(64 * 48 * 4), b(64 * 48 * 4);
       ASSERT_FALSE(renderer.value()->draw(list, eye) || renderer.value()->read(eye, a));

@@ -20,7 +20,7 @@ std::vector<const InstanceRecord*> sorted(std::vector<const InstanceRecord*> rec
   return records;
 }
 
-void expectAsSimple(RoomCull& room, const SlotView& state, const std::vector<WallView>& views) {
+void expectAsSimple(RoomCull& room, const SlotView& state, const std::vector<WallViews>& views) {
   const RoomCull::Seen seen = room.seen(state);
   for (std::size_t wall = 0; wall < views.size(); ++wall)
     ASSERT_EQ(sorted(seen.on(wall).records), sorted(test::simplySeen(state, views[wall])))
@@ -48,7 +48,7 @@ TEST(RoomCull, FindsWhatLookingAtEveryRecordFinds) {
   for (int round = 0; round < 60; ++round) {
     const double half = random.from(0.5, 3), spread = random.sizeFrom(2, 2000);
     const Vec3 rig = round % 3 == 0 ? random.within(1e6) : random.within(30);
-    const std::vector<WallView> views = boxRoom(half, {0.1, random.sizeFrom(5, 2000)});
+    const std::vector<WallViews> views = boxRoom(half, {0.1, random.sizeFrom(5, 2000)});
     RoomCull room(views);
     Frames f;
     f.viewer.set({rig, random.turned()}, headIn(half, random));
@@ -71,7 +71,7 @@ TEST(RoomCull, FindsWhatLookingAtEveryRecordFinds) {
 
 TEST(RoomCull, FollowsWhatMovesComesGoesAndLeavesItsChunk) {
   Random random(2);
-  const std::vector<WallView> views = boxRoom(1.5, {0.1, 60});
+  const std::vector<WallViews> views = boxRoom(1.5, {0.1, 60});
   RoomCull room(views);
   Frames f;
   std::vector<ChunkId> chunks;
@@ -114,7 +114,7 @@ TEST(RoomCull, OnEveryProcessorItFindsTheSameWithTheSameTests) {
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2";
   Random random(3);
   for (int round = 0; round < 40; ++round) {
-    const std::vector<WallView> views = boxRoom(1.5, {0.1, random.sizeFrom(5, 500)});
+    const std::vector<WallViews> views = boxRoom(1.5, {0.1, random.sizeFrom(5, 500)});
     Frames f;
     f.viewer.set({random.within(50), random.turned()}, headIn(1.5, random));
     ChangeSet c;
@@ -168,7 +168,7 @@ TEST(RoomCull, EveryBitOfTheTestsIsTheSameOnEveryProcessor) {
 
 TEST(RoomCull, CostsWhatIsSeenNotWhatExists) {
   Random random(5);
-  const std::vector<WallView> views = boxRoom(1.5, {0.1, 25});
+  const std::vector<WallViews> views = boxRoom(1.5, {0.1, 25});
   std::vector<std::uint64_t> tested;
   for (const std::uint32_t count : {2000U, 200'000U}) {  // as dense
     Frames f;
@@ -186,7 +186,7 @@ TEST(RoomCull, CostsWhatIsSeenNotWhatExists) {
 }
 
 TEST(RoomCull, SearchesOnceForAllWallsOfAFrame) {
-  const std::vector<WallView> views = boxRoom(1.5, {0.1, 25});
+  const std::vector<WallViews> views = boxRoom(1.5, {0.1, 25});
   RoomCull room(views);
   Frames f;
   ChangeSet c;
@@ -199,7 +199,7 @@ TEST(RoomCull, SearchesOnceForAllWallsOfAFrame) {
 }
 
 TEST(RoomCull, OfAFrameThatIsOverwrittenMeanwhileNobodyElseHears) {
-  const std::vector<WallView> views = boxRoom(1.5, {0.1, 25});
+  const std::vector<WallViews> views = boxRoom(1.5, {0.1, 25});
   RoomCull room(views);
   Frames f;
   ChangeSet c;
@@ -244,9 +244,9 @@ public:
 
 TEST(RoomCull, AFreeCameraIsOneMoreView) {
   Camera camera;
-  std::vector<WallView> views = boxRoom(1.5, {0.1, 25});
-  WallView overview;
-  overview.camera = &camera, overview.depth = {0.1, 25};
+  std::vector<WallViews> views = boxRoom(1.5, {0.1, 25});
+  WallViews overview;
+  overview.views = {View{}}, overview.camera = &camera, overview.depth = {0.1, 25};
   views.push_back(overview);
   RoomCull room(views);
   WallCull cull({room}, 6);
@@ -256,13 +256,13 @@ TEST(RoomCull, AFreeCameraIsOneMoreView) {
   camera.eye = Vec3(100, 0, 0);
   DrawList list;
   cull.fill(f.publish(c), {}, list);
-  EXPECT_EQ(list.eyeCount, 1U);
+  EXPECT_EQ(list.viewCount, 1U);
   ASSERT_EQ(list.opaque.size(), 2U) << "the thing, and what only the camera sees";
   EXPECT_EQ(list.opaque[1].mesh, 77U);
   EXPECT_EQ(camera.asked, 1) << "it may move meanwhile";
   camera.on = false;
   cull.fill(f.publish({}), {}, list);
-  EXPECT_EQ(list.eyeCount, 0U);
+  EXPECT_EQ(list.viewCount, 0U);
   EXPECT_TRUE(list.opaque.empty());
 }
 

@@ -14,7 +14,7 @@ using test::thing;
 
 TEST(ThreadsRoomCull, EachWallGetsEveryFramesListAndNobodyWaitsForAWallThatIsMissing) {
   constexpr std::size_t kWalls = 4, kFrames = 200;
-  const std::vector<WallView> views = test::boxRoom(1.5, {0.1, 40});
+  const std::vector<WallViews> views = test::boxRoom(1.5, {0.1, 40});
   SceneState state;
   RoomCull room(views);
   FrameSlots slots(kWalls, Delivery::Every);

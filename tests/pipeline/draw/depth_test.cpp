@@ -30,11 +30,11 @@ constexpr double kDepthFar = 20000;
 DrawList lookingThrough(const Wall& wall) {
   DrawList list = test::plainList();
   list.sky.zenith = list.sky.horizon = list.sky.ground = {0, 0, 0};
-  list.eyeCount = 2;
+  list.viewCount = 2;
   for (std::uint32_t eye = 0; eye < 2; ++eye) {
     const EyeFrustum f = eyeFrustum(wall, Vec3(eye == 0 ? -0.032 : 0.032, 0, 0), {0.1, kDepthFar});
-    list.eyes[eye].projection = projectionMatrix(f);
-    list.eyes[eye].view = viewMatrix(f, Pose(), Vec3::Zero());
+    list.views[eye].projection = projectionMatrix(f);
+    list.views[eye].view = viewMatrix(f, Pose(), Vec3::Zero());
   }
   return list;
 }
@@ -180,7 +180,7 @@ TEST(PictureDepth, HoldsWhereTheListsOriginIsFarFromTheWorldsAndFromTheEye) {
                 kPairs[i][1], slantedBy(random, 0.2));
     for (const NamedQuality& q : kDepthQualities) {
       DrawList list = lookingThrough(kDepthWalls[0].wall);
-      for (DrawEye& e : list.eyes) e.view.topRightCorner<3, 1>() -= e.view.topLeftCorner<3, 3>() * eye;
+      for (DrawView& e : list.views) e.view.topRightCorner<3, 1>() -= e.view.topLeftCorner<3, 3>() * eye;
       list.opaque = pairs.reds;
       test::Stage stage(pairs.meshes, 64, 48, GlProviderKind::OsMesa, q.quality);
       const auto near = stage.draw(list);

@@ -47,7 +47,7 @@ struct GlassScene {
   DrawList list(MeshStore& meshes) const {
     DrawList list = test::plainList();
     list.sky.zenith = list.sky.horizon = list.sky.ground = {0.7f, 0.7f, 0.7f};
-    list.eyes[0] = test::lookAt(from, to, kView, double{kWide} / kHigh);
+    list.views[0] = test::lookAt(from, to, kView, double{kWide} / kHigh);
     for (std::uint32_t i = 0; i < panes.size(); ++i) {
       DrawItem item = place(panes[i].in(meshes));
       item.owner = {1, i};

@@ -191,7 +191,7 @@ TEST(PictureMask, SmallCardsHaveTheirHolesToo) {
                     here ? RenderQuality::plain() : RenderQuality{Look::Plain, 1, 1024, false, false});
     for (std::size_t kind = 0; kind < 3; ++kind) {
       DrawList list = test::plainList();
-      list.eyes[0] = test::lookAt(Vec3(0, -10, 0), Vec3::Zero(), 0.2, 1);
+      list.views[0] = test::lookAt(Vec3(0, -10, 0), Vec3::Zero(), 0.2, 1);
       for (int i = 0; i < 64; ++i) {
         Affine X = Affine::Identity();
         X.translation() = Vec3(0.25 * (i % 8) - 0.875, 0, 0.25 * (i / 8) - 0.875);
@@ -292,7 +292,7 @@ TEST(PictureMask, TheShadowHasTheHolesOfTheCard) {
       DrawList list = test::plainList();
       list.sky.ambient = {0.1f, 0.1f, 0.1f};
       list.opaque = {place(meshes.add(ground.seal()))};
-      list.eyes[0] = test::lookAt(Vec3(0, -0.01, 10), Vec3::Zero(), 0.6, 1);
+      list.views[0] = test::lookAt(Vec3(0, -0.01, 10), Vec3::Zero(), 0.6, 1);
       DrawLight sun;
       sun.direction = {0, 0, -1}, sun.shadows = true;
       list.lights = {sun};

@@ -294,7 +294,7 @@ TEST(PictureRenderer, LeavesOutWhatIsNotFinite) {
   list.transparent = {broken};
   EXPECT_TRUE(stage.renderer().draw(list));
   EXPECT_EQ(stage.draw(list), expected);
-  list.eyes[0].view(1, 1) = std::numeric_limits<double>::infinity();
+  list.views[0].view(1, 1) = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(stage.renderer().draw(list, 0));
   EXPECT_FALSE(stage.renderer().draw(list, 0));
 }

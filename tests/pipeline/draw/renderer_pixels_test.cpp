@@ -178,8 +178,8 @@ TEST(PicturePixels, HazeTakesItsShareByDistance) {
 TEST(PicturePixels, TheSkyFillsWhatIsLeft) {
   MeshStore meshes;
   DrawList list;
-  list.eyeCount = 1;
-  list.eyes[0] = test::lookAt(Vec3(0, 0, 1.7), Vec3(0, 10, 1.7), 1.2, 1);
+  list.viewCount = 1;
+  list.views[0] = test::lookAt(Vec3(0, 0, 1.7), Vec3(0, 10, 1.7), 1.2, 1);
   list.sky.zenith = {0, 0, 0.5f};
   list.sky.horizon = {0.5f, 0, 0};
   list.sky.ground = {0, 0.5f, 0};
@@ -192,8 +192,8 @@ TEST(PicturePixels, TheSkyFillsWhatIsLeft) {
 TEST(PicturePixels, TheSunStandsWhereItsLightComesFrom) {
   MeshStore meshes;
   DrawList list;
-  list.eyeCount = 1;
-  list.eyes[0] = test::lookAt(Vec3::Zero(), Vec3(0, 1, 0.5), 0.5, 1);
+  list.viewCount = 1;
+  list.views[0] = test::lookAt(Vec3::Zero(), Vec3(0, 1, 0.5), 0.5, 1);
   DrawLight sun;
   const float s = std::sqrt(1.25f);
   sun.direction = {0, -1 / s, -0.5f / s};
@@ -221,8 +221,8 @@ TEST(PicturePixels, NormalsSurviveAStretch) {
 TEST(PicturePixels, AMirroredBoxLooksLikeTheBox) {
   MeshStore meshes;
   DrawList list;
-  list.eyeCount = 1;
-  list.eyes[0] = test::lookAt(Vec3(2, -3, 2), Vec3::Zero(), 0.8, 1);
+  list.viewCount = 1;
+  list.views[0] = test::lookAt(Vec3(2, -3, 2), Vec3::Zero(), 0.8, 1);
   DrawLight light;
   light.direction = {-0.6f, 0.64f, -0.48f};
   list.lights = {light};

@@ -160,10 +160,10 @@ DrawItem place(MeshId mesh, const Affine& X) {
   return item;
 }
 
-DrawEye lookAt(const Vec3& from, const Vec3& to, double fieldOfView, double aspect) {
+DrawView lookAt(const Vec3& from, const Vec3& to, double fieldOfView, double aspect) {
   const Vec3 back = (from - to).normalized();
   const Vec3 right = Vec3(0, 0, 1).cross(back).normalized();
-  DrawEye eye;
+  DrawView eye;
   eye.view.topLeftCorner<3, 3>() << right.transpose(), back.cross(right).transpose(), back.transpose();
   eye.view.topRightCorner<3, 1>() = -eye.view.topLeftCorner<3, 3>() * from;
   const double near = 0.1, far = 1000, f = 1 / std::tan(fieldOfView / 2);
@@ -176,8 +176,8 @@ DrawEye lookAt(const Vec3& from, const Vec3& to, double fieldOfView, double aspe
   return eye;
 }
 
-DrawEye orthographic() {
-  DrawEye eye;
+DrawView orthographic() {
+  DrawView eye;
   eye.view << 1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, -10, 0, 0, 0, 1;
   eye.projection(2, 2) = 1.0 / 99;
   eye.projection(2, 3) = 100.0 / 99;
@@ -186,8 +186,8 @@ DrawEye orthographic() {
 
 DrawList plainList() {
   DrawList list;
-  list.eyeCount = 1;
-  list.eyes.fill(orthographic());
+  list.viewCount = 1;
+  list.views.fill(orthographic());
   list.sky.ambient = {1, 1, 1};
   list.sky.ground = {0.7f, 0.7f, 0.7f};  // so that the light is the same from above and below
   return list;
@@ -259,9 +259,9 @@ void addBallsAndGlass(MeshStore& meshes, DrawList& list) {
 
 DrawList richList(MeshStore& meshes, double aspect) {
   DrawList list;
-  list.eyeCount = 2;
+  list.viewCount = 2;
   for (int eye = 0; eye < 2; ++eye)
-    list.eyes[static_cast<std::size_t>(eye)] =
+    list.views[static_cast<std::size_t>(eye)] =
         lookAt(Vec3(-0.032 + 0.064 * eye, -6, 1.7), Vec3(0, 0, 0.9), 1.1, aspect);
   list.sky.hazeDistance = 300;
   list.lights = sunLampAndSpot();

@@ -63,9 +63,9 @@ private:
 Texture chequered(std::uint32_t side, std::uint32_t squares);
 
 DrawItem place(MeshId mesh, const Affine& X = Affine::Identity());
-DrawEye lookAt(const Vec3& from, const Vec3& to, double fieldOfView, double aspect);
+DrawView lookAt(const Vec3& from, const Vec3& to, double fieldOfView, double aspect);
 /// Looks along World +Y with the plane y = 0 filling clip space -1..1: x to the right, z up, orthographic.
-DrawEye orthographic();
+DrawView orthographic();
 /// One eye, ambient light of radiance 1 from everywhere, no lights, no haze.
 DrawList plainList();
 

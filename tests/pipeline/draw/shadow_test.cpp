@@ -61,8 +61,8 @@ struct Yard {
     state.instances = things;
     DrawList out;
     out.origin = head;
-    out.eyeCount = 1;
-    out.eyes[0] = test::lookAt(Vec3::Zero(), looksAt - head, 0.9, double{kWidth} / kHeight);
+    out.viewCount = 1;
+    out.views[0] = test::lookAt(Vec3::Zero(), looksAt - head, 0.9, double{kWidth} / kHeight);
     DrawLight light;
     for (std::size_t k = 0; k < 3; ++k) light.direction[k] = static_cast<float>(lights[0].direction[k]);
     light.shadows = lights[0].range > 0;
@@ -86,7 +86,7 @@ struct Yard {
 /// Where a point of the world is seen.
 const std::uint8_t* seenAt(const test::Picture& picture, const DrawList& list, const Vec3& p_W) {
   const Vec3 p = p_W - list.origin;
-  const Vec4 clip = list.eyes[0].projection * list.eyes[0].view * Vec4(p.x(), p.y(), p.z(), 1);
+  const Vec4 clip = list.views[0].projection * list.views[0].view * Vec4(p.x(), p.y(), p.z(), 1);
   const double x = (0.5 + 0.5 * clip.x() / clip.w()) * kWidth,
                y = (0.5 - 0.5 * clip.y() / clip.w()) * kHeight;
   return picture.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));

@@ -35,9 +35,9 @@ DrawList crowdedList(MeshStore& meshes, Random& random, bool lamps) {
     list.opaque.back().distance = static_cast<float>(X.translation().norm());
   }
   std::ranges::stable_sort(list.opaque, {}, &DrawItem::mesh);
-  list.eyes[0] = test::lookAt(Vec3(-0.03, 0, 0), Vec3(0, 1, 0), 1.3, 1.5);
-  list.eyes[1] = test::lookAt(Vec3(0.03, 0, 0), Vec3(0, 1, 0), 1.3, 1.5);
-  list.eyeCount = 2;
+  list.views[0] = test::lookAt(Vec3(-0.03, 0, 0), Vec3(0, 1, 0), 1.3, 1.5);
+  list.views[1] = test::lookAt(Vec3(0.03, 0, 0), Vec3(0, 1, 0), 1.3, 1.5);
+  list.viewCount = 2;
   return list;
 }
 

@@ -32,35 +32,35 @@ public:
 constexpr HeadReach kReach{0.1, 0.3};
 
 /// Of the frame that began then, as Cull fills it from that head.
-DrawList listFrom(const Pose& X_RH, const WallView& view, int frame = 1) {
+DrawList listFrom(const Pose& X_RH, const WallViews& view, int frame = 1) {
   DrawList list;
   list.ticket.began = TimePoint(milliseconds(1000 * frame));
   list.ticket.shown.eyeSeparation = 0.07;
   list.viewer.set({Vec3(100, -20, 3), det::fromEuler(0, 0, 0.7)}, X_RH);
-  eyesOf(list.viewer, view, 0.07).setUp(list);
+  place(list.viewer, view, {0.07}).setUp(list);
   return list;
 }
 
 /// Where a point of World is in the picture of an eye.
 Vec4 inPicture(const DrawList& list, std::size_t eye, const Vec3& p_W) {
   const Vec3 p = p_W - list.origin;
-  return list.eyes[eye].projection * (list.eyes[eye].view * Vec4(p.x(), p.y(), p.z(), 1));
+  return list.views[eye].projection * (list.views[eye].view * Vec4(p.x(), p.y(), p.z(), 1));
 }
 
 bool sameEyes(const DrawList& a, const DrawList& b) {
-  bool same = a.eyeCount == b.eyeCount && a.origin == b.origin;
+  bool same = a.viewCount == b.viewCount && a.origin == b.origin;
   for (std::size_t eye = 0; eye < 2; ++eye)
-    same = same && a.eyes[eye].view == b.eyes[eye].view && a.eyes[eye].projection == b.eyes[eye].projection;
+    same = same && a.views[eye].view == b.views[eye].view && a.views[eye].projection == b.views[eye].projection;
   return same;
 }
 
 TEST(HeadLatch, AWallIsDrawnAsIfItHadBeenCulledFromTheNewestHead) {
-  const std::vector<WallView> views = test::boxRoom(1.5, {0.1, 60});
+  const std::vector<WallViews> views = test::boxRoom(1.5, {0.1, 60});
   const Pose sampled{Vec3(0.2, 0.1, 0.3), det::fromEuler(0.1, 0, 0.5)};
   const Pose newest{Vec3(0.25, 0.13, 0.28), det::fromEuler(0.05, 0.1, 0.6)};
   Head head;
   head.now = HeadNow{newest, 12345};
-  for (const WallView& view : views) {
+  for (const WallViews& view : views) {
     HeadLatch latch(head, kReach);
     DrawList list = listFrom(sampled, view);
     const DrawList culled = listFrom(newest, view);
@@ -78,7 +78,7 @@ TEST(HeadLatch, AWallIsDrawnAsIfItHadBeenCulledFromTheNewestHead) {
 }
 
 TEST(HeadLatch, NothingChangesWhereNobodyKnowsMoreOrTheHeadHasNotMoved) {
-  const WallView view = test::boxRoom(1.5, {0.1, 60})[0];
+  const WallViews view = test::boxRoom(1.5, {0.1, 60})[0];
   const Pose sampled{Vec3(0.2, 0.1, 0.3), det::fromEuler(0.1, 0, 0.5)};
   Head head;
   HeadLatch latch(head, kReach);
@@ -100,7 +100,7 @@ TEST(HeadLatch, NothingChangesWhereNobodyKnowsMoreOrTheHeadHasNotMoved) {
 }
 
 TEST(HeadLatch, AHeadThatHasGoneTooFarIsDrawnFromTheEdgeOfTheReachAndCounted) {
-  const WallView view = test::boxRoom(1.5, {0.1, 60})[0];
+  const WallViews view = test::boxRoom(1.5, {0.1, 60})[0];
   Head head;
   head.now = HeadNow{{Vec3(0.5, 0, 0), det::expRotation(Vec3(0, 0, -1.2))}, 1};
   HeadLatch latch(head, kReach);
@@ -115,7 +115,7 @@ TEST(HeadLatch, AHeadThatHasGoneTooFarIsDrawnFromTheEdgeOfTheReachAndCounted) {
 }
 
 TEST(HeadLatch, AllWallsOfAFrameAreDrawnFromOneHeadAndTheNextFrameFromAYoungerOne) {
-  const std::vector<WallView> views = test::boxRoom(1.5, {0.1, 60});
+  const std::vector<WallViews> views = test::boxRoom(1.5, {0.1, 60});
   Head head;
   HeadLatch latch(head, kReach);
   for (int frame = 1; frame <= 3; ++frame)
@@ -130,7 +130,7 @@ TEST(HeadLatch, AllWallsOfAFrameAreDrawnFromOneHeadAndTheNextFrameFromAYoungerOn
 }
 
 TEST(HeadLatch, TheHeadIsAskedForWhereItWillBeWhenPicturesAreSeenAndNeverForThePast) {
-  const WallView view = test::boxRoom(1.5, {0.1, 60})[0];
+  const WallViews view = test::boxRoom(1.5, {0.1, 60})[0];
   Head head;
   HeadLatch latch(head, kReach);
   DrawList list = listFrom({}, view, 1), next = listFrom({}, view, 2);
@@ -143,15 +143,15 @@ TEST(HeadLatch, TheHeadIsAskedForWhereItWillBeWhenPicturesAreSeenAndNeverForTheP
 }
 
 TEST(HeadLatch, ExchangedEyesStayExchangedAndCamerasAreNobodysHead) {
-  WallView view = test::boxRoom(1.5, {0.1, 60})[0];
+  WallViews view = test::boxRoom(1.5, {0.1, 60})[0];
   Head head;
   head.now = HeadNow{{Vec3(0.05, 0, 0), Quat::Identity()}, 1};
   HeadLatch latch(head, kReach);
   DrawList plain = listFrom({}, view), exchanged = plain;
   exchanged.ticket.shown.swapEyes = true;
   latch.latch(view, {}, plain), latch.latch(view, {}, exchanged);
-  EXPECT_EQ(plain.eyes[0].view, exchanged.eyes[1].view);
-  EXPECT_EQ(plain.eyes[1].view, exchanged.eyes[0].view);
+  EXPECT_EQ(plain.views[0].view, exchanged.views[1].view);
+  EXPECT_EQ(plain.views[1].view, exchanged.views[0].view);
   struct Nobody final : FreeCamera {
     std::optional<CameraView> view() const override { return {}; }
     void addTo(std::vector<InstanceRecord>&, const ViewerRecord&) const override {}
@@ -178,8 +178,8 @@ TEST(HeadReach, CullFindsWhatIsSeenFromAnywhereWithin) {
   for (int round = 0; round < 200; ++round) {
     const double half = random.from(0.5, 3);
     const HeadReach reach{random.from(0, 0.2), random.from(0, 0.6)};
-    std::vector<WallView> views = test::boxRoom(half, {0.1, random.sizeFrom(10, 500)}), bare = views;
-    for (WallView& view : views) view.reach = reach;
+    std::vector<WallViews> views = test::boxRoom(half, {0.1, random.sizeFrom(10, 500)}), bare = views;
+    for (WallViews& view : views) view.reach = reach;
     test::Frames f;
     const Vec3 rig = random.within(50);
     f.viewer.set({rig, random.turned()}, test::headIn(half, random));
@@ -200,15 +200,15 @@ TEST(HeadReach, CullFindsWhatIsSeenFromAnywhereWithin) {
         std::vector<const InstanceRecord*> before = seenBefore.on(wall).records;
         std::ranges::sort(found), std::ranges::sort(before);
         for (const double side : {-1.0, 1.0}) {  // each eye by itself, without any margin
-          WallView one = bare[wall];
-          one.stereo = false;
+          WallViews one = bare[wall];
+          one.views[0].from = ViewPoint::Middle, one.views.pop_back();
           ViewerRecord eye = there;
           const Pose X_RH = there.head();
           eye.set(there.rig(), {X_RH * Vec3(0.5 * side * bare[wall].eyeSeparation, 0, 0), X_RH.q});
-          const WallEyes eyes = eyesOf(eye, one, -1);
-          const ConvexVolume volume = eyes.volume();
+          const PlacedViews placed = place(eye, one, {});
+          const ConvexVolume volume = placed.volume(0, 1);
           for (const InstanceRecord& r : state.chunk(1).records) {
-            const Vec3 centre = Vec3(r.centre[0], r.centre[1], r.centre[2]) - eyes.origin;
+            const Vec3 centre = Vec3(r.centre[0], r.centre[1], r.centre[2]) - placed.origin;
             const auto inside = [&] {
               return volume.contains(centre + 0.999 * r.radius * random.within(1).normalized());
             };
@@ -226,8 +226,8 @@ TEST(HeadReach, CullFindsWhatIsSeenFromAnywhereWithin) {
 }
 
 TEST(HeadReach, NoReachIsNoMargin) {
-  const WallView view = test::boxRoom(1.5, {0.1, 60})[0];
-  EXPECT_EQ(eyesOf({}, view, -1).margin, 0);
+  const WallViews view = test::boxRoom(1.5, {0.1, 60})[0];
+  EXPECT_EQ(place({}, view, {}).margin, 0);
   EXPECT_EQ(HeadReach{}.ofEyes(0.064), 0);
   EXPECT_NEAR((HeadReach{0.1, 0.5}.ofEyes(0.064)), 0.116, 1e-5);
 }

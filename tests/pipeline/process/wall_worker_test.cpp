@@ -1,6 +1,6 @@
 // Walls drawn by processes of their own: what travels, that the pixels are the same, and what becomes of a
 // wall whose process dies or hangs.
-#include "pipeline/process/eyes_in_workers.h"
+#include "pipeline/process/views_in_workers.h"
 #include "pipeline/process/list_bytes.h"
 #include "tests/pipeline/draw/renderer_scene.h"
 #include "tests/proc.h"
@@ -56,9 +56,9 @@ std::vector<std::uint8_t> drawnHere(const MeshStore& meshes, const DrawList& lis
 
 DrawList stereoList(MeshStore& meshes) {
   DrawList list = test::richList(meshes, double{kWidth} / kHeight);
-  list.eyeCount = 2;
-  list.eyes[1] = list.eyes[0];
-  list.eyes[1].view(0, 3) += 0.5;
+  list.viewCount = 2;
+  list.views[1] = list.views[0];
+  list.views[1].view(0, 3) += 0.5;
   return list;
 }
 
@@ -95,9 +95,9 @@ TEST(WallWorkerBytes, ListsArriveAsTheyWere) {
   EXPECT_EQ(got.ticket.signature.frame, 1234u);
   EXPECT_EQ(got.wall, 3u);
   EXPECT_EQ(got.origin, list.origin);
-  EXPECT_EQ(got.eyeCount, 2u);
-  EXPECT_EQ(got.eyes[1].view, list.eyes[1].view);
-  EXPECT_EQ(got.eyes[0].projection, list.eyes[0].projection);
+  EXPECT_EQ(got.viewCount, 2u);
+  EXPECT_EQ(got.views[1].view, list.views[1].view);
+  EXPECT_EQ(got.views[0].projection, list.views[0].projection);
   EXPECT_TRUE(same(got.opaque, list.opaque));
   EXPECT_TRUE(same(got.transparent, list.transparent));
   EXPECT_EQ(got.lights.size(), list.lights.size());
@@ -203,10 +203,10 @@ TEST(ProgramWallWorkers, DrawTheSamePictures) {
 TEST(ProgramWallWorkers, AProcessForEachEyeDrawsTheSamePictures) {
   MeshStore meshes;
   DrawList list = stereoList(meshes);
-  list.opaque.front().eyes = DrawItem::kLeftEye, list.opaque.back().eyes = DrawItem::kRightEye;
+  list.opaque.front().views = 1, list.opaque.back().views = 2;
   DrawList mono = list;
-  mono.eyeCount = 1;
-  EyesInWorkers drawing(partsFor(meshes, 2), {2, 1});
+  mono.viewCount = 1;
+  ViewsInWorkers drawing(partsFor(meshes, 2), {2, 1});
   for (std::size_t wall = 0; wall < 2; ++wall) {
     const Failure failure = drawing.open(wall);
     ASSERT_FALSE(failure) << failure->message;
@@ -230,7 +230,7 @@ TEST(ProgramWallWorkers, NoWallIsDrawnOfWhichOneEyeIsMissing) {
   const DrawList list = stereoList(meshes);
   auto parts = partsFor(meshes);
   parts.everyFrame = false, parts.rate = 1;
-  EyesInWorkers drawing(std::move(parts), {2});
+  ViewsInWorkers drawing(std::move(parts), {2});
   ASSERT_FALSE(drawing.open(0));
   for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list, false).drawn);
   for (const std::uint32_t eye : {1u, 0u}) {
@@ -266,7 +266,7 @@ TEST(ProgramWallWorkers, AnEyeWhoseProcessHasNoProgramFailsTheWall) {
   MeshStore meshes;
   auto parts = partsFor(meshes);
   parts.program = "/nowhere/stadion-wall";
-  EyesInWorkers drawing(std::move(parts), {2});
+  ViewsInWorkers drawing(std::move(parts), {2});
   const Failure failure = drawing.open(0);
   ASSERT_TRUE(failure);
   EXPECT_NE(failure->message.find("left eye"), std::string::npos) << failure->message;

@@ -171,7 +171,7 @@ TEST(SmallThings, FourAtATimeAndEightGiveTheSame) {
   const std::unique_ptr<Mesh> ball = test::MeshMaker(test::matt(0.7f, 0.6f, 0.5f)).sphere(1, 9).seal();
   const SieveMesh mesh(*ball, ball->indices);
   const MeshShading shading(*ball);
-  const DrawEye eye = test::lookAt(Vec3::Zero(), Vec3(0, 1, 0), 1.2, 1.5);
+  const DrawView eye = test::lookAt(Vec3::Zero(), Vec3(0, 1, 0), 1.2, 1.5);
   const SceneBlock scene = fillScene({}, std::vector<DrawLight>(3), Look::Plain);
   SmallThings four(301, 200, kRasterByFour), eight(301, 200, kRasterByEight);
   for (SmallThings* things : {&four, &eight}) {
@@ -241,7 +241,7 @@ DrawList manyThings(MeshStore& meshes, Random& random, double aspect) {
     list.opaque.back().distance = static_cast<float>(X.translation().norm());
   }
   std::ranges::stable_sort(list.opaque, {}, &DrawItem::mesh);
-  list.eyes[0] = test::lookAt(0.1 * random.within(1), Vec3(0, 1, 0), 1.3, aspect);
+  list.views[0] = test::lookAt(0.1 * random.within(1), Vec3(0, 1, 0), 1.3, aspect);
   return list;
 }
 
@@ -266,8 +266,8 @@ TEST(ThreadsSmallThings, WallsThatDrawThemSideBySideAllDrawTheSame) {
   Random random(48);
   MeshStore meshes;
   DrawList list = manyThings(meshes, random, 1.5);
-  list.eyes[1] = list.eyes[0];
-  list.eyeCount = 2;
+  list.views[1] = list.views[0];
+  list.viewCount = 2;
   std::array<std::vector<std::vector<std::uint8_t>>, kWalls> pictures;
   const auto play = [&](std::size_t wall) {
     auto target = test::provider(GlProviderKind::OsMesa)->create(90, 60);

@@ -60,7 +60,7 @@ TEST(TriangleSieve, KeepsWhatMakesPixelsAndLittleElse) {
   for (int round = 0; round < 600; ++round) {
     const int width = 80 + static_cast<int>(random.below(40)),
               height = 60 + static_cast<int>(random.below(40));
-    const DrawEye eye = test::lookAt(Vec3::Zero(), Vec3(0, 1, 0), 1.2, double(width) / height);
+    const DrawView eye = test::lookAt(Vec3::Zero(), Vec3(0, 1, 0), 1.2, double(width) / height);
     TriangleSieve sieve(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
     const bool mirrored = round % 3 == 0, both = round % 5 == 0;
     const InstanceMatrix model = placed(somewhere(random, 2, 60, mirrored));
@@ -108,7 +108,7 @@ TEST(TriangleSieve, FourAtATimeAndEightGiveTheSame) {
   const std::unique_ptr<Mesh> ball = test::MeshMaker(test::matt(1, 1, 1)).sphere(1, 9).seal();
   const SieveMesh mesh(*ball, ball->indices);
   const auto triangles = static_cast<std::uint32_t>(ball->indices.size() / 3);
-  const DrawEye eye = test::lookAt(Vec3::Zero(), Vec3(0, 1, 0), 1.2, 1.5);
+  const DrawView eye = test::lookAt(Vec3::Zero(), Vec3(0, 1, 0), 1.2, 1.5);
   TriangleSieve four(301, 200, kSieveByFour), eight(301, 200, kSieveByEight);
   for (int round = 0; round < 500; ++round) {
     const InstanceMatrix model = placed(somewhere(random, 0.5, 80, round % 2 == 0));
@@ -180,7 +180,7 @@ TEST(PictureTriangleSieve, PicturesAreThoseOfAllTriangles) {
       list.opaque.back().distance = static_cast<float>(X.translation().norm());
     }
     std::ranges::stable_sort(list.opaque, {}, &DrawItem::mesh);
-    list.eyes[0] = test::lookAt(0.1 * random.within(1), Vec3(0, 1, 0), 1.3, double(width) / height);
+    list.views[0] = test::lookAt(0.1 * random.within(1), Vec3(0, 1, 0), 1.3, double(width) / height);
     std::array<std::uint64_t, 2> triangles{};
     ASSERT_NO_FATAL_FAILURE(expectSame(meshes, list, width, height, triangles));
     EXPECT_LT(triangles[1], triangles[0] / 2);

@@ -28,9 +28,9 @@ TEST(ProgramCullAllocations, InSteadyStateThereAreNone) {
   Random random(13);
   MeshStore meshes;
   const MeshId mesh = meshWithLevels(meshes);
-  const std::vector<WallView> views = test::boxRoom(1.5, {0.1, 40});
+  const std::vector<WallViews> views = test::boxRoom(1.5, {0.1, 40});
   std::vector<WallPixels> pixels;
-  for (const WallView& view : views) pixels.push_back({view.wall, view.width, view.height});
+  for (const WallViews& view : views) pixels.push_back({view.views[0].screen, view.width, view.height});
   RoomCull room(views);
   StillCasters still;
   std::vector<WallCull> culls;

@@ -1,4 +1,4 @@
-#include "pipeline/cull/head_reach.h"
+#include "pipeline/view/head_reach.h"
 
 #include "engine/maths/functions.h"
 

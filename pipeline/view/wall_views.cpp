@@ -1,0 +1,75 @@
+#include "pipeline/view/wall_views.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace stadion {
+namespace {
+
+/// The eye that looks from there. `from` is not Middle.
+Eye eyeAt(ViewPoint from, bool swapped) {
+  return (from == ViewPoint::Right) != swapped ? Eye::Right : Eye::Left;
+}
+
+}  // namespace
+
+bool isSameScreen(const Wall& a, const Wall& b) {
+  return a.lowerLeft == b.lowerLeft && a.lowerRight == b.lowerRight && a.upperLeft == b.upperLeft;
+}
+
+std::vector<View> viewsOf(const Wall& screen, bool stereo) {
+  if (!stereo) return {{screen, ViewPoint::Middle}};
+  return {{screen, ViewPoint::Left}, {screen, ViewPoint::Right}};
+}
+
+std::uint32_t PlacedViews::endOfScreen(std::uint32_t first) const {
+  std::uint32_t end = first + 1;
+  while (end < count && isSameScreen(*views[end].screen, *views[first].screen)) ++end;
+  return end;
+}
+
+ConvexVolume PlacedViews::volume(std::uint32_t first, std::uint32_t end) const {
+  std::array<Vec3, DrawList::kMostViews> eyes;
+  for (std::uint32_t v = first; v < end; ++v) eyes[v - first] = views[v].eye;
+  return unionFrustum(*views[first].screen, {eyes.data(), end - first}, depth, margin)
+      .transformed(X_WR, origin);
+}
+
+void PlacedViews::setUp(DrawList& list) const {
+  list.origin = origin;
+  list.viewCount = count;
+  for (std::uint32_t v = 0; v < count; ++v) {
+    const EyeFrustum frustum = eyeFrustum(*views[v].screen, views[v].eye, depth);
+    list.views[v].projection = projectionMatrix(frustum);
+    list.views[v].view = viewMatrix(frustum, X_WR, origin);
+    list.views[v].eye = views[v].picture;
+  }
+}
+
+PlacedViews place(const ViewerRecord& viewer, const WallViews& wall, const EyeChoice& choice,
+                  const CameraView* camera) {
+  PlacedViews placed;
+  placed.depth = wall.depth;
+  placed.X_WR = viewer.rig();
+  if (camera) {
+    placed.count = 1, placed.views[0] = {&camera->screen, camera->eye, Eye::Left};
+    placed.origin = placed.X_WR * camera->eye;
+    return placed;
+  }
+  assert(wall.views.size() <= placed.views.size());
+  const Pose X_RH = viewer.head();
+  const double separation = choice.separation >= 0 ? choice.separation : wall.eyeSeparation;
+  double widest = 0;
+  for (const View& view : wall.views) {
+    const bool middle = view.from == ViewPoint::Middle;
+    const Eye eye = middle ? Eye::Left : eyeAt(view.from, choice.swapped);
+    placed.views[placed.count++] = {&view.screen, eyePosition(X_RH, eye, middle ? 0 : separation),
+                                    view.from == ViewPoint::Right ? Eye::Right : Eye::Left};
+    if (!middle) widest = separation;
+  }
+  placed.origin = placed.X_WR * X_RH.p;
+  placed.margin = wall.reach.ofEyes(widest);
+  return placed;
+}
+
+}  // namespace stadion
