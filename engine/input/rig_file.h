@@ -21,7 +21,7 @@
 ///     predict SECONDS        how far at most a pose is carried on beyond its last measurement
 ///     tracker NAME [offset X Y Z] [turn ROLL PITCH YAW] [safe X Y Z]
 ///         a device. offset and turn: where the eyes (of a head) or the tip (of a wand) are in the sensor's
-///         coordinates; safe: where it is, looking forward, while nobody hears of it. Without `safe` it is
+///         coordinates; safe: where it is, looking forward, while it sends nothing. Without `safe` it is
 ///         lost then. A file without trackers has a head (safe 0 0 1.7) and a wand.
 ///
 /// Frames   S is the tracking system, R the rig, D the sensor on a device, T the device as the show knows it.

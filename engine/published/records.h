@@ -1,7 +1,11 @@
 #pragma once
-/// What App publishes for the later stages: plain fixed-width records, and the set of those that changed.
+/// What App publishes for the later stages: plain records of fixed width, and the set of those that changed.
 ///
-/// No pointers in the records, so that other processes can map them. World coordinates, double precision.
+/// The records contain no pointers, so other processes can map them.
+///
+/// Frames   World, in double precision.
+/// Threads  App fills a ChangeSet; the later stages read copies of its records.
+/// Errors   none.
 
 #include "engine/asset/mesh_store.h"
 #include "engine/base/time_signature.h"
@@ -43,7 +47,7 @@ InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, boo
                             double lodFactor = 1);
 
 /// Where the instance is: its matrix, and the sphere around it. Leaves the rest of the record as it is.
-/// Both forms compute the same to the bit, so that it does not matter which of them has published a thing.
+/// Both forms compute the same bits, so it does not matter which of them published an instance.
 void placeInstance(InstanceRecord& record, const Affine& X_WN, const Sphere& sphere_N);
 /// The same of a matrix's rows, when its sphereScale() is known.
 inline void placeInstance(InstanceRecord& r, const std::array<double, 12>& m, double scale,
@@ -55,7 +59,7 @@ inline void placeInstance(InstanceRecord& r, const std::array<double, 12>& m, do
   // Rounding to float must not shrink the sphere.
   r.radius = static_cast<float>(sphere_N.radius * scale * (1 + 1e-6));
 }
-/// How many times as wide as a sphere in N one in World must be to hold it.
+/// The factor by which a sphere in N grows in World.
 double sphereScale(const Affine& X_WN);
 
 struct LightRecord {
@@ -91,7 +95,7 @@ struct ChangeSet {
   struct Instance {
     InstanceId id;
     InstanceRecord record;
-    Instance() {}  // whoever adds one fills it in
+    Instance() {}  // the publisher fills it in
     Instance(InstanceId i, const InstanceRecord& r) : id(i), record(r) {}
   };
   struct Chunk {

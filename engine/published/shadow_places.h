@@ -1,11 +1,11 @@
 #pragma once
 /// Rings around the visitor's head in which shadows are drawn: the nearer, the finer.
 ///
-/// A ring stays where it is until the head is a quarter of the ring's reach away from its middle. So what does
-/// not move need not be drawn into the shadow maps again while somebody looks around, and no shadow's edge
-/// crawls when a head moves. Where a ring is therefore depends on earlier frames. That is why the rings belong
-/// to the scene's state: they are decided once a frame, and a snapshot contains them. All walls, modes and
-/// machines have the same rings, whatever each has drawn before.
+/// A ring stays where it is until the head is a quarter of the ring's reach away from its middle. So what
+/// does not move need not be drawn into the shadow maps again while the visitor looks around, and no shadow's
+/// edge crawls when a head moves. Where a ring is therefore depends on earlier frames. That is why the rings
+/// belong to the scene's state: they are decided once a frame, and a snapshot contains them. All walls, modes
+/// and machines have the same rings, whatever each has drawn before.
 ///
 /// Frames   World. Units: metres.
 /// Threads  App only.

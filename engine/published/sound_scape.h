@@ -1,5 +1,5 @@
 #pragma once
-/// What is to be heard in a frame: published by App beside what is to be seen.
+/// The sounds of a frame. App publishes them beside the records of what is seen.
 ///
 /// Frames   World [m].
 /// Units    show time in nanoseconds.
@@ -16,7 +16,7 @@ namespace stadion {
 
 /// A sound that plays.
 struct SoundRecord {
-  NodeRef node;      ///< who plays it
+  NodeRef node;      ///< the sound node
   std::string file;  ///< below the asset roots
   Vec3 position = Vec3::Zero();
   double gain = 1;   ///< from 0 to 1
@@ -25,7 +25,7 @@ struct SoundRecord {
   Nanoseconds since = 0;  ///< when it began; another time is another beginning
 };
 
-/// All of them, and where they are heard from.
+/// All sounds that play, and where they are heard.
 struct SoundScape {
   Nanoseconds time = 0;
   Pose X_WH;  ///< the head

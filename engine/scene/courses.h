@@ -1,9 +1,10 @@
 #pragma once
-/// How placements have moved inside the present frame, where more is known than the two ends: of those that
-/// follow a tracker or a path, and of those that were put somewhere by a command at an exact time.
+/// The courses of placements within this frame, where more is known than their two ends: placements that
+/// follow a tracker or a path, or that a command moved at an exact time.
 ///
 /// Frames   World. Every course begins at the frame's start.
 /// Threads  App only.
+/// Errors   none.
 
 #include "engine/maths/course.h"
 #include "engine/scene/placements.h"
@@ -17,14 +18,15 @@ namespace stadion {
 class Courses {
 public:
   void clear();
-  /// The placement's course in this frame; a new one begins with `first`. Stays where it is until clear().
+  /// The placement's course in this frame; a new one begins with `first`. The reference is valid until
+  /// clear().
   Course& of(PlacementId id, const PoseKnot& first);
   /// The course of the placement from `start`, where it was at `before`, to `end`: its own or that of the
   /// nearest above it, on which its place changes evenly; else straight. Empty if it stays.
   Course within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
                 const Placements& placements) const;
 
-  /// Where it was at a time of this frame, and at its start, if nothing moved on what carries it.
+  /// The pose at a time of this frame, or at its start, if nothing moved on what carries the placement.
   Pose at(PlacementId id, Nanoseconds time, const Placements& placements) const;
   Pose startOf(PlacementId id, const Placements& placements) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Applies the degradation of nodes that cost too much: who must run less often, simplify its meshes or hide.
+/// Applies the degradation of nodes that cost too much: they run less often, simplify their meshes or hide.
 ///
 /// Decisions are made elsewhere (engine/core/load_control.h). They arrive with the time signature of a frame
 /// and take effect at its start. A decision about a node also holds for all nodes below it.

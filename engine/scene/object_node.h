@@ -1,5 +1,5 @@
 #pragma once
-/// A mesh in the world: `object`. It is drawn, may collide, and moves only when somebody moves it.
+/// A mesh in the world: `object`. It is drawn, may collide, and moves only if a node or a command moves it.
 
 #include "engine/published/records.h"
 #include "engine/scene/placed_node.h"

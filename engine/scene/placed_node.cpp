@@ -67,7 +67,7 @@ void PlacedNode::resetPlace(Scene& scene) {
   scene.placements().setShown(placement_, shown_);
 }
 
-/// While a tracker has it, nobody else moves it.
+/// While a tracker moves the node, nothing else does.
 void PlacedNode::setFollowing(Held part, Scene& scene) {
   follow_ = part;
   scene.placements().claim(placement_, moved());

@@ -185,7 +185,7 @@ FleetId Placements::addFleet(const FleetRule& rule, std::span<const PlacementId>
 }
 
 void Placements::join(PlacementId id, FleetId fleet, std::uint32_t member) {
-  stray(id);  // who is in two fleets is a stray of both
+  stray(id);  // a member of two fleets is a stray of both
   Entry& e = entries_[id];
   const bool plain = standsInWorld(e) && e.firstChild == kNoPlacement && e.hiders == 0 && !e.watched &&
                      !e.claimed && !e.astray;
@@ -210,7 +210,7 @@ void Placements::settle(PlacementId id) const {
   Entry& e = entries_[id];
   if (e.fleet == kNoFleet) return;
   const Fleet& fleet = fleets_[e.fleet];
-  if (!fleet.rule) return;  // put back, and nobody has claimed it
+  if (!fleet.rule) return;  // restored, and no node has claimed it
   if (std::exchange(e.move, fleet.moves) != fleet.moves) X_PN_[id] = memberOf(fleet, e.member).affine();
 }
 
@@ -304,7 +304,7 @@ void Placements::state(StateFields& f) {
   f("fleets", fleets_), f("free fleets", freeFleets_);
   if (f.restores()) changed_.clear();
   if (!f.restores()) return;
-  // Whoever is free is free once, and whoever goes with a fleet is the member that the fleet takes it for.
+  // A free placement is free once, and a placement that goes with a fleet is the member that the fleet has.
   const auto isThere = [&](PlacementId id) { return id < entries_.size() && entries_[id].live; };
   const auto isFree = [&](PlacementId id) { return id < entries_.size() && !entries_[id].live; };
   const auto twice = [](auto list) {

@@ -1,18 +1,19 @@
 #pragma once
 /// Where every movable thing is: a tree of placements in flat arrays.
 ///
-/// A placement has a local matrix relative to its parent and, from that, a World matrix. What something
-/// outside the tree moves, a tracker or the dynamics, is held in World instead: its parent does not carry it,
-/// so that it does not matter which of the two moves first. Nothing is recomputed unless it or something
-/// above it moved. World matrices may be asked for at any time in App and are always up to date.
+/// A placement has a local matrix relative to its parent, and a World matrix that follows from it. A
+/// placement that a tracker or the dynamics moves is held in World instead: its parent does not carry it, so
+/// the order in which the two move does not matter. A matrix is computed again only if the placement or one
+/// above it moved. World matrices are always up to date in App.
 ///
-/// What one node moves by a rule is a fleet: of thousands that move in every frame nothing is written down
-/// but where they are published. Members that somebody watches, holds, hides or puts elsewhere, or that carry
-/// others, are strays: they are moved one by one.
+/// A fleet is many placements that one node moves by a rule. Poses of its members are computed only when they
+/// are published. A member that is watched, held, hidden or put elsewhere, or that carries others, leaves the
+/// fleet: it is detached and moved by itself.
 ///
-/// Frames   X_PN maps Node to Parent coordinates, X_WN Node to World.
-/// Threads  App only; other stages see published instance records.
-/// Errors   a non-finite matrix is refused: the setter returns false and keeps the old one.
+/// Frames     X_PN maps Node to Parent coordinates, X_WN Node to World.
+/// Ownership  borrows the rules of fleets.
+/// Threads    App only; other stages see published instance records.
+/// Errors     a setter refuses a non-finite matrix: it returns false and keeps the old one.
 
 #include "engine/maths/maths.h"
 
@@ -32,7 +33,7 @@ using PlacementId = std::uint32_t;
 constexpr PlacementId kWorldPlacement = 0;  ///< World itself: the identity, never moves
 constexpr PlacementId kNoPlacement = ~PlacementId{0};
 
-/// Who hides something: it is shown while nobody does.
+/// What hides a placement; it is shown while nothing hides it.
 enum class Hider : std::uint8_t {
   Author = 1,  ///< the script, and its messages
   Level = 2,   ///< an lod node above it draws another child
@@ -126,13 +127,13 @@ public:
   /// Valid until the next one.
   const std::vector<PlacementId>& takeChanged();
 
-  /// All of it, to be written down or put back. Rules are put back by resumeFleet(); until then nobody may
+  /// Saves or restores everything but the rules, which resumeFleet() restores. Until then, callers must not
   /// ask where their members are.
   void state(StateFields& f);
   bool resumeFleet(FleetId fleet, const FleetRule& rule, std::size_t members);
 
 private:
-  /// Kept apart from the matrices: who looks for one thing in many placements reads little.
+  /// Kept apart from the matrices, so that a search over many placements reads little memory.
   struct Entry {
     PlacementId parent = kNoPlacement, firstChild = kNoPlacement, nextSibling = kNoPlacement,
                 previousSibling = kNoPlacement;

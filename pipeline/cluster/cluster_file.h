@@ -19,7 +19,7 @@
 ///     partition NAME              different names (stadion)
 ///     deadline SECONDS            a node silent for so long is left out, 0.1 to 60 (0.5)
 ///     hash-every FRAMES           how often the scenes are compared, 1 to 1000 (30)
-///     on-difference resync|stop   whose scene differs takes over that of who leads (resync), or all end
+///     on-difference resync|stop   a node with another state takes over the leader's (resync), or all end
 ///
 /// Each wall of the room is shown by at most one node. A cluster has 1 to 24 nodes.
 ///
@@ -71,11 +71,11 @@ struct ClusterFile {
 std::optional<ClusterFile> parseCluster(std::string_view text, const std::string& file, Diagnostics& out);
 std::optional<ClusterFile> loadCluster(const std::string& file, Diagnostics& out);
 
-/// The room's walls, as loadWalls() finds them. What is wrong with their name is told with its place in the
-/// cluster file; warnings are left to who opens the show.
+/// The room's walls, as loadWalls() finds them. Errors about their name are reported at its place in the
+/// cluster file; the program that opens the show reports warnings.
 std::optional<WallFile> loadWallsOf(const ClusterFile& cluster, const std::string& folder, Diagnostics& out);
 
-/// Says which nodes' walls are not among these, and warns of walls that nobody shows.
+/// Reports walls of nodes that are not among these, and warns of walls that no node shows.
 void checkWalls(const ClusterFile& cluster, const std::vector<std::string>& walls, Diagnostics& out);
 
 }  // namespace stadion

@@ -60,7 +60,8 @@ struct SuiteCase {
 };
 
 /// What a case is called once it has been played, in baselines, histories and reports: CASE/MODE, and
-/// CASE/MODE/plain in the plain look. Whoever draws something else, at another cost, is another one.
+/// CASE/MODE/plain in the plain look. Another look draws something else at another cost, so it has another
+/// name.
 std::string playedName(const SuiteCase& played, const std::string& mode);
 
 struct Suite {
