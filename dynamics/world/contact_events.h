@@ -43,7 +43,7 @@ public:
     std::uint32_t versions = 0;  ///< ... from these, in sum
     const std::uint32_t *versionA = nullptr, *versionB = nullptr;  ///< what they are now
     std::int32_t triangle = -1;                                    ///< of a mesh, that was near
-    bool sure = false;  ///< it will be as far off by then as it must be from what was near
+    bool sure = false;     ///< it will be as far off by then as it must be from what was near
     Nanoseconds seen = 0;  ///< up to then it has not parted ...
     double slack = 0;      ///< ... and after that it must go so far to do so [m]
 

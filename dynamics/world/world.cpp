@@ -86,7 +86,7 @@ BodyId World::addBody(const BodyDef& d) {
   const Pose X_WC = b.pose * b.X_NC;
   const Quat& q = X_WC.q;
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * d.omega);
-  core_->startFlight(b, core_->now, X_WC.p, d.v, q, L);
+  core_->startFlight(b, core_->time_.now(), X_WC.p, d.v, q, L);
   return id;
 }
 
@@ -115,7 +115,7 @@ ColliderId World::addCollider(const ColliderDef& d) {
   Collider& c = core_->colliders.add(id);
   c.id = id, c.shapeId = d.shape, c.shape = s->shape.get(), c.bound = s->bound, c.surface = d.surface;
   c.now = unit(d.pose);
-  c.move(c.now, c.now, core_->now, 0);
+  c.move(c.now, c.now, core_->time_.now(), 0);
   core_->told.push_back(id);
   return id;
 }
@@ -164,7 +164,7 @@ bool World::enableCollider(ColliderId id, bool on) {
   core_->told.push_back(id);
   if (!on) {
     core_->nearColliders.remove(*c);
-    core_->wakeOnto({false, id}, core_->now);
+    core_->wakeOnto({false, id}, core_->time_.now());
     core_->memory.forget({false, id});
   }
   return true;
@@ -177,15 +177,15 @@ bool World::enableBody(BodyId id, bool on) {
   if (on) {
     b->enabled = b->fresh = true;
     const Pose X_WC = b->pose * b->X_NC;
-    core_->startFlight(*b, core_->now, X_WC.p, Vec3::Zero(), X_WC.q, Vec3::Zero());
+    core_->startFlight(*b, core_->time_.now(), X_WC.p, Vec3::Zero(), X_WC.q, Vec3::Zero());
     return true;
   }
   b->enabled = false;
   core_->nearBodies.remove(*b);
-  core_->freeze(*b, core_->now);
+  core_->freeze(*b, core_->time_.now());
   b->support.on = {};
   b->touching.clear();
-  core_->wakeOnto({true, id}, core_->now);
+  core_->wakeOnto({true, id}, core_->time_.now());
   core_->memory.forget({true, id});
   return true;
 }
@@ -194,7 +194,7 @@ bool World::ignorePair(Party a, Party b, bool on) {
   const auto key = a < b ? std::pair(a, b) : std::pair(b, a);
   if (on) {
     core_->ignored.insert(key);
-    core_->wakeOnto(a, core_->now), core_->wakeOnto(b, core_->now);
+    core_->wakeOnto(a, core_->time_.now()), core_->wakeOnto(b, core_->time_.now());
   } else {
     core_->ignored.erase(key);
   }
@@ -210,23 +210,23 @@ FieldId World::addField(const ForceField& field, bool on) {
   const FieldId id = core_->nextField++;
   Core::FieldEntry& f = core_->fields.add(id);
   f.id = id, f.field = field, f.changed = true;
-  if (on) switchField(id, true, core_->t1);
+  if (on) switchField(id, true, core_->time_.t1());
   return id;
 }
 
 bool World::removeField(FieldId id) {
   if (!core_->fields.find(id)) return false;
   for (const RigidBody& body : core_->bodies)
-    if (hooked(body.id, id)) unhook(body.id, id, core_->t1);
-  switchField(id, false, core_->t1);
+    if (hooked(body.id, id)) unhook(body.id, id, core_->time_.t1());
+  switchField(id, false, core_->time_.t1());
   // Due at once; without a frame in between nobody may keep feeling it.
   std::vector<Core::Command> due;
   for (const Core::Command& c : core_->commands)
-    if (c.field == id && c.when <= core_->t1) due.push_back(c);
+    if (c.field == id && c.when <= core_->time_.t1()) due.push_back(c);
   std::erase_if(core_->commands, [&](const Core::Command& c) { return c.field == id; });
   for (const Core::Command& c : due)
-    if (c.kind == Core::Command::Kind::Unhook || !c.on) core_->execute(c, core_->now);
-  core_->restartStirred(core_->now);
+    if (c.kind == Core::Command::Kind::Unhook || !c.on) core_->execute(c, core_->time_.now());
+  core_->restartStirred(core_->time_.now());
   core_->fields.erase(id);
   return true;
 }
@@ -304,34 +304,34 @@ bool World::Core::putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const V
   b.touching.clear(), b.waysOut.clear();
   const Pose X_WC = b.pose * b.X_NC;
   memory.forget({true, b.id});
-  startFlight(b, now, X_WC.p, v, X_WC.q, X_WC.q * b.inertia.cwiseProduct(X_WC.q.conjugate() * omega));
+  startFlight(b, time_.now(), X_WC.p, v, X_WC.q, X_WC.q * b.inertia.cwiseProduct(X_WC.q.conjugate() * omega));
   // One that is in trouble again at once is told of, too.
   if (b.mode == BodyMode::Quarantined && !b.active) b.active = true, active.push_back(&b);
-  wakeOnto({true, b.id}, now);
+  wakeOnto({true, b.id}, time_.now());
   return true;
 }
 
 bool World::push(BodyId id, const Vec3& impulse, const Vec3& at) {
   RigidBody* b = core_->body(id);
   if (!b || !impulse.allFinite() || !at.allFinite() || !b->movable()) return false;
-  Mobile m = mobileOf(*b, core_->now);
+  Mobile m = mobileOf(*b, core_->time_.now());
   m.apply(impulse, at);
-  core_->afterImpulse(*b, m, core_->now, false);
+  core_->afterImpulse(*b, m, core_->time_.now(), false);
   return true;
 }
 
 bool World::holdBody(BodyId id) {
   RigidBody* b = core_->body(id);
   if (!b || b->mode == BodyMode::Quarantined) return false;
-  core_->freeze(*b, core_->now);
+  core_->freeze(*b, core_->time_.now());
   b->support.on = {};
   b->touching.clear(), b->waysOut.clear();
-  core_->wakeOnto({true, id}, core_->now);
+  core_->wakeOnto({true, id}, core_->time_.now());
   b->mode = BodyMode::Held;
   b->freePlace = b->pose * b->bound.centre;
   if (std::ranges::find(core_->held, b) == core_->held.end()) core_->held.push_back(b);
   b->held.way.clear(), b->nextWay.clear();
-  b->held.set(b->pose, b->pose, core_->now, 0);
+  b->held.set(b->pose, b->pose, core_->time_.now(), 0);
   b->carried.clear();
   b->wound.setZero();
   return true;
@@ -340,7 +340,7 @@ bool World::holdBody(BodyId id) {
 bool World::carryFields(BodyId id, std::vector<FieldId> fields) {
   RigidBody* b = core_->body(id);
   if (!b || b->mode != BodyMode::Held) return false;
-  if (b->carried.empty()) b->woundTo = core_->instantAt(core_->now);
+  if (b->carried.empty()) b->woundTo = core_->time_.instantAt(core_->time_.now());
   b->carried = std::move(fields);
   return true;
 }
@@ -358,10 +358,10 @@ bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
     b->put = b->traced || b->awaited;
     b->pose = unit(end);
     core_->forgetSlack({true, id});
-    b->held.set(b->pose, b->pose, core_->now, 0);
+    b->held.set(b->pose, b->pose, core_->time_.now(), 0);
     b->freePlace = b->pose * b->bound.centre;
     b->fresh = true;
-    core_->wakeOnto({true, id}, core_->now);
+    core_->wakeOnto({true, id}, core_->time_.now());
   }
   b->held.start = b->pose;
   b->held.end = unit(end);
@@ -383,15 +383,15 @@ bool World::releaseBody(BodyId id, const Vec3& v, const Vec3& omega) {
 }
 
 bool World::advance(Nanoseconds t0, Nanoseconds t1, bool continues) {
-  if (t1 < t0 || (core_->started && t0 != core_->t1)) return false;
-  if (!core_->started) core_->start(t0);
+  if (t1 < t0 || (core_->time_.started() && t0 != core_->time_.t1())) return false;
+  if (!core_->time_.started()) core_->start(t0);
   core_->advance(t0, t1, continues);
   return true;
 }
 
 bool World::pause(Nanoseconds t0, Nanoseconds t1, bool continues) {
-  if (t1 < t0 || (core_->started && t0 != core_->t1)) return false;
-  if (!core_->started) core_->start(t0);
+  if (t1 < t0 || (core_->time_.started() && t0 != core_->time_.t1())) return false;
+  if (!core_->time_.started()) core_->start(t0);
   core_->pause(t1, continues);
   return true;
 }
@@ -399,7 +399,7 @@ bool World::pause(Nanoseconds t0, Nanoseconds t1, bool continues) {
 bool World::traceBody(BodyId id, bool on) {
   RigidBody* b = core_->body(id);
   if (!b) return false;
-  if (b->traced != on) core_->trace(*b, on, b->awaited, core_->now);
+  if (b->traced != on) core_->trace(*b, on, b->awaited, core_->time_.now());
   return true;
 }
 
@@ -422,7 +422,7 @@ Pose World::poseAhead(BodyId id, Nanoseconds when) const {
   const RigidBody* b = core_->body(id);
   if (!b) return {};
   if (b->mode == BodyMode::Held) return b->held.end;
-  const double tau = core_->tauOf(when), known = std::min(tau, b->until);
+  const double tau = core_->time_.tauOf(when), known = std::min(tau, b->until);
   Pose X = b->poseAt(known);
   X.p += (tau - known) * b->velocity(known);
   return X.finite() ? X : b->pose;
@@ -441,7 +441,7 @@ BodyState World::state(BodyId id) const {
   BodyState s;
   const RigidBody* b = core_->body(id);
   if (!b) return s;
-  const double age = Instant{core_->t1, 0}.since(b->since);
+  const double age = Instant{core_->time_.t1(), 0}.since(b->since);
   s.pose = b->pose, s.mode = b->mode, s.clock = b->since.ns, s.clockRest = b->since.rest;
   s.flight = flightClassOf(b->path), s.arcs = b->version;
   const Pose X_WC = b->pose * b->X_NC;
@@ -456,8 +456,7 @@ BodyState World::state(BodyId id) const {
 }
 
 void World::setFineness(std::uint32_t parts) {
-  core_->tickGrid /= parts, core_->crowdGrid /= parts;
-  core_->tickTime /= parts, core_->faceStep /= parts;
+  core_->grid_.refine(parts);
 }
 
 BodyMode World::mode(BodyId id) const {
@@ -508,7 +507,7 @@ std::uint64_t World::waysDigest() const {
 double World::separation(Party a, Party b) const {
   const auto sa = core_->side(a), sb = core_->side(b);
   if (!sa || !sb) return std::numeric_limits<double>::infinity();
-  return gapBetween(*sa, *sb, core_->now).distance;
+  return gapBetween(*sa, *sb, core_->time_.now()).distance;
 }
 
 const World::Counters& World::counters() const {

@@ -26,7 +26,7 @@ bool World::Core::inMedium(const RigidBody& b) const {
 CoupledPush World::Core::airPush(const RigidBody& b, const CoupledState& s, const Vec3& omega,
                                  double tau) const {
   CoupledPush push{-b.damping * s.v, Vec3::Zero()};
-  const double share = shareAt(tau);
+  const double share = time_.shareAt(tau);
   const Quat q_WA = s.q * b.q_CA;
   for (const Hook& h : b.hooks) {
     const FieldEntry* f = fields.find(h.field);
@@ -99,10 +99,11 @@ void World::Core::setSpin(RigidBody& b, double tau, const Spin& spin) {
 void World::Core::turnByFrame() {
   for (RigidBody* b : active) {
     if (!b->flight || !b->flight->jerks() || b->mode != BodyMode::Flight || !b->enabled) continue;
-    catchUp(*b, frameFrom);
-    const Quat q_WA = biased(b->flight->bias, b->orientation(frameFrom) * b->q_CA, b->velocity(frameFrom), 0);
-    const Vec3 L = b->momentum(frameFrom);
-    setSpin(*b, frameFrom, Spin::free((q_WA * b->q_CA.conjugate()).normalized(), L, b->inertia));
+    catchUp(*b, time_.from());
+    const Quat q_WA =
+        biased(b->flight->bias, b->orientation(time_.from()) * b->q_CA, b->velocity(time_.from()), 0);
+    const Vec3 L = b->momentum(time_.from());
+    setSpin(*b, time_.from(), Spin::free((q_WA * b->q_CA.conjugate()).normalized(), L, b->inertia));
     mark(*b);
   }
 }

@@ -6,7 +6,7 @@
 namespace stadion {
 namespace {
 
-constexpr double kForever = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 struct State {
   Vec3 p, v;
@@ -46,7 +46,7 @@ Vec3 World::Core::accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& 
   for (const Hook& h : b.hooks) {
     const FieldEntry* f = fields.find(h.field);
     if (!f || !f->on) continue;
-    a += accelerationOf(f->field, {b.mass, b.dragArea, p, v}, shareAt(tau));
+    a += accelerationOf(f->field, {b.mass, b.dragArea, p, v}, time_.shareAt(tau));
   }
   return a;
 }
@@ -62,7 +62,7 @@ bool World::Core::uniformFor(const RigidBody& b) const {
 /// How long from tau on it is known what acts on the body: a field that changes is known to the end of this
 /// frame only [s].
 double World::Core::knownFor(const RigidBody& b, double tau) const {
-  return tau < now && feelsChange(b) ? now - tau : kForever;
+  return tau < time_.now() && feelsChange(b) ? time_.now() - tau : kUnlimited;
 }
 
 /// Whether what acts on the body differs in the course of this part of the frame.
@@ -118,7 +118,7 @@ void World::Core::setPath(RigidBody& b, double tau, const Path& path, double hor
   }
   if (&path != &b.path) b.path = path;
   b.mode = mode;
-  b.since = instantAt(tau);
+  b.since = time_.instantAt(tau);
   b.age0 = -tau;
   b.pathAge = horizon;
   b.validAge = std::min(horizon, b.spinStart + b.spin.horizon);
@@ -144,8 +144,8 @@ void World::Core::quarantine(RigidBody& b, double tau, std::string why) {
   const Quat q = usable && b.orientation(tau).coeffs().allFinite() ? b.orientation(tau) : X_WC.q;
   b.path = Path::still(p), b.spin = Spin::still(q);
   b.mode = BodyMode::Quarantined;
-  b.since = instantAt(tau);
-  b.age0 = -tau, b.until = b.validAge = b.pathAge = kForever;
+  b.since = time_.instantAt(tau);
+  b.age0 = -tau, b.until = b.validAge = b.pathAge = kUnlimited;
   b.support.on = {};
   b.touching.clear();
   ++b.version;
@@ -168,7 +168,7 @@ void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec
 
 /// How long the body takes for a step that passes over nothing that a field does, if it gains `more` speed.
 double World::Core::timeToPass(const RigidBody& b, const Vec3& p, const Vec3& v, double more) const {
-  double stride = kForever;
+  double stride = kUnlimited;
   for (const Hook& h : b.hooks)
     if (const FieldEntry* f = fields.find(h.field); f && f->on)
       stride = std::min(stride, strideIn(f->field, p) / std::max(v.norm() + more, 1e-9));
@@ -187,7 +187,7 @@ bool World::Core::resist(RigidBody& b, double tau, const Vec3& p, const Vec3& v)
 void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   const auto even = evenPullOn(b);
   if (even && !even->drag.resists()) {
-    setPath(b, tau, Path::parabola(p, v, even->pull, b.damping), kForever, BodyMode::Flight);
+    setPath(b, tau, Path::parabola(p, v, even->pull, b.damping), kUnlimited, BodyMode::Flight);
     return;
   }
   if (even) {
@@ -247,7 +247,7 @@ double World::Core::restLasts(const RigidBody& b, const BallStart& s, double tau
     const BallArc arc = ballOnFace(s, b.support, a, b.radius(), b.mass, b.inertia.x(), true, true);
     return !arc.leaves && arc.mode == BodyMode::Rest;
   };
-  if (known == kForever || rests(known)) return kForever;
+  if (known == kUnlimited || rests(known)) return kUnlimited;
   // What keeps a ball at rest is a cone of pulls: one that goes evenly from inside to outside leaves it once.
   double holds = 0, breaks = known;
   for (int i = 0; i < 60 && breaks - holds > 1e-12; ++i) {
@@ -271,7 +271,7 @@ BallArc World::Core::arcOnFace(const RigidBody& b, double tau, const BallStart& 
     arc.horizon = restLasts(b, s, tau);
     return arc;
   }
-  double step = std::min(faceStep, knownFor(b, tau));
+  double step = std::min(grid_.faceStep(), knownFor(b, tau));
   const Vec3 along = a - b.support.normal * b.support.normal.dot(a);
   const auto arcAfter = [&](double after) {
     const Vec3 p = s.p + after * (s.v + 0.5 * after * along), v = s.v + after * along;
@@ -301,7 +301,7 @@ void World::Core::startOnFace(RigidBody& b, double tau, const BallStart& s, bool
   if (b.damping > 0 && arc.mode != BodyMode::Rest) {
     // Drag on top of friction: short arcs of mean deceleration.
     Path path = arc.path;
-    const double h = std::min(arc.horizon, faceStep);
+    const double h = std::min(arc.horizon, grid_.faceStep());
     path.c[2] -= 0.5 * b.damping * path.c[1], path.degree = 2;
     setArc(b, tau, path, arc.spin, h, arc.mode);
     return;
@@ -339,7 +339,7 @@ void World::Core::restart(RigidBody& b, double tau) {
 }
 
 void World::Core::freeze(RigidBody& b, double tau) {
-  setArc(b, tau, Path::still(b.position(tau)), Spin::still(b.orientation(tau)), kForever, BodyMode::Rest);
+  setArc(b, tau, Path::still(b.position(tau)), Spin::still(b.orientation(tau)), kUnlimited, BodyMode::Rest);
 }
 
 /// Looks for the face beyond the edge that the ball has reached: true if it rolls on in the same plane, or in

@@ -39,12 +39,12 @@ void World::Core::enterContact(RigidBody& b, double tau) {
                                  }));
   b.support.on = {};
   setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
-         Spin::free(b.orientation(tau), L, b.inertia), tickTime, BodyMode::Contact);
+         Spin::free(b.orientation(tau), L, b.inertia), grid_.islandStep(), BodyMode::Contact);
   b.endL = L;
   b.quiet = 0;
   if (!rests) b.presses.clear();
   if (crowded && b.mode == BodyMode::Contact) b.crowd = true, b.dueAge = untilCrowdStep(tau);
-  scheduleTick(tau);
+  queue_.scheduleTick(tau);
 }
 
 /// What acts on the body changes: its step ends here and a new one begins, from what it does now.
@@ -52,18 +52,19 @@ void World::Core::cutStep(RigidBody& b, double tau) {
   if (b.mode != BodyMode::Contact) return;
   const Vec3 L = b.momentum(tau);
   setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
-         Spin::free(b.orientation(tau), L, b.inertia), tickTime, BodyMode::Contact);
+         Spin::free(b.orientation(tau), L, b.inertia), grid_.islandStep(), BodyMode::Contact);
   b.endL = L;
   b.quiet = 0;
-  scheduleTick(tau);
+  queue_.scheduleTick(tau);
 }
 
 /// What was foreseen for longer than a step is looked at anew.
 void World::Core::hurry(RigidBody& b, double tau) {
-  if (b.mode != BodyMode::Contact || b.crowd || b.dueAge <= tickTime || b.age(tau) + tickTime >= b.dueAge)
+  if (b.mode != BodyMode::Contact || b.crowd || b.dueAge <= grid_.islandStep() ||
+      b.age(tau) + grid_.islandStep() >= b.dueAge)
     return;
   b.dueAge = 0;
-  scheduleTick(tau);
+  queue_.scheduleTick(tau);
 }
 
 /// Sleepers that lean on a waking one wake with it.
@@ -138,16 +139,7 @@ void World::Core::scheduleDue(double tau) {
   double first = 1e300;
   for (const RigidBody* b : active)
     if (b->mode == BodyMode::Contact && b->enabled) first = std::min(first, b->dueAge - b->age0);
-  if (first < 1e299) scheduleTick(std::max(first, tau));
-}
-
-void World::Core::scheduleTick(double tau) {
-  if (tickAt >= 0 && tickAt <= tau) return;
-  ++tickNumber;
-  tickAt = tau;
-  Event e;
-  e.tau = tau, e.kind = Event::Kind::Tick, e.detail = tickNumber;
-  post(e);
+  if (first < 1e299) queue_.scheduleTick(std::max(first, tau));
 }
 
 /// A ball that has been put deep into a mesh leaves by one way: the shortest that nothing else that it
@@ -184,7 +176,7 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
                                std::vector<RigidBody*>& set) {
   const Side self = Side::of(b);
   const Kinematics k = b.at(tau);
-  const double h = tickTime;
+  const double h = grid_.islandStep();
   const double pull = std::max(kUsualPull, accelerationAt(b, k.p, k.v, tau).norm());
   const double margin = kTouching + 1.5 * h * (k.v.norm() + k.omega.norm() * b.reach + pull * h);
   Aabb box;
@@ -317,10 +309,8 @@ bool World::Core::isCrowd(const std::vector<RigidBody*>& island, double tau) {
 
 void World::Core::tick(double tau) {
   ++counters.contactSteps;
-  tickAt = -1;
-  Nanoseconds next = (timeAt(tau) / tickGrid + 1) * tickGrid;
-  if (Instant{next, 0}.since(instantAt(tau)) < kShortestStep) next += tickGrid;
-  const double h = Instant{next, 0}.since(instantAt(tau));
+  queue_.beginTick();
+  const double h = grid_.untilIslandStep(time_.instantAt(tau));
   advanceCrowd(tau);
   std::vector<RigidBody*> set;
   std::vector<Found> found;

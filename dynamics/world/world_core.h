@@ -22,6 +22,9 @@
 #include "dynamics/contact/patch_impact.h"
 #include "dynamics/contact/way_out.h"
 #include "dynamics/motion/coupled_step.h"
+#include "dynamics/state/event_queue.h"
+#include "dynamics/state/step_grid.h"
+#include "dynamics/state/world_time.h"
 #include "dynamics/world/contact_events.h"
 #include "dynamics/world/world.h"
 
@@ -69,19 +72,7 @@ public:
     bool on = false;
     std::uint32_t activation = 0;
   };
-  struct Event {
-    enum class Kind : std::uint8_t { Command, Touch, Horizon, Tick };
-    friend constexpr Kind lastOf(Kind) { return Kind::Tick; }
-    double tau = 0;
-    std::uint64_t order = 0;
-    Kind kind = Kind::Touch;
-    Party a, b;
-    std::uint32_t versionA = 0, versionB = 0;
-    std::uint32_t detail = 0;  ///< index into touches_, or the tick's number
-    bool operator<(const Event& o) const {
-      return tau != o.tau ? tau > o.tau : order > o.order;
-    }  // a min-heap
-  };
+  using Event = EventQueue::Event;
 
   // --- state
   IdTable<ShapeEntry> shapes;
@@ -92,15 +83,12 @@ public:
   std::vector<BodyId> comingOut;  ///< bodies with ways out, in the order in which they were let go
   std::deque<Command> commands;   ///< in the order of (when, order)
   ContactMemory memory;
-  Nanoseconds t0 = 0, t1 = 0;     ///< the ends of the present part of a frame, the last one between frames
-  Nanoseconds origin = 0;         ///< start of the window
-  double frameFrom = 0, now = 0;  ///< tau of t0 and t1; `now` may lie beyond the window
-  bool started = false, bodiesCollide = true;
+  WorldTime time_;
+  StepGrid grid_;
+  EventQueue queue_;
+  bool bodiesCollide = true;
   bool jerking = false;  ///< a body has come whose bias turns it once a frame
-  double faceStep =
-      1.0 / 480;         ///< of a ball on a face under pulls that differ from place to place or in time [s]
   bool foresee = false;  ///< predictions are made at once: while events run
-  std::uint64_t nextOrder = 0, frame = 0;
   std::uint32_t nextShape = 1, nextBody = 1, nextCollider = 1, nextField = 1;
   Counters counters;
 
@@ -130,19 +118,12 @@ public:
   void insert(Command c);
   void postCommand(const Command& c);
   void execute(const Command& c, double tau);
-  Nanoseconds timeAt(double tau) const { return Instant{origin, 0}.plus(tau).rounded(); }
-  double tauOf(Nanoseconds time) const { return toSeconds(time - origin); }
-  Instant instantAt(double tau) const { return Instant{origin, 0}.plus(tau); }
 
   // --- what will touch (world_foresight.cpp)
-  static constexpr Nanoseconds kWindow = 128'000'000;  ///< a multiple of the contact solver's grid
-  static constexpr Nanoseconds kLongestWindow = 8 * kWindow;
-  Nanoseconds window = kWindow;  ///< how long the present one is
   struct Looks {
     std::size_t looks = 0, colliders = 0, bodies = 0;  ///< and how much was near
   };
   Looks looks;  ///< in this window
-  double windowEnd() const { return toSeconds(window); }
   Nanoseconds nextWindow() const;
   bool solidsMayMeet() const;
   bool anyoneNear() const;
@@ -182,10 +163,6 @@ public:
   double knownUntil(const Side& s) const;
 
   // --- arcs (world_arcs.cpp)
-  /// How much of the present part of a frame is over at tau, in [0, 1].
-  double shareAt(double tau) const {
-    return now > frameFrom ? std::clamp((tau - frameFrom) / (now - frameFrom), 0.0, 1.0) : 1;
-  }
   Vec3 accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& v, double tau) const;
   bool uniformFor(const RigidBody& b) const;
   double knownFor(const RigidBody& b, double tau) const;
@@ -246,7 +223,8 @@ public:
   void afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting);
 
   // --- who has parted (world_release.cpp)
-  static constexpr double kCarriedApart = 1e-5;  ///< what is moved from outside touches while it is nearer [m]
+  static constexpr double kCarriedApart =
+      1e-5;  ///< what is moved from outside touches while it is nearer [m]
   std::optional<double> firstBeyond(const Side& a, const Side& b, double far, double from, double to) const;
   void reportReleases();
   bool nobodyNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const;
@@ -279,9 +257,6 @@ public:
   static bool comesOutOf(const RigidBody& b, ColliderId id);
 
   // --- lasting contact (world_contact.cpp)
-  Nanoseconds tickGrid = 2'000'000;              ///< the solver's steps end on multiples of this show time
-  double tickTime = 2e-3;                        ///< the same [s]
-  static constexpr double kShortestStep = 1e-6;  ///< one that would be shorter goes a little further [s]
   struct Found {
     SolverContact contact;
     Party a, b;
@@ -324,7 +299,6 @@ public:
   void noteLeaner(const RigidBody& b);
   void hurry(RigidBody& b, double tau);
   void cutStep(RigidBody& b, double tau);
-  void scheduleTick(double tau);
   void scheduleDue(double tau);
   void tick(double tau);
   std::size_t thickness(const RigidBody& b, double tau);
@@ -339,8 +313,6 @@ public:
   bool wakeTouched(const std::vector<Found>& found, double tau);
   void remember(RigidBody& b, const std::vector<Party>& near);
   // --- many bodies in one heap (world_crowd.cpp)
-  /// Their steps end on multiples of this show time: 1/120 s, so that frames of 60 Hz have two steps each.
-  Nanoseconds crowdGrid = 8'333'333;
   static constexpr std::size_t kMostInLine = 64;   ///< towers of more are a crowd, too
   static constexpr std::size_t kCrowd = 16;        ///< islands with so many bodies become one
   static constexpr std::size_t kRestless = 5;      ///< the same if they are not solved exactly
@@ -385,8 +357,6 @@ public:
   void noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end, double tau, double h) const;
   bool inFold(const RigidBody& b, const Collider& c, const Support& face, double tau) const;
   bool settleOnFace(RigidBody& b, const Found& only, double tau);
-  std::uint32_t tickNumber = 0;
-  double tickAt = -1;  ///< [s] tau of the scheduled one
 
   RigidBody* body(BodyId id) const { return bodies.find(id); }
   Collider* collider(ColliderId id) const { return colliders.find(id); }
@@ -417,15 +387,6 @@ public:
   std::vector<BodyId> flightless;  ///< that were put back, and wait for their flights
   void visit(StateFields& f);
   void visitCommands(StateFields& f);
-  void visitQueue(StateFields& f);
-
-private:
-  std::priority_queue<Event> queue_;
-  std::vector<Touch> touches_;
-  void post(Event e) {
-    e.order = nextOrder++;
-    queue_.push(e);
-  }
 };
 
 }  // namespace stadion

@@ -45,9 +45,7 @@ struct ContactLists {
 
 /// From tau to the next step but a very short one [s].
 double World::Core::untilCrowdStep(double tau) const {
-  Nanoseconds next = (timeAt(tau) / crowdGrid + 1) * crowdGrid;
-  if (next - timeAt(tau) < crowdGrid / 8) next += crowdGrid;
-  return Instant{next, 0}.since(instantAt(tau));
+  return grid_.untilPileStep(time_.instantAt(tau));
 }
 
 void World::Core::joinCrowd(RigidBody& b, CrowdStep& step) {
@@ -198,7 +196,7 @@ void World::Core::dissolveCrowd(const std::vector<RigidBody*>& due, double tau) 
     const Vec3 L = b->momentum(tau);
     if (b->dueAge > 0)
       setArc(*b, tau, Path::parabola(b->position(tau), b->velocity(tau), Vec3::Zero()),
-             Spin::free(b->orientation(tau), L, b->inertia), tickTime, BodyMode::Contact);
+             Spin::free(b->orientation(tau), L, b->inertia), grid_.islandStep(), BodyMode::Contact);
     b->crowd = false, b->endL = L;
   }
 }

@@ -73,17 +73,15 @@ bool World::Core::mayTouch(const Side& a, const Side& b) const {
 double World::Core::knownUntil(const Side& s) const {
   const GuidedMotion* motion = s.motion();
   if (!motion) return s.body->until;
-  if (s.collider && !motion->moving) return windowEnd();
-  return motion->guided() ? std::min(now, motion->nextTurn()) : now;
+  if (s.collider && !motion->moving) return time_.windowEnd();
+  return motion->guided() ? std::min(time_.now(), motion->nextTurn()) : time_.now();
 }
 
 /// Its way goes on otherwise before the frame is over: what it meets then must be looked at again.
 void World::Core::pushTurn(Party p, const GuidedMotion& motion, double tau) {
   const double turns = std::max(tau, motion.nextTurn() + kTurnsLate);
-  if (!motion.guided() || !(turns <= std::min(now, windowEnd()))) return;
-  Event e;
-  e.tau = turns, e.kind = Event::Kind::Horizon, e.a = p, e.versionA = versionOf(p);
-  post(e);
+  if (!motion.guided() || !(turns <= std::min(time_.now(), time_.windowEnd()))) return;
+  queue_.postHorizon(turns, p, versionOf(p));
 }
 
 void World::Core::turn(RigidBody& b, double tau) {
@@ -103,12 +101,9 @@ void World::Core::turn(Collider& c, double tau) {
 }
 
 void World::Core::pushHorizon(const RigidBody& b) {
-  if (b.mode == BodyMode::Held) return pushTurn({true, b.id}, b.held, frameFrom);
-  if (!(b.until <= windowEnd()) || b.mode == BodyMode::Contact) return;
-  Event e;
-  e.tau = std::max(b.until, frameFrom), e.kind = Event::Kind::Horizon, e.a = {true, b.id},
-  e.versionA = b.version;
-  post(e);
+  if (b.mode == BodyMode::Held) return pushTurn({true, b.id}, b.held, time_.from());
+  if (!(b.until <= time_.windowEnd()) || b.mode == BodyMode::Contact) return;
+  queue_.postHorizon(std::max(b.until, time_.from()), {true, b.id}, b.version);
 }
 
 void World::Core::predictPair(const Side& a, const Side& b, double tau) {
@@ -129,9 +124,9 @@ void World::Core::predictPair(const Side& a, const Side& b, double tau) {
     if (!isHeld(a) && !isHeld(b)) return;
     const ContactMemory::Key key = ContactMemory::keyOf(a.party, b.party);
     if (memory.touching(key)) {
-      const double known = std::min({now, windowEnd(), knownUntil(a), knownUntil(b)});
-      const auto parted = a.guided() || b.guided() ? firstBeyond(a, b, kCarriedApart, tau, known)
-                                                   : std::optional<double>();
+      const double known = std::min({time_.now(), time_.windowEnd(), knownUntil(a), knownUntil(b)});
+      const auto parted =
+          a.guided() || b.guided() ? firstBeyond(a, b, kCarriedApart, tau, known) : std::optional<double>();
       if (!parted) return;
       memory.setTouching(key, false);
       tau = *parted;
@@ -140,33 +135,29 @@ void World::Core::predictPair(const Side& a, const Side& b, double tau) {
   ++counters.pairTests;
   if (a.body && b.body) ++looks.bodies;
   // An arc that ends before the window is only asked up to its end.
-  const double to = std::min({windowEnd(), knownUntil(a), knownUntil(b)});
+  const double to = std::min({time_.windowEnd(), knownUntil(a), knownUntil(b)});
   if (!(tau <= to)) return;
   const double beyond = a.guided() || b.guided() ? to + kTurnsLate : to;
   const auto touch = firstRealTouch(a, b, tau, beyond);
   if (!touch) return;
-  Event e;
-  e.tau = std::min(touch->tau, to), e.kind = Event::Kind::Touch, e.a = a.party, e.b = b.party;
-  e.versionA = a.version(), e.versionB = b.version();
-  e.detail = static_cast<std::uint32_t>(touches_.size());
-  touches_.push_back(*touch);
-  post(e);
+  queue_.postTouch(std::min(touch->tau, to), a, b, *touch);
 }
 
 /// Where the body goes until the end of the window, for the broad phase.
 void World::Core::sweep(RigidBody& b, double tau) {
   if (!b.enabled) return nearBodies.remove(b);
   if (b.mode == BodyMode::Held) {
-    b.swept = sweptBox(Side::of(b), std::max(tau, frameFrom), std::max({tau, frameFrom, now}));
+    b.swept = sweptBox(Side::of(b), std::max(tau, time_.from()), std::max({tau, time_.from(), time_.now()}));
   } else {
     const double end = b.pathAge - b.age0;
-    Aabb box = sweptBody(b, tau, std::max(tau, std::min(windowEnd(), end)));
+    Aabb box = sweptBody(b, tau, std::max(tau, std::min(time_.windowEnd(), end)));
     if (b.crowd) {  // steps are short and many: a roomy box serves several
       if (b.place != kUnfiled && holds(b.swept, box)) return;
       const double room = 0.004 + 0.05 * b.velocity(tau).norm();
       b.swept.lo = box.lo.array() - room, b.swept.hi = box.hi.array() + room;
     } else {
-      if (b.path.isSeries() && tau < end && end < windowEnd()) reachOn(b, end, windowEnd() - end, box);
+      if (b.path.isSeries() && tau < end && end < time_.windowEnd())
+        reachOn(b, end, time_.windowEnd() - end, box);
       b.swept = box;
     }
   }
@@ -212,7 +203,7 @@ void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
 void World::Core::awaitHorizon(RigidBody& b) {
   // What its next arcs sweep is known if they go through the same medium.
   b.lazy = b.alone && b.only == 0 && b.mode == BodyMode::Flight &&
-           (b.path.isSeries() || b.pathAge - b.age0 > windowEnd());
+           (b.path.isSeries() || b.pathAge - b.age0 > time_.windowEnd());
   if (!b.lazy) pushHorizon(b);
 }
 
@@ -253,7 +244,7 @@ void World::Core::sortMarked() {
 
 void World::Core::sweepMarked() {
   sortMarked();
-  for (RigidBody* b : marked) sweep(*b, frameFrom);
+  for (RigidBody* b : marked) sweep(*b, time_.from());
   if (nearBodies.crowded()) fileBodies();
   if (nearColliders.crowded()) fileColliders();
 }
@@ -294,7 +285,7 @@ void World::Core::fileColliders() {
 void World::Core::sweep(Collider& c) {
   if (!c.enabled) return nearColliders.remove(c);
   if (c.motion.moving) {
-    c.swept = sweptBox(Side::of(c), frameFrom, std::max(frameFrom, now));
+    c.swept = sweptBox(Side::of(c), time_.from(), std::max(time_.from(), time_.now()));
   } else {
     constexpr double margin = 2e-5;  // so that whoever touches it at load is seen
     c.swept = boundingBox(*c.shape, c.motion.end);
@@ -320,9 +311,9 @@ Nanoseconds World::Core::nextWindow() const {
     if (standsStill(b->mode)) continue;
     moves = true, lazy = lazy && b->lazy;
   }
-  if (!moves || looks.bodies > 0 || (!lazy && solidsMayMeet())) return kWindow;
-  if (looks.colliders > 2 * looks.looks) return std::max(window / 2, kWindow);
-  return std::min(2 * window, kLongestWindow);
+  if (!moves || looks.bodies > 0 || (!lazy && solidsMayMeet())) return WorldTime::kWindow;
+  if (looks.colliders > 2 * looks.looks) return std::max(time_.window() / 2, WorldTime::kWindow);
+  return std::min(2 * time_.window(), WorldTime::kLongestWindow);
 }
 
 /// Whether a body that moves sweeps a box that something else is near.
@@ -350,20 +341,17 @@ void World::Core::sweepActive(double tau) {
 
 /// All clocks go by a new window.
 void World::Core::beginWindow(Nanoseconds at) {
-  origin = at;
-  window = nextWindow(), looks = {};
-  frameFrom = tauOf(t0), now = tauOf(t1);
-  queue_ = {};
-  touches_.clear();
-  const Instant start{origin, 0};
-  const double from = std::max(0.0, frameFrom);
+  time_.openWindow(at, nextWindow());
+  looks = {};
+  queue_.clear();
+  const Instant start{time_.origin(), 0};
+  const double from = std::max(0.0, time_.from());
   for (RigidBody& b : bodies) {
     b.age0 = start.since(b.since);
     b.until = b.validAge - b.age0;
-    b.held.begin = frameFrom, b.held.rebase(start);
+    b.held.begin = time_.from(), b.held.rebase(start);
   }
-  for (Collider& c : colliders) c.motion.begin = frameFrom, c.motion.rebase(start);
-  tickAt = -1;
+  for (Collider& c : colliders) c.motion.begin = time_.from(), c.motion.rebase(start);
   scheduleDue(from);
   const Command* before = nullptr;
   for (const Command& c : commands) {  // one event for all of the same time
@@ -375,15 +363,15 @@ void World::Core::beginWindow(Nanoseconds at) {
 /// A window begins: everybody is looked at anew.
 void World::Core::openWindow(Nanoseconds at) {
   beginWindow(at);
-  const double from = std::max(0.0, frameFrom);
+  const double from = std::max(0.0, time_.from());
   if (nearColliders.crowded()) fileColliders();
   sweepActive(from);
-  if (window > kWindow && solidsMayMeet()) {
+  if (time_.window() > WorldTime::kWindow && solidsMayMeet()) {
     if (!anyoneNear()) {
       for (RigidBody* b : active) b->alone = true, b->only = 0, awaitHorizon(*b);
       return;
     }
-    window = kWindow;
+    time_.shortenWindow();
     sweepActive(from);
   }
   for (RigidBody* b : active) mark(*b);

@@ -27,7 +27,7 @@ bool inBounds(const Pose& X) {
 }  // namespace
 
 void World::Core::insert(Command c) {
-  c.order = nextOrder++;
+  c.order = queue_.takeOrder();
   const auto later = [](const Command& x, const Command& y) {
     return x.when != y.when ? x.when < y.when : x.order < y.order;
   };
@@ -36,10 +36,7 @@ void World::Core::insert(Command c) {
 }
 
 void World::Core::postCommand(const Command& c) {
-  if (!started || c.when >= origin + window) return;
-  Event e;
-  e.tau = tauOf(c.when), e.kind = Event::Kind::Command;
-  post(e);
+  if (time_.started() && time_.inWindow(c.when)) queue_.postCommand(time_.tauOf(c.when));
 }
 
 /// Something else pulls at the body now: it is to begin a new arc.
@@ -60,7 +57,7 @@ void World::Core::restartStirred(double tau) {
 
 /// What is due up to tau, in its order.
 void World::Core::obeyCommands(double tau) {
-  while (!commands.empty() && tauOf(commands.front().when) <= tau) {
+  while (!commands.empty() && time_.tauOf(commands.front().when) <= tau) {
     const Command c = commands.front();
     commands.pop_front();
     execute(c, tau);
@@ -83,8 +80,8 @@ void World::Core::execute(const Command& c, double tau) {
     if (c.on) {
       ++field->activation;
       if (field->field.duration > 0)
-        insert({std::max(c.when, timeAt(tau)) + field->field.duration, 0, Command::Kind::Expire, c.field, 0,
-                false, field->activation});
+        insert({std::max(c.when, time_.timeAt(tau)) + field->field.duration, 0, Command::Kind::Expire,
+                c.field, 0, false, field->activation});
     }
     if (field->on == c.on) return;
     field->on = c.on;
@@ -107,9 +104,9 @@ void World::Core::execute(const Command& c, double tau) {
 /// The first frame begins: arcs made before begin with it. If there are commands, they will change most of
 /// them before anybody looks.
 void World::Core::start(Nanoseconds at) {
-  started = true;
-  t0 = t1 = at;
-  const Nanoseconds whole = at / kWindow * kWindow, opens = at < whole ? whole - kWindow : whole;
+  time_.start(at);
+  const Nanoseconds whole = at / WorldTime::kWindow * WorldTime::kWindow,
+                    opens = at < whole ? whole - WorldTime::kWindow : whole;
   for (RigidBody& b : bodies) b.since = Instant{at, 0};
   commands.empty() ? openWindow(opens) : beginWindow(opens);
 }
@@ -124,7 +121,7 @@ void World::Core::forgetBody(RigidBody& b) {
 }
 
 void World::Core::newFrame() {
-  ++frame;
+  time_.nextFrame();
   counters = {};
   memory.beginFrame();
   changed.clear();
@@ -133,43 +130,42 @@ void World::Core::newFrame() {
 /// All clocks are put forward; a new window begins with them.
 void World::Core::pause(Nanoseconds to, bool continues) {
   if (!continues) newFrame();
-  const Nanoseconds gap = to - t1;
+  const Nanoseconds gap = to - time_.t1();
   pauseTraces(continues);
   if (gap == 0) return;
   for (RigidBody& b : bodies) b.since.ns += gap, b.woundTo.ns += gap;
   for (ContactMemory::Waiting& w : memory.waiting()) w.look += gap, w.seen += gap;
-  t0 = t1 = to;
-  openWindow(to / kWindow * kWindow);
+  time_.standUntil(to);
+  openWindow(to / WorldTime::kWindow * WorldTime::kWindow);
 }
 
 void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
-  t0 = from, t1 = to;
-  frameFrom = tauOf(from), now = tauOf(to);
+  time_.beginPart(from, to);
   if (!continues) {
     newFrame();
     if (jerking) turnByFrame();
   }
   beginTraces(continues);
   beginFrame();
-  while (t1 - origin >= window) {
-    runEvents(windowEnd());
-    for (RigidBody* b : active) catchUp(*b, windowEnd());
+  while (time_.t1() - time_.origin() >= time_.window()) {
+    runEvents(time_.windowEnd());
+    for (RigidBody* b : active) catchUp(*b, time_.windowEnd());
     const bool idle = active.empty() && commands.empty() && told.empty();
-    openWindow(idle ? t1 / kWindow * kWindow : origin + window);
+    openWindow(idle ? time_.t1() / WorldTime::kWindow * WorldTime::kWindow : time_.origin() + time_.window());
   }
-  runEvents(now);
+  runEvents(time_.now());
   endFrame();
 }
 
 void World::Core::beginFrame() {
   foresee = false;
-  const double seconds = now - frameFrom;
+  const double seconds = time_.now() - time_.from();
   std::erase_if(held, [](const RigidBody* b) { return b->mode != BodyMode::Held; });
   for (RigidBody* b : held) {
-    b->held.set(b->held.start, b->held.end, frameFrom, seconds);
+    b->held.set(b->held.start, b->held.end, time_.from(), seconds);
     b->held.way.swap(b->nextWay), b->nextWay.clear();
-    b->held.follow({origin, 0}, frameFrom, now);
-    noteHeld(*b, frameFrom);
+    b->held.follow({time_.origin(), 0}, time_.from(), time_.now());
+    noteHeld(*b, time_.from());
     b->put = false;
     ++b->version;
     mark(*b);
@@ -178,31 +174,31 @@ void World::Core::beginFrame() {
   told.erase(std::unique(told.begin(), told.end()), told.end());
   for (const ColliderId id : told)
     if (Collider* c = collider(id)) {
-      c->move(c->now, c->next.value_or(c->now), frameFrom, seconds);
+      c->move(c->now, c->next.value_or(c->now), time_.from(), seconds);
       c->next.reset();
       c->motion.way.swap(c->nextWay), c->nextWay.clear();
-      c->motion.follow({origin, 0}, frameFrom, now);
+      c->motion.follow({time_.origin(), 0}, time_.from(), time_.now());
       ++c->version;
       sweep(*c);
     }
-  obeyCommands(frameFrom);
+  obeyCommands(time_.from());
   followFields();
-  restartStirred(frameFrom);
+  restartStirred(time_.from());
   sweepMarked();  // boxes before predictions, so that these see everybody
   const std::vector<Party> arrived = arrivals();
   settleFresh(arrived);
   if (active.size() < bodies.size())  // somebody sleeps
     for (const Party p : arrived) wakeWithin(p);
   for (const RigidBody* b : held)
-    if (b->held.moving) wakeOnto({true, b->id}, frameFrom);
+    if (b->held.moving) wakeOnto({true, b->id}, time_.from());
   for (const ColliderId id : told)
     if (Collider* c = collider(id); c && c->enabled && (c->motion.moving || c->disturbed)) {
-      wakeOnto({false, id}, frameFrom);
+      wakeOnto({false, id}, time_.from());
       c->disturbed = false;
     }
   sweepMarked();
   foresee = true;
-  foreseeMarked(frameFrom);
+  foreseeMarked(time_.from());
 }
 
 /// Bodies that feel a field which is not what it was, or which moves, are to begin new arcs. One that is off
@@ -219,7 +215,7 @@ void World::Core::followFields() {
         b.hooks, [&](const Hook& h) { return std::ranges::find(different, h.field) != different.end(); });
     if (!concerned || !b.enabled) continue;
     // Steps of heaps go on; so do those that end at once, since a frame's parts may be as short.
-    if (b.mode == BodyMode::Contact && (b.crowd || b.dueAge - b.age(frameFrom) <= kShortestStep)) continue;
+    if (b.mode == BodyMode::Contact && (b.crowd || b.dueAge - b.age(time_.from()) <= kShortestStep)) continue;
     stir(b);
   }
 }
@@ -241,11 +237,11 @@ void World::Core::wakeWithin(Party arrived) {
   std::vector<RigidBody*> woken;
   nearBodies.eachNear(self.body ? self.body->swept : self.collider->swept, [&](RigidBody& o) {
     if (o.mode != BodyMode::Rest || !o.enabled || &o == self.body || !mayTouch(Side::of(o), self)) return;
-    if (gapBetween(Side::of(o), self, frameFrom, {0.01}).distance < -kTouchesAtLoad) woken.push_back(&o);
+    if (gapBetween(Side::of(o), self, time_.from(), {0.01}).distance < -kTouchesAtLoad) woken.push_back(&o);
   });
   for (RigidBody* o : woken) {
-    enterContact(*o, frameFrom);
-    wakeOnto({true, o->id}, frameFrom);
+    enterContact(*o, time_.from());
+    wakeOnto({true, o->id}, time_.from());
   }
 }
 
@@ -258,7 +254,7 @@ void World::Core::settleFresh(const std::vector<Party>& arrived) {
   std::vector<Settler> settlers;
   const auto look = [&](const Side& self, const Side& other, std::vector<std::pair<Side, Gap>>* touching) {
     if (!mayTouch(self, other)) return;
-    const Gap g = gapBetween(self, other, frameFrom, {0.01});
+    const Gap g = gapBetween(self, other, time_.from(), {0.01});
     if (!(g.distance < kTouchesAtLoad)) return;
     memory.setTouching(ContactMemory::keyOf(self.party, other.party), true);
     if (touching) touching->emplace_back(other, g);
@@ -286,7 +282,7 @@ void World::Core::settleFresh(const std::vector<Party>& arrived) {
     for (const WayOut& w : s.body->waysOut)
       memory.setTouching(ContactMemory::keyOf({false, w.of}, {true, s.body->id}), true);
     if (!s.body->waysOut.empty())
-      enterContact(*s.body, frameFrom);
+      enterContact(*s.body, time_.from());
     else if (!s.touching.empty())
       settle(*s.body, s.touching);
   }
@@ -295,7 +291,7 @@ void World::Core::settleFresh(const std::vector<Party>& arrived) {
 /// A body that appeared touching these: what it does next.
 void World::Core::settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& touching) {
   if (b.mode != BodyMode::Flight) return;
-  const double tau = frameFrom;
+  const double tau = time_.from();
   const Kinematics k = b.at(tau);
   const auto& [other, gap] = touching.front();
   const double away = k.v.dot(gap.normal);
@@ -326,7 +322,7 @@ void World::Core::runEvents(double until) {
   std::uint64_t done = 0;
   foresee = true;
   while (!queue_.empty()) {
-    const Event e = queue_.top();
+    const Event e = queue_.first();
     if (e.tau > until) break;
     queue_.pop();
     fetchNext();
@@ -338,7 +334,7 @@ void World::Core::runEvents(double until) {
     switch (e.kind) {
     case Event::Kind::Command: obeyCommands(e.tau), restartStirred(e.tau); break;
     case Event::Kind::Tick:
-      if (e.detail == tickNumber && tickAt >= 0) tick(e.tau);
+      if (queue_.isScheduled(e)) tick(e.tau);
       break;
     case Event::Kind::Horizon:
       if (versionOf(e.a) != e.versionA) break;
@@ -347,7 +343,7 @@ void World::Core::runEvents(double until) {
       break;
     case Event::Kind::Touch:
       if (versionOf(e.a) == e.versionA && versionOf(e.b) == e.versionB) {
-        const Touch t = touches_[e.detail];
+        const Touch t = queue_.touchOf(e);
         onTouch(t, e.a, e.b, e.tau);
       }
       break;
@@ -358,27 +354,28 @@ void World::Core::runEvents(double until) {
 /// The body of the event after this one.
 void World::Core::fetchNext() const {
   if (active.size() <= kFitInCache || queue_.empty()) return;
-  const Party next = queue_.top().a;
+  const Party next = queue_.first().a;
   if (const RigidBody* b = next.isBody ? body(next.id) : nullptr) fetch(*b);
 }
 
 /// The body has left the world, between its arc's start or the frame's, and now.
 void World::Core::expel(RigidBody& b) {
-  double in = std::max(frameFrom, -b.age0), out = now;
+  double in = std::max(time_.from(), -b.age0), out = time_.now();
   const bool left = inBounds(b.poseAt(in));
   while (left && out - in > 1e-10) {
     const double middle = 0.5 * (in + out);
     if (!(in < middle && middle < out)) break;
     (inBounds(b.poseAt(middle)) ? in : out) = middle;
   }
-  quarantine(b, left ? in : now, left ? "it went beyond all bounds (10^12 m)" : "its pose became undefined");
+  quarantine(b, left ? in : time_.now(),
+             left ? "it went beyond all bounds (10^12 m)" : "its pose became undefined");
   if (left) b.pose = b.poseAt(in);
 }
 
 /// Where it is at the end of the frame.
 void World::Core::sample(RigidBody& b) {
-  catchUp(b, now);
-  const Pose X = b.poseAt(now);
+  catchUp(b, time_.now());
+  const Pose X = b.poseAt(time_.now());
   if (inBounds(X))
     b.pose = X;
   else
@@ -393,23 +390,23 @@ void World::Core::sample(RigidBody& b) {
 void World::Core::windUp(double tau) {
   for (RigidBody* b : held) {
     if (b->mode != BodyMode::Held || b->carried.empty()) continue;
-    const double span = instantAt(tau).since(b->woundTo), middle = tau - 0.5 * span;
+    const double span = time_.instantAt(tau).since(b->woundTo), middle = tau - 0.5 * span;
     if (!(span > 0)) continue;
-    b->woundTo = instantAt(tau);
+    b->woundTo = time_.instantAt(tau);
     const Quat q_NW = b->held.at(middle).pose.q.conjugate();
     for (const FieldId id : b->carried) {
       const FieldEntry* f = fields.find(id);
       const bool hooked = std::ranges::any_of(b->hooks, [&](const Hook& h) { return h.field == id; });
       if (!f || !f->on || !hooked || !std::holds_alternative<LinearField>(f->field.law)) continue;
-      b->wound += span * (q_NW * accelerationOf(f->field, {b->mass, b->dragArea}, shareAt(middle)));
+      b->wound += span * (q_NW * accelerationOf(f->field, {b->mass, b->dragArea}, time_.shareAt(middle)));
     }
   }
 }
 
 void World::Core::endFrame() {
-  if (!held.empty()) windUp(now), noteFreePlaces();
+  if (!held.empty()) windUp(time_.now()), noteFreePlaces();
   if (!memory.waiting().empty())
-    for (RigidBody* b : active) catchUp(*b, now);
+    for (RigidBody* b : active) catchUp(*b, time_.now());
   partCarried();
   reportReleases();
   if (!std::ranges::is_sorted(memory.events(), {}, &ContactEvent::time))
@@ -440,7 +437,7 @@ void World::Core::partCarried() {
   const auto look = [&](const ContactMemory::Key& key) {
     if (!memory.touching(key)) return;
     const auto a = side(key.first), b = side({true, key.second});
-    if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, now, {1e-3}).distance > kCarriedApart)
+    if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, time_.now(), {1e-3}).distance > kCarriedApart)
       apart.push_back(key);
   };
   for (const RigidBody* b : held)

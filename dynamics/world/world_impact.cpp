@@ -26,7 +26,7 @@ constexpr std::uint32_t kMostElastic =
 
 /// Chatter is counted in show time, so that it does not depend on frames.
 void World::Core::countImpact(RigidBody& b, double tau) const {
-  const Nanoseconds span = timeAt(tau) / kSpan;
+  const Nanoseconds span = time_.timeAt(tau) / kSpan;
   if (span != b.impactSpan) b.impactSpan = span, b.impacts = 0;
   ++b.impacts;
 }
@@ -96,7 +96,8 @@ void World::Core::strikeInCrowd(RigidBody& b, const Mobile& m, double tau) {
   const Vec3 end = b.endL + more;
   Spin spin = Spin::free(q, left > 0 ? Vec3(0.5 * (L + more + end)) : Vec3(L + more), b.inertia);
   if (b.spin.kind == Spin::Kind::Driven) spin = Spin::driven(q, m.omega, b.spin.alpha, b.inertia.x());
-  setArc(b, tau, Path::parabola(b.position(tau), m.v, a), spin, std::max(left, tickTime), BodyMode::Contact);
+  setArc(b, tau, Path::parabola(b.position(tau), m.v, a), spin, std::max(left, grid_.islandStep()),
+         BodyMode::Contact);
   if (b.mode != BodyMode::Contact) return;
   b.endL = end, b.dueAge = left > 0 ? left : untilCrowdStep(tau), b.quiet = quiet;
   sweep(b, tau);
@@ -114,11 +115,11 @@ void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool l
     if (b.mode == BodyMode::Rest) wake(b, tau);
     if (b.crowd) return strikeInCrowd(b, m, tau);
     b.endL = L;
-    setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia), tickTime,
+    setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia), grid_.islandStep(),
            BodyMode::Contact);
     if (b.mode != BodyMode::Contact) return;
     b.quiet = 0;
-    scheduleTick(tau);
+    queue_.scheduleTick(tau);
     predict(b, tau);
     return;
   }
@@ -188,7 +189,7 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   if (awaited) releaseBefore(key, tau);
   if (!a.movable() && !(b && b->movable())) {
     ContactMemory::Waiting* waiting =
-        memory.impact(key, timeAt(tau), x, outwards, closing, 0, frame, awaited);
+        memory.impact(key, time_.timeAt(tau), x, outwards, closing, 0, time_.frame(), awaited);
     memory.setTouching(key, true);
     if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
     return;
@@ -197,7 +198,7 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     const Vec3 way = ma.velocityAt(x);
     const double impulse = collide(ma, mb, x, n, 0, 0).dot(n);
     ContactMemory::Waiting* waiting =
-        memory.impact(key, timeAt(tau), x, outwards, closing, impulse, frame, awaited);
+        memory.impact(key, time_.timeAt(tau), x, outwards, closing, impulse, time_.frame(), awaited);
     stick(a, pb, way, tau);
     if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
     return;
@@ -232,8 +233,8 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     patch = collidePatch(Side::of(a), *side(pb), tau, touch.gap, ma, mb, restitution, pair.friction, others);
   }
   const Vec3 impulse = patch ? patch->impulse : collide(ma, mb, x, n, restitution, pair.friction);
-  ContactMemory::Waiting* waiting = memory.impact(key, timeAt(tau), patch ? patch->middle : x, outwards,
-                                                  closing, impulse.dot(n), frame, awaited);
+  ContactMemory::Waiting* waiting = memory.impact(key, time_.timeAt(tau), patch ? patch->middle : x, outwards,
+                                                  closing, impulse.dot(n), time_.frame(), awaited);
   if (Support face; onFace && ends && supportFor(a, *c, touch.gap, face) && !face.ends(ma.p, ma.v)) {
     BallStart s{ma.p, ma.v, ma.omega, ma.q};
     s.v -= n * n.dot(s.v);
@@ -251,8 +252,8 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     if (!patch || !(part.closing > 0)) continue;
     const ContactMemory::Key other = ContactMemory::keyOf(part.side.party, pa);
     if (awaited) releaseBefore(other, tau);
-    waiting =
-        memory.impact(other, timeAt(tau), part.middle, n, part.closing, part.impulse.dot(n), frame, awaited);
+    waiting = memory.impact(other, time_.timeAt(tau), part.middle, n, part.closing, part.impulse.dot(n),
+                            time_.frame(), awaited);
     if (ends) memory.setTouching(other, true);
     if (waiting) foreseeRelease(*waiting, tau, -1);
   }

@@ -19,13 +19,13 @@ constexpr double kCalm = 1e-5;             ///< mean accelerations below this ar
 constexpr double kRolls = 0.01;            ///< slip of what rolls, relative to how it turns
 constexpr double kHeld = 0.05;             ///< of its spin, what rolls no more may have left
 constexpr double kNearlyStill = 5e-3;      ///< faster than this nothing is held by rolling resistance [m/s]
-constexpr double kStill = 1e-9;            ///< slower than this is not at all [m/s]
+constexpr double kUnmoved = 1e-9;          ///< slower than this is not at all [m/s]
 constexpr double kBalanced = 1e-7;         ///< accelerations below this are rounding [m/s2]
 constexpr double kProbe = 1e-4;            ///< step in which accelerations are measured [s]
 constexpr double kMostTurn = 0.05;         ///< angle by which a solid turns in a step [rad]
 constexpr double kMostParts = 32;          ///< of a step in which the lowest point of a rim runs far
 constexpr double kFarthest = 1;            ///< how long a glide is foreseen at most [s]
-constexpr double kShortest = 1e-7;         ///< and at least [s]
+constexpr double kShortestGlide = 1e-7;    ///< and at least [s]
 constexpr double kGive = 1;                ///< share of what presses that a hand or a lift yields
 constexpr double kOneFace = 0.9999;        ///< cosine of normals that are one face's
 constexpr double kShort = 1e-3;            ///< a floor missed by less is reached, nearly [m/s]
@@ -295,7 +295,7 @@ double World::Core::glide(Island& s, double tau, double h) {
   if (s.carried) return 0;
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     const RigidBody& b = *s.set[i];
-    if (s.start[i].omega.norm() * b.reach > kStill || b.damping > 0) return 0;
+    if (s.start[i].omega.norm() * b.reach > kUnmoved || b.damping > 0) return 0;
   }
   for (const Found& f : s.found)
     if (f.gap.distance < -kSlop) return 0;  // it is being pushed out
@@ -309,28 +309,28 @@ double World::Core::glide(Island& s, double tau, double h) {
     const double alpha = (s.end[i].omega - s.start[i].omega).norm() / probe * b.reach;
     if (alpha > kBalanced) return 0;
     fastest = std::max(fastest, s.start[i].v.norm()), strongest = std::max(strongest, a.norm());
-    if (!uniformFor(b) && (s.start[i].v.norm() > kStill || a.norm() > kBalanced)) return 0;
+    if (!uniformFor(b) && (s.start[i].v.norm() > kUnmoved || a.norm() > kBalanced)) return 0;
   }
-  if (fastest <= kStill && strongest <= kBalanced)  // what changes may stir them in this very frame
+  if (fastest <= kUnmoved && strongest <= kBalanced)  // what changes may stir them in this very frame
     return std::ranges::any_of(s.set, [&](const RigidBody* b) { return feelsChange(*b); }) ? 0 : 1e300;
   for (const Found& f : s.found) {
     const SolverContact& c = f.contact;
     const Vec3 n = f.gap.normal, u = s.start[c.a].v - s.start[c.b].v,
                a = (s.end[c.a].v - s.end[c.b].v - u) / probe;
     const double un = u.dot(n), an = a.dot(n);
-    if (un < -kStill || an < -kBalanced) return 0;  // what nears it may hit it
-    if (un > kStill || an > kBalanced || c.impulse[0] <= 0) continue;
+    if (un < -kUnmoved || an < -kBalanced) return 0;  // what nears it may hit it
+    if (un > kUnmoved || an > kBalanced || c.impulse[0] <= 0) continue;
     const Vec3 ut = u - un * n, at = a - an * n;
     const double speed = ut.norm(), change = at.norm();
-    if (speed <= kStill && change <= kBalanced) continue;
+    if (speed <= kUnmoved && change <= kBalanced) continue;
     if (ut.cross(at).norm() > 1e-9 * speed * (change + 1)) return 0;  // the slip turns
     if (ut.dot(at) < 0 && c.friction > 0) most = std::min(most, speed / change);
     // Faces must go on carrying the same points.
     if (f.b.isBody || f.carrier != Carrier::A) return 0;
     most = std::min(most, timeCarried(*s.set[c.a], f, ut, at, most, way));
-    if (!(most > kShortest)) return 0;
+    if (!(most > kShortestGlide)) return 0;
   }
-  if (!(most > kShortest)) return 0;
+  if (!(most > kShortestGlide)) return 0;
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     s.start[i].omega.setZero(), s.end[i].omega.setZero();
     s.end[i].v = s.start[i].v + (s.end[i].v - s.start[i].v) / probe * most;
@@ -389,7 +389,7 @@ void World::Core::holdRims(Island& s, const std::vector<Mobile>& solved) const {
           f.surface.rolling <= 0 || f.rounding.axis.isZero(0))
         continue;
       const Vec3 r = (f.rounding.axis - f.gap.normal * f.gap.normal.dot(f.rounding.axis)).normalized();
-      stopped = stopped && std::fabs(r.dot(m.omega)) <= kHeld * std::fabs(r.dot(solved[i].omega)) + kStill;
+      stopped = stopped && std::fabs(r.dot(m.omega)) <= kHeld * std::fabs(r.dot(solved[i].omega)) + kUnmoved;
       if (const Vec3 more = free * r; more.norm() > kHeld)
         free -= more.normalized() * more.normalized().transpose();
     }

@@ -57,11 +57,11 @@ bool isNoted(const Side& s) {
 /// A side as it has gone through the frame so far: a body on the way that has been noted of it.
 class PastSide {
 public:
-  PastSide(const Side& now, const Instant& origin) : side_(now) {
-    if (!now.body || now.body->trace.empty()) return;
-    thing_.shape = now.shape, thing_.bound = now.bound();
-    thing_.motion.way = now.body->trace, thing_.motion.moving = true;
-    thing_.motion.rebase(origin);
+  PastSide(const Side& present, const Instant& start) : side_(present) {
+    if (!present.body || present.body->trace.empty()) return;
+    thing_.shape = present.shape, thing_.bound = present.bound();
+    thing_.motion.way = present.body->trace, thing_.motion.moving = true;
+    thing_.motion.rebase(start);
     side_.body = nullptr, side_.collider = &thing_;
   }
   PastSide(const PastSide&) = delete;
@@ -116,8 +116,8 @@ std::optional<double> World::Core::firstBeyond(const Side& a, const Side& b, dou
 std::optional<Nanoseconds> World::Core::whenParted(const ContactMemory::Waiting& w, double tau) const {
   const double far = body(w.pair.second)->releaseDistance;
   if (!isNoted(*side(w.pair.first)) || !isNoted(*side({true, w.pair.second}))) return {};
-  PastSide a(*side(w.pair.first), {origin, 0}), b(*side({true, w.pair.second}), {origin, 0});
-  const double from = std::max({frameFrom, tauOf(w.seen), a.begins(), b.begins()});
+  PastSide a(*side(w.pair.first), {time_.origin(), 0}), b(*side({true, w.pair.second}), {time_.origin(), 0});
+  const double from = std::max({time_.from(), time_.tauOf(w.seen), a.begins(), b.begins()});
   if (!(from < tau)) return {};
   std::vector<double> turns{from, tau};
   a.addTurns(turns), b.addTurns(turns);
@@ -127,7 +127,7 @@ std::optional<Nanoseconds> World::Core::whenParted(const ContactMemory::Waiting&
     const double middle = 0.5 * (turns[i - 1] + turns[i]);
     if (!(turns[i - 1] < turns[i])) continue;
     if (const auto parted = firstBeyond(b.around(middle), a.around(middle), far, turns[i - 1], turns[i]))
-      return timeAt(*parted);
+      return time_.timeAt(*parted);
   }
   return {};
 }
@@ -146,12 +146,12 @@ double World::Core::wayLength(const Side& s, double from, double tau) const {
   }
   const BodyWay& way = s.collider ? s.collider->motion.way : s.body->trace;
   if (way.empty()) return standsStill(s.body->mode) ? 0 : 1e300;
-  if (s.body && way.front().from.since({origin, 0}) > from) return 1e300;
+  if (s.body && way.front().from.since({time_.origin(), 0}) > from) return 1e300;
   for (std::size_t i = 0; i < way.size(); ++i) {
     WayPart part = way[i];
-    part.tau = part.from.since({origin, 0});
+    part.tau = part.from.since({time_.origin(), 0});
     const double start = std::max(from, part.tau),
-                 end = i + 1 < way.size() ? std::min(tau, way[i + 1].from.since({origin, 0})) : tau;
+                 end = i + 1 < way.size() ? std::min(tau, way[i + 1].from.since({time_.origin(), 0})) : tau;
     if (start < end && !part.stands()) add(part.boundOver(start, end), end - start);
   }
   return length;
@@ -166,11 +166,11 @@ void World::Core::forgetSlack(Party p) {
 
 /// Whether the pair has gone so little way since it has been seen last that it cannot have parted.
 bool World::Core::stillNear(ContactMemory::Waiting& w, double tau) const {
-  const double from = std::max(frameFrom, tauOf(w.seen));
+  const double from = std::max(time_.from(), time_.tauOf(w.seen));
   const double length =
       wayLength(*side(w.pair.first), from, tau) + wayLength(*side({true, w.pair.second}), from, tau);
   if (!(length < w.slack)) return false;
-  w.slack -= length, w.seen = timeAt(tau);
+  w.slack -= length, w.seen = time_.timeAt(tau);
   return true;
 }
 
@@ -180,26 +180,27 @@ void World::Core::reportReleases() {
   std::vector<std::pair<ContactMemory::Key, Nanoseconds>> due;
   for (ContactMemory::Waiting& w : memory.waiting()) {
     const bool asForeseen = w.versionA && *w.versionA + *w.versionB == w.versions;
-    if (asForeseen && t1 < w.look) continue;
+    if (asForeseen && time_.t1() < w.look) continue;
     const Side a = *side(w.pair.first), b = *side({true, w.pair.second});
     if (asForeseen && w.sure && nobodyNearer(w, a, b)) {
-      due.emplace_back(w.pair, std::max(w.look, t0));
+      due.emplace_back(w.pair, std::max(w.look, time_.t0()));
       continue;
     }
-    if (stillNear(w, now)) continue;
+    if (stillNear(w, time_.now())) continue;
     const bool noted = isNoted(a) && isNoted(b);
-    if (const auto parted = noted ? whenParted(w, now) : std::nullopt) {
+    if (const auto parted = noted ? whenParted(w, time_.now()) : std::nullopt) {
       due.emplace_back(w.pair, *parted);
       continue;
     }
     const double far = b.body->releaseDistance;
-    const Gap gap = gapBetween(b, a, now, {far + 1e-3, 0.7 * far, w.triangle});
+    const Gap gap = gapBetween(b, a, time_.now(), {far + 1e-3, 0.7 * far, w.triangle});
     if (gap.distance > far) {
-      due.emplace_back(w.pair, timeAt(whenApart(b, a, far, std::max(frameFrom, tauOf(w.seen)), now)));
+      due.emplace_back(w.pair, time_.timeAt(whenApart(b, a, far, std::max(time_.from(), time_.tauOf(w.seen)),
+                                                      time_.now())));
       continue;
     }
     w.triangle = gap.triangle;
-    awaitRelease(w, a, b, std::max(0.0, far - gap.distance), now);
+    awaitRelease(w, a, b, std::max(0.0, far - gap.distance), time_.now());
   }
   std::ranges::sort(due);
   for (const auto& [key, time] : due) release(key, time);
@@ -207,7 +208,7 @@ void World::Core::reportReleases() {
 
 void World::Core::release(const ContactMemory::Key& pair, Nanoseconds time) {
   const ContactMemory::Waiting* w = memory.waitingOf(pair);
-  if (w && w->frame == frame)
+  if (w && w->frame == time_.frame())
     memory.releaseLater(pair, time);
   else
     memory.release(pair, time);
@@ -218,9 +219,9 @@ void World::Core::releaseBefore(const ContactMemory::Key& pair, double tau) {
   ContactMemory::Waiting* w = memory.waitingOf(pair);
   if (!w) return;
   const bool asForeseen = w->versionA && *w->versionA + *w->versionB == w->versions;
-  if (asForeseen && timeAt(tau) < w->look) return;
+  if (asForeseen && time_.timeAt(tau) < w->look) return;
   if (asForeseen && w->sure && nobodyNearer(*w, *side(pair.first), *side({true, pair.second})))
-    return release(pair, std::max(w->look, t0));
+    return release(pair, std::max(w->look, time_.t0()));
   if (stillNear(*w, tau)) return;
   if (const auto parted = whenParted(*w, tau)) release(pair, *parted);
 }
@@ -229,7 +230,7 @@ void World::Core::releaseBefore(const ContactMemory::Key& pair, double tau) {
 /// thing is nearer.
 bool World::Core::nobodyNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const {
   if (!std::holds_alternative<MeshShape>(*a.shape)) return true;
-  const double tau = tauOf(w.look), far = b.body->releaseDistance;
+  const double tau = time_.tauOf(w.look), far = b.body->releaseDistance;
   // It has been so near until half a nanosecond ago.
   const double limit = far - 2e-9 * (1 + b.body->velocity(tau).norm());
   return gapBetween(b, a, tau, {limit, limit, w.triangle}).distance > limit;
@@ -241,7 +242,7 @@ void World::Core::awaitRelease(ContactMemory::Waiting& w, const Side& a, const S
   w.versionA = a.body ? &a.body->version : &a.collider->version, w.versionB = &b.body->version;
   w.versions = *w.versionA + *w.versionB;
   w.sure = false;
-  w.seen = timeAt(tau), w.slack = distance;
+  w.seen = time_.timeAt(tau), w.slack = distance;
   BallFlight::Stay stay;
   if (const auto flight = a.still() ? flightOf(b, tau) : std::nullopt) {
     const double far = b.body->releaseDistance;
@@ -254,8 +255,8 @@ void World::Core::awaitRelease(ContactMemory::Waiting& w, const Side& a, const S
     w.triangle = stay.triangle, w.sure = stay.sure;
   }
   constexpr double kForever = 1e6;  // [s]
-  w.look = timeAt(tau) + (w.sure ? fromSeconds(std::min(stay.seconds, kForever))
-                                 : std::max(fromSeconds(stay.seconds), soonest(a, b, distance, tau)));
+  w.look = time_.timeAt(tau) + (w.sure ? fromSeconds(std::min(stay.seconds, kForever))
+                                       : std::max(fromSeconds(stay.seconds), soonest(a, b, distance, tau)));
 }
 
 /// An impact at tau has been dealt with: the pair need not be looked at before it can part.

@@ -1,5 +1,5 @@
-// The world's state, field by field (engine/core/state_fields.h). It is put back to the bit with all that has been
-// foreseen, so that what happens then, and in which order, is the same.
+// The world's state, field by field (engine/core/state_fields.h). It is put back to the bit with all that has
+// been foreseen, so that what happens then, and in which order, is the same.
 
 #include "dynamics/world/world_core.h"
 #include "engine/core/state_fields.h"
@@ -186,8 +186,7 @@ void visitList(std::string_view name, std::vector<T*>& list, StateFields& f, con
 }  // namespace
 
 void World::Core::visit(StateFields& f) {
-  f("started", started), f("t0", t0), f("t1", t1), f("origin", origin), f("window", window);
-  f("from", frameFrom), f("now", now), f("frame", frame);
+  time_.state(f);
   visitTable("shapes", shapes, f, [&](ShapeId, ShapeEntry& s) { f("bound", s.bound), f("uses", s.uses); });
   visitTable("bodies", bodies, f, [&](BodyId id, RigidBody& b) {
     bool flies = b.flight != nullptr;
@@ -204,17 +203,14 @@ void World::Core::visit(StateFields& f) {
   });
   f("ignored", ignored), f("bodies collide", bodiesCollide), f("coming out", comingOut);
   f("jerking", jerking), f("foresee", foresee);
-  f("next order", nextOrder), f("next shape", nextShape), f("next body", nextBody);
+  queue_.stateOfOrder(f), f("next shape", nextShape), f("next body", nextBody);
   f("next collider", nextCollider), f("next field", nextField);
   f("looks", looks.looks), f("collider looks", looks.colliders), f("body looks", looks.bodies);
-  f("tick number", tickNumber), f("tick", tickAt);
-  // The present lies in the window: from elsewhere it would be hours of simulation to its end.
-  const bool isWindow = window >= kWindow && window <= kLongestWindow;
-  const bool isNow = t0 >= 0 && t0 <= t1 && origin >= 0 && origin <= t1 && t1 - origin < window;
-  if (f.restores() && !(isWindow && isNow)) return f.fail();
+  queue_.stateOfTick(f);
+  if (f.failed()) return;
   f("leaners", leaners), f("leaners to prune", leanersToPrune), f("changed", changed), f("told", told);
   visitCommands(f);
-  visitQueue(f);
+  queue_.state(f);
   if (f.failed()) return;
   memory.state(f, [this](Party p) -> const std::uint32_t* {
     if (RigidBody* b = p.isBody ? body(p.id) : nullptr) return &b->version;
@@ -234,21 +230,6 @@ void World::Core::visitCommands(StateFields& f) {
   for (Command& c : commands) {
     f("when", c.when), f("order", c.order), f("kind", c.kind), f("field", c.field), f("body", c.body);
     f("on", c.on), f("activation", c.activation);
-  }
-}
-
-/// In the order in which they come, which does not depend on how the queue keeps them.
-void World::Core::visitQueue(StateFields& f) {
-  f("touches", touches_);
-  std::vector<Event> events;
-  for (auto left = queue_; !left.empty(); left.pop()) events.push_back(left.top());
-  const std::size_t n = f.count("events", events.size());
-  if (f.restores()) events.assign(n, {}), queue_ = {};
-  for (Event& e : events) {
-    f("tau", e.tau), f("order", e.order), f("kind", e.kind), f("a", e.a), f("b", e.b);
-    f("version a", e.versionA), f("version b", e.versionB), f("detail", e.detail);
-    if (e.kind == Event::Kind::Touch && e.detail >= touches_.size()) return f.fail();
-    if (f.restores()) queue_.push(e);
   }
 }
 

@@ -32,7 +32,7 @@ void World::Core::noteWay(RigidBody& b, double tau) {
   if (!b.traced && !b.awaited) return;
   if (b.mode == BodyMode::Held) return noteHeld(b, tau);
   WayPart part;
-  part.from = instantAt(tau);
+  part.from = time_.instantAt(tau);
   part.pathAge = b.age(tau), part.spinAge = b.spinAge(tau);
   part.path = b.path, part.spin = b.spin, part.X_CN = b.X_CN;
   addPart(b, part);
@@ -43,12 +43,12 @@ void World::Core::noteHeld(RigidBody& b, double tau) {
   if (!b.traced && !b.awaited) return;
   if (!b.held.guided()) {
     const Kinematics k = b.held.at(tau);
-    return addPart(b, WayPart::straight(instantAt(tau), k.pose, k.v, k.omega));
+    return addPart(b, WayPart::straight(time_.instantAt(tau), k.pose, k.v, k.omega));
   }
-  for (std::size_t i = b.held.partAfter(tau); i < b.held.way.size() && b.held.way[i].tau < now; ++i) {
+  for (std::size_t i = b.held.partAfter(tau); i < b.held.way.size() && b.held.way[i].tau < time_.now(); ++i) {
     WayPart part = b.held.way[i];
     const double early = tau - part.tau;
-    if (early > 0) part.from = instantAt(tau), part.pathAge += early, part.spinAge += early;
+    if (early > 0) part.from = time_.instantAt(tau), part.pathAge += early, part.spinAge += early;
     addPart(b, part);
   }
 }
@@ -61,7 +61,7 @@ void World::Core::beginTraces(bool continues) {
   if (goesOn) return;
   for (RigidBody* b : tracedBodies) {
     if (!continues) b->trace.clear();
-    noteWay(*b, frameFrom);
+    noteWay(*b, time_.from());
   }
 }
 
@@ -69,13 +69,13 @@ void World::Core::beginTraces(bool continues) {
 /// on, besides those of its first part. What is dashed away meanwhile is noted from then on.
 void World::Core::findTraced(bool goesOn) {
   constexpr double kUsualPull = 10;  // [m/s2]
-  const double span = 2 * (now - frameFrom) + 0.02;
+  const double span = 2 * (time_.now() - time_.from()) + 0.02;
   if (!goesOn)
     for (RigidBody* b : tracedBodies) b->awaited = false;
   const auto mayGo = [&](const RigidBody* b) {
     if (!b || standsStill(b->mode)) return 0.0;
     if (b->mode == BodyMode::Held) return 1e300;
-    const MotionBound bound = b->boundOver(frameFrom, frameFrom);
+    const MotionBound bound = b->boundOver(time_.from(), time_.from());
     return (bound.speedAt(b->reach) + std::max(kUsualPull, bound.acceleration) * span) * span;
   };
   for (const ContactMemory::Waiting& w : memory.waiting()) {
@@ -86,7 +86,7 @@ void World::Core::findTraced(bool goesOn) {
       one->awaited = true;
       if (one->traced || !one->trace.empty()) continue;
       tracedBodies.push_back(one);
-      if (goesOn) noteWay(*one, frameFrom);
+      if (goesOn) noteWay(*one, time_.from());
     }
   }
   std::erase_if(tracedBodies, [](RigidBody* b) {
@@ -101,7 +101,7 @@ void World::Core::pauseTraces(bool continues) {
   stoodStill = true;
   for (RigidBody* b : tracedBodies) {
     if (!continues) b->trace.clear();
-    addPart(*b, WayPart::straight(Instant{t1, 0}, b->pose, Vec3::Zero(), Vec3::Zero()));
+    addPart(*b, WayPart::straight(Instant{time_.t1(), 0}, b->pose, Vec3::Zero(), Vec3::Zero()));
   }
 }
 

@@ -7,7 +7,7 @@ void World::Core::noteFreePlaces() {
   for (RigidBody* b : held) {
     if (b->mode != BodyMode::Held) continue;
     const Side self = Side::of(*b);
-    const Vec3 middle = b->poseAt(now) * b->bound.centre;
+    const Vec3 middle = b->poseAt(time_.now()) * b->bound.centre;
     Aabb box;
     box.include(middle), box.include(b->freePlace);
     box.lo.array() -= b->bound.radius, box.hi.array() += b->bound.radius;
@@ -15,7 +15,7 @@ void World::Core::noteFreePlaces() {
     nearColliders.eachNear(box, [&](const Collider& c) {
       const Side thing = Side::of(c);
       if (!free || !c.enabled || !mayTouch(self, thing)) return;
-      free = !overlaps(self, thing, now) && !wentInto(thing, now, b->freePlace, middle);
+      free = !overlaps(self, thing, time_.now()) && !wentInto(thing, time_.now(), b->freePlace, middle);
     });
     if (free) b->freePlace = middle;
   }
@@ -26,7 +26,7 @@ void World::Core::findWaysOut(RigidBody& b) {
   b.waysOut.clear();
   if (!b.letGo) return;
   b.letGo = false;
-  const double tau = frameFrom;
+  const double tau = time_.from();
   const Kinematics k = b.at(tau);
   if (accelerationAt(b, k.p, k.v, tau).isZero(0)) return;
   const Side self = Side::of(b);
