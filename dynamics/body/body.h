@@ -122,4 +122,17 @@ struct Party {
   }
 };
 
+/// An impact or a release, as the world reports it.
+struct ContactEvent {
+  enum class Kind : std::uint8_t { Impact, Release };
+  Kind kind = Kind::Impact;
+  Nanoseconds time = 0;  ///< [ns]
+  Party other;           ///< collider, or the body of a body pair with the smaller id
+  BodyId body = 0;
+  Vec3 point = Vec3::Zero();   ///< in World [m]
+  Vec3 normal = Vec3::Zero();  ///< from `other` to the body
+  double speed = 0;            ///< closing speed [m/s]; Release: 0
+  double impulse = 0;          ///< along the normal [N s]
+};
+
 }  // namespace stadion

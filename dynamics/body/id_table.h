@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace stadion {
@@ -67,6 +68,21 @@ public:
     for (const Entry& e : entries_)
       if (e.item) f(e.id);
   }
+  /// Saves or restores the ids, and calls each(id, item) for the items' own fields.
+  template <class Name, class Fields, class Each>
+  void state(const Name& name, Fields& f, const Each& each) {
+    std::vector<std::uint32_t> ids;
+    eachId([&](std::uint32_t id) { ids.push_back(id); });
+    f(name, ids);
+    if (f.restores()) *this = {};
+    std::uint32_t last = 0;
+    for (const std::uint32_t id : ids) {
+      if (f.failed()) return;
+      if (f.restores() && id <= std::exchange(last, id)) return f.fail();
+      T& item = f.restores() ? add(id) : *find(id);
+      each(id, item);
+    }
+  }
   std::size_t size() const { return entries_.size() - gaps_; }
   bool empty() const { return size() == 0; }
 
@@ -81,5 +97,20 @@ private:
     return Iterator<U, decltype(entries.begin())>{entries.begin(), entries.end()}.overGaps();
   }
 };
+
+/// Saves or restores a list of such things by their ids; find(id) returns the item or null.
+template <class Name, class T, class Fields, class Find>
+void listState(const Name& name, std::vector<T*>& list, Fields& f, const Find& find) {
+  std::vector<std::uint32_t> ids;
+  for (const T* item : list) ids.push_back(item->id);
+  f(name, ids);
+  if (!f.restores()) return;
+  list.clear();
+  for (const std::uint32_t id : ids) {
+    T* item = find(id);
+    if (!item) return f.fail();
+    list.push_back(item);
+  }
+}
 
 }  // namespace stadion

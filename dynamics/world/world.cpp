@@ -34,36 +34,24 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 ShapeId World::addShape(std::shared_ptr<const Shape> shape) {
-  const Sphere bound = boundingSphere(*shape);
-  if (!bound.centre.allFinite() || !(bound.radius > 0)) return 0;
-  const ShapeId id = core_->nextShape++;
-  Core::ShapeEntry& entry = core_->shapes.add(id);
-  entry.shape = std::move(shape), entry.bound = bound;
-  return id;
+  return core_->objects_.addShape(std::move(shape));
 }
 
 bool World::removeShape(ShapeId id) {
-  const Core::ShapeEntry* s = core_->shapes.find(id);
-  if (!s || s->uses > 0) return false;
-  core_->shapes.erase(id);
-  return true;
+  return core_->objects_.removeShape(id);
 }
 
 const Shape* World::shape(ShapeId id) const {
-  const Core::ShapeEntry* s = core_->shapes.find(id);
-  return s ? s->shape.get() : nullptr;
+  return core_->objects_.shape(id);
 }
 
 BodyId World::addBody(const BodyDef& d) {
-  Core::ShapeEntry* s = core_->shapes.find(d.shape);
-  if (!s || std::holds_alternative<PlaneShape>(*s->shape) || !d.mass.valid() || !usable(d.pose) ||
+  const Shape* shape = core_->objects_.shape(d.shape);
+  if (!shape || std::holds_alternative<PlaneShape>(*shape) || !d.mass.valid() || !usable(d.pose) ||
       !usable(d.surface) || !d.v.allFinite() || !d.omega.allFinite() || !(d.damping >= 0) ||
       !std::isfinite(d.damping) || !(d.releaseDistance >= 0) || !usable(d.stick))
     return 0;
-  ++s->uses;
-  const BodyId id = core_->nextBody++;
-  RigidBody& b = core_->bodies.add(id);
-  b.id = id, b.shapeId = d.shape, b.shape = s->shape.get(), b.bound = s->bound;
+  RigidBody& b = core_->objects_.addBody(d.shape);
   b.surface = d.surface, b.mass = d.mass.mass, b.inverseMass = 1 / d.mass.mass, b.inertia = d.mass.inertia;
   b.X_NC = {d.mass.centre, d.mass.axes.normalized()};
   if (const auto* ball = std::get_if<BallShape>(b.shape);
@@ -87,55 +75,43 @@ BodyId World::addBody(const BodyDef& d) {
   const Quat& q = X_WC.q;
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * d.omega);
   core_->startFlight(b, core_->time_.now(), X_WC.p, d.v, q, L);
-  return id;
+  return b.id;
 }
 
 bool World::removeBody(BodyId id) {
-  RigidBody* b = core_->body(id);
+  RigidBody* b = core_->objects_.body(id);
   if (!b) return false;
   enableBody(id, false);
-  --core_->shapes.find(b->shapeId)->uses;
-  core_->memory.forget({true, id});
-  std::erase_if(core_->commands, [&](const Core::Command& c) { return c.body == id; });
-  std::erase_if(core_->ignored, [&](const auto& p) {
-    return p.first == Party{true, id} || p.second == Party{true, id};
-  });
-  core_->leaners.erase(core_->leaners.lower_bound({{true, id}, 0}),
-                       core_->leaners.lower_bound({{true, id + 1}, 0}));
+  core_->memory_.forget({true, id});
+  core_->commands_.forgetBody(id);
+  core_->supports_.forgetBody(id);
   core_->forgetBody(*b);
-  core_->bodies.erase(id);
+  core_->objects_.remove(*b);
   return true;
 }
 
 ColliderId World::addCollider(const ColliderDef& d) {
-  Core::ShapeEntry* s = core_->shapes.find(d.shape);
-  if (!s || !usable(d.pose) || !usable(d.surface)) return 0;
-  ++s->uses;
-  const ColliderId id = core_->nextCollider++;
-  Collider& c = core_->colliders.add(id);
-  c.id = id, c.shapeId = d.shape, c.shape = s->shape.get(), c.bound = s->bound, c.surface = d.surface;
+  if (!core_->objects_.shape(d.shape) || !usable(d.pose) || !usable(d.surface)) return 0;
+  Collider& c = core_->objects_.addCollider(d.shape);
+  c.surface = d.surface;
   c.now = unit(d.pose);
   c.move(c.now, c.now, core_->time_.now(), 0);
-  core_->told.push_back(id);
-  return id;
+  core_->changes_.mark(c.id);
+  return c.id;
 }
 
 bool World::removeCollider(ColliderId id) {
-  Collider* c = core_->collider(id);
+  Collider* c = core_->objects_.collider(id);
   if (!c) return false;
   enableCollider(id, false);
-  --core_->shapes.find(c->shapeId)->uses;
-  core_->memory.forget({false, id});
-  std::erase_if(core_->ignored, [&](const auto& p) {
-    return p.first == Party{false, id} || p.second == Party{false, id};
-  });
-  core_->nearColliders.remove(*c);
-  core_->colliders.erase(id);
+  core_->memory_.forget({false, id});
+  core_->boxes_.remove(*c);
+  core_->objects_.remove(*c);
   return true;
 }
 
 bool World::moveCollider(ColliderId id, const Pose& end, bool teleport) {
-  Collider* c = core_->collider(id);
+  Collider* c = core_->objects_.collider(id);
   if (!c || !usable(end)) return false;
   c->nextWay.clear();
   if (teleport) {
@@ -145,33 +121,33 @@ bool World::moveCollider(ColliderId id, const Pose& end, bool teleport) {
   } else {
     c->next = unit(end);
   }
-  core_->told.push_back(id);
+  core_->changes_.mark(id);
   return true;
 }
 
 bool World::moveCollider(ColliderId id, const Pose& end, const BodyWay& way) {
   if (!moveCollider(id, end)) return false;
-  core_->collider(id)->nextWay = way;
+  core_->objects_.collider(id)->nextWay = way;
   return true;
 }
 
 bool World::enableCollider(ColliderId id, bool on) {
-  Collider* c = core_->collider(id);
+  Collider* c = core_->objects_.collider(id);
   if (!c) return false;
   if (c->enabled == on) return true;
   c->enabled = on, c->fresh = on;
   ++c->version;
-  core_->told.push_back(id);
+  core_->changes_.mark(id);
   if (!on) {
-    core_->nearColliders.remove(*c);
+    core_->boxes_.remove(*c);
     core_->wakeOnto({false, id}, core_->time_.now());
-    core_->memory.forget({false, id});
+    core_->memory_.forget({false, id});
   }
   return true;
 }
 
 bool World::enableBody(BodyId id, bool on) {
-  RigidBody* b = core_->body(id);
+  RigidBody* b = core_->objects_.body(id);
   if (!b) return false;
   if (b->enabled == on) return true;
   if (on) {
@@ -181,114 +157,86 @@ bool World::enableBody(BodyId id, bool on) {
     return true;
   }
   b->enabled = false;
-  core_->nearBodies.remove(*b);
+  core_->boxes_.remove(*b);
   core_->freeze(*b, core_->time_.now());
   b->support.on = {};
   b->touching.clear();
   core_->wakeOnto({true, id}, core_->time_.now());
-  core_->memory.forget({true, id});
+  core_->memory_.forget({true, id});
   return true;
 }
 
 bool World::ignorePair(Party a, Party b, bool on) {
-  const auto key = a < b ? std::pair(a, b) : std::pair(b, a);
-  if (on) {
-    core_->ignored.insert(key);
-    core_->wakeOnto(a, core_->time_.now()), core_->wakeOnto(b, core_->time_.now());
-  } else {
-    core_->ignored.erase(key);
-  }
+  core_->objects_.ignore(a, b, on);
+  if (on) core_->wakeOnto(a, core_->time_.now()), core_->wakeOnto(b, core_->time_.now());
   return true;
 }
 
 void World::setBodiesCollide(bool on) {
-  core_->bodiesCollide = on;
+  core_->objects_.setBodiesCollide(on);
 }
 
 FieldId World::addField(const ForceField& field, bool on) {
   if (!usable(field.start) || !usable(field.end) || field.duration < 0) return 0;
-  const FieldId id = core_->nextField++;
-  Core::FieldEntry& f = core_->fields.add(id);
-  f.id = id, f.field = field, f.changed = true;
+  const FieldId id = core_->fields_.add(field);
   if (on) switchField(id, true, core_->time_.t1());
   return id;
 }
 
 bool World::removeField(FieldId id) {
-  if (!core_->fields.find(id)) return false;
-  for (const RigidBody& body : core_->bodies)
-    if (hooked(body.id, id)) unhook(body.id, id, core_->time_.t1());
+  if (!core_->fields_.find(id)) return false;
+  for (const RigidBody& body : core_->objects_.bodies())
+    if (isHooked(body, id)) unhook(body.id, id, core_->time_.t1());
   switchField(id, false, core_->time_.t1());
-  // Due at once; without a frame in between nobody may keep feeling it.
-  std::vector<Core::Command> due;
-  for (const Core::Command& c : core_->commands)
-    if (c.field == id && c.when <= core_->time_.t1()) due.push_back(c);
-  std::erase_if(core_->commands, [&](const Core::Command& c) { return c.field == id; });
-  for (const Core::Command& c : due)
-    if (c.kind == Core::Command::Kind::Unhook || !c.on) core_->execute(c, core_->time_.now());
+  // Without a frame in between, no body may go on feeling it.
+  core_->commands_.finish(id);
   core_->restartStirred(core_->time_.now());
-  core_->fields.erase(id);
+  core_->fields_.erase(id);
   return true;
 }
 
 bool World::moveField(FieldId id, const Pose& start, const Pose& end) {
-  Core::FieldEntry* entry = core_->fields.find(id);
-  if (!entry || !usable(start) || !usable(end)) return false;
-  ForceField& f = entry->field;
-  const bool was = f.moving();
-  const bool same = f.end.p == start.p && f.end.q.coeffs() == start.q.coeffs();
-  f.start = unit(start), f.end = unit(end);
-  if (was || !same || f.moving()) entry->changed = true;
-  return true;
+  return usable(start) && usable(end) && core_->fields_.move(id, start, end);
 }
 
 bool World::setFieldStrength(FieldId id, double start, double end) {
-  Core::FieldEntry* entry = core_->fields.find(id);
-  if (!entry || !std::isfinite(start) || !std::isfinite(end)) return false;
-  ForceField& f = entry->field;
-  entry->changed = entry->changed || f.first != f.last || f.last != start || start != end;
-  f.first = start, f.last = end;
-  return true;
+  return core_->fields_.setStrength(id, start, end);
 }
 
 bool World::setFieldLaw(FieldId id, const FieldLaw& law) {
-  Core::FieldEntry* f = core_->fields.find(id);
-  if (!f) return false;
-  f->changed = f->changed || f->field.law != law;
-  f->field.law = law;
-  return true;
+  return core_->fields_.setLaw(id, law);
 }
 
 bool World::switchField(FieldId id, bool on, Nanoseconds when) {
-  if (!core_->fields.find(id)) return false;
-  core_->insert({when, 0, Core::Command::Kind::Switch, id, 0, on, 0});
+  if (!core_->fields_.find(id)) return false;
+  core_->commands_.switchField(id, on, when);
   return true;
 }
 
 bool World::fieldOn(FieldId id) const {
-  const Core::FieldEntry* f = core_->fields.find(id);
+  const FieldEntry* f = core_->fields_.find(id);
   return f && f->on;
 }
 
 bool World::hook(BodyId body, FieldId field, Nanoseconds when) {
-  if (!core_->body(body) || !core_->fields.find(field)) return false;
-  core_->insert({when, 0, Core::Command::Kind::Hook, field, body, true, 0});
+  if (!core_->objects_.body(body) || !core_->fields_.find(field)) return false;
+  core_->commands_.hook(body, field, when);
   return true;
 }
 
 bool World::unhook(BodyId body, FieldId field, Nanoseconds when) {
-  if (!core_->body(body) || !core_->fields.find(field)) return false;
-  core_->insert({when, 0, Core::Command::Kind::Unhook, field, body, false, 0});
+  if (!core_->objects_.body(body) || !core_->fields_.find(field)) return false;
+  core_->commands_.unhook(body, field, when);
   return true;
 }
 
 bool World::hooked(BodyId id, FieldId field) const {
-  const RigidBody* b = core_->body(id);
-  return b && std::any_of(b->hooks.begin(), b->hooks.end(), [&](const Hook& h) { return h.field == field; });
+  const RigidBody* b = core_->objects_.body(id);
+  return b && isHooked(*b, field);
 }
 
 bool World::placeBody(BodyId id, const Pose& X_WN, const Vec3& v, const Vec3& omega) {
-  RigidBody* b = core_->body(id);
+  RigidBody* b = core_->objects_.body(id);
   if (!b) return false;
   b->put = true;
   const bool placed = core_->putBody(*b, X_WN, v, omega);
@@ -303,16 +251,16 @@ bool World::Core::putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const V
   b.fresh = true;
   b.touching.clear(), b.waysOut.clear();
   const Pose X_WC = b.pose * b.X_NC;
-  memory.forget({true, b.id});
+  memory_.forget({true, b.id});
   startFlight(b, time_.now(), X_WC.p, v, X_WC.q, X_WC.q * b.inertia.cwiseProduct(X_WC.q.conjugate() * omega));
   // One that is in trouble again at once is told of, too.
-  if (b.mode == BodyMode::Quarantined && !b.active) b.active = true, active.push_back(&b);
+  if (b.mode == BodyMode::Quarantined) active_.add(b);
   wakeOnto({true, b.id}, time_.now());
   return true;
 }
 
 bool World::push(BodyId id, const Vec3& impulse, const Vec3& at) {
-  RigidBody* b = core_->body(id);
+  RigidBody* b = core_->objects_.body(id);
   if (!b || !impulse.allFinite() || !at.allFinite() || !b->movable()) return false;
   Mobile m = mobileOf(*b, core_->time_.now());
   m.apply(impulse, at);
@@ -321,37 +269,30 @@ bool World::push(BodyId id, const Vec3& impulse, const Vec3& at) {
 }
 
 bool World::holdBody(BodyId id) {
-  RigidBody* b = core_->body(id);
+  RigidBody* b = core_->objects_.body(id);
   if (!b || b->mode == BodyMode::Quarantined) return false;
   core_->freeze(*b, core_->time_.now());
   b->support.on = {};
   b->touching.clear(), b->waysOut.clear();
   core_->wakeOnto({true, id}, core_->time_.now());
-  b->mode = BodyMode::Held;
-  b->freePlace = b->pose * b->bound.centre;
-  if (std::ranges::find(core_->held, b) == core_->held.end()) core_->held.push_back(b);
-  b->held.way.clear(), b->nextWay.clear();
-  b->held.set(b->pose, b->pose, core_->time_.now(), 0);
-  b->carried.clear();
-  b->wound.setZero();
+  core_->held_.add(*b);
   return true;
 }
 
-bool World::carryFields(BodyId id, std::vector<FieldId> fields) {
-  RigidBody* b = core_->body(id);
+bool World::carryFields(BodyId id, std::vector<FieldId> fields_) {
+  RigidBody* b = core_->objects_.body(id);
   if (!b || b->mode != BodyMode::Held) return false;
-  if (b->carried.empty()) b->woundTo = core_->time_.instantAt(core_->time_.now());
-  b->carried = std::move(fields);
+  core_->held_.carryFields(*b, std::move(fields_));
   return true;
 }
 
 Vec3 World::woundUp(BodyId id) const {
-  const RigidBody* b = core_->body(id);
+  const RigidBody* b = core_->objects_.body(id);
   return b && b->mode == BodyMode::Held ? Vec3(b->pose.q * b->wound) : Vec3::Zero();
 }
 
 bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
-  RigidBody* b = core_->body(id);
+  RigidBody* b = core_->objects_.body(id);
   if (!b || b->mode != BodyMode::Held || !usable(end)) return false;
   b->nextWay.clear();
   if (teleport) {
@@ -371,12 +312,12 @@ bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
 
 bool World::moveHeld(BodyId id, const Pose& end, const BodyWay& way) {
   if (!moveHeld(id, end)) return false;
-  core_->body(id)->nextWay = way;
+  core_->objects_.body(id)->nextWay = way;
   return true;
 }
 
 bool World::releaseBody(BodyId id, const Vec3& v, const Vec3& omega) {
-  RigidBody* b = core_->body(id);
+  RigidBody* b = core_->objects_.body(id);
   if (!b || b->mode != BodyMode::Held || !core_->putBody(*b, b->pose, v, omega)) return false;
   b->letGo = true;
   return true;
@@ -397,29 +338,29 @@ bool World::pause(Nanoseconds t0, Nanoseconds t1, bool continues) {
 }
 
 bool World::traceBody(BodyId id, bool on) {
-  RigidBody* b = core_->body(id);
+  RigidBody* b = core_->objects_.body(id);
   if (!b) return false;
-  if (b->traced != on) core_->trace(*b, on, b->awaited, core_->time_.now());
+  if (b->traced != on) core_->traces_.trace(*b, on, b->awaited, core_->time_.now());
   return true;
 }
 
 const BodyWay& World::wayOf(BodyId id) const {
   static const BodyWay none;
-  const RigidBody* b = core_->body(id);
+  const RigidBody* b = core_->objects_.body(id);
   return b && b->traced ? b->trace : none;
 }
 
 const std::vector<BodyId>& World::changed() const {
-  return core_->changed;
+  return core_->changed_;
 }
 
 Pose World::pose(BodyId id) const {
-  const RigidBody* b = core_->body(id);
+  const RigidBody* b = core_->objects_.body(id);
   return b ? b->pose : Pose{};
 }
 
 Pose World::poseAhead(BodyId id, Nanoseconds when) const {
-  const RigidBody* b = core_->body(id);
+  const RigidBody* b = core_->objects_.body(id);
   if (!b) return {};
   if (b->mode == BodyMode::Held) return b->held.end;
   const double tau = core_->time_.tauOf(when), known = std::min(tau, b->until);
@@ -439,7 +380,7 @@ FlightClass flightClassOf(const Path& path) {
 
 BodyState World::state(BodyId id) const {
   BodyState s;
-  const RigidBody* b = core_->body(id);
+  const RigidBody* b = core_->objects_.body(id);
   if (!b) return s;
   const double age = Instant{core_->time_.t1(), 0}.since(b->since);
   s.pose = b->pose, s.mode = b->mode, s.clock = b->since.ns, s.clockRest = b->since.rest;
@@ -460,7 +401,7 @@ void World::setFineness(std::uint32_t parts) {
 }
 
 BodyMode World::mode(BodyId id) const {
-  const RigidBody* b = core_->body(id);
+  const RigidBody* b = core_->objects_.body(id);
   return b ? b->mode : BodyMode::Rest;
 }
 
@@ -470,12 +411,12 @@ bool World::moving(BodyId id) const {
 }
 
 std::string World::troubleOf(BodyId id) const {
-  const RigidBody* b = core_->body(id);
+  const RigidBody* b = core_->objects_.body(id);
   return b ? b->trouble : std::string();
 }
 
 double World::mass(BodyId id) const {
-  const RigidBody* b = core_->body(id);
+  const RigidBody* b = core_->objects_.body(id);
   return b ? b->mass : 0;
 }
 
@@ -485,19 +426,19 @@ double World::kineticEnergy(BodyId id) const {
 }
 
 const std::vector<ContactEvent>& World::events() const {
-  return core_->memory.events();
+  return core_->memory_.events();
 }
 
 std::uint64_t World::pairsDigest() const {
-  return core_->memory.digest();
+  return core_->memory_.digest();
 }
 
 std::uint64_t World::waysDigest() const {
   StateHash h;
-  for (const RigidBody* b : core_->held)
+  for (const RigidBody* b : core_->held_.list())
     if (b->mode == BodyMode::Held) h.add(std::uint64_t{b->id}), h.add(b->freePlace);
   for (const BodyId id : core_->comingOut) {
-    const RigidBody* b = core_->body(id);
+    const RigidBody* b = core_->objects_.body(id);
     for (const WayOut& w : b ? b->waysOut : std::vector<WayOut>{})
       h.add(std::uint64_t{id}), h.add(std::uint64_t{w.of}), h.add(w.normal), h.add(w.side);
   }
@@ -505,7 +446,7 @@ std::uint64_t World::waysDigest() const {
 }
 
 double World::separation(Party a, Party b) const {
-  const auto sa = core_->side(a), sb = core_->side(b);
+  const auto sa = core_->objects_.side(a), sb = core_->objects_.side(b);
   if (!sa || !sb) return std::numeric_limits<double>::infinity();
   return gapBetween(*sa, *sb, core_->time_.now()).distance;
 }

@@ -14,41 +14,15 @@ constexpr double kBias = 1.0 / 120;   ///< how long a turn by bias is drawn out 
 
 }  // namespace
 
-/// Whether it is hooked to air (or water) that is there.
-bool World::Core::inMedium(const RigidBody& b) const {
-  return std::ranges::any_of(b.hooks, [&](const Hook& h) {
-    const FieldEntry* f = fields.find(h.field);
-    return f && f->on && std::holds_alternative<MediumField>(f->field.law);
-  });
-}
-
-/// What fields and air do to a body that flies by a model: media push it by the model instead of as a point.
-CoupledPush World::Core::airPush(const RigidBody& b, const CoupledState& s, const Vec3& omega,
-                                 double tau) const {
-  CoupledPush push{-b.damping * s.v, Vec3::Zero()};
-  const double share = time_.shareAt(tau);
-  const Quat q_WA = s.q * b.q_CA;
-  for (const Hook& h : b.hooks) {
-    const FieldEntry* f = fields.find(h.field);
-    if (!f || !f->on) continue;
-    push.a += accelerationOf(f->field, {b.mass, 0, s.p, s.v}, share);
-    const auto air = airAt(f->field, s.p, share);
-    if (!air) continue;
-    const Wrench w = aerodynamics(b.flight->model, air->density, q_WA.conjugate() * (s.v - air->wind),
-                                  q_WA.conjugate() * omega);
-    push.a += b.inverseMass * (q_WA * w.force), push.torque += q_WA * w.torque;
-  }
-  return push;
-}
-
 /// Flight by the body's model of the air, one step; false if there is no air or no model.
 bool World::Core::flyInAir(RigidBody& b, double tau, const CoupledState& s) {
-  if (!b.flight->hasModel() || !inMedium(b)) return false;
+  if (!b.flight->hasModel() || !fields_.inMedium(b)) return false;
   const auto push = [&](double at, const CoupledState& state, const Vec3& omega) {
-    return airPush(b, state, omega, at);
+    return fields_.airPush(b, state, omega, at);
   };
-  double room = std::min(kLongest, knownFor(b, tau));
-  room = std::min(room, timeToPass(b, s.p, s.v, room * accelerationAt(b, s.p, s.v, tau).norm()));
+  double room = std::min(kLongest, fields_.knownFor(b, tau));
+  room =
+      std::min(room, fields_.timeToPass(b, s.p, s.v, room * fields_.accelerationAt(b, s.p, s.v, tau).norm()));
   double h = std::min(b.step > 0 ? b.step : kFirst, room);
   CoupledStep step;
   const auto change = [&] { return 0.9 * det::pow(step.error, -0.2); };
@@ -78,7 +52,7 @@ Spin World::Core::spinFrom(const RigidBody& b, double tau, const CoupledState& s
   const auto turned = [&](const Quat& q, const Vec3& v) {
     return (biased(b.flight->bias, q * b.q_CA, v, 0.5 * kBias) * b.q_CA.conjugate()).normalized();
   };
-  const Vec3 after = s.v + kBias * (accelerationAt(b, s.p, s.v, tau) - b.damping * s.v);
+  const Vec3 after = s.v + kBias * (fields_.accelerationAt(b, s.p, s.v, tau) - b.damping * s.v);
   const Quat free = Spin::unsteered(turned(s.q, s.v), s.L, b.inertia).orientation(kBias);
   Spin spin =
       Spin::steered({s.q, s.L, Vec3::Zero()}, {turned(free, after), s.L, Vec3::Zero()}, kBias, b.inertia);
@@ -92,19 +66,19 @@ void World::Core::setSpin(RigidBody& b, double tau, const Spin& spin) {
   b.validAge = std::min(b.pathAge, b.spinStart + spin.horizon);
   b.until = b.validAge - b.age0;
   ++b.version;
-  noteWay(b, tau);
+  traces_.note(b, tau);
 }
 
 /// The paper's bias turns a body once at the start of every frame, whatever that lasts.
 void World::Core::turnByFrame() {
-  for (RigidBody* b : active) {
+  for (RigidBody* b : active_) {
     if (!b->flight || !b->flight->jerks() || b->mode != BodyMode::Flight || !b->enabled) continue;
     catchUp(*b, time_.from());
     const Quat q_WA =
         biased(b->flight->bias, b->orientation(time_.from()) * b->q_CA, b->velocity(time_.from()), 0);
     const Vec3 L = b->momentum(time_.from());
     setSpin(*b, time_.from(), Spin::free((q_WA * b->q_CA.conjugate()).normalized(), L, b->inertia));
-    mark(*b);
+    changes_.mark(*b);
   }
 }
 

@@ -41,59 +41,6 @@ State dormandPrince(F f, double tau, const State& s, double h, double& error) {
 
 }  // namespace
 
-Vec3 World::Core::accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& v, double tau) const {
-  Vec3 a = Vec3::Zero();
-  for (const Hook& h : b.hooks) {
-    const FieldEntry* f = fields.find(h.field);
-    if (!f || !f->on) continue;
-    a += accelerationOf(f->field, {b.mass, b.dragArea, p, v}, time_.shareAt(tau));
-  }
-  return a;
-}
-
-bool World::Core::uniformFor(const RigidBody& b) const {
-  for (const Hook& h : b.hooks) {
-    const FieldEntry* f = fields.find(h.field);
-    if (f && f->on && !f->field.uniform()) return false;
-  }
-  return true;
-}
-
-/// How long from tau on it is known what acts on the body: a field that changes is known to the end of this
-/// frame only [s].
-double World::Core::knownFor(const RigidBody& b, double tau) const {
-  return tau < time_.now() && feelsChange(b) ? time_.now() - tau : kUnlimited;
-}
-
-/// Whether what acts on the body differs in the course of this part of the frame.
-bool World::Core::feelsChange(const RigidBody& b) const {
-  return std::ranges::any_of(b.hooks, [&](const Hook& h) {
-    const FieldEntry* f = fields.find(h.field);
-    return f && f->on && f->field.changing();
-  });
-}
-
-/// What acts on a body that feels nothing but constant pulls and at most one medium that is the same
-/// everywhere.
-std::optional<EvenPull> World::Core::evenPullOn(const RigidBody& b) const {
-  EvenPull even;
-  bool immersed = false;
-  for (const Hook& h : b.hooks) {
-    const FieldEntry* f = fields.find(h.field);
-    if (!f || !f->on) continue;
-    if (f->field.uniform()) {
-      even.pull += accelerationOf(f->field, {b.mass, b.dragArea}, 1);
-      continue;
-    }
-    const MediumField* medium = f->field.evenMedium();
-    if (!medium || immersed) return {};
-    immersed = true;
-    even.drag = dragOf(*medium, f->field.end.q, b.mass, b.dragArea);
-    even.drag.wind *= f->field.last;
-  }
-  return even;
-}
-
 void World::Core::setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon,
                          BodyMode mode) {
   const auto sane = [](const Vec3& x, double most) {
@@ -128,10 +75,11 @@ void World::Core::setPath(RigidBody& b, double tau, const Path& path, double hor
   b.crowd = b.crowd && mode == BodyMode::Contact;
   b.until = tau + b.validAge;
   ++b.version;
-  if (mode != BodyMode::Flight && !b.crowd) noteLeaner(b);
-  if (!b.active) b.active = true, active.push_back(&b);
-  noteWay(b, tau);
-  if (!foresee) mark(b);  // a change between frames is looked at when the next one begins
+  if (mode != BodyMode::Flight && !b.crowd) supports_.note(b);
+  active_.add(b);
+  traces_.note(b, tau);
+  if (!changes_.immediate())
+    changes_.mark(b);  // a change between frames is looked at when the next one begins
 }
 
 void World::Core::quarantine(RigidBody& b, double tau, std::string why) {
@@ -149,12 +97,12 @@ void World::Core::quarantine(RigidBody& b, double tau, std::string why) {
   b.support.on = {};
   b.touching.clear();
   ++b.version;
-  noteWay(b, tau);
+  traces_.note(b, tau);
 }
 
 void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, const Quat& q,
                               const Vec3& L) {
-  if (b.support.on.id) memory.setTouching(ContactMemory::keyOf(b.support.on, {true, b.id}), false);
+  if (b.support.on.id) memory_.setTouching(ContactMemory::keyOf(b.support.on, {true, b.id}), false);
   b.support.on = {};
   b.spin = b.flight ? spinFrom(b, tau, {p, v, q, L}) : Spin::free(q, L, b.inertia), b.spinStart = 0;
   if (!q.coeffs().allFinite() || !(L.cwiseAbs().maxCoeff() <= 1e30) || !L.allFinite()) {
@@ -164,15 +112,6 @@ void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec
   }
   if (b.flight && flyInAir(b, tau, {p, v, q, L})) return;
   fly(b, tau, p, v);
-}
-
-/// How long the body takes for a step that passes over nothing that a field does, if it gains `more` speed.
-double World::Core::timeToPass(const RigidBody& b, const Vec3& p, const Vec3& v, double more) const {
-  double stride = kUnlimited;
-  for (const Hook& h : b.hooks)
-    if (const FieldEntry* f = fields.find(h.field); f && f->on)
-      stride = std::min(stride, strideIn(f->field, p) / std::max(v.norm() + more, 1e-9));
-  return std::max(stride, 1e-6);
 }
 
 /// Flight under the even pull that the body knows; false if it is too near to standing in the air for a
@@ -185,7 +124,7 @@ bool World::Core::resist(RigidBody& b, double tau, const Vec3& p, const Vec3& v)
 
 /// Flight from here; the spin goes on as it is.
 void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
-  const auto even = evenPullOn(b);
+  const auto even = fields_.evenPullOn(b);
   if (even && !even->drag.resists()) {
     setPath(b, tau, Path::parabola(p, v, even->pull, b.damping), kUnlimited, BodyMode::Flight);
     return;
@@ -196,10 +135,10 @@ void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
     if (resist(b, tau, p, v)) return;
   }
   const auto f = [&](double at, const Vec3& x, const Vec3& u) {
-    return Vec3(accelerationAt(b, x, u, at) - b.damping * u);
+    return Vec3(fields_.accelerationAt(b, x, u, at) - b.damping * u);
   };
-  double h = std::min({b.step > 0 ? b.step : 0.01, 0.05, knownFor(b, tau)}), error = 0;
-  h = std::min(h, timeToPass(b, p, v, h * f(tau, p, v).norm()));
+  double h = std::min({b.step > 0 ? b.step : 0.01, 0.05, fields_.knownFor(b, tau)}), error = 0;
+  h = std::min(h, fields_.timeToPass(b, p, v, h * f(tau, p, v).norm()));
   State end{p, v};
   const double tolerance = 1e-13 * (1 + v.norm());
   for (int i = 0; i < 60; ++i) {
@@ -241,9 +180,9 @@ bool World::Core::flyOn(RigidBody& b, double tau) {
 /// How long a ball stays at rest on its face: until what pulls at it, as far as that is known, becomes too
 /// much for friction [s].
 double World::Core::restLasts(const RigidBody& b, const BallStart& s, double tau) const {
-  const double known = knownFor(b, tau);
+  const double known = fields_.knownFor(b, tau);
   const auto rests = [&](double after) {
-    const Vec3 a = accelerationAt(b, s.p, s.v, tau + after);
+    const Vec3 a = fields_.accelerationAt(b, s.p, s.v, tau + after);
     const BallArc arc = ballOnFace(s, b.support, a, b.radius(), b.mass, b.inertia.x(), true, true);
     return !arc.leaves && arc.mode == BodyMode::Rest;
   };
@@ -264,18 +203,18 @@ BallArc World::Core::arcOnFace(const RigidBody& b, double tau, const BallStart& 
   const auto arcUnder = [&](const Vec3& a) {
     return ballOnFace(s, b.support, a, b.radius(), b.mass, b.inertia.x(), gripped, stopped);
   };
-  const Vec3 a = accelerationAt(b, s.p, s.v, tau);
+  const Vec3 a = fields_.accelerationAt(b, s.p, s.v, tau);
   BallArc arc = arcUnder(a);
-  if (uniformFor(b) || arc.leaves) return arc;
+  if (fields_.uniformFor(b) || arc.leaves) return arc;
   if (arc.mode == BodyMode::Rest) {
     arc.horizon = restLasts(b, s, tau);
     return arc;
   }
-  double step = std::min(grid_.faceStep(), knownFor(b, tau));
+  double step = std::min(grid_.faceStep(), fields_.knownFor(b, tau));
   const Vec3 along = a - b.support.normal * b.support.normal.dot(a);
   const auto arcAfter = [&](double after) {
     const Vec3 p = s.p + after * (s.v + 0.5 * after * along), v = s.v + after * along;
-    return arcUnder(accelerationAt(b, p, v, tau + after));
+    return arcUnder(fields_.accelerationAt(b, p, v, tau + after));
   };
   if (arcAfter(step).leaves) {  // when it does so is the end of the step
     double holds = 0;
@@ -296,7 +235,7 @@ void World::Core::startOnFace(RigidBody& b, double tau, const BallStart& s, bool
     startFlight(b, tau, s.p, s.v, s.q, b.inertia.x() * s.omega);
     return;
   }
-  memory.setTouching(ContactMemory::keyOf(b.support.on, self), true);
+  memory_.setTouching(ContactMemory::keyOf(b.support.on, self), true);
   if (arc.mode == BodyMode::Rest) b.touching = {b.support.on};
   if (b.damping > 0 && arc.mode != BodyMode::Rest) {
     // Drag on top of friction: short arcs of mean deceleration.
@@ -351,7 +290,7 @@ bool World::Core::crossEdge(RigidBody& b, double tau, double& lift) {
 /// The same within one mesh.
 bool World::Core::crossFold(RigidBody& b, double tau) const {
   if (b.support.triangle < 0) return false;
-  const Collider* c = collider(b.support.on.id);
+  const Collider* c = objects_.collider(b.support.on.id);
   if (!c) return false;
   const auto& tree = std::get<MeshShape>(*c->shape).tree;
   const Vec3 n = b.support.normal, foot = b.position(tau) - b.radius() * n;

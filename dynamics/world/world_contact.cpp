@@ -35,7 +35,7 @@ void World::Core::enterContact(RigidBody& b, double tau) {
   // Among a crowd it moves with the crowd: between its steps nobody else gives way.
   const bool rests = b.mode == BodyMode::Rest;
   const bool crowded = rests && (b.heaped || std::ranges::any_of(b.touching, [&](Party p) {
-                                   return p.isBody && body(p.id) && body(p.id)->crowd;
+                                   return p.isBody && objects_.body(p.id) && objects_.body(p.id)->crowd;
                                  }));
   b.support.on = {};
   setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
@@ -79,37 +79,19 @@ void World::Core::wake(RigidBody& b, double tau) {
   wakeOnto({true, b.id}, tau);
 }
 
-bool World::Core::leansOn(const RigidBody& b, Party p) {
-  return (b.support.on.id && b.support.on == p) ||
-         std::find(b.touching.begin(), b.touching.end(), p) != b.touching.end();
-}
-
-/// The list of leaners learns on whom the body leans. It may know more than is true, but no less.
-void World::Core::noteLeaner(const RigidBody& b) {
-  if (b.support.on.id) leaners.emplace(b.support.on, b.id);
-  for (const Party p : b.touching) leaners.emplace(p, b.id);
-  if (leaners.size() > leanersToPrune) {
-    std::erase_if(leaners,
-                  [&](const auto& l) { return !body(l.second) || !leansOn(*body(l.second), l.first); });
-    leanersToPrune = 64 + 2 * leaners.size();
-  }
-}
-
 /// Who leans on what moved falls, or leans anew; those who lean on them, in turn.
 void World::Core::wakeOnto(Party moved, double tau) {
-  if (const auto first = leaners.lower_bound({moved, 0}); first == leaners.end() || first->first != moved)
-    return;
+  if (!supports_.bears(moved)) return;
   std::vector<Party> waking{moved};
   std::vector<BodyId> onIt;
   for (std::size_t i = 0; i < waking.size(); ++i) {
     const Party gone = waking[i];
     onIt.clear();
-    for (auto at = leaners.lower_bound({gone, 0}); at != leaners.end() && at->first == gone; ++at)
-      onIt.push_back(at->second);
+    supports_.leanersOf(gone, onIt);
     for (const BodyId id : onIt) {
-      RigidBody* other = body(id);
+      RigidBody* other = objects_.body(id);
       if (!other || !leansOn(*other, gone)) {
-        leaners.erase({gone, id});
+        supports_.drop(gone, id);
         continue;
       }
       const bool onFace =
@@ -137,7 +119,7 @@ void World::Core::wakeOnto(Party moved, double tau) {
 /// The next tick is when the first body in contact is due.
 void World::Core::scheduleDue(double tau) {
   double first = 1e300;
-  for (const RigidBody* b : active)
+  for (const RigidBody* b : active_)
     if (b->mode == BodyMode::Contact && b->enabled) first = std::min(first, b->dueAge - b->age0);
   if (first < 1e299) queue_.scheduleTick(std::max(first, tau));
 }
@@ -148,7 +130,7 @@ void World::Core::chooseWayOut(const RigidBody& b, std::size_t first, std::vecto
   if (!b.isBall()) return;
   const auto inside = [&](const Found& f) {
     return f.gap.distance <= -kDeepBall * b.radius() && !f.b.isBody &&
-           std::holds_alternative<MeshShape>(*side(f.b)->shape);
+           std::holds_alternative<MeshShape>(*objects_.side(f.b)->shape);
   };
   for (std::size_t i = first; i < found.size(); ++i) {
     if (!inside(found[i])) continue;
@@ -177,7 +159,7 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
   const Side self = Side::of(b);
   const Kinematics k = b.at(tau);
   const double h = grid_.islandStep();
-  const double pull = std::max(kUsualPull, accelerationAt(b, k.p, k.v, tau).norm());
+  const double pull = std::max(kUsualPull, fields_.accelerationAt(b, k.p, k.v, tau).norm());
   const double margin = kTouching + 1.5 * h * (k.v.norm() + k.omega.norm() * b.reach + pull * h);
   Aabb box;
   box.include(k.pose * b.bound.centre);
@@ -189,7 +171,7 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
     for (const ManifoldPoint& p : points) {
       Found f;
       f.a = self.party, f.b = other.party;
-      f.surface = combine(b.surface, surfaceOf(other.party));
+      f.surface = combine(b.surface, objects_.surfaceOf(other.party));
       f.gap = p.gap, f.carrier = p.carrier, f.rounding = p.rounding;
       f.key = pairKey(f.a, f.b, p.key);
       f.contact.friction = f.surface.friction;
@@ -198,19 +180,19 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
   };
   forgetWaysOut(b, tau);
   for (const WayOut& w : b.waysOut) {
-    const Shape plane = *barrier(self, Side::of(*collider(w.of)), tau, w);
+    const Shape plane = *barrier(self, Side::of(*objects_.collider(w.of)), tau, w);
     Collider form;
     form.shape = &plane;
-    against(Side::of(*collider(w.of)), Side::of(form));
+    against(Side::of(*objects_.collider(w.of)), Side::of(form));
   }
-  nearColliders.eachNear(box, [&](const Collider& c) {
+  boxes_.eachCollider(box, [&](const Collider& c) {
     const Side other = Side::of(c);
-    if (mayTouch(self, other) && !comesOutOf(b, c.id)) against(other, other);
+    if (objects_.mayTouch(self, other) && !comesOutOf(b, c.id)) against(other, other);
   });
   eachBodyNear(box, tau, [&](RigidBody& o) {
     if (&o == &b || !o.enabled) return;
     const Side other = Side::of(o);
-    if (!mayTouch(self, other)) return;
+    if (!objects_.mayTouch(self, other)) return;
     const double reach = b.bound.radius + o.bound.radius + margin;
     if ((o.at(tau).pose * o.bound.centre - k.pose * b.bound.centre).squaredNorm() > reach * reach) return;
     if (o.mode == BodyMode::Contact && !o.crowd) {
@@ -230,8 +212,8 @@ void World::Core::findContacts(RigidBody& b, double tau, std::vector<Found>& fou
 bool World::Core::wakeTouched(const std::vector<Found>& found, double tau) {
   for (const Found& f : found) {
     if (!f.b.isBody) continue;
-    RigidBody& o = *body(f.b.id);
-    const RigidBody& mover = *body(f.a.id);
+    RigidBody& o = *objects_.body(f.b.id);
+    const RigidBody& mover = *objects_.body(f.a.id);
     if (o.mode != BodyMode::Rest || f.gap.distance > kTouching) continue;
     if (mover.quiet != 0 && !(mover.at(tau).velocityAt(f.gap.point).norm() > 5e-3)) continue;
     if (o.support.on.id) {
@@ -251,9 +233,9 @@ void World::Core::remember(RigidBody& b, const std::vector<Party>& near) {
     return std::find(list.begin(), list.end(), p) != list.end();
   };
   for (const Party p : near)
-    if (!in(b.leaning, p)) memory.setTouching(ContactMemory::keyOf(p, {true, b.id}), true);
+    if (!in(b.leaning, p)) memory_.setTouching(ContactMemory::keyOf(p, {true, b.id}), true);
   for (const Party p : b.leaning)
-    if (!in(near, p)) memory.setTouching(ContactMemory::keyOf(p, {true, b.id}), false);
+    if (!in(near, p)) memory_.setTouching(ContactMemory::keyOf(p, {true, b.id}), false);
   b.leaning = near;
 }
 
@@ -316,7 +298,7 @@ void World::Core::tick(double tau) {
   std::vector<Found> found;
   for (int pass = 0; pass < 50; ++pass) {
     set.clear(), found.clear(), beside.clear();
-    for (RigidBody* b : active) {
+    for (RigidBody* b : active_) {
       b->slot = kNowhere;
       if (b->mode == BodyMode::Contact && b->enabled && !b->crowd && b->dueAge <= b->age(tau) + kDue)
         b->slot = 0, set.push_back(b);
@@ -332,10 +314,10 @@ void World::Core::tick(double tau) {
   for (std::size_t i = 0; i < set.size(); ++i) set[i]->slot = static_cast<std::uint32_t>(i);
   Groups groups(set.size());
   const auto comesAlong = [&](Party p) {
-    return p.isBody && body(p.id)->mode == BodyMode::Contact && !body(p.id)->crowd;
+    return p.isBody && objects_.body(p.id)->mode == BodyMode::Contact && !objects_.body(p.id)->crowd;
   };
   for (const Found& f : found)
-    if (comesAlong(f.b)) groups.join(body(f.a.id)->slot, body(f.b.id)->slot);
+    if (comesAlong(f.b)) groups.join(objects_.body(f.a.id)->slot, objects_.body(f.b.id)->slot);
   std::vector<Island> islands;
   std::vector<std::uint32_t> islandOf(set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
@@ -344,7 +326,7 @@ void World::Core::tick(double tau) {
     islandOf[i] = islandOf[root];
     islands[islandOf[i]].set.push_back(set[i]);
   }
-  for (Found& f : found) islands[islandOf[body(f.a.id)->slot]].found.push_back(std::move(f));
+  for (Found& f : found) islands[islandOf[objects_.body(f.a.id)->slot]].found.push_back(std::move(f));
   bool crowds = false;
   for (Island& island : islands) {
     if (isCrowd(island.set, tau) && !isSlender(island.set, island.found)) {

@@ -22,10 +22,12 @@
 #include "dynamics/contact/patch_impact.h"
 #include "dynamics/contact/way_out.h"
 #include "dynamics/motion/coupled_step.h"
+#include "dynamics/state/body_traces.h"
 #include "dynamics/state/event_queue.h"
+#include "dynamics/state/field_commands.h"
 #include "dynamics/state/step_grid.h"
-#include "dynamics/state/world_time.h"
-#include "dynamics/world/contact_events.h"
+#include "dynamics/state/support_graph.h"
+#include "dynamics/state/swept_boxes.h"
 #include "dynamics/world/world.h"
 
 #include <algorithm>
@@ -49,47 +51,22 @@ inline std::uint64_t pairKey(Party a, Party b, std::uint32_t feature) {
 
 class World::Core {
 public:
-  struct ShapeEntry {
-    std::shared_ptr<const Shape> shape;
-    Sphere bound;
-    std::uint32_t uses = 0;
-  };
-  struct FieldEntry {
-    FieldId id = 0;
-    ForceField field;
-    bool on = false;
-    bool changed = false;  ///< its push may differ from the last frame's
-    std::uint32_t activation = 0;
-  };
-  struct Command {
-    enum class Kind : std::uint8_t { Switch, Expire, Hook, Unhook };
-    friend constexpr Kind lastOf(Kind) { return Kind::Unhook; }
-    Nanoseconds when = 0;
-    std::uint64_t order = 0;
-    Kind kind = Kind::Switch;
-    FieldId field = 0;
-    BodyId body = 0;
-    bool on = false;
-    std::uint32_t activation = 0;
-  };
-  using Event = EventQueue::Event;
-
   // --- state
-  IdTable<ShapeEntry> shapes;
-  IdTable<RigidBody> bodies;
-  IdTable<Collider> colliders;
-  IdTable<FieldEntry> fields;
-  std::set<std::pair<Party, Party>> ignored;
   std::vector<BodyId> comingOut;  ///< bodies with ways out, in the order in which they were let go
-  std::deque<Command> commands;   ///< in the order of (when, order)
-  ContactMemory memory;
   WorldTime time_;
   StepGrid grid_;
   EventQueue queue_;
-  bool bodiesCollide = true;
+  WorldObjects objects_;
+  FieldSet fields_{time_};
+  ContactMemory memory_;
+  ActiveBodies active_;
+  ChangedMotions changes_;
+  SweptBoxes boxes_{time_, objects_};
+  SupportGraph supports_{objects_};
+  BodyTraces traces_{time_, objects_, memory_};
+  HeldBodies held_{time_, objects_, fields_, memory_};
+  FieldCommands commands_{time_, queue_, objects_, fields_, held_};
   bool jerking = false;  ///< a body has come whose bias turns it once a frame
-  bool foresee = false;  ///< predictions are made at once: while events run
-  std::uint32_t nextShape = 1, nextBody = 1, nextCollider = 1, nextField = 1;
   Counters counters;
 
   // --- one frame (world_frame.cpp)
@@ -99,10 +76,7 @@ public:
   void advance(Nanoseconds from, Nanoseconds to, bool continues);
   void pause(Nanoseconds to, bool continues);
   void beginFrame();
-  void stir(RigidBody& b);
   void restartStirred(double tau);
-  void obeyCommands(double tau);
-  void followFields();
   std::vector<Party> arrivals() const;
   void settleFresh(const std::vector<Party>& arrived);
   void settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& touching);
@@ -111,13 +85,8 @@ public:
   void fetchNext() const;
   void expel(RigidBody& b);
   void sample(RigidBody& b);
-  void windUp(double tau);
   void endFrame();
-  void partCarried();
   bool putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const Vec3& omega);
-  void insert(Command c);
-  void postCommand(const Command& c);
-  void execute(const Command& c, double tau);
 
   // --- what will touch (world_foresight.cpp)
   struct Looks {
@@ -126,18 +95,9 @@ public:
   Looks looks;  ///< in this window
   Nanoseconds nextWindow() const;
   bool solidsMayMeet() const;
-  bool anyoneNear() const;
-  void sweepActive(double tau);
   void beginWindow(Nanoseconds at);
   void openWindow(Nanoseconds at);
-  void mark(RigidBody& b);
-  void sortMarked();
-  void sweepMarked();
   void foreseeMarked(double tau);
-  void fileBodies();
-  void fileColliders();
-  void sweep(RigidBody& b, double tau);
-  void sweep(Collider& c);
   void lookAhead(RigidBody& b, double tau, bool onlyGreater);
   void lookAtOnly(RigidBody& b, double tau);
   void predict(RigidBody& b, double tau, bool onlyGreater = false);
@@ -150,26 +110,17 @@ public:
   void comeNear(RigidBody& b, double tau);
   template <class F>
   void eachBodyNear(const Aabb& box, double tau, F f) {
-    nearBodies.eachNear(box, [&](RigidBody& o) { catchUp(o, tau), f(o); });
+    boxes_.eachBody(box, [&](RigidBody& o) { catchUp(o, tau), f(o); });
   }
   void predictPair(const Side& a, const Side& b, double tau);
   void pushHorizon(const RigidBody& b);
   void pushTurn(Party p, const GuidedMotion& motion, double tau);
   void turn(RigidBody& b, double tau);
   void turn(Collider& c, double tau);
-  static bool bothCarried(const Side& a, const Side& b);
-  bool mayTouch(const Side& a, const Side& b) const;
-  std::uint32_t versionOf(Party p) const;
   double knownUntil(const Side& s) const;
 
   // --- arcs (world_arcs.cpp)
-  Vec3 accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& v, double tau) const;
-  bool uniformFor(const RigidBody& b) const;
-  double knownFor(const RigidBody& b, double tau) const;
-  double timeToPass(const RigidBody& b, const Vec3& p, const Vec3& v, double more) const;
-  bool feelsChange(const RigidBody& b) const;
   double restLasts(const RigidBody& b, const BallStart& s, double tau) const;
-  std::optional<EvenPull> evenPullOn(const RigidBody& b) const;
   void setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon, BodyMode mode);
   void setPath(RigidBody& b, double tau, const Path& path, double horizon, BodyMode mode);
   void fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v);
@@ -187,8 +138,6 @@ public:
   bool crossFold(RigidBody& b, double tau) const;
 
   // --- flight in air (world_air.cpp)
-  bool inMedium(const RigidBody& b) const;
-  CoupledPush airPush(const RigidBody& b, const CoupledState& s, const Vec3& omega, double tau) const;
   bool flyInAir(RigidBody& b, double tau, const CoupledState& s);
   Spin spinFrom(const RigidBody& b, double tau, const CoupledState& s) const;
   void turnByFrame();
@@ -239,17 +188,6 @@ public:
                     double tau) const;
   Nanoseconds soonest(const Side& a, const Side& b, double distance, double tau) const;
 
-  // --- ways within a frame (world_trace.cpp)
-  std::vector<RigidBody*> tracedBodies;
-  bool stoodStill = false;  ///< the frame's last part was a pause
-  void trace(RigidBody& b, bool traced, bool awaited, double tau);
-  void noteWay(RigidBody& b, double tau);
-  void noteHeld(RigidBody& b, double tau);
-  void addPart(RigidBody& b, WayPart part);
-  void beginTraces(bool continues);
-  void findTraced(bool goesOn);
-  void pauseTraces(bool continues);
-
   // --- out of what a hand has put a body into (world_way_out.cpp)
   void noteFreePlaces();
   void findWaysOut(RigidBody& b);
@@ -295,8 +233,6 @@ public:
   void enterContact(RigidBody& b, double tau);
   void wake(RigidBody& b, double tau);
   void wakeOnto(Party gone, double tau);
-  static bool leansOn(const RigidBody& b, Party p);
-  void noteLeaner(const RigidBody& b);
   void hurry(RigidBody& b, double tau);
   void cutStep(RigidBody& b, double tau);
   void scheduleDue(double tau);
@@ -358,35 +294,10 @@ public:
   bool inFold(const RigidBody& b, const Collider& c, const Support& face, double tau) const;
   bool settleOnFace(RigidBody& b, const Found& only, double tau);
 
-  RigidBody* body(BodyId id) const { return bodies.find(id); }
-  Collider* collider(ColliderId id) const { return colliders.find(id); }
-  std::optional<Side> side(Party p) const {
-    if (p.isBody) {
-      const RigidBody* b = body(p.id);
-      return b && b->enabled ? std::optional(Side::of(*b)) : std::nullopt;
-    }
-    const Collider* c = collider(p.id);
-    return c && c->enabled ? std::optional(Side::of(*c)) : std::nullopt;
-  }
-  const Surface& surfaceOf(Party p) const { return p.isBody ? body(p.id)->surface : collider(p.id)->surface; }
-
-  BroadPhase<RigidBody> nearBodies;  ///< by what they sweep to the window's end
-  BroadPhase<Collider> nearColliders;
-  std::vector<RigidBody*> active;   ///< those that do not rest, and those that have just come to
-  std::vector<RigidBody*> stirred;  ///< who is to begin a new arc at once
-  std::vector<RigidBody*> held;     ///< and perhaps some that were
-  std::vector<RigidBody*> marked;   ///< whose arcs nobody has looked ahead along yet
-
-  std::set<std::pair<Party, BodyId>> leaners;  ///< on whom a body not in flight or in a crowd leans
-  std::size_t leanersToPrune = 64;
-
-  std::vector<BodyId> changed;   ///< who has been active in this frame
-  std::vector<ColliderId> told;  ///< that came, moved or jumped, or did so in the last frame
+  std::vector<BodyId> changed_;  ///< bodies that have been active in this frame
 
   // --- the state (world_state.cpp)
-  std::vector<BodyId> flightless;  ///< that were put back, and wait for their flights
   void visit(StateFields& f);
-  void visitCommands(StateFields& f);
 };
 
 }  // namespace stadion

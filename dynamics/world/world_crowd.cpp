@@ -132,7 +132,7 @@ bool World::Core::noteNeighbours(const CrowdStep& step, std::size_t i, std::span
     remember(b, near);
     for (const Party p : left)  // who leaned on it may fall now
       if (p.isBody && !in(near, p))
-        if (RigidBody* o = body(p.id); o && o->mode == BodyMode::Rest) enterContact(*o, step.tau);
+        if (RigidBody* o = objects_.body(p.id); o && o->mode == BodyMode::Rest) enterContact(*o, step.tau);
   }
   return !list.empty();
 }
@@ -185,7 +185,7 @@ void World::Core::concludeCrowd(CrowdStep& step) {
     followCrowd(step, i);
     if (b.mode != BodyMode::Contact) continue;
     b.drowsy = may[i] != 0;  // not at once: the others' motion counts on its own
-    sweep(b, tau);
+    boxes_.sweep(b, tau);
   }
 }
 
@@ -208,7 +208,7 @@ void World::Core::advanceCrowd(double tau) {
   Crowd& crowd = step.crowd;
   crowd.h = untilCrowdStep(tau);
   std::vector<RigidBody*> due;
-  for (RigidBody* b : active) {
+  for (RigidBody* b : active_) {
     b->slot = CrowdStep::kNobody;
     if (b->crowd && b->enabled && b->dueAge <= b->age(tau) + kDue) due.push_back(b);
   }
@@ -227,7 +227,7 @@ void World::Core::advanceCrowd(double tau) {
   crowd.pull.resize(crowd.members);
   for (std::size_t i = 0; i < crowd.members; ++i) {
     const RigidBody& b = *step.members[i].body;
-    crowd.pull[i] = accelerationAt(b, step.members[i].p, crowd.bodies[i].v, tau);
+    crowd.pull[i] = fields_.accelerationAt(b, step.members[i].p, crowd.bodies[i].v, tau);
     if (b.damping > 0) crowd.bodies[i].v *= det::exp(-b.damping * crowd.h);
   }
   solveCrowd(crowd);

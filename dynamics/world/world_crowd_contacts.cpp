@@ -41,7 +41,7 @@ void World::Core::addCrowdContact(const RigidBody& b, Party other, const Surface
       c.pressed = std::max(0.0, impulse.dot(c.n));
       c.held = impulse - impulse.dot(c.n) * c.n;
     }
-  RigidBody* o = other.isBody ? body(other.id) : nullptr;
+  RigidBody* o = other.isBody ? objects_.body(other.id) : nullptr;
   if (o && step.has(*o)) {
     c.b = o->slot;
   } else if (o && o->slot < step.fixed.size() && step.fixed[o->slot].body == o) {
@@ -65,9 +65,9 @@ void World::Core::findCrowdColliders(const RigidBody& b, const Aabb& box, double
     step.bearings.push_back({{false, c.id}, c.shape, c.motion.at(step.tau).pose, gap});
     step.features.push_back(feature);
   };
-  nearColliders.eachNear(box, [&](const Collider& c) {
+  boxes_.eachCollider(box, [&](const Collider& c) {
     const bool moves = c.motion.moving;
-    if (!mayTouch(self, Side::of(c))) return;
+    if (!objects_.mayTouch(self, Side::of(c))) return;
     if (me.round && !moves && !std::holds_alternative<MeshShape>(*c.shape)) {
       const auto* plane = std::get_if<PlaneShape>(c.shape);
       const Gap gap = plane && !plane->bounded()
@@ -86,7 +86,7 @@ void World::Core::findCrowdColliders(const RigidBody& b, const Aabb& box, double
   for (std::size_t i = 0; i < step.bearings.size(); ++i) {
     const Bearing& on = step.bearings[i];
     if (hidden.empty() || !hidden[i])
-      addCrowdContact(b, on.of, collider(on.of.id)->surface, on.gap, step.features[i], step);
+      addCrowdContact(b, on.of, objects_.collider(on.of.id)->surface, on.gap, step.features[i], step);
   }
 }
 
@@ -106,7 +106,7 @@ void World::Core::meetInCrowd(RigidBody& b, RigidBody& o, double margin, CrowdSt
   }
   const Vec3 apart = me.middle - there;
   const double square = apart.squaredNorm(), far = me.bound + o.bound.radius + reach;
-  if (square > far * far || !mayTouch(Side::of(b), Side::of(o))) return;
+  if (square > far * far || !objects_.mayTouch(Side::of(b), Side::of(o))) return;
   if (me.round && o.centred) {
     const double d = std::sqrt(square);
     Gap gap;
@@ -157,7 +157,7 @@ void World::Core::linkCrowdContacts(CrowdStep& step) {
   Crowd& crowd = step.crowd;
   const auto n = static_cast<std::uint32_t>(step.members.size());
   for (CrowdStep::Fixed& f : step.fixed) {
-    const Kinematics k = f.body ? f.body->at(step.tau) : collider(f.party.id)->motion.at(step.tau);
+    const Kinematics k = f.body ? f.body->at(step.tau) : objects_.collider(f.party.id)->motion.at(step.tau);
     f.p = k.p;
     CrowdBody still;
     still.v = k.v, still.omega = k.omega;

@@ -36,14 +36,14 @@ void World::Core::FoundFlat::place(const Mobile& a, const Mobile& b, const Mat3&
 /// The other side of a body's contact, and the flush pieces that feel like it.
 std::vector<Side> World::Core::surfaceUnder(const Found& f) const {
   std::vector<Side> sides;
-  const std::optional<Side> own = side(f.b);
+  const std::optional<Side> own = objects_.side(f.b);
   if (!own) return sides;
   sides.push_back(*own);
   if (f.b.isBody) return sides;
   for (const Beside& o : besideOf(f.a.id)) {
     if (std::ranges::find(sides, o.piece, &Side::party) != sides.end()) continue;
-    const Collider* c = collider(o.piece.id);
-    if (c && combine(body(f.a.id)->surface, c->surface).friction == f.surface.friction)
+    const Collider* c = objects_.collider(o.piece.id);
+    if (c && combine(objects_.body(f.a.id)->surface, c->surface).friction == f.surface.friction)
       sides.push_back(Side::of(*c));
   }
   return sides;
@@ -58,7 +58,7 @@ void World::Core::findFlats(Island& s, double tau) const {
     for (end = first; end < s.found.size() && s.found[end].a == f.a && s.found[end].b == f.b; ++end)
       gaps.push_back(s.found[end].gap);
     if (gaps.size() < 3 || f.surface.friction <= 0) continue;
-    const std::optional<Side> a = side(f.a);
+    const std::optional<Side> a = objects_.side(f.a);
     const std::vector<Side> under = surfaceUnder(f);
     if (!a || under.empty()) continue;
     for (FlatContact& flat : flatContacts(*a, under, tau, gaps)) {
@@ -88,7 +88,7 @@ std::vector<Vec3> World::Core::placesOfFriction(const CrowdStep& step) const {
     for (end = first + 1; end < all.size() && all[end].a == all[first].a; ++end)
       if (step.notes[end].other != step.notes[first].other) break;
     if (end - first < 3 || all[first].friction <= 0) continue;
-    const std::optional<Side> b = side(step.notes[first].other);
+    const std::optional<Side> b = objects_.side(step.notes[first].other);
     if (!b) continue;
     gaps.clear();
     for (std::size_t k = first; k < end; ++k) {

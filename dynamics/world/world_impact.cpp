@@ -100,7 +100,7 @@ void World::Core::strikeInCrowd(RigidBody& b, const Mobile& m, double tau) {
          BodyMode::Contact);
   if (b.mode != BodyMode::Contact) return;
   b.endL = end, b.dueAge = left > 0 ? left : untilCrowdStep(tau), b.quiet = quiet;
-  sweep(b, tau);
+  boxes_.sweep(b, tau);
 }
 
 /// The body goes on with the velocities of m.
@@ -159,7 +159,7 @@ void World::Core::stick(RigidBody& b, Party in, const Vec3& v, double tau) {
   wakeOnto({true, b.id}, tau);
   b.support.on = {};
   b.touching = {in};
-  memory.setTouching(ContactMemory::keyOf(in, {true, b.id}), true);
+  memory_.setTouching(ContactMemory::keyOf(in, {true, b.id}), true);
   setArc(b, tau, Path::still(b.position(tau) + b.stick->depth * v.normalized()),
          Spin::still(b.orientation(tau)), std::numeric_limits<double>::infinity(), BodyMode::Stuck);
 }
@@ -172,9 +172,9 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     onTouch(t, pa, pb, tau);
     return;
   }
-  RigidBody& a = *body(pa.id);
-  RigidBody* b = pb.isBody ? body(pb.id) : nullptr;
-  Collider* c = pb.isBody ? nullptr : collider(pb.id);
+  RigidBody& a = *objects_.body(pa.id);
+  RigidBody* b = pb.isBody ? objects_.body(pb.id) : nullptr;
+  Collider* c = pb.isBody ? nullptr : objects_.collider(pb.id);
   ++counters.impacts;
   countImpact(a, tau);
   if (b) countImpact(*b, tau);
@@ -189,8 +189,8 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   if (awaited) releaseBefore(key, tau);
   if (!a.movable() && !(b && b->movable())) {
     ContactMemory::Waiting* waiting =
-        memory.impact(key, time_.timeAt(tau), x, outwards, closing, 0, time_.frame(), awaited);
-    memory.setTouching(key, true);
+        memory_.impact(key, time_.timeAt(tau), x, outwards, closing, 0, time_.frame(), awaited);
+    memory_.setTouching(key, true);
     if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
     return;
   }
@@ -198,17 +198,17 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     const Vec3 way = ma.velocityAt(x);
     const double impulse = collide(ma, mb, x, n, 0, 0).dot(n);
     ContactMemory::Waiting* waiting =
-        memory.impact(key, time_.timeAt(tau), x, outwards, closing, impulse, time_.frame(), awaited);
+        memory_.impact(key, time_.timeAt(tau), x, outwards, closing, impulse, time_.frame(), awaited);
     stick(a, pb, way, tau);
     if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
     return;
   }
-  const PairSurface pair = combine(a.surface, surfaceOf(pb));
+  const PairSurface pair = combine(a.surface, objects_.surfaceOf(pb));
   // What presses the two together while neither is carried by something else.
   const auto pull = [&](const RigidBody& body) {
     if (body.mode == BodyMode::Flight && body.path.isParabola()) return Vec3(2 * body.path.c[2]);
     return body.mode == BodyMode::Flight || body.mode == BodyMode::Slide || body.mode == BodyMode::Roll
-               ? Vec3(accelerationAt(body, body.position(tau), body.velocity(tau), tau))
+               ? Vec3(fields_.accelerationAt(body, body.position(tau), body.velocity(tau), tau))
                : Vec3(Vec3::Zero());
   };
   const double press = -n.dot(pull(a) - (b ? pull(*b) : Vec3(Vec3::Zero())));
@@ -230,11 +230,12 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   std::vector<PatchSide> others;
   if (!a.isBall() && !(b && b->isBall())) {
     if (c) others = struckBeside(a, *c, tau, ends);
-    patch = collidePatch(Side::of(a), *side(pb), tau, touch.gap, ma, mb, restitution, pair.friction, others);
+    patch = collidePatch(Side::of(a), *objects_.side(pb), tau, touch.gap, ma, mb, restitution, pair.friction,
+                         others);
   }
   const Vec3 impulse = patch ? patch->impulse : collide(ma, mb, x, n, restitution, pair.friction);
-  ContactMemory::Waiting* waiting = memory.impact(key, time_.timeAt(tau), patch ? patch->middle : x, outwards,
-                                                  closing, impulse.dot(n), time_.frame(), awaited);
+  ContactMemory::Waiting* waiting = memory_.impact(key, time_.timeAt(tau), patch ? patch->middle : x,
+                                                   outwards, closing, impulse.dot(n), time_.frame(), awaited);
   if (Support face; onFace && ends && supportFor(a, *c, touch.gap, face) && !face.ends(ma.p, ma.v)) {
     BallStart s{ma.p, ma.v, ma.omega, ma.q};
     s.v -= n * n.dot(s.v);
@@ -244,7 +245,7 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     predict(a, tau);
     return;
   }
-  if (ends) memory.setTouching(key, true);
+  if (ends) memory_.setTouching(key, true);
   afterImpulse(a, ma, tau, ends);
   if (b) afterImpulse(*b, mb, tau, ends);
   if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
@@ -252,9 +253,9 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     if (!patch || !(part.closing > 0)) continue;
     const ContactMemory::Key other = ContactMemory::keyOf(part.side.party, pa);
     if (awaited) releaseBefore(other, tau);
-    waiting = memory.impact(other, time_.timeAt(tau), part.middle, n, part.closing, part.impulse.dot(n),
-                            time_.frame(), awaited);
-    if (ends) memory.setTouching(other, true);
+    waiting = memory_.impact(other, time_.timeAt(tau), part.middle, n, part.closing, part.impulse.dot(n),
+                             time_.frame(), awaited);
+    if (ends) memory_.setTouching(other, true);
     if (waiting) foreseeRelease(*waiting, tau, -1);
   }
 }

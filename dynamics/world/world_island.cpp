@@ -112,16 +112,16 @@ void World::Core::begin(Island& s, double tau) const {
   }
   for (Found& f : s.found) {
     SolverContact& c = f.contact;
-    c.a = body(f.a.id)->slot;
-    if (f.b.isBody && body(f.b.id)->mode == BodyMode::Contact && !body(f.b.id)->crowd) {
-      c.b = body(f.b.id)->slot;
+    c.a = objects_.body(f.a.id)->slot;
+    if (f.b.isBody && objects_.body(f.b.id)->mode == BodyMode::Contact && !objects_.body(f.b.id)->crowd) {
+      c.b = objects_.body(f.b.id)->slot;
       continue;
     }
     const auto known = std::find(s.fixed.begin(), s.fixed.end(), f.b);
     c.b = static_cast<std::uint32_t>(s.set.size() + static_cast<std::size_t>(known - s.fixed.begin()));
     if (known != s.fixed.end()) continue;
     s.fixed.push_back(f.b);
-    Mobile m = f.b.isBody ? mobileOf(*body(f.b.id), tau) : mobileOf(*collider(f.b.id), tau);
+    Mobile m = f.b.isBody ? mobileOf(*objects_.body(f.b.id), tau) : mobileOf(*objects_.collider(f.b.id), tau);
     m.inverseMass = 0, m.inverseInertia.setZero();
     s.carried = s.carried || !m.v.isZero(0) || !m.omega.isZero(0);
     s.start.push_back(m);
@@ -131,8 +131,8 @@ void World::Core::begin(Island& s, double tau) const {
 
 /// Whether it moves from outside, or may.
 bool World::Core::isDriven(Party p) const {
-  if (p.isBody) return !body(p.id)->movable();
-  return collider(p.id)->motion.moving;
+  if (p.isBody) return !objects_.body(p.id)->movable();
+  return objects_.collider(p.id)->motion.moving;
 }
 
 /// Between a hand, or a lift, and what does not move no velocities may be left: then the hand's contacts give
@@ -203,7 +203,7 @@ bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) cons
   std::vector<Vec3>& pull = s.pull;
   pull.resize(s.set.size());
   for (std::size_t i = 0; i < s.set.size(); ++i) {
-    pull[i] = accelerationAt(*s.set[i], guess[i].p, guess[i].v, tau);
+    pull[i] = fields_.accelerationAt(*s.set[i], guess[i].p, guess[i].v, tau);
     guess[i].v += h * pull[i];
   }
   std::vector<SolverContact> step;
@@ -225,9 +225,9 @@ bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) cons
       const RigidBody& b = *s.set[i];
       Mobile& m = s.end[i];
       const Turned at = turned(s.start[i], guess[i], 1, h);
-      if (pass > 0 && !uniformFor(b)) {
+      if (pass > 0 && !fields_.uniformFor(b)) {
         const Turned mid = turned(s.start[i], guess[i], 0.5, h);
-        pull[i] = accelerationAt(b, mid.p, 0.5 * (s.start[i].v + guess[i].v), tau + 0.5 * h);
+        pull[i] = fields_.accelerationAt(b, mid.p, 0.5 * (s.start[i].v + guess[i].v), tau + 0.5 * h);
       }
       m.v += h * pull[i];
       if (b.damping > 0) m.v *= det::exp(-b.damping * h);
@@ -275,7 +275,7 @@ bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) cons
     bool turns = false;
     for (std::size_t i = 0; i < s.set.size(); ++i)
       turns = turns || std::max(s.start[i].omega.norm(), s.end[i].omega.norm()) * s.set[i]->reach > 1e-8 ||
-              !uniformFor(*s.set[i]);
+              !fields_.uniformFor(*s.set[i]);
     for (std::size_t i = 0; i < step.size() && !turns; ++i) {
       const Vec2 u0 = step[i].slip, u1 = step[i].velocity(s.end).tail<2>();
       turns = std::fabs(u0.x() * u1.y() - u0.y() * u1.x()) > 1e-9 * u0.squaredNorm() + 1e-16;
@@ -309,10 +309,11 @@ double World::Core::glide(Island& s, double tau, double h) {
     const double alpha = (s.end[i].omega - s.start[i].omega).norm() / probe * b.reach;
     if (alpha > kBalanced) return 0;
     fastest = std::max(fastest, s.start[i].v.norm()), strongest = std::max(strongest, a.norm());
-    if (!uniformFor(b) && (s.start[i].v.norm() > kUnmoved || a.norm() > kBalanced)) return 0;
+    if (!fields_.uniformFor(b) && (s.start[i].v.norm() > kUnmoved || a.norm() > kBalanced)) return 0;
   }
   if (fastest <= kUnmoved && strongest <= kBalanced)  // what changes may stir them in this very frame
-    return std::ranges::any_of(s.set, [&](const RigidBody* b) { return feelsChange(*b); }) ? 0 : 1e300;
+    return std::ranges::any_of(s.set, [&](const RigidBody* b) { return fields_.feelsChange(*b); }) ? 0
+                                                                                                   : 1e300;
   for (const Found& f : s.found) {
     const SolverContact& c = f.contact;
     const Vec3 n = f.gap.normal, u = s.start[c.a].v - s.start[c.b].v,
@@ -440,7 +441,7 @@ bool World::Core::inFold(const RigidBody& b, const Collider& c, const Support& f
 
 /// A ball on one still face has a closed form.
 bool World::Core::settleOnFace(RigidBody& b, const Found& only, double tau) {
-  const Collider* c = only.b.isBody ? nullptr : collider(only.b.id);
+  const Collider* c = only.b.isBody ? nullptr : objects_.collider(only.b.id);
   Support face;
   if (!c || std::fabs(only.gap.distance) > 2 * kSlop ||
       std::fabs(b.velocity(tau).dot(only.gap.normal)) > 1e-3 || !supportFor(b, *c, only.gap, face) ||
@@ -471,7 +472,7 @@ void World::Core::noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end
   const double seconds = b.quiet - b.calm.since;
   if (seconds < b.calm.span) return;
   const double change = (end.v - b.calm.v).norm() + (end.omega - b.calm.omega).norm() * b.reach;
-  const double pull = accelerationAt(b, start.p, start.v, tau).norm();
+  const double pull = fields_.accelerationAt(b, start.p, start.v, tau).norm();
   const double way = b.drift.norm() + b.twist.norm() * b.reach;
   look(end, b.quiet, 2 * b.calm.span, change <= kCalm * (1 + pull) * seconds && way <= kCreep * seconds);
 }
@@ -526,7 +527,7 @@ void World::Core::conclude(Island& s, double tau, double h) {
 /// step go on, but for a moment, when it is not known any more how strong a field is that pulls; nor when a
 /// corner that comes fast is down: that is an impact.
 double World::Core::stepOf(const Island& s, double tau, double h) const {
-  for (const RigidBody* b : s.set) h = std::min(h, std::max(knownFor(*b, tau), kShortestStep));
+  for (const RigidBody* b : s.set) h = std::min(h, std::max(fields_.knownFor(*b, tau), kShortestStep));
   const double shortest = s.set.size() > 1 ? h / 8 : kLanding;
   for (const Found& f : s.found) {
     if (f.gap.distance <= kSlop) continue;
@@ -589,7 +590,8 @@ void World::Core::advanceIsland(Island& s, double tau, double h) {
   conclude(s, tau, s.glides ? last : h);
   // Sets that have been quiet together fall asleep together.
   const bool quiet = !s.carried && std::ranges::all_of(s.set, [&](const RigidBody* b) {
-    return b->mode == BodyMode::Contact && b->quiet >= kSleepsAfter && b->calm.balanced && !feelsChange(*b);
+    return b->mode == BodyMode::Contact && b->quiet >= kSleepsAfter && b->calm.balanced &&
+           !fields_.feelsChange(*b);
   });
   if (quiet)
     for (RigidBody* b : s.set) freeze(*b, tau);

@@ -114,9 +114,10 @@ std::optional<double> World::Core::firstBeyond(const Side& a, const Side& b, dou
 
 /// When the pair has parted by tau, since it has been seen last. Nothing: it has not.
 std::optional<Nanoseconds> World::Core::whenParted(const ContactMemory::Waiting& w, double tau) const {
-  const double far = body(w.pair.second)->releaseDistance;
-  if (!isNoted(*side(w.pair.first)) || !isNoted(*side({true, w.pair.second}))) return {};
-  PastSide a(*side(w.pair.first), {time_.origin(), 0}), b(*side({true, w.pair.second}), {time_.origin(), 0});
+  const double far = objects_.body(w.pair.second)->releaseDistance;
+  if (!isNoted(*objects_.side(w.pair.first)) || !isNoted(*objects_.side({true, w.pair.second}))) return {};
+  PastSide a(*objects_.side(w.pair.first), {time_.origin(), 0}),
+      b(*objects_.side({true, w.pair.second}), {time_.origin(), 0});
   const double from = std::max({time_.from(), time_.tauOf(w.seen), a.begins(), b.begins()});
   if (!(from < tau)) return {};
   std::vector<double> turns{from, tau};
@@ -159,16 +160,16 @@ double World::Core::wayLength(const Side& s, double from, double tau) const {
 
 /// It has been put elsewhere: no way leads there that could be too short to part from anything.
 void World::Core::forgetSlack(Party p) {
-  memory.eachWith(p, [&](const ContactMemory::Key& pair) {
-    if (ContactMemory::Waiting* w = memory.waitingOf(pair)) w->slack = 0;
+  memory_.eachWith(p, [&](const ContactMemory::Key& pair) {
+    if (ContactMemory::Waiting* w = memory_.waitingOf(pair)) w->slack = 0;
   });
 }
 
 /// Whether the pair has gone so little way since it has been seen last that it cannot have parted.
 bool World::Core::stillNear(ContactMemory::Waiting& w, double tau) const {
   const double from = std::max(time_.from(), time_.tauOf(w.seen));
-  const double length =
-      wayLength(*side(w.pair.first), from, tau) + wayLength(*side({true, w.pair.second}), from, tau);
+  const double length = wayLength(*objects_.side(w.pair.first), from, tau) +
+                        wayLength(*objects_.side({true, w.pair.second}), from, tau);
   if (!(length < w.slack)) return false;
   w.slack -= length, w.seen = time_.timeAt(tau);
   return true;
@@ -178,10 +179,10 @@ bool World::Core::stillNear(ContactMemory::Waiting& w, double tau) const {
 /// impact's own frame, they are told of it in the next one.
 void World::Core::reportReleases() {
   std::vector<std::pair<ContactMemory::Key, Nanoseconds>> due;
-  for (ContactMemory::Waiting& w : memory.waiting()) {
+  for (ContactMemory::Waiting& w : memory_.waiting()) {
     const bool asForeseen = w.versionA && *w.versionA + *w.versionB == w.versions;
     if (asForeseen && time_.t1() < w.look) continue;
-    const Side a = *side(w.pair.first), b = *side({true, w.pair.second});
+    const Side a = *objects_.side(w.pair.first), b = *objects_.side({true, w.pair.second});
     if (asForeseen && w.sure && nobodyNearer(w, a, b)) {
       due.emplace_back(w.pair, std::max(w.look, time_.t0()));
       continue;
@@ -207,20 +208,21 @@ void World::Core::reportReleases() {
 }
 
 void World::Core::release(const ContactMemory::Key& pair, Nanoseconds time) {
-  const ContactMemory::Waiting* w = memory.waitingOf(pair);
+  const ContactMemory::Waiting* w = memory_.waitingOf(pair);
   if (w && w->frame == time_.frame())
-    memory.releaseLater(pair, time);
+    memory_.releaseLater(pair, time);
   else
-    memory.release(pair, time);
+    memory_.release(pair, time);
 }
 
 /// The pair meets again at tau: it may have parted before.
 void World::Core::releaseBefore(const ContactMemory::Key& pair, double tau) {
-  ContactMemory::Waiting* w = memory.waitingOf(pair);
+  ContactMemory::Waiting* w = memory_.waitingOf(pair);
   if (!w) return;
   const bool asForeseen = w->versionA && *w->versionA + *w->versionB == w->versions;
   if (asForeseen && time_.timeAt(tau) < w->look) return;
-  if (asForeseen && w->sure && nobodyNearer(*w, *side(pair.first), *side({true, pair.second})))
+  if (asForeseen && w->sure &&
+      nobodyNearer(*w, *objects_.side(pair.first), *objects_.side({true, pair.second})))
     return release(pair, std::max(w->look, time_.t0()));
   if (stillNear(*w, tau)) return;
   if (const auto parted = whenParted(*w, tau)) release(pair, *parted);
@@ -262,8 +264,8 @@ void World::Core::awaitRelease(ContactMemory::Waiting& w, const Side& a, const S
 /// An impact at tau has been dealt with: the pair need not be looked at before it can part.
 void World::Core::foreseeRelease(ContactMemory::Waiting& w, double tau, std::int32_t triangle) {
   for (const Party p : {w.pair.first, Party{true, w.pair.second}})
-    if (RigidBody* b = p.isBody ? body(p.id) : nullptr) trace(*b, b->traced, true, tau);
-  const Side a = *side(w.pair.first), b = *side({true, w.pair.second});
+    if (RigidBody* b = p.isBody ? objects_.body(p.id) : nullptr) traces_.trace(*b, b->traced, true, tau);
+  const Side a = *objects_.side(w.pair.first), b = *objects_.side({true, w.pair.second});
   w.triangle = triangle;
   awaitRelease(w, a, b, b.body->releaseDistance, tau);
 }

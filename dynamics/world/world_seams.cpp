@@ -125,11 +125,11 @@ template <class F>
 void World::Core::eachColliderAt(const RigidBody& b, double tau, F f) const {
   const Side self = Side::of(b);
   const Aabb box = boxAround(b, tau);
-  nearColliders.eachNear(box, [&](const Collider& c) {
+  boxes_.eachCollider(box, [&](const Collider& c) {
     const auto* plane = std::get_if<PlaneShape>(c.shape);
     const bool above = plane && !plane->bounded() && !c.motion.moving &&  // its box holds everything
                        c.planeNormal.dot(box.centre() - c.planePoint) > b.bound.radius + kTouching;
-    if (!above && mayTouch(self, Side::of(c)) && !comesOutOf(b, c.id)) f(c);
+    if (!above && objects_.mayTouch(self, Side::of(c)) && !comesOutOf(b, c.id)) f(c);
   });
 }
 
@@ -151,7 +151,7 @@ std::vector<Bearing> World::Core::bearingsOf(const RigidBody& b, double tau, con
       return;
     }
     if (&c == &but && !(std::holds_alternative<MeshShape>(*c.shape) &&
-                        memory.touching(ContactMemory::keyOf(other.party, self.party))))
+                        memory_.touching(ContactMemory::keyOf(other.party, self.party))))
       return;
     manifold(self, other, tau, kTouching, points);
     for (const ManifoldPoint& p : points) bearings.push_back({other.party, c.shape, X, p.gap});
@@ -218,8 +218,8 @@ bool World::Core::crossSeam(RigidBody& b, double tau, double& lift) {
     ColliderId next = 0;
     Support face;
     double height = 0;
-    nearColliders.eachNear(box, [&](const Collider& c) {
-      if (c.id == before.id || (next && c.id > next) || !mayTouch(Side::of(b), Side::of(c))) return;
+    boxes_.eachCollider(box, [&](const Collider& c) {
+      if (c.id == before.id || (next && c.id > next) || !objects_.mayTouch(Side::of(b), Side::of(c))) return;
       const Gap gap = ballGap(x, r, *c.shape, c.motion.end, {kFlush});
       if (!(std::fabs(gap.distance) <= kFlush) || !(gap.normal.dot(n) > kOnePlane)) return;
       if (supportFor(b, c, gap, face)) next = c.id, height = gap.distance;
@@ -227,7 +227,7 @@ bool World::Core::crossSeam(RigidBody& b, double tau, double& lift) {
     if (!next) continue;
     b.support = face;
     lift = -height;
-    memory.setTouching(ContactMemory::keyOf(before, self), false);
+    memory_.setTouching(ContactMemory::keyOf(before, self), false);
     return true;
   }
   return false;
@@ -246,7 +246,7 @@ void World::Core::dropHidden(const RigidBody& b, double tau, std::size_t first, 
   for (std::size_t i = first; i < found.size(); ++i) {
     const Found& f = found[i];
     if (f.b.isBody) continue;
-    const Collider& c = *collider(f.b.id);
+    const Collider& c = *objects_.collider(f.b.id);
     points.push_back({f.b, c.shape, c.motion.at(tau).pose, f.gap}), whose.push_back(i);
   }
   const std::vector<char> hidden = hiddenAmong(points);
@@ -259,7 +259,7 @@ void World::Core::dropHidden(const RigidBody& b, double tau, std::size_t first, 
 /// Points on one plane of flush colliders that feel alike count as those of one of them, and what lies
 /// between others of them is left out: they carry the body as one face would.
 void World::Core::joinFlush(const RigidBody& b, std::size_t first, std::vector<Found>& found) {
-  const auto still = [&](const Found& f) { return !f.b.isBody && !collider(f.b.id)->motion.moving; };
+  const auto still = [&](const Found& f) { return !f.b.isBody && !objects_.collider(f.b.id)->motion.moving; };
   const auto alike = [&](const Found& f, const Found& o) {
     return f.gap.normal.dot(o.gap.normal) > kSquareOn &&
            std::fabs(f.gap.normal.dot(f.gap.point - o.gap.point)) < kSamePlane &&
@@ -312,7 +312,7 @@ double World::Core::timeCarried(const RigidBody& b, const Found& f, const Vec3& 
   const double speed = u.norm(), gain = a.norm();
   const Vec3 e = speed > 0 && !(speed < 1e-9 && gain > 0) ? Vec3(u / speed) : Vec3(a / gain);
   const double u0 = e.dot(u), a0 = e.dot(a);
-  const Collider* on = collider(f.b.id);
+  const Collider* on = objects_.collider(f.b.id);
   std::optional<FlatFace> face = flatFace(*on, n);
   if (!face) return -1;
   const Side self = Side::of(b);
@@ -326,8 +326,8 @@ double World::Core::timeCarried(const RigidBody& b, const Found& f, const Vec3& 
         Aabb box;
         box.include(x);
         box.lo.array() -= kSkip, box.hi.array() += kSkip;
-        nearColliders.eachNear(box, [&](const Collider& c) {
-          if ((beyond && c.id > beyond->id) || !mayTouch(self, Side::of(c))) return;
+        boxes_.eachCollider(box, [&](const Collider& c) {
+          if ((beyond && c.id > beyond->id) || !objects_.mayTouch(self, Side::of(c))) return;
           const auto other = flatFace(c, n);
           if (!other || !other->holds(x) || std::fabs(n.dot(other->X.p - f.gap.point)) > kSamePlane ||
               std::fabs(n.dot(other->X.q * Vec3::UnitZ())) < kSquareOn ||

@@ -150,87 +150,24 @@ static void fieldsOf(Collider& c, StateFields& f) {
   f("version", c.version), f("swept", c.swept), f("place", c.place);
 }
 
-namespace {
-
-/// Ids, and what has them.
-template <class T, class Each>
-void visitTable(std::string_view name, IdTable<T>& table, StateFields& f, const Each& each) {
-  std::vector<std::uint32_t> ids;
-  table.eachId([&](std::uint32_t id) { ids.push_back(id); });
-  f(name, ids);
-  if (f.restores()) table = {};
-  std::uint32_t last = 0;
-  for (const std::uint32_t id : ids) {
-    if (f.failed()) return;
-    if (f.restores() && id <= std::exchange(last, id)) return f.fail();
-    T& item = f.restores() ? table.add(id) : *table.find(id);
-    each(id, item);
-  }
-}
-
-/// A list of things that are known by their ids.
-template <class T, class Find>
-void visitList(std::string_view name, std::vector<T*>& list, StateFields& f, const Find& find) {
-  std::vector<std::uint32_t> ids;
-  for (const T* item : list) ids.push_back(item->id);
-  f(name, ids);
-  if (!f.restores()) return;
-  list.clear();
-  for (const std::uint32_t id : ids) {
-    T* item = find(id);
-    if (!item) return f.fail();
-    list.push_back(item);
-  }
-}
-
-}  // namespace
-
 void World::Core::visit(StateFields& f) {
   time_.state(f);
-  visitTable("shapes", shapes, f, [&](ShapeId, ShapeEntry& s) { f("bound", s.bound), f("uses", s.uses); });
-  visitTable("bodies", bodies, f, [&](BodyId id, RigidBody& b) {
-    bool flies = b.flight != nullptr;
-    f.about(id);
-    f("body", b), f("flies", flies);
-    b.id = id;
-    if (f.restores() && flies) flightless.push_back(id);
-  });
-  f.about(0);
-  visitTable("colliders", colliders, f, [&](ColliderId id, Collider& c) { f("collider", c), c.id = id; });
-  visitTable("fields", fields, f, [&](FieldId id, FieldEntry& e) {
-    e.id = id;
-    f("field", e.field), f("on", e.on), f("changed", e.changed), f("activation", e.activation);
-  });
-  f("ignored", ignored), f("bodies collide", bodiesCollide), f("coming out", comingOut);
-  f("jerking", jerking), f("foresee", foresee);
-  queue_.stateOfOrder(f), f("next shape", nextShape), f("next body", nextBody);
-  f("next collider", nextCollider), f("next field", nextField);
+  objects_.state(f), fields_.state(f);
+  objects_.stateOfPairs(f), f("coming out", comingOut);
+  f("jerking", jerking), changes_.stateOfMode(f);
+  queue_.stateOfOrder(f), objects_.stateOfIds(f), fields_.stateOfIds(f);
   f("looks", looks.looks), f("collider looks", looks.colliders), f("body looks", looks.bodies);
   queue_.stateOfTick(f);
   if (f.failed()) return;
-  f("leaners", leaners), f("leaners to prune", leanersToPrune), f("changed", changed), f("told", told);
-  visitCommands(f);
+  supports_.state(f), f("changed", changed_), changes_.stateOfColliders(f);
+  commands_.state(f);
   queue_.state(f);
   if (f.failed()) return;
-  memory.state(f, [this](Party p) -> const std::uint32_t* {
-    if (RigidBody* b = p.isBody ? body(p.id) : nullptr) return &b->version;
-    if (Collider* c = p.isBody ? nullptr : collider(p.id)) return &c->version;
-    return nullptr;
-  });
-  const auto findBody = [this](BodyId id) { return body(id); };
-  visitList("active", active, f, findBody), visitList("stirred", stirred, f, findBody);
-  visitList("held", held, f, findBody), visitList("marked", marked, f, findBody);
-  nearBodies.state(f, findBody);
-  nearColliders.state(f, [this](ColliderId id) { return collider(id); });
-}
-
-void World::Core::visitCommands(StateFields& f) {
-  const std::size_t n = f.count("commands", commands.size());
-  if (f.restores()) commands.assign(n, {});
-  for (Command& c : commands) {
-    f("when", c.when), f("order", c.order), f("kind", c.kind), f("field", c.field), f("body", c.body);
-    f("on", c.on), f("activation", c.activation);
-  }
+  memory_.state(f, [this](Party p) { return objects_.versionPointer(p); });
+  const auto findBody = [this](BodyId id) { return objects_.body(id); };
+  active_.state(f, findBody), commands_.stateOfStirred(f, findBody);
+  held_.state(f, findBody), changes_.stateOfBodies(f, findBody);
+  boxes_.state(f);
 }
 
 void World::visit(StateFields& f) {
@@ -238,28 +175,15 @@ void World::visit(StateFields& f) {
 }
 
 bool World::giveBack(ShapeId id, std::shared_ptr<const Shape> shape) {
-  Core::ShapeEntry* entry = core_->shapes.find(id);
-  if (!entry || entry->shape || !shape) return false;
-  entry->shape = std::move(shape);
-  for (RigidBody& b : core_->bodies)
-    if (b.shapeId == id) b.shape = entry->shape.get();
-  for (Collider& c : core_->colliders)
-    if (c.shapeId == id) c.shape = entry->shape.get();
-  return true;
+  return core_->objects_.giveBack(id, std::move(shape));
 }
 
 bool World::giveBack(BodyId id, std::shared_ptr<const BodyFlight> flight) {
-  RigidBody* b = core_->body(id);
-  if (!b || !flight || std::erase(core_->flightless, id) == 0) return false;
-  b->flight = std::move(flight);
-  return true;
+  return core_->objects_.giveBack(id, std::move(flight));
 }
 
 bool World::complete() const {
-  bool whole = core_->flightless.empty();
-  for (const RigidBody& b : core_->bodies) whole = whole && b.shape;
-  for (const Collider& c : core_->colliders) whole = whole && c.shape;
-  return whole;
+  return core_->objects_.complete();
 }
 
 }  // namespace stadion

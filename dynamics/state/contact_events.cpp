@@ -1,4 +1,4 @@
-#include "dynamics/world/contact_events.h"
+#include "dynamics/state/contact_events.h"
 
 #include "engine/core/state_hash.h"
 

@@ -1,11 +1,12 @@
 #pragma once
-/// The memory of pairs: who touches whom, which impact has been told and awaits its release.
+/// The memory of pairs: which sides touch, and which reported impact awaits its release.
 
-#include "dynamics/world/world.h"
+#include "dynamics/body/body.h"
 
 #include <map>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace stadion {
 

@@ -1,0 +1,37 @@
+#include "dynamics/state/support_graph.h"
+
+#include <algorithm>
+
+namespace stadion {
+
+bool leansOn(const RigidBody& b, Party p) {
+  return (b.support.on.id && b.support.on == p) ||
+         std::find(b.touching.begin(), b.touching.end(), p) != b.touching.end();
+}
+
+void SupportGraph::note(const RigidBody& b) {
+  if (b.support.on.id) leaners_.emplace(b.support.on, b.id);
+  for (const Party p : b.touching) leaners_.emplace(p, b.id);
+  if (leaners_.size() <= pruneAt_) return;
+  std::erase_if(leaners_, [&](const auto& l) {
+    const RigidBody* leaner = objects_.body(l.second);
+    return !leaner || !leansOn(*leaner, l.first);
+  });
+  pruneAt_ = 64 + 2 * leaners_.size();
+}
+
+bool SupportGraph::bears(Party p) const {
+  const auto first = leaners_.lower_bound({p, 0});
+  return first != leaners_.end() && first->first == p;
+}
+
+void SupportGraph::leanersOf(Party p, std::vector<BodyId>& out) const {
+  for (auto at = leaners_.lower_bound({p, 0}); at != leaners_.end() && at->first == p; ++at)
+    out.push_back(at->second);
+}
+
+void SupportGraph::forgetBody(BodyId id) {
+  leaners_.erase(leaners_.lower_bound({{true, id}, 0}), leaners_.lower_bound({{true, id + 1}, 0}));
+}
+
+}  // namespace stadion
