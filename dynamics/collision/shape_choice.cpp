@@ -1,3 +1,5 @@
+#include "dynamics/collision/shape_choice.h"
+
 #include "dynamics/collision/nearest_surface.h"
 #include "dynamics/collision/shape_distance.h"
 #include "dynamics/shapes/mass_properties.h"

@@ -1,6 +1,7 @@
 #pragma once
 /// From models to what the world collides: each fitted once for all the objects that look alike.
 
+#include "dynamics/collision/shape_choice.h"
 #include "dynamics/shapes/mass_properties.h"
 #include "dynamics/shapes/shape.h"
 #include "engine/maths/course.h"

@@ -64,24 +64,6 @@ using Shape =
 
 enum class ShapeKind { Auto, Ball, Box, Capsule, Cylinder, Convex, Plane, Mesh };
 
-inline constexpr double kShapeTolerance = 0.02;
-
-struct ShapeChoice {
-  Shape shape;
-  ShapeKind kind = ShapeKind::Mesh;  ///< never Auto
-  double deviation = 0;              ///< greatest distance between shape and mesh, both ways [m]
-  std::string remark;                ///< one sentence for reports: what was taken and how far off it is
-};
-
-/// The shape to collide with in place of `mesh`. Auto takes the first of plane, ball, box, capsule, cylinder
-/// and convex hull that is within `tolerance` of the mesh, relative to its size and for all but balls to its
-/// thinner side; else the mesh itself. Both ways count (shape_distance.h): a shape that closes a doorway is
-/// as far off as the doorway is wide. Of round shapes the vertices count; facets between them may cut four
-/// times as deep. A kind that is asked for is fitted as well as it goes. Fails if the mesh has no usable
-/// triangle.
-Result<ShapeChoice> chooseShape(const Mesh& mesh, ShapeKind requested = ShapeKind::Auto,
-                                double tolerance = kShapeTolerance);
-
 /// Everything of the shape is inside this ball. Infinite radius for an unbounded plane.
 Sphere boundingSphere(const Shape& shape);
 /// Everything of the shape at X is inside this box, for sheets also what has sunk below them.

@@ -1,5 +1,6 @@
 #include "show/measure/model_run.h"
 
+#include "dynamics/collision/shape_choice.h"
 #include "dynamics/nodes/dyn_object_node.h"
 #include "dynamics/nodes/field_node.h"
 #include "show/recording/show_recording.h"

@@ -1,5 +1,6 @@
 /// Meshes that no modeller should save, as what bodies fall on and as bodies.
 
+#include "dynamics/collision/shape_choice.h"
 #include "tests/dynamics/world/watch.h"
 
 #include <gtest/gtest.h>

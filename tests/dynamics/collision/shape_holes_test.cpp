@@ -1,5 +1,6 @@
 /// Simple shapes must not close what a model leaves open.
 
+#include "dynamics/collision/shape_choice.h"
 #include "dynamics/collision/shape_distance.h"
 #include "tests/dynamics/world/scenes.h"
 

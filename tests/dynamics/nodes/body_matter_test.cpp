@@ -2,6 +2,7 @@
 
 #include "dynamics/nodes/body_maker.h"
 
+#include "dynamics/collision/shape_choice.h"
 #include "dynamics/nodes/dyn_object_node.h"
 #include "engine/maths/functions.h"
 #include "engine/script/script.h"

@@ -1,6 +1,7 @@
 /// Only a tracker can jump: sensors and other dynamics nodes see bodies and animations of any speed at the
 /// exact time, at every frame rate.
 
+#include "dynamics/collision/shape_choice.h"
 #include "engine/nodes/model_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/rig_node.h"

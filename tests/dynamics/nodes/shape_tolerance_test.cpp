@@ -1,5 +1,6 @@
 /// What `shape=auto tolerance=...` takes for a model that comes with the program.
 
+#include "dynamics/collision/shape_choice.h"
 #include "dynamics/nodes/shape_store.h"
 #include "tests/dynamics/world/scenes.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Nodes of this floor with shapes given by the test, for shows built by hand.
 
+#include "dynamics/collision/shape_choice.h"
 #include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dynamics_node.h"
 #include "engine/nodes/model_node.h"

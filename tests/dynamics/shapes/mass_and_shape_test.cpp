@@ -1,3 +1,4 @@
+#include "dynamics/collision/shape_choice.h"
 #include "engine/maths/functions.h"
 #include "tests/dynamics/world/scenes.h"
 

@@ -1,6 +1,7 @@
 /// How bodies start, and what they take along when a hand lets go.
 
 #include "dynamics/body/body_axes.h"
+#include "dynamics/collision/shape_choice.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "tests/dynamics/nodes/show_nodes.h"
