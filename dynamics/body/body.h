@@ -1,8 +1,8 @@
 #pragma once
 /// The values with which bodies and colliders are described: ids, surfaces, definitions, modes, states.
 ///
-/// Frames   node poses X_WN in World, right-handed, +Z up; C is a body's centre of mass with its principal axes.
-/// Units    metres, seconds, kilograms; times in show nanoseconds.
+/// Frames   node poses X_WN in World, right-handed, +Z up; C is a body's centre of mass with its principal
+/// axes. Units    metres, seconds, kilograms; times in show nanoseconds.
 
 #include "dynamics/shapes/mass_properties.h"
 #include "engine/base/time_signature.h"

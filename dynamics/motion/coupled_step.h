@@ -8,6 +8,7 @@
 /// Bits     the same on all machines.
 
 #include "dynamics/motion/arc.h"
+#include "dynamics/motion/dormand_prince.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -43,17 +44,7 @@ struct CoupledTolerance {
 /// h seconds from `tau` on; `push(tau, state, omega)` says what acts.
 template <class F>
 CoupledStep coupledStep(const F& push, double tau, const CoupledState& start, const Vec3& inertia, double h) {
-  static constexpr double c[7] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
-  static constexpr double a[7][6] = {
-      {},
-      {1.0 / 5},
-      {3.0 / 40, 9.0 / 40},
-      {44.0 / 45, -56.0 / 15, 32.0 / 9},
-      {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-      {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-      {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
-  static constexpr double d[7] = {71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
-                                  -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+  namespace pair = dormand_prince;
   struct Rate {
     Vec3 p, v, w, L;
   };
@@ -66,20 +57,21 @@ CoupledStep coupledStep(const F& push, double tau, const CoupledState& start, co
     CoupledState& s = step.end;
     s = start, w.setZero();
     for (int j = 0; j < i; ++j) {
-      const double share = h * a[i][j];
+      const double share = h * pair::kWeights[i][j];
       s.p += share * k[j].p, s.v += share * k[j].v, w += share * k[j].w, s.L += share * k[j].L;
     }
-    const Quat own = free.orientation(c[i] * h), turn = det::expRotation(w);
+    const Quat own = free.orientation(pair::kTimes[i] * h), turn = det::expRotation(w);
     s.q = turn * own;
     const Vec3 omega = s.q * inverse.cwiseProduct(s.q.conjugate() * s.L);
-    const CoupledPush now = push(tau + c[i] * h, s, omega);
-    k[i] = {s.v, now.a, rateOfTurn(w, omega - turn * free.angularVelocity(c[i] * h, own)), now.torque};
+    const CoupledPush now = push(tau + pair::kTimes[i] * h, s, omega);
+    k[i] = {s.v, now.a, rateOfTurn(w, omega - turn * free.angularVelocity(pair::kTimes[i] * h, own)),
+            now.torque};
     if (i == 0) step.first = now;
     if (i == 6) step.last = now;
   }
   Rate e{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   for (int i = 0; i < 7; ++i) {
-    const double share = h * d[i];
+    const double share = h * pair::kError[i];
     e.p += share * k[i].p, e.v += share * k[i].v, e.w += share * k[i].w, e.L += share * k[i].L;
   }
   using Allowed = CoupledTolerance;

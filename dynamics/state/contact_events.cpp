@@ -1,6 +1,9 @@
 #include "dynamics/state/contact_events.h"
 
+#include "dynamics/body/rigid_body.h"
 #include "engine/core/state_hash.h"
+
+#include <algorithm>
 
 namespace stadion {
 std::uint64_t ContactMemory::share(const Key& pair, const Memory& m) {
@@ -121,6 +124,17 @@ void ContactMemory::forgetIdle() {
     return true;
   });
   idle_ = 0;
+}
+
+void rememberTouching(ContactMemory& memory, RigidBody& b, const std::vector<Party>& near) {
+  const auto in = [](const std::vector<Party>& list, Party p) {
+    return std::find(list.begin(), list.end(), p) != list.end();
+  };
+  for (const Party p : near)
+    if (!in(b.leaning, p)) memory.setTouching(ContactMemory::keyOf(p, {true, b.id}), true);
+  for (const Party p : b.leaning)
+    if (!in(near, p)) memory.setTouching(ContactMemory::keyOf(p, {true, b.id}), false);
+  b.leaning = near;
 }
 
 }  // namespace stadion

@@ -10,6 +10,8 @@
 
 namespace stadion {
 
+struct RigidBody;
+
 /// Closing speeds up to this are contact, not impact [m/s].
 constexpr double kImpactSpeed = 0.05;
 
@@ -134,5 +136,8 @@ private:
   static std::uint64_t share(const Owed& owed);
   std::vector<Owed> owed_;  ///< releases in the frame of their impact
 };
+
+/// The memory notes what the body touches from now on, `near`, and what it no longer does.
+void rememberTouching(ContactMemory& memory, RigidBody& b, const std::vector<Party>& near);
 
 }  // namespace stadion

@@ -1,13 +1,14 @@
 #pragma once
-/// One step of all who lie in heaps, while it is being put together. Internal to world_crowd.cpp and
-/// world_crowd_contacts.cpp.
+/// One step of all members of piles, while it is put together. Internal to piles.cpp and pile_contacts.cpp.
 
+#include "dynamics/body/rigid_body.h"
+#include "dynamics/collision/manifold.h"
+#include "dynamics/collision/touch_seams.h"
 #include "dynamics/contact/crowd_solver.h"
-#include "dynamics/world/world_core.h"
 
 namespace stadion {
 
-struct World::Core::CrowdStep {
+struct CrowdStep {
   struct Member {
     RigidBody* body = nullptr;
     Vec3 p = Vec3::Zero();       ///< centre of mass
@@ -21,7 +22,7 @@ struct World::Core::CrowdStep {
     RigidBody* body = nullptr;
     Vec3 p = Vec3::Zero();
   };
-  /// What the solver need not know of a contact.
+  /// What the solver does not need of a contact.
   struct Note {
     std::uint64_t key = 0, reverse = 0;  ///< from the first side's view, from the second's
     Party other;

@@ -68,13 +68,13 @@ BodyId World::addBody(const BodyDef& d) {
   b.centred = b.isBall() && b.eccentricity() <= 1e-9 * b.radius();
   b.damping = d.damping, b.dragArea = d.dragArea, b.releaseDistance = d.releaseDistance;
   b.stick = d.stick;
-  core_->jerking = core_->jerking || (d.flight && d.flight->jerks());
+  core_->turnsByFrame_ = core_->turnsByFrame_ || (d.flight && d.flight->jerks());
   if (d.flight) b.flight = d.flight, b.q_CA = (b.X_NC.q.conjugate() * d.flight->q_NA).normalized();
   b.pose = unit(d.pose);
   const Pose X_WC = b.pose * b.X_NC;
   const Quat& q = X_WC.q;
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * d.omega);
-  core_->startFlight(b, core_->time_.now(), X_WC.p, d.v, q, L);
+  core_->arcs_.startFlight(b, core_->time_.now(), X_WC.p, d.v, q, L);
   return b.id;
 }
 
@@ -117,7 +117,7 @@ bool World::moveCollider(ColliderId id, const Pose& end, bool teleport) {
   if (teleport) {
     c->now = unit(end), c->next.reset();
     c->disturbed = true;
-    core_->forgetSlack({false, id});
+    core_->releases_.forgetSlack({false, id});
   } else {
     c->next = unit(end);
   }
@@ -140,7 +140,7 @@ bool World::enableCollider(ColliderId id, bool on) {
   core_->changes_.mark(id);
   if (!on) {
     core_->boxes_.remove(*c);
-    core_->wakeOnto({false, id}, core_->time_.now());
+    core_->waking_.wakeOnto({false, id}, core_->time_.now());
     core_->memory_.forget({false, id});
   }
   return true;
@@ -153,22 +153,22 @@ bool World::enableBody(BodyId id, bool on) {
   if (on) {
     b->enabled = b->fresh = true;
     const Pose X_WC = b->pose * b->X_NC;
-    core_->startFlight(*b, core_->time_.now(), X_WC.p, Vec3::Zero(), X_WC.q, Vec3::Zero());
+    core_->arcs_.startFlight(*b, core_->time_.now(), X_WC.p, Vec3::Zero(), X_WC.q, Vec3::Zero());
     return true;
   }
   b->enabled = false;
   core_->boxes_.remove(*b);
-  core_->freeze(*b, core_->time_.now());
+  core_->arcs_.freeze(*b, core_->time_.now());
   b->support.on = {};
   b->touching.clear();
-  core_->wakeOnto({true, id}, core_->time_.now());
+  core_->waking_.wakeOnto({true, id}, core_->time_.now());
   core_->memory_.forget({true, id});
   return true;
 }
 
 bool World::ignorePair(Party a, Party b, bool on) {
   core_->objects_.ignore(a, b, on);
-  if (on) core_->wakeOnto(a, core_->time_.now()), core_->wakeOnto(b, core_->time_.now());
+  if (on) core_->waking_.wakeOnto(a, core_->time_.now()), core_->waking_.wakeOnto(b, core_->time_.now());
   return true;
 }
 
@@ -252,10 +252,11 @@ bool World::Core::putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const V
   b.touching.clear(), b.waysOut.clear();
   const Pose X_WC = b.pose * b.X_NC;
   memory_.forget({true, b.id});
-  startFlight(b, time_.now(), X_WC.p, v, X_WC.q, X_WC.q * b.inertia.cwiseProduct(X_WC.q.conjugate() * omega));
+  arcs_.startFlight(b, time_.now(), X_WC.p, v, X_WC.q,
+                    X_WC.q * b.inertia.cwiseProduct(X_WC.q.conjugate() * omega));
   // One that is in trouble again at once is told of, too.
   if (b.mode == BodyMode::Quarantined) active_.add(b);
-  wakeOnto({true, b.id}, time_.now());
+  waking_.wakeOnto({true, b.id}, time_.now());
   return true;
 }
 
@@ -264,17 +265,17 @@ bool World::push(BodyId id, const Vec3& impulse, const Vec3& at) {
   if (!b || !impulse.allFinite() || !at.allFinite() || !b->movable()) return false;
   Mobile m = mobileOf(*b, core_->time_.now());
   m.apply(impulse, at);
-  core_->afterImpulse(*b, m, core_->time_.now(), false);
+  core_->impacts_.afterImpulse(*b, m, core_->time_.now(), false);
   return true;
 }
 
 bool World::holdBody(BodyId id) {
   RigidBody* b = core_->objects_.body(id);
   if (!b || b->mode == BodyMode::Quarantined) return false;
-  core_->freeze(*b, core_->time_.now());
+  core_->arcs_.freeze(*b, core_->time_.now());
   b->support.on = {};
   b->touching.clear(), b->waysOut.clear();
-  core_->wakeOnto({true, id}, core_->time_.now());
+  core_->waking_.wakeOnto({true, id}, core_->time_.now());
   core_->held_.add(*b);
   return true;
 }
@@ -298,11 +299,11 @@ bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
   if (teleport) {
     b->put = b->traced || b->awaited;
     b->pose = unit(end);
-    core_->forgetSlack({true, id});
+    core_->releases_.forgetSlack({true, id});
     b->held.set(b->pose, b->pose, core_->time_.now(), 0);
     b->freePlace = b->pose * b->bound.centre;
     b->fresh = true;
-    core_->wakeOnto({true, id}, core_->time_.now());
+    core_->waking_.wakeOnto({true, id}, core_->time_.now());
   }
   b->held.start = b->pose;
   b->held.end = unit(end);
@@ -434,15 +435,7 @@ std::uint64_t World::pairsDigest() const {
 }
 
 std::uint64_t World::waysDigest() const {
-  StateHash h;
-  for (const RigidBody* b : core_->held_.list())
-    if (b->mode == BodyMode::Held) h.add(std::uint64_t{b->id}), h.add(b->freePlace);
-  for (const BodyId id : core_->comingOut) {
-    const RigidBody* b = core_->objects_.body(id);
-    for (const WayOut& w : b ? b->waysOut : std::vector<WayOut>{})
-      h.add(std::uint64_t{id}), h.add(std::uint64_t{w.of}), h.add(w.normal), h.add(w.side);
-  }
-  return h.value();
+  return core_->waysOut_.digest();
 }
 
 double World::separation(Party a, Party b) const {
@@ -452,7 +445,7 @@ double World::separation(Party a, Party b) const {
 }
 
 const World::Counters& World::counters() const {
-  return core_->counters;
+  return core_->counters_;
 }
 
 }  // namespace stadion

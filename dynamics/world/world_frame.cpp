@@ -6,7 +6,6 @@
 namespace stadion {
 namespace {
 
-constexpr double kTouchesAtLoad = 1e-5;  ///< nearer than this when they appear, a pair is in contact [m]
 constexpr std::uint64_t kMostEvents =
     3000;  ///< in one frame for each body: a last resort against endless chatter
 
@@ -37,12 +36,12 @@ void World::Core::forgetBody(RigidBody& b) {
 }
 
 void World::Core::restartStirred(double tau) {
-  commands_.restartStirred([&](RigidBody& b) { restart(b, tau); });
+  commands_.restartStirred([&](RigidBody& b) { waking_.restart(b, tau); });
 }
 
 void World::Core::newFrame() {
   time_.nextFrame();
-  counters = {};
+  counters_ = {};
   memory_.beginFrame();
   changed_.clear();
 }
@@ -63,13 +62,13 @@ void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
   time_.beginPart(from, to);
   if (!continues) {
     newFrame();
-    if (jerking) turnByFrame();
+    if (turnsByFrame_) turnByFrame();
   }
   traces_.begin(continues);
   beginFrame();
   while (time_.t1() - time_.origin() >= time_.window()) {
     runEvents(time_.windowEnd());
-    for (RigidBody* b : active_) catchUp(*b, time_.windowEnd());
+    for (RigidBody* b : active_) foresight_.catchUp(*b, time_.windowEnd());
     const bool idle = active_.empty() && commands_.empty() && changes_.colliders().empty();
     openWindow(idle ? time_.t1() / WorldTime::kWindow * WorldTime::kWindow : time_.origin() + time_.window());
   }
@@ -104,119 +103,17 @@ void World::Core::beginFrame() {
   commands_.followFields();
   restartStirred(time_.from());
   boxes_.sweep(changes_);  // boxes before predictions, so that these see everybody
-  const std::vector<Party> arrived = arrivals();
-  settleFresh(arrived);
-  if (active_.size() < objects_.bodies().size())  // somebody sleeps
-    for (const Party p : arrived) wakeWithin(p);
+  arrivals_.settle();
   for (const RigidBody* b : held_.list())
-    if (b->held.moving) wakeOnto({true, b->id}, time_.from());
+    if (b->held.moving) waking_.wakeOnto({true, b->id}, time_.from());
   for (const ColliderId id : changes_.colliders())
     if (Collider* c = objects_.collider(id); c && c->enabled && (c->motion.moving || c->disturbed)) {
-      wakeOnto({false, id}, time_.from());
+      waking_.wakeOnto({false, id}, time_.from());
       c->disturbed = false;
     }
   boxes_.sweep(changes_);
   changes_.setImmediate(true);
-  foreseeMarked(time_.from());
-}
-
-/// Who has appeared or jumped since the last frame: colliders, then bodies.
-std::vector<Party> World::Core::arrivals() const {
-  std::vector<Party> arrived;
-  for (const ColliderId id : changes_.colliders())
-    if (const Collider* c = objects_.collider(id); c && c->enabled && (c->fresh || c->disturbed))
-      arrived.push_back({false, id});
-  for (const RigidBody* b : changes_.bodies())
-    if (b->enabled && b->fresh) arrived.push_back({true, b->id});
-  return arrived;
-}
-
-/// Sleepers that something has been put into wake.
-void World::Core::wakeWithin(Party arrived) {
-  const Side self = *objects_.side(arrived);
-  std::vector<RigidBody*> woken;
-  boxes_.eachBody(self.body ? self.body->swept : self.collider->swept, [&](RigidBody& o) {
-    if (o.mode != BodyMode::Rest || !o.enabled || &o == self.body || !objects_.mayTouch(Side::of(o), self))
-      return;
-    if (gapBetween(Side::of(o), self, time_.from(), {0.01}).distance < -kTouchesAtLoad) woken.push_back(&o);
-  });
-  for (RigidBody* o : woken) {
-    enterContact(*o, time_.from());
-    wakeOnto({true, o->id}, time_.from());
-  }
-}
-
-/// Pairs that touch when one of them appears are in contact and fire nothing.
-void World::Core::settleFresh(const std::vector<Party>& arrived) {
-  struct Settler {
-    RigidBody* body;
-    std::vector<std::pair<Side, Gap>> touching;
-  };
-  std::vector<Settler> settlers;
-  const auto look = [&](const Side& self, const Side& other, std::vector<std::pair<Side, Gap>>* touching) {
-    if (!objects_.mayTouch(self, other)) return;
-    const Gap g = gapBetween(self, other, time_.from(), {0.01});
-    if (!(g.distance < kTouchesAtLoad)) return;
-    memory_.setTouching(ContactMemory::keyOf(self.party, other.party), true);
-    if (touching) touching->emplace_back(other, g);
-  };
-  for (const Party p : arrived) {
-    if (Collider* c = p.isBody ? nullptr : objects_.collider(p.id)) {
-      if (c->fresh)
-        boxes_.eachBody(c->swept, [&](RigidBody& o) {
-          if (!o.fresh) look(Side::of(o), Side::of(*c), nullptr);
-        });
-      c->fresh = false;
-      continue;
-    }
-    RigidBody& b = *objects_.body(p.id);
-    settlers.push_back({&b, {}});
-    auto& touching = settlers.back().touching;
-    boxes_.eachCollider(b.swept, [&](Collider& c) { look(Side::of(b), Side::of(c), &touching); });
-    boxes_.eachBody(b.swept, [&](RigidBody& o) {
-      if (&o != &b) look(Side::of(b), Side::of(o), &touching);
-    });
-  }
-  for (const Settler& s : settlers) s.body->fresh = false;
-  for (const Settler& s : settlers) {
-    findWaysOut(*s.body);
-    for (const WayOut& w : s.body->waysOut)
-      memory_.setTouching(ContactMemory::keyOf({false, w.of}, {true, s.body->id}), true);
-    if (!s.body->waysOut.empty())
-      enterContact(*s.body, time_.from());
-    else if (!s.touching.empty())
-      settle(*s.body, s.touching);
-  }
-}
-
-/// A body that appeared touching these: what it does next.
-void World::Core::settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& touching) {
-  if (b.mode != BodyMode::Flight) return;
-  const double tau = time_.from();
-  const Kinematics k = b.at(tau);
-  const auto& [other, gap] = touching.front();
-  const double away = k.v.dot(gap.normal);
-  const bool pressed = fields_.accelerationAt(b, k.p, k.v, tau).dot(gap.normal) < 0;
-  Support face;
-  if (touching.size() == 1 && other.collider && gap.distance > -1e-4 &&
-      supportFor(b, *other.collider, gap, face)) {
-    if (away > 1e-9) memory_.setTouching(ContactMemory::keyOf(other.party, {true, b.id}), false);
-    if (away > 1e-9 || !pressed) return;  // it leaves by itself
-    b.support = face;
-    startOnFace(b, tau, {k.p, k.v - gap.normal * away, k.omega, b.orientation(tau)}, false, false);
-    return;
-  }
-  bool lasting = false;
-  for (const auto& [o, g] : touching) {
-    const Vec3 u = k.velocityAt(g.point) - o.at(tau).velocityAt(g.point);
-    const bool carried = o.collider || o.body->mode != BodyMode::Flight;
-    if (u.dot(g.normal) < 1e-3 &&
-        (carried || g.distance < -1e-4 || fields_.accelerationAt(b, k.p, k.v, tau).dot(g.normal) < 0))
-      lasting = true;
-    else if (u.dot(g.normal) > kImpactSpeed)  // they part, and will meet as if they had never touched
-      memory_.setTouching(ContactMemory::keyOf(o.party, {true, b.id}), false);
-  }
-  if (lasting && fields_.accelerationAt(b, k.p, k.v, tau).squaredNorm() > 0) enterContact(b, tau);
+  foresight_.predictChanged(time_.from());
 }
 
 void World::Core::runEvents(double until) {
@@ -228,24 +125,24 @@ void World::Core::runEvents(double until) {
     queue_.pop();
     fetchNext();
     if (++done > kMostEvents * (active_.size() + 1)) {
-      ++counters.limited;
+      ++counters_.limited;
       break;
     }
     boxes_.sortBodiesIfCrowded();
     switch (e.kind) {
     case EventQueue::Event::Kind::Command: commands_.obey(e.tau), restartStirred(e.tau); break;
     case EventQueue::Event::Kind::Tick:
-      if (queue_.isScheduled(e)) tick(e.tau);
+      if (queue_.isScheduled(e)) islands_.tick(e.tau);
       break;
     case EventQueue::Event::Kind::Horizon:
       if (objects_.versionOf(e.a) != e.versionA) break;
-      if (Collider* c = e.a.isBody ? nullptr : objects_.collider(e.a.id)) turn(*c, e.tau);
-      if (RigidBody* b = e.a.isBody ? objects_.body(e.a.id) : nullptr) reachHorizon(*b, e.tau);
+      if (Collider* c = e.a.isBody ? nullptr : objects_.collider(e.a.id)) ends_.reachHorizon(*c, e.tau);
+      if (RigidBody* b = e.a.isBody ? objects_.body(e.a.id) : nullptr) ends_.reachHorizon(*b, e.tau);
       break;
     case EventQueue::Event::Kind::Touch:
       if (objects_.versionOf(e.a) == e.versionA && objects_.versionOf(e.b) == e.versionB) {
         const Touch t = queue_.touchOf(e);
-        onTouch(t, e.a, e.b, e.tau);
+        impacts_.onTouch(t, e.a, e.b, e.tau);
       }
       break;
     }
@@ -268,14 +165,14 @@ void World::Core::expel(RigidBody& b) {
     if (!(in < middle && middle < out)) break;
     (inBounds(b.poseAt(middle)) ? in : out) = middle;
   }
-  quarantine(b, left ? in : time_.now(),
-             left ? "it went beyond all bounds (10^12 m)" : "its pose became undefined");
+  arcs_.quarantine(b, left ? in : time_.now(),
+                   left ? "it went beyond all bounds (10^12 m)" : "its pose became undefined");
   if (left) b.pose = b.poseAt(in);
 }
 
 /// Where it is at the end of the frame.
 void World::Core::sample(RigidBody& b) {
-  catchUp(b, time_.now());
+  foresight_.catchUp(b, time_.now());
   const Pose X = b.poseAt(time_.now());
   if (inBounds(X))
     b.pose = X;
@@ -287,11 +184,11 @@ void World::Core::sample(RigidBody& b) {
 }
 
 void World::Core::endFrame() {
-  if (!held_.list().empty()) held_.windUp(time_.now()), noteFreePlaces();
+  if (!held_.list().empty()) held_.windUp(time_.now()), waysOut_.noteFreePlaces();
   if (!memory_.waiting().empty())
-    for (RigidBody* b : active_) catchUp(*b, time_.now());
+    for (RigidBody* b : active_) foresight_.catchUp(*b, time_.now());
   held_.endTouches();
-  reportReleases();
+  releases_.reportReleases();
   if (!std::ranges::is_sorted(memory_.events(), {}, &ContactEvent::time))
     std::ranges::stable_sort(memory_.events(), {}, &ContactEvent::time);
   active_.update([&](RigidBody& b) { sample(b); });
@@ -304,6 +201,37 @@ void World::Core::endFrame() {
     if (c) c->now = c->motion.end, c->motion.way.clear();
     return !c || !c->motion.moving;
   });
+}
+
+/// All clocks go by a new window.
+void World::Core::beginWindow(Nanoseconds at) {
+  time_.openWindow(at, foresight_.nextWindow());
+  foresight_.beginWindow();
+  const Instant start{time_.origin(), 0};
+  const double from = std::max(0.0, time_.from());
+  for (RigidBody& b : objects_.bodies()) {
+    b.age0 = start.since(b.since);
+    b.until = b.validAge - b.age0;
+    b.held.begin = time_.from(), b.held.rebase(start);
+  }
+  for (Collider& c : objects_.colliders()) c.motion.begin = time_.from(), c.motion.rebase(start);
+  waking_.scheduleDue(from);
+  commands_.postAll();
+}
+
+/// A window begins: the world looks ahead for all active bodies.
+void World::Core::openWindow(Nanoseconds at) {
+  beginWindow(at);
+  foresight_.fillWindow(time_, std::max(0.0, time_.from()));
+}
+
+void World::Core::turnByFrame() {
+  for (RigidBody* b : active_) {
+    if (!b->flight || !b->flight->jerks() || b->mode != BodyMode::Flight || !b->enabled) continue;
+    foresight_.catchUp(*b, time_.from());
+    arcs_.turnByBias(*b, time_.from());
+    changes_.mark(*b);
+  }
 }
 
 }  // namespace stadion

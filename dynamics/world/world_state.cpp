@@ -153,10 +153,10 @@ static void fieldsOf(Collider& c, StateFields& f) {
 void World::Core::visit(StateFields& f) {
   time_.state(f);
   objects_.state(f), fields_.state(f);
-  objects_.stateOfPairs(f), f("coming out", comingOut);
-  f("jerking", jerking), changes_.stateOfMode(f);
+  objects_.stateOfPairs(f), waysOut_.state(f);
+  f("jerking", turnsByFrame_), changes_.stateOfMode(f);
   queue_.stateOfOrder(f), objects_.stateOfIds(f), fields_.stateOfIds(f);
-  f("looks", looks.looks), f("collider looks", looks.colliders), f("body looks", looks.bodies);
+  foresight_.state(f);
   queue_.stateOfTick(f);
   if (f.failed()) return;
   supports_.state(f), f("changed", changed_), changes_.stateOfColliders(f);

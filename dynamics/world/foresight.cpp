@@ -1,4 +1,7 @@
-#include "dynamics/world/world_core.h"
+#include "dynamics/world/foresight.h"
+
+#include "dynamics/state/held_bodies.h"
+#include "dynamics/world/release_watch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +16,7 @@ bool isHeld(const Side& s) {
 }  // namespace
 
 /// The last tau at which it is known where a side is.
-double World::Core::knownUntil(const Side& s) const {
+double Foresight::knownUntil(const Side& s) const {
   const GuidedMotion* motion = s.motion();
   if (!motion) return s.body->until;
   if (s.collider && !motion->moving) return time_.windowEnd();
@@ -21,35 +24,19 @@ double World::Core::knownUntil(const Side& s) const {
 }
 
 /// Its way goes on otherwise before the frame is over: what it meets then must be looked at again.
-void World::Core::pushTurn(Party p, const GuidedMotion& motion, double tau) {
+void Foresight::pushTurn(Party p, const GuidedMotion& motion, double tau) {
   const double turns = std::max(tau, motion.nextTurn() + kTurnsLate);
   if (!motion.guided() || !(turns <= std::min(time_.now(), time_.windowEnd()))) return;
   queue_.postHorizon(turns, p, objects_.versionOf(p));
 }
 
-void World::Core::turn(RigidBody& b, double tau) {
-  ++b.held.part, ++b.version;
-  wakeOnto({true, b.id}, tau);
-  predict(b, tau);
-}
-
-void World::Core::turn(Collider& c, double tau) {
-  ++c.motion.part, ++c.version;
-  wakeOnto({false, c.id}, tau);
-  boxes_.eachBody(c.swept, [&](RigidBody& o) {
-    comeNear(o, tau);
-    predictPair(Side::of(o), Side::of(c), tau);
-  });
-  pushTurn({false, c.id}, c.motion, tau);
-}
-
-void World::Core::pushHorizon(const RigidBody& b) {
+void Foresight::pushHorizon(const RigidBody& b) {
   if (b.mode == BodyMode::Held) return pushTurn({true, b.id}, b.held, time_.from());
   if (!(b.until <= time_.windowEnd()) || b.mode == BodyMode::Contact) return;
   queue_.postHorizon(std::max(b.until, time_.from()), {true, b.id}, b.version);
 }
 
-void World::Core::predictPair(const Side& a, const Side& b, double tau) {
+void Foresight::predictPair(const Side& a, const Side& b, double tau) {
   if (a.still() && b.still()) return;
   if (!objects_.mayTouch(a, b)) return;
   for (const auto& [s, o] : {std::pair(&a, &b), std::pair(&b, &a)}) {
@@ -75,19 +62,19 @@ void World::Core::predictPair(const Side& a, const Side& b, double tau) {
       tau = *parted;
     }
   }
-  ++counters.pairTests;
-  if (a.body && b.body) ++looks.bodies;
+  ++counters_.pairTests;
+  if (a.body && b.body) ++looks_.bodies;
   // An arc that ends before the window is only asked up to its end.
   const double to = std::min({time_.windowEnd(), knownUntil(a), knownUntil(b)});
   if (!(tau <= to)) return;
   const double beyond = a.guided() || b.guided() ? to + kTurnsLate : to;
-  const auto touch = firstRealTouch(a, b, tau, beyond);
+  const auto touch = surfaces_.firstRealTouch(a, b, tau, beyond);
   if (!touch) return;
   queue_.postTouch(std::min(touch->tau, to), a, b, *touch);
 }
 
 /// What the body's new arc meets from tau to the end of the window.
-void World::Core::predict(RigidBody& b, double tau, bool onlyGreater) {
+void Foresight::predict(RigidBody& b, double tau) {
   if (!changes_.immediate()) return changes_.mark(b);
   const Aabb before = b.swept;
   boxes_.sweep(b, tau);
@@ -96,19 +83,19 @@ void World::Core::predict(RigidBody& b, double tau, bool onlyGreater) {
     b.swept = before;
     lookAtOnly(b, tau);
   } else {
-    lookAhead(b, tau, onlyGreater);
+    lookAhead(b, tau, false);
   }
 }
 
-void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
+void Foresight::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
   if (b.crowd) return;  // whoever could touch it within its step has been taken into the step
   const Side self = Side::of(b);
   b.alone = true, b.only = 0;
-  ++looks.looks;
+  ++looks_.looks;
   boxes_.eachCollider(b.swept, [&](Collider& c) {
     b.alone = b.alone && b.only == 0;
     b.only = c.id;
-    ++looks.colliders;
+    ++looks_.colliders;
     predictPair(self, Side::of(c), tau);
   });
   boxes_.eachBody(b.swept, [&](RigidBody& o) {
@@ -122,7 +109,7 @@ void World::Core::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
 }
 
 /// The body has been looked at: its next arc begins in time, or when somebody asks for it.
-void World::Core::awaitHorizon(RigidBody& b) {
+void Foresight::awaitHorizon(RigidBody& b) {
   // What its next arcs sweep is known if they go through the same medium.
   b.lazy = b.alone && b.only == 0 && b.mode == BodyMode::Flight &&
            (b.path.isSeries() || b.pathAge - b.age0 > time_.windowEnd());
@@ -130,13 +117,13 @@ void World::Core::awaitHorizon(RigidBody& b) {
 }
 
 /// The next arc of a lazy body, which nobody has asked for yet.
-void World::Core::flyOnLazily(RigidBody& b) {
-  flyOn(b, b.until);
+void Foresight::flyOnLazily(RigidBody& b) {
+  arcs_.flyOn(b, b.until);
   b.lazy = b.mode == BodyMode::Flight;
 }
 
 /// Something has come near what the body sweeps: it is one who must be watched.
-void World::Core::comeNear(RigidBody& b, double tau) {
+void Foresight::comeNear(RigidBody& b, double tau) {
   b.alone = false;
   if (!b.lazy) return;
   catchUp(b, tau);
@@ -145,17 +132,17 @@ void World::Core::comeNear(RigidBody& b, double tau) {
 }
 
 /// The same for one who is alone and goes nowhere else than it was seen to go.
-void World::Core::lookAtOnly(RigidBody& b, double tau) {
+void Foresight::lookAtOnly(RigidBody& b, double tau) {
   pushHorizon(b);
-  ++looks.looks;
+  ++looks_.looks;
   const Collider* c = b.only ? objects_.collider(b.only) : nullptr;
   if (!c || !c->enabled) return;
-  ++looks.colliders;
+  ++looks_.colliders;
   predictPair(Side::of(b), Side::of(*c), tau);
 }
 
 /// Looks ahead from tau for everybody who is marked and for colliders that were told something.
-void World::Core::foreseeMarked(double tau) {
+void Foresight::predictChanged(double tau) {
   for (RigidBody* b : changes_.bodies())
     if (b->enabled) lookAhead(*b, tau, true);
   for (const ColliderId id : changes_.colliders()) {
@@ -172,7 +159,7 @@ void World::Core::foreseeMarked(double tau) {
 }
 
 /// Whether far looks could be dear: solids that could meet something take small steps.
-bool World::Core::solidsMayMeet() const {
+bool Foresight::solidsMayMeet() const {
   constexpr std::size_t kFew = 64;
   std::size_t solids = 0;
   for (const RigidBody* b : active_)
@@ -182,51 +169,64 @@ bool World::Core::solidsMayMeet() const {
 
 /// How long the next window is to be: while nobody comes near anybody else and little else is near, far looks
 /// cost less than many. What it depends on does not depend on frames.
-Nanoseconds World::Core::nextWindow() const {
+Nanoseconds Foresight::nextWindow() const {
   bool moves = false, lazy = true;
   for (const RigidBody* b : active_) {
     if (standsStill(b->mode)) continue;
     moves = true, lazy = lazy && b->lazy;
   }
-  if (!moves || looks.bodies > 0 || (!lazy && solidsMayMeet())) return WorldTime::kWindow;
-  if (looks.colliders > 2 * looks.looks) return std::max(time_.window() / 2, WorldTime::kWindow);
+  if (!moves || looks_.bodies > 0 || (!lazy && solidsMayMeet())) return WorldTime::kWindow;
+  if (looks_.colliders > 2 * looks_.looks) return std::max(time_.window() / 2, WorldTime::kWindow);
   return std::min(2 * time_.window(), WorldTime::kLongestWindow);
 }
 
-/// All clocks go by a new window.
-void World::Core::beginWindow(Nanoseconds at) {
-  time_.openWindow(at, nextWindow());
-  looks = {};
-  queue_.clear();
-  const Instant start{time_.origin(), 0};
-  const double from = std::max(0.0, time_.from());
-  for (RigidBody& b : objects_.bodies()) {
-    b.age0 = start.since(b.since);
-    b.until = b.validAge - b.age0;
-    b.held.begin = time_.from(), b.held.rebase(start);
-  }
-  for (Collider& c : objects_.colliders()) c.motion.begin = time_.from(), c.motion.rebase(start);
-  scheduleDue(from);
-  commands_.postAll();
+/// How many balls move around this one within its own size: they will lean on each other before long.
+std::size_t Foresight::ballsAround(const RigidBody& b, double tau) {
+  if (!b.isBall()) return 0;
+  std::size_t many = 0;
+  const Vec3 middle = b.position(tau);
+  const double reach = 2 * b.bound.radius;
+  Aabb box;
+  box.include(middle);
+  box.lo.array() -= reach, box.hi.array() += reach;
+  eachBodyNear(box, tau, [&](const RigidBody& o) {
+    if (&o == &b || !o.enabled || !o.isBall()) return;
+    if (o.mode != BodyMode::Flight && o.mode != BodyMode::Contact) return;
+    const double far = reach + o.bound.radius;
+    if ((o.position(tau) - middle).squaredNorm() < far * far) ++many;
+  });
+  return many;
 }
 
-/// A window begins: everybody is looked at anew.
-void World::Core::openWindow(Nanoseconds at) {
-  beginWindow(at);
-  const double from = std::max(0.0, time_.from());
+void Foresight::predictSpin(RigidBody& b, double tau) {
+  if (b.alone)
+    lookAtOnly(b, tau);
+  else
+    predict(b, tau);
+}
+
+void Foresight::predict(Collider& c, double tau) {
+  boxes_.eachBody(c.swept, [&](RigidBody& o) {
+    comeNear(o, tau);
+    predictPair(Side::of(o), Side::of(c), tau);
+  });
+  pushTurn({false, c.id}, c.motion, tau);
+}
+
+void Foresight::fillWindow(WorldTime& time, double tau) {
   boxes_.sortCollidersIfCrowded();
-  boxes_.sweep(active_, from);
-  if (time_.window() > WorldTime::kWindow && solidsMayMeet()) {
+  boxes_.sweep(active_, tau);
+  if (time.window() > WorldTime::kWindow && solidsMayMeet()) {
     if (!boxes_.anyNear(active_)) {
       for (RigidBody* b : active_) b->alone = true, b->only = 0, awaitHorizon(*b);
       return;
     }
-    time_.shortenWindow();
-    boxes_.sweep(active_, from);
+    time.shortenWindow();
+    boxes_.sweep(active_, tau);
   }
   for (RigidBody* b : active_) changes_.mark(*b);
   changes_.sortBodies();
-  foreseeMarked(from);
+  predictChanged(tau);
 }
 
 }  // namespace stadion

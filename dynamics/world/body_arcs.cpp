@@ -1,5 +1,7 @@
+#include "dynamics/world/body_arcs.h"
+
+#include "dynamics/motion/dormand_prince.h"
 #include "dynamics/motion/drag_flight.h"
-#include "dynamics/world/world_core.h"
 
 #include <cmath>
 
@@ -15,34 +17,25 @@ struct State {
 /// One step of Dormand and Prince's pair of orders 5 and 4 for p'' = f(tau, p, v).
 template <class F>
 State dormandPrince(F f, double tau, const State& s, double h, double& error) {
-  static constexpr double c[7] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
-  static constexpr double a[7][6] = {
-      {},
-      {1.0 / 5},
-      {3.0 / 40, 9.0 / 40},
-      {44.0 / 45, -56.0 / 15, 32.0 / 9},
-      {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-      {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-      {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
-  static constexpr double d[7] = {71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
-                                  -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+  namespace pair = dormand_prince;
   Vec3 kp[7], kv[7];
   State y = s;
   for (int i = 0; i < 7; ++i) {
     y = s;
-    for (int j = 0; j < i; ++j) y.p += h * a[i][j] * kp[j], y.v += h * a[i][j] * kv[j];
-    kp[i] = y.v, kv[i] = f(tau + c[i] * h, y.p, y.v);
+    for (int j = 0; j < i; ++j)
+      y.p += h * pair::kWeights[i][j] * kp[j], y.v += h * pair::kWeights[i][j] * kv[j];
+    kp[i] = y.v, kv[i] = f(tau + pair::kTimes[i] * h, y.p, y.v);
   }
   Vec3 ep = Vec3::Zero(), ev = Vec3::Zero();
-  for (int i = 0; i < 7; ++i) ep += h * d[i] * kp[i], ev += h * d[i] * kv[i];
+  for (int i = 0; i < 7; ++i) ep += h * pair::kError[i] * kp[i], ev += h * pair::kError[i] * kv[i];
   error = std::max(ep.norm(), ev.norm());
   return y;
 }
 
 }  // namespace
 
-void World::Core::setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon,
-                         BodyMode mode) {
+void BodyArcs::setArc(RigidBody& b, double tau, const Path& path, const Spin& spin, double horizon,
+                      BodyMode mode) {
   const auto sane = [](const Vec3& x, double most) {
     return x.cwiseAbs().maxCoeff() <= most;
   };  // false of NaN
@@ -56,8 +49,8 @@ void World::Core::setArc(RigidBody& b, double tau, const Path& path, const Spin&
 }
 
 /// A new path from tau on; the spin has its own beginning.
-void World::Core::setPath(RigidBody& b, double tau, const Path& path, double horizon, BodyMode mode) {
-  ++counters.arcs;
+void BodyArcs::setPath(RigidBody& b, double tau, const Path& path, double horizon, BodyMode mode) {
+  ++counters_.arcs;
   const auto sane = [](const Vec3& x) { return x.allFinite() && x.cwiseAbs().maxCoeff() <= 1e12; };
   if (!sane(path.c[0]) || !sane(path.c[1]) || !sane(path.c[2])) {
     quarantine(b, tau, "its state would become infinite or undefined");
@@ -82,7 +75,7 @@ void World::Core::setPath(RigidBody& b, double tau, const Path& path, double hor
     changes_.mark(b);  // a change between frames is looked at when the next one begins
 }
 
-void World::Core::quarantine(RigidBody& b, double tau, std::string why) {
+void BodyArcs::quarantine(RigidBody& b, double tau, std::string why) {
   b.trouble = std::move(why);
   const Pose X_WC = b.pose * b.X_NC;
   const bool usable = b.path.c[0].allFinite() && b.spin.q0.coeffs().allFinite();
@@ -100,8 +93,8 @@ void World::Core::quarantine(RigidBody& b, double tau, std::string why) {
   traces_.note(b, tau);
 }
 
-void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, const Quat& q,
-                              const Vec3& L) {
+void BodyArcs::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, const Quat& q,
+                           const Vec3& L) {
   if (b.support.on.id) memory_.setTouching(ContactMemory::keyOf(b.support.on, {true, b.id}), false);
   b.support.on = {};
   b.spin = b.flight ? spinFrom(b, tau, {p, v, q, L}) : Spin::free(q, L, b.inertia), b.spinStart = 0;
@@ -116,14 +109,14 @@ void World::Core::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec
 
 /// Flight under the even pull that the body knows; false if it is too near to standing in the air for a
 /// series.
-bool World::Core::resist(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
+bool BodyArcs::resist(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   const double horizon = dragFlight(p, v, b.even.pull, b.even.drag, 1.0, 5e-10, b.path);
   if (horizon > 1e-4) setPath(b, tau, b.path, horizon, BodyMode::Flight);
   return horizon > 1e-4;
 }
 
 /// Flight from here; the spin goes on as it is.
-void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
+void BodyArcs::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   const auto even = fields_.evenPullOn(b);
   if (even && !even->drag.resists()) {
     setPath(b, tau, Path::parabola(p, v, even->pull, b.damping), kUnlimited, BodyMode::Flight);
@@ -153,7 +146,7 @@ void World::Core::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
 
 /// The same where the spin began earlier, unless it ends here as well. `pullsAsBefore`: what acts on the body
 /// is what did so in the last arc.
-void World::Core::continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, bool pullsAsBefore) {
+void BodyArcs::continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, bool pullsAsBefore) {
   const double spinAge = b.spinAge(tau);
   if (b.flight) return startFlight(b, tau, p, v, b.orientation(tau), b.spin.angularMomentum(spinAge));
   if (spinAge > b.spin.horizon - 1e-9) return startFlight(b, tau, p, v, b.orientation(tau), b.spin.L);
@@ -164,7 +157,7 @@ void World::Core::continueFlight(RigidBody& b, double tau, const Vec3& p, const 
 
 /// An arc of flight has ended, the motion goes on as it was. False if only the expansion of the spin has worn
 /// out.
-bool World::Core::flyOn(RigidBody& b, double tau) {
+bool BodyArcs::flyOn(RigidBody& b, double tau) {
   const double age = b.age(tau);
   if (age < b.pathAge - 1e-9) {
     const Quat q = b.orientation(tau);
@@ -179,7 +172,7 @@ bool World::Core::flyOn(RigidBody& b, double tau) {
 
 /// How long a ball stays at rest on its face: until what pulls at it, as far as that is known, becomes too
 /// much for friction [s].
-double World::Core::restLasts(const RigidBody& b, const BallStart& s, double tau) const {
+double BodyArcs::restLasts(const RigidBody& b, const BallStart& s, double tau) const {
   const double known = fields_.knownFor(b, tau);
   const auto rests = [&](double after) {
     const Vec3 a = fields_.accelerationAt(b, s.p, s.v, tau + after);
@@ -198,8 +191,8 @@ double World::Core::restLasts(const RigidBody& b, const BallStart& s, double tau
 
 /// The next arc of a ball that touches its face. Pulls that are not the same everywhere and always are taken
 /// from the middle of a short step.
-BallArc World::Core::arcOnFace(const RigidBody& b, double tau, const BallStart& s, bool gripped,
-                               bool stopped) const {
+BallArc BodyArcs::arcOnFace(const RigidBody& b, double tau, const BallStart& s, bool gripped,
+                            bool stopped) const {
   const auto arcUnder = [&](const Vec3& a) {
     return ballOnFace(s, b.support, a, b.radius(), b.mass, b.inertia.x(), gripped, stopped);
   };
@@ -228,7 +221,7 @@ BallArc World::Core::arcOnFace(const RigidBody& b, double tau, const BallStart& 
   return arc;
 }
 
-void World::Core::startOnFace(RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped) {
+void BodyArcs::startOnFace(RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped) {
   const Party self{true, b.id};
   const BallArc arc = arcOnFace(b, tau, s, gripped, stopped);
   if (arc.leaves) {
@@ -248,104 +241,8 @@ void World::Core::startOnFace(RigidBody& b, double tau, const BallStart& s, bool
   setArc(b, tau, arc.path, arc.spin, arc.horizon, arc.mode);
 }
 
-/// A new arc from the present state, because what acts on the body has changed.
-void World::Core::restart(RigidBody& b, double tau) {
-  catchUp(b, tau);
-  switch (b.mode) {
-  case BodyMode::Flight: {
-    const Vec3 p = b.position(tau), v = b.velocity(tau);
-    continueFlight(b, tau, p, v, false);
-    break;
-  }
-  case BodyMode::Slide:
-  case BodyMode::Roll:
-  case BodyMode::Rest:
-    if (b.support.on.id) {
-      const bool rested = b.mode == BodyMode::Rest;
-      startOnFace(
-          b, tau,
-          {b.position(tau), b.velocity(tau), b.spin.angularVelocity(b.spinAge(tau)), b.orientation(tau)},
-          false, false);
-      if (rested && b.mode != BodyMode::Rest) wakeOnto({true, b.id}, tau);
-    } else {
-      wake(b, tau);
-    }
-    break;
-  case BodyMode::Contact: cutStep(b, tau); return;
-  default: return;
-  }
-  predict(b, tau);
-}
-
-void World::Core::freeze(RigidBody& b, double tau) {
+void BodyArcs::freeze(RigidBody& b, double tau) {
   setArc(b, tau, Path::still(b.position(tau)), Spin::still(b.orientation(tau)), kUnlimited, BodyMode::Rest);
-}
-
-/// Looks for the face beyond the edge that the ball has reached: true if it rolls on in the same plane, or in
-/// one that is `lift` higher.
-bool World::Core::crossEdge(RigidBody& b, double tau, double& lift) {
-  return crossFold(b, tau) || crossSeam(b, tau, lift);
-}
-
-/// The same within one mesh.
-bool World::Core::crossFold(RigidBody& b, double tau) const {
-  if (b.support.triangle < 0) return false;
-  const Collider* c = objects_.collider(b.support.on.id);
-  if (!c) return false;
-  const auto& tree = std::get<MeshShape>(*c->shape).tree;
-  const Vec3 n = b.support.normal, foot = b.position(tau) - b.radius() * n;
-  const Vec3 local = c->motion.end.inverse() * foot;
-  std::vector<std::uint32_t> near;
-  Aabb box;
-  box.include(local);
-  box.lo.array() -= 1e-5, box.hi.array() += 1e-5;
-  tree.overlapping(box, near);
-  for (const std::uint32_t i : near) {
-    if (static_cast<std::int32_t>(i) == b.support.triangle) continue;
-    const Triangle& t = tree.triangles()[i];
-    const Vec3 up = c->motion.end.q * t.normal;
-    if (up.dot(n) < 1 - 1e-7) continue;
-    const ClosestPoint q = closestPoint(t, local);
-    if ((q.point - local).norm() > 5e-7) continue;
-    Gap gap;
-    gap.triangle = static_cast<std::int32_t>(i), gap.face = true, gap.normal = up;
-    gap.point = c->motion.end * q.point;
-    Support next;
-    if (!supportFor(b, *c, gap, next)) continue;
-    next.point = b.support.point, next.normal = n;  // the same plane: no step of rounding from face to face
-    b.support = next;
-    return true;
-  }
-  return false;
-}
-
-void World::Core::reachHorizon(RigidBody& b, double tau) {
-  if (b.mode == BodyMode::Held) return turn(b, tau);
-  if (b.mode == BodyMode::Flight) {
-    // The motion is the same, but what was foreseen ended here.
-    if (!flyOn(b, tau) && b.alone)  // it goes where it was seen to go
-      lookAtOnly(b, tau);
-    else
-      predict(b, tau);
-    return;
-  }
-  const bool rested = b.mode == BodyMode::Rest;
-  const Vec3 p = b.position(tau), v = b.velocity(tau);
-  const Quat q = b.orientation(tau);
-  BallStart s{p, v, b.spin.angularVelocity(b.spinAge(tau)), q};
-  const Vec3 n = b.support.normal;
-  double lift = 0;
-  if (b.support.ends(p, v) && !crossEdge(b, tau, lift)) {
-    startFlight(b, tau, p, v, q, b.inertia.x() * s.omega);
-  } else {
-    s.p += lift * n;
-    Vec3 slip = v - b.radius() * s.omega.cross(n);
-    slip -= n * n.dot(slip);
-    const bool gripped = slip.norm() < 1e-7 * (1 + v.norm()), stopped = gripped && v.norm() < 1e-7;
-    startOnFace(b, tau, s, gripped, stopped);
-  }
-  if (rested && b.mode != BodyMode::Rest) wakeOnto({true, b.id}, tau);
-  predict(b, tau);
 }
 
 }  // namespace stadion

@@ -1,5 +1,7 @@
-#include "dynamics/collision/touch_seams.h"
-#include "dynamics/world/world_core.h"
+#include "dynamics/world/flush_surfaces.h"
+
+#include "dynamics/world/ball_support.h"
+#include "dynamics/world/ways_out.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,47 +64,6 @@ double timeTo(double d, double u, double a) {
   return q > 0 ? 2 * d / q : 1e300;
 }
 
-/// Which of these points in a plane are corners of their convex hull; of points at one place one.
-std::vector<char> hullCorners(const std::vector<Vec2>& p) {
-  constexpr double kOnLine = 1e-7;  // [m]
-  std::vector<std::size_t> order(p.size());
-  for (std::size_t i = 0; i < p.size(); ++i) order[i] = i;
-  std::ranges::sort(order, [&](std::size_t i, std::size_t k) {
-    return p[i].x() != p[k].x() ? p[i].x() < p[k].x() : p[i].y() != p[k].y() ? p[i].y() < p[k].y() : i < k;
-  });
-  const auto turns = [&](std::size_t a, std::size_t b,
-                         std::size_t c) {  // b is farther than rounding left of a to c
-    const Vec2 along = p[c] - p[a], to = p[b] - p[a];
-    const double cross = along.x() * to.y() - along.y() * to.x();
-    return -cross > kOnLine * along.norm();
-  };
-  std::vector<std::size_t> hull;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t begin = hull.size();
-    for (const std::size_t i : order) {
-      if (hull.size() > begin && (p[hull.back()] - p[i]).norm() < kOnLine) continue;
-      while (hull.size() > begin + 1 && !turns(hull[hull.size() - 2], hull.back(), i)) hull.pop_back();
-      hull.push_back(i);
-    }
-    if (hull.size() > begin + 1) hull.pop_back();
-    std::ranges::reverse(order);
-  }
-  std::vector<char> corner(p.size(), 0);
-  for (const std::size_t i : hull) corner[i] = 1;
-  return corner;
-}
-
-template <class T>
-void eraseMarked(std::vector<T>& list, std::size_t first, const std::vector<char>& marked) {
-  std::size_t kept = first;
-  for (std::size_t i = first; i < list.size(); ++i) {
-    if (marked[i]) continue;
-    if (kept != i) list[kept] = std::move(list[i]);
-    ++kept;
-  }
-  list.resize(kept);
-}
-
 /// Whatever the body touches at tau is in here, or nearer than kTouching.
 Aabb boxAround(const RigidBody& b, double tau) {
   const double reach = b.bound.radius + kTouching;
@@ -122,7 +83,7 @@ Gap fromBody(const Touch& touch, bool bodyFirst) {
 
 /// Calls f(collider) with those that the body may touch at tau.
 template <class F>
-void World::Core::eachColliderAt(const RigidBody& b, double tau, F f) const {
+void FlushSurfaces::eachColliderAt(const RigidBody& b, double tau, F f) const {
   const Side self = Side::of(b);
   const Aabb box = boxAround(b, tau);
   boxes_.eachCollider(box, [&](const Collider& c) {
@@ -134,7 +95,7 @@ void World::Core::eachColliderAt(const RigidBody& b, double tau, F f) const {
 }
 
 /// The surfaces of colliders that the body touches at tau, but for `but` unless that is a mesh.
-std::vector<Bearing> World::Core::bearingsOf(const RigidBody& b, double tau, const Collider& but) const {
+std::vector<Bearing> FlushSurfaces::bearingsOf(const RigidBody& b, double tau, const Collider& but) const {
   std::vector<Bearing> bearings;
   Party face;
   if (b.mode == BodyMode::Slide || b.mode == BodyMode::Roll) face = b.support.on;
@@ -159,13 +120,8 @@ std::vector<Bearing> World::Core::bearingsOf(const RigidBody& b, double tau, con
   return bearings;
 }
 
-std::span<const World::Core::Beside> World::Core::besideOf(BodyId id) const {
-  return {std::ranges::lower_bound(beside, id, {}, &Beside::body),
-          std::ranges::upper_bound(beside, id, {}, &Beside::body)};
-}
-
 /// Whether the body meets there only what a surface that it already touches hides.
-bool World::Core::isHiddenTouch(const Side& a, const Side& b, const Touch& touch) const {
+bool FlushSurfaces::isHiddenTouch(const Side& a, const Side& b, const Touch& touch) const {
   const Side &body = a.body ? a : b, &piece = a.body ? b : a;
   if (!body.body || !piece.collider || !body.body->movable()) return false;
   const Gap gap = fromBody(touch, a.body != nullptr);
@@ -175,8 +131,8 @@ bool World::Core::isHiddenTouch(const Side& a, const Side& b, const Touch& touch
 }
 
 /// The first touch in [from, to] that is more than a seam.
-std::optional<Touch> World::Core::firstRealTouch(const Side& a, const Side& b, double from, double to) {
-  std::optional<Touch> touch = firstTouch(a, b, from, to, counters.distances);
+std::optional<Touch> FlushSurfaces::firstRealTouch(const Side& a, const Side& b, double from, double to) {
+  std::optional<Touch> touch = firstTouch(a, b, from, to, counters_.distances);
   double skip = 0;
   while (touch && isHiddenTouch(a, b, *touch)) {
     const Kinematics ka = a.at(touch->tau), kb = b.at(touch->tau);
@@ -184,14 +140,14 @@ std::optional<Touch> World::Core::firstRealTouch(const Side& a, const Side& b, d
     skip = std::max(2 * skip, kSkip / std::max(speed, 1e-3));
     const double next = touch->tau + skip;
     if (!(next <= to)) return {};
-    touch = firstTouch(a, b, next, to, counters.distances);
+    touch = firstTouch(a, b, next, to, counters_.distances);
   }
   return touch;
 }
 
 /// Still colliders that the body may strike in the same moment as `but`.
-std::vector<PatchSide> World::Core::struckBeside(const RigidBody& b, const Collider& but, double tau,
-                                                 bool ends) const {
+std::vector<PatchSide> FlushSurfaces::struckBeside(const RigidBody& b, const Collider& but, double tau,
+                                                   bool ends) const {
   std::vector<PatchSide> struck;
   if (but.motion.moving) return struck;
   eachColliderAt(b, tau, [&](const Collider& c) {
@@ -205,7 +161,7 @@ std::vector<PatchSide> World::Core::struckBeside(const RigidBody& b, const Colli
 
 /// Looks for a face of another collider that goes on where the ball's face ends: true if it rolls on there,
 /// `lift` higher than before.
-bool World::Core::crossSeam(RigidBody& b, double tau, double& lift) {
+bool FlushSurfaces::crossSeam(RigidBody& b, double tau, double& lift) {
   const Vec3 n = b.support.normal, v = b.velocity(tau), p = b.position(tau);
   const double r = b.radius(), speed = v.norm();
   if (!(speed > 0)) return false;
@@ -233,105 +189,34 @@ bool World::Core::crossSeam(RigidBody& b, double tau, double& lift) {
   return false;
 }
 
-/// Takes what is hidden out of a body's contacts, which begin at `first`.
-void World::Core::dropHidden(const RigidBody& b, double tau, std::size_t first, std::vector<Found>& found) {
-  bool several = false;
-  for (std::size_t i = first; i < found.size() && !several; ++i)
-    several = found[i].b != found[first].b || found[i].gap.normal != found[first].gap.normal;
-  if (!several) return;
-  // In an order that does not depend on the broad phase's.
-  std::ranges::stable_sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), {}, &Found::b);
-  std::vector<Bearing> points;
-  std::vector<std::size_t> whose;
-  for (std::size_t i = first; i < found.size(); ++i) {
-    const Found& f = found[i];
-    if (f.b.isBody) continue;
-    const Collider& c = *objects_.collider(f.b.id);
-    points.push_back({f.b, c.shape, c.motion.at(tau).pose, f.gap}), whose.push_back(i);
-  }
-  const std::vector<char> hidden = hiddenAmong(points);
-  std::vector<char> gone(found.size(), 0);
-  for (std::size_t k = 0; k < hidden.size(); ++k)
-    if (hidden[k]) beside.push_back({b.id, found[whose[k]].b, false}), gone[whose[k]] = 1;
-  eraseMarked(found, first, gone);
-}
-
-/// Points on one plane of flush colliders that feel alike count as those of one of them, and what lies
-/// between others of them is left out: they carry the body as one face would.
-void World::Core::joinFlush(const RigidBody& b, std::size_t first, std::vector<Found>& found) {
-  const auto still = [&](const Found& f) { return !f.b.isBody && !objects_.collider(f.b.id)->motion.moving; };
-  const auto alike = [&](const Found& f, const Found& o) {
-    return f.gap.normal.dot(o.gap.normal) > kSquareOn &&
-           std::fabs(f.gap.normal.dot(f.gap.point - o.gap.point)) < kSamePlane &&
-           std::fabs(f.gap.distance - o.gap.distance) < kSamePlane &&
-           f.surface.friction == o.surface.friction && f.surface.restitution == o.surface.restitution &&
-           f.surface.rolling == o.surface.rolling && f.carrier == o.carrier &&
-           f.rounding.radius == o.rounding.radius;
-  };
-  std::vector<char> gone(found.size(), 0), seen(found.size(), 0);
-  std::vector<std::size_t> group;
-  std::vector<Vec2> places;
-  bool any = false;
-  for (std::size_t i = first; i < found.size(); ++i) {
-    if (seen[i] || !still(found[i])) continue;
-    group.assign(1, i);
-    bool several = false;
-    for (std::size_t k = i + 1; k < found.size(); ++k)
-      if (!seen[k] && still(found[k]) && alike(found[i], found[k])) {
-        group.push_back(k);
-        several = several || found[k].b != found[i].b;
-      }
-    if (!several) continue;
-    const Mat3 basis = basisAround(found[i].gap.normal);
-    places.clear();
-    for (const std::size_t k : group)
-      seen[k] = 1,
-      places.push_back((basis.transpose() * (found[k].gap.point - found[i].gap.point)).tail<2>());
-    const std::vector<char> corner = hullCorners(places);
-    Party name;
-    std::size_t kept = 0;
-    for (std::size_t g = 0; g < group.size(); ++g)
-      if (corner[g]) name = kept++ == 0 ? found[group[g]].b : std::min(name, found[group[g]].b);
-    for (std::size_t g = 0; g < group.size(); ++g) {
-      Found& f = found[group[g]];
-      if (f.b != name) beside.push_back({b.id, f.b, f.gap.distance < kTouching});
-      if (corner[g])
-        f.b = name;
-      else
-        gone[group[g]] = 1, any = true;
-    }
-  }
-  if (any) eraseMarked(found, first, gone);
-}
-
 /// How long flat faces of one plane and one friction carry a point that glides at u under a along them, at
 /// most about `most`; negative if nothing carries it now. `way` learns the colliders that it comes to.
-double World::Core::timeCarried(const RigidBody& b, const Found& f, const Vec3& u, const Vec3& a, double most,
-                                std::vector<Party>& way) const {
-  const Vec3& n = f.gap.normal;
+double FlushSurfaces::timeCarried(const RigidBody& b, ColliderId start, const Gap& gap, double friction,
+                                  const Vec3& u, const Vec3& a, double most, std::vector<Party>& way) const {
+  const Vec3& n = gap.normal;
   const double speed = u.norm(), gain = a.norm();
   const Vec3 e = speed > 0 && !(speed < 1e-9 && gain > 0) ? Vec3(u / speed) : Vec3(a / gain);
   const double u0 = e.dot(u), a0 = e.dot(a);
-  const Collider* on = objects_.collider(f.b.id);
+  const Collider* on = objects_.collider(start);
   std::optional<FlatFace> face = flatFace(*on, n);
   if (!face) return -1;
   const Side self = Side::of(b);
   double gone = 0;
   for (int i = 0; i < kMostPieces; ++i) {
     const double next = gone + 2 * kSkip;
-    if (!face->holds(f.gap.point + next * e)) {
+    if (!face->holds(gap.point + next * e)) {
       const Collider* beyond = nullptr;
       for (const double ahead : {2 * kSkip, kFlush}) {
-        const Vec3 x = f.gap.point + (gone + ahead) * e;
+        const Vec3 x = gap.point + (gone + ahead) * e;
         Aabb box;
         box.include(x);
         box.lo.array() -= kSkip, box.hi.array() += kSkip;
         boxes_.eachCollider(box, [&](const Collider& c) {
           if ((beyond && c.id > beyond->id) || !objects_.mayTouch(self, Side::of(c))) return;
           const auto other = flatFace(c, n);
-          if (!other || !other->holds(x) || std::fabs(n.dot(other->X.p - f.gap.point)) > kSamePlane ||
+          if (!other || !other->holds(x) || std::fabs(n.dot(other->X.p - gap.point)) > kSamePlane ||
               std::fabs(n.dot(other->X.q * Vec3::UnitZ())) < kSquareOn ||
-              combine(b.surface, c.surface).friction != f.contact.friction)
+              combine(b.surface, c.surface).friction != friction)
             return;
           beyond = &c, face = other;
         });
@@ -340,7 +225,7 @@ double World::Core::timeCarried(const RigidBody& b, const Found& f, const Vec3& 
       if (!beyond) return gone > 0 ? timeTo(gone, u0, a0) : -1;
       if (std::ranges::find(way, Party{false, beyond->id}) == way.end()) way.push_back({false, beyond->id});
     }
-    gone = std::max(next, face->room(f.gap.point, e));
+    gone = std::max(next, face->room(gap.point, e));
     if (!(timeTo(gone, u0, a0) < most)) return most;
   }
   return timeTo(gone, u0, a0);

@@ -1,3 +1,5 @@
+#include "dynamics/world/piles.h"
+
 #include "dynamics/world/crowd_step.h"
 
 #include <algorithm>
@@ -41,18 +43,43 @@ struct ContactLists {
   }
 };
 
-}  // namespace
+constexpr std::size_t kPile = 16;         ///< islands of so many bodies become a pile
+constexpr std::size_t kRestlessPile = 5;  ///< the same if they are not solved exactly
 
-/// From tau to the next step but a very short one [s].
-double World::Core::untilCrowdStep(double tau) const {
-  return grid_.untilPileStep(time_.instantAt(tau));
+/// How long each member has hardly moved; whether it is time to sleep for those among their like.
+std::vector<char> calmInCrowd(const CrowdStep& step) {
+  const Crowd& crowd = step.crowd;
+  const std::size_t n = crowd.members;
+  std::vector<char> calm(n, 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    RigidBody& b = *step.members[i].body;
+    const CrowdBody &start = crowd.start[i], &end = crowd.bodies[i];
+    b.drift += crowd.shift[i] + 0.5 * crowd.h * (start.v + end.v);
+    b.twist += 0.5 * crowd.h * (start.omega + end.omega);
+    b.quiet += crowd.h;
+    if (b.drift.norm() + b.twist.norm() * b.reach > kQuietWay)
+      b.quiet = 0, b.drift.setZero(), b.twist.setZero();
+    calm[i] = b.quiet >= kQuietTime;
+  }
+  std::vector<char> may = calm;
+  for (const CrowdContact& c : crowd.contacts) {
+    if (c.b < n) {
+      may[c.a] = may[c.a] && calm[c.b], may[c.b] = may[c.b] && calm[c.a];
+    } else {
+      const CrowdBody& fixed = crowd.bodies[c.b];
+      may[c.a] = may[c.a] && fixed.v.isZero(0) && fixed.omega.isZero(0);
+    }
+  }
+  return may;
 }
 
-void World::Core::joinCrowd(RigidBody& b, CrowdStep& step) {
+}  // namespace
+
+void Piles::join(RigidBody& b, CrowdStep& step) {
   const double tau = step.tau;
   if (!b.crowd) {
     const double quiet = b.mode == BodyMode::Rest ? kWaking : b.quiet;
-    enterContact(b, tau);
+    waking_.enterContact(b, tau);
     if (b.mode != BodyMode::Contact) return;
     b.crowd = true, b.restless = false, b.quiet = quiet, b.dueAge = 0;
     b.drift.setZero(), b.twist.setZero();
@@ -81,36 +108,9 @@ void World::Core::joinCrowd(RigidBody& b, CrowdStep& step) {
   step.crowd.inverseInertia.push_back(inverse);
 }
 
-/// How long each member has hardly moved; whether it is time to sleep for those among their like.
-std::vector<char> World::Core::calmInCrowd(const CrowdStep& step) {
-  const Crowd& crowd = step.crowd;
-  const std::size_t n = crowd.members;
-  std::vector<char> calm(n, 1);
-  for (std::size_t i = 0; i < n; ++i) {
-    RigidBody& b = *step.members[i].body;
-    const CrowdBody &start = crowd.start[i], &end = crowd.bodies[i];
-    b.drift += crowd.shift[i] + 0.5 * crowd.h * (start.v + end.v);
-    b.twist += 0.5 * crowd.h * (start.omega + end.omega);
-    b.quiet += crowd.h;
-    if (b.drift.norm() + b.twist.norm() * b.reach > kQuietWay)
-      b.quiet = 0, b.drift.setZero(), b.twist.setZero();
-    calm[i] = b.quiet >= kQuietTime;
-  }
-  std::vector<char> may = calm;
-  for (const CrowdContact& c : crowd.contacts) {
-    if (c.b < n) {
-      may[c.a] = may[c.a] && calm[c.b], may[c.b] = may[c.b] && calm[c.a];
-    } else {
-      const CrowdBody& fixed = crowd.bodies[c.b];
-      may[c.a] = may[c.a] && fixed.v.isZero(0) && fixed.omega.isZero(0);
-    }
-  }
-  return may;
-}
-
 /// Whom the member leans on, and the forces as a guess for the next step. False if nothing is near.
-bool World::Core::noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const std::uint32_t> list,
-                                 std::vector<Party>& near) {
+bool Piles::noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const std::uint32_t> list,
+                           std::vector<Party>& near) {
   const Crowd& crowd = step.crowd;
   RigidBody& b = *step.members[i].body;
   b.touching.clear(), b.presses.clear();
@@ -129,16 +129,17 @@ bool World::Core::noteNeighbours(const CrowdStep& step, std::size_t i, std::span
   std::ranges::sort(near);
   if (near != b.leaning) {
     const std::vector<Party> left = b.leaning;
-    remember(b, near);
+    rememberTouching(memory_, b, near);
     for (const Party p : left)  // who leaned on it may fall now
       if (p.isBody && !in(near, p))
-        if (RigidBody* o = objects_.body(p.id); o && o->mode == BodyMode::Rest) enterContact(*o, step.tau);
+        if (RigidBody* o = objects_.body(p.id); o && o->mode == BodyMode::Rest)
+          waking_.enterContact(*o, step.tau);
   }
   return !list.empty();
 }
 
 /// The member's arc of the step.
-void World::Core::followCrowd(const CrowdStep& step, std::size_t i) {
+void Piles::follow(const CrowdStep& step, std::size_t i) {
   const Crowd& crowd = step.crowd;
   const double tau = step.tau, h = crowd.h;
   RigidBody& b = *step.members[i].body;
@@ -148,24 +149,24 @@ void World::Core::followCrowd(const CrowdStep& step, std::size_t i) {
   const Path path = Path::parabola(step.members[i].p + crowd.shift[i], start.v, (end.v - start.v) / h);
   if (step.members[i].round) {
     const Vec3 alpha = (end.omega - start.omega) / h;
-    setArc(b, tau, path,
-           alpha.isZero(0) ? Spin::free(q, start.omega / start.roundInertia, b.inertia)
-                           : Spin::driven(q, start.omega, alpha, b.inertia.x()),
-           h, BodyMode::Contact);
+    arcs_.setArc(b, tau, path,
+                 alpha.isZero(0) ? Spin::free(q, start.omega / start.roundInertia, b.inertia)
+                                 : Spin::driven(q, start.omega, alpha, b.inertia.x()),
+                 h, BodyMode::Contact);
     b.endL = end.omega / end.roundInertia;
   } else {
     const auto momentum = [&](const Vec3& omega) {
       return Vec3(q * b.inertia.cwiseProduct(q.conjugate() * omega));
     };
     const Vec3 L0 = momentum(start.omega), L1 = momentum(end.omega);
-    setArc(b, tau, path, Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
+    arcs_.setArc(b, tau, path, Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
     b.endL = L1;
   }
   if (b.mode == BodyMode::Contact) b.dueAge = h, b.quiet = quiet;
 }
 
 /// Arcs of the step, and who may sleep.
-void World::Core::concludeCrowd(CrowdStep& step) {
+void Piles::conclude(CrowdStep& step) {
   const Crowd& crowd = step.crowd;
   const double tau = step.tau;
   const ContactLists lists(crowd);
@@ -177,12 +178,12 @@ void World::Core::concludeCrowd(CrowdStep& step) {
     if (!noteNeighbours(step, i, list, near)) {
       const Quat q = b.orientation(tau);
       const Vec3 L = b.momentum(tau);
-      wakeOnto({true, b.id}, tau);
-      startFlight(b, tau, step.members[i].p, crowd.start[i].v, q, L);
-      predict(b, tau);
+      waking_.wakeOnto({true, b.id}, tau);
+      arcs_.startFlight(b, tau, step.members[i].p, crowd.start[i].v, q, L);
+      foresight_.predict(b, tau);
       continue;
     }
-    followCrowd(step, i);
+    follow(step, i);
     if (b.mode != BodyMode::Contact) continue;
     b.drowsy = may[i] != 0;  // not at once: the others' motion counts on its own
     boxes_.sweep(b, tau);
@@ -191,22 +192,22 @@ void World::Core::concludeCrowd(CrowdStep& step) {
 
 /// Too few are left: they go on as an island. (Not those that hardly move: an island takes overlap back
 /// whether or not their motion pays for it.)
-void World::Core::dissolveCrowd(const std::vector<RigidBody*>& due, double tau) {
+void Piles::dissolve(const std::vector<RigidBody*>& due, double tau) {
   for (RigidBody* b : due) {
     const Vec3 L = b->momentum(tau);
     if (b->dueAge > 0)
-      setArc(*b, tau, Path::parabola(b->position(tau), b->velocity(tau), Vec3::Zero()),
-             Spin::free(b->orientation(tau), L, b->inertia), grid_.islandStep(), BodyMode::Contact);
+      arcs_.setArc(*b, tau, Path::parabola(b->position(tau), b->velocity(tau), Vec3::Zero()),
+                   Spin::free(b->orientation(tau), L, b->inertia), grid_.islandStep(), BodyMode::Contact);
     b->crowd = false, b->endL = L;
   }
 }
 
 /// One step of all who lie in heaps, to the next time on the crowd's grid.
-void World::Core::advanceCrowd(double tau) {
+void Piles::advance(double tau) {
   CrowdStep step;
   step.tau = tau;
   Crowd& crowd = step.crowd;
-  crowd.h = untilCrowdStep(tau);
+  crowd.h = grid_.untilPileStep(time_.instantAt(tau));
   std::vector<RigidBody*> due;
   for (RigidBody* b : active_) {
     b->slot = CrowdStep::kNobody;
@@ -214,16 +215,15 @@ void World::Core::advanceCrowd(double tau) {
   }
   std::ranges::sort(due, {}, &RigidBody::id);
   for (RigidBody* b : due)
-    if (b->drowsy) freeze(*b, tau), predict(*b, tau);
+    if (b->drowsy) arcs_.freeze(*b, tau), foresight_.predict(*b, tau);
   std::erase_if(due, [](const RigidBody* b) { return b->mode != BodyMode::Contact; });
   if (due.empty()) return;
   const auto leaves = [&](const RigidBody* b) { return b->velocity(tau).norm() > kLeaving; };
-  if (due.size() < kLeast && std::ranges::any_of(due, leaves) && !isCrowd(due, tau))
-    return dissolveCrowd(due, tau);
-  for (RigidBody* b : due) joinCrowd(*b, step);
-  for (std::size_t i = 0; i < step.members.size(); ++i) findCrowdContacts(*step.members[i].body, step);
+  if (due.size() < kLeast && std::ranges::any_of(due, leaves) && !isPile(due, tau)) return dissolve(due, tau);
+  for (RigidBody* b : due) join(*b, step);
+  for (std::size_t i = 0; i < step.members.size(); ++i) findContacts(*step.members[i].body, step);
   crowd.members = step.members.size();
-  linkCrowdContacts(step);
+  linkContacts(step);
   crowd.pull.resize(crowd.members);
   for (std::size_t i = 0; i < crowd.members; ++i) {
     const RigidBody& b = *step.members[i].body;
@@ -231,7 +231,22 @@ void World::Core::advanceCrowd(double tau) {
     if (b.damping > 0) crowd.bodies[i].v *= det::exp(-b.damping * crowd.h);
   }
   solveCrowd(crowd);
-  concludeCrowd(step);
+  conclude(step);
+}
+
+/// Whether an island is better off as a crowd: it is large, not solved exactly, or its balls are in the thick
+/// of it.
+bool Piles::isPile(const std::vector<RigidBody*>& island, double tau) {
+  const bool balls = std::ranges::all_of(island, [](const RigidBody* b) { return b->isBall(); });
+  // Thin meshes would sink through each other in a crowd's longer steps.
+  const bool restless = std::ranges::any_of(island, &RigidBody::restless) &&
+                        std::ranges::none_of(island, [](const RigidBody* b) {
+                          return std::holds_alternative<MeshShape>(*b->shape);
+                        });
+  if (island.size() >= (balls ? kPileOfBalls : restless ? kRestlessPile : kPile)) return true;
+  return balls && std::ranges::any_of(island, [&](const RigidBody* b) {
+           return foresight_.ballsAround(*b, tau) + 1 >= kPileOfBalls;
+         });
 }
 
 }  // namespace stadion

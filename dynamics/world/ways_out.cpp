@@ -1,9 +1,25 @@
-#include "dynamics/world/world_core.h"
+#include "dynamics/world/ways_out.h"
+
+#include "engine/core/state_hash.h"
+
+#include <algorithm>
 
 namespace stadion {
 
+bool comesOutOf(const RigidBody& b, ColliderId id) {
+  return std::ranges::any_of(b.waysOut, [&](const WayOut& w) { return w.of == id; });
+}
+
+/// Of the things that a body was let go in, those that it is out of.
+void forgetWaysOut(RigidBody& b, const WorldObjects& objects, double tau) {
+  std::erase_if(b.waysOut, [&](const WayOut& w) {
+    const Collider* c = objects.collider(w.of);
+    return !c || !c->enabled || !barrier(Side::of(b), Side::of(*c), tau, w);
+  });
+}
+
 /// Where held bodies have been free last: in nothing, and not through anything since.
-void World::Core::noteFreePlaces() {
+void WaysOut::noteFreePlaces() {
   for (RigidBody* b : held_.list()) {
     if (b->mode != BodyMode::Held) continue;
     const Side self = Side::of(*b);
@@ -22,7 +38,7 @@ void World::Core::noteFreePlaces() {
 }
 
 /// A body that has been let go inside of something is to come out the way it went in.
-void World::Core::findWaysOut(RigidBody& b) {
+void WaysOut::find(RigidBody& b) {
   b.waysOut.clear();
   if (!b.letGo) return;
   b.letGo = false;
@@ -38,22 +54,22 @@ void World::Core::findWaysOut(RigidBody& b) {
     if (!c.enabled || !objects_.mayTouch(self, thing)) return;
     if (const auto way = wayOutOf(self, thing, tau, b.freePlace)) b.waysOut.push_back(*way);
   });
-  std::erase_if(comingOut, [&](BodyId id) {
+  std::erase_if(comingOut_, [&](BodyId id) {
     return id == b.id || !objects_.body(id) || objects_.body(id)->waysOut.empty();
   });
-  if (!b.waysOut.empty()) comingOut.push_back(b.id);
+  if (!b.waysOut.empty()) comingOut_.push_back(b.id);
 }
 
-/// Of the things that a body was let go in, those that it is out of.
-void World::Core::forgetWaysOut(RigidBody& b, double tau) const {
-  std::erase_if(b.waysOut, [&](const WayOut& w) {
-    const Collider* c = objects_.collider(w.of);
-    return !c || !c->enabled || !barrier(Side::of(b), Side::of(*c), tau, w);
-  });
-}
-
-bool World::Core::comesOutOf(const RigidBody& b, ColliderId id) {
-  return std::ranges::any_of(b.waysOut, [&](const WayOut& w) { return w.of == id; });
+std::uint64_t WaysOut::digest() const {
+  StateHash h;
+  for (const RigidBody* b : held_.list())
+    if (b->mode == BodyMode::Held) h.add(std::uint64_t{b->id}), h.add(b->freePlace);
+  for (const BodyId id : comingOut_) {
+    const RigidBody* b = objects_.body(id);
+    for (const WayOut& w : b ? b->waysOut : std::vector<WayOut>{})
+      h.add(std::uint64_t{id}), h.add(std::uint64_t{w.of}), h.add(w.normal), h.add(w.side);
+  }
+  return h.value();
 }
 
 }  // namespace stadion

@@ -1,5 +1,6 @@
+#include "dynamics/world/release_watch.h"
+
 #include "dynamics/collision/ball_flight.h"
-#include "dynamics/world/world_core.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +8,8 @@
 namespace stadion {
 namespace {
 
-constexpr double kFineEnough = 1e-11;  ///< of times at which pairs part [s]
+constexpr double kShortestLook = 0.1 * 1e-9;  ///< between looks at a pair that may part [s]
+constexpr double kFineEnough = 1e-11;         ///< of times at which pairs part [s]
 
 /// When between `lo` and `hi` the gap of two sides, which is wider at `hi`, grew beyond `far`. Newton's
 /// method, kept between what is known.
@@ -85,12 +87,27 @@ private:
   Collider thing_;
 };
 
+/// After tau the two cannot part by `distance` more sooner than this, as long as their arcs last [ns].
+Nanoseconds soonest(const Side& a, const Side& b, double distance, double tau) {
+  if ((a.collider && a.collider->motion.moving) || (a.body && a.body->mode == BodyMode::Held) ||
+      b.body->mode == BodyMode::Held)
+    return 0;
+  constexpr double most = 0.5;  // [s]
+  double speed = 0, acceleration = 0;
+  for (const Side* s : {&a, &b}) {
+    if (!s->body) continue;
+    speed += s->body->velocity(tau).norm() + s->boundOver(tau, tau + most).spin * s->body->reach;
+    acceleration += s->body->path.accelerationBound();
+  }
+  const double root = std::sqrt(speed * speed + 2 * acceleration * distance);
+  return fromSeconds(most * (speed + root) <= 2 * distance ? most : 2 * distance / (speed + root));
+}
+
 }  // namespace
 
 /// The first moment in [from, to], in which each side follows one arc, at which they are farther apart than
 /// `far`. Nothing: they are not.
-std::optional<double> World::Core::firstBeyond(const Side& a, const Side& b, double far, double from,
-                                               double to) const {
+std::optional<double> firstBeyond(const Side& a, const Side& b, double far, double from, double to) {
   constexpr int kCareful = 12, kMostMore = 16;  // looks; then no step is shorter than a share of the time
   const MotionBound ba = a.boundOver(from, to), bb = b.boundOver(from, to);
   const double turning = turningSpeed(ba, reachOf(a)) + turningSpeed(bb, reachOf(b)),
@@ -106,14 +123,14 @@ std::optional<double> World::Core::firstBeyond(const Side& a, const Side& b, dou
     const double speed = (ka.v - kb.v).norm() + turning;
     const double root = speed + std::sqrt(speed * speed + 2 * acceleration * left);
     if (!(root > 0)) break;
-    const double least = ++steps > kCareful ? (to - from) / kMostMore : 0.1 * kDue;
+    const double least = ++steps > kCareful ? (to - from) / kMostMore : kShortestLook;
     tau = std::min(to, tau + std::max(2 * left / root, least));
   }
   return {};
 }
 
 /// When the pair has parted by tau, since it has been seen last. Nothing: it has not.
-std::optional<Nanoseconds> World::Core::whenParted(const ContactMemory::Waiting& w, double tau) const {
+std::optional<Nanoseconds> ReleaseWatch::whenParted(const ContactMemory::Waiting& w, double tau) const {
   const double far = objects_.body(w.pair.second)->releaseDistance;
   if (!isNoted(*objects_.side(w.pair.first)) || !isNoted(*objects_.side({true, w.pair.second}))) return {};
   PastSide a(*objects_.side(w.pair.first), {time_.origin(), 0}),
@@ -134,7 +151,7 @@ std::optional<Nanoseconds> World::Core::whenParted(const ContactMemory::Waiting&
 }
 
 /// At most how far a side's points have gone since `from`.
-double World::Core::wayLength(const Side& s, double from, double tau) const {
+double ReleaseWatch::wayLength(const Side& s, double from, double tau) const {
   const double reach = reachOf(s);
   double length = 0;
   const auto add = [&](const MotionBound& b, double seconds) {
@@ -159,14 +176,14 @@ double World::Core::wayLength(const Side& s, double from, double tau) const {
 }
 
 /// It has been put elsewhere: no way leads there that could be too short to part from anything.
-void World::Core::forgetSlack(Party p) {
+void ReleaseWatch::forgetSlack(Party p) {
   memory_.eachWith(p, [&](const ContactMemory::Key& pair) {
     if (ContactMemory::Waiting* w = memory_.waitingOf(pair)) w->slack = 0;
   });
 }
 
 /// Whether the pair has gone so little way since it has been seen last that it cannot have parted.
-bool World::Core::stillNear(ContactMemory::Waiting& w, double tau) const {
+bool ReleaseWatch::stillNear(ContactMemory::Waiting& w, double tau) const {
   const double from = std::max(time_.from(), time_.tauOf(w.seen));
   const double length = wayLength(*objects_.side(w.pair.first), from, tau) +
                         wayLength(*objects_.side({true, w.pair.second}), from, tau);
@@ -177,7 +194,7 @@ bool World::Core::stillNear(ContactMemory::Waiting& w, double tau) const {
 
 /// Pairs whose impact was told are released when their surfaces are far enough apart; if that is in the
 /// impact's own frame, they are told of it in the next one.
-void World::Core::reportReleases() {
+void ReleaseWatch::reportReleases() {
   std::vector<std::pair<ContactMemory::Key, Nanoseconds>> due;
   for (ContactMemory::Waiting& w : memory_.waiting()) {
     const bool asForeseen = w.versionA && *w.versionA + *w.versionB == w.versions;
@@ -207,7 +224,7 @@ void World::Core::reportReleases() {
   for (const auto& [key, time] : due) release(key, time);
 }
 
-void World::Core::release(const ContactMemory::Key& pair, Nanoseconds time) {
+void ReleaseWatch::release(const ContactMemory::Key& pair, Nanoseconds time) {
   const ContactMemory::Waiting* w = memory_.waitingOf(pair);
   if (w && w->frame == time_.frame())
     memory_.releaseLater(pair, time);
@@ -216,7 +233,7 @@ void World::Core::release(const ContactMemory::Key& pair, Nanoseconds time) {
 }
 
 /// The pair meets again at tau: it may have parted before.
-void World::Core::releaseBefore(const ContactMemory::Key& pair, double tau) {
+void ReleaseWatch::releaseBefore(const ContactMemory::Key& pair, double tau) {
   ContactMemory::Waiting* w = memory_.waitingOf(pair);
   if (!w) return;
   const bool asForeseen = w->versionA && *w->versionA + *w->versionB == w->versions;
@@ -230,7 +247,7 @@ void World::Core::releaseBefore(const ContactMemory::Key& pair, double tau) {
 
 /// The body has got as far off the face that was below it as it must be: whether no other part of the same
 /// thing is nearer.
-bool World::Core::nobodyNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const {
+bool ReleaseWatch::nobodyNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const {
   if (!std::holds_alternative<MeshShape>(*a.shape)) return true;
   const double tau = time_.tauOf(w.look), far = b.body->releaseDistance;
   // It has been so near until half a nanosecond ago.
@@ -239,8 +256,8 @@ bool World::Core::nobodyNearer(const ContactMemory::Waiting& w, const Side& a, c
 }
 
 /// At tau the two are to part by `distance` more: notes when to look for that.
-void World::Core::awaitRelease(ContactMemory::Waiting& w, const Side& a, const Side& b, double distance,
-                               double tau) const {
+void ReleaseWatch::awaitRelease(ContactMemory::Waiting& w, const Side& a, const Side& b, double distance,
+                                double tau) const {
   w.versionA = a.body ? &a.body->version : &a.collider->version, w.versionB = &b.body->version;
   w.versions = *w.versionA + *w.versionB;
   w.sure = false;
@@ -262,28 +279,12 @@ void World::Core::awaitRelease(ContactMemory::Waiting& w, const Side& a, const S
 }
 
 /// An impact at tau has been dealt with: the pair need not be looked at before it can part.
-void World::Core::foreseeRelease(ContactMemory::Waiting& w, double tau, std::int32_t triangle) {
+void ReleaseWatch::foreseeRelease(ContactMemory::Waiting& w, double tau, std::int32_t triangle) {
   for (const Party p : {w.pair.first, Party{true, w.pair.second}})
     if (RigidBody* b = p.isBody ? objects_.body(p.id) : nullptr) traces_.trace(*b, b->traced, true, tau);
   const Side a = *objects_.side(w.pair.first), b = *objects_.side({true, w.pair.second});
   w.triangle = triangle;
   awaitRelease(w, a, b, b.body->releaseDistance, tau);
-}
-
-/// After tau the two cannot part by `distance` more sooner than this, as long as their arcs last [ns].
-Nanoseconds World::Core::soonest(const Side& a, const Side& b, double distance, double tau) const {
-  if ((a.collider && a.collider->motion.moving) || (a.body && a.body->mode == BodyMode::Held) ||
-      b.body->mode == BodyMode::Held)
-    return 0;
-  constexpr double most = 0.5;  // [s]
-  double speed = 0, acceleration = 0;
-  for (const Side* s : {&a, &b}) {
-    if (!s->body) continue;
-    speed += s->body->velocity(tau).norm() + s->boundOver(tau, tau + most).spin * s->body->reach;
-    acceleration += s->body->path.accelerationBound();
-  }
-  const double root = std::sqrt(speed * speed + 2 * acceleration * distance);
-  return fromSeconds(most * (speed + root) <= 2 * distance ? most : 2 * distance / (speed + root));
 }
 
 }  // namespace stadion

@@ -1,5 +1,4 @@
-#include "dynamics/world/crowd_step.h"
-#include "dynamics/world/world_core.h"
+#include "dynamics/world/island_step.h"
 
 #include <algorithm>
 
@@ -10,9 +9,8 @@ constexpr std::uint32_t kAreaKey = 0x7fffff00;  ///< of the first flat contact o
 
 }  // namespace
 
-void World::Core::FoundFlat::place(const Mobile& a, const Mobile& b, const Mat3& turnA, const Mat3& turnB,
-                                   const Vec3& pA, const Vec3& pB, Mat3& basis, Vec3& armA,
-                                   Vec3& armB) const {
+void FlatPatch::place(const Mobile& a, const Mobile& b, const Mat3& turnA, const Mat3& turnB, const Vec3& pA,
+                      const Vec3& pB, Mat3& basis, Vec3& armA, Vec3& armB) const {
   const bool withA = flat.carrier == Carrier::A;
   const Mat3 &own = withA ? turnA : turnB, &other = withA ? turnB : turnA;
   basis.col(0) = other * flat.plane.n;
@@ -34,13 +32,13 @@ void World::Core::FoundFlat::place(const Mobile& a, const Mobile& b, const Mat3&
 }
 
 /// The other side of a body's contact, and the flush pieces that feel like it.
-std::vector<Side> World::Core::surfaceUnder(const Found& f) const {
+std::vector<Side> IslandStep::surfaceUnder(const FoundContact& f) const {
   std::vector<Side> sides;
   const std::optional<Side> own = objects_.side(f.b);
   if (!own) return sides;
   sides.push_back(*own);
   if (f.b.isBody) return sides;
-  for (const Beside& o : besideOf(f.a.id)) {
+  for (const ContactFinder::Beside& o : finder_.besideOf(f.a.id)) {
     if (std::ranges::find(sides, o.piece, &Side::party) != sides.end()) continue;
     const Collider* c = objects_.collider(o.piece.id);
     if (c && combine(objects_.body(f.a.id)->surface, c->surface).friction == f.surface.friction)
@@ -50,10 +48,10 @@ std::vector<Side> World::Core::surfaceUnder(const Found& f) const {
 }
 
 /// Which points carry flat contacts, and with which friction those begin.
-void World::Core::findFlats(Island& s, double tau) const {
+void IslandStep::findFlats(ContactIsland& s, double tau) const {
   std::vector<Gap> gaps;
   for (std::size_t first = 0, end = 0; first < s.found.size(); first = end) {
-    const Found& f = s.found[first];
+    const FoundContact& f = s.found[first];
     gaps.clear();
     for (end = first; end < s.found.size() && s.found[end].a == f.a && s.found[end].b == f.b; ++end)
       gaps.push_back(s.found[end].gap);
@@ -62,7 +60,7 @@ void World::Core::findFlats(Island& s, double tau) const {
     const std::vector<Side> under = surfaceUnder(f);
     if (!a || under.empty()) continue;
     for (FlatContact& flat : flatContacts(*a, under, tau, gaps)) {
-      FoundFlat found;
+      FlatPatch found;
       SolverContact& c = found.contact;
       c.a = f.contact.a, c.b = f.contact.b, c.friction = f.surface.friction, c.area = flat.area.get();
       const auto index = static_cast<std::int32_t>(s.found.size() + s.flats.size());
@@ -76,38 +74,6 @@ void World::Core::findFlats(Island& s, double tau) const {
       s.flats.push_back(std::move(found));
     }
   }
-}
-
-/// In a crowd the points of a flat contact keep friction of their own, but at the mean radius of its area: so
-/// they resist spin as even pressure does, whichever of them carry it. Empty if all have it where they are.
-std::vector<Vec3> World::Core::placesOfFriction(const CrowdStep& step) const {
-  std::vector<Vec3> places;
-  std::vector<Gap> gaps;
-  const std::vector<CrowdContact>& all = step.crowd.contacts;
-  for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
-    for (end = first + 1; end < all.size() && all[end].a == all[first].a; ++end)
-      if (step.notes[end].other != step.notes[first].other) break;
-    if (end - first < 3 || all[first].friction <= 0) continue;
-    const std::optional<Side> b = objects_.side(step.notes[first].other);
-    if (!b) continue;
-    gaps.clear();
-    for (std::size_t k = first; k < end; ++k) {
-      Gap g;
-      g.distance = all[k].gap, g.normal = all[k].n, g.point = step.points[k];
-      gaps.push_back(g);
-    }
-    for (const FlatContact& flat :
-         flatContacts(Side::of(*step.members[all[first].a].body), {&*b, 1}, step.tau, gaps)) {
-      if (places.empty()) places = step.points;
-      const Vec3& middle = flat.plane.origin;
-      for (const std::uint32_t k : flat.points) {
-        const Vec3 off = step.points[first + k] - middle;
-        const double away = (off - flat.plane.n * flat.plane.n.dot(off)).norm();
-        if (away > flat.area->radius()) places[first + k] = middle + flat.area->radius() / away * off;
-      }
-    }
-  }
-  return places;
 }
 
 }  // namespace stadion

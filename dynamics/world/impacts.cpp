@@ -1,5 +1,8 @@
+#include "dynamics/world/impacts.h"
+
 #include "dynamics/contact/patch_impact.h"
-#include "dynamics/world/world_core.h"
+#include "dynamics/world/ball_support.h"
+#include "dynamics/world/piles.h"
 
 #include <cmath>
 
@@ -22,72 +25,25 @@ constexpr double kLeastStick = 1;             ///< what comes slower does not st
 constexpr std::uint32_t kMostElastic =
     600;  ///< where nothing is lost: no bounces that die away, but squeezes
 
+/// Whether a body that may stick meets x with its tip, straight enough against the normal n.
+bool sticksIn(const RigidBody& b, const Vec3& x, const Vec3& n, double closing, double tau) {
+  if (!(closing > kLeastStick)) return false;
+  const Pose X_WN = b.poseAt(tau);
+  return -(X_WN.q * b.stick->nose).dot(n) >= b.stick->cosine &&
+         b.stick->nose.dot(X_WN.inverse() * x) >= b.stick->tip - b.stick->reach;
+}
+
 }  // namespace
 
 /// Chatter is counted in show time, so that it does not depend on frames.
-void World::Core::countImpact(RigidBody& b, double tau) const {
+void Impacts::countImpact(RigidBody& b, double tau) const {
   const Nanoseconds span = time_.timeAt(tau) / kSpan;
   if (span != b.impactSpan) b.impactSpan = span, b.impacts = 0;
   ++b.impacts;
 }
 
-/// Whether what a ball has met there can carry it in closed form: a flat face of a still collider.
-bool World::Core::carries(const RigidBody& ball, const Collider& c, const Gap& gap) {
-  if (!gap.face || c.motion.moving || !ball.centred) return false;
-  return std::holds_alternative<PlaneShape>(*c.shape) || std::holds_alternative<BoxShape>(*c.shape) ||
-         (std::holds_alternative<MeshShape>(*c.shape) && gap.triangle >= 0);
-}
-
-/// That face.
-bool World::Core::supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, Support& s) const {
-  if (!carries(ball, c, gap)) return false;
-  const Pose& X = c.motion.end;
-  s = {};
-  s.on = {false, c.id};
-  s.normal = gap.normal;
-  s.triangle = gap.triangle;
-  s.point = gap.point;
-  const PairSurface pair = combine(ball.surface, c.surface);
-  s.friction = pair.friction, s.rolling = pair.rolling, s.restitution = pair.restitution;
-  const auto edge = [&](const Vec3& inward, const Vec3& on) {
-    const auto i = static_cast<std::size_t>(s.edges++);
-    s.edgeNormal[i] = inward, s.edgeOffset[i] = inward.dot(on);
-  };
-  const auto rectangle = [&](const Pose& F, const Vec3& half, int up) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (axis == up) continue;
-      const Vec3 out = F.q * Vec3::Unit(axis);
-      edge(out, F.p - half[axis] * out), edge(-out, F.p + half[axis] * out);
-    }
-  };
-  if (const auto* plane = std::get_if<PlaneShape>(c.shape)) {
-    if (plane->bounded()) rectangle(X * plane->pose, {plane->half.x(), plane->half.y(), 0}, 2);
-    return true;
-  }
-  if (const auto* box = std::get_if<BoxShape>(c.shape)) {
-    const Pose F = X * box->pose;
-    const Vec3 n = F.q.conjugate() * gap.normal;
-    int up = 0;
-    n.cwiseAbs().maxCoeff(&up);
-    rectangle(F, box->half, up);
-    return true;
-  }
-  if (const auto* mesh = std::get_if<MeshShape>(c.shape); mesh && gap.triangle >= 0) {
-    const Triangle& t = mesh->tree.triangles()[static_cast<std::size_t>(gap.triangle)];
-    const double facing = (X.q * t.normal).dot(gap.normal) < 0 ? -1 : 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 inward = t.normal.cross(t.v[(i + 1) % 3] - t.v[i]).normalized();
-      edge(X.q * inward, X * t.v[i]);
-      s.edgeOffset[i] -= 1e-6;  // a micron of overlap, so that no ball balances on the seam of two triangles
-    }
-    s.normal = facing * (X.q * t.normal);
-    return true;
-  }
-  return false;
-}
-
 /// The rest of a crowd's step with other velocities, under the same forces.
-void World::Core::strikeInCrowd(RigidBody& b, const Mobile& m, double tau) {
+void Impacts::strikeInCrowd(RigidBody& b, const Mobile& m, double tau) {
   const Quat q = b.orientation(tau);
   const double left = b.dueAge - b.age(tau), quiet = b.quiet;
   const Vec3 a = left > 0 && b.path.isParabola() ? Vec3(2 * b.path.c[2]) : Vec3(Vec3::Zero());
@@ -96,15 +52,15 @@ void World::Core::strikeInCrowd(RigidBody& b, const Mobile& m, double tau) {
   const Vec3 end = b.endL + more;
   Spin spin = Spin::free(q, left > 0 ? Vec3(0.5 * (L + more + end)) : Vec3(L + more), b.inertia);
   if (b.spin.kind == Spin::Kind::Driven) spin = Spin::driven(q, m.omega, b.spin.alpha, b.inertia.x());
-  setArc(b, tau, Path::parabola(b.position(tau), m.v, a), spin, std::max(left, grid_.islandStep()),
-         BodyMode::Contact);
+  arcs_.setArc(b, tau, Path::parabola(b.position(tau), m.v, a), spin, std::max(left, grid_.islandStep()),
+               BodyMode::Contact);
   if (b.mode != BodyMode::Contact) return;
-  b.endL = end, b.dueAge = left > 0 ? left : untilCrowdStep(tau), b.quiet = quiet;
+  b.endL = end, b.dueAge = left > 0 ? left : grid_.untilPileStep(time_.instantAt(tau)), b.quiet = quiet;
   boxes_.sweep(b, tau);
 }
 
 /// The body goes on with the velocities of m.
-void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting) {
+void Impacts::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting) {
   if (!b.movable()) return;
   const Vec3& p = m.p;
   const Quat& q = m.q;
@@ -112,59 +68,50 @@ void World::Core::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool l
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * m.omega);
   const bool leaning = b.mode == BodyMode::Contact || (b.mode == BodyMode::Rest && !b.support.on.id);
   if (lasting || leaning) {
-    if (b.mode == BodyMode::Rest) wake(b, tau);
+    if (b.mode == BodyMode::Rest) waking_.wake(b, tau);
     if (b.crowd) return strikeInCrowd(b, m, tau);
     b.endL = L;
-    setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia), grid_.islandStep(),
-           BodyMode::Contact);
+    arcs_.setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia),
+                 grid_.islandStep(), BodyMode::Contact);
     if (b.mode != BodyMode::Contact) return;
     b.quiet = 0;
     queue_.scheduleTick(tau);
-    predict(b, tau);
+    foresight_.predict(b, tau);
     return;
   }
   if (b.support.on.id && b.mode != BodyMode::Flight) {
     const double away = m.v.dot(b.support.normal);
     if (std::fabs(away) <= 1e-9) {
       const bool rested = b.mode == BodyMode::Rest;
-      startOnFace(b, tau, {p, m.v, m.omega, q}, false, false);
-      if (rested && b.mode != BodyMode::Rest) wakeOnto({true, b.id}, tau);
-      predict(b, tau);
+      arcs_.startOnFace(b, tau, {p, m.v, m.omega, q}, false, false);
+      if (rested && b.mode != BodyMode::Rest) waking_.wakeOnto({true, b.id}, tau);
+      foresight_.predict(b, tau);
       return;
     }
   }
-  wakeOnto({true, b.id}, tau);
+  waking_.wakeOnto({true, b.id}, tau);
   if (b.mode == BodyMode::Flight && b.path.isParabola() &&
       !b.flight) {  // what pulls at it is the same as before
-    setArc(b, tau, Path::parabola(p, m.v, 2 * b.path.c[2]), Spin::free(q, L, b.inertia),
-           std::numeric_limits<double>::infinity(), BodyMode::Flight);
+    arcs_.setArc(b, tau, Path::parabola(p, m.v, 2 * b.path.c[2]), Spin::free(q, L, b.inertia),
+                 std::numeric_limits<double>::infinity(), BodyMode::Flight);
   } else {
-    startFlight(b, tau, p, m.v, q, L);
+    arcs_.startFlight(b, tau, p, m.v, q, L);
   }
-  if (b.movable()) predict(b, tau);
-}
-
-/// Whether a body that may stick meets x with its tip, straight enough against the normal n.
-bool World::Core::sticksIn(const RigidBody& b, const Vec3& x, const Vec3& n, double closing,
-                           double tau) const {
-  if (!(closing > kLeastStick)) return false;
-  const Pose X_WN = b.poseAt(tau);
-  return -(X_WN.q * b.stick->nose).dot(n) >= b.stick->cosine &&
-         b.stick->nose.dot(X_WN.inverse() * x) >= b.stick->tip - b.stick->reach;
+  if (b.movable()) foresight_.predict(b, tau);
 }
 
 /// It stays as it is when its tip, which comes at `v`, has gone in, until what it sticks in goes or moves. It
 /// stops within milliseconds: that time is left out.
-void World::Core::stick(RigidBody& b, Party in, const Vec3& v, double tau) {
-  wakeOnto({true, b.id}, tau);
+void Impacts::stick(RigidBody& b, Party in, const Vec3& v, double tau) {
+  waking_.wakeOnto({true, b.id}, tau);
   b.support.on = {};
   b.touching = {in};
   memory_.setTouching(ContactMemory::keyOf(in, {true, b.id}), true);
-  setArc(b, tau, Path::still(b.position(tau) + b.stick->depth * v.normalized()),
-         Spin::still(b.orientation(tau)), std::numeric_limits<double>::infinity(), BodyMode::Stuck);
+  arcs_.setArc(b, tau, Path::still(b.position(tau) + b.stick->depth * v.normalized()),
+               Spin::still(b.orientation(tau)), std::numeric_limits<double>::infinity(), BodyMode::Stuck);
 }
 
-void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
+void Impacts::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   if (!pa.isBody) {
     std::swap(pa, pb);
     Touch t = touch;
@@ -175,7 +122,7 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   RigidBody& a = *objects_.body(pa.id);
   RigidBody* b = pb.isBody ? objects_.body(pb.id) : nullptr;
   Collider* c = pb.isBody ? nullptr : objects_.collider(pb.id);
-  ++counters.impacts;
+  ++counters_.impacts;
   countImpact(a, tau);
   if (b) countImpact(*b, tau);
   Mobile ma = mobileOf(a, tau), mb = b ? mobileOf(*b, tau) : mobileOf(*c, tau);
@@ -186,12 +133,12 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   const ContactMemory::Key key = ContactMemory::keyOf(pa, pb);
   const Vec3 outwards = key.second == pa.id ? n : Vec3(-n);
   const bool awaited = std::isfinite((key.second == pa.id ? a : *b).releaseDistance);
-  if (awaited) releaseBefore(key, tau);
+  if (awaited) releases_.releaseBefore(key, tau);
   if (!a.movable() && !(b && b->movable())) {
     ContactMemory::Waiting* waiting =
         memory_.impact(key, time_.timeAt(tau), x, outwards, closing, 0, time_.frame(), awaited);
     memory_.setTouching(key, true);
-    if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
+    if (waiting) releases_.foreseeRelease(*waiting, tau, touch.gap.triangle);
     return;
   }
   if (a.stick && c && !c->motion.moving && sticksIn(a, x, n, closing, tau)) {
@@ -200,7 +147,7 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     ContactMemory::Waiting* waiting =
         memory_.impact(key, time_.timeAt(tau), x, outwards, closing, impulse, time_.frame(), awaited);
     stick(a, pb, way, tau);
-    if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
+    if (waiting) releases_.foreseeRelease(*waiting, tau, touch.gap.triangle);
     return;
   }
   const PairSurface pair = combine(a.surface, objects_.surfaceOf(pb));
@@ -221,15 +168,15 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   const double last = onFace ? kLastBounce : kLastRattle;
   std::uint32_t most = pair.restitution < 1 ? kMostImpacts : kMostElastic;
   if (pair.restitution < 0.6)
-    most = b && thickness(a, tau) + 1 >= kCrowdOfBalls ? kMostInThick : kMostRattles;
+    most = b && foresight_.ballsAround(a, tau) + 1 >= kPileOfBalls ? kMostInThick : kMostRattles;
   const bool tired = a.impacts > (onFace ? kMostBounces : most) || (b && b->impacts > most);
   const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
-  if (tired) ++counters.tired;
+  if (tired) ++counters_.tired;
   const double restitution = ends ? 0 : pair.restitution;
   std::optional<PatchImpact> patch;
   std::vector<PatchSide> others;
   if (!a.isBall() && !(b && b->isBall())) {
-    if (c) others = struckBeside(a, *c, tau, ends);
+    if (c) others = surfaces_.struckBeside(a, *c, tau, ends);
     patch = collidePatch(Side::of(a), *objects_.side(pb), tau, touch.gap, ma, mb, restitution, pair.friction,
                          others);
   }
@@ -241,22 +188,22 @@ void World::Core::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     s.v -= n * n.dot(s.v);
     if (std::fabs(touch.gap.distance) < kExact) s.p -= touch.gap.distance * n;
     a.support = face;
-    startOnFace(a, tau, s, false, false);
-    predict(a, tau);
+    arcs_.startOnFace(a, tau, s, false, false);
+    foresight_.predict(a, tau);
     return;
   }
   if (ends) memory_.setTouching(key, true);
   afterImpulse(a, ma, tau, ends);
   if (b) afterImpulse(*b, mb, tau, ends);
-  if (waiting) foreseeRelease(*waiting, tau, touch.gap.triangle);
+  if (waiting) releases_.foreseeRelease(*waiting, tau, touch.gap.triangle);
   for (const PatchSide& part : others) {
     if (!patch || !(part.closing > 0)) continue;
     const ContactMemory::Key other = ContactMemory::keyOf(part.side.party, pa);
-    if (awaited) releaseBefore(other, tau);
+    if (awaited) releases_.releaseBefore(other, tau);
     waiting = memory_.impact(other, time_.timeAt(tau), part.middle, n, part.closing, part.impulse.dot(n),
                              time_.frame(), awaited);
     if (ends) memory_.setTouching(other, true);
-    if (waiting) foreseeRelease(*waiting, tau, -1);
+    if (waiting) releases_.foreseeRelease(*waiting, tau, -1);
   }
 }
 

@@ -1,5 +1,7 @@
+#include "dynamics/world/island_step.h"
+
 #include "dynamics/contact/island_energy.h"
-#include "dynamics/world/world_core.h"
+#include "dynamics/world/ball_support.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,29 +90,100 @@ double pushOut(double gap) {
   return std::min(kPushOut, std::max(0.0, -gap - kSlop) * 20);
 }
 
-}  // namespace
-
 /// The speed at which overlap is taken back [m/s]. Points of one face go at one speed, the mean of theirs: if
 /// each had its own, three of them would contradict the fourth.
-double World::Core::pushOutOf(const std::vector<Found>& found, std::size_t i) {
-  const Found& f = found[i];
+double pushOutOf(const std::vector<FoundContact>& found, std::size_t i) {
+  const FoundContact& f = found[i];
   double sum = 0, many = 0;
   if (!(pushOut(f.gap.distance) > 0)) return 0;
-  for (const Found& o : found)
+  for (const FoundContact& o : found)
     if (o.a == f.a && o.b == f.b && o.gap.normal.dot(f.gap.normal) > kOneFace)
       if (const double speed = pushOut(o.gap.distance); speed > 0) sum += speed, many += 1;
   return sum / many;
 }
 
+bool staysWedged(const ContactIsland& s) {
+  return s.wedged && std::ranges::any_of(s.found, [&](const FoundContact& f) {
+           return f.contact.give > 0 && f.contact.velocity(s.end)[0] < f.contact.floor - kShort;
+         });
+}
+
+/// The step's forces bring no energy but what takes back overlap.
+void boundStep(ContactIsland& s, double h) {
+  if (s.carried) return;
+  const std::size_t n = s.set.size();
+  double speed = 0;
+  for (const FoundContact& f : s.found) speed = std::max(speed, f.contact.floor);
+  const double allowed = pushOutWork(n, s.start, s.pull, h, speed);
+  for (Vec3& a : s.pull) a *= 0.5 * h;
+  boundWork(n, s.free, s.end, s.pull, allowed);
+}
+
+/// Rolling resistance takes spin, up to c r N, from balls, and from rods and discs that roll.
+void resistRolling(ContactIsland& s) {
+  const auto resist = [&](std::size_t i, const FoundContact& f, Carrier side) {
+    if (i >= s.set.size()) return;
+    const bool ball = s.set[i]->isBall(), round = f.carrier == side;
+    const double radius = ball ? s.set[i]->radius() : round ? f.rounding.radius : 0;
+    Mobile& m = s.end[i];
+    Vec3 about = ball ? m.omega : Vec3(m.omega - f.gap.normal * f.gap.normal.dot(m.omega));
+    if (!f.rounding.axis.isZero(0) && round) {  // a rim rolls along itself; it tips over freely
+      const Vec3 along = f.rounding.axis - f.gap.normal * f.gap.normal.dot(f.rounding.axis);
+      about = along * (along.dot(about) / std::max(along.squaredNorm(), 1e-300));
+    }
+    const double w = about.norm();
+    if (!(radius > 0) || !(w > 0)) return;
+    const Vec3 axis = about / w, turn = m.inverseInertia * axis;  // per unit of angular impulse
+    const double inertia = 1 / turn.dot(axis);
+    const double most = f.surface.rolling * radius * f.contact.impulse[0];
+    // What rolls turns about the point that it rolls on, and is taken its way with its spin.
+    const Vec3 arm = m.p - f.gap.point;
+    const Vec3 u = m.velocityAt(f.gap.point), slip = u - f.gap.normal * f.gap.normal.dot(u);
+    const bool rolls = slip.norm() < kRolls * w * radius;
+    const double carried = rolls ? (arm - axis * axis.dot(arm)).squaredNorm() / m.inverseMass : 0;
+    const Vec3 change = std::min(most / (inertia + carried), w) * inertia * turn;
+    m.omega -= change;
+    if (rolls) m.v -= change.cross(arm);
+  };
+  for (const FoundContact& f : s.found) {
+    if (f.contact.impulse[0] <= 0 || f.surface.rolling <= 0) continue;
+    resist(f.contact.a, f, Carrier::A), resist(f.contact.b, f, Carrier::B);
+  }
+}
+
+/// Whether another face of the mesh is in the way of a ball that would go on along this one.
+bool inFold(const RigidBody& b, const Collider& c, const Support& face, double tau) {
+  constexpr double kTouches = 1e-8;     // [m]
+  constexpr double kClosingIn = 1e-10;  // [m/s]
+  const auto* mesh = std::get_if<MeshShape>(&*c.shape);
+  if (!mesh) return false;
+  const Vec3 v = b.velocity(tau), along = v - face.normal * face.normal.dot(v);
+  const Pose X = c.motion.end;
+  const Vec3 centre = X.inverse() * b.position(tau), local = X.q.conjugate() * along;
+  const double reach = b.radius() + kTouches;
+  Aabb box;
+  box.lo = centre.array() - reach, box.hi = centre.array() + reach;
+  std::vector<std::uint32_t> near;
+  mesh->tree.overlapping(box, near);
+  return std::ranges::any_of(near, [&](std::uint32_t i) {
+    if (static_cast<std::int32_t>(i) == face.triangle) return false;
+    const Vec3 from = centre - closestPoint(mesh->tree.triangles()[i], centre).point;
+    const double distance = from.norm();
+    return distance < reach && from.dot(local) < -kClosingIn * distance;
+  });
+}
+
+}  // namespace
+
 /// Velocities now, and who is with whom.
-void World::Core::begin(Island& s, double tau) const {
+void IslandStep::begin(ContactIsland& s, double tau) const {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     RigidBody& b = *s.set[i];
     b.slot = static_cast<std::uint32_t>(i);
     s.start.push_back(mobileOf(b, tau));
     s.wedged = s.wedged || b.wedged;
   }
-  for (Found& f : s.found) {
+  for (FoundContact& f : s.found) {
     SolverContact& c = f.contact;
     c.a = objects_.body(f.a.id)->slot;
     if (f.b.isBody && objects_.body(f.b.id)->mode == BodyMode::Contact && !objects_.body(f.b.id)->crowd) {
@@ -130,15 +203,15 @@ void World::Core::begin(Island& s, double tau) const {
 }
 
 /// Whether it moves from outside, or may.
-bool World::Core::isDriven(Party p) const {
+bool IslandStep::isDriven(Party p) const {
   if (p.isBody) return !objects_.body(p.id)->movable();
   return objects_.collider(p.id)->motion.moving;
 }
 
 /// Between a hand, or a lift, and what does not move no velocities may be left: then the hand's contacts give
 /// way, here and in the next steps, until all floors can be reached again.
-bool World::Core::solveIsland(Island& s, std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
-                              Effort effort) const {
+bool IslandStep::solveIsland(ContactIsland& s, std::vector<Mobile>& mobiles,
+                             std::vector<SolverContact>& contacts, Effort effort) const {
   std::vector<SolverContact> yielding = contacts;
   bool driven = false;
   for (SolverContact& c : yielding) {
@@ -155,18 +228,12 @@ bool World::Core::solveIsland(Island& s, std::vector<Mobile>& mobiles, std::vect
   return solveContacts(mobiles, contacts, effort);
 }
 
-bool World::Core::staysWedged(const Island& s) {
-  return s.wedged && std::ranges::any_of(s.found, [&](const Found& f) {
-           return f.contact.give > 0 && f.contact.velocity(s.end)[0] < f.contact.floor - kShort;
-         });
-}
-
 /// What is an impact: approaches that end now, with restitution if they are fast.
-void World::Core::stopApproaches(Island& s) const {
+void IslandStep::stopApproaches(ContactIsland& s) const {
   bool any = false;
   std::vector<SolverContact> hits;
   std::vector<std::int32_t> hitOf(s.found.size(), -1);
-  for (const Found& f : s.found) {
+  for (const FoundContact& f : s.found) {
     if (f.gap.distance > kSlop) continue;
     hitOf[static_cast<std::size_t>(&f - s.found.data())] = static_cast<std::int32_t>(hits.size());
     SolverContact c = f.contact;
@@ -180,7 +247,7 @@ void World::Core::stopApproaches(Island& s) const {
   }
   if (!any) return;
   for (SolverContact& c : hits) c.patch = -1;
-  for (const FoundFlat& f : s.flats) {
+  for (const FlatPatch& f : s.flats) {
     SolverContact c = f.contact;
     const Mobile &a = s.start[c.a], &b = s.start[c.b];
     f.place(a, b, Mat3::Identity(), Mat3::Identity(), a.p, b.p, c.rows, c.armA, c.armB);
@@ -198,7 +265,7 @@ void World::Core::stopApproaches(Island& s) const {
 
 /// Velocities after h seconds: forces act in the middle of the step, contact points obey at its end. A first
 /// pass foresees how the bodies turn, a second one counts.
-bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) const {
+bool IslandStep::solveStep(ContactIsland& s, double tau, double h, Effort effort) const {
   std::vector<Mobile> guess = s.start;
   std::vector<Vec3>& pull = s.pull;
   pull.resize(s.set.size());
@@ -216,8 +283,8 @@ bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) cons
     if (c.patch >= 0) c.impulse.tail<2>().setZero();  // its area's now
     step.push_back(c);
   };
-  for (const Found& f : s.found) begins(f.contact, f.key, f.gap.normal);
-  for (const FoundFlat& f : s.flats) begins(f.contact, f.key, f.flat.plane.n);
+  for (const FoundContact& f : s.found) begins(f.contact, f.key, f.gap.normal);
+  for (const FlatPatch& f : s.flats) begins(f.contact, f.key, f.flat.plane.n);
   bool holds = false;
   for (int pass = 0; pass < 2; ++pass) {
     s.end = s.start;
@@ -247,7 +314,7 @@ bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) cons
       }
     }
     for (std::size_t i = 0; i < points; ++i) {
-      const Found& f = s.found[i];
+      const FoundContact& f = s.found[i];
       SolverContact& c = step[i];
       const Mobile &a = s.start[c.a], &b = s.start[c.b], &a1 = guess[c.a], &b1 = guess[c.b];
       place(a, b, f.gap, f.carrier, f.rounding, turned(a, a1, 0.5, h), turned(b, b1, 0.5, h), c.push, c.pushA,
@@ -291,13 +358,13 @@ bool World::Core::solveStep(Island& s, double tau, double h, Effort effort) cons
 
 /// Bodies that do not turn, on faces that they do not leave, keep their accelerations until a slip ends: how
 /// long that lasts, 0 if not even for this step, infinite if all are at rest for good.
-double World::Core::glide(Island& s, double tau, double h) {
+double IslandStep::glide(ContactIsland& s, double tau, double h) {
   if (s.carried) return 0;
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     const RigidBody& b = *s.set[i];
     if (s.start[i].omega.norm() * b.reach > kUnmoved || b.damping > 0) return 0;
   }
-  for (const Found& f : s.found)
+  for (const FoundContact& f : s.found)
     if (f.gap.distance < -kSlop) return 0;  // it is being pushed out
   const double probe = std::min(h, kProbe);
   if (!solveStep(s, tau, probe, Effort::AtRest)) return 0;
@@ -314,7 +381,7 @@ double World::Core::glide(Island& s, double tau, double h) {
   if (fastest <= kUnmoved && strongest <= kBalanced)  // what changes may stir them in this very frame
     return std::ranges::any_of(s.set, [&](const RigidBody* b) { return fields_.feelsChange(*b); }) ? 0
                                                                                                    : 1e300;
-  for (const Found& f : s.found) {
+  for (const FoundContact& f : s.found) {
     const SolverContact& c = f.contact;
     const Vec3 n = f.gap.normal, u = s.start[c.a].v - s.start[c.b].v,
                a = (s.end[c.a].v - s.end[c.b].v - u) / probe;
@@ -328,7 +395,8 @@ double World::Core::glide(Island& s, double tau, double h) {
     if (ut.dot(at) < 0 && c.friction > 0) most = std::min(most, speed / change);
     // Faces must go on carrying the same points.
     if (f.b.isBody || f.carrier != Carrier::A) return 0;
-    most = std::min(most, timeCarried(*s.set[c.a], f, ut, at, most, way));
+    most = std::min(most,
+                    surfaces_.timeCarried(*s.set[c.a], f.b.id, f.gap, f.contact.friction, ut, at, most, way));
     if (!(most > kShortestGlide)) return 0;
   }
   if (!(most > kShortestGlide)) return 0;
@@ -336,47 +404,15 @@ double World::Core::glide(Island& s, double tau, double h) {
     s.start[i].omega.setZero(), s.end[i].omega.setZero();
     s.end[i].v = s.start[i].v + (s.end[i].v - s.start[i].v) / probe * most;
   }
-  for (Found& f : s.found) f.contact.impulse *= most / probe;
+  for (FoundContact& f : s.found) f.contact.impulse *= most / probe;
   s.way = std::move(way);
-  for (FoundFlat& f : s.flats) f.contact.impulse *= most / probe;
+  for (FlatPatch& f : s.flats) f.contact.impulse *= most / probe;
   return most;
-}
-
-/// Rolling resistance takes spin, up to c r N, from balls, and from rods and discs that roll.
-void World::Core::resistRolling(Island& s) const {
-  const auto resist = [&](std::size_t i, const Found& f, Carrier side) {
-    if (i >= s.set.size()) return;
-    const bool ball = s.set[i]->isBall(), round = f.carrier == side;
-    const double radius = ball ? s.set[i]->radius() : round ? f.rounding.radius : 0;
-    Mobile& m = s.end[i];
-    Vec3 about = ball ? m.omega : Vec3(m.omega - f.gap.normal * f.gap.normal.dot(m.omega));
-    if (!f.rounding.axis.isZero(0) && round) {  // a rim rolls along itself; it tips over freely
-      const Vec3 along = f.rounding.axis - f.gap.normal * f.gap.normal.dot(f.rounding.axis);
-      about = along * (along.dot(about) / std::max(along.squaredNorm(), 1e-300));
-    }
-    const double w = about.norm();
-    if (!(radius > 0) || !(w > 0)) return;
-    const Vec3 axis = about / w, turn = m.inverseInertia * axis;  // per unit of angular impulse
-    const double inertia = 1 / turn.dot(axis);
-    const double most = f.surface.rolling * radius * f.contact.impulse[0];
-    // What rolls turns about the point that it rolls on, and is taken its way with its spin.
-    const Vec3 arm = m.p - f.gap.point;
-    const Vec3 u = m.velocityAt(f.gap.point), slip = u - f.gap.normal * f.gap.normal.dot(u);
-    const bool rolls = slip.norm() < kRolls * w * radius;
-    const double carried = rolls ? (arm - axis * axis.dot(arm)).squaredNorm() / m.inverseMass : 0;
-    const Vec3 change = std::min(most / (inertia + carried), w) * inertia * turn;
-    m.omega -= change;
-    if (rolls) m.v -= change.cross(arm);
-  };
-  for (const Found& f : s.found) {
-    if (f.contact.impulse[0] <= 0 || f.surface.rolling <= 0) continue;
-    resist(f.contact.a, f, Carrier::A), resist(f.contact.b, f, Carrier::B);
-  }
 }
 
 /// What lies on its rims, and is kept from rocking on them by rolling resistance, is solved for once more
 /// without that freedom: what the contacts asked for belonged to the spin that has been taken from it.
-void World::Core::holdRims(Island& s, const std::vector<Mobile>& solved) const {
+void IslandStep::holdRims(ContactIsland& s, const std::vector<Mobile>& solved) const {
   std::vector<Mobile> mobiles = s.free;
   bool any = false;
   for (std::size_t i = 0; i < s.set.size(); ++i) {
@@ -384,7 +420,7 @@ void World::Core::holdRims(Island& s, const std::vector<Mobile>& solved) const {
     if (m.v.norm() + m.omega.norm() * s.set[i]->reach > kNearlyStill) continue;
     Mat3 free = Mat3::Identity();  // the axes that it may still turn about
     bool stopped = true;
-    for (const Found& f : s.found) {
+    for (const FoundContact& f : s.found) {
       const SolverContact& c = f.contact;
       if (f.carrier != (c.a == i ? Carrier::A : Carrier::B) || (c.a != i && c.b != i) || c.impulse[0] <= 0 ||
           f.surface.rolling <= 0 || f.rounding.axis.isZero(0))
@@ -402,8 +438,8 @@ void World::Core::holdRims(Island& s, const std::vector<Mobile>& solved) const {
   if (!any) return;
   std::vector<SolverContact> contacts;
   const std::size_t points = s.found.size();
-  for (const Found& f : s.found) contacts.push_back(f.contact);
-  for (const FoundFlat& f : s.flats) contacts.push_back(f.contact);
+  for (const FoundContact& f : s.found) contacts.push_back(f.contact);
+  for (const FlatPatch& f : s.flats) contacts.push_back(f.contact);
   solveIsland(s, mobiles, contacts, Effort::Moving);
   for (std::size_t i = 0; i < s.set.size(); ++i) s.end[i].v = mobiles[i].v, s.end[i].omega = mobiles[i].omega;
   for (std::size_t i = 0; i < points; ++i) s.found[i].contact = contacts[i];
@@ -411,36 +447,14 @@ void World::Core::holdRims(Island& s, const std::vector<Mobile>& solved) const {
 }
 
 /// Nothing is near any more: it flies.
-void World::Core::concludeFreely(RigidBody& b, const Mobile& start, double tau) {
+void IslandStep::concludeFreely(RigidBody& b, const Mobile& start, double tau) {
   const Quat q = b.orientation(tau);
-  wakeOnto({true, b.id}, tau);
-  startFlight(b, tau, start.p, start.v, q, q * b.inertia.cwiseProduct(q.conjugate() * start.omega));
-}
-
-/// Whether another face of the mesh is in the way of a ball that would go on along this one.
-bool World::Core::inFold(const RigidBody& b, const Collider& c, const Support& face, double tau) const {
-  constexpr double kTouches = 1e-8;     // [m]
-  constexpr double kClosingIn = 1e-10;  // [m/s]
-  const auto* mesh = std::get_if<MeshShape>(&*c.shape);
-  if (!mesh) return false;
-  const Vec3 v = b.velocity(tau), along = v - face.normal * face.normal.dot(v);
-  const Pose X = c.motion.end;
-  const Vec3 centre = X.inverse() * b.position(tau), local = X.q.conjugate() * along;
-  const double reach = b.radius() + kTouches;
-  Aabb box;
-  box.lo = centre.array() - reach, box.hi = centre.array() + reach;
-  std::vector<std::uint32_t> near;
-  mesh->tree.overlapping(box, near);
-  return std::ranges::any_of(near, [&](std::uint32_t i) {
-    if (static_cast<std::int32_t>(i) == face.triangle) return false;
-    const Vec3 from = centre - closestPoint(mesh->tree.triangles()[i], centre).point;
-    const double distance = from.norm();
-    return distance < reach && from.dot(local) < -kClosingIn * distance;
-  });
+  waking_.wakeOnto({true, b.id}, tau);
+  arcs_.startFlight(b, tau, start.p, start.v, q, q * b.inertia.cwiseProduct(q.conjugate() * start.omega));
 }
 
 /// A ball on one still face has a closed form.
-bool World::Core::settleOnFace(RigidBody& b, const Found& only, double tau) {
+bool IslandStep::settleOnFace(RigidBody& b, const FoundContact& only, double tau) {
   const Collider* c = only.b.isBody ? nullptr : objects_.collider(only.b.id);
   Support face;
   if (!c || std::fabs(only.gap.distance) > 2 * kSlop ||
@@ -450,15 +464,14 @@ bool World::Core::settleOnFace(RigidBody& b, const Found& only, double tau) {
   b.support = face;
   BallStart s{b.position(tau), b.velocity(tau), b.spin.angularVelocity(b.spinAge(tau)), b.orientation(tau)};
   s.v -= face.normal * face.normal.dot(s.v);
-  startOnFace(b, tau, s, false, false);
+  arcs_.startOnFace(b, tau, s, false, false);
   return true;
 }
 
 /// How long it has hardly moved, and whether it has been getting nowhere meanwhile and not gaining or losing
 /// speed. Each look takes twice as long as the last one, so that what only trembles is found out to be in
 /// balance.
-void World::Core::noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end, double tau,
-                            double h) const {
+void IslandStep::noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end, double tau, double h) const {
   const double before = b.quiet;
   const double fastest =
       std::max(end.v.norm() + end.omega.norm() * b.reach, start.v.norm() + start.omega.norm() * b.reach);
@@ -478,17 +491,17 @@ void World::Core::noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end
 }
 
 /// The bodies' arcs of h seconds, and the forces as a guess for the next step.
-void World::Core::conclude(Island& s, double tau, double h) {
+void IslandStep::conclude(ContactIsland& s, double tau, double h) {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     RigidBody& b = *s.set[i];
     b.touching.clear(), b.presses.clear();
     std::vector<Party> near;
-    const Found* only = nullptr;
+    const FoundContact* only = nullptr;
     int points = 0;
     const auto note = [](std::vector<Party>& list, Party p) {
       if (std::find(list.begin(), list.end(), p) == list.end()) list.push_back(p);
     };
-    for (const Found& f : s.found) {
+    for (const FoundContact& f : s.found) {
       if (f.contact.a != i && f.contact.b != i) continue;
       ++points, only = &f;
       const Party other = f.contact.a == i ? f.b : f.a;
@@ -497,15 +510,15 @@ void World::Core::conclude(Island& s, double tau, double h) {
       if (f.contact.a == i && !f.contact.impulse.isZero(0))
         b.presses.push_back({f.key, basisAround(f.gap.normal) * (f.contact.impulse / h), h});
     }
-    for (const Beside& o : besideOf(b.id)) {
+    for (const ContactFinder::Beside& o : finder_.besideOf(b.id)) {
       note(b.touching, o.piece);
       if (o.touches) note(near, o.piece);
     }
     for (const Party p : s.way) note(b.touching, p);
-    for (const FoundFlat& f : s.flats)
+    for (const FlatPatch& f : s.flats)
       if (f.contact.a == i && !f.contact.impulse.isZero(0))
         b.presses.push_back({f.key, basisAround(f.flat.plane.n) * (f.contact.impulse / h), h});
-    remember(b, near);
+    rememberTouching(memory_, b, near);
     if (points == 0) {
       concludeFreely(b, s.start[i], tau);
       continue;
@@ -516,8 +529,8 @@ void World::Core::conclude(Island& s, double tau, double h) {
                L1 = end.inverseInertia.inverse() * end.omega;
     noteQuiet(b, start, end, tau, h);
     if (s.glides) b.quiet = b.quiet > 0 ? kGliding : 0;
-    setArc(b, tau, Path::parabola(start.p, start.v, (end.v - start.v) / h),
-           Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
+    arcs_.setArc(b, tau, Path::parabola(start.p, start.v, (end.v - start.v) / h),
+                 Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
     b.endL = L1, b.dueAge = h;
     if (points == 1 && b.isBall() && b.mode == BodyMode::Contact) settleOnFace(b, *only, tau);
   }
@@ -526,10 +539,10 @@ void World::Core::conclude(Island& s, double tau, double h) {
 /// Even parts of h in which nobody turns far: contact points of fast tops would leave their arcs. Nor does a
 /// step go on, but for a moment, when it is not known any more how strong a field is that pulls; nor when a
 /// corner that comes fast is down: that is an impact.
-double World::Core::stepOf(const Island& s, double tau, double h) const {
+double IslandStep::stepOf(const ContactIsland& s, double tau, double h) const {
   for (const RigidBody* b : s.set) h = std::min(h, std::max(fields_.knownFor(*b, tau), kShortestStep));
   const double shortest = s.set.size() > 1 ? h / 8 : kLanding;
-  for (const Found& f : s.found) {
+  for (const FoundContact& f : s.found) {
     if (f.gap.distance <= kSlop) continue;
     const Mobile &a = s.start[f.contact.a], &b = s.start[f.contact.b];
     const double closing =
@@ -541,7 +554,8 @@ double World::Core::stepOf(const Island& s, double tau, double h) const {
   for (std::size_t i = 0; i < s.set.size(); ++i)
     if (!s.set[i]->centred) fastest = std::max(fastest, s.start[i].omega.norm());
   double parts = std::ceil(fastest * h / kMostTurn);
-  for (const Found& f : s.found) {  // the flatter a disc, the faster its lowest point runs round its rim
+  for (const FoundContact& f :
+       s.found) {  // the flatter a disc, the faster its lowest point runs round its rim
     if (f.rounding.axis.isZero(0)) continue;
     const std::size_t i = f.carrier == Carrier::A ? f.contact.a : f.contact.b;
     const double lean = f.rounding.axis.cross(f.gap.normal).norm();
@@ -552,18 +566,7 @@ double World::Core::stepOf(const Island& s, double tau, double h) const {
   return h / std::max(1.0, parts);
 }
 
-/// The step's forces bring no energy but what takes back overlap.
-void World::Core::boundStep(Island& s, double h) {
-  if (s.carried) return;
-  const std::size_t n = s.set.size();
-  double speed = 0;
-  for (const Found& f : s.found) speed = std::max(speed, f.contact.floor);
-  const double allowed = pushOutWork(n, s.start, s.pull, h, speed);
-  for (Vec3& a : s.pull) a *= 0.5 * h;
-  boundWork(n, s.free, s.end, s.pull, allowed);
-}
-
-void World::Core::advanceIsland(Island& s, double tau, double h) {
+void IslandStep::advance(ContactIsland& s, double tau, double h) {
   begin(s, tau);
   stopApproaches(s);
   const double last = glide(s, tau, h);
@@ -572,7 +575,7 @@ void World::Core::advanceIsland(Island& s, double tau, double h) {
     s.end = s.start;
     conclude(s, tau, h);
     for (RigidBody* b : s.set)
-      if (b->mode == BodyMode::Contact) freeze(*b, tau);
+      if (b->mode == BodyMode::Contact) arcs_.freeze(*b, tau);
     return;
   }
   s.glides = last > 0;
@@ -594,7 +597,7 @@ void World::Core::advanceIsland(Island& s, double tau, double h) {
            !fields_.feelsChange(*b);
   });
   if (quiet)
-    for (RigidBody* b : s.set) freeze(*b, tau);
+    for (RigidBody* b : s.set) arcs_.freeze(*b, tau);
 }
 
 }  // namespace stadion

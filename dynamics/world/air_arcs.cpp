@@ -1,5 +1,5 @@
 #include "dynamics/motion/stiff_step.h"
-#include "dynamics/world/world_core.h"
+#include "dynamics/world/body_arcs.h"
 
 #include <cmath>
 
@@ -15,7 +15,7 @@ constexpr double kBias = 1.0 / 120;   ///< how long a turn by bias is drawn out 
 }  // namespace
 
 /// Flight by the body's model of the air, one step; false if there is no air or no model.
-bool World::Core::flyInAir(RigidBody& b, double tau, const CoupledState& s) {
+bool BodyArcs::flyInAir(RigidBody& b, double tau, const CoupledState& s) {
   if (!b.flight->hasModel() || !fields_.inMedium(b)) return false;
   const auto push = [&](double at, const CoupledState& state, const Vec3& omega) {
     return fields_.airPush(b, state, omega, at);
@@ -47,7 +47,7 @@ bool World::Core::flyInAir(RigidBody& b, double tau, const CoupledState& s) {
 }
 
 /// How the body turns from now on if no air turns it: freely, and by its bias.
-Spin World::Core::spinFrom(const RigidBody& b, double tau, const CoupledState& s) const {
+Spin BodyArcs::spinFrom(const RigidBody& b, double tau, const CoupledState& s) const {
   if (!b.flight->flows()) return Spin::free(s.q, s.L, b.inertia);
   const auto turned = [&](const Quat& q, const Vec3& v) {
     return (biased(b.flight->bias, q * b.q_CA, v, 0.5 * kBias) * b.q_CA.conjugate()).normalized();
@@ -61,7 +61,7 @@ Spin World::Core::spinFrom(const RigidBody& b, double tau, const CoupledState& s
 }
 
 /// From tau on it turns so, on the same path.
-void World::Core::setSpin(RigidBody& b, double tau, const Spin& spin) {
+void BodyArcs::setSpin(RigidBody& b, double tau, const Spin& spin) {
   b.spin = spin, b.spinStart = b.age(tau);
   b.validAge = std::min(b.pathAge, b.spinStart + spin.horizon);
   b.until = b.validAge - b.age0;
@@ -69,17 +69,10 @@ void World::Core::setSpin(RigidBody& b, double tau, const Spin& spin) {
   traces_.note(b, tau);
 }
 
-/// The paper's bias turns a body once at the start of every frame, whatever that lasts.
-void World::Core::turnByFrame() {
-  for (RigidBody* b : active_) {
-    if (!b->flight || !b->flight->jerks() || b->mode != BodyMode::Flight || !b->enabled) continue;
-    catchUp(*b, time_.from());
-    const Quat q_WA =
-        biased(b->flight->bias, b->orientation(time_.from()) * b->q_CA, b->velocity(time_.from()), 0);
-    const Vec3 L = b->momentum(time_.from());
-    setSpin(*b, time_.from(), Spin::free((q_WA * b->q_CA.conjugate()).normalized(), L, b->inertia));
-    changes_.mark(*b);
-  }
+void BodyArcs::turnByBias(RigidBody& b, double tau) {
+  const Quat q_WA = biased(b.flight->bias, b.orientation(tau) * b.q_CA, b.velocity(tau), 0);
+  const Vec3 L = b.momentum(tau);
+  setSpin(b, tau, Spin::free((q_WA * b.q_CA.conjugate()).normalized(), L, b.inertia));
 }
 
 }  // namespace stadion

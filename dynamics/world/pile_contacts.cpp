@@ -1,4 +1,5 @@
 #include "dynamics/world/crowd_step.h"
+#include "dynamics/world/piles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +26,8 @@ Gap planeGap(const Vec3& centre, double radius, const PlaneShape& plane, const P
 }  // namespace
 
 /// A point of contact of a member with a member or one that nothing moves.
-void World::Core::addCrowdContact(const RigidBody& b, Party other, const Surface& surface, const Gap& gap,
-                                  std::uint32_t feature, CrowdStep& step) {
+void Piles::addContact(const RigidBody& b, Party other, const Surface& surface, const Gap& gap,
+                       std::uint32_t feature, CrowdStep& step) {
   CrowdContact c;
   const PairSurface pair = combine(b.surface, surface);
   c.a = b.slot, c.n = gap.normal, c.gap = gap.distance;
@@ -57,7 +58,7 @@ void World::Core::addCrowdContact(const RigidBody& b, Party other, const Surface
   step.points.push_back(gap.point);
 }
 
-void World::Core::findCrowdColliders(const RigidBody& b, const Aabb& box, double margin, CrowdStep& step) {
+void Piles::findColliders(const RigidBody& b, const Aabb& box, double margin, CrowdStep& step) {
   const CrowdStep::Member me = step.members[b.slot];
   const Side self = Side::of(b);
   step.bearings.clear(), step.features.clear();
@@ -86,12 +87,12 @@ void World::Core::findCrowdColliders(const RigidBody& b, const Aabb& box, double
   for (std::size_t i = 0; i < step.bearings.size(); ++i) {
     const Bearing& on = step.bearings[i];
     if (hidden.empty() || !hidden[i])
-      addCrowdContact(b, on.of, objects_.collider(on.of.id)->surface, on.gap, step.features[i], step);
+      addContact(b, on.of, objects_.collider(on.of.id)->surface, on.gap, step.features[i], step);
   }
 }
 
 /// One who is near a member: at which points they may meet, and whether it comes along.
-void World::Core::meetInCrowd(RigidBody& b, RigidBody& o, double margin, CrowdStep& step) {
+void Piles::meet(RigidBody& b, RigidBody& o, double margin, CrowdStep& step) {
   if (&o == &b || !o.enabled) return;
   const CrowdStep::Member me = step.members[b.slot];
   bool member = step.has(o);
@@ -123,24 +124,24 @@ void World::Core::meetInCrowd(RigidBody& b, RigidBody& o, double margin, CrowdSt
     const bool touched =
         std::ranges::any_of(step.found, [](const auto& p) { return p.gap.distance < kTouching; });
     const bool pushes = b.quiet == 0 || step.crowd.bodies[b.slot].v.norm() > kWakeSpeed;
-    if (!sleeps(o) || (touched && pushes)) joinCrowd(o, step);
+    if (!sleeps(o) || (touched && pushes)) join(o, step);
     member = step.has(o);
     if (member && o.id < b.id) return;
   }
-  for (const ManifoldPoint& p : step.found) addCrowdContact(b, {true, o.id}, o.surface, p.gap, p.key, step);
+  for (const ManifoldPoint& p : step.found) addContact(b, {true, o.id}, o.surface, p.gap, p.key, step);
 }
 
-void World::Core::findCrowdContacts(RigidBody& b, CrowdStep& step) {
+void Piles::findContacts(RigidBody& b, CrowdStep& step) {
   const CrowdStep::Member& me = step.members[b.slot];
   const double margin = kTouching + me.way + step.crowd.h * step.crowd.h * kStrongest;
   Aabb box;
   box.include(me.middle);
   box.lo.array() -= me.bound + margin, box.hi.array() += me.bound + margin;
-  findCrowdColliders(b, box, margin, step);
+  findColliders(b, box, margin, step);
   // Fliers' boxes hold their whole way, so that those who come fast are met as well. In the order of ids:
   // sweeps depend on it, and the broad phase's own depends on frames.
   step.near.clear();
-  eachBodyNear(box, step.tau, [&](RigidBody& o) {
+  foresight_.eachBodyNear(box, step.tau, [&](RigidBody& o) {
     if (step.has(o)) {  // most of them: the pair is found from the other, or too far apart
       const CrowdStep::Member& other = step.members[o.slot];
       const double far = me.bound + other.bound + margin + other.way;
@@ -149,11 +150,11 @@ void World::Core::findCrowdContacts(RigidBody& b, CrowdStep& step) {
     step.near.push_back(&o);
   });
   std::ranges::sort(step.near, {}, &RigidBody::id);
-  for (RigidBody* o : step.near) meetInCrowd(b, *o, margin, step);
+  for (RigidBody* o : step.near) meet(b, *o, margin, step);
 }
 
 /// Everybody is known now: who moves, who does not, and where the points are on both.
-void World::Core::linkCrowdContacts(CrowdStep& step) {
+void Piles::linkContacts(CrowdStep& step) {
   Crowd& crowd = step.crowd;
   const auto n = static_cast<std::uint32_t>(step.members.size());
   for (CrowdStep::Fixed& f : step.fixed) {
@@ -189,6 +190,38 @@ void World::Core::linkCrowdContacts(CrowdStep& step) {
     crowd.contacts[kept] = c, step.notes[kept] = note, ++kept;
   }
   crowd.contacts.resize(kept), step.notes.resize(kept);
+}
+
+/// In a crowd the points of a flat contact keep friction of their own, but at the mean radius of its area: so
+/// they resist spin as even pressure does, whichever of them carry it. Empty if all have it where they are.
+std::vector<Vec3> Piles::placesOfFriction(const CrowdStep& step) const {
+  std::vector<Vec3> places;
+  std::vector<Gap> gaps;
+  const std::vector<CrowdContact>& all = step.crowd.contacts;
+  for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+    for (end = first + 1; end < all.size() && all[end].a == all[first].a; ++end)
+      if (step.notes[end].other != step.notes[first].other) break;
+    if (end - first < 3 || all[first].friction <= 0) continue;
+    const std::optional<Side> b = objects_.side(step.notes[first].other);
+    if (!b) continue;
+    gaps.clear();
+    for (std::size_t k = first; k < end; ++k) {
+      Gap g;
+      g.distance = all[k].gap, g.normal = all[k].n, g.point = step.points[k];
+      gaps.push_back(g);
+    }
+    for (const FlatContact& flat :
+         flatContacts(Side::of(*step.members[all[first].a].body), {&*b, 1}, step.tau, gaps)) {
+      if (places.empty()) places = step.points;
+      const Vec3& middle = flat.plane.origin;
+      for (const std::uint32_t k : flat.points) {
+        const Vec3 off = step.points[first + k] - middle;
+        const double away = (off - flat.plane.n * flat.plane.n.dot(off)).norm();
+        if (away > flat.area->radius()) places[first + k] = middle + flat.area->radius() / away * off;
+      }
+    }
+  }
+  return places;
 }
 
 }  // namespace stadion

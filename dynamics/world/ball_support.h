@@ -1,0 +1,14 @@
+#pragma once
+/// Flat faces that carry a ball in closed form.
+
+#include "dynamics/body/rigid_body.h"
+#include "dynamics/collision/touch.h"
+
+namespace stadion {
+
+/// Whether a ball at this gap from a collider has closed forms there: on a flat face of a still collider.
+bool carries(const RigidBody& ball, const Collider& c, const Gap& gap);
+/// That face, with its edges and surface values. False if nothing carries the ball.
+bool supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, Support& out);
+
+}  // namespace stadion

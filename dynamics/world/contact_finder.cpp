@@ -1,0 +1,238 @@
+#include "dynamics/world/contact_finder.h"
+
+#include "dynamics/collision/touch_seams.h"
+#include "dynamics/contact/way_out.h"
+#include "dynamics/world/ways_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr double kUsualPull = 9.81;             ///< that others in contact feel at least [m/s2]
+constexpr double kOneHeight = 1e-7;             ///< points that differ less in height lie in one plane [m]
+constexpr double kOneDirection = 1 - 1e-12;     ///< cosine between normals that are one
+constexpr std::uint32_t kNowhere = 0xffffffff;  ///< slot of a body that is in no set yet
+
+/// Which of these points in a plane are corners of their convex hull; of points at one place one.
+std::vector<char> hullCorners(const std::vector<Vec2>& p) {
+  constexpr double kOnLine = 1e-7;  // [m]
+  std::vector<std::size_t> order(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) order[i] = i;
+  std::ranges::sort(order, [&](std::size_t i, std::size_t k) {
+    return p[i].x() != p[k].x() ? p[i].x() < p[k].x() : p[i].y() != p[k].y() ? p[i].y() < p[k].y() : i < k;
+  });
+  const auto turns = [&](std::size_t a, std::size_t b,
+                         std::size_t c) {  // b is farther than rounding left of a to c
+    const Vec2 along = p[c] - p[a], to = p[b] - p[a];
+    const double cross = along.x() * to.y() - along.y() * to.x();
+    return -cross > kOnLine * along.norm();
+  };
+  std::vector<std::size_t> hull;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t begin = hull.size();
+    for (const std::size_t i : order) {
+      if (hull.size() > begin && (p[hull.back()] - p[i]).norm() < kOnLine) continue;
+      while (hull.size() > begin + 1 && !turns(hull[hull.size() - 2], hull.back(), i)) hull.pop_back();
+      hull.push_back(i);
+    }
+    if (hull.size() > begin + 1) hull.pop_back();
+    std::ranges::reverse(order);
+  }
+  std::vector<char> corner(p.size(), 0);
+  for (const std::size_t i : hull) corner[i] = 1;
+  return corner;
+}
+
+template <class T>
+void eraseMarked(std::vector<T>& list, std::size_t first, const std::vector<char>& marked) {
+  std::size_t kept = first;
+  for (std::size_t i = first; i < list.size(); ++i) {
+    if (marked[i]) continue;
+    if (kept != i) list[kept] = std::move(list[i]);
+    ++kept;
+  }
+  list.resize(kept);
+}
+
+}  // namespace
+
+std::uint64_t pairKey(Party a, Party b, std::uint32_t feature) {
+  std::uint64_t h = 1469598103934665603ULL;
+  for (const std::uint64_t x : {std::uint64_t{a.isBody}, std::uint64_t{a.id}, std::uint64_t{b.isBody},
+                                std::uint64_t{b.id}, std::uint64_t{feature}})
+    h = (h ^ x) * 1099511628211ULL;
+  return h;
+}
+
+void ContactFinder::sort() {
+  std::ranges::sort(beside_);
+}
+
+std::span<const ContactFinder::Beside> ContactFinder::besideOf(BodyId id) const {
+  return {std::ranges::lower_bound(beside_, id, {}, &Beside::body),
+          std::ranges::upper_bound(beside_, id, {}, &Beside::body)};
+}
+
+/// A ball that has been put deep into a mesh leaves by one way: the shortest that nothing else that it
+/// touches bars. `first`: where its points begin.
+void ContactFinder::chooseWayOut(const RigidBody& b, std::size_t first,
+                                 std::vector<FoundContact>& found) const {
+  if (!b.isBall()) return;
+  const auto inside = [&](const FoundContact& f) {
+    return f.gap.distance <= -kDeepBall * b.radius() && !f.b.isBody &&
+           std::holds_alternative<MeshShape>(*objects_.side(f.b)->shape);
+  };
+  for (std::size_t i = first; i < found.size(); ++i) {
+    if (!inside(found[i])) continue;
+    const Party on = found[i].b;
+    const auto barred = [&](const FoundContact& way) {
+      return std::any_of(
+          found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), [&](const FoundContact& f) {
+            return f.b != on && f.gap.distance < kTouching && f.gap.normal.dot(way.gap.normal) < -0.1;
+          });
+    };
+    std::size_t best = i;
+    for (std::size_t k = i; k < found.size() && found[k].b == on; ++k)
+      if (!barred(found[k])) {
+        best = k;
+        break;
+      }
+    const FoundContact way = found[best];
+    std::erase_if(found, [&](const FoundContact& f) { return f.a == way.a && f.b == on; });
+    found.push_back(way);
+    return;
+  }
+}
+
+void ContactFinder::find(RigidBody& b, double tau, std::vector<FoundContact>& found,
+                         std::vector<RigidBody*>& set) {
+  const Side self = Side::of(b);
+  const Kinematics k = b.at(tau);
+  const double h = grid_.islandStep();
+  const double pull = std::max(kUsualPull, fields_.accelerationAt(b, k.p, k.v, tau).norm());
+  const double margin = kTouching + 1.5 * h * (k.v.norm() + k.omega.norm() * b.reach + pull * h);
+  Aabb box;
+  box.include(k.pose * b.bound.centre);
+  box.lo.array() -= b.bound.radius + margin, box.hi.array() += b.bound.radius + margin;
+  const std::size_t first = found.size();
+  std::vector<ManifoldPoint> points;
+  const auto against = [&](const Side& other, const Side& form) {
+    manifold(self, form, tau, margin, points);
+    for (const ManifoldPoint& p : points) {
+      FoundContact f;
+      f.a = self.party, f.b = other.party;
+      f.surface = combine(b.surface, objects_.surfaceOf(other.party));
+      f.gap = p.gap, f.carrier = p.carrier, f.rounding = p.rounding;
+      f.key = pairKey(f.a, f.b, p.key);
+      f.contact.friction = f.surface.friction;
+      found.push_back(f);
+    }
+  };
+  forgetWaysOut(b, objects_, tau);
+  for (const WayOut& w : b.waysOut) {
+    const Shape plane = *barrier(self, Side::of(*objects_.collider(w.of)), tau, w);
+    Collider form;
+    form.shape = &plane;
+    against(Side::of(*objects_.collider(w.of)), Side::of(form));
+  }
+  boxes_.eachCollider(box, [&](const Collider& c) {
+    const Side other = Side::of(c);
+    if (objects_.mayTouch(self, other) && !comesOutOf(b, c.id)) against(other, other);
+  });
+  foresight_.eachBodyNear(box, tau, [&](RigidBody& o) {
+    if (&o == &b || !o.enabled) return;
+    const Side other = Side::of(o);
+    if (!objects_.mayTouch(self, other)) return;
+    const double reach = b.bound.radius + o.bound.radius + margin;
+    if ((o.at(tau).pose * o.bound.centre - k.pose * b.bound.centre).squaredNorm() > reach * reach) return;
+    if (o.mode == BodyMode::Contact && !o.crowd) {
+      if (o.slot == kNowhere) o.slot = 0, set.push_back(&o);  // it is not due, but it comes along
+      if (o.id < b.id) return;                                // the pair is found from there
+    } else if (!o.crowd && !standsStill(o.mode) && o.mode != BodyMode::Held) {
+      return;  // a flier: its touch is an event
+    }
+    against(other, other);
+  });
+  chooseWayOut(b, first, found);
+  dropHidden(b, tau, first, found);
+  joinFlush(b, first, found);
+}
+
+/// Takes what is hidden out of a body's contacts, which begin at `first`.
+void ContactFinder::dropHidden(const RigidBody& b, double tau, std::size_t first,
+                               std::vector<FoundContact>& found) {
+  bool several = false;
+  for (std::size_t i = first; i < found.size() && !several; ++i)
+    several = found[i].b != found[first].b || found[i].gap.normal != found[first].gap.normal;
+  if (!several) return;
+  // In an order that does not depend on the broad phase's.
+  std::ranges::stable_sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), {},
+                           &FoundContact::b);
+  std::vector<Bearing> points;
+  std::vector<std::size_t> whose;
+  for (std::size_t i = first; i < found.size(); ++i) {
+    const FoundContact& f = found[i];
+    if (f.b.isBody) continue;
+    const Collider& c = *objects_.collider(f.b.id);
+    points.push_back({f.b, c.shape, c.motion.at(tau).pose, f.gap}), whose.push_back(i);
+  }
+  const std::vector<char> hidden = hiddenAmong(points);
+  std::vector<char> gone(found.size(), 0);
+  for (std::size_t k = 0; k < hidden.size(); ++k)
+    if (hidden[k]) beside_.push_back({b.id, found[whose[k]].b, false}), gone[whose[k]] = 1;
+  eraseMarked(found, first, gone);
+}
+
+/// Points on one plane of flush colliders that feel alike count as those of one of them, and what lies
+/// between others of them is left out: they carry the body as one face would.
+void ContactFinder::joinFlush(const RigidBody& b, std::size_t first, std::vector<FoundContact>& found) {
+  const auto still = [&](const FoundContact& f) {
+    return !f.b.isBody && !objects_.collider(f.b.id)->motion.moving;
+  };
+  const auto alike = [&](const FoundContact& f, const FoundContact& o) {
+    return f.gap.normal.dot(o.gap.normal) > kOneDirection &&
+           std::fabs(f.gap.normal.dot(f.gap.point - o.gap.point)) < kOneHeight &&
+           std::fabs(f.gap.distance - o.gap.distance) < kOneHeight &&
+           f.surface.friction == o.surface.friction && f.surface.restitution == o.surface.restitution &&
+           f.surface.rolling == o.surface.rolling && f.carrier == o.carrier &&
+           f.rounding.radius == o.rounding.radius;
+  };
+  std::vector<char> gone(found.size(), 0), seen(found.size(), 0);
+  std::vector<std::size_t> group;
+  std::vector<Vec2> places;
+  bool any = false;
+  for (std::size_t i = first; i < found.size(); ++i) {
+    if (seen[i] || !still(found[i])) continue;
+    group.assign(1, i);
+    bool several = false;
+    for (std::size_t k = i + 1; k < found.size(); ++k)
+      if (!seen[k] && still(found[k]) && alike(found[i], found[k])) {
+        group.push_back(k);
+        several = several || found[k].b != found[i].b;
+      }
+    if (!several) continue;
+    const Mat3 basis = basisAround(found[i].gap.normal);
+    places.clear();
+    for (const std::size_t k : group)
+      seen[k] = 1,
+      places.push_back((basis.transpose() * (found[k].gap.point - found[i].gap.point)).tail<2>());
+    const std::vector<char> corner = hullCorners(places);
+    Party name;
+    std::size_t kept = 0;
+    for (std::size_t g = 0; g < group.size(); ++g)
+      if (corner[g]) name = kept++ == 0 ? found[group[g]].b : std::min(name, found[group[g]].b);
+    for (std::size_t g = 0; g < group.size(); ++g) {
+      FoundContact& f = found[group[g]];
+      if (f.b != name) beside_.push_back({b.id, f.b, f.gap.distance < kTouching});
+      if (corner[g])
+        f.b = name;
+      else
+        gone[group[g]] = 1, any = true;
+    }
+  }
+  if (any) eraseMarked(found, first, gone);
+}
+
+}  // namespace stadion

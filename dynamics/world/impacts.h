@@ -1,0 +1,45 @@
+#pragma once
+/// Resolves touches: impacts, landings on a face, embedded tips, the begin of lasting contact.
+
+#include "dynamics/contact/contact_solver.h"
+#include "dynamics/world/release_watch.h"
+#include "dynamics/world/waking.h"
+
+namespace stadion {
+
+class Impacts {
+public:
+  Impacts(const WorldTime& time, const StepGrid& grid, EventQueue& queue, WorldObjects& objects,
+          const FieldSet& fields, ContactMemory& memory, SweptBoxes& boxes, BodyArcs& arcs,
+          FlushSurfaces& surfaces, Foresight& foresight, Waking& waking, ReleaseWatch& releases,
+          World::Counters& counters)
+      : time_(time), grid_(grid), queue_(queue), objects_(objects), fields_(fields), memory_(memory),
+        boxes_(boxes), arcs_(arcs), surfaces_(surfaces), foresight_(foresight), waking_(waking),
+        releases_(releases), counters_(counters) {}
+
+  /// Two sides touch at tau.
+  void onTouch(const Touch& touch, Party a, Party b, double tau);
+  /// The body goes on with the velocities of m; `lasting`: in the contact solver.
+  void afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting);
+
+private:
+  void countImpact(RigidBody& b, double tau) const;
+  void stick(RigidBody& b, Party in, const Vec3& v, double tau);
+  void strikeInCrowd(RigidBody& b, const Mobile& m, double tau);
+
+  const WorldTime& time_;
+  const StepGrid& grid_;
+  EventQueue& queue_;
+  WorldObjects& objects_;
+  const FieldSet& fields_;
+  ContactMemory& memory_;
+  SweptBoxes& boxes_;
+  BodyArcs& arcs_;
+  FlushSurfaces& surfaces_;
+  Foresight& foresight_;
+  Waking& waking_;
+  ReleaseWatch& releases_;
+  World::Counters& counters_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,77 @@
+#pragma once
+/// One step of a small island: a closed-form glide, or the exact contact solver (contact/contact_solver.h).
+
+#include "dynamics/contact/contact_area.h"
+#include "dynamics/contact/contact_solver.h"
+#include "dynamics/world/contact_finder.h"
+#include "dynamics/world/waking.h"
+
+#include <vector>
+
+namespace stadion {
+
+/// Two flat faces on each other. The points that carry them leave friction to their area.
+struct FlatPatch {
+  SolverContact contact;
+  FlatContact flat;
+  std::uint64_t key = 0;
+  std::vector<std::size_t> points;  ///< indices of contacts
+  std::vector<Vec3> places;         ///< their places on the side that carries the area
+
+  /// Arms and a basis in which the area does not turn, if its sides lie like this.
+  void place(const Mobile& a, const Mobile& b, const Mat3& turnA, const Mat3& turnB, const Vec3& pA,
+             const Vec3& pB, Mat3& basis, Vec3& armA, Vec3& armB) const;
+};
+
+/// Bodies that lean on each other, by id, and what they lean on.
+struct ContactIsland {
+  std::vector<RigidBody*> set;
+  std::vector<FoundContact> found;
+  std::vector<FlatPatch> flats;
+  std::vector<Mobile> start, end;  ///< of the set, then of the parties that nothing moves
+  std::vector<Party> fixed;        ///< those parties
+  std::vector<Vec3> pull;          ///< on the set in this step [m/s2]
+  std::vector<Mobile> free;        ///< what `end` would be without contacts
+  bool carried = false;            ///< one of the fixed parties moves
+  bool wedged = false;             ///< no velocities suit all: contacts with external motion yield
+  std::vector<Party> way;          ///< pieces that a glide comes to
+  bool glides = false;             ///< in closed form
+};
+
+class IslandStep {
+public:
+  IslandStep(const WorldObjects& objects, const FieldSet& fields, ContactMemory& memory, BodyArcs& arcs,
+             FlushSurfaces& surfaces, Waking& waking, ContactFinder& finder)
+      : objects_(objects), fields_(fields), memory_(memory), arcs_(arcs), surfaces_(surfaces),
+        waking_(waking), finder_(finder) {}
+
+  /// Advances the island by h seconds from tau, or by less if its motion asks for it.
+  void advance(ContactIsland& island, double tau, double h);
+
+private:
+  void begin(ContactIsland& island, double tau) const;
+  void findFlats(ContactIsland& island, double tau) const;
+  std::vector<Side> surfaceUnder(const FoundContact& f) const;
+  bool isDriven(Party p) const;
+  bool solveIsland(ContactIsland& island, std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
+                   Effort effort) const;
+  void stopApproaches(ContactIsland& island) const;
+  bool solveStep(ContactIsland& island, double tau, double h, Effort effort) const;
+  double glide(ContactIsland& island, double tau, double h);
+  double stepOf(const ContactIsland& island, double tau, double h) const;
+  void holdRims(ContactIsland& island, const std::vector<Mobile>& solved) const;
+  void conclude(ContactIsland& island, double tau, double h);
+  void concludeFreely(RigidBody& b, const Mobile& start, double tau);
+  void noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end, double tau, double h) const;
+  bool settleOnFace(RigidBody& b, const FoundContact& only, double tau);
+
+  const WorldObjects& objects_;
+  const FieldSet& fields_;
+  ContactMemory& memory_;
+  BodyArcs& arcs_;
+  FlushSurfaces& surfaces_;
+  Waking& waking_;
+  ContactFinder& finder_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,133 @@
+#include "dynamics/world/waking.h"
+
+#include <algorithm>
+
+namespace stadion {
+
+void Waking::enterContact(RigidBody& b, double tau) {
+  if (b.mode == BodyMode::Contact || !b.movable()) return;
+  const Vec3 L = b.spin.angularMomentum(b.spinAge(tau));
+  // Among a crowd it moves with the crowd: between its steps nobody else gives way.
+  const bool rests = b.mode == BodyMode::Rest;
+  const bool crowded = rests && (b.heaped || std::ranges::any_of(b.touching, [&](Party p) {
+                                   return p.isBody && objects_.body(p.id) && objects_.body(p.id)->crowd;
+                                 }));
+  b.support.on = {};
+  arcs_.setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
+               Spin::free(b.orientation(tau), L, b.inertia), grid_.islandStep(), BodyMode::Contact);
+  b.endL = L;
+  b.quiet = 0;
+  if (!rests) b.presses.clear();
+  if (crowded && b.mode == BodyMode::Contact)
+    b.crowd = true, b.dueAge = grid_.untilPileStep(time_.instantAt(tau));
+  queue_.scheduleTick(tau);
+}
+
+/// What acts on the body changes: its step ends here and a new one begins, from what it does now.
+void Waking::cutStep(RigidBody& b, double tau) {
+  if (b.mode != BodyMode::Contact) return;
+  const Vec3 L = b.momentum(tau);
+  arcs_.setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
+               Spin::free(b.orientation(tau), L, b.inertia), grid_.islandStep(), BodyMode::Contact);
+  b.endL = L;
+  b.quiet = 0;
+  queue_.scheduleTick(tau);
+}
+
+/// What was foreseen for longer than a step is looked at anew.
+void Waking::hurry(RigidBody& b, double tau) {
+  if (b.mode != BodyMode::Contact || b.crowd || b.dueAge <= grid_.islandStep() ||
+      b.age(tau) + grid_.islandStep() >= b.dueAge)
+    return;
+  b.dueAge = 0;
+  queue_.scheduleTick(tau);
+}
+
+/// Sleepers that lean on a waking one wake with it.
+void Waking::wake(RigidBody& b, double tau) {
+  if (b.mode != BodyMode::Rest) return;
+  if (b.support.on.id) {
+    restart(b, tau);
+    if (b.mode == BodyMode::Rest) return;
+  } else {
+    enterContact(b, tau);
+  }
+  wakeOnto({true, b.id}, tau);
+}
+
+/// Who leans on what moved falls, or leans anew; those who lean on them, in turn.
+void Waking::wakeOnto(Party moved, double tau) {
+  if (!supports_.bears(moved)) return;
+  std::vector<Party> waking{moved};
+  std::vector<BodyId> onIt;
+  for (std::size_t i = 0; i < waking.size(); ++i) {
+    const Party gone = waking[i];
+    onIt.clear();
+    supports_.leanersOf(gone, onIt);
+    for (const BodyId id : onIt) {
+      RigidBody* other = objects_.body(id);
+      if (!other || !leansOn(*other, gone)) {
+        supports_.drop(gone, id);
+        continue;
+      }
+      const bool onFace =
+          other->mode == BodyMode::Rest || other->mode == BodyMode::Slide || other->mode == BodyMode::Roll;
+      if (onFace && other->support.on.id && other->support.on == gone) {
+        waking.push_back({true, id});
+        arcs_.startFlight(*other, tau, other->position(tau), other->velocity(tau), other->orientation(tau),
+                          other->spin.angularMomentum(other->spinAge(tau)));
+        foresight_.predict(*other, tau);
+      } else if (other->mode == BodyMode::Stuck) {
+        waking.push_back({true, id});
+        arcs_.startFlight(*other, tau, other->position(tau), Vec3::Zero(), other->orientation(tau),
+                          Vec3::Zero());
+        foresight_.predict(*other, tau);
+      } else if (other->mode == BodyMode::Contact) {
+        hurry(*other, tau);
+      } else if (other->mode == BodyMode::Rest) {
+        // In a heap those who lean on it wake when it moves; elsewhere nobody would wake them.
+        if (!other->heaped) waking.push_back({true, id});
+        enterContact(*other, tau);
+      }
+    }
+  }
+}
+
+/// The next tick is when the first body in contact is due.
+void Waking::scheduleDue(double tau) {
+  double first = 1e300;
+  for (const RigidBody* b : active_)
+    if (b->mode == BodyMode::Contact && b->enabled) first = std::min(first, b->dueAge - b->age0);
+  if (first < 1e299) queue_.scheduleTick(std::max(first, tau));
+}
+
+/// A new arc from the present state, because what acts on the body has changed.
+void Waking::restart(RigidBody& b, double tau) {
+  foresight_.catchUp(b, tau);
+  switch (b.mode) {
+  case BodyMode::Flight: {
+    const Vec3 p = b.position(tau), v = b.velocity(tau);
+    arcs_.continueFlight(b, tau, p, v, false);
+    break;
+  }
+  case BodyMode::Slide:
+  case BodyMode::Roll:
+  case BodyMode::Rest:
+    if (b.support.on.id) {
+      const bool rested = b.mode == BodyMode::Rest;
+      arcs_.startOnFace(
+          b, tau,
+          {b.position(tau), b.velocity(tau), b.spin.angularVelocity(b.spinAge(tau)), b.orientation(tau)},
+          false, false);
+      if (rested && b.mode != BodyMode::Rest) wakeOnto({true, b.id}, tau);
+    } else {
+      wake(b, tau);
+    }
+    break;
+  case BodyMode::Contact: cutStep(b, tau); return;
+  default: return;
+  }
+  foresight_.predict(b, tau);
+}
+
+}  // namespace stadion
